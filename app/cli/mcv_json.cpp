@@ -1,0 +1,233 @@
+#include "app/cli/mcv_json.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "firmware/hydraulics/orifice.hpp"
+
+namespace graben::cli {
+namespace {
+
+using nlohmann::json;
+
+[[noreturn]] void refuse(const std::string& where, const std::string& what) {
+  throw std::runtime_error(where + ": " + what);
+}
+
+/// A place in the document: its path for messages beside the value.
+struct Node {
+  const json& value;
+  std::string path;
+
+  [[nodiscard]] Node at(const char* key) const {
+    if (!value.is_object()) {
+      refuse(path, "is not an object");
+    }
+    const auto found = value.find(key);
+    if (found == value.end()) {
+      refuse(path.empty() ? key : path + "." + key, "is missing");
+    }
+    return {*found, path.empty() ? key : path + "." + key};
+  }
+  [[nodiscard]] bool has(const char* key) const {
+    return value.is_object() && value.contains(key) && !value.at(key).is_null();
+  }
+  [[nodiscard]] std::vector<Node> items(std::size_t least, std::size_t most) const {
+    if (!value.is_array() || value.size() < least || value.size() > most) {
+      refuse(path, fmt::format("must be an array of {} to {} entries", least, most));
+    }
+    std::vector<Node> nodes;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      nodes.push_back({value[i], fmt::format("{}[{}]", path, i)});
+    }
+    return nodes;
+  }
+  [[nodiscard]] double number() const {
+    if (!value.is_number() || !std::isfinite(value.get<double>())) {
+      refuse(path, fmt::format("{} is not a finite number", value.dump()));
+    }
+    return value.get<double>();
+  }
+  [[nodiscard]] double positive() const {
+    const double number_value = number();
+    if (!(number_value > 0.0)) {
+      refuse(path, fmt::format("{} must be greater than 0", number_value));
+    }
+    return number_value;
+  }
+  [[nodiscard]] double not_negative() const {
+    const double number_value = number();
+    if (!(number_value >= 0.0)) {
+      refuse(path, fmt::format("{} must be at least 0", number_value));
+    }
+    return number_value;
+  }
+  [[nodiscard]] int integer(int least, int most) const {
+    if (!value.is_number_integer() || value.get<double>() < least || value.get<double>() > most) {
+      refuse(path, fmt::format("{} must be a whole number from {} to {}", value.dump(), least, most));
+    }
+    return value.get<int>();
+  }
+};
+
+MonotoneTable read_table(const Node& node) {
+  std::vector<double> travel;
+  std::vector<double> coefficient;
+  for (const Node& point : node.items(2, MonotoneTable::kCapacity)) {
+    const std::vector<Node> pair = point.items(2, 2);
+    travel.push_back(pair[0].number());
+    coefficient.push_back(pair[1].number());
+  }
+  if (travel.front() != 0.0 || coefficient.front() != 0.0) {
+    refuse(node.path, "must start at [0, 0]");
+  }
+  MonotoneTable table;
+  if (table.fill(travel.data(), coefficient.data(), static_cast<int>(travel.size())) !=
+      MonotoneTable::Fill::kOk) {
+    refuse(node.path, "must be strictly increasing in both columns");
+  }
+  return table;
+}
+
+McvActuator read_actuator(const Node& node, int pump_count) {
+  McvActuator actuator;
+  actuator.area_cap_m2 = node.at("area_cap").positive();
+  actuator.area_rod_m2 = node.at("area_rod").positive();
+  actuator.pump = node.at("pump").integer(0, pump_count - 1);
+  actuator.regeneration =
+      static_cast<RegenerationSide>(node.at("regeneration").integer(-1, 1));
+  if (actuator.regeneration != RegenerationSide::kNone) {
+    actuator.c_drain = node.at("c_drain").positive();
+    actuator.c_check = node.at("c_check").positive();
+    if (!(actuator.c_drain < actuator.c_check)) {
+      refuse(node.path + ".c_drain", fmt::format("{} must be less than c_check {}",
+                                                 actuator.c_drain, actuator.c_check));
+    }
+  }
+  actuator.bypass_open = node.at("bypass_open").positive();
+  actuator.bypass_closed = node.at("bypass_closed").positive();
+  actuator.force_offset_n = node.at("force_offset").not_negative();
+  actuator.extend = read_table(node.at("c_extend"));
+  actuator.retract = read_table(node.at("c_retract"));
+  return actuator;
+}
+
+McvPump read_pump(const Node& node) {
+  McvPump pump;
+  pump.leak_linear = node.at("leak_linear").not_negative();
+  pump.leak_quadratic = node.at("leak_quadratic").not_negative();
+  for (const Node& orifice : node.at("bypass_series").items(0, kMaxBypassSeries)) {
+    pump.series_resistance += orifice_resistance(orifice.positive());
+  }
+  pump.has_relief = node.has("relief");
+  if (pump.has_relief) {
+    pump.relief_pa = node.at("relief").positive();
+  }
+  return pump;
+}
+
+void read_per_actuator(const Node& node, int count, PerActuator<double>& into) {
+  const auto entries = static_cast<std::size_t>(count);
+  std::size_t i = 0;
+  for (const Node& item : node.items(entries, entries)) {
+    into[i++] = item.number();
+  }
+}
+
+template <class Array, class Value>
+nlohmann::ordered_json list(const Array& values, int count, Value value) {
+  nlohmann::ordered_json array = nlohmann::ordered_json::array();
+  for (int i = 0; i < count; ++i) {
+    array.push_back(value(values[static_cast<unsigned>(i)]));
+  }
+  return array;
+}
+
+}  // namespace
+
+McvCase parse_mcv_case(const std::string& line) {
+  json document;
+  try {
+    document = json::parse(line);
+  } catch (const json::parse_error& error) {
+    throw std::runtime_error(fmt::format("not JSON: at byte {} of the line", error.byte));
+  }
+  const Node root{document, ""};
+  if (!document.is_object()) {
+    refuse("line", "is not a JSON object");
+  }
+  McvCase result;
+  result.id = root.has("id") ? document["id"] : json();
+  const Node machine = root.at("machine");
+  const std::vector<Node> pumps = machine.at("pumps").items(1, kMaxPumps);
+  const std::vector<Node> actuators = machine.at("actuators").items(1, kMaxActuators);
+  result.machine.pump_count = static_cast<int>(pumps.size());
+  result.machine.actuator_count = static_cast<int>(actuators.size());
+  for (std::size_t j = 0; j < pumps.size(); ++j) {
+    result.machine.pump[j] = read_pump(pumps[j]);
+    result.input.pump_flow_m3ps[j] = pumps[j].at("flow").not_negative();
+  }
+  for (std::size_t i = 0; i < actuators.size(); ++i) {
+    result.machine.actuator[i] = read_actuator(actuators[i], result.machine.pump_count);
+  }
+  const Node input = root.at("input");
+  read_per_actuator(input.at("velocity"), result.machine.actuator_count,
+                    result.input.velocity_mps);
+  read_per_actuator(input.at("p_cap"), result.machine.actuator_count,
+                    result.input.cap_pressure_pa);
+  read_per_actuator(input.at("p_rod"), result.machine.actuator_count,
+                    result.input.rod_pressure_pa);
+  return result;
+}
+
+std::string limit_name(const Limit& limit) {
+  switch (limit.kind) {
+    case LimitKind::kNone:
+      return "";
+    case LimitKind::kPumpFlow:
+      return fmt::format("pump_flow[{}]", limit.index);
+    case LimitKind::kBackFlow:
+      return fmt::format("back_flow[{}]", limit.index);
+    case LimitKind::kSpoolTravel:
+      return fmt::format("spool_travel[{}]", limit.index);
+    case LimitKind::kStrokeEnd:
+      return fmt::format("stroke_end[{}]", limit.index);
+  }
+  return "unknown";
+}
+
+std::string status_name(SolveStatus status) {
+  switch (status) {
+    case SolveStatus::kOk:
+      return "ok";
+    case SolveStatus::kInfeasible:
+      return "infeasible";
+    case SolveStatus::kBadInput:
+      return "bad_input";
+    case SolveStatus::kNotConverged:
+      return "not_converged";
+  }
+  return "unknown";
+}
+
+nlohmann::ordered_json solution_json(const McvCase& mcv_case, const McvSolution& solution) {
+  const int actuators = mcv_case.machine.actuator_count;
+  const auto number = [](double value) { return value; };
+  const auto flag = [](bool value) { return value; };
+  nlohmann::ordered_json result;
+  result["id"] = mcv_case.id;
+  result["lambda"] = solution.point.lambda;
+  result["spool"] = list(solution.point.spool_m, actuators, number);
+  result["pump_pressure"] =
+      list(solution.point.pump_pressure_pa, mcv_case.machine.pump_count, number);
+  result["p_out"] = list(solution.point.out_pressure_pa, actuators, number);
+  result["regenerating"] = list(solution.point.regenerating, actuators, flag);
+  result["limit"] = limit_name(solution.limit);
+  result["iterations"] = solution.iterations;
+  result["status"] = status_name(solution.status);
+  return result;
+}
+
+}  // namespace graben::cli

@@ -1,0 +1,33 @@
+#pragma once
+/// Cases of the MCV optimisation as JSON lines (schema: tests/vectors/README.md).
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "firmware/mcv/algorithm1.hpp"
+
+namespace graben::cli {
+
+/// One case: a machine, what its sensors say, and the names for messages.
+struct McvCase {
+  nlohmann::json id;
+  McvMachine machine;
+  McvInput input;
+};
+
+/// Reads one case. Throws std::runtime_error whose text names the key, the value and what is
+/// allowed; a machine or input that passes can be solved.
+[[nodiscard]] McvCase parse_mcv_case(const std::string& line);
+
+/// The result of a case as one JSON object.
+[[nodiscard]] nlohmann::ordered_json solution_json(const McvCase& mcv_case,
+                                                   const McvSolution& solution);
+
+/// "", "pump_flow[j]", "back_flow[i]" or "spool_travel[i]".
+[[nodiscard]] std::string limit_name(const Limit& limit);
+
+/// "ok", "infeasible", "bad_input" or "not_converged".
+[[nodiscard]] std::string status_name(SolveStatus status);
+
+}  // namespace graben::cli

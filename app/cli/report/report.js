@@ -1,0 +1,322 @@
+'use strict';
+// Puts the prepared data on the page: key figures, table, path and the plots over time.
+const reportPage = (() => {
+  const SYNC_KEY = 'run';
+  const PRINT_WIDTH_PX = 690;  // A4 less its margins, at 96 px to the inch
+  const PALETTE_SIZE = 9;
+  const STRIP = {top: -0.04, bottom: -0.16};  // in units of lambda, below its 0
+  const FONT = '13px system-ui, sans-serif';
+
+  let report = null;
+  let figures = [];  // {plot, holder, legend, chart}
+  let pathFigure = {showAt: () => {}};
+  const hiddenLayers = new Set();
+
+  const $ = (id) => document.getElementById(id);
+  const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+
+  function make(name, properties = {}, ...children) {
+    const node = Object.assign(document.createElement(name), properties);
+    node.append(...children);
+    return node;
+  }
+
+  /// Beyond the palette, tones repeat; the live legend still names the limit.
+  function limitColour(name) {
+    const i = report.limitColours.get(name) ?? 0;
+    return `limit${i === 0 ? 0 : (i - 1) % PALETTE_SIZE + 1}`;
+  }
+
+  function swatch(name) {
+    const node = make('span', {className: 'swatch'});
+    node.style.background = `var(--${limitColour(name)})`;
+    return node;
+  }
+
+  const complaint = (text) => make('p', {className: 'complaint', textContent: text});
+
+  function fillHead() {
+    document.title = report.title;
+    $('title').textContent = report.title;
+    $('subtitle').textContent = report.subtitle;
+    if (report.problems.length > 0) {
+      $('problems').hidden = false;
+      $('problems').replaceChildren(
+          make('strong', {textContent: 'Parts of this report could not be shown'}),
+          make('ul', {}, ...report.problems.map((text) => make('li', {textContent: text}))));
+    }
+    if (!report.summary.ok) return $('summary').append(complaint(report.summary.problem));
+    for (const row of report.summary.value) {
+      $('summary').append(make('div', {className: 'figure'},
+          make('dt', {textContent: row.label}),
+          make('dd', {}, make('span', {className: 'value', textContent: row.value}),
+              make('span', {className: 'unit', textContent: row.unit ? ` ${row.unit}` : ''})),
+          ...(row.note ? [make('dd', {className: 'note', textContent: row.note})] : [])));
+    }
+  }
+
+  function fillLimits() {
+    if (!report.limitsShare.ok) {
+      return $('limits-table').replaceWith(complaint(report.limitsShare.problem));
+    }
+    for (const {name, share} of report.limitsShare.value) {
+      const bar = make('span', {className: 'bar'});
+      bar.style.width = `${Math.min(share, 1) * 100}%`;
+      bar.style.background = `var(--${limitColour(name)})`;
+      $('limits').append(make('tr', {},
+          make('th', {scope: 'row'}, swatch(name), name),
+          make('td', {textContent: reportData.formatShare(share)}),
+          make('td', {className: 'bars'}, bar)));
+    }
+  }
+
+  function fillPath(width) {
+    const box = $('path');
+    if (!report.geometry.ok) return box.replaceChildren(complaint(report.geometry.problem));
+    const drawn = reportPath.draw(report.geometry.value, width ?? box.clientWidth, hiddenLayers);
+    // The dot follows the time plots only where samples of both are the same.
+    const same = report.time.ok && report.geometry.value.tipTrue.length === report.time.value.length;
+    pathFigure = same ? drawn : {showAt: () => {}};
+    box.replaceChildren(drawn.svg);
+  }
+
+  function fillPathLegend() {
+    if (!report.geometry.ok) return;
+    const layers = [['path', 'wanted path'], ['true', 'true tip'], ['measured', 'measured tip'],
+      ['field', 'velocity field'], ['attitude', 'attitude every 5 s'],
+      ...(report.geometry.value.groundY === null ? [] : [['ground', 'ground']])];
+    for (const [name, text] of layers) {
+      const button = make('button', {type: 'button', className: 'layer'},
+          make('span', {className: `line ${name}`}), text);
+      button.setAttribute('aria-pressed', 'true');
+      button.addEventListener('click', () => {
+        hiddenLayers.has(name) ? hiddenLayers.delete(name) : hiddenLayers.add(name);
+        button.setAttribute('aria-pressed', String(!hiddenLayers.has(name)));
+        fillPath();
+      });
+      $('path-legend').append(button);
+    }
+  }
+
+  function drawStrip(chart, strip) {
+    if (!chart.series[2].show) return;
+    const {ctx, bbox} = chart;
+    const top = chart.valToPos(STRIP.top, 'y', true);
+    const bottom = chart.valToPos(STRIP.bottom, 'y', true);
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+    ctx.clip();
+    // Free stretches first: at this scale a short limit between two of them would vanish.
+    for (const free of [true, false]) {
+      for (const run of strip.runs) {
+        const name = strip.names[run.limit];
+        if ((name === 'none') !== free) continue;
+        const from = chart.valToPos(run.from, 'x', true);
+        const until = chart.valToPos(run.until, 'x', true);
+        if (until < bbox.left || from > bbox.left + bbox.width) continue;
+        ctx.fillStyle = colour(limitColour(name));
+        ctx.fillRect(from, top, Math.max(until - from, 1), bottom - top);
+      }
+    }
+    ctx.restore();
+  }
+
+  function lineSeries(line, unit) {
+    return {
+      label: line.label,
+      stroke: () => colour(line.colour),
+      width: line.wide ? 5 : 1.6,
+      points: {show: false},
+      value: (chart, value) => reportData.formatLive(value, line.digits, unit),
+    };
+  }
+
+  function axisLook(more) {
+    return {
+      stroke: () => colour('ink'), font: FONT, labelFont: FONT,
+      grid: {stroke: () => colour('grid'), width: 1},
+      ticks: {stroke: () => colour('grid'), width: 1, size: 5},
+      ...more,
+    };
+  }
+
+  function chartOptions(figure, width) {
+    const {plot} = figure;
+    const {strip} = plot.body.value;
+    const options = {
+      width,
+      height: plot.height,
+      padding: [10, 14, 0, 0],
+      scales: {x: {time: false}, y: {range: {
+        min: {pad: 0.08, soft: 0, mode: 3}, max: {pad: 0.08, soft: 0, mode: 3}}}},
+      // The y axes are equally wide, so one instant is in one column all down the page.
+      axes: [axisLook({label: 'time (s)', labelSize: 22, size: 30}),
+        axisLook({label: plot.axis, labelSize: 22, size: 54})],
+      series: [
+        {label: 'time', value: (chart, value) => reportData.formatLive(value, 2, 's')},
+        ...plot.body.value.lines.map((line) => lineSeries(line, plot.unit)),
+      ],
+      cursor: {
+        y: false,
+        drag: {x: true, y: false, setScale: true, dist: 4},
+        sync: {key: SYNC_KEY, setSeries: false},
+        points: {size: 7},
+      },
+      legend: {
+        mount: (chart, table) => figure.legend.replaceChildren(table),
+        markers: {width: 0, fill: (chart, i) => (i === 0 ? 'transparent' :
+            i > plot.body.value.lines.length ? colour('limit1') : colour(plot.body.value.lines[i - 1].colour))},
+      },
+      hooks: {setCursor: [(chart) => pathFigure.showAt(chart.cursor.idx ?? null)]},
+    };
+    if (strip) {
+      options.scales.y = {range: [STRIP.bottom - 0.03, 1.05]};
+      options.scales.limit = {range: [0, 1]};
+      options.axes[1].splits = () => [(STRIP.top + STRIP.bottom) / 2, 0, 0.25, 0.5, 0.75, 1];
+      options.axes[1].values = (chart, splits) => splits.map((v) => (v < 0 ? 'limit' : String(v)));
+      options.series.push({label: strip.label, scale: 'limit', paths: () => null, points: {show: false},
+        value: (chart, value) => strip.names[value] ?? '–'});
+      options.cursor.points.show = (chart, i) => (i === 2 ? undefined : make('div', {className: 'u-cursor-pt'}));
+      options.hooks.draw = [(chart) => drawStrip(chart, strip)];
+    }
+    return options;
+  }
+
+  /// The library's legend is for the mouse; the same rows for the keyboard.
+  function makeLegendKeys(figure) {
+    [...figure.legend.querySelectorAll('.u-series')].forEach((row, i) => {
+      const head = row.querySelector('th');
+      if (i === 0) return row.classList.add('time');
+      if (figure.plot.body.value.lines[i - 1]?.wide) row.classList.add('wide');
+      if (i > figure.plot.body.value.lines.length) row.classList.add('strip');
+      head.tabIndex = 0;
+      head.setAttribute('role', 'button');
+      head.title = 'Show or hide';
+      head.addEventListener('keydown', (event) => {
+        if (event.key !== 'Enter' && event.key !== ' ') return;
+        event.preventDefault();
+        head.dispatchEvent(new MouseEvent('click', {bubbles: true}));
+      });
+    });
+  }
+
+  function zoomAll(min, max) {
+    for (const figure of figures) figure.chart.setScale('x', {min, max});
+  }
+
+  function wholeRun() {
+    if (report.time.ok) zoomAll(report.time.value[0], report.time.value[report.time.value.length - 1]);
+  }
+
+  function zoomBy(chart, factor) {
+    const times = report.time.value;
+    const {min, max} = chart.scales.x;
+    const at = chart.cursor.left >= 0 ? chart.posToVal(chart.cursor.left, 'x') : (min + max) / 2;
+    const from = Math.max(at - (at - min) * factor, times[0]);
+    const until = Math.min(at + (max - at) * factor, times[times.length - 1]);
+    if (until > from) zoomAll(from, until);
+  }
+
+  function moveCursor(chart, pixels) {
+    const width = chart.over.clientWidth;
+    const left = chart.cursor.left >= 0 ? chart.cursor.left + pixels : width / 2;
+    chart.setCursor({left: Math.min(Math.max(left, 0), width), top: 10}, true, true);
+  }
+
+  function onKey(event, chart) {
+    const step = event.shiftKey ? 40 : 4;
+    const actions = {
+      ArrowLeft: () => moveCursor(chart, -step), ArrowRight: () => moveCursor(chart, step),
+      '+': () => zoomBy(chart, 0.5), '-': () => zoomBy(chart, 2), '0': wholeRun,
+    };
+    if (!actions[event.key] || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    actions[event.key]();
+  }
+
+  function stripKey(strip) {
+    const present = [...new Set(strip.runs.map((run) => strip.names[run.limit]))];
+    return make('p', {className: 'key'}, 'limit: ',
+        ...present.map((name) => make('span', {}, swatch(name), name)));
+  }
+
+  function makeFigures() {
+    for (const plot of report.plots) {
+      const legend = make('div', {className: 'legend'});
+      const holder = make('div', {className: 'chart'});
+      const section = make('section', {id: plot.id},
+          make('div', {className: 'bar-top'}, make('h2', {textContent: plot.title}), legend), holder);
+      $('plots').append(section);
+      if (!plot.body.ok) {
+        holder.append(complaint(plot.body.problem));
+        continue;
+      }
+      if (plot.body.value.strip) section.append(stripKey(plot.body.value.strip));
+      const figure = {plot, holder, legend, chart: null};
+      holder.tabIndex = 0;
+      holder.setAttribute('role', 'group');
+      holder.setAttribute('aria-label', `${plot.title}: arrow keys move the cursor, plus and minus zoom, 0 shows the whole run`);
+      holder.addEventListener('keydown', (event) => onKey(event, figure.chart));
+      figures.push(figure);
+    }
+  }
+
+  /// Colours are read from the style sheet when a chart is made: a new theme needs new charts.
+  function drawCharts(width) {
+    for (const figure of figures) {
+      const zoom = figure.chart && {...figure.chart.scales.x};
+      figure.chart?.destroy();
+      const {lines, strip} = figure.plot.body.value;
+      const data = [report.time.value, ...lines.map((l) => l.values), ...(strip ? [strip.values] : [])];
+      figure.chart = new uPlot(chartOptions(figure, width ?? figure.holder.clientWidth), data, figure.holder);
+      makeLegendKeys(figure);
+      if (zoom) figure.chart.setScale('x', {min: zoom.min, max: zoom.max});
+    }
+  }
+
+  function resize() {
+    for (const figure of figures) {
+      figure.chart.setSize({width: figure.holder.clientWidth, height: figure.plot.height});
+    }
+    fillPath();
+  }
+
+  function print(on) {
+    document.documentElement.classList.toggle('printing', on);
+    drawCharts(on ? PRINT_WIDTH_PX : undefined);
+    fillPath(on ? PRINT_WIDTH_PX : undefined);
+  }
+
+  function show(data) {
+    report = reportData.prepare(data);
+    fillHead();
+    fillLimits();
+    fillPathLegend();
+    fillPath();
+    makeFigures();
+    drawCharts();
+    $('whole').addEventListener('click', wholeRun);
+    addEventListener('resize', resize);
+    addEventListener('beforeprint', () => print(true));
+    addEventListener('afterprint', () => print(false));
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => drawCharts());
+  }
+
+  function start() {
+    const fail = (text) => {
+      $('problems').hidden = false;
+      $('problems').append(make('p', {textContent: text}));
+    };
+    addEventListener('error', (event) => fail(`The page could not be drawn: ${event.message}`));
+    let data;
+    try {
+      data = JSON.parse($('data').textContent);
+    } catch (error) {
+      return fail(`The data in this file cannot be read: ${error.message}`);
+    }
+    show(data);
+  }
+
+  return {start};
+})();

@@ -1,0 +1,227 @@
+'use strict';
+// The path seen from the side, with equal scales in x and y. `layout` is pure (metres to pixels,
+// ticks, arrows, places of the labels); `draw` turns its result into an SVG.
+const reportPath = (() => {
+  const MARGIN = {left: 66, right: 14, top: 12, bottom: 54};
+  const MAX_HEIGHT = 600;
+  const LABEL = {width: 40, height: 18, distance: 20};
+
+  function bounds(geometry) {
+    let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
+    for (const points of [geometry.path, geometry.tipTrue, geometry.tipMeasured, geometry.field,
+      [geometry.start]]) {
+      for (const [x, y] of points) {
+        x0 = Math.min(x0, x);
+        x1 = Math.max(x1, x);
+        y0 = Math.min(y0, y);
+        y1 = Math.max(y1, y);
+      }
+    }
+    if (geometry.groundY !== null) {
+      y0 = Math.min(y0, geometry.groundY);
+      y1 = Math.max(y1, geometry.groundY);
+    }
+    // A point has no extent; a metre about it can still be drawn.
+    const pad = Math.max(0.04 * Math.max(x1 - x0, y1 - y0), 0.05);
+    return {x0: x0 - pad, x1: x1 + pad, y0: y0 - pad, y1: y1 + pad};
+  }
+
+  /// One scale for both directions; the shorter one gets room on both sides.
+  function fit(box, width) {
+    const innerWidth = Math.max(width - MARGIN.left - MARGIN.right, 50);
+    const spanX = box.x1 - box.x0;
+    const spanY = box.y1 - box.y0;
+    const innerHeight = Math.min(innerWidth * spanY / spanX, MAX_HEIGHT - MARGIN.top - MARGIN.bottom);
+    const scale = Math.min(innerWidth / spanX, innerHeight / spanY);
+    const centre = (box.x0 + box.x1) / 2;
+    const x0 = centre - innerWidth / scale / 2;
+    return {
+      scale, innerWidth, innerHeight,
+      x0, x1: centre + innerWidth / scale / 2, y0: box.y0, y1: box.y1,
+      width, height: innerHeight + MARGIN.top + MARGIN.bottom,
+      px: (x) => MARGIN.left + (x - x0) * scale,
+      py: (y) => MARGIN.top + (box.y1 - y) * scale,
+    };
+  }
+
+  function ticks(from, to, about) {
+    const raw = (to - from) / Math.max(about, 1);
+    const power = 10 ** Math.floor(Math.log10(raw));
+    const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= raw * 0.999);
+    const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+    const list = [];
+    for (let i = Math.ceil(from / step - 1e-9); i * step <= to + 1e-9 * step; ++i) {
+      list.push({value: i * step, text: (i * step + 0).toFixed(digits).replace(/^-/, '−')});
+    }
+    return list;
+  }
+
+  /// Leaves out points nearer than `least` pixels to the last one kept, never the last one.
+  function thin(points, least) {
+    return points.filter(((kept) => (p, i) => {
+      const far = !kept || Math.hypot(p[0] - kept[0], p[1] - kept[1]) >= least;
+      if (far) kept = p;
+      return far || i === points.length - 1;
+    })(null));
+  }
+
+  /// The longest arrow is as long as the grid's spacing allows, so that arrows never touch.
+  function arrows(field, scale) {
+    const fastest = field.reduce((top, [, , vx, vy]) => Math.max(top, Math.hypot(vx, vy)), 0);
+    if (fastest === 0) return [];
+    const xs = [...new Set(field.map((f) => f[0]))].sort((a, b) => a - b);
+    let spacing = Infinity;
+    for (let i = 1; i < xs.length; ++i) {
+      if (xs[i] - xs[i - 1] > 1e-6) spacing = Math.min(spacing, xs[i] - xs[i - 1]);
+    }
+    const longest = Math.min(Math.max(spacing * scale * 0.8, 6), 30);
+    return field.map(([x, y, vx, vy]) => {
+      const speed = Math.hypot(vx, vy);
+      return {x, y, dx: vx / fastest * longest, dy: -vy / fastest * longest, speed};
+    }).filter((a) => Math.hypot(a.dx, a.dy) > 1);
+  }
+
+  const overlap = (a, b) => Math.abs(a.x - b.x) < (a.w + b.w) / 2 && Math.abs(a.y - b.y) < (a.h + b.h) / 2;
+
+  /// Beside each mark, outwards from the middle of the path if there is room, else in another
+  /// direction; null when every place is taken: a missing number is better than two on one spot.
+  function placeLabels(marks, centre, frame, taken) {
+    const dots = marks.map((m) => ({x: m.x, y: m.y, w: 8, h: 8}));
+    const placed = [...taken];
+    return marks.map((mark) => {
+      const outward = Math.atan2(mark.y - centre.y, mark.x - centre.x);
+      for (const turn of [0, 1, -1, 2, -2, 3, -3, 4]) {
+        const angle = outward + turn * Math.PI / 4;
+        const box = {
+          x: mark.x + Math.cos(angle) * (LABEL.distance + 4),
+          y: mark.y + Math.sin(angle) * LABEL.distance,
+          w: LABEL.width, h: LABEL.height,
+        };
+        const inside = box.x - box.w / 2 > frame.left && box.x + box.w / 2 < frame.right &&
+            box.y - box.h / 2 > frame.top && box.y + box.h / 2 < frame.bottom;
+        if (inside && ![...placed, ...dots].some((other) => overlap(box, other))) {
+          placed.push(box);
+          return box;
+        }
+      }
+      return null;
+    });
+  }
+
+  function layout(geometry, width) {
+    const view = fit(bounds(geometry), width);
+    const toPx = ([x, y]) => [view.px(x), view.py(y)];
+    const frame = {left: MARGIN.left, right: MARGIN.left + view.innerWidth,
+      top: MARGIN.top, bottom: MARGIN.top + view.innerHeight};
+    const path = thin(geometry.path.map(toPx), 0.5);
+    const centre = {
+      x: path.reduce((sum, p) => sum + p[0], 0) / path.length,
+      y: path.reduce((sum, p) => sum + p[1], 0) / path.length,
+    };
+    const marks = geometry.marks.map((m) => (
+      {x: view.px(m.x), y: view.py(m.y), text: `${Math.round(m.attitude_deg)}°`, time: m.time_s}));
+    const start = toPx(geometry.start);
+    const groundY = geometry.groundY === null ? null : view.py(geometry.groundY);
+    const startLabel = {x: start[0], y: start[1] - 20, w: 44, h: 18};
+    const groundLabel = {x: frame.right - 40, y: (groundY ?? -99) - 11, w: 80, h: 20};
+    const places = placeLabels(marks, centre, frame, [startLabel, groundLabel]);
+    return {
+      view, frame, path, start, startLabel, groundY, groundLabel,
+      tipTrue: thin(geometry.tipTrue.map(toPx), 0.5),
+      tipMeasured: thin(geometry.tipMeasured.map(toPx), 0.5),
+      arrows: arrows(geometry.field, view.scale).map((a) => ({...a, x: view.px(a.x), y: view.py(a.y)})),
+      marks: marks.map((m, i) => ({...m, label: places[i]})),
+      xTicks: ticks(view.x0, view.x1, view.innerWidth / 90),
+      yTicks: ticks(view.y0, view.y1, view.innerHeight / 60),
+    };
+  }
+
+  function element(name, attributes, text) {
+    const node = document.createElementNS('http://www.w3.org/2000/svg', name);
+    for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
+    if (text !== undefined) node.textContent = text;
+    return node;
+  }
+
+  const polyline = (points, closed) =>
+    `M${points.map((p) => `${p[0].toFixed(1)},${p[1].toFixed(1)}`).join('L')}${closed ? 'Z' : ''}`;
+
+  /// A shaft with a head of two short strokes, all arrows in one path element.
+  function arrowPath(list) {
+    return list.map(({x, y, dx, dy}) => {
+      const [ex, ey] = [x + dx, y + dy];
+      const head = (turn) => {
+        const angle = Math.atan2(dy, dx) + Math.PI + turn;
+        const size = Math.min(5, Math.hypot(dx, dy) * 0.4);
+        return `${(ex + size * Math.cos(angle)).toFixed(1)},${(ey + size * Math.sin(angle)).toFixed(1)}`;
+      };
+      const tip = `${ex.toFixed(1)},${ey.toFixed(1)}`;
+      return `M${x.toFixed(1)},${y.toFixed(1)}L${tip}M${head(0.5)}L${tip}L${head(-0.5)}`;
+    }).join('');
+  }
+
+  function drawAxes(svg, plan) {
+    const {frame} = plan;
+    for (const tick of plan.xTicks) {
+      const x = plan.view.px(tick.value);
+      svg.append(element('path', {class: 'grid', d: `M${x},${frame.top}V${frame.bottom}`}));
+      svg.append(element('text', {class: 'tick', x, y: frame.bottom + 20, 'text-anchor': 'middle'}, tick.text));
+    }
+    for (const tick of plan.yTicks) {
+      const y = plan.view.py(tick.value);
+      svg.append(element('path', {class: 'grid', d: `M${frame.left},${y}H${frame.right}`}));
+      svg.append(element('text', {class: 'tick', x: frame.left - 8, y: y + 4, 'text-anchor': 'end'}, tick.text));
+    }
+    svg.append(element('text', {class: 'axis', x: (frame.left + frame.right) / 2, y: plan.view.height - 8,
+      'text-anchor': 'middle'}, 'x, forward from the boom foot (m)'));
+    const middle = (frame.top + frame.bottom) / 2;
+    svg.append(element('text', {class: 'axis', x: 16, y: middle, 'text-anchor': 'middle',
+      transform: `rotate(-90 16 ${middle})`}, 'y, up (m)'));
+  }
+
+  /// `hidden` holds the layers that the reader has switched off. Returns the SVG and a function
+  /// that shows the tip at a sample, or nothing for null.
+  function draw(geometry, width, hidden) {
+    const plan = layout(geometry, width);
+    const {frame} = plan;
+    const svg = element('svg', {width, height: plan.view.height, role: 'img',
+      viewBox: `0 0 ${width} ${plan.view.height}`,
+      'aria-label': 'Path of the bucket tip seen from the side, with the attitude in degrees'});
+    drawAxes(svg, plan);
+    const layer = (name, ...nodes) => {
+      if (!hidden.has(name)) svg.append(...nodes);
+    };
+    layer('field', element('path', {class: 'field', d: arrowPath(plan.arrows)}));
+    if (plan.groundY !== null) {
+      layer('ground', element('path', {class: 'ground', d: `M${frame.left},${plan.groundY}H${frame.right}`}),
+          element('text', {class: 'halo', x: frame.right - 6, y: plan.groundLabel.y + 5, 'text-anchor': 'end'}, 'ground'));
+    }
+    layer('measured', element('path', {class: 'tip-measured', d: polyline(plan.tipMeasured)}));
+    layer('true', element('path', {class: 'tip-true', d: polyline(plan.tipTrue)}));
+    layer('path', element('path', {class: 'path', d: polyline(plan.path, true)}));
+    layer('attitude', ...plan.marks.map((mark) => {
+      const group = element('g', {});
+      group.append(element('title', {}, `${mark.text} at ${mark.time.toFixed(1)} s`),
+          element('circle', {class: 'mark', cx: mark.x, cy: mark.y, r: 4}));
+      if (mark.label) {
+        group.append(element('text', {class: 'halo', x: mark.label.x, y: mark.label.y + 5,
+          'text-anchor': 'middle'}, mark.text));
+      }
+      return group;
+    }));
+    svg.append(element('circle', {class: 'start', cx: plan.start[0], cy: plan.start[1], r: 7}),
+        element('text', {class: 'halo', x: plan.startLabel.x, y: plan.startLabel.y + 5, 'text-anchor': 'middle'}, 'start'));
+    const cursor = element('circle', {class: 'cursor', r: 6, visibility: 'hidden'});
+    svg.append(cursor);
+    const showAt = (index) => {
+      const point = index === null ? undefined : geometry.tipTrue[index];
+      cursor.setAttribute('visibility', point ? 'visible' : 'hidden');
+      if (!point) return;
+      cursor.setAttribute('cx', plan.view.px(point[0]));
+      cursor.setAttribute('cy', plan.view.py(point[1]));
+    };
+    return {svg, showAt};
+  }
+
+  return {bounds, fit, ticks, thin, arrows, placeLabels, layout, draw};
+})();

@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "app/cli/commands.hpp"
+#include "app/cli/mcv_json.hpp"
+
+namespace graben::cli {
+namespace {
+
+/// Reads cases until the input ends; a bad line is told and skipped.
+int solve_lines(std::istream& cases) {
+  int status = 0;
+  std::string line;
+  for (long number = 1; std::getline(cases, line); ++number) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) {
+      continue;
+    }
+    try {
+      const McvCase mcv_case = parse_mcv_case(line);
+      const McvSolution solution = solve_algorithm1(mcv_case.machine, mcv_case.input);
+      fmt::print("{}\n", solution_json(mcv_case, solution).dump());
+    } catch (const std::exception& error) {
+      // Results so far first, so that both streams read in order on one terminal.
+      std::fflush(stdout);
+      fmt::print(stderr, "graben solve: line {}: {}\n", number, error.what());
+      status = 1;
+    }
+  }
+  return status;
+}
+
+}  // namespace
+
+void add_solve(CLI::App& app, int& status) {
+  CLI::App* command = app.add_subcommand(
+      "solve", "Solve cases of the valve's optimisation: JSON lines from standard input, one "
+               "result line each");
+  auto policy = std::make_shared<std::string>("algorithm1");
+  command
+      ->add_option("--policy", *policy, "How lambda is chosen: algorithm1, as in Kim et al.")
+      ->check(CLI::IsMember({"algorithm1"}))
+      ->capture_default_str();
+  command->callback([policy, &status] { status = solve_lines(std::cin); });
+}
+
+}  // namespace graben::cli

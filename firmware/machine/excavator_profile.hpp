@@ -1,0 +1,125 @@
+#pragma once
+/// What an excavator is, as its controller knows it: geometry, valve, pumps, task. Constant after
+/// start; read and range-checked by the application, cross-checked by `check_profile`.
+/// SI units. Sagittal plane: x forward, y up, origin at the boom foot pin; link frames have x from
+/// one pin to the next; joint angles: boom against the horizontal, arm against the boom, bucket
+/// against the arm, folding in is negative.
+
+#include <Eigen/Core>
+#include <array>
+
+#include "firmware/numeric/monotone_table.hpp"
+#include "firmware/signals/excavator_signals.hpp"
+
+namespace graben {
+
+inline constexpr int kBoom = 0;
+inline constexpr int kArm = 1;
+inline constexpr int kBucket = 2;
+
+/// Parallel cylinders of one axis. `base` is the pin on the link nearer to the body, `eye` the pin
+/// on the rod's side; which frame each is in stands at the axis.
+struct CylinderGeometry {
+  int count = 1;
+  double bore_m = 0.0;
+  double rod_m = 0.0;
+  double closed_length_m = 0.0;  ///< Pin to pin, closed.
+  double stroke_m = 0.0;
+  Eigen::Vector2d base_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d eye_m = Eigen::Vector2d::Zero();
+
+  /// A_A: cap-side piston area of all of them together, m^2.
+  [[nodiscard]] double cap_area_m2() const;
+  /// A_B: rod-side piston area of all of them together, m^2.
+  [[nodiscard]] double rod_area_m2() const;
+};
+
+/// Rocker on the arm, coupler to the bucket's lug; the bucket cylinder pushes the rocker's end.
+struct BucketLinkage {
+  Eigen::Vector2d rocker_pivot_m = Eigen::Vector2d::Zero();  ///< Arm frame.
+  double rocker_m = 0.0;
+  double coupler_m = 0.0;
+  Eigen::Vector2d lug_m = Eigen::Vector2d::Zero();  ///< Bucket frame, x from pin to tip.
+};
+
+struct ExcavatorGeometry {
+  double boom_length_m = 0.0;
+  double arm_length_m = 0.0;
+  double bucket_length_m = 0.0;  ///< Pin to tip.
+  /// Boom: base in the body frame, eye in the boom frame. Arm: base in the boom frame, eye in the
+  /// arm frame. Bucket: base in the arm frame; its eye is the rocker's end.
+  std::array<CylinderGeometry, kAxisCount> cylinder;
+  BucketLinkage linkage;
+};
+
+enum class RegenerationSide : int { kRetract = -1, kNone = 0, kExtend = 1 };
+
+/// One four-way directional valve with its bypass and regeneration (Kim 3.1 - 3.3).
+struct SpoolProfile {
+  int pump = 0;  ///< Which pump feeds it.
+  double extend_in_m2 = 0.0;  ///< Areas at full opening: A_v,in and A_v,out of (4), (5).
+  double extend_out_m2 = 0.0;
+  double retract_in_m2 = 0.0;
+  double retract_out_m2 = 0.0;
+  double bypass_open = 0.0;    ///< c_v,by at x = 0 of (20), m^3/(s sqrt(Pa)).
+  double bypass_closed = 0.0;  ///< c_v,by at x != 0 of (20).
+  RegenerationSide regeneration = RegenerationSide::kNone;
+  double c_drain = 0.0;         ///< c_d of (15).
+  double c_check = 0.0;         ///< c_r of (16).
+  double force_offset_n = 0.0;  ///< F_offset of (38).
+};
+
+/// Swash-plate pump of (25): flow = displacement * speed * swash - leak_linear P - leak_quadratic P^2.
+struct PumpProfile {
+  double displacement_m3prev = 0.0;    ///< Per revolution at full swash.
+  double rated_speed_radps = 0.0;
+  double leak_linear = 0.0;            ///< m^3/(s Pa)
+  double leak_quadratic = 0.0;         ///< m^3/(s Pa^2)
+  double relief_pa = 0.0;
+  std::array<double, 2> bypass_series{};  ///< Make-up valve and tank orifice of (21), (22).
+};
+
+struct ValveProfile {
+  double spool_travel_m = 0.0;     ///< x_m of (13).
+  double opening_exponent = 1.0;   ///< Area over travel: (|x| / x_m) ^ exponent.
+  double discharge = 0.0;          ///< C_d.
+  double density_kgpm3 = 0.0;      ///< rho.
+  std::array<SpoolProfile, kAxisCount> spool;
+  /// Opening (|x| / x_m, 0 .. 1) to duty (0 .. 1). Its first value is the duty at which the spool
+  /// begins to open, so that the deadband is crossed in one step; neutral is duty 0 always.
+  MonotoneTable spool_to_duty;
+};
+
+/// Closed rounded rectangle that the bucket tip follows in the digging direction: down at the far
+/// side, in along the bottom, up at the near side, out along the top.
+struct DigPath {
+  double x_min_m = 0.0;
+  double x_max_m = 0.0;
+  double y_min_m = 0.0;
+  double y_max_m = 0.0;
+  double corner_radius_m = 0.0;
+  double attitude_at_x_min_rad = 0.0;  ///< Bucket attitude, linear in x between the two.
+  double attitude_at_x_max_rad = 0.0;
+};
+
+/// How the field converges and how commands may change.
+struct ControlProfile {
+  double convergence_length_m = 0.25;   ///< Distance from the path at which the field points 45 deg to it.
+  double attitude_gain_ps = 2.0;        ///< Attitude error to attitude rate, at the task's full speed.
+  double approach_inner_m = 0.05;       ///< Stroke distance under which the contour field alone holds.
+  double approach_outer_m = 0.15;       ///< Stroke distance over which the approach alone holds.
+  double stroke_end_gain_ps = 2.0;      ///< Fastest approach to a cylinder's end, per metre left.
+  double spool_rate_ps = 25.0;          ///< Largest change of |x| / x_m per second.
+  double sensor_timeout_s = 0.045;      ///< A signal older than this is missing.
+};
+
+struct ExcavatorProfile {
+  ExcavatorGeometry geometry;
+  ValveProfile valve;
+  std::array<PumpProfile, kPumpCount> pump;
+  DigPath dig_path;
+  double dig_speed_mps = 0.0;  ///< Of the tip along the path.
+  ControlProfile control;
+};
+
+}  // namespace graben

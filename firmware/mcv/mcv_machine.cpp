@@ -1,0 +1,130 @@
+#include "firmware/mcv/mcv_machine.hpp"
+
+#include <cmath>
+
+#include "firmware/hydraulics/orifice.hpp"
+#include "firmware/hydraulics/spool.hpp"
+
+namespace graben {
+namespace {
+
+bool positive(double value) { return std::isfinite(value) && value > 0.0; }
+bool not_negative(double value) { return std::isfinite(value) && value >= 0.0; }
+
+bool from_origin(const MonotoneTable& table) {
+  return table.size() >= 2 && table.x_first() == 0.0 && table.y_first() == 0.0;
+}
+
+McvDefect check_actuator(const McvActuator& actuator, int pump_count) {
+  if (actuator.pump < 0 || actuator.pump >= pump_count) {
+    return McvDefect::kPumpIndex;
+  }
+  if (!positive(actuator.area_cap_m2) || !positive(actuator.area_rod_m2)) {
+    return McvDefect::kArea;
+  }
+  if (actuator.regeneration != RegenerationSide::kNone &&
+      !(positive(actuator.c_drain) && positive(actuator.c_check) &&
+        actuator.c_drain < actuator.c_check)) {
+    return McvDefect::kRegeneration;
+  }
+  if (!positive(actuator.bypass_open) || !positive(actuator.bypass_closed)) {
+    return McvDefect::kBypass;
+  }
+  if (!not_negative(actuator.force_offset_n)) {
+    return McvDefect::kForceOffset;
+  }
+  if (!from_origin(actuator.extend)) {
+    return McvDefect::kExtendTable;
+  }
+  return from_origin(actuator.retract) ? McvDefect::kNone : McvDefect::kRetractTable;
+}
+
+McvDefect check_pump(const McvPump& pump) {
+  if (!not_negative(pump.leak_linear) || !not_negative(pump.leak_quadratic)) {
+    return McvDefect::kLeak;
+  }
+  if (!not_negative(pump.series_resistance)) {
+    return McvDefect::kBypassSeries;
+  }
+  return pump.has_relief && !positive(pump.relief_pa) ? McvDefect::kRelief : McvDefect::kNone;
+}
+
+}  // namespace
+
+McvCheck check_machine(const McvMachine& machine) {
+  if (machine.actuator_count < 1 || machine.actuator_count > kMaxActuators) {
+    return {McvDefect::kBadActuatorCount, 0};
+  }
+  if (machine.pump_count < 1 || machine.pump_count > kMaxPumps) {
+    return {McvDefect::kBadPumpCount, 0};
+  }
+  for (int i = 0; i < machine.actuator_count; ++i) {
+    const McvDefect defect =
+        check_actuator(machine.actuator[static_cast<unsigned>(i)], machine.pump_count);
+    if (defect != McvDefect::kNone) {
+      return {defect, i};
+    }
+  }
+  for (int j = 0; j < machine.pump_count; ++j) {
+    const McvDefect defect = check_pump(machine.pump[static_cast<unsigned>(j)]);
+    if (defect != McvDefect::kNone) {
+      return {defect, j};
+    }
+  }
+  return {};
+}
+
+McvCheck check_input(const McvMachine& machine, const McvInput& input) {
+  for (int i = 0; i < machine.actuator_count; ++i) {
+    const auto k = static_cast<unsigned>(i);
+    if (!std::isfinite(input.velocity_mps[k])) {
+      return {McvDefect::kVelocity, i};
+    }
+    if (!std::isfinite(input.cap_pressure_pa[k]) || !std::isfinite(input.rod_pressure_pa[k])) {
+      return {McvDefect::kPressure, i};
+    }
+  }
+  for (int j = 0; j < machine.pump_count; ++j) {
+    if (!not_negative(input.pump_flow_m3ps[static_cast<unsigned>(j)])) {
+      return {McvDefect::kPumpFlow, j};
+    }
+  }
+  return {};
+}
+
+McvMachine mcv_machine(const ExcavatorProfile& profile) {
+  McvMachine machine;
+  machine.actuator_count = kAxisCount;
+  machine.pump_count = kPumpCount;
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    const SpoolProfile& spool = profile.valve.spool[i];
+    const double cap_m2 = profile.geometry.cylinder[i].cap_area_m2();
+    const double rod_m2 = profile.geometry.cylinder[i].rod_area_m2();
+    McvActuator& actuator = machine.actuator[i];
+    actuator.area_cap_m2 = cap_m2;
+    actuator.area_rod_m2 = rod_m2;
+    actuator.pump = spool.pump;
+    actuator.regeneration = spool.regeneration;
+    actuator.c_drain = spool.c_drain;
+    actuator.c_check = spool.c_check;
+    actuator.bypass_open = spool.bypass_open;
+    actuator.bypass_closed = spool.bypass_closed;
+    actuator.force_offset_n = spool.force_offset_n;
+    actuator.extend = velocity_coefficient_table(
+        profile.valve, full_opening_velocity_coefficient(profile.valve, spool.extend_in_m2,
+                                                         spool.extend_out_m2, cap_m2, rod_m2));
+    actuator.retract = velocity_coefficient_table(
+        profile.valve, full_opening_velocity_coefficient(profile.valve, spool.retract_in_m2,
+                                                         spool.retract_out_m2, rod_m2, cap_m2));
+  }
+  for (unsigned j = 0; j < kPumpCount; ++j) {
+    const PumpProfile& from = profile.pump[j];
+    machine.pump[j] = {from.leak_linear, from.leak_quadratic, 0.0, true, from.relief_pa};
+    for (const double coefficient : from.bypass_series) {
+      machine.pump[j].series_resistance += orifice_resistance(coefficient);
+    }
+  }
+  return machine;
+}
+
+}  // namespace graben

@@ -1,0 +1,49 @@
+#pragma once
+/// Pressure of one pump's line: the circuit's flow balance (27), (28), solved for s = sqrt(P).
+
+#include <array>
+
+#include "firmware/mcv/mcv_machine.hpp"
+
+namespace graben {
+
+/// A regeneration circuit that is in play: its side is the one the spool moves to.
+struct RegenerationDemand {
+  double q_out_m3ps = 0.0;
+  double c_drain = 0.0;
+  double c_check = 0.0;
+};
+
+/// Everything in the balance of one pump's line:
+///   g(s) = flow - k1 s^2 - k2 s^4 - c_by s - in_flow - sum(c_d f(Q_out, s)) = 0.
+struct FlowBalance {
+  double flow_m3ps = 0.0;       ///< Q_p at zero pressure.
+  double leak_linear = 0.0;     ///< k1
+  double leak_quadratic = 0.0;  ///< k2
+  double bypass = 0.0;          ///< c_by > 0 of (21), (22).
+  double in_flow_m3ps = 0.0;    ///< Sum of Q_in, less Q_out where regeneration is in play.
+  int regeneration_count = 0;
+  std::array<RegenerationDemand, kMaxActuators> regeneration{};
+};
+
+/// What the balance leaves over at s; strictly decreasing in s. At s = 0 it is the margin of the
+/// pump flow constraint (29), (30).
+[[nodiscard]] double flow_left(const FlowBalance& balance, double sqrt_pressure);
+
+struct PumpPressure {
+  bool fed = false;        ///< False: (29), (30) is violated; nothing else is set.
+  bool converged = false;  ///< False only if the fixed iteration count was not enough.
+  double sqrt_pressure = 0.0;
+  int iterations = 0;
+};
+
+/// Root of the balance, held at the relief valve's pressure where it would be higher (Remark 2).
+///
+/// Between two openings of regeneration valves g is concave: every f with its valve open is convex
+/// in s, with its valve closed constant, and the leakage and bypass terms are concave. So Newton
+/// from the right end of the root's stretch falls monotonically onto the root, and never overshoots
+/// into the next stretch. At most 24 steps; the worst start is a factor 3 above the root.
+[[nodiscard]] PumpPressure solve_pump_pressure(const FlowBalance& balance, bool has_relief,
+                                               double relief_pa);
+
+}  // namespace graben

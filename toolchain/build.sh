@@ -1,0 +1,36 @@
+# shellcheck shell=sh
+# Configures and builds one preset without a word unless it fails. Sourced by ./run and ./test;
+# needs graben_say of packages.sh.
+
+# graben_build ROOT PRESET
+graben_build() {
+  mkdir -p "$1/build"
+  # `./run a | ./run b` starts two at once, and Ninja does not lock its folder.
+  (
+    if has_command flock; then flock 9; fi
+    graben_build_locked "$1" "$2" 9>&-
+  ) 9>"$1/build/.lock" </dev/null
+}
+
+graben_build_locked() (
+  # Said in full: `set -e` is off in whatever is called on the left of ||.
+  cd "$1" || exit 1
+  log=build/$2.log
+  # Ninja configures again by itself when a CMakeLists.txt has changed, not when the presets have.
+  # shellcheck disable=SC3013 # dash, bash and busybox all know -nt
+  if ! [ "build/$2/build.ninja" -nt CMakePresets.json ]; then
+    graben_say "configuring $2"
+    cmake --preset "$2" >"$log" 2>&1 || graben_build_failed "$2" "$log"
+  fi
+  if ! ninja -C "build/$2" -n 2>/dev/null | grep -q 'no work to do'; then
+    graben_say "building $2 (the first time takes minutes)"
+    # Keep going: one broken target must not hide the next.
+    cmake --build "build/$2" -j "$(nproc)" -- -k 0 >"$log" 2>&1 || graben_build_failed "$2" "$log"
+  fi
+)
+
+graben_build_failed() {
+  cat "$2" >&2
+  graben_say "build of $1 failed; the log above is $2"
+  exit 1
+}

@@ -1,0 +1,80 @@
+# shellcheck shell=sh
+# Which packages of Debian 12 the build and the checks need, and how the missing ones are installed.
+# Sourced by ./run and ./test. Everything is looked for by what it is wanted for, a command or a
+# header, not by package name: a tool that came from elsewhere is as good.
+
+graben_say() { echo "graben: $*" >&2; }
+
+has_command() { command -v "$1" >/dev/null 2>&1; }
+
+has_header() { [ -e "/usr/include/$1" ] || [ -e "/usr/local/include/$1" ]; }
+
+# graben_missing build|check: the packages that are not there yet, a line each.
+graben_missing() {
+  has_command g++ || echo g++
+  has_command cmake || echo cmake
+  has_command ninja || echo ninja-build
+  has_command python3 || echo python3
+  has_header eigen3/Eigen/Core || echo libeigen3-dev
+  has_header cmocka.h || echo libcmocka-dev
+  has_header toml++/toml.h || echo libtomlplusplus-dev
+  has_header CLI/CLI.hpp || echo libcli11-dev
+  has_header fmt/core.h || echo libfmt-dev
+  has_header nlohmann/json.hpp || echo nlohmann-json3-dev
+  # Debian's npm conflicts with a Node.js from elsewhere, which brings its own.
+  has_command node || echo nodejs
+  has_command npm || echo npm
+  # Debian's Node.js only recommends the certificates without which npm reaches no registry.
+  [ -e /etc/ssl/certs/ca-certificates.crt ] || echo ca-certificates
+  if [ "$1" = check ]; then
+    has_command clang-format-14 || has_command clang-format || echo clang-format
+    has_command clang-tidy-14 || has_command clang-tidy || echo clang-tidy
+  fi
+}
+
+graben_apt() {
+  DEBIAN_FRONTEND=noninteractive $graben_as_root \
+    apt-get -q -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 "$@" </dev/null
+}
+
+# graben_install build|check: nothing when all is there; otherwise says what, then installs it.
+graben_install() {
+  # Word splitting is wanted: package names have no blanks.
+  graben_packages=$(graben_missing "$1" | tr '\n' ' ')
+  [ -n "$graben_packages" ] || return 0
+  graben_packages=${graben_packages% }
+
+  if ! has_command apt-get; then
+    graben_say "missing: $graben_packages (Debian's names), and there is no apt-get to install it"
+    return 1
+  fi
+  if [ "$(id -u)" -eq 0 ]; then
+    graben_as_root=
+  elif has_command sudo; then
+    # sudo clears the environment; so the variable goes in through env.
+    graben_as_root='sudo env DEBIAN_FRONTEND=noninteractive'
+  else
+    graben_say "missing: $graben_packages. Neither root nor sudo here; as root, please:"
+    graben_say "  apt-get install --no-install-recommends $graben_packages"
+    return 1
+  fi
+
+  graben_say "going to install by apt: $graben_packages"
+  graben_log=$(mktemp)
+  # A source that cannot be reached must not stop the others: install decides.
+  graben_apt update >"$graben_log" 2>&1 || graben_say 'apt-get update failed; trying all the same'
+  # shellcheck disable=SC2086
+  if ! graben_apt install -y --no-install-recommends $graben_packages >>"$graben_log" 2>&1; then
+    cat "$graben_log" >&2
+    rm -f "$graben_log"
+    graben_say "could not install: $graben_packages"
+    return 1
+  fi
+  rm -f "$graben_log"
+  # Read back: an install that 'succeeds' and leaves a gap would surface as a riddle later.
+  graben_packages=$(graben_missing "$1" | tr '\n' ' ')
+  if [ -n "$graben_packages" ]; then
+    graben_say "installed, but still not found: $graben_packages"
+    return 1
+  fi
+}
