@@ -1,7 +1,7 @@
 #pragma once
 /// What the generated codecs are made of: the bits of a payload to and from physical values.
-/// Everything is constexpr, nothing allocates, nothing fails: a value that cannot be said on the bus
-/// is said as 'error'. Intel byte order, unsigned raw values, J1939 special values.
+/// Everything is constexpr, nothing allocates, nothing fails: a value that cannot be said on the
+/// bus is said as 'error'. Intel byte order, unsigned raw values, J1939 special values.
 
 #include <array>
 #include <cstdint>
@@ -172,7 +172,8 @@ constexpr std::uint32_t to_raw(const Field& field, const Physical& signal) {
   if (raw >= static_cast<double>(field.raw_max)) {
     return field.raw_max;
   }
-  return static_cast<std::uint32_t>(raw + 0.5);
+  // std::lround is not constexpr; here raw is positive and far below 2^52, where adding 0.5 rounds.
+  return static_cast<std::uint32_t>(raw + 0.5);  // NOLINT(bugprone-incorrect-roundings)
 }
 
 /// Saturates into [min|max].

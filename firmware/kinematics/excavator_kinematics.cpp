@@ -10,6 +10,8 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 /// A stroke may pass its range by this much: rounding of a pose computed from a stroke at its end.
 constexpr double kStrokeTolerance_m = 1e-6;
+/// Rounding of an angle computed from a length and back.
+constexpr double kSameAngle_rad = 1e-6;
 /// Levers of a machine are decimetres; below this the inverse is of no use.
 constexpr double kSmallestLever_m = 1e-3;
 
@@ -64,8 +66,17 @@ StrokeResult ExcavatorKinematics::strokes_from_joints(const Eigen::Vector3d& joi
   if (!joints_rad.allFinite()) {
     return {};
   }
+  // A joint turned past its cylinder's dead centre has the length of another angle.
+  if (!boom_.on_side(joints_rad[kBoom])) {
+    return {ReachStatus::kBoomStroke, Eigen::Vector3d::Zero()};
+  }
+  if (!arm_.on_side(joints_rad[kArm])) {
+    return {ReachStatus::kArmStroke, Eigen::Vector3d::Zero()};
+  }
   const LinkageState bucket = bucket_.from_angle(joints_rad[kBucket]);
-  if (!bucket.closed) {
+  const LinkageState same = bucket_.from_length(bucket.length_m);
+  if (!bucket.closed || !same.closed ||
+      std::abs(same.angle_rad - bucket.angle_rad) > kSameAngle_rad) {
     return {ReachStatus::kLinkageOpen, Eigen::Vector3d::Zero()};
   }
   const Eigen::Vector3d strokes(

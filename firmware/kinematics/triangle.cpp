@@ -22,6 +22,10 @@ CylinderTriangle::CylinderTriangle(const Eigen::Vector2d& parent_pin_m,
       offset_rad_(direction(child_pin_m) - direction(parent_pin_m)),
       side_(side) {}
 
+bool CylinderTriangle::on_side(double angle_rad) const {
+  return side_ * wrap_near(offset_rad_ + angle_rad, 0.0) >= 0.0;
+}
+
 double CylinderTriangle::length(double angle_rad) const {
   const double opening = offset_rad_ + angle_rad;
   return std::sqrt(

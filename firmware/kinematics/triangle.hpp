@@ -14,6 +14,9 @@ class CylinderTriangle {
   CylinderTriangle(const Eigen::Vector2d& parent_pin_m, const Eigen::Vector2d& child_pin_m,
                    int side);
 
+  /// Whether the pins stand on their side of each other at this angle. Where they don't, the same
+  /// length belongs to another angle.
+  [[nodiscard]] bool on_side(double angle_rad) const;
   /// Pin-to-pin length, m.
   [[nodiscard]] double length(double angle_rad) const;
   /// d length / d angle, m/rad; negative where turning the child shortens the cylinder.

@@ -102,15 +102,18 @@ struct DigPath {
   double attitude_at_x_max_rad = 0.0;
 };
 
-/// How the field converges and how commands may change.
+/// How the field converges and how commands may change. Ranges are checked where it is read.
 struct ControlProfile {
-  double convergence_length_m = 0.25;   ///< Distance from the path at which the field points 45 deg to it.
-  double attitude_gain_ps = 2.0;        ///< Attitude error to attitude rate, at the task's full speed.
-  double approach_inner_m = 0.05;       ///< Stroke distance under which the contour field alone holds.
-  double approach_outer_m = 0.15;       ///< Stroke distance over which the approach alone holds.
-  double stroke_end_gain_ps = 2.0;      ///< Fastest approach to a cylinder's end, per metre left.
-  double spool_rate_ps = 25.0;          ///< Largest change of |x| / x_m per second.
-  double sensor_timeout_s = 0.045;      ///< A signal older than this is missing.
+  double convergence_length_m = 0.0;     ///< Distance at which the field points at 45 deg to the path.
+  double attitude_gain_ps = 0.0;         ///< Attitude error to attitude rate.
+  double attitude_rate_max_radps = 0.0;  ///< Of the field.
+  double approach_inner_m = 0.0;         ///< Stroke distance under which the contour field alone holds.
+  double approach_outer_m = 0.0;         ///< Stroke distance over which the approach alone holds.
+  double approach_speed_mps = 0.0;       ///< Largest cylinder speed of the approach.
+  double stroke_end_gain_ps = 0.0;       ///< Largest speed towards a cylinder's end, per metre left.
+  double spool_rate_ps = 0.0;            ///< Largest change of |x| / x_m per second.
+  double spool_threshold = 0.0;          ///< |x| / x_m under which a spool is kept at neutral.
+  double sensor_timeout_s = 0.0;         ///< A signal older than this is missing.
 };
 
 struct ExcavatorProfile {

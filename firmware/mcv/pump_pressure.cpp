@@ -90,13 +90,11 @@ PumpPressure solve_pump_pressure(const FlowBalance& balance, bool has_relief, do
   double s = start;
   for (int step = 0; step < kNewtonSteps && !result.converged; ++step) {
     const double left = flow_left(balance, s);
-    // From the right the balance rises to zero and never passes it but by rounding.
-    if (left >= -rounding) {
-      result.converged = true;
-    } else {
-      s = std::max(0.0, s - left / flow_left_slope(balance, s));
-      ++result.iterations;
-    }
+    // From the right the balance rises to zero and never passes it but by rounding. The step that
+    // finds that still counts: it takes off what the residual allows for.
+    result.converged = left >= -rounding;
+    s = std::max(0.0, s - left / flow_left_slope(balance, s));
+    ++result.iterations;
   }
   result.sqrt_pressure = s;
   return result;

@@ -13,8 +13,8 @@
 ///   geometry
 ///     path          [[x, y]] m, closed: the last point joins the first
 ///     tip_true      [[x, y]] m; with as many points as time_s, a dot follows the plots' cursor
-///     tip_measured  [[x, y]] m
-///     field         [[x, y, vx, vy]] m, m/s, on a regular grid
+///     tip_measured  [[x, y]] m; a point with null is left out
+///     field         [[x, y, vx, vy]] m, m/s, on a regular grid; may be empty
 ///     ground_y_m    number or null
 ///     marks         [{x, y, attitude_deg, time_s}], one every 5 s
 ///     start         [x, y] m

@@ -4,7 +4,7 @@ const reportPage = (() => {
   const SYNC_KEY = 'run';
   const PRINT_WIDTH_PX = 690;  // A4 less its margins, at 96 px to the inch
   const PALETTE_SIZE = 9;
-  const STRIP = {top: -0.04, bottom: -0.16};  // in units of lambda, below its 0
+  const STRIP = {top: -0.08, bottom: -0.2};  // in units of lambda, below its 0
   const FONT = '13px system-ui, sans-serif';
 
   let report = null;
@@ -13,7 +13,8 @@ const reportPage = (() => {
   const hiddenLayers = new Set();
 
   const $ = (id) => document.getElementById(id);
-  const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+  const root = document.documentElement;
+  const colour = (name) => getComputedStyle(root).getPropertyValue(`--${name}`).trim();
 
   function make(name, properties = {}, ...children) {
     const node = Object.assign(document.createElement(name), properties);
@@ -61,21 +62,21 @@ const reportPage = (() => {
     }
     for (const {name, share} of report.limitsShare.value) {
       const bar = make('span', {className: 'bar'});
-      bar.style.width = `${Math.min(share, 1) * 100}%`;
+      bar.style.width = share > 0 ? `max(2px, ${Math.min(share, 1) * 100}%)` : '0';
       bar.style.background = `var(--${limitColour(name)})`;
       $('limits').append(make('tr', {},
-          make('th', {scope: 'row'}, swatch(name), name),
-          make('td', {textContent: reportData.formatShare(share)}),
-          make('td', {className: 'bars'}, bar)));
+          make('th', {scope: 'row'}, name, bar),
+          make('td', {textContent: reportData.formatShare(share)})));
     }
   }
 
   function fillPath(width) {
     const box = $('path');
     if (!report.geometry.ok) return box.replaceChildren(complaint(report.geometry.problem));
-    const drawn = reportPath.draw(report.geometry.value, width ?? box.clientWidth, hiddenLayers);
+    const geometry = report.geometry.value;
+    const drawn = reportPath.draw(geometry, width ?? box.clientWidth, hiddenLayers);
     // The dot follows the time plots only where samples of both are the same.
-    const same = report.time.ok && report.geometry.value.tipTrue.length === report.time.value.length;
+    const same = report.time.ok && geometry.tipTrue.length === report.time.value.length;
     pathFigure = same ? drawn : {showAt: () => {}};
     box.replaceChildren(drawn.svg);
   }
@@ -83,8 +84,7 @@ const reportPage = (() => {
   function fillPathLegend() {
     if (!report.geometry.ok) return;
     const layers = [['path', 'wanted path'], ['true', 'true tip'], ['measured', 'measured tip'],
-      ['field', 'velocity field'], ['attitude', 'attitude every 5 s'],
-      ...(report.geometry.value.groundY === null ? [] : [['ground', 'ground']])];
+      ['field', 'velocity field'], ['attitude', 'attitude every 5 s']];
     for (const [name, text] of layers) {
       const button = make('button', {type: 'button', className: 'layer'},
           make('span', {className: `line ${name}`}), text);
@@ -143,7 +143,7 @@ const reportPage = (() => {
 
   function chartOptions(figure, width) {
     const {plot} = figure;
-    const {strip} = plot.body.value;
+    const {lines, strip} = plot.body.value;
     const options = {
       width,
       height: plot.height,
@@ -151,11 +151,11 @@ const reportPage = (() => {
       scales: {x: {time: false}, y: {range: {
         min: {pad: 0.08, soft: 0, mode: 3}, max: {pad: 0.08, soft: 0, mode: 3}}}},
       // The y axes are equally wide, so one instant is in one column all down the page.
-      axes: [axisLook({label: 'time (s)', labelSize: 22, size: 30}),
-        axisLook({label: plot.axis, labelSize: 22, size: 54})],
+      axes: [axisLook({label: 'time (s)', labelSize: 19, size: 30}),
+        axisLook({label: plot.axis, labelSize: 22, size: 54, space: 26})],
       series: [
         {label: 'time', value: (chart, value) => reportData.formatLive(value, 2, 's')},
-        ...plot.body.value.lines.map((line) => lineSeries(line, plot.unit)),
+        ...lines.map((line) => lineSeries(line, plot.unit)),
       ],
       cursor: {
         y: false,
@@ -165,8 +165,8 @@ const reportPage = (() => {
       },
       legend: {
         mount: (chart, table) => figure.legend.replaceChildren(table),
-        markers: {width: 0, fill: (chart, i) => (i === 0 ? 'transparent' :
-            i > plot.body.value.lines.length ? colour('limit1') : colour(plot.body.value.lines[i - 1].colour))},
+        // The time and the strip have no line, so no marker either.
+        markers: {width: 0, fill: (chart, i) => (lines[i - 1] ? colour(lines[i - 1].colour) : '')},
       },
       hooks: {setCursor: [(chart) => pathFigure.showAt(chart.cursor.idx ?? null)]},
     };
@@ -175,9 +175,13 @@ const reportPage = (() => {
       options.scales.limit = {range: [0, 1]};
       options.axes[1].splits = () => [(STRIP.top + STRIP.bottom) / 2, 0, 0.25, 0.5, 0.75, 1];
       options.axes[1].values = (chart, splits) => splits.map((v) => (v < 0 ? 'limit' : String(v)));
-      options.series.push({label: strip.label, scale: 'limit', paths: () => null, points: {show: false},
-        value: (chart, value) => strip.names[value] ?? '–'});
-      options.cursor.points.show = (chart, i) => (i === 2 ? undefined : make('div', {className: 'u-cursor-pt'}));
+      // In the legend, and for drawStrip; the library draws neither a line nor a dot for it.
+      options.series.push({
+        label: strip.label, scale: 'limit', paths: () => null, points: {show: false},
+        value: (chart, value) => strip.names[value] ?? '–',
+      });
+      options.cursor.points.show = (chart, i) =>
+        (i > lines.length ? undefined : make('div', {className: 'u-cursor-pt'}));
       options.hooks.draw = [(chart) => drawStrip(chart, strip)];
     }
     return options;
@@ -206,7 +210,7 @@ const reportPage = (() => {
   }
 
   function wholeRun() {
-    if (report.time.ok) zoomAll(report.time.value[0], report.time.value[report.time.value.length - 1]);
+    if (report.time.ok) zoomAll(report.time.value[0], report.time.value.at(-1));
   }
 
   function zoomBy(chart, factor) {
@@ -214,7 +218,7 @@ const reportPage = (() => {
     const {min, max} = chart.scales.x;
     const at = chart.cursor.left >= 0 ? chart.posToVal(chart.cursor.left, 'x') : (min + max) / 2;
     const from = Math.max(at - (at - min) * factor, times[0]);
-    const until = Math.min(at + (max - at) * factor, times[times.length - 1]);
+    const until = Math.min(at + (max - at) * factor, times.at(-1));
     if (until > from) zoomAll(from, until);
   }
 
@@ -244,9 +248,14 @@ const reportPage = (() => {
   function makeFigures() {
     for (const plot of report.plots) {
       const legend = make('div', {className: 'legend'});
+      // Wanted above real, a column for each axis or pump.
+      const wide = plot.body.ok ? plot.body.value.lines.filter((line) => line.wide).length : 0;
+      if (wide > 1) legend.classList.add('pairs');
+      legend.style.setProperty('--pairs', wide);
       const holder = make('div', {className: 'chart'});
       const section = make('section', {id: plot.id},
-          make('div', {className: 'bar-top'}, make('h2', {textContent: plot.title}), legend), holder);
+          make('div', {className: 'bar-top'}, make('h2', {textContent: plot.title}), legend),
+          holder);
       $('plots').append(section);
       if (!plot.body.ok) {
         holder.append(complaint(plot.body.problem));
@@ -256,34 +265,49 @@ const reportPage = (() => {
       const figure = {plot, holder, legend, chart: null};
       holder.tabIndex = 0;
       holder.setAttribute('role', 'group');
-      holder.setAttribute('aria-label', `${plot.title}: arrow keys move the cursor, plus and minus zoom, 0 shows the whole run`);
+      holder.setAttribute('aria-label',
+          `${plot.title}: arrow keys move the cursor, plus and minus zoom, 0 shows the whole run`);
       holder.addEventListener('keydown', (event) => onKey(event, figure.chart));
       figures.push(figure);
     }
   }
 
-  /// Colours are read from the style sheet when a chart is made: a new theme needs new charts.
+  /// Colours are read from the style sheet when a chart is made: a new theme needs new charts,
+  /// with the reader's zoom and choice of lines.
   function drawCharts(width) {
     for (const figure of figures) {
-      const zoom = figure.chart && {...figure.chart.scales.x};
-      figure.chart?.destroy();
+      const old = figure.chart;
+      const zoom = old && {min: old.scales.x.min, max: old.scales.x.max};
+      const hidden = old ? old.series.map((s, i) => (s.show ? 0 : i)).filter((i) => i > 0) : [];
+      old?.destroy();
       const {lines, strip} = figure.plot.body.value;
-      const data = [report.time.value, ...lines.map((l) => l.values), ...(strip ? [strip.values] : [])];
-      figure.chart = new uPlot(chartOptions(figure, width ?? figure.holder.clientWidth), data, figure.holder);
+      const data = [report.time.value, ...lines.map((line) => line.values)];
+      if (strip) data.push(strip.values);
+      const options = chartOptions(figure, width ?? figure.holder.clientWidth);
+      figure.chart = new uPlot(options, data, figure.holder);
       makeLegendKeys(figure);
-      if (zoom) figure.chart.setScale('x', {min: zoom.min, max: zoom.max});
+      if (zoom) figure.chart.setScale('x', zoom);
+      hidden.forEach((i) => figure.chart.setSeries(i, {show: false}));
     }
   }
 
   function resize() {
+    if (printing()) return;
     for (const figure of figures) {
       figure.chart.setSize({width: figure.holder.clientWidth, height: figure.plot.height});
     }
     fillPath();
   }
 
+  // Browsers may report the sheet as a new window size or a new theme; print() has chosen both.
+  const printing = () => root.classList.contains('printing');
+
+  function retheme() {
+    if (!printing()) drawCharts();
+  }
+
   function print(on) {
-    document.documentElement.classList.toggle('printing', on);
+    root.classList.toggle('printing', on);
     drawCharts(on ? PRINT_WIDTH_PX : undefined);
     fillPath(on ? PRINT_WIDTH_PX : undefined);
   }
@@ -300,7 +324,7 @@ const reportPage = (() => {
     addEventListener('resize', resize);
     addEventListener('beforeprint', () => print(true));
     addEventListener('afterprint', () => print(false));
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => drawCharts());
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', retheme);
   }
 
   function start() {

@@ -5,6 +5,7 @@
 const reportData = (() => {
   const AXES = ['boom', 'arm', 'bucket'];
   const PA_PER_MPA = 1e6;
+  const MM_PER_M = 1e3;
 
   class Problem extends Error {}
 
@@ -51,7 +52,9 @@ const reportData = (() => {
       throw new Problem(`“${path}” has ${list.length} values, “series.time_s” has ${count}.`);
     }
     const bad = list.findIndex((value) => value !== null && typeof value !== 'number');
-    if (bad >= 0) throw new Problem(`“${path}”, value ${bad + 1}: ${show(list[bad])} is no number.`);
+    if (bad >= 0) {
+      throw new Problem(`“${path}”, value ${bad + 1}: ${show(list[bad])} is no number.`);
+    }
     return list;
   }
 
@@ -68,7 +71,9 @@ const reportData = (() => {
     const list = checkNumbers(needList(data, 'series.time_s'), 'series.time_s');
     if (list.length < 2) throw new Problem('“series.time_s” has fewer than two values.');
     const bad = list.findIndex((value, i) => value === null || (i > 0 && value < list[i - 1]));
-    if (bad >= 0) throw new Problem(`“series.time_s”, value ${bad + 1}, does not follow the one before.`);
+    if (bad >= 0) {
+      throw new Problem(`“series.time_s”, value ${bad + 1}, does not follow the one before.`);
+    }
     return list;
   }
 
@@ -97,7 +102,7 @@ const reportData = (() => {
     for (let i = 0; i < times.length; ++i) {
       const until = times[Math.min(i + 1, times.length - 1)];
       const last = runs[runs.length - 1];
-      if (last && last.limit === limits[i]) {
+      if (last && last.limit === limits[i] && last.until === times[i]) {
         last.until = until;
       } else if (limits[i] !== null) {
         runs.push({from: times[i], until, limit: limits[i]});
@@ -129,7 +134,8 @@ const reportData = (() => {
     const names = needList(data, 'series.limit_names');
     const bad = limits.findIndex((i) => i !== null && typeof names[i] !== 'string');
     if (bad >= 0) {
-      throw new Problem(`“series.limit”, value ${bad + 1}: ${limits[bad]} has no name in “limit_names”.`);
+      throw new Problem(
+          `“series.limit”, value ${bad + 1}: ${limits[bad]} has no name in “limit_names”.`);
     }
     return {
       lines: [{label: 'λ', colour: 'ink', values: seriesList(data, 'lambda'), digits: 3}],
@@ -148,7 +154,7 @@ const reportData = (() => {
     const command = seriesGroup(data, 'spool_command', [3, 3], 100);
     const real = seriesGroup(data, 'spool_real', [3, 3], 100);
     const lines = AXES.map((axis, i) => axisPair(
-        command, real, i, [`${axis} commanded`, `${axis} real`], 1));
+        command, real, i, [`${axis} command`, `${axis} real`], 1));
     // All commands first: the pale lines must not cover another axis' real line.
     return {lines: [...lines.map((pair) => pair[0]), ...lines.map((pair) => pair[1])]};
   }
@@ -163,12 +169,14 @@ const reportData = (() => {
     const expected = seriesGroup(data, 'pump_pressure_expected', [1, 3], 1 / PA_PER_MPA);
     const real = seriesGroup(data, 'pump_pressure_real', [1, 3], 1 / PA_PER_MPA);
     if (expected.length !== real.length) {
-      throw new Problem('“series.pump_pressure_expected” and “_real” differ in the number of pumps.');
+      throw new Problem(
+          '“series.pump_pressure_expected” and “_real” differ in the number of pumps.');
     }
     return {
       lines: [
         ...expected.map((values, i) => ({
-          label: `Pump ${i + 1} expected`, colour: `pump${i + 1}-soft`, wide: true, values, digits: 2,
+          label: `Pump ${i + 1} expected`, colour: `pump${i + 1}-soft`, wide: true,
+          values, digits: 2,
         })),
         ...real.map((values, i) => (
           {label: `Pump ${i + 1} real`, colour: `pump${i + 1}`, values, digits: 2})),
@@ -177,29 +185,30 @@ const reportData = (() => {
   }
 
   function errorPlot(data) {
+    const measured = seriesList(data, 'error_measured_m', MM_PER_M);
+    const real = seriesList(data, 'error_true_m', MM_PER_M);
     return {
       lines: [
-        {label: 'measured', colour: 'measured', values: seriesList(data, 'error_measured_m', 1e3), digits: 1},
-        {label: 'true', colour: 'true', values: seriesList(data, 'error_true_m', 1e3), digits: 1},
+        {label: 'measured', colour: 'measured', values: measured, digits: 1},
+        {label: 'true', colour: 'true', values: real, digits: 1},
       ],
     };
   }
 
   function cyclePlot(data) {
-    return {
-      lines: [{label: 'cycle', colour: 'ink', values: seriesList(data, 'cycle_time_us'), digits: 1}],
-    };
+    const values = seriesList(data, 'cycle_time_us');
+    return {lines: [{label: 'cycle', colour: 'ink', values, digits: 1}]};
   }
 
   function plots(data) {
     const list = [
-      {id: 'lambda', title: 'Speed factor λ and what holds it', axis: 'λ (1)', unit: '', height: 230,
-        body: part(() => lambdaPlot(data))},
+      {id: 'lambda', title: 'Speed factor λ and what holds it', axis: 'λ (1)', unit: '',
+        height: 240, body: part(() => lambdaPlot(data))},
       {id: 'spool', title: 'Spools, commanded and real', axis: 'spool (% of travel)', unit: '%',
         height: 270, body: part(() => spoolPlot(data))},
       ...AXES.map((axis, i) => ({
         id: `velocity-${axis}`, title: `${axis[0].toUpperCase()}${axis.slice(1)} cylinder velocity`,
-        axis: `${axis} (m/s)`, unit: 'm/s', height: 180, body: part(() => velocityPlot(data, i))})),
+        axis: `${axis} (m/s)`, unit: 'm/s', height: 200, body: part(() => velocityPlot(data, i))})),
       {id: 'pressure', title: 'Pump pressures, expected and real', axis: 'pressure (MPa)',
         unit: 'MPa', height: 240, body: part(() => pressurePlot(data))},
       {id: 'error', title: 'Path error of the bucket tip', axis: 'path error (mm)', unit: 'mm',
@@ -213,10 +222,16 @@ const reportData = (() => {
     return list;
   }
 
+  /// A sensor may fail during a run: its point is then null, or has null in it.
+  const known = (point) => point !== null && !(Array.isArray(point) && point.includes(null));
+
   function geometry(data) {
-    const points = (name, least) => {
-      const list = checkTuples(needList(data, `geometry.${name}`), `geometry.${name}`, 2);
-      if (list.length < least) throw new Problem(`“geometry.${name}” has fewer than ${least} points.`);
+    const points = (name, least, gaps = false) => {
+      const whole = needList(data, `geometry.${name}`);
+      const list = checkTuples(gaps ? whole.filter(known) : whole, `geometry.${name}`, 2);
+      if (list.length < least) {
+        throw new Problem(`“geometry.${name}” has fewer than ${least} points.`);
+      }
       return list;
     };
     const marks = needList(data, 'geometry.marks');
@@ -229,7 +244,7 @@ const reportData = (() => {
     return {
       path: points('path', 3),
       tipTrue: points('tip_true', 1),
-      tipMeasured: points('tip_measured', 1),
+      tipMeasured: points('tip_measured', 0, true),
       field: checkTuples(needList(data, 'geometry.field'), 'geometry.field', 4),
       groundY: typeof ground === 'number' ? ground : null,
       marks,
@@ -266,7 +281,7 @@ const reportData = (() => {
   /// Four significant digits at least, no exponent: a key figure is read, not computed with.
   function formatKey(value) {
     if (!Number.isFinite(value)) return '–';
-    return Math.abs(value) >= 1000 ? String(Math.round(value)) : String(Number(value.toPrecision(4)));
+    return String(Math.abs(value) >= 1000 ? Math.round(value) : Number(value.toPrecision(4)));
   }
 
   function formatLive(value, digits, unit) {

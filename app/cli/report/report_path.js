@@ -31,7 +31,8 @@ const reportPath = (() => {
     const innerWidth = Math.max(width - MARGIN.left - MARGIN.right, 50);
     const spanX = box.x1 - box.x0;
     const spanY = box.y1 - box.y0;
-    const innerHeight = Math.min(innerWidth * spanY / spanX, MAX_HEIGHT - MARGIN.top - MARGIN.bottom);
+    const highest = MAX_HEIGHT - MARGIN.top - MARGIN.bottom;
+    const innerHeight = Math.min(innerWidth * spanY / spanX, highest);
     const scale = Math.min(innerWidth / spanX, innerHeight / spanY);
     const centre = (box.x0 + box.x1) / 2;
     const x0 = centre - innerWidth / scale / 2;
@@ -81,7 +82,8 @@ const reportPath = (() => {
     }).filter((a) => Math.hypot(a.dx, a.dy) > 1);
   }
 
-  const overlap = (a, b) => Math.abs(a.x - b.x) < (a.w + b.w) / 2 && Math.abs(a.y - b.y) < (a.h + b.h) / 2;
+  const overlap = (a, b) =>
+    Math.abs(a.x - b.x) < (a.w + b.w) / 2 && Math.abs(a.y - b.y) < (a.h + b.h) / 2;
 
   /// Beside each mark, outwards from the middle of the path if there is room, else in another
   /// direction; null when every place is taken: a missing number is better than two on one spot.
@@ -93,7 +95,7 @@ const reportPath = (() => {
       for (const turn of [0, 1, -1, 2, -2, 3, -3, 4]) {
         const angle = outward + turn * Math.PI / 4;
         const box = {
-          x: mark.x + Math.cos(angle) * (LABEL.distance + 4),
+          x: mark.x + Math.cos(angle) * (LABEL.distance + 10),
           y: mark.y + Math.sin(angle) * LABEL.distance,
           w: LABEL.width, h: LABEL.height,
         };
@@ -129,34 +131,40 @@ const reportPath = (() => {
       view, frame, path, start, startLabel, groundY, groundLabel,
       tipTrue: thin(geometry.tipTrue.map(toPx), 0.5),
       tipMeasured: thin(geometry.tipMeasured.map(toPx), 0.5),
-      arrows: arrows(geometry.field, view.scale).map((a) => ({...a, x: view.px(a.x), y: view.py(a.y)})),
+      arrows: arrows(geometry.field, view.scale)
+          .map((arrow) => ({...arrow, x: view.px(arrow.x), y: view.py(arrow.y)})),
       marks: marks.map((m, i) => ({...m, label: places[i]})),
       xTicks: ticks(view.x0, view.x1, view.innerWidth / 90),
       yTicks: ticks(view.y0, view.y1, view.innerHeight / 60),
     };
   }
 
-  function element(name, attributes, text) {
+  function element(name, attributes, content) {
     const node = document.createElementNS('http://www.w3.org/2000/svg', name);
     for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
-    if (text !== undefined) node.textContent = text;
+    if (content !== undefined) node.textContent = content;
     return node;
   }
 
-  const polyline = (points, closed) =>
-    `M${points.map((p) => `${p[0].toFixed(1)},${p[1].toFixed(1)}`).join('L')}${closed ? 'Z' : ''}`;
+  const text = (kind, x, y, anchor, content) =>
+    element('text', {class: kind, x, y, 'text-anchor': anchor}, content);
+
+  const pair = (x, y) => `${x.toFixed(1)},${y.toFixed(1)}`;
+
+  const polyline = (points, closed) => (points.length === 0 ? '' :
+      `M${points.map((p) => pair(p[0], p[1])).join('L')}${closed ? 'Z' : ''}`);
 
   /// A shaft with a head of two short strokes, all arrows in one path element.
   function arrowPath(list) {
     return list.map(({x, y, dx, dy}) => {
-      const [ex, ey] = [x + dx, y + dy];
+      const [endX, endY] = [x + dx, y + dy];
+      const size = Math.min(5, Math.hypot(dx, dy) * 0.4);
       const head = (turn) => {
         const angle = Math.atan2(dy, dx) + Math.PI + turn;
-        const size = Math.min(5, Math.hypot(dx, dy) * 0.4);
-        return `${(ex + size * Math.cos(angle)).toFixed(1)},${(ey + size * Math.sin(angle)).toFixed(1)}`;
+        return pair(endX + size * Math.cos(angle), endY + size * Math.sin(angle));
       };
-      const tip = `${ex.toFixed(1)},${ey.toFixed(1)}`;
-      return `M${x.toFixed(1)},${y.toFixed(1)}L${tip}M${head(0.5)}L${tip}L${head(-0.5)}`;
+      const tip = pair(endX, endY);
+      return `M${pair(x, y)}L${tip}M${head(0.5)}L${tip}L${head(-0.5)}`;
     }).join('');
   }
 
@@ -165,18 +173,19 @@ const reportPath = (() => {
     for (const tick of plan.xTicks) {
       const x = plan.view.px(tick.value);
       svg.append(element('path', {class: 'grid', d: `M${x},${frame.top}V${frame.bottom}`}));
-      svg.append(element('text', {class: 'tick', x, y: frame.bottom + 20, 'text-anchor': 'middle'}, tick.text));
+      svg.append(text('tick', x, frame.bottom + 20, 'middle', tick.text));
     }
     for (const tick of plan.yTicks) {
       const y = plan.view.py(tick.value);
       svg.append(element('path', {class: 'grid', d: `M${frame.left},${y}H${frame.right}`}));
-      svg.append(element('text', {class: 'tick', x: frame.left - 8, y: y + 4, 'text-anchor': 'end'}, tick.text));
+      svg.append(text('tick', frame.left - 8, y + 4, 'end', tick.text));
     }
-    svg.append(element('text', {class: 'axis', x: (frame.left + frame.right) / 2, y: plan.view.height - 8,
-      'text-anchor': 'middle'}, 'x, forward from the boom foot (m)'));
+    svg.append(text('axis', (frame.left + frame.right) / 2, plan.view.height - 8, 'middle',
+        'x, forward from the boom foot (m)'));
     const middle = (frame.top + frame.bottom) / 2;
-    svg.append(element('text', {class: 'axis', x: 16, y: middle, 'text-anchor': 'middle',
-      transform: `rotate(-90 16 ${middle})`}, 'y, up (m)'));
+    const label = text('axis', 16, middle, 'middle', 'y, up (m)');
+    label.setAttribute('transform', `rotate(-90 16 ${middle})`);
+    svg.append(label);
   }
 
   /// `hidden` holds the layers that the reader has switched off. Returns the SVG and a function
@@ -193,24 +202,24 @@ const reportPath = (() => {
     };
     layer('field', element('path', {class: 'field', d: arrowPath(plan.arrows)}));
     if (plan.groundY !== null) {
-      layer('ground', element('path', {class: 'ground', d: `M${frame.left},${plan.groundY}H${frame.right}`}),
-          element('text', {class: 'halo', x: frame.right - 6, y: plan.groundLabel.y + 5, 'text-anchor': 'end'}, 'ground'));
+      const line = `M${frame.left},${plan.groundY}H${frame.right}`;
+      svg.append(element('path', {class: 'ground', d: line}),
+          text('halo', frame.right - 6, plan.groundLabel.y + 5, 'end', 'ground'));
     }
-    layer('measured', element('path', {class: 'tip-measured', d: polyline(plan.tipMeasured)}));
     layer('true', element('path', {class: 'tip-true', d: polyline(plan.tipTrue)}));
+    layer('measured', element('path', {class: 'tip-measured', d: polyline(plan.tipMeasured)}));
     layer('path', element('path', {class: 'path', d: polyline(plan.path, true)}));
     layer('attitude', ...plan.marks.map((mark) => {
       const group = element('g', {});
       group.append(element('title', {}, `${mark.text} at ${mark.time.toFixed(1)} s`),
           element('circle', {class: 'mark', cx: mark.x, cy: mark.y, r: 4}));
       if (mark.label) {
-        group.append(element('text', {class: 'halo', x: mark.label.x, y: mark.label.y + 5,
-          'text-anchor': 'middle'}, mark.text));
+        group.append(text('halo', mark.label.x, mark.label.y + 5, 'middle', mark.text));
       }
       return group;
     }));
     svg.append(element('circle', {class: 'start', cx: plan.start[0], cy: plan.start[1], r: 7}),
-        element('text', {class: 'halo', x: plan.startLabel.x, y: plan.startLabel.y + 5, 'text-anchor': 'middle'}, 'start'));
+        text('halo', plan.startLabel.x, plan.startLabel.y + 5, 'middle', 'start'));
     const cursor = element('circle', {class: 'cursor', r: 6, visibility: 'hidden'});
     svg.append(cursor);
     const showAt = (index) => {

@@ -1,0 +1,62 @@
+#include "app/cli/candump_log.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+namespace graben::cli {
+namespace {
+[[noreturn]] void fail(const std::filesystem::path& file, int error) {
+  throw std::runtime_error(fmt::format("{}: {}", file.string(), std::strerror(error)));
+}
+}  // namespace
+
+std::string candump_line(const CanFrame& frame, TimeUs now_us, const std::string& interface_name) {
+  std::string line = fmt::format("({:010d}.{:06d}) {} ", now_us / kSecondUs, now_us % kSecondUs,
+                                 interface_name);
+  line += frame.extended ? fmt::format("{:08X}#", frame.id) : fmt::format("{:03X}#", frame.id);
+  if (frame.remote) {
+    return line + "R";
+  }
+  for (unsigned i = 0; i < frame.length && i < frame.data.size(); ++i) {
+    line += fmt::format("{:02X}", frame.data[i]);
+  }
+  return line;
+}
+
+CandumpLog::CandumpLog(const std::filesystem::path& file, std::string interface_name)
+    : file_(file),
+      part_(file.string() + ".part"),
+      interface_name_(std::move(interface_name)),
+      stream_(std::fopen(part_.c_str(), "w")) {
+  if (stream_ == nullptr) {
+    fail(file_, errno);
+  }
+}
+
+CandumpLog::~CandumpLog() {
+  if (stream_ != nullptr) {
+    std::fclose(stream_);
+    std::error_code ignored;
+    std::filesystem::remove(part_, ignored);
+  }
+}
+
+void CandumpLog::write(const CanFrame& frame, TimeUs now_us) {
+  const std::string line = candump_line(frame, now_us, interface_name_) + "\n";
+  if (std::fwrite(line.data(), 1, line.size(), stream_) != line.size()) {
+    fail(file_, errno);
+  }
+}
+
+void CandumpLog::close() {
+  if (std::fclose(std::exchange(stream_, nullptr)) != 0) {
+    fail(file_, errno);
+  }
+  std::filesystem::rename(part_, file_);
+}
+
+}  // namespace graben::cli

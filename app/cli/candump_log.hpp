@@ -1,0 +1,36 @@
+#pragma once
+/// The one log format: candump, as can-utils write and read it.
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include "firmware/core/time.hpp"
+#include "hal/can_frame.hpp"
+
+namespace graben::cli {
+
+/// Writes a log beside its final name and renames it when closed, so that an interrupted run leaves
+/// no half log behind. Errors throw std::runtime_error that names the file.
+class CandumpLog {
+ public:
+  CandumpLog(const std::filesystem::path& file, std::string interface_name);
+  CandumpLog(const CandumpLog&) = delete;
+  CandumpLog& operator=(const CandumpLog&) = delete;
+  ~CandumpLog();
+
+  void write(const CanFrame& frame, TimeUs now_us);
+  void close();
+
+ private:
+  std::filesystem::path file_;
+  std::filesystem::path part_;
+  std::string interface_name_;
+  std::FILE* stream_;
+};
+
+/// One line of a log, without its end: "(seconds) interface id#data".
+[[nodiscard]] std::string candump_line(const CanFrame& frame, TimeUs now_us,
+                                       const std::string& interface_name);
+
+}  // namespace graben::cli

@@ -1,0 +1,210 @@
+#include "app/cli/dig_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/report/report.hpp"
+#include "firmware/motion/dig_field.hpp"
+
+namespace graben::cli {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+constexpr double kMarkEvery_s = 5.0;
+
+json point(const Eigen::Vector2d& at) { return {at.x(), at.y()}; }
+
+/// Path, field, where the tip was, and its attitude every five seconds (Fig. 9).
+json geometry(const machines::ExcavatorMachine& machine, const DigResult& result) {
+  constexpr int kPathPoints = 240;
+  constexpr double kFieldStep_m = 0.35;
+  constexpr double kMargin_m = 0.7;
+  const ExcavatorKinematics kinematics(machine.profile.geometry);
+  const DigField field(machine.profile, kinematics);
+  const DigPath& path = machine.profile.dig_path;
+  json geometry;
+  geometry["path"] = json::array();
+  for (int k = 0; k < kPathPoints; ++k) {
+    geometry["path"].push_back(
+        point(field.path().at_share(static_cast<double>(k) / kPathPoints).position_m));
+  }
+  geometry["field"] = json::array();
+  const auto columns =
+      static_cast<int>((path.x_max_m - path.x_min_m + 2.0 * kMargin_m) / kFieldStep_m);
+  const auto rows =
+      static_cast<int>((path.y_max_m - path.y_min_m + 2.0 * kMargin_m) / kFieldStep_m);
+  for (int i = 0; i <= columns; ++i) {
+    for (int j = 0; j <= rows; ++j) {
+      const TipPose at = {path.x_min_m - kMargin_m + i * kFieldStep_m,
+                          path.y_min_m - kMargin_m + j * kFieldStep_m, 0.0};
+      const TipVelocity velocity = field.contour(at);
+      geometry["field"].push_back(
+          {at.x_m, at.y_m, velocity.linear_mps.x(), velocity.linear_mps.y()});
+    }
+  }
+  geometry["tip_true"] = json::array();
+  geometry["tip_measured"] = json::array();
+  geometry["marks"] = json::array();
+  double next_mark_s = 0.0;
+  for (const DigSample& sample : result.samples) {
+    geometry["tip_true"].push_back(point(sample.tip_true_m));
+    geometry["tip_measured"].push_back(point(sample.tip_measured_m));
+    if (sample.time_s >= next_mark_s) {
+      geometry["marks"].push_back({{"x", sample.tip_true_m.x()},
+                                   {"y", sample.tip_true_m.y()},
+                                   {"attitude_deg", sample.attitude_true_rad * kDegrees},
+                                   {"time_s", sample.time_s}});
+      next_mark_s += kMarkEvery_s;
+    }
+  }
+  geometry["ground_y_m"] = nullptr;
+  if (!result.samples.empty()) {
+    geometry["start"] = point(result.samples.front().tip_true_m);
+  }
+  return geometry;
+}
+
+/// One list over time for each entry of a per-axis or per-pump array.
+template <class Array>
+json lists(const DigResult& result, Array DigSample::*member) {
+  json all = json::array();
+  for (std::size_t i = 0; i < std::tuple_size<Array>::value; ++i) {
+    json list = json::array();
+    for (const DigSample& sample : result.samples) {
+      list.push_back((sample.*member)[i]);
+    }
+    all.push_back(std::move(list));
+  }
+  return all;
+}
+
+json list(const DigResult& result, double DigSample::*member) {
+  json values = json::array();
+  for (const DigSample& sample : result.samples) {
+    values.push_back(sample.*member);
+  }
+  return values;
+}
+
+json series(const DigResult& result) {
+  json data;
+  data["time_s"] = list(result, &DigSample::time_s);
+  data["lambda"] = list(result, &DigSample::lambda);
+  data["spool_command"] = lists(result, &DigSample::spool_command);
+  data["spool_real"] = lists(result, &DigSample::spool_real);
+  data["velocity_wanted"] = lists(result, &DigSample::velocity_wanted_mps);
+  data["velocity_real"] = lists(result, &DigSample::velocity_real_mps);
+  data["pump_pressure_expected"] = lists(result, &DigSample::pump_expected_pa);
+  data["pump_pressure_real"] = lists(result, &DigSample::pump_real_pa);
+  data["error_true_m"] = list(result, &DigSample::error_true_m);
+  data["error_measured_m"] = list(result, &DigSample::error_measured_m);
+  data["cycle_time_us"] = list(result, &DigSample::cycle_us);
+  std::map<std::string, std::size_t> index = {{"none", 0}};
+  json names = {"none"};
+  json limits = json::array();
+  for (const DigSample& sample : result.samples) {
+    const std::string name = limit_words(sample.limit);
+    const auto [found, is_new] = index.emplace(name, index.size());
+    if (is_new) {
+      names.push_back(name);
+    }
+    limits.push_back(found->second);
+  }
+  data["limit"] = std::move(limits);
+  data["limit_names"] = std::move(names);
+  return data;
+}
+
+json figure(const char* label, const std::string& value, const char* unit, const char* note) {
+  return {{"label", label}, {"value", value}, {"unit", unit}, {"note", note}};
+}
+
+json key_figures(const DigSummary& summary) {
+  const auto mm = [](double metres) { return fmt::format("{:.1f}", metres * 1e3); };
+  return {
+      figure("Max error, true tip", mm(summary.max_error_true_m), "mm", "on the path"),
+      figure("RMSE, true tip", mm(summary.rmse_error_true_m), "mm", "on the path"),
+      figure("Max error, measured tip", mm(summary.max_error_measured_m), "mm", "on the path"),
+      figure("RMSE, measured tip", mm(summary.rmse_error_measured_m), "mm", "on the path"),
+      figure("Lambda, least", fmt::format("{:.3f}", summary.lambda_min), "", "on the path"),
+      figure("Lambda, mean", fmt::format("{:.3f}", summary.lambda_mean), "", "on the path"),
+      figure("Time round the path", fmt::format("{:.1f}", summary.loop_s), "s", "simulated"),
+      figure("Times real time", fmt::format("{:.0f}", summary.real_time_factor), "",
+             "plant and controller"),
+  };
+}
+
+}  // namespace
+
+void write_dig_report(const std::filesystem::path& file, const machines::ExcavatorMachine& machine,
+                      const DigResult& result, const DigSummary& summary,
+                      const std::string& subtitle) {
+  json report;
+  report["title"] = "Graben: digging run";
+  report["subtitle"] = subtitle;
+  report["summary"] = key_figures(summary);
+  report["limits_share"] = json::array();
+  for (const auto& [name, share] : summary.limit_share) {
+    report["limits_share"].push_back({{"name", name}, {"share", share}});
+  }
+  report["geometry"] = geometry(machine, result);
+  report["series"] = series(result);
+  write_report(file, report);
+}
+
+void write_dig_summary(const std::filesystem::path& file, const DigSummary& summary) {
+  nlohmann::ordered_json figures;
+  figures["max_error_true_m"] = summary.max_error_true_m;
+  figures["rmse_error_true_m"] = summary.rmse_error_true_m;
+  figures["max_error_measured_m"] = summary.max_error_measured_m;
+  figures["rmse_error_measured_m"] = summary.rmse_error_measured_m;
+  figures["lambda_min"] = summary.lambda_min;
+  figures["lambda_mean"] = summary.lambda_mean;
+  figures["duration_s"] = summary.duration_s;
+  figures["real_time_factor"] = summary.real_time_factor;
+  figures["cycles"] = summary.cycles;
+  figures["approach_s"] = summary.approach_s;
+  figures["loop_s"] = summary.loop_s;
+  figures["cycle_median_us"] = summary.cycle_median_us;
+  figures["cycle_max_us"] = summary.cycle_max_us;
+  for (const auto& [name, share] : summary.limit_share) {
+    figures["limit_share"][name] = share;
+  }
+  std::ofstream stream(file);
+  stream << figures.dump(2) << '\n';
+  stream.close();
+  if (!stream) {
+    throw std::runtime_error(fmt::format("{}: can't be written", file.string()));
+  }
+}
+
+std::string dig_table(const DigSummary& summary) {
+  std::string limits;
+  for (const auto& [name, share] : summary.limit_share) {
+    limits += fmt::format("  {:<26}{:>9.1f} %\n", name, share * 100.0);
+  }
+  return fmt::format(
+      "                                true    measured\n"
+      "path error, max           {:>10.1f}  {:>10.1f} mm\n"
+      "path error, RMSE          {:>10.1f}  {:>10.1f} mm\n"
+      "lambda, min               {:>10.3f}\n"
+      "lambda, mean              {:>10.3f}\n"
+      "time to reach the path    {:>10.2f} s\n"
+      "time round the path       {:>10.2f} s\n"
+      "controller's cycle, median{:>10.1f} us\n"
+      "controller's cycle, max   {:>10.1f} us\n"
+      "times faster than real    {:>10.0f}\n"
+      "share of time per limit of lambda\n{}",
+      summary.max_error_true_m * 1e3, summary.max_error_measured_m * 1e3,
+      summary.rmse_error_true_m * 1e3, summary.rmse_error_measured_m * 1e3, summary.lambda_min,
+      summary.lambda_mean, summary.approach_s, summary.loop_s, summary.cycle_median_us,
+      summary.cycle_max_us, summary.real_time_factor, limits);
+}
+
+}  // namespace graben::cli

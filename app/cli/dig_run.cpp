@@ -1,0 +1,221 @@
+#include "app/cli/dig_run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "app/cli/candump_log.hpp"
+#include "app/ecu/excavator_ecu.hpp"
+#include "app/plant/operator_node.hpp"
+#include "app/plant/plant_node.hpp"
+#include "platform/loopback/loopback_bus.hpp"
+
+namespace graben::cli {
+namespace {
+
+constexpr TimeUs kPeriod_us = 10 * kMillisecondUs;
+/// The operator waits for the machine, then enables it; once done lets go, and the log shows neutral.
+constexpr TimeUs kEnable_us = 200 * kMillisecondUs;
+constexpr TimeUs kAfterwards_us = 300 * kMillisecondUs;
+/// The path counts as reached when the measured tip has stayed this near for this long.
+constexpr double kReached_m = 0.02;
+constexpr TimeUs kReachedFor_us = 500 * kMillisecondUs;
+
+double seconds(TimeUs time_us) { return static_cast<double>(time_us) * 1e-6; }
+
+/// Where the run stands with respect to the path.
+class PathProgress {
+ public:
+  PathProgress(const RoundedRectangle& path, double loops) : path_(path), loops_(loops) {}
+
+  void update(const Eigen::Vector2d& tip_m, double error_m, TimeUs now_us) {
+    if (!on_path_) {
+      near_since_us_ = error_m > kReached_m ? now_us : near_since_us_;
+      on_path_ = now_us - near_since_us_ >= kReachedFor_us;
+    } else {
+      travelled_m_ += (tip_m - last_tip_m_).dot(path_.closest(tip_m).tangent);
+    }
+    last_tip_m_ = tip_m;
+  }
+  [[nodiscard]] bool on_path() const { return on_path_; }
+  [[nodiscard]] double share() const { return travelled_m_ / (loops_ * path_.length_m()); }
+
+ private:
+  const RoundedRectangle& path_;
+  double loops_;
+  bool on_path_ = false;
+  TimeUs near_since_us_ = 0;
+  double travelled_m_ = 0.0;
+  Eigen::Vector2d last_tip_m_ = Eigen::Vector2d::Zero();
+};
+
+/// The three nodes and their bus.
+struct Bench {
+  Bench(const machines::ExcavatorMachine& machine, const DigOptions& options)
+      : plant_port(bus.attach()),
+        operator_port(bus.attach()),
+        ecu_port(bus.attach()),
+        plant(machine.plant,
+              {options.start_strokes_m[0], options.start_strokes_m[1], options.start_strokes_m[2]},
+              plant_port, machine.hash),
+        driver(operator_port),
+        ecu(machine.profile, machine.hash, ecu_port) {
+    if (!plant_port.open() || !operator_port.open() || !ecu_port.open()) {
+      throw std::runtime_error("the bus in memory did not open");
+    }
+    driver.set_schedule({{0, {false, OperatorMode::kAutomatic, Task::kNone, 0.0}},
+                         {kEnable_us, request(options)}});
+  }
+
+  static plant::OperatorRequest request(const DigOptions& options) {
+    return {true, OperatorMode::kAutomatic, Task::kDig, options.speed_override_ratio};
+  }
+
+  /// Everyone's cycle at `now_us`; returns how long the controller computed, in microseconds.
+  double step(TimeUs now_us) {
+    bus.set_time(now_us);
+    plant.step(now_us);
+    driver.step(now_us);
+    const auto begin = std::chrono::steady_clock::now();
+    // Time is simulated: a measured cycle time on the bus would make every run's bytes different.
+    ecu.step(now_us, 0);
+    return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin)
+        .count();
+  }
+
+  LoopbackBus bus;
+  LoopbackPort& plant_port;
+  LoopbackPort& operator_port;
+  LoopbackPort& ecu_port;
+  plant::PlantNode plant;
+  plant::OperatorNode driver;
+  ecu::ExcavatorEcu ecu;
+};
+
+class DigRun {
+ public:
+  DigRun(const machines::ExcavatorMachine& machine, const DigOptions& options)
+      : machine_(machine),
+        options_(options),
+        bench_(machine, options),
+        kinematics_(machine.profile.geometry),
+        path_(machine.profile.dig_path),
+        progress_(path_, options.loops) {}
+
+  DigResult run(const Progress& show) {
+    std::optional<CandumpLog> log;
+    if (!options_.log_file.empty()) {
+      log.emplace(options_.log_file, "vcan0");
+      bench_.bus.set_tap([&](const CanFrame& frame) { log->write(frame, frame.stamp_us); });
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    TimeUs now_us = 0;
+    while (!ended(now_us)) {
+      step(now_us);
+      show(progress_.share(), progress_.on_path() ? "on the path" : "approaching the path");
+      now_us += kPeriod_us;
+    }
+    bench_.driver.set_schedule({});
+    for (const TimeUs end_us = now_us + kAfterwards_us; now_us < end_us; now_us += kPeriod_us) {
+      static_cast<void>(bench_.step(now_us));
+    }
+    result_.wall_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result_.rejected_frames = rejected(bench_.ecu.link());
+    bench_.bus.set_tap(nullptr);
+    if (log) {
+      log->close();
+    }
+    return std::move(result_);
+  }
+
+ private:
+  bool ended(TimeUs now_us) {
+    const ExcavatorStatus& status = bench_.ecu.outputs().status;
+    if (status.mode == EcuMode::kFault) {
+      result_.end = DigEnd::kFault;
+      result_.fault = status.fault;
+      return true;
+    }
+    if (!progress_.on_path()) {
+      result_.end = DigEnd::kPathNotReached;
+      return seconds(now_us) > options_.approach_max_s;
+    }
+    if (reached_us_ == 0) {
+      reached_us_ = now_us;
+    }
+    if (progress_.share() >= 1.0) {
+      result_.end = DigEnd::kDone;
+      return true;
+    }
+    result_.end = DigEnd::kLoopNotClosed;
+    return seconds(now_us - reached_us_) > options_.loops * options_.loop_max_s;
+  }
+
+  void step(TimeUs now_us) {
+    DigSample sample;
+    sample.cycle_us = bench_.step(now_us);
+    sample.time_s = seconds(now_us);
+    read_truth(sample);
+    read_controller(sample);
+    const bool moving = bench_.ecu.outputs().status.mode == EcuMode::kActive;
+    progress_.update(sample.tip_true_m, moving ? sample.error_measured_m : 2.0 * kReached_m,
+                     now_us);
+    sample.on_path = progress_.on_path();
+    result_.samples.push_back(sample);
+  }
+
+  [[nodiscard]] double error_m(const Eigen::Vector2d& tip_m) const {
+    return (path_.closest(tip_m).position_m - tip_m).norm();
+  }
+
+  void read_truth(DigSample& sample) const {
+    const plant::ExcavatorPlant& plant = bench_.plant.plant();
+    const plant::TipPose tip = plant.tip();
+    sample.tip_true_m = tip.position_m;
+    sample.attitude_true_rad = tip.attitude_rad;
+    sample.error_true_m = error_m(sample.tip_true_m);
+    sample.spool_real = plant.spool_travels_ratio();
+    sample.velocity_real_mps = plant.stroke_velocities_mps();
+    sample.pump_real_pa = plant.pump_pressures_pa();
+  }
+
+  void read_controller(DigSample& sample) const {
+    const ExcavatorInputs& inputs = bench_.ecu.inputs();
+    const ExcavatorOutputs& outputs = bench_.ecu.outputs();
+    Eigen::Vector3d strokes_m;
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+      const double most_m = machine_.profile.geometry.cylinder[i].stroke_m;
+      strokes_m[i] = std::clamp(inputs.axis[i].stroke_m.value, 0.0, most_m);
+      sample.velocity_wanted_mps[i] =
+          outputs.status.lambda * outputs.status.wanted_velocity_mps[i];
+      sample.spool_command[i] = outputs.duty_ratio[i];
+    }
+    const KinematicState state = kinematics_.state(strokes_m);
+    sample.tip_measured_m = Eigen::Vector2d(state.tip.x_m, state.tip.y_m);
+    sample.error_measured_m = error_m(sample.tip_measured_m);
+    sample.lambda = outputs.status.lambda;
+    sample.limit = outputs.status.limit;
+    sample.pump_expected_pa = outputs.status.pump_pressure_pa;
+  }
+
+  const machines::ExcavatorMachine& machine_;
+  DigOptions options_;
+  Bench bench_;
+  ExcavatorKinematics kinematics_;
+  RoundedRectangle path_;
+  PathProgress progress_;
+  TimeUs reached_us_ = 0;
+  DigResult result_;
+};
+
+}  // namespace
+
+DigResult run_dig(const machines::ExcavatorMachine& machine, const DigOptions& options,
+                  const Progress& progress) {
+  return DigRun(machine, options).run(progress);
+}
+
+}  // namespace graben::cli

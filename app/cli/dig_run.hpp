@@ -1,0 +1,88 @@
+#pragma once
+/// The digging task in simulated time: plant, operator and controller as three nodes on a bus in
+/// memory that exchange nothing but CAN frames.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/machines/machine_file.hpp"
+#include "firmware/kinematics/excavator_kinematics.hpp"
+
+namespace graben::cli {
+
+struct DigOptions {
+  Eigen::Vector3d start_strokes_m = Eigen::Vector3d::Zero();
+  double speed_override_ratio = 1.0;
+  double loops = 1.0;             ///< Times round the path once it is reached.
+  double approach_max_s = 90.0;   ///< To reach the path.
+  double loop_max_s = 120.0;      ///< For each time round it.
+  std::filesystem::path log_file;  ///< candump log; none if empty.
+};
+
+/// State at one control cycle, true and as the controller has it.
+struct DigSample {
+  double time_s = 0.0;
+  bool on_path = false;  ///< The path was reached and is being followed: what the figures speak of.
+  Eigen::Vector2d tip_true_m;
+  Eigen::Vector2d tip_measured_m;
+  double attitude_true_rad = 0.0;
+  double error_true_m = 0.0;
+  double error_measured_m = 0.0;
+  double lambda = 0.0;
+  Limit limit;
+  std::array<double, kAxisCount> spool_command{};  ///< x / x_m that the duty asks for.
+  std::array<double, kAxisCount> spool_real{};
+  std::array<double, kAxisCount> velocity_wanted_mps{};  ///< lambda V_L^d
+  std::array<double, kAxisCount> velocity_real_mps{};
+  std::array<double, kPumpCount> pump_expected_pa{};
+  std::array<double, kPumpCount> pump_real_pa{};
+  double cycle_us = 0.0;  ///< Computing time of the controller's cycle.
+};
+
+enum class DigEnd { kDone, kPathNotReached, kLoopNotClosed, kFault };
+
+struct DigResult {
+  DigEnd end = DigEnd::kDone;
+  Fault fault = Fault::kNone;  ///< With kFault.
+  std::vector<DigSample> samples;
+  double wall_s = 0.0;
+  std::uint32_t rejected_frames = 0;
+};
+
+/// Figures of the time on the path.
+struct DigSummary {
+  double max_error_true_m = 0.0;
+  double rmse_error_true_m = 0.0;
+  double max_error_measured_m = 0.0;
+  double rmse_error_measured_m = 0.0;
+  double lambda_min = 0.0;
+  double lambda_mean = 0.0;
+  double approach_s = 0.0;  ///< Until the path was reached.
+  double loop_s = 0.0;      ///< On the path.
+  double duration_s = 0.0;  ///< Of the whole run, simulated.
+  double real_time_factor = 0.0;
+  long cycles = 0;          ///< Of the whole run.
+  double cycle_median_us = 0.0;
+  double cycle_max_us = 0.0;
+  /// Share of the time on the path for each limit that was active, by its name, "none" first.
+  std::vector<std::pair<std::string, double>> limit_share;
+};
+
+/// Share of the work done and where it stands.
+using Progress = std::function<void(double share, const std::string& where)>;
+
+/// Runs until the path was followed `loops` times, something fails, or the time is over. The same
+/// machine and options give the same samples (but cycle_us) and the same bytes in the log.
+[[nodiscard]] DigResult run_dig(const machines::ExcavatorMachine& machine,
+                                const DigOptions& options, const Progress& progress);
+
+[[nodiscard]] DigSummary summarise(const DigResult& result);
+
+/// "none", "pump flow: Pump 1", "back flow: boom", ...
+[[nodiscard]] std::string limit_words(const Limit& limit);
+
+}  // namespace graben::cli

@@ -1,0 +1,109 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "app/cli/dig_run.hpp"
+
+namespace graben::cli {
+namespace {
+
+constexpr const char* kAxisNames[] = {"boom", "arm", "bucket"};
+
+double median(std::vector<double> values) {
+  if (values.empty()) {
+    return 0.0;
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Maximum and root mean square of what is fed in.
+class Spread {
+ public:
+  void add(double value) {
+    max_ = std::max(max_, value);
+    squares_ += value * value;
+    ++count_;
+  }
+  [[nodiscard]] double max() const { return max_; }
+  [[nodiscard]] double rms() const {
+    return count_ > 0 ? std::sqrt(squares_ / static_cast<double>(count_)) : 0.0;
+  }
+
+ private:
+  double max_ = 0.0;
+  double squares_ = 0.0;
+  long count_ = 0;
+};
+
+}  // namespace
+
+std::string limit_words(const Limit& limit) {
+  const unsigned axis = std::min<unsigned>(limit.index, kAxisCount - 1);
+  switch (limit.kind) {
+    case LimitKind::kNone:
+      return "none";
+    case LimitKind::kPumpFlow:
+      return fmt::format("pump flow: Pump {}", limit.index + 1);
+    case LimitKind::kBackFlow:
+      return fmt::format("back flow: {}", kAxisNames[axis]);
+    case LimitKind::kSpoolTravel:
+      return fmt::format("spool travel: {}", kAxisNames[axis]);
+    case LimitKind::kStrokeEnd:
+      return fmt::format("stroke end: {}", kAxisNames[axis]);
+  }
+  return "unknown";
+}
+
+DigSummary summarise(const DigResult& result) {
+  DigSummary summary;
+  Spread error_true;
+  Spread error_measured;
+  std::map<std::string, long> limits;
+  std::vector<double> cycle_us;
+  double lambda_sum = 0.0;
+  long on_path = 0;
+  summary.lambda_min = 1.0;
+  for (const DigSample& sample : result.samples) {
+    cycle_us.push_back(sample.cycle_us);
+    summary.cycle_max_us = std::max(summary.cycle_max_us, sample.cycle_us);
+    if (!sample.on_path) {
+      continue;
+    }
+    if (on_path++ == 0) {
+      summary.approach_s = sample.time_s;
+    }
+    error_true.add(sample.error_true_m);
+    error_measured.add(sample.error_measured_m);
+    summary.lambda_min = std::min(summary.lambda_min, sample.lambda);
+    lambda_sum += sample.lambda;
+    summary.loop_s = sample.time_s - summary.approach_s;
+    ++limits[limit_words(sample.limit)];
+  }
+  if (on_path == 0) {
+    summary.lambda_min = 0.0;
+  }
+  const auto share = [&](long count) {
+    return on_path > 0 ? static_cast<double>(count) / static_cast<double>(on_path) : 0.0;
+  };
+  summary.max_error_true_m = error_true.max();
+  summary.rmse_error_true_m = error_true.rms();
+  summary.max_error_measured_m = error_measured.max();
+  summary.rmse_error_measured_m = error_measured.rms();
+  summary.lambda_mean = on_path > 0 ? lambda_sum / static_cast<double>(on_path) : 0.0;
+  summary.cycles = static_cast<long>(result.samples.size());
+  summary.duration_s = result.samples.empty() ? 0.0 : result.samples.back().time_s;
+  summary.real_time_factor = result.wall_s > 0.0 ? summary.duration_s / result.wall_s : 0.0;
+  summary.cycle_median_us = median(cycle_us);
+  summary.limit_share.emplace_back("none", share(limits["none"]));
+  limits.erase("none");
+  for (const auto& [name, count] : limits) {
+    summary.limit_share.emplace_back(name, share(count));
+  }
+  return summary;
+}
+
+}  // namespace graben::cli

@@ -1,0 +1,26 @@
+/// graben: the engineer's tool.
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/commands.hpp"
+
+namespace {
+constexpr int kWrongUsage = 2;
+}
+
+int main(int argc, char** argv) {
+  CLI::App app("Graben: follows a path as fast as the hydraulics allow, and never in another "
+               "direction");
+  app.require_subcommand(1);
+  int status = 0;
+  graben::cli::add_dig(app, status);
+  graben::cli::add_solve(app, status);
+  graben::cli::add_pose(app, status);
+  graben::cli::add_strokes(app, status);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kWrongUsage;
+  }
+  return status;
+}

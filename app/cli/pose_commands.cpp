@@ -1,0 +1,156 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/cli/commands.hpp"
+#include "app/cli/guarded.hpp"
+#include "app/machines/machine_file.hpp"
+#include "firmware/kinematics/excavator_kinematics.hpp"
+
+namespace graben::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* kAxisNames[] = {"boom", "arm", "bucket"};
+
+const char* reach_name(ReachStatus status) {
+  switch (status) {
+    case ReachStatus::kOk:
+      return "ok";
+    case ReachStatus::kOutOfReach:
+      return "out_of_reach";
+    case ReachStatus::kBoomStroke:
+      return "boom_stroke";
+    case ReachStatus::kArmStroke:
+      return "arm_stroke";
+    case ReachStatus::kBucketStroke:
+      return "bucket_stroke";
+    case ReachStatus::kLinkageOpen:
+      return "linkage_open";
+    case ReachStatus::kSingular:
+      return "singular";
+    case ReachStatus::kNotFinite:
+      return "not_finite";
+  }
+  return "unknown";
+}
+
+ExcavatorKinematics load_kinematics(const std::string& profile) {
+  return ExcavatorKinematics(
+      machines::load_excavator(machines::find_profile(profile)).profile.geometry);
+}
+
+void check_strokes(const ExcavatorGeometry& geometry, const std::vector<double>& strokes_m) {
+  std::string errors;
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    const double most_m = geometry.cylinder[i].stroke_m;
+    // Written so that NaN fails too.
+    if (!(strokes_m[i] >= 0.0 && strokes_m[i] <= most_m)) {
+      errors += fmt::format("{}{} stroke {} m; allowed: 0 .. {} m", errors.empty() ? "" : "; ",
+                            kAxisNames[i], strokes_m[i], most_m);
+    }
+  }
+  if (!errors.empty()) {
+    throw std::runtime_error(errors);
+  }
+}
+
+void print_pose(const std::string& profile, const std::vector<double>& strokes_m,
+                const double* swing_rad) {
+  const ExcavatorKinematics kinematics = load_kinematics(profile);
+  check_strokes(kinematics.geometry(), strokes_m);
+  const JointResult joints =
+      kinematics.joints_from_strokes({strokes_m[kBoom], strokes_m[kArm], strokes_m[kBucket]});
+  if (joints.status != ReachStatus::kOk) {
+    throw std::runtime_error(fmt::format("no pose there: {}", reach_name(joints.status)));
+  }
+  const TipPose pose = kinematics.pose_from_joints(joints.joints_rad);
+  ordered_json result;
+  result["x_m"] = pose.x_m;
+  result["y_m"] = pose.y_m;
+  result["attitude_rad"] = pose.attitude_rad;
+  result["joints_rad"] = {joints.joints_rad[kBoom], joints.joints_rad[kArm],
+                          joints.joints_rad[kBucket]};
+  if (swing_rad != nullptr) {
+    // About the vertical through the origin; z to the right, so that swinging left is positive.
+    result["swing_rad"] = *swing_rad;
+    result["position_m"] = {pose.x_m * std::cos(*swing_rad), pose.y_m,
+                            -pose.x_m * std::sin(*swing_rad)};
+  }
+  fmt::print("{}\n", result.dump());
+}
+
+void print_strokes(const std::string& profile, const TipPose& pose) {
+  const StrokeResult strokes = load_kinematics(profile).strokes_from_pose(pose);
+  ordered_json result;
+  result["strokes_m"] = nullptr;
+  if (strokes.status == ReachStatus::kOk) {
+    result["strokes_m"] = {strokes.strokes_m[kBoom], strokes.strokes_m[kArm],
+                           strokes.strokes_m[kBucket]};
+  }
+  result["status"] = reach_name(strokes.status);
+  fmt::print("{}\n", result.dump());
+}
+
+}  // namespace
+
+void add_pose(CLI::App& app, int& status) {
+  struct Options {
+    std::string profile;
+    std::vector<double> strokes_m;
+    double swing_rad = 0.0;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("pose", "Tip pose and joint angles at given strokes, as JSON");
+  command->add_option("--profile", options->profile, "Machine profile: file or shipped name")
+      ->required();
+  command
+      ->add_option("--strokes", options->strokes_m,
+                   "Boom,arm,bucket in m, counted from the closed cylinder")
+      ->required()
+      ->delimiter(',')
+      ->expected(3);
+  CLI::Option* swing = command->add_option(
+      "--swing", options->swing_rad,
+      "Swing in rad, left positive: adds the tip's position x, y, z (z to the right)");
+  command->callback([options, swing, &status] {
+    status = guarded("pose", [&] {
+      if (!std::isfinite(options->swing_rad)) {
+        throw std::runtime_error("--swing must be finite");
+      }
+      print_pose(options->profile, options->strokes_m,
+                 swing->count() > 0 ? &options->swing_rad : nullptr);
+    });
+  });
+}
+
+void add_strokes(CLI::App& app, int& status) {
+  struct Options {
+    std::string profile;
+    TipPose pose;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "strokes",
+      "Strokes for a tip pose, as JSON; a pose that can't be had gives strokes null and a status");
+  command->add_option("--profile", options->profile, "Machine profile: file or shipped name")
+      ->required();
+  command->add_option("--x", options->pose.x_m, "Tip, forward of the boom foot, m")->required();
+  command->add_option("--y", options->pose.y_m, "Tip, above the boom foot, m")->required();
+  command
+      ->add_option("--attitude", options->pose.attitude_rad,
+                   "Direction from the tip to the bucket pin, rad")
+      ->required();
+  command->callback([options, &status] {
+    status = guarded("strokes", [&] { print_strokes(options->profile, options->pose); });
+  });
+}
+
+}  // namespace graben::cli

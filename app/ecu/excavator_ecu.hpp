@@ -1,0 +1,41 @@
+#pragma once
+/// The controller as a node on a bus: receive, step, send. What is deployed and what is simulated
+/// run this same cycle.
+
+#include <cstdint>
+
+#include "firmware/excavator_controller.hpp"
+#include "hal/can_port.hpp"
+#include "hal/excavator_receiver.hpp"
+#include "hal/excavator_transmitter.hpp"
+
+namespace graben::ecu {
+
+/// One excavator controller on one port. The caller owns the port and the clock.
+class ExcavatorEcu {
+ public:
+  ExcavatorEcu(const ExcavatorProfile& profile, std::uint32_t profile_hash, CanPort& port);
+
+  /// One cycle at `now_us`, to be called every 10 ms. `last_cycle_us` is how long the cycle before
+  /// took, for the status frame; 0 where time is simulated.
+  void step(TimeUs now_us, TimeUs last_cycle_us);
+
+  [[nodiscard]] const ExcavatorOutputs& outputs() const { return outputs_; }
+  [[nodiscard]] const ExcavatorInputs& inputs() const { return receiver_.inputs(); }
+  [[nodiscard]] const LinkCounters& link() const { return receiver_.total(); }
+  /// Frames that the port did not take.
+  [[nodiscard]] std::uint32_t dropped() const { return dropped_; }
+
+ private:
+  void receive(TimeUs now_us);
+
+  CanPort& port_;
+  ExcavatorReceiver receiver_;
+  ExcavatorController controller_;
+  ExcavatorTransmitter transmitter_;
+  EcuDiagnosis diagnosis_;
+  ExcavatorOutputs outputs_;
+  std::uint32_t dropped_ = 0;
+};
+
+}  // namespace graben::ecu

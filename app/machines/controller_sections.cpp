@@ -1,0 +1,263 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/machines/excavator_sections.hpp"
+#include "firmware/excavator_controller.hpp"
+
+namespace graben::machines {
+namespace {
+
+constexpr std::array<const char*, kAxisCount> kAxes = {"boom", "arm", "bucket"};
+constexpr Range kLength{0.1, 30.0, "m"};
+constexpr Range kPin{-10.0, 10.0, "m"};
+constexpr Range kFlowCoefficient{1e-9, 1e-3, "m3/(s sqrt(Pa))"};
+constexpr Range kSpoolArea{1e-7, 1e-2, "m2"};
+
+CylinderGeometry read_cylinder(TomlReader& reader, const std::string& axis, bool has_eye) {
+  const std::string at = axis + ".cylinder.";
+  CylinderGeometry cylinder;
+  cylinder.count = reader.integer(at + "count", 1, 4);
+  cylinder.bore_m = reader.number(at + "bore", {0.02, 1.0, "m"});
+  cylinder.rod_m = reader.number(at + "rod", {0.01, 1.0, "m"});
+  cylinder.closed_length_m = reader.number(at + "closed_length", kLength);
+  cylinder.stroke_m = reader.number(at + "stroke", {0.05, 10.0, "m"});
+  cylinder.base_m = reader.point(at + "base", kPin);
+  if (has_eye) {
+    cylinder.eye_m = reader.point(at + "eye", kPin);
+  }
+  if (cylinder.rod_m >= cylinder.bore_m) {
+    reader.fail(at + "rod", fmt::format("{} m; allowed: less than the bore of {} m",
+                                        cylinder.rod_m, cylinder.bore_m));
+  }
+  if (cylinder.stroke_m >= cylinder.closed_length_m) {
+    reader.fail(at + "stroke", fmt::format("{} m; allowed: less than the closed length of {} m",
+                                           cylinder.stroke_m, cylinder.closed_length_m));
+  }
+  return cylinder;
+}
+
+ExcavatorGeometry read_geometry(TomlReader& reader) {
+  ExcavatorGeometry geometry;
+  geometry.boom_length_m = reader.number("boom.length", kLength);
+  geometry.arm_length_m = reader.number("arm.length", kLength);
+  geometry.bucket_length_m = reader.number("bucket.length", kLength);
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    geometry.cylinder[i] = read_cylinder(reader, kAxes[i], i != kBucket);
+  }
+  geometry.linkage.rocker_pivot_m = reader.point("bucket.linkage.rocker_pivot", kPin);
+  geometry.linkage.rocker_m = reader.number("bucket.linkage.rocker", kLength);
+  geometry.linkage.coupler_m = reader.number("bucket.linkage.coupler", kLength);
+  geometry.linkage.lug_m = reader.point("bucket.linkage.lug", kPin);
+  return geometry;
+}
+
+PumpProfile read_pump(TomlReader& reader, unsigned index) {
+  const std::string at = fmt::format("pump[{}].", index);
+  PumpProfile pump;
+  pump.displacement_m3prev = reader.number(at + "displacement", {1e-6, 1e-2, "m3/rev"});
+  pump.rated_speed_radps = reader.number(at + "speed", {10.0, 1000.0, "rad/s"});
+  pump.leak_linear = reader.number(at + "leak_linear", {0.0, 1e-9, "m3/(s Pa)"});
+  pump.leak_quadratic = reader.number(at + "leak_quadratic", {0.0, 1e-16, "m3/(s Pa2)"});
+  pump.relief_pa = reader.number(at + "relief", {1e6, 1e8, "Pa"});
+  const std::vector<double> series = reader.numbers(at + "bypass_series", kFlowCoefficient, 2);
+  std::copy(series.begin(), series.end(), pump.bypass_series.begin());
+  return pump;
+}
+
+SpoolProfile read_spool(TomlReader& reader, const std::string& axis) {
+  SpoolProfile spool;
+  // Kim's Fig. 3: Pump 1 feeds the arm, Pump 2 boom and bucket.
+  spool.pump = axis == "arm" ? 0 : 1;
+  const std::vector<double> areas = reader.numbers("valve." + axis, kSpoolArea, 4);
+  spool.extend_in_m2 = areas[0];
+  spool.extend_out_m2 = areas[1];
+  spool.retract_in_m2 = areas[2];
+  spool.retract_out_m2 = areas[3];
+  spool.bypass_open = reader.number("valve.bypass.open", kFlowCoefficient);
+  spool.bypass_closed = reader.number("valve.bypass.closed." + axis, kFlowCoefficient);
+  const std::string at = "valve.regeneration." + axis + ".";
+  spool.regeneration =
+      static_cast<RegenerationSide>(reader.choice(at + "side", {"retract", "none", "extend"}) - 1);
+  if (spool.regeneration != RegenerationSide::kNone) {
+    spool.c_drain = reader.number(at + "c_drain", kFlowCoefficient);
+    spool.c_check = reader.number(at + "c_check", kFlowCoefficient);
+    if (spool.c_drain >= spool.c_check) {
+      reader.fail(at + "c_drain", fmt::format("{} m3/(s sqrt(Pa)); allowed: less than c_check, {}",
+                                              spool.c_drain, spool.c_check));
+    }
+  }
+  spool.force_offset_n = reader.number("valve.force_offset", {1.0, 1e6, "N"});
+  return spool;
+}
+
+/// Opening in shares of the travel, duty in per mille; both strictly increasing over the range.
+MonotoneTable read_spool_to_duty(TomlReader& reader) {
+  const std::string key = "valve.spool_to_duty";
+  const auto pairs = reader.pairs(key, {0.0, 1.0, ""}, {0.0, 1000.0, "per mille"}, 2,
+                                  MonotoneTable::kCapacity);
+  std::vector<double> opening;
+  std::vector<double> duty;
+  for (const auto& [x, y] : pairs) {
+    opening.push_back(x);
+    duty.push_back(y * 1e-3);
+  }
+  MonotoneTable table;
+  if (!pairs.empty() &&
+      table.fill(opening.data(), duty.data(), static_cast<int>(opening.size())) !=
+          MonotoneTable::Fill::kOk) {
+    reader.fail(key, "must be strictly increasing in both columns");
+  } else if (!pairs.empty() && (opening.front() != 0.0 || opening.back() != 1.0)) {
+    reader.fail(key, "must run from opening 0 to opening 1");
+  }
+  return table;
+}
+
+ValveProfile read_valve(TomlReader& reader) {
+  ValveProfile valve;
+  valve.spool_travel_m = reader.number("valve.spool_travel", {1e-3, 0.1, "m"});
+  valve.opening_exponent = reader.number("valve.opening_exponent", {0.5, 4.0, ""});
+  valve.discharge = reader.number("valve.discharge", {0.3, 1.0, ""});
+  valve.density_kgpm3 = reader.number("valve.density", {700.0, 1100.0, "kg/m3"});
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    valve.spool[i] = read_spool(reader, kAxes[i]);
+  }
+  valve.spool_to_duty = read_spool_to_duty(reader);
+  return valve;
+}
+
+ControlProfile read_control(TomlReader& reader) {
+  ControlProfile control;
+  control.convergence_length_m = reader.number("control.convergence_length", {0.02, 5.0, "m"});
+  control.attitude_gain_ps = reader.number("control.attitude_gain", {0.0, 20.0, "1/s"});
+  control.attitude_rate_max_radps =
+      reader.number("control.attitude_rate_max", {0.05, 5.0, "rad/s"});
+  control.approach_inner_m = reader.number("control.approach_inner", {0.005, 1.0, "m"});
+  control.approach_outer_m = reader.number("control.approach_outer", {0.01, 2.0, "m"});
+  control.approach_speed_mps = reader.number("control.approach_speed", {0.01, 1.0, "m/s"});
+  control.stroke_end_gain_ps = reader.number("control.stroke_end_gain", {0.1, 20.0, "1/s"});
+  control.spool_rate_ps = reader.number("control.spool_rate", {0.1, 1000.0, "1/s"});
+  control.spool_threshold = reader.number("control.spool_threshold", {0.0, 0.1, ""});
+  control.sensor_timeout_s = reader.number("control.sensor_timeout", {0.02, 0.05, "s"});
+  if (control.approach_outer_m <= control.approach_inner_m) {
+    reader.fail("control.approach_outer",
+                fmt::format("{} m; allowed: more than approach_inner, {} m",
+                            control.approach_outer_m, control.approach_inner_m));
+  }
+  return control;
+}
+
+DigPath read_path(TomlReader& reader) {
+  DigPath path;
+  const std::vector<double> x = reader.numbers("experiment.path.x", {-30.0, 30.0, "m"}, 2);
+  const std::vector<double> y = reader.numbers("experiment.path.y", {-30.0, 30.0, "m"}, 2);
+  path.x_min_m = x[0];
+  path.x_max_m = x[1];
+  path.y_min_m = y[0];
+  path.y_max_m = y[1];
+  path.corner_radius_m = reader.number("experiment.path.corner_radius", {0.01, 10.0, "m"});
+  const double half_side =
+      0.5 * std::min(path.x_max_m - path.x_min_m, path.y_max_m - path.y_min_m);
+  if (!(half_side > 0.0)) {
+    reader.fail("experiment.path", "x and y must each be given as [least, most]");
+  } else if (path.corner_radius_m > half_side) {
+    reader.fail("experiment.path.corner_radius",
+                fmt::format("{} m; allowed: at most half the shorter side, {} m",
+                            path.corner_radius_m, half_side));
+  }
+  const auto attitude = reader.pairs("experiment.path.attitude", {-30.0, 30.0, "m"},
+                                     {-7.0, 7.0, "rad"}, 2, 2);
+  if (attitude.size() == 2) {
+    if (attitude[0].first != path.x_min_m || attitude[1].first != path.x_max_m) {
+      reader.fail("experiment.path.attitude", "must be given at both ends of x, in their order");
+    }
+    path.attitude_at_x_min_rad = attitude[0].second;
+    path.attitude_at_x_max_rad = attitude[1].second;
+  }
+  return path;
+}
+
+const char* obstacle_text(ReachStatus status) {
+  switch (status) {
+    case ReachStatus::kBoomStroke:
+      return "the boom cylinder's stroke";
+    case ReachStatus::kArmStroke:
+      return "the arm cylinder's stroke";
+    case ReachStatus::kBucketStroke:
+      return "the bucket cylinder's stroke";
+    case ReachStatus::kLinkageOpen:
+      return "the bucket's linkage";
+    default:
+      return "the reach of boom and arm";
+  }
+}
+
+std::string angle_key(unsigned axis) { return std::string(kAxes[axis]) + ".angle"; }
+
+/// The angle range is documentation; off by more than this, a pin is wrong.
+constexpr double kAngleTolerance_rad = 0.15;
+
+void check_angles(TomlReader& reader, const ExcavatorProfile& profile,
+                  const std::array<std::vector<double>, kAxisCount>& range) {
+  const ExcavatorKinematics kinematics(profile.geometry);
+  const auto stroke = [&](unsigned i) { return profile.geometry.cylinder[i].stroke_m; };
+  const JointResult closed = kinematics.joints_from_strokes(Eigen::Vector3d::Zero());
+  const JointResult open = kinematics.joints_from_strokes({stroke(0), stroke(1), stroke(2)});
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    const std::string key = angle_key(i);
+    if (closed.status != ReachStatus::kOk || open.status != ReachStatus::kOk) {
+      reader.fail("bucket.linkage", "can't close over the whole stroke of the bucket cylinder");
+      return;
+    }
+    const auto [least, most] = std::minmax(closed.joints_rad[i], open.joints_rad[i]);
+    if (std::abs(least - range[i][0]) > kAngleTolerance_rad ||
+        std::abs(most - range[i][1]) > kAngleTolerance_rad) {
+      reader.fail(key, fmt::format("[{}, {}] rad; the pins and stroke ends give [{:.3f}, {:.3f}] "
+                                   "rad; allowed: within {} rad of that",
+                                   range[i][0], range[i][1], least, most, kAngleTolerance_rad));
+    }
+  }
+}
+
+}  // namespace
+
+ExcavatorProfile read_controller_sections(TomlReader& reader) {
+  ExcavatorProfile profile;
+  profile.geometry = read_geometry(reader);
+  reader.table_count("pump", kPumpCount);
+  for (unsigned j = 0; j < kPumpCount; ++j) {
+    profile.pump[j] = read_pump(reader, j);
+  }
+  profile.valve = read_valve(reader);
+  profile.control = read_control(reader);
+  profile.dig_path = read_path(reader);
+  profile.dig_speed_mps = reader.number("experiment.speed", {0.01, 3.0, "m/s"});
+  return profile;
+}
+
+void check_across_keys(TomlReader& reader, const ExcavatorProfile& profile) {
+  std::array<std::vector<double>, kAxisCount> angle_range;
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    angle_range[i] = reader.numbers(angle_key(i), {-7.0, 7.0, "rad"}, 2);
+  }
+  if (!reader.errors().empty()) {
+    return;
+  }
+  check_angles(reader, profile, angle_range);
+  const ProfileCheck check = profile_check(profile);
+  if (check.valve.defect != McvDefect::kNone) {
+    reader.fail("valve", fmt::format("spool or pump {} can't be solved (defect {})",
+                                     check.valve.index, static_cast<int>(check.valve.defect)));
+  }
+  if (check.path != ReachStatus::kOk) {
+    reader.fail("experiment.path",
+                fmt::format("leaves the work space at x {:.3f} m, y {:.3f} m, attitude {:.3f} rad: "
+                            "{} does not allow it",
+                            check.unreached.x_m, check.unreached.y_m,
+                            check.unreached.attitude_rad, obstacle_text(check.path)));
+  }
+}
+
+}  // namespace graben::machines

@@ -1,0 +1,22 @@
+#pragma once
+/// The sections of an excavator's TOML file.
+
+#include "app/machines/toml_reader.hpp"
+#include "app/plant/plant_profile.hpp"
+#include "firmware/machine/excavator_profile.hpp"
+
+namespace graben::machines {
+
+/// What the controller knows: geometry, pumps, valve, control, path.
+[[nodiscard]] ExcavatorProfile read_controller_sections(TomlReader& reader);
+
+/// What only the simulated machine has, beside the nominal data in `nominal`.
+[[nodiscard]] plant::PlantProfile read_plant_sections(TomlReader& reader,
+                                                      const ExcavatorProfile& nominal);
+
+/// Checks that need more than one key: the path lies in the work space, angle ranges fit the
+/// stroke ends, orifices and tables fit each other. They are made only where
+/// each key by itself is right.
+void check_across_keys(TomlReader& reader, const ExcavatorProfile& profile);
+
+}  // namespace graben::machines

@@ -1,0 +1,77 @@
+#include "app/machines/machine_file.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "app/machines/excavator_sections.hpp"
+
+namespace graben::machines {
+namespace {
+
+std::uint32_t fnv1a(const std::string& bytes) {
+  std::uint32_t hash = 2166136261u;
+  for (const char byte : bytes) {
+    hash = (hash ^ static_cast<unsigned char>(byte)) * 16777619u;
+  }
+  return hash;
+}
+
+std::string read_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (!stream || !(text << stream.rdbuf())) {
+    throw std::runtime_error(fmt::format("{}: can't be read", file.string()));
+  }
+  return text.str();
+}
+
+}  // namespace
+
+ProfileError::ProfileError(const std::string& file, std::vector<std::string> errors)
+    : std::runtime_error(fmt::format("{}: {} error{}:\n  {}", file, errors.size(),
+                                     errors.size() == 1 ? "" : "s", fmt::join(errors, "\n  "))),
+      errors_(std::move(errors)) {}
+
+std::filesystem::path find_profile(const std::string& name) {
+  const std::filesystem::path shipped = GRABEN_MACHINES_DIR;
+  const std::filesystem::path given(name);
+  for (const std::filesystem::path& candidate :
+       {given, shipped / given, shipped / (name + ".toml")}) {
+    if (std::filesystem::is_regular_file(candidate)) {
+      return candidate;
+    }
+  }
+  throw std::runtime_error(
+      fmt::format("profile '{}' not found, neither as a file nor in {}", name, shipped.string()));
+}
+
+ExcavatorMachine load_excavator(const std::filesystem::path& file) {
+  const std::string text = read_file(file);
+  toml::table document;
+  try {
+    document = toml::parse(text, file.string());
+  } catch (const toml::parse_error& error) {
+    throw ProfileError(file.string(), {fmt::format("line {}, column {}: {}",
+                                                   error.source().begin.line,
+                                                   error.source().begin.column,
+                                                   error.description())});
+  }
+  TomlReader reader(document);
+  // So far the one kind; another one's keys would only pile up errors.
+  static_cast<void>(reader.choice("kind", {"excavator"}));
+  ExcavatorMachine machine;
+  machine.name = file.stem().string();
+  machine.hash = fnv1a(text);
+  machine.profile = read_controller_sections(reader);
+  machine.plant = read_plant_sections(reader, machine.profile);
+  check_across_keys(reader, machine.profile);
+  reader.refuse_unknown_keys();
+  if (!reader.errors().empty()) {
+    throw ProfileError(file.string(), reader.errors());
+  }
+  return machine;
+}
+
+}  // namespace graben::machines

@@ -1,0 +1,41 @@
+#pragma once
+/// Machine profiles: TOML in, checked as a whole, const structs out.
+
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "app/plant/plant_profile.hpp"
+#include "firmware/machine/excavator_profile.hpp"
+
+namespace graben::machines {
+
+/// Everything that is wrong with a profile, a line each: key path, line, value, unit, allowed range.
+class ProfileError : public std::runtime_error {
+ public:
+  ProfileError(const std::string& file, std::vector<std::string> errors);
+  [[nodiscard]] const std::vector<std::string>& errors() const { return errors_; }
+
+ private:
+  std::vector<std::string> errors_;
+};
+
+/// An excavator as its file describes it: what the controller knows, and the machine that the
+/// simulation puts in its place.
+struct ExcavatorMachine {
+  std::string name;            ///< File name without its ending.
+  std::uint32_t hash = 0;      ///< FNV-1a of the file's bytes; on the bus as ProfileHash.
+  ExcavatorProfile profile;
+  plant::PlantProfile plant;
+};
+
+/// Finds `name` as a path, or as NAME or NAME.toml among the shipped profiles. Throws
+/// std::runtime_error that lists where it looked.
+[[nodiscard]] std::filesystem::path find_profile(const std::string& name);
+
+/// Reads and checks an excavator's profile. Throws ProfileError with every error found.
+[[nodiscard]] ExcavatorMachine load_excavator(const std::filesystem::path& file);
+
+}  // namespace graben::machines

@@ -1,0 +1,70 @@
+#include <array>
+#include <string>
+
+#include "app/machines/excavator_sections.hpp"
+
+namespace graben::machines {
+namespace {
+
+constexpr std::array<const char*, kAxisCount> kAxes = {"boom", "arm", "bucket"};
+
+plant::LinkBody read_link(TomlReader& reader, const std::string& axis) {
+  plant::LinkBody link;
+  link.mass_kg = reader.number(axis + ".mass", {10.0, 1e5, "kg"});
+  link.inertia_kgm2 = reader.number(axis + ".inertia", {1.0, 1e6, "kg m2"});
+  link.mass_centre_m = reader.point(axis + ".mass_centre", {-10.0, 10.0, "m"});
+  return link;
+}
+
+plant::SensorErrors read_sensors(TomlReader& reader) {
+  plant::SensorErrors sensors;
+  sensors.stroke_resolution_m = reader.number("sensors.stroke_resolution", {0.0, 0.01, "m"});
+  sensors.stroke_bias_m = reader.number("sensors.stroke_bias", {0.0, 0.05, "m"});
+  sensors.pressure_range_pa = reader.number("sensors.pressure_range", {1e6, 1e8, "Pa"});
+  sensors.pressure_bias_ratio = reader.number("sensors.pressure_bias", {0.0, 0.5, ""});
+  sensors.pressure_noise_ratio = reader.number("sensors.pressure_noise", {0.0, 0.5, ""});
+  return sensors;
+}
+
+/// Figures that the file keeps for simulations to come; checked, so that a typo shows today.
+void check_reserved(TomlReader& reader) {
+  static_cast<void>(reader.number("swing.speed_max", {0.01, 5.0, "rad/s"}));
+  static_cast<void>(reader.number("valve.bulk_modulus_kim", {1e8, 1e11, "Pa"}));
+  for (const char* key : {"regeneration", "spool_opening", "bypass", "leak"}) {
+    static_cast<void>(reader.number(std::string("uncertainty.") + key, {0.0, 0.9, ""}));
+  }
+  static_cast<void>(reader.number("experiment.soil.ground", {-30.0, 30.0, "m"}));
+  static_cast<void>(reader.numbers("experiment.soil.bias", {0.0, 1e6, "N"}, 2));
+  static_cast<void>(reader.number("experiment.soil.ramp", {0.0, 10.0, "m"}));
+  static_cast<void>(reader.boolean("experiment.soil.random"));
+}
+
+}  // namespace
+
+plant::PlantProfile read_plant_sections(TomlReader& reader, const ExcavatorProfile& nominal) {
+  plant::PlantProfile plant;
+  plant.machine = nominal;
+  const std::vector<double> coulomb =
+      reader.numbers("friction.coulomb", {0.0, 1e6, "N"}, kAxisCount);
+  const std::vector<double> viscous =
+      reader.numbers("friction.viscous", {0.0, 1e7, "N s/m"}, kAxisCount);
+  const std::vector<double> dead_volume =
+      reader.numbers("valve.dead_volume", {1e-5, 1.0, "m3"}, kAxisCount);
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    plant.link[i] = read_link(reader, kAxes[i]);
+    plant.friction[i] = {coulomb[i], viscous[i]};
+    plant.dead_volume_m3[i] = dead_volume[i];
+  }
+  plant.line_volume_m3.fill(reader.number("valve.line_volume", {1e-5, 1.0, "m3"}));
+  plant.spool_time_constant_s = reader.number("valve.time_constant", {0.001, 1.0, "s"});
+  plant.spool_damping = reader.number("valve.damping", {0.1, 10.0, ""});
+  plant.deadband_ratio = reader.number("valve.deadband", {0.0, 0.9, ""});
+  plant.bulk_modulus_pa = reader.number("valve.bulk_modulus", {1e8, 1e11, "Pa"});
+  plant.port_relief_pa = reader.number("valve.port_relief", {1e6, 1e8, "Pa"});
+  plant.swash_ratio.fill(reader.number("experiment.swash", {0.0, 1.0, ""}));
+  plant.sensors = read_sensors(reader);
+  check_reserved(reader);
+  return plant;
+}
+
+}  // namespace graben::machines

@@ -1,0 +1,183 @@
+#include "app/machines/toml_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace graben::machines {
+namespace {
+
+std::string allowed(const Range& range) {
+  const std::string unit = range.unit[0] == '\0' ? "" : fmt::format(" {}", range.unit);
+  return fmt::format("allowed: {} .. {}{}", range.least, range.most, unit);
+}
+
+std::string value_text(const toml::node& node) {
+  std::ostringstream text;
+  node.visit([&](const auto& value) { text << value; });
+  return text.str();
+}
+
+}  // namespace
+
+const toml::node* TomlReader::find(const std::string& key) {
+  known_.insert(key);
+  const toml::node* node = root_.at_path(key).node();
+  if (node == nullptr) {
+    errors_.push_back(fmt::format("{}: missing", key));
+  }
+  return node;
+}
+
+void TomlReader::fail(const std::string& key, const std::string& what) {
+  const toml::node* node = root_.at_path(key).node();
+  const std::string line =
+      node != nullptr ? fmt::format(" (line {})", node->source().begin.line) : "";
+  errors_.push_back(fmt::format("{}{}: {}", key, line, what));
+}
+
+double TomlReader::checked(const toml::node& node, const std::string& key, const Range& range) {
+  const auto refuse = [&](const std::string& what) {
+    errors_.push_back(fmt::format("{} (line {}): {} {}; {}", key, node.source().begin.line,
+                                  value_text(node), what, allowed(range)));
+    return std::clamp(0.0, range.least, range.most);
+  };
+  if (!node.is_number()) {
+    return refuse("is not a number");
+  }
+  const double value = node.value<double>().value_or(std::nan(""));
+  if (!std::isfinite(value)) {
+    return refuse("is not finite");
+  }
+  if (value < range.least || value > range.most) {
+    return refuse("is out of range");
+  }
+  return value;
+}
+
+double TomlReader::number(const std::string& key, const Range& range) {
+  const toml::node* node = find(key);
+  return node != nullptr ? checked(*node, key, range) : std::clamp(0.0, range.least, range.most);
+}
+
+int TomlReader::integer(const std::string& key, int least, int most) {
+  const toml::node* node = find(key);
+  if (node == nullptr) {
+    return least;
+  }
+  if (!node->is_integer()) {
+    fail(key, fmt::format("{} is not a whole number; allowed: {} .. {}", value_text(*node), least,
+                          most));
+    return least;
+  }
+  return static_cast<int>(
+      checked(*node, key, {static_cast<double>(least), static_cast<double>(most), ""}));
+}
+
+bool TomlReader::boolean(const std::string& key) {
+  const toml::node* node = find(key);
+  if (node != nullptr && !node->is_boolean()) {
+    fail(key, fmt::format("{}; allowed: true, false", value_text(*node)));
+  }
+  return node != nullptr && node->value<bool>().value_or(false);
+}
+
+int TomlReader::choice(const std::string& key, const std::vector<std::string>& allowed_values) {
+  const toml::node* node = find(key);
+  if (node == nullptr) {
+    return 0;
+  }
+  const auto found = std::find(allowed_values.begin(), allowed_values.end(),
+                               node->value<std::string>().value_or(""));
+  if (found == allowed_values.end()) {
+    fail(key, fmt::format("{}; allowed: {}", value_text(*node), fmt::join(allowed_values, ", ")));
+    return 0;
+  }
+  return static_cast<int>(found - allowed_values.begin());
+}
+
+std::vector<double> TomlReader::numbers(const std::string& key, const Range& range,
+                                        std::size_t count) {
+  std::vector<double> values(count, std::clamp(0.0, range.least, range.most));
+  const toml::node* node = find(key);
+  if (node == nullptr) {
+    return values;
+  }
+  const toml::array* array = node->as_array();
+  if (array == nullptr || array->size() != count) {
+    fail(key, fmt::format("must be an array of {} numbers; {}", count, allowed(range)));
+    return values;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    values[i] = checked(*array->get(i), fmt::format("{}[{}]", key, i), range);
+  }
+  return values;
+}
+
+Eigen::Vector2d TomlReader::point(const std::string& key, const Range& range) {
+  const std::vector<double> values = numbers(key, range, 2);
+  return {values[0], values[1]};
+}
+
+std::vector<std::pair<double, double>> TomlReader::pairs(const std::string& key,
+                                                         const Range& first, const Range& second,
+                                                         std::size_t least, std::size_t most) {
+  std::vector<std::pair<double, double>> values;
+  const toml::node* node = find(key);
+  if (node == nullptr) {
+    return values;
+  }
+  const toml::array* array = node->as_array();
+  if (array == nullptr || array->size() < least || array->size() > most) {
+    fail(key, fmt::format("must be an array of {} to {} pairs", least, most));
+    return values;
+  }
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const std::vector<std::string> names = {fmt::format("{}[{}][0]", key, i),
+                                            fmt::format("{}[{}][1]", key, i)};
+    const toml::array* pair = array->get(i)->as_array();
+    if (pair == nullptr || pair->size() != 2) {
+      fail(key, fmt::format("entry {} is not a pair", i));
+      continue;
+    }
+    values.emplace_back(checked(*pair->get(0), names[0], first),
+                        checked(*pair->get(1), names[1], second));
+  }
+  return values;
+}
+
+void TomlReader::table_count(const std::string& key, std::size_t count) {
+  const toml::array* array = root_.at_path(key).as_array();
+  if (array == nullptr || array->size() != count) {
+    fail(key, fmt::format("must be {} tables; there {} {}", count,
+                          array != nullptr && array->size() == 1 ? "is" : "are",
+                          array == nullptr ? 0 : array->size()));
+  }
+}
+
+void TomlReader::refuse_unknown_keys() { refuse_unknown_in(root_, ""); }
+
+void TomlReader::refuse_unknown_in(const toml::node& node, const std::string& path) {
+  if (known_.count(path) != 0) {
+    return;
+  }
+  if (const toml::table* table = node.as_table()) {
+    for (const auto& [key, value] : *table) {
+      refuse_unknown_in(value, path.empty() ? std::string(key.str())
+                                            : fmt::format("{}.{}", path, key.str()));
+    }
+    return;
+  }
+  const toml::array* array = node.as_array();
+  if (array != nullptr && array->is_homogeneous(toml::node_type::table)) {
+    for (std::size_t i = 0; i < array->size(); ++i) {
+      refuse_unknown_in(*array->get(i), fmt::format("{}[{}]", path, i));
+    }
+    return;
+  }
+  errors_.push_back(fmt::format("{} (line {}): unknown key", path, node.source().begin.line));
+}
+
+}  // namespace graben::machines

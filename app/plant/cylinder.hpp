@@ -1,0 +1,64 @@
+#pragma once
+/// The parallel cylinders of one axis: two chambers, piston leakage, end stops.
+
+#include "app/plant/plant_profile.hpp"
+#include "app/plant/wave_volume.hpp"
+
+namespace graben::plant {
+
+/// What the piston gives to the mechanism over one step; extension is positive. The force is
+/// `force_n - damping_nspm * mean velocity of the step`, and Coulomb friction up to `coulomb_n`
+/// comes on top.
+struct PistonLoad {
+  double force_n = 0.0;
+  double damping_nspm = 0.0;
+  double coulomb_n = 0.0;
+};
+
+/// Chamber volume is the dead volume plus area times travel. Leakage past the piston is laminar and
+/// lags by one step (its time constant is minutes). The end stops are springs, damped on the way
+/// in.
+class Cylinder {
+ public:
+  Cylinder(const PlantProfile& profile, int axis);
+
+  /// Starts at rest with chamber pressures that carry the force (N, extension positive); the
+  /// chamber that need not carry has the start back pressure.
+  void start(double stroke_m, double force_n);
+
+  /// Before the step: where the piston is and how fast it last moved.
+  void set_motion(double stroke_m, double velocity_mps);
+  [[nodiscard]] WavePort cap_port() const { return cap_.port(kValve); }
+  [[nodiscard]] WavePort rod_port() const { return rod_.port(kValve); }
+  [[nodiscard]] PistonLoad load() const;
+  /// Ends the step with its chamber flows (into the chambers) and mean velocity.
+  void step(double cap_in_m3ps, double rod_in_m3ps, double velocity_mps);
+
+  [[nodiscard]] double cap_pressure_pa() const { return cap_.pressure_pa(); }
+  [[nodiscard]] double rod_pressure_pa() const { return rod_.pressure_pa(); }
+
+ private:
+  static constexpr std::size_t kValve = 0;
+  static constexpr std::size_t kPiston = 1;
+
+  [[nodiscard]] double leak_m3ps() const {
+    return leak_ * (cap_.pressure_pa() - rod_.pressure_pa());
+  }
+  void add_end_stop(PistonLoad& load) const;
+
+  WaveVolume cap_;
+  WaveVolume rod_;
+  double cap_area_;
+  double rod_area_;
+  double full_stroke_;
+  double dead_volume_;
+  double leak_;
+  double back_pressure_;
+  PistonFriction friction_;
+  double stop_stiffness_;
+  double stop_damping_;
+  double stroke_ = 0.0;
+  double velocity_ = 0.0;
+};
+
+}  // namespace graben::plant

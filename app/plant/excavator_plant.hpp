@@ -1,0 +1,77 @@
+#pragma once
+/// The simulated excavator, swing held: pumps, main control valve, cylinders, links.
+
+#include <Eigen/Core>
+#include <array>
+
+#include "app/plant/cylinder.hpp"
+#include "app/plant/linkage_dynamics.hpp"
+#include "app/plant/plant_profile.hpp"
+#include "app/plant/pump_line.hpp"
+#include "app/plant/valve_section.hpp"
+#include "firmware/core/time.hpp"
+
+namespace graben::plant {
+
+/// The circuit of Kim 3 with what his detailed model adds (Kim 5): compressible chambers and lines,
+/// spool dynamics, deadband, leakage, link inertia, friction; in addition port reliefs, make-up
+/// checks and end stops. Deterministic: the same calls give the same numbers.
+///
+/// Every volume is a transmission-line element, so that within a step each orifice sees two ports
+/// only and is solved in closed form: stable at any step length and bulk modulus. The step decides
+/// accuracy, which is of second order but for the elements' small filter.
+///
+/// One step, from the state at t to that at t + h: valve sections between the ports' waves, then
+/// the pumps with their bypasses, then the links against the chambers' impedance, then all waves.
+class ExcavatorPlant {
+ public:
+  using AxisArray = std::array<double, kAxisCount>;
+  using PumpArray = std::array<double, kPumpCount>;
+
+  /// Starts in static equilibrium: spools closed, chamber pressures carry the links' weight, pumps
+  /// in standby. Each stroke must be within its cylinder's.
+  ExcavatorPlant(const PlantProfile& profile, const AxisArray& start_strokes_m);
+
+  /// Duty -1 .. 1 is the wanted spool travel in units of full travel; without `enable` neutral.
+  /// A value that is not finite counts as 0.
+  void set_duty(const AxisArray& duty_ratio, bool enable);
+  /// Force on the bucket tip, N, x forward and y up, until changed.
+  void set_tip_force(const Eigen::Vector2d& force_n) { links_.set_tip_force(force_n); }
+
+  /// Runs on. What is shorter than a step is kept for the next call.
+  void advance(TimeUs duration_us);
+
+  [[nodiscard]] AxisArray strokes_m() const;
+  [[nodiscard]] AxisArray stroke_velocities_mps() const;
+  /// Above ambient; may lie slightly below 0 while a make-up check is open.
+  [[nodiscard]] AxisArray cap_pressures_pa() const;
+  [[nodiscard]] AxisArray rod_pressures_pa() const;
+  [[nodiscard]] AxisArray spool_travels_ratio() const;
+  [[nodiscard]] PumpArray pump_pressures_pa() const;
+  /// Delivery after leakage, before the relief valve.
+  [[nodiscard]] PumpArray pump_flows_m3ps() const;
+  /// Flow that each section takes from its pump's line and gives back by regeneration, m^3/s.
+  [[nodiscard]] const std::array<SectionFlows, kAxisCount>& section_flows() const { return flows_; }
+  [[nodiscard]] const JointArray& joint_angles_rad() const { return links_.angles(); }
+  [[nodiscard]] TipPose tip() const { return links_.tip(); }
+  [[nodiscard]] const PlantProfile& profile() const { return profile_; }
+
+ private:
+  void step();
+  void set_bypasses();
+
+  PlantProfile profile_;
+  double step_s_;
+  TimeUs pending_us_ = 0;
+  /// Of each axis: its pump, and its place among the sections on that pump.
+  std::array<std::size_t, kAxisCount> pump_of_{};
+  std::array<std::size_t, kAxisCount> place_of_{};
+
+  std::array<PumpLine, kPumpCount> pump_;
+  std::array<ValveSection, kAxisCount> section_;
+  std::array<Cylinder, kAxisCount> cylinder_;
+  LinkageDynamics links_;
+  std::array<SectionFlows, kAxisCount> flows_{};
+};
+
+}  // namespace graben::plant

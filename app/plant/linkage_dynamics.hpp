@@ -1,0 +1,77 @@
+#pragma once
+/// Boom, arm and bucket as three rigid bodies in the sagittal plane, pushed by their cylinders.
+
+#include <Eigen/Core>
+#include <array>
+
+#include "app/plant/cylinder.hpp"
+#include "app/plant/linkage_geometry.hpp"
+#include "app/plant/plant_profile.hpp"
+
+namespace graben::plant {
+
+/// M(q) q'' + h(q, q') = Q(q) + G(q) f: joint angles q, mass matrix M, centrifugal terms h, gravity
+/// and tip force Q, levers G = diag(dl/dq), piston forces f.
+///
+/// Scheme: leapfrog. Angles live at the steps, rates between them. Piston damping (with it the
+/// impedance of the chambers) acts on the mean rate of the step, implicitly. Coulomb friction is
+/// the force up to its limit that brings the piston's velocity closest to 0 at the end of the step,
+/// found for all axes together by projected Gauss-Seidel: a piston that sticks stands still, it
+/// does not creep.
+class LinkageDynamics {
+ public:
+  explicit LinkageDynamics(const PlantProfile& profile);
+
+  void start(const JointArray& angle_rad, const JointArray& rate_radps);
+
+  /// Force on the bucket tip in the plane's axes, N, constant until changed.
+  void set_tip_force(const Eigen::Vector2d& force_n) { tip_force_ = force_n; }
+
+  /// Levers at the present angles.
+  [[nodiscard]] const std::array<Lever, kAxisCount>& levers() const { return levers_; }
+  /// Piston forces that hold the links at rest at the present angles, N.
+  [[nodiscard]] JointArray holding_forces() const;
+
+  /// New rates; returns each piston's mean velocity over the step, m/s.
+  JointArray accelerate(const std::array<PistonLoad, kAxisCount>& load, double step_s);
+  /// New angles.
+  void move(double step_s);
+
+  [[nodiscard]] const JointArray& angles() const { return angle_; }
+  /// Rates at the instant of the angles (extrapolated by half a step).
+  [[nodiscard]] JointArray rates() const;
+  [[nodiscard]] double energy_j() const;
+  [[nodiscard]] TipPose tip() const { return geometry_.tip(angle_); }
+
+ private:
+  using Matrix3 = std::array<std::array<double, 3>, 3>;
+
+  /// What the equations need of the present angles, by absolute link angles.
+  struct Bodies {
+    std::array<Eigen::Vector2d, 3> link;          ///< Pin to next pin (or tip).
+    std::array<Eigen::Vector2d, 3> first_moment;  ///< Mass times arm of all that the pin carries.
+  };
+
+  void update();
+  [[nodiscard]] Matrix3 mass_matrix() const;
+  [[nodiscard]] JointArray generalised_force(const JointArray& rate_radps) const;
+  void add_friction(const Matrix3& inverse, const std::array<PistonLoad, kAxisCount>& load,
+                    double step_s, JointArray& rate_radps);
+
+  LinkageGeometry geometry_;
+  std::array<LinkBody, kAxisCount> body_;
+  JointArray link_length_;
+  JointArray pivot_inertia_{};  ///< Of each link about its pin, what it carries as a point mass.
+  double gravity_;
+  Eigen::Vector2d tip_force_ = Eigen::Vector2d::Zero();
+
+  JointArray angle_{};
+  JointArray rate_{};          ///< Half a step before the angles.
+  JointArray acceleration_{};  ///< Of the last step.
+  JointArray friction_n_{};    ///< Of the last step: where the next search starts.
+  double step_ = 0.0;
+  Bodies bodies_;
+  std::array<Lever, kAxisCount> levers_{};
+};
+
+}  // namespace graben::plant

@@ -1,0 +1,74 @@
+#pragma once
+/// Resistive elements between transmission-line ports. Each is solved in closed form together with
+/// the ports that it joins, so that no step length can make it unstable.
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben::plant {
+
+/// What a volume shows to whatever is joined to it during one step (a Thevenin source): the port's
+/// pressure is `wave_pa + impedance_paspm3 * flow into the volume`. Tank is {0, 0}.
+struct WavePort {
+  double wave_pa = 0.0;
+  double impedance_paspm3 = 0.0;
+};
+
+inline constexpr WavePort kTank{};
+
+/// K = C_d A sqrt(2 / rho): the flow is K sqrt(dp), m^3/(s sqrt(Pa)).
+inline double orifice_coefficient(double area_m2, double discharge, double density_kgpm3) {
+  return discharge * area_m2 * std::sqrt(2.0 / density_kgpm3);
+}
+
+/// Coefficient of two orifices in a row; 0 if one of them is closed.
+inline double series_coefficient(double k_1, double k_2) {
+  return k_1 > 0.0 && k_2 > 0.0 ? k_1 * k_2 / std::sqrt(k_1 * k_1 + k_2 * k_2) : 0.0;
+}
+
+/// Flow from one port through a square-root orifice to the other, m^3/s. With d the difference of
+/// the waves and Z the sum of the impedances, q |q| = K^2 (d - Z q), hence
+/// q = K d / (sqrt(|d| + (K Z / 2)^2) + K Z / 2): the slope at zero is 1 / Z.
+inline double orifice_flow(double k, const WavePort& from, const WavePort& to) {
+  if (k <= 0.0) {
+    return 0.0;
+  }
+  const double d = from.wave_pa - to.wave_pa;
+  const double h = 0.5 * k * (from.impedance_paspm3 + to.impedance_paspm3);
+  const double s = std::sqrt(std::abs(d) + h * h) + h;
+  return s > 0.0 ? k * d / s : 0.0;
+}
+
+/// The port together with a laminar path to a source of constant pressure.
+inline WavePort joined(const WavePort& port, double source_pa, double path_paspm3) {
+  const double sum = port.impedance_paspm3 + path_paspm3;
+  return {(port.wave_pa * path_paspm3 + source_pa * port.impedance_paspm3) / sum,
+          port.impedance_paspm3 * path_paspm3 / sum};
+}
+
+/// Relief to tank and make-up check from tank at one port.
+struct PortProtection {
+  double relief_pa = 0.0;
+  double relief_override_paspm3 = 0.0;
+  double makeup_paspm3 = 0.0;
+};
+
+/// Total flow into the port, m^3/s: that of the elements joined to it, as `flow_into(port)` gives
+/// it, less the relief's, plus the make-up's. Exact: both valves are laminar beyond their opening
+/// pressure, and at most one of them is open.
+template <class FlowInto>
+double protected_flow(const WavePort& port, const PortProtection& protection,
+                      const FlowInto& flow_into) {
+  const double flow = flow_into(port);
+  const double pressure = port.wave_pa + port.impedance_paspm3 * flow;
+  if (pressure >= 0.0 && pressure <= protection.relief_pa) {
+    return flow;
+  }
+  const WavePort open = pressure < 0.0
+                            ? joined(port, 0.0, protection.makeup_paspm3)
+                            : joined(port, protection.relief_pa, protection.relief_override_paspm3);
+  const double held = open.wave_pa + open.impedance_paspm3 * flow_into(open);
+  return (held - port.wave_pa) / port.impedance_paspm3;
+}
+
+}  // namespace graben::plant

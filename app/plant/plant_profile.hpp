@@ -1,0 +1,82 @@
+#pragma once
+/// What the simulated excavator is. The nominal data are those that its controller has too; the
+/// rest only a plant knows: masses, friction, compressibility, spool dynamics, deadband, leakage.
+/// SI units, pressures above ambient; axes in the order boom, arm, bucket.
+
+#include <Eigen/Core>
+#include <array>
+
+#include "firmware/core/time.hpp"
+#include "firmware/machine/excavator_profile.hpp"
+
+namespace graben::plant {
+
+/// One link as a rigid body in the sagittal plane.
+struct LinkBody {
+  double mass_kg = 0.0;
+  double inertia_kgm2 = 0.0;  ///< About the mass centre, out of plane.
+  Eigen::Vector2d mass_centre_m = Eigen::Vector2d::Zero();  ///< Link frame, x from pin to pin.
+};
+
+/// Of one cylinder axis, parallel cylinders together.
+struct PistonFriction {
+  double coulomb_n = 0.0;
+  double viscous_nspm = 0.0;
+};
+
+/// Kim 5. Ratios are of `pressure_range_pa`.
+struct SensorErrors {
+  double stroke_resolution_m = 0.0;
+  double stroke_bias_m = 0.0;
+  double pressure_range_pa = 0.0;
+  double pressure_bias_ratio = 0.0;
+  double pressure_noise_ratio = 0.0;
+};
+
+struct PlantProfile {
+  /// Geometry, valve areas, regeneration, pumps: the plant reads these numbers, and none of the
+  /// functions that the controller has for them.
+  ExcavatorProfile machine;
+
+  std::array<LinkBody, kAxisCount> link;  ///< The bucket's includes its linkage.
+  std::array<PistonFriction, kAxisCount> friction;
+  double gravity_mps2 = 9.80665;
+
+  double spool_time_constant_s = 0.0;  ///< 1 / natural frequency of the second-order lag (Kim 5).
+  double spool_damping = 1.0;
+  double deadband_ratio = 0.0;  ///< Of the full travel, each side (Kim 5).
+
+  double bulk_modulus_pa = 0.0;
+  std::array<double, kAxisCount> dead_volume_m3{};  ///< Each of the axis' two chambers, with hose.
+  std::array<double, kPumpCount> line_volume_m3{};
+  double port_relief_pa = 0.0;  ///< Opening pressure of the relief at each cylinder port.
+
+  std::array<double, kPumpCount> swash_ratio{};  ///< Of full swash, constant.
+  SensorErrors sensors;
+
+  // No source gives the figures below; each default says why it is what it is.
+
+  /// Laminar leakage past the piston, m^3/(s Pa). 2e-14 is 12 mL/min at 10 MPa: the boom sinks by
+  /// about 3 mm in 5 min, within the 5 - 20 mm that makers of the class allow.
+  double piston_leak_m3pspa = 2e-14;
+  /// Slope of every relief valve above its opening pressure, Pa s/m^3: 1.2 MPa at 138 L/min.
+  double relief_override_paspm3 = 5e8;
+  /// Slope of the make-up checks from tank, Pa s/m^3: 0.06 MPa below ambient at 360 L/min, so that
+  /// the oil does not boil and no vapour needs a state of its own.
+  double makeup_paspm3 = 1e7;
+  /// Share of a spool's opening over which its bypass goes from open to closed. (20) has none; a
+  /// real land edge closes over some travel.
+  double bypass_closing_ratio = 0.1;
+  /// Pressure of the unloaded chambers at the start.
+  double start_back_pressure_pa = 0.5e6;
+  /// Contact at the stroke's ends: full system pressure on a boom cap side (0.8 MN) presses in by
+  /// 0.4 mm. Damping acts on the way in only.
+  double end_stop_stiffness_npm = 2e9;
+  double end_stop_damping_nspm = 2e6;
+
+  /// Fixed step of the simulation. Stable at any length (transmission-line elements); the length
+  /// decides accuracy only, see `ExcavatorPlant`.
+  TimeUs step_us = 200;
+};
+
+}  // namespace graben::plant

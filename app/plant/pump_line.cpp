@@ -1,0 +1,78 @@
+#include "app/plant/pump_line.hpp"
+
+#include <cmath>
+
+namespace graben::plant {
+namespace {
+
+constexpr double kTwoPi = 6.283185307179586;
+constexpr std::size_t kPumpPort = 0;
+constexpr std::size_t kBypassPort = 1;
+constexpr int kStandbyHalvings = 60;
+
+double inverse_square(double k) { return 1.0 / (k * k); }
+
+}  // namespace
+
+PumpLine::PumpLine(const PlantProfile& profile, int pump, std::size_t section_count)
+    : line_(2 + 2 * section_count, profile.bulk_modulus_pa,
+            1e-6 * static_cast<double>(profile.step_us)) {
+  const auto index = static_cast<std::size_t>(pump);
+  const PumpProfile& data = profile.machine.pump[index];
+  swash_ = profile.swash_ratio[index];
+  ideal_flow_ = data.displacement_m3prev * swash_ * data.rated_speed_radps / kTwoPi;
+  leak_linear_ = data.leak_linear;
+  leak_quadratic_ = data.leak_quadratic;
+  protection_ = {data.relief_pa, profile.relief_override_paspm3, profile.makeup_paspm3};
+  fixed_inverse_square_ =
+      inverse_square(data.bypass_series[0]) + inverse_square(data.bypass_series[1]);
+  line_.set_volume(profile.line_volume_m3[index]);
+}
+
+void PumpLine::set_section_flows(std::size_t section, double supply_out_m3ps,
+                                 double recycle_in_m3ps) {
+  line_.set_flow(2 + 2 * section, -supply_out_m3ps);
+  line_.set_flow(3 + 2 * section, recycle_in_m3ps);
+}
+
+void PumpLine::set_bypass(double inverse_square_of_sections) {
+  k_bypass_ = 1.0 / std::sqrt(fixed_inverse_square_ + inverse_square_of_sections);
+}
+
+double PumpLine::delivery(const WavePort& port) const {
+  // With p = c + Z (Q - l p - m p^2): Z m p^2 + (1 + Z l) p - (c + Z Q) = 0. Below ambient nothing
+  // leaks.
+  const double z = port.impedance_paspm3;
+  const double unleaked = port.wave_pa + z * ideal_flow_;
+  if (unleaked <= 0.0) {
+    return ideal_flow_;
+  }
+  const double b = 1.0 + z * leak_linear_;
+  const double pressure =
+      2.0 * unleaked / (b + std::sqrt(b * b + 4.0 * z * leak_quadratic_ * unleaked));
+  return ideal_flow_ - (leak_linear_ + leak_quadratic_ * pressure) * pressure;
+}
+
+void PumpLine::step() {
+  const double in = protected_flow(line_.port(kPumpPort), protection_,
+                                   [this](const WavePort& port) { return flow_ = delivery(port); });
+  line_.set_flow(kPumpPort, in);
+  line_.set_flow(kBypassPort, -orifice_flow(k_bypass_, line_.port(kBypassPort), kTank));
+  line_.scatter();
+}
+
+void PumpLine::start() {
+  double low = 0.0;
+  double high = protection_.relief_pa;
+  for (int i = 0; i < kStandbyHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    const double surplus = delivery({middle, 0.0}) - k_bypass_ * std::sqrt(middle);
+    (surplus > 0.0 ? low : high) = middle;
+  }
+  flow_ = delivery({low, 0.0});
+  line_.set_flow(kPumpPort, flow_);
+  line_.set_flow(kBypassPort, -flow_);
+  line_.start(low);
+}
+
+}  // namespace graben::plant

@@ -1,0 +1,53 @@
+#pragma once
+/// A swash-plate pump, its line, relief and bypass.
+
+#include <cstddef>
+
+#include "app/plant/plant_profile.hpp"
+#include "app/plant/wave_volume.hpp"
+
+namespace graben::plant {
+
+/// Constant-displacement delivery less leakage, (25), into a compressible line. Each valve section
+/// on the pump has two ports of the line: supply and regeneration. Relief and suction make-up sit
+/// at the pump. The bypass chain is one orifice from line to tank.
+class PumpLine {
+ public:
+  PumpLine(const PlantProfile& profile, int pump, std::size_t section_count);
+
+  [[nodiscard]] WavePort supply_port(std::size_t section) const {
+    return line_.port(2 + 2 * section);
+  }
+  [[nodiscard]] WavePort recycle_port(std::size_t section) const {
+    return line_.port(3 + 2 * section);
+  }
+  void set_section_flows(std::size_t section, double supply_out_m3ps, double recycle_in_m3ps);
+
+  /// Composite coefficient of fixed orifices and spool bypasses in a row, from
+  /// sum(1 / c^2) over the sections, (21), (22).
+  void set_bypass(double inverse_square_of_sections);
+  /// Solves pump and bypass and ends the step.
+  void step();
+  /// Starts in the standby that the bypass set before gives.
+  void start();
+
+  [[nodiscard]] double pressure_pa() const { return line_.pressure_pa(); }
+  /// Delivery after leakage, before the relief.
+  [[nodiscard]] double flow_m3ps() const { return flow_; }
+  [[nodiscard]] double swash_ratio() const { return swash_; }
+
+ private:
+  [[nodiscard]] double delivery(const WavePort& port) const;
+
+  WaveVolume line_;
+  PortProtection protection_;
+  double ideal_flow_;
+  double leak_linear_;
+  double leak_quadratic_;
+  double swash_;
+  double fixed_inverse_square_;
+  double k_bypass_ = 0.0;
+  double flow_ = 0.0;
+};
+
+}  // namespace graben::plant

@@ -1,0 +1,51 @@
+#include "app/plant/spool.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben::plant {
+namespace {
+
+// Closer than this the lag has arrived: a spool at rest costs no power function a step.
+constexpr double kArrivedTravel = 1e-9;
+constexpr double kArrivedSpeedPs = 1e-7;
+
+}  // namespace
+
+Spool::Spool(const PlantProfile& profile)
+    : natural_frequency_radps_(1.0 / profile.spool_time_constant_s),
+      damping_(profile.spool_damping),
+      deadband_(profile.deadband_ratio),
+      exponent_(profile.machine.valve.opening_exponent),
+      bypass_closing_(profile.bypass_closing_ratio) {}
+
+void Spool::set_command(double travel_ratio) { command_ = std::clamp(travel_ratio, -1.0, 1.0); }
+
+void Spool::step(double step_s) {
+  if (travel_ == command_ && speed_ps_ == 0.0) {
+    return;
+  }
+  const double w = natural_frequency_radps_;
+  const double half = 0.5 * step_s;
+  const double mean_speed = (speed_ps_ + half * w * w * (command_ - travel_)) /
+                            (1.0 + half * half * w * w + 2.0 * damping_ * w * half);
+  travel_ += step_s * mean_speed;
+  speed_ps_ = 2.0 * mean_speed - speed_ps_;
+  if (std::abs(travel_) >= 1.0) {
+    travel_ = std::clamp(travel_, -1.0, 1.0);
+    speed_ps_ = 0.0;
+  }
+  if (std::abs(command_ - travel_) < kArrivedTravel && std::abs(speed_ps_) < kArrivedSpeedPs) {
+    travel_ = command_;
+    speed_ps_ = 0.0;
+  }
+  update_openings();
+}
+
+void Spool::update_openings() {
+  const double opening = std::max(0.0, (std::abs(travel_) - deadband_) / (1.0 - deadband_));
+  area_ratio_ = opening > 0.0 ? std::pow(opening, exponent_) : 0.0;
+  bypass_closed_ = std::min(1.0, opening / bypass_closing_);
+}
+
+}  // namespace graben::plant

@@ -1,0 +1,109 @@
+#include "app/plant/valve_section.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben::plant {
+namespace {
+
+constexpr int kGalleryIterations = 40;
+constexpr double kGalleryToleranceM3ps = 1e-13;
+
+/// d orifice_flow / d(difference of the waves).
+double orifice_slope(double k, const WavePort& from, const WavePort& to) {
+  const double h = 0.5 * k * (from.impedance_paspm3 + to.impedance_paspm3);
+  // 1 Pa: only where nothing but the ideal square root meets a zero difference.
+  return 0.5 * k / std::sqrt(std::max(1.0, std::abs(from.wave_pa - to.wave_pa) + h * h));
+}
+
+}  // namespace
+
+ReturnFlow solve_gallery(double k_out, double k_drain, double k_check, const WavePort& chamber,
+                         const WavePort& recycle) {
+  const double through = orifice_flow(series_coefficient(k_out, k_drain), chamber, kTank);
+  const double ratio = through / k_drain;
+  const double gallery_with_check_shut = through > 0.0 ? ratio * ratio : -ratio * ratio;
+  if (through <= 0.0 || gallery_with_check_shut <= recycle.wave_pa) {
+    return {through, 0.0, gallery_with_check_shut};
+  }
+  // The surplus out - drain - check falls with the gallery's pressure; its zero is bracketed by the
+  // pump line's pressure (check just open) and that with the check shut. Newton, or halving where
+  // Newton leaves the bracket.
+  double low = std::max(0.0, recycle.wave_pa);
+  double high = gallery_with_check_shut;
+  WavePort gallery{0.5 * (low + high), 0.0};
+  ReturnFlow flow;
+  for (int i = 0; i < kGalleryIterations; ++i) {
+    flow = {orifice_flow(k_out, chamber, gallery), orifice_flow(k_check, gallery, recycle),
+            gallery.wave_pa};
+    const double surplus =
+        flow.out_m3ps - flow.regenerated_m3ps - orifice_flow(k_drain, gallery, kTank);
+    if (std::abs(surplus) < kGalleryToleranceM3ps) {
+      break;
+    }
+    (surplus > 0.0 ? low : high) = gallery.wave_pa;
+    const double slope = orifice_slope(k_out, chamber, gallery) +
+                         orifice_slope(k_check, gallery, recycle) +
+                         orifice_slope(k_drain, gallery, kTank);
+    const double newton = gallery.wave_pa + surplus / slope;
+    gallery.wave_pa = newton > low && newton < high ? newton : 0.5 * (low + high);
+  }
+  return flow;
+}
+
+ValveSection::ValveSection(const PlantProfile& profile, int axis)
+    : spool_(profile),
+      protection_{profile.port_relief_pa, profile.relief_override_paspm3, profile.makeup_paspm3} {
+  const ValveProfile& valve = profile.machine.valve;
+  const SpoolProfile& spool = valve.spool[static_cast<std::size_t>(axis)];
+  const auto coefficient = [&valve](double area_m2) {
+    return orifice_coefficient(area_m2, valve.discharge, valve.density_kgpm3);
+  };
+  regeneration_ = spool.regeneration;
+  k_extend_in_ = coefficient(spool.extend_in_m2);
+  k_extend_out_ = coefficient(spool.extend_out_m2);
+  k_retract_in_ = coefficient(spool.retract_in_m2);
+  k_retract_out_ = coefficient(spool.retract_out_m2);
+  k_drain_ = spool.c_drain;
+  k_check_ = spool.c_check;
+  k_bypass_open_ = spool.bypass_open;
+  k_bypass_closed_ = spool.bypass_closed;
+}
+
+double ValveSection::bypass_coefficient() const {
+  return k_bypass_open_ + (k_bypass_closed_ - k_bypass_open_) * spool_.bypass_closed_ratio();
+}
+
+ReturnFlow ValveSection::return_flow(double k_out, bool regenerates, const WavePort& chamber,
+                                     const WavePort& recycle) const {
+  if (regenerates && k_out > 0.0) {
+    return solve_gallery(k_out, k_drain_, k_check_, chamber, recycle);
+  }
+  return {orifice_flow(k_out, chamber, kTank), 0.0, 0.0};
+}
+
+SectionFlows ValveSection::solve(const SectionPorts& ports) const {
+  const bool extends = spool_.travel_ratio() > 0.0;
+  const double ratio = spool_.area_ratio();
+  const double k_in = ratio * (extends ? k_extend_in_ : k_retract_in_);
+  const double k_out = ratio * (extends ? k_extend_out_ : k_retract_out_);
+  const bool regenerates =
+      regeneration_ == (extends ? RegenerationSide::kExtend : RegenerationSide::kRetract);
+  const WavePort& fed = extends ? ports.cap : ports.rod;
+  const WavePort& drained = extends ? ports.rod : ports.cap;
+
+  // The last evaluation of each edge is the one that holds, with a relief or make-up open or not.
+  double supply = 0.0;
+  const double fed_in = protected_flow(fed, protection_, [&](const WavePort& chamber) {
+    return supply = orifice_flow(k_in, ports.supply, chamber);
+  });
+  ReturnFlow back;
+  const double drained_in = protected_flow(drained, protection_, [&](const WavePort& chamber) {
+    back = return_flow(k_out, regenerates, chamber, ports.recycle);
+    return -back.out_m3ps;
+  });
+  return {extends ? fed_in : drained_in, extends ? drained_in : fed_in, supply,
+          back.regenerated_m3ps};
+}
+
+}  // namespace graben::plant

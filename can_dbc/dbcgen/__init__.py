@@ -1,0 +1,1 @@
+"""Reads a DBC, refuses what it does not understand, writes C++ codecs."""

@@ -1,0 +1,48 @@
+#pragma once
+/// The excavator's controller: one step from signals to commands, 100 times a second.
+
+#include "firmware/kinematics/excavator_kinematics.hpp"
+#include "firmware/mcv/algorithm1.hpp"
+#include "firmware/motion/dig_field.hpp"
+#include "firmware/safety/gate.hpp"
+#include "firmware/safety/mode.hpp"
+
+namespace graben {
+
+/// Holds what the machine is (constant after construction) and what one cycle hands to the next.
+/// No clock, no globals, no heap; `step` costs a bounded number of operations.
+class ExcavatorController {
+ public:
+  /// The profile must have passed its check (`profile_check`).
+  explicit ExcavatorController(const ExcavatorProfile& profile);
+
+  /// One cycle. Any fault gives neutral commands and its code; time only ever counts by
+  /// difference, and `now_us` must not fall from call to call.
+  [[nodiscard]] ExcavatorOutputs step(const ExcavatorInputs& inputs, TimeUs now_us);
+
+ private:
+  struct Memory {
+    ModeState mode;
+    GateState gate;
+    TimeUs last_us = 0;
+    bool has_stepped = false;
+  };
+
+  [[nodiscard]] double period_s(TimeUs now_us) const;
+
+  ExcavatorProfile profile_;
+  ExcavatorKinematics kinematics_;
+  DigField field_;
+  McvMachine valve_;
+  Memory memory_;
+};
+
+/// Whether a profile makes a controller: the valve's data are sound and the path can be reached.
+struct ProfileCheck {
+  McvCheck valve;
+  ReachStatus path = ReachStatus::kOk;
+  TipPose unreached;  ///< Where the path leaves the work space.
+};
+[[nodiscard]] ProfileCheck profile_check(const ExcavatorProfile& profile);
+
+}  // namespace graben

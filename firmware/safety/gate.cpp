@@ -1,0 +1,32 @@
+#include "firmware/safety/gate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben {
+
+GateResult gate(const ExcavatorProfile& profile, const GateState& last, bool active,
+                const std::array<double, kAxisCount>& spool_m, double period_s) {
+  GateResult result;
+  if (!active) {
+    return result;
+  }
+  const double change_max = profile.control.spool_rate_ps * std::max(0.0, period_s);
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    if (!std::isfinite(spool_m[i]) || !std::isfinite(change_max)) {
+      return {false, Fault::kCommandNotFinite, {}, {}};
+    }
+    const double wanted = std::clamp(spool_m[i] / profile.valve.spool_travel_m, -1.0, 1.0);
+    const double opening =
+        std::clamp(wanted, last.opening[i] - change_max, last.opening[i] + change_max);
+    result.state.opening[i] = opening;
+    if (std::abs(opening) >= profile.control.spool_threshold) {
+      result.duty_ratio[i] =
+          std::copysign(std::clamp(profile.valve.spool_to_duty.at(std::abs(opening)), 0.0, 1.0), opening);
+    }
+  }
+  result.enable = true;
+  return result;
+}
+
+}  // namespace graben

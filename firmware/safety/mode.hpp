@@ -1,0 +1,21 @@
+#pragma once
+/// What the machine may do: silent by default, positive and complete conditions before motion.
+
+#include "firmware/safety/validation.hpp"
+
+namespace graben {
+
+/// What the mode needs of the last cycle.
+struct ModeState {
+  EcuMode mode = EcuMode::kSilent;
+  Fault fault = Fault::kNone;  ///< Why kFault; held until it is left.
+};
+
+/// Silent -> Ready when every input is complete and enable is not given; Ready -> Armed on enable
+/// in automatic mode; Armed <-> Active with the task; enable released: Ready in the same cycle.
+/// A fault while Armed or Active latches in kFault, left for Ready only with complete inputs and
+/// enable released; in Ready it falls back to Silent. `blocked` names a fault that the cycle found
+/// beyond the inputs (pose, solver); kNone if there is none.
+[[nodiscard]] ModeState next_mode(const ModeState& last, const ValidInputs& inputs, Fault blocked);
+
+}  // namespace graben

@@ -1,0 +1,26 @@
+#!/usr/bin/env python3
+"""Gate: every C and C++ file is as clang-format with the tree's .clang-format leaves it."""
+
+import shutil
+import subprocess
+import sys
+
+import tree
+
+root = tree.arguments(__doc__).parse_args().root.resolve()
+tool = shutil.which("clang-format-14") or shutil.which("clang-format")
+if tool is None:
+    sys.exit("format: clang-format is missing; ./test installs it")
+
+names = tree.cxx_files(root)
+problems = []
+if names:
+    done = subprocess.run(
+        [tool, "--dry-run", "-Werror", "--style=file", *names],
+        cwd=root, stderr=subprocess.PIPE, text=True, check=False)
+    if done.returncode != 0:
+        version = subprocess.run([tool, "--version"], stdout=subprocess.PIPE, text=True, check=True)
+        problems = [*done.stderr.splitlines(),
+                    f"format: {tool} -i FILE puts it right (the house uses version 14; this is: "
+                    f"{version.stdout.strip()})"]
+tree.report("format", problems, len(names))

@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+"""Gate: every shell command of README.md works, run in the repository.
+
+A block is run as one script, so that a `cd` or a variable holds until its end. A block behind
+<!-- not run: reason --> is left out, loudly. ./test, which runs this gate, is only looked at.
+"""
+
+import os
+import pathlib
+import re
+import shlex
+import signal
+import subprocess
+import sys
+
+import tree
+
+FENCE = re.compile(r"^```(\w*)\s*$")
+NOT_RUN = re.compile(r"^<!--\s*not run:\s*(.+?)\s*-->$")
+CHECKS_ONLY = re.compile(r"^(\./test|\.ci/run)(\s|$)")
+
+
+def blocks(text: str):
+    """(first line number, lines, reason not to run or None) of each ```sh block."""
+    reason, inside, start, body = None, None, 0, []
+    for number, line in enumerate(text.splitlines(), 1):
+        fence = FENCE.match(line)
+        if inside is not None:
+            if fence:
+                if inside == "sh":
+                    yield start, body, reason
+                inside, reason = None, None
+            else:
+                body.append(line)
+        elif fence:
+            inside, start, body = fence[1], number + 1, []
+        elif match := NOT_RUN.match(line.strip()):
+            reason = match[1]
+        elif line.strip():
+            reason = None
+
+
+def commands(start: int, lines: list[str]):
+    """(line number, command): lines belong together until bash takes them as complete."""
+    pending, first = [], start
+    for number, line in enumerate(lines, start):
+        if not pending:
+            first = number
+            if not line.strip() or line.lstrip().startswith("#"):
+                continue
+        pending.append(line)
+        command = "\n".join(pending)
+        parsed = subprocess.run(["bash", "-n", "-c", command], stderr=subprocess.PIPE, check=False)
+        # A here-document that has not ended is only a warning.
+        if parsed.returncode == 0 and not parsed.stderr and not line.endswith("\\"):
+            yield first, command
+            pending = []
+    if pending:
+        yield first, "\n".join(pending)
+
+
+def script_of(start: int, lines: list[str]) -> tuple[str, int]:
+    script, count = ["set -o pipefail"], 0
+    for number, command in commands(start, lines):
+        count += 1
+        where = f"README.md:{number}"
+        if own := CHECKS_ONLY.match(command):
+            program = root / own[1]
+            if not (program.is_file() and os.access(program, os.X_OK)):
+                problems.append(f"{where}: {own[1]} is not there or not executable")
+            print(f"{where}: {own[1]} runs this gate; only looked at")
+            continue
+        shown = shlex.quote(f"{where}: {command}")
+        script += [f"echo {shown}", command,
+                   f"status=$?; if [ $status -ne 0 ]; then echo {shown} failed with status $status;"
+                   " exit 1; fi"]
+    return "\n".join(script), count
+
+
+def run(start: int, script: str):
+    process = subprocess.Popen(
+        ["bash", "-c", script], cwd=root, start_new_session=True, stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
+        env={**os.environ, "GRABEN_README_GATE": "1"})
+    try:
+        output, _ = process.communicate(timeout=arguments.limit)
+    except subprocess.TimeoutExpired:
+        # The whole session: a command may have left something in the background.
+        os.killpg(process.pid, signal.SIGKILL)
+        output, _ = process.communicate()
+        problems.append(f"README.md:{start}: block took longer than {arguments.limit:g} s")
+    print(output, end="")
+    if process.returncode > 0:
+        problems.append(f"README.md:{start}: block failed")
+
+
+parser = tree.arguments(__doc__)
+parser.add_argument("--limit", type=float, default=300, help="seconds that a block may take")
+arguments = parser.parse_args()
+root = arguments.root.resolve()
+sys.stdout.reconfigure(line_buffering=True)
+problems, total = [], 0
+for start, lines, reason in blocks((root / "README.md").read_text()):
+    if reason:
+        print(f"SKIPPED README.md:{start}: not run: {reason}")
+        continue
+    script, count = script_of(start, lines)
+    total += count
+    run(start, script)
+tree.report("readme", problems, total, "commands")

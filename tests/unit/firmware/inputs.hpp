@@ -1,0 +1,33 @@
+#pragma once
+/// Complete, fresh inputs for tests of the core.
+
+#include "firmware/signals/excavator_signals.hpp"
+
+namespace graben::test {
+
+template <class T>
+Signal<T> fresh(T value, TimeUs stamp_us) {
+  return {value, Validity::kValid, stamp_us};
+}
+
+/// A machine at rest near the path, enabled for the task, everything stamped now.
+inline ExcavatorInputs complete_inputs(TimeUs now_us) {
+  ExcavatorInputs inputs;
+  const double strokes_m[] = {1.05, 1.1, 0.4};
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    inputs.axis[i].stroke_m = fresh(strokes_m[i], now_us);
+    inputs.axis[i].cap_pressure_pa = fresh(4e6, now_us);
+    inputs.axis[i].rod_pressure_pa = fresh(3e6, now_us);
+  }
+  for (Signal<double>& swash : inputs.swash_ratio) {
+    swash = fresh(0.643, now_us);
+  }
+  inputs.engine_speed_radps = fresh(188.5, now_us);
+  inputs.driver.enable = fresh(true, now_us);
+  inputs.driver.mode = fresh(OperatorMode::kAutomatic, now_us);
+  inputs.driver.task = fresh(Task::kDig, now_us);
+  inputs.driver.speed_override_ratio = fresh(1.0, now_us);
+  return inputs;
+}
+
+}  // namespace graben::test

@@ -1,0 +1,140 @@
+#include <cmath>
+
+#include "firmware/excavator_controller.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/fixture.hpp"
+#include "tests/unit/firmware/inputs.hpp"
+
+namespace {
+
+using namespace graben;
+using test::complete_inputs;
+
+constexpr TimeUs kPeriod = 10 * kMillisecondUs;
+
+const ExcavatorProfile& profile() { return test::excavator().profile; }
+
+/// A controller brought to kActive the way an operator does it.
+struct Running {
+  ExcavatorController controller{profile()};
+  TimeUs now_us = kSecondUs;
+  ExcavatorOutputs outputs;
+
+  ExcavatorOutputs step(const ExcavatorInputs& inputs) {
+    outputs = controller.step(inputs, now_us);
+    now_us += kPeriod;
+    return outputs;
+  }
+  ExcavatorInputs inputs() const { return complete_inputs(now_us); }
+
+  Running() {
+    ExcavatorInputs released = inputs();
+    released.driver.enable.value = false;
+    step(released);
+    step(inputs());
+    step(inputs());
+  }
+};
+
+void assert_neutral(const ExcavatorOutputs& outputs) {
+  assert_false(outputs.enable);
+  for (const double duty : outputs.duty_ratio) {
+    assert_near(duty, 0.0, 0.0);
+  }
+}
+
+void starts_silent_and_neutral(void**) {
+  ExcavatorController controller(profile());
+  const ExcavatorOutputs outputs = controller.step({}, 0);
+  assert_int_equal(outputs.status.mode, EcuMode::kSilent);
+  assert_neutral(outputs);
+}
+
+void moves_once_armed_with_a_task(void**) {
+  Running running;
+  assert_int_equal(running.outputs.status.mode, EcuMode::kActive);
+  assert_true(running.outputs.enable);
+  assert_true(running.outputs.status.lambda > 0.0);
+  double moved = 0.0;
+  for (const double duty : running.outputs.duty_ratio) {
+    moved += std::abs(duty);
+  }
+  assert_true(moved > 0.2);
+}
+
+/// Each spool moves the way its cylinder is wanted to.
+void duties_have_the_wanted_velocitys_signs(void**) {
+  Running running;
+  const ExcavatorOutputs outputs = running.step(running.inputs());
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    if (outputs.duty_ratio[i] != 0.0) {
+      assert_true(outputs.duty_ratio[i] * outputs.status.wanted_velocity_mps[i] > 0.0);
+    }
+  }
+}
+
+void released_enable_is_neutral_in_the_same_cycle(void**) {
+  Running running;
+  ExcavatorInputs released = running.inputs();
+  released.driver.enable.value = false;
+  assert_neutral(running.step(released));
+}
+
+/// 50 ms without a sensor: neutral, and latched until the operator lets go.
+void a_missing_sensor_is_neutral_within_50_ms(void**) {
+  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    Running running;
+    const TimeUs last_us = running.now_us - kPeriod;
+    ExcavatorOutputs outputs;
+    while (running.now_us - last_us <= 50 * kMillisecondUs) {
+      ExcavatorInputs inputs = running.inputs();
+      inputs.axis[axis].stroke_m.stamp_us = last_us;
+      outputs = running.step(inputs);
+    }
+    assert_neutral(outputs);
+    assert_int_equal(outputs.status.mode, EcuMode::kFault);
+    assert_int_equal(outputs.status.fault, Fault::kStrokeMissing);
+    assert_neutral(running.step(running.inputs()));
+  }
+}
+
+/// Machine pressures that no motion can work against: told, and closed.
+void an_impossible_load_closes_the_spools(void**) {
+  Running running;
+  ExcavatorInputs inputs = running.inputs();
+  for (AxisInputs& axis : inputs.axis) {
+    axis.cap_pressure_pa.value = 60e6;
+    axis.rod_pressure_pa.value = 60e6;
+  }
+  const ExcavatorOutputs outputs = running.step(inputs);
+  assert_near(outputs.status.lambda, 0.0, 0.0);
+  assert_int_equal(outputs.status.limit.kind, LimitKind::kBackFlow);
+}
+
+void the_same_inputs_give_the_same_outputs(void**) {
+  Running first;
+  Running second;
+  for (int n = 0; n < 50; ++n) {
+    const ExcavatorOutputs a = first.step(first.inputs());
+    const ExcavatorOutputs b = second.step(second.inputs());
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+      assert_near(a.duty_ratio[i], b.duty_ratio[i], 0.0);
+    }
+    assert_near(a.status.lambda, b.status.lambda, 0.0);
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(starts_silent_and_neutral),
+      cmocka_unit_test(moves_once_armed_with_a_task),
+      cmocka_unit_test(duties_have_the_wanted_velocitys_signs),
+      cmocka_unit_test(released_enable_is_neutral_in_the_same_cycle),
+      cmocka_unit_test(a_missing_sensor_is_neutral_within_50_ms),
+      cmocka_unit_test(an_impossible_load_closes_the_spools),
+      cmocka_unit_test(the_same_inputs_give_the_same_outputs),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

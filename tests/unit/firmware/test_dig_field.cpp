@@ -1,0 +1,179 @@
+#include <cmath>
+#include <random>
+
+#include "firmware/motion/dig_field.hpp"
+#include "firmware/motion/stroke_end.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/fixture.hpp"
+
+namespace {
+
+using namespace graben;
+
+const ExcavatorProfile& profile() { return test::excavator().profile; }
+
+const ExcavatorKinematics& machine() {
+  static const ExcavatorKinematics kinematics(profile().geometry);
+  return kinematics;
+}
+
+const DigField& field() {
+  static const DigField dig_field(profile(), machine());
+  return dig_field;
+}
+
+void closest_point_is_the_nearest_of_the_path(void**) {
+  const RoundedRectangle& path = field().path();
+  for (double x = 2.0; x <= 8.0; x += 0.31) {
+    for (double y = -4.0; y <= 2.0; y += 0.29) {
+      const Eigen::Vector2d from(x, y);
+      double nearest = 1e9;
+      for (int k = 0; k < 4000; ++k) {
+        nearest = std::min(nearest, (path.at_share(k / 4000.0).position_m - from).norm());
+      }
+      const double found = (path.closest(from).position_m - from).norm();
+      assert_true(found <= nearest + 1e-12);
+      assert_near(found, nearest, 2e-3);
+    }
+  }
+}
+
+/// Equal shares are equal lengths, the tangent is the direction, and the path closes.
+void path_runs_at_constant_speed(void**) {
+  const RoundedRectangle& path = field().path();
+  constexpr int kPoints = 10000;
+  const double step_m = path.length_m() / kPoints;
+  for (int k = 0; k < kPoints; ++k) {
+    const PathPoint here = path.at_share(static_cast<double>(k) / kPoints);
+    const PathPoint next = path.at_share(static_cast<double>(k + 1) / kPoints);
+    const Eigen::Vector2d step = next.position_m - here.position_m;
+    assert_near(step.norm(), step_m, 1e-6);
+    assert_near(step.dot(here.tangent), step_m, 1e-5);
+    assert_near(next.attitude_rad - here.attitude_rad, here.attitude_slope_radpm * step_m, 1e-6);
+    const PathPoint back = path.closest(here.position_m);
+    assert_near((back.position_m - here.position_m).norm(), 0.0, 1e-12);
+    assert_near((back.tangent - here.tangent).norm(), 0.0, 1e-9);
+  }
+}
+
+/// Kim's section 5: 45 deg at 3.5 m, 120 deg at 6.5 m; the bottom is dug towards the machine.
+void path_is_the_papers(void**) {
+  const RoundedRectangle& path = field().path();
+  const PathPoint near_side = path.closest({3.0, -1.0});
+  assert_near(near_side.position_m.x(), 3.5, 1e-12);
+  assert_near(near_side.attitude_rad, 0.785398, 1e-9);
+  assert_near(near_side.tangent.y(), 1.0, 1e-12);
+  const PathPoint far_side = path.closest({7.0, -1.0});
+  assert_near(far_side.position_m.x(), 6.5, 1e-12);
+  assert_near(far_side.attitude_rad, 2.094395, 1e-9);
+  const PathPoint bottom = path.closest({5.0, -3.0});
+  assert_near(bottom.tangent.x(), -1.0, 1e-12);
+}
+
+void contour_points_along_and_towards_the_path(void**) {
+  const double speed = profile().dig_speed_mps;
+  const TipVelocity on_path = field().contour({6.5, -1.0, 2.094395});
+  assert_near(on_path.linear_mps.x(), 0.0, 1e-12);
+  assert_near(on_path.linear_mps.y(), -speed, 1e-12);
+  assert_near(on_path.attitude_radps, 0.0, 1e-9);
+  const double off_m = profile().control.convergence_length_m;
+  const TipVelocity beside = field().contour({6.5 + off_m, -1.0, 2.0});
+  assert_near(beside.linear_mps.norm(), speed, 1e-12);
+  assert_near(beside.linear_mps.x(), beside.linear_mps.y(), 1e-12);
+  assert_true(beside.linear_mps.x() < 0.0);
+  assert_true(beside.attitude_radps > 0.0);
+}
+
+/// An ideal machine, strokes moving just as the field wants: from any pose it must reach the path,
+/// never leave a cylinder's range, and then stay on the path.
+void every_pose_leads_to_the_path(void**) {
+  std::mt19937 random(7);
+  constexpr double kPeriod_s = 0.02;
+  for (int start = 0; start < 200; ++start) {
+    Eigen::Vector3d strokes;
+    for (int axis = 0; axis < kAxisCount; ++axis) {
+      const double most = profile().geometry.cylinder[static_cast<unsigned>(axis)].stroke_m;
+      strokes[axis] = std::uniform_real_distribution<double>(0.0, most)(random);
+      if (start < 8) {
+        strokes[axis] = (start >> axis & 1) != 0 ? most : 0.0;  // The corners first.
+      }
+    }
+    double error_m = 0.0;
+    double last_on_path_s = 0.0;
+    for (double t = 0.0; t < 60.0; t += kPeriod_s) {
+      const KinematicState state = machine().state(strokes);
+      assert_int_equal(state.status, ReachStatus::kOk);
+      const WantedMotion wanted = field().wanted(state, 1.0);
+      assert_true(wanted.velocity_mps.allFinite());
+      const VelocityCap cap = stroke_end_cap(profile(), strokes, wanted.velocity_mps);
+      strokes += kPeriod_s * cap.factor * wanted.velocity_mps;
+      error_m = wanted.path_error_m;
+      if (error_m > 0.01) {
+        last_on_path_s = t;
+      }
+    }
+    assert_near(error_m, 0.0, 0.01);
+    assert_true(last_on_path_s < 40.0);
+  }
+}
+
+/// Far from the path the strokes move on a straight line.
+void the_approach_is_straight_in_stroke_space(void**) {
+  const KinematicState state = machine().state({0.1, 0.2, 1.0});
+  const Eigen::Vector3d first = field().wanted(state, 1.0).velocity_mps;
+  const KinematicState later = machine().state(state.strokes_m + 0.5 * first);
+  const Eigen::Vector3d second = field().wanted(later, 1.0).velocity_mps;
+  assert_near(first.normalized().dot(second.normalized()), 1.0, 1e-9);
+  assert_true(first.cwiseAbs().maxCoeff() <= profile().control.approach_speed_mps + 1e-12);
+}
+
+void override_scales_without_turning(void**) {
+  const KinematicState state = machine().state(
+      machine().strokes_from_pose({6.4, -0.5, 2.0}).strokes_m);
+  const Eigen::Vector3d full = field().wanted(state, 1.0).velocity_mps;
+  const Eigen::Vector3d part = field().wanted(state, 0.3).velocity_mps;
+  assert_near((part - 0.3 * full).norm(), 0.0, 1e-12);
+  assert_near(field().wanted(state, 0.0).velocity_mps.norm(), 0.0, 0.0);
+}
+
+void a_path_out_of_reach_is_told(void**) {
+  ExcavatorProfile far = profile();
+  far.dig_path.x_min_m = 8.5;
+  far.dig_path.x_max_m = 11.5;
+  const DigField unreachable(far, machine());
+  assert_int_not_equal(unreachable.reach(), ReachStatus::kOk);
+  assert_int_equal(field().reach(), ReachStatus::kOk);
+}
+
+void a_cylinder_near_its_end_slows_all_axes_alike(void**) {
+  const double most = profile().geometry.cylinder[kBoom].stroke_m;
+  const double gain = profile().control.stroke_end_gain_ps;
+  const Eigen::Vector3d velocity(0.3, -0.1, 0.1);
+  const VelocityCap near_end =
+      stroke_end_cap(profile(), {most - 0.01, 0.7, 0.5}, velocity);
+  assert_near(near_end.factor, gain * 0.01 / 0.3, 1e-12);
+  assert_int_equal(near_end.limit.kind, LimitKind::kStrokeEnd);
+  assert_int_equal(near_end.limit.index, kBoom);
+  const VelocityCap away = stroke_end_cap(profile(), {most - 0.01, 0.7, 0.5}, -velocity);
+  assert_near(away.factor, 1.0, 0.0);
+  const VelocityCap closing = stroke_end_cap(profile(), {0.5, 0.0, 0.5}, velocity);
+  assert_near(closing.factor, 0.0, 0.0);
+  assert_int_equal(closing.limit.index, kArm);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(closest_point_is_the_nearest_of_the_path),
+      cmocka_unit_test(path_runs_at_constant_speed),
+      cmocka_unit_test(path_is_the_papers),
+      cmocka_unit_test(contour_points_along_and_towards_the_path),
+      cmocka_unit_test(every_pose_leads_to_the_path),
+      cmocka_unit_test(the_approach_is_straight_in_stroke_space),
+      cmocka_unit_test(override_scales_without_turning),
+      cmocka_unit_test(a_path_out_of_reach_is_told),
+      cmocka_unit_test(a_cylinder_near_its_end_slows_all_axes_alike),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,89 @@
+#include "firmware/safety/mode.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+
+ValidInputs inputs(bool enable, Task task = Task::kDig, bool automatic = true) {
+  ValidInputs valid;
+  valid.enable = enable;
+  valid.automatic = automatic;
+  valid.task = task;
+  return valid;
+}
+
+ValidInputs broken(Fault fault) {
+  ValidInputs valid;
+  valid.fault = fault;
+  return valid;
+}
+
+EcuMode after(EcuMode mode, const ValidInputs& valid) {
+  return next_mode({mode, Fault::kNone}, valid, Fault::kNone).mode;
+}
+
+void motion_needs_every_step(void**) {
+  ModeState state;
+  assert_int_equal(state.mode, EcuMode::kSilent);
+  state = next_mode(state, inputs(false), Fault::kNone);
+  assert_int_equal(state.mode, EcuMode::kReady);
+  state = next_mode(state, inputs(true), Fault::kNone);
+  assert_int_equal(state.mode, EcuMode::kArmed);
+  state = next_mode(state, inputs(true), Fault::kNone);
+  assert_int_equal(state.mode, EcuMode::kActive);
+}
+
+void enable_given_from_the_start_does_not_arm(void**) {
+  assert_int_equal(after(EcuMode::kSilent, inputs(true)), EcuMode::kSilent);
+}
+
+void released_enable_or_manual_ends_motion_at_once(void**) {
+  assert_int_equal(after(EcuMode::kActive, inputs(false)), EcuMode::kReady);
+  assert_int_equal(after(EcuMode::kArmed, inputs(false)), EcuMode::kReady);
+  assert_int_equal(after(EcuMode::kActive, inputs(true, Task::kDig, false)), EcuMode::kReady);
+  assert_int_equal(after(EcuMode::kActive, inputs(true, Task::kNone)), EcuMode::kArmed);
+  assert_int_equal(after(EcuMode::kReady, inputs(true, Task::kDig, false)), EcuMode::kReady);
+}
+
+void a_fault_latches_until_enable_is_released(void**) {
+  ModeState state = next_mode({EcuMode::kActive, Fault::kNone}, broken(Fault::kStrokeMissing),
+                              Fault::kNone);
+  assert_int_equal(state.mode, EcuMode::kFault);
+  assert_int_equal(state.fault, Fault::kStrokeMissing);
+  state = next_mode(state, broken(Fault::kPressureMissing), Fault::kNone);
+  assert_int_equal(state.fault, Fault::kStrokeMissing);
+  state = next_mode(state, inputs(true), Fault::kNone);
+  assert_int_equal(state.mode, EcuMode::kFault);
+  state = next_mode(state, inputs(false), Fault::kNone);
+  assert_int_equal(state.mode, EcuMode::kReady);
+  assert_int_equal(state.fault, Fault::kNone);
+}
+
+void faults_of_the_cycle_count_too(void**) {
+  const ModeState state =
+      next_mode({EcuMode::kActive, Fault::kNone}, inputs(true), Fault::kSolverFailed);
+  assert_int_equal(state.mode, EcuMode::kFault);
+  assert_int_equal(state.fault, Fault::kSolverFailed);
+}
+
+void without_enable_a_fault_only_silences(void**) {
+  const ModeState state = next_mode({EcuMode::kReady, Fault::kNone},
+                                    broken(Fault::kPressureMissing), Fault::kNone);
+  assert_int_equal(state.mode, EcuMode::kSilent);
+  assert_int_equal(state.fault, Fault::kPressureMissing);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(motion_needs_every_step),
+      cmocka_unit_test(enable_given_from_the_start_does_not_arm),
+      cmocka_unit_test(released_enable_or_manual_ends_motion_at_once),
+      cmocka_unit_test(a_fault_latches_until_enable_is_released),
+      cmocka_unit_test(faults_of_the_cycle_count_too),
+      cmocka_unit_test(without_enable_a_fault_only_silences),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

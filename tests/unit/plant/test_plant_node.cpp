@@ -1,0 +1,344 @@
+// The machine and the operator on a bus.
+
+#include "app/plant/plant_node.hpp"
+
+#include <map>
+#include <vector>
+
+#include "app/plant/operator_node.hpp"
+#include "can_dbc/generated/excavator_dbc.hpp"
+#include "platform/loopback/loopback_bus.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/plant/fixture/machine_22t.hpp"
+
+namespace {
+
+using namespace graben;
+using namespace graben::plant;
+namespace bus = dbc::excavator;
+using dbc::RawState;
+
+constexpr std::uint32_t kHash = 0x1234ABCD;
+constexpr TimeUs kCycleUs = 10 * kMillisecondUs;
+
+// A bus with the machine, an operator, and us in the place of the controller.
+struct Rig {
+  Rig()
+      : machine_port(can.attach()),
+        operator_port(can.attach()),
+        our_port(can.attach()),
+        machine(machine_22t(), {0.7, 0.7, 0.6}, machine_port, kHash),
+        driver(operator_port) {
+    assert_true(machine_port.open() && operator_port.open() && our_port.open());
+  }
+
+  void cycle() {
+    can.set_time(now);
+    driver.step(now);
+    machine.step(now);
+    CanFrame frame;
+    while (our_port.receive(&frame, 1) == 1) {
+      seen[frame.id].push_back(frame);
+    }
+    now += kCycleUs;
+  }
+  void cycles(int count) {
+    for (int i = 0; i < count; ++i) {
+      cycle();
+    }
+  }
+
+  CanFrame command(bool enable, double boom_duty) {
+    bus::SpoolCommand message;
+    message.enable.value =
+        enable ? bus::SpoolCommand::Enable::kOn : bus::SpoolCommand::Enable::kOff;
+    message.boom_duty_ratio.value = boom_duty;
+    return frame_of(message);
+  }
+  CanFrame frame_of(const bus::SpoolCommand& message) {
+    CanFrame frame;
+    frame.id = bus::SpoolCommand::kId;
+    frame.length = 8;
+    frame.data = message.encode();
+    e2e_protect(frame.data, bus::SpoolCommand::kDataId, counter);
+    counter = e2e_next_counter(counter);
+    return frame;
+  }
+  void command_for(int count, bool enable, double boom_duty) {
+    for (int i = 0; i < count; ++i) {
+      assert_true(our_port.send(command(enable, boom_duty)));
+      cycle();
+    }
+  }
+  void send_and_cycle(const CanFrame& frame) {
+    assert_true(our_port.send(frame));
+    cycle();
+  }
+  double boom_spool() const { return machine.plant().spool_travels_ratio()[kBoom]; }
+
+  LoopbackBus can;
+  LoopbackPort& machine_port;
+  LoopbackPort& operator_port;
+  LoopbackPort& our_port;
+  PlantNode machine;
+  OperatorNode driver;
+  TimeUs now = 0;
+  std::uint8_t counter = 0;
+  std::map<std::uint32_t, std::vector<CanFrame>> seen;
+};
+
+template <class Message>
+Message last(const Rig& rig) {
+  return Message::decode(rig.seen.at(Message::kId).back().data);
+}
+
+void messages_come_at_their_rates(void**) {
+  Rig rig;
+  rig.cycles(200);
+  for (const std::uint32_t id :
+       {bus::BoomStroke::kId, bus::ArmStroke::kId, bus::BucketStroke::kId, bus::BoomPressure::kId,
+        bus::ArmPressure::kId, bus::BucketPressure::kId}) {
+    assert_int_equal(rig.seen[id].size(), 200);
+  }
+  assert_int_equal(rig.seen[bus::PumpState::kId].size(), 100);
+  assert_int_equal(rig.seen[bus::EEC1::kId].size(), 100);
+  assert_int_equal(rig.seen[bus::OperatorCommand::kId].size(), 100);
+  assert_int_equal(rig.seen[bus::MachineIdentity::kId].size(), 2);
+  assert_int_equal(rig.seen.size(), 10);
+}
+
+template <class Message>
+void check_protection(const Rig& rig) {
+  E2eState state;
+  const E2eConfig config{Message::kDataId, 1, kSecondUs};
+  int accepted = 0;
+  for (const CanFrame& frame : rig.seen.at(Message::kId)) {
+    assert_true(frame.extended);
+    assert_int_equal(frame.length, Message::kLength);
+    accepted += e2e_accepted(e2e_check(config, state, frame.data, frame.stamp_us)) ? 1 : 0;
+  }
+  // All but the two of the handshake, without a loss, over more than one round of the counter.
+  assert_int_equal(accepted, rig.seen.at(Message::kId).size() - 2);
+}
+
+void frames_are_protected(void**) {
+  Rig rig;
+  rig.cycles(100);
+  check_protection<bus::BoomStroke>(rig);
+  check_protection<bus::ArmStroke>(rig);
+  check_protection<bus::BucketStroke>(rig);
+  check_protection<bus::BoomPressure>(rig);
+  check_protection<bus::ArmPressure>(rig);
+  check_protection<bus::BucketPressure>(rig);
+  check_protection<bus::PumpState>(rig);
+  check_protection<bus::OperatorCommand>(rig);
+}
+
+void values_are_the_plants(void**) {
+  Rig rig;
+  rig.cycles(3);
+  const ExcavatorPlant& plant = rig.machine.plant();
+  // Encoder 0.1 mm, bus 0.05 mm and 1 kPa.
+  assert_near(last<bus::BoomStroke>(rig).boom_stroke_m.value, plant.strokes_m()[0], 0.06e-3);
+  assert_near(last<bus::ArmStroke>(rig).arm_stroke_m.value, plant.strokes_m()[1], 0.06e-3);
+  assert_near(last<bus::BucketStroke>(rig).bucket_stroke_m.value, plant.strokes_m()[2], 0.06e-3);
+  const auto cap = plant.cap_pressures_pa();
+  const auto rod = plant.rod_pressures_pa();
+  assert_near(last<bus::BoomPressure>(rig).boom_cap_pressure_pa.value, cap[0], 501.0);
+  assert_near(last<bus::BoomPressure>(rig).boom_rod_pressure_pa.value, rod[0], 501.0);
+  assert_near(last<bus::ArmPressure>(rig).arm_cap_pressure_pa.value, cap[1], 501.0);
+  assert_near(last<bus::ArmPressure>(rig).arm_rod_pressure_pa.value, rod[1], 501.0);
+  assert_near(last<bus::BucketPressure>(rig).bucket_cap_pressure_pa.value, cap[2], 501.0);
+  assert_near(last<bus::BucketPressure>(rig).bucket_rod_pressure_pa.value, rod[2], 501.0);
+  assert_near(last<bus::PumpState>(rig).pump1_swash_ratio.value, 0.643, 1e-5);
+  assert_near(last<bus::PumpState>(rig).pump2_swash_ratio.value, 0.643, 1e-5);
+  assert_near(last<bus::EEC1>(rig).engine_speed_radps.value, 188.5, 0.01);
+  assert_int_equal(last<bus::MachineIdentity>(rig).profile_hash.value, kHash);
+  assert_int_equal(last<bus::MachineIdentity>(rig).dbc_version.value, bus::kDbcVersion);
+}
+
+void sensors_show_what_they_can(void**) {
+  SensorModel sensors;
+  sensors.errors.stroke_resolution_m = 1e-4;
+  sensors.errors.pressure_range_pa = 25e6;
+  assert_near(sensors.stroke_m(0.123456), 0.1235, 1e-12);
+  assert_near(sensors.pressure_pa(-2e4), 0.0, 0.0);
+  assert_near(sensors.pressure_pa(7e6), 7e6, 0.0);
+  assert_near(sensors.pressure_pa(30e6), 25e6, 0.0);
+}
+
+void commands_move_the_spool(void**) {
+  Rig rig;
+  rig.command_for(2, true, 0.5);
+  assert_false(rig.machine.spools_enabled());  // the sequence is not confirmed yet
+  rig.command_for(30, true, 0.5);
+  assert_true(rig.machine.spools_enabled());
+  assert_near(rig.boom_spool(), 0.5, 1e-3);
+  assert_true(rig.machine.plant().strokes_m()[kBoom] > 0.7);
+  assert_int_equal(rig.machine.counters().accepted, 30);
+}
+
+void enable_off_is_neutral_at_once(void**) {
+  Rig rig;
+  rig.command_for(30, true, 0.5);
+  rig.command_for(1, false, 0.5);
+  assert_false(rig.machine.spools_enabled());
+  assert_true(rig.boom_spool() < 0.48);
+  rig.command_for(30, false, 0.5);
+  assert_near(rig.boom_spool(), 0.0, 1e-4);
+}
+
+void silence_is_neutral_after_100_ms(void**) {
+  Rig rig;
+  rig.command_for(30, true, 0.5);  // the last one came 10 ms ago
+  rig.cycles(9);
+  assert_true(rig.machine.spools_enabled());
+  assert_near(rig.boom_spool(), 0.5, 1e-3);
+  rig.cycle();
+  assert_false(rig.machine.spools_enabled());
+  assert_true(rig.boom_spool() < 0.48);
+  assert_int_equal(rig.machine.counters().timeouts, 1);
+  rig.cycles(50);
+  assert_near(rig.boom_spool(), 0.0, 1e-4);
+  assert_int_equal(rig.machine.counters().timeouts, 1);
+}
+
+void wrong_frames_are_no_sign_of_life(void**) {
+  using Spoil = void (*)(CanFrame&);
+  const Spoil spoils[] = {
+      [](CanFrame& f) { f.data[3] = static_cast<std::uint8_t>(f.data[3] ^ 0x10U); },
+      [](CanFrame& f) { e2e_protect(f.data, bus::SpoolCommand::kDataId, 15); },
+      [](CanFrame& f) { e2e_protect(f.data, bus::SpoolCommand::kDataId, 3); },
+      [](CanFrame& f) { e2e_protect(f.data, bus::BoomStroke::kDataId, f.data[1] & 0x0FU); },
+      [](CanFrame& f) { f.length = 7; },
+      [](CanFrame& f) { f.extended = false; },
+      [](CanFrame& f) { f.remote = true; },
+      [](CanFrame& f) { f.error = true; },
+      [](CanFrame& f) { f.fd = true; },
+  };
+  for (const Spoil spoil : spoils) {
+    Rig rig;
+    rig.command_for(30, true, 0.5);
+    for (int i = 0; i < 10; ++i) {
+      CanFrame frame = rig.command(true, 0.5);
+      spoil(frame);
+      rig.send_and_cycle(frame);
+    }
+    assert_false(rig.machine.spools_enabled());
+    assert_int_equal(rig.machine.counters().accepted, 28);
+    assert_int_equal(rig.machine.counters().wrong_format + rig.machine.counters().rejected, 12);
+  }
+}
+
+void unusable_values_are_neutral(void**) {
+  for (const RawState state : {RawState::kError, RawState::kNotAvailable}) {
+    for (int which = 0; which < 4; ++which) {
+      Rig rig;
+      rig.command_for(30, true, 0.5);
+      bus::SpoolCommand message;
+      message.enable.value = bus::SpoolCommand::Enable::kOn;
+      message.boom_duty_ratio.value = 0.5;
+      (which == 0   ? message.boom_duty_ratio.state
+       : which == 1 ? message.arm_duty_ratio.state
+       : which == 2 ? message.bucket_duty_ratio.state
+                    : message.enable.state) = state;
+      rig.send_and_cycle(rig.frame_of(message));
+      assert_false(rig.machine.spools_enabled());
+    }
+  }
+}
+
+void command_reaches_every_spool(void**) {
+  Rig rig;
+  for (int i = 0; i < 60; ++i) {
+    bus::SpoolCommand message;
+    message.enable.value = bus::SpoolCommand::Enable::kOn;
+    message.boom_duty_ratio.value = 0.1;
+    message.arm_duty_ratio.value = -0.15;
+    message.bucket_duty_ratio.value = 0.18;
+    rig.send_and_cycle(rig.frame_of(message));
+  }
+  const auto travel = rig.machine.plant().spool_travels_ratio();
+  assert_near(travel[kBoom], 0.1, 1e-6);
+  assert_near(travel[kArm], -0.15, 1e-6);
+  assert_near(travel[kBucket], 0.18, 1e-6);
+}
+
+void flood_does_not_starve_the_command(void**) {
+  Rig rig;
+  for (int i = 0; i < 5; ++i) {
+    for (int k = 0; k < 200; ++k) {
+      CanFrame other;
+      other.id = 0x18FF9999;
+      assert_true(rig.our_port.send(other));
+    }
+    rig.send_and_cycle(rig.command(true, 0.5));
+  }
+  assert_true(rig.machine.spools_enabled());
+}
+
+void silenced_messages_stop(void**) {
+  Rig rig;
+  rig.machine.set_silent(bus::ArmStroke::kId, true);
+  rig.driver.set_silent(true);
+  rig.cycles(10);
+  assert_int_equal(rig.seen.count(bus::ArmStroke::kId), 0);
+  assert_int_equal(rig.seen.count(bus::OperatorCommand::kId), 0);
+  assert_int_equal(rig.seen[bus::BoomStroke::kId].size(), 10);
+  rig.machine.set_silent(bus::ArmStroke::kId, false);
+  rig.cycles(20);
+  assert_int_equal(rig.seen[bus::ArmStroke::kId].size(), 20);
+  check_protection<bus::ArmStroke>(rig);
+}
+
+void strokes_can_fail(void**) {
+  Rig rig;
+  rig.machine.set_stroke_state(kArm, RawState::kError);
+  rig.machine.set_stroke_state(kBucket, RawState::kNotAvailable);
+  rig.cycle();
+  assert_true(last<bus::BoomStroke>(rig).boom_stroke_m.state == RawState::kValid);
+  assert_true(last<bus::ArmStroke>(rig).arm_stroke_m.state == RawState::kError);
+  assert_true(last<bus::BucketStroke>(rig).bucket_stroke_m.state == RawState::kNotAvailable);
+}
+
+void operator_follows_the_schedule(void**) {
+  Rig rig;
+  rig.driver.set_schedule({{100'000, {true, OperatorMode::kAutomatic, Task::kDig, 0.5}},
+                           {200'000, {false, OperatorMode::kManual, Task::kNone, 1.0}}});
+  rig.cycles(9);
+  auto message = last<bus::OperatorCommand>(rig);
+  assert_true(message.enable.value == bus::OperatorCommand::Enable::kOff);
+  assert_true(message.task.value == bus::OperatorCommand::Task::kNone);
+  rig.cycles(2);
+  message = last<bus::OperatorCommand>(rig);
+  assert_true(message.enable.value == bus::OperatorCommand::Enable::kOn);
+  assert_true(message.operator_mode.value == bus::OperatorCommand::OperatorMode::kAutomatic);
+  assert_true(message.task.value == bus::OperatorCommand::Task::kDig);
+  assert_near(message.speed_override_ratio.value, 0.5, 1e-9);
+  rig.cycles(20);
+  message = last<bus::OperatorCommand>(rig);
+  assert_true(message.enable.value == bus::OperatorCommand::Enable::kOff);
+  assert_near(message.speed_override_ratio.value, 1.0, 1e-9);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(messages_come_at_their_rates),
+      cmocka_unit_test(frames_are_protected),
+      cmocka_unit_test(values_are_the_plants),
+      cmocka_unit_test(sensors_show_what_they_can),
+      cmocka_unit_test(commands_move_the_spool),
+      cmocka_unit_test(enable_off_is_neutral_at_once),
+      cmocka_unit_test(silence_is_neutral_after_100_ms),
+      cmocka_unit_test(wrong_frames_are_no_sign_of_life),
+      cmocka_unit_test(unusable_values_are_neutral),
+      cmocka_unit_test(command_reaches_every_spool),
+      cmocka_unit_test(flood_does_not_starve_the_command),
+      cmocka_unit_test(silenced_messages_stop),
+      cmocka_unit_test(strokes_can_fail),
+      cmocka_unit_test(operator_follows_the_schedule),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,209 @@
+// The report's file: complete, self-contained, safe against its own data, and never half written.
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "app/cli/report/report.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using graben::cli::write_report;
+using nlohmann::json;
+
+const fs::path& folder() {
+  static const fs::path path =
+      fs::temp_directory_path() / ("graben_report_test." + std::to_string(getpid()));
+  return path;
+}
+
+int make_folder(void**) { return fs::create_directory(folder()) ? 0 : -1; }
+int remove_folder(void**) { return fs::remove_all(folder()) > 0 ? 0 : -1; }
+
+std::string content(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void put(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+std::size_t files_in(const fs::path& path) {
+  return static_cast<std::size_t>(
+      std::distance(fs::directory_iterator(path), fs::directory_iterator()));
+}
+
+/// The data as a browser would see it: what is between the data element's tags.
+json embedded(const std::string& page) {
+  const std::string open = "<script type=\"application/json\" id=\"data\">";
+  const auto from = page.find(open) + open.size();
+  return json::parse(page.substr(from, page.find("</script", from) - from));
+}
+
+/// What write_report says when it refuses.
+std::string refusal(const fs::path& file) {
+  try {
+    write_report(file, json::object());
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+const json& sample() {
+  static const json data = {
+      {"title", "A run"},
+      {"subtitle", "seed 7"},
+      {"series", {{"time_s", {0.0, 0.01, 0.02}}, {"lambda", {1.0, 0.5, 0.25}}}}};
+  return data;
+}
+
+void holds_library_and_data(void**) {
+  const fs::path file = folder() / "whole.html";
+  write_report(file, sample());
+  const std::string page = content(file);
+  assert_true(contains(page, "var uPlot="));
+  assert_true(contains(page, "Copyright (c) 2022 Leon Sorokin"));  // its licence asks for this
+  assert_true(contains(page, ".u-legend"));
+  assert_true(contains(page, "reportPage.start()"));
+  assert_false(contains(page, "@@"));
+  assert_true(embedded(page) == sample());
+  assert_int_equal(page.rfind("</html>"), page.size() - std::string("</html>\n").size());
+}
+
+void refers_to_nothing_outside(void**) {
+  const fs::path file = folder() / "alone.html";
+  write_report(file, sample());
+  const std::string page = content(file);
+  // Line by line: the library is one very long line, and std::regex is recursive. The patterns
+  // have no unbounded part but white space.
+  const std::vector<std::string> patterns = {
+      R"((src|href|action|poster|data)\s*=\s*["']?\s*(https?:|//))",
+      R"(url\(\s*["']?\s*(https?:|//))",
+      R"(@import)",
+      R"(\bfetch\s*\()",
+      R"(\bimport\s*\()",
+      R"(XMLHttpRequest|WebSocket|EventSource|sendBeacon|importScripts)",
+      R"(<(link|iframe|img|object|embed|base)\b)",
+      R"(\bsrc\s*=)",
+  };
+  for (const std::string& pattern : patterns) {
+    const std::regex expression(pattern, std::regex::icase);
+    if (std::regex_search(page, expression)) fail_msg("the page matches %s", pattern.c_str());
+  }
+  assert_true(contains(page, "default-src 'none'"));
+}
+
+void title_cannot_break_out(void**) {
+  const fs::path file = folder() / "escape.html";
+  write_report(file, sample());
+  const std::string harmless = content(file);
+
+  json data = sample();
+  data["title"] = "</script><script>alert(1)</script>";
+  data["subtitle"] = "<!-- <script> \\ \" & \u2028";
+  write_report(file, data);
+  const std::string page = content(file);
+  for (const char* tag : {"<script", "</script", "<!--"}) {
+    assert_int_equal(count(page, tag), count(harmless, tag));
+  }
+  assert_true(embedded(page) == data);
+}
+
+void unreadable_values_become_gaps(void**) {
+  const fs::path file = folder() / "gaps.html";
+  json data = sample();
+  data["series"]["lambda"][1] = std::numeric_limits<double>::quiet_NaN();
+  data["subtitle"] = "not UTF-8: \xff";
+  write_report(file, data);
+  const json read = embedded(content(file));
+  assert_true(read["series"]["lambda"][1].is_null());
+  assert_true(contains(read["subtitle"].get<std::string>(), "not UTF-8"));
+}
+
+void replaces_an_old_report(void**) {
+  const fs::path own = folder() / "replace";
+  fs::create_directory(own);
+  put(own / "r.html", "old");
+  fs::create_symlink("r.html", own / "latest.html");
+  write_report(own / "latest.html", sample());
+  assert_true(fs::is_symlink(own / "latest.html"));
+  assert_true(embedded(content(own / "r.html")) == sample());
+  assert_int_equal(files_in(own), 2);  // nothing temporary is left
+}
+
+void unwritable_target_is_named(void**) {
+  const fs::path missing = folder() / "no_such_folder" / "r.html";
+  assert_true(contains(refusal(missing), missing.string()));
+
+  const fs::path blocked = folder() / "a_file";
+  put(blocked, "old");
+  assert_true(contains(refusal(blocked / "r.html"), (blocked / "r.html").string()));
+  assert_string_equal(content(blocked).c_str(), "old");
+
+  const fs::path directory = folder() / "a_folder";
+  fs::create_directory(directory);
+  assert_true(contains(refusal(directory), directory.string()));
+  assert_true(fs::is_directory(directory));
+
+  assert_true(contains(refusal("/dev/null"), "/dev/null"));
+  assert_true(fs::is_character_file("/dev/null"));
+}
+
+/// A full disk, as near as a test gets: files may not grow beyond 1 kB.
+void failed_write_leaves_old_report(void**) {
+  const fs::path own = folder() / "full";
+  fs::create_directory(own);
+  const fs::path file = own / "r.html";
+  put(file, "old");
+
+  rlimit before{};
+  assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+  rlimit tight = before;
+  tight.rlim_cur = 1024;
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &tight), 0);
+  const std::string message = refusal(file);
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+
+  assert_true(contains(message, file.string()));
+  assert_string_equal(content(file).c_str(), "old");
+  assert_int_equal(files_in(own), 1);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(holds_library_and_data),
+      cmocka_unit_test(refers_to_nothing_outside),
+      cmocka_unit_test(title_cannot_break_out),
+      cmocka_unit_test(unreadable_values_become_gaps),
+      cmocka_unit_test(replaces_an_old_report),
+      cmocka_unit_test(unwritable_target_is_named),
+      cmocka_unit_test(failed_write_leaves_old_report),
+  };
+  return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
