@@ -2,22 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <optional>
 
 #include "app/cli/candump_log.hpp"
-#include "app/ecu/excavator_ecu.hpp"
-#include "app/plant/operator_node.hpp"
-#include "app/plant/plant_node.hpp"
-#include "platform/loopback/loopback_bus.hpp"
+#include "app/cli/dig_bench.hpp"
 
 namespace graben::cli {
 namespace {
 
-constexpr TimeUs kPeriod_us = 10 * kMillisecondUs;
-/// The operator waits for the machine, then enables it; once done lets go, and the log shows neutral.
-constexpr TimeUs kEnable_us = 200 * kMillisecondUs;
+/// Once done the operator lets go, and the log shows neutral.
 constexpr TimeUs kAfterwards_us = 300 * kMillisecondUs;
 /// The path counts as reached when the measured tip has stayed this near for this long.
 constexpr double kReached_m = 0.02;
@@ -30,9 +25,9 @@ class PathProgress {
  public:
   PathProgress(const RoundedRectangle& path, double loops) : path_(path), loops_(loops) {}
 
-  void update(const Eigen::Vector2d& tip_m, double error_m, TimeUs now_us) {
+  void update(const Eigen::Vector2d& tip_m, bool near, TimeUs now_us) {
     if (!on_path_) {
-      near_since_us_ = error_m > kReached_m ? now_us : near_since_us_;
+      near_since_us_ = near ? near_since_us_ : now_us;
       on_path_ = now_us - near_since_us_ >= kReachedFor_us;
     } else {
       travelled_m_ += (tip_m - last_tip_m_).dot(path_.closest(tip_m).tangent);
@@ -51,55 +46,12 @@ class PathProgress {
   Eigen::Vector2d last_tip_m_ = Eigen::Vector2d::Zero();
 };
 
-/// The three nodes and their bus.
-struct Bench {
-  Bench(const machines::ExcavatorMachine& machine, const DigOptions& options)
-      : plant_port(bus.attach()),
-        operator_port(bus.attach()),
-        ecu_port(bus.attach()),
-        plant(machine.plant,
-              {options.start_strokes_m[0], options.start_strokes_m[1], options.start_strokes_m[2]},
-              plant_port, machine.hash),
-        driver(operator_port),
-        ecu(machine.profile, machine.hash, ecu_port) {
-    if (!plant_port.open() || !operator_port.open() || !ecu_port.open()) {
-      throw std::runtime_error("the bus in memory did not open");
-    }
-    driver.set_schedule({{0, {false, OperatorMode::kAutomatic, Task::kNone, 0.0}},
-                         {kEnable_us, request(options)}});
-  }
-
-  static plant::OperatorRequest request(const DigOptions& options) {
-    return {true, OperatorMode::kAutomatic, Task::kDig, options.speed_override_ratio};
-  }
-
-  /// Everyone's cycle at `now_us`; returns how long the controller computed, in microseconds.
-  double step(TimeUs now_us) {
-    bus.set_time(now_us);
-    plant.step(now_us);
-    driver.step(now_us);
-    const auto begin = std::chrono::steady_clock::now();
-    // Time is simulated: a measured cycle time on the bus would make every run's bytes different.
-    ecu.step(now_us, 0);
-    return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin)
-        .count();
-  }
-
-  LoopbackBus bus;
-  LoopbackPort& plant_port;
-  LoopbackPort& operator_port;
-  LoopbackPort& ecu_port;
-  plant::PlantNode plant;
-  plant::OperatorNode driver;
-  ecu::ExcavatorEcu ecu;
-};
-
 class DigRun {
  public:
   DigRun(const machines::ExcavatorMachine& machine, const DigOptions& options)
       : machine_(machine),
         options_(options),
-        bench_(machine, options),
+        bench_(machine, options.start_strokes_m, options.speed_override_ratio),
         kinematics_(machine.profile.geometry),
         path_(machine.profile.dig_path),
         progress_(path_, options.loops) {}
@@ -115,10 +67,10 @@ class DigRun {
     while (!ended(now_us)) {
       step(now_us);
       show(progress_.share(), progress_.on_path() ? "on the path" : "approaching the path");
-      now_us += kPeriod_us;
+      now_us += DigBench::kPeriod_us;
     }
-    bench_.driver.set_schedule({});
-    for (const TimeUs end_us = now_us + kAfterwards_us; now_us < end_us; now_us += kPeriod_us) {
+    bench_.release();
+    for (const TimeUs end_us = now_us + kAfterwards_us; now_us < end_us; now_us += DigBench::kPeriod_us) {
       static_cast<void>(bench_.step(now_us));
     }
     result_.wall_s =
@@ -161,8 +113,7 @@ class DigRun {
     read_truth(sample);
     read_controller(sample);
     const bool moving = bench_.ecu.outputs().status.mode == EcuMode::kActive;
-    progress_.update(sample.tip_true_m, moving ? sample.error_measured_m : 2.0 * kReached_m,
-                     now_us);
+    progress_.update(sample.tip_true_m, moving && sample.error_measured_m <= kReached_m, now_us);
     sample.on_path = progress_.on_path();
     result_.samples.push_back(sample);
   }
@@ -186,16 +137,20 @@ class DigRun {
     const ExcavatorInputs& inputs = bench_.ecu.inputs();
     const ExcavatorOutputs& outputs = bench_.ecu.outputs();
     Eigen::Vector3d strokes_m;
+    bool measured = true;
     for (unsigned i = 0; i < kAxisCount; ++i) {
       const double most_m = machine_.profile.geometry.cylinder[i].stroke_m;
+      measured = measured && inputs.axis[i].stroke_m.validity == Validity::kValid;
       strokes_m[i] = std::clamp(inputs.axis[i].stroke_m.value, 0.0, most_m);
       sample.velocity_wanted_mps[i] =
           outputs.status.lambda * outputs.status.wanted_velocity_mps[i];
       sample.spool_command[i] = outputs.duty_ratio[i];
     }
-    const KinematicState state = kinematics_.state(strokes_m);
-    sample.tip_measured_m = Eigen::Vector2d(state.tip.x_m, state.tip.y_m);
-    sample.error_measured_m = error_m(sample.tip_measured_m);
+    if (measured) {
+      const KinematicState state = kinematics_.state(strokes_m);
+      sample.tip_measured_m = Eigen::Vector2d(state.tip.x_m, state.tip.y_m);
+      sample.error_measured_m = error_m(sample.tip_measured_m);
+    }
     sample.lambda = outputs.status.lambda;
     sample.limit = outputs.status.limit;
     sample.pump_expected_pa = outputs.status.pump_pressure_pa;
@@ -203,7 +158,7 @@ class DigRun {
 
   const machines::ExcavatorMachine& machine_;
   DigOptions options_;
-  Bench bench_;
+  DigBench bench_;
   ExcavatorKinematics kinematics_;
   RoundedRectangle path_;
   PathProgress progress_;

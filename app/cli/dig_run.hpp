@@ -3,6 +3,7 @@
 /// memory that exchange nothing but CAN frames.
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -27,11 +28,12 @@ struct DigOptions {
 struct DigSample {
   double time_s = 0.0;
   bool on_path = false;  ///< The path was reached and is being followed: what the figures speak of.
-  Eigen::Vector2d tip_true_m;
-  Eigen::Vector2d tip_measured_m;
+  Eigen::Vector2d tip_true_m = Eigen::Vector2d::Zero();
+  /// Not a number, like error_measured_m, until the first strokes were received.
+  Eigen::Vector2d tip_measured_m = Eigen::Vector2d::Constant(std::nan(""));
   double attitude_true_rad = 0.0;
   double error_true_m = 0.0;
-  double error_measured_m = 0.0;
+  double error_measured_m = std::nan("");
   double lambda = 0.0;
   Limit limit;
   std::array<double, kAxisCount> spool_command{};  ///< x / x_m that the duty asks for.

@@ -34,11 +34,12 @@ class Cylinder {
   /// Ends the step with its chamber flows (into the chambers) and mean velocity.
   void step(double cap_in_m3ps, double rod_in_m3ps, double velocity_mps);
 
-  [[nodiscard]] double cap_pressure_pa() const { return cap_.pressure_pa(); }
-  [[nodiscard]] double rod_pressure_pa() const { return rod_.pressure_pa(); }
+  /// At the valve's ports, where the hose transducers sit.
+  [[nodiscard]] double cap_pressure_pa() const { return cap_.first_port_pressure_pa(); }
+  [[nodiscard]] double rod_pressure_pa() const { return rod_.first_port_pressure_pa(); }
 
  private:
-  static constexpr std::size_t kValve = 0;
+  static constexpr std::size_t kValve = 0;  // the one that is measured
   static constexpr std::size_t kPiston = 1;
 
   [[nodiscard]] double leak_m3ps() const {

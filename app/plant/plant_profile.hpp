@@ -61,18 +61,18 @@ struct PlantProfile {
   double piston_leak_m3pspa = 2e-14;
   /// Slope of every relief valve above its opening pressure, Pa s/m^3: 1.2 MPa at 138 L/min.
   double relief_override_paspm3 = 5e8;
-  /// Slope of the make-up checks from tank, Pa s/m^3: 0.06 MPa below ambient at 360 L/min, so that
+  /// Slope of the make-up checks from tank, Pa s/m^3: 0.02 MPa below ambient at 400 L/min, so that
   /// the oil does not boil and no vapour needs a state of its own.
-  double makeup_paspm3 = 1e7;
+  double makeup_paspm3 = 3e6;
   /// Share of a spool's opening over which its bypass goes from open to closed. (20) has none; a
   /// real land edge closes over some travel.
   double bypass_closing_ratio = 0.1;
   /// Pressure of the unloaded chambers at the start.
   double start_back_pressure_pa = 0.5e6;
   /// Contact at the stroke's ends: full system pressure on a boom cap side (0.8 MN) presses in by
-  /// 0.4 mm. Damping acts on the way in only.
+  /// 0.4 mm. Damping acts on the way in only; about critical for the boom's 5e4 kg at its cylinder.
   double end_stop_stiffness_npm = 2e9;
-  double end_stop_damping_nspm = 2e6;
+  double end_stop_damping_nspm = 1e7;
 
   /// Fixed step of the simulation. Stable at any length (transmission-line elements); the length
   /// decides accuracy only, see `ExcavatorPlant`.

@@ -18,16 +18,16 @@ void WaveVolume::scatter() {
   }
   const double count = static_cast<double>(count_);
   const double twice_mean = 2.0 * (wave_sum + 2.0 * impedance_ * flow_sum) / count;
-  double new_wave_sum = 0.0;
+  pressure_ = (wave_sum + impedance_ * flow_sum) / count;
+  first_port_pressure_ = wave_[0] + impedance_ * flow_[0];
   for (std::size_t i = 0; i < count_; ++i) {
     wave_[i] = kFilter * wave_[i] + (1.0 - kFilter) * (twice_mean - reflected[i]);
-    new_wave_sum += wave_[i];
   }
-  pressure_ = (new_wave_sum + impedance_ * flow_sum) / count;
 }
 
 void WaveVolume::start(double pressure_pa) {
   pressure_ = pressure_pa;
+  first_port_pressure_ = pressure_pa;
   for (std::size_t i = 0; i < count_; ++i) {
     wave_[i] = pressure_pa - impedance_ * flow_[i];
   }

@@ -30,8 +30,10 @@ class WaveVolume {
   /// Ends the step: the ports are then the next one's.
   void scatter();
 
-  /// Mean over the ports at the end of the last step, as if the flows went on.
+  /// Mean over the ports as the last step solved them: at its beginning, one step before the ports.
   [[nodiscard]] double pressure_pa() const { return pressure_; }
+  /// The same at port 0.
+  [[nodiscard]] double first_port_pressure_pa() const { return first_port_pressure_; }
 
   /// Starts with this pressure everywhere; the flows set before are taken as steady.
   void start(double pressure_pa);
@@ -41,6 +43,7 @@ class WaveVolume {
   double impedance_volume_;  ///< Z V
   double impedance_ = 0.0;
   double pressure_ = 0.0;
+  double first_port_pressure_ = 0.0;
   std::array<double, kMaxPorts> wave_{};
   std::array<double, kMaxPorts> flow_{};
 };

@@ -15,6 +15,7 @@ namespace bus = dbc::excavator;
 using dbc::RawState;
 
 constexpr TimeUs kStartUs = 3'000'000;
+constexpr TimeUs kPeriodUs = 10'000;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -65,7 +66,7 @@ void periods(void**) {
     Tally tally;
     for (int cycle = 0; cycle < 1000; ++cycle) {
       const TimeUs deviation_us = cycle == 0 ? 0 : (cycle % 3 - 1) * jitter_us;
-      sender.call(kStartUs + cycle * 10'000 + deviation_us);
+      sender.call(kStartUs + cycle * kPeriodUs + deviation_us);
       tally.add(sender);
     }
     assert_int_equal(tally.spool, 1000);
@@ -122,7 +123,7 @@ void protection(void**) {
   const E2eConfig config{bus::SpoolCommand::kDataId, 1, 40'000};
   E2eState state;
   for (int cycle = 0; cycle < 100; ++cycle) {
-    const TimeUs now = kStartUs + cycle * 10'000;
+    const TimeUs now = kStartUs + cycle * kPeriodUs;
     sender.call(now);
     const CanFrame* frame = sender.find<bus::SpoolCommand>();
     assert_non_null(frame);

@@ -119,7 +119,8 @@ constexpr std::array<Sample, 8> kHopsan{{
     {1.3, 0.932896267, -0.00214475349, 2717091.63, 5221292.38, 24096333.9},
 }};
 
-void compare_with_hopsan(TimeUs step_us, double position_tolerance_m) {
+// Reported pressures are one step old: on a slope of 200 MPa/s that shows.
+void compare_with_hopsan(TimeUs step_us, double position_tolerance_m, double tolerance_pa) {
   Circuit circuit(hopsan_circuit(step_us), 0.752, 20000.0, 60000.0);
   circuit.run(0.1, 0.0);
   double time = 0.1;
@@ -128,14 +129,14 @@ void compare_with_hopsan(TimeUs step_us, double position_tolerance_m) {
     time = sample.time_s;
     assert_near(circuit.position_m, sample.position_m, position_tolerance_m);
     assert_near(circuit.velocity_mps, sample.velocity_mps, 6e-4);
-    assert_near(circuit.cylinder.cap_pressure_pa(), sample.cap_pa, 2e4);
-    assert_near(circuit.cylinder.rod_pressure_pa(), sample.rod_pa, 2e4);
-    assert_near(circuit.pump.pressure_pa(), sample.pump_pa, 1e5);
+    assert_near(circuit.cylinder.cap_pressure_pa(), sample.cap_pa, tolerance_pa);
+    assert_near(circuit.cylinder.rod_pressure_pa(), sample.rod_pa, tolerance_pa);
+    assert_near(circuit.pump.pressure_pa(), sample.pump_pa, 4.0 * tolerance_pa);
   }
 }
 
-void hopsan_at_0_1_ms(void**) { compare_with_hopsan(100, 0.02e-3); }
-void hopsan_at_0_2_ms(void**) { compare_with_hopsan(200, 0.03e-3); }
+void hopsan_at_0_1_ms(void**) { compare_with_hopsan(100, 0.02e-3, 2e4); }
+void hopsan_at_0_2_ms(void**) { compare_with_hopsan(200, 0.03e-3, 4e4); }
 
 // Steady extension: in-flow and out-flow of an asymmetric cylinder, force balance, pump balance.
 void steady_extension_meets_the_orifice_equations(void**) {
@@ -213,28 +214,24 @@ void piston_leakage_is_laminar(void**) {
   cylinder.start(0.752, 200e3);
   const double cap = cylinder.cap_pressure_pa();
   const double difference = cap - cylinder.rod_pressure_pa();
-  for (int i = 0; i < 5; ++i) {  // 1 ms with the piston held
+  for (int i = 0; i < 100; ++i) {  // 20 ms with the piston held
     cylinder.step(0.0, 0.0, 0.0);
   }
   const double rate = 1.2e9 * 1e-12 * difference / (1e-3 + kCapArea * 0.752);
-  assert_near(cylinder.cap_pressure_pa() - cap, -rate * 1e-3, 0.05 * rate * 1e-3);
+  assert_near(cylinder.cap_pressure_pa() - cap, -rate * 20e-3, 0.02 * rate * 20e-3);
 }
 
-void port_relief_limits_a_chamber(void**) {
+// A load that would need 41 MPa presses in through the cap relief and draws on the rod side.
+void port_relief_and_make_up_hold_the_chambers(void**) {
   const PlantProfile profile = hopsan_circuit(200);
-  Circuit circuit(profile, 0.752, 20000.0, 60000.0);
-  circuit.load_n = 700e3;  // would need 45 MPa
+  Circuit circuit(profile, 1.2, 20000.0, 60000.0);
+  circuit.load_n = 630e3;
   circuit.run(1.0, 0.0);
-  assert_true(circuit.velocity_mps < -0.01);
-  assert_near(circuit.cylinder.cap_pressure_pa(), profile.port_relief_pa, 4e6);
-}
-
-void make_up_keeps_a_drawn_chamber_at_ambient(void**) {
-  Circuit circuit(hopsan_circuit(200), 0.752, 20000.0, 60000.0);
-  circuit.load_n = 700e3;  // presses in through the cap relief, draws on the rod side
-  circuit.run(1.0, 0.0);
-  const double drawn = kRodArea * -circuit.velocity_mps;
-  assert_near(circuit.cylinder.rod_pressure_pa(), -1e7 * drawn, 5e3);
+  const double v = -circuit.velocity_mps;
+  assert_true(v > 0.05);
+  assert_near(circuit.cylinder.cap_pressure_pa(),
+              38e6 + profile.relief_override_paspm3 * kCapArea * v, 5e4);
+  assert_near(circuit.cylinder.rod_pressure_pa(), -profile.makeup_paspm3 * kRodArea * v, 1e3);
 }
 
 }  // namespace
@@ -249,8 +246,7 @@ int main() {
       cmocka_unit_test(load_above_the_pump_flows_back),
       cmocka_unit_test(blocked_chambers_carry_a_load_like_a_spring),
       cmocka_unit_test(piston_leakage_is_laminar),
-      cmocka_unit_test(port_relief_limits_a_chamber),
-      cmocka_unit_test(make_up_keeps_a_drawn_chamber_at_ambient),
+      cmocka_unit_test(port_relief_and_make_up_hold_the_chambers),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -211,7 +211,7 @@ void full_speed_into_the_end_stops(void**) {
     Extremes extremes;
     for (const AxisArray& duty : {AxisArray{1.0, 1.0, 1.0}, AxisArray{-1.0, -1.0, -1.0},
                                   AxisArray{1.0, 0.0, 0.0}, AxisArray{-1.0, 0.0, 0.0}}) {
-      for (int i = 0; i < 1500; ++i) {
+      for (int i = 0; i < 2000; ++i) {
         run(plant, duty, kCycleUs);
         watch(plant, extremes);
       }

@@ -225,9 +225,9 @@ void friction_brakes_a_piston_to_rest(void**) {
   links.start(kPose, {0.2, -0.3, 0.1});
   double energy = links.energy_j();
   for (int i = 0; i < 25000; ++i) {
-    links.accelerate(loads({}, 3000.0), kStep);
+    links.accelerate(loads({}, 20e3), kStep);
     links.move(kStep);
-    assert_true(links.energy_j() <= energy + 1e-6);
+    assert_true(links.energy_j() <= energy * (1.0 + 1e-6) + 1e-3);
     energy = links.energy_j();
   }
   assert_near(energy, 0.0, 1e-9);

@@ -22,6 +22,7 @@ std::vector<std::uint32_t> drain(LoopbackPort& port) {
   std::array<CanFrame, 64> frames;
   const int count = port.receive(frames.data(), static_cast<int>(frames.size()));
   std::vector<std::uint32_t> ids;
+  ids.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     ids.push_back(frames[static_cast<std::size_t>(i)].id);
   }

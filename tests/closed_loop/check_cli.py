@@ -1,0 +1,86 @@
+"""The small commands of `graben` as a user types them, good and bad."""
+
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+
+def call(graben, *arguments):
+    return subprocess.run([graben, *arguments], capture_output=True, text=True, timeout=120)
+
+
+def good(graben, *arguments):
+    done = call(graben, *arguments)
+    assert done.returncode == 0 and not done.stderr, f"{arguments}: {done.stderr}"
+    return json.loads(done.stdout)
+
+
+def refused(graben, needle, *arguments, status=1):
+    done = call(graben, *arguments)
+    assert done.returncode == status, f"{arguments}: status {done.returncode}"
+    assert needle in done.stderr, f"{arguments}: {done.stderr}"
+    assert not done.stdout, f"{arguments}: {done.stdout}"
+
+
+def pose_and_back(graben):
+    machine = ("--profile", "excavator_22t")
+    pose = good(graben, "pose", *machine, "--strokes", "1.0,1.1,0.4")
+    assert set(pose) == {"x_m", "y_m", "attitude_rad", "joints_rad"}
+    assert abs(sum(pose["joints_rad"]) + math.pi - pose["attitude_rad"]) < 1e-12
+    strokes = good(graben, "strokes", *machine, "--x", repr(pose["x_m"]), "--y", repr(pose["y_m"]),
+                   "--attitude", repr(pose["attitude_rad"]))
+    assert strokes["status"] == "ok"
+    assert max(abs(a - b) for a, b in zip(strokes["strokes_m"], (1.0, 1.1, 0.4))) < 1e-9
+    swung = good(graben, "pose", *machine, "--strokes", "1.0,1.1,0.4", "--swing", "0.5")
+    x, y, z = swung["position_m"]
+    assert abs(math.hypot(x, z) - pose["x_m"]) < 1e-12 and y == pose["y_m"] and z < 0 < x
+    far = good(graben, "strokes", *machine, "--x", "15", "--y", "0", "--attitude", "1.5")
+    assert far == {"strokes_m": None, "status": "out_of_reach"}
+    negative = good(graben, "strokes", *machine, "--x", "-3", "--y", "-1", "--attitude", "-1.5")
+    assert negative["status"] != "ok"
+
+
+def bad_usage(graben):
+    machine = ("--profile", "excavator_22t")
+    refused(graben, "allowed: 0 .. 1.26 m", "pose", *machine, "--strokes", "2.0,1.1,0.4")
+    refused(graben, "arm stroke -0.1 m", "pose", *machine, "--strokes", "1.0,-0.1,0.4")
+    refused(graben, "allowed", "pose", *machine, "--strokes", "1.0,nan,0.4")
+    refused(graben, "no_such", "pose", "--profile", "no_such", "--strokes", "1,1,1")
+    refused(graben, "strokes", "pose", *machine, status=2)
+    refused(graben, "", "pose", *machine, "--strokes", "1.0,1.1", status=2)
+    refused(graben, "", "strokes", *machine, "--x", "five", "--y", "0", "--attitude", "1", status=2)
+    refused(graben, "", "solve", "--policy", "guess", status=2)
+    refused(graben, "", "no-such-command", status=2)
+    refused(graben, "", status=2)
+    refused(graben, "", "dig", "--speed", "7", status=2)
+    refused(graben, "outside the work space", "dig", "--start", "20,0,1.5")
+    refused(graben, "--start-strokes: entry 2", "dig", "--start-strokes", "1.0,9.0,0.4")
+    refused(graben, "", "dig", "--start", "5,0,1.5", "--random-start", status=2)
+
+
+def unwritable(graben):
+    with tempfile.TemporaryDirectory() as folder:
+        blocked = os.path.join(folder, "file")
+        with open(blocked, "w", encoding="ascii") as stream:
+            stream.write("kept")
+        refused(graben, "file", "dig", "--out", blocked)
+        with open(blocked, encoding="ascii") as stream:
+            assert stream.read() == "kept"
+        missing = os.path.join(folder, "no", "such", "summary.json")
+        done = call(graben, "dig", "--out", folder, "--summary", missing)
+        assert done.returncode == 1 and missing in done.stderr, done.stderr
+
+
+def main():
+    graben = sys.argv[1]
+    pose_and_back(graben)
+    bad_usage(graben)
+    unwritable(graben)
+    print("commands answer as they should")
+
+
+if __name__ == "__main__":
+    main()

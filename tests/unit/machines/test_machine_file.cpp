@@ -1,0 +1,62 @@
+#include "app/machines/machine_file.hpp"
+
+#include <cstring>
+
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+
+const machines::ExcavatorMachine& machine() {
+  static const machines::ExcavatorMachine loaded =
+      machines::load_excavator(machines::find_profile("excavator_22t"));
+  return loaded;
+}
+
+/// Figures that stand in the file once, found where the core looks for them.
+void figures_arrive_in_the_structs(void**) {
+  const ExcavatorProfile& profile = machine().profile;
+  assert_near(profile.geometry.boom_length_m, 5.70, 0.0);
+  assert_int_equal(profile.geometry.cylinder[kBoom].count, 2);
+  assert_near(profile.geometry.cylinder[kArm].base_m.y(), 1.02, 0.0);
+  assert_near(profile.geometry.linkage.lug_m.x(), -0.06, 0.0);
+  assert_near(profile.pump[0].relief_pa, 35e6, 0.0);
+  assert_int_equal(profile.valve.spool[kBoom].pump, 1);
+  assert_int_equal(profile.valve.spool[kArm].pump, 0);
+  assert_int_equal(profile.valve.spool[kArm].regeneration, RegenerationSide::kExtend);
+  assert_int_equal(profile.valve.spool[kBucket].regeneration, RegenerationSide::kRetract);
+  assert_near(profile.valve.spool[kBoom].retract_out_m2, 1.70e-4, 0.0);
+  assert_near(profile.valve.spool_to_duty.at(0.0), 0.2, 1e-12);
+  assert_near(profile.dig_path.attitude_at_x_max_rad, 2.094395, 0.0);
+  assert_near(machine().plant.link[kArm].mass_kg, 1010.0, 0.0);
+  assert_near(machine().plant.swash_ratio[1], 0.643, 0.0);
+  assert_near(machine().plant.friction[kBucket].viscous_nspm, 12000.0, 0.0);
+}
+
+/// Two boom cylinders of 120 mm bore and 85 mm rod, by hand: 2 pi/4 d^2.
+void piston_areas(void**) {
+  const CylinderGeometry& boom = machine().profile.geometry.cylinder[kBoom];
+  assert_near(boom.cap_area_m2(), 0.0226195, 1e-7);
+  assert_near(boom.rod_area_m2(), 0.0112705, 1e-7);
+}
+
+void a_missing_profile_says_where_it_looked(void**) {
+  try {
+    static_cast<void>(machines::find_profile("no_such_machine"));
+    fail_msg("found a profile that is not there");
+  } catch (const std::runtime_error& error) {
+    assert_non_null(std::strstr(error.what(), "no_such_machine"));
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(figures_arrive_in_the_structs),
+      cmocka_unit_test(piston_areas),
+      cmocka_unit_test(a_missing_profile_says_where_it_looked),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
