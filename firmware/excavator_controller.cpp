@@ -38,13 +38,13 @@ Fault blocking_fault(const ValidInputs& inputs, const KinematicState& state,
   if (state.status != ReachStatus::kOk) {
     return Fault::kPoseUnreachable;
   }
-  const bool solved = solution.status == SolveStatus::kOk ||
-                      solution.status == SolveStatus::kInfeasible;
+  const bool solved =
+      solution.status == SolveStatus::kOk || solution.status == SolveStatus::kInfeasible;
   return solved ? Fault::kNone : Fault::kSolverFailed;
 }
 
-ExcavatorStatus status_of(const ModeState& mode, const WantedMotion& wanted,
-                          const VelocityCap& cap, const McvSolution& solution) {
+ExcavatorStatus status_of(const ModeState& mode, const WantedMotion& wanted, const VelocityCap& cap,
+                          const McvSolution& solution) {
   ExcavatorStatus status;
   status.mode = mode.mode;
   status.fault = mode.fault;
@@ -57,8 +57,7 @@ ExcavatorStatus status_of(const ModeState& mode, const WantedMotion& wanted,
   for (unsigned i = 0; i < kAxisCount; ++i) {
     status.wanted_velocity_mps[i] = wanted.velocity_mps[i];
   }
-  std::copy_n(solution.point.pump_pressure_pa.begin(), kPumpCount,
-              status.pump_pressure_pa.begin());
+  std::copy_n(solution.point.pump_pressure_pa.begin(), kPumpCount, status.pump_pressure_pa.begin());
   return status;
 }
 
@@ -86,19 +85,17 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   const McvSolution solution =
       solve_algorithm1(valve_, mcv_input(valid, cap.factor * wanted.velocity_mps));
   memory_.mode = next_mode(memory_.mode, valid, blocking_fault(valid, state, solution));
-  const GateResult command =
-      gate(profile_, memory_.gate, memory_.mode.mode == EcuMode::kActive,
-           {solution.point.spool_m[kBoom], solution.point.spool_m[kArm],
-            solution.point.spool_m[kBucket]},
-           period_s(now_us));
+  const GateResult command = gate(profile_, memory_.gate, memory_.mode.mode == EcuMode::kActive,
+                                  {solution.point.spool_m[kBoom], solution.point.spool_m[kArm],
+                                   solution.point.spool_m[kBucket]},
+                                  period_s(now_us));
   if (command.fault != Fault::kNone) {
     memory_.mode = {EcuMode::kFault, command.fault};
   }
   memory_.gate = command.state;
   memory_.last_us = now_us;
   memory_.has_stepped = true;
-  return {command.enable, command.duty_ratio,
-          status_of(memory_.mode, wanted, cap, solution)};
+  return {command.enable, command.duty_ratio, status_of(memory_.mode, wanted, cap, solution)};
 }
 
 ProfileCheck profile_check(const ExcavatorProfile& profile) {

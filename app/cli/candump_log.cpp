@@ -15,8 +15,8 @@ namespace {
 }  // namespace
 
 std::string candump_line(const CanFrame& frame, TimeUs now_us, const std::string& interface_name) {
-  std::string line = fmt::format("({:010d}.{:06d}) {} ", now_us / kSecondUs, now_us % kSecondUs,
-                                 interface_name);
+  std::string line =
+      fmt::format("({:010d}.{:06d}) {} ", now_us / kSecondUs, now_us % kSecondUs, interface_name);
   line += frame.extended ? fmt::format("{:08X}#", frame.id) : fmt::format("{:03X}#", frame.id);
   if (frame.remote) {
     return line + "R";

@@ -10,8 +10,8 @@ DigBench::DigBench(const machines::ExcavatorMachine& machine,
     : plant_port(bus.attach()),
       operator_port(bus.attach()),
       ecu_port(bus.attach()),
-      plant(machine.plant, {start_strokes_m[0], start_strokes_m[1], start_strokes_m[2]},
-            plant_port, machine.hash),
+      plant(machine.plant, {start_strokes_m[0], start_strokes_m[1], start_strokes_m[2]}, plant_port,
+            machine.hash),
       driver(operator_port),
       ecu(machine.profile, machine.hash, ecu_port) {
   if (!plant_port.open() || !operator_port.open() || !ecu_port.open()) {

@@ -64,8 +64,8 @@ Eigen::Vector3d start_strokes(const Options& options, const ExcavatorProfile& pr
     for (unsigned i = 0; i < kAxisCount; ++i) {
       const double most_m = profile.geometry.cylinder[i].stroke_m;
       if (!(strokes_m[i] >= 0.0 && strokes_m[i] <= most_m)) {
-        throw std::runtime_error(fmt::format("--start-strokes: entry {} is {} m; allowed: 0 .. {} m",
-                                             i + 1, strokes_m[i], most_m));
+        throw std::runtime_error(fmt::format(
+            "--start-strokes: entry {} is {} m; allowed: 0 .. {} m", i + 1, strokes_m[i], most_m));
       }
     }
     return strokes_m;
@@ -75,9 +75,8 @@ Eigen::Vector3d start_strokes(const Options& options, const ExcavatorProfile& pr
                       {options.start_pose[0], options.start_pose[1], options.start_pose[2]});
   }
   const DigPath& path = profile.dig_path;
-  return strokes_at(kinematics,
-                    {path.x_max_m - kStartBack_m, path.y_max_m + kStartAbove_m,
-                     path.attitude_at_x_max_rad});
+  return strokes_at(kinematics, {path.x_max_m - kStartBack_m, path.y_max_m + kStartAbove_m,
+                                 path.attitude_at_x_max_rad});
 }
 
 const char* end_text(DigEnd end) {
@@ -113,19 +112,19 @@ void dig(const Options& options) {
   }
   const DigSummary summary = summarise(result);
   const std::filesystem::path report = out / "dig.html";
-  write_dig_report(report, machine, result, summary,
-                   fmt::format("{} | start strokes {:.3f}, {:.3f}, {:.3f} m | speed {:.0f} %",
-                               machine.name, run_options.start_strokes_m[0],
-                               run_options.start_strokes_m[1], run_options.start_strokes_m[2],
-                               options.speed * 100.0));
+  write_dig_report(
+      report, machine, result, summary,
+      fmt::format("{} | start strokes {:.3f}, {:.3f}, {:.3f} m | speed {:.0f} %", machine.name,
+                  run_options.start_strokes_m[0], run_options.start_strokes_m[1],
+                  run_options.start_strokes_m[2], options.speed * 100.0));
   if (!options.summary.empty()) {
     write_dig_summary(options.summary, summary);
   }
   fmt::print("{}log     {}\nreport  {}\n", dig_table(summary), run_options.log_file.string(),
              report.string());
   if (result.end != DigEnd::kDone) {
-    throw std::runtime_error(fmt::format("{} (fault code {})", end_text(result.end),
-                                         static_cast<int>(result.fault)));
+    throw std::runtime_error(
+        fmt::format("{} (fault code {})", end_text(result.end), static_cast<int>(result.fault)));
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 
 #include "app/cli/candump_log.hpp"
@@ -14,8 +15,10 @@ namespace {
 
 /// Once done the operator lets go, and the log shows neutral.
 constexpr TimeUs kAfterwards_us = 300 * kMillisecondUs;
-/// The path counts as reached when the measured tip has stayed this near for this long.
+/// The path counts as reached when the measured pose has stayed this near for this long. The
+/// attitude belongs to it: an approach may cross the path long before it has arrived.
 constexpr double kReached_m = 0.02;
+constexpr double kReached_rad = 0.07;
 constexpr TimeUs kReachedFor_us = 500 * kMillisecondUs;
 
 double seconds(TimeUs time_us) { return static_cast<double>(time_us) * 1e-6; }
@@ -70,7 +73,8 @@ class DigRun {
       now_us += DigBench::kPeriod_us;
     }
     bench_.release();
-    for (const TimeUs end_us = now_us + kAfterwards_us; now_us < end_us; now_us += DigBench::kPeriod_us) {
+    for (const TimeUs end_us = now_us + kAfterwards_us; now_us < end_us;
+         now_us += DigBench::kPeriod_us) {
       static_cast<void>(bench_.step(now_us));
     }
     result_.wall_s =
@@ -113,13 +117,19 @@ class DigRun {
     read_truth(sample);
     read_controller(sample);
     const bool moving = bench_.ecu.outputs().status.mode == EcuMode::kActive;
-    progress_.update(sample.tip_true_m, moving && sample.error_measured_m <= kReached_m, now_us);
+    progress_.update(sample.tip_true_m, moving && near_path(sample), now_us);
     sample.on_path = progress_.on_path();
     result_.samples.push_back(sample);
   }
 
   [[nodiscard]] double error_m(const Eigen::Vector2d& tip_m) const {
     return (path_.closest(tip_m).position_m - tip_m).norm();
+  }
+
+  [[nodiscard]] bool near_path(const DigSample& sample) const {
+    const double turn_rad = wrap_near(
+        path_.closest(sample.tip_measured_m).attitude_rad - sample.attitude_measured_rad, 0.0);
+    return sample.error_measured_m <= kReached_m && std::abs(turn_rad) <= kReached_rad;
   }
 
   void read_truth(DigSample& sample) const {
@@ -142,13 +152,13 @@ class DigRun {
       const double most_m = machine_.profile.geometry.cylinder[i].stroke_m;
       measured = measured && inputs.axis[i].stroke_m.validity == Validity::kValid;
       strokes_m[i] = std::clamp(inputs.axis[i].stroke_m.value, 0.0, most_m);
-      sample.velocity_wanted_mps[i] =
-          outputs.status.lambda * outputs.status.wanted_velocity_mps[i];
+      sample.velocity_wanted_mps[i] = outputs.status.lambda * outputs.status.wanted_velocity_mps[i];
       sample.spool_command[i] = outputs.duty_ratio[i];
     }
     if (measured) {
-      const KinematicState state = kinematics_.state(strokes_m);
-      sample.tip_measured_m = Eigen::Vector2d(state.tip.x_m, state.tip.y_m);
+      const TipPose tip = kinematics_.state(strokes_m).tip;
+      sample.tip_measured_m = Eigen::Vector2d(tip.x_m, tip.y_m);
+      sample.attitude_measured_rad = tip.attitude_rad;
       sample.error_measured_m = error_m(sample.tip_measured_m);
     }
     sample.lambda = outputs.status.lambda;

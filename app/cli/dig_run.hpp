@@ -18,9 +18,9 @@ namespace graben::cli {
 struct DigOptions {
   Eigen::Vector3d start_strokes_m = Eigen::Vector3d::Zero();
   double speed_override_ratio = 1.0;
-  double loops = 1.0;             ///< Times round the path once it is reached.
-  double approach_max_s = 90.0;   ///< To reach the path.
-  double loop_max_s = 120.0;      ///< For each time round it.
+  double loops = 1.0;              ///< Times round the path once it is reached.
+  double approach_max_s = 90.0;    ///< To reach the path.
+  double loop_max_s = 120.0;       ///< For each time round it.
   std::filesystem::path log_file;  ///< candump log; none if empty.
 };
 
@@ -29,9 +29,10 @@ struct DigSample {
   double time_s = 0.0;
   bool on_path = false;  ///< The path was reached and is being followed: what the figures speak of.
   Eigen::Vector2d tip_true_m = Eigen::Vector2d::Zero();
-  /// Not a number, like error_measured_m, until the first strokes were received.
+  /// Not a number, like the other measured values, until the first strokes were received.
   Eigen::Vector2d tip_measured_m = Eigen::Vector2d::Constant(std::nan(""));
   double attitude_true_rad = 0.0;
+  double attitude_measured_rad = std::nan("");
   double error_true_m = 0.0;
   double error_measured_m = std::nan("");
   double lambda = 0.0;
@@ -67,7 +68,7 @@ struct DigSummary {
   double loop_s = 0.0;      ///< On the path.
   double duration_s = 0.0;  ///< Of the whole run, simulated.
   double real_time_factor = 0.0;
-  long cycles = 0;          ///< Of the whole run.
+  long cycles = 0;  ///< Of the whole run.
   double cycle_median_us = 0.0;
   double cycle_max_us = 0.0;
   /// Share of the time on the path for each limit that was active, by its name, "none" first.

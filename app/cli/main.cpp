@@ -9,8 +9,9 @@ constexpr int kWrongUsage = 2;
 }
 
 int main(int argc, char** argv) {
-  CLI::App app("Graben: follows a path as fast as the hydraulics allow, and never in another "
-               "direction");
+  CLI::App app(
+      "Graben: follows a path as fast as the hydraulics allow, and never in another "
+      "direction");
   app.require_subcommand(1);
   int status = 0;
   graben::cli::add_dig(app, status);

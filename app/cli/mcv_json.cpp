@@ -66,7 +66,8 @@ struct Node {
   }
   [[nodiscard]] int integer(int least, int most) const {
     if (!value.is_number_integer() || value.get<double>() < least || value.get<double>() > most) {
-      refuse(path, fmt::format("{} must be a whole number from {} to {}", value.dump(), least, most));
+      refuse(path,
+             fmt::format("{} must be a whole number from {} to {}", value.dump(), least, most));
     }
     return value.get<int>();
   }
@@ -96,14 +97,13 @@ McvActuator read_actuator(const Node& node, int pump_count) {
   actuator.area_cap_m2 = node.at("area_cap").positive();
   actuator.area_rod_m2 = node.at("area_rod").positive();
   actuator.pump = node.at("pump").integer(0, pump_count - 1);
-  actuator.regeneration =
-      static_cast<RegenerationSide>(node.at("regeneration").integer(-1, 1));
+  actuator.regeneration = static_cast<RegenerationSide>(node.at("regeneration").integer(-1, 1));
   if (actuator.regeneration != RegenerationSide::kNone) {
     actuator.c_drain = node.at("c_drain").positive();
     actuator.c_check = node.at("c_check").positive();
     if (!(actuator.c_drain < actuator.c_check)) {
-      refuse(node.path + ".c_drain", fmt::format("{} must be less than c_check {}",
-                                                 actuator.c_drain, actuator.c_check));
+      refuse(node.path + ".c_drain",
+             fmt::format("{} must be less than c_check {}", actuator.c_drain, actuator.c_check));
     }
   }
   actuator.bypass_open = node.at("bypass_open").positive();
@@ -173,12 +173,9 @@ McvCase parse_mcv_case(const std::string& line) {
     result.machine.actuator[i] = read_actuator(actuators[i], result.machine.pump_count);
   }
   const Node input = root.at("input");
-  read_per_actuator(input.at("velocity"), result.machine.actuator_count,
-                    result.input.velocity_mps);
-  read_per_actuator(input.at("p_cap"), result.machine.actuator_count,
-                    result.input.cap_pressure_pa);
-  read_per_actuator(input.at("p_rod"), result.machine.actuator_count,
-                    result.input.rod_pressure_pa);
+  read_per_actuator(input.at("velocity"), result.machine.actuator_count, result.input.velocity_mps);
+  read_per_actuator(input.at("p_cap"), result.machine.actuator_count, result.input.cap_pressure_pa);
+  read_per_actuator(input.at("p_rod"), result.machine.actuator_count, result.input.rod_pressure_pa);
   return result;
 }
 

@@ -38,11 +38,11 @@ int solve_lines(std::istream& cases) {
 
 void add_solve(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand(
-      "solve", "Solve cases of the valve's optimisation: JSON lines from standard input, one "
-               "result line each");
+      "solve",
+      "Solve cases of the valve's optimisation: JSON lines from standard input, one "
+      "result line each");
   auto policy = std::make_shared<std::string>("algorithm1");
-  command
-      ->add_option("--policy", *policy, "How lambda is chosen: algorithm1, as in Kim et al.")
+  command->add_option("--policy", *policy, "How lambda is chosen: algorithm1, as in Kim et al.")
       ->check(CLI::IsMember({"algorithm1"}))
       ->capture_default_str();
   command->callback([policy, &status] { status = solve_lines(std::cin); });

@@ -29,8 +29,8 @@ CylinderGeometry read_cylinder(TomlReader& reader, const std::string& axis, bool
     cylinder.eye_m = reader.point(at + "eye", kPin);
   }
   if (cylinder.rod_m >= cylinder.bore_m) {
-    reader.fail(at + "rod", fmt::format("{} m; allowed: less than the bore of {} m",
-                                        cylinder.rod_m, cylinder.bore_m));
+    reader.fail(at + "rod", fmt::format("{} m; allowed: less than the bore of {} m", cylinder.rod_m,
+                                        cylinder.bore_m));
   }
   if (cylinder.stroke_m >= cylinder.closed_length_m) {
     reader.fail(at + "stroke", fmt::format("{} m; allowed: less than the closed length of {} m",
@@ -96,8 +96,8 @@ SpoolProfile read_spool(TomlReader& reader, const std::string& axis) {
 /// Opening in shares of the travel, duty in per mille; both strictly increasing over the range.
 MonotoneTable read_spool_to_duty(TomlReader& reader) {
   const std::string key = "valve.spool_to_duty";
-  const auto pairs = reader.pairs(key, {0.0, 1.0, ""}, {0.0, 1000.0, "per mille"}, 2,
-                                  MonotoneTable::kCapacity);
+  const auto pairs =
+      reader.pairs(key, {0.0, 1.0, ""}, {0.0, 1000.0, "per mille"}, 2, MonotoneTable::kCapacity);
   std::vector<double> opening;
   std::vector<double> duty;
   for (const auto& [x, y] : pairs) {
@@ -105,9 +105,8 @@ MonotoneTable read_spool_to_duty(TomlReader& reader) {
     duty.push_back(y * 1e-3);
   }
   MonotoneTable table;
-  if (!pairs.empty() &&
-      table.fill(opening.data(), duty.data(), static_cast<int>(opening.size())) !=
-          MonotoneTable::Fill::kOk) {
+  if (!pairs.empty() && table.fill(opening.data(), duty.data(), static_cast<int>(opening.size())) !=
+                            MonotoneTable::Fill::kOk) {
     reader.fail(key, "must be strictly increasing in both columns");
   } else if (!pairs.empty() && (opening.front() != 0.0 || opening.back() != 1.0)) {
     reader.fail(key, "must run from opening 0 to opening 1");
@@ -158,8 +157,7 @@ DigPath read_path(TomlReader& reader) {
   path.y_min_m = y[0];
   path.y_max_m = y[1];
   path.corner_radius_m = reader.number("experiment.path.corner_radius", {0.01, 10.0, "m"});
-  const double half_side =
-      0.5 * std::min(path.x_max_m - path.x_min_m, path.y_max_m - path.y_min_m);
+  const double half_side = 0.5 * std::min(path.x_max_m - path.x_min_m, path.y_max_m - path.y_min_m);
   if (!(half_side > 0.0)) {
     reader.fail("experiment.path", "x and y must each be given as [least, most]");
   } else if (path.corner_radius_m > half_side) {
@@ -167,8 +165,8 @@ DigPath read_path(TomlReader& reader) {
                 fmt::format("{} m; allowed: at most half the shorter side, {} m",
                             path.corner_radius_m, half_side));
   }
-  const auto attitude = reader.pairs("experiment.path.attitude", {-30.0, 30.0, "m"},
-                                     {-7.0, 7.0, "rad"}, 2, 2);
+  const auto attitude =
+      reader.pairs("experiment.path.attitude", {-30.0, 30.0, "m"}, {-7.0, 7.0, "rad"}, 2, 2);
   if (attitude.size() == 2) {
     if (attitude[0].first != path.x_min_m || attitude[1].first != path.x_max_m) {
       reader.fail("experiment.path.attitude", "must be given at both ends of x, in their order");
@@ -255,8 +253,8 @@ void check_across_keys(TomlReader& reader, const ExcavatorProfile& profile) {
     reader.fail("experiment.path",
                 fmt::format("leaves the work space at x {:.3f} m, y {:.3f} m, attitude {:.3f} rad: "
                             "{} does not allow it",
-                            check.unreached.x_m, check.unreached.y_m,
-                            check.unreached.attitude_rad, obstacle_text(check.path)));
+                            check.unreached.x_m, check.unreached.y_m, check.unreached.attitude_rad,
+                            obstacle_text(check.path)));
   }
 }
 

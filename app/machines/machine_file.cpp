@@ -53,10 +53,9 @@ ExcavatorMachine load_excavator(const std::filesystem::path& file) {
   try {
     document = toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
-    throw ProfileError(file.string(), {fmt::format("line {}, column {}: {}",
-                                                   error.source().begin.line,
-                                                   error.source().begin.column,
-                                                   error.description())});
+    throw ProfileError(file.string(),
+                       {fmt::format("line {}, column {}: {}", error.source().begin.line,
+                                    error.source().begin.column, error.description())});
   }
   TomlReader reader(document);
   // So far the one kind; another one's keys would only pile up errors.

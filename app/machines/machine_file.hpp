@@ -12,7 +12,8 @@
 
 namespace graben::machines {
 
-/// Everything that is wrong with a profile, a line each: key path, line, value, unit, allowed range.
+/// Everything that is wrong with a profile, a line each: key path, line, value, unit, allowed
+/// range.
 class ProfileError : public std::runtime_error {
  public:
   ProfileError(const std::string& file, std::vector<std::string> errors);
@@ -25,8 +26,8 @@ class ProfileError : public std::runtime_error {
 /// An excavator as its file describes it: what the controller knows, and the machine that the
 /// simulation puts in its place.
 struct ExcavatorMachine {
-  std::string name;            ///< File name without its ending.
-  std::uint32_t hash = 0;      ///< FNV-1a of the file's bytes; on the bus as ProfileHash.
+  std::string name;        ///< File name without its ending.
+  std::uint32_t hash = 0;  ///< FNV-1a of the file's bytes; on the bus as ProfileHash.
   ExcavatorProfile profile;
   plant::PlantProfile plant;
 };

@@ -121,9 +121,9 @@ Eigen::Vector2d TomlReader::point(const std::string& key, const Range& range) {
   return {values[0], values[1]};
 }
 
-std::vector<std::pair<double, double>> TomlReader::pairs(const std::string& key,
-                                                         const Range& first, const Range& second,
-                                                         std::size_t least, std::size_t most) {
+std::vector<std::pair<double, double>> TomlReader::pairs(const std::string& key, const Range& first,
+                                                         const Range& second, std::size_t least,
+                                                         std::size_t most) {
   std::vector<std::pair<double, double>> values;
   const toml::node* node = find(key);
   if (node == nullptr) {
@@ -165,8 +165,8 @@ void TomlReader::refuse_unknown_in(const toml::node& node, const std::string& pa
   }
   if (const toml::table* table = node.as_table()) {
     for (const auto& [key, value] : *table) {
-      refuse_unknown_in(value, path.empty() ? std::string(key.str())
-                                            : fmt::format("{}.{}", path, key.str()));
+      refuse_unknown_in(
+          value, path.empty() ? std::string(key.str()) : fmt::format("{}.{}", path, key.str()));
     }
     return;
   }

@@ -2,12 +2,12 @@
 /// Reads a TOML document key by key and collects everything that is wrong with it, instead of
 /// stopping at the first error.
 
+#include <toml++/toml.h>
 #include <Eigen/Core>
 #include <limits>
 #include <set>
 #include <string>
 #include <string_view>
-#include <toml++/toml.h>
 #include <utility>
 #include <vector>
 

@@ -5,7 +5,8 @@
 
 namespace graben {
 
-/// Microseconds since any fixed instant; only differences count. Signed, so that differences are too.
+/// Microseconds since any fixed instant; only differences count. Signed, so that differences are
+/// too.
 using TimeUs = std::int64_t;
 
 inline constexpr TimeUs kMillisecondUs = 1000;

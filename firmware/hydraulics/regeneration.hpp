@@ -21,8 +21,8 @@ struct ReturnGallery {
     return {drained, false};
   }
   const double difference = c_check * c_check - c_drain * c_drain;
-  const double root = std::sqrt(q_out_m3ps * q_out_m3ps +
-                                difference * sqrt_pump_pressure * sqrt_pump_pressure);
+  const double root =
+      std::sqrt(q_out_m3ps * q_out_m3ps + difference * sqrt_pump_pressure * sqrt_pump_pressure);
   return {(c_check * root - c_drain * q_out_m3ps) / difference, true};
 }
 
@@ -31,8 +31,7 @@ struct ReturnGallery {
                                                  double c_drain, double c_check) {
   const double difference = c_check * c_check - c_drain * c_drain;
   return c_check * sqrt_pump_pressure /
-         std::sqrt(q_out_m3ps * q_out_m3ps +
-                   difference * sqrt_pump_pressure * sqrt_pump_pressure);
+         std::sqrt(q_out_m3ps * q_out_m3ps + difference * sqrt_pump_pressure * sqrt_pump_pressure);
 }
 
 }  // namespace graben

@@ -11,8 +11,8 @@ double full_opening_velocity_coefficient(const ValveProfile& valve, double spool
   const auto cube_over_square = [](double piston, double opening) {
     return piston * piston * piston / (opening * opening);
   };
-  const double resistance = cube_over_square(inlet_area_m2, spool_in_m2) +
-                            cube_over_square(outlet_area_m2, spool_out_m2);
+  const double resistance =
+      cube_over_square(inlet_area_m2, spool_in_m2) + cube_over_square(outlet_area_m2, spool_out_m2);
   return std::sqrt(2.0 / valve.density_kgpm3) * valve.discharge / std::sqrt(resistance);
 }
 
@@ -28,7 +28,8 @@ MonotoneTable velocity_coefficient_table(const ValveProfile& valve, double coeff
     coefficient[k] = coefficient_full * std::pow(opening, valve.opening_exponent);
   }
   MonotoneTable table;
-  // A profile that passed its check fills it; another leaves it empty, which the machine's check finds.
+  // A profile that passed its check fills it; another leaves it empty, which the machine's check
+  // finds.
   static_cast<void>(table.fill(travel.data(), coefficient.data(), kPoints));
   return table;
 }

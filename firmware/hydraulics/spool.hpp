@@ -9,8 +9,7 @@ namespace graben {
 /// (cap while extending, rod while retracting), `outlet_area_m2` the other one.
 [[nodiscard]] double full_opening_velocity_coefficient(const ValveProfile& valve,
                                                        double spool_in_m2, double spool_out_m2,
-                                                       double inlet_area_m2,
-                                                       double outlet_area_m2);
+                                                       double inlet_area_m2, double outlet_area_m2);
 
 /// c_L against |x|, from closed to x_m, for an area that grows as travel ^ opening_exponent.
 /// Points are denser near closed, where the curve bends most.

@@ -28,9 +28,9 @@ Meeting meet(const Eigen::Vector2d& from, double from_radius_m, const Eigen::Vec
   if (distance <= 0.0) {
     return {};
   }
-  const double along = (from_radius_m * from_radius_m - to_radius_m * to_radius_m +
-                        distance * distance) /
-                       (2.0 * distance);
+  const double along =
+      (from_radius_m * from_radius_m - to_radius_m * to_radius_m + distance * distance) /
+      (2.0 * distance);
   const double height_squared = from_radius_m * from_radius_m - along * along;
   if (height_squared < 0.0) {
     return {};
@@ -53,7 +53,8 @@ LinkageState BucketLinkageSolver::with_rocker_end(const Eigen::Vector2d& rocker_
   const Eigen::Vector2d coupler = lug_m - rocker_end_m;
   const Eigen::Vector2d rocker_motion = left_of(rocker_end_m - linkage_.rocker_pivot_m);
   const Eigen::Vector2d lug_motion = left_of(lug_m - pin_m_);
-  // The coupler keeps its length: (rocker_motion . coupler) d rocker = (lug_motion . coupler) d lug.
+  // The coupler keeps its length: (rocker_motion . coupler) d rocker = (lug_motion . coupler) d
+  // lug.
   const double rocker_share = rocker_motion.dot(coupler);
   const double length_m = cylinder.norm();
   if (std::abs(rocker_share) < 1e-9 || length_m <= 0.0) {
@@ -85,8 +86,8 @@ LinkageState BucketLinkageSolver::from_length(double length_m) const {
     return {};
   }
   const Eigen::Vector2d lug_arm = lug.point_m - pin_m_;
-  const double angle = std::atan2(lug_arm.y(), lug_arm.x()) -
-                       std::atan2(linkage_.lug_m.y(), linkage_.lug_m.x());
+  const double angle =
+      std::atan2(lug_arm.y(), lug_arm.x()) - std::atan2(linkage_.lug_m.y(), linkage_.lug_m.x());
   return with_rocker_end(end.point_m, lug.point_m, wrap_near(angle, kBucketCentre_rad));
 }
 

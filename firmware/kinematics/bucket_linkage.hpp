@@ -12,23 +12,24 @@ inline constexpr double kBucketCentre_rad = -1.1;
 
 /// Bucket angle and its slope at a cylinder length.
 struct LinkageState {
-  bool closed = false;      ///< False: rocker and coupler can't meet there; nothing else is set.
-  double angle_rad = 0.0;   ///< Bucket against arm.
-  double length_m = 0.0;    ///< Cylinder, pin to pin.
-  double length_rate = 0.0; ///< d length / d angle, m/rad; negative: extension curls in.
+  bool closed = false;       ///< False: rocker and coupler can't meet there; nothing else is set.
+  double angle_rad = 0.0;    ///< Bucket against arm.
+  double length_m = 0.0;     ///< Cylinder, pin to pin.
+  double length_rate = 0.0;  ///< d length / d angle, m/rad; negative: extension curls in.
 };
 
-/// Rocker on the arm at `rocker_pivot`, its end joined by the coupler to the bucket's lug and pushed
-/// by the cylinder from `base` (all arm frame, bucket pin at (arm_length, 0)). Of the two ways that
-/// rocker and coupler can close, the one with the rocker's end to the left of the line from pivot
-/// to lug: there extension curls in over the whole stroke.
+/// Rocker on the arm at `rocker_pivot`, its end joined by the coupler to the bucket's lug and
+/// pushed by the cylinder from `base` (all arm frame, bucket pin at (arm_length, 0)). Of the two
+/// ways that rocker and coupler can close, the one with the rocker's end to the left of the line
+/// from pivot to lug: there extension curls in over the whole stroke.
 class BucketLinkageSolver {
  public:
   BucketLinkageSolver(const BucketLinkage& linkage, const Eigen::Vector2d& cylinder_base_m,
                       double arm_length_m);
 
   [[nodiscard]] LinkageState from_angle(double angle_rad) const;
-  /// Closed form: the rocker's angle from the cylinder's triangle, then the lug's from the coupler's.
+  /// Closed form: the rocker's angle from the cylinder's triangle, then the lug's from the
+  /// coupler's.
   [[nodiscard]] LinkageState from_length(double length_m) const;
 
  private:

@@ -39,7 +39,8 @@ ReachStatus ExcavatorKinematics::check_strokes(const Eigen::Vector3d& strokes_m)
       return ReachStatus::kNotFinite;
     }
     const auto i = static_cast<unsigned>(axis);
-    if (stroke < -kStrokeTolerance_m || stroke > geometry_.cylinder[i].stroke_m + kStrokeTolerance_m) {
+    if (stroke < -kStrokeTolerance_m ||
+        stroke > geometry_.cylinder[i].stroke_m + kStrokeTolerance_m) {
       return kWhich[i];
     }
   }
@@ -102,18 +103,18 @@ JointResult ExcavatorKinematics::joints_from_pose(const TipPose& pose) const {
   }
   const double boom_m = geometry_.boom_length_m;
   const double arm_m = geometry_.arm_length_m;
-  const Eigen::Vector2d pin = Eigen::Vector2d(pose.x_m, pose.y_m) +
-                              link(geometry_.bucket_length_m, pose.attitude_rad);
+  const Eigen::Vector2d pin =
+      Eigen::Vector2d(pose.x_m, pose.y_m) + link(geometry_.bucket_length_m, pose.attitude_rad);
   const double cosine =
       (pin.squaredNorm() - boom_m * boom_m - arm_m * arm_m) / (2.0 * boom_m * arm_m);
   if (!(cosine >= -1.0 && cosine <= 1.0)) {
     return {ReachStatus::kOutOfReach, Eigen::Vector3d::Zero()};
   }
   const double arm = -std::acos(cosine);
-  const double boom = wrap_near(
-      std::atan2(pin.y(), pin.x()) -
-          std::atan2(arm_m * std::sin(arm), boom_m + arm_m * std::cos(arm)),
-      0.0);
+  const double boom =
+      wrap_near(std::atan2(pin.y(), pin.x()) -
+                    std::atan2(arm_m * std::sin(arm), boom_m + arm_m * std::cos(arm)),
+                0.0);
   const double bucket = wrap_near(pose.attitude_rad - kPi - boom - arm, kBucketCentre_rad);
   return {ReachStatus::kOk, {boom, arm, bucket}};
 }

@@ -22,12 +22,12 @@ struct TipPose {
 /// Whether a pose or a set of strokes can be had, and what stands in the way.
 enum class ReachStatus : std::uint8_t {
   kOk = 0,
-  kOutOfReach = 1,      ///< The bucket pin is farther or nearer than boom and arm can set it.
-  kBoomStroke = 2,      ///< The cylinder's stroke would be outside its range.
+  kOutOfReach = 1,  ///< The bucket pin is farther or nearer than boom and arm can set it.
+  kBoomStroke = 2,  ///< The cylinder's stroke would be outside its range.
   kArmStroke = 3,
   kBucketStroke = 4,
-  kLinkageOpen = 5,     ///< Rocker and coupler of the bucket can't meet there.
-  kSingular = 6,        ///< A lever vanishes: the Jacobian has no inverse.
+  kLinkageOpen = 5,  ///< Rocker and coupler of the bucket can't meet there.
+  kSingular = 6,     ///< A lever vanishes: the Jacobian has no inverse.
   kNotFinite = 7,
 };
 

@@ -56,7 +56,7 @@ enum class RegenerationSide : int { kRetract = -1, kNone = 0, kExtend = 1 };
 
 /// One four-way directional valve with its bypass and regeneration (Kim 3.1 - 3.3).
 struct SpoolProfile {
-  int pump = 0;  ///< Which pump feeds it.
+  int pump = 0;               ///< Which pump feeds it.
   double extend_in_m2 = 0.0;  ///< Areas at full opening: A_v,in and A_v,out of (4), (5).
   double extend_out_m2 = 0.0;
   double retract_in_m2 = 0.0;
@@ -69,21 +69,22 @@ struct SpoolProfile {
   double force_offset_n = 0.0;  ///< F_offset of (38).
 };
 
-/// Swash-plate pump of (25): flow = displacement * speed * swash - leak_linear P - leak_quadratic P^2.
+/// Swash-plate pump of (25): flow = displacement * speed * swash - leak_linear P - leak_quadratic
+/// P^2.
 struct PumpProfile {
-  double displacement_m3prev = 0.0;    ///< Per revolution at full swash.
+  double displacement_m3prev = 0.0;  ///< Per revolution at full swash.
   double rated_speed_radps = 0.0;
-  double leak_linear = 0.0;            ///< m^3/(s Pa)
-  double leak_quadratic = 0.0;         ///< m^3/(s Pa^2)
+  double leak_linear = 0.0;     ///< m^3/(s Pa)
+  double leak_quadratic = 0.0;  ///< m^3/(s Pa^2)
   double relief_pa = 0.0;
   std::array<double, 2> bypass_series{};  ///< Make-up valve and tank orifice of (21), (22).
 };
 
 struct ValveProfile {
-  double spool_travel_m = 0.0;     ///< x_m of (13).
-  double opening_exponent = 1.0;   ///< Area over travel: (|x| / x_m) ^ exponent.
-  double discharge = 0.0;          ///< C_d.
-  double density_kgpm3 = 0.0;      ///< rho.
+  double spool_travel_m = 0.0;    ///< x_m of (13).
+  double opening_exponent = 1.0;  ///< Area over travel: (|x| / x_m) ^ exponent.
+  double discharge = 0.0;         ///< C_d.
+  double density_kgpm3 = 0.0;     ///< rho.
   std::array<SpoolProfile, kAxisCount> spool;
   /// Opening (|x| / x_m, 0 .. 1) to duty (0 .. 1). Its first value is the duty at which the spool
   /// begins to open, so that the deadband is crossed in one step; neutral is duty 0 always.
@@ -104,16 +105,16 @@ struct DigPath {
 
 /// How the field converges and how commands may change. Ranges are checked where it is read.
 struct ControlProfile {
-  double convergence_length_m = 0.0;     ///< Distance at which the field points at 45 deg to the path.
-  double attitude_gain_ps = 0.0;         ///< Attitude error to attitude rate.
+  double convergence_length_m = 0.0;  ///< Distance at which the field points at 45 deg to the path.
+  double attitude_gain_ps = 0.0;      ///< Attitude error to attitude rate.
   double attitude_rate_max_radps = 0.0;  ///< Of the field.
-  double approach_inner_m = 0.0;         ///< Stroke distance under which the contour field alone holds.
-  double approach_outer_m = 0.0;         ///< Stroke distance over which the approach alone holds.
-  double approach_speed_mps = 0.0;       ///< Largest cylinder speed of the approach.
-  double stroke_end_gain_ps = 0.0;       ///< Largest speed towards a cylinder's end, per metre left.
-  double spool_rate_ps = 0.0;            ///< Largest change of |x| / x_m per second.
-  double spool_threshold = 0.0;          ///< |x| / x_m under which a spool is kept at neutral.
-  double sensor_timeout_s = 0.0;         ///< A signal older than this is missing.
+  double approach_inner_m = 0.0;    ///< Stroke distance under which the contour field alone holds.
+  double approach_outer_m = 0.0;    ///< Stroke distance over which the approach alone holds.
+  double approach_speed_mps = 0.0;  ///< Largest cylinder speed of the approach.
+  double stroke_end_gain_ps = 0.0;  ///< Largest speed towards a cylinder's end, per metre left.
+  double spool_rate_ps = 0.0;       ///< Largest change of |x| / x_m per second.
+  double spool_threshold = 0.0;     ///< |x| / x_m under which a spool is kept at neutral.
+  double sensor_timeout_s = 0.0;    ///< A signal older than this is missing.
 };
 
 struct ExcavatorProfile {

@@ -8,10 +8,10 @@ namespace graben {
 /// What the optimiser returns: command, what it achieves, why not more, how it ended.
 struct McvSolution {
   SolveStatus status = SolveStatus::kBadInput;
-  McvPoint point;    ///< The circuit at the lambda returned; at lambda 0 every spool is closed.
-  Limit limit;       ///< The constraint that fails just above; none at lambda = 1.
+  McvPoint point;  ///< The circuit at the lambda returned; at lambda 0 every spool is closed.
+  Limit limit;     ///< The constraint that fails just above; none at lambda = 1.
   int iterations = 0;
-  McvCheck defect;   ///< Set with kBadInput.
+  McvCheck defect;  ///< Set with kBadInput.
 };
 
 /// Halvings of Algorithm 1: the step after the last is 2^-24 = 6.0e-8, under the paper's

@@ -80,9 +80,8 @@ bool solve_pumps(const McvMachine& machine, const McvInput& input,
   for (int j = 0; j < machine.pump_count; ++j) {
     const auto k = static_cast<unsigned>(j);
     const McvPump& line = machine.pump[k];
-    const PumpPressure solved =
-        solve_pump_pressure(balance_of(machine, strokes, j, input.pump_flow_m3ps[k]),
-                            line.has_relief, line.relief_pa);
+    const PumpPressure solved = solve_pump_pressure(
+        balance_of(machine, strokes, j, input.pump_flow_m3ps[k]), line.has_relief, line.relief_pa);
     point.newton_steps += solved.iterations;
     if (!solved.fed || !solved.converged) {
       point.converged = point.converged && !solved.fed;
@@ -113,8 +112,7 @@ bool drive_forces(const McvMachine& machine, const PerActuator<Stroke>& strokes,
       point.regenerating[k] = gallery.regenerating;
     }
     point.drive_force_n[k] = stroke.inlet_area_m2 * point.pump_pressure_pa[pump] -
-                             stroke.outlet_area_m2 * point.out_pressure_pa[k] -
-                             stroke.load_force_n;
+                             stroke.outlet_area_m2 * point.out_pressure_pa[k] - stroke.load_force_n;
     if (!(point.drive_force_n[k] >= actuator.force_offset_n)) {
       fail(point, LimitKind::kBackFlow, i);
       return false;
@@ -133,8 +131,7 @@ bool spools(const McvMachine& machine, const McvInput& input, double lambda, Mcv
     }
     const McvActuator& actuator = machine.actuator[k];
     const MonotoneTable& table = velocity > 0.0 ? actuator.extend : actuator.retract;
-    const double coefficient =
-        lambda * std::abs(velocity) / std::sqrt(point.drive_force_n[k]);
+    const double coefficient = lambda * std::abs(velocity) / std::sqrt(point.drive_force_n[k]);
     if (!(coefficient <= table.y_last())) {
       fail(point, LimitKind::kSpoolTravel, i);
       return false;

@@ -14,7 +14,7 @@ struct McvPoint {
   /// First constraint that fails, in the order pump flow, back flow, spool travel.
   Limit limit;
   int newton_steps = 0;
-  PerPump<double> pump_pressure_pa{};    ///< P_p
+  PerPump<double> pump_pressure_pa{};     ///< P_p
   PerActuator<double> out_pressure_pa{};  ///< P_out
   PerActuator<double> drive_force_n{};    ///< F_s - F_L sgn(x); 0 for an actuator at rest
   PerActuator<double> spool_m{};          ///< x, signed; 0 for an actuator at rest

@@ -25,8 +25,8 @@ struct McvActuator {
   double area_rod_m2 = 0.0;  ///< A_B.
   int pump = 0;
   RegenerationSide regeneration = RegenerationSide::kNone;
-  double c_drain = 0.0;  ///< c_d of (15); used only where the circuit exists.
-  double c_check = 0.0;  ///< c_r of (16).
+  double c_drain = 0.0;        ///< c_d of (15); used only where the circuit exists.
+  double c_check = 0.0;        ///< c_r of (16).
   double bypass_open = 0.0;    ///< c_v,by at x = 0 of (20).
   double bypass_closed = 0.0;  ///< c_v,by at x != 0.
   double force_offset_n = 0.0;
@@ -35,8 +35,8 @@ struct McvActuator {
 };
 
 struct McvPump {
-  double leak_linear = 0.0;     ///< m^3/(s Pa)
-  double leak_quadratic = 0.0;  ///< m^3/(s Pa^2)
+  double leak_linear = 0.0;        ///< m^3/(s Pa)
+  double leak_quadratic = 0.0;     ///< m^3/(s Pa^2)
   double series_resistance = 0.0;  ///< Sum of 1/c^2 of the fixed orifices in the bypass line.
   bool has_relief = false;
   double relief_pa = 0.0;  ///< P_pr of Remark 2.
@@ -62,19 +62,19 @@ enum class McvDefect : std::uint8_t {
   kNone = 0,
   kBadActuatorCount,
   kBadPumpCount,
-  kPumpIndex,          ///< Actuator on a pump that is not there.
-  kArea,               ///< Not finite or not positive.
-  kRegeneration,       ///< Not 0 < c_drain < c_check.
-  kBypass,             ///< Not finite or not positive.
-  kForceOffset,        ///< Not finite or negative.
-  kExtendTable,        ///< Empty, not from (0, 0).
+  kPumpIndex,     ///< Actuator on a pump that is not there.
+  kArea,          ///< Not finite or not positive.
+  kRegeneration,  ///< Not 0 < c_drain < c_check.
+  kBypass,        ///< Not finite or not positive.
+  kForceOffset,   ///< Not finite or negative.
+  kExtendTable,   ///< Empty, not from (0, 0).
   kRetractTable,
-  kLeak,               ///< Not finite or negative.
-  kBypassSeries,       ///< Not finite or negative.
-  kRelief,             ///< Not finite or not positive.
-  kVelocity,           ///< Not finite.
-  kPressure,           ///< Not finite.
-  kPumpFlow,           ///< Not finite or negative.
+  kLeak,          ///< Not finite or negative.
+  kBypassSeries,  ///< Not finite or negative.
+  kRelief,        ///< Not finite or not positive.
+  kVelocity,      ///< Not finite.
+  kPressure,      ///< Not finite.
+  kPumpFlow,      ///< Not finite or negative.
 };
 
 struct McvCheck {

@@ -13,8 +13,8 @@ constexpr int kNewtonSteps = 24;
 constexpr double kRoundingShare = 32.0 * 2.220446049250313e-16;
 
 double flow_left_slope(const FlowBalance& balance, double s) {
-  double slope = -2.0 * balance.leak_linear * s - 4.0 * balance.leak_quadratic * s * s * s -
-                 balance.bypass;
+  double slope =
+      -2.0 * balance.leak_linear * s - 4.0 * balance.leak_quadratic * s * s * s - balance.bypass;
   for (int i = 0; i < balance.regeneration_count; ++i) {
     const RegenerationDemand& demand = balance.regeneration[static_cast<unsigned>(i)];
     // At the opening itself the slope from the left counts: Newton runs down from there.

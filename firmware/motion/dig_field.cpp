@@ -36,11 +36,10 @@ TipVelocity DigField::contour(const TipPose& pose) const {
   TipVelocity velocity;
   velocity.linear_mps = speed_mps_ * direction.normalized();
   const double error_rad = wrap_near(goal.attitude_rad - pose.attitude_rad, 0.0);
-  const double wanted_radps =
-      goal.attitude_slope_radpm * velocity.linear_mps.dot(goal.tangent) +
-      control_.attitude_gain_ps * error_rad;
-  velocity.attitude_radps = std::clamp(wanted_radps, -control_.attitude_rate_max_radps,
-                                       control_.attitude_rate_max_radps);
+  const double wanted_radps = goal.attitude_slope_radpm * velocity.linear_mps.dot(goal.tangent) +
+                              control_.attitude_gain_ps * error_rad;
+  velocity.attitude_radps =
+      std::clamp(wanted_radps, -control_.attitude_rate_max_radps, control_.attitude_rate_max_radps);
   return velocity;
 }
 
@@ -48,11 +47,11 @@ Eigen::Vector3d DigField::approach(const KinematicState& state,
                                    const Eigen::Vector3d& to_nearest_m) const {
   const Eigen::Vector3d direction = to_nearest_m.normalized();
   const Eigen::Vector3d tip = state.jacobian * direction;
-  // As fast as the slowest of the task's tip speed, the attitude's and the cylinder's own limit has it.
-  const double unit_time =
-      std::max({tip.head<2>().norm() / speed_mps_,
-                std::abs(tip.z()) / control_.attitude_rate_max_radps,
-                direction.cwiseAbs().maxCoeff() / control_.approach_speed_mps});
+  // As fast as the slowest of the task's tip speed, the attitude's and the cylinder's own limit has
+  // it.
+  const double unit_time = std::max(
+      {tip.head<2>().norm() / speed_mps_, std::abs(tip.z()) / control_.attitude_rate_max_radps,
+       direction.cwiseAbs().maxCoeff() / control_.approach_speed_mps});
   return direction / unit_time;
 }
 
@@ -72,10 +71,9 @@ WantedMotion DigField::wanted(const KinematicState& state, double speed_override
   motion.path_error_m = (path_.closest(tip).position_m - tip).norm();
   if (far < 1.0) {
     const TipVelocity field = contour(state.tip);
-    motion.velocity_mps =
-        (1.0 - far) * (state.jacobian_inverse * Eigen::Vector3d(field.linear_mps.x(),
-                                                                field.linear_mps.y(),
-                                                                field.attitude_radps));
+    motion.velocity_mps = (1.0 - far) * (state.jacobian_inverse *
+                                         Eigen::Vector3d(field.linear_mps.x(), field.linear_mps.y(),
+                                                         field.attitude_radps));
   }
   if (far > 0.0) {
     motion.velocity_mps += far * approach(state, to_nearest_m);

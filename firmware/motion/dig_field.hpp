@@ -47,8 +47,7 @@ class DigField {
 
   /// The whole field at a state whose status is kOk. Speed is that of the task times
   /// `speed_override_ratio` (0 .. 1).
-  [[nodiscard]] WantedMotion wanted(const KinematicState& state,
-                                    double speed_override_ratio) const;
+  [[nodiscard]] WantedMotion wanted(const KinematicState& state, double speed_override_ratio) const;
 
   [[nodiscard]] const RoundedRectangle& path() const { return path_; }
 

@@ -19,8 +19,8 @@ PathPoint RoundedRectangle::point(const Eigen::Vector2d& position_m,
   PathPoint result;
   result.position_m = position_m;
   result.tangent = {outward.y(), -outward.x()};
-  const double slope = (path_.attitude_at_x_max_rad - path_.attitude_at_x_min_rad) /
-                       (path_.x_max_m - path_.x_min_m);
+  const double slope =
+      (path_.attitude_at_x_max_rad - path_.attitude_at_x_min_rad) / (path_.x_max_m - path_.x_min_m);
   result.attitude_rad = path_.attitude_at_x_min_rad + slope * (position_m.x() - path_.x_min_m);
   result.attitude_slope_radpm = slope * result.tangent.x();
   return result;
@@ -36,7 +36,8 @@ PathPoint RoundedRectangle::closest(const Eigen::Vector2d& position_m) const {
   }
   // Inside the rectangle of the corners' centres the nearest side has it.
   const std::array<double, 4> gap = {path_.x_max_m - position_m.x(), position_m.y() - path_.y_min_m,
-                                     position_m.x() - path_.x_min_m, path_.y_max_m - position_m.y()};
+                                     position_m.x() - path_.x_min_m,
+                                     path_.y_max_m - position_m.y()};
   switch (std::min_element(gap.begin(), gap.end()) - gap.begin()) {
     case 0:
       return point({path_.x_max_m, position_m.y()}, {1.0, 0.0});

@@ -21,8 +21,8 @@ GateResult gate(const ExcavatorProfile& profile, const GateState& last, bool act
         std::clamp(wanted, last.opening[i] - change_max, last.opening[i] + change_max);
     result.state.opening[i] = opening;
     if (std::abs(opening) >= profile.control.spool_threshold) {
-      result.duty_ratio[i] =
-          std::copysign(std::clamp(profile.valve.spool_to_duty.at(std::abs(opening)), 0.0, 1.0), opening);
+      result.duty_ratio[i] = std::copysign(
+          std::clamp(profile.valve.spool_to_duty.at(std::abs(opening)), 0.0, 1.0), opening);
     }
   }
   result.enable = true;

@@ -1,6 +1,6 @@
 #pragma once
-/// The last gate before the bus: what it lets through is finite, in range, rate-limited and enabled,
-/// whatever computed it.
+/// The last gate before the bus: what it lets through is finite, in range, rate-limited and
+/// enabled, whatever computed it.
 
 #include <array>
 

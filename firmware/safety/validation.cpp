@@ -53,8 +53,17 @@ std::array<Required, kRequiredCount> required_signals(const ExcavatorInputs& inp
   const auto swash_of = [&](unsigned j) {
     return Required{&inputs.swash_ratio[j], &swash[j], Fault::kSwashMissing};
   };
-  return {{stroke(0), stroke(1), stroke(2), cap(0), cap(1), cap(2), rod(0), rod(1), rod(2),
-           swash_of(0), swash_of(1),
+  return {{stroke(0),
+           stroke(1),
+           stroke(2),
+           cap(0),
+           cap(1),
+           cap(2),
+           rod(0),
+           rod(1),
+           rod(2),
+           swash_of(0),
+           swash_of(1),
            {&inputs.engine_speed_radps, &engine_radps, Fault::kEngineSpeedMissing}}};
 }
 
@@ -87,15 +96,16 @@ ValidInputs validate(const ExcavatorInputs& inputs, const ExcavatorProfile& prof
   }
   for (unsigned i = 0; i < kAxisCount; ++i) {
     const double stroke_max_m = profile.geometry.cylinder[i].stroke_m;
-    if (valid.strokes_m[i] < -kStrokeMargin_m || valid.strokes_m[i] > stroke_max_m + kStrokeMargin_m) {
+    if (valid.strokes_m[i] < -kStrokeMargin_m ||
+        valid.strokes_m[i] > stroke_max_m + kStrokeMargin_m) {
       valid.fault = Fault::kStrokeImplausible;
       return valid;
     }
     valid.strokes_m[i] = std::clamp(valid.strokes_m[i], 0.0, stroke_max_m);
   }
   for (unsigned j = 0; j < kPumpCount; ++j) {
-    valid.pump_flow_m3ps[j] = std::max(
-        0.0, profile.pump[j].displacement_m3prev / kTwoPi * engine_radps * swash[j]);
+    valid.pump_flow_m3ps[j] =
+        std::max(0.0, profile.pump[j].displacement_m3prev / kTwoPi * engine_radps * swash[j]);
   }
   return valid;
 }

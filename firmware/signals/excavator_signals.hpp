@@ -46,13 +46,13 @@ struct ExcavatorStatus {
   Fault fault = Fault::kNone;
   Limit limit;
   double lambda = 0.0;
-  std::array<double, kAxisCount> wanted_velocity_mps{};   ///< V_L^d before scaling by lambda.
-  std::array<double, kPumpCount> pump_pressure_pa{};      ///< P_p that the solution expects.
+  std::array<double, kAxisCount> wanted_velocity_mps{};  ///< V_L^d before scaling by lambda.
+  std::array<double, kPumpCount> pump_pressure_pa{};     ///< P_p that the solution expects.
   double path_error_m = 0.0;  ///< Distance of the measured tip from the path.
 };
 
 struct ExcavatorOutputs {
-  bool enable = false;                        ///< The valve side closes every spool without it.
+  bool enable = false;                          ///< The valve side closes every spool without it.
   std::array<double, kAxisCount> duty_ratio{};  ///< -1 .. 1; 0 is neutral.
   ExcavatorStatus status;
 };

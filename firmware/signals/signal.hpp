@@ -7,7 +7,8 @@
 
 namespace graben {
 
-/// Why a value may or may not be used. 'Error' and 'not available' stay distinct, as J1939 has them.
+/// Why a value may or may not be used. 'Error' and 'not available' stay distinct, as J1939 has
+/// them.
 enum class Validity : std::uint8_t {
   kNotReceived = 0,   ///< No frame yet.
   kNotAvailable = 1,  ///< The sender says that it has no such value.

@@ -105,8 +105,7 @@ void a_fault_is_left_by_re_arming_only(void**) {
   digging.bench.release();
   digging.run(300 * kMillisecondUs);
   assert_int_equal(digging.mode(), EcuMode::kReady);
-  digging.bench.driver.set_schedule(
-      {{0, {true, OperatorMode::kAutomatic, Task::kDig, 1.0}}});
+  digging.bench.driver.set_schedule({{0, {true, OperatorMode::kAutomatic, Task::kDig, 1.0}}});
   digging.run(300 * kMillisecondUs);
   assert_int_equal(digging.mode(), EcuMode::kActive);
 }
@@ -123,7 +122,7 @@ void released_enable_is_neutral_with_its_first_frame(void**) {
 /// A boom stroke that is half a metre off, in a frame that is wrong in one way.
 bus::BoomStroke wrong_stroke() {
   bus::BoomStroke message;
-  message.boom_stroke_m.value = 0.5;
+  message.boom_stroke_m = {0.5, dbc::RawState::kValid};
   return message;
 }
 
@@ -153,9 +152,10 @@ const Corruption kCorruptions[] = {
      },
      &LinkCounters::wrong_kind},
     {"counter",
-     [](CanFrame& frame) {
-       // The right CRC over a counter that is far ahead.
-       const auto counter = static_cast<std::uint8_t>(((frame.data[1] & 0x0Fu) + 7u) % 15u);
+     [jump = 0u](CanFrame& frame) mutable {
+       // The right CRC over a counter that jumps ahead by 8 from frame to frame.
+       jump += 7u;
+       const auto counter = static_cast<std::uint8_t>(((frame.data[1] & 0x0Fu) + jump) % 15u);
        frame.data = wrong_stroke().encode();
        e2e_protect(frame.data, bus::BoomStroke::kDataId, counter);
        return true;
@@ -177,6 +177,7 @@ const Corruption kCorruptions[] = {
 /// stop the work; 50 ms of them do.
 void wrong_frames_are_counted_and_never_used(void**) {
   for (const Corruption& row : kCorruptions) {
+    print_message("wrong %s\n", row.name);
     Digging digging;
     const double before_m = digging.bench.ecu.inputs().axis[kBoom].stroke_m.value;
     const std::uint32_t counted = digging.bench.ecu.link().*row.counter;

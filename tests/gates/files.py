@@ -13,7 +13,7 @@ WARN_LINES = 400
 # matching itself.
 MACHINE = re.compile(
     r"(?<![\w.])/(?:roo[t]|hom[e]|User[s]|wor[k]|workspac[e])/"
-    r"|registry[.]npm|deb[.]debian[.]org|snapshot[.]debian|pypi[.]org|pythonhosted|npmmirror")
+    r"|registr[y][.]npm|deb[.]debian[.]org|snapshot[.]debian|pypi[.]org|pythonhoste[d]|npmmirro[r]")
 
 root = tree.arguments(__doc__).parse_args().root.resolve()
 names = tree.files(root)

@@ -20,7 +20,10 @@ if names:
         cwd=root, stderr=subprocess.PIPE, text=True, check=False)
     if done.returncode != 0:
         version = subprocess.run([tool, "--version"], stdout=subprocess.PIPE, text=True, check=True)
-        problems = [*done.stderr.splitlines(),
+        # The first place in each file; the tool's own listing is as long as the file is bad.
+        found = [line for line in done.stderr.splitlines() if " error: " in line]
+        first = {line.split(":")[0]: line for line in reversed(found)}
+        problems = [*(sorted(first.values()) or [done.stderr.strip()]),
                     f"format: {tool} -i FILE puts it right (the house uses version 14; this is: "
                     f"{version.stdout.strip()})"]
 tree.report("format", problems, len(names))

@@ -128,8 +128,8 @@ void the_approach_is_straight_in_stroke_space(void**) {
 }
 
 void override_scales_without_turning(void**) {
-  const KinematicState state = machine().state(
-      machine().strokes_from_pose({6.4, -0.5, 2.0}).strokes_m);
+  const KinematicState state =
+      machine().state(machine().strokes_from_pose({6.4, -0.5, 2.0}).strokes_m);
   const Eigen::Vector3d full = field().wanted(state, 1.0).velocity_mps;
   const Eigen::Vector3d part = field().wanted(state, 0.3).velocity_mps;
   assert_near((part - 0.3 * full).norm(), 0.0, 1e-12);
@@ -149,8 +149,7 @@ void a_cylinder_near_its_end_slows_all_axes_alike(void**) {
   const double most = profile().geometry.cylinder[kBoom].stroke_m;
   const double gain = profile().control.stroke_end_gain_ps;
   const Eigen::Vector3d velocity(0.3, -0.1, 0.1);
-  const VelocityCap near_end =
-      stroke_end_cap(profile(), {most - 0.01, 0.7, 0.5}, velocity);
+  const VelocityCap near_end = stroke_end_cap(profile(), {most - 0.01, 0.7, 0.5}, velocity);
   assert_near(near_end.factor, gain * 0.01 / 0.3, 1e-12);
   assert_int_equal(near_end.limit.kind, LimitKind::kStrokeEnd);
   assert_int_equal(near_end.limit.index, kBoom);

@@ -14,8 +14,7 @@ const ExcavatorProfile& profile() { return test::excavator().profile; }
 double travel() { return profile().valve.spool_travel_m; }
 
 void duty_follows_the_profiles_table(void**) {
-  const GateResult result =
-      gate(profile(), {}, true, {travel(), -0.5 * travel(), 0.0}, kLong_s);
+  const GateResult result = gate(profile(), {}, true, {travel(), -0.5 * travel(), 0.0}, kLong_s);
   assert_true(result.enable);
   assert_near(result.duty_ratio[0], 1.0, 1e-12);
   assert_near(result.duty_ratio[1], -0.6, 1e-12);
@@ -53,8 +52,7 @@ void changes_are_limited_in_rate(void**) {
 void not_active_is_neutral_at_once(void**) {
   GateState open;
   open.opening = {1.0, -1.0, 0.5};
-  const GateResult result =
-      gate(profile(), open, false, {travel(), travel(), travel()}, 0.01);
+  const GateResult result = gate(profile(), open, false, {travel(), travel(), travel()}, 0.01);
   assert_false(result.enable);
   for (unsigned i = 0; i < kAxisCount; ++i) {
     assert_near(result.duty_ratio[i], 0.0, 0.0);

@@ -45,8 +45,7 @@ void strokes_to_pose_and_back(void**) {
 }
 
 Eigen::Vector3d tip_at(const Eigen::Vector3d& strokes) {
-  const TipPose tip =
-      machine().pose_from_joints(machine().joints_from_strokes(strokes).joints_rad);
+  const TipPose tip = machine().pose_from_joints(machine().joints_from_strokes(strokes).joints_rad);
   return {tip.x_m, tip.y_m, tip.attitude_rad};
 }
 
@@ -55,8 +54,8 @@ void jacobian_is_the_slope_of_the_pose(void**) {
   over_the_whole_range([](const Eigen::Vector3d& strokes) {
     Eigen::Vector3d inside = strokes;
     for (int axis = 0; axis < kAxisCount; ++axis) {
-      inside[axis] = std::min(std::max(inside[axis], 1e-4),
-                              stroke_max(static_cast<unsigned>(axis)) - 1e-4);
+      inside[axis] =
+          std::min(std::max(inside[axis], 1e-4), stroke_max(static_cast<unsigned>(axis)) - 1e-4);
     }
     const KinematicState state = machine().state(inside);
     assert_int_equal(state.status, ReachStatus::kOk);
@@ -80,8 +79,8 @@ void jacobian_is_the_slope_of_the_pose(void**) {
 void straight_out_is_the_sum_of_the_links(void**) {
   const ExcavatorGeometry& geometry = machine().geometry();
   const TipPose pose = machine().pose_from_joints(Eigen::Vector3d::Zero());
-  assert_near(pose.x_m,
-              geometry.boom_length_m + geometry.arm_length_m + geometry.bucket_length_m, 1e-12);
+  assert_near(pose.x_m, geometry.boom_length_m + geometry.arm_length_m + geometry.bucket_length_m,
+              1e-12);
   assert_near(pose.y_m, 0.0, 1e-12);
   assert_near(pose.attitude_rad, 3.14159265358979, 1e-12);
 }
@@ -131,8 +130,7 @@ void unreachable_poses_give_a_status(void**) {
   check_finite(machine().strokes_from_pose({6.0, 0.0, nan}));
   check_finite(machine().strokes_from_joints({0.0, -1.0, nan}));
   check_finite(machine().strokes_from_joints({0.0, -1.0, 3.0}));
-  assert_int_equal(machine().strokes_from_pose({15.0, 0.0, 1.5}).status,
-                   ReachStatus::kOutOfReach);
+  assert_int_equal(machine().strokes_from_pose({15.0, 0.0, 1.5}).status, ReachStatus::kOutOfReach);
 }
 
 /// Whatever pose is asked for, the answer is finite, and where it is 'ok' it leads back there.
@@ -146,8 +144,9 @@ void any_pose_has_an_honest_answer(void**) {
           const KinematicState state = machine().state(strokes.strokes_m);
           assert_near(state.tip.x_m, x, 1e-9);
           assert_near(state.tip.y_m, y, 1e-9);
-          assert_near(std::remainder(state.tip.attitude_rad - attitude, 2.0 * 3.14159265358979323846),
-                      0.0, 1e-9);
+          assert_near(
+              std::remainder(state.tip.attitude_rad - attitude, 2.0 * 3.14159265358979323846), 0.0,
+              1e-9);
         }
       }
     }

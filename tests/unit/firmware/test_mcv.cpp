@@ -62,7 +62,8 @@ void pump_pressure_in_closed_form(void**) {
 void pump_pressure_always_converges(void**) {
   std::mt19937 random(11);
   const auto draw = [&](double least, double most) {
-    return std::exp(std::uniform_real_distribution<double>(std::log(least), std::log(most))(random));
+    return std::exp(
+        std::uniform_real_distribution<double>(std::log(least), std::log(most))(random));
   };
   int fed = 0;
   int most_steps = 0;

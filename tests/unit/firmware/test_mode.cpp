@@ -47,8 +47,8 @@ void released_enable_or_manual_ends_motion_at_once(void**) {
 }
 
 void a_fault_latches_until_enable_is_released(void**) {
-  ModeState state = next_mode({EcuMode::kActive, Fault::kNone}, broken(Fault::kStrokeMissing),
-                              Fault::kNone);
+  ModeState state =
+      next_mode({EcuMode::kActive, Fault::kNone}, broken(Fault::kStrokeMissing), Fault::kNone);
   assert_int_equal(state.mode, EcuMode::kFault);
   assert_int_equal(state.fault, Fault::kStrokeMissing);
   state = next_mode(state, broken(Fault::kPressureMissing), Fault::kNone);
@@ -68,8 +68,8 @@ void faults_of_the_cycle_count_too(void**) {
 }
 
 void without_enable_a_fault_only_silences(void**) {
-  const ModeState state = next_mode({EcuMode::kReady, Fault::kNone},
-                                    broken(Fault::kPressureMissing), Fault::kNone);
+  const ModeState state =
+      next_mode({EcuMode::kReady, Fault::kNone}, broken(Fault::kPressureMissing), Fault::kNone);
   assert_int_equal(state.mode, EcuMode::kSilent);
   assert_int_equal(state.fault, Fault::kPressureMissing);
 }

@@ -14,9 +14,7 @@ constexpr TimeUs kNow = 5 * kSecondUs;
 
 const ExcavatorProfile& profile() { return test::excavator().profile; }
 
-Fault fault_of(const ExcavatorInputs& inputs) {
-  return validate(inputs, profile(), kNow).fault;
-}
+Fault fault_of(const ExcavatorInputs& inputs) { return validate(inputs, profile(), kNow).fault; }
 
 void complete_inputs_become_a_state(void**) {
   const ValidInputs valid = validate(complete_inputs(kNow), profile(), kNow);

@@ -46,7 +46,7 @@ CASES = [
     ("table not whole", lambda t: replaced(t, "[[0.0, 200.0], [1.0, 1000.0]]",
                                            "[[0.0, 200.0], [0.9, 1000.0]]"),
      ["valve.spool_to_duty", "opening 1"]),
-    ("one pump", lambda t: re.sub(r"\[\[pump\]\]     # Pump 2(.|\n)*?\n\n", "", t, count=1),
+    ("one pump", lambda t: re.sub(r"\[\[pump\]\] +# Pump 2(.|\n)*?\n\n", "", t, count=1),
      ["pump", "must be 2 tables"]),
     ("pin on the wrong side", lambda t: replaced(t, "eye = [2.33, 0.85]", "eye = [2.33, -0.85]"),
      ["boom.angle", "the pins and stroke ends give"]),

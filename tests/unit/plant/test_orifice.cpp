@@ -113,6 +113,7 @@ void gallery_balances_with_compliant_ports(void**) {
 void gallery_draws_from_tank_below_ambient(void**) {
   const ReturnFlow flow = solve_gallery(3e-6, 1.2e-6, 2e-6, {-1e4, 0.0}, {-2e4, 0.0});
   assert_true(flow.out_m3ps < 0.0);
+  assert_near(flow.gallery_pa, -std::pow(flow.out_m3ps / 1.2e-6, 2), 1e-6);
   assert_near(flow.regenerated_m3ps, 0.0, 0.0);
 }
 

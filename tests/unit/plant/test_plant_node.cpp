@@ -178,6 +178,17 @@ void commands_move_the_spool(void**) {
   assert_int_equal(rig.machine.counters().accepted, 30);
 }
 
+void plant_runs_10_ms_a_cycle(void**) {
+  Rig rig;
+  rig.command_for(30, true, 0.5);  // the third is the first to be accepted
+  ExcavatorPlant alone(machine_22t(), {0.7, 0.7, 0.6});
+  alone.advance(2 * kCycleUs);
+  alone.set_duty({0.5, 0.0, 0.0}, true);
+  alone.advance(28 * kCycleUs);
+  assert_near(rig.boom_spool(), alone.spool_travels_ratio()[kBoom], 0.0);
+  assert_near(rig.machine.plant().strokes_m()[kBoom], alone.strokes_m()[kBoom], 0.0);
+}
+
 void enable_off_is_neutral_at_once(void**) {
   Rig rig;
   rig.command_for(30, true, 0.5);
@@ -330,6 +341,7 @@ int main() {
       cmocka_unit_test(values_are_the_plants),
       cmocka_unit_test(sensors_show_what_they_can),
       cmocka_unit_test(commands_move_the_spool),
+      cmocka_unit_test(plant_runs_10_ms_a_cycle),
       cmocka_unit_test(enable_off_is_neutral_at_once),
       cmocka_unit_test(silence_is_neutral_after_100_ms),
       cmocka_unit_test(wrong_frames_are_no_sign_of_life),

@@ -36,6 +36,15 @@ void step_response_is_the_critically_damped_one(void**) {
 void travel_is_limited(void**) {
   PlantProfile profile = machine_22t();
   assert_near(settled_at(profile, 3.0).travel_ratio(), 1.0, 1e-9);
+  Spool beyond(profile);
+  Spool full(profile);
+  beyond.set_command(3.0);
+  full.set_command(1.0);
+  for (int i = 0; i < 100; ++i) {
+    beyond.step(kStep);
+    full.step(kStep);
+  }
+  assert_near(beyond.travel_ratio(), full.travel_ratio(), 0.0);
   profile.spool_damping = 0.2;  // overshoots
   Spool spool(profile);
   spool.set_command(-1.0);

@@ -33,6 +33,7 @@ void start_is_steady(void**) {
   for (int i = 0; i < 50; ++i) {
     volume.scatter();
     assert_near(volume.pressure_pa(), 7e6, 1e-6);
+    assert_near(volume.first_port_pressure_pa(), 7e6, 1e-6);
   }
 }
 

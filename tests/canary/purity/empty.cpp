@@ -1,0 +1,1 @@
+// No symbol: an archive of this must not pass for pure.

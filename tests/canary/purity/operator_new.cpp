@@ -1,0 +1,1 @@
+int* refused(unsigned size) { return new int[size]; }

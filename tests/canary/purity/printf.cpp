@@ -1,0 +1,3 @@
+#include <cstdio>
+
+void refused(double pressure_pa) { std::printf("%g\n", pressure_pa); }

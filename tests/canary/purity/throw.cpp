@@ -1,0 +1,1 @@
+void refused(int fault) { throw fault; }

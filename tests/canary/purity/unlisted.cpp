@@ -1,0 +1,3 @@
+extern "C" int getpid();
+
+int refused() { return getpid(); }

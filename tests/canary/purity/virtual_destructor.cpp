@@ -1,0 +1,5 @@
+struct Port {
+  virtual ~Port();
+};
+
+Port::~Port() = default;

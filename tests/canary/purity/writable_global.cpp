@@ -1,0 +1,3 @@
+int cycles = 0;
+
+int refused() { return ++cycles; }
