@@ -64,9 +64,10 @@ struct PlantProfile {
   /// Slope of the make-up checks from tank, Pa s/m^3: 0.02 MPa below ambient at 400 L/min, so that
   /// the oil does not boil and no vapour needs a state of its own.
   double makeup_paspm3 = 3e6;
-  /// Share of a spool's opening over which its bypass goes from open to closed. (20) has none; a
-  /// real land edge closes over some travel.
-  double bypass_closing_ratio = 0.1;
+  /// Travel, in units of the full travel, over which a spool's bypass goes from open to closed; it
+  /// ends at the deadband's edge, where the metering edges begin to open: so (20), with the deadband
+  /// collapsed, holds wherever the cylinder can move. (20) itself switches; a land edge takes some way.
+  double bypass_closing_travel = 0.1;
   /// Pressure of the unloaded chambers at the start.
   double start_back_pressure_pa = 0.5e6;
   /// Contact at the stroke's ends: full system pressure on a boom cap side (0.8 MN) presses in by

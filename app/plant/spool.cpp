@@ -17,7 +17,7 @@ Spool::Spool(const PlantProfile& profile)
       damping_(profile.spool_damping),
       deadband_(profile.deadband_ratio),
       exponent_(profile.machine.valve.opening_exponent),
-      bypass_closing_(profile.bypass_closing_ratio) {}
+      bypass_closing_(profile.bypass_closing_travel) {}
 
 void Spool::set_command(double travel_ratio) { command_ = std::clamp(travel_ratio, -1.0, 1.0); }
 
@@ -45,7 +45,9 @@ void Spool::step(double step_s) {
 void Spool::update_openings() {
   const double opening = std::max(0.0, (std::abs(travel_) - deadband_) / (1.0 - deadband_));
   area_ratio_ = opening > 0.0 ? std::pow(opening, exponent_) : 0.0;
-  bypass_closed_ = std::min(1.0, opening / bypass_closing_);
+  // Closed from the deadband's edge on, as (20) has it with the deadband collapsed.
+  const double to_edge = std::max(0.0, deadband_ - std::abs(travel_));
+  bypass_closed_ = opening > 0.0 ? 1.0 : std::max(0.0, 1.0 - to_edge / bypass_closing_);
 }
 
 }  // namespace graben::plant

@@ -18,7 +18,7 @@ class Spool {
   [[nodiscard]] double travel_ratio() const { return travel_; }
   /// Share of the full metering areas that is open, 0 within the deadband.
   [[nodiscard]] double area_ratio() const { return area_ratio_; }
-  /// How far the bypass has closed: 0 within the deadband, 1 closed.
+  /// How far the bypass has closed: 0 at neutral, 1 from the deadband's edge on.
   [[nodiscard]] double bypass_closed_ratio() const { return bypass_closed_; }
 
  private:

@@ -35,14 +35,16 @@ void strokes_span_the_angle_ranges(void**) {
 
 void bucket_stroke_falls_with_its_angle(void**) {
   const LinkageGeometry geometry(machine_22t().machine.geometry);
-  for (double angle = -2.79; angle < 0.52; angle += 0.01) {
+  for (int i = 0; i <= 331; ++i) {
+    const double angle = -2.79 + 0.01 * i;
     assert_true(geometry.levers(rotations_of({0.0, 0.0, angle}))[kBucket].stroke_per_angle_m < 0.0);
   }
 }
 
 void levers_are_the_slopes_of_the_strokes(void**) {
   const LinkageGeometry geometry(machine_22t().machine.geometry);
-  for (double share = 0.02; share < 1.0; share += 0.07) {
+  for (int k = 0; k <= 14; ++k) {
+    const double share = 0.02 + 0.068 * k;
     const JointArray angle{-0.96 + 1.90 * share, -0.44 - 2.17 * share, 0.51 - 3.29 * share};
     const auto lever = geometry.levers(rotations_of(angle));
     for (std::size_t i = 0; i < 3; ++i) {
@@ -59,7 +61,8 @@ void levers_are_the_slopes_of_the_strokes(void**) {
 void angles_reproduce_the_strokes(void**) {
   const PlantProfile profile = machine_22t();
   const LinkageGeometry geometry(profile.machine.geometry);
-  for (double share = 0.0; share <= 1.0; share += 0.05) {
+  for (int k = 0; k <= 20; ++k) {
+    const double share = 0.05 * k;
     JointArray wanted{};
     for (std::size_t i = 0; i < 3; ++i) {
       wanted[i] = share * profile.machine.geometry.cylinder[i].stroke_m;

@@ -54,13 +54,12 @@ void travel_is_limited(void**) {
   }
 }
 
-void deadband_is_shut_with_open_bypass(void**) {
+void deadband_is_shut(void**) {
   PlantProfile profile = machine_22t();
   profile.deadband_ratio = 0.2;
   for (const double travel : {-0.2, -0.1, 0.0, 0.1, 0.2}) {
     const Spool spool = settled_at(profile, travel);
     assert_near(spool.area_ratio(), 0.0, 1e-12);
-    assert_near(spool.bypass_closed_ratio(), 0.0, 1e-7);
   }
 }
 
@@ -77,10 +76,12 @@ void opening_follows_the_travel_outside_it(void**) {
 void bypass_closes_continuously(void**) {
   PlantProfile profile = machine_22t();
   profile.deadband_ratio = 0.2;
-  profile.bypass_closing_ratio = 0.1;
-  assert_near(settled_at(profile, 0.24).bypass_closed_ratio(), 0.5, 1e-6);
-  assert_near(settled_at(profile, -0.24).bypass_closed_ratio(), 0.5, 1e-6);
-  assert_near(settled_at(profile, 0.28).bypass_closed_ratio(), 1.0, 1e-6);
+  profile.bypass_closing_travel = 0.1;
+  assert_near(settled_at(profile, 0.0).bypass_closed_ratio(), 0.0, 0.0);
+  assert_near(settled_at(profile, 0.1).bypass_closed_ratio(), 0.0, 1e-6);
+  assert_near(settled_at(profile, 0.15).bypass_closed_ratio(), 0.5, 1e-6);
+  assert_near(settled_at(profile, -0.15).bypass_closed_ratio(), 0.5, 1e-6);
+  assert_near(settled_at(profile, 0.2).bypass_closed_ratio(), 1.0, 1e-6);
   assert_near(settled_at(profile, 0.9).bypass_closed_ratio(), 1.0, 0.0);
 }
 
@@ -90,7 +91,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(step_response_is_the_critically_damped_one),
       cmocka_unit_test(travel_is_limited),
-      cmocka_unit_test(deadband_is_shut_with_open_bypass),
+      cmocka_unit_test(deadband_is_shut),
       cmocka_unit_test(opening_follows_the_travel_outside_it),
       cmocka_unit_test(bypass_closes_continuously),
   };
