@@ -2,13 +2,13 @@
 # Configures and builds one preset without a word unless it fails. Sourced by ./run and ./test;
 # needs graben_say of packages.sh.
 
-# graben_build ROOT PRESET
+# graben_build ROOT PRESET [TARGET]
 graben_build() {
   mkdir -p "$1/build"
   # `./run a | ./run b` starts two at once, and Ninja does not lock its folder.
   (
     if has_command flock; then flock 9; fi
-    graben_build_locked "$1" "$2" 9>&-
+    graben_build_locked "$1" "$2" "${3-all}" 9>&-
   ) 9>"$1/build/.lock" </dev/null
 }
 
@@ -22,10 +22,11 @@ graben_build_locked() (
     graben_say "configuring $2"
     cmake --preset "$2" >"$log" 2>&1 || graben_build_failed "$2" "$log"
   fi
-  if ! ninja -C "build/$2" -n 2>/dev/null | grep -q 'no work to do'; then
+  if ! ninja -C "build/$2" -n "$3" 2>/dev/null | grep -q 'no work to do'; then
     graben_say "building $2 (the first time takes minutes)"
     # Keep going: one broken target must not hide the next.
-    cmake --build "build/$2" -j "$(nproc)" -- -k 0 >"$log" 2>&1 || graben_build_failed "$2" "$log"
+    cmake --build "build/$2" --target "$3" -j "$(nproc)" -- -k 0 >"$log" 2>&1 ||
+      graben_build_failed "$2" "$log"
   fi
 )
 

@@ -31,7 +31,7 @@ bool all_valid(const bus::SpoolCommand& command) {
 PlantNode::PlantNode(const PlantProfile& profile, const ExcavatorPlant::AxisArray& start_strokes_m,
                      CanPort& port, std::uint32_t profile_hash)
     : plant_(profile, start_strokes_m),
-      sensors_{true, profile.sensors},
+      sensors_{profile.sensors},
       port_(port),
       sender_(port),
       profile_hash_(profile_hash) {}

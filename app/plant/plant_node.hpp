@@ -38,7 +38,6 @@ class PlantNode {
 
   [[nodiscard]] ExcavatorPlant& plant() { return plant_; }
   [[nodiscard]] const ExcavatorPlant& plant() const { return plant_; }
-  [[nodiscard]] SensorModel& sensors() { return sensors_; }
   [[nodiscard]] const CommandCounters& counters() const { return counters_; }
   [[nodiscard]] bool spools_enabled() const { return enabled_; }
 

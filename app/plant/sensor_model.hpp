@@ -5,9 +5,9 @@
 
 namespace graben::plant {
 
-/// `exact` leaves only the encoder's steps; the CAN codec then quantises and saturates by itself.
+/// Exact sensors: of `errors` only the encoder's resolution and the transducer's range act here;
+/// bias and noise are not simulated. The CAN codec quantises and saturates by itself.
 struct SensorModel {
-  bool exact = true;  ///< No bias, no noise. The erroneous model is not built yet: keep it true.
   SensorErrors errors;
 
   /// Encoder reading: the nearest multiple of its resolution.
