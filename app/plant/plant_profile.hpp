@@ -65,8 +65,9 @@ struct PlantProfile {
   /// the oil does not boil and no vapour needs a state of its own.
   double makeup_paspm3 = 3e6;
   /// Travel, in units of the full travel, over which a spool's bypass goes from open to closed; it
-  /// ends at the deadband's edge, where the metering edges begin to open: so (20), with the deadband
-  /// collapsed, holds wherever the cylinder can move. (20) itself switches; a land edge takes some way.
+  /// ends at the deadband's edge, where the metering edges begin to open: so (20), with the
+  /// deadband collapsed, holds wherever the cylinder can move. (20) itself switches; a land edge
+  /// takes some way.
   double bypass_closing_travel = 0.1;
   /// Pressure of the unloaded chambers at the start.
   double start_back_pressure_pa = 0.5e6;

@@ -120,6 +120,17 @@ void a_starved_pump_scales_all_axes(void**) {
   assert_near(solution.point.spool_m[kArm], 0.0, 0.0);
 }
 
+/// Where a load is what holds lambda, just F_offset is left to drive it.
+void back_flow_keeps_its_offset(void**) {
+  McvInput input = light_load(0.2, 0.0, 0.05);
+  input.cap_pressure_pa[kBoom] = 15e6;
+  const McvSolution solution = solve_algorithm1(kim(), input);
+  assert_int_equal(solution.limit.kind, LimitKind::kBackFlow);
+  assert_int_equal(solution.limit.index, kBoom);
+  assert_near(solution.point.drive_force_n[kBoom],
+              test::excavator().profile.valve.spool[kBoom].force_offset_n, 1.0);
+}
+
 void a_load_too_heavy_is_infeasible(void**) {
   McvInput input = light_load(0.1, 0.1, 0.1);
   input.cap_pressure_pa[kBoom] = 60e6;
@@ -191,6 +202,7 @@ int main() {
       cmocka_unit_test(pump_pressure_always_converges),
       cmocka_unit_test(full_speed_where_nothing_holds),
       cmocka_unit_test(a_starved_pump_scales_all_axes),
+      cmocka_unit_test(back_flow_keeps_its_offset),
       cmocka_unit_test(a_load_too_heavy_is_infeasible),
       cmocka_unit_test(at_rest_everything_stays_closed),
       cmocka_unit_test(bad_machines_and_inputs_are_safe),
