@@ -31,7 +31,8 @@ graben_build_locked() (
 )
 
 graben_build_failed() {
-  cat "$2" >&2
+  # Without Ninja's progress: what is left is what went wrong.
+  grep -v '^\[[0-9]*/[0-9]*\] ' "$2" >&2 || true
   graben_say "build of $1 failed; the log above is $2"
   exit 1
 }

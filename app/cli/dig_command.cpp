@@ -93,6 +93,30 @@ const char* end_text(DigEnd end) {
   return "unknown";
 }
 
+/// CLI::Range lets "nan" pass.
+CLI::Validator number_between(double least, double most) {
+  return CLI::Validator(
+      [least, most](const std::string& text) {
+        double value = 0.0;
+        const bool inside =
+            CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+        return inside ? std::string()
+                      : fmt::format("{} is not a number from {} to {}", text, least, most);
+      },
+      fmt::format("{} .. {}", least, most));
+}
+
+/// An unsigned option takes "-1" for its largest value.
+CLI::Validator whole_number() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        const bool digits = !text.empty() && text.size() <= 18 &&
+                            text.find_first_not_of("0123456789") == std::string::npos;
+        return digits ? std::string() : fmt::format("{} is not a whole number from 0", text);
+      },
+      "0 ..");
+}
+
 void dig(const Options& options) {
   const machines::ExcavatorMachine machine =
       machines::load_excavator(machines::find_profile(options.profile));
@@ -139,7 +163,8 @@ void add_dig(CLI::App& app, int& status) {
   command->add_option("--out", options->out, "Folder for dig.log and dig.html")
       ->capture_default_str();
   command->add_option("--summary", options->summary, "Write the figures as JSON to this file");
-  command->add_option("--seed", options->seed, "Of everything that is drawn at random")
+  command->add_option("--seed", options->seed, "Of --random-start, a whole number from 0")
+      ->check(whole_number())
       ->capture_default_str();
   auto* start = command->add_option_group("start", "Where the bucket starts");
   start->add_option("--start-strokes", options->start_strokes_m, "Boom,arm,bucket in m")
@@ -152,10 +177,10 @@ void add_dig(CLI::App& app, int& status) {
                   "Any pose of the work space, drawn from the seed");
   start->require_option(0, 1);
   command->add_option("--speed", options->speed, "Operator's speed override, 0.05 .. 1")
-      ->check(CLI::Range(0.05, 1.0))
+      ->check(number_between(0.05, 1.0))
       ->capture_default_str();
   command->add_option("--loops", options->loops, "Times round the path, 0.1 .. 100")
-      ->check(CLI::Range(0.1, 100.0))
+      ->check(number_between(0.1, 100.0))
       ->capture_default_str();
   command->callback([options, &status] { status = guarded("dig", [&] { dig(*options); }); });
 }

@@ -1,6 +1,7 @@
 /// graben: the engineer's tool.
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 
 #include "app/cli/commands.hpp"
 
@@ -22,6 +23,11 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kWrongUsage;
+  }
+  // A full disk must not pass for success.
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    std::perror("graben: standard output");
+    return 1;
   }
   return status;
 }

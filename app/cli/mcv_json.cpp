@@ -12,6 +12,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr int kDeepest = 16;
+
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {
   throw std::runtime_error(where + ": " + what);
 }
@@ -150,7 +152,13 @@ nlohmann::ordered_json list(const Array& values, int count, Value value) {
 McvCase parse_mcv_case(const std::string& line) {
   json document;
   try {
-    document = json::parse(line);
+    // Nothing of the schema is deeper than 6; a bound keeps recursion off hostile lines.
+    document = json::parse(line, [](int depth, json::parse_event_t, json&) {
+      if (depth > kDeepest) {
+        throw std::runtime_error(fmt::format("more than {} levels deep", kDeepest));
+      }
+      return true;
+    });
   } catch (const json::parse_error& error) {
     throw std::runtime_error(fmt::format("not JSON: at byte {} of the line", error.byte));
   }
@@ -159,7 +167,12 @@ McvCase parse_mcv_case(const std::string& line) {
     refuse("line", "is not a JSON object");
   }
   McvCase result;
-  result.id = root.has("id") ? document["id"] : json();
+  if (root.has("id")) {
+    if (document["id"].is_structured()) {
+      refuse("id", "must be a string or a number");
+    }
+    result.id = document["id"];
+  }
   const Node machine = root.at("machine");
   const std::vector<Node> pumps = machine.at("pumps").items(1, kMaxPumps);
   const std::vector<Node> actuators = machine.at("actuators").items(1, kMaxActuators);

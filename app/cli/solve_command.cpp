@@ -23,6 +23,11 @@ int solve_lines(std::istream& cases) {
     try {
       const McvCase mcv_case = parse_mcv_case(line);
       const McvSolution solution = solve_algorithm1(mcv_case.machine, mcv_case.input);
+      if (solution.status == SolveStatus::kBadInput) {
+        throw std::runtime_error(
+            fmt::format("numbers out of any usable range (defect {}, index {})",
+                        static_cast<int>(solution.defect.defect), solution.defect.index));
+      }
       fmt::print("{}\n", solution_json(mcv_case, solution).dump());
     } catch (const std::exception& error) {
       // Results so far first, so that both streams read in order on one terminal.
@@ -30,6 +35,10 @@ int solve_lines(std::istream& cases) {
       fmt::print(stderr, "graben solve: line {}: {}\n", number, error.what());
       status = 1;
     }
+  }
+  if (cases.bad()) {
+    fmt::print(stderr, "graben solve: standard input can't be read\n");
+    status = 1;
   }
   return status;
 }

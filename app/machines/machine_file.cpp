@@ -60,6 +60,9 @@ ExcavatorMachine load_excavator(const std::filesystem::path& file) {
   TomlReader reader(document);
   // So far the one kind; another one's keys would only pile up errors.
   static_cast<void>(reader.choice("kind", {"excavator"}));
+  if (!reader.errors().empty()) {
+    throw ProfileError(file.string(), reader.errors());
+  }
   ExcavatorMachine machine;
   machine.name = file.stem().string();
   machine.hash = fnv1a(text);

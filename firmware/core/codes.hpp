@@ -13,7 +13,7 @@ enum class EcuMode : std::uint8_t {
   kReady = 1,     ///< Inputs complete; enable not given.
   kArmed = 2,     ///< Enabled, no task.
   kActive = 3,    ///< Follows the task.
-  kStopping = 4,  ///< Bringing the spools to neutral.
+  kStopping = 4,  ///< Reserved: bringing the spools to neutral. Not entered yet.
   kFault = 5,     ///< Neutral until the enable has been released and given afresh.
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 /// What an excavator is, as its controller knows it: geometry, valve, pumps, task. Constant after
-/// start; read and range-checked by the application, cross-checked by `check_profile`.
+/// start; read and range-checked by the application, cross-checked by `profile_check`.
 /// SI units. Sagittal plane: x forward, y up, origin at the boom foot pin; link frames have x from
 /// one pin to the next; joint angles: boom against the horizontal, arm against the boom, bucket
 /// against the arm, folding in is negative.

@@ -19,7 +19,7 @@ struct McvSolution {
 inline constexpr int kAlgorithm1Iterations = 24;
 
 /// Local maximum of (37), the global one unless regeneration splits the feasible set (Theorem 4).
-/// Constant cost: at most kAlgorithm1Iterations + 2 evaluations. Bad input, no feasible lambda and
+/// Constant cost: at most kAlgorithm1Iterations + 1 evaluations. Bad input, no feasible lambda and
 /// an iteration that did not end each give lambda 0 with closed spools and their status.
 [[nodiscard]] McvSolution solve_algorithm1(const McvMachine& machine, const McvInput& input);
 

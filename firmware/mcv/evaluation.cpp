@@ -9,7 +9,7 @@
 namespace graben {
 namespace {
 
-/// Flows of one actuator at full field speed, (33) and (34), and what its direction selects.
+/// Flows of one actuator at lambda, (33), (34) and (38), and what its direction selects.
 struct Stroke {
   bool moves = false;
   double q_in_m3ps = 0.0;
@@ -64,7 +64,8 @@ FlowBalance balance_of(const McvMachine& machine, const PerActuator<Stroke>& str
           stroke.q_out_m3ps, actuator.c_drain, actuator.c_check};
     }
   }
-  balance.bypass = 1.0 / std::sqrt(bypass_resistance);
+  // A line with nothing in its bypass holds no pressure; only a pump without spools can be one.
+  balance.bypass = bypass_resistance > 0.0 ? 1.0 / std::sqrt(bypass_resistance) : 0.0;
   return balance;
 }
 

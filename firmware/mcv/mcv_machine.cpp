@@ -11,6 +11,12 @@ namespace {
 bool positive(double value) { return std::isfinite(value) && value > 0.0; }
 bool not_negative(double value) { return std::isfinite(value) && value >= 0.0; }
 
+/// A flow coefficient whose resistance 1/c^2 and square are numbers too.
+bool usable(double coefficient) {
+  return positive(coefficient) && positive(coefficient * coefficient) &&
+         positive(1.0 / (coefficient * coefficient));
+}
+
 bool from_origin(const MonotoneTable& table) {
   return table.size() >= 2 && table.x_first() == 0.0 && table.y_first() == 0.0;
 }
@@ -23,11 +29,11 @@ McvDefect check_actuator(const McvActuator& actuator, int pump_count) {
     return McvDefect::kArea;
   }
   if (actuator.regeneration != RegenerationSide::kNone &&
-      !(positive(actuator.c_drain) && positive(actuator.c_check) &&
+      !(usable(actuator.c_drain) && usable(actuator.c_check) &&
         actuator.c_drain < actuator.c_check)) {
     return McvDefect::kRegeneration;
   }
-  if (!positive(actuator.bypass_open) || !positive(actuator.bypass_closed)) {
+  if (!usable(actuator.bypass_open) || !usable(actuator.bypass_closed)) {
     return McvDefect::kBypass;
   }
   if (!not_negative(actuator.force_offset_n)) {

@@ -67,6 +67,10 @@ PumpPressure solve_pump_pressure(const FlowBalance& balance, bool has_relief, do
     return result;
   }
   result.fed = true;
+  if (!(balance.bypass > 0.0)) {
+    result.converged = true;
+    return result;
+  }
   double start = upper_bound(balance, left_at_zero);
   if (has_relief) {
     const double sqrt_relief = std::sqrt(relief_pa);
@@ -96,6 +100,7 @@ PumpPressure solve_pump_pressure(const FlowBalance& balance, bool has_relief, do
     s = std::max(0.0, s - left / flow_left_slope(balance, s));
     ++result.iterations;
   }
+  result.converged = result.converged && std::isfinite(s * s);
   result.sqrt_pressure = s;
   return result;
 }

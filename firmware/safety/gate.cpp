@@ -4,6 +4,19 @@
 #include <cmath>
 
 namespace graben {
+namespace {
+
+/// Only the way from neutral is limited: towards neutral, and through it on a reversal, a spool may
+/// always go at once.
+double limited(double wanted, double last, double change_max) {
+  const double base = wanted * last > 0.0 ? last : 0.0;
+  if (std::abs(wanted) <= std::abs(base)) {
+    return wanted;
+  }
+  return std::clamp(wanted, base - change_max, base + change_max);
+}
+
+}  // namespace
 
 GateResult gate(const ExcavatorProfile& profile, const GateState& last, bool active,
                 const std::array<double, kAxisCount>& spool_m, double period_s) {
@@ -17,10 +30,9 @@ GateResult gate(const ExcavatorProfile& profile, const GateState& last, bool act
       return {false, Fault::kCommandNotFinite, {}, {}};
     }
     const double wanted = std::clamp(spool_m[i] / profile.valve.spool_travel_m, -1.0, 1.0);
-    const double opening =
-        std::clamp(wanted, last.opening[i] - change_max, last.opening[i] + change_max);
+    const double opening = limited(wanted, last.opening[i], change_max);
     result.state.opening[i] = opening;
-    if (std::abs(opening) >= profile.control.spool_threshold) {
+    if (opening != 0.0 && std::abs(opening) >= profile.control.spool_threshold) {
       result.duty_ratio[i] = std::copysign(
           std::clamp(profile.valve.spool_to_duty.at(std::abs(opening)), 0.0, 1.0), opening);
     }

@@ -21,8 +21,8 @@ struct GateResult {
 };
 
 /// Spool positions -> duties. Not active, or any position not finite: neutral in this cycle, enable
-/// withdrawn. Otherwise x / x_m is clamped to +-1, changes by at most spool_rate_ps towards its
-/// goal, and is kept at neutral below spool_threshold; the duty then follows spool_to_duty.
+/// withdrawn. Otherwise x / x_m is clamped to +-1, opens by at most spool_rate_ps (closing is never
+/// delayed), and is kept at neutral below spool_threshold; the duty then follows spool_to_duty.
 /// `period_s` is the time since the last cycle.
 [[nodiscard]] GateResult gate(const ExcavatorProfile& profile, const GateState& last, bool active,
                               const std::array<double, kAxisCount>& spool_m, double period_s);

@@ -77,7 +77,8 @@ ValidInputs validate(const ExcavatorInputs& inputs, const ExcavatorProfile& prof
   const OperatorInputs& driver = inputs.driver;
   valid.enable = fresh.holds(driver.enable) && driver.enable.value;
   if (!fresh.holds(driver.enable) || !fresh.holds(driver.mode) || !fresh.holds(driver.task) ||
-      !fresh.holds(driver.speed_override_ratio)) {
+      !fresh.holds(driver.speed_override_ratio) ||
+      !std::isfinite(driver.speed_override_ratio.value)) {
     valid.fault = Fault::kOperatorMissing;
     return valid;
   }

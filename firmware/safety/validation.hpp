@@ -8,7 +8,7 @@
 
 namespace graben {
 
-/// Inputs that may be used. With a fault, only `enable_seen` and the fault itself mean anything.
+/// Inputs that may be used. With a fault, only `enable` and the fault itself mean anything.
 struct ValidInputs {
   Fault fault = Fault::kNone;  ///< First thing that is missing or implausible.
   bool enable = false;         ///< Fresh, valid and given.

@@ -56,6 +56,10 @@ def bad_usage(graben):
     refused(graben, "", "no-such-command", status=2)
     refused(graben, "", status=2)
     refused(graben, "", "dig", "--speed", "7", status=2)
+    refused(graben, "nan is not a number", "dig", "--loops", "nan", status=2)
+    refused(graben, "nan is not a number", "dig", "--speed", "nan", status=2)
+    refused(graben, "-1 is not a whole number", "dig", "--seed=-1", status=2)
+    refused(graben, "whole number", "dig", "--seed", "99999999999999999999", status=2)
     refused(graben, "outside the work space", "dig", "--start", "20,0,1.5")
     refused(graben, "--start-strokes: entry 2", "dig", "--start-strokes", "1.0,9.0,0.4")
     refused(graben, "", "dig", "--start", "5,0,1.5", "--random-start", status=2)
@@ -74,11 +78,22 @@ def unwritable(graben):
         assert done.returncode == 1 and missing in done.stderr, done.stderr
 
 
+def lost_output(graben):
+    with open("/dev/full", "w", encoding="ascii") as full:
+        done = subprocess.run([graben, "pose", "--profile", "excavator_22t", "--strokes", "1,1,0.4"],
+                              stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+    assert done.returncode == 1 and "standard output" in done.stderr, done.stderr
+    folder = os.open("/", os.O_RDONLY)
+    done = subprocess.run([graben, "solve"], stdin=folder, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 1 and "can't be read" in done.stderr, (done.returncode, done.stderr)
+
+
 def main():
     graben = sys.argv[1]
     pose_and_back(graben)
     bad_usage(graben)
     unwritable(graben)
+    lost_output(graben)
     print("commands answer as they should")
 
 

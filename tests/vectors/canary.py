@@ -11,6 +11,8 @@ CHANGES = {
     "limit": lambda e: e.update(active="pump_flow[1]"),
     "regenerating": lambda e: e["regenerating"].__setitem__(0, not e["regenerating"][0]),
     "spool[0]": lambda e: e["spool"].__setitem__(0, e["spool"][0] + 2e-8),
+    "p_out[0]": lambda e: e["p_out"].__setitem__(0, e["p_out"][0] * 1.000002),
+    "number of spools": lambda e: e["spool"].pop(),
     "pump_pressure[0]": lambda e: e["pump_pressure"].__setitem__(0, e["pump_pressure"][0] * 1.000002),
 }
 

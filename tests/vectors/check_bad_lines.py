@@ -43,6 +43,9 @@ def bad_lines(case):
             actuators=c["machine"]["actuators"] * 3)), "machine.actuators: must be an array of 1 to 6"),
         (json.dumps(case).replace('"velocity": [', '"velocity": [1e999, '), "1e999"),
         (changed(case, lambda c: c.update(machine=[])), "machine: is not an object"),
+        ('{"id": ' + "[" * 100000 + "]" * 100000 + "}", "levels deep"),
+        (changed(case, lambda c: c.update(id={"a": 1})), "id: must be a string or a number"),
+        (changed(case, lambda c: actuator(c).update(bypass_open=1e-200)), "out of any usable range"),
     ]
 
 

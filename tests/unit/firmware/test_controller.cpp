@@ -109,6 +109,9 @@ void an_impossible_load_closes_the_spools(void**) {
   const ExcavatorOutputs outputs = running.step(inputs);
   assert_near(outputs.status.lambda, 0.0, 0.0);
   assert_int_equal(outputs.status.limit.kind, LimitKind::kBackFlow);
+  for (const double duty : outputs.duty_ratio) {
+    assert_near(duty, 0.0, 0.0);
+  }
 }
 
 void the_same_inputs_give_the_same_outputs(void**) {

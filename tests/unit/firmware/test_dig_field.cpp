@@ -83,7 +83,7 @@ void contour_points_along_and_towards_the_path(void**) {
   assert_true(beside.linear_mps.x() < 0.0);
   assert_true(beside.attitude_radps > 0.0);
   // Along the bottom, 75 deg over 3 m towards the machine: the attitude must turn with the tip.
-  const TipVelocity bottom = field().contour({5.0, -2.2, 1.4398475});
+  const TipVelocity bottom = field().contour({5.0, -2.2, 0.5 * (0.785398 + 2.094395)});
   assert_near(bottom.attitude_radps, -speed * (2.094395 - 0.785398) / 3.0, 1e-6);
 }
 

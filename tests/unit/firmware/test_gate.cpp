@@ -42,10 +42,32 @@ void changes_are_limited_in_rate(void**) {
   const double step = profile().control.spool_rate_ps * 0.01;
   const GateResult first = gate(profile(), {}, true, {travel(), 0.0, 0.0}, 0.01);
   assert_near(first.state.opening[0], step, 1e-12);
-  const GateResult second = gate(profile(), first.state, true, {-travel(), 0.0, 0.0}, 0.01);
-  assert_near(second.state.opening[0], 0.0, 1e-12);
+  const GateResult second = gate(profile(), first.state, true, {travel(), 0.0, 0.0}, 0.01);
+  assert_near(second.state.opening[0], 2.0 * step, 1e-12);
   const GateResult still = gate(profile(), first.state, true, {travel(), 0.0, 0.0}, 0.0);
   assert_near(still.state.opening[0], step, 1e-12);
+}
+
+/// Towards neutral a spool goes at once; a reversal opens from neutral.
+void closing_is_never_delayed(void**) {
+  GateState open;
+  open.opening = {1.0, -1.0, 1.0};
+  const double step = profile().control.spool_rate_ps * 0.01;
+  const GateResult result = gate(profile(), open, true, {0.1 * travel(), 0.0, -travel()}, 0.01);
+  assert_near(result.state.opening[0], 0.1, 1e-12);
+  assert_near(result.state.opening[1], 0.0, 0.0);
+  assert_near(result.duty_ratio[1], 0.0, 0.0);
+  assert_near(result.state.opening[2], -step, 1e-12);
+}
+
+/// A spool that is to be closed has duty 0, whatever the threshold.
+void closed_is_duty_zero(void**) {
+  ExcavatorProfile keen = profile();
+  keen.control.spool_threshold = 0.0;
+  const GateResult result = gate(keen, {}, true, {0.0, -0.0, 0.0}, 0.01);
+  for (const double duty : result.duty_ratio) {
+    assert_near(duty, 0.0, 0.0);
+  }
 }
 
 /// Neutral knows no rate: not active closes everything in the same cycle.
@@ -87,6 +109,8 @@ int main() {
       cmocka_unit_test(a_spool_hardly_open_stays_neutral),
       cmocka_unit_test(positions_beyond_the_travel_are_clamped),
       cmocka_unit_test(changes_are_limited_in_rate),
+      cmocka_unit_test(closing_is_never_delayed),
+      cmocka_unit_test(closed_is_duty_zero),
       cmocka_unit_test(not_active_is_neutral_at_once),
       cmocka_unit_test(what_is_no_number_is_refused),
   };

@@ -78,7 +78,8 @@ void pump_pressure_always_converges(void**) {
       RegenerationDemand& demand = balance.regeneration[static_cast<unsigned>(i)];
       demand.q_out_m3ps = draw(1e-6, 1e-1);
       demand.c_drain = draw(1e-7, 1e-5);
-      demand.c_check = demand.c_drain * draw(1.01, 10.0);
+      // Down to hardly more than the drain, where (18) as printed cancels.
+      demand.c_check = demand.c_drain * (1.0 + draw(1e-13, 9.0));
       balance.in_flow_m3ps += demand.q_out_m3ps * draw(0.3, 0.8) - demand.q_out_m3ps;
     }
     const PumpPressure solved = solve_pump_pressure(balance, false, 0.0);
@@ -94,6 +95,18 @@ void pump_pressure_always_converges(void**) {
   }
   assert_true(fed > 10000);
   assert_true(most_steps <= 20);
+}
+
+/// A pump that feeds nothing and has no orifice to the tank holds no pressure and no one up.
+void an_idle_pump_without_orifices_is_no_limit(void**) {
+  McvMachine machine = kim();
+  machine.pump_count = 3;
+  McvInput input = light_load(0.05, 0.05, 0.05);
+  input.pump_flow_m3ps[2] = 1e-3;
+  const McvSolution solution = solve_algorithm1(machine, input);
+  assert_int_equal(solution.status, SolveStatus::kOk);
+  assert_near(solution.point.lambda, 1.0, 0.0);
+  assert_near(solution.point.pump_pressure_pa[2], 0.0, 0.0);
 }
 
 void full_speed_where_nothing_holds(void**) {
@@ -185,6 +198,8 @@ void bad_machines_and_inputs_are_safe(void**) {
   refused(McvDefect::kRegeneration, [](auto& m, auto&) { m.actuator[1].c_drain = 2e-6; });
   refused(McvDefect::kRegeneration, [&](auto& m, auto&) { m.actuator[1].c_check = nan; });
   refused(McvDefect::kBypass, [](auto& m, auto&) { m.actuator[2].bypass_closed = 0.0; });
+  refused(McvDefect::kBypass, [](auto& m, auto&) { m.actuator[2].bypass_open = 1e-200; });
+  refused(McvDefect::kRegeneration, [](auto& m, auto&) { m.actuator[1].c_check = 1e200; });
   refused(McvDefect::kForceOffset, [](auto& m, auto&) { m.actuator[2].force_offset_n = -1.0; });
   refused(McvDefect::kExtendTable, [](auto& m, auto&) { m.actuator[0].extend = {}; });
   refused(McvDefect::kRetractTable, [](auto& m, auto&) { m.actuator[0].retract = {}; });
@@ -200,6 +215,7 @@ int main() {
       cmocka_unit_test(return_gallery_balances),
       cmocka_unit_test(pump_pressure_in_closed_form),
       cmocka_unit_test(pump_pressure_always_converges),
+      cmocka_unit_test(an_idle_pump_without_orifices_is_no_limit),
       cmocka_unit_test(full_speed_where_nothing_holds),
       cmocka_unit_test(a_starved_pump_scales_all_axes),
       cmocka_unit_test(back_flow_keeps_its_offset),

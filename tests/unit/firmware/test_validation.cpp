@@ -69,6 +69,9 @@ void a_value_that_is_no_number_is_missing(void**) {
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.axis[0].stroke_m.value = std::numeric_limits<double>::quiet_NaN();
   assert_int_equal(fault_of(inputs), Fault::kStrokeMissing);
+  inputs = complete_inputs(kNow);
+  inputs.driver.speed_override_ratio.value = std::numeric_limits<double>::quiet_NaN();
+  assert_int_equal(fault_of(inputs), Fault::kOperatorMissing);
 }
 
 void enable_must_be_fresh(void**) {

@@ -3,6 +3,8 @@
 #include "app/plant/excavator_plant.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -158,7 +160,7 @@ void disabled_and_not_finite_duties_are_neutral(void**) {
   plant.set_duty({1.0, 1.0, 1.0}, false);
   plant.advance(kSecondUs);
   assert_near(plant.spool_travels_ratio()[0], 0.0, 0.0);
-  run(plant, {0.0, NAN, INFINITY}, kSecondUs);
+  run(plant, {0.0, std::nan(""), std::numeric_limits<double>::infinity()}, kSecondUs);
   for (std::size_t i = 0; i < 3; ++i) {
     assert_near(plant.spool_travels_ratio()[i], 0.0, 0.0);
     assert_near(plant.strokes_m()[i], kStart[i], 0.1e-3);
