@@ -9,6 +9,8 @@ namespace {
 
 /// A stalled cycle must not turn into one large step of a rate limit.
 constexpr double kLongestPeriod_s = 0.02;
+/// Without a cycle for this long, what the machine did meanwhile is not known.
+constexpr TimeUs kStalled_us = 50 * kMillisecondUs;
 
 WantedMotion wanted_motion(const DigField& field, const KinematicState& state,
                            const ValidInputs& inputs) {
@@ -31,7 +33,10 @@ McvInput mcv_input(const ValidInputs& inputs, const Eigen::Vector3d& velocity_mp
 
 /// A fault of this cycle beyond the inputs, as far as motion is asked for.
 Fault blocking_fault(const ValidInputs& inputs, const KinematicState& state,
-                     const McvSolution& solution) {
+                     const McvSolution& solution, bool stalled) {
+  if (stalled) {
+    return Fault::kCycleStalled;
+  }
   if (inputs.fault != Fault::kNone) {
     return inputs.fault;
   }
@@ -84,7 +89,8 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   const VelocityCap cap = stroke_end_cap(profile_, valid.strokes_m, wanted.velocity_mps);
   const McvSolution solution =
       solve_algorithm1(valve_, mcv_input(valid, cap.factor * wanted.velocity_mps));
-  memory_.mode = next_mode(memory_.mode, valid, blocking_fault(valid, state, solution));
+  const bool stalled = memory_.has_stepped && now_us - memory_.last_us > kStalled_us;
+  memory_.mode = next_mode(memory_.mode, valid, blocking_fault(valid, state, solution, stalled));
   const GateResult command = gate(profile_, memory_.gate, memory_.mode.mode == EcuMode::kActive,
                                   {solution.point.spool_m[kBoom], solution.point.spool_m[kArm],
                                    solution.point.spool_m[kBucket]},

@@ -1,5 +1,7 @@
 #include "hal/excavator_receiver.hpp"
 
+#include <algorithm>
+
 #include "can_dbc/generated/excavator_dbc.hpp"
 
 namespace graben {
@@ -208,6 +210,12 @@ void ExcavatorReceiver::accept(const CanFrame& frame, TimeUs now) {
   }
   count(index, row.decode(frame.data, now, received_) ? &LinkCounters::accepted
                                                       : &LinkCounters::out_of_range);
+}
+
+Signal<bool> same_machine(const ExcavatorIdentity& identity, std::uint32_t own_profile_hash) {
+  const auto& [hash, version] = identity;
+  return {hash.value == own_profile_hash && version.value == bus::kDbcVersion,
+          std::min(hash.validity, version.validity), std::min(hash.stamp_us, version.stamp_us)};
 }
 
 LinkCounters ExcavatorReceiver::link(std::uint32_t id) const {

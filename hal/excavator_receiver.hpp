@@ -19,6 +19,10 @@ struct ExcavatorIdentity {
   Signal<std::uint32_t> dbc_version;
 };
 
+/// Whether that is what we are; as valid and as old as the worse of the two.
+[[nodiscard]] Signal<bool> same_machine(const ExcavatorIdentity& identity,
+                                        std::uint32_t own_profile_hash);
+
 /// Receives every frame of the bus, keeps those of excavator.dbc that are meant for the controller.
 /// A message is known by its whole 29-bit id: priority, page, PGN and source address.
 ///

@@ -44,7 +44,9 @@ static_assert(same(BusFault::kStrokeImplausible, Fault::kStrokeImplausible));
 static_assert(same(BusFault::kPoseUnreachable, Fault::kPoseUnreachable));
 static_assert(same(BusFault::kSolverFailed, Fault::kSolverFailed));
 static_assert(same(BusFault::kCommandNotFinite, Fault::kCommandNotFinite));
-static_assert(same(bus::EcuStatus::kFault.raw_max, Fault::kCommandNotFinite));
+static_assert(same(BusFault::kCycleStalled, Fault::kCycleStalled));
+static_assert(same(BusFault::kIdentityMismatch, Fault::kIdentityMismatch));
+static_assert(same(bus::EcuStatus::kFault.raw_max, Fault::kIdentityMismatch));
 
 constexpr dbc::Physical physical(double value) { return {value, RawState::kValid}; }
 constexpr dbc::Count count(std::uint32_t value) { return {value, RawState::kValid}; }

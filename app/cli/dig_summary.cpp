@@ -5,11 +5,12 @@
 #include <map>
 
 #include "app/cli/dig_run.hpp"
+#include "app/machines/axis_names.hpp"
 
 namespace graben::cli {
 namespace {
 
-constexpr const char* kAxisNames[] = {"boom", "arm", "bucket"};
+using machines::kAxisNames;
 
 double median(std::vector<double> values) {
   if (values.empty()) {

@@ -9,6 +9,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/guarded.hpp"
+#include "app/machines/axis_names.hpp"
 #include "app/machines/machine_file.hpp"
 #include "firmware/kinematics/excavator_kinematics.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kAxisNames[] = {"boom", "arm", "bucket"};
+using machines::kAxisNames;
 
 const char* reach_name(ReachStatus status) {
   switch (status) {

@@ -36,7 +36,8 @@ int solve_lines(std::istream& cases) {
       status = 1;
     }
   }
-  if (cases.bad()) {
+  // std::cin shares stdio's buffer, so that a read error is known there.
+  if (cases.bad() || std::ferror(stdin) != 0) {
     fmt::print(stderr, "graben solve: standard input can't be read\n");
     status = 1;
   }

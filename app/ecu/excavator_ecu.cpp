@@ -2,9 +2,11 @@
 
 namespace graben::ecu {
 namespace {
-/// More frames than a 500 kbit/s bus can carry in 10 ms (some 75 of the shortest): a cycle takes
-/// what one cycle can bring, never more.
-constexpr int kFramesPerCycle = 96;
+/// A cycle takes all that is pending, up to the capacity of any queue of ours; a 500 kbit/s bus
+/// brings some 75 of the shortest frames in 10 ms.
+constexpr int kFramesPerBatch = 96;
+constexpr int kBatchesPerCycle = 4;
+constexpr TimeUs kStalled_us = 50 * kMillisecondUs;
 }  // namespace
 
 ExcavatorEcu::ExcavatorEcu(const ExcavatorProfile& profile, std::uint32_t profile_hash,
@@ -14,16 +16,33 @@ ExcavatorEcu::ExcavatorEcu(const ExcavatorProfile& profile, std::uint32_t profil
 }
 
 void ExcavatorEcu::receive(TimeUs now_us) {
-  std::array<CanFrame, kFramesPerCycle> frames;
-  const int count = port_.receive(frames.data(), kFramesPerCycle);
-  for (int i = 0; i < count; ++i) {
-    receiver_.accept(frames[static_cast<unsigned>(i)], now_us);
+  std::array<CanFrame, kFramesPerBatch> frames;
+  for (int batch = 0; batch < kBatchesPerCycle; ++batch) {
+    const int count = port_.receive(frames.data(), kFramesPerBatch);
+    for (int i = 0; i < count; ++i) {
+      receiver_.accept(frames[static_cast<unsigned>(i)], now_us);
+    }
+    if (count < kFramesPerBatch) {
+      return;
+    }
   }
 }
 
+void ExcavatorEcu::flush_after_stall(TimeUs now_us) {
+  if (has_stepped_ && now_us - last_us_ > kStalled_us) {
+    // A port that does not open again stays silent; the signals then time out.
+    static_cast<void>(port_.open());
+  }
+  last_us_ = now_us;
+  has_stepped_ = true;
+}
+
 void ExcavatorEcu::step(TimeUs now_us, TimeUs last_cycle_us) {
+  flush_after_stall(now_us);
   receive(now_us);
-  outputs_ = controller_.step(receiver_.inputs(), now_us);
+  inputs_ = receiver_.inputs();
+  inputs_.same_machine = same_machine(receiver_.identity(), diagnosis_.profile_hash);
+  outputs_ = controller_.step(inputs_, now_us);
   diagnosis_.cycle_time_us = last_cycle_us;
   diagnosis_.rejected_frames = rejected(receiver_.total());
   ExcavatorTransmitter::Frames frames;

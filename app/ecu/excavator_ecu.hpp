@@ -16,26 +16,31 @@ class ExcavatorEcu {
  public:
   ExcavatorEcu(const ExcavatorProfile& profile, std::uint32_t profile_hash, CanPort& port);
 
-  /// One cycle at `now_us`, to be called every 10 ms. `last_cycle_us` is how long the cycle before
+  /// One cycle at `now_us`, to be called every 10 ms. After a stall what is queued is discarded: an
+  /// old frame must not be taken for a fresh one. `last_cycle_us` is how long the cycle before
   /// took, for the status frame; 0 where time is simulated.
   void step(TimeUs now_us, TimeUs last_cycle_us);
 
   [[nodiscard]] const ExcavatorOutputs& outputs() const { return outputs_; }
-  [[nodiscard]] const ExcavatorInputs& inputs() const { return receiver_.inputs(); }
+  [[nodiscard]] const ExcavatorInputs& inputs() const { return inputs_; }
   [[nodiscard]] const LinkCounters& link() const { return receiver_.total(); }
   /// Frames that the port did not take.
   [[nodiscard]] std::uint32_t dropped() const { return dropped_; }
 
  private:
   void receive(TimeUs now_us);
+  void flush_after_stall(TimeUs now_us);
 
   CanPort& port_;
   ExcavatorReceiver receiver_;
   ExcavatorController controller_;
   ExcavatorTransmitter transmitter_;
   EcuDiagnosis diagnosis_;
+  ExcavatorInputs inputs_;
   ExcavatorOutputs outputs_;
   std::uint32_t dropped_ = 0;
+  TimeUs last_us_ = 0;
+  bool has_stepped_ = false;
 };
 
 }  // namespace graben::ecu

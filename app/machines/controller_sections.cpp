@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "app/machines/axis_names.hpp"
 #include "app/machines/excavator_sections.hpp"
 #include "firmware/excavator_controller.hpp"
 
 namespace graben::machines {
 namespace {
 
-constexpr std::array<const char*, kAxisCount> kAxes = {"boom", "arm", "bucket"};
 constexpr Range kLength{0.1, 30.0, "m"};
 constexpr Range kPin{-10.0, 10.0, "m"};
 constexpr Range kFlowCoefficient{1e-9, 1e-3, "m3/(s sqrt(Pa))"};
@@ -45,7 +45,7 @@ ExcavatorGeometry read_geometry(TomlReader& reader) {
   geometry.arm_length_m = reader.number("arm.length", kLength);
   geometry.bucket_length_m = reader.number("bucket.length", kLength);
   for (unsigned i = 0; i < kAxisCount; ++i) {
-    geometry.cylinder[i] = read_cylinder(reader, kAxes[i], i != kBucket);
+    geometry.cylinder[i] = read_cylinder(reader, kAxisNames[i], i != kBucket);
   }
   geometry.linkage.rocker_pivot_m = reader.point("bucket.linkage.rocker_pivot", kPin);
   geometry.linkage.rocker_m = reader.number("bucket.linkage.rocker", kLength);
@@ -121,7 +121,7 @@ ValveProfile read_valve(TomlReader& reader) {
   valve.discharge = reader.number("valve.discharge", {0.3, 1.0, ""});
   valve.density_kgpm3 = reader.number("valve.density", {700.0, 1100.0, "kg/m3"});
   for (unsigned i = 0; i < kAxisCount; ++i) {
-    valve.spool[i] = read_spool(reader, kAxes[i]);
+    valve.spool[i] = read_spool(reader, kAxisNames[i]);
   }
   valve.spool_to_duty = read_spool_to_duty(reader);
   return valve;
@@ -192,7 +192,7 @@ const char* obstacle_text(ReachStatus status) {
   }
 }
 
-std::string angle_key(unsigned axis) { return std::string(kAxes[axis]) + ".angle"; }
+std::string angle_key(unsigned axis) { return std::string(kAxisNames[axis]) + ".angle"; }
 
 /// The angle range is documentation; off by more than this, a pin is wrong.
 constexpr double kAngleTolerance_rad = 0.15;

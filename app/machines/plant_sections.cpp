@@ -1,12 +1,11 @@
 #include <array>
 #include <string>
 
+#include "app/machines/axis_names.hpp"
 #include "app/machines/excavator_sections.hpp"
 
 namespace graben::machines {
 namespace {
-
-constexpr std::array<const char*, kAxisCount> kAxes = {"boom", "arm", "bucket"};
 
 plant::LinkBody read_link(TomlReader& reader, const std::string& axis) {
   plant::LinkBody link;
@@ -51,7 +50,7 @@ plant::PlantProfile read_plant_sections(TomlReader& reader, const ExcavatorProfi
   const std::vector<double> dead_volume =
       reader.numbers("valve.dead_volume", {1e-5, 1.0, "m3"}, kAxisCount);
   for (unsigned i = 0; i < kAxisCount; ++i) {
-    plant.link[i] = read_link(reader, kAxes[i]);
+    plant.link[i] = read_link(reader, kAxisNames[i]);
     plant.friction[i] = {coulomb[i], viscous[i]};
     plant.dead_volume_m3[i] = dead_volume[i];
   }

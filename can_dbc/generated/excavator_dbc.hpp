@@ -470,6 +470,8 @@ struct EcuStatus {
     kPoseUnreachable = 7,
     kSolverFailed = 8,
     kCommandNotFinite = 9,
+    kCycleStalled = 10,
+    kIdentityMismatch = 11,
   };
 
   static constexpr Field kMode{
@@ -485,7 +487,7 @@ struct EcuStatus {
       "Lambda", "", 16, 16, 0U, 50000U, 65279, 65535, 0U,
       0, 1.0, 50000.0};
   static constexpr Field kFault{
-      "Fault", "", 32, 8, 0U, 9U, 254, 255, 0U,
+      "Fault", "", 32, 8, 0U, 11U, 254, 255, 0U,
       0, 1.0, 1.0};
   static constexpr Field kCycleTime{
       "CycleTime", "us", 40, 16, 0U, 64255U, 65279, 65535, 0U,

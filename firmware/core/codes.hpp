@@ -29,6 +29,8 @@ enum class Fault : std::uint8_t {
   kPoseUnreachable = 7,
   kSolverFailed = 8,
   kCommandNotFinite = 9,
+  kCycleStalled = 10,      ///< Too long since the last cycle.
+  kIdentityMismatch = 11,  ///< The machine's end has another profile or DBC, or does not say.
 };
 
 /// What holds lambda below 1.

@@ -23,11 +23,13 @@ ModeState next_mode(const ModeState& last, const ValidInputs& inputs, Fault bloc
       break;
   }
   if (!inputs.enable || !inputs.automatic) {
-    return {EcuMode::kReady, Fault::kNone};
+    return {EcuMode::kReady, Fault::kNone, !inputs.enable && inputs.automatic};
   }
   const bool has_task = inputs.task != Task::kNone;
-  // Arming takes a cycle of its own, so that a task never starts in the cycle of its enable.
-  return {has_task && was_enabled ? EcuMode::kActive : EcuMode::kArmed, Fault::kNone};
+  if (was_enabled) {
+    return {has_task ? EcuMode::kActive : EcuMode::kArmed, Fault::kNone};
+  }
+  return {last.may_arm && !has_task ? EcuMode::kArmed : EcuMode::kReady, Fault::kNone};
 }
 
 }  // namespace graben

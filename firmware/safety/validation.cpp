@@ -82,6 +82,11 @@ ValidInputs validate(const ExcavatorInputs& inputs, const ExcavatorProfile& prof
     valid.fault = Fault::kOperatorMissing;
     return valid;
   }
+  const Freshness known(kIdentityTimeout_s, now_us);
+  if (!known.holds(inputs.same_machine) || !inputs.same_machine.value) {
+    valid.fault = Fault::kIdentityMismatch;
+    return valid;
+  }
   valid.automatic = driver.mode.value == OperatorMode::kAutomatic;
   valid.task = driver.task.value;
   valid.speed_override_ratio = std::clamp(driver.speed_override_ratio.value, 0.0, 1.0);

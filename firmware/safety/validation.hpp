@@ -24,6 +24,9 @@ struct ValidInputs {
 /// How far a measured stroke may lie outside its cylinder's range: bias and mounting.
 inline constexpr double kStrokeMargin_m = 0.010;
 
+/// The machine names itself every second; it may miss one time.
+inline constexpr double kIdentityTimeout_s = 2.5;
+
 /// A signal is missing when it was never valid or is older than control.sensor_timeout_s.
 [[nodiscard]] ValidInputs validate(const ExcavatorInputs& inputs, const ExcavatorProfile& profile,
                                    TimeUs now_us);

@@ -38,6 +38,8 @@ struct ExcavatorInputs {
   std::array<Signal<double>, kPumpCount> swash_ratio;  ///< tan(alpha) / tan(alpha at full swash).
   Signal<double> engine_speed_radps;
   OperatorInputs driver;
+  /// Whether the machine's end runs with our profile hash and DBC version.
+  Signal<bool> same_machine;
 };
 
 /// What the controller says of itself; nothing of it moves metal.

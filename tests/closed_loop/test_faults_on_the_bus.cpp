@@ -105,7 +105,7 @@ void a_fault_is_left_by_re_arming_only(void**) {
   digging.bench.release();
   digging.run(300 * kMillisecondUs);
   assert_int_equal(digging.mode(), EcuMode::kReady);
-  digging.bench.driver.set_schedule({{0, {true, OperatorMode::kAutomatic, Task::kDig, 1.0}}});
+  digging.bench.enable_from(digging.now_us);
   digging.run(300 * kMillisecondUs);
   assert_int_equal(digging.mode(), EcuMode::kActive);
 }
@@ -198,7 +198,7 @@ void foreign_frames_change_nothing(void**) {
   Digging undisturbed;
   digging.bench.bus.set_tap(nullptr);
   for (int n = 0; n < 50; ++n) {
-    for (std::uint32_t k = 0; k < 20; ++k) {
+    for (std::uint32_t k = 0; k < 120; ++k) {
       CanFrame frame;
       frame.id = 0x18FE0000u + k;
       frame.extended = true;
@@ -212,6 +212,38 @@ void foreign_frames_change_nothing(void**) {
     assert_near(digging.bench.plant.plant().strokes_m()[i],
                 undisturbed.bench.plant.plant().strokes_m()[i], 0.0);
   }
+}
+
+/// The controller's process hangs while the operator lets go: what queued up meanwhile is stale,
+/// and nothing moves on it.
+void a_stalled_controller_does_not_act_on_old_frames(void**) {
+  Digging digging;
+  for (int n = 0; n < 14; ++n, digging.now_us += DigBench::kPeriod_us) {
+    digging.bench.bus.set_time(digging.now_us);
+    digging.bench.plant.step(digging.now_us);
+    digging.bench.driver.step(digging.now_us);
+  }
+  digging.bench.release();
+  digging.run(DigBench::kPeriod_us);
+  assert_true(digging.neutral());
+  assert_int_equal(digging.mode(), EcuMode::kFault);
+}
+
+/// A machine that names another profile is not moved, however long enable is asked for.
+void another_machine_is_never_armed(void**) {
+  DigBench bench(machine(), Eigen::Vector3d(1.16, 1.25, 0.24), 1.0);
+  bench.bus.set_fault_hook([](CanFrame& frame, const LoopbackPort*) {
+    if (frame.id == bus::MachineIdentity::kId) {
+      frame.data[0] = static_cast<std::uint8_t>(frame.data[0] ^ 0x55u);
+    }
+    return true;
+  });
+  for (TimeUs now_us = 0; now_us < 3 * kSecondUs; now_us += DigBench::kPeriod_us) {
+    static_cast<void>(bench.step(now_us));
+    assert_false(bench.ecu.outputs().enable);
+  }
+  assert_int_equal(bench.ecu.outputs().status.mode, EcuMode::kSilent);
+  assert_int_equal(bench.ecu.outputs().status.fault, Fault::kIdentityMismatch);
 }
 
 /// After neutral no cylinder runs on: what moves is the spool's closing and the oil's spring.
@@ -244,6 +276,8 @@ int main() {
       cmocka_unit_test(released_enable_is_neutral_with_its_first_frame),
       cmocka_unit_test(wrong_frames_are_counted_and_never_used),
       cmocka_unit_test(foreign_frames_change_nothing),
+      cmocka_unit_test(a_stalled_controller_does_not_act_on_old_frames),
+      cmocka_unit_test(another_machine_is_never_armed),
       cmocka_unit_test(neutral_stops_the_machine),
       cmocka_unit_test(a_silent_controller_is_closed_by_the_valve_side),
   };

@@ -201,7 +201,7 @@ void plain_numbers(void**) {
   assert_int_equal(sent(status, bus::EcuStatus::kRejectedFrames), 250);
   status.limit_index.value = 14;
   assert_int_equal(sent(status, bus::EcuStatus::kLimitIndex), 13);
-  status.fault.value = static_cast<bus::EcuStatus::Fault>(10);
+  status.fault.value = static_cast<bus::EcuStatus::Fault>(bus::EcuStatus::kFault.raw_max + 1);
   assert_int_equal(sent(status, bus::EcuStatus::kFault), 0xFE);
   status.mode.value = bus::EcuStatus::Mode::kFault;
   assert_int_equal(sent(status, bus::EcuStatus::kMode), 5);

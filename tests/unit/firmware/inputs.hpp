@@ -27,6 +27,7 @@ inline ExcavatorInputs complete_inputs(TimeUs now_us) {
   inputs.driver.mode = fresh(OperatorMode::kAutomatic, now_us);
   inputs.driver.task = fresh(Task::kDig, now_us);
   inputs.driver.speed_override_ratio = fresh(1.0, now_us);
+  inputs.same_machine = fresh(true, now_us);
   return inputs;
 }
 

@@ -27,11 +27,20 @@ struct Running {
   }
   ExcavatorInputs inputs() const { return complete_inputs(now_us); }
 
+  ExcavatorInputs at_rest(bool enable) const {
+    ExcavatorInputs resting = inputs();
+    resting.driver.enable.value = enable;
+    resting.driver.task.value = Task::kNone;
+    return resting;
+  }
+
   Running() {
     ExcavatorInputs released = inputs();
     released.driver.enable.value = false;
     step(released);
-    step(inputs());
+
+    step(at_rest(false));
+    step(at_rest(true));
     step(inputs());
   }
 };
@@ -98,6 +107,18 @@ void a_missing_sensor_is_neutral_within_50_ms(void**) {
   }
 }
 
+/// Fresh inputs after a pause do not make up for what was not seen.
+void a_stalled_cycle_is_neutral_and_latched(void**) {
+  Running running;
+  running.now_us += 40 * kMillisecondUs;
+  assert_true(running.step(running.inputs()).enable);
+  running.now_us += 60 * kMillisecondUs;
+  const ExcavatorOutputs outputs = running.step(running.inputs());
+  assert_neutral(outputs);
+  assert_int_equal(outputs.status.fault, Fault::kCycleStalled);
+  assert_neutral(running.step(running.inputs()));
+}
+
 /// Machine pressures that no motion can work against: told, and closed.
 void an_impossible_load_closes_the_spools(void**) {
   Running running;
@@ -136,6 +157,7 @@ int main() {
       cmocka_unit_test(duties_have_the_wanted_velocitys_signs),
       cmocka_unit_test(released_enable_is_neutral_in_the_same_cycle),
       cmocka_unit_test(a_missing_sensor_is_neutral_within_50_ms),
+      cmocka_unit_test(a_stalled_cycle_is_neutral_and_latched),
       cmocka_unit_test(an_impossible_load_closes_the_spools),
       cmocka_unit_test(the_same_inputs_give_the_same_outputs),
   };

@@ -1,4 +1,6 @@
 #include "firmware/safety/mode.hpp"
+
+#include <initializer_list>
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace {
@@ -28,10 +30,34 @@ void motion_needs_every_step(void**) {
   assert_int_equal(state.mode, EcuMode::kSilent);
   state = next_mode(state, inputs(false), Fault::kNone);
   assert_int_equal(state.mode, EcuMode::kReady);
-  state = next_mode(state, inputs(true), Fault::kNone);
+  state = next_mode(state, inputs(false, Task::kNone), Fault::kNone);
+  state = next_mode(state, inputs(true, Task::kNone), Fault::kNone);
   assert_int_equal(state.mode, EcuMode::kArmed);
   state = next_mode(state, inputs(true), Fault::kNone);
   assert_int_equal(state.mode, EcuMode::kActive);
+}
+
+/// The mode after these cycles, one after the other, from Ready.
+EcuMode after_all(std::initializer_list<ValidInputs> cycles) {
+  ModeState state{EcuMode::kReady, Fault::kNone};
+  for (const ValidInputs& valid : cycles) {
+    state = next_mode(state, valid, Fault::kNone);
+  }
+  return state.mode;
+}
+
+void a_held_deadman_or_a_waiting_task_does_not_arm(void**) {
+  const ValidInputs released = inputs(false, Task::kNone);
+  const ValidInputs held_in_manual = inputs(true, Task::kNone, false);
+  const ValidInputs enabled = inputs(true, Task::kNone);
+  const ValidInputs with_task = inputs(true, Task::kDig);
+  assert_int_equal(after_all({released, enabled}), EcuMode::kArmed);
+  assert_int_equal(after_all({held_in_manual, enabled}), EcuMode::kReady);
+  assert_int_equal(after_all({held_in_manual, with_task, with_task}), EcuMode::kReady);
+  assert_int_equal(after_all({inputs(false, Task::kNone, false), enabled}), EcuMode::kReady);
+  assert_int_equal(after_all({released, with_task}), EcuMode::kReady);
+  assert_int_equal(after_all({released, with_task, enabled}), EcuMode::kReady);
+  assert_int_equal(after_all({released, with_task, released, enabled}), EcuMode::kArmed);
 }
 
 void enable_given_from_the_start_does_not_arm(void**) {
@@ -79,6 +105,7 @@ void without_enable_a_fault_only_silences(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(motion_needs_every_step),
+      cmocka_unit_test(a_held_deadman_or_a_waiting_task_does_not_arm),
       cmocka_unit_test(enable_given_from_the_start_does_not_arm),
       cmocka_unit_test(released_enable_or_manual_ends_motion_at_once),
       cmocka_unit_test(a_fault_latches_until_enable_is_released),

@@ -82,6 +82,19 @@ void enable_must_be_fresh(void**) {
   assert_int_equal(stale.fault, Fault::kOperatorMissing);
 }
 
+/// A machine with another profile, one that does not say, and one that fell silent.
+void another_machine_is_refused(void**) {
+  ExcavatorInputs inputs = complete_inputs(kNow);
+  inputs.same_machine.value = false;
+  assert_int_equal(fault_of(inputs), Fault::kIdentityMismatch);
+  inputs.same_machine = {};
+  assert_int_equal(fault_of(inputs), Fault::kIdentityMismatch);
+  inputs.same_machine = test::fresh(true, kNow - 2 * kSecondUs);
+  assert_int_equal(fault_of(inputs), Fault::kNone);
+  inputs.same_machine = test::fresh(true, kNow - 3 * kSecondUs);
+  assert_int_equal(fault_of(inputs), Fault::kIdentityMismatch);
+}
+
 void strokes_outside_their_cylinder_are_implausible(void**) {
   const double most = profile().geometry.cylinder[kBucket].stroke_m;
   ExcavatorInputs inputs = complete_inputs(kNow);
@@ -103,6 +116,7 @@ int main() {
       cmocka_unit_test(each_signal_is_required),
       cmocka_unit_test(a_value_that_is_no_number_is_missing),
       cmocka_unit_test(enable_must_be_fresh),
+      cmocka_unit_test(another_machine_is_refused),
       cmocka_unit_test(strokes_outside_their_cylinder_are_implausible),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
