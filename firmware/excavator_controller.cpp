@@ -88,7 +88,7 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   const WantedMotion wanted = wanted_motion(field_, state, valid);
   const VelocityCap cap = stroke_end_cap(profile_, valid.strokes_m, wanted.velocity_mps);
   const McvSolution solution =
-      solve_algorithm1(valve_, mcv_input(valid, cap.factor * wanted.velocity_mps));
+      solve_mcv(valve_, mcv_input(valid, cap.factor * wanted.velocity_mps), McvPolicy::kAlgorithm1);
   const bool stalled = memory_.has_stepped && now_us - memory_.last_us > kStalled_us;
   memory_.mode = next_mode(memory_.mode, valid, blocking_fault(valid, state, solution, stalled));
   const GateResult command = gate(profile_, memory_.gate, memory_.mode.mode == EcuMode::kActive,

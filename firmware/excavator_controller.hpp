@@ -2,7 +2,7 @@
 /// The excavator's controller: one step from signals to commands, 100 times a second.
 
 #include "firmware/kinematics/excavator_kinematics.hpp"
-#include "firmware/mcv/algorithm1.hpp"
+#include "firmware/mcv/optimiser.hpp"
 #include "firmware/motion/dig_field.hpp"
 #include "firmware/safety/gate.hpp"
 #include "firmware/safety/mode.hpp"

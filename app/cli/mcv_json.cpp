@@ -111,6 +111,9 @@ McvActuator read_actuator(const Node& node, int pump_count) {
   actuator.bypass_open = node.at("bypass_open").positive();
   actuator.bypass_closed = node.at("bypass_closed").positive();
   actuator.force_offset_n = node.at("force_offset").not_negative();
+  if (node.has("c_inflow_check")) {
+    actuator.c_inflow_check = node.at("c_inflow_check").positive();
+  }
   actuator.extend = read_table(node.at("c_extend"));
   actuator.retract = read_table(node.at("c_retract"));
   return actuator;
@@ -130,11 +133,12 @@ McvPump read_pump(const Node& node) {
   return pump;
 }
 
-void read_per_actuator(const Node& node, int count, PerActuator<double>& into) {
+template <class Read>
+void read_per_actuator(const Node& node, int count, PerActuator<double>& into, Read read) {
   const auto entries = static_cast<std::size_t>(count);
   std::size_t i = 0;
   for (const Node& item : node.items(entries, entries)) {
-    into[i++] = item.number();
+    into[i++] = read(item);
   }
 }
 
@@ -186,9 +190,12 @@ McvCase parse_mcv_case(const std::string& line) {
     result.machine.actuator[i] = read_actuator(actuators[i], result.machine.pump_count);
   }
   const Node input = root.at("input");
-  read_per_actuator(input.at("velocity"), result.machine.actuator_count, result.input.velocity_mps);
-  read_per_actuator(input.at("p_cap"), result.machine.actuator_count, result.input.cap_pressure_pa);
-  read_per_actuator(input.at("p_rod"), result.machine.actuator_count, result.input.rod_pressure_pa);
+  const int count = result.machine.actuator_count;
+  const auto pressure = [](const Node& item) { return item.not_negative(); };
+  read_per_actuator(input.at("velocity"), count, result.input.velocity_mps,
+                    [](const Node& item) { return item.number(); });
+  read_per_actuator(input.at("p_cap"), count, result.input.cap_pressure_pa, pressure);
+  read_per_actuator(input.at("p_rod"), count, result.input.rod_pressure_pa, pressure);
   return result;
 }
 
@@ -206,6 +213,14 @@ std::string limit_name(const Limit& limit) {
       return fmt::format("stroke_end[{}]", limit.index);
   }
   return "unknown";
+}
+
+const std::vector<std::pair<std::string, McvPolicy>>& policy_names() {
+  static const std::vector<std::pair<std::string, McvPolicy>> names = {
+      {"algorithm1", McvPolicy::kAlgorithm1},
+      {"connected", McvPolicy::kConnected},
+      {"global", McvPolicy::kGlobal}};
+  return names;
 }
 
 std::string status_name(SolveStatus status) {
@@ -235,8 +250,17 @@ nlohmann::ordered_json solution_json(const McvCase& mcv_case, const McvSolution&
   result["p_out"] = list(solution.point.out_pressure_pa, actuators, number);
   result["regenerating"] = list(solution.point.regenerating, actuators, flag);
   result["limit"] = limit_name(solution.limit);
+  result["shortfall"] = solution.shortfall;
+  result["margins"] = {
+      {"pump_flow_m3ps", list(solution.margins.flow_m3ps, mcv_case.machine.pump_count, number)},
+      {"force_n", list(solution.margins.force_n, actuators, number)},
+      {"travel_m", list(solution.margins.travel_m, actuators, number)}};
   result["iterations"] = solution.iterations;
   result["status"] = status_name(solution.status);
+  if (!solution.standstill.can_start) {
+    result["standstill"] = {{"actuator", solution.standstill.actuator},
+                            {"short_n", solution.standstill.short_n}};
+  }
   return result;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/mcv/algorithm1.hpp"
+#include "firmware/mcv/optimiser.hpp"
 
 namespace graben::cli {
 
@@ -26,6 +26,9 @@ struct McvCase {
 
 /// "", "pump_flow[j]", "back_flow[i]" or "spool_travel[i]".
 [[nodiscard]] std::string limit_name(const Limit& limit);
+
+/// "algorithm1", "connected", "global".
+[[nodiscard]] const std::vector<std::pair<std::string, McvPolicy>>& policy_names();
 
 /// "ok", "infeasible", "bad_input" or "not_converged".
 [[nodiscard]] std::string status_name(SolveStatus status);

@@ -13,7 +13,7 @@ namespace graben::cli {
 namespace {
 
 /// Reads cases until the input ends; a bad line is told and skipped.
-int solve_lines(std::istream& cases) {
+int solve_lines(std::istream& cases, McvPolicy policy) {
   int status = 0;
   std::string line;
   for (long number = 1; std::getline(cases, line); ++number) {
@@ -22,7 +22,7 @@ int solve_lines(std::istream& cases) {
     }
     try {
       const McvCase mcv_case = parse_mcv_case(line);
-      const McvSolution solution = solve_algorithm1(mcv_case.machine, mcv_case.input);
+      const McvSolution solution = solve_mcv(mcv_case.machine, mcv_case.input, policy);
       if (solution.status == SolveStatus::kBadInput) {
         throw std::runtime_error(
             fmt::format("numbers out of any usable range (defect {}, index {})",
@@ -51,11 +51,14 @@ void add_solve(CLI::App& app, int& status) {
       "solve",
       "Solve cases of the valve's optimisation: JSON lines from standard input, one "
       "result line each");
-  auto policy = std::make_shared<std::string>("algorithm1");
-  command->add_option("--policy", *policy, "How lambda is chosen: algorithm1, as in Kim et al.")
-      ->check(CLI::IsMember({"algorithm1"}))
-      ->capture_default_str();
-  command->callback([policy, &status] { status = solve_lines(std::cin); });
+  auto policy = std::make_shared<McvPolicy>(McvPolicy::kGlobal);
+  command
+      ->add_option("--policy", *policy,
+                   "How lambda is chosen: algorithm1, as in Kim et al.; connected, the end of the "
+                   "feasible interval that contains 0; global, the largest feasible")
+      ->transform(CLI::CheckedTransformer(policy_names(), CLI::ignore_case))
+      ->default_str("global");
+  command->callback([policy, &status] { status = solve_lines(std::cin, *policy); });
 }
 
 }  // namespace graben::cli

@@ -2,7 +2,7 @@
 /// The whole circuit at one lambda: pressures, forces, spools, and which constraint fails first.
 
 #include "firmware/core/codes.hpp"
-#include "firmware/mcv/mcv_machine.hpp"
+#include "firmware/mcv/circuit.hpp"
 
 namespace graben {
 
@@ -15,14 +15,28 @@ struct McvPoint {
   Limit limit;
   int newton_steps = 0;
   PerPump<double> pump_pressure_pa{};     ///< P_p
+  PerPump<double> sqrt_pressure{};        ///< sqrt(P_p), as it was solved for.
+  PerPump<double> flow_left_m3ps{};       ///< Margin of (29), (30).
   PerActuator<double> out_pressure_pa{};  ///< P_out
   PerActuator<double> drive_force_n{};    ///< F_s - F_L sgn(x); 0 for an actuator at rest
   PerActuator<double> spool_m{};          ///< x, signed; 0 for an actuator at rest
   PerActuator<bool> regenerating{};       ///< Whether the check valve is open.
 };
 
-/// Evaluates (27) - (30), (36) with F_offset and (13) at `lambda` in (0, 1] for a machine and an
-/// input that passed their checks. Where a constraint fails, what depends on it stays 0.
-[[nodiscard]] McvPoint evaluate(const McvMachine& machine, const McvInput& input, double lambda);
+/// Evaluates (27) - (30), (36) with F_offset and (13) at `lambda` in (0, 1]. Where a constraint
+/// fails, what depends on it stays 0.
+[[nodiscard]] McvPoint evaluate(const McvCircuit& circuit, double lambda);
+
+/// (40), (41) of one axis at a given pressure of its pump's line.
+struct DriveForce {
+  double force_n = 0.0;  ///< F_s - F_L sgn(x)
+  double out_pressure_pa = 0.0;
+  bool regenerating = false;
+};
+[[nodiscard]] DriveForce drive_force(const CircuitAxis& axis, double lambda, double sqrt_pressure);
+
+/// c_L that the spool needs at `lambda` for the force it has, (42); infinite where the check valve
+/// of the in-flow line alone needs all of it.
+[[nodiscard]] double needed_coefficient(const CircuitAxis& axis, double lambda, double force_n);
 
 }  // namespace graben

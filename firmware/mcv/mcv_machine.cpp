@@ -39,6 +39,9 @@ McvDefect check_actuator(const McvActuator& actuator, int pump_count) {
   if (!not_negative(actuator.force_offset_n)) {
     return McvDefect::kForceOffset;
   }
+  if (actuator.c_inflow_check != 0.0 && !usable(actuator.c_inflow_check)) {
+    return McvDefect::kInflowCheck;
+  }
   if (!from_origin(actuator.extend)) {
     return McvDefect::kExtendTable;
   }
@@ -86,7 +89,7 @@ McvCheck check_input(const McvMachine& machine, const McvInput& input) {
     if (!std::isfinite(input.velocity_mps[k])) {
       return {McvDefect::kVelocity, i};
     }
-    if (!std::isfinite(input.cap_pressure_pa[k]) || !std::isfinite(input.rod_pressure_pa[k])) {
+    if (!not_negative(input.cap_pressure_pa[k]) || !not_negative(input.rod_pressure_pa[k])) {
       return {McvDefect::kPressure, i};
     }
   }

@@ -30,8 +30,9 @@ struct McvActuator {
   double bypass_open = 0.0;    ///< c_v,by at x = 0 of (20).
   double bypass_closed = 0.0;  ///< c_v,by at x != 0.
   double force_offset_n = 0.0;
-  MonotoneTable extend;   ///< c_L of (9) over |x|, m/(s sqrt(N)) over m, from (0, 0) to x_m.
-  MonotoneTable retract;  ///< |c_L| of (11).
+  double c_inflow_check = 0.0;  ///< Extra check valve before the spool (Remark 3); 0: none.
+  MonotoneTable extend;         ///< c_L of (9) over |x|, m/(s sqrt(N)) over m, from (0, 0) to x_m.
+  MonotoneTable retract;        ///< |c_L| of (11).
 };
 
 struct McvPump {
@@ -73,8 +74,10 @@ enum class McvDefect : std::uint8_t {
   kBypassSeries,  ///< Not finite or negative.
   kRelief,        ///< Not finite or not positive.
   kVelocity,      ///< Not finite.
-  kPressure,      ///< Not finite.
+  kPressure,      ///< Not finite or negative.
   kPumpFlow,      ///< Not finite or negative.
+  kInflowCheck,   ///< Neither 0 nor a positive finite coefficient.
+  kLambdaMax,     ///< Not in (0, 1].
 };
 
 struct McvCheck {

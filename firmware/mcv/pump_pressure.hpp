@@ -9,31 +9,36 @@ namespace graben {
 
 /// A regeneration circuit that is in play: its side is the one the spool moves to.
 struct RegenerationDemand {
-  double q_out_m3ps = 0.0;
+  double q_out_m3ps = 0.0;  ///< Q_out^d, at lambda = 1.
   double c_drain = 0.0;
   double c_check = 0.0;
+  /// Q_out^d / c_d in sqrt(Pa): the check valve is open while sqrt(P) / lambda is below it.
+  double opening = 0.0;
 };
 
-/// Everything in the balance of one pump's line:
-///   g(s) = flow - k1 s^2 - k2 s^4 - c_by s - in_flow - sum(c_d f(Q_out, s)) = 0.
+/// Everything in the balance of one pump's line, flows as they are at lambda = 1:
+///   g(s) = flow - k1 s^2 - k2 s^4 - c_by s - lambda in_flow - sum(c_d f(lambda Q_out, s)) = 0.
 struct FlowBalance {
   double flow_m3ps = 0.0;       ///< Q_p at zero pressure.
   double leak_linear = 0.0;     ///< k1
   double leak_quadratic = 0.0;  ///< k2
   double bypass = 0.0;          ///< c_by of (21), (22); 0 stands for no resistance at all: P = 0.
   double in_flow_m3ps = 0.0;    ///< Sum of Q_in, less Q_out where regeneration is in play.
+  bool has_relief = false;
+  double sqrt_relief = 0.0;  ///< sqrt(P_pr) of Remark 2.
   int regeneration_count = 0;
   std::array<RegenerationDemand, kMaxActuators> regeneration{};
 };
 
 /// What the balance leaves over at s; strictly decreasing in s. At s = 0 it is the margin of the
 /// pump flow constraint (29), (30).
-[[nodiscard]] double flow_left(const FlowBalance& balance, double sqrt_pressure);
+[[nodiscard]] double flow_left(const FlowBalance& balance, double lambda, double sqrt_pressure);
 
 struct PumpPressure {
-  bool fed = false;        ///< False: (29), (30) is violated; nothing else is set.
+  bool fed = false;        ///< False: (29), (30) is violated; nothing else but flow_left is set.
   bool converged = false;  ///< False only if the fixed iteration count was not enough.
   double sqrt_pressure = 0.0;
+  double flow_left_m3ps = 0.0;  ///< At zero pressure: the margin of (29), (30).
   int iterations = 0;
 };
 
@@ -43,7 +48,6 @@ struct PumpPressure {
 /// in s, with its valve closed constant, and the leakage and bypass terms are concave. So Newton
 /// from the right end of the root's stretch falls monotonically onto the root, and never overshoots
 /// into the next stretch. At most 24 steps; a test over wide random circuits sees half of that.
-[[nodiscard]] PumpPressure solve_pump_pressure(const FlowBalance& balance, bool has_relief,
-                                               double relief_pa);
+[[nodiscard]] PumpPressure solve_pump_pressure(const FlowBalance& balance, double lambda);
 
 }  // namespace graben

@@ -3,7 +3,7 @@
 #include <random>
 
 #include "firmware/hydraulics/regeneration.hpp"
-#include "firmware/mcv/algorithm1.hpp"
+#include "firmware/mcv/optimiser.hpp"
 #include "firmware/mcv/pump_pressure.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
@@ -49,13 +49,15 @@ void pump_pressure_in_closed_form(void**) {
   balance.flow_m3ps = 2e-3;
   balance.in_flow_m3ps = 5e-4;
   balance.bypass = 5e-7;
-  const PumpPressure solved = solve_pump_pressure(balance, false, 0.0);
+  const PumpPressure solved = solve_pump_pressure(balance, 1.0);
   assert_true(solved.fed && solved.converged);
   assert_near(solved.sqrt_pressure, 3000.0, 1e-9);
-  const PumpPressure held = solve_pump_pressure(balance, true, 4e6);
+  balance.has_relief = true;
+  balance.sqrt_relief = 2000.0;
+  const PumpPressure held = solve_pump_pressure(balance, 1.0);
   assert_near(held.sqrt_pressure, 2000.0, 1e-12);
   balance.in_flow_m3ps = 2.1e-3;
-  assert_false(solve_pump_pressure(balance, true, 4e6).fed);
+  assert_false(solve_pump_pressure(balance, 1.0).fed);
 }
 
 /// Over wide random circuits: always converged, the root balances, and nothing changes sign there.
@@ -80,16 +82,17 @@ void pump_pressure_always_converges(void**) {
       demand.c_drain = draw(1e-7, 1e-5);
       // Down to hardly more than the drain, where (18) as printed cancels.
       demand.c_check = demand.c_drain * (1.0 + draw(1e-13, 9.0));
+      demand.opening = demand.q_out_m3ps / demand.c_drain;
       balance.in_flow_m3ps += demand.q_out_m3ps * draw(0.3, 0.8) - demand.q_out_m3ps;
     }
-    const PumpPressure solved = solve_pump_pressure(balance, false, 0.0);
-    assert_int_equal(solved.fed, flow_left(balance, 0.0) >= 0.0);
+    const PumpPressure solved = solve_pump_pressure(balance, 1.0);
+    assert_int_equal(solved.fed, flow_left(balance, 1.0, 0.0) >= 0.0);
     if (solved.fed) {
       ++fed;
       assert_true(solved.converged);
       const double s = solved.sqrt_pressure;
-      assert_true(flow_left(balance, s * (1.0 - 1e-9)) >= -1e-14);
-      assert_true(flow_left(balance, s * (1.0 + 1e-9)) <= 1e-14);
+      assert_true(flow_left(balance, 1.0, s * (1.0 - 1e-9)) >= -1e-14);
+      assert_true(flow_left(balance, 1.0, s * (1.0 + 1e-9)) <= 1e-14);
       most_steps = std::max(most_steps, solved.iterations);
     }
   }
@@ -103,14 +106,15 @@ void an_idle_pump_without_orifices_is_no_limit(void**) {
   machine.pump_count = 3;
   McvInput input = light_load(0.05, 0.05, 0.05);
   input.pump_flow_m3ps[2] = 1e-3;
-  const McvSolution solution = solve_algorithm1(machine, input);
+  const McvSolution solution = solve_mcv(machine, input, McvPolicy::kAlgorithm1);
   assert_int_equal(solution.status, SolveStatus::kOk);
   assert_near(solution.point.lambda, 1.0, 0.0);
   assert_near(solution.point.pump_pressure_pa[2], 0.0, 0.0);
 }
 
 void full_speed_where_nothing_holds(void**) {
-  const McvSolution solution = solve_algorithm1(kim(), light_load(0.05, 0.05, 0.05));
+  const McvSolution solution =
+      solve_mcv(kim(), light_load(0.05, 0.05, 0.05), McvPolicy::kAlgorithm1);
   assert_int_equal(solution.status, SolveStatus::kOk);
   assert_near(solution.point.lambda, 1.0, 0.0);
   assert_int_equal(solution.limit.kind, LimitKind::kNone);
@@ -124,12 +128,12 @@ void full_speed_where_nothing_holds(void**) {
 void a_starved_pump_scales_all_axes(void**) {
   const McvMachine machine = kim();
   const McvInput input = light_load(0.3, 0.0, 0.3);
-  const McvSolution solution = solve_algorithm1(machine, input);
+  const McvSolution solution = solve_mcv(machine, input, McvPolicy::kAlgorithm1);
   assert_int_equal(solution.status, SolveStatus::kOk);
   assert_true(solution.point.lambda > 0.0 && solution.point.lambda < 1.0);
   assert_int_not_equal(solution.limit.kind, LimitKind::kNone);
-  assert_true(evaluate(machine, input, solution.point.lambda).feasible);
-  assert_false(evaluate(machine, input, solution.point.lambda + 1e-7).feasible);
+  assert_true(evaluate(make_circuit(machine, input), solution.point.lambda).feasible);
+  assert_false(evaluate(make_circuit(machine, input), solution.point.lambda + 1e-7).feasible);
   assert_near(solution.point.spool_m[kArm], 0.0, 0.0);
 }
 
@@ -137,7 +141,7 @@ void a_starved_pump_scales_all_axes(void**) {
 void back_flow_keeps_its_offset(void**) {
   McvInput input = light_load(0.2, 0.0, 0.05);
   input.cap_pressure_pa[kBoom] = 15e6;
-  const McvSolution solution = solve_algorithm1(kim(), input);
+  const McvSolution solution = solve_mcv(kim(), input, McvPolicy::kAlgorithm1);
   assert_int_equal(solution.limit.kind, LimitKind::kBackFlow);
   assert_int_equal(solution.limit.index, kBoom);
   assert_near(solution.point.drive_force_n[kBoom],
@@ -147,7 +151,7 @@ void back_flow_keeps_its_offset(void**) {
 void a_load_too_heavy_is_infeasible(void**) {
   McvInput input = light_load(0.1, 0.1, 0.1);
   input.cap_pressure_pa[kBoom] = 60e6;
-  const McvSolution solution = solve_algorithm1(kim(), input);
+  const McvSolution solution = solve_mcv(kim(), input, McvPolicy::kAlgorithm1);
   assert_int_equal(solution.status, SolveStatus::kInfeasible);
   assert_int_equal(solution.limit.kind, LimitKind::kBackFlow);
   assert_int_equal(solution.limit.index, kBoom);
@@ -158,7 +162,7 @@ void a_load_too_heavy_is_infeasible(void**) {
 }
 
 void at_rest_everything_stays_closed(void**) {
-  const McvSolution solution = solve_algorithm1(kim(), light_load(0.0, 0.0, 0.0));
+  const McvSolution solution = solve_mcv(kim(), light_load(0.0, 0.0, 0.0), McvPolicy::kAlgorithm1);
   assert_int_equal(solution.status, SolveStatus::kOk);
   for (const double spool : solution.point.spool_m) {
     assert_near(spool, 0.0, 0.0);
@@ -179,7 +183,7 @@ void refused(McvDefect defect, Break change) {
   McvMachine machine = kim();
   McvInput input = light_load(0.1, 0.1, 0.1);
   change(machine, input);
-  check_safe(solve_algorithm1(machine, input), defect);
+  check_safe(solve_mcv(machine, input, McvPolicy::kAlgorithm1), defect);
 }
 
 void bad_machines_and_inputs_are_safe(void**) {

@@ -1,0 +1,68 @@
+#include <algorithm>
+
+#include "firmware/mcv/descent.hpp"
+
+namespace graben {
+namespace {
+
+/// Insets tried before the result counts as not found: the last is 1e-3 of lambda.
+constexpr int kRetreats = 6;
+
+/// Lowers `start` to where the constraint first fails on the way up from standstill.
+void hold(const McvCircuit& circuit, const McvPoint& standstill, const McvPoint& fastest,
+          const Limit& limit, Start& start, PolicyResult& result) {
+  const unsigned pump = circuit.axis[limit.index].pump;
+  const FlowBalance& line = circuit.line[pump];
+  const Change change = first_change(requirement_of(circuit, limit), line, Towards::kFaster,
+                                     standstill.sqrt_pressure[pump] / standstill.lambda,
+                                     fastest.sqrt_pressure[pump] / fastest.lambda);
+  result.iterations += change.steps;
+  result.bounded = result.bounded && change.bounded;
+  const double lambda = change.found ? lambda_at(line, change.ratio) : start.lambda;
+  if (lambda < start.lambda) {
+    start = {lambda, limit};
+  }
+}
+
+}  // namespace
+
+PolicyResult choose_connected(const McvCircuit& circuit, double lambda_max) {
+  PolicyResult result;
+  Inset inset;
+  Start start = fed_start(circuit, lambda_max, inset);
+  if (start.lambda < kStandstillLambda) {
+    result.limit = start.limit;
+    return result;
+  }
+  const McvPoint standstill = evaluate(circuit, kStandstillLambda);
+  const McvPoint fastest = evaluate(circuit, start.lambda);
+  result.iterations = 2;
+  result.bounded = standstill.converged && fastest.converged;
+  if (!standstill.feasible) {
+    result.limit = standstill.limit;
+    return result;
+  }
+  for (unsigned i = 0; i < circuit.axis_count && result.bounded; ++i) {
+    if (circuit.axis[i].moves) {
+      const auto index = static_cast<std::uint8_t>(i);
+      hold(circuit, standstill, fastest, {LimitKind::kBackFlow, index}, start, result);
+      hold(circuit, standstill, fastest, {LimitKind::kSpoolTravel, index}, start, result);
+    }
+  }
+  result.limit = start.limit;
+  double lambda = start.limit.kind == LimitKind::kNone ? start.lambda : inset(start.lambda);
+  for (int retreat = 0; retreat < kRetreats && result.bounded; ++retreat) {
+    result.point = evaluate(circuit, std::max(lambda, kStandstillLambda));
+    ++result.iterations;
+    if (result.point.feasible) {
+      return result;
+    }
+    result.limit = result.point.limit;
+    lambda = inset(lambda);
+    inset.widen();
+  }
+  result.bounded = false;
+  return result;
+}
+
+}  // namespace graben

@@ -1,0 +1,154 @@
+#include "firmware/mcv/optimiser.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben {
+namespace {
+
+/// c_L beyond which a shortfall of travel is not told apart, as a multiple of the table's last.
+constexpr double kMostCoefficients = 16.0;
+
+PolicyResult choose(const McvCircuit& circuit, McvPolicy policy, double lambda_max) {
+  switch (policy) {
+    case McvPolicy::kAlgorithm1:
+      return choose_algorithm1(circuit, lambda_max);
+    case McvPolicy::kConnected:
+      return choose_connected(circuit, lambda_max);
+    case McvPolicy::kGlobal:
+      return choose_global(circuit, lambda_max);
+  }
+  return {};
+}
+
+double travel_for(const MonotoneTable& table, double coefficient) {
+  if (coefficient <= table.y_last()) {
+    return table.inverse(coefficient);
+  }
+  const int last = table.size() - 1;
+  const double per_coefficient =
+      (table.x(last) - table.x(last - 1)) / (table.y(last) - table.y(last - 1));
+  const double over = std::min(coefficient, kMostCoefficients * table.y_last()) - table.y_last();
+  return std::min(table.x_last() + over * per_coefficient, kMostCoefficients * table.x_last());
+}
+
+/// P -> 0 stands for a pump that can't feed its line at all.
+double sqrt_pressure_or_zero(const FlowBalance& line, double lambda) {
+  return solve_pump_pressure(line, lambda).sqrt_pressure;
+}
+
+double shortfall_at_full(const McvCircuit& circuit, const Limit& limit) {
+  if (limit.kind == LimitKind::kNone) {
+    return 0.0;
+  }
+  if (limit.kind == LimitKind::kPumpFlow) {
+    return -flow_left(circuit.line[limit.index], 1.0, 0.0);
+  }
+  const CircuitAxis& axis = circuit.axis[limit.index];
+  const double force_n =
+      drive_force(axis, 1.0, sqrt_pressure_or_zero(circuit.line[axis.pump], 1.0)).force_n;
+  return limit.kind == LimitKind::kBackFlow
+             ? axis.force_offset_n - force_n
+             : travel_for(*axis.spool, needed_coefficient(axis, 1.0, force_n)) -
+                   axis.spool->x_last();
+}
+
+/// Margins of a feasible point.
+McvMargins margins_of(const McvCircuit& circuit, const McvPoint& point) {
+  McvMargins margins;
+  margins.flow_m3ps = point.flow_left_m3ps;
+  for (unsigned i = 0; i < circuit.axis_count; ++i) {
+    const CircuitAxis& axis = circuit.axis[i];
+    if (axis.moves) {
+      margins.force_n[i] = point.drive_force_n[i] - axis.force_offset_n;
+      margins.travel_m[i] = axis.spool->x_last() - std::abs(point.spool_m[i]);
+    }
+  }
+  return margins;
+}
+
+/// (43), with the pressures that lambda -> 0 leaves.
+void look_at_standstill(const McvCircuit& circuit, McvSolution& solution) {
+  PerPump<double> sqrt_pressure{};
+  for (unsigned j = 0; j < circuit.pump_count; ++j) {
+    sqrt_pressure[j] = sqrt_pressure_or_zero(circuit.line[j], 0.0);
+    solution.margins.flow_m3ps[j] = circuit.line[j].flow_m3ps;
+  }
+  for (unsigned i = 0; i < circuit.axis_count; ++i) {
+    const CircuitAxis& axis = circuit.axis[i];
+    if (!axis.moves) {
+      continue;
+    }
+    const double left_n =
+        drive_force(axis, 0.0, sqrt_pressure[axis.pump]).force_n - axis.force_offset_n;
+    solution.margins.force_n[i] = left_n;
+    solution.margins.travel_m[i] = axis.spool->x_last();
+    // (43) asks for more than equality: at equality the first movement already lacks force.
+    if (!(left_n > 0.0) &&
+        (solution.standstill.can_start || -left_n > solution.standstill.short_n)) {
+      solution.standstill = {false, static_cast<std::uint8_t>(i), -left_n};
+    }
+  }
+}
+
+bool finite(const McvSolution& solution) {
+  double sum = solution.point.lambda + solution.shortfall;
+  const auto add = [&sum](const auto& values) {
+    for (const double value : values) {
+      sum += value;
+    }
+  };
+  add(solution.point.pump_pressure_pa);
+  add(solution.point.out_pressure_pa);
+  add(solution.point.drive_force_n);
+  add(solution.point.spool_m);
+  add(solution.margins.flow_m3ps);
+  add(solution.margins.force_n);
+  add(solution.margins.travel_m);
+  return std::isfinite(sum);
+}
+
+/// lambda 0 with nothing but how it came to it.
+McvSolution stopped(SolveStatus status, int iterations) {
+  McvSolution solution;
+  solution.status = status;
+  solution.iterations = iterations;
+  return solution;
+}
+
+}  // namespace
+
+McvSolution solve_mcv(const McvMachine& machine, const McvInput& input, McvPolicy policy,
+                      double lambda_max) {
+  McvSolution solution;
+  solution.defect = check_machine(machine);
+  if (solution.defect.defect == McvDefect::kNone) {
+    solution.defect = check_input(machine, input);
+  }
+  if (solution.defect.defect == McvDefect::kNone && !(lambda_max > 0.0 && lambda_max <= 1.0)) {
+    solution.defect = {McvDefect::kLambdaMax, 0};
+  }
+  if (solution.defect.defect != McvDefect::kNone) {
+    return solution;
+  }
+  const McvCircuit circuit = make_circuit(machine, input);
+  const PolicyResult chosen = choose(circuit, policy, lambda_max);
+  if (!chosen.bounded) {
+    return stopped(SolveStatus::kNotConverged, chosen.iterations);
+  }
+  solution.status = SolveStatus::kOk;
+  solution.point = chosen.point;
+  solution.limit = chosen.limit;
+  solution.shortfall = shortfall_at_full(circuit, chosen.limit);
+  solution.iterations = chosen.iterations;
+  if (solution.point.lambda > 0.0) {
+    solution.margins = margins_of(circuit, chosen.point);
+  } else {
+    look_at_standstill(circuit, solution);
+    solution.status = solution.standstill.can_start ? SolveStatus::kOk : SolveStatus::kInfeasible;
+  }
+  // Numbers that no machine has, though each is in its range, can still end outside of all ranges.
+  return finite(solution) ? solution : stopped(SolveStatus::kNotConverged, chosen.iterations);
+}
+
+}  // namespace graben

@@ -1,0 +1,51 @@
+#pragma once
+/// The three ways to choose lambda in (37). Each costs a bounded number of operations and returns a
+/// point that `evaluate` found feasible, or lambda 0.
+
+#include "firmware/mcv/evaluation.hpp"
+
+namespace graben {
+
+/// Below this lambda the machine stands still: the paper's epsilon of 1e-7, as Algorithm 1 has it.
+inline constexpr double kStandstillLambda = 1.0 / 16777216.0;
+
+struct PolicyResult {
+  McvPoint point;  ///< lambda 0 with nothing set where no lambda was found.
+  Limit limit;     ///< The constraint that fails just above; none where lambda_max was reached.
+  int iterations = 0;
+  bool bounded =
+      true;  ///< False: a fixed number of steps was not enough; the point may not be used.
+};
+
+/// Halvings of Algorithm 1: the step after the last is 2^-24 = 6.0e-8.
+inline constexpr int kAlgorithm1Iterations = 24;
+
+/// Algorithm 1 of Kim et al.: divide and conquer. A local maximum of (37), the global one unless
+/// regeneration splits the feasible set (Theorem 4). At most 25 evaluations.
+[[nodiscard]] PolicyResult choose_algorithm1(const McvCircuit& circuit, double lambda_max);
+
+/// The end of the feasible interval that contains lambda = 0: `first_change` of every constraint
+/// from standstill towards faster motion, the slowest of them.
+[[nodiscard]] PolicyResult choose_connected(const McvCircuit& circuit, double lambda_max);
+
+/// Jumps of the global policy from one failing constraint to where it holds next.
+inline constexpr int kGlobalJumps = 64;
+
+/// The largest feasible lambda on [0, lambda_max], to 1e-9 of itself.
+///
+/// Why the largest: the search starts at lambda_max, or at the pump flow limit if that is lower (in
+/// closed form: r = 0). Where `evaluate` finds the point feasible, nothing larger is left. Where it
+/// does not, some constraint fails, and lambda falls to the next smaller value at which that
+/// constraint holds again. `first_change` passes no such value, because between two openings of
+/// check valves every constraint is a difference of two convex functions of r = sqrt(P) / lambda
+/// and r falls strictly as lambda grows (pressure_ratio.hpp, requirement.hpp). So what is skipped
+/// is infeasible, and the first feasible point that is met is the largest. The relief valve (Remark
+/// 2) only lifts a convex function and changes nothing of this.
+///
+/// Why bounded: each jump leaves one infeasible interval of one constraint behind. Their number is
+/// small (two a stretch where the load resists; one where it helps and the axis' own check valve is
+/// closed), and both jumps and steps are capped besides. Feasible intervals shorter than 1e-9 of
+/// lambda may be passed over: the result is put that far inside, so that rounding does not decide.
+[[nodiscard]] PolicyResult choose_global(const McvCircuit& circuit, double lambda_max);
+
+}  // namespace graben

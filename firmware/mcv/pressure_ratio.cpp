@@ -1,0 +1,111 @@
+#include "firmware/mcv/pressure_ratio.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "firmware/hydraulics/regeneration.hpp"
+
+namespace graben {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// A pump that stands still leaves r without a lambda where nothing leaks; with this share of what
+/// the cylinders ask for it has one, and the exact circuit still decides what is returned.
+constexpr double kLeastFlowShare = 1e-9;
+constexpr int kNewtonSteps = 24;
+
+double flow_of(const FlowBalance& line) {
+  double asked = std::abs(line.in_flow_m3ps);
+  for (int i = 0; i < line.regeneration_count; ++i) {
+    asked += line.regeneration[static_cast<unsigned>(i)].q_out_m3ps;
+  }
+  return std::max(line.flow_m3ps, kLeastFlowShare * asked);
+}
+
+/// h(r)
+Tangent demand(const FlowBalance& line, const Stretch& stretch, double ratio) {
+  Tangent h{line.in_flow_m3ps + line.bypass * ratio, line.bypass};
+  for (int i = 0; i < line.regeneration_count; ++i) {
+    const RegenerationDemand& from = line.regeneration[static_cast<unsigned>(i)];
+    const GalleryPressure phi = gallery_pressure(from.q_out_m3ps, ratio, from.c_drain, from.c_check,
+                                                 from.opening >= stretch.high);
+    h.value += from.c_drain * phi.sqrt_pressure;
+    h.slope += from.c_drain * phi.slope;
+  }
+  return h;
+}
+
+/// A y under the root of flow y = h + quadratic / y^3.
+double leaking_only(double flow, double h, double quadratic) {
+  if (h >= 0.0) {
+    return std::sqrt(std::sqrt(quadratic / flow));
+  }
+  return std::min(std::sqrt(std::sqrt(quadratic / (2.0 * flow))),
+                  std::cbrt(quadratic / (-2.0 * h)));
+}
+
+}  // namespace
+
+Stretch stretch_right_of(const FlowBalance& line, double ratio) {
+  Stretch stretch{ratio, kInfinity};
+  for (int i = 0; i < line.regeneration_count; ++i) {
+    const double opening = line.regeneration[static_cast<unsigned>(i)].opening;
+    if (opening > ratio) {
+      stretch.high = std::min(stretch.high, opening);
+    }
+  }
+  return stretch;
+}
+
+Stretch stretch_left_of(const FlowBalance& line, double ratio) {
+  Stretch stretch{0.0, ratio};
+  for (int i = 0; i < line.regeneration_count; ++i) {
+    const double opening = line.regeneration[static_cast<unsigned>(i)].opening;
+    if (opening < ratio) {
+      stretch.low = std::max(stretch.low, opening);
+    }
+  }
+  return stretch;
+}
+
+Tangent inverse_lambda(const FlowBalance& line, const Stretch& stretch, double ratio) {
+  const double flow = flow_of(line);
+  const Tangent h = demand(line, stretch, ratio);
+  const double linear = line.leak_linear * ratio * ratio;
+  const double quadratic = line.leak_quadratic * ratio * ratio * ratio * ratio;
+  // Without the quadratic leakage a quadratic equation; h may be below 0 there.
+  const double root = std::sqrt(h.value * h.value + 4.0 * flow * linear);
+  double y = h.value >= 0.0 ? (h.value + root) / (2.0 * flow) : 2.0 * linear / (root - h.value);
+  // The quadratic leakage only raises y, and what is left over of the balance is concave in y: from
+  // below Newton rises onto the root and never passes it.
+  if (quadratic > 0.0) {
+    y = std::max(y, leaking_only(flow, h.value, quadratic));
+  }
+  for (int step = 0; step < kNewtonSteps && quadratic > 0.0; ++step) {
+    const double per_y = 1.0 / y;
+    const double leak = quadratic * per_y * per_y * per_y;
+    const double missing = h.value + linear * per_y + leak - flow * y;
+    const double rise = missing / (flow + (linear * per_y + 3.0 * leak) * per_y);
+    y += rise;
+    if (!(rise > 1e-15 * y)) {
+      break;
+    }
+  }
+  const double held = line.has_relief ? ratio / line.sqrt_relief : 0.0;
+  if (held > y) {
+    return {held, 1.0 / line.sqrt_relief};
+  }
+  const double per_y = 1.0 / y;
+  const double leak = line.leak_quadratic * ratio * ratio * per_y * per_y;
+  const double rise = h.slope + 2.0 * ratio * per_y * (line.leak_linear + 2.0 * leak);
+  const double fall = flow + ratio * ratio * per_y * per_y * (line.leak_linear + 3.0 * leak);
+  return {y, rise / fall};
+}
+
+double fed_lambda(const FlowBalance& line) {
+  const double asked = demand(line, stretch_right_of(line, 0.0), 0.0).value;
+  return asked > 0.0 ? line.flow_m3ps / asked : kInfinity;
+}
+
+}  // namespace graben

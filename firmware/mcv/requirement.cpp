@@ -1,0 +1,155 @@
+#include "firmware/mcv/requirement.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/hydraulics/regeneration.hpp"
+
+namespace graben {
+namespace {
+
+/// For all stretches together; random circuits need at most a quarter of it.
+constexpr int kSteps = 96;
+/// Difference of drive and resistance that rounding alone explains, as a share of their sum.
+constexpr double kRoundingShare = 1e-14;
+
+struct Lengths {
+  Tangent drive;
+  Tangent resist;
+};
+
+/// Length of a vector from its square and the half of that square's slope.
+Tangent length(double square, double half_slope) {
+  const double value = std::sqrt(square);
+  return {value, value > 0.0 ? half_slope / value : 0.0};
+}
+
+Lengths lengths(const Requirement& requirement, const FlowBalance& line, const Stretch& stretch,
+                double ratio) {
+  double drive = requirement.drive_area_m2 * ratio * ratio;
+  double drive_slope = requirement.drive_area_m2 * ratio;
+  double resist = requirement.full_opening_n;
+  double resist_slope = 0.0;
+  if (requirement.resist_area_m2 > 0.0) {
+    const RegenerationDemand& own = requirement.regeneration;
+    const GalleryPressure phi = gallery_pressure(own.q_out_m3ps, ratio, own.c_drain, own.c_check,
+                                                 own.opening >= stretch.high);
+    resist += requirement.resist_area_m2 * phi.sqrt_pressure * phi.sqrt_pressure;
+    resist_slope += requirement.resist_area_m2 * phi.sqrt_pressure * phi.slope;
+  }
+  if (requirement.load_n != 0.0) {
+    const Tangent y = inverse_lambda(line, stretch, ratio);
+    const double weight = std::abs(requirement.load_n);
+    (requirement.load_n > 0.0 ? resist : drive) += weight * y.value * y.value;
+    (requirement.load_n > 0.0 ? resist_slope : drive_slope) += weight * y.value * y.slope;
+  }
+  return {length(drive, drive_slope), length(resist, resist_slope)};
+}
+
+}  // namespace
+
+Requirement no_back_flow(const CircuitAxis& axis) {
+  return {axis.inlet_area_m2,
+          axis.regeneration ? axis.outlet_area_m2 : 0.0,
+          axis.load_force_n + axis.force_offset_n,
+          0.0,
+          {axis.q_out_m3ps, axis.c_drain, axis.c_check, axis.opening}};
+}
+
+Requirement spool_travel(const CircuitAxis& axis) {
+  Requirement requirement = no_back_flow(axis);
+  requirement.load_n = axis.load_force_n;
+  requirement.full_opening_n = axis.full_opening_force_n;
+  return requirement;
+}
+
+namespace {
+
+/// One stretch's share of a search.
+class StretchSearch {
+ public:
+  StretchSearch(const Requirement& requirement, const FlowBalance& line, Towards towards,
+                const Stretch& stretch)
+      : requirement_(requirement),
+        line_(line),
+        stretch_(stretch),
+        slower_(towards == Towards::kSlower),
+        // The driving length is a straight line where no load helps.
+        straight_(slower_ && requirement.load_n > 0.0) {}
+
+  /// Moves `change.ratio` up to `end`, or to the change if that comes first.
+  void run(Change& change, double end) const {
+    while (change.ratio != end) {
+      if (++change.steps > kSteps) {
+        change.bounded = false;
+        return;
+      }
+      const Lengths at = lengths(requirement_, line_, stretch_, change.ratio);
+      // What must rise, and what it must rise over; slopes along the way.
+      const Tangent rising = along(slower_ ? at.drive : at.resist);
+      const Tangent level = along(slower_ ? at.resist : at.drive);
+      const double missing = level.value - rising.value;
+      if (!(missing > kRoundingShare * (level.value + rising.value))) {
+        change.found = true;
+        return;
+      }
+      const double closing = rising.slope - level.slope;
+      const double left = std::abs(end - change.ratio);
+      double length = closing > 0.0 ? std::min(missing / closing, left) : left;
+      if (!straight_) {
+        length = step(rising, level, missing, change.ratio, length);
+      } else if (!(closing > 0.0)) {
+        length = left;
+      }
+      if (!(length < left)) {
+        change.ratio = end;
+      } else if (change.ratio + sign() * length == change.ratio) {
+        change.found = true;  // Nearer than a number can say.
+        return;
+      } else {
+        change.ratio += sign() * length;
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] double sign() const { return slower_ ? 1.0 : -1.0; }
+  [[nodiscard]] Tangent along(const Tangent& over_ratio) const {
+    return {over_ratio.value, sign() * over_ratio.slope};
+  }
+
+  /// How far there can be no change, for a chord of this length.
+  [[nodiscard]] double step(const Tangent& rising, const Tangent& level, double missing,
+                            double ratio, double length) const {
+    const Lengths there = lengths(requirement_, line_, stretch_, ratio + sign() * length);
+    const double chord =
+        ((slower_ ? there.drive : there.resist).value - rising.value) / length - level.slope;
+    return chord > 0.0 ? std::min(missing / chord, length) : length;
+  }
+
+  const Requirement& requirement_;
+  const FlowBalance& line_;
+  const Stretch& stretch_;
+  bool slower_;
+  bool straight_;
+};
+
+}  // namespace
+
+Change first_change(const Requirement& requirement, const FlowBalance& line, Towards towards,
+                    double from, double end) {
+  Change change;
+  change.ratio = from;
+  // One stretch more than there are check valves.
+  for (int n = 0; n <= kMaxActuators && change.bounded && !change.found && change.ratio != end;
+       ++n) {
+    const bool slower = towards == Towards::kSlower;
+    const Stretch stretch =
+        slower ? stretch_right_of(line, change.ratio) : stretch_left_of(line, change.ratio);
+    const double stretch_end = slower ? std::min(stretch.high, end) : std::max(stretch.low, end);
+    StretchSearch(requirement, line, towards, stretch).run(change, stretch_end);
+  }
+  return change;
+}
+
+}  // namespace graben

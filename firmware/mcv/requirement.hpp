@@ -1,0 +1,52 @@
+#pragma once
+/// One constraint on lambda as a difference of two convex functions of r, and the search for the
+/// first r at which it changes.
+///
+/// Back flow (36) and spool travel (13) both ask that, with s = lambda r and P_out = lambda^2
+/// phi^2,
+///   lambda^2 (A_in r^2 - A_out phi(r)^2 - G^2) >= L,
+/// G^2 = 0 and L = F_L sgn(x) + F_offset for back flow; for spool travel L = F_L sgn(x) and G^2 the
+/// force that full opening needs at lambda = 1. With y = 1 / lambda and both sides as lengths:
+///   L > 0:   |sqrt(A_in) r|                   >= |(sqrt(A_out) phi, G, sqrt(L) y)|
+///   L <= 0:  |(sqrt(A_in) r, sqrt(-L) y)|     >= |(sqrt(A_out) phi, G)|
+/// On a stretch r, phi(r) and y(r) are convex and not negative, and the length of a vector of such
+/// functions is convex. So what drives (left) and what resists (right) are both convex in r.
+
+#include "firmware/mcv/circuit.hpp"
+#include "firmware/mcv/pressure_ratio.hpp"
+
+namespace graben {
+
+struct Requirement {
+  double drive_area_m2 = 0.0;       ///< A_in
+  double resist_area_m2 = 0.0;      ///< A_out where regeneration is in play, else 0.
+  double load_n = 0.0;              ///< L
+  double full_opening_n = 0.0;      ///< G^2
+  RegenerationDemand regeneration;  ///< The axis' own circuit.
+};
+
+[[nodiscard]] Requirement no_back_flow(const CircuitAxis& axis);
+[[nodiscard]] Requirement spool_travel(const CircuitAxis& axis);
+
+enum class Towards { kSlower, kFaster };  ///< To the right (lambda falls), to the left.
+
+struct Change {
+  bool found = false;
+  double ratio = 0.0;  ///< r of the change; never beyond it but by rounding.
+  int steps = 0;
+  bool bounded = true;  ///< False: the fixed number of steps did not get there.
+};
+
+/// kSlower: from an r where the requirement fails to the first one to the right where it holds.
+/// kFaster: from an r where it holds to the first one to the left where it fails. Not beyond `end`.
+///
+/// Nothing is skipped. Within a stretch the difference "convex P that must rise over convex Q" is
+/// at most chord of P less tangent of Q at the left point: a straight line, below 0 where it
+/// starts. Up to its root, or to the chord's end, there can be no change; the search goes there and
+/// draws the next line. The chord's length is where Newton would put the change, so that the steps
+/// shrink as Newton's do; where P is straight (L > 0, kSlower) this is Newton on a concave
+/// function.
+[[nodiscard]] Change first_change(const Requirement& requirement, const FlowBalance& line,
+                                  Towards towards, double from, double end);
+
+}  // namespace graben
