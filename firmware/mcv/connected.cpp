@@ -11,16 +11,11 @@ constexpr int kRetreats = 6;
 /// Lowers `start` to where the constraint first fails on the way up from standstill.
 void hold(const McvCircuit& circuit, const McvPoint& standstill, const McvPoint& fastest,
           const Limit& limit, Start& start, PolicyResult& result) {
-  const unsigned pump = circuit.axis[limit.index].pump;
-  const FlowBalance& line = circuit.line[pump];
-  const Change change = first_change(requirement_of(circuit, limit), line, Towards::kFaster,
-                                     standstill.sqrt_pressure[pump] / standstill.lambda,
-                                     fastest.sqrt_pressure[pump] / fastest.lambda);
+  const LambdaChange change = fails_first(circuit, limit, standstill, fastest);
   result.iterations += change.steps;
   result.bounded = result.bounded && change.bounded;
-  const double lambda = change.found ? lambda_at(line, change.ratio) : start.lambda;
-  if (lambda < start.lambda) {
-    start = {lambda, limit};
+  if (change.lambda < start.lambda) {
+    start = {change.lambda, limit};
   }
 }
 

@@ -1,6 +1,31 @@
 #include "firmware/mcv/descent.hpp"
 
+#include <algorithm>
+#include <limits>
+
 namespace graben {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// lambda at r; 0 where only standstill belongs to it.
+double lambda_at(const FlowBalance& line, double ratio) {
+  return 1.0 / inverse_lambda(line, stretch_right_of(line, ratio), ratio).value;
+}
+
+/// The requirement behind a limit of an axis.
+Requirement requirement_of(const CircuitAxis& axis, const Limit& limit) {
+  return limit.kind == LimitKind::kBackFlow ? no_back_flow(axis) : spool_travel(axis);
+}
+
+/// r of a stagnant line while its relief valve is closed, a little to the left of where 1 / lambda
+/// jumps to infinity.
+double stagnant_ratio(const FlowBalance& line) {
+  constexpr double kInside = 1.0 - 1e-9;
+  return kInside * solve_pump_pressure(line, kStandstillLambda).sqrt_pressure / kStandstillLambda;
+}
+
+}  // namespace
 
 Start fed_start(const McvCircuit& circuit, double lambda_max, const Inset& inset) {
   Start start{lambda_max, {}};
@@ -13,14 +38,43 @@ Start fed_start(const McvCircuit& circuit, double lambda_max, const Inset& inset
   return start;
 }
 
-double lambda_at(const FlowBalance& line, double ratio) {
-  const double y = inverse_lambda(line, stretch_right_of(line, ratio), ratio).value;
-  return y > 0.0 ? 1.0 / y : 0.0;
+LambdaChange holds_again(const McvCircuit& circuit, const McvPoint& failing) {
+  const CircuitAxis& axis = circuit.axis[failing.limit.index];
+  const FlowBalance& line = circuit.line[axis.pump];
+  const Requirement requirement = requirement_of(axis, failing.limit);
+  const double from = failing.sqrt_pressure[axis.pump] / failing.lambda;
+  const bool stagnant = is_stagnant(line);
+  const double end = stagnant ? std::max(from, stagnant_ratio(line)) : kInfinity;
+  const Change change = first_change(requirement, line, Towards::kSlower, from, end);
+  LambdaChange result{0.0, change.steps, change.bounded};
+  if (change.found) {
+    result.lambda = lambda_at(line, change.ratio);
+  } else if (stagnant) {
+    result.lambda = std::min(failing.lambda, lambda_at_fixed_ratio(requirement, end));
+    if (line.has_relief) {
+      result.lambda = std::min(result.lambda, line.sqrt_relief / end);
+    }
+  }
+  return result;
 }
 
-Requirement requirement_of(const McvCircuit& circuit, const Limit& limit) {
+LambdaChange fails_first(const McvCircuit& circuit, const Limit& limit, const McvPoint& standstill,
+                         const McvPoint& fastest) {
   const CircuitAxis& axis = circuit.axis[limit.index];
-  return limit.kind == LimitKind::kBackFlow ? no_back_flow(axis) : spool_travel(axis);
+  const FlowBalance& line = circuit.line[axis.pump];
+  const Requirement requirement = requirement_of(axis, limit);
+  const double from = is_stagnant(line) ? stagnant_ratio(line)
+                                        : standstill.sqrt_pressure[axis.pump] / standstill.lambda;
+  const double end = fastest.sqrt_pressure[axis.pump] / fastest.lambda;
+  if (is_stagnant(line)) {
+    const double lambda = lambda_at_fixed_ratio(requirement, from);
+    if (lambda * from <= (line.has_relief ? line.sqrt_relief : kInfinity)) {
+      return {lambda, 0, true};
+    }
+  }
+  const Change change =
+      first_change(requirement, line, Towards::kFaster, from, std::min(from, end));
+  return {change.found ? lambda_at(line, change.ratio) : kInfinity, change.steps, change.bounded};
 }
 
 }  // namespace graben

@@ -25,10 +25,20 @@ struct Start {
 };
 [[nodiscard]] Start fed_start(const McvCircuit& circuit, double lambda_max, const Inset& inset);
 
-/// lambda at r; 0 where there is none.
-[[nodiscard]] double lambda_at(const FlowBalance& line, double ratio);
+/// Where a constraint changes, as a lambda.
+struct LambdaChange {
+  double lambda = 0.0;
+  int steps = 0;
+  bool bounded = true;
+};
 
-/// The requirement behind a limit of an axis.
-[[nodiscard]] Requirement requirement_of(const McvCircuit& circuit, const Limit& limit);
+/// Largest lambda under that of `failing` at which the constraint that fails there holds; 0 if
+/// there is none.
+[[nodiscard]] LambdaChange holds_again(const McvCircuit& circuit, const McvPoint& failing);
+
+/// Smallest lambda over standstill at which a constraint that holds there fails; infinite if there
+/// is none up to `fastest`. Only the pressures of the two points count.
+[[nodiscard]] LambdaChange fails_first(const McvCircuit& circuit, const Limit& limit,
+                                       const McvPoint& standstill, const McvPoint& fastest);
 
 }  // namespace graben

@@ -1,26 +1,6 @@
-#include <limits>
-
 #include "firmware/mcv/descent.hpp"
 
 namespace graben {
-namespace {
-
-/// Largest lambda under point.lambda at which the constraint that fails there holds.
-double next_lambda(const McvCircuit& circuit, const McvPoint& point, PolicyResult& result) {
-  if (point.limit.kind == LimitKind::kPumpFlow) {
-    return point.lambda;  // By rounding only: the search starts where every pump feeds its line.
-  }
-  const unsigned pump = circuit.axis[point.limit.index].pump;
-  const FlowBalance& line = circuit.line[pump];
-  const Change change = first_change(requirement_of(circuit, point.limit), line, Towards::kSlower,
-                                     point.sqrt_pressure[pump] / point.lambda,
-                                     std::numeric_limits<double>::infinity());
-  result.iterations += change.steps;
-  result.bounded = result.bounded && change.bounded;
-  return change.found ? lambda_at(line, change.ratio) : 0.0;
-}
-
-}  // namespace
 
 PolicyResult choose_global(const McvCircuit& circuit, double lambda_max) {
   PolicyResult result;
@@ -40,7 +20,14 @@ PolicyResult choose_global(const McvCircuit& circuit, double lambda_max) {
     }
     result.limit = point.limit;
     result.bounded = point.converged;
-    const double next = inset(next_lambda(circuit, point, result));
+    double next = lambda;
+    // A pump flow limit here is rounding: the search starts where every pump feeds its line.
+    if (point.limit.kind != LimitKind::kPumpFlow) {
+      const LambdaChange change = holds_again(circuit, point);
+      result.iterations += change.steps;
+      result.bounded = result.bounded && change.bounded;
+      next = inset(change.lambda);
+    }
     if (next < inset(lambda)) {
       lambda = next;
     } else {

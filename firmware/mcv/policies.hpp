@@ -3,11 +3,9 @@
 /// point that `evaluate` found feasible, or lambda 0.
 
 #include "firmware/mcv/evaluation.hpp"
+#include "firmware/mcv/requirement.hpp"
 
 namespace graben {
-
-/// Below this lambda the machine stands still: the paper's epsilon of 1e-7, as Algorithm 1 has it.
-inline constexpr double kStandstillLambda = 1.0 / 16777216.0;
 
 struct PolicyResult {
   McvPoint point;  ///< lambda 0 with nothing set where no lambda was found.

@@ -10,8 +10,8 @@ namespace graben {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// A pump that stands still leaves r without a lambda where nothing leaks; with this share of what
-/// the cylinders ask for it has one, and the exact circuit still decides what is returned.
+/// A pump flow below this share of what the cylinders ask for counts as none: 1 / lambda would be
+/// all rounding. The exact circuit still decides what is returned.
 constexpr double kLeastFlowShare = 1e-9;
 constexpr int kNewtonSteps = 24;
 
@@ -20,7 +20,7 @@ double flow_of(const FlowBalance& line) {
   for (int i = 0; i < line.regeneration_count; ++i) {
     asked += line.regeneration[static_cast<unsigned>(i)].q_out_m3ps;
   }
-  return std::max(line.flow_m3ps, kLeastFlowShare * asked);
+  return line.flow_m3ps >= kLeastFlowShare * asked ? line.flow_m3ps : 0.0;
 }
 
 /// h(r)
@@ -72,6 +72,10 @@ Stretch stretch_left_of(const FlowBalance& line, double ratio) {
 Tangent inverse_lambda(const FlowBalance& line, const Stretch& stretch, double ratio) {
   const double flow = flow_of(line);
   const Tangent h = demand(line, stretch, ratio);
+  const double held = line.has_relief ? ratio / line.sqrt_relief : 0.0;
+  if (flow == 0.0 && h.value >= 0.0) {
+    return {kInfinity, kInfinity};
+  }
   const double linear = line.leak_linear * ratio * ratio;
   const double quadratic = line.leak_quadratic * ratio * ratio * ratio * ratio;
   // Without the quadratic leakage a quadratic equation; h may be below 0 there.
@@ -92,15 +96,18 @@ Tangent inverse_lambda(const FlowBalance& line, const Stretch& stretch, double r
       break;
     }
   }
-  const double held = line.has_relief ? ratio / line.sqrt_relief : 0.0;
-  if (held > y) {
-    return {held, 1.0 / line.sqrt_relief};
+  if (held > y || y == 0.0) {
+    return {held, line.has_relief ? 1.0 / line.sqrt_relief : 0.0};
   }
   const double per_y = 1.0 / y;
   const double leak = line.leak_quadratic * ratio * ratio * per_y * per_y;
   const double rise = h.slope + 2.0 * ratio * per_y * (line.leak_linear + 2.0 * leak);
   const double fall = flow + ratio * ratio * per_y * per_y * (line.leak_linear + 3.0 * leak);
   return {y, rise / fall};
+}
+
+bool is_stagnant(const FlowBalance& line) {
+  return flow_of(line) == 0.0 && line.leak_linear == 0.0 && line.leak_quadratic == 0.0;
 }
 
 double fed_lambda(const FlowBalance& line) {

@@ -32,9 +32,12 @@ struct Tangent {
   double slope = 0.0;
 };
 
-/// y = 1 / lambda at r in a stretch. Not positive, or not a number, only where no lambda in (0, 1]
-/// belongs to r.
+/// y = 1 / lambda at r in a stretch; infinite where only lambda = 0 belongs to r, 0 where lambda is
+/// not bounded.
 [[nodiscard]] Tangent inverse_lambda(const FlowBalance& line, const Stretch& stretch, double ratio);
+
+/// Neither flow nor leakage: then the balance fixes r, whatever lambda is, and 1. does not hold.
+[[nodiscard]] bool is_stagnant(const FlowBalance& line);
 
 /// lambda up to which the pump can feed its line, (29), (30); infinite where nothing bounds it.
 [[nodiscard]] double fed_lambda(const FlowBalance& line);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "firmware/hydraulics/regeneration.hpp"
 
@@ -16,6 +17,7 @@ constexpr double kRoundingShare = 1e-14;
 struct Lengths {
   Tangent drive;
   Tangent resist;
+  double inverse_lambda = 0.0;  ///< 0 where it plays no part.
 };
 
 /// Length of a vector from its square and the half of that square's slope.
@@ -37,13 +39,14 @@ Lengths lengths(const Requirement& requirement, const FlowBalance& line, const S
     resist += requirement.resist_area_m2 * phi.sqrt_pressure * phi.sqrt_pressure;
     resist_slope += requirement.resist_area_m2 * phi.sqrt_pressure * phi.slope;
   }
+  Tangent y;
   if (requirement.load_n != 0.0) {
-    const Tangent y = inverse_lambda(line, stretch, ratio);
+    y = inverse_lambda(line, stretch, ratio);
     const double weight = std::abs(requirement.load_n);
     (requirement.load_n > 0.0 ? resist : drive) += weight * y.value * y.value;
     (requirement.load_n > 0.0 ? resist_slope : drive_slope) += weight * y.value * y.slope;
   }
-  return {length(drive, drive_slope), length(resist, resist_slope)};
+  return {length(drive, drive_slope), length(resist, resist_slope), y.value};
 }
 
 }  // namespace
@@ -79,12 +82,17 @@ class StretchSearch {
 
   /// Moves `change.ratio` up to `end`, or to the change if that comes first.
   void run(Change& change, double end) const {
+    double reach = std::abs(end - change.ratio);
     while (change.ratio != end) {
       if (++change.steps > kSteps) {
         change.bounded = false;
         return;
       }
       const Lengths at = lengths(requirement_, line_, stretch_, change.ratio);
+      if (slower_ && at.inverse_lambda * kStandstillLambda > 1.0) {
+        change.ratio = end;  // What is further right stands still.
+        return;
+      }
       // What must rise, and what it must rise over; slopes along the way.
       const Tangent rising = along(slower_ ? at.drive : at.resist);
       const Tangent level = along(slower_ ? at.resist : at.drive);
@@ -93,21 +101,19 @@ class StretchSearch {
         change.found = true;
         return;
       }
-      const double closing = rising.slope - level.slope;
       const double left = std::abs(end - change.ratio);
-      double length = closing > 0.0 ? std::min(missing / closing, left) : left;
-      if (!straight_) {
-        length = step(rising, level, missing, change.ratio, length);
-      } else if (!(closing > 0.0)) {
-        length = left;
-      }
-      if (!(length < left)) {
+      const double closing = rising.slope - level.slope;
+      const double newton = closing > 0.0 ? missing / closing : left;
+      const double step = straight_ ? newton
+                                    : free_length(rising, level, missing, change.ratio,
+                                                  std::min({newton, left, reach}), reach);
+      if (!(step < left)) {
         change.ratio = end;
-      } else if (change.ratio + sign() * length == change.ratio) {
+      } else if (step > 0.0 && change.ratio + sign() * step == change.ratio) {
         change.found = true;  // Nearer than a number can say.
         return;
       } else {
-        change.ratio += sign() * length;
+        change.ratio += sign() * step;
       }
     }
   }
@@ -118,13 +124,20 @@ class StretchSearch {
     return {over_ratio.value, sign() * over_ratio.slope};
   }
 
-  /// How far there can be no change, for a chord of this length.
-  [[nodiscard]] double step(const Tangent& rising, const Tangent& level, double missing,
-                            double ratio, double length) const {
-    const Lengths there = lengths(requirement_, line_, stretch_, ratio + sign() * length);
+  /// How far there can be no change, by a chord of this length. `reach` follows what chords have
+  /// turned out to be good for: one over a steep bend says next to nothing.
+  [[nodiscard]] double free_length(const Tangent& rising, const Tangent& level, double missing,
+                                   double ratio, double chord_length, double& reach) const {
+    const Lengths there = lengths(requirement_, line_, stretch_, ratio + sign() * chord_length);
+    if (!std::isfinite(there.drive.value + there.resist.value)) {
+      reach = 0.25 * chord_length;  // Beyond lambda = 0.
+      return 0.0;
+    }
     const double chord =
-        ((slower_ ? there.drive : there.resist).value - rising.value) / length - level.slope;
-    return chord > 0.0 ? std::min(missing / chord, length) : length;
+        ((slower_ ? there.drive : there.resist).value - rising.value) / chord_length - level.slope;
+    const double free = chord > 0.0 ? std::min(missing / chord, chord_length) : chord_length;
+    reach = 4.0 * free;
+    return free;
   }
 
   const Requirement& requirement_;
@@ -150,6 +163,21 @@ Change first_change(const Requirement& requirement, const FlowBalance& line, Tow
     StretchSearch(requirement, line, towards, stretch).run(change, stretch_end);
   }
   return change;
+}
+
+double lambda_at_fixed_ratio(const Requirement& requirement, double ratio) {
+  if (requirement.load_n > 0.0) {
+    return 0.0;  // Force falls with lambda^2, the load does not.
+  }
+  double over_lambda2 = requirement.drive_area_m2 * ratio * ratio - requirement.full_opening_n;
+  if (requirement.resist_area_m2 > 0.0) {
+    const RegenerationDemand& own = requirement.regeneration;
+    const double phi =
+        return_gallery(own.q_out_m3ps, ratio, own.c_drain, own.c_check).sqrt_pressure;
+    over_lambda2 -= requirement.resist_area_m2 * phi * phi;
+  }
+  return over_lambda2 >= 0.0 ? std::numeric_limits<double>::infinity()
+                             : std::sqrt(requirement.load_n / over_lambda2);
 }
 
 }  // namespace graben

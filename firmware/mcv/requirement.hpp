@@ -25,6 +25,9 @@ struct Requirement {
   RegenerationDemand regeneration;  ///< The axis' own circuit.
 };
 
+/// Below this lambda the machine stands still: the paper's epsilon of 1e-7, as Algorithm 1 has it.
+inline constexpr double kStandstillLambda = 1.0 / 16777216.0;
+
 [[nodiscard]] Requirement no_back_flow(const CircuitAxis& axis);
 [[nodiscard]] Requirement spool_travel(const CircuitAxis& axis);
 
@@ -37,7 +40,8 @@ struct Change {
   bool bounded = true;  ///< False: the fixed number of steps did not get there.
 };
 
-/// kSlower: from an r where the requirement fails to the first one to the right where it holds.
+/// kSlower: from an r where the requirement fails to the first one to the right where it holds;
+/// lambda below kStandstillLambda is not looked at.
 /// kFaster: from an r where it holds to the first one to the left where it fails. Not beyond `end`.
 ///
 /// Nothing is skipped. Within a stretch the difference "convex P that must rise over convex Q" is
@@ -48,5 +52,9 @@ struct Change {
 /// function.
 [[nodiscard]] Change first_change(const Requirement& requirement, const FlowBalance& line,
                                   Towards towards, double from, double end);
+
+/// Lambda up to which a requirement that holds at standstill, or fails at some lambda, holds where
+/// r is the same for every lambda (a stagnant line); infinite if it always holds.
+[[nodiscard]] double lambda_at_fixed_ratio(const Requirement& requirement, double ratio);
 
 }  // namespace graben
