@@ -5,8 +5,8 @@
 namespace graben {
 namespace {
 
-/// Insets tried before the result counts as not found: the last is 1e-3 of lambda.
-constexpr int kRetreats = 6;
+/// Insets tried before the result counts as not found: the last is a quarter of lambda.
+constexpr int kRetreats = 8;
 
 /// Lowers `start` to where the constraint first fails on the way up from standstill.
 void hold(const McvCircuit& circuit, const McvPoint& standstill, const McvPoint& fastest,
@@ -50,6 +50,9 @@ PolicyResult choose_connected(const McvCircuit& circuit, double lambda_max) {
     result.point = evaluate(circuit, std::max(lambda, kStandstillLambda));
     ++result.iterations;
     if (result.point.feasible) {
+      if (start.limit.kind != LimitKind::kNone) {
+        result.point = refined(circuit, result.point, start.lambda);
+      }
       return result;
     }
     result.limit = result.point.limit;

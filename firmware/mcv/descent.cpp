@@ -8,6 +8,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+constexpr int kInsideSteps = 12;
+constexpr int kRefinements = 30;
+
 /// lambda at r; 0 where only standstill belongs to it.
 double lambda_at(const FlowBalance& line, double ratio) {
   return 1.0 / inverse_lambda(line, stretch_right_of(line, ratio), ratio).value;
@@ -23,6 +26,21 @@ Requirement requirement_of(const CircuitAxis& axis, const Limit& limit) {
 double stagnant_ratio(const FlowBalance& line) {
   constexpr double kInside = 1.0 - 1e-9;
   return kInside * solve_pump_pressure(line, kStandstillLambda).sqrt_pressure / kStandstillLambda;
+}
+
+/// r of standstill. Without pump flow 1 / lambda is so steep there that rounding may put r beyond
+/// it, where no lambda is left.
+double standstill_ratio(const FlowBalance& line, const McvPoint& standstill, unsigned pump) {
+  if (is_stagnant(line)) {
+    return stagnant_ratio(line);
+  }
+  double ratio = standstill.sqrt_pressure[pump] / standstill.lambda;
+  double inside = 1e-15;
+  for (int n = 0; n < kInsideSteps && !(lambda_at(line, ratio) >= 0.5 * kStandstillLambda); ++n) {
+    ratio *= 1.0 - inside;
+    inside *= 8.0;
+  }
+  return ratio;
 }
 
 }  // namespace
@@ -63,8 +81,7 @@ LambdaChange fails_first(const McvCircuit& circuit, const Limit& limit, const Mc
   const CircuitAxis& axis = circuit.axis[limit.index];
   const FlowBalance& line = circuit.line[axis.pump];
   const Requirement requirement = requirement_of(axis, limit);
-  const double from = is_stagnant(line) ? stagnant_ratio(line)
-                                        : standstill.sqrt_pressure[axis.pump] / standstill.lambda;
+  const double from = standstill_ratio(line, standstill, axis.pump);
   const double end = fastest.sqrt_pressure[axis.pump] / fastest.lambda;
   if (is_stagnant(line)) {
     const double lambda = lambda_at_fixed_ratio(requirement, from);
@@ -75,6 +92,24 @@ LambdaChange fails_first(const McvCircuit& circuit, const Limit& limit, const Mc
   const Change change =
       first_change(requirement, line, Towards::kFaster, from, std::min(from, end));
   return {change.found ? lambda_at(line, change.ratio) : kInfinity, change.steps, change.bounded};
+}
+
+McvPoint refined(const McvCircuit& circuit, const McvPoint& feasible, double infeasible_lambda) {
+  bool starved = false;
+  for (unsigned j = 0; j < circuit.pump_count; ++j) {
+    starved = starved || is_starved(circuit.line[j]);
+  }
+  McvPoint best = feasible;
+  double high = infeasible_lambda;
+  for (int n = 0; n < kRefinements && starved; ++n) {
+    const McvPoint middle = evaluate(circuit, 0.5 * (best.lambda + high));
+    if (middle.feasible) {
+      best = middle;
+    } else {
+      high = middle.lambda;
+    }
+  }
+  return best;
 }
 
 }  // namespace graben

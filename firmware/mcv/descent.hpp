@@ -41,4 +41,9 @@ struct LambdaChange {
 [[nodiscard]] LambdaChange fails_first(const McvCircuit& circuit, const Limit& limit,
                                        const McvPoint& standstill, const McvPoint& fastest);
 
+/// `feasible`, or what halving finds between it and an infeasible lambda above it: only where a
+/// starved line makes lambda over r a matter of rounding.
+[[nodiscard]] McvPoint refined(const McvCircuit& circuit, const McvPoint& feasible,
+                               double infeasible_lambda);
+
 }  // namespace graben

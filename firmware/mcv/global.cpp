@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "firmware/mcv/descent.hpp"
 
 namespace graben {
@@ -7,6 +9,7 @@ PolicyResult choose_global(const McvCircuit& circuit, double lambda_max) {
   Inset inset;
   Start start = fed_start(circuit, lambda_max, inset);
   double lambda = start.lambda;
+  double above = lambda;
   result.limit = start.limit;
   for (int jump = 0; jump < kGlobalJumps && result.bounded; ++jump) {
     if (!(lambda >= kStandstillLambda)) {
@@ -15,11 +18,13 @@ PolicyResult choose_global(const McvCircuit& circuit, double lambda_max) {
     const McvPoint point = evaluate(circuit, lambda);
     ++result.iterations;
     if (point.feasible) {
-      result.point = point;
+      // Rounding is no reason to look further up than a quarter.
+      result.point = jump == 0 ? point : refined(circuit, point, std::min(above, 1.25 * lambda));
       return result;
     }
     result.limit = point.limit;
     result.bounded = point.converged;
+    above = lambda;
     double next = lambda;
     // A pump flow limit here is rounding: the search starts where every pump feeds its line.
     if (point.limit.kind != LimitKind::kPumpFlow) {

@@ -106,6 +106,10 @@ Tangent inverse_lambda(const FlowBalance& line, const Stretch& stretch, double r
   return {y, rise / fall};
 }
 
+bool is_starved(const FlowBalance& line) {
+  return line.regeneration_count > 0 && flow_of(line) == 0.0;
+}
+
 bool is_stagnant(const FlowBalance& line) {
   return flow_of(line) == 0.0 && line.leak_linear == 0.0 && line.leak_quadratic == 0.0;
 }

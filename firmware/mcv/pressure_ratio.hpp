@@ -36,6 +36,10 @@ struct Tangent {
 /// not bounded.
 [[nodiscard]] Tangent inverse_lambda(const FlowBalance& line, const Stretch& stretch, double ratio);
 
+/// No pump flow to speak of, and still something to move: then lambda is so steep in r that
+/// rounding shows in it.
+[[nodiscard]] bool is_starved(const FlowBalance& line);
+
 /// Neither flow nor leakage: then the balance fixes r, whatever lambda is, and 1. does not hold.
 [[nodiscard]] bool is_stagnant(const FlowBalance& line);
 

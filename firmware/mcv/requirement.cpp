@@ -83,6 +83,7 @@ class StretchSearch {
   /// Moves `change.ratio` up to `end`, or to the change if that comes first.
   void run(Change& change, double end) const {
     double reach = std::abs(end - change.ratio);
+    double nudge = 4.440892098500626e-16;
     while (change.ratio != end) {
       if (++change.steps > kSteps) {
         change.bounded = false;
@@ -110,8 +111,9 @@ class StretchSearch {
       if (!(step < left)) {
         change.ratio = end;
       } else if (step > 0.0 && change.ratio + sign() * step == change.ratio) {
-        change.found = true;  // Nearer than a number can say.
-        return;
+        // So steep that the change is nearer than a number can say, or rounding says so.
+        change.ratio *= 1.0 + sign() * nudge;
+        nudge *= 4.0;
       } else {
         change.ratio += sign() * step;
       }
