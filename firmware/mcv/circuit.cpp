@@ -61,8 +61,10 @@ FlowBalance make_line(const McvMachine& machine, const PerActuator<CircuitAxis>&
     bypass_resistance +=
         orifice_resistance(axis.moves ? actuator.bypass_closed : actuator.bypass_open);
     line.in_flow_m3ps += axis.q_in_m3ps;
+    line.least_flow_m3ps += axis.q_in_m3ps;
     if (axis.regeneration) {
       line.in_flow_m3ps -= axis.q_out_m3ps;
+      line.least_flow_m3ps -= axis.q_out_m3ps * (axis.c_check / (axis.c_check + axis.c_drain));
       line.regeneration[static_cast<unsigned>(line.regeneration_count++)] = {
           axis.q_out_m3ps, axis.c_drain, axis.c_check, axis.opening};
     }

@@ -9,6 +9,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 constexpr int kInsideSteps = 12;
+constexpr int kTurns = 8;
 constexpr int kRefinements = 30;
 
 /// lambda at r; 0 where only standstill belongs to it.
@@ -43,6 +44,16 @@ double standstill_ratio(const FlowBalance& line, const McvPoint& standstill, uns
   return ratio;
 }
 
+/// Past `ratio` of a stagnant line r stays what it is.
+LambdaChange stagnant_change(const FlowBalance& line, const Requirement& requirement,
+                             double lambda_max, double ratio, LambdaChange change) {
+  change.lambda = std::min(lambda_max, lambda_at_fixed_ratio(requirement, ratio));
+  if (line.has_relief) {
+    change.lambda = std::min(change.lambda, line.sqrt_relief / ratio);
+  }
+  return change;
+}
+
 }  // namespace
 
 Start fed_start(const McvCircuit& circuit, double lambda_max, const Inset& inset) {
@@ -56,23 +67,32 @@ Start fed_start(const McvCircuit& circuit, double lambda_max, const Inset& inset
   return start;
 }
 
-LambdaChange holds_again(const McvCircuit& circuit, const McvPoint& failing) {
+LambdaChange holds_again(const McvCircuit& circuit, const McvPoint& failing, Limit& limit) {
   const CircuitAxis& axis = circuit.axis[failing.limit.index];
   const FlowBalance& line = circuit.line[axis.pump];
-  const Requirement requirement = requirement_of(axis, failing.limit);
-  const double from = failing.sqrt_pressure[axis.pump] / failing.lambda;
   const bool stagnant = is_stagnant(line);
-  const double end = stagnant ? std::max(from, stagnant_ratio(line)) : kInfinity;
-  const Change change = first_change(requirement, line, Towards::kSlower, from, end);
-  LambdaChange result{0.0, change.steps, change.bounded};
-  if (change.found) {
-    result.lambda = lambda_at(line, change.ratio);
-  } else if (stagnant) {
-    result.lambda = std::min(failing.lambda, lambda_at_fixed_ratio(requirement, end));
-    if (line.has_relief) {
-      result.lambda = std::min(result.lambda, line.sqrt_relief / end);
+  double ratio = failing.sqrt_pressure[axis.pump] / failing.lambda;
+  const double end = stagnant ? std::max(ratio, stagnant_ratio(line)) : kInfinity;
+  LambdaChange result;
+  Limit next = failing.limit;
+  // From one constraint to the other until neither moves r; at the cap the caller's check decides.
+  for (int turn = 0; turn < kTurns && result.bounded; ++turn) {
+    const Requirement requirement = requirement_of(axis, next);
+    const Change change = first_change(requirement, line, Towards::kSlower, ratio, end);
+    result.steps += change.steps;
+    result.bounded = change.bounded;
+    if (!change.found) {
+      limit = next;
+      return stagnant ? stagnant_change(line, requirement, failing.lambda, end, result) : result;
     }
+    if (turn > 0 && change.ratio == ratio) {
+      break;
+    }
+    limit = next;
+    ratio = change.ratio;
+    next.kind = next.kind == LimitKind::kBackFlow ? LimitKind::kSpoolTravel : LimitKind::kBackFlow;
   }
+  result.lambda = lambda_at(line, ratio);
   return result;
 }
 

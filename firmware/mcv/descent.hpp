@@ -32,9 +32,10 @@ struct LambdaChange {
   bool bounded = true;
 };
 
-/// Largest lambda under that of `failing` at which the constraint that fails there holds; 0 if
-/// there is none.
-[[nodiscard]] LambdaChange holds_again(const McvCircuit& circuit, const McvPoint& failing);
+/// Largest lambda under that of `failing` at which both constraints of the axis that fails there
+/// hold; 0 if there is none. `limit` becomes the one that fails just above it.
+[[nodiscard]] LambdaChange holds_again(const McvCircuit& circuit, const McvPoint& failing,
+                                       Limit& limit);
 
 /// Smallest lambda over standstill at which a constraint that holds there fails; infinite if there
 /// is none up to `fastest`. Only the pressures of the two points count.

@@ -14,11 +14,15 @@ void fail(McvPoint& point, LimitKind kind, unsigned index) {
 }
 
 /// (39): false where a pump can't feed its line.
-bool solve_pumps(const McvCircuit& circuit, McvPoint& point) {
+bool solve_pumps(const McvCircuit& circuit, const McvPoint* near, McvPoint& point) {
   for (unsigned j = 0; j < circuit.pump_count; ++j) {
-    const PumpPressure solved = solve_pump_pressure(circuit.line[j], point.lambda);
+    // s / lambda changes less than s.
+    const PumpPressure solved =
+        near == nullptr ? solve_pump_pressure(circuit.line[j], point.lambda)
+                        : solve_pump_pressure(circuit.line[j], point.lambda,
+                                              point.lambda / near->lambda * near->sqrt_pressure[j]);
     point.newton_steps += solved.iterations;
-    point.flow_left_m3ps[j] = solved.flow_left_m3ps;
+    point.feed_margin_m3ps[j] = feed_margin_m3ps(circuit.line[j], point.lambda);
     if (!solved.fed || !solved.converged) {
       point.converged = point.converged && !solved.fed;
       fail(point, LimitKind::kPumpFlow, j);
@@ -89,11 +93,11 @@ double needed_coefficient(const CircuitAxis& axis, double lambda, double force_n
                       : std::numeric_limits<double>::infinity();
 }
 
-McvPoint evaluate(const McvCircuit& circuit, double lambda) {
+McvPoint evaluate(const McvCircuit& circuit, double lambda, const McvPoint* near) {
   McvPoint point;
   point.lambda = lambda;
   point.feasible = true;
-  if (solve_pumps(circuit, point) && drive_forces(circuit, point)) {
+  if (solve_pumps(circuit, near, point) && drive_forces(circuit, point)) {
     // The last check; its failure is in the point.
     static_cast<void>(spools(circuit, point));
   }

@@ -16,7 +16,7 @@ struct McvPoint {
   int newton_steps = 0;
   PerPump<double> pump_pressure_pa{};     ///< P_p
   PerPump<double> sqrt_pressure{};        ///< sqrt(P_p), as it was solved for.
-  PerPump<double> flow_left_m3ps{};       ///< Margin of (29), (30).
+  PerPump<double> feed_margin_m3ps{};     ///< Of (29), (30).
   PerActuator<double> out_pressure_pa{};  ///< P_out
   PerActuator<double> drive_force_n{};    ///< F_s - F_L sgn(x); 0 for an actuator at rest
   PerActuator<double> spool_m{};          ///< x, signed; 0 for an actuator at rest
@@ -24,8 +24,9 @@ struct McvPoint {
 };
 
 /// Evaluates (27) - (30), (36) with F_offset and (13) at `lambda` in (0, 1]. Where a constraint
-/// fails, what depends on it stays 0.
-[[nodiscard]] McvPoint evaluate(const McvCircuit& circuit, double lambda);
+/// fails, what depends on it stays 0. `near`, a point of the same circuit, saves Newton steps.
+[[nodiscard]] McvPoint evaluate(const McvCircuit& circuit, double lambda,
+                                const McvPoint* near = nullptr);
 
 /// (40), (41) of one axis at a given pressure of its pump's line.
 struct DriveForce {

@@ -10,12 +10,13 @@ PolicyResult choose_global(const McvCircuit& circuit, double lambda_max) {
   Start start = fed_start(circuit, lambda_max, inset);
   double lambda = start.lambda;
   double above = lambda;
+  McvPoint last;
   result.limit = start.limit;
   for (int jump = 0; jump < kGlobalJumps && result.bounded; ++jump) {
     if (!(lambda >= kStandstillLambda)) {
       return result;
     }
-    const McvPoint point = evaluate(circuit, lambda);
+    const McvPoint point = evaluate(circuit, lambda, jump == 0 ? nullptr : &last);
     ++result.iterations;
     if (point.feasible) {
       // Rounding is no reason to look further up than a quarter.
@@ -25,10 +26,11 @@ PolicyResult choose_global(const McvCircuit& circuit, double lambda_max) {
     result.limit = point.limit;
     result.bounded = point.converged;
     above = lambda;
+    last = point;
     double next = lambda;
     // A pump flow limit here is rounding: the search starts where every pump feeds its line.
     if (point.limit.kind != LimitKind::kPumpFlow) {
-      const LambdaChange change = holds_again(circuit, point);
+      const LambdaChange change = holds_again(circuit, point, result.limit);
       result.iterations += change.steps;
       result.bounded = result.bounded && change.bounded;
       next = inset(change.lambda);

@@ -42,7 +42,7 @@ double shortfall_at_full(const McvCircuit& circuit, const Limit& limit) {
     return 0.0;
   }
   if (limit.kind == LimitKind::kPumpFlow) {
-    return -flow_left(circuit.line[limit.index], 1.0, 0.0);
+    return -feed_margin_m3ps(circuit.line[limit.index], 1.0);
   }
   const CircuitAxis& axis = circuit.axis[limit.index];
   const double force_n =
@@ -56,7 +56,7 @@ double shortfall_at_full(const McvCircuit& circuit, const Limit& limit) {
 /// Margins of a feasible point.
 McvMargins margins_of(const McvCircuit& circuit, const McvPoint& point) {
   McvMargins margins;
-  margins.flow_m3ps = point.flow_left_m3ps;
+  margins.flow_m3ps = point.feed_margin_m3ps;
   for (unsigned i = 0; i < circuit.axis_count; ++i) {
     const CircuitAxis& axis = circuit.axis[i];
     if (axis.moves) {

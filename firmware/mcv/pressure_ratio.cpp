@@ -83,7 +83,7 @@ Tangent inverse_lambda(const FlowBalance& line, const Stretch& stretch, double r
   double y = h.value >= 0.0 ? (h.value + root) / (2.0 * flow) : 2.0 * linear / (root - h.value);
   // The quadratic leakage only raises y, and what is left over of the balance is concave in y: from
   // below Newton rises onto the root and never passes it.
-  if (quadratic > 0.0) {
+  if (!(quadratic <= flow * y * y * y * y)) {
     y = std::max(y, leaking_only(flow, h.value, quadratic));
   }
   for (int step = 0; step < kNewtonSteps && quadratic > 0.0; ++step) {
@@ -92,7 +92,8 @@ Tangent inverse_lambda(const FlowBalance& line, const Stretch& stretch, double r
     const double missing = h.value + linear * per_y + leak - flow * y;
     const double rise = missing / (flow + (linear * per_y + 3.0 * leak) * per_y);
     y += rise;
-    if (!(rise > 1e-15 * y)) {
+    // The error after a step is at most about the square of its relative length.
+    if (!(rise > 1e-8 * y)) {
       break;
     }
   }
@@ -115,8 +116,7 @@ bool is_stagnant(const FlowBalance& line) {
 }
 
 double fed_lambda(const FlowBalance& line) {
-  const double asked = demand(line, stretch_right_of(line, 0.0), 0.0).value;
-  return asked > 0.0 ? line.flow_m3ps / asked : kInfinity;
+  return line.least_flow_m3ps > 0.0 ? line.flow_m3ps / line.least_flow_m3ps : kInfinity;
 }
 
 }  // namespace graben

@@ -9,8 +9,8 @@ namespace graben {
 namespace {
 
 constexpr int kNewtonSteps = 24;
-/// Residual that rounding of the balance's terms alone explains, as a share of their sum.
-constexpr double kRoundingShare = 32.0 * 2.220446049250313e-16;
+/// Relative length of the last step; its square is under what a number can say.
+constexpr double kLastStep = 1e-8;
 
 struct Residual {
   double left_m3ps = 0.0;
@@ -35,12 +35,21 @@ Residual residual(const FlowBalance& balance, double lambda, double s) {
   return result;
 }
 
-double total_flow(const FlowBalance& balance, double lambda) {
-  double total = std::abs(balance.in_flow_m3ps);
-  for (int i = 0; i < balance.regeneration_count; ++i) {
-    total += balance.regeneration[static_cast<unsigned>(i)].q_out_m3ps;
+/// `guess` or, where that is left of the root, what its tangent says: right of the root, unless a
+/// check valve switches in between.
+double right_of_root(const FlowBalance& balance, double lambda, double guess) {
+  const Residual at = residual(balance, lambda, guess);
+  if (!(at.left_m3ps > 0.0)) {
+    return guess;
   }
-  return balance.flow_m3ps + lambda * total;
+  const double bound = guess - at.left_m3ps / at.slope;
+  for (int i = 0; i < balance.regeneration_count; ++i) {
+    const double opening = lambda * balance.regeneration[static_cast<unsigned>(i)].opening;
+    if (opening >= guess && opening <= bound) {
+      return std::numeric_limits<double>::infinity();
+    }
+  }
+  return bound;
 }
 
 /// An s at which each of the falling terms alone would use up the flow is right of the root.
@@ -55,16 +64,28 @@ double upper_bound(const FlowBalance& balance, double left_at_zero) {
   return bound;
 }
 
+/// Left end of the stretch that ends at s or holds it.
+double stretch_start(const FlowBalance& balance, double lambda, double s) {
+  double start = 0.0;
+  for (int i = 0; i < balance.regeneration_count; ++i) {
+    const double opening = lambda * balance.regeneration[static_cast<unsigned>(i)].opening;
+    if (opening < s) {
+      start = std::max(start, opening);
+    }
+  }
+  return start;
+}
+
 }  // namespace
 
 double flow_left(const FlowBalance& balance, double lambda, double sqrt_pressure) {
   return residual(balance, lambda, sqrt_pressure).left_m3ps;
 }
 
-PumpPressure solve_pump_pressure(const FlowBalance& balance, double lambda) {
+PumpPressure solve_pump_pressure(const FlowBalance& balance, double lambda, double guess) {
   PumpPressure result;
-  result.flow_left_m3ps = flow_left(balance, lambda, 0.0);
-  if (!(result.flow_left_m3ps >= 0.0)) {
+  const double left_at_zero = feed_margin_m3ps(balance, lambda);
+  if (!(left_at_zero >= 0.0)) {
     return result;
   }
   result.fed = true;
@@ -72,29 +93,25 @@ PumpPressure solve_pump_pressure(const FlowBalance& balance, double lambda) {
     result.converged = true;
     return result;
   }
-  double start = upper_bound(balance, result.flow_left_m3ps);
-  if (balance.has_relief && balance.sqrt_relief < start) {
+  double s = upper_bound(balance, left_at_zero);
+  if (guess < s) {
+    s = std::min(s, right_of_root(balance, lambda, guess));
+  }
+  if (balance.has_relief && balance.sqrt_relief < s) {
     if (flow_left(balance, lambda, balance.sqrt_relief) >= 0.0) {
       result.converged = true;
       result.sqrt_pressure = balance.sqrt_relief;
       return result;
     }
-    start = balance.sqrt_relief;
+    s = balance.sqrt_relief;
   }
-  for (int i = 0; i < balance.regeneration_count; ++i) {
-    const double opening = lambda * balance.regeneration[static_cast<unsigned>(i)].opening;
-    if (opening < start && flow_left(balance, lambda, opening) <= 0.0) {
-      start = opening;
-    }
-  }
-  const double rounding = kRoundingShare * total_flow(balance, lambda);
-  double s = start;
   for (int step = 0; step < kNewtonSteps && !result.converged; ++step) {
     const Residual at = residual(balance, lambda, s);
-    // From the right the balance rises to zero and never passes it but by rounding. The step that
-    // finds that still counts: it takes off what the residual allows for.
-    result.converged = at.left_m3ps >= -rounding;
-    s = std::max(0.0, s - at.left_m3ps / at.slope);
+    // Rounding alone can put s left of the root; then the step would lead back.
+    const double fall = std::max(0.0, at.left_m3ps / at.slope);
+    const double start = stretch_start(balance, lambda, s);
+    result.converged = fall <= kLastStep * s;
+    s = std::max(start, s - fall);
     ++result.iterations;
   }
   result.converged = result.converged && std::isfinite(s * s);
