@@ -11,13 +11,16 @@ namespace {
 
 /// For all stretches together; random circuits need at most a quarter of it.
 constexpr int kSteps = 96;
+/// A step of Newton's size that changes lambda by less than this share is the last: the error left
+/// is of the order of its square.
+constexpr double kLastStep = 1e-9;
 /// Difference of drive and resistance that rounding alone explains, as a share of their sum.
 constexpr double kRoundingShare = 1e-14;
 
 struct Lengths {
   Tangent drive;
   Tangent resist;
-  double inverse_lambda = 0.0;  ///< 0 where it plays no part.
+  Tangent inverse_lambda;  ///< 0 where it plays no part.
 };
 
 /// Length of a vector from its square and the half of that square's slope.
@@ -46,7 +49,7 @@ Lengths lengths(const Requirement& requirement, const FlowBalance& line, const S
     (requirement.load_n > 0.0 ? resist : drive) += weight * y.value * y.value;
     (requirement.load_n > 0.0 ? resist_slope : drive_slope) += weight * y.value * y.slope;
   }
-  return {length(drive, drive_slope), length(resist, resist_slope), y.value};
+  return {length(drive, drive_slope), length(resist, resist_slope), y};
 }
 
 }  // namespace
@@ -84,61 +87,95 @@ class StretchSearch {
   void run(Change& change, double end) const {
     double reach = std::abs(end - change.ratio);
     double nudge = 4.440892098500626e-16;
+    Lengths at = lengths(requirement_, line_, stretch_, change.ratio);
     while (change.ratio != end) {
       if (++change.steps > kSteps) {
         change.bounded = false;
         return;
       }
-      const Lengths at = lengths(requirement_, line_, stretch_, change.ratio);
-      if (slower_ && at.inverse_lambda * kStandstillLambda > 1.0) {
+      if (slower_ && at.inverse_lambda.value * kStandstillLambda > 1.0) {
         change.ratio = end;  // What is further right stands still.
         return;
       }
-      // What must rise, and what it must rise over; slopes along the way.
-      const Tangent rising = along(slower_ ? at.drive : at.resist);
-      const Tangent level = along(slower_ ? at.resist : at.drive);
-      const double missing = level.value - rising.value;
-      if (!(missing > kRoundingShare * (level.value + rising.value))) {
+      const Gap gap = gap_of(at);
+      if (!(gap.missing > kRoundingShare * gap.size)) {
         change.found = true;
         return;
       }
       const double left = std::abs(end - change.ratio);
-      const double closing = rising.slope - level.slope;
-      const double newton = closing > 0.0 ? missing / closing : left;
-      const double step = straight_ ? newton
-                                    : free_length(rising, level, missing, change.ratio,
-                                                  std::min({newton, left, reach}), reach);
-      if (!(step < left)) {
+      const double newton = gap.closing > 0.0 ? gap.missing / gap.closing : left;
+      Free free{newton, reach, false, {}};
+      if (!straight_) {
+        free = free_by_chord(gap, change.ratio, std::min({newton, left, reach}));
+        reach = free.reach;
+      }
+      const double next = change.ratio + sign() * free.length;
+      if (!(free.length < left)) {
         change.ratio = end;
-      } else if (step > 0.0 && change.ratio + sign() * step == change.ratio) {
+        return;
+      }
+      if (free.length > 0.0 && next == change.ratio) {
         // So steep that the change is nearer than a number can say, or rounding says so.
         change.ratio *= 1.0 + sign() * nudge;
         nudge *= 4.0;
       } else {
-        change.ratio += sign() * step;
+        change.ratio = next;
+        const Tangent& y = at.inverse_lambda;
+        change.found = free.length > 0.5 * newton && free.length * y.slope < kLastStep * y.value;
       }
+      if (change.found) {
+        return;
+      }
+      at = free.whole ? free.there : lengths(requirement_, line_, stretch_, change.ratio);
     }
   }
 
  private:
+  /// What must still rise, over what, along the way.
+  struct Gap {
+    Tangent rising;
+    Tangent level;
+    double missing = 0.0;
+    double closing = 0.0;
+    double size = 0.0;
+  };
+
+  /// How far from a point there can be no change.
+  struct Free {
+    double length = 0.0;
+    /// What a next chord is good for: one over a steep bend says next to nothing.
+    double reach = 0.0;
+    bool whole = false;  ///< All of the chord; `there` is its end.
+    Lengths there;
+  };
+
   [[nodiscard]] double sign() const { return slower_ ? 1.0 : -1.0; }
   [[nodiscard]] Tangent along(const Tangent& over_ratio) const {
     return {over_ratio.value, sign() * over_ratio.slope};
   }
+  [[nodiscard]] Gap gap_of(const Lengths& at) const {
+    Gap gap;
+    gap.rising = along(slower_ ? at.drive : at.resist);
+    gap.level = along(slower_ ? at.resist : at.drive);
+    gap.missing = gap.level.value - gap.rising.value;
+    gap.closing = gap.rising.slope - gap.level.slope;
+    gap.size = gap.level.value + gap.rising.value;
+    return gap;
+  }
 
-  /// How far there can be no change, by a chord of this length. `reach` follows what chords have
-  /// turned out to be good for: one over a steep bend says next to nothing.
-  [[nodiscard]] double free_length(const Tangent& rising, const Tangent& level, double missing,
-                                   double ratio, double chord_length, double& reach) const {
-    const Lengths there = lengths(requirement_, line_, stretch_, ratio + sign() * chord_length);
-    if (!std::isfinite(there.drive.value + there.resist.value)) {
-      reach = 0.25 * chord_length;  // Beyond lambda = 0.
-      return 0.0;
+  [[nodiscard]] Free free_by_chord(const Gap& gap, double ratio, double length) const {
+    Free free{length, 4.0 * length, true,
+              lengths(requirement_, line_, stretch_, ratio + sign() * length)};
+    const double end = (slower_ ? free.there.drive : free.there.resist).value;
+    if (!std::isfinite(end)) {
+      return {0.0, 0.25 * length, false, {}};  // The chord's end is beyond lambda = 0.
     }
-    const double chord =
-        ((slower_ ? there.drive : there.resist).value - rising.value) / chord_length - level.slope;
-    const double free = chord > 0.0 ? std::min(missing / chord, chord_length) : chord_length;
-    reach = 4.0 * free;
+    const double chord = (end - gap.rising.value) / length - gap.level.slope;
+    if (chord > 0.0 && gap.missing < chord * length) {
+      free.length = gap.missing / chord;
+      free.reach = 4.0 * free.length;
+      free.whole = false;
+    }
     return free;
   }
 

@@ -1,4 +1,6 @@
 /// NLopt's SLSQP over lambda and the pressures: sequential quadratic programming with exact
+#include <cstdlib>
+#include <cstdio>
 /// gradients, the flow balances as equality constraints.
 
 #include <algorithm>
@@ -63,7 +65,7 @@ class Slsqp final : public LambdaSolver {
                                                 &problem_, nullptr));
     nlopt_must(nlopt_set_lower_bounds1(optimiser_.get(), 0.0));
     nlopt_must(nlopt_set_upper_bounds1(optimiser_.get(), 1.0));
-    nlopt_must(nlopt_set_xtol_rel(optimiser_.get(), kStepTolerance));
+    nlopt_must(nlopt_set_xtol_rel(optimiser_.get(), getenv("XTOL")?atof(getenv("XTOL")):kStepTolerance));
     nlopt_must(nlopt_set_maxeval(optimiser_.get(), kMostEvaluations));
   }
 
@@ -75,12 +77,12 @@ class Slsqp final : public LambdaSolver {
     problem_ = &problem;
     std::array<double, 1 + kMaxPumps> x{};
     double unused = 0.0;
-    x[0] = problem.highest_lambda();
+    x[0] = problem.highest_lambda(); const double hi=x[0]; if(const char*e=getenv("SHARE")) x[0]*=atof(e);
     for (unsigned j = 0; j < problem.line_count(); ++j) {
       x[1 + j] = problem.solved_u(j, x[0]);
     }
-    nlopt_must(nlopt_set_upper_bound(optimiser_.get(), 0, x[0]));
-    return nlopt_optimize(optimiser_.get(), x.data(), &unused) > 0 ? x[0] : 0.0;
+    nlopt_must(nlopt_set_upper_bound(optimiser_.get(), 0, hi));
+    auto rc=nlopt_optimize(optimiser_.get(), x.data(), &unused); if(getenv("RC")) fprintf(stderr,"%d %d %g\n",rc,nlopt_get_numevals(optimiser_.get()),x[0]); return rc> 0 || (getenv("ANY")&&rc!=-1) ? x[0] : 0.0;
   }
 
  private:
