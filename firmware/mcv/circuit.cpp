@@ -7,6 +7,10 @@
 namespace graben {
 namespace {
 
+/// A pump flow below this share of what the cylinders move counts as none where lambda is looked
+/// for over r: it would be all rounding. The exact circuit still decides what is returned.
+constexpr double kLeastFlowShare = 1e-9;
+
 CircuitAxis make_axis(const McvActuator& actuator, double velocity_mps, double cap_pa,
                       double rod_pa) {
   CircuitAxis axis;
@@ -51,6 +55,7 @@ FlowBalance make_line(const McvMachine& machine, const PerActuator<CircuitAxis>&
   line.leak_quadratic = from.leak_quadratic;
   line.has_relief = from.has_relief;
   line.sqrt_relief = from.has_relief ? std::sqrt(from.relief_pa) : 0.0;
+  double moved_m3ps = 0.0;
   double bypass_resistance = from.series_resistance;
   for (unsigned i = 0; i < static_cast<unsigned>(machine.actuator_count); ++i) {
     const CircuitAxis& axis = axes[i];
@@ -61,6 +66,7 @@ FlowBalance make_line(const McvMachine& machine, const PerActuator<CircuitAxis>&
     bypass_resistance +=
         orifice_resistance(axis.moves ? actuator.bypass_closed : actuator.bypass_open);
     line.in_flow_m3ps += axis.q_in_m3ps;
+    moved_m3ps += axis.q_in_m3ps + axis.q_out_m3ps;
     line.least_flow_m3ps += axis.q_in_m3ps;
     if (axis.regeneration) {
       line.in_flow_m3ps -= axis.q_out_m3ps;
@@ -69,6 +75,7 @@ FlowBalance make_line(const McvMachine& machine, const PerActuator<CircuitAxis>&
           axis.q_out_m3ps, axis.c_drain, axis.c_check, axis.opening};
     }
   }
+  line.ratio_flow_m3ps = pump_flow_m3ps >= kLeastFlowShare * moved_m3ps ? pump_flow_m3ps : 0.0;
   // A line with nothing in its bypass holds no pressure; only a pump without spools can be one.
   line.bypass = bypass_resistance > 0.0 ? 1.0 / std::sqrt(bypass_resistance) : 0.0;
   return line;

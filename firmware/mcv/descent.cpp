@@ -74,7 +74,11 @@ LambdaChange holds_again(const McvCircuit& circuit, const McvPoint& failing, Lim
   double ratio = failing.sqrt_pressure[axis.pump] / failing.lambda;
   const double end = stagnant ? std::max(ratio, stagnant_ratio(line)) : kInfinity;
   LambdaChange result;
-  Limit next = failing.limit;
+  // The stricter of the two first; where it fails, the other need not be looked at on its own.
+  const bool travel_first =
+      axis.full_opening_force_n * failing.lambda * failing.lambda > axis.force_offset_n;
+  Limit next{travel_first ? LimitKind::kSpoolTravel : LimitKind::kBackFlow, failing.limit.index};
+  limit = failing.limit;
   // From one constraint to the other until neither moves r; at the cap the caller's check decides.
   for (int turn = 0; turn < kTurns && result.bounded; ++turn) {
     const Requirement requirement = requirement_of(axis, next);
@@ -85,11 +89,12 @@ LambdaChange holds_again(const McvCircuit& circuit, const McvPoint& failing, Lim
       limit = next;
       return stagnant ? stagnant_change(line, requirement, failing.lambda, end, result) : result;
     }
-    if (turn > 0 && change.ratio == ratio) {
+    if (change.ratio != ratio) {
+      limit = next;
+      ratio = change.ratio;
+    } else if (turn > 0) {
       break;
     }
-    limit = next;
-    ratio = change.ratio;
     next.kind = next.kind == LimitKind::kBackFlow ? LimitKind::kSpoolTravel : LimitKind::kBackFlow;
   }
   result.lambda = lambda_at(line, ratio);

@@ -10,18 +10,7 @@ namespace graben {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// A pump flow below this share of what the cylinders ask for counts as none: 1 / lambda would be
-/// all rounding. The exact circuit still decides what is returned.
-constexpr double kLeastFlowShare = 1e-9;
 constexpr int kNewtonSteps = 24;
-
-double flow_of(const FlowBalance& line) {
-  double asked = std::abs(line.in_flow_m3ps);
-  for (int i = 0; i < line.regeneration_count; ++i) {
-    asked += line.regeneration[static_cast<unsigned>(i)].q_out_m3ps;
-  }
-  return line.flow_m3ps >= kLeastFlowShare * asked ? line.flow_m3ps : 0.0;
-}
 
 /// h(r)
 Tangent demand(const FlowBalance& line, const Stretch& stretch, double ratio) {
@@ -70,7 +59,7 @@ Stretch stretch_left_of(const FlowBalance& line, double ratio) {
 }
 
 Tangent inverse_lambda(const FlowBalance& line, const Stretch& stretch, double ratio) {
-  const double flow = flow_of(line);
+  const double flow = line.ratio_flow_m3ps;
   const Tangent h = demand(line, stretch, ratio);
   const double held = line.has_relief ? ratio / line.sqrt_relief : 0.0;
   if (flow == 0.0 && h.value >= 0.0) {
@@ -108,11 +97,11 @@ Tangent inverse_lambda(const FlowBalance& line, const Stretch& stretch, double r
 }
 
 bool is_starved(const FlowBalance& line) {
-  return line.regeneration_count > 0 && flow_of(line) == 0.0;
+  return line.regeneration_count > 0 && line.ratio_flow_m3ps == 0.0;
 }
 
 bool is_stagnant(const FlowBalance& line) {
-  return flow_of(line) == 0.0 && line.leak_linear == 0.0 && line.leak_quadratic == 0.0;
+  return line.ratio_flow_m3ps == 0.0 && line.leak_linear == 0.0 && line.leak_quadratic == 0.0;
 }
 
 double fed_lambda(const FlowBalance& line) {

@@ -20,7 +20,9 @@ struct RegenerationDemand {
 /// Everything in the balance of one pump's line, flows as they are at lambda = 1:
 ///   g(s) = flow - k1 s^2 - k2 s^4 - c_by s - lambda in_flow - sum(c_d f(lambda Q_out, s)) = 0.
 struct FlowBalance {
-  double flow_m3ps = 0.0;        ///< Q_p at zero pressure.
+  double flow_m3ps = 0.0;  ///< Q_p at zero pressure.
+  /// The same, but 0 where it is too little to tell lambda from r.
+  double ratio_flow_m3ps = 0.0;
   double leak_linear = 0.0;      ///< k1
   double leak_quadratic = 0.0;   ///< k2
   double bypass = 0.0;           ///< c_by of (21), (22); 0 stands for no resistance at all: P = 0.

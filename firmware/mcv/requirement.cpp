@@ -104,6 +104,12 @@ class StretchSearch {
       }
       const double left = std::abs(end - change.ratio);
       const double newton = gap.closing > 0.0 ? gap.missing / gap.closing : left;
+      const Tangent& y = at.inverse_lambda;
+      if (newton < left && newton * y.slope < kLastStep * y.value) {
+        change.ratio += sign() * newton;
+        change.found = true;
+        return;
+      }
       Free free{newton, reach, false, {}};
       if (!straight_) {
         free = free_by_chord(gap, change.ratio, std::min({newton, left, reach}));
@@ -120,11 +126,6 @@ class StretchSearch {
         nudge *= 4.0;
       } else {
         change.ratio = next;
-        const Tangent& y = at.inverse_lambda;
-        change.found = free.length > 0.5 * newton && free.length * y.slope < kLastStep * y.value;
-      }
-      if (change.found) {
-        return;
       }
       at = free.whole ? free.there : lengths(requirement_, line_, stretch_, change.ratio);
     }
