@@ -11,9 +11,10 @@ namespace {
 
 /// For all stretches together; random circuits need at most a quarter of it.
 constexpr int kSteps = 96;
-/// A step of Newton's size that changes lambda by less than this share is the last: the error left
-/// is of the order of its square.
-constexpr double kLastStep = 1e-9;
+/// A step is the last where Newton would change lambda by less than this share: Newton's own leaves
+/// an error of the order of its square, the chord's, which ends inside Newton's, at most that.
+constexpr double kLastNewton = 1e-7;
+constexpr double kLastChord = 1e-5;
 /// Difference of drive and resistance that rounding alone explains, as a share of their sum.
 constexpr double kRoundingShare = 1e-14;
 
@@ -104,8 +105,8 @@ class StretchSearch {
       }
       const double left = std::abs(end - change.ratio);
       const double newton = gap.closing > 0.0 ? gap.missing / gap.closing : left;
-      const Tangent& y = at.inverse_lambda;
-      if (newton < left && newton * y.slope < kLastStep * y.value) {
+      const double share = newton * at.inverse_lambda.slope / at.inverse_lambda.value;
+      if (newton < left && share < kLastNewton) {
         change.ratio += sign() * newton;
         change.found = true;
         return;
@@ -126,6 +127,10 @@ class StretchSearch {
         nudge *= 4.0;
       } else {
         change.ratio = next;
+        change.found = share < kLastChord;
+      }
+      if (change.found) {
+        return;
       }
       at = free.whole ? free.there : lengths(requirement_, line_, stretch_, change.ratio);
     }
