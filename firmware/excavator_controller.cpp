@@ -48,6 +48,15 @@ Fault blocking_fault(const ValidInputs& inputs, const KinematicState& state,
   return solved ? Fault::kNone : Fault::kSolverFailed;
 }
 
+/// What holds the commanded speed: the valve before the stroke's end before the rise of lambda.
+Limit reason(const McvSolution& solution, const VelocityCap& cap) {
+  if (solution.limit.kind != LimitKind::kNone) {
+    return solution.limit;
+  }
+  const bool rising = solution.status == SolveStatus::kOk && solution.point.lambda < 1.0;
+  return cap.limit.kind == LimitKind::kNone && rising ? Limit{LimitKind::kRise, 0} : cap.limit;
+}
+
 ExcavatorStatus status_of(const ModeState& mode, const WantedMotion& wanted, const VelocityCap& cap,
                           const McvSolution& solution) {
   ExcavatorStatus status;
@@ -57,7 +66,7 @@ ExcavatorStatus status_of(const ModeState& mode, const WantedMotion& wanted, con
     return status;
   }
   status.lambda = cap.factor * solution.point.lambda;
-  status.limit = solution.limit.kind != LimitKind::kNone ? solution.limit : cap.limit;
+  status.limit = reason(solution, cap);
   status.path_error_m = wanted.path_error_m;
   for (unsigned i = 0; i < kAxisCount; ++i) {
     status.wanted_velocity_mps[i] = wanted.velocity_mps[i];
@@ -87,8 +96,9 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   const KinematicState state = kinematics_.state(valid.strokes_m);
   const WantedMotion wanted = wanted_motion(field_, state, valid);
   const VelocityCap cap = stroke_end_cap(profile_, valid.strokes_m, wanted.velocity_mps);
-  const McvSolution solution =
-      solve_mcv(valve_, mcv_input(valid, cap.factor * wanted.velocity_mps), McvPolicy::kAlgorithm1);
+  const McvSolution solution = steady_lambda(
+      valve_, mcv_input(valid, cap.factor * wanted.velocity_mps), profile_.control.lambda_policy,
+      profile_.control.lambda_rise, memory_.lambda, period_s(now_us));
   const bool stalled = memory_.has_stepped && now_us - memory_.last_us > kStalled_us;
   memory_.mode = next_mode(memory_.mode, valid, blocking_fault(valid, state, solution, stalled));
   const GateResult command = gate(profile_, memory_.gate, memory_.mode.mode == EcuMode::kActive,
@@ -99,6 +109,7 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
     memory_.mode = {EcuMode::kFault, command.fault};
   }
   memory_.gate = command.state;
+  memory_.lambda = memory_.mode.mode == EcuMode::kActive ? solution.point.lambda : 0.0;
   memory_.last_us = now_us;
   memory_.has_stepped = true;
   return {command.enable, command.duty_ratio, status_of(memory_.mode, wanted, cap, solution)};

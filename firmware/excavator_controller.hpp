@@ -2,7 +2,7 @@
 /// The excavator's controller: one step from signals to commands, 100 times a second.
 
 #include "firmware/kinematics/excavator_kinematics.hpp"
-#include "firmware/mcv/optimiser.hpp"
+#include "firmware/mcv/steady_lambda.hpp"
 #include "firmware/motion/dig_field.hpp"
 #include "firmware/safety/gate.hpp"
 #include "firmware/safety/mode.hpp"
@@ -24,6 +24,7 @@ class ExcavatorController {
   struct Memory {
     ModeState mode;
     GateState gate;
+    double lambda = 0.0;  ///< Of the last cycle in motion.
     TimeUs last_us = 0;
     bool has_stepped = false;
   };

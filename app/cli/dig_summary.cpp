@@ -55,6 +55,8 @@ std::string limit_words(const Limit& limit) {
       return fmt::format("spool travel: {}", kAxisNames[axis]);
     case LimitKind::kStrokeEnd:
       return fmt::format("stroke end: {}", kAxisNames[axis]);
+    case LimitKind::kRise:
+      return "rise of lambda";
   }
   return "unknown";
 }

@@ -211,6 +211,8 @@ std::string limit_name(const Limit& limit) {
       return fmt::format("spool_travel[{}]", limit.index);
     case LimitKind::kStrokeEnd:
       return fmt::format("stroke_end[{}]", limit.index);
+    case LimitKind::kRise:
+      return "rise";
   }
   return "unknown";
 }

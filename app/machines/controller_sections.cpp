@@ -90,6 +90,10 @@ SpoolProfile read_spool(TomlReader& reader, const std::string& axis) {
     }
   }
   spool.force_offset_n = reader.number("valve.force_offset", {1.0, 1e6, "N"});
+  const std::string inflow_check = "valve.inflow_check." + axis;
+  if (reader.has(inflow_check)) {
+    spool.c_inflow_check = reader.number(inflow_check, kFlowCoefficient);
+  }
   return spool;
 }
 
@@ -137,6 +141,10 @@ ControlProfile read_control(TomlReader& reader) {
   control.approach_outer_m = reader.number("control.approach_outer", {0.01, 2.0, "m"});
   control.approach_speed_mps = reader.number("control.approach_speed", {0.01, 1.0, "m/s"});
   control.stroke_end_gain_ps = reader.number("control.stroke_end_gain", {0.1, 20.0, "1/s"});
+  control.lambda_policy = static_cast<McvPolicy>(
+      reader.choice("control.lambda_policy", {"algorithm1", "connected", "global"}));
+  control.lambda_rise.rate_ps = reader.number("control.lambda_rise", {0.1, 100.0, "1/s"});
+  control.lambda_rise.reserve_n = reader.number("control.lambda_rise_reserve", {0.0, 1e5, "N"});
   control.spool_rate_ps = reader.number("control.spool_rate", {0.1, 1000.0, "1/s"});
   control.spool_threshold = reader.number("control.spool_threshold", {0.0, 0.1, ""});
   control.sensor_timeout_s = reader.number("control.sensor_timeout", {0.02, 0.05, "s"});

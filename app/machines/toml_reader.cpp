@@ -22,6 +22,8 @@ std::string value_text(const toml::node& node) {
 
 }  // namespace
 
+bool TomlReader::has(const std::string& key) const { return root_.at_path(key).node() != nullptr; }
+
 const toml::node* TomlReader::find(const std::string& key) {
   known_.insert(key);
   const toml::node* node = root_.at_path(key).node();

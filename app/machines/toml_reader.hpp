@@ -27,6 +27,8 @@ class TomlReader {
  public:
   explicit TomlReader(const toml::table& root) : root_(root) {}
 
+  /// Whether an optional key is there.
+  [[nodiscard]] bool has(const std::string& key) const;
   double number(const std::string& key, const Range& range);
   int integer(const std::string& key, int least, int most);
   bool boolean(const std::string& key);

@@ -40,12 +40,20 @@ enum class LimitKind : std::uint8_t {
   kBackFlow = 2,     ///< (36) with F_offset: the load would push back; index is the actuator's.
   kSpoolTravel = 3,  ///< (13): the spool is fully open; index is the actuator's.
   kStrokeEnd = 4,    ///< The cylinder is at its end; index is the actuator's.
+  kRise = 5,         ///< Nothing but the rate at which lambda may rise.
 };
 
 /// A limit and whose it is.
 struct Limit {
   LimitKind kind = LimitKind::kNone;
   std::uint8_t index = 0;
+};
+
+/// How lambda is chosen.
+enum class McvPolicy : std::uint8_t {
+  kAlgorithm1 = 0,  ///< As in Kim et al.
+  kConnected = 1,   ///< The end of the interval that contains 0.
+  kGlobal = 2,      ///< The largest feasible lambda.
 };
 
 /// How the optimiser ended.

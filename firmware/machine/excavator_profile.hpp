@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "firmware/core/codes.hpp"
 #include "firmware/numeric/monotone_table.hpp"
 #include "firmware/signals/excavator_signals.hpp"
 
@@ -67,6 +68,7 @@ struct SpoolProfile {
   double c_drain = 0.0;         ///< c_d of (15).
   double c_check = 0.0;         ///< c_r of (16).
   double force_offset_n = 0.0;  ///< F_offset of (38).
+  double c_inflow_check = 0.0;  ///< Extra check valve before the spool (Remark 3); 0: none.
 };
 
 /// Swash-plate pump of (25): flow = displacement * speed * swash - leak_linear P - leak_quadratic
@@ -104,6 +106,12 @@ struct DigPath {
 };
 
 /// How the field converges and how commands may change. Ranges are checked where it is read.
+/// How lambda may rise from cycle to cycle; it may fall at once.
+struct LambdaRise {
+  double rate_ps = 0.0;    ///< Per second.
+  double reserve_n = 0.0;  ///< Drive force that every moving cylinder must have beyond its need.
+};
+
 struct ControlProfile {
   double convergence_length_m = 0.0;  ///< Distance at which the field points at 45 deg to the path.
   double attitude_gain_ps = 0.0;      ///< Attitude error to attitude rate.
@@ -112,9 +120,11 @@ struct ControlProfile {
   double approach_outer_m = 0.0;    ///< Stroke distance over which the approach alone holds.
   double approach_speed_mps = 0.0;  ///< Largest cylinder speed of the approach.
   double stroke_end_gain_ps = 0.0;  ///< Largest speed towards a cylinder's end, per metre left.
-  double spool_rate_ps = 0.0;       ///< Largest change of |x| / x_m per second.
-  double spool_threshold = 0.0;     ///< |x| / x_m under which a spool is kept at neutral.
-  double sensor_timeout_s = 0.0;    ///< A signal older than this is missing.
+  McvPolicy lambda_policy = McvPolicy::kGlobal;
+  LambdaRise lambda_rise;
+  double spool_rate_ps = 0.0;     ///< Largest change of |x| / x_m per second.
+  double spool_threshold = 0.0;   ///< |x| / x_m under which a spool is kept at neutral.
+  double sensor_timeout_s = 0.0;  ///< A signal older than this is missing.
 };
 
 struct ExcavatorProfile {

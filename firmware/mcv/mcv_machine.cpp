@@ -119,6 +119,7 @@ McvMachine mcv_machine(const ExcavatorProfile& profile) {
     actuator.bypass_open = spool.bypass_open;
     actuator.bypass_closed = spool.bypass_closed;
     actuator.force_offset_n = spool.force_offset_n;
+    actuator.c_inflow_check = spool.c_inflow_check;
     actuator.extend = velocity_coefficient_table(
         profile.valve, full_opening_velocity_coefficient(profile.valve, spool.extend_in_m2,
                                                          spool.extend_out_m2, cap_m2, rod_m2));

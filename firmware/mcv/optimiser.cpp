@@ -21,6 +21,35 @@ PolicyResult choose(const McvCircuit& circuit, McvPolicy policy, double lambda_m
   return {};
 }
 
+/// The choice for loads that are heavier by the reserve, and the circuit as it is at that lambda.
+PolicyResult choose_with_reserve(const McvCircuit& circuit, McvPolicy policy,
+                                 const LambdaRange& range) {
+  if (!(range.reserve_n > 0.0)) {
+    return choose(circuit, policy, range.most);
+  }
+  McvCircuit heavier = circuit;
+  for (unsigned i = 0; i < heavier.axis_count; ++i) {
+    heavier.axis[i].load_force_n += range.reserve_n;
+  }
+  PolicyResult chosen = choose(heavier, policy, range.most);
+  if (chosen.point.lambda > 0.0) {
+    chosen.point = evaluate(circuit, chosen.point.lambda, &chosen.point);
+    // Less load is never less feasible, but for rounding where the reserve is next to nothing.
+    chosen.bounded = chosen.bounded && chosen.point.feasible;
+  }
+  return chosen;
+}
+
+McvCheck check(const McvMachine& machine, const McvInput& input, const LambdaRange& range) {
+  McvCheck found = check_machine(machine);
+  if (found.defect == McvDefect::kNone) {
+    found = check_input(machine, input);
+  }
+  const bool sound = range.most > 0.0 && range.most <= 1.0 && range.reserve_n >= 0.0 &&
+                     std::isfinite(range.reserve_n);
+  return found.defect == McvDefect::kNone && !sound ? McvCheck{McvDefect::kLambdaRange, 0} : found;
+}
+
 double travel_for(const MonotoneTable& table, double coefficient) {
   if (coefficient <= table.y_last()) {
     return table.inverse(coefficient);
@@ -119,20 +148,14 @@ McvSolution stopped(SolveStatus status, int iterations) {
 }  // namespace
 
 McvSolution solve_mcv(const McvMachine& machine, const McvInput& input, McvPolicy policy,
-                      double lambda_max) {
+                      const LambdaRange& range) {
   McvSolution solution;
-  solution.defect = check_machine(machine);
-  if (solution.defect.defect == McvDefect::kNone) {
-    solution.defect = check_input(machine, input);
-  }
-  if (solution.defect.defect == McvDefect::kNone && !(lambda_max > 0.0 && lambda_max <= 1.0)) {
-    solution.defect = {McvDefect::kLambdaMax, 0};
-  }
+  solution.defect = check(machine, input, range);
   if (solution.defect.defect != McvDefect::kNone) {
     return solution;
   }
   const McvCircuit circuit = make_circuit(machine, input);
-  const PolicyResult chosen = choose(circuit, policy, lambda_max);
+  const PolicyResult chosen = choose_with_reserve(circuit, policy, range);
   if (!chosen.bounded) {
     return stopped(SolveStatus::kNotConverged, chosen.iterations);
   }

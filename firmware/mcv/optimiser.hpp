@@ -6,12 +6,6 @@
 
 namespace graben {
 
-enum class McvPolicy : std::uint8_t {
-  kAlgorithm1 = 0,  ///< As in the paper.
-  kConnected = 1,   ///< The end of the interval that contains 0.
-  kGlobal = 2,      ///< The largest feasible lambda.
-};
-
 /// What is left of every constraint; below 0 it fails.
 struct McvMargins {
   PerPump<double> flow_m3ps{};     ///< (29), (30): pump flow at zero pressure.
@@ -30,7 +24,7 @@ struct Standstill {
 struct McvSolution {
   SolveStatus status = SolveStatus::kBadInput;
   McvPoint point;  ///< The circuit at the lambda returned; at lambda 0 every spool is closed.
-  Limit limit;     ///< The constraint that fails just above; none at lambda_max.
+  Limit limit;     ///< The constraint that fails just above; none at range.most.
   /// How much the limit lacks at lambda = 1: m^3/s of pump flow, N of drive force, m of spool
   /// travel (as far as the table's last segment would have to go on, at most 15 x_m). Below 0 where
   /// the limit fails only in between, in a gap of the feasible set.
@@ -41,10 +35,18 @@ struct McvSolution {
   McvCheck defect;  ///< Set with kBadInput.
 };
 
-/// Largest lambda in [0, lambda_max] by `policy`. `lambda_max` in (0, 1] is for a caller that lets
-/// lambda rise only so fast. Bad input, no feasible lambda and an iteration that did not end each
-/// give lambda 0 with closed spools and their status; nothing returned is ever NaN or infinite.
+/// What a caller asks of lambda beyond feasibility.
+struct LambdaRange {
+  double most = 1.0;  ///< In (0, 1].
+  /// Drive force that every moving axis must have beyond its need, N. It shapes the choice of
+  /// lambda; pressures, spools and margins are those without it.
+  double reserve_n = 0.0;
+};
+
+/// Largest lambda in [0, range.most] by `policy`. Bad input, no feasible lambda and an iteration
+/// that did not end each give lambda 0 with closed spools and their status; nothing returned is
+/// ever NaN or infinite.
 [[nodiscard]] McvSolution solve_mcv(const McvMachine& machine, const McvInput& input,
-                                    McvPolicy policy, double lambda_max = 1.0);
+                                    McvPolicy policy, const LambdaRange& range = {});
 
 }  // namespace graben

@@ -11,6 +11,9 @@ namespace {
 constexpr int kNewtonSteps = 24;
 /// Relative length of the last step; its square is under what a number can say.
 constexpr double kLastStep = 1e-8;
+/// What rounding alone leaves over, as a share of the flows that do not depend on s. A pump that
+/// only just feeds its line has a root so near 0 that no step there gets shorter than kLastStep.
+constexpr double kRoundingShare = 4.4e-16;
 
 struct Residual {
   double left_m3ps = 0.0;
@@ -105,12 +108,14 @@ PumpPressure solve_pump_pressure(const FlowBalance& balance, double lambda, doub
     }
     s = balance.sqrt_relief;
   }
+  const double rounding_m3ps =
+      kRoundingShare * (balance.flow_m3ps + lambda * std::abs(balance.in_flow_m3ps));
   for (int step = 0; step < kNewtonSteps && !result.converged; ++step) {
     const Residual at = residual(balance, lambda, s);
     // Rounding alone can put s left of the root; then the step would lead back.
     const double fall = std::max(0.0, at.left_m3ps / at.slope);
     const double start = stretch_start(balance, lambda, s);
-    result.converged = fall <= kLastStep * s;
+    result.converged = fall <= kLastStep * s || at.left_m3ps >= -rounding_m3ps;
     s = std::max(start, s - fall);
     ++result.iterations;
   }

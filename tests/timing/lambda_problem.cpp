@@ -72,7 +72,7 @@ LambdaProblem::LambdaProblem(const McvMachine& machine, const McvInput& input)
     axis_[axis_count_] = i;
     axis_line_[axis_count_] = column[axis.pump];
     force_scale_[axis_count_] =
-        1.0 / std::sqrt(axis.inlet_area_m2 * s * s + std::abs(axis.load_force_n) + axis.force_offset_n);
+        1.0 / (axis.inlet_area_m2 * s * s + std::abs(axis.load_force_n) + axis.force_offset_n);
     ++axis_count_;
   }
 }
@@ -129,20 +129,21 @@ AxisMargins LambdaProblem::margins(unsigned axis, double lambda, double u) const
   const CircuitAxis& at = axis_of(axis);
   const double s_per_u = s_standstill_[axis_line_[axis]];
   const double s = u * s_per_u;
-  Gallery gallery;
+  double force_n = at.inlet_area_m2 * s * s - at.load_force_n;
+  double by_s = 2.0 * at.inlet_area_m2 * s;
+  double by_lambda = 0.0;
   if (at.regeneration) {
-    gallery = gallery_at(lambda, at.q_out_m3ps, at.c_drain, at.c_check, s);
+    const Gallery gallery = gallery_at(lambda, at.q_out_m3ps, at.c_drain, at.c_check, s);
+    const double per_phi = 2.0 * at.outlet_area_m2 * gallery.phi;
+    force_n -= 0.5 * per_phi * gallery.phi;
+    by_s -= per_phi * gallery.by_s;
+    by_lambda -= per_phi * gallery.by_lambda;
   }
-  const auto m = [&](double load, double full) {
-    const double drive = std::sqrt(at.inlet_area_m2 * s * s + std::max(-load, 0.0));
-    const double resist = std::sqrt(at.outlet_area_m2 * gallery.phi * gallery.phi + std::max(load, 0.0) + lambda * lambda * full);
-    const double pd = drive > 0 ? 1 / drive : 0, pr = resist > 0 ? 1 / resist : 0;
-    const double ds = (drive > 0 ? at.inlet_area_m2 * s * pd : std::sqrt(at.inlet_area_m2)) - at.outlet_area_m2 * gallery.phi * gallery.by_s * pr;
-    const double dl = -(at.outlet_area_m2 * gallery.phi * gallery.by_lambda + lambda * full) * pr;
-    const double scale = force_scale_[axis];
-    return Slope{scale * (drive - resist), scale * dl, scale * ds * s_per_u};
-  };
-  return {m(at.load_force_n + at.force_offset_n, 0.0), m(at.load_force_n, at.full_opening_force_n)};
+  const double scale = force_scale_[axis];
+  const double full_n = lambda * at.full_opening_force_n;
+  const double by_u = scale * by_s * s_per_u;
+  return {{scale * (force_n - at.force_offset_n), scale * by_lambda, by_u},
+          {scale * (force_n - lambda * full_n), scale * (by_lambda - 2.0 * full_n), by_u}};
 }
 
 Curvature LambdaProblem::margins_curvature(unsigned axis, double lambda, double u, double w_force,
@@ -172,12 +173,9 @@ void LambdaProblem::solved_margins(double lambda, double* margins) const {
   }
   for (unsigned i = 0; i < axis_count_; ++i) {
     const CircuitAxis& at = axis_of(i);
-const auto d = drive_force(at, lambda, s[axis_line_[i]]);
-  const auto m = [&](double load, double full) {
-    const double drive = std::sqrt(d.force_n+at.load_force_n+at.outlet_area_m2*d.out_pressure_pa + std::max(-load, 0.0));
-    const double resist = std::sqrt(at.outlet_area_m2 * d.out_pressure_pa + std::max(load, 0.0) + lambda * lambda * full);
-    return force_scale_[i]*(drive-resist);};
-  margins[2*i]=m(at.load_force_n + at.force_offset_n, 0.0); margins[2*i+1]=m(at.load_force_n, at.full_opening_force_n);
+    const double force_n = drive_force(at, lambda, s[axis_line_[i]]).force_n;
+    margins[2 * i] = force_scale_[i] * (force_n - at.force_offset_n);
+    margins[2 * i + 1] = force_scale_[i] * (force_n - lambda * lambda * at.full_opening_force_n);
   }
 }
 

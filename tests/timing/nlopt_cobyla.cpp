@@ -1,6 +1,4 @@
 /// NLopt's COBYLA over lambda alone: derivative-free, the pressures solved inside by the core. With
-#include <cstdlib>
-#include <cstdio>
 /// them as unknowns and equality constraints COBYLA needs hundreds of evaluations.
 
 #include "tests/timing/lambda_problem.hpp"
@@ -47,10 +45,10 @@ class Cobyla final : public LambdaSolver {
       return 0.0;
     }
     problem_ = &problem;
-    double lambda = problem.highest_lambda(); const double hi=lambda; if(const char*e=getenv("SHARE")) lambda*=atof(e);
+    double lambda = problem.highest_lambda();
     double unused = 0.0;
-    nlopt_must(nlopt_set_upper_bounds1(optimiser_.get(), hi));
-    nlopt_must(nlopt_set_initial_step1(optimiser_.get(), (getenv("STEP")?atof(getenv("STEP")):kFirstStep) * hi));
+    nlopt_must(nlopt_set_upper_bounds1(optimiser_.get(), lambda));
+    nlopt_must(nlopt_set_initial_step1(optimiser_.get(), kFirstStep * lambda));
     return nlopt_optimize(optimiser_.get(), &lambda, &unused) > 0 ? lambda : 0.0;
   }
 

@@ -1,6 +1,4 @@
 /// NLopt's SLSQP over lambda and the pressures: sequential quadratic programming with exact
-#include <cstdlib>
-#include <cstdio>
 /// gradients, the flow balances as equality constraints.
 
 #include <algorithm>
@@ -53,56 +51,6 @@ void margins(unsigned count, double* result, unsigned n, const double* x, double
   }
 }
 
-
-void reduced(unsigned count, double* result, unsigned /*n*/, const double* x, double* gradient,
-             void* data) {
-  const auto* problem = *static_cast<const LambdaProblem* const*>(data);
-  double u[3], du[3];
-  for (unsigned j = 0; j < problem->line_count(); ++j) {
-    u[j] = problem->solved_u(j, x[0]);
-    Slope b = problem->balance(j, x[0], u[j]);
-    du[j] = -b.by_lambda / b.by_u;
-  }
-  for (unsigned i = 0; i < count / 2; ++i) {
-    const unsigned l = problem->line_of(i);
-    const AxisMargins at = problem->margins(i, x[0], u[l]);
-    result[2*i]=-at.force.value; result[2*i+1]=-at.travel.value;
-    if(gradient){gradient[2*i]=-(at.force.by_lambda+at.force.by_u*du[l]); gradient[2*i+1]=-(at.travel.by_lambda+at.travel.by_u*du[l]);}
-  }
-}
-class SlsqpR final : public LambdaSolver {
- public:
-  SlsqpR(const McvMachine& machine, const McvInput& input) {
-    const LambdaProblem shape(machine, input);
-    optimiser_.reset(nlopt_create((nlopt_algorithm)(getenv("ALG")?atoi(getenv("ALG")):NLOPT_LD_SLSQP), 1));
-    nlopt_must(nlopt_set_min_objective(optimiser_.get(), objective, nullptr));
-    nlopt_must(nlopt_add_inequality_mconstraint(optimiser_.get(), 2 * shape.axis_count(), reduced,
-                                                &problem_, nullptr));
-    nlopt_must(nlopt_set_lower_bounds1(optimiser_.get(), 0.0));
-    nlopt_must(nlopt_set_upper_bounds1(optimiser_.get(), 1.0));
-    nlopt_must(nlopt_set_xtol_rel(optimiser_.get(), getenv("XTOL")?atof(getenv("XTOL")):kStepTolerance));
-    nlopt_must(nlopt_set_maxeval(optimiser_.get(), kMostEvaluations));
-  }
-
-  double solve(const McvMachine& machine, const McvInput& input) override {
-    const LambdaProblem problem(machine, input);
-    if (!problem.can_start()) {
-      return 0.0;
-    }
-    problem_ = &problem;
-    double x[1];
-    double unused = 0.0;
-    double hi = problem.highest_lambda(); x[0]=hi*(getenv("SHARE")?atof(getenv("SHARE")):1);
-    nlopt_must(nlopt_set_upper_bound(optimiser_.get(), 0, hi));
-    auto rc=nlopt_optimize(optimiser_.get(), x, &unused);
-    if(getenv("RC")) fprintf(stderr,"%d %d %g\n",rc,nlopt_get_numevals(optimiser_.get()),x[0]);
-    return rc> 0 || (getenv("ANY")&&rc!=-1) ? x[0] : 0.0;
-  }
-
- private:
-  NloptOptimiser optimiser_;
-  const LambdaProblem* problem_ = nullptr;
-};
 class Slsqp final : public LambdaSolver {
  public:
   Slsqp(const McvMachine& machine, const McvInput& input) {
@@ -115,7 +63,7 @@ class Slsqp final : public LambdaSolver {
                                                 &problem_, nullptr));
     nlopt_must(nlopt_set_lower_bounds1(optimiser_.get(), 0.0));
     nlopt_must(nlopt_set_upper_bounds1(optimiser_.get(), 1.0));
-    nlopt_must(nlopt_set_xtol_rel(optimiser_.get(), getenv("XTOL")?atof(getenv("XTOL")):kStepTolerance));
+    nlopt_must(nlopt_set_xtol_rel(optimiser_.get(), kStepTolerance));
     nlopt_must(nlopt_set_maxeval(optimiser_.get(), kMostEvaluations));
   }
 
@@ -127,12 +75,12 @@ class Slsqp final : public LambdaSolver {
     problem_ = &problem;
     std::array<double, 1 + kMaxPumps> x{};
     double unused = 0.0;
-    x[0] = problem.highest_lambda(); const double hi=x[0]; if(const char*e=getenv("SHARE")) x[0]*=atof(e);
+    x[0] = problem.highest_lambda();
     for (unsigned j = 0; j < problem.line_count(); ++j) {
       x[1 + j] = problem.solved_u(j, x[0]);
     }
-    nlopt_must(nlopt_set_upper_bound(optimiser_.get(), 0, hi));
-    auto rc=nlopt_optimize(optimiser_.get(), x.data(), &unused); if(getenv("RC")) fprintf(stderr,"%d %d %g\n",rc,nlopt_get_numevals(optimiser_.get()),x[0]); return rc> 0 || (getenv("ANY")&&rc!=-1) ? x[0] : 0.0;
+    nlopt_must(nlopt_set_upper_bound(optimiser_.get(), 0, x[0]));
+    return nlopt_optimize(optimiser_.get(), x.data(), &unused) > 0 ? x[0] : 0.0;
   }
 
  private:
@@ -143,8 +91,7 @@ class Slsqp final : public LambdaSolver {
 }  // namespace
 
 std::unique_ptr<LambdaSolver> make_slsqp(const McvMachine& machine, const McvInput& input) {
-  if(getenv("RED")) { return std::make_unique<SlsqpR>(machine, input); }
- return std::make_unique<Slsqp>(machine, input);
+  return std::make_unique<Slsqp>(machine, input);
 }
 
 }  // namespace graben::timing

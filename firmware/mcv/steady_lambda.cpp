@@ -1,0 +1,26 @@
+#include "firmware/mcv/steady_lambda.hpp"
+
+#include <algorithm>
+
+namespace graben {
+namespace {
+
+/// What the first cycle from rest may reach, whatever its period.
+constexpr double kLeastBound = 1e-3;
+
+}  // namespace
+
+McvSolution steady_lambda(const McvMachine& machine, const McvInput& input, McvPolicy policy,
+                          const LambdaRise& rise, double last_lambda, double period_s) {
+  const double bound = std::clamp(last_lambda + rise.rate_ps * period_s, kLeastBound, 1.0);
+  const McvSolution risen = solve_mcv(machine, input, policy, {bound, rise.reserve_n});
+  if (risen.status == SolveStatus::kBadInput || risen.point.lambda >= last_lambda) {
+    // From rest the reserve must not forbid what is feasible.
+    if (risen.point.lambda > 0.0 || risen.status == SolveStatus::kBadInput) {
+      return risen;
+    }
+  }
+  return solve_mcv(machine, input, policy, {std::max(last_lambda, kLeastBound), 0.0});
+}
+
+}  // namespace graben
