@@ -15,7 +15,8 @@ namespace graben {
 /// of the feasible set wider than one cycle's rise. Why that cannot chatter: to come back above a
 /// gap that it fell across, it needs the gap gone for all of the climb, with the reserve on top;
 /// pressure noise worth less than the reserve can then neither open the gap under it nor close it
-/// again. At most two solves.
+/// again. Where no lambda has the reserve, it does without. At most two solves. Where it stays,
+/// `limit` is what lacks the reserve.
 [[nodiscard]] McvSolution steady_lambda(const McvMachine& machine, const McvInput& input,
                                         McvPolicy policy, const LambdaRise& rise,
                                         double last_lambda, double period_s);

@@ -1,0 +1,108 @@
+#include "tests/fuzz/safe_solution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben::test {
+namespace {
+
+template <class Values>
+bool all_finite(const Values& values) {
+  return std::all_of(values.begin(), values.end(),
+                     [](double value) { return std::isfinite(value); });
+}
+
+bool finite(const McvSolution& solution) {
+  const McvPoint& point = solution.point;
+  return std::isfinite(point.lambda) && std::isfinite(solution.shortfall) &&
+         std::isfinite(solution.standstill.short_n) && all_finite(point.pump_pressure_pa) &&
+         all_finite(point.sqrt_pressure) && all_finite(point.feed_margin_m3ps) &&
+         all_finite(point.out_pressure_pa) && all_finite(point.drive_force_n) &&
+         all_finite(point.spool_m) && all_finite(solution.margins.flow_m3ps) &&
+         all_finite(solution.margins.force_n) && all_finite(solution.margins.travel_m);
+}
+
+bool closed(const McvSolution& solution) {
+  return solution.point.lambda == 0.0 &&
+         std::all_of(solution.point.spool_m.begin(), solution.point.spool_m.end(),
+                     [](double spool) { return spool == 0.0; });
+}
+
+/// Whether a spool is closed at rest, and otherwise open the way it should and no farther.
+bool spool_is_sound(const McvActuator& actuator, double velocity, double spool) {
+  if (velocity == 0.0) {
+    return spool == 0.0;
+  }
+  const MonotoneTable& table = velocity > 0.0 ? actuator.extend : actuator.retract;
+  return std::abs(spool) <= table.x_last() && spool * (velocity > 0.0 ? 1.0 : -1.0) >= 0.0;
+}
+
+bool limit_is_sound(const McvMachine& machine, const Limit& limit) {
+  switch (limit.kind) {
+    case LimitKind::kNone:
+      return true;
+    case LimitKind::kPumpFlow:
+      return limit.index < machine.pump_count;
+    case LimitKind::kBackFlow:
+    case LimitKind::kSpoolTravel:
+      return limit.index < machine.actuator_count;
+    case LimitKind::kStrokeEnd:
+    case LimitKind::kRise:
+      break;
+  }
+  return false;
+}
+
+std::string unsound_point(const McvMachine& machine, const McvInput& input,
+                          const McvSolution& solution) {
+  for (unsigned i = 0; i < static_cast<unsigned>(machine.actuator_count); ++i) {
+    if (!spool_is_sound(machine.actuator[i], input.velocity_mps[i], solution.point.spool_m[i])) {
+      return fmt::format("spool {} at {}", i, solution.point.spool_m[i]);
+    }
+    if (solution.margins.force_n[i] < 0.0 || solution.margins.travel_m[i] < 0.0) {
+      return fmt::format("margins of actuator {} below 0", i);
+    }
+  }
+  for (const double margin : solution.margins.flow_m3ps) {
+    if (margin < 0.0) {
+      return "margin of a pump below 0";
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string unsafe(const McvMachine& machine, const McvInput& input, const LambdaRange& range,
+                   const McvSolution& solution) {
+  if (!finite(solution)) {
+    return "a number that is not finite";
+  }
+  if (solution.status != SolveStatus::kOk && !closed(solution)) {
+    return fmt::format("status {} with lambda {}", static_cast<int>(solution.status),
+                       solution.point.lambda);
+  }
+  const bool sound_range = range.most > 0.0 && range.most <= 1.0 && range.reserve_n >= 0.0 &&
+                           std::isfinite(range.reserve_n);
+  const bool good = check_machine(machine).defect == McvDefect::kNone &&
+                    check_input(machine, input).defect == McvDefect::kNone && sound_range;
+  const bool refused = solution.status == SolveStatus::kBadInput;
+  if (good == refused || refused != (solution.defect.defect != McvDefect::kNone)) {
+    return fmt::format("status {} and defect {} for {} input", static_cast<int>(solution.status),
+                       static_cast<int>(solution.defect.defect), good ? "good" : "bad");
+  }
+  if (solution.status != SolveStatus::kOk) {
+    return "";
+  }
+  if (!(solution.point.lambda >= 0.0 && solution.point.lambda <= range.most)) {
+    return fmt::format("lambda {} of at most {}", solution.point.lambda, range.most);
+  }
+  if (!limit_is_sound(machine, solution.limit)) {
+    return fmt::format("limit {}[{}]", static_cast<int>(solution.limit.kind), solution.limit.index);
+  }
+  return solution.point.lambda > 0.0 ? unsound_point(machine, input, solution) : "";
+}
+
+}  // namespace graben::test

@@ -1,0 +1,213 @@
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "firmware/mcv/optimiser.hpp"
+#include "tests/fuzz/safe_solution.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/split.hpp"
+
+namespace {
+
+using namespace graben;
+using test::kim;
+using test::split_input;
+
+constexpr std::array kPolicies{McvPolicy::kAlgorithm1, McvPolicy::kConnected, McvPolicy::kGlobal};
+constexpr double kGapCap_pa = 2.5e6;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+double lambda_of(const McvInput& input, McvPolicy policy, const LambdaRange& range = {}) {
+  const McvSolution solution = solve_mcv(kim(), input, policy, range);
+  assert_int_equal(solution.status, SolveStatus::kOk);
+  return solution.point.lambda;
+}
+
+bool feasible(const McvInput& input, double lambda) {
+  const McvMachine machine = kim();
+  return evaluate(make_circuit(machine, input), lambda).feasible;
+}
+
+/// Over the gap, at its lower end, and Algorithm 1 wherever its halving led it.
+void policies_differ_where_the_set_splits(void**) {
+  const McvInput input = split_input(kGapCap_pa);
+  const double global = lambda_of(input, McvPolicy::kGlobal);
+  const double connected = lambda_of(input, McvPolicy::kConnected);
+  assert_near(global, 1.0, 0.0);
+  assert_true(connected > 0.05 && connected < 0.4);
+  for (int n = 1; n < 200; ++n) {
+    assert_true(feasible(input, connected * n / 200.0));
+  }
+  assert_false(feasible(input, connected + 1e-6));
+}
+
+void policies_agree_where_it_does_not(void**) {
+  for (const double cap_pa : {0.6e6, 4e6}) {
+    const McvInput input = split_input(cap_pa);
+    const double global = lambda_of(input, McvPolicy::kGlobal);
+    assert_near(lambda_of(input, McvPolicy::kConnected), global, 1e-8);
+    assert_near(lambda_of(input, McvPolicy::kAlgorithm1), global, 1e-7);
+  }
+}
+
+/// Bounded from above, global is the largest feasible lambda under the bound: inside the gap the
+/// end of the interval below it.
+void a_bound_is_kept(void**) {
+  const McvInput input = split_input(kGapCap_pa);
+  const double connected = lambda_of(input, McvPolicy::kConnected);
+  assert_near(lambda_of(input, McvPolicy::kGlobal, {0.9, 0.0}), 0.9, 0.0);
+  assert_near(lambda_of(input, McvPolicy::kGlobal, {connected + 0.02, 0.0}), connected, 1e-8);
+  for (const McvPolicy policy : kPolicies) {
+    assert_near(lambda_of(input, policy, {0.5 * connected, 0.0}), 0.5 * connected, 0.0);
+  }
+}
+
+/// With a reserve lambda is what the same loads, heavier by it, would allow; the figures are those
+/// of the loads as they are.
+void a_reserve_stays_in_hand(void**) {
+  constexpr double kReserve_n = 4000.0;
+  const McvInput input = split_input(4e6);
+  for (const McvPolicy policy : kPolicies) {
+    const McvSolution free = solve_mcv(kim(), input, policy);
+    const McvSolution spared = solve_mcv(kim(), input, policy, {1.0, kReserve_n});
+    assert_true(spared.point.lambda < free.point.lambda);
+    assert_near(free.margins.force_n[kBucket], 0.0, 1.0);
+    assert_near(spared.margins.force_n[kBucket], kReserve_n, 1.0);
+    assert_int_equal(spared.limit.kind, LimitKind::kBackFlow);
+    assert_int_equal(spared.limit.index, kBucket);
+  }
+}
+
+void bad_ranges_are_refused(void**) {
+  const McvInput input = split_input(kGapCap_pa);
+  for (const LambdaRange& range : {LambdaRange{0.0, 0.0},
+                                   {-1.0, 0.0},
+                                   {1.1, 0.0},
+                                   {kNan, 0.0},
+                                   {1.0, -1.0},
+                                   {1.0, kNan},
+                                   {1.0, kInfinity}}) {
+    for (const McvPolicy policy : kPolicies) {
+      const McvSolution solution = solve_mcv(kim(), input, policy, range);
+      assert_int_equal(solution.defect.defect, McvDefect::kLambdaRange);
+      assert_string_equal(test::unsafe(kim(), input, range, solution).c_str(), "");
+    }
+  }
+}
+
+/// (43): with the pump's pressure at standstill taken from the machine's own figures, what is
+/// lacking is the load and the offset less that force.
+void standstill_says_who_lacks_what(void**) {
+  McvInput input = split_input(kGapCap_pa);
+  input.velocity_mps = {0.1, 0.0, 0.05};
+  input.cap_pressure_pa = {60e6, 4e6, 30e6};
+  const McvMachine machine = kim();
+  for (const McvPolicy policy : kPolicies) {
+    const McvSolution solution = solve_mcv(machine, input, policy);
+    assert_int_equal(solution.status, SolveStatus::kInfeasible);
+    assert_false(solution.standstill.can_start);
+    assert_int_equal(solution.standstill.actuator, kBoom);
+    const McvActuator& boom = machine.actuator[kBoom];
+    const double load_n = boom.area_cap_m2 * 60e6 - boom.area_rod_m2 * 1e6;
+    const PumpPressure line = solve_pump_pressure(
+        make_circuit(machine, input).line[static_cast<unsigned>(boom.pump)], 0.0);
+    const double drive_n = boom.area_cap_m2 * line.sqrt_pressure * line.sqrt_pressure;
+    assert_near(solution.standstill.short_n, load_n + boom.force_offset_n - drive_n, 1e-3);
+    assert_true(solution.standstill.short_n > 1e4);
+  }
+}
+
+/// What the limit lacks at lambda = 1 is what evaluating there shows.
+void shortfall_is_the_margin_at_full_speed(void**) {
+  const McvInput input = split_input(4e6);
+  const McvMachine machine = kim();
+  const McvSolution solution = solve_mcv(machine, input, McvPolicy::kGlobal);
+  assert_int_equal(solution.limit.kind, LimitKind::kBackFlow);
+  const CircuitAxis axis = make_circuit(machine, input).axis[kBucket];
+  const PumpPressure line = solve_pump_pressure(make_circuit(machine, input).line[axis.pump], 1.0);
+  const double lacking_n = axis.force_offset_n - drive_force(axis, 1.0, line.sqrt_pressure).force_n;
+  assert_near(solution.shortfall, lacking_n, 1e-6);
+  assert_true(solution.shortfall > 0.0);
+  assert_near(solve_mcv(machine, split_input(0.6e6), McvPolicy::kGlobal).shortfall, 0.0, 0.0);
+}
+
+/// Remark 3: a check valve in the in-flow line takes A_in (lambda Q_in / c)^2 of the force; at the
+/// limit of travel what is left is what full opening needs.
+void in_flow_check_valve_takes_its_force(void**) {
+  McvInput input;
+  input.velocity_mps = {0.0, 0.0, 0.3};
+  input.cap_pressure_pa = {0.0, 0.0, 6e6};
+  input.pump_flow_m3ps = {4e-3, 4e-3};
+  McvMachine machine = kim();
+  McvActuator& bucket = machine.actuator[kBucket];
+  const double without = solve_mcv(machine, input, McvPolicy::kGlobal).point.lambda;
+  bucket.c_inflow_check = 6e-7;
+  for (const McvPolicy policy : kPolicies) {
+    const McvSolution solution = solve_mcv(machine, input, policy);
+    const double lambda = solution.point.lambda;
+    assert_true(lambda > 0.0 && lambda < without);
+    assert_int_equal(solution.limit.kind, LimitKind::kSpoolTravel);
+    const double speed = lambda * 0.3;
+    const double pressure_lost = std::pow(bucket.area_cap_m2 * speed / bucket.c_inflow_check, 2.0);
+    const double spool_needs = std::pow(speed / bucket.extend.y_last(), 2.0);
+    assert_near(solution.point.drive_force_n[kBucket],
+                spool_needs + bucket.area_cap_m2 * pressure_lost, 1.0);
+  }
+}
+
+/// Every corner of the inputs, sound and not, by every policy.
+void corners_are_safe(void**) {
+  const McvMachine machine = kim();
+  const std::array velocities{0.0, -0.0, 5e-324, 1e-9, 0.3, -0.3, 1e3, -1e300, kNan, kInfinity};
+  const std::array pressures{0.0, -0.0, 5e-324, 1e7, 1e300, -1.0, kNan, kInfinity};
+  const std::array flows{0.0, 5e-324, 2e-3, 1e300, -1e-9, kNan};
+  long refused = 0;
+  long moving = 0;
+  const auto check = [&](const McvInput& input) {
+    for (const McvPolicy policy : kPolicies) {
+      const McvSolution solution = solve_mcv(machine, input, policy);
+      const std::string wrong = test::unsafe(machine, input, {}, solution);
+      if (!wrong.empty()) {
+        fail_msg("%s", wrong.c_str());
+      }
+      refused += solution.status == SolveStatus::kBadInput ? 1 : 0;
+      moving += solution.point.lambda > 0.0 ? 1 : 0;
+    }
+  };
+  McvInput input;
+  for (const double boom : velocities) {
+    for (const double bucket : velocities) {
+      for (const double cap_pa : pressures) {
+        for (const double rod_pa : pressures) {
+          for (const double flow : flows) {
+            input.velocity_mps = {boom, 0.0, bucket};
+            input.cap_pressure_pa = {cap_pa, 0.0, rod_pa};
+            input.rod_pressure_pa = {rod_pa, 0.0, 0.0};
+            input.pump_flow_m3ps = {flow, 1e-3};
+            check(input);
+          }
+        }
+      }
+    }
+  }
+  print_message("%ld refused, %ld moving\n", refused, moving);
+  assert_true(refused > 50000 && moving > 2000);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(policies_differ_where_the_set_splits),
+      cmocka_unit_test(policies_agree_where_it_does_not),
+      cmocka_unit_test(a_bound_is_kept),
+      cmocka_unit_test(a_reserve_stays_in_hand),
+      cmocka_unit_test(bad_ranges_are_refused),
+      cmocka_unit_test(standstill_says_who_lacks_what),
+      cmocka_unit_test(shortfall_is_the_margin_at_full_speed),
+      cmocka_unit_test(in_flow_check_valve_takes_its_force),
+      cmocka_unit_test(corners_are_safe),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
