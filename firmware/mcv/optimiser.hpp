@@ -39,7 +39,8 @@ struct McvSolution {
 struct LambdaRange {
   double most = 1.0;  ///< In (0, 1].
   /// Drive force that every moving axis must have beyond its need, N. It shapes the choice of
-  /// lambda; pressures, spools and margins are those without it.
+  /// lambda; pressures, spools, margins and status are those without it: where only the reserve
+  /// forbids motion, lambda is 0 and the status kOk.
   double reserve_n = 0.0;
 };
 

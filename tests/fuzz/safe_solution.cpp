@@ -30,6 +30,41 @@ bool closed(const McvSolution& solution) {
                      [](double spool) { return spool == 0.0; });
 }
 
+bool at_least_0(double value) { return value >= 0.0 && std::isfinite(value); }
+bool over_0(double value) { return value > 0.0 && std::isfinite(value); }
+
+/// A flow coefficient: c^2 and 1/c^2 are in every formula.
+bool coefficient(double c) { return over_0(c) && over_0(c * c) && over_0(1.0 / (c * c)); }
+
+/// What a caller may ask for, in words of its own: not the core's check once more.
+bool sound(const McvMachine& machine, const McvInput& input, const LambdaRange& range) {
+  if (machine.actuator_count < 1 || machine.actuator_count > kMaxActuators ||
+      machine.pump_count < 1 || machine.pump_count > kMaxPumps) {
+    return false;
+  }
+  bool good = over_0(range.most) && range.most <= 1.0 && at_least_0(range.reserve_n);
+  for (unsigned j = 0; j < static_cast<unsigned>(machine.pump_count); ++j) {
+    const McvPump& pump = machine.pump[j];
+    good = good && at_least_0(input.pump_flow_m3ps[j]) && at_least_0(pump.leak_linear) &&
+           at_least_0(pump.leak_quadratic) && at_least_0(pump.series_resistance) &&
+           (!pump.has_relief || over_0(pump.relief_pa));
+  }
+  for (unsigned i = 0; i < static_cast<unsigned>(machine.actuator_count); ++i) {
+    const McvActuator& a = machine.actuator[i];
+    good = good && a.pump >= 0 && a.pump < machine.pump_count && over_0(a.area_cap_m2) &&
+           over_0(a.area_rod_m2) && coefficient(a.bypass_open) && coefficient(a.bypass_closed) &&
+           at_least_0(a.force_offset_n) && a.extend.size() >= 2 && a.retract.size() >= 2 &&
+           std::isfinite(input.velocity_mps[i]) && at_least_0(input.cap_pressure_pa[i]) &&
+           at_least_0(input.rod_pressure_pa[i]);
+    good = good && (a.c_inflow_check == 0.0 || coefficient(a.c_inflow_check));
+    good = good && (a.regeneration == RegenerationSide::kNone ||
+                    (coefficient(a.c_drain) && coefficient(a.c_check) && a.c_drain < a.c_check));
+    good = good && a.extend.x(0) == 0.0 && a.extend.y(0) == 0.0 && a.retract.x(0) == 0.0 &&
+           a.retract.y(0) == 0.0;
+  }
+  return good;
+}
+
 /// Whether a spool is closed at rest, and otherwise open the way it should and no farther.
 bool spool_is_sound(const McvActuator& actuator, double velocity, double spool) {
   if (velocity == 0.0) {
@@ -84,10 +119,7 @@ std::string unsafe(const McvMachine& machine, const McvInput& input, const Lambd
     return fmt::format("status {} with lambda {}", static_cast<int>(solution.status),
                        solution.point.lambda);
   }
-  const bool sound_range = range.most > 0.0 && range.most <= 1.0 && range.reserve_n >= 0.0 &&
-                           std::isfinite(range.reserve_n);
-  const bool good = check_machine(machine).defect == McvDefect::kNone &&
-                    check_input(machine, input).defect == McvDefect::kNone && sound_range;
+  const bool good = sound(machine, input, range);
   const bool refused = solution.status == SolveStatus::kBadInput;
   if (good == refused || refused != (solution.defect.defect != McvDefect::kNone)) {
     return fmt::format("status {} and defect {} for {} input", static_cast<int>(solution.status),

@@ -135,6 +135,23 @@ void an_impossible_load_closes_the_spools(void**) {
   }
 }
 
+/// From every rest lambda starts at one cycle's rise and goes up by no more.
+void lambda_rises_anew_from_every_rest(void**) {
+  const double rise = profile().control.lambda_rise.rate_ps * 0.01;
+  Running running;
+  for (int start = 0; start < 2; ++start) {
+    assert_int_equal(running.outputs.status.mode, EcuMode::kActive);
+    assert_near(running.outputs.status.lambda, rise, 1e-12);
+    assert_int_equal(running.outputs.status.limit.kind, LimitKind::kRise);
+    for (int n = 2; n < 8; ++n) {
+      assert_near(running.step(running.inputs()).status.lambda, n * rise, 1e-12);
+    }
+    running.step(running.at_rest(false));
+    running.step(running.at_rest(true));
+    running.step(running.inputs());
+  }
+}
+
 void the_same_inputs_give_the_same_outputs(void**) {
   Running first;
   Running second;
@@ -159,6 +176,7 @@ int main() {
       cmocka_unit_test(a_missing_sensor_is_neutral_within_50_ms),
       cmocka_unit_test(a_stalled_cycle_is_neutral_and_latched),
       cmocka_unit_test(an_impossible_load_closes_the_spools),
+      cmocka_unit_test(lambda_rises_anew_from_every_rest),
       cmocka_unit_test(the_same_inputs_give_the_same_outputs),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

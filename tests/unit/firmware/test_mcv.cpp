@@ -196,6 +196,12 @@ void bad_machines_and_inputs_are_safe(void**) {
   refused(McvDefect::kVelocity, [&](auto&, auto& in) { in.velocity_mps[1] = nan; });
   refused(McvDefect::kPressure, [&](auto&, auto& in) { in.cap_pressure_pa[2] = nan; });
   refused(McvDefect::kPressure, [&](auto&, auto& in) { in.rod_pressure_pa[0] = 1.0 / 0.0; });
+  refused(McvDefect::kPressure, [&](auto&, auto& in) { in.cap_pressure_pa[1] = -1.0; });
+  refused(McvDefect::kPressure, [&](auto&, auto& in) { in.rod_pressure_pa[2] = -1e-9; });
+  refused(McvDefect::kInflowCheck, [&](auto& m, auto&) { m.actuator[2].c_inflow_check = -1.0; });
+  refused(McvDefect::kInflowCheck, [&](auto& m, auto&) { m.actuator[2].c_inflow_check = nan; });
+  refused(McvDefect::kRegeneration,
+          [](auto& m, auto&) { m.actuator[1].c_check = m.actuator[1].c_drain; });
   refused(McvDefect::kPumpFlow, [&](auto&, auto& in) { in.pump_flow_m3ps[0] = -1e-3; });
   refused(McvDefect::kPumpFlow, [&](auto&, auto& in) { in.pump_flow_m3ps[1] = nan; });
   refused(McvDefect::kBadActuatorCount, [](auto& m, auto&) { m.actuator_count = 7; });
@@ -204,6 +210,7 @@ void bad_machines_and_inputs_are_safe(void**) {
   refused(McvDefect::kPumpIndex, [](auto& m, auto&) { m.actuator[0].pump = 2; });
   refused(McvDefect::kPumpIndex, [](auto& m, auto&) { m.actuator[0].pump = -1; });
   refused(McvDefect::kArea, [](auto& m, auto&) { m.actuator[1].area_rod_m2 = 0.0; });
+  refused(McvDefect::kArea, [](auto& m, auto&) { m.actuator[0].area_cap_m2 = -1e-2; });
   refused(McvDefect::kRegeneration, [](auto& m, auto&) { m.actuator[1].c_drain = 2e-6; });
   refused(McvDefect::kRegeneration, [&](auto& m, auto&) { m.actuator[1].c_check = nan; });
   refused(McvDefect::kBypass, [](auto& m, auto&) { m.actuator[2].bypass_closed = 0.0; });

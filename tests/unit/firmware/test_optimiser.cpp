@@ -116,6 +116,9 @@ void standstill_says_who_lacks_what(void**) {
     assert_near(solution.standstill.short_n, load_n + boom.force_offset_n - drive_n, 1e-3);
     assert_true(solution.standstill.short_n > 1e4);
   }
+  // Whoever lacks most is named, not whoever comes first.
+  input.cap_pressure_pa = {30e6, 4e6, 200e6};
+  assert_int_equal(solve_mcv(machine, input, McvPolicy::kGlobal).standstill.actuator, kBucket);
 }
 
 /// What the limit lacks at lambda = 1 is what evaluating there shows.

@@ -9,8 +9,10 @@ namespace {
 using namespace graben;
 
 constexpr double kPeriod_s = 0.01;
-constexpr LambdaRise kRise{4.0, 4000.0};
-constexpr double kNoise_pa = 0.1e6;
+constexpr LambdaRise kRise{4.0, 8000.0};
+/// About what 2 % of the pressures that hold the boom are.
+constexpr double kNoise_pa = 0.2e6;
+constexpr unsigned kDrives = 10;
 
 /// What lambda did while pressures were driven across the split.
 struct Passage {
@@ -59,15 +61,24 @@ Passage drive_steady(unsigned seed, McvPolicy policy, const LambdaRise& rise) {
 
 /// One fall on the way up, one climb on the way down, nothing back and forth.
 void a_split_is_crossed_once_each_way(void**) {
-  for (unsigned seed = 0; seed < 5; ++seed) {
+  for (unsigned seed = 0; seed < kDrives; ++seed) {
     const Passage passage = drive_steady(seed, McvPolicy::kGlobal, kRise);
-    print_message("steady: %d falls, %d jumps up, %d climbs\n", passage.falls, passage.rises,
-                  passage.climbs);
     assert_int_equal(passage.falls, 1);
     assert_int_equal(passage.rises, 0);
     assert_int_equal(passage.climbs, 2);  // The start from rest, and the way back.
     assert_true(passage.steepest_rise <= kRise.rate_ps * kPeriod_s + 1e-12);
   }
+}
+
+/// The rate alone bounds how often lambda can fall, not that it falls again: what the reserve is
+/// for.
+void without_the_reserve_noise_makes_it_fall_again(void**) {
+  int falls = 0;
+  for (unsigned seed = 0; seed < kDrives; ++seed) {
+    falls += drive_steady(seed, McvPolicy::kGlobal, {kRise.rate_ps, 0.0}).falls;
+  }
+  print_message("%d falls in %u drives\n", falls, kDrives);
+  assert_true(falls > static_cast<int>(kDrives));
 }
 
 /// The same drive makes every policy chatter that knows nothing of the last cycle: the test above
@@ -85,11 +96,74 @@ void alone_every_policy_chatters(void**) {
   }
 }
 
+/// Light loads: lambda goes up by the rate, cycle by cycle, and nothing but the rate is the reason.
+void from_rest_it_rises_at_its_rate(void**) {
+  const McvMachine machine = test::kim();
+  const McvInput input = test::split_input(0.6e6);
+  double last = 0.0;
+  for (int n = 1; n <= 30; ++n) {
+    const McvSolution solution =
+        steady_lambda(machine, input, McvPolicy::kGlobal, kRise, last, kPeriod_s);
+    last = solution.point.lambda;
+    assert_near(last, std::min(1.0, 0.04 * n), 1e-12);
+    assert_int_equal(solution.limit.kind, LimitKind::kNone);
+  }
+}
+
+/// It climbs to where the reserve is used up, then stays although more is feasible; the reason is
+/// what lacks the reserve. When the load grows it falls to what is feasible, reserve or not.
+void it_rises_with_the_reserve_and_falls_without(void**) {
+  const McvMachine machine = test::kim();
+  const McvInput input = test::split_input(4e6);
+  const double free = solve_mcv(machine, input, McvPolicy::kGlobal).point.lambda;
+  const double spared =
+      solve_mcv(machine, input, McvPolicy::kGlobal, {1.0, kRise.reserve_n}).point.lambda;
+  const auto after = [&](double last) {
+    return steady_lambda(machine, input, McvPolicy::kGlobal, kRise, last, kPeriod_s);
+  };
+  const McvSolution climbed = after(spared - 0.01);
+  assert_near(climbed.point.lambda, spared, 1e-9);
+  const double between = 0.5 * (spared + free);
+  const McvSolution held = after(between);
+  assert_near(held.point.lambda, between, 0.0);
+  assert_int_equal(held.limit.kind, LimitKind::kBackFlow);
+  assert_int_equal(held.limit.index, kBucket);
+  assert_true(held.shortfall > 0.0);
+  const McvSolution fallen = after(0.9);
+  assert_near(fallen.point.lambda, free, 1e-9);
+}
+
+/// A load that no lambda moves with the reserve in hand is moved without it.
+void where_nothing_has_the_reserve_it_does_without(void**) {
+  const McvMachine machine = test::kim();
+  const McvInput input = test::split_input(4e6);
+  const LambdaRise greedy{kRise.rate_ps, 1e6};
+  assert_near(solve_mcv(machine, input, McvPolicy::kGlobal, {1.0, greedy.reserve_n}).point.lambda,
+              0.0, 0.0);
+  double last = 0.0;
+  for (int n = 0; n < 30; ++n) {
+    last = steady_lambda(machine, input, McvPolicy::kGlobal, greedy, last, kPeriod_s).point.lambda;
+  }
+  assert_near(last, solve_mcv(machine, input, McvPolicy::kGlobal).point.lambda, 1e-9);
+}
+
+void bad_periods_are_refused(void**) {
+  const McvSolution solution = steady_lambda(test::kim(), test::split_input(4e6),
+                                             McvPolicy::kGlobal, kRise, 0.5, std::nan(""));
+  assert_int_equal(solution.status, SolveStatus::kBadInput);
+  assert_near(solution.point.lambda, 0.0, 0.0);
+}
+
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_split_is_crossed_once_each_way),
+      cmocka_unit_test(without_the_reserve_noise_makes_it_fall_again),
+      cmocka_unit_test(from_rest_it_rises_at_its_rate),
+      cmocka_unit_test(it_rises_with_the_reserve_and_falls_without),
+      cmocka_unit_test(where_nothing_has_the_reserve_it_does_without),
+      cmocka_unit_test(bad_periods_are_refused),
       cmocka_unit_test(alone_every_policy_chatters),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -1,0 +1,160 @@
+/// The optimiser on any machine and any input: every field as raw as a caller could hand it over.
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "firmware/mcv/steady_lambda.hpp"
+#include "tests/fuzz/fuzz_target.hpp"
+#include "tests/fuzz/random_case.hpp"
+#include "tests/fuzz/safe_solution.hpp"
+
+namespace graben::test {
+namespace {
+
+constexpr int kTablePoints = 8;
+
+struct RawTable {
+  std::array<double, kTablePoints> x;
+  std::array<double, kTablePoints> y;
+};
+
+struct RawActuator {
+  double area_cap_m2;
+  double area_rod_m2;
+  double c_drain;
+  double c_check;
+  double bypass_open;
+  double bypass_closed;
+  double force_offset_n;
+  double c_inflow_check;
+  RawTable extend;
+  RawTable retract;
+  std::int8_t pump;
+  std::int8_t regeneration;
+  std::array<std::int8_t, 6> unused;
+};
+
+struct RawPump {
+  double leak_linear;
+  double leak_quadratic;
+  double series_resistance;
+  double relief_pa;
+  std::uint64_t has_relief;
+};
+
+struct RawSolve {
+  std::int32_t actuator_count;
+  std::int32_t pump_count;
+  double most;
+  double reserve_n;
+  double rise_ps;
+  double last_lambda;
+  double period_s;
+  McvInput input;
+  PerPump<RawPump> pump;
+  PerActuator<RawActuator> actuator;
+};
+
+MonotoneTable table_from(const RawTable& raw) {
+  MonotoneTable table;
+  static_cast<void>(table.fill(raw.x.data(), raw.y.data(), kTablePoints));
+  return table;
+}
+
+/// A table's ends and points between them.
+RawTable raw_from(const MonotoneTable& table) {
+  RawTable raw{};
+  for (int n = 0; n < kTablePoints; ++n) {
+    const auto k = static_cast<unsigned>(n);
+    raw.x[k] = table.x_last() * n / (kTablePoints - 1);
+    raw.y[k] = n == 0 ? 0.0 : table.at(raw.x[k]);
+  }
+  return raw;
+}
+
+McvMachine machine_from(const RawSolve& raw) {
+  McvMachine machine;
+  machine.actuator_count = raw.actuator_count;
+  machine.pump_count = raw.pump_count;
+  for (unsigned j = 0; j < kMaxPumps; ++j) {
+    const RawPump& from = raw.pump[j];
+    machine.pump[j] = {from.leak_linear, from.leak_quadratic, from.series_resistance,
+                       from.has_relief % 2 == 1, from.relief_pa};
+  }
+  for (unsigned i = 0; i < kMaxActuators; ++i) {
+    const RawActuator& from = raw.actuator[i];
+    machine.actuator[i] = {from.area_cap_m2,
+                           from.area_rod_m2,
+                           from.pump,
+                           static_cast<RegenerationSide>(from.regeneration),
+                           from.c_drain,
+                           from.c_check,
+                           from.bypass_open,
+                           from.bypass_closed,
+                           from.force_offset_n,
+                           from.c_inflow_check,
+                           table_from(from.extend),
+                           table_from(from.retract)};
+  }
+  return machine;
+}
+
+RawSolve raw_from(const RandomCase& sound) {
+  RawSolve raw{};
+  raw.actuator_count = sound.machine.actuator_count;
+  raw.pump_count = sound.machine.pump_count;
+  raw.most = 1.0;
+  raw.rise_ps = 4.0;
+  raw.period_s = 0.01;
+  raw.input = sound.input;
+  for (unsigned j = 0; j < kMaxPumps; ++j) {
+    const McvPump& from = sound.machine.pump[j];
+    raw.pump[j] = {from.leak_linear, from.leak_quadratic, from.series_resistance, from.relief_pa,
+                   from.has_relief ? 1u : 0u};
+  }
+  for (unsigned i = 0; i < static_cast<unsigned>(sound.machine.actuator_count); ++i) {
+    const McvActuator& from = sound.machine.actuator[i];
+    raw.actuator[i] = {from.area_cap_m2,
+                       from.area_rod_m2,
+                       from.c_drain,
+                       from.c_check,
+                       from.bypass_open,
+                       from.bypass_closed,
+                       from.force_offset_n,
+                       from.c_inflow_check,
+                       raw_from(from.extend),
+                       raw_from(from.retract),
+                       static_cast<std::int8_t>(from.pump),
+                       static_cast<std::int8_t>(from.regeneration),
+                       {}};
+  }
+  return raw;
+}
+
+}  // namespace
+
+std::string check_bytes(const std::uint8_t* data, std::size_t size) {
+  const auto raw = raw_from_bytes<RawSolve>(data, size);
+  const McvMachine machine = machine_from(raw);
+  const LambdaRange range{raw.most, raw.reserve_n};
+  for (const McvPolicy policy :
+       {McvPolicy::kAlgorithm1, McvPolicy::kConnected, McvPolicy::kGlobal}) {
+    const std::string wrong =
+        unsafe(machine, raw.input, range, solve_mcv(machine, raw.input, policy, range));
+    if (!wrong.empty()) {
+      return fmt::format("policy {}: {}", static_cast<int>(policy), wrong);
+    }
+  }
+  return "";
+}
+
+std::vector<Bytes> seed_inputs() {
+  std::vector<Bytes> seeds;
+  for (std::uint64_t seed = 0; seed < 64; ++seed) {
+    seeds.push_back(bytes_from_raw(raw_from(random_case(seed))));
+  }
+  return seeds;
+}
+
+}  // namespace graben::test
