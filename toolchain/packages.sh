@@ -9,7 +9,7 @@ has_command() { command -v "$1" >/dev/null 2>&1; }
 
 has_header() { [ -e "/usr/include/$1" ] || [ -e "/usr/local/include/$1" ]; }
 
-# graben_missing build|check: the packages that are not there yet, a line each.
+# graben_missing build|check|fuzz: the packages that are not there yet, a line each.
 graben_missing() {
   has_command g++ || echo g++
   has_command cmake || echo cmake
@@ -30,6 +30,12 @@ graben_missing() {
     has_command clang-format-14 || has_command clang-format || echo clang-format
     has_command clang-tidy-14 || has_command clang-tidy || echo clang-tidy
   fi
+  if [ "$1" = fuzz ]; then
+    has_command clang++-14 || echo clang-14
+    # libFuzzer and the sanitizers' runtimes; the architecture is in the file's name.
+    ls /usr/lib/llvm-14/lib/clang/*/lib/linux/libclang_rt.fuzzer-*.a >/dev/null 2>&1 ||
+      echo libclang-rt-14-dev
+  fi
 }
 
 graben_apt() {
@@ -37,7 +43,7 @@ graben_apt() {
     apt-get -q -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 "$@" </dev/null
 }
 
-# graben_install build|check: nothing when all is there; otherwise says what, then installs it.
+# graben_install build|check|fuzz: nothing when all is there; otherwise says what, then installs it.
 graben_install() {
   # Word splitting is wanted: package names have no blanks.
   graben_packages=$(graben_missing "$1" | tr '\n' ' ')

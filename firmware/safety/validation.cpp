@@ -23,9 +23,10 @@ class Freshness {
 
   template <class T>
   [[nodiscard]] bool holds(const Signal<T>& signal) const {
-    const TimeUs age_us = now_us_ - signal.stamp_us;
-    // A stamp from the future is as useless as an old one.
-    return signal.validity == Validity::kValid && age_us >= 0 && age_us <= timeout_us_;
+    // A stamp from the future is as useless as an old one. No difference with a stamp: any number
+    // can stand there.
+    return signal.validity == Validity::kValid && signal.stamp_us <= now_us_ &&
+           signal.stamp_us >= now_us_ - timeout_us_;
   }
 
  private:
