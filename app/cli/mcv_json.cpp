@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include "firmware/hydraulics/orifice.hpp"
 
@@ -217,11 +218,10 @@ std::string limit_name(const Limit& limit) {
   return "unknown";
 }
 
-const std::vector<std::pair<std::string, McvPolicy>>& policy_names() {
-  static const std::vector<std::pair<std::string, McvPolicy>> names = {
-      {"algorithm1", McvPolicy::kAlgorithm1},
-      {"connected", McvPolicy::kConnected},
-      {"global", McvPolicy::kGlobal}};
+const std::map<std::string, McvPolicy>& policies() {
+  static const std::map<std::string, McvPolicy> names = {{"algorithm1", McvPolicy::kAlgorithm1},
+                                                         {"connected", McvPolicy::kConnected},
+                                                         {"global", McvPolicy::kGlobal}};
   return names;
 }
 

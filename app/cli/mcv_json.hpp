@@ -1,9 +1,9 @@
 #pragma once
 /// Cases of the MCV optimisation as JSON lines (schema: tests/vectors/README.md).
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
 #include "firmware/mcv/optimiser.hpp"
 
@@ -28,7 +28,7 @@ struct McvCase {
 [[nodiscard]] std::string limit_name(const Limit& limit);
 
 /// "algorithm1", "connected", "global".
-[[nodiscard]] const std::vector<std::pair<std::string, McvPolicy>>& policy_names();
+[[nodiscard]] const std::map<std::string, McvPolicy>& policies();
 
 /// "ok", "infeasible", "bad_input" or "not_converged".
 [[nodiscard]] std::string status_name(SolveStatus status);

@@ -51,14 +51,14 @@ void add_solve(CLI::App& app, int& status) {
       "solve",
       "Solve cases of the valve's optimisation: JSON lines from standard input, one "
       "result line each");
-  auto policy = std::make_shared<McvPolicy>(McvPolicy::kGlobal);
+  auto policy = std::make_shared<std::string>("global");
   command
       ->add_option("--policy", *policy,
                    "How lambda is chosen: algorithm1, as in Kim et al.; connected, the end of the "
                    "feasible interval that contains 0; global, the largest feasible")
-      ->transform(CLI::CheckedTransformer(policy_names(), CLI::ignore_case))
-      ->default_str("global");
-  command->callback([policy, &status] { status = solve_lines(std::cin, *policy); });
+      ->check(CLI::IsMember(policies()))
+      ->capture_default_str();
+  command->callback([policy, &status] { status = solve_lines(std::cin, policies().at(*policy)); });
 }
 
 }  // namespace graben::cli
