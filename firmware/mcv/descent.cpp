@@ -68,7 +68,7 @@ Start fed_start(const McvCircuit& circuit, double lambda_max, const Inset& inset
 }
 
 LambdaChange holds_again(const McvCircuit& circuit, const McvPoint& failing, Limit& limit) {
-  const CircuitAxis& axis = circuit.axis[failing.limit.index];
+  const CircuitAxis& axis = circuit.axis[static_cast<unsigned>(failing.hardest_axis)];
   const FlowBalance& line = circuit.line[axis.pump];
   const bool stagnant = is_stagnant(line);
   double ratio = failing.sqrt_pressure[axis.pump] / failing.lambda;
@@ -77,8 +77,9 @@ LambdaChange holds_again(const McvCircuit& circuit, const McvPoint& failing, Lim
   // The stricter of the two first; where it fails, the other need not be looked at on its own.
   const bool travel_first =
       axis.full_opening_force_n * failing.lambda * failing.lambda > axis.force_offset_n;
-  Limit next{travel_first ? LimitKind::kSpoolTravel : LimitKind::kBackFlow, failing.limit.index};
-  limit = failing.limit;
+  const auto index = static_cast<std::uint8_t>(failing.hardest_axis);
+  Limit next{travel_first ? LimitKind::kSpoolTravel : LimitKind::kBackFlow, index};
+  limit = next;
   // From one constraint to the other until neither moves r; at the cap the caller's check decides.
   for (int turn = 0; turn < kTurns && result.bounded; ++turn) {
     const Requirement requirement = requirement_of(axis, next);
@@ -98,6 +99,7 @@ LambdaChange holds_again(const McvCircuit& circuit, const McvPoint& failing, Lim
     next.kind = next.kind == LimitKind::kBackFlow ? LimitKind::kSpoolTravel : LimitKind::kBackFlow;
   }
   result.lambda = lambda_at(line, ratio);
+  result.ratio = ratio;
   return result;
 }
 

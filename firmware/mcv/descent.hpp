@@ -30,10 +30,11 @@ struct LambdaChange {
   double lambda = 0.0;
   int steps = 0;
   bool bounded = true;
+  double ratio = 0.0;  ///< r of the axis' line there; 0 where it is not known.
 };
 
-/// Largest lambda under that of `failing` at which both constraints of the axis that fails there
-/// hold; 0 if there is none. `limit` becomes the one that fails just above it.
+/// Largest lambda under that of `failing` at which both constraints of the axis that lacks most
+/// there hold; 0 if there is none. `limit` becomes the one that fails just above it.
 [[nodiscard]] LambdaChange holds_again(const McvCircuit& circuit, const McvPoint& failing,
                                        Limit& limit);
 

@@ -1,5 +1,6 @@
 #include "firmware/mcv/evaluation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -36,6 +37,7 @@ bool solve_pumps(const McvCircuit& circuit, const McvPoint* near, McvPoint& poin
 
 /// (40), (41): false where a load would push back.
 bool drive_forces(const McvCircuit& circuit, McvPoint& point) {
+  double most_lacking = 0.0;
   for (unsigned i = 0; i < circuit.axis_count; ++i) {
     const CircuitAxis& axis = circuit.axis[i];
     if (!axis.moves) {
@@ -45,12 +47,18 @@ bool drive_forces(const McvCircuit& circuit, McvPoint& point) {
     point.out_pressure_pa[i] = drive.out_pressure_pa;
     point.regenerating[i] = drive.regenerating;
     point.drive_force_n[i] = drive.force_n;
-    if (!(drive.force_n >= axis.force_offset_n)) {
+    const double full_n = point.lambda * point.lambda * axis.full_opening_force_n;
+    const double lacks_n = std::max(full_n, axis.force_offset_n) - drive.force_n;
+    const double lacking = lacks_n / (axis.inlet_area_m2 * point.pump_pressure_pa[axis.pump]);
+    if (lacking > most_lacking) {
+      most_lacking = lacking;
+      point.hardest_axis = static_cast<int>(i);
+    }
+    if (point.feasible && !(drive.force_n >= axis.force_offset_n)) {
       fail(point, LimitKind::kBackFlow, i);
-      return false;
     }
   }
-  return true;
+  return point.feasible;
 }
 
 /// (42), (13): false where a spool would have to open farther than it can.
@@ -100,6 +108,10 @@ McvPoint evaluate(const McvCircuit& circuit, double lambda, const McvPoint* near
   if (solve_pumps(circuit, near, point) && drive_forces(circuit, point)) {
     // The last check; its failure is in the point.
     static_cast<void>(spools(circuit, point));
+  }
+  const bool axis_fails = !point.feasible && point.limit.kind != LimitKind::kPumpFlow;
+  if (axis_fails && point.hardest_axis < 0) {
+    point.hardest_axis = point.limit.index;
   }
   return point;
 }

@@ -13,6 +13,9 @@ struct McvPoint {
   bool converged = true;  ///< False: a bounded iteration did not end; then not feasible either.
   /// First constraint that fails, in the order pump flow, back flow, spool travel.
   Limit limit;
+  /// Of the axes whose constraints fail the one that lacks most of its line's pressure, a guess at
+  /// which holds again last; -1 where none does.
+  int hardest_axis = -1;
   int newton_steps = 0;
   PerPump<double> pump_pressure_pa{};     ///< P_p
   PerPump<double> sqrt_pressure{};        ///< sqrt(P_p), as it was solved for.

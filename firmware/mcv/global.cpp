@@ -10,7 +10,7 @@ PolicyResult choose_global(const McvCircuit& circuit, double lambda_max) {
   Start start = fed_start(circuit, lambda_max, inset);
   double lambda = start.lambda;
   double above = lambda;
-  McvPoint last;
+  McvPoint last;  // With what is known of r at the next lambda.
   result.limit = start.limit;
   for (int jump = 0; jump < kGlobalJumps && result.bounded; ++jump) {
     if (!(lambda >= kStandstillLambda)) {
@@ -34,6 +34,9 @@ PolicyResult choose_global(const McvCircuit& circuit, double lambda_max) {
       result.iterations += change.steps;
       result.bounded = result.bounded && change.bounded;
       next = inset(change.lambda);
+      if (change.ratio > 0.0) {
+        last.sqrt_pressure[circuit.axis[result.limit.index].pump] = change.ratio * last.lambda;
+      }
     }
     if (next < inset(lambda)) {
       lambda = next;

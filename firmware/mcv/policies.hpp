@@ -33,8 +33,8 @@ inline constexpr int kGlobalJumps = 64;
 ///
 /// Why the largest: the search starts at lambda_max, or at the pump flow limit if that is lower (in
 /// closed form: r = 0). Where `evaluate` finds the point feasible, nothing larger is left. Where it
-/// does not, some constraint fails, and lambda falls to the next smaller value at which that
-/// constraint holds again. `first_change` passes no such value, because between two openings of
+/// does not, some axis fails its constraints, and lambda falls to the next smaller value at which
+/// that axis holds them again. `first_change` passes no such value, because between two openings of
 /// check valves every constraint is a difference of two convex functions of r = sqrt(P) / lambda
 /// and r falls strictly as lambda grows (pressure_ratio.hpp, requirement.hpp). So what is skipped
 /// is infeasible, and the first feasible point that is met is the largest. The relief valve (Remark

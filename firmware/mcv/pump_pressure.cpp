@@ -38,23 +38,6 @@ Residual residual(const FlowBalance& balance, double lambda, double s) {
   return result;
 }
 
-/// `guess` or, where that is left of the root, what its tangent says: right of the root, unless a
-/// check valve switches in between.
-double right_of_root(const FlowBalance& balance, double lambda, double guess) {
-  const Residual at = residual(balance, lambda, guess);
-  if (!(at.left_m3ps > 0.0)) {
-    return guess;
-  }
-  const double bound = guess - at.left_m3ps / at.slope;
-  for (int i = 0; i < balance.regeneration_count; ++i) {
-    const double opening = lambda * balance.regeneration[static_cast<unsigned>(i)].opening;
-    if (opening >= guess && opening <= bound) {
-      return std::numeric_limits<double>::infinity();
-    }
-  }
-  return bound;
-}
-
 /// An s at which each of the falling terms alone would use up the flow is right of the root.
 double upper_bound(const FlowBalance& balance, double left_at_zero) {
   double bound = left_at_zero / balance.bypass;
@@ -65,6 +48,18 @@ double upper_bound(const FlowBalance& balance, double left_at_zero) {
     bound = std::min(bound, std::sqrt(std::sqrt(left_at_zero / balance.leak_quadratic)));
   }
   return bound;
+}
+
+/// Where the tangent of a guess left of the root ends: right of the root, unless a check valve
+/// switches in between; then it says nothing.
+double right_of_root(const FlowBalance& balance, double lambda, double guess, double tangent_end) {
+  for (int i = 0; i < balance.regeneration_count; ++i) {
+    const double opening = lambda * balance.regeneration[static_cast<unsigned>(i)].opening;
+    if (opening >= guess && opening <= tangent_end) {
+      return std::numeric_limits<double>::infinity();
+    }
+  }
+  return tangent_end;
 }
 
 /// Left end of the stretch that ends at s or holds it.
@@ -96,27 +91,31 @@ PumpPressure solve_pump_pressure(const FlowBalance& balance, double lambda, doub
     result.converged = true;
     return result;
   }
-  double s = upper_bound(balance, left_at_zero);
-  if (guess < s) {
-    s = std::min(s, right_of_root(balance, lambda, guess));
-  }
-  if (balance.has_relief && balance.sqrt_relief < s) {
+  const double rounding_m3ps =
+      kRoundingShare * (balance.flow_m3ps + lambda * std::abs(balance.in_flow_m3ps));
+  double bound = upper_bound(balance, left_at_zero);
+  if (balance.has_relief && balance.sqrt_relief < bound) {
     if (flow_left(balance, lambda, balance.sqrt_relief) >= 0.0) {
       result.converged = true;
       result.sqrt_pressure = balance.sqrt_relief;
       return result;
     }
-    s = balance.sqrt_relief;
+    bound = balance.sqrt_relief;
   }
-  const double rounding_m3ps =
-      kRoundingShare * (balance.flow_m3ps + lambda * std::abs(balance.in_flow_m3ps));
+  double s = std::min(guess, bound);
   for (int step = 0; step < kNewtonSteps && !result.converged; ++step) {
     const Residual at = residual(balance, lambda, s);
-    // Rounding alone can put s left of the root; then the step would lead back.
-    const double fall = std::max(0.0, at.left_m3ps / at.slope);
-    const double start = stretch_start(balance, lambda, s);
-    result.converged = fall <= kLastStep * s || at.left_m3ps >= -rounding_m3ps;
-    s = std::max(start, s - fall);
+    const double fall = at.left_m3ps / at.slope;
+    result.converged = std::abs(fall) <= kLastStep * s || std::abs(at.left_m3ps) <= rounding_m3ps;
+    if (fall >= 0.0) {
+      s = std::max(stretch_start(balance, lambda, s), s - fall);
+    } else if (step == 0) {
+      const double right = right_of_root(balance, lambda, s, s - fall);
+      result.converged = result.converged && std::isfinite(right);
+      s = std::min(bound, right);
+    } else {
+      result.converged = true;  // Only rounding puts s left of the root again.
+    }
     ++result.iterations;
   }
   result.converged = result.converged && std::isfinite(s * s);

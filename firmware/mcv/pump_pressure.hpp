@@ -57,7 +57,8 @@ struct PumpPressure {
 /// stretch shows that the root lies left of it, and goes on from its end. Near the root a step of
 /// relative length d leaves an error of at most 1.5 d^2 (|g'' s / 2 g'| is at most 1.5, term by
 /// term): the step under 1e-8 is the last. At most 24 steps; a test over wide random circuits sees
-/// two thirds. `guess`, an s near the root, saves the first of them; infinite if there is none.
+/// two thirds. `guess`, an s near the root, saves the first of them: right of the root it is where
+/// Newton starts, left of it its tangent leads there; infinite if there is none.
 [[nodiscard]] PumpPressure solve_pump_pressure(
     const FlowBalance& balance, double lambda,
     double guess = std::numeric_limits<double>::infinity());
