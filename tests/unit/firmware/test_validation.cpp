@@ -60,8 +60,8 @@ void each_signal_is_required(void**) {
     assert_int_equal(fault_of(old), row.fault);
     row.signal(old)->stamp_us = kNow - 40 * kMillisecondUs;
     assert_int_equal(fault_of(old), Fault::kNone);
-    for (const TimeUs wrong : {kNow + 1, std::numeric_limits<TimeUs>::min(),
-                               std::numeric_limits<TimeUs>::max()}) {
+    for (const TimeUs wrong :
+         {kNow + 1, std::numeric_limits<TimeUs>::min(), std::numeric_limits<TimeUs>::max()}) {
       row.signal(old)->stamp_us = wrong;
       assert_int_equal(fault_of(old), row.fault);
     }

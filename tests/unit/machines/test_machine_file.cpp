@@ -28,6 +28,10 @@ void figures_arrive_in_the_structs(void**) {
   assert_int_equal(profile.valve.spool[kBucket].regeneration, RegenerationSide::kRetract);
   assert_near(profile.valve.spool[kBoom].retract_out_m2, 1.70e-4, 0.0);
   assert_near(profile.valve.spool_to_duty.at(0.0), 0.2, 1e-12);
+  assert_int_equal(profile.control.lambda_policy, McvPolicy::kGlobal);
+  assert_near(profile.control.lambda_rise.rate_ps, 4.0, 0.0);
+  assert_near(profile.control.lambda_rise.reserve_n, 8000.0, 0.0);
+  assert_near(profile.valve.spool[kArm].c_inflow_check, 0.0, 0.0);
   assert_near(profile.dig_path.attitude_at_x_max_rad, 2.094395, 0.0);
   assert_near(machine().plant.link[kArm].mass_kg, 1010.0, 0.0);
   assert_near(machine().plant.swash_ratio[1], 0.643, 0.0);
