@@ -9,7 +9,7 @@ has_command() { command -v "$1" >/dev/null 2>&1; }
 
 has_header() { [ -e "/usr/include/$1" ] || [ -e "/usr/local/include/$1" ]; }
 
-# graben_missing build|check|fuzz: the packages that are not there yet, a line each.
+# graben_missing build|check|fuzz|bench: the packages that are not there yet, a line each.
 graben_missing() {
   has_command g++ || echo g++
   has_command cmake || echo cmake
@@ -36,6 +36,14 @@ graben_missing() {
     ls /usr/lib/llvm-14/lib/clang/*/lib/linux/libclang_rt.fuzzer-*.a >/dev/null 2>&1 ||
       echo libclang-rt-14-dev
   fi
+  if [ "$1" = bench ]; then
+    has_header benchmark/benchmark.h || echo libbenchmark-dev
+    has_header boost/math/tools/toms748_solve.hpp || echo libboost-dev
+    has_header nlopt.h || echo libnlopt-dev
+    has_header coin/IpTNLP.hpp || echo coinor-libipopt-dev
+    has_command pkg-config || echo pkg-config
+    has_command valgrind || echo valgrind
+  fi
 }
 
 graben_apt() {
@@ -43,7 +51,7 @@ graben_apt() {
     apt-get -q -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 "$@" </dev/null
 }
 
-# graben_install build|check|fuzz: nothing when all is there; otherwise says what, then installs it.
+# graben_install build|check|fuzz|bench: nothing when all is there; otherwise says what, then installs it.
 graben_install() {
   # Word splitting is wanted: package names have no blanks.
   graben_packages=$(graben_missing "$1" | tr '\n' ' ')

@@ -1,5 +1,7 @@
 #include "tests/timing/cases.hpp"
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <stdexcept>
 
@@ -13,15 +15,17 @@ std::vector<TimedCase> read_cases(const std::string& path, unsigned stride) {
     throw std::runtime_error("can't read " + path);
   }
   std::vector<TimedCase> cases;
-  std::string line;
-  for (unsigned number = 0; std::getline(stream, line); ++number) {
-    if (number % stride == 0) {
-      const cli::McvCase read = cli::parse_mcv_case(line);
-      cases.push_back({read.id.get<std::string>(), read.machine, read.input});
+  std::string text;
+  for (unsigned line = 1; std::getline(stream, text); ++line) {
+    if ((line - 1) % stride != 0) {
+      continue;
     }
-  }
-  if (cases.empty()) {
-    throw std::runtime_error("no cases in " + path);
+    try {
+      const cli::McvCase read = cli::parse_mcv_case(text);
+      cases.push_back({line, read.machine, read.input});
+    } catch (const std::exception& error) {
+      throw std::runtime_error(fmt::format("{}:{}: {}", path, line, error.what()));
+    }
   }
   return cases;
 }

@@ -9,12 +9,13 @@
 namespace graben::timing {
 
 struct TimedCase {
-  std::string id;
+  unsigned line = 0;  ///< In its file, from 1.
   McvMachine machine;
   McvInput input;
 };
 
-/// Every `stride`-th case of a file of JSON lines. Throws std::runtime_error.
+/// Every `stride`-th case of a file of JSON lines, the first one included. Throws
+/// std::runtime_error.
 [[nodiscard]] std::vector<TimedCase> read_cases(const std::string& path, unsigned stride);
 
 }  // namespace graben::timing

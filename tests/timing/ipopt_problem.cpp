@@ -48,7 +48,7 @@ bool IpoptProblem::get_starting_point(Index n, bool want_x, Number* x, bool /*wa
                                       Number* /*z_low*/, Number* /*z_high*/, Index /*m*/,
                                       bool /*want_multipliers*/, Number* /*multipliers*/) {
   if (want_x) {
-    x[0] = (getenv("SHARE") ? atof(getenv("SHARE")) : 1.0) * problem_->highest_lambda();
+    x[0] = start_lambda_;
     for (Index j = 1; j < n; ++j) {
       x[j] = problem_->solved_u(static_cast<unsigned>(j - 1), x[0]);
     }
@@ -133,10 +133,9 @@ bool IpoptProblem::eval_h(Index /*n*/, const Number* x, bool /*new_x*/, Number /
 }
 
 void IpoptProblem::finalize_solution(Ipopt::SolverReturn /*status*/, Index /*n*/, const Number* x,
-                                     const Number* /*z_low*/, const Number* /*z_high*/,
-                                     Index /*m*/, const Number* /*g*/,
-                                     const Number* /*multipliers*/, Number /*value*/,
-                                     const Ipopt::IpoptData* /*data*/,
+                                     const Number* /*z_low*/, const Number* /*z_high*/, Index /*m*/,
+                                     const Number* /*g*/, const Number* /*multipliers*/,
+                                     Number /*value*/, const Ipopt::IpoptData* /*data*/,
                                      Ipopt::IpoptCalculatedQuantities* /*quantities*/) {
   lambda_ = x[0];
 }

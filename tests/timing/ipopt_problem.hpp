@@ -10,8 +10,11 @@ namespace graben::timing {
 
 class IpoptProblem final : public Ipopt::TNLP {
  public:
-  /// The one that the next run solves; of the same shape from run to run.
-  void set(const LambdaProblem* problem) { problem_ = problem; }
+  /// What the next run solves and from where; of the same shape from run to run.
+  void set(const LambdaProblem* problem, double start_lambda) {
+    problem_ = problem;
+    start_lambda_ = start_lambda;
+  }
   /// The lambda of the last run.
   [[nodiscard]] double lambda() const { return lambda_; }
 
@@ -42,6 +45,7 @@ class IpoptProblem final : public Ipopt::TNLP {
 
  private:
   const LambdaProblem* problem_ = nullptr;
+  double start_lambda_ = 0.0;
   double lambda_ = 0.0;
 };
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "firmware/hydraulics/regeneration.hpp"
+#include "firmware/mcv/pressure_ratio.hpp"
 
 namespace graben::timing {
 namespace {
@@ -29,6 +30,11 @@ Gallery gallery_at(double lambda, double q_out_m3ps, double c_drain, double c_ch
           c_check * q * q / (root * root * root)};
 }
 
+Gallery gallery_of(const CircuitAxis& axis, double lambda, double s) {
+  return axis.regeneration ? gallery_at(lambda, axis.q_out_m3ps, axis.c_drain, axis.c_check, s)
+                           : Gallery{};
+}
+
 /// Adds factor * (second derivatives of phi); those by lambda follow from Euler as well.
 void add_phi(Curvature& sum, const Gallery& gallery, double lambda, double s, double factor) {
   const double ratio = lambda > 0.0 ? s / lambda : 0.0;
@@ -41,6 +47,44 @@ void add_phi(Curvature& sum, const Gallery& gallery, double lambda, double s, do
 Curvature scaled(const Curvature& by_s, double s_per_u, double scale) {
   return {scale * by_s.by_lambda_lambda, scale * s_per_u * by_s.by_lambda_u,
           scale * s_per_u * s_per_u * by_s.by_u_u};
+}
+
+/// What drives an axis and what resists it, by lambda and s (not u):
+///   |(sqrt(A_in) s, sqrt(-L))| and |(sqrt(A_out) phi, sqrt(L), lambda sqrt(full))|
+struct Lengths {
+  Slope drive;
+  Slope resist;
+};
+
+Lengths lengths(const CircuitAxis& axis, const Gallery& gallery, double lambda, double s,
+                double load_n, double full_n) {
+  const double area_s = axis.inlet_area_m2 * s;
+  const double area_phi = axis.outlet_area_m2 * gallery.phi;
+  const double drive = std::sqrt(area_s * s + std::max(-load_n, 0.0));
+  const double resist =
+      std::sqrt(area_phi * gallery.phi + std::max(load_n, 0.0) + lambda * lambda * full_n);
+  const double per_resist = resist > 0.0 ? 1.0 / resist : 0.0;
+  return {{drive, 0.0, drive > 0.0 ? area_s / drive : std::sqrt(axis.inlet_area_m2)},
+          {resist, (area_phi * gallery.by_lambda + lambda * full_n) * per_resist,
+           area_phi * gallery.by_s * per_resist}};
+}
+
+/// Adds weight * (second derivatives of drive - resist): of a length r, r r'' = (r^2)'' / 2 - r'^2.
+void add_lengths(Curvature& sum, const CircuitAxis& axis, const Gallery& gallery, const Lengths& at,
+                 double lambda, double s, double full_n, double weight) {
+  if (at.drive.value > 0.0) {
+    sum.by_u_u += weight * (axis.inlet_area_m2 - at.drive.by_u * at.drive.by_u) / at.drive.value;
+  }
+  if (at.resist.value > 0.0) {
+    const double share = -weight / at.resist.value;
+    const double area = axis.outlet_area_m2;
+    sum.by_lambda_lambda += share * (area * gallery.by_lambda * gallery.by_lambda + full_n -
+                                     at.resist.by_lambda * at.resist.by_lambda);
+    sum.by_lambda_u +=
+        share * (area * gallery.by_lambda * gallery.by_s - at.resist.by_lambda * at.resist.by_u);
+    sum.by_u_u += share * (area * gallery.by_s * gallery.by_s - at.resist.by_u * at.resist.by_u);
+    add_phi(sum, gallery, lambda, s, share * area * gallery.phi);
+  }
 }
 
 }  // namespace
@@ -56,10 +100,7 @@ LambdaProblem::LambdaProblem(const McvMachine& machine, const McvInput& input)
     }
     if (!used[axis.pump]) {
       const FlowBalance& line = circuit_.line[axis.pump];
-      const double asked_m3ps = line.flow_m3ps - flow_left(line, 1.0, 0.0);
-      if (asked_m3ps > line.flow_m3ps) {
-        highest_lambda_ = std::min(highest_lambda_, line.flow_m3ps / asked_m3ps);
-      }
+      highest_lambda_ = std::min(highest_lambda_, fed_lambda(line));
       const double s = solve_pump_pressure(line, 0.0).sqrt_pressure;
       used[axis.pump] = true;
       column[axis.pump] = line_count_;
@@ -71,8 +112,8 @@ LambdaProblem::LambdaProblem(const McvMachine& machine, const McvInput& input)
     const double s = s_standstill_[column[axis.pump]];
     axis_[axis_count_] = i;
     axis_line_[axis_count_] = column[axis.pump];
-    force_scale_[axis_count_] =
-        1.0 / (axis.inlet_area_m2 * s * s + std::abs(axis.load_force_n) + axis.force_offset_n);
+    length_scale_[axis_count_] = 1.0 / std::sqrt(axis.inlet_area_m2 * s * s +
+                                                 std::abs(axis.load_force_n) + axis.force_offset_n);
     ++axis_count_;
   }
 }
@@ -126,67 +167,75 @@ Curvature LambdaProblem::balance_curvature(unsigned line, double lambda, double 
 }
 
 AxisMargins LambdaProblem::margins(unsigned axis, double lambda, double u) const {
-  const CircuitAxis& at = axis_of(axis);
+  const CircuitAxis& of = axis_of(axis);
   const double s_per_u = s_standstill_[axis_line_[axis]];
   const double s = u * s_per_u;
-  double force_n = at.inlet_area_m2 * s * s - at.load_force_n;
-  double by_s = 2.0 * at.inlet_area_m2 * s;
-  double by_lambda = 0.0;
-  if (at.regeneration) {
-    const Gallery gallery = gallery_at(lambda, at.q_out_m3ps, at.c_drain, at.c_check, s);
-    const double per_phi = 2.0 * at.outlet_area_m2 * gallery.phi;
-    force_n -= 0.5 * per_phi * gallery.phi;
-    by_s -= per_phi * gallery.by_s;
-    by_lambda -= per_phi * gallery.by_lambda;
-  }
-  const double scale = force_scale_[axis];
-  const double full_n = lambda * at.full_opening_force_n;
-  const double by_u = scale * by_s * s_per_u;
-  return {{scale * (force_n - at.force_offset_n), scale * by_lambda, by_u},
-          {scale * (force_n - lambda * full_n), scale * (by_lambda - 2.0 * full_n), by_u}};
+  const Gallery gallery = gallery_of(of, lambda, s);
+  const auto margin = [&](const Lengths& at) {
+    const double scale = length_scale_[axis];
+    return Slope{scale * (at.drive.value - at.resist.value), -scale * at.resist.by_lambda,
+                 scale * s_per_u * (at.drive.by_u - at.resist.by_u)};
+  };
+  return {margin(lengths(of, gallery, lambda, s, of.load_force_n + of.force_offset_n, 0.0)),
+          margin(lengths(of, gallery, lambda, s, of.load_force_n, of.full_opening_force_n))};
 }
 
 Curvature LambdaProblem::margins_curvature(unsigned axis, double lambda, double u, double w_force,
                                            double w_travel) const {
-  const CircuitAxis& at = axis_of(axis);
+  const CircuitAxis& of = axis_of(axis);
   const double s_per_u = s_standstill_[axis_line_[axis]];
   const double s = u * s_per_u;
-  const double both = w_force + w_travel;
-  Curvature by_s;
-  by_s.by_u_u = both * 2.0 * at.inlet_area_m2;
-  if (at.regeneration) {
-    const Gallery gallery = gallery_at(lambda, at.q_out_m3ps, at.c_drain, at.c_check, s);
-    const double factor = -2.0 * both * at.outlet_area_m2;
-    by_s.by_lambda_lambda += factor * gallery.by_lambda * gallery.by_lambda;
-    by_s.by_lambda_u += factor * gallery.by_lambda * gallery.by_s;
-    by_s.by_u_u += factor * gallery.by_s * gallery.by_s;
-    add_phi(by_s, gallery, lambda, s, factor * gallery.phi);
-  }
-  by_s.by_lambda_lambda -= 2.0 * w_travel * at.full_opening_force_n;
-  return scaled(by_s, s_per_u, force_scale_[axis]);
+  const Gallery gallery = gallery_of(of, lambda, s);
+  Curvature sum;
+  const auto add = [&](double load_n, double full_n, double weight) {
+    add_lengths(sum, of, gallery, lengths(of, gallery, lambda, s, load_n, full_n), lambda, s,
+                full_n, weight);
+  };
+  add(of.load_force_n + of.force_offset_n, 0.0, w_force);
+  add(of.load_force_n, of.full_opening_force_n, w_travel);
+  return scaled(sum, s_per_u, length_scale_[axis]);
 }
 
-void LambdaProblem::solved_margins(double lambda, double* margins) const {
-  PerPump<double> s{};
-  for (unsigned j = 0; j < line_count_; ++j) {
-    s[j] = solve_pump_pressure(balance_of(j), lambda).sqrt_pressure;
-  }
-  for (unsigned i = 0; i < axis_count_; ++i) {
-    const CircuitAxis& at = axis_of(i);
-    const double force_n = drive_force(at, lambda, s[axis_line_[i]]).force_n;
-    margins[2 * i] = force_scale_[i] * (force_n - at.force_offset_n);
-    margins[2 * i + 1] = force_scale_[i] * (force_n - lambda * lambda * at.full_opening_force_n);
-  }
-}
-
-double LambdaProblem::smallest_margin(double lambda) const {
-  std::array<double, 2 * kMaxActuators> margins{};
-  solved_margins(lambda, margins.data());
+double LambdaProblem::smallest_margin_at(double lambda, const PerPump<double>& s,
+                                         MarginForm form) const {
   double smallest = std::numeric_limits<double>::infinity();
-  for (unsigned i = 0; i < 2 * axis_count_; ++i) {
-    smallest = std::min(smallest, margins[i]);
+  for (unsigned i = 0; i < axis_count_; ++i) {
+    const CircuitAxis& of = axis_of(i);
+    const double drives_n = of.inlet_area_m2 * s[axis_line_[i]] * s[axis_line_[i]];
+    double resists_n = 0.0;
+    if (of.regeneration) {
+      const double phi =
+          return_gallery(lambda * of.q_out_m3ps, s[axis_line_[i]], of.c_drain, of.c_check)
+              .sqrt_pressure;
+      resists_n = of.outlet_area_m2 * phi * phi;
+    }
+    const auto margin = [&](double load_n, double full_n) {
+      if (form == MarginForm::kForce) {
+        return length_scale_[i] * length_scale_[i] * (drives_n - resists_n - load_n - full_n);
+      }
+      return length_scale_[i] * (std::sqrt(drives_n + std::max(-load_n, 0.0)) -
+                                 std::sqrt(resists_n + std::max(load_n, 0.0) + full_n));
+    };
+    smallest = std::min({smallest, margin(of.load_force_n + of.force_offset_n, 0.0),
+                         margin(of.load_force_n, lambda * lambda * of.full_opening_force_n)});
   }
   return smallest;
+}
+
+double LambdaProblem::smallest_margin(double lambda, Near& near, MarginForm form) const {
+  for (unsigned j = 0; j < line_count_; ++j) {
+    // s / lambda changes less than s.
+    const double guess = near.lambda > 0.0 && lambda > 0.0
+                             ? lambda / near.lambda * near.sqrt_pressure[j]
+                             : std::numeric_limits<double>::infinity();
+    near.sqrt_pressure[j] = solve_pump_pressure(balance_of(j), lambda, guess).sqrt_pressure;
+  }
+  near.lambda = lambda;
+  return smallest_margin_at(lambda, near.sqrt_pressure, form);
+}
+
+bool LambdaProblem::can_start() const {
+  return highest_lambda_ > 0.0 && smallest_margin_at(0.0, s_standstill_, MarginForm::kLength) > 0.0;
 }
 
 }  // namespace graben::timing

@@ -7,9 +7,11 @@
 ///   margins(i) >= 0  for each moving actuator (36) with F_offset, (13)
 ///
 /// What the core has worked out on paper is given to the peers: pump flow (29), (30) is linear in
-/// lambda at zero pressure, hence a bound; spool travel (13) is asked for as force, which is smooth
-/// and finite everywhere; pressures are highest at standstill, hence u lies in [0, 1]. Pumps and
-/// actuators at rest take no part.
+/// lambda at zero pressure, hence a bound; spool travel (13) is asked for as the force that full
+/// opening needs, which is finite everywhere; a margin is what drives less what resists, each as a
+/// length, sqrt(force), which is nearly straight where the force itself has slope 0 at P = 0 (a
+/// tenth fewer evaluations for each of them than with forces); pressures are highest at standstill,
+/// hence u lies in [0, 1]. Pumps and actuators at rest take no part.
 
 #include "firmware/mcv/evaluation.hpp"
 
@@ -30,9 +32,12 @@ struct Curvature {
 };
 
 struct AxisMargins {
-  Slope force;   ///< (36): drive force over F_offset, as a share of what drives at standstill.
-  Slope travel;  ///< (13): drive force over what full opening needs, scaled alike.
+  Slope force;   ///< (36): over F_offset. As a share of what drives and what loads at standstill.
+  Slope travel;  ///< (13): over what full opening needs, scaled alike.
 };
+
+/// How smallest_margin measures. The sign is the same, and so is the root.
+enum class MarginForm { kLength, kForce };
 
 class LambdaProblem {
  public:
@@ -56,13 +61,17 @@ class LambdaProblem {
   [[nodiscard]] Curvature margins_curvature(unsigned axis, double lambda, double u, double w_force,
                                             double w_travel) const;
 
-  /// Margins with the pressures solved for: lambda is then the only unknown. Two for each axis.
-  void solved_margins(double lambda, double* margins) const;
-  /// The smallest of them.
-  [[nodiscard]] double smallest_margin(double lambda) const;
+  /// The pressures of the last call; they save Newton steps in the next.
+  struct Near {
+    double lambda = 0.0;
+    PerPump<double> sqrt_pressure{};
+  };
+  /// The smallest margin of all with the pressures solved for: lambda is then the only unknown.
+  [[nodiscard]] double smallest_margin(double lambda, Near& near,
+                                       MarginForm form = MarginForm::kLength) const;
   /// (43): motion can begin. Asked before any search: a solver that is handed a problem without a
   /// solution spends most of its time on finding that out.
-  [[nodiscard]] bool can_start() const { return smallest_margin(0.0) > 0.0; }
+  [[nodiscard]] bool can_start() const;
 
  private:
   [[nodiscard]] const FlowBalance& balance_of(unsigned line) const {
@@ -71,17 +80,19 @@ class LambdaProblem {
   [[nodiscard]] const CircuitAxis& axis_of(unsigned axis) const {
     return circuit_.axis[axis_[axis]];
   }
+  [[nodiscard]] double smallest_margin_at(double lambda, const PerPump<double>& s,
+                                          MarginForm form) const;
 
   McvCircuit circuit_;
   double highest_lambda_ = 1.0;
   unsigned line_count_ = 0;
   unsigned axis_count_ = 0;
-  PerPump<unsigned> line_{};           ///< Of the circuit, those that feed something.
-  PerPump<double> s_standstill_{};     ///< sqrt(P_j,0), by line.
-  PerPump<double> flow_scale_{};       ///< 1 / m^3/s, by line.
-  PerActuator<unsigned> axis_{};       ///< Of the circuit, those that move.
-  PerActuator<unsigned> axis_line_{};  ///< Their line.
-  PerActuator<double> force_scale_{};  ///< 1 / N, by axis.
+  PerPump<unsigned> line_{};            ///< Of the circuit, those that feed something.
+  PerPump<double> s_standstill_{};      ///< sqrt(P_j,0), by line.
+  PerPump<double> flow_scale_{};        ///< 1 / m^3/s, by line.
+  PerActuator<unsigned> axis_{};        ///< Of the circuit, those that move.
+  PerActuator<unsigned> axis_line_{};   ///< Their line.
+  PerActuator<double> length_scale_{};  ///< 1 / sqrt(N), by axis.
 };
 
 }  // namespace graben::timing

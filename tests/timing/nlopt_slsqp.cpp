@@ -1,17 +1,17 @@
 /// NLopt's SLSQP over lambda and the pressures: sequential quadratic programming with exact
-/// gradients, the flow balances as equality constraints.
+/// gradients, the flow balances as equality constraints. Over lambda alone, with the pressures
+/// solved inside, it takes a third less time and ends nowhere in 8 cases instead of none.
 
 #include <algorithm>
 
-#include "tests/timing/lambda_problem.hpp"
+#include "tests/timing/local_starts.hpp"
 #include "tests/timing/nlopt_solvers.hpp"
 #include "tests/timing/solver.hpp"
 
 namespace graben::timing {
 namespace {
 
-constexpr double kStepTolerance = 1e-8;
-constexpr int kMostEvaluations = 500;
+constexpr double kStepTolerance = 1e-7;
 
 double objective(unsigned n, const double* x, double* gradient, void* /*data*/) {
   if (gradient != nullptr) {
@@ -57,14 +57,16 @@ class Slsqp final : public LambdaSolver {
     const LambdaProblem shape(machine, input);
     optimiser_.reset(nlopt_create(NLOPT_LD_SLSQP, 1 + shape.line_count()));
     nlopt_must(nlopt_set_min_objective(optimiser_.get(), objective, nullptr));
+    std::array<double, 2 * kMaxActuators> tolerance{};
+    tolerance.fill(kNloptMarginTolerance);
     nlopt_must(nlopt_add_equality_mconstraint(optimiser_.get(), shape.line_count(), balances,
-                                              &problem_, nullptr));
+                                              &problem_, tolerance.data()));
     nlopt_must(nlopt_add_inequality_mconstraint(optimiser_.get(), 2 * shape.axis_count(), margins,
-                                                &problem_, nullptr));
+                                                &problem_, tolerance.data()));
     nlopt_must(nlopt_set_lower_bounds1(optimiser_.get(), 0.0));
     nlopt_must(nlopt_set_upper_bounds1(optimiser_.get(), 1.0));
     nlopt_must(nlopt_set_xtol_rel(optimiser_.get(), kStepTolerance));
-    nlopt_must(nlopt_set_maxeval(optimiser_.get(), kMostEvaluations));
+    nlopt_must(nlopt_set_maxeval(optimiser_.get(), kNloptMostEvaluations));
   }
 
   double solve(const McvMachine& machine, const McvInput& input) override {
@@ -73,14 +75,15 @@ class Slsqp final : public LambdaSolver {
       return 0.0;
     }
     problem_ = &problem;
-    std::array<double, 1 + kMaxPumps> x{};
-    double unused = 0.0;
-    x[0] = problem.highest_lambda();
-    for (unsigned j = 0; j < problem.line_count(); ++j) {
-      x[1 + j] = problem.solved_u(j, x[0]);
-    }
-    nlopt_must(nlopt_set_upper_bound(optimiser_.get(), 0, x[0]));
-    return nlopt_optimize(optimiser_.get(), x.data(), &unused) > 0 ? x[0] : 0.0;
+    nlopt_must(nlopt_set_upper_bound(optimiser_.get(), 0, problem.highest_lambda()));
+    return first_feasible(problem, [&](double start) {
+      std::array<double, 1 + kMaxPumps> x{start};
+      for (unsigned j = 0; j < problem.line_count(); ++j) {
+        x[1 + j] = problem.solved_u(j, start);
+      }
+      double unused = 0.0;
+      return nlopt_found(nlopt_optimize(optimiser_.get(), x.data(), &unused)) ? x[0] : -1.0;
+    });
   }
 
  private:

@@ -9,6 +9,12 @@
 
 namespace graben::timing {
 
+/// How far a scaled constraint may be violated for a point to count. With NLopt's default, 0, the
+/// last iterates of SLSQP count only where rounding happens to be on their side, and what is
+/// returned is an earlier one.
+inline constexpr double kNloptMarginTolerance = 1e-8;
+inline constexpr int kNloptMostEvaluations = 200;
+
 struct DestroyNlopt {
   void operator()(nlopt_opt optimiser) const { nlopt_destroy(optimiser); }
 };
@@ -19,6 +25,11 @@ inline void nlopt_must(nlopt_result result) {
   if (result < 0) {
     throw std::runtime_error(nlopt_result_to_string(result));
   }
+}
+
+/// By NLopt's manual an end by rounding "typically still returns a useful result".
+[[nodiscard]] inline bool nlopt_found(nlopt_result result) {
+  return result > 0 || result == NLOPT_ROUNDOFF_LIMITED;
 }
 
 }  // namespace graben::timing

@@ -2,6 +2,7 @@
 /// What is measured: everything from a machine and one cycle's input to lambda, by one solver.
 
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ std::unique_ptr<LambdaSolver> make_global(const McvMachine& machine, const McvIn
 std::unique_ptr<LambdaSolver> make_connected(const McvMachine& machine, const McvInput& input);
 std::unique_ptr<LambdaSolver> make_algorithm1(const McvMachine& machine, const McvInput& input);
 std::unique_ptr<LambdaSolver> make_toms748(const McvMachine& machine, const McvInput& input);
+std::unique_ptr<LambdaSolver> make_toms748_force(const McvMachine& machine, const McvInput& input);
 std::unique_ptr<LambdaSolver> make_cobyla(const McvMachine& machine, const McvInput& input);
 std::unique_ptr<LambdaSolver> make_slsqp(const McvMachine& machine, const McvInput& input);
 std::unique_ptr<LambdaSolver> make_ipopt(const McvMachine& machine, const McvInput& input);
@@ -39,10 +41,24 @@ struct NamedSolver {
 };
 /// In the order of the table; our default first, which the others are compared with.
 [[nodiscard]] inline std::vector<NamedSolver> solvers() {
-  return {{"global", make_global},         {"connected", make_connected},
-          {"algorithm1", make_algorithm1}, {"boost_toms748", make_toms748},
-          {"nlopt_cobyla", make_cobyla},   {"nlopt_slsqp", make_slsqp},
+  return {{"global", make_global},
+          {"connected", make_connected},
+          {"algorithm1", make_algorithm1},
+          {"boost_toms748", make_toms748},
+          {"boost_toms748_force", make_toms748_force},
+          {"nlopt_cobyla", make_cobyla},
+          {"nlopt_slsqp", make_slsqp},
           {"ipopt", make_ipopt}};
+}
+
+/// Throws std::runtime_error where there is none of that name.
+[[nodiscard]] inline NamedSolver solver_named(const std::string& name) {
+  for (const NamedSolver& solver : solvers()) {
+    if (solver.name == name) {
+      return solver;
+    }
+  }
+  throw std::runtime_error("no solver " + name);
 }
 
 }  // namespace graben::timing
