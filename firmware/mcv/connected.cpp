@@ -5,8 +5,9 @@
 namespace graben {
 namespace {
 
-/// Insets tried before the result counts as not found: the last is a quarter of lambda.
-constexpr int kRetreats = 8;
+/// Insets tried; the last is all the way back to standstill, which is feasible. More than one or
+/// two only on starved lines, where rounding decides what r says of lambda.
+constexpr int kRetreats = 12;
 
 /// Lowers `start` to where the constraint first fails on the way up from standstill.
 void hold(const McvCircuit& circuit, const McvPoint& standstill, const McvPoint& fastest,
@@ -56,7 +57,7 @@ PolicyResult choose_connected(const McvCircuit& circuit, double lambda_max) {
       return result;
     }
     result.limit = result.point.limit;
-    lambda = inset(lambda);
+    lambda = retreat == kRetreats - 2 ? kStandstillLambda : inset(lambda);
     inset.widen();
   }
   result.bounded = false;

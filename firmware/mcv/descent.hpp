@@ -12,7 +12,7 @@ class Inset {
  public:
   /// A little less than lambda.
   [[nodiscard]] double operator()(double lambda) const { return lambda * (1.0 - share_); }
-  void widen() { share_ *= 16.0; }
+  void widen() { share_ = share_ < 0.03 ? 16.0 * share_ : 0.5; }
 
  private:
   double share_ = 1.0 / 1073741824.0;  // 2^-30
