@@ -5,9 +5,8 @@
 namespace graben {
 namespace {
 
-/// Insets tried; the last is all the way back to standstill, which is feasible. More than one or
-/// two only on starved lines, where rounding decides what r says of lambda.
-constexpr int kRetreats = 12;
+/// Insets tried before halving takes over: more than one or two only where rounding decides.
+constexpr int kRetreats = 6;
 
 /// Lowers `start` to where the constraint first fails on the way up from standstill.
 void hold(const McvCircuit& circuit, const McvPoint& standstill, const McvPoint& fastest,
@@ -38,29 +37,32 @@ PolicyResult choose_connected(const McvCircuit& circuit, double lambda_max) {
     result.limit = standstill.limit;
     return result;
   }
+  const Start fed = start;
   for (unsigned i = 0; i < circuit.axis_count && result.bounded; ++i) {
-    if (circuit.axis[i].moves) {
+    const CircuitAxis& axis = circuit.axis[i];
+    if (axis.moves && !is_starved(circuit.line[axis.pump])) {
       const auto index = static_cast<std::uint8_t>(i);
       hold(circuit, standstill, fastest, {LimitKind::kBackFlow, index}, start, result);
       hold(circuit, standstill, fastest, {LimitKind::kSpoolTravel, index}, start, result);
     }
   }
   result.limit = start.limit;
+  const bool doubtful = !result.bounded || is_any_starved(circuit);
   double lambda = start.limit.kind == LimitKind::kNone ? start.lambda : inset(start.lambda);
-  for (int retreat = 0; retreat < kRetreats && result.bounded; ++retreat) {
-    result.point = evaluate(circuit, std::max(lambda, kStandstillLambda));
+  for (int retreat = 0; retreat < kRetreats && !doubtful; ++retreat) {
+    result.point = evaluate(circuit, lambda);
     ++result.iterations;
     if (result.point.feasible) {
-      if (start.limit.kind != LimitKind::kNone) {
-        result.point = refined(circuit, result.point, start.lambda);
-      }
       return result;
     }
     result.limit = result.point.limit;
-    lambda = retreat == kRetreats - 2 ? kStandstillLambda : inset(lambda);
+    lambda = std::max(inset(lambda), kStandstillLambda);
     inset.widen();
   }
-  result.bounded = false;
+  const Halved found = halved(circuit, standstill, result.bounded ? start.lambda : fed.lambda);
+  result.point = found.point;
+  result.limit = found.limit.kind == LimitKind::kNone ? fed.limit : found.limit;
+  result.bounded = true;
   return result;
 }
 

@@ -8,9 +8,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-constexpr int kInsideSteps = 12;
 constexpr int kTurns = 8;
-constexpr int kRefinements = 30;
+constexpr int kHalvings = 30;
 
 /// lambda at r; 0 where only standstill belongs to it.
 double lambda_at(const FlowBalance& line, double ratio) {
@@ -27,21 +26,6 @@ Requirement requirement_of(const CircuitAxis& axis, const Limit& limit) {
 double stagnant_ratio(const FlowBalance& line) {
   constexpr double kInside = 1.0 - 1e-9;
   return kInside * solve_pump_pressure(line, kStandstillLambda).sqrt_pressure / kStandstillLambda;
-}
-
-/// r of standstill. Without pump flow 1 / lambda is so steep there that rounding may put r beyond
-/// it, where no lambda is left.
-double standstill_ratio(const FlowBalance& line, const McvPoint& standstill, unsigned pump) {
-  if (is_stagnant(line)) {
-    return stagnant_ratio(line);
-  }
-  double ratio = standstill.sqrt_pressure[pump] / standstill.lambda;
-  double inside = 1e-15;
-  for (int n = 0; n < kInsideSteps && !(lambda_at(line, ratio) >= 0.5 * kStandstillLambda); ++n) {
-    ratio *= 1.0 - inside;
-    inside *= 8.0;
-  }
-  return ratio;
 }
 
 /// Past `ratio` of a stagnant line r stays what it is.
@@ -108,35 +92,40 @@ LambdaChange fails_first(const McvCircuit& circuit, const Limit& limit, const Mc
   const CircuitAxis& axis = circuit.axis[limit.index];
   const FlowBalance& line = circuit.line[axis.pump];
   const Requirement requirement = requirement_of(axis, limit);
-  const double from = standstill_ratio(line, standstill, axis.pump);
+  const double from = standstill.sqrt_pressure[axis.pump] / standstill.lambda;
   const double end = fastest.sqrt_pressure[axis.pump] / fastest.lambda;
-  if (is_stagnant(line)) {
-    const double lambda = lambda_at_fixed_ratio(requirement, from);
-    if (lambda * from <= (line.has_relief ? line.sqrt_relief : kInfinity)) {
-      return {lambda, 0, true};
-    }
-  }
   const Change change =
       first_change(requirement, line, Towards::kFaster, from, std::min(from, end));
   return {change.found ? lambda_at(line, change.ratio) : kInfinity, change.steps, change.bounded};
 }
 
-McvPoint refined(const McvCircuit& circuit, const McvPoint& feasible, double infeasible_lambda) {
+bool is_any_starved(const McvCircuit& circuit) {
   bool starved = false;
   for (unsigned j = 0; j < circuit.pump_count; ++j) {
     starved = starved || is_starved(circuit.line[j]);
   }
-  McvPoint best = feasible;
-  double high = infeasible_lambda;
-  for (int n = 0; n < kRefinements && starved; ++n) {
-    const McvPoint middle = evaluate(circuit, 0.5 * (best.lambda + high));
+  return starved;
+}
+
+Halved halved(const McvCircuit& circuit, const McvPoint& feasible, double high_lambda) {
+  Halved result{feasible, {}};
+  const McvPoint high = evaluate(circuit, high_lambda);
+  if (high.feasible) {
+    result.point = high;
+    return result;
+  }
+  result.limit = high.limit;
+  double infeasible = high_lambda;
+  for (int n = 0; n < kHalvings; ++n) {
+    const McvPoint middle = evaluate(circuit, 0.5 * (result.point.lambda + infeasible));
     if (middle.feasible) {
-      best = middle;
+      result.point = middle;
     } else {
-      high = middle.lambda;
+      infeasible = middle.lambda;
+      result.limit = middle.limit;
     }
   }
-  return best;
+  return result;
 }
 
 }  // namespace graben

@@ -39,13 +39,20 @@ struct LambdaChange {
                                        Limit& limit);
 
 /// Smallest lambda over standstill at which a constraint that holds there fails; infinite if there
-/// is none up to `fastest`. Only the pressures of the two points count.
+/// is none up to `fastest`. Not for starved lines. Only the pressures of the two points count.
 [[nodiscard]] LambdaChange fails_first(const McvCircuit& circuit, const Limit& limit,
                                        const McvPoint& standstill, const McvPoint& fastest);
 
-/// `feasible`, or what halving finds between it and an infeasible lambda above it: only where a
-/// starved line makes lambda over r a matter of rounding.
-[[nodiscard]] McvPoint refined(const McvCircuit& circuit, const McvPoint& feasible,
-                               double infeasible_lambda);
+/// Whether a line has no pump flow to speak of and still feeds motion by regeneration: there
+/// rounding shows in lambda over r, and what a search over r finds is only a guess.
+[[nodiscard]] bool is_any_starved(const McvCircuit& circuit);
+
+/// The end of an interval by halving, 31 evaluations.
+struct Halved {
+  McvPoint point;
+  Limit limit;  ///< What fails just above; none where all up to `high_lambda` is feasible.
+};
+[[nodiscard]] Halved halved(const McvCircuit& circuit, const McvPoint& feasible,
+                            double high_lambda);
 
 }  // namespace graben

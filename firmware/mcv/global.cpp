@@ -1,15 +1,14 @@
-#include <algorithm>
-
 #include "firmware/mcv/descent.hpp"
 
 namespace graben {
 
-PolicyResult choose_global(const McvCircuit& circuit, double lambda_max) {
+namespace {
+
+PolicyResult search(const McvCircuit& circuit, double lambda_max) {
   PolicyResult result;
   Inset inset;
   Start start = fed_start(circuit, lambda_max, inset);
   double lambda = start.lambda;
-  double above = lambda;
   McvPoint last;  // With what is known of r at the next lambda.
   result.limit = start.limit;
   for (int jump = 0; jump < kGlobalJumps && result.bounded; ++jump) {
@@ -19,13 +18,11 @@ PolicyResult choose_global(const McvCircuit& circuit, double lambda_max) {
     const McvPoint point = evaluate(circuit, lambda, jump == 0 ? nullptr : &last);
     ++result.iterations;
     if (point.feasible) {
-      // Rounding is no reason to look further up than a quarter.
-      result.point = jump == 0 ? point : refined(circuit, point, std::min(above, 1.25 * lambda));
+      result.point = point;
       return result;
     }
     result.limit = point.limit;
     result.bounded = point.converged;
-    above = lambda;
     last = point;
     double next = lambda;
     // A pump flow limit here is rounding: the search starts where every pump feeds its line.
@@ -47,6 +44,19 @@ PolicyResult choose_global(const McvCircuit& circuit, double lambda_max) {
   }
   result.bounded = false;
   return result;
+}
+
+}  // namespace
+
+PolicyResult choose_global(const McvCircuit& circuit, double lambda_max) {
+  const PolicyResult found = search(circuit, lambda_max);
+  if (found.bounded && !is_any_starved(circuit)) {
+    return found;
+  }
+  PolicyResult other = choose_algorithm1(circuit, lambda_max);
+  other.iterations += found.iterations;
+  const bool better = found.bounded && found.point.lambda >= other.point.lambda;
+  return better || !other.bounded ? found : other;
 }
 
 }  // namespace graben

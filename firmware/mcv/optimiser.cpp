@@ -21,17 +21,35 @@ PolicyResult choose(const McvCircuit& circuit, McvPolicy policy, double lambda_m
   return {};
 }
 
+/// Of what an axis has left over at standstill, (43), the reserve takes at most this share: an axis
+/// that can hardly start still starts, and the reserve of the others stays what it is.
+constexpr double kMostReserveShare = 0.5;
+
+/// The circuit with every load heavier by the reserve.
+McvCircuit with_reserve(const McvCircuit& circuit, double reserve_n) {
+  McvCircuit heavier = circuit;
+  PerPump<double> standstill{};
+  for (unsigned j = 0; j < circuit.pump_count; ++j) {
+    standstill[j] = solve_pump_pressure(circuit.line[j], 0.0).sqrt_pressure;
+  }
+  for (unsigned i = 0; i < heavier.axis_count; ++i) {
+    CircuitAxis& axis = heavier.axis[i];
+    const double left_n =
+        drive_force(axis, 0.0, standstill[axis.pump]).force_n - axis.force_offset_n;
+    if (axis.moves && left_n > 0.0) {
+      axis.load_force_n += std::min(reserve_n, kMostReserveShare * left_n);
+    }
+  }
+  return heavier;
+}
+
 /// The choice for loads that are heavier by the reserve, and the circuit as it is at that lambda.
 PolicyResult choose_with_reserve(const McvCircuit& circuit, McvPolicy policy,
                                  const LambdaRange& range) {
   if (!(range.reserve_n > 0.0)) {
     return choose(circuit, policy, range.most);
   }
-  McvCircuit heavier = circuit;
-  for (unsigned i = 0; i < heavier.axis_count; ++i) {
-    heavier.axis[i].load_force_n += range.reserve_n;
-  }
-  PolicyResult chosen = choose(heavier, policy, range.most);
+  PolicyResult chosen = choose(with_reserve(circuit, range.reserve_n), policy, range.most);
   if (chosen.point.lambda > 0.0) {
     chosen.point = evaluate(circuit, chosen.point.lambda, &chosen.point);
     // Less load is never less feasible, but for rounding where the reserve is next to nothing.

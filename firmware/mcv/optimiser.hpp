@@ -38,9 +38,9 @@ struct McvSolution {
 /// What a caller asks of lambda beyond feasibility.
 struct LambdaRange {
   double most = 1.0;  ///< In (0, 1].
-  /// Drive force that every moving axis must have beyond its need, N. It shapes the choice of
-  /// lambda; pressures, spools, margins and status are those without it: where only the reserve
-  /// forbids motion, lambda is 0 and the status kOk.
+  /// Drive force that every moving axis must have beyond its need, N, but no more than half of what
+  /// it has left over at standstill, (43). It shapes the choice of lambda; pressures, spools and
+  /// margins are those without it.
   double reserve_n = 0.0;
 };
 

@@ -23,13 +23,17 @@ inline constexpr int kAlgorithm1Iterations = 24;
 [[nodiscard]] PolicyResult choose_algorithm1(const McvCircuit& circuit, double lambda_max);
 
 /// The end of the feasible interval that contains lambda = 0: `first_change` of every constraint
-/// from standstill towards faster motion, the slowest of them.
+/// from standstill towards faster motion, the slowest of them. By halving where a search does not
+/// end and on lines without pump flow.
 [[nodiscard]] PolicyResult choose_connected(const McvCircuit& circuit, double lambda_max);
 
 /// Jumps of the global policy from one failing constraint to where it holds next.
 inline constexpr int kGlobalJumps = 64;
 
-/// The largest feasible lambda on [0, lambda_max], to 1e-9 of itself.
+/// The largest feasible lambda on [0, lambda_max], to 1e-9 of itself but where rounding decides: a
+/// load that ties with what the relief valve can hold, or a line without pump flow, fed by
+/// regeneration alone. There, and where a search does not end, the larger of its result and
+/// Algorithm 1's.
 ///
 /// Why the largest: the search starts at lambda_max, or at the pump flow limit if that is lower (in
 /// closed form: r = 0). Where `evaluate` finds the point feasible, nothing larger is left. Where it

@@ -11,8 +11,8 @@ namespace {
 constexpr int kNewtonSteps = 24;
 /// Relative length of the last step; its square is under what a number can say.
 constexpr double kLastStep = 1e-8;
-/// What rounding alone leaves over, as a share of the flows that do not depend on s. A pump that
-/// only just feeds its line has a root so near 0 that no step there gets shorter than kLastStep.
+/// What rounding alone leaves over, as a share of all flows. A pump that only just feeds its line
+/// has a root so near 0 that no step there gets shorter than kLastStep.
 constexpr double kRoundingShare = 4.4e-16;
 
 struct Residual {
@@ -36,6 +36,14 @@ Residual residual(const FlowBalance& balance, double lambda, double s) {
     result.slope -= demand.c_drain * gallery.slope;
   }
   return result;
+}
+
+double rounding_of(const FlowBalance& balance, double lambda) {
+  double moved_m3ps = std::abs(balance.in_flow_m3ps);
+  for (int i = 0; i < balance.regeneration_count; ++i) {
+    moved_m3ps += balance.regeneration[static_cast<unsigned>(i)].q_out_m3ps;
+  }
+  return kRoundingShare * (balance.flow_m3ps + lambda * moved_m3ps);
 }
 
 /// An s at which each of the falling terms alone would use up the flow is right of the root.
@@ -91,8 +99,7 @@ PumpPressure solve_pump_pressure(const FlowBalance& balance, double lambda, doub
     result.converged = true;
     return result;
   }
-  const double rounding_m3ps =
-      kRoundingShare * (balance.flow_m3ps + lambda * std::abs(balance.in_flow_m3ps));
+  const double rounding_m3ps = rounding_of(balance, lambda);
   double bound = upper_bound(balance, left_at_zero);
   if (balance.has_relief && balance.sqrt_relief < bound) {
     if (flow_left(balance, lambda, balance.sqrt_relief) >= 0.0) {

@@ -36,10 +36,11 @@ Lengths lengths(const Requirement& requirement, const FlowBalance& line, const S
   double drive_slope = requirement.drive_area_m2 * ratio;
   double resist = requirement.full_opening_n;
   double resist_slope = 0.0;
+  GalleryPressure phi;
   if (requirement.resist_area_m2 > 0.0) {
     const RegenerationDemand& own = requirement.regeneration;
-    const GalleryPressure phi = gallery_pressure(own.q_out_m3ps, ratio, own.c_drain, own.c_check,
-                                                 own.opening >= stretch.high);
+    phi = gallery_pressure(own.q_out_m3ps, ratio, own.c_drain, own.c_check,
+                           own.opening >= stretch.high);
     resist += requirement.resist_area_m2 * phi.sqrt_pressure * phi.sqrt_pressure;
     resist_slope += requirement.resist_area_m2 * phi.sqrt_pressure * phi.slope;
   }
@@ -50,7 +51,18 @@ Lengths lengths(const Requirement& requirement, const FlowBalance& line, const S
     (requirement.load_n > 0.0 ? resist : drive) += weight * y.value * y.value;
     (requirement.load_n > 0.0 ? resist_slope : drive_slope) += weight * y.value * y.slope;
   }
-  return {length(drive, drive_slope), length(resist, resist_slope), y};
+  Lengths at{length(drive, drive_slope), length(resist, resist_slope), y};
+  // At length 0 (a pump that exactly feeds its line: r = 0) it grows as fast as the vector does.
+  const double load_slope_square = std::abs(requirement.load_n) * y.slope * y.slope;
+  if (drive == 0.0) {
+    at.drive.slope =
+        std::sqrt(requirement.drive_area_m2 + (requirement.load_n > 0.0 ? 0.0 : load_slope_square));
+  }
+  if (resist == 0.0) {
+    at.resist.slope = std::sqrt(requirement.resist_area_m2 * phi.slope * phi.slope +
+                                (requirement.load_n > 0.0 ? load_slope_square : 0.0));
+  }
+  return at;
 }
 
 }  // namespace

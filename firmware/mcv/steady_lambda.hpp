@@ -15,8 +15,9 @@ namespace graben {
 /// of the feasible set wider than one cycle's rise. Why that cannot chatter: to come back above a
 /// gap that it fell across, it needs the gap gone for all of the climb, with the reserve on top;
 /// pressure noise worth less than the reserve can then neither open the gap under it nor close it
-/// again. Where no lambda has the reserve, it does without. At most two solves. Where it stays,
-/// `limit` is what lacks the reserve.
+/// again. The price: below a stretch of lambda that is feasible, but not with the reserve, it stays
+/// too. At most two solves. Where it stays, `limit` is what lacks the reserve. A rise or a period
+/// that is no number, or a reserve below 0, is kBadInput.
 [[nodiscard]] McvSolution steady_lambda(const McvMachine& machine, const McvInput& input,
                                         McvPolicy policy, const LambdaRise& rise,
                                         double last_lambda, double period_s);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "firmware/mcv/steady_lambda.hpp"
@@ -106,6 +107,7 @@ RawSolve raw_from(const RandomCase& sound) {
   raw.pump_count = sound.machine.pump_count;
   raw.most = 1.0;
   raw.rise_ps = 4.0;
+  raw.last_lambda = 0.5;
   raw.period_s = 0.01;
   raw.input = sound.input;
   for (unsigned j = 0; j < kMaxPumps; ++j) {
@@ -146,7 +148,13 @@ std::string check_bytes(const std::uint8_t* data, std::size_t size) {
       return fmt::format("policy {}: {}", static_cast<int>(policy), wrong);
     }
   }
-  return "";
+  // A bound below lambda's last value holds nothing back.
+  const LambdaRise rise{raw.rise_ps, raw.reserve_n};
+  const double bound = std::clamp(raw.last_lambda + rise.rate_ps * raw.period_s, 1e-3, 1.0);
+  const LambdaRange steady{std::max(bound, std::clamp(raw.last_lambda, 0.0, 1.0)), rise.reserve_n};
+  return unsafe(
+      machine, raw.input, steady,
+      steady_lambda(machine, raw.input, McvPolicy::kGlobal, rise, raw.last_lambda, raw.period_s));
 }
 
 std::vector<Bytes> seed_inputs() {

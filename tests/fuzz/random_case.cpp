@@ -76,6 +76,28 @@ void let_load_run(Draw& draw, unsigned i, RandomCase& result) {
   result.input.rod_pressure_pa[i] = draw.uniform(5e5, 3e6);
 }
 
+/// (29), (30) with equality: the pump just feeds its line at full speed, and holds no pressure.
+void feed_exactly(RandomCase& result, unsigned pump) {
+  double least_m3ps = 0.0;
+  for (unsigned i = 0; i < static_cast<unsigned>(result.machine.actuator_count); ++i) {
+    const McvActuator& actuator = result.machine.actuator[i];
+    const double velocity = result.input.velocity_mps[i];
+    if (actuator.pump != static_cast<int>(pump)) {
+      continue;
+    }
+    const bool extends = velocity > 0.0;
+    least_m3ps += (extends ? actuator.area_cap_m2 : actuator.area_rod_m2) * std::abs(velocity);
+    if (actuator.regeneration ==
+        (extends ? RegenerationSide::kExtend : RegenerationSide::kRetract)) {
+      least_m3ps -= (extends ? actuator.area_rod_m2 : actuator.area_cap_m2) * std::abs(velocity) *
+                    actuator.c_check / (actuator.c_check + actuator.c_drain);
+    }
+  }
+  if (least_m3ps > 0.0) {
+    result.input.pump_flow_m3ps[pump] = least_m3ps;
+  }
+}
+
 }  // namespace
 
 RandomCase random_case(std::uint64_t seed) {
@@ -93,7 +115,7 @@ RandomCase random_case(std::uint64_t seed) {
     }
     pump.has_relief = draw.chance(0.5);
     pump.relief_pa = pump.has_relief ? draw.spread(3e6, 4e7) : 0.0;
-    result.input.pump_flow_m3ps[j] = draw.chance(0.03) ? 0.0 : draw.spread(3e-4, 1e-2);
+    result.input.pump_flow_m3ps[j] = draw.chance(0.04) ? 0.0 : draw.spread(3e-4, 1e-2);
   }
   for (unsigned i = 0; i < static_cast<unsigned>(machine.actuator_count); ++i) {
     machine.actuator[i] = random_actuator(draw, machine.pump_count);
@@ -106,6 +128,9 @@ RandomCase random_case(std::uint64_t seed) {
     if (draw.chance(0.3)) {
       let_load_run(draw, i, result);
     }
+  }
+  if (draw.chance(0.05)) {
+    feed_exactly(result, static_cast<unsigned>(draw.whole(0, machine.pump_count - 1)));
   }
   return result;
 }

@@ -160,6 +160,21 @@ void in_flow_check_valve_takes_its_force(void**) {
   }
 }
 
+/// A pump that exactly feeds its line at full speed holds no pressure there: the search starts at
+/// r = 0, where the driving length is 0 and still grows.
+void a_pump_that_exactly_feeds_its_line(void**) {
+  McvMachine machine = kim();
+  McvInput input;
+  input.velocity_mps = {0.0, 0.0, 0.1};
+  input.cap_pressure_pa = {0.0, 0.0, 1e6};
+  input.rod_pressure_pa = {0.0, 0.0, 0.5e6};
+  input.pump_flow_m3ps = {1e-3, 0.1 * machine.actuator[kBucket].area_cap_m2};
+  const double local = solve_mcv(machine, input, McvPolicy::kAlgorithm1).point.lambda;
+  assert_true(local > 0.1 && local < 1.0);
+  assert_near(solve_mcv(machine, input, McvPolicy::kGlobal).point.lambda, local, 1e-7);
+  assert_near(solve_mcv(machine, input, McvPolicy::kConnected).point.lambda, local, 1e-7);
+}
+
 /// Without pump flow 1 / lambda is so steep in r that rounding moves the end by a tenth, and where
 /// a pump only just feeds its line no Newton step gets short: both have been left unfinished.
 void rounding_leaves_nothing_unfinished(void**) {
@@ -224,6 +239,7 @@ int main() {
       cmocka_unit_test(standstill_says_who_lacks_what),
       cmocka_unit_test(shortfall_is_the_margin_at_full_speed),
       cmocka_unit_test(in_flow_check_valve_takes_its_force),
+      cmocka_unit_test(a_pump_that_exactly_feeds_its_line),
       cmocka_unit_test(rounding_leaves_nothing_unfinished),
       cmocka_unit_test(corners_are_safe),
   };

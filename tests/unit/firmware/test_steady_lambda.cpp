@@ -133,25 +133,68 @@ void it_rises_with_the_reserve_and_falls_without(void**) {
   assert_near(fallen.point.lambda, free, 1e-9);
 }
 
-/// A load that no lambda moves with the reserve in hand is moved without it.
-void where_nothing_has_the_reserve_it_does_without(void**) {
+/// A load within the reserve of stall is moved, and a little more load makes it a little slower:
+/// the reserve takes at most half of what is left over.
+void near_stall_it_slows_down_smoothly(void**) {
   const McvMachine machine = test::kim();
-  const McvInput input = test::split_input(4e6);
-  const LambdaRise greedy{kRise.rate_ps, 1e6};
-  assert_near(solve_mcv(machine, input, McvPolicy::kGlobal, {1.0, greedy.reserve_n}).point.lambda,
-              0.0, 0.0);
-  double last = 0.0;
-  for (int n = 0; n < 30; ++n) {
-    last = steady_lambda(machine, input, McvPolicy::kGlobal, greedy, last, kPeriod_s).point.lambda;
+  double before = 1.0;
+  for (double cap_pa = 12.0e6; cap_pa < 12.3e6; cap_pa += 0.02e6) {
+    McvInput input;
+    input.velocity_mps = {0.01, 0.0, 0.0};
+    input.cap_pressure_pa = {cap_pa, 0.0, 0.0};
+    input.pump_flow_m3ps = {2e-3, 2e-3};
+    double last = 0.0;
+    for (int n = 0; n < 100; ++n) {
+      last = steady_lambda(machine, input, McvPolicy::kGlobal, kRise, last, kPeriod_s).point.lambda;
+    }
+    const double free = solve_mcv(machine, input, McvPolicy::kGlobal).point.lambda;
+    assert_true(last <= before && last > 0.3 * free);
+    before = last;
   }
-  assert_near(last, solve_mcv(machine, input, McvPolicy::kGlobal).point.lambda, 1e-9);
 }
 
-void bad_periods_are_refused(void**) {
-  const McvSolution solution = steady_lambda(test::kim(), test::split_input(4e6),
-                                             McvPolicy::kGlobal, kRise, 0.5, std::nan(""));
-  assert_int_equal(solution.status, SolveStatus::kBadInput);
-  assert_near(solution.point.lambda, 0.0, 0.0);
+/// Another axis close to stall, on the other pump, must not cost the split its reserve.
+void an_axis_near_stall_does_not_free_the_others(void**) {
+  const McvMachine machine = test::kim();
+  McvInput still = test::split_input(2.0e6);
+  still.velocity_mps[kArm] = 0.002;
+  still.rod_pressure_pa[kArm] = 0.0;
+  // Up to 4 kN short of stall, as (43) has it at standstill.
+  still.cap_pressure_pa[kArm] = 60e6;
+  const double short_n = solve_mcv(machine, still, McvPolicy::kGlobal).standstill.short_n;
+  assert_true(short_n > 0.0);
+  still.cap_pressure_pa[kArm] -= (short_n + 4000.0) / machine.actuator[kArm].area_cap_m2;
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0.0, kNoise_pa);
+  double last = 0.0;
+  int falls = 0;
+  for (int cycle = 0; cycle < 4000; ++cycle) {
+    McvInput input = still;
+    for (const unsigned i : {0u, 2u}) {
+      input.cap_pressure_pa[i] = std::max(0.0, input.cap_pressure_pa[i] + noise(random));
+      input.rod_pressure_pa[i] = std::max(0.0, input.rod_pressure_pa[i] + noise(random));
+    }
+    const double lambda =
+        steady_lambda(machine, input, McvPolicy::kGlobal, kRise, last, kPeriod_s).point.lambda;
+    falls += lambda < last - 0.1 ? 1 : 0;
+    last = lambda;
+  }
+  assert_true(falls <= 1);
+  assert_true(last > 0.05);
+}
+
+void bad_rises_are_refused(void**) {
+  const double nan = std::nan("");
+  const auto refused = [](const LambdaRise& rise, double period_s) {
+    const McvSolution solution =
+        steady_lambda(test::kim(), test::split_input(4e6), McvPolicy::kGlobal, rise, 0.5, period_s);
+    assert_int_equal(solution.status, SolveStatus::kBadInput);
+    assert_near(solution.point.lambda, 0.0, 0.0);
+  };
+  refused(kRise, nan);
+  refused({nan, 0.0}, kPeriod_s);
+  refused({4.0, nan}, kPeriod_s);
+  refused({4.0, -1.0}, kPeriod_s);
 }
 
 }  // namespace
@@ -162,8 +205,9 @@ int main() {
       cmocka_unit_test(without_the_reserve_noise_makes_it_fall_again),
       cmocka_unit_test(from_rest_it_rises_at_its_rate),
       cmocka_unit_test(it_rises_with_the_reserve_and_falls_without),
-      cmocka_unit_test(where_nothing_has_the_reserve_it_does_without),
-      cmocka_unit_test(bad_periods_are_refused),
+      cmocka_unit_test(near_stall_it_slows_down_smoothly),
+      cmocka_unit_test(an_axis_near_stall_does_not_free_the_others),
+      cmocka_unit_test(bad_rises_are_refused),
       cmocka_unit_test(alone_every_policy_chatters),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
