@@ -1,7 +1,9 @@
 #include "app/cli/mcv_json.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -33,6 +35,18 @@ struct Node {
       refuse(path.empty() ? key : path + "." + key, "is missing");
     }
     return {*found, path.empty() ? key : path + "." + key};
+  }
+  /// Refuses every other key: a misspelt `relief` must not solve without one.
+  void only(const std::vector<std::string>& keys) const {
+    if (!value.is_object()) {
+      refuse(path, "is not an object");
+    }
+    for (const auto& item : value.items()) {
+      if (std::find(keys.begin(), keys.end(), item.key()) == keys.end()) {
+        refuse(path + "." + item.key(),
+               fmt::format("unknown key; known: {}", fmt::join(keys, ", ")));
+      }
+    }
   }
   [[nodiscard]] bool has(const char* key) const {
     return value.is_object() && value.contains(key) && !value.at(key).is_null();
@@ -96,6 +110,9 @@ MonotoneTable read_table(const Node& node) {
 }
 
 McvActuator read_actuator(const Node& node, int pump_count) {
+  node.only({"name", "area_cap", "area_rod", "pump", "regeneration", "c_drain", "c_check",
+             "bypass_open", "bypass_closed", "force_offset", "c_inflow_check", "c_extend",
+             "c_retract"});
   McvActuator actuator;
   actuator.area_cap_m2 = node.at("area_cap").positive();
   actuator.area_rod_m2 = node.at("area_rod").positive();
@@ -121,6 +138,7 @@ McvActuator read_actuator(const Node& node, int pump_count) {
 }
 
 McvPump read_pump(const Node& node) {
+  node.only({"flow", "leak_linear", "leak_quadratic", "bypass_series", "relief"});
   McvPump pump;
   pump.leak_linear = node.at("leak_linear").not_negative();
   pump.leak_quadratic = node.at("leak_quadratic").not_negative();
@@ -173,12 +191,13 @@ McvCase parse_mcv_case(const std::string& line) {
   }
   McvCase result;
   if (root.has("id")) {
-    if (document["id"].is_structured()) {
+    if (!document["id"].is_string() && !document["id"].is_number()) {
       refuse("id", "must be a string or a number");
     }
     result.id = document["id"];
   }
   const Node machine = root.at("machine");
+  machine.only({"actuators", "pumps"});
   const std::vector<Node> pumps = machine.at("pumps").items(1, kMaxPumps);
   const std::vector<Node> actuators = machine.at("actuators").items(1, kMaxActuators);
   result.machine.pump_count = static_cast<int>(pumps.size());
@@ -191,6 +210,7 @@ McvCase parse_mcv_case(const std::string& line) {
     result.machine.actuator[i] = read_actuator(actuators[i], result.machine.pump_count);
   }
   const Node input = root.at("input");
+  input.only({"velocity", "p_cap", "p_rod"});
   const int count = result.machine.actuator_count;
   const auto pressure = [](const Node& item) { return item.not_negative(); };
   read_per_actuator(input.at("velocity"), count, result.input.velocity_mps,
@@ -237,6 +257,28 @@ std::string status_name(SolveStatus status) {
       return "not_converged";
   }
   return "unknown";
+}
+
+std::string defect_text(const McvCheck& check) {
+  // What is left for the core to refuse after the reader: numbers whose squares are none.
+  const char* key = "";
+  switch (check.defect) {
+    case McvDefect::kRegeneration:
+      key = "c_drain or c_check";
+      break;
+    case McvDefect::kBypass:
+      key = "bypass_open or bypass_closed";
+      break;
+    case McvDefect::kInflowCheck:
+      key = "c_inflow_check";
+      break;
+    case McvDefect::kBypassSeries:
+      return fmt::format("machine.pumps[{}].bypass_series: out of any usable range", check.index);
+    default:
+      return fmt::format("entry {}: out of any usable range (defect {})", check.index,
+                         static_cast<int>(check.defect));
+  }
+  return fmt::format("machine.actuators[{}].{}: out of any usable range", check.index, key);
 }
 
 nlohmann::ordered_json solution_json(const McvCase& mcv_case, const McvSolution& solution) {

@@ -30,6 +30,9 @@ struct McvCase {
 /// "algorithm1", "connected", "global".
 [[nodiscard]] const std::map<std::string, McvPolicy>& policies();
 
+/// What is out of any usable range, by its key.
+[[nodiscard]] std::string defect_text(const McvCheck& check);
+
 /// "ok", "infeasible", "bad_input" or "not_converged".
 [[nodiscard]] std::string status_name(SolveStatus status);
 

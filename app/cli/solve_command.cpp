@@ -24,9 +24,7 @@ int solve_lines(std::istream& cases, McvPolicy policy) {
       const McvCase mcv_case = parse_mcv_case(line);
       const McvSolution solution = solve_mcv(mcv_case.machine, mcv_case.input, policy);
       if (solution.status == SolveStatus::kBadInput) {
-        throw std::runtime_error(
-            fmt::format("numbers out of any usable range (defect {}, index {})",
-                        static_cast<int>(solution.defect.defect), solution.defect.index));
+        throw std::runtime_error(defect_text(solution.defect));
       }
       fmt::print("{}\n", solution_json(mcv_case, solution).dump());
     } catch (const std::exception& error) {

@@ -105,13 +105,13 @@ struct DigPath {
   double attitude_at_x_max_rad = 0.0;
 };
 
-/// How the field converges and how commands may change. Ranges are checked where it is read.
 /// How lambda may rise from cycle to cycle; it may fall at once.
 struct LambdaRise {
   double rate_ps = 0.0;    ///< Per second.
   double reserve_n = 0.0;  ///< Drive force that every moving cylinder must have beyond its need.
 };
 
+/// How the field converges and how commands may change. Ranges are checked where it is read.
 struct ControlProfile {
   double convergence_length_m = 0.0;  ///< Distance at which the field points at 45 deg to the path.
   double attitude_gain_ps = 0.0;      ///< Attitude error to attitude rate.

@@ -48,7 +48,16 @@ def bad_lines(case):
         (changed(case, lambda c: c.update(machine=[])), "machine: is not an object"),
         ('{"id": ' + "[" * 100000 + "]" * 100000 + "}", "levels deep"),
         (changed(case, lambda c: c.update(id={"a": 1})), "id: must be a string or a number"),
-        (changed(case, lambda c: actuator(c).update(bypass_open=1e-200)), "out of any usable range"),
+        (changed(case, lambda c: actuator(c).update(bypass_open=1e-200)),
+         "actuators[0].bypass_open or bypass_closed: out of any usable range"),
+        (changed(case, lambda c: pump(c)["bypass_series"].append(1e-200)),
+         "pumps[0].bypass_series: out of any usable range"),
+        (changed(case, lambda c: actuator(c).update(c_inflow_check=1e-200)),
+         "actuators[0].c_inflow_check: out of any usable range"),
+        (changed(case, lambda c: pump(c).update(relief_pa=1e7)), "pumps[0].relief_pa: unknown key"),
+        (changed(case, lambda c: actuator(c).update(force_ofset=1)), "force_ofset: unknown key"),
+        (changed(case, lambda c: c["input"].update(p_tank=[0])), "input.p_tank: unknown key"),
+        (changed(case, lambda c: c.update(id=True)), "id: must be a string or a number"),
     ]
 
 
