@@ -5,9 +5,6 @@
 namespace graben {
 namespace {
 
-/// Insets tried before halving takes over: more than one or two only where rounding decides.
-constexpr int kRetreats = 6;
-
 /// Lowers `start` to where the constraint first fails on the way up from standstill.
 void hold(const McvCircuit& circuit, const McvPoint& standstill, const McvPoint& fastest,
           const Limit& limit, Start& start, PolicyResult& result) {
@@ -46,22 +43,21 @@ PolicyResult choose_connected(const McvCircuit& circuit, double lambda_max) {
       hold(circuit, standstill, fastest, {LimitKind::kSpoolTravel, index}, start, result);
     }
   }
-  result.limit = start.limit;
-  const bool doubtful = !result.bounded || is_any_starved(circuit);
-  double lambda = start.limit.kind == LimitKind::kNone ? start.lambda : inset(start.lambda);
-  for (int retreat = 0; retreat < kRetreats && !doubtful; ++retreat) {
-    result.point = evaluate(circuit, lambda);
+  const double inside = start.limit.kind == LimitKind::kNone ? start.lambda : inset(start.lambda);
+  if (result.bounded && !is_any_starved(circuit)) {
+    result.point = evaluate(circuit, inside);
+    result.limit = start.limit;
     ++result.iterations;
     if (result.point.feasible) {
       return result;
     }
-    result.limit = result.point.limit;
-    lambda = std::max(inset(lambda), kStandstillLambda);
-    inset.widen();
   }
-  const Halved found = halved(circuit, standstill, result.bounded ? start.lambda : fed.lambda);
+  // Rounding decides where the interval ends.
+  const Start& end = result.bounded ? start : fed;
+  const Halved found = halved(circuit, standstill, end.lambda);
   result.point = found.point;
-  result.limit = found.limit.kind == LimitKind::kNone ? fed.limit : found.limit;
+  result.limit = found.limit.kind == LimitKind::kNone ? end.limit : found.limit;
+  result.iterations += found.evaluations;
   result.bounded = true;
   return result;
 }

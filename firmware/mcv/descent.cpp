@@ -108,7 +108,8 @@ bool is_any_starved(const McvCircuit& circuit) {
 }
 
 Halved halved(const McvCircuit& circuit, const McvPoint& feasible, double high_lambda) {
-  Halved result{feasible, {}};
+  Halved result;
+  result.point = feasible;
   const McvPoint high = evaluate(circuit, high_lambda);
   if (high.feasible) {
     result.point = high;
@@ -118,6 +119,7 @@ Halved halved(const McvCircuit& circuit, const McvPoint& feasible, double high_l
   double infeasible = high_lambda;
   for (int n = 0; n < kHalvings; ++n) {
     const McvPoint middle = evaluate(circuit, 0.5 * (result.point.lambda + infeasible));
+    ++result.evaluations;
     if (middle.feasible) {
       result.point = middle;
     } else {

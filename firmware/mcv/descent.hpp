@@ -47,10 +47,11 @@ struct LambdaChange {
 /// rounding shows in lambda over r, and what a search over r finds is only a guess.
 [[nodiscard]] bool is_any_starved(const McvCircuit& circuit);
 
-/// The end of an interval by halving, 31 evaluations.
+/// The end of an interval by halving, at most 31 evaluations.
 struct Halved {
   McvPoint point;
-  Limit limit;  ///< What fails just above; none where all up to `high_lambda` is feasible.
+  Limit limit;  ///< What fails just above; none where `high_lambda` itself is feasible.
+  int evaluations = 1;
 };
 [[nodiscard]] Halved halved(const McvCircuit& circuit, const McvPoint& feasible,
                             double high_lambda);

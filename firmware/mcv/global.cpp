@@ -1,7 +1,6 @@
 #include "firmware/mcv/descent.hpp"
 
 namespace graben {
-
 namespace {
 
 PolicyResult search(const McvCircuit& circuit, double lambda_max) {
