@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -12,15 +11,15 @@
 #include "app/cli/dig_run.hpp"
 #include "app/cli/guarded.hpp"
 #include "app/cli/progress_bar.hpp"
+#include "app/cli/scenario_options.hpp"
+#include "app/cli/validators.hpp"
+#include "app/plant/random.hpp"
 
 namespace graben::cli {
 namespace {
 
-/// Where the run starts unless told: above the path's far upper corner, as a bucket comes down.
-constexpr double kStartAbove_m = 0.6;
-constexpr double kStartBack_m = 0.8;
-
 struct Options {
+  ScenarioOptions scenario;
   std::string profile = "excavator_22t";
   std::string out = "out";
   std::string summary;
@@ -32,29 +31,16 @@ struct Options {
   double loops = 1.0;
 };
 
-Eigen::Vector3d strokes_at(const ExcavatorKinematics& kinematics, const TipPose& pose) {
-  const StrokeResult strokes = kinematics.strokes_from_pose(pose);
-  if (strokes.status != ReachStatus::kOk) {
-    throw std::runtime_error(
-        fmt::format("start pose x {} m, y {} m, attitude {} rad is outside the work space",
-                    pose.x_m, pose.y_m, pose.attitude_rad));
-  }
-  return strokes.strokes_m;
-}
-
 Eigen::Vector3d random_strokes(const ExcavatorGeometry& geometry, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
+  plant::Random random(seed, plant::Draw::kStart);
   Eigen::Vector3d strokes_m;
   for (unsigned i = 0; i < kAxisCount; ++i) {
-    // Written out, because the standard leaves open what uniform_real_distribution draws.
-    const double share = static_cast<double>(random() >> 11) * 0x1p-53;
-    strokes_m[i] = share * geometry.cylinder[i].stroke_m;
+    strokes_m[i] = random.uniform() * geometry.cylinder[i].stroke_m;
   }
   return strokes_m;
 }
 
 Eigen::Vector3d start_strokes(const Options& options, const ExcavatorProfile& profile) {
-  const ExcavatorKinematics kinematics(profile.geometry);
   if (options.random_start) {
     return random_strokes(profile.geometry, options.seed);
   }
@@ -71,12 +57,10 @@ Eigen::Vector3d start_strokes(const Options& options, const ExcavatorProfile& pr
     return strokes_m;
   }
   if (!options.start_pose.empty()) {
-    return strokes_at(kinematics,
+    return strokes_at(profile,
                       {options.start_pose[0], options.start_pose[1], options.start_pose[2]});
   }
-  const DigPath& path = profile.dig_path;
-  return strokes_at(kinematics, {path.x_max_m - kStartBack_m, path.y_max_m + kStartAbove_m,
-                                 path.attitude_at_x_max_rad});
+  return usual_start(profile);
 }
 
 const char* end_text(DigEnd end) {
@@ -93,33 +77,11 @@ const char* end_text(DigEnd end) {
   return "unknown";
 }
 
-/// CLI::Range lets "nan" pass.
-CLI::Validator number_between(double least, double most) {
-  return CLI::Validator(
-      [least, most](const std::string& text) {
-        double value = 0.0;
-        const bool inside =
-            CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
-        return inside ? std::string()
-                      : fmt::format("{} is not a number from {} to {}", text, least, most);
-      },
-      fmt::format("{} .. {}", least, most));
-}
-
-/// An unsigned option takes "-1" for its largest value.
-CLI::Validator whole_number() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        const bool digits = !text.empty() && text.size() <= 18 &&
-                            text.find_first_not_of("0123456789") == std::string::npos;
-        return digits ? std::string() : fmt::format("{} is not a whole number from 0", text);
-      },
-      "0 ..");
-}
-
 void dig(const Options& options) {
+  ScenarioOptions scenario = options.scenario;
+  scenario.scenario.seed = options.seed;
   const machines::ExcavatorMachine machine =
-      machines::load_excavator(machines::find_profile(options.profile));
+      arranged(machines::load_excavator(machines::find_profile(options.profile)), scenario);
   DigOptions run_options;
   run_options.start_strokes_m = start_strokes(options, machine.profile);
   run_options.speed_override_ratio = options.speed;
@@ -136,11 +98,11 @@ void dig(const Options& options) {
   }
   const DigSummary summary = summarise(result);
   const std::filesystem::path report = out / "dig.html";
-  write_dig_report(
-      report, machine, result, summary,
-      fmt::format("{} | start strokes {:.3f}, {:.3f}, {:.3f} m | speed {:.0f} %", machine.name,
-                  run_options.start_strokes_m[0], run_options.start_strokes_m[1],
-                  run_options.start_strokes_m[2], options.speed * 100.0));
+  write_dig_report(report, machine, result, summary,
+                   fmt::format("{} | {} | start strokes {:.3f}, {:.3f}, {:.3f} m | speed {:.0f} %",
+                               machine.name, scenario_words(scenario),
+                               run_options.start_strokes_m[0], run_options.start_strokes_m[1],
+                               run_options.start_strokes_m[2], options.speed * 100.0));
   if (!options.summary.empty()) {
     write_dig_summary(options.summary, summary);
   }
@@ -163,7 +125,11 @@ void add_dig(CLI::App& app, int& status) {
   command->add_option("--out", options->out, "Folder for dig.log and dig.html")
       ->capture_default_str();
   command->add_option("--summary", options->summary, "Write the figures as JSON to this file");
-  command->add_option("--seed", options->seed, "Of --random-start, a whole number from 0")
+  options->scenario.errors = "none";
+  add_scenario_options(*command, options->scenario);
+  command
+      ->add_option("--seed", options->seed,
+                   "Of --random-start, --errors and --soil, a whole number from 0")
       ->check(whole_number())
       ->capture_default_str();
   auto* start = command->add_option_group("start", "Where the bucket starts");

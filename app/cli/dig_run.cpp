@@ -56,6 +56,7 @@ class DigRun {
         options_(options),
         bench_(machine, options.start_strokes_m, options.speed_override_ratio),
         kinematics_(machine.profile.geometry),
+        field_(machine.profile, kinematics_),
         path_(machine.profile.dig_path),
         progress_(path_, options.loops) {}
 
@@ -80,6 +81,7 @@ class DigRun {
     result_.wall_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     result_.rejected_frames = rejected(bench_.ecu.link());
+    result_.peak_chamber_pressure_pa = bench_.plant.plant().peak_chamber_pressure_pa();
     bench_.bus.set_tap(nullptr);
     if (log) {
       log->close();
@@ -136,11 +138,30 @@ class DigRun {
     const plant::ExcavatorPlant& plant = bench_.plant.plant();
     const plant::TipPose tip = plant.tip();
     sample.tip_true_m = tip.position_m;
+    if (!result_.samples.empty()) {
+      sample.velocity_true_mps =
+          (tip.position_m - result_.samples.back().tip_true_m) / seconds(DigBench::kPeriod_us);
+    }
+    sample.off_field_rad = off_field_rad(sample.velocity_true_mps, tip);
+    sample.tip_force_n = plant.tip_force_n();
+    for (const plant::SectionFlows& flows : plant.section_flows()) {
+      sample.regenerating = sample.regenerating || flows.recycle_in_m3ps > 0.0;
+    }
+    if (const plant::Obstacle* obstacle = plant.obstacle(); obstacle && obstacle->touched()) {
+      sample.obstruction = obstacle->gone() ? Obstruction::kReleased : Obstruction::kHolding;
+    }
     sample.attitude_true_rad = tip.attitude_rad;
     sample.error_true_m = error_m(sample.tip_true_m);
     sample.spool_real = plant.spool_travels_ratio();
     sample.velocity_real_mps = plant.stroke_velocities_mps();
     sample.pump_real_pa = plant.pump_pressures_pa();
+  }
+
+  [[nodiscard]] double off_field_rad(const Eigen::Vector2d& velocity_mps,
+                                     const plant::TipPose& tip) const {
+    const Eigen::Vector2d wanted =
+        field_.contour({tip.position_m.x(), tip.position_m.y(), tip.attitude_rad}).linear_mps;
+    return std::abs(std::atan2(plant::cross(wanted, velocity_mps), wanted.dot(velocity_mps)));
   }
 
   void read_controller(DigSample& sample) const {
@@ -170,6 +191,7 @@ class DigRun {
   DigOptions options_;
   DigBench bench_;
   ExcavatorKinematics kinematics_;
+  DigField field_;
   RoundedRectangle path_;
   PathProgress progress_;
   TimeUs reached_us_ = 0;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct DigOptions {
   std::filesystem::path log_file;  ///< candump log; none if empty.
 };
 
+enum class Obstruction { kNone, kHolding, kReleased };
+
 /// State at one control cycle, true and as the controller has it.
 struct DigSample {
   double time_s = 0.0;
@@ -33,6 +36,11 @@ struct DigSample {
   Eigen::Vector2d tip_measured_m = Eigen::Vector2d::Constant(std::nan(""));
   double attitude_true_rad = 0.0;
   double attitude_measured_rad = std::nan("");
+  Eigen::Vector2d velocity_true_mps = Eigen::Vector2d::Zero();  ///< Of the tip, over the cycle.
+  double off_field_rad = 0.0;  ///< Between that and what the field wants there.
+  Eigen::Vector2d tip_force_n = Eigen::Vector2d::Zero();
+  bool regenerating = false;  ///< Any section's check is open.
+  Obstruction obstruction = Obstruction::kNone;
   double error_true_m = 0.0;
   double error_measured_m = std::nan("");
   double lambda = 0.0;
@@ -54,6 +62,14 @@ struct DigResult {
   std::vector<DigSample> samples;
   double wall_s = 0.0;
   std::uint32_t rejected_frames = 0;
+  double peak_chamber_pressure_pa = 0.0;
+};
+
+/// What an obstacle did.
+struct Recovery {
+  double lambda_held = 0.0;        ///< Least while it held.
+  double off_field_max_rad = 0.0;  ///< Of the tip's true direction from the field's, afterwards.
+  double error_max_m = 0.0;        ///< Of the true tip, afterwards.
 };
 
 /// Figures of the time on the path.
@@ -64,6 +80,11 @@ struct DigSummary {
   double rmse_error_measured_m = 0.0;
   double lambda_min = 0.0;
   double lambda_mean = 0.0;
+  double lambda_below_1_share = 0.0;  ///< Of the time on the path.
+  double regeneration_share = 0.0;    ///< Of the time on the path: any check valve open.
+  double peak_chamber_pressure_pa = 0.0;
+  /// Where something was in the way; from 0.3 s after it let go, for 3 s.
+  std::optional<Recovery> recovery;
   double approach_s = 0.0;  ///< Until the path was reached.
   double loop_s = 0.0;      ///< On the path.
   double duration_s = 0.0;  ///< Of the whole run, simulated.

@@ -156,36 +156,7 @@ ControlProfile read_control(TomlReader& reader) {
   return control;
 }
 
-DigPath read_path(TomlReader& reader) {
-  DigPath path;
-  const std::vector<double> x = reader.numbers("experiment.path.x", {-30.0, 30.0, "m"}, 2);
-  const std::vector<double> y = reader.numbers("experiment.path.y", {-30.0, 30.0, "m"}, 2);
-  path.x_min_m = x[0];
-  path.x_max_m = x[1];
-  path.y_min_m = y[0];
-  path.y_max_m = y[1];
-  path.corner_radius_m = reader.number("experiment.path.corner_radius", {0.01, 10.0, "m"});
-  const double half_side = 0.5 * std::min(path.x_max_m - path.x_min_m, path.y_max_m - path.y_min_m);
-  if (!(half_side > 0.0)) {
-    reader.fail("experiment.path", "x and y must each be given as [least, most]");
-  } else if (path.corner_radius_m > half_side) {
-    reader.fail("experiment.path.corner_radius",
-                fmt::format("{} m; allowed: at most half the shorter side, {} m",
-                            path.corner_radius_m, half_side));
-  }
-  const auto attitude =
-      reader.pairs("experiment.path.attitude", {-30.0, 30.0, "m"}, {-7.0, 7.0, "rad"}, 2, 2);
-  if (attitude.size() == 2) {
-    if (attitude[0].first != path.x_min_m || attitude[1].first != path.x_max_m) {
-      reader.fail("experiment.path.attitude", "must be given at both ends of x, in their order");
-    }
-    path.attitude_at_x_min_rad = attitude[0].second;
-    path.attitude_at_x_max_rad = attitude[1].second;
-  }
-  return path;
-}
-
-const char* obstacle_text(ReachStatus status) {
+const char* hindrance_text(ReachStatus status) {
   switch (status) {
     case ReachStatus::kBoomStroke:
       return "the boom cylinder's stroke";
@@ -227,6 +198,15 @@ void check_angles(TomlReader& reader, const ExcavatorProfile& profile,
   }
 }
 
+void check_path(TomlReader& reader, const char* key, const ProfileCheck& check) {
+  if (check.path != ReachStatus::kOk) {
+    reader.fail(key, fmt::format("leaves the work space at x {:.3f} m, y {:.3f} m, attitude {:.3f} "
+                                 "rad: {} does not allow it",
+                                 check.unreached.x_m, check.unreached.y_m,
+                                 check.unreached.attitude_rad, hindrance_text(check.path)));
+  }
+}
+
 }  // namespace
 
 ExcavatorProfile read_controller_sections(TomlReader& reader) {
@@ -238,12 +218,13 @@ ExcavatorProfile read_controller_sections(TomlReader& reader) {
   }
   profile.valve = read_valve(reader);
   profile.control = read_control(reader);
-  profile.dig_path = read_path(reader);
+  profile.dig_path = read_path(reader, "experiment.path");
   profile.dig_speed_mps = reader.number("experiment.speed", {0.01, 3.0, "m/s"});
   return profile;
 }
 
-void check_across_keys(TomlReader& reader, const ExcavatorProfile& profile) {
+void check_across_keys(TomlReader& reader, const ExcavatorProfile& profile,
+                       const DigPath& air_path) {
   std::array<std::vector<double>, kAxisCount> angle_range;
   for (unsigned i = 0; i < kAxisCount; ++i) {
     angle_range[i] = reader.numbers(angle_key(i), {-7.0, 7.0, "rad"}, 2);
@@ -257,13 +238,10 @@ void check_across_keys(TomlReader& reader, const ExcavatorProfile& profile) {
     reader.fail("valve", fmt::format("spool or pump {} can't be solved (defect {})",
                                      check.valve.index, static_cast<int>(check.valve.defect)));
   }
-  if (check.path != ReachStatus::kOk) {
-    reader.fail("experiment.path",
-                fmt::format("leaves the work space at x {:.3f} m, y {:.3f} m, attitude {:.3f} rad: "
-                            "{} does not allow it",
-                            check.unreached.x_m, check.unreached.y_m, check.unreached.attitude_rad,
-                            obstacle_text(check.path)));
-  }
+  check_path(reader, "experiment.path", check);
+  ExcavatorProfile in_air = profile;
+  in_air.dig_path = air_path;
+  check_path(reader, "experiment.air.path", profile_check(in_air));
 }
 
 }  // namespace graben::machines

@@ -1,6 +1,7 @@
 #pragma once
 /// The sections of an excavator's TOML file.
 
+#include "app/machines/experiment.hpp"
 #include "app/machines/toml_reader.hpp"
 #include "app/plant/plant_profile.hpp"
 #include "firmware/machine/excavator_profile.hpp"
@@ -14,9 +15,14 @@ namespace graben::machines {
 [[nodiscard]] plant::PlantProfile read_plant_sections(TomlReader& reader,
                                                       const ExcavatorProfile& nominal);
 
-/// Checks that need more than one key: the path lies in the work space, angle ranges fit the
+/// A path at this key.
+[[nodiscard]] DigPath read_path(TomlReader& reader, const std::string& at);
+/// What can be tried on it; the obstacle stands on `path`.
+[[nodiscard]] Experiment read_experiment_sections(TomlReader& reader, const DigPath& path);
+/// Checks that need more than one key: both paths lie in the work space, angle ranges fit the
 /// stroke ends, orifices and tables fit each other. They are made only where
 /// each key by itself is right.
-void check_across_keys(TomlReader& reader, const ExcavatorProfile& profile);
+void check_across_keys(TomlReader& reader, const ExcavatorProfile& profile,
+                       const DigPath& air_path);
 
 }  // namespace graben::machines

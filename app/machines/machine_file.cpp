@@ -68,7 +68,8 @@ ExcavatorMachine load_excavator(const std::filesystem::path& file) {
   machine.hash = fnv1a(text);
   machine.profile = read_controller_sections(reader);
   machine.plant = read_plant_sections(reader, machine.profile);
-  check_across_keys(reader, machine.profile);
+  machine.experiment = read_experiment_sections(reader, machine.profile.dig_path);
+  check_across_keys(reader, machine.profile, machine.experiment.air.path);
   reader.refuse_unknown_keys();
   if (!reader.errors().empty()) {
     throw ProfileError(file.string(), reader.errors());

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/machines/experiment.hpp"
 #include "app/plant/plant_profile.hpp"
 #include "firmware/machine/excavator_profile.hpp"
 
@@ -30,6 +31,7 @@ struct ExcavatorMachine {
   std::uint32_t hash = 0;  ///< FNV-1a of the file's bytes; on the bus as ProfileHash.
   ExcavatorProfile profile;
   plant::PlantProfile plant;
+  Experiment experiment;
 };
 
 /// Finds `name` as a path, or as NAME or NAME.toml among the shipped profiles. Throws

@@ -25,19 +25,6 @@ plant::SensorErrors read_sensors(TomlReader& reader) {
   return sensors;
 }
 
-/// Figures that the file keeps for simulations to come; checked, so that a typo shows today.
-void check_reserved(TomlReader& reader) {
-  static_cast<void>(reader.number("swing.speed_max", {0.01, 5.0, "rad/s"}));
-  static_cast<void>(reader.number("valve.bulk_modulus_kim", {1e8, 1e11, "Pa"}));
-  for (const char* key : {"regeneration", "spool_opening", "bypass", "leak"}) {
-    static_cast<void>(reader.number(std::string("uncertainty.") + key, {0.0, 0.9, ""}));
-  }
-  static_cast<void>(reader.number("experiment.soil.ground", {-30.0, 30.0, "m"}));
-  static_cast<void>(reader.numbers("experiment.soil.bias", {0.0, 1e6, "N"}, 2));
-  static_cast<void>(reader.number("experiment.soil.ramp", {0.0, 10.0, "m"}));
-  static_cast<void>(reader.boolean("experiment.soil.random"));
-}
-
 }  // namespace
 
 plant::PlantProfile read_plant_sections(TomlReader& reader, const ExcavatorProfile& nominal) {
@@ -62,7 +49,8 @@ plant::PlantProfile read_plant_sections(TomlReader& reader, const ExcavatorProfi
   plant.port_relief_pa = reader.number("valve.port_relief", {1e6, 1e8, "Pa"});
   plant.swash_ratio.fill(reader.number("experiment.swash", {0.0, 1.0, ""}));
   plant.sensors = read_sensors(reader);
-  check_reserved(reader);
+  static_cast<void>(reader.number("swing.speed_max",
+                                  {0.01, 5.0, "rad/s"}));  // Checked, so that a typo shows today.
   return plant;
 }
 

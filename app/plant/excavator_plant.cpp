@@ -1,5 +1,6 @@
 #include "app/plant/excavator_plant.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace graben::plant {
@@ -23,11 +24,20 @@ ExcavatorPlant::ExcavatorPlant(const PlantProfile& profile, const AxisArray& sta
       section_{ValveSection(profile, kBoom), ValveSection(profile, kArm),
                ValveSection(profile, kBucket)},
       cylinder_{Cylinder(profile, kBoom), Cylinder(profile, kArm), Cylinder(profile, kBucket)},
-      links_(profile) {
+      links_(profile),
+      dead_time_{DeadTime(profile.dead_time_s[kBoom], step_s_),
+                 DeadTime(profile.dead_time_s[kArm], step_s_),
+                 DeadTime(profile.dead_time_s[kBucket], step_s_)} {
   std::array<std::size_t, kPumpCount> next_place{};
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     pump_of_[i] = static_cast<std::size_t>(profile.machine.valve.spool[i].pump);
     place_of_[i] = next_place[pump_of_[i]]++;
+  }
+  if (profile.soil) {
+    soil_.emplace(*profile.soil, profile.seed, step_s_);
+  }
+  if (profile.obstacle) {
+    obstacle_.emplace(*profile.obstacle, step_s_);
   }
   set_bypasses();
   for (PumpLine& pump : pump_) {
@@ -42,7 +52,7 @@ ExcavatorPlant::ExcavatorPlant(const PlantProfile& profile, const AxisArray& sta
 
 void ExcavatorPlant::set_duty(const AxisArray& duty_ratio, bool enable) {
   for (std::size_t i = 0; i < kAxisCount; ++i) {
-    section_[i].set_command(enable && std::isfinite(duty_ratio[i]) ? duty_ratio[i] : 0.0);
+    duty_[i] = enable && std::isfinite(duty_ratio[i]) ? duty_ratio[i] : 0.0;
   }
 }
 
@@ -65,9 +75,25 @@ void ExcavatorPlant::set_bypasses() {
   }
 }
 
+void ExcavatorPlant::push_tip() {
+  tip_force_n_ = outer_force_n_;
+  if (soil_ || obstacle_) {
+    const Eigen::Vector2d tip_m = links_.tip().position_m;
+    if (soil_) {
+      tip_force_n_ += soil_->step(tip_m);
+    }
+    if (obstacle_) {
+      tip_force_n_ += obstacle_->step(tip_m);
+    }
+  }
+  links_.set_tip_force(tip_force_n_);
+}
+
 void ExcavatorPlant::step() {
+  push_tip();
   std::array<PistonLoad, kAxisCount> load;
   for (std::size_t i = 0; i < kAxisCount; ++i) {
+    section_[i].set_command(dead_time_[i].step(duty_[i]));
     PumpLine& pump = pump_[pump_of_[i]];
     flows_[i] =
         section_[i].solve({cylinder_[i].cap_port(), cylinder_[i].rod_port(),
@@ -87,6 +113,8 @@ void ExcavatorPlant::step() {
     const Lever& lever = links_.levers()[i];
     cylinder_[i].set_motion(lever.stroke_m, lever.stroke_per_angle_m * rate[i]);
     section_[i].step(step_s_);
+    peak_chamber_pressure_pa_ = std::max({peak_chamber_pressure_pa_, cylinder_[i].cap_pressure_pa(),
+                                          cylinder_[i].rod_pressure_pa()});
   }
 }
 

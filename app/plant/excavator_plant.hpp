@@ -5,6 +5,7 @@
 #include <array>
 
 #include "app/plant/cylinder.hpp"
+#include "app/plant/dead_time.hpp"
 #include "app/plant/linkage_dynamics.hpp"
 #include "app/plant/plant_profile.hpp"
 #include "app/plant/pump_line.hpp"
@@ -35,8 +36,8 @@ class ExcavatorPlant {
   /// Duty -1 .. 1 is the wanted spool travel in units of full travel; without `enable` neutral.
   /// A value that is not finite counts as 0.
   void set_duty(const AxisArray& duty_ratio, bool enable);
-  /// Force on the bucket tip, N, x forward and y up, until changed.
-  void set_tip_force(const Eigen::Vector2d& force_n) { links_.set_tip_force(force_n); }
+  /// Force on the bucket tip beside soil and obstacle, N, x forward and y up, until changed.
+  void set_tip_force(const Eigen::Vector2d& force_n) { outer_force_n_ = force_n; }
 
   /// Runs on. What is shorter than a step is kept for the next call.
   void advance(TimeUs duration_us);
@@ -54,11 +55,18 @@ class ExcavatorPlant {
   [[nodiscard]] const std::array<SectionFlows, kAxisCount>& section_flows() const { return flows_; }
   [[nodiscard]] const JointArray& joint_angles_rad() const { return links_.angles(); }
   [[nodiscard]] TipPose tip() const { return links_.tip(); }
+  /// Highest pressure that any chamber has had, between the readings too.
+  [[nodiscard]] double peak_chamber_pressure_pa() const { return peak_chamber_pressure_pa_; }
+  /// Whole force on the bucket tip over the last step, N.
+  [[nodiscard]] const Eigen::Vector2d& tip_force_n() const { return tip_force_n_; }
+  /// Null without one.
+  [[nodiscard]] const Obstacle* obstacle() const { return obstacle_ ? &*obstacle_ : nullptr; }
   [[nodiscard]] const PlantProfile& profile() const { return profile_; }
 
  private:
   void step();
   void set_bypasses();
+  void push_tip();
 
   PlantProfile profile_;
   double step_s_;
@@ -71,7 +79,14 @@ class ExcavatorPlant {
   std::array<ValveSection, kAxisCount> section_;
   std::array<Cylinder, kAxisCount> cylinder_;
   LinkageDynamics links_;
+  AxisArray duty_{};
+  std::array<DeadTime, kAxisCount> dead_time_;
+  std::optional<Soil> soil_;
+  std::optional<Obstacle> obstacle_;
+  Eigen::Vector2d outer_force_n_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d tip_force_n_ = Eigen::Vector2d::Zero();
   std::array<SectionFlows, kAxisCount> flows_{};
+  double peak_chamber_pressure_pa_ = 0.0;
 };
 
 }  // namespace graben::plant

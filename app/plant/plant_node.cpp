@@ -31,7 +31,7 @@ bool all_valid(const bus::SpoolCommand& command) {
 PlantNode::PlantNode(const PlantProfile& profile, const ExcavatorPlant::AxisArray& start_strokes_m,
                      CanPort& port, std::uint32_t profile_hash)
     : plant_(profile, start_strokes_m),
-      sensors_{profile.sensors},
+      sensors_(profile.sensors, profile.sensor_errors ? std::optional(profile.seed) : std::nullopt),
       port_(port),
       sender_(port),
       profile_hash_(profile_hash) {}
@@ -103,21 +103,28 @@ Physical PlantNode::stroke(std::size_t axis) const {
   if (stroke_state_[axis] != RawState::kValid) {
     return {0.0, stroke_state_[axis]};
   }
-  return valid(sensors_.stroke_m(plant_.strokes_m()[axis]));
+  return valid(sensors_.stroke_m(axis, plant_.strokes_m()[axis]));
 }
 
 void PlantNode::send_axes(TimeUs now) {
   sender_.send(bus::BoomStroke{stroke(kBoom)}, now);
   sender_.send(bus::ArmStroke{stroke(kArm)}, now);
   sender_.send(bus::BucketStroke{stroke(kBucket)}, now);
+  send_pressures(now);
+}
+
+void PlantNode::send_pressures(TimeUs now) {
   const auto cap = plant_.cap_pressures_pa();
   const auto rod = plant_.rod_pressures_pa();
-  const auto shown = [this](double pressure_pa) {
-    return valid(sensors_.pressure_pa(pressure_pa));
-  };
-  sender_.send(bus::BoomPressure{shown(cap[kBoom]), shown(rod[kBoom])}, now);
-  sender_.send(bus::ArmPressure{shown(cap[kArm]), shown(rod[kArm])}, now);
-  sender_.send(bus::BucketPressure{shown(cap[kBucket]), shown(rod[kBucket])}, now);
+  std::array<Physical, kAxisCount> cap_shown;
+  std::array<Physical, kAxisCount> rod_shown;
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    cap_shown[i] = valid(sensors_.cap_pressure_pa(i, cap[i]));
+    rod_shown[i] = valid(sensors_.rod_pressure_pa(i, rod[i]));
+  }
+  sender_.send(bus::BoomPressure{cap_shown[kBoom], rod_shown[kBoom]}, now);
+  sender_.send(bus::ArmPressure{cap_shown[kArm], rod_shown[kArm]}, now);
+  sender_.send(bus::BucketPressure{cap_shown[kBucket], rod_shown[kBucket]}, now);
 }
 
 void PlantNode::send_pumps(TimeUs now) {

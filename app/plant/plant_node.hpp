@@ -53,6 +53,7 @@ class PlantNode {
   void take_command(const CanFrame& frame, TimeUs now);
   void go_neutral();
   void send_axes(TimeUs now);
+  void send_pressures(TimeUs now);
   void send_pumps(TimeUs now);
   void send_identity(TimeUs now);
   [[nodiscard]] dbc::Physical stroke(std::size_t axis) const;

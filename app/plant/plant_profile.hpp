@@ -5,7 +5,11 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
+#include <optional>
 
+#include "app/plant/obstacle.hpp"
+#include "app/plant/soil.hpp"
 #include "firmware/core/time.hpp"
 #include "firmware/machine/excavator_profile.hpp"
 
@@ -53,6 +57,13 @@ struct PlantProfile {
 
   std::array<double, kPumpCount> swash_ratio{};  ///< Of full swash, constant.
   SensorErrors sensors;
+  /// Seed of the sensors' bias and noise and of the soil's random part.
+  std::uint64_t seed = 0;
+  bool sensor_errors = false;  ///< Without: strokes to the resolution, pressures exact.
+  /// From a duty to the spool's first movement.
+  std::array<double, kAxisCount> dead_time_s{};
+  std::optional<SoilProfile> soil;
+  std::optional<ObstacleProfile> obstacle;
 
   // No source gives the figures below; each default says why it is what it is.
 

@@ -5,16 +5,45 @@
 
 namespace graben::plant {
 
-double SensorModel::stroke_m(double true_stroke_m) const {
-  if (errors.stroke_resolution_m <= 0.0) {
-    return true_stroke_m;
+SensorModel::SensorModel(const SensorErrors& errors, std::optional<std::uint64_t> seed)
+    : errors_(errors) {
+  if (!seed) {
+    return;
   }
-  return std::round(true_stroke_m / errors.stroke_resolution_m) * errors.stroke_resolution_m;
+  noise_.emplace(*seed, Draw::kSensorNoise);
+  Random bias(*seed, Draw::kSensorBias);
+  const double pressure_bias_pa = errors.pressure_bias_ratio * errors.pressure_range_pa;
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    stroke_bias_m_[i] = bias.symmetric(errors.stroke_bias_m);
+    cap_bias_pa_[i] = bias.symmetric(pressure_bias_pa);
+    rod_bias_pa_[i] = bias.symmetric(pressure_bias_pa);
+  }
 }
 
-double SensorModel::pressure_pa(double true_pressure_pa) const {
-  const double shown = std::max(0.0, true_pressure_pa);
-  return errors.pressure_range_pa > 0.0 ? std::min(shown, errors.pressure_range_pa) : shown;
+double SensorModel::stroke_m(std::size_t axis, double true_stroke_m) const {
+  const double shown = true_stroke_m + stroke_bias_m_[axis];
+  if (errors_.stroke_resolution_m <= 0.0) {
+    return shown;
+  }
+  return std::round(shown / errors_.stroke_resolution_m) * errors_.stroke_resolution_m;
+}
+
+double SensorModel::cap_pressure_pa(std::size_t axis, double true_pressure_pa) {
+  return pressure_pa(true_pressure_pa, cap_bias_pa_[axis]);
+}
+
+double SensorModel::rod_pressure_pa(std::size_t axis, double true_pressure_pa) {
+  return pressure_pa(true_pressure_pa, rod_bias_pa_[axis]);
+}
+
+double SensorModel::pressure_pa(double true_pressure_pa, double bias_pa) {
+  double shown = true_pressure_pa + bias_pa;
+  if (noise_) {
+    shown += errors_.pressure_noise_ratio * errors_.pressure_range_pa * noise_->normal();
+  }
+  // A transducer shows nothing below ambient and nothing above its range.
+  shown = std::max(0.0, shown);
+  return errors_.pressure_range_pa > 0.0 ? std::min(shown, errors_.pressure_range_pa) : shown;
 }
 
 }  // namespace graben::plant

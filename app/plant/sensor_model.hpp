@@ -1,19 +1,35 @@
 #pragma once
 /// What the machine's sensors make of the truth.
 
+#include <array>
+#include <optional>
+
 #include "app/plant/plant_profile.hpp"
+#include "app/plant/random.hpp"
 
 namespace graben::plant {
 
-/// Exact sensors: of `errors` only the encoder's resolution and the transducer's range act here;
-/// bias and noise are not simulated. The CAN codec quantises and saturates by itself.
-struct SensorModel {
-  SensorErrors errors;
+/// Strokes in steps of the encoder's resolution, pressures within the transducer's range. With a
+/// seed each stroke and each pressure also has a constant bias, uniform within the profile's
+/// bounds, and each pressure reading white noise of the profile's standard deviation (Kim 5). The
+/// CAN codec quantises and saturates by itself.
+class SensorModel {
+ public:
+  SensorModel(const SensorErrors& errors, std::optional<std::uint64_t> seed);
 
-  /// Encoder reading: the nearest multiple of its resolution.
-  [[nodiscard]] double stroke_m(double true_stroke_m) const;
-  /// A transducer shows nothing below ambient and nothing above its range.
-  [[nodiscard]] double pressure_pa(double true_pressure_pa) const;
+  [[nodiscard]] double stroke_m(std::size_t axis, double true_stroke_m) const;
+  /// One reading: noise is drawn anew.
+  [[nodiscard]] double cap_pressure_pa(std::size_t axis, double true_pressure_pa);
+  [[nodiscard]] double rod_pressure_pa(std::size_t axis, double true_pressure_pa);
+
+ private:
+  [[nodiscard]] double pressure_pa(double true_pressure_pa, double bias_pa);
+
+  SensorErrors errors_;
+  std::optional<Random> noise_;
+  std::array<double, kAxisCount> stroke_bias_m_{};
+  std::array<double, kAxisCount> cap_bias_pa_{};
+  std::array<double, kAxisCount> rod_bias_pa_{};
 };
 
 }  // namespace graben::plant

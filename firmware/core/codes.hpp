@@ -54,6 +54,9 @@ enum class McvPolicy : std::uint8_t {
   kAlgorithm1 = 0,  ///< As in Kim et al.
   kConnected = 1,   ///< The end of the interval that contains 0.
   kGlobal = 2,      ///< The largest feasible lambda.
+  /// For comparisons only, never on a machine: no search, the fastest that was asked for, and what
+  /// is out of reach opens fully. The direction is lost.
+  kFixed = 3,
 };
 
 /// How the optimiser ended.

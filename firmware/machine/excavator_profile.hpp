@@ -125,6 +125,7 @@ struct ControlProfile {
   double spool_rate_ps = 0.0;     ///< Largest change of |x| / x_m per second.
   double spool_threshold = 0.0;   ///< |x| / x_m under which a spool is kept at neutral.
   double sensor_timeout_s = 0.0;  ///< A signal older than this is missing.
+  double dead_time_s = 0.0;       ///< From a duty to the spool's first movement.
 };
 
 struct ExcavatorProfile {

@@ -17,6 +17,8 @@ PolicyResult choose(const McvCircuit& circuit, McvPolicy policy, double lambda_m
       return choose_connected(circuit, lambda_max);
     case McvPolicy::kGlobal:
       return choose_global(circuit, lambda_max);
+    case McvPolicy::kFixed:
+      return choose_fixed(circuit, lambda_max);
   }
   return {};
 }
@@ -46,7 +48,7 @@ McvCircuit with_reserve(const McvCircuit& circuit, double reserve_n) {
 /// The choice for loads that are heavier by the reserve, and the circuit as it is at that lambda.
 PolicyResult choose_with_reserve(const McvCircuit& circuit, McvPolicy policy,
                                  const LambdaRange& range) {
-  if (!(range.reserve_n > 0.0)) {
+  if (!(range.reserve_n > 0.0) || policy == McvPolicy::kFixed) {
     return choose(circuit, policy, range.most);
   }
   PolicyResult chosen = choose(with_reserve(circuit, range.reserve_n), policy, range.most);

@@ -1,6 +1,6 @@
 #pragma once
-/// The three ways to choose lambda in (37). Each costs a bounded number of operations and returns a
-/// point that `evaluate` found feasible, or lambda 0.
+/// The ways to choose lambda in (37). Each costs a bounded number of operations and returns a
+/// point that `evaluate` found feasible, or lambda 0; `choose_fixed` alone does not ask.
 
 #include "firmware/mcv/evaluation.hpp"
 #include "firmware/mcv/requirement.hpp"
@@ -49,5 +49,9 @@ inline constexpr int kGlobalJumps = 64;
 /// closed), and both jumps and steps are capped besides. Feasible intervals shorter than 1e-9 of
 /// lambda may be passed over: the result is put that far inside, so that rounding does not decide.
 [[nodiscard]] PolicyResult choose_global(const McvCircuit& circuit, double lambda_max);
+
+/// What the optimisation is for, by leaving it out: lambda_max whatever it takes. Spools that can't
+/// give their part open fully; the point may be infeasible.
+[[nodiscard]] PolicyResult choose_fixed(const McvCircuit& circuit, double lambda_max);
 
 }  // namespace graben

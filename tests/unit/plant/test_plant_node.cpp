@@ -158,13 +158,17 @@ void values_are_the_plants(void**) {
 }
 
 void sensors_show_what_they_can(void**) {
-  SensorModel sensors;
-  sensors.errors.stroke_resolution_m = 1e-4;
-  sensors.errors.pressure_range_pa = 25e6;
-  assert_near(sensors.stroke_m(0.123456), 0.1235, 1e-12);
-  assert_near(sensors.pressure_pa(-2e4), 0.0, 0.0);
-  assert_near(sensors.pressure_pa(7e6), 7e6, 0.0);
-  assert_near(sensors.pressure_pa(30e6), 25e6, 0.0);
+  SensorErrors errors;
+  errors.stroke_resolution_m = 1e-4;
+  errors.pressure_range_pa = 25e6;
+  errors.stroke_bias_m = 2e-3;
+  errors.pressure_bias_ratio = 0.03;
+  errors.pressure_noise_ratio = 0.02;
+  SensorModel sensors(errors, std::nullopt);
+  assert_near(sensors.stroke_m(kArm, 0.123456), 0.1235, 1e-12);
+  assert_near(sensors.cap_pressure_pa(kArm, -2e4), 0.0, 0.0);
+  assert_near(sensors.cap_pressure_pa(kArm, 7e6), 7e6, 0.0);
+  assert_near(sensors.rod_pressure_pa(kArm, 30e6), 25e6, 0.0);
 }
 
 void commands_move_the_spool(void**) {

@@ -1,0 +1,63 @@
+#pragma once
+/// A campaign's results as CSV: a line that says what was tried, a line of column names, a row for
+/// each draw.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "app/cli/dig_run.hpp"
+
+namespace graben::cli {
+
+/// A figure of a draw. `shown` turns it into the unit of the table.
+struct CampaignColumn {
+  const char* name;
+  const char* words;
+  const char* unit;
+  double shown;
+  double (*of)(const DigSummary& summary);
+};
+inline constexpr std::size_t kCampaignColumns = 14;
+[[nodiscard]] const std::array<CampaignColumn, kCampaignColumns>& campaign_columns();
+
+struct CampaignRow {
+  DigEnd end = DigEnd::kDone;
+  std::array<double, kCampaignColumns> figure{};  ///< Not a number where the run has none.
+};
+using CampaignRows = std::map<std::uint64_t, CampaignRow>;  ///< By seed.
+
+/// The whole of a file. Throws std::runtime_error with file and line of what can't be read; a last
+/// line without its end is what an interrupted run leaves, and is not there.
+struct CampaignData {
+  std::string tried;  ///< Profile, its hash, scenario.
+  CampaignRows rows;
+};
+[[nodiscard]] CampaignData read_campaign(const std::filesystem::path& file);
+/// Writes beside the file and puts it in its place, rows in the order of their seeds: same rows,
+/// same bytes.
+void write_campaign(const std::filesystem::path& file, const CampaignData& data);
+
+/// A file that grows by a row at a time, so that what was computed is not lost.
+class CampaignLog {
+ public:
+  /// Goes on with the rows that are there, which must be of the same trial; throws
+  /// std::runtime_error otherwise.
+  CampaignLog(std::filesystem::path file, const std::string& tried);
+
+  void add(std::uint64_t seed, const CampaignRow& row);
+  [[nodiscard]] bool has(std::uint64_t seed) const { return data_.rows.count(seed) != 0; }
+  [[nodiscard]] const CampaignData& data() const { return data_; }
+
+ private:
+  std::filesystem::path file_;
+  CampaignData data_;
+};
+
+/// Median, 95th percentile (nearest rank) and largest of every figure that is there.
+[[nodiscard]] std::string campaign_table(const CampaignData& data);
+
+}  // namespace graben::cli

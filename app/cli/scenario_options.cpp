@@ -1,0 +1,103 @@
+#include "app/cli/scenario_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <vector>
+
+#include "app/cli/validators.hpp"
+#include "firmware/kinematics/excavator_kinematics.hpp"
+#include "firmware/motion/rounded_rectangle.hpp"
+
+namespace graben::cli {
+namespace {
+
+/// Above the path's far upper corner.
+constexpr double kStartAbove_m = 0.6;
+constexpr double kStartBack_m = 0.8;
+
+/// In the order of machines::Errors.
+const std::array<const char*, 5> kErrors = {"none", "stroke-bias", "sensors", "parameters", "all"};
+
+machines::Errors errors_of(const std::string& name) {
+  const auto* found = std::find(kErrors.begin(), kErrors.end(), name);
+  return static_cast<machines::Errors>(found - kErrors.begin());
+}
+
+}  // namespace
+
+void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
+  machines::Scenario& scenario = options.scenario;
+  auto* in_the_way = command.add_option_group("in the way", "What the bucket meets");
+  in_the_way->add_flag("--soil", scenario.soil, "Soil below the profile's ground line");
+  in_the_way->add_flag("--air", scenario.air,
+                       "The profile's manoeuvre in the air, with a loaded bucket, instead");
+  in_the_way->require_option(0, 1);
+  command.add_flag("--obstacle", scenario.obstacle,
+                   "A rock on the path that holds for a while and then comes loose");
+  command.add_flag("--stiff-oil", scenario.stiff_oil, "Oil as stiff as the paper's");
+  command.add_option("--dead-time", scenario.dead_time_s, "Of every spool, s, 0 .. 0.5")
+      ->check(number_between(0.0, 0.5))
+      ->capture_default_str();
+  command
+      .add_option("--errors", options.errors,
+                  "What the controller does not know, drawn from the seed: sensors' bias and "
+                  "noise, parameters")
+      ->check(CLI::IsMember(std::vector<std::string>(kErrors.begin(), kErrors.end())))
+      ->capture_default_str();
+  command.add_flag("--fixed-lambda", options.fixed_lambda,
+                   "For comparison: lambda stays 1, whatever the machine can do");
+}
+
+machines::ExcavatorMachine arranged(const machines::ExcavatorMachine& machine,
+                                    const ScenarioOptions& options) {
+  machines::Scenario scenario = options.scenario;
+  scenario.errors = errors_of(options.errors);
+  machines::ExcavatorMachine result = machines::arranged(machine, scenario);
+  if (options.fixed_lambda) {
+    result.profile.control.lambda_policy = McvPolicy::kFixed;
+  }
+  return result;
+}
+
+std::string scenario_words(const ScenarioOptions& options) {
+  std::vector<std::string> words;
+  const auto add = [&words](bool is_on, const char* word) {
+    if (is_on) {
+      words.emplace_back(word);
+    }
+  };
+  add(options.scenario.soil, "soil");
+  add(options.scenario.air, "air");
+  add(options.scenario.obstacle, "obstacle");
+  add(options.scenario.stiff_oil, "stiff oil");
+  add(options.fixed_lambda, "lambda fixed at 1");
+  if (options.scenario.dead_time_s > 0.0) {
+    words.push_back(fmt::format("dead time {} s", options.scenario.dead_time_s));
+  }
+  words.push_back(fmt::format("errors {}", options.errors));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+Eigen::Vector3d strokes_at(const ExcavatorProfile& profile, const TipPose& pose) {
+  const StrokeResult strokes = ExcavatorKinematics(profile.geometry).strokes_from_pose(pose);
+  if (strokes.status != ReachStatus::kOk) {
+    throw std::runtime_error(
+        fmt::format("start pose x {} m, y {} m, attitude {} rad is outside the work space",
+                    pose.x_m, pose.y_m, pose.attitude_rad));
+  }
+  return strokes.strokes_m;
+}
+
+Eigen::Vector3d usual_start(const ExcavatorProfile& profile) {
+  const DigPath& path = profile.dig_path;
+  const PathPoint below =
+      RoundedRectangle(path).closest({path.x_max_m - kStartBack_m, path.y_max_m});
+  return strokes_at(
+      profile, {below.position_m.x(), below.position_m.y() + kStartAbove_m, below.attitude_rad});
+}
+
+}  // namespace graben::cli

@@ -1,0 +1,38 @@
+#pragma once
+/// The options of `dig` and `campaign dig` that say what is tried.
+
+#include <string>
+
+#include "app/machines/scenario.hpp"
+#include "firmware/kinematics/excavator_kinematics.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace graben::cli {
+
+struct ScenarioOptions {
+  machines::Scenario scenario;
+  bool fixed_lambda = false;
+  std::string errors;
+};
+
+/// Adds --soil, --obstacle, --air, --stiff-oil, --dead-time, --errors, --fixed-lambda.
+void add_scenario_options(CLI::App& command, ScenarioOptions& options);
+
+/// The machine as the options have it.
+[[nodiscard]] machines::ExcavatorMachine arranged(const machines::ExcavatorMachine& machine,
+                                                  const ScenarioOptions& options);
+
+/// "soil, stiff oil, dead time 0.15 s, errors all"; the same words, the same scenario.
+[[nodiscard]] std::string scenario_words(const ScenarioOptions& options);
+
+/// Strokes of a start pose. Throws std::runtime_error where it is out of reach.
+[[nodiscard]] Eigen::Vector3d strokes_at(const ExcavatorProfile& profile, const TipPose& pose);
+
+/// The bucket's start unless told: above the path's far upper corner, as it comes down. Throws
+/// std::runtime_error where that is out of reach.
+[[nodiscard]] Eigen::Vector3d usual_start(const ExcavatorProfile& profile);
+
+}  // namespace graben::cli

@@ -1,0 +1,90 @@
+#include "app/machines/scenario.hpp"
+
+#include <algorithm>
+
+#include "app/plant/random.hpp"
+
+namespace graben::machines {
+namespace {
+
+using plant::Draw;
+using plant::Random;
+
+/// A draw keeps the drain this much smaller than the check, or regeneration would have no model.
+constexpr double kMostDrainToCheck = 0.95;
+
+void vary(double& value, double share, Random& random) { value *= 1.0 + random.symmetric(share); }
+
+void vary_parameters(ExcavatorProfile& profile, const Uncertainty& uncertainty,
+                     std::uint64_t seed) {
+  Random random(seed, Draw::kParameters);
+  for (SpoolProfile& spool : profile.valve.spool) {
+    for (double* area :
+         {&spool.extend_in_m2, &spool.extend_out_m2, &spool.retract_in_m2, &spool.retract_out_m2}) {
+      vary(*area, uncertainty.spool_opening, random);
+    }
+    vary(spool.bypass_open, uncertainty.bypass, random);
+    vary(spool.bypass_closed, uncertainty.bypass, random);
+    vary(spool.c_drain, uncertainty.regeneration, random);
+    vary(spool.c_check, uncertainty.regeneration, random);
+    spool.c_drain = std::min(spool.c_drain, kMostDrainToCheck * spool.c_check);
+  }
+  for (PumpProfile& pump : profile.pump) {
+    vary(pump.leak_linear, uncertainty.leak, random);
+    vary(pump.leak_quadratic, uncertainty.leak, random);
+    for (double& orifice : pump.bypass_series) {
+      vary(orifice, uncertainty.regeneration, random);
+    }
+  }
+}
+
+void load_bucket(plant::LinkBody& bucket, double mass_kg, const Eigen::Vector2d& centre_m) {
+  const double total_kg = bucket.mass_kg + mass_kg;
+  const double reduced_kg = bucket.mass_kg * mass_kg / total_kg;
+  bucket.inertia_kgm2 += reduced_kg * (centre_m - bucket.mass_centre_m).squaredNorm();
+  bucket.mass_centre_m = (bucket.mass_kg * bucket.mass_centre_m + mass_kg * centre_m) / total_kg;
+  bucket.mass_kg = total_kg;
+}
+
+}  // namespace
+
+ExcavatorMachine arranged(ExcavatorMachine machine, const Scenario& scenario) {
+  const Experiment& experiment = machine.experiment;
+  plant::PlantProfile& plant = machine.plant;
+  plant.seed = scenario.seed;
+  const bool parameter_errors =
+      scenario.errors == Errors::kParameters || scenario.errors == Errors::kAll;
+  plant.sensor_errors = scenario.errors != Errors::kNone && scenario.errors != Errors::kParameters;
+  if (scenario.errors == Errors::kStrokeBias) {
+    plant.sensors.pressure_bias_ratio = 0.0;
+    plant.sensors.pressure_noise_ratio = 0.0;
+  }
+  if (scenario.soil) {
+    plant.soil = experiment.soil;
+  }
+  if (scenario.obstacle) {
+    plant.obstacle = experiment.obstacle;
+  }
+  if (scenario.stiff_oil) {
+    plant.bulk_modulus_pa = experiment.stiff_bulk_modulus_pa;
+  }
+  if (scenario.air) {
+    machine.profile.dig_path = experiment.air.path;
+    machine.profile.dig_speed_mps = experiment.air.speed_mps;
+    load_bucket(plant.link[kBucket], experiment.air.payload_kg, experiment.air.payload_centre_m);
+  }
+  machine.profile.control.dead_time_s = scenario.dead_time_s;
+  Random dead_time(scenario.seed, Draw::kDeadTime);
+  for (double& axis_s : plant.dead_time_s) {
+    axis_s = scenario.dead_time_s;
+    if (parameter_errors) {
+      vary(axis_s, experiment.uncertainty.dead_time, dead_time);
+    }
+  }
+  if (parameter_errors) {
+    vary_parameters(machine.profile, experiment.uncertainty, scenario.seed);
+  }
+  return machine;
+}
+
+}  // namespace graben::machines

@@ -1,0 +1,47 @@
+#pragma once
+/// Random numbers that are the same with every standard library: the standard fixes its engines,
+/// not its distributions.
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+namespace graben::plant {
+
+/// What is drawn. Each has a stream of its own, so that what is switched on beside it changes
+/// nothing.
+enum class Draw : std::uint32_t {
+  kParameters = 1,
+  kSensorBias,
+  kSensorNoise,
+  kSoil,
+  kDeadTime,
+  kStart,
+};
+
+class Random {
+ public:
+  Random(std::uint64_t seed, Draw stream) : engine_(seeded(seed, stream)) {}
+
+  /// [0, 1).
+  double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  /// [-most, most).
+  double symmetric(double most) { return most * (2.0 * uniform() - 1.0); }
+  /// Mean 0, standard deviation 1 (Box and Muller).
+  double normal() {
+    constexpr double kTwoPi = 6.283185307179586;
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
+    return radius * std::cos(kTwoPi * uniform());
+  }
+
+ private:
+  static std::mt19937_64 seeded(std::uint64_t seed, Draw stream) {
+    std::seed_seq sequence{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
+                           static_cast<std::uint32_t>(stream)};
+    return std::mt19937_64(sequence);
+  }
+
+  std::mt19937_64 engine_;
+};
+
+}  // namespace graben::plant
