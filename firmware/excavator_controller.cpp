@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "firmware/motion/stroke_end.hpp"
+#include "firmware/motion/contact.hpp"
 
 namespace graben {
 namespace {
@@ -12,19 +12,13 @@ constexpr double kLongestPeriod_s = 0.02;
 /// Without a cycle for this long, what the machine did meanwhile is not known.
 constexpr TimeUs kStalled_us = 50 * kMillisecondUs;
 
-WantedMotion wanted_motion(const DigField& field, const KinematicState& state,
-                           const ValidInputs& inputs) {
-  return inputs.task == Task::kDig && state.status == ReachStatus::kOk
-             ? field.wanted(state, inputs.speed_override_ratio)
-             : WantedMotion{};
-}
-
-McvInput mcv_input(const ValidInputs& inputs, const Eigen::Vector3d& velocity_mps) {
+McvInput mcv_input(const ValidInputs& inputs, const LoadState& load,
+                   const Eigen::Vector3d& velocity_mps) {
   McvInput input;
   for (unsigned i = 0; i < kAxisCount; ++i) {
     input.velocity_mps[i] = velocity_mps[i];
-    input.cap_pressure_pa[i] = inputs.cap_pressure_pa[i];
-    input.rod_pressure_pa[i] = inputs.rod_pressure_pa[i];
+    input.cap_pressure_pa[i] = load.cap_pa[i];
+    input.rod_pressure_pa[i] = load.rod_pa[i];
   }
   std::copy(inputs.pump_flow_m3ps.begin(), inputs.pump_flow_m3ps.end(),
             input.pump_flow_m3ps.begin());
@@ -57,7 +51,13 @@ Limit reason(const McvSolution& solution, const VelocityCap& cap) {
   return cap.limit.kind == LimitKind::kNone && rising ? Limit{LimitKind::kRise, 0} : cap.limit;
 }
 
-ExcavatorStatus status_of(const ModeState& mode, const WantedMotion& wanted, const VelocityCap& cap,
+double path_error_m(const RoundedRectangle& path, const TipPose& tip) {
+  const Eigen::Vector2d at(tip.x_m, tip.y_m);
+  return (path.closest(at).position_m - at).norm();
+}
+
+ExcavatorStatus status_of(const ModeState& mode, const Eigen::Vector3d& wanted_mps,
+                          double path_error_m, const VelocityCap& cap,
                           const McvSolution& solution) {
   ExcavatorStatus status;
   status.mode = mode.mode;
@@ -67,9 +67,9 @@ ExcavatorStatus status_of(const ModeState& mode, const WantedMotion& wanted, con
   }
   status.lambda = cap.factor * solution.point.lambda;
   status.limit = reason(solution, cap);
-  status.path_error_m = wanted.path_error_m;
+  status.path_error_m = path_error_m;
   for (unsigned i = 0; i < kAxisCount; ++i) {
-    status.wanted_velocity_mps[i] = wanted.velocity_mps[i];
+    status.wanted_velocity_mps[i] = wanted_mps[i];
   }
   std::copy_n(solution.point.pump_pressure_pa.begin(), kPumpCount, status.pump_pressure_pa.begin());
   return status;
@@ -91,14 +91,39 @@ double ExcavatorController::period_s(TimeUs now_us) const {
   return std::clamp(elapsed_s, 0.0, kLongestPeriod_s);
 }
 
+void ExcavatorController::observe(const ValidInputs& valid, double period_s) {
+  const bool in_motion = memory_.mode.mode == EcuMode::kActive;
+  memory_.load = next_load(profile_, memory_.load, valid.cap_pressure_pa, valid.rod_pressure_pa,
+                           period_s, !in_motion);
+  memory_.servo = in_motion ? next_servo(profile_.control, memory_.servo, memory_.asked_mps,
+                                         valid.strokes_m, period_s)
+                            : servo_at_rest(valid.strokes_m);
+}
+
+Eigen::Vector3d ExcavatorController::wanted_velocity(const ValidInputs& valid,
+                                                     const KinematicState& state) const {
+  if (valid.task != Task::kDig || state.status != ReachStatus::kOk) {
+    return Eigen::Vector3d::Zero();
+  }
+  const KinematicState then =
+      kinematics_.state(strokes_then(profile_, memory_.servo));
+  const KinematicState& there = then.status == ReachStatus::kOk ? then : state;
+  return field_.wanted(there, valid.speed_override_ratio);
+}
+
 ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs now_us) {
   const ValidInputs valid = validate(inputs, profile_, now_us);
+  observe(valid, period_s(now_us));
   const KinematicState state = kinematics_.state(valid.strokes_m);
-  const WantedMotion wanted = wanted_motion(field_, state, valid);
-  const VelocityCap cap = stroke_end_cap(profile_, valid.strokes_m, wanted.velocity_mps);
-  const McvSolution solution = steady_lambda(
-      valve_, mcv_input(valid, cap.factor * wanted.velocity_mps), profile_.control.lambda_policy,
-      profile_.control.lambda_rise, memory_.lambda, period_s(now_us));
+  const Eigen::Vector3d wanted = wanted_velocity(valid, state);
+  const Eigen::Vector3d corrected =
+      corrected_velocity(profile_.control, wanted, memory_.servo, memory_.load, memory_.lambda);
+  const VelocityCap cap = contact_cap(profile_.contact, state.tip.y_m,
+                                      stroke_end_cap(profile_, valid.strokes_m, corrected));
+  const McvSolution solution =
+      steady_lambda(valve_, mcv_input(valid, memory_.load, cap.factor * corrected),
+                    profile_.control.lambda_policy, profile_.control.lambda_rise, memory_.lambda,
+                    period_s(now_us));
   const bool stalled = memory_.has_stepped && now_us - memory_.last_us > kStalled_us;
   memory_.mode = next_mode(memory_.mode, valid, blocking_fault(valid, state, solution, stalled));
   const GateResult command = gate(profile_, memory_.gate, memory_.mode.mode == EcuMode::kActive,
@@ -110,9 +135,11 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   }
   memory_.gate = command.state;
   memory_.lambda = memory_.mode.mode == EcuMode::kActive ? solution.point.lambda : 0.0;
+  memory_.asked_mps = memory_.lambda * cap.factor * wanted;
   memory_.last_us = now_us;
   memory_.has_stepped = true;
-  return {command.enable, command.duty_ratio, status_of(memory_.mode, wanted, cap, solution)};
+  return {command.enable, command.duty_ratio,
+          status_of(memory_.mode, wanted, path_error_m(field_.path(), state.tip), cap, solution)};
 }
 
 ProfileCheck profile_check(const ExcavatorProfile& profile) {

@@ -3,7 +3,9 @@
 
 #include "firmware/kinematics/excavator_kinematics.hpp"
 #include "firmware/mcv/steady_lambda.hpp"
+#include "firmware/motion/cylinder_servo.hpp"
 #include "firmware/motion/dig_field.hpp"
+#include "firmware/motion/load_filter.hpp"
 #include "firmware/safety/gate.hpp"
 #include "firmware/safety/mode.hpp"
 
@@ -24,12 +26,20 @@ class ExcavatorController {
   struct Memory {
     ModeState mode;
     GateState gate;
+    LoadState load;
+    ServoState servo;
+    Eigen::Vector3d asked_mps = Eigen::Vector3d::Zero();  ///< lambda V_L^d, without corrections.
     double lambda = 0.0;  ///< Of the last cycle in motion.
     TimeUs last_us = 0;
     bool has_stepped = false;
   };
 
   [[nodiscard]] double period_s(TimeUs now_us) const;
+  /// Takes in what this cycle's sensors say of the last cycle's command.
+  void observe(const ValidInputs& valid, double period_s);
+  /// What the field wants where the cylinders will be when a command of now takes effect.
+  [[nodiscard]] Eigen::Vector3d wanted_velocity(const ValidInputs& valid,
+                                                const KinematicState& state) const;
 
   ExcavatorProfile profile_;
   ExcavatorKinematics kinematics_;

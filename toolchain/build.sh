@@ -2,13 +2,13 @@
 # Configures and builds one preset without a word unless it fails. Sourced by ./run and ./test;
 # needs graben_say of packages.sh.
 
-# graben_build ROOT PRESET [TARGET]
+# graben_build ROOT PRESET [TARGET [OPTION]]; OPTION is a CMake option to have on.
 graben_build() {
   mkdir -p "$1/build"
   # `./run a | ./run b` starts two at once, and Ninja does not lock its folder.
   (
     if has_command flock; then flock 9; fi
-    graben_build_locked "$1" "$2" "${3-all}" 9>&-
+    graben_build_locked "$1" "$2" "${3-all}" "${4-}" 9>&-
   ) 9>"$1/build/.lock" </dev/null
 }
 
@@ -18,9 +18,10 @@ graben_build_locked() (
   log=build/$2.log
   # Ninja configures again by itself when a CMakeLists.txt has changed, not when the presets have.
   # shellcheck disable=SC3013 # dash, bash and busybox all know -nt
-  if ! [ "build/$2/build.ninja" -nt CMakePresets.json ]; then
+  if ! [ "build/$2/build.ninja" -nt CMakePresets.json ] ||
+    { [ -n "$4" ] && ! grep -q "^$4:BOOL=ON\$" "build/$2/CMakeCache.txt"; }; then
     graben_say "configuring $2"
-    cmake --preset "$2" >"$log" 2>&1 || graben_build_failed "$2" "$log"
+    cmake --preset "$2" ${4:+"-D$4=ON"} >"$log" 2>&1 || graben_build_failed "$2" "$log"
   fi
   if ! ninja -C "build/$2" -n "$3" 2>/dev/null | grep -q 'no work to do'; then
     graben_say "building $2 (the first time takes minutes)"

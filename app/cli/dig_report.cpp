@@ -64,6 +64,15 @@ json geometry(const machines::ExcavatorMachine& machine, const DigResult& result
     }
   }
   geometry["ground_y_m"] = nullptr;
+  if (machine.plant.soil) {
+    geometry["ground_y_m"] = machine.plant.soil->ground_y_m;
+  }
+  if (machine.plant.obstacle) {
+    const plant::ObstacleProfile& obstacle = *machine.plant.obstacle;
+    geometry["obstacle"] = {{"point", point(obstacle.point_m)},
+                            {"normal", point(obstacle.normal)},
+                            {"size_m", obstacle.size_m}};
+  }
   if (!result.samples.empty()) {
     geometry["start"] = point(result.samples.front().tip_true_m);
   }
@@ -92,6 +101,17 @@ json list(const DigResult& result, double DigSample::*member) {
   return values;
 }
 
+/// x and y of a vector over time.
+json components(const DigResult& result, Eigen::Vector2d DigSample::*member) {
+  json x = json::array();
+  json y = json::array();
+  for (const DigSample& sample : result.samples) {
+    x.push_back((sample.*member).x());
+    y.push_back((sample.*member).y());
+  }
+  return {std::move(x), std::move(y)};
+}
+
 json series(const DigResult& result) {
   json data;
   data["time_s"] = list(result, &DigSample::time_s);
@@ -104,6 +124,12 @@ json series(const DigResult& result) {
   data["pump_pressure_real"] = lists(result, &DigSample::pump_real_pa);
   data["error_true_m"] = list(result, &DigSample::error_true_m);
   data["error_measured_m"] = list(result, &DigSample::error_measured_m);
+  data["tip_force_n"] = components(result, &DigSample::tip_force_n);
+  data["tip_velocity_mps"] = components(result, &DigSample::velocity_true_mps);
+  data["obstruction"] = json::array();
+  for (const DigSample& sample : result.samples) {
+    data["obstruction"].push_back(static_cast<int>(sample.obstruction));
+  }
   data["cycle_time_us"] = list(result, &DigSample::cycle_us);
   std::map<std::string, std::size_t> index = {{"none", 0}};
   json names = {"none"};
@@ -133,6 +159,12 @@ json key_figures(const DigSummary& summary) {
       figure("Max error, measured tip", mm(summary.max_error_measured_m), "mm", "on the path"),
       figure("RMSE, measured tip", mm(summary.rmse_error_measured_m), "mm", "on the path"),
       figure("Lambda, least", fmt::format("{:.3f}", summary.lambda_min), "", "on the path"),
+      figure("Lambda below 1", fmt::format("{:.0f}", summary.lambda_below_1_share * 100.0), "%",
+             "of the time on the path"),
+      figure("Regeneration open", fmt::format("{:.0f}", summary.regeneration_share * 100.0), "%",
+             "of the time on the path"),
+      figure("Chamber pressure, max",
+             fmt::format("{:.1f}", summary.peak_chamber_pressure_pa * 1e-6), "MPa", "whole run"),
       figure("Lambda, mean", fmt::format("{:.3f}", summary.lambda_mean), "", "on the path"),
       figure("Time round the path", fmt::format("{:.1f}", summary.loop_s), "s", "simulated"),
       figure("Times real time", fmt::format("{:.0f}", summary.real_time_factor), "",
@@ -166,6 +198,14 @@ void write_dig_summary(const std::filesystem::path& file, const DigSummary& summ
   figures["rmse_error_measured_m"] = summary.rmse_error_measured_m;
   figures["lambda_min"] = summary.lambda_min;
   figures["lambda_mean"] = summary.lambda_mean;
+  figures["lambda_below_1_share"] = summary.lambda_below_1_share;
+  figures["regeneration_share"] = summary.regeneration_share;
+  figures["peak_chamber_pressure_pa"] = summary.peak_chamber_pressure_pa;
+  if (summary.recovery) {
+    figures["recovery"] = {{"lambda_held", summary.recovery->lambda_held},
+                           {"off_field_max_rad", summary.recovery->off_field_max_rad},
+                           {"error_max_m", summary.recovery->error_max_m}};
+  }
   figures["duration_s"] = summary.duration_s;
   figures["real_time_factor"] = summary.real_time_factor;
   figures["cycles"] = summary.cycles;

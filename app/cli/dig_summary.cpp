@@ -90,6 +90,8 @@ std::string limit_words(const Limit& limit) {
       return fmt::format("stroke end: {}", kAxisNames[axis]);
     case LimitKind::kRise:
       return "rise of lambda";
+    case LimitKind::kContact:
+      return "contact with the ground";
   }
   return "unknown";
 }

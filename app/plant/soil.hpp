@@ -35,8 +35,8 @@ class Soil {
   double decay_;
   double kick_;
   double noise_;
-  double time_s_ = 0.0;
-  double next_tick_s_ = 0.0;
+  long steps_ = 0;
+  long ticks_ = 0;  ///< Of the raster.
 };
 
 }  // namespace graben::plant

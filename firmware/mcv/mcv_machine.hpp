@@ -77,7 +77,7 @@ enum class McvDefect : std::uint8_t {
   kPressure,      ///< Not finite or negative.
   kPumpFlow,      ///< Not finite or negative.
   kInflowCheck,   ///< Neither 0 nor a positive finite coefficient.
-  kLambdaRange,   ///< Not in (0, 1], or a reserve that is not finite or negative.
+  kLambdaRange,   ///< Not in (0, 1], or a reserve out of its range.
 };
 
 struct McvCheck {

@@ -28,7 +28,7 @@ PolicyResult choose(const McvCircuit& circuit, McvPolicy policy, double lambda_m
 constexpr double kMostReserveShare = 0.5;
 
 /// The circuit with every load heavier by the reserve.
-McvCircuit with_reserve(const McvCircuit& circuit, double reserve_n) {
+McvCircuit with_reserve(const McvCircuit& circuit, const LambdaRange& range) {
   McvCircuit heavier = circuit;
   PerPump<double> standstill{};
   for (unsigned j = 0; j < circuit.pump_count; ++j) {
@@ -39,7 +39,8 @@ McvCircuit with_reserve(const McvCircuit& circuit, double reserve_n) {
     const double left_n =
         drive_force(axis, 0.0, standstill[axis.pump]).force_n - axis.force_offset_n;
     if (axis.moves && left_n > 0.0) {
-      axis.load_force_n += std::min(reserve_n, kMostReserveShare * left_n);
+      axis.load_force_n +=
+          range.reserve_share * std::min(range.reserve_n, kMostReserveShare * left_n);
     }
   }
   return heavier;
@@ -48,10 +49,10 @@ McvCircuit with_reserve(const McvCircuit& circuit, double reserve_n) {
 /// The choice for loads that are heavier by the reserve, and the circuit as it is at that lambda.
 PolicyResult choose_with_reserve(const McvCircuit& circuit, McvPolicy policy,
                                  const LambdaRange& range) {
-  if (!(range.reserve_n > 0.0) || policy == McvPolicy::kFixed) {
+  if (!(range.reserve_n * range.reserve_share > 0.0) || policy == McvPolicy::kFixed) {
     return choose(circuit, policy, range.most);
   }
-  PolicyResult chosen = choose(with_reserve(circuit, range.reserve_n), policy, range.most);
+  PolicyResult chosen = choose(with_reserve(circuit, range), policy, range.most);
   if (chosen.point.lambda > 0.0) {
     chosen.point = evaluate(circuit, chosen.point.lambda, &chosen.point);
     // Less load is never less feasible, but for rounding where the reserve is next to nothing.
@@ -66,7 +67,8 @@ McvCheck check(const McvMachine& machine, const McvInput& input, const LambdaRan
     found = check_input(machine, input);
   }
   const bool sound = range.most > 0.0 && range.most <= 1.0 && range.reserve_n >= 0.0 &&
-                     std::isfinite(range.reserve_n);
+                     std::isfinite(range.reserve_n) && range.reserve_share >= 0.0 &&
+                     range.reserve_share <= 1.0;
   return found.defect == McvDefect::kNone && !sound ? McvCheck{McvDefect::kLambdaRange, 0} : found;
 }
 

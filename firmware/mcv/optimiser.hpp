@@ -42,6 +42,7 @@ struct LambdaRange {
   /// it has left over at standstill, (43). It shapes the choice of lambda; pressures, spools and
   /// margins are those without it.
   double reserve_n = 0.0;
+  double reserve_share = 1.0;  ///< 0 .. 1 of the reserve as it then is.
 };
 
 /// Largest lambda in [0, range.most] by `policy`. Bad input, no feasible lambda and an iteration

@@ -31,10 +31,12 @@ DigField::DigField(const ExcavatorProfile& profile, const ExcavatorKinematics& k
 TipVelocity DigField::contour(const TipPose& pose) const {
   const Eigen::Vector2d tip(pose.x_m, pose.y_m);
   const PathPoint goal = path_.closest(tip);
+  const Eigen::Vector2d to_goal = goal.position_m - tip;
+  const double slowed = 1.0 / (1.0 + to_goal.squaredNorm() / (control_.slow_error_m * control_.slow_error_m));
   const Eigen::Vector2d direction =
-      goal.tangent + (goal.position_m - tip) / control_.convergence_length_m;
+      slowed * goal.tangent + to_goal / control_.convergence_length_m;
   TipVelocity velocity;
-  velocity.linear_mps = speed_mps_ * direction.normalized();
+  velocity.linear_mps = speed_mps_ * direction / std::max(1.0, direction.norm());
   const double error_rad = wrap_near(goal.attitude_rad - pose.attitude_rad, 0.0);
   const double wanted_radps = goal.attitude_slope_radpm * velocity.linear_mps.dot(goal.tangent) +
                               control_.attitude_gain_ps * error_rad;
@@ -55,8 +57,7 @@ Eigen::Vector3d DigField::approach(const KinematicState& state,
   return direction / unit_time;
 }
 
-WantedMotion DigField::wanted(const KinematicState& state, double speed_override_ratio) const {
-  const Eigen::Vector2d tip(state.tip.x_m, state.tip.y_m);
+Eigen::Vector3d DigField::wanted(const KinematicState& state, double speed_override_ratio) const {
   Eigen::Vector3d to_nearest_m = sample_strokes_m_[0] - state.strokes_m;
   for (const Eigen::Vector3d& sample : sample_strokes_m_) {
     const Eigen::Vector3d to_sample = sample - state.strokes_m;
@@ -67,19 +68,17 @@ WantedMotion DigField::wanted(const KinematicState& state, double speed_override
   const double far =
       smooth_step(to_nearest_m.norm(), control_.approach_inner_m, control_.approach_outer_m);
 
-  WantedMotion motion;
-  motion.path_error_m = (path_.closest(tip).position_m - tip).norm();
+  Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
   if (far < 1.0) {
     const TipVelocity field = contour(state.tip);
-    motion.velocity_mps = (1.0 - far) * (state.jacobian_inverse *
-                                         Eigen::Vector3d(field.linear_mps.x(), field.linear_mps.y(),
-                                                         field.attitude_radps));
+    velocity_mps = (1.0 - far) * (state.jacobian_inverse *
+                                  Eigen::Vector3d(field.linear_mps.x(), field.linear_mps.y(),
+                                                  field.attitude_radps));
   }
   if (far > 0.0) {
-    motion.velocity_mps += far * approach(state, to_nearest_m);
+    velocity_mps += far * approach(state, to_nearest_m);
   }
-  motion.velocity_mps *= speed_override_ratio;
-  return motion;
+  return speed_override_ratio * velocity_mps;
 }
 
 }  // namespace graben

@@ -15,12 +15,6 @@ struct TipVelocity {
   double attitude_radps = 0.0;
 };
 
-/// What the field wants at a pose.
-struct WantedMotion {
-  Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();  ///< V_L^d of (3), per cylinder.
-  double path_error_m = 0.0;                               ///< Distance of the tip from the path.
-};
-
 /// Near the path a contour field in task space; far from it a straight approach in stroke space.
 ///
 /// The contour field points along the path and towards it in the ratio 1 : distance /
@@ -45,9 +39,10 @@ class DigField {
   /// The contour field alone; defined at every pose.
   [[nodiscard]] TipVelocity contour(const TipPose& pose) const;
 
-  /// The whole field at a state whose status is kOk. Speed is that of the task times
+  /// The whole field at a state whose status is kOk: V_L^d of (3), per cylinder. Speed is that of the task times
   /// `speed_override_ratio` (0 .. 1).
-  [[nodiscard]] WantedMotion wanted(const KinematicState& state, double speed_override_ratio) const;
+  [[nodiscard]] Eigen::Vector3d wanted(const KinematicState& state,
+                                       double speed_override_ratio) const;
 
   [[nodiscard]] const RoundedRectangle& path() const { return path_; }
 

@@ -14,7 +14,7 @@ import table
 import verdict
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PROGRAMS = ROOT / "build/bench/tests/timing"
+PROGRAMS = ROOT / "build/release/tests/timing"
 
 # How many repetitions of how many seconds at least, and of which cases instructions are counted (0:
 # of none): under Callgrind Ipopt takes a second for a case, a hundred times what the others do.

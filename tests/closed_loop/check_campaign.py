@@ -1,0 +1,126 @@
+"""`graben campaign`: shards merge to the same bytes as one run, an interrupted campaign goes on where
+it stopped, and what is not a campaign is refused."""
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+DRAWS = 6
+
+
+def start(graben, *arguments):
+    return subprocess.Popen([graben, "campaign", *arguments], stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, text=True)
+
+
+def call(graben, *arguments, status=0):
+    process = start(graben, *arguments)
+    out, err = process.communicate(timeout=240)
+    assert process.returncode == status, f"{arguments}: status {process.returncode}: {err}"
+    return out, err
+
+
+def dig(graben, file, *options, status=0):
+    return call(graben, "dig", "--draws", str(DRAWS), "--seed", "11", "--summary", file, *options,
+                status=status)
+
+
+def content(file):
+    with open(file, "rb") as stream:
+        return stream.read()
+
+
+def shards_merge(graben, folder):
+    whole = os.path.join(folder, "whole.csv")
+    table, _ = dig(graben, whole)
+    for word in ("median", "p95", "max", f"{DRAWS} draws", "path error of the true tip, max"):
+        assert word in table, table
+    lines = content(whole).decode().splitlines()
+    assert len(lines) == 2 + DRAWS and lines[0].startswith("# dig excavator_22t "), lines
+    assert [line.split(",")[0] for line in lines[2:]] == [str(11 + n) for n in range(DRAWS)]
+    assert len({line.split(",", 1)[1] for line in lines[2:]}) == DRAWS, "draws are alike"
+    parts = []
+    for index in ("1/2", "2/2"):
+        parts.append(os.path.join(folder, f"part{index[0]}.csv"))
+        dig(graben, parts[-1], "--shard", index, "--jobs", "1")
+        assert len(content(parts[-1]).splitlines()) == 2 + DRAWS // 2
+    merged = os.path.join(folder, "merged.csv")
+    again, _ = call(graben, "merge", *reversed(parts), "--summary", merged)
+    assert content(merged) == content(whole), "shards give other rows than one run"
+    assert again == table, "shards give another table than one run"
+    call(graben, "merge", parts[0], parts[0], "--summary", merged, status=1)
+    assert content(merged) == content(whole), "a refused merge has changed its file"
+    return whole
+
+
+def goes_on(graben, folder, whole):
+    file = os.path.join(folder, "interrupted.csv")
+    process = start(graben, "dig", "--draws", str(DRAWS), "--seed", "11", "--jobs", "1",
+                    "--summary", file)
+    deadline = time.monotonic() + 60.0
+    while time.monotonic() < deadline:
+        if os.path.exists(file) and len(content(file).splitlines()) >= 4:
+            break
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=60)
+    rows = content(file).splitlines()[2:]
+    assert process.returncode == 1 and "goes on" in err, (process.returncode, err)
+    assert 1 < len(rows) < DRAWS, f"{len(rows)} rows after the interruption"
+    # What a crash in the middle of a line leaves.
+    with open(file, "ab") as stream:
+        stream.write(content(whole).splitlines()[-1][:20])
+    dig(graben, file)
+    assert content(file) == content(whole), "the rest of the campaign differs from a whole one"
+    # A file that is complete is computed from, not computed again.
+    began = time.monotonic()
+    dig(graben, file)
+    assert content(file) == content(whole)
+    assert time.monotonic() - began < 5.0
+
+
+def refuses(graben, folder, whole):
+    def refused(needle, file, *options):
+        before = content(file)
+        _, err = dig(graben, file, *options, status=1)
+        assert needle in err, err
+        assert content(file) == before, "a refused campaign has changed its file"
+
+    refused("holds another campaign", whole, "--soil")
+    refused("holds another campaign", whole, "--speed", "0.5")
+    for text, needle in (("something else\n", "is no campaign"),
+                         ("# dig\nseed,other\n", "line 2"),
+                         (content(whole).decode() + "1,done\n", f"line {DRAWS + 3}: 2 cells"),
+                         (content(whole).decode().replace("11,done", "11,dona"), "line 3"),
+                         (content(whole).decode().replace("11,done", "x,done"), "is no seed"),
+                         (content(whole).decode().replace("12,done", "11,done"), "second time")):
+        file = os.path.join(folder, "bad.csv")
+        with open(file, "w", encoding="ascii") as stream:
+            stream.write(text)
+        refused(needle, file)
+    for option, value in (("--shard", "0/2"), ("--shard", "3/2"), ("--shard", "2"),
+                          ("--shard", "a/b")):
+        _, err = dig(graben, os.path.join(folder, "new.csv"), option, value, status=1)
+        assert "i/n" in err, err
+    for option, value in (("--draws", "0"), ("--draws", "-1"), ("--jobs", "0"),
+                          ("--dead-time", "nan"), ("--errors", "some")):
+        call(graben, "dig", "--summary", os.path.join(folder, "new.csv"), option, value, status=2)
+    call(graben, "dig", "--summary", os.path.join(folder, "x.csv"), "--soil", "--air", status=2)
+    call(graben, "dig", "--summary", os.path.join(folder, "no", "x.csv"), status=1)
+    call(graben, "merge", os.path.join(folder, "missing.csv"), "--summary", whole, status=1)
+
+
+def main():
+    graben = sys.argv[1]
+    with tempfile.TemporaryDirectory() as folder:
+        whole = shards_merge(graben, folder)
+        goes_on(graben, folder, whole)
+        refuses(graben, folder, whole)
+    print(f"{DRAWS} draws: whole, in shards and interrupted, the same rows")
+
+
+if __name__ == "__main__":
+    main()

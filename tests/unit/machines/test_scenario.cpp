@@ -1,0 +1,176 @@
+/// What a scenario changes in plant and controller, and what it leaves alone.
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "app/machines/scenario.hpp"
+#include "firmware/mcv/mcv_machine.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+using machines::arranged;
+using machines::Errors;
+using machines::ExcavatorMachine;
+using machines::Scenario;
+
+const ExcavatorMachine& nominal() {
+  static const ExcavatorMachine machine =
+      machines::load_excavator(machines::find_profile("excavator_22t"));
+  return machine;
+}
+
+/// Every parameter that a draw may change, in a fixed order.
+std::vector<double> parameters(const ExcavatorProfile& profile) {
+  std::vector<double> values;
+  for (const SpoolProfile& spool : profile.valve.spool) {
+    values.insert(values.end(), {spool.extend_in_m2, spool.extend_out_m2, spool.retract_in_m2,
+                                 spool.retract_out_m2, spool.bypass_open, spool.bypass_closed,
+                                 spool.c_drain, spool.c_check});
+  }
+  for (const PumpProfile& pump : profile.pump) {
+    values.insert(values.end(), {pump.leak_linear, pump.leak_quadratic, pump.bypass_series[0],
+                                 pump.bypass_series[1]});
+  }
+  return values;
+}
+
+/// Bounds in the same order.
+std::vector<double> bounds() {
+  const machines::Uncertainty& u = nominal().experiment.uncertainty;
+  std::vector<double> values;
+  for (int i = 0; i < kAxisCount; ++i) {
+    values.insert(values.end(), {u.spool_opening, u.spool_opening, u.spool_opening, u.spool_opening,
+                                 u.bypass, u.bypass, u.regeneration, u.regeneration});
+  }
+  for (int j = 0; j < kPumpCount; ++j) {
+    values.insert(values.end(), {u.leak, u.leak, u.regeneration, u.regeneration});
+  }
+  return values;
+}
+
+Scenario with_errors(Errors errors, std::uint64_t seed) {
+  Scenario scenario;
+  scenario.errors = errors;
+  scenario.seed = seed;
+  return scenario;
+}
+
+/// 2000 draws fill each parameter's range and never leave it; drain stays under check.
+void draws_fill_their_ranges(void**) {
+  const std::vector<double> exact = parameters(nominal().profile);
+  const std::vector<double> bound = bounds();
+  std::vector<double> least(exact.size(), 1.0);
+  std::vector<double> most(exact.size(), -1.0);
+  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+    const ExcavatorMachine drawn = arranged(nominal(), with_errors(Errors::kAll, seed));
+    const std::vector<double> values = parameters(drawn.profile);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double off = values[i] / exact[i] - 1.0;
+      least[i] = std::min(least[i], off);
+      most[i] = std::max(most[i], off);
+    }
+    for (const SpoolProfile& spool : drawn.profile.valve.spool) {
+      assert_true(spool.c_drain <= 0.95 * spool.c_check);
+    }
+    assert_int_equal(check_machine(mcv_machine(drawn.profile)).defect, McvDefect::kNone);
+  }
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+      // A drain is cut where its check came out small.
+    assert_true(least[i] >= -bound[i] - 1e-12 || (i < 24 && i % 8 == 6));
+    assert_true(most[i] <= bound[i] + 1e-12);
+    assert_true(least[i] < -0.98 * bound[i] && most[i] > 0.9 * bound[i]);
+  }
+}
+
+/// The plant is what it was; only the controller's figures move, and only with parameter errors.
+void only_the_controller_errs(void**) {
+  const std::vector<double> exact = parameters(nominal().profile);
+  for (const Errors errors : {Errors::kNone, Errors::kStrokeBias, Errors::kSensors}) {
+    assert_true(parameters(arranged(nominal(), with_errors(errors, 3)).profile) == exact);
+  }
+  const ExcavatorMachine drawn = arranged(nominal(), with_errors(Errors::kAll, 3));
+  assert_true(parameters(drawn.profile) != exact);
+  assert_true(parameters(drawn.plant.machine) == exact);
+  assert_true(drawn.hash == nominal().hash);
+}
+
+/// The same seed draws the same, whatever else is switched on; another seed another.
+void what_is_switched_on_beside_it_changes_no_draw(void**) {
+  Scenario busy = with_errors(Errors::kAll, 9);
+  busy.soil = true;
+  busy.obstacle = true;
+  busy.dead_time_s = 0.15;
+  busy.stiff_oil = true;
+  const auto of = [](const Scenario& scenario) {
+    return parameters(arranged(nominal(), scenario).profile);
+  };
+  assert_true(of(busy) == of(with_errors(Errors::kAll, 9)));
+  assert_true(of(busy) == of(with_errors(Errors::kParameters, 9)));
+  assert_true(of(busy) != of(with_errors(Errors::kAll, 10)));
+}
+
+void each_switch_does_its_part(void**) {
+  const ExcavatorMachine plain = arranged(nominal(), {});
+  assert_false(plain.plant.soil.has_value() || plain.plant.obstacle.has_value());
+  assert_false(plain.plant.sensor_errors);
+  Scenario scenario = with_errors(Errors::kAll, 5);
+  scenario.soil = true;
+  scenario.obstacle = true;
+  scenario.stiff_oil = true;
+  scenario.dead_time_s = 0.15;
+  const ExcavatorMachine all = arranged(nominal(), scenario);
+  assert_true(all.plant.soil.has_value() && all.plant.obstacle.has_value());
+  assert_true(all.plant.sensor_errors && all.plant.seed == 5);
+  assert_near(all.plant.bulk_modulus_pa, 1e10, 0.0);
+  assert_near(all.profile.control.dead_time_s, 0.15, 0.0);
+  for (const double axis_s : all.plant.dead_time_s) {
+    assert_true(axis_s != 0.15 && axis_s >= 0.105 && axis_s <= 0.195);
+  }
+  scenario.errors = Errors::kSensors;
+  for (const double axis_s : arranged(nominal(), scenario).plant.dead_time_s) {
+    assert_near(axis_s, 0.15, 0.0);
+  }
+  scenario.errors = Errors::kStrokeBias;
+  const plant::SensorErrors biased = arranged(nominal(), scenario).plant.sensors;
+  assert_near(biased.pressure_noise_ratio + biased.pressure_bias_ratio, 0.0, 0.0);
+  assert_near(biased.stroke_bias_m, 2e-3, 0.0);
+  Scenario up;
+  up.air = true;
+  const ExcavatorMachine air = arranged(nominal(), up);
+  assert_near(air.profile.dig_path.y_max_m, nominal().experiment.air.path.y_max_m, 0.0);
+  assert_near(air.profile.dig_speed_mps, nominal().experiment.air.speed_mps, 0.0);
+}
+
+/// Two point masses and a body: the same kinetic and potential quantities as by hand.
+void a_payload_adds_to_the_bucket(void**) {
+  Scenario up;
+  up.air = true;
+  const plant::LinkBody empty = nominal().plant.link[kBucket];
+  const plant::LinkBody loaded = arranged(nominal(), up).plant.link[kBucket];
+  const machines::AirManoeuvre& air = nominal().experiment.air;
+  assert_near(loaded.mass_kg, empty.mass_kg + air.payload_kg, 1e-9);
+  const Eigen::Vector2d moment =
+      empty.mass_kg * empty.mass_centre_m + air.payload_kg * air.payload_centre_m;
+  assert_near((loaded.mass_kg * loaded.mass_centre_m - moment).norm(), 0.0, 1e-9);
+  // About the pin both ways.
+  const double about_pin = empty.inertia_kgm2 + empty.mass_kg * empty.mass_centre_m.squaredNorm() +
+                           air.payload_kg * air.payload_centre_m.squaredNorm();
+  assert_near(loaded.inertia_kgm2 + loaded.mass_kg * loaded.mass_centre_m.squaredNorm(), about_pin,
+              1e-6);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(draws_fill_their_ranges),
+      cmocka_unit_test(only_the_controller_errs),
+      cmocka_unit_test(what_is_switched_on_beside_it_changes_no_draw),
+      cmocka_unit_test(each_switch_does_its_part),
+      cmocka_unit_test(a_payload_adds_to_the_bucket),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
