@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "firmware/motion/contact.hpp"
+#include "firmware/motion/stroke_end.hpp"
 
 namespace graben {
 namespace {
@@ -93,8 +93,8 @@ double ExcavatorController::period_s(TimeUs now_us) const {
 
 void ExcavatorController::observe(const ValidInputs& valid, double period_s) {
   const bool in_motion = memory_.mode.mode == EcuMode::kActive;
-  memory_.load = next_load(profile_, memory_.load, valid.cap_pressure_pa, valid.rod_pressure_pa,
-                           period_s, !in_motion);
+  memory_.load = next_load(profile_.control.pressure_filter_s, memory_.load,
+                           {valid.cap_pressure_pa, valid.rod_pressure_pa}, period_s, !in_motion);
   memory_.servo = in_motion ? next_servo(profile_.control, memory_.servo, memory_.asked_mps,
                                          valid.strokes_m, period_s)
                             : servo_at_rest(valid.strokes_m);
@@ -117,9 +117,8 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   const KinematicState state = kinematics_.state(valid.strokes_m);
   const Eigen::Vector3d wanted = wanted_velocity(valid, state);
   const Eigen::Vector3d corrected =
-      corrected_velocity(profile_.control, wanted, memory_.servo, memory_.load, memory_.lambda);
-  const VelocityCap cap = contact_cap(profile_.contact, state.tip.y_m,
-                                      stroke_end_cap(profile_, valid.strokes_m, corrected));
+      corrected_velocity(profile_.control, wanted, memory_.servo, memory_.lambda);
+  const VelocityCap cap = stroke_end_cap(profile_, valid.strokes_m, corrected);
   const McvSolution solution =
       steady_lambda(valve_, mcv_input(valid, memory_.load, cap.factor * corrected),
                     profile_.control.lambda_policy, profile_.control.lambda_rise, memory_.lambda,

@@ -32,8 +32,7 @@ static_assert(same(BusLimit::kBackFlow, LimitKind::kBackFlow));
 static_assert(same(BusLimit::kSpoolTravel, LimitKind::kSpoolTravel));
 static_assert(same(BusLimit::kStrokeEnd, LimitKind::kStrokeEnd));
 static_assert(same(BusLimit::kRise, LimitKind::kRise));
-static_assert(same(BusLimit::kContact, LimitKind::kContact));
-static_assert(same(bus::EcuStatus::kLimitKind.raw_max, LimitKind::kContact));
+static_assert(same(bus::EcuStatus::kLimitKind.raw_max, LimitKind::kRise));
 
 using BusFault = bus::EcuStatus::Fault;
 static_assert(same(BusFault::kNone, Fault::kNone));

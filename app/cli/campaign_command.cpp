@@ -69,8 +69,7 @@ CampaignRow run_draw(const Options& options, const machines::ExcavatorMachine& n
   ScenarioOptions scenario = options.scenario;
   scenario.scenario.seed = seed;
   const machines::ExcavatorMachine machine = arranged(nominal, scenario);
-  DigOptions dig;
-  dig.start_strokes_m = usual_start(machine.profile);
+  DigOptions dig = usual_run(machine, scenario);
   dig.speed_override_ratio = options.speed;
   const DigResult result = run_dig(machine, dig, [](double, const std::string&) {});
   const DigSummary summary = summarise(result);

@@ -125,9 +125,11 @@ const std::array<CampaignColumn, kCampaignColumns>& campaign_columns() {
        [](const S& s) { return s.peak_chamber_pressure_pa; }},
       {"lambda_held", "lambda while the obstacle holds, min", "", 1.0,
        [](const S& s) { return s.recovery ? s.recovery->lambda_held : kAbsent; }},
-      {"off_field_max_rad", "direction off the field after it let go, max", "deg", kDegrees,
+      {"off_field_max_rad", "mean direction off the field afterwards, max", "deg", kDegrees,
        [](const S& s) { return s.recovery ? s.recovery->off_field_max_rad : kAbsent; }},
-      {"recovery_error_max_m", "path error of the true tip after it let go, max", "mm", kMilli,
+      {"ringing_max_rad", "the same from cycle to cycle", "deg", kDegrees,
+       [](const S& s) { return s.recovery ? s.recovery->ringing_max_rad : kAbsent; }},
+      {"recovery_error_max_m", "path error of the true tip afterwards, max", "mm", kMilli,
        [](const S& s) { return s.recovery ? s.recovery->error_max_m : kAbsent; }},
   }};
   return columns;

@@ -21,7 +21,7 @@ struct CampaignColumn {
   double shown;
   double (*of)(const DigSummary& summary);
 };
-inline constexpr std::size_t kCampaignColumns = 14;
+inline constexpr std::size_t kCampaignColumns = 15;
 [[nodiscard]] const std::array<CampaignColumn, kCampaignColumns>& campaign_columns();
 
 struct CampaignRow {

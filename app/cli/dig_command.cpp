@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ struct Options {
   bool random_start = false;
   std::uint64_t seed = 1;
   double speed = 1.0;
-  double loops = 1.0;
+  std::optional<double> loops;
 };
 
 Eigen::Vector3d random_strokes(const ExcavatorGeometry& geometry, std::uint64_t seed) {
@@ -40,7 +41,9 @@ Eigen::Vector3d random_strokes(const ExcavatorGeometry& geometry, std::uint64_t 
   return strokes_m;
 }
 
-Eigen::Vector3d start_strokes(const Options& options, const ExcavatorProfile& profile) {
+/// Where the options say it, if they do.
+std::optional<Eigen::Vector3d> start_strokes(const Options& options,
+                                             const ExcavatorProfile& profile) {
   if (options.random_start) {
     return random_strokes(profile.geometry, options.seed);
   }
@@ -60,7 +63,7 @@ Eigen::Vector3d start_strokes(const Options& options, const ExcavatorProfile& pr
     return strokes_at(profile,
                       {options.start_pose[0], options.start_pose[1], options.start_pose[2]});
   }
-  return usual_start(profile);
+  return std::nullopt;
 }
 
 const char* end_text(DigEnd end) {
@@ -82,10 +85,11 @@ void dig(const Options& options) {
   scenario.scenario.seed = options.seed;
   const machines::ExcavatorMachine machine =
       arranged(machines::load_excavator(machines::find_profile(options.profile)), scenario);
-  DigOptions run_options;
-  run_options.start_strokes_m = start_strokes(options, machine.profile);
+  DigOptions run_options = usual_run(machine, scenario);
+  run_options.start_strokes_m =
+      start_strokes(options, machine.profile).value_or(run_options.start_strokes_m);
   run_options.speed_override_ratio = options.speed;
-  run_options.loops = options.loops;
+  run_options.loops = options.loops.value_or(run_options.loops);
   const std::filesystem::path out(options.out);
   std::filesystem::create_directories(out);
   run_options.log_file = out / "dig.log";
@@ -145,9 +149,8 @@ void add_dig(CLI::App& app, int& status) {
   command->add_option("--speed", options->speed, "Operator's speed override, 0.05 .. 1")
       ->check(number_between(0.05, 1.0))
       ->capture_default_str();
-  command->add_option("--loops", options->loops, "Times round the path, 0.1 .. 100")
-      ->check(number_between(0.1, 100.0))
-      ->capture_default_str();
+  command->add_option("--loops", options->loops, "Times round the path, 0.1 .. 100; once unless told")
+      ->check(number_between(0.1, 100.0));
   command->callback([options, &status] { status = guarded("dig", [&] { dig(*options); }); });
 }
 

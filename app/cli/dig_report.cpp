@@ -204,6 +204,7 @@ void write_dig_summary(const std::filesystem::path& file, const DigSummary& summ
   if (summary.recovery) {
     figures["recovery"] = {{"lambda_held", summary.recovery->lambda_held},
                            {"off_field_max_rad", summary.recovery->off_field_max_rad},
+                           {"ringing_max_rad", summary.recovery->ringing_max_rad},
                            {"error_max_m", summary.recovery->error_max_m}};
   }
   figures["duration_s"] = summary.duration_s;

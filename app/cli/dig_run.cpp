@@ -20,6 +20,8 @@ constexpr TimeUs kAfterwards_us = 300 * kMillisecondUs;
 constexpr double kReached_m = 0.02;
 constexpr double kReached_rad = 0.07;
 constexpr TimeUs kReachedFor_us = 500 * kMillisecondUs;
+/// Slower than this a direction says nothing.
+constexpr double kMoving_mps = 0.02;
 
 double seconds(TimeUs time_us) { return static_cast<double>(time_us) * 1e-6; }
 
@@ -142,7 +144,10 @@ class DigRun {
       sample.velocity_true_mps =
           (tip.position_m - result_.samples.back().tip_true_m) / seconds(DigBench::kPeriod_us);
     }
-    sample.off_field_rad = off_field_rad(sample.velocity_true_mps, tip);
+    sample.attitude_true_rad = tip.attitude_rad;
+    sample.off_field_rad =
+        off_field_rad(sample.velocity_true_mps, sample.tip_true_m, sample.attitude_true_rad);
+    sample.mean_off_field_rad = mean_off_field_rad(sample);
     sample.tip_force_n = plant.tip_force_n();
     for (const plant::SectionFlows& flows : plant.section_flows()) {
       sample.regenerating = sample.regenerating || flows.recycle_in_m3ps > 0.0;
@@ -150,7 +155,6 @@ class DigRun {
     if (const plant::Obstacle* obstacle = plant.obstacle(); obstacle && obstacle->touched()) {
       sample.obstruction = obstacle->gone() ? Obstruction::kReleased : Obstruction::kHolding;
     }
-    sample.attitude_true_rad = tip.attitude_rad;
     sample.error_true_m = error_m(sample.tip_true_m);
     sample.spool_real = plant.spool_travels_ratio();
     sample.velocity_real_mps = plant.stroke_velocities_mps();
@@ -158,10 +162,28 @@ class DigRun {
   }
 
   [[nodiscard]] double off_field_rad(const Eigen::Vector2d& velocity_mps,
-                                     const plant::TipPose& tip) const {
-    const Eigen::Vector2d wanted =
-        field_.contour({tip.position_m.x(), tip.position_m.y(), tip.attitude_rad}).linear_mps;
+                                     const Eigen::Vector2d& tip_m, double attitude_rad) const {
+    if (velocity_mps.norm() < kMoving_mps) {
+      return 0.0;
+    }
+    const Eigen::Vector2d wanted = field_.contour({tip_m.x(), tip_m.y(), attitude_rad}).linear_mps;
     return std::abs(std::atan2(plant::cross(wanted, velocity_mps), wanted.dot(velocity_mps)));
+  }
+
+  [[nodiscard]] double mean_off_field_rad(const DigSample& sample) const {
+    constexpr auto kCycles =
+        static_cast<std::size_t>(kOilPeriod_s * 1e6 / static_cast<double>(DigBench::kPeriod_us));
+    const std::size_t count = result_.samples.size();
+    if (count < kCycles) {
+      return 0.0;
+    }
+    Eigen::Vector2d sum_m = Eigen::Vector2d::Zero();
+    for (std::size_t n = count - kCycles; n < count; ++n) {
+      sum_m += result_.samples[n].tip_true_m;
+    }
+    const Eigen::Vector2d way_m = sample.tip_true_m - result_.samples[count - kCycles].tip_true_m;
+    return off_field_rad(way_m / kOilPeriod_s, sum_m / static_cast<double>(kCycles),
+                         sample.attitude_true_rad);
   }
 
   void read_controller(DigSample& sample) const {

@@ -25,6 +25,9 @@ struct DigOptions {
   std::filesystem::path log_file;  ///< candump log; none if empty.
 };
 
+/// A period of the lowest mode of the linkage on its oil.
+inline constexpr double kOilPeriod_s = 0.36;
+
 enum class Obstruction { kNone, kHolding, kReleased };
 
 /// State at one control cycle, true and as the controller has it.
@@ -37,7 +40,11 @@ struct DigSample {
   double attitude_true_rad = 0.0;
   double attitude_measured_rad = std::nan("");
   Eigen::Vector2d velocity_true_mps = Eigen::Vector2d::Zero();  ///< Of the tip, over the cycle.
-  double off_field_rad = 0.0;  ///< Between that and what the field wants there.
+  /// Angle between that and what the field wants there; 0 while it hardly moves.
+  double off_field_rad = 0.0;
+  /// The same of the mean velocity and position of the last kOilPeriod_s: where the tip goes,
+  /// without how the oil rings.
+  double mean_off_field_rad = 0.0;
   Eigen::Vector2d tip_force_n = Eigen::Vector2d::Zero();
   bool regenerating = false;  ///< Any section's check is open.
   Obstruction obstruction = Obstruction::kNone;
@@ -68,7 +75,8 @@ struct DigResult {
 /// What an obstacle did.
 struct Recovery {
   double lambda_held = 0.0;        ///< Least while it held.
-  double off_field_max_rad = 0.0;  ///< Of the tip's true direction from the field's, afterwards.
+  double off_field_max_rad = 0.0;  ///< Of the tip's true mean direction, afterwards.
+  double ringing_max_rad = 0.0;    ///< Of its direction from cycle to cycle, afterwards.
   double error_max_m = 0.0;        ///< Of the true tip, afterwards.
 };
 

@@ -40,11 +40,9 @@ class Spread {
   long count_ = 0;
 };
 
-/// The rebound of the oil is over after this; what comes then is judged for as long as this.
+/// The rebound of the oil is over after this; what comes then is judged for so long.
 constexpr double kRebound_s = 0.3;
 constexpr double kJudged_s = 3.0;
-/// Slower than this a direction says nothing.
-constexpr double kMoving_mps = 0.02;
 
 std::optional<Recovery> recovery(const std::vector<DigSample>& samples) {
   std::optional<Recovery> found;
@@ -54,7 +52,7 @@ std::optional<Recovery> recovery(const std::vector<DigSample>& samples) {
       continue;
     }
     if (!found) {
-      found = Recovery{1.0, 0.0, 0.0};
+      found = Recovery{1.0, 0.0, 0.0, 0.0};
     }
     if (sample.obstruction == Obstruction::kHolding) {
       found->lambda_held = std::min(found->lambda_held, sample.lambda);
@@ -66,8 +64,9 @@ std::optional<Recovery> recovery(const std::vector<DigSample>& samples) {
       continue;
     }
     found->error_max_m = std::max(found->error_max_m, sample.error_true_m);
-    if (sample.velocity_true_mps.norm() > kMoving_mps) {
-      found->off_field_max_rad = std::max(found->off_field_max_rad, sample.off_field_rad);
+    found->ringing_max_rad = std::max(found->ringing_max_rad, sample.off_field_rad);
+    if (since_s >= kRebound_s + kOilPeriod_s) {  // A mean that knows nothing of the rebound.
+      found->off_field_max_rad = std::max(found->off_field_max_rad, sample.mean_off_field_rad);
     }
   }
   return found;
@@ -90,8 +89,6 @@ std::string limit_words(const Limit& limit) {
       return fmt::format("stroke end: {}", kAxisNames[axis]);
     case LimitKind::kRise:
       return "rise of lambda";
-    case LimitKind::kContact:
-      return "contact with the ground";
   }
   return "unknown";
 }

@@ -234,8 +234,6 @@ std::string limit_name(const Limit& limit) {
       return fmt::format("stroke_end[{}]", limit.index);
     case LimitKind::kRise:
       return "rise";
-    case LimitKind::kContact:
-      return "contact";
   }
   return "unknown";
 }

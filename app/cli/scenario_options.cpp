@@ -39,9 +39,8 @@ void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
   command.add_flag("--obstacle", scenario.obstacle,
                    "A rock on the path that holds for a while and then comes loose");
   command.add_flag("--stiff-oil", scenario.stiff_oil, "Oil as stiff as the paper's");
-  command.add_option("--dead-time", scenario.dead_time_s, "Of every spool, s, 0 .. 0.5")
-      ->check(number_between(0.0, 0.5))
-      ->capture_default_str();
+  command.add_option("--dead-time", scenario.dead_time_s, "Of every spool, s, 0 .. 0.5; the profile's unless told")
+      ->check(number_between(0.0, 0.5));
   command
       .add_option("--errors", options.errors,
                   "What the controller does not know, drawn from the seed: sensors' bias and "
@@ -75,8 +74,8 @@ std::string scenario_words(const ScenarioOptions& options) {
   add(options.scenario.obstacle, "obstacle");
   add(options.scenario.stiff_oil, "stiff oil");
   add(options.fixed_lambda, "lambda fixed at 1");
-  if (options.scenario.dead_time_s > 0.0) {
-    words.push_back(fmt::format("dead time {} s", options.scenario.dead_time_s));
+  if (options.scenario.dead_time_s) {
+    words.push_back(fmt::format("dead time {} s", *options.scenario.dead_time_s));
   }
   words.push_back(fmt::format("errors {}", options.errors));
   return fmt::format("{}", fmt::join(words, ", "));
@@ -92,12 +91,21 @@ Eigen::Vector3d strokes_at(const ExcavatorProfile& profile, const TipPose& pose)
   return strokes.strokes_m;
 }
 
-Eigen::Vector3d usual_start(const ExcavatorProfile& profile) {
-  const DigPath& path = profile.dig_path;
+DigOptions usual_run(const machines::ExcavatorMachine& machine, const ScenarioOptions& options) {
+  DigOptions run;
+  if (options.scenario.air) {
+    const machines::AirManoeuvre& air = machine.experiment.air;
+    run.start_strokes_m = strokes_at(machine.profile, air.start);
+    run.loops = air.loops;
+    return run;
+  }
+  const DigPath& path = machine.profile.dig_path;
   const PathPoint below =
       RoundedRectangle(path).closest({path.x_max_m - kStartBack_m, path.y_max_m});
-  return strokes_at(
-      profile, {below.position_m.x(), below.position_m.y() + kStartAbove_m, below.attitude_rad});
+  run.start_strokes_m =
+      strokes_at(machine.profile, {below.position_m.x(), below.position_m.y() + kStartAbove_m,
+                                   below.attitude_rad});
+  return run;
 }
 
 }  // namespace graben::cli

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "app/cli/dig_run.hpp"
 #include "app/machines/scenario.hpp"
 #include "firmware/kinematics/excavator_kinematics.hpp"
 
@@ -31,8 +32,10 @@ void add_scenario_options(CLI::App& command, ScenarioOptions& options);
 /// Strokes of a start pose. Throws std::runtime_error where it is out of reach.
 [[nodiscard]] Eigen::Vector3d strokes_at(const ExcavatorProfile& profile, const TipPose& pose);
 
-/// The bucket's start unless told: above the path's far upper corner, as it comes down. Throws
-/// std::runtime_error where that is out of reach.
-[[nodiscard]] Eigen::Vector3d usual_start(const ExcavatorProfile& profile);
+/// Where the bucket starts and how far it goes unless told: from above the path's far upper corner,
+/// as it comes down, once round; in the air as the profile has it. Throws std::runtime_error where
+/// that is out of reach.
+[[nodiscard]] DigOptions usual_run(const machines::ExcavatorMachine& machine,
+                                   const ScenarioOptions& options);
 
 }  // namespace graben::cli

@@ -150,13 +150,10 @@ ControlProfile read_control(TomlReader& reader) {
   control.spool_threshold = reader.number("control.spool_threshold", {0.0, 0.1, ""});
   control.response_s = reader.number("control.response", {0.001, 1.0, "s"});
   control.servo_gain_ps = reader.number("control.servo_gain", {0.0, 20.0, "1/s"});
-  control.least_lambda = reader.number("control.least_lambda", {0.01, 1.0, ""});
-  control.observer_s = reader.number("control.observer", {0.0, 5.0, "s"});
-  control.speed_threshold_mps = reader.number("control.speed_threshold", {0.0, 0.05, "m/s"});
   control.servo_most_m = reader.number("control.servo_most", {0.0, 0.2, "m"});
+  control.servo_least_lambda = reader.number("control.servo_least_lambda", {0.01, 1.0, ""});
   control.pressure_filter_s = reader.number("control.pressure_filter", {0.0, 2.0, "s"});
-  control.damping_mpns = reader.number("control.pressure_damping", {0.0, 1e-4, "m/(s N)"});
-  control.damping_window_s = reader.number("control.damping_window", {0.0, 5.0, "s"});
+  control.dead_time_s = reader.number("valve.dead_time", {0.0, 0.5, "s"});
   control.slow_error_m = reader.number("control.slow_error", {1e-3, 10.0, "m"});
   control.sensor_timeout_s = reader.number("control.sensor_timeout", {0.02, 0.05, "s"});
   if (control.approach_outer_m <= control.approach_inner_m) {
@@ -165,16 +162,6 @@ ControlProfile read_control(TomlReader& reader) {
                             control.approach_outer_m, control.approach_inner_m));
   }
   return control;
-}
-
-ContactBand read_contact(TomlReader& reader) {
-  ContactBand band;
-  band.ground_y_m = reader.number("experiment.soil.ground", {-30.0, 30.0, "m"});
-  band.above_m = reader.number("control.contact_above", {0.0, 2.0, "m"});
-  band.below_m = reader.number("control.contact_below", {0.0, 2.0, "m"});
-  band.blend_m = reader.number("control.contact_blend", {0.01, 2.0, "m"});
-  band.speed_ratio = reader.number("control.contact_speed", {0.05, 1.0, ""});
-  return band;
 }
 
 const char* hindrance_text(ReachStatus status) {
@@ -241,7 +228,6 @@ ExcavatorProfile read_controller_sections(TomlReader& reader) {
   profile.control = read_control(reader);
   profile.dig_path = read_path(reader, "experiment.path");
   profile.dig_speed_mps = reader.number("experiment.speed", {0.01, 3.0, "m/s"});
-  profile.contact = read_contact(reader);
   return profile;
 }
 

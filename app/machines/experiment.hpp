@@ -5,6 +5,7 @@
 
 #include "app/plant/obstacle.hpp"
 #include "app/plant/soil.hpp"
+#include "firmware/kinematics/excavator_kinematics.hpp"
 #include "firmware/machine/excavator_profile.hpp"
 
 namespace graben::machines {
@@ -21,6 +22,8 @@ struct Uncertainty {
 /// A second way round, in the air, with something in the bucket.
 struct AirManoeuvre {
   DigPath path;
+  TipPose start;
+  double loops = 0.0;  ///< Of the way round.
   double speed_mps = 0.0;
   double payload_kg = 0.0;
   Eigen::Vector2d payload_centre_m = Eigen::Vector2d::Zero();  ///< Bucket frame; a point mass.

@@ -48,6 +48,10 @@ Uncertainty read_uncertainty(TomlReader& reader) {
 AirManoeuvre read_air(TomlReader& reader) {
   AirManoeuvre air;
   air.path = read_path(reader, "experiment.air.path");
+  const std::vector<double> start =
+      reader.numbers("experiment.air.start", {-30.0, 30.0, "m, m, rad"}, 3);
+  air.start = {start[0], start[1], start[2]};
+  air.loops = reader.number("experiment.air.loops", {0.1, 10.0, ""});
   air.speed_mps = reader.number("experiment.air.speed", {0.01, 3.0, "m/s"});
   air.payload_kg = reader.number("experiment.air.payload", {0.0, 1e5, "kg"});
   air.payload_centre_m = reader.point("experiment.air.payload_centre", {-10.0, 10.0, "m"});

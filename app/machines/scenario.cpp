@@ -73,10 +73,11 @@ ExcavatorMachine arranged(ExcavatorMachine machine, const Scenario& scenario) {
     machine.profile.dig_speed_mps = experiment.air.speed_mps;
     load_bucket(plant.link[kBucket], experiment.air.payload_kg, experiment.air.payload_centre_m);
   }
-  machine.profile.control.dead_time_s = scenario.dead_time_s;
+  double& assumed_s = machine.profile.control.dead_time_s;
+  assumed_s = scenario.dead_time_s.value_or(assumed_s);
   Random dead_time(scenario.seed, Draw::kDeadTime);
   for (double& axis_s : plant.dead_time_s) {
-    axis_s = scenario.dead_time_s;
+    axis_s = assumed_s;
     if (parameter_errors) {
       vary(axis_s, experiment.uncertainty.dead_time, dead_time);
     }

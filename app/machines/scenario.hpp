@@ -3,6 +3,7 @@
 /// it.
 
 #include <cstdint>
+#include <optional>
 
 #include "app/machines/machine_file.hpp"
 
@@ -16,7 +17,7 @@ struct Scenario {
   bool air = false;        ///< The manoeuvre in the air instead of the digging path.
   bool stiff_oil = false;  ///< The paper's, for comparison with its figures.
   Errors errors = Errors::kNone;
-  double dead_time_s = 0.0;  ///< Of every spool, as the controller takes it.
+  std::optional<double> dead_time_s;  ///< Of every spool, as the controller takes it.
   std::uint64_t seed = 0;    ///< Of everything that is drawn.
 };
 

@@ -458,7 +458,6 @@ struct EcuStatus {
     kSpoolTravel = 3,
     kStrokeEnd = 4,
     kRise = 5,
-    kContact = 6,
   };
 
   enum class Fault : std::uint8_t {
@@ -480,7 +479,7 @@ struct EcuStatus {
       "Mode", "", 0, 4, 0U, 5U, 14, 15, 0U,
       0, 1.0, 1.0};
   static constexpr Field kLimitKind{
-      "LimitKind", "", 4, 4, 0U, 6U, 14, 15, 0U,
+      "LimitKind", "", 4, 4, 0U, 5U, 14, 15, 0U,
       0, 1.0, 1.0};
   static constexpr Field kLimitIndex{
       "LimitIndex", "", 8, 4, 0U, 13U, 14, 15, 0U,

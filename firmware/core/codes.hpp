@@ -41,7 +41,6 @@ enum class LimitKind : std::uint8_t {
   kSpoolTravel = 3,  ///< (13): the spool is fully open; index is the actuator's.
   kStrokeEnd = 4,    ///< The cylinder is at its end; index is the actuator's.
   kRise = 5,         ///< Nothing but the rate at which lambda may rise.
-  kContact = 6,      ///< The bucket meets the ground.
 };
 
 /// A limit and whose it is.

@@ -126,27 +126,13 @@ struct ControlProfile {
   double spool_rate_ps = 0.0;     ///< Largest change of |x| / x_m per second.
   double spool_threshold = 0.0;   ///< |x| / x_m under which a spool is kept at neutral.
   double sensor_timeout_s = 0.0;  ///< A signal older than this is missing.
-  double response_s = 0.0;        ///< Lag of a cylinder's speed behind its command.
-  double servo_gain_ps = 0.0;     ///< What a cylinder owes to its speed.
-  double least_lambda = 1.0;
-  double observer_s = 0.0;
-  double speed_threshold_mps = 0.0;
-  double servo_most_m = 0.0;      ///< It can owe no more than this.
+  double response_s = 0.0;         ///< Lag of a cylinder's speed behind its spool command.
+  double servo_gain_ps = 0.0;      ///< What a cylinder owes to its speed.
+  double servo_most_m = 0.0;       ///< It can owe no more than this.
+  double servo_least_lambda = 1.0; ///< Corrections stay whole down to this lambda.
   double pressure_filter_s = 0.0;  ///< Low-pass of the load that the valve's model compensates.
-  double damping_mpns = 0.0;       ///< Speed by which a cylinder gives way to a newton of force.
-  double damping_window_s = 0.0;   ///< Above the mean of this long.
   double slow_error_m = 0.0;       ///< Path error at which the speed along the path is halved.
   double dead_time_s = 0.0;       ///< From a duty to the spool's first movement.
-};
-
-/// Where the bucket meets the ground: it crosses this band slowly, because the load grows with depth
-/// and bends the oil columns as fast as it grows.
-struct ContactBand {
-  double ground_y_m = 0.0;
-  double above_m = 0.0;    ///< The band begins so far above the ground
-  double below_m = 0.0;    ///< and ends so far below;
-  double blend_m = 0.0;    ///< the speed changes over this height beyond both ends.
-  double speed_ratio = 1.0;  ///< Of the task's speed within it; 1: there is no ground to meet.
 };
 
 struct ExcavatorProfile {
@@ -155,7 +141,6 @@ struct ExcavatorProfile {
   std::array<PumpProfile, kPumpCount> pump;
   DigPath dig_path;
   double dig_speed_mps = 0.0;  ///< Of the tip along the path.
-  ContactBand contact;
   ControlProfile control;
 };
 
