@@ -236,6 +236,9 @@ std::string dig_table(const DigSummary& summary) {
       "path error, RMSE          {:>10.1f}  {:>10.1f} mm\n"
       "lambda, min               {:>10.3f}\n"
       "lambda, mean              {:>10.3f}\n"
+      "time with lambda below 1  {:>10.1f} %\n"
+      "regeneration check open   {:>10.1f} %\n"
+      "highest chamber pressure  {:>10.1f} MPa\n"
       "time to reach the path    {:>10.2f} s\n"
       "time round the path       {:>10.2f} s\n"
       "controller's cycle, median{:>10.1f} us\n"
@@ -244,8 +247,9 @@ std::string dig_table(const DigSummary& summary) {
       "share of time per limit of lambda\n{}",
       summary.max_error_true_m * 1e3, summary.max_error_measured_m * 1e3,
       summary.rmse_error_true_m * 1e3, summary.rmse_error_measured_m * 1e3, summary.lambda_min,
-      summary.lambda_mean, summary.approach_s, summary.loop_s, summary.cycle_median_us,
-      summary.cycle_max_us, summary.real_time_factor, limits);
+      summary.lambda_mean, summary.lambda_below_1_share * 100.0, summary.regeneration_share * 100.0,
+      summary.peak_chamber_pressure_pa * 1e-6, summary.approach_s, summary.loop_s,
+      summary.cycle_median_us, summary.cycle_max_us, summary.real_time_factor, limits);
 }
 
 }  // namespace graben::cli

@@ -32,9 +32,8 @@ TipVelocity DigField::contour(const TipPose& pose) const {
   const Eigen::Vector2d tip(pose.x_m, pose.y_m);
   const PathPoint goal = path_.closest(tip);
   const Eigen::Vector2d to_goal = goal.position_m - tip;
-  const double slowed = 1.0 / (1.0 + to_goal.squaredNorm() / (control_.slow_error_m * control_.slow_error_m));
-  const Eigen::Vector2d direction =
-      slowed * goal.tangent + to_goal / control_.convergence_length_m;
+  const double slowed = 1.0 / (1.0 + (to_goal / control_.slow_error_m).squaredNorm());
+  const Eigen::Vector2d direction = slowed * goal.tangent + to_goal / control_.convergence_length_m;
   TipVelocity velocity;
   velocity.linear_mps = speed_mps_ * direction / std::max(1.0, direction.norm());
   const double error_rad = wrap_near(goal.attitude_rad - pose.attitude_rad, 0.0);
@@ -71,9 +70,9 @@ Eigen::Vector3d DigField::wanted(const KinematicState& state, double speed_overr
   Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
   if (far < 1.0) {
     const TipVelocity field = contour(state.tip);
-    velocity_mps = (1.0 - far) * (state.jacobian_inverse *
-                                  Eigen::Vector3d(field.linear_mps.x(), field.linear_mps.y(),
-                                                  field.attitude_radps));
+    velocity_mps = (1.0 - far) * (state.jacobian_inverse * Eigen::Vector3d(field.linear_mps.x(),
+                                                                           field.linear_mps.y(),
+                                                                           field.attitude_radps));
   }
   if (far > 0.0) {
     velocity_mps += far * approach(state, to_nearest_m);

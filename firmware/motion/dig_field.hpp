@@ -17,8 +17,9 @@ struct TipVelocity {
 
 /// Near the path a contour field in task space; far from it a straight approach in stroke space.
 ///
-/// The contour field points along the path and towards it in the ratio 1 : distance /
-/// convergence_length, at constant tip speed, the attitude following the path's. It is blind to the
+/// The contour field is the task's speed along the path, halved at a distance of slow_error, plus
+/// distance / convergence_length of it towards the path; never more than the task's speed in all.
+/// The attitude follows the path's. It is blind to the
 /// edge of the work space. The approach is not: it heads for the nearest of kSamples path poses in
 /// stroke space, where the work space is a box and so every straight line between two of its points
 /// stays inside. Moving straight at the nearest sample keeps it the nearest, so the approach always
@@ -39,8 +40,8 @@ class DigField {
   /// The contour field alone; defined at every pose.
   [[nodiscard]] TipVelocity contour(const TipPose& pose) const;
 
-  /// The whole field at a state whose status is kOk: V_L^d of (3), per cylinder. Speed is that of the task times
-  /// `speed_override_ratio` (0 .. 1).
+  /// The whole field at a state whose status is kOk: V_L^d of (3), per cylinder. Speed is that of
+  /// the task times `speed_override_ratio` (0 .. 1).
   [[nodiscard]] Eigen::Vector3d wanted(const KinematicState& state,
                                        double speed_override_ratio) const;
 

@@ -76,12 +76,21 @@ void contour_points_along_and_towards_the_path(void**) {
   assert_near(on_path.linear_mps.x(), 0.0, 1e-12);
   assert_near(on_path.linear_mps.y(), -speed, 1e-12);
   assert_near(on_path.attitude_radps, 0.0, 1e-9);
-  const double off_m = profile().control.convergence_length_m;
+  // At the error that slows: half the speed along, the whole of what leads back.
+  const double off_m = profile().control.slow_error_m;
   const TipVelocity beside = field().contour({6.5 + off_m, -1.0, 2.0});
-  assert_near(beside.linear_mps.norm(), speed, 1e-12);
-  assert_near(beside.linear_mps.x(), beside.linear_mps.y(), 1e-12);
-  assert_true(beside.linear_mps.x() < 0.0);
+  assert_near(beside.linear_mps.y(), -0.5 * speed, 1e-12);
+  assert_near(beside.linear_mps.x(), -speed * off_m / profile().control.convergence_length_m,
+              1e-12);
   assert_true(beside.attitude_radps > 0.0);
+  // Far away: straight back, at the task's speed.
+  const TipVelocity far = field().contour({16.5, -1.0, 2.0});
+  assert_near(far.linear_mps.norm(), speed, 1e-12);
+  assert_near(far.linear_mps.x(), -speed, 1e-3);
+  // Never faster than the task.
+  for (double error_m = 0.0; error_m < 1.0; error_m += 0.003) {
+    assert_true(field().contour({6.5 + error_m, -1.0, 2.0}).linear_mps.norm() <= speed + 1e-12);
+  }
   // Along the bottom, 75 deg over 3 m towards the machine: the attitude must turn with the tip.
   const TipVelocity bottom = field().contour({5.0, -2.2, 0.5 * (0.785398 + 2.094395)});
   assert_near(bottom.attitude_radps, -speed * (2.094395 - 0.785398) / 3.0, 1e-6);

@@ -227,6 +227,48 @@ void corners_are_safe(void**) {
   assert_true(refused > 50000 && moving > 2000);
 }
 
+/// A share of a reserve is that much less of it, also where half of what is left over bounds it.
+void a_share_of_the_reserve(void**) {
+  const McvInput input = split_input(4e6);
+  const auto at = [&](double reserve_n, double share) {
+    return lambda_of(input, McvPolicy::kGlobal, {1.0, reserve_n, share});
+  };
+  assert_near(at(8000.0, 0.75), at(6000.0, 1.0), 1e-12);
+  assert_near(at(8000.0, 0.0), lambda_of(input, McvPolicy::kGlobal), 0.0);
+  assert_true(at(1e9, 0.5) > at(1e9, 1.0) + 1e-3);
+  for (const double share : {-0.1, 1.1, kNan}) {
+    const McvSolution refused = solve_mcv(kim(), input, McvPolicy::kGlobal, {1.0, 8000.0, share});
+    assert_int_equal(refused.status, SolveStatus::kBadInput);
+    assert_int_equal(refused.defect.defect, McvDefect::kLambdaRange);
+  }
+}
+
+/// Where all is feasible fixed is what the others find; where it is not, it goes on at full speed
+/// with the hindered spool wide open, and says who hinders.
+void fixed_asks_nobody(void**) {
+  const McvInput light = split_input(0.6e6);
+  const McvSolution free = solve_mcv(kim(), light, McvPolicy::kFixed);
+  const McvSolution global = solve_mcv(kim(), light, McvPolicy::kGlobal);
+  assert_near(free.point.lambda, 1.0, 0.0);
+  assert_int_equal(free.limit.kind, LimitKind::kNone);
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    assert_near(free.point.spool_m[i], global.point.spool_m[i], 1e-12);
+  }
+  const McvInput heavy = split_input(4e6);
+  assert_true(lambda_of(heavy, McvPolicy::kGlobal) < 0.9);
+  const McvSolution forced = solve_mcv(kim(), heavy, McvPolicy::kFixed, {1.0, 8000.0});
+  assert_int_equal(forced.status, SolveStatus::kOk);
+  assert_near(forced.point.lambda, 1.0, 0.0);
+  assert_int_equal(forced.limit.kind, LimitKind::kBackFlow);
+  assert_int_equal(forced.limit.index, kBucket);
+  const McvMachine machine = kim();
+  const double opened_m = std::abs(forced.point.spool_m[kBucket]);
+  assert_near(opened_m,
+              heavy.velocity_mps[kBucket] > 0.0 ? machine.actuator[kBucket].extend.x_last()
+                                                : machine.actuator[kBucket].retract.x_last(),
+              1e-12);
+}
+
 }  // namespace
 
 int main() {
@@ -236,6 +278,8 @@ int main() {
       cmocka_unit_test(a_bound_is_kept),
       cmocka_unit_test(a_reserve_stays_in_hand),
       cmocka_unit_test(bad_ranges_are_refused),
+      cmocka_unit_test(a_share_of_the_reserve),
+      cmocka_unit_test(fixed_asks_nobody),
       cmocka_unit_test(standstill_says_who_lacks_what),
       cmocka_unit_test(shortfall_is_the_margin_at_full_speed),
       cmocka_unit_test(in_flow_check_valve_takes_its_force),

@@ -9,7 +9,7 @@ namespace {
 using namespace graben;
 
 constexpr double kPeriod_s = 0.01;
-constexpr LambdaRise kRise{4.0, 8000.0};
+constexpr LambdaRise kRise{4.0, 8000.0, 0.0};
 /// About what 2 % of the pressures that hold the boom are.
 constexpr double kNoise_pa = 0.2e6;
 constexpr unsigned kDrives = 10;
@@ -75,7 +75,7 @@ void a_split_is_crossed_once_each_way(void**) {
 void without_the_reserve_noise_makes_it_fall_again(void**) {
   int falls = 0;
   for (unsigned seed = 0; seed < kDrives; ++seed) {
-    falls += drive_steady(seed, McvPolicy::kGlobal, {kRise.rate_ps, 0.0}).falls;
+    falls += drive_steady(seed, McvPolicy::kGlobal, {kRise.rate_ps, 0.0, 0.0}).falls;
   }
   print_message("%d falls in %u drives\n", falls, kDrives);
   assert_true(falls > static_cast<int>(kDrives));
@@ -131,6 +131,33 @@ void it_rises_with_the_reserve_and_falls_without(void**) {
   assert_true(held.shortfall > 0.0);
   const McvSolution fallen = after(0.9);
   assert_near(fallen.point.lambda, free, 1e-9);
+}
+
+/// With a share for holding it falls to where that share is left, and no further; a little above it
+/// stays.
+void it_holds_with_its_share_of_the_reserve(void**) {
+  const McvMachine machine = test::kim();
+  const McvInput input = test::split_input(4e6);
+  const LambdaRise rise{4.0, 8000.0, 0.75};
+  const double held = solve_mcv(machine, input, McvPolicy::kGlobal, {1.0, 6000.0}).point.lambda;
+  const double risen = solve_mcv(machine, input, McvPolicy::kGlobal, {1.0, 8000.0}).point.lambda;
+  assert_true(risen < held - 0.01);
+  const auto after = [&](double last) {
+    return steady_lambda(machine, input, McvPolicy::kGlobal, rise, last, kPeriod_s).point.lambda;
+  };
+  assert_near(after(0.9), held, 1e-9);
+  assert_near(after(0.5 * (held + risen)), 0.5 * (held + risen), 0.0);
+  assert_near(after(risen - 0.01), risen, 1e-9);
+}
+
+/// The split again, most of the reserve being for holding: what is left is still enough for peace.
+void a_share_for_holding_leaves_it_calm(void**) {
+  for (unsigned seed = 0; seed < kDrives; ++seed) {
+    const Passage passage = drive_steady(seed, McvPolicy::kGlobal, {4.0, 32000.0, 0.75});
+    assert_true(passage.falls <= 1);
+    assert_int_equal(passage.rises, 0);
+    assert_int_equal(passage.climbs, 2);
+  }
 }
 
 /// A load within the reserve of stall is moved, and a little more load makes it a little slower:
@@ -192,9 +219,9 @@ void bad_rises_are_refused(void**) {
     assert_near(solution.point.lambda, 0.0, 0.0);
   };
   refused(kRise, nan);
-  refused({nan, 0.0}, kPeriod_s);
-  refused({4.0, nan}, kPeriod_s);
-  refused({4.0, -1.0}, kPeriod_s);
+  refused({nan, 0.0, 0.0}, kPeriod_s);
+  refused({4.0, nan, 0.0}, kPeriod_s);
+  refused({4.0, -1.0, 0.0}, kPeriod_s);
 }
 
 }  // namespace
@@ -205,6 +232,8 @@ int main() {
       cmocka_unit_test(without_the_reserve_noise_makes_it_fall_again),
       cmocka_unit_test(from_rest_it_rises_at_its_rate),
       cmocka_unit_test(it_rises_with_the_reserve_and_falls_without),
+      cmocka_unit_test(it_holds_with_its_share_of_the_reserve),
+      cmocka_unit_test(a_share_for_holding_leaves_it_calm),
       cmocka_unit_test(near_stall_it_slows_down_smoothly),
       cmocka_unit_test(an_axis_near_stall_does_not_free_the_others),
       cmocka_unit_test(bad_rises_are_refused),

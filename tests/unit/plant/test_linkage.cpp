@@ -76,7 +76,7 @@ void angles_reproduce_the_strokes(void**) {
 
 void tip_of_a_stretched_machine(void**) {
   const LinkageGeometry geometry(machine_22t().machine.geometry);
-  TipPose tip = geometry.tip({0.0, 0.0, 0.0});
+  plant::TipPose tip = geometry.tip({0.0, 0.0, 0.0});
   assert_near(tip.position_m.x(), 5.7 + 2.9 + 1.5, 1e-12);
   assert_near(tip.position_m.y(), 0.0, 1e-12);
   assert_near(tip.attitude_rad, kPi, 1e-12);

@@ -1,0 +1,173 @@
+/// Feedback around the valve's model: prediction, what is owed, and the load's filter.
+
+#include <cmath>
+#include <vector>
+
+#include "firmware/motion/cylinder_servo.hpp"
+#include "firmware/motion/load_filter.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/fixture.hpp"
+
+namespace {
+
+using namespace graben;
+
+constexpr double kPeriod_s = 0.01;
+
+ControlProfile control(double dead_time_s = 0.0) {
+  ControlProfile profile;
+  profile.response_s = 0.05;
+  profile.dead_time_s = dead_time_s;
+  profile.servo_gain_ps = 2.0;
+  profile.servo_most_m = 0.02;
+  profile.servo_least_lambda = 0.2;
+  return profile;
+}
+
+/// A cylinder that answers as expected: after the dead time, with two equal lags.
+class Ideal {
+ public:
+  Ideal(double dead_time_s, double gain)
+      : waiting_(static_cast<std::size_t>(std::lround(dead_time_s / kPeriod_s)), 0.0),
+        gain_(gain) {}
+
+  /// Stroke one period after this command.
+  double after(double asked_mps) {
+    waiting_.push_back(asked_mps);
+    const double due_mps = waiting_.front();
+    waiting_.erase(waiting_.begin());
+    const double share = 1.0 - std::exp(-kPeriod_s / 0.025);
+    first_ += share * (due_mps - first_);
+    second_ += share * (first_ - second_);
+    stroke_m_ += kPeriod_s * gain_ * second_;
+    return stroke_m_;
+  }
+
+ private:
+  std::vector<double> waiting_;
+  double gain_;
+  double first_ = 0.0;
+  double second_ = 0.0;
+  double stroke_m_ = 0.5;
+};
+
+struct Run {
+  ServoState servo = servo_at_rest({0.5, 0.5, 0.5});
+  Ideal cylinder;
+  ControlProfile profile;
+
+  Run(double dead_time_s, double gain)
+      : cylinder(dead_time_s, gain), profile(control(dead_time_s)) {}
+
+  void step(double asked_mps) {
+    const double stroke_m = cylinder.after(asked_mps);
+    servo = next_servo(profile, servo, {asked_mps, 0.0, 0.0}, {stroke_m, 0.5, 0.5}, kPeriod_s);
+  }
+};
+
+/// Whatever is asked of it and whatever the dead time: a cylinder that answers as expected owes
+/// nothing, and stands in the end where it was predicted.
+void a_cylinder_as_expected_owes_nothing(void**) {
+  for (const double dead_time_s : {0.0, 0.03, 0.15, 0.5}) {
+    Run run(dead_time_s, 1.0);
+    for (int n = 0; n < 200; ++n) {
+      run.step(0.1 * std::sin(0.05 * n) + 0.02);
+      assert_near(run.servo.owed_m.norm(), 0.0, 1e-12);
+    }
+    const double predicted_m = run.servo.strokes_m[0] + run.servo.under_way_m[0];
+    for (int n = 0; n < 200; ++n) {
+      run.step(0.0);
+    }
+    assert_near(run.servo.strokes_m[0], predicted_m, 1e-6);
+    assert_near(run.servo.under_way_m.norm(), 0.0, 1e-6);
+  }
+}
+
+/// One that does nine tenths owes the tenth, no more than its bound, and only on its own axis.
+void a_slow_cylinder_owes_what_it_lacks(void**) {
+  Run run(0.0, 0.9);
+  for (int n = 0; n < 100; ++n) {
+    run.step(0.1);
+  }
+  // 1 s at 0.1 m/s less the two lags of 25 ms.
+  assert_near(run.servo.owed_m[0], 0.1 * 0.1 * (1.0 - 0.05), 2e-4);
+  assert_near(run.servo.owed_m[1], 0.0, 0.0);
+  for (int n = 0; n < 500; ++n) {
+    run.step(0.1);
+  }
+  assert_near(run.servo.owed_m[0], 0.02, 1e-12);
+}
+
+/// A held cylinder whose lambda has gone to 0 owes nothing new: nothing winds up.
+void where_lambda_is_0_nothing_winds_up(void**) {
+  Run run(0.0, 0.0);
+  for (int n = 0; n < 50; ++n) {
+    run.step(0.01);
+  }
+  const double before_m = run.servo.owed_m[0];
+  for (int n = 0; n < 500; ++n) {
+    run.step(0.0);
+  }
+  assert_near(run.servo.owed_m[0], before_m + 0.01 * 0.05, 1e-4);
+}
+
+void what_is_owed_is_asked_for_whole_at_any_lambda(void**) {
+  ServoState servo = servo_at_rest({0.5, 0.5, 0.5});
+  servo.owed_m = {0.01, -0.005, 0.0};
+  const Eigen::Vector3d wanted(0.1, 0.1, 0.1);
+  for (const double lambda : {1.0, 0.5, 0.2}) {
+    const Eigen::Vector3d asked = lambda * corrected_velocity(control(), wanted, servo, lambda);
+    assert_near((asked - (lambda * wanted + 2.0 * servo.owed_m)).norm(), 0.0, 1e-12);
+  }
+  // Below the least lambda it shrinks with it, so that it ends where lambda does.
+  const Eigen::Vector3d asked = 0.1 * corrected_velocity(control(), wanted, servo, 0.1);
+  assert_near((asked - (0.1 * wanted + 0.5 * 2.0 * servo.owed_m)).norm(), 0.0, 1e-12);
+}
+
+/// At rest is at rest, whatever is owed.
+void nothing_wanted_is_nothing_asked(void**) {
+  ServoState servo = servo_at_rest({0.5, 0.5, 0.5});
+  servo.owed_m = {0.01, 0.01, 0.01};
+  assert_near(corrected_velocity(control(), Eigen::Vector3d::Zero(), servo, 0.5).norm(), 0.0, 0.0);
+}
+
+void a_prediction_stays_within_the_strokes(void**) {
+  const ExcavatorProfile& profile = test::excavator().profile;
+  ServoState servo = servo_at_rest({0.01, 0.7, 1.1});
+  servo.under_way_m = {-0.05, 0.01, 0.05};
+  const Eigen::Vector3d then = strokes_then(profile, servo);
+  assert_near(then[0], 0.0, 0.0);
+  assert_near(then[1], 0.71, 1e-15);
+  assert_near(then[2], profile.geometry.cylinder[kBucket].stroke_m, 0.0);
+}
+
+/// A step of load: two thirds after the time constant, all in the end; at once when it starts.
+void the_load_is_low_passed(void**) {
+  const LoadState low = {{1e6, 2e6, 3e6}, {4e6, 5e6, 6e6}};
+  const LoadState high = {{2e6, 4e6, 6e6}, {8e6, 10e6, 12e6}};
+  LoadState load = next_load(0.1, {}, low, kPeriod_s, true);
+  assert_near(load.rod_pa[kBucket], 6e6, 0.0);
+  for (int n = 0; n < 10; ++n) {
+    load = next_load(0.1, load, high, kPeriod_s, false);
+  }
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    assert_near(load.cap_pa[i], low.cap_pa[i] * (2.0 - std::exp(-1.0)), 1e-6);
+    assert_near(load.rod_pa[i], low.rod_pa[i] * (2.0 - std::exp(-1.0)), 1e-6);
+  }
+  assert_near(next_load(0.0, low, high, kPeriod_s, false).cap_pa[kArm], 4e6, 0.0);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_cylinder_as_expected_owes_nothing),
+      cmocka_unit_test(a_slow_cylinder_owes_what_it_lacks),
+      cmocka_unit_test(where_lambda_is_0_nothing_winds_up),
+      cmocka_unit_test(what_is_owed_is_asked_for_whole_at_any_lambda),
+      cmocka_unit_test(nothing_wanted_is_nothing_asked),
+      cmocka_unit_test(a_prediction_stays_within_the_strokes),
+      cmocka_unit_test(the_load_is_low_passed),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
