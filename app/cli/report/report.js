@@ -1,11 +1,9 @@
 'use strict';
 // Puts the prepared data on the page: key figures, table, path and the plots over time.
 const reportPage = (() => {
-  const SYNC_KEY = 'run';
   const PRINT_WIDTH_PX = 690;  // A4 less its margins, at 96 px to the inch
   const PALETTE_SIZE = 9;
-  const STRIP = {top: -0.08, bottom: -0.2};  // in units of lambda, below its 0
-  const FONT = '13px system-ui, sans-serif';
+  const AROUND_S = 2;  // shown before and after what the reader wants to see closely
 
   let report = null;
   let figures = [];  // {plot, holder, legend, chart}
@@ -14,7 +12,6 @@ const reportPage = (() => {
 
   const $ = (id) => document.getElementById(id);
   const root = document.documentElement;
-  const colour = (name) => getComputedStyle(root).getPropertyValue(`--${name}`).trim();
 
   function make(name, properties = {}, ...children) {
     const node = Object.assign(document.createElement(name), properties);
@@ -70,6 +67,13 @@ const reportPage = (() => {
     }
   }
 
+  /// Which figure of the paper shows the same.
+  function sourceNote(text) {
+    return make('small', {className: 'source', textContent: text,
+      title: 'K. Kim et al., Modeling and Velocity-Field Control of Autonomous Excavator with ' +
+          'Main Control Valve'});
+  }
+
   function fillPath(width) {
     const box = $('path');
     if (!report.geometry.ok) return box.replaceChildren(complaint(report.geometry.problem));
@@ -81,10 +85,17 @@ const reportPage = (() => {
     box.replaceChildren(drawn.svg);
   }
 
+  function fillPathHead() {
+    $('path-title').append(' ', sourceNote(report.geometrySource));
+    $('path').after(...report.geometryProblems.map(complaint));
+  }
+
   function fillPathLegend() {
     if (!report.geometry.ok) return;
     const layers = [['path', 'wanted path'], ['true', 'true tip'], ['measured', 'measured tip'],
       ['field', 'velocity field'], ['attitude', 'attitude every 5 s']];
+    const {obstacle, changes} = report.geometry.value;
+    if (obstacle || changes.length > 0) layers.push(['obstacle', 'obstacle, held and let go']);
     for (const [name, text] of layers) {
       const button = make('button', {type: 'button', className: 'layer'},
           make('span', {className: `line ${name}`}), text);
@@ -96,95 +107,6 @@ const reportPage = (() => {
       });
       $('path-legend').append(button);
     }
-  }
-
-  function drawStrip(chart, strip) {
-    if (!chart.series[2].show) return;
-    const {ctx, bbox} = chart;
-    const top = chart.valToPos(STRIP.top, 'y', true);
-    const bottom = chart.valToPos(STRIP.bottom, 'y', true);
-    ctx.save();
-    ctx.beginPath();
-    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
-    ctx.clip();
-    // Free stretches first: at this scale a short limit between two of them would vanish.
-    for (const free of [true, false]) {
-      for (const run of strip.runs) {
-        const name = strip.names[run.limit];
-        if ((name === 'none') !== free) continue;
-        const from = chart.valToPos(run.from, 'x', true);
-        const until = chart.valToPos(run.until, 'x', true);
-        if (until < bbox.left || from > bbox.left + bbox.width) continue;
-        ctx.fillStyle = colour(limitColour(name));
-        ctx.fillRect(from, top, Math.max(until - from, 1), bottom - top);
-      }
-    }
-    ctx.restore();
-  }
-
-  function lineSeries(line, unit) {
-    return {
-      label: line.label,
-      stroke: () => colour(line.colour),
-      width: line.wide ? 5 : 1.6,
-      points: {show: false},
-      value: (chart, value) => reportData.formatLive(value, line.digits, unit),
-    };
-  }
-
-  function axisLook(more) {
-    return {
-      stroke: () => colour('ink'), font: FONT, labelFont: FONT,
-      grid: {stroke: () => colour('grid'), width: 1},
-      ticks: {stroke: () => colour('grid'), width: 1, size: 5},
-      ...more,
-    };
-  }
-
-  function chartOptions(figure, width) {
-    const {plot} = figure;
-    const {lines, strip} = plot.body.value;
-    const options = {
-      width,
-      height: plot.height,
-      padding: [10, 14, 0, 0],
-      scales: {x: {time: false}, y: {range: {
-        min: {pad: 0.08, soft: 0, mode: 3}, max: {pad: 0.08, soft: 0, mode: 3}}}},
-      // The y axes are equally wide, so one instant is in one column all down the page.
-      axes: [axisLook({label: 'time (s)', labelSize: 19, size: 30}),
-        axisLook({label: plot.axis, labelSize: 22, size: 54, space: 26})],
-      series: [
-        {label: 'time', value: (chart, value) => reportData.formatLive(value, 2, 's')},
-        ...lines.map((line) => lineSeries(line, plot.unit)),
-      ],
-      cursor: {
-        y: false,
-        drag: {x: true, y: false, setScale: true, dist: 4},
-        sync: {key: SYNC_KEY, setSeries: false},
-        points: {size: 7},
-      },
-      legend: {
-        mount: (chart, table) => figure.legend.replaceChildren(table),
-        // The time and the strip have no line, so no marker either.
-        markers: {width: 0, fill: (chart, i) => (lines[i - 1] ? colour(lines[i - 1].colour) : '')},
-      },
-      hooks: {setCursor: [(chart) => pathFigure.showAt(chart.cursor.idx ?? null)]},
-    };
-    if (strip) {
-      options.scales.y = {range: [STRIP.bottom - 0.03, 1.05]};
-      options.scales.limit = {range: [0, 1]};
-      options.axes[1].splits = () => [(STRIP.top + STRIP.bottom) / 2, 0, 0.25, 0.5, 0.75, 1];
-      options.axes[1].values = (chart, splits) => splits.map((v) => (v < 0 ? 'limit' : String(v)));
-      // In the legend, and for drawStrip; the library draws neither a line nor a dot for it.
-      options.series.push({
-        label: strip.label, scale: 'limit', paths: () => null, points: {show: false},
-        value: (chart, value) => strip.names[value] ?? '–',
-      });
-      options.cursor.points.show = (chart, i) =>
-        (i > lines.length ? undefined : make('div', {className: 'u-cursor-pt'}));
-      options.hooks.draw = [(chart) => drawStrip(chart, strip)];
-    }
-    return options;
   }
 
   /// The library's legend is for the mouse; the same rows for the keyboard.
@@ -211,6 +133,22 @@ const reportPage = (() => {
 
   function wholeRun() {
     if (report.time.ok) zoomAll(report.time.value[0], report.time.value.at(-1));
+  }
+
+  /// What the shade in the plots means, and a button to see that time closely.
+  function fillHolds() {
+    if (!report.holds.ok) return $('holds').replaceWith(complaint(report.holds.problem));
+    const runs = report.holds.value;
+    if (runs.length === 0) return;
+    const words = runs.map((run) => `${run.from.toFixed(1)} to ${run.until.toFixed(1)} s`);
+    $('holds').append(make('span', {className: 'swatch shade'}),
+        `the obstacle holds: ${words.join(', ')}`);
+    $('holds').hidden = false;
+    const times = report.time.value;
+    const from = Math.max(runs[0].from - AROUND_S, times[0]);
+    const until = Math.min(runs.at(-1).until + AROUND_S, times.at(-1));
+    $('around').hidden = false;
+    $('around').addEventListener('click', () => zoomAll(from, until));
   }
 
   function zoomBy(chart, factor) {
@@ -240,7 +178,7 @@ const reportPage = (() => {
   }
 
   function stripKey(strip) {
-    const present = [...new Set(strip.runs.map((run) => strip.names[run.limit]))];
+    const present = [...new Set(strip.runs.map((run) => strip.names[run.value]))];
     return make('p', {className: 'key'}, 'limit: ',
         ...present.map((name) => make('span', {}, swatch(name), name)));
   }
@@ -254,7 +192,8 @@ const reportPage = (() => {
       legend.style.setProperty('--pairs', wide);
       const holder = make('div', {className: 'chart'});
       const section = make('section', {id: plot.id},
-          make('div', {className: 'bar-top'}, make('h2', {textContent: plot.title}), legend),
+          make('div', {className: 'bar-top'}, make('h2', {}, plot.title,
+              ...(plot.source ? [' ', sourceNote(plot.source)] : [])), legend),
           holder);
       $('plots').append(section);
       if (!plot.body.ok) {
@@ -283,7 +222,12 @@ const reportPage = (() => {
       const {lines, strip} = figure.plot.body.value;
       const data = [report.time.value, ...lines.map((line) => line.values)];
       if (strip) data.push(strip.values);
-      const options = chartOptions(figure, width ?? figure.holder.clientWidth);
+      const options = reportChart.options(figure.plot, width ?? figure.holder.clientWidth, {
+        shade: report.holds.ok ? report.holds.value : [],
+        limitColour,
+        mountLegend: (table) => figure.legend.replaceChildren(table),
+        showAt: (index) => pathFigure.showAt(index),
+      });
       figure.chart = new uPlot(options, data, figure.holder);
       makeLegendKeys(figure);
       if (zoom) figure.chart.setScale('x', zoom);
@@ -316,8 +260,10 @@ const reportPage = (() => {
     report = reportData.prepare(data);
     fillHead();
     fillLimits();
+    fillPathHead();
     fillPathLegend();
     fillPath();
+    fillHolds();
     makeFigures();
     drawCharts();
     $('whole').addEventListener('click', wholeRun);

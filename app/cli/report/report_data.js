@@ -4,112 +4,11 @@
 // the page prints in that part's place; the other parts stay.
 const reportData = (() => {
   const AXES = ['boom', 'arm', 'bucket'];
+  const {Problem, part, isObject, need, needList, checkTuples, time, runs, seriesList, seriesGroup} =
+      reportChecks;
   const PA_PER_MPA = 1e6;
+  const N_PER_KN = 1e3;
   const MM_PER_M = 1e3;
-
-  class Problem extends Error {}
-
-  function part(compute) {
-    try {
-      return {ok: true, value: compute()};
-    } catch (error) {
-      if (error instanceof Problem) return {ok: false, problem: error.message};
-      throw error;
-    }
-  }
-
-  const isObject = (value) => value !== null && typeof value === 'object' && !Array.isArray(value);
-
-  function show(value) {
-    const text = JSON.stringify(value);
-    return text.length > 30 ? `${text.slice(0, 30)}…` : text;
-  }
-
-  /// The value at a dotted path; a Problem naming the first missing piece otherwise.
-  function need(data, path) {
-    let value = data;
-    let walked = '';
-    for (const key of path.split('.')) {
-      walked = walked ? `${walked}.${key}` : key;
-      if (!isObject(value) || value[key] === undefined || value[key] === null) {
-        throw new Problem(`“${walked}” is missing from the data.`);
-      }
-      value = value[key];
-    }
-    return value;
-  }
-
-  function needList(data, path) {
-    const list = need(data, path);
-    if (!Array.isArray(list)) throw new Problem(`“${path}” is not a list.`);
-    return list;
-  }
-
-  /// null is a gap: the JSON writer turns not-a-number into it.
-  function checkNumbers(list, path, count) {
-    if (!Array.isArray(list)) throw new Problem(`“${path}” is not a list.`);
-    if (count !== undefined && list.length !== count) {
-      throw new Problem(`“${path}” has ${list.length} values, “series.time_s” has ${count}.`);
-    }
-    const bad = list.findIndex((value) => value !== null && typeof value !== 'number');
-    if (bad >= 0) {
-      throw new Problem(`“${path}”, value ${bad + 1}: ${show(list[bad])} is no number.`);
-    }
-    return list;
-  }
-
-  function checkTuples(list, path, width) {
-    const bad = list.findIndex((tuple) => !Array.isArray(tuple) || tuple.length !== width ||
-        tuple.some((value) => typeof value !== 'number'));
-    if (bad >= 0) {
-      throw new Problem(`“${path}”, entry ${bad + 1}: ${show(list[bad])} is not ${width} numbers.`);
-    }
-    return list;
-  }
-
-  function time(data) {
-    const list = checkNumbers(needList(data, 'series.time_s'), 'series.time_s');
-    if (list.length < 2) throw new Problem('“series.time_s” has fewer than two values.');
-    const bad = list.findIndex((value, i) => value === null || (i > 0 && value < list[i - 1]));
-    if (bad >= 0) {
-      throw new Problem(`“series.time_s”, value ${bad + 1}, does not follow the one before.`);
-    }
-    return list;
-  }
-
-  const scaled = (list, factor) => list.map((value) => (value === null ? null : value * factor));
-
-  function seriesList(data, name, factor = 1) {
-    const path = `series.${name}`;
-    return scaled(checkNumbers(needList(data, path), path, time(data).length), factor);
-  }
-
-  /// One list for each axis or pump.
-  function seriesGroup(data, name, counts, factor = 1) {
-    const path = `series.${name}`;
-    const group = needList(data, path);
-    if (group.length < counts[0] || group.length > counts[1]) {
-      const wanted = counts[0] === counts[1] ? counts[0] : counts.join(' to ');
-      throw new Problem(`“${path}” has ${group.length} lists, not ${wanted}.`);
-    }
-    const count = time(data).length;
-    return group.map((list, i) => scaled(checkNumbers(list, `${path}[${i}]`, count), factor));
-  }
-
-  /// Stretches of time during which one limit holds; a sample holds until the next one.
-  function limitRuns(times, limits) {
-    const runs = [];
-    for (let i = 0; i < times.length; ++i) {
-      const until = times[Math.min(i + 1, times.length - 1)];
-      const last = runs[runs.length - 1];
-      if (last && last.limit === limits[i] && last.until === times[i]) {
-        last.until = until;
-      } else if (limits[i] !== null) {
-        runs.push({from: times[i], until, limit: limits[i]});
-      }
-    }
-    return runs;
-  }
 
   /// Each limit's number in the palette, the same in the table, the strip and its key. 'none' has
   /// its own neutral tone (0); the others follow in the order of the table, then of the series.
@@ -139,7 +38,7 @@ const reportData = (() => {
     }
     return {
       lines: [{label: 'λ', colour: 'ink', values: seriesList(data, 'lambda'), digits: 3}],
-      strip: {label: 'held by', values: limits, names, runs: limitRuns(times, limits)},
+      strip: {label: 'held by', values: limits, names, runs: runs(times, limits)},
     };
   }
 
@@ -195,31 +94,69 @@ const reportData = (() => {
     };
   }
 
+  /// x and y of a vector over time.
+  function xyLines(data, name, digits, factor = 1) {
+    const [x, y] = seriesGroup(data, name, [2, 2], factor);
+    return [{label: 'x, forward', colour: 'vector-x', values: x, digits},
+      {label: 'y, up', colour: 'vector-y', values: y, digits}];
+  }
+
+  const forcePlot = (data) => ({lines: xyLines(data, 'tip_force_n', 1, 1 / N_PER_KN)});
+
+  /// Lambda with it, on an axis of its own. A fault in lambda is told in lambda's own plot, and the
+  /// velocity stays.
+  function tipVelocityPlot(data) {
+    const lambda = part(() => seriesList(data, 'lambda'));
+    const lines = xyLines(data, 'tip_velocity_mps', 3);
+    if (lambda.ok) {
+      lines.push({label: 'λ', colour: 'ink', scale: 'lambda', unit: '', values: lambda.value,
+        digits: 3});
+    }
+    return {lines};
+  }
+
   function cyclePlot(data) {
     const values = seriesList(data, 'cycle_time_us');
     return {lines: [{label: 'cycle', colour: 'ink', values, digits: 1}]};
   }
 
+  /// Only where there is something to see: no force, no plot.
+  function forcePlots(data) {
+    const body = part(() => forcePlot(data));
+    if (body.ok && !body.value.lines.some((line) => line.values.some(Boolean))) return [];
+    return [{id: 'force', title: 'Force on the bucket tip', source: 'Kim, Fig. 10',
+      axis: 'force (kN)', unit: 'kN', height: 230, body}];
+  }
+
+  function velocityPlots(data) {
+    return AXES.map((axis, i) => ({
+      id: `velocity-${axis}`, title: `${axis[0].toUpperCase()}${axis.slice(1)} cylinder velocity`,
+      source: 'Kim, Fig. 13', axis: `${axis} (m/s)`, unit: 'm/s', height: 200,
+      body: part(() => velocityPlot(data, i))}));
+  }
+
+  /// In the order of the paper's figures, `source` naming them; then what the paper does not show.
   function plots(data) {
-    const list = [
-      {id: 'lambda', title: 'Speed factor λ and what holds it', axis: 'λ (1)', unit: '',
-        height: 240, body: part(() => lambdaPlot(data))},
-      {id: 'spool', title: 'Spools, commanded and real', axis: 'spool (% of travel)', unit: '%',
-        height: 270, body: part(() => spoolPlot(data))},
-      ...AXES.map((axis, i) => ({
-        id: `velocity-${axis}`, title: `${axis[0].toUpperCase()}${axis.slice(1)} cylinder velocity`,
-        axis: `${axis} (m/s)`, unit: 'm/s', height: 200, body: part(() => velocityPlot(data, i))})),
+    const recorded = reportScene.isRecorded(data);
+    return [
+      ...(recorded ? forcePlots(data) : []),
+      {id: 'lambda', title: 'Speed factor λ and what holds it', source: 'Kim, Fig. 11',
+        axis: 'λ (1)', unit: '', height: 240, body: part(() => lambdaPlot(data))},
+      {id: 'spool', title: 'Spools, commanded and real', source: 'Kim, Fig. 12',
+        axis: 'spool (% of travel)', unit: '%', height: 270, body: part(() => spoolPlot(data))},
+      ...velocityPlots(data),
+      ...(recorded ? [{id: 'tip-velocity', title: 'Velocity of the bucket tip, and λ',
+        source: 'Kim, Fig. 15', axis: 'velocity (m/s)', unit: 'm/s', height: 320,
+        body: part(() => tipVelocityPlot(data))}] : []),
       {id: 'pressure', title: 'Pump pressures, expected and real', axis: 'pressure (MPa)',
         unit: 'MPa', height: 240, body: part(() => pressurePlot(data))},
       {id: 'error', title: 'Path error of the bucket tip', axis: 'path error (mm)', unit: 'mm',
         height: 230, body: part(() => errorPlot(data))},
+      // Optional: without it there is nothing to miss.
+      ...(isObject(data) && isObject(data.series) && data.series.cycle_time_us ?
+        [{id: 'cycle', title: 'Computing time of a control cycle', axis: 'cycle (µs)', unit: 'µs',
+          height: 190, body: part(() => cyclePlot(data))}] : []),
     ];
-    // Optional: without it there is nothing to miss.
-    if (isObject(data) && isObject(data.series) && data.series.cycle_time_us) {
-      list.push({id: 'cycle', title: 'Computing time of a control cycle', axis: 'cycle (µs)',
-        unit: 'µs', height: 190, body: part(() => cyclePlot(data))});
-    }
-    return list;
   }
 
   /// A sensor may fail during a run: its point is then null, or has null in it.
@@ -240,13 +177,11 @@ const reportData = (() => {
     if (bad >= 0) throw new Problem(`“geometry.marks”, entry ${bad + 1}, lacks a number.`);
     const start = need(data, 'geometry.start');
     checkTuples([start], 'geometry.start', 2);
-    const ground = data.geometry.ground_y_m;
     return {
       path: points('path', 3),
       tipTrue: points('tip_true', 1),
       tipMeasured: points('tip_measured', 0, true),
       field: checkTuples(needList(data, 'geometry.field'), 'geometry.field', 4),
-      groundY: typeof ground === 'number' ? ground : null,
       marks,
       start,
     };
@@ -295,24 +230,49 @@ const reportData = (() => {
     return share > 0 && share < 0.001 ? '< 0.1 %' : `${(share * 100).toFixed(1)} %`;
   }
 
+  /// What the bucket met is part of the picture of the path, but a fault there must not cost the
+  /// path: the picture then lacks it, and the sentence stands below.
+  function pathPicture(data) {
+    const base = part(() => geometry(data));
+    const met = {
+      groundY: part(() => reportScene.groundY(data)),
+      obstacle: part(() => reportScene.obstacle(data)),
+      changes: part(() => reportScene.changes(data)),
+    };
+    const value = (one, otherwise) => (one.ok ? one.value : otherwise);
+    if (base.ok) {
+      Object.assign(base.value, {groundY: value(met.groundY, null),
+        obstacle: value(met.obstacle, null), changes: value(met.changes, [])});
+    }
+    const problems = Object.values(met).filter((one) => !one.ok).map((one) => one.problem);
+    const hit = value(met.obstacle, null) !== null || value(met.changes, []).length > 0;
+    return {base, problems: [...new Set(problems)],
+      source: hit ? 'Kim, Fig. 14' : 'Kim, Fig. 9'};
+  }
+
   function prepare(data) {
     const text = (key, otherwise) =>
       (isObject(data) && typeof data[key] === 'string' ? data[key] : otherwise);
+    const picture = pathPicture(data);
     const report = {
       title: text('title', 'Simulated run'),
       subtitle: text('subtitle', ''),
       summary: part(() => summary(data)),
       limitsShare: part(() => limitsShare(data)),
       limitColours: limitColours(data),
-      geometry: part(() => geometry(data)),
+      geometry: picture.base,
+      geometryProblems: picture.problems,
+      geometrySource: picture.source,
       time: part(() => time(data)),
+      holds: part(() => reportScene.holds(data)),
       plots: plots(data),
     };
-    const parts = [report.summary, report.limitsShare, report.geometry, report.time,
+    const parts = [report.summary, report.limitsShare, report.geometry, report.time, report.holds,
       ...report.plots.map((plot) => plot.body)];
-    report.problems = [...new Set(parts.filter((p) => !p.ok).map((p) => p.problem))];
+    report.problems = [...new Set(
+        [...parts.filter((p) => !p.ok).map((p) => p.problem), ...report.geometryProblems])];
     return report;
   }
 
-  return {prepare, limitRuns, limitColours, formatKey, formatLive, formatShare};
+  return {prepare, limitColours, formatKey, formatLive, formatShare};
 })();

@@ -9,7 +9,7 @@ const reportPath = (() => {
   function bounds(geometry) {
     let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
     for (const points of [geometry.path, geometry.tipTrue, geometry.tipMeasured, geometry.field,
-      [geometry.start]]) {
+      [geometry.start], geometry.obstacle?.outline ?? []]) {
       for (const [x, y] of points) {
         x0 = Math.min(x0, x);
         x1 = Math.max(x1, x);
@@ -85,29 +85,41 @@ const reportPath = (() => {
   const overlap = (a, b) =>
     Math.abs(a.x - b.x) < (a.w + b.w) / 2 && Math.abs(a.y - b.y) < (a.h + b.h) / 2;
 
-  /// Beside each mark, outwards from the middle of the path if there is room, else in another
-  /// direction; null when every place is taken: a missing number is better than two on one spot.
-  function placeLabels(marks, centre, frame, taken) {
+  const clearOf = (box, lines) => !lines.some(([x, y]) => overlap(box, {x, y, w: 2, h: 2}));
+
+  /// The places beside a mark, outwards from the middle of the path first.
+  function placesAt(mark, centre) {
+    const outward = Math.atan2(mark.y - centre.y, mark.x - centre.x);
+    const w = mark.width ?? LABEL.width;
+    return [0, 1, -1, 2, -2, 3, -3, 4].map((turn) => {
+      const angle = outward + turn * Math.PI / 4;
+      return {x: mark.x + Math.cos(angle) * (w / 2 + 10),
+        y: mark.y + Math.sin(angle) * LABEL.distance, w, h: LABEL.height};
+    });
+  }
+
+  /// For each mark a place clear of the `lines` if there is one, else on them; null when every
+  /// place is taken: a missing number is better than two on one spot. The first marks choose first;
+  /// those with a longer text than an attitude have its `width`.
+  function placeLabels(marks, centre, frame, taken, lines = []) {
     const dots = marks.map((m) => ({x: m.x, y: m.y, w: 8, h: 8}));
     const placed = [...taken];
+    const inside = (box) => box.x - box.w / 2 > frame.left && box.x + box.w / 2 < frame.right &&
+        box.y - box.h / 2 > frame.top && box.y + box.h / 2 < frame.bottom;
     return marks.map((mark) => {
-      const outward = Math.atan2(mark.y - centre.y, mark.x - centre.x);
-      for (const turn of [0, 1, -1, 2, -2, 3, -3, 4]) {
-        const angle = outward + turn * Math.PI / 4;
-        const box = {
-          x: mark.x + Math.cos(angle) * (LABEL.distance + 10),
-          y: mark.y + Math.sin(angle) * LABEL.distance,
-          w: LABEL.width, h: LABEL.height,
-        };
-        const inside = box.x - box.w / 2 > frame.left && box.x + box.w / 2 < frame.right &&
-            box.y - box.h / 2 > frame.top && box.y + box.h / 2 < frame.bottom;
-        if (inside && ![...placed, ...dots].some((other) => overlap(box, other))) {
-          placed.push(box);
-          return box;
-        }
-      }
-      return null;
+      const free = placesAt(mark, centre).filter((box) => inside(box) &&
+          ![...placed, ...dots].some((other) => overlap(box, other)));
+      const box = free.find((place) => clearOf(place, lines)) ?? free[0] ?? null;
+      if (box) placed.push(box);
+      return box;
     });
+  }
+
+  /// On the ground line, where neither the path nor the tip runs through the word.
+  function placeOnGround(y, frame, lines) {
+    const places = [frame.right - 32, frame.left + 32, (frame.left + frame.right) / 2]
+        .map((x) => ({x, y: y - 11, w: 60, h: 20}));
+    return places.find((box) => clearOf(box, lines)) ?? places[0];
   }
 
   function layout(geometry, width) {
@@ -123,17 +135,24 @@ const reportPath = (() => {
     const marks = geometry.marks.map((m) => (
       {x: view.px(m.x), y: view.py(m.y), text: `${Math.round(m.attitude_deg)}°`, time: m.time_s}));
     const start = toPx(geometry.start);
+    const changes = (geometry.changes ?? []).map((change) => ({
+      x: view.px(change.x), y: view.py(change.y), width: 96, holds: change.holds,
+      text: `${change.holds ? 'held' : 'let go'} ${change.time_s.toFixed(1)} s`}));
+    const tipTrue = thin(geometry.tipTrue.map(toPx), 0.5);
+    const lines = [...path, ...tipTrue];
     const groundY = geometry.groundY === null ? null : view.py(geometry.groundY);
-    const startLabel = {x: start[0], y: start[1] - 20, w: 44, h: 18};
-    const groundLabel = {x: frame.right - 40, y: (groundY ?? -99) - 11, w: 80, h: 20};
-    const places = placeLabels(marks, centre, frame, [startLabel, groundLabel]);
+    const groundLabel = placeOnGround(groundY ?? -99, frame, lines);
+    const [startLabel, ...places] = placeLabels(
+        [{x: start[0], y: start[1], width: 44}, ...changes, ...marks], centre, frame,
+        [groundLabel], lines);
     return {
-      view, frame, path, start, startLabel, groundY, groundLabel,
-      tipTrue: thin(geometry.tipTrue.map(toPx), 0.5),
+      view, frame, path, tipTrue, start, startLabel, groundY, groundLabel,
       tipMeasured: thin(geometry.tipMeasured.map(toPx), 0.5),
       arrows: arrows(geometry.field, view.scale)
           .map((arrow) => ({...arrow, x: view.px(arrow.x), y: view.py(arrow.y)})),
-      marks: marks.map((m, i) => ({...m, label: places[i]})),
+      obstacle: geometry.obstacle ? geometry.obstacle.outline.map(toPx) : null,
+      changes: changes.map((change, i) => ({...change, label: places[i]})),
+      marks: marks.map((m, i) => ({...m, label: places[changes.length + i]})),
       xTicks: ticks(view.x0, view.x1, view.innerWidth / 90),
       yTicks: ticks(view.y0, view.y1, view.innerHeight / 60),
     };
@@ -188,6 +207,25 @@ const reportPath = (() => {
     svg.append(label);
   }
 
+  /// The face that the bucket meets is the outline's first side.
+  function rock(outline) {
+    return [element('path', {class: 'obstacle', d: polyline(outline, true)}),
+      element('path', {class: 'face', d: polyline(outline.slice(0, 2))})];
+  }
+
+  /// A full square where the obstacle began to hold, a larger open one where it let go: the two are
+  /// often nearly on one spot. Labels last.
+  function changeMarks(changes) {
+    const squares = changes.map(({x, y, holds}) => {
+      const half = holds ? 4 : 7;
+      return element('rect', {class: holds ? 'held' : 'let-go', x: x - half, y: y - half,
+        width: 2 * half, height: 2 * half});
+    });
+    const labels = changes.filter((change) => change.label).map((change) =>
+      text('halo', change.label.x, change.label.y + 5, 'middle', change.text));
+    return [...squares, ...labels];
+  }
+
   /// `hidden` holds the layers that the reader has switched off. Returns the SVG and a function
   /// that shows the tip at a sample, or nothing for null.
   function draw(geometry, width, hidden) {
@@ -201,10 +239,11 @@ const reportPath = (() => {
       if (!hidden.has(name)) svg.append(...nodes);
     };
     layer('field', element('path', {class: 'field', d: arrowPath(plan.arrows)}));
+    if (plan.obstacle) layer('obstacle', ...rock(plan.obstacle));
     if (plan.groundY !== null) {
       const line = `M${frame.left},${plan.groundY}H${frame.right}`;
       svg.append(element('path', {class: 'ground', d: line}),
-          text('halo', frame.right - 6, plan.groundLabel.y + 5, 'end', 'ground'));
+          text('halo', plan.groundLabel.x, plan.groundLabel.y + 5, 'middle', 'ground'));
     }
     layer('true', element('path', {class: 'tip-true', d: polyline(plan.tipTrue)}));
     layer('measured', element('path', {class: 'tip-measured', d: polyline(plan.tipMeasured)}));
@@ -218,8 +257,11 @@ const reportPath = (() => {
       }
       return group;
     }));
-    svg.append(element('circle', {class: 'start', cx: plan.start[0], cy: plan.start[1], r: 7}),
-        text('halo', plan.startLabel.x, plan.startLabel.y + 5, 'middle', 'start'));
+    layer('obstacle', ...changeMarks(plan.changes));
+    svg.append(element('circle', {class: 'start', cx: plan.start[0], cy: plan.start[1], r: 7}));
+    if (plan.startLabel) {
+      svg.append(text('halo', plan.startLabel.x, plan.startLabel.y + 5, 'middle', 'start'));
+    }
     const cursor = element('circle', {class: 'cursor', r: 6, visibility: 'hidden'});
     svg.append(cursor);
     const showAt = (index) => {

@@ -6,11 +6,13 @@ import {join} from 'node:path';
 import test from 'node:test';
 
 const folder = process.argv[2];
-const load = (file, name) =>
-  new Function(`${readFileSync(join(folder, file), 'utf8')}\nreturn ${name};`)();
-const data = load('report_data.js', 'reportData');
-const path = load('report_path.js', 'reportPath');
+// As in the page: one script after the other in one scope.
+const [checks, data, path] = new Function(`${
+  ['report_checks.js', 'report_scene.js', 'report_data.js', 'report_path.js']
+      .map((file) => readFileSync(join(folder, file), 'utf8')).join('\n')}
+  return [reportChecks, reportData, reportPath];`)();
 
+/// As written before forces, tip velocity and obstacle were recorded.
 function good() {
   const three = (value) => [0, 1, 2].map((i) => [value * i, value, -value]);
   return {
@@ -121,10 +123,10 @@ test('faults of the other parts are named', () => {
 });
 
 test('a limit holds until the next sample, and not across a gap', () => {
-  const runs = data.limitRuns([0, 1, 2, 3, 4, 5], [0, 0, 1, null, 1, 0]);
+  const runs = checks.runs([0, 1, 2, 3, 4, 5], [0, 0, 1, null, 1, 0]);
   assert.deepEqual(runs, [
-    {from: 0, until: 2, limit: 0}, {from: 2, until: 3, limit: 1},
-    {from: 4, until: 5, limit: 1}, {from: 5, until: 5, limit: 0}]);
+    {from: 0, until: 2, value: 0}, {from: 2, until: 3, value: 1},
+    {from: 4, until: 5, value: 1}, {from: 5, until: 5, value: 0}]);
 });
 
 test('a limit has one colour everywhere, "none" the neutral one', () => {
@@ -162,6 +164,17 @@ test('a run that never moves can still be drawn', () => {
     groundY: null, marks: [], start: [1, 1]};
   const {view} = path.layout(geometry, 600);
   assert.ok(Number.isFinite(view.px(1)) && Number.isFinite(view.height));
+});
+
+test('labels keep off the lines where they can, and stay where they cannot', () => {
+  const frame = {left: 0, right: 400, top: 0, bottom: 400};
+  const [centre, mark] = [{x: 200, y: 200}, {x: 300, y: 200, width: 60}];
+  const place = (lines) => path.placeLabels([mark], centre, frame, [], lines)[0];
+  assert.ok(place([]).x - 30 > 300, 'outwards');
+  const clear = place([[340, 200]]);
+  assert.ok(Math.abs(clear.x - 340) > 30 || Math.abs(clear.y - 200) > 9);
+  const everywhere = Array.from({length: 6400}, (_, i) => [i % 80 * 5, Math.floor(i / 80) * 5]);
+  assert.deepEqual(place(everywhere), place([]));
 });
 
 test('labels never overlap, whatever the number of marks', () => {
