@@ -15,9 +15,10 @@ struct PistonLoad {
   double coulomb_n = 0.0;
 };
 
-/// Chamber volume is the dead volume plus area times travel. Leakage past the piston is laminar and
-/// lags by one step (its time constant is minutes). The end stops are springs, damped on the way
-/// in.
+/// Chamber volume is the dead volume plus area times travel; travel is the sum of the steps' mean
+/// velocities, so that oil neither appears nor vanishes (against the links' geometry it lags by
+/// half a step). Leakage past the piston is laminar and lags by one step (its time constant is
+/// minutes). The end stops are springs, damped on the way in.
 class Cylinder {
  public:
   Cylinder(const PlantProfile& profile, int axis);
@@ -34,26 +35,29 @@ class Cylinder {
   /// Ends the step with its chamber flows (into the chambers) and mean velocity.
   void step(double cap_in_m3ps, double rod_in_m3ps, double velocity_mps);
 
-  /// At the valve's ports, where the hose transducers sit.
-  [[nodiscard]] double cap_pressure_pa() const { return cap_.first_port_pressure_pa(); }
-  [[nodiscard]] double rod_pressure_pa() const { return rod_.first_port_pressure_pa(); }
+  [[nodiscard]] const WaveVolume& cap() const { return cap_; }
+  [[nodiscard]] const WaveVolume& rod() const { return rod_; }
 
  private:
-  static constexpr std::size_t kValve = 0;  // the one that is measured
+  static constexpr std::size_t kValve = 0;
   static constexpr std::size_t kPiston = 1;
 
   [[nodiscard]] double leak_m3ps() const {
     return leak_ * (cap_.pressure_pa() - rod_.pressure_pa());
   }
+  /// As the piston sees it: a chamber that boils at the last velocity pulls no harder.
+  [[nodiscard]] WavePort piston_port(const WaveVolume& chamber, double last_inflow_m3ps) const;
   void add_end_stop(PistonLoad& load) const;
 
   WaveVolume cap_;
   WaveVolume rod_;
   double cap_area_;
   double rod_area_;
+  double step_;
   double full_stroke_;
   double dead_volume_;
   double leak_;
+  double boiling_;
   double back_pressure_;
   PistonFriction friction_;
   double stop_stiffness_;

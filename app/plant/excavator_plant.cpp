@@ -17,7 +17,7 @@ std::size_t sections_on(const PlantProfile& profile, int pump) {
 
 ExcavatorPlant::ExcavatorPlant(const PlantProfile& profile, const AxisArray& start_strokes_m)
     : profile_(profile),
-      step_s_(1e-6 * static_cast<double>(profile.step_us)),
+      step_s_(profile.step_s()),
       pump_{PumpLine(profile, 0, sections_on(profile, 0)),
             PumpLine(profile, 1, sections_on(profile, 1))},
       section_{ValveSection(profile, kBoom), ValveSection(profile, kArm),
@@ -103,13 +103,13 @@ ExcavatorPlant::AxisArray ExcavatorPlant::stroke_velocities_mps() const {
 }
 
 ExcavatorPlant::AxisArray ExcavatorPlant::cap_pressures_pa() const {
-  return {cylinder_[0].cap_pressure_pa(), cylinder_[1].cap_pressure_pa(),
-          cylinder_[2].cap_pressure_pa()};
+  return {cylinder_[0].cap().pressure_pa(), cylinder_[1].cap().pressure_pa(),
+          cylinder_[2].cap().pressure_pa()};
 }
 
 ExcavatorPlant::AxisArray ExcavatorPlant::rod_pressures_pa() const {
-  return {cylinder_[0].rod_pressure_pa(), cylinder_[1].rod_pressure_pa(),
-          cylinder_[2].rod_pressure_pa()};
+  return {cylinder_[0].rod().pressure_pa(), cylinder_[1].rod().pressure_pa(),
+          cylinder_[2].rod().pressure_pa()};
 }
 
 ExcavatorPlant::AxisArray ExcavatorPlant::spool_travels_ratio() const {
@@ -122,7 +122,7 @@ ExcavatorPlant::PumpArray ExcavatorPlant::pump_pressures_pa() const {
 }
 
 ExcavatorPlant::PumpArray ExcavatorPlant::pump_flows_m3ps() const {
-  return {pump_[0].flow_m3ps(), pump_[1].flow_m3ps()};
+  return {pump_[0].flows().delivered_m3ps, pump_[1].flows().delivered_m3ps};
 }
 
 }  // namespace graben::plant

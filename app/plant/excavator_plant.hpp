@@ -43,7 +43,7 @@ class ExcavatorPlant {
 
   [[nodiscard]] AxisArray strokes_m() const;
   [[nodiscard]] AxisArray stroke_velocities_mps() const;
-  /// Above ambient; may lie slightly below 0 while a make-up check is open.
+  /// Above ambient; slightly below 0 while a make-up check is open, and no lower than boiling.
   [[nodiscard]] AxisArray cap_pressures_pa() const;
   [[nodiscard]] AxisArray rod_pressures_pa() const;
   [[nodiscard]] AxisArray spool_travels_ratio() const;
@@ -52,6 +52,8 @@ class ExcavatorPlant {
   [[nodiscard]] PumpArray pump_flows_m3ps() const;
   /// Flow that each section takes from its pump's line and gives back by regeneration, m^3/s.
   [[nodiscard]] const std::array<SectionFlows, kAxisCount>& section_flows() const { return flows_; }
+  [[nodiscard]] const Cylinder& cylinder(std::size_t axis) const { return cylinder_[axis]; }
+  [[nodiscard]] const PumpLine& pump(std::size_t index) const { return pump_[index]; }
   [[nodiscard]] const JointArray& joint_angles_rad() const { return links_.angles(); }
   [[nodiscard]] TipPose tip() const { return links_.tip(); }
   [[nodiscard]] const PlantProfile& profile() const { return profile_; }

@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "app/plant/oil.hpp"
+#include "app/plant/orifice.hpp"
 #include "firmware/core/time.hpp"
 #include "firmware/machine/excavator_profile.hpp"
 
@@ -62,8 +64,10 @@ struct PlantProfile {
   /// Slope of every relief valve above its opening pressure, Pa s/m^3: 1.2 MPa at 138 L/min.
   double relief_override_paspm3 = 5e8;
   /// Slope of the make-up checks from tank, Pa s/m^3: 0.02 MPa below ambient at 400 L/min, so that
-  /// the oil does not boil and no vapour needs a state of its own.
+  /// the oil does not boil.
   double makeup_paspm3 = 3e6;
+  /// Where the oil boils: 0 absolute. Its vapour pressure at 50 deg C is below 1 kPa.
+  double boiling_pa = -0.1e6;
   /// Travel, in units of the full travel, over which a spool's bypass goes from open to closed; it
   /// ends at the deadband's edge, where the metering edges begin to open: so (20), with the
   /// deadband collapsed, holds wherever the cylinder can move. (20) itself switches; a land edge
@@ -79,6 +83,12 @@ struct PlantProfile {
   /// Fixed step of the simulation. Stable at any length (transmission-line elements); the length
   /// decides accuracy only, see `ExcavatorPlant`.
   TimeUs step_us = 200;
+
+  [[nodiscard]] PortProtection protection(double relief_pa) const {
+    return {relief_pa, relief_override_paspm3, makeup_paspm3, boiling_pa};
+  }
+  [[nodiscard]] Oil oil() const { return {bulk_modulus_pa, boiling_pa}; }
+  [[nodiscard]] double step_s() const { return 1e-6 * static_cast<double>(step_us); }
 };
 
 }  // namespace graben::plant

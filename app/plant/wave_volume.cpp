@@ -2,35 +2,41 @@
 
 namespace graben::plant {
 
-WaveVolume::WaveVolume(std::size_t port_count, double bulk_modulus_pa, double step_s)
-    : count_(port_count),
-      impedance_volume_(0.5 * static_cast<double>(port_count) * bulk_modulus_pa * step_s /
-                        (1.0 - kFilter)) {}
+WaveVolume::WaveVolume(std::size_t port_count, const Oil& oil, double step_s)
+    : count_(port_count), oil_(oil), step_(step_s) {}
 
-void WaveVolume::scatter() {
-  std::array<double, kMaxPorts> reflected{};
-  double wave_sum = 0.0;
-  double flow_sum = 0.0;
+void WaveVolume::set_volume(double volume_m3) {
+  volume_ = volume_m3;
+  stiffness_ = oil_.bulk_modulus_pa / volume_;
+  impedance_ = 0.5 / (1.0 - kFilter) * static_cast<double>(count_) * stiffness_ * step_;
+}
+
+void WaveVolume::start(double volume_m3, double pressure_pa) {
+  set_volume(volume_m3);
+  surplus_ = pressure_pa / stiffness_;
+  mean_ = pressure_pa;
   for (std::size_t i = 0; i < count_; ++i) {
-    reflected[i] = wave_[i] + 2.0 * impedance_ * flow_[i];
-    wave_sum += wave_[i];
-    flow_sum += flow_[i];
-  }
-  const double count = static_cast<double>(count_);
-  const double twice_mean = 2.0 * (wave_sum + 2.0 * impedance_ * flow_sum) / count;
-  pressure_ = (wave_sum + impedance_ * flow_sum) / count;
-  first_port_pressure_ = wave_[0] + impedance_ * flow_[0];
-  for (std::size_t i = 0; i < count_; ++i) {
-    wave_[i] = kFilter * wave_[i] + (1.0 - kFilter) * (twice_mean - reflected[i]);
+    deviation_[i] = -impedance_ * flow_[i];
   }
 }
 
-void WaveVolume::start(double pressure_pa) {
-  pressure_ = pressure_pa;
-  first_port_pressure_ = pressure_pa;
+void WaveVolume::scatter() {
+  double flow_sum = 0.0;
   for (std::size_t i = 0; i < count_; ++i) {
-    wave_[i] = pressure_pa - impedance_ * flow_[i];
+    flow_sum += flow_[i];
   }
+  const double mean_flow = flow_sum / static_cast<double>(count_);
+  const double gain = 2.0 * (1.0 - kFilter) * impedance_;
+  for (std::size_t i = 0; i < count_; ++i) {
+    deviation_[i] = (2.0 * kFilter - 1.0) * deviation_[i] - gain * (flow_[i] - mean_flow);
+  }
+  surplus_ += step_ * flow_sum;
+  mean_ = stiffness_ * surplus_;
+}
+
+void WaveVolume::grow(double volume_m3) {
+  set_volume(volume_ + volume_m3);
+  mean_ = stiffness_ * surplus_;
 }
 
 }  // namespace graben::plant
