@@ -26,6 +26,14 @@ Cylinder::Cylinder(const PlantProfile& profile, int axis)
   full_stroke_ = data.stroke_m;
   dead_volume_ = profile.dead_volume_m3[index];
   friction_ = profile.friction[index];
+  cushion_length_ = profile.cushion_length_m;
+  cushion_end_ = profile.cushion_end_m;
+  const auto cushion = [&profile](double area_m2) {
+    const double flow = area_m2 * profile.cushion_speed_mps;
+    return profile.cushion_pressure_pa / (flow * flow);
+  };
+  cap_cushion_ = cushion(cap_area_);
+  rod_cushion_ = cushion(rod_area_);
 }
 
 void Cylinder::start(double stroke_m, double force_n) {
@@ -69,6 +77,21 @@ PistonLoad Cylinder::load() const {
   load.coulomb_n = friction_.coulomb_n;
   add_end_stop(load);
   return load;
+}
+
+PistonPower Cylinder::power(double velocity_mps) const {
+  const double leak = leak_m3ps();
+  const double swept_cap = -cap_area_ * velocity_mps - leak;
+  const double swept_rod = rod_area_ * velocity_mps + leak;
+  PistonLoad stop;
+  add_end_stop(stop);
+  PistonPower power;
+  power.cap_pa = piston_port(cap_, -cap_area_ * velocity_ - leak).pressure_pa(swept_cap);
+  power.rod_pa = piston_port(rod_, rod_area_ * velocity_ + leak).pressure_pa(swept_rod);
+  power.leak_m3ps = leak;
+  power.viscous_w = friction_.viscous_nspm * velocity_mps * velocity_mps;
+  power.end_stop_w = (stop.damping_nspm * velocity_mps - stop.force_n) * velocity_mps;
+  return power;
 }
 
 void Cylinder::step(double cap_in_m3ps, double rod_in_m3ps, double velocity_mps) {

@@ -1,6 +1,8 @@
 #pragma once
 /// The parallel cylinders of one axis: two chambers, piston leakage, end stops.
 
+#include <algorithm>
+
 #include "app/plant/plant_profile.hpp"
 #include "app/plant/wave_volume.hpp"
 
@@ -13,6 +15,15 @@ struct PistonLoad {
   double force_n = 0.0;
   double damping_nspm = 0.0;
   double coulomb_n = 0.0;
+};
+
+/// What the piston loses in a step, for the energy account.
+struct PistonPower {
+  double cap_pa = 0.0;  ///< As the piston saw it.
+  double rod_pa = 0.0;
+  double leak_m3ps = 0.0;
+  double viscous_w = 0.0;
+  double end_stop_w = 0.0;
 };
 
 /// Chamber volume is the dead volume plus area times travel; travel is the sum of the steps' mean
@@ -31,7 +42,18 @@ class Cylinder {
   void set_motion(double stroke_m, double velocity_mps);
   [[nodiscard]] WavePort cap_port() const { return cap_.port(kValve); }
   [[nodiscard]] WavePort rod_port() const { return rod_.port(kValve); }
+  /// Resistance of each cushion to what leaves its chamber, 1 / K^2; 0 where the piston is not in
+  /// it. It grows as length over what is left of it, less 1: a piston that slows evenly meets even
+  /// pressure.
+  [[nodiscard]] double cap_cushion_pas2pm6() const {
+    return cushion_pas2pm6(stroke_, cap_cushion_);
+  }
+  [[nodiscard]] double rod_cushion_pas2pm6() const {
+    return cushion_pas2pm6(full_stroke_ - stroke_, rod_cushion_);
+  }
   [[nodiscard]] PistonLoad load() const;
+  /// With the step's mean velocity, before `step`.
+  [[nodiscard]] PistonPower power(double velocity_mps) const;
   /// Ends the step with its chamber flows (into the chambers) and mean velocity.
   void step(double cap_in_m3ps, double rod_in_m3ps, double velocity_mps);
 
@@ -47,6 +69,11 @@ class Cylinder {
   }
   /// As the piston sees it: a chamber that boils at the last velocity pulls no harder.
   [[nodiscard]] WavePort piston_port(const WaveVolume& chamber, double last_inflow_m3ps) const;
+  [[nodiscard]] double cushion_pas2pm6(double left_m, double at_half_length) const {
+    return left_m < cushion_length_
+               ? at_half_length * (cushion_length_ / std::max(left_m, cushion_end_) - 1.0)
+               : 0.0;
+  }
   void add_end_stop(PistonLoad& load) const;
 
   WaveVolume cap_;
@@ -60,6 +87,10 @@ class Cylinder {
   double boiling_;
   double back_pressure_;
   PistonFriction friction_;
+  double cushion_length_;
+  double cushion_end_;
+  double cap_cushion_;  ///< 1 / K^2 at half the cushion's length.
+  double rod_cushion_;
   double stop_stiffness_;
   double stop_damping_;
   double stroke_ = 0.0;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "app/plant/cylinder.hpp"
+#include "app/plant/energy_account.hpp"
 #include "app/plant/linkage_dynamics.hpp"
 #include "app/plant/plant_profile.hpp"
 #include "app/plant/pump_line.hpp"
@@ -15,7 +16,7 @@ namespace graben::plant {
 
 /// The circuit of Kim 3 with what his detailed model adds (Kim 5): compressible chambers and lines,
 /// spool dynamics, deadband, leakage, link inertia, friction; in addition port reliefs, make-up
-/// checks and end stops. Deterministic: the same calls give the same numbers.
+/// checks, hoses, cushions and end stops. Deterministic: the same calls give the same numbers.
 ///
 /// Every volume is a transmission-line element, so that within a step each orifice sees two ports
 /// only and is solved in closed form: stable at any step length and bulk modulus. The step decides
@@ -38,12 +39,18 @@ class ExcavatorPlant {
   /// Force on the bucket tip, N, x forward and y up, until changed.
   void set_tip_force(const Eigen::Vector2d& force_n) { links_.set_tip_force(force_n); }
 
+  /// From now on each step adds to this account, which belongs to the caller; null ends it.
+  void keep_account(EnergyAccount* account) { account_ = account; }
+  /// Kinetic, potential and of compressed oil, J.
+  [[nodiscard]] double stored_energy_j() const;
+
   /// Runs on. What is shorter than a step is kept for the next call.
   void advance(TimeUs duration_us);
 
   [[nodiscard]] AxisArray strokes_m() const;
   [[nodiscard]] AxisArray stroke_velocities_mps() const;
-  /// Above ambient; slightly below 0 while a make-up check is open, and no lower than boiling.
+  /// At the valve's end of the hoses, where the transducers sit. Above ambient; slightly below 0
+  /// while a make-up check is open, and no lower than boiling.
   [[nodiscard]] AxisArray cap_pressures_pa() const;
   [[nodiscard]] AxisArray rod_pressures_pa() const;
   [[nodiscard]] AxisArray spool_travels_ratio() const;
@@ -60,6 +67,10 @@ class ExcavatorPlant {
 
  private:
   void step();
+  void add_pistons_to_account(const JointArray& velocity_mps);
+  [[nodiscard]] SectionPorts ports_of(std::size_t axis) const;
+  [[nodiscard]] double valve_pressure_pa(std::size_t axis, const WaveVolume& chamber,
+                                         double hose_m3ps, double cushion_pas2pm6) const;
   void set_bypasses();
 
   PlantProfile profile_;
@@ -74,6 +85,7 @@ class ExcavatorPlant {
   std::array<Cylinder, kAxisCount> cylinder_;
   LinkageDynamics links_;
   std::array<SectionFlows, kAxisCount> flows_{};
+  EnergyAccount* account_ = nullptr;
 };
 
 }  // namespace graben::plant

@@ -75,6 +75,18 @@ struct PlantProfile {
   double bypass_closing_travel = 0.1;
   /// Pressure of the unloaded chambers at the start.
   double start_back_pressure_pa = 0.5e6;
+  /// Hose between valve and cylinder, laminar and turbulent share of its pressure drop: 0.1 and 0.3
+  /// MPa at 200 L/min. Chosen; some 3 m of 25 mm hose with its fittings.
+  double hose_linear_paspm3 = 3e7;
+  double hose_quadratic_pas2pm6 = 2.7e10;
+  /// Cushions: over this last part of the stroke the way out of the chamber narrows, so that a
+  /// piston brakes evenly. Chosen, as makers of the class cushion 40 - 100 mm.
+  double cushion_length_m = 0.05;
+  /// At half the cushion's length a piston of this speed meets this pressure.
+  double cushion_speed_mps = 0.4;
+  double cushion_pressure_pa = 15e6;
+  /// What stays of the cushion's length to compute with at the very end, where it would be shut.
+  double cushion_end_m = 1e-3;
   /// Contact at the stroke's ends: full system pressure on a boom cap side (0.8 MN) presses in by
   /// 0.4 mm. Damping acts on the way in only; about critical for the boom's 5e4 kg at its cylinder.
   double end_stop_stiffness_npm = 2e9;

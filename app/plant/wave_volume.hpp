@@ -49,6 +49,10 @@ class WaveVolume {
   [[nodiscard]] double pressure_pa() const { return std::max(mean_, oil_.boiling_pa); }
   /// Oil in it at ambient density.
   [[nodiscard]] double content_m3() const { return volume_ + surplus_; }
+  /// Of compression; a void holds what it took to open it against ambient pressure.
+  [[nodiscard]] double energy_j() const {
+    return compression_energy_j(oil_, pressure_pa(), volume_) - oil_.boiling_pa * void_m3();
+  }
   [[nodiscard]] double volume_m3() const { return volume_; }
   /// Space that no oil fills, 0 unless it boils.
   [[nodiscard]] double void_m3() const {
@@ -61,6 +65,8 @@ class WaveVolume {
   std::size_t count_;
   Oil oil_;
   double step_;
+  double port_share_;               ///< 1 / N.
+  double impedance_per_stiffness_;  ///< Z V / beta.
   double volume_ = 0.0;
   double surplus_ = 0.0;
   double stiffness_ = 0.0;  ///< beta / V.
@@ -69,5 +75,32 @@ class WaveVolume {
   std::array<double, kMaxPorts> deviation_{};
   std::array<double, kMaxPorts> flow_{};
 };
+
+// In the header, as a step of the plant calls these twenty times.
+
+inline void WaveVolume::set_volume(double volume_m3) {
+  volume_ = volume_m3;
+  stiffness_ = oil_.bulk_modulus_pa / volume_;
+  impedance_ = impedance_per_stiffness_ * stiffness_;
+}
+
+inline void WaveVolume::scatter() {
+  double flow_sum = 0.0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    flow_sum += flow_[i];
+  }
+  const double mean_flow = port_share_ * flow_sum;
+  const double gain = 2.0 * (1.0 - kFilter) * impedance_;
+  for (std::size_t i = 0; i < count_; ++i) {
+    deviation_[i] = (2.0 * kFilter - 1.0) * deviation_[i] - gain * (flow_[i] - mean_flow);
+  }
+  surplus_ += step_ * flow_sum;
+  mean_ = stiffness_ * surplus_;
+}
+
+inline void WaveVolume::grow(double volume_m3) {
+  set_volume(volume_ + volume_m3);
+  mean_ = stiffness_ * surplus_;
+}
 
 }  // namespace graben::plant
