@@ -15,14 +15,17 @@ namespace {
 }  // namespace
 
 std::string candump_line(const CanFrame& frame, TimeUs now_us, const std::string& interface_name) {
+  // One format call a line: a simulation spends a fifth of its time here if every byte takes one.
   std::string line =
-      fmt::format("({:010d}.{:06d}) {} ", now_us / kSecondUs, now_us % kSecondUs, interface_name);
-  line += frame.extended ? fmt::format("{:08X}#", frame.id) : fmt::format("{:03X}#", frame.id);
+      fmt::format(frame.extended ? "({:010d}.{:06d}) {} {:08X}#" : "({:010d}.{:06d}) {} {:03X}#",
+                  now_us / kSecondUs, now_us % kSecondUs, interface_name, frame.id);
   if (frame.remote) {
     return line + "R";
   }
+  constexpr char kDigits[] = "0123456789ABCDEF";
   for (unsigned i = 0; i < frame.length && i < frame.data.size(); ++i) {
-    line += fmt::format("{:02X}", frame.data[i]);
+    line += kDigits[frame.data[i] >> 4U];
+    line += kDigits[frame.data[i] & 15U];
   }
   return line;
 }

@@ -7,16 +7,14 @@ namespace {
 
 constexpr double kQuarterPi = 0.7853981633974483;
 
-double step_seconds(const PlantProfile& profile) {
-  return 1e-6 * static_cast<double>(profile.step_us);
-}
-
 }  // namespace
 
 Cylinder::Cylinder(const PlantProfile& profile, int axis)
-    : cap_(2, profile.bulk_modulus_pa, step_seconds(profile)),
-      rod_(2, profile.bulk_modulus_pa, step_seconds(profile)),
+    : cap_(2, profile.oil(), profile.step_s()),
+      rod_(2, profile.oil(), profile.step_s()),
+      step_(profile.step_s()),
       leak_(profile.piston_leak_m3pspa),
+      boiling_(profile.boiling_pa),
       back_pressure_(profile.start_back_pressure_pa),
       stop_stiffness_(profile.end_stop_stiffness_npm),
       stop_damping_(profile.end_stop_damping_nspm) {
@@ -28,21 +26,28 @@ Cylinder::Cylinder(const PlantProfile& profile, int axis)
   full_stroke_ = data.stroke_m;
   dead_volume_ = profile.dead_volume_m3[index];
   friction_ = profile.friction[index];
+  cushion_length_ = profile.cushion_length_m;
+  cushion_end_ = profile.cushion_end_m;
+  const auto cushion = [&profile](double area_m2) {
+    const double flow = area_m2 * profile.cushion_speed_mps;
+    return profile.cushion_pressure_pa / (flow * flow);
+  };
+  cap_cushion_ = cushion(cap_area_);
+  rod_cushion_ = cushion(rod_area_);
 }
 
 void Cylinder::start(double stroke_m, double force_n) {
   set_motion(stroke_m, 0.0);
   const double balance = force_n - back_pressure_ * (cap_area_ - rod_area_);
-  cap_.start(back_pressure_ + std::max(0.0, balance) / cap_area_);
-  rod_.start(back_pressure_ + std::max(0.0, -balance) / rod_area_);
+  cap_.start(dead_volume_ + cap_area_ * stroke_m,
+             back_pressure_ + std::max(0.0, balance) / cap_area_);
+  rod_.start(dead_volume_ + rod_area_ * (full_stroke_ - stroke_m),
+             back_pressure_ + std::max(0.0, -balance) / rod_area_);
 }
 
 void Cylinder::set_motion(double stroke_m, double velocity_mps) {
   stroke_ = stroke_m;
   velocity_ = velocity_mps;
-  const double inside = std::clamp(stroke_m, 0.0, full_stroke_);
-  cap_.set_volume(dead_volume_ + cap_area_ * inside);
-  rod_.set_volume(dead_volume_ + rod_area_ * (full_stroke_ - inside));
 }
 
 void Cylinder::add_end_stop(PistonLoad& load) const {
@@ -56,13 +61,17 @@ void Cylinder::add_end_stop(PistonLoad& load) const {
   }
 }
 
+WavePort Cylinder::piston_port(const WaveVolume& chamber, double last_inflow_m3ps) const {
+  const WavePort port = chamber.port(kPiston);
+  return port.pressure_pa(last_inflow_m3ps) < boiling_ ? WavePort{boiling_, 0.0} : port;
+}
+
 PistonLoad Cylinder::load() const {
-  const WavePort cap = cap_.port(kPiston);
-  const WavePort rod = rod_.port(kPiston);
   const double leak = leak_m3ps();
+  const WavePort cap = piston_port(cap_, -cap_area_ * velocity_ - leak);
+  const WavePort rod = piston_port(rod_, rod_area_ * velocity_ + leak);
   PistonLoad load;
-  load.force_n = cap_area_ * (cap.wave_pa - cap.impedance_paspm3 * leak) -
-                 rod_area_ * (rod.wave_pa + rod.impedance_paspm3 * leak);
+  load.force_n = cap_area_ * cap.pressure_pa(-leak) - rod_area_ * rod.pressure_pa(leak);
   load.damping_nspm = cap_area_ * cap_area_ * cap.impedance_paspm3 +
                       rod_area_ * rod_area_ * rod.impedance_paspm3 + friction_.viscous_nspm;
   load.coulomb_n = friction_.coulomb_n;
@@ -70,14 +79,32 @@ PistonLoad Cylinder::load() const {
   return load;
 }
 
+PistonPower Cylinder::power(double velocity_mps) const {
+  const double leak = leak_m3ps();
+  const double swept_cap = -cap_area_ * velocity_mps - leak;
+  const double swept_rod = rod_area_ * velocity_mps + leak;
+  PistonLoad stop;
+  add_end_stop(stop);
+  PistonPower power;
+  power.cap_pa = piston_port(cap_, -cap_area_ * velocity_ - leak).pressure_pa(swept_cap);
+  power.rod_pa = piston_port(rod_, rod_area_ * velocity_ + leak).pressure_pa(swept_rod);
+  power.leak_m3ps = leak;
+  power.viscous_w = friction_.viscous_nspm * velocity_mps * velocity_mps;
+  power.end_stop_w = (stop.damping_nspm * velocity_mps - stop.force_n) * velocity_mps;
+  return power;
+}
+
 void Cylinder::step(double cap_in_m3ps, double rod_in_m3ps, double velocity_mps) {
   const double leak = leak_m3ps();
+  const double travel = step_ * velocity_mps;
   cap_.set_flow(kValve, cap_in_m3ps);
   cap_.set_flow(kPiston, -cap_area_ * velocity_mps - leak);
   cap_.scatter();
+  cap_.grow(cap_area_ * travel);
   rod_.set_flow(kValve, rod_in_m3ps);
   rod_.set_flow(kPiston, rod_area_ * velocity_mps + leak);
   rod_.scatter();
+  rod_.grow(-rod_area_ * travel);
 }
 
 }  // namespace graben::plant

@@ -1,6 +1,8 @@
 #pragma once
 /// The parallel cylinders of one axis: two chambers, piston leakage, end stops.
 
+#include <algorithm>
+
 #include "app/plant/plant_profile.hpp"
 #include "app/plant/wave_volume.hpp"
 
@@ -15,9 +17,19 @@ struct PistonLoad {
   double coulomb_n = 0.0;
 };
 
-/// Chamber volume is the dead volume plus area times travel. Leakage past the piston is laminar and
-/// lags by one step (its time constant is minutes). The end stops are springs, damped on the way
-/// in.
+/// What the piston loses in a step, for the energy account.
+struct PistonPower {
+  double cap_pa = 0.0;  ///< As the piston saw it.
+  double rod_pa = 0.0;
+  double leak_m3ps = 0.0;
+  double viscous_w = 0.0;
+  double end_stop_w = 0.0;
+};
+
+/// Chamber volume is the dead volume plus area times travel; travel is the sum of the steps' mean
+/// velocities, so that oil neither appears nor vanishes (against the links' geometry it lags by
+/// half a step). Leakage past the piston is laminar and lags by one step (its time constant is
+/// minutes). The end stops are springs, damped on the way in.
 class Cylinder {
  public:
   Cylinder(const PlantProfile& profile, int axis);
@@ -30,20 +42,37 @@ class Cylinder {
   void set_motion(double stroke_m, double velocity_mps);
   [[nodiscard]] WavePort cap_port() const { return cap_.port(kValve); }
   [[nodiscard]] WavePort rod_port() const { return rod_.port(kValve); }
+  /// Resistance of each cushion to what leaves its chamber, 1 / K^2; 0 where the piston is not in
+  /// it. It grows as length over what is left of it, less 1: a piston that slows evenly meets even
+  /// pressure.
+  [[nodiscard]] double cap_cushion_pas2pm6() const {
+    return cushion_pas2pm6(stroke_, cap_cushion_);
+  }
+  [[nodiscard]] double rod_cushion_pas2pm6() const {
+    return cushion_pas2pm6(full_stroke_ - stroke_, rod_cushion_);
+  }
   [[nodiscard]] PistonLoad load() const;
+  /// With the step's mean velocity, before `step`.
+  [[nodiscard]] PistonPower power(double velocity_mps) const;
   /// Ends the step with its chamber flows (into the chambers) and mean velocity.
   void step(double cap_in_m3ps, double rod_in_m3ps, double velocity_mps);
 
-  /// At the valve's ports, where the hose transducers sit.
-  [[nodiscard]] double cap_pressure_pa() const { return cap_.first_port_pressure_pa(); }
-  [[nodiscard]] double rod_pressure_pa() const { return rod_.first_port_pressure_pa(); }
+  [[nodiscard]] const WaveVolume& cap() const { return cap_; }
+  [[nodiscard]] const WaveVolume& rod() const { return rod_; }
 
  private:
-  static constexpr std::size_t kValve = 0;  // the one that is measured
+  static constexpr std::size_t kValve = 0;
   static constexpr std::size_t kPiston = 1;
 
   [[nodiscard]] double leak_m3ps() const {
     return leak_ * (cap_.pressure_pa() - rod_.pressure_pa());
+  }
+  /// As the piston sees it: a chamber that boils at the last velocity pulls no harder.
+  [[nodiscard]] WavePort piston_port(const WaveVolume& chamber, double last_inflow_m3ps) const;
+  [[nodiscard]] double cushion_pas2pm6(double left_m, double at_half_length) const {
+    return left_m < cushion_length_
+               ? at_half_length * (cushion_length_ / std::max(left_m, cushion_end_) - 1.0)
+               : 0.0;
   }
   void add_end_stop(PistonLoad& load) const;
 
@@ -51,11 +80,17 @@ class Cylinder {
   WaveVolume rod_;
   double cap_area_;
   double rod_area_;
+  double step_;
   double full_stroke_;
   double dead_volume_;
   double leak_;
+  double boiling_;
   double back_pressure_;
   PistonFriction friction_;
+  double cushion_length_;
+  double cushion_end_;
+  double cap_cushion_;  ///< 1 / K^2 at half the cushion's length.
+  double rod_cushion_;
   double stop_stiffness_;
   double stop_damping_;
   double stroke_ = 0.0;

@@ -18,7 +18,7 @@ std::size_t sections_on(const PlantProfile& profile, int pump) {
 
 ExcavatorPlant::ExcavatorPlant(const PlantProfile& profile, const AxisArray& start_strokes_m)
     : profile_(profile),
-      step_s_(1e-6 * static_cast<double>(profile.step_us)),
+      step_s_(profile.step_s()),
       pump_{PumpLine(profile, 0, sections_on(profile, 0)),
             PumpLine(profile, 1, sections_on(profile, 1))},
       section_{ValveSection(profile, kBoom), ValveSection(profile, kArm),
@@ -67,8 +67,7 @@ void ExcavatorPlant::advance(TimeUs duration_us) {
 void ExcavatorPlant::set_bypasses() {
   std::array<double, kPumpCount> inverse_square{};
   for (std::size_t i = 0; i < kAxisCount; ++i) {
-    const double k = section_[i].bypass_coefficient();
-    inverse_square[pump_of_[i]] += 1.0 / (k * k);
+    inverse_square[pump_of_[i]] += section_[i].bypass_inverse_square();
   }
   for (std::size_t p = 0; p < kPumpCount; ++p) {
     pump_[p].set_bypass(inverse_square[p]);
@@ -89,33 +88,75 @@ void ExcavatorPlant::push_tip() {
   links_.set_tip_force(tip_force_n_);
 }
 
+SectionPorts ExcavatorPlant::ports_of(std::size_t axis) const {
+  const Cylinder& cylinder = cylinder_[axis];
+  const PumpLine& pump = pump_[pump_of_[axis]];
+  return {cylinder.cap_port(),
+          cylinder.rod_port(),
+          pump.supply_port(place_of_[axis]),
+          pump.recycle_port(place_of_[axis]),
+          cylinder.cap_cushion_pas2pm6(),
+          cylinder.rod_cushion_pas2pm6()};
+}
+
 void ExcavatorPlant::step() {
   push_tip();
   std::array<PistonLoad, kAxisCount> load;
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     section_[i].set_command(dead_time_[i].step(duty_[i]));
     PumpLine& pump = pump_[pump_of_[i]];
-    flows_[i] =
-        section_[i].solve({cylinder_[i].cap_port(), cylinder_[i].rod_port(),
-                           pump.supply_port(place_of_[i]), pump.recycle_port(place_of_[i])});
+    const SectionPorts ports = ports_of(i);
+    flows_[i] = section_[i].solve(ports);
     pump.set_section_flows(place_of_[i], flows_[i].supply_out_m3ps, flows_[i].recycle_in_m3ps);
     load[i] = cylinder_[i].load();
+    if (account_ != nullptr) {
+      account_->add_section(profile_.oil(), ports, flows_[i], step_s_);
+    }
   }
-  set_bypasses();
   for (PumpLine& pump : pump_) {
     pump.step();
+    if (account_ != nullptr) {
+      account_->add_pump(profile_.oil(), pump, step_s_);
+    }
   }
   const JointArray velocity = links_.accelerate(load, step_s_);
+  if (account_ != nullptr) {
+    add_pistons_to_account(velocity);
+  }
   links_.move(step_s_);
   const JointArray rate = links_.rates();
+  bool spool_moved = false;
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     cylinder_[i].step(flows_[i].cap_in_m3ps, flows_[i].rod_in_m3ps, velocity[i]);
     const Lever& lever = links_.levers()[i];
     cylinder_[i].set_motion(lever.stroke_m, lever.stroke_per_angle_m * rate[i]);
-    section_[i].step(step_s_);
-    peak_chamber_pressure_pa_ = std::max({peak_chamber_pressure_pa_, cylinder_[i].cap_pressure_pa(),
-                                          cylinder_[i].rod_pressure_pa()});
+    peak_chamber_pressure_pa_ =
+        std::max({peak_chamber_pressure_pa_, cylinder_[i].cap().pressure_pa(),
+                  cylinder_[i].rod().pressure_pa()});
+    spool_moved = section_[i].step(step_s_) || spool_moved;
   }
+  if (spool_moved) {
+    set_bypasses();
+  }
+}
+
+void ExcavatorPlant::add_pistons_to_account(const JointArray& velocity_mps) {
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    account_->add_piston(profile_.oil(), cylinder_[i].power(velocity_mps[i]),
+                         links_.friction_n()[i], velocity_mps[i], step_s_);
+  }
+  account_->tip_j += step_s_ * links_.tip_power_w();
+}
+
+double ExcavatorPlant::stored_energy_j() const {
+  double energy = links_.energy_j();
+  for (const Cylinder& cylinder : cylinder_) {
+    energy += cylinder.cap().energy_j() + cylinder.rod().energy_j();
+  }
+  for (const PumpLine& pump : pump_) {
+    energy += pump.line().energy_j();
+  }
+  return energy;
 }
 
 ExcavatorPlant::AxisArray ExcavatorPlant::strokes_m() const {
@@ -130,14 +171,28 @@ ExcavatorPlant::AxisArray ExcavatorPlant::stroke_velocities_mps() const {
           levers[2].stroke_per_angle_m * rate[2]};
 }
 
+double ExcavatorPlant::valve_pressure_pa(std::size_t axis, const WaveVolume& chamber,
+                                         double hose_m3ps, double cushion_pas2pm6) const {
+  const double drop = section_[axis].hose_drop_pa(hose_m3ps, cushion_pas2pm6);
+  return std::max(profile_.boiling_pa, chamber.pressure_pa() + drop);
+}
+
 ExcavatorPlant::AxisArray ExcavatorPlant::cap_pressures_pa() const {
-  return {cylinder_[0].cap_pressure_pa(), cylinder_[1].cap_pressure_pa(),
-          cylinder_[2].cap_pressure_pa()};
+  AxisArray pressure{};
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    pressure[i] = valve_pressure_pa(i, cylinder_[i].cap(), flows_[i].cap_hose_m3ps,
+                                    cylinder_[i].cap_cushion_pas2pm6());
+  }
+  return pressure;
 }
 
 ExcavatorPlant::AxisArray ExcavatorPlant::rod_pressures_pa() const {
-  return {cylinder_[0].rod_pressure_pa(), cylinder_[1].rod_pressure_pa(),
-          cylinder_[2].rod_pressure_pa()};
+  AxisArray pressure{};
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    pressure[i] = valve_pressure_pa(i, cylinder_[i].rod(), flows_[i].rod_hose_m3ps,
+                                    cylinder_[i].rod_cushion_pas2pm6());
+  }
+  return pressure;
 }
 
 ExcavatorPlant::AxisArray ExcavatorPlant::spool_travels_ratio() const {
@@ -150,7 +205,7 @@ ExcavatorPlant::PumpArray ExcavatorPlant::pump_pressures_pa() const {
 }
 
 ExcavatorPlant::PumpArray ExcavatorPlant::pump_flows_m3ps() const {
-  return {pump_[0].flow_m3ps(), pump_[1].flow_m3ps()};
+  return {pump_[0].flows().delivered_m3ps, pump_[1].flows().delivered_m3ps};
 }
 
 }  // namespace graben::plant

@@ -6,6 +6,7 @@
 
 #include "app/plant/cylinder.hpp"
 #include "app/plant/dead_time.hpp"
+#include "app/plant/energy_account.hpp"
 #include "app/plant/linkage_dynamics.hpp"
 #include "app/plant/plant_profile.hpp"
 #include "app/plant/pump_line.hpp"
@@ -16,7 +17,7 @@ namespace graben::plant {
 
 /// The circuit of Kim 3 with what his detailed model adds (Kim 5): compressible chambers and lines,
 /// spool dynamics, deadband, leakage, link inertia, friction; in addition port reliefs, make-up
-/// checks and end stops. Deterministic: the same calls give the same numbers.
+/// checks, hoses, cushions and end stops. Deterministic: the same calls give the same numbers.
 ///
 /// Every volume is a transmission-line element, so that within a step each orifice sees two ports
 /// only and is solved in closed form: stable at any step length and bulk modulus. The step decides
@@ -39,12 +40,18 @@ class ExcavatorPlant {
   /// Force on the bucket tip beside soil and obstacle, N, x forward and y up, until changed.
   void set_tip_force(const Eigen::Vector2d& force_n) { outer_force_n_ = force_n; }
 
+  /// From now on each step adds to this account, which belongs to the caller; null ends it.
+  void keep_account(EnergyAccount* account) { account_ = account; }
+  /// Kinetic, potential and of compressed oil, J.
+  [[nodiscard]] double stored_energy_j() const;
+
   /// Runs on. What is shorter than a step is kept for the next call.
   void advance(TimeUs duration_us);
 
   [[nodiscard]] AxisArray strokes_m() const;
   [[nodiscard]] AxisArray stroke_velocities_mps() const;
-  /// Above ambient; may lie slightly below 0 while a make-up check is open.
+  /// At the valve's end of the hoses, where the transducers sit. Above ambient; slightly below 0
+  /// while a make-up check is open, and no lower than boiling.
   [[nodiscard]] AxisArray cap_pressures_pa() const;
   [[nodiscard]] AxisArray rod_pressures_pa() const;
   [[nodiscard]] AxisArray spool_travels_ratio() const;
@@ -53,6 +60,8 @@ class ExcavatorPlant {
   [[nodiscard]] PumpArray pump_flows_m3ps() const;
   /// Flow that each section takes from its pump's line and gives back by regeneration, m^3/s.
   [[nodiscard]] const std::array<SectionFlows, kAxisCount>& section_flows() const { return flows_; }
+  [[nodiscard]] const Cylinder& cylinder(std::size_t axis) const { return cylinder_[axis]; }
+  [[nodiscard]] const PumpLine& pump(std::size_t index) const { return pump_[index]; }
   [[nodiscard]] const JointArray& joint_angles_rad() const { return links_.angles(); }
   [[nodiscard]] TipPose tip() const { return links_.tip(); }
   /// Highest pressure that any chamber has had, between the readings too.
@@ -65,6 +74,10 @@ class ExcavatorPlant {
 
  private:
   void step();
+  void add_pistons_to_account(const JointArray& velocity_mps);
+  [[nodiscard]] SectionPorts ports_of(std::size_t axis) const;
+  [[nodiscard]] double valve_pressure_pa(std::size_t axis, const WaveVolume& chamber,
+                                         double hose_m3ps, double cushion_pas2pm6) const;
   void set_bypasses();
   void push_tip();
 
@@ -87,6 +100,7 @@ class ExcavatorPlant {
   Eigen::Vector2d tip_force_n_ = Eigen::Vector2d::Zero();
   std::array<SectionFlows, kAxisCount> flows_{};
   double peak_chamber_pressure_pa_ = 0.0;
+  EnergyAccount* account_ = nullptr;
 };
 
 }  // namespace graben::plant

@@ -193,6 +193,18 @@ JointArray LinkageDynamics::rates() const {
           rate_[2] + half * acceleration_[2]};
 }
 
+double LinkageDynamics::tip_power_w() const {
+  const double half = 0.5 * step_;
+  const JointArray mean =
+      link_rates({rate_[0] - half * acceleration_[0], rate_[1] - half * acceleration_[1],
+                  rate_[2] - half * acceleration_[2]});
+  double power = 0.0;
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    power += mean[i] * turned(bodies_.link[i]).dot(tip_force_);
+  }
+  return power;
+}
+
 double LinkageDynamics::energy_j() const {
   const Matrix3 matrix = mass_matrix();
   const JointArray rate = rates();

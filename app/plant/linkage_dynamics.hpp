@@ -40,7 +40,12 @@ class LinkageDynamics {
   [[nodiscard]] const JointArray& angles() const { return angle_; }
   /// Rates at the instant of the angles (extrapolated by half a step).
   [[nodiscard]] JointArray rates() const;
+  /// Kinetic and potential.
   [[nodiscard]] double energy_j() const;
+  /// Coulomb friction that acted in the last step, N, positive in extension.
+  [[nodiscard]] const JointArray& friction_n() const { return friction_n_; }
+  /// Of the tip force over the step, between `accelerate` and `move`.
+  [[nodiscard]] double tip_power_w() const;
   [[nodiscard]] TipPose tip() const { return geometry_.tip(angle_); }
 
  private:

@@ -12,6 +12,10 @@ namespace graben::plant {
 struct WavePort {
   double wave_pa = 0.0;
   double impedance_paspm3 = 0.0;
+
+  [[nodiscard]] double pressure_pa(double inflow_m3ps) const {
+    return wave_pa + impedance_paspm3 * inflow_m3ps;
+  }
 };
 
 inline constexpr WavePort kTank{};
@@ -46,29 +50,35 @@ inline WavePort joined(const WavePort& port, double source_pa, double path_paspm
           port.impedance_paspm3 * path_paspm3 / sum};
 }
 
-/// Relief to tank and make-up check from tank at one port.
+/// Relief to tank and make-up check from tank at one port, and where its oil boils.
 struct PortProtection {
   double relief_pa = 0.0;
   double relief_override_paspm3 = 0.0;
   double makeup_paspm3 = 0.0;
+  double boiling_pa = 0.0;
 };
 
 /// Total flow into the port, m^3/s: that of the elements joined to it, as `flow_into(port)` gives
 /// it, less the relief's, plus the make-up's. Exact: both valves are laminar beyond their opening
-/// pressure, and at most one of them is open.
+/// pressure, and at most one of them is open. A port that would still fall below the boiling
+/// pressure has that pressure, whatever flows. `flow_into` is called last with the port as it is.
 template <class FlowInto>
 double protected_flow(const WavePort& port, const PortProtection& protection,
                       const FlowInto& flow_into) {
   const double flow = flow_into(port);
-  const double pressure = port.wave_pa + port.impedance_paspm3 * flow;
+  const double pressure = port.pressure_pa(flow);
   if (pressure >= 0.0 && pressure <= protection.relief_pa) {
     return flow;
   }
-  const WavePort open = pressure < 0.0
-                            ? joined(port, 0.0, protection.makeup_paspm3)
-                            : joined(port, protection.relief_pa, protection.relief_override_paspm3);
-  const double held = open.wave_pa + open.impedance_paspm3 * flow_into(open);
-  return (held - port.wave_pa) / port.impedance_paspm3;
+  const double source = pressure < 0.0 ? 0.0 : protection.relief_pa;
+  const double path = pressure < 0.0 ? protection.makeup_paspm3 : protection.relief_override_paspm3;
+  WavePort open = joined(port, source, path);
+  double joint_flow = flow_into(open);
+  if (open.pressure_pa(joint_flow) < protection.boiling_pa) {
+    open = {protection.boiling_pa, 0.0};
+    joint_flow = flow_into(open);
+  }
+  return joint_flow + (source - open.pressure_pa(joint_flow)) / path;
 }
 
 }  // namespace graben::plant

@@ -10,6 +10,8 @@
 
 #include "app/plant/obstacle.hpp"
 #include "app/plant/soil.hpp"
+#include "app/plant/oil.hpp"
+#include "app/plant/orifice.hpp"
 #include "firmware/core/time.hpp"
 #include "firmware/machine/excavator_profile.hpp"
 
@@ -73,8 +75,10 @@ struct PlantProfile {
   /// Slope of every relief valve above its opening pressure, Pa s/m^3: 1.2 MPa at 138 L/min.
   double relief_override_paspm3 = 5e8;
   /// Slope of the make-up checks from tank, Pa s/m^3: 0.02 MPa below ambient at 400 L/min, so that
-  /// the oil does not boil and no vapour needs a state of its own.
+  /// the oil does not boil.
   double makeup_paspm3 = 3e6;
+  /// Where the oil boils: 0 absolute. Its vapour pressure at 50 deg C is below 1 kPa.
+  double boiling_pa = -0.1e6;
   /// Travel, in units of the full travel, over which a spool's bypass goes from open to closed; it
   /// ends at the deadband's edge, where the metering edges begin to open: so (20), with the
   /// deadband collapsed, holds wherever the cylinder can move. (20) itself switches; a land edge
@@ -82,6 +86,18 @@ struct PlantProfile {
   double bypass_closing_travel = 0.1;
   /// Pressure of the unloaded chambers at the start.
   double start_back_pressure_pa = 0.5e6;
+  /// Hose between valve and cylinder, laminar and turbulent share of its pressure drop: 0.1 and 0.3
+  /// MPa at 200 L/min. Chosen; some 3 m of 25 mm hose with its fittings.
+  double hose_linear_paspm3 = 3e7;
+  double hose_quadratic_pas2pm6 = 2.7e10;
+  /// Cushions: over this last part of the stroke the way out of the chamber narrows, so that a
+  /// piston brakes evenly. Chosen, as makers of the class cushion 40 - 100 mm.
+  double cushion_length_m = 0.05;
+  /// At half the cushion's length a piston of this speed meets this pressure.
+  double cushion_speed_mps = 0.4;
+  double cushion_pressure_pa = 15e6;
+  /// What stays of the cushion's length to compute with at the very end, where it would be shut.
+  double cushion_end_m = 1e-3;
   /// Contact at the stroke's ends: full system pressure on a boom cap side (0.8 MN) presses in by
   /// 0.4 mm. Damping acts on the way in only; about critical for the boom's 5e4 kg at its cylinder.
   double end_stop_stiffness_npm = 2e9;
@@ -90,6 +106,12 @@ struct PlantProfile {
   /// Fixed step of the simulation. Stable at any length (transmission-line elements); the length
   /// decides accuracy only, see `ExcavatorPlant`.
   TimeUs step_us = 200;
+
+  [[nodiscard]] PortProtection protection(double relief_pa) const {
+    return {relief_pa, relief_override_paspm3, makeup_paspm3, boiling_pa};
+  }
+  [[nodiscard]] Oil oil() const { return {bulk_modulus_pa, boiling_pa}; }
+  [[nodiscard]] double step_s() const { return 1e-6 * static_cast<double>(step_us); }
 };
 
 }  // namespace graben::plant

@@ -15,18 +15,17 @@ double inverse_square(double k) { return 1.0 / (k * k); }
 }  // namespace
 
 PumpLine::PumpLine(const PlantProfile& profile, int pump, std::size_t section_count)
-    : line_(2 + 2 * section_count, profile.bulk_modulus_pa,
-            1e-6 * static_cast<double>(profile.step_us)) {
+    : line_(2 + 2 * section_count, profile.oil(), profile.step_s()) {
   const auto index = static_cast<std::size_t>(pump);
   const PumpProfile& data = profile.machine.pump[index];
   swash_ = profile.swash_ratio[index];
   ideal_flow_ = data.displacement_m3prev * swash_ * data.rated_speed_radps / kTwoPi;
   leak_linear_ = data.leak_linear;
   leak_quadratic_ = data.leak_quadratic;
-  protection_ = {data.relief_pa, profile.relief_override_paspm3, profile.makeup_paspm3};
+  protection_ = profile.protection(data.relief_pa);
   fixed_inverse_square_ =
       inverse_square(data.bypass_series[0]) + inverse_square(data.bypass_series[1]);
-  line_.set_volume(profile.line_volume_m3[index]);
+  volume_ = profile.line_volume_m3[index];
 }
 
 void PumpLine::set_section_flows(std::size_t section, double supply_out_m3ps,
@@ -54,10 +53,16 @@ double PumpLine::delivery(const WavePort& port) const {
 }
 
 void PumpLine::step() {
-  const double in = protected_flow(line_.port(kPumpPort), protection_,
-                                   [this](const WavePort& port) { return flow_ = delivery(port); });
-  line_.set_flow(kPumpPort, in);
-  line_.set_flow(kBypassPort, -orifice_flow(k_bypass_, line_.port(kBypassPort), kTank));
+  const WavePort pump = line_.port(kPumpPort);
+  flows_.line_in_m3ps = protected_flow(pump, protection_, [this](const WavePort& port) {
+    return flows_.delivered_m3ps = delivery(port);
+  });
+  flows_.pump_port_pa = pump.pressure_pa(flows_.line_in_m3ps);
+  const WavePort bypass = line_.port(kBypassPort);
+  flows_.bypass_m3ps = orifice_flow(k_bypass_, bypass, kTank);
+  flows_.bypass_port_pa = bypass.pressure_pa(-flows_.bypass_m3ps);
+  line_.set_flow(kPumpPort, flows_.line_in_m3ps);
+  line_.set_flow(kBypassPort, -flows_.bypass_m3ps);
   line_.scatter();
 }
 
@@ -69,10 +74,11 @@ void PumpLine::start() {
     const double surplus = delivery({middle, 0.0}) - k_bypass_ * std::sqrt(middle);
     (surplus > 0.0 ? low : high) = middle;
   }
-  flow_ = delivery({low, 0.0});
-  line_.set_flow(kPumpPort, flow_);
-  line_.set_flow(kBypassPort, -flow_);
-  line_.start(low);
+  const double flow = delivery({low, 0.0});
+  flows_ = {flow, flow, flow, low, low};
+  line_.set_flow(kPumpPort, flow);
+  line_.set_flow(kBypassPort, -flow);
+  line_.start(volume_, low);
 }
 
 }  // namespace graben::plant

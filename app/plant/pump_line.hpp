@@ -8,6 +8,15 @@
 
 namespace graben::plant {
 
+/// What one step did at the pump's and the bypass' port of the line, m^3/s and Pa.
+struct PumpFlows {
+  double delivered_m3ps = 0.0;  ///< After leakage, before the relief.
+  double line_in_m3ps = 0.0;    ///< After relief and suction make-up.
+  double bypass_m3ps = 0.0;     ///< From the line to tank.
+  double pump_port_pa = 0.0;
+  double bypass_port_pa = 0.0;
+};
+
 /// Constant-displacement delivery less leakage, (25), into a compressible line. Each valve section
 /// on the pump has two ports of the line: supply and regeneration. Relief and suction make-up sit
 /// at the pump. The bypass chain is one orifice from line to tank.
@@ -31,15 +40,17 @@ class PumpLine {
   /// Starts in the standby that the bypass set before gives.
   void start();
 
+  [[nodiscard]] const WaveVolume& line() const { return line_; }
   [[nodiscard]] double pressure_pa() const { return line_.pressure_pa(); }
-  /// Delivery after leakage, before the relief.
-  [[nodiscard]] double flow_m3ps() const { return flow_; }
+  [[nodiscard]] double ideal_flow_m3ps() const { return ideal_flow_; }
+  [[nodiscard]] const PumpFlows& flows() const { return flows_; }
   [[nodiscard]] double swash_ratio() const { return swash_; }
 
  private:
   [[nodiscard]] double delivery(const WavePort& port) const;
 
   WaveVolume line_;
+  double volume_;
   PortProtection protection_;
   double ideal_flow_;
   double leak_linear_;
@@ -47,7 +58,7 @@ class PumpLine {
   double swash_;
   double fixed_inverse_square_;
   double k_bypass_ = 0.0;
-  double flow_ = 0.0;
+  PumpFlows flows_;
 };
 
 }  // namespace graben::plant

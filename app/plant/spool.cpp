@@ -21,9 +21,9 @@ Spool::Spool(const PlantProfile& profile)
 
 void Spool::set_command(double travel_ratio) { command_ = std::clamp(travel_ratio, -1.0, 1.0); }
 
-void Spool::step(double step_s) {
+bool Spool::step(double step_s) {
   if (travel_ == command_ && speed_ps_ == 0.0) {
-    return;
+    return false;
   }
   const double w = natural_frequency_radps_;
   const double half = 0.5 * step_s;
@@ -40,6 +40,7 @@ void Spool::step(double step_s) {
     speed_ps_ = 0.0;
   }
   update_openings();
+  return true;
 }
 
 void Spool::update_openings() {

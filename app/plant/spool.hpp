@@ -13,7 +13,8 @@ class Spool {
   explicit Spool(const PlantProfile& profile);
 
   void set_command(double travel_ratio);
-  void step(double step_s);
+  /// Returns whether the spool moved.
+  bool step(double step_s);
 
   [[nodiscard]] double travel_ratio() const { return travel_; }
   /// Share of the full metering areas that is open, 0 within the deadband.

@@ -16,6 +16,11 @@ double orifice_slope(double k, const WavePort& from, const WavePort& to) {
   return 0.5 * k / std::sqrt(std::max(1.0, std::abs(from.wave_pa - to.wave_pa) + h * h));
 }
 
+/// An orifice in a row with what 1 / K^2 describes.
+double in_series(double k, double inverse_square) {
+  return inverse_square > 0.0 ? k / std::sqrt(1.0 + k * k * inverse_square) : k;
+}
+
 }  // namespace
 
 ReturnFlow solve_gallery(double k_out, double k_drain, double k_check, const WavePort& chamber,
@@ -52,8 +57,7 @@ ReturnFlow solve_gallery(double k_out, double k_drain, double k_check, const Wav
 }
 
 ValveSection::ValveSection(const PlantProfile& profile, int axis)
-    : spool_(profile),
-      protection_{profile.port_relief_pa, profile.relief_override_paspm3, profile.makeup_paspm3} {
+    : spool_(profile), protection_(profile.protection(profile.port_relief_pa)) {
   const ValveProfile& valve = profile.machine.valve;
   const SpoolProfile& spool = valve.spool[static_cast<std::size_t>(axis)];
   const auto coefficient = [&valve](double area_m2) {
@@ -68,10 +72,32 @@ ValveSection::ValveSection(const PlantProfile& profile, int axis)
   k_check_ = spool.c_check;
   k_bypass_open_ = spool.bypass_open;
   k_bypass_closed_ = spool.bypass_closed;
+  hose_linear_ = profile.hose_linear_paspm3;
+  hose_quadratic_ = profile.hose_quadratic_pas2pm6;
+  update_openings();
 }
 
-double ValveSection::bypass_coefficient() const {
-  return k_bypass_open_ + (k_bypass_closed_ - k_bypass_open_) * spool_.bypass_closed_ratio();
+bool ValveSection::step(double step_s) {
+  const bool moved = spool_.step(step_s);
+  if (moved) {
+    update_openings();
+  }
+  return moved;
+}
+
+void ValveSection::update_openings() {
+  const bool extends = spool_.travel_ratio() > 0.0;
+  const double ratio = spool_.area_ratio();
+  k_in_ = in_series(ratio * (extends ? k_extend_in_ : k_retract_in_), hose_quadratic_);
+  k_out_ = in_series(ratio * (extends ? k_extend_out_ : k_retract_out_), hose_quadratic_);
+  const double bypass =
+      k_bypass_open_ + (k_bypass_closed_ - k_bypass_open_) * spool_.bypass_closed_ratio();
+  bypass_inverse_square_ = 1.0 / (bypass * bypass);
+}
+
+double ValveSection::hose_drop_pa(double hose_m3ps, double cushion_pas2pm6) const {
+  const double quadratic = hose_quadratic_ + (hose_m3ps < 0.0 ? cushion_pas2pm6 : 0.0);
+  return (hose_linear_ + quadratic * std::abs(hose_m3ps)) * hose_m3ps;
 }
 
 ReturnFlow ValveSection::return_flow(double k_out, bool regenerates, const WavePort& chamber,
@@ -84,26 +110,34 @@ ReturnFlow ValveSection::return_flow(double k_out, bool regenerates, const WaveP
 
 SectionFlows ValveSection::solve(const SectionPorts& ports) const {
   const bool extends = spool_.travel_ratio() > 0.0;
-  const double ratio = spool_.area_ratio();
-  const double k_in = ratio * (extends ? k_extend_in_ : k_retract_in_);
-  const double k_out = ratio * (extends ? k_extend_out_ : k_retract_out_);
   const bool regenerates =
       regeneration_ == (extends ? RegenerationSide::kExtend : RegenerationSide::kRetract);
   const WavePort& fed = extends ? ports.cap : ports.rod;
   const WavePort& drained = extends ? ports.rod : ports.cap;
+  const double fed_cushion = extends ? ports.cap_cushion_pas2pm6 : ports.rod_cushion_pas2pm6;
+  const double drained_cushion = extends ? ports.rod_cushion_pas2pm6 : ports.cap_cushion_pas2pm6;
 
   // The last evaluation of each edge is the one that holds, with a relief or make-up open or not.
   double supply = 0.0;
   const double fed_in = protected_flow(fed, protection_, [&](const WavePort& chamber) {
-    return supply = orifice_flow(k_in, ports.supply, chamber);
+    const bool leaves = chamber.wave_pa > ports.supply.wave_pa;
+    return supply = orifice_flow(leaves ? in_series(k_in_, fed_cushion) : k_in_, ports.supply,
+                                 behind_hose(chamber));
   });
   ReturnFlow back;
+  const double k_out = in_series(k_out_, drained_cushion);
   const double drained_in = protected_flow(drained, protection_, [&](const WavePort& chamber) {
-    back = return_flow(k_out, regenerates, chamber, ports.recycle);
+    back = return_flow(k_out, regenerates, behind_hose(chamber), ports.recycle);
     return -back.out_m3ps;
   });
-  return {extends ? fed_in : drained_in, extends ? drained_in : fed_in, supply,
-          back.regenerated_m3ps};
+  SectionFlows flows;
+  flows.cap_in_m3ps = extends ? fed_in : drained_in;
+  flows.rod_in_m3ps = extends ? drained_in : fed_in;
+  flows.cap_hose_m3ps = extends ? supply : -back.out_m3ps;
+  flows.rod_hose_m3ps = extends ? -back.out_m3ps : supply;
+  flows.supply_out_m3ps = supply;
+  flows.recycle_in_m3ps = back.regenerated_m3ps;
+  return flows;
 }
 
 }  // namespace graben::plant

@@ -13,13 +13,18 @@ struct SectionPorts {
   WavePort rod;
   WavePort supply;   ///< Pump line, towards the in-flow edge.
   WavePort recycle;  ///< Pump line, behind the regeneration check.
+  /// Of the cushions, on the way out of the chamber only: 1 / K^2, 0 where there is none.
+  double cap_cushion_pas2pm6 = 0.0;
+  double rod_cushion_pas2pm6 = 0.0;
 };
 
 /// What flows, m^3/s. Chamber flows are positive into the chamber and include its port relief and
-/// make-up; the other two are at the pump line.
+/// make-up, hose flows do not; the other two are at the pump line.
 struct SectionFlows {
   double cap_in_m3ps = 0.0;
   double rod_in_m3ps = 0.0;
+  double cap_hose_m3ps = 0.0;
+  double rod_hose_m3ps = 0.0;
   double supply_out_m3ps =
       0.0;  ///< Negative is back-flow: the circuit has no load check (Kim 3.1).
   double recycle_in_m3ps = 0.0;  ///< Q_rgn of (14).
@@ -34,28 +39,42 @@ struct ReturnFlow {
 
 /// Kim 3.1 - 3.3 with a spool that takes time. On the regenerating side the return passes a gallery
 /// with a drain orifice c_d to tank and a check c_r to the pump line, elsewhere it goes to tank.
-/// The gallery's volume is small against the chambers': its pressure is algebraic.
+/// The gallery's volume is small against the chambers': its pressure is algebraic. The hoses'
+/// resistance is in series with the edges; port relief and make-up sit at the chamber, as their
+/// slopes are far larger than the hose's.
 class ValveSection {
  public:
   ValveSection(const PlantProfile& profile, int axis);
 
   void set_command(double travel_ratio) { spool_.set_command(travel_ratio); }
   [[nodiscard]] SectionFlows solve(const SectionPorts& ports) const;
-  void step(double step_s) { spool_.step(step_s); }
+  /// Returns whether the spool moved.
+  bool step(double step_s);
+
+  /// Pressure at the valve's end of a hose less that in the chamber.
+  [[nodiscard]] double hose_drop_pa(double hose_m3ps, double cushion_pas2pm6) const;
 
   [[nodiscard]] const Spool& spool() const { return spool_; }
-  /// Coefficient of the section's part of the bypass, m^3/(s sqrt(Pa)), always above 0.
-  [[nodiscard]] double bypass_coefficient() const;
+  /// The section's part of the bypass, 1 / K^2 of its coefficient K, m^3/(s sqrt(Pa)).
+  [[nodiscard]] double bypass_inverse_square() const { return bypass_inverse_square_; }
 
  private:
   [[nodiscard]] ReturnFlow return_flow(double k_out, bool regenerates, const WavePort& chamber,
                                        const WavePort& recycle) const;
+  [[nodiscard]] WavePort behind_hose(const WavePort& chamber) const {
+    return {chamber.wave_pa, chamber.impedance_paspm3 + hose_linear_};
+  }
+  void update_openings();
 
   Spool spool_;
   PortProtection protection_;
   RegenerationSide regeneration_;
   double k_extend_in_, k_extend_out_, k_retract_in_, k_retract_out_;  // at full opening
   double k_drain_, k_check_;
+  double hose_linear_, hose_quadratic_;
+  double k_in_ = 0.0;  ///< Of the edges as they are open, hose included.
+  double k_out_ = 0.0;
+  double bypass_inverse_square_ = 0.0;
   double k_bypass_open_, k_bypass_closed_;
 };
 

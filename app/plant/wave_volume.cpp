@@ -2,34 +2,19 @@
 
 namespace graben::plant {
 
-WaveVolume::WaveVolume(std::size_t port_count, double bulk_modulus_pa, double step_s)
+WaveVolume::WaveVolume(std::size_t port_count, const Oil& oil, double step_s)
     : count_(port_count),
-      impedance_volume_(0.5 * static_cast<double>(port_count) * bulk_modulus_pa * step_s /
-                        (1.0 - kFilter)) {}
+      oil_(oil),
+      step_(step_s),
+      port_share_(1.0 / static_cast<double>(port_count)),
+      impedance_per_stiffness_(0.5 / (1.0 - kFilter) * static_cast<double>(port_count) * step_s) {}
 
-void WaveVolume::scatter() {
-  std::array<double, kMaxPorts> reflected{};
-  double wave_sum = 0.0;
-  double flow_sum = 0.0;
+void WaveVolume::start(double volume_m3, double pressure_pa) {
+  set_volume(volume_m3);
+  surplus_ = pressure_pa / stiffness_;
+  mean_ = pressure_pa;
   for (std::size_t i = 0; i < count_; ++i) {
-    reflected[i] = wave_[i] + 2.0 * impedance_ * flow_[i];
-    wave_sum += wave_[i];
-    flow_sum += flow_[i];
-  }
-  const double count = static_cast<double>(count_);
-  const double twice_mean = 2.0 * (wave_sum + 2.0 * impedance_ * flow_sum) / count;
-  pressure_ = (wave_sum + impedance_ * flow_sum) / count;
-  first_port_pressure_ = wave_[0] + impedance_ * flow_[0];
-  for (std::size_t i = 0; i < count_; ++i) {
-    wave_[i] = kFilter * wave_[i] + (1.0 - kFilter) * (twice_mean - reflected[i]);
-  }
-}
-
-void WaveVolume::start(double pressure_pa) {
-  pressure_ = pressure_pa;
-  first_port_pressure_ = pressure_pa;
-  for (std::size_t i = 0; i < count_; ++i) {
-    wave_[i] = pressure_pa - impedance_ * flow_[i];
+    deviation_[i] = -impedance_ * flow_[i];
   }
 }
 

@@ -10,6 +10,7 @@
 extern "C" {
 #include <cmocka.h>
 }
+#undef fail  // std::ios has a member of that name
 
 namespace graben::test {
 

@@ -11,7 +11,7 @@ using namespace graben::plant;
 
 constexpr double kK = 4e-6;          // m^3/(s sqrt(Pa))
 constexpr double kStiffPort = 1e10;  // Pa s/m^3
-const PortProtection kProtection{38e6, 5e8, 1e7};
+const PortProtection kProtection{38e6, 5e8, 1e7, -0.1e6};
 
 void coefficient_of_an_area(void**) {
   // C_d A sqrt(2 / rho) for 5 mm^2: 1.48634e-7, by hand.
@@ -74,6 +74,29 @@ void make_up_holds_the_port_near_ambient(void**) {
   assert_near(pressure, -drawn * kProtection.makeup_paspm3, 1e3);
 }
 
+// Deep below boiling, as a void leaves it: tank feeds the void with what 0.1 MPa push through the
+// check, and an orifice sees the boiling pressure.
+void a_port_that_boils_pulls_no_harder(void**) {
+  const WavePort port{-5e6, 1e8};
+  double drawn = 0.0;
+  const double q = protected_flow(port, kProtection, [&](const WavePort& p) {
+    return drawn = orifice_flow(kK, {1e6, 0.0}, p);
+  });
+  assert_near(drawn, kK * std::sqrt(1.1e6), 1e-12);
+  assert_near(q, drawn + 0.1e6 / kProtection.makeup_paspm3, 1e-12);
+}
+
+// Nearly full: what flows in fills it and then raises its pressure, in the same step.
+void filling_up_does_not_overshoot(void**) {
+  const WavePort port{-0.2e6, kStiffPort};
+  const double q = protected_flow(port, kProtection, [&](const WavePort& p) {
+    return orifice_flow(kK, {20e6, 0.0}, p);
+  });
+  assert_near(q, kK * std::sqrt(20e6 - port.pressure_pa(q)), 1e-9);
+  assert_true(port.pressure_pa(q) > 0.0);
+  assert_true(port.pressure_pa(q) < 20e6);
+}
+
 // (18) by hand, with c_r > c_d and the chamber's out-flow given.
 double gallery_root_by_18(double q_out, double p_in, double c_d, double c_r) {
   if (p_in >= q_out * q_out / (c_d * c_d)) {
@@ -129,6 +152,8 @@ int main() {
       cmocka_unit_test(unprotected_between_the_limits),
       cmocka_unit_test(relief_opens_above_its_pressure),
       cmocka_unit_test(make_up_holds_the_port_near_ambient),
+      cmocka_unit_test(a_port_that_boils_pulls_no_harder),
+      cmocka_unit_test(filling_up_does_not_overshoot),
       cmocka_unit_test(gallery_with_check_shut),
       cmocka_unit_test(gallery_with_check_open_is_equation_18),
       cmocka_unit_test(gallery_balances_with_compliant_ports),
