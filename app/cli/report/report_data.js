@@ -4,8 +4,8 @@
 // the page prints in that part's place; the other parts stay.
 const reportData = (() => {
   const AXES = ['boom', 'arm', 'bucket'];
-  const {Problem, part, isObject, need, needList, checkTuples, time, runs, seriesList, seriesGroup} =
-      reportChecks;
+  const {Problem, part, isObject, need, needList, checkTuples, time, runs, seriesList,
+    seriesGroup} = reportChecks;
   const PA_PER_MPA = 1e6;
   const N_PER_KN = 1e3;
   const MM_PER_M = 1e3;
@@ -244,7 +244,8 @@ const reportData = (() => {
       Object.assign(base.value, {groundY: value(met.groundY, null),
         obstacle: value(met.obstacle, null), changes: value(met.changes, [])});
     }
-    const problems = Object.values(met).filter((one) => !one.ok).map((one) => one.problem);
+    const problems = Object.values(met).filter((one) => !one.ok).map((one) => one.problem)
+        .filter((problem) => problem !== base.problem);
     const hit = value(met.obstacle, null) !== null || value(met.changes, []).length > 0;
     return {base, problems: [...new Set(problems)],
       source: hit ? 'Kim, Fig. 14' : 'Kim, Fig. 9'};

@@ -7,7 +7,8 @@ const reportScene = (() => {
   const [FREE, HOLDS, GONE] = [0, 1, 2];
 
   const given = (value) => value !== undefined && value !== null;
-  const has = (data, group, key) => isObject(data) && isObject(data[group]) && given(data[group][key]);
+  const has = (data, group, key) =>
+    isObject(data) && isObject(data[group]) && given(data[group][key]);
 
   /// Reports from before these were recorded have none of them, and miss nothing; where one is
   /// there, the others belong to it.
@@ -19,8 +20,9 @@ const reportScene = (() => {
   /// null without soil.
   function groundY(data) {
     if (!has(data, 'geometry', 'ground_y_m')) return null;
-    const path = 'geometry.ground_y_m';
-    return checkNumbers([need(data, path)], path)[0];
+    const y = data.geometry.ground_y_m;
+    if (typeof y !== 'number') throw new Problem(`“geometry.ground_y_m”: ${show(y)} is no number.`);
+    return y;
   }
 
   /// For each sample whether the obstacle is untouched, holds or is gone; null in an old report.

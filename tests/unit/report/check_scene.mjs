@@ -151,7 +151,7 @@ test('each fault in a plot is named, and costs only this plot', () => {
 
 test('each fault in what the bucket met is named, and the path stays', () => {
   const faults = [
-    [/ground_y_m.*"high".*no number/, (d) => { d.geometry.ground_y_m = 'high'; }],
+    [/ground_y_m”: "high" is no number/, (d) => { d.geometry.ground_y_m = 'high'; }],
     [/obstacle\.point” is missing/, (d) => delete d.geometry.obstacle.point],
     [/obstacle” is missing/, (d) => delete d.geometry.obstacle],
     [/obstacle\.point” is missing/, (d) => { d.geometry.obstacle = 'rock'; }],
@@ -173,6 +173,12 @@ test('each fault in what the bucket met is named, and the path stays', () => {
     assert.ok(report.plots.every((p) => p.body.ok));
     assert.equal(drawn(report).ofClass('path').length, 1);
   }
+});
+
+test('what the path and the obstacle both miss is said once', () => {
+  const report = changed((d) => delete d.geometry.tip_true);
+  assert.match(report.geometry.problem, /tip_true” is missing/);
+  assert.deepEqual([report.problems.length, report.geometryProblems], [1, []]);
 });
 
 test('without an obstacle nobody asks when it held', () => {
@@ -197,8 +203,10 @@ test('an obstacle is marked too where nothing ever touches it', () => {
 });
 
 test('the obstacle lies behind its face, whatever the length of the normal', () => {
-  const {outline} = data.prepare(good()).geometry.value.obstacle;
-  assert.deepEqual(outline, [[4.5, -1.5], [3.5, -1.5], [3.5, -2], [4.5, -2]]);
+  const outline = (normal) => changed((d) => { d.geometry.obstacle.normal = normal; })
+      .geometry.value.obstacle.outline;
+  assert.deepEqual(outline([0, 2]), [[4.5, -1.5], [3.5, -1.5], [3.5, -2], [4.5, -2]]);
+  assert.deepEqual(outline([2, 0]), [[4, -2], [4, -1], [3.5, -1], [3.5, -2]]);
 });
 
 test('ground, obstacle and where it held are drawn', () => {
