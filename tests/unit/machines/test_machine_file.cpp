@@ -30,22 +30,22 @@ void figures_arrive_in_the_structs(void**) {
   assert_near(profile.valve.spool_to_duty.at(0.0), 0.2, 1e-12);
   assert_int_equal(profile.control.lambda_policy, McvPolicy::kGlobal);
   assert_near(profile.control.lambda_rise.rate_ps, 6.0, 0.0);
-  assert_near(profile.control.lambda_rise.reserve_n, 36000.0, 0.0);
+  assert_near(profile.control.lambda_rise.reserve_n, 48000.0, 0.0);
   assert_near(profile.control.lambda_rise.hold_share, 0.75, 0.0);
-  assert_near(profile.control.response_s, 0.03, 0.0);
+  assert_near(profile.control.response_s, 0.053, 0.0);
   assert_near(profile.control.servo_gain_ps, 2.0, 0.0);
   assert_near(profile.control.servo_most_m, 0.025, 0.0);
   assert_near(profile.control.servo_least_lambda, 0.2, 0.0);
-  assert_near(profile.control.pressure_filter_s, 0.1, 0.0);
-  assert_near(profile.control.slow_error_m, 0.11, 0.0);
+  assert_near(profile.control.pressure_filter_s, 0.15, 0.0);
+  assert_near(profile.control.slow_error_m, 0.03, 0.0);
   assert_near(machine().experiment.soil.ground_y_m, -1.0, 0.0);
   assert_near(machine().experiment.soil.bias_n.y(), 30e3, 0.0);
   assert_near(machine().experiment.soil.random_hz, 5.0, 0.0);
   assert_near(machine().experiment.obstacle.hold_s, 3.0, 0.0);
   // Across the path: out of the rock, against the way the bucket comes.
   assert_true(machine().experiment.obstacle.normal.x() > 0.5);
-  assert_near(machine().experiment.air.payload_kg, 1500.0, 0.0);
-  assert_near(machine().experiment.air.start.attitude_rad, 1.38, 0.0);
+  assert_near(machine().experiment.air.payload_kg, 1000.0, 0.0);
+  assert_near(machine().experiment.air.start.attitude_rad, 1.44, 0.0);
   assert_near(machine().experiment.stiff_bulk_modulus_pa, 1e10, 0.0);
   assert_near(machine().experiment.uncertainty.dead_time, 0.3, 0.0);
   assert_near(profile.valve.spool[kArm].c_inflow_check, 0.0, 0.0);
