@@ -1,5 +1,6 @@
 #include "app/cli/candump_log.hpp"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -15,10 +16,12 @@ namespace {
 }  // namespace
 
 std::string candump_line(const CanFrame& frame, TimeUs now_us, const std::string& interface_name) {
-  // One format call a line: a simulation spends a fifth of its time here if every byte takes one.
-  std::string line =
-      fmt::format(frame.extended ? "({:010d}.{:06d}) {} {:08X}#" : "({:010d}.{:06d}) {} {:03X}#",
-                  now_us / kSecondUs, now_us % kSecondUs, interface_name, frame.id);
+  // Compiled, and one call a line: a simulation spent a fifth of its time here when every byte took
+  // one.
+  std::string line = fmt::format(FMT_COMPILE("({:010d}.{:06d}) {} "), now_us / kSecondUs,
+                                 now_us % kSecondUs, interface_name);
+  line += frame.extended ? fmt::format(FMT_COMPILE("{:08X}#"), frame.id)
+                         : fmt::format(FMT_COMPILE("{:03X}#"), frame.id);
   if (frame.remote) {
     return line + "R";
   }

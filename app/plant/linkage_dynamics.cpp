@@ -54,6 +54,7 @@ LinkageDynamics::LinkageDynamics(const PlantProfile& profile)
 
 void LinkageDynamics::start(const JointArray& angle_rad, const JointArray& rate_radps) {
   angle_ = angle_rad;
+  joint_ = rotations_of(angle_rad);
   rate_ = rate_radps;
   acceleration_ = {};
   friction_n_ = {};
@@ -61,11 +62,10 @@ void LinkageDynamics::start(const JointArray& angle_rad, const JointArray& rate_
 }
 
 void LinkageDynamics::update() {
-  const JointRotations joint = rotations_of(angle_);
-  levers_ = geometry_.levers(joint);
+  levers_ = geometry_.levers(joint_);
   Rotation link;
   for (std::size_t i = 0; i < kAxisCount; ++i) {
-    link = link.then(joint[i]);
+    link = link.then(joint_[i]);
     bodies_.link[i] = link.apply({link_length_[i], 0.0});
     bodies_.first_moment[i] = body_[i].mass_kg * link.apply(body_[i].mass_centre_m);
   }
@@ -182,7 +182,9 @@ JointArray LinkageDynamics::accelerate(const std::array<PistonLoad, kAxisCount>&
 
 void LinkageDynamics::move(double step_s) {
   for (std::size_t i = 0; i < kAxisCount; ++i) {
-    angle_[i] += step_s * rate_[i];
+    const double turn = step_s * rate_[i];
+    angle_[i] += turn;
+    joint_[i] = joint_[i].then(Rotation::by_little(turn)).normalised();
   }
   update();
 }

@@ -71,6 +71,7 @@ class LinkageDynamics {
   Eigen::Vector2d tip_force_ = Eigen::Vector2d::Zero();
 
   JointArray angle_{};
+  JointRotations joint_;       ///< Of the angles, turned on with them.
   JointArray rate_{};          ///< Half a step before the angles.
   JointArray acceleration_{};  ///< Of the last step.
   JointArray friction_n_{};    ///< Of the last step: where the next search starts.

@@ -93,8 +93,9 @@ struct PlantProfile {
   /// Cushions: over this last part of the stroke the way out of the chamber narrows, so that a
   /// piston brakes evenly. Chosen, as makers of the class cushion 40 - 100 mm.
   double cushion_length_m = 0.05;
-  /// At half the cushion's length a piston of this speed meets this pressure.
-  double cushion_speed_mps = 0.4;
+  /// At half the cushion's length a piston of this speed meets this pressure: at full swash pistons
+  /// come in at 0.07 - 0.24 m/s and then touch the end at less than 0.06.
+  double cushion_speed_mps = 0.15;
   double cushion_pressure_pa = 15e6;
   /// What stays of the cushion's length to compute with at the very end, where it would be shut.
   double cushion_end_m = 1e-3;

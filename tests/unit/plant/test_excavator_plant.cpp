@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <random>
 #include <vector>
@@ -221,9 +222,9 @@ void full_speed_into_the_end_stops(void**) {
       assert_near(plant.stroke_velocities_mps()[kBoom], 0.0, 1e-3);
     }
     assert_true(extremes.overrun_m > 0.0);  // they were reached
-    assert_true(extremes.overrun_m < 3e-3);
+    assert_true(extremes.overrun_m < 1e-3);
     assert_true(extremes.void_m3 < 1e-6);  // the make-up checks see to it
-    assert_true(extremes.highest_pa < 45e6);
+    assert_true(extremes.highest_pa < 1.1 * profile.port_relief_pa);
   }
 }
 
@@ -245,9 +246,9 @@ void random_duty_for_a_minute(void**) {
     }
     assert_true(extremes.fastest_mps > 0.1);
     assert_true(extremes.fastest_mps < 2.0);
-    assert_true(extremes.overrun_m < 3e-3);
+    assert_true(extremes.overrun_m < 1e-3);
     assert_true(extremes.void_m3 < 1e-6);  // the make-up checks see to it
-    assert_true(extremes.highest_pa < 45e6);
+    assert_true(extremes.highest_pa < 1.1 * profile.port_relief_pa);
   }
 }
 
@@ -278,13 +279,30 @@ double largest_difference(const std::vector<AxisArray>& a, const std::vector<Axi
   return largest;
 }
 
+double largest_tip_difference(const PlantProfile& profile, const std::vector<AxisArray>& a,
+                              const std::vector<AxisArray>& b) {
+  const LinkageGeometry geometry(profile.machine.geometry);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); i += 10) {
+    const Eigen::Vector2d tip_a = geometry.tip(geometry.angles_at(a[i])).position_m;
+    const Eigen::Vector2d tip_b = geometry.tip(geometry.angles_at(b[i])).position_m;
+    largest = std::max(largest, (tip_a - tip_b).norm());
+  }
+  return largest;
+}
+
 void half_the_step_gives_the_same_path(void**) {
   for (const double bulk_modulus : {1.4e9, 1.0e10}) {
     PlantProfile profile = machine_22t();
     profile.bulk_modulus_pa = bulk_modulus;
     const std::vector<AxisArray> full = spool_steps(profile, 200);
     assert_true(largest_difference(full, {full.size(), kStart}) > 0.1);
-    assert_near(largest_difference(full, spool_steps(profile, 100)), 0.0, 0.02e-3);
+    const std::vector<AxisArray> half = spool_steps(profile, 100);
+    const double tip = largest_tip_difference(profile, full, half);
+    std::printf("%.1f GPa: half the step moves strokes by %.4f mm and the tip by %.4f mm\n",
+                1e-9 * bulk_modulus, 1e3 * largest_difference(full, half), 1e3 * tip);
+    assert_near(largest_difference(full, half), 0.0, 0.02e-3);
+    assert_near(tip, 0.0, 0.1e-3);
     assert_near(largest_difference(full, spool_steps(profile, 20)), 0.0, 0.05e-3);
   }
 }
