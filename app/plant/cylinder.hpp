@@ -1,5 +1,5 @@
 #pragma once
-/// The parallel cylinders of one axis: two chambers, piston leakage, end stops.
+/// The parallel cylinders of one axis: two chambers, piston leakage, cushions, end stops.
 
 #include <algorithm>
 

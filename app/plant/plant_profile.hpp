@@ -77,7 +77,8 @@ struct PlantProfile {
   /// Slope of the make-up checks from tank, Pa s/m^3: 0.02 MPa below ambient at 400 L/min, so that
   /// the oil does not boil.
   double makeup_paspm3 = 3e6;
-  /// Where the oil boils: 0 absolute. Its vapour pressure at 50 deg C is below 1 kPa.
+  /// Where the oil boils: 0 absolute, its vapour pressure left off. Dissolved air, which comes out
+  /// earlier, is not simulated.
   double boiling_pa = -0.1e6;
   /// Travel, in units of the full travel, over which a spool's bypass goes from open to closed; it
   /// ends at the deadband's edge, where the metering edges begin to open: so (20), with the
@@ -91,7 +92,7 @@ struct PlantProfile {
   double hose_linear_paspm3 = 3e7;
   double hose_quadratic_pas2pm6 = 2.7e10;
   /// Cushions: over this last part of the stroke the way out of the chamber narrows, so that a
-  /// piston brakes evenly. Chosen, as makers of the class cushion 40 - 100 mm.
+  /// piston brakes evenly. Chosen.
   double cushion_length_m = 0.05;
   /// At half the cushion's length a piston of this speed meets this pressure: at full swash pistons
   /// come in at 0.07 - 0.24 m/s and then touch the end at less than 0.06.

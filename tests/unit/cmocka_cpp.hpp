@@ -6,11 +6,12 @@
 #include <cstdarg>
 #include <cstddef>
 #include <cstdint>
+#include <fstream>  // before CMocka: its macro `fail` breaks the members of that name
+#include <sstream>
 
 extern "C" {
 #include <cmocka.h>
 }
-#undef fail  // std::ios has a member of that name
 
 namespace graben::test {
 
