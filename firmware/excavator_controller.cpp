@@ -105,8 +105,7 @@ Eigen::Vector3d ExcavatorController::wanted_velocity(const ValidInputs& valid,
   if (valid.task != Task::kDig || state.status != ReachStatus::kOk) {
     return Eigen::Vector3d::Zero();
   }
-  const KinematicState then =
-      kinematics_.state(strokes_then(profile_, memory_.servo));
+  const KinematicState then = kinematics_.state(strokes_then(profile_, memory_.servo));
   const KinematicState& there = then.status == ReachStatus::kOk ? then : state;
   return field_.wanted(there, valid.speed_override_ratio);
 }

@@ -149,7 +149,8 @@ void add_dig(CLI::App& app, int& status) {
   command->add_option("--speed", options->speed, "Operator's speed override, 0.05 .. 1")
       ->check(number_between(0.05, 1.0))
       ->capture_default_str();
-  command->add_option("--loops", options->loops, "Times round the path, 0.1 .. 100; once unless told")
+  command
+      ->add_option("--loops", options->loops, "Times round the path, 0.1 .. 100; once unless told")
       ->check(number_between(0.1, 100.0));
   command->callback([options, &status] { status = guarded("dig", [&] { dig(*options); }); });
 }

@@ -19,6 +19,8 @@ namespace {
 constexpr double kStartAbove_m = 0.6;
 constexpr double kStartBack_m = 0.8;
 
+constexpr double kNeverSlow_m = 1e3;
+
 /// In the order of machines::Errors.
 const std::array<const char*, 5> kErrors = {"none", "stroke-bias", "sensors", "parameters", "all"};
 
@@ -39,7 +41,9 @@ void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
   command.add_flag("--obstacle", scenario.obstacle,
                    "A rock on the path that holds for a while and then comes loose");
   command.add_flag("--stiff-oil", scenario.stiff_oil, "Oil as stiff as the paper's");
-  command.add_option("--dead-time", scenario.dead_time_s, "Of every spool, s, 0 .. 0.5; the profile's unless told")
+  command
+      .add_option("--dead-time", scenario.dead_time_s,
+                  "Of every spool, s, 0 .. 0.5; the profile's unless told")
       ->check(number_between(0.0, 0.5));
   command
       .add_option("--errors", options.errors,
@@ -58,6 +62,8 @@ machines::ExcavatorMachine arranged(const machines::ExcavatorMachine& machine,
   machines::ExcavatorMachine result = machines::arranged(machine, scenario);
   if (options.fixed_lambda) {
     result.profile.control.lambda_policy = McvPolicy::kFixed;
+    // Nor does anything else slow it.
+    result.profile.control.slow_error_m = kNeverSlow_m;
   }
   return result;
 }
@@ -103,8 +109,8 @@ DigOptions usual_run(const machines::ExcavatorMachine& machine, const ScenarioOp
   const PathPoint below =
       RoundedRectangle(path).closest({path.x_max_m - kStartBack_m, path.y_max_m});
   run.start_strokes_m =
-      strokes_at(machine.profile, {below.position_m.x(), below.position_m.y() + kStartAbove_m,
-                                   below.attitude_rad});
+      strokes_at(machine.profile,
+                 {below.position_m.x(), below.position_m.y() + kStartAbove_m, below.attitude_rad});
   return run;
 }
 

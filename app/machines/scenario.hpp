@@ -18,7 +18,7 @@ struct Scenario {
   bool stiff_oil = false;  ///< The paper's, for comparison with its figures.
   Errors errors = Errors::kNone;
   std::optional<double> dead_time_s;  ///< Of every spool, as the controller takes it.
-  std::uint64_t seed = 0;    ///< Of everything that is drawn.
+  std::uint64_t seed = 0;             ///< Of everything that is drawn.
 };
 
 /// The machine with this scenario's plant, and a controller profile whose parameters are off by a

@@ -9,9 +9,9 @@
 #include <optional>
 
 #include "app/plant/obstacle.hpp"
-#include "app/plant/soil.hpp"
 #include "app/plant/oil.hpp"
 #include "app/plant/orifice.hpp"
+#include "app/plant/soil.hpp"
 #include "firmware/core/time.hpp"
 #include "firmware/machine/excavator_profile.hpp"
 

@@ -107,8 +107,8 @@ struct DigPath {
 
 /// How lambda may rise from cycle to cycle; it may fall at once.
 struct LambdaRise {
-  double rate_ps = 0.0;    ///< Per second.
-  double reserve_n = 0.0;  ///< Drive force that every moving cylinder must have beyond its need.
+  double rate_ps = 0.0;     ///< Per second.
+  double reserve_n = 0.0;   ///< Drive force that every moving cylinder must have beyond its need.
   double hold_share = 0.0;  ///< Share of the reserve (0 .. 1) for lambda to stay where it is.
 };
 
@@ -123,16 +123,16 @@ struct ControlProfile {
   double stroke_end_gain_ps = 0.0;  ///< Largest speed towards a cylinder's end, per metre left.
   McvPolicy lambda_policy = McvPolicy::kGlobal;
   LambdaRise lambda_rise;
-  double spool_rate_ps = 0.0;     ///< Largest change of |x| / x_m per second.
-  double spool_threshold = 0.0;   ///< |x| / x_m under which a spool is kept at neutral.
-  double sensor_timeout_s = 0.0;  ///< A signal older than this is missing.
-  double response_s = 0.0;         ///< Lag of a cylinder's speed behind its spool command.
-  double servo_gain_ps = 0.0;      ///< What a cylinder owes to its speed.
-  double servo_most_m = 0.0;       ///< It can owe no more than this.
-  double servo_least_lambda = 1.0; ///< Corrections stay whole down to this lambda.
-  double pressure_filter_s = 0.0;  ///< Low-pass of the load that the valve's model compensates.
-  double slow_error_m = 0.0;       ///< Path error at which the speed along the path is halved.
-  double dead_time_s = 0.0;       ///< From a duty to the spool's first movement.
+  double spool_rate_ps = 0.0;       ///< Largest change of |x| / x_m per second.
+  double spool_threshold = 0.0;     ///< |x| / x_m under which a spool is kept at neutral.
+  double sensor_timeout_s = 0.0;    ///< A signal older than this is missing.
+  double response_s = 0.0;          ///< Lag of a cylinder's speed behind its spool command.
+  double servo_gain_ps = 0.0;       ///< What a cylinder owes to its speed.
+  double servo_most_m = 0.0;        ///< It can owe no more than this.
+  double servo_least_lambda = 1.0;  ///< Corrections stay whole down to this lambda.
+  double pressure_filter_s = 0.0;   ///< Low-pass of the load that the valve's model compensates.
+  double slow_error_m = 0.0;        ///< Path error at which the speed along the path is halved.
+  double dead_time_s = 0.0;         ///< From a duty to the spool's first movement.
 };
 
 struct ExcavatorProfile {

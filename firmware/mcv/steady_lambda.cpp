@@ -18,7 +18,8 @@ McvSolution steady_lambda(const McvMachine& machine, const McvInput& input, McvP
     return risen;
   }
   McvSolution held =
-      solve_mcv(machine, input, policy, {std::clamp(last_lambda, kLeastBound, 1.0), rise.reserve_n, rise.hold_share});
+      solve_mcv(machine, input, policy,
+                {std::clamp(last_lambda, kLeastBound, 1.0), rise.reserve_n, rise.hold_share});
   if (held.status == SolveStatus::kOk && held.limit.kind == LimitKind::kNone) {
     held.limit = risen.limit;
     held.shortfall = risen.shortfall;

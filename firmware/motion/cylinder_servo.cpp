@@ -8,11 +8,11 @@ namespace {
 
 /// What was asked for one dead time ago.
 const Eigen::Vector3d& due(const ServoState& servo, double dead_time_s) {
-  const int cycles = static_cast<int>(std::clamp(dead_time_s / ServoState::kCycle_s + 0.5, 0.0,
-                                                 ServoState::kMostDelayed - 1.0));
+  const int cycles = static_cast<int>(
+      std::clamp(dead_time_s / ServoState::kCycle_s + 0.5, 0.0, ServoState::kMostDelayed - 1.0));
   const int place = servo.newest - cycles;
-  return servo.asked_mps[static_cast<unsigned>(place < 0 ? place + ServoState::kMostDelayed
-                                                         : place)];
+  return servo
+      .asked_mps[static_cast<unsigned>(place < 0 ? place + ServoState::kMostDelayed : place)];
 }
 
 }  // namespace
@@ -49,9 +49,8 @@ Eigen::Vector3d strokes_then(const ExcavatorProfile& profile, const ServoState& 
   return then;
 }
 
-Eigen::Vector3d corrected_velocity(const ControlProfile& control,
-                                   const Eigen::Vector3d& wanted_mps, const ServoState& servo,
-                                   double last_lambda) {
+Eigen::Vector3d corrected_velocity(const ControlProfile& control, const Eigen::Vector3d& wanted_mps,
+                                   const ServoState& servo, double last_lambda) {
   if (wanted_mps.isZero(0.0)) {
     return wanted_mps;
   }

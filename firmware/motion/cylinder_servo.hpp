@@ -11,7 +11,7 @@ namespace graben {
 
 /// What one cycle hands to the next; as constructed, a machine at rest at strokes 0.
 struct ServoState {
-  static constexpr int kMostDelayed = 64;  ///< Cycles of dead time that can be remembered.
+  static constexpr int kMostDelayed = 64;   ///< Cycles of dead time that can be remembered.
   static constexpr double kCycle_s = 0.01;  ///< What a place of the ring stands for.
 
   ServoState() { asked_mps.fill(Eigen::Vector3d::Zero()); }
@@ -27,8 +27,8 @@ struct ServoState {
 /// Nothing is under way, nothing is owed.
 [[nodiscard]] ServoState servo_at_rest(const Eigen::Vector3d& strokes_m);
 
-/// State after a cycle that asked for `asked_mps` (lambda V_L^d, without corrections), seen from the
-/// next one, `period_s` later, with these strokes.
+/// State after a cycle that asked for `asked_mps` (lambda V_L^d, without corrections), seen from
+/// the next one, `period_s` later, with these strokes.
 ///
 /// A cylinder is expected to answer after `dead_time_s` with two lags of half `response_s` each.
 /// What it should have moved by then and has not is owed: the integral of the error of its speed,

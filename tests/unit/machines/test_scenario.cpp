@@ -78,7 +78,7 @@ void draws_fill_their_ranges(void**) {
     assert_int_equal(check_machine(mcv_machine(drawn.profile)).defect, McvDefect::kNone);
   }
   for (std::size_t i = 0; i < exact.size(); ++i) {
-      // A drain is cut where its check came out small.
+    // A drain is cut where its check came out small.
     assert_true(least[i] >= -bound[i] - 1e-12 || (i < 24 && i % 8 == 6));
     assert_true(most[i] <= bound[i] + 1e-12);
     assert_true(least[i] < -0.98 * bound[i] && most[i] > 0.9 * bound[i]);

@@ -39,8 +39,8 @@ void soil_pushes_below_ground_only_and_grows_with_depth(void**) {
   assert_near((soil.step({5.0, -2.2}) - Eigen::Vector2d(50e3, 30e3)).norm(), 0.0, 1e-6);
 }
 
-/// Mean, spread and spectrum of 400 s: amplitude 20 % at 0.5 Hz, standard deviation 10 % with half of
-/// its power below 5 Hz (first order), both directions alike.
+/// Mean, spread and spectrum of 400 s: amplitude 20 % at 0.5 Hz, standard deviation 10 % with half
+/// of its power below 5 Hz (first order), both directions alike.
 void soil_swings_as_told(void**) {
   Soil soil(soil_profile(), 7, kStep_s);
   constexpr int kSteps = 2000000;
