@@ -20,6 +20,14 @@ JointArray strokes(const LinkageGeometry& geometry, const JointArray& angle) {
   return {lever[0].stroke_m, lever[1].stroke_m, lever[2].stroke_m};
 }
 
+void little_rotations_are_exact(void**) {
+  for (const double angle : {-0.01, -3e-4, 0.0, 1e-7, 2e-3, 0.01}) {
+    const Rotation little = Rotation::by_little(angle);
+    assert_near(little.cosine, std::cos(angle), 2e-15);
+    assert_near(little.sine, std::sin(angle), 2e-15);
+  }
+}
+
 // The ends of the machine file's angle ranges.
 void strokes_span_the_angle_ranges(void**) {
   const LinkageGeometry geometry(machine_22t().machine.geometry);
@@ -240,6 +248,7 @@ void friction_brakes_a_piston_to_rest(void**) {
 
 int main() {
   const CMUnitTest tests[] = {
+      cmocka_unit_test(little_rotations_are_exact),
       cmocka_unit_test(strokes_span_the_angle_ranges),
       cmocka_unit_test(bucket_stroke_falls_with_its_angle),
       cmocka_unit_test(levers_are_the_slopes_of_the_strokes),

@@ -134,8 +134,8 @@ Modes measured_modes(double bulk_modulus_pa, const AxisArray& stroke_m, const ch
   std::printf("%s, %.1f GPa: %.2f and %.2f Hz, small motion %.2f, %.2f and %.1f Hz\n", where,
               1e-9 * bulk_modulus_pa, modes.first_hz, modes.second_hz, expected[0], expected[1],
               expected[2]);
-  assert_near(modes.first_hz / expected[0], 1.0, 0.03);
-  assert_near(modes.second_hz / expected[1], 1.0, 0.03);
+  assert_near(modes.first_hz / expected[0], 1.0, 0.01);
+  assert_near(modes.second_hz / expected[1], 1.0, 0.01);
   return modes;
 }
 

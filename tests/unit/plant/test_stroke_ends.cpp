@@ -70,6 +70,25 @@ void cushion_grows_towards_the_end_only(void**) {
   assert_near(cylinder.cap_cushion_pas2pm6() * std::pow(cap_area * 0.15, 2), 49.0 * 15e6, 10.0);
 }
 
+// Both ways out of a chamber pass its cushion: by its return edge, and by its in-flow edge where
+// the chamber is above the pump line. The way in does not.
+void cushion_throttles_every_way_out(void**) {
+  const double k = 0.62 * std::sqrt(2.0 / 870.0);
+  ValveSection section(hopsan_circuit(200), kArm);
+  section.set_command(1.0);
+  for (int i = 0; i < 20000; ++i) {
+    section.step(2e-4);
+  }
+  SectionPorts ports{{20e6, 0.0}, {4e6, 0.0}, {11e6, 0.0}, {0.0, 0.0}, 1e13, 2e13};
+  const SectionFlows back = section.solve(ports);
+  const double edge = 1.0 / std::pow(k * 1.70e-4, 2);
+  const double return_edge = 1.0 / std::pow(k * 1.05e-4, 2);
+  assert_near(back.cap_in_m3ps, -std::sqrt(9e6 / (edge + 1e13)), 1e-9);
+  assert_near(back.rod_in_m3ps, -std::sqrt(4e6 / (return_edge + 2e13)), 1e-9);
+  ports.cap.wave_pa = 2e6;
+  assert_near(section.solve(ports).cap_in_m3ps, std::sqrt(9e6 / edge), 1e-9);
+}
+
 struct Impact {
   double speed_mps = 0.0;
   double overrun_m = 0.0;
@@ -138,6 +157,7 @@ int main() {
       cmocka_unit_test(hose_drops_0_4_mpa_at_200_l_per_min),
       cmocka_unit_test(hose_is_in_series_with_the_edge),
       cmocka_unit_test(cushion_grows_towards_the_end_only),
+      cmocka_unit_test(cushion_throttles_every_way_out),
       cmocka_unit_test(cushions_end_the_blow),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
