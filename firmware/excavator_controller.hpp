@@ -29,7 +29,7 @@ class ExcavatorController {
     LoadState load;
     ServoState servo;
     Eigen::Vector3d asked_mps = Eigen::Vector3d::Zero();  ///< lambda V_L^d, without corrections.
-    double lambda = 0.0;  ///< Of the last cycle in motion.
+    double lambda = 0.0;                                  ///< Of the last cycle in motion.
     TimeUs last_us = 0;
     bool has_stepped = false;
   };

@@ -27,9 +27,9 @@ INCLUDE = re.compile(rb'^[ \t]*#[ \t]*include[ \t]*[<"]([^>"\n]+)[>"]', re.MULTI
 CLANG_ONLY = ("-Wno-unknown-warning-option", "-Wno-sign-conversion", "-Wno-double-promotion")
 
 # Version 14 matches every check against every template of the system headers: four to eight seconds
-# a source, a minute with these. The tool's sources that need one of these get a short list: defects
-# that neither GCC nor the sanitizers would show. Tests are not looked at: GCC's warnings judge them,
-# and the sanitizers run them.
+# a source, a minute with these. They, and all of app/, get a short list: defects that neither GCC nor
+# the sanitizers would show; the whole list is for what moves metal. Tests are not looked at: GCC's
+# warnings judge them, and the sanitizers run them.
 HEAVY = re.compile(rb"^(nlohmann/json[.]hpp|CLI/|toml[+][+]/)")
 SHORT_LIST = ("-*,clang-diagnostic-*,bugprone-use-after-move,bugprone-branch-clone,"
               "bugprone-dangling-handle,bugprone-integer-division,bugprone-suspicious-enum-usage,"
@@ -70,6 +70,7 @@ def key_of(entry: dict, inputs: list[pathlib.Path]) -> str:
 def check(entry: dict) -> str:
     """What clang-tidy has to say on a source; nothing when it is clean."""
     inputs, heavy = our_inputs(entry)
+    short = heavy or pathlib.Path(entry["file"]).resolve().is_relative_to(root / "app")
     remembered = cache / key_of(entry, inputs)
     if remembered.exists():
         return ""
@@ -77,7 +78,7 @@ def check(entry: dict) -> str:
         [tool, "-p", str(arguments.build), "--quiet", f"--config-file={config}",
          f"--header-filter=^{re.escape(str(root))}/({'|'.join(OURS)})/",
          *(f"--extra-arg={flag}" for flag in CLANG_ONLY),
-         *([f"--checks={SHORT_LIST}"] if heavy else []), entry["file"]],
+         *([f"--checks={SHORT_LIST}"] if short else []), entry["file"]],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
     if done.returncode == 0 and not done.stdout.strip():
         remembered.touch()
