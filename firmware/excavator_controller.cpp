@@ -83,21 +83,27 @@ ExcavatorController::ExcavatorController(const ExcavatorProfile& profile)
       field_(profile_, kinematics_),
       valve_(mcv_machine(profile_)) {}
 
+double ExcavatorController::elapsed_s(TimeUs now_us) const {
+  const TimeUs elapsed_us = memory_.has_stepped ? now_us - memory_.last_us : 0;
+  return static_cast<double>(std::clamp<TimeUs>(elapsed_us, 0, kStalled_us)) * 1e-6;
+}
+
 double ExcavatorController::period_s(TimeUs now_us) const {
-  if (!memory_.has_stepped) {
-    return 0.0;
-  }
-  const double elapsed_s = static_cast<double>(now_us - memory_.last_us) * 1e-6;
-  return std::clamp(elapsed_s, 0.0, kLongestPeriod_s);
+  return std::min(elapsed_s(now_us), kLongestPeriod_s);
 }
 
 void ExcavatorController::observe(const ValidInputs& valid, double period_s) {
   const bool in_motion = memory_.mode.mode == EcuMode::kActive;
   memory_.load = next_load(profile_.control.pressure_filter_s, memory_.load,
                            {valid.cap_pressure_pa, valid.rod_pressure_pa}, period_s, !in_motion);
-  memory_.servo = in_motion ? next_servo(profile_.control, memory_.servo, memory_.asked_mps,
-                                         valid.strokes_m, period_s)
-                            : servo_at_rest(valid.strokes_m);
+  if (in_motion) {
+    memory_.servo =
+        next_servo(profile_.control, memory_.servo, memory_.asked_mps, valid.strokes_m, period_s);
+  } else if (memory_.mode.mode == EcuMode::kFault) {
+    memory_.servo = servo_at_rest(valid.strokes_m);
+  } else {
+    memory_.servo = servo_released(profile_.control, memory_.servo, valid.strokes_m, period_s);
+  }
 }
 
 Eigen::Vector3d ExcavatorController::wanted_velocity(const ValidInputs& valid,
@@ -112,11 +118,11 @@ Eigen::Vector3d ExcavatorController::wanted_velocity(const ValidInputs& valid,
 
 ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs now_us) {
   const ValidInputs valid = validate(inputs, profile_, now_us);
-  observe(valid, period_s(now_us));
+  observe(valid, elapsed_s(now_us));
   const KinematicState state = kinematics_.state(valid.strokes_m);
   const Eigen::Vector3d wanted = wanted_velocity(valid, state);
-  const Eigen::Vector3d corrected =
-      corrected_velocity(profile_.control, wanted, memory_.servo, memory_.lambda);
+  const Eigen::Vector3d corrected = corrected_velocity(profile_, wanted, memory_.servo,
+                                                       memory_.lambda, valid.speed_override_ratio);
   const VelocityCap cap = stroke_end_cap(profile_, valid.strokes_m, corrected);
   const McvSolution solution =
       steady_lambda(valve_, mcv_input(valid, memory_.load, cap.factor * corrected),

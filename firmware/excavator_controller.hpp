@@ -34,6 +34,9 @@ class ExcavatorController {
     bool has_stepped = false;
   };
 
+  /// Since the last cycle, up to what is a stall; 0 in the first.
+  [[nodiscard]] double elapsed_s(TimeUs now_us) const;
+  /// The same for what may change by so much a second.
   [[nodiscard]] double period_s(TimeUs now_us) const;
   /// Takes in what this cycle's sensors say of the last cycle's command.
   void observe(const ValidInputs& valid, double period_s);

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <csignal>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -43,6 +44,8 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 void interrupt(int /*signal*/) { interrupted = true; }
 
+constexpr std::uint64_t kMostSeed = 999999999999999999;  // What a file's seed may have.
+
 struct Shard {
   std::uint64_t index;
   std::uint64_t count;
@@ -75,7 +78,9 @@ CampaignRow run_draw(const Options& options, const machines::ExcavatorMachine& n
   const DigSummary summary = summarise(result);
   CampaignRow row;
   row.end = result.end;
-  for (std::size_t i = 0; i < kCampaignColumns; ++i) {
+  // A run that did not come round has no figures: 0 mm would be the best of all.
+  row.figure.fill(std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < kCampaignColumns && result.end == DigEnd::kDone; ++i) {
     row.figure[i] = campaign_columns()[i].of(summary);
   }
   return row;
@@ -90,8 +95,14 @@ class Campaign {
 
   void run(unsigned jobs) {
     std::vector<std::thread> threads;
-    for (unsigned i = 0; i < jobs; ++i) {
-      threads.emplace_back([this] { work(); });
+    try {
+      for (std::size_t i = 0; i < std::min<std::size_t>(jobs, seeds_.size()); ++i) {
+        threads.emplace_back([this] { work(); });
+      }
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      failure_ = std::current_exception();
+      interrupted = true;
     }
     for (std::thread& thread : threads) {
       thread.join();
@@ -111,6 +122,9 @@ class Campaign {
       try {
         const CampaignRow row = run_draw(options_, nominal_, seeds_[index]);
         const std::lock_guard<std::mutex> lock(mutex_);
+        if (failure_) {
+          return;  // What a full disk has cut short must stay the last line.
+        }
         log_.add(seeds_[index], row);
         ++done_;
         bar_.show(static_cast<double>(done_) / static_cast<double>(seeds_.size()),
@@ -136,6 +150,10 @@ class Campaign {
 
 void campaign_dig(const Options& options) {
   const Shard shard = shard_of(options.shard);
+  if (options.seed > kMostSeed - options.draws) {
+    throw std::runtime_error(
+        fmt::format("--seed and --draws: the last seed is more than {}", kMostSeed));
+  }
   const machines::ExcavatorMachine nominal =
       machines::load_excavator(machines::find_profile(options.profile));
   CampaignLog log(options.summary,
@@ -154,6 +172,12 @@ void campaign_dig(const Options& options) {
   Campaign(options, nominal, log, std::move(seeds)).run(jobs);
   write_campaign(options.summary, log.data());
   fmt::print("{}", campaign_table(log.data()));
+  const auto failed =
+      std::count_if(log.data().rows.begin(), log.data().rows.end(),
+                    [](const auto& row) { return row.second.end != DigEnd::kDone; });
+  if (failed > 0) {
+    throw std::runtime_error(fmt::format("{} draws did not come round", failed));
+  }
   if (interrupted) {
     throw std::runtime_error(
         fmt::format("interrupted; the same command goes on with what {} lacks", options.summary));

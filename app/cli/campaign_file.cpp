@@ -1,6 +1,9 @@
 #include "app/cli/campaign_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -173,8 +176,25 @@ void write_campaign(const std::filesystem::path& file, const CampaignData& data)
   std::filesystem::rename(beside, file);
 }
 
+FileLock::FileLock(std::filesystem::path file) : file_(std::move(file)) {
+  descriptor_ = open(file_.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
+  if (descriptor_ < 0) {
+    refuse(file_, std::strerror(errno));
+  }
+  if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    close(descriptor_);
+    refuse(file_, "another campaign is writing its results here");
+  }
+}
+
+FileLock::~FileLock() {
+  std::error_code ignored;
+  std::filesystem::remove(file_, ignored);
+  close(descriptor_);
+}
+
 CampaignLog::CampaignLog(std::filesystem::path file, const std::string& tried)
-    : file_(std::move(file)) {
+    : file_(std::move(file)), lock_(file_.string() + ".lock") {
   if (std::filesystem::exists(file_)) {
     data_ = read_campaign(file_);
     if (data_.tried != tried) {
@@ -196,8 +216,10 @@ void CampaignLog::add(std::uint64_t seed, const CampaignRow& row) {
 }
 
 std::string campaign_table(const CampaignData& data) {
-  std::string table = fmt::format("{}, {} draws\n{:<50}{:>10}{:>10}{:>10}\n", data.tried,
-                                  data.rows.size(), "", "median", "p95", "max");
+  const auto done = std::count_if(data.rows.begin(), data.rows.end(),
+                                  [](const auto& row) { return row.second.end == DigEnd::kDone; });
+  std::string table = fmt::format("{}, {} of {} draws done\n{:<50}{:>10}{:>10}{:>10}\n", data.tried,
+                                  done, data.rows.size(), "", "median", "p95", "max");
   for (std::size_t i = 0; i < kCampaignColumns; ++i) {
     const CampaignColumn& column = campaign_columns()[i];
     std::vector<double> values;

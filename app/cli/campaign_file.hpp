@@ -41,6 +41,20 @@ struct CampaignData {
 /// same bytes.
 void write_campaign(const std::filesystem::path& file, const CampaignData& data);
 
+/// One process at a time: holds a file beside the results, and removes it. Throws
+/// std::runtime_error where another one has it.
+class FileLock {
+ public:
+  explicit FileLock(std::filesystem::path file);
+  ~FileLock();
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+};
+
 /// A file that grows by a row at a time, so that what was computed is not lost.
 class CampaignLog {
  public:
@@ -54,6 +68,7 @@ class CampaignLog {
 
  private:
   std::filesystem::path file_;
+  FileLock lock_;
   CampaignData data_;
 };
 

@@ -111,7 +111,8 @@ class DigRun {
       return true;
     }
     result_.end = DigEnd::kLoopNotClosed;
-    return seconds(now_us - reached_us_) > options_.loops * options_.loop_max_s;
+    return seconds(now_us - reached_us_) >
+           options_.loops * options_.loop_max_s / options_.speed_override_ratio;
   }
 
   void step(TimeUs now_us) {

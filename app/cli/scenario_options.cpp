@@ -35,11 +35,13 @@ void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
   machines::Scenario& scenario = options.scenario;
   auto* in_the_way = command.add_option_group("in the way", "What the bucket meets");
   in_the_way->add_flag("--soil", scenario.soil, "Soil below the profile's ground line");
-  in_the_way->add_flag("--air", scenario.air,
-                       "The profile's manoeuvre in the air, with a loaded bucket, instead");
+  CLI::Option* air = in_the_way->add_flag(
+      "--air", scenario.air, "The profile's manoeuvre in the air, with a loaded bucket, instead");
   in_the_way->require_option(0, 1);
-  command.add_flag("--obstacle", scenario.obstacle,
-                   "A rock on the path that holds for a while and then comes loose");
+  command
+      .add_flag("--obstacle", scenario.obstacle,
+                "A rock on the digging path that holds for a while and then comes loose")
+      ->excludes(air);
   command.add_flag("--stiff-oil", scenario.stiff_oil, "Oil as stiff as the paper's");
   command
       .add_option("--dead-time", scenario.dead_time_s,

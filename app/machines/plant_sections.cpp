@@ -48,6 +48,7 @@ plant::PlantProfile read_plant_sections(TomlReader& reader, const ExcavatorProfi
   plant.bulk_modulus_pa = reader.number("valve.bulk_modulus", {1e8, 1e11, "Pa"});
   plant.port_relief_pa = reader.number("valve.port_relief", {1e6, 1e8, "Pa"});
   plant.swash_ratio.fill(reader.number("experiment.swash", {0.0, 1.0, ""}));
+  plant.dead_time_s.fill(nominal.control.dead_time_s);
   plant.sensors = read_sensors(reader);
   static_cast<void>(reader.number("swing.speed_max",
                                   {0.01, 5.0, "rad/s"}));  // Checked, so that a typo shows today.

@@ -22,7 +22,8 @@ struct CommandCounters {
 };
 
 /// The bus port belongs to the caller, who opens it. Without a command for `kCommandTimeoutUs`,
-/// with enable off or unusable, or with an unusable duty every spool is sent to neutral at once.
+/// with enable off or unusable, or with an unusable duty every spool is sent to neutral, which
+/// takes its dead time.
 class PlantNode {
  public:
   static constexpr TimeUs kCycleUs = 10 * kMillisecondUs;

@@ -45,9 +45,9 @@ struct LambdaRange {
   double reserve_share = 1.0;  ///< 0 .. 1 of the reserve as it then is.
 };
 
-/// Largest lambda in [0, range.most] by `policy`. Bad input, no feasible lambda and an iteration
-/// that did not end each give lambda 0 with closed spools and their status; nothing returned is
-/// ever NaN or infinite.
+/// Largest lambda in [0, range.most] by `policy` (kFixed alone asks for no feasibility: comparisons
+/// only). Bad input, no feasible lambda and an iteration that did not end each give lambda 0 with
+/// closed spools and their status; nothing returned is ever NaN or infinite.
 [[nodiscard]] McvSolution solve_mcv(const McvMachine& machine, const McvInput& input,
                                     McvPolicy policy, const LambdaRange& range = {});
 

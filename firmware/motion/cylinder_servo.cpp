@@ -6,13 +6,31 @@
 namespace graben {
 namespace {
 
-/// What was asked for one dead time ago.
-const Eigen::Vector3d& due(const ServoState& servo, double dead_time_s) {
-  const int cycles = static_cast<int>(
+int dead_cycles(double dead_time_s) {
+  return static_cast<int>(
       std::clamp(dead_time_s / ServoState::kCycle_s + 0.5, 0.0, ServoState::kMostDelayed - 1.0));
+}
+
+/// Weight of the newest value in one of the two lags.
+double newest_share(double response_s, double period_s) {
+  return 1.0 - std::exp(-period_s / (0.5 * response_s));
+}
+
+/// What was asked for so many cycles ago.
+const Eigen::Vector3d& asked_before(const ServoState& servo, int cycles) {
   const int place = servo.newest - cycles;
   return servo
       .asked_mps[static_cast<unsigned>(place < 0 ? place + ServoState::kMostDelayed : place)];
+}
+
+/// The ring's places that are not due yet, and what two equal lags, left alone, still give.
+Eigen::Vector3d under_way(const ControlProfile& control, const ServoState& servo) {
+  const double newest = newest_share(control.response_s, ServoState::kCycle_s);
+  Eigen::Vector3d sum_mps = (1.0 - newest) / newest * (servo.lag_mps[0] + servo.lag_mps[1]);
+  for (int n = 0; n < dead_cycles(control.dead_time_s); ++n) {
+    sum_mps += asked_before(servo, n);
+  }
+  return ServoState::kCycle_s * sum_mps;
 }
 
 }  // namespace
@@ -29,11 +47,12 @@ ServoState next_servo(const ControlProfile& control, const ServoState& last,
   ServoState next = last;
   next.newest = (last.newest + 1) % ServoState::kMostDelayed;
   next.asked_mps[static_cast<unsigned>(next.newest)] = asked_mps;
-  const double newest = 1.0 - std::exp(-period_s / (0.5 * control.response_s));
-  next.lag_mps[0] += newest * (due(next, control.dead_time_s) - last.lag_mps[0]);
+  const double newest = newest_share(control.response_s, period_s);
+  next.lag_mps[0] +=
+      newest * (asked_before(next, dead_cycles(control.dead_time_s)) - last.lag_mps[0]);
   next.lag_mps[1] += newest * (next.lag_mps[0] - last.lag_mps[1]);
   const Eigen::Vector3d expected_m = period_s * next.lag_mps[1];
-  next.under_way_m += period_s * asked_mps - expected_m;
+  next.under_way_m = under_way(control, next);
   next.owed_m += expected_m - (strokes_m - last.strokes_m);
   next.owed_m = next.owed_m.cwiseMax(-control.servo_most_m).cwiseMin(control.servo_most_m);
   next.strokes_m = strokes_m;
@@ -49,13 +68,31 @@ Eigen::Vector3d strokes_then(const ExcavatorProfile& profile, const ServoState& 
   return then;
 }
 
-Eigen::Vector3d corrected_velocity(const ControlProfile& control, const Eigen::Vector3d& wanted_mps,
-                                   const ServoState& servo, double last_lambda) {
+ServoState servo_released(const ControlProfile& control, const ServoState& last,
+                          const Eigen::Vector3d& strokes_m, double period_s) {
+  ServoState next = next_servo(control, last, Eigen::Vector3d::Zero(), strokes_m, period_s);
+  next.owed_m.setZero();
+  return next;
+}
+
+Eigen::Vector3d corrected_velocity(const ExcavatorProfile& profile,
+                                   const Eigen::Vector3d& wanted_mps, const ServoState& servo,
+                                   double last_lambda, double speed_override_ratio) {
   if (wanted_mps.isZero(0.0)) {
     return wanted_mps;
   }
-  const double lambda = std::max(last_lambda, control.servo_least_lambda);
-  return wanted_mps + control.servo_gain_ps / lambda * servo.owed_m;
+  const ControlProfile& control = profile.control;
+  const double gain_ps = speed_override_ratio * control.servo_gain_ps /
+                         std::max(last_lambda, control.servo_least_lambda);
+  Eigen::Vector3d corrected = wanted_mps + gain_ps * servo.owed_m;
+  for (int i = 0; i < kAxisCount; ++i) {
+    const double most_m = profile.geometry.cylinder[static_cast<unsigned>(i)].stroke_m;
+    const double in_mps = -control.stroke_end_gain_ps * servo.strokes_m[i];
+    const double out_mps = control.stroke_end_gain_ps * (most_m - servo.strokes_m[i]);
+    corrected[i] =
+        std::clamp(corrected[i], std::min(in_mps, wanted_mps[i]), std::max(out_mps, wanted_mps[i]));
+  }
+  return corrected;
 }
 
 }  // namespace graben

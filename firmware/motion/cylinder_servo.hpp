@@ -19,9 +19,10 @@ struct ServoState {
   std::array<Eigen::Vector3d, kMostDelayed> asked_mps;  ///< Ring of the last commands.
   int newest = 0;
   std::array<Eigen::Vector3d, 2> lag_mps = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-  Eigen::Vector3d under_way_m = Eigen::Vector3d::Zero();  ///< Asked for, not yet due.
-  Eigen::Vector3d owed_m = Eigen::Vector3d::Zero();       ///< Due, not yet seen.
-  Eigen::Vector3d strokes_m = Eigen::Vector3d::Zero();    ///< Measured.
+  /// Asked for, not yet due: what the ring and the lags still hold, so that nothing adds up.
+  Eigen::Vector3d under_way_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d owed_m = Eigen::Vector3d::Zero();     ///< Due, not yet seen.
+  Eigen::Vector3d strokes_m = Eigen::Vector3d::Zero();  ///< Measured.
 };
 
 /// Nothing is under way, nothing is owed.
@@ -43,11 +44,19 @@ struct ServoState {
 [[nodiscard]] Eigen::Vector3d strokes_then(const ExcavatorProfile& profile,
                                            const ServoState& servo);
 
-/// The wanted velocity with what is owed; at rest where none is wanted. Everything that is asked of
+/// Nothing is asked for any more, but what is under way still arrives; it owes nothing.
+[[nodiscard]] ServoState servo_released(const ControlProfile& control, const ServoState& last,
+                                        const Eigen::Vector3d& strokes_m, double period_s);
+
+/// The wanted velocity with what is owed, in the ratio of the operator's speed; at rest where none
+/// is wanted. What is owed never pushes a cylinder faster at its end than `stroke_end_gain_ps`
+/// allows: it must not stop the others there.
+/// Everything that is asked of
 /// the valve scales with lambda, which must not turn the direction: what is owed is therefore
 /// raised as lambda falls, down to `servo_least_lambda`.
-[[nodiscard]] Eigen::Vector3d corrected_velocity(const ControlProfile& control,
+[[nodiscard]] Eigen::Vector3d corrected_velocity(const ExcavatorProfile& profile,
                                                  const Eigen::Vector3d& wanted_mps,
-                                                 const ServoState& servo, double last_lambda);
+                                                 const ServoState& servo, double last_lambda,
+                                                 double speed_override_ratio);
 
 }  // namespace graben

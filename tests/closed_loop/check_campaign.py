@@ -36,7 +36,7 @@ def content(file):
 def shards_merge(graben, folder):
     whole = os.path.join(folder, "whole.csv")
     table, _ = dig(graben, whole)
-    for word in ("median", "p95", "max", f"{DRAWS} draws", "path error of the true tip, max"):
+    for word in ("median", "p95", "max", f"{DRAWS} of {DRAWS} draws done", "path error of the true tip, max"):
         assert word in table, table
     lines = content(whole).decode().splitlines()
     assert len(lines) == 2 + DRAWS and lines[0].startswith("# dig excavator_22t "), lines
@@ -82,6 +82,28 @@ def goes_on(graben, folder, whole):
     assert time.monotonic() - began < 5.0
 
 
+def failures_are_no_figures(graben, folder):
+    file = os.path.join(folder, "failed.csv")
+    out, err = call(graben, "dig", "--draws", "1", "--air", "--fixed-lambda", "--summary", file,
+                    status=1)
+    row = content(file).decode().splitlines()[2].split(",")
+    assert row[1] != "done" and not any(row[2:]), row
+    assert "0 of 1 draws done" in out and "did not come round" in err, (out, err)
+
+
+def one_at_a_time(graben, folder):
+    file = os.path.join(folder, "busy.csv")
+    first = start(graben, "dig", "--draws", "40", "--jobs", "1", "--summary", file)
+    deadline = time.monotonic() + 60.0
+    while time.monotonic() < deadline and not os.path.exists(file):
+        time.sleep(0.01)
+    _, err = call(graben, "dig", "--draws", "40", "--summary", file, status=1)
+    assert "another campaign" in err, err
+    first.send_signal(signal.SIGTERM)
+    first.communicate(timeout=60)
+    assert not os.path.exists(file + ".lock")
+
+
 def refuses(graben, folder, whole):
     def refused(needle, file, *options):
         before = content(file)
@@ -119,6 +141,8 @@ def main():
         whole = shards_merge(graben, folder)
         goes_on(graben, folder, whole)
         refuses(graben, folder, whole)
+        failures_are_no_figures(graben, folder)
+        one_at_a_time(graben, folder)
     print(f"{DRAWS} draws: whole, in shards and interrupted, the same rows")
 
 

@@ -119,12 +119,12 @@ void a_stalled_cycle_is_neutral_and_latched(void**) {
   assert_neutral(running.step(running.inputs()));
 }
 
-/// Machine pressures that no motion can work against: told, and closed, within a second for the
+/// Machine pressures that no motion can work against: told, and closed, within 0.7 s for the
 /// load's filter.
 void an_impossible_load_closes_the_spools(void**) {
   Running running;
   ExcavatorOutputs outputs;
-  for (int n = 0; n < 100; ++n) {
+  for (int n = 0; n < 70; ++n) {
     ExcavatorInputs inputs = running.inputs();
     for (AxisInputs& axis : inputs.axis) {
       axis.cap_pressure_pa.value = 60e6;

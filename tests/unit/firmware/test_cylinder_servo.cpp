@@ -24,6 +24,15 @@ ControlProfile control(double dead_time_s = 0.0) {
   return profile;
 }
 
+/// The shipped machine with this control.
+ExcavatorProfile machine() {
+  ExcavatorProfile profile = test::excavator().profile;
+  const double stroke_end_gain_ps = profile.control.stroke_end_gain_ps;
+  profile.control = control();
+  profile.control.stroke_end_gain_ps = stroke_end_gain_ps;
+  return profile;
+}
+
 /// A cylinder that answers as expected: after the dead time, with two equal lags.
 class Ideal {
  public:
@@ -116,19 +125,74 @@ void what_is_owed_is_asked_for_whole_at_any_lambda(void**) {
   servo.owed_m = {0.01, -0.005, 0.0};
   const Eigen::Vector3d wanted(0.1, 0.1, 0.1);
   for (const double lambda : {1.0, 0.5, 0.2}) {
-    const Eigen::Vector3d asked = lambda * corrected_velocity(control(), wanted, servo, lambda);
+    const Eigen::Vector3d asked =
+        lambda * corrected_velocity(machine(), wanted, servo, lambda, 1.0);
     assert_near((asked - (lambda * wanted + 2.0 * servo.owed_m)).norm(), 0.0, 1e-12);
   }
   // Below the least lambda it shrinks with it, so that it ends where lambda does.
-  const Eigen::Vector3d asked = 0.1 * corrected_velocity(control(), wanted, servo, 0.1);
+  const Eigen::Vector3d asked = 0.1 * corrected_velocity(machine(), wanted, servo, 0.1, 1.0);
   assert_near((asked - (0.1 * wanted + 0.5 * 2.0 * servo.owed_m)).norm(), 0.0, 1e-12);
+}
+
+/// A slow dial is a slow machine: what is owed is paid in its ratio.
+void what_is_owed_goes_with_the_operators_speed(void**) {
+  ServoState servo = servo_at_rest({0.5, 0.5, 0.5});
+  servo.owed_m = {0.02, 0.02, -0.02};
+  const Eigen::Vector3d wanted(0.001, 0.001, 0.001);
+  const Eigen::Vector3d full = corrected_velocity(machine(), wanted, servo, 1.0, 1.0) - wanted;
+  const Eigen::Vector3d slow = corrected_velocity(machine(), wanted, servo, 1.0, 0.01) - wanted;
+  assert_near((slow - 0.01 * full).norm(), 0.0, 1e-15);
+  assert_near(full[0], 0.04, 1e-12);
+}
+
+/// At a cylinder's end what is owed is not asked for, and does not hold up the others.
+void what_is_owed_stops_at_a_stroke_end(void**) {
+  ServoState servo = servo_at_rest({0.5, 0.5, 0.0});
+  servo.owed_m = {0.01, 0.0, -0.02};
+  const Eigen::Vector3d away = corrected_velocity(machine(), {0.1, 0.1, 0.03}, servo, 0.5, 1.0);
+  assert_near(away[2], 0.0, 0.0);
+  assert_near(away[0], 0.14, 1e-12);
+  // What the field wants there is the stroke end cap's to slow.
+  const Eigen::Vector3d into = corrected_velocity(machine(), {0.1, 0.1, -0.03}, servo, 0.5, 1.0);
+  assert_near(into[2], -0.03, 0.0);
+}
+
+/// Let go, what is under way still arrives and is no debt.
+void a_released_servo_still_expects_what_is_under_way(void**) {
+  Run run(0.15, 1.0);
+  for (int n = 0; n < 40; ++n) {
+    run.step(0.1);
+  }
+  const double coming_m = run.servo.under_way_m[0];
+  assert_near(coming_m, 0.1 * (0.15 + 0.05), 0.1 * 0.011);
+  const double from_m = run.servo.strokes_m[0];
+  for (int n = 0; n < 60; ++n) {
+    const double stroke_m = run.cylinder.after(0.0);
+    run.servo = servo_released(run.profile, run.servo, {stroke_m, 0.5, 0.5}, kPeriod_s);
+    assert_near(run.servo.owed_m.norm(), 0.0, 0.0);
+    assert_near(run.servo.strokes_m[0] + run.servo.under_way_m[0], from_m + coming_m, 1e-9);
+  }
+  assert_near(run.servo.under_way_m[0], 0.0, 1e-6);
+}
+
+/// A late cycle leaves nothing behind: the prediction is what ring and lags hold, no sum of
+/// periods.
+void an_uneven_period_leaves_nothing_behind(void**) {
+  Run run(0.15, 1.0);
+  for (int n = 0; n < 400; ++n) {
+    const double asked_mps = n < 200 ? 0.2 * std::sin(0.3 * n) : 0.0;
+    run.servo = next_servo(run.profile, run.servo, {asked_mps, 0.0, 0.0}, {0.5, 0.5, 0.5},
+                           n % 7 == 0 ? 0.04 : 0.008);
+  }
+  assert_near(run.servo.under_way_m.norm(), 0.0, 1e-9);
 }
 
 /// At rest is at rest, whatever is owed.
 void nothing_wanted_is_nothing_asked(void**) {
   ServoState servo = servo_at_rest({0.5, 0.5, 0.5});
   servo.owed_m = {0.01, 0.01, 0.01};
-  assert_near(corrected_velocity(control(), Eigen::Vector3d::Zero(), servo, 0.5).norm(), 0.0, 0.0);
+  assert_near(corrected_velocity(machine(), Eigen::Vector3d::Zero(), servo, 0.5, 1.0).norm(), 0.0,
+              0.0);
 }
 
 void a_prediction_stays_within_the_strokes(void**) {
@@ -165,6 +229,10 @@ int main() {
       cmocka_unit_test(a_slow_cylinder_owes_what_it_lacks),
       cmocka_unit_test(where_lambda_is_0_nothing_winds_up),
       cmocka_unit_test(what_is_owed_is_asked_for_whole_at_any_lambda),
+      cmocka_unit_test(what_is_owed_goes_with_the_operators_speed),
+      cmocka_unit_test(what_is_owed_stops_at_a_stroke_end),
+      cmocka_unit_test(a_released_servo_still_expects_what_is_under_way),
+      cmocka_unit_test(an_uneven_period_leaves_nothing_behind),
       cmocka_unit_test(nothing_wanted_is_nothing_asked),
       cmocka_unit_test(a_prediction_stays_within_the_strokes),
       cmocka_unit_test(the_load_is_low_passed),
