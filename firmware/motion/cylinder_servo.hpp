@@ -50,10 +50,9 @@ struct ServoState {
 
 /// The wanted velocity with what is owed, in the ratio of the operator's speed; at rest where none
 /// is wanted. What is owed never pushes a cylinder faster at its end than `stroke_end_gain_ps`
-/// allows: it must not stop the others there.
-/// Everything that is asked of
-/// the valve scales with lambda, which must not turn the direction: what is owed is therefore
-/// raised as lambda falls, down to `servo_least_lambda`.
+/// allows: it must not stop the others there. All that is asked of the valve scales with lambda; so
+/// that this does not turn the direction, what is owed is raised as lambda falls, down to
+/// `servo_least_lambda`.
 [[nodiscard]] Eigen::Vector3d corrected_velocity(const ExcavatorProfile& profile,
                                                  const Eigen::Vector3d& wanted_mps,
                                                  const ServoState& servo, double last_lambda,
