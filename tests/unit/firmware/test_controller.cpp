@@ -139,6 +139,30 @@ void an_impossible_load_closes_the_spools(void**) {
   }
 }
 
+/// Pressures of a rest are not those of the last motion: the load's filter starts with what it
+/// sees.
+void every_start_sees_its_own_load(void**) {
+  Running once;
+  const double duty = once.outputs.duty_ratio[kBoom];
+  Running again;
+  for (int n = 0; n < 20; ++n) {
+    ExcavatorInputs heavy = again.inputs();
+    for (AxisInputs& axis : heavy.axis) {
+      axis.cap_pressure_pa.value = 12e6;
+    }
+    again.step(heavy);
+  }
+  again.step(again.at_rest(false));
+  again.step(again.at_rest(true));
+  // Long enough for what was under way to arrive.
+  for (int n = 0; n < 100; ++n) {
+    again.step(again.at_rest(true));
+  }
+  again.step(again.inputs());
+  assert_int_equal(again.outputs.status.mode, EcuMode::kActive);
+  assert_near(again.outputs.duty_ratio[kBoom], duty, 1e-6);
+}
+
 /// From every rest lambda starts at one cycle's rise and goes up by no more.
 void lambda_rises_anew_from_every_rest(void**) {
   const double rise = profile().control.lambda_rise.rate_ps * 0.01;
@@ -180,6 +204,7 @@ int main() {
       cmocka_unit_test(a_missing_sensor_is_neutral_within_50_ms),
       cmocka_unit_test(a_stalled_cycle_is_neutral_and_latched),
       cmocka_unit_test(an_impossible_load_closes_the_spools),
+      cmocka_unit_test(every_start_sees_its_own_load),
       cmocka_unit_test(lambda_rises_anew_from_every_rest),
       cmocka_unit_test(the_same_inputs_give_the_same_outputs),
   };

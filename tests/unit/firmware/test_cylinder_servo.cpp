@@ -155,6 +155,12 @@ void what_is_owed_stops_at_a_stroke_end(void**) {
   // What the field wants there is the stroke end cap's to slow.
   const Eigen::Vector3d into = corrected_velocity(machine(), {0.1, 0.1, -0.03}, servo, 0.5, 1.0);
   assert_near(into[2], -0.03, 0.0);
+  // The same at the other end.
+  const double most_m = machine().geometry.cylinder[kBucket].stroke_m;
+  servo = servo_at_rest({0.5, 0.5, most_m});
+  servo.owed_m = {0.0, 0.0, 0.02};
+  assert_near(corrected_velocity(machine(), {0.1, 0.1, -0.03}, servo, 0.5, 1.0)[2], 0.0, 0.0);
+  assert_near(corrected_velocity(machine(), {0.1, 0.1, 0.03}, servo, 0.5, 1.0)[2], 0.03, 0.0);
 }
 
 /// Let go, what is under way still arrives and is no debt.

@@ -123,6 +123,9 @@ void a_rock_rubs_and_damps(void**) {
   const Eigen::Vector2d in = obstacle.step({3.999, -2.0});
   assert_near(in.x(), 2e4 + 1e5 * 0.002 / kStep_s, 1.0);
   static_cast<void>(obstacle.step({3.995, -2.0}));
+  // On the way out the spring alone: a rock does not hold back.
+  assert_near(obstacle.step({3.996, -2.0}).x(), 8e4, 1e-6);
+  static_cast<void>(obstacle.step({3.995, -2.0}));
   const Eigen::Vector2d little = obstacle.step({3.995, -2.001});
   assert_near(little.y(), 2e4, 1e-6);
   const Eigen::Vector2d much = obstacle.step({3.995, -2.01});
@@ -173,6 +176,24 @@ void sensors_err_within_their_bounds(void**) {
   }
   assert_true(most <= errors.stroke_bias_m + errors.stroke_resolution_m && most > 0.00195);
   assert_near(std::sqrt(squares / kSeeds), errors.stroke_bias_m / std::sqrt(3.0), 5e-5);
+
+  // Of each pressure too: exact but for its bias without noise.
+  SensorErrors quiet = errors;
+  quiet.pressure_noise_ratio = 0.0;
+  const double most_pa = errors.pressure_bias_ratio * errors.pressure_range_pa;
+  double cap_squares = 0.0;
+  double rod_squares = 0.0;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    SensorModel biased(quiet, static_cast<std::uint64_t>(seed));
+    const double cap_pa = biased.cap_pressure_pa(kArm, 15e6) - 15e6;
+    const double rod_pa = biased.rod_pressure_pa(kArm, 15e6) - 15e6;
+    assert_true(std::abs(cap_pa) <= most_pa && std::abs(rod_pa) <= most_pa && cap_pa != rod_pa);
+    assert_near(biased.cap_pressure_pa(kArm, 15e6) - 15e6, cap_pa, 0.0);
+    cap_squares += cap_pa * cap_pa;
+    rod_squares += rod_pa * rod_pa;
+  }
+  assert_near(std::sqrt(cap_squares / kSeeds), most_pa / std::sqrt(3.0), 3e4);
+  assert_near(std::sqrt(rod_squares / kSeeds), most_pa / std::sqrt(3.0), 3e4);
 
   SensorModel sensors(errors, 5);
   constexpr int kReadings = 20000;
