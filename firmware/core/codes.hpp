@@ -13,11 +13,12 @@ enum class EcuMode : std::uint8_t {
   kReady = 1,     ///< Inputs complete; enable not given.
   kArmed = 2,     ///< Enabled, no task.
   kActive = 3,    ///< Follows the task.
-  kStopping = 4,  ///< Reserved: bringing the spools to neutral. Not entered yet.
+  kStopping = 4,  ///< Told to end: neutral, and nothing arms any more.
   kFault = 5,     ///< Neutral until the enable has been released and given afresh.
 };
 
-/// What stopped the machine.
+/// What stopped the machine or took a function away; what each does stands in
+/// safety/fault_table.hpp.
 enum class Fault : std::uint8_t {
   kNone = 0,
   kStrokeMissing = 1,
@@ -31,7 +32,28 @@ enum class Fault : std::uint8_t {
   kCommandNotFinite = 9,
   kCycleStalled = 10,      ///< Too long since the last cycle.
   kIdentityMismatch = 11,  ///< The machine's end has another profile or DBC, or does not say.
+  kBusOff = 12,
+  kBusPassive = 13,           ///< Nobody acknowledges.
+  kBusDown = 14,              ///< The interface is down or gone.
+  kTransmitFailed = 15,       ///< The bus did not take our frames, two cycles in a row.
+  kCycleOverrun = 16,         ///< Two cycles in a row came late.
+  kMessageCorrupt = 17,       ///< Three wrong CRCs of a message in its window.
+  kMessageSequence = 18,      ///< Three frames of a message out of sequence: two senders, a replay.
+  kMessageMasquerade = 19,    ///< A CRC that fits another message.
+  kSpoolMissing = 20,         ///< No feedback of the valve.
+  kSpoolStuck = 21,           ///< A spool is where no command of late has sent it.
+  kUncommandedMotion = 22,    ///< A cylinder moves with its spool closed, or against it.
+  kStrokeStuck = 23,          ///< A stroke stands still while its spool feeds the cylinder.
+  kStrokeJump = 24,           ///< A stroke changes faster than the cylinder can.
+  kPressureImplausible = 25,  ///< A pressure stands still in motion, or at its sensor's end.
+  kSwashDisagrees = 26,       ///< A pump's swash is not what it was told to be.
+  kMemoryCorrupt = 27,        ///< A stored setpoint differs from its complement.
+  kValveNotFollowing = 28,    ///< The valve side does not confirm enable in time.
+  kValueOutOfRange = 29,      ///< A frame, CRC right, had a value outside its range.
+  kSensorError = 30,          ///< A sender calls its own value wrong.
 };
+
+inline constexpr int kFaultCount = 31;
 
 /// What holds lambda below 1.
 enum class LimitKind : std::uint8_t {
@@ -41,6 +63,7 @@ enum class LimitKind : std::uint8_t {
   kSpoolTravel = 3,  ///< (13): the spool is fully open; index is the actuator's.
   kStrokeEnd = 4,    ///< The cylinder is at its end; index is the actuator's.
   kRise = 5,         ///< Nothing but the rate at which lambda may rise.
+  kDegraded = 6,     ///< A lost sensor: the field is slower; index is the Fault.
 };
 
 /// A limit and whose it is.
