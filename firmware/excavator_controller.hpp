@@ -8,6 +8,7 @@
 #include "firmware/motion/load_filter.hpp"
 #include "firmware/safety/gate.hpp"
 #include "firmware/safety/mode.hpp"
+#include "firmware/safety/watch.hpp"
 
 namespace graben {
 
@@ -23,14 +24,20 @@ class ExcavatorController {
   [[nodiscard]] ExcavatorOutputs step(const ExcavatorInputs& inputs, TimeUs now_us);
 
  private:
+  /// Lets tests flip a bit of what is stored.
+  friend struct ControllerMemoryAccess;
+
   struct Memory {
-    ModeState mode;
+    Guarded<ModeState> mode;
     GateState gate;
+    Guarded<double> lambda;  ///< Of the last cycle in motion.
+    ValidationState validation;
+    WatchState watch;
+    LastCycle cycle;
     LoadState load;
     ServoState servo;
-    Eigen::Vector3d asked_mps = Eigen::Vector3d::Zero();  ///< lambda V_L^d, without corrections.
-    double lambda = 0.0;                                  ///< Of the last cycle in motion.
     TimeUs last_us = 0;
+    int late_cycles = 0;  ///< In a row.
     bool has_stepped = false;
   };
 
@@ -38,6 +45,10 @@ class ExcavatorController {
   [[nodiscard]] double elapsed_s(TimeUs now_us) const;
   /// The same for what may change by so much a second.
   [[nodiscard]] double period_s(TimeUs now_us) const;
+  /// What is wrong with the cycle itself: time, memory.
+  [[nodiscard]] Fault cycle_fault(TimeUs now_us);
+  /// Inputs with all that validation and watches have to say of them.
+  [[nodiscard]] WatchResult judge(const ExcavatorInputs& inputs, TimeUs now_us);
   /// Takes in what this cycle's sensors say of the last cycle's command.
   void observe(const ValidInputs& valid, double period_s);
   /// What the field wants where the cylinders will be when a command of now takes effect.

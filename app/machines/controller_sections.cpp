@@ -164,6 +164,19 @@ ControlProfile read_control(TomlReader& reader) {
   return control;
 }
 
+SafetyProfile read_safety(TomlReader& reader) {
+  SafetyProfile safety;
+  safety.degraded_speed_ratio = reader.number("safety.degraded_speed", {0.05, 1.0, ""});
+  safety.idle_radps = reader.number("safety.idle", {20.0, 400.0, "rad/s"});
+  safety.settle_s = reader.number("safety.settle", {0.01, 0.3, "s"});
+  safety.spool_tolerance = reader.number("safety.spool_tolerance", {0.01, 0.5, ""});
+  safety.uncommanded_m = reader.number("safety.uncommanded", {0.005, 0.5, "m"});
+  safety.stuck_m = reader.number("safety.stuck", {0.005, 0.5, "m"});
+  safety.swash_tolerance = reader.number("safety.swash_tolerance", {0.01, 0.5, ""});
+  safety.pressure_rail_pa = reader.number("sensors.pressure_range", {1e6, 1e8, "Pa"});
+  return safety;
+}
+
 const char* hindrance_text(ReachStatus status) {
   switch (status) {
     case ReachStatus::kBoomStroke:
@@ -228,6 +241,8 @@ ExcavatorProfile read_controller_sections(TomlReader& reader) {
   profile.control = read_control(reader);
   profile.dig_path = read_path(reader, "experiment.path");
   profile.dig_speed_mps = reader.number("experiment.speed", {0.01, 3.0, "m/s"});
+  profile.dig_swash_ratio.fill(reader.number("experiment.swash", {0.0, 1.0, ""}));
+  profile.safety = read_safety(reader);
   return profile;
 }
 

@@ -15,11 +15,11 @@ plant::LinkBody read_link(TomlReader& reader, const std::string& axis) {
   return link;
 }
 
-plant::SensorErrors read_sensors(TomlReader& reader) {
+plant::SensorErrors read_sensors(TomlReader& reader, const ExcavatorProfile& nominal) {
   plant::SensorErrors sensors;
   sensors.stroke_resolution_m = reader.number("sensors.stroke_resolution", {0.0, 0.01, "m"});
   sensors.stroke_bias_m = reader.number("sensors.stroke_bias", {0.0, 0.05, "m"});
-  sensors.pressure_range_pa = reader.number("sensors.pressure_range", {1e6, 1e8, "Pa"});
+  sensors.pressure_range_pa = nominal.safety.pressure_rail_pa;
   sensors.pressure_bias_ratio = reader.number("sensors.pressure_bias", {0.0, 0.5, ""});
   sensors.pressure_noise_ratio = reader.number("sensors.pressure_noise", {0.0, 0.5, ""});
   return sensors;
@@ -47,9 +47,9 @@ plant::PlantProfile read_plant_sections(TomlReader& reader, const ExcavatorProfi
   plant.deadband_ratio = reader.number("valve.deadband", {0.0, 0.9, ""});
   plant.bulk_modulus_pa = reader.number("valve.bulk_modulus", {1e8, 1e11, "Pa"});
   plant.port_relief_pa = reader.number("valve.port_relief", {1e6, 1e8, "Pa"});
-  plant.swash_ratio.fill(reader.number("experiment.swash", {0.0, 1.0, ""}));
+  plant.swash_ratio = nominal.dig_swash_ratio;
   plant.dead_time_s.fill(nominal.control.dead_time_s);
-  plant.sensors = read_sensors(reader);
+  plant.sensors = read_sensors(reader, nominal);
   static_cast<void>(reader.number("swing.speed_max",
                                   {0.01, 5.0, "rad/s"}));  // Checked, so that a typo shows today.
   return plant;

@@ -135,13 +135,27 @@ struct ControlProfile {
   double dead_time_s = 0.0;         ///< From a duty to the spool's first movement.
 };
 
+/// What the watches may think of the machine. Ranges are checked where it is read.
+struct SafetyProfile {
+  double degraded_speed_ratio = 0.0;  ///< Of the task's speed, while a sensor is lost.
+  double idle_radps = 0.0;            ///< Engine at its slowest, assumed where its speed is lost.
+  double settle_s = 0.0;         ///< A spool has reached its duty after this, beside the dead time.
+  double spool_tolerance = 0.0;  ///< Of the spool's travel.
+  double uncommanded_m = 0.0;    ///< A cylinder may go so far where its spool does not lead.
+  double stuck_m = 0.0;          ///< Asked of a cylinder whose stroke stands still.
+  double swash_tolerance = 0.0;  ///< Of full swash.
+  double pressure_rail_pa = 0.0;  ///< Where the pressure sensors end.
+};
+
 struct ExcavatorProfile {
   ExcavatorGeometry geometry;
   ValveProfile valve;
   std::array<PumpProfile, kPumpCount> pump;
   DigPath dig_path;
-  double dig_speed_mps = 0.0;  ///< Of the tip along the path.
+  double dig_speed_mps = 0.0;                        ///< Of the tip along the path.
+  std::array<double, kPumpCount> dig_swash_ratio{};  ///< What the pumps are told to be at.
   ControlProfile control;
+  SafetyProfile safety;
 };
 
 }  // namespace graben

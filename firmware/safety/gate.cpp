@@ -29,8 +29,11 @@ GateResult gate(const ExcavatorProfile& profile, const GateState& last, bool act
     if (!std::isfinite(spool_m[i]) || !std::isfinite(change_max)) {
       return {false, Fault::kCommandNotFinite, {}, {}};
     }
+    if (!last.opening[i].intact()) {
+      return {false, Fault::kMemoryCorrupt, {}, {}};
+    }
     const double wanted = std::clamp(spool_m[i] / profile.valve.spool_travel_m, -1.0, 1.0);
-    const double opening = limited(wanted, last.opening[i], change_max);
+    const double opening = limited(wanted, last.opening[i].value(), change_max);
     result.state.opening[i] = opening;
     if (opening != 0.0 && std::abs(opening) >= profile.control.spool_threshold) {
       result.duty_ratio[i] = std::copysign(

@@ -1,35 +1,69 @@
 #include "firmware/safety/mode.hpp"
 
-namespace graben {
+#include "firmware/safety/fault_table.hpp"
 
-ModeState next_mode(const ModeState& last, const ValidInputs& inputs, Fault blocked) {
-  const Fault fault = inputs.fault != Fault::kNone ? inputs.fault : blocked;
-  const bool was_enabled = last.mode == EcuMode::kArmed || last.mode == EcuMode::kActive;
-  if (fault != Fault::kNone) {
-    if (was_enabled || last.mode == EcuMode::kFault) {
-      return {EcuMode::kFault, last.mode == EcuMode::kFault ? last.fault : fault};
-    }
-    return {EcuMode::kSilent, fault};
+namespace graben {
+namespace {
+
+constexpr std::uint16_t bit(ArmBlock block) {
+  return static_cast<std::uint16_t>(1U << static_cast<unsigned>(block));
+}
+
+ModeState after_fault(const ModeState& last, Fault fault) {
+  if (last.mode == EcuMode::kFault) {
+    return {EcuMode::kFault, last.fault};
   }
-  switch (last.mode) {
-    case EcuMode::kSilent:
-      return {inputs.enable ? EcuMode::kSilent : EcuMode::kReady, Fault::kNone};
-    case EcuMode::kFault:
-      return inputs.enable ? last : ModeState{EcuMode::kReady, Fault::kNone};
-    case EcuMode::kReady:
-    case EcuMode::kArmed:
-    case EcuMode::kActive:
-    case EcuMode::kStopping:
-      break;
+  return {in_motion(last.mode) ? EcuMode::kFault : EcuMode::kSilent, fault};
+}
+
+}  // namespace
+
+bool in_motion(EcuMode mode) { return mode == EcuMode::kArmed || mode == EcuMode::kActive; }
+
+ModeState next_mode(const ModeState& last, const ModeRequest& request) {
+  if (request.stop || last.mode == EcuMode::kStopping) {
+    return {EcuMode::kStopping, request.fault};
   }
-  if (!inputs.enable || !inputs.automatic) {
-    return {EcuMode::kReady, Fault::kNone, !inputs.enable && inputs.automatic};
+  if (request.fault != Fault::kNone) {
+    return after_fault(last, request.fault);
   }
-  const bool has_task = inputs.task != Task::kNone;
-  if (was_enabled) {
-    return {has_task ? EcuMode::kActive : EcuMode::kArmed, Fault::kNone};
+  if (request.enable && last.mode == EcuMode::kFault) {
+    return last;
   }
-  return {last.may_arm && !has_task ? EcuMode::kArmed : EcuMode::kReady, Fault::kNone};
+  if (request.enable && last.mode == EcuMode::kSilent) {
+    return {EcuMode::kSilent, Fault::kNone};
+  }
+  if (!request.enable || !request.automatic) {
+    return {EcuMode::kReady, Fault::kNone, !request.enable && request.automatic};
+  }
+  if (in_motion(last.mode)) {
+    return {request.has_task ? EcuMode::kActive : EcuMode::kArmed, Fault::kNone};
+  }
+  const bool at_rest = !request.has_task && request.centred;
+  return {last.may_arm && at_rest ? EcuMode::kArmed : EcuMode::kReady, Fault::kNone};
+}
+
+std::uint16_t why_not_armed(const ModeState& now, const ModeRequest& request,
+                            const FaultSet& faults) {
+  if (in_motion(now.mode)) {
+    return 0;
+  }
+  unsigned bits = bit(ArmBlock::kEnableNotFresh);
+  for (Fault fault = faults.first(); fault != Fault::kNone; fault = faults.after(fault)) {
+    bits |= bit(fault_row(fault).block);
+  }
+  const struct {
+    bool blocks;
+    ArmBlock block;
+  } rows[] = {{!request.automatic, ArmBlock::kManual},
+              {request.has_task, ArmBlock::kTaskNotAtRest},
+              {!request.centred, ArmBlock::kSpool},
+              {now.mode == EcuMode::kFault, ArmBlock::kFaultLatched},
+              {now.mode == EcuMode::kStopping, ArmBlock::kStopping}};
+  for (const auto& row : rows) {
+    bits |= row.blocks ? bit(row.block) : 0U;
+  }
+  return static_cast<std::uint16_t>(bits);
 }
 
 }  // namespace graben

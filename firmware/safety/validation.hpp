@@ -8,9 +8,16 @@
 
 namespace graben {
 
-/// Inputs that may be used. With a fault, only `enable` and the fault itself mean anything.
+/// What the validation needs of the last cycle.
+struct ValidationState {
+  std::array<Signal<double>, kAxisCount> stroke_m;  ///< Last one that was believed.
+};
+
+/// Inputs that may be used. With a fault, only `enable` and the faults themselves mean anything.
 struct ValidInputs {
-  Fault fault = Fault::kNone;  ///< First thing that is missing or implausible.
+  Fault fault = Fault::kNone;  ///< First thing that stops.
+  FaultSet faults;             ///< All that is missing or implausible.
+  FaultSet degraded;           ///< Those of them that slow and do not stop.
   bool enable = false;         ///< Fresh, valid and given.
   bool automatic = false;
   Task task = Task::kNone;
@@ -18,17 +25,34 @@ struct ValidInputs {
   Eigen::Vector3d strokes_m = Eigen::Vector3d::Zero();  ///< Clamped into the cylinders' ranges.
   std::array<double, kAxisCount> cap_pressure_pa{};
   std::array<double, kAxisCount> rod_pressure_pa{};
-  std::array<double, kPumpCount> pump_flow_m3ps{};  ///< v omega tan(alpha) of (25).
+  std::array<bool, kAxisCount> load_known{};  ///< Both pressures of the axis may be used.
+  std::array<double, kAxisCount> spool_ratio{};
+  bool valve_enabled = false;
+  std::array<double, kPumpCount> swash_ratio{};
+  double engine_radps = 0.0;  ///< The profile's idle where the measured one is lost.
+  ValidationState state;
 };
 
 /// How far a measured stroke may lie outside its cylinder's range: bias and mounting.
 inline constexpr double kStrokeMargin_m = 0.010;
 
+/// How far a stroke may change at once beyond what the cylinder can: noise, and frames that were
+/// lost.
+inline constexpr double kJumpMargin_m = 0.020;
+
 /// The machine names itself every second; it may miss one time.
 inline constexpr double kIdentityTimeout_s = 2.5;
 
-/// A signal is missing when it was never valid or is older than control.sensor_timeout_s.
+/// A signal is missing when it was never valid or is older than control.sensor_timeout_s. `moving`:
+/// the mode of the last cycle was Armed or Active; then what only degrades does not stop, and a
+/// stroke that changed faster than its cylinder can is not believed: the last one ages until it is
+/// missing, or the strokes come back to it.
 [[nodiscard]] ValidInputs validate(const ExcavatorInputs& inputs, const ExcavatorProfile& profile,
-                                   TimeUs now_us);
+                                   const ValidationState& last, bool moving, TimeUs now_us);
+
+/// v omega tan(alpha) of (25) for each pump, m^3/s.
+[[nodiscard]] std::array<double, kPumpCount> pump_flow_m3ps(
+    const ExcavatorProfile& profile, double engine_radps,
+    const std::array<double, kPumpCount>& swash_ratio);
 
 }  // namespace graben

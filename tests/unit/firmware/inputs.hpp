@@ -18,6 +18,7 @@ inline ExcavatorInputs complete_inputs(TimeUs now_us) {
     inputs.axis[i].stroke_m = fresh(strokes_m[i], now_us);
     inputs.axis[i].cap_pressure_pa = fresh(4e6, now_us);
     inputs.axis[i].rod_pressure_pa = fresh(3e6, now_us);
+    inputs.axis[i].spool_ratio = fresh(0.0, now_us);
   }
   for (Signal<double>& swash : inputs.swash_ratio) {
     swash = fresh(0.643, now_us);
@@ -27,7 +28,19 @@ inline ExcavatorInputs complete_inputs(TimeUs now_us) {
   inputs.driver.mode = fresh(OperatorMode::kAutomatic, now_us);
   inputs.driver.task = fresh(Task::kDig, now_us);
   inputs.driver.speed_override_ratio = fresh(1.0, now_us);
+  inputs.valve_enabled = fresh(false, now_us);
   inputs.same_machine = fresh(true, now_us);
+  inputs.link.bus = BusState::kActive;
+  return inputs;
+}
+
+/// The same from a valve that has done what it was told.
+inline ExcavatorInputs following_inputs(const ExcavatorOutputs& told, TimeUs now_us) {
+  ExcavatorInputs inputs = complete_inputs(now_us);
+  inputs.valve_enabled.value = told.enable;
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    inputs.axis[i].spool_ratio.value = told.duty_ratio[i];
+  }
   return inputs;
 }
 

@@ -8,8 +8,6 @@
 namespace {
 
 using namespace graben;
-using test::complete_inputs;
-
 constexpr TimeUs kPeriod = 10 * kMillisecondUs;
 
 const ExcavatorProfile& profile() { return test::excavator().profile; }
@@ -25,7 +23,7 @@ struct Running {
     now_us += kPeriod;
     return outputs;
   }
-  ExcavatorInputs inputs() const { return complete_inputs(now_us); }
+  ExcavatorInputs inputs() const { return test::following_inputs(outputs, now_us); }
 
   ExcavatorInputs at_rest(bool enable) const {
     ExcavatorInputs resting = inputs();
@@ -110,8 +108,9 @@ void a_missing_sensor_is_neutral_within_50_ms(void**) {
 /// Fresh inputs after a pause do not make up for what was not seen.
 void a_stalled_cycle_is_neutral_and_latched(void**) {
   Running running;
-  running.now_us += 40 * kMillisecondUs;
+  running.now_us += 30 * kMillisecondUs;
   assert_true(running.step(running.inputs()).enable);
+  running.step(running.inputs());
   running.now_us += 60 * kMillisecondUs;
   const ExcavatorOutputs outputs = running.step(running.inputs());
   assert_neutral(outputs);
@@ -119,16 +118,17 @@ void a_stalled_cycle_is_neutral_and_latched(void**) {
   assert_neutral(running.step(running.inputs()));
 }
 
-/// Machine pressures that no motion can work against: told, and closed, within 0.7 s for the
-/// load's filter.
+/// Loads against every cylinder, just below where the sensors end and above what a pump's relief
+/// lets it push: told, and closed, within 0.7 s for the load's filter.
 void an_impossible_load_closes_the_spools(void**) {
   Running running;
   ExcavatorOutputs outputs;
   for (int n = 0; n < 70; ++n) {
     ExcavatorInputs inputs = running.inputs();
-    for (AxisInputs& axis : inputs.axis) {
-      axis.cap_pressure_pa.value = 60e6;
-      axis.rod_pressure_pa.value = 60e6;
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+      const bool extends = running.outputs.status.wanted_velocity_mps[i] > 0.0;
+      inputs.axis[i].cap_pressure_pa.value = extends ? 39e6 : 0.0;
+      inputs.axis[i].rod_pressure_pa.value = extends ? 0.0 : 39e6;
     }
     outputs = running.step(inputs);
   }

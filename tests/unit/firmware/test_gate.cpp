@@ -41,23 +41,23 @@ void positions_beyond_the_travel_are_clamped(void**) {
 void changes_are_limited_in_rate(void**) {
   const double step = profile().control.spool_rate_ps * 0.01;
   const GateResult first = gate(profile(), {}, true, {travel(), 0.0, 0.0}, 0.01);
-  assert_near(first.state.opening[0], step, 1e-12);
+  assert_near(first.state.opening[0].value(), step, 1e-12);
   const GateResult second = gate(profile(), first.state, true, {travel(), 0.0, 0.0}, 0.01);
-  assert_near(second.state.opening[0], 2.0 * step, 1e-12);
+  assert_near(second.state.opening[0].value(), 2.0 * step, 1e-12);
   const GateResult still = gate(profile(), first.state, true, {travel(), 0.0, 0.0}, 0.0);
-  assert_near(still.state.opening[0], step, 1e-12);
+  assert_near(still.state.opening[0].value(), step, 1e-12);
 }
 
 /// Towards neutral a spool goes at once; a reversal opens from neutral.
 void closing_is_never_delayed(void**) {
   GateState open;
-  open.opening = {1.0, -1.0, 1.0};
+  open.opening = {Guarded(1.0), Guarded(-1.0), Guarded(1.0)};
   const double step = profile().control.spool_rate_ps * 0.01;
   const GateResult result = gate(profile(), open, true, {0.1 * travel(), 0.0, -travel()}, 0.01);
-  assert_near(result.state.opening[0], 0.1, 1e-12);
-  assert_near(result.state.opening[1], 0.0, 0.0);
+  assert_near(result.state.opening[0].value(), 0.1, 1e-12);
+  assert_near(result.state.opening[1].value(), 0.0, 0.0);
   assert_near(result.duty_ratio[1], 0.0, 0.0);
-  assert_near(result.state.opening[2], -step, 1e-12);
+  assert_near(result.state.opening[2].value(), -step, 1e-12);
 }
 
 /// A spool that is to be closed has duty 0, whatever the threshold.
@@ -73,12 +73,12 @@ void closed_is_duty_zero(void**) {
 /// Neutral knows no rate: not active closes everything in the same cycle.
 void not_active_is_neutral_at_once(void**) {
   GateState open;
-  open.opening = {1.0, -1.0, 0.5};
+  open.opening = {Guarded(1.0), Guarded(-1.0), Guarded(0.5)};
   const GateResult result = gate(profile(), open, false, {travel(), travel(), travel()}, 0.01);
   assert_false(result.enable);
   for (unsigned i = 0; i < kAxisCount; ++i) {
     assert_near(result.duty_ratio[i], 0.0, 0.0);
-    assert_near(result.state.opening[i], 0.0, 0.0);
+    assert_near(result.state.opening[i].value(), 0.0, 0.0);
   }
 }
 

@@ -7,95 +7,93 @@ namespace {
 
 using namespace graben;
 
-ValidInputs inputs(bool enable, Task task = Task::kDig, bool automatic = true) {
-  ValidInputs valid;
-  valid.enable = enable;
-  valid.automatic = automatic;
-  valid.task = task;
-  return valid;
+ModeRequest asks(bool enable, Task task = Task::kDig, bool automatic = true) {
+  ModeRequest request;
+  request.enable = enable;
+  request.automatic = automatic;
+  request.has_task = task != Task::kNone;
+  return request;
 }
 
-ValidInputs broken(Fault fault) {
-  ValidInputs valid;
-  valid.fault = fault;
-  return valid;
+ModeRequest broken(Fault fault) {
+  ModeRequest request;
+  request.fault = fault;
+  return request;
 }
 
-EcuMode after(EcuMode mode, const ValidInputs& valid) {
-  return next_mode({mode, Fault::kNone}, valid, Fault::kNone).mode;
+EcuMode after(EcuMode mode, const ModeRequest& request) {
+  return next_mode({mode, Fault::kNone}, request).mode;
 }
 
 void motion_needs_every_step(void**) {
   ModeState state;
   assert_int_equal(state.mode, EcuMode::kSilent);
-  state = next_mode(state, inputs(false), Fault::kNone);
+  state = next_mode(state, asks(false));
   assert_int_equal(state.mode, EcuMode::kReady);
-  state = next_mode(state, inputs(false, Task::kNone), Fault::kNone);
-  state = next_mode(state, inputs(true, Task::kNone), Fault::kNone);
+  state = next_mode(state, asks(false, Task::kNone));
+  state = next_mode(state, asks(true, Task::kNone));
   assert_int_equal(state.mode, EcuMode::kArmed);
-  state = next_mode(state, inputs(true), Fault::kNone);
+  state = next_mode(state, asks(true));
   assert_int_equal(state.mode, EcuMode::kActive);
 }
 
 /// The mode after these cycles, one after the other, from Ready.
-EcuMode after_all(std::initializer_list<ValidInputs> cycles) {
+EcuMode after_all(std::initializer_list<ModeRequest> cycles) {
   ModeState state{EcuMode::kReady, Fault::kNone};
-  for (const ValidInputs& valid : cycles) {
-    state = next_mode(state, valid, Fault::kNone);
+  for (const ModeRequest& valid : cycles) {
+    state = next_mode(state, valid);
   }
   return state.mode;
 }
 
 void a_held_deadman_or_a_waiting_task_does_not_arm(void**) {
-  const ValidInputs released = inputs(false, Task::kNone);
-  const ValidInputs held_in_manual = inputs(true, Task::kNone, false);
-  const ValidInputs enabled = inputs(true, Task::kNone);
-  const ValidInputs with_task = inputs(true, Task::kDig);
+  const ModeRequest released = asks(false, Task::kNone);
+  const ModeRequest held_in_manual = asks(true, Task::kNone, false);
+  const ModeRequest enabled = asks(true, Task::kNone);
+  const ModeRequest with_task = asks(true, Task::kDig);
   assert_int_equal(after_all({released, enabled}), EcuMode::kArmed);
   assert_int_equal(after_all({held_in_manual, enabled}), EcuMode::kReady);
   assert_int_equal(after_all({held_in_manual, with_task, with_task}), EcuMode::kReady);
-  assert_int_equal(after_all({inputs(false, Task::kNone, false), enabled}), EcuMode::kReady);
+  assert_int_equal(after_all({asks(false, Task::kNone, false), enabled}), EcuMode::kReady);
   assert_int_equal(after_all({released, with_task}), EcuMode::kReady);
   assert_int_equal(after_all({released, with_task, enabled}), EcuMode::kReady);
   assert_int_equal(after_all({released, with_task, released, enabled}), EcuMode::kArmed);
 }
 
 void enable_given_from_the_start_does_not_arm(void**) {
-  assert_int_equal(after(EcuMode::kSilent, inputs(true)), EcuMode::kSilent);
+  assert_int_equal(after(EcuMode::kSilent, asks(true)), EcuMode::kSilent);
 }
 
 void released_enable_or_manual_ends_motion_at_once(void**) {
-  assert_int_equal(after(EcuMode::kActive, inputs(false)), EcuMode::kReady);
-  assert_int_equal(after(EcuMode::kArmed, inputs(false)), EcuMode::kReady);
-  assert_int_equal(after(EcuMode::kActive, inputs(true, Task::kDig, false)), EcuMode::kReady);
-  assert_int_equal(after(EcuMode::kActive, inputs(true, Task::kNone)), EcuMode::kArmed);
-  assert_int_equal(after(EcuMode::kReady, inputs(true, Task::kDig, false)), EcuMode::kReady);
+  assert_int_equal(after(EcuMode::kActive, asks(false)), EcuMode::kReady);
+  assert_int_equal(after(EcuMode::kArmed, asks(false)), EcuMode::kReady);
+  assert_int_equal(after(EcuMode::kActive, asks(true, Task::kDig, false)), EcuMode::kReady);
+  assert_int_equal(after(EcuMode::kActive, asks(true, Task::kNone)), EcuMode::kArmed);
+  assert_int_equal(after(EcuMode::kReady, asks(true, Task::kDig, false)), EcuMode::kReady);
 }
 
 void a_fault_latches_until_enable_is_released(void**) {
-  ModeState state =
-      next_mode({EcuMode::kActive, Fault::kNone}, broken(Fault::kStrokeMissing), Fault::kNone);
+  ModeState state = next_mode({EcuMode::kActive, Fault::kNone}, broken(Fault::kStrokeMissing));
   assert_int_equal(state.mode, EcuMode::kFault);
   assert_int_equal(state.fault, Fault::kStrokeMissing);
-  state = next_mode(state, broken(Fault::kPressureMissing), Fault::kNone);
+  state = next_mode(state, broken(Fault::kPressureMissing));
   assert_int_equal(state.fault, Fault::kStrokeMissing);
-  state = next_mode(state, inputs(true), Fault::kNone);
+  state = next_mode(state, asks(true));
   assert_int_equal(state.mode, EcuMode::kFault);
-  state = next_mode(state, inputs(false), Fault::kNone);
+  state = next_mode(state, asks(false));
   assert_int_equal(state.mode, EcuMode::kReady);
   assert_int_equal(state.fault, Fault::kNone);
 }
 
 void faults_of_the_cycle_count_too(void**) {
-  const ModeState state =
-      next_mode({EcuMode::kActive, Fault::kNone}, inputs(true), Fault::kSolverFailed);
+  const ModeState state = next_mode({EcuMode::kActive, Fault::kNone}, broken(Fault::kSolverFailed));
   assert_int_equal(state.mode, EcuMode::kFault);
   assert_int_equal(state.fault, Fault::kSolverFailed);
 }
 
 void without_enable_a_fault_only_silences(void**) {
   const ModeState state =
-      next_mode({EcuMode::kReady, Fault::kNone}, broken(Fault::kPressureMissing), Fault::kNone);
+      next_mode({EcuMode::kReady, Fault::kNone}, broken(Fault::kPressureMissing));
   assert_int_equal(state.mode, EcuMode::kSilent);
   assert_int_equal(state.fault, Fault::kPressureMissing);
 }

@@ -14,16 +14,19 @@ constexpr TimeUs kNow = 5 * kSecondUs;
 
 const ExcavatorProfile& profile() { return test::excavator().profile; }
 
-Fault fault_of(const ExcavatorInputs& inputs) { return validate(inputs, profile(), kNow).fault; }
+Fault fault_of(const ExcavatorInputs& inputs) {
+  return validate(inputs, profile(), {}, false, kNow).fault;
+}
 
 void complete_inputs_become_a_state(void**) {
-  const ValidInputs valid = validate(complete_inputs(kNow), profile(), kNow);
+  const ValidInputs valid = validate(complete_inputs(kNow), profile(), {}, false, kNow);
   assert_int_equal(valid.fault, Fault::kNone);
   assert_true(valid.enable && valid.automatic);
   assert_int_equal(valid.task, Task::kDig);
   assert_near(valid.strokes_m[kArm], 1.1, 0.0);
   // 119 cm3/rev at 188.5 rad/s and 64.3 % swash: 137.7 L/min.
-  assert_near(valid.pump_flow_m3ps[0] * 60e3, 137.7, 0.1);
+  const auto flow_m3ps = pump_flow_m3ps(profile(), valid.engine_radps, valid.swash_ratio);
+  assert_near(flow_m3ps[0] * 60e3, 137.7, 0.1);
 }
 
 /// Every required signal, each in every state that is not usable, gives its own fault.
@@ -80,7 +83,7 @@ void a_value_that_is_no_number_is_missing(void**) {
 void enable_must_be_fresh(void**) {
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.driver.enable.stamp_us = kNow - 60 * kMillisecondUs;
-  const ValidInputs stale = validate(inputs, profile(), kNow);
+  const ValidInputs stale = validate(inputs, profile(), {}, false, kNow);
   assert_false(stale.enable);
   assert_int_equal(stale.fault, Fault::kOperatorMissing);
 }
@@ -102,7 +105,7 @@ void strokes_outside_their_cylinder_are_implausible(void**) {
   const double most = profile().geometry.cylinder[kBucket].stroke_m;
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.axis[kBucket].stroke_m.value = most + 0.002;  // A worn encoder at the stroke's end.
-  const ValidInputs biased = validate(inputs, profile(), kNow);
+  const ValidInputs biased = validate(inputs, profile(), {}, false, kNow);
   assert_int_equal(biased.fault, Fault::kNone);
   assert_near(biased.strokes_m[kBucket], most, 0.0);
   inputs.axis[kBucket].stroke_m.value = most + 0.011;

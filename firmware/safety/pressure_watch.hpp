@@ -1,0 +1,34 @@
+#pragma once
+/// Whether the pressures are those of a machine in motion.
+
+#include <array>
+
+#include "firmware/machine/excavator_profile.hpp"
+#include "firmware/safety/validation.hpp"
+
+namespace graben {
+
+struct PressureWatchState {
+  struct Sensor {
+    double last_pa = 0.0;
+    double changed_at_m = 0.0;  ///< Stroke at its last change.
+    double at_rail_s = 0.0;
+    bool wrong = false;
+  };
+  /// Cap and rod side of each axis.
+  std::array<std::array<Sensor, 2>, kAxisCount> sensor{};
+};
+
+struct PressureWatchResult {
+  std::array<bool, kAxisCount> wrong{};  ///< One of the axis's two is not to be believed.
+  PressureWatchState state;
+};
+
+/// At its rail: at or above `safety.pressure_rail_pa` for 0.3 s, longer than any peak that a port
+/// relief lets stand. Stuck: the same number, to the last bit and above what a chamber without oil
+/// has, while its cylinder moves by 0.1 m. Wrong until it changes.
+[[nodiscard]] PressureWatchResult watch_pressures(const ExcavatorProfile& profile,
+                                                  const PressureWatchState& last,
+                                                  const ValidInputs& valid, double period_s);
+
+}  // namespace graben

@@ -1,0 +1,40 @@
+#pragma once
+/// The machine against what it was told: all watches, and what they take away.
+
+#include "firmware/safety/motion_watch.hpp"
+#include "firmware/safety/pressure_watch.hpp"
+#include "firmware/safety/spool_watch.hpp"
+#include "firmware/safety/swash_watch.hpp"
+
+namespace graben {
+
+struct WatchState {
+  SpoolWatchState spool;
+  MotionWatchState motion;
+  PressureWatchState pressure;
+  SwashWatchState swash{};
+  FaultSet slowing;         ///< What degraded of late.
+  double slow_for_s = 0.0;  ///< And how long it still does.
+};
+
+/// What the last cycle did.
+struct LastCycle {
+  bool moving = false;  ///< Armed or Active.
+  SentCommand sent;
+  Eigen::Vector3d asked_mps = Eigen::Vector3d::Zero();  ///< lambda V_L^d, without corrections.
+};
+
+struct WatchResult {
+  /// As they came, with the watches' faults, `load_known` where no pressure is wrong, and the
+  /// operator's speed times `safety.degraded_speed` while anything is degraded.
+  ValidInputs inputs;
+  std::array<double, kPumpCount> pump_flow_m3ps{};  ///< v omega tan(alpha) of (25).
+  WatchState state;
+};
+
+/// Outside motion the machine may be moved by hand: spools, cylinders and pressures are then not
+/// judged, and every watch begins afresh. What degrades goes on doing so for 0.5 s.
+[[nodiscard]] WatchResult watch(const ExcavatorProfile& profile, const WatchState& last,
+                                const LastCycle& cycle, const ValidInputs& inputs, double period_s);
+
+}  // namespace graben
