@@ -34,17 +34,22 @@ ProfileError::ProfileError(const std::string& file, std::vector<std::string> err
                                      errors.size() == 1 ? "" : "s", fmt::join(errors, "\n  "))),
       errors_(std::move(errors)) {}
 
-std::filesystem::path find_profile(const std::string& name) {
-  const std::filesystem::path shipped = GRABEN_MACHINES_DIR;
-  const std::filesystem::path given(name);
-  for (const std::filesystem::path& candidate :
-       {given, shipped / given, shipped / (name + ".toml")}) {
-    if (std::filesystem::is_regular_file(candidate)) {
-      return candidate;
+std::filesystem::path find_profile(const std::string& name,
+                                   const std::vector<std::filesystem::path>& folders) {
+  if (std::filesystem::is_regular_file(name)) {
+    return name;
+  }
+  std::string looked_in;
+  for (const std::filesystem::path& folder : folders) {
+    for (const std::filesystem::path& candidate : {folder / name, folder / (name + ".toml")}) {
+      if (std::filesystem::is_regular_file(candidate)) {
+        return candidate;
+      }
     }
+    looked_in += (looked_in.empty() ? "" : ", ") + folder.string();
   }
   throw std::runtime_error(
-      fmt::format("profile '{}' not found, neither as a file nor in {}", name, shipped.string()));
+      fmt::format("profile '{}' not found, neither as a file nor in {}", name, looked_in));
 }
 
 ExcavatorMachine load_excavator(const std::filesystem::path& file) {

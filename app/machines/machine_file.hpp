@@ -34,8 +34,11 @@ struct ExcavatorMachine {
   Experiment experiment;
 };
 
-/// Finds `name` as a path, or as NAME or NAME.toml among the shipped profiles. Throws
+/// Finds `name` as a path, or as NAME or NAME.toml in one of the folders, in their order. Throws
 /// std::runtime_error that lists where it looked.
+[[nodiscard]] std::filesystem::path find_profile(const std::string& name,
+                                                 const std::vector<std::filesystem::path>& folders);
+/// The same among the profiles of this source tree: for the tool and the tests, which stay in it.
 [[nodiscard]] std::filesystem::path find_profile(const std::string& name);
 
 /// Reads and checks an excavator's profile. Throws ProfileError with every error found.

@@ -1,0 +1,9 @@
+#include "app/machines/machine_file.hpp"
+
+namespace graben::machines {
+
+std::filesystem::path find_profile(const std::string& name) {
+  return find_profile(name, {GRABEN_MACHINES_DIR});
+}
+
+}  // namespace graben::machines
