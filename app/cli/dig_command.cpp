@@ -10,6 +10,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/dig_report.hpp"
 #include "app/cli/dig_run.hpp"
+#include "app/cli/fault_words.hpp"
 #include "app/cli/guarded.hpp"
 #include "app/cli/progress_bar.hpp"
 #include "app/cli/scenario_options.hpp"
@@ -113,8 +114,11 @@ void dig(const Options& options) {
   fmt::print("{}log     {}\nreport  {}\n", dig_table(summary), run_options.log_file.string(),
              report.string());
   if (result.end != DigEnd::kDone) {
-    throw std::runtime_error(
-        fmt::format("{} (fault code {})", end_text(result.end), static_cast<int>(result.fault)));
+    throw std::runtime_error(result.end == DigEnd::kFault
+                                 ? fmt::format("{}: {} (fault {})", end_text(result.end),
+                                               fault_words(result.fault),
+                                               static_cast<int>(result.fault))
+                                 : end_text(result.end));
   }
 }
 

@@ -9,47 +9,17 @@
 
 #include "app/cli/candump_log.hpp"
 #include "app/cli/dig_bench.hpp"
+#include "app/cli/path_progress.hpp"
 
 namespace graben::cli {
 namespace {
 
 /// Once done the operator lets go, and the log shows neutral.
 constexpr TimeUs kAfterwards_us = 300 * kMillisecondUs;
-/// The path counts as reached when the measured pose has stayed this near for this long. The
-/// attitude belongs to it: an approach may cross the path long before it has arrived.
-constexpr double kReached_m = 0.02;
-constexpr double kReached_rad = 0.07;
-constexpr TimeUs kReachedFor_us = 500 * kMillisecondUs;
 /// Slower than this a direction says nothing.
 constexpr double kMoving_mps = 0.02;
 
 double seconds(TimeUs time_us) { return static_cast<double>(time_us) * 1e-6; }
-
-/// Where the run stands with respect to the path.
-class PathProgress {
- public:
-  PathProgress(const RoundedRectangle& path, double loops) : path_(path), loops_(loops) {}
-
-  void update(const Eigen::Vector2d& tip_m, bool near, TimeUs now_us) {
-    if (!on_path_) {
-      near_since_us_ = near ? near_since_us_ : now_us;
-      on_path_ = now_us - near_since_us_ >= kReachedFor_us;
-    } else {
-      travelled_m_ += (tip_m - last_tip_m_).dot(path_.closest(tip_m).tangent);
-    }
-    last_tip_m_ = tip_m;
-  }
-  [[nodiscard]] bool on_path() const { return on_path_; }
-  [[nodiscard]] double share() const { return travelled_m_ / (loops_ * path_.length_m()); }
-
- private:
-  const RoundedRectangle& path_;
-  double loops_;
-  bool on_path_ = false;
-  TimeUs near_since_us_ = 0;
-  double travelled_m_ = 0.0;
-  Eigen::Vector2d last_tip_m_ = Eigen::Vector2d::Zero();
-};
 
 class DigRun {
  public:
@@ -122,19 +92,15 @@ class DigRun {
     read_truth(sample);
     read_controller(sample);
     const bool moving = bench_.ecu.outputs().status.mode == EcuMode::kActive;
-    progress_.update(sample.tip_true_m, moving && near_path(sample), now_us);
+    progress_.update(
+        sample.tip_true_m,
+        moving && near_path(path_, sample.tip_measured_m, sample.attitude_measured_rad), now_us);
     sample.on_path = progress_.on_path();
     result_.samples.push_back(sample);
   }
 
   [[nodiscard]] double error_m(const Eigen::Vector2d& tip_m) const {
     return (path_.closest(tip_m).position_m - tip_m).norm();
-  }
-
-  [[nodiscard]] bool near_path(const DigSample& sample) const {
-    const double turn_rad = wrap_near(
-        path_.closest(sample.tip_measured_m).attitude_rad - sample.attitude_measured_rad, 0.0);
-    return sample.error_measured_m <= kReached_m && std::abs(turn_rad) <= kReached_rad;
   }
 
   void read_truth(DigSample& sample) const {

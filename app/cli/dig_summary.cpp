@@ -5,6 +5,7 @@
 #include <map>
 
 #include "app/cli/dig_run.hpp"
+#include "app/cli/fault_words.hpp"
 #include "app/machines/axis_names.hpp"
 
 namespace graben::cli {
@@ -89,6 +90,8 @@ std::string limit_words(const Limit& limit) {
       return fmt::format("stroke end: {}", kAxisNames[axis]);
     case LimitKind::kRise:
       return "rise of lambda";
+    case LimitKind::kDegraded:
+      return fmt::format("slowed: {}", fault_words(static_cast<Fault>(limit.index)));
   }
   return "unknown";
 }

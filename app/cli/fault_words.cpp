@@ -1,0 +1,73 @@
+#include "app/cli/fault_words.hpp"
+
+namespace graben::cli {
+
+const char* fault_words(Fault fault) {
+  switch (fault) {
+    case Fault::kNone:
+      return "none";
+    case Fault::kStrokeMissing:
+      return "a stroke is missing";
+    case Fault::kPressureMissing:
+      return "a pressure is missing";
+    case Fault::kSwashMissing:
+      return "a pump's swash is missing";
+    case Fault::kEngineSpeedMissing:
+      return "the engine's speed is missing";
+    case Fault::kOperatorMissing:
+      return "the operator's frames are missing";
+    case Fault::kStrokeImplausible:
+      return "a stroke lies outside its cylinder";
+    case Fault::kPoseUnreachable:
+      return "the pose cannot be reached";
+    case Fault::kSolverFailed:
+      return "the valve's equations were not solved";
+    case Fault::kCommandNotFinite:
+      return "a command is not a number";
+    case Fault::kCycleStalled:
+      return "a control cycle stalled";
+    case Fault::kIdentityMismatch:
+      return "the machine has another profile or DBC";
+    case Fault::kBusOff:
+      return "bus-off";
+    case Fault::kBusPassive:
+      return "the bus is error-passive: nobody acknowledges";
+    case Fault::kBusDown:
+      return "the bus is down";
+    case Fault::kTransmitFailed:
+      return "the bus does not take frames";
+    case Fault::kCycleOverrun:
+      return "two control cycles in a row were late";
+    case Fault::kMessageCorrupt:
+      return "wrong CRCs of a message";
+    case Fault::kMessageSequence:
+      return "a message out of sequence";
+    case Fault::kMessageMasquerade:
+      return "a message under another one's id";
+    case Fault::kSpoolMissing:
+      return "the valve's feedback is missing";
+    case Fault::kSpoolStuck:
+      return "a spool does not obey";
+    case Fault::kUncommandedMotion:
+      return "a cylinder moves uncommanded";
+    case Fault::kStrokeStuck:
+      return "a stroke stands still under flow";
+    case Fault::kStrokeJump:
+      return "a stroke jumps";
+    case Fault::kPressureImplausible:
+      return "a pressure is stuck or at its rail";
+    case Fault::kSwashDisagrees:
+      return "a pump's swash is not as commanded";
+    case Fault::kMemoryCorrupt:
+      return "a stored setpoint has changed";
+    case Fault::kValveNotFollowing:
+      return "the valve does not confirm enable";
+    case Fault::kValueOutOfRange:
+      return "a value is out of its range";
+    case Fault::kSensorError:
+      return "a sensor calls itself wrong";
+  }
+  return "unknown";
+}
+
+}  // namespace graben::cli

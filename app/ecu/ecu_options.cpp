@@ -1,0 +1,54 @@
+#include "app/ecu/ecu_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace graben::ecu {
+namespace {
+constexpr int kWrongUsage = 2;
+constexpr std::size_t kMostInterfaces = 4;
+constexpr std::size_t kLongestName = 15;  // IFNAMSIZ without its end.
+
+std::string interface_name(const std::string& name) {
+  const bool good = !name.empty() && name.size() <= kLongestName &&
+                    name.find_first_of("/ \t") == std::string::npos;
+  return good ? ""
+              : "'" + name + "' is no name of an interface: 1 to 15 characters, no blank, no /";
+}
+}  // namespace
+
+std::optional<EcuOptions> read_options(int argc, const char* const* argv, int& status) {
+  EcuOptions options;
+  CLI::App app(
+      "graben-ecu: the controller as a process on CAN. Silent until the machine, the "
+      "operator and the bus are all there; SIGTERM brings neutral, then ends it.");
+  app.set_version_flag("--version", GRABEN_VERSION);
+  app.add_option("--can", options.interfaces,
+                 "CAN interface; up to 4, heard and sent to alike (--can can0 --can can1)")
+      ->required()
+      ->expected(1, static_cast<int>(kMostInterfaces))
+      ->check(CLI::Validator(interface_name, "NAME"));
+  app.add_option("--profile", options.profile,
+                 "Machine profile: a file, or a name in /etc/graben or /usr/share/graben")
+      ->required();
+  app.add_option("--rt-priority", options.priority, "SCHED_FIFO priority, 1 .. 99")
+      ->check(CLI::Range(1, 99))
+      ->capture_default_str();
+  app.add_option("--cpu", options.cpu, "Stay on this processor, from 0")
+      ->check(CLI::Range(0, 1023));
+  app.add_option("--stats", options.stats_file,
+                 "Write cycle times, wake-up latencies and counters to this file at the end");
+  bool no_real_time = false;
+  app.add_flag("--no-realtime", no_real_time,
+               "Run without real-time priority and locked memory; said in every EcuHealth frame. "
+               "Not for a machine");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    status = app.exit(error) == 0 ? 0 : kWrongUsage;
+    return std::nullopt;
+  }
+  options.real_time = !no_real_time;
+  return options;
+}
+
+}  // namespace graben::ecu

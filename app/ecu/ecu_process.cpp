@@ -1,0 +1,181 @@
+#include "app/ecu/ecu_process.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <deque>
+#include <stdexcept>
+
+#include "app/ecu/ecu_stats.hpp"
+#include "app/ecu/excavator_ecu.hpp"
+#include "app/machines/machine_file.hpp"
+#include "platform/can_port_group.hpp"
+#include "platform/linux/allocation_counter.hpp"
+#include "platform/linux/cyclic_clock.hpp"
+#include "platform/linux/real_time.hpp"
+#include "platform/linux/service_notify.hpp"
+#include "platform/linux/socketcan_port.hpp"
+#include "platform/linux/stop_signal.hpp"
+
+namespace graben::ecu {
+namespace {
+
+constexpr TimeUs kPeriod_us = 10 * kMillisecondUs;
+constexpr int kNeutralCycles = 5;
+/// The manager wants to hear from us within an interval; three times in it is on the safe side.
+constexpr TimeUs kWatchdogShare = 3;
+
+void demand(const ErrorText& error, const char* way_out) {
+  if (!error.empty()) {
+    throw std::runtime_error(std::string(error.c_str()) + way_out);
+  }
+}
+
+void become_real_time(const EcuOptions& options) {
+  constexpr const char* kWayOut =
+      "\n  give the process what it asks for (the package's service does), or --no-realtime where "
+      "nothing moves";
+  demand(lock_memory(), kWayOut);
+  prefault_stack();
+  demand(set_fifo_priority(options.priority), kWayOut);
+}
+
+/// The interfaces by their names, opened.
+struct Buses {
+  std::deque<SocketCanPort> ports;
+  CanPortGroup group;
+
+  explicit Buses(const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+      ports.emplace_back(name, ExcavatorEcu::receive_ids());
+      SocketCanPort& port = ports.back();
+      if (!port.open()) {
+        throw std::runtime_error(name + ": " + port.last_error());
+      }
+      group.add(port);
+    }
+  }
+  [[nodiscard]] CanPortCounters counters() const {
+    CanPortCounters sum;
+    for (const SocketCanPort& port : ports) {
+      const CanPortCounters& one = port.counters();
+      sum.received += one.received;
+      sum.sent += one.sent;
+      sum.receive_overflow += one.receive_overflow;
+      sum.dropped_transmit += one.dropped_transmit;
+      sum.error_frames += one.error_frames;
+      sum.wrong_frames += one.wrong_frames;
+      sum.reopened += one.reopened;
+    }
+    return sum;
+  }
+};
+
+/// Tells the service manager that cycles go on; it restarts what stops saying so.
+class Watchdog {
+ public:
+  explicit Watchdog(ServiceNotify& manager)
+      : manager_(manager),
+        interval_us_(watchdog_interval_us(std::getenv("WATCHDOG_USEC"), std::getenv("WATCHDOG_PID"),
+                                          getpid()) /
+                     kWatchdogShare) {}
+
+  void cycle_done(TimeUs now_us) {
+    if (interval_us_ > 0 && now_us - last_us_ >= interval_us_) {
+      manager_.watchdog();
+      last_us_ = now_us;
+    }
+  }
+
+ private:
+  ServiceNotify& manager_;
+  TimeUs interval_us_;
+  TimeUs last_us_ = 0;
+};
+
+/// What the process has used since its first cycle was done.
+class UsageMark {
+ public:
+  void set() {
+    faults_ = page_faults();
+    allocations_ = allocation_count();
+    set_ = true;
+  }
+  [[nodiscard]] bool is_set() const { return set_; }
+  [[nodiscard]] std::uint64_t allocations() const {
+    return set_ ? allocation_count() - allocations_ : 0;
+  }
+  [[nodiscard]] std::uint64_t faults() const {
+    return set_ ? static_cast<std::uint64_t>(faults_since(faults_, page_faults())) : 0;
+  }
+
+ private:
+  PageFaults faults_;
+  std::uint64_t allocations_ = 0;
+  bool set_ = false;
+};
+
+void cycle_until_stopped(ExcavatorEcu& ecu, CyclicClock& clock, Watchdog& watchdog, UsageMark& mark,
+                         bool real_time) {
+  for (int neutral_cycles = 0; neutral_cycles < kNeutralCycles;) {
+    const CyclicClock::Cycle cycle = clock.wait();
+    if (stop_requested()) {
+      ecu.request_stop();
+      ++neutral_cycles;
+    }
+    EcuVitals vitals;
+    vitals.cycle_time_us = cycle.last_us;
+    vitals.overruns = clock.overruns();
+    vitals.allocations = mark.allocations();
+    vitals.page_faults = mark.faults();
+    vitals.real_time = real_time;
+    ecu.step(cycle.now_us, vitals);
+    watchdog.cycle_done(cycle.now_us);
+    if (!mark.is_set()) {
+      mark.set();
+    }
+  }
+}
+
+}  // namespace
+
+int run(const EcuOptions& options, TimeUs began_us) try {
+  const machines::ExcavatorMachine machine = machines::load_excavator(
+      machines::find_profile(options.profile, {"/etc/graben", "/usr/share/graben"}));
+  Buses buses(options.interfaces);
+  ExcavatorEcu ecu(machine.profile, machine.hash, buses.group);
+  CyclicClock clock(kPeriod_us);
+  ServiceNotify manager(std::getenv("NOTIFY_SOCKET"));
+  Watchdog watchdog(manager);
+  UsageMark mark;
+  demand(catch_stop_signals(), "");
+  if (options.cpu) {
+    demand(pin_to_cpu(*options.cpu), "");
+  }
+  if (options.real_time) {
+    become_real_time(options);
+  } else {
+    std::fprintf(stderr, "graben-ecu: WITHOUT real time (--no-realtime): not for a machine\n");
+  }
+  Usage usage;
+  usage.start_us = monotonic_now_us() - began_us;
+  manager.ready();
+  manager.status(options.real_time ? "cycling" : "cycling WITHOUT real time");
+
+  cycle_until_stopped(ecu, clock, watchdog, mark, options.real_time);
+
+  manager.stopping();
+  usage.allocations = mark.allocations();
+  usage.allocations_counted = allocations_are_counted();
+  usage.page_faults = mark.faults();
+  usage.real_time = options.real_time;
+  const bool written = options.stats_file.empty() ||
+                       write_stats(options.stats_file, clock, ecu, buses.counters(), usage);
+  return written ? 0 : 1;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "graben-ecu: %s\n", error.what());
+  return 1;
+}
+
+}  // namespace graben::ecu
