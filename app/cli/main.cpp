@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   graben::cli::add_solve(app, status);
   graben::cli::add_pose(app, status);
   graben::cli::add_strokes(app, status);
+  graben::cli::add_plant(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
