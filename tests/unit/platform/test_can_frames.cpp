@@ -1,0 +1,193 @@
+// Frames and filters between the kernel's form and ours; stamps.
+
+#include "platform/linux/can_translation.hpp"
+
+#include "platform/linux/receive_stamp.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+
+can_frame kernel_frame(canid_t id, std::uint8_t length) {
+  can_frame frame{};
+  frame.can_id = id;
+  frame.can_dlc = length;
+  for (unsigned i = 0; i < CAN_MAX_DLEN; ++i) {
+    frame.data[i] = static_cast<std::uint8_t>(0xA0 + i);
+  }
+  return frame;
+}
+
+/// There and back it is the same, apart from the stamp.
+void round_trip(const CanFrame& frame) {
+  can_frame raw{};
+  assert_true(to_socketcan(frame, raw));
+  const CanFrame back = from_socketcan(raw, 0);
+  assert_int_equal(back.id, frame.id);
+  assert_int_equal(back.extended, frame.extended);
+  assert_int_equal(back.remote, frame.remote);
+  assert_int_equal(back.length, frame.length);
+  assert_true(back.data == frame.data);
+}
+
+void a_29_bit_frame_comes_in(void**) {
+  const CanFrame frame = from_socketcan(kernel_frame(0x18FF5027U | CAN_EFF_FLAG, 8), 1234);
+  assert_int_equal(frame.id, 0x18FF5027);
+  assert_true(frame.extended);
+  assert_false(frame.remote || frame.error || frame.fd);
+  assert_int_equal(frame.length, 8);
+  assert_int_equal(frame.data[0], 0xA0);
+  assert_int_equal(frame.data[7], 0xA7);
+  assert_int_equal(frame.stamp_us, 1234);
+}
+
+void bytes_beyond_the_length_are_zero(void**) {
+  const CanFrame three = from_socketcan(kernel_frame(1U | CAN_EFF_FLAG, 3), 0);
+  assert_int_equal(three.length, 3);
+  assert_int_equal(three.data[2], 0xA2);
+  assert_int_equal(three.data[3], 0);
+  assert_int_equal(from_socketcan(kernel_frame(1U | CAN_EFF_FLAG, 0), 0).data[0], 0);
+  assert_int_equal(from_socketcan(kernel_frame(1U | CAN_EFF_FLAG, 9), 0).length, 8);
+  const CanFrame remote = from_socketcan(kernel_frame(1U | CAN_EFF_FLAG | CAN_RTR_FLAG, 8), 0);
+  assert_true(remote.remote);
+  assert_int_equal(remote.length, 8);
+  assert_int_equal(remote.data[0], 0);
+}
+
+void flags_are_no_part_of_the_id(void**) {
+  const CanFrame standard = from_socketcan(kernel_frame(0x7FF, 8), 0);
+  assert_int_equal(standard.id, 0x7FF);
+  assert_false(standard.extended);
+  // An 11-bit frame has no more bits, whatever the kernel left above them.
+  assert_int_equal(from_socketcan(kernel_frame(0x1FFFFFFF, 8), 0).id, 0x7FF);
+  assert_int_equal(from_socketcan(kernel_frame(0xFFFFFFFF, 8), 0).id, 0x1FFFFFFF);
+  const CanFrame error = from_socketcan(kernel_frame(CAN_ERR_FLAG | 0x2000, 8), 0);
+  assert_true(error.error);
+  assert_int_equal(error.id, 0x2000);
+}
+
+void frames_go_out_as_they_are(void**) {
+  CanFrame frame;
+  frame.length = 8;
+  frame.data = {1, 2, 3, 4, 5, 6, 7, 8};
+  frame.id = CAN_EFF_MASK;
+  round_trip(frame);
+  can_frame raw{};
+  assert_true(to_socketcan(frame, raw));
+  assert_int_equal(raw.can_id, 0x9FFFFFFFU);
+  frame.id = 0;
+  frame.length = 0;
+  frame.data = {};
+  round_trip(frame);
+  frame.remote = true;
+  frame.length = 5;
+  round_trip(frame);
+  frame.extended = false;
+  frame.id = CAN_SFF_MASK;
+  round_trip(frame);
+  assert_true(to_socketcan(frame, raw));
+  assert_int_equal(raw.can_id, 0x400007FFU);
+}
+
+void what_cannot_be_sent_is_refused(void**) {
+  can_frame raw = kernel_frame(0x55, 4);
+  const can_frame before = raw;
+  CanFrame good;
+  good.length = 8;
+  const auto refused = [&raw, good](auto&& spoil) {
+    CanFrame frame = good;
+    spoil(frame);
+    return !to_socketcan(frame, raw);
+  };
+  assert_true(refused([](CanFrame& f) { f.id = CAN_EFF_MASK + 1; }));
+  assert_true(refused([](CanFrame& f) {
+    f.extended = false;
+    f.id = CAN_SFF_MASK + 1;
+  }));
+  assert_true(refused([](CanFrame& f) { f.length = 9; }));
+  assert_true(refused([](CanFrame& f) { f.fd = true; }));
+  assert_true(refused([](CanFrame& f) { f.error = true; }));
+  assert_memory_equal(&raw, &before, sizeof raw);
+  assert_false(refused([](CanFrame&) {}));
+}
+
+/// As the kernel compares (include/uapi/linux/can.h, struct can_filter).
+bool passes(const can_filter& filter, canid_t id) {
+  return (id & filter.can_mask) == (filter.can_id & filter.can_mask);
+}
+
+void a_filter_passes_its_id_in_its_form_only(void**) {
+  for (const std::uint32_t id : {0x18FF5027U, 0U, 0x1FFFFFFFU, 0x7FFU}) {
+    const can_filter filter = exact_filter(id);
+    assert_true(passes(filter, id | CAN_EFF_FLAG));
+    assert_false(passes(filter, id));
+    assert_false(passes(filter, id | CAN_EFF_FLAG | CAN_RTR_FLAG));
+    for (unsigned bit = 0; bit < CAN_EFF_ID_BITS; ++bit) {
+      assert_false(passes(filter, (id ^ (1U << bit)) | CAN_EFF_FLAG));
+    }
+    // Neither the inverted sense nor the class of error frames slips in with a bad id.
+    assert_int_equal(exact_filter(id | CAN_INV_FILTER | CAN_ERR_FLAG).can_id, filter.can_id);
+    assert_int_equal(filter.can_mask & CAN_ERR_FLAG, 0);
+  }
+}
+
+constexpr TimeUs kWallUs = 1'700'000'000'000'000;
+
+void a_stamp_keeps_its_age(void**) {
+  ReceiveStamp stamp;
+  stamp.set_now(5'000'000, kWallUs);
+  assert_int_equal(stamp.now_us(), 5'000'000);
+  assert_int_equal(stamp.monotonic_us(kWallUs), 5'000'000);
+  assert_int_equal(stamp.monotonic_us(kWallUs - 1), 4'999'999);
+  assert_int_equal(stamp.monotonic_us(kWallUs - 8'000), 4'992'000);
+  assert_int_equal(stamp.monotonic_us(kWallUs - kSecondUs), 4'000'000);
+}
+
+void an_impossible_age_becomes_now(void**) {
+  ReceiveStamp stamp;
+  stamp.set_now(5'000'000, kWallUs);
+  assert_int_equal(stamp.monotonic_us(kWallUs + 1), 5'000'000);
+  assert_int_equal(stamp.monotonic_us(kWallUs - kSecondUs - 1), 5'000'000);
+  assert_int_equal(stamp.monotonic_us(0), 5'000'000);
+}
+
+void no_stamp_is_believed_after_a_step_until_the_queue_was_empty(void**) {
+  for (const TimeUs step_us : {TimeUs{1'001}, TimeUs{-1'001}, TimeUs{500'000}}) {
+    ReceiveStamp stamp;
+    stamp.set_now(5'000'000, kWallUs);
+    stamp.set_now(5'010'000, kWallUs + 10'000 + step_us);
+    assert_int_equal(stamp.monotonic_us(kWallUs + 5'000 + step_us), 5'010'000);
+    stamp.set_now(5'020'000, kWallUs + 20'000 + step_us);
+    assert_int_equal(stamp.monotonic_us(kWallUs + 15'000 + step_us), 5'020'000);
+    stamp.queue_is_empty();
+    assert_int_equal(stamp.monotonic_us(kWallUs + 15'000 + step_us), 5'015'000);
+  }
+}
+
+void slewing_is_no_step(void**) {
+  for (const TimeUs slew_us : {TimeUs{1'000}, TimeUs{-1'000}}) {
+    ReceiveStamp stamp;
+    stamp.set_now(5'000'000, kWallUs);
+    stamp.set_now(5'010'000, kWallUs + 10'000 + slew_us);
+    assert_int_equal(stamp.monotonic_us(kWallUs + 5'000 + slew_us), 5'005'000);
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_29_bit_frame_comes_in),
+      cmocka_unit_test(bytes_beyond_the_length_are_zero),
+      cmocka_unit_test(flags_are_no_part_of_the_id),
+      cmocka_unit_test(frames_go_out_as_they_are),
+      cmocka_unit_test(what_cannot_be_sent_is_refused),
+      cmocka_unit_test(a_filter_passes_its_id_in_its_form_only),
+      cmocka_unit_test(a_stamp_keeps_its_age),
+      cmocka_unit_test(an_impossible_age_becomes_now),
+      cmocka_unit_test(no_stamp_is_believed_after_a_step_until_the_queue_was_empty),
+      cmocka_unit_test(slewing_is_no_step),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,185 @@
+// The grid of deadlines, the clock that keeps it, the histogram it fills.
+
+#include "platform/linux/cyclic_clock.hpp"
+
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <string>
+
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+
+constexpr std::int64_t kPeriodNs = 10'000'000;
+
+void expect_deadline(std::int64_t now_ns, std::int64_t at_ns, std::uint64_t skipped) {
+  // Where the grid lies does not matter.
+  for (const std::int64_t last_ns : {std::int64_t{0}, std::int64_t{123'456'789'012'345}}) {
+    const Deadline next = next_deadline(last_ns, last_ns + now_ns, kPeriodNs);
+    assert_int_equal(next.at_ns, last_ns + at_ns);
+    assert_int_equal(next.skipped, skipped);
+  }
+}
+
+void in_time_the_next_one_is_due(void**) {
+  expect_deadline(0, kPeriodNs, 0);
+  expect_deadline(1, kPeriodNs, 0);
+  expect_deadline(kPeriodNs - 1, kPeriodNs, 0);
+  expect_deadline(kPeriodNs, kPeriodNs, 0);
+}
+
+void an_overrun_skips_whole_periods(void**) {
+  expect_deadline(kPeriodNs + 1, 2 * kPeriodNs, 1);
+  expect_deadline(2 * kPeriodNs - 1, 2 * kPeriodNs, 1);
+  expect_deadline(2 * kPeriodNs, 2 * kPeriodNs, 1);
+  expect_deadline(2 * kPeriodNs + 1, 3 * kPeriodNs, 2);
+  expect_deadline(1000 * kPeriodNs, 1000 * kPeriodNs, 999);
+  expect_deadline(360'000 * kPeriodNs + 7, 360'001 * kPeriodNs, 360'000);
+}
+
+void a_clock_that_is_early_waits_for_the_next(void**) { expect_deadline(-5, kPeriodNs, 0); }
+
+void a_bin_a_microsecond_then_a_millisecond(void**) {
+  Histogram histogram;
+  for (const TimeUs us : {-3, 0, 1, 1, 999, 1000, 1999, 2000, 99'999, 100'000, 7'000'000}) {
+    histogram.add(us);
+  }
+  assert_int_equal(histogram.count(), 11);
+  assert_int_equal(histogram.fine(0), 2);
+  assert_int_equal(histogram.fine(1), 2);
+  assert_int_equal(histogram.fine(2), 0);
+  assert_int_equal(histogram.fine(999), 1);
+  assert_int_equal(histogram.coarse(1), 2);
+  assert_int_equal(histogram.coarse(2), 1);
+  assert_int_equal(histogram.coarse(99), 1);
+  assert_int_equal(histogram.coarse(100), 2);
+  assert_int_equal(histogram.min_us(), 0);
+  assert_int_equal(histogram.max_us(), 7'000'000);
+}
+
+void minimum_mean_and_maximum(void**) {
+  Histogram histogram;
+  assert_int_equal(histogram.min_us(), 0);
+  assert_int_equal(histogram.max_us(), 0);
+  assert_int_equal(histogram.mean_us(), 0);
+  histogram.add(20);
+  assert_int_equal(histogram.min_us(), 20);
+  histogram.add(10);
+  histogram.add(61);
+  assert_int_equal(histogram.min_us(), 10);
+  assert_int_equal(histogram.max_us(), 61);
+  assert_int_equal(histogram.mean_us(), 30);
+}
+
+template <class Print>
+std::string printed(Print print) {
+  char text[4096] = {};
+  std::FILE* const to = fmemopen(text, sizeof text, "w");
+  assert_non_null(to);
+  print(to);
+  std::fclose(to);
+  return text;
+}
+
+void it_prints_as_cyclictest_does(void**) {
+  Histogram histogram;
+  for (const TimeUs us : {7, 7, 12, 3'500}) {
+    histogram.add(us);
+  }
+  assert_string_equal(
+      printed([&](std::FILE* to) { histogram.print_summary(to, "latency"); }).c_str(),
+      "latency: C:      4 Min:      7 Avg:  881 Max:    3500\n");
+  assert_string_equal(printed([&](std::FILE* to) { histogram.print_bins(to, "latency"); }).c_str(),
+                      "# Histogram: latency, us\n"
+                      "000007 000002\n"
+                      "000012 000001\n"
+                      "003000 000001\n"
+                      "# Total: 000000004\n"
+                      "# Min Latencies: 00007\n"
+                      "# Avg Latencies: 00881\n"
+                      "# Max Latencies: 03500\n"
+                      "# Histogram Overflows: 00001\n");
+}
+
+/// A test may share its processor with anything: bounds below are sharp, those above are not there.
+void cycles_begin_on_the_grid(void**) {
+  constexpr TimeUs kPeriodUs = 2000;
+  CyclicClock clock(kPeriodUs);
+  const TimeUs before_us = monotonic_now_us();
+  const CyclicClock::Cycle first = clock.wait();
+  assert_int_equal(first.last_us, 0);
+  assert_int_equal(first.skipped, 0);
+  assert_true(first.now_us >= before_us + kPeriodUs);
+  std::uint64_t periods = 0;
+  CyclicClock::Cycle cycle;
+  for (int i = 0; i < 20; ++i) {
+    cycle = clock.wait();
+    periods += 1 + cycle.skipped;
+    assert_true(cycle.late_us >= 0);
+    // Deadlines do not drift with the wake-ups' latency.
+    const TimeUs deadlines_us = (cycle.now_us - cycle.late_us) - (first.now_us - first.late_us);
+    assert_in_range(deadlines_us, static_cast<TimeUs>(periods) * kPeriodUs - 1,
+                    static_cast<TimeUs>(periods) * kPeriodUs + 1);
+  }
+  assert_int_equal(clock.skipped(), periods - 20);
+  assert_int_equal(clock.wake_up_latency().count(), 21);
+  assert_int_equal(clock.cycle_time().count(), 20);
+}
+
+void a_cycle_that_overruns_is_told_and_not_made_up_for(void**) {
+  constexpr TimeUs kPeriodUs = 4000;
+  CyclicClock clock(kPeriodUs);
+  const CyclicClock::Cycle first = clock.wait();
+  usleep(2 * kPeriodUs + kPeriodUs / 2);
+  const CyclicClock::Cycle second = clock.wait();
+  assert_true(second.skipped >= 2);
+  assert_true(second.last_us >= 2 * kPeriodUs + kPeriodUs / 2);
+  const auto periods = static_cast<TimeUs>(second.skipped) + 1;
+  assert_in_range((second.now_us - second.late_us) - (first.now_us - first.late_us),
+                  periods * kPeriodUs - 1, periods * kPeriodUs + 1);
+  assert_int_equal(clock.overruns(), 1);
+  assert_int_equal(clock.skipped(), second.skipped);
+  assert_true(clock.cycle_time().max_us() >= 2 * kPeriodUs);
+}
+
+volatile std::sig_atomic_t g_signals = 0;
+
+void a_signal_does_not_end_the_sleep(void**) {
+  struct sigaction action {};
+  action.sa_handler = [](int) { g_signals = g_signals + 1; };
+  sigaction(SIGALRM, &action, nullptr);
+  itimerval every{};
+  every.it_value.tv_usec = 3000;
+  every.it_interval.tv_usec = 3000;
+  setitimer(ITIMER_REAL, &every, nullptr);
+  CyclicClock clock(20'000);
+  const TimeUs before_us = monotonic_now_us();
+  const CyclicClock::Cycle cycle = clock.wait();
+  const itimerval off{};
+  setitimer(ITIMER_REAL, &off, nullptr);
+  assert_true(g_signals > 0);
+  assert_true(cycle.now_us >= before_us + 20'000);
+  assert_true(cycle.late_us >= 0);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(in_time_the_next_one_is_due),
+      cmocka_unit_test(an_overrun_skips_whole_periods),
+      cmocka_unit_test(a_clock_that_is_early_waits_for_the_next),
+      cmocka_unit_test(a_bin_a_microsecond_then_a_millisecond),
+      cmocka_unit_test(minimum_mean_and_maximum),
+      cmocka_unit_test(it_prints_as_cyclictest_does),
+      cmocka_unit_test(cycles_begin_on_the_grid),
+      cmocka_unit_test(a_cycle_that_overruns_is_told_and_not_made_up_for),
+      cmocka_unit_test(a_signal_does_not_end_the_sleep),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

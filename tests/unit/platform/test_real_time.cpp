@@ -1,0 +1,257 @@
+// Each step does what it says or says what it lacks; every attempt in a child of its own.
+
+#include "platform/linux/real_time.hpp"
+
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include "tests/unit/cmocka_cpp.hpp"
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
+namespace {
+
+using namespace graben;
+
+enum Outcome { kGood = 0, kWrong = 1, kCannotTry = 2 };
+
+template <class Body>
+int in_child(Body body) {
+  const pid_t child = fork();
+  if (child == 0) {
+    _exit(body());
+  }
+  int status = -1;
+  assert_int_equal(waitpid(child, &status, 0), child);
+  assert_true(WIFEXITED(status));
+  return WEXITSTATUS(status);
+}
+
+/// For the child: no right and no limit that would allow anything here.
+bool become_nobody() {
+  const rlimit none{0, 0};
+  if (setrlimit(RLIMIT_MEMLOCK, &none) != 0 || setrlimit(RLIMIT_RTPRIO, &none) != 0) {
+    return false;
+  }
+  return getuid() != 0 || setresuid(65534, 65534, 65534) == 0;
+}
+
+bool contains(const ErrorText& text, const char* part) {
+  const bool found = std::strstr(text.c_str(), part) != nullptr;
+  if (!found) {
+    std::fprintf(stderr, "'%s' does not say '%s'\n", text.c_str(), part);
+  }
+  return found;
+}
+
+/// How much of this process is locked, in kB; -1 if the kernel does not say.
+long locked_kb() {
+  std::FILE* const status = std::fopen("/proc/self/status", "r");
+  long result = -1;
+  char line[256];
+  while (status != nullptr && std::fgets(line, sizeof line, status) != nullptr) {
+    if (std::sscanf(line, "VmLck: %ld", &result) == 1) {
+      break;
+    }
+  }
+  if (status != nullptr) {
+    std::fclose(status);
+  }
+  return result;
+}
+
+void memory_is_locked(void**) {
+  if (kSanitized) {
+    skip();  // the sanitizers make mlockall a no-operation: their shadow is terabytes
+  }
+  const int outcome = in_child([] {
+    const ErrorText error = lock_memory();
+    if (!error.empty()) {
+      return contains(error, "CAP_IPC_LOCK") ? kCannotTry : kWrong;
+    }
+    const long before_kb = locked_kb();
+    // What is mapped later is locked as well.
+    void* const more =
+        mmap(nullptr, 1 << 20, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    return more != MAP_FAILED && before_kb > 0 && locked_kb() >= before_kb + 1024 ? kGood : kWrong;
+  });
+  if (outcome == kCannotTry) {
+    skip();
+  }
+  assert_int_equal(outcome, kGood);
+}
+
+void what_is_missing_is_named(void**) {
+  assert_int_equal(
+      in_child([] {
+        if (!become_nobody()) {
+          return kCannotTry;
+        }
+        const bool memory = kSanitized || contains(lock_memory(), "needs CAP_IPC_LOCK");
+        const bool priority =
+            contains(set_fifo_priority(80),
+                     "SCHED_FIFO 80: Operation not permitted; needs CAP_SYS_NICE or an rtprio "
+                     "limit of 80 (ulimit -r)");
+        return memory && priority && sched_getscheduler(0) == SCHED_OTHER ? kGood : kWrong;
+      }),
+      kGood);
+}
+
+void a_priority_is_set_and_not_inherited(void**) {
+  const int outcome = in_child([] {
+    const ErrorText error = set_fifo_priority(10);
+    if (!error.empty()) {
+      return contains(error, "CAP_SYS_NICE") ? kCannotTry : kWrong;
+    }
+    sched_param parameter{};
+    const bool own = (sched_getscheduler(0) & ~SCHED_RESET_ON_FORK) == SCHED_FIFO &&
+                     sched_getparam(0, &parameter) == 0 && parameter.sched_priority == 10;
+    const int inherited = in_child([] { return sched_getscheduler(0) == SCHED_OTHER ? 0 : 1; });
+    return own && inherited == 0 ? kGood : kWrong;
+  });
+  if (outcome == kCannotTry) {
+    skip();
+  }
+  assert_int_equal(outcome, kGood);
+}
+
+void a_priority_out_of_range_is_refused(void**) {
+  for (const int priority : {-1, 0, 100}) {
+    assert_true(contains(set_fifo_priority(priority), "a priority is 1 to 99"));
+  }
+  assert_int_equal(sched_getscheduler(0), SCHED_OTHER);
+}
+
+void a_thread_is_pinned(void**) {
+  cpu_set_t allowed;
+  assert_int_equal(sched_getaffinity(0, sizeof allowed, &allowed), 0);
+  int last = -1;
+  for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+    last = CPU_ISSET(static_cast<std::size_t>(cpu), &allowed) ? cpu : last;
+  }
+  assert_int_equal(in_child([last] {
+                     cpu_set_t now;
+                     const bool pinned =
+                         pin_to_cpu(last).empty() && sched_getaffinity(0, sizeof now, &now) == 0 &&
+                         CPU_COUNT(&now) == 1 && CPU_ISSET(static_cast<std::size_t>(last), &now);
+                     return pinned && sched_getcpu() == last ? kGood : kWrong;
+                   }),
+                   kGood);
+}
+
+void a_cpu_that_is_not_there_is_named(void**) {
+  assert_true(contains(pin_to_cpu(-1), "CPU -1: CPUs are numbered 0 to 1023"));
+  assert_true(contains(pin_to_cpu(1024), "CPU 1024: CPUs are numbered 0 to 1023"));
+  if (sysconf(_SC_NPROCESSORS_CONF) < 1023) {
+    assert_true(contains(pin_to_cpu(1023), "CPU 1023: Invalid argument; it must be there"));
+  }
+}
+
+void page_faults_are_seen(void**) {
+  constexpr std::size_t kPages = 16;
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  auto* const memory = static_cast<volatile char*>(
+      mmap(nullptr, kPages * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
+  const PageFaults before = page_faults();
+  for (std::size_t i = 0; i < kPages; ++i) {
+    memory[i * page] = 1;
+  }
+  const PageFaults after = page_faults();
+  assert_true(faults_since(before, after) >= 1);
+  for (std::size_t i = 0; i < kPages; ++i) {
+    memory[i * page] = 2;
+  }
+  assert_int_equal(faults_since(after, page_faults()), 0);
+  assert_int_equal(faults_since({3, 1}, {10, 2}), 8);
+}
+
+/// A cycle's stack, deep down. Returns the faults that it took.
+__attribute__((noinline)) std::int64_t faults_of_deep_stack() {
+  const PageFaults before = page_faults();
+  volatile unsigned char stack[56 * 1024];
+  for (std::size_t i = 0; i < sizeof stack; i += 1024) {
+    stack[i] = 1;
+  }
+  static_cast<void>(stack[0]);
+  return faults_since(before, page_faults());
+}
+
+void a_touched_stack_does_not_fault(void**) {
+  // A child begins with fresh copies of its parent's pages: without the call there are faults.
+  static_cast<void>(page_faults());
+  assert_int_equal(in_child([] { return faults_of_deep_stack() > 0 ? kGood : kWrong; }), kGood);
+  assert_int_equal(in_child([] {
+                     static_cast<void>(page_faults());
+                     prefault_stack();
+                     return faults_of_deep_stack() == 0 ? kGood : kWrong;
+                   }),
+                   kGood);
+}
+
+void the_heap_is_tuned(void**) {
+  if (kSanitized) {
+    skip();  // their heap takes no tuning, and says so
+  }
+  assert_int_equal(in_child([] {
+                     if (!tune_heap().empty()) {
+                       return kWrong;
+                     }
+                     // Freed and asked for again, a large block causes no fault.
+                     constexpr std::size_t kBytes = 4 << 20;
+                     const auto fill = [] {
+                       void* volatile block = std::malloc(kBytes);
+                       std::memset(block, 1, kBytes);
+                       std::free(block);
+                     };
+                     fill();
+                     const PageFaults before = page_faults();
+                     fill();
+                     return faults_since(before, page_faults()) == 0 ? kGood : kWrong;
+                   }),
+                   kGood);
+}
+
+void an_error_text_is_cut_not_overrun(void**) {
+  ErrorText text;
+  assert_true(text.empty());
+  assert_string_equal(text.c_str(), "");
+  text.set("%s %d", "CPU", 3);
+  assert_string_equal(text.c_str(), "CPU 3");
+  text.set("%s", std::string(1000, 'x').c_str());
+  assert_int_equal(std::strlen(text.c_str()), 239);
+  text.clear();
+  assert_true(text.empty());
+  assert_string_equal(error_words(ENETDOWN), "Network is down");
+  assert_string_equal(error_words(99999), "unknown error");
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(memory_is_locked),
+      cmocka_unit_test(what_is_missing_is_named),
+      cmocka_unit_test(a_priority_is_set_and_not_inherited),
+      cmocka_unit_test(a_priority_out_of_range_is_refused),
+      cmocka_unit_test(a_thread_is_pinned),
+      cmocka_unit_test(a_cpu_that_is_not_there_is_named),
+      cmocka_unit_test(page_faults_are_seen),
+      cmocka_unit_test(a_touched_stack_does_not_fault),
+      cmocka_unit_test(the_heap_is_tuned),
+      cmocka_unit_test(an_error_text_is_cut_not_overrun),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
