@@ -142,7 +142,10 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   memory_.asked_mps = memory_.lambda * cap.factor * wanted;
   memory_.last_us = now_us;
   memory_.has_stepped = true;
-  return {command.enable, command.duty_ratio,
+  return {command.enable,
+          false,
+          command.duty_ratio,
+          {},
           status_of(memory_.mode, wanted, path_error_m(field_.path(), state.tip), cap, solution)};
 }
 

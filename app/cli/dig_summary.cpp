@@ -89,6 +89,8 @@ std::string limit_words(const Limit& limit) {
       return fmt::format("stroke end: {}", kAxisNames[axis]);
     case LimitKind::kRise:
       return "rise of lambda";
+    case LimitKind::kDegraded:
+      return fmt::format("degraded: fault {}", limit.index);
   }
   return "unknown";
 }
