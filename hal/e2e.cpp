@@ -1,10 +1,13 @@
 #include "hal/e2e.hpp"
 
+#include <algorithm>
+
 namespace graben {
 namespace {
 
 constexpr std::uint8_t kPolynomial = 0x1D;
 constexpr std::uint8_t kCounterMask = 0x0F;
+constexpr unsigned kLateFrames = 2;  ///< So many places behind, a frame is late, no jump.
 
 constexpr std::array<std::uint8_t, 256> make_crc_table() {
   std::array<std::uint8_t, 256> table{};
@@ -36,23 +39,20 @@ void lose_synchronisation(E2eState& state, std::uint8_t run) {
 }
 
 E2eCheck synchronise(E2eState& state, unsigned delta) {
-  if (delta == 1) {
-    ++state.run;
-    state.synchronised = state.run == kE2eSyncFrames;
-    return state.synchronised ? E2eCheck::kOk : E2eCheck::kSynchronising;
-  }
-  const bool first = state.run == 0;
-  state.run = 1;
-  if (first) {
+  if (state.run == 0) {
+    state.run = 1;
     return E2eCheck::kSynchronising;
   }
-  return delta == 0 ? E2eCheck::kRepeated : E2eCheck::kWrongSequence;
+  if (delta != 1) {
+    state.run = 1;
+    return E2eCheck::kWrongSequence;
+  }
+  ++state.run;
+  state.synchronised = state.run == kE2eSyncFrames;
+  return state.synchronised ? E2eCheck::kOk : E2eCheck::kSynchronising;
 }
 
 E2eCheck follow(const E2eConfig& config, E2eState& state, unsigned delta) {
-  if (delta == 0) {
-    return E2eCheck::kRepeated;
-  }
   if (delta == 1) {
     return E2eCheck::kOk;
   }
@@ -63,11 +63,31 @@ E2eCheck follow(const E2eConfig& config, E2eState& state, unsigned delta) {
   return E2eCheck::kWrongSequence;
 }
 
+bool is_late(const E2eConfig& config, const E2eState& state, unsigned delta) {
+  return state.synchronised && delta > config.max_delta_counter &&
+         delta >= kE2eCounterCount - kLateFrames;
+}
+
+/// Whether the sender cannot have sent this frame too; if it can, the next one's time moves on.
+bool comes_too_early(const E2eConfig& config, E2eState& state, TimeUs now) {
+  if (now < state.batch_us) {  // the clock went back
+    state.due_us = now;
+  } else if (now > state.batch_us) {
+    state.due_us = std::max({state.due_us, state.batch_us, now - config.max_silence_us});
+  }
+  state.batch_us = now;
+  if (state.due_us > now) {
+    return true;
+  }
+  state.due_us += config.cycle_us * 4 / 5;
+  return false;
+}
+
 E2eCheck judge(const E2eConfig& config, E2eState& state, const E2ePayload& payload, TimeUs now) {
   if (is_silent(config, state, now)) {
     lose_synchronisation(state, 0);
   }
-  if (payload[0] != crc_of(payload, config.data_id)) {
+  if (!e2e_crc_fits(payload, config.data_id)) {
     state.run = 0;
     return E2eCheck::kWrongCrc;
   }
@@ -78,14 +98,26 @@ E2eCheck judge(const E2eConfig& config, E2eState& state, const E2ePayload& paylo
   }
   const unsigned delta =
       (static_cast<unsigned>(counter) + kE2eCounterCount - state.last_counter) % kE2eCounterCount;
-  const E2eCheck check =
-      state.synchronised ? follow(config, state, delta) : synchronise(state, delta);
-  state.last_counter = counter;
-  if (check != E2eCheck::kRepeated) {
-    state.any_good = true;
-    state.last_good_us = now;
+  const bool same_counter = delta == 0 && (state.synchronised || state.run > 0);
+  if (same_counter && payload[0] == state.last_crc) {
+    state.run = 1;  // means nothing while synchronised
+    return E2eCheck::kRepeated;
   }
-  return check;
+  if (comes_too_early(config, state, now)) {
+    return E2eCheck::kTooMany;
+  }
+  if (same_counter) {
+    state.run = 1;
+    return E2eCheck::kConflict;
+  }
+  if (is_late(config, state, delta)) {
+    return E2eCheck::kWrongSequence;
+  }
+  state.last_counter = counter;
+  state.last_crc = payload[0];
+  state.any_good = true;
+  state.last_good_us = now;
+  return state.synchronised ? follow(config, state, delta) : synchronise(state, delta);
 }
 
 }  // namespace
@@ -100,6 +132,10 @@ std::uint8_t crc8(std::uint8_t crc, const std::uint8_t* data, std::size_t length
 void e2e_protect(E2ePayload& payload, std::uint16_t data_id, std::uint8_t counter) {
   payload[1] = static_cast<std::uint8_t>((payload[1] & 0xF0U) | (counter & kCounterMask));
   payload[0] = crc_of(payload, data_id);
+}
+
+bool e2e_crc_fits(const E2ePayload& payload, std::uint16_t data_id) {
+  return payload[0] == crc_of(payload, data_id);
 }
 
 E2eCheck e2e_check(const E2eConfig& config, E2eState& state, const E2ePayload& payload,

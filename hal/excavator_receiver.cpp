@@ -96,6 +96,13 @@ void store(const bus::MachineIdentity& message, TimeUs now, Received& to) {
   put(to.identity.dbc_version, message.dbc_version, now);
 }
 
+void store(const bus::ValveState& message, TimeUs now, Received& to) {
+  put(to.inputs.axis[0].spool_ratio, message.boom_spool_ratio, now);
+  put(to.inputs.axis[1].spool_ratio, message.arm_spool_ratio, now);
+  put(to.inputs.axis[2].spool_ratio, message.bucket_spool_ratio, now);
+  put(to.inputs.valve_enabled, message.enabled, now);
+}
+
 /// Decodes and stores a payload; false, and nothing stored, if a value is out of range.
 template <class Message>
 bool decode(const dbc::Payload& payload, TimeUs now, Received& to) {
@@ -125,7 +132,9 @@ constexpr Row row() {
   constexpr TimeUs kMaxSilenceUs =
       (Message::kMaxDeltaCounter + 1) * Message::kCycleTimeMs * kMillisecondUs;
   return {Message::kId, Message::kLength, Message::kProtected,
-          E2eConfig{Message::kDataId, Message::kMaxDeltaCounter, kMaxSilenceUs}, &decode<Message>};
+          E2eConfig{Message::kDataId, Message::kMaxDeltaCounter, kMaxSilenceUs,
+                    Message::kCycleTimeMs * kMillisecondUs},
+          &decode<Message>};
 }
 
 constexpr std::array<Row, ExcavatorReceiver::kMessageCount> kRows{{
@@ -139,6 +148,7 @@ constexpr std::array<Row, ExcavatorReceiver::kMessageCount> kRows{{
     row<bus::EEC1>(),
     row<bus::OperatorCommand>(),
     row<bus::MachineIdentity>(),
+    row<bus::ValveState>(),
 }};
 
 constexpr int kNoRow = -1;
@@ -160,12 +170,14 @@ void increment(std::uint32_t& counter) {
 
 std::uint32_t LinkCounters::*counter_of(E2eCheck check) {
   switch (check) {
-    case E2eCheck::kWrongCrc:
-      return &LinkCounters::wrong_crc;
     case E2eCheck::kSynchronising:
       return &LinkCounters::synchronising;
+    case E2eCheck::kWrongCrc:
+      return &LinkCounters::wrong_crc;
     case E2eCheck::kRepeated:
     case E2eCheck::kWrongSequence:
+    case E2eCheck::kConflict:
+    case E2eCheck::kTooMany:
     case E2eCheck::kNoNewData:
     case E2eCheck::kOk:
     case E2eCheck::kSomeLost:
@@ -174,11 +186,50 @@ std::uint32_t LinkCounters::*counter_of(E2eCheck check) {
   return &LinkCounters::wrong_counter;
 }
 
+E2eMark mark_of(E2eCheck check) {
+  return e2e_accepted(check) || check == E2eCheck::kSynchronising ? E2eMark::kGood
+                                                                  : E2eMark::kSequence;
+}
+
+/// Whether the CRC is that of any protected message of the bus.
+bool is_any_message(const CanFrame& frame) {
+  bool fits = false;
+  for (const dbc::MessageInfo& message : bus::kMessages) {
+    fits = fits || (message.is_protected && e2e_crc_fits(frame.data, message.data_id));
+  }
+  return fits;
+}
+
 }  // namespace
 
-void ExcavatorReceiver::count(int row, std::uint32_t LinkCounters::*counter) {
-  increment(link_[static_cast<std::size_t>(row)].*counter);
+void ExcavatorReceiver::count(std::size_t row, std::uint32_t LinkCounters::*counter) {
+  increment(link_[row].*counter);
   increment(total_.*counter);
+}
+
+bool ExcavatorReceiver::passes_e2e(std::size_t row, const CanFrame& frame, TimeUs now) {
+  const E2eCheck check = e2e_check(kRows[row].e2e, e2e_[row], frame.data, now);
+  if (check == E2eCheck::kWrongCrc && is_any_message(frame)) {
+    e2e_note(window_[row], E2eMark::kMasquerade, now);
+    count(row, &LinkCounters::masquerade);
+    return false;
+  }
+  if (check == E2eCheck::kWrongCrc) {
+    e2e_note(window_[row], E2eMark::kCorrupt, now);
+  } else if (check != E2eCheck::kRepeated) {
+    e2e_note(window_[row], mark_of(check), now);
+  }
+  if (!e2e_accepted(check)) {
+    count(row, counter_of(check));
+    return false;
+  }
+  return true;
+}
+
+std::array<std::uint32_t, ExcavatorReceiver::kMessageCount> ExcavatorReceiver::ids() {
+  std::array<std::uint32_t, kMessageCount> ids{};
+  std::transform(kRows.begin(), kRows.end(), ids.begin(), [](const Row& row) { return row.id; });
+  return ids;
 }
 
 void ExcavatorReceiver::accept(const CanFrame& frame, TimeUs now) {
@@ -191,25 +242,36 @@ void ExcavatorReceiver::accept(const CanFrame& frame, TimeUs now) {
     increment(foreign_);
     return;
   }
-  const Row& row = kRows[static_cast<std::size_t>(index)];
+  const auto i = static_cast<std::size_t>(index);
+  const Row& row = kRows[i];
   if (!frame.extended || frame.remote || frame.fd) {
-    count(index, &LinkCounters::wrong_kind);
+    count(i, &LinkCounters::wrong_kind);
     return;
   }
   if (frame.length != row.length) {
-    count(index, &LinkCounters::wrong_length);
+    count(i, &LinkCounters::wrong_length);
     return;
   }
-  if (row.is_protected) {
-    const E2eCheck check =
-        e2e_check(row.e2e, e2e_[static_cast<std::size_t>(index)], frame.data, now);
-    if (!e2e_accepted(check)) {
-      count(index, counter_of(check));
-      return;
-    }
+  if (row.is_protected && !passes_e2e(i, frame, now)) {
+    return;
   }
-  count(index, row.decode(frame.data, now, received_) ? &LinkCounters::accepted
-                                                      : &LinkCounters::out_of_range);
+  const bool in_range = row.decode(frame.data, now, received_);
+  count(i, in_range ? &LinkCounters::accepted : &LinkCounters::out_of_range);
+  out_of_range_ = out_of_range_ || !in_range;
+}
+
+FaultSet ExcavatorReceiver::message_faults(TimeUs now) const {
+  FaultSet faults;
+  for (const E2eWindow& window : window_) {
+    faults.add(e2e_faults(window, now));
+  }
+  return faults;
+}
+
+bool ExcavatorReceiver::take_out_of_range() {
+  const bool was_out_of_range = out_of_range_;
+  out_of_range_ = false;
+  return was_out_of_range;
 }
 
 Signal<bool> same_machine(const ExcavatorIdentity& identity, std::uint32_t own_profile_hash) {

@@ -9,6 +9,7 @@
 #include "firmware/signals/excavator_signals.hpp"
 #include "hal/can_frame.hpp"
 #include "hal/e2e.hpp"
+#include "hal/e2e_window.hpp"
 #include "hal/link_counters.hpp"
 
 namespace graben {
@@ -31,7 +32,10 @@ struct ExcavatorIdentity {
 /// gets kError or kNotAvailable, value 0, and the new stamp.
 class ExcavatorReceiver {
  public:
-  static constexpr int kMessageCount = 10;
+  static constexpr int kMessageCount = 11;
+
+  /// The 29-bit ids that it keeps, for a port's filters.
+  [[nodiscard]] static std::array<std::uint32_t, kMessageCount> ids();
 
   /// `now` becomes the stamp of the signals; the frame's own stamp is not used, so that signals and
   /// control cycle share one clock.
@@ -50,6 +54,11 @@ class ExcavatorReceiver {
   [[nodiscard]] LinkCounters link(std::uint32_t id) const;
   [[nodiscard]] E2eCheck link_check(std::uint32_t id, TimeUs now) const;
 
+  /// Of all messages: kMessageCorrupt, kMessageSequence, kMessageMasquerade.
+  [[nodiscard]] FaultSet message_faults(TimeUs now) const;
+  /// Whether a value was out of range since the last call.
+  [[nodiscard]] bool take_out_of_range();
+
   /// Where the decode functions put what they found.
   struct Received {
     ExcavatorInputs inputs;
@@ -57,13 +66,16 @@ class ExcavatorReceiver {
   };
 
  private:
-  void count(int row, std::uint32_t LinkCounters::*counter);
+  void count(std::size_t row, std::uint32_t LinkCounters::*counter);
+  [[nodiscard]] bool passes_e2e(std::size_t row, const CanFrame& frame, TimeUs now);
 
   Received received_;
   std::array<E2eState, kMessageCount> e2e_{};
+  std::array<E2eWindow, kMessageCount> window_{};
   std::array<LinkCounters, kMessageCount> link_{};
   LinkCounters total_;
   std::uint32_t foreign_ = 0;
+  bool out_of_range_ = false;
 };
 
 }  // namespace graben

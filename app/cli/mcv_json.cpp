@@ -234,6 +234,8 @@ std::string limit_name(const Limit& limit) {
       return fmt::format("stroke_end[{}]", limit.index);
     case LimitKind::kRise:
       return "rise";
+    case LimitKind::kDegraded:
+      return fmt::format("degraded[{}]", limit.index);
   }
   return "unknown";
 }

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
@@ -47,8 +48,9 @@ struct Buses {
   CanPortGroup group;
 
   explicit Buses(const std::vector<std::string>& names) {
+    const auto ids = ExcavatorReceiver::ids();
     for (const std::string& name : names) {
-      ports.emplace_back(name, ExcavatorEcu::receive_ids());
+      ports.emplace_back(name, std::vector<std::uint32_t>(ids.begin(), ids.end()));
       SocketCanPort& port = ports.back();
       if (!port.open()) {
         throw std::runtime_error(name + ": " + port.last_error());
@@ -116,6 +118,10 @@ class UsageMark {
   bool set_ = false;
 };
 
+std::uint32_t small(std::uint64_t count) {
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(count, UINT32_MAX));
+}
+
 void cycle_until_stopped(ExcavatorEcu& ecu, CyclicClock& clock, Watchdog& watchdog, UsageMark& mark,
                          bool real_time) {
   for (int neutral_cycles = 0; neutral_cycles < kNeutralCycles;) {
@@ -124,13 +130,9 @@ void cycle_until_stopped(ExcavatorEcu& ecu, CyclicClock& clock, Watchdog& watchd
       ecu.request_stop();
       ++neutral_cycles;
     }
-    EcuVitals vitals;
-    vitals.cycle_time_us = cycle.last_us;
-    vitals.overruns = clock.overruns();
-    vitals.allocations = mark.allocations();
-    vitals.page_faults = mark.faults();
-    vitals.real_time = real_time;
-    ecu.step(cycle.now_us, vitals);
+    ecu.set_process_health(
+        {small(mark.allocations()), small(mark.faults()), small(clock.overruns()), real_time});
+    ecu.step(cycle.now_us, cycle.last_us);
     watchdog.cycle_done(cycle.now_us);
     if (!mark.is_set()) {
       mark.set();

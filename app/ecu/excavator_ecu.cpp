@@ -1,5 +1,10 @@
 #include "app/ecu/excavator_ecu.hpp"
 
+#include <algorithm>
+#include <limits>
+
+#include "can_dbc/generated/excavator_dbc.hpp"
+
 namespace graben::ecu {
 namespace {
 /// A cycle takes all that is pending, up to the capacity of any queue of ours; a 500 kbit/s bus
@@ -7,6 +12,22 @@ namespace {
 constexpr int kFramesPerBatch = 96;
 constexpr int kBatchesPerCycle = 4;
 constexpr TimeUs kStalled_us = 50 * kMillisecondUs;
+constexpr TimeUs kOpenAgain_us = 200 * kMillisecondUs;
+
+BusState bus_state(CanPortState state) {
+  switch (state) {
+    case CanPortState::kActive:
+      return BusState::kActive;
+    case CanPortState::kErrorPassive:
+      return BusState::kPassive;
+    case CanPortState::kBusOff:
+      return BusState::kOff;
+    case CanPortState::kClosed:
+    case CanPortState::kDown:
+      break;
+  }
+  return BusState::kDown;
+}
 }  // namespace
 
 ExcavatorEcu::ExcavatorEcu(const ExcavatorProfile& profile, std::uint32_t profile_hash,
@@ -37,21 +58,51 @@ void ExcavatorEcu::flush_after_stall(TimeUs now_us) {
   has_stepped_ = true;
 }
 
-void ExcavatorEcu::step(TimeUs now_us, TimeUs last_cycle_us) {
-  flush_after_stall(now_us);
-  receive(now_us);
+void ExcavatorEcu::watch_bus(TimeUs now_us) {
+  bus_ = bus_state(port_.state());
+  const bool is_away = bus_ == BusState::kOff || bus_ == BusState::kDown;
+  needs_open_ = needs_open_ || is_away;
+  if (needs_open_ && (!is_away || now_us >= open_from_us_)) {
+    needs_open_ = !port_.open();
+    open_from_us_ = now_us + kOpenAgain_us;
+  }
+}
+
+void ExcavatorEcu::gather_inputs(TimeUs now_us) {
   inputs_ = receiver_.inputs();
   inputs_.same_machine = same_machine(receiver_.identity(), diagnosis_.profile_hash);
+  inputs_.link.bus = bus_;
+  inputs_.link.message_faults = receiver_.message_faults(now_us);
+  inputs_.link.out_of_range = receiver_.take_out_of_range();
+  inputs_.link.dropped_cycles = dropped_cycles_;
+  inputs_.link.stop_requested = stop_requested_;
+}
+
+void ExcavatorEcu::send(const ExcavatorTransmitter::Frames& frames, int count) {
+  for (int i = 0; i < count; ++i) {
+    const CanFrame& frame = frames[static_cast<unsigned>(i)];
+    const bool sent = port_.send(frame);
+    diagnosis_.dropped_frames += sent ? 0U : 1U;
+    if (frame.id == dbc::excavator::SpoolCommand::kId) {
+      const bool at_end = dropped_cycles_ == std::numeric_limits<int>::max();
+      dropped_cycles_ = sent ? 0 : dropped_cycles_ + (at_end ? 0 : 1);
+    }
+  }
+}
+
+void ExcavatorEcu::step(TimeUs now_us, TimeUs last_cycle_us) {
+  watch_bus(now_us);
+  flush_after_stall(now_us);
+  receive(now_us);
+  // What the port has read just now counts in this cycle, what it was before opening it again too.
+  bus_ = std::max(bus_, bus_state(port_.state()));
+  gather_inputs(now_us);
   outputs_ = controller_.step(inputs_, now_us);
   diagnosis_.cycle_time_us = last_cycle_us;
   diagnosis_.rejected_frames = rejected(receiver_.total());
   ExcavatorTransmitter::Frames frames;
   const int count = transmitter_.frames(outputs_, diagnosis_, now_us, frames);
-  for (int i = 0; i < count; ++i) {
-    if (!port_.send(frames[static_cast<unsigned>(i)])) {
-      ++dropped_;
-    }
-  }
+  send(frames, count);
 }
 
 }  // namespace graben::ecu

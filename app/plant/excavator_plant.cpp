@@ -25,6 +25,8 @@ ExcavatorPlant::ExcavatorPlant(const PlantProfile& profile, const AxisArray& sta
                ValveSection(profile, kBucket)},
       cylinder_{Cylinder(profile, kBoom), Cylinder(profile, kArm), Cylinder(profile, kBucket)},
       links_(profile),
+      wanted_swash_(profile.swash_ratio),
+      swash_share_(-std::expm1(-step_s_ / profile.swash_time_constant_s)),
       dead_time_{DeadTime(profile.dead_time_s[kBoom], step_s_),
                  DeadTime(profile.dead_time_s[kArm], step_s_),
                  DeadTime(profile.dead_time_s[kBucket], step_s_)} {
@@ -99,11 +101,29 @@ SectionPorts ExcavatorPlant::ports_of(std::size_t axis) const {
           cylinder.rod_cushion_pas2pm6()};
 }
 
+double ExcavatorPlant::spool_target(std::size_t axis, double duty_ratio) const {
+  const PilotFault& pilot = pilot_[axis];
+  if (pilot_cut_) {
+    return 0.0;
+  }
+  return pilot.held_ratio ? *pilot.held_ratio : duty_ratio + pilot.offset_ratio;
+}
+
+void ExcavatorPlant::move_swash() {
+  for (std::size_t i = 0; i < kPumpCount; ++i) {
+    const double missing = wanted_swash_[i] - pump_[i].swash_ratio();
+    if (missing != 0.0) {
+      pump_[i].set_swash(pump_[i].swash_ratio() + swash_share_ * missing);
+    }
+  }
+}
+
 void ExcavatorPlant::step() {
   push_tip();
+  move_swash();
   std::array<PistonLoad, kAxisCount> load;
   for (std::size_t i = 0; i < kAxisCount; ++i) {
-    section_[i].set_command(dead_time_[i].step(duty_[i]));
+    section_[i].set_command(spool_target(i, dead_time_[i].step(duty_[i])));
     PumpLine& pump = pump_[pump_of_[i]];
     const SectionPorts ports = ports_of(i);
     flows_[i] = section_[i].solve(ports);
@@ -198,6 +218,10 @@ ExcavatorPlant::AxisArray ExcavatorPlant::rod_pressures_pa() const {
 ExcavatorPlant::AxisArray ExcavatorPlant::spool_travels_ratio() const {
   return {section_[0].spool().travel_ratio(), section_[1].spool().travel_ratio(),
           section_[2].spool().travel_ratio()};
+}
+
+ExcavatorPlant::PumpArray ExcavatorPlant::swash_ratios() const {
+  return {pump_[0].swash_ratio(), pump_[1].swash_ratio()};
 }
 
 ExcavatorPlant::PumpArray ExcavatorPlant::pump_pressures_pa() const {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 
 #include "app/plant/cylinder.hpp"
 #include "app/plant/dead_time.hpp"
@@ -37,6 +38,16 @@ class ExcavatorPlant {
   /// Duty -1 .. 1 is the wanted spool travel in units of full travel; without `enable` neutral.
   /// A value that is not finite counts as 0.
   void set_duty(const AxisArray& duty_ratio, bool enable);
+  /// Wanted swash of each pump, followed with a first-order lag; at the start the profile's.
+  void set_swash(const PumpArray& swash_ratio) { wanted_swash_ = swash_ratio; }
+  /// Without pilot pressure every spool centres by its springs, with no dead time, whatever its
+  /// pilot valve does.
+  void set_pilot_cut(bool cut) { pilot_cut_ = cut; }
+  /// A pilot valve that sends its spool to `held_ratio` whatever the duty, or `offset_ratio` beyond
+  /// what the duty asks for.
+  void set_pilot_fault(std::size_t axis, std::optional<double> held_ratio, double offset_ratio) {
+    pilot_[axis] = {held_ratio, offset_ratio};
+  }
   /// Force on the bucket tip beside soil and obstacle, N, x forward and y up, until changed.
   void set_tip_force(const Eigen::Vector2d& force_n) { outer_force_n_ = force_n; }
 
@@ -54,7 +65,9 @@ class ExcavatorPlant {
   /// while a make-up check is open, and no lower than boiling.
   [[nodiscard]] AxisArray cap_pressures_pa() const;
   [[nodiscard]] AxisArray rod_pressures_pa() const;
+  /// Position x / x_m of each spool: of its whole travel, the deadband included.
   [[nodiscard]] AxisArray spool_travels_ratio() const;
+  [[nodiscard]] PumpArray swash_ratios() const;
   [[nodiscard]] PumpArray pump_pressures_pa() const;
   /// Delivery after leakage, before the relief valve.
   [[nodiscard]] PumpArray pump_flows_m3ps() const;
@@ -80,6 +93,14 @@ class ExcavatorPlant {
                                          double hose_m3ps, double cushion_pas2pm6) const;
   void set_bypasses();
   void push_tip();
+  void move_swash();
+  /// Where a spool is sent; `duty_ratio` is the duty that has got through its dead time.
+  [[nodiscard]] double spool_target(std::size_t axis, double duty_ratio) const;
+
+  struct PilotFault {
+    std::optional<double> held_ratio;
+    double offset_ratio = 0.0;
+  };
 
   PlantProfile profile_;
   double step_s_;
@@ -93,6 +114,10 @@ class ExcavatorPlant {
   std::array<Cylinder, kAxisCount> cylinder_;
   LinkageDynamics links_;
   AxisArray duty_{};
+  std::array<PilotFault, kAxisCount> pilot_;
+  bool pilot_cut_ = false;
+  PumpArray wanted_swash_;
+  double swash_share_;  ///< Of the way to the wanted swash, in a step.
   std::array<DeadTime, kAxisCount> dead_time_;
   std::optional<Soil> soil_;
   std::optional<Obstacle> obstacle_;

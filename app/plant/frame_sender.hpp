@@ -2,32 +2,25 @@
 /// Messages of the DBC to frames on a port, with counter and CRC where the DBC asks for them.
 
 #include <cstdint>
+#include <deque>
 #include <map>
-#include <set>
 
+#include "app/plant/plant_faults.hpp"
 #include "can_dbc/codec.hpp"
+#include "can_dbc/generated/excavator_dbc.hpp"
 #include "hal/can_port.hpp"
 #include "hal/e2e.hpp"
 
 namespace graben::plant {
 
-/// A simulated node's way out. A silenced message is not sent and its counter stands still, as if
-/// its sender had stopped.
+/// A simulated node's way out, and where its frames are spoilt.
 class FrameSender {
  public:
   explicit FrameSender(CanPort& port) : port_(port) {}
 
-  void set_silent(std::uint32_t id, bool silent) {
-    if (silent) {
-      silent_.insert(id);
-    } else {
-      silent_.erase(id);
-    }
-  }
-
   template <class Message>
-  void send(const Message& message, TimeUs now) {
-    if (silent_.count(Message::kId) != 0) {
+  void send(const Message& message, const FrameFaults& faults, TimeUs now) {
+    if (faults.silent.count(Message::kId) != 0) {
       return;
     }
     CanFrame frame;
@@ -37,11 +30,26 @@ class FrameSender {
     frame.stamp_us = now;
     if (Message::kProtected) {
       std::uint8_t& counter = counter_[Message::kId];
-      e2e_protect(frame.data, Message::kDataId, counter);
-      counter = e2e_next_counter(counter);
+      e2e_protect(frame.data, data_id(Message::kId, Message::kDataId, faults), counter);
+      if (faults.frozen_counter.count(Message::kId) == 0) {
+        counter = e2e_next_counter(counter);
+      }
     }
-    if (!port_.send(frame)) {
-      ++dropped_;
+    if (faults.delay_us > 0) {
+      late_.push_back({now + faults.delay_us, frame});
+    } else {
+      put(frame);
+    }
+  }
+
+  /// Sends what has been delayed for long enough; to be called every cycle.
+  void send_late(const FrameFaults& faults, TimeUs now) {
+    if (faults.delay_us <= 0) {
+      late_.clear();
+    }
+    while (!late_.empty() && late_.front().first <= now) {
+      put(late_.front().second);
+      late_.pop_front();
     }
   }
 
@@ -49,9 +57,29 @@ class FrameSender {
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
 
  private:
+  static std::uint16_t data_id(std::uint32_t id, std::uint16_t own, const FrameFaults& faults) {
+    if (!faults.swapped_data_ids) {
+      return own;
+    }
+    const auto& [one, other] = *faults.swapped_data_ids;
+    const std::uint32_t partner = id == one ? other : id == other ? one : id;
+    for (const dbc::MessageInfo& message : dbc::excavator::kMessages) {
+      if (message.id == partner) {
+        return message.data_id;
+      }
+    }
+    return own;
+  }
+
+  void put(const CanFrame& frame) {
+    if (!port_.send(frame)) {
+      ++dropped_;
+    }
+  }
+
   CanPort& port_;
-  std::set<std::uint32_t> silent_;
   std::map<std::uint32_t, std::uint8_t> counter_;
+  std::deque<std::pair<TimeUs, CanFrame>> late_;
   std::uint64_t dropped_ = 0;
 };
 

@@ -31,7 +31,7 @@ OperatorRequest OperatorNode::request_at(TimeUs now) const {
   return request;
 }
 
-void OperatorNode::set_silent(bool silent) { sender_.set_silent(Command::kId, silent); }
+void OperatorNode::set_silent(bool silent) { faults_.set_silent(Command::kId, silent); }
 
 void OperatorNode::step(TimeUs now) {
   std::array<CanFrame, kFramesPerRead> ignored;
@@ -45,7 +45,7 @@ void OperatorNode::step(TimeUs now) {
   command.operator_mode = coded<Command::OperatorMode>(request.mode);
   command.task = coded<Command::Task>(request.task);
   command.speed_override_ratio = {request.speed_override_ratio, RawState::kValid};
-  sender_.send(command, now);
+  sender_.send(command, faults_.frames, now);
 }
 
 }  // namespace graben::plant

@@ -43,6 +43,7 @@ class OperatorNode {
  private:
   CanPort& port_;
   FrameSender sender_;
+  PlantFaults faults_;
   std::vector<OperatorPhase> schedule_;
   std::uint64_t cycle_ = 0;
 };

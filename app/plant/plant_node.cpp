@@ -9,18 +9,23 @@ namespace bus = dbc::excavator;
 using dbc::Physical;
 using dbc::RawState;
 
-constexpr E2eConfig kCommandE2e{bus::SpoolCommand::kDataId, bus::SpoolCommand::kMaxDeltaCounter,
-                                PlantNode::kCommandTimeoutUs};
+template <class Message>
+constexpr E2eConfig config_of() {
+  return {Message::kDataId, Message::kMaxDeltaCounter, PlantNode::kCommandTimeoutUs,
+          Message::kCycleTimeMs * kMillisecondUs};
+}
+
 // A cycle takes no more than this, so that a flood on the bus cannot stop the simulation.
 constexpr int kFramesPerRead = 64;
 constexpr int kReadsPerCycle = 64;
 constexpr std::uint64_t kPumpCycles = bus::PumpState::kCycleTimeMs / 10;
+constexpr std::uint64_t kValveCycles = bus::ValveState::kCycleTimeMs / 10;
 constexpr std::uint64_t kIdentityCycles = bus::MachineIdentity::kCycleTimeMs / 10;
 
 Physical valid(double value) { return {value, RawState::kValid}; }
 
 bool all_valid(const bus::SpoolCommand& command) {
-  return command.enable.state == RawState::kValid &&
+  return command.enable.state == RawState::kValid && command.pilot_cut.state == RawState::kValid &&
          command.boom_duty_ratio.state == RawState::kValid &&
          command.arm_duty_ratio.state == RawState::kValid &&
          command.bucket_duty_ratio.state == RawState::kValid;
@@ -31,27 +36,70 @@ bool all_valid(const bus::SpoolCommand& command) {
 PlantNode::PlantNode(const PlantProfile& profile, const ExcavatorPlant::AxisArray& start_strokes_m,
                      CanPort& port, std::uint32_t profile_hash)
     : plant_(profile, start_strokes_m),
-      sensors_(profile.sensors, profile.sensor_errors ? std::optional(profile.seed) : std::nullopt),
+      sensors_(profile),
       port_(port),
       sender_(port),
-      profile_hash_(profile_hash) {}
+      profile_hash_(profile_hash),
+      wanted_swash_(profile.swash_ratio) {}
+
+bool PlantNode::CommandLink::accepts(const E2eConfig& config, const CanFrame& frame, TimeUs now) {
+  constexpr std::uint8_t kLength = 8;
+  if (!frame.extended || frame.remote || frame.error || frame.fd || frame.length != kLength) {
+    ++counters.wrong_format;
+    return false;
+  }
+  if (!e2e_accepted(e2e_check(config, e2e, frame.data, now))) {
+    ++counters.rejected;
+    return false;
+  }
+  ++counters.accepted;
+  alive = true;
+  last_us = now;
+  return true;
+}
+
+bool PlantNode::CommandLink::dies(TimeUs now) {
+  if (!alive || now - last_us < kCommandTimeoutUs) {
+    return false;
+  }
+  ++counters.timeouts;
+  alive = false;
+  return true;
+}
 
 void PlantNode::step(TimeUs now) {
   receive(now);
-  if (command_alive_ && now - last_command_us_ >= kCommandTimeoutUs) {
-    ++counters_.timeouts;
-    command_alive_ = false;
+  if (spool_link_.dies(now)) {
     go_neutral();
   }
+  if (pump_link_.dies(now)) {
+    wanted_swash_ = plant_.profile().swash_ratio;
+  }
+  apply_faults();
   plant_.advance(kCycleUs);
+  sender_.send_late(faults_.frames, now);
   send_axes(now);
   if (cycle_ % kPumpCycles == 0) {
     send_pumps(now);
+  }
+  if (cycle_ % kValveCycles == 1) {
+    send_valve(now);
   }
   if (cycle_ % kIdentityCycles == 0) {
     send_identity(now);
   }
   ++cycle_;
+}
+
+void PlantNode::apply_faults() {
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    plant_.set_pilot_fault(i, faults_.axis[i].spool_held_ratio, faults_.axis[i].spool_offset_ratio);
+  }
+  ExcavatorPlant::PumpArray swash = wanted_swash_;
+  for (std::size_t i = 0; i < kPumpCount; ++i) {
+    swash[i] = faults_.pump[i].actual_swash_ratio.value_or(swash[i]);
+  }
+  plant_.set_swash(swash);
 }
 
 void PlantNode::receive(TimeUs now) {
@@ -60,8 +108,11 @@ void PlantNode::receive(TimeUs now) {
     const int count = port_.receive(frames.data(), kFramesPerRead);
     for (int i = 0; i < count; ++i) {
       const CanFrame& frame = frames[static_cast<std::size_t>(i)];
-      if (frame.id == bus::SpoolCommand::kId) {
-        take_command(frame, now);
+      if (frame.id == bus::SpoolCommand::kId && !faults_.loses_spool_commands) {
+        take_spool_command(frame, now);
+      }
+      if (frame.id == bus::PumpCommand::kId) {
+        take_pump_command(frame, now);
       }
     }
     if (count < kFramesPerRead) {
@@ -70,20 +121,14 @@ void PlantNode::receive(TimeUs now) {
   }
 }
 
-void PlantNode::take_command(const CanFrame& frame, TimeUs now) {
-  if (!frame.extended || frame.remote || frame.error || frame.fd ||
-      frame.length != bus::SpoolCommand::kLength) {
-    ++counters_.wrong_format;
+void PlantNode::take_spool_command(const CanFrame& frame, TimeUs now) {
+  if (!spool_link_.accepts(config_of<bus::SpoolCommand>(), frame, now)) {
     return;
   }
-  if (!e2e_accepted(e2e_check(kCommandE2e, command_e2e_, frame.data, now))) {
-    ++counters_.rejected;
-    return;
-  }
-  ++counters_.accepted;
-  command_alive_ = true;
-  last_command_us_ = now;
   const bus::SpoolCommand command = bus::SpoolCommand::decode(frame.data);
+  if (command.pilot_cut.state == RawState::kValid) {
+    plant_.set_pilot_cut(command.pilot_cut.value == bus::SpoolCommand::PilotCut::kOn);
+  }
   if (!all_valid(command) || command.enable.value != bus::SpoolCommand::Enable::kOn) {
     go_neutral();
     return;
@@ -94,22 +139,32 @@ void PlantNode::take_command(const CanFrame& frame, TimeUs now) {
                   true);
 }
 
+void PlantNode::take_pump_command(const CanFrame& frame, TimeUs now) {
+  if (!pump_link_.accepts(config_of<bus::PumpCommand>(), frame, now)) {
+    return;
+  }
+  const bus::PumpCommand command = bus::PumpCommand::decode(frame.data);
+  const auto& set = plant_.profile().swash_ratio;
+  const auto wanted = [](const Physical& swash, double otherwise) {
+    return swash.state == RawState::kValid ? swash.value : otherwise;
+  };
+  wanted_swash_ = {wanted(command.pump1_swash_ratio, set[0]),
+                   wanted(command.pump2_swash_ratio, set[1])};
+}
+
 void PlantNode::go_neutral() {
   enabled_ = false;
   plant_.set_duty({}, false);
 }
 
-Physical PlantNode::stroke(std::size_t axis) const {
-  if (stroke_state_[axis] != RawState::kValid) {
-    return {0.0, stroke_state_[axis]};
-  }
-  return valid(sensors_.stroke_m(axis, plant_.strokes_m()[axis]));
+Physical PlantNode::stroke(std::size_t axis) {
+  return sensors_.stroke(axis, plant_.strokes_m()[axis], faults_.axis[axis].stroke);
 }
 
 void PlantNode::send_axes(TimeUs now) {
-  sender_.send(bus::BoomStroke{stroke(kBoom)}, now);
-  sender_.send(bus::ArmStroke{stroke(kArm)}, now);
-  sender_.send(bus::BucketStroke{stroke(kBucket)}, now);
+  send(bus::BoomStroke{stroke(kBoom)}, now);
+  send(bus::ArmStroke{stroke(kArm)}, now);
+  send(bus::BucketStroke{stroke(kBucket)}, now);
   send_pressures(now);
 }
 
@@ -119,26 +174,41 @@ void PlantNode::send_pressures(TimeUs now) {
   std::array<Physical, kAxisCount> cap_shown;
   std::array<Physical, kAxisCount> rod_shown;
   for (std::size_t i = 0; i < kAxisCount; ++i) {
-    cap_shown[i] = valid(sensors_.cap_pressure_pa(i, cap[i]));
-    rod_shown[i] = valid(sensors_.rod_pressure_pa(i, rod[i]));
+    cap_shown[i] = sensors_.cap_pressure(i, cap[i], faults_.axis[i].cap);
+    rod_shown[i] = sensors_.rod_pressure(i, rod[i], faults_.axis[i].rod);
   }
-  sender_.send(bus::BoomPressure{cap_shown[kBoom], rod_shown[kBoom]}, now);
-  sender_.send(bus::ArmPressure{cap_shown[kArm], rod_shown[kArm]}, now);
-  sender_.send(bus::BucketPressure{cap_shown[kBucket], rod_shown[kBucket]}, now);
+  send(bus::BoomPressure{cap_shown[kBoom], rod_shown[kBoom]}, now);
+  send(bus::ArmPressure{cap_shown[kArm], rod_shown[kArm]}, now);
+  send(bus::BucketPressure{cap_shown[kBucket], rod_shown[kBucket]}, now);
 }
 
 void PlantNode::send_pumps(TimeUs now) {
-  const PlantProfile& profile = plant_.profile();
-  sender_.send(bus::PumpState{valid(profile.swash_ratio[0]), valid(profile.swash_ratio[1])}, now);
+  ExcavatorPlant::PumpArray swash = plant_.swash_ratios();
+  for (std::size_t i = 0; i < kPumpCount; ++i) {
+    swash[i] = faults_.pump[i].shown_swash_ratio.value_or(swash[i]);
+  }
+  send(bus::PumpState{valid(swash[0]), valid(swash[1])}, now);
   // One engine drives both pumps at the same speed.
-  sender_.send(bus::EEC1{valid(profile.machine.pump[0].rated_speed_radps)}, now);
+  send(bus::EEC1{valid(plant_.profile().machine.pump[0].rated_speed_radps)}, now);
+}
+
+void PlantNode::send_valve(TimeUs now) {
+  const auto spool = plant_.spool_travels_ratio();
+  bus::ValveState message;
+  message.enabled = {enabled_ ? bus::ValveState::Enabled::kOn : bus::ValveState::Enabled::kOff,
+                     RawState::kValid};
+  message.boom_spool_ratio = valid(spool[kBoom]);
+  message.arm_spool_ratio = valid(spool[kArm]);
+  message.bucket_spool_ratio = valid(spool[kBucket]);
+  send(message, now);
 }
 
 void PlantNode::send_identity(TimeUs now) {
   bus::MachineIdentity message;
-  message.profile_hash = {profile_hash_, RawState::kValid};
+  message.profile_hash = {faults_.wrong_identity ? ~profile_hash_ : profile_hash_,
+                          RawState::kValid};
   message.dbc_version = {bus::kDbcVersion, RawState::kValid};
-  sender_.send(message, now);
+  send(message, now);
 }
 
 }  // namespace graben::plant

@@ -5,25 +5,27 @@
 #include <cstdint>
 
 #include "app/plant/excavator_plant.hpp"
+#include "app/plant/faulty_sensors.hpp"
 #include "app/plant/frame_sender.hpp"
-#include "app/plant/sensor_model.hpp"
-#include "can_dbc/codec.hpp"
+#include "app/plant/plant_faults.hpp"
 #include "hal/can_port.hpp"
 #include "hal/e2e.hpp"
 
 namespace graben::plant {
 
-/// What became of the frames with the spool command's id.
+/// What became of the frames of a command, by its id.
 struct CommandCounters {
   std::uint64_t accepted = 0;
   std::uint64_t wrong_format = 0;  ///< 11 bit, remote, error, FD or wrong length.
   std::uint64_t rejected = 0;      ///< By CRC or counter, or while synchronising.
-  std::uint64_t timeouts = 0;      ///< Times that the spools went to neutral for lack of a command.
+  std::uint64_t timeouts = 0;      ///< Times that it had to do without the command.
 };
 
 /// The bus port belongs to the caller, who opens it. Without a command for `kCommandTimeoutUs`,
 /// with enable off or unusable, or with an unusable duty every spool is sent to neutral, which
-/// takes its dead time.
+/// takes its dead time. With PilotCut On every spool centres at once, until it is Off; an unusable
+/// one changes nothing of that and is neutral like the others. A pump follows PumpCommand; without
+/// it for as long, or without a value, it goes back to the profile's swash.
 class PlantNode {
  public:
   static constexpr TimeUs kCycleUs = 10 * kMillisecondUs;
@@ -34,42 +36,59 @@ class PlantNode {
 
   /// To be called every 10 ms: takes the commands that are pending, runs the plant on by 10 ms,
   /// then reports its state: strokes and pressures each time, pumps and engine every second time,
-  /// identity every hundredth, all of them in the first. `now` is for stamps and timeouts only.
+  /// the valve's in the times between, identity every hundredth; in the first all but the valve's.
+  /// `now` is for stamps, timeouts and delays only.
   void step(TimeUs now);
 
   [[nodiscard]] ExcavatorPlant& plant() { return plant_; }
   [[nodiscard]] const ExcavatorPlant& plant() const { return plant_; }
-  [[nodiscard]] const CommandCounters& counters() const { return counters_; }
+  [[nodiscard]] const CommandCounters& counters() const { return spool_link_.counters; }
   [[nodiscard]] bool spools_enabled() const { return enabled_; }
 
-  /// Fault switches. Silence stops one message by its 29-bit id.
-  void set_silent(std::uint32_t id, bool silent) { sender_.set_silent(id, silent); }
-  /// kValid sends the measured stroke, the others 'error' or 'not available'.
-  void set_stroke_state(int axis, dbc::RawState state) {
-    stroke_state_[static_cast<std::size_t>(axis)] = state;
-  }
+  [[nodiscard]] const CommandCounters& pump_counters() const { return pump_link_.counters; }
+
+  /// The fault switches.
+  [[nodiscard]] PlantFaults& faults() { return faults_; }
 
  private:
+  /// The way in of one command.
+  struct CommandLink {
+    E2eState e2e;
+    bool alive = false;
+    TimeUs last_us = 0;
+    CommandCounters counters;
+
+    [[nodiscard]] bool accepts(const E2eConfig& config, const CanFrame& frame, TimeUs now);
+    /// Whether the command has been missing for too long, from just now on.
+    [[nodiscard]] bool dies(TimeUs now);
+  };
+
   void receive(TimeUs now);
-  void take_command(const CanFrame& frame, TimeUs now);
+  void apply_faults();
+  void take_spool_command(const CanFrame& frame, TimeUs now);
+  void take_pump_command(const CanFrame& frame, TimeUs now);
   void go_neutral();
   void send_axes(TimeUs now);
   void send_pressures(TimeUs now);
   void send_pumps(TimeUs now);
+  void send_valve(TimeUs now);
   void send_identity(TimeUs now);
-  [[nodiscard]] dbc::Physical stroke(std::size_t axis) const;
+  [[nodiscard]] dbc::Physical stroke(std::size_t axis);
+  template <class Message>
+  void send(const Message& message, TimeUs now) {
+    sender_.send(message, faults_.frames, now);
+  }
 
   ExcavatorPlant plant_;
-  SensorModel sensors_;
+  FaultySensors sensors_;
   CanPort& port_;
   FrameSender sender_;
   std::uint32_t profile_hash_;
-  std::array<dbc::RawState, kAxisCount> stroke_state_{};
-  E2eState command_e2e_;
+  PlantFaults faults_;
+  CommandLink spool_link_;
+  CommandLink pump_link_;
   bool enabled_ = false;
-  bool command_alive_ = false;
-  TimeUs last_command_us_ = 0;
-  CommandCounters counters_;
+  ExcavatorPlant::PumpArray wanted_swash_;
   std::uint64_t cycle_ = 0;
 };
 

@@ -57,7 +57,7 @@ struct PlantProfile {
   std::array<double, kPumpCount> line_volume_m3{};
   double port_relief_pa = 0.0;  ///< Opening pressure of the relief at each cylinder port.
 
-  std::array<double, kPumpCount> swash_ratio{};  ///< Of full swash, constant.
+  std::array<double, kPumpCount> swash_ratio{};  ///< Of full swash, unless commanded.
   SensorErrors sensors;
   /// Seed of the sensors' bias and noise and of the soil's random part.
   std::uint64_t seed = 0;
@@ -68,6 +68,10 @@ struct PlantProfile {
   std::optional<ObstacleProfile> obstacle;
 
   // No source gives the figures below; each default says why it is what it is.
+
+  /// First-order lag from a commanded swash to the pump's. Chosen: regulators of the class take 0.1
+  /// to 0.3 s over their whole range.
+  double swash_time_constant_s = 0.1;
 
   /// Laminar leakage past the piston, m^3/(s Pa). 2e-14 is 12 mL/min at 10 MPa: the boom sinks by
   /// about 3 mm in 5 min, within the 5 - 20 mm that makers of the class allow.

@@ -18,14 +18,20 @@ PumpLine::PumpLine(const PlantProfile& profile, int pump, std::size_t section_co
     : line_(2 + 2 * section_count, profile.oil(), profile.step_s()) {
   const auto index = static_cast<std::size_t>(pump);
   const PumpProfile& data = profile.machine.pump[index];
-  swash_ = profile.swash_ratio[index];
-  ideal_flow_ = data.displacement_m3prev * swash_ * data.rated_speed_radps / kTwoPi;
+  displacement_m3prev_ = data.displacement_m3prev;
+  speed_radps_ = data.rated_speed_radps;
+  set_swash(profile.swash_ratio[index]);
   leak_linear_ = data.leak_linear;
   leak_quadratic_ = data.leak_quadratic;
   protection_ = profile.protection(data.relief_pa);
   fixed_inverse_square_ =
       inverse_square(data.bypass_series[0]) + inverse_square(data.bypass_series[1]);
   volume_ = profile.line_volume_m3[index];
+}
+
+void PumpLine::set_swash(double swash_ratio) {
+  swash_ = swash_ratio;
+  ideal_flow_ = displacement_m3prev_ * swash_ * speed_radps_ / kTwoPi;
 }
 
 void PumpLine::set_section_flows(std::size_t section, double supply_out_m3ps,

@@ -17,9 +17,9 @@ struct PumpFlows {
   double bypass_port_pa = 0.0;
 };
 
-/// Constant-displacement delivery less leakage, (25), into a compressible line. Each valve section
-/// on the pump has two ports of the line: supply and regeneration. Relief and suction make-up sit
-/// at the pump. The bypass chain is one orifice from line to tank.
+/// Delivery at the swash that is set, less leakage, (25), into a compressible line. Each valve
+/// section on the pump has two ports of the line: supply and regeneration. Relief and suction
+/// make-up sit at the pump. The bypass chain is one orifice from line to tank.
 class PumpLine {
  public:
   PumpLine(const PlantProfile& profile, int pump, std::size_t section_count);
@@ -35,6 +35,8 @@ class PumpLine {
   /// Composite coefficient of fixed orifices and spool bypasses in a row, from
   /// sum(1 / c^2) over the sections, (21), (22).
   void set_bypass(double inverse_square_of_sections);
+  /// Of full swash.
+  void set_swash(double swash_ratio);
   /// Solves pump and bypass and ends the step.
   void step();
   /// Starts in the standby that the bypass set before gives.
@@ -52,10 +54,12 @@ class PumpLine {
   WaveVolume line_;
   double volume_;
   PortProtection protection_;
-  double ideal_flow_;
+  double displacement_m3prev_ = 0.0;
+  double speed_radps_ = 0.0;
+  double ideal_flow_ = 0.0;
   double leak_linear_;
   double leak_quadratic_;
-  double swash_;
+  double swash_ = 0.0;
   double fixed_inverse_square_;
   double k_bypass_ = 0.0;
   PumpFlows flows_;

@@ -16,7 +16,7 @@
 
 namespace graben::dbc::excavator {
 
-inline constexpr std::uint8_t kDbcVersion = 1;
+inline constexpr std::uint8_t kDbcVersion = 2;
 
 /// Measured stroke of the boom cylinder.
 struct BoomStroke {
@@ -376,6 +376,61 @@ struct MachineIdentity {
   constexpr Payload encode() const { return encode_message(*this); }
 };
 
+/// What the valve side measures and does.
+struct ValveState {
+  static constexpr const char* kName = "ValveState";
+  static constexpr const char* kSender = "Valve";
+  static constexpr std::uint32_t kId = 0x0CFF2983;
+  static constexpr std::uint8_t kLength = 8;
+  static constexpr std::uint16_t kCycleTimeMs = 20;
+  static constexpr bool kProtected = true;
+  static constexpr std::uint16_t kDataId = 0xFF29;
+  static constexpr std::uint8_t kMaxDeltaCounter = 2;
+
+  enum class Enabled : std::uint8_t {
+    kOff = 0,
+    kOn = 1,
+  };
+
+  static constexpr Field kEnabled{
+      "Enabled", "", 12, 2, 0U, 1U, 2, 3, 3U,
+      0, 1.0, 1.0};
+  static constexpr Field kBoomSpool{
+      "BoomSpool", "", 16, 16, 12000U, 52000U, 65279, 65535, 65535U,
+      -32000, 1.0, 20000.0};
+  static constexpr Field kArmSpool{
+      "ArmSpool", "", 32, 16, 12000U, 52000U, 65279, 65535, 65535U,
+      -32000, 1.0, 20000.0};
+  static constexpr Field kBucketSpool{
+      "BucketSpool", "", 48, 16, 12000U, 52000U, 65279, 65535, 65535U,
+      -32000, 1.0, 20000.0};
+
+  /// Echo: the enable that the valve side acts on; spools are held closed while it is Off.
+  Coded<Enabled> enabled{{}, RawState::kNotAvailable};
+  /// Measured position of the boom spool over its full travel x_m, deadband included; positive
+  /// extends the cylinder. [-1000 .. 1000 per mille on the bus]
+  Physical boom_spool_ratio{0.0, RawState::kNotAvailable};
+  /// Measured position of the arm spool over its full travel x_m, deadband included; positive
+  /// extends the cylinder. [-1000 .. 1000 per mille on the bus]
+  Physical arm_spool_ratio{0.0, RawState::kNotAvailable};
+  /// Measured position of the bucket spool over its full travel x_m, deadband included; positive
+  /// extends the cylinder. [-1000 .. 1000 per mille on the bus]
+  Physical bucket_spool_ratio{0.0, RawState::kNotAvailable};
+
+  /// Calls visitor(field, signal) for each signal.
+  template <class Self, class Visitor>
+  static constexpr void visit(Self& self, Visitor&& visitor) {
+    visitor(kEnabled, self.enabled);
+    visitor(kBoomSpool, self.boom_spool_ratio);
+    visitor(kArmSpool, self.arm_spool_ratio);
+    visitor(kBucketSpool, self.bucket_spool_ratio);
+  }
+  static constexpr ValveState decode(const Payload& payload) {
+    return decode_message<ValveState>(payload);
+  }
+  constexpr Payload encode() const { return encode_message(*this); }
+};
+
 /// Commands to the pilot valves. The valve side closes every spool without it.
 struct SpoolCommand {
   static constexpr const char* kName = "SpoolCommand";
@@ -392,8 +447,16 @@ struct SpoolCommand {
     kOn = 1,
   };
 
+  enum class PilotCut : std::uint8_t {
+    kOff = 0,
+    kOn = 1,
+  };
+
   static constexpr Field kEnable{
       "Enable", "", 12, 2, 0U, 1U, 2, 3, 0U,
+      0, 1.0, 1.0};
+  static constexpr Field kPilotCut{
+      "PilotCut", "", 14, 2, 0U, 1U, 2, 3, 0U,
       0, 1.0, 1.0};
   static constexpr Field kBoomDuty{
       "BoomDuty", "", 16, 16, 12000U, 52000U, 65279, 65535, 32000U,
@@ -407,6 +470,9 @@ struct SpoolCommand {
 
   /// Spools may open only while it is On.
   Coded<Enable> enable{Enable::kOff, RawState::kValid};
+  /// On asks for the pilot pressure to be cut: every spool centres by its springs, whatever holds
+  /// it.
+  Coded<PilotCut> pilot_cut{PilotCut::kOff, RawState::kValid};
   /// Duty of the boom spool; positive extends the cylinder, 0 is neutral. [-1000 .. 1000 per mille
   /// on the bus]
   Physical boom_duty_ratio{physical_of(kBoomDuty, 32000U), RawState::kValid};
@@ -421,12 +487,51 @@ struct SpoolCommand {
   template <class Self, class Visitor>
   static constexpr void visit(Self& self, Visitor&& visitor) {
     visitor(kEnable, self.enable);
+    visitor(kPilotCut, self.pilot_cut);
     visitor(kBoomDuty, self.boom_duty_ratio);
     visitor(kArmDuty, self.arm_duty_ratio);
     visitor(kBucketDuty, self.bucket_duty_ratio);
   }
   static constexpr SpoolCommand decode(const Payload& payload) {
     return decode_message<SpoolCommand>(payload);
+  }
+  constexpr Payload encode() const { return encode_message(*this); }
+};
+
+/// Commands to the pumps. Without it, or without a value, a pump keeps the swash that the machine
+/// is set to.
+struct PumpCommand {
+  static constexpr const char* kName = "PumpCommand";
+  static constexpr const char* kSender = "Graben";
+  static constexpr std::uint32_t kId = 0x0CFF3582;
+  static constexpr std::uint8_t kLength = 8;
+  static constexpr std::uint16_t kCycleTimeMs = 20;
+  static constexpr bool kProtected = true;
+  static constexpr std::uint16_t kDataId = 0xFF35;
+  static constexpr std::uint8_t kMaxDeltaCounter = 2;
+
+  static constexpr Field kPump1Swash{
+      "Pump1Swash", "", 16, 16, 0U, 60000U, 65279, 65535, 65535U,
+      0, 1.0, 50000.0};
+  static constexpr Field kPump2Swash{
+      "Pump2Swash", "", 32, 16, 0U, 60000U, 65279, 65535, 65535U,
+      0, 1.0, 50000.0};
+
+  /// Wanted swash of pump 1: tan(alpha) over tan(alpha at full swash); not available: not
+  /// commanded. [0 .. 120 % on the bus]
+  Physical pump1_swash_ratio{0.0, RawState::kNotAvailable};
+  /// Wanted swash of pump 2: tan(alpha) over tan(alpha at full swash); not available: not
+  /// commanded. [0 .. 120 % on the bus]
+  Physical pump2_swash_ratio{0.0, RawState::kNotAvailable};
+
+  /// Calls visitor(field, signal) for each signal.
+  template <class Self, class Visitor>
+  static constexpr void visit(Self& self, Visitor&& visitor) {
+    visitor(kPump1Swash, self.pump1_swash_ratio);
+    visitor(kPump2Swash, self.pump2_swash_ratio);
+  }
+  static constexpr PumpCommand decode(const Payload& payload) {
+    return decode_message<PumpCommand>(payload);
   }
   constexpr Payload encode() const { return encode_message(*this); }
 };
@@ -458,6 +563,7 @@ struct EcuStatus {
     kSpoolTravel = 3,
     kStrokeEnd = 4,
     kRise = 5,
+    kDegraded = 6,
   };
 
   enum class Fault : std::uint8_t {
@@ -473,22 +579,41 @@ struct EcuStatus {
     kCommandNotFinite = 9,
     kCycleStalled = 10,
     kIdentityMismatch = 11,
+    kBusOff = 12,
+    kBusPassive = 13,
+    kBusDown = 14,
+    kTransmitFailed = 15,
+    kCycleOverrun = 16,
+    kMessageCorrupt = 17,
+    kMessageSequence = 18,
+    kMessageMasquerade = 19,
+    kSpoolMissing = 20,
+    kSpoolStuck = 21,
+    kUncommandedMotion = 22,
+    kStrokeStuck = 23,
+    kStrokeJump = 24,
+    kPressureImplausible = 25,
+    kSwashDisagrees = 26,
+    kMemoryCorrupt = 27,
+    kValveNotFollowing = 28,
+    kValueOutOfRange = 29,
+    kSensorError = 30,
   };
 
   static constexpr Field kMode{
       "Mode", "", 0, 4, 0U, 5U, 14, 15, 0U,
       0, 1.0, 1.0};
   static constexpr Field kLimitKind{
-      "LimitKind", "", 4, 4, 0U, 5U, 14, 15, 0U,
+      "LimitKind", "", 4, 4, 0U, 6U, 14, 15, 0U,
       0, 1.0, 1.0};
   static constexpr Field kLimitIndex{
-      "LimitIndex", "", 8, 4, 0U, 13U, 14, 15, 0U,
+      "LimitIndex", "", 8, 8, 0U, 250U, 254, 255, 0U,
       0, 1.0, 1.0};
   static constexpr Field kLambda{
       "Lambda", "", 16, 16, 0U, 50000U, 65279, 65535, 0U,
       0, 1.0, 50000.0};
   static constexpr Field kFault{
-      "Fault", "", 32, 8, 0U, 11U, 254, 255, 0U,
+      "Fault", "", 32, 8, 0U, 30U, 254, 255, 0U,
       0, 1.0, 1.0};
   static constexpr Field kCycleTime{
       "CycleTime", "us", 40, 16, 0U, 64255U, 65279, 65535, 0U,
@@ -501,12 +626,12 @@ struct EcuStatus {
   Coded<Mode> mode{Mode::kSilent, RawState::kValid};
   /// What holds Lambda below 1.
   Coded<LimitKind> limit_kind{LimitKind::kNone, RawState::kValid};
-  /// Whose limit it is: the index of the pump for PumpFlow, else of the actuator (boom 0, arm 1,
-  /// bucket 2). [0 .. 13 on the bus]
+  /// Whose limit it is: the index of the pump for PumpFlow, the number of the Fault for Degraded,
+  /// else the index of the actuator (boom 0, arm 1, bucket 2). [0 .. 250 on the bus]
   Count limit_index{0U, RawState::kValid};
   /// Share of the wanted velocity that the hydraulics can follow. [0 .. 1 on the bus]
   Physical lambda{physical_of(kLambda, 0U), RawState::kValid};
-  /// What stopped the machine.
+  /// What stopped the machine; else what slows it; else what is missing.
   Coded<Fault> fault{Fault::kNone, RawState::kValid};
   /// Time that the last control cycle took; stays at its maximum beyond it. [0 .. 64255 us on the
   /// bus]
@@ -650,6 +775,178 @@ struct EcuIdentity {
   constexpr Payload encode() const { return encode_message(*this); }
 };
 
+/// Why the controller is not armed, and how its process fares.
+struct EcuHealth {
+  static constexpr const char* kName = "EcuHealth";
+  static constexpr const char* kSender = "Graben";
+  static constexpr std::uint32_t kId = 0x18FF3682;
+  static constexpr std::uint8_t kLength = 8;
+  static constexpr std::uint16_t kCycleTimeMs = 100;
+  static constexpr bool kProtected = false;
+  static constexpr std::uint16_t kDataId = 0x0000;
+  static constexpr std::uint8_t kMaxDeltaCounter = 0;
+
+  enum class RealTime : std::uint8_t {
+    kOff = 0,
+    kOn = 1,
+  };
+
+  static constexpr Field kWhyNotArmed{
+      "WhyNotArmed", "", 0, 16, 0U, 65535U, -1, -1, 0U,
+      0, 1.0, 1.0};
+  static constexpr Field kAllocations{
+      "Allocations", "", 16, 8, 0U, 250U, 254, 255, 255U,
+      0, 1.0, 1.0};
+  static constexpr Field kPageFaults{
+      "PageFaults", "", 24, 8, 0U, 250U, 254, 255, 255U,
+      0, 1.0, 1.0};
+  static constexpr Field kOverruns{
+      "Overruns", "", 32, 8, 0U, 250U, 254, 255, 255U,
+      0, 1.0, 1.0};
+  static constexpr Field kDroppedFrames{
+      "DroppedFrames", "", 40, 8, 0U, 250U, 254, 255, 255U,
+      0, 1.0, 1.0};
+  static constexpr Field kRealTime{
+      "RealTime", "", 48, 2, 0U, 1U, 2, 3, 0U,
+      0, 1.0, 1.0};
+
+  /// A bit for each reason, from bit 0: stroke, pressure, swash, engine speed, operator, spool,
+  /// identity, bus, messages, implausible, cycle, manual, task not at rest, enable not fresh, fault
+  /// latched, stopping. 0 when armed. [0 .. 65535 on the bus]
+  Count why_not_armed{0U, RawState::kValid};
+  /// Heap allocations of the process since its first cycle; stays at 250 from there on. [0 .. 250
+  /// on the bus]
+  Count allocations{0U, RawState::kNotAvailable};
+  /// Page faults of the control thread since its first cycle; stays at 250 from there on. [0 .. 250
+  /// on the bus]
+  Count page_faults{0U, RawState::kNotAvailable};
+  /// Late cycles since the start; stays at 250 from there on. [0 .. 250 on the bus]
+  Count overruns{0U, RawState::kNotAvailable};
+  /// Frames since the start that the bus did not take; stays at 250 from there on. [0 .. 250 on the
+  /// bus]
+  Count dropped_frames{0U, RawState::kNotAvailable};
+  /// Off: the process runs without real-time priority and memory lock.
+  Coded<RealTime> real_time{RealTime::kOff, RawState::kValid};
+
+  /// Calls visitor(field, signal) for each signal.
+  template <class Self, class Visitor>
+  static constexpr void visit(Self& self, Visitor&& visitor) {
+    visitor(kWhyNotArmed, self.why_not_armed);
+    visitor(kAllocations, self.allocations);
+    visitor(kPageFaults, self.page_faults);
+    visitor(kOverruns, self.overruns);
+    visitor(kDroppedFrames, self.dropped_frames);
+    visitor(kRealTime, self.real_time);
+  }
+  static constexpr EcuHealth decode(const Payload& payload) {
+    return decode_message<EcuHealth>(payload);
+  }
+  constexpr Payload encode() const { return encode_message(*this); }
+};
+
+/// Active diagnostic trouble codes (PGN 65226), one a frame: no transport protocol is used. Several
+/// active codes take turns, so that up to ten of them are each on the bus within 1 s: the period is
+/// 1 s over their number, at least 100 ms, and a new one is sent at once. With none: lamps off, SPN
+/// 0 and FMI 0 once a second. Byte 2 (flashing) and bytes 7 and 8 are all 1.
+struct DM1 {
+  static constexpr const char* kName = "DM1";
+  static constexpr const char* kSender = "Graben";
+  static constexpr std::uint32_t kId = 0x18FECA82;
+  static constexpr std::uint8_t kLength = 8;
+  static constexpr std::uint16_t kCycleTimeMs = 1000;
+  static constexpr bool kProtected = false;
+  static constexpr std::uint16_t kDataId = 0x0000;
+  static constexpr std::uint8_t kMaxDeltaCounter = 0;
+
+  enum class ProtectLamp : std::uint8_t {
+    kOff = 0,
+    kOn = 1,
+  };
+
+  enum class AmberWarningLamp : std::uint8_t {
+    kOff = 0,
+    kOn = 1,
+  };
+
+  enum class RedStopLamp : std::uint8_t {
+    kOff = 0,
+    kOn = 1,
+  };
+
+  enum class MalfunctionIndicatorLamp : std::uint8_t {
+    kOff = 0,
+    kOn = 1,
+  };
+
+  static constexpr Field kProtectLamp{
+      "ProtectLamp", "", 0, 2, 0U, 1U, 2, 3, 0U,
+      0, 1.0, 1.0};
+  static constexpr Field kAmberWarningLamp{
+      "AmberWarningLamp", "", 2, 2, 0U, 1U, 2, 3, 0U,
+      0, 1.0, 1.0};
+  static constexpr Field kRedStopLamp{
+      "RedStopLamp", "", 4, 2, 0U, 1U, 2, 3, 0U,
+      0, 1.0, 1.0};
+  static constexpr Field kMalfunctionIndicatorLamp{
+      "MalfunctionIndicatorLamp", "", 6, 2, 0U, 1U, 2, 3, 0U,
+      0, 1.0, 1.0};
+  static constexpr Field kSpnLow{
+      "SpnLow", "", 16, 16, 0U, 65535U, -1, -1, 0U,
+      0, 1.0, 1.0};
+  static constexpr Field kFmi{
+      "Fmi", "", 32, 5, 0U, 31U, -1, -1, 0U,
+      0, 1.0, 1.0};
+  static constexpr Field kSpnHigh{
+      "SpnHigh", "", 37, 3, 0U, 7U, -1, -1, 0U,
+      0, 1.0, 1.0};
+  static constexpr Field kOccurrenceCount{
+      "OccurrenceCount", "", 40, 7, 0U, 127U, -1, -1, 0U,
+      0, 1.0, 1.0};
+  static constexpr Field kConversionMethod{
+      "ConversionMethod", "", 47, 1, 0U, 1U, -1, -1, 0U,
+      0, 1.0, 1.0};
+
+  /// Not used: always Off.
+  Coded<ProtectLamp> protect_lamp{ProtectLamp::kOff, RawState::kValid};
+  /// A fault is there that does not stop the machine.
+  Coded<AmberWarningLamp> amber_warning_lamp{AmberWarningLamp::kOff, RawState::kValid};
+  /// A fault is there that stops the machine.
+  Coded<RedStopLamp> red_stop_lamp{RedStopLamp::kOff, RawState::kValid};
+  /// For emissions only: always Off.
+  Coded<MalfunctionIndicatorLamp> malfunction_indicator_lamp{MalfunctionIndicatorLamp::kOff, RawState::kValid};
+  /// Low 16 bits of the suspect parameter number. SPN = 520192 + EcuStatus.Fault, in the range that
+  /// is the maker's to assign. [0 .. 65535 on the bus]
+  Count spn_low{0U, RawState::kValid};
+  /// Failure mode identifier: 2 erratic, 9 abnormal update rate, 12 bad device, 19 received network
+  /// data in error, 31 condition exists. [0 .. 31 on the bus]
+  Count fmi{0U, RawState::kValid};
+  /// High 3 bits of the suspect parameter number. [0 .. 7 on the bus]
+  Count spn_high{0U, RawState::kValid};
+  /// How often the fault has appeared since the start, 1 .. 126; stays at 126. 0 with none, 127 is
+  /// 'not available'. [0 .. 127 on the bus]
+  Count occurrence_count{0U, RawState::kValid};
+  /// 0: SPN in the layout of version 4. [0 .. 1 on the bus]
+  Count conversion_method{0U, RawState::kValid};
+
+  /// Calls visitor(field, signal) for each signal.
+  template <class Self, class Visitor>
+  static constexpr void visit(Self& self, Visitor&& visitor) {
+    visitor(kProtectLamp, self.protect_lamp);
+    visitor(kAmberWarningLamp, self.amber_warning_lamp);
+    visitor(kRedStopLamp, self.red_stop_lamp);
+    visitor(kMalfunctionIndicatorLamp, self.malfunction_indicator_lamp);
+    visitor(kSpnLow, self.spn_low);
+    visitor(kFmi, self.fmi);
+    visitor(kSpnHigh, self.spn_high);
+    visitor(kOccurrenceCount, self.occurrence_count);
+    visitor(kConversionMethod, self.conversion_method);
+  }
+  static constexpr DM1 decode(const Payload& payload) {
+    return decode_message<DM1>(payload);
+  }
+  constexpr Payload encode() const { return encode_message(*this); }
+};
+
 using AllMessages =
     MessageList<BoomStroke,
                 ArmStroke,
@@ -661,13 +958,17 @@ using AllMessages =
                 EEC1,
                 OperatorCommand,
                 MachineIdentity,
+                ValveState,
                 SpoolCommand,
+                PumpCommand,
                 EcuStatus,
                 EcuMotion,
                 EcuHydraulics,
-                EcuIdentity>;
+                EcuIdentity,
+                EcuHealth,
+                DM1>;
 
-inline constexpr std::array<MessageInfo, 15> kMessages{{
+inline constexpr std::array<MessageInfo, 19> kMessages{{
     message_info<BoomStroke>(),
     message_info<ArmStroke>(),
     message_info<BucketStroke>(),
@@ -678,11 +979,15 @@ inline constexpr std::array<MessageInfo, 15> kMessages{{
     message_info<EEC1>(),
     message_info<OperatorCommand>(),
     message_info<MachineIdentity>(),
+    message_info<ValveState>(),
     message_info<SpoolCommand>(),
+    message_info<PumpCommand>(),
     message_info<EcuStatus>(),
     message_info<EcuMotion>(),
     message_info<EcuHydraulics>(),
     message_info<EcuIdentity>(),
+    message_info<EcuHealth>(),
+    message_info<DM1>(),
 }};
 
 }  // namespace graben::dbc::excavator

@@ -25,7 +25,7 @@ int LoopbackPort::receive(CanFrame* frames, int capacity) {
 }
 
 bool LoopbackPort::send(const CanFrame& frame) {
-  if (!on_bus()) {
+  if (!on_bus() || send_fails_ || bus_.loses_arbitration(frame)) {
     return false;
   }
   bus_.transmit(frame, this);
@@ -46,6 +46,13 @@ void LoopbackPort::deliver(const CanFrame& frame) {
 LoopbackPort& LoopbackBus::attach(std::size_t queue_capacity) {
   ports_.push_back(std::make_unique<LoopbackPort>(*this, queue_capacity));
   return *ports_.back();
+}
+
+bool LoopbackBus::loses_arbitration(const CanFrame& frame) const {
+  // An 11-bit id is arbitrated as the top bits of a 29-bit one.
+  constexpr unsigned kLowBits = 18;
+  const std::uint32_t id = frame.extended ? frame.id : frame.id << kLowBits;
+  return babble_id_ && id > *babble_id_;
 }
 
 void LoopbackBus::transmit(CanFrame frame, const LoopbackPort* from) {

@@ -8,6 +8,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -29,13 +30,17 @@ class LoopbackPort final : public CanPort {
   /// Discards the queue; false while the node is set down.
   [[nodiscard]] bool open() override;
   [[nodiscard]] int receive(CanFrame* frames, int capacity) override;
-  /// False unless the state is kActive or kErrorPassive.
+  /// False unless the state is kActive or kErrorPassive, while the queue is set full, and for what
+  /// a babbling node keeps off the bus.
   [[nodiscard]] bool send(const CanFrame& frame) override;
   [[nodiscard]] CanPortState state() const override { return state_; }
 
   /// Plays a fault of this node's controller. Bus-off, down and closed neither send nor receive,
   /// and a node that is down cannot be opened until it is set kClosed.
   void set_state(CanPortState state) { state_ = state; }
+
+  /// Plays a transmit queue that is full (ENOBUFS): nothing can be sent; reception goes on.
+  void set_send_fails(bool fails) { send_fails_ = fails; }
 
   /// Frames lost because the queue was full; the oldest ones are kept, as a socket does.
   [[nodiscard]] std::uint64_t overflow_count() const { return overflow_count_; }
@@ -49,6 +54,7 @@ class LoopbackPort final : public CanPort {
   std::size_t queue_capacity_;
   std::deque<CanFrame> queue_;
   CanPortState state_ = CanPortState::kClosed;
+  bool send_fails_ = false;
   std::uint64_t overflow_count_ = 0;
 };
 
@@ -73,6 +79,11 @@ class LoopbackBus {
   void set_time(TimeUs now) { now_ = now; }
   [[nodiscard]] TimeUs time() const { return now_; }
 
+  /// Plays a node that fills the bus with frames of this 29-bit id: no port's frame of lower
+  /// priority gets through, nothing of the babble itself is delivered. Injected frames are not held
+  /// up.
+  void set_babble(std::optional<std::uint32_t> id) { babble_id_ = id; }
+
   void set_tap(Tap tap) { tap_ = std::move(tap); }
   void set_fault_hook(FaultHook hook) { fault_hook_ = std::move(hook); }
 
@@ -83,10 +94,12 @@ class LoopbackBus {
  private:
   friend class LoopbackPort;
   void transmit(CanFrame frame, const LoopbackPort* from);
+  [[nodiscard]] bool loses_arbitration(const CanFrame& frame) const;
 
   std::vector<std::unique_ptr<LoopbackPort>> ports_;
   Tap tap_;
   FaultHook fault_hook_;
+  std::optional<std::uint32_t> babble_id_;
   TimeUs now_ = 0;
 };
 

@@ -1,42 +1,20 @@
 // Check values of the CRC, and every row of the table in hal/e2e.hpp.
 
 #include "hal/e2e.hpp"
-#include "tests/unit/cmocka_cpp.hpp"
+
+#include "tests/unit/hal/e2e_link.hpp"
 
 namespace {
 
 using namespace graben;
+using namespace graben::test;
 
-constexpr std::uint16_t kDataId = 0x123;
-constexpr TimeUs kCycleUs = 10'000;
-constexpr E2eConfig kConfig{kDataId, 3, 4 * kCycleUs};
-
-E2ePayload frame(std::uint8_t counter) {
-  E2ePayload payload{};
+// Another frame than frame(counter), and its CRC another one.
+E2ePayload other_frame(std::uint8_t counter) {
+  E2ePayload payload{0, 0, 1};
   e2e_protect(payload, kDataId, counter);
+  assert_int_not_equal(payload[0], frame(counter)[0]);
   return payload;
-}
-
-// A receiver and its clock: each frame comes one cycle after the last.
-struct Link {
-  E2eState state;
-  TimeUs now = 1'000'000;
-
-  E2eCheck take(std::uint8_t counter) { return take(frame(counter)); }
-  E2eCheck take(const E2ePayload& payload) {
-    now += kCycleUs;
-    return e2e_check(kConfig, state, payload, now);
-  }
-  void wait(TimeUs time_us) { now += time_us; }
-};
-
-Link synchronised_at(std::uint8_t counter) {
-  Link link;
-  for (unsigned back = 3; back-- > 0;) {
-    (void)link.take(static_cast<std::uint8_t>((counter + kE2eCounterCount - back) % 15U));
-  }
-  assert_true(link.state.synchronised);
-  return link;
 }
 
 void crc_check_values(void**) {
@@ -145,7 +123,143 @@ void synchronised_by_delta(void**) {
                                              : E2eCheck::kWrongSequence;
       assert_int_equal(check, expected);
       assert_int_equal(e2e_accepted(check), delta >= 1 && delta <= 3);
-      assert_int_equal(link.state.synchronised, delta <= 3);
+      assert_int_equal(link.state.synchronised, delta <= 3 || delta >= 13);
+    }
+  }
+}
+
+void a_late_frame_changes_nothing(void**) {
+  for (const unsigned delta : {13U, 14U}) {
+    for (std::uint8_t last = 0; last < 15; ++last) {
+      Link link = synchronised_at(last);
+      const E2eState before = link.state;
+      assert_int_equal(link.take(static_cast<std::uint8_t>((last + delta) % 15)),
+                       E2eCheck::kWrongSequence);
+      assert_int_equal(link.state.last_counter, before.last_counter);
+      assert_int_equal(link.state.last_crc, before.last_crc);
+      assert_int_equal(link.state.last_good_us, before.last_good_us);
+      assert_int_equal(link.take(e2e_next_counter(last)), E2eCheck::kOk);
+    }
+  }
+  // Where so many may be lost, 13 is no lateness.
+  const E2eConfig lenient{kDataId, 13, 14 * kCycleUs, kCycleUs};
+  Link link = synchronised_at(5);
+  assert_int_equal(e2e_check(lenient, link.state, frame(3), link.now + kCycleUs),
+                   E2eCheck::kSomeLost);
+  // While synchronising there is no lateness either.
+  Link starting;
+  (void)starting.take(5);
+  assert_int_equal(starting.take(4), E2eCheck::kWrongSequence);
+  assert_int_equal(starting.take(5), E2eCheck::kSynchronising);
+}
+
+void a_pair_out_of_order_costs_one_frame(void**) {
+  Link link = synchronised_at(5);
+  assert_int_equal(link.take(7), E2eCheck::kSomeLost);
+  assert_int_equal(link.take(6), E2eCheck::kWrongSequence);
+  assert_int_equal(link.take(8), E2eCheck::kOk);
+}
+
+void the_same_counter_with_other_data_is_a_conflict(void**) {
+  Link link = synchronised_at(5);
+  const E2eState before = link.state;
+  assert_int_equal(link.take(other_frame(5)), E2eCheck::kConflict);
+  assert_false(e2e_accepted(E2eCheck::kConflict));
+  assert_true(link.state.synchronised);
+  assert_int_equal(link.state.last_counter, 5);
+  assert_int_equal(link.state.last_crc, before.last_crc);
+  assert_int_equal(link.state.last_good_us, before.last_good_us);
+  assert_int_equal(link.take(5), E2eCheck::kRepeated);  // still the accepted one
+  assert_int_equal(link.take(6), E2eCheck::kOk);
+  assert_int_equal(link.take(6), E2eCheck::kRepeated);
+  assert_int_equal(link.take(frame(5)), E2eCheck::kWrongSequence);  // late, no conflict
+
+  Link starting;
+  assert_int_equal(starting.take(other_frame(0)), E2eCheck::kSynchronising);
+  assert_int_equal(starting.take(other_frame(1)), E2eCheck::kSynchronising);
+  assert_int_equal(starting.take(1), E2eCheck::kConflict);
+  assert_int_equal(starting.take(other_frame(1)), E2eCheck::kRepeated);
+  assert_int_equal(starting.take(2), E2eCheck::kSynchronising);
+  assert_int_equal(starting.take(3), E2eCheck::kOk);
+
+  Link again;
+  (void)again.take(other_frame(0));
+  (void)again.take(other_frame(1));
+  assert_int_equal(again.take(1), E2eCheck::kConflict);
+  assert_int_equal(again.take(2), E2eCheck::kSynchronising);
+  assert_int_equal(again.take(3), E2eCheck::kOk);
+
+  // After the run was broken the counter starts anywhere, there too.
+  Link broken;
+  (void)broken.take(1);
+  (void)broken.take(E2ePayload{1});
+  assert_int_equal(broken.take(1), E2eCheck::kSynchronising);
+  assert_int_equal(broken.take(2), E2eCheck::kSynchronising);
+  assert_int_equal(broken.take(3), E2eCheck::kOk);
+}
+
+// Takes frames at one moment until one is too early; returns how many were not.
+int frames_at_once(Link& link, std::uint8_t counter) {
+  for (int taken = 0;; ++taken) {
+    const E2eCheck check = e2e_check(kConfig, link.state, frame(counter), link.now);
+    if (check == E2eCheck::kTooMany) {
+      assert_false(e2e_accepted(check));
+      assert_true(link.state.synchronised);
+      assert_int_equal(link.state.last_counter, (counter + 14) % 15);
+      return taken;
+    }
+    assert_true(e2e_accepted(check));
+    counter = e2e_next_counter(counter);
+  }
+}
+
+// Frames cannot come faster than they are sent, but together after a pause.
+void more_frames_than_cycles_are_too_many(void**) {
+  const int allowed[] = {1, 2, 3, 4, 6};  // after 0 .. 4 cycles; a frame counts 4/5 of a cycle
+  for (int cycles = 0; cycles < 5; ++cycles) {
+    Link link = synchronised_at(5);
+    link.now += cycles * kCycleUs;
+    assert_int_equal(frames_at_once(link, 6), allowed[cycles]);
+    assert_int_equal(e2e_check(kConfig, link.state, other_frame(9), link.now), E2eCheck::kTooMany);
+  }
+  // What was too early did not count, and what repeats never does.
+  Link link = synchronised_at(5);
+  link.now += kCycleUs;
+  (void)frames_at_once(link, 6);
+  assert_int_equal(link.state.last_counter, 7);
+  for (int i = 0; i < 9; ++i) {
+    assert_int_equal(e2e_check(kConfig, link.state, frame(7), link.now), E2eCheck::kRepeated);
+  }
+  assert_int_equal(link.take(8), E2eCheck::kOk);
+  // A long silence is no licence.
+  Link silent = synchronised_at(5);
+  silent.now += kSecondUs;
+  std::uint8_t counter = 6;
+  int taken = 0;
+  while (e2e_check(kConfig, silent.state, frame(counter), silent.now) != E2eCheck::kTooMany) {
+    counter = e2e_next_counter(counter);
+    ++taken;
+  }
+  assert_int_equal(taken, 6);
+  // Without a cycle time everything is in time.
+  const E2eConfig timeless{kDataId, 3, 4 * kCycleUs, 0};
+  Link unlimited = synchronised_at(5);
+  for (std::uint8_t next = 6; next < 15; ++next) {
+    assert_int_equal(e2e_check(timeless, unlimited.state, frame(next), unlimited.now),
+                     E2eCheck::kOk);
+  }
+}
+
+// A sender whose clock is 10 % fast, frames taken every 10 ms, never comes too early for long.
+void a_fast_sender_is_followed(void**) {
+  Link link = synchronised_at(14);
+  std::uint8_t counter = 0;
+  TimeUs sent_us = link.now + 9 * kMillisecondUs;
+  for (int cycle = 0; cycle < 1000; ++cycle) {
+    link.now += kCycleUs;
+    for (; sent_us <= link.now; sent_us += 9 * kMillisecondUs) {
+      assert_int_equal(e2e_check(kConfig, link.state, frame(counter), link.now), E2eCheck::kOk);
+      counter = e2e_next_counter(counter);
     }
   }
 }
@@ -168,6 +282,7 @@ void wrong_crc_keeps_synchronisation(void**) {
   E2ePayload bad = frame(3);
   bad[0] ^= 1;
   assert_int_equal(link.take(bad), E2eCheck::kWrongCrc);
+  assert_int_equal(link.take(2), E2eCheck::kRepeated);
   assert_int_equal(link.take(4), E2eCheck::kSomeLost);
 }
 
@@ -217,6 +332,14 @@ void clock_that_runs_back_is_no_silence(void**) {
   Link link = synchronised_at(2);
   link.wait(-1'000'000);
   assert_int_equal(link.take(3), E2eCheck::kOk);
+  // Nor does it make the next frame too early.
+  assert_int_equal(link.take(4), E2eCheck::kOk);
+}
+
+void crc_fits_its_own_data_id(void**) {
+  assert_true(e2e_crc_fits(frame(3), kDataId));
+  assert_false(e2e_crc_fits(frame(3), kDataId + 1));
+  assert_int_equal(frame(0)[0], 0xCC);
 }
 
 }  // namespace
@@ -231,6 +354,12 @@ int main() {
       cmocka_unit_test(wrong_crc_breaks_the_run_of_synchronisation),
       cmocka_unit_test(synchronising_restarts),
       cmocka_unit_test(synchronised_by_delta),
+      cmocka_unit_test(a_late_frame_changes_nothing),
+      cmocka_unit_test(a_pair_out_of_order_costs_one_frame),
+      cmocka_unit_test(the_same_counter_with_other_data_is_a_conflict),
+      cmocka_unit_test(more_frames_than_cycles_are_too_many),
+      cmocka_unit_test(a_fast_sender_is_followed),
+      cmocka_unit_test(crc_fits_its_own_data_id),
       cmocka_unit_test(after_a_wrong_sequence_three_are_needed),
       cmocka_unit_test(wrong_crc_keeps_synchronisation),
       cmocka_unit_test(silence_needs_three),

@@ -4,61 +4,14 @@
 
 #include <cstring>
 
-#include "can_dbc/generated/excavator_dbc.hpp"
-#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/hal/bus_frames.hpp"
 
 namespace {
 
 using namespace graben;
+using namespace graben::test;
 namespace bus = dbc::excavator;
 using dbc::RawState;
-
-constexpr TimeUs kStartUs = 5'000'000;
-
-template <class Message>
-CanFrame frame_of(const Message& message, std::uint8_t counter) {
-  CanFrame frame;
-  frame.id = Message::kId;
-  frame.length = Message::kLength;
-  frame.data = message.encode();
-  if (Message::kProtected) {
-    e2e_protect(frame.data, Message::kDataId, counter);
-  }
-  return frame;
-}
-
-// The messages as types, so that every test runs over all that are received.
-template <class... Messages>
-struct List {};
-using Protected = List<bus::BoomStroke, bus::ArmStroke, bus::BucketStroke, bus::BoomPressure,
-                       bus::ArmPressure, bus::BucketPressure, bus::PumpState, bus::OperatorCommand>;
-using Unprotected = List<bus::EEC1, bus::MachineIdentity>;
-
-template <class Test, class... Messages>
-void for_each(List<Messages...>, Test test) {
-  (test(Messages{}), ...);
-}
-
-// A message whose every value is valid and distinct from its start value.
-template <class Message>
-Message filled(std::uint32_t raw) {
-  Message message;
-  Message::visit(message, [raw](const dbc::Field& field, auto& signal) {
-    dbc::from_raw(field, field.raw_min + (field.width >= 16 ? raw : 1U), signal);
-  });
-  return message;
-}
-
-// Brings the link to acceptance with counters 0, 1, 2; returns the time of the last frame.
-template <class Message>
-TimeUs synchronise(ExcavatorReceiver& receiver) {
-  TimeUs now = kStartUs;
-  for (std::uint8_t counter = 0; counter < 3; ++counter) {
-    now += Message::kCycleTimeMs * kMillisecondUs;
-    receiver.accept(frame_of(filled<Message>(1000), counter), now);
-  }
-  return now;
-}
 
 bool same(const ExcavatorReceiver& receiver, const ExcavatorReceiver::Received& before) {
   const ExcavatorInputs& a = receiver.inputs();
@@ -71,12 +24,14 @@ bool same(const ExcavatorReceiver& receiver, const ExcavatorReceiver::Received& 
              equal(a.swash_ratio[1], b.swash_ratio[1]) && equal(a.driver.enable, b.driver.enable) &&
              equal(a.driver.mode, b.driver.mode) && equal(a.driver.task, b.driver.task) &&
              equal(a.driver.speed_override_ratio, b.driver.speed_override_ratio) &&
+             equal(a.valve_enabled, b.valve_enabled) &&
              equal(receiver.identity().profile_hash, before.identity.profile_hash) &&
              equal(receiver.identity().dbc_version, before.identity.dbc_version);
   for (std::size_t i = 0; i < a.axis.size(); ++i) {
     all = all && equal(a.axis[i].stroke_m, b.axis[i].stroke_m) &&
           equal(a.axis[i].cap_pressure_pa, b.axis[i].cap_pressure_pa) &&
-          equal(a.axis[i].rod_pressure_pa, b.axis[i].rod_pressure_pa);
+          equal(a.axis[i].rod_pressure_pa, b.axis[i].rod_pressure_pa) &&
+          equal(a.axis[i].spool_ratio, b.axis[i].spool_ratio);
   }
   return all;
 }
@@ -115,7 +70,7 @@ void assert_signal(const Signal<T>& signal, double value, TimeUs stamp_us) {
 
 void every_signal_has_its_place(void**) {
   ExcavatorReceiver receiver;
-  TimeUs stamp_us[10] = {};
+  TimeUs stamp_us[11] = {};
   const auto send = [&](auto message, int index) {
     using Message = decltype(message);
     for (std::uint8_t counter = 0; counter < 3; ++counter) {
@@ -139,7 +94,18 @@ void every_signal_has_its_place(void**) {
   send(command, 8);
   send(bus::MachineIdentity{{0xDEADBEEFU, RawState::kValid}, {7U, RawState::kValid}}, 9);
 
+  bus::ValveState valve;
+  valve.enabled = {bus::ValveState::Enabled::kOn, RawState::kValid};
+  valve.boom_spool_ratio = {0.25, RawState::kValid};
+  valve.arm_spool_ratio = {-0.5, RawState::kValid};
+  valve.bucket_spool_ratio = {1.0, RawState::kValid};
+  send(valve, 10);
+
   const ExcavatorInputs& in = receiver.inputs();
+  assert_signal(in.axis[0].spool_ratio, 0.25, stamp_us[10]);
+  assert_signal(in.axis[1].spool_ratio, -0.5, stamp_us[10]);
+  assert_signal(in.axis[2].spool_ratio, 1.0, stamp_us[10]);
+  assert_signal(in.valve_enabled, 1.0, stamp_us[10]);
   assert_signal(in.axis[0].stroke_m, 1.1, stamp_us[0]);
   assert_signal(in.axis[1].stroke_m, 1.2, stamp_us[1]);
   assert_signal(in.axis[2].stroke_m, 1.3, stamp_us[2]);
@@ -158,8 +124,8 @@ void every_signal_has_its_place(void**) {
   assert_signal(in.driver.speed_override_ratio, 0.5, stamp_us[8]);
   assert_signal(receiver.identity().profile_hash, 3735928559.0, stamp_us[9]);
   assert_signal(receiver.identity().dbc_version, 7.0, stamp_us[9]);
-  assert_int_equal(receiver.total().accepted, 8 + 2 * 3);
-  assert_int_equal(receiver.total().synchronising, 8 * 2);
+  assert_int_equal(receiver.total().accepted, 9 + 2 * 3);
+  assert_int_equal(receiver.total().synchronising, 9 * 2);
   assert_int_equal(rejected(receiver.total()), 0);
 }
 
@@ -176,13 +142,23 @@ void wrong_crc(void**) {
   });
 }
 
-// Another message's data under this id.
-void wrong_data_id(void**) {
+// Another message's data under this id, be it one that we send.
+void masquerade(void**) {
   ExcavatorReceiver receiver;
   const TimeUs now = synchronise<bus::BoomStroke>(receiver);
-  CanFrame frame = frame_of(filled<bus::ArmStroke>(2000), 3);
-  frame.id = bus::BoomStroke::kId;
-  refuse(receiver, frame, now, bus::BoomStroke::kId, &LinkCounters::wrong_crc);
+  for_each(List<bus::ArmStroke, bus::ValveState, bus::SpoolCommand, bus::PumpCommand>{},
+           [&](auto type) {
+             CanFrame frame = frame_of(filled<decltype(type)>(2000), 3);
+             frame.id = bus::BoomStroke::kId;
+             refuse(receiver, frame, now, bus::BoomStroke::kId, &LinkCounters::masquerade);
+           });
+  assert_int_equal(rejected(receiver.total()), 4);
+  // A data id that nobody has; 0 is what unprotected messages carry.
+  for (const std::uint16_t nobodys : {std::uint16_t{0}, std::uint16_t{0x1234}}) {
+    CanFrame frame = frame_of(filled<bus::BoomStroke>(2000), 3);
+    e2e_protect(frame.data, nobodys, 3);
+    refuse(receiver, frame, now, bus::BoomStroke::kId, &LinkCounters::wrong_crc);
+  }
 }
 
 void wrong_counter(void**) {
@@ -196,7 +172,7 @@ void wrong_counter(void**) {
     };
     refuse_counter(2);                                                         // repeated
     refuse_counter(static_cast<std::uint8_t>(3 + Message::kMaxDeltaCounter));  // too many lost
-    refuse_counter(1);                                                         // out of order
+    refuse_counter(1);                                                         // late
     refuse_counter(15);                                                        // invalid
   });
 }
@@ -306,12 +282,16 @@ void out_of_range_is_refused_as_a_whole(void**) {
       }
       ExcavatorReceiver receiver;
       const TimeUs now = synchronise<Message>(receiver);
+      assert_false(receiver.take_out_of_range());
       const std::uint32_t beyond = field.width == 16 ? 0xFBFFU : field.raw_max + 1U;
       if (field.width == 2) {
         return;  // two bits have no value between the last state and 'error'
       }
       refuse(receiver, frame_with<Message>(field, beyond, 3), now, Message::kId,
              &LinkCounters::out_of_range);
+      receiver.accept(frame_of(filled<Message>(2000), 4), now + 1);  // does not hide it
+      assert_true(receiver.take_out_of_range());
+      assert_false(receiver.take_out_of_range());
     });
   };
   for_each(Protected{}, test);
@@ -342,6 +322,7 @@ void sender_says_error_or_not_available(void**) {
   receiver.accept(frame_with<bus::OperatorCommand>(bus::OperatorCommand::kEnable, 2, 3), now);
   assert_int_equal(receiver.inputs().driver.enable.validity, Validity::kError);
   assert_false(receiver.inputs().driver.enable.value);
+  now += 20'000;
   receiver.accept(frame_with<bus::OperatorCommand>(bus::OperatorCommand::kEnable, 3, 4), now);
   assert_int_equal(receiver.inputs().driver.enable.validity, Validity::kNotAvailable);
 }
@@ -361,7 +342,7 @@ int main() {
       cmocka_unit_test(nothing_received_at_the_start),
       cmocka_unit_test(every_signal_has_its_place),
       cmocka_unit_test(wrong_crc),
-      cmocka_unit_test(wrong_data_id),
+      cmocka_unit_test(masquerade),
       cmocka_unit_test(wrong_counter),
       cmocka_unit_test(some_lost_is_accepted),
       cmocka_unit_test(silence_needs_three_frames),

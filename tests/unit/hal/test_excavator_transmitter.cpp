@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "can_dbc/generated/excavator_dbc.hpp"
+#include "firmware/safety/fault_table.hpp"
 #include "hal/e2e.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
@@ -48,13 +49,17 @@ struct Sender {
 };
 
 struct Tally {
-  int spool = 0, status = 0, motion = 0, hydraulics = 0, identity = 0, most_at_once = 0;
+  int spool = 0, status = 0, motion = 0, hydraulics = 0, identity = 0, pump = 0, health = 0,
+      dm1 = 0, most_at_once = 0;
   void add(const Sender& sender) {
     spool += sender.find<bus::SpoolCommand>() != nullptr;
     status += sender.find<bus::EcuStatus>() != nullptr;
     motion += sender.find<bus::EcuMotion>() != nullptr;
     hydraulics += sender.find<bus::EcuHydraulics>() != nullptr;
     identity += sender.find<bus::EcuIdentity>() != nullptr;
+    pump += sender.find<bus::PumpCommand>() != nullptr;
+    health += sender.find<bus::EcuHealth>() != nullptr;
+    dm1 += sender.find<bus::DM1>() != nullptr;
     most_at_once = sender.count > most_at_once ? sender.count : most_at_once;
   }
 };
@@ -74,7 +79,10 @@ void periods(void**) {
     assert_int_equal(tally.motion, 500);
     assert_int_equal(tally.hydraulics, 500);
     assert_int_equal(tally.identity, 10);
-    assert_in_range(tally.most_at_once, 3, 3);
+    assert_int_equal(tally.pump, 500);
+    assert_int_equal(tally.health, 100);
+    assert_int_equal(tally.dm1, 10);
+    assert_in_range(tally.most_at_once, 4, 5);
   }
 }
 
@@ -84,7 +92,7 @@ void an_overrun_does_not_burst(void**) {
   sender.call(now);
   now += 500'000;
   sender.call(now);
-  assert_in_range(sender.count, 1, 4);
+  assert_in_range(sender.count, 1, 7);
   Tally tally;
   for (int cycle = 0; cycle < 10; ++cycle) {
     now += 10'000;
@@ -117,10 +125,27 @@ void frames_are_whole(void**) {
   }
 }
 
-// A receiver must accept every SpoolCommand after its three of synchronisation.
+// A receiver must accept every PumpCommand after its three of synchronisation.
+void pump_protection(void**) {
+  Sender sender;
+  const E2eConfig config{bus::PumpCommand::kDataId, 1, 80'000, 20'000};
+  E2eState state;
+  for (int cycle = 0; cycle < 100; ++cycle) {
+    const TimeUs now = kStartUs + cycle * kPeriodUs;
+    sender.call(now);
+    const CanFrame* frame = sender.find<bus::PumpCommand>();
+    assert_int_equal(frame != nullptr, cycle % 2 == 0);
+    if (frame != nullptr) {
+      const E2eCheck check = e2e_check(config, state, frame->data, now);
+      assert_int_equal(check, cycle < 4 ? E2eCheck::kSynchronising : E2eCheck::kOk);
+    }
+  }
+}
+
+// The same of SpoolCommand.
 void protection(void**) {
   Sender sender;
-  const E2eConfig config{bus::SpoolCommand::kDataId, 1, 40'000};
+  const E2eConfig config{bus::SpoolCommand::kDataId, 1, 40'000, 10'000};
   E2eState state;
   for (int cycle = 0; cycle < 100; ++cycle) {
     const TimeUs now = kStartUs + cycle * kPeriodUs;
@@ -182,6 +207,139 @@ void a_duty_that_is_not_finite_stops_all(void**) {
   }
 }
 
+// The cut is asked for with and without enable, and nothing else asks for it.
+void pilot_cut(void**) {
+  for (const bool enable : {false, true}) {
+    for (const bool cut : {false, true}) {
+      Sender sender;
+      sender.outputs.enable = enable;
+      sender.outputs.pilot_cut = cut;
+      sender.call(kStartUs);
+      const auto command = sender.sent<bus::SpoolCommand>();
+      assert_int_equal(command.pilot_cut.state, RawState::kValid);
+      assert_int_equal(command.pilot_cut.value == bus::SpoolCommand::PilotCut::kOn, cut);
+      assert_int_equal(command.enable.value == bus::SpoolCommand::Enable::kOn, enable);
+    }
+  }
+}
+
+// A value or, for NaN, 'not available'.
+void assert_swash(const dbc::Physical& sent, double expected) {
+  if (std::isnan(expected)) {
+    assert_int_equal(sent.state, RawState::kNotAvailable);
+    return;
+  }
+  assert_int_equal(sent.state, RawState::kValid);
+  assert_near(sent.value, expected, 1e-9);
+}
+
+void swash(void**) {
+  struct Case {
+    bool enable;
+    double duty;
+    std::array<double, 2> wanted;
+    std::array<double, 2> sent;
+  };
+  const Case cases[] = {
+      {true, 0.5, {0.25, 0.75}, {0.25, 0.75}},      {false, 0.5, {0.25, 0.75}, {kNan, kNan}},
+      {true, kNan, {0.25, 0.75}, {kNan, kNan}},     {true, 0.5, {kNan, 0.75}, {kNan, 0.75}},
+      {true, 0.5, {0.25, kInfinity}, {0.25, kNan}}, {true, 0.5, {0.0, 0.0}, {kNan, kNan}},
+      {true, 0.5, {-0.1, 0.75}, {kNan, 0.75}},      {true, 0.5, {2.0, 1e-4}, {1.2, 1e-4}},
+  };
+  for (const Case& row : cases) {
+    Sender sender;
+    sender.outputs.enable = row.enable;
+    sender.outputs.duty_ratio[1] = row.duty;
+    sender.outputs.swash_ratio = row.wanted;
+    sender.call(kStartUs);
+    assert_swash(sender.sent<bus::PumpCommand>().pump1_swash_ratio, row.sent[0]);
+    assert_swash(sender.sent<bus::PumpCommand>().pump2_swash_ratio, row.sent[1]);
+  }
+}
+
+bus::EcuHealth health_of(Sender& sender) {
+  for (int cycle = 0; cycle < 10; ++cycle) {
+    sender.call(kStartUs + cycle * kPeriodUs);
+    if (sender.find<bus::EcuHealth>() != nullptr) {
+      return sender.sent<bus::EcuHealth>();
+    }
+  }
+  fail_msg("no EcuHealth within 100 ms");
+  return {};
+}
+
+void health(void**) {
+  Sender well;
+  well.diagnosis.process = {1, 2, 3, true};
+  well.diagnosis.dropped_frames = 4;
+  bus::EcuHealth message = health_of(well);
+  assert_int_equal(message.why_not_armed.value, 0);
+  assert_int_equal(message.allocations.value, 1);
+  assert_int_equal(message.page_faults.value, 2);
+  assert_int_equal(message.overruns.value, 3);
+  assert_int_equal(message.dropped_frames.value, 4);
+  assert_int_equal(message.real_time.value, bus::EcuHealth::RealTime::kOn);
+
+  Sender ill;
+  ill.outputs.status.why_not_armed = 0xFFFF;
+  ill.diagnosis.process = {251, 1000, UINT32_MAX, false};
+  ill.diagnosis.dropped_frames = 100'000;
+  message = health_of(ill);
+  assert_int_equal(message.why_not_armed.value, 0xFFFF);
+  assert_int_equal(message.allocations.value, 250);
+  assert_int_equal(message.page_faults.value, 250);
+  assert_int_equal(message.overruns.value, 250);
+  assert_int_equal(message.dropped_frames.value, 250);
+  assert_int_equal(message.real_time.value, bus::EcuHealth::RealTime::kOff);
+}
+
+std::uint32_t spn_of(const bus::DM1& message) {
+  return message.spn_high.value << 16U | message.spn_low.value;
+}
+
+void trouble_codes(void**) {
+  Sender sender;
+  sender.call(kStartUs);
+  bus::DM1 message = sender.sent<bus::DM1>();
+  assert_int_equal(spn_of(message), 0);
+  assert_int_equal(message.fmi.value, 0);
+  assert_int_equal(message.occurrence_count.value, 0);
+  assert_int_equal(message.red_stop_lamp.value, bus::DM1::RedStopLamp::kOff);
+  assert_int_equal(message.amber_warning_lamp.value, bus::DM1::AmberWarningLamp::kOff);
+
+  sender.outputs.status.faults.add(Fault::kBusOff);  // red
+  sender.call(kStartUs + kPeriodUs);
+  message = sender.sent<bus::DM1>();
+  assert_int_equal(spn_of(message), 520192 + 12);
+  assert_int_equal(message.fmi.value, fault_row(Fault::kBusOff).fmi);
+  assert_int_equal(message.occurrence_count.value, 1);
+  assert_int_equal(message.red_stop_lamp.value, bus::DM1::RedStopLamp::kOn);
+  assert_int_equal(message.amber_warning_lamp.value, bus::DM1::AmberWarningLamp::kOff);
+  assert_int_equal(message.protect_lamp.value, bus::DM1::ProtectLamp::kOff);
+  assert_int_equal(message.conversion_method.value, 0);
+
+  sender.outputs.status.faults = {};
+  sender.outputs.status.faults.add(Fault::kPressureImplausible);  // amber
+  sender.call(kStartUs + 2 * kPeriodUs);
+  message = sender.sent<bus::DM1>();
+  assert_int_equal(message.red_stop_lamp.value, bus::DM1::RedStopLamp::kOff);
+  assert_int_equal(message.amber_warning_lamp.value, bus::DM1::AmberWarningLamp::kOn);
+}
+
+void status_names_every_fault(void**) {
+  for (int code = 0; code < kFaultCount; ++code) {
+    Sender sender;
+    sender.outputs.status.fault = static_cast<Fault>(code);
+    sender.outputs.status.limit = {LimitKind::kDegraded, static_cast<std::uint8_t>(code)};
+    sender.call(kStartUs);
+    const auto message = sender.sent<bus::EcuStatus>();
+    assert_int_equal(message.fault.state, RawState::kValid);
+    assert_int_equal(message.fault.value, code);
+    assert_int_equal(message.limit_kind.value, bus::EcuStatus::LimitKind::kDegraded);
+    assert_int_equal(message.limit_index.value, code);
+  }
+}
+
 void status(void**) {
   Sender sender;
   ExcavatorStatus& out = sender.outputs.status;
@@ -192,7 +350,7 @@ void status(void**) {
   out.wanted_velocity_mps = {0.1, -0.2, 0.3};
   out.pump_pressure_pa = {20e6, 30e6};
   out.path_error_m = 0.05;
-  sender.diagnosis = {1234, 17, 0xCAFEF00D};
+  sender.diagnosis = {1234, 17, 0xCAFEF00D, 0, {}};
   sender.call(kStartUs);
   const auto status_message = sender.sent<bus::EcuStatus>();
   assert_int_equal(status_message.mode.value, bus::EcuStatus::Mode::kActive);
@@ -220,17 +378,17 @@ void status_saturates_or_says_error(void**) {
   Sender sender;
   sender.outputs.status.lambda = kNan;
   sender.outputs.status.mode = static_cast<EcuMode>(9);
-  sender.diagnosis = {1'000'000, 100'000, 0};
+  sender.diagnosis = {1'000'000, 100'000, 0, 0, {}};
   sender.call(kStartUs);
   auto message = sender.sent<bus::EcuStatus>();
   assert_int_equal(message.lambda.state, RawState::kError);
   assert_int_equal(message.mode.state, RawState::kError);
   assert_int_equal(message.cycle_time_us.value, 64255);
   assert_int_equal(message.rejected_frames.value, 250);
-  sender.diagnosis = {-1, 0, 0};
+  sender.diagnosis = {-1, 0, 0, 0, {}};
   sender.call(kStartUs + 20'000);
   assert_int_equal(sender.sent<bus::EcuStatus>().cycle_time_us.value, 0);
-  sender.diagnosis = {TimeUs{1} << 40, 0, 0};
+  sender.diagnosis = {TimeUs{1} << 40, 0, 0, 0, {}};
   sender.call(kStartUs + 40'000);
   assert_int_equal(sender.sent<bus::EcuStatus>().cycle_time_us.value, 64255);
 }
@@ -244,6 +402,12 @@ int main() {
       cmocka_unit_test(a_clock_that_jumps_back_does_not_silence),
       cmocka_unit_test(frames_are_whole),
       cmocka_unit_test(protection),
+      cmocka_unit_test(pump_protection),
+      cmocka_unit_test(pilot_cut),
+      cmocka_unit_test(swash),
+      cmocka_unit_test(health),
+      cmocka_unit_test(trouble_codes),
+      cmocka_unit_test(status_names_every_fault),
       cmocka_unit_test(duty),
       cmocka_unit_test(a_duty_that_is_not_finite_stops_all),
       cmocka_unit_test(status),

@@ -2,95 +2,16 @@
 
 #include "app/plant/plant_node.hpp"
 
-#include <map>
-#include <vector>
-
-#include "app/plant/operator_node.hpp"
-#include "can_dbc/generated/excavator_dbc.hpp"
-#include "platform/loopback/loopback_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/plant/fixture/machine_22t.hpp"
+#include "tests/unit/plant/fixture/node_rig.hpp"
 
 namespace {
 
 using namespace graben;
 using namespace graben::plant;
 namespace bus = dbc::excavator;
+using namespace graben::plant::test;
 using dbc::RawState;
-
-constexpr std::uint32_t kHash = 0x1234ABCD;
-constexpr TimeUs kCycleUs = 10 * kMillisecondUs;
-
-// A bus with the machine, an operator, and us in the place of the controller.
-struct Rig {
-  Rig()
-      : machine_port(can.attach()),
-        operator_port(can.attach()),
-        our_port(can.attach()),
-        machine(machine_22t(), {0.7, 0.7, 0.6}, machine_port, kHash),
-        driver(operator_port) {
-    assert_true(machine_port.open() && operator_port.open() && our_port.open());
-  }
-
-  void cycle() {
-    can.set_time(now);
-    driver.step(now);
-    machine.step(now);
-    CanFrame frame;
-    while (our_port.receive(&frame, 1) == 1) {
-      seen[frame.id].push_back(frame);
-    }
-    now += kCycleUs;
-  }
-  void cycles(int count) {
-    for (int i = 0; i < count; ++i) {
-      cycle();
-    }
-  }
-
-  CanFrame command(bool enable, double boom_duty) {
-    bus::SpoolCommand message;
-    message.enable.value =
-        enable ? bus::SpoolCommand::Enable::kOn : bus::SpoolCommand::Enable::kOff;
-    message.boom_duty_ratio.value = boom_duty;
-    return frame_of(message);
-  }
-  CanFrame frame_of(const bus::SpoolCommand& message) {
-    CanFrame frame;
-    frame.id = bus::SpoolCommand::kId;
-    frame.length = 8;
-    frame.data = message.encode();
-    e2e_protect(frame.data, bus::SpoolCommand::kDataId, counter);
-    counter = e2e_next_counter(counter);
-    return frame;
-  }
-  void command_for(int count, bool enable, double boom_duty) {
-    for (int i = 0; i < count; ++i) {
-      assert_true(our_port.send(command(enable, boom_duty)));
-      cycle();
-    }
-  }
-  void send_and_cycle(const CanFrame& frame) {
-    assert_true(our_port.send(frame));
-    cycle();
-  }
-  double boom_spool() const { return machine.plant().spool_travels_ratio()[kBoom]; }
-
-  LoopbackBus can;
-  LoopbackPort& machine_port;
-  LoopbackPort& operator_port;
-  LoopbackPort& our_port;
-  PlantNode machine;
-  OperatorNode driver;
-  TimeUs now = 0;
-  std::uint8_t counter = 0;
-  std::map<std::uint32_t, std::vector<CanFrame>> seen;
-};
-
-template <class Message>
-Message last(const Rig& rig) {
-  return Message::decode(rig.seen.at(Message::kId).back().data);
-}
 
 void messages_come_at_their_rates(void**) {
   Rig rig;
@@ -104,13 +25,14 @@ void messages_come_at_their_rates(void**) {
   assert_int_equal(rig.seen[bus::EEC1::kId].size(), 100);
   assert_int_equal(rig.seen[bus::OperatorCommand::kId].size(), 100);
   assert_int_equal(rig.seen[bus::MachineIdentity::kId].size(), 2);
-  assert_int_equal(rig.seen.size(), 10);
+  assert_int_equal(rig.seen[bus::ValveState::kId].size(), 100);
+  assert_int_equal(rig.seen.size(), 11);
 }
 
 template <class Message>
 void check_protection(const Rig& rig) {
   E2eState state;
-  const E2eConfig config{Message::kDataId, 1, kSecondUs};
+  const E2eConfig config{Message::kDataId, 1, kSecondUs, 0};
   int accepted = 0;
   for (const CanFrame& frame : rig.seen.at(Message::kId)) {
     assert_true(frame.extended);
@@ -131,6 +53,7 @@ void frames_are_protected(void**) {
   check_protection<bus::ArmPressure>(rig);
   check_protection<bus::BucketPressure>(rig);
   check_protection<bus::PumpState>(rig);
+  check_protection<bus::ValveState>(rig);
   check_protection<bus::OperatorCommand>(rig);
 }
 
@@ -294,13 +217,13 @@ void flood_does_not_starve_the_command(void**) {
 
 void silenced_messages_stop(void**) {
   Rig rig;
-  rig.machine.set_silent(bus::ArmStroke::kId, true);
+  rig.machine.faults().set_silent(bus::ArmStroke::kId, true);
   rig.driver.set_silent(true);
   rig.cycles(10);
   assert_int_equal(rig.seen.count(bus::ArmStroke::kId), 0);
   assert_int_equal(rig.seen.count(bus::OperatorCommand::kId), 0);
   assert_int_equal(rig.seen[bus::BoomStroke::kId].size(), 10);
-  rig.machine.set_silent(bus::ArmStroke::kId, false);
+  rig.machine.faults().set_silent(bus::ArmStroke::kId, false);
   rig.cycles(20);
   assert_int_equal(rig.seen[bus::ArmStroke::kId].size(), 20);
   check_protection<bus::ArmStroke>(rig);
@@ -308,8 +231,8 @@ void silenced_messages_stop(void**) {
 
 void strokes_can_fail(void**) {
   Rig rig;
-  rig.machine.set_stroke_state(kArm, RawState::kError);
-  rig.machine.set_stroke_state(kBucket, RawState::kNotAvailable);
+  rig.machine.faults().set_stroke_state(kArm, RawState::kError);
+  rig.machine.faults().set_stroke_state(kBucket, RawState::kNotAvailable);
   rig.cycle();
   assert_true(last<bus::BoomStroke>(rig).boom_stroke_m.state == RawState::kValid);
   assert_true(last<bus::ArmStroke>(rig).arm_stroke_m.state == RawState::kError);

@@ -164,6 +164,39 @@ void a_new_port_is_closed_and_error_passive_works(void**) {
   assert_true(drain(b) == (Ids{2}));
 }
 
+void a_full_transmit_queue_sends_nothing(void**) {
+  LoopbackBus bus;
+  LoopbackPort& a = opened(bus);
+  LoopbackPort& b = opened(bus);
+  a.set_send_fails(true);
+  assert_false(a.send(frame(1)));
+  assert_true(b.send(frame(2)));
+  assert_int_equal(a.state(), CanPortState::kActive);
+  a.set_send_fails(false);
+  assert_true(a.send(frame(3)));
+  assert_true(drain(a) == (Ids{2}));
+  assert_true(drain(b) == (Ids{3}));
+}
+
+void babble_keeps_lower_priority_off(void**) {
+  LoopbackBus bus;
+  LoopbackPort& a = opened(bus);
+  LoopbackPort& b = opened(bus);
+  bus.set_babble(0x0CFF3000);
+  assert_true(a.send(frame(0x0CFF2FFF)));
+  assert_true(a.send(frame(0x0CFF3000)));
+  assert_false(a.send(frame(0x0CFF3001)));
+  CanFrame standard = frame(0x33F);
+  standard.extended = false;
+  assert_true(a.send(standard));
+  standard.id = 0x340;
+  assert_false(a.send(standard));
+  bus.inject(frame(0x1FFFFFFF));
+  assert_true(drain(b) == (Ids{0x0CFF2FFF, 0x0CFF3000, 0x33F, 0x1FFFFFFF}));
+  bus.set_babble(std::nullopt);
+  assert_true(a.send(frame(0x0CFF3001)));
+}
+
 }  // namespace
 
 int main() {
@@ -175,6 +208,8 @@ int main() {
       cmocka_unit_test(hook_drops_and_alters),
       cmocka_unit_test(a_port_off_the_bus_is_deaf_and_mute),
       cmocka_unit_test(a_new_port_is_closed_and_error_passive_works),
+      cmocka_unit_test(a_full_transmit_queue_sends_nothing),
+      cmocka_unit_test(babble_keeps_lower_priority_off),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

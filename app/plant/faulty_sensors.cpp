@@ -1,0 +1,41 @@
+#include "app/plant/faulty_sensors.hpp"
+
+namespace graben::plant {
+namespace {
+
+constexpr double kCycle_s = 0.01;
+
+}  // namespace
+
+FaultySensors::FaultySensors(const PlantProfile& profile)
+    : sensors_(profile.sensors,
+               profile.sensor_errors ? std::optional(profile.seed) : std::nullopt) {}
+
+dbc::Physical FaultySensors::stroke(std::size_t axis, double true_stroke_m,
+                                    const StrokeFault& fault) {
+  drift_m_[axis] = fault.drift_mps == 0.0 ? 0.0 : drift_m_[axis] + kCycle_s * fault.drift_mps;
+  if (!fault.stuck) {
+    stroke_m_[axis] = sensors_.stroke_m(axis, true_stroke_m) + fault.jump_m + drift_m_[axis];
+  }
+  return {fault.state == dbc::RawState::kValid ? stroke_m_[axis] : 0.0, fault.state};
+}
+
+dbc::Physical FaultySensors::pressure(double reading_pa, const PressureFault& fault,
+                                      double& shown_pa) {
+  if (!fault.stuck) {
+    shown_pa = reading_pa;
+  }
+  return {fault.rail_pa ? *fault.rail_pa : shown_pa, dbc::RawState::kValid};
+}
+
+dbc::Physical FaultySensors::cap_pressure(std::size_t axis, double true_pressure_pa,
+                                          const PressureFault& fault) {
+  return pressure(sensors_.cap_pressure_pa(axis, true_pressure_pa), fault, cap_pa_[axis]);
+}
+
+dbc::Physical FaultySensors::rod_pressure(std::size_t axis, double true_pressure_pa,
+                                          const PressureFault& fault) {
+  return pressure(sensors_.rod_pressure_pa(axis, true_pressure_pa), fault, rod_pa_[axis]);
+}
+
+}  // namespace graben::plant

@@ -1,0 +1,35 @@
+#pragma once
+/// What the bus is told of strokes and pressures, faults included.
+
+#include <array>
+
+#include "app/plant/plant_faults.hpp"
+#include "app/plant/sensor_model.hpp"
+#include "can_dbc/codec.hpp"
+
+namespace graben::plant {
+
+/// Sensors that can fail. A reading is taken once a cycle.
+class FaultySensors {
+ public:
+  explicit FaultySensors(const PlantProfile& profile);
+
+  [[nodiscard]] dbc::Physical stroke(std::size_t axis, double true_stroke_m,
+                                     const StrokeFault& fault);
+  [[nodiscard]] dbc::Physical cap_pressure(std::size_t axis, double true_pressure_pa,
+                                           const PressureFault& fault);
+  [[nodiscard]] dbc::Physical rod_pressure(std::size_t axis, double true_pressure_pa,
+                                           const PressureFault& fault);
+
+ private:
+  static dbc::Physical pressure(double reading_pa, const PressureFault& fault, double& shown_pa);
+
+  SensorModel sensors_;
+  // What was shown last: a stuck sensor goes on showing it.
+  std::array<double, kAxisCount> stroke_m_{};
+  std::array<double, kAxisCount> cap_pa_{};
+  std::array<double, kAxisCount> rod_pa_{};
+  std::array<double, kAxisCount> drift_m_{};
+};
+
+}  // namespace graben::plant

@@ -1,0 +1,41 @@
+#pragma once
+/// A receiver of one protected message, for the tests of the end-to-end protection.
+
+#include "hal/e2e.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace graben::test {
+
+inline constexpr std::uint16_t kDataId = 0x123;
+inline constexpr TimeUs kCycleUs = 10'000;
+inline constexpr E2eConfig kConfig{kDataId, 3, 4 * kCycleUs, kCycleUs};
+
+inline E2ePayload frame(std::uint8_t counter) {
+  E2ePayload payload{};
+  e2e_protect(payload, kDataId, counter);
+  return payload;
+}
+
+// A receiver and its clock: each frame comes one cycle after the last.
+struct Link {
+  E2eState state;
+  TimeUs now = 1'000'000;
+
+  E2eCheck take(std::uint8_t counter) { return take(frame(counter)); }
+  E2eCheck take(const E2ePayload& payload) {
+    now += kCycleUs;
+    return e2e_check(kConfig, state, payload, now);
+  }
+  void wait(TimeUs time_us) { now += time_us; }
+};
+
+inline Link synchronised_at(std::uint8_t counter) {
+  Link link;
+  for (unsigned back = 3; back-- > 0;) {
+    (void)link.take(static_cast<std::uint8_t>((counter + kE2eCounterCount - back) % 15U));
+  }
+  assert_true(link.state.synchronised);
+  return link;
+}
+
+}  // namespace graben::test

@@ -1,0 +1,107 @@
+// What the receiver makes of several wrong frames of a message.
+
+#include "tests/unit/hal/bus_frames.hpp"
+
+namespace {
+
+using namespace graben;
+using namespace graben::test;
+namespace bus = dbc::excavator;
+
+// The message's own faults and no other's: three of them, until good frames have pushed them out.
+void three_wrong_frames_are_a_fault(void**) {
+  struct Wrong {
+    Fault fault;
+    void (*spoil)(CanFrame&);
+  };
+  const Wrong wrongs[] = {
+      {Fault::kMessageCorrupt,
+       [](CanFrame& f) { f.data[2] = static_cast<std::uint8_t>(f.data[2] ^ 0x10U); }},
+      {Fault::kMessageMasquerade,
+       [](CanFrame& f) { e2e_protect(f.data, bus::ArmStroke::kDataId, f.data[1] & 0x0FU); }},
+      {Fault::kMessageSequence,
+       [](CanFrame& f) { e2e_protect(f.data, bus::BoomStroke::kDataId, 15); }},
+  };
+  for (const Wrong& wrong : wrongs) {
+    ExcavatorReceiver receiver;
+    TimeUs now = synchronise<bus::BoomStroke>(receiver);
+    std::uint8_t counter = 2;
+    const auto next = [&](bool good) {
+      now += 10 * kMillisecondUs;
+      counter = e2e_next_counter(counter);
+      CanFrame frame = frame_of(filled<bus::BoomStroke>(2000), counter);
+      if (!good) {
+        wrong.spoil(frame);
+      }
+      receiver.accept(frame, now);
+      const FaultSet faults = receiver.message_faults(now);
+      assert_int_equal(faults.after(faults.first()), Fault::kNone);
+      return faults.first();
+    };
+    assert_int_equal(next(false), Fault::kNone);
+    assert_int_equal(next(true), Fault::kNone);
+    assert_int_equal(next(false), Fault::kNone);
+    assert_int_equal(next(false), wrong.fault);
+    for (int i = 0; i < 11; ++i) {
+      assert_int_equal(next(true), wrong.fault);
+    }
+    assert_int_equal(next(true), wrong.fault);
+    assert_int_equal(next(true), Fault::kNone);
+  }
+}
+
+// One wrong frame in each of several messages is no fault; a repeated one never is.
+void windows_are_each_messages_own(void**) {
+  ExcavatorReceiver receiver;
+  TimeUs now = kStartUs;
+  for_each(Protected{}, [&](auto type) {
+    using Message = decltype(type);
+    now = synchronise<Message>(receiver);
+    CanFrame frame = frame_of(filled<Message>(2000), 3);
+    frame.data[2] ^= 0x10;
+    receiver.accept(frame, now);
+    for (int i = 0; i < 5; ++i) {
+      receiver.accept(frame_of(filled<Message>(1000), 2), now);
+    }
+  });
+  assert_int_equal(receiver.total().wrong_crc, 9);
+  assert_int_equal(receiver.total().wrong_counter, 9 * 5);
+  assert_true(receiver.message_faults(now).empty());
+}
+
+// Two senders: every second frame conflicts, the first sender's values stay.
+void two_senders_of_one_message_are_a_fault(void**) {
+  ExcavatorReceiver receiver;
+  TimeUs now = synchronise<bus::BoomStroke>(receiver);
+  for (std::uint8_t counter = 3; counter < 6; ++counter) {
+    assert_true(receiver.message_faults(now).empty());
+    now += 10 * kMillisecondUs;
+    receiver.accept(frame_of(filled<bus::BoomStroke>(1000), counter), now);
+    receiver.accept(frame_of(filled<bus::BoomStroke>(2000), counter), now);
+    assert_near(receiver.inputs().axis[0].stroke_m.value, 0.05, 1e-9);
+  }
+  assert_true(receiver.message_faults(now).has(Fault::kMessageSequence));
+}
+
+void a_burst_of_one_message_is_cut(void**) {
+  ExcavatorReceiver receiver;
+  const TimeUs now = synchronise<bus::PumpState>(receiver) + 20 * kMillisecondUs;
+  for (std::uint8_t counter = 3; counter < 13; ++counter) {
+    receiver.accept(frame_of(filled<bus::PumpState>(1000U + counter), counter), now);
+  }
+  assert_int_equal(receiver.link(bus::PumpState::kId).accepted, 1 + 2);
+  assert_int_equal(receiver.link(bus::PumpState::kId).wrong_counter, 8);
+  assert_true(receiver.message_faults(now).has(Fault::kMessageSequence));
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(three_wrong_frames_are_a_fault),
+      cmocka_unit_test(windows_are_each_messages_own),
+      cmocka_unit_test(two_senders_of_one_message_are_a_fault),
+      cmocka_unit_test(a_burst_of_one_message_is_cut),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
