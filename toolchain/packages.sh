@@ -9,7 +9,7 @@ has_command() { command -v "$1" >/dev/null 2>&1; }
 
 has_header() { [ -e "/usr/include/$1" ] || [ -e "/usr/local/include/$1" ]; }
 
-# graben_missing build|check|fuzz|bench: the packages that are not there yet, a line each.
+# graben_missing build|check|fuzz|bench|hil: the packages that are not there yet, a line each.
 graben_missing() {
   has_command g++ || echo g++
   has_command cmake || echo cmake
@@ -44,6 +44,13 @@ graben_missing() {
     has_command pkg-config || echo pkg-config
     has_command valgrind || echo valgrind
   fi
+  if [ "$1" = hil ]; then
+    has_command candump || echo can-utils
+    # A user's PATH may lead past it.
+    has_command ip || [ -x /usr/sbin/ip ] || [ -x /sbin/ip ] || echo iproute2
+    has_command busybox || echo busybox-static
+    has_command qemu-system-x86_64 || echo qemu-system-x86
+  fi
 }
 
 graben_apt() {
@@ -51,7 +58,7 @@ graben_apt() {
     apt-get -q -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 "$@" </dev/null
 }
 
-# graben_install build|check|fuzz|bench: nothing when all is there; otherwise says what, then installs it.
+# graben_install build|check|fuzz|bench|hil: nothing when all is there; otherwise says what, then installs it.
 graben_install() {
   # Word splitting is wanted: package names have no blanks.
   graben_packages=$(graben_missing "$1" | tr '\n' ' ')
