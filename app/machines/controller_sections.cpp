@@ -152,6 +152,8 @@ ControlProfile read_control(TomlReader& reader) {
   control.servo_gain_ps = reader.number("control.servo_gain", {0.0, 20.0, "1/s"});
   control.servo_most_m = reader.number("control.servo_most", {0.0, 0.2, "m"});
   control.servo_least_lambda = reader.number("control.servo_least_lambda", {0.01, 1.0, ""});
+  control.servo_frequency_hz = reader.number("control.servo_frequency", {0.2, 100.0, "Hz"});
+  control.servo_damping = reader.number("control.servo_damping", {0.1, 10.0, ""});
   control.pressure_filter_s = reader.number("control.pressure_filter", {0.0, 2.0, "s"});
   control.dead_time_s = reader.number("valve.dead_time", {0.0, 0.5, "s"});
   control.slow_error_m = reader.number("control.slow_error", {1e-3, 10.0, "m"});

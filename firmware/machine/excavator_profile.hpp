@@ -130,6 +130,8 @@ struct ControlProfile {
   double servo_gain_ps = 0.0;       ///< What a cylinder owes to its speed.
   double servo_most_m = 0.0;        ///< It can owe no more than this.
   double servo_least_lambda = 1.0;  ///< Corrections stay whole down to this lambda.
+  double servo_frequency_hz = 0.0;  ///< Of the low-pass of what is owed; undamped.
+  double servo_damping = 0.0;       ///< Its damping ratio.
   double pressure_filter_s = 0.0;   ///< Low-pass of the load that the valve's model compensates.
   double slow_error_m = 0.0;        ///< Path error at which the speed along the path is halved.
   double dead_time_s = 0.0;         ///< From a duty to the spool's first movement.

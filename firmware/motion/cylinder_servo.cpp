@@ -6,6 +6,8 @@
 namespace graben {
 namespace {
 
+constexpr double kTwoPi = 6.283185307179586;
+
 int dead_cycles(double dead_time_s) {
   return static_cast<int>(
       std::clamp(dead_time_s / ServoState::kCycle_s + 0.5, 0.0, ServoState::kMostDelayed - 1.0));
@@ -33,6 +35,18 @@ Eigen::Vector3d under_way(const ControlProfile& control, const ServoState& servo
   return ServoState::kCycle_s * sum_mps;
 }
 
+/// One step of y'' = w^2 (owed - y) - 2 zeta w y', implicit: stable at any period.
+void repay(const ControlProfile& control, ServoState& next, double period_s) {
+  const double turn = kTwoPi * control.servo_frequency_hz * period_s;
+  const double slowed = 1.0 + turn * (2.0 * control.servo_damping + turn);
+  const Eigen::Vector3d pull_m = turn * turn * (next.owed_m - next.repay_m);
+  const Eigen::Vector3d step_m = (period_s * next.repay_mps + pull_m) / slowed;
+  next.repay_m += step_m;
+  if (period_s > 0.0) {
+    next.repay_mps = step_m / period_s;
+  }
+}
+
 }  // namespace
 
 ServoState servo_at_rest(const Eigen::Vector3d& strokes_m) {
@@ -56,6 +70,7 @@ ServoState next_servo(const ControlProfile& control, const ServoState& last,
   next.owed_m += expected_m - (strokes_m - last.strokes_m);
   next.owed_m = next.owed_m.cwiseMax(-control.servo_most_m).cwiseMin(control.servo_most_m);
   next.strokes_m = strokes_m;
+  repay(control, next, period_s);
   return next;
 }
 
@@ -72,6 +87,8 @@ ServoState servo_released(const ControlProfile& control, const ServoState& last,
                           const Eigen::Vector3d& strokes_m, double period_s) {
   ServoState next = next_servo(control, last, Eigen::Vector3d::Zero(), strokes_m, period_s);
   next.owed_m.setZero();
+  next.repay_m.setZero();
+  next.repay_mps.setZero();
   return next;
 }
 
@@ -84,7 +101,7 @@ Eigen::Vector3d corrected_velocity(const ExcavatorProfile& profile,
   const ControlProfile& control = profile.control;
   const double gain_ps = speed_override_ratio * control.servo_gain_ps /
                          std::max(last_lambda, control.servo_least_lambda);
-  Eigen::Vector3d corrected = wanted_mps + gain_ps * servo.owed_m;
+  Eigen::Vector3d corrected = wanted_mps + gain_ps * servo.repay_m;
   for (int i = 0; i < kAxisCount; ++i) {
     const double most_m = profile.geometry.cylinder[static_cast<unsigned>(i)].stroke_m;
     const double in_mps = -control.stroke_end_gain_ps * servo.strokes_m[i];

@@ -22,6 +22,8 @@ struct ServoState {
   /// Asked for, not yet due: what the ring and the lags still hold, so that nothing adds up.
   Eigen::Vector3d under_way_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d owed_m = Eigen::Vector3d::Zero();     ///< Due, not yet seen.
+  Eigen::Vector3d repay_m = Eigen::Vector3d::Zero();    ///< Behind its low-pass: what is asked for.
+  Eigen::Vector3d repay_mps = Eigen::Vector3d::Zero();  ///< Its rate of change.
   Eigen::Vector3d strokes_m = Eigen::Vector3d::Zero();  ///< Measured.
 };
 
@@ -35,6 +37,12 @@ struct ServoState {
 /// What it should have moved by then and has not is owed: the integral of the error of its speed,
 /// where lambda has already slowed what is expected, so that nothing winds up while a limit holds.
 /// Bounded by `servo_most_m`, for a cylinder that something else holds.
+///
+/// It is asked for behind a second-order low-pass (`servo_frequency_hz`, `servo_damping`). A load
+/// that shakes the linkage on its oil makes every cylinder owe and be owed by turns; answered at
+/// once, that arrives `response_s` late and feeds the motion. A low-pass just below the lowest mode
+/// turns it on by a quarter of a period and more: there it takes energy out, and what changes
+/// slowly passes as it is.
 [[nodiscard]] ServoState next_servo(const ControlProfile& control, const ServoState& last,
                                     const Eigen::Vector3d& asked_mps,
                                     const Eigen::Vector3d& strokes_m, double period_s);

@@ -23,7 +23,7 @@ EXPERIMENTS = (
       "rmse_error_measured_m": (1 * MM, 10 * MM, 15 * MM),
       "lambda_below_1": (0.33, 1.0, 1.0)}),
     ("soil", ("--soil",), 6,
-     {"max_error_true_m": (25 * MM, 70 * MM, 100 * MM),
+     {"max_error_true_m": (25 * MM, 65 * MM, 100 * MM),
       "rmse_error_measured_m": (5 * MM, 15 * MM, 20 * MM),
       "lambda_below_1": (0.33, 1.0, 1.0)}),
     ("obstacle, stiff oil", ("--obstacle", "--stiff-oil"), 4,

@@ -1,6 +1,8 @@
 /// Feedback around the valve's model: prediction, what is owed, and the load's filter.
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <vector>
 
 #include "firmware/motion/cylinder_servo.hpp"
@@ -13,6 +15,7 @@ namespace {
 using namespace graben;
 
 constexpr double kPeriod_s = 0.01;
+constexpr double kPi = 3.14159265358979323846;
 
 ControlProfile control(double dead_time_s = 0.0) {
   ControlProfile profile;
@@ -21,6 +24,8 @@ ControlProfile control(double dead_time_s = 0.0) {
   profile.servo_gain_ps = 2.0;
   profile.servo_most_m = 0.02;
   profile.servo_least_lambda = 0.2;
+  profile.servo_frequency_hz = 2.4;
+  profile.servo_damping = 0.4;
   return profile;
 }
 
@@ -122,22 +127,22 @@ void where_lambda_is_0_nothing_winds_up(void**) {
 
 void what_is_owed_is_asked_for_whole_at_any_lambda(void**) {
   ServoState servo = servo_at_rest({0.5, 0.5, 0.5});
-  servo.owed_m = {0.01, -0.005, 0.0};
+  servo.repay_m = {0.01, -0.005, 0.0};
   const Eigen::Vector3d wanted(0.1, 0.1, 0.1);
   for (const double lambda : {1.0, 0.5, 0.2}) {
     const Eigen::Vector3d asked =
         lambda * corrected_velocity(machine(), wanted, servo, lambda, 1.0);
-    assert_near((asked - (lambda * wanted + 2.0 * servo.owed_m)).norm(), 0.0, 1e-12);
+    assert_near((asked - (lambda * wanted + 2.0 * servo.repay_m)).norm(), 0.0, 1e-12);
   }
   // Below the least lambda it shrinks with it, so that it ends where lambda does.
   const Eigen::Vector3d asked = 0.1 * corrected_velocity(machine(), wanted, servo, 0.1, 1.0);
-  assert_near((asked - (0.1 * wanted + 0.5 * 2.0 * servo.owed_m)).norm(), 0.0, 1e-12);
+  assert_near((asked - (0.1 * wanted + 0.5 * 2.0 * servo.repay_m)).norm(), 0.0, 1e-12);
 }
 
 /// A slow dial is a slow machine: what is owed is paid in its ratio.
 void what_is_owed_goes_with_the_operators_speed(void**) {
   ServoState servo = servo_at_rest({0.5, 0.5, 0.5});
-  servo.owed_m = {0.02, 0.02, -0.02};
+  servo.repay_m = {0.02, 0.02, -0.02};
   const Eigen::Vector3d wanted(0.001, 0.001, 0.001);
   const Eigen::Vector3d full = corrected_velocity(machine(), wanted, servo, 1.0, 1.0) - wanted;
   const Eigen::Vector3d slow = corrected_velocity(machine(), wanted, servo, 1.0, 0.01) - wanted;
@@ -148,7 +153,7 @@ void what_is_owed_goes_with_the_operators_speed(void**) {
 /// At a cylinder's end what is owed is not asked for, and does not hold up the others.
 void what_is_owed_stops_at_a_stroke_end(void**) {
   ServoState servo = servo_at_rest({0.5, 0.5, 0.0});
-  servo.owed_m = {0.01, 0.0, -0.02};
+  servo.repay_m = {0.01, 0.0, -0.02};
   const Eigen::Vector3d away = corrected_velocity(machine(), {0.1, 0.1, 0.03}, servo, 0.5, 1.0);
   assert_near(away[2], 0.0, 0.0);
   assert_near(away[0], 0.14, 1e-12);
@@ -158,7 +163,7 @@ void what_is_owed_stops_at_a_stroke_end(void**) {
   // The same at the other end.
   const double most_m = machine().geometry.cylinder[kBucket].stroke_m;
   servo = servo_at_rest({0.5, 0.5, most_m});
-  servo.owed_m = {0.0, 0.0, 0.02};
+  servo.repay_m = {0.0, 0.0, 0.02};
   assert_near(corrected_velocity(machine(), {0.1, 0.1, -0.03}, servo, 0.5, 1.0)[2], 0.0, 0.0);
   assert_near(corrected_velocity(machine(), {0.1, 0.1, 0.03}, servo, 0.5, 1.0)[2], 0.03, 0.0);
 }
@@ -175,7 +180,8 @@ void a_released_servo_still_expects_what_is_under_way(void**) {
   for (int n = 0; n < 60; ++n) {
     const double stroke_m = run.cylinder.after(0.0);
     run.servo = servo_released(run.profile, run.servo, {stroke_m, 0.5, 0.5}, kPeriod_s);
-    assert_near(run.servo.owed_m.norm(), 0.0, 0.0);
+    assert_near(run.servo.owed_m.norm() + run.servo.repay_m.norm(), 0.0, 0.0);
+    assert_near(run.servo.repay_mps.norm(), 0.0, 0.0);
     assert_near(run.servo.strokes_m[0] + run.servo.under_way_m[0], from_m + coming_m, 1e-9);
   }
   assert_near(run.servo.under_way_m[0], 0.0, 1e-6);
@@ -197,6 +203,7 @@ void an_uneven_period_leaves_nothing_behind(void**) {
 void nothing_wanted_is_nothing_asked(void**) {
   ServoState servo = servo_at_rest({0.5, 0.5, 0.5});
   servo.owed_m = {0.01, 0.01, 0.01};
+  servo.repay_m = servo.owed_m;
   assert_near(corrected_velocity(machine(), Eigen::Vector3d::Zero(), servo, 0.5, 1.0).norm(), 0.0,
               0.0);
 }
@@ -209,6 +216,62 @@ void a_prediction_stays_within_the_strokes(void**) {
   assert_near(then[0], 0.0, 0.0);
   assert_near(then[1], 0.71, 1e-15);
   assert_near(then[2], profile.geometry.cylinder[kBucket].stroke_m, 0.0);
+}
+
+/// A cylinder that is shaken by 1 mm at this frequency around where it should be: what is asked
+/// for, as a phasor of what it owes.
+std::complex<double> shaken(double frequency_hz, double period_s) {
+  const ControlProfile profile = control();
+  ServoState servo = servo_at_rest({0.5, 0.5, 0.5});
+  const double turn = 2.0 * kPi * frequency_hz * period_s;
+  const int cycles = static_cast<int>(std::lround(10.0 / (frequency_hz * period_s)));
+  std::complex<double> owed = 0.0;
+  std::complex<double> repaid = 0.0;
+  for (int n = 1; n <= 2 * cycles; ++n) {
+    const double stroke_m = 0.5 + 0.001 * std::sin(turn * n);
+    servo = next_servo(profile, servo, {0.0, 0.0, 0.0}, {stroke_m, 0.5, 0.5}, period_s);
+    if (n > cycles) {
+      owed += servo.owed_m[0] * std::polar(1.0, -turn * n);
+      repaid += servo.repay_m[0] * std::polar(1.0, -turn * n);
+    }
+  }
+  return repaid / owed;
+}
+
+/// What changes slowly is asked for as it is; what shakes at the oil's lowest mode by a good
+/// quarter of a period later and not smaller, so that with the response's lag it opposes the
+/// motion; what is faster, hardly.
+void what_shakes_is_asked_for_a_quarter_of_a_period_later(void**) {
+  const std::complex<double> slow = shaken(0.25, kPeriod_s);
+  assert_near(std::abs(slow), 1.0, 0.02);
+  assert_near(std::arg(slow), -2.0 * 0.4 * 0.25 / 2.4, 0.03);
+  const std::complex<double> mode = shaken(2.5, kPeriod_s);
+  assert_true(std::abs(mode) > 0.9 && std::abs(mode) < 1.3);
+  assert_true(std::arg(mode) < -0.45 * kPi && std::arg(mode) > -0.75 * kPi);
+  assert_true(std::abs(shaken(10.0, kPeriod_s)) < 0.1);
+}
+
+/// All of it in the end, no more than a third beyond on the way, at any period.
+void what_stays_owed_is_asked_for_whole(void**) {
+  const ControlProfile profile = control();
+  for (const double period_s : {0.001, 0.01, 0.05}) {
+    ServoState servo = servo_at_rest({0.5, 0.5, 0.5});
+    servo.owed_m = {0.01, -0.02, 0.0};
+    double most_m = 0.0;
+    for (double time_s = 0.0; time_s < 3.0; time_s += period_s) {
+      servo = next_servo(profile, servo, Eigen::Vector3d::Zero(), servo.strokes_m, period_s);
+      most_m = std::max(most_m, servo.repay_m[0]);
+    }
+    assert_near((servo.repay_m - servo.owed_m).norm(), 0.0, 1e-6);
+    assert_true(most_m < 0.0133);
+  }
+  // A period of 0, as a first cycle has, changes nothing.
+  ServoState servo = servo_at_rest({0.5, 0.5, 0.5});
+  servo.owed_m = {0.01, 0.0, 0.0};
+  servo.repay_mps = {0.1, 0.0, 0.0};
+  servo = next_servo(profile, servo, Eigen::Vector3d::Zero(), servo.strokes_m, 0.0);
+  assert_near(servo.repay_m.norm(), 0.0, 0.0);
+  assert_near(servo.repay_mps[0], 0.1, 0.0);
 }
 
 /// A step of load: two thirds after the time constant, all in the end; at once when it starts.
@@ -241,6 +304,8 @@ int main() {
       cmocka_unit_test(an_uneven_period_leaves_nothing_behind),
       cmocka_unit_test(nothing_wanted_is_nothing_asked),
       cmocka_unit_test(a_prediction_stays_within_the_strokes),
+      cmocka_unit_test(what_shakes_is_asked_for_a_quarter_of_a_period_later),
+      cmocka_unit_test(what_stays_owed_is_asked_for_whole),
       cmocka_unit_test(the_load_is_low_passed),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -36,6 +36,8 @@ void figures_arrive_in_the_structs(void**) {
   assert_near(profile.control.servo_gain_ps, 2.0, 0.0);
   assert_near(profile.control.servo_most_m, 0.025, 0.0);
   assert_near(profile.control.servo_least_lambda, 0.2, 0.0);
+  assert_near(profile.control.servo_frequency_hz, 2.4, 0.0);
+  assert_near(profile.control.servo_damping, 0.4, 0.0);
   assert_near(profile.control.pressure_filter_s, 0.15, 0.0);
   assert_near(profile.control.slow_error_m, 0.03, 0.0);
   assert_near(machine().experiment.soil.ground_y_m, -1.0, 0.0);
