@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -20,7 +21,6 @@ struct Options {
   PlantRunOptions run;
   std::string profile = "excavator_22t";
   std::string summary;
-  std::string player = "none";
 };
 
 nlohmann::ordered_json summary_of(const PlantRunResult& result) {
@@ -43,7 +43,6 @@ void plant_on_bus(const Options& options) {
       arranged(machines::load_excavator(machines::find_profile(options.profile)), options.scenario);
   PlantRunOptions run = options.run;
   run.start_strokes_m = usual_run(machine, options.scenario).start_strokes_m;
-  run.plays_operator = options.player == "dig";
   const std::string text = summary_of(run_plant(machine, run)).dump(2);
   if (options.summary.empty()) {
     fmt::print("{}\n", text);
@@ -72,10 +71,12 @@ void add_plant(CLI::App& app, int& status) {
                    "End after this simulated time, 2 .. 1e6; without it at SIGINT or SIGTERM")
       ->check(number_between(2.0, 1e6));
   command
-      ->add_option("--operator", options->player,
-                   "Who gives enable and task: none (another node does) or dig")
-      ->check(CLI::IsMember({"none", "dig"}))
-      ->capture_default_str();
+      ->add_option("--operator", options->run.player,
+                   "Who gives enable and task: none (another node does), dig, or shifts (digs for "
+                   "5 s, lets go for 1 s, and so on)")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, Player>{
+          {"none", Player::kNobody}, {"dig", Player::kDig}, {"shifts", Player::kShifts}}))
+      ->default_str("none");
   command
       ->add_option("--enable-after", options->run.enable_after_s,
                    "When that operator enables, 0 .. 3600 s")

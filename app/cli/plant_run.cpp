@@ -20,6 +20,10 @@ constexpr TimeUs kPeriod_us = plant::PlantNode::kCycleUs;
 constexpr TimeUs kTaskAfter_us = 100 * kMillisecondUs;
 /// The operator lets go before the end, and what the machine then does is seen.
 constexpr TimeUs kRelease_us = 500 * kMillisecondUs;
+constexpr TimeUs kShift_us = 5 * kSecondUs;
+constexpr TimeUs kPause_us = kSecondUs;
+constexpr TimeUs kMostShifts = 10000;
+constexpr int kReopenCycles = 20;
 
 TimeUs microseconds(double time_s) { return static_cast<TimeUs>(std::llround(time_s * 1e6)); }
 
@@ -29,19 +33,49 @@ void open(SocketCanPort& port, const std::string& interface) {
   }
 }
 
+/// Everything that the operator does, in its order.
 std::vector<plant::OperatorPhase> schedule(const PlantRunOptions& options) {
-  const TimeUs enable_us = microseconds(options.enable_after_s);
-  std::vector<plant::OperatorPhase> phases = {
-      {0, {false, OperatorMode::kAutomatic, Task::kNone, 0.0}},
-      {enable_us, {true, OperatorMode::kAutomatic, Task::kNone, 0.0}},
-      {enable_us + kTaskAfter_us,
-       {true, OperatorMode::kAutomatic, Task::kDig, options.speed_override_ratio}}};
+  const plant::OperatorRequest at_rest = {false, OperatorMode::kAutomatic, Task::kNone, 0.0};
+  std::vector<plant::OperatorPhase> phases = {{0, at_rest}};
+  const auto dig_from = [&](TimeUs enable_us) {
+    phases.push_back({enable_us, {true, OperatorMode::kAutomatic, Task::kNone, 0.0}});
+    phases.push_back({enable_us + kTaskAfter_us,
+                      {true, OperatorMode::kAutomatic, Task::kDig, options.speed_override_ratio}});
+  };
+  const TimeUs begin_us = microseconds(options.enable_after_s);
+  const TimeUs end_us = options.seconds > 0.0 ? microseconds(options.seconds) - kRelease_us
+                                              : kMostShifts * (kShift_us + kPause_us);
+  dig_from(begin_us);
+  if (options.player == Player::kShifts) {
+    for (TimeUs pause_us = begin_us + kShift_us; pause_us + kPause_us < end_us;
+         pause_us += kPause_us + kShift_us) {
+      phases.push_back({pause_us, at_rest});
+      dig_from(pause_us + kPause_us);
+    }
+  }
   if (options.seconds > 0.0) {
-    phases.push_back({microseconds(options.seconds) - kRelease_us,
-                      {false, OperatorMode::kAutomatic, Task::kNone, 0.0}});
+    phases.push_back({end_us, at_rest});
   }
   return phases;
 }
+
+/// An interface that went down is opened again when it is back.
+class Reopener {
+ public:
+  explicit Reopener(SocketCanPort& port) : port_(port) {}
+
+  void look(int cycle) {
+    const CanPortState state = port_.state();
+    if (cycle % kReopenCycles == 0 &&
+        (state == CanPortState::kDown || state == CanPortState::kBusOff)) {
+      // Still away: tried again in a moment.
+      static_cast<void>(port_.open());
+    }
+  }
+
+ private:
+  SocketCanPort& port_;
+};
 
 /// Adds up what the figures speak of.
 class Observer {
@@ -98,11 +132,17 @@ PlantRunResult run_plant(const machines::ExcavatorMachine& machine,
   Observer observer(machine, result);
   CyclicClock clock(microseconds(static_cast<double>(kPeriod_us) * 1e-6 / options.speed));
   const TimeUs end_us = microseconds(options.seconds);
+  Reopener reopener(port);
+  Reopener operator_reopener(operator_port);
+  int cycle = 0;
   for (TimeUs now_us = 0; !stop_requested() && (end_us == 0 || now_us < end_us);
        now_us += kPeriod_us) {
     static_cast<void>(clock.wait());
+    reopener.look(cycle);
+    operator_reopener.look(cycle);
+    ++cycle;
     node.step(now_us);
-    if (options.plays_operator) {
+    if (options.player != Player::kNobody) {
       driver.step(now_us);
     }
     observer.see(node, now_us);

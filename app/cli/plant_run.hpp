@@ -8,12 +8,19 @@
 
 namespace graben::cli {
 
+/// Who gives enable and task.
+enum class Player {
+  kNobody,  ///< Another node does.
+  kDig,     ///< Enables once and lets go half a second before the end.
+  kShifts,  ///< Digs for 5 s, lets go for 1 s, and so on: what stopped is armed again.
+};
+
 struct PlantRunOptions {
   std::string interface;
   Eigen::Vector3d start_strokes_m = Eigen::Vector3d::Zero();
   double speed = 1.0;    ///< Simulated over real time.
   double seconds = 0.0;  ///< Simulated; 0: until SIGINT or SIGTERM.
-  bool plays_operator = false;
+  Player player = Player::kNobody;
   double enable_after_s = 1.5;  ///< Then the operator enables, and 0.1 s later sets the task.
   double speed_override_ratio = 1.0;
 };

@@ -13,6 +13,7 @@ constexpr int kFramesPerBatch = 96;
 constexpr int kBatchesPerCycle = 4;
 constexpr TimeUs kStalled_us = 50 * kMillisecondUs;
 constexpr TimeUs kOpenAgain_us = 200 * kMillisecondUs;
+constexpr TimeUs kStillPassive_us = kSecondUs;
 
 BusState bus_state(CanPortState state) {
   switch (state) {
@@ -60,9 +61,14 @@ void ExcavatorEcu::flush_after_stall(TimeUs now_us) {
 
 void ExcavatorEcu::watch_bus(TimeUs now_us) {
   bus_ = bus_state(port_.state());
-  const bool is_away = bus_ == BusState::kOff || bus_ == BusState::kDown;
-  needs_open_ = needs_open_ || is_away;
-  if (needs_open_ && (!is_away || now_us >= open_from_us_)) {
+  const bool is_passive = bus_ == BusState::kPassive;
+  if (is_passive && !needs_open_) {
+    // It mostly comes back by itself; but the frame that says so can be lost.
+    open_from_us_ = now_us + kStillPassive_us;
+  }
+  needs_open_ = needs_open_ || bus_ != BusState::kActive;
+  const bool is_back = bus_ == BusState::kActive;
+  if (needs_open_ && (is_back || now_us >= open_from_us_)) {
     needs_open_ = !port_.open();
     open_from_us_ = now_us + kOpenAgain_us;
   }

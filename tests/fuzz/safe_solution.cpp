@@ -85,6 +85,7 @@ bool limit_is_sound(const McvMachine& machine, const Limit& limit) {
       return limit.index < machine.actuator_count;
     case LimitKind::kStrokeEnd:
     case LimitKind::kRise:
+    case LimitKind::kDegraded:
       break;
   }
   return false;

@@ -36,6 +36,6 @@ is_listened_to() { grep -q "^ *$1 " /proc/net/can/rcvlist_all /proc/net/can/rcvl
 # record INTERFACE: everything on it, error frames too, goes to $OUT/INTERFACE.log as candump writes it.
 # Returns once it listens.
 record() {
-  candump -L "$1,0:0,#FFFFFFFF" >"$OUT/$1.log" &
+  candump -D -L "$1,0:0,#FFFFFFFF" >"$OUT/$1.log" &
   wait_until 5 is_listened_to "$1" || fail "nothing records $1"
 }

@@ -1,0 +1,20 @@
+# shellcheck shell=sh
+# The deployed process, for scenarios that have sourced hil.sh.
+
+# ecu_start INTERFACE [options]: returns once it sends.
+ecu_start() {
+  ecu_interface=$1
+  shift
+  graben-ecu --can "$ecu_interface" --profile excavator_22t.toml "$@" 2>>"$OUT/ecu.err" &
+  ecu=$!
+  wait_until 5 ecu_sends "$ecu_interface" || fail "no frame of the ECU: $(cat "$OUT/ecu.err")"
+}
+
+# A frame within this second.
+ecu_sends() { candump -T 50 -n 1 "$1,0CFF3082:1FFFFFFF" | grep -q 0CFF3082; }
+
+# ecu_stop: told to end, it has to end by itself and with 0.
+ecu_stop() {
+  kill -TERM "$ecu"
+  wait "$ecu" || fail "graben-ecu ended with $?: $(cat "$OUT/ecu.err")"
+}

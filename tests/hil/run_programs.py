@@ -1,0 +1,35 @@
+"""Runs a scenario with the project's programs and judges what it leaves: for faults.py and others.
+
+Command line: OUT PROGRAM...; DIG_S, the length of a dig, is handed on to the scenario."""
+
+import pathlib
+import sys
+from collections.abc import Callable
+
+import guest
+from scenario import Broken, Nowhere, Scenario, tail
+
+HERE = pathlib.Path(__file__).resolve().parent
+PROFILE = HERE.parents[1] / "app" / "machines" / "excavator_22t.toml"
+
+
+def main(script: str, check: Callable[[pathlib.Path], list[str]], timeout_s: float,
+         controllers: int = 0, extra: dict[str, pathlib.Path] | None = None) -> int:
+    out, *programs = map(pathlib.Path, sys.argv[1:])
+    scenario = Scenario(script=HERE / script, programs=programs, controllers=controllers,
+                        timeout_s=timeout_s,
+                        files={"ecu.sh": HERE / "ecu.sh", PROFILE.name: PROFILE, **(extra or {})})
+    try:
+        # The guest's clock counts instructions: times do not hang on how busy this host is.
+        result = guest.run(scenario, out, where="vm")
+    except Nowhere as reason:
+        return guest.give_up(script, reason)
+    except Broken as problem:
+        print(f"hil: {problem}")
+        return 1
+    if result.status != 0:
+        print(tail(result.console), f"\nhil: {script} ended with status {result.status}")
+        return 1
+    problems = check(out)
+    print("\n".join([*problems, f"hil: {script}: {len(problems)} problems, {result.wall_s:.1f} s"]))
+    return 1 if problems else 0
