@@ -78,8 +78,10 @@ void each_signal_is_required(void**) {
     ExcavatorInputs old = complete_inputs(kNow);
     row.signal(old)->stamp_us = kNow - 50 * kMillisecondUs;
     assert_int_equal(fault_of(old), row.fault);
-    row.signal(old)->stamp_us = kNow - 40 * kMillisecondUs;
+    row.signal(old)->stamp_us = kNow - 45 * kMillisecondUs;
     assert_int_equal(fault_of(old), Fault::kNone);
+    row.signal(old)->stamp_us -= 1;
+    assert_int_equal(fault_of(old), row.fault);
     for (const TimeUs wrong :
          {kNow + 1, std::numeric_limits<TimeUs>::min(), std::numeric_limits<TimeUs>::max()}) {
       row.signal(old)->stamp_us = wrong;

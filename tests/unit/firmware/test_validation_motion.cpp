@@ -226,6 +226,18 @@ void a_jump_is_not_believed(void**) {
   }
 }
 
+/// The margin itself is believed, the next number is not: two values of one instant, which no speed
+/// explains. And without one that was ever believed there is nothing to jump from.
+void the_margin_is_a_sharp_edge(void**) {
+  for (const bool jumps : {false, true}) {
+    Stroke stroke;
+    assert_true(stroke.frame(0.0).faults.empty());
+    stroke.newest.value = jumps ? std::nextafter(kJumpMargin_m, 1.0) : kJumpMargin_m;
+    assert_int_equal(stroke.step().faults.has(Fault::kStrokeJump), jumps);
+  }
+  assert_true(validate(complete_inputs(0), profile(), {}, kMoving, 0).faults.empty());
+}
+
 /// Back where it was: over, as if nothing had been.
 void a_jump_and_back_is_bridged(void**) {
   Stroke stroke = at_half(kBoom);
@@ -292,6 +304,7 @@ int main() {
       cmocka_unit_test(faults_of_messages_stop),
       cmocka_unit_test(a_sensors_own_error_is_named),
       cmocka_unit_test(a_jump_is_not_believed),
+      cmocka_unit_test(the_margin_is_a_sharp_edge),
       cmocka_unit_test(a_jump_and_back_is_bridged),
       cmocka_unit_test(a_jump_that_stays_stops),
       cmocka_unit_test(a_jump_to_nothing_is_a_loss),
