@@ -38,6 +38,14 @@ void none_is_never_in_it(void**) {
   assert_false(faults.has(Fault::kNone));
 }
 
+/// A number beyond the last fault's may be in it, from a newer sender; nobody is told of it.
+void an_unknown_number_is_not_named(void**) {
+  FaultSet faults;
+  faults.add(static_cast<Fault>(kFaultCount));
+  assert_int_equal(faults.first(), Fault::kNone);
+  assert_int_equal(faults.after(Fault::kSensorError), Fault::kNone);
+}
+
 void sets_are_united(void**) {
   FaultSet some;
   some.add(Fault::kBusOff);
@@ -60,9 +68,8 @@ void sets_are_united(void**) {
 
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(it_begins_empty),
-      cmocka_unit_test(each_fault_has_its_own_bit),
-      cmocka_unit_test(none_is_never_in_it),
+      cmocka_unit_test(it_begins_empty),     cmocka_unit_test(each_fault_has_its_own_bit),
+      cmocka_unit_test(none_is_never_in_it), cmocka_unit_test(an_unknown_number_is_not_named),
       cmocka_unit_test(sets_are_united),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
