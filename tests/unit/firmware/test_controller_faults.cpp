@@ -234,6 +234,23 @@ void a_deaf_valve_cuts_the_pilot(void**) {
   assert_latched(Fault::kValveNotFollowing, digging);
 }
 
+/// Enable that is confirmed without having been given: cut while it is so, and no longer, because
+/// nobody was in motion.
+void a_valve_that_enables_itself_cuts_the_pilot(void**) {
+  Digging digging;
+  digging.step(digging.at_rest(false));
+  for (int n = 0; n < kEchoCycles; ++n) {
+    assert_false(digging.outputs.pilot_cut);
+    ExcavatorInputs inputs = digging.at_rest(false);
+    inputs.valve_enabled.value = true;
+    digging.step(inputs);
+  }
+  assert_true(digging.outputs.pilot_cut);
+  assert_int_equal(digging.outputs.status.mode, EcuMode::kSilent);
+  assert_int_equal(digging.outputs.status.fault, Fault::kValveNotFollowing);
+  assert_false(digging.step(digging.at_rest(false)).pilot_cut);
+}
+
 /// What stops for other reasons leaves the pilot alone.
 void other_faults_leave_the_pilot(void**) {
   Digging digging;
@@ -252,6 +269,11 @@ void a_flipped_bit_of_the_mode_stops(void**) {
     digging.step(digging.next());
     assert_latched(Fault::kMemoryCorrupt, digging);
   }
+  // With the deadman released as well: named before it is left.
+  test::flip_bit(Memory::mode(before.controller), 0);
+  assert_stopped_by(Fault::kMemoryCorrupt, before.step(before.at_rest(false)));
+  before.step(before.at_rest(false));
+  assert_int_equal(before.outputs.status.mode, EcuMode::kReady);
 }
 
 void a_flipped_bit_of_lambda_stops(void**) {
@@ -301,6 +323,7 @@ int main() {
       cmocka_unit_test(a_lost_engine_speed_slows),
       cmocka_unit_test(a_stuck_spool_cuts_the_pilot_until_rearmed),
       cmocka_unit_test(a_deaf_valve_cuts_the_pilot),
+      cmocka_unit_test(a_valve_that_enables_itself_cuts_the_pilot),
       cmocka_unit_test(other_faults_leave_the_pilot),
       cmocka_unit_test(a_flipped_bit_of_the_mode_stops),
       cmocka_unit_test(a_flipped_bit_of_lambda_stops),
