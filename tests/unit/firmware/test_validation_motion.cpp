@@ -283,6 +283,18 @@ void a_jump_to_nothing_is_a_loss(void**) {
   assert_int_equal(silent.lost().fault, Fault::kStrokeMissing);
 }
 
+/// A jump that is bridged excuses nothing else.
+void a_jump_hides_nothing(void**) {
+  const Stroke before = at_half(kBoom);
+  ExcavatorInputs inputs = complete_inputs(before.now_us);
+  inputs.axis[kBoom].stroke_m.value = 0.75;
+  inputs.link.bus = BusState::kOff;
+  const ValidInputs valid = validate(inputs, profile(), before.state, kMoving, before.now_us);
+  assert_int_equal(valid.fault, Fault::kBusOff);
+  assert_true(valid.degraded.has(Fault::kStrokeJump));
+  assert_false(valid.degraded.has(Fault::kBusOff));
+}
+
 /// Moved by hand, a stroke may be anywhere at any time.
 void outside_motion_nothing_jumps(void**) {
   Stroke stroke = at_half(kBoom);
@@ -308,6 +320,7 @@ int main() {
       cmocka_unit_test(a_jump_and_back_is_bridged),
       cmocka_unit_test(a_jump_that_stays_stops),
       cmocka_unit_test(a_jump_to_nothing_is_a_loss),
+      cmocka_unit_test(a_jump_hides_nothing),
       cmocka_unit_test(outside_motion_nothing_jumps),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
