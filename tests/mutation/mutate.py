@@ -37,8 +37,8 @@ RULES = (
     # A whole number that something is compared with: one less, one more.
     (re.compile(r"(?:(?<= [<>] )|(?<= [<>=!]= ))[0-9]+(?:U|L|UL)?(?![\w.'])"), beside),
 )
-# What is no code: comments, literals, the preprocessor.
-NO_CODE = re.compile(r'//.*|^\s*#.*|"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'')
+# What is no code: comments, literals, the preprocessor, and claims that only the compiler checks.
+NO_CODE = re.compile(r'//.*|^\s*#.*|^\s*static_assert.*|"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'')
 TIMEOUT_S = 20.0
 
 
