@@ -61,6 +61,19 @@ Limit reason(const McvSolution& solution, const VelocityCap& cap, const FaultSet
              : Limit{LimitKind::kDegraded, static_cast<std::uint8_t>(degraded.first())};
 }
 
+/// The mode that was stored; one that is not intact counts as stopped by that, whatever it has
+/// become.
+ModeState stored_mode(const Guarded<ModeState>& mode) {
+  return mode.intact() ? mode.value() : ModeState{EcuMode::kFault, Fault::kMemoryCorrupt};
+}
+
+/// Whether the pilot pressure stays cut until the operator has armed again: a spool that did not
+/// obey may not have it back because the deadman was let go.
+bool keeps_pilot_cut(bool last, const ModeState& mode) {
+  const bool disobeyed = mode.mode == EcuMode::kFault && cuts_pilot(mode.fault);
+  return !in_motion(mode.mode) && (last || disobeyed);
+}
+
 double path_error_m(const RoundedRectangle& path, const TipPose& tip) {
   const Eigen::Vector2d at(tip.x_m, tip.y_m);
   return (path.closest(at).position_m - at).norm();
@@ -180,7 +193,7 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
                             valid.task != Task::kNone,
                             spools_centred(profile_, valid),
                             inputs.link.stop_requested};
-  ModeState mode = next_mode(memory_.mode.value(), request);
+  ModeState mode = next_mode(stored_mode(memory_.mode), request);
   const GateResult command = gate(profile_, memory_.gate, mode.mode == EcuMode::kActive,
                                   {solution.point.spool_m[kBoom], solution.point.spool_m[kArm],
                                    solution.point.spool_m[kBucket]},
@@ -191,7 +204,8 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   ExcavatorOutputs outputs;
   outputs.enable = command.enable;
   outputs.duty_ratio = command.duty_ratio;
-  outputs.pilot_cut = cuts_pilot(mode.fault);
+  memory_.pilot_cut = keeps_pilot_cut(memory_.pilot_cut, mode);
+  outputs.pilot_cut = memory_.pilot_cut || cuts_pilot(mode.fault);
   outputs.swash_ratio = profile_.dig_swash_ratio;
   outputs.status = describe(mode, request, valid);
   if (mode.mode == EcuMode::kActive) {

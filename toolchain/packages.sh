@@ -29,6 +29,7 @@ graben_missing() {
   if [ "$1" = check ]; then
     has_command clang-format-14 || has_command clang-format || echo clang-format
     has_command clang-tidy-14 || has_command clang-tidy || echo clang-tidy
+    has_command gcovr || echo gcovr
   fi
   if [ "$1" = fuzz ]; then
     has_command clang++-14 || echo clang-14

@@ -23,12 +23,6 @@ int direction_of(const ExcavatorProfile& profile, double spool_ratio) {
   return spool_ratio > 0.0 ? 1 : -1;
 }
 
-/// How far the cylinder has gone where its spool does not lead.
-double astray_m(const Axis& axis, double stroke_m) {
-  const double way_m = stroke_m - axis.anchor_m;
-  return axis.direction == 0 ? std::abs(way_m) : -axis.direction * way_m;
-}
-
 Axis followed(const Axis& last, int direction, double stroke_m, double period_s) {
   Axis axis = last;
   axis.direction = direction;
@@ -63,7 +57,8 @@ MotionWatchResult watch_motion(const ExcavatorProfile& profile, const MotionWatc
     Axis axis =
         followed(last.axis[i], direction_of(profile, valid.spool_ratio[i]), stroke_m, period_s);
     look_for_stillness(axis, stroke_m, asked_mps[i], period_s);
-    if (astray_m(axis, stroke_m) > profile.safety.uncommanded_m) {
+    // Where its spool leads, the anchor has come along.
+    if (std::abs(stroke_m - axis.anchor_m) > profile.safety.uncommanded_m) {
       result.faults.add(Fault::kUncommandedMotion);
     }
     if (axis.unmoved_m > profile.safety.stuck_m) {

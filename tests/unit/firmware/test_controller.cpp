@@ -1,54 +1,16 @@
 #include <cmath>
 
-#include "firmware/excavator_controller.hpp"
-#include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/firmware/fixture.hpp"
-#include "tests/unit/firmware/inputs.hpp"
+#include "tests/unit/firmware/running.hpp"
 
 namespace {
 
 using namespace graben;
-constexpr TimeUs kPeriod = 10 * kMillisecondUs;
+using test::assert_neutral;
+using test::Running;
+
+constexpr TimeUs kPeriod = Running::kPeriod;
 
 const ExcavatorProfile& profile() { return test::excavator().profile; }
-
-/// A controller brought to kActive the way an operator does it.
-struct Running {
-  ExcavatorController controller{profile()};
-  TimeUs now_us = kSecondUs;
-  ExcavatorOutputs outputs;
-
-  ExcavatorOutputs step(const ExcavatorInputs& inputs) {
-    outputs = controller.step(inputs, now_us);
-    now_us += kPeriod;
-    return outputs;
-  }
-  ExcavatorInputs inputs() const { return test::following_inputs(outputs, now_us); }
-
-  ExcavatorInputs at_rest(bool enable) const {
-    ExcavatorInputs resting = inputs();
-    resting.driver.enable.value = enable;
-    resting.driver.task.value = Task::kNone;
-    return resting;
-  }
-
-  Running() {
-    ExcavatorInputs released = inputs();
-    released.driver.enable.value = false;
-    step(released);
-
-    step(at_rest(false));
-    step(at_rest(true));
-    step(inputs());
-  }
-};
-
-void assert_neutral(const ExcavatorOutputs& outputs) {
-  assert_false(outputs.enable);
-  for (const double duty : outputs.duty_ratio) {
-    assert_near(duty, 0.0, 0.0);
-  }
-}
 
 void starts_silent_and_neutral(void**) {
   ExcavatorController controller(profile());

@@ -2,7 +2,8 @@
 
 #include "firmware/safety/gate.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/firmware/fixture.hpp"
+#include "tests/unit/firmware/flip_bit.hpp"
+#include "tests/unit/firmware/plain_machine.hpp"
 
 namespace {
 
@@ -10,25 +11,31 @@ using namespace graben;
 
 constexpr double kLong_s = 1.0;  // Longer than any rate limit needs.
 
-const ExcavatorProfile& profile() { return test::excavator().profile; }
+const ExcavatorProfile& profile() {
+  static const ExcavatorProfile machine = test::plain_machine();
+  return machine;
+}
 double travel() { return profile().valve.spool_travel_m; }
 
 void duty_follows_the_profiles_table(void**) {
   const GateResult result = gate(profile(), {}, true, {travel(), -0.5 * travel(), 0.0}, kLong_s);
   assert_true(result.enable);
   assert_near(result.duty_ratio[0], 1.0, 1e-12);
-  assert_near(result.duty_ratio[1], -0.6, 1e-12);
+  assert_near(result.duty_ratio[1], -0.625, 1e-12);  // 0.25 .. 1
   assert_near(result.duty_ratio[2], 0.0, 0.0);
 }
 
 void a_spool_hardly_open_stays_neutral(void**) {
   const double threshold = profile().control.spool_threshold;
-  const GateResult below =
-      gate(profile(), {}, true, {0.9 * threshold * travel(), 0.0, 0.0}, kLong_s);
-  assert_near(below.duty_ratio[0], 0.0, 0.0);
-  const GateResult above =
-      gate(profile(), {}, true, {1.1 * threshold * travel(), 0.0, 0.0}, kLong_s);
-  assert_true(above.duty_ratio[0] >= 0.2);
+  for (const double sign : {1.0, -1.0}) {
+    const double edge_m = sign * threshold * travel();
+    const GateResult below =
+        gate(profile(), {}, true, {std::nextafter(edge_m, 0.0), 0.0, 0.0}, kLong_s);
+    assert_true(below.enable);
+    assert_near(below.duty_ratio[0], 0.0, 0.0);
+    const GateResult at = gate(profile(), {}, true, {edge_m, 0.0, 0.0}, kLong_s);
+    assert_near(at.duty_ratio[0], sign * (0.25 + 0.75 * threshold), 1e-12);
+  }
 }
 
 void positions_beyond_the_travel_are_clamped(void**) {
@@ -44,8 +51,13 @@ void changes_are_limited_in_rate(void**) {
   assert_near(first.state.opening[0].value(), step, 1e-12);
   const GateResult second = gate(profile(), first.state, true, {travel(), 0.0, 0.0}, 0.01);
   assert_near(second.state.opening[0].value(), 2.0 * step, 1e-12);
-  const GateResult still = gate(profile(), first.state, true, {travel(), 0.0, 0.0}, 0.0);
-  assert_near(still.state.opening[0].value(), step, 1e-12);
+  // No time, or a clock that ran back: not a bit further open.
+  for (const double period_s : {0.0, -1.0}) {
+    const GateResult still = gate(profile(), first.state, true, {travel(), 0.0, 0.0}, period_s);
+    assert_near(still.state.opening[0].value(), step, 1e-12);
+  }
+  const GateResult other_way = gate(profile(), {}, true, {-travel(), 0.0, 0.0}, 0.01);
+  assert_near(other_way.state.opening[0].value(), -step, 1e-12);
 }
 
 /// Towards neutral a spool goes at once; a reversal opens from neutral.
@@ -97,8 +109,38 @@ void what_is_no_number_is_refused(void**) {
       }
     }
   }
-  const GateResult timeless = gate(profile(), {}, true, {0.0, 0.0, 0.0}, infinity);
-  assert_false(timeless.enable);
+  for (const double bad_s : {infinity, nan}) {
+    const GateResult timeless = gate(profile(), {}, true, {0.0, 0.0, 0.0}, bad_s);
+    assert_int_equal(timeless.enable, std::isnan(bad_s));  // No time: nothing opens.
+  }
+}
+
+/// Whichever bit of whichever stored opening: refused in this cycle, and nothing of it is kept.
+void a_flipped_bit_is_refused(void**) {
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    for (std::size_t bit = 0; bit < 8 * sizeof(GateState) / kAxisCount; ++bit) {
+      GateState open;
+      open.opening = {Guarded(0.5), Guarded(-0.5), Guarded(0.25)};
+      test::flip_bit(open.opening[i], bit);
+      const GateResult result = gate(profile(), open, true, {travel(), travel(), travel()}, 0.01);
+      assert_false(result.enable);
+      assert_int_equal(result.fault, Fault::kMemoryCorrupt);
+      for (unsigned k = 0; k < kAxisCount; ++k) {
+        assert_near(result.duty_ratio[k], 0.0, 0.0);
+        assert_true(result.state.opening[k].intact());
+        assert_near(result.state.opening[k].value(), 0.0, 0.0);
+      }
+    }
+  }
+}
+
+/// Neutral needs nothing of what is stored.
+void a_flipped_bit_does_not_matter_at_rest(void**) {
+  GateState open;
+  test::flip_bit(open.opening[1], 3);
+  const GateResult result = gate(profile(), open, false, {0.0, 0.0, 0.0}, 0.01);
+  assert_int_equal(result.fault, Fault::kNone);
+  assert_true(result.state.opening[1].intact());
 }
 
 }  // namespace
@@ -113,6 +155,8 @@ int main() {
       cmocka_unit_test(closed_is_duty_zero),
       cmocka_unit_test(not_active_is_neutral_at_once),
       cmocka_unit_test(what_is_no_number_is_refused),
+      cmocka_unit_test(a_flipped_bit_is_refused),
+      cmocka_unit_test(a_flipped_bit_does_not_matter_at_rest),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -2,8 +2,8 @@
 
 #include "firmware/safety/validation.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/firmware/fixture.hpp"
 #include "tests/unit/firmware/inputs.hpp"
+#include "tests/unit/firmware/plain_machine.hpp"
 
 namespace {
 
@@ -12,7 +12,10 @@ using test::complete_inputs;
 
 constexpr TimeUs kNow = 5 * kSecondUs;
 
-const ExcavatorProfile& profile() { return test::excavator().profile; }
+const ExcavatorProfile& profile() {
+  static const ExcavatorProfile machine = test::plain_machine();
+  return machine;
+}
 
 Fault fault_of(const ExcavatorInputs& inputs) {
   return validate(inputs, profile(), {}, false, kNow).fault;
@@ -24,9 +27,20 @@ void complete_inputs_become_a_state(void**) {
   assert_true(valid.enable && valid.automatic);
   assert_int_equal(valid.task, Task::kDig);
   assert_near(valid.strokes_m[kArm], 1.1, 0.0);
-  // 119 cm3/rev at 188.5 rad/s and 64.3 % swash: 137.7 L/min.
-  const auto flow_m3ps = pump_flow_m3ps(profile(), valid.engine_radps, valid.swash_ratio);
-  assert_near(flow_m3ps[0] * 60e3, 137.7, 0.1);
+  assert_true(valid.faults.empty() && valid.degraded.empty());
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    assert_true(valid.load_known[i]);
+    assert_near(valid.cap_pressure_pa[i], 4e6, 0.0);
+    assert_near(valid.rod_pressure_pa[i], 3e6, 0.0);
+  }
+}
+
+/// 2 pi 1e-5 and 4 pi 1e-5 m3/rev; a swash that reads below zero pumps nothing.
+void flow_is_displacement_speed_and_swash(void**) {
+  const auto flow_m3ps = pump_flow_m3ps(profile(), 200.0, {0.5, 0.75});
+  assert_near(flow_m3ps[0], 1e-3, 1e-15);
+  assert_near(flow_m3ps[1], 3e-3, 1e-15);
+  assert_near(pump_flow_m3ps(profile(), 200.0, {-0.01, 0.75})[0], 0.0, 0.0);
 }
 
 /// Every required signal, each in every state that is not usable, gives its own fault.
@@ -45,6 +59,9 @@ void each_signal_is_required(void**) {
       {[](ExcavatorInputs& in) { return &in.axis[0].rod_pressure_pa; }, Fault::kPressureMissing},
       {[](ExcavatorInputs& in) { return &in.axis[1].rod_pressure_pa; }, Fault::kPressureMissing},
       {[](ExcavatorInputs& in) { return &in.axis[2].rod_pressure_pa; }, Fault::kPressureMissing},
+      {[](ExcavatorInputs& in) { return &in.axis[0].spool_ratio; }, Fault::kSpoolMissing},
+      {[](ExcavatorInputs& in) { return &in.axis[1].spool_ratio; }, Fault::kSpoolMissing},
+      {[](ExcavatorInputs& in) { return &in.axis[2].spool_ratio; }, Fault::kSpoolMissing},
       {[](ExcavatorInputs& in) { return &in.swash_ratio[0]; }, Fault::kSwashMissing},
       {[](ExcavatorInputs& in) { return &in.swash_ratio[1]; }, Fault::kSwashMissing},
       {[](ExcavatorInputs& in) { return &in.engine_speed_radps; }, Fault::kEngineSpeedMissing},
@@ -61,8 +78,10 @@ void each_signal_is_required(void**) {
     ExcavatorInputs old = complete_inputs(kNow);
     row.signal(old)->stamp_us = kNow - 50 * kMillisecondUs;
     assert_int_equal(fault_of(old), row.fault);
-    row.signal(old)->stamp_us = kNow - 40 * kMillisecondUs;
+    row.signal(old)->stamp_us = kNow - 45 * kMillisecondUs;
     assert_int_equal(fault_of(old), Fault::kNone);
+    row.signal(old)->stamp_us -= 1;
+    assert_int_equal(fault_of(old), row.fault);
     for (const TimeUs wrong :
          {kNow + 1, std::numeric_limits<TimeUs>::min(), std::numeric_limits<TimeUs>::max()}) {
       row.signal(old)->stamp_us = wrong;
@@ -88,6 +107,55 @@ void enable_must_be_fresh(void**) {
   assert_int_equal(stale.fault, Fault::kOperatorMissing);
 }
 
+/// Each of the operator's signals by itself; without them there is neither task nor speed.
+void the_operator_must_be_whole(void**) {
+  const auto stale = kNow - 60 * kMillisecondUs;
+  void (*const losses[])(OperatorInputs&) = {
+      [](OperatorInputs& driver) { driver.enable.stamp_us = stale; },
+      [](OperatorInputs& driver) { driver.mode.stamp_us = stale; },
+      [](OperatorInputs& driver) { driver.task.stamp_us = stale; },
+      [](OperatorInputs& driver) { driver.mode.validity = Validity::kNotAvailable; },
+      [](OperatorInputs& driver) { driver.task.validity = Validity::kError; },
+      [](OperatorInputs& driver) { driver.speed_override_ratio.stamp_us = stale; }};
+  for (const auto& lose : losses) {
+    ExcavatorInputs inputs = complete_inputs(kNow);
+    lose(inputs.driver);
+    const ValidInputs valid = validate(inputs, profile(), {}, false, kNow);
+    assert_int_equal(valid.fault, Fault::kOperatorMissing);
+    assert_false(valid.automatic);
+    assert_int_equal(valid.task, Task::kNone);
+    assert_near(valid.speed_override_ratio, 0.0, 0.0);
+  }
+}
+
+void what_the_operator_gives_is_read(void**) {
+  ExcavatorInputs inputs = complete_inputs(kNow);
+  inputs.driver.enable.value = false;
+  inputs.driver.mode.value = OperatorMode::kManual;
+  inputs.driver.speed_override_ratio.value = 1.5;
+  const ValidInputs manual = validate(inputs, profile(), {}, false, kNow);
+  assert_int_equal(manual.fault, Fault::kNone);
+  assert_false(manual.enable);
+  assert_false(manual.automatic);
+  assert_near(manual.speed_override_ratio, 1.0, 0.0);
+  inputs.driver.speed_override_ratio.value = -0.5;
+  assert_near(validate(inputs, profile(), {}, false, kNow).speed_override_ratio, 0.0, 0.0);
+}
+
+/// The echo belongs to the spools' frame.
+void the_valves_echo_is_required(void**) {
+  ExcavatorInputs inputs = complete_inputs(kNow);
+  inputs.valve_enabled.value = true;
+  assert_true(validate(inputs, profile(), {}, false, kNow).valve_enabled);
+  inputs.valve_enabled.stamp_us = kNow - 50 * kMillisecondUs;
+  const ValidInputs stale = validate(inputs, profile(), {}, false, kNow);
+  assert_int_equal(stale.fault, Fault::kSpoolMissing);
+  assert_false(stale.valve_enabled);
+  inputs.valve_enabled = test::fresh(true, kNow);
+  inputs.valve_enabled.validity = Validity::kNotAvailable;
+  assert_int_equal(fault_of(inputs), Fault::kSpoolMissing);
+}
+
 /// A machine with another profile, one that does not say, and one that fell silent.
 void another_machine_is_refused(void**) {
   ExcavatorInputs inputs = complete_inputs(kNow);
@@ -108,10 +176,18 @@ void strokes_outside_their_cylinder_are_implausible(void**) {
   const ValidInputs biased = validate(inputs, profile(), {}, false, kNow);
   assert_int_equal(biased.fault, Fault::kNone);
   assert_near(biased.strokes_m[kBucket], most, 0.0);
-  inputs.axis[kBucket].stroke_m.value = most + 0.011;
-  assert_int_equal(fault_of(inputs), Fault::kStrokeImplausible);
-  inputs.axis[kBucket].stroke_m.value = -0.011;
-  assert_int_equal(fault_of(inputs), Fault::kStrokeImplausible);
+  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    const double out_m = profile().geometry.cylinder[axis].stroke_m + kStrokeMargin_m;
+    for (const double edge_m : {out_m, -kStrokeMargin_m}) {
+      ExcavatorInputs at_edge = complete_inputs(kNow);
+      at_edge.axis[axis].stroke_m.value = edge_m;
+      assert_int_equal(fault_of(at_edge), Fault::kNone);
+      at_edge.axis[axis].stroke_m.value = std::nextafter(edge_m, 9.0 * edge_m);
+      assert_int_equal(fault_of(at_edge), Fault::kStrokeImplausible);
+    }
+  }
+  inputs.axis[kBucket].stroke_m.value = -0.002;
+  assert_near(validate(inputs, profile(), {}, false, kNow).strokes_m[kBucket], 0.0, 0.0);
 }
 
 }  // namespace
@@ -119,9 +195,13 @@ void strokes_outside_their_cylinder_are_implausible(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(complete_inputs_become_a_state),
+      cmocka_unit_test(flow_is_displacement_speed_and_swash),
       cmocka_unit_test(each_signal_is_required),
       cmocka_unit_test(a_value_that_is_no_number_is_missing),
       cmocka_unit_test(enable_must_be_fresh),
+      cmocka_unit_test(the_operator_must_be_whole),
+      cmocka_unit_test(what_the_operator_gives_is_read),
+      cmocka_unit_test(the_valves_echo_is_required),
       cmocka_unit_test(another_machine_is_refused),
       cmocka_unit_test(strokes_outside_their_cylinder_are_implausible),
   };

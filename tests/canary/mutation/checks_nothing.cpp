@@ -1,0 +1,5 @@
+int limited(int value);
+int main() {
+  (void)limited(11);
+  return 0;
+}

@@ -1,0 +1,1 @@
+int limited(int value) { return value > 10 ? 10 : value; }

@@ -1,0 +1,50 @@
+#pragma once
+/// A controller brought to kActive the way an operator does it, and what it must be after a fault.
+
+#include "firmware/excavator_controller.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/fixture.hpp"
+#include "tests/unit/firmware/inputs.hpp"
+
+namespace graben::test {
+
+struct Running {
+  static constexpr TimeUs kPeriod = 10 * kMillisecondUs;
+
+  ExcavatorController controller{excavator().profile};
+  TimeUs now_us = kSecondUs;
+  ExcavatorOutputs outputs;
+
+  ExcavatorOutputs step(const ExcavatorInputs& inputs) {
+    outputs = controller.step(inputs, now_us);
+    now_us += kPeriod;
+    return outputs;
+  }
+  [[nodiscard]] ExcavatorInputs inputs() const { return following_inputs(outputs, now_us); }
+
+  [[nodiscard]] ExcavatorInputs at_rest(bool enable) const {
+    ExcavatorInputs resting = inputs();
+    resting.driver.enable.value = enable;
+    resting.driver.task.value = Task::kNone;
+    return resting;
+  }
+
+  Running() {
+    ExcavatorInputs released = inputs();
+    released.driver.enable.value = false;
+    step(released);
+
+    step(at_rest(false));
+    step(at_rest(true));
+    step(inputs());
+  }
+};
+
+inline void assert_neutral(const ExcavatorOutputs& outputs) {
+  assert_false(outputs.enable);
+  for (const double duty : outputs.duty_ratio) {
+    assert_near(duty, 0.0, 0.0);
+  }
+}
+
+}  // namespace graben::test

@@ -1,0 +1,334 @@
+// One step, from end to end, while something fails in motion.
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "tests/unit/firmware/flip_bit.hpp"
+#include "tests/unit/firmware/running.hpp"
+
+namespace graben {
+
+/// The controller's friend: what it keeps from cycle to cycle.
+struct ControllerMemoryAccess {
+  static auto& mode(ExcavatorController& controller) { return controller.memory_.mode; }
+  static auto& lambda(ExcavatorController& controller) { return controller.memory_.lambda; }
+  static auto& opening(ExcavatorController& controller) { return controller.memory_.gate.opening; }
+};
+
+}  // namespace graben
+
+namespace {
+
+using namespace graben;
+using test::assert_neutral;
+using test::fresh;
+using Memory = ControllerMemoryAccess;
+
+/// In motion, with cylinders that go as the solution has them and pressures that live.
+struct Digging : test::Running {
+  std::array<double, kAxisCount> stroke_m{};
+  int cycles = 0;
+
+  Digging() {
+    const ExcavatorInputs start = test::complete_inputs(0);
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+      stroke_m[i] = start.axis[i].stroke_m.value;
+    }
+    run(40);
+    assert_int_equal(outputs.status.mode, EcuMode::kActive);
+    assert_true(outputs.status.faults.empty());
+  }
+  /// What the machine says now.
+  ExcavatorInputs next() {
+    ++cycles;
+    ExcavatorInputs inputs = this->inputs();
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+      stroke_m[i] += outputs.status.lambda * outputs.status.wanted_velocity_mps[i] * 0.01;
+      inputs.axis[i].stroke_m.value = stroke_m[i];
+      inputs.axis[i].cap_pressure_pa.value += cycles % 5;
+      inputs.axis[i].rod_pressure_pa.value += cycles % 5;
+    }
+    return inputs;
+  }
+  void run(int count) {
+    for (int n = 0; n < count; ++n) {
+      step(next());
+    }
+  }
+  [[nodiscard]] double wanted_mps() const {
+    double most = 0.0;
+    for (const double velocity : outputs.status.wanted_velocity_mps) {
+      most = std::max(most, std::abs(velocity));
+    }
+    return most;
+  }
+  /// Released at rest, then given afresh.
+  void rearm() {
+    step(at_rest(false));
+    step(at_rest(false));
+    step(at_rest(true));
+  }
+};
+
+std::uint64_t bits(std::initializer_list<Fault> faults) {
+  FaultSet set;
+  for (const Fault fault : faults) {
+    set.add(fault);
+  }
+  return set.bits();
+}
+
+void assert_stopped_by(Fault fault, const ExcavatorOutputs& outputs) {
+  assert_neutral(outputs);
+  assert_int_equal(outputs.status.mode, EcuMode::kFault);
+  assert_int_equal(outputs.status.fault, fault);
+  assert_true(outputs.status.faults.has(fault));
+  assert_true(outputs.status.why_not_armed >> static_cast<unsigned>(ArmBlock::kFaultLatched) & 1U);
+}
+
+/// Stopped, and still so with everything well again; released and given afresh it goes on.
+void assert_latched(Fault fault, Digging& digging) {
+  assert_stopped_by(fault, digging.outputs);
+  for (int n = 0; n < 5; ++n) {
+    digging.step(digging.inputs());
+    assert_stopped_by(fault, digging.outputs);
+    assert_true(digging.outputs.status.faults.bits() == bits({fault}));
+  }
+  digging.rearm();
+  assert_int_equal(digging.outputs.status.mode, EcuMode::kArmed);
+  assert_int_equal(digging.outputs.status.fault, Fault::kNone);
+  assert_true(digging.outputs.status.faults.empty());
+}
+
+/// Cycles come `late_us` after their time, each as many times as stands here.
+ExcavatorOutputs after_late(Digging& digging, std::initializer_list<bool> late, TimeUs late_us) {
+  for (const bool is_late : late) {
+    digging.now_us += is_late ? late_us : 0;
+    digging.step(digging.next());
+  }
+  return digging.outputs;
+}
+
+void one_late_cycle_is_borne(void**) {
+  constexpr TimeUs kLate = 5 * kMillisecondUs + 1;
+  Digging digging;
+  assert_true(after_late(digging, {true}, kLate).enable);
+  assert_true(after_late(digging, {false, true, false, true, false}, kLate).enable);
+  assert_true(digging.outputs.status.faults.empty());
+  assert_true(after_late(digging, {true, true, true}, kLate - 1).enable);  // 15 ms: in time.
+}
+
+void the_second_late_cycle_in_a_row_stops(void**) {
+  Digging digging;
+  after_late(digging, {true, true}, 5 * kMillisecondUs + 1);
+  assert_latched(Fault::kCycleOverrun, digging);
+  Digging ever_late;
+  after_late(ever_late, {true, true, true, true, true}, 10 * kMillisecondUs);
+  assert_stopped_by(Fault::kCycleOverrun, ever_late.outputs);
+  assert_true(ever_late.outputs.status.why_not_armed >> static_cast<unsigned>(ArmBlock::kCycle) &
+              1U);
+}
+
+void told_to_end_is_neutral_for_good(void**) {
+  Digging digging;
+  ExcavatorInputs last = digging.next();
+  last.link.stop_requested = true;
+  assert_neutral(digging.step(last));
+  assert_int_equal(digging.outputs.status.mode, EcuMode::kStopping);
+  assert_int_equal(digging.outputs.status.fault, Fault::kNone);
+  digging.rearm();
+  assert_neutral(digging.step(digging.inputs()));
+  assert_int_equal(digging.outputs.status.mode, EcuMode::kStopping);
+  assert_true(digging.outputs.status.why_not_armed >> static_cast<unsigned>(ArmBlock::kStopping) &
+              1U);
+}
+
+/// Loses a signal in motion: on it goes, at the profile's share of the speed and named as degraded;
+/// back to the whole of it half a second after the signal is back.
+template <class Lose>
+void assert_goes_on_slower(Fault fault, Lose lose) {
+  const double share = test::excavator().profile.safety.degraded_speed_ratio;
+  Digging digging;
+  const double whole_mps = digging.wanted_mps();
+  for (int n = 0; n < 60; ++n) {
+    ExcavatorInputs inputs = digging.next();
+    lose(inputs);
+    const ExcavatorOutputs outputs = digging.step(inputs);
+    assert_true(outputs.enable);
+    assert_int_equal(outputs.status.mode, EcuMode::kActive);
+    assert_int_equal(outputs.status.fault, fault);
+    assert_true(outputs.status.faults.bits() == bits({fault}));
+    assert_int_equal(outputs.status.why_not_armed, 0);
+    assert_true(digging.wanted_mps() < 1.5 * share * whole_mps);
+    assert_true(digging.wanted_mps() > 0.5 * share * whole_mps);
+  }
+  const Limit limit = digging.outputs.status.limit;
+  if (fault == Fault::kEngineSpeedMissing) {
+    // At idle the pump is what limits: by its flow, or by the pressure that its flow leaves.
+    assert_true(limit.kind == LimitKind::kPumpFlow || limit.kind == LimitKind::kBackFlow);
+  } else {
+    assert_near(digging.outputs.status.lambda, 1.0, 0.0);
+    assert_int_equal(limit.kind, LimitKind::kDegraded);
+    assert_int_equal(limit.index, fault);
+  }
+  digging.run(49);
+  assert_int_equal(digging.outputs.status.fault, fault);  // Slows on, though it is back.
+  assert_true(digging.outputs.status.faults.empty());
+  digging.run(2);
+  assert_int_equal(digging.outputs.status.fault, Fault::kNone);
+  assert_true(digging.wanted_mps() > 2.0 * share * whole_mps);
+}
+
+void a_lost_pressure_slows(void**) {
+  assert_goes_on_slower(Fault::kPressureMissing, [](ExcavatorInputs& inputs) {
+    inputs.axis[kArm].cap_pressure_pa.stamp_us -= 60 * kMillisecondUs;
+  });
+}
+
+void a_lost_engine_speed_slows(void**) {
+  assert_goes_on_slower(Fault::kEngineSpeedMissing, [](ExcavatorInputs& inputs) {
+    inputs.engine_speed_radps.validity = Validity::kNotAvailable;
+  });
+}
+
+/// A spool that stays open against its command. The pilot pressure stays cut until the operator has
+/// armed again: with the deadman released the spool must not get it back.
+void a_stuck_spool_cuts_the_pilot_until_rearmed(void**) {
+  Digging digging;
+  int cycles = 0;
+  while (digging.outputs.status.mode == EcuMode::kActive) {
+    assert_false(digging.outputs.pilot_cut);
+    ExcavatorInputs inputs = digging.next();
+    inputs.axis[kBucket].spool_ratio.value = -0.9;
+    digging.step(inputs);
+    assert_true(++cycles <= kSpoolWrongCycles);
+  }
+  assert_true(digging.outputs.pilot_cut);
+  assert_stopped_by(Fault::kSpoolStuck, digging.outputs);
+  for (int n = 0; n < 3; ++n) {
+    digging.step(digging.inputs());
+    assert_stopped_by(Fault::kSpoolStuck, digging.outputs);
+    assert_true(digging.outputs.pilot_cut);
+  }
+  for (int n = 0; n < 100; ++n) {
+    assert_true(digging.step(digging.at_rest(false)).pilot_cut);
+  }
+  assert_int_equal(digging.outputs.status.mode, EcuMode::kReady);
+  assert_false(digging.step(digging.at_rest(true)).pilot_cut);
+  assert_int_equal(digging.outputs.status.mode, EcuMode::kArmed);
+  assert_false(digging.step(digging.at_rest(false)).pilot_cut);
+}
+
+/// Enable that is given and not confirmed.
+void a_deaf_valve_cuts_the_pilot(void**) {
+  Digging digging;
+  for (int n = 0; n < kEchoCycles; ++n) {
+    assert_int_equal(digging.outputs.status.mode, EcuMode::kActive);
+    ExcavatorInputs inputs = digging.next();
+    inputs.valve_enabled.value = false;
+    digging.step(inputs);
+  }
+  assert_stopped_by(Fault::kValveNotFollowing, digging.outputs);
+  assert_true(digging.outputs.pilot_cut);
+  assert_latched(Fault::kValveNotFollowing, digging);
+}
+
+/// Enable that is confirmed without having been given: cut while it is so, and no longer, because
+/// nobody was in motion.
+void a_valve_that_enables_itself_cuts_the_pilot(void**) {
+  Digging digging;
+  digging.step(digging.at_rest(false));
+  for (int n = 0; n < kEchoCycles; ++n) {
+    assert_false(digging.outputs.pilot_cut);
+    ExcavatorInputs inputs = digging.at_rest(false);
+    inputs.valve_enabled.value = true;
+    digging.step(inputs);
+  }
+  assert_true(digging.outputs.pilot_cut);
+  assert_int_equal(digging.outputs.status.mode, EcuMode::kSilent);
+  assert_int_equal(digging.outputs.status.fault, Fault::kValveNotFollowing);
+  assert_false(digging.step(digging.at_rest(false)).pilot_cut);
+}
+
+/// What stops for other reasons leaves the pilot alone.
+void other_faults_leave_the_pilot(void**) {
+  Digging digging;
+  ExcavatorInputs inputs = digging.next();
+  inputs.link.bus = BusState::kOff;
+  assert_false(digging.step(inputs).pilot_cut);
+  assert_latched(Fault::kBusOff, digging);
+}
+
+/// Any bit of the mode: neutral in this cycle, latched; nothing of what it has become counts.
+void a_flipped_bit_of_the_mode_stops(void**) {
+  Digging before;
+  for (std::size_t bit = 0; bit < 8 * sizeof(Guarded<ModeState>); ++bit) {
+    Digging digging = before;
+    test::flip_bit(Memory::mode(digging.controller), bit);
+    digging.step(digging.next());
+    assert_latched(Fault::kMemoryCorrupt, digging);
+  }
+  // With the deadman released as well: named before it is left.
+  test::flip_bit(Memory::mode(before.controller), 0);
+  assert_stopped_by(Fault::kMemoryCorrupt, before.step(before.at_rest(false)));
+  before.step(before.at_rest(false));
+  assert_int_equal(before.outputs.status.mode, EcuMode::kReady);
+}
+
+void a_flipped_bit_of_lambda_stops(void**) {
+  Digging before;
+  for (std::size_t bit = 0; bit < 8 * sizeof(Guarded<double>); ++bit) {
+    Digging digging = before;
+    test::flip_bit(Memory::lambda(digging.controller), bit);
+    digging.step(digging.next());
+    assert_latched(Fault::kMemoryCorrupt, digging);
+  }
+}
+
+void a_flipped_bit_of_an_opening_stops(void**) {
+  Digging before;
+  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    Digging digging = before;
+    test::flip_bit(Memory::opening(digging.controller)[axis], 17 * axis);
+    digging.step(digging.next());
+    assert_latched(Fault::kMemoryCorrupt, digging);
+  }
+}
+
+/// All that are there are in the set; the first that stopped is the fault.
+void the_status_names_all_faults(void**) {
+  Digging digging;
+  ExcavatorInputs inputs = digging.next();
+  inputs.link.bus = BusState::kPassive;
+  inputs.link.out_of_range = true;
+  inputs.swash_ratio[1].validity = Validity::kError;
+  digging.step(inputs);
+  assert_stopped_by(Fault::kSwashMissing, digging.outputs);
+  assert_true(digging.outputs.status.faults.bits() ==
+              bits({Fault::kSwashMissing, Fault::kBusPassive, Fault::kValueOutOfRange}));
+  // Gone from the bus, and yet there: it is latched.
+  digging.step(digging.inputs());
+  assert_true(digging.outputs.status.faults.bits() == bits({Fault::kSwashMissing}));
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(one_late_cycle_is_borne),
+      cmocka_unit_test(the_second_late_cycle_in_a_row_stops),
+      cmocka_unit_test(told_to_end_is_neutral_for_good),
+      cmocka_unit_test(a_lost_pressure_slows),
+      cmocka_unit_test(a_lost_engine_speed_slows),
+      cmocka_unit_test(a_stuck_spool_cuts_the_pilot_until_rearmed),
+      cmocka_unit_test(a_deaf_valve_cuts_the_pilot),
+      cmocka_unit_test(a_valve_that_enables_itself_cuts_the_pilot),
+      cmocka_unit_test(other_faults_leave_the_pilot),
+      cmocka_unit_test(a_flipped_bit_of_the_mode_stops),
+      cmocka_unit_test(a_flipped_bit_of_lambda_stops),
+      cmocka_unit_test(a_flipped_bit_of_an_opening_stops),
+      cmocka_unit_test(the_status_names_all_faults),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,101 @@
+// The table once more, from what the machine's operator and the bus were promised: a slip of the
+// hand in the firmware's does not repeat itself here.
+
+#include "firmware/safety/fault_table.hpp"
+
+#include <array>
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+
+constexpr bool kCutsPilot = true;
+
+struct Promise {
+  int code;  ///< On the bus.
+  Fault fault;
+  char reaction;  ///< 'N' neutral, 'D' goes on slower.
+  int fmi;        ///< SAE J1939-73.
+  ArmBlock block;
+  bool pilot = false;
+};
+
+const Promise kPromises[] = {
+    // Signals that do not come: FMI 9, abnormal update rate.
+    {1, Fault::kStrokeMissing, 'N', 9, ArmBlock::kStroke},
+    {2, Fault::kPressureMissing, 'D', 9, ArmBlock::kPressure},
+    {3, Fault::kSwashMissing, 'N', 9, ArmBlock::kSwash},
+    {4, Fault::kEngineSpeedMissing, 'D', 9, ArmBlock::kEngineSpeed},
+    {5, Fault::kOperatorMissing, 'N', 9, ArmBlock::kOperator},
+    {20, Fault::kSpoolMissing, 'N', 9, ArmBlock::kSpool},
+    // Values that cannot be: FMI 2, erratic; 10, abnormal rate of change; 31, condition exists.
+    {6, Fault::kStrokeImplausible, 'N', 2, ArmBlock::kStroke},
+    {7, Fault::kPoseUnreachable, 'N', 2, ArmBlock::kImplausible},
+    {23, Fault::kStrokeStuck, 'N', 2, ArmBlock::kStroke},
+    {24, Fault::kStrokeJump, 'N', 10, ArmBlock::kStroke},
+    {25, Fault::kPressureImplausible, 'D', 2, ArmBlock::kPressure},
+    {29, Fault::kValueOutOfRange, 'D', 31, ArmBlock::kMessages},
+    // Ourselves and failed devices: FMI 12; too late: 9.
+    {8, Fault::kSolverFailed, 'N', 12, ArmBlock::kImplausible},
+    {9, Fault::kCommandNotFinite, 'N', 12, ArmBlock::kImplausible},
+    {27, Fault::kMemoryCorrupt, 'N', 12, ArmBlock::kImplausible},
+    {30, Fault::kSensorError, 'N', 12, ArmBlock::kStroke},
+    {10, Fault::kCycleStalled, 'N', 9, ArmBlock::kCycle},
+    {16, Fault::kCycleOverrun, 'N', 9, ArmBlock::kCycle},
+    // The bus: FMI 19, received network data in error; another machine: 14, special.
+    {11, Fault::kIdentityMismatch, 'N', 14, ArmBlock::kIdentity},
+    {12, Fault::kBusOff, 'N', 19, ArmBlock::kBus},
+    {13, Fault::kBusPassive, 'N', 19, ArmBlock::kBus},
+    {14, Fault::kBusDown, 'N', 19, ArmBlock::kBus},
+    {15, Fault::kTransmitFailed, 'N', 19, ArmBlock::kBus},
+    {17, Fault::kMessageCorrupt, 'N', 19, ArmBlock::kMessages},
+    {18, Fault::kMessageSequence, 'N', 19, ArmBlock::kMessages},
+    {19, Fault::kMessageMasquerade, 'N', 19, ArmBlock::kMessages},
+    // The machine does not do as it is told: FMI 7, mechanical system not responding.
+    {21, Fault::kSpoolStuck, 'N', 7, ArmBlock::kSpool, kCutsPilot},
+    {22, Fault::kUncommandedMotion, 'N', 7, ArmBlock::kImplausible, kCutsPilot},
+    {26, Fault::kSwashDisagrees, 'D', 7, ArmBlock::kSwash},
+    {28, Fault::kValveNotFollowing, 'N', 7, ArmBlock::kSpool, kCutsPilot},
+};
+
+void every_fault_keeps_its_promise(void**) {
+  std::array<int, kFaultCount> promised{};
+  for (const Promise& promise : kPromises) {
+    const FaultRow& row = fault_row(promise.fault);
+    const bool stops = promise.reaction == 'N';
+    assert_int_equal(promise.fault, promise.code);
+    assert_int_equal(row.fault, promise.fault);
+    assert_int_equal(row.reaction, stops ? Reaction::kStop : Reaction::kDegrade);
+    assert_int_equal(row.fmi, promise.fmi);
+    assert_int_equal(row.red_stop, stops);
+    assert_int_equal(row.block, promise.block);
+    assert_int_equal(cuts_pilot(promise.fault), promise.pilot);
+    ++promised[static_cast<unsigned>(promise.code)];
+  }
+  for (unsigned code = 1; code < promised.size(); ++code) {
+    assert_int_equal(promised[code], 1);
+  }
+}
+
+/// What is no fault does nothing, lights no lamp.
+void what_is_no_fault_does_nothing(void**) {
+  for (const int code : {0, kFaultCount, 255}) {
+    const FaultRow& row = fault_row(static_cast<Fault>(code));
+    assert_int_equal(row.fault, Fault::kNone);
+    assert_int_equal(row.reaction, Reaction::kNone);
+    assert_int_equal(row.fmi, 0);
+    assert_false(row.red_stop);
+    assert_false(cuts_pilot(static_cast<Fault>(code)));
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(every_fault_keeps_its_promise),
+      cmocka_unit_test(what_is_no_fault_does_nothing),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,243 @@
+#include "firmware/safety/motion_watch.hpp"
+
+#include <cmath>
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/plain_machine.hpp"
+
+namespace {
+
+using namespace graben;
+
+constexpr double kPeriod_s = 0.0625;   // Eight of them are the time to settle, to the last bit.
+constexpr double kAllowed_m = 0.0625;  // safety.uncommanded and safety.stuck
+constexpr double kOpen = 0.75;         // Duty; a spool begins to open at 0.25.
+constexpr double kRest_m = 0.5;
+
+double beyond(double value, double towards) { return std::nextafter(value, towards * 9.0); }
+
+/// One cylinder and its spool; the two others rest.
+struct Cylinder {
+  unsigned axis = 0;
+  MotionWatchState state;
+  double stroke_m = kRest_m;
+  double spool = 0.0;
+  double asked_mps = 0.0;
+
+  FaultSet step(double period_s = kPeriod_s) {
+    ValidInputs valid;
+    valid.strokes_m = {kRest_m, kRest_m, kRest_m};
+    valid.strokes_m[axis] = stroke_m;
+    valid.spool_ratio[axis] = spool;
+    Eigen::Vector3d asked = Eigen::Vector3d::Zero();
+    asked[axis] = asked_mps;
+    const MotionWatchResult result =
+        watch_motion(test::plain_machine(), state, valid, asked, period_s);
+    state = result.state;
+    return result.faults;
+  }
+  bool uncommanded(double period_s = kPeriod_s) {
+    return step(period_s).has(Fault::kUncommandedMotion);
+  }
+  bool stuck() { return step().has(Fault::kStrokeStuck); }
+  /// At rest until the time to settle is over.
+  void settle() {
+    for (int n = 0; n < 20; ++n) {
+      assert_true(step().empty());
+    }
+  }
+};
+
+Cylinder settled(double spool, unsigned axis = 0) {
+  Cylinder cylinder;
+  cylinder.axis = axis;
+  cylinder.spool = spool;
+  cylinder.settle();
+  return cylinder;
+}
+
+/// Closed: so far it may go, either way, and not a bit further. No time passes, so nothing is
+/// forgotten.
+void a_closed_spool_holds_its_cylinder(void**) {
+  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      Cylinder cylinder = settled(0.0, axis);
+      cylinder.stroke_m = kRest_m + sign * kAllowed_m;
+      assert_false(cylinder.uncommanded(0.0));
+      cylinder.stroke_m = beyond(cylinder.stroke_m, sign);
+      assert_true(cylinder.uncommanded(0.0));
+    }
+  }
+}
+
+/// Within its deadband a spool is closed: a cylinder that runs then does so by itself.
+void the_deadband_is_closed(void**) {
+  for (const double sign : {1.0, -1.0}) {
+    Cylinder closed = settled(sign * 0.25);
+    closed.stroke_m = kRest_m + sign * 0.25;
+    assert_true(closed.uncommanded());
+    Cylinder open = settled(beyond(sign * 0.25, sign));
+    open.stroke_m = kRest_m + sign * 0.25;
+    assert_false(open.uncommanded());
+  }
+}
+
+/// Open: with the spool as far as it likes, against it so far and no further, counted from the
+/// furthest that it had come.
+void an_open_spool_leads_its_cylinder(void**) {
+  for (const double sign : {1.0, -1.0}) {
+    Cylinder cylinder = settled(sign * kOpen);
+    for (int n = 1; n <= 4; ++n) {
+      cylinder.stroke_m = kRest_m + sign * 0.125 * n;
+      assert_false(cylinder.uncommanded());
+    }
+    cylinder.stroke_m = kRest_m + sign * (0.5 - kAllowed_m);
+    assert_false(cylinder.uncommanded(0.0));
+    cylinder.stroke_m = beyond(cylinder.stroke_m, -sign);
+    assert_true(cylinder.uncommanded(0.0));
+  }
+}
+
+/// 0.5 s after a spool has closed, opened or turned round, whatever happens is the old oil's.
+void oil_may_ring_down(void**) {
+  const double ways[][2] = {{kOpen, 0.0},  {-kOpen, 0.0},   {0.0, kOpen},
+                            {0.0, -kOpen}, {kOpen, -kOpen}, {-kOpen, kOpen}};
+  for (const auto& way : ways) {
+    Cylinder cylinder = settled(way[0]);
+    cylinder.spool = way[1];
+    for (int n = 0; n < 8; ++n) {  // The change itself, and 7 periods: less than 0.5 s.
+      cylinder.stroke_m = kRest_m + (n % 2 == 0 ? 0.25 : -0.25);
+      assert_false(cylinder.uncommanded());
+    }
+    const double against = way[1] > 0.0 ? -1.0 : 1.0;
+    cylinder.stroke_m += against * 0.125;
+    assert_true(cylinder.uncommanded());  // 0.5 s are over.
+  }
+}
+
+/// The time begins again with each change.
+void each_change_settles_anew(void**) {
+  Cylinder cylinder = settled(kOpen);
+  for (int change = 0; change < 6; ++change) {
+    cylinder.spool = change % 2 == 0 ? 0.0 : kOpen;
+    for (int n = 0; n < 8; ++n) {
+      cylinder.stroke_m = cylinder.stroke_m > kRest_m ? 0.25 : 0.75;
+      assert_false(cylinder.uncommanded());
+    }
+  }
+}
+
+/// A leak of 5 mm/s is no uncommanded motion over any distance; 20 mm/s are.
+void leakage_is_forgotten(void**) {
+  Cylinder leaking = settled(0.0);
+  Cylinder sinking = settled(0.0);
+  bool sunk = false;
+  for (int n = 0; n < 1600; ++n) {  // 100 s
+    leaking.stroke_m -= 0.005 * kPeriod_s;
+    assert_false(leaking.uncommanded());
+    sinking.stroke_m -= 0.020 * kPeriod_s;
+    sunk = sunk || sinking.uncommanded();
+  }
+  assert_true(sunk);
+}
+
+/// 50 mm twice: too much within a second, forgotten after a minute.
+void forgetting_takes_seconds(void**) {
+  for (const bool soon : {true, false}) {
+    Cylinder cylinder = settled(0.0);
+    cylinder.stroke_m += 0.05;
+    for (int n = 0; n < (soon ? 16 : 960); ++n) {
+      assert_false(cylinder.uncommanded());
+    }
+    cylinder.stroke_m += 0.05;
+    assert_int_equal(cylinder.uncommanded(), soon);
+  }
+  // However long a cycle: no further than to where the cylinder is.
+  Cylinder cylinder = settled(0.0);
+  cylinder.stroke_m += 0.125;
+  assert_false(cylinder.uncommanded(30.0));
+  cylinder.stroke_m -= 0.05;
+  assert_false(cylinder.uncommanded(0.0));
+}
+
+/// Asked for 0.125 m/s: 8 cycles are what is allowed, the ninth is too much.
+void a_stroke_that_stands_still_is_stuck(void**) {
+  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      Cylinder cylinder = settled(sign * kOpen, axis);
+      cylinder.asked_mps = sign * 0.125;
+      for (int n = 0; n < 8; ++n) {
+        assert_false(cylinder.stuck());
+      }
+      assert_true(cylinder.stuck());
+      assert_true(cylinder.stuck());
+      cylinder.stroke_m += sign * 0.002;
+      assert_false(cylinder.stuck());
+    }
+  }
+}
+
+/// Closed, open the other way, or nothing asked: it may well stand still.
+void only_what_is_asked_and_led_can_be_stuck(void**) {
+  const double rows[][2] = {{0.0, 0.125},    {0.0, -0.125}, {kOpen, -0.125},
+                            {-kOpen, 0.125}, {kOpen, 0.0},  {-kOpen, 0.0}};
+  for (const auto& row : rows) {
+    Cylinder cylinder = settled(row[0]);
+    cylinder.asked_mps = row[1];
+    for (int n = 0; n < 100; ++n) {
+      assert_false(cylinder.stuck());
+    }
+  }
+}
+
+/// Half a millimetre is within what a sensor at rest may say, more is motion.
+void noise_is_no_motion(void**) {
+  for (const bool moves : {false, true}) {
+    Cylinder cylinder;
+    cylinder.stroke_m = 0.0;  // Where the watch begins: the difference is exact.
+    cylinder.spool = kOpen;
+    cylinder.asked_mps = 0.5;  // Two cycles are what is allowed.
+    assert_true(cylinder.step().empty());
+    assert_true(cylinder.step().empty());
+    cylinder.stroke_m = moves ? beyond(0.0005, 1.0) : 0.0005;
+    assert_int_equal(cylinder.stuck(), !moves);
+  }
+  // A slow one, 0.2 mm a cycle, has moved after three.
+  Cylinder slow = settled(kOpen);
+  slow.asked_mps = 0.125;
+  for (int n = 0; n < 1000; ++n) {
+    slow.stroke_m += 0.0002;
+    assert_false(slow.stuck());
+  }
+}
+
+/// What was asked before a pause counts on: no flow came of it either way.
+void what_was_asked_adds_up(void**) {
+  Cylinder cylinder = settled(kOpen);
+  for (int n = 0; n < 8; ++n) {
+    cylinder.asked_mps = 0.125;
+    assert_false(cylinder.stuck());
+    cylinder.asked_mps = 0.0;
+    assert_false(cylinder.stuck());
+  }
+  cylinder.asked_mps = 0.125;
+  assert_true(cylinder.stuck());
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_closed_spool_holds_its_cylinder),
+      cmocka_unit_test(the_deadband_is_closed),
+      cmocka_unit_test(an_open_spool_leads_its_cylinder),
+      cmocka_unit_test(oil_may_ring_down),
+      cmocka_unit_test(each_change_settles_anew),
+      cmocka_unit_test(leakage_is_forgotten),
+      cmocka_unit_test(forgetting_takes_seconds),
+      cmocka_unit_test(a_stroke_that_stands_still_is_stuck),
+      cmocka_unit_test(only_what_is_asked_and_led_can_be_stuck),
+      cmocka_unit_test(noise_is_no_motion),
+      cmocka_unit_test(what_was_asked_adds_up),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,159 @@
+#include "firmware/safety/pressure_watch.hpp"
+
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/plain_machine.hpp"
+
+namespace {
+
+using namespace graben;
+
+constexpr double kRail_pa = 40e6;
+constexpr double kPeriod_s = 0.01;
+
+/// One chamber of one axis whose pressure is set by hand; all others live.
+struct Chamber {
+  unsigned axis = 0;
+  bool rod = false;
+  double pressure_pa = 5e6;
+  double stroke_m = 0.0;
+  bool known = true;
+  PressureWatchState state;
+  int cycle = 0;
+
+  std::array<bool, kAxisCount> step(double period_s = kPeriod_s) {
+    ValidInputs valid;
+    const double alive_pa = 6e6 + 1e3 * (++cycle % 7);
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+      valid.load_known[i] = i != axis || known;
+      valid.cap_pressure_pa[i] = i == axis && !rod ? pressure_pa : alive_pa;
+      valid.rod_pressure_pa[i] = i == axis && rod ? pressure_pa : alive_pa;
+      valid.strokes_m[i] = stroke_m;
+    }
+    const PressureWatchResult result =
+        watch_pressures(test::plain_machine(), state, valid, period_s);
+    state = result.state;
+    return result.wrong;
+  }
+  bool wrong(double period_s = kPeriod_s) {
+    const std::array<bool, kAxisCount> all = step(period_s);
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+      assert_true(i == axis || !all[i]);
+    }
+    return all[axis];
+  }
+};
+
+/// Each chamber by itself, cap and rod side of each axis.
+template <class Check>
+void in_each_chamber(Check check) {
+  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (const bool rod : {false, true}) {
+      Chamber chamber;
+      chamber.axis = axis;
+      chamber.rod = rod;
+      check(chamber);
+    }
+  }
+}
+
+void pressures_that_live_are_believed(void**) {
+  in_each_chamber([](Chamber chamber) {
+    for (int n = 0; n < 300; ++n) {
+      chamber.pressure_pa = 5e6 + n;
+      chamber.stroke_m = 0.01 * n;
+      assert_false(chamber.wrong());
+    }
+  });
+}
+
+/// 0.3 s at the rail are a peak; longer is a sensor at its end.
+void a_sensor_at_its_rail_is_wrong(void**) {
+  in_each_chamber([](Chamber chamber) {
+    chamber.pressure_pa = kRail_pa;
+    assert_false(chamber.wrong(0.3));
+    assert_false(chamber.wrong(0.0));
+    assert_true(chamber.wrong(1e-6));
+    assert_true(chamber.wrong());
+    chamber.pressure_pa = std::nextafter(kRail_pa, 0.0);
+    assert_false(chamber.wrong());
+    chamber.pressure_pa = kRail_pa + 1.0;
+    assert_false(chamber.wrong(0.3));
+    assert_true(chamber.wrong(1e-6));
+  });
+}
+
+/// Peaks do not add up.
+void a_peak_ends_with_itself(void**) {
+  in_each_chamber([](Chamber chamber) {
+    for (int n = 0; n < 20; ++n) {
+      chamber.pressure_pa = kRail_pa;
+      assert_false(chamber.wrong(0.25));
+      chamber.pressure_pa = 10e6;
+      assert_false(chamber.wrong(0.25));
+    }
+  });
+}
+
+/// 0.1 m of motion with the same number; either way; until it changes.
+void a_number_that_stands_while_the_cylinder_moves_is_stuck(void**) {
+  for (const double sign : {1.0, -1.0}) {
+    in_each_chamber([sign](Chamber chamber) {
+      assert_false(chamber.wrong());  // At stroke 0 the number was new.
+      chamber.stroke_m = sign * 0.1;
+      assert_false(chamber.wrong());
+      chamber.stroke_m = std::nextafter(sign * 0.1, sign);
+      assert_true(chamber.wrong());
+      assert_true(chamber.wrong());
+      chamber.pressure_pa = std::nextafter(5e6, 9e9);
+      assert_false(chamber.wrong());
+      chamber.stroke_m += sign * 0.09;
+      assert_false(chamber.wrong());
+    });
+  }
+}
+
+void a_cylinder_at_rest_has_one_pressure(void**) {
+  Chamber chamber;
+  for (int n = 0; n < 1000; ++n) {
+    assert_false(chamber.wrong());
+  }
+}
+
+/// A chamber without oil has one pressure for long.
+void an_empty_chamber_is_not_stuck(void**) {
+  for (const double pressure_pa : {0.0, 0.2e6, std::nextafter(0.2e6, 1e9)}) {
+    in_each_chamber([pressure_pa](Chamber chamber) {
+      chamber.pressure_pa = pressure_pa;
+      assert_false(chamber.wrong());
+      chamber.stroke_m = 0.5;
+      assert_int_equal(chamber.wrong(), pressure_pa > 0.2e6);
+    });
+  }
+}
+
+/// An axis whose pressures did not come is neither judged nor forgotten.
+void what_is_not_known_is_not_judged(void**) {
+  in_each_chamber([](Chamber chamber) {
+    chamber.pressure_pa = kRail_pa;
+    assert_false(chamber.wrong(0.3));
+    chamber.known = false;
+    assert_false(chamber.wrong(1.0));
+    chamber.known = true;
+    assert_true(chamber.wrong());
+  });
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(pressures_that_live_are_believed),
+      cmocka_unit_test(a_sensor_at_its_rail_is_wrong),
+      cmocka_unit_test(a_peak_ends_with_itself),
+      cmocka_unit_test(a_number_that_stands_while_the_cylinder_moves_is_stuck),
+      cmocka_unit_test(a_cylinder_at_rest_has_one_pressure),
+      cmocka_unit_test(an_empty_chamber_is_not_stuck),
+      cmocka_unit_test(what_is_not_known_is_not_judged),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,270 @@
+#include "firmware/safety/watch.hpp"
+
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/plain_machine.hpp"
+
+namespace {
+
+using namespace graben;
+
+constexpr double kPeriod_s = 0.0625;
+constexpr double kSlower = 0.25;  // safety.degraded_speed
+
+/// A machine in motion that does what it is told, at half the operator's speed.
+struct Machine {
+  ExcavatorProfile profile = test::plain_machine();
+  WatchState state;
+  LastCycle cycle;
+  ValidInputs inputs;
+  WatchResult seen;
+  int cycles = 0;
+
+  Machine() {
+    cycle.moving = true;
+    cycle.sent.enable = true;
+    inputs.enable = inputs.automatic = inputs.valve_enabled = true;
+    inputs.task = Task::kDig;
+    inputs.speed_override_ratio = 0.5;
+    inputs.strokes_m = {0.5, 0.5, 0.5};
+    inputs.load_known = {true, true, true};
+    inputs.swash_ratio = profile.dig_swash_ratio;
+    inputs.engine_radps = 200.0;
+  }
+  const ValidInputs& step(double period_s = kPeriod_s) {
+    ++cycles;
+    if (!frozen) {
+      inputs.cap_pressure_pa = {4e6 + cycles, 4e6 + cycles, 4e6 + cycles};
+      inputs.rod_pressure_pa = {3e6 + cycles, 3e6 + cycles, 3e6 + cycles};
+    }
+    seen = watch(profile, state, cycle, inputs, period_s);
+    state = seen.state;
+    return seen.inputs;
+  }
+  void run(int count) {
+    for (int n = 0; n < count; ++n) {
+      step();
+    }
+  }
+  bool frozen = false;
+};
+
+void assert_well(const ValidInputs& inputs) {
+  assert_int_equal(inputs.fault, Fault::kNone);
+  assert_true(inputs.faults.empty());
+  assert_true(inputs.degraded.empty());
+  assert_near(inputs.speed_override_ratio, 0.5, 0.0);
+  for (const bool known : inputs.load_known) {
+    assert_true(known);
+  }
+}
+
+void assert_stopped_by(Fault fault, const ValidInputs& inputs) {
+  assert_int_equal(inputs.fault, fault);
+  assert_true(inputs.faults.has(fault));
+  assert_true(inputs.degraded.empty());
+}
+
+void assert_slowed_by(Fault fault, const ValidInputs& inputs) {
+  assert_int_equal(inputs.fault, Fault::kNone);
+  assert_true(inputs.degraded.has(fault));
+  assert_near(inputs.speed_override_ratio, 0.5 * kSlower, 0.0);
+}
+
+void a_machine_that_obeys_is_left_alone(void**) {
+  Machine machine;
+  for (int n = 0; n < 200; ++n) {
+    assert_well(machine.step());
+    // 2 pi 1e-5 and 4 pi 1e-5 m3/rev at 200 rad/s, swash 0.5 and 0.75.
+    assert_near(machine.seen.pump_flow_m3ps[0], 1e-3, 1e-15);
+    assert_near(machine.seen.pump_flow_m3ps[1], 3e-3, 1e-15);
+  }
+}
+
+void spools_and_cylinders_stop(void**) {
+  Machine stuck;
+  stuck.run(20);
+  stuck.inputs.spool_ratio[kArm] = 0.1875;  // Off, and yet within its deadband.
+  stuck.run(kSpoolWrongCycles - 1);
+  assert_well(stuck.seen.inputs);
+  assert_stopped_by(Fault::kSpoolStuck, stuck.step());
+
+  Machine drifting;
+  drifting.run(20);
+  drifting.inputs.strokes_m[kBoom] = 0.25;
+  assert_stopped_by(Fault::kUncommandedMotion, drifting.step());
+
+  Machine still;
+  still.cycle.sent.duty_ratio[kBucket] = still.inputs.spool_ratio[kBucket] = 0.75;
+  still.cycle.asked_mps[kBucket] = 0.5;
+  still.run(3);
+  assert_well(still.seen.inputs);
+  assert_stopped_by(Fault::kStrokeStuck, still.step());
+}
+
+void pressures_and_swash_slow(void**) {
+  Machine pressure;
+  pressure.step();
+  pressure.frozen = true;
+  pressure.inputs.rod_pressure_pa[kArm] = 40e6;
+  pressure.run(4);
+  assert_well(pressure.seen.inputs);
+  assert_slowed_by(Fault::kPressureImplausible, pressure.step());
+  assert_true(pressure.seen.inputs.faults.has(Fault::kPressureImplausible));
+  assert_true(pressure.seen.inputs.load_known[kBoom]);
+  assert_false(pressure.seen.inputs.load_known[kArm]);
+  assert_true(pressure.seen.inputs.load_known[kBucket]);
+
+  Machine swash;
+  swash.inputs.swash_ratio = {1.0, 0.0};
+  swash.run(8);
+  assert_well(swash.seen.inputs);
+  assert_near(swash.seen.pump_flow_m3ps[0], 2e-3, 1e-15);
+  assert_slowed_by(Fault::kSwashDisagrees, swash.step());
+  assert_true(swash.seen.inputs.faults.has(Fault::kSwashDisagrees));
+  assert_near(swash.seen.pump_flow_m3ps[0], 1e-3, 1e-15);  // As commanded: less than said.
+  assert_near(swash.seen.pump_flow_m3ps[1], 0.0, 0.0);
+  // Armed, without a command to the pumps, nothing is asked of them.
+  swash.cycle.sent.enable = swash.inputs.valve_enabled = false;
+  swash.run(20);
+  assert_well(swash.seen.inputs);
+}
+
+/// What came in as a stop stays the first; the watches' own are added.
+void the_first_fault_stays_the_first(void**) {
+  Machine machine;
+  machine.inputs.valve_enabled = false;
+  machine.run(kEchoCycles - 1);
+  machine.inputs.fault = Fault::kBusOff;
+  machine.inputs.faults.add(Fault::kBusOff);
+  const ValidInputs& both = machine.step();
+  assert_int_equal(both.fault, Fault::kBusOff);
+  assert_true(both.faults.has(Fault::kBusOff));
+  assert_true(both.faults.has(Fault::kValveNotFollowing));
+  machine.inputs.fault = Fault::kNone;
+  machine.inputs.faults = {};
+  assert_stopped_by(Fault::kValveNotFollowing, machine.step());
+}
+
+/// With a fault that stops, the cylinders' watches begin afresh: no second fault from half of the
+/// truth.
+void a_stopped_machine_is_not_judged(void**) {
+  Machine machine;
+  machine.run(20);
+  machine.inputs.fault = Fault::kStrokeMissing;
+  machine.inputs.faults.add(Fault::kStrokeMissing);
+  machine.inputs.strokes_m = {0.0, 0.0, 0.0};
+  machine.inputs.spool_ratio = {0.75, 0.75, 0.75};
+  machine.run(20);
+  assert_int_equal(machine.seen.inputs.faults.bits(), 1U << 1U);
+  assert_near(machine.state.motion.axis[0].since_s, 0.0, 0.0);
+}
+
+/// Outside motion people move it: spools, strokes, pressures, swash are theirs. The valve's echo is
+/// not.
+void not_in_motion_the_machine_is_the_operators(void**) {
+  Machine machine;
+  machine.cycle.moving = false;
+  machine.cycle.sent = {};
+  machine.inputs.valve_enabled = false;
+  machine.inputs.degraded.add(Fault::kPressureMissing);  // Left over; means nothing here.
+  machine.frozen = true;
+  machine.inputs.cap_pressure_pa[0] = 40e6;
+  machine.inputs.swash_ratio = {1.0, 0.0};
+  for (int n = 0; n < 100; ++n) {
+    machine.inputs.spool_ratio = {1.0, -1.0, 0.75};
+    machine.inputs.strokes_m = {0.01 * n, 0.5 - 0.01 * n, 0.0};
+    const ValidInputs& inputs = machine.step();
+    assert_int_equal(inputs.fault, Fault::kNone);
+    assert_true(inputs.faults.empty());
+    assert_true(inputs.load_known[0]);
+    assert_near(inputs.speed_override_ratio, 0.5, 0.0);
+  }
+  machine.inputs.valve_enabled = true;
+  machine.run(kEchoCycles);
+  assert_int_equal(machine.seen.inputs.fault, Fault::kValveNotFollowing);
+}
+
+/// Armed after that, every watch begins afresh, but for what was sent.
+void every_motion_begins_afresh(void**) {
+  Machine machine;
+  machine.inputs.swash_ratio[0] = 0.0;
+  machine.run(7);
+  assert_true(machine.state.swash[0] > 0.0);
+  assert_true(machine.state.motion.axis[0].since_s > 0.0);
+  machine.cycle.moving = false;
+  machine.step();
+  assert_near(machine.state.swash[0], 0.0, 0.0);
+  assert_near(machine.state.motion.axis[0].since_s, 0.0, 0.0);
+  assert_near(machine.state.pressure.sensor[0][0].last_pa, 0.0, 0.0);
+  machine.cycle.moving = true;
+  machine.run(8);
+  assert_well(machine.seen.inputs);
+}
+
+/// A value that comes and goes does not make the machine jerk: 0.5 s after it has come back the
+/// speed does.
+void what_degraded_goes_on_for_half_a_second(void**) {
+  Machine machine;
+  machine.step();
+  for (int round = 0; round < 2; ++round) {
+    machine.inputs.degraded.add(Fault::kEngineSpeedMissing);
+    assert_slowed_by(Fault::kEngineSpeedMissing, machine.step());
+    assert_slowed_by(Fault::kEngineSpeedMissing, machine.step());
+    machine.inputs.degraded = {};
+    for (int n = 1; n < 8; ++n) {  // 7 * 0.0625 s
+      assert_slowed_by(Fault::kEngineSpeedMissing, machine.step());
+      assert_true(machine.seen.inputs.faults.empty());  // It is not there any more.
+    }
+    assert_well(machine.step());
+    assert_well(machine.step());
+  }
+}
+
+/// Several at once are all named, until the last of them has been gone for as long.
+void all_that_degraded_is_named(void**) {
+  Machine machine;
+  machine.inputs.degraded.add(Fault::kPressureMissing);
+  machine.step();
+  machine.inputs.degraded = {};
+  machine.run(4);
+  machine.inputs.degraded.add(Fault::kValueOutOfRange);
+  machine.step();
+  machine.inputs.degraded = {};
+  machine.run(7);
+  assert_slowed_by(Fault::kPressureMissing, machine.seen.inputs);
+  assert_slowed_by(Fault::kValueOutOfRange, machine.seen.inputs);
+  assert_well(machine.step());
+}
+
+/// The next motion does not begin slow for what the last one lost.
+void the_end_of_motion_ends_it(void**) {
+  Machine machine;
+  machine.inputs.degraded.add(Fault::kPressureMissing);
+  machine.step();
+  machine.inputs.degraded = {};
+  machine.step();
+  assert_slowed_by(Fault::kPressureMissing, machine.seen.inputs);
+  machine.cycle.moving = false;
+  machine.step();
+  assert_near(machine.seen.inputs.speed_override_ratio, 0.5, 0.0);
+  machine.cycle.moving = true;
+  assert_well(machine.step());
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_machine_that_obeys_is_left_alone),
+      cmocka_unit_test(spools_and_cylinders_stop),
+      cmocka_unit_test(pressures_and_swash_slow),
+      cmocka_unit_test(the_first_fault_stays_the_first),
+      cmocka_unit_test(a_stopped_machine_is_not_judged),
+      cmocka_unit_test(not_in_motion_the_machine_is_the_operators),
+      cmocka_unit_test(every_motion_begins_afresh),
+      cmocka_unit_test(what_degraded_goes_on_for_half_a_second),
+      cmocka_unit_test(all_that_degraded_is_named),
+      cmocka_unit_test(the_end_of_motion_ends_it),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
