@@ -37,7 +37,7 @@ ROWS = [
     Expected(26, "bus-off", cause="20000040", codes=(BUS_OFF,)),
     Expected(27, "error-passive", cause="20000004", codes=(BUS_PASSIVE,)),
     Expected(28, "interface down", codes=(BUS_DOWN,), silent_s=0.4),
-    Expected(29, "transmit queue full", codes=(TRANSMIT,)),
+    Expected(29, "transmit queue full", codes=(TRANSMIT,), silent_s=0.02),
     Expected(24, "flood, top priority"),
     Expected(25, "flood, low priority"),
     Expected(44, "stopped and continued (30, 31)", codes=(CYCLE_STALLED,), silent_s=0.9),
@@ -71,7 +71,10 @@ def judge_silence(expected: Expected, commands: list[Frame], valve: list[Frame])
     problems = []
     if longest < expected.silent_s:
         problems.append(f"its frames ceased for {longest:.3f} s only")
-    if expected.row != 28:  # with the interface down nobody hears the valve either
+    if next(command for command in commands if command.time > last).neutral is False:
+        problems.append("the first command after the gap is not neutral")
+    # With the interface down nobody hears the valve either.
+    if expected.row != 28 and longest > VALVE_TIMEOUT_S:
         closed = [frame.time for frame in valve if frame.time > last and frame.bits(12, 2) == 0]
         late = (closed[0] - last) if closed else float("inf")
         if late > VALVE_TIMEOUT_S + ECHO_S:

@@ -7,9 +7,9 @@
 # The last EcuStatus on the bus says this mode.
 mode_is() { tail -n 60 "$OUT/vcan0.log" | grep '18FF3182#' | tail -n 1 | grep -q "18FF3182#.$1"; }
 
-# begin ROW: waits until the machine has been digging for a moment.
+# begin ROW: waits until the operator has let go and the machine has been digging anew for a moment.
 begin() {
-  wait_until 15 mode_is 2 || wait_until 15 mode_is 3 || fail "row $1: not armed"
+  wait_until 15 mode_is 1 || fail "row $1: not ready"
   wait_until 15 mode_is 3 || fail "row $1: not active"
   sleep 1
   cansend vcan0 "7F0#$1"

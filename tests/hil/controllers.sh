@@ -1,0 +1,14 @@
+# shellcheck shell=sh disable=SC1091
+# The same with the kernel's real driver: the ECU on one SJA1000 controller, the machine on another.
+. ./hil.sh
+. ./ecu.sh
+
+controller_up can0 500000
+controller_up can1 500000
+record can0
+graben plant --can can1 --profile excavator_22t.toml --operator dig --seconds "$(cat seconds)" \
+  --summary "$OUT/summary.json" &
+plant=$!
+ecu_start can0 --stats "$OUT/stats"
+wait "$plant" || fail "the machine's process ended with $?"
+ecu_stop

@@ -1,0 +1,91 @@
+"""A dig over a real CAN kernel beside the same in memory:
+dig.py vcan|controllers SECONDS OUT GRABEN GRABEN_ECU"""
+
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import bus_log
+import run_programs
+from bus_log import ECU_HEALTH, SPOOL_COMMAND, VALVE_STATE
+
+# The path error may differ by so much from that of the bus in memory.
+SHARE = 0.20
+START_MS = 100.0
+# The period of a message, and what the bus and the guest may add.
+PERIOD_S, LATE_S = 0.010, 0.0015
+
+
+def in_memory(graben: pathlib.Path) -> dict:
+    with tempfile.TemporaryDirectory() as folder:
+        summary = pathlib.Path(folder) / "summary.json"
+        subprocess.run([graben, "dig", "--out", folder, "--summary", summary],
+                       check=True, stdout=subprocess.DEVNULL)
+        return json.loads(summary.read_text())
+
+
+def counters(path: pathlib.Path) -> dict[str, str]:
+    """The `name value` lines of a --stats file."""
+    lines = path.read_text().partition("wake_up_latency")[0].splitlines()
+    return dict(line.split(" ", 1) for line in lines)
+
+
+def check_stats(out: pathlib.Path) -> list[str]:
+    stats = counters(out / "stats")
+    print(" ".join(f"{name}={value}" for name, value in stats.items()))
+    print(*[line for line in (out / "stats").read_text().splitlines() if " Max: " in line], sep="\n")
+    wanted_0 = ("overruns", "skipped_periods", "allocations", "page_faults", "frames_rejected",
+                "frames_dropped", "receive_overflow", "error_frames", "reopened")
+    problems = [f"{name} {stats[name]}, expected 0" for name in wanted_0 if stats[name] != "0"]
+    if stats["real_time"] != "1":
+        problems.append("not real time")
+    if float(stats["start_us"]) * 1e-3 > START_MS:
+        problems.append(f"took {float(stats['start_us']) * 1e-3:.1f} ms to start")
+    return problems
+
+
+def check_frames(log: list[bus_log.Frame]) -> list[str]:
+    # While the machine was there; at its end its process and its socket go.
+    end = max(frame.time for frame in log if frame.name == VALVE_STATE)
+    commands = [frame.time for frame in log if frame.name == SPOOL_COMMAND and frame.time < end]
+    late = [later - earlier for earlier, later in zip(commands, commands[1:])
+            if later - earlier > PERIOD_S + LATE_S]
+    problems = [f"{len(late)} commands late, up to {max(late):.4f} s apart"] if late else []
+    health = [frame for frame in log if frame.name == ECU_HEALTH][-1]
+    # Allocations, page faults, overruns; whether real time is on.
+    if (said := (*(health.bits(start, 8) for start in (16, 24, 32)), health.bits(48, 2))) != (0, 0, 0, 1):
+        problems.append(f"EcuHealth says {said}")
+    return problems
+
+
+def check(out: pathlib.Path) -> list[str]:
+    graben = next(pathlib.Path(path) for path in sys.argv if pathlib.Path(path).name == "graben")
+    summary = json.loads((out / "summary.json").read_text())
+    expected_m = in_memory(graben)["max_error_true_m"]
+    print(f"path error {summary['max_error_true_m'] * 1e3:.2f} mm, in memory {expected_m * 1e3:.2f} mm, "
+          f"{summary['loops']:.2f} times round")
+    problems = []
+    if summary["on_path_s"] < 5.0 or abs(summary["max_error_true_m"] - expected_m) > SHARE * expected_m:
+        problems.append("the path error is another one")
+    for name in ("command_timeouts", "frames_dropped", "late_cycles"):
+        if summary[name]:
+            problems.append(f"{name} of the machine {summary[name]}")
+    log = bus_log.frames(next(out.glob("*can0.log")))
+    return [*problems, *check_frames(log), *check_stats(out)]
+
+
+def main() -> int:
+    kind, seconds = sys.argv[1:3]
+    del sys.argv[1:3]
+    with tempfile.TemporaryDirectory() as folder:
+        length = pathlib.Path(folder) / "seconds"
+        length.write_text(seconds)
+        script, controllers = {"vcan": ("dig.sh", 0), "controllers": ("controllers.sh", 2)}[kind]
+        return run_programs.main(script, check, timeout_s=float(seconds) + 30.0,
+                                 controllers=controllers, extra={"seconds": length})
+
+
+if __name__ == "__main__":
+    sys.exit(main())
