@@ -54,6 +54,12 @@ pid_t start(char** command, int watchdog_ms) {
   return child;
 }
 
+bool has_ended(pid_t child) {
+  siginfo_t info{};
+  return waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         info.si_pid == child;
+}
+
 /// Until the command has ended, by itself or by our hand.
 int watch(pid_t child, int fd, int watchdog_ms) {
   bool ready = false;
@@ -75,7 +81,7 @@ int watch(pid_t child, int fd, int watchdog_ms) {
         ready = true;
         std::printf("ready %d\n", static_cast<int>(child));
       }
-    } else if (got == 0 && !terminated) {
+    } else if (got == 0 && !terminated && !has_ended(child)) {
       std::printf("watchdog %d\n", static_cast<int>(child));
       kill(child, SIGKILL);
     }
