@@ -17,7 +17,7 @@ def main(script: str, check: Callable[[pathlib.Path], list[str]], timeout_s: flo
          controllers: int = 0, extra: dict[str, pathlib.Path] | None = None) -> int:
     out, *programs = map(pathlib.Path, sys.argv[1:])
     scenario = Scenario(script=HERE / script, programs=programs, controllers=controllers,
-                        timeout_s=timeout_s,
+                        timeout_s=timeout_s, patience_s=max(600.0, 4.0 * timeout_s),
                         files={"ecu.sh": HERE / "ecu.sh", PROFILE.name: PROFILE, **(extra or {})})
     try:
         # The guest's clock counts instructions: times do not hang on how busy this host is.
