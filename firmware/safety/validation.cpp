@@ -14,11 +14,13 @@ constexpr double kMicrosecondsPerSecond = 1e6;
 /// alone make it; twice is more than any of them does.
 constexpr double kFasterThanPumps = 2.0;
 
-/// A required number: where it comes from, where it goes, what its absence means.
+/// A required number: where it comes from, where it goes, what its absence means, and what it
+/// means that its sender calls it wrong.
 struct Required {
   const Signal<double>* from;
   double* to;
   Fault missing;
+  Fault wrong;
 };
 
 class Freshness {
@@ -49,21 +51,24 @@ constexpr std::size_t kRequiredCount = 4 * kAxisCount + kPumpCount + 1;
 std::array<Required, kRequiredCount> required_signals(const ExcavatorInputs& inputs,
                                                       ValidInputs& valid) {
   const auto stroke = [&](unsigned i) {
-    return Required{&valid.state.stroke_m[i], &valid.strokes_m[i], Fault::kStrokeMissing};
+    return Required{&valid.state.stroke_m[i], &valid.strokes_m[i], Fault::kStrokeMissing,
+                    Fault::kNone};
   };
   const auto cap = [&](unsigned i) {
     return Required{&inputs.axis[i].cap_pressure_pa, &valid.cap_pressure_pa[i],
-                    Fault::kPressureMissing};
+                    Fault::kPressureMissing, Fault::kPressureImplausible};
   };
   const auto rod = [&](unsigned i) {
     return Required{&inputs.axis[i].rod_pressure_pa, &valid.rod_pressure_pa[i],
-                    Fault::kPressureMissing};
+                    Fault::kPressureMissing, Fault::kPressureImplausible};
   };
   const auto spool = [&](unsigned i) {
-    return Required{&inputs.axis[i].spool_ratio, &valid.spool_ratio[i], Fault::kSpoolMissing};
+    return Required{&inputs.axis[i].spool_ratio, &valid.spool_ratio[i], Fault::kSpoolMissing,
+                    Fault::kSensorError};
   };
   const auto swash = [&](unsigned j) {
-    return Required{&inputs.swash_ratio[j], &valid.swash_ratio[j], Fault::kSwashMissing};
+    return Required{&inputs.swash_ratio[j], &valid.swash_ratio[j], Fault::kSwashMissing,
+                    Fault::kSensorError};
   };
   return {{stroke(0),
            stroke(1),
@@ -79,7 +84,8 @@ std::array<Required, kRequiredCount> required_signals(const ExcavatorInputs& inp
            spool(2),
            swash(0),
            swash(1),
-           {&inputs.engine_speed_radps, &valid.engine_radps, Fault::kEngineSpeedMissing}}};
+           {&inputs.engine_speed_radps, &valid.engine_radps, Fault::kEngineSpeedMissing,
+            Fault::kEngineSpeedMissing}}};
 }
 
 /// Faster than this no cylinder moves, m/s.
@@ -190,6 +196,9 @@ ValidInputs validate(const ExcavatorInputs& inputs, const ExcavatorProfile& prof
       *row.to = row.from->value;
     } else {
       valid.faults.add(row.missing);
+    }
+    if (row.from->validity == Validity::kError) {
+      valid.faults.add(row.wrong);
     }
   }
   if (!fresh.number(inputs.engine_speed_radps)) {

@@ -167,6 +167,30 @@ void a_sensors_own_error_is_named(void**) {
   }
 }
 
+void the_other_sensors_own_errors_are_named_too(void**) {
+  struct Row {
+    Signal<double>* (*signal)(ExcavatorInputs&);
+    Fault wrong;
+  };
+  const Row rows[] = {
+      {[](ExcavatorInputs& in) { return &in.axis[1].cap_pressure_pa; },
+       Fault::kPressureImplausible},
+      {[](ExcavatorInputs& in) { return &in.axis[2].rod_pressure_pa; },
+       Fault::kPressureImplausible},
+      {[](ExcavatorInputs& in) { return &in.axis[0].spool_ratio; }, Fault::kSensorError},
+      {[](ExcavatorInputs& in) { return &in.swash_ratio[1]; }, Fault::kSensorError},
+      {[](ExcavatorInputs& in) { return &in.engine_speed_radps; }, Fault::kEngineSpeedMissing},
+  };
+  for (const Row& row : rows) {
+    ExcavatorInputs inputs = complete_inputs(kNow);
+    row.signal(inputs)->validity = Validity::kError;
+    assert_true(judged(inputs, kMoving).faults.has(row.wrong));
+    // A pressure that calls itself wrong still only slows.
+    assert_int_equal(judged(inputs, kMoving).fault == Fault::kNone,
+                     row.wrong != Fault::kSensorError);
+  }
+}
+
 /// A cylinder in motion, cycle by cycle; a frame each cycle unless it is lost.
 struct Stroke {
   unsigned axis = kBoom;
@@ -315,6 +339,7 @@ int main() {
       cmocka_unit_test(one_dropped_command_is_borne),
       cmocka_unit_test(faults_of_messages_stop),
       cmocka_unit_test(a_sensors_own_error_is_named),
+      cmocka_unit_test(the_other_sensors_own_errors_are_named_too),
       cmocka_unit_test(a_jump_is_not_believed),
       cmocka_unit_test(the_margin_is_a_sharp_edge),
       cmocka_unit_test(a_jump_and_back_is_bridged),
