@@ -6,6 +6,6 @@
 vcan_up vcan0
 record vcan0
 ecu_start vcan0 --stats "$OUT/stats"
-graben plant --can vcan0 --profile excavator_22t.toml --operator dig --seconds "15" \
+graben plant --can vcan0 --profile excavator_22t.toml --operator dig --seconds "$(cat seconds)" \
   --summary "$OUT/summary.json" || fail "the machine's process ended with $?"
 ecu_stop
