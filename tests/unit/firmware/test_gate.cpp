@@ -70,6 +70,22 @@ void closing_is_never_delayed(void**) {
   assert_near(result.state.opening[1].value(), 0.0, 0.0);
   assert_near(result.duty_ratio[1], 0.0, 0.0);
   assert_near(result.state.opening[2].value(), -step, 1e-12);
+  const GateResult back = gate(profile(), open, true, {0.0, travel(), -0.1 * travel()}, 0.01);
+  assert_near(back.state.opening[0].value(), 0.0, 0.0);
+  assert_near(back.state.opening[1].value(), step, 1e-12);
+  assert_near(back.state.opening[2].value(), -step, 1e-12);
+}
+
+/// However little it is open: what is open may stay, the other side may not open.
+void the_least_opening_has_its_side(void**) {
+  constexpr double kLeast = 1e-200;  // The square of it is 0.
+  GateState open;
+  open.opening = {Guarded(kLeast), Guarded(-kLeast), Guarded(kLeast)};
+  const double further_m = 2.0 * kLeast * travel();
+  const GateResult result = gate(profile(), open, true, {further_m, -further_m, -further_m}, 0.0);
+  assert_near(result.state.opening[0].value() / kLeast, 1.0, 0.0);
+  assert_near(result.state.opening[1].value() / kLeast, -1.0, 0.0);
+  assert_near(result.state.opening[2].value() / kLeast, 0.0, 0.0);
 }
 
 /// A spool that is to be closed has duty 0, whatever the threshold.
@@ -152,6 +168,7 @@ int main() {
       cmocka_unit_test(positions_beyond_the_travel_are_clamped),
       cmocka_unit_test(changes_are_limited_in_rate),
       cmocka_unit_test(closing_is_never_delayed),
+      cmocka_unit_test(the_least_opening_has_its_side),
       cmocka_unit_test(closed_is_duty_zero),
       cmocka_unit_test(not_active_is_neutral_at_once),
       cmocka_unit_test(what_is_no_number_is_refused),
