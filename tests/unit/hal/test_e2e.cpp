@@ -56,9 +56,17 @@ void data_id_is_covered(void**) {
   }
 }
 
+void two_results_of_nine_are_accepted(void**) {
+  for (int result = 0; result <= static_cast<int>(E2eCheck::kTooMany); ++result) {
+    const auto check = static_cast<E2eCheck>(result);
+    assert_int_equal(e2e_accepted(check), check == E2eCheck::kOk || check == E2eCheck::kSomeLost);
+  }
+}
+
 void third_good_frame_is_the_first_accepted(void**) {
   for (std::uint8_t start = 0; start < 15; ++start) {
     Link link;
+    assert_false(link.state.synchronised);
     assert_int_equal(e2e_status(kConfig, link.state, link.now), E2eCheck::kNoNewData);
     std::uint8_t counter = start;
     assert_int_equal(link.take(counter), E2eCheck::kSynchronising);
@@ -266,6 +274,16 @@ void more_frames_than_cycles_are_too_many(void**) {
   }
 }
 
+// What came before its cycle was over does not bring the next one's time forward.
+void a_frame_has_its_time(void**) {
+  Link link = synchronised_at(5);
+  const TimeUs next_us = link.now + kCycleUs * 4 / 5;
+  assert_int_equal(e2e_check(kConfig, link.state, frame(6), link.now + kMillisecondUs),
+                   E2eCheck::kOk);
+  assert_int_equal(e2e_check(kConfig, link.state, frame(7), next_us - 1), E2eCheck::kTooMany);
+  assert_int_equal(e2e_check(kConfig, link.state, frame(7), next_us), E2eCheck::kOk);
+}
+
 // A sender whose clock is 10 % fast, frames taken every 10 ms, never comes too early for long.
 void a_fast_sender_is_followed(void**) {
   Link link = synchronised_at(14);
@@ -366,6 +384,7 @@ int main() {
       cmocka_unit_test(protect_keeps_data),
       cmocka_unit_test(every_bit_is_covered),
       cmocka_unit_test(data_id_is_covered),
+      cmocka_unit_test(two_results_of_nine_are_accepted),
       cmocka_unit_test(third_good_frame_is_the_first_accepted),
       cmocka_unit_test(wrong_crc_breaks_the_run_of_synchronisation),
       cmocka_unit_test(synchronising_restarts),
@@ -375,6 +394,7 @@ int main() {
       cmocka_unit_test(the_same_counter_with_other_data_is_a_conflict),
       cmocka_unit_test(every_other_crc_is_a_conflict),
       cmocka_unit_test(more_frames_than_cycles_are_too_many),
+      cmocka_unit_test(a_frame_has_its_time),
       cmocka_unit_test(a_fast_sender_is_followed),
       cmocka_unit_test(crc_fits_its_own_data_id),
       cmocka_unit_test(after_a_wrong_sequence_three_are_needed),
