@@ -5,8 +5,8 @@ namespace {
 
 bool too_many(std::uint16_t frames) {
   int count = 0;
-  for (unsigned bit = 0; bit < kE2eWindowFrames; ++bit) {
-    count += static_cast<int>((static_cast<unsigned>(frames) >> bit) & 1U);
+  for (unsigned left = frames; left != 0; left &= left - 1) {  // clears the lowest bit
+    ++count;
   }
   return count >= kE2eWindowLimit;
 }

@@ -9,11 +9,9 @@ namespace {
 /// Only the way from neutral is limited: towards neutral, and through it on a reversal, a spool may
 /// always go at once.
 double limited(double wanted, double last, double change_max) {
-  const double base = wanted * last > 0.0 ? last : 0.0;
-  if (std::abs(wanted) <= std::abs(base)) {
-    return wanted;
-  }
-  return std::clamp(wanted, base - change_max, base + change_max);
+  const double open = std::max(0.0, std::signbit(wanted) ? -last : last);  // on wanted's side
+  const double limit = open + change_max;
+  return std::clamp(wanted, -limit, limit);
 }
 
 }  // namespace

@@ -3,8 +3,11 @@
 
 Makes every mutant of a file that changes one comparison, one whole number in a comparison, one
 boolean operator or one truth value; compiles it, links it before the archive that has the original,
-and runs the test, which has to fail. A mutant that no test can tell from the original is listed
-with its reason in the file of equivalent ones, and then has to survive.
+and runs the test, which has to fail or to loop. A mutant that no test can tell from the original is
+listed with its reason in the file of equivalent ones, and then has to survive.
+
+What loops burns processor time, however loaded the machine is. A test that merely did not end in
+time is no verdict, and the gate is red.
 
 Operators are found by the blanks around them, which clang-format puts there and nowhere else."""
 
@@ -13,6 +16,7 @@ import concurrent.futures
 import dataclasses
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -39,7 +43,11 @@ RULES = (
 )
 # What is no code: comments, literals, the preprocessor, and claims that only the compiler checks.
 NO_CODE = re.compile(r'//.*|^\s*#.*|^\s*static_assert.*|"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'')
-TIMEOUT_S = 20.0
+# Of processor time. The tests themselves take hundredths of a second and get TEST_S at most.
+TEST_S = 1
+LOOP_S = 3
+
+OUTCOMES = ("killed", "looped", "not compiled", "no verdict", "survived")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -79,8 +87,8 @@ def mutants_of(root: pathlib.Path, job: Job) -> list[Mutant]:
     return found
 
 
-def outcome(arguments, job: Job, text: str) -> str:
-    """Of one version of the file: 'not compiled', 'survived', 'killed' or 'timed out'."""
+def outcome(arguments, job: Job, text: str, limit_s: int = LOOP_S) -> str:
+    """Of one version of the file: one of OUTCOMES."""
     with tempfile.TemporaryDirectory() as folder:
         copy = pathlib.Path(folder) / job.mutated
         copy.parent.mkdir(parents=True, exist_ok=True)
@@ -98,10 +106,13 @@ def outcome(arguments, job: Job, text: str) -> str:
                 print(made.stderr)
             return "not compiled"
         try:
-            test = subprocess.run([program], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                                  timeout=TIMEOUT_S)
+            test = subprocess.run(
+                ["sh", "-c", f'ulimit -c 0; ulimit -St {limit_s}; exec "$0"', program],
+                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=arguments.timeout)
         except subprocess.TimeoutExpired:
-            return "timed out"
+            return "no verdict"
+        if test.returncode == -signal.SIGXCPU:
+            return "looped"
         return "survived" if test.returncode == 0 else "killed"
 
 
@@ -122,6 +133,7 @@ parser.add_argument("--equivalent", required=True, type=pathlib.Path)
 parser.add_argument("--compiler", default="g++")
 parser.add_argument("--system", action="append", default=[], help="a folder of others' headers")
 parser.add_argument("--jobs", type=int, default=2, help="at once")
+parser.add_argument("--timeout", type=float, default=60.0, help="of each test, in seconds")
 parser.add_argument("--verbose", action="store_true", help="says why a mutant did not compile")
 parser.add_argument("job", nargs="+", type=job,
                     help="MUTATED,COMPILED[,LINKED...]: paths below the root; objects, archives")
@@ -134,11 +146,12 @@ equivalent = {(entry["file"], entry["line"], entry["mutant"], entry.get("place",
 mutated = {job.mutated for job in arguments.job}
 problems = [f"{key[0]}: listed as equivalent, but is not mutated: {key[1]}"
             for key in equivalent if key[0] not in mutated]
-print(f"{'':34} {'mutants':>8} {'killed':>8} {'timeout':>8} {'not C++':>8} {'equivalent':>11} "
+print(f"{'':34} {'mutants':>8} {'killed':>8} {'looped':>8} {'not C++':>8} {'equivalent':>11} "
       f"{'survived':>9}")
 with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
     for job in arguments.job:
-        if outcome(arguments, job, (arguments.root / job.mutated).read_text()) != "survived":
+        unchanged = (arguments.root / job.mutated).read_text()
+        if outcome(arguments, job, unchanged, TEST_S) != "survived":
             sys.exit(f"mutation: {job.mutated} fails its test unchanged: the gate is dead")
         mutants = mutants_of(arguments.root, job)
         if not mutants:
@@ -148,16 +161,15 @@ with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         for mutant, result in zip(mutants, outcomes):
             listed = equivalent.get(mutant.key())
             same += listed is not None and result == "survived"
-            if listed is None and result == "survived":
-                problems.append(f"{mutant}: survived")
+            if listed is None and result in ("survived", "no verdict"):
+                problems.append(f"{mutant}: {result}")
             elif listed is not None and result != "survived":
                 problems.append(f"{mutant}: {result}, though listed as equivalent")
         keys = {mutant.key() for mutant in mutants}
         problems += [f"{key[0]}: listed as equivalent, but not to be found: {key[1]}  ->  {key[2]}"
                      for key in equivalent if key[0] == job.mutated and key not in keys]
-        counts = {name: outcomes.count(name)
-                  for name in ("killed", "timed out", "not compiled", "survived")}
-        print(f"{job.mutated:34} {len(mutants):8} {counts['killed']:8} {counts['timed out']:8} "
+        counts = {name: outcomes.count(name) for name in OUTCOMES}
+        print(f"{job.mutated:34} {len(mutants):8} {counts['killed']:8} {counts['looped']:8} "
               f"{counts['not compiled']:8} {same:11} {counts['survived'] - same:9}")
 for problem in problems:
     print(problem)

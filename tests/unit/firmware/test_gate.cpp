@@ -43,6 +43,20 @@ void positions_beyond_the_travel_are_clamped(void**) {
       gate(profile(), {}, true, {9.0 * travel(), -9.0 * travel(), 0.0}, kLong_s);
   assert_near(result.duty_ratio[0], 1.0, 1e-12);
   assert_near(result.duty_ratio[1], -1.0, 1e-12);
+  assert_near(result.state.opening[0].value(), 1.0, 0.0);
+  assert_near(result.state.opening[1].value(), -1.0, 0.0);
+}
+
+// Whatever the table says, a valve is driven neither beyond its range nor the other way.
+void duties_beyond_the_range_are_clamped(void**) {
+  ExcavatorProfile wild = profile();
+  const double opening[] = {0.0, 1.0};
+  const double duty[] = {-1.0, 2.0};
+  assert_int_equal(wild.valve.spool_to_duty.fill(opening, duty, 2), MonotoneTable::Fill::kOk);
+  const GateResult result = gate(wild, {}, true, {travel(), -travel(), 0.25 * travel()}, kLong_s);
+  assert_near(result.duty_ratio[0], 1.0, 0.0);
+  assert_near(result.duty_ratio[1], -1.0, 0.0);
+  assert_near(result.duty_ratio[2], 0.0, 0.0);
 }
 
 void changes_are_limited_in_rate(void**) {
@@ -70,6 +84,22 @@ void closing_is_never_delayed(void**) {
   assert_near(result.state.opening[1].value(), 0.0, 0.0);
   assert_near(result.duty_ratio[1], 0.0, 0.0);
   assert_near(result.state.opening[2].value(), -step, 1e-12);
+  const GateResult back = gate(profile(), open, true, {0.0, travel(), -0.1 * travel()}, 0.01);
+  assert_near(back.state.opening[0].value(), 0.0, 0.0);
+  assert_near(back.state.opening[1].value(), step, 1e-12);
+  assert_near(back.state.opening[2].value(), -step, 1e-12);
+}
+
+/// However little it is open: what is open may stay, the other side may not open.
+void the_least_opening_has_its_side(void**) {
+  constexpr double kLeast = 1e-200;  // The square of it is 0.
+  GateState open;
+  open.opening = {Guarded(kLeast), Guarded(-kLeast), Guarded(kLeast)};
+  const double further_m = 2.0 * kLeast * travel();
+  const GateResult result = gate(profile(), open, true, {further_m, -further_m, -further_m}, 0.0);
+  assert_near(result.state.opening[0].value() / kLeast, 1.0, 0.0);
+  assert_near(result.state.opening[1].value() / kLeast, -1.0, 0.0);
+  assert_near(result.state.opening[2].value() / kLeast, 0.0, 0.0);
 }
 
 /// A spool that is to be closed has duty 0, whatever the threshold.
@@ -150,8 +180,10 @@ int main() {
       cmocka_unit_test(duty_follows_the_profiles_table),
       cmocka_unit_test(a_spool_hardly_open_stays_neutral),
       cmocka_unit_test(positions_beyond_the_travel_are_clamped),
+      cmocka_unit_test(duties_beyond_the_range_are_clamped),
       cmocka_unit_test(changes_are_limited_in_rate),
       cmocka_unit_test(closing_is_never_delayed),
+      cmocka_unit_test(the_least_opening_has_its_side),
       cmocka_unit_test(closed_is_duty_zero),
       cmocka_unit_test(not_active_is_neutral_at_once),
       cmocka_unit_test(what_is_no_number_is_refused),

@@ -56,9 +56,17 @@ void data_id_is_covered(void**) {
   }
 }
 
+void two_results_of_nine_are_accepted(void**) {
+  for (int result = 0; result <= static_cast<int>(E2eCheck::kTooMany); ++result) {
+    const auto check = static_cast<E2eCheck>(result);
+    assert_int_equal(e2e_accepted(check), check == E2eCheck::kOk || check == E2eCheck::kSomeLost);
+  }
+}
+
 void third_good_frame_is_the_first_accepted(void**) {
   for (std::uint8_t start = 0; start < 15; ++start) {
     Link link;
+    assert_false(link.state.synchronised);
     assert_int_equal(e2e_status(kConfig, link.state, link.now), E2eCheck::kNoNewData);
     std::uint8_t counter = start;
     assert_int_equal(link.take(counter), E2eCheck::kSynchronising);
@@ -142,10 +150,12 @@ void a_late_frame_changes_nothing(void**) {
     }
   }
   // Where so many may be lost, 13 is no lateness.
-  const E2eConfig lenient{kDataId, 13, 14 * kCycleUs, kCycleUs};
-  Link link = synchronised_at(5);
-  assert_int_equal(e2e_check(lenient, link.state, frame(3), link.now + kCycleUs),
-                   E2eCheck::kSomeLost);
+  for (const std::uint8_t max_delta : {std::uint8_t{13}, std::uint8_t{14}}) {
+    const E2eConfig lenient{kDataId, max_delta, 14 * kCycleUs, kCycleUs};
+    Link link = synchronised_at(5);
+    assert_int_equal(e2e_check(lenient, link.state, frame(3), link.now + kCycleUs),
+                     E2eCheck::kSomeLost);
+  }
   // While synchronising there is no lateness either.
   Link starting;
   (void)starting.take(5);
@@ -198,9 +208,21 @@ void the_same_counter_with_other_data_is_a_conflict(void**) {
   assert_int_equal(broken.take(3), E2eCheck::kOk);
 }
 
+// Changes of one byte take the CRC through all its values, above and below the last one's.
+void every_other_crc_is_a_conflict(void**) {
+  for (unsigned data = 1; data < 256; ++data) {
+    Link link = synchronised_at(5);
+    E2ePayload other{0, 0, static_cast<std::uint8_t>(data)};
+    e2e_protect(other, kDataId, 5);
+    assert_int_equal(link.take(other), E2eCheck::kConflict);
+  }
+}
+
+constexpr int kFarTooMany = 15;
+
 // Takes frames at one moment until one is too early; returns how many were not.
 int frames_at_once(Link& link, std::uint8_t counter) {
-  for (int taken = 0;; ++taken) {
+  for (int taken = 0; taken < kFarTooMany; ++taken) {
     const E2eCheck check = e2e_check(kConfig, link.state, frame(counter), link.now);
     if (check == E2eCheck::kTooMany) {
       assert_false(e2e_accepted(check));
@@ -211,6 +233,7 @@ int frames_at_once(Link& link, std::uint8_t counter) {
     assert_true(e2e_accepted(check));
     counter = e2e_next_counter(counter);
   }
+  return kFarTooMany;
 }
 
 // Frames cannot come faster than they are sent, but together after a pause.
@@ -236,7 +259,8 @@ void more_frames_than_cycles_are_too_many(void**) {
   silent.now += kSecondUs;
   std::uint8_t counter = 6;
   int taken = 0;
-  while (e2e_check(kConfig, silent.state, frame(counter), silent.now) != E2eCheck::kTooMany) {
+  while (taken < kFarTooMany &&
+         e2e_check(kConfig, silent.state, frame(counter), silent.now) != E2eCheck::kTooMany) {
     counter = e2e_next_counter(counter);
     ++taken;
   }
@@ -248,6 +272,16 @@ void more_frames_than_cycles_are_too_many(void**) {
     assert_int_equal(e2e_check(timeless, unlimited.state, frame(next), unlimited.now),
                      E2eCheck::kOk);
   }
+}
+
+// What came before its cycle was over does not bring the next one's time forward.
+void a_frame_has_its_time(void**) {
+  Link link = synchronised_at(5);
+  const TimeUs next_us = link.now + kCycleUs * 4 / 5;
+  assert_int_equal(e2e_check(kConfig, link.state, frame(6), link.now + kMillisecondUs),
+                   E2eCheck::kOk);
+  assert_int_equal(e2e_check(kConfig, link.state, frame(7), next_us - 1), E2eCheck::kTooMany);
+  assert_int_equal(e2e_check(kConfig, link.state, frame(7), next_us), E2eCheck::kOk);
 }
 
 // A sender whose clock is 10 % fast, frames taken every 10 ms, never comes too early for long.
@@ -350,6 +384,7 @@ int main() {
       cmocka_unit_test(protect_keeps_data),
       cmocka_unit_test(every_bit_is_covered),
       cmocka_unit_test(data_id_is_covered),
+      cmocka_unit_test(two_results_of_nine_are_accepted),
       cmocka_unit_test(third_good_frame_is_the_first_accepted),
       cmocka_unit_test(wrong_crc_breaks_the_run_of_synchronisation),
       cmocka_unit_test(synchronising_restarts),
@@ -357,7 +392,9 @@ int main() {
       cmocka_unit_test(a_late_frame_changes_nothing),
       cmocka_unit_test(a_pair_out_of_order_costs_one_frame),
       cmocka_unit_test(the_same_counter_with_other_data_is_a_conflict),
+      cmocka_unit_test(every_other_crc_is_a_conflict),
       cmocka_unit_test(more_frames_than_cycles_are_too_many),
+      cmocka_unit_test(a_frame_has_its_time),
       cmocka_unit_test(a_fast_sender_is_followed),
       cmocka_unit_test(crc_fits_its_own_data_id),
       cmocka_unit_test(after_a_wrong_sequence_three_are_needed),
