@@ -59,9 +59,9 @@ class ScriptedPort final : public CanPort {
     }
   }
 
-  /// Well again; what is queued stays.
+  /// Nothing more is in its way; it is for the controller to open it again, and what is queued
+  /// stays.
   void mend() {
-    shown = CanPortState::kActive;
     next_shown = CanPortState::kActive;
     opens = true;
     refuses_all = false;

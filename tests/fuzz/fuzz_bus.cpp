@@ -240,7 +240,8 @@ class Player {
 }  // namespace
 
 std::string check_bytes(const std::uint8_t* data, std::size_t size) {
-  tally("scripts") += 1;
+  static std::uint64_t& scripts = tally("scripts");
+  ++scripts;
   return Player(data, size).play();
 }
 
