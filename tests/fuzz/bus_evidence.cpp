@@ -71,7 +71,8 @@ bool is_needed(const dbc::MessageInfo& info) {
 
 BusEvidence::BusEvidence(const ExcavatorProfile& profile, std::uint32_t profile_hash)
     : timeout_us_(static_cast<TimeUs>(profile.control.sensor_timeout_s * 1e6)),
-      profile_hash_(profile_hash) {
+      profile_hash_(profile_hash),
+      released_us_(kNever) {
   said_us_.fill(kNever);
   run_.last_us = kNever;
 }
@@ -91,6 +92,8 @@ void BusEvidence::note_operator(const CanFrame& frame, bool alone, TimeUs now) {
   run_.counter = counter;
   run_.last_us = now;
   run_.wants_motion = wants_motion(frame);
+  const Command command = Command::decode(frame.data);
+  released_us_ = command.enable.value == Command::Enable::kOff ? now : released_us_;
 }
 
 void BusEvidence::note(const std::vector<CanFrame>& received, TimeUs now) {

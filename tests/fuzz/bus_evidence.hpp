@@ -22,6 +22,9 @@ class BusEvidence {
   /// valid, for longer than the timeout; or it was taken back beyond doubt.
   [[nodiscard]] const char* against_motion(TimeUs now) const;
 
+  /// When the operator was last heard to have let go.
+  [[nodiscard]] TimeUs released_us() const { return released_us_; }
+
  private:
   /// Consecutive frames of the operator, one a cycle, right in CRC, counter and values.
   struct Run {
@@ -37,6 +40,7 @@ class BusEvidence {
   std::uint32_t profile_hash_;
   std::array<TimeUs, kInputMessages> said_us_{};  ///< Whole and valid; the operator: for motion.
   bool other_machine_ = false;                    ///< By its last frame.
+  TimeUs released_us_;
   Run run_;
 };
 

@@ -166,6 +166,23 @@ std::string BusRules::check_status(const BusCycle& cycle, const CanFrame& frame)
   return "";
 }
 
+/// Whatever ended motion, the operator lets go before there is any again, and it begins at rest.
+std::string BusRules::check_arming(const BusCycle& cycle) {
+  const EcuMode last = mode_;
+  mode_ = cycle.outputs->status.mode;
+  if (!in_motion(mode_)) {
+    return "";
+  }
+  const bool released = cycle.released_us >= motion_us_;
+  motion_us_ = cycle.now;
+  if (in_motion(last)) {
+    return "";
+  }
+  return mode_ == EcuMode::kActive ? "Active without having been Armed"
+         : released                ? ""
+                                   : "Armed without enable released";
+}
+
 std::string BusRules::check(const BusCycle& cycle) {
   late_ = cycle.elapsed_us > kLate_us ? late_ + 1 : 0;
   if (cycle.sent->size() > ExcavatorTransmitter::kMessageCount) {
@@ -173,7 +190,7 @@ std::string BusRules::check(const BusCycle& cycle) {
   }
   const SentFrame* command = nullptr;
   const SentFrame* pump = nullptr;
-  std::string wrong;
+  std::string wrong = check_arming(cycle);
   for (std::size_t i = 0; i < cycle.sent->size() && wrong.empty(); ++i) {
     const SentFrame& sent = (*cycle.sent)[i];
     for (std::size_t j = 0; j < i; ++j) {

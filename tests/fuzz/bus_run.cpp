@@ -42,6 +42,7 @@ std::string BusRun::cycle(TimeUs elapsed_us) {
   seen.elapsed_us = has_run_ ? elapsed_us : 0;
   seen.bus_active = was_active && port.shown == CanPortState::kActive;
   seen.against_motion = evidence_.against_motion(now_);
+  seen.released_us = evidence_.released_us();
   seen.sent = &port.sent;
   seen.outputs = &ecu_.outputs();
   has_run_ = true;
