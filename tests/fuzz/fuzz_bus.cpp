@@ -4,9 +4,8 @@
 /// missing is 0. Between its steps a partner sends what a sound machine would (bus_partner.hpp).
 /// After the script all is well again, and the controller has to become Active.
 ///
-/// The corpus in tests/fuzz/corpus/fuzz_bus grows by, in build/fuzz: `tests/fuzz/libfuzz_bus
-/// -merge=1
-/// ../../tests/fuzz/corpus/fuzz_bus corpus/fuzz_bus`.
+/// What is kept in tests/fuzz/corpus/fuzz_bus grows by, in build/fuzz: `tests/fuzz/libfuzz_bus
+/// -merge=1 -use_counters=0 ../../tests/fuzz/corpus/fuzz_bus corpus/fuzz_bus`.
 
 #include <algorithm>
 #include <initializer_list>
