@@ -14,6 +14,8 @@ std::string check_bytes(const std::uint8_t* data, std::size_t size) {
   return std::isnan(numbers[3]) ? "the planted defect" : "";
 }
 
+bool inputs_are_numbers() { return true; }
+
 std::vector<Bytes> seed_inputs() { return {bytes_from_raw(Numbers{})}; }
 
 }  // namespace graben::test

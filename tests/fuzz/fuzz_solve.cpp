@@ -157,6 +157,8 @@ std::string check_bytes(const std::uint8_t* data, std::size_t size) {
       steady_lambda(machine, raw.input, McvPolicy::kGlobal, rise, raw.last_lambda, raw.period_s));
 }
 
+bool inputs_are_numbers() { return true; }
+
 std::vector<Bytes> seed_inputs() {
   std::vector<Bytes> seeds;
   for (std::uint64_t seed = 0; seed < 64; ++seed) {

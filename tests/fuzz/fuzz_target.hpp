@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -18,6 +19,16 @@ using Bytes = std::vector<std::uint8_t>;
 
 /// Sound inputs to start from.
 [[nodiscard]] std::vector<Bytes> seed_inputs();
+
+/// Whether inputs are numbers side by side; else they are bytes, each with a meaning of its own.
+[[nodiscard]] bool inputs_are_numbers();
+
+/// What a run has been through, for its last line; a target may count what it likes.
+inline std::map<std::string, std::uint64_t>& tallies() {
+  static std::map<std::string, std::uint64_t> counts;
+  return counts;
+}
+inline std::uint64_t& tally(const std::string& name) { return tallies()[name]; }
 
 /// A struct of plain numbers from bytes; what is missing stays 0.
 template <class Raw>

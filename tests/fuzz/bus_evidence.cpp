@@ -1,0 +1,142 @@
+#include "tests/fuzz/bus_evidence.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "firmware/safety/validation.hpp"
+#include "hal/e2e.hpp"
+
+namespace graben::test {
+namespace {
+
+namespace bus = dbc::excavator;
+using dbc::RawState;
+
+constexpr TimeUs kNever = std::numeric_limits<TimeUs>::min() / 2;
+constexpr auto kIdentity_us = static_cast<TimeUs>(kIdentityTimeout_s * 1e6);
+/// After so many in a row the last one is in use whatever came before: two that are late, one that
+/// repeats, three until the counter is believed, and one to spare.
+constexpr int kBeyondDoubt = 7;
+
+template <class Message>
+bool every_value_is(const dbc::Payload& payload, bool (*good)(RawState)) {
+  bool all = true;
+  const Message message = Message::decode(payload);
+  Message::visit(message,
+                 [&](const dbc::Field&, const auto& signal) { all = all && good(signal.state); });
+  return all;
+}
+
+bool is_valid(RawState state) { return state == RawState::kValid; }
+bool is_in_range(RawState state) { return state != RawState::kOutOfRange; }
+
+template <class... Messages>
+bool values_are(dbc::MessageList<Messages...>, const CanFrame& frame, bool (*good)(RawState)) {
+  return ((frame.id == Messages::kId && every_value_is<Messages>(frame.data, good)) || ...);
+}
+
+bool has_form(const CanFrame& frame, const dbc::MessageInfo& info) {
+  return frame.id == info.id && frame.extended && !frame.remote && !frame.error && !frame.fd &&
+         frame.length == info.length;
+}
+
+bool is_whole(const CanFrame& frame, const dbc::MessageInfo& info) {
+  return has_form(frame, info) && (!info.is_protected || e2e_crc_fits(frame.data, info.data_id));
+}
+
+bool wants_motion(const CanFrame& frame) {
+  using Command = bus::OperatorCommand;
+  const Command command = Command::decode(frame.data);
+  return command.enable.value == Command::Enable::kOn &&
+         command.operator_mode.value == Command::OperatorMode::kAutomatic &&
+         command.task.value == Command::Task::kDig;
+}
+
+/// Those without which nothing may move: the others only slow.
+bool is_needed(const dbc::MessageInfo& info) {
+  switch (info.id) {
+    case bus::BoomStroke::kId:
+    case bus::ArmStroke::kId:
+    case bus::BucketStroke::kId:
+    case bus::PumpState::kId:
+    case bus::ValveState::kId:
+    case bus::OperatorCommand::kId:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+BusEvidence::BusEvidence(const ExcavatorProfile& profile, std::uint32_t profile_hash)
+    : timeout_us_(static_cast<TimeUs>(profile.control.sensor_timeout_s * 1e6)),
+      profile_hash_(profile_hash),
+      released_us_(kNever) {
+  said_us_.fill(kNever);
+  run_.last_us = kNever;
+}
+
+void BusEvidence::note_operator(const CanFrame& frame, bool alone, TimeUs now) {
+  using Command = bus::OperatorCommand;
+  constexpr TimeUs kCycle_us = Command::kCycleTimeMs * kMillisecondUs;
+  const int counter = frame.data[1] & 0x0F;
+  const bool in_range = every_value_is<Command>(frame.data, is_in_range);
+  const bool next = counter == (run_.counter + 1) % kE2eCounterCount &&
+                    now - run_.last_us >= kCycle_us * 4 / 5 && now - run_.last_us <= 2 * kCycle_us;
+  if (!alone || !in_range || counter >= kE2eCounterCount) {
+    run_.frames = 0;
+  } else {
+    run_.frames = next ? run_.frames + 1 : 1;
+  }
+  run_.counter = counter;
+  run_.last_us = now;
+  run_.wants_motion = wants_motion(frame);
+  const Command command = Command::decode(frame.data);
+  released_us_ = command.enable.value == Command::Enable::kOff ? now : released_us_;
+}
+
+void BusEvidence::note(const std::vector<CanFrame>& received, TimeUs now) {
+  const auto of_operator =
+      std::count_if(received.begin(), received.end(),
+                    [](const CanFrame& frame) { return frame.id == bus::OperatorCommand::kId; });
+  for (const CanFrame& frame : received) {
+    for (unsigned i = 0; i < kInputMessages; ++i) {
+      const dbc::MessageInfo& info = input_message(i);
+      const bool is_operator = info.id == bus::OperatorCommand::kId;
+      if (!is_whole(frame, info)) {
+        run_.frames = is_operator && frame.id == info.id ? 0 : run_.frames;
+        continue;
+      }
+      if (is_operator) {
+        note_operator(frame, of_operator == 1, now);
+      }
+      if (values_are(bus::AllMessages{}, frame, is_valid) &&
+          (!is_operator || wants_motion(frame))) {
+        said_us_[i] = now;
+      }
+      if (info.id == bus::MachineIdentity::kId &&
+          values_are(bus::AllMessages{}, frame, is_in_range)) {
+        const auto identity = bus::MachineIdentity::decode(frame.data);
+        other_machine_ = identity.profile_hash.value != profile_hash_ ||
+                         identity.dbc_version.value != bus::kDbcVersion;
+      }
+    }
+  }
+}
+
+const char* BusEvidence::against_motion(TimeUs now) const {
+  for (unsigned i = 0; i < kInputMessages; ++i) {
+    const dbc::MessageInfo& info = input_message(i);
+    const TimeUs age_us = now - said_us_[i];
+    if (is_needed(info) && age_us > timeout_us_) {
+      return info.name;
+    }
+    if (info.id == bus::MachineIdentity::kId && (age_us > kIdentity_us || other_machine_)) {
+      return info.name;
+    }
+  }
+  return run_.frames >= kBeyondDoubt && !run_.wants_motion ? "an operator who has released" : "";
+}
+
+}  // namespace graben::test

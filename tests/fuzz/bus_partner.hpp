@@ -1,0 +1,89 @@
+#pragma once
+/// All that the controller talks to, on one port: sensors, engine, operator, valve. By itself it is
+/// a machine that does what it is told; a script can spoil any of it.
+
+#include <array>
+#include <cstdint>
+#include <deque>
+
+#include "can_dbc/generated/excavator_dbc.hpp"
+#include "firmware/machine/excavator_profile.hpp"
+#include "tests/fuzz/bus_port.hpp"
+
+namespace graben::test {
+
+inline constexpr unsigned kInputMessages = 11;
+
+/// Messages to the controller, in the order of the DBC.
+[[nodiscard]] const dbc::MessageInfo& input_message(unsigned index);
+
+struct OperatorHand {
+  bool enable = false;
+  bool automatic = true;
+  bool dig = false;
+  double speed_ratio = 1.0;
+};
+
+class BusPartner {
+ public:
+  BusPartner(const ExcavatorProfile& profile, std::uint32_t profile_hash, ScriptedPort& port,
+             TimeUs now);
+
+  /// Takes in what the controller has sent, moves the machine, and queues every frame that was due
+  /// since the last call.
+  void run_until(TimeUs now);
+
+  /// The hand does what the mode on the bus wants for Active: release, enable afresh, task.
+  void lead_to_active();
+  /// No more interference; the machine stands at a pose on its path if it has been pushed off.
+  void mend();
+
+  /// A frame of the message beside the regular ones, its CRC right; `skip` on from its counter.
+  /// With 0 the regular ones go on from there.
+  void put_protected(unsigned message, dbc::Payload payload, std::uint8_t skip);
+  /// Queues the last `count` regular frames once more.
+  void replay(unsigned count);
+
+  OperatorHand hand;
+  std::uint16_t muted = 0;  ///< A bit for each message.
+  /// Bytes of the payload that a message has instead of its own, before it is protected.
+  struct Replacement {
+    std::uint8_t mask = 0;  ///< A bit for each byte.
+    dbc::Payload payload{};
+  };
+  std::array<Replacement, kInputMessages> replaced{};
+  /// The next frames of a message are changed by `flip` in one byte, after they were protected; or
+  /// protected as another message.
+  struct Spoil {
+    int frames = 0;
+    std::uint8_t byte = 0;
+    std::uint8_t flip = 0;
+    bool masquerade = false;
+  };
+  std::array<Spoil, kInputMessages> spoilt{};
+  std::array<double, kAxisCount> pushed_mps{};  ///< Motion that nobody asked for.
+
+ private:
+  void listen(TimeUs now);
+  void move(double elapsed_s);
+  [[nodiscard]] dbc::Payload payload_of(unsigned message) const;
+  void send(unsigned message, TimeUs now);
+
+  const ExcavatorProfile& profile_;
+  std::uint32_t profile_hash_;
+  ScriptedPort& port_;
+  TimeUs now_;
+  std::array<TimeUs, kInputMessages> due_us_{};
+  std::array<std::uint8_t, kInputMessages> counter_{};
+  std::deque<CanFrame> last_sent_;
+  std::array<double, kAxisCount> strokes_m_{};
+  // What the controller said last.
+  dbc::excavator::SpoolCommand command_;
+  TimeUs command_us_ = 0;
+  dbc::excavator::EcuStatus status_;
+  dbc::excavator::EcuMotion motion_;
+  TimeUs enabled_since_us_ = 0;
+  TimeUs released_since_us_ = 0;
+};
+
+}  // namespace graben::test
