@@ -11,13 +11,12 @@ constexpr double kSlowAfter_s = 0.5;
 /// jerk.
 void slow_down(const ExcavatorProfile& profile, const WatchState& last, bool moving,
                double period_s, WatchResult& result) {
-  WatchState& state = result.state;
   if (!moving) {
-    state.slowing = {};
-    state.slow_for_s = 0.0;
     return;
   }
+  WatchState& state = result.state;
   ValidInputs& inputs = result.inputs;
+  state.slowing = last.slowing;
   if (!inputs.degraded.empty()) {
     state.slowing.add(inputs.degraded);
     state.slow_for_s = kSlowAfter_s;
