@@ -97,16 +97,19 @@ bool jumped(const ExcavatorProfile& profile, unsigned axis, const Signal<double>
   return std::abs(next.value - last.value) > fastest_mps(profile, axis) * elapsed_s + kJumpMargin_m;
 }
 
-/// The strokes to believe: the new ones, but for those that jumped.
+/// The strokes to believe: the new ones, but for those that jumped. Against the last one that was
+/// believed however old it has become: it has to run out of time, not to give way to the jump.
 void believe_strokes(const ExcavatorInputs& inputs, const ExcavatorProfile& profile,
                      const ValidationState& last, const Freshness& fresh, ValidInputs& valid) {
   for (unsigned i = 0; i < kAxisCount; ++i) {
     const Signal<double>& next = inputs.axis[i].stroke_m;
-    const bool comparable = fresh.number(last.stroke_m[i]) && fresh.number(next);
-    const bool jump = comparable && jumped(profile, i, last.stroke_m[i], next);
-    valid.state.stroke_m[i] = jump ? last.stroke_m[i] : next;
-    if (jump) {
+    const Signal<double>& believed = last.stroke_m[i];
+    const bool usable = fresh.number(next);
+    if (usable && believed.validity == Validity::kValid && jumped(profile, i, believed, next)) {
       valid.faults.add(Fault::kStrokeJump);
+      valid.state.stroke_m[i] = believed;
+    } else if (usable) {
+      valid.state.stroke_m[i] = next;
     }
     if (next.validity == Validity::kError) {
       valid.faults.add(Fault::kSensorError);
