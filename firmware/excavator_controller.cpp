@@ -61,6 +61,12 @@ Limit reason(const McvSolution& solution, const VelocityCap& cap, const FaultSet
              : Limit{LimitKind::kDegraded, static_cast<std::uint8_t>(degraded.first())};
 }
 
+/// The mode that was stored; one that is not intact counts as stopped by that, whatever it has
+/// become.
+ModeState stored_mode(const Guarded<ModeState>& mode) {
+  return mode.intact() ? mode.value() : ModeState{EcuMode::kFault, Fault::kMemoryCorrupt};
+}
+
 double path_error_m(const RoundedRectangle& path, const TipPose& tip) {
   const Eigen::Vector2d at(tip.x_m, tip.y_m);
   return (path.closest(at).position_m - at).norm();
@@ -180,7 +186,7 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
                             valid.task != Task::kNone,
                             spools_centred(profile_, valid),
                             inputs.link.stop_requested};
-  ModeState mode = next_mode(memory_.mode.value(), request);
+  ModeState mode = next_mode(stored_mode(memory_.mode), request);
   const GateResult command = gate(profile_, memory_.gate, mode.mode == EcuMode::kActive,
                                   {solution.point.spool_m[kBoom], solution.point.spool_m[kArm],
                                    solution.point.spool_m[kBucket]},
