@@ -67,6 +67,13 @@ ModeState stored_mode(const Guarded<ModeState>& mode) {
   return mode.intact() ? mode.value() : ModeState{EcuMode::kFault, Fault::kMemoryCorrupt};
 }
 
+/// Whether the pilot pressure stays cut until the operator has armed again: a spool that did not
+/// obey may not have it back because the deadman was let go.
+bool keeps_pilot_cut(bool last, const ModeState& mode) {
+  const bool disobeyed = mode.mode == EcuMode::kFault && cuts_pilot(mode.fault);
+  return !in_motion(mode.mode) && (last || disobeyed);
+}
+
 double path_error_m(const RoundedRectangle& path, const TipPose& tip) {
   const Eigen::Vector2d at(tip.x_m, tip.y_m);
   return (path.closest(at).position_m - at).norm();
@@ -197,7 +204,8 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   ExcavatorOutputs outputs;
   outputs.enable = command.enable;
   outputs.duty_ratio = command.duty_ratio;
-  outputs.pilot_cut = cuts_pilot(mode.fault);
+  memory_.pilot_cut = keeps_pilot_cut(memory_.pilot_cut, mode);
+  outputs.pilot_cut = memory_.pilot_cut || cuts_pilot(mode.fault);
   outputs.swash_ratio = profile_.dig_swash_ratio;
   outputs.status = describe(mode, request, valid);
   if (mode.mode == EcuMode::kActive) {

@@ -37,7 +37,8 @@ class ExcavatorController {
     LoadState load;
     ServoState servo;
     TimeUs last_us = 0;
-    int late_cycles = 0;  ///< In a row.
+    int late_cycles = 0;     ///< In a row.
+    bool pilot_cut = false;  ///< Until the operator arms again.
     bool has_stepped = false;
   };
 
