@@ -12,6 +12,9 @@
 
 namespace graben {
 
+/// Belongs to the tests; nothing of ours defines it.
+struct ControllerMemoryAccess;
+
 /// Holds what the machine is (constant after construction) and what one cycle hands to the next.
 /// No clock, no globals, no heap; `step` costs a bounded number of operations.
 class ExcavatorController {
