@@ -154,7 +154,7 @@ void ExcavatorController::observe(const ValidInputs& valid, double period_s) {
   memory_.load = next_load(profile_.control.pressure_filter_s, memory_.load, measured, period_s,
                            mode != EcuMode::kActive);
   if (mode == EcuMode::kActive) {
-    memory_.servo = next_servo(profile_.control, memory_.servo, memory_.cycle.asked_mps,
+    memory_.servo = next_servo(profile_.control, memory_.servo, memory_.expected_mps,
                                valid.strokes_m, period_s);
   } else if (mode == EcuMode::kFault) {
     memory_.servo = servo_at_rest(valid.strokes_m);
@@ -217,7 +217,8 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   memory_.lambda = mode.mode == EcuMode::kActive ? solution.point.lambda : 0.0;
   memory_.cycle = {in_motion(mode.mode),
                    {command.enable, command.duty_ratio},
-                   memory_.lambda.value() * cap.factor * wanted};
+                   memory_.lambda.value() * cap.factor * corrected};
+  memory_.expected_mps = memory_.lambda.value() * cap.factor * wanted;
   memory_.last_us = now_us;
   memory_.has_stepped = true;
   return outputs;

@@ -21,7 +21,9 @@ struct WatchState {
 struct LastCycle {
   bool moving = false;  ///< Armed or Active.
   SentCommand sent;
-  Eigen::Vector3d asked_mps = Eigen::Vector3d::Zero();  ///< lambda V_L^d, without corrections.
+  /// What the spools were opened for: lambda times the wanted velocity with its corrections. A
+  /// stroke that stands still makes its cylinder owe, and that alone can run it to its end.
+  Eigen::Vector3d asked_mps = Eigen::Vector3d::Zero();
 };
 
 struct WatchResult {

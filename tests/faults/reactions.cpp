@@ -15,6 +15,8 @@ namespace {
 /// From detection to neutral frames on the bus, and from the start of any fault to a trouble code.
 constexpr TimeUs kToNeutral_us = 20 * kMillisecondUs;
 constexpr TimeUs kReported_us = kSecondUs;
+/// An interface that is back is opened again within 200 ms.
+constexpr TimeUs kOpensAgain_us = 200 * kMillisecondUs;
 /// The valve side closes by itself after 100 ms; it looks every cycle.
 constexpr TimeUs kValveCloses_us = 110 * kMillisecondUs;
 /// With the fault, then without it and with enable still held; together several of the oil's
@@ -103,7 +105,8 @@ void Trial::stay_stopped(const Stop& stop) {
   if (stop.cure) {
     stop.cure();
   }
-  rig->run(kWithout_us);
+  // What the bus could not carry has a second to be said when it does again.
+  rig->run(stop.bus_carries ? kWithout_us : kOpensAgain_us + kReported_us);
   check(rig->record.all_neutral(neutral_us_), "a command that is not neutral after the first one");
   check(!rig->plant.spools_enabled(), "the valve side is still enabled");
   check(!in_motion(rig->mode()), "armed or active again with the enable held");
@@ -156,7 +159,7 @@ void Trial::expect_stop(const Stop& stop) {
         fmt::format("{} ms to neutral", ms(neutral_us_ - stop.since_us)));
   check(!outcome.by_valve || neutral_us_ - stop.since_us <= kValveCloses_us,
         fmt::format("{} ms until the valve side closed", ms(neutral_us_ - stop.since_us)));
-  const TimeUs cured_us = rig->now_us + kWith_us;
+  const TimeUs back_us = rig->now_us + kWith_us + kOpensAgain_us;
   stay_stopped(stop);
   judge_closing();
   if (!stop.any.empty()) {
@@ -165,7 +168,7 @@ void Trial::expect_stop(const Stop& stop) {
       const bool latched =
           rig->outputs().status.fault == fault || rig->record.status_named(fault, detected_us_);
       if (latched) {
-        expect_reported(fault, detected_us_, stop.bus_carries ? detected_us_ : cured_us);
+        expect_reported(fault, detected_us_, stop.bus_carries ? detected_us_ : back_us);
         break;
       }
       fault = outcome.codes.after(fault);
@@ -201,7 +204,7 @@ void Trial::expect_slower(const Slowing& slowing) {
   const FaultSet& faults = rig->outputs().status.faults;
   double before_mps = wanted_mps();
   // Unlike a stop this can take as long as it takes to notice, so the speed goes along.
-  const bool detected = rig->run_until(slowing.since_us + slowing.detect_us - rig->now_us, [&] {
+  const bool detected = rig->run_until(slowing.since_us + slowing.detect_us + kCycle_us - rig->now_us, [&] {
     const bool is_there = rig->outputs().status.faults.has(slowing.fault);
     before_mps = is_there ? before_mps : wanted_mps();
     return is_there;

@@ -133,7 +133,8 @@ void receive_overrun(Trial& trial) {
   trial.check(rig.ecu_port.overflow_count() > 0, "nothing was lost");
   Stop stop;
   stop.since_us = rig.at_us();
-  stop.any = {Fault::kStrokeMissing};
+  stop.any = {Fault::kStrokeMissing, Fault::kSwashMissing, Fault::kSpoolMissing,
+              Fault::kOperatorMissing};
   stop.detect_us = stop.neutral_us = 50 * kMillisecondUs;
   until_us = rig.now_us + trial.any_time(60'000, 300'000);
   trial.expect_stop(stop);

@@ -237,7 +237,7 @@ void stream_late(Trial& trial) {
     trial.dig();
     rig.plant.faults().frames.delay_us = kLate_us;
     stop.since_us = rig.at_us();
-    stop.any = {Fault::kStrokeMissing};
+    stop.any = {Fault::kStrokeMissing, Fault::kSwashMissing, Fault::kSpoolMissing};
     stop.detect_us = stop.neutral_us = 50 * kMillisecondUs;
   } else {
     rig.plant.faults().frames.delay_us = kLate_us;
