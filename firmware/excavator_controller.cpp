@@ -70,7 +70,9 @@ ModeState stored_mode(const Guarded<ModeState>& mode) {
 /// Whether the pilot pressure stays cut until the operator has armed again: a spool that did not
 /// obey may not have it back because the deadman was let go.
 bool keeps_pilot_cut(bool last, const ModeState& mode) {
-  const bool disobeyed = mode.mode == EcuMode::kFault && cuts_pilot(mode.fault);
+  // Outside motion a spool is stuck only where it should have closed after it.
+  const bool disobeyed =
+      (mode.mode == EcuMode::kFault && cuts_pilot(mode.fault)) || mode.fault == Fault::kSpoolStuck;
   return !in_motion(mode.mode) && (last || disobeyed);
 }
 

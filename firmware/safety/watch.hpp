@@ -15,6 +15,7 @@ struct WatchState {
   SwashWatchState swash{};
   FaultSet slowing;         ///< What degraded of late.
   double slow_for_s = 0.0;  ///< And how long it still does.
+  bool closing = false;     ///< It was in motion, and some spool has not been in its middle since.
 };
 
 /// What the last cycle did.
@@ -35,7 +36,9 @@ struct WatchResult {
 };
 
 /// Outside motion the machine may be moved by hand: spools, cylinders and pressures are then not
-/// judged, and every watch begins afresh. What degrades goes on doing so for 0.5 s.
+/// judged, and every watch begins afresh. Only spools are, until all have been in their middle once
+/// or the operator has taken over in manual mode: one that stays open when the deadman is let go is
+/// stuck. What degrades goes on doing so for 0.5 s.
 [[nodiscard]] WatchResult watch(const ExcavatorProfile& profile, const WatchState& last,
                                 const LastCycle& cycle, const ValidInputs& inputs, double period_s);
 

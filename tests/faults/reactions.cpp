@@ -204,11 +204,12 @@ void Trial::expect_slower(const Slowing& slowing) {
   const FaultSet& faults = rig->outputs().status.faults;
   double before_mps = wanted_mps();
   // Unlike a stop this can take as long as it takes to notice, so the speed goes along.
-  const bool detected = rig->run_until(slowing.since_us + slowing.detect_us + kCycle_us - rig->now_us, [&] {
-    const bool is_there = rig->outputs().status.faults.has(slowing.fault);
-    before_mps = is_there ? before_mps : wanted_mps();
-    return is_there;
-  });
+  const bool detected =
+      rig->run_until(slowing.since_us + slowing.detect_us + kCycle_us - rig->now_us, [&] {
+        const bool is_there = rig->outputs().status.faults.has(slowing.fault);
+        before_mps = is_there ? before_mps : wanted_mps();
+        return is_there;
+      });
   const TimeUs detected_us = rig->at_us();
   check(detected, fmt::format("'{}' not detected within {} ms", cli::fault_words(slowing.fault),
                               ms(slowing.detect_us)));

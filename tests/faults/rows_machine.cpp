@@ -10,7 +10,7 @@ namespace graben::faults {
 namespace {
 
 /// A duty that certainly opens its spool.
-constexpr double kOpen_ratio = 0.35;
+constexpr double kOpen_ratio = 0.3;
 
 double duty(const Trial& trial, unsigned axis) { return trial.rig->outputs().duty_ratio[axis]; }
 
@@ -24,7 +24,7 @@ double against(Trial& trial, unsigned axis, double size) {
 /// One whose spool is open now, begun with a random one.
 unsigned moving_axis(Trial& trial) {
   unsigned axis = trial.any_of(kAxisCount);
-  const bool moves = trial.rig->run_until(4 * kSecondUs, [&] {
+  const bool moves = trial.rig->run_until(6 * kSecondUs, [&] {
     for (unsigned n = 0; n < kAxisCount; ++n) {
       const unsigned other = (axis + n) % kAxisCount;
       if (std::abs(duty(trial, other)) > kOpen_ratio) {
