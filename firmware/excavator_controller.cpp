@@ -70,7 +70,9 @@ ModeState stored_mode(const Guarded<ModeState>& mode) {
 /// Whether the pilot pressure stays cut until the operator has armed again: a spool that did not
 /// obey may not have it back because the deadman was let go.
 bool keeps_pilot_cut(bool last, const ModeState& mode) {
-  const bool disobeyed = mode.mode == EcuMode::kFault && cuts_pilot(mode.fault);
+  // Outside motion a spool is stuck only where it should have closed after it.
+  const bool disobeyed =
+      (mode.mode == EcuMode::kFault && cuts_pilot(mode.fault)) || mode.fault == Fault::kSpoolStuck;
   return !in_motion(mode.mode) && (last || disobeyed);
 }
 
@@ -154,7 +156,7 @@ void ExcavatorController::observe(const ValidInputs& valid, double period_s) {
   memory_.load = next_load(profile_.control.pressure_filter_s, memory_.load, measured, period_s,
                            mode != EcuMode::kActive);
   if (mode == EcuMode::kActive) {
-    memory_.servo = next_servo(profile_.control, memory_.servo, memory_.cycle.asked_mps,
+    memory_.servo = next_servo(profile_.control, memory_.servo, memory_.expected_mps,
                                valid.strokes_m, period_s);
   } else if (mode == EcuMode::kFault) {
     memory_.servo = servo_at_rest(valid.strokes_m);
@@ -217,7 +219,8 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   memory_.lambda = mode.mode == EcuMode::kActive ? solution.point.lambda : 0.0;
   memory_.cycle = {in_motion(mode.mode),
                    {command.enable, command.duty_ratio},
-                   memory_.lambda.value() * cap.factor * wanted};
+                   memory_.lambda.value() * cap.factor * corrected};
+  memory_.expected_mps = memory_.lambda.value() * cap.factor * wanted;
   memory_.last_us = now_us;
   memory_.has_stepped = true;
   return outputs;

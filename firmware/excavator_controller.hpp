@@ -12,6 +12,9 @@
 
 namespace graben {
 
+/// Belongs to the tests; nothing of ours defines it.
+struct ControllerMemoryAccess;
+
 /// Holds what the machine is (constant after construction) and what one cycle hands to the next.
 /// No clock, no globals, no heap; `step` costs a bounded number of operations.
 class ExcavatorController {
@@ -36,6 +39,8 @@ class ExcavatorController {
     LastCycle cycle;
     LoadState load;
     ServoState servo;
+    /// lambda V_L^d, without corrections: what the servo expects of the cylinders.
+    Eigen::Vector3d expected_mps = Eigen::Vector3d::Zero();
     TimeUs last_us = 0;
     int late_cycles = 0;     ///< In a row.
     bool pilot_cut = false;  ///< Until the operator arms again.

@@ -35,6 +35,9 @@ class ExcavatorEcu {
   [[nodiscard]] std::uint32_t dropped() const { return diagnosis_.dropped_frames; }
 
  private:
+  /// Lets tests flip a bit of what the controller stores.
+  friend struct graben::ControllerMemoryAccess;
+
   void receive(TimeUs now_us);
   void flush_after_stall(TimeUs now_us);
   void watch_bus(TimeUs now_us);

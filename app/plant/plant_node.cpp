@@ -70,6 +70,7 @@ bool PlantNode::CommandLink::dies(TimeUs now) {
 void PlantNode::step(TimeUs now) {
   receive(now);
   if (spool_link_.dies(now)) {
+    needs_off_ = true;
     go_neutral();
   }
   if (pump_link_.dies(now)) {
@@ -129,7 +130,11 @@ void PlantNode::take_spool_command(const CanFrame& frame, TimeUs now) {
   if (command.pilot_cut.state == RawState::kValid) {
     plant_.set_pilot_cut(command.pilot_cut.value == bus::SpoolCommand::PilotCut::kOn);
   }
-  if (!all_valid(command) || command.enable.value != bus::SpoolCommand::Enable::kOn) {
+  const bool is_on = command.enable.value == bus::SpoolCommand::Enable::kOn;
+  if (command.enable.state == RawState::kValid && !is_on) {
+    needs_off_ = false;
+  }
+  if (needs_off_ || !is_on || !all_valid(command)) {
     go_neutral();
     return;
   }

@@ -23,9 +23,11 @@ struct CommandCounters {
 
 /// The bus port belongs to the caller, who opens it. Without a command for `kCommandTimeoutUs`,
 /// with enable off or unusable, or with an unusable duty every spool is sent to neutral, which
-/// takes its dead time. With PilotCut On every spool centres at once, until it is Off; an unusable
-/// one changes nothing of that and is neutral like the others. A pump follows PumpCommand; without
-/// it for as long, or without a value, it goes back to the profile's swash.
+/// takes its dead time. Once a command has been missing for so long, enable has to be Off before it
+/// counts again: what comes first may be frames that were stuck in a controller's queue, each of
+/// them right and in order. With PilotCut On every spool centres at once, until it is Off; an
+/// unusable one changes nothing of that and is neutral like the others. A pump follows PumpCommand;
+/// without it for as long, or without a value, it goes back to the profile's swash.
 class PlantNode {
  public:
   static constexpr TimeUs kCycleUs = 10 * kMillisecondUs;
@@ -88,6 +90,7 @@ class PlantNode {
   CommandLink spool_link_;
   CommandLink pump_link_;
   bool enabled_ = false;
+  bool needs_off_ = false;  ///< The command had been missing; no Off has come since.
   ExcavatorPlant::PumpArray wanted_swash_;
   std::uint64_t cycle_ = 0;
 };

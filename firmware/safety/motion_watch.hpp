@@ -30,8 +30,8 @@ struct MotionWatchResult {
 /// load is less; leakage, which creeps, is forgotten within seconds.
 ///
 /// Stuck: with its spool open in the direction asked for, a stroke stands still to within its
-/// resolution while `safety.stuck_m` were asked of it. `asked_mps` is what lambda let the field
-/// have.
+/// resolution while `safety.stuck_m` were asked of it. `asked_mps` is what the spools were
+/// opened for.
 [[nodiscard]] MotionWatchResult watch_motion(const ExcavatorProfile& profile,
                                              const MotionWatchState& last, const ValidInputs& valid,
                                              const Eigen::Vector3d& asked_mps, double period_s);

@@ -32,6 +32,13 @@ void slow_down(const ExcavatorProfile& profile, const WatchState& last, bool mov
   }
 }
 
+/// Whether the spools have still to close after motion. What is not known does not end it.
+bool still_closing(const ExcavatorProfile& profile, bool last, const ValidInputs& inputs) {
+  const bool centred = !inputs.faults.has(Fault::kSpoolMissing) && spools_centred(profile, inputs);
+  const bool by_hand = !inputs.faults.has(Fault::kOperatorMissing) && !inputs.automatic;
+  return last && !centred && !by_hand;
+}
+
 void stop(const FaultSet& faults, ValidInputs& inputs) {
   inputs.faults.add(faults);
   if (inputs.fault == Fault::kNone) {
@@ -58,10 +65,13 @@ WatchResult watch(const ExcavatorProfile& profile, const WatchState& last, const
   if (spools.faults.has(Fault::kValveNotFollowing)) {
     stops.add(Fault::kValveNotFollowing);
   }
+  state.closing = cycle.moving || still_closing(profile, last.closing, inputs);
+  if (state.closing && spools.faults.has(Fault::kSpoolStuck)) {
+    stops.add(Fault::kSpoolStuck);
+  }
   std::array<double, kPumpCount> flow_swash_ratio = inputs.swash_ratio;
   // Without their strokes and spools the cylinders cannot be judged, and the fault is there anyway.
   if (cycle.moving && inputs.fault == Fault::kNone) {
-    stops.add(spools.faults);
     const MotionWatchResult motion =
         watch_motion(profile, last.motion, inputs, cycle.asked_mps, period_s);
     state.motion = motion.state;

@@ -15,13 +15,16 @@ struct WatchState {
   SwashWatchState swash{};
   FaultSet slowing;         ///< What degraded of late.
   double slow_for_s = 0.0;  ///< And how long it still does.
+  bool closing = false;     ///< It was in motion, and some spool has not been in its middle since.
 };
 
 /// What the last cycle did.
 struct LastCycle {
   bool moving = false;  ///< Armed or Active.
   SentCommand sent;
-  Eigen::Vector3d asked_mps = Eigen::Vector3d::Zero();  ///< lambda V_L^d, without corrections.
+  /// What the spools were opened for: lambda times the wanted velocity with its corrections. A
+  /// stroke that stands still makes its cylinder owe, and that alone can run it to its end.
+  Eigen::Vector3d asked_mps = Eigen::Vector3d::Zero();
 };
 
 struct WatchResult {
@@ -33,7 +36,9 @@ struct WatchResult {
 };
 
 /// Outside motion the machine may be moved by hand: spools, cylinders and pressures are then not
-/// judged, and every watch begins afresh. What degrades goes on doing so for 0.5 s.
+/// judged, and every watch begins afresh. Only spools are, until all have been in their middle once
+/// or the operator has taken over in manual mode: one that stays open when the deadman is let go is
+/// stuck. What degrades goes on doing so for 0.5 s.
 [[nodiscard]] WatchResult watch(const ExcavatorProfile& profile, const WatchState& last,
                                 const LastCycle& cycle, const ValidInputs& inputs, double period_s);
 

@@ -141,6 +141,32 @@ void silence_is_neutral_after_100_ms(void**) {
   assert_int_equal(rig.machine.counters().timeouts, 1);
 }
 
+/// After a silence commands that are right and in order, as a queue lets them go: not before Off.
+void a_silence_ends_with_enable_off(void**) {
+  Rig rig;
+  rig.command_for(30, true, 0.5);
+  rig.cycles(10);
+  rig.command_for(20, true, 0.5);
+  assert_false(rig.machine.spools_enabled());
+  assert_near(rig.boom_spool(), 0.0, 1e-3);
+  rig.command_for(1, false, 0.0);
+  rig.command_for(1, true, 0.5);
+  assert_true(rig.machine.spools_enabled());
+}
+
+/// An enable that says 'error' is no Off.
+void an_unusable_enable_does_not_end_a_silence(void**) {
+  Rig rig;
+  rig.command_for(30, true, 0.5);
+  rig.cycles(10);
+  rig.command_for(3, true, 0.5);
+  bus::SpoolCommand message;
+  message.enable.state = RawState::kError;
+  rig.send_and_cycle(rig.frame_of(message));
+  rig.command_for(3, true, 0.5);
+  assert_false(rig.machine.spools_enabled());
+}
+
 void wrong_frames_are_no_sign_of_life(void**) {
   using Spoil = void (*)(CanFrame&);
   const Spoil spoils[] = {
@@ -271,6 +297,8 @@ int main() {
       cmocka_unit_test(plant_runs_10_ms_a_cycle),
       cmocka_unit_test(enable_off_is_neutral_at_once),
       cmocka_unit_test(silence_is_neutral_after_100_ms),
+      cmocka_unit_test(a_silence_ends_with_enable_off),
+      cmocka_unit_test(an_unusable_enable_does_not_end_a_silence),
       cmocka_unit_test(wrong_frames_are_no_sign_of_life),
       cmocka_unit_test(unusable_values_are_neutral),
       cmocka_unit_test(command_reaches_every_spool),

@@ -1,0 +1,69 @@
+#pragma once
+/// The simulated machine, its operator and the controller on a bus in memory, so taken apart that
+/// each can be late, stopped, restarted or lied about. They share nothing but frames.
+
+#include <functional>
+#include <optional>
+
+#include "app/ecu/excavator_ecu.hpp"
+#include "app/machines/machine_file.hpp"
+#include "app/plant/operator_node.hpp"
+#include "app/plant/plant_node.hpp"
+#include "platform/loopback/loopback_bus.hpp"
+#include "tests/faults/bus_record.hpp"
+#include "tests/faults/closing_watch.hpp"
+
+namespace graben::faults {
+
+inline constexpr TimeUs kCycle_us = 10 * kMillisecondUs;
+
+class Rig {
+ public:
+  Rig(const machines::ExcavatorMachine& machine, const Eigen::Vector3d& start_strokes_m,
+      std::size_t ecu_queue);
+
+  /// A cycle of everybody who is on: machine, operator, then the controller.
+  void step();
+  void run(TimeUs duration_us);
+  /// Steps until `done` holds; false if that takes longer than `most_us`.
+  bool run_until(TimeUs most_us, const std::function<bool()>& done);
+
+  /// What the operator asks for from the next cycle on, in automatic mode.
+  void ask(bool enable, Task task);
+  /// The controller's process ends, or starts anew.
+  void kill_ecu() { ecu.reset(); }
+  void start_ecu();
+
+  /// Of the cycle that was stepped last.
+  [[nodiscard]] TimeUs at_us() const { return now_us - kCycle_us; }
+  [[nodiscard]] bool from_ecu(const LoopbackPort* from) const { return from == &ecu_port; }
+  [[nodiscard]] const ExcavatorOutputs& outputs() const { return ecu->outputs(); }
+  [[nodiscard]] EcuMode mode() const { return ecu ? outputs().status.mode : EcuMode::kSilent; }
+
+  const machines::ExcavatorMachine& machine;
+  LoopbackBus bus;
+  LoopbackPort& machine_port;
+  LoopbackPort& operator_port;
+  LoopbackPort& ecu_port;
+  LoopbackPort& other_port;  ///< Of a node that should not be there.
+  plant::PlantNode plant;
+  plant::OperatorNode driver;
+  std::optional<ecu::ExcavatorEcu> ecu;
+  BusRecord record;
+  std::optional<ClosingWatch> closing;
+  TimeUs now_us = 0;           ///< Of the next cycle.
+  TimeUs valve_closed_us = 0;  ///< When the valve side went neutral last; -1 while it is enabled.
+
+  bool machine_on = true;
+  bool ecu_on = true;  ///< Off: it is there and its cycle is not called.
+  /// May alter a frame on its way; false loses it. Empty: nothing is done to any.
+  LoopbackBus::FaultHook tamper;
+  /// Called in each cycle before anybody's step, and before the controller's. Both may send.
+  std::function<void()> before_all;
+  std::function<void()> before_ecu;
+
+ private:
+  bool from_ecu_ = false;
+};
+
+}  // namespace graben::faults

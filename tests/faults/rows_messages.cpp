@@ -1,0 +1,328 @@
+// Rows 7 to 16: frames whose protection says that something is wrong.
+
+#include <cmath>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "tests/faults/frames.hpp"
+#include "tests/faults/row.hpp"
+
+namespace graben::faults {
+namespace {
+
+constexpr double kLittle_m = 0.004;
+/// A message of 20 ms whose frames are refused is missing 50 ms after its last good one.
+constexpr TimeUs kRefused_us = 60 * kMillisecondUs;
+
+const std::vector<Fault> kMissing = {Fault::kStrokeMissing, Fault::kSwashMissing,
+                                     Fault::kOperatorMissing, Fault::kSpoolMissing,
+                                     Fault::kMessageSequence};
+
+/// Everything that was refused so far.
+std::uint32_t refused(const Trial& trial) { return rejected(trial.rig->ecu->link()); }
+
+void one_wrong_crc(Trial& trial) {
+  trial.dig();
+  const std::uint32_t id = trial.any_id(kProtectedIds);
+  const std::uint32_t before = refused(trial);
+  trial.rig->tamper = [id, left = 1](CanFrame& frame, const LoopbackPort*) mutable {
+    if (frame.id == id && left-- > 0) {
+      corrupt(frame);
+    }
+    return true;
+  };
+  trial.expect_ignored(300 * kMillisecondUs, kLittle_m);
+  trial.check(refused(trial) == before + 1, "the frame is not counted");
+}
+
+/// Every fifth frame of a message: three wrong ones within eleven, never two in a row.
+void three_wrong_crcs(Trial& trial) {
+  trial.dig();
+  const std::uint32_t id = trial.any_id(kProtectedIds);
+  auto number = std::make_shared<int>(0);
+  trial.rig->tamper = [id, number](CanFrame& frame, const LoopbackPort*) {
+    if (frame.id == id && (*number)++ % 5 == 0) {
+      corrupt(frame);
+    }
+    return true;
+  };
+  trial.check(trial.rig->run_until(kSecondUs, [&] { return *number >= 11; }), "no frames");
+  Stop stop;
+  stop.since_us = trial.rig->at_us();
+  stop.any = {Fault::kMessageCorrupt};
+  stop.detect_us = stop.neutral_us = kCycle_us;
+  stop.cure = [&] { trial.rig->tamper = nullptr; };
+  trial.expect_stop(stop);
+}
+
+void frozen_counter(Trial& trial) {
+  trial.dig();
+  const std::uint32_t id = trial.any_id(kProtectedIds);
+  Stop stop;
+  stop.since_us = trial.last_us(id);
+  stop.any = kMissing;
+  stop.detect_us = stop.neutral_us = kRefused_us;
+  trial.rig->tamper = [id, counter = -1](CanFrame& frame, const LoopbackPort*) mutable {
+    if (frame.id == id) {
+      counter = counter < 0 ? counter_of(frame) : counter;
+      protect(frame, static_cast<std::uint8_t>(counter));
+      // A sensor that is read shows another value each time.
+      if (id != bus::OperatorCommand::kId && id != bus::PumpState::kId) {
+        alter(frame);
+        protect(frame, static_cast<std::uint8_t>(counter));
+      }
+    }
+    return true;
+  };
+  stop.detect_us += cycle_us_of(id);  // its first frame is right
+  stop.neutral_us = stop.detect_us;
+  stop.cure = [&] { trial.rig->tamper = nullptr; };
+  trial.expect_stop(stop);
+}
+
+/// Each frame's counter is 4 to 12 ahead of the last one's.
+void counter_jumps(Trial& trial) {
+  trial.dig();
+  const std::uint32_t id = trial.any_id(kProtectedIds);
+  Stop stop;
+  stop.since_us = trial.last_us(id);
+  stop.any = kMissing;
+  stop.detect_us = stop.neutral_us = kRefused_us;
+  const std::uint32_t before = refused(trial);
+  const unsigned jump = 3 + trial.any_of(8);
+  trial.rig->tamper = [id, jump, ahead = 0U](CanFrame& frame, const LoopbackPort*) mutable {
+    if (frame.id == id) {
+      ahead += jump;
+      protect(frame, static_cast<std::uint8_t>((counter_of(frame) + ahead) % kE2eCounterCount));
+    }
+    return true;
+  };
+  stop.cure = [&] { trial.rig->tamper = nullptr; };
+  trial.expect_stop(stop);
+  trial.check(refused(trial) >= before + 3, "the frames are not counted");
+}
+
+/// What a controller saw as a stroke's newest value while old frames of it came.
+struct Replay {
+  std::uint32_t id = 0;
+  unsigned axis = 0;
+  std::deque<CanFrame> block;
+  double live_m[2] = {0.0, 0.0};  ///< The newest live value, and the one before.
+  int old_cycles = 0;
+
+  void note_live(const CanFrame& frame) {
+    live_m[1] = live_m[0];
+    live_m[0] = dbc::physical_of(bus::BoomStroke::kBoomStroke,
+                                 dbc::extract(frame.data, bus::BoomStroke::kBoomStroke.start_bit,
+                                              bus::BoomStroke::kBoomStroke.width));
+  }
+  void note_used(double stroke_m) {
+    constexpr double kSame_m = 1e-6;
+    const bool is_live =
+        std::abs(stroke_m - live_m[0]) < kSame_m || std::abs(stroke_m - live_m[1]) < kSame_m;
+    old_cycles += is_live ? 0 : 1;
+  }
+};
+
+/// An old block of 8 to 20 frames, all at once or one a cycle beside the live ones. Before the
+/// window trips, an old value may be the newest one for two cycles, hal/e2e.hpp says; it then is
+/// the last one for at most one more.
+void old_block_replayed(Trial& trial) {
+  trial.dig();
+  Rig& rig = *trial.rig;
+  auto replay = std::make_shared<Replay>();
+  replay->axis = trial.any_of(kAxisCount);
+  replay->id = *(kStrokeIds.begin() + replay->axis);
+  const unsigned length = 8 + trial.any_of(13);
+  rig.tamper = [replay, length](CanFrame& frame, const LoopbackPort*) {
+    if (frame.id == replay->id && replay->block.size() < length) {
+      replay->block.push_back(frame);
+    }
+    return true;
+  };
+  rig.run(length * kCycle_us);
+  rig.run(trial.any_time(300 * kMillisecondUs, 700 * kMillisecondUs));
+  rig.tamper = [replay, &rig](CanFrame& frame, const LoopbackPort* from) {
+    if (frame.id == replay->id && from == &rig.machine_port) {
+      replay->note_live(frame);
+    }
+    return true;
+  };
+  rig.run(2 * kCycle_us);
+  const bool at_once = trial.odd();
+  rig.before_ecu = [replay, &rig, at_once] {
+    const std::size_t count = at_once ? replay->block.size() : 1;
+    for (std::size_t n = 0; n < count && !replay->block.empty(); ++n) {
+      rig.bus.inject(replay->block.front());
+      replay->block.pop_front();
+    }
+  };
+  Stop stop;
+  stop.since_us = rig.now_us;
+  const std::uint32_t before = refused(trial);
+  const TimeUs until_us = rig.now_us + 300 * kMillisecondUs;
+  while (rig.now_us < until_us && rig.mode() == EcuMode::kActive) {
+    rig.step();
+    replay->note_used(rig.ecu->inputs().axis[replay->axis].stroke_m.value);
+  }
+  trial.check(refused(trial) > before, "no frame was refused");
+  trial.check(replay->old_cycles <= 3,
+              "an old value was used for " + std::to_string(replay->old_cycles) + " cycles");
+  if (rig.mode() == EcuMode::kActive) {
+    trial.saw("I");
+    return;
+  }
+  stop.any = {Fault::kMessageSequence};
+  stop.detect_us = 120 * kMillisecondUs;
+  stop.cure = [&rig] { rig.before_ecu = nullptr; };
+  trial.expect_stop(stop);
+}
+
+void pair_out_of_order(Trial& trial) {
+  trial.dig();
+  Rig& rig = *trial.rig;
+  const std::uint32_t id = trial.any_id(kProtectedIds);
+  struct Held {
+    int number = 0;
+    CanFrame first;
+  };
+  auto held = std::make_shared<Held>();
+  rig.tamper = [held, id](CanFrame& frame, const LoopbackPort* from) {
+    if (frame.id == id && from != nullptr && held->number < 2) {
+      held->first = held->number == 0 ? frame : held->first;
+      return ++held->number == 2;
+    }
+    return true;
+  };
+  rig.before_ecu = [held, &rig] {
+    if (held->number == 2) {
+      rig.bus.inject(held->first);
+      ++held->number;
+    }
+  };
+  trial.expect_ignored(400 * kMillisecondUs, kLittle_m);
+}
+
+/// Every frame twice, the controller's too.
+void duplicates(Trial& trial) {
+  trial.dig();
+  Rig& rig = *trial.rig;
+  auto frames = std::make_shared<std::vector<CanFrame>>();
+  rig.tamper = [frames](CanFrame& frame, const LoopbackPort* from) {
+    if (from != nullptr) {
+      frames->push_back(frame);
+    }
+    return true;
+  };
+  rig.before_ecu = [frames, &rig] {
+    const std::vector<CanFrame> again = std::move(*frames);
+    frames->clear();
+    for (const CanFrame& frame : again) {
+      rig.bus.inject(frame);
+    }
+  };
+  trial.expect_ignored(400 * kMillisecondUs, 0.0);
+}
+
+/// All that the machine says comes 200 ms late: from some time on, which is a silence first; or
+/// from the start, so that nothing is missing, and only the valve side's echo tells.
+void stream_late(Trial& trial) {
+  constexpr TimeUs kLate_us = 200 * kMillisecondUs;
+  constexpr TimeUs kEcho_us = 130 * kMillisecondUs;
+  Rig& rig = *trial.rig;
+  Stop stop;
+  stop.cure = [&rig] { rig.plant.faults().frames.delay_us = 0; };
+  if (trial.odd()) {
+    trial.dig();
+    rig.plant.faults().frames.delay_us = kLate_us;
+    stop.since_us = rig.at_us();
+    stop.any = {Fault::kStrokeMissing, Fault::kSwashMissing, Fault::kSpoolMissing};
+    stop.detect_us = stop.neutral_us = 50 * kMillisecondUs;
+  } else {
+    rig.plant.faults().frames.delay_us = kLate_us;
+    rig.run(kSecondUs);
+    rig.ask(true, Task::kNone);
+    rig.run(300 * kMillisecondUs);
+    rig.ask(true, Task::kDig);
+    trial.check(rig.run_until(100 * kMillisecondUs, [&] { return rig.outputs().enable; }),
+                "the late stream is not taken for a whole one");
+    stop.since_us = rig.at_us();
+    stop.any = {Fault::kValveNotFollowing};
+    stop.detect_us = stop.neutral_us = kEcho_us;
+    stop.pilot_cut = true;
+  }
+  trial.expect_stop(stop);
+}
+
+void swapped_data_ids(Trial& trial) {
+  trial.dig();
+  plant::FrameFaults& frames = trial.rig->plant.faults().frames;
+  const std::uint32_t one = trial.any_id(kStrokeIds);
+  std::uint32_t other = one;
+  while (other == one) {
+    other = trial.any_id(kProtectedIds);
+    other = other == bus::OperatorCommand::kId ? one : other;
+  }
+  Stop stop;
+  stop.since_us = trial.last_us(one);
+  stop.any = {Fault::kMessageMasquerade};
+  stop.detect_us = stop.neutral_us = 50 * kMillisecondUs;
+  frames.swapped_data_ids = {one, other};
+  stop.cure = [&frames] { frames.swapped_data_ids.reset(); };
+  trial.expect_stop(stop);
+}
+
+/// A second node sends a message at the same rate, with a counter of its own and another value.
+void second_sender(Trial& trial) {
+  trial.dig();
+  Rig& rig = *trial.rig;
+  const std::uint32_t id = trial.any_id(kProtectedIds);
+  struct Other {
+    CanFrame frame;
+    bool due = false;
+    std::uint8_t counter = 0;
+  };
+  auto other = std::make_shared<Other>();
+  other->counter = static_cast<std::uint8_t>(trial.any_of(kE2eCounterCount));
+  rig.tamper = [other, id, &rig](CanFrame& frame, const LoopbackPort* from) {
+    if (frame.id == id && from != &rig.other_port) {
+      other->frame = frame;
+      other->due = true;
+    }
+    return true;
+  };
+  rig.before_ecu = [other, &rig] {
+    if (!other->due) {
+      return;
+    }
+    other->due = false;
+    alter(other->frame);
+    protect(other->frame, other->counter);
+    other->counter = e2e_next_counter(other->counter);
+    static_cast<void>(rig.other_port.send(other->frame));
+  };
+  Stop stop;
+  stop.since_us = rig.at_us();
+  stop.any = kMissing;
+  stop.detect_us = stop.neutral_us = 120 * kMillisecondUs;
+  stop.cure = [&rig] { rig.before_ecu = nullptr; };
+  trial.expect_stop(stop);
+}
+
+}  // namespace
+
+Rows message_rows() {
+  return {{7, "one wrong CRC", "I", one_wrong_crc},
+          {8, "three wrong CRCs in the window", "N L", three_wrong_crcs},
+          {9, "frozen counter", "N L", frozen_counter},
+          {10, "counter jumps beyond the step", "N L", counter_jumps},
+          {11, "old block of valid frames replayed", "I | N L", old_block_replayed},
+          {12, "pair out of order", "I", pair_out_of_order},
+          {13, "every frame twice", "I", duplicates},
+          {14, "whole stream 200 ms late", "N L", stream_late},
+          {15, "two messages' data ids swapped", "N L", swapped_data_ids},
+          {16, "two senders of one id", "N L", second_sender}};
+}
+
+}  // namespace graben::faults

@@ -1,0 +1,115 @@
+#pragma once
+/// One row of the table tried with one seed: the scenery, and the checks that the reactions share.
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "app/plant/random.hpp"
+#include "firmware/core/fault_set.hpp"
+#include "tests/faults/rig.hpp"
+
+namespace graben::faults {
+
+/// What a trial found. A time or share below 0 was not looked at.
+struct Outcome {
+  std::string seen;
+  FaultSet codes;  ///< That answered the fault, of those that may.
+  TimeUs to_detection_us = -1;
+  TimeUs detection_to_neutral_us = -1;
+  TimeUs to_neutral_us = -1;
+  bool by_valve =
+      false;  ///< The bus carried no neutral frame: the valve side's own timeout closed.
+  double beyond_share = -1.0;
+  double creep_share = -1.0;
+  std::vector<std::string> failures;
+};
+
+/// What must stop the machine.
+struct Stop {
+  TimeUs since_us = 0;     ///< The first wrong thing; in silence the last right frame.
+  std::vector<Fault> any;  ///< One of these has to be the reason; empty: no fault.
+  TimeUs detect_us = 0;    ///< From `since_us`, at most.
+  TimeUs neutral_us =
+      0;  ///< From `since_us` to neutral on the bus, at most; 0: no bound of its own.
+  bool bus_carries = true;  ///< Else the valve side has to close by itself.
+  bool latches = true;
+  bool disobeying = false;     ///< A spool is open against its command.
+  bool pilot_cut = false;      ///< The pilot pressure has to be asked away.
+  std::function<void()> cure;  ///< Takes the fault away; empty: it is over by itself.
+};
+
+/// What must slow the machine.
+struct Slowing {
+  TimeUs since_us = 0;
+  Fault fault = Fault::kNone;
+  TimeUs detect_us = 0;
+  TimeUs hold_us = 700 * kMillisecondUs;  ///< From detection to the cure.
+  TimeUs back_us = 700 * kMillisecondUs;  ///< From the cure to full speed, at most.
+  std::function<void()> cure;
+};
+
+/// The scenery of a seed: sensors wrong in all, parameters too in every second, soil in half of
+/// them, a random pose near the path.
+[[nodiscard]] machines::ExcavatorMachine machine_of(std::uint64_t seed);
+[[nodiscard]] Eigen::Vector3d start_of(const machines::ExcavatorMachine& machine,
+                                       std::uint64_t seed);
+
+class Trial {
+ public:
+  Trial(std::uint64_t seed, int row);
+
+  /// Replaces the scenery, before anything has run.
+  void set_up(const machines::ExcavatorMachine& machine, const Eigen::Vector3d& start_strokes_m,
+              std::size_t ecu_queue = LoopbackBus::kQueueCapacity);
+  void set_queue(std::size_t ecu_queue);
+
+  /// From power-on to a dig that has been Active for 2 to 6 s and has somewhere to go.
+  void dig();
+  /// From power-on to Armed without a task.
+  void arm();
+
+  void expect_stop(const Stop& stop);
+  void expect_slower(const Slowing& slowing);
+  /// For `duration_us` from now nothing may show but counters, and no cylinder may come further
+  /// than `bound_m` from where it would be undisturbed.
+  void expect_ignored(TimeUs duration_us, double bound_m);
+  /// Enable and task are asked for already: nothing may move, `why` must be among the reasons.
+  /// After the cure a fresh enable works.
+  void expect_refused(ArmBlock why, TimeUs duration_us, const std::function<void()>& cure);
+  /// Lets go, waits for Ready, enables with the task at rest, then gives the task: must end Active.
+  void expect_arms_again();
+
+  void check(bool is_right, const std::string& what);
+  void saw(const std::string& reaction);
+
+  /// 0 .. count - 1.
+  [[nodiscard]] unsigned any_of(unsigned count);
+  [[nodiscard]] std::uint32_t any_id(std::initializer_list<std::uint32_t> ids);
+  [[nodiscard]] TimeUs any_time(TimeUs least_us, TimeUs most_us);  ///< Whole cycles.
+  /// Every second seed.
+  [[nodiscard]] bool odd() const { return seed_ % 2 == 1; }
+  /// Speed that the field wanted in the last frame that said it.
+  [[nodiscard]] double wanted_mps() const;
+  /// When a frame of this message was last on the bus.
+  [[nodiscard]] TimeUs last_us(std::uint32_t id) { return rig->record.last_us[id]; }
+
+  std::uint64_t seed() const { return seed_; }
+  plant::Random random;
+  std::optional<Rig> rig;
+  Outcome outcome;
+
+ private:
+  void await_detection(const Stop& stop);
+  void stay_stopped(const Stop& stop);
+  void judge_closing();
+  void expect_reported(Fault fault, TimeUs since_us, TimeUs from_us);
+
+  std::uint64_t seed_;
+  machines::ExcavatorMachine machine_;
+  Eigen::Vector3d start_strokes_m_;
+  TimeUs detected_us_ = -1;
+  TimeUs neutral_us_ = -1;
+};
+
+}  // namespace graben::faults
