@@ -22,6 +22,8 @@ constexpr TimeUs kValveCloses_us = 110 * kMillisecondUs;
 /// With the fault, then without it and with enable still held; together several of the oil's
 /// periods.
 constexpr TimeUs kWith_us = 700 * kMillisecondUs;
+/// From neutral, or from the pilot cut, until every spool is in its deadband.
+constexpr TimeUs kCloses_us = 150 * kMillisecondUs;
 constexpr TimeUs kWithout_us = 700 * kMillisecondUs;
 constexpr double kMostMoved_share = 0.01;
 /// degraded_speed is 0.3 of full speed; the field itself changes a little meanwhile.
@@ -113,7 +115,9 @@ void Trial::await_detection(const Stop& stop) {
 }
 
 void Trial::stay_stopped(const Stop& stop) {
-  rig->run(kWith_us);
+  rig->run(kCloses_us);
+  check(rig->closing->has_begun(), "the spools have not closed while the fault was there");
+  rig->run(kWith_us - kCloses_us);
   if (stop.cure) {
     stop.cure();
   }
