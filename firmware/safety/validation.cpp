@@ -96,10 +96,12 @@ double fastest_mps(const ExcavatorProfile& profile, unsigned axis) {
   return kFasterThanPumps * flow_m3ps / profile.geometry.cylinder[axis].rod_area_m2();
 }
 
+/// Frames that were lost give the cylinder time to move, frames that were refused do not: else a
+/// jump that stays would be allowed as soon as it is old enough.
 bool jumped(const ExcavatorProfile& profile, unsigned axis, const Signal<double>& last,
-            const Signal<double>& next) {
-  const double elapsed_s =
-      static_cast<double>(next.stamp_us - last.stamp_us) / kMicrosecondsPerSecond;
+            TimeUs seen_us, const Signal<double>& next) {
+  const TimeUs from_us = std::max(last.stamp_us, seen_us);
+  const double elapsed_s = static_cast<double>(next.stamp_us - from_us) / kMicrosecondsPerSecond;
   return std::abs(next.value - last.value) > fastest_mps(profile, axis) * elapsed_s + kJumpMargin_m;
 }
 
@@ -111,12 +113,14 @@ void believe_strokes(const ExcavatorInputs& inputs, const ExcavatorProfile& prof
     const Signal<double>& next = inputs.axis[i].stroke_m;
     const Signal<double>& believed = last.stroke_m[i];
     const bool usable = fresh.number(next);
-    if (usable && believed.validity == Validity::kValid && jumped(profile, i, believed, next)) {
+    if (usable && believed.validity == Validity::kValid &&
+        jumped(profile, i, believed, last.seen_us[i], next)) {
       valid.faults.add(Fault::kStrokeJump);
       valid.state.stroke_m[i] = believed;
     } else if (usable) {
       valid.state.stroke_m[i] = next;
     }
+    valid.state.seen_us[i] = next.stamp_us;
     if (next.validity == Validity::kError) {
       valid.faults.add(Fault::kSensorError);
     }

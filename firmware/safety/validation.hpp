@@ -11,6 +11,7 @@ namespace graben {
 /// What the validation needs of the last cycle.
 struct ValidationState {
   std::array<Signal<double>, kAxisCount> stroke_m;  ///< Last one that was believed.
+  std::array<TimeUs, kAxisCount> seen_us{};         ///< Stamp of the last one, believed or not.
 };
 
 /// Inputs that may be used. With a fault, only `enable` and the faults themselves mean anything.

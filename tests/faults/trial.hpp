@@ -91,6 +91,8 @@ class Trial {
   [[nodiscard]] bool odd() const { return seed_ % 2 == 1; }
   /// Speed that the field wanted in the last frame that said it.
   [[nodiscard]] double wanted_mps() const;
+  /// The one that is farthest from here after so long if nothing disturbs the dig.
+  [[nodiscard]] unsigned farthest_axis(TimeUs after_us) const;
   /// When a frame of this message was last on the bus.
   [[nodiscard]] TimeUs last_us(std::uint32_t id) { return rig->record.last_us[id]; }
 

@@ -151,6 +151,61 @@ void the_same_inputs_give_the_same_outputs(void**) {
   }
 }
 
+/// The boom's spool at half its travel, whatever it is told.
+ExcavatorInputs with_open_spool(ExcavatorInputs inputs) {
+  inputs.axis[kBoom].spool_ratio.value = 0.5;
+  return inputs;
+}
+
+/// The deadman is let go, and the spool does not close: the pilot pressure goes, and comes back
+/// with a fresh enable only, although it has centred the spool.
+void a_spool_left_open_cuts_the_pilot_pressure(void**) {
+  Running running;
+  for (int n = 0; n < 60 && !running.outputs.pilot_cut; ++n) {
+    running.step(with_open_spool(running.at_rest(false)));
+  }
+  assert_true(running.outputs.pilot_cut);
+  assert_int_equal(running.outputs.status.fault, Fault::kSpoolStuck);
+  for (int n = 0; n < 20; ++n) {
+    assert_true(running.step(running.at_rest(false)).pilot_cut);
+  }
+  assert_int_equal(running.outputs.status.mode, EcuMode::kReady);
+  running.step(running.at_rest(true));
+  assert_int_equal(running.outputs.status.mode, EcuMode::kArmed);
+  assert_false(running.outputs.pilot_cut);
+}
+
+/// Once the spools have closed, or at once in manual mode, they are the operator's.
+void a_spool_moved_by_hand_is_no_fault(void**) {
+  for (const bool manual : {false, true}) {
+    Running running;
+    running.step(running.at_rest(false));
+    running.step(manual ? with_open_spool(running.at_rest(false)) : running.at_rest(false));
+    for (int n = 0; n < 60; ++n) {
+      ExcavatorInputs inputs = with_open_spool(running.at_rest(false));
+      inputs.driver.mode.value = manual ? OperatorMode::kManual : OperatorMode::kAutomatic;
+      running.step(inputs);
+      assert_false(running.outputs.pilot_cut);
+      assert_int_equal(running.outputs.status.fault, Fault::kNone);
+    }
+  }
+}
+
+/// 40 mm at once are too much for the boom in 10 ms, not in 40 ms: frames that were refused give it
+/// no time.
+void a_small_jump_that_stays_stops(void**) {
+  Running running;
+  running.step(running.inputs());
+  for (int n = 0; n < 5; ++n) {
+    ExcavatorInputs inputs = running.inputs();
+    inputs.axis[kBoom].stroke_m.value += 0.04;
+    running.step(inputs);
+  }
+  assert_int_equal(running.outputs.status.mode, EcuMode::kFault);
+  assert_true(running.outputs.status.faults.has(Fault::kStrokeJump));
+  assert_neutral(running.outputs);
+}
+
 }  // namespace
 
 int main() {
@@ -165,6 +220,9 @@ int main() {
       cmocka_unit_test(every_start_sees_its_own_load),
       cmocka_unit_test(lambda_rises_anew_from_every_rest),
       cmocka_unit_test(the_same_inputs_give_the_same_outputs),
+      cmocka_unit_test(a_spool_left_open_cuts_the_pilot_pressure),
+      cmocka_unit_test(a_spool_moved_by_hand_is_no_fault),
+      cmocka_unit_test(a_small_jump_that_stays_stops),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
