@@ -6,7 +6,9 @@ namespace graben {
 namespace {
 
 constexpr double kRail_s = 0.3;
-constexpr double kMoved_m = 0.1;
+constexpr double kMoved_m = 0.06;
+/// Way is counted in steps of more than a stroke sensor's noise.
+constexpr double kStep_m = 0.002;
 /// A chamber that cavitates stays at one pressure for long.
 constexpr double kEmpty_pa = 0.2e6;
 
@@ -15,14 +17,18 @@ using Sensor = PressureWatchState::Sensor;
 Sensor seen(const ExcavatorProfile& profile, const Sensor& last, double pressure_pa,
             double stroke_m, double period_s) {
   Sensor sensor = last;
-  const bool changed = pressure_pa != last.last_pa;
-  if (changed || pressure_pa <= kEmpty_pa) {
+  const double step_m = std::abs(stroke_m - last.stroke_m);
+  if (pressure_pa != last.last_pa || pressure_pa <= kEmpty_pa) {
     sensor.last_pa = pressure_pa;
-    sensor.changed_at_m = stroke_m;
+    sensor.stroke_m = stroke_m;
+    sensor.way_m = 0.0;
+  } else if (step_m > kStep_m) {
+    sensor.stroke_m = stroke_m;
+    sensor.way_m += step_m;
   }
   sensor.at_rail_s =
       pressure_pa >= profile.safety.pressure_rail_pa ? last.at_rail_s + period_s : 0.0;
-  sensor.wrong = sensor.at_rail_s > kRail_s || std::abs(stroke_m - sensor.changed_at_m) > kMoved_m;
+  sensor.wrong = sensor.at_rail_s > kRail_s || sensor.way_m > kMoved_m;
   return sensor;
 }
 

@@ -11,7 +11,8 @@ namespace graben {
 struct PressureWatchState {
   struct Sensor {
     double last_pa = 0.0;
-    double changed_at_m = 0.0;  ///< Stroke at its last change.
+    double stroke_m = 0.0;  ///< Up to which `way_m` is counted.
+    double way_m = 0.0;     ///< To and fro, since its last change.
     double at_rail_s = 0.0;
     bool wrong = false;
   };
@@ -26,7 +27,7 @@ struct PressureWatchResult {
 
 /// At its rail: at or above `safety.pressure_rail_pa` for 0.3 s, longer than any peak that a port
 /// relief lets stand. Stuck: the same number, to the last bit and above what a chamber without oil
-/// has, while its cylinder moves by 0.1 m. Wrong until it changes.
+/// has, while its cylinder moves by 0.06 m, to and fro. Wrong until it changes.
 [[nodiscard]] PressureWatchResult watch_pressures(const ExcavatorProfile& profile,
                                                   const PressureWatchState& last,
                                                   const ValidInputs& valid, double period_s);

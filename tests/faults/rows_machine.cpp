@@ -137,7 +137,8 @@ void pressure_wrong(Trial& trial) {
   const double rod_pa = rig.plant.plant().rod_pressures_pa()[axis];
   const bool any_side = std::min(cap_pa, rod_pa) > kFilled_pa;
   const bool cap = any_side ? trial.any_of(2) == 0 : cap_pa > rod_pa;
-  constexpr double kJudged_m = 0.09;
+  // Before the watch has seen 0.06 m of way, to and fro.
+  constexpr double kJudged_m = 0.02;
   plant::PressureFault& pressure = cap ? faults.cap : faults.rod;
   Slowing slowing;
   slowing.since_us = rig.at_us();
@@ -146,7 +147,7 @@ void pressure_wrong(Trial& trial) {
     pressure.rail_pa = rig.machine.profile.safety.pressure_rail_pa;
     slowing.detect_us = 400 * kMillisecondUs;
   } else {
-    // Until its cylinder has moved by 0.1 m.
+    // Until its cylinder has gone a way of 0.06 m.
     pressure.stuck = true;
     slowing.detect_us = 10 * kSecondUs;
     const double from_m = rig.plant.plant().strokes_m()[axis];
@@ -157,7 +158,7 @@ void pressure_wrong(Trial& trial) {
     });
     if (!judged && !rig.outputs().status.faults.has(slowing.fault)) {
       // A pressure stuck high takes lambda down so far that the cylinder hardly moves.
-      trial.saw("moved < 0.09 m");
+      trial.saw("moved < 0.02 m");
       return;
     }
   }
@@ -267,7 +268,7 @@ Rows machine_rows() {
           {34, "spool or cylinder moves uncommanded", "N L", moves_uncommanded},
           {35, "stroke stuck while flow is commanded", "N L", stroke_stuck},
           {36, "stroke jumps: one frame; for good", "D; N L", stroke_jumps},
-          {37, "pressure stuck or at its rail", "D | moved < 0.09 m", pressure_wrong},
+          {37, "pressure stuck or at its rail", "D", pressure_wrong},
           {38, "swash disagrees with its command", "D", swash_wrong},
           {39, "HST displacement runs away", "not of this machine", nullptr},
           {40, "track speeds disagree", "not of this machine", nullptr},

@@ -94,22 +94,39 @@ void a_peak_ends_with_itself(void**) {
   });
 }
 
-/// 0.1 m of motion with the same number; either way; until it changes.
+/// 0.06 m of motion with the same number; either way; until it changes.
 void a_number_that_stands_while_the_cylinder_moves_is_stuck(void**) {
   for (const double sign : {1.0, -1.0}) {
     in_each_chamber([sign](Chamber chamber) {
       assert_false(chamber.wrong());  // At stroke 0 the number was new.
-      chamber.stroke_m = sign * 0.1;
+      chamber.stroke_m = sign * 0.06;
       assert_false(chamber.wrong());
-      chamber.stroke_m = std::nextafter(sign * 0.1, sign);
+      chamber.stroke_m = sign * 0.063;
       assert_true(chamber.wrong());
       assert_true(chamber.wrong());
       chamber.pressure_pa = std::nextafter(5e6, 9e9);
       assert_false(chamber.wrong());
-      chamber.stroke_m += sign * 0.09;
+      chamber.stroke_m += sign * 0.06;
       assert_false(chamber.wrong());
     });
   }
+}
+
+/// A cylinder that swings about its place goes a way too; what a sensor trembles by is none.
+void to_and_fro_adds_up_and_trembling_does_not(void**) {
+  in_each_chamber([](Chamber swinging) {
+    Chamber trembling = swinging;
+    int cycles = 0;
+    while (!swinging.wrong()) {
+      swinging.stroke_m = ++cycles % 2 == 0 ? 0.0 : 0.005;
+      assert_true(cycles <= 13);
+    }
+    assert_int_equal(cycles, 13);
+    for (int n = 0; n < 1000; ++n) {
+      trembling.stroke_m = n % 2 == 0 ? 0.0 : 0.002;
+      assert_false(trembling.wrong());
+    }
+  });
 }
 
 void a_cylinder_at_rest_has_one_pressure(void**) {
@@ -151,6 +168,7 @@ int main() {
       cmocka_unit_test(a_sensor_at_its_rail_is_wrong),
       cmocka_unit_test(a_peak_ends_with_itself),
       cmocka_unit_test(a_number_that_stands_while_the_cylinder_moves_is_stuck),
+      cmocka_unit_test(to_and_fro_adds_up_and_trembling_does_not),
       cmocka_unit_test(a_cylinder_at_rest_has_one_pressure),
       cmocka_unit_test(an_empty_chamber_is_not_stuck),
       cmocka_unit_test(what_is_not_known_is_not_judged),
