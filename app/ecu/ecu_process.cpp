@@ -65,7 +65,7 @@ struct Buses {
       ports.emplace_back(name, std::vector<std::uint32_t>(ids.begin(), ids.end()));
       SocketCanPort& port = ports.back();
       if (!port.open()) {
-        throw std::runtime_error(name + ": " + port.last_error());
+        throw std::runtime_error(port.last_error());
       }
       group.add(port);
     }
