@@ -4,6 +4,7 @@ check_package.py PACKAGE. No service manager runs there; check_service.py has on
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -88,8 +89,11 @@ def check_refusals(root: Root):
     # By name from /usr/share, by name from /etc, as a file: good up to the bus.
     shutil.copy(root.path / PROFILE[1:], root.path / "etc/graben/mine.toml")
     for name in ("excavator_22t", "excavator_22t.toml", "mine", PROFILE):
-        said = root.expect(1, ["no_can0: "], ecu, "--can", "no_can0", "--profile", name)
-        root.demand(said.count("\n") <= 2, f"a missing interface is told at length:\n{said}")
+        said = root.expect(1, [], ecu, "--can", "no_can0", "--profile", name)
+        # The latter on a host whose kernel has no CAN.
+        root.demand(bool(re.fullmatch(r"graben-ecu: (no_can0: .* is the interface there|socket\(AF_CAN\): "
+                                      r".*needs a kernel with CAN).*\n", said)),
+                    f"a missing interface is told otherwise: {said}")
     for name in ("broken", "wrong", "mine"):
         (root.path / f"etc/graben/{name}.toml").unlink()
 
