@@ -29,7 +29,7 @@ NOTES = {
     "installed": {"ActiveState": "inactive", "UnitFileState": "disabled"},
     "preset": {"ActiveState": "inactive", "UnitFileState": "disabled"},
     "no_profile": {"ActiveState": "failed", "Result": "exit-code", "ExecMainStatus": "2", "NRestarts": "0"},
-    "no_interface": {"ActiveState": "activating", "ExecMainStatus": "1"},
+    "no_interface": {"ActiveState": "activating"},
     "came": RUNS,
     "running": {**RUNS, "NRestarts": "0"},
     "reloaded": {**RUNS, "NRestarts": "0"},
