@@ -9,7 +9,7 @@ has_command() { command -v "$1" >/dev/null 2>&1; }
 
 has_header() { [ -e "/usr/include/$1" ] || [ -e "/usr/local/include/$1" ]; }
 
-# graben_missing build|check|fuzz|bench|hil: the packages that are not there yet, a line each.
+# graben_missing build|check|fuzz|bench|hil|package|install: the packages that are not there yet, a line each.
 graben_missing() {
   has_command g++ || echo g++
   has_command cmake || echo cmake
@@ -52,6 +52,14 @@ graben_missing() {
     has_command busybox || echo busybox-static
     has_command qemu-system-x86_64 || echo qemu-system-x86
   fi
+  # What makes the package; what judges and tries it.
+  if [ "$1" = package ] || [ "$1" = install ]; then
+    has_command dpkg-shlibdeps || echo dpkg-dev
+  fi
+  if [ "$1" = install ]; then
+    has_command lintian || echo lintian
+    has_command debootstrap || [ -x /usr/sbin/debootstrap ] || echo debootstrap
+  fi
 }
 
 graben_apt() {
@@ -59,7 +67,7 @@ graben_apt() {
     apt-get -q -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 "$@" </dev/null
 }
 
-# graben_install build|check|fuzz|bench|hil: nothing when all is there; otherwise says what, then installs it.
+# graben_install build|check|fuzz|bench|hil|package|install: nothing when all is there; otherwise says what, then installs it.
 graben_install() {
   # Word splitting is wanted: package names have no blanks.
   graben_packages=$(graben_missing "$1" | tr '\n' ' ')

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
+#include <optional>
 #include <stdexcept>
 
 #include "app/ecu/ecu_stats.hpp"
@@ -24,6 +25,8 @@ namespace {
 
 constexpr TimeUs kPeriod_us = 10 * kMillisecondUs;
 constexpr int kNeutralCycles = 5;
+constexpr int kFailed = 1;
+constexpr int kWrongProfile = 2;
 /// The manager wants to hear from us within an interval; three times in it is on the safe side.
 constexpr TimeUs kWatchdogShare = 3;
 
@@ -42,6 +45,15 @@ void become_real_time(const EcuOptions& options) {
   demand(set_fifo_priority(options.priority), kWayOut);
 }
 
+/// Nothing, with every error told, if the profile is missing or wrong.
+std::optional<machines::ExcavatorMachine> read_profile(const std::string& name) try {
+  return machines::load_excavator(
+      machines::find_profile(name, {"/etc/graben", "/usr/share/graben"}));
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "graben-ecu: %s\n", error.what());
+  return std::nullopt;
+}
+
 /// The interfaces by their names, opened.
 struct Buses {
   std::deque<SocketCanPort> ports;
@@ -53,7 +65,7 @@ struct Buses {
       ports.emplace_back(name, std::vector<std::uint32_t>(ids.begin(), ids.end()));
       SocketCanPort& port = ports.back();
       if (!port.open()) {
-        throw std::runtime_error(name + ": " + port.last_error());
+        throw std::runtime_error(port.last_error());
       }
       group.add(port);
     }
@@ -138,15 +150,20 @@ void cycle_until_stopped(ExcavatorEcu& ecu, CyclicClock& clock, Watchdog& watchd
       mark.set();
     }
   }
+  // What was sent last leaves first: the teardown of locked memory keeps a processor for
+  // milliseconds, at a priority above that of the interface's interrupt.
+  static_cast<void>(clock.wait());
 }
 
 }  // namespace
 
 int run(const EcuOptions& options, TimeUs began_us) try {
-  const machines::ExcavatorMachine machine = machines::load_excavator(
-      machines::find_profile(options.profile, {"/etc/graben", "/usr/share/graben"}));
+  const auto machine = read_profile(options.profile);
+  if (!machine) {
+    return kWrongProfile;
+  }
   Buses buses(options.interfaces);
-  ExcavatorEcu ecu(machine.profile, machine.hash, buses.group);
+  ExcavatorEcu ecu(machine->profile, machine->hash, buses.group);
   CyclicClock clock(kPeriod_us);
   ServiceNotify manager(std::getenv("NOTIFY_SOCKET"));
   Watchdog watchdog(manager);
@@ -174,10 +191,10 @@ int run(const EcuOptions& options, TimeUs began_us) try {
   usage.real_time = options.real_time;
   const bool written = options.stats_file.empty() ||
                        write_stats(options.stats_file, clock, ecu, buses.counters(), usage);
-  return written ? 0 : 1;
+  return written ? 0 : kFailed;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "graben-ecu: %s\n", error.what());
-  return 1;
+  return kFailed;
 }
 
 }  // namespace graben::ecu

@@ -7,7 +7,8 @@
 namespace graben::ecu {
 
 /// Runs until SIGTERM or SIGINT; returns the exit status. Everything that keeps it from starting
-/// is told on standard error and ends in status 1, before a single frame was sent. `began_us` is
+/// is told on standard error, before a single frame was sent: status 2 if it is the profile, which
+/// no second try mends; 1 if it is something that may come, such as the interface. `began_us` is
 /// when the process began, on the monotonic clock.
 ///
 /// Told to end, it sends neutral for 5 cycles, so that no valve has to wait for its own timeout.

@@ -46,6 +46,8 @@ def choose(scenario: Scenario, where: str, cache: pathlib.Path):
         try:
             if scenario.controllers:
                 raise Nowhere("it has not the controllers that this test needs")
+            if scenario.root:
+                raise Nowhere("a Debian of its own needs a virtual machine")
             host.prepare()
             return lambda out: host.run(scenario, out)
         except Nowhere as reason:
@@ -67,12 +69,12 @@ def run(scenario: Scenario, out: pathlib.Path, where: str = "", cache: pathlib.P
     return run_there(out)
 
 
-def give_up(what: str, reason: Nowhere) -> int:
+def give_up(what: str, reason: Nowhere, suite: str = "hil") -> int:
     """Says that nothing was tested, and why; the exit status. CI may not pass over it."""
     if os.environ.get("CI", "").lower() in ("true", "1"):
-        print(f"FAILED hil: {what}, and CI=true: {reason}", flush=True)
+        print(f"FAILED {suite}: {what}, and CI=true: {reason}", flush=True)
         return 1
-    print(f"SKIPPED hil: {what}: {reason}", flush=True)
+    print(f"SKIPPED {suite}: {what}: {reason}", flush=True)
     return 0
 
 

@@ -14,6 +14,21 @@ REGULAR, FOLDER, LINK = stat.S_IFREG, stat.S_IFDIR, stat.S_IFLNK
 LIBRARY = re.compile(r"^\s*(?:(\S+) => )?(not found|/\S+)", re.MULTILINE)
 
 
+def record(number: int, path: str, mode: int, content: bytes, owner: tuple[int, int] = (0, 0),
+           device: tuple[int, int] = (0, 0)) -> bytes:
+    """One entry of a newc archive. No times: the same tree gives the same bytes."""
+    name = path.encode() + b"\0"
+    fields = (number, mode, *owner, 1, 0, len(content), 0, 0, *device, len(name), 0)
+    head = b"070701" + b"".join(b"%08X" % field for field in fields) + name
+    return b"".join((head, bytes(-len(head) % 4), content, bytes(-len(content) % 4)))
+
+
+def end(length: int) -> bytes:
+    """What closes an archive of so many bytes. The kernel reads whole 512-byte blocks."""
+    last = record(0, "TRAILER!!!", 0, b"")
+    return last + bytes(-(length + len(last)) % 512)
+
+
 class MissingLibrary(Exception):
     """A program for the guest needs a library that the host has not got."""
 
@@ -65,16 +80,7 @@ class Tree:
             self.add(library, pathlib.Path(library).read_bytes(), 0o755)
 
     def pack(self) -> bytes:
-        """The archive. The same tree gives the same bytes: no times, no owners, sorted by path."""
-        parts, length = [], 0
-        entries = sorted(self.entries.items()) + [("TRAILER!!!", (0, b""))]
-        for number, (path, (mode, content)) in enumerate(entries, 1):
-            name = path.encode() + b"\0"
-            fields = (number, mode, 0, 0, 1, 0, len(content), 0, 0, 0, 0, len(name), 0)
-            record = b"070701" + b"".join(b"%08X" % field for field in fields) + name
-            record += bytes(-len(record) % 4)
-            parts += [record, content, bytes(-len(content) % 4)]
-            length += len(record) + len(content) + (-len(content) % 4)
-        # The kernel reads whole 512-byte blocks, as cpio writes them.
-        parts.append(bytes(-length % 512))
-        return b"".join(parts)
+        """The archive, sorted by path."""
+        packed = b"".join(record(number, path, mode, content) for number, (path, (mode, content))
+                          in enumerate(sorted(self.entries.items()), 1))
+        return packed + end(len(packed))

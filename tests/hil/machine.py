@@ -39,10 +39,11 @@ KERNEL_OPTIONS = [
 QEMU_OPTIONS = [
     "-nodefaults", "-no-user-config", "-no-reboot", "-display", "none", "-serial", "stdio",
     # On the older "pc", ACPI's way to an interrupt costs a device a second.
-    "-machine", "q35", "-accel", "tcg", "-icount", "shift=2,sleep=off", "-smp", "1", "-m", "512",
+    "-machine", "q35", "-accel", "tcg", "-icount", "shift=2,sleep=off", "-smp", "1",
     # The wall clock follows the same count and starts at the same moment each time.
     "-rtc", "base=2026-01-01T00:00:00,clock=vm",
 ]
+MEMORY_MB, MEMORY_WITH_ROOT_MB = 512, 1024
 # Where a user's PATH may not lead.
 SYSTEM_PATH = "/usr/sbin:/sbin"
 
@@ -66,7 +67,8 @@ def prepare(cache: pathlib.Path) -> kernel.Kernel:
         raise Nowhere(str(error)) from None
 
 
-def guest_tree(guest_kernel: kernel.Kernel, scenario: Scenario) -> initramfs.Tree:
+def own_programs(scenario: Scenario) -> initramfs.Tree:
+    """Just what scenarios use; the scenario's programs among them."""
     tree = initramfs.Tree()
     for folder in ("bin", "dev", "mnt", "proc", "run", "sys", "tmp", "usr/sbin"):
         tree.add_folder(folder)
@@ -74,7 +76,21 @@ def guest_tree(guest_kernel: kernel.Kernel, scenario: Scenario) -> initramfs.Tre
     tree.add_program("usr/bin/sh", which("sh").resolve())
     for program in [*(which(tool) for tool in TOOLS), *scenario.programs]:
         tree.add_program(f"usr/bin/{program.name}", program)
+    tree.add("init", (HERE / "init.sh").read_bytes(), 0o755)
+    return tree
 
+
+def beside_a_root() -> initramfs.Tree:
+    """What a whole Debian lacks as a guest of ours."""
+    tree = initramfs.Tree()
+    tree.add_program("hil/busybox", which("busybox"))
+    tree.add("init", (HERE / "init_systemd.sh").read_bytes(), 0o755)
+    tree.add("hil/systemd.sh", (HERE / "systemd.sh").read_bytes())
+    return tree
+
+
+def guest_tree(guest_kernel: kernel.Kernel, scenario: Scenario) -> initramfs.Tree:
+    tree = beside_a_root() if scenario.root else own_programs(scenario)
     wanted = MODULES + (CONTROLLER_MODULES if scenario.controllers else [])
     order = guest_kernel.load_order(wanted)
     for name in order:
@@ -82,12 +98,11 @@ def guest_tree(guest_kernel: kernel.Kernel, scenario: Scenario) -> initramfs.Tre
     lines = [f"{name}.ko {PARAMETERS.get(name, '')}".rstrip() for name in order]
     tree.add("modules/order", "".join(f"{line}\n" for line in lines).encode())
 
-    tree.add("init", (HERE / "init.sh").read_bytes(), 0o755)
     tree.add("hil/settings", f"limit_s={scenario.timeout_s:g}\n".encode())
     tree.add("hil/hil.sh", (HERE / "hil.sh").read_bytes())
     tree.add("hil/scenario", scenario.script.read_bytes())
     for name, path in scenario.files.items():
-        tree.add(f"hil/{name}", path.read_bytes())
+        tree.add(f"hil/{name}", path.read_bytes(), path.stat().st_mode & 0o777)
     return tree
 
 
@@ -100,6 +115,7 @@ def command(image: pathlib.Path, ramdisk: str, scenario: Scenario, out: pathlib.
     # timeout, so that no machine is left over where this process is killed.
     return ["timeout", "--signal=KILL", f"{scenario.patience_s:g}",
             str(which("qemu-system-x86_64")), *QEMU_OPTIONS, *controllers,
+            "-m", str(MEMORY_WITH_ROOT_MB if scenario.root else MEMORY_MB),
             "-kernel", str(image), "-initrd", ramdisk, "-append", " ".join(KERNEL_OPTIONS),
             "-virtfs", f"local,path={shared},mount_tag=share,security_model=none"]
 
@@ -120,6 +136,10 @@ def boot(arguments: list[str], console: pathlib.Path) -> int:
 def run(guest_kernel: kernel.Kernel, scenario: Scenario, out: pathlib.Path) -> Result:
     started = time.monotonic()
     with tempfile.NamedTemporaryFile(suffix=".cpio") as ramdisk:
+        if scenario.root:
+            # One archive after the other: the kernel unpacks both.
+            with open(scenario.root, "rb") as root:
+                shutil.copyfileobj(root, ramdisk)
         try:
             ramdisk.write(guest_tree(guest_kernel, scenario).pack())
         except initramfs.MissingLibrary as error:

@@ -26,6 +26,9 @@ class Scenario:
     files: dict[str, pathlib.Path] = dataclasses.field(default_factory=dict)
     # SJA1000 controllers on one bus, can0 and on; only in a virtual machine.
     controllers: int = 0
+    # A whole Debian, as cpio, that is the guest then: its own systemd runs the script as a service,
+    # with its own programs. Only in a virtual machine.
+    root: pathlib.Path | None = None
     # Of the scenario's own clock, which in the virtual machine is not the host's.
     timeout_s: float = 60.0
     # For all of it, on the host's clock: long, because a busy host is no fault of the scenario's.
