@@ -69,10 +69,12 @@ ModeState stored_mode(const Guarded<ModeState>& mode) {
 
 /// Whether the pilot pressure stays cut until the operator has armed again: a spool that did not
 /// obey may not have it back because the deadman was let go.
-bool keeps_pilot_cut(bool last, const ModeState& mode) {
-  // Outside motion a spool is stuck only where it should have closed after it.
+bool keeps_pilot_cut(bool last, const ModeState& mode, const FaultSet& faults) {
+  // Outside motion a spool is stuck only where it should have closed after it. Whatever stopped the
+  // machine first must not hide it.
   const bool disobeyed =
-      (mode.mode == EcuMode::kFault && cuts_pilot(mode.fault)) || mode.fault == Fault::kSpoolStuck;
+      faults.has(Fault::kSpoolStuck) ||
+      (mode.mode == EcuMode::kFault && (cuts_pilot(mode.fault) || cuts_pilot(faults)));
   return !in_motion(mode.mode) && (last || disobeyed);
 }
 
@@ -206,8 +208,10 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   ExcavatorOutputs outputs;
   outputs.enable = command.enable;
   outputs.duty_ratio = command.duty_ratio;
-  memory_.pilot_cut = keeps_pilot_cut(memory_.pilot_cut, mode);
-  outputs.pilot_cut = memory_.pilot_cut || cuts_pilot(mode.fault);
+  memory_.pilot_cut = keeps_pilot_cut(memory_.pilot_cut, mode, valid.faults);
+  outputs.pilot_cut = memory_.pilot_cut || cuts_pilot(mode.fault) || cuts_pilot(valid.faults);
+  memory_.pilot_known = memory_.pilot_known || in_motion(mode.mode) || outputs.pilot_cut;
+  outputs.pilot_known = memory_.pilot_known;
   outputs.swash_ratio = profile_.dig_swash_ratio;
   outputs.status = describe(mode, request, valid);
   if (mode.mode == EcuMode::kActive) {

@@ -42,8 +42,9 @@ class ExcavatorController {
     /// lambda V_L^d, without corrections: what the servo expects of the cylinders.
     Eigen::Vector3d expected_mps = Eigen::Vector3d::Zero();
     TimeUs last_us = 0;
-    int late_cycles = 0;     ///< In a row.
-    bool pilot_cut = false;  ///< Until the operator arms again.
+    int late_cycles = 0;       ///< In a row.
+    bool pilot_cut = false;    ///< Until the operator arms again.
+    bool pilot_known = false;  ///< It has armed or asked for a cut since its start.
     bool has_stepped = false;
   };
 

@@ -92,7 +92,9 @@ bool may_move(const ExcavatorOutputs& outputs) {
 
 bus::SpoolCommand spool_command(const ExcavatorOutputs& outputs, const EcuDiagnosis&) {
   bus::SpoolCommand message;  // its start values are Off, neutral and no cut
-  if (outputs.pilot_cut) {
+  if (!outputs.pilot_known) {
+    message.pilot_cut.state = RawState::kNotAvailable;
+  } else if (outputs.pilot_cut) {
     message.pilot_cut = coded<bus::SpoolCommand::PilotCut>(bus::SpoolCommand::PilotCut::kOn);
   }
   if (may_move(outputs)) {

@@ -9,8 +9,8 @@
 namespace graben {
 
 /// Up to kMost ports, which the caller owns. A machine with its sensors on one bus and its valves
-/// on another needs no table of which is where; two buses with the same nodes on them are
-/// redundant, because a repeated frame is ignored.
+/// on another needs no table of which is where. A message must come on one of them only: two copies
+/// of one stream, a moment apart, look like two senders.
 // NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor): final, and CanPort deletes nothing.
 class CanPortGroup final : public CanPort {
  public:

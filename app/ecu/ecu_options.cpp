@@ -1,6 +1,8 @@
 #include "app/ecu/ecu_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
 
 namespace graben::ecu {
 namespace {
@@ -45,6 +47,13 @@ std::optional<EcuOptions> read_options(int argc, const char* const* argv, int& s
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     status = app.exit(error) == 0 ? 0 : kWrongUsage;
+    return std::nullopt;
+  }
+  std::vector<std::string> names = options.interfaces;
+  std::sort(names.begin(), names.end());
+  if (std::adjacent_find(names.begin(), names.end()) != names.end()) {
+    std::fputs("graben-ecu: --can: an interface is named twice\n", stderr);
+    status = kWrongUsage;
     return std::nullopt;
   }
   options.real_time = !no_real_time;

@@ -37,11 +37,11 @@ ExcavatorEcu::ExcavatorEcu(const ExcavatorProfile& profile, std::uint32_t profil
   diagnosis_.profile_hash = profile_hash;
 }
 
-void ExcavatorEcu::receive(TimeUs now_us) {
+void ExcavatorEcu::receive(TimeUs now_us, bool stale) {
   std::array<CanFrame, kFramesPerBatch> frames;
   for (int batch = 0; batch < kBatchesPerCycle; ++batch) {
     const int count = port_.receive(frames.data(), kFramesPerBatch);
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count && !stale; ++i) {
       receiver_.accept(frames[static_cast<unsigned>(i)], now_us);
     }
     if (count < kFramesPerBatch) {
@@ -50,25 +50,26 @@ void ExcavatorEcu::receive(TimeUs now_us) {
   }
 }
 
-void ExcavatorEcu::flush_after_stall(TimeUs now_us) {
-  if (has_stepped_ && now_us - last_us_ > kStalled_us) {
-    // A port that does not open again stays silent; the signals then time out.
-    static_cast<void>(port_.open());
-  }
+bool ExcavatorEcu::is_stalled(TimeUs now_us) {
+  const bool stalled = has_stepped_ && now_us - last_us_ > kStalled_us;
   last_us_ = now_us;
   has_stepped_ = true;
+  return stalled;
 }
 
 void ExcavatorEcu::watch_bus(TimeUs now_us) {
   bus_ = bus_state(port_.state());
-  const bool is_passive = bus_ == BusState::kPassive;
-  if (is_passive && !needs_open_) {
+  if (bus_ == BusState::kPassive && !needs_open_) {
     // It mostly comes back by itself; but the frame that says so can be lost.
     open_from_us_ = now_us + kStillPassive_us;
   }
   needs_open_ = needs_open_ || bus_ != BusState::kActive;
+}
+
+void ExcavatorEcu::open_again(TimeUs now_us, bool stalled) {
   const bool is_back = bus_ == BusState::kActive;
-  if (needs_open_ && (is_back || now_us >= open_from_us_)) {
+  if (stalled || (needs_open_ && (is_back || now_us >= open_from_us_))) {
+    // A port that does not open again stays silent; the signals then time out.
     needs_open_ = !port_.open();
     open_from_us_ = now_us + kOpenAgain_us;
   }
@@ -97,9 +98,10 @@ void ExcavatorEcu::send(const ExcavatorTransmitter::Frames& frames, int count) {
 }
 
 void ExcavatorEcu::step(TimeUs now_us, TimeUs last_cycle_us) {
+  const bool stalled = is_stalled(now_us);
   watch_bus(now_us);
-  flush_after_stall(now_us);
-  receive(now_us);
+  // What waited through a stall or a lost bus is not fresh; the controller has stopped then anyway.
+  receive(now_us, stalled || needs_open_);
   // What the port has read just now counts in this cycle, what it was before opening it again too.
   bus_ = std::max(bus_, bus_state(port_.state()));
   gather_inputs(now_us);
@@ -109,6 +111,8 @@ void ExcavatorEcu::step(TimeUs now_us, TimeUs last_cycle_us) {
   ExcavatorTransmitter::Frames frames;
   const int count = transmitter_.frames(outputs_, diagnosis_, now_us, frames);
   send(frames, count);
+  // Only now: opening may wait for the kernel, and the neutral frame must not wait for it.
+  open_again(now_us, stalled);
 }
 
 }  // namespace graben::ecu

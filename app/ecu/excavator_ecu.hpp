@@ -38,9 +38,10 @@ class ExcavatorEcu {
   /// Lets tests flip a bit of what the controller stores.
   friend struct graben::ControllerMemoryAccess;
 
-  void receive(TimeUs now_us);
-  void flush_after_stall(TimeUs now_us);
+  void receive(TimeUs now_us, bool stale);
+  [[nodiscard]] bool is_stalled(TimeUs now_us);
   void watch_bus(TimeUs now_us);
+  void open_again(TimeUs now_us, bool stalled);
   void gather_inputs(TimeUs now_us);
   void send(const ExcavatorTransmitter::Frames& frames, int count);
 

@@ -46,7 +46,7 @@ constexpr std::array<FaultRow, kFaultCount> kRows{{
     {Fault::kMemoryCorrupt, Reaction::kStop, kBadDevice, true, ArmBlock::kImplausible},
     {Fault::kValveNotFollowing, Reaction::kStop, kNotResponding, true, ArmBlock::kSpool},
     {Fault::kValueOutOfRange, Reaction::kDegrade, kConditionExists, false, ArmBlock::kMessages},
-    {Fault::kSensorError, Reaction::kStop, kBadDevice, true, ArmBlock::kStroke},
+    {Fault::kSensorError, Reaction::kStop, kBadDevice, true, ArmBlock::kImplausible},
 }};
 
 constexpr bool rows_are_in_order() {
@@ -69,6 +69,14 @@ const FaultRow& fault_row(Fault fault) {
 bool cuts_pilot(Fault fault) {
   return fault == Fault::kSpoolStuck || fault == Fault::kUncommandedMotion ||
          fault == Fault::kValveNotFollowing;
+}
+
+bool cuts_pilot(const FaultSet& faults) {
+  bool cuts = false;
+  for (Fault fault = faults.first(); fault != Fault::kNone; fault = faults.after(fault)) {
+    cuts = cuts || cuts_pilot(fault);
+  }
+  return cuts;
 }
 
 }  // namespace graben

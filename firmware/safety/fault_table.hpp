@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "firmware/core/codes.hpp"
+#include "firmware/core/fault_set.hpp"
 #include "firmware/signals/excavator_signals.hpp"
 
 namespace graben {
@@ -30,5 +31,7 @@ struct FaultRow {
 
 /// Whether the pilot pressure has to go: the spools themselves do not obey.
 [[nodiscard]] bool cuts_pilot(Fault fault);
+/// The same of any of them.
+[[nodiscard]] bool cuts_pilot(const FaultSet& faults);
 
 }  // namespace graben

@@ -55,7 +55,7 @@ std::uint16_t why_not_armed(const ModeState& now, const ModeRequest& request,
   const struct {
     bool blocks;
     ArmBlock block;
-  } rows[] = {{!request.automatic, ArmBlock::kManual},
+  } rows[] = {{!request.automatic && !faults.has(Fault::kOperatorMissing), ArmBlock::kManual},
               {request.has_task, ArmBlock::kTaskNotAtRest},
               {!request.centred, ArmBlock::kSpool},
               {now.mode == EcuMode::kFault, ArmBlock::kFaultLatched},

@@ -13,6 +13,8 @@ constexpr double kMicrosecondsPerSecond = 1e6;
 /// A cylinder whose own oil feeds its other side, or whose load drives it, is faster than the pumps
 /// alone make it; twice is more than any of them does.
 constexpr double kFasterThanPumps = 2.0;
+/// Over its rated speed an engine runs by a few per cent, downhill by some more.
+constexpr double kMostOverspeed = 1.2;
 
 /// A required number: where it comes from, where it goes, what its absence means, and what it
 /// means that its sender calls it wrong.
@@ -205,7 +207,10 @@ ValidInputs validate(const ExcavatorInputs& inputs, const ExcavatorProfile& prof
       valid.faults.add(row.wrong);
     }
   }
-  if (!fresh.number(inputs.engine_speed_radps)) {
+  // Its frame is the one without protection, and a flow that is not there would lift lambda.
+  if (!(fresh.number(inputs.engine_speed_radps) &&
+        valid.engine_radps <= kMostOverspeed * profile.pump[0].rated_speed_radps)) {
+    valid.faults.add(Fault::kEngineSpeedMissing);
     valid.engine_radps = profile.safety.idle_radps;
   }
   for (unsigned i = 0; i < kAxisCount; ++i) {
@@ -226,8 +231,8 @@ std::array<double, kPumpCount> pump_flow_m3ps(const ExcavatorProfile& profile, d
                                               const std::array<double, kPumpCount>& swash_ratio) {
   std::array<double, kPumpCount> flow_m3ps{};
   for (unsigned j = 0; j < kPumpCount; ++j) {
-    flow_m3ps[j] =
-        std::max(0.0, profile.pump[j].displacement_m3prev / kTwoPi * engine_radps * swash_ratio[j]);
+    flow_m3ps[j] = std::max(0.0, profile.pump[j].displacement_m3prev / kTwoPi * engine_radps *
+                                     std::min(swash_ratio[j], 1.0));
   }
   return flow_m3ps;
 }

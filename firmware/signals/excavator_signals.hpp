@@ -94,7 +94,10 @@ struct ExcavatorStatus {
 
 struct ExcavatorOutputs {
   bool enable = false;     ///< The valve side closes every spool without it.
-  bool pilot_cut = false;  ///< Asks for the pilot pressure to be cut: a spool does not obey.
+  bool pilot_cut = false;  ///< Asks for the pilot pressure to be cut: the valve does not obey.
+  /// Without it the controller does not know whether an earlier one has asked for a cut, and says
+  /// so: a restart must not give the pressure back to a spool that is stuck.
+  bool pilot_known = false;
   std::array<double, kAxisCount> duty_ratio{};   ///< -1 .. 1; 0 is neutral.
   std::array<double, kPumpCount> swash_ratio{};  ///< Wanted of each pump; only with enable.
   ExcavatorStatus status;

@@ -100,6 +100,7 @@ bool SocketCanPort::open() {
   const OpenedCanSocket opened = opener_(config_);
   fd_ = opened.fd;
   state_ = opened.state;
+  worst_ = opened.state;
   error_ = opened.error;
   socket_overflow_ = 0;
   if (fd_ < 0) {
@@ -147,6 +148,7 @@ bool SocketCanPort::accept(const mmsghdr& message, const Slot& slot, CanFrame& f
     ++counters_.error_frames;
     counters_.receive_overflow += reports_lost_frames(slot.frame) ? 1 : 0;
     state_ = next_state(state_, slot.frame);
+    worst_ = std::max(worst_, state_);
     return false;
   }
   ++counters_.received;
@@ -159,6 +161,7 @@ bool SocketCanPort::accept(const mmsghdr& message, const Slot& slot, CanFrame& f
 int SocketCanPort::receive(CanFrame* frames, int capacity) {
   int count = 0;
   int others = 0;
+  worst_ = CanPortState::kClosed;
   while (count < capacity && others < kMaxErrorFramesPerCall && fd_ >= 0 &&
          state_ != CanPortState::kDown) {
     const auto limit = static_cast<std::size_t>(capacity - count);

@@ -19,6 +19,7 @@
 #include <sys/socket.h>
 #include <sys/uio.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -72,8 +73,9 @@ class SocketCanPort final : public CanPort {
   /// One system call that does not wait. False in every state but kActive and kErrorPassive.
   [[nodiscard]] bool send(const CanFrame& frame) override;
 
-  /// As of the last call of receive() or send(): they read the error frames.
-  [[nodiscard]] CanPortState state() const override { return state_; }
+  /// The worst since the last receive() began: a bus-off that begins and ends within one call is
+  /// still seen.
+  [[nodiscard]] CanPortState state() const override { return std::max(state_, worst_); }
 
   [[nodiscard]] const CanPortCounters& counters() const { return counters_; }
   /// Why the last open() failed, or what took the interface away after it; empty if nothing did.
@@ -101,7 +103,8 @@ class SocketCanPort final : public CanPort {
   int fd_ = -1;
   bool was_open_ = false;
   CanPortState state_ = CanPortState::kClosed;
-  std::uint32_t socket_overflow_ = 0;  ///< Of this socket, as the kernel counts.
+  CanPortState worst_ = CanPortState::kClosed;  ///< Since the last receive() began.
+  std::uint32_t socket_overflow_ = 0;           ///< Of this socket, as the kernel counts.
   CanPortCounters counters_;
   ErrorText error_;
   ReceiveStamp stamp_;

@@ -30,14 +30,16 @@ const dbc::MessageInfo* own_message(std::uint32_t id) {
   return nullptr;
 }
 
-/// Name of a signal that says nothing it should; 'not available' is for PumpCommand to say.
+/// Name of a signal that says nothing it should; 'not available' is for PumpCommand to say, and for
+/// the pilot cut of a process that has not armed yet.
 template <class Message>
 const char* unsaid(const dbc::Payload& payload) {
   const char* name = nullptr;
   const Message message = Message::decode(payload);
   Message::visit(message, [&name](const dbc::Field& field, const auto& signal) {
     const bool may_miss =
-        Message::kId == bus::PumpCommand::kId && signal.state == RawState::kNotAvailable;
+        (Message::kId == bus::PumpCommand::kId || std::strcmp(field.name, "PilotCut") == 0) &&
+        signal.state == RawState::kNotAvailable;
     if (signal.state != RawState::kValid && !may_miss) {
       name = field.name;
     }
@@ -136,8 +138,8 @@ std::string BusRules::check_command(const BusCycle& cycle, const CanFrame& frame
     if (const std::string why_not = may_not_move(cycle); !why_not.empty()) {
       return "enable On " + why_not;
     }
-    if (cuts) {
-      return "enable On with the pilot cut";
+    if (cuts || command.pilot_cut.state != RawState::kValid) {
+      return "enable On with the pilot cut, or not known";
     }
   } else if (duties(command) != std::array<double, kAxisCount>{}) {
     return "a spool open without enable";

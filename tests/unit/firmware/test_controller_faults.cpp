@@ -220,6 +220,34 @@ void a_stuck_spool_cuts_the_pilot_until_rearmed(void**) {
   assert_false(digging.step(digging.at_rest(false)).pilot_cut);
 }
 
+/// Whatever stopped the machine first: a spool that then does not close loses its pilot pressure.
+void another_fault_does_not_hide_a_stuck_spool(void**) {
+  for (const bool held : {true, false}) {
+    Digging digging;
+    ExcavatorInputs inputs = digging.next();
+    inputs.link.bus = BusState::kOff;
+    digging.step(inputs);
+    assert_stopped_by(Fault::kBusOff, digging.outputs);
+    for (int n = 0; n < 40; ++n) {
+      inputs = held ? digging.inputs() : digging.at_rest(false);
+      inputs.link.bus = BusState::kOff;
+      inputs.axis[kBoom].spool_ratio.value = 0.5;
+      digging.step(inputs);
+    }
+    assert_int_equal(digging.outputs.status.fault, Fault::kBusOff);
+    assert_true(digging.outputs.pilot_cut);
+  }
+}
+
+/// Until it has armed or asked for a cut a process does not know what one before it has asked for.
+void a_start_leaves_the_pilot_as_it_is(void**) {
+  ExcavatorController controller(test::excavator().profile);
+  assert_false(controller.step({}, 0).pilot_known);
+  Digging digging;
+  assert_true(digging.outputs.pilot_known);
+  assert_true(digging.step(digging.at_rest(false)).pilot_known);
+}
+
 /// Enable that is given and not confirmed.
 void a_deaf_valve_cuts_the_pilot(void**) {
   Digging digging;
@@ -302,7 +330,7 @@ void the_status_names_all_faults(void**) {
   ExcavatorInputs inputs = digging.next();
   inputs.link.bus = BusState::kPassive;
   inputs.link.out_of_range = true;
-  inputs.swash_ratio[1].validity = Validity::kError;
+  inputs.swash_ratio[1].validity = Validity::kNotAvailable;
   digging.step(inputs);
   assert_stopped_by(Fault::kSwashMissing, digging.outputs);
   assert_true(digging.outputs.status.faults.bits() ==
@@ -322,6 +350,8 @@ int main() {
       cmocka_unit_test(a_lost_pressure_slows),
       cmocka_unit_test(a_lost_engine_speed_slows),
       cmocka_unit_test(a_stuck_spool_cuts_the_pilot_until_rearmed),
+      cmocka_unit_test(another_fault_does_not_hide_a_stuck_spool),
+      cmocka_unit_test(a_start_leaves_the_pilot_as_it_is),
       cmocka_unit_test(a_deaf_valve_cuts_the_pilot),
       cmocka_unit_test(a_valve_that_enables_itself_cuts_the_pilot),
       cmocka_unit_test(other_faults_leave_the_pilot),

@@ -40,7 +40,7 @@ const Promise kPromises[] = {
     {8, Fault::kSolverFailed, 'N', 12, ArmBlock::kImplausible},
     {9, Fault::kCommandNotFinite, 'N', 12, ArmBlock::kImplausible},
     {27, Fault::kMemoryCorrupt, 'N', 12, ArmBlock::kImplausible},
-    {30, Fault::kSensorError, 'N', 12, ArmBlock::kStroke},
+    {30, Fault::kSensorError, 'N', 12, ArmBlock::kImplausible},
     {10, Fault::kCycleStalled, 'N', 9, ArmBlock::kCycle},
     {16, Fault::kCycleOverrun, 'N', 9, ArmBlock::kCycle},
     // The bus: FMI 19, received network data in error; another machine: 14, special.
@@ -71,6 +71,13 @@ void every_fault_keeps_its_promise(void**) {
     assert_int_equal(row.red_stop, stops);
     assert_int_equal(row.block, promise.block);
     assert_int_equal(cuts_pilot(promise.fault), promise.pilot);
+    FaultSet among;
+    among.add(Fault::kBusOff);
+    assert_false(cuts_pilot(among));
+    among.add(promise.fault);
+    assert_int_equal(cuts_pilot(among), promise.pilot);
+    among.add(Fault::kSensorError);
+    assert_int_equal(cuts_pilot(among), promise.pilot);
     ++promised[static_cast<unsigned>(promise.code)];
   }
   for (unsigned code = 1; code < promised.size(); ++code) {

@@ -160,6 +160,11 @@ void each_condition_has_its_bit(void**) {
   assert_int_equal(why(EcuMode::kSilent, ready), enable);
   assert_int_equal(why(EcuMode::kReady, asks(false, Task::kNone, false)),
                    enable | bits({ArmBlock::kManual}));
+  // Nobody says which mode it is.
+  FaultSet unheard;
+  unheard.add(Fault::kOperatorMissing);
+  assert_int_equal(why(EcuMode::kReady, asks(false, Task::kNone, false), unheard),
+                   enable | bits({ArmBlock::kOperator}));
   assert_int_equal(why(EcuMode::kReady, asks(false, Task::kDig)),
                    enable | bits({ArmBlock::kTaskNotAtRest}));
   ModeRequest by_hand = ready;

@@ -1,6 +1,9 @@
 // What the validation stops and what it bridges while the machine moves; the bus.
 
 #include "firmware/safety/validation.hpp"
+
+#include <cmath>
+
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/inputs.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
@@ -191,6 +194,25 @@ void the_other_sensors_own_errors_are_named_too(void**) {
   }
 }
 
+/// An engine beyond any speed of its own is none: its pumps' flow would lift lambda.
+void an_engine_too_fast_is_not_believed(void**) {
+  const double most_radps = 1.2 * profile().pump[0].rated_speed_radps;
+  ExcavatorInputs inputs = complete_inputs(kNow);
+  inputs.engine_speed_radps.value = most_radps;
+  assert_int_equal(judged(inputs, kMoving).faults.bits(), 0);
+  assert_near(judged(inputs, kMoving).engine_radps, most_radps, 0.0);
+  inputs.engine_speed_radps.value = std::nextafter(most_radps, 1e9);
+  assert_degrades(Fault::kEngineSpeedMissing, inputs);
+  assert_near(judged(inputs, kMoving).engine_radps, profile().safety.idle_radps, 0.0);
+}
+
+void no_pump_gives_more_than_at_full_swash(void**) {
+  const auto full = pump_flow_m3ps(profile(), 100.0, {1.0, 0.5});
+  const auto beyond = pump_flow_m3ps(profile(), 100.0, {1.2, 0.5});
+  assert_near(beyond[0], full[0], 0.0);
+  assert_true(beyond[1] > 0.0 && beyond[1] == full[1]);
+}
+
 /// A cylinder in motion, cycle by cycle; a frame each cycle unless it is lost.
 struct Stroke {
   unsigned axis = kBoom;
@@ -340,6 +362,8 @@ int main() {
       cmocka_unit_test(faults_of_messages_stop),
       cmocka_unit_test(a_sensors_own_error_is_named),
       cmocka_unit_test(the_other_sensors_own_errors_are_named_too),
+      cmocka_unit_test(an_engine_too_fast_is_not_believed),
+      cmocka_unit_test(no_pump_gives_more_than_at_full_swash),
       cmocka_unit_test(a_jump_is_not_believed),
       cmocka_unit_test(the_margin_is_a_sharp_edge),
       cmocka_unit_test(a_jump_and_back_is_bridged),

@@ -153,10 +153,56 @@ void a_stopped_machine_is_not_judged(void**) {
   machine.inputs.fault = Fault::kStrokeMissing;
   machine.inputs.faults.add(Fault::kStrokeMissing);
   machine.inputs.strokes_m = {0.0, 0.0, 0.0};
-  machine.inputs.spool_ratio = {0.75, 0.75, 0.75};
   machine.run(20);
   assert_int_equal(machine.seen.inputs.faults.bits(), 1U << 1U);
   assert_near(machine.state.motion.axis[0].since_s, 0.0, 0.0);
+}
+
+/// A machine whose operator has let go of it while its spools were open.
+struct Released : Machine {
+  Released() {
+    run(20);
+    cycle.moving = false;
+    cycle.sent = {};
+    inputs.valve_enabled = false;
+    inputs.spool_ratio = {0.0, 0.75, 0.0};
+  }
+  bool stuck_after(int count) {
+    run(count);
+    return seen.inputs.faults.has(Fault::kSpoolStuck);
+  }
+};
+
+void a_spool_that_does_not_close_after_motion_is_stuck(void**) {
+  Released machine;
+  assert_true(machine.stuck_after(30));
+  assert_int_equal(machine.seen.inputs.fault, Fault::kSpoolStuck);
+  machine.inputs.spool_ratio = {0.0, 0.0, 0.0};
+  assert_false(machine.stuck_after(1));
+}
+
+/// Once all have been in their middle, or manual mode says so, it is somebody's hand.
+void what_a_hand_opens_afterwards_is_not_stuck(void**) {
+  Released closed;
+  closed.inputs.spool_ratio = {0.0, 0.0, 0.0};
+  closed.run(1);
+  closed.inputs.spool_ratio = {0.0, 0.75, 0.0};
+  assert_false(closed.stuck_after(30));
+  Released manual;
+  manual.inputs.automatic = false;
+  assert_false(manual.stuck_after(30));
+}
+
+/// Neither spools that are not seen nor an operator who is not heard have closed or taken over.
+void what_is_not_known_does_not_end_the_closing(void**) {
+  Released machine;
+  machine.inputs.faults.add(Fault::kSpoolMissing);
+  machine.inputs.faults.add(Fault::kOperatorMissing);
+  machine.inputs.automatic = false;
+  assert_false(machine.stuck_after(30));
+  machine.inputs.faults = {};
+  machine.inputs.faults.add(Fault::kOperatorMissing);
+  assert_true(machine.stuck_after(30));
 }
 
 /// Outside motion people move it: spools, strokes, pressures, swash are theirs. The valve's echo is
@@ -260,6 +306,9 @@ int main() {
       cmocka_unit_test(pressures_and_swash_slow),
       cmocka_unit_test(the_first_fault_stays_the_first),
       cmocka_unit_test(a_stopped_machine_is_not_judged),
+      cmocka_unit_test(a_spool_that_does_not_close_after_motion_is_stuck),
+      cmocka_unit_test(what_a_hand_opens_afterwards_is_not_stuck),
+      cmocka_unit_test(what_is_not_known_does_not_end_the_closing),
       cmocka_unit_test(not_in_motion_the_machine_is_the_operators),
       cmocka_unit_test(every_motion_begins_afresh),
       cmocka_unit_test(what_degraded_goes_on_for_half_a_second),

@@ -214,6 +214,7 @@ void pilot_cut(void**) {
       Sender sender;
       sender.outputs.enable = enable;
       sender.outputs.pilot_cut = cut;
+      sender.outputs.pilot_known = true;
       sender.call(kStartUs);
       const auto command = sender.sent<bus::SpoolCommand>();
       assert_int_equal(command.pilot_cut.state, RawState::kValid);

@@ -144,6 +144,8 @@ void a_held_spool_obeys_the_pilot_cut_only(void**) {
   assert_false(rig.machine.spools_enabled());
   rig.cycles(30);
   assert_near(rig.boom_spool(), 0.0, 1e-4);
+  // After a silence the valve side wants Off once.
+  rig.command_for(4, false, 0.0);
   for (int i = 0; i < 33; ++i) {
     rig.send_and_cycle(cut_command(rig, Cut::kOff, RawState::kValid));
   }
@@ -243,6 +245,10 @@ void commands_can_be_lost(void**) {
   assert_false(rig.machine.spools_enabled());
   rig.machine.faults().loses_spool_commands = false;
   rig.command_for(3, true, 0.5);
+  assert_false(rig.machine.spools_enabled());
+  // After a silence the valve side wants Off once.
+  rig.command_for(1, false, 0.0);
+  rig.command_for(1, true, 0.5);
   assert_true(rig.machine.spools_enabled());
 }
 

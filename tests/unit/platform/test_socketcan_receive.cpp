@@ -128,6 +128,20 @@ void a_flood_of_error_frames_is_bounded(void**) {
   assert_int_equal(port.counters().error_frames, 200);
 }
 
+/// It has to stop the machine all the same.
+void a_bus_off_that_ends_within_a_call_is_seen(void**) {
+  Rig rig;
+  report(CAN_ERR_BUSOFF);
+  report(CAN_ERR_RESTARTED);
+  assert_int_equal(rig.receive(), 0);
+  assert_int_equal(rig.port.state(), State::kBusOff);
+  assert_true(rig.port.send(outgoing(1)));
+  assert_int_equal(rig.receive(), 0);
+  assert_int_equal(rig.port.state(), State::kActive);
+  can_frame seen{};
+  assert_int_equal(read(g_bus, &seen, sizeof seen), sizeof seen);
+}
+
 void error_frames_make_the_state(void**) {
   Rig rig;
   report(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_PASSIVE);
@@ -184,6 +198,7 @@ int main() {
       cmocka_unit_test(a_long_queue_takes_several_batches),
       cmocka_unit_test(what_the_queue_lost_is_counted_over_all_sockets),
       cmocka_unit_test(a_flood_of_error_frames_is_bounded),
+      cmocka_unit_test(a_bus_off_that_ends_within_a_call_is_seen),
       cmocka_unit_test(error_frames_make_the_state),
       cmocka_unit_test(a_controller_that_lost_frames_is_counted),
       cmocka_unit_test(frames_of_another_size_are_counted_and_dropped),
