@@ -57,8 +57,9 @@ bool ExcavatorEcu::is_stalled(TimeUs now_us) {
   return stalled;
 }
 
-void ExcavatorEcu::watch_bus(TimeUs now_us) {
-  bus_ = bus_state(port_.state());
+void ExcavatorEcu::watch_bus(TimeUs now_us, BusState before) {
+  // What it was before the port was read counts too: each state is seen for one cycle at least.
+  bus_ = std::max(before, bus_state(port_.state()));
   if (bus_ == BusState::kPassive && !needs_open_) {
     // It mostly comes back by itself; but the frame that says so can be lost.
     open_from_us_ = now_us + kStillPassive_us;
@@ -99,11 +100,10 @@ void ExcavatorEcu::send(const ExcavatorTransmitter::Frames& frames, int count) {
 
 void ExcavatorEcu::step(TimeUs now_us, TimeUs last_cycle_us) {
   const bool stalled = is_stalled(now_us);
-  watch_bus(now_us);
+  const BusState before = bus_state(port_.state());
   // What waited through a stall or a lost bus is not fresh; the controller has stopped then anyway.
   receive(now_us, stalled || needs_open_);
-  // What the port has read just now counts in this cycle, what it was before opening it again too.
-  bus_ = std::max(bus_, bus_state(port_.state()));
+  watch_bus(now_us, before);
   gather_inputs(now_us);
   outputs_ = controller_.step(inputs_, now_us);
   diagnosis_.cycle_time_us = last_cycle_us;

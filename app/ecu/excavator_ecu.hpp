@@ -40,7 +40,7 @@ class ExcavatorEcu {
 
   void receive(TimeUs now_us, bool stale);
   [[nodiscard]] bool is_stalled(TimeUs now_us);
-  void watch_bus(TimeUs now_us);
+  void watch_bus(TimeUs now_us, BusState before);
   void open_again(TimeUs now_us, bool stalled);
   void gather_inputs(TimeUs now_us);
   void send(const ExcavatorTransmitter::Frames& frames, int count);
