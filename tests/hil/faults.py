@@ -11,7 +11,7 @@ import run_programs
 from bus_log import ACTIVE, ECU_STATUS, MARK, READY, SPOOL_COMMAND, VALVE_STATE, Frame
 
 STROKES = {"0CFF2080": 1260.0, "0CFF2180": 1504.0, "0CFF2280": 1104.0}  # mm, of the 22 t profile
-NEUTRAL_S = 0.0205  # two cycles and the bus
+NEUTRAL_S = 0.0305  # a cycle until it is seen, two more at most, and the bus
 VALVE_TIMEOUT_S = 0.100
 ECHO_S = 0.030  # the valve side's cycle, and that of its frame
 SETTLE_S = 0.5
