@@ -239,6 +239,20 @@ void another_fault_does_not_hide_a_stuck_spool(void**) {
   }
 }
 
+/// Nor does it outside motion, and the cut stays when the spool is back.
+void a_spool_left_open_stays_without_pilot(void**) {
+  Digging digging;
+  for (int n = 0; n < 40; ++n) {
+    ExcavatorInputs inputs = digging.at_rest(false);
+    inputs.axis[kArm].cap_pressure_pa.validity = Validity::kNotAvailable;
+    inputs.axis[kBoom].spool_ratio.value = 0.5;
+    digging.step(inputs);
+  }
+  assert_true(digging.outputs.pilot_cut);
+  assert_true(digging.step(digging.at_rest(false)).pilot_cut);
+  assert_true(digging.step(digging.at_rest(false)).pilot_cut);
+}
+
 /// Until it has armed or asked for a cut a process does not know what one before it has asked for.
 void a_start_leaves_the_pilot_as_it_is(void**) {
   ExcavatorController controller(test::excavator().profile);
@@ -351,6 +365,7 @@ int main() {
       cmocka_unit_test(a_lost_engine_speed_slows),
       cmocka_unit_test(a_stuck_spool_cuts_the_pilot_until_rearmed),
       cmocka_unit_test(another_fault_does_not_hide_a_stuck_spool),
+      cmocka_unit_test(a_spool_left_open_stays_without_pilot),
       cmocka_unit_test(a_start_leaves_the_pilot_as_it_is),
       cmocka_unit_test(a_deaf_valve_cuts_the_pilot),
       cmocka_unit_test(a_valve_that_enables_itself_cuts_the_pilot),

@@ -209,6 +209,10 @@ void a_duty_that_is_not_finite_stops_all(void**) {
 
 // The cut is asked for with and without enable, and nothing else asks for it.
 void pilot_cut(void**) {
+  Sender unknown;
+  unknown.outputs.pilot_cut = true;
+  unknown.call(kStartUs);
+  assert_int_equal(unknown.sent<bus::SpoolCommand>().pilot_cut.state, RawState::kNotAvailable);
   for (const bool enable : {false, true}) {
     for (const bool cut : {false, true}) {
       Sender sender;
