@@ -67,6 +67,12 @@ static_assert(same(BusFault::kMemoryCorrupt, Fault::kMemoryCorrupt));
 static_assert(same(BusFault::kValveNotFollowing, Fault::kValveNotFollowing));
 static_assert(same(BusFault::kValueOutOfRange, Fault::kValueOutOfRange));
 static_assert(same(BusFault::kSensorError, Fault::kSensorError));
+static_assert(same(BusFault::kPoseMissing, Fault::kPoseMissing));
+static_assert(same(BusFault::kPoseImplausible, Fault::kPoseImplausible));
+static_assert(same(BusFault::kTransmissionMissing, Fault::kTransmissionMissing));
+static_assert(same(BusFault::kDisplacementDisagrees, Fault::kDisplacementDisagrees));
+static_assert(same(BusFault::kDisplacementRunaway, Fault::kDisplacementRunaway));
+static_assert(same(BusFault::kTrackSpeedDisagrees, Fault::kTrackSpeedDisagrees));
 static_assert(bus::EcuStatus::kFault.raw_max == kFaultCount - 1);
 // For LimitKind::kDegraded the index is a fault's number.
 static_assert(bus::EcuStatus::kLimitIndex.raw_max >= kFaultCount - 1);

@@ -92,6 +92,12 @@ std::string limit_words(const Limit& limit) {
       return "rise of lambda";
     case LimitKind::kDegraded:
       return fmt::format("slowed: {}", fault_words(static_cast<Fault>(limit.index)));
+    case LimitKind::kImplementFlow:
+      return "implement flow";
+    case LimitKind::kTransmissionFlow:
+      return fmt::format("transmission flow: {} track", limit.index == 0 ? "left" : "right");
+    case LimitKind::kAhead:
+      return "what lies ahead";
   }
   return "unknown";
 }

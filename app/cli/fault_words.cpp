@@ -66,6 +66,18 @@ const char* fault_words(Fault fault) {
       return "a value is out of its range";
     case Fault::kSensorError:
       return "a sensor calls itself wrong";
+    case Fault::kPoseMissing:
+      return "the body's pose is missing";
+    case Fault::kPoseImplausible:
+      return "the body's pose jumps or cannot be";
+    case Fault::kTransmissionMissing:
+      return "the transmission's feedback is missing";
+    case Fault::kDisplacementDisagrees:
+      return "a displacement does not obey";
+    case Fault::kDisplacementRunaway:
+      return "a displacement runs away";
+    case Fault::kTrackSpeedDisagrees:
+      return "a track's speed is not that of its displacements";
   }
   return "unknown";
 }

@@ -236,6 +236,10 @@ std::string limit_name(const Limit& limit) {
       return "rise";
     case LimitKind::kDegraded:
       return fmt::format("degraded[{}]", limit.index);
+    case LimitKind::kImplementFlow:
+    case LimitKind::kTransmissionFlow:
+    case LimitKind::kAhead:
+      break;
   }
   return "unknown";
 }

@@ -16,7 +16,7 @@
 
 namespace graben::dbc::excavator {
 
-inline constexpr std::uint8_t kDbcVersion = 2;
+inline constexpr std::uint8_t kDbcVersion = 3;
 
 /// Measured stroke of the boom cylinder.
 struct BoomStroke {
@@ -598,6 +598,12 @@ struct EcuStatus {
     kValveNotFollowing = 28,
     kValueOutOfRange = 29,
     kSensorError = 30,
+    kPoseMissing = 31,
+    kPoseImplausible = 32,
+    kTransmissionMissing = 33,
+    kDisplacementDisagrees = 34,
+    kDisplacementRunaway = 35,
+    kTrackSpeedDisagrees = 36,
   };
 
   static constexpr Field kMode{
@@ -613,7 +619,7 @@ struct EcuStatus {
       "Lambda", "", 16, 16, 0U, 50000U, 65279, 65535, 0U,
       0, 1.0, 50000.0};
   static constexpr Field kFault{
-      "Fault", "", 32, 8, 0U, 30U, 254, 255, 0U,
+      "Fault", "", 32, 8, 0U, 36U, 254, 255, 0U,
       0, 1.0, 1.0};
   static constexpr Field kCycleTime{
       "CycleTime", "us", 40, 16, 0U, 64255U, 65279, 65535, 0U,

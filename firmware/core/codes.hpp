@@ -51,19 +51,28 @@ enum class Fault : std::uint8_t {
   kValveNotFollowing = 28,    ///< The valve side does not confirm enable in time.
   kValueOutOfRange = 29,      ///< A frame, CRC right, had a value outside its range.
   kSensorError = 30,          ///< A sender calls its own value wrong.
+  kPoseMissing = 31,          ///< Position, height, pitch or a rate of the body.
+  kPoseImplausible = 32,      ///< The body's pose jumps, or cannot be.
+  kTransmissionMissing = 33,  ///< A displacement's feedback or a track's speed.
+  kDisplacementDisagrees = 34,  ///< A displacement does not reach what it was told to be.
+  kDisplacementRunaway = 35,    ///< A displacement goes where no command of late has sent it.
+  kTrackSpeedDisagrees = 36,    ///< A track's speed is not that of its displacements.
 };
 
-inline constexpr int kFaultCount = 31;
+inline constexpr int kFaultCount = 37;
 
 /// What holds lambda below 1.
 enum class LimitKind : std::uint8_t {
   kNone = 0,
-  kPumpFlow = 1,     ///< (29), (30): a pump cannot feed the in-flow; index is the pump's.
-  kBackFlow = 2,     ///< (36) with F_offset: the load would push back; index is the actuator's.
-  kSpoolTravel = 3,  ///< (13): the spool is fully open; index is the actuator's.
-  kStrokeEnd = 4,    ///< The cylinder is at its end; index is the actuator's.
-  kRise = 5,         ///< Nothing but the rate at which lambda may rise.
-  kDegraded = 6,     ///< A lost sensor: the field is slower; index is the Fault.
+  kPumpFlow = 1,       ///< (29), (30): a pump cannot feed the in-flow; index is the pump's.
+  kBackFlow = 2,       ///< (36) with F_offset: the load would push back; index is the actuator's.
+  kSpoolTravel = 3,    ///< (13): the spool is fully open; index is the actuator's.
+  kStrokeEnd = 4,      ///< The cylinder is at its end; index is the actuator's.
+  kRise = 5,           ///< Nothing but the rate at which lambda may rise.
+  kDegraded = 6,       ///< A lost sensor: the field is slower; index is the Fault.
+  kImplementFlow = 7,  ///< (11): the blade cylinders' flow, as measured.
+  kTransmissionFlow = 8,  ///< (13): a track's transmission; index is the track's (left 0, right 1).
+  kAhead = 9,             ///< Braking for what the blade will need further on.
 };
 
 /// A limit and whose it is.
@@ -80,6 +89,14 @@ enum class McvPolicy : std::uint8_t {
   /// For comparisons only, never on a machine: no search, the fastest that was asked for, and what
   /// is out of reach opens fully. The direction is lost.
   kFixed = 3,
+};
+
+/// How a dozer's travel speed is chosen.
+enum class SpeedPolicy : std::uint8_t {
+  kBounded = 0,
+  /// For comparisons only, never on a machine: the speed that was asked for, whatever the blade
+  /// needs.
+  kConstant = 1,
 };
 
 /// How the optimiser ended.

@@ -1,14 +1,11 @@
 #include "firmware/machine/excavator_profile.hpp"
 
+#include "firmware/machine/piston_area.hpp"
+
 namespace graben {
-namespace {
-constexpr double kQuarterPi = 0.78539816339744830962;
-}
 
-double CylinderGeometry::cap_area_m2() const { return count * kQuarterPi * bore_m * bore_m; }
+double CylinderGeometry::cap_area_m2() const { return graben::cap_area_m2(count, bore_m); }
 
-double CylinderGeometry::rod_area_m2() const {
-  return count * kQuarterPi * (bore_m * bore_m - rod_m * rod_m);
-}
+double CylinderGeometry::rod_area_m2() const { return graben::rod_area_m2(count, bore_m, rod_m); }
 
 }  // namespace graben

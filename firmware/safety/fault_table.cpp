@@ -47,6 +47,12 @@ constexpr std::array<FaultRow, kFaultCount> kRows{{
     {Fault::kValveNotFollowing, Reaction::kStop, kNotResponding, true, ArmBlock::kSpool},
     {Fault::kValueOutOfRange, Reaction::kDegrade, kConditionExists, false, ArmBlock::kMessages},
     {Fault::kSensorError, Reaction::kStop, kBadDevice, true, ArmBlock::kImplausible},
+    {Fault::kPoseMissing, Reaction::kStop, kAbnormalRate, true, ArmBlock::kPose},
+    {Fault::kPoseImplausible, Reaction::kStop, kErratic, true, ArmBlock::kPose},
+    {Fault::kTransmissionMissing, Reaction::kStop, kAbnormalRate, true, ArmBlock::kTransmission},
+    {Fault::kDisplacementDisagrees, Reaction::kStop, kNotResponding, true, ArmBlock::kTransmission},
+    {Fault::kDisplacementRunaway, Reaction::kStop, kNotResponding, true, ArmBlock::kTransmission},
+    {Fault::kTrackSpeedDisagrees, Reaction::kDegrade, kErratic, false, ArmBlock::kTransmission},
 }};
 
 constexpr bool rows_are_in_order() {

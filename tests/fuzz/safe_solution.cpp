@@ -86,6 +86,9 @@ bool limit_is_sound(const McvMachine& machine, const Limit& limit) {
     case LimitKind::kStrokeEnd:
     case LimitKind::kRise:
     case LimitKind::kDegraded:
+    case LimitKind::kImplementFlow:
+    case LimitKind::kTransmissionFlow:
+    case LimitKind::kAhead:
       break;
   }
   return false;

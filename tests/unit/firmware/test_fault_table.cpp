@@ -57,6 +57,13 @@ const Promise kPromises[] = {
     {22, Fault::kUncommandedMotion, 'N', 7, ArmBlock::kImplausible, kCutsPilot},
     {26, Fault::kSwashDisagrees, 'D', 7, ArmBlock::kSwash},
     {28, Fault::kValveNotFollowing, 'N', 7, ArmBlock::kSpool, kCutsPilot},
+    // The dozer's own.
+    {31, Fault::kPoseMissing, 'N', 9, ArmBlock::kPose},
+    {32, Fault::kPoseImplausible, 'N', 2, ArmBlock::kPose},
+    {33, Fault::kTransmissionMissing, 'N', 9, ArmBlock::kTransmission},
+    {34, Fault::kDisplacementDisagrees, 'N', 7, ArmBlock::kTransmission},
+    {35, Fault::kDisplacementRunaway, 'N', 7, ArmBlock::kTransmission},
+    {36, Fault::kTrackSpeedDisagrees, 'D', 2, ArmBlock::kTransmission},
 };
 
 void every_fault_keeps_its_promise(void**) {

@@ -1,0 +1,68 @@
+#pragma once
+/// What comes into and goes out of the dozer's controller. SI units; tracks in the order left,
+/// right. World: x along the grade, z up. Body frame: x forward, z up, origin at the tracks' ground
+/// line below the mass centre. Pitch is positive nose up. Extension of the blade cylinders is
+/// positive and lowers the blade; their stroke counts from where the blade is raised fully.
+
+#include <array>
+
+#include "firmware/signals/machine_signals.hpp"
+
+namespace graben {
+
+inline constexpr int kTrackCount = 2;
+inline constexpr unsigned kLeft = 0;
+inline constexpr unsigned kRight = 1;
+
+/// One path of the transmission: pump, motor, sprocket.
+struct TrackInputs {
+  Signal<double> pump_ratio;   ///< Measured displacement over the largest, -1 .. 1; forward is +.
+  Signal<double> motor_ratio;  ///< The same of the motor, 0 .. 1.
+  Signal<double> speed_mps;    ///< Of the track: sprocket's speed times its radius; forward is +.
+};
+
+/// The body's pose and its rates, all of the body frame's origin in the world.
+struct BodyInputs {
+  Signal<double> position_m;  ///< Along x.
+  Signal<double> height_m;    ///< Along z.
+  Signal<double> pitch_rad;
+  Signal<double> velocity_mps;  ///< Along x.
+  Signal<double> climb_mps;     ///< Along z.
+  Signal<double> pitch_rate_radps;
+};
+
+struct DozerInputs {
+  Signal<double> blade_stroke_m;
+  Signal<double> blade_spool_ratio;  ///< Measured spool over its travel, deadband and all, -1 .. 1.
+  Signal<bool> valve_enabled;        ///< The valve side's echo of our enable.
+  BodyInputs body;
+  std::array<TrackInputs, kTrackCount> track;
+  Signal<double> engine_speed_radps;
+  OperatorInputs driver;
+  /// Whether the machine's end runs with our profile hash and DBC version.
+  Signal<bool> same_machine;
+  LinkInputs link;
+};
+
+/// What the dozer's controller says of itself.
+struct DozerStatus : MachineStatus {
+  double wanted_speed_mps = 0.0;     ///< v_c of (14), after the acceleration limit.
+  double speed_limit_mps = 0.0;      ///< (14) without v_d: what flow and transmission allow.
+  double wanted_blade_mps = 0.0;     ///< Velocity of the blade cylinders; extension is positive.
+  double required_flow_m3ps = 0.0;   ///< Q_in of (7), of the measured motion.
+  double available_flow_m3ps = 0.0;  ///< min of (12) and the valve's.
+  double grade_error_m = 0.0;        ///< Measured cutting edge above the grade.
+};
+
+struct DozerOutputs {
+  bool enable = false;       ///< The valve side closes the spool without it.
+  bool pilot_cut = false;    ///< Asks for the pilot pressure to be cut: the valve does not obey.
+  bool pilot_known = false;  ///< As ExcavatorOutputs::pilot_known.
+  bool brake = true;  ///< Asks for the parking brake; also whenever nothing moves the machine.
+  double blade_duty_ratio = 0.0;                             ///< -1 .. 1; 0 is neutral, + extends.
+  std::array<double, kTrackCount> pump_ratio{};              ///< -1 .. 1; 0 stands still.
+  std::array<double, kTrackCount> motor_ratio = {1.0, 1.0};  ///< motor_ratio_min .. 1.
+  DozerStatus status;
+};
+
+}  // namespace graben
