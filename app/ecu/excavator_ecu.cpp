@@ -78,7 +78,7 @@ void ExcavatorEcu::open_again(TimeUs now_us, bool stalled) {
 
 void ExcavatorEcu::gather_inputs(TimeUs now_us) {
   inputs_ = receiver_.inputs();
-  inputs_.same_machine = same_machine(receiver_.identity(), diagnosis_.profile_hash);
+  inputs_.same_machine = receiver_.same_machine(diagnosis_.profile_hash);
   inputs_.link.bus = bus_;
   inputs_.link.message_faults = receiver_.message_faults(now_us);
   inputs_.link.out_of_range = receiver_.take_out_of_range();
