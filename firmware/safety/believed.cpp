@@ -1,0 +1,28 @@
+#include "firmware/safety/believed.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben {
+namespace {
+
+bool jumps(const Signal<double>& next, const ChangeLimit& change, const Believed& last) {
+  const TimeUs from_us = std::max(last.signal.stamp_us, last.seen_us);
+  const double elapsed_s = static_cast<double>(next.stamp_us - from_us) / kMicrosecondsPerSecond;
+  return std::abs(next.value - last.signal.value) > change.fastest_ps * elapsed_s + change.margin;
+}
+
+}  // namespace
+
+BelievedResult believe(const Signal<double>& next, const ChangeLimit& change,
+                       const Freshness& fresh, const Believed& last) {
+  BelievedResult result;
+  if (fresh.number(next)) {
+    result.jumped = last.signal.validity == Validity::kValid && jumps(next, change, last);
+    result.state.signal = result.jumped ? last.signal : next;
+  }
+  result.state.seen_us = next.stamp_us;
+  return result;
+}
+
+}  // namespace graben
