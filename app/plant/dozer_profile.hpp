@@ -73,16 +73,16 @@ struct DozerPlantProfile : HydraulicDetails {
   /// Pressure in the chamber that empties while the other one takes the valve's largest flow. As
   /// the blade lowers: so narrow that its weight alone (3.5 MPa in the rod chamber, fully lowered)
   /// moves it no faster than the pump's flow of 900 rpm does, at any opening. As it rises nothing
-  /// can run away.
+  /// can run away; the throttle is there to damp.
   double lowering_back_pressure_pa = 20e6;
-  double raising_back_pressure_pa = 2e6;
+  double raising_back_pressure_pa = 8e6;
   /// Relief at the blade cylinders' ports: above the implement pump's.
   double port_relief_pa = 25e6;
 
   /// Pressure over pump or motor at which the profile's volumetric efficiencies hold: that of work.
   double hst_work_pa = 15e6;
   /// Share of the volumetric losses that goes with speed alone (a displacement derived from tests
-  /// is smaller than the geometric one); the rest is laminar leakage. So on the level, at 1 - 2
+  /// is smaller than the geometric one); the rest is laminar leakage. So on the level, at 1 - 3
   /// MPa, the tracks run 3 - 4 % faster than at work.
   double hst_constant_loss_share = 0.6;
   /// A displacement's largest rate over the one that the controller counts on.
@@ -90,9 +90,9 @@ struct DozerPlantProfile : HydraulicDetails {
   /// Of each parking brake, at the sprocket: above what the motor gives at its relief pressure.
   double brake_nm = 60e3;
 
-  /// Damping of the shear of ground and track, each track. A third of what is critical for the
-  /// machine standing on its sheared ground.
-  double shear_damping_nspm = 4e4;
+  /// Damping of the shear of ground and track, each track: 0.8 of what is critical for the machine
+  /// on its sheared ground, as soil gives hardly anything back.
+  double shear_damping_nspm = 1e5;
   /// Below it the rolling resistance goes to 0 with the speed.
   double rolling_onset_mps = 0.02;
   /// Half the length of track that one wheel presses on the ground.

@@ -13,12 +13,15 @@ struct Believed {
 
 /// How a quantity may change.
 struct ChangeLimit {
-  double fastest_ps = 0.0;  ///< Per second.
-  double margin = 0.0;      ///< At once: noise, and frames that were lost.
+  double most_ps = 0.0;  ///< Per second, either way.
+  double margin = 0.0;   ///< At once: noise, and frames that were lost.
+  Fault jump = Fault::kNone;
+  double expected_ps = 0.0;  ///< Counted off before: a rate that is measured too.
 };
 
 struct BelievedResult {
   bool jumped = false;
+  FaultSet faults;  ///< `jump`; kSensorError where the sender calls its value wrong.
   Believed state;
 };
 

@@ -70,7 +70,13 @@ double bounded_stroke_m(double stroke_m, double stroke_max_m, FaultSet& faults) 
   return std::clamp(stroke_m, 0.0, stroke_max_m);
 }
 
-void judge(bool moving, const FaultSet& bridged, CommonValid& valid) {
+void judge(bool moving, std::initializer_list<Bridge> bridges, CommonValid& valid) {
+  FaultSet bridged;
+  for (const Bridge& bridge : bridges) {
+    if (!valid.faults.has(bridge.missing)) {
+      bridged.add(bridge.jump);
+    }
+  }
   for (Fault fault = valid.faults.first(); fault != Fault::kNone;
        fault = valid.faults.after(fault)) {
     const bool slows = fault_row(fault).reaction == Reaction::kDegrade || bridged.has(fault);

@@ -2,6 +2,8 @@
 /// What every machine kind's validation reads alike: operator, bus, identity, engine; and how the
 /// faults that it found are judged.
 
+#include <initializer_list>
+
 #include "firmware/safety/freshness.hpp"
 #include "firmware/signals/machine_signals.hpp"
 
@@ -51,8 +53,15 @@ void read_identity(const Signal<bool>& same_machine, TimeUs now_us, CommonValid&
 /// A stroke into its cylinder's range; far outside it is implausible.
 [[nodiscard]] double bounded_stroke_m(double stroke_m, double stroke_max_m, FaultSet& faults);
 
-/// What of the faults stops and what only slows. Outside motion everything stops. `bridged` are
-/// jumps whose last believed value is still in time: they are not there yet.
-void judge(bool moving, const FaultSet& bridged, CommonValid& valid);
+/// A jump whose last believed value is still in time is not there yet; `missing` comes with its
+/// end.
+struct Bridge {
+  Fault jump = Fault::kNone;
+  Fault missing = Fault::kNone;
+};
+
+/// What of the faults stops and what only slows: in motion those that the table says, and jumps
+/// that are bridged. Outside motion everything stops.
+void judge(bool moving, std::initializer_list<Bridge> bridges, CommonValid& valid);
 
 }  // namespace graben

@@ -41,8 +41,8 @@ SlowingState slow_down(double speed_ratio, const SlowingState& last, bool moving
   return state;
 }
 
-bool still_closing(bool last, bool centred, const CommonValid& inputs) {
-  const bool closed = !inputs.faults.has(Fault::kSpoolMissing) && centred;
+bool still_closing(bool last, bool centred, Fault unknown, const CommonValid& inputs) {
+  const bool closed = !inputs.faults.has(unknown) && centred;
   const bool by_hand = !inputs.faults.has(Fault::kOperatorMissing) && !inputs.automatic;
   return last && !closed && !by_hand;
 }

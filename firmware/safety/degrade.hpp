@@ -24,8 +24,9 @@ void degrade(Fault fault, CommonValid& inputs);
 [[nodiscard]] SlowingState slow_down(double speed_ratio, const SlowingState& last, bool moving,
                                      double period_s, CommonValid& inputs);
 
-/// Whether spools have still to close after motion: not `centred` since, and the operator has not
-/// taken over in manual mode. What is not known does not end it.
-[[nodiscard]] bool still_closing(bool last, bool centred, const CommonValid& inputs);
+/// Whether something has still to come to neutral after motion: not `centred` since, and the
+/// operator has not taken over in manual mode. What is not known does not end it; with `unknown`,
+/// `centred` is not.
+[[nodiscard]] bool still_closing(bool last, bool centred, Fault unknown, const CommonValid& inputs);
 
 }  // namespace graben

@@ -46,26 +46,11 @@ double fastest_mps(const ExcavatorProfile& profile, unsigned axis) {
 void believe_strokes(const ExcavatorInputs& inputs, const ExcavatorProfile& profile,
                      const ValidationState& last, const Freshness& fresh, ValidInputs& valid) {
   for (unsigned i = 0; i < kAxisCount; ++i) {
-    const Signal<double>& next = inputs.axis[i].stroke_m;
-    const BelievedResult stroke =
-        believe(next, {fastest_mps(profile, i), kJumpMargin_m}, fresh, last.stroke_m[i]);
+    const ChangeLimit change{fastest_mps(profile, i), kJumpMargin_m, Fault::kStrokeJump};
+    const BelievedResult stroke = believe(inputs.axis[i].stroke_m, change, fresh, last.stroke_m[i]);
     valid.state.stroke_m[i] = stroke.state;
-    if (stroke.jumped) {
-      valid.faults.add(Fault::kStrokeJump);
-    }
-    if (next.validity == Validity::kError) {
-      valid.faults.add(Fault::kSensorError);
-    }
+    valid.faults.add(stroke.faults);
   }
-}
-
-/// A jump whose stroke is still in time is not there yet; kStrokeMissing comes with its end.
-FaultSet bridged_jumps(const FaultSet& faults) {
-  FaultSet bridged;
-  if (!faults.has(Fault::kStrokeMissing)) {
-    bridged.add(Fault::kStrokeJump);
-  }
-  return bridged;
 }
 
 }  // namespace
@@ -91,7 +76,7 @@ ValidInputs validate(const ExcavatorInputs& inputs, const ExcavatorProfile& prof
     valid.strokes_m[i] =
         bounded_stroke_m(valid.strokes_m[i], profile.geometry.cylinder[i].stroke_m, valid.faults);
   }
-  judge(moving, bridged_jumps(valid.faults), valid);
+  judge(moving, {{Fault::kStrokeJump, Fault::kStrokeMissing}}, valid);
   return valid;
 }
 

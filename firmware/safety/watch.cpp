@@ -14,8 +14,8 @@ WatchResult watch(const ExcavatorProfile& profile, const WatchState& last, const
   if (spools.faults.has(Fault::kValveNotFollowing)) {
     stops.add(Fault::kValveNotFollowing);
   }
-  state.closing =
-      cycle.moving || still_closing(last.closing, spools_centred(profile, inputs), inputs);
+  state.closing = cycle.moving || still_closing(last.closing, spools_centred(profile, inputs),
+                                                Fault::kSpoolMissing, inputs);
   if (state.closing && spools.faults.has(Fault::kSpoolStuck)) {
     stops.add(Fault::kSpoolStuck);
   }

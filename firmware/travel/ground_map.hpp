@@ -32,6 +32,7 @@ class GroundMap {
  private:
   /// Heights of a straight line over all cells up to the edge.
   void start(double edge_x_m, double stand_x_m, double stand_z_m, double slope);
+  /// The last one whose middle is not beyond x.
   [[nodiscard]] static int cell_of(double x_m);
   [[nodiscard]] double cell(int index) const {
     return height_m_[static_cast<unsigned>(index % kCells + kCells) % kCells];
@@ -41,7 +42,7 @@ class GroundMap {
   }
 
   std::array<double, kCells> height_m_{};
-  int front_ = 0;  ///< Cell that the edge has reached.
+  int front_ = 0;  ///< Last cell whose middle the edge has passed.
   double edge_x_m_ = 0.0;
   double edge_z_m_ = 0.0;
   bool started_ = false;
