@@ -1,20 +1,11 @@
 #include "firmware/excavator_controller.hpp"
 
 #include <algorithm>
-#include <initializer_list>
 
 #include "firmware/motion/stroke_end.hpp"
-#include "firmware/safety/fault_table.hpp"
 
 namespace graben {
 namespace {
-
-/// A stalled cycle must not turn into one large step of a rate limit.
-constexpr double kLongestPeriod_s = 0.02;
-/// Without a cycle for this long, what the machine did meanwhile is not known.
-constexpr TimeUs kStalled_us = 50 * kMillisecondUs;
-/// A cycle that comes later than this after the last one is an overrun.
-constexpr TimeUs kLate_us = 15 * kMillisecondUs;
 
 McvInput mcv_input(const WatchResult& seen, const LoadState& load,
                    const Eigen::Vector3d& velocity_mps) {
@@ -38,12 +29,6 @@ Fault motion_fault(const KinematicState& state, const McvSolution& solution) {
   return solved ? Fault::kNone : Fault::kSolverFailed;
 }
 
-Fault first_of(std::initializer_list<Fault> faults) {
-  const auto* there =
-      std::find_if(faults.begin(), faults.end(), [](Fault fault) { return fault != Fault::kNone; });
-  return there == faults.end() ? Fault::kNone : *there;
-}
-
 /// What holds the commanded speed: the valve before the stroke's end before the rise of lambda
 /// before a lost sensor.
 Limit reason(const McvSolution& solution, const VelocityCap& cap, const FaultSet& degraded) {
@@ -59,23 +44,6 @@ Limit reason(const McvSolution& solution, const VelocityCap& cap, const FaultSet
   return degraded.empty()
              ? Limit{}
              : Limit{LimitKind::kDegraded, static_cast<std::uint8_t>(degraded.first())};
-}
-
-/// The mode that was stored; one that is not intact counts as stopped by that, whatever it has
-/// become.
-ModeState stored_mode(const Guarded<ModeState>& mode) {
-  return mode.intact() ? mode.value() : ModeState{EcuMode::kFault, Fault::kMemoryCorrupt};
-}
-
-/// Whether the pilot pressure stays cut until the operator has armed again: a spool that did not
-/// obey may not have it back because the deadman was let go.
-bool keeps_pilot_cut(bool last, const ModeState& mode, const FaultSet& faults) {
-  // Outside motion a spool is stuck only where it should have closed after it. Whatever stopped the
-  // machine first must not hide it.
-  const bool disobeyed =
-      faults.has(Fault::kSpoolStuck) ||
-      (mode.mode == EcuMode::kFault && (cuts_pilot(mode.fault) || cuts_pilot(faults)));
-  return !in_motion(mode.mode) && (last || disobeyed);
 }
 
 double path_error_m(const RoundedRectangle& path, const TipPose& tip) {
@@ -95,19 +63,6 @@ void describe_motion(const Eigen::Vector3d& wanted_mps, double path_error_m, con
   std::copy_n(solution.point.pump_pressure_pa.begin(), kPumpCount, status.pump_pressure_pa.begin());
 }
 
-/// What the operator reads of mode and faults.
-ExcavatorStatus describe(const ModeState& mode, const ModeRequest& request,
-                         const ValidInputs& valid) {
-  ExcavatorStatus status;
-  status.mode = mode.mode;
-  status.faults = valid.faults;
-  status.faults.add(request.fault);
-  status.why_not_armed = why_not_armed(mode, request, status.faults);
-  status.faults.add(mode.fault);
-  status.fault = mode.fault != Fault::kNone ? mode.fault : valid.degraded.first();
-  return status;
-}
-
 }  // namespace
 
 ExcavatorController::ExcavatorController(const ExcavatorProfile& profile)
@@ -116,32 +71,16 @@ ExcavatorController::ExcavatorController(const ExcavatorProfile& profile)
       field_(profile_, kinematics_),
       valve_(mcv_machine(profile_)) {}
 
-double ExcavatorController::elapsed_s(TimeUs now_us) const {
-  const TimeUs elapsed_us = memory_.has_stepped ? now_us - memory_.last_us : 0;
-  return static_cast<double>(std::clamp<TimeUs>(elapsed_us, 0, kStalled_us)) * 1e-6;
-}
-
-double ExcavatorController::period_s(TimeUs now_us) const {
-  return std::min(elapsed_s(now_us), kLongestPeriod_s);
-}
-
-Fault ExcavatorController::cycle_fault(TimeUs now_us) {
-  const TimeUs elapsed_us = memory_.has_stepped ? now_us - memory_.last_us : 0;
-  memory_.late_cycles = elapsed_us > kLate_us ? std::min(memory_.late_cycles + 1, 2) : 0;
-  if (elapsed_us > kStalled_us) {
-    return Fault::kCycleStalled;
-  }
-  if (memory_.late_cycles >= 2) {
-    return Fault::kCycleOverrun;
-  }
+Fault ExcavatorController::memory_fault() const {
   return memory_.mode.intact() && memory_.lambda.intact() ? Fault::kNone : Fault::kMemoryCorrupt;
 }
 
-WatchResult ExcavatorController::judge(const ExcavatorInputs& inputs, TimeUs now_us) {
+WatchResult ExcavatorController::judge(const ExcavatorInputs& inputs, double period_s,
+                                       TimeUs now_us) {
   const ValidInputs valid =
       validate(inputs, profile_, memory_.validation, memory_.cycle.moving, now_us);
   memory_.validation = valid.state;
-  const WatchResult seen = watch(profile_, memory_.watch, memory_.cycle, valid, period_s(now_us));
+  const WatchResult seen = watch(profile_, memory_.watch, memory_.cycle, valid, period_s);
   memory_.watch = seen.state;
   return seen;
 }
@@ -178,10 +117,11 @@ Eigen::Vector3d ExcavatorController::wanted_velocity(const ValidInputs& valid,
 }
 
 ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs now_us) {
-  const Fault timing = cycle_fault(now_us);
-  const WatchResult seen = judge(inputs, now_us);
+  const CycleWatchResult time = watch_cycle(memory_.time, now_us);
+  const Fault memory = memory_fault();
+  const WatchResult seen = judge(inputs, time.period_s, now_us);
   const ValidInputs& valid = seen.inputs;
-  observe(valid, elapsed_s(now_us));
+  observe(valid, time.elapsed_s);
   const KinematicState state = kinematics_.state(valid.strokes_m);
   const Eigen::Vector3d wanted = wanted_velocity(valid, state);
   const double last_lambda = memory_.lambda.value();
@@ -190,30 +130,26 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   const VelocityCap cap = stroke_end_cap(profile_, valid.strokes_m, corrected);
   const McvSolution solution = steady_lambda(
       valve_, mcv_input(seen, memory_.load, cap.factor * corrected), profile_.control.lambda_policy,
-      profile_.control.lambda_rise, last_lambda, period_s(now_us));
-  const ModeRequest request{first_of({timing, valid.fault, motion_fault(state, solution)}),
-                            valid.enable,
-                            valid.automatic,
-                            valid.task != Task::kNone,
-                            spools_centred(profile_, valid),
-                            inputs.link.stop_requested};
+      profile_.control.lambda_rise, last_lambda, time.period_s);
+  const ModeRequest request =
+      mode_request(first_of({time.fault, memory, valid.fault, motion_fault(state, solution)}),
+                   valid, spools_centred(profile_, valid), inputs.link.stop_requested);
   ModeState mode = next_mode(stored_mode(memory_.mode), request);
   const GateResult command = gate(profile_, memory_.gate, mode.mode == EcuMode::kActive,
                                   {solution.point.spool_m[kBoom], solution.point.spool_m[kArm],
                                    solution.point.spool_m[kBucket]},
-                                  period_s(now_us));
+                                  time.period_s);
   if (command.fault != Fault::kNone) {
     mode = {EcuMode::kFault, command.fault};
   }
   ExcavatorOutputs outputs;
   outputs.enable = command.enable;
   outputs.duty_ratio = command.duty_ratio;
-  memory_.pilot_cut = keeps_pilot_cut(memory_.pilot_cut, mode, valid.faults);
-  outputs.pilot_cut = memory_.pilot_cut || cuts_pilot(mode.fault) || cuts_pilot(valid.faults);
-  memory_.pilot_known = memory_.pilot_known || in_motion(mode.mode) || outputs.pilot_cut;
-  outputs.pilot_known = memory_.pilot_known;
+  const PilotResult pressure = pilot(memory_.pilot, mode, valid.faults);
+  outputs.pilot_cut = pressure.cut;
+  outputs.pilot_known = pressure.state.known;
   outputs.swash_ratio = profile_.dig_swash_ratio;
-  outputs.status = describe(mode, request, valid);
+  static_cast<MachineStatus&>(outputs.status) = describe(mode, request, valid);
   if (mode.mode == EcuMode::kActive) {
     describe_motion(wanted, path_error_m(field_.path(), state.tip), cap, solution, valid.degraded,
                     outputs.status);
@@ -225,8 +161,8 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
                    {command.enable, command.duty_ratio},
                    memory_.lambda.value() * cap.factor * corrected};
   memory_.expected_mps = memory_.lambda.value() * cap.factor * wanted;
-  memory_.last_us = now_us;
-  memory_.has_stepped = true;
+  memory_.pilot = pressure.state;
+  memory_.time = time.state;
   return outputs;
 }
 

@@ -6,8 +6,10 @@
 #include "firmware/motion/cylinder_servo.hpp"
 #include "firmware/motion/dig_field.hpp"
 #include "firmware/motion/load_filter.hpp"
+#include "firmware/safety/cycle_watch.hpp"
 #include "firmware/safety/gate.hpp"
 #include "firmware/safety/mode.hpp"
+#include "firmware/safety/standing.hpp"
 #include "firmware/safety/watch.hpp"
 
 namespace graben {
@@ -41,21 +43,14 @@ class ExcavatorController {
     ServoState servo;
     /// lambda V_L^d, without corrections: what the servo expects of the cylinders.
     Eigen::Vector3d expected_mps = Eigen::Vector3d::Zero();
-    TimeUs last_us = 0;
-    int late_cycles = 0;       ///< In a row.
-    bool pilot_cut = false;    ///< Until the operator arms again.
-    bool pilot_known = false;  ///< It has armed or asked for a cut since its start.
-    bool has_stepped = false;
+    CycleState time;
+    PilotState pilot;
   };
 
-  /// Since the last cycle, up to what is a stall; 0 in the first.
-  [[nodiscard]] double elapsed_s(TimeUs now_us) const;
-  /// The same for what may change by so much a second.
-  [[nodiscard]] double period_s(TimeUs now_us) const;
-  /// What is wrong with the cycle itself: time, memory.
-  [[nodiscard]] Fault cycle_fault(TimeUs now_us);
+  /// Whether what one cycle handed to the next is as it was.
+  [[nodiscard]] Fault memory_fault() const;
   /// Inputs with all that validation and watches have to say of them.
-  [[nodiscard]] WatchResult judge(const ExcavatorInputs& inputs, TimeUs now_us);
+  [[nodiscard]] WatchResult judge(const ExcavatorInputs& inputs, double period_s, TimeUs now_us);
   /// Takes in what this cycle's sensors say of the last cycle's command.
   void observe(const ValidInputs& valid, double period_s);
   /// What the field wants where the cylinders will be when a command of now takes effect.

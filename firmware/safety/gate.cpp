@@ -3,18 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/safety/opening.hpp"
+
 namespace graben {
-namespace {
-
-/// Only the way from neutral is limited: towards neutral, and through it on a reversal, a spool may
-/// always go at once.
-double limited(double wanted, double last, double change_max) {
-  const double open = std::max(0.0, std::signbit(wanted) ? -last : last);  // on wanted's side
-  const double limit = open + change_max;
-  return std::clamp(wanted, -limit, limit);
-}
-
-}  // namespace
 
 GateResult gate(const ExcavatorProfile& profile, const GateState& last, bool active,
                 const std::array<double, kAxisCount>& spool_m, double period_s) {
@@ -33,10 +24,8 @@ GateResult gate(const ExcavatorProfile& profile, const GateState& last, bool act
     const double wanted = std::clamp(spool_m[i] / profile.valve.spool_travel_m, -1.0, 1.0);
     const double opening = limited(wanted, last.opening[i].value(), change_max);
     result.state.opening[i] = opening;
-    if (opening != 0.0 && std::abs(opening) >= profile.control.spool_threshold) {
-      result.duty_ratio[i] = std::copysign(
-          std::clamp(profile.valve.spool_to_duty.at(std::abs(opening)), 0.0, 1.0), opening);
-    }
+    result.duty_ratio[i] =
+        spool_duty(profile.valve.spool_to_duty, profile.control.spool_threshold, opening);
   }
   result.enable = true;
   return result;

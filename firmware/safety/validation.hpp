@@ -4,25 +4,19 @@
 #include <Eigen/Core>
 
 #include "firmware/machine/excavator_profile.hpp"
+#include "firmware/safety/believed.hpp"
+#include "firmware/safety/common_inputs.hpp"
 #include "firmware/signals/excavator_signals.hpp"
 
 namespace graben {
 
 /// What the validation needs of the last cycle.
 struct ValidationState {
-  std::array<Signal<double>, kAxisCount> stroke_m;  ///< Last one that was believed.
-  std::array<TimeUs, kAxisCount> seen_us{};         ///< Stamp of the last one, believed or not.
+  std::array<Believed, kAxisCount> stroke_m;
 };
 
-/// Inputs that may be used. With a fault, only `enable` and the faults themselves mean anything.
-struct ValidInputs {
-  Fault fault = Fault::kNone;  ///< First thing that stops.
-  FaultSet faults;             ///< All that is missing or implausible.
-  FaultSet degraded;           ///< Those of them that slow and do not stop.
-  bool enable = false;         ///< Fresh, valid and given.
-  bool automatic = false;
-  Task task = Task::kNone;
-  double speed_override_ratio = 0.0;
+/// Inputs that may be used.
+struct ValidInputs : CommonValid {
   Eigen::Vector3d strokes_m = Eigen::Vector3d::Zero();  ///< Clamped into the cylinders' ranges.
   std::array<double, kAxisCount> cap_pressure_pa{};
   std::array<double, kAxisCount> rod_pressure_pa{};
@@ -33,16 +27,6 @@ struct ValidInputs {
   double engine_radps = 0.0;  ///< The profile's idle where the measured one is lost.
   ValidationState state;
 };
-
-/// How far a measured stroke may lie outside its cylinder's range: bias and mounting.
-inline constexpr double kStrokeMargin_m = 0.010;
-
-/// How far a stroke may change at once beyond what the cylinder can: noise, and frames that were
-/// lost.
-inline constexpr double kJumpMargin_m = 0.020;
-
-/// The machine names itself every second; it may miss one time.
-inline constexpr double kIdentityTimeout_s = 2.5;
 
 /// A signal is missing when it was never valid or is older than control.sensor_timeout_s. `moving`:
 /// the mode of the last cycle was Armed or Active; then what only degrades does not stop, and a

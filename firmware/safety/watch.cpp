@@ -1,57 +1,6 @@
 #include "firmware/safety/watch.hpp"
 
-#include <algorithm>
-
 namespace graben {
-namespace {
-
-constexpr double kSlowAfter_s = 0.5;
-
-/// What was degraded a moment ago still is: a value that comes and goes must not make the machine
-/// jerk.
-void slow_down(const ExcavatorProfile& profile, const WatchState& last, bool moving,
-               double period_s, WatchResult& result) {
-  if (!moving) {
-    return;
-  }
-  WatchState& state = result.state;
-  ValidInputs& inputs = result.inputs;
-  state.slowing = last.slowing;
-  if (!inputs.degraded.empty()) {
-    state.slowing.add(inputs.degraded);
-    state.slow_for_s = kSlowAfter_s;
-  } else {
-    state.slow_for_s = std::max(0.0, last.slow_for_s - period_s);
-    if (state.slow_for_s <= 0.0) {
-      state.slowing = {};
-    }
-  }
-  inputs.degraded = state.slowing;
-  if (!inputs.degraded.empty()) {
-    inputs.speed_override_ratio *= profile.safety.degraded_speed_ratio;
-  }
-}
-
-/// Whether the spools have still to close after motion. What is not known does not end it.
-bool still_closing(const ExcavatorProfile& profile, bool last, const ValidInputs& inputs) {
-  const bool centred = !inputs.faults.has(Fault::kSpoolMissing) && spools_centred(profile, inputs);
-  const bool by_hand = !inputs.faults.has(Fault::kOperatorMissing) && !inputs.automatic;
-  return last && !centred && !by_hand;
-}
-
-void stop(const FaultSet& faults, ValidInputs& inputs) {
-  inputs.faults.add(faults);
-  if (inputs.fault == Fault::kNone) {
-    inputs.fault = faults.first();
-  }
-}
-
-void degrade(Fault fault, ValidInputs& inputs) {
-  inputs.faults.add(fault);
-  inputs.degraded.add(fault);
-}
-
-}  // namespace
 
 WatchResult watch(const ExcavatorProfile& profile, const WatchState& last, const LastCycle& cycle,
                   const ValidInputs& inputs, double period_s) {
@@ -65,7 +14,8 @@ WatchResult watch(const ExcavatorProfile& profile, const WatchState& last, const
   if (spools.faults.has(Fault::kValveNotFollowing)) {
     stops.add(Fault::kValveNotFollowing);
   }
-  state.closing = cycle.moving || still_closing(profile, last.closing, inputs);
+  state.closing = cycle.moving || still_closing(last.closing, spools_centred(profile, inputs),
+                                                Fault::kSpoolMissing, inputs);
   if (state.closing && spools.faults.has(Fault::kSpoolStuck)) {
     stops.add(Fault::kSpoolStuck);
   }
@@ -93,7 +43,8 @@ WatchResult watch(const ExcavatorProfile& profile, const WatchState& last, const
     }
   }
   stop(stops, result.inputs);
-  slow_down(profile, last, cycle.moving, period_s, result);
+  state.slowing = slow_down(profile.safety.degraded_speed_ratio, last.slowing, cycle.moving,
+                            period_s, result.inputs);
   result.pump_flow_m3ps = pump_flow_m3ps(profile, inputs.engine_radps, flow_swash_ratio);
   return result;
 }

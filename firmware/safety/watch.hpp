@@ -1,6 +1,7 @@
 #pragma once
 /// The machine against what it was told: all watches, and what they take away.
 
+#include "firmware/safety/degrade.hpp"
 #include "firmware/safety/motion_watch.hpp"
 #include "firmware/safety/pressure_watch.hpp"
 #include "firmware/safety/spool_watch.hpp"
@@ -13,9 +14,8 @@ struct WatchState {
   MotionWatchState motion;
   PressureWatchState pressure;
   SwashWatchState swash{};
-  FaultSet slowing;         ///< What degraded of late.
-  double slow_for_s = 0.0;  ///< And how long it still does.
-  bool closing = false;     ///< It was in motion, and some spool has not been in its middle since.
+  SlowingState slowing;
+  bool closing = false;  ///< It was in motion, and some spool has not been in its middle since.
 };
 
 /// What the last cycle did.

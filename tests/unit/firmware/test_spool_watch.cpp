@@ -39,7 +39,7 @@ struct Valve {
   void settle(double duty) {
     sent.duty_ratio = {duty, duty, duty};
     valid.spool_ratio = {duty, duty, duty};
-    for (int n = 0; n < SpoolWatchState::kMostCycles; ++n) {
+    for (int n = 0; n < CommandHistory::kMostCycles; ++n) {
       assert_false(stuck());
     }
   }
@@ -126,7 +126,7 @@ void the_time_under_way_is_bounded(void**) {
   slow.settle(0.75);
   slow.sent.duty_ratio = {0.0, 0.0, 0.0};
   assert_int_equal(slow.cycles_until(Fault::kSpoolStuck),
-                   SpoolWatchState::kMostCycles - 1 + kSpoolWrongCycles);
+                   CommandHistory::kMostCycles - 1 + kSpoolWrongCycles);
   Valve quick;
   quick.profile.safety.settle_s = 0.0;
   quick.settle(0.75);
@@ -136,7 +136,7 @@ void the_time_under_way_is_bounded(void**) {
 
 /// From wherever the ring stands: a command counts for as long, across its end as well.
 void the_ring_has_no_seam(void**) {
-  for (int start = 0; start < SpoolWatchState::kMostCycles; ++start) {
+  for (int start = 0; start < CommandHistory::kMostCycles; ++start) {
     Valve valve;
     for (int n = 0; n < start; ++n) {
       assert_false(valve.stuck());

@@ -1,0 +1,32 @@
+#pragma once
+/// The design surface: a plane, and over it heights through points with rounded corners.
+
+#include "firmware/machine/dozer_profile.hpp"
+
+namespace graben {
+
+/// Height and slope of the design at one place.
+struct GradeSample {
+  double height_m = 0.0;
+  double slope = 0.0;  ///< dz/dx
+};
+
+/// Every corner is a parabola over `rounding_m` to either side, so that the slope has no step.
+/// Before the first and after the last point the heights go on level; these two have no curve.
+class GradeProfile {
+ public:
+  explicit GradeProfile(const GradeDesign& design);
+
+  /// At x along the grade, m.
+  [[nodiscard]] GradeSample at(double x_m) const;
+
+ private:
+  GradeDesign design_;
+  /// Slope after each point less that before it.
+  std::array<double, GradeDesign::kMostPoints> kink_{};
+};
+
+/// Height of `x_m`, `z_m` above the design, along the design's normal, m.
+[[nodiscard]] double grade_error_m(const GradeProfile& profile, double x_m, double z_m);
+
+}  // namespace graben

@@ -1,0 +1,30 @@
+#include "firmware/safety/command_history.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben {
+namespace {
+constexpr double kCycle_s = 0.01;
+}
+
+void CommandHistory::add(double sent) {
+  newest_ = (newest_ + 1) % kMostCycles;
+  sent_[static_cast<unsigned>(newest_)] = sent;
+}
+
+CommandHistory::Range CommandHistory::range(int cycles) const {
+  Range range{newest(), newest()};
+  for (int n = 1; n < cycles; ++n) {
+    const double sent = sent_[static_cast<unsigned>((newest_ + kMostCycles - n) % kMostCycles)];
+    range = {std::min(range.least, sent), std::max(range.most, sent)};
+  }
+  return range;
+}
+
+int cycles_under_way(double time_s) {
+  const double cycles = std::ceil(time_s / kCycle_s);
+  return static_cast<int>(std::clamp(cycles, 1.0, double{CommandHistory::kMostCycles}));
+}
+
+}  // namespace graben

@@ -1,0 +1,47 @@
+#include "firmware/safety/displacement_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben {
+namespace {
+
+double distance(const CommandHistory::Range& range, double measured) {
+  return std::max({0.0, range.least - measured, measured - range.most});
+}
+
+/// Of the two the one that is nearer to the range. A range that leaves it takes it along.
+double nearer(const CommandHistory::Range& range, const DisplacementState& last, double measured) {
+  const bool came_nearer = distance(range, measured) <= distance(range, last.nearest);
+  return !last.judged || came_nearer ? measured : last.nearest;
+}
+
+}  // namespace
+
+DisplacementResult watch_displacement(const DisplacementLimits& limits,
+                                      const DisplacementState& last, double sent,
+                                      DisplacementTask task, double measured, double period_s) {
+  DisplacementResult result{false, false, DisplacementState(sent)};
+  DisplacementState& state = result.state;
+  state.sent = last.sent;
+  state.sent.add(sent);
+  if (task == DisplacementTask::kNone) {
+    return result;
+  }
+  const bool off = std::abs(measured - sent) > limits.tolerance;
+  state.off_s = off ? last.off_s + period_s : 0.0;
+  result.disagrees = state.off_s > limits.settle_s;
+
+  const CommandHistory::Range range = state.sent.range(cycles_under_way(limits.settle_s));
+  state.judged = true;
+  state.nearest = nearer(range, last, measured);
+  const bool outside = distance(range, measured) > limits.tolerance;
+  const bool moved_away = std::abs(measured - state.nearest) > limits.tolerance;
+  const bool wrong_side = measured * sent < 0.0;
+  const bool astray = moved_away || wrong_side || task == DisplacementTask::kReturn;
+  state.runaway_cycles = outside && astray ? std::min(last.runaway_cycles + 1, kRunawayCycles) : 0;
+  result.runs_away = state.runaway_cycles >= kRunawayCycles;
+  return result;
+}
+
+}  // namespace graben

@@ -1,0 +1,63 @@
+#include "firmware/safety/transmission_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/hydraulics/hydrostatic.hpp"
+
+namespace graben {
+namespace {
+
+constexpr double kTrackOff_s = 0.3;
+
+/// Takes in what one displacement's watch says.
+DisplacementState take(const DisplacementResult& result, FaultSet& stops) {
+  if (result.disagrees) {
+    stops.add(Fault::kDisplacementDisagrees);
+  }
+  if (result.runs_away) {
+    stops.add(Fault::kDisplacementRunaway);
+  }
+  return result.state;
+}
+
+bool track_is_off(const DozerProfile& profile, const ValidDozerInputs& valid, unsigned track) {
+  const double expected_mps = track_speed_mps(profile.hst, valid.engine_radps,
+                                              valid.pump_ratio[track], valid.motor_ratio[track]);
+  return std::abs(valid.track_speed_mps[track] - expected_mps) >
+         profile.safety.track_speed_tolerance_mps;
+}
+
+}  // namespace
+
+TransmissionWatchResult watch_transmission(const DozerProfile& profile,
+                                           const TransmissionWatchState& last,
+                                           const SentRatios& sent, DisplacementTask task,
+                                           const ValidDozerInputs& valid, double period_s) {
+  const DisplacementLimits limits{profile.safety.displacement_tolerance,
+                                  profile.safety.displacement_settle_s};
+  const bool tracks_judged =
+      task == DisplacementTask::kFollow && !valid.faults.has(Fault::kEngineSpeedMissing);
+  TransmissionWatchResult result;
+  for (unsigned i = 0; i < kTrackCount; ++i) {
+    result.state.pump[i] = take(
+        watch_displacement(limits, last.pump[i], sent.pump[i], task, valid.pump_ratio[i], period_s),
+        result.stops);
+    result.state.motor[i] = take(watch_displacement(limits, last.motor[i], sent.motor[i], task,
+                                                    valid.motor_ratio[i], period_s),
+                                 result.stops);
+    if (tracks_judged && track_is_off(profile, valid, i)) {
+      result.state.track_off_s[i] = last.track_off_s[i] + period_s;
+    }
+    result.tracks_disagree = result.tracks_disagree || result.state.track_off_s[i] > kTrackOff_s;
+  }
+  return result;
+}
+
+bool pumps_neutral(const DozerProfile& profile, const ValidDozerInputs& valid) {
+  return std::all_of(valid.pump_ratio.begin(), valid.pump_ratio.end(), [&profile](double ratio) {
+    return std::abs(ratio) <= profile.safety.displacement_tolerance;
+  });
+}
+
+}  // namespace graben

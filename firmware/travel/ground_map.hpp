@@ -1,0 +1,51 @@
+#pragma once
+/// What the ground is around the machine: as it was before, cut where the blade has been, and the
+/// design where it has still to go.
+
+#include <array>
+
+#include "firmware/motion/grade_profile.hpp"
+
+namespace graben {
+
+/// Heights on a grid along x. It remembers kLength_m behind the furthest place that the cutting
+/// edge has reached; nothing of it is allocated, nothing is searched.
+class GroundMap {
+ public:
+  static constexpr double kCell_m = 0.05;
+  static constexpr int kCells = 160;
+  static constexpr double kLength_m = kCells * kCell_m;
+
+  /// The machine stands with its origin at `stand_x_m`, its tracks on a line of this height there
+  /// and of this slope, and the cutting edge has come to (x, z). Every cell that the edge has
+  /// passed since is now at most as high as its way; a step back changes nothing. Where the edge is
+  /// clearly above the design it cuts nothing: what lies below is then taken for the line that the
+  /// tracks stand on. The first time, and after a jump of more than the map's length, all is that
+  /// line.
+  void pass(double edge_x_m, double edge_z_m, const GradeProfile& design, double stand_x_m,
+            double stand_z_m, double slope);
+
+  /// Ground at x: remembered behind the edge, `design` before it. Further back than it remembers,
+  /// the last that it does.
+  [[nodiscard]] double height_m(double x_m, const GradeProfile& design) const;
+
+ private:
+  /// Heights of a straight line over all cells up to the edge.
+  void start(double edge_x_m, double stand_x_m, double stand_z_m, double slope);
+  /// The last one whose middle is not beyond x.
+  [[nodiscard]] static int cell_of(double x_m);
+  [[nodiscard]] double cell(int index) const {
+    return height_m_[static_cast<unsigned>(index % kCells + kCells) % kCells];
+  }
+  void set(int index, double height_m) {
+    height_m_[static_cast<unsigned>(index % kCells + kCells) % kCells] = height_m;
+  }
+
+  std::array<double, kCells> height_m_{};
+  int front_ = 0;  ///< Last cell whose middle the edge has passed.
+  double edge_x_m_ = 0.0;
+  double edge_z_m_ = 0.0;
+  bool started_ = false;
+};
+
+}  // namespace graben

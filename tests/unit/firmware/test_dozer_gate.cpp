@@ -1,0 +1,209 @@
+#include "firmware/safety/dozer_gate.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/flip_bit.hpp"
+#include "tests/unit/firmware/plain_dozer.hpp"
+
+namespace {
+
+using namespace graben;
+
+constexpr double kLong_s = 1.0;  // Longer than any rate limit needs.
+constexpr double kStep_s = 0.0625;
+constexpr double kPumpStep = 0.25;    // 4/s
+constexpr double kMotorStep = 0.125;  // 2/s
+constexpr double kSpoolStep = 0.1953125;
+
+const DozerProfile& profile() {
+  static const DozerProfile machine = test::plain_dozer();
+  return machine;
+}
+
+DozerGateState at(double opening, double pump, double motor) {
+  DozerGateState state;
+  state.opening = opening;
+  state.pump_ratio = {Guarded(pump), Guarded(pump)};
+  state.motor_ratio = {Guarded(motor), Guarded(motor)};
+  return state;
+}
+
+DozerGateResult let(const DozerCommand& wanted, const DozerGateState& last, double period_s) {
+  return gate(profile(), last, true, wanted, period_s);
+}
+
+void assert_neutral(const DozerGateResult& result) {
+  assert_false(result.enable);
+  assert_near(result.duty_ratio, 0.0, 0.0);
+  assert_true(result.state.opening.intact());
+  assert_near(result.state.opening.value(), 0.0, 0.0);
+  for (unsigned i = 0; i < kTrackCount; ++i) {
+    assert_near(result.pump_ratio[i], 0.0, 0.0);
+    assert_near(result.motor_ratio[i], 1.0, 0.0);
+    assert_true(result.state.pump_ratio[i].intact() && result.state.motor_ratio[i].intact());
+    assert_near(result.state.pump_ratio[i].value(), 0.0, 0.0);
+    assert_near(result.state.motor_ratio[i].value(), 1.0, 0.0);
+  }
+}
+
+void what_is_wanted_goes_through(void**) {
+  const DozerGateResult result = let({-0.5, {0.75, -0.25}, {1.0, 0.5}}, {}, kLong_s);
+  assert_true(result.enable);
+  assert_int_equal(result.fault, Fault::kNone);
+  assert_near(result.duty_ratio, -0.625, 1e-12);  // 0.25 .. 1
+  assert_near(result.pump_ratio[kLeft], 0.75, 0.0);
+  assert_near(result.pump_ratio[kRight], -0.25, 0.0);
+  assert_near(result.motor_ratio[kLeft], 1.0, 0.0);
+  assert_near(result.motor_ratio[kRight], 0.5, 0.0);
+  assert_near(result.state.opening.value(), -0.5, 0.0);
+  assert_near(result.state.pump_ratio[kRight].value(), -0.25, 0.0);
+  assert_near(result.state.motor_ratio[kRight].value(), 0.5, 0.0);
+}
+
+void what_is_out_of_range_is_clamped(void**) {
+  for (const double sign : {1.0, -1.0}) {
+    const DozerGateResult result =
+        let({sign * 9.0, {sign * 9.0, -sign * 9.0}, {-9.0, 9.0}}, {}, kLong_s);
+    assert_near(result.duty_ratio, sign, 1e-12);
+    assert_near(result.pump_ratio[kLeft], sign, 0.0);
+    assert_near(result.pump_ratio[kRight], -sign, 0.0);
+    assert_near(result.motor_ratio[kLeft], 0.25, 0.0);
+    assert_near(result.motor_ratio[kRight], 1.0, 0.0);
+  }
+}
+
+void a_spool_hardly_open_stays_neutral(void**) {
+  const double threshold = profile().control.spool_threshold;
+  for (const double sign : {1.0, -1.0}) {
+    const double edge = sign * threshold;
+    assert_near(let({std::nextafter(edge, 0.0)}, {}, kLong_s).duty_ratio, 0.0, 0.0);
+    assert_near(let({edge}, {}, kLong_s).duty_ratio, sign * (0.25 + 0.75 * threshold), 1e-12);
+  }
+}
+
+void the_way_from_neutral_is_limited(void**) {
+  for (const double sign : {1.0, -1.0}) {
+    const DozerCommand all{sign, {sign, sign}, {0.25, 0.25}};
+    DozerGateState last;
+    for (int n = 1; n <= 3; ++n) {
+      last = let(all, last, kStep_s).state;
+      assert_near(last.opening.value(), sign * n * kSpoolStep, 1e-12);
+      for (unsigned i = 0; i < kTrackCount; ++i) {
+        assert_near(last.pump_ratio[i].value(), sign * n * kPumpStep, 0.0);
+        assert_near(last.motor_ratio[i].value(), 1.0 - n * kMotorStep, 0.0);
+      }
+    }
+    // No time, or a clock that ran back: not a bit further.
+    for (const double period_s : {0.0, -1.0}) {
+      const DozerGateResult still = let(all, last, period_s);
+      assert_near(still.state.opening.value(), last.opening.value(), 0.0);
+      assert_near(still.pump_ratio[kLeft], last.pump_ratio[kLeft].value(), 0.0);
+      assert_near(still.motor_ratio[kRight], last.motor_ratio[kRight].value(), 0.0);
+    }
+  }
+}
+
+/// Towards neutral everything goes at once; a reversal begins there.
+void the_way_back_is_never_delayed(void**) {
+  for (const double sign : {1.0, -1.0}) {
+    const DozerGateState fast = at(sign, sign, 0.25);
+    const DozerGateResult slower = let({0.5 * sign, {0.0, 0.5 * sign}, {0.5, 1.0}}, fast, kStep_s);
+    assert_near(slower.state.opening.value(), 0.5 * sign, 0.0);
+    assert_near(slower.pump_ratio[kLeft], 0.0, 0.0);
+    assert_near(slower.pump_ratio[kRight], 0.5 * sign, 0.0);
+    assert_near(slower.motor_ratio[kLeft], 0.5, 0.0);
+    assert_near(slower.motor_ratio[kRight], 1.0, 0.0);
+    const DozerGateResult back = let({-sign, {-sign, -0.125 * sign}, {0.25, 0.25}}, fast, kStep_s);
+    assert_near(back.state.opening.value(), -sign * kSpoolStep, 1e-12);
+    assert_near(back.pump_ratio[kLeft], -sign * kPumpStep, 0.0);
+    assert_near(back.pump_ratio[kRight], -0.125 * sign, 0.0);
+    assert_near(back.motor_ratio[kLeft], 0.25, 0.0);
+  }
+}
+
+/// Neutral knows no rate: not active stops everything in the same cycle.
+void not_active_is_neutral_at_once(void**) {
+  const DozerGateResult result =
+      gate(profile(), at(1.0, -1.0, 0.25), false, {1.0, {1.0, 1.0}, {0.25, 0.25}}, kStep_s);
+  assert_int_equal(result.fault, Fault::kNone);
+  assert_neutral(result);
+}
+
+void what_is_no_number_is_refused(void**) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {nan, infinity, -infinity}) {
+    const DozerCommand commands[] = {{bad, {0.5, 0.5}, {1.0, 1.0}},
+                                     {0.5, {bad, 0.5}, {1.0, 1.0}},
+                                     {0.5, {0.5, bad}, {1.0, 1.0}},
+                                     {0.5, {0.5, 0.5}, {bad, 1.0}},
+                                     {0.5, {0.5, 0.5}, {1.0, bad}}};
+    for (const DozerCommand& command : commands) {
+      const DozerGateResult result = let(command, at(0.5, 0.5, 0.5), kStep_s);
+      assert_int_equal(result.fault, Fault::kCommandNotFinite);
+      assert_neutral(result);
+    }
+  }
+}
+
+/// Each rate limit by itself; and the time, of which only one that is no number is none.
+void a_limit_that_is_no_number_is_refused(void**) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  double* (*const rates[])(DozerProfile&) = {
+      [](DozerProfile& wild) { return &wild.control.spool_rate_ps; },
+      [](DozerProfile& wild) { return &wild.hst.pump_rate_ps; },
+      [](DozerProfile& wild) { return &wild.hst.motor_rate_ps; }};
+  for (const auto& rate : rates) {
+    DozerProfile wild = profile();
+    *rate(wild) = infinity;
+    const DozerGateResult result = gate(wild, {}, true, {}, kStep_s);
+    assert_int_equal(result.fault, Fault::kCommandNotFinite);
+    assert_neutral(result);
+  }
+  assert_neutral(let({}, {}, infinity));
+  const DozerGateResult timeless =
+      let({1.0, {1.0, 1.0}, {0.25, 0.25}}, {}, std::numeric_limits<double>::quiet_NaN());
+  assert_true(timeless.enable);  // No time: nothing opens.
+  assert_near(timeless.pump_ratio[kLeft], 0.0, 0.0);
+  assert_near(timeless.motor_ratio[kLeft], 1.0, 0.0);
+}
+
+/// Whichever bit of whichever stored setpoint: refused in this cycle, and nothing of it is kept.
+void a_flipped_bit_is_refused(void**) {
+  for (std::size_t bit = 0; bit < 8 * sizeof(DozerGateState); ++bit) {
+    DozerGateState open = at(0.5, -0.5, 0.5);
+    test::flip_bit(open, bit);
+    const DozerGateResult result = let({1.0, {1.0, 1.0}, {0.25, 0.25}}, open, kStep_s);
+    assert_int_equal(result.fault, Fault::kMemoryCorrupt);
+    assert_neutral(result);
+  }
+}
+
+/// Neutral needs nothing of what is stored.
+void a_flipped_bit_does_not_matter_at_rest(void**) {
+  DozerGateState open;
+  test::flip_bit(open, 3);
+  const DozerGateResult result = gate(profile(), open, false, {}, kStep_s);
+  assert_int_equal(result.fault, Fault::kNone);
+  assert_neutral(result);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(what_is_wanted_goes_through),
+      cmocka_unit_test(what_is_out_of_range_is_clamped),
+      cmocka_unit_test(a_spool_hardly_open_stays_neutral),
+      cmocka_unit_test(the_way_from_neutral_is_limited),
+      cmocka_unit_test(the_way_back_is_never_delayed),
+      cmocka_unit_test(not_active_is_neutral_at_once),
+      cmocka_unit_test(what_is_no_number_is_refused),
+      cmocka_unit_test(a_limit_that_is_no_number_is_refused),
+      cmocka_unit_test(a_flipped_bit_is_refused),
+      cmocka_unit_test(a_flipped_bit_does_not_matter_at_rest),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,204 @@
+#include "firmware/safety/dozer_validation.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "firmware/kinematics/blade.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/plain_dozer.hpp"
+
+namespace {
+
+using namespace graben;
+using test::complete_dozer_inputs;
+
+constexpr TimeUs kNow = 5 * kSecondUs;
+constexpr TimeUs kStale = kNow - 50 * kMillisecondUs;
+/// Both in motion and before it.
+constexpr bool kEither[] = {false, true};
+
+const DozerProfile& profile() {
+  static const DozerProfile machine = test::plain_dozer();
+  return machine;
+}
+
+ValidDozerInputs judged(const DozerInputs& inputs, bool moving = false) {
+  return validate(inputs, profile(), {}, moving, kNow);
+}
+
+void assert_stops(Fault fault, const DozerInputs& inputs) {
+  for (const bool moving : kEither) {
+    const ValidDozerInputs valid = judged(inputs, moving);
+    assert_int_equal(valid.fault, fault);
+    assert_true(valid.faults.has(fault));
+    assert_true(valid.degraded.empty());
+  }
+}
+
+void complete_inputs_become_a_state(void**) {
+  DozerInputs inputs = complete_dozer_inputs(kNow);
+  inputs.blade_spool_ratio.value = 0.375;
+  inputs.valve_enabled.value = true;
+  inputs.track[kRight].pump_ratio.value = -0.25;
+  inputs.track[kRight].motor_ratio.value = 0.75;
+  inputs.track[kRight].speed_mps.value = -0.5;
+  for (const bool moving : kEither) {
+    const ValidDozerInputs valid = judged(inputs, moving);
+    assert_int_equal(valid.fault, Fault::kNone);
+    assert_true(valid.faults.empty() && valid.degraded.empty());
+    assert_true(valid.enable && valid.automatic && valid.valve_enabled);
+    assert_int_equal(valid.task, Task::kGrade);
+    assert_near(valid.speed_override_ratio, 1.0, 0.0);
+    assert_near(valid.blade_stroke_m, 0.5, 0.0);
+    assert_near(valid.blade_spool_ratio, 0.375, 0.0);
+    assert_near(valid.position_m, 2.0, 0.0);
+    assert_near(valid.height_m, 0.25, 0.0);
+    assert_near(valid.pitch_rad, 0.125, 0.0);
+    assert_near(valid.velocity_mps, 1.0, 0.0);
+    assert_near(valid.climb_mps, 0.0625, 0.0);
+    assert_near(valid.pitch_rate_radps, 0.03125, 0.0);
+    assert_near(valid.pump_ratio[kLeft], 0.5, 0.0);
+    assert_near(valid.pump_ratio[kRight], -0.25, 0.0);
+    assert_near(valid.motor_ratio[kLeft], 1.0, 0.0);
+    assert_near(valid.motor_ratio[kRight], 0.75, 0.0);
+    assert_near(valid.track_speed_mps[kLeft], 1.0, 0.0);
+    assert_near(valid.track_speed_mps[kRight], -0.5, 0.0);
+    assert_near(valid.engine_radps, 40.0, 0.0);
+  }
+}
+
+struct Row {
+  Signal<double>* (*signal)(DozerInputs&);
+  Fault missing;
+};
+
+constexpr Row kRequired[] = {
+    {[](DozerInputs& in) { return &in.blade_stroke_m; }, Fault::kStrokeMissing},
+    {[](DozerInputs& in) { return &in.blade_spool_ratio; }, Fault::kSpoolMissing},
+    {[](DozerInputs& in) { return &in.body.position_m; }, Fault::kPoseMissing},
+    {[](DozerInputs& in) { return &in.body.height_m; }, Fault::kPoseMissing},
+    {[](DozerInputs& in) { return &in.body.pitch_rad; }, Fault::kPoseMissing},
+    {[](DozerInputs& in) { return &in.body.velocity_mps; }, Fault::kPoseMissing},
+    {[](DozerInputs& in) { return &in.body.climb_mps; }, Fault::kPoseMissing},
+    {[](DozerInputs& in) { return &in.body.pitch_rate_radps; }, Fault::kPoseMissing},
+    {[](DozerInputs& in) { return &in.track[0].pump_ratio; }, Fault::kTransmissionMissing},
+    {[](DozerInputs& in) { return &in.track[1].pump_ratio; }, Fault::kTransmissionMissing},
+    {[](DozerInputs& in) { return &in.track[0].motor_ratio; }, Fault::kTransmissionMissing},
+    {[](DozerInputs& in) { return &in.track[1].motor_ratio; }, Fault::kTransmissionMissing},
+    {[](DozerInputs& in) { return &in.track[0].speed_mps; }, Fault::kTransmissionMissing},
+    {[](DozerInputs& in) { return &in.track[1].speed_mps; }, Fault::kTransmissionMissing},
+    {[](DozerInputs& in) { return &in.driver.speed_override_ratio; }, Fault::kOperatorMissing},
+};
+
+/// Every required signal, each in every state that is not usable, stops by its own fault.
+void each_signal_is_required(void**) {
+  for (const Row& row : kRequired) {
+    for (const Validity validity :
+         {Validity::kNotReceived, Validity::kNotAvailable, Validity::kOutOfRange}) {
+      DozerInputs inputs = complete_dozer_inputs(kNow);
+      row.signal(inputs)->validity = validity;
+      assert_stops(row.missing, inputs);
+    }
+    DozerInputs old = complete_dozer_inputs(kNow);
+    row.signal(old)->stamp_us = kNow - 45 * kMillisecondUs;
+    assert_int_equal(judged(old).fault, Fault::kNone);
+    row.signal(old)->stamp_us -= 1;
+    assert_stops(row.missing, old);
+    DozerInputs mad = complete_dozer_inputs(kNow);
+    row.signal(mad)->value = std::numeric_limits<double>::quiet_NaN();
+    assert_stops(row.missing, mad);
+  }
+}
+
+/// 'Error' stops too and is named beside the loss; 'not available' is a loss only. The operator's
+/// lever is no sensor.
+void a_sensors_own_error_is_named(void**) {
+  for (const Row& row : kRequired) {
+    DozerInputs inputs = complete_dozer_inputs(kNow);
+    row.signal(inputs)->validity = Validity::kError;
+    const ValidDozerInputs valid = judged(inputs, true);
+    assert_true(valid.faults.has(row.missing));
+    assert_int_equal(valid.faults.has(Fault::kSensorError), row.missing != Fault::kOperatorMissing);
+    assert_int_equal(valid.fault, valid.faults.first());
+    assert_true(valid.degraded.empty());
+    row.signal(inputs)->validity = Validity::kNotAvailable;
+    assert_false(judged(inputs, true).faults.has(Fault::kSensorError));
+  }
+}
+
+void the_rest_is_required_too(void**) {
+  DozerInputs echo = complete_dozer_inputs(kNow);
+  echo.valve_enabled.stamp_us = kStale;
+  echo.valve_enabled.value = true;
+  assert_stops(Fault::kSpoolMissing, echo);
+  assert_false(judged(echo).valve_enabled);
+  DozerInputs other = complete_dozer_inputs(kNow);
+  other.same_machine.value = false;
+  assert_stops(Fault::kIdentityMismatch, other);
+  DozerInputs bus = complete_dozer_inputs(kNow);
+  bus.link.bus = BusState::kOff;
+  assert_stops(Fault::kBusOff, bus);
+  DozerInputs driver = complete_dozer_inputs(kNow);
+  driver.driver.enable.stamp_us = kStale;
+  assert_stops(Fault::kOperatorMissing, driver);
+}
+
+/// Without its speed the engine is reckoned with at its slowest: less flow, less speed.
+void a_lost_engine_speed_slows_to_idle(void**) {
+  for (const bool mad : kEither) {
+    DozerInputs inputs = complete_dozer_inputs(kNow);
+    if (mad) {
+      inputs.engine_speed_radps.value = std::nextafter(60.0, 90.0);  // 1.2 of its most.
+    } else {
+      inputs.engine_speed_radps.stamp_us = kStale;
+    }
+    assert_int_equal(judged(inputs, false).fault, Fault::kEngineSpeedMissing);
+    const ValidDozerInputs moving = judged(inputs, true);
+    assert_int_equal(moving.fault, Fault::kNone);
+    assert_true(moving.degraded.has(Fault::kEngineSpeedMissing));
+    assert_near(moving.engine_radps, 20.0, 0.0);
+  }
+  DozerInputs fast = complete_dozer_inputs(kNow);
+  fast.engine_speed_radps.value = 60.0;
+  assert_true(judged(fast).faults.empty());
+}
+
+void a_stroke_beyond_the_blades_reach_is_implausible(void**) {
+  const double most_m = blade_stroke_max_m(profile().blade);
+  assert_near(most_m, std::sqrt(3.0) - 1.0, 1e-12);
+  DozerInputs inputs = complete_dozer_inputs(kNow);
+  for (const double edge_m : {most_m + kStrokeMargin_m, -kStrokeMargin_m}) {
+    inputs.blade_stroke_m.value = edge_m;
+    const ValidDozerInputs biased = judged(inputs);
+    assert_int_equal(biased.fault, Fault::kNone);
+    assert_near(biased.blade_stroke_m, edge_m > 0.0 ? most_m : 0.0, 0.0);
+    inputs.blade_stroke_m.value = std::nextafter(edge_m, 9.0 * edge_m);
+    assert_stops(Fault::kStrokeImplausible, inputs);
+  }
+}
+
+/// Steeper than any slope that a dozer works on: it stops, however it came to that.
+void a_body_on_its_side_cannot_be(void**) {
+  for (const double sign : {1.0, -1.0}) {
+    DozerInputs inputs = complete_dozer_inputs(kNow);
+    inputs.body.pitch_rad.value = sign * kMostPitch_rad;
+    assert_true(judged(inputs, true).faults.empty());
+    inputs.body.pitch_rad.value = std::nextafter(inputs.body.pitch_rad.value, sign * 9.0);
+    assert_stops(Fault::kPoseImplausible, inputs);
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(complete_inputs_become_a_state),
+      cmocka_unit_test(each_signal_is_required),
+      cmocka_unit_test(a_sensors_own_error_is_named),
+      cmocka_unit_test(the_rest_is_required_too),
+      cmocka_unit_test(a_lost_engine_speed_slows_to_idle),
+      cmocka_unit_test(a_stroke_beyond_the_blades_reach_is_implausible),
+      cmocka_unit_test(a_body_on_its_side_cannot_be),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,371 @@
+#include "firmware/safety/dozer_watch.hpp"
+
+#include <cmath>
+
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/plain_dozer.hpp"
+
+namespace {
+
+using namespace graben;
+
+constexpr double kPeriod_s = 0.0625;
+constexpr double kSlower = 0.25;    // safety.degraded_speed
+constexpr double kOpen = 0.75;      // Duty; the spool begins to open at 0.25.
+constexpr int kUnderWay = 50;       // 0.5 s for a displacement to settle, in cycles.
+constexpr int kSpoolUnderWay = 10;  // 0.1 s for the spool.
+
+/// A dozer in motion that does what it is told, 1 m/s at half the operator's speed.
+struct Machine {
+  DozerProfile profile = test::plain_dozer();
+  DozerWatchState state;
+  DozerLastCycle cycle;
+  ValidDozerInputs inputs;
+  DozerWatchResult seen;
+
+  Machine() {
+    cycle.moving = cycle.enable = true;
+    inputs.enable = inputs.automatic = inputs.valve_enabled = true;
+    inputs.task = Task::kGrade;
+    inputs.speed_override_ratio = 0.5;
+    inputs.blade_stroke_m = 0.5;
+    inputs.engine_radps = 40.0;
+    drive(0.5, 1.0);
+  }
+  /// Told and done on both tracks.
+  void drive(double pump, double motor) {
+    cycle.pump_ratio = inputs.pump_ratio = {pump, pump};
+    cycle.motor_ratio = inputs.motor_ratio = {motor, motor};
+    inputs.track_speed_mps = {2.0 * pump / motor, 2.0 * pump / motor};
+  }
+  const ValidDozerInputs& step() {
+    seen = watch(profile, state, cycle, inputs, kPeriod_s);
+    state = seen.state;
+    return seen.inputs;
+  }
+  const ValidDozerInputs& run(int count) {
+    for (int n = 0; n < count; ++n) {
+      step();
+    }
+    return seen.inputs;
+  }
+  /// Cycles until a fault, counting the one that has it; -1 if none comes.
+  int cycles_until(Fault fault) {
+    for (int n = 1; n <= 200; ++n) {
+      if (step().faults.has(fault)) {
+        return n;
+      }
+    }
+    return -1;
+  }
+};
+
+/// A machine whose operator has let go of it in motion: neutral is sent, nothing has answered yet.
+struct Released : Machine {
+  Released() {
+    cycle.blade_duty_ratio = inputs.blade_spool_ratio = kOpen;
+    run(kUnderWay);
+    const DozerLastCycle nothing;
+    cycle = nothing;
+    inputs.valve_enabled = false;
+  }
+};
+
+void assert_well(const ValidDozerInputs& inputs) {
+  assert_int_equal(inputs.fault, Fault::kNone);
+  assert_true(inputs.faults.empty());
+  assert_true(inputs.degraded.empty());
+  assert_near(inputs.speed_override_ratio, 0.5, 0.0);
+}
+
+void assert_stopped_by(Fault fault, const ValidDozerInputs& inputs) {
+  assert_int_equal(inputs.fault, fault);
+  assert_true(inputs.faults.has(fault));
+  assert_true(inputs.degraded.empty());
+}
+
+void assert_slowed_by(Fault fault, const ValidDozerInputs& inputs) {
+  assert_int_equal(inputs.fault, Fault::kNone);
+  assert_true(inputs.degraded.has(fault));
+  assert_near(inputs.speed_override_ratio, 0.5 * kSlower, 0.0);
+}
+
+void a_machine_that_obeys_is_left_alone(void**) {
+  Machine machine;
+  for (int n = 0; n < 200; ++n) {
+    machine.drive(0.5 * std::sin(0.02 * n), 1.0);
+    machine.inputs.blade_stroke_m = 0.5 + 0.01 * std::sin(0.02 * n);
+    assert_well(machine.step());
+  }
+}
+
+void the_spool_and_its_echo_stop(void**) {
+  Machine stuck;
+  stuck.run(kSpoolUnderWay);
+  stuck.inputs.blade_spool_ratio = kOpen;
+  assert_int_equal(stuck.cycles_until(Fault::kSpoolStuck), kSpoolWrongCycles);
+  assert_stopped_by(Fault::kSpoolStuck, stuck.seen.inputs);
+  // Within its tolerance it is well.
+  stuck.inputs.blade_spool_ratio = 0.125;
+  assert_well(stuck.step());
+  stuck.cycle.blade_duty_ratio = kOpen;
+  stuck.step();
+  stuck.cycle.blade_duty_ratio = 0.0;
+  stuck.inputs.blade_spool_ratio = kOpen;
+  assert_int_equal(stuck.cycles_until(Fault::kSpoolStuck), kSpoolUnderWay - 1 + kSpoolWrongCycles);
+
+  Machine deaf;
+  deaf.inputs.valve_enabled = false;
+  assert_int_equal(deaf.cycles_until(Fault::kValveNotFollowing), kEchoCycles);
+  assert_stopped_by(Fault::kValveNotFollowing, deaf.seen.inputs);
+  deaf.inputs.valve_enabled = true;
+  assert_well(deaf.step());
+}
+
+/// What is not received is not judged, and counted afresh when it is.
+void a_spool_that_is_not_seen_is_not_judged(void**) {
+  Machine machine;
+  machine.inputs.valve_enabled = false;
+  machine.inputs.blade_spool_ratio = kOpen;
+  machine.run(kSpoolWrongCycles - 1);
+  machine.inputs.faults.add(Fault::kSpoolMissing);
+  machine.inputs.fault = Fault::kSpoolMissing;
+  machine.run(50);
+  assert_false(machine.seen.inputs.faults.has(Fault::kSpoolStuck));
+  assert_false(machine.seen.inputs.faults.has(Fault::kValveNotFollowing));
+  machine.inputs.faults = {};
+  machine.inputs.fault = Fault::kNone;
+  assert_int_equal(machine.cycles_until(Fault::kSpoolStuck), kSpoolWrongCycles);
+  assert_int_equal(machine.cycles_until(Fault::kValveNotFollowing),
+                   kEchoCycles - kSpoolWrongCycles);
+}
+
+void the_blade_stops(void**) {
+  Machine moves;
+  moves.run(20);
+  moves.inputs.blade_stroke_m = 0.625;
+  assert_stopped_by(Fault::kUncommandedMotion, moves.step());
+
+  Machine stuck;
+  stuck.cycle.blade_duty_ratio = stuck.inputs.blade_spool_ratio = kOpen;
+  stuck.run(20);
+  stuck.cycle.asked_mps = 0.125;
+  assert_well(stuck.run(8));
+  assert_stopped_by(Fault::kStrokeStuck, stuck.step());
+  // Within the deadband the spool is closed, and the blade may stand.
+  Machine closed;
+  closed.cycle.blade_duty_ratio = closed.inputs.blade_spool_ratio = 0.25;
+  closed.cycle.asked_mps = 0.125;
+  assert_well(closed.run(100));
+}
+
+/// Each of the four.
+void a_displacement_that_stays_behind_stops(void**) {
+  for (unsigned track = 0; track < kTrackCount; ++track) {
+    for (const bool motor : {false, true}) {
+      Machine machine;
+      machine.run(kUnderWay);
+      (motor ? machine.cycle.motor_ratio : machine.cycle.pump_ratio)[track] = 0.75;
+      // 0.5 s are eight cycles.
+      assert_false(machine.run(8).faults.has(Fault::kDisplacementDisagrees));
+      machine.step();
+      assert_true(machine.seen.inputs.faults.has(Fault::kDisplacementDisagrees));
+      assert_false(machine.seen.inputs.faults.has(Fault::kDisplacementRunaway));
+      assert_int_equal(machine.seen.inputs.fault, Fault::kDisplacementDisagrees);
+    }
+  }
+}
+
+void a_displacement_that_runs_away_stops(void**) {
+  for (unsigned track = 0; track < kTrackCount; ++track) {
+    for (const bool motor : {false, true}) {
+      Machine machine;
+      machine.run(kUnderWay);
+      (motor ? machine.inputs.motor_ratio : machine.inputs.pump_ratio)[track] = 0.75;
+      machine.inputs.track_speed_mps[track] *= motor ? 1.0 / 0.75 : 1.5;
+      assert_int_equal(machine.cycles_until(Fault::kDisplacementRunaway), kRunawayCycles);
+      assert_stopped_by(Fault::kDisplacementRunaway, machine.seen.inputs);
+    }
+  }
+}
+
+/// 0.375 m/s for 0.3 s, either way, either track; a moment of agreement gives as much again.
+void a_track_off_its_displacements_slows(void**) {
+  for (unsigned track = 0; track < kTrackCount; ++track) {
+    for (const double sign : {1.0, -1.0}) {
+      Machine machine;
+      machine.inputs.track_speed_mps[track] = 1.0 + sign * 0.375;
+      assert_well(machine.run(50));
+      machine.inputs.track_speed_mps[track] = 1.0 + sign * 0.376;
+      for (int round = 0; round < 3; ++round) {
+        assert_well(machine.run(4));  // 0.25 s
+        machine.inputs.track_speed_mps[track] = 1.0;
+        assert_well(machine.step());
+        machine.inputs.track_speed_mps[track] = 1.0 + sign * 0.376;
+      }
+      machine.run(4);
+      assert_slowed_by(Fault::kTrackSpeedDisagrees, machine.step());
+      assert_true(machine.seen.inputs.faults.has(Fault::kTrackSpeedDisagrees));
+    }
+  }
+}
+
+/// What it ought to be follows engine and both displacements; without the engine's speed there is
+/// nothing to compare with.
+void a_tracks_speed_is_that_of_its_displacements(void**) {
+  Machine fast;
+  fast.drive(1.0, 0.5);  // 4 m/s
+  assert_well(fast.run(50));
+  fast.inputs.engine_radps = 20.0;
+  fast.inputs.track_speed_mps = {2.0, 2.0};
+  assert_well(fast.run(50));
+  fast.inputs.track_speed_mps = {4.0, 4.0};
+  fast.inputs.faults.add(Fault::kEngineSpeedMissing);
+  assert_false(fast.run(50).faults.has(Fault::kTrackSpeedDisagrees));
+  fast.inputs.faults = {};
+  assert_slowed_by(Fault::kTrackSpeedDisagrees, fast.run(5));
+}
+
+void the_first_fault_stays_the_first(void**) {
+  Machine machine;
+  machine.inputs.valve_enabled = false;
+  machine.run(kEchoCycles - 1);
+  machine.inputs.fault = Fault::kBusOff;
+  machine.inputs.faults.add(Fault::kBusOff);
+  const ValidDozerInputs& both = machine.step();
+  assert_int_equal(both.fault, Fault::kBusOff);
+  assert_true(both.faults.has(Fault::kBusOff) && both.faults.has(Fault::kValveNotFollowing));
+}
+
+/// With a fault that stops, the blade's watch begins afresh.
+void a_stopped_blade_is_not_judged(void**) {
+  Machine machine;
+  machine.run(20);
+  assert_true(machine.state.blade.since_s > 0.0);
+  machine.inputs.fault = Fault::kStrokeMissing;
+  machine.inputs.faults.add(Fault::kStrokeMissing);
+  machine.inputs.blade_stroke_m = 0.0;
+  assert_false(machine.run(20).faults.has(Fault::kUncommandedMotion));
+  assert_near(machine.state.blade.since_s, 0.0, 0.0);
+}
+
+/// Outside motion people move it: blade and transmission are theirs. The valve's echo is not.
+void not_in_motion_the_machine_is_the_operators(void**) {
+  Machine machine;
+  const DozerLastCycle nothing;
+  machine.cycle = nothing;
+  machine.inputs.valve_enabled = false;
+  for (int n = 0; n < 100; ++n) {
+    machine.inputs.blade_spool_ratio = 1.0;
+    machine.inputs.blade_stroke_m = 0.005 * n;
+    machine.inputs.pump_ratio = {0.01 * n, -0.01 * n};
+    machine.inputs.motor_ratio = {0.5, 0.25};
+    assert_well(machine.step());
+  }
+  machine.inputs.valve_enabled = true;
+  assert_int_equal(machine.cycles_until(Fault::kValveNotFollowing), kEchoCycles);
+}
+
+void a_spool_that_does_not_close_after_motion_is_stuck(void**) {
+  Released machine;
+  assert_int_equal(machine.cycles_until(Fault::kSpoolStuck),
+                   kSpoolUnderWay - 1 + kSpoolWrongCycles);
+  machine.inputs.blade_spool_ratio = 0.0;
+  machine.inputs.pump_ratio = {0.0, 0.0};
+  machine.step();
+  machine.inputs.blade_spool_ratio = kOpen;
+  assert_int_equal(machine.cycles_until(Fault::kSpoolStuck), -1);  // A hand has opened it.
+}
+
+/// The pumps have the time to settle; one that stays drives the machine.
+void a_pump_that_does_not_return_after_motion_runs_away(void**) {
+  for (unsigned track = 0; track < kTrackCount; ++track) {
+    Released machine;
+    machine.inputs.pump_ratio[1 - track] = 0.0;
+    assert_int_equal(machine.cycles_until(Fault::kDisplacementRunaway),
+                     kUnderWay - 1 + kRunawayCycles);
+    machine.inputs.pump_ratio[track] = -0.125;
+    machine.step();
+    assert_false(machine.seen.inputs.faults.has(Fault::kDisplacementRunaway));
+    machine.inputs.pump_ratio[track] = 0.5;
+    assert_int_equal(machine.cycles_until(Fault::kDisplacementRunaway), -1);
+  }
+}
+
+/// Taken over in manual mode, it is somebody's hand; an operator who is not heard has not.
+void manual_mode_takes_over(void**) {
+  Released taken;
+  taken.inputs.automatic = false;
+  assert_int_equal(taken.cycles_until(Fault::kDisplacementRunaway), -1);
+  assert_false(taken.seen.inputs.faults.has(Fault::kSpoolStuck));
+  Released unheard;
+  unheard.inputs.automatic = false;
+  unheard.inputs.faults.add(Fault::kOperatorMissing);
+  assert_true(unheard.cycles_until(Fault::kDisplacementRunaway) > 0);
+  assert_true(unheard.seen.inputs.faults.has(Fault::kSpoolStuck));
+}
+
+/// A transmission that is not seen is not judged, and has not returned either.
+void what_is_not_seen_has_not_returned(void**) {
+  Released machine;
+  machine.inputs.faults.add(Fault::kTransmissionMissing);
+  machine.inputs.pump_ratio = {0.0, 0.0};
+  assert_int_equal(machine.cycles_until(Fault::kDisplacementRunaway), -1);
+  machine.inputs.faults = {};
+  machine.inputs.pump_ratio = {0.5, 0.5};
+  assert_int_equal(machine.cycles_until(Fault::kDisplacementRunaway), kRunawayCycles);
+}
+
+/// After motion the tracks coast as they like.
+void tracks_are_judged_in_motion_only(void**) {
+  Released machine;
+  machine.inputs.track_speed_mps = {3.0, 3.0};
+  machine.run(20);
+  assert_false(machine.seen.inputs.faults.has(Fault::kTrackSpeedDisagrees));
+}
+
+void what_degraded_goes_on_for_half_a_second(void**) {
+  Machine machine;
+  machine.inputs.degraded.add(Fault::kEngineSpeedMissing);
+  assert_slowed_by(Fault::kEngineSpeedMissing, machine.step());
+  machine.inputs.degraded = {};
+  assert_slowed_by(Fault::kEngineSpeedMissing, machine.run(7));
+  assert_well(machine.step());
+}
+
+void centred_is_within_the_tolerance(void**) {
+  const DozerProfile profile = test::plain_dozer();
+  ValidDozerInputs valid;
+  for (const double sign : {1.0, -1.0}) {
+    valid.blade_spool_ratio = sign * 0.125;
+    assert_true(spool_centred(profile, valid));
+    valid.blade_spool_ratio = std::nextafter(sign * 0.125, sign * 9.0);
+    assert_false(spool_centred(profile, valid));
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_machine_that_obeys_is_left_alone),
+      cmocka_unit_test(the_spool_and_its_echo_stop),
+      cmocka_unit_test(a_spool_that_is_not_seen_is_not_judged),
+      cmocka_unit_test(the_blade_stops),
+      cmocka_unit_test(a_displacement_that_stays_behind_stops),
+      cmocka_unit_test(a_displacement_that_runs_away_stops),
+      cmocka_unit_test(a_track_off_its_displacements_slows),
+      cmocka_unit_test(a_tracks_speed_is_that_of_its_displacements),
+      cmocka_unit_test(the_first_fault_stays_the_first),
+      cmocka_unit_test(a_stopped_blade_is_not_judged),
+      cmocka_unit_test(not_in_motion_the_machine_is_the_operators),
+      cmocka_unit_test(a_spool_that_does_not_close_after_motion_is_stuck),
+      cmocka_unit_test(a_pump_that_does_not_return_after_motion_runs_away),
+      cmocka_unit_test(manual_mode_takes_over),
+      cmocka_unit_test(what_is_not_seen_has_not_returned),
+      cmocka_unit_test(tracks_are_judged_in_motion_only),
+      cmocka_unit_test(what_degraded_goes_on_for_half_a_second),
+      cmocka_unit_test(centred_is_within_the_tolerance),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
