@@ -39,7 +39,7 @@ const ImplementFlows& ImplementCircuit::solve(double engine_radps, const WavePor
   const double fed_in = protected_flow(lowers ? cap : rod, protection_, [&](const WavePort& fed) {
     return flows_.supply = supply(opening * k_in_, fed);
   });
-  const double k_out = opening * (lowers ? k_lowering_ : k_raising_);
+  const double k_out = flows_.supply / flow_max_ * (lowers ? k_lowering_ : k_raising_);
   const double drained_in =
       protected_flow(lowers ? rod : cap, protection_,
                      [&](const WavePort& drained) { return -orifice_flow(k_out, drained, kTank); });

@@ -19,8 +19,10 @@ struct ImplementFlows {
 
 /// A pressure-compensated section: its inflow is the spool's opening times the valve's largest
 /// flow, whatever the load, as long as the pump can feed that and the load is a margin below the
-/// relief; a load check keeps it from flowing back. The way out is throttled in proportion to the
-/// opening, see DozerPlantProfile. The lines between are short: no volume beside the chambers'.
+/// relief; a load check keeps it from flowing back. A brake valve in the return opens with the
+/// inflow, not with the spool: what leaves meets the same pressure at any speed, also where the
+/// pump cannot feed what the spool asks for. The lines between are short: no volume beside the
+/// chambers'.
 class ImplementCircuit {
  public:
   explicit ImplementCircuit(const DozerPlantProfile& profile);
@@ -47,8 +49,8 @@ class ImplementCircuit {
   double relief_;
   double flow_max_;
   double k_in_;        ///< Of the edges fully open.
-  double k_lowering_;  ///< Rod chamber to tank.
-  double k_raising_;   ///< Cap chamber to tank.
+  double k_lowering_;  ///< Rod chamber to tank, at the valve's largest inflow.
+  double k_raising_;   ///< Cap chamber to tank, the same.
   ImplementFlows flows_;
 };
 

@@ -70,12 +70,11 @@ struct DozerPlantProfile : HydraulicDetails {
 
   /// Pressure that the load-sensing section keeps over its in-flow edge. Of the class.
   double compensator_margin_pa = 2e6;
-  /// Pressure in the chamber that empties while the other one takes the valve's largest flow. As
-  /// the blade lowers: so narrow that its weight alone (3.5 MPa in the rod chamber, fully lowered)
-  /// moves it no faster than the pump's flow of 900 rpm does, at any opening. As it rises nothing
-  /// can run away; the throttle is there to damp.
-  double lowering_back_pressure_pa = 20e6;
-  double raising_back_pressure_pa = 8e6;
+  /// Pressure in the chamber that empties. As the blade lowers: above what its weight alone makes
+  /// there (3.5 MPa, fully lowered), so that it cannot run ahead of what is fed. As it rises: for
+  /// damping.
+  double lowering_back_pressure_pa = 6e6;
+  double raising_back_pressure_pa = 1.5e6;
   /// Relief at the blade cylinders' ports: above the implement pump's.
   double port_relief_pa = 25e6;
 
