@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <vector>
 
+#include "app/ecu/dozer_ecu.hpp"
 #include "app/ecu/excavator_ecu.hpp"
+#include "app/machines/dozer_file.hpp"
+#include "app/machines/machine_file.hpp"
+#include "can_dbc/generated/dozer_dbc.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "platform/loopback/loopback_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
@@ -19,6 +23,19 @@ struct Excavator {
   using EcuHealth = dbc::excavator::EcuHealth;
   static std::vector<std::uint32_t> commands() { return {dbc::excavator::SpoolCommand::kId}; }
   static ExcavatorProfile profile() { return plant::machine_22t().machine; }
+};
+
+struct Dozer {
+  using Ecu = ecu::DozerEcu;
+  using Stroke = dbc::dozer::BladeStroke;
+  using EcuHealth = dbc::dozer::EcuHealth;
+  static std::vector<std::uint32_t> commands() {
+    return {dbc::dozer::SpoolCommand::kId, dbc::dozer::PumpDisplacementCommand::kId,
+            dbc::dozer::MotorDisplacementCommand::kId};
+  }
+  static DozerProfile profile() {
+    return machines::load_dozer(machines::find_profile("dozer_9t")).profile;
+  }
 };
 
 constexpr TimeUs kCycleUs = 10'000;
@@ -224,15 +241,17 @@ void what_is_wrong_with_frames_reaches_the_controller(void**) {
 
 }  // namespace
 
+#define ON_BOTH(test) cmocka_unit_test(test<Excavator>), cmocka_unit_test(test<Dozer>)
+
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(the_ports_state_is_the_buss<Excavator>),
-      cmocka_unit_test(a_port_that_is_down_is_tried_every_200_ms<Excavator>),
-      cmocka_unit_test(a_port_that_comes_back_is_flushed<Excavator>),
-      cmocka_unit_test(a_short_bus_off_is_seen<Excavator>),
-      cmocka_unit_test(commands_that_are_not_taken_are_counted<Excavator>),
-      cmocka_unit_test(the_process_is_told_of<Excavator>),
-      cmocka_unit_test(what_is_wrong_with_frames_reaches_the_controller<Excavator>),
+      ON_BOTH(the_ports_state_is_the_buss),
+      ON_BOTH(a_port_that_is_down_is_tried_every_200_ms),
+      ON_BOTH(a_port_that_comes_back_is_flushed),
+      ON_BOTH(a_short_bus_off_is_seen),
+      ON_BOTH(commands_that_are_not_taken_are_counted),
+      ON_BOTH(the_process_is_told_of),
+      ON_BOTH(what_is_wrong_with_frames_reaches_the_controller),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
