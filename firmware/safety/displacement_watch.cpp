@@ -18,6 +18,8 @@ double nearer(const CommandHistory::Range& range, const DisplacementState& last,
 
 }  // namespace
 
+DisplacementState::DisplacementState(double neutral) : sent(neutral) {}
+
 DisplacementResult watch_displacement(const DisplacementLimits& limits,
                                       const DisplacementState& last, double sent,
                                       DisplacementTask task, double measured, double period_s) {

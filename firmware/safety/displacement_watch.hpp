@@ -15,7 +15,8 @@ inline constexpr int kRunawayCycles = 3;
 
 /// What the watch needs of the last cycle.
 struct DisplacementState {
-  explicit DisplacementState(double neutral) : sent(neutral) {}
+  /// As if it had been told `neutral` all the time.
+  explicit DisplacementState(double neutral);
 
   CommandHistory sent;
   bool judged = false;
