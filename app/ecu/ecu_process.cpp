@@ -59,10 +59,10 @@ struct Buses {
   std::deque<SocketCanPort> ports;
   CanPortGroup group;
 
-  explicit Buses(const std::vector<std::string>& names) {
-    const auto ids = ExcavatorReceiver::ids();
+  /// Only frames with one of the `ids` are heard.
+  Buses(const std::vector<std::string>& names, const std::vector<std::uint32_t>& ids) {
     for (const std::string& name : names) {
-      ports.emplace_back(name, std::vector<std::uint32_t>(ids.begin(), ids.end()));
+      ports.emplace_back(name, ids);
       SocketCanPort& port = ports.back();
       if (!port.open()) {
         throw std::runtime_error(port.last_error());
@@ -134,7 +134,8 @@ std::uint32_t small(std::uint64_t count) {
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(count, UINT32_MAX));
 }
 
-void cycle_until_stopped(ExcavatorEcu& ecu, CyclicClock& clock, Watchdog& watchdog, UsageMark& mark,
+template <class Ecu>
+void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, UsageMark& mark,
                          bool real_time) {
   for (int neutral_cycles = 0; neutral_cycles < kNeutralCycles;) {
     const CyclicClock::Cycle cycle = clock.wait();
@@ -155,15 +156,12 @@ void cycle_until_stopped(ExcavatorEcu& ecu, CyclicClock& clock, Watchdog& watchd
   static_cast<void>(clock.wait());
 }
 
-}  // namespace
-
-int run(const EcuOptions& options, TimeUs began_us) try {
-  const auto machine = read_profile(options.profile);
-  if (!machine) {
-    return kWrongProfile;
-  }
-  Buses buses(options.interfaces);
-  ExcavatorEcu ecu(machine->profile, machine->hash, buses.group);
+/// From the interfaces to the statistics, with the controller of one kind of machine.
+template <class Ecu, class Machine>
+int run_machine(const Machine& machine, const EcuOptions& options, TimeUs began_us) {
+  const auto ids = Ecu::Receiver::ids();
+  Buses buses(options.interfaces, {ids.begin(), ids.end()});
+  Ecu ecu(machine.profile, machine.hash, buses.group);
   CyclicClock clock(kPeriod_us);
   ServiceNotify manager(std::getenv("NOTIFY_SOCKET"));
   Watchdog watchdog(manager);
@@ -190,8 +188,15 @@ int run(const EcuOptions& options, TimeUs began_us) try {
   usage.page_faults = mark.faults();
   usage.real_time = options.real_time;
   const bool written = options.stats_file.empty() ||
-                       write_stats(options.stats_file, clock, ecu, buses.counters(), usage);
+                       write_stats(options.stats_file, clock, ecu.link(), buses.counters(), usage);
   return written ? 0 : kFailed;
+}
+
+}  // namespace
+
+int run(const EcuOptions& options, TimeUs began_us) try {
+  const auto machine = read_profile(options.profile);
+  return machine ? run_machine<ExcavatorEcu>(*machine, options, began_us) : kWrongProfile;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "graben-ecu: %s\n", error.what());
   return kFailed;

@@ -9,9 +9,8 @@ void count(std::FILE* to, const char* name, std::uint64_t value) {
   std::fprintf(to, "%s %llu\n", name, static_cast<unsigned long long>(value));
 }
 
-void print(std::FILE* to, const CyclicClock& clock, const ExcavatorEcu& ecu,
+void print(std::FILE* to, const CyclicClock& clock, const LinkCounters& link,
            const CanPortCounters& port, const Usage& usage) {
-  const LinkCounters& link = ecu.link();
   count(to, "real_time", usage.real_time ? 1 : 0);
   count(to, "start_us", static_cast<std::uint64_t>(usage.start_us));
   count(to, "cycles", clock.cycle_time().count());
@@ -39,14 +38,14 @@ void print(std::FILE* to, const CyclicClock& clock, const ExcavatorEcu& ecu,
 
 }  // namespace
 
-bool write_stats(const std::string& file, const CyclicClock& clock, const ExcavatorEcu& ecu,
+bool write_stats(const std::string& file, const CyclicClock& clock, const LinkCounters& link,
                  const CanPortCounters& port, const Usage& usage) {
   std::FILE* to = std::fopen(file.c_str(), "w");
   if (to == nullptr) {
     std::perror(("graben-ecu: " + file).c_str());
     return false;
   }
-  print(to, clock, ecu, port, usage);
+  print(to, clock, link, port, usage);
   const bool written = std::ferror(to) == 0;
   if (std::fclose(to) != 0 || !written) {
     std::perror(("graben-ecu: " + file).c_str());

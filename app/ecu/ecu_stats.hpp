@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <string>
 
-#include "app/ecu/excavator_ecu.hpp"
+#include "firmware/core/time.hpp"
+#include "hal/link_counters.hpp"
 #include "platform/linux/cyclic_clock.hpp"
 #include "platform/linux/socketcan_port.hpp"
 
@@ -21,7 +22,7 @@ struct Usage {
 
 /// Writes counters as `name value` lines, then both histograms in cyclictest's form. False, with
 /// the reason on standard error, if the file cannot be written.
-bool write_stats(const std::string& file, const CyclicClock& clock, const ExcavatorEcu& ecu,
+bool write_stats(const std::string& file, const CyclicClock& clock, const LinkCounters& link,
                  const CanPortCounters& port, const Usage& usage);
 
 }  // namespace graben::ecu

@@ -6,6 +6,7 @@
 
 #include "app/machines/axis_names.hpp"
 #include "app/machines/excavator_sections.hpp"
+#include "app/machines/shared_sections.hpp"
 #include "firmware/excavator_controller.hpp"
 
 namespace graben::machines {
@@ -19,18 +20,15 @@ constexpr Range kSpoolArea{1e-7, 1e-2, "m2"};
 CylinderGeometry read_cylinder(TomlReader& reader, const std::string& axis, bool has_eye) {
   const std::string at = axis + ".cylinder.";
   CylinderGeometry cylinder;
-  cylinder.count = reader.integer(at + "count", 1, 4);
-  cylinder.bore_m = reader.number(at + "bore", {0.02, 1.0, "m"});
-  cylinder.rod_m = reader.number(at + "rod", {0.01, 1.0, "m"});
+  const CylinderSize size = read_cylinder_size(reader, axis + ".cylinder");
+  cylinder.count = size.count;
+  cylinder.bore_m = size.bore_m;
+  cylinder.rod_m = size.rod_m;
   cylinder.closed_length_m = reader.number(at + "closed_length", kLength);
   cylinder.stroke_m = reader.number(at + "stroke", {0.05, 10.0, "m"});
   cylinder.base_m = reader.point(at + "base", kPin);
   if (has_eye) {
     cylinder.eye_m = reader.point(at + "eye", kPin);
-  }
-  if (cylinder.rod_m >= cylinder.bore_m) {
-    reader.fail(at + "rod", fmt::format("{} m; allowed: less than the bore of {} m", cylinder.rod_m,
-                                        cylinder.bore_m));
   }
   if (cylinder.stroke_m >= cylinder.closed_length_m) {
     reader.fail(at + "stroke", fmt::format("{} m; allowed: less than the closed length of {} m",
@@ -97,27 +95,6 @@ SpoolProfile read_spool(TomlReader& reader, const std::string& axis) {
   return spool;
 }
 
-/// Opening in shares of the travel, duty in per mille; both strictly increasing over the range.
-MonotoneTable read_spool_to_duty(TomlReader& reader) {
-  const std::string key = "valve.spool_to_duty";
-  const auto pairs =
-      reader.pairs(key, {0.0, 1.0, ""}, {0.0, 1000.0, "per mille"}, 2, MonotoneTable::kCapacity);
-  std::vector<double> opening;
-  std::vector<double> duty;
-  for (const auto& [x, y] : pairs) {
-    opening.push_back(x);
-    duty.push_back(y * 1e-3);
-  }
-  MonotoneTable table;
-  if (!pairs.empty() && table.fill(opening.data(), duty.data(), static_cast<int>(opening.size())) !=
-                            MonotoneTable::Fill::kOk) {
-    reader.fail(key, "must be strictly increasing in both columns");
-  } else if (!pairs.empty() && (opening.front() != 0.0 || opening.back() != 1.0)) {
-    reader.fail(key, "must run from opening 0 to opening 1");
-  }
-  return table;
-}
-
 ValveProfile read_valve(TomlReader& reader) {
   ValveProfile valve;
   valve.spool_travel_m = reader.number("valve.spool_travel", {1e-3, 0.1, "m"});
@@ -127,12 +104,12 @@ ValveProfile read_valve(TomlReader& reader) {
   for (unsigned i = 0; i < kAxisCount; ++i) {
     valve.spool[i] = read_spool(reader, kAxisNames[i]);
   }
-  valve.spool_to_duty = read_spool_to_duty(reader);
+  valve.spool_to_duty = read_spool_to_duty(reader, "valve.spool_to_duty");
   return valve;
 }
 
 ControlProfile read_control(TomlReader& reader) {
-  ControlProfile control;
+  auto control = read_control_of_valve<ControlProfile>(reader, "valve");
   control.convergence_length_m = reader.number("control.convergence_length", {0.02, 5.0, "m"});
   control.attitude_gain_ps = reader.number("control.attitude_gain", {0.0, 20.0, "1/s"});
   control.attitude_rate_max_radps =
@@ -146,18 +123,13 @@ ControlProfile read_control(TomlReader& reader) {
   control.lambda_rise.rate_ps = reader.number("control.lambda_rise", {0.1, 100.0, "1/s"});
   control.lambda_rise.reserve_n = reader.number("control.lambda_rise_reserve", {0.0, 1e5, "N"});
   control.lambda_rise.hold_share = reader.number("control.lambda_hold_share", {0.0, 1.0, ""});
-  control.spool_rate_ps = reader.number("control.spool_rate", {0.1, 1000.0, "1/s"});
-  control.spool_threshold = reader.number("control.spool_threshold", {0.0, 0.1, ""});
-  control.response_s = reader.number("control.response", {0.001, 1.0, "s"});
   control.servo_gain_ps = reader.number("control.servo_gain", {0.0, 20.0, "1/s"});
   control.servo_most_m = reader.number("control.servo_most", {0.0, 0.2, "m"});
   control.servo_least_lambda = reader.number("control.servo_least_lambda", {0.01, 1.0, ""});
   control.servo_frequency_hz = reader.number("control.servo_frequency", {0.2, 100.0, "Hz"});
   control.servo_damping = reader.number("control.servo_damping", {0.1, 10.0, ""});
   control.pressure_filter_s = reader.number("control.pressure_filter", {0.0, 2.0, "s"});
-  control.dead_time_s = reader.number("valve.dead_time", {0.0, 0.5, "s"});
   control.slow_error_m = reader.number("control.slow_error", {1e-3, 10.0, "m"});
-  control.sensor_timeout_s = reader.number("control.sensor_timeout", {0.02, 0.05, "s"});
   if (control.approach_outer_m <= control.approach_inner_m) {
     reader.fail("control.approach_outer",
                 fmt::format("{} m; allowed: more than approach_inner, {} m",
@@ -167,13 +139,7 @@ ControlProfile read_control(TomlReader& reader) {
 }
 
 SafetyProfile read_safety(TomlReader& reader) {
-  SafetyProfile safety;
-  safety.degraded_speed_ratio = reader.number("safety.degraded_speed", {0.05, 1.0, ""});
-  safety.idle_radps = reader.number("safety.idle", {20.0, 400.0, "rad/s"});
-  safety.settle_s = reader.number("safety.settle", {0.01, 0.3, "s"});
-  safety.spool_tolerance = reader.number("safety.spool_tolerance", {0.01, 0.5, ""});
-  safety.uncommanded_m = reader.number("safety.uncommanded", {0.005, 0.5, "m"});
-  safety.stuck_m = reader.number("safety.stuck", {0.005, 0.5, "m"});
+  auto safety = read_safety_of_valve<SafetyProfile>(reader);
   safety.swash_tolerance = reader.number("safety.swash_tolerance", {0.01, 0.5, ""});
   safety.pressure_rail_pa = reader.number("sensors.pressure_range", {1e6, 1e8, "Pa"});
   return safety;

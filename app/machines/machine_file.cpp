@@ -2,32 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "app/machines/excavator_sections.hpp"
+#include "app/machines/profile_document.hpp"
 
 namespace graben::machines {
-namespace {
-
-std::uint32_t fnv1a(const std::string& bytes) {
-  std::uint32_t hash = 2166136261u;
-  for (const char byte : bytes) {
-    hash = (hash ^ static_cast<unsigned char>(byte)) * 16777619u;
-  }
-  return hash;
-}
-
-std::string read_file(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (!stream || !(text << stream.rdbuf())) {
-    throw std::runtime_error(fmt::format("{}: can't be read", file.string()));
-  }
-  return text.str();
-}
-
-}  // namespace
 
 ProfileError::ProfileError(const std::string& file, std::vector<std::string> errors)
     : std::runtime_error(fmt::format("{}: {} error{}:\n  {}", file, errors.size(),
@@ -53,33 +31,13 @@ std::filesystem::path find_profile(const std::string& name,
 }
 
 ExcavatorMachine load_excavator(const std::filesystem::path& file) {
-  const std::string text = read_file(file);
-  toml::table document;
-  try {
-    document = toml::parse(text, file.string());
-  } catch (const toml::parse_error& error) {
-    throw ProfileError(file.string(),
-                       {fmt::format("line {}, column {}: {}", error.source().begin.line,
-                                    error.source().begin.column, error.description())});
-  }
-  TomlReader reader(document);
-  // So far the one kind; another one's keys would only pile up errors.
-  static_cast<void>(reader.choice("kind", {"excavator"}));
-  if (!reader.errors().empty()) {
-    throw ProfileError(file.string(), reader.errors());
-  }
-  ExcavatorMachine machine;
-  machine.name = file.stem().string();
-  machine.hash = fnv1a(text);
-  machine.profile = read_controller_sections(reader);
-  machine.plant = read_plant_sections(reader, machine.profile);
-  machine.experiment = read_experiment_sections(reader, machine.profile.dig_path);
-  check_across_keys(reader, machine.profile, machine.experiment.air.path);
-  reader.refuse_unknown_keys();
-  if (!reader.errors().empty()) {
-    throw ProfileError(file.string(), reader.errors());
-  }
-  return machine;
+  return load_machine<ExcavatorMachine>(
+      file, MachineKind::kExcavator, [](TomlReader& reader, ExcavatorMachine& machine) {
+        machine.profile = read_controller_sections(reader);
+        machine.plant = read_plant_sections(reader, machine.profile);
+        machine.experiment = read_experiment_sections(reader, machine.profile.dig_path);
+        check_across_keys(reader, machine.profile, machine.experiment.air.path);
+      });
 }
 
 }  // namespace graben::machines

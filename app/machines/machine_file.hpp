@@ -41,6 +41,12 @@ struct ExcavatorMachine {
 /// The same among the profiles of this source tree: for the tool and the tests, which stay in it.
 [[nodiscard]] std::filesystem::path find_profile(const std::string& name);
 
+enum class MachineKind { kExcavator, kDozer };
+
+/// Which kind of machine a profile describes; reads no more of it. Throws ProfileError if its
+/// `kind` is missing or none of these.
+[[nodiscard]] MachineKind profile_kind(const std::filesystem::path& file);
+
 /// Reads and checks an excavator's profile. Throws ProfileError with every error found.
 [[nodiscard]] ExcavatorMachine load_excavator(const std::filesystem::path& file);
 

@@ -3,6 +3,7 @@
 
 #include "app/machines/axis_names.hpp"
 #include "app/machines/excavator_sections.hpp"
+#include "app/machines/shared_sections.hpp"
 
 namespace graben::machines {
 namespace {
@@ -42,10 +43,7 @@ plant::PlantProfile read_plant_sections(TomlReader& reader, const ExcavatorProfi
     plant.dead_volume_m3[i] = dead_volume[i];
   }
   plant.line_volume_m3.fill(reader.number("valve.line_volume", {1e-5, 1.0, "m3"}));
-  plant.spool_time_constant_s = reader.number("valve.time_constant", {0.001, 1.0, "s"});
-  plant.spool_damping = reader.number("valve.damping", {0.1, 10.0, ""});
-  plant.deadband_ratio = reader.number("valve.deadband", {0.0, 0.9, ""});
-  plant.bulk_modulus_pa = reader.number("valve.bulk_modulus", {1e8, 1e11, "Pa"});
+  read_valve_of_plant(reader, "valve", plant);
   plant.port_relief_pa = reader.number("valve.port_relief", {1e6, 1e8, "Pa"});
   plant.swash_ratio = nominal.dig_swash_ratio;
   plant.dead_time_s.fill(nominal.control.dead_time_s);

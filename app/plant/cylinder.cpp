@@ -9,28 +9,30 @@ constexpr double kQuarterPi = 0.7853981633974483;
 
 }  // namespace
 
-Cylinder::Cylinder(const PlantProfile& profile, int axis)
-    : cap_(2, profile.oil(), profile.step_s()),
-      rod_(2, profile.oil(), profile.step_s()),
-      step_(profile.step_s()),
-      leak_(profile.piston_leak_m3pspa),
-      boiling_(profile.boiling_pa),
-      back_pressure_(profile.start_back_pressure_pa),
-      stop_stiffness_(profile.end_stop_stiffness_npm),
-      stop_damping_(profile.end_stop_damping_nspm) {
-  const auto index = static_cast<std::size_t>(axis);
-  const CylinderGeometry& data = profile.machine.geometry.cylinder[index];
-  const double bore_square = data.bore_m * data.bore_m;
-  cap_area_ = data.count * kQuarterPi * bore_square;
-  rod_area_ = data.count * kQuarterPi * (bore_square - data.rod_m * data.rod_m);
-  full_stroke_ = data.stroke_m;
-  dead_volume_ = profile.dead_volume_m3[index];
-  friction_ = profile.friction[index];
-  cushion_length_ = profile.cushion_length_m;
-  cushion_end_ = profile.cushion_end_m;
-  const auto cushion = [&profile](double area_m2) {
-    const double flow = area_m2 * profile.cushion_speed_mps;
-    return profile.cushion_pressure_pa / (flow * flow);
+PistonAreas piston_areas(int count, double bore_m, double rod_m) {
+  const double bore_square = bore_m * bore_m;
+  return {count * kQuarterPi * bore_square, count * kQuarterPi * (bore_square - rod_m * rod_m)};
+}
+
+Cylinder::Cylinder(const CylinderData& data, double step_s)
+    : cap_(2, {data.bulk_modulus_pa, data.details.boiling_pa}, step_s),
+      rod_(2, {data.bulk_modulus_pa, data.details.boiling_pa}, step_s),
+      cap_area_(data.area.cap_m2),
+      rod_area_(data.area.rod_m2),
+      step_(step_s),
+      full_stroke_(data.stroke_m),
+      dead_volume_(data.dead_volume_m3),
+      leak_(data.details.piston_leak_m3pspa),
+      boiling_(data.details.boiling_pa),
+      back_pressure_(data.details.start_back_pressure_pa),
+      friction_(data.friction),
+      cushion_length_(data.cushion.length_m),
+      cushion_end_(data.cushion.end_m),
+      stop_stiffness_(data.details.end_stop_stiffness_npm),
+      stop_damping_(data.details.end_stop_damping_nspm) {
+  const auto cushion = [&data](double area_m2) {
+    const double flow = area_m2 * data.cushion.speed_mps;
+    return data.cushion.pressure_pa / (flow * flow);
   };
   cap_cushion_ = cushion(cap_area_);
   rod_cushion_ = cushion(rod_area_);

@@ -3,10 +3,43 @@
 
 #include <algorithm>
 
-#include "app/plant/plant_profile.hpp"
+#include "app/plant/hydraulic_details.hpp"
+#include "app/plant/oil.hpp"
 #include "app/plant/wave_volume.hpp"
 
 namespace graben::plant {
+
+/// Of one cylinder axis, parallel cylinders together.
+struct PistonFriction {
+  double coulomb_n = 0.0;
+  double viscous_nspm = 0.0;
+};
+
+/// Of parallel cylinders together, m^2.
+struct PistonAreas {
+  double cap_m2 = 0.0;
+  double rod_m2 = 0.0;
+};
+[[nodiscard]] PistonAreas piston_areas(int count, double bore_m, double rod_m);
+
+/// Over the last `length_m` of the stroke; at half of it a piston of `speed_mps` meets
+/// `pressure_pa`. Without length none.
+struct CushionData {
+  double length_m = 0.0;
+  double end_m = 0.0;  ///< What stays of the length to compute with at the very end.
+  double speed_mps = 1.0;
+  double pressure_pa = 0.0;
+};
+
+struct CylinderData {
+  PistonAreas area;
+  double stroke_m = 0.0;
+  double dead_volume_m3 = 0.0;  ///< Each chamber, with hose.
+  double bulk_modulus_pa = 0.0;
+  PistonFriction friction;
+  CushionData cushion;
+  HydraulicDetails details;
+};
 
 /// What the piston gives to the mechanism over one step; extension is positive. The force is
 /// `force_n - damping_nspm * mean velocity of the step`, and Coulomb friction up to `coulomb_n`
@@ -32,7 +65,7 @@ struct PistonPower {
 /// minutes). The end stops are springs, damped on the way in.
 class Cylinder {
  public:
-  Cylinder(const PlantProfile& profile, int axis);
+  Cylinder(const CylinderData& data, double step_s);
 
   /// Starts at rest with chamber pressures that carry the force (N, extension positive); the
   /// chamber that need not carry has the start back pressure.

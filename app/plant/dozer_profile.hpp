@@ -4,6 +4,9 @@
 
 #include <cstdint>
 
+#include "app/plant/cylinder.hpp"
+#include "app/plant/hydraulic_details.hpp"
+#include "app/plant/spool.hpp"
 #include "firmware/core/time.hpp"
 #include "firmware/machine/dozer_profile.hpp"
 
@@ -29,7 +32,7 @@ struct GroundProfile {
   double rolling_resistance = 0.0;  ///< Of the load.
 };
 
-struct DozerPlantProfile {
+struct DozerPlantProfile : HydraulicDetails {
   /// Geometry, displacements, ratios: the plant reads these numbers, and none of the functions that
   /// the controller has for them.
   DozerProfile machine;
@@ -63,8 +66,46 @@ struct DozerPlantProfile {
   bool sensor_errors = false;  ///< Without: resolution only.
   double start_position_m = 0.0;
 
+  // No source gives the figures below; each default says why it is what it is.
+
+  /// Pressure that the load-sensing section keeps over its in-flow edge. Of the class.
+  double compensator_margin_pa = 2e6;
+  /// Pressure in the chamber that empties while the other one takes the valve's largest flow. As
+  /// the blade lowers: so narrow that its weight alone (3.5 MPa in the rod chamber, fully lowered)
+  /// moves it no faster than the pump's flow of 900 rpm does, at any opening. As it rises nothing
+  /// can run away; the throttle is there to damp.
+  double lowering_back_pressure_pa = 20e6;
+  double raising_back_pressure_pa = 8e6;
+  /// Relief at the blade cylinders' ports: above the implement pump's.
+  double port_relief_pa = 25e6;
+
+  /// Pressure over pump or motor at which the profile's volumetric efficiencies hold: that of work.
+  double hst_work_pa = 15e6;
+  /// Share of the volumetric losses that goes with speed alone (a displacement derived from tests
+  /// is smaller than the geometric one); the rest is laminar leakage. So on the level, at 1 - 3
+  /// MPa, the tracks run 3 - 4 % faster than at work.
+  double hst_constant_loss_share = 0.6;
+  /// A displacement's largest rate over the one that the controller counts on.
+  double displacement_rate_margin = 1.25;
+  /// Of each parking brake, at the sprocket: above what the motor gives at its relief pressure.
+  double brake_nm = 60e3;
+
+  /// Damping of the shear of ground and track, each track: 0.8 of what is critical for the machine
+  /// on its sheared ground, as soil gives hardly anything back.
+  double shear_damping_nspm = 1e5;
+  /// Below it the rolling resistance goes to 0 with the speed.
+  double rolling_onset_mps = 0.02;
+  /// Half the length of track that one wheel presses on the ground.
+  double wheel_half_width_m = 0.1;
+  double terrain_cell_m = 0.02;
+
   TimeUs step_us = 500;
 
+  [[nodiscard]] SpoolDynamics spool_dynamics() const {
+    return {spool_time_constant_s, spool_damping, deadband_ratio, 1.0, 1.0};
+  }
+  /// Both cylinders together; the stroke comes from the blade's reach.
+  [[nodiscard]] CylinderData blade_cylinder(double stroke_m) const;
   [[nodiscard]] double step_s() const { return 1e-6 * static_cast<double>(step_us); }
 };
 

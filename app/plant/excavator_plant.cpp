@@ -23,13 +23,15 @@ ExcavatorPlant::ExcavatorPlant(const PlantProfile& profile, const AxisArray& sta
             PumpLine(profile, 1, sections_on(profile, 1))},
       section_{ValveSection(profile, kBoom), ValveSection(profile, kArm),
                ValveSection(profile, kBucket)},
-      cylinder_{Cylinder(profile, kBoom), Cylinder(profile, kArm), Cylinder(profile, kBucket)},
+      cylinder_{Cylinder(profile.cylinder(kBoom), step_s_),
+                Cylinder(profile.cylinder(kArm), step_s_),
+                Cylinder(profile.cylinder(kBucket), step_s_)},
       links_(profile),
+      pilot_{PilotValve(profile.dead_time_s[kBoom], step_s_),
+             PilotValve(profile.dead_time_s[kArm], step_s_),
+             PilotValve(profile.dead_time_s[kBucket], step_s_)},
       wanted_swash_(profile.swash_ratio),
-      swash_share_(-std::expm1(-step_s_ / profile.swash_time_constant_s)),
-      dead_time_{DeadTime(profile.dead_time_s[kBoom], step_s_),
-                 DeadTime(profile.dead_time_s[kArm], step_s_),
-                 DeadTime(profile.dead_time_s[kBucket], step_s_)} {
+      swash_share_(-std::expm1(-step_s_ / profile.swash_time_constant_s)) {
   std::array<std::size_t, kPumpCount> next_place{};
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     pump_of_[i] = static_cast<std::size_t>(profile.machine.valve.spool[i].pump);
@@ -101,14 +103,6 @@ SectionPorts ExcavatorPlant::ports_of(std::size_t axis) const {
           cylinder.rod_cushion_pas2pm6()};
 }
 
-double ExcavatorPlant::spool_target(std::size_t axis, double duty_ratio) const {
-  const PilotFault& pilot = pilot_[axis];
-  if (pilot_cut_) {
-    return 0.0;
-  }
-  return pilot.held_ratio ? *pilot.held_ratio : duty_ratio + pilot.offset_ratio;
-}
-
 void ExcavatorPlant::move_swash() {
   for (std::size_t i = 0; i < kPumpCount; ++i) {
     const double missing = wanted_swash_[i] - pump_[i].swash_ratio();
@@ -123,7 +117,7 @@ void ExcavatorPlant::step() {
   move_swash();
   std::array<PistonLoad, kAxisCount> load;
   for (std::size_t i = 0; i < kAxisCount; ++i) {
-    section_[i].set_command(spool_target(i, dead_time_[i].step(duty_[i])));
+    section_[i].set_command(pilot_[i].step(duty_[i], pilot_cut_));
     PumpLine& pump = pump_[pump_of_[i]];
     const SectionPorts ports = ports_of(i);
     flows_[i] = section_[i].solve(ports);

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "app/plant/cylinder.hpp"
-#include "app/plant/dead_time.hpp"
 #include "app/plant/energy_account.hpp"
 #include "app/plant/linkage_dynamics.hpp"
+#include "app/plant/pilot_valve.hpp"
 #include "app/plant/plant_profile.hpp"
 #include "app/plant/pump_line.hpp"
 #include "app/plant/valve_section.hpp"
@@ -46,7 +46,7 @@ class ExcavatorPlant {
   /// A pilot valve that sends its spool to `held_ratio` whatever the duty, or `offset_ratio` beyond
   /// what the duty asks for.
   void set_pilot_fault(std::size_t axis, std::optional<double> held_ratio, double offset_ratio) {
-    pilot_[axis] = {held_ratio, offset_ratio};
+    pilot_[axis].set_fault(held_ratio, offset_ratio);
   }
   /// Force on the bucket tip beside soil and obstacle, N, x forward and y up, until changed.
   void set_tip_force(const Eigen::Vector2d& force_n) { outer_force_n_ = force_n; }
@@ -94,13 +94,6 @@ class ExcavatorPlant {
   void set_bypasses();
   void push_tip();
   void move_swash();
-  /// Where a spool is sent; `duty_ratio` is the duty that has got through its dead time.
-  [[nodiscard]] double spool_target(std::size_t axis, double duty_ratio) const;
-
-  struct PilotFault {
-    std::optional<double> held_ratio;
-    double offset_ratio = 0.0;
-  };
 
   PlantProfile profile_;
   double step_s_;
@@ -114,11 +107,10 @@ class ExcavatorPlant {
   std::array<Cylinder, kAxisCount> cylinder_;
   LinkageDynamics links_;
   AxisArray duty_{};
-  std::array<PilotFault, kAxisCount> pilot_;
+  std::array<PilotValve, kAxisCount> pilot_;
   bool pilot_cut_ = false;
   PumpArray wanted_swash_;
   double swash_share_;  ///< Of the way to the wanted swash, in a step.
-  std::array<DeadTime, kAxisCount> dead_time_;
   std::optional<Soil> soil_;
   std::optional<Obstacle> obstacle_;
   Eigen::Vector2d outer_force_n_ = Eigen::Vector2d::Zero();

@@ -8,10 +8,12 @@
 #include <cstdint>
 #include <optional>
 
+#include "app/plant/cylinder.hpp"
+#include "app/plant/hydraulic_details.hpp"
 #include "app/plant/obstacle.hpp"
 #include "app/plant/oil.hpp"
-#include "app/plant/orifice.hpp"
 #include "app/plant/soil.hpp"
+#include "app/plant/spool.hpp"
 #include "firmware/core/time.hpp"
 #include "firmware/machine/excavator_profile.hpp"
 
@@ -24,12 +26,6 @@ struct LinkBody {
   Eigen::Vector2d mass_centre_m = Eigen::Vector2d::Zero();  ///< Link frame, x from pin to pin.
 };
 
-/// Of one cylinder axis, parallel cylinders together.
-struct PistonFriction {
-  double coulomb_n = 0.0;
-  double viscous_nspm = 0.0;
-};
-
 /// Kim 5. Ratios are of `pressure_range_pa`.
 struct SensorErrors {
   double stroke_resolution_m = 0.0;
@@ -39,7 +35,7 @@ struct SensorErrors {
   double pressure_noise_ratio = 0.0;
 };
 
-struct PlantProfile {
+struct PlantProfile : HydraulicDetails {
   /// Geometry, valve areas, regeneration, pumps: the plant reads these numbers, and none of the
   /// functions that the controller has for them.
   ExcavatorProfile machine;
@@ -73,24 +69,11 @@ struct PlantProfile {
   /// to 0.3 s over their whole range.
   double swash_time_constant_s = 0.1;
 
-  /// Laminar leakage past the piston, m^3/(s Pa). 2e-14 is 12 mL/min at 10 MPa: the boom sinks by
-  /// about 3 mm in 5 min, within the 5 - 20 mm that makers of the class allow.
-  double piston_leak_m3pspa = 2e-14;
-  /// Slope of every relief valve above its opening pressure, Pa s/m^3: 1.2 MPa at 138 L/min.
-  double relief_override_paspm3 = 5e8;
-  /// Slope of the make-up checks from tank, Pa s/m^3: 0.02 MPa below ambient at 400 L/min, so that
-  /// the oil does not boil.
-  double makeup_paspm3 = 3e6;
-  /// Where the oil boils: 0 absolute, its vapour pressure left off. Dissolved air, which comes out
-  /// earlier, is not simulated.
-  double boiling_pa = -0.1e6;
   /// Travel, in units of the full travel, over which a spool's bypass goes from open to closed; it
   /// ends at the deadband's edge, where the metering edges begin to open: so (20), with the
   /// deadband collapsed, holds wherever the cylinder can move. (20) itself switches; a land edge
   /// takes some way.
   double bypass_closing_travel = 0.1;
-  /// Pressure of the unloaded chambers at the start.
-  double start_back_pressure_pa = 0.5e6;
   /// Hose between valve and cylinder, laminar and turbulent share of its pressure drop: 0.1 and 0.3
   /// MPa at 200 L/min. Chosen; some 3 m of 25 mm hose with its fittings.
   double hose_linear_paspm3 = 3e7;
@@ -104,19 +87,16 @@ struct PlantProfile {
   double cushion_pressure_pa = 15e6;
   /// What stays of the cushion's length to compute with at the very end, where it would be shut.
   double cushion_end_m = 1e-3;
-  /// Contact at the stroke's ends: full system pressure on a boom cap side (0.8 MN) presses in by
-  /// 0.4 mm. Damping acts on the way in only; about critical for the boom's 5e4 kg at its cylinder.
-  double end_stop_stiffness_npm = 2e9;
-  double end_stop_damping_nspm = 1e7;
-
   /// Fixed step of the simulation. Stable at any length (transmission-line elements); the length
   /// decides accuracy only, see `ExcavatorPlant`.
   TimeUs step_us = 200;
 
-  [[nodiscard]] PortProtection protection(double relief_pa) const {
-    return {relief_pa, relief_override_paspm3, makeup_paspm3, boiling_pa};
-  }
   [[nodiscard]] Oil oil() const { return {bulk_modulus_pa, boiling_pa}; }
+  [[nodiscard]] SpoolDynamics spool_dynamics() const {
+    return {spool_time_constant_s, spool_damping, deadband_ratio, machine.valve.opening_exponent,
+            bypass_closing_travel};
+  }
+  [[nodiscard]] CylinderData cylinder(int axis) const;
   [[nodiscard]] double step_s() const { return 1e-6 * static_cast<double>(step_us); }
 };
 

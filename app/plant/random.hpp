@@ -17,6 +17,8 @@ enum class Draw : std::uint32_t {
   kSoil,
   kDeadTime,
   kStart,
+  kPoseNoise,
+  kTrackNoise,
 };
 
 class Random {

@@ -12,12 +12,12 @@ constexpr double kArrivedSpeedPs = 1e-7;
 
 }  // namespace
 
-Spool::Spool(const PlantProfile& profile)
-    : natural_frequency_radps_(1.0 / profile.spool_time_constant_s),
-      damping_(profile.spool_damping),
-      deadband_(profile.deadband_ratio),
-      exponent_(profile.machine.valve.opening_exponent),
-      bypass_closing_(profile.bypass_closing_travel) {}
+Spool::Spool(const SpoolDynamics& dynamics)
+    : natural_frequency_radps_(1.0 / dynamics.time_constant_s),
+      damping_(dynamics.damping),
+      deadband_(dynamics.deadband_ratio),
+      exponent_(dynamics.opening_exponent),
+      bypass_closing_(dynamics.bypass_closing_travel) {}
 
 void Spool::set_command(double travel_ratio) { command_ = std::clamp(travel_ratio, -1.0, 1.0); }
 

@@ -1,16 +1,22 @@
 #pragma once
 /// A spool's travel and what it opens.
 
-#include "app/plant/plant_profile.hpp"
-
 namespace graben::plant {
+
+struct SpoolDynamics {
+  double time_constant_s = 0.0;  ///< 1 / natural frequency.
+  double damping = 1.0;
+  double deadband_ratio = 0.0;  ///< Of the full travel, each side.
+  double opening_exponent = 1.0;
+  double bypass_closing_travel = 1.0;  ///< See PlantProfile.
+};
 
 /// Second-order lag from duty to travel with mechanical limits at full travel (Kim 5). Travel is in
 /// units of the full travel x_m, -1 .. 1, positive extends the cylinder. Integrated by the
 /// trapezoidal rule, stable at any step.
 class Spool {
  public:
-  explicit Spool(const PlantProfile& profile);
+  explicit Spool(const SpoolDynamics& dynamics);
 
   void set_command(double travel_ratio);
   /// Returns whether the spool moved.

@@ -57,7 +57,7 @@ ReturnFlow solve_gallery(double k_out, double k_drain, double k_check, const Wav
 }
 
 ValveSection::ValveSection(const PlantProfile& profile, int axis)
-    : spool_(profile), protection_(profile.protection(profile.port_relief_pa)) {
+    : spool_(profile.spool_dynamics()), protection_(profile.protection(profile.port_relief_pa)) {
   const ValveProfile& valve = profile.machine.valve;
   const SpoolProfile& spool = valve.spool[static_cast<std::size_t>(axis)];
   const auto coefficient = [&valve](double area_m2) {

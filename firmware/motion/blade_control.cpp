@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/hydraulics/implement_flow.hpp"
+
 namespace graben {
 namespace {
 
@@ -46,10 +48,6 @@ BladeCommand control_blade(const DozerProfile& profile, const BladeKinematics& b
   command.state = last;
   const Eigen::Vector3d edge_m = edge_in_world_m(blade, now.body, now.angle_rad);
   command.error_m = grade_error_m(design, edge_m.x(), edge_m.z());
-  command.state.integral_mps =
-      std::clamp(last.integral_mps + control.blade_integral_ps2 * command.error_m * period_s,
-                 -control.blade_integral_most_mps, control.blade_integral_most_mps);
-
   const Vector6d carried = body_jacobian(blade, now.body, now.angle_rad) * now.body_velocity;
   follow_body(last, carried[2], period_s, command.state);
   const double stroke_rate = blade.stroke_rate_mprad(now.angle_rad);
@@ -57,13 +55,19 @@ BladeCommand control_blade(const DozerProfile& profile, const BladeKinematics& b
       stroke_rate * joint_rate_radps(blade, now.body, now.angle_rad, now.body_velocity,
                                      normal_of(design.at(edge_m.x())), 0.0);
   const Eigen::Vector3d normal = normal_of(design.at(edge_m.x() + carried[0] * ahead_s));
-  const double wanted_mps = -control.blade_gain_ps * command.error_m - command.state.integral_mps -
+  const double wanted_mps = -control.blade_gain_ps * command.error_m - last.integral_mps -
                             normal.z() * command.state.carried_rate_mps2 * ahead_s;
   command.velocity_mps =
       capped_at_ends(blade, now.angle_rad,
                      stroke_rate * joint_rate_radps(blade, now.body, now.angle_rad,
                                                     now.body_velocity, normal, wanted_mps),
                      command.at_end);
+  const bool fed = inflow_m3ps(profile.blade, command.velocity_mps) <= now.available_flow_m3ps;
+  if (fed && !command.at_end) {
+    command.state.integral_mps =
+        std::clamp(last.integral_mps + control.blade_integral_ps2 * command.error_m * period_s,
+                   -control.blade_integral_most_mps, control.blade_integral_most_mps);
+  }
   return command;
 }
 

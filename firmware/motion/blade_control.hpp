@@ -19,6 +19,7 @@ struct BladeSituation {
   BodyPose body;
   Vector6d body_velocity = Vector6d::Zero();  ///< x_V-dot.
   double angle_rad = 0.0;                     ///< theta_1
+  double available_flow_m3ps = 0.0;
 };
 
 struct BladeCommand {
@@ -31,7 +32,8 @@ struct BladeCommand {
 
 /// (5) with the velocity along the grade's normal that takes the error back, then (6). Both what
 /// the body does and what the design asks for are taken as they will be when the cylinders answer,
-/// `response_s` and the dead time later. Towards the ends of the blade's reach the cylinders slow
+/// `response_s` and the dead time later. The integral stands still while the pump can give no more.
+/// Towards the ends of the blade's reach the cylinders slow
 /// down. `last` is that of a cycle ago; a default one where there was none.
 [[nodiscard]] BladeCommand control_blade(const DozerProfile& profile, const BladeKinematics& blade,
                                          const GradeProfile& design, const BladeState& last,

@@ -4,50 +4,56 @@
 #include <cmath>
 
 namespace graben {
+namespace {
+/// Above the design by more than control and sensors ever leave it.
+constexpr double kInAir_m = 0.08;
+}  // namespace
 
 int GroundMap::cell_of(double x_m) {
   // Beyond what a grid of int can count nothing drives; not finite is no place.
   constexpr double kFurthest_m = 1e6;
   const double x = std::isfinite(x_m) ? std::clamp(x_m, -kFurthest_m, kFurthest_m) : 0.0;
-  return static_cast<int>(std::floor(x / kCell_m));
+  return static_cast<int>(std::floor(x / kCell_m - 0.5));
 }
 
-void GroundMap::start(double edge_x_m, double track_x_m, double track_z_m, double slope) {
+void GroundMap::start(double edge_x_m, double stand_x_m, double stand_z_m, double slope) {
   front_ = cell_of(edge_x_m);
   for (int i = 0; i < kCells; ++i) {
     const int index = front_ - i;
-    set(index, track_z_m + slope * ((index + 0.5) * kCell_m - track_x_m));
+    set(index, stand_z_m + slope * ((index + 0.5) * kCell_m - stand_x_m));
   }
   edge_x_m_ = edge_x_m;
-  edge_z_m_ = track_z_m + slope * (edge_x_m - track_x_m);
+  edge_z_m_ = stand_z_m + slope * (edge_x_m - stand_x_m);
   started_ = true;
 }
 
-void GroundMap::pass(double edge_x_m, double edge_z_m) {
+void GroundMap::pass(double edge_x_m, double edge_z_m, const GradeProfile& design, double stand_x_m,
+                     double stand_z_m, double slope) {
   const int reached = cell_of(edge_x_m);
   if (!started_ || reached - front_ >= kCells || front_ - reached >= kCells) {
-    start(edge_x_m, edge_x_m, edge_z_m, 0.0);
-    return;
+    start(edge_x_m, stand_x_m, stand_z_m, slope);
   }
-  if (edge_x_m <= edge_x_m_) {
-    edge_x_m_ = edge_x_m;
-    edge_z_m_ = edge_z_m;
-    return;
+  const bool in_air = edge_z_m > design.at(edge_x_m).height_m + kInAir_m;
+  const double line_z_m = stand_z_m + slope * (edge_x_m - stand_x_m);
+  const double ground_z_m = in_air ? std::min(edge_z_m, line_z_m) : edge_z_m;
+  if (edge_x_m > edge_x_m_) {
+    const double rise = (ground_z_m - edge_z_m_) / (edge_x_m - edge_x_m_);
+    for (int index = cell_of(edge_x_m_) + 1; index <= reached; ++index) {
+      const double way_m = edge_z_m_ + rise * ((index + 0.5) * kCell_m - edge_x_m_);
+      if (index > front_) {
+        set(index, way_m);
+      } else if (!in_air) {
+        set(index, std::min(cell(index), way_m));
+      }
+    }
+    front_ = std::max(front_, reached);
   }
-  const double rise = (edge_z_m - edge_z_m_) / (edge_x_m - edge_x_m_);
-  for (int index = cell_of(edge_x_m_); index <= reached; ++index) {
-    const double at_m = std::clamp((index + 0.5) * kCell_m, edge_x_m_, edge_x_m);
-    const double way_m = edge_z_m_ + rise * (at_m - edge_x_m_);
-    set(index, index > front_ ? way_m : std::min(cell(index), way_m));
-  }
-  front_ = std::max(front_, reached);
   edge_x_m_ = edge_x_m;
-  edge_z_m_ = edge_z_m;
+  edge_z_m_ = ground_z_m;
 }
 
 double GroundMap::height_m(double x_m, const GradeProfile& design) const {
-  const double in_cells = x_m / kCell_m - 0.5;
-  const int before = static_cast<int>(std::floor(in_cells));
+  const int before = cell_of(x_m);
   if (before + 1 > front_) {
     return design.at(x_m).height_m;
   }
@@ -55,7 +61,7 @@ double GroundMap::height_m(double x_m, const GradeProfile& design) const {
   if (before < oldest) {
     return cell(oldest);
   }
-  const double share = in_cells - before;
+  const double share = x_m / kCell_m - 0.5 - before;
   return cell(before) + share * (cell(before + 1) - cell(before));
 }
 

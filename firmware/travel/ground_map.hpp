@@ -16,22 +16,23 @@ class GroundMap {
   static constexpr int kCells = 160;
   static constexpr double kLength_m = kCells * kCell_m;
 
-  /// The edge is at (x, z) for the first time: what is behind it is the straight line that the
-  /// tracks stand on, with this height at `track_x_m` and this slope.
-  void start(double edge_x_m, double track_x_m, double track_z_m, double slope);
-
-  /// The edge has come to (x, z). Every cell that it has passed since is now at most as high as its
-  /// way; a step back changes nothing. A jump of more than the map's length starts it afresh, level
-  /// at z.
-  void pass(double edge_x_m, double edge_z_m);
+  /// The machine stands with its origin at `stand_x_m`, its tracks on a line of this height there
+  /// and of this slope, and the cutting edge has come to (x, z). Every cell that the edge has
+  /// passed since is now at most as high as its way; a step back changes nothing. Where the edge is
+  /// clearly above the design it cuts nothing: what lies below is then taken for the line that the
+  /// tracks stand on. The first time, and after a jump of more than the map's length, all is that
+  /// line.
+  void pass(double edge_x_m, double edge_z_m, const GradeProfile& design, double stand_x_m,
+            double stand_z_m, double slope);
 
   /// Ground at x: remembered behind the edge, `design` before it. Further back than it remembers,
   /// the last that it does.
   [[nodiscard]] double height_m(double x_m, const GradeProfile& design) const;
 
-  [[nodiscard]] bool started() const { return started_; }
-
  private:
+  /// Heights of a straight line over all cells up to the edge.
+  void start(double edge_x_m, double stand_x_m, double stand_z_m, double slope);
+  /// The last one whose middle is not beyond x.
   [[nodiscard]] static int cell_of(double x_m);
   [[nodiscard]] double cell(int index) const {
     return height_m_[static_cast<unsigned>(index % kCells + kCells) % kCells];
@@ -41,7 +42,7 @@ class GroundMap {
   }
 
   std::array<double, kCells> height_m_{};
-  int front_ = 0;  ///< Cell that the edge has reached.
+  int front_ = 0;  ///< Last cell whose middle the edge has passed.
   double edge_x_m_ = 0.0;
   double edge_z_m_ = 0.0;
   bool started_ = false;

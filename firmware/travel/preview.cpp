@@ -107,15 +107,24 @@ double Preview::speed_between(int index, double flow_m3ps) const {
 }
 
 AheadLimit Preview::limit(double x_m, double speed_mps, double flow_m3ps, double lead_s) const {
-  AheadLimit ahead{kAnySpeed_mps, kAnySpeed_mps};
+  const auto limit_at = [&](int index) {
+    return std::max(speed_between(index, flow_m3ps), profile_.travel.speed_min_mps);
+  };
+  // Between two stations the limit goes over from one to the other: what is passed must not let go
+  // at once.
+  const int here = first_ + kMargin;
+  const double share = std::clamp(x_m / kStep_m - here, 0.0, 1.0);
+  const double now_mps = limit_at(here) + share * (limit_at(here + 1) - limit_at(here));
+  AheadLimit ahead{kAnySpeed_mps, now_mps};
+  double square = now_mps * now_mps;
   const double braked_from_m = x_m + std::max(0.0, speed_mps) * lead_s;
-  double square = kAnySpeed_mps * kAnySpeed_mps;
-  for (int index = first_ + kMargin; index < first_ + kMargin + count_; ++index) {
-    const double speed = std::max(speed_between(index, flow_m3ps), profile_.travel.speed_min_mps);
+  for (int index = here + 1; index < here + count_; ++index) {
+    const double limit_mps = limit_at(index);
     const double way_m = std::max(0.0, index * kStep_m - braked_from_m);
-    square = std::min(square, speed * speed + 2.0 * profile_.travel.deceleration_max_mps2 * way_m);
+    square = std::min(square,
+                      limit_mps * limit_mps + 2.0 * profile_.travel.deceleration_max_mps2 * way_m);
     if (index * kStep_m - x_m <= kHold_m) {
-      ahead.lowest_mps = std::min(ahead.lowest_mps, speed);
+      ahead.lowest_mps = std::min(ahead.lowest_mps, limit_mps);
     }
   }
   ahead.speed_mps = std::sqrt(square);

@@ -25,7 +25,7 @@ class Preview {
   static constexpr double kStep_m = 0.05;
   static constexpr int kMostStations = 80;
   static constexpr int kStationsPerCycle = 3;
-  static constexpr double kHold_m = 1.0;
+  static constexpr double kHold_m = 1.5;
 
   explicit Preview(const DozerProfile& profile);
 

@@ -11,6 +11,13 @@ namespace {
 
 constexpr double kNoFlow_m3ps = 1e-9;
 constexpr double kBraking = 1.25;
+/// Low-pass of the flow that is measured as required: the ground ahead is planned with, this is for
+/// what the plan did not know.
+constexpr double kFlowFilter_s = 0.1;
+/// What a rise has to gain to be begun.
+constexpr double kWorthIt = 0.10;
+/// Between a fall and the next rise.
+constexpr double kPause_s = 0.3;
 
 void take_lower(double speed_mps, Limit limit, double& allowed_mps, Limit& holds) {
   if (speed_mps < allowed_mps) {
@@ -20,46 +27,68 @@ void take_lower(double speed_mps, Limit limit, double& allowed_mps, Limit& holds
 }
 
 /// v_max,imp of (11), over the normalised flow of (10).
-double implement_speed_mps(const DozerProfile& profile, const SpeedDemand& demand) {
+double implement_speed_mps(const DozerProfile& profile, const SpeedDemand& demand,
+                           double required_flow_m3ps) {
   const double normalised_m3pm =
-      demand.required_flow_m3ps / std::max(demand.measured_mps, profile.travel.speed_min_mps);
+      required_flow_m3ps / std::max(demand.measured_mps, profile.travel.speed_min_mps);
   return demand.available_flow_m3ps / std::max(normalised_m3pm, kNoFlow_m3ps);
 }
 
-/// Algorithm 1: how fast v_c may rise, m/s^2.
-double rise_mps2(const DozerProfile& profile, double last_mps, const SpeedDemand& demand) {
+/// Algorithm 1: where v_c may rise to.
+double room_mps(const DozerProfile& profile, const SpeedDemand& demand, double target_mps) {
   const bool off_home = std::abs(demand.blade_angle_rad) > profile.travel.threshold_rad;
-  const bool has_room = demand.ahead.lowest_mps > last_mps;
-  return off_home && !has_room ? 0.0 : profile.travel.acceleration_max_mps2;
+  const bool knows = profile.travel.policy == SpeedPolicy::kBounded;
+  return off_home && knows ? std::min(target_mps, demand.ahead.lowest_mps) : target_mps;
+}
+
+SpeedState followed(const DozerProfile& profile, const SpeedState& last, double target_mps,
+                    double room_mps, double period_s) {
+  const TravelProfile& travel = profile.travel;
+  SpeedState state = last;
+  if (target_mps < last.speed_mps) {
+    const double slowest_mps = last.speed_mps - kBraking * travel.deceleration_max_mps2 * period_s;
+    state.speed_mps = std::max(target_mps, slowest_mps);
+    state.rising = false;
+    state.since_fall_s = 0.0;
+    return state;
+  }
+  state.since_fall_s = std::min(last.since_fall_s + period_s, kPause_s);
+  const bool is_worth_it = room_mps > last.speed_mps * (1.0 + kWorthIt);
+  state.rising =
+      room_mps > last.speed_mps && (last.rising || (is_worth_it && state.since_fall_s >= kPause_s));
+  if (state.rising) {
+    state.speed_mps = std::min(room_mps, last.speed_mps + travel.acceleration_max_mps2 * period_s);
+  }
+  return state;
 }
 
 }  // namespace
 
-SpeedChoice next_speed(const DozerProfile& profile, double last_mps, const SpeedDemand& demand,
-                       double period_s) {
+SpeedChoice next_speed(const DozerProfile& profile, const SpeedState& last,
+                       const SpeedDemand& demand, double period_s) {
   const double track_max_mps = track_speed_max_mps(profile.hst, demand.engine_radps);
   const std::array<double, kTrackCount> body_max_mps =
       body_speeds_max_mps(profile.body, {track_max_mps, track_max_mps}, demand.heading_radps);
   SpeedChoice choice;
   choice.allowed_mps = std::min(body_max_mps[kLeft], body_max_mps[kRight]);
   const auto slower =
-      static_cast<std::uint8_t>(body_max_mps[kLeft] <= body_max_mps[kRight] ? 0 : 1);
+      static_cast<std::uint8_t>(body_max_mps[kLeft] <= body_max_mps[kRight] ? kLeft : kRight);
   Limit holds{LimitKind::kTransmissionFlow, slower};
+  const double required_m3ps =
+      last.required_flow_m3ps +
+      (demand.required_flow_m3ps - last.required_flow_m3ps) * period_s / (kFlowFilter_s + period_s);
   if (profile.travel.policy == SpeedPolicy::kBounded) {
-    take_lower(implement_speed_mps(profile, demand), {LimitKind::kImplementFlow, 0},
+    take_lower(implement_speed_mps(profile, demand, required_m3ps), {LimitKind::kImplementFlow, 0},
                choice.allowed_mps, holds);
     take_lower(demand.ahead.speed_mps, {LimitKind::kAhead, 0}, choice.allowed_mps, holds);
   }
   choice.allowed_mps = std::max(choice.allowed_mps, profile.travel.speed_min_mps);
   const double target_mps = std::min(demand.desired_mps, choice.allowed_mps);
-  const double rise = profile.travel.policy == SpeedPolicy::kBounded
-                          ? rise_mps2(profile, last_mps, demand)
-                          : profile.travel.acceleration_max_mps2;
-  choice.speed_mps =
-      std::clamp(target_mps, last_mps - kBraking * profile.travel.deceleration_max_mps2 * period_s,
-                 last_mps + rise * period_s);
-  if (choice.speed_mps < demand.desired_mps) {
-    choice.limit = target_mps > choice.speed_mps ? Limit{LimitKind::kRise, 0} : holds;
+  choice.state =
+      followed(profile, last, target_mps, room_mps(profile, demand, target_mps), period_s);
+  choice.state.required_flow_m3ps = required_m3ps;
+  if (choice.state.speed_mps < demand.desired_mps) {
+    choice.limit = target_mps > choice.state.speed_mps ? Limit{LimitKind::kRise, 0} : holds;
   }
   return choice;
 }

@@ -17,10 +17,18 @@ struct SpeedDemand {
   AheadLimit ahead;
 };
 
+/// What one cycle hands to the next.
+struct SpeedState {
+  double speed_mps = 0.0;           ///< v_c
+  double required_flow_m3ps = 0.0;  ///< Q_in, low-passed.
+  bool rising = false;
+  double since_fall_s = 1.0;  ///< Since v_c last fell.
+};
+
 struct SpeedChoice {
-  double speed_mps = 0.0;    ///< v_c of this cycle.
   double allowed_mps = 0.0;  ///< (14) without v_d.
   Limit limit;               ///< What holds v_c below v_d.
+  SpeedState state;
 };
 
 /// v_c of (14) after the acceleration limit, from that of the last cycle.
@@ -29,10 +37,11 @@ struct SpeedChoice {
 /// below v_min is divided by. Every limit is at least v_min, but the operator's own.
 ///
 /// Algorithm 1 keeps the machine from getting faster while the blade is off home, as the body is
-/// about to incline. Here the ground ahead is known: it is kept so only where the lowest limit
-/// within Preview::kHold_m does not leave room. It brakes at 1.25 times `deceleration_max_mps2` at
-/// most: what is ahead is planned with less.
-[[nodiscard]] SpeedChoice next_speed(const DozerProfile& profile, double last_mps,
+/// about to incline. Here the ground ahead is known: off home it rises no higher than the lowest
+/// limit within Preview::kHold_m, and begins to rise only where that is worth it and some time
+/// after it fell; so a wanted speed does not run up and down with every limit that it passes. It
+/// brakes at 1.25 times `deceleration_max_mps2` at most: what is ahead is planned with less.
+[[nodiscard]] SpeedChoice next_speed(const DozerProfile& profile, const SpeedState& last,
                                      const SpeedDemand& demand, double period_s);
 
 }  // namespace graben

@@ -6,7 +6,7 @@
 namespace graben {
 namespace {
 
-constexpr int kSteps = 6;
+constexpr int kSteps = 8;
 constexpr double kGravity_mps2 = 9.80665;
 constexpr double kMostStep_m = 0.05;
 constexpr double kMostStep_rad = 0.05;

@@ -1,18 +1,18 @@
-/// Every message of the DBC on any payload: what is decoded is a number and says the same once it
-/// is encoded and decoded again.
+/// Every message of either DBC on any payload: what is decoded is a number and says the same once
+/// it is encoded and decoded again.
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <type_traits>
 
+#include "can_dbc/generated/dozer_dbc.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
 namespace graben::test {
 namespace {
 
-namespace bus = dbc::excavator;
 using dbc::RawState;
 
 /// Name of a signal that comes back as another; a value out of range is sent as 'error', or as the
@@ -55,7 +55,10 @@ const char* changed_signal(dbc::MessageList<Messages...>, const dbc::Payload& pa
 }  // namespace
 
 std::string check_bytes(const std::uint8_t* data, std::size_t size) {
-  const char* wrong = changed_signal(bus::AllMessages{}, raw_from_bytes<dbc::Payload>(data, size));
+  const auto payload = raw_from_bytes<dbc::Payload>(data, size);
+  const char* of_excavator = changed_signal(dbc::excavator::AllMessages{}, payload);
+  const char* wrong =
+      of_excavator != nullptr ? of_excavator : changed_signal(dbc::dozer::AllMessages{}, payload);
   return wrong == nullptr ? "" : fmt::format("{} does not come back", wrong);
 }
 

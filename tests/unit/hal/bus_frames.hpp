@@ -1,13 +1,13 @@
 #pragma once
-/// Frames that the receiver takes, for its tests.
+/// Frames that the receivers take, for their tests, and what the tests need to know of each bus.
 
+#include "can_dbc/generated/dozer_dbc.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
+#include "hal/dozer_receiver.hpp"
 #include "hal/excavator_receiver.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace graben::test {
-
-namespace bus = dbc::excavator;
 
 inline constexpr TimeUs kStartUs = 5'000'000;
 
@@ -26,14 +26,45 @@ CanFrame frame_of(const Message& message, std::uint8_t counter) {
 // The messages as types, so that every test runs over all that are received.
 template <class... Messages>
 struct List {};
-using Protected =
-    List<bus::BoomStroke, bus::ArmStroke, bus::BucketStroke, bus::BoomPressure, bus::ArmPressure,
-         bus::BucketPressure, bus::PumpState, bus::OperatorCommand, bus::ValveState>;
-using Unprotected = List<bus::EEC1, bus::MachineIdentity>;
+
+// `Other` are messages that a sender could send under the id of Stroke.
+struct ExcavatorBus {
+  using Receiver = ExcavatorReceiver;
+  using Stroke = dbc::excavator::BoomStroke;
+  using SpoolCommand = dbc::excavator::SpoolCommand;
+  using OperatorCommand = dbc::excavator::OperatorCommand;
+  using Protected =
+      List<dbc::excavator::BoomStroke, dbc::excavator::ArmStroke, dbc::excavator::BucketStroke,
+           dbc::excavator::BoomPressure, dbc::excavator::ArmPressure,
+           dbc::excavator::BucketPressure, dbc::excavator::PumpState,
+           dbc::excavator::OperatorCommand, dbc::excavator::ValveState>;
+  using Unprotected = List<dbc::excavator::EEC1, dbc::excavator::MachineIdentity>;
+  using Other = List<dbc::excavator::ArmStroke, dbc::excavator::ValveState,
+                     dbc::excavator::SpoolCommand, dbc::excavator::PumpCommand>;
+};
+
+struct DozerBus {
+  using Receiver = DozerReceiver;
+  using Stroke = dbc::dozer::BladeStroke;
+  using SpoolCommand = dbc::dozer::SpoolCommand;
+  using OperatorCommand = dbc::dozer::OperatorCommand;
+  using Protected =
+      List<dbc::dozer::BladeStroke, dbc::dozer::BodyPosition, dbc::dozer::BodyPitch,
+           dbc::dozer::BodyVelocity, dbc::dozer::LeftTransmission, dbc::dozer::RightTransmission,
+           dbc::dozer::TrackSpeed, dbc::dozer::OperatorCommand, dbc::dozer::ValveState>;
+  using Unprotected = List<dbc::dozer::EEC1, dbc::dozer::MachineIdentity>;
+  using Other = List<dbc::dozer::BodyPitch, dbc::dozer::ValveState, dbc::dozer::SpoolCommand,
+                     dbc::dozer::MotorDisplacementCommand>;
+};
 
 template <class Test, class... Messages>
 void for_each(List<Messages...>, Test test) {
   (test(Messages{}), ...);
+}
+
+// Raw value that a test gives to a field: valid and distinct from its start value.
+inline std::uint32_t filled_raw(const dbc::Field& field, std::uint32_t raw) {
+  return field.width >= 16 ? field.raw_min + raw : field.raw_max;
 }
 
 // A message whose every value is valid and distinct from its start value.
@@ -41,14 +72,25 @@ template <class Message>
 Message filled(std::uint32_t raw) {
   Message message;
   Message::visit(message, [raw](const dbc::Field& field, auto& signal) {
-    dbc::from_raw(field, field.raw_min + (field.width >= 16 ? raw : 1U), signal);
+    dbc::from_raw(field, filled_raw(field, raw), signal);
   });
   return message;
 }
 
-// Brings the link to acceptance with counters 0, 1, 2; returns the time of the last frame.
+// A protected or plain frame whose field carries `raw`.
 template <class Message>
-TimeUs synchronise(ExcavatorReceiver& receiver) {
+CanFrame frame_with(const dbc::Field& field, std::uint32_t raw, std::uint8_t counter) {
+  CanFrame frame = frame_of(filled<Message>(2000), counter);
+  dbc::insert(frame.data, field.start_bit, field.width, raw);
+  if (Message::kProtected) {
+    e2e_protect(frame.data, Message::kDataId, counter);
+  }
+  return frame;
+}
+
+// Brings the link to acceptance with counters 0, 1, 2; returns the time of the last frame.
+template <class Message, class Receiver>
+TimeUs synchronise(Receiver& receiver) {
   TimeUs now = kStartUs;
   for (std::uint8_t counter = 0; counter < 3; ++counter) {
     now += Message::kCycleTimeMs * kMillisecondUs;
@@ -56,5 +98,31 @@ TimeUs synchronise(ExcavatorReceiver& receiver) {
   }
   return now;
 }
+
+template <class T>
+void assert_signal(const Signal<T>& signal, double value, TimeUs stamp_us) {
+  assert_int_equal(signal.validity, Validity::kValid);
+  assert_near(static_cast<double>(signal.value), value, 1e-9 * std::fabs(value));
+  assert_int_equal(signal.stamp_us, stamp_us);
+}
+
+// Gives a receiver a message until it is taken, each at times of its own.
+template <class Receiver>
+struct Feed {
+  Receiver receiver;
+  TimeUs start_us = kStartUs;
+
+  // Stamp of the frame that was taken last.
+  template <class Message>
+  TimeUs send(const Message& message) {
+    TimeUs now = ++start_us;
+    receiver.accept(frame_of(message, 0), now);
+    for (std::uint8_t counter = 1; counter < 3; ++counter) {
+      now += Message::kCycleTimeMs * kMillisecondUs;
+      receiver.accept(frame_of(message, counter), now);
+    }
+    return now;
+  }
+};
 
 }  // namespace graben::test

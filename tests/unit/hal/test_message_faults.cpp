@@ -50,11 +50,29 @@ void three_wrong_frames_are_a_fault(void**) {
   }
 }
 
+// Whichever message it is.
+template <class Bus>
+void every_messages_window_counts(void**) {
+  for_each(typename Bus::Protected{}, [](auto type) {
+    using Message = decltype(type);
+    typename Bus::Receiver receiver;
+    const TimeUs now = synchronise<Message>(receiver);
+    for (int i = 0; i < 3; ++i) {
+      assert_true(receiver.message_faults(now).empty());
+      CanFrame frame = frame_of(filled<Message>(2000), 3);
+      frame.data[2] ^= 0x10;
+      receiver.accept(frame, now);
+    }
+    assert_true(receiver.message_faults(now).has(Fault::kMessageCorrupt));
+  });
+}
+
 // One wrong frame in each of several messages is no fault; a repeated one never is.
+template <class Bus>
 void windows_are_each_messages_own(void**) {
-  ExcavatorReceiver receiver;
+  typename Bus::Receiver receiver;
   TimeUs now = kStartUs;
-  for_each(Protected{}, [&](auto type) {
+  for_each(typename Bus::Protected{}, [&](auto type) {
     using Message = decltype(type);
     now = synchronise<Message>(receiver);
     CanFrame frame = frame_of(filled<Message>(2000), 3);
@@ -99,7 +117,10 @@ void a_burst_of_one_message_is_cut(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(three_wrong_frames_are_a_fault),
-      cmocka_unit_test(windows_are_each_messages_own),
+      cmocka_unit_test(every_messages_window_counts<ExcavatorBus>),
+      cmocka_unit_test(every_messages_window_counts<DozerBus>),
+      cmocka_unit_test(windows_are_each_messages_own<ExcavatorBus>),
+      cmocka_unit_test(windows_are_each_messages_own<DozerBus>),
       cmocka_unit_test(two_senders_of_one_message_are_a_fault),
       cmocka_unit_test(a_burst_of_one_message_is_cut),
   };

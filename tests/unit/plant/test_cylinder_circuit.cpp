@@ -89,7 +89,7 @@ void blocked_chambers_carry_a_load_like_a_spring(void**) {
 void piston_leakage_is_laminar(void**) {
   PlantProfile profile = hopsan_circuit(200);
   profile.piston_leak_m3pspa = 1e-12;
-  Cylinder cylinder(profile, kArm);
+  Cylinder cylinder(profile.cylinder(kArm), profile.step_s());
   cylinder.start(0.752, 200e3);
   const double cap = cylinder.cap().pressure_pa();
   const double difference = cap - cylinder.rod().pressure_pa();

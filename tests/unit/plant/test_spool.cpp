@@ -12,7 +12,7 @@ using namespace graben::plant;
 constexpr double kStep = 1e-4;
 
 Spool settled_at(const PlantProfile& profile, double travel_ratio) {
-  Spool spool(profile);
+  Spool spool(profile.spool_dynamics());
   spool.set_command(travel_ratio);
   for (int i = 0; i < 10000; ++i) {
     spool.step(kStep);
@@ -24,7 +24,7 @@ void step_response_is_the_critically_damped_one(void**) {
   PlantProfile profile = machine_22t();
   profile.spool_time_constant_s = 0.02;
   profile.spool_damping = 1.0;
-  Spool spool(profile);
+  Spool spool(profile.spool_dynamics());
   spool.set_command(0.5);
   for (int i = 1; i <= 1500; ++i) {
     spool.step(kStep);
@@ -36,8 +36,8 @@ void step_response_is_the_critically_damped_one(void**) {
 void travel_is_limited(void**) {
   PlantProfile profile = machine_22t();
   assert_near(settled_at(profile, 3.0).travel_ratio(), 1.0, 1e-9);
-  Spool beyond(profile);
-  Spool full(profile);
+  Spool beyond(profile.spool_dynamics());
+  Spool full(profile.spool_dynamics());
   beyond.set_command(3.0);
   full.set_command(1.0);
   for (int i = 0; i < 100; ++i) {
@@ -46,7 +46,7 @@ void travel_is_limited(void**) {
   }
   assert_near(beyond.travel_ratio(), full.travel_ratio(), 0.0);
   profile.spool_damping = 0.2;  // overshoots
-  Spool spool(profile);
+  Spool spool(profile.spool_dynamics());
   spool.set_command(-1.0);
   for (int i = 0; i < 5000; ++i) {
     spool.step(kStep);

@@ -51,7 +51,7 @@ void hose_is_in_series_with_the_edge(void**) {
 
 void cushion_grows_towards_the_end_only(void**) {
   const PlantProfile profile = machine_22t();
-  Cylinder cylinder(profile, kArm);
+  Cylinder cylinder(profile.cylinder(kArm), profile.step_s());
   const double cap_area = 0.785398163397448 * 0.140 * 0.140;
   const double rod_area = cap_area - 0.785398163397448 * 0.100 * 0.100;
   cylinder.set_motion(0.7, 0.0);

@@ -1,7 +1,9 @@
 // What the ECU tells its controller of the bus, and what it does about it.
 
-#include "app/ecu/excavator_ecu.hpp"
+#include <algorithm>
+#include <vector>
 
+#include "app/ecu/excavator_ecu.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "platform/loopback/loopback_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
@@ -10,11 +12,19 @@
 namespace {
 
 using namespace graben;
-namespace bus = dbc::excavator;
+
+struct Excavator {
+  using Ecu = ecu::ExcavatorEcu;
+  using Stroke = dbc::excavator::BoomStroke;
+  using EcuHealth = dbc::excavator::EcuHealth;
+  static std::vector<std::uint32_t> commands() { return {dbc::excavator::SpoolCommand::kId}; }
+  static ExcavatorProfile profile() { return plant::machine_22t().machine; }
+};
 
 constexpr TimeUs kCycleUs = 10'000;
 
 // A port that does what it is told and says what was done to it.
+template <class Kind>
 class Port final : public CanPort {
  public:
   [[nodiscard]] bool open() override {
@@ -29,30 +39,33 @@ class Port final : public CanPort {
     int count = 0;
     for (; count < capacity && pending > 0; ++count, --pending) {
       frames[count] = CanFrame{};
-      frames[count].id = bus::BoomStroke::kId;  // without data: counted once it is looked at
+      frames[count].id = Kind::Stroke::kId;  // without data: counted once it is looked at
     }
     return count;
   }
   [[nodiscard]] bool send(const CanFrame& frame) override {
-    if (frame.id == bus::EcuHealth::kId) {
-      health = bus::EcuHealth::decode(frame.data);
+    if (frame.id == Kind::EcuHealth::kId) {
+      health = Kind::EcuHealth::decode(frame.data);
     }
-    return frame.id == bus::SpoolCommand::kId ? takes_commands : takes_others;
+    const auto commands = Kind::commands();
+    const bool is_command = std::count(commands.begin(), commands.end(), frame.id) > 0;
+    return is_command ? frame.id != refused_command : takes_others;
   }
   [[nodiscard]] CanPortState state() const override { return shown; }
 
   CanPortState shown = CanPortState::kActive;
   bool opens = true;
-  bool takes_commands = true;
+  std::uint32_t refused_command = 0;
   bool takes_others = true;
   int pending = 0;
   int opened = 0;
-  bus::EcuHealth health;
+  typename Kind::EcuHealth health;
 };
 
+template <class Kind>
 struct Rig {
-  Port port;
-  ecu::ExcavatorEcu ecu{plant::machine_22t().machine, 0x1234, port};
+  Port<Kind> port;
+  typename Kind::Ecu ecu{Kind::profile(), 0x1234, port};
   TimeUs now = 0;
 
   const LinkInputs& step() {
@@ -62,6 +75,7 @@ struct Rig {
   }
 };
 
+template <class Kind>
 void the_ports_state_is_the_buss(void**) {
   const std::pair<CanPortState, BusState> states[] = {
       {CanPortState::kActive, BusState::kActive}, {CanPortState::kErrorPassive, BusState::kPassive},
@@ -69,7 +83,7 @@ void the_ports_state_is_the_buss(void**) {
       {CanPortState::kClosed, BusState::kDown},
   };
   for (const auto& [shown, expected] : states) {
-    Rig rig;
+    Rig<Kind> rig;
     rig.port.shown = shown;
     assert_int_equal(rig.step().bus, expected);
     const bool away = expected == BusState::kOff || expected == BusState::kDown;
@@ -77,8 +91,9 @@ void the_ports_state_is_the_buss(void**) {
   }
 }
 
+template <class Kind>
 void a_port_that_is_down_is_tried_every_200_ms(void**) {
-  Rig rig;
+  Rig<Kind> rig;
   assert_int_equal(rig.step().bus, BusState::kActive);
   rig.port.shown = CanPortState::kDown;
   rig.port.opens = false;
@@ -97,8 +112,9 @@ void a_port_that_is_down_is_tried_every_200_ms(void**) {
 }
 
 // Back by itself: what queued up meanwhile is thrown away at once.
+template <class Kind>
 void a_port_that_comes_back_is_flushed(void**) {
-  Rig rig;
+  Rig<Kind> rig;
   rig.step();
   rig.port.shown = CanPortState::kBusOff;
   rig.port.opens = false;
@@ -117,38 +133,44 @@ void a_port_that_comes_back_is_flushed(void**) {
 }
 
 // Bus-off that the first try ends is seen all the same.
+template <class Kind>
 void a_short_bus_off_is_seen(void**) {
-  Rig rig;
+  Rig<Kind> rig;
   rig.step();
   rig.port.shown = CanPortState::kBusOff;
   assert_int_equal(rig.step().bus, BusState::kOff);
   assert_int_equal(rig.step().bus, BusState::kActive);
 }
 
+// A cycle counts as dropped if any of its commands was not taken; other frames do not count.
+template <class Kind>
 void commands_that_are_not_taken_are_counted(void**) {
-  Rig rig;
-  rig.step();
-  rig.port.takes_others = false;  // only the command counts
-  assert_int_equal(rig.step().dropped_cycles, 0);
-  assert_int_equal(rig.step().dropped_cycles, 0);
-  assert_true(rig.ecu.dropped() > 0);
-  rig.port.takes_others = true;
-  rig.port.takes_commands = false;
-  const std::uint32_t before = rig.ecu.dropped();
-  assert_int_equal(rig.step().dropped_cycles, 0);
-  assert_int_equal(rig.step().dropped_cycles, 1);
-  rig.port.takes_commands = true;
-  assert_int_equal(rig.step().dropped_cycles, 2);
-  assert_int_equal(rig.step().dropped_cycles, 0);
-  assert_int_equal(rig.ecu.dropped(), before + 2);
+  for (const std::uint32_t command : Kind::commands()) {
+    Rig<Kind> rig;
+    rig.step();
+    rig.port.takes_others = false;
+    assert_int_equal(rig.step().dropped_cycles, 0);
+    assert_int_equal(rig.step().dropped_cycles, 0);
+    assert_true(rig.ecu.dropped() > 0);
+    rig.port.takes_others = true;
+    rig.port.refused_command = command;
+    const std::uint32_t before = rig.ecu.dropped();
+    assert_int_equal(rig.step().dropped_cycles, 0);
+    assert_int_equal(rig.step().dropped_cycles, 1);
+    rig.port.refused_command = 0;
+    assert_int_equal(rig.step().dropped_cycles, 2);
+    assert_int_equal(rig.step().dropped_cycles, 0);
+    assert_int_equal(rig.ecu.dropped(), before + 2);
+  }
 }
 
+template <class Kind>
 void the_process_is_told_of(void**) {
-  Rig rig;
+  Rig<Kind> rig;
   assert_false(rig.step().stop_requested);
-  rig.port.takes_commands = false;
+  rig.port.refused_command = Kind::commands().front();
   rig.step();
-  rig.port.takes_commands = true;
+  rig.port.refused_command = 0;
   rig.ecu.set_process_health({1, 2, 3, true});
   rig.ecu.request_stop();
   for (int cycle = 0; cycle < 10; ++cycle) {
@@ -158,24 +180,26 @@ void the_process_is_told_of(void**) {
   assert_int_equal(rig.port.health.page_faults.value, 2);
   assert_int_equal(rig.port.health.overruns.value, 3);
   assert_int_equal(rig.port.health.dropped_frames.value, 1);
-  assert_int_equal(rig.port.health.real_time.value, bus::EcuHealth::RealTime::kOn);
+  assert_int_equal(rig.port.health.real_time.value, Kind::EcuHealth::RealTime::kOn);
 }
 
+template <class Kind>
 CanFrame stroke_frame(std::uint8_t counter, std::uint32_t raw) {
   CanFrame frame;
-  frame.id = bus::BoomStroke::kId;
+  frame.id = Kind::Stroke::kId;
   frame.length = 8;
-  frame.data = bus::BoomStroke{}.encode();
+  frame.data = typename Kind::Stroke{}.encode();
   dbc::insert(frame.data, 16, 16, raw);
-  e2e_protect(frame.data, bus::BoomStroke::kDataId, counter);
+  e2e_protect(frame.data, Kind::Stroke::kDataId, counter);
   return frame;
 }
 
+template <class Kind>
 void what_is_wrong_with_frames_reaches_the_controller(void**) {
   LoopbackBus can;
   LoopbackPort& port = can.attach();
   assert_true(port.open());
-  ecu::ExcavatorEcu ecu(plant::machine_22t().machine, 0x1234, port);
+  typename Kind::Ecu ecu(Kind::profile(), 0x1234, port);
   TimeUs now = 0;
   const auto step_with = [&](const CanFrame& frame) {
     can.inject(frame);
@@ -184,14 +208,14 @@ void what_is_wrong_with_frames_reaches_the_controller(void**) {
     return ecu.inputs().link;
   };
   for (std::uint8_t counter = 0; counter < 4; ++counter) {
-    assert_false(step_with(stroke_frame(counter, 1000)).out_of_range);
+    assert_false(step_with(stroke_frame<Kind>(counter, 1000)).out_of_range);
   }
-  assert_true(step_with(stroke_frame(4, 0xFAFF)).out_of_range);
-  LinkInputs link = step_with(stroke_frame(5, 1000));
+  assert_true(step_with(stroke_frame<Kind>(4, 0xFAFF)).out_of_range);
+  LinkInputs link = step_with(stroke_frame<Kind>(5, 1000));
   assert_false(link.out_of_range);
   for (int wrong = 0; wrong < 3; ++wrong) {
     assert_true(link.message_faults.empty());
-    CanFrame frame = stroke_frame(6, 1000);
+    CanFrame frame = stroke_frame<Kind>(6, 1000);
     frame.data[2] = static_cast<std::uint8_t>(frame.data[2] ^ 0x10U);
     link = step_with(frame);
   }
@@ -202,13 +226,13 @@ void what_is_wrong_with_frames_reaches_the_controller(void**) {
 
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(the_ports_state_is_the_buss),
-      cmocka_unit_test(a_port_that_is_down_is_tried_every_200_ms),
-      cmocka_unit_test(a_port_that_comes_back_is_flushed),
-      cmocka_unit_test(a_short_bus_off_is_seen),
-      cmocka_unit_test(commands_that_are_not_taken_are_counted),
-      cmocka_unit_test(the_process_is_told_of),
-      cmocka_unit_test(what_is_wrong_with_frames_reaches_the_controller),
+      cmocka_unit_test(the_ports_state_is_the_buss<Excavator>),
+      cmocka_unit_test(a_port_that_is_down_is_tried_every_200_ms<Excavator>),
+      cmocka_unit_test(a_port_that_comes_back_is_flushed<Excavator>),
+      cmocka_unit_test(a_short_bus_off_is_seen<Excavator>),
+      cmocka_unit_test(commands_that_are_not_taken_are_counted<Excavator>),
+      cmocka_unit_test(the_process_is_told_of<Excavator>),
+      cmocka_unit_test(what_is_wrong_with_frames_reaches_the_controller<Excavator>),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

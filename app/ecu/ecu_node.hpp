@@ -1,0 +1,141 @@
+#pragma once
+/// A controller as a node on a bus: receive, step, send. What is deployed and what is simulated run
+/// this same cycle.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "app/ecu/bus_watch.hpp"
+#include "hal/can_port.hpp"
+#include "hal/ecu_diagnosis.hpp"
+#include "hal/link_counters.hpp"
+
+namespace graben::ecu {
+
+/// One controller on one port. The caller owns the port and the clock.
+///
+/// `Kind` says whose: Profile, Controller, Receiver, Transmitter, Inputs, Outputs, MemoryAccess (of
+/// the tests), and is_command(id), whether losing a frame with this id leaves the machine without
+/// its command.
+template <class Kind>
+class EcuNode {
+ public:
+  using Inputs = typename Kind::Inputs;
+  using Outputs = typename Kind::Outputs;
+  using Receiver = typename Kind::Receiver;
+
+  EcuNode(const typename Kind::Profile& profile, std::uint32_t profile_hash, CanPort& port)
+      : port_(port), watch_(port), controller_(profile) {
+    diagnosis_.profile_hash = profile_hash;
+  }
+
+  /// One cycle at `now_us`, to be called every 10 ms. After a stall what is queued is discarded: an
+  /// old frame must not be taken for a fresh one. `last_cycle_us` is how long the cycle before
+  /// took, for the status frame; 0 where time is simulated. A port that is lost is opened again as
+  /// BusWatch has it.
+  void step(TimeUs now_us, TimeUs last_cycle_us);
+
+  /// From the next cycle on the controller is told to end.
+  void request_stop() { stop_requested_ = true; }
+  /// For the status frames.
+  void set_process_health(const ProcessHealth& health) { diagnosis_.process = health; }
+
+  [[nodiscard]] const Outputs& outputs() const { return outputs_; }
+  [[nodiscard]] const Inputs& inputs() const { return inputs_; }
+  [[nodiscard]] const LinkCounters& link() const { return receiver_.total(); }
+  /// Frames that the port did not take; none of them is sent again.
+  [[nodiscard]] std::uint32_t dropped() const { return diagnosis_.dropped_frames; }
+
+ private:
+  using Transmitter = typename Kind::Transmitter;
+
+  /// Lets tests flip a bit of what the controller stores.
+  friend typename Kind::MemoryAccess;
+
+  void receive(TimeUs now_us, bool stale);
+  void gather_inputs(TimeUs now_us, BusState bus);
+  void send(const typename Transmitter::Frames& frames, int count);
+  void count_cycle(bool command_sent);
+
+  CanPort& port_;
+  BusWatch watch_;
+  Receiver receiver_;
+  typename Kind::Controller controller_;
+  Transmitter transmitter_;
+  EcuDiagnosis diagnosis_;
+  Inputs inputs_;
+  Outputs outputs_;
+  int dropped_cycles_ = 0;
+  bool stop_requested_ = false;
+};
+
+/// A cycle takes all that is pending, up to the capacity of any queue of ours; a 500 kbit/s bus
+/// brings some 75 of the shortest frames in 10 ms.
+inline constexpr int kFramesPerBatch = 96;
+inline constexpr int kBatchesPerCycle = 4;
+
+template <class Kind>
+void EcuNode<Kind>::receive(TimeUs now_us, bool stale) {
+  std::array<CanFrame, kFramesPerBatch> frames;
+  for (int batch = 0; batch < kBatchesPerCycle; ++batch) {
+    const int count = port_.receive(frames.data(), kFramesPerBatch);
+    for (int i = 0; i < count && !stale; ++i) {
+      receiver_.accept(frames[static_cast<unsigned>(i)], now_us);
+    }
+    if (count < kFramesPerBatch) {
+      return;
+    }
+  }
+}
+
+template <class Kind>
+void EcuNode<Kind>::gather_inputs(TimeUs now_us, BusState bus) {
+  inputs_ = receiver_.inputs();
+  inputs_.same_machine = receiver_.same_machine(diagnosis_.profile_hash);
+  inputs_.link.bus = bus;
+  inputs_.link.message_faults = receiver_.message_faults(now_us);
+  inputs_.link.out_of_range = receiver_.take_out_of_range();
+  inputs_.link.dropped_cycles = dropped_cycles_;
+  inputs_.link.stop_requested = stop_requested_;
+}
+
+template <class Kind>
+void EcuNode<Kind>::send(const typename Transmitter::Frames& frames, int count) {
+  bool has_command = false;
+  bool all_taken = true;
+  for (int i = 0; i < count; ++i) {
+    const CanFrame& frame = frames[static_cast<unsigned>(i)];
+    const bool taken = port_.send(frame);
+    diagnosis_.dropped_frames += taken ? 0U : 1U;
+    if (Kind::is_command(frame.id)) {
+      has_command = true;
+      all_taken = all_taken && taken;
+    }
+  }
+  if (has_command) {
+    count_cycle(all_taken);
+  }
+}
+
+template <class Kind>
+void EcuNode<Kind>::count_cycle(bool command_sent) {
+  const bool at_end = dropped_cycles_ == std::numeric_limits<int>::max();
+  dropped_cycles_ = command_sent ? 0 : dropped_cycles_ + (at_end ? 0 : 1);
+}
+
+template <class Kind>
+void EcuNode<Kind>::step(TimeUs now_us, TimeUs last_cycle_us) {
+  // What is not fresh is thrown away; the controller has stopped then anyway.
+  receive(now_us, watch_.begin(now_us));
+  gather_inputs(now_us, watch_.judge(now_us));
+  outputs_ = controller_.step(inputs_, now_us);
+  diagnosis_.cycle_time_us = last_cycle_us;
+  diagnosis_.rejected_frames = rejected(receiver_.total());
+  typename Transmitter::Frames frames;
+  const int count = transmitter_.frames(outputs_, diagnosis_, now_us, frames);
+  send(frames, count);
+  watch_.end(now_us);
+}
+
+}  // namespace graben::ecu

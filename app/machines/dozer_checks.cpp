@@ -1,0 +1,205 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/machines/dozer_sections.hpp"
+
+namespace graben::machines {
+namespace {
+
+/// L11 is documentation; off by more than this, a pin is wrong.
+constexpr double kPinTolerance_m = 2e-3;
+/// The cylinder's lever fails where rod eye, pivot and base come into line; this near to it at
+/// most.
+constexpr double kLeastLeverAngle_rad = 0.15;
+constexpr double kPi = 3.14159265358979323846;
+/// Deeper in its springs than this no machine of the class sits.
+constexpr double kMostSag_m = 0.10;
+/// Steeper ground carries no dozer.
+constexpr double kMostSlope = 0.6;
+constexpr double kDepthTolerance_m = 1e-3;
+constexpr double kGravity_mps2 = 9.80665;
+
+double angle_rad(const Eigen::Vector2d& direction) {
+  return std::atan2(direction.y(), direction.x());
+}
+
+/// The triangle of pivot, cylinder base and rod eye; written for the check alone, as the controller
+/// solves it for strokes.
+class Triangle {
+ public:
+  explicit Triangle(const BladeGeometry& blade) : blade_(blade) {
+    const Eigen::Vector2d to_base = blade.base_m - blade.pivot_m;
+    l11_m_ = to_base.norm();
+    const double along_m = to_base.dot(blade.arm_m.normalized());
+    const double root =
+        along_m * along_m - l11_m_ * l11_m_ + blade.length_home_m * blade.length_home_m;
+    l12_m_ = root >= 0.0 ? along_m + std::sqrt(root) : 0.0;
+  }
+
+  [[nodiscard]] double l11_m() const { return l11_m_; }
+  /// 0 or less where the home length does not reach from the base to the arm's line.
+  [[nodiscard]] double l12_m() const { return l12_m_; }
+
+  /// At the pivot, from the rod eye to the base; falls as the edge rises.
+  [[nodiscard]] double lever_rad(double edge_m) const {
+    const double raised_rad = std::asin((edge_m - blade_.pivot_m.y()) / blade_.cutting_edge_m) +
+                              std::asin(blade_.pivot_m.y() / blade_.cutting_edge_m);
+    return angle_rad(blade_.base_m - blade_.pivot_m) - angle_rad(blade_.arm_m) - raised_rad;
+  }
+
+  [[nodiscard]] double length_m(double edge_m) const {
+    return std::sqrt(l11_m_ * l11_m_ + l12_m_ * l12_m_ -
+                     2.0 * l11_m_ * l12_m_ * std::cos(lever_rad(edge_m)));
+  }
+
+ private:
+  const BladeGeometry& blade_;
+  double l11_m_ = 0.0;
+  double l12_m_ = 0.0;
+};
+
+void check_body(TomlReader& reader, const DozerBody& body) {
+  const double sag_m = body.mass_kg * kGravity_mps2 / (body.wheels * body.suspension_npm);
+  if (sag_m > kMostSag_m) {
+    reader.fail("body.suspension.stiffness",
+                fmt::format("{} N/m; {} wheels sag by {:.3f} m under the mass; allowed: at most "
+                            "{} m",
+                            body.suspension_npm, body.wheels, sag_m, kMostSag_m));
+  }
+}
+
+/// Whether the edge can be at this height at all, and the cylinder's lever holds there.
+bool check_reach(TomlReader& reader, const Triangle& triangle, const BladeGeometry& blade,
+                 double edge_m) {
+  if (std::abs(edge_m - blade.pivot_m.y()) >= blade.cutting_edge_m) {
+    reader.fail("blade.range", fmt::format("{} m is out of the cutting edge's reach of {} m about "
+                                           "the pivot",
+                                           edge_m, blade.cutting_edge_m));
+    return false;
+  }
+  const double lever_rad = triangle.lever_rad(edge_m);
+  if (lever_rad < kLeastLeverAngle_rad || lever_rad > kPi - kLeastLeverAngle_rad) {
+    reader.fail("blade.range",
+                fmt::format("with the edge at {} m, rod eye and cylinder base are {:.3f} rad apart "
+                            "at the pivot; allowed: {} .. {:.3f} rad",
+                            edge_m, lever_rad, kLeastLeverAngle_rad, kPi - kLeastLeverAngle_rad));
+    return false;
+  }
+  return true;
+}
+
+void check_blade(TomlReader& reader, const BladeGeometry& blade, double l11_m) {
+  const Triangle triangle(blade);
+  if (std::abs(l11_m - triangle.l11_m()) > kPinTolerance_m) {
+    reader.fail("blade.L11", fmt::format("{} m; pivot and cylinder base are {:.4f} m apart; "
+                                         "allowed: within {} m of that",
+                                         l11_m, triangle.l11_m(), kPinTolerance_m));
+    return;
+  }
+  if (!(blade.edge_min_m < 0.0 && blade.edge_max_m > 0.0)) {
+    reader.fail("blade.range", "must have home, an edge at 0 m, within");
+    return;
+  }
+  if (triangle.l12_m() <= 0.0 || triangle.l12_m() > blade.arm_m.norm()) {
+    reader.fail("blade.cylinder.length_home",
+                fmt::format("{} m; no rod eye between the pivot and the blade's foot is that far "
+                            "from the cylinder's base",
+                            blade.length_home_m));
+    return;
+  }
+  if (!check_reach(reader, triangle, blade, blade.edge_min_m) ||
+      !check_reach(reader, triangle, blade, blade.edge_max_m)) {
+    return;
+  }
+  const double closed_m = triangle.length_m(blade.edge_max_m);
+  const double stroke_m = triangle.length_m(blade.edge_min_m) - closed_m;
+  if (stroke_m >= closed_m) {
+    reader.fail("blade.range", fmt::format("asks for a stroke of {:.3f} m; allowed: less than the "
+                                           "closed length of {:.3f} m",
+                                           stroke_m, closed_m));
+  }
+}
+
+void check_engine(TomlReader& reader, const DozerProfile& profile) {
+  const HstProfile& hst = profile.hst;
+  if (hst.engine_radps < hst.engine_least_radps || hst.engine_radps > hst.engine_most_radps) {
+    reader.fail("hst.engine_speed",
+                fmt::format("{} rad/s; allowed: engine_range, {} .. {} rad/s", hst.engine_radps,
+                            hst.engine_least_radps, hst.engine_most_radps));
+  }
+  if (profile.safety.idle_radps > hst.engine_radps) {
+    reader.fail("safety.idle", fmt::format("{} rad/s; allowed: at most hst.engine_speed, {} rad/s",
+                                           profile.safety.idle_radps, hst.engine_radps));
+  }
+}
+
+/// From each corner to the next: rising in x, room for both roundings, not too steep.
+void check_corners(TomlReader& reader, const GradeDesign& grade) {
+  for (unsigned i = 1; i < static_cast<unsigned>(grade.count); ++i) {
+    const GradePoint& from = grade.point[i - 1];
+    const GradePoint& to = grade.point[i];
+    const double apart_m = to.x_m - from.x_m;
+    const std::string key = fmt::format("experiment.profile[{}]", i);
+    if (!(apart_m > 0.0)) {
+      reader.fail(key, fmt::format("x = {} m; allowed: more than the point before, {} m", to.x_m,
+                                   from.x_m));
+      continue;
+    }
+    // As the corners' numbers are rounded in binary, so is their distance.
+    if (apart_m < 2.0 * grade.rounding_m - 1e-9) {
+      reader.fail(key, fmt::format("{:.3f} m after the point before; allowed: at least twice the "
+                                   "rounding, {:.3f} m",
+                                   apart_m, 2.0 * grade.rounding_m));
+    }
+    const double slope = (to.z_m - from.z_m) / apart_m + grade.plane_slope;
+    if (std::abs(slope) > kMostSlope) {
+      reader.fail(key, fmt::format("a slope of {:.3f} from the point before; allowed: {} .. {}",
+                                   slope, -kMostSlope, kMostSlope));
+    }
+  }
+}
+
+void check_grade(TomlReader& reader, const DozerProfile& profile, double length_m,
+                 double depth_max_m) {
+  const GradeDesign& grade = profile.grade;
+  check_corners(reader, grade);
+  const auto end = grade.point.begin() + grade.count;
+  const double lowest_m =
+      std::min_element(grade.point.begin(), end, [](const GradePoint& a, const GradePoint& b) {
+        return a.z_m < b.z_m;
+      })->z_m;
+  if (std::abs(lowest_m + depth_max_m) > kDepthTolerance_m) {
+    reader.fail("experiment.depth_max",
+                fmt::format("{} m; the profile's lowest point is at {} m", depth_max_m, lowest_m));
+  }
+  if (depth_max_m > -profile.blade.edge_min_m) {
+    reader.fail("experiment.depth_max",
+                fmt::format("{} m; allowed: at most what the blade reaches below the tracks, {} m",
+                            depth_max_m, -profile.blade.edge_min_m));
+  }
+  const GradePoint& last = *(end - 1);
+  if (length_m > last.x_m) {
+    reader.fail("experiment.length", fmt::format("{} m; allowed: at most to the profile's end, {} "
+                                                 "m",
+                                                 length_m, last.x_m));
+  }
+}
+
+}  // namespace
+
+void check_dozer_across_keys(TomlReader& reader, const DozerProfile& profile,
+                             const DozerExperiment& experiment) {
+  const double l11_m = reader.number("blade.L11", {0.05, 5.0, "m"});
+  const double depth_max_m = reader.number("experiment.depth_max", {0.0, 5.0, "m"});
+  if (!reader.errors().empty()) {
+    return;
+  }
+  check_body(reader, profile.body);
+  check_blade(reader, profile.blade, l11_m);
+  check_engine(reader, profile);
+  check_grade(reader, profile, experiment.length_m, depth_max_m);
+}
+
+}  // namespace graben::machines

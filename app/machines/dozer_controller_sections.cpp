@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+
+#include <tuple>
+#include <utility>
+
+#include "app/machines/dozer_sections.hpp"
+#include "app/machines/shared_sections.hpp"
+
+namespace graben::machines {
+namespace {
+
+constexpr Range kPin{-5.0, 5.0, "m"};
+constexpr Range kShare{0.0, 1.0, ""};
+constexpr Range kEfficiency{0.5, 1.0, ""};
+constexpr Range kDisplacement{1e-6, 1e-2, "m3/rev"};
+constexpr Range kEngine{20.0, 400.0, "rad/s"};
+constexpr Range kX{-1000.0, 1000.0, "m"};
+constexpr Range kHeight{-100.0, 100.0, "m"};
+
+/// Both ends of a range, the least first.
+std::pair<double, double> read_ends(TomlReader& reader, const std::string& key,
+                                    const Range& range) {
+  const std::vector<double> ends = reader.numbers(key, range, 2);
+  if (ends[0] > ends[1]) {
+    reader.fail(key, fmt::format("[{}, {}] {}; must be given as [least, most]", ends[0], ends[1],
+                                 range.unit));
+  }
+  return {ends[0], ends[1]};
+}
+
+DozerBody read_body(TomlReader& reader) {
+  DozerBody body;
+  body.mass_kg = reader.number("body.mass", {500.0, 1e5, "kg"});
+  body.mass_centre_height_m = reader.number("body.mass_centre_height", {0.1, 3.0, "m"});
+  body.wheels = reader.integer("body.wheels", 2, kMostWheels);
+  body.track_contact_m = reader.number("body.track_contact", {0.5, 6.0, "m"});
+  body.half_gauge_m = reader.number("body.half_gauge", {0.3, 3.0, "m"});
+  body.suspension_npm = reader.number("body.suspension.stiffness", {1e4, 1e8, "N/m"});
+  body.suspension_nspm = reader.number("body.suspension.damping", {0.0, 1e7, "N s/m"});
+  return body;
+}
+
+BladeGeometry read_blade(TomlReader& reader) {
+  BladeGeometry blade;
+  blade.pivot_m = reader.point("blade.pivot", kPin);
+  blade.arm_m = reader.point("blade.arm", kPin);
+  blade.cutting_edge_m = reader.number("blade.cutting_edge", {0.3, 5.0, "m"});
+  const CylinderSize size = read_cylinder_size(reader, "blade.cylinder");
+  blade.cylinder_count = size.count;
+  blade.bore_m = size.bore_m;
+  blade.rod_m = size.rod_m;
+  blade.base_m = reader.point("blade.cylinder.base", kPin);
+  blade.length_home_m = reader.number("blade.cylinder.length_home", {0.1, 5.0, "m"});
+  std::tie(blade.edge_min_m, blade.edge_max_m) = read_ends(reader, "blade.range", {-2.0, 3.0, "m"});
+  return blade;
+}
+
+ImplementProfile read_implement(TomlReader& reader) {
+  ImplementProfile implement;
+  implement.displacement_m3prev = reader.number("implement.pump.displacement", kDisplacement);
+  implement.efficiency = reader.number("implement.pump.volumetric_efficiency", kEfficiency);
+  implement.valve_flow_max_m3ps = reader.number("implement.valve_flow_max", {1e-5, 0.1, "m3/s"});
+  implement.spool_to_duty = read_spool_to_duty(reader, "implement.spool_to_duty");
+  return implement;
+}
+
+HstProfile read_hst(TomlReader& reader) {
+  HstProfile hst;
+  hst.engine_radps = reader.number("hst.engine_speed", kEngine);
+  std::tie(hst.engine_least_radps, hst.engine_most_radps) =
+      read_ends(reader, "hst.engine_range", kEngine);
+  hst.pump_m3prev = reader.number("hst.pump_displacement", kDisplacement);
+  hst.motor_m3prev = reader.number("hst.motor_displacement", kDisplacement);
+  hst.motor_ratio_min = reader.number("hst.motor_ratio_min", {0.05, 1.0, ""});
+  hst.gear_ratio = reader.number("hst.gear_ratio", {1.0, 500.0, ""});
+  const std::vector<double> efficiency = reader.numbers("hst.efficiency", kEfficiency, 2);
+  hst.pump_efficiency = efficiency[0];
+  hst.motor_efficiency = efficiency[1];
+  hst.sprocket_radius_m = reader.number("hst.sprocket_radius", {0.1, 1.5, "m"});
+  hst.pump_rate_ps = reader.number("hst.pump_rate", {0.1, 100.0, "1/s"});
+  hst.motor_rate_ps = reader.number("hst.motor_rate", {0.1, 100.0, "1/s"});
+  // The pump's: it alone follows the speed at work, the motor only above what the pump gives.
+  hst.response_s = reader.number("hst.pump_response", {0.001, 2.0, "s"});
+  return hst;
+}
+
+TravelProfile read_travel(TomlReader& reader) {
+  const Range rate{0.05, 5.0, "m/s2"};
+  TravelProfile travel;
+  travel.speed_desired_mps = reader.number("travel.speed_desired", {0.05, 3.0, "m/s"});
+  travel.speed_min_mps = reader.number("travel.speed_min", {0.01, 1.0, "m/s"});
+  travel.acceleration_max_mps2 = reader.number("travel.acceleration_max", rate);
+  travel.threshold_rad = reader.number("travel.threshold", {0.0, 0.5, "rad"});
+  travel.deceleration_max_mps2 = reader.number("travel.deceleration_max", rate);
+  travel.flow_share = reader.number("travel.flow_share", {0.1, 1.0, ""});
+  travel.preview_m = reader.number("travel.preview", {0.0, 20.0, "m"});
+  travel.track_gain = reader.number("travel.track_gain", {0.0, 10.0, ""});
+  travel.track_integral_ps = reader.number("travel.track_integral", {0.0, 50.0, "1/s"});
+  if (travel.speed_min_mps > travel.speed_desired_mps) {
+    reader.fail("travel.speed_min", fmt::format("{} m/s; allowed: at most speed_desired, {} m/s",
+                                                travel.speed_min_mps, travel.speed_desired_mps));
+  }
+  return travel;
+}
+
+GradeDesign read_grade(TomlReader& reader) {
+  GradeDesign grade;
+  for (const auto& [x_m, z_m] :
+       reader.pairs("experiment.profile", kX, kHeight, 2, GradeDesign::kMostPoints)) {
+    grade.point[static_cast<unsigned>(grade.count++)] = {x_m, z_m};
+  }
+  grade.rounding_m = reader.number("experiment.rounding", {0.0, 10.0, "m"});
+  grade.plane_height_m = reader.number("grade.plane_height", kHeight);
+  grade.plane_slope = reader.number("grade.plane_slope", {-0.3, 0.3, ""});
+  return grade;
+}
+
+DozerControl read_control(TomlReader& reader) {
+  auto control = read_control_of_valve<DozerControl>(reader, "implement");
+  control.blade_gain_ps = reader.number("control.blade_gain", {0.0, 50.0, "1/s"});
+  control.blade_integral_ps2 = reader.number("control.blade_integral", {0.0, 100.0, "1/s2"});
+  control.blade_integral_most_mps = reader.number("control.blade_integral_most", {0.0, 1.0, "m/s"});
+  return control;
+}
+
+DozerSafety read_safety(TomlReader& reader) {
+  auto safety = read_safety_of_valve<DozerSafety>(reader);
+  safety.displacement_tolerance = reader.number("safety.displacement_tolerance", {0.01, 0.5, ""});
+  safety.displacement_settle_s = reader.number("safety.displacement_settle", {0.01, 2.0, "s"});
+  safety.track_speed_tolerance_mps =
+      reader.number("safety.track_speed_tolerance", {0.01, 2.0, "m/s"});
+  return safety;
+}
+
+}  // namespace
+
+DozerProfile read_dozer_controller_sections(TomlReader& reader) {
+  DozerProfile profile;
+  profile.body = read_body(reader);
+  profile.blade = read_blade(reader);
+  profile.implement = read_implement(reader);
+  profile.hst = read_hst(reader);
+  profile.travel = read_travel(reader);
+  profile.grade = read_grade(reader);
+  profile.control = read_control(reader);
+  profile.safety = read_safety(reader);
+  return profile;
+}
+
+DozerExperiment read_dozer_experiment_sections(TomlReader& reader) {
+  DozerExperiment experiment;
+  experiment.length_m = reader.number("experiment.length", {1.0, 1000.0, "m"});
+  experiment.uncertainty = {reader.number("uncertainty.mass", {0.0, 0.5, ""}),
+                            reader.number("uncertainty.friction", {0.0, 0.5, ""}),
+                            reader.number("uncertainty.efficiency", {0.0, 0.5, ""})};
+  return experiment;
+}
+
+}  // namespace graben::machines

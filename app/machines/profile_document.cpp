@@ -1,0 +1,79 @@
+#include "app/machines/profile_document.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+#include <vector>
+
+namespace graben::machines {
+namespace {
+
+/// In the order of MachineKind.
+const std::vector<std::string>& kind_names() {
+  static const std::vector<std::string> names = {"excavator", "dozer"};
+  return names;
+}
+
+const std::string& kind_name(MachineKind kind) {
+  return kind_names()[static_cast<std::size_t>(kind)];
+}
+
+std::uint32_t fnv1a(const std::string& bytes) {
+  std::uint32_t hash = 2166136261u;
+  for (const char byte : bytes) {
+    hash = (hash ^ static_cast<unsigned char>(byte)) * 16777619u;
+  }
+  return hash;
+}
+
+std::string read_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (!stream || !(text << stream.rdbuf())) {
+    throw std::runtime_error(fmt::format("{}: can't be read", file.string()));
+  }
+  return text.str();
+}
+
+}  // namespace
+
+ProfileDocument read_document(const std::filesystem::path& file) {
+  const std::string text = read_file(file);
+  try {
+    return {file, fnv1a(text), toml::parse(text, file.string())};
+  } catch (const toml::parse_error& error) {
+    throw ProfileError(file.string(),
+                       {fmt::format("line {}, column {}: {}", error.source().begin.line,
+                                    error.source().begin.column, error.description())});
+  }
+}
+
+MachineKind read_kind(const ProfileDocument& document, TomlReader& reader) {
+  const auto kind = static_cast<MachineKind>(reader.choice("kind", kind_names()));
+  throw_errors(document, reader);
+  return kind;
+}
+
+void require_kind(const ProfileDocument& document, TomlReader& reader, MachineKind kind) {
+  const MachineKind found = read_kind(document, reader);
+  if (found != kind) {
+    reader.fail("kind", fmt::format("a machine of kind {}; here it must be {}", kind_name(found),
+                                    kind_name(kind)));
+  }
+  throw_errors(document, reader);
+}
+
+void throw_errors(const ProfileDocument& document, const TomlReader& reader) {
+  if (!reader.errors().empty()) {
+    throw ProfileError(document.file.string(), reader.errors());
+  }
+}
+
+MachineKind profile_kind(const std::filesystem::path& file) {
+  const ProfileDocument document = read_document(file);
+  TomlReader reader(document.root);
+  return read_kind(document, reader);
+}
+
+}  // namespace graben::machines

@@ -1,0 +1,60 @@
+#pragma once
+/// What the TOML files of all machine kinds have in common.
+
+#include <string>
+
+#include "app/machines/toml_reader.hpp"
+#include "firmware/numeric/monotone_table.hpp"
+
+namespace graben::machines {
+
+/// Cylinders that move together.
+struct CylinderSize {
+  int count = 0;
+  double bore_m = 0.0;
+  double rod_m = 0.0;
+};
+
+/// count, bore and rod of the cylinder at this key ("boom.cylinder"); the rod must fit.
+[[nodiscard]] CylinderSize read_cylinder_size(TomlReader& reader, const std::string& at);
+
+/// Opening in shares of the travel to duty, per mille in the file and a share in the table; both
+/// strictly increasing, from opening 0 to opening 1.
+[[nodiscard]] MonotoneTable read_spool_to_duty(TomlReader& reader, const std::string& key);
+
+/// How a valve is driven: keys that each kind's control struct has. The dead time stands with the
+/// valve, in section `valve`.
+template <class Control>
+[[nodiscard]] Control read_control_of_valve(TomlReader& reader, const std::string& valve) {
+  Control control;
+  control.spool_rate_ps = reader.number("control.spool_rate", {0.1, 1000.0, "1/s"});
+  control.spool_threshold = reader.number("control.spool_threshold", {0.0, 0.1, ""});
+  control.response_s = reader.number("control.response", {0.001, 1.0, "s"});
+  control.dead_time_s = reader.number(valve + ".dead_time", {0.0, 0.5, "s"});
+  control.sensor_timeout_s = reader.number("control.sensor_timeout", {0.02, 0.05, "s"});
+  return control;
+}
+
+/// Oil and spool of the simulated valve, in section `valve`.
+template <class Plant>
+void read_valve_of_plant(TomlReader& reader, const std::string& valve, Plant& plant) {
+  plant.spool_time_constant_s = reader.number(valve + ".time_constant", {0.001, 1.0, "s"});
+  plant.spool_damping = reader.number(valve + ".damping", {0.1, 10.0, ""});
+  plant.deadband_ratio = reader.number(valve + ".deadband", {0.0, 0.9, ""});
+  plant.bulk_modulus_pa = reader.number(valve + ".bulk_modulus", {1e8, 1e11, "Pa"});
+}
+
+/// The watches' keys that each kind's safety struct has.
+template <class Safety>
+[[nodiscard]] Safety read_safety_of_valve(TomlReader& reader) {
+  Safety safety;
+  safety.degraded_speed_ratio = reader.number("safety.degraded_speed", {0.05, 1.0, ""});
+  safety.idle_radps = reader.number("safety.idle", {20.0, 400.0, "rad/s"});
+  safety.settle_s = reader.number("safety.settle", {0.01, 0.3, "s"});
+  safety.spool_tolerance = reader.number("safety.spool_tolerance", {0.01, 0.5, ""});
+  safety.uncommanded_m = reader.number("safety.uncommanded", {0.005, 0.5, "m"});
+  safety.stuck_m = reader.number("safety.stuck", {0.005, 0.5, "m"});
+  return safety;
+}
+
+}  // namespace graben::machines

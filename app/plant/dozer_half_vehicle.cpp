@@ -1,0 +1,85 @@
+#include "app/plant/dozer_half_vehicle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben::plant {
+
+HalfVehicle::HalfVehicle(const DozerPlantProfile& profile)
+    : body_(profile.machine.body),
+      pitch_inertia_(profile.pitch_inertia_kgm2),
+      gravity_(profile.gravity_mps2),
+      rolling_resistance_(profile.ground.rolling_resistance),
+      rolling_onset_(profile.rolling_onset_mps),
+      wheel_half_width_(profile.wheel_half_width_m),
+      wheel_depth_(body_.mass_centre_height_m +
+                   body_.mass_kg * gravity_ / (body_.wheels * body_.suspension_npm)),
+      position_(profile.start_position_m),
+      mass_centre_(body_.mass_centre_height_m),
+      whole_load_(body_.mass_kg * gravity_) {
+  for (int i = 0; i < body_.wheels; ++i) {
+    load_[static_cast<std::size_t>(i)] = whole_load_ / body_.wheels;
+  }
+}
+
+double HalfVehicle::wheel_place_m(int wheel) const {
+  return body_.track_contact_m * (static_cast<double>(wheel) / (body_.wheels - 1) - 0.5);
+}
+
+double HalfVehicle::height_m() const {
+  return mass_centre_ - body_.mass_centre_height_m * std::cos(pitch_);
+}
+
+double HalfVehicle::climb_mps() const {
+  return mass_centre_climb_ + body_.mass_centre_height_m * std::sin(pitch_) * pitch_rate_;
+}
+
+double HalfVehicle::ground_speed_mps() const {
+  return velocity_ * std::cos(pitch_) + climb_mps() * std::sin(pitch_);
+}
+
+double HalfVehicle::wheel_load(const Terrain& terrain, double along_m) const {
+  // The wheel's bottom, l along and the sag below the origin, in the world and against the ground.
+  const double cosine = std::cos(pitch_);
+  const double sine = std::sin(pitch_);
+  const double sag = wheel_depth_ - body_.mass_centre_height_m;
+  const double ahead = along_m * cosine + sag * sine;
+  const double x = position_ + ahead;
+  const double z = mass_centre_ + along_m * sine - wheel_depth_ * cosine;
+  const double compression = terrain.mean_height_m(x, wheel_half_width_) - z;
+  if (compression <= 0.0) {
+    return 0.0;
+  }
+  const double forward = velocity_ - pitch_rate_ * (along_m * sine - sag * cosine);
+  const double upward = mass_centre_climb_ + pitch_rate_ * (along_m * cosine + wheel_depth_ * sine);
+  const double rate = terrain.mean_slope(x, wheel_half_width_) * forward - upward;
+  return std::max(0.0, body_.suspension_npm * compression + body_.suspension_nspm * rate);
+}
+
+double HalfVehicle::rolling_resistance_n() const {
+  return rolling_resistance_ * whole_load_ * std::tanh(ground_speed_mps() / rolling_onset_);
+}
+
+void HalfVehicle::step(const Terrain& terrain, double traction_n, double step_s) {
+  const double cosine = std::cos(pitch_);
+  const double sine = std::sin(pitch_);
+  whole_load_ = 0.0;
+  double moment = 0.0;
+  for (int i = 0; i < body_.wheels; ++i) {
+    const double along = wheel_place_m(i);
+    const double load = wheel_load(terrain, along);
+    load_[static_cast<std::size_t>(i)] = load;
+    whole_load_ += load;
+    moment += load * (along * cosine + wheel_depth_ * sine);
+  }
+  const double mass = body_.mass_kg;
+  const double along_body = traction_n - mass * gravity_ * sine - rolling_resistance_n();
+  velocity_ += step_s * cosine * along_body / mass;
+  mass_centre_climb_ += step_s * (whole_load_ / mass - gravity_);
+  pitch_rate_ += step_s * moment / pitch_inertia_;
+  position_ += step_s * velocity_;
+  mass_centre_ += step_s * mass_centre_climb_;
+  pitch_ += step_s * pitch_rate_;
+}
+
+}  // namespace graben::plant

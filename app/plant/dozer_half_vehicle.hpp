@@ -1,0 +1,63 @@
+#pragma once
+/// The dozer's body on its tracks, after Mononen and Mattila (15) - (17).
+
+#include <array>
+
+#include "app/plant/dozer_profile.hpp"
+#include "app/plant/dozer_terrain.hpp"
+
+namespace graben::plant {
+
+/// Wheels on springs and dampers that push only, evenly spaced over the contact. World frame, x
+/// along the grade, z up; pitch is positive nose up. At rest on level ground the body frame's
+/// origin is at the ground: unloaded, the wheels reach below it by the static sag.
+///
+/// Left out as in the paper: the traction's moment on the pitch and, which belongs to it, the mass
+/// centre's sway over the tracks. So (17) is of the origin, where the tracks grip. What the blade's
+/// motion does to the body is left out too; its mass is part of the body's.
+class HalfVehicle {
+ public:
+  /// At rest on flat ground at z = 0.
+  explicit HalfVehicle(const DozerPlantProfile& profile);
+
+  /// Goes on by a step with the whole traction of both tracks, N along the body.
+  void step(const Terrain& terrain, double traction_n, double step_s);
+
+  /// Of the body frame's origin.
+  [[nodiscard]] double position_m() const { return position_; }
+  [[nodiscard]] double height_m() const;
+  [[nodiscard]] double velocity_mps() const { return velocity_; }
+  [[nodiscard]] double climb_mps() const;
+  [[nodiscard]] double pitch_rad() const { return pitch_; }
+  [[nodiscard]] double pitch_rate_radps() const { return pitch_rate_; }
+  /// Of the origin, along the body's x axis: what the tracks see of the ground.
+  [[nodiscard]] double ground_speed_mps() const;
+
+  /// What each wheel pressed with in the last step; 0 in the air.
+  [[nodiscard]] const std::array<double, kMostWheels>& wheel_loads_n() const { return load_; }
+  [[nodiscard]] double load_n() const { return whole_load_; }
+  [[nodiscard]] double wheel_place_m(int wheel) const;
+
+ private:
+  [[nodiscard]] double wheel_load(const Terrain& terrain, double along_m) const;
+  [[nodiscard]] double rolling_resistance_n() const;
+
+  DozerBody body_;
+  double pitch_inertia_;
+  double gravity_;
+  double rolling_resistance_;
+  double rolling_onset_;
+  double wheel_half_width_;
+  double wheel_depth_;  ///< Of the unloaded wheels' bottoms below the mass centre.
+
+  double position_;
+  double mass_centre_;  ///< Its height.
+  double pitch_ = 0.0;
+  double velocity_ = 0.0;
+  double mass_centre_climb_ = 0.0;
+  double pitch_rate_ = 0.0;
+  std::array<double, kMostWheels> load_{};
+  double whole_load_;
+};
+
+}  // namespace graben::plant

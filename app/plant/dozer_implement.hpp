@@ -1,0 +1,55 @@
+#pragma once
+/// The dozer's implement circuit: pump of fixed displacement, load-sensing section, port reliefs.
+
+#include "app/plant/dozer_profile.hpp"
+#include "app/plant/orifice.hpp"
+#include "app/plant/spool.hpp"
+
+namespace graben::plant {
+
+/// What one step did, m^3/s. Chamber flows are positive into the chamber and include its port
+/// relief and make-up.
+struct ImplementFlows {
+  double demand = 0.0;     ///< What the spool's opening asks for.
+  double available = 0.0;  ///< What the pump gives.
+  double supply = 0.0;     ///< What goes from pump to cylinders; the rest is unloaded.
+  double cap_in = 0.0;
+  double rod_in = 0.0;
+};
+
+/// A pressure-compensated section: its inflow is the spool's opening times the valve's largest
+/// flow, whatever the load, as long as the pump can feed that and the load is a margin below the
+/// relief; a load check keeps it from flowing back. The way out is throttled in proportion to the
+/// opening, see DozerPlantProfile. The lines between are short: no volume beside the chambers'.
+class ImplementCircuit {
+ public:
+  explicit ImplementCircuit(const DozerPlantProfile& profile);
+
+  /// Where the spool is sent, of its travel.
+  void set_command(double travel_ratio) { spool_.set_command(travel_ratio); }
+  [[nodiscard]] const ImplementFlows& solve(double engine_radps, const WavePort& cap,
+                                            const WavePort& rod);
+  /// Ends the step.
+  void step(double step_s) { spool_.step(step_s); }
+
+  [[nodiscard]] const Spool& spool() const { return spool_; }
+  [[nodiscard]] const ImplementFlows& flows() const { return flows_; }
+  [[nodiscard]] double pump_flow_m3ps(double engine_radps) const {
+    return pump_m3prad_ * engine_radps;
+  }
+
+ private:
+  [[nodiscard]] double supply(double k_in, const WavePort& fed) const;
+
+  Spool spool_;
+  PortProtection protection_;
+  double pump_m3prad_;
+  double relief_;
+  double flow_max_;
+  double k_in_;        ///< Of the edges fully open.
+  double k_lowering_;  ///< Rod chamber to tank.
+  double k_raising_;   ///< Cap chamber to tank.
+  ImplementFlows flows_;
+};
+
+}  // namespace graben::plant

@@ -1,0 +1,115 @@
+#include "app/plant/dozer_plant.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben::plant {
+namespace {
+
+// Ground that is kept beyond the grade: what lies before the start and the machine itself.
+constexpr double kGroundBehindM = 6.0;
+constexpr double kGroundAheadM = 10.0;
+
+Terrain ground_of(const DozerPlantProfile& profile) {
+  const GradeDesign& grade = profile.machine.grade;
+  const double end =
+      grade.count > 0 ? grade.point[static_cast<std::size_t>(grade.count) - 1].x_m : 0.0;
+  return {profile.start_position_m - kGroundBehindM,
+          std::max(end, profile.start_position_m) + kGroundAheadM, profile.terrain_cell_m};
+}
+
+}  // namespace
+
+DozerPlant::DozerPlant(const DozerPlantProfile& profile)
+    : profile_(profile),
+      step_s_(profile.step_s()),
+      engine_radps_(profile.machine.hst.engine_radps),
+      terrain_(ground_of(profile)),
+      body_(profile),
+      path_{HstPath(profile), HstPath(profile)},
+      traction_{Traction(profile), Traction(profile)},
+      pilot_(profile.dead_time_s, step_s_),
+      implement_(profile),
+      blade_(profile),
+      cylinder_(profile.blade_cylinder(blade_.linkage().full_stroke_m()), step_s_) {
+  cylinder_.start(blade_.stroke_m(), blade_.holding_force_n(0.0));
+}
+
+void DozerPlant::set_blade_duty(double duty_ratio, bool enable) {
+  duty_ = enable && std::isfinite(duty_ratio) ? duty_ratio : 0.0;
+}
+
+void DozerPlant::set_displacements(const TrackArray& pump_ratio, const TrackArray& motor_ratio) {
+  for (std::size_t i = 0; i < path_.size(); ++i) {
+    path_[i].pump().set_wanted(pump_ratio[i]);
+    path_[i].motor().set_wanted(motor_ratio[i]);
+  }
+}
+
+void DozerPlant::set_engine_radps(double engine_radps) {
+  engine_radps_ = std::isfinite(engine_radps) ? std::max(0.0, engine_radps) : 0.0;
+}
+
+void DozerPlant::advance(TimeUs duration_us) {
+  pending_us_ += duration_us;
+  while (pending_us_ >= profile_.step_us) {
+    pending_us_ -= profile_.step_us;
+    step();
+  }
+}
+
+void DozerPlant::step() {
+  const Eigen::Vector2d edge_before = cutting_edge_m();
+  drive();
+  move_blade();
+  terrain_.cut(edge_before, cutting_edge_m());
+}
+
+void DozerPlant::drive() {
+  double traction_n = 0.0;
+  for (std::size_t i = 0; i < path_.size(); ++i) {
+    const double force_n = traction_[i].step(path_[i].track_speed_mps(), body_.ground_speed_mps(),
+                                             0.5 * body_.load_n(), step_s_);
+    path_[i].step(engine_radps_, force_n, brake_);
+    traction_n += force_n;
+  }
+  body_.step(terrain_, traction_n, step_s_);
+}
+
+void DozerPlant::move_blade() {
+  implement_.set_command(pilot_.step(duty_, pilot_cut_));
+  const ImplementFlows& flows =
+      implement_.solve(engine_radps_, cylinder_.cap_port(), cylinder_.rod_port());
+  const double velocity = blade_.accelerate(cylinder_.load(), body_.pitch_rad(), step_s_);
+  blade_.move(step_s_);
+  cylinder_.step(flows.cap_in, flows.rod_in, velocity);
+  cylinder_.set_motion(blade_.stroke_m(), blade_.velocity_mps());
+  implement_.step(step_s_);
+}
+
+DozerPlant::TrackArray DozerPlant::pump_ratios() const {
+  return {path_[kLeft].pump().ratio(), path_[kRight].pump().ratio()};
+}
+
+DozerPlant::TrackArray DozerPlant::motor_ratios() const {
+  return {path_[kLeft].motor().ratio(), path_[kRight].motor().ratio()};
+}
+
+DozerPlant::TrackArray DozerPlant::track_speeds_mps() const {
+  return {path_[kLeft].track_speed_mps(), path_[kRight].track_speed_mps()};
+}
+
+DozerPlant::TrackArray DozerPlant::slips() const {
+  return {traction_[kLeft].slip(), traction_[kRight].slip()};
+}
+
+Eigen::Vector2d DozerPlant::cutting_edge_m() const {
+  const double pitch = body_.pitch_rad();
+  const double cosine = std::cos(pitch);
+  const double sine = std::sin(pitch);
+  const Eigen::Vector2d edge = blade_.linkage().edge_m(blade_.angle_rad());
+  return {body_.position_m() + edge.x() * cosine - edge.y() * sine,
+          body_.height_m() + edge.x() * sine + edge.y() * cosine};
+}
+
+}  // namespace graben::plant

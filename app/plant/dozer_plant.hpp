@@ -1,0 +1,122 @@
+#pragma once
+/// The simulated dozer, driving straight: body, ground, blade, implement circuit, transmission.
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+
+#include "app/plant/cylinder.hpp"
+#include "app/plant/dozer_blade_joint.hpp"
+#include "app/plant/dozer_half_vehicle.hpp"
+#include "app/plant/dozer_hst_path.hpp"
+#include "app/plant/dozer_implement.hpp"
+#include "app/plant/dozer_profile.hpp"
+#include "app/plant/dozer_terrain.hpp"
+#include "app/plant/dozer_traction.hpp"
+#include "app/plant/pilot_valve.hpp"
+#include "firmware/core/time.hpp"
+#include "firmware/signals/dozer_signals.hpp"
+
+namespace graben::plant {
+
+/// Mononen and Mattila's dozer (15) - (17) with what their detailed model adds: soil shear under
+/// the tracks, compressible lines and chambers, displacement and spool dynamics, deadband, leakage,
+/// friction. The ground's resistance to the blade is left out as in the paper (a finishing cut).
+/// The engine holds its speed. Deterministic: the same calls give the same numbers.
+///
+/// One step, from the state at t to that at t + h: tracks against the ground, transmission, body;
+/// implement valve between the chambers' waves, blade against their impedance, their waves; then
+/// the cut along the edge's way.
+class DozerPlant {
+ public:
+  using TrackArray = std::array<double, kTrackCount>;
+
+  /// At rest at the profile's start on flat ground at z = 0, blade at home, spool closed, the
+  /// chambers carrying the blade, the transmission's lines at charge pressure, brake on.
+  explicit DozerPlant(const DozerPlantProfile& profile);
+
+  /// Duty -1 .. 1 is the wanted spool travel of full travel; + extends, which lowers the blade.
+  /// Without `enable` neutral; a value that is not finite counts as 0.
+  void set_blade_duty(double duty_ratio, bool enable);
+  /// Wanted displacements, left and right, limited to -1 .. 1 and motor_ratio_min .. 1. What is not
+  /// finite counts as 0 of a pump and 1 of a motor.
+  void set_displacements(const TrackArray& pump_ratio, const TrackArray& motor_ratio);
+  /// The parking brake holds the sprockets.
+  void set_brake(bool on) { brake_ = on; }
+  /// Without pilot pressure the spool centres by its springs, whatever its pilot valve does.
+  void set_pilot_cut(bool cut) { pilot_cut_ = cut; }
+  /// Not finite or negative counts as standing still.
+  void set_engine_radps(double engine_radps);
+
+  /// A pilot valve that sends the spool to `held_ratio` whatever the duty, or `offset_ratio` beyond
+  /// what the duty asks for.
+  void set_pilot_fault(std::optional<double> held_ratio, double offset_ratio) {
+    pilot_.set_fault(held_ratio, offset_ratio);
+  }
+  void set_pump_fault(std::size_t track, const DisplacementFault& fault) {
+    path_[track].pump().set_fault(fault);
+  }
+  void set_motor_fault(std::size_t track, const DisplacementFault& fault) {
+    path_[track].motor().set_fault(fault);
+  }
+
+  /// Runs on. What is shorter than a step is kept for the next call.
+  void advance(TimeUs duration_us);
+
+  /// From the blade fully raised on; extension lowers.
+  [[nodiscard]] double blade_stroke_m() const { return blade_.stroke_m(); }
+  [[nodiscard]] double blade_velocity_mps() const { return blade_.velocity_mps(); }
+  /// Of its whole travel, the deadband included.
+  [[nodiscard]] double spool_travel_ratio() const { return implement_.spool().travel_ratio(); }
+
+  /// Of the body frame's origin: at the tracks' ground line below the mass centre. On level ground
+  /// at rest its height is the ground's.
+  [[nodiscard]] double position_m() const { return body_.position_m(); }
+  [[nodiscard]] double height_m() const { return body_.height_m(); }
+  [[nodiscard]] double pitch_rad() const { return body_.pitch_rad(); }
+  [[nodiscard]] double velocity_mps() const { return body_.velocity_mps(); }
+  [[nodiscard]] double climb_mps() const { return body_.climb_mps(); }
+  [[nodiscard]] double pitch_rate_radps() const { return body_.pitch_rate_radps(); }
+
+  [[nodiscard]] TrackArray pump_ratios() const;
+  [[nodiscard]] TrackArray motor_ratios() const;
+  [[nodiscard]] TrackArray track_speeds_mps() const;
+  [[nodiscard]] TrackArray slips() const;
+  [[nodiscard]] double engine_radps() const { return engine_radps_; }
+
+  /// In the world.
+  [[nodiscard]] Eigen::Vector2d cutting_edge_m() const;
+  [[nodiscard]] const Terrain& terrain() const { return terrain_; }
+
+  [[nodiscard]] const HalfVehicle& body() const { return body_; }
+  [[nodiscard]] const HstPath& path(std::size_t track) const { return path_[track]; }
+  [[nodiscard]] const BladeJoint& blade() const { return blade_; }
+  [[nodiscard]] const Cylinder& cylinder() const { return cylinder_; }
+  /// Demand of the spool's opening, what the pump gives, what flowed.
+  [[nodiscard]] const ImplementFlows& implement_flows() const { return implement_.flows(); }
+  [[nodiscard]] const DozerPlantProfile& profile() const { return profile_; }
+
+ private:
+  void step();
+  void drive();
+  void move_blade();
+
+  DozerPlantProfile profile_;
+  double step_s_;
+  TimeUs pending_us_ = 0;
+  double engine_radps_;
+  double duty_ = 0.0;
+  bool brake_ = true;
+  bool pilot_cut_ = false;
+
+  Terrain terrain_;
+  HalfVehicle body_;
+  std::array<HstPath, kTrackCount> path_;
+  std::array<Traction, kTrackCount> traction_;
+  PilotValve pilot_;
+  ImplementCircuit implement_;
+  BladeJoint blade_;
+  Cylinder cylinder_;
+};
+
+}  // namespace graben::plant

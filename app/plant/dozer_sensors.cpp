@@ -1,0 +1,57 @@
+#include "app/plant/dozer_sensors.hpp"
+
+#include <cmath>
+
+namespace graben::plant {
+namespace {
+
+double noisy(double value, double deviation, std::optional<Random>& noise) {
+  return noise ? value + deviation * noise->normal() : value;
+}
+
+}  // namespace
+
+DozerSensorModel::DozerSensorModel(const DozerSensorErrors& errors,
+                                   std::optional<std::uint64_t> seed)
+    : errors_(errors) {
+  if (seed) {
+    pose_noise_.emplace(*seed, Draw::kPoseNoise);
+    track_noise_.emplace(*seed, Draw::kTrackNoise);
+    height_bias_m_ = Random(*seed, Draw::kSensorBias).symmetric(errors.height_bias_m);
+  }
+}
+
+double DozerSensorModel::stroke_m(double true_stroke_m) const {
+  const double resolution = errors_.stroke_resolution_m;
+  return resolution > 0.0 ? std::round(true_stroke_m / resolution) * resolution : true_stroke_m;
+}
+
+double DozerSensorModel::position_m(double true_position_m) {
+  return noisy(true_position_m, errors_.position_noise_m, pose_noise_);
+}
+
+double DozerSensorModel::height_m(double true_height_m) {
+  return noisy(true_height_m + height_bias_m_, errors_.height_noise_m, pose_noise_);
+}
+
+double DozerSensorModel::pitch_rad(double true_pitch_rad) {
+  return noisy(true_pitch_rad, errors_.pitch_noise_rad, pose_noise_);
+}
+
+double DozerSensorModel::velocity_mps(double true_velocity_mps) {
+  return noisy(true_velocity_mps, errors_.velocity_noise_mps, pose_noise_);
+}
+
+double DozerSensorModel::climb_mps(double true_climb_mps) {
+  return noisy(true_climb_mps, errors_.climb_noise_mps, pose_noise_);
+}
+
+double DozerSensorModel::pitch_rate_radps(double true_pitch_rate_radps) {
+  return noisy(true_pitch_rate_radps, errors_.pitch_rate_noise_radps, pose_noise_);
+}
+
+double DozerSensorModel::track_speed_mps(double true_track_speed_mps) {
+  return noisy(true_track_speed_mps, errors_.track_speed_noise_mps, track_noise_);
+}
+
+}  // namespace graben::plant

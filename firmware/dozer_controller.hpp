@@ -1,0 +1,78 @@
+#pragma once
+/// The dozer's controller: one step from signals to commands, 100 times a second.
+
+#include "firmware/motion/blade_control.hpp"
+#include "firmware/safety/cycle_watch.hpp"
+#include "firmware/safety/dozer_gate.hpp"
+#include "firmware/safety/dozer_watch.hpp"
+#include "firmware/safety/standing.hpp"
+#include "firmware/travel/position_filter.hpp"
+#include "firmware/travel/speed_limit.hpp"
+#include "firmware/travel/track_control.hpp"
+
+namespace graben {
+
+/// Belongs to the tests; nothing of ours defines it.
+struct DozerMemoryAccess;
+
+/// Holds what the machine is (constant after construction) and what one cycle hands to the next.
+/// No clock, no globals, no heap; `step` costs a bounded number of operations.
+class DozerController {
+ public:
+  /// The profile must have passed the application's check.
+  explicit DozerController(const DozerProfile& profile);
+
+  /// One cycle. Any fault gives neutral commands and its code; time only ever counts by
+  /// difference, and `now_us` must not fall from call to call.
+  [[nodiscard]] DozerOutputs step(const DozerInputs& inputs, TimeUs now_us);
+
+ private:
+  /// Lets tests flip a bit of what is stored.
+  friend struct DozerMemoryAccess;
+
+  struct Memory {
+    Guarded<ModeState> mode;
+    DozerGateState gate;
+    Guarded<double> speed_mps;  ///< v_c of the last cycle in motion.
+    DozerValidationState validation;
+    DozerWatchState watch;
+    DozerLastCycle cycle;
+    SpeedState speed;
+    BladeState blade;
+    std::array<TrackState, kTrackCount> track{};
+    PositionState position;
+    CycleState time;
+    PilotState pilot;
+  };
+
+  /// What a cycle wants to do before the gate.
+  struct Wanted {
+    BladeCommand blade;
+    SpeedChoice speed;
+    DozerCommand command;
+    double required_flow_m3ps = 0.0;
+    double available_flow_m3ps = 0.0;
+  };
+
+  /// Whether what one cycle handed to the next is as it was.
+  [[nodiscard]] Fault memory_fault() const;
+  /// Inputs with all that validation and watches have to say of them.
+  [[nodiscard]] DozerWatchResult judge(const DozerInputs& inputs, double period_s, TimeUs now_us);
+  /// Takes in where the machine is: what the blade has cut, what lies ahead.
+  void observe(const ValidDozerInputs& valid, double period_s);
+  /// v_c of this cycle and what it is chosen from.
+  [[nodiscard]] SpeedChoice choose_speed(const ValidDozerInputs& valid, const Wanted& wanted,
+                                         double period_s) const;
+  /// Blade, speed, displacements; what they hand on is kept only in motion.
+  [[nodiscard]] Wanted want(const ValidDozerInputs& valid, double period_s);
+  void keep(const Wanted& wanted, bool active);
+
+  DozerProfile profile_;
+  BladeKinematics blade_;
+  GradeProfile design_;
+  GroundMap ground_;
+  Preview preview_;
+  Memory memory_;
+};
+
+}  // namespace graben

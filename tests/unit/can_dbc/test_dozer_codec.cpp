@@ -1,0 +1,103 @@
+// The dozer's signals: scales, positions, start values.
+
+#include "can_dbc/generated/dozer_dbc.hpp"
+#include "tests/unit/can_dbc/codec_rules.hpp"
+
+namespace {
+
+using namespace graben::test;
+namespace bus = graben::dbc::dozer;
+
+constexpr double kLitrePerMinute = 1e-3 / 60.0;
+constexpr Scale kScales[] = {
+    {"BladeStroke", 1e-5, 0.0, 0.0, 0.64},
+    {"Position", 1e-4, -1e5, -1e5, 1e5},
+    {"Height", 0.5e-3, -16.0, -16.0, 16.0},
+    {"Pitch", 5e-5, -1.6, -1.6, 1.6},
+    {"PitchRate", 1e-4, -3.2, -3.2, 3.2},
+    {"Forward", 1e-4, -3.2, -3.2, 3.2},
+    {"Climb", 1e-4, -3.2, -3.2, 3.2},
+    {"Pump", 5e-5, -1.6, -1.0, 1.0},
+    {"Motor", 2e-5, 0.0, 0.0, 1.0},
+    {"LinePressure", 1e3, 0.0, 0.0, 64e6},
+    {"LeftTrack", 1e-4, -3.2, -3.2, 3.2},
+    {"RightTrack", 1e-4, -3.2, -3.2, 3.2},
+    {"EngineSpeed", 0.125 * 2.0 * kPi / 60.0, 0.0, 0.0, 8031.875 * 2.0 * kPi / 60.0},
+    {"SpeedOverride", 0.005, 0.0, 0.0, 1.0},
+    {"BladeSpool", 5e-5, -1.6, -1.0, 1.0},
+    {"BladeDuty", 5e-5, -1.6, -1.0, 1.0},
+    {"LeftPump", 5e-5, -1.6, -1.0, 1.0},
+    {"RightPump", 5e-5, -1.6, -1.0, 1.0},
+    {"LeftMotor", 2e-5, 0.0, 0.0, 1.0},
+    {"RightMotor", 2e-5, 0.0, 0.0, 1.0},
+    {"Lambda", 2e-5, 0.0, 0.0, 1.0},
+    {"WantedSpeed", 1e-4, -3.2, -3.2, 3.2},
+    {"SpeedLimit", 1e-4, 0.0, 0.0, 6.4},
+    {"WantedBladeVelocity", 1e-4, -3.2, -3.2, 3.2},
+    {"RequiredFlow", 0.01 * kLitrePerMinute, 0.0, 0.0, 640.0 * kLitrePerMinute},
+    {"AvailableFlow", 0.01 * kLitrePerMinute, 0.0, 0.0, 640.0 * kLitrePerMinute},
+    {"GradeError", 5e-5, -1.6, -1.6, 1.6},
+};
+
+void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 62); }
+
+void saturates_and_refuses(void**) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
+
+// Positions, byte for byte, as the DBC gives them.
+void known_payloads(void**) {
+  const Payload neutral{0xFF, 0x0F, 0x00, 0x7D, 0xFF, 0xFF, 0xFF, 0xFF};
+  assert_memory_equal(bus::SpoolCommand{}.encode().data(), neutral.data(), neutral.size());
+  const Payload held{0xFF, 0xDF, 0x00, 0x7D, 0x00, 0x7D, 0xFF, 0xFF};
+  assert_memory_equal(bus::PumpDisplacementCommand{}.encode().data(), held.data(), held.size());
+  const Payload full{0xFF, 0xFF, 0x50, 0xC3, 0x50, 0xC3, 0xFF, 0xFF};
+  assert_memory_equal(bus::MotorDisplacementCommand{}.encode().data(), full.data(), full.size());
+
+  bus::SpoolCommand spool;
+  spool.enable.value = bus::SpoolCommand::Enable::kOn;
+  spool.pilot_cut.value = bus::SpoolCommand::PilotCut::kOn;
+  spool.blade_duty_ratio.value = -1.0;
+  const Payload lifting{0xFF, 0x5F, 0xE0, 0x2E, 0xFF, 0xFF, 0xFF, 0xFF};
+  assert_memory_equal(spool.encode().data(), lifting.data(), lifting.size());
+
+  bus::PumpDisplacementCommand pumps;
+  pumps.brake.value = bus::PumpDisplacementCommand::Brake::kOff;
+  pumps.left_pump_ratio.value = 1.0;
+  pumps.right_pump_ratio.value = -1.0;
+  const Payload turning{0xFF, 0xCF, 0x20, 0xCB, 0xE0, 0x2E, 0xFF, 0xFF};
+  assert_memory_equal(pumps.encode().data(), turning.data(), turning.size());
+
+  // 12.3456 m along, 0.5 m below.
+  const bus::BodyPosition body =
+      bus::BodyPosition::decode({0xFF, 0xFF, 0x40, 0xAC, 0x9C, 0x3B, 0x18, 0x79});
+  assert_near(body.position_m.value, 12.3456, 1e-9);
+  assert_near(body.height_m.value, -0.5, 1e-12);
+
+  // Neutral and full scale are exact.
+  const auto back = bus::PumpDisplacementCommand::decode(turning);
+  assert_true(back.left_pump_ratio.value == 1.0 && back.right_pump_ratio.value == -1.0);
+  assert_true(bus::PumpDisplacementCommand::decode(held).left_pump_ratio.value == 0.0);
+  assert_true(bus::MotorDisplacementCommand::decode(full).left_motor_ratio.value == 1.0);
+}
+
+// A command that nobody has filled in moves nothing; a measurement says that there is none.
+void start_values(void**) {
+  assert_int_equal(bus::BodyPosition{}.position_m.state, RawState::kNotAvailable);
+  assert_int_equal(bus::BodyPitch{}.pitch_rate_radps.state, RawState::kNotAvailable);
+  assert_int_equal(bus::LeftTransmission{}.motor_ratio.state, RawState::kNotAvailable);
+  assert_int_equal(bus::ValveState{}.enabled.state, RawState::kNotAvailable);
+  assert_int_equal(bus::PumpDisplacementCommand{}.brake.value,
+                   bus::PumpDisplacementCommand::Brake::kOn);
+  check_start_values<bus::AllMessages>();
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(every_raw_value),
+      cmocka_unit_test(saturates_and_refuses),
+      cmocka_unit_test(known_payloads),
+      cmocka_unit_test(start_values),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

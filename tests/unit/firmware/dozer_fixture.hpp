@@ -1,0 +1,36 @@
+#pragma once
+/// The shipped dozer for tests of the core.
+
+#include "app/machines/dozer_file.hpp"
+#include "app/machines/machine_file.hpp"
+
+namespace graben::test {
+
+/// Read once; a profile that can't be loaded ends the test program with its errors.
+inline const machines::DozerMachine& dozer() {
+  static const machines::DozerMachine machine =
+      machines::load_dozer(machines::find_profile("dozer_9t"));
+  return machine;
+}
+
+/// A design of a single level.
+inline GradeDesign level(double height_m) {
+  GradeDesign design;
+  design.point[0] = {-100.0, height_m};
+  design.point[1] = {100.0, height_m};
+  design.count = 2;
+  return design;
+}
+
+/// Level 0, from x = 10 on a slope.
+inline GradeDesign bend(double slope, double rounding_m) {
+  GradeDesign design;
+  design.point[0] = {0.0, 0.0};
+  design.point[1] = {10.0, 0.0};
+  design.point[2] = {60.0, 50.0 * slope};
+  design.count = 3;
+  design.rounding_m = rounding_m;
+  return design;
+}
+
+}  // namespace graben::test

@@ -1,0 +1,93 @@
+#include "firmware/motion/grade_profile.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/dozer_fixture.hpp"
+
+namespace {
+
+using namespace graben;
+
+const GradeDesign& design() { return test::dozer().profile.grade; }
+
+void away_from_corners_it_goes_through_the_points(void**) {
+  const GradeProfile profile(design());
+  for (int i = 0; i + 1 < design().count; ++i) {
+    const GradePoint& from = design().point[static_cast<unsigned>(i)];
+    const GradePoint& to = design().point[static_cast<unsigned>(i) + 1];
+    const double slope = (to.z_m - from.z_m) / (to.x_m - from.x_m);
+    const double middle_m = 0.5 * (from.x_m + to.x_m);
+    assert_near(profile.at(middle_m).height_m, 0.5 * (from.z_m + to.z_m), 1e-12);
+    assert_near(profile.at(middle_m).slope, slope, 1e-12);
+  }
+}
+
+/// A parabola of this length leaves the corner by a quarter of kink times half length.
+void corners_are_parabolas(void**) {
+  const GradeDesign bent = test::bend(-0.4, 0.3);
+  const GradeProfile profile(bent);
+  assert_near(profile.at(9.7).height_m, 0.0, 1e-12);
+  assert_near(profile.at(9.7).slope, 0.0, 1e-12);
+  assert_near(profile.at(10.0).height_m, -0.4 * 0.3 / 4.0, 1e-12);
+  assert_near(profile.at(10.0).slope, -0.2, 1e-12);
+  assert_near(profile.at(10.3).height_m, -0.4 * 0.3, 1e-12);
+  assert_near(profile.at(10.3).slope, -0.4, 1e-12);
+}
+
+void slope_is_the_derivative_and_has_no_step(void**) {
+  const GradeProfile profile(design());
+  double last = profile.at(0.5).slope;
+  for (double x_m = 0.5; x_m < 26.5; x_m += 0.001) {
+    const double derivative =
+        (profile.at(x_m + 1e-6).height_m - profile.at(x_m - 1e-6).height_m) / 2e-6;
+    assert_near(profile.at(x_m).slope, derivative, 1e-5);
+    assert_near(profile.at(x_m).slope, last, 2e-3);
+    last = profile.at(x_m).slope;
+  }
+}
+
+void beyond_its_ends_it_goes_on_level(void**) {
+  const GradeProfile profile(test::bend(-0.1, 0.3));
+  assert_near(profile.at(-50.0).height_m, 0.0, 1e-12);
+  assert_near(profile.at(80.0).height_m, -5.0, 1e-12);
+  assert_near(profile.at(80.0).slope, 0.0, 1e-12);
+}
+
+void the_plane_lies_under_it(void**) {
+  GradeDesign tilted = design();
+  tilted.plane_height_m = 1.5;
+  tilted.plane_slope = 0.02;
+  const GradeProfile over(tilted);
+  const GradeProfile flat(design());
+  for (double x_m = -2.0; x_m < 30.0; x_m += 0.37) {
+    assert_near(over.at(x_m).height_m, flat.at(x_m).height_m + 1.5 + 0.02 * x_m, 1e-12);
+    assert_near(over.at(x_m).slope, flat.at(x_m).slope + 0.02, 1e-12);
+  }
+}
+
+void the_error_is_along_the_normal(void**) {
+  const GradeProfile profile(test::bend(-0.75, 0.3));
+  assert_near(grade_error_m(profile, 5.0, 0.1), 0.1, 1e-12);
+  // 3-4-5: a slope of 3/4 makes 4/5 of the height.
+  const double below_m = profile.at(30.0).height_m - 0.1;
+  assert_near(grade_error_m(profile, 30.0, below_m), -0.08, 1e-12);
+}
+
+void a_design_without_points_is_the_plane(void**) {
+  GradeDesign empty;
+  empty.plane_height_m = 2.0;
+  assert_near(GradeProfile(empty).at(7.0).height_m, 2.0, 0.0);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(away_from_corners_it_goes_through_the_points),
+      cmocka_unit_test(corners_are_parabolas),
+      cmocka_unit_test(slope_is_the_derivative_and_has_no_step),
+      cmocka_unit_test(beyond_its_ends_it_goes_on_level),
+      cmocka_unit_test(the_plane_lies_under_it),
+      cmocka_unit_test(the_error_is_along_the_normal),
+      cmocka_unit_test(a_design_without_points_is_the_plane),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

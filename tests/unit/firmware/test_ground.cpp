@@ -1,0 +1,164 @@
+#include <limits>
+
+#include "firmware/travel/ground_map.hpp"
+#include "firmware/travel/position_filter.hpp"
+#include "firmware/travel/support.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/dozer_fixture.hpp"
+
+namespace {
+
+using namespace graben;
+
+const DozerBody& body() { return test::dozer().profile.body; }
+
+/// Cuts along a design with the edge from `from_m` on, the machine on level ground behind it.
+GroundMap cut(const GradeProfile& design, double from_m, double to_m, double above_m = 0.0) {
+  GroundMap ground;
+  for (double x_m = from_m; x_m <= to_m; x_m += 0.013) {
+    ground.pass(x_m, design.at(x_m).height_m + above_m, design, from_m - 2.2, 0.0, 0.0);
+  }
+  return ground;
+}
+
+void behind_the_edge_it_is_what_was_cut_before_it_the_design(void**) {
+  const GradeProfile design(test::dozer().profile.grade);
+  const GroundMap ground = cut(design, 2.0, 8.0, -0.01);
+  for (double x_m = 2.5; x_m < 7.8; x_m += 0.05) {
+    assert_near(ground.height_m(x_m, design), design.at(x_m).height_m - 0.01, 1e-3);
+  }
+  assert_near(ground.height_m(9.5, design), design.at(9.5).height_m, 0.0);
+  assert_near(ground.height_m(1.0, design), 0.0, 1e-12);
+}
+
+void what_is_cut_stays_cut(void**) {
+  const GradeProfile design(test::level(-0.1));
+  GroundMap ground = cut(design, 0.0, 4.0);
+  for (double x_m = 4.0; x_m > 2.0; x_m -= 0.02) {
+    ground.pass(x_m, -0.3, design, x_m - 2.2, 0.0, 0.0);
+  }
+  assert_near(ground.height_m(3.0, design), -0.1, 1e-9);
+  for (double x_m = 2.0; x_m < 4.0; x_m += 0.02) {
+    ground.pass(x_m, -0.05, design, x_m - 2.2, 0.0, 0.0);
+  }
+  assert_near(ground.height_m(3.0, design), -0.1, 1e-9);
+  for (double x_m = 2.0; x_m < 4.0; x_m += 0.02) {
+    ground.pass(x_m - 1.0, -0.2, design, x_m - 2.2, 0.0, 0.0);
+  }
+  assert_near(ground.height_m(2.5, design), -0.2, 1e-9);
+}
+
+/// The blade is carried: what lies below it is the line that the machine stands on.
+void in_the_air_nothing_is_cut(void**) {
+  const GradeProfile design(test::level(0.0));
+  GroundMap ground = cut(design, 0.0, 3.0);
+  for (double x_m = 3.0; x_m < 6.0; x_m += 0.02) {
+    ground.pass(x_m, 0.5 + 0.05 * x_m, design, x_m - 2.2, 0.02, 0.0);
+  }
+  assert_near(ground.height_m(5.0, design), 0.02, 1e-9);
+}
+
+void a_jump_starts_it_afresh(void**) {
+  const GradeProfile design(test::level(0.0));
+  GroundMap ground = cut(design, 0.0, 3.0, -0.05);
+  ground.pass(50.0, 1.0, design, 47.8, 0.4, 0.1);
+  assert_near(ground.height_m(47.0, design), 0.4 - 0.08, 1e-9);
+  ground.pass(std::numeric_limits<double>::quiet_NaN(), 0.0, design, 0.0, 0.0, 0.0);
+  assert_true(std::isfinite(ground.height_m(0.0, design)));
+}
+
+void it_remembers_as_far_as_the_tracks_reach(void**) {
+  const GradeProfile design(test::level(-0.1));
+  const GroundMap ground = cut(design, 0.0, 20.0);
+  assert_near(ground.height_m(20.0 - GroundMap::kLength_m + 0.2, design), -0.1, 1e-9);
+  assert_near(ground.height_m(-30.0, design), -0.1, 1e-9);
+  assert_true(GroundMap::kLength_m > 2.3 + body().track_contact_m);
+}
+
+/// On level ground at its height, on a slope along it.
+void on_a_plane_it_stands_along_it(void**) {
+  for (const double slope : {-0.3, 0.0, 0.2}) {
+    GradeDesign plane = test::level(0.0);
+    plane.plane_slope = slope;
+    plane.plane_height_m = 0.7;
+    const GradeProfile design(plane);
+    Stand stand{0.7 + 50.0 * slope, 0.0};
+    for (int n = 0; n < 5; ++n) {
+      stand = stand_at(body(), GroundMap(), design, 50.0, stand);
+    }
+    // The tilted springs' load leans to the lower end.
+    assert_near(stand.pitch_rad, std::atan(slope), 0.02);
+    assert_near(stand.height_m, 0.7 + 50.0 * slope, 0.02);
+    if (slope == 0.0) {
+      assert_near(stand.pitch_rad, 0.0, 1e-9);
+      assert_near(stand.height_m, 0.7, 1e-9);
+    }
+  }
+}
+
+/// Forces and moments over the wheels, worked out by themselves.
+void where_it_stands_the_wheels_carry_it(void**) {
+  const GradeProfile design(test::dozer().profile.grade);
+  Stand stand{0.0, 0.0};
+  const double weight_n = body().mass_kg * 9.80665;
+  int unrested = 0;
+  for (double x_m = 0.0; x_m < 25.0; x_m += 0.05) {
+    stand = stand_at(body(), GroundMap(), design, x_m, stand);
+    double force_n = 0.0;
+    double moment_nm = 0.0;
+    for (int i = 0; i < body().wheels; ++i) {
+      const double along_m = -1.2 + 2.4 * i / (body().wheels - 1);
+      const double at_m = x_m + along_m * std::cos(stand.pitch_rad);
+      const double pressed_m = design.at(at_m).height_m + weight_n / 10 / body().suspension_npm -
+                               stand.height_m - along_m * std::sin(stand.pitch_rad);
+      const double push_n = std::max(0.0, body().suspension_npm * pressed_m);
+      force_n += push_n;
+      moment_nm += push_n * (along_m * std::cos(stand.pitch_rad) +
+                             body().mass_centre_height_m * std::sin(stand.pitch_rad));
+    }
+    const bool carries =
+        std::abs(force_n / weight_n - 1.0) < 0.05 && std::abs(moment_nm / weight_n) < 0.05;
+    unrested += carries ? 0 : 1;
+  }
+  // Where it tips over the ledge the bounded steps may end beside the rest.
+  assert_true(unrested <= 1);
+}
+
+void without_wheels_below_it_comes_down(void**) {
+  const GradeProfile design(test::level(0.0));
+  Stand stand{3.0, 0.5};
+  for (int n = 0; n < 30; ++n) {
+    stand = stand_at(body(), GroundMap(), design, 0.0, stand);
+  }
+  assert_near(stand.height_m, 0.0, 1e-6);
+  assert_near(stand.pitch_rad, 0.0, 1e-6);
+}
+
+void noise_of_the_position_is_left_behind(void**) {
+  PositionState state;
+  double largest_m = 0.0;
+  for (int n = 0; n < 400; ++n) {
+    const double true_m = 0.012 * n;
+    state = next_position(state, true_m + (n % 2 == 0 ? 0.01 : -0.01), 1.2, 0.01);
+    largest_m = n > 100 ? std::max(largest_m, std::abs(state.position_m - true_m)) : 0.0;
+  }
+  assert_true(largest_m < 0.001);
+  assert_near(next_position(state, 99.0, 1.0, 0.01).position_m, 99.0, 0.0);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(behind_the_edge_it_is_what_was_cut_before_it_the_design),
+      cmocka_unit_test(what_is_cut_stays_cut),
+      cmocka_unit_test(in_the_air_nothing_is_cut),
+      cmocka_unit_test(a_jump_starts_it_afresh),
+      cmocka_unit_test(it_remembers_as_far_as_the_tracks_reach),
+      cmocka_unit_test(on_a_plane_it_stands_along_it),
+      cmocka_unit_test(where_it_stands_the_wheels_carry_it),
+      cmocka_unit_test(without_wheels_below_it_comes_down),
+      cmocka_unit_test(noise_of_the_position_is_left_behind),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

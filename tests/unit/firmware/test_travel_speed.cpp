@@ -1,0 +1,155 @@
+#include "firmware/hydraulics/implement_flow.hpp"
+#include "firmware/travel/speed_limit.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/dozer_fixture.hpp"
+
+namespace {
+
+using namespace graben;
+
+constexpr double kEngine_radps = 157.08;
+constexpr double kPeriod_s = 0.01;
+
+const DozerProfile& profile() { return test::dozer().profile; }
+
+SpeedDemand easy() {
+  SpeedDemand demand;
+  demand.desired_mps = 1.6;
+  demand.measured_mps = 1.0;
+  demand.available_flow_m3ps = available_flow_m3ps(profile().implement, kEngine_radps);
+  demand.engine_radps = kEngine_radps;
+  demand.ahead = {10.0, 10.0};
+  return demand;
+}
+
+SpeedChoice after(const SpeedDemand& demand, double seconds, SpeedState state = {}) {
+  SpeedChoice choice;
+  choice.state = state;
+  for (int n = 0; n < seconds / kPeriod_s; ++n) {
+    choice = next_speed(profile(), choice.state, demand, kPeriod_s);
+  }
+  return choice;
+}
+
+void it_rises_at_its_limit_to_what_is_desired(void**) {
+  const SpeedChoice early = after(easy(), 1.0);
+  assert_near(early.state.speed_mps, 0.5, 1e-9);
+  assert_int_equal(early.limit.kind, LimitKind::kRise);
+  const SpeedChoice late = after(easy(), 5.0);
+  assert_near(late.state.speed_mps, 1.6, 1e-12);
+  assert_int_equal(late.limit.kind, LimitKind::kNone);
+}
+
+/// (13), (14).
+void the_transmission_holds_it(void**) {
+  SpeedDemand demand = easy();
+  demand.desired_mps = 3.0;
+  const SpeedChoice choice = after(demand, 9.0);
+  assert_near(choice.state.speed_mps, 1.80, 0.005);
+  assert_int_equal(choice.limit.kind, LimitKind::kTransmissionFlow);
+  demand.heading_radps = 0.5;
+  const SpeedChoice turning = after(demand, 9.0);
+  assert_near(turning.state.speed_mps, 1.80 - 0.45, 0.005);
+  assert_int_equal(turning.limit.index, kRight);
+}
+
+/// (10), (11): twice the flow at this speed means half the speed.
+void measured_flow_holds_it(void**) {
+  SpeedDemand demand = easy();
+  demand.required_flow_m3ps = 2.0 * demand.available_flow_m3ps;
+  const SpeedChoice choice = after(demand, 5.0);
+  assert_near(choice.allowed_mps, 0.5, 1e-3);
+  assert_near(choice.state.speed_mps, 0.5, 1e-3);
+  assert_int_equal(choice.limit.kind, LimitKind::kImplementFlow);
+}
+
+/// Without flow nothing is divided by it; at standstill not by the speed.
+void what_is_zero_is_not_divided_by(void**) {
+  SpeedDemand demand = easy();
+  demand.measured_mps = 0.0;
+  demand.required_flow_m3ps = 0.0;
+  assert_near(after(demand, 5.0).state.speed_mps, 1.6, 1e-12);
+  demand.required_flow_m3ps = demand.available_flow_m3ps;
+  assert_near(after(demand, 5.0).state.speed_mps, profile().travel.speed_min_mps, 1e-3);
+}
+
+/// v_min keeps it going; only the operator brings it to rest.
+void it_is_never_held_below_v_min(void**) {
+  SpeedDemand demand = easy();
+  demand.ahead = {0.001, 0.001};
+  demand.required_flow_m3ps = 50.0 * demand.available_flow_m3ps;
+  assert_near(after(demand, 5.0).state.speed_mps, 0.1, 1e-12);
+  demand.desired_mps = 0.0;
+  assert_near(after(demand, 5.0).state.speed_mps, 0.0, 1e-12);
+}
+
+void it_brakes_no_harder_than_it_may(void**) {
+  SpeedState fast;
+  fast.speed_mps = 1.6;
+  SpeedDemand demand = easy();
+  demand.ahead = {0.2, 0.2};
+  const SpeedChoice choice = next_speed(profile(), fast, demand, kPeriod_s);
+  assert_near(choice.state.speed_mps, 1.6 - 1.5 * kPeriod_s, 1e-12);
+  assert_int_equal(choice.limit.kind, LimitKind::kAhead);
+}
+
+/// Algorithm 1: at home it rises to what is allowed, off home no further than the lowest ahead.
+void off_home_it_rises_no_higher_than_what_lies_ahead(void**) {
+  SpeedDemand demand = easy();
+  demand.ahead = {1.5, 0.6};
+  assert_near(after(demand, 6.0).state.speed_mps, 1.5, 1e-12);
+  demand.blade_angle_rad = -0.1;
+  assert_near(after(demand, 6.0).state.speed_mps, 0.6, 1e-12);
+  demand.blade_angle_rad = 0.1;
+  assert_near(after(demand, 6.0).state.speed_mps, 0.6, 1e-12);
+  demand.blade_angle_rad = 0.5 * profile().travel.threshold_rad;
+  assert_near(after(demand, 6.0).state.speed_mps, 1.5, 1e-12);
+}
+
+/// A limit that trembles lets it fall, and then stay.
+void a_trembling_limit_does_not_make_it_tremble(void**) {
+  SpeedState state;
+  state.speed_mps = 0.8;
+  int rises = 0;
+  for (int n = 0; n < 1000; ++n) {
+    SpeedDemand demand = easy();
+    const double limit_mps = 0.8 + (n % 7 < 3 ? 0.02 : -0.02);
+    demand.ahead = {limit_mps, limit_mps};
+    const SpeedState next = next_speed(profile(), state, demand, kPeriod_s).state;
+    rises += next.speed_mps > state.speed_mps ? 1 : 0;
+    state = next;
+  }
+  assert_int_equal(rises, 0);
+  assert_near(state.speed_mps, 0.78, 1e-12);
+}
+
+void constant_asks_neither_blade_nor_ground(void**) {
+  DozerProfile constant = profile();
+  constant.travel.policy = SpeedPolicy::kConstant;
+  SpeedDemand demand = easy();
+  demand.required_flow_m3ps = 9.0 * demand.available_flow_m3ps;
+  demand.ahead = {0.1, 0.1};
+  demand.blade_angle_rad = 0.3;
+  SpeedState state;
+  for (int n = 0; n < 500; ++n) {
+    state = next_speed(constant, state, demand, kPeriod_s).state;
+  }
+  assert_near(state.speed_mps, 1.6, 1e-12);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(it_rises_at_its_limit_to_what_is_desired),
+      cmocka_unit_test(the_transmission_holds_it),
+      cmocka_unit_test(measured_flow_holds_it),
+      cmocka_unit_test(what_is_zero_is_not_divided_by),
+      cmocka_unit_test(it_is_never_held_below_v_min),
+      cmocka_unit_test(it_brakes_no_harder_than_it_may),
+      cmocka_unit_test(off_home_it_rises_no_higher_than_what_lies_ahead),
+      cmocka_unit_test(a_trembling_limit_does_not_make_it_tremble),
+      cmocka_unit_test(constant_asks_neither_blade_nor_ground),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,52 @@
+#pragma once
+/// All that a receiver has put into its inputs, to be compared as a whole.
+
+#include <tuple>
+#include <vector>
+
+#include "firmware/signals/dozer_signals.hpp"
+#include "firmware/signals/excavator_signals.hpp"
+
+namespace graben::test {
+
+using Seen = std::vector<std::tuple<double, Validity, TimeUs>>;
+
+template <class... Signals>
+void see(Seen& seen, const Signals&... signals) {
+  (seen.emplace_back(static_cast<double>(signals.value), signals.validity, signals.stamp_us), ...);
+}
+
+inline void see_driver(Seen& seen, const OperatorInputs& driver) {
+  see(seen, driver.enable, driver.mode, driver.task, driver.speed_override_ratio);
+}
+
+inline Seen seen_in(const ExcavatorInputs& in) {
+  Seen seen;
+  see(seen, in.engine_speed_radps, in.swash_ratio[0], in.swash_ratio[1], in.valve_enabled);
+  see_driver(seen, in.driver);
+  for (const AxisInputs& axis : in.axis) {
+    see(seen, axis.stroke_m, axis.cap_pressure_pa, axis.rod_pressure_pa, axis.spool_ratio);
+  }
+  return seen;
+}
+
+inline Seen seen_in(const DozerInputs& in) {
+  Seen seen;
+  see(seen, in.engine_speed_radps, in.blade_stroke_m, in.blade_spool_ratio, in.valve_enabled);
+  see_driver(seen, in.driver);
+  see(seen, in.body.position_m, in.body.height_m, in.body.pitch_rad, in.body.velocity_mps,
+      in.body.climb_mps, in.body.pitch_rate_radps);
+  for (const TrackInputs& track : in.track) {
+    see(seen, track.pump_ratio, track.motor_ratio, track.speed_mps);
+  }
+  return seen;
+}
+
+template <class Receiver>
+Seen seen_by(const Receiver& receiver) {
+  Seen seen = seen_in(receiver.inputs());
+  see(seen, receiver.identity().profile_hash, receiver.identity().dbc_version);
+  return seen;
+}
+
+}  // namespace graben::test

@@ -1,0 +1,128 @@
+// Good frames of the dozer's bus reach its inputs, each signal its place.
+
+#include "tests/unit/hal/bus_frames.hpp"
+
+namespace {
+
+using namespace graben;
+using namespace graben::test;
+namespace bus = dbc::dozer;
+using dbc::Physical;
+using dbc::RawState;
+
+using DozerFeed = Feed<DozerReceiver>;
+
+constexpr Physical valid(double value) { return {value, RawState::kValid}; }
+
+void blade(void**) {
+  DozerFeed feed;
+  const TimeUs stroke_us = feed.send(bus::BladeStroke{valid(0.31)});
+  const TimeUs valve_us =
+      feed.send(bus::ValveState{{bus::ValveState::Enabled::kOn, RawState::kValid}, valid(-0.25)});
+  const DozerInputs& in = feed.receiver.inputs();
+  assert_signal(in.blade_stroke_m, 0.31, stroke_us);
+  assert_signal(in.blade_spool_ratio, -0.25, valve_us);
+  assert_signal(in.valve_enabled, 1.0, valve_us);
+}
+
+void body(void**) {
+  DozerFeed feed;
+  const TimeUs position_us = feed.send(bus::BodyPosition{valid(-1234.5678), valid(-0.35)});
+  const TimeUs pitch_us = feed.send(bus::BodyPitch{valid(-0.12), valid(0.34)});
+  const TimeUs velocity_us = feed.send(bus::BodyVelocity{valid(1.6), valid(-0.2)});
+  const BodyInputs& in = feed.receiver.inputs().body;
+  assert_signal(in.position_m, -1234.5678, position_us);
+  assert_signal(in.height_m, -0.35, position_us);
+  assert_signal(in.pitch_rad, -0.12, pitch_us);
+  assert_signal(in.pitch_rate_radps, 0.34, pitch_us);
+  assert_signal(in.velocity_mps, 1.6, velocity_us);
+  assert_signal(in.climb_mps, -0.2, velocity_us);
+}
+
+void tracks(void**) {
+  DozerFeed feed;
+  const TimeUs left_us = feed.send(bus::LeftTransmission{valid(0.5), valid(0.75), valid(20e6)});
+  const TimeUs right_us = feed.send(bus::RightTransmission{valid(-0.25), valid(0.35), valid(5e6)});
+  const TimeUs speed_us = feed.send(bus::TrackSpeed{valid(1.1), valid(-0.9)});
+  const TimeUs engine_us =
+      feed.send(bus::EEC1::decode({0xFF, 0xFF, 0xFF, 0x80, 0x3E, 0xFF, 0xFF, 0xFF}));
+  const DozerInputs& in = feed.receiver.inputs();
+  assert_signal(in.track[kLeft].pump_ratio, 0.5, left_us);
+  assert_signal(in.track[kLeft].motor_ratio, 0.75, left_us);
+  assert_signal(in.track[kRight].pump_ratio, -0.25, right_us);
+  assert_signal(in.track[kRight].motor_ratio, 0.35, right_us);
+  assert_signal(in.track[kLeft].speed_mps, 1.1, speed_us);
+  assert_signal(in.track[kRight].speed_mps, -0.9, speed_us);
+  assert_signal(in.engine_speed_radps, 2000.0 * 2.0 * 3.14159265358979323846 / 60.0, engine_us);
+  assert_int_equal(feed.receiver.total().synchronising, 3 * 2);
+  assert_int_equal(rejected(feed.receiver.total()), 0);
+}
+
+void operator_and_identity(void**) {
+  DozerFeed feed;
+  bus::OperatorCommand command;
+  command.enable.value = bus::OperatorCommand::Enable::kOn;
+  command.operator_mode.value = bus::OperatorCommand::OperatorMode::kAutomatic;
+  command.task.value = bus::OperatorCommand::Task::kGrade;
+  command.speed_override_ratio.value = 0.5;
+  const TimeUs driver_us = feed.send(command);
+  const TimeUs identity_us =
+      feed.send(bus::MachineIdentity{{0xDEADBEEFU, RawState::kValid}, {7U, RawState::kValid}});
+  const OperatorInputs& driver = feed.receiver.inputs().driver;
+  assert_signal(driver.enable, 1.0, driver_us);
+  assert_signal(driver.mode, 1.0, driver_us);
+  assert_signal(driver.task, 2.0, driver_us);
+  assert_signal(driver.speed_override_ratio, 0.5, driver_us);
+  assert_signal(feed.receiver.identity().profile_hash, 3735928559.0, identity_us);
+  assert_signal(feed.receiver.identity().dbc_version, 7.0, identity_us);
+}
+
+// 32 bits have special values too, by their top byte.
+void one_signal_is_lost_the_other_stays(void**) {
+  DozerReceiver receiver;
+  TimeUs now = synchronise<bus::BodyPosition>(receiver);
+  const BodyInputs& in = receiver.inputs().body;
+  const auto say = [&](std::uint32_t raw, std::uint8_t counter) {
+    now += 10'000;
+    receiver.accept(frame_with<bus::BodyPosition>(bus::BodyPosition::kPosition, raw, counter), now);
+  };
+  say(0xFE123456U, 3);
+  assert_int_equal(in.position_m.validity, Validity::kError);
+  assert_near(in.position_m.value, 0.0, 0.0);
+  assert_int_equal(in.position_m.stamp_us, now);
+  assert_int_equal(in.height_m.validity, Validity::kValid);
+  assert_near(in.height_m.value, -15.0, 1e-9);
+  say(0xFF000000U, 4);
+  assert_int_equal(in.position_m.validity, Validity::kNotAvailable);
+  assert_int_equal(in.position_m.stamp_us, now);
+  assert_int_equal(rejected(receiver.total()), 0);
+}
+
+// Dig is an excavator's: the frame is refused, and the controller hears of it.
+void another_kinds_task_is_out_of_range(void**) {
+  DozerReceiver receiver;
+  const TimeUs now = synchronise<bus::OperatorCommand>(receiver);
+  assert_int_equal(receiver.inputs().driver.task.value, Task::kGrade);
+  receiver.accept(frame_with<bus::OperatorCommand>(bus::OperatorCommand::kTask, 1, 3), now + 1);
+  assert_int_equal(receiver.inputs().driver.task.value, Task::kGrade);
+  assert_int_equal(receiver.inputs().driver.enable.stamp_us, now);
+  assert_int_equal(receiver.link(bus::OperatorCommand::kId).out_of_range, 1);
+  assert_true(receiver.take_out_of_range());
+  receiver.accept(frame_with<bus::OperatorCommand>(bus::OperatorCommand::kTask, 0, 4),
+                  now + 20'000);
+  assert_int_equal(receiver.inputs().driver.task.value, Task::kNone);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(blade),
+      cmocka_unit_test(body),
+      cmocka_unit_test(tracks),
+      cmocka_unit_test(operator_and_identity),
+      cmocka_unit_test(one_signal_is_lost_the_other_stays),
+      cmocka_unit_test(another_kinds_task_is_out_of_range),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,305 @@
+// Every kind of bad frame is counted and changes nothing, on either bus.
+
+#include "tests/unit/hal/bus_frames.hpp"
+#include "tests/unit/hal/seen_inputs.hpp"
+
+namespace {
+
+using namespace graben;
+using namespace graben::test;
+
+// Gives the frame to the receiver; exactly the expected counter goes up by one, in the message's
+// link and in the total, and the inputs stay.
+template <class Receiver>
+void refuse(Receiver& receiver, const CanFrame& frame, TimeUs now, std::uint32_t id,
+            std::uint32_t LinkCounters::*counter) {
+  const Seen before = seen_by(receiver);
+  LinkCounters link = receiver.link(id);
+  LinkCounters total = receiver.total();
+  const std::uint32_t foreign = receiver.foreign();
+  receiver.accept(frame, now);
+  assert_true(seen_by(receiver) == before);
+  ++(link.*counter);
+  ++(total.*counter);
+  const LinkCounters link_after = receiver.link(id);
+  assert_memory_equal(&link_after, &link, sizeof link);
+  assert_memory_equal(&receiver.total(), &total, sizeof total);
+  assert_int_equal(receiver.foreign(), foreign);
+}
+
+template <class Bus>
+void nothing_received_at_the_start(void**) {
+  const typename Bus::Receiver receiver;
+  for (const auto& [value, validity, stamp_us] : seen_by(receiver)) {
+    assert_int_equal(validity, Validity::kNotReceived);
+  }
+  assert_int_equal(receiver.total().accepted, 0);
+}
+
+template <class Bus>
+void ids_are_those_of_its_messages(void**) {
+  const auto ids = Bus::Receiver::ids();
+  int found = 0;
+  const auto find = [&](auto type) {
+    found += std::count(ids.begin(), ids.end(), decltype(type)::kId) == 1 ? 1 : 0;
+  };
+  for_each(typename Bus::Protected{}, find);
+  for_each(typename Bus::Unprotected{}, find);
+  assert_int_equal(found, Bus::Receiver::kMessageCount);
+}
+
+template <class Bus>
+void wrong_crc(void**) {
+  for_each(typename Bus::Protected{}, [](auto type) {
+    using Message = decltype(type);
+    typename Bus::Receiver receiver;
+    const TimeUs now = synchronise<Message>(receiver);
+    assert_int_equal(receiver.link(Message::kId).accepted, 1);
+    CanFrame frame = frame_of(filled<Message>(2000), 3);
+    frame.data[2] ^= 0x10;
+    refuse(receiver, frame, now, Message::kId, &LinkCounters::wrong_crc);
+    assert_int_equal(rejected(receiver.total()), 1);
+  });
+}
+
+// Another message's data under this id, be it one that we send.
+template <class Bus>
+void masquerade(void**) {
+  using Stroke = typename Bus::Stroke;
+  typename Bus::Receiver receiver;
+  const TimeUs now = synchronise<Stroke>(receiver);
+  for_each(typename Bus::Other{}, [&](auto type) {
+    CanFrame frame = frame_of(filled<decltype(type)>(2000), 3);
+    frame.id = Stroke::kId;
+    refuse(receiver, frame, now, Stroke::kId, &LinkCounters::masquerade);
+  });
+  assert_int_equal(rejected(receiver.total()), 4);
+  // A data id that nobody has; 0 is what unprotected messages carry.
+  for (const std::uint16_t nobodys : {std::uint16_t{0}, std::uint16_t{0x1234}}) {
+    CanFrame frame = frame_of(filled<Stroke>(2000), 3);
+    e2e_protect(frame.data, nobodys, 3);
+    refuse(receiver, frame, now, Stroke::kId, &LinkCounters::wrong_crc);
+  }
+}
+
+template <class Bus>
+void wrong_counter(void**) {
+  for_each(typename Bus::Protected{}, [](auto type) {
+    using Message = decltype(type);
+    const auto refuse_counter = [](std::uint8_t counter) {
+      typename Bus::Receiver receiver;
+      const TimeUs now = synchronise<Message>(receiver);
+      refuse(receiver, frame_of(filled<Message>(2000), counter), now, Message::kId,
+             &LinkCounters::wrong_counter);
+    };
+    refuse_counter(2);                                                         // repeated
+    refuse_counter(static_cast<std::uint8_t>(3 + Message::kMaxDeltaCounter));  // too many lost
+    refuse_counter(1);                                                         // late
+    refuse_counter(15);                                                        // invalid
+  });
+}
+
+template <class Bus>
+void some_lost_is_accepted(void**) {
+  for_each(typename Bus::Protected{}, [](auto type) {
+    using Message = decltype(type);
+    typename Bus::Receiver receiver;
+    const TimeUs now = synchronise<Message>(receiver);
+    const auto counter = static_cast<std::uint8_t>(2 + Message::kMaxDeltaCounter);
+    receiver.accept(frame_of(filled<Message>(2000), counter), now);
+    assert_int_equal(receiver.link(Message::kId).accepted, 2);
+    assert_int_equal(receiver.link_check(Message::kId, now), E2eCheck::kSomeLost);
+  });
+}
+
+template <class Bus>
+void silence_needs_three_frames(void**) {
+  using Stroke = typename Bus::Stroke;
+  typename Bus::Receiver receiver;
+  TimeUs now = synchronise<Stroke>(receiver);
+  now += 41 * kMillisecondUs;  // four cycles are the limit
+  assert_int_equal(receiver.link_check(Stroke::kId, now), E2eCheck::kNoNewData);
+  refuse(receiver, frame_of(filled<Stroke>(2000), 3), now, Stroke::kId,
+         &LinkCounters::synchronising);
+}
+
+template <class Bus>
+void wrong_kind_and_length(void**) {
+  const auto test = [](auto type) {
+    using Message = decltype(type);
+    typename Bus::Receiver receiver;
+    const TimeUs now = synchronise<Message>(receiver);
+    const CanFrame good = frame_of(filled<Message>(2000), 3);
+    CanFrame frame = good;
+    frame.remote = true;
+    refuse(receiver, frame, now, Message::kId, &LinkCounters::wrong_kind);
+    frame = good;
+    frame.fd = true;
+    refuse(receiver, frame, now, Message::kId, &LinkCounters::wrong_kind);
+    frame = good;
+    frame.extended = false;
+    refuse(receiver, frame, now, Message::kId, &LinkCounters::wrong_kind);
+    for (const int length : {0, 7, 9, 64}) {
+      frame = good;
+      frame.length = static_cast<std::uint8_t>(length);
+      refuse(receiver, frame, now, Message::kId, &LinkCounters::wrong_length);
+    }
+    // None of them has spoilt the link.
+    receiver.accept(good, now);
+    assert_int_equal(receiver.link(Message::kId).accepted, Message::kProtected ? 2 : 4);
+  };
+  for_each(typename Bus::Protected{}, test);
+  for_each(typename Bus::Unprotected{}, test);
+}
+
+template <class Bus>
+void error_frame_is_nobodys(void**) {
+  using Stroke = typename Bus::Stroke;
+  typename Bus::Receiver receiver;
+  const TimeUs now = synchronise<Stroke>(receiver);
+  CanFrame frame = frame_of(filled<Stroke>(2000), 3);
+  frame.error = true;
+  const Seen before = seen_by(receiver);
+  receiver.accept(frame, now);
+  assert_true(seen_by(receiver) == before);
+  assert_int_equal(receiver.total().wrong_kind, 1);
+  assert_int_equal(receiver.link(Stroke::kId).wrong_kind, 0);
+}
+
+template <class Bus>
+void foreign_ids_are_counted_apart(void**) {
+  using Stroke = typename Bus::Stroke;
+  typename Bus::Receiver receiver;
+  const TimeUs now = synchronise<Stroke>(receiver);
+  const Seen before = seen_by(receiver);
+  const CanFrame good = frame_of(filled<Stroke>(2000), 3);
+  std::uint32_t count = 0;
+  // Our own commands, another source address, another priority, another page.
+  for (const std::uint32_t id : {Bus::SpoolCommand::kId, Stroke::kId + 1, Stroke::kId ^ 0x10000000U,
+                                 Stroke::kId ^ 0x01000000U}) {
+    CanFrame frame = good;
+    frame.id = id;
+    receiver.accept(frame, now);
+    assert_int_equal(receiver.foreign(), ++count);
+    assert_int_equal(receiver.link_check(id, now), E2eCheck::kNoNewData);
+  }
+  CanFrame low_bits = good;  // an 11-bit id that equals the low bits of ours
+  low_bits.extended = false;
+  low_bits.id &= 0x7FFU;
+  receiver.accept(low_bits, now);
+  assert_int_equal(receiver.foreign(), ++count);
+  assert_true(seen_by(receiver) == before);
+  assert_int_equal(rejected(receiver.total()), 0);
+}
+
+// The first raw value above [min|max] that is no special one; 0 where there is none.
+std::uint32_t beyond(const dbc::Field& field) {
+  const std::uint64_t next = std::uint64_t{field.raw_max} + 1U;
+  const bool exists =
+      next < std::uint64_t{1} << field.width &&
+      dbc::classify(field, static_cast<std::uint32_t>(next)) == dbc::RawState::kOutOfRange;
+  return exists ? static_cast<std::uint32_t>(next) : 0U;
+}
+
+template <class Bus>
+void out_of_range_is_refused_as_a_whole(void**) {
+  int fields = 0;
+  const auto test = [&fields](auto type) {
+    using Message = decltype(type);
+    Message::visit(type, [&fields](const dbc::Field& field, auto&) {
+      if (beyond(field) == 0U) {
+        return;  // a hash has no range, two bits no value between the last state and 'error'
+      }
+      ++fields;
+      typename Bus::Receiver receiver;
+      const TimeUs now = synchronise<Message>(receiver);
+      assert_false(receiver.take_out_of_range());
+      refuse(receiver, frame_with<Message>(field, beyond(field), 3), now, Message::kId,
+             &LinkCounters::out_of_range);
+      receiver.accept(frame_of(filled<Message>(2000), 4), now + 1);  // does not hide it
+      assert_true(receiver.take_out_of_range());
+      assert_false(receiver.take_out_of_range());
+    });
+  };
+  for_each(typename Bus::Protected{}, test);
+  for_each(typename Bus::Unprotected{}, test);
+  assert_in_range(fields, 15, 25);
+}
+
+template <class Bus>
+void sender_says_error_or_not_available(void**) {
+  using Command = typename Bus::OperatorCommand;
+  typename Bus::Receiver receiver;
+  TimeUs now = synchronise<Command>(receiver);
+  assert_true(receiver.inputs().driver.enable.value);
+  receiver.accept(frame_with<Command>(Command::kEnable, 2, 3), now);
+  assert_int_equal(receiver.inputs().driver.enable.validity, Validity::kError);
+  assert_false(receiver.inputs().driver.enable.value);
+  now += 20'000;
+  receiver.accept(frame_with<Command>(Command::kEnable, 3, 4), now);
+  assert_int_equal(receiver.inputs().driver.enable.validity, Validity::kNotAvailable);
+  assert_int_equal(receiver.inputs().driver.mode.validity, Validity::kValid);
+  assert_int_equal(rejected(receiver.total()), 0);
+}
+
+// The other end is what we are if both numbers say so; and as sure as the worse of the two.
+template <class Bus, class Identity, std::uint8_t version>
+void same_machine(void**) {
+  constexpr std::uint32_t kOwn = 0xDEADBEEFU;
+  typename Bus::Receiver receiver;
+  assert_int_equal(receiver.same_machine(kOwn).validity, Validity::kNotReceived);
+  assert_false(receiver.same_machine(kOwn).value);
+  const auto told = [&](std::uint32_t hash, dbc::Count dbc_version) {
+    Identity message;
+    message.profile_hash.value = hash;
+    message.dbc_version = dbc_version;
+    receiver.accept(frame_of(message, 0), kStartUs);
+    return receiver.same_machine(kOwn);
+  };
+  assert_true(told(kOwn, {version, dbc::RawState::kValid}).value);
+  assert_int_equal(receiver.same_machine(kOwn).stamp_us, kStartUs);
+  assert_false(told(kOwn, {version + 1U, dbc::RawState::kValid}).value);
+  assert_false(told(kOwn + 1U, {version, dbc::RawState::kValid}).value);
+  assert_int_equal(told(kOwn, {version, dbc::RawState::kNotAvailable}).validity,
+                   Validity::kNotAvailable);
+}
+
+void rejected_sum_saturates(void**) {
+  LinkCounters counters;
+  counters.wrong_crc = UINT32_MAX;
+  assert_int_equal(rejected(counters), UINT32_MAX);
+  counters.wrong_length = 1;
+  assert_int_equal(rejected(counters), UINT32_MAX);
+}
+
+}  // namespace
+
+// clang-format off
+#define ON_BOTH(test) cmocka_unit_test(test<ExcavatorBus>), cmocka_unit_test(test<DozerBus>)
+// clang-format on
+
+int main() {
+  namespace excavator = dbc::excavator;
+  namespace dozer = dbc::dozer;
+  const auto of_excavator =
+      same_machine<ExcavatorBus, excavator::MachineIdentity, excavator::kDbcVersion>;
+  const auto of_dozer = same_machine<DozerBus, dozer::MachineIdentity, dozer::kDbcVersion>;
+  const CMUnitTest tests[] = {
+      ON_BOTH(nothing_received_at_the_start),
+      ON_BOTH(ids_are_those_of_its_messages),
+      ON_BOTH(wrong_crc),
+      ON_BOTH(masquerade),
+      ON_BOTH(wrong_counter),
+      ON_BOTH(some_lost_is_accepted),
+      ON_BOTH(silence_needs_three_frames),
+      ON_BOTH(wrong_kind_and_length),
+      ON_BOTH(error_frame_is_nobodys),
+      ON_BOTH(foreign_ids_are_counted_apart),
+      ON_BOTH(out_of_range_is_refused_as_a_whole),
+      ON_BOTH(sender_says_error_or_not_available),
+      cmocka_unit_test(of_excavator),
+      cmocka_unit_test(of_dozer),
+      cmocka_unit_test(rejected_sum_saturates),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

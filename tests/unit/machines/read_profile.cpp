@@ -1,0 +1,31 @@
+/// Reads a profile as one of a machine of this kind: read_profile KIND FILE. Says what is wrong
+/// with it and ends with 1; ends with 0 and in silence else.
+
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "app/machines/dozer_file.hpp"
+#include "app/machines/machine_file.hpp"
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fputs("read_profile excavator|dozer|kind FILE\n", stderr);
+    return 2;
+  }
+  using namespace graben::machines;
+  const std::string kind = argv[1];
+  try {
+    if (kind == "kind") {
+      static_cast<void>(profile_kind(argv[2]));
+    } else if (kind == "dozer") {
+      static_cast<void>(load_dozer(argv[2]));
+    } else {
+      static_cast<void>(load_excavator(argv[2]));
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
