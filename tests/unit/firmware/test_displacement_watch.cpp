@@ -79,6 +79,17 @@ void it_is_given_the_time_to_settle(void**) {
   assert_true(one.disagrees(0.0078125));
 }
 
+/// Passed by its command, it has the time once more: one that follows late is not off for good.
+void the_other_side_of_its_command_counts_anew(void**) {
+  Displacement one = settled(0.0);
+  for (int n = 0; n < 20; ++n) {
+    one.sent = n % 2 == 0 ? 0.5 : -0.5;
+    assert_false(one.disagrees(0.25));
+    assert_false(one.disagrees(0.25));
+  }
+  assert_true(one.disagrees(0.0078125));
+}
+
 /// Away from its command by more than the tolerance: three cycles, no fewer, whichever way.
 void one_that_leaves_its_command_runs_away(void**) {
   for (const double at : {0.0, 0.5, -0.5}) {
@@ -223,6 +234,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(disagreement_has_a_sharp_edge),
       cmocka_unit_test(it_is_given_the_time_to_settle),
+      cmocka_unit_test(the_other_side_of_its_command_counts_anew),
       cmocka_unit_test(one_that_leaves_its_command_runs_away),
       cmocka_unit_test(it_is_found_soon),
       cmocka_unit_test(it_must_be_away_in_a_row),
