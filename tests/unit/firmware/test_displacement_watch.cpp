@@ -157,6 +157,15 @@ void one_that_is_stuck_does_not_run_away(void**) {
   assert_int_equal(one.cycles_until_away(), kRunawayCycles);
 }
 
+/// Within the commands of late it goes where it likes, and stays stuck wherever that was.
+void one_that_followed_before_it_stuck_does_not_run_away(void**) {
+  Displacement one = settled(0.25);
+  one.sent = one.measured = 0.75;
+  assert_false(one.runs_away());
+  one.sent = 0.25;
+  assert_int_equal(one.cycles_until_away(), -1);
+}
+
 /// Stuck on the other side it drives the wrong way: as soon as no command of late was there.
 void the_wrong_side_is_away_without_moving(void**) {
   for (const double sign : {1.0, -1.0}) {
@@ -240,6 +249,7 @@ int main() {
       cmocka_unit_test(it_must_be_away_in_a_row),
       cmocka_unit_test(between_old_and_new_is_well),
       cmocka_unit_test(one_that_is_stuck_does_not_run_away),
+      cmocka_unit_test(one_that_followed_before_it_stuck_does_not_run_away),
       cmocka_unit_test(the_wrong_side_is_away_without_moving),
       cmocka_unit_test(the_wrong_direction_is_away),
       cmocka_unit_test(one_that_does_not_return_runs_away),
