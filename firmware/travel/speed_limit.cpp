@@ -43,7 +43,8 @@ double room_mps(const DozerProfile& profile, const SpeedDemand& demand, double i
   }
   const bool off_home = std::abs(demand.blade_angle_rad) > profile.travel.threshold_rad;
   const double ahead_mps = off_home ? demand.ahead.lowest_mps : target_mps;
-  return std::min({target_mps, ahead_mps, profile.travel.flow_share * implement_mps});
+  const double held_mps = std::min(ahead_mps, profile.travel.flow_share * implement_mps);
+  return std::min(target_mps, std::max(held_mps, profile.travel.speed_min_mps));
 }
 
 SpeedState followed(const DozerProfile& profile, const SpeedState& last, double desired_mps,
