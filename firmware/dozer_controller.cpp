@@ -41,6 +41,16 @@ Limit reason(const SpeedChoice& speed, bool at_end, const FaultSet& degraded) {
              : Limit{LimitKind::kDegraded, static_cast<std::uint8_t>(degraded.first())};
 }
 
+void describe_motion(const DozerProfile& profile, const SpeedChoice& speed,
+                     const BladeCommand& blade, const FaultSet& degraded, DozerStatus& status) {
+  status.lambda = std::clamp(speed.state.speed_mps / profile.travel.speed_desired_mps, 0.0, 1.0);
+  status.limit = reason(speed, blade.at_end, degraded);
+  status.wanted_speed_mps = speed.state.speed_mps;
+  status.speed_limit_mps = speed.allowed_mps;
+  status.wanted_blade_mps = blade.velocity_mps;
+  status.grade_error_m = blade.error_m;
+}
+
 }  // namespace
 
 DozerController::DozerController(const DozerProfile& profile)
@@ -149,19 +159,13 @@ DozerOutputs DozerController::step(const DozerInputs& inputs, TimeUs now_us) {
   const PilotResult pressure = pilot(memory_.pilot, mode, valid.faults);
   outputs.pilot_cut = pressure.cut;
   outputs.pilot_known = pressure.state.known;
-  outputs.brake = wants_brake(mode, valid);
+  memory_.brake = brake(memory_.brake, mode, valid, time.period_s);
+  outputs.brake = memory_.brake.wanted;
   static_cast<MachineStatus&>(outputs.status) = describe(mode, request, valid);
   if (active) {
-    const double desired_mps = profile_.travel.speed_desired_mps;
-    outputs.status.lambda =
-        std::clamp(wanted.speed.state.speed_mps / std::max(desired_mps, 1e-3), 0.0, 1.0);
-    outputs.status.limit = reason(wanted.speed, wanted.blade.at_end, valid.degraded);
-    outputs.status.wanted_speed_mps = wanted.speed.state.speed_mps;
-    outputs.status.speed_limit_mps = wanted.speed.allowed_mps;
-    outputs.status.wanted_blade_mps = wanted.blade.velocity_mps;
+    describe_motion(profile_, wanted.speed, wanted.blade, valid.degraded, outputs.status);
     outputs.status.required_flow_m3ps = wanted.required_flow_m3ps;
     outputs.status.available_flow_m3ps = wanted.available_flow_m3ps;
-    outputs.status.grade_error_m = wanted.blade.error_m;
   }
   keep(wanted, active);
   memory_.mode = mode;

@@ -2,6 +2,7 @@
 /// The dozer's controller: one step from signals to commands, 100 times a second.
 
 #include "firmware/motion/blade_control.hpp"
+#include "firmware/safety/brake.hpp"
 #include "firmware/safety/cycle_watch.hpp"
 #include "firmware/safety/dozer_gate.hpp"
 #include "firmware/safety/dozer_watch.hpp"
@@ -43,6 +44,7 @@ class DozerController {
     PositionState position;
     CycleState time;
     PilotState pilot;
+    BrakeState brake;
   };
 
   /// What a cycle wants to do before the gate.

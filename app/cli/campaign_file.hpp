@@ -2,14 +2,12 @@
 /// A campaign's results as CSV: a line that says what was tried, a line of column names, a row for
 /// each draw.
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <mutex>
 #include <string>
-
-#include "app/cli/dig_run.hpp"
+#include <vector>
 
 namespace graben::cli {
 
@@ -19,14 +17,20 @@ struct CampaignColumn {
   const char* words;
   const char* unit;
   double shown;
-  double (*of)(const DigSummary& summary);
 };
-inline constexpr std::size_t kCampaignColumns = 15;
-[[nodiscard]] const std::array<CampaignColumn, kCampaignColumns>& campaign_columns();
+
+/// What is drawn again and again, and what is kept of each draw.
+struct CampaignKind {
+  const char* name;               ///< "dig": the first word of what was tried.
+  std::vector<const char*> ends;  ///< How a draw can end; the first one is "done".
+  std::vector<CampaignColumn> columns;
+};
 
 struct CampaignRow {
-  DigEnd end = DigEnd::kDone;
-  std::array<double, kCampaignColumns> figure{};  ///< Not a number where the run has none.
+  std::size_t end = 0;         ///< Of the kind's ends.
+  std::vector<double> figure;  ///< One for each column; not a number where the run has none.
+
+  [[nodiscard]] bool done() const { return end == 0; }
 };
 using CampaignRows = std::map<std::uint64_t, CampaignRow>;  ///< By seed.
 
@@ -36,10 +40,14 @@ struct CampaignData {
   std::string tried;  ///< Profile, its hash, scenario.
   CampaignRows rows;
 };
-[[nodiscard]] CampaignData read_campaign(const std::filesystem::path& file);
+[[nodiscard]] CampaignData read_campaign(const std::filesystem::path& file,
+                                         const CampaignKind& kind);
+/// The first word of what was tried. Throws std::runtime_error where the file is no campaign.
+[[nodiscard]] std::string campaign_name(const std::filesystem::path& file);
 /// Writes beside the file and puts it in its place, rows in the order of their seeds: same rows,
 /// same bytes.
-void write_campaign(const std::filesystem::path& file, const CampaignData& data);
+void write_campaign(const std::filesystem::path& file, const CampaignKind& kind,
+                    const CampaignData& data);
 
 /// One process at a time: holds a file beside the results, and removes it. Throws
 /// std::runtime_error where another one has it.
@@ -55,12 +63,13 @@ class FileLock {
   int descriptor_ = -1;
 };
 
-/// A file that grows by a row at a time, so that what was computed is not lost.
+/// A file that grows by a row at a time, so that what was computed is not lost. `kind` must outlive
+/// it.
 class CampaignLog {
  public:
   /// Goes on with the rows that are there, which must be of the same trial; throws
   /// std::runtime_error otherwise.
-  CampaignLog(std::filesystem::path file, const std::string& tried);
+  CampaignLog(std::filesystem::path file, const CampaignKind& kind, const std::string& tried);
 
   void add(std::uint64_t seed, const CampaignRow& row);
   [[nodiscard]] bool has(std::uint64_t seed) const { return data_.rows.count(seed) != 0; }
@@ -68,11 +77,12 @@ class CampaignLog {
 
  private:
   std::filesystem::path file_;
+  const CampaignKind& kind_;
   FileLock lock_;
   CampaignData data_;
 };
 
 /// Median, 95th percentile (nearest rank) and largest of every figure that is there.
-[[nodiscard]] std::string campaign_table(const CampaignData& data);
+[[nodiscard]] std::string campaign_table(const CampaignKind& kind, const CampaignData& data);
 
 }  // namespace graben::cli

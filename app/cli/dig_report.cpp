@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/json_file.hpp"
 #include "app/cli/report/report.hpp"
+#include "app/cli/report_parts.hpp"
 #include "firmware/motion/dig_field.hpp"
 
 namespace graben::cli {
@@ -79,28 +78,6 @@ json geometry(const machines::ExcavatorMachine& machine, const DigResult& result
   return geometry;
 }
 
-/// One list over time for each entry of a per-axis or per-pump array.
-template <class Array>
-json lists(const DigResult& result, Array DigSample::*member) {
-  json all = json::array();
-  for (std::size_t i = 0; i < std::tuple_size<Array>::value; ++i) {
-    json list = json::array();
-    for (const DigSample& sample : result.samples) {
-      list.push_back((sample.*member)[i]);
-    }
-    all.push_back(std::move(list));
-  }
-  return all;
-}
-
-json list(const DigResult& result, double DigSample::*member) {
-  json values = json::array();
-  for (const DigSample& sample : result.samples) {
-    values.push_back(sample.*member);
-  }
-  return values;
-}
-
 /// x and y of a vector over time.
 json components(const DigResult& result, Eigen::Vector2d DigSample::*member) {
   json x = json::array();
@@ -113,62 +90,48 @@ json components(const DigResult& result, Eigen::Vector2d DigSample::*member) {
 }
 
 json series(const DigResult& result) {
+  const std::vector<DigSample>& samples = result.samples;
   json data;
-  data["time_s"] = list(result, &DigSample::time_s);
-  data["lambda"] = list(result, &DigSample::lambda);
-  data["spool_command"] = lists(result, &DigSample::spool_command);
-  data["spool_real"] = lists(result, &DigSample::spool_real);
-  data["velocity_wanted"] = lists(result, &DigSample::velocity_wanted_mps);
-  data["velocity_real"] = lists(result, &DigSample::velocity_real_mps);
-  data["pump_pressure_expected"] = lists(result, &DigSample::pump_expected_pa);
-  data["pump_pressure_real"] = lists(result, &DigSample::pump_real_pa);
-  data["error_true_m"] = list(result, &DigSample::error_true_m);
-  data["error_measured_m"] = list(result, &DigSample::error_measured_m);
+  data["time_s"] = list(samples, &DigSample::time_s);
+  data["lambda"] = list(samples, &DigSample::lambda);
+  data["spool_command"] = lists(samples, &DigSample::spool_command);
+  data["spool_real"] = lists(samples, &DigSample::spool_real);
+  data["velocity_wanted"] = lists(samples, &DigSample::velocity_wanted_mps);
+  data["velocity_real"] = lists(samples, &DigSample::velocity_real_mps);
+  data["pump_pressure_expected"] = lists(samples, &DigSample::pump_expected_pa);
+  data["pump_pressure_real"] = lists(samples, &DigSample::pump_real_pa);
+  data["error_true_m"] = list(samples, &DigSample::error_true_m);
+  data["error_measured_m"] = list(samples, &DigSample::error_measured_m);
   data["tip_force_n"] = components(result, &DigSample::tip_force_n);
   data["tip_velocity_mps"] = components(result, &DigSample::velocity_true_mps);
   data["obstruction"] = json::array();
-  for (const DigSample& sample : result.samples) {
+  for (const DigSample& sample : samples) {
     data["obstruction"].push_back(static_cast<int>(sample.obstruction));
   }
-  data["cycle_time_us"] = list(result, &DigSample::cycle_us);
-  std::map<std::string, std::size_t> index = {{"none", 0}};
-  json names = {"none"};
-  json limits = json::array();
-  for (const DigSample& sample : result.samples) {
-    const std::string name = limit_words(sample.limit);
-    const auto [found, is_new] = index.emplace(name, index.size());
-    if (is_new) {
-      names.push_back(name);
-    }
-    limits.push_back(found->second);
-  }
-  data["limit"] = std::move(limits);
-  data["limit_names"] = std::move(names);
+  data["cycle_time_us"] = list(samples, &DigSample::cycle_us);
+  add_limits(data, samples);
   return data;
-}
-
-json figure(const char* label, const std::string& value, const char* unit, const char* note) {
-  return {{"label", label}, {"value", value}, {"unit", unit}, {"note", note}};
 }
 
 json key_figures(const DigSummary& summary) {
   const auto mm = [](double metres) { return fmt::format("{:.1f}", metres * 1e3); };
   return {
-      figure("Max error, true tip", mm(summary.max_error_true_m), "mm", "on the path"),
-      figure("RMSE, true tip", mm(summary.rmse_error_true_m), "mm", "on the path"),
-      figure("Max error, measured tip", mm(summary.max_error_measured_m), "mm", "on the path"),
-      figure("RMSE, measured tip", mm(summary.rmse_error_measured_m), "mm", "on the path"),
-      figure("Lambda, least", fmt::format("{:.3f}", summary.lambda_min), "", "on the path"),
-      figure("Lambda below 1", fmt::format("{:.0f}", summary.lambda_below_1_share * 100.0), "%",
-             "of the time on the path"),
-      figure("Regeneration open", fmt::format("{:.0f}", summary.regeneration_share * 100.0), "%",
-             "of the time on the path"),
-      figure("Chamber pressure, max",
-             fmt::format("{:.1f}", summary.peak_chamber_pressure_pa * 1e-6), "MPa", "whole run"),
-      figure("Lambda, mean", fmt::format("{:.3f}", summary.lambda_mean), "", "on the path"),
-      figure("Time round the path", fmt::format("{:.1f}", summary.loop_s), "s", "simulated"),
-      figure("Times real time", fmt::format("{:.0f}", summary.real_time_factor), "",
-             "plant and controller"),
+      key_figure("Max error, true tip", mm(summary.max_error_true_m), "mm", "on the path"),
+      key_figure("RMSE, true tip", mm(summary.rmse_error_true_m), "mm", "on the path"),
+      key_figure("Max error, measured tip", mm(summary.max_error_measured_m), "mm", "on the path"),
+      key_figure("RMSE, measured tip", mm(summary.rmse_error_measured_m), "mm", "on the path"),
+      key_figure("Lambda, least", fmt::format("{:.3f}", summary.lambda_min), "", "on the path"),
+      key_figure("Lambda below 1", fmt::format("{:.0f}", summary.lambda_below_1_share * 100.0), "%",
+                 "of the time on the path"),
+      key_figure("Regeneration open", fmt::format("{:.0f}", summary.regeneration_share * 100.0),
+                 "%", "of the time on the path"),
+      key_figure("Chamber pressure, max",
+                 fmt::format("{:.1f}", summary.peak_chamber_pressure_pa * 1e-6), "MPa",
+                 "whole run"),
+      key_figure("Lambda, mean", fmt::format("{:.3f}", summary.lambda_mean), "", "on the path"),
+      key_figure("Time round the path", fmt::format("{:.1f}", summary.loop_s), "s", "simulated"),
+      key_figure("Times real time", fmt::format("{:.0f}", summary.real_time_factor), "",
+                 "plant and controller"),
   };
 }
 
@@ -181,10 +144,7 @@ void write_dig_report(const std::filesystem::path& file, const machines::Excavat
   report["title"] = "Graben: digging run";
   report["subtitle"] = subtitle;
   report["summary"] = key_figures(summary);
-  report["limits_share"] = json::array();
-  for (const auto& [name, share] : summary.limit_share) {
-    report["limits_share"].push_back({{"name", name}, {"share", share}});
-  }
+  report["limits_share"] = shares_list(summary.limit_share);
   report["geometry"] = geometry(machine, result);
   report["series"] = series(result);
   write_report(file, report);
@@ -217,19 +177,10 @@ void write_dig_summary(const std::filesystem::path& file, const DigSummary& summ
   for (const auto& [name, share] : summary.limit_share) {
     figures["limit_share"][name] = share;
   }
-  std::ofstream stream(file);
-  stream << figures.dump(2) << '\n';
-  stream.close();
-  if (!stream) {
-    throw std::runtime_error(fmt::format("{}: can't be written", file.string()));
-  }
+  write_json(file, figures);
 }
 
 std::string dig_table(const DigSummary& summary) {
-  std::string limits;
-  for (const auto& [name, share] : summary.limit_share) {
-    limits += fmt::format("  {:<26}{:>9.1f} %\n", name, share * 100.0);
-  }
   return fmt::format(
       "                                true    measured\n"
       "path error, max           {:>10.1f}  {:>10.1f} mm\n"
@@ -249,7 +200,8 @@ std::string dig_table(const DigSummary& summary) {
       summary.rmse_error_true_m * 1e3, summary.rmse_error_measured_m * 1e3, summary.lambda_min,
       summary.lambda_mean, summary.lambda_below_1_share * 100.0, summary.regeneration_share * 100.0,
       summary.peak_chamber_pressure_pa * 1e-6, summary.approach_s, summary.loop_s,
-      summary.cycle_median_us, summary.cycle_max_us, summary.real_time_factor, limits);
+      summary.cycle_median_us, summary.cycle_max_us, summary.real_time_factor,
+      shares_table(summary.limit_share));
 }
 
 }  // namespace graben::cli

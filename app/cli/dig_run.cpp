@@ -3,23 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <optional>
 
-#include "app/cli/candump_log.hpp"
 #include "app/cli/dig_bench.hpp"
 #include "app/cli/path_progress.hpp"
 
 namespace graben::cli {
 namespace {
 
-/// Once done the operator lets go, and the log shows neutral.
-constexpr TimeUs kAfterwards_us = 300 * kMillisecondUs;
 /// Slower than this a direction says nothing.
 constexpr double kMoving_mps = 0.02;
-
-double seconds(TimeUs time_us) { return static_cast<double>(time_us) * 1e-6; }
 
 class DigRun {
  public:
@@ -33,31 +26,15 @@ class DigRun {
         progress_(path_, options.loops) {}
 
   DigResult run(const Progress& show) {
-    std::optional<CandumpLog> log;
-    if (!options_.log_file.empty()) {
-      log.emplace(options_.log_file, "vcan0");
-      bench_.bus.set_tap([&](const CanFrame& frame) { log->write(frame, frame.stamp_us); });
-    }
-    const auto begin = std::chrono::steady_clock::now();
-    TimeUs now_us = 0;
-    while (!ended(now_us)) {
-      step(now_us);
-      show(progress_.share(), progress_.on_path() ? "on the path" : "approaching the path");
-      now_us += DigBench::kPeriod_us;
-    }
-    bench_.release();
-    for (const TimeUs end_us = now_us + kAfterwards_us; now_us < end_us;
-         now_us += DigBench::kPeriod_us) {
-      static_cast<void>(bench_.step(now_us));
-    }
-    result_.wall_s =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    result_.rejected_frames = rejected(bench_.ecu.link());
+    const BenchFigures figures = run_bench(
+        bench_, options_.log_file, [this](TimeUs now_us) { return ended(now_us); },
+        [&](TimeUs now_us, double cycle_us) {
+          look(now_us, cycle_us);
+          show(progress_.share(), progress_.on_path() ? "on the path" : "approaching the path");
+        });
+    result_.wall_s = figures.wall_s;
+    result_.rejected_frames = figures.rejected_frames;
     result_.peak_chamber_pressure_pa = bench_.plant.plant().peak_chamber_pressure_pa();
-    bench_.bus.set_tap(nullptr);
-    if (log) {
-      log->close();
-    }
     return std::move(result_);
   }
 
@@ -85,9 +62,9 @@ class DigRun {
            options_.loops * options_.loop_max_s / options_.speed_override_ratio;
   }
 
-  void step(TimeUs now_us) {
+  void look(TimeUs now_us, double cycle_us) {
     DigSample sample;
-    sample.cycle_us = bench_.step(now_us);
+    sample.cycle_us = cycle_us;
     sample.time_s = seconds(now_us);
     read_truth(sample);
     read_controller(sample);

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "app/cli/bench_run.hpp"
+#include "app/cli/limit_words.hpp"
 #include "app/machines/machine_file.hpp"
 #include "firmware/kinematics/excavator_kinematics.hpp"
 
@@ -101,11 +101,8 @@ struct DigSummary {
   double cycle_median_us = 0.0;
   double cycle_max_us = 0.0;
   /// Share of the time on the path for each limit that was active, by its name, "none" first.
-  std::vector<std::pair<std::string, double>> limit_share;
+  LimitShares limit_share;
 };
-
-/// Share of the work done and where it stands.
-using Progress = std::function<void(double share, const std::string& where)>;
 
 /// Runs until the path was followed `loops` times, something fails, or the time is over. The same
 /// machine and options give the same samples (but cycle_us) and the same bytes in the log.
@@ -113,8 +110,5 @@ using Progress = std::function<void(double share, const std::string& where)>;
                                 const DigOptions& options, const Progress& progress);
 
 [[nodiscard]] DigSummary summarise(const DigResult& result);
-
-/// "none", "pump flow: Pump 1", "back flow: boom", ...
-[[nodiscard]] std::string limit_words(const Limit& limit);
 
 }  // namespace graben::cli

@@ -1,45 +1,10 @@
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
-#include <map>
 
 #include "app/cli/dig_run.hpp"
-#include "app/cli/fault_words.hpp"
-#include "app/machines/axis_names.hpp"
+#include "app/cli/statistics.hpp"
 
 namespace graben::cli {
 namespace {
-
-using machines::kAxisNames;
-
-double median(std::vector<double> values) {
-  if (values.empty()) {
-    return 0.0;
-  }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// Maximum and root mean square of what is fed in.
-class Spread {
- public:
-  void add(double value) {
-    max_ = std::max(max_, value);
-    squares_ += value * value;
-    ++count_;
-  }
-  [[nodiscard]] double max() const { return max_; }
-  [[nodiscard]] double rms() const {
-    return count_ > 0 ? std::sqrt(squares_ / static_cast<double>(count_)) : 0.0;
-  }
-
- private:
-  double max_ = 0.0;
-  double squares_ = 0.0;
-  long count_ = 0;
-};
 
 /// The rebound of the oil is over after this; what comes then is judged for so long.
 constexpr double kRebound_s = 0.3;
@@ -75,38 +40,11 @@ std::optional<Recovery> recovery(const std::vector<DigSample>& samples) {
 
 }  // namespace
 
-std::string limit_words(const Limit& limit) {
-  const unsigned axis = std::min<unsigned>(limit.index, kAxisCount - 1);
-  switch (limit.kind) {
-    case LimitKind::kNone:
-      return "none";
-    case LimitKind::kPumpFlow:
-      return fmt::format("pump flow: Pump {}", limit.index + 1);
-    case LimitKind::kBackFlow:
-      return fmt::format("back flow: {}", kAxisNames[axis]);
-    case LimitKind::kSpoolTravel:
-      return fmt::format("spool travel: {}", kAxisNames[axis]);
-    case LimitKind::kStrokeEnd:
-      return fmt::format("stroke end: {}", kAxisNames[axis]);
-    case LimitKind::kRise:
-      return "rise of lambda";
-    case LimitKind::kDegraded:
-      return fmt::format("slowed: {}", fault_words(static_cast<Fault>(limit.index)));
-    case LimitKind::kImplementFlow:
-      return "implement flow";
-    case LimitKind::kTransmissionFlow:
-      return fmt::format("transmission flow: {} track", limit.index == 0 ? "left" : "right");
-    case LimitKind::kAhead:
-      return "what lies ahead";
-  }
-  return "unknown";
-}
-
 DigSummary summarise(const DigResult& result) {
   DigSummary summary;
   Spread error_true;
   Spread error_measured;
-  std::map<std::string, long> limits;
+  LimitCount limits;
   std::vector<double> cycle_us;
   double lambda_sum = 0.0;
   long on_path = 0;
@@ -129,7 +67,7 @@ DigSummary summarise(const DigResult& result) {
     below_1 += sample.lambda < 1.0 ? 1 : 0;
     regenerating += sample.regenerating ? 1 : 0;
     summary.loop_s = sample.time_s - summary.approach_s;
-    ++limits[limit_words(sample.limit)];
+    limits.add(sample.limit);
   }
   if (on_path == 0) {
     summary.lambda_min = 0.0;
@@ -150,11 +88,7 @@ DigSummary summarise(const DigResult& result) {
   summary.duration_s = result.samples.empty() ? 0.0 : result.samples.back().time_s;
   summary.real_time_factor = result.wall_s > 0.0 ? summary.duration_s / result.wall_s : 0.0;
   summary.cycle_median_us = median(cycle_us);
-  summary.limit_share.emplace_back("none", share(limits["none"]));
-  limits.erase("none");
-  for (const auto& [name, count] : limits) {
-    summary.limit_share.emplace_back(name, share(count));
-  }
+  summary.limit_share = limits.shares();
   return summary;
 }
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -9,6 +8,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/guarded.hpp"
+#include "app/cli/json_file.hpp"
 #include "app/cli/plant_run.hpp"
 #include "app/cli/scenario_options.hpp"
 #include "app/cli/validators.hpp"
@@ -43,14 +43,11 @@ void plant_on_bus(const Options& options) {
       arranged(machines::load_excavator(machines::find_profile(options.profile)), options.scenario);
   PlantRunOptions run = options.run;
   run.start_strokes_m = usual_run(machine, options.scenario).start_strokes_m;
-  const std::string text = summary_of(run_plant(machine, run)).dump(2);
+  const nlohmann::ordered_json figures = summary_of(run_plant(machine, run));
   if (options.summary.empty()) {
-    fmt::print("{}\n", text);
-    return;
-  }
-  std::ofstream file(options.summary);
-  if (!(file << text << '\n' << std::flush)) {
-    throw std::runtime_error(fmt::format("{}: can't be written", options.summary));
+    fmt::print("{}\n", figures.dump(2));
+  } else {
+    write_json(options.summary, figures);
   }
 }
 

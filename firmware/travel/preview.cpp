@@ -13,8 +13,12 @@ constexpr int kEdgeSteps = 4;
 constexpr double kNoFlow_m3pm = 1e-7;
 /// No machine of this kind is faster.
 constexpr double kAnySpeed_mps = 10.0;
+/// Stations passed that still count: the body comes to rest behind where its springs at rest would
+/// have it, most of all when it tips over a ledge.
+constexpr int kBehind = 2;
 /// Stations before the first and after the last one that the central difference needs.
 constexpr int kMargin = 2;
+constexpr int kBefore = kBehind + kMargin;
 
 BodyPose pose_of(double x_m, const Stand& stand) {
   return {{x_m, 0.0, stand.height_m}, rotation_from_pitch(stand.pitch_rad)};
@@ -26,7 +30,7 @@ Preview::Preview(const DozerProfile& profile)
     : profile_(profile),
       blade_(profile.blade),
       count_(std::clamp(static_cast<int>(profile.travel.preview_m / kStep_m), 1,
-                        kMostStations - 2 * kMargin)) {}
+                        kMostStations - kBefore - kMargin)) {}
 
 int Preview::station_of(double x_m) { return static_cast<int>(std::floor(x_m / kStep_m)); }
 
@@ -63,8 +67,8 @@ void Preview::work_out(const GroundMap& ground, const GradeProfile& design, int 
 
 void Preview::look(const GroundMap& ground, const GradeProfile& design, double x_m,
                    const Stand& measured) {
-  const int here = station_of(x_m) - kMargin;
-  const int total = count_ + 2 * kMargin;
+  const int here = station_of(x_m) - kBefore;
+  const int total = kBefore + count_ + kMargin;
   if (!started_ || std::abs(here - first_) >= total) {
     station_ = {};
     first_ = here;
@@ -112,13 +116,13 @@ AheadLimit Preview::limit(double x_m, double speed_mps, double flow_m3ps, double
   };
   // Between two stations the limit goes over from one to the other: what is passed must not let go
   // at once.
-  const int here = first_ + kMargin;
-  const double share = std::clamp(x_m / kStep_m - here, 0.0, 1.0);
-  const double now_mps = limit_at(here) + share * (limit_at(here + 1) - limit_at(here));
-  AheadLimit ahead{kAnySpeed_mps, now_mps};
-  double square = now_mps * now_mps;
+  const int last = first_ + kMargin;
+  const double share = std::clamp(x_m / kStep_m - kBehind - last, 0.0, 1.0);
+  const double left_mps = limit_at(last) + share * (limit_at(last + 1) - limit_at(last));
+  AheadLimit ahead{kAnySpeed_mps, left_mps};
+  double square = left_mps * left_mps;
   const double braked_from_m = x_m + std::max(0.0, speed_mps) * lead_s;
-  for (int index = here + 1; index < here + count_; ++index) {
+  for (int index = last + 1; index < last + kBehind + count_; ++index) {
     const double limit_mps = limit_at(index);
     const double way_m = std::max(0.0, index * kStep_m - braked_from_m);
     square = std::min(square,

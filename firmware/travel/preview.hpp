@@ -32,9 +32,9 @@ class Preview {
   /// The origin is at x with this measured stand.
   void look(const GroundMap& ground, const GradeProfile& design, double x_m, const Stand& measured);
 
-  /// Largest speed at `x_m` with this flow to plan with, from which every limit up to `preview_m`
-  /// is met at `deceleration_max_mps2`, the way of `lead_s` at `speed_mps` left off for what the
-  /// transmission takes to answer.
+  /// What is less than 0.1 m behind counts too. Largest speed at `x_m` with this flow to plan with,
+  /// from which every limit up to `preview_m` is met at `deceleration_max_mps2`, the way of
+  /// `lead_s` at `speed_mps` left off for what the transmission takes to answer.
   [[nodiscard]] AheadLimit limit(double x_m, double speed_mps, double flow_m3ps,
                                  double lead_s) const;
 

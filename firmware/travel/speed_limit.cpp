@@ -34,15 +34,21 @@ double implement_speed_mps(const DozerProfile& profile, const SpeedDemand& deman
   return demand.available_flow_m3ps / std::max(normalised_m3pm, kNoFlow_m3ps);
 }
 
-/// Algorithm 1: where v_c may rise to.
-double room_mps(const DozerProfile& profile, const SpeedDemand& demand, double target_mps) {
+/// Algorithm 1: where v_c may rise to. A body that is tipping needs more and more flow, which its
+/// rest on the ground ahead does not show; so the measured flow has its reserve here too.
+double room_mps(const DozerProfile& profile, const SpeedDemand& demand, double implement_mps,
+                double target_mps) {
+  if (profile.travel.policy == SpeedPolicy::kConstant) {
+    return target_mps;
+  }
   const bool off_home = std::abs(demand.blade_angle_rad) > profile.travel.threshold_rad;
-  const bool knows = profile.travel.policy == SpeedPolicy::kBounded;
-  return off_home && knows ? std::min(target_mps, demand.ahead.lowest_mps) : target_mps;
+  const double ahead_mps = off_home ? demand.ahead.lowest_mps : target_mps;
+  const double held_mps = std::min(ahead_mps, profile.travel.flow_share * implement_mps);
+  return std::min(target_mps, std::max(held_mps, profile.travel.speed_min_mps));
 }
 
-SpeedState followed(const DozerProfile& profile, const SpeedState& last, double target_mps,
-                    double room_mps, double period_s) {
+SpeedState followed(const DozerProfile& profile, const SpeedState& last, double desired_mps,
+                    double target_mps, double room_mps, double period_s) {
   const TravelProfile& travel = profile.travel;
   SpeedState state = last;
   if (target_mps < last.speed_mps) {
@@ -53,7 +59,8 @@ SpeedState followed(const DozerProfile& profile, const SpeedState& last, double 
     return state;
   }
   state.since_fall_s = std::min(last.since_fall_s + period_s, kPause_s);
-  const bool is_worth_it = room_mps > last.speed_mps * (1.0 + kWorthIt);
+  // Up to what is desired nothing will hold it again soon.
+  const bool is_worth_it = room_mps > last.speed_mps * (1.0 + kWorthIt) || room_mps >= desired_mps;
   state.rising =
       room_mps > last.speed_mps && (last.rising || (is_worth_it && state.since_fall_s >= kPause_s));
   if (state.rising) {
@@ -77,15 +84,15 @@ SpeedChoice next_speed(const DozerProfile& profile, const SpeedState& last,
   const double required_m3ps =
       last.required_flow_m3ps +
       (demand.required_flow_m3ps - last.required_flow_m3ps) * period_s / (kFlowFilter_s + period_s);
+  const double implement_mps = implement_speed_mps(profile, demand, required_m3ps);
   if (profile.travel.policy == SpeedPolicy::kBounded) {
-    take_lower(implement_speed_mps(profile, demand, required_m3ps), {LimitKind::kImplementFlow, 0},
-               choice.allowed_mps, holds);
+    take_lower(implement_mps, {LimitKind::kImplementFlow, 0}, choice.allowed_mps, holds);
     take_lower(demand.ahead.speed_mps, {LimitKind::kAhead, 0}, choice.allowed_mps, holds);
   }
   choice.allowed_mps = std::max(choice.allowed_mps, profile.travel.speed_min_mps);
   const double target_mps = std::min(demand.desired_mps, choice.allowed_mps);
-  choice.state =
-      followed(profile, last, target_mps, room_mps(profile, demand, target_mps), period_s);
+  choice.state = followed(profile, last, demand.desired_mps, target_mps,
+                          room_mps(profile, demand, implement_mps, target_mps), period_s);
   choice.state.required_flow_m3ps = required_m3ps;
   if (choice.state.speed_mps < demand.desired_mps) {
     choice.limit = target_mps > choice.state.speed_mps ? Limit{LimitKind::kRise, 0} : holds;

@@ -88,7 +88,7 @@ def failures_are_no_figures(graben, folder):
                     status=1)
     row = content(file).decode().splitlines()[2].split(",")
     assert row[1] != "done" and not any(row[2:]), row
-    assert "0 of 1 draws done" in out and "did not come round" in err, (out, err)
+    assert "0 of 1 draws done" in out and "did not come to their end" in err, (out, err)
 
 
 def one_at_a_time(graben, folder):

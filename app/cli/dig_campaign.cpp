@@ -1,0 +1,63 @@
+#include "app/cli/dig_campaign.hpp"
+
+#include <limits>
+
+#include "app/cli/campaign_figures.hpp"
+
+namespace graben::cli {
+namespace {
+
+constexpr double kMilli = 1e3;
+constexpr double kPercent = 100.0;
+constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+constexpr double kMega = 1e-6;
+constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
+
+const std::vector<CampaignFigure<DigSummary>>& figures() {
+  using S = DigSummary;
+  static const std::vector<CampaignFigure<S>> all = {
+      {{"max_error_true_m", "path error of the true tip, max", "mm", kMilli},
+       [](const S& s) { return s.max_error_true_m; }},
+      {{"rmse_error_true_m", "path error of the true tip, RMSE", "mm", kMilli},
+       [](const S& s) { return s.rmse_error_true_m; }},
+      {{"max_error_measured_m", "path error of the measured tip, max", "mm", kMilli},
+       [](const S& s) { return s.max_error_measured_m; }},
+      {{"rmse_error_measured_m", "path error of the measured tip, RMSE", "mm", kMilli},
+       [](const S& s) { return s.rmse_error_measured_m; }},
+      {{"lambda_min", "lambda, min", "", 1.0}, [](const S& s) { return s.lambda_min; }},
+      {{"lambda_mean", "lambda, mean", "", 1.0}, [](const S& s) { return s.lambda_mean; }},
+      {{"lambda_below_1", "time with lambda below 1", "%", kPercent},
+       [](const S& s) { return s.lambda_below_1_share; }},
+      {{"regeneration", "time with a regeneration check open", "%", kPercent},
+       [](const S& s) { return s.regeneration_share; }},
+      {{"loop_s", "time round the path", "s", 1.0}, [](const S& s) { return s.loop_s; }},
+      {{"approach_s", "time to reach the path", "s", 1.0}, [](const S& s) { return s.approach_s; }},
+      {{"peak_chamber_pressure_pa", "highest chamber pressure", "MPa", kMega},
+       [](const S& s) { return s.peak_chamber_pressure_pa; }},
+      {{"lambda_held", "lambda while the obstacle holds, min", "", 1.0},
+       [](const S& s) { return s.recovery ? s.recovery->lambda_held : kAbsent; }},
+      {{"off_field_max_rad", "mean direction off the field afterwards, max", "deg", kDegrees},
+       [](const S& s) { return s.recovery ? s.recovery->off_field_max_rad : kAbsent; }},
+      {{"ringing_max_rad", "the same from cycle to cycle", "deg", kDegrees},
+       [](const S& s) { return s.recovery ? s.recovery->ringing_max_rad : kAbsent; }},
+      {{"recovery_error_max_m", "path error of the true tip afterwards, max", "mm", kMilli},
+       [](const S& s) { return s.recovery ? s.recovery->error_max_m : kAbsent; }},
+
+  };
+  return all;
+}
+
+}  // namespace
+
+const CampaignKind& dig_campaign() {
+  // In the order of DigEnd.
+  static const CampaignKind kind = {
+      "dig", {"done", "path-not-reached", "loop-not-closed", "fault"}, columns_of(figures())};
+  return kind;
+}
+
+CampaignRow dig_campaign_row(const DigResult& result) {
+  return campaign_row(figures(), static_cast<std::size_t>(result.end), summarise(result));
+}
+
+}  // namespace graben::cli

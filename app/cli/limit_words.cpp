@@ -1,0 +1,60 @@
+#include "app/cli/limit_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/cli/fault_words.hpp"
+#include "app/machines/axis_names.hpp"
+
+namespace graben::cli {
+
+using machines::kAxisNames;
+
+std::string limit_words(const Limit& limit) {
+  const unsigned axis = std::min<unsigned>(limit.index, kAxisCount - 1);
+  switch (limit.kind) {
+    case LimitKind::kNone:
+      return "none";
+    case LimitKind::kPumpFlow:
+      return fmt::format("pump flow: Pump {}", limit.index + 1);
+    case LimitKind::kBackFlow:
+      return fmt::format("back flow: {}", kAxisNames[axis]);
+    case LimitKind::kSpoolTravel:
+      return fmt::format("spool travel: {}", kAxisNames[axis]);
+    case LimitKind::kStrokeEnd:
+      return fmt::format("stroke end: {}", kAxisNames[axis]);
+    case LimitKind::kRise:
+      return "rise of lambda";
+    case LimitKind::kDegraded:
+      return fmt::format("slowed: {}", fault_words(static_cast<Fault>(limit.index)));
+    case LimitKind::kImplementFlow:
+      return "implement flow";
+    case LimitKind::kTransmissionFlow:
+      return fmt::format("transmission flow: {} track", limit.index == 0 ? "left" : "right");
+    case LimitKind::kAhead:
+      return "what lies ahead";
+  }
+  return "unknown";
+}
+
+void LimitCount::add(const Limit& limit) {
+  ++cycles_[limit_words(limit)];
+  ++all_;
+}
+
+LimitShares LimitCount::shares() const {
+  const auto share = [this](long cycles) {
+    return all_ > 0 ? static_cast<double>(cycles) / static_cast<double>(all_) : 0.0;
+  };
+  const auto none = cycles_.find("none");
+  LimitShares shares = {{"none", share(none != cycles_.end() ? none->second : 0)}};
+  for (const auto& [name, cycles] : cycles_) {
+    if (name != "none") {
+      shares.emplace_back(name, share(cycles));
+    }
+  }
+  return shares;
+}
+
+}  // namespace graben::cli
