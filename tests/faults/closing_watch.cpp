@@ -41,7 +41,9 @@ void ClosingWatch<Kind>::after(const Plant& plant, bool closed) {
     rolling_.see(*rolling);
   }
   if (!has_begun()) {
-    if (!closed || (disobeying_ && !in_deadband<Kind>(plant))) {
+    const bool in_middle = in_deadband<Kind>(plant);
+    strayed_ = strayed_ || !in_middle;
+    if (!closed || (disobeying_ && !(strayed_ && in_middle))) {
       return;
     }
     begin(disobeying_ ? plant : *last_);

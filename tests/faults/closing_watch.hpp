@@ -51,6 +51,7 @@ class ClosingWatch {
   std::optional<Plant> reference_;  ///< The sound machine.
   double beyond_share_ = 0.0;
   bool closed_ = false;
+  bool strayed_ = false;  ///< Some spool has been out of its deadband.
   RollingWatch rolling_;
   std::vector<typename Kind::AxisArray> strokes_;  ///< As shares, spools closed.
 };

@@ -87,11 +87,11 @@ void track_speed_wrong(Trial<Dozer>& trial) {
 void runs_at_its_end(Trial<Dozer>& trial) {
   Dozer::Scenery scenery = Dozer::scenery_of(trial.seed());
   DozerProfile& profile = scenery.machine.profile;
-  profile.travel.speed_desired_mps = 0.4 + 0.2 * trial.random.uniform();
+  profile.travel.speed_desired_mps = 0.3 + 0.1 * trial.random.uniform();
   profile.grade.count = 3;
   profile.grade.point[0] = {0.0, 0.0};
-  profile.grade.point[1] = {3.0, 0.0};
-  profile.grade.point[2] = {6.0, -0.6 - 0.2 * trial.random.uniform()};
+  profile.grade.point[1] = {2.0, 0.0};
+  profile.grade.point[2] = {5.0, -0.9 - 0.2 * trial.random.uniform()};
   trial.set_up(scenery);
   Rig<Dozer>& rig = *trial.rig;
   rig.run(200 * kMillisecondUs);
