@@ -104,6 +104,31 @@ void each_signal_of_the_pose_fails_alone(void**) {
   assert_true(rig.machine.plant().position_m() > shown + 0.1);
 }
 
+// With noise every reading changes each time: the one that is stuck does not.
+void each_signal_of_the_pose_sticks_alone(void**) {
+  DozerPlantProfile profile = dozer_9t();
+  profile.sensor_errors = true;
+  profile.seed = 3;
+  DozerRig rig(profile);
+  rig.cycles(3);
+  const std::array<ReadingFault*, 6> faults = faults_of(rig.machine.faults().pose);
+  for (std::size_t which = 0; which < faults.size(); ++which) {
+    const Pose before = pose_on(rig);
+    faults[which]->stuck = true;
+    std::array<bool, 6> moved{};
+    for (int i = 0; i < 20; ++i) {
+      rig.cycle();
+      for (std::size_t k = 0; k < moved.size(); ++k) {
+        moved[k] = moved[k] || pose_on(rig).signal[k].value != before.signal[k].value;
+      }
+    }
+    for (std::size_t k = 0; k < moved.size(); ++k) {
+      assert_true(moved[k] == (k != which));
+    }
+    *faults[which] = {};
+  }
+}
+
 void the_whole_pose_can_be_lost(void**) {
   DozerRig rig;
   rig.machine.faults().pose.set_state(RawState::kError);
@@ -233,6 +258,7 @@ int main() {
       cmocka_unit_test(the_stroke_sensor_fails_in_its_ways),
       cmocka_unit_test(the_spool_can_be_held_or_open_uncommanded),
       cmocka_unit_test(each_signal_of_the_pose_fails_alone),
+      cmocka_unit_test(each_signal_of_the_pose_sticks_alone),
       cmocka_unit_test(the_whole_pose_can_be_lost),
       cmocka_unit_test(displacements_can_run_away_and_be_shown_wrong),
       cmocka_unit_test(track_speeds_can_be_shown_wrong),

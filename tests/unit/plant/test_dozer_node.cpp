@@ -14,7 +14,10 @@ using dbc::RawState;
 
 void messages_come_at_their_rates(void**) {
   DozerRig rig;
-  rig.cycles(200);
+  rig.cycle();
+  assert_int_equal(rig.seen.size(), 10);
+  assert_int_equal(rig.seen.count(bus::ValveState::kId), 0);
+  rig.cycles(199);
   for (const std::uint32_t id :
        {bus::BladeStroke::kId, bus::BodyPosition::kId, bus::BodyPitch::kId, bus::BodyVelocity::kId,
         bus::LeftTransmission::kId, bus::RightTransmission::kId, bus::TrackSpeed::kId}) {
@@ -172,7 +175,14 @@ void the_pilot_cut_centres_a_held_spool(void**) {
     rig.send_and_cycle(rig.frame_of(cut));
   }
   assert_near(rig.blade_spool(), 0.0, 1e-4);
-  rig.cycles(50);  // silence does not end it
+  // Neither an unusable value nor silence ends it.
+  for (int i = 0; i < 30; ++i) {
+    bus::SpoolCommand unusable;
+    unusable.pilot_cut.state = RawState::kError;
+    rig.send_and_cycle(rig.frame_of(unusable));
+  }
+  assert_near(rig.blade_spool(), 0.0, 1e-4);
+  rig.cycles(50);
   assert_near(rig.blade_spool(), 0.0, 1e-4);
   rig.spool_for(33, false, 0.0);
   assert_near(rig.blade_spool(), 0.4, 1e-3);
@@ -229,6 +239,20 @@ void the_brake_does_not_wait_for_ever(void**) {
   rig.cycles(10 + 199);
   assert_true(rig.machine.plant().track_speeds_mps()[kLeft] > 0.5);
   rig.cycles(20);
+  assert_near(rig.machine.plant().track_speeds_mps()[kLeft], 0.0, 0.0);
+}
+
+// Nor does it begin to wait anew with each command that cannot be used.
+void unusable_commands_do_not_put_the_brake_off(void**) {
+  DozerRig rig;
+  rig.machine.faults().path[kLeft].pump.held_ratio = 1.0;
+  rig.machine.faults().path[kRight].pump.held_ratio = 1.0;
+  rig.pumps_for(200, false, 1.0, 1.0);
+  for (int i = 0; i < 220; ++i) {
+    bus::PumpDisplacementCommand message;
+    message.left_pump_ratio.state = RawState::kError;
+    rig.send_and_cycle(rig.frame_of(message));
+  }
   assert_near(rig.machine.plant().track_speeds_mps()[kLeft], 0.0, 0.0);
 }
 
@@ -326,6 +350,7 @@ int main() {
       cmocka_unit_test(pumps_motors_and_brake_follow_their_commands),
       cmocka_unit_test(a_silence_of_the_pumps_stops_the_machine),
       cmocka_unit_test(the_brake_does_not_wait_for_ever),
+      cmocka_unit_test(unusable_commands_do_not_put_the_brake_off),
       cmocka_unit_test(unusable_displacements_stop_the_machine),
       cmocka_unit_test(wrong_frames_are_no_sign_of_life),
       cmocka_unit_test(the_operator_asks_for_grading),
