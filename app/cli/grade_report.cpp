@@ -53,7 +53,7 @@ json series(const machines::DozerMachine& machine, const GradeResult& result) {
   data["motor_command"] = lists(samples, &GradeSample::motor_command);
   data["motor_real"] = lists(samples, &GradeSample::motor_real);
   data["cycle_time_us"] = list(samples, &GradeSample::cycle_us);
-  add_limits(data, samples);
+  add_limits(data, samples, dozer_actuators());
   return data;
 }
 

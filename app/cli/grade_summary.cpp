@@ -111,7 +111,7 @@ GradeSummary summarise(const machines::DozerMachine& machine, const GradeResult&
   Spread error_measured;
   FlowCount flow;
   Turns turns(kSpeedResolution_mps);
-  LimitCount limits;
+  LimitCount limits(dozer_actuators());
   for (const GradeSample& sample : judged) {
     error_true.add(std::abs(sample.error_true_m));
     error_measured.add(std::abs(sample.error_measured_m));

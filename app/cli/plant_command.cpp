@@ -28,33 +28,33 @@ struct Options {
   std::string summary;
 };
 
+/// What both kinds' runs have at their end.
+template <class Result>
+void add_bus(nlohmann::ordered_json& figures, const Result& result) {
+  figures["commands_accepted"] = result.commands_accepted;
+  figures["commands_rejected"] = result.commands_rejected;
+  figures["command_timeouts"] = result.command_timeouts;
+  figures["late_cycles"] = result.bus.late_cycles;
+  figures["frames_dropped"] = result.bus.frames_dropped;
+}
+
 nlohmann::ordered_json summary_of(const PlantRunResult& result) {
-  return {{"simulated_s", result.bus.simulated_s},
-          {"enabled_s", result.enabled_s},
-          {"on_path_s", result.on_path_s},
-          {"loops", result.loops},
-          {"max_error_true_m", result.max_error_m},
-          {"rmse_error_true_m", result.rmse_error_m},
-          {"commands_accepted", result.commands_accepted},
-          {"commands_rejected", result.commands_rejected},
-          {"command_timeouts", result.command_timeouts},
-          {"late_cycles", result.bus.late_cycles},
-          {"frames_dropped", result.bus.frames_dropped},
-          {"peak_chamber_pressure_pa", result.peak_chamber_pressure_pa}};
+  nlohmann::ordered_json figures = {
+      {"simulated_s", result.bus.simulated_s},  {"enabled_s", result.enabled_s},
+      {"on_path_s", result.on_path_s},          {"loops", result.loops},
+      {"max_error_true_m", result.max_error_m}, {"rmse_error_true_m", result.rmse_error_m}};
+  add_bus(figures, result);
+  figures["peak_chamber_pressure_pa"] = result.peak_chamber_pressure_pa;
+  return figures;
 }
 
 nlohmann::ordered_json summary_of(const GradePlantResult& result) {
-  return {{"simulated_s", result.bus.simulated_s},
-          {"enabled_s", result.enabled_s},
-          {"over_grade_s", result.over_grade_s},
-          {"edge_x_m", result.edge_x_m},
-          {"max_error_true_m", result.max_error_m},
-          {"rmse_error_true_m", result.rmse_error_m},
-          {"commands_accepted", result.commands_accepted},
-          {"commands_rejected", result.commands_rejected},
-          {"command_timeouts", result.command_timeouts},
-          {"late_cycles", result.bus.late_cycles},
-          {"frames_dropped", result.bus.frames_dropped}};
+  nlohmann::ordered_json figures = {
+      {"simulated_s", result.bus.simulated_s},  {"enabled_s", result.enabled_s},
+      {"over_grade_s", result.over_grade_s},    {"edge_x_m", result.edge_x_m},
+      {"max_error_true_m", result.max_error_m}, {"rmse_error_true_m", result.rmse_error_m}};
+  add_bus(figures, result);
+  return figures;
 }
 
 [[noreturn]] void refuse(const std::string& option, const char* kind) {

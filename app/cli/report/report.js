@@ -143,13 +143,13 @@ const reportPage = (() => {
     const {shade, x} = report;
     if (!shade.ok) return $('shade').replaceWith(complaint(shade.problem));
     if (shade.value.length === 0) return;
-    const words = shade.value.map((run) =>
+    const words = shade.named.map((run) =>
       `${run.from.toFixed(shade.digits)} to ${run.until.toFixed(shade.digits)} ${x.unit}`);
     $('shade').append(make('span', {className: 'swatch shade'}),
         `${shade.words}: ${words.join(', ')}`);
     $('shade').hidden = false;
-    const from = Math.max(shade.value[0].from - AROUND, x.value[0]);
-    const until = Math.min(shade.value.at(-1).until + AROUND, x.value.at(-1));
+    const from = Math.max(shade.around[0].from - AROUND, x.value[0]);
+    const until = Math.min(shade.around.at(-1).until + AROUND, x.value.at(-1));
     $('around').textContent = shade.button;
     $('around').hidden = false;
     $('around').addEventListener('click', () => zoomAll(from, until));

@@ -170,14 +170,16 @@ const reportData = (() => {
 
   function prepare(data) {
     const picture = pathPicture(data);
+    const shade = part(() => reportScene.holds(data));
+    const holds = shade.ok ? shade.value : [];
     const report = {
       ...reportParts.head(data),
       paper: 'K. Kim et al., Modeling and Velocity-Field Control of Autonomous Excavator with ' +
           'Main Control Valve',
       path: {...picture.base, problems: picture.problems, source: picture.source},
       x: {...part(() => time(data)), name: 'time', unit: 's', digits: 2, label: 'time (s)'},
-      shade: {...part(() => reportScene.holds(data)), words: 'the obstacle holds', digits: 1,
-        button: 'Around the obstacle'},
+      shade: {...shade, words: 'the obstacle holds', digits: 1,
+        named: holds, around: holds, button: 'Around the obstacle'},
       plots: plots(data),
     };
     report.problems = reportParts.problems([report.summary, report.limitsShare, report.path,

@@ -7,7 +7,9 @@ const reportGrade = (() => {
   const MM_PER_M = 1e3;
   const LPM_PER_M3PS = 6e4;
   const DEGREES = 180 / Math.PI;
-  const FLOW_TOLERANCE = 1.02;  // what the summary counts as kept
+  // As the summary counts: what is kept, and what belongs to one occasion.
+  const FLOW_TOLERANCE = 1.02;
+  const OCCASION_M = 0.5;
   const TRACKS = ['left', 'right'];
 
   /// How far the edge has come. It may go back a little as the body pitches; the axis does not.
@@ -185,15 +187,31 @@ const reportGrade = (() => {
     return runs(way(data), above).filter((run) => run.value);
   }
 
+  /// Stretches that are near to each other in one.
+  function occasions(stretches) {
+    const list = [];
+    for (const {from, until} of stretches) {
+      const last = list[list.length - 1];
+      if (last && from - last.until < OCCASION_M) {
+        last.until = until;
+      } else {
+        list.push({from, until});
+      }
+    }
+    return list;
+  }
+
   function prepare(data) {
+    const shade = part(() => overdriven(data));
+    const named = shade.ok ? occasions(shade.value) : [];
     const report = {
       ...reportParts.head(data),
       paper: 'T. Mononen, J. Mattila, Flow-Bounded Velocity Controller for Hydraulic Bulldozers',
       path: null,
       x: {...part(() => way(data)), name: 'edge at', unit: 'm', digits: 2,
         label: 'way of the cutting edge, x (m)'},
-      shade: {...part(() => overdriven(data)),
-        words: 'the blade needs more flow than there is', digits: 1, button: 'Around that'},
+      shade: {...shade, words: 'the blade needs more flow than there is', digits: 1,
+        named, around: named.slice(0, 1), button: 'Around the first'},
       plots: plots(data),
     };
     report.problems = reportParts.problems([report.summary, report.limitsShare, report.x,

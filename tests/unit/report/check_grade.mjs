@@ -98,7 +98,18 @@ test('ground and body stand where they are, not where they were seen from', () =
 test('where the blade needs more than there is, the plots are shaded', () => {
   const report = grade.prepare(good());
   assert.deepEqual(report.shade.value, [{from: 1.5, until: 3, value: true}]);
+  assert.deepEqual(report.shade.named, [{from: 1.5, until: 3}]);
   assert.deepEqual(changed((d) => d.series.flow_required_m3ps.fill(0)).shade.value, []);
+  const apart = changed((d) => {
+    d.series.edge_x_m = [0, 1, 1.4, 3];
+    d.series.flow_required_m3ps = [1, 0, 1, 0];
+  });
+  assert.deepEqual(apart.shade.named, [{from: 0, until: 3}], 'one occasion');
+  const further = changed((d) => {
+    d.series.edge_x_m = [0, 1, 1.6, 3];
+    d.series.flow_required_m3ps = [1, 0, 1, 0];
+  });
+  assert.deepEqual(further.shade.named, [{from: 0, until: 1}, {from: 1.6, until: 3}]);
 });
 
 test('nothing at all gives sentences, not an exception', () => {
