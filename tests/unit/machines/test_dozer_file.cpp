@@ -96,7 +96,7 @@ void chosen_figures_arrive_in_the_structs(void**) {
               {p.hst.motor_rate_ps, 2.0},
               {p.hst.response_s, 0.08},
               {p.travel.deceleration_max_mps2, 1.2},
-              {p.travel.flow_share, 0.85},
+              {p.travel.flow_share, 0.92},
               {p.travel.preview_m, 2.5},
               {p.travel.track_gain, 0.6},
               {p.travel.track_integral_ps, 2.0},
@@ -104,7 +104,7 @@ void chosen_figures_arrive_in_the_structs(void**) {
               {p.grade.plane_slope, 0.0}});
   assert_all({{p.control.sensor_timeout_s, 0.045},
               {p.control.spool_rate_ps, 20.0},
-              {p.control.spool_threshold, 0.001},
+              {p.control.spool_threshold, 0.01},
               {p.control.dead_time_s, 0.0},
               {p.control.response_s, 0.035},
               {p.control.blade_gain_ps, 6.0},
