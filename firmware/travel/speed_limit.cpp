@@ -69,6 +69,15 @@ SpeedState followed(const DozerProfile& profile, const SpeedState& last, double 
   return state;
 }
 
+/// What keeps v_c below v_d. Below what is allowed now it gets faster as fast as it may, or waits
+/// as there is no room ahead.
+Limit why_slower(const SpeedState& state, double target_mps, const Limit& holds) {
+  if (target_mps <= state.speed_mps) {
+    return holds;
+  }
+  return state.rising ? Limit{LimitKind::kRise, 0} : Limit{LimitKind::kAhead, 0};
+}
+
 }  // namespace
 
 SpeedChoice next_speed(const DozerProfile& profile, const SpeedState& last,
@@ -95,7 +104,7 @@ SpeedChoice next_speed(const DozerProfile& profile, const SpeedState& last,
                           room_mps(profile, demand, implement_mps, target_mps), period_s);
   choice.state.required_flow_m3ps = required_m3ps;
   if (choice.state.speed_mps < demand.desired_mps) {
-    choice.limit = target_mps > choice.state.speed_mps ? Limit{LimitKind::kRise, 0} : holds;
+    choice.limit = why_slower(choice.state, target_mps, holds);
   }
   return choice;
 }
