@@ -150,6 +150,10 @@ def kinds_do_not_mix(graben, folder, dig, grade):
     for files in ((dig, grade), (grade, dig)):
         _, err = call(graben, "merge", *files, "--summary", merged, status=1)
         assert "other columns" in err, err
+    slower = os.path.join(folder, "slower.csv")
+    call(graben, "grade", "--draws", "1", "--speed", "1.0", "--summary", slower)
+    _, err = call(graben, "merge", grade, slower, "--summary", merged, status=1)
+    assert "holds another campaign" in err, err
     unknown = os.path.join(folder, "unknown.csv")
     with open(unknown, "w", encoding="ascii") as stream:
         stream.write("# swim whale\n")

@@ -22,12 +22,11 @@ const reportGrade = (() => {
     return list.map((value) => (furthest = Math.max(furthest, value)));
   }
 
-  /// Height at each x of `places`, straight between points whose x never falls; null beyond them.
+  /// Height at each of `places`, straight between points; null beyond them. Neither falls in x.
   function heights(points, places) {
     let i = 0;
     return places.map((x) => {
       if (x < points[0][0] || x > points[points.length - 1][0]) return null;
-      while (i > 0 && points[i][0] > x) --i;
       while (i + 2 < points.length && points[i + 1][0] < x) ++i;
       const [[x0, z0], [x1, z1]] = [points[i], points[i + 1]];
       return x1 > x0 ? z0 + (z1 - z0) * Math.min((x - x0) / (x1 - x0), 1) : z1;

@@ -37,6 +37,9 @@ void at_home_the_edge_is_at_the_ground_line(void**) {
   const Eigen::Vector2d upright = truth().edge_m({0.0, 0.0, 0.5 * 3.14159265358979}, 0.0);
   assert_near(upright.x(), 0.0, 1e-9);
   assert_near(upright.y(), kPivot_m + kReach_m, 1e-6);
+  // Fully lowered it is 0.38 m below the body: then forward.
+  const double lowest = plant::BladeLinkage(profile().blade).lowest_rad();
+  assert_near(truth().edge_m({0.0, 0.0, 0.5 * 3.14159265358979}, lowest).x(), 0.38, 1e-9);
 }
 
 /// Strokes run from the blade fully raised to fully lowered; beyond them the end counts.

@@ -85,20 +85,34 @@ test('the axis is the edge\'s way and never goes back', () => {
   assert.equal(made.series[0].value(null, 1.5), '1.50 m');
 });
 
+test('what holds the speed is shown along the way', () => {
+  assert.deepEqual(plot(grade.prepare(good()), 'lambda').body.value.strip.runs, [
+    {from: 0, until: 1.5, value: 0}, {from: 1.5, until: 3, value: 1},
+    {from: 3, until: 3, value: 0}]);
+});
+
 test('ground and body stand where they are, not where they were seen from', () => {
   const report = grade.prepare(good());
   assert.deepEqual(line(report, 'elevation', 'ground as left'), [0, -0.25, -0.25, -0.5]);
   const body = line(report, 'elevation', 'body');
   assert.ok(Math.abs(body[0] - -0.05) < 1e-12);
   assert.deepEqual(body.slice(1), [null, null, null], 'the body has not been there yet');
-  assert.deepEqual(grade.heights([[0, 0], [1, 2], [1, 3], [2, 4]], [-1, 0.5, 1, 2, 1.5, 3]),
-      [null, 1, 2, 4, 3.5, null]);
+  assert.deepEqual(grade.heights([[0, 0], [1, 2], [1, 3], [2, 4]], [-1, 0.5, 1, 1.5, 2, 3]),
+      [null, 1, 2, 3.5, 4, null]);
+  const back = changed((d) => {
+    d.series.edge_x_m = [0, 0.7, 0.7, 0.7];
+    d.series.body_x_m = [-2, 0.5, 0.4, 1];
+    d.series.body_z_m = [0, -0.1, -9, -0.2];
+  });
+  assert.ok(Math.abs(line(back, 'elevation', 'body')[1] - -0.14) < 1e-12, 'a step back is left out');
 });
 
 test('where the blade needs more than there is, the plots are shaded', () => {
   const report = grade.prepare(good());
   assert.deepEqual(report.shade.value, [{from: 1.5, until: 3, value: true}]);
   assert.deepEqual(report.shade.named, [{from: 1.5, until: 3}]);
+  assert.deepEqual(report.shade.around, report.shade.named);
+  assert.deepEqual(changed((d) => d.series.flow_required_m3ps.fill(0.00101)).shade.value, []);
   assert.deepEqual(changed((d) => d.series.flow_required_m3ps.fill(0)).shade.value, []);
   const apart = changed((d) => {
     d.series.edge_x_m = [0, 1, 1.4, 3];
@@ -110,6 +124,7 @@ test('where the blade needs more than there is, the plots are shaded', () => {
     d.series.flow_required_m3ps = [1, 0, 1, 0];
   });
   assert.deepEqual(further.shade.named, [{from: 0, until: 1}, {from: 1.6, until: 3}]);
+  assert.deepEqual(further.shade.around, [{from: 0, until: 1}]);
 });
 
 test('nothing at all gives sentences, not an exception', () => {
