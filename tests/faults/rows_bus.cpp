@@ -10,7 +10,6 @@
 namespace graben::faults {
 namespace {
 
-constexpr double kLittle_m = 0.004;
 constexpr std::uint32_t kForeignId = 0x1FFFFF00;
 
 template <class Kind>
@@ -111,7 +110,7 @@ void queue_full(Trial<Kind>& trial) {
   const std::uint32_t before = rig.ecu->dropped();
   TimeUs until_us = rig.now_us;
   rig.before_ecu = [&rig, &until_us] { rig.ecu_port.set_send_fails(rig.now_us <= until_us); };
-  trial.expect_ignored(300 * kMillisecondUs, kLittle_m);
+  trial.expect_ignored(300 * kMillisecondUs, Kind::kLittle_m);
   trial.check(rig.ecu->dropped() > before, "the dropped frames are not counted");
   const int cycles = trial.odd() ? 2 : 3 + static_cast<int>(trial.any_of(28));
   until_us = rig.now_us + (cycles - 1) * kCycle_us;
@@ -138,7 +137,7 @@ void receive_overrun(Trial<Kind>& trial) {
       inject_foreign(rig, 40);
     }
   };
-  trial.expect_ignored(300 * kMillisecondUs, kLittle_m);
+  trial.expect_ignored(300 * kMillisecondUs, Kind::kLittle_m);
   trial.check(rig.ecu_port.overflow_count() > 0, "nothing was lost");
   Stop stop;
   stop.since_us = rig.at_us();

@@ -15,8 +15,6 @@
 namespace graben::faults {
 namespace {
 
-constexpr double kLittle_m = 0.004;
-
 /// One wrong frame is counted and costs nothing; while they go on its values are missing.
 template <class Kind>
 void wrong_length(Trial<Kind>& trial) {
@@ -32,7 +30,7 @@ void wrong_length(Trial<Kind>& trial) {
     }
     return true;
   };
-  trial.expect_ignored(200 * kMillisecondUs, kLittle_m);
+  trial.expect_ignored(200 * kMillisecondUs, Kind::kLittle_m);
   trial.check(rig.ecu->link().wrong_length == before + 1, "the frame is not counted");
   Stop stop;
   stop.since_us = trial.last_us(id);

@@ -6,8 +6,6 @@
 namespace graben::faults {
 namespace {
 
-constexpr double kLittle_m = 0.004;
-
 /// The controller misses its cycle: the next one comes 20 ms after the last.
 template <class Kind>
 void miss_a_cycle(Rig<Kind>& rig) {
@@ -21,7 +19,7 @@ void overruns(Trial<Kind>& trial) {
   trial.work();
   auto& rig = *trial.rig;
   miss_a_cycle(rig);
-  trial.expect_ignored(300 * kMillisecondUs, kLittle_m);
+  trial.expect_ignored(300 * kMillisecondUs, Kind::kLittle_m);
   Stop stop;
   miss_a_cycle(rig);
   rig.step();

@@ -7,9 +7,6 @@
 namespace graben::faults {
 namespace {
 
-/// What one lost frame may move a cylinder by, against the undisturbed run.
-constexpr double kLittle_m = 0.004;
-
 /// Takes away the next frame of a message.
 template <class Kind>
 void lose_one(Trial<Kind>& trial, std::uint32_t id) {
@@ -23,11 +20,11 @@ void one_frame_lost(Trial<Kind>& trial) {
   trial.work();
   const std::uint32_t lost_command = Kind::command_ids()[trial.seed() % Kind::command_ids().size()];
   lose_one(trial, trial.any_id(Kind::protected_ids()));
-  trial.expect_ignored(300 * kMillisecondUs, kLittle_m);
+  trial.expect_ignored(300 * kMillisecondUs, Kind::kLittle_m);
   lose_one(trial, Kind::OperatorCommand::kId);
-  trial.expect_ignored(300 * kMillisecondUs, kLittle_m);
+  trial.expect_ignored(300 * kMillisecondUs, Kind::kLittle_m);
   lose_one(trial, lost_command);
-  trial.expect_ignored(300 * kMillisecondUs, kLittle_m);
+  trial.expect_ignored(300 * kMillisecondUs, Kind::kLittle_m);
   trial.outcome.seen = "I";
 }
 

@@ -1,11 +1,12 @@
 # shellcheck shell=sh
 # The deployed process, for scenarios that have sourced hil.sh.
 
-# ecu_start INTERFACE [options]: returns once it sends.
+# ecu_start INTERFACE PROFILE [options]: returns once it sends.
 ecu_start() {
   ecu_interface=$1
-  shift
-  graben-ecu --can "$ecu_interface" --profile excavator_22t.toml "$@" 2>>"$OUT/ecu.err" &
+  ecu_profile=$2
+  shift 2
+  graben-ecu --can "$ecu_interface" --profile "$ecu_profile" "$@" 2>>"$OUT/ecu.err" &
   ecu=$!
   wait_until 5 ecu_sends "$ecu_interface" || fail "no frame of the ECU: $(cat "$OUT/ecu.err")"
 }

@@ -1,6 +1,6 @@
 """Runs a scenario with the project's programs and judges what it leaves: for faults.py and others.
 
-Command line: OUT PROGRAM...; DIG_S, the length of a dig, is handed on to the scenario."""
+Command line: OUT PROGRAM..."""
 
 import pathlib
 import sys
@@ -10,7 +10,7 @@ import guest
 from scenario import Broken, Nowhere, Scenario, tail
 
 HERE = pathlib.Path(__file__).resolve().parent
-PROFILE = HERE.parents[1] / "app" / "machines" / "excavator_22t.toml"
+PROFILES = HERE.parents[1] / "app" / "machines"
 
 
 def main(script: str, check: Callable[[pathlib.Path], list[str]], timeout_s: float,
@@ -18,7 +18,8 @@ def main(script: str, check: Callable[[pathlib.Path], list[str]], timeout_s: flo
     out, *programs = map(pathlib.Path, sys.argv[1:])
     scenario = Scenario(script=HERE / script, programs=programs, controllers=controllers,
                         timeout_s=timeout_s, patience_s=max(600.0, 4.0 * timeout_s),
-                        files={"ecu.sh": HERE / "ecu.sh", PROFILE.name: PROFILE, **(extra or {})})
+                        files={"ecu.sh": HERE / "ecu.sh", **(extra or {}),
+                               **{profile.name: profile for profile in PROFILES.glob("*.toml")}})
     try:
         # The guest's clock counts instructions: times do not hang on how busy this host is.
         result = guest.run(scenario, out, where="vm")

@@ -1,6 +1,7 @@
-"""A dig over a real CAN kernel beside the same in memory:
-dig.py vcan|controllers SECONDS OUT GRABEN GRABEN_ECU"""
+"""A task over a real CAN kernel beside the same in memory:
+task.py dig|grade vcan|controllers SECONDS OUT GRABEN GRABEN_ECU"""
 
+import functools
 import json
 import pathlib
 import subprocess
@@ -11,17 +12,23 @@ import bus_log
 import run_programs
 from bus_log import ECU_HEALTH, SPOOL_COMMAND, VALVE_STATE
 
-# The path error may differ by so much from that of the bus in memory.
+# The error may differ by so much from that of the bus in memory.
 SHARE = 0.20
+# A task's profile, and where its summary says for how long the error was judged, and how long is enough.
+TASKS = {"dig": ("excavator_22t.toml", "on_path_s", 5.0),
+         "grade": ("dozer_9t.toml", "over_grade_s", 20.0)}
+SCRIPTS = {"vcan": ("task.sh", 0), "controllers": ("controllers.sh", 2)}
 START_MS = 100.0
+# Commands that the machine does not take before it trusts their counter.
+HANDSHAKE = 2
 # The period of a message, and what the bus and the guest may add.
 PERIOD_S, LATE_S = 0.010, 0.0015
 
 
-def in_memory(graben: pathlib.Path) -> dict:
+def in_memory(graben: pathlib.Path, task: str) -> dict:
     with tempfile.TemporaryDirectory() as folder:
         summary = pathlib.Path(folder) / "summary.json"
-        subprocess.run([graben, "dig", "--out", folder, "--summary", summary],
+        subprocess.run([graben, task, "--out", folder, "--summary", summary],
                        check=True, stdout=subprocess.DEVNULL)
         return json.loads(summary.read_text())
 
@@ -60,15 +67,17 @@ def check_frames(log: list[bus_log.Frame]) -> list[str]:
     return problems
 
 
-def check(out: pathlib.Path) -> list[str]:
-    graben = next(pathlib.Path(path) for path in sys.argv if pathlib.Path(path).name == "graben")
+def check(task: str, graben: pathlib.Path, out: pathlib.Path) -> list[str]:
+    _, judged, enough_s = TASKS[task]
     summary = json.loads((out / "summary.json").read_text())
-    expected_m = in_memory(graben)["max_error_true_m"]
-    print(f"path error {summary['max_error_true_m'] * 1e3:.2f} mm, in memory {expected_m * 1e3:.2f} mm, "
-          f"{summary['loops']:.2f} times round")
+    expected_m = in_memory(graben, task)["max_error_true_m"]
+    print(f"{task}: error {summary['max_error_true_m'] * 1e3:.2f} mm, in memory {expected_m * 1e3:.2f} mm, "
+          f"over {summary[judged]:.2f} s")
     problems = []
-    if summary["on_path_s"] < 5.0 or abs(summary["max_error_true_m"] - expected_m) > SHARE * expected_m:
-        problems.append("the path error is another one")
+    if summary[judged] < enough_s or abs(summary["max_error_true_m"] - expected_m) > SHARE * expected_m:
+        problems.append("the error is another one")
+    if summary["commands_rejected"] > HANDSHAKE:
+        problems.append(f"{summary['commands_rejected']} commands rejected")
     for name in ("command_timeouts", "frames_dropped", "late_cycles"):
         if summary[name]:
             problems.append(f"{name} of the machine {summary[name]}")
@@ -77,14 +86,16 @@ def check(out: pathlib.Path) -> list[str]:
 
 
 def main() -> int:
-    kind, seconds = sys.argv[1:3]
-    del sys.argv[1:3]
+    task, kind, seconds = sys.argv[1:4]
+    del sys.argv[1:4]
+    graben = next(pathlib.Path(path) for path in sys.argv if pathlib.Path(path).name == "graben")
+    script, controllers = SCRIPTS[kind]
     with tempfile.TemporaryDirectory() as folder:
-        length = pathlib.Path(folder) / "seconds"
-        length.write_text(seconds)
-        script, controllers = {"vcan": ("dig.sh", 0), "controllers": ("controllers.sh", 2)}[kind]
-        return run_programs.main(script, check, timeout_s=float(seconds) + 30.0,
-                                 controllers=controllers, extra={"seconds": length})
+        told = pathlib.Path(folder) / "task"
+        told.write_text(f"{task} {TASKS[task][0]} {seconds}\n")
+        return run_programs.main(script, functools.partial(check, task, graben),
+                                 timeout_s=float(seconds) + 30.0, controllers=controllers,
+                                 extra={"task": told})
 
 
 if __name__ == "__main__":

@@ -1,0 +1,12 @@
+# shellcheck shell=sh disable=SC1091
+# The deployed process and the simulated machine, each a process of its own, at a task over vcan0.
+. ./hil.sh
+. ./ecu.sh
+
+read -r task profile seconds <task
+vcan_up vcan0
+record vcan0
+ecu_start vcan0 "$profile" --stats "$OUT/stats"
+graben plant --can vcan0 --profile "$profile" --operator "$task" --seconds "$seconds" \
+  --summary "$OUT/summary.json" || fail "the machine's process ended with $?"
+ecu_stop
