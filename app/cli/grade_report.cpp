@@ -37,6 +37,7 @@ json series(const machines::DozerMachine& machine, const GradeResult& result) {
   data["error_measured_m"] = list(samples, &GradeSample::error_measured_m);
   data["speed_wanted_mps"] = list(samples, &GradeSample::speed_wanted_mps);
   data["speed_true_mps"] = list(samples, &GradeSample::speed_true_mps);
+  data["speed_measured_mps"] = list(samples, &GradeSample::speed_measured_mps);
   data["speed_limit_mps"] = list(samples, &GradeSample::speed_limit_mps);
   data["speed_desired_mps"] = machine.profile.travel.speed_desired_mps;
   data["flow_required_m3ps"] = list(samples, &GradeSample::flow_required_m3ps);

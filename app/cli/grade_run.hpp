@@ -28,7 +28,6 @@ struct GradeSample {
   BodyPose body;
   Eigen::Vector2d edge_m = Eigen::Vector2d::Zero();  ///< True, world.
   double design_m = 0.0;                             ///< The design's height at the edge.
-  double ground_m = 0.0;                             ///< Below the body frame's origin.
   double error_true_m = 0.0;                         ///< Edge over the design, straight up.
   double error_measured_m = std::nan("");
   double speed_wanted_mps = 0.0;  ///< v_c of (14)
@@ -94,7 +93,7 @@ inline constexpr double kDeceleration_s = 0.1;
 inline constexpr double kSpeedResolution_mps = 0.02;
 
 /// Runs until the cutting edge has come to the grade's length, something fails, or the time is
-/// over: four times what the wanted speed needs, and 20 s. The same machine and options give the
+/// over: ten times what the wanted speed needs, and 20 s. The same machine and options give the
 /// same samples (but cycle_us) and the same bytes in the log.
 [[nodiscard]] GradeResult run_grade(const machines::DozerMachine& machine,
                                     const GradeOptions& options, const Progress& progress);

@@ -10,7 +10,6 @@ namespace graben::machines {
 namespace {
 
 constexpr Range kPin{-5.0, 5.0, "m"};
-constexpr Range kShare{0.0, 1.0, ""};
 constexpr Range kEfficiency{0.5, 1.0, ""};
 constexpr Range kDisplacement{1e-6, 1e-2, "m3/rev"};
 constexpr Range kEngine{20.0, 400.0, "rad/s"};

@@ -83,7 +83,7 @@ def report_is_whole(graben, folder):
     counts = {name: len(values) for name, values in series.items()
               if name not in ("limit_names", "speed_desired_mps")
               and not isinstance(values[0], list)}
-    assert len(set(counts.values())) == 1 and len(counts) == 22, counts
+    assert len(set(counts.values())) == 1 and len(counts) == 23, counts
     assert series["speed_desired_mps"] == 1.2
     # What was cut is on the ground: over the last metres nothing comes after the edge.
     heights = [z for x, z in data["terrain"] if 24.0 <= x <= 26.0]

@@ -49,7 +49,7 @@
 ///     error_true_m            edge over the design, straight up
 ///     error_measured_m        the same, of the measured edge
 ///     speed_wanted_mps        v_c of (14)
-///     speed_true_mps
+///     speed_true_mps, speed_measured_mps
 ///     speed_limit_mps         (14) without v_d
 ///     speed_desired_mps       v_d, a number
 ///     flow_required_m3ps      (7), for the true motion to follow the design

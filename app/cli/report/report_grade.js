@@ -80,9 +80,11 @@ const reportGrade = (() => {
     }
     return {lines: [
       {label: 'desired', colour: 'ink', values: time(data).map(() => desired), digits: 3},
+      {label: 'measured', colour: 'measured', digits: 3,
+        values: seriesList(data, 'speed_measured_mps')},
+      {label: 'true', colour: 'true', values: seriesList(data, 'speed_true_mps'), digits: 3},
       {label: 'commanded', colour: 'design', digits: 3,
         values: seriesList(data, 'speed_wanted_mps')},
-      {label: 'true', colour: 'true', values: seriesList(data, 'speed_true_mps'), digits: 3},
     ]};
   }
 

@@ -26,6 +26,7 @@ function good() {
       design_m: [0, -0.26, -0.21, -0.5], pitch_rad: [0, 0.1, -0.1, null],
       error_true_m: [0, 0.01, 0.01, 0], error_measured_m: [null, 0.012, 0.01, 0],
       speed_wanted_mps: [0, 1, 1, 0.5], speed_true_mps: [0, 0.9, 1, 0.6],
+      speed_measured_mps: [null, 0.9, 1, 0.6],
       speed_limit_mps: [1.8, 1.2, 1, 0.5], speed_desired_mps: 1.6,
       flow_required_m3ps: [0, 0.001, 0.0015, 0.00101],
       flow_reported_m3ps: [0, 0.001, 0.0014, 0.00101],
@@ -58,6 +59,7 @@ test('a grading run is complete, in the page\'s units, the paper\'s figures firs
     'Mononen, Fig. 7 (b)', 'Mononen, Fig. 7 (c)', 'Mononen, Fig. 7 (d)', 'Mononen, Fig. 8']);
   assert.deepEqual(line(report, 'error', 'measured'), [null, 12, 10, 0]);
   assert.deepEqual(line(report, 'speed', 'desired'), [1.6, 1.6, 1.6, 1.6]);
+  assert.deepEqual(line(report, 'speed', 'measured'), [null, 0.9, 1, 0.6]);
   assert.deepEqual(line(report, 'flow', 'available').map(Math.round), [60, 60, 60, 60]);
   assert.deepEqual(line(report, 'flow', 'required').map(Math.round), [0, 60, 90, 61]);
   assert.deepEqual(line(report, 'limit', 'largest by (14)'), [1.8, 1.2, 1, 0.5]);
