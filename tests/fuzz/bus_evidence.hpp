@@ -5,15 +5,15 @@
 #include <array>
 #include <vector>
 
-#include "firmware/machine/excavator_profile.hpp"
 #include "hal/can_frame.hpp"
 #include "tests/fuzz/bus_partner.hpp"
 
 namespace graben::test {
 
+template <class Kind>
 class BusEvidence {
  public:
-  BusEvidence(const ExcavatorProfile& profile, std::uint32_t profile_hash);
+  BusEvidence(const typename Kind::Profile& profile, std::uint32_t profile_hash);
 
   /// All that the controller read in one cycle.
   void note(const std::vector<CanFrame>& received, TimeUs now);
