@@ -70,7 +70,10 @@ void BusEvidence<Kind>::note_operator(const CanFrame& frame, bool alone, TimeUs 
   using Command = typename Kind::OperatorCommand;
   constexpr TimeUs kCycle_us = Command::kCycleTimeMs * kMillisecondUs;
   const int counter = frame.data[1] & 0x0F;
-  const bool in_range = every_value_is<Command>(frame.data, is_in_range);
+  const auto task = Command::decode(frame.data).task.value;
+  // Another kind's task is refused as a value out of range is.
+  const bool in_range = every_value_is<Command>(frame.data, is_in_range) &&
+                        (task == Command::Task::kNone || task == Kind::kTask);
   const bool next = counter == (run_.counter + 1) % kE2eCounterCount &&
                     now - run_.last_us >= kCycle_us * 4 / 5 && now - run_.last_us <= 2 * kCycle_us;
   if (!alone || !in_range || counter >= kE2eCounterCount) {
