@@ -89,7 +89,7 @@ void BusEvidence<Kind>::note_operator(const CanFrame& frame, bool alone, TimeUs 
 }
 
 template <class Kind>
-void BusEvidence<Kind>::note(const std::vector<CanFrame>& received, TimeUs now) {
+void BusEvidence<Kind>::note(const std::vector<CanFrame>& received, bool stale, TimeUs now) {
   const auto of_operator =
       std::count_if(received.begin(), received.end(),
                     [](const CanFrame& frame) { return frame.id == Kind::OperatorCommand::kId; });
@@ -111,11 +111,13 @@ void BusEvidence<Kind>::note(const std::vector<CanFrame>& received, TimeUs now) 
       if (info.id == Kind::MachineIdentity::kId &&
           values_are(typename Kind::AllMessages{}, frame, is_in_range)) {
         const auto identity = Kind::MachineIdentity::decode(frame.data);
-        other_machine_ = identity.profile_hash.value != profile_hash_ ||
-                         identity.dbc_version.value != Kind::kDbcVersion;
+        const bool is_other = identity.profile_hash.value != profile_hash_ ||
+                              identity.dbc_version.value != Kind::kDbcVersion;
+        other_machine_ = is_other && (other_machine_ || !stale);
       }
     }
   }
+  run_.frames = stale ? 0 : run_.frames;
 }
 
 template <class Kind>

@@ -15,8 +15,8 @@ class BusEvidence {
  public:
   BusEvidence(const typename Kind::Profile& profile, std::uint32_t profile_hash);
 
-  /// All that the controller read in one cycle.
-  void note(const std::vector<CanFrame>& received, TimeUs now);
+  /// All that the controller read in one cycle; `stale`: it may have thrown it away.
+  void note(const std::vector<CanFrame>& received, bool stale, TimeUs now);
 
   /// Empty, or why nothing may move: something was not said, with a right CRC and every value
   /// valid, for longer than the timeout; or it was taken back beyond doubt.
