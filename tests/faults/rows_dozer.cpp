@@ -34,17 +34,25 @@ void displacement_stuck(Trial<Dozer>& trial) {
 }
 
 constexpr double kNearFull = 0.6;
+/// What a displacement was told within the time to settle is where it may be.
+constexpr TimeUs kSettled_us = 600 * kMillisecondUs;
 
 /// A pump's or motor's servo goes somewhere else; or a pump's counts the wrong way round.
 void displacement_runs_away(Trial<Dozer>& trial) {
   trial.work();
   Rig<Dozer>& rig = *trial.rig;
-  plant::PathFaults& path = rig.plant.faults().path[any_track(trial)];
+  const std::size_t track = any_track(trial);
+  plant::PathFaults& path = rig.plant.faults().path[track];
+  trial.check(rig.run_until(Dozer::kOpensWithin_us,
+                            [&, cycles = 0]() mutable {
+                              cycles = rig.outputs().motor_ratio[track] == 1.0 ? cycles + 1 : 0;
+                              return cycles * kCycle_us > kSettled_us;
+                            }),
+              "the motor never stays at full displacement");
   Stop stop;
   stop.since_us = rig.at_us();
   stop.any = {Fault::kDisplacementRunaway};
-  // A motor may have been told to be there within the time that it has to settle.
-  stop.detect_us = 700 * kMillisecondUs;
+  stop.detect_us = 400 * kMillisecondUs;
   stop.brake_at_once = true;
   stop.cure = [&path] {
     path.pump = {};
@@ -56,7 +64,7 @@ void displacement_runs_away(Trial<Dozer>& trial) {
       break;
     case 1:
       // What it is near to already is no runaway.
-      path.pump.held_ratio = rig.outputs().pump_ratio[kLeft] < kNearFull ? 1.0 : 0.0;
+      path.pump.held_ratio = rig.outputs().pump_ratio[track] < kNearFull ? 1.0 : 0.0;
       break;
     case 2:
       path.pump.held_ratio = -1.0;

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <limits>
 
-#include "firmware/safety/validation.hpp"
+#include "firmware/safety/common_inputs.hpp"
 #include "hal/e2e.hpp"
+#include "tests/fuzz/dozer_bus.hpp"
+#include "tests/fuzz/excavator_bus.hpp"
 
 namespace graben::test {
 namespace {
 
-namespace bus = dbc::excavator;
 using dbc::RawState;
 
 constexpr TimeUs kNever = std::numeric_limits<TimeUs>::min() / 2;
@@ -44,32 +45,19 @@ bool is_whole(const CanFrame& frame, const dbc::MessageInfo& info) {
   return has_form(frame, info) && (!info.is_protected || e2e_crc_fits(frame.data, info.data_id));
 }
 
+template <class Kind>
 bool wants_motion(const CanFrame& frame) {
-  using Command = bus::OperatorCommand;
+  using Command = typename Kind::OperatorCommand;
   const Command command = Command::decode(frame.data);
   return command.enable.value == Command::Enable::kOn &&
          command.operator_mode.value == Command::OperatorMode::kAutomatic &&
-         command.task.value == Command::Task::kDig;
-}
-
-/// Those without which nothing may move: the others only slow.
-bool is_needed(const dbc::MessageInfo& info) {
-  switch (info.id) {
-    case bus::BoomStroke::kId:
-    case bus::ArmStroke::kId:
-    case bus::BucketStroke::kId:
-    case bus::PumpState::kId:
-    case bus::ValveState::kId:
-    case bus::OperatorCommand::kId:
-      return true;
-    default:
-      return false;
-  }
+         command.task.value == Kind::kTask;
 }
 
 }  // namespace
 
-BusEvidence::BusEvidence(const ExcavatorProfile& profile, std::uint32_t profile_hash)
+template <class Kind>
+BusEvidence<Kind>::BusEvidence(const typename Kind::Profile& profile, std::uint32_t profile_hash)
     : timeout_us_(static_cast<TimeUs>(profile.control.sensor_timeout_s * 1e6)),
       profile_hash_(profile_hash),
       released_us_(kNever) {
@@ -77,11 +65,15 @@ BusEvidence::BusEvidence(const ExcavatorProfile& profile, std::uint32_t profile_
   run_.last_us = kNever;
 }
 
-void BusEvidence::note_operator(const CanFrame& frame, bool alone, TimeUs now) {
-  using Command = bus::OperatorCommand;
+template <class Kind>
+void BusEvidence<Kind>::note_operator(const CanFrame& frame, bool alone, TimeUs now) {
+  using Command = typename Kind::OperatorCommand;
   constexpr TimeUs kCycle_us = Command::kCycleTimeMs * kMillisecondUs;
   const int counter = frame.data[1] & 0x0F;
-  const bool in_range = every_value_is<Command>(frame.data, is_in_range);
+  const auto task = Command::decode(frame.data).task.value;
+  // Another kind's task is refused as a value out of range is.
+  const bool in_range = every_value_is<Command>(frame.data, is_in_range) &&
+                        (task == Command::Task::kNone || task == Kind::kTask);
   const bool next = counter == (run_.counter + 1) % kE2eCounterCount &&
                     now - run_.last_us >= kCycle_us * 4 / 5 && now - run_.last_us <= 2 * kCycle_us;
   if (!alone || !in_range || counter >= kE2eCounterCount) {
@@ -91,19 +83,20 @@ void BusEvidence::note_operator(const CanFrame& frame, bool alone, TimeUs now) {
   }
   run_.counter = counter;
   run_.last_us = now;
-  run_.wants_motion = wants_motion(frame);
+  run_.wants_motion = wants_motion<Kind>(frame);
   const Command command = Command::decode(frame.data);
   released_us_ = command.enable.value == Command::Enable::kOff ? now : released_us_;
 }
 
-void BusEvidence::note(const std::vector<CanFrame>& received, TimeUs now) {
+template <class Kind>
+void BusEvidence<Kind>::note(const std::vector<CanFrame>& received, bool stale, TimeUs now) {
   const auto of_operator =
       std::count_if(received.begin(), received.end(),
-                    [](const CanFrame& frame) { return frame.id == bus::OperatorCommand::kId; });
+                    [](const CanFrame& frame) { return frame.id == Kind::OperatorCommand::kId; });
   for (const CanFrame& frame : received) {
     for (unsigned i = 0; i < kInputMessages; ++i) {
-      const dbc::MessageInfo& info = input_message(i);
-      const bool is_operator = info.id == bus::OperatorCommand::kId;
+      const dbc::MessageInfo& info = input_message<Kind>(i);
+      const bool is_operator = info.id == Kind::OperatorCommand::kId;
       if (!is_whole(frame, info)) {
         run_.frames = is_operator && frame.id == info.id ? 0 : run_.frames;
         continue;
@@ -111,32 +104,38 @@ void BusEvidence::note(const std::vector<CanFrame>& received, TimeUs now) {
       if (is_operator) {
         note_operator(frame, of_operator == 1, now);
       }
-      if (values_are(bus::AllMessages{}, frame, is_valid) &&
-          (!is_operator || wants_motion(frame))) {
+      if (values_are(typename Kind::AllMessages{}, frame, is_valid) &&
+          (!is_operator || wants_motion<Kind>(frame))) {
         said_us_[i] = now;
       }
-      if (info.id == bus::MachineIdentity::kId &&
-          values_are(bus::AllMessages{}, frame, is_in_range)) {
-        const auto identity = bus::MachineIdentity::decode(frame.data);
-        other_machine_ = identity.profile_hash.value != profile_hash_ ||
-                         identity.dbc_version.value != bus::kDbcVersion;
+      if (info.id == Kind::MachineIdentity::kId &&
+          values_are(typename Kind::AllMessages{}, frame, is_in_range)) {
+        const auto identity = Kind::MachineIdentity::decode(frame.data);
+        const bool is_other = identity.profile_hash.value != profile_hash_ ||
+                              identity.dbc_version.value != Kind::kDbcVersion;
+        other_machine_ = is_other && (other_machine_ || !stale);
       }
     }
   }
+  run_.frames = stale ? 0 : run_.frames;
 }
 
-const char* BusEvidence::against_motion(TimeUs now) const {
+template <class Kind>
+const char* BusEvidence<Kind>::against_motion(TimeUs now) const {
   for (unsigned i = 0; i < kInputMessages; ++i) {
-    const dbc::MessageInfo& info = input_message(i);
+    const dbc::MessageInfo& info = input_message<Kind>(i);
     const TimeUs age_us = now - said_us_[i];
-    if (is_needed(info) && age_us > timeout_us_) {
+    if (Kind::is_needed(info.id) && age_us > timeout_us_) {
       return info.name;
     }
-    if (info.id == bus::MachineIdentity::kId && (age_us > kIdentity_us || other_machine_)) {
+    if (info.id == Kind::MachineIdentity::kId && (age_us > kIdentity_us || other_machine_)) {
       return info.name;
     }
   }
   return run_.frames >= kBeyondDoubt && !run_.wants_motion ? "an operator who has released" : "";
 }
+
+template class BusEvidence<ExcavatorBus>;
+template class BusEvidence<DozerBus>;
 
 }  // namespace graben::test

@@ -5,18 +5,18 @@
 #include <array>
 #include <vector>
 
-#include "firmware/machine/excavator_profile.hpp"
 #include "hal/can_frame.hpp"
 #include "tests/fuzz/bus_partner.hpp"
 
 namespace graben::test {
 
+template <class Kind>
 class BusEvidence {
  public:
-  BusEvidence(const ExcavatorProfile& profile, std::uint32_t profile_hash);
+  BusEvidence(const typename Kind::Profile& profile, std::uint32_t profile_hash);
 
-  /// All that the controller read in one cycle.
-  void note(const std::vector<CanFrame>& received, TimeUs now);
+  /// All that the controller read in one cycle; `stale`: it may have thrown it away.
+  void note(const std::vector<CanFrame>& received, bool stale, TimeUs now);
 
   /// Empty, or why nothing may move: something was not said, with a right CRC and every value
   /// valid, for longer than the timeout; or it was taken back beyond doubt.

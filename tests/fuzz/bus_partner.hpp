@@ -6,8 +6,7 @@
 #include <cstdint>
 #include <deque>
 
-#include "can_dbc/generated/excavator_dbc.hpp"
-#include "firmware/machine/excavator_profile.hpp"
+#include "can_dbc/codec.hpp"
 #include "tests/fuzz/bus_port.hpp"
 
 namespace graben::test {
@@ -15,18 +14,24 @@ namespace graben::test {
 inline constexpr unsigned kInputMessages = 11;
 
 /// Messages to the controller, in the order of the DBC.
-[[nodiscard]] const dbc::MessageInfo& input_message(unsigned index);
+template <class Kind>
+[[nodiscard]] const dbc::MessageInfo& input_message(unsigned index) {
+  static_assert(Kind::kMessages[kInputMessages - 1].id == Kind::ValveState::kId);
+  static_assert(Kind::kMessages[kInputMessages].id == Kind::SpoolCommand::kId);
+  return Kind::kMessages[index % kInputMessages];
+}
 
 struct OperatorHand {
   bool enable = false;
   bool automatic = true;
-  bool dig = false;
+  bool task = false;
   double speed_ratio = 1.0;
 };
 
+template <class Kind>
 class BusPartner {
  public:
-  BusPartner(const ExcavatorProfile& profile, std::uint32_t profile_hash, ScriptedPort& port,
+  BusPartner(const typename Kind::Profile& profile, std::uint32_t profile_hash, ScriptedPort& port,
              TimeUs now);
 
   /// Takes in what the controller has sent, moves the machine, and queues every frame that was due
@@ -35,7 +40,7 @@ class BusPartner {
 
   /// The hand does what the mode on the bus wants for Active: release, enable afresh, task.
   void lead_to_active();
-  /// No more interference; the machine stands at a pose on its path if it has been pushed off.
+  /// No more interference, with the machine's motion neither.
   void mend();
 
   /// A frame of the message beside the regular ones, its CRC right; `skip` on from its counter.
@@ -61,27 +66,22 @@ class BusPartner {
     bool masquerade = false;
   };
   std::array<Spoil, kInputMessages> spoilt{};
-  std::array<double, kAxisCount> pushed_mps{};  ///< Motion that nobody asked for.
+  typename Kind::Body body;
 
  private:
   void listen(TimeUs now);
-  void move(double elapsed_s);
   [[nodiscard]] dbc::Payload payload_of(unsigned message) const;
   void send(unsigned message, TimeUs now);
 
-  const ExcavatorProfile& profile_;
   std::uint32_t profile_hash_;
   ScriptedPort& port_;
   TimeUs now_;
   std::array<TimeUs, kInputMessages> due_us_{};
   std::array<std::uint8_t, kInputMessages> counter_{};
   std::deque<CanFrame> last_sent_;
-  std::array<double, kAxisCount> strokes_m_{};
   // What the controller said last.
-  dbc::excavator::SpoolCommand command_;
   TimeUs command_us_ = 0;
-  dbc::excavator::EcuStatus status_;
-  dbc::excavator::EcuMotion motion_;
+  typename Kind::EcuStatus status_;
   TimeUs enabled_since_us_ = 0;
   TimeUs released_since_us_ = 0;
 };

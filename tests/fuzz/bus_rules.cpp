@@ -7,12 +7,12 @@
 #include <cstring>
 
 #include "hal/e2e.hpp"
-#include "hal/excavator_transmitter.hpp"
+#include "tests/fuzz/dozer_bus.hpp"
+#include "tests/fuzz/excavator_bus.hpp"
 
 namespace graben::test {
 namespace {
 
-namespace bus = dbc::excavator;
 using dbc::RawState;
 
 constexpr TimeUs kPeriod_us = 10 * kMillisecondUs;
@@ -21,8 +21,9 @@ constexpr TimeUs kStalled_us = 50 * kMillisecondUs;
 /// A duty on the bus has steps of 0.05 per mille.
 constexpr double kDutyStep = 5e-5;
 
+template <class Kind>
 const dbc::MessageInfo* own_message(std::uint32_t id) {
-  for (const dbc::MessageInfo& message : bus::kMessages) {
+  for (const dbc::MessageInfo& message : Kind::kMessages) {
     if (message.id == id && std::strcmp(message.sender, "Graben") == 0) {
       return &message;
     }
@@ -30,15 +31,15 @@ const dbc::MessageInfo* own_message(std::uint32_t id) {
   return nullptr;
 }
 
-/// Name of a signal that says nothing it should; 'not available' is for PumpCommand to say, and for
-/// the pilot cut of a process that has not armed yet.
-template <class Message>
+/// Name of a signal that says nothing it should; 'not available' is for some commands to say, and
+/// for the pilot cut of a process that has not armed yet.
+template <class Kind, class Message>
 const char* unsaid(const dbc::Payload& payload) {
   const char* name = nullptr;
   const Message message = Message::decode(payload);
   Message::visit(message, [&name](const dbc::Field& field, const auto& signal) {
     const bool may_miss =
-        (Message::kId == bus::PumpCommand::kId || std::strcmp(field.name, "PilotCut") == 0) &&
+        (Kind::may_miss(Message::kId) || std::strcmp(field.name, "PilotCut") == 0) &&
         signal.state == RawState::kNotAvailable;
     if (signal.state != RawState::kValid && !may_miss) {
       name = field.name;
@@ -47,33 +48,30 @@ const char* unsaid(const dbc::Payload& payload) {
   return name;
 }
 
-template <class... Messages>
+template <class Kind, class... Messages>
 const char* unsaid(dbc::MessageList<Messages...>, const CanFrame& frame) {
   const char* name = nullptr;
-  ((name = frame.id == Messages::kId ? unsaid<Messages>(frame.data) : name), ...);
+  ((name = frame.id == Messages::kId ? unsaid<Kind, Messages>(frame.data) : name), ...);
   return name;
 }
 
-bool is_on(const bus::SpoolCommand& command) {
-  return command.enable.value == bus::SpoolCommand::Enable::kOn;
+template <class SpoolCommand>
+bool is_on(const SpoolCommand& command) {
+  return command.enable.value == SpoolCommand::Enable::kOn;
 }
 
-std::array<double, kAxisCount> duties(const bus::SpoolCommand& command) {
-  return {command.boom_duty_ratio.value, command.arm_duty_ratio.value,
-          command.bucket_duty_ratio.value};
-}
-
-bool in_motion(EcuMode mode) { return mode == EcuMode::kArmed || mode == EcuMode::kActive; }
+bool armed_or_active(EcuMode mode) { return mode == EcuMode::kArmed || mode == EcuMode::kActive; }
 
 }  // namespace
 
-std::string BusRules::check_frame(const CanFrame& frame) {
-  const dbc::MessageInfo* message = own_message(frame.id);
+template <class Kind>
+std::string BusRules<Kind>::check_frame(const CanFrame& frame) {
+  const dbc::MessageInfo* message = own_message<Kind>(frame.id);
   if (message == nullptr || !frame.extended || frame.remote || frame.error || frame.fd ||
       frame.length != message->length) {
     return fmt::format("a frame {:X} that is none of its messages", frame.id);
   }
-  if (const char* name = unsaid(bus::AllMessages{}, frame); name != nullptr) {
+  if (const char* name = unsaid<Kind>(typename Kind::AllMessages{}, frame); name != nullptr) {
     return fmt::format("{} of {} has no value", name, message->name);
   }
   if (!message->is_protected) {
@@ -92,7 +90,8 @@ std::string BusRules::check_frame(const CanFrame& frame) {
   return "";
 }
 
-std::string BusRules::may_not_move(const BusCycle& cycle) const {
+template <class Kind>
+std::string BusRules<Kind>::may_not_move(const BusCycle<Kind>& cycle) const {
   if (cycle.outputs->status.mode != EcuMode::kActive) {
     return fmt::format("in mode {}", static_cast<int>(cycle.outputs->status.mode));
   }
@@ -109,12 +108,13 @@ std::string BusRules::may_not_move(const BusCycle& cycle) const {
 }
 
 /// Opening a spool has a rate, closing none; the step across the deadband takes no time.
-std::string BusRules::check_opening(const bus::SpoolCommand& command, TimeUs now) {
-  const double edge = profile_.valve.spool_to_duty.y_first();
+template <class Kind>
+std::string BusRules<Kind>::check_opening(const typename Kind::SpoolCommand& command, TimeUs now) {
+  const double edge = Kind::duty_edge(profile_);
   const double elapsed_s = static_cast<double>(now - command_us_) * 1e-6;
   const double most = any_command_ ? profile_.control.spool_rate_ps * elapsed_s : 0.0;
-  const std::array<double, kAxisCount> duty = duties(command);
-  for (unsigned i = 0; i < kAxisCount; ++i) {
+  const auto duty = Kind::duties(command);
+  for (unsigned i = 0; i < Kind::kSpools; ++i) {
     if (std::abs(duty[i]) > 1.0) {
       return fmt::format("duty {}", duty[i]);
     }
@@ -131,9 +131,10 @@ std::string BusRules::check_opening(const bus::SpoolCommand& command, TimeUs now
   return "";
 }
 
-std::string BusRules::check_command(const BusCycle& cycle, const CanFrame& frame) {
-  const auto command = bus::SpoolCommand::decode(frame.data);
-  const bool cuts = command.pilot_cut.value == bus::SpoolCommand::PilotCut::kOn;
+template <class Kind>
+std::string BusRules<Kind>::check_command(const BusCycle<Kind>& cycle, const CanFrame& frame) {
+  const auto command = Kind::SpoolCommand::decode(frame.data);
+  const bool cuts = command.pilot_cut.value == Kind::SpoolCommand::PilotCut::kOn;
   if (is_on(command)) {
     if (const std::string why_not = may_not_move(cycle); !why_not.empty()) {
       return "enable On " + why_not;
@@ -141,16 +142,17 @@ std::string BusRules::check_command(const BusCycle& cycle, const CanFrame& frame
     if (cuts || command.pilot_cut.state != RawState::kValid) {
       return "enable On with the pilot cut, or not known";
     }
-  } else if (duties(command) != std::array<double, kAxisCount>{}) {
+  } else if (Kind::duties(command) != std::array<double, Kind::kSpools>{}) {
     return "a spool open without enable";
   }
   return check_opening(command, cycle.now);
 }
 
-std::string BusRules::check_status(const BusCycle& cycle, const CanFrame& frame) {
-  const ExcavatorStatus& inner = cycle.outputs->status;
-  if (frame.id == bus::EcuStatus::kId) {
-    const auto status = bus::EcuStatus::decode(frame.data);
+template <class Kind>
+std::string BusRules<Kind>::check_status(const BusCycle<Kind>& cycle, const CanFrame& frame) {
+  const MachineStatus& inner = cycle.outputs->status;
+  if (frame.id == Kind::EcuStatus::kId) {
+    const auto status = Kind::EcuStatus::decode(frame.data);
     if (static_cast<int>(status.mode.value) != static_cast<int>(inner.mode)) {
       return fmt::format("mode {} is called {}", static_cast<int>(inner.mode),
                          static_cast<int>(status.mode.value));
@@ -159,9 +161,9 @@ std::string BusRules::check_status(const BusCycle& cycle, const CanFrame& frame)
           inner.lambda <= 1.0)) {
       return fmt::format("lambda {}", inner.lambda);
     }
-  } else if (frame.id == bus::EcuHealth::kId) {
-    const auto why = bus::EcuHealth::decode(frame.data).why_not_armed.value;
-    if ((why == 0) != in_motion(inner.mode)) {
+  } else if (frame.id == Kind::EcuHealth::kId) {
+    const auto why = Kind::EcuHealth::decode(frame.data).why_not_armed.value;
+    if ((why == 0) != armed_or_active(inner.mode)) {
       return fmt::format("WhyNotArmed {:X} in mode {}", why, static_cast<int>(inner.mode));
     }
   }
@@ -169,15 +171,16 @@ std::string BusRules::check_status(const BusCycle& cycle, const CanFrame& frame)
 }
 
 /// Whatever ended motion, the operator lets go before there is any again, and it begins at rest.
-std::string BusRules::check_arming(const BusCycle& cycle) {
+template <class Kind>
+std::string BusRules<Kind>::check_arming(const BusCycle<Kind>& cycle) {
   const EcuMode last = mode_;
   mode_ = cycle.outputs->status.mode;
-  if (!in_motion(mode_)) {
+  if (!armed_or_active(mode_)) {
     return "";
   }
   const bool released = cycle.released_us >= motion_us_;
   motion_us_ = cycle.now;
-  if (in_motion(last)) {
+  if (armed_or_active(last)) {
     return "";
   }
   return mode_ == EcuMode::kActive ? "Active without having been Armed"
@@ -185,13 +188,13 @@ std::string BusRules::check_arming(const BusCycle& cycle) {
                                    : "Armed without enable released";
 }
 
-std::string BusRules::check(const BusCycle& cycle) {
+template <class Kind>
+std::string BusRules<Kind>::check(const BusCycle<Kind>& cycle) {
   late_ = cycle.elapsed_us > kLate_us ? late_ + 1 : 0;
-  if (cycle.sent->size() > ExcavatorTransmitter::kMessageCount) {
+  if (cycle.sent->size() > Kind::kMostFrames) {
     return fmt::format("{} frames in a cycle", cycle.sent->size());
   }
   const SentFrame* command = nullptr;
-  const SentFrame* pump = nullptr;
   std::string wrong = check_arming(cycle);
   for (std::size_t i = 0; i < cycle.sent->size() && wrong.empty(); ++i) {
     const SentFrame& sent = (*cycle.sent)[i];
@@ -200,8 +203,7 @@ std::string BusRules::check(const BusCycle& cycle) {
         return fmt::format("two frames {:X} in a cycle", sent.frame.id);
       }
     }
-    command = sent.frame.id == bus::SpoolCommand::kId ? &sent : command;
-    pump = sent.frame.id == bus::PumpCommand::kId ? &sent : pump;
+    command = sent.frame.id == Kind::SpoolCommand::kId ? &sent : command;
     wrong = check_frame(sent.frame);
     wrong = wrong.empty() ? check_status(cycle, sent.frame) : wrong;
   }
@@ -216,15 +218,14 @@ std::string BusRules::check(const BusCycle& cycle) {
   any_command_ = true;
   command_us_ = cycle.now;
   refused_ = command->taken ? 0 : refused_ + 1;
-  if (wrong.empty() && pump != nullptr) {
-    const auto swash = bus::PumpCommand::decode(pump->frame.data);
-    const bool moves = is_on(bus::SpoolCommand::decode(command->frame.data));
-    if ((swash.pump1_swash_ratio.state == RawState::kValid) != moves ||
-        (swash.pump2_swash_ratio.state == RawState::kValid) != moves) {
-      return "a swash without enable, or none with it";
-    }
+  if (wrong.empty()) {
+    const bool moves = is_on(Kind::SpoolCommand::decode(command->frame.data));
+    wrong = others_.check(*cycle.sent, moves, cycle.now);
   }
   return wrong;
 }
+
+template class BusRules<ExcavatorBus>;
+template class BusRules<DozerBus>;
 
 }  // namespace graben::test

@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include "tests/fuzz/dozer_bus.hpp"
+#include "tests/fuzz/excavator_bus.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
 namespace graben::test {
 namespace {
 constexpr TimeUs kRecovery_us = 4 * kSecondUs;
 constexpr int kStaysCycles = 20;
+/// After a longer one the controller throws away what is queued.
+constexpr TimeUs kStalled_us = 50 * kMillisecondUs;
 
 void count(const ScriptedPort& port, bool active) {
   // Looked up once: libFuzzer takes every text that is compared for something to feed.
@@ -22,22 +26,24 @@ void count(const ScriptedPort& port, bool active) {
 }
 }  // namespace
 
-BusRun::BusRun(const machines::ExcavatorMachine& machine)
+template <class Kind>
+BusRun<Kind>::BusRun(const typename Kind::Machine& machine)
     : partner(machine.profile, machine.hash, port, kStart_us),
       ecu_(machine.profile, machine.hash, port),
       evidence_(machine.profile, machine.hash),
       rules_(machine.profile) {}
 
-std::string BusRun::cycle(TimeUs elapsed_us) {
+template <class Kind>
+std::string BusRun<Kind>::cycle(TimeUs elapsed_us) {
   now_ += elapsed_us;
   partner.run_until(now_);
   port.received.clear();
   port.sent.clear();
   const bool was_active = port.shown == CanPortState::kActive;
   ecu_.step(now_, 0);
-  evidence_.note(port.received, now_);
+  evidence_.note(port.received, elapsed_us > kStalled_us || !was_active, now_);
   count(port, is_active());
-  BusCycle seen;
+  BusCycle<Kind> seen;
   seen.now = now_;
   seen.elapsed_us = has_run_ ? elapsed_us : 0;
   seen.bus_active = was_active && port.shown == CanPortState::kActive;
@@ -49,7 +55,8 @@ std::string BusRun::cycle(TimeUs elapsed_us) {
   return rules_.check(seen);
 }
 
-std::string BusRun::recover() {
+template <class Kind>
+std::string BusRun<Kind>::recover() {
   port.mend();
   partner.mend();
   partner.hand = {};
@@ -64,10 +71,13 @@ std::string BusRun::recover() {
       return "";
     }
   }
-  const ExcavatorStatus& status = ecu_.outputs().status;
+  const MachineStatus& status = ecu_.outputs().status;
   return fmt::format("does not recover: mode {}, fault {}, why not armed {:X}",
                      static_cast<int>(status.mode), static_cast<int>(status.fault),
                      status.why_not_armed);
 }
+
+template class BusRun<ExcavatorBus>;
+template class BusRun<DozerBus>;
 
 }  // namespace graben::test

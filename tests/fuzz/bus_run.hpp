@@ -3,20 +3,19 @@
 
 #include <string>
 
-#include "app/ecu/excavator_ecu.hpp"
-#include "app/machines/machine_file.hpp"
 #include "tests/fuzz/bus_evidence.hpp"
 #include "tests/fuzz/bus_partner.hpp"
 #include "tests/fuzz/bus_rules.hpp"
 
 namespace graben::test {
 
+template <class Kind>
 class BusRun {
  public:
   static constexpr TimeUs kPeriod_us = 10 * kMillisecondUs;
   static constexpr TimeUs kStart_us = kSecondUs;
 
-  explicit BusRun(const machines::ExcavatorMachine& machine);
+  explicit BusRun(const typename Kind::Machine& machine);
 
   /// One cycle `elapsed_us` after the last one; empty, or what was wrong with it.
   [[nodiscard]] std::string cycle(TimeUs elapsed_us);
@@ -27,13 +26,13 @@ class BusRun {
   [[nodiscard]] bool is_active() const { return ecu_.outputs().status.mode == EcuMode::kActive; }
 
   ScriptedPort port;
-  BusPartner partner;
+  BusPartner<Kind> partner;
 
  private:
   TimeUs now_ = kStart_us;
-  ecu::ExcavatorEcu ecu_;
-  BusEvidence evidence_;
-  BusRules rules_;
+  typename Kind::Ecu ecu_;
+  BusEvidence<Kind> evidence_;
+  BusRules<Kind> rules_;
   bool has_run_ = false;
 };
 

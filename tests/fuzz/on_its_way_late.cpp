@@ -1,4 +1,5 @@
-/// A canary's way to the bus: enable stays On for a cycle longer than it should.
+/// A canary's way to the bus: enable stays On for a cycle longer than it should. Both machine kinds
+/// have the same identifier, protection and place of it.
 
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "hal/e2e.hpp"

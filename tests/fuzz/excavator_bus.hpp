@@ -1,0 +1,78 @@
+#pragma once
+/// The excavator, as the scripted bus needs a machine kind.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "app/ecu/excavator_ecu.hpp"
+#include "app/machines/machine_file.hpp"
+#include "can_dbc/generated/excavator_dbc.hpp"
+#include "tests/fuzz/bus_port.hpp"
+
+namespace graben::test {
+
+struct ExcavatorBus {
+  using Machine = machines::ExcavatorMachine;
+  using Profile = ExcavatorProfile;
+  using Ecu = ecu::ExcavatorEcu;
+  using Outputs = ExcavatorOutputs;
+  using AllMessages = dbc::excavator::AllMessages;
+  using SpoolCommand = dbc::excavator::SpoolCommand;
+  using OperatorCommand = dbc::excavator::OperatorCommand;
+  using MachineIdentity = dbc::excavator::MachineIdentity;
+  using ValveState = dbc::excavator::ValveState;
+  using EcuStatus = dbc::excavator::EcuStatus;
+  using EcuHealth = dbc::excavator::EcuHealth;
+  static constexpr const auto& kMessages = dbc::excavator::kMessages;
+  static constexpr std::uint8_t kDbcVersion = dbc::excavator::kDbcVersion;
+  static constexpr auto kTask = OperatorCommand::Task::kDig;
+  static constexpr std::size_t kMostFrames = ExcavatorTransmitter::kMessageCount;
+  static constexpr unsigned kSpools = kAxisCount;
+  static constexpr unsigned kPushed = kAxisCount;
+
+  [[nodiscard]] static const Machine& shipped();
+  /// Without it nothing may move: the others only slow.
+  [[nodiscard]] static bool is_needed(std::uint32_t id);
+  /// Whether its values may be not available.
+  [[nodiscard]] static bool may_miss(std::uint32_t id) {
+    return id == dbc::excavator::PumpCommand::kId;
+  }
+  [[nodiscard]] static std::array<double, kSpools> duties(const SpoolCommand& command);
+  /// The duty at which a spool begins to open.
+  [[nodiscard]] static double duty_edge(const Profile& profile) {
+    return profile.valve.spool_to_duty.y_first();
+  }
+
+  /// A machine that does what it is told.
+  class Body {
+   public:
+    explicit Body(const Profile& profile);
+    void hear(const CanFrame& frame);
+    /// No command has come for long.
+    void close() { command_ = {}; }
+    void move(double elapsed_s);
+    /// Of the machine's own messages.
+    [[nodiscard]] dbc::Payload payload_of(std::uint32_t id) const;
+    /// It stands at a pose on its path if it has been pushed off.
+    void mend();
+
+    std::array<double, kPushed> pushed_mps{};  ///< Motion that nobody asked for.
+
+   private:
+    const Profile& profile_;
+    std::array<double, kAxisCount> strokes_m_{};
+    SpoolCommand command_;
+    dbc::excavator::EcuStatus status_;
+    dbc::excavator::EcuMotion motion_;
+  };
+
+  /// What must hold of a cycle's commands beside the spools'.
+  class OtherCommands {
+   public:
+    explicit OtherCommands(const Profile&) {}
+    [[nodiscard]] std::string check(const std::vector<SentFrame>& sent, bool moves, TimeUs now);
+  };
+};
+
+}  // namespace graben::test
