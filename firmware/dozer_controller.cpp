@@ -27,6 +27,15 @@ BladeSituation situation(const BladeKinematics& blade, const ValidDozerInputs& v
   return now;
 }
 
+/// A track's speed. Where one of them is not that of its displacements, none is believed: feedback
+/// of a wrong one would drive its track off.
+double speed_of_track_mps(const HstProfile& hst, const ValidDozerInputs& valid, unsigned track) {
+  return valid.degraded.has(Fault::kTrackSpeedDisagrees)
+             ? track_speed_mps(hst, valid.engine_radps, valid.pump_ratio[track],
+                               valid.motor_ratio[track])
+             : valid.track_speed_mps[track];
+}
+
 /// What holds the commanded speed: flow, transmission and what lies ahead before the blade's reach
 /// before a lost sensor.
 Limit reason(const SpeedChoice& speed, bool at_end, const FaultSet& degraded) {
@@ -112,8 +121,8 @@ DozerController::Wanted DozerController::want(const ValidDozerInputs& valid, dou
       track_speeds_mps(profile_.body, wanted.speed.state.speed_mps, kHeading_radps);
   for (unsigned i = 0; i < kTrackCount; ++i) {
     const TrackCommand track =
-        control_track(profile_, memory_.track[i], speeds_mps[i], valid.track_speed_mps[i],
-                      valid.engine_radps, period_s);
+        control_track(profile_, memory_.track[i], speeds_mps[i],
+                      speed_of_track_mps(profile_.hst, valid, i), valid.engine_radps, period_s);
     memory_.track[i] = track.state;
     wanted.command.pump_ratio[i] = track.displacements.pump_ratio;
     wanted.command.motor_ratio[i] = track.displacements.motor_ratio;

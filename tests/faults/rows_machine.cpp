@@ -1,5 +1,6 @@
 // Rows 33 to 36: the machine does not do, or does not show, what it was told.
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/faults/frames.hpp"
@@ -8,7 +9,7 @@
 namespace graben::faults {
 namespace {
 
-/// A duty that certainly opens its spool.
+/// A duty, and a travel, at which a spool is certainly open.
 constexpr double kOpen_ratio = 0.3;
 
 template <class Kind>
@@ -31,7 +32,9 @@ unsigned moving_axis(Trial<Kind>& trial) {
   const bool moves = trial.rig->run_until(Kind::kOpensWithin_us, [&] {
     for (unsigned n = 0; n < Kind::kAxes; ++n) {
       const unsigned other = (axis + n) % Kind::kAxes;
-      if (std::abs(duty(trial, other)) > kOpen_ratio) {
+      const double travel = Kind::spools(trial.rig->plant.plant())[other];
+      const double sent = duty(trial, other);
+      if (std::min(std::abs(sent), std::abs(travel)) > kOpen_ratio && sent * travel > 0.0) {
         axis = other;
         return true;
       }

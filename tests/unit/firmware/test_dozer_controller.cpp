@@ -186,6 +186,26 @@ void a_lost_engine_speed_slows_it(void**) {
               1e-12);
 }
 
+/// A track shown much too slow: it goes on slower, and that track is not driven after its sensor.
+void a_wrong_track_speed_is_not_followed(void**) {
+  Grading grading;
+  for (int n = 0; n < 600; ++n) {
+    DozerInputs inputs = grading.next();
+    if (n > 200) {
+      inputs.track[kLeft].speed_mps.value = std::max(0.0, grading.speed_mps - 0.8);
+    }
+    grading.step(inputs);
+    assert_true(grading.outputs.enable);
+  }
+  assert_int_equal(grading.outputs.status.fault, Fault::kTrackSpeedDisagrees);
+  const double slowed_mps = 1.6 * test::dozer().profile.safety.degraded_speed_ratio;
+  assert_near(grading.outputs.status.wanted_speed_mps, slowed_mps, 1e-6);
+  assert_near(
+      track_speed_mps(grading.profile.hst, grading.profile.hst.engine_radps,
+                      grading.outputs.pump_ratio[kLeft], grading.outputs.motor_ratio[kLeft]),
+      slowed_mps, 0.05);
+}
+
 template <class Object>
 void assert_every_bit_counts(Object& (*object)(Grading&)) {
   Grading running;
@@ -263,6 +283,7 @@ int main() {
       cmocka_unit_test(what_stops_it_stops_it),
       cmocka_unit_test(a_runaway_asks_for_the_brake_at_once),
       cmocka_unit_test(a_lost_engine_speed_slows_it),
+      cmocka_unit_test(a_wrong_track_speed_is_not_followed),
       cmocka_unit_test(a_flipped_bit_stops_it),
       cmocka_unit_test(cycles_that_come_late_stop_it),
       cmocka_unit_test(told_to_end_it_is_neutral_for_good),
