@@ -171,6 +171,7 @@ struct ExcavatorProfile {
   SwingProfile swing;
   LineProfile line;
   ValveProfile valve;
+  int pump_count = kPumpCount;  ///< How many there are of them; the others stay at nothing.
   std::array<PumpProfile, kPumpCount> pump;
   DigPath dig_path;
   double dig_speed_mps = 0.0;                        ///< Of the tip along the path.
