@@ -64,8 +64,9 @@ struct DriveMotion {
   DriveVector curvature = DriveVector::Zero();
 };
 
-/// Teeth nearer than this to the swing axis have no direction to swing to.
-inline constexpr double kLeastSwingRadius_m = 0.05;
+/// Teeth nearer than this to the swing axis have no direction to swing to that could be followed;
+/// the machine stands there.
+inline constexpr double kLeastSwingRadius_m = 0.3;
 
 /// Closed forms throughout. The elbow is always up (t_2 of (5) with k_2 = -1: theta_2 in -pi .. 0),
 /// as the arm cylinder's range has it; the machine always faces its teeth, never bends over
