@@ -9,6 +9,8 @@
 #include "app/cli/campaign_run.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/dig_campaign.hpp"
+#include "app/cli/grade_campaign.hpp"
+#include "app/cli/grade_options.hpp"
 #include "app/cli/guarded.hpp"
 #include "app/cli/scenario_options.hpp"
 #include "app/cli/validators.hpp"
@@ -21,6 +23,12 @@ struct DigCampaignOptions {
   ScenarioOptions scenario;
   std::string profile = "excavator_22t";
   double speed = 1.0;
+};
+
+struct GradeCampaignOptions {
+  CampaignOptions campaign;
+  GradeScenario scenario;
+  std::string profile = "dozer_9t";
 };
 
 struct MergeOptions {
@@ -61,9 +69,24 @@ void campaign_dig(const DigCampaignOptions& options) {
                [&](std::uint64_t seed) { return dig_draw(options, nominal, seed); });
 }
 
+CampaignRow grade_draw(const GradeCampaignOptions& options, const machines::DozerMachine& nominal,
+                       std::uint64_t seed) {
+  const machines::DozerMachine machine = arranged(nominal, options.scenario, seed);
+  return grade_campaign_row(machine, run_grade(machine, {}, [](double, const std::string&) {}));
+}
+
+void campaign_grade(const GradeCampaignOptions& options) {
+  const machines::DozerMachine nominal =
+      machines::load_dozer(machines::find_profile(options.profile));
+  run_campaign(options.campaign, grade_campaign(),
+               fmt::format("grade {} {:08x}, {}", nominal.name, nominal.hash,
+                           scenario_words(nominal, options.scenario)),
+               [&](std::uint64_t seed) { return grade_draw(options, nominal, seed); });
+}
+
 void merge(const MergeOptions& options) {
   const std::string name = campaign_name(options.from.front());
-  for (const CampaignKind* kind : {&dig_campaign()}) {
+  for (const CampaignKind* kind : {&dig_campaign(), &grade_campaign()}) {
     if (name == kind->name) {
       merge_campaigns(options.from, options.summary, *kind);
       return;
@@ -90,6 +113,24 @@ void add_campaign_dig(CLI::App& campaign, int& status) {
       [options, &status] { status = guarded("campaign dig", [&] { campaign_dig(*options); }); });
 }
 
+void add_campaign_grade(CLI::App& campaign, int& status) {
+  auto options = std::make_shared<GradeCampaignOptions>();
+  CLI::App* command = campaign.add_subcommand(
+      "grade",
+      "Many draws of a dozer that its controller does not quite know; goes on as dig does");
+  command->add_option("--profile", options->profile, "Machine profile: file or shipped name")
+      ->capture_default_str();
+  options->campaign.draws = 100;
+  add_campaign_options(*command, options->campaign);
+  options->scenario.errors = "all";
+  add_speed_options(*command, options->scenario);
+  add_engine_option(*command, options->scenario);
+  add_error_option(*command, options->scenario);
+  command->callback([options, &status] {
+    status = guarded("campaign grade", [&] { campaign_grade(*options); });
+  });
+}
+
 void add_campaign_merge(CLI::App& campaign, int& status) {
   auto options = std::make_shared<MergeOptions>();
   CLI::App* command = campaign.add_subcommand("merge", "Shards of one campaign into one file");
@@ -105,6 +146,7 @@ void add_campaign(CLI::App& app, int& status) {
   CLI::App* campaign = app.add_subcommand("campaign", "Many runs and their distribution");
   campaign->require_subcommand(1);
   add_campaign_dig(*campaign, status);
+  add_campaign_grade(*campaign, status);
   add_campaign_merge(*campaign, status);
 }
 

@@ -9,6 +9,7 @@ class App;
 namespace graben::cli {
 
 void add_dig(CLI::App& app, int& status);
+void add_grade(CLI::App& app, int& status);
 void add_campaign(CLI::App& app, int& status);
 void add_solve(CLI::App& app, int& status);
 void add_pose(CLI::App& app, int& status);

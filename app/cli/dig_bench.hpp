@@ -4,11 +4,12 @@
 #include "app/cli/machine_bench.hpp"
 #include "app/ecu/excavator_ecu.hpp"
 #include "app/machines/machine_file.hpp"
+#include "app/plant/operator_node.hpp"
 #include "app/plant/plant_node.hpp"
 
 namespace graben::cli {
 
-struct DigBench : MachineBench<plant::PlantNode, ecu::ExcavatorEcu> {
+struct DigBench : MachineBench<plant::PlantNode, plant::OperatorNode, ecu::ExcavatorEcu> {
   DigBench(const machines::ExcavatorMachine& machine, const Eigen::Vector3d& start_strokes_m,
            double override_ratio)
       : MachineBench(machine.profile, machine.hash, Task::kDig, override_ratio, machine.plant,

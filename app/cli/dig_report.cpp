@@ -109,7 +109,7 @@ json series(const DigResult& result) {
     data["obstruction"].push_back(static_cast<int>(sample.obstruction));
   }
   data["cycle_time_us"] = list(samples, &DigSample::cycle_us);
-  add_limits(data, samples);
+  add_limits(data, samples, excavator_actuators());
   return data;
 }
 

@@ -44,7 +44,7 @@ DigSummary summarise(const DigResult& result) {
   DigSummary summary;
   Spread error_true;
   Spread error_measured;
-  LimitCount limits;
+  LimitCount limits(excavator_actuators());
   std::vector<double> cycle_us;
   double lambda_sum = 0.0;
   long on_path = 0;

@@ -9,21 +9,29 @@
 
 namespace graben::cli {
 
-using machines::kAxisNames;
+const ActuatorNames& excavator_actuators() {
+  static const ActuatorNames names(machines::kAxisNames.begin(), machines::kAxisNames.end());
+  return names;
+}
 
-std::string limit_words(const Limit& limit) {
-  const unsigned axis = std::min<unsigned>(limit.index, kAxisCount - 1);
+const ActuatorNames& dozer_actuators() {
+  static const ActuatorNames names = {"blade"};
+  return names;
+}
+
+std::string limit_words(const Limit& limit, const ActuatorNames& actuators) {
+  const char* actuator = actuators[std::min<std::size_t>(limit.index, actuators.size() - 1)];
   switch (limit.kind) {
     case LimitKind::kNone:
       return "none";
     case LimitKind::kPumpFlow:
       return fmt::format("pump flow: Pump {}", limit.index + 1);
     case LimitKind::kBackFlow:
-      return fmt::format("back flow: {}", kAxisNames[axis]);
+      return fmt::format("back flow: {}", actuator);
     case LimitKind::kSpoolTravel:
-      return fmt::format("spool travel: {}", kAxisNames[axis]);
+      return fmt::format("spool travel: {}", actuator);
     case LimitKind::kStrokeEnd:
-      return fmt::format("stroke end: {}", kAxisNames[axis]);
+      return fmt::format("stroke end: {}", actuator);
     case LimitKind::kRise:
       return "rise of lambda";
     case LimitKind::kDegraded:
@@ -39,7 +47,7 @@ std::string limit_words(const Limit& limit) {
 }
 
 void LimitCount::add(const Limit& limit) {
-  ++cycles_[limit_words(limit)];
+  ++cycles_[limit_words(limit, actuators_)];
   ++all_;
 }
 

@@ -5,14 +5,15 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "app/plant/operator_node.hpp"
+#include "firmware/core/time.hpp"
+#include "firmware/signals/machine_signals.hpp"
 #include "platform/loopback/loopback_bus.hpp"
 
 namespace graben::cli {
 
-/// A bench for a kind of machine, its `Node` and its `Ecu`. The operator gives nothing until
-/// kEnable_us, then enables automatic mode, then sets the task.
-template <class Node, class Ecu>
+/// A bench for a kind of machine: its `Node`, its `Operator`, its `Ecu`. The operator gives nothing
+/// until kEnable_us, then enables automatic mode, then sets the task.
+template <class Node, class Operator, class Ecu>
 struct MachineBench {
   static constexpr TimeUs kPeriod_us = 10 * kMillisecondUs;
   static constexpr TimeUs kEnable_us = 200 * kMillisecondUs;
@@ -69,7 +70,7 @@ struct MachineBench {
   Task task;
   double speed_override_ratio;
   Node plant;
-  plant::OperatorNode driver;
+  Operator driver;
   Ecu ecu;
 };
 

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   int status = 0;
   graben::cli::add_dig(app, status);
+  graben::cli::add_grade(app, status);
   graben::cli::add_campaign(app, status);
   graben::cli::add_solve(app, status);
   graben::cli::add_pose(app, status);

@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <map>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/grade_options.hpp"
+#include "app/cli/grade_plant_run.hpp"
 #include "app/cli/guarded.hpp"
 #include "app/cli/json_file.hpp"
 #include "app/cli/plant_run.hpp"
@@ -18,32 +21,89 @@ namespace {
 
 struct Options {
   ScenarioOptions scenario;
+  GradeScenario grade;
   PlantRunOptions run;
   std::string profile = "excavator_22t";
+  std::string player = "none";
   std::string summary;
 };
 
+/// What both kinds' runs have at their end.
+template <class Result>
+void add_bus(nlohmann::ordered_json& figures, const Result& result) {
+  figures["commands_accepted"] = result.commands_accepted;
+  figures["commands_rejected"] = result.commands_rejected;
+  figures["command_timeouts"] = result.command_timeouts;
+  figures["late_cycles"] = result.bus.late_cycles;
+  figures["frames_dropped"] = result.bus.frames_dropped;
+}
+
 nlohmann::ordered_json summary_of(const PlantRunResult& result) {
-  return {{"simulated_s", result.simulated_s},
-          {"enabled_s", result.enabled_s},
-          {"on_path_s", result.on_path_s},
-          {"loops", result.loops},
-          {"max_error_true_m", result.max_error_m},
-          {"rmse_error_true_m", result.rmse_error_m},
-          {"commands_accepted", result.commands_accepted},
-          {"commands_rejected", result.commands_rejected},
-          {"command_timeouts", result.command_timeouts},
-          {"late_cycles", result.late_cycles},
-          {"frames_dropped", result.frames_dropped},
-          {"peak_chamber_pressure_pa", result.peak_chamber_pressure_pa}};
+  nlohmann::ordered_json figures = {
+      {"simulated_s", result.bus.simulated_s},  {"enabled_s", result.enabled_s},
+      {"on_path_s", result.on_path_s},          {"loops", result.loops},
+      {"max_error_true_m", result.max_error_m}, {"rmse_error_true_m", result.rmse_error_m}};
+  add_bus(figures, result);
+  figures["peak_chamber_pressure_pa"] = result.peak_chamber_pressure_pa;
+  return figures;
+}
+
+nlohmann::ordered_json summary_of(const GradePlantResult& result) {
+  nlohmann::ordered_json figures = {
+      {"simulated_s", result.bus.simulated_s},  {"enabled_s", result.enabled_s},
+      {"over_grade_s", result.over_grade_s},    {"edge_x_m", result.edge_x_m},
+      {"max_error_true_m", result.max_error_m}, {"rmse_error_true_m", result.rmse_error_m}};
+  add_bus(figures, result);
+  return figures;
+}
+
+[[noreturn]] void refuse(const std::string& option, const char* kind) {
+  throw std::runtime_error(fmt::format("{}: the profile is not one of {}", option, kind));
+}
+
+/// The player by its name, whose task must be the machine's.
+Player player_of(const std::string& name, machines::MachineKind kind) {
+  if (name == "dig" && kind != machines::MachineKind::kExcavator) {
+    refuse("--operator dig", "an excavator");
+  }
+  if (name == "grade" && kind != machines::MachineKind::kDozer) {
+    refuse("--operator grade", "a dozer");
+  }
+  return name == "none" ? Player::kNobody : name == "shifts" ? Player::kShifts : Player::kTask;
+}
+
+nlohmann::ordered_json run_excavator(const Options& options, const std::filesystem::path& profile,
+                                     const PlantRunOptions& run) {
+  if (options.grade.engine_rpm) {
+    refuse("--engine-rpm", "a dozer");
+  }
+  const machines::ExcavatorMachine machine =
+      arranged(machines::load_excavator(profile), options.scenario);
+  return summary_of(run_plant(machine, run, usual_run(machine, options.scenario).start_strokes_m));
+}
+
+nlohmann::ordered_json run_dozer(const Options& options, const std::filesystem::path& profile,
+                                 const PlantRunOptions& run) {
+  ScenarioOptions plain;
+  plain.errors = options.scenario.errors;
+  const bool is_known = plain.errors == "none" || plain.errors == "all";
+  if (!is_known || scenario_words(options.scenario) != scenario_words(plain)) {
+    refuse(scenario_words(options.scenario), "an excavator");
+  }
+  GradeScenario grade = options.grade;
+  grade.errors = plain.errors;
+  return summary_of(run_plant(
+      arranged(machines::load_dozer(profile), grade, options.scenario.scenario.seed), run));
 }
 
 void plant_on_bus(const Options& options) {
-  const machines::ExcavatorMachine machine =
-      arranged(machines::load_excavator(machines::find_profile(options.profile)), options.scenario);
+  const std::filesystem::path profile = machines::find_profile(options.profile);
+  const machines::MachineKind kind = machines::profile_kind(profile);
   PlantRunOptions run = options.run;
-  run.start_strokes_m = usual_run(machine, options.scenario).start_strokes_m;
-  const nlohmann::ordered_json figures = summary_of(run_plant(machine, run));
+  run.player = player_of(options.player, kind);
+  const nlohmann::ordered_json figures = kind == machines::MachineKind::kDozer
+                                             ? run_dozer(options, profile, run)
+                                             : run_excavator(options, profile, run);
   if (options.summary.empty()) {
     fmt::print("{}\n", figures.dump(2));
   } else {
@@ -68,12 +128,11 @@ void add_plant(CLI::App& app, int& status) {
                    "End after this simulated time, 2 .. 1e6; without it at SIGINT or SIGTERM")
       ->check(number_between(2.0, 1e6));
   command
-      ->add_option("--operator", options->run.player,
-                   "Who gives enable and task: none (another node does), dig, or shifts (digs for "
-                   "5 s, lets go for 1 s, and so on)")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, Player>{
-          {"none", Player::kNobody}, {"dig", Player::kDig}, {"shifts", Player::kShifts}}))
-      ->default_str("none");
+      ->add_option("--operator", options->player,
+                   "Who gives enable and task: none (another node does), dig or grade, as the "
+                   "machine can, or shifts (does that for 5 s, lets go for 1 s, and so on)")
+      ->check(CLI::IsMember({"none", "dig", "grade", "shifts"}))
+      ->capture_default_str();
   command
       ->add_option("--enable-after", options->run.enable_after_s,
                    "When that operator enables, 0 .. 3600 s")
@@ -82,6 +141,7 @@ void add_plant(CLI::App& app, int& status) {
   command->add_option("--summary", options->summary, "Write the figures as JSON to this file");
   options->scenario.errors = "none";
   add_scenario_options(*command, options->scenario);
+  add_engine_option(*command, options->grade);
   command->add_option("--seed", options->scenario.scenario.seed, "Of --errors and --soil")
       ->check(whole_number())
       ->capture_default_str();

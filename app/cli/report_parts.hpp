@@ -40,12 +40,13 @@ template <class Sample, std::size_t kCount>
 
 /// What held lambda at each sample: `limit` and `limit_names`.
 template <class Sample>
-void add_limits(nlohmann::json& series, const std::vector<Sample>& samples) {
+void add_limits(nlohmann::json& series, const std::vector<Sample>& samples,
+                const ActuatorNames& actuators) {
   std::map<std::string, std::size_t> index = {{"none", 0}};
   nlohmann::json names = {"none"};
   nlohmann::json limits = nlohmann::json::array();
   for (const Sample& sample : samples) {
-    const std::string name = limit_words(sample.limit);
+    const std::string name = limit_words(sample.limit, actuators);
     const auto [found, is_new] = index.emplace(name, index.size());
     if (is_new) {
       names.push_back(name);

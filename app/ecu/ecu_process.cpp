@@ -8,9 +8,13 @@
 #include <deque>
 #include <optional>
 #include <stdexcept>
+#include <type_traits>
+#include <variant>
 
+#include "app/ecu/dozer_ecu.hpp"
 #include "app/ecu/ecu_stats.hpp"
 #include "app/ecu/excavator_ecu.hpp"
+#include "app/machines/dozer_file.hpp"
 #include "app/machines/machine_file.hpp"
 #include "platform/can_port_group.hpp"
 #include "platform/linux/allocation_counter.hpp"
@@ -45,10 +49,18 @@ void become_real_time(const EcuOptions& options) {
   demand(set_fifo_priority(options.priority), kWayOut);
 }
 
+using Machine = std::variant<machines::ExcavatorMachine, machines::DozerMachine>;
+
+Machine load(const std::filesystem::path& file) {
+  if (machines::profile_kind(file) == machines::MachineKind::kDozer) {
+    return machines::load_dozer(file);
+  }
+  return machines::load_excavator(file);
+}
+
 /// Nothing, with every error told, if the profile is missing or wrong.
-std::optional<machines::ExcavatorMachine> read_profile(const std::string& name) try {
-  return machines::load_excavator(
-      machines::find_profile(name, {"/etc/graben", "/usr/share/graben"}));
+std::optional<Machine> read_profile(const std::string& name) try {
+  return load(machines::find_profile(name, {"/etc/graben", "/usr/share/graben"}));
 } catch (const std::exception& error) {
   std::fprintf(stderr, "graben-ecu: %s\n", error.what());
   return std::nullopt;
@@ -156,9 +168,11 @@ void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, Usage
   static_cast<void>(clock.wait());
 }
 
-/// From the interfaces to the statistics, with the controller of one kind of machine.
-template <class Ecu, class Machine>
-int run_machine(const Machine& machine, const EcuOptions& options, TimeUs began_us) {
+/// From the interfaces to the statistics, with the controller of the machine's kind.
+template <class Of>
+int run_machine(const Of& machine, const EcuOptions& options, TimeUs began_us) {
+  using Ecu =
+      std::conditional_t<std::is_same_v<Of, machines::DozerMachine>, DozerEcu, ExcavatorEcu>;
   const auto ids = Ecu::Receiver::ids();
   Buses buses(options.interfaces, {ids.begin(), ids.end()});
   Ecu ecu(machine.profile, machine.hash, buses.group);
@@ -196,7 +210,10 @@ int run_machine(const Machine& machine, const EcuOptions& options, TimeUs began_
 
 int run(const EcuOptions& options, TimeUs began_us) try {
   const auto machine = read_profile(options.profile);
-  return machine ? run_machine<ExcavatorEcu>(*machine, options, began_us) : kWrongProfile;
+  if (!machine) {
+    return kWrongProfile;
+  }
+  return std::visit([&](const auto& of) { return run_machine(of, options, began_us); }, *machine);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "graben-ecu: %s\n", error.what());
   return kFailed;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "app/machines/profile_file.hpp"
 #include "app/plant/dozer_profile.hpp"
 #include "firmware/machine/dozer_profile.hpp"
 

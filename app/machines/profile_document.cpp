@@ -38,6 +38,29 @@ std::string read_file(const std::filesystem::path& file) {
 
 }  // namespace
 
+ProfileError::ProfileError(const std::string& file, std::vector<std::string> errors)
+    : std::runtime_error(fmt::format("{}: {} error{}:\n  {}", file, errors.size(),
+                                     errors.size() == 1 ? "" : "s", fmt::join(errors, "\n  "))),
+      errors_(std::move(errors)) {}
+
+std::filesystem::path find_profile(const std::string& name,
+                                   const std::vector<std::filesystem::path>& folders) {
+  if (std::filesystem::is_regular_file(name)) {
+    return name;
+  }
+  std::string looked_in;
+  for (const std::filesystem::path& folder : folders) {
+    for (const std::filesystem::path& candidate : {folder / name, folder / (name + ".toml")}) {
+      if (std::filesystem::is_regular_file(candidate)) {
+        return candidate;
+      }
+    }
+    looked_in += (looked_in.empty() ? "" : ", ") + folder.string();
+  }
+  throw std::runtime_error(
+      fmt::format("profile '{}' not found, neither as a file nor in {}", name, looked_in));
+}
+
 ProfileDocument read_document(const std::filesystem::path& file) {
   const std::string text = read_file(file);
   try {

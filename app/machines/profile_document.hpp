@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "app/machines/machine_file.hpp"
+#include "app/machines/profile_file.hpp"
 #include "app/machines/toml_reader.hpp"
 
 namespace graben::machines {

@@ -10,7 +10,7 @@ CylinderData DozerPlantProfile::blade_cylinder(double stroke_m) const {
   data.dead_volume_m3 = dead_volume_m3;
   data.bulk_modulus_pa = bulk_modulus_pa;
   data.friction = {coulomb_n, viscous_nspm};
-  data.details = *this;
+  data.details = details();
   return data;
 }
 

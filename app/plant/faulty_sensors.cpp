@@ -1,11 +1,6 @@
 #include "app/plant/faulty_sensors.hpp"
 
 namespace graben::plant {
-namespace {
-
-constexpr double kCycle_s = 0.01;
-
-}  // namespace
 
 FaultySensors::FaultySensors(const PlantProfile& profile)
     : sensors_(profile.sensors,
@@ -13,11 +8,7 @@ FaultySensors::FaultySensors(const PlantProfile& profile)
 
 dbc::Physical FaultySensors::stroke(std::size_t axis, double true_stroke_m,
                                     const StrokeFault& fault) {
-  drift_m_[axis] = fault.drift_mps == 0.0 ? 0.0 : drift_m_[axis] + kCycle_s * fault.drift_mps;
-  if (!fault.stuck) {
-    stroke_m_[axis] = sensors_.stroke_m(axis, true_stroke_m) + fault.jump_m + drift_m_[axis];
-  }
-  return {fault.state == dbc::RawState::kValid ? stroke_m_[axis] : 0.0, fault.state};
+  return stroke_[axis].show(sensors_.stroke_m(axis, true_stroke_m), fault);
 }
 
 dbc::Physical FaultySensors::pressure(double reading_pa, const PressureFault& fault,

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "app/plant/faulty_reading.hpp"
 #include "app/plant/plant_faults.hpp"
 #include "app/plant/sensor_model.hpp"
 #include "can_dbc/codec.hpp"
@@ -25,11 +26,10 @@ class FaultySensors {
   static dbc::Physical pressure(double reading_pa, const PressureFault& fault, double& shown_pa);
 
   SensorModel sensors_;
+  std::array<FaultyReading, kAxisCount> stroke_;
   // What was shown last: a stuck sensor goes on showing it.
-  std::array<double, kAxisCount> stroke_m_{};
   std::array<double, kAxisCount> cap_pa_{};
   std::array<double, kAxisCount> rod_pa_{};
-  std::array<double, kAxisCount> drift_m_{};
 };
 
 }  // namespace graben::plant

@@ -1,13 +1,13 @@
 #pragma once
 /// Messages of the DBC to frames on a port, with counter and CRC where the DBC asks for them.
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <map>
 
-#include "app/plant/plant_faults.hpp"
+#include "app/plant/node_faults.hpp"
 #include "can_dbc/codec.hpp"
-#include "can_dbc/generated/excavator_dbc.hpp"
 #include "hal/can_port.hpp"
 #include "hal/e2e.hpp"
 
@@ -16,7 +16,10 @@ namespace graben::plant {
 /// A simulated node's way out, and where its frames are spoilt.
 class FrameSender {
  public:
-  explicit FrameSender(CanPort& port) : port_(port) {}
+  /// `messages` are the DBC's: an array that outlives the sender.
+  template <class Messages>
+  FrameSender(CanPort& port, const Messages& messages)
+      : port_(port), messages_(messages.data()), message_count_(messages.size()) {}
 
   template <class Message>
   void send(const Message& message, const FrameFaults& faults, TimeUs now) {
@@ -57,15 +60,16 @@ class FrameSender {
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
 
  private:
-  static std::uint16_t data_id(std::uint32_t id, std::uint16_t own, const FrameFaults& faults) {
+  [[nodiscard]] std::uint16_t data_id(std::uint32_t id, std::uint16_t own,
+                                      const FrameFaults& faults) const {
     if (!faults.swapped_data_ids) {
       return own;
     }
     const auto& [one, other] = *faults.swapped_data_ids;
     const std::uint32_t partner = id == one ? other : id == other ? one : id;
-    for (const dbc::MessageInfo& message : dbc::excavator::kMessages) {
-      if (message.id == partner) {
-        return message.data_id;
+    for (std::size_t i = 0; i < message_count_; ++i) {
+      if (messages_[i].id == partner) {
+        return messages_[i].data_id;
       }
     }
     return own;
@@ -78,6 +82,8 @@ class FrameSender {
   }
 
   CanPort& port_;
+  const dbc::MessageInfo* messages_;
+  std::size_t message_count_;
   std::map<std::uint32_t, std::uint8_t> counter_;
   std::deque<std::pair<TimeUs, CanFrame>> late_;
   std::uint64_t dropped_ = 0;

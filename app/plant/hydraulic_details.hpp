@@ -25,6 +25,8 @@ struct HydraulicDetails {
   double end_stop_stiffness_npm = 2e9;
   double end_stop_damping_nspm = 1e7;
 
+  /// These alone, of what has them among others.
+  [[nodiscard]] const HydraulicDetails& details() const { return *this; }
   [[nodiscard]] PortProtection protection(double relief_pa) const {
     return {relief_pa, relief_override_paspm3, makeup_paspm3, boiling_pa};
   }

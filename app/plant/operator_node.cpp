@@ -2,28 +2,26 @@
 
 #include <array>
 
-#include "can_dbc/generated/excavator_dbc.hpp"
-
 namespace graben::plant {
 namespace {
 
-namespace bus = dbc::excavator;
 using dbc::RawState;
-using Command = bus::OperatorCommand;
-
-constexpr std::uint64_t kSendCycles = Command::kCycleTimeMs / 10;
-constexpr int kFramesPerRead = 64;
 
 template <class Bus, class Own>
 dbc::Coded<Bus> coded(Own own_code) {
   return {static_cast<Bus>(own_code), RawState::kValid};
 }
 
+const auto& messages_with(const dbc::excavator::OperatorCommand*) {
+  return dbc::excavator::kMessages;
+}
+const auto& messages_with(const dbc::dozer::OperatorCommand*) { return dbc::dozer::kMessages; }
+
 }  // namespace
 
-OperatorRequest OperatorNode::request_at(TimeUs now) const {
+OperatorRequest request_at(const std::vector<OperatorPhase>& schedule, TimeUs now) {
   OperatorRequest request;
-  for (const OperatorPhase& phase : schedule_) {
+  for (const OperatorPhase& phase : schedule) {
     if (phase.from_us <= now) {
       request = phase.request;
     }
@@ -31,9 +29,14 @@ OperatorRequest OperatorNode::request_at(TimeUs now) const {
   return request;
 }
 
-void OperatorNode::set_silent(bool silent) { faults_.set_silent(Command::kId, silent); }
+template <class Command>
+OperatorStation<Command>::OperatorStation(CanPort& port)
+    : port_(port), sender_(port, messages_with(static_cast<const Command*>(nullptr))) {}
 
-void OperatorNode::step(TimeUs now) {
+template <class Command>
+void OperatorStation<Command>::step(TimeUs now) {
+  constexpr int kFramesPerRead = 64;
+  constexpr std::uint64_t kSendCycles = Command::kCycleTimeMs / 10;
   std::array<CanFrame, kFramesPerRead> ignored;
   static_cast<void>(port_.receive(ignored.data(), kFramesPerRead));
   if (cycle_++ % kSendCycles != 0) {
@@ -41,11 +44,14 @@ void OperatorNode::step(TimeUs now) {
   }
   const OperatorRequest request = request_at(now);
   Command command;
-  command.enable = coded<Command::Enable>(request.enable ? 1 : 0);
-  command.operator_mode = coded<Command::OperatorMode>(request.mode);
-  command.task = coded<Command::Task>(request.task);
+  command.enable = coded<typename Command::Enable>(request.enable ? 1 : 0);
+  command.operator_mode = coded<typename Command::OperatorMode>(request.mode);
+  command.task = coded<typename Command::Task>(request.task);
   command.speed_override_ratio = {request.speed_override_ratio, RawState::kValid};
   sender_.send(command, faults_.frames, now);
 }
+
+template class OperatorStation<dbc::excavator::OperatorCommand>;
+template class OperatorStation<dbc::dozer::OperatorCommand>;
 
 }  // namespace graben::plant

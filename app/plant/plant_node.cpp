@@ -1,5 +1,6 @@
 #include "app/plant/plant_node.hpp"
 
+#include "app/plant/node_identity.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 
 namespace graben::plant {
@@ -9,15 +10,6 @@ namespace bus = dbc::excavator;
 using dbc::Physical;
 using dbc::RawState;
 
-template <class Message>
-constexpr E2eConfig config_of() {
-  return {Message::kDataId, Message::kMaxDeltaCounter, PlantNode::kCommandTimeoutUs,
-          Message::kCycleTimeMs * kMillisecondUs};
-}
-
-// A cycle takes no more than this, so that a flood on the bus cannot stop the simulation.
-constexpr int kFramesPerRead = 64;
-constexpr int kReadsPerCycle = 64;
 constexpr std::uint64_t kPumpCycles = bus::PumpState::kCycleTimeMs / 10;
 constexpr std::uint64_t kValveCycles = bus::ValveState::kCycleTimeMs / 10;
 constexpr std::uint64_t kIdentityCycles = bus::MachineIdentity::kCycleTimeMs / 10;
@@ -25,7 +17,7 @@ constexpr std::uint64_t kIdentityCycles = bus::MachineIdentity::kCycleTimeMs / 1
 Physical valid(double value) { return {value, RawState::kValid}; }
 
 bool all_valid(const bus::SpoolCommand& command) {
-  return command.enable.state == RawState::kValid && command.pilot_cut.state == RawState::kValid &&
+  return command.pilot_cut.state == RawState::kValid &&
          command.boom_duty_ratio.state == RawState::kValid &&
          command.arm_duty_ratio.state == RawState::kValid &&
          command.bucket_duty_ratio.state == RawState::kValid;
@@ -38,39 +30,14 @@ PlantNode::PlantNode(const PlantProfile& profile, const ExcavatorPlant::AxisArra
     : plant_(profile, start_strokes_m),
       sensors_(profile),
       port_(port),
-      sender_(port),
+      sender_(port, bus::kMessages),
       profile_hash_(profile_hash),
       wanted_swash_(profile.swash_ratio) {}
-
-bool PlantNode::CommandLink::accepts(const E2eConfig& config, const CanFrame& frame, TimeUs now) {
-  constexpr std::uint8_t kLength = 8;
-  if (!frame.extended || frame.remote || frame.error || frame.fd || frame.length != kLength) {
-    ++counters.wrong_format;
-    return false;
-  }
-  if (!e2e_accepted(e2e_check(config, e2e, frame.data, now))) {
-    ++counters.rejected;
-    return false;
-  }
-  ++counters.accepted;
-  alive = true;
-  last_us = now;
-  return true;
-}
-
-bool PlantNode::CommandLink::dies(TimeUs now) {
-  if (!alive || now - last_us < kCommandTimeoutUs) {
-    return false;
-  }
-  ++counters.timeouts;
-  alive = false;
-  return true;
-}
 
 void PlantNode::step(TimeUs now) {
   receive(now);
   if (spool_link_.dies(now)) {
-    needs_off_ = true;
+    spool_silence_.command_lost();
     go_neutral();
   }
   if (pump_link_.dies(now)) {
@@ -87,7 +54,7 @@ void PlantNode::step(TimeUs now) {
     send_valve(now);
   }
   if (cycle_ % kIdentityCycles == 0) {
-    send_identity(now);
+    send(identity_of<bus::MachineIdentity>(profile_hash_, bus::kDbcVersion, faults_), now);
   }
   ++cycle_;
 }
@@ -104,37 +71,26 @@ void PlantNode::apply_faults() {
 }
 
 void PlantNode::receive(TimeUs now) {
-  std::array<CanFrame, kFramesPerRead> frames;
-  for (int read = 0; read < kReadsPerCycle; ++read) {
-    const int count = port_.receive(frames.data(), kFramesPerRead);
-    for (int i = 0; i < count; ++i) {
-      const CanFrame& frame = frames[static_cast<std::size_t>(i)];
-      if (frame.id == bus::SpoolCommand::kId && !faults_.loses_spool_commands) {
-        take_spool_command(frame, now);
-      }
-      if (frame.id == bus::PumpCommand::kId) {
-        take_pump_command(frame, now);
-      }
+  receive_frames(port_, [this, now](const CanFrame& frame) {
+    if (frame.id == bus::SpoolCommand::kId && !faults_.loses_spool_commands) {
+      take_spool_command(frame, now);
     }
-    if (count < kFramesPerRead) {
-      return;
+    if (frame.id == bus::PumpCommand::kId) {
+      take_pump_command(frame, now);
     }
-  }
+  });
 }
 
 void PlantNode::take_spool_command(const CanFrame& frame, TimeUs now) {
-  if (!spool_link_.accepts(config_of<bus::SpoolCommand>(), frame, now)) {
+  if (!spool_link_.accepts<bus::SpoolCommand>(frame, now)) {
     return;
   }
   const bus::SpoolCommand command = bus::SpoolCommand::decode(frame.data);
   if (command.pilot_cut.state == RawState::kValid) {
     plant_.set_pilot_cut(command.pilot_cut.value == bus::SpoolCommand::PilotCut::kOn);
   }
-  const bool is_on = command.enable.value == bus::SpoolCommand::Enable::kOn;
-  if (command.enable.state == RawState::kValid && !is_on) {
-    needs_off_ = false;
-  }
-  if (needs_off_ || !is_on || !all_valid(command)) {
+  const bool enabled = lets_through(command, spool_silence_);
+  if (!enabled || !all_valid(command)) {
     go_neutral();
     return;
   }
@@ -145,7 +101,7 @@ void PlantNode::take_spool_command(const CanFrame& frame, TimeUs now) {
 }
 
 void PlantNode::take_pump_command(const CanFrame& frame, TimeUs now) {
-  if (!pump_link_.accepts(config_of<bus::PumpCommand>(), frame, now)) {
+  if (!pump_link_.accepts<bus::PumpCommand>(frame, now)) {
     return;
   }
   const bus::PumpCommand command = bus::PumpCommand::decode(frame.data);
@@ -206,14 +162,6 @@ void PlantNode::send_valve(TimeUs now) {
   message.boom_spool_ratio = valid(spool[kBoom]);
   message.arm_spool_ratio = valid(spool[kArm]);
   message.bucket_spool_ratio = valid(spool[kBucket]);
-  send(message, now);
-}
-
-void PlantNode::send_identity(TimeUs now) {
-  bus::MachineIdentity message;
-  message.profile_hash = {faults_.wrong_identity ? ~profile_hash_ : profile_hash_,
-                          RawState::kValid};
-  message.dbc_version = {bus::kDbcVersion, RawState::kValid};
   send(message, now);
 }
 

@@ -4,22 +4,14 @@
 #include <array>
 #include <cstdint>
 
+#include "app/plant/command_link.hpp"
 #include "app/plant/excavator_plant.hpp"
 #include "app/plant/faulty_sensors.hpp"
 #include "app/plant/frame_sender.hpp"
 #include "app/plant/plant_faults.hpp"
 #include "hal/can_port.hpp"
-#include "hal/e2e.hpp"
 
 namespace graben::plant {
-
-/// What became of the frames of a command, by its id.
-struct CommandCounters {
-  std::uint64_t accepted = 0;
-  std::uint64_t wrong_format = 0;  ///< 11 bit, remote, error, FD or wrong length.
-  std::uint64_t rejected = 0;      ///< By CRC or counter, or while synchronising.
-  std::uint64_t timeouts = 0;      ///< Times that it had to do without the command.
-};
 
 /// The bus port belongs to the caller, who opens it. Without a command for `kCommandTimeoutUs`,
 /// with enable off or unusable, or with an unusable duty every spool is sent to neutral, which
@@ -31,7 +23,6 @@ struct CommandCounters {
 class PlantNode {
  public:
   static constexpr TimeUs kCycleUs = 10 * kMillisecondUs;
-  static constexpr TimeUs kCommandTimeoutUs = 100 * kMillisecondUs;
 
   PlantNode(const PlantProfile& profile, const ExcavatorPlant::AxisArray& start_strokes_m,
             CanPort& port, std::uint32_t profile_hash);
@@ -44,27 +35,15 @@ class PlantNode {
 
   [[nodiscard]] ExcavatorPlant& plant() { return plant_; }
   [[nodiscard]] const ExcavatorPlant& plant() const { return plant_; }
-  [[nodiscard]] const CommandCounters& counters() const { return spool_link_.counters; }
+  [[nodiscard]] const CommandCounters& counters() const { return spool_link_.counters(); }
   [[nodiscard]] bool spools_enabled() const { return enabled_; }
 
-  [[nodiscard]] const CommandCounters& pump_counters() const { return pump_link_.counters; }
+  [[nodiscard]] const CommandCounters& pump_counters() const { return pump_link_.counters(); }
 
   /// The fault switches.
   [[nodiscard]] PlantFaults& faults() { return faults_; }
 
  private:
-  /// The way in of one command.
-  struct CommandLink {
-    E2eState e2e;
-    bool alive = false;
-    TimeUs last_us = 0;
-    CommandCounters counters;
-
-    [[nodiscard]] bool accepts(const E2eConfig& config, const CanFrame& frame, TimeUs now);
-    /// Whether the command has been missing for too long, from just now on.
-    [[nodiscard]] bool dies(TimeUs now);
-  };
-
   void receive(TimeUs now);
   void apply_faults();
   void take_spool_command(const CanFrame& frame, TimeUs now);
@@ -74,7 +53,6 @@ class PlantNode {
   void send_pressures(TimeUs now);
   void send_pumps(TimeUs now);
   void send_valve(TimeUs now);
-  void send_identity(TimeUs now);
   [[nodiscard]] dbc::Physical stroke(std::size_t axis);
   template <class Message>
   void send(const Message& message, TimeUs now) {
@@ -90,7 +68,7 @@ class PlantNode {
   CommandLink spool_link_;
   CommandLink pump_link_;
   bool enabled_ = false;
-  bool needs_off_ = false;  ///< The command had been missing; no Off has come since.
+  NeutralFirst spool_silence_;
   ExcavatorPlant::PumpArray wanted_swash_;
   std::uint64_t cycle_ = 0;
 };

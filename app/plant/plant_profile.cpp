@@ -12,7 +12,7 @@ CylinderData PlantProfile::cylinder(int axis) const {
   data.bulk_modulus_pa = bulk_modulus_pa;
   data.friction = friction[index];
   data.cushion = {cushion_length_m, cushion_end_m, cushion_speed_mps, cushion_pressure_pa};
-  data.details = *this;
+  data.details = details();
   return data;
 }
 

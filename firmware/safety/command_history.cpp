@@ -8,6 +8,8 @@ namespace {
 constexpr double kCycle_s = 0.01;
 }
 
+CommandHistory::CommandHistory(double neutral) { sent_.fill(neutral); }
+
 void CommandHistory::add(double sent) {
   newest_ = (newest_ + 1) % kMostCycles;
   sent_[static_cast<unsigned>(newest_)] = sent;

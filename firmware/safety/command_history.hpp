@@ -16,7 +16,7 @@ class CommandHistory {
   };
 
   /// As if `neutral` had been sent all the time.
-  explicit CommandHistory(double neutral = 0.0) { sent_.fill(neutral); }
+  explicit CommandHistory(double neutral = 0.0);
 
   void add(double sent);
   /// Of the newest `cycles`, 1 .. kMostCycles.

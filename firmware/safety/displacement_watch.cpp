@@ -6,6 +6,13 @@
 namespace graben {
 namespace {
 
+int side_of(double deviation, double tolerance) {
+  if (std::abs(deviation) <= tolerance) {
+    return 0;
+  }
+  return deviation > 0.0 ? 1 : -1;
+}
+
 double distance(const CommandHistory::Range& range, double measured) {
   return std::max({0.0, range.least - measured, measured - range.most});
 }
@@ -18,6 +25,8 @@ double nearer(const CommandHistory::Range& range, const DisplacementState& last,
 
 }  // namespace
 
+DisplacementState::DisplacementState(double neutral) : sent(neutral) {}
+
 DisplacementResult watch_displacement(const DisplacementLimits& limits,
                                       const DisplacementState& last, double sent,
                                       DisplacementTask task, double measured, double period_s) {
@@ -28,8 +37,10 @@ DisplacementResult watch_displacement(const DisplacementLimits& limits,
   if (task == DisplacementTask::kNone) {
     return result;
   }
-  const bool off = std::abs(measured - sent) > limits.tolerance;
-  state.off_s = off ? last.off_s + period_s : 0.0;
+  state.off_side = side_of(measured - sent, limits.tolerance);
+  if (state.off_side != 0) {
+    state.off_s = (state.off_side == last.off_side ? last.off_s : 0.0) + period_s;
+  }
   result.disagrees = state.off_s > limits.settle_s;
 
   const CommandHistory::Range range = state.sent.range(cycles_under_way(limits.settle_s));

@@ -15,12 +15,14 @@ inline constexpr int kRunawayCycles = 3;
 
 /// What the watch needs of the last cycle.
 struct DisplacementState {
-  explicit DisplacementState(double neutral) : sent(neutral) {}
+  /// As if it had been told `neutral` all the time.
+  explicit DisplacementState(double neutral);
 
   CommandHistory sent;
   bool judged = false;
   double nearest = 0.0;  ///< To the commands of late, since it was last within them.
-  double off_s = 0.0;    ///< How long it has been off its command.
+  int off_side = 0;      ///< On which side of its command it is off; 0: it isn't.
+  double off_s = 0.0;    ///< How long it has been so.
   int runaway_cycles = 0;
 };
 
@@ -33,7 +35,8 @@ struct DisplacementResult {
   DisplacementState state;
 };
 
-/// Disagrees: off its command by more than the tolerance for longer than the time to settle.
+/// Disagrees: off its command, on the same side, by more than the tolerance for longer than the
+/// time to settle.
 ///
 /// Runs away: for kRunawayCycles it is further than the tolerance from all that it was told within
 /// the time to settle, and either has moved away from that by as much, or stands on the other side

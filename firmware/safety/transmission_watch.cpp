@@ -9,6 +9,8 @@ namespace graben {
 namespace {
 
 constexpr double kTrackOff_s = 0.3;
+/// Losses that the profile does not know, of the speed.
+constexpr double kLossShare = 0.1;
 
 /// Takes in what one displacement's watch says.
 DisplacementState take(const DisplacementResult& result, FaultSet& stops) {
@@ -25,7 +27,7 @@ bool track_is_off(const DozerProfile& profile, const ValidDozerInputs& valid, un
   const double expected_mps = track_speed_mps(profile.hst, valid.engine_radps,
                                               valid.pump_ratio[track], valid.motor_ratio[track]);
   return std::abs(valid.track_speed_mps[track] - expected_mps) >
-         profile.safety.track_speed_tolerance_mps;
+         profile.safety.track_speed_tolerance_mps + kLossShare * std::abs(expected_mps);
 }
 
 }  // namespace

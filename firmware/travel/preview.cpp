@@ -9,6 +9,8 @@ namespace graben {
 namespace {
 
 constexpr int kEdgeSteps = 4;
+/// How much faster than from rest to rest the body swings from stand to stand.
+constexpr double kSwing = 1.4;
 /// Flow over less than this per metre is none.
 constexpr double kNoFlow_m3pm = 1e-7;
 /// No machine of this kind is faster.
@@ -62,6 +64,7 @@ void Preview::work_out(const GroundMap& ground, const GradeProfile& design, int 
   const double x_m = index * kStep_m;
   at.stand = stand_at(profile_.body, ground, design, x_m, at.known ? at.stand : guess);
   at.stroke_m = stroke_on(design, x_m, at.stand);
+  at.by_design_m = stroke_on(design, x_m + kStep_m, at.stand) - at.stroke_m;
   at.known = true;
 }
 
@@ -102,11 +105,14 @@ void Preview::look(const GroundMap& ground, const GradeProfile& design, double x
 double Preview::speed_between(int index, double flow_m3ps) const {
   const Station& before = station(index - 1);
   const Station& after = station(index + 1);
-  if (!before.known || !after.known) {
+  if (!before.known || !station(index).known || !after.known) {
     return profile_.travel.speed_min_mps;
   }
-  const double per_metre = (after.stroke_m - before.stroke_m) / (2.0 * kStep_m);
-  const double flow_m3pm = inflow_m3ps(profile_.blade, per_metre);
+  const double at_rest = (after.stroke_m - before.stroke_m) / (2.0 * kStep_m);
+  const double by_design = station(index).by_design_m / kStep_m;
+  const double swinging = by_design + kSwing * (at_rest - by_design);
+  const double flow_m3pm =
+      std::max(inflow_m3ps(profile_.blade, at_rest), inflow_m3ps(profile_.blade, swinging));
   return flow_m3pm > kNoFlow_m3pm ? std::min(flow_m3ps / flow_m3pm, kAnySpeed_mps) : kAnySpeed_mps;
 }
 

@@ -16,7 +16,8 @@ struct AheadLimit {
 
 /// Stations on a grid along x. At each: how the machine will stand with its origin there, and the
 /// stroke of the blade cylinders with the edge on the design. How stroke changes from station to
-/// station is a flow per metre of travel, (10) of what is still to come.
+/// station is a flow per metre of travel, (10) of what is still to come. The body's share of it
+/// counts more than once: it swings into each new stand, most of all when it tips.
 ///
 /// A cycle works out a fixed number of stations: first those that are new, then all in turns, as
 /// the blade goes on cutting what they stand on. One that is not known yet counts as v_min.
@@ -43,6 +44,8 @@ class Preview {
     bool known = false;
     Stand stand;
     double stroke_m = 0.0;
+    /// How the stroke would change to the next station on this stand: by the design alone.
+    double by_design_m = 0.0;
   };
 
   [[nodiscard]] static int station_of(double x_m);

@@ -43,11 +43,12 @@ double room_mps(const DozerProfile& profile, const SpeedDemand& demand, double i
   }
   const bool off_home = std::abs(demand.blade_angle_rad) > profile.travel.threshold_rad;
   const double ahead_mps = off_home ? demand.ahead.lowest_mps : target_mps;
-  return std::min({target_mps, ahead_mps, profile.travel.flow_share * implement_mps});
+  const double held_mps = std::min(ahead_mps, profile.travel.flow_share * implement_mps);
+  return std::min(target_mps, std::max(held_mps, profile.travel.speed_min_mps));
 }
 
-SpeedState followed(const DozerProfile& profile, const SpeedState& last, double target_mps,
-                    double room_mps, double period_s) {
+SpeedState followed(const DozerProfile& profile, const SpeedState& last, double desired_mps,
+                    double target_mps, double room_mps, double period_s) {
   const TravelProfile& travel = profile.travel;
   SpeedState state = last;
   if (target_mps < last.speed_mps) {
@@ -58,7 +59,8 @@ SpeedState followed(const DozerProfile& profile, const SpeedState& last, double 
     return state;
   }
   state.since_fall_s = std::min(last.since_fall_s + period_s, kPause_s);
-  const bool is_worth_it = room_mps > last.speed_mps * (1.0 + kWorthIt);
+  // Up to what is desired nothing will hold it again soon.
+  const bool is_worth_it = room_mps > last.speed_mps * (1.0 + kWorthIt) || room_mps >= desired_mps;
   state.rising =
       room_mps > last.speed_mps && (last.rising || (is_worth_it && state.since_fall_s >= kPause_s));
   if (state.rising) {
@@ -89,7 +91,7 @@ SpeedChoice next_speed(const DozerProfile& profile, const SpeedState& last,
   }
   choice.allowed_mps = std::max(choice.allowed_mps, profile.travel.speed_min_mps);
   const double target_mps = std::min(demand.desired_mps, choice.allowed_mps);
-  choice.state = followed(profile, last, target_mps,
+  choice.state = followed(profile, last, demand.desired_mps, target_mps,
                           room_mps(profile, demand, implement_mps, target_mps), period_s);
   choice.state.required_flow_m3ps = required_m3ps;
   if (choice.state.speed_mps < demand.desired_mps) {

@@ -23,9 +23,20 @@ def call(graben, *arguments, status=0):
     return out, err
 
 
-def dig(graben, file, *options, status=0):
-    return call(graben, "dig", "--draws", str(DRAWS), "--seed", "11", "--summary", file, *options,
-                status=status)
+class Kind:
+    """A kind of campaign, what its file and its table begin with, and options that make it another."""
+
+    def __init__(self, name, profile, words, others):
+        self.name, self.profile, self.words, self.others = name, profile, words, others
+
+    def run(self, graben, file, *options, status=0):
+        return call(graben, self.name, "--draws", str(DRAWS), "--seed", "11", "--summary", file,
+                    *options, status=status)
+
+
+DIG = Kind("dig", "excavator_22t", "path error of the true tip, max", (("--soil",), ("--speed", "0.5")))
+GRADE = Kind("grade", "dozer_9t", "true edge over the grade, max",
+             (("--speed-mode", "constant"), ("--speed", "0.5"), ("--engine-rpm", "1400")))
 
 
 def content(file):
@@ -33,19 +44,19 @@ def content(file):
         return stream.read()
 
 
-def shards_merge(graben, folder):
+def shards_merge(graben, folder, kind):
     whole = os.path.join(folder, "whole.csv")
-    table, _ = dig(graben, whole)
-    for word in ("median", "p95", "max", f"{DRAWS} of {DRAWS} draws done", "path error of the true tip, max"):
+    table, _ = kind.run(graben, whole)
+    for word in ("median", "p95", "max", f"{DRAWS} of {DRAWS} draws done", kind.words):
         assert word in table, table
     lines = content(whole).decode().splitlines()
-    assert len(lines) == 2 + DRAWS and lines[0].startswith("# dig excavator_22t "), lines
+    assert len(lines) == 2 + DRAWS and lines[0].startswith(f"# {kind.name} {kind.profile} "), lines
     assert [line.split(",")[0] for line in lines[2:]] == [str(11 + n) for n in range(DRAWS)]
     assert len({line.split(",", 1)[1] for line in lines[2:]}) == DRAWS, "draws are alike"
     parts = []
     for index in ("1/2", "2/2"):
         parts.append(os.path.join(folder, f"part{index[0]}.csv"))
-        dig(graben, parts[-1], "--shard", index, "--jobs", "1")
+        kind.run(graben, parts[-1], "--shard", index, "--jobs", "1")
         assert len(content(parts[-1]).splitlines()) == 2 + DRAWS // 2
     merged = os.path.join(folder, "merged.csv")
     again, _ = call(graben, "merge", *reversed(parts), "--summary", merged)
@@ -56,9 +67,9 @@ def shards_merge(graben, folder):
     return whole
 
 
-def goes_on(graben, folder, whole):
+def goes_on(graben, folder, whole, kind):
     file = os.path.join(folder, "interrupted.csv")
-    process = start(graben, "dig", "--draws", str(DRAWS), "--seed", "11", "--jobs", "1",
+    process = start(graben, kind.name, "--draws", str(DRAWS), "--seed", "11", "--jobs", "1",
                     "--summary", file)
     deadline = time.monotonic() + 60.0
     while time.monotonic() < deadline:
@@ -73,11 +84,11 @@ def goes_on(graben, folder, whole):
     # What a crash in the middle of a line leaves.
     with open(file, "ab") as stream:
         stream.write(content(whole).splitlines()[-1][:20])
-    dig(graben, file)
+    kind.run(graben, file)
     assert content(file) == content(whole), "the rest of the campaign differs from a whole one"
     # A file that is complete is computed from, not computed again.
     began = time.monotonic()
-    dig(graben, file)
+    kind.run(graben, file)
     assert content(file) == content(whole)
     assert time.monotonic() - began < 5.0
 
@@ -104,17 +115,17 @@ def one_at_a_time(graben, folder):
     assert not os.path.exists(file + ".lock")
 
 
-def refuses(graben, folder, whole):
+def refuses(graben, folder, whole, kind):
     def refused(needle, file, *options):
         before = content(file)
-        _, err = dig(graben, file, *options, status=1)
+        _, err = kind.run(graben, file, *options, status=1)
         assert needle in err, err
         assert content(file) == before, "a refused campaign has changed its file"
 
-    refused("holds another campaign", whole, "--soil")
-    refused("holds another campaign", whole, "--speed", "0.5")
+    for other in kind.others:
+        refused("holds another campaign", whole, *other)
     for text, needle in (("something else\n", "is no campaign"),
-                         ("# dig\nseed,other\n", "line 2"),
+                         (f"# {kind.name}\nseed,other\n", "line 2"),
                          (content(whole).decode() + "1,done\n", f"line {DRAWS + 3}: 2 cells"),
                          (content(whole).decode().replace("11,done", "11,dona"), "line 3"),
                          (content(whole).decode().replace("11,done", "x,done"), "is no seed"),
@@ -125,22 +136,42 @@ def refuses(graben, folder, whole):
         refused(needle, file)
     for option, value in (("--shard", "0/2"), ("--shard", "3/2"), ("--shard", "2"),
                           ("--shard", "a/b")):
-        _, err = dig(graben, os.path.join(folder, "new.csv"), option, value, status=1)
+        _, err = kind.run(graben, os.path.join(folder, "new.csv"), option, value, status=1)
         assert "i/n" in err, err
     for option, value in (("--draws", "0"), ("--draws", "-1"), ("--jobs", "0"),
-                          ("--dead-time", "nan"), ("--errors", "some")):
-        call(graben, "dig", "--summary", os.path.join(folder, "new.csv"), option, value, status=2)
-    call(graben, "dig", "--summary", os.path.join(folder, "x.csv"), "--soil", "--air", status=2)
-    call(graben, "dig", "--summary", os.path.join(folder, "no", "x.csv"), status=1)
+                          ("--speed", "nan"), ("--errors", "some")):
+        call(graben, kind.name, "--summary", os.path.join(folder, "new.csv"), option, value, status=2)
+    call(graben, kind.name, "--summary", os.path.join(folder, "no", "x.csv"), status=1)
     call(graben, "merge", os.path.join(folder, "missing.csv"), "--summary", whole, status=1)
+
+
+def kinds_do_not_mix(graben, folder, dig, grade):
+    merged = os.path.join(folder, "mixed.csv")
+    for files in ((dig, grade), (grade, dig)):
+        _, err = call(graben, "merge", *files, "--summary", merged, status=1)
+        assert "other columns" in err, err
+    unknown = os.path.join(folder, "unknown.csv")
+    with open(unknown, "w", encoding="ascii") as stream:
+        stream.write("# swim whale\n")
+    _, err = call(graben, "merge", unknown, "--summary", merged, status=1)
+    assert "campaign of 'swim'" in err, err
+    assert not os.path.exists(merged)
+    call(graben, "dig", "--summary", os.path.join(folder, "x.csv"), "--soil", "--air", status=2)
+    call(graben, "dig", "--summary", os.path.join(folder, "x.csv"), "--dead-time", "nan", status=2)
 
 
 def main():
     graben = sys.argv[1]
-    with tempfile.TemporaryDirectory() as folder:
-        whole = shards_merge(graben, folder)
-        goes_on(graben, folder, whole)
-        refuses(graben, folder, whole)
+    wholes = []
+    with tempfile.TemporaryDirectory() as top:
+        for kind in (DIG, GRADE):
+            folder = os.path.join(top, kind.name)
+            os.mkdir(folder)
+            wholes.append(shards_merge(graben, folder, kind))
+            goes_on(graben, folder, wholes[-1], kind)
+            refuses(graben, folder, wholes[-1], kind)
+        kinds_do_not_mix(graben, top, *wholes)
+        folder = top
         failures_are_no_figures(graben, folder)
         one_at_a_time(graben, folder)
     print(f"{DRAWS} draws: whole, in shards and interrupted, the same rows")

@@ -70,6 +70,41 @@ def bad_usage(graben):
     refused(graben, "", "dig", "--start", "5,0,1.5", "--random-start", status=2)
 
 
+def bad_grades(graben):
+    refused(graben, "bounded,constant", "grade", "--speed-mode", "fast", status=2)
+    refused(graben, "nan is not a number", "grade", "--speed", "nan", status=2)
+    refused(graben, "3.1 is not a number from 0.05 to 3", "grade", "--speed", "3.1", status=2)
+    refused(graben, "899 is not a number from 900 to 2200", "grade", "--engine-rpm", "899", status=2)
+    refused(graben, "none,all", "grade", "--errors", "sensors", status=2)
+    refused(graben, "-1 is not a whole number", "grade", "--errors", "all", "--seed=-1", status=2)
+    refused(graben, "it needs --seed", "grade", "--errors", "all")
+    refused(graben, "it needs --speed-mode constant", "grade", "--within", "0.02")
+    refused(graben, "2 is not a number from 0.001 to 1", "grade", "--within", "2", status=2)
+    refused(graben, "no_such", "grade", "--profile", "no_such")
+    refused(graben, "a machine of kind excavator; here it must be dozer", "grade", "--profile",
+            "excavator_22t")
+    refused(graben, "a machine of kind dozer; here it must be excavator", "dig", "--profile",
+            "dozer_9t")
+    plant = ("plant", "--can", "no_such0")
+    dozer = (*plant, "--profile", "dozer_9t")
+    refused(graben, "no_such0", *dozer)
+    refused(graben, "--operator dig: the profile is not one of an excavator", *dozer, "--operator",
+            "dig")
+    refused(graben, "--operator grade: the profile is not one of a dozer", *plant, "--operator",
+            "grade")
+    refused(graben, "--engine-rpm: the profile is not one of a dozer", *plant, "--engine-rpm", "1000")
+    for option in (("--soil",), ("--dead-time", "0.1"), ("--errors", "sensors"), ("--fixed-lambda",)):
+        refused(graben, "the profile is not one of an excavator", *dozer, *option)
+
+
+def no_constant_speed(graben):
+    """Where not even the slowest will do, the trials are shown and the status says so."""
+    done = call(graben, "grade", "--speed-mode", "constant", "--speed", "0.07", "--within", "0.001",
+                "--errors", "all", "--seed", "1")
+    assert done.returncode == 1 and "no constant speed" in done.stderr, done.stderr
+    assert "0.05" in done.stdout and "0.07" in done.stdout, done.stdout
+
+
 def unwritable(graben):
     with tempfile.TemporaryDirectory() as folder:
         blocked = os.path.join(folder, "file")
@@ -78,9 +113,10 @@ def unwritable(graben):
         refused(graben, "file", "dig", "--out", blocked)
         with open(blocked, encoding="ascii") as stream:
             assert stream.read() == "kept"
-        missing = os.path.join(folder, "no", "such", "summary.json")
-        done = call(graben, "dig", "--out", folder, "--summary", missing)
-        assert done.returncode == 1 and missing in done.stderr, done.stderr
+        missing = os.path.join(folder, "no", "such", "file")
+        for command, option in (("dig", "--summary"), ("grade", "--summary"), ("grade", "--log")):
+            done = call(graben, command, "--out", folder, option, missing)
+            assert done.returncode == 1 and missing in done.stderr, done.stderr
 
 
 def lost_output(graben):
@@ -97,6 +133,8 @@ def main():
     graben = sys.argv[1]
     pose_and_back(graben)
     bad_usage(graben)
+    bad_grades(graben)
+    no_constant_speed(graben)
     unwritable(graben)
     lost_output(graben)
     print("commands answer as they should")

@@ -1,36 +1,17 @@
 #include "tests/faults/bus_record.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "can_dbc/generated/excavator_dbc.hpp"
 #include "hal/dm1.hpp"
+#include "tests/faults/dozer_kind.hpp"
+#include "tests/faults/excavator_kind.hpp"
 
 namespace graben::faults {
 namespace {
 
-namespace bus = dbc::excavator;
-using dbc::RawState;
-
-BusRecord::Command command_of(const CanFrame& frame) {
-  const bus::SpoolCommand message = bus::SpoolCommand::decode(frame.data);
-  BusRecord::Command command;
-  command.at_us = frame.stamp_us;
-  // What does not decode as Off counts as On.
-  command.enable = message.enable.state != RawState::kValid ||
-                   message.enable.value != bus::SpoolCommand::Enable::kOff;
-  command.pilot_cut = message.pilot_cut.state == RawState::kValid &&
-                      message.pilot_cut.value == bus::SpoolCommand::PilotCut::kOn;
-  command.neutral = true;
-  for (const dbc::Physical& duty :
-       {message.boom_duty_ratio, message.arm_duty_ratio, message.bucket_duty_ratio}) {
-    command.neutral = command.neutral && duty.state == RawState::kValid && duty.value == 0.0;
-  }
-  return command;
-}
-
+template <class EcuStatus>
 BusRecord::Status status_of(const CanFrame& frame) {
-  const bus::EcuStatus message = bus::EcuStatus::decode(frame.data);
+  const EcuStatus message = EcuStatus::decode(frame.data);
   return {frame.stamp_us,
           static_cast<EcuMode>(message.mode.value),
           static_cast<Fault>(message.fault.value),
@@ -38,47 +19,60 @@ BusRecord::Status status_of(const CanFrame& frame) {
            static_cast<std::uint8_t>(message.limit_index.value)}};
 }
 
+template <class TroubleCodes>
 BusRecord::Trouble trouble_of(const CanFrame& frame) {
-  const bus::DM1 message = bus::DM1::decode(frame.data);
+  const TroubleCodes message = TroubleCodes::decode(frame.data);
   constexpr unsigned kLowBits = 16;
   const std::uint32_t spn = message.spn_low.value | (message.spn_high.value << kLowBits);
   const bool is_ours = spn >= kDm1FirstSpn && spn < kDm1FirstSpn + kFaultCount;
   return {frame.stamp_us, is_ours ? static_cast<Fault>(spn - kDm1FirstSpn) : Fault::kNone};
 }
 
-double speed_of(const CanFrame& frame) {
-  const bus::EcuMotion message = bus::EcuMotion::decode(frame.data);
-  return std::hypot(message.boom_wanted_velocity_mps.value, message.arm_wanted_velocity_mps.value,
-                    message.bucket_wanted_velocity_mps.value);
-}
-
 }  // namespace
 
+template <class Kind>
+void BusRecord::see_command(const CanFrame& frame) {
+  Command command;
+  command.at_us = frame.stamp_us;
+  if (!commands.empty() && commands.back().at_us == frame.stamp_us) {
+    command = commands.back();
+    commands.pop_back();
+  }
+  if (Kind::read_command(frame, command)) {
+    ++command.frames;
+  }
+  if (command.frames > 0) {
+    commands.push_back(command);
+  }
+}
+
+template <class Kind>
 void BusRecord::see(const CanFrame& frame, bool from_controller) {
   if (!from_controller) {
     last_us[frame.id] = frame.stamp_us;
     return;
   }
+  see_command<Kind>(frame);
   switch (frame.id) {
-    case bus::SpoolCommand::kId:
-      commands.push_back(command_of(frame));
+    case Kind::EcuStatus::kId:
+      statuses.push_back(status_of<typename Kind::EcuStatus>(frame));
       break;
-    case bus::EcuStatus::kId:
-      statuses.push_back(status_of(frame));
+    case Kind::TroubleCodes::kId:
+      troubles.push_back(trouble_of<typename Kind::TroubleCodes>(frame));
       break;
-    case bus::DM1::kId:
-      troubles.push_back(trouble_of(frame));
+    case Kind::EcuHealth::kId:
+      refusals.push_back({frame.stamp_us, Kind::EcuHealth::decode(frame.data).why_not_armed.value});
       break;
-    case bus::EcuHealth::kId:
-      refusals.push_back({frame.stamp_us, bus::EcuHealth::decode(frame.data).why_not_armed.value});
-      break;
-    case bus::EcuMotion::kId:
-      wanted.push_back({frame.stamp_us, speed_of(frame)});
+    case Kind::EcuMotion::kId:
+      wanted.push_back({frame.stamp_us, Kind::wanted_mps(frame)});
       break;
     default:
       break;
   }
 }
+
+template void BusRecord::see<Excavator>(const CanFrame& frame, bool from_controller);
+template void BusRecord::see<Dozer>(const CanFrame& frame, bool from_controller);
 
 bool BusRecord::status_named(Fault fault, TimeUs since_us) const {
   return std::any_of(statuses.begin(), statuses.end(), [=](const Status& status) {
@@ -112,9 +106,16 @@ bool BusRecord::any_pilot_cut(TimeUs since_us) const {
   });
 }
 
-TimeUs BusRecord::first_neutral_us(TimeUs since_us) const {
+TimeUs BusRecord::first_neutral_us(TimeUs since_us, int frames) const {
   const auto first = std::find_if(commands.begin(), commands.end(), [=](const Command& command) {
-    return command.at_us >= since_us && command.is_neutral();
+    return command.at_us >= since_us && command.frames == frames && command.is_neutral();
+  });
+  return first == commands.end() ? -1 : first->at_us;
+}
+
+TimeUs BusRecord::first_brake_us(TimeUs since_us) const {
+  const auto first = std::find_if(commands.begin(), commands.end(), [=](const Command& command) {
+    return command.at_us >= since_us && command.brake;
   });
   return first == commands.end() ? -1 : first->at_us;
 }

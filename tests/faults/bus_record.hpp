@@ -5,19 +5,22 @@
 #include <map>
 #include <vector>
 
+#include "can_dbc/codec.hpp"
 #include "firmware/core/codes.hpp"
 #include "firmware/core/time.hpp"
-#include "firmware/signals/excavator_signals.hpp"
 #include "hal/can_frame.hpp"
 
 namespace graben::faults {
 
 struct BusRecord {
+  /// What all of a cycle's commands come to.
   struct Command {
     TimeUs at_us = 0;
+    int frames = 0;
     bool enable = false;
-    bool neutral = false;  ///< Every duty is 0.
+    bool neutral = true;  ///< Every duty and pump is 0, every motor at full displacement.
     bool pilot_cut = false;
+    bool brake = false;
 
     [[nodiscard]] bool is_neutral() const { return !enable && neutral; }
   };
@@ -37,7 +40,7 @@ struct BusRecord {
   };
   struct Wanted {
     TimeUs at_us = 0;
-    double speed_mps = 0.0;  ///< Of all cylinders together, as the field wants them.
+    double speed_mps = 0.0;  ///< As the machine kind has it.
   };
 
   std::vector<Command> commands;
@@ -47,6 +50,7 @@ struct BusRecord {
   std::vector<Wanted> wanted;
   std::map<std::uint32_t, TimeUs> last_us;  ///< Of each message of the others.
 
+  template <class Kind>
   void see(const CanFrame& frame, bool from_controller);
 
   /// Whether EcuStatus named this fault, or DM1 its trouble code, at or after `since_us`.
@@ -57,8 +61,30 @@ struct BusRecord {
   /// Of all frames sent at or after `since_us`.
   [[nodiscard]] bool all_neutral(TimeUs since_us) const;
   [[nodiscard]] bool any_pilot_cut(TimeUs since_us) const;
-  /// When the first neutral command at or after `since_us` came; -1: none has.
-  [[nodiscard]] TimeUs first_neutral_us(TimeUs since_us) const;
+  /// When the first neutral command at or after `since_us` came, of so many frames; -1: none has.
+  [[nodiscard]] TimeUs first_neutral_us(TimeUs since_us, int frames) const;
+  /// When the parking brake was first asked for at or after `since_us`; -1: it was not.
+  [[nodiscard]] TimeUs first_brake_us(TimeUs since_us) const;
+
+ private:
+  template <class Kind>
+  void see_command(const CanFrame& frame);
 };
+
+/// Enable and pilot cut of a spool's command.
+template <class SpoolCommand>
+SpoolCommand read_spool_command(const CanFrame& frame, BusRecord::Command& command) {
+  const SpoolCommand message = SpoolCommand::decode(frame.data);
+  // What does not decode as Off counts as On.
+  command.enable = message.enable.state != dbc::RawState::kValid ||
+                   message.enable.value != SpoolCommand::Enable::kOff;
+  command.pilot_cut = message.pilot_cut.state == dbc::RawState::kValid &&
+                      message.pilot_cut.value == SpoolCommand::PilotCut::kOn;
+  return message;
+}
+
+[[nodiscard]] inline bool says(const dbc::Physical& value, double number) {
+  return value.state == dbc::RawState::kValid && value.value == number;
+}
 
 }  // namespace graben::faults

@@ -4,42 +4,46 @@
 #include <cmath>
 
 #include "app/cli/dig_run.hpp"
+#include "tests/faults/dozer_kind.hpp"
+#include "tests/faults/excavator_kind.hpp"
 
 namespace graben::faults {
 namespace {
 
 constexpr TimeUs kCycle_us = 10 * kMillisecondUs;
 
-bool in_deadband(const plant::ExcavatorPlant& plant) {
-  const auto spools = plant.spool_travels_ratio();
-  return std::all_of(spools.begin(), spools.end(), [&plant](double travel) {
-    return std::abs(travel) <= plant.profile().deadband_ratio;
-  });
-}
-
-double stroke_m(const plant::ExcavatorPlant& plant, unsigned axis) {
-  return plant.profile().machine.geometry.cylinder[axis].stroke_m;
+template <class Kind>
+bool in_deadband(const typename Kind::Plant& plant) {
+  const auto spools = Kind::spools(plant);
+  return std::all_of(spools.begin(), spools.end(),
+                     [&plant](double travel) { return std::abs(travel) <= Kind::deadband(plant); });
 }
 
 }  // namespace
 
-void ClosingWatch::before(const plant::ExcavatorPlant& plant) {
+template <class Kind>
+void ClosingWatch<Kind>::before(const Plant& plant) {
   if (!has_begun()) {
     last_ = plant;
   }
 }
 
-void ClosingWatch::begin(const plant::ExcavatorPlant& from) {
+template <class Kind>
+void ClosingWatch<Kind>::begin(const Plant& from) {
   reference_ = from;
-  reference_->set_duty({}, false);
-  for (std::size_t i = 0; i < kAxisCount; ++i) {
-    reference_->set_pilot_fault(i, std::nullopt, 0.0);
-  }
+  Kind::make_neutral_and_sound(*reference_);
 }
 
-void ClosingWatch::after(const plant::ExcavatorPlant& plant, bool closed) {
+template <class Kind>
+void ClosingWatch<Kind>::after(const Plant& plant, bool closed) {
+  closed_ = closed_ || closed;
+  if (const std::optional<Rolling> rolling = Kind::rolling(plant); closed_ && rolling) {
+    rolling_.see(*rolling);
+  }
   if (!has_begun()) {
-    if (!closed || (disobeying_ && !in_deadband(plant))) {
+    const bool in_middle = in_deadband<Kind>(plant);
+    strayed_ = strayed_ || !in_middle;
+    if (!closed || (disobeying_ && !(strayed_ && in_middle))) {
       return;
     }
     begin(disobeying_ ? plant : *last_);
@@ -48,26 +52,27 @@ void ClosingWatch::after(const plant::ExcavatorPlant& plant, bool closed) {
     }
   }
   reference_->advance(kCycle_us);
-  const auto strokes_m = plant.strokes_m();
-  const auto allowed_m = reference_->strokes_m();
-  plant::ExcavatorPlant::AxisArray shares{};
-  for (unsigned i = 0; i < kAxisCount; ++i) {
-    shares[i] = strokes_m[i] / stroke_m(plant, i);
-    beyond_share_ =
-        std::max(beyond_share_, std::abs(strokes_m[i] - allowed_m[i]) / stroke_m(plant, i));
+  const auto strokes_m = Kind::strokes_m(plant);
+  const auto allowed_m = Kind::strokes_m(*reference_);
+  const auto longest_m = Kind::longest_m(plant);
+  typename Kind::AxisArray shares{};
+  for (unsigned i = 0; i < Kind::kAxes; ++i) {
+    shares[i] = strokes_m[i] / longest_m[i];
+    beyond_share_ = std::max(beyond_share_, std::abs(strokes_m[i] - allowed_m[i]) / longest_m[i]);
   }
-  if (!strokes_.empty() || in_deadband(plant)) {
+  if (!strokes_.empty() || in_deadband<Kind>(plant)) {
     strokes_.push_back(shares);
   }
 }
 
-double ClosingWatch::creep_share() const {
+template <class Kind>
+double ClosingWatch<Kind>::creep_share() const {
   constexpr auto kPeriod = static_cast<std::size_t>(cli::kOilPeriod_s * 100.0 + 0.5);
   if (strokes_.size() < 2 * kPeriod) {
     return 0.0;
   }
   double creep_share = 0.0;
-  for (std::size_t i = 0; i < kAxisCount; ++i) {
+  for (std::size_t i = 0; i < Kind::kAxes; ++i) {
     std::vector<double> means;
     for (std::size_t n = 0; n + kPeriod <= strokes_.size(); ++n) {
       double sum = 0.0;
@@ -82,5 +87,8 @@ double ClosingWatch::creep_share() const {
   }
   return creep_share;
 }
+
+template class ClosingWatch<Excavator>;
+template class ClosingWatch<Dozer>;
 
 }  // namespace graben::faults

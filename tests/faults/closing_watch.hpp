@@ -14,37 +14,46 @@
 /// - *Creep.* A check that needs no copy: from when every real spool is inside its deadband, the
 ///   mean stroke over a period of the oil's lowest mode, which takes the ringing out, against the
 ///   same mean at the end; the largest difference.
+///
+/// A machine that drives comes to rest meanwhile, see rolling_watch.hpp.
 
 #include <array>
 #include <optional>
 #include <vector>
 
-#include "app/plant/excavator_plant.hpp"
+#include "tests/faults/rolling_watch.hpp"
 
 namespace graben::faults {
 
+template <class Kind>
 class ClosingWatch {
  public:
+  using Plant = typename Kind::Plant;
+
   /// `disobeying`: a spool is open against its command, so that the copy has to wait for it.
   explicit ClosingWatch(bool disobeying) : disobeying_(disobeying) {}
 
   /// Around each cycle of the machine. `closed`: the valve side has gone neutral.
-  void before(const plant::ExcavatorPlant& plant);
-  void after(const plant::ExcavatorPlant& plant, bool closed);
+  void before(const Plant& plant);
+  void after(const Plant& plant, bool closed);
 
   [[nodiscard]] bool has_begun() const { return reference_.has_value(); }
   [[nodiscard]] double beyond_share() const { return beyond_share_; }
   /// 0 before two periods have been seen.
   [[nodiscard]] double creep_share() const;
+  [[nodiscard]] const RollingWatch& rolling() const { return rolling_; }
 
  private:
-  void begin(const plant::ExcavatorPlant& from);
+  void begin(const Plant& from);
 
   bool disobeying_;
-  std::optional<plant::ExcavatorPlant> last_;       ///< Before the cycle.
-  std::optional<plant::ExcavatorPlant> reference_;  ///< The sound machine.
+  std::optional<Plant> last_;       ///< Before the cycle.
+  std::optional<Plant> reference_;  ///< The sound machine.
   double beyond_share_ = 0.0;
-  std::vector<plant::ExcavatorPlant::AxisArray> strokes_;  ///< As shares, spools closed.
+  bool closed_ = false;
+  bool strayed_ = false;  ///< Some spool has been out of its deadband.
+  RollingWatch rolling_;
+  std::vector<typename Kind::AxisArray> strokes_;  ///< As shares, spools closed.
 };
 
 }  // namespace graben::faults

@@ -1,36 +1,25 @@
 #pragma once
 /// What is done to frames on their way.
 
-#include <functional>
-
-#include "can_dbc/generated/excavator_dbc.hpp"
+#include "can_dbc/codec.hpp"
+#include "firmware/core/time.hpp"
 #include "hal/can_frame.hpp"
 #include "hal/e2e.hpp"
 
 namespace graben::faults {
 
-namespace bus = dbc::excavator;
-
-inline constexpr std::initializer_list<std::uint32_t> kStrokeIds = {
-    bus::BoomStroke::kId, bus::ArmStroke::kId, bus::BucketStroke::kId};
-inline constexpr std::initializer_list<std::uint32_t> kPressureIds = {
-    bus::BoomPressure::kId, bus::ArmPressure::kId, bus::BucketPressure::kId};
-/// All that the controller receives with counter and CRC.
-inline constexpr std::initializer_list<std::uint32_t> kProtectedIds = {
-    bus::BoomStroke::kId,   bus::ArmStroke::kId,   bus::BucketStroke::kId,
-    bus::BoomPressure::kId, bus::ArmPressure::kId, bus::BucketPressure::kId,
-    bus::PumpState::kId,    bus::ValveState::kId,  bus::OperatorCommand::kId};
-
-[[nodiscard]] inline const dbc::MessageInfo& info_of(std::uint32_t id) {
-  const dbc::MessageInfo* found = &bus::kMessages[0];
-  for (const dbc::MessageInfo& message : bus::kMessages) {
+template <class Kind>
+[[nodiscard]] const dbc::MessageInfo& info_of(std::uint32_t id) {
+  const dbc::MessageInfo* found = &Kind::kMessages[0];
+  for (const dbc::MessageInfo& message : Kind::kMessages) {
     found = message.id == id ? &message : found;
   }
   return *found;
 }
 
-[[nodiscard]] inline TimeUs cycle_us_of(std::uint32_t id) {
-  return info_of(id).cycle_time_ms * kMillisecondUs;
+template <class Kind>
+[[nodiscard]] TimeUs cycle_us_of(std::uint32_t id) {
+  return info_of<Kind>(id).cycle_time_ms * kMillisecondUs;
 }
 
 [[nodiscard]] inline std::uint8_t counter_of(const CanFrame& frame) {
@@ -38,8 +27,12 @@ inline constexpr std::initializer_list<std::uint32_t> kProtectedIds = {
 }
 
 /// Right again after its data were changed.
-inline void protect(CanFrame& frame, std::uint8_t counter) {
-  e2e_protect(frame.data, info_of(frame.id).data_id, counter);
+template <class Kind>
+void protect(CanFrame& frame, std::uint8_t counter) {
+  const dbc::MessageInfo& info = info_of<Kind>(frame.id);
+  if (info.is_protected) {
+    e2e_protect(frame.data, info.data_id, counter);
+  }
 }
 
 /// Another value than it had, nothing else: within range for every message of ours.
@@ -51,9 +44,10 @@ inline void corrupt(CanFrame& frame) {
   frame.data[0] = static_cast<std::uint8_t>(frame.data[0] ^ 0x5AU);
 }
 
-inline void set_raw(CanFrame& frame, const dbc::Field& field, std::uint32_t raw) {
+template <class Kind>
+void set_raw(CanFrame& frame, const dbc::Field& field, std::uint32_t raw) {
   dbc::insert(frame.data, field.start_bit, field.width, raw);
-  protect(frame, counter_of(frame));
+  protect<Kind>(frame, counter_of(frame));
 }
 
 }  // namespace graben::faults

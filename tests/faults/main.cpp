@@ -1,11 +1,13 @@
-// fault_cases [--seeds N] [--row R] [--first-seed S]: every row of the faults that the controller
-// survives, tried with N seeds in simulated time; one table, and exit 1 with the reasons if any
-// differs from what is expected.
+// fault_cases [--machine excavator|dozer] [--seeds N] [--row R] [--first-seed S]: every row of the
+// faults that a controller survives, of one machine kind or of both, tried with N seeds in
+// simulated time; a table for each, and exit 1 with the reasons if any differs from what is
+// expected.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <string>
 
@@ -19,6 +21,8 @@ struct Options {
   std::uint64_t seeds = 20;
   std::uint64_t first_seed = 1;
   int row = 0;  ///< 0: all.
+  bool excavator = true;
+  bool dozer = true;
 };
 
 bool read(int count, char** words, Options& options) {
@@ -26,6 +30,14 @@ bool read(int count, char** words, Options& options) {
     const std::string name = words[i];
     if (i + 1 == count) {
       return false;
+    }
+    if (name == "--machine") {
+      options.excavator = std::strcmp(words[i + 1], "excavator") == 0;
+      options.dozer = std::strcmp(words[i + 1], "dozer") == 0;
+      if (!options.excavator && !options.dozer) {
+        return false;
+      }
+      continue;
     }
     char* end = nullptr;
     const std::uint64_t value = std::strtoull(words[i + 1], &end, 10);
@@ -45,19 +57,22 @@ bool read(int count, char** words, Options& options) {
   return true;
 }
 
-Rows all_rows() {
-  Rows rows;
-  for (const Rows& some : {silence_rows(), message_rows(), format_rows(), bus_rows(),
-                           machine_rows(), process_rows()}) {
+template <class Kind>
+Rows<Kind> all_rows(const Rows<Kind>& own) {
+  Rows<Kind> rows;
+  for (const Rows<Kind>& some :
+       {silence_rows<Kind>(), message_rows<Kind>(), format_rows<Kind>(), bus_rows<Kind>(),
+        machine_rows<Kind>(), process_rows<Kind>(), own}) {
     rows.insert(rows.end(), some.begin(), some.end());
   }
   std::sort(rows.begin(), rows.end(),
-            [](const Row& a, const Row& b) { return a.number < b.number; });
+            [](const auto& a, const auto& b) { return a.number < b.number; });
   return rows;
 }
 
-Outcome tried(const Row& row, std::uint64_t seed) {
-  Trial trial(seed, row.number);
+template <class Kind>
+Outcome tried(const Row<Kind>& row, std::uint64_t seed) {
+  Trial<Kind> trial(seed, row.number);
   try {
     row.run(trial);
   } catch (const std::exception& error) {
@@ -66,9 +81,10 @@ Outcome tried(const Row& row, std::uint64_t seed) {
   return trial.outcome;
 }
 
-int run(const Options& options) {
+template <class Kind>
+bool run(const Options& options, const Rows<Kind>& own) {
   std::vector<RowResult> results;
-  for (const Row& row : all_rows()) {
+  for (const Row<Kind>& row : all_rows(own)) {
     if (options.row != 0 && options.row != row.number) {
       continue;
     }
@@ -86,7 +102,7 @@ int run(const Options& options) {
       all_right = false;
     }
   }
-  return all_right ? EXIT_SUCCESS : EXIT_FAILURE;
+  return all_right;
 }
 
 }  // namespace
@@ -94,11 +110,15 @@ int run(const Options& options) {
 int main(int count, char** words) {
   Options options;
   if (!read(count, words, options)) {
-    fmt::print(stderr, "usage: fault_cases [--seeds N] [--row R] [--first-seed S]\n");
+    fmt::print(stderr,
+               "usage: fault_cases [--machine excavator|dozer] [--seeds N] [--row R] "
+               "[--first-seed S]\n");
     return EXIT_FAILURE;
   }
   try {
-    return run(options);
+    const bool excavator = !options.excavator || run(options, excavator_rows());
+    const bool dozer = !options.dozer || run(options, dozer_rows());
+    return excavator && dozer ? EXIT_SUCCESS : EXIT_FAILURE;
   } catch (const std::exception& error) {
     fmt::print(stderr, "fault_cases: {}\n", error.what());
     return EXIT_FAILURE;

@@ -7,6 +7,8 @@
 #include <map>
 
 #include "app/cli/fault_words.hpp"
+#include "tests/faults/dozer_kind.hpp"
+#include "tests/faults/excavator_kind.hpp"
 #include "tests/faults/trial.hpp"
 
 namespace graben::faults {
@@ -26,54 +28,55 @@ constexpr TimeUs kWith_us = 700 * kMillisecondUs;
 constexpr TimeUs kCloses_us = 150 * kMillisecondUs;
 constexpr TimeUs kWithout_us = 700 * kMillisecondUs;
 constexpr double kMostMoved_share = 0.01;
-/// degraded_speed is 0.3 of full speed; the field itself changes a little meanwhile.
-constexpr double kSlower_share = 0.5;
-constexpr TimeUs kLongestBaseline_us = 14 * kSecondUs;
+/// A machine that drives, after it was told to be neutral: measured (2026-11) MEASURED.
+constexpr TimeUs kRests_us = kSecondUs;
+constexpr double kRolls_m = 1.0;
+constexpr double kMovesAtRest_m = 0.05;
 
 double ms(TimeUs time_us) { return static_cast<double>(time_us) * 1e-3; }
 
-using Strokes = std::vector<plant::ExcavatorPlant::AxisArray>;
-
-/// Where the cylinders of a seed are after each cycle when nothing disturbs the dig.
+/// Where the machine of a seed is after each cycle when nothing disturbs its task.
+template <class Kind>
 class Undisturbed {
  public:
   explicit Undisturbed(std::uint64_t seed)
-      : machine_(machine_of(seed)),
-        rig_(machine_, start_of(machine_, seed), LoopbackBus::kQueueCapacity) {}
+      : scenery_(Kind::scenery_of(seed)), rig_(scenery_, LoopbackBus::kQueueCapacity) {}
 
-  const plant::ExcavatorPlant::AxisArray& at(TimeUs at_us) {
+  const typename Kind::PlaceArray& places_m(TimeUs at_us) {
     const auto cycle = static_cast<std::size_t>(at_us / kCycle_us);
-    while (strokes_m_.size() <= cycle) {
-      // As Trial::dig() has it.
+    while (places_m_.size() <= cycle) {
+      // As Trial::work() has it.
       if (rig_.now_us == 200 * kMillisecondUs) {
         rig_.ask(true, Task::kNone);
       } else if (rig_.now_us == 300 * kMillisecondUs) {
-        rig_.ask(true, Task::kDig);
+        rig_.ask(true, Kind::kTask);
       }
       rig_.step();
-      strokes_m_.push_back(rig_.plant.plant().strokes_m());
+      places_m_.push_back(Kind::places_m(rig_.plant.plant()));
     }
-    return strokes_m_[cycle];
+    return places_m_[cycle];
   }
 
  private:
-  machines::ExcavatorMachine machine_;
-  Rig rig_;
-  Strokes strokes_m_;
+  typename Kind::Scenery scenery_;
+  Rig<Kind> rig_;
+  std::vector<typename Kind::PlaceArray> places_m_;
 };
 
-Undisturbed& undisturbed(std::uint64_t seed) {
-  static std::map<std::uint64_t, Undisturbed> runs;
+template <class Kind>
+Undisturbed<Kind>& undisturbed(std::uint64_t seed) {
+  static std::map<std::uint64_t, Undisturbed<Kind>> runs;
   return runs.try_emplace(seed, seed).first->second;
 }
 
 }  // namespace
 
-unsigned Trial::farthest_axis(TimeUs after_us) const {
-  const auto here_m = rig->plant.plant().strokes_m();
-  const auto& then_m = undisturbed(seed_).at(rig->at_us() + after_us);
+template <class Kind>
+unsigned Trial<Kind>::farthest_place(TimeUs after_us) const {
+  const auto here_m = Kind::places_m(rig->plant.plant());
+  const auto& then_m = undisturbed<Kind>(seed_).places_m(rig->at_us() + after_us);
   unsigned farthest = 0;
-  for (unsigned i = 1; i < kAxisCount; ++i) {
+  for (unsigned i = 1; i < Kind::kPlaces; ++i) {
     if (std::abs(then_m[i] - here_m[i]) > std::abs(then_m[farthest] - here_m[farthest])) {
       farthest = i;
     }
@@ -81,7 +84,8 @@ unsigned Trial::farthest_axis(TimeUs after_us) const {
   return farthest;
 }
 
-void Trial::await_detection(const Stop& stop) {
+template <class Kind>
+void Trial<Kind>::await_detection(const Stop& stop) {
   const TimeUs most_us = std::max(stop.detect_us, kValveCloses_us) + 2 * kCycle_us;
   const TimeUs until_us = stop.since_us + most_us;
   const auto look = [&] {
@@ -97,7 +101,7 @@ void Trial::await_detection(const Stop& stop) {
       detected_us_ = is_it ? rig->at_us() : -1;
     }
     if (neutral_us_ < 0) {
-      neutral_us_ = rig->record.first_neutral_us(stop.since_us);
+      neutral_us_ = rig->record.first_neutral_us(stop.since_us, Kind::kCommandFrames);
       const TimeUs closed_us = rig->valve_closed_us;
       const bool closed_first =
           closed_us >= stop.since_us && (neutral_us_ < 0 || closed_us < neutral_us_);
@@ -114,7 +118,8 @@ void Trial::await_detection(const Stop& stop) {
   }
 }
 
-void Trial::stay_stopped(const Stop& stop) {
+template <class Kind>
+void Trial<Kind>::stay_stopped(const Stop& stop) {
   rig->run(kCloses_us);
   check(rig->closing->has_begun(), "the spools have not closed while the fault was there");
   rig->run(kWith_us - kCloses_us);
@@ -124,12 +129,13 @@ void Trial::stay_stopped(const Stop& stop) {
   // What the bus could not carry has a second to be said when it does again.
   rig->run(stop.bus_carries ? kWithout_us : kOpensAgain_us + kReported_us);
   check(rig->record.all_neutral(neutral_us_), "a command that is not neutral after the first one");
-  check(!rig->plant.spools_enabled(), "the valve side is still enabled");
+  check(!rig->enabled(), "the valve side is still enabled");
   check(!in_motion(rig->mode()), "armed or active again with the enable held");
 }
 
-void Trial::judge_closing() {
-  const ClosingWatch& closing = *rig->closing;
+template <class Kind>
+void Trial<Kind>::judge_closing(bool brake_at_once) {
+  const ClosingWatch<Kind>& closing = *rig->closing;
   check(closing.has_begun(), "the spools never closed");
   outcome.beyond_share = closing.beyond_share();
   outcome.creep_share = closing.creep_share();
@@ -138,17 +144,37 @@ void Trial::judge_closing() {
                     100.0 * closing.beyond_share()));
   check(closing.creep_share() <= kMostMoved_share,
         fmt::format("creeps by {:.2f} % of a stroke", 100.0 * closing.creep_share()));
+  if (Kind::rolling(rig->plant.plant())) {
+    judge_rolling(closing.rolling(), brake_at_once);
+  }
   rig->closing.reset();
 }
 
-void Trial::expect_reported(Fault fault, TimeUs since_us, TimeUs from_us) {
+template <class Kind>
+void Trial<Kind>::judge_rolling(const RollingWatch& rolling, bool brake_at_once) {
+  outcome.rest_us = rolling.rest_us();
+  outcome.rolled_m = rolling.rolled_m();
+  check(rolling.rests() && rolling.rest_us() <= kRests_us && rolling.rolled_m() <= kRolls_m,
+        fmt::format("rolls for {} ms, {:.2f} m", ms(rolling.rest_us()), rolling.rolled_m()));
+  check(rolling.moved_at_rest_m() <= kMovesAtRest_m,
+        fmt::format("moves by {:.3f} m after it stood", rolling.moved_at_rest_m()));
+  const auto& commands = rig->record.commands;
+  check(!commands.empty() && commands.back().brake, "does not ask for its brake at rest");
+  const TimeUs brake_us = rig->record.first_brake_us(neutral_us_);
+  check(!brake_at_once || (brake_us >= 0 && brake_us - detected_us_ <= kToNeutral_us),
+        "does not ask for its brake at once");
+}
+
+template <class Kind>
+void Trial<Kind>::expect_reported(Fault fault, TimeUs since_us, TimeUs from_us) {
   check(rig->record.status_named(fault, since_us),
         fmt::format("the status frame never says '{}'", cli::fault_words(fault)));
   check(rig->record.dm1_named(fault, since_us, from_us + kReported_us),
         fmt::format("no DM1 of '{}' within 1 s", cli::fault_words(fault)));
 }
 
-void Trial::expect_stop(const Stop& stop) {
+template <class Kind>
+void Trial<Kind>::expect_stop(const Stop& stop) {
   detected_us_ = -1;
   neutral_us_ = -1;
   if (!rig->closing) {
@@ -178,7 +204,7 @@ void Trial::expect_stop(const Stop& stop) {
                     ms(neutral_us_ - stop.since_us)));
   const TimeUs back_us = rig->now_us + kWith_us + kOpensAgain_us;
   stay_stopped(stop);
-  judge_closing();
+  judge_closing(stop.brake_at_once);
   if (!stop.any.empty()) {
     // Where the bus carries nothing, the second runs from when it does again.
     for (Fault fault = outcome.codes.first(); fault != Fault::kNone;) {
@@ -199,7 +225,8 @@ void Trial::expect_stop(const Stop& stop) {
   expect_arms_again();
 }
 
-void Trial::expect_arms_again() {
+template <class Kind>
+void Trial<Kind>::expect_arms_again() {
   rig->ask(false, Task::kNone);
   // The machine names itself once a second, and the windows of wrong frames have to run empty.
   const bool ready = rig->run_until(3 * kSecondUs, [this] {
@@ -211,13 +238,13 @@ void Trial::expect_arms_again() {
   rig->ask(true, Task::kNone);
   rig->run(100 * kMillisecondUs);
   check(rig->mode() == EcuMode::kArmed, "not Armed by a fresh enable");
-  rig->ask(true, Task::kDig);
+  rig->ask(true, Kind::kTask);
   rig->run(100 * kMillisecondUs);
-  check(rig->mode() == EcuMode::kActive && rig->plant.spools_enabled(),
-        "not Active after re-arming");
+  check(rig->mode() == EcuMode::kActive && rig->enabled(), "not Active after re-arming");
 }
 
-void Trial::expect_slower(const Slowing& slowing) {
+template <class Kind>
+void Trial<Kind>::expect_slower(const Slowing& slowing) {
   const FaultSet& faults = rig->outputs().status.faults;
   double before_mps = wanted_mps();
   // Unlike a stop this can take as long as it takes to notice, so the speed goes along.
@@ -236,8 +263,9 @@ void Trial::expect_slower(const Slowing& slowing) {
   }
   outcome.codes.add(slowing.fault);
   outcome.to_detection_us = std::max(outcome.to_detection_us, detected_us - slowing.since_us);
-  rig->run(30 * kMillisecondUs);
-  check(wanted_mps() < kSlower_share * before_mps,
+  const TimeUs slows_us = std::min(Kind::kSlows_us, slowing.hold_us);
+  rig->run(slows_us);
+  check(wanted_mps() < Kind::slowed_mps(rig->machine, before_mps, slows_us),
         fmt::format("not slower: {:.3f} m/s after {:.3f}", wanted_mps(), before_mps));
   const bool left =
       rig->run_until(slowing.hold_us, [this] { return rig->mode() != EcuMode::kActive; });
@@ -247,9 +275,10 @@ void Trial::expect_slower(const Slowing& slowing) {
     slowing.cure();
   }
   double slow_mps = wanted_mps();
-  const bool over = rig->run_until(slowing.back_us, [&] {
+  const bool over = rig->run_until(std::max(slowing.back_us, Kind::kBack_us), [&] {
     slow_mps = faults.empty() ? slow_mps : wanted_mps();
-    return faults.empty() && wanted_mps() > slow_mps / kSlower_share;
+    return faults.empty() &&
+           Kind::is_back(slow_mps, wanted_mps(), rig->record.statuses.back().limit);
   });
   check(over && rig->mode() == EcuMode::kActive,
         fmt::format("full speed does not come back: {:.3f} m/s after {:.3f}, '{}'", wanted_mps(),
@@ -257,34 +286,36 @@ void Trial::expect_slower(const Slowing& slowing) {
   saw("D");
 }
 
-void Trial::expect_ignored(TimeUs duration_us, double bound_m) {
+template <class Kind>
+void Trial<Kind>::expect_ignored(TimeUs duration_us, double bound_m) {
   const TimeUs since_us = rig->now_us;
-  check(since_us + duration_us < kLongestBaseline_us, "the undisturbed run is too short");
+  check(since_us + duration_us < Kind::kLongestBaseline_us, "the undisturbed run is too short");
   double most_m = 0.0;
   bool active = true;
   for (const TimeUs end_us = since_us + duration_us; rig->now_us < end_us;) {
     rig->step();
-    active = active && rig->mode() == EcuMode::kActive && rig->plant.spools_enabled();
-    const auto strokes_m = rig->plant.plant().strokes_m();
-    const auto& otherwise_m = undisturbed(seed_).at(rig->at_us());
-    for (std::size_t i = 0; i < kAxisCount; ++i) {
-      most_m = std::max(most_m, std::abs(strokes_m[i] - otherwise_m[i]));
+    active = active && rig->mode() == EcuMode::kActive && rig->enabled();
+    const auto places_m = Kind::places_m(rig->plant.plant());
+    const auto& otherwise_m = undisturbed<Kind>(seed_).places_m(rig->at_us());
+    for (std::size_t i = 0; i < Kind::kPlaces; ++i) {
+      most_m = std::max(most_m, std::abs(places_m[i] - otherwise_m[i]));
     }
   }
   check(active, fmt::format("not Active all the time ('{}')",
                             cli::fault_words(rig->outputs().status.fault)));
   check(!rig->record.any_fault(since_us), "a fault is on the bus");
   check(most_m <= bound_m,
-        fmt::format("a cylinder is {:.2f} mm off the undisturbed run", 1e3 * most_m));
+        fmt::format("the machine is {:.2f} mm off the undisturbed run", 1e3 * most_m));
   saw("I");
 }
 
-void Trial::expect_refused(ArmBlock why, TimeUs duration_us, const std::function<void()>& cure) {
+template <class Kind>
+void Trial<Kind>::expect_refused(ArmBlock why, TimeUs duration_us,
+                                 const std::function<void()>& cure) {
   const TimeUs since_us = rig->now_us;
   rig->run(duration_us);
-  check(
-      rig->record.all_neutral(since_us) && !rig->plant.spools_enabled() && !in_motion(rig->mode()),
-      "it armed");
+  check(rig->record.all_neutral(since_us) && !rig->enabled() && !in_motion(rig->mode()),
+        "it armed");
   const auto bit = 1U << static_cast<unsigned>(why);
   const auto& refusals = rig->record.refusals;
   check(!refusals.empty() && (refusals.back().why_not_armed & bit) != 0U,
@@ -295,5 +326,20 @@ void Trial::expect_refused(ArmBlock why, TimeUs duration_us, const std::function
   expect_arms_again();
   saw("refused");
 }
+
+template unsigned Trial<Excavator>::farthest_place(TimeUs after_us) const;
+template void Trial<Excavator>::expect_stop(const Stop& stop);
+template void Trial<Excavator>::expect_slower(const Slowing& slowing);
+template void Trial<Excavator>::expect_ignored(TimeUs duration_us, double bound_m);
+template void Trial<Excavator>::expect_refused(ArmBlock why, TimeUs duration_us,
+                                               const std::function<void()>& cure);
+template void Trial<Excavator>::expect_arms_again();
+template unsigned Trial<Dozer>::farthest_place(TimeUs after_us) const;
+template void Trial<Dozer>::expect_stop(const Stop& stop);
+template void Trial<Dozer>::expect_slower(const Slowing& slowing);
+template void Trial<Dozer>::expect_ignored(TimeUs duration_us, double bound_m);
+template void Trial<Dozer>::expect_refused(ArmBlock why, TimeUs duration_us,
+                                           const std::function<void()>& cure);
+template void Trial<Dozer>::expect_arms_again();
 
 }  // namespace graben::faults

@@ -61,6 +61,8 @@ void RowResult::add(std::uint64_t seed, Outcome outcome) {
   worst_.by_valve = worst_.by_valve || outcome.by_valve;
   worst_.beyond_share = std::max(worst_.beyond_share, outcome.beyond_share);
   worst_.creep_share = std::max(worst_.creep_share, outcome.creep_share);
+  worst_.rest_us = std::max(worst_.rest_us, outcome.rest_us);
+  worst_.rolled_m = std::max(worst_.rolled_m, outcome.rolled_m);
   for (const std::string& failure : outcome.failures) {
     failures_.push_back(fmt::format("row {}, seed {}: {}", row_.number, seed, failure));
   }
@@ -71,7 +73,7 @@ std::vector<std::string> RowResult::cells() const {
   for (const auto& [reaction, count] : seen_) {
     seen += fmt::format("{}{} x{}", seen.empty() ? "" : ", ", reaction, count);
   }
-  if (row_.run == nullptr) {
+  if (!row_.is_tried) {
     seen = "not tried";
   }
   const char* valve = worst_.by_valve ? " v" : "";
@@ -84,14 +86,16 @@ std::vector<std::string> RowResult::cells() const {
           milliseconds(worst_.detection_to_neutral_us) + valve,
           milliseconds(worst_.to_neutral_us) + valve,
           percent(worst_.beyond_share),
-          percent(worst_.creep_share)};
+          percent(worst_.creep_share),
+          milliseconds(worst_.rest_us),
+          worst_.rolled_m < 0.0 ? "-" : fmt::format("{:.2f}", worst_.rolled_m)};
 }
 
 void print_table(const std::vector<RowResult>& results) {
   std::vector<std::vector<std::string>> lines = {
       {"#", "fault", "expected", "seen", "codes", "to detection", "to neutral", "in all", "beyond",
-       "creep"},
-      {"", "", "", "", "", "ms", "ms", "ms", "% stroke", "% stroke"}};
+       "creep", "to rest", "rolled"},
+      {"", "", "", "", "", "ms", "ms", "ms", "% stroke", "% stroke", "ms", "m"}};
   for (const RowResult& result : results) {
     lines.push_back(result.cells());
   }
@@ -111,7 +115,8 @@ void print_table(const std::vector<RowResult>& results) {
       "N neutral, L latched, D goes on slower, I ignored and counted; worst of all seeds. 'to "
       "neutral' from detection,\n'in all' from the first wrong thing (in silence from the last "
       "right frame); v: the bus carried no frame of the\ncontroller's, the valve side closed by "
-      "its own 100 ms. 'beyond': what closing the spools allows, 'creep': after it.\n");
+      "its own 100 ms. 'beyond': what closing the spools allows, 'creep': after it.\n"
+      "'to rest', 'rolled': of a machine that drives, from neutral until its tracks stand.\n");
 }
 
 }  // namespace graben::faults

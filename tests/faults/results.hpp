@@ -12,18 +12,18 @@ namespace graben::faults {
 
 class RowResult {
  public:
-  explicit RowResult(const Row& row) : row_(row) {}
+  explicit RowResult(const RowText& row) : row_(row) {}
 
   /// Adds a trial; what it saw must be among what the row allows.
   void add(std::uint64_t seed, Outcome outcome);
 
-  [[nodiscard]] const Row& row() const { return row_; }
+  [[nodiscard]] const RowText& row() const { return row_; }
   /// Seed and reason, a line each.
   [[nodiscard]] const std::vector<std::string>& failures() const { return failures_; }
   [[nodiscard]] std::vector<std::string> cells() const;
 
  private:
-  Row row_;
+  RowText row_;
   std::map<std::string, int> seen_;
   Outcome worst_;
   std::vector<std::string> failures_;

@@ -2,17 +2,19 @@
 
 #include <stdexcept>
 
+#include "tests/faults/dozer_kind.hpp"
+#include "tests/faults/excavator_kind.hpp"
+
 namespace graben::faults {
 
-Rig::Rig(const machines::ExcavatorMachine& of, const Eigen::Vector3d& start_strokes_m,
-         std::size_t ecu_queue)
-    : machine(of),
+template <class Kind>
+Rig<Kind>::Rig(const typename Kind::Scenery& scenery, std::size_t ecu_queue)
+    : machine(scenery.machine),
       machine_port(bus.attach()),
       operator_port(bus.attach()),
       ecu_port(bus.attach(ecu_queue)),
       other_port(bus.attach()),
-      plant(of.plant, {start_strokes_m[0], start_strokes_m[1], start_strokes_m[2]}, machine_port,
-            of.hash),
+      plant(Kind::node(scenery, machine_port)),
       driver(operator_port) {
   if (!machine_port.open() || !operator_port.open() || !ecu_port.open() || !other_port.open()) {
     throw std::runtime_error("the bus in memory did not open");
@@ -23,20 +25,23 @@ Rig::Rig(const machines::ExcavatorMachine& of, const Eigen::Vector3d& start_stro
     return !tamper || tamper(frame, from);
   });
   // The bus calls it right after the hook, for the same frame.
-  bus.set_tap([this](const CanFrame& frame) { record.see(frame, from_ecu_); });
+  bus.set_tap([this](const CanFrame& frame) { record.template see<Kind>(frame, from_ecu_); });
   ask(false, Task::kNone);
 }
 
-void Rig::start_ecu() {
+template <class Kind>
+void Rig<Kind>::start_ecu() {
   static_cast<void>(ecu_port.open());
   ecu.emplace(machine.profile, machine.hash, ecu_port);
 }
 
-void Rig::ask(bool enable, Task task) {
+template <class Kind>
+void Rig<Kind>::ask(bool enable, Task task) {
   driver.set_schedule({{0, {enable, OperatorMode::kAutomatic, task, 1.0}}});
 }
 
-void Rig::step() {
+template <class Kind>
+void Rig<Kind>::step() {
   bus.set_time(now_us);
   if (before_all) {
     before_all();
@@ -48,9 +53,9 @@ void Rig::step() {
     plant.step(now_us);
   }
   if (closing) {
-    closing->after(plant.plant(), !plant.spools_enabled());
+    closing->after(plant.plant(), !enabled());
   }
-  if (plant.spools_enabled()) {
+  if (enabled()) {
     valve_closed_us = -1;
   } else if (valve_closed_us < 0) {
     valve_closed_us = now_us;
@@ -69,17 +74,22 @@ void Rig::step() {
   now_us += kCycle_us;
 }
 
-void Rig::run(TimeUs duration_us) {
+template <class Kind>
+void Rig<Kind>::run(TimeUs duration_us) {
   for (const TimeUs end_us = now_us + duration_us; now_us < end_us;) {
     step();
   }
 }
 
-bool Rig::run_until(TimeUs most_us, const std::function<bool()>& done) {
+template <class Kind>
+bool Rig<Kind>::run_until(TimeUs most_us, const std::function<bool()>& done) {
   for (const TimeUs end_us = now_us + most_us; !done() && now_us < end_us;) {
     step();
   }
   return done();
 }
+
+template class Rig<Excavator>;
+template class Rig<Dozer>;
 
 }  // namespace graben::faults

@@ -5,10 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "app/ecu/excavator_ecu.hpp"
-#include "app/machines/machine_file.hpp"
-#include "app/plant/operator_node.hpp"
-#include "app/plant/plant_node.hpp"
+#include "firmware/signals/machine_signals.hpp"
 #include "platform/loopback/loopback_bus.hpp"
 #include "tests/faults/bus_record.hpp"
 #include "tests/faults/closing_watch.hpp"
@@ -17,10 +14,12 @@ namespace graben::faults {
 
 inline constexpr TimeUs kCycle_us = 10 * kMillisecondUs;
 
+template <class Kind>
 class Rig {
  public:
-  Rig(const machines::ExcavatorMachine& machine, const Eigen::Vector3d& start_strokes_m,
-      std::size_t ecu_queue);
+  using Outputs = typename Kind::Ecu::Outputs;
+
+  Rig(const typename Kind::Scenery& scenery, std::size_t ecu_queue);
 
   /// A cycle of everybody who is on: machine, operator, then the controller.
   void step();
@@ -37,20 +36,22 @@ class Rig {
   /// Of the cycle that was stepped last.
   [[nodiscard]] TimeUs at_us() const { return now_us - kCycle_us; }
   [[nodiscard]] bool from_ecu(const LoopbackPort* from) const { return from == &ecu_port; }
-  [[nodiscard]] const ExcavatorOutputs& outputs() const { return ecu->outputs(); }
+  [[nodiscard]] const Outputs& outputs() const { return ecu->outputs(); }
+  /// Whether the machine's side lets the commands through.
+  [[nodiscard]] bool enabled() const { return Kind::enabled(plant); }
   [[nodiscard]] EcuMode mode() const { return ecu ? outputs().status.mode : EcuMode::kSilent; }
 
-  const machines::ExcavatorMachine& machine;
+  const typename Kind::Machine& machine;
   LoopbackBus bus;
   LoopbackPort& machine_port;
   LoopbackPort& operator_port;
   LoopbackPort& ecu_port;
   LoopbackPort& other_port;  ///< Of a node that should not be there.
-  plant::PlantNode plant;
-  plant::OperatorNode driver;
-  std::optional<ecu::ExcavatorEcu> ecu;
+  typename Kind::PlantNode plant;
+  typename Kind::Driver driver;
+  std::optional<typename Kind::Ecu> ecu;
   BusRecord record;
-  std::optional<ClosingWatch> closing;
+  std::optional<ClosingWatch<Kind>> closing;
   TimeUs now_us = 0;           ///< Of the next cycle.
   TimeUs valve_closed_us = 0;  ///< When the valve side went neutral last; -1 while it is enabled.
 

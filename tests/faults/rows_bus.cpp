@@ -1,5 +1,6 @@
 // Rows 24 to 32: the bus itself, and who is on it when.
 
+#include <algorithm>
 #include <deque>
 #include <memory>
 
@@ -12,7 +13,8 @@ namespace {
 constexpr double kLittle_m = 0.004;
 constexpr std::uint32_t kForeignId = 0x1FFFFF00;
 
-void inject_foreign(Rig& rig, int count) {
+template <class Kind>
+void inject_foreign(Rig<Kind>& rig, int count) {
   for (int n = 0; n < count; ++n) {
     CanFrame frame;
     frame.id = kForeignId + static_cast<std::uint32_t>(n % 0x100);
@@ -21,9 +23,10 @@ void inject_foreign(Rig& rig, int count) {
   }
 }
 
-void babble(Trial& trial) {
-  trial.dig();
-  Rig& rig = *trial.rig;
+template <class Kind>
+void babble(Trial<Kind>& trial) {
+  trial.work();
+  auto& rig = *trial.rig;
   rig.bus.set_babble(0);
   Stop stop;
   stop.since_us = rig.at_us();
@@ -35,16 +38,18 @@ void babble(Trial& trial) {
 }
 
 /// As much as 500 kbit/s can bring.
-void low_priority_flood(Trial& trial) {
-  trial.dig();
+template <class Kind>
+void low_priority_flood(Trial<Kind>& trial) {
+  trial.work();
   trial.rig->before_all = [&trial] { inject_foreign(*trial.rig, 75); };
   trial.expect_ignored(500 * kMillisecondUs, 0.0);
 }
 
 /// Once, or again and again for up to 300 ms.
-void bus_off(Trial& trial) {
-  trial.dig();
-  Rig& rig = *trial.rig;
+template <class Kind>
+void bus_off(Trial<Kind>& trial) {
+  trial.work();
+  auto& rig = *trial.rig;
   const TimeUs until_us = rig.now_us + (trial.odd() ? 0 : trial.any_time(0, 300'000));
   rig.before_ecu = [&rig, until_us] {
     if (rig.now_us <= until_us) {
@@ -62,9 +67,10 @@ void bus_off(Trial& trial) {
 
 /// Nobody acknowledges: the controller is error-passive, and by every second seed its frames reach
 /// nobody.
-void error_passive(Trial& trial) {
-  trial.dig();
-  Rig& rig = *trial.rig;
+template <class Kind>
+void error_passive(Trial<Kind>& trial) {
+  trial.work();
+  auto& rig = *trial.rig;
   const bool unheard = trial.odd();
   rig.ecu_port.set_state(CanPortState::kErrorPassive);
   if (unheard) {
@@ -83,9 +89,10 @@ void error_passive(Trial& trial) {
   trial.expect_stop(stop);
 }
 
-void interface_down(Trial& trial) {
-  trial.dig();
-  Rig& rig = *trial.rig;
+template <class Kind>
+void interface_down(Trial<Kind>& trial) {
+  trial.work();
+  auto& rig = *trial.rig;
   rig.ecu_port.set_state(CanPortState::kDown);
   Stop stop;
   stop.since_us = rig.now_us;
@@ -97,9 +104,10 @@ void interface_down(Trial& trial) {
 }
 
 /// A full queue for one cycle costs its frames; for two to thirty it stops.
-void queue_full(Trial& trial) {
-  trial.dig();
-  Rig& rig = *trial.rig;
+template <class Kind>
+void queue_full(Trial<Kind>& trial) {
+  trial.work();
+  auto& rig = *trial.rig;
   const std::uint32_t before = rig.ecu->dropped();
   TimeUs until_us = rig.now_us;
   rig.before_ecu = [&rig, &until_us] { rig.ecu_port.set_send_fails(rig.now_us <= until_us); };
@@ -118,11 +126,12 @@ void queue_full(Trial& trial) {
 }
 
 /// A short receive queue that foreign frames fill before ours come: for two cycles, then for good.
-void receive_overrun(Trial& trial) {
+template <class Kind>
+void receive_overrun(Trial<Kind>& trial) {
   constexpr std::size_t kShortQueue = 24;
   trial.set_queue(kShortQueue);
-  trial.dig();
-  Rig& rig = *trial.rig;
+  trial.work();
+  auto& rig = *trial.rig;
   TimeUs until_us = rig.now_us + kCycle_us;
   rig.before_all = [&rig, &until_us] {
     if (rig.now_us <= until_us) {
@@ -133,8 +142,8 @@ void receive_overrun(Trial& trial) {
   trial.check(rig.ecu_port.overflow_count() > 0, "nothing was lost");
   Stop stop;
   stop.since_us = rig.at_us();
-  stop.any = {Fault::kStrokeMissing, Fault::kSwashMissing, Fault::kSpoolMissing,
-              Fault::kOperatorMissing};
+  stop.any = Kind::missing();
+  stop.any.push_back(Fault::kOperatorMissing);
   stop.detect_us = stop.neutral_us = 50 * kMillisecondUs;
   until_us = rig.now_us + trial.any_time(60'000, 300'000);
   trial.expect_stop(stop);
@@ -142,8 +151,9 @@ void receive_overrun(Trial& trial) {
 }
 
 /// The controller's cycle hangs; meanwhile frames with enable queue up and the operator lets go.
-void stale_at_the_controller(Trial& trial) {
-  Rig& rig = *trial.rig;
+template <class Kind>
+void stale_at_the_controller(Trial<Kind>& trial) {
+  auto& rig = *trial.rig;
   rig.closing.emplace(false);
   rig.ecu_on = false;
   Stop stop;
@@ -159,13 +169,20 @@ void stale_at_the_controller(Trial& trial) {
   trial.expect_stop(stop);
 }
 
+template <class Kind>
+bool is_command(const CanFrame& frame) {
+  const auto& ids = Kind::command_ids();
+  return std::find(ids.begin(), ids.end(), frame.id) != ids.end();
+}
+
 /// The controller's last commands stay in its CAN controller's queue and come out when the bus is
 /// back, one a cycle and in the right order, after the valve side has closed by itself.
-void stale_at_the_valve(Trial& trial) {
-  Rig& rig = *trial.rig;
+template <class Kind>
+void stale_at_the_valve(Trial<Kind>& trial) {
+  auto& rig = *trial.rig;
   auto queue = std::make_shared<std::deque<CanFrame>>();
   rig.tamper = [queue, &rig](CanFrame& frame, const LoopbackPort* from) {
-    if (rig.from_ecu(from) && frame.id == bus::SpoolCommand::kId) {
+    if (rig.from_ecu(from) && is_command<Kind>(frame)) {
       queue->push_back(frame);
     }
     return !rig.from_ecu(from);
@@ -176,17 +193,19 @@ void stale_at_the_valve(Trial& trial) {
   rig.run(trial.any_time(40'000, 140'000));
   rig.ecu_on = false;
   rig.run(trial.any_time(100'000, 300'000));
-  trial.check(!rig.plant.spools_enabled(), "the valve side has not closed");
+  trial.check(!rig.enabled(), "the valve side has not closed");
   rig.tamper = nullptr;
   bool opened = false;
   while (!queue->empty()) {
-    rig.bus.inject(queue->front());
-    queue->pop_front();
+    for (const TimeUs of_cycle_us = queue->front().stamp_us;
+         !queue->empty() && queue->front().stamp_us == of_cycle_us; queue->pop_front()) {
+      rig.bus.inject(queue->front());
+    }
     rig.step();
-    opened = opened || rig.plant.spools_enabled();
+    opened = opened || rig.enabled();
   }
   rig.run(20 * kMillisecondUs);
-  trial.check(!opened && !rig.plant.spools_enabled(), "the valve side opens on stale frames");
+  trial.check(!opened && !rig.enabled(), "the valve side opens on stale frames");
   rig.ecu_on = true;
   stop.any = {Fault::kCycleStalled};
   stop.detect_us = rig.now_us - stop.since_us;
@@ -194,15 +213,17 @@ void stale_at_the_valve(Trial& trial) {
   trial.expect_stop(stop);
 }
 
-void reconnect_with_stale_frames(Trial& trial) {
-  trial.dig();
+template <class Kind>
+void reconnect_with_stale_frames(Trial<Kind>& trial) {
+  trial.work();
   trial.odd() ? stale_at_the_controller(trial) : stale_at_the_valve(trial);
 }
 
 /// The deadman is held and the task is given all the time; either end is powered first.
-void power_orders(Trial& trial) {
-  Rig& rig = *trial.rig;
-  rig.ask(true, Task::kDig);
+template <class Kind>
+void power_orders(Trial<Kind>& trial) {
+  auto& rig = *trial.rig;
+  rig.ask(true, Kind::kTask);
   if (trial.odd()) {
     rig.machine_on = false;
   } else {
@@ -218,16 +239,20 @@ void power_orders(Trial& trial) {
 
 }  // namespace
 
-Rows bus_rows() {
-  return {{24, "babbling node, top priority", "N L", babble},
-          {25, "flood at low priority", "I", low_priority_flood},
-          {26, "bus-off", "N L", bus_off},
-          {27, "error-passive, nobody acknowledges", "N L", error_passive},
-          {28, "interface down or gone", "N L", interface_down},
-          {29, "ENOBUFS: one cycle; a burst", "I; N L", queue_full},
-          {30, "receive queue overrun: short; long", "I; N L", receive_overrun},
-          {31, "reconnect with stale frames queued", "N | N L", reconnect_with_stale_frames},
-          {32, "machine before or after the controller", "refused", power_orders}};
+template <class Kind>
+Rows<Kind> bus_rows() {
+  return {{24, "babbling node, top priority", "N L", babble<Kind>},
+          {25, "flood at low priority", "I", low_priority_flood<Kind>},
+          {26, "bus-off", "N L", bus_off<Kind>},
+          {27, "error-passive, nobody acknowledges", "N L", error_passive<Kind>},
+          {28, "interface down or gone", "N L", interface_down<Kind>},
+          {29, "ENOBUFS: one cycle; a burst", "I; N L", queue_full<Kind>},
+          {30, "receive queue overrun: short; long", "I; N L", receive_overrun<Kind>},
+          {31, "reconnect with stale frames queued", "N | N L", reconnect_with_stale_frames<Kind>},
+          {32, "machine before or after the controller", "refused", power_orders<Kind>}};
 }
+
+template Rows<Excavator> bus_rows();
+template Rows<Dozer> bus_rows();
 
 }  // namespace graben::faults

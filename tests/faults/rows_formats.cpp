@@ -10,20 +10,20 @@
 
 #include "tests/faults/frames.hpp"
 #include "tests/faults/row.hpp"
+#include "tests/faults/silence.hpp"
 
 namespace graben::faults {
 namespace {
 
 constexpr double kLittle_m = 0.004;
-constexpr TimeUs kSilence_us = 50 * kMillisecondUs;
 
-const std::vector<Fault> kMissing = {Fault::kStrokeMissing};
-
-/// One wrong frame is counted and costs nothing; while they go on the stroke is missing.
-void wrong_length(Trial& trial) {
-  trial.dig();
-  Rig& rig = *trial.rig;
-  const std::uint32_t id = trial.any_id(kStrokeIds);
+/// One wrong frame is counted and costs nothing; while they go on its values are missing.
+template <class Kind>
+void wrong_length(Trial<Kind>& trial) {
+  trial.work();
+  auto& rig = *trial.rig;
+  const Sensor& sensor = trial.any_sensor(Kind::vital());
+  const std::uint32_t id = sensor.id;
   const auto length = static_cast<std::uint8_t>(trial.any_of(8));
   const std::uint32_t before = rig.ecu->link().wrong_length;
   rig.tamper = [id, length, left = 1](CanFrame& frame, const LoopbackPort*) mutable {
@@ -36,7 +36,7 @@ void wrong_length(Trial& trial) {
   trial.check(rig.ecu->link().wrong_length == before + 1, "the frame is not counted");
   Stop stop;
   stop.since_us = trial.last_us(id);
-  stop.any = kMissing;
+  stop.any = {sensor.missing};
   stop.detect_us = stop.neutral_us = kSilence_us;
   rig.tamper = [id, length](CanFrame& frame, const LoopbackPort*) {
     frame.length = frame.id == id ? length : frame.length;
@@ -47,27 +47,29 @@ void wrong_length(Trial& trial) {
 }
 
 /// Frames beside the live ones, in each cycle and for any message of the bus, as `make` has them.
-void beside_the_live(Trial& trial, void (*make)(Trial& trial, CanFrame& frame)) {
-  trial.dig();
-  Rig& rig = *trial.rig;
+template <class Kind>
+void beside_the_live(Trial<Kind>& trial, void (*make)(Trial<Kind>& trial, CanFrame& frame)) {
+  trial.work();
+  auto& rig = *trial.rig;
   rig.before_ecu = [&trial, &rig, make] {
     const auto& message =
-        bus::kMessages[trial.any_of(static_cast<unsigned>(std::size(bus::kMessages)))];
+        Kind::kMessages[trial.any_of(static_cast<unsigned>(std::size(Kind::kMessages)))];
     CanFrame frame;
     frame.id = message.id;
     frame.length = 8;
     for (std::uint8_t& byte : frame.data) {
       byte = static_cast<std::uint8_t>(trial.any_of(250));
     }
-    protect(frame, static_cast<std::uint8_t>(trial.any_of(kE2eCounterCount)));
+    protect<Kind>(frame, static_cast<std::uint8_t>(trial.any_of(kE2eCounterCount)));
     make(trial, frame);
     rig.bus.inject(frame);
   };
   trial.expect_ignored(500 * kMillisecondUs, 0.0);
 }
 
-void foreign_kinds(Trial& trial) {
-  beside_the_live(trial, [](Trial& of, CanFrame& frame) {
+template <class Kind>
+void foreign_kinds(Trial<Kind>& trial) {
+  beside_the_live<Kind>(trial, [](Trial<Kind>& of, CanFrame& frame) {
     switch (of.any_of(3)) {
       case 0:
         frame.remote = true;
@@ -84,121 +86,111 @@ void foreign_kinds(Trial& trial) {
 }
 
 /// The low 11 bits of an id of ours, and the whole number, as an 11-bit frame.
-void short_ids(Trial& trial) {
-  beside_the_live(trial, [](Trial& of, CanFrame& frame) {
+template <class Kind>
+void short_ids(Trial<Kind>& trial) {
+  beside_the_live<Kind>(trial, [](Trial<Kind>& of, CanFrame& frame) {
     constexpr std::uint32_t kShort = 0x7FF;
     frame.extended = false;
     frame.id = of.any_of(2) == 0 ? frame.id & kShort : frame.id;
   });
 }
 
-dbc::Field stroke_field() { return bus::BoomStroke::kBoomStroke; }
-dbc::Field pressure_field(unsigned side) {
-  return side == 0 ? bus::BoomPressure::kBoomCapPressure : bus::BoomPressure::kBoomRodPressure;
-}
-
-/// A raw value in the place of a measured one: all stroke messages have one layout, all pressure
-/// messages too.
-void raw_value(Rig& rig, std::uint32_t id, const dbc::Field& field, std::uint32_t raw,
+/// A raw value in the place of a measured one.
+template <class Kind>
+void raw_value(Rig<Kind>& rig, std::uint32_t id, const dbc::Field& field, std::uint32_t raw,
                int frames = 1 << 20) {
   rig.tamper = [id, field, raw, left = frames](CanFrame& frame, const LoopbackPort*) mutable {
     if (frame.id == id && left-- > 0) {
-      set_raw(frame, field, raw);
+      set_raw<Kind>(frame, field, raw);
     }
     return true;
   };
 }
 
-/// A stroke by every second seed, a pressure by the others.
-void special_value(Trial& trial, std::uint32_t raw, std::vector<Fault> of_a_stroke) {
-  trial.dig();
-  Rig& rig = *trial.rig;
+/// The special value whose 16-bit form is `raw16`.
+std::uint32_t special(const dbc::Field& field, std::uint32_t raw16) {
+  constexpr unsigned kBits = 16;
+  return raw16 << (field.width - kBits);
+}
+
+/// Of a sensor that stops the machine by every second seed, of one that slows it by the others.
+template <class Kind>
+void special_value(Trial<Kind>& trial, std::uint32_t raw16, std::vector<Fault> beside) {
+  trial.work();
+  auto& rig = *trial.rig;
   const auto cure = [&rig] { rig.tamper = nullptr; };
+  const Sensor& sensor = trial.any_sensor(trial.odd() ? Kind::vital() : Kind::slowing());
+  const dbc::Field& field = trial.any_field(sensor);
+  raw_value(rig, sensor.id, field, special(field, raw16));
   if (trial.odd()) {
-    raw_value(rig, trial.any_id(kStrokeIds), stroke_field(), raw);
     Stop stop;
     stop.since_us = rig.now_us;
-    stop.any = std::move(of_a_stroke);
+    stop.any = std::move(beside);
+    stop.any.push_back(sensor.missing);
     stop.detect_us = stop.neutral_us = kCycle_us;
     stop.cure = cure;
     trial.expect_stop(stop);
     return;
   }
-  raw_value(rig, trial.any_id(kPressureIds), pressure_field(trial.any_of(2)), raw);
   Slowing slowing;
   slowing.since_us = rig.now_us;
-  slowing.fault = Fault::kPressureMissing;
-  slowing.detect_us = kCycle_us;
+  slowing.fault = sensor.missing;
+  slowing.detect_us = cycle_us_of<Kind>(sensor.id);
   slowing.cure = cure;
   trial.expect_slower(slowing);
 }
 
-void not_available(Trial& trial) {
-  special_value(trial, 0xFF00U + trial.any_of(0x100), {Fault::kStrokeMissing});
+template <class Kind>
+void not_available(Trial<Kind>& trial) {
+  special_value(trial, 0xFF00U + trial.any_of(0x100), {});
 }
 
-void error_value(Trial& trial) {
-  const bool of_a_stroke = trial.odd();
-  special_value(trial, 0xFE00U + trial.any_of(0x100), {Fault::kStrokeMissing, Fault::kSensorError});
-  trial.check(!of_a_stroke || trial.outcome.codes.has(Fault::kSensorError),
+template <class Kind>
+void error_value(Trial<Kind>& trial) {
+  const bool stops = trial.odd();
+  special_value(trial, 0xFE00U + trial.any_of(0x100), {Fault::kSensorError});
+  trial.check(!stops || trial.outcome.codes.has(Fault::kSensorError),
               "the sensor's own word is not diagnosed");
 }
 
-/// Beyond any range that these messages have, and no special value. A stroke: slower for one such
-/// frame, stopped while they go on. A pressure: slower all the time.
-void out_of_range(Trial& trial) {
-  constexpr std::uint32_t kBeyond = 0xFA80;
-  trial.dig();
-  Rig& rig = *trial.rig;
-  const bool stroke = trial.odd();
-  const std::uint32_t id = stroke ? trial.any_id(kStrokeIds) : trial.any_id(kPressureIds);
-  const dbc::Field field = stroke ? stroke_field() : pressure_field(trial.any_of(2));
+/// Beyond any range that these messages have, and no special value. Of a sensor that stops the
+/// machine: slower for one such frame, stopped while they go on. Of one that slows it: slower all
+/// the time.
+template <class Kind>
+void out_of_range(Trial<Kind>& trial) {
+  constexpr std::uint32_t kBeyond = 0x80;
+  trial.work();
+  auto& rig = *trial.rig;
+  const bool stops = trial.odd();
+  const Sensor& sensor = trial.any_sensor(stops ? Kind::vital() : Kind::slowing());
+  const dbc::Field& field = trial.any_field(sensor);
+  const std::uint32_t raw = field.raw_max + kBeyond;
   Slowing slowing;
   slowing.since_us = rig.now_us;
   slowing.fault = Fault::kValueOutOfRange;
-  slowing.detect_us = kCycle_us;
-  slowing.hold_us = stroke ? 200 * kMillisecondUs : slowing.hold_us;
-  raw_value(rig, id, field, kBeyond, stroke ? 1 : 1 << 20);
+  slowing.detect_us = cycle_us_of<Kind>(sensor.id);
+  slowing.hold_us = stops ? 200 * kMillisecondUs : slowing.hold_us;
+  raw_value(rig, sensor.id, field, raw, stops ? 1 : 1 << 20);
   slowing.cure = [&rig] { rig.tamper = nullptr; };
   trial.expect_slower(slowing);
-  if (!stroke) {
+  if (!stops) {
     return;
   }
   Stop stop;
-  stop.since_us = trial.last_us(id);
-  stop.any = kMissing;
+  stop.since_us = trial.last_us(sensor.id);
+  stop.any = {sensor.missing};
   stop.detect_us = stop.neutral_us = kSilence_us;
   stop.cure = [&rig] { rig.tamper = nullptr; };
-  raw_value(rig, id, field, kBeyond);
+  raw_value(rig, sensor.id, field, raw);
   trial.expect_stop(stop);
 }
 
-/// A line of the shipped profile, what becomes of it, and the key that the message has to name.
-struct Defect {
-  const char* line;
-  const char* instead;
-  const char* key;
-};
-
-constexpr Defect kDefects[] = {
-    {"inertia = 6850.0", "inertia = nan", "boom.inertia"},
-    {"mass = 2130.0", "mass = inf", "boom.mass"},
-    {"length = 2.90", "length = 2900.0", "arm.length"},
-    {"spool_travel = 0.010", "spool_travel = 10.0", "valve.spool_travel"},
-    {"port_relief = 38.0e6", "port_relief = 380.0", "valve.port_relief"},
-    {"servo_gain = 2.0", "", "control.servo_gain"},
-    {"degraded_speed = 0.3", "", "safety.degraded_speed"},
-    {"sensor_timeout = 0.045", "sensor_timeout = 0.045\nsensor_timeuot = 0.1",
-     "control.sensor_timeuot"},
-    {"deadband = 0.2", "deadband = -inf", "valve.deadband"},
-    {"swash = 0.643", "swash = \"full\"", "experiment.swash"},
-};
-
 /// Three to six different defects at once: each must be in the list of errors.
-void bad_profile(Trial& trial) {
-  std::ifstream in(machines::find_profile("excavator_22t"));
+template <class Kind>
+void bad_profile(Trial<Kind>& trial) {
+  std::ifstream in(machines::find_profile(Kind::kProfile));
   std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  std::vector<Defect> defects(std::begin(kDefects), std::end(kDefects));
+  std::vector<Defect> defects = Kind::defects();
   for (std::size_t n = defects.size(); n > 1; --n) {
     std::swap(defects[n - 1], defects[trial.any_of(static_cast<unsigned>(n))]);
   }
@@ -215,7 +207,7 @@ void bad_profile(Trial& trial) {
       fmt::format("graben_faults_{}_{}.toml", ::getpid(), trial.seed());
   std::ofstream(file) << text;
   try {
-    static_cast<void>(machines::load_excavator(file));
+    Kind::load(file);
     trial.check(false, "the profile was taken");
   } catch (const machines::ProfileError& error) {
     for (const Defect& defect : defects) {
@@ -231,14 +223,18 @@ void bad_profile(Trial& trial) {
 
 }  // namespace
 
-Rows format_rows() {
-  return {{17, "wrong DLC, once and for good", "I; N L", wrong_length},
-          {18, "RTR, error or FD frame with our id", "I", foreign_kinds},
-          {19, "11-bit frame with our id's low bits", "I", short_ids},
-          {20, "'not available': stroke or pressure", "N L | D", not_available},
-          {21, "'error': stroke or pressure", "N L | D", error_value},
-          {22, "value out of range, CRC right", "D; N L | D", out_of_range},
-          {23, "NaN, Inf, mm, missing, unknown in a profile", "refused", bad_profile}};
+template <class Kind>
+Rows<Kind> format_rows() {
+  return {{17, "wrong DLC, once and for good", "I; N L", wrong_length<Kind>},
+          {18, "RTR, error or FD frame with our id", "I", foreign_kinds<Kind>},
+          {19, "11-bit frame with our id's low bits", "I", short_ids<Kind>},
+          {20, "'not available': of what stops or slows", "N L | D", not_available<Kind>},
+          {21, "'error': of what stops or slows", "N L | D", error_value<Kind>},
+          {22, "value out of range, CRC right", "D; N L | D", out_of_range<Kind>},
+          {23, "NaN, Inf, mm, missing, unknown in a profile", "refused", bad_profile<Kind>}};
 }
+
+template Rows<Excavator> format_rows();
+template Rows<Dozer> format_rows();
 
 }  // namespace graben::faults

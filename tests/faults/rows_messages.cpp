@@ -15,16 +15,24 @@ constexpr double kLittle_m = 0.004;
 /// A message of 20 ms whose frames are refused is missing 50 ms after its last good one.
 constexpr TimeUs kRefused_us = 60 * kMillisecondUs;
 
-const std::vector<Fault> kMissing = {Fault::kStrokeMissing, Fault::kSwashMissing,
-                                     Fault::kOperatorMissing, Fault::kSpoolMissing,
-                                     Fault::kMessageSequence};
+template <class Kind>
+std::vector<Fault> missing() {
+  std::vector<Fault> faults = Kind::missing();
+  faults.push_back(Fault::kOperatorMissing);
+  faults.push_back(Fault::kMessageSequence);
+  return faults;
+}
 
 /// Everything that was refused so far.
-std::uint32_t refused(const Trial& trial) { return rejected(trial.rig->ecu->link()); }
+template <class Kind>
+std::uint32_t refused(const Trial<Kind>& trial) {
+  return rejected(trial.rig->ecu->link());
+}
 
-void one_wrong_crc(Trial& trial) {
-  trial.dig();
-  const std::uint32_t id = trial.any_id(kProtectedIds);
+template <class Kind>
+void one_wrong_crc(Trial<Kind>& trial) {
+  trial.work();
+  const std::uint32_t id = trial.any_id(Kind::protected_ids());
   const std::uint32_t before = refused(trial);
   trial.rig->tamper = [id, left = 1](CanFrame& frame, const LoopbackPort*) mutable {
     if (frame.id == id && left-- > 0) {
@@ -37,9 +45,10 @@ void one_wrong_crc(Trial& trial) {
 }
 
 /// Every fifth frame of a message: three wrong ones within eleven, never two in a row.
-void three_wrong_crcs(Trial& trial) {
-  trial.dig();
-  const std::uint32_t id = trial.any_id(kProtectedIds);
+template <class Kind>
+void three_wrong_crcs(Trial<Kind>& trial) {
+  trial.work();
+  const std::uint32_t id = trial.any_id(Kind::protected_ids());
   auto number = std::make_shared<int>(0);
   trial.rig->tamper = [id, number](CanFrame& frame, const LoopbackPort*) {
     if (frame.id == id && (*number)++ % 5 == 0) {
@@ -50,51 +59,55 @@ void three_wrong_crcs(Trial& trial) {
   trial.check(trial.rig->run_until(kSecondUs, [&] { return *number >= 11; }), "no frames");
   Stop stop;
   stop.since_us = trial.rig->at_us();
-  stop.any = {Fault::kMessageCorrupt};
+  // What is wrong by the same bits each time can be right for another message.
+  stop.any = {Fault::kMessageCorrupt, Fault::kMessageMasquerade};
   stop.detect_us = stop.neutral_us = kCycle_us;
   stop.cure = [&] { trial.rig->tamper = nullptr; };
   trial.expect_stop(stop);
 }
 
-void frozen_counter(Trial& trial) {
-  trial.dig();
-  const std::uint32_t id = trial.any_id(kProtectedIds);
+template <class Kind>
+void frozen_counter(Trial<Kind>& trial) {
+  trial.work();
+  const std::uint32_t id = trial.any_id(Kind::protected_ids());
   Stop stop;
   stop.since_us = trial.last_us(id);
-  stop.any = kMissing;
+  stop.any = missing<Kind>();
   stop.detect_us = stop.neutral_us = kRefused_us;
   trial.rig->tamper = [id, counter = -1](CanFrame& frame, const LoopbackPort*) mutable {
     if (frame.id == id) {
       counter = counter < 0 ? counter_of(frame) : counter;
-      protect(frame, static_cast<std::uint8_t>(counter));
+      protect<Kind>(frame, static_cast<std::uint8_t>(counter));
       // A sensor that is read shows another value each time.
-      if (id != bus::OperatorCommand::kId && id != bus::PumpState::kId) {
+      if (Kind::is_read(id)) {
         alter(frame);
-        protect(frame, static_cast<std::uint8_t>(counter));
+        protect<Kind>(frame, static_cast<std::uint8_t>(counter));
       }
     }
     return true;
   };
-  stop.detect_us += cycle_us_of(id);  // its first frame is right
+  stop.detect_us += cycle_us_of<Kind>(id);  // its first frame is right
   stop.neutral_us = stop.detect_us;
   stop.cure = [&] { trial.rig->tamper = nullptr; };
   trial.expect_stop(stop);
 }
 
 /// Each frame's counter is 4 to 12 ahead of the last one's.
-void counter_jumps(Trial& trial) {
-  trial.dig();
-  const std::uint32_t id = trial.any_id(kProtectedIds);
+template <class Kind>
+void counter_jumps(Trial<Kind>& trial) {
+  trial.work();
+  const std::uint32_t id = trial.any_id(Kind::protected_ids());
   Stop stop;
   stop.since_us = trial.last_us(id);
-  stop.any = kMissing;
+  stop.any = missing<Kind>();
   stop.detect_us = stop.neutral_us = kRefused_us;
   const std::uint32_t before = refused(trial);
   const unsigned jump = 3 + trial.any_of(8);
   trial.rig->tamper = [id, jump, ahead = 0U](CanFrame& frame, const LoopbackPort*) mutable {
     if (frame.id == id) {
       ahead += jump;
-      protect(frame, static_cast<std::uint8_t>((counter_of(frame) + ahead) % kE2eCounterCount));
+      protect<Kind>(frame,
+                    static_cast<std::uint8_t>((counter_of(frame) + ahead) % kE2eCounterCount));
     }
     return true;
   };
@@ -105,7 +118,7 @@ void counter_jumps(Trial& trial) {
 
 /// What a controller saw as a stroke's newest value while old frames of it came.
 struct Replay {
-  std::uint32_t id = 0;
+  Sensor sensor;
   unsigned axis = 0;
   std::deque<CanFrame> block;
   double live_m[2] = {0.0, 0.0};  ///< The newest live value, and the one before.
@@ -113,9 +126,8 @@ struct Replay {
 
   void note_live(const CanFrame& frame) {
     live_m[1] = live_m[0];
-    live_m[0] = dbc::physical_of(bus::BoomStroke::kBoomStroke,
-                                 dbc::extract(frame.data, bus::BoomStroke::kBoomStroke.start_bit,
-                                              bus::BoomStroke::kBoomStroke.width));
+    const dbc::Field& field = sensor.fields[0];
+    live_m[0] = dbc::physical_of(field, dbc::extract(frame.data, field.start_bit, field.width));
   }
   void note_used(double stroke_m) {
     constexpr double kSame_m = 1e-6;
@@ -128,15 +140,16 @@ struct Replay {
 /// An old block of 8 to 20 frames, all at once or one a cycle beside the live ones. Before the
 /// window trips, an old value may be the newest one for two cycles, hal/e2e.hpp says; it then is
 /// the last one for at most one more.
-void old_block_replayed(Trial& trial) {
-  trial.dig();
-  Rig& rig = *trial.rig;
+template <class Kind>
+void old_block_replayed(Trial<Kind>& trial) {
+  trial.work();
+  auto& rig = *trial.rig;
   auto replay = std::make_shared<Replay>();
-  replay->axis = trial.any_of(kAxisCount);
-  replay->id = *(kStrokeIds.begin() + replay->axis);
+  replay->axis = trial.any_of(Kind::kAxes);
+  replay->sensor = Kind::strokes()[replay->axis];
   const unsigned length = 8 + trial.any_of(13);
   rig.tamper = [replay, length](CanFrame& frame, const LoopbackPort*) {
-    if (frame.id == replay->id && replay->block.size() < length) {
+    if (frame.id == replay->sensor.id && replay->block.size() < length) {
       replay->block.push_back(frame);
     }
     return true;
@@ -144,7 +157,7 @@ void old_block_replayed(Trial& trial) {
   rig.run(length * kCycle_us);
   rig.run(trial.any_time(300 * kMillisecondUs, 700 * kMillisecondUs));
   rig.tamper = [replay, &rig](CanFrame& frame, const LoopbackPort* from) {
-    if (frame.id == replay->id && from == &rig.machine_port) {
+    if (frame.id == replay->sensor.id && from == &rig.machine_port) {
       replay->note_live(frame);
     }
     return true;
@@ -164,7 +177,7 @@ void old_block_replayed(Trial& trial) {
   const TimeUs until_us = rig.now_us + 300 * kMillisecondUs;
   while (rig.now_us < until_us && rig.mode() == EcuMode::kActive) {
     rig.step();
-    replay->note_used(rig.ecu->inputs().axis[replay->axis].stroke_m.value);
+    replay->note_used(Kind::heard_stroke_m(rig.ecu->inputs(), replay->axis));
   }
   trial.check(refused(trial) > before, "no frame was refused");
   trial.check(replay->old_cycles <= 3,
@@ -179,10 +192,11 @@ void old_block_replayed(Trial& trial) {
   trial.expect_stop(stop);
 }
 
-void pair_out_of_order(Trial& trial) {
-  trial.dig();
-  Rig& rig = *trial.rig;
-  const std::uint32_t id = trial.any_id(kProtectedIds);
+template <class Kind>
+void pair_out_of_order(Trial<Kind>& trial) {
+  trial.work();
+  auto& rig = *trial.rig;
+  const std::uint32_t id = trial.any_id(Kind::protected_ids());
   struct Held {
     int number = 0;
     CanFrame first;
@@ -205,9 +219,10 @@ void pair_out_of_order(Trial& trial) {
 }
 
 /// Every frame twice, the controller's too.
-void duplicates(Trial& trial) {
-  trial.dig();
-  Rig& rig = *trial.rig;
+template <class Kind>
+void duplicates(Trial<Kind>& trial) {
+  trial.work();
+  auto& rig = *trial.rig;
   auto frames = std::make_shared<std::vector<CanFrame>>();
   rig.tamper = [frames](CanFrame& frame, const LoopbackPort* from) {
     if (from != nullptr) {
@@ -227,24 +242,25 @@ void duplicates(Trial& trial) {
 
 /// All that the machine says comes 200 ms late: from some time on, which is a silence first; or
 /// from the start, so that nothing is missing, and only the valve side's echo tells.
-void stream_late(Trial& trial) {
+template <class Kind>
+void stream_late(Trial<Kind>& trial) {
   constexpr TimeUs kLate_us = 200 * kMillisecondUs;
   constexpr TimeUs kEcho_us = 130 * kMillisecondUs;
-  Rig& rig = *trial.rig;
+  auto& rig = *trial.rig;
   Stop stop;
   stop.cure = [&rig] { rig.plant.faults().frames.delay_us = 0; };
   if (trial.odd()) {
-    trial.dig();
+    trial.work();
     rig.plant.faults().frames.delay_us = kLate_us;
     stop.since_us = rig.at_us();
-    stop.any = {Fault::kStrokeMissing, Fault::kSwashMissing, Fault::kSpoolMissing};
+    stop.any = Kind::missing();
     stop.detect_us = stop.neutral_us = 50 * kMillisecondUs;
   } else {
     rig.plant.faults().frames.delay_us = kLate_us;
     rig.run(kSecondUs);
     rig.ask(true, Task::kNone);
     rig.run(300 * kMillisecondUs);
-    rig.ask(true, Task::kDig);
+    rig.ask(true, Kind::kTask);
     trial.check(rig.run_until(100 * kMillisecondUs, [&] { return rig.outputs().enable; }),
                 "the late stream is not taken for a whole one");
     stop.since_us = rig.at_us();
@@ -255,14 +271,15 @@ void stream_late(Trial& trial) {
   trial.expect_stop(stop);
 }
 
-void swapped_data_ids(Trial& trial) {
-  trial.dig();
+template <class Kind>
+void swapped_data_ids(Trial<Kind>& trial) {
+  trial.work();
   plant::FrameFaults& frames = trial.rig->plant.faults().frames;
-  const std::uint32_t one = trial.any_id(kStrokeIds);
+  const std::uint32_t one = trial.any_sensor(Kind::vital()).id;
   std::uint32_t other = one;
   while (other == one) {
-    other = trial.any_id(kProtectedIds);
-    other = other == bus::OperatorCommand::kId ? one : other;
+    other = trial.any_id(Kind::protected_ids());
+    other = other == Kind::OperatorCommand::kId ? one : other;
   }
   Stop stop;
   stop.since_us = trial.last_us(one);
@@ -274,10 +291,11 @@ void swapped_data_ids(Trial& trial) {
 }
 
 /// A second node sends a message at the same rate, with a counter of its own and another value.
-void second_sender(Trial& trial) {
-  trial.dig();
-  Rig& rig = *trial.rig;
-  const std::uint32_t id = trial.any_id(kProtectedIds);
+template <class Kind>
+void second_sender(Trial<Kind>& trial) {
+  trial.work();
+  auto& rig = *trial.rig;
+  const std::uint32_t id = trial.any_id(Kind::protected_ids());
   struct Other {
     CanFrame frame;
     bool due = false;
@@ -298,13 +316,13 @@ void second_sender(Trial& trial) {
     }
     other->due = false;
     alter(other->frame);
-    protect(other->frame, other->counter);
+    protect<Kind>(other->frame, other->counter);
     other->counter = e2e_next_counter(other->counter);
     static_cast<void>(rig.other_port.send(other->frame));
   };
   Stop stop;
   stop.since_us = rig.at_us();
-  stop.any = kMissing;
+  stop.any = missing<Kind>();
   stop.detect_us = stop.neutral_us = 120 * kMillisecondUs;
   stop.cure = [&rig] { rig.before_ecu = nullptr; };
   trial.expect_stop(stop);
@@ -312,17 +330,21 @@ void second_sender(Trial& trial) {
 
 }  // namespace
 
-Rows message_rows() {
-  return {{7, "one wrong CRC", "I", one_wrong_crc},
-          {8, "three wrong CRCs in the window", "N L", three_wrong_crcs},
-          {9, "frozen counter", "N L", frozen_counter},
-          {10, "counter jumps beyond the step", "N L", counter_jumps},
-          {11, "old block of valid frames replayed", "I | N L", old_block_replayed},
-          {12, "pair out of order", "I", pair_out_of_order},
-          {13, "every frame twice", "I", duplicates},
-          {14, "whole stream 200 ms late", "N L", stream_late},
-          {15, "two messages' data ids swapped", "N L", swapped_data_ids},
-          {16, "two senders of one id", "N L", second_sender}};
+template <class Kind>
+Rows<Kind> message_rows() {
+  return {{7, "one wrong CRC", "I", one_wrong_crc<Kind>},
+          {8, "three wrong CRCs in the window", "N L", three_wrong_crcs<Kind>},
+          {9, "frozen counter", "N L", frozen_counter<Kind>},
+          {10, "counter jumps beyond the step", "N L", counter_jumps<Kind>},
+          {11, "old block of valid frames replayed", "I | N L", old_block_replayed<Kind>},
+          {12, "pair out of order", "I", pair_out_of_order<Kind>},
+          {13, "every frame twice", "I", duplicates<Kind>},
+          {14, "whole stream 200 ms late", "N L", stream_late<Kind>},
+          {15, "two messages' data ids swapped", "N L", swapped_data_ids<Kind>},
+          {16, "two senders of one id", "N L", second_sender<Kind>}};
 }
+
+template Rows<Excavator> message_rows();
+template Rows<Dozer> message_rows();
 
 }  // namespace graben::faults

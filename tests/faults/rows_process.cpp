@@ -1,7 +1,6 @@
 // Rows 41 to 48 and 50: the controller's own time and memory, and whom it answers.
 
 #include "tests/faults/frames.hpp"
-#include "tests/faults/memory_access.hpp"
 #include "tests/faults/row.hpp"
 
 namespace graben::faults {
@@ -10,15 +9,17 @@ namespace {
 constexpr double kLittle_m = 0.004;
 
 /// The controller misses its cycle: the next one comes 20 ms after the last.
-void miss_a_cycle(Rig& rig) {
+template <class Kind>
+void miss_a_cycle(Rig<Kind>& rig) {
   rig.ecu_on = false;
   rig.step();
   rig.ecu_on = true;
 }
 
-void overruns(Trial& trial) {
-  trial.dig();
-  Rig& rig = *trial.rig;
+template <class Kind>
+void overruns(Trial<Kind>& trial) {
+  trial.work();
+  auto& rig = *trial.rig;
   miss_a_cycle(rig);
   trial.expect_ignored(300 * kMillisecondUs, kLittle_m);
   Stop stop;
@@ -32,9 +33,10 @@ void overruns(Trial& trial) {
 }
 
 /// Not called for 300 ms: it hangs, or is stopped.
-void stalls(Trial& trial) {
-  trial.dig();
-  Rig& rig = *trial.rig;
+template <class Kind>
+void stalls(Trial<Kind>& trial) {
+  trial.work();
+  auto& rig = *trial.rig;
   rig.closing.emplace(false);
   Stop stop;
   stop.since_us = rig.at_us();
@@ -48,9 +50,10 @@ void stalls(Trial& trial) {
 }
 
 /// Started again after 0.2 to 0.6 s, with the deadman held and the task given.
-void killed(Trial& trial) {
-  trial.dig();
-  Rig& rig = *trial.rig;
+template <class Kind>
+void killed(Trial<Kind>& trial) {
+  trial.work();
+  auto& rig = *trial.rig;
   rig.closing.emplace(false);
   Stop stop;
   stop.since_us = rig.at_us();
@@ -64,15 +67,16 @@ void killed(Trial& trial) {
 }
 
 /// Another profile; or another version of the DBC.
-void other_identity(Trial& trial) {
-  Rig& rig = *trial.rig;
+template <class Kind>
+void other_identity(Trial<Kind>& trial) {
+  auto& rig = *trial.rig;
   if (trial.odd()) {
     rig.plant.faults().wrong_identity = true;
   } else {
     rig.tamper = [](CanFrame& frame, const LoopbackPort*) {
-      if (frame.id == bus::MachineIdentity::kId) {
-        bus::MachineIdentity message = bus::MachineIdentity::decode(frame.data);
-        message.dbc_version.value = bus::kDbcVersion + 1U;
+      if (frame.id == Kind::MachineIdentity::kId) {
+        auto message = Kind::MachineIdentity::decode(frame.data);
+        message.dbc_version.value = Kind::kDbcVersion + 1U;
         frame.data = message.encode();
       }
       return true;
@@ -81,7 +85,7 @@ void other_identity(Trial& trial) {
   rig.run(200 * kMillisecondUs);
   rig.ask(true, Task::kNone);
   rig.run(100 * kMillisecondUs);
-  rig.ask(true, Task::kDig);
+  rig.ask(true, Kind::kTask);
   trial.expect_refused(ArmBlock::kIdentity, 1500 * kMillisecondUs, [&rig] {
     rig.plant.faults().wrong_identity = false;
     rig.tamper = nullptr;
@@ -93,8 +97,9 @@ void other_identity(Trial& trial) {
 }
 
 /// Enable held, or the task given, from power-on; the same after a fault.
-void not_at_rest(Trial& trial) {
-  Rig& rig = *trial.rig;
+template <class Kind>
+void not_at_rest(Trial<Kind>& trial) {
+  auto& rig = *trial.rig;
   constexpr TimeUs kTried_us = 500 * kMillisecondUs;
   switch (trial.seed() % 4) {
     case 0:
@@ -102,15 +107,15 @@ void not_at_rest(Trial& trial) {
       trial.expect_refused(ArmBlock::kEnableNotFresh, kTried_us, nullptr);
       return;
     case 1:
-      rig.ask(false, Task::kDig);
+      rig.ask(false, Kind::kTask);
       rig.run(300 * kMillisecondUs);
-      rig.ask(true, Task::kDig);
+      rig.ask(true, Kind::kTask);
       trial.expect_refused(ArmBlock::kTaskNotAtRest, kTried_us, nullptr);
       return;
     default:
       break;
   }
-  trial.dig();
+  trial.work();
   rig.driver.set_silent(true);
   rig.run(200 * kMillisecondUs);
   rig.driver.set_silent(false);
@@ -118,16 +123,17 @@ void not_at_rest(Trial& trial) {
     trial.expect_refused(ArmBlock::kFaultLatched, kTried_us, nullptr);
     return;
   }
-  rig.ask(false, Task::kDig);
+  rig.ask(false, Kind::kTask);
   rig.run(500 * kMillisecondUs);
-  rig.ask(true, Task::kDig);
+  rig.ask(true, Kind::kTask);
   trial.expect_refused(ArmBlock::kTaskNotAtRest, kTried_us, nullptr);
 }
 
-void bit_flips(Trial& trial) {
-  trial.dig();
-  Rig& rig = *trial.rig;
-  ControllerMemoryAccess::flip(*rig.ecu, trial.any_of(2 + kAxisCount), trial.any_of(1U << 16U));
+template <class Kind>
+void bit_flips(Trial<Kind>& trial) {
+  trial.work();
+  auto& rig = *trial.rig;
+  Kind::flip(*rig.ecu, trial.any_of(Kind::kSetpoints), trial.any_of(1U << 16U));
   Stop stop;
   stop.since_us = rig.now_us;
   stop.any = {Fault::kMemoryCorrupt};
@@ -136,9 +142,10 @@ void bit_flips(Trial& trial) {
 }
 
 /// A babbling node, the operator silent, and late cycles.
-void all_at_once(Trial& trial) {
-  trial.dig();
-  Rig& rig = *trial.rig;
+template <class Kind>
+void all_at_once(Trial<Kind>& trial) {
+  trial.work();
+  auto& rig = *trial.rig;
   rig.closing.emplace(false);
   Stop stop;
   stop.since_us = rig.at_us();
@@ -160,16 +167,20 @@ void all_at_once(Trial& trial) {
 
 }  // namespace
 
-Rows process_rows() {
-  return {{41, "one cycle overruns; two in a row", "I; N L", overruns},
-          {42, "control thread stalls for 300 ms", "N L", stalls},
-          {43, "process killed in motion, starts again", "N L", killed},
-          {44, "process stopped (SIGSTOP): as 42", "N L", stalls},
+template <class Kind>
+Rows<Kind> process_rows() {
+  return {{41, "one cycle overruns; two in a row", "I; N L", overruns<Kind>},
+          {42, "control thread stalls for 300 ms", "N L", stalls<Kind>},
+          {43, "process killed in motion, starts again", "N L", killed<Kind>},
+          {44, "process stopped (SIGSTOP): as 42", "N L", stalls<Kind>},
           {45, "wall clock steps", "on the bus of a real kernel: tests/hil", nullptr},
-          {46, "profile hash or DBC version differs", "refused", other_identity},
-          {47, "task or enable not at rest", "refused", not_at_rest},
-          {48, "bit flips in a stored setpoint", "N L", bit_flips},
-          {50, "24, 2 and 41 together", "N L", all_at_once}};
+          {46, "profile hash or DBC version differs", "refused", other_identity<Kind>},
+          {47, "task or enable not at rest", "refused", not_at_rest<Kind>},
+          {48, "bit flips in a stored setpoint", "N L", bit_flips<Kind>},
+          {50, "24, 2 and 41 together", "N L", all_at_once<Kind>}};
 }
+
+template Rows<Excavator> process_rows();
+template Rows<Dozer> process_rows();
 
 }  // namespace graben::faults

@@ -1,13 +1,13 @@
 #pragma once
 /// One row of the table tried with one seed: the scenery, and the checks that the reactions share.
 
-#include <initializer_list>
 #include <string>
 #include <vector>
 
 #include "app/plant/random.hpp"
 #include "firmware/core/fault_set.hpp"
 #include "tests/faults/rig.hpp"
+#include "tests/faults/sensor.hpp"
 
 namespace graben::faults {
 
@@ -22,6 +22,8 @@ struct Outcome {
       false;  ///< The bus carried no neutral frame: the valve side's own timeout closed.
   double beyond_share = -1.0;
   double creep_share = -1.0;
+  TimeUs rest_us = -1;     ///< From when the machine's side is neutral to tracks at rest.
+  double rolled_m = -1.0;  ///< Meanwhile.
   std::vector<std::string> failures;
 };
 
@@ -36,6 +38,7 @@ struct Stop {
   bool latches = true;
   bool disobeying = false;     ///< A spool is open against its command.
   bool pilot_cut = false;      ///< The pilot pressure has to be asked away.
+  bool brake_at_once = false;  ///< A machine that drives brakes before it stands.
   std::function<void()> cure;  ///< Takes the fault away; empty: it is over by itself.
 };
 
@@ -45,33 +48,29 @@ struct Slowing {
   Fault fault = Fault::kNone;
   TimeUs detect_us = 0;
   TimeUs hold_us = 700 * kMillisecondUs;  ///< From detection to the cure.
-  TimeUs back_us = 700 * kMillisecondUs;  ///< From the cure to full speed, at most.
+  TimeUs back_us = 0;  ///< From the cure to full speed, at most; 0: what the kind needs.
   std::function<void()> cure;
 };
 
-/// The scenery of a seed: sensors wrong in all, parameters too in every second, soil in half of
-/// them, a random pose near the path.
-[[nodiscard]] machines::ExcavatorMachine machine_of(std::uint64_t seed);
-[[nodiscard]] Eigen::Vector3d start_of(const machines::ExcavatorMachine& machine,
-                                       std::uint64_t seed);
-
+template <class Kind>
 class Trial {
  public:
   Trial(std::uint64_t seed, int row);
 
   /// Replaces the scenery, before anything has run.
-  void set_up(const machines::ExcavatorMachine& machine, const Eigen::Vector3d& start_strokes_m,
+  void set_up(const typename Kind::Scenery& scenery,
               std::size_t ecu_queue = LoopbackBus::kQueueCapacity);
   void set_queue(std::size_t ecu_queue);
 
-  /// From power-on to a dig that has been Active for 2 to 6 s and has somewhere to go.
-  void dig();
+  /// From power-on to the task, Active for as long as the machine kind has it, with somewhere to
+  /// go.
+  void work();
   /// From power-on to Armed without a task.
   void arm();
 
   void expect_stop(const Stop& stop);
   void expect_slower(const Slowing& slowing);
-  /// For `duration_us` from now nothing may show but counters, and no cylinder may come further
+  /// For `duration_us` from now nothing may show but counters, and nothing may come further
   /// than `bound_m` from where it would be undisturbed.
   void expect_ignored(TimeUs duration_us, double bound_m);
   /// Enable and task are asked for already: nothing may move, `why` must be among the reasons.
@@ -85,31 +84,33 @@ class Trial {
 
   /// 0 .. count - 1.
   [[nodiscard]] unsigned any_of(unsigned count);
-  [[nodiscard]] std::uint32_t any_id(std::initializer_list<std::uint32_t> ids);
+  [[nodiscard]] std::uint32_t any_id(const std::vector<std::uint32_t>& ids);
+  [[nodiscard]] const Sensor& any_sensor(const std::vector<Sensor>& sensors);
+  [[nodiscard]] const dbc::Field& any_field(const Sensor& sensor);
   [[nodiscard]] TimeUs any_time(TimeUs least_us, TimeUs most_us);  ///< Whole cycles.
   /// Every second seed.
   [[nodiscard]] bool odd() const { return seed_ % 2 == 1; }
   /// Speed that the field wanted in the last frame that said it.
   [[nodiscard]] double wanted_mps() const;
-  /// The one that is farthest from here after so long if nothing disturbs the dig.
-  [[nodiscard]] unsigned farthest_axis(TimeUs after_us) const;
+  /// The one that is farthest from here after so long if nothing disturbs the task.
+  [[nodiscard]] unsigned farthest_place(TimeUs after_us) const;
   /// When a frame of this message was last on the bus.
   [[nodiscard]] TimeUs last_us(std::uint32_t id) { return rig->record.last_us[id]; }
 
   std::uint64_t seed() const { return seed_; }
   plant::Random random;
-  std::optional<Rig> rig;
+  std::optional<Rig<Kind>> rig;
   Outcome outcome;
 
  private:
   void await_detection(const Stop& stop);
   void stay_stopped(const Stop& stop);
-  void judge_closing();
+  void judge_closing(bool brake_at_once);
+  void judge_rolling(const RollingWatch& rolling, bool brake_at_once);
   void expect_reported(Fault fault, TimeUs since_us, TimeUs from_us);
 
   std::uint64_t seed_;
-  machines::ExcavatorMachine machine_;
-  Eigen::Vector3d start_strokes_m_;
+  typename Kind::Scenery scenery_;
   TimeUs detected_us_ = -1;
   TimeUs neutral_us_ = -1;
 };

@@ -20,6 +20,8 @@ FILES = {
     "./usr/lib/systemd/network/80-graben-can.network": 0o644,
     "./usr/lib/systemd/system-preset/80-graben-ecu.preset": 0o644,
     "./usr/lib/systemd/system/graben-ecu.service": 0o644,
+    "./usr/share/graben/dozer.dbc": 0o644,
+    "./usr/share/graben/dozer_9t.toml": 0o644,
     "./usr/share/graben/excavator.dbc": 0o644,
     "./usr/share/graben/excavator_22t.toml": 0o644,
     "./usr/share/man/man8/graben-ecu.8.gz": 0o644,

@@ -6,10 +6,20 @@
 /// core (SI), the page converts. A value that is not finite becomes null in JSON, and a gap in the
 /// plot. Up to about 30 000 samples stay fluent.
 ///
+/// Of every kind of run:
+///   kind          "grade"; a digging run where it is missing
 ///   title         string
 ///   subtitle      string: profile, seed, command line
 ///   summary       [{label, value, unit, note?}]: key figures; value is a number or a string
 ///   limits_share  [{name, share}]: share of time, 0 to 1, for each active limit; "none" is free
+///   series        lists of equal length, one value a sample, unless noted
+///     time_s                  never falls
+///     lambda                  0 to 1
+///     limit                   index into limit_names
+///     limit_names             [string], not a series; "none" is free
+///     cycle_time_us           optional: computing time of a control cycle
+///
+/// Of a digging run:
 ///   geometry
 ///     path          [[x, y]] m, closed: the last point joins the first
 ///     tip_true      [[x, y]] m; with as many points as time_s, a dot follows the plots' cursor
@@ -18,11 +28,7 @@
 ///     ground_y_m    number or null
 ///     marks         [{x, y, attitude_deg, time_s}], one every 5 s
 ///     start         [x, y] m
-///   series        lists of equal length, one value a sample, unless noted
-///     time_s                  never falls
-///     lambda                  0 to 1
-///     limit                   index into limit_names
-///     limit_names             [string], not a series; "none" is free
+///   series
 ///     spool_command           [boom, arm, bucket], each -1 to 1 of the travel
 ///     spool_real              the same
 ///     velocity_wanted         [boom, arm, bucket] m/s: lambda V_L^d
@@ -31,7 +37,28 @@
 ///     pump_pressure_real      the same
 ///     error_true_m            distance of the true tip from the path
 ///     error_measured_m        the same, of the measured tip
-///     cycle_time_us           optional: computing time of a control cycle
+///
+/// Of a grading run, drawn over the way of the cutting edge:
+///   speed_mode    "bounded" or "constant"
+///   terrain       [[x, z]] m, as it was left; x never falls
+///   series
+///     edge_x_m, edge_z_m      true cutting edge
+///     body_x_m, body_z_m      true body, at the tracks' ground line
+///     pitch_rad               nose up
+///     design_m                height of the design at the edge
+///     error_true_m            edge over the design, straight up
+///     error_measured_m        the same, of the measured edge
+///     speed_wanted_mps        v_c of (14)
+///     speed_true_mps
+///     speed_limit_mps         (14) without v_d
+///     speed_desired_mps       v_d, a number
+///     flow_required_m3ps      (7), for the true motion to follow the design
+///     flow_reported_m3ps      the same as the controller has it
+///     flow_available_m3ps
+///     blade_wanted_mps, blade_true_mps   of the blade cylinders
+///     spool_command, spool_real          -1 to 1 of the travel
+///     track_mps               [left, right]
+///     pump_command, pump_real, motor_command, motor_real   [left, right], of full displacement
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>

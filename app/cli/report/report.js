@@ -1,9 +1,9 @@
 'use strict';
-// Puts the prepared data on the page: key figures, table, path and the plots over time.
+// Puts the prepared data on the page: key figures, table, path and the plots.
 const reportPage = (() => {
   const PRINT_WIDTH_PX = 690;  // A4 less its margins, at 96 px to the inch
   const PALETTE_SIZE = 9;
-  const AROUND_S = 2;  // shown before and after what the reader wants to see closely
+  const AROUND = 2;  // of the x axis: shown before and after what the reader wants to see closely
 
   let report = null;
   let figures = [];  // {plot, holder, legend, chart}
@@ -63,38 +63,41 @@ const reportPage = (() => {
       bar.style.background = `var(--${limitColour(name)})`;
       $('limits').append(make('tr', {},
           make('th', {scope: 'row'}, name, bar),
-          make('td', {textContent: reportData.formatShare(share)})));
+          make('td', {textContent: reportParts.formatShare(share)})));
     }
   }
 
   /// Which figure of the paper shows the same.
   function sourceNote(text) {
-    return make('small', {className: 'source', textContent: text,
-      title: 'K. Kim et al., Modeling and Velocity-Field Control of Autonomous Excavator with ' +
-          'Main Control Valve'});
+    return make('small', {className: 'source', textContent: text, title: report.paper});
   }
 
   function fillPath(width) {
     const box = $('path');
-    if (!report.geometry.ok) return box.replaceChildren(complaint(report.geometry.problem));
-    const geometry = report.geometry.value;
+    if (!report.path) return;
+    if (!report.path.ok) return box.replaceChildren(complaint(report.path.problem));
+    const geometry = report.path.value;
     const drawn = reportPath.draw(geometry, width ?? box.clientWidth, hiddenLayers);
-    // The dot follows the time plots only where samples of both are the same.
-    const same = report.time.ok && geometry.tipTrue.length === report.time.value.length;
+    // The dot follows the plots only where samples of both are the same.
+    const same = report.x.ok && geometry.tipTrue.length === report.x.value.length;
     pathFigure = same ? drawn : {showAt: () => {}};
     box.replaceChildren(drawn.svg);
   }
 
   function fillPathHead() {
-    $('path-title').append(' ', sourceNote(report.geometrySource));
-    $('path').after(...report.geometryProblems.map(complaint));
+    if (!report.path) {
+      $('path-section').parentNode.classList.add('single');
+      return $('path-section').remove();
+    }
+    $('path-title').append(' ', sourceNote(report.path.source));
+    $('path').after(...report.path.problems.map(complaint));
   }
 
   function fillPathLegend() {
-    if (!report.geometry.ok) return;
+    if (!report.path?.ok) return;
     const layers = [['path', 'wanted path'], ['true', 'true tip'], ['measured', 'measured tip'],
       ['field', 'velocity field'], ['attitude', 'attitude every 5 s']];
-    const {obstacle, changes} = report.geometry.value;
+    const {obstacle, changes} = report.path.value;
     if (obstacle || changes.length > 0) layers.push(['obstacle', 'obstacle, held and let go']);
     for (const [name, text] of layers) {
       const button = make('button', {type: 'button', className: 'layer'},
@@ -113,7 +116,7 @@ const reportPage = (() => {
   function makeLegendKeys(figure) {
     [...figure.legend.querySelectorAll('.u-series')].forEach((row, i) => {
       const head = row.querySelector('th');
-      if (i === 0) return row.classList.add('time');
+      if (i === 0) return row.classList.add('x');
       if (figure.plot.body.value.lines[i - 1]?.wide) row.classList.add('wide');
       if (i > figure.plot.body.value.lines.length) row.classList.add('strip');
       head.tabIndex = 0;
@@ -132,27 +135,28 @@ const reportPage = (() => {
   }
 
   function wholeRun() {
-    if (report.time.ok) zoomAll(report.time.value[0], report.time.value.at(-1));
+    if (report.x.ok) zoomAll(report.x.value[0], report.x.value.at(-1));
   }
 
   /// What the shade in the plots means, and a button to see that time closely.
-  function fillHolds() {
-    if (!report.holds.ok) return $('holds').replaceWith(complaint(report.holds.problem));
-    const runs = report.holds.value;
-    if (runs.length === 0) return;
-    const words = runs.map((run) => `${run.from.toFixed(1)} to ${run.until.toFixed(1)} s`);
-    $('holds').append(make('span', {className: 'swatch shade'}),
-        `the obstacle holds: ${words.join(', ')}`);
-    $('holds').hidden = false;
-    const times = report.time.value;
-    const from = Math.max(runs[0].from - AROUND_S, times[0]);
-    const until = Math.min(runs.at(-1).until + AROUND_S, times.at(-1));
+  function fillShade() {
+    const {shade, x} = report;
+    if (!shade.ok) return $('shade').replaceWith(complaint(shade.problem));
+    if (shade.value.length === 0) return;
+    const words = shade.named.map((run) =>
+      `${run.from.toFixed(shade.digits)} to ${run.until.toFixed(shade.digits)} ${x.unit}`);
+    $('shade').append(make('span', {className: 'swatch shade'}),
+        `${shade.words}: ${words.join(', ')}`);
+    $('shade').hidden = false;
+    const from = Math.max(shade.around[0].from - AROUND, x.value[0]);
+    const until = Math.min(shade.around.at(-1).until + AROUND, x.value.at(-1));
+    $('around').textContent = shade.button;
     $('around').hidden = false;
     $('around').addEventListener('click', () => zoomAll(from, until));
   }
 
   function zoomBy(chart, factor) {
-    const times = report.time.value;
+    const times = report.x.value;
     const {min, max} = chart.scales.x;
     const at = chart.cursor.left >= 0 ? chart.posToVal(chart.cursor.left, 'x') : (min + max) / 2;
     const from = Math.max(at - (at - min) * factor, times[0]);
@@ -220,10 +224,11 @@ const reportPage = (() => {
       const hidden = old ? old.series.map((s, i) => (s.show ? 0 : i)).filter((i) => i > 0) : [];
       old?.destroy();
       const {lines, strip} = figure.plot.body.value;
-      const data = [report.time.value, ...lines.map((line) => line.values)];
+      const data = [report.x.value, ...lines.map((line) => line.values)];
       if (strip) data.push(strip.values);
       const options = reportChart.options(figure.plot, width ?? figure.holder.clientWidth, {
-        shade: report.holds.ok ? report.holds.value : [],
+        x: report.x,
+        shade: report.shade.ok ? report.shade.value : [],
         limitColour,
         mountLegend: (table) => figure.legend.replaceChildren(table),
         showAt: (index) => pathFigure.showAt(index),
@@ -257,13 +262,13 @@ const reportPage = (() => {
   }
 
   function show(data) {
-    report = reportData.prepare(data);
+    report = (data?.kind === 'grade' ? reportGrade : reportData).prepare(data);
     fillHead();
     fillLimits();
     fillPathHead();
     fillPathLegend();
     fillPath();
-    fillHolds();
+    fillShade();
     makeFigures();
     drawCharts();
     $('whole').addEventListener('click', wholeRun);

@@ -14,7 +14,7 @@ const reportChart = (() => {
   const colour = (name) =>
     getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
-  /// Lets `draw` paint inside the plotting area only, from time to time in pixels.
+  /// Lets `draw` paint inside the plotting area only, from stretch to stretch in pixels.
   function clipped(chart, draw) {
     const {ctx, bbox} = chart;
     ctx.save();
@@ -30,7 +30,7 @@ const reportChart = (() => {
     ctx.restore();
   }
 
-  /// Behind the lines: a stretch of time that means something in every plot.
+  /// Behind the lines: a stretch that means something in every plot.
   function drawShade(chart, runs) {
     const {bbox} = chart;
     clipped(chart, (ctx, place) => {
@@ -71,7 +71,7 @@ const reportChart = (() => {
       stroke: () => colour(line.colour),
       width: line.wide ? 5 : 1.6,
       points: {show: false},
-      value: (chart, value) => reportData.formatLive(value, line.digits, line.unit ?? unit),
+      value: (chart, value) => reportParts.formatLive(value, line.digits, line.unit ?? unit),
     };
   }
 
@@ -122,8 +122,8 @@ const reportChart = (() => {
     options.hooks.draw = [(chart) => drawStrip(chart, strip, limitColour)];
   }
 
-  /// `page` has what a chart shares with the others: the shaded stretches of time, the limits'
-  /// colours, what to do with its legend and with the sample under the cursor.
+  /// `page` has what a chart shares with the others: its x axis, the shaded stretches of it, the
+  /// limits' colours, what to do with its legend and with the sample under the cursor.
   function options(plot, width, page) {
     const {lines, strip} = plot.body.value;
     const made = {
@@ -132,10 +132,11 @@ const reportChart = (() => {
       padding: [10, RIGHT_PX, 0, 0],
       scales: {x: {time: false}, y: {range: RANGE}},
       // The y axes are equally wide, so one instant is in one column all down the page.
-      axes: [axisLook({label: 'time (s)', labelSize: 19, size: 30}),
+      axes: [axisLook({label: page.x.label, labelSize: 19, size: 30}),
         axisLook({label: plot.axis, labelSize: 22, size: 54, space: 26})],
       series: [
-        {label: 'time', value: (chart, value) => reportData.formatLive(value, 2, 's')},
+        {label: page.x.name,
+          value: (chart, value) => reportParts.formatLive(value, page.x.digits, page.x.unit)},
         ...lines.map((line) => lineSeries(line, plot.unit)),
       ],
       cursor: {
@@ -146,7 +147,7 @@ const reportChart = (() => {
       },
       legend: {
         mount: (chart, table) => page.mountLegend(table),
-        // The time and the strip have no line, so no marker either.
+        // The x value and the strip have no line, so no marker either.
         markers: {width: 0, fill: (chart, i) => (lines[i - 1] ? colour(lines[i - 1].colour) : '')},
       },
       hooks: {

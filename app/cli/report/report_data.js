@@ -1,46 +1,14 @@
 'use strict';
-// What the page shows, computed from the run's JSON object. Pure: no document, no drawing, so that
+// What the page shows of a digging run, computed from the run's JSON object. Pure: no document, no drawing, so that
 // it runs outside a browser too. A part that is missing or malformed becomes a sentence that
 // the page prints in that part's place; the other parts stay.
 const reportData = (() => {
   const AXES = ['boom', 'arm', 'bucket'];
-  const {Problem, part, isObject, need, needList, checkTuples, time, runs, seriesList,
-    seriesGroup} = reportChecks;
+  const {Problem, part, isObject, need, needList, checkTuples, time, seriesList, seriesGroup} =
+    reportChecks;
   const PA_PER_MPA = 1e6;
   const N_PER_KN = 1e3;
   const MM_PER_M = 1e3;
-
-  /// Each limit's number in the palette, the same in the table, the strip and its key. 'none' has
-  /// its own neutral tone (0); the others follow in the order of the table, then of the series.
-  function limitColours(data) {
-    const names = [];
-    const add = (name) => {
-      if (typeof name === 'string' && name !== 'none' && !names.includes(name)) names.push(name);
-    };
-    if (isObject(data) && Array.isArray(data.limits_share)) {
-      [...data.limits_share].filter(isObject).sort((a, b) => b.share - a.share)
-          .forEach((row) => add(row.name));
-    }
-    if (isObject(data) && isObject(data.series) && Array.isArray(data.series.limit_names)) {
-      data.series.limit_names.forEach(add);
-    }
-    return new Map([['none', 0], ...names.map((name, i) => [name, i + 1])]);
-  }
-
-  function lambdaPlot(data) {
-    const times = time(data);
-    const limits = seriesList(data, 'limit');
-    const names = needList(data, 'series.limit_names');
-    const bad = limits.findIndex((i) => i !== null && typeof names[i] !== 'string');
-    if (bad >= 0) {
-      throw new Problem(
-          `“series.limit”, value ${bad + 1}: ${limits[bad]} has no name in “limit_names”.`);
-    }
-    return {
-      lines: [{label: 'λ', colour: 'ink', values: seriesList(data, 'lambda'), digits: 3}],
-      strip: {label: 'held by', values: limits, names, runs: runs(times, limits)},
-    };
-  }
 
   function axisPair(wide, narrow, i, words, digits) {
     return [
@@ -115,11 +83,6 @@ const reportData = (() => {
     return {lines};
   }
 
-  function cyclePlot(data) {
-    const values = seriesList(data, 'cycle_time_us');
-    return {lines: [{label: 'cycle', colour: 'ink', values, digits: 1}]};
-  }
-
   /// Only where there is something to see: no force, no plot.
   function forcePlots(data) {
     const body = part(() => forcePlot(data));
@@ -141,7 +104,7 @@ const reportData = (() => {
     return [
       ...(recorded ? forcePlots(data) : []),
       {id: 'lambda', title: 'Speed factor λ and what holds it', source: 'Kim, Fig. 11',
-        axis: 'λ (1)', unit: '', height: 240, body: part(() => lambdaPlot(data))},
+        axis: 'λ (1)', unit: '', height: 240, body: part(() => reportParts.lambdaPlot(data, time(data)))},
       {id: 'spool', title: 'Spools, commanded and real', source: 'Kim, Fig. 12',
         axis: 'spool (% of travel)', unit: '%', height: 270, body: part(() => spoolPlot(data))},
       ...velocityPlots(data),
@@ -152,10 +115,7 @@ const reportData = (() => {
         unit: 'MPa', height: 240, body: part(() => pressurePlot(data))},
       {id: 'error', title: 'Path error of the bucket tip', axis: 'path error (mm)', unit: 'mm',
         height: 230, body: part(() => errorPlot(data))},
-      // Optional: without it there is nothing to miss.
-      ...(isObject(data) && isObject(data.series) && data.series.cycle_time_us ?
-        [{id: 'cycle', title: 'Computing time of a control cycle', axis: 'cycle (µs)', unit: 'µs',
-          height: 190, body: part(() => cyclePlot(data))}] : []),
+      ...reportParts.cyclePlots(data),
     ];
   }
 
@@ -187,49 +147,6 @@ const reportData = (() => {
     };
   }
 
-  function summary(data) {
-    return needList(data, 'summary').map((row, i) => {
-      if (!isObject(row) || typeof row.label !== 'string' || row.value === undefined) {
-        throw new Problem(`“summary”, entry ${i + 1}, lacks a label or a value.`);
-      }
-      return {
-        label: row.label,
-        value: typeof row.value === 'number' ? formatKey(row.value) : String(row.value ?? '–'),
-        unit: row.unit ?? '',
-        note: row.note ?? '',
-      };
-    });
-  }
-
-  function limitsShare(data) {
-    const rows = needList(data, 'limits_share').map((row, i) => {
-      if (!isObject(row) || typeof row.name !== 'string' ||
-          !(row.share >= 0 && row.share <= 1 + 1e-9)) {
-        throw new Problem(`“limits_share”, entry ${i + 1}, is no name with a share of 0 to 1.`);
-      }
-      return {name: row.name, share: row.share};
-    });
-    if (rows.length === 0) throw new Problem('“limits_share” is empty.');
-    return rows.sort((a, b) => b.share - a.share);
-  }
-
-  /// Four significant digits at least, no exponent: a key figure is read, not computed with.
-  function formatKey(value) {
-    if (!Number.isFinite(value)) return '–';
-    return String(Math.abs(value) >= 1000 ? Math.round(value) : Number(value.toPrecision(4)));
-  }
-
-  function formatLive(value, digits, unit) {
-    if (typeof value !== 'number') return '–';
-    // U+2212 is as wide as a plus, so the legend does not jump with the sign.
-    const number = value.toFixed(digits).replace('-', '−');
-    return unit ? `${number} ${unit}` : number;
-  }
-
-  function formatShare(share) {
-    return share > 0 && share < 0.001 ? '< 0.1 %' : `${(share * 100).toFixed(1)} %`;
-  }
-
   /// What the bucket met is part of the picture of the path, but a fault there must not cost the
   /// path: the picture then lacks it, and the sentence stands below.
   function pathPicture(data) {
@@ -252,28 +169,23 @@ const reportData = (() => {
   }
 
   function prepare(data) {
-    const text = (key, otherwise) =>
-      (isObject(data) && typeof data[key] === 'string' ? data[key] : otherwise);
     const picture = pathPicture(data);
+    const shade = part(() => reportScene.holds(data));
+    const holds = shade.ok ? shade.value : [];
     const report = {
-      title: text('title', 'Simulated run'),
-      subtitle: text('subtitle', ''),
-      summary: part(() => summary(data)),
-      limitsShare: part(() => limitsShare(data)),
-      limitColours: limitColours(data),
-      geometry: picture.base,
-      geometryProblems: picture.problems,
-      geometrySource: picture.source,
-      time: part(() => time(data)),
-      holds: part(() => reportScene.holds(data)),
+      ...reportParts.head(data),
+      paper: 'K. Kim et al., Modeling and Velocity-Field Control of Autonomous Excavator with ' +
+          'Main Control Valve',
+      path: {...picture.base, problems: picture.problems, source: picture.source},
+      x: {...part(() => time(data)), name: 'time', unit: 's', digits: 2, label: 'time (s)'},
+      shade: {...shade, words: 'the obstacle holds', digits: 1,
+        named: holds, around: holds, button: 'Around the obstacle'},
       plots: plots(data),
     };
-    const parts = [report.summary, report.limitsShare, report.geometry, report.time, report.holds,
-      ...report.plots.map((plot) => plot.body)];
-    report.problems = [...new Set(
-        [...parts.filter((p) => !p.ok).map((p) => p.problem), ...report.geometryProblems])];
+    report.problems = reportParts.problems([report.summary, report.limitsShare, report.path,
+      report.x, report.shade, ...report.plots.map((plot) => plot.body)], report.path.problems);
     return report;
   }
 
-  return {prepare, limitColours, formatKey, formatLive, formatShare};
+  return {prepare};
 })();

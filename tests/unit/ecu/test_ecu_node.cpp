@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <vector>
 
+#include "app/ecu/dozer_ecu.hpp"
 #include "app/ecu/excavator_ecu.hpp"
+#include "app/machines/dozer_file.hpp"
+#include "app/machines/machine_file.hpp"
+#include "can_dbc/generated/dozer_dbc.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "platform/loopback/loopback_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
@@ -17,8 +21,25 @@ struct Excavator {
   using Ecu = ecu::ExcavatorEcu;
   using Stroke = dbc::excavator::BoomStroke;
   using EcuHealth = dbc::excavator::EcuHealth;
+  using MachineIdentity = dbc::excavator::MachineIdentity;
+  static constexpr std::uint8_t kDbcVersion = dbc::excavator::kDbcVersion;
   static std::vector<std::uint32_t> commands() { return {dbc::excavator::SpoolCommand::kId}; }
   static ExcavatorProfile profile() { return plant::machine_22t().machine; }
+};
+
+struct Dozer {
+  using Ecu = ecu::DozerEcu;
+  using Stroke = dbc::dozer::BladeStroke;
+  using EcuHealth = dbc::dozer::EcuHealth;
+  using MachineIdentity = dbc::dozer::MachineIdentity;
+  static constexpr std::uint8_t kDbcVersion = dbc::dozer::kDbcVersion;
+  static std::vector<std::uint32_t> commands() {
+    return {dbc::dozer::SpoolCommand::kId, dbc::dozer::PumpDisplacementCommand::kId,
+            dbc::dozer::MotorDisplacementCommand::kId};
+  }
+  static DozerProfile profile() {
+    return machines::load_dozer(machines::find_profile("dozer_9t")).profile;
+  }
 };
 
 constexpr TimeUs kCycleUs = 10'000;
@@ -37,6 +58,7 @@ class Port final : public CanPort {
   }
   [[nodiscard]] int receive(CanFrame* frames, int capacity) override {
     int count = 0;
+    shown = comes_back ? CanPortState::kActive : shown;
     for (; count < capacity && pending > 0; ++count, --pending) {
       frames[count] = CanFrame{};
       frames[count].id = Kind::Stroke::kId;  // without data: counted once it is looked at
@@ -55,6 +77,7 @@ class Port final : public CanPort {
 
   CanPortState shown = CanPortState::kActive;
   bool opens = true;
+  bool comes_back = false;  // with the frame that is read next
   std::uint32_t refused_command = 0;
   bool takes_others = true;
   int pending = 0;
@@ -142,6 +165,35 @@ void a_short_bus_off_is_seen(void**) {
   assert_int_equal(rig.step().bus, BusState::kActive);
 }
 
+// Reading the port may end what it was; it is seen all the same.
+template <class Kind>
+void a_state_that_reading_ends_is_seen(void**) {
+  Rig<Kind> rig;
+  rig.step();
+  rig.port.shown = CanPortState::kErrorPassive;
+  rig.port.comes_back = true;
+  assert_int_equal(rig.step().bus, BusState::kPassive);
+  assert_int_equal(rig.step().bus, BusState::kActive);
+}
+
+// What queued up through a stall is old, be it read or be it left for the next cycle.
+template <class Kind>
+void a_stall_throws_away_what_queued_up(void**) {
+  Rig<Kind> rig;
+  rig.now = kSecondUs;  // the first cycle follows none, whatever the clock says
+  rig.step();
+  assert_int_equal(rig.port.opened, 0);
+  rig.now += 5 * kCycleUs;
+  rig.port.pending = 5;
+  rig.step();
+  assert_int_equal(rig.ecu.link().wrong_length, 0);
+  assert_int_equal(rig.port.opened, 1);
+  rig.port.pending = 5;
+  rig.step();
+  assert_int_equal(rig.ecu.link().wrong_length, 5);
+  assert_int_equal(rig.port.opened, 1);
+}
+
 // A cycle counts as dropped if any of its commands was not taken; other frames do not count.
 template <class Kind>
 void commands_that_are_not_taken_are_counted(void**) {
@@ -195,6 +247,29 @@ CanFrame stroke_frame(std::uint8_t counter, std::uint32_t raw) {
 }
 
 template <class Kind>
+void the_machine_has_to_be_ours(void**) {
+  LoopbackBus can;
+  LoopbackPort& port = can.attach();
+  assert_true(port.open());
+  typename Kind::Ecu ecu(Kind::profile(), 0x1234, port);
+  TimeUs now = 0;
+  for (const std::uint32_t hash : {0x1234U, 0x4321U}) {
+    typename Kind::MachineIdentity identity;
+    identity.profile_hash.value = hash;
+    identity.dbc_version = {Kind::kDbcVersion, dbc::RawState::kValid};
+    CanFrame frame;
+    frame.id = Kind::MachineIdentity::kId;
+    frame.length = 8;
+    frame.data = identity.encode();
+    can.inject(frame);
+    ecu.step(now, 0);
+    now += kCycleUs;
+    assert_int_equal(ecu.inputs().same_machine.validity, Validity::kValid);
+    assert_int_equal(ecu.inputs().same_machine.value, hash == 0x1234U);
+  }
+}
+
+template <class Kind>
 void what_is_wrong_with_frames_reaches_the_controller(void**) {
   LoopbackBus can;
   LoopbackPort& port = can.attach();
@@ -224,15 +299,20 @@ void what_is_wrong_with_frames_reaches_the_controller(void**) {
 
 }  // namespace
 
+#define ON_BOTH(test) cmocka_unit_test(test<Excavator>), cmocka_unit_test(test<Dozer>)
+
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(the_ports_state_is_the_buss<Excavator>),
-      cmocka_unit_test(a_port_that_is_down_is_tried_every_200_ms<Excavator>),
-      cmocka_unit_test(a_port_that_comes_back_is_flushed<Excavator>),
-      cmocka_unit_test(a_short_bus_off_is_seen<Excavator>),
-      cmocka_unit_test(commands_that_are_not_taken_are_counted<Excavator>),
-      cmocka_unit_test(the_process_is_told_of<Excavator>),
-      cmocka_unit_test(what_is_wrong_with_frames_reaches_the_controller<Excavator>),
+      ON_BOTH(the_ports_state_is_the_buss),
+      ON_BOTH(a_port_that_is_down_is_tried_every_200_ms),
+      ON_BOTH(a_port_that_comes_back_is_flushed),
+      ON_BOTH(a_short_bus_off_is_seen),
+      ON_BOTH(a_state_that_reading_ends_is_seen),
+      ON_BOTH(a_stall_throws_away_what_queued_up),
+      ON_BOTH(the_machine_has_to_be_ours),
+      ON_BOTH(commands_that_are_not_taken_are_counted),
+      ON_BOTH(the_process_is_told_of),
+      ON_BOTH(what_is_wrong_with_frames_reaches_the_controller),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

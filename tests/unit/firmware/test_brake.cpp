@@ -65,8 +65,9 @@ void a_runaway_is_braked_at_once(void**) {
   ValidDozerInputs valid = tracks_at(2.0, 2.0);
   assert_true(
       brake(kReleased, {EcuMode::kFault, Fault::kDisplacementRunaway}, valid, kPeriod_s).wanted);
-  assert_false(
-      brake(kReleased, {EcuMode::kFault, Fault::kDisplacementDisagrees}, valid, kPeriod_s).wanted);
+  for (const Fault other : {Fault::kDisplacementDisagrees, Fault::kTrackSpeedDisagrees}) {
+    assert_false(brake(kReleased, {EcuMode::kFault, other}, valid, kPeriod_s).wanted);
+  }
   valid.faults.add(Fault::kDisplacementRunaway);
   for (const EcuMode mode : {EcuMode::kSilent, EcuMode::kReady, EcuMode::kActive}) {
     assert_true(wanted(kReleased, mode, valid));

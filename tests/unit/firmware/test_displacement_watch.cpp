@@ -79,6 +79,17 @@ void it_is_given_the_time_to_settle(void**) {
   assert_true(one.disagrees(0.0078125));
 }
 
+/// Passed by its command, it has the time once more: one that follows late is not off for good.
+void the_other_side_of_its_command_counts_anew(void**) {
+  Displacement one = settled(0.0);
+  for (int n = 0; n < 20; ++n) {
+    one.sent = n % 2 == 0 ? 0.5 : -0.5;
+    assert_false(one.disagrees(0.25));
+    assert_false(one.disagrees(0.25));
+  }
+  assert_true(one.disagrees(0.0078125));
+}
+
 /// Away from its command by more than the tolerance: three cycles, no fewer, whichever way.
 void one_that_leaves_its_command_runs_away(void**) {
   for (const double at : {0.0, 0.5, -0.5}) {
@@ -144,6 +155,15 @@ void one_that_is_stuck_does_not_run_away(void**) {
   assert_int_equal(one.cycles_until_away(), -1);
   one.measured = std::nextafter(0.625, 1.0);
   assert_int_equal(one.cycles_until_away(), kRunawayCycles);
+}
+
+/// Within the commands of late it goes where it likes, and stays stuck wherever that was.
+void one_that_followed_before_it_stuck_does_not_run_away(void**) {
+  Displacement one = settled(0.25);
+  one.sent = one.measured = 0.75;
+  assert_false(one.runs_away());
+  one.sent = 0.25;
+  assert_int_equal(one.cycles_until_away(), -1);
 }
 
 /// Stuck on the other side it drives the wrong way: as soon as no command of late was there.
@@ -223,11 +243,13 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(disagreement_has_a_sharp_edge),
       cmocka_unit_test(it_is_given_the_time_to_settle),
+      cmocka_unit_test(the_other_side_of_its_command_counts_anew),
       cmocka_unit_test(one_that_leaves_its_command_runs_away),
       cmocka_unit_test(it_is_found_soon),
       cmocka_unit_test(it_must_be_away_in_a_row),
       cmocka_unit_test(between_old_and_new_is_well),
       cmocka_unit_test(one_that_is_stuck_does_not_run_away),
+      cmocka_unit_test(one_that_followed_before_it_stuck_does_not_run_away),
       cmocka_unit_test(the_wrong_side_is_away_without_moving),
       cmocka_unit_test(the_wrong_direction_is_away),
       cmocka_unit_test(one_that_does_not_return_runs_away),

@@ -189,24 +189,44 @@ void a_displacement_that_runs_away_stops(void**) {
   }
 }
 
-/// 0.375 m/s for 0.3 s, either way, either track; a moment of agreement gives as much again.
+/// At 1 m/s 0.475 m/s for 0.3 s, either way, either track; a moment of agreement gives as much
+/// again.
 void a_track_off_its_displacements_slows(void**) {
   for (unsigned track = 0; track < kTrackCount; ++track) {
     for (const double sign : {1.0, -1.0}) {
       Machine machine;
-      machine.inputs.track_speed_mps[track] = 1.0 + sign * 0.375;
+      machine.inputs.track_speed_mps[track] = 1.0 + sign * 0.474;
       assert_well(machine.run(50));
-      machine.inputs.track_speed_mps[track] = 1.0 + sign * 0.376;
+      machine.inputs.track_speed_mps[track] = 1.0 + sign * 0.476;
       for (int round = 0; round < 3; ++round) {
         assert_well(machine.run(4));  // 0.25 s
         machine.inputs.track_speed_mps[track] = 1.0;
         assert_well(machine.step());
-        machine.inputs.track_speed_mps[track] = 1.0 + sign * 0.376;
+        machine.inputs.track_speed_mps[track] = 1.0 + sign * 0.476;
       }
       machine.run(4);
       assert_slowed_by(Fault::kTrackSpeedDisagrees, machine.step());
       assert_true(machine.seen.inputs.faults.has(Fault::kTrackSpeedDisagrees));
     }
+  }
+}
+
+/// Standing, the tolerance itself is well and the next number is not; backwards its share counts as
+/// forwards.
+void the_tracks_tolerance_grows_with_speed(void**) {
+  for (const double sign : {1.0, -1.0}) {
+    Machine machine;
+    machine.drive(0.0, 1.0);
+    machine.inputs.track_speed_mps[kLeft] = sign * 0.375;
+    assert_well(machine.run(50));
+    machine.inputs.track_speed_mps[kLeft] = std::nextafter(sign * 0.375, sign * 9.0);
+    assert_slowed_by(Fault::kTrackSpeedDisagrees, machine.run(5));
+    Machine back;
+    back.drive(-0.5, 1.0);
+    back.inputs.track_speed_mps[kLeft] = -1.0 + sign * 0.474;
+    assert_well(back.run(50));
+    back.inputs.track_speed_mps[kLeft] = -1.0 + sign * 0.476;
+    assert_slowed_by(Fault::kTrackSpeedDisagrees, back.run(5));
   }
 }
 
@@ -355,6 +375,7 @@ int main() {
       cmocka_unit_test(a_displacement_that_stays_behind_stops),
       cmocka_unit_test(a_displacement_that_runs_away_stops),
       cmocka_unit_test(a_track_off_its_displacements_slows),
+      cmocka_unit_test(the_tracks_tolerance_grows_with_speed),
       cmocka_unit_test(a_tracks_speed_is_that_of_its_displacements),
       cmocka_unit_test(the_first_fault_stays_the_first),
       cmocka_unit_test(a_stopped_blade_is_not_judged),

@@ -57,10 +57,14 @@ void the_transmission_holds_it(void**) {
 void measured_flow_holds_it(void**) {
   SpeedDemand demand = easy();
   demand.required_flow_m3ps = 2.0 * demand.available_flow_m3ps;
-  const SpeedChoice choice = after(demand, 5.0);
+  SpeedState fast;
+  fast.speed_mps = 1.0;
+  const SpeedChoice choice = after(demand, 5.0, fast);
   assert_near(choice.allowed_mps, 0.5, 1e-3);
   assert_near(choice.state.speed_mps, 0.5, 1e-3);
   assert_int_equal(choice.limit.kind, LimitKind::kImplementFlow);
+  // It rises no higher than to the share that is planned with.
+  assert_near(after(demand, 5.0).state.speed_mps, 0.5 * profile().travel.flow_share, 1e-3);
 }
 
 /// Without flow nothing is divided by it; at standstill not by the speed.

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "app/machines/machine_file.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace {

@@ -180,6 +180,31 @@ void oil_is_accounted_for(void**) {
   }
 }
 
+// A chamber above the pump's relief does not flow back through the section.
+void the_load_check_holds(void**) {
+  ImplementCircuit circuit(dozer_9t());
+  circuit.set_command(0.6);
+  for (int i = 0; i < 1000; ++i) {
+    circuit.step(5e-4);
+  }
+  assert_near(circuit.solve(157.08, {24e6, 1e9}, {1e6, 1e9}).supply, 0.0, 0.0);
+  assert_near(circuit.flows().cap_in, 0.0, 0.0);
+  // Half a margin below the relief: what the open edge lets through at 1 MPa.
+  const double open = circuit.solve(157.08, {20e6, 0.0}, {1e6, 1e9}).supply;
+  assert_near(open, 0.5 * kValveFlow * std::sqrt(0.5), 1e-6);
+}
+
+// The weight's moment turns with the body.
+void gravity_follows_the_bodys_pitch(void**) {
+  const BladeJoint blade(dozer_9t());
+  const double arm = std::atan2(-0.1037, 1.5881);
+  for (const double pitch : {-0.3, 0.0, 0.3}) {
+    const double moment = 950.0 * 9.80665 * 1.45 * std::cos(arm + pitch);
+    const double lever = -blade.linkage().length_per_angle_m(0.0);
+    assert_near(blade.holding_force_n(pitch), -moment / lever, 1e-6);
+  }
+}
+
 // A first-order check of the whole chain: second-order spool lag, dead time.
 void the_spool_answers_after_its_dead_time(void**) {
   DozerPlantProfile profile = dozer_9t();
@@ -228,6 +253,8 @@ int main() {
       cmocka_unit_test(deadband_and_enable_keep_it_shut),
       cmocka_unit_test(at_its_ends_the_relief_takes_over),
       cmocka_unit_test(oil_is_accounted_for),
+      cmocka_unit_test(the_load_check_holds),
+      cmocka_unit_test(gravity_follows_the_bodys_pitch),
       cmocka_unit_test(the_spool_answers_after_its_dead_time),
       cmocka_unit_test(a_pilot_valve_can_be_broken),
   };

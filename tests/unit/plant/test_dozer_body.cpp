@@ -100,6 +100,39 @@ void force_and_rolling_resistance_accelerate_it(void**) {
   assert_near(back.velocity_mps(), -0.5 * (20e3 - 0.08 * kWeight) / 8900.0, 0.02);
 }
 
+// Along the slope the force accelerates; x has the cosine's share of it.
+void on_a_slope_gravity_accelerates_it(void**) {
+  const double slope = 0.35;
+  const Terrain terrain = ramp(slope);
+  HalfVehicle body(at(-1.0));
+  while (body.position_m() < 6.0) {
+    body.step(terrain, 8900.0 * 20.0 * (1.0 - body.velocity_mps()) + 10e3, kStep);
+  }
+  const double velocity = body.velocity_mps();
+  const double pitch = body.pitch_rad();
+  run(body, terrain, 0.0, 0.2);
+  const double along = -9.80665 * std::sin(pitch) - 0.08 * 9.80665;
+  assert_near(body.velocity_mps() - velocity, 0.2 * along * std::cos(pitch), 0.015);
+}
+
+// A ditch as narrow as a cell: the track passes over it.
+void a_wheel_is_wider_than_a_notch(void**) {
+  Terrain terrain(-10.0, 30.0, 0.02);
+  terrain.cut({-1.8, 0.1}, {-1.8, -0.3});
+  HalfVehicle body(at(-3.0));
+  run(body, terrain, 0.0, 1.0);
+  // Its mean is 0.03 m down: 0.3 * 0.02 / 0.2; of a sag of 0.0145 m nothing is left. The others
+  // hardly notice.
+  assert_near(body.wheel_loads_n()[9], 0.0, 0.0);
+  assert_near(body.wheel_loads_n()[0], kWeight / 10, 0.25 * kWeight / 10);
+  Terrain shallow(-10.0, 30.0, 0.02);
+  shallow.cut({-1.8, 0.1}, {-1.8, -0.05});
+  HalfVehicle over(at(-3.0));
+  run(over, shallow, 0.0, 1.0);
+  assert_near(over.wheel_loads_n()[9], kWeight / 10 - 6.0e5 * 0.005, 1200.0);
+  assert_true(over.wheel_loads_n()[9] > 0.6 * kWeight / 10);
+}
+
 // Nothing gains energy that nobody gives: dropped by a bit, it comes to rest where it belongs.
 void a_drop_is_damped(void**) {
   Terrain terrain(-10.0, 30.0, 0.02);
@@ -227,6 +260,8 @@ int main() {
       cmocka_unit_test(it_starts_in_its_sag),
       cmocka_unit_test(on_a_slope_it_stands_parallel_to_it),
       cmocka_unit_test(force_and_rolling_resistance_accelerate_it),
+      cmocka_unit_test(on_a_slope_gravity_accelerates_it),
+      cmocka_unit_test(a_wheel_is_wider_than_a_notch),
       cmocka_unit_test(a_drop_is_damped),
       cmocka_unit_test(over_a_ledge_it_tips),
       cmocka_unit_test(the_brake_holds_on_a_slope),

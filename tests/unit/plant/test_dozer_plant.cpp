@@ -2,6 +2,7 @@
 
 #include "app/plant/dozer_plant.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <vector>
 
@@ -129,6 +130,35 @@ void the_tracks_follow_what_the_blade_cut(void**) {
   assert_near(plant.terrain().height_m(0.0), 0.0, 0.005);
   assert_true(lowest < -0.17 && lowest > -0.30);
   assert_true(steepest_down < -0.09 && steepest_up > 0.09);
+}
+
+// Rates are the derivatives of what they belong to, and the edge is where pose and blade put it.
+void pose_rates_and_edge_belong_together(void**) {
+  DozerPlant plant(dozer_9t());
+  const auto pose_of = [&plant] {
+    return Eigen::Vector4d(plant.position_m(), plant.height_m(), plant.pitch_rad(),
+                           plant.blade_stroke_m());
+  };
+  double steepest = 0.0;
+  for (int i = 0; i < 900; ++i) {
+    grade_for(plant, kCycle);
+    const Eigen::Vector4d before = pose_of();
+    plant.advance(500);
+    const Eigen::Vector4d change = (pose_of() - before) / 5e-4;
+    const Eigen::Vector4d rate(plant.velocity_mps(), plant.climb_mps(), plant.pitch_rate_radps(),
+                               plant.blade_velocity_mps());
+    for (int k = 0; k < 4; ++k) {
+      assert_near(change[k], rate[k], 2e-3);
+    }
+    const double pitch = plant.pitch_rad();
+    const double angle = plant.blade().angle_rad() - std::asin(0.386 / 1.60);
+    const Eigen::Vector2d in_body(0.6718 + 1.60 * std::cos(angle), 0.386 + 1.60 * std::sin(angle));
+    const Eigen::Vector2d origin(plant.position_m(), plant.height_m());
+    const Eigen::Vector2d edge = origin + Eigen::Rotation2Dd(pitch) * in_body;
+    assert_near((plant.cutting_edge_m() - edge).norm(), 0.0, 1e-9);
+    steepest = std::max(steepest, std::abs(pitch));
+  }
+  assert_true(steepest > 0.08);
 }
 
 void it_parks_on_the_slope_that_it_cut(void**) {
@@ -290,6 +320,7 @@ int main() {
       cmocka_unit_test(at_rest_it_stays_at_rest),
       cmocka_unit_test(on_the_level_it_reaches_its_speed),
       cmocka_unit_test(the_tracks_follow_what_the_blade_cut),
+      cmocka_unit_test(pose_rates_and_edge_belong_together),
       cmocka_unit_test(it_parks_on_the_slope_that_it_cut),
       cmocka_unit_test(the_brake_stalls_the_transmission),
       cmocka_unit_test(a_path_can_be_broken),

@@ -252,8 +252,6 @@ void commands_can_be_lost(void**) {
   assert_true(rig.machine.spools_enabled());
 }
 
-int counter_of(const CanFrame& frame) { return frame.data[1] & 0xF; }
-
 void counters_can_freeze(void**) {
   Rig rig;
   rig.cycles(10);

@@ -29,20 +29,6 @@ void messages_come_at_their_rates(void**) {
   assert_int_equal(rig.seen.size(), 11);
 }
 
-template <class Message>
-void check_protection(const Rig& rig) {
-  E2eState state;
-  const E2eConfig config{Message::kDataId, 1, kSecondUs, 0};
-  int accepted = 0;
-  for (const CanFrame& frame : rig.seen.at(Message::kId)) {
-    assert_true(frame.extended);
-    assert_int_equal(frame.length, Message::kLength);
-    accepted += e2e_accepted(e2e_check(config, state, frame.data, frame.stamp_us)) ? 1 : 0;
-  }
-  // All but the two of the handshake, without a loss, over more than one round of the counter.
-  assert_int_equal(accepted, rig.seen.at(Message::kId).size() - 2);
-}
-
 void frames_are_protected(void**) {
   Rig rig;
   rig.cycles(100);

@@ -7,10 +7,10 @@ import test from 'node:test';
 
 const folder = process.argv[2];
 // As in the page: one script after the other in one scope.
-const [checks, data, path] = new Function(`${
-  ['report_checks.js', 'report_scene.js', 'report_data.js', 'report_path.js']
+const [checks, parts, data, path] = new Function(`${
+  ['report_checks.js', 'report_parts.js', 'report_scene.js', 'report_data.js', 'report_path.js']
       .map((file) => readFileSync(join(folder, file), 'utf8')).join('\n')}
-  return [reportChecks, reportData, reportPath];`)();
+  return [reportChecks, reportParts, reportData, reportPath];`)();
 
 /// As written before forces, tip velocity and obstacle were recorded.
 function good() {
@@ -57,7 +57,7 @@ test('good data is complete and in the page\'s units', () => {
   assert.deepEqual(plot(report, 'pressure').body.value.lines[1].values, [4, 5, 6]);
   assert.deepEqual(plot(report, 'error').body.value.lines[0].values, [0, null, 40]);
   assert.deepEqual(plot(report, 'lambda').body.value.lines[0].values, [1, 0.5, null]);
-  assert.equal(report.geometry.value.tipMeasured.length, 2);
+  assert.equal(report.path.value.tipMeasured.length, 2);
   assert.deepEqual(report.limitsShare.value.map((row) => row.share), [0.75, 0.25]);
 });
 
@@ -81,8 +81,8 @@ test('nothing at all gives sentences, not an exception', () => {
 
 test('an empty run says so', () => {
   const report = broken((d) => { d.series.time_s = []; });
-  assert.match(report.time.problem, /time_s.*fewer than two/);
-  assert.equal(report.geometry.ok, true);
+  assert.match(report.x.problem, /time_s.*fewer than two/);
+  assert.equal(report.path.ok, true);
 });
 
 test('each fault is named, and costs only its own part', () => {
@@ -132,22 +132,22 @@ test('a limit holds until the next sample, and not across a gap', () => {
 test('a limit has one colour everywhere, "none" the neutral one', () => {
   const input = good();
   input.series.limit_names.push('spool travel: arm');
-  assert.deepEqual([...data.limitColours(input)],
+  assert.deepEqual([...parts.limitColours(input)],
       [['none', 0], ['pump flow: Pump 1', 1], ['spool travel: arm', 2]]);
 });
 
 test('numbers read as they should', () => {
-  assert.equal(data.formatKey(12345.678), '12346');
-  assert.equal(data.formatKey(0.000123456), '0.0001235');
-  assert.equal(data.formatKey(NaN), '–');
-  assert.equal(data.formatLive(-0.25, 2, 'm/s'), '−0.25 m/s');
-  assert.equal(data.formatLive(null, 2, 'm/s'), '–');
-  assert.equal(data.formatShare(0.0004), '< 0.1 %');
-  assert.equal(data.formatShare(0), '0.0 %');
+  assert.equal(parts.formatKey(12345.678), '12346');
+  assert.equal(parts.formatKey(0.000123456), '0.0001235');
+  assert.equal(parts.formatKey(NaN), '–');
+  assert.equal(parts.formatLive(-0.25, 2, 'm/s'), '−0.25 m/s');
+  assert.equal(parts.formatLive(null, 2, 'm/s'), '–');
+  assert.equal(parts.formatShare(0.0004), '< 0.1 %');
+  assert.equal(parts.formatShare(0), '0.0 %');
 });
 
 test('the path has one scale in both directions', () => {
-  const geometry = data.prepare(good()).geometry.value;
+  const geometry = data.prepare(good()).path.value;
   for (const width of [320, 800, 2000]) {
     const {view, arrows, marks, frame} = path.layout(geometry, width);
     assert.ok(Math.abs((view.px(4) - view.px(3)) - (view.py(0) - view.py(1))) < 1e-9);

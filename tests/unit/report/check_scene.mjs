@@ -19,7 +19,7 @@ const document = {
 };
 const getComputedStyle = () => ({getPropertyValue: (name) => ` ${name}`});
 const uPlot = {rangeNum: (min, max) => [min, max]};
-const files = ['report_checks.js', 'report_scene.js', 'report_data.js', 'report_path.js',
+const files = ['report_checks.js', 'report_parts.js', 'report_scene.js', 'report_data.js', 'report_path.js',
   'report_chart.js'];
 const [data, path, chart] = new Function('document', 'getComputedStyle', 'uPlot', `${
   files.map((file) => readFileSync(join(folder, file), 'utf8')).join('\n')}
@@ -66,7 +66,7 @@ const clear = (d) => {
 };
 
 function drawn(report, hidden = []) {
-  const {svg} = path.draw(report.geometry.value, 800, new Set(hidden));
+  const {svg} = path.draw(report.path.value, 800, new Set(hidden));
   const all = (node) => [node, ...node.children.flatMap(all)];
   return {
     ofClass: (name) => all(svg).filter((node) => node.attributes.class === name),
@@ -83,8 +83,8 @@ test('a run into an obstacle is complete, in the order of the paper\'s figures',
 });
 
 test('the path\'s figure is the one with or without an obstacle', () => {
-  assert.equal(data.prepare(good()).geometrySource, 'Kim, Fig. 14');
-  assert.equal(changed(clear).geometrySource, 'Kim, Fig. 9');
+  assert.equal(data.prepare(good()).path.source, 'Kim, Fig. 14');
+  assert.equal(changed(clear).path.source, 'Kim, Fig. 9');
 });
 
 test('the force is in kN, x and y', () => {
@@ -122,8 +122,8 @@ test('a report from before all this misses nothing', () => {
   assert.deepEqual(report.problems, []);
   assert.equal(plot(report, 'force'), undefined);
   assert.equal(plot(report, 'tip-velocity'), undefined);
-  assert.deepEqual(report.holds.value, []);
-  const {groundY, obstacle, changes} = report.geometry.value;
+  assert.deepEqual(report.shade.value, []);
+  const {groundY, obstacle, changes} = report.path.value;
   assert.deepEqual([groundY, obstacle, changes], [null, null, []]);
 });
 
@@ -145,7 +145,7 @@ test('each fault in a plot is named, and costs only this plot', () => {
     assert.match(plot(report, id).body.problem, sentence);
     assert.equal(report.problems.length, 1);
     assert.deepEqual(report.plots.filter((p) => !p.body.ok).map((p) => p.id), [id]);
-    assert.equal(report.geometryProblems.length, 0);
+    assert.equal(report.path.problems.length, 0);
   }
 });
 
@@ -167,7 +167,7 @@ test('each fault in what the bucket met is named, and the path stays', () => {
   ];
   for (const [sentence, change] of faults) {
     const report = changed(change);
-    assert.deepEqual(report.geometryProblems, report.problems);
+    assert.deepEqual(report.path.problems, report.problems);
     assert.equal(report.problems.length, 1);
     assert.match(report.problems[0], sentence);
     assert.ok(report.plots.every((p) => p.body.ok));
@@ -177,21 +177,21 @@ test('each fault in what the bucket met is named, and the path stays', () => {
 
 test('what the path and the obstacle both miss is said once', () => {
   const report = changed((d) => delete d.geometry.tip_true);
-  assert.match(report.geometry.problem, /tip_true” is missing/);
-  assert.deepEqual([report.problems.length, report.geometryProblems], [1, []]);
+  assert.match(report.path.problem, /tip_true” is missing/);
+  assert.deepEqual([report.problems.length, report.path.problems], [1, []]);
 });
 
 test('without an obstacle nobody asks when it held', () => {
   const report = changed((d) => { clear(d); d.geometry.tip_true.pop(); });
   assert.deepEqual(report.problems, []);
-  assert.deepEqual(report.holds.value, []);
-  assert.deepEqual(report.geometry.value.changes, []);
+  assert.deepEqual(report.shade.value, []);
+  assert.deepEqual(report.path.value.changes, []);
 });
 
 test('the obstacle holds until the sample that finds it gone', () => {
   const report = data.prepare(good());
-  assert.deepEqual(report.holds.value.map((run) => [run.from, run.until]), [[1, 3]]);
-  assert.deepEqual(report.geometry.value.changes, [
+  assert.deepEqual(report.shade.value.map((run) => [run.from, run.until]), [[1, 3]]);
+  assert.deepEqual(report.path.value.changes, [
     {x: 4, y: -1, time_s: 1, holds: true}, {x: 3.5, y: -2, time_s: 3, holds: false}]);
 });
 
@@ -204,7 +204,7 @@ test('an obstacle is marked too where nothing ever touches it', () => {
 
 test('the obstacle lies behind its face, whatever the length of the normal', () => {
   const outline = (normal) => changed((d) => { d.geometry.obstacle.normal = normal; })
-      .geometry.value.obstacle.outline;
+      .path.value.obstacle.outline;
   assert.deepEqual(outline([0, 2]), [[4.5, -1.5], [3.5, -1.5], [3.5, -2], [4.5, -2]]);
   assert.deepEqual(outline([2, 0]), [[4, -2], [4, -1], [3.5, -1], [3.5, -2]]);
 });
@@ -212,7 +212,7 @@ test('the obstacle lies behind its face, whatever the length of the normal', () 
 test('ground, obstacle and where it held are drawn', () => {
   const picture = drawn(data.prepare(good()));
   const [ground] = picture.ofClass('ground');
-  const y = path.layout(data.prepare(good()).geometry.value, 800).view.py(-0.5);
+  const y = path.layout(data.prepare(good()).path.value, 800).view.py(-0.5);
   assert.match(ground.attributes.d, new RegExp(`^M66,${y}H`));
   for (const text of ['ground', 'held 1.0 s', 'let go 3.0 s']) {
     assert.ok(picture.texts.includes(text), text);
@@ -242,7 +242,7 @@ test('the reader can hide the obstacle', () => {
 
 test('an obstacle beside the path is inside the picture', () => {
   const report = changed((d) => { d.geometry.obstacle.point = [9, -5]; });
-  const {obstacle, frame} = path.layout(report.geometry.value, 800);
+  const {obstacle, frame} = path.layout(report.path.value, 800);
   for (const [x, y] of obstacle) {
     assert.ok(x > frame.left && x < frame.right && y > frame.top && y < frame.bottom);
   }
@@ -250,7 +250,7 @@ test('an obstacle beside the path is inside the picture', () => {
 
 test('the ground\'s name keeps off the path', () => {
   const report = changed((d) => { d.geometry.path = [[3, 0], [9, -0.45], [9.2, -0.45], [3, -2]]; });
-  const narrow = path.layout(report.geometry.value, 360);
+  const narrow = path.layout(report.path.value, 360);
   const {groundLabel: box} = narrow;
   assert.ok(box.x + box.w / 2 < narrow.frame.right && box.x - box.w / 2 > narrow.frame.left);
   for (const [x, y] of [...narrow.path, ...narrow.tipTrue]) {
@@ -269,7 +269,7 @@ function canvas(seen = {from: 0, until: 3}) {
 }
 
 const optionsOf = (report, id) => chart.options(plot(report, id), 600,
-    {shade: report.holds.value, limitColour: () => 'limit0', mountLegend() {}, showAt() {}});
+    {x: report.x, shade: report.shade.value, limitColour: () => 'limit0', mountLegend() {}, showAt() {}});
 
 test('every plot over time is shaded while the obstacle holds, and only then', () => {
   const report = data.prepare(good());

@@ -1,0 +1,130 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "app/cli/commands.hpp"
+#include "app/cli/fastest_speed.hpp"
+#include "app/cli/fault_words.hpp"
+#include "app/cli/grade_options.hpp"
+#include "app/cli/grade_report.hpp"
+#include "app/cli/grade_run.hpp"
+#include "app/cli/guarded.hpp"
+#include "app/cli/progress_bar.hpp"
+#include "app/cli/validators.hpp"
+
+namespace graben::cli {
+namespace {
+
+struct Options {
+  GradeScenario scenario;
+  std::string profile = "dozer_9t";
+  std::string out = "out";
+  std::string log;
+  std::string summary;
+  std::optional<std::uint64_t> seed;
+  std::optional<double> within_m;
+};
+
+std::string end_text(const GradeResult& result) {
+  return result.end == GradeEnd::kFault
+             ? fmt::format("the controller stopped with a fault: {} (fault {})",
+                           fault_words(result.fault), static_cast<int>(result.fault))
+             : "the grade was not finished in time";
+}
+
+machines::DozerMachine machine_of(const Options& options) {
+  if (options.scenario.errors == "all" && !options.seed) {
+    throw std::runtime_error("--errors all draws the errors: it needs --seed");
+  }
+  return arranged(machines::load_dozer(machines::find_profile(options.profile)), options.scenario,
+                  options.seed.value_or(0));
+}
+
+std::string words_of(const Options& options, const machines::DozerMachine& machine) {
+  const std::string seed = options.seed ? fmt::format(" | seed {}", *options.seed) : "";
+  return fmt::format("{} | {}{}", machine.name, scenario_words(machine, options.scenario), seed);
+}
+
+void grade(const Options& options) {
+  const machines::DozerMachine machine = machine_of(options);
+  const std::filesystem::path out(options.out);
+  std::filesystem::create_directories(out);
+  GradeOptions run;
+  run.log_file = options.log.empty() ? out / "grade.log" : std::filesystem::path(options.log);
+
+  GradeResult result;
+  {
+    ProgressBar bar("grade");
+    result = run_grade(machine, run,
+                       [&](double share, const std::string& where) { bar.show(share, where); });
+  }
+  const GradeSummary summary = summarise(machine, result);
+  const std::filesystem::path report = out / "grade.html";
+  write_grade_report(report, machine, result, summary, words_of(options, machine));
+  if (!options.summary.empty()) {
+    write_grade_summary(options.summary, summary);
+  }
+  fmt::print("{}log     {}\nreport  {}\n", grade_table(summary), run.log_file.string(),
+             report.string());
+  if (result.end != GradeEnd::kDone) {
+    throw std::runtime_error(end_text(result));
+  }
+}
+
+/// How fast one may go without the controller's bound.
+void search(const Options& options) {
+  if (options.scenario.speed_mode != "constant") {
+    throw std::runtime_error("--within looks for a constant speed: it needs --speed-mode constant");
+  }
+  const machines::DozerMachine machine = machine_of(options);
+  FastestSpeed result;
+  {
+    ProgressBar bar("grade");
+    result = find_fastest(machine, *options.within_m,
+                          [&](double share, const std::string& where) { bar.show(share, where); });
+  }
+  fmt::print("{}", fastest_table(result, *options.within_m));
+  if (!result.found) {
+    throw std::runtime_error(
+        fmt::format("no constant speed from {} m/s on keeps the grade within {} m",
+                    kSlowestTrial_mps, *options.within_m));
+  }
+  if (!options.summary.empty()) {
+    write_grade_summary(options.summary, result.found->summary);
+  }
+}
+
+}  // namespace
+
+void add_grade(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "grade", "Cut the profile's grade with the simulated dozer, over a CAN bus in memory");
+  command->add_option("--profile", options->profile, "Machine profile: file or shipped name")
+      ->capture_default_str();
+  command->add_option("--out", options->out, "Folder for grade.log and grade.html")
+      ->capture_default_str();
+  command->add_option("--log", options->log, "candump log; grade.log in that folder unless told");
+  command->add_option("--summary", options->summary, "Write the figures as JSON to this file");
+  options->scenario.errors = "none";
+  add_speed_options(*command, options->scenario);
+  add_engine_option(*command, options->scenario);
+  add_error_option(*command, options->scenario);
+  command->add_option("--seed", options->seed, "Of --errors, a whole number from 0")
+      ->check(whole_number());
+  command
+      ->add_option("--within", options->within_m,
+                   "Instead of one run: the fastest constant speed up to the wanted one whose "
+                   "true edge stays this near to the grade, m, 0.001 .. 1")
+      ->check(number_between(0.001, 1.0));
+  command->callback([options, &status] {
+    status = guarded("grade", [&] { options->within_m ? search(*options) : grade(*options); });
+  });
+}
+
+}  // namespace graben::cli

@@ -1,0 +1,66 @@
+#pragma once
+/// A simulated machine in real time on a CAN interface, with an operator beside it; whatever its
+/// kind.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/plant/operator_node.hpp"
+#include "platform/linux/socketcan_port.hpp"
+
+namespace graben::cli {
+
+/// Who gives enable and task.
+enum class Player {
+  kNobody,  ///< Another node does.
+  kTask,    ///< Enables once and lets go half a second before the end.
+  kShifts,  ///< Works for 5 s, lets go for 1 s, and so on: what stopped is armed again.
+};
+
+struct PlantRunOptions {
+  std::string interface;
+  double speed = 1.0;    ///< Simulated over real time.
+  double seconds = 0.0;  ///< Simulated; 0: until SIGINT or SIGTERM.
+  Player player = Player::kNobody;
+  double enable_after_s = 1.5;  ///< Then the operator enables, and 0.1 s later sets the task.
+  double speed_override_ratio = 1.0;
+};
+
+/// What became of a run, beside what the machine did in it.
+struct PlantBusFigures {
+  double simulated_s = 0.0;
+  std::uint64_t late_cycles = 0;  ///< Of this process.
+  std::uint64_t frames_dropped = 0;
+};
+
+inline constexpr TimeUs kPlantPeriod_us = 10 * kMillisecondUs;
+
+/// `Operator` is the kind's operator node.
+template <class Operator>
+class PlantBus {
+ public:
+  /// Opens the interface for a machine that takes these ids. Throws std::runtime_error where it is
+  /// not there.
+  PlantBus(const PlantRunOptions& options, std::vector<std::uint32_t> ids);
+
+  /// The machine's.
+  [[nodiscard]] CanPort& port() { return port_; }
+  /// The operator lets go, for good.
+  void let_go();
+  /// Cycle by cycle, the machine and then the operator, until the time is over or the process is
+  /// told to end.
+  PlantBusFigures run(Task task, const std::function<void(TimeUs)>& machine);
+
+ private:
+  PlantRunOptions options_;
+  SocketCanPort port_;
+  SocketCanPort operator_port_;
+  Operator driver_;
+};
+
+extern template class PlantBus<plant::OperatorNode>;
+extern template class PlantBus<plant::DozerOperatorNode>;
+
+}  // namespace graben::cli

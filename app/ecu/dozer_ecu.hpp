@@ -1,0 +1,25 @@
+#pragma once
+/// The dozer's controller as a node on its bus.
+
+#include "app/ecu/ecu_node.hpp"
+#include "firmware/dozer_controller.hpp"
+#include "hal/dozer_receiver.hpp"
+#include "hal/dozer_transmitter.hpp"
+
+namespace graben::ecu {
+
+struct DozerKind {
+  using Profile = DozerProfile;
+  using Inputs = DozerInputs;
+  using Outputs = DozerOutputs;
+  using Controller = DozerController;
+  using Receiver = DozerReceiver;
+  using Transmitter = DozerTransmitter;
+  using MemoryAccess = DozerMemoryAccess;
+  [[nodiscard]] static bool is_command(std::uint32_t id);
+};
+
+extern template class EcuNode<DozerKind>;
+using DozerEcu = EcuNode<DozerKind>;
+
+}  // namespace graben::ecu

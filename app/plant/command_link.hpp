@@ -1,0 +1,88 @@
+#pragma once
+/// How commands come in at a simulated machine, of whatever kind.
+
+#include <array>
+#include <cstdint>
+
+#include "can_dbc/codec.hpp"
+#include "firmware/core/time.hpp"
+#include "hal/can_port.hpp"
+#include "hal/e2e.hpp"
+
+namespace graben::plant {
+
+/// What became of the frames of a command, by its id.
+struct CommandCounters {
+  std::uint64_t accepted = 0;
+  std::uint64_t wrong_format = 0;  ///< 11 bit, remote, error, FD or wrong length.
+  std::uint64_t rejected = 0;      ///< By CRC or counter, or while synchronising.
+  std::uint64_t timeouts = 0;      ///< Times that it had to do without the command.
+};
+
+inline constexpr TimeUs kCommandTimeoutUs = 100 * kMillisecondUs;
+
+/// The way in of one command.
+class CommandLink {
+ public:
+  template <class Message>
+  [[nodiscard]] bool accepts(const CanFrame& frame, TimeUs now) {
+    return accepts({Message::kDataId, Message::kMaxDeltaCounter, kCommandTimeoutUs,
+                    Message::kCycleTimeMs * kMillisecondUs},
+                   frame, now);
+  }
+  /// Whether the command has been missing for `kCommandTimeoutUs`, from just now on.
+  [[nodiscard]] bool dies(TimeUs now);
+
+  [[nodiscard]] const CommandCounters& counters() const { return counters_; }
+
+ private:
+  [[nodiscard]] bool accepts(const E2eConfig& config, const CanFrame& frame, TimeUs now);
+
+  E2eState e2e_;
+  bool alive_ = false;
+  TimeUs last_us_ = 0;
+  CommandCounters counters_;
+};
+
+/// After a silence a command has to ask for nothing once before it counts again: what comes first
+/// may be frames that were stuck in a controller's queue, each of them right and in order.
+class NeutralFirst {
+ public:
+  void command_lost() { needs_neutral_ = true; }
+  void saw_neutral() { needs_neutral_ = false; }
+  [[nodiscard]] bool holds() const { return needs_neutral_; }
+
+ private:
+  bool needs_neutral_ = false;
+};
+
+/// Whether a SpoolCommand's enable lets its duties through; an Off ends a silence.
+template <class Command>
+[[nodiscard]] bool lets_through(const Command& command, NeutralFirst& silence) {
+  const bool known = command.enable.state == dbc::RawState::kValid;
+  const bool is_on = command.enable.value == Command::Enable::kOn;
+  if (known && !is_on) {
+    silence.saw_neutral();
+  }
+  return known && is_on && !silence.holds();
+}
+
+/// Gives each frame that is pending to `take`. A cycle takes no more than 4096, so that a flood on
+/// the bus cannot stop the simulation.
+template <class Take>
+void receive_frames(CanPort& port, const Take& take) {
+  constexpr int kFramesPerRead = 64;
+  constexpr int kReadsPerCycle = 64;
+  std::array<CanFrame, kFramesPerRead> frames;
+  for (int read = 0; read < kReadsPerCycle; ++read) {
+    const int count = port.receive(frames.data(), kFramesPerRead);
+    for (int i = 0; i < count; ++i) {
+      take(frames[static_cast<std::size_t>(i)]);
+    }
+    if (count < kFramesPerRead) {
+      return;
+    }
+  }
+}
+
+}  // namespace graben::plant

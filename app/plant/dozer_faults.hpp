@@ -1,0 +1,52 @@
+#pragma once
+/// What is broken on the simulated dozer, beside what can be on every machine.
+
+#include <array>
+#include <optional>
+
+#include "app/plant/dozer_hst_path.hpp"
+#include "app/plant/faulty_reading.hpp"
+#include "app/plant/node_faults.hpp"
+#include "firmware/signals/dozer_signals.hpp"
+
+namespace graben::plant {
+
+/// Of the body's pose and its rates, each as its sensor shows it; lengths in m, angles in rad.
+struct PoseFaults {
+  ReadingFault position;
+  ReadingFault height;
+  ReadingFault pitch;
+  ReadingFault velocity;
+  ReadingFault climb;
+  ReadingFault pitch_rate;
+
+  /// The whole sensor: a total station that has lost its prism, an inertial unit that has died.
+  void set_state(dbc::RawState state) {
+    for (ReadingFault* fault : {&position, &height, &pitch, &velocity, &climb, &pitch_rate}) {
+      fault->state = state;
+    }
+  }
+};
+
+/// Of one path of the transmission.
+struct PathFaults {
+  DisplacementFault pump;
+  DisplacementFault motor;
+  std::optional<double> shown_pump_ratio;  ///< What the feedback says.
+  std::optional<double> shown_motor_ratio;
+  ReadingFault speed;  ///< Of the track, m/s.
+};
+
+struct DozerFaults : NodeFaults {
+  StrokeFault stroke;
+  /// The pilot valve is stuck and holds the spool here, -1 .. 1. Only the pilot cut centres it.
+  std::optional<double> spool_held_ratio;
+  /// The spool opens that much beyond its command, neutral or not.
+  double spool_offset_ratio = 0.0;
+  PoseFaults pose;
+  std::array<PathFaults, kTrackCount> path;
+  /// PumpDisplacementCommand and MotorDisplacementCommand do not reach the machine.
+  bool loses_displacement_commands = false;
+};
+
+}  // namespace graben::plant

@@ -1,0 +1,193 @@
+#include "app/plant/dozer_node.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/plant/node_identity.hpp"
+
+namespace graben::plant {
+namespace {
+
+namespace bus = dbc::dozer;
+using dbc::Physical;
+using dbc::RawState;
+
+constexpr std::uint64_t kEngineCycles = bus::EEC1::kCycleTimeMs / 10;
+constexpr std::uint64_t kValveCycles = bus::ValveState::kCycleTimeMs / 10;
+constexpr std::uint64_t kIdentityCycles = bus::MachineIdentity::kCycleTimeMs / 10;
+// What a parking brake may close at.
+constexpr double kStanding_mps = 0.03;
+
+Physical valid(double value) { return {value, RawState::kValid}; }
+
+bool usable(const Physical& value) { return value.state == RawState::kValid; }
+
+}  // namespace
+
+DozerNode::DozerNode(const DozerPlantProfile& profile, CanPort& port, std::uint32_t profile_hash)
+    : plant_(profile),
+      readings_(profile),
+      port_(port),
+      sender_(port, bus::kMessages),
+      profile_hash_(profile_hash) {}
+
+void DozerNode::step(TimeUs now) {
+  receive(now);
+  watch_commands(now);
+  brake_when_stopped(now);
+  apply_faults();
+  plant_.advance(kCycleUs);
+  sender_.send_late(faults_.frames, now);
+  send(readings_.stroke(plant_, faults_), now);
+  send(readings_.position(plant_, faults_.pose), now);
+  send(readings_.pitch(plant_, faults_.pose), now);
+  send(readings_.velocity(plant_, faults_.pose), now);
+  send_transmission(now);
+  send(readings_.tracks(plant_, faults_), now);
+  if (cycle_ % kEngineCycles == 0) {
+    send(bus::EEC1{valid(plant_.engine_radps())}, now);
+  }
+  if (cycle_ % kValveCycles == 1) {
+    send_valve(now);
+  }
+  if (cycle_ % kIdentityCycles == 0) {
+    send(identity_of<bus::MachineIdentity>(profile_hash_, bus::kDbcVersion, faults_), now);
+  }
+  ++cycle_;
+}
+
+void DozerNode::receive(TimeUs now) {
+  receive_frames(port_, [this, now](const CanFrame& frame) {
+    if (frame.id == bus::SpoolCommand::kId && !faults_.loses_spool_commands) {
+      take_spool_command(frame, now);
+    }
+    if (faults_.loses_displacement_commands) {
+      return;
+    }
+    if (frame.id == bus::PumpDisplacementCommand::kId) {
+      take_pump_command(frame, now);
+    }
+    if (frame.id == bus::MotorDisplacementCommand::kId) {
+      take_motor_command(frame, now);
+    }
+  });
+}
+
+void DozerNode::watch_commands(TimeUs now) {
+  if (spool_link_.dies(now)) {
+    spool_silence_.command_lost();
+    go_neutral();
+  }
+  if (pump_link_.dies(now)) {
+    pump_silence_.command_lost();
+    stop_pumps(now);
+  }
+  if (motor_link_.dies(now)) {
+    motor_ratio_ = {1.0, 1.0};
+  }
+}
+
+void DozerNode::apply_faults() {
+  plant_.set_pilot_fault(faults_.spool_held_ratio, faults_.spool_offset_ratio);
+  for (std::size_t i = 0; i < kTrackCount; ++i) {
+    plant_.set_pump_fault(i, faults_.path[i].pump);
+    plant_.set_motor_fault(i, faults_.path[i].motor);
+  }
+  plant_.set_displacements(pump_ratio_, motor_ratio_);
+}
+
+void DozerNode::take_spool_command(const CanFrame& frame, TimeUs now) {
+  if (!spool_link_.accepts<bus::SpoolCommand>(frame, now)) {
+    return;
+  }
+  const bus::SpoolCommand command = bus::SpoolCommand::decode(frame.data);
+  const bool cut_known = command.pilot_cut.state == RawState::kValid;
+  if (cut_known) {
+    plant_.set_pilot_cut(command.pilot_cut.value == bus::SpoolCommand::PilotCut::kOn);
+  }
+  const bool enabled = lets_through(command, spool_silence_);
+  if (!enabled || !cut_known || !usable(command.blade_duty_ratio)) {
+    go_neutral();
+    return;
+  }
+  enabled_ = true;
+  plant_.set_blade_duty(command.blade_duty_ratio.value, true);
+}
+
+void DozerNode::take_pump_command(const CanFrame& frame, TimeUs now) {
+  if (!pump_link_.accepts<bus::PumpDisplacementCommand>(frame, now)) {
+    return;
+  }
+  const bus::PumpDisplacementCommand command = bus::PumpDisplacementCommand::decode(frame.data);
+  const DozerPlant::TrackArray wanted = {command.left_pump_ratio.value,
+                                         command.right_pump_ratio.value};
+  const bool known = usable(command.left_pump_ratio) && usable(command.right_pump_ratio) &&
+                     command.brake.state == RawState::kValid;
+  if (known && wanted == DozerPlant::TrackArray{}) {
+    pump_silence_.saw_neutral();
+  }
+  if (!known || pump_silence_.holds()) {
+    stop_pumps(now);
+    return;
+  }
+  stopping_ = false;
+  pump_ratio_ = wanted;
+  plant_.set_brake(command.brake.value == bus::PumpDisplacementCommand::Brake::kOn);
+}
+
+void DozerNode::take_motor_command(const CanFrame& frame, TimeUs now) {
+  if (!motor_link_.accepts<bus::MotorDisplacementCommand>(frame, now)) {
+    return;
+  }
+  const bus::MotorDisplacementCommand command = bus::MotorDisplacementCommand::decode(frame.data);
+  const auto wanted = [](const Physical& ratio) { return usable(ratio) ? ratio.value : 1.0; };
+  motor_ratio_ = {wanted(command.left_motor_ratio), wanted(command.right_motor_ratio)};
+}
+
+void DozerNode::go_neutral() {
+  enabled_ = false;
+  plant_.set_blade_duty(0.0, false);
+}
+
+void DozerNode::stop_pumps(TimeUs now) {
+  pump_ratio_ = {};
+  if (!stopping_) {
+    stopping_ = true;
+    stopping_since_us_ = now;
+  }
+}
+
+void DozerNode::brake_when_stopped(TimeUs now) {
+  if (!stopping_) {
+    return;
+  }
+  const DozerPlant::TrackArray speed = plant_.track_speeds_mps();
+  const double fastest = std::max(std::abs(speed[kLeft]), std::abs(speed[kRight]));
+  if (fastest < kStanding_mps || now - stopping_since_us_ >= kBrakeLatestUs) {
+    plant_.set_brake(true);
+  }
+}
+
+template <class Message>
+Message DozerNode::path_state(std::size_t track) const {
+  const PathFaults& faults = faults_.path[track];
+  const auto pressure = plant_.path(track).pressures_pa();
+  return {valid(faults.shown_pump_ratio.value_or(plant_.pump_ratios()[track])),
+          valid(faults.shown_motor_ratio.value_or(plant_.motor_ratios()[track])),
+          valid(std::max(pressure[0], pressure[1]))};
+}
+
+void DozerNode::send_transmission(TimeUs now) {
+  send(path_state<bus::LeftTransmission>(kLeft), now);
+  send(path_state<bus::RightTransmission>(kRight), now);
+}
+
+void DozerNode::send_valve(TimeUs now) {
+  bus::ValveState message;
+  message.enabled = {enabled_ ? bus::ValveState::Enabled::kOn : bus::ValveState::Enabled::kOff,
+                     RawState::kValid};
+  message.blade_spool_ratio = valid(plant_.spool_travel_ratio());
+  send(message, now);
+}
+
+}  // namespace graben::plant

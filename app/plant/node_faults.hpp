@@ -1,0 +1,51 @@
+#pragma once
+/// What can be broken on every simulated machine. The default is nothing; each switch acts from the
+/// next cycle on and can be taken back.
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "can_dbc/codec.hpp"
+#include "firmware/core/time.hpp"
+
+namespace graben::plant {
+
+/// Of a node's frames, by their messages' 29-bit ids.
+struct FrameFaults {
+  std::set<std::uint32_t> silent;          ///< Not sent; the counter stands still meanwhile.
+  std::set<std::uint32_t> frozen_counter;  ///< Sent with the same counter again and again.
+  /// Each is protected with the other's data id.
+  std::optional<std::pair<std::uint32_t, std::uint32_t>> swapped_data_ids;
+  /// Every frame goes out that much later. What is still on its way when it becomes 0 is lost.
+  TimeUs delay_us = 0;
+};
+
+/// What a stroke sensor shows.
+struct StrokeFault {
+  bool stuck = false;      ///< What it showed when this began.
+  double jump_m = 0.0;     ///< Added.
+  double drift_mps = 0.0;  ///< Added, growing from 0 on; 0 takes it back.
+  dbc::RawState state{};   ///< kValid shows the stroke; else 'error' or 'not available'.
+};
+
+struct NodeFaults {
+  bool wrong_identity = false;        ///< The machine names another profile.
+  bool loses_spool_commands = false;  ///< SpoolCommand does not reach the valve side.
+  FrameFaults frames;
+
+  void set_silent(std::uint32_t id, bool silent) { set(frames.silent, id, silent); }
+  void set_frozen_counter(std::uint32_t id, bool frozen) { set(frames.frozen_counter, id, frozen); }
+
+ private:
+  static void set(std::set<std::uint32_t>& ids, std::uint32_t id, bool in) {
+    if (in) {
+      ids.insert(id);
+    } else {
+      ids.erase(id);
+    }
+  }
+};
+
+}  // namespace graben::plant

@@ -1,0 +1,130 @@
+"""`graben grade`: the same seed gives the same bytes, the figures are whole and within their bounds,
+two-sided, and a constant speed shows what the bounded one is for."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+MM = 1e-3
+FIGURES = {
+    "max_error_true_m", "rmse_error_true_m", "max_error_measured_m", "rmse_error_measured_m", "time_s",
+    "mean_speed_mps", "flow_share_max", "flow_share_reported_max", "flow_above_share",
+    "flow_occasions", "deceleration_wanted_mps2", "deceleration_true_mps2", "sign_changes", "corners",
+    "duration_s", "real_time_factor", "cycles", "cycle_median_us", "cycle_max_us", "limit_share"}
+
+# What is run, and the least and the most of some figures. Far better than a machine with lag, a
+# compliant body and wrong sensors can be is a fault of the simulation or of the figures.
+RUNS = (
+    ("bounded", (), {"max_error_true_m": (1 * MM, 20 * MM), "flow_share_max": (0.7, 1.02),
+                     "deceleration_wanted_mps2": (0.1, 1.5), "flow_occasions": (0, 0),
+                     "sign_changes": (1, 16), "time_s": (15, 40)}),
+    ("1000 rpm", ("--engine-rpm", "1000"),
+     {"max_error_true_m": (1 * MM, 20 * MM), "flow_share_max": (0.7, 1.02), "time_s": (18, 80)}),
+    ("constant", ("--speed-mode", "constant"),
+     {"max_error_true_m": (100 * MM, 600 * MM), "flow_share_max": (1.5, 10.0),
+      "flow_occasions": (4, 20), "sign_changes": (0, 0), "deceleration_wanted_mps2": (0, 0),
+      "time_s": (16, 19)}),
+    ("errors", ("--errors", "all", "--seed", "3"),
+     {"max_error_true_m": (1 * MM, 20 * MM), "rmse_error_measured_m": (0.5 * MM, 5 * MM)}),
+)
+
+
+def grade(graben, folder, *options):
+    summary = os.path.join(folder, "summary.json")
+    done = subprocess.run([graben, "grade", "--out", folder, "--summary", summary, *options],
+                          capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, f"{' '.join(options)}: {done.stdout}{done.stderr}"
+    with open(summary, encoding="utf-8") as stream:
+        return json.load(stream)
+
+
+def content(folder, name):
+    with open(os.path.join(folder, name), "rb") as stream:
+        return stream.read()
+
+
+def outside(what, figures, bounds):
+    yield from (f"{what}: {key} is {figures[key]}, not {least} .. {most}"
+                for key, (least, most) in bounds.items() if not least <= figures[key] <= most)
+    if set(figures) != FIGURES:
+        yield f"{what}: {sorted(set(figures) ^ FIGURES)} not in both"
+    if abs(sum(figures["limit_share"].values()) - 1.0) > 1e-9:
+        yield f"{what}: shares of the limits are not the whole: {figures['limit_share']}"
+    if abs(figures["mean_speed_mps"] * figures["time_s"] - 27.0) > 0.1:
+        yield f"{what}: {figures['mean_speed_mps']} m/s for {figures['time_s']} s is not 27 m"
+
+
+def repeats(graben, folder):
+    def run(*options):
+        grade(graben, folder, *options)
+        return content(folder, "grade.log")
+
+    plain = run()
+    assert run() == plain, "two runs gave different logs"
+    seeded = run("--errors", "all", "--seed", "3")
+    assert seeded != plain and run("--errors", "all", "--seed", "4") != seeded, "no error drawn"
+    assert run("--errors", "all", "--seed", "3") == seeded, "the same seed gave different logs"
+    assert run("--engine-rpm", "1500") != run("--engine-rpm", "1400"), "the engine does nothing"
+    elsewhere = os.path.join(folder, "elsewhere.log")
+    grade(graben, folder, "--log", elsewhere)
+    assert content(folder, "elsewhere.log") == plain
+
+
+def report_is_whole(graben, folder):
+    grade(graben, folder, "--speed-mode", "constant", "--speed", "1.2")
+    page = content(folder, "grade.html").decode()
+    data = json.loads(re.search(r'id="data">(.*?)</script', page, re.S)[1])
+    assert data["kind"] == "grade" and data["speed_mode"] == "constant", data["kind"]
+    assert "dozer_9t | constant, wanted 1.2 m/s, 1500 rpm, errors none" in data["subtitle"]
+    series = data["series"]
+    counts = {name: len(values) for name, values in series.items()
+              if name not in ("limit_names", "speed_desired_mps")
+              and not isinstance(values[0], list)}
+    assert len(set(counts.values())) == 1 and len(counts) == 22, counts
+    assert series["speed_desired_mps"] == 1.2
+    # What was cut is on the ground: over the last metres nothing comes after the edge.
+    heights = [z for x, z in data["terrain"] if 24.0 <= x <= 26.0]
+    assert max(map(abs, heights)) < 0.1 and min(z for _, z in data["terrain"]) < -0.3
+
+
+def fastest_constant(graben, folder):
+    summary = os.path.join(folder, "fastest.json")
+    done = subprocess.run([graben, "grade", "--speed-mode", "constant", "--speed", "0.6", "--within",
+                           "0.15", "--summary", summary], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    trials = [(float(line.split()[0]), float(line.split()[1]), "too far off" in line)
+              for line in done.stdout.splitlines()[1:-1]]
+    found = re.search(r"fastest within 150\.0 mm: ([\d.]+) m/s, ([\d.]+) s", done.stdout)
+    speed = float(found[1])
+    within = [trial for trial in trials if not trial[2]]
+    assert trials == sorted(trials) and trials[-1][0] == 0.6, trials
+    assert all((error > 150.0) == is_off for _, error, is_off in trials), trials
+    assert within[-1][0] == speed, (speed, trials)
+    # The next finer step up was tried, and is off.
+    assert (round(speed + 0.01, 2), True) in [(t[0], t[2]) for t in trials], trials
+    with open(summary, encoding="utf-8") as stream:
+        figures = json.load(stream)
+    assert abs(figures["time_s"] - float(found[2])) < 0.006, figures["time_s"]
+    assert abs(figures["max_error_true_m"] * 1e3 - within[-1][1]) < 0.06
+
+
+def main():
+    graben = sys.argv[1]
+    with tempfile.TemporaryDirectory() as folder:
+        wrong = []
+        for what, options, bounds in RUNS:
+            figures = grade(graben, folder, *options)
+            print(f"{what}: {figures['max_error_true_m'] * 1e3:.1f} mm, {figures['time_s']:.2f} s, "
+                  f"flow {figures['flow_share_max'] * 100:.0f} %")
+            wrong += outside(what, figures, bounds)
+        assert not wrong, "\n".join(wrong)
+        repeats(graben, folder)
+        report_is_whole(graben, folder)
+        fastest_constant(graben, folder)
+
+
+if __name__ == "__main__":
+    main()

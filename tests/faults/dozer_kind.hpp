@@ -1,0 +1,112 @@
+#pragma once
+/// The dozer, as the rows need a machine kind; what a member means stands in excavator_kind.hpp.
+
+#include <array>
+#include <filesystem>
+#include <optional>
+
+#include "app/ecu/dozer_ecu.hpp"
+#include "app/machines/dozer_file.hpp"
+#include "app/plant/dozer_node.hpp"
+#include "app/plant/operator_node.hpp"
+#include "app/plant/random.hpp"
+#include "can_dbc/generated/dozer_dbc.hpp"
+#include "tests/faults/bus_record.hpp"
+#include "tests/faults/rolling_watch.hpp"
+#include "tests/faults/sensor.hpp"
+
+namespace graben::faults {
+
+struct Dozer {
+  using Machine = machines::DozerMachine;
+  using PlantNode = plant::DozerNode;
+  using Plant = plant::DozerPlant;
+  using Driver = plant::DozerOperatorNode;
+  using Ecu = ecu::DozerEcu;
+  using SpoolCommand = dbc::dozer::SpoolCommand;
+  using OperatorCommand = dbc::dozer::OperatorCommand;
+  using MachineIdentity = dbc::dozer::MachineIdentity;
+  using EngineSpeed = dbc::dozer::EEC1;
+  using EcuStatus = dbc::dozer::EcuStatus;
+  using EcuHealth = dbc::dozer::EcuHealth;
+  using EcuMotion = dbc::dozer::EcuMotion;
+  using TroubleCodes = dbc::dozer::DM1;
+  static constexpr const auto& kMessages = dbc::dozer::kMessages;
+  static constexpr std::uint8_t kDbcVersion = dbc::dozer::kDbcVersion;
+  static constexpr const char* kProfile = "dozer_9t";
+  static constexpr Task kTask = Task::kGrade;
+
+  static constexpr unsigned kAxes = 1;
+  using AxisArray = std::array<double, kAxes>;
+  /// Stroke of the blade, position of the body.
+  static constexpr unsigned kPlaces = 2;
+  using PlaceArray = std::array<double, kPlaces>;
+
+  /// From the first acceleration to where it comes out of the trench's first part.
+  static constexpr TimeUs kFirstInjection_us = 2500 * kMillisecondUs;
+  static constexpr TimeUs kLastInjection_us = 20 * kSecondUs;
+  static constexpr TimeUs kLongestBaseline_us = 24 * kSecondUs;
+  static constexpr double kMoving_mps = 0.1;
+  /// From one slope of the design to the next.
+  static constexpr TimeUs kOpensWithin_us = 15 * kSecondUs;
+  /// It brakes for what slows it, and takes its time to get faster again.
+  static constexpr TimeUs kSlows_us = 700 * kMillisecondUs;
+  static constexpr TimeUs kBack_us = 1500 * kMillisecondUs;
+  /// Its blade moves now and then, and a little at a time.
+  static constexpr TimeUs kStuckStroke_us = 15 * kSecondUs;
+  static constexpr unsigned kSetpoints = 3 + 2 * kTrackCount;
+
+  struct Scenery {
+    Machine machine;
+  };
+  /// Of a seed: sensors wrong in all, in every second also mass, ground and transmission.
+  [[nodiscard]] static Scenery scenery_of(std::uint64_t seed);
+  [[nodiscard]] static PlantNode node(const Scenery& scenery, CanPort& port);
+  [[nodiscard]] static std::vector<Defect> defects();
+  /// Throws ProfileError as the loader does.
+  static void load(const std::filesystem::path& file) {
+    static_cast<void>(machines::load_dozer(file));
+  }
+
+  [[nodiscard]] static const std::vector<Sensor>& vital();
+  [[nodiscard]] static const std::vector<Sensor>& slowing();
+  [[nodiscard]] static std::vector<Sensor> strokes();
+  [[nodiscard]] static const std::vector<std::uint32_t>& protected_ids();
+  [[nodiscard]] static const std::vector<std::uint32_t>& command_ids();
+  [[nodiscard]] static bool is_read(std::uint32_t id);
+  [[nodiscard]] static const std::vector<Fault>& missing();
+
+  /// Spool, pumps with brake, motors: neutral is all of them.
+  [[nodiscard]] static bool read_command(const CanFrame& frame, BusRecord::Command& command);
+  static constexpr int kCommandFrames = 3;
+  /// v_c
+  [[nodiscard]] static double wanted_mps(const CanFrame& motion);
+  [[nodiscard]] static double slowed_mps(const Machine& machine, double before_mps,
+                                         TimeUs after_us);
+  [[nodiscard]] static bool is_back(double slow_mps, double wanted_mps, Limit limit);
+
+  [[nodiscard]] static bool enabled(const PlantNode& node) { return node.spool_enabled(); }
+  [[nodiscard]] static AxisArray strokes_m(const Plant& plant) { return {plant.blade_stroke_m()}; }
+  [[nodiscard]] static AxisArray longest_m(const Plant& plant);
+  [[nodiscard]] static AxisArray spools(const Plant& plant) { return {plant.spool_travel_ratio()}; }
+  [[nodiscard]] static double deadband(const Plant& plant) {
+    return plant.profile().deadband_ratio;
+  }
+  [[nodiscard]] static PlaceArray places_m(const Plant& plant) {
+    return {plant.blade_stroke_m(), plant.position_m()};
+  }
+  [[nodiscard]] static std::optional<Rolling> rolling(const Plant& plant);
+  static void make_neutral_and_sound(Plant& plant);
+  [[nodiscard]] static AxisArray duties(const DozerOutputs& outputs) {
+    return {outputs.blade_duty_ratio};
+  }
+  [[nodiscard]] static double heard_stroke_m(const DozerInputs& inputs, unsigned) {
+    return inputs.blade_stroke_m.value;
+  }
+  [[nodiscard]] static plant::DozerFaults& axis(PlantNode& node, unsigned) { return node.faults(); }
+  [[nodiscard]] static Reading any_reading(PlantNode& node, plant::Random& random);
+  /// A bit of one of the guarded setpoints: mode, v_c, what the gate let through.
+  static void flip(Ecu& ecu, unsigned setpoint, unsigned bit);
+};
+
+}  // namespace graben::faults

@@ -1,0 +1,207 @@
+#include "tests/faults/excavator_kind.hpp"
+
+#include <cmath>
+
+#include "app/machines/scenario.hpp"
+#include "firmware/motion/rounded_rectangle.hpp"
+#include "tests/unit/firmware/flip_bit.hpp"
+
+namespace graben {
+
+/// The controller's friend: what it keeps from cycle to cycle.
+struct ControllerMemoryAccess {
+  static auto& memory(ecu::ExcavatorEcu& ecu) { return ecu.controller_.memory_; }
+};
+
+}  // namespace graben
+
+namespace graben::faults {
+namespace {
+
+namespace bus = dbc::excavator;
+
+/// Of every stroke, at the start.
+constexpr double kLeastShare = 0.08;
+/// Above the ground, so that the machine does not start in the soil.
+constexpr double kLowestStart_m = -0.9;
+/// degraded_speed is 0.3 of full speed; the field itself changes a little meanwhile.
+constexpr double kSlower_share = 0.5;
+
+const machines::ExcavatorMachine& shipped() {
+  static const machines::ExcavatorMachine machine =
+      machines::load_excavator(machines::find_profile(Excavator::kProfile));
+  return machine;
+}
+
+bool well_inside(const ExcavatorGeometry& geometry, const StrokeResult& strokes) {
+  bool inside = strokes.status == ReachStatus::kOk;
+  for (unsigned i = 0; i < kAxisCount && inside; ++i) {
+    const double share = strokes.strokes_m[i] / geometry.cylinder[i].stroke_m;
+    inside = share > kLeastShare && share < 1.0 - kLeastShare;
+  }
+  return inside;
+}
+
+Eigen::Vector3d start_of(const machines::ExcavatorMachine& machine, std::uint64_t seed) {
+  plant::Random random(seed, plant::Draw::kStart);
+  const ExcavatorKinematics kinematics(machine.profile.geometry);
+  const RoundedRectangle path(machine.profile.dig_path);
+  for (;;) {
+    const PathPoint point = path.at_share(random.uniform());
+    constexpr double kAround_m = 0.4;
+    constexpr double kTurned_rad = 0.3;
+    const TipPose pose{point.position_m.x() + random.symmetric(kAround_m),
+                       point.position_m.y() + random.symmetric(kAround_m),
+                       point.attitude_rad + random.symmetric(kTurned_rad)};
+    const StrokeResult strokes = kinematics.strokes_from_pose(pose);
+    if (pose.y_m > kLowestStart_m && well_inside(machine.profile.geometry, strokes)) {
+      return strokes.strokes_m;
+    }
+  }
+}
+
+template <class Pressure>
+Sensor pressure(const dbc::Field& cap, const dbc::Field& rod) {
+  return {Pressure::kId, {cap, rod}, Fault::kPressureMissing};
+}
+
+}  // namespace
+
+Excavator::Scenery Excavator::scenery_of(std::uint64_t seed) {
+  machines::Scenario scenario;
+  scenario.seed = seed;
+  scenario.soil = seed % 4 < 2;
+  scenario.errors = seed % 2 == 0 ? machines::Errors::kSensors : machines::Errors::kAll;
+  Scenery scenery;
+  scenery.machine = machines::arranged(shipped(), scenario);
+  scenery.start_strokes_m = start_of(scenery.machine, seed);
+  return scenery;
+}
+
+plant::PlantNode Excavator::node(const Scenery& scenery, CanPort& port) {
+  const Eigen::Vector3d& start_m = scenery.start_strokes_m;
+  return {scenery.machine.plant, {start_m[0], start_m[1], start_m[2]}, port, scenery.machine.hash};
+}
+
+std::vector<Defect> Excavator::defects() {
+  return {{"inertia = 6850.0", "inertia = nan", "boom.inertia"},
+          {"mass = 2130.0", "mass = inf", "boom.mass"},
+          {"length = 2.90", "length = 2900.0", "arm.length"},
+          {"spool_travel = 0.010", "spool_travel = 10.0", "valve.spool_travel"},
+          {"port_relief = 38.0e6", "port_relief = 380.0", "valve.port_relief"},
+          {"servo_gain = 2.0", "", "control.servo_gain"},
+          {"degraded_speed = 0.3", "", "safety.degraded_speed"},
+          {"sensor_timeout = 0.045", "sensor_timeout = 0.045\nsensor_timeuot = 0.1",
+           "control.sensor_timeuot"},
+          {"deadband = 0.2", "deadband = -inf", "valve.deadband"},
+          {"swash = 0.643", "swash = \"full\"", "experiment.swash"}};
+}
+
+std::vector<Sensor> Excavator::strokes() {
+  return {{bus::BoomStroke::kId, {bus::BoomStroke::kBoomStroke}, Fault::kStrokeMissing},
+          {bus::ArmStroke::kId, {bus::ArmStroke::kArmStroke}, Fault::kStrokeMissing},
+          {bus::BucketStroke::kId, {bus::BucketStroke::kBucketStroke}, Fault::kStrokeMissing}};
+}
+
+const std::vector<Sensor>& Excavator::vital() {
+  static const std::vector<Sensor> sensors = strokes();
+  return sensors;
+}
+
+const std::vector<Sensor>& Excavator::slowing() {
+  static const std::vector<Sensor> sensors = {
+      pressure<bus::BoomPressure>(bus::BoomPressure::kBoomCapPressure,
+                                  bus::BoomPressure::kBoomRodPressure),
+      pressure<bus::ArmPressure>(bus::ArmPressure::kArmCapPressure,
+                                 bus::ArmPressure::kArmRodPressure),
+      pressure<bus::BucketPressure>(bus::BucketPressure::kBucketCapPressure,
+                                    bus::BucketPressure::kBucketRodPressure)};
+  return sensors;
+}
+
+const std::vector<std::uint32_t>& Excavator::protected_ids() {
+  static const std::vector<std::uint32_t> ids = {
+      bus::BoomStroke::kId,   bus::ArmStroke::kId,   bus::BucketStroke::kId,
+      bus::BoomPressure::kId, bus::ArmPressure::kId, bus::BucketPressure::kId,
+      bus::PumpState::kId,    bus::ValveState::kId,  bus::OperatorCommand::kId};
+  return ids;
+}
+
+const std::vector<std::uint32_t>& Excavator::command_ids() {
+  static const std::vector<std::uint32_t> ids = {bus::SpoolCommand::kId};
+  return ids;
+}
+
+bool Excavator::is_read(std::uint32_t id) {
+  return id != bus::OperatorCommand::kId && id != bus::PumpState::kId;
+}
+
+const std::vector<Fault>& Excavator::missing() {
+  static const std::vector<Fault> faults = {Fault::kStrokeMissing, Fault::kSwashMissing,
+                                            Fault::kSpoolMissing};
+  return faults;
+}
+
+bool Excavator::read_command(const CanFrame& frame, BusRecord::Command& command) {
+  if (frame.id != SpoolCommand::kId) {
+    return false;
+  }
+  const auto message = read_spool_command<SpoolCommand>(frame, command);
+  for (const dbc::Physical& duty :
+       {message.boom_duty_ratio, message.arm_duty_ratio, message.bucket_duty_ratio}) {
+    command.neutral = command.neutral && says(duty, 0.0);
+  }
+  return true;
+}
+
+double Excavator::wanted_mps(const CanFrame& motion) {
+  const EcuMotion message = EcuMotion::decode(motion.data);
+  return std::hypot(message.boom_wanted_velocity_mps.value, message.arm_wanted_velocity_mps.value,
+                    message.bucket_wanted_velocity_mps.value);
+}
+
+double Excavator::slowed_mps(const Machine& /*machine*/, double before_mps, TimeUs /*after_us*/) {
+  return kSlower_share * before_mps;
+}
+
+bool Excavator::is_back(double slow_mps, double wanted_mps, Limit /*limit*/) {
+  return wanted_mps > slow_mps / kSlower_share;
+}
+
+Excavator::AxisArray Excavator::longest_m(const Plant& plant) {
+  AxisArray longest_m{};
+  for (unsigned i = 0; i < kAxes; ++i) {
+    longest_m[i] = plant.profile().machine.geometry.cylinder[i].stroke_m;
+  }
+  return longest_m;
+}
+
+void Excavator::make_neutral_and_sound(Plant& plant) {
+  plant.set_duty({}, false);
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    plant.set_pilot_fault(i, std::nullopt, 0.0);
+  }
+}
+
+Reading Excavator::any_reading(PlantNode& node, plant::Random& random) {
+  const auto axis = static_cast<unsigned>(random.uniform() * kAxes);
+  const double way = random.uniform() < 0.5 ? 1.0 : -1.0;
+  return {&node.faults().axis[axis].stroke.jump_m, way * (0.06 + 0.2 * random.uniform()),
+          Fault::kStrokeJump, Fault::kStrokeMissing};
+}
+
+void Excavator::flip(Ecu& ecu, unsigned setpoint, unsigned bit) {
+  auto& memory = ControllerMemoryAccess::memory(ecu);
+  switch (setpoint) {
+    case 0:
+      test::flip_bit(memory.mode, bit);
+      break;
+    case 1:
+      test::flip_bit(memory.lambda, bit);
+      break;
+    default:
+      test::flip_bit(memory.gate.opening[setpoint % kAxes], bit);
+  }
+}
+
+}  // namespace graben::faults

@@ -1,0 +1,119 @@
+#pragma once
+/// The excavator, as the rows need a machine kind.
+
+#include <array>
+#include <filesystem>
+#include <optional>
+
+#include "app/ecu/excavator_ecu.hpp"
+#include "app/machines/machine_file.hpp"
+#include "app/plant/operator_node.hpp"
+#include "app/plant/plant_node.hpp"
+#include "app/plant/random.hpp"
+#include "can_dbc/generated/excavator_dbc.hpp"
+#include "tests/faults/bus_record.hpp"
+#include "tests/faults/rolling_watch.hpp"
+#include "tests/faults/sensor.hpp"
+
+namespace graben::faults {
+
+struct Excavator {
+  using Machine = machines::ExcavatorMachine;
+  using PlantNode = plant::PlantNode;
+  using Plant = plant::ExcavatorPlant;
+  using Driver = plant::OperatorNode;
+  using Ecu = ecu::ExcavatorEcu;
+  using SpoolCommand = dbc::excavator::SpoolCommand;
+  using OperatorCommand = dbc::excavator::OperatorCommand;
+  using MachineIdentity = dbc::excavator::MachineIdentity;
+  using EngineSpeed = dbc::excavator::EEC1;
+  using EcuStatus = dbc::excavator::EcuStatus;
+  using EcuHealth = dbc::excavator::EcuHealth;
+  using EcuMotion = dbc::excavator::EcuMotion;
+  using TroubleCodes = dbc::excavator::DM1;
+  static constexpr const auto& kMessages = dbc::excavator::kMessages;
+  static constexpr std::uint8_t kDbcVersion = dbc::excavator::kDbcVersion;
+  static constexpr const char* kProfile = "excavator_22t";
+  static constexpr Task kTask = Task::kDig;
+
+  static constexpr unsigned kAxes = kAxisCount;
+  using AxisArray = std::array<double, kAxes>;
+  /// What is compared with the undisturbed run, m.
+  static constexpr unsigned kPlaces = kAxisCount;
+  using PlaceArray = std::array<double, kPlaces>;
+
+  /// After the task has begun, within these the fault comes.
+  static constexpr TimeUs kFirstInjection_us = 2 * kSecondUs;
+  static constexpr TimeUs kLastInjection_us = 6 * kSecondUs;
+  static constexpr TimeUs kLongestBaseline_us = 14 * kSecondUs;
+  /// A field that wants less says nothing of whether it is slower.
+  static constexpr double kMoving_mps = 0.08;
+  /// Within this a spool is opened wide.
+  static constexpr TimeUs kOpensWithin_us = 6 * kSecondUs;
+  /// After the detection of what only slows: until it is slower; and from its end until it is not.
+  static constexpr TimeUs kSlows_us = 30 * kMillisecondUs;
+  static constexpr TimeUs kBack_us = 700 * kMillisecondUs;
+  static constexpr TimeUs kStuckStroke_us = 3 * kSecondUs;
+  static constexpr unsigned kSetpoints = 2 + kAxisCount;
+
+  struct Scenery {
+    Machine machine;
+    Eigen::Vector3d start_strokes_m = Eigen::Vector3d::Zero();
+  };
+  /// Of a seed: sensors wrong in all, parameters too in every second, soil in half of them, a
+  /// random pose near the path.
+  [[nodiscard]] static Scenery scenery_of(std::uint64_t seed);
+  [[nodiscard]] static PlantNode node(const Scenery& scenery, CanPort& port);
+  [[nodiscard]] static std::vector<Defect> defects();
+  /// Throws ProfileError as the loader does.
+  static void load(const std::filesystem::path& file) {
+    static_cast<void>(machines::load_excavator(file));
+  }
+
+  /// Frames that the machine cannot be run without, and those without which it is slower.
+  [[nodiscard]] static const std::vector<Sensor>& vital();
+  [[nodiscard]] static const std::vector<Sensor>& slowing();
+  [[nodiscard]] static std::vector<Sensor> strokes();
+  /// All that the controller receives with counter and CRC, and what it sends so.
+  [[nodiscard]] static const std::vector<std::uint32_t>& protected_ids();
+  [[nodiscard]] static const std::vector<std::uint32_t>& command_ids();
+  /// Whether it shows another value each time that it is read.
+  [[nodiscard]] static bool is_read(std::uint32_t id);
+  [[nodiscard]] static const std::vector<Fault>& missing();
+
+  /// Takes in one frame of a command; false if it is none.
+  [[nodiscard]] static bool read_command(const CanFrame& frame, BusRecord::Command& command);
+  static constexpr int kCommandFrames = 1;
+  /// Of all cylinders together, as the field wants them.
+  [[nodiscard]] static double wanted_mps(const CanFrame& motion);
+  /// The most that may be wanted, so long after something that slows it was detected.
+  [[nodiscard]] static double slowed_mps(const Machine& machine, double before_mps,
+                                         TimeUs after_us);
+  [[nodiscard]] static bool is_back(double slow_mps, double wanted_mps, Limit limit);
+
+  [[nodiscard]] static bool enabled(const PlantNode& node) { return node.spools_enabled(); }
+  [[nodiscard]] static AxisArray strokes_m(const Plant& plant) { return plant.strokes_m(); }
+  [[nodiscard]] static AxisArray longest_m(const Plant& plant);
+  [[nodiscard]] static AxisArray spools(const Plant& plant) { return plant.spool_travels_ratio(); }
+  [[nodiscard]] static double deadband(const Plant& plant) {
+    return plant.profile().deadband_ratio;
+  }
+  [[nodiscard]] static PlaceArray places_m(const Plant& plant) { return plant.strokes_m(); }
+  [[nodiscard]] static std::optional<Rolling> rolling(const Plant&) { return std::nullopt; }
+  /// Told to be neutral, nothing of it broken.
+  static void make_neutral_and_sound(Plant& plant);
+  [[nodiscard]] static AxisArray duties(const ExcavatorOutputs& outputs) {
+    return outputs.duty_ratio;
+  }
+  [[nodiscard]] static double heard_stroke_m(const ExcavatorInputs& inputs, unsigned axis) {
+    return inputs.axis[axis].stroke_m.value;
+  }
+  [[nodiscard]] static plant::AxisFaults& axis(PlantNode& node, unsigned axis) {
+    return node.faults().axis[axis];
+  }
+  [[nodiscard]] static Reading any_reading(PlantNode& node, plant::Random& random);
+  /// A bit of one of the guarded setpoints: mode, lambda, the openings that the gate let through.
+  static void flip(Ecu& ecu, unsigned setpoint, unsigned bit);
+};
+
+}  // namespace graben::faults

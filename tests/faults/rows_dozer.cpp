@@ -1,0 +1,137 @@
+// Rows that only the dozer has, or has in its own way.
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/faults/row.hpp"
+
+namespace graben::faults {
+namespace {
+
+std::size_t any_track(Trial<Dozer>& trial) { return trial.any_of(kTrackCount); }
+
+/// A pump's servo stays where it is, or its feedback does: what it is told next it does not reach,
+/// or does not seem to.
+void displacement_stuck(Trial<Dozer>& trial) {
+  trial.work();
+  Rig<Dozer>& rig = *trial.rig;
+  const std::size_t track = any_track(trial);
+  plant::PathFaults& path = rig.plant.faults().path[track];
+  const double ratio = rig.plant.plant().pump_ratios()[track];
+  Stop stop;
+  stop.since_us = rig.at_us();
+  stop.any = {Fault::kDisplacementDisagrees};
+  // When it is told another one: from one slope of the design to the next.
+  stop.detect_us = Dozer::kOpensWithin_us;
+  if (trial.odd()) {
+    path.shown_pump_ratio = ratio;
+    stop.cure = [&path] { path.shown_pump_ratio.reset(); };
+  } else {
+    path.pump.held_ratio = ratio;
+    stop.cure = [&path] { path.pump.held_ratio.reset(); };
+  }
+  trial.expect_stop(stop);
+}
+
+constexpr double kNearFull = 0.6;
+
+/// A pump's or motor's servo goes somewhere else; or a pump's counts the wrong way round.
+void displacement_runs_away(Trial<Dozer>& trial) {
+  trial.work();
+  Rig<Dozer>& rig = *trial.rig;
+  plant::PathFaults& path = rig.plant.faults().path[any_track(trial)];
+  Stop stop;
+  stop.since_us = rig.at_us();
+  stop.any = {Fault::kDisplacementRunaway};
+  stop.detect_us = 400 * kMillisecondUs;
+  stop.brake_at_once = true;
+  stop.cure = [&path] {
+    path.pump = {};
+    path.motor = {};
+  };
+  switch (trial.seed() % 4) {
+    case 0:
+      path.pump.reversed = true;
+      break;
+    case 1:
+      // What it is near to already is no runaway.
+      path.pump.held_ratio = rig.outputs().pump_ratio[kLeft] < kNearFull ? 1.0 : 0.0;
+      break;
+    case 2:
+      path.pump.held_ratio = -1.0;
+      break;
+    default:
+      path.motor.held_ratio = rig.machine.profile.hst.motor_ratio_min;
+      break;
+  }
+  trial.expect_stop(stop);
+}
+
+/// A track's sensor shows another speed.
+void track_speed_wrong(Trial<Dozer>& trial) {
+  trial.work();
+  Rig<Dozer>& rig = *trial.rig;
+  plant::PathFaults& path = rig.plant.faults().path[any_track(trial)];
+  const double way = trial.any_of(2) == 0 ? 1.0 : -1.0;
+  path.speed.jump = way * (0.8 + 0.6 * trial.random.uniform());
+  Slowing slowing;
+  slowing.since_us = rig.at_us();
+  slowing.fault = Fault::kTrackSpeedDisagrees;
+  slowing.detect_us = kSecondUs;
+  slowing.cure = [&path] { path.speed = {}; };
+  trial.expect_slower(slowing);
+}
+
+/// A slope that the blade cannot reach down to before the body tips into it, driven so slowly that
+/// neither flow nor what lies ahead holds the machine.
+void runs_at_its_end(Trial<Dozer>& trial) {
+  Dozer::Scenery scenery = Dozer::scenery_of(trial.seed());
+  DozerProfile& profile = scenery.machine.profile;
+  profile.travel.speed_desired_mps = 0.3 + 0.1 * trial.random.uniform();
+  profile.grade.count = 3;
+  profile.grade.point[0] = {0.0, 0.0};
+  profile.grade.point[1] = {2.0, 0.0};
+  profile.grade.point[2] = {5.0, -0.9 - 0.2 * trial.random.uniform()};
+  trial.set_up(scenery);
+  Rig<Dozer>& rig = *trial.rig;
+  rig.run(200 * kMillisecondUs);
+  rig.ask(true, Task::kNone);
+  rig.run(100 * kMillisecondUs);
+  rig.ask(true, Dozer::kTask);
+  rig.run(50 * kMillisecondUs);
+  const double most_m = Dozer::longest_m(rig.plant.plant())[0];
+  bool active = true;
+  bool slowed = false;
+  double peak_pa = 0.0;
+  double least_left_m = most_m;
+  rig.run_until(20 * kSecondUs, [&] {
+    const plant::DozerPlant& plant = rig.plant.plant();
+    peak_pa = std::max(
+        {peak_pa, plant.cylinder().cap().pressure_pa(), plant.cylinder().rod().pressure_pa()});
+    least_left_m = std::min(least_left_m, most_m - plant.blade_stroke_m());
+    active = active && rig.mode() == EcuMode::kActive;
+    const auto& statuses = rig.record.statuses;
+    slowed = slowed || (!statuses.empty() && statuses.back().limit.kind == LimitKind::kStrokeEnd);
+    return false;
+  });
+  trial.check(active, "did not go on");
+  trial.check(slowed, "no limit StrokeEnd on the bus; closest " +
+                          std::to_string(1e3 * least_left_m) + " mm");
+  constexpr double kPeakShare = 1.1;
+  trial.check(peak_pa <= kPeakShare * scenery.machine.plant.implement_relief_pa,
+              "a chamber saw " + std::to_string(1e-6 * peak_pa) + " MPa");
+  trial.saw("D");
+}
+
+}  // namespace
+
+Rows<Dozer> dozer_rows() {
+  return {{5, "pressure sensor times out", "not of this machine: none is used", nullptr},
+          {37, "pressure stuck or at its rail", "not of this machine: none is used", nullptr},
+          {38, "displacement does not follow", "N L", displacement_stuck},
+          {39, "displacement runs away, wrong direction", "N L", displacement_runs_away},
+          {40, "track speed disagrees", "D", track_speed_wrong},
+          {49, "cylinder runs towards its end stop", "D", runs_at_its_end}};
+}
+
+}  // namespace graben::faults

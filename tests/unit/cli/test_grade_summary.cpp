@@ -1,0 +1,161 @@
+/// Figures of a grading run, from samples made by hand.
+
+#include <cmath>
+#include <vector>
+
+#include "app/cli/grade_run.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+using cli::GradeResult;
+using cli::GradeSample;
+using cli::GradeSummary;
+
+const machines::DozerMachine& machine() {
+  static const machines::DozerMachine loaded =
+      machines::load_dozer(machines::find_profile("dozer_9t"));
+  return loaded;
+}
+
+/// A cycle of 10 ms at 1 m/s over the grade, from x = 0 on; flow at half of what there is.
+GradeSample sample(int cycle) {
+  GradeSample made;
+  made.time_s = 5.0 + 0.01 * cycle;
+  made.judged = true;
+  made.edge_m = {0.01 * cycle, 0.0};
+  made.error_measured_m = 0.0;
+  made.speed_wanted_mps = 1.0;
+  made.speed_true_mps = 1.0;
+  made.flow_required_m3ps = 0.5e-3;
+  made.flow_available_m3ps = 1e-3;
+  return made;
+}
+
+GradeResult steady(int cycles) {
+  GradeResult result;
+  for (int i = 0; i < cycles; ++i) {
+    result.samples.push_back(sample(i));
+  }
+  return result;
+}
+
+GradeSummary summary_of(const GradeResult& result) { return cli::summarise(machine(), result); }
+
+void a_run_that_never_came_to_the_grade_has_no_figures(void**) {
+  GradeResult result = steady(5);
+  for (GradeSample& one : result.samples) {
+    one.judged = false;
+    one.error_true_m = 1.0;
+    one.flow_required_m3ps = 1.0;
+  }
+  const GradeSummary summary = summary_of(result);
+  assert_near(summary.max_error_true_m + summary.time_s + summary.flow_share_max, 0.0, 0.0);
+  assert_int_equal(summary.flow_occasions, 0);
+  assert_int_equal(summary.cycles, 5);
+  assert_int_equal(summary_of({}).cycles, 0);
+}
+
+void errors_count_below_as_above(void**) {
+  GradeResult result = steady(4);
+  result.samples[1].error_true_m = 0.003;
+  result.samples[2].error_true_m = -0.004;
+  result.samples[3].error_measured_m = -0.006;
+  const GradeSummary summary = summary_of(result);
+  assert_near(summary.max_error_true_m, 0.004, 0.0);
+  assert_near(summary.rmse_error_true_m, 0.0025, 1e-12);
+  assert_near(summary.max_error_measured_m, 0.006, 0.0);
+  assert_near(summary.rmse_error_measured_m, 0.003, 1e-12);
+}
+
+/// The time is the edge's over the grade: what comes before and after is not in it.
+void time_is_that_over_the_grade(void**) {
+  GradeResult result = steady(101);
+  GradeSample before = sample(-100);
+  before.judged = false;
+  before.error_true_m = 1.0;
+  result.samples.insert(result.samples.begin(), before);
+  const GradeSummary summary = summary_of(result);
+  assert_near(summary.time_s, 1.0, 1e-9);
+  assert_near(summary.mean_speed_mps, 1.0, 1e-9);
+  assert_near(summary.max_error_true_m, 0.0, 0.0);
+  assert_near(summary.duration_s, 6.0, 1e-9);
+  assert_int_equal(summary.corners, 8);
+}
+
+/// 2 % over is kept; what follows within half a metre is the same occasion.
+void flow_above_the_limit_is_counted_by_occasion(void**) {
+  GradeResult result = steady(300);
+  result.samples[10].flow_required_m3ps = 1.02e-3;
+  assert_int_equal(summary_of(result).flow_occasions, 0);
+  for (const std::size_t above : {20U, 21U, 60U, 150U, 199U, 250U}) {
+    result.samples[above].flow_required_m3ps = 1.5e-3;
+  }
+  result.samples[150].flow_required_m3ps = 2e-3;
+  const GradeSummary summary = summary_of(result);
+  assert_int_equal(summary.flow_occasions, 3);  // 20 .. 60, 150 .. 199, 250
+  assert_near(summary.flow_share_max, 2.0, 1e-12);
+  assert_near(summary.flow_above_share, 6.0 / 300.0, 1e-12);
+}
+
+void the_controllers_own_flow_beside_it(void**) {
+  GradeResult result = steady(3);
+  result.samples[1].flow_reported_m3ps = 0.9e-3;
+  result.samples[1].flow_limit_reported_m3ps = 1.2e-3;
+  assert_near(summary_of(result).flow_share_reported_max, 0.75, 1e-12);
+}
+
+/// Wanted: from cycle to cycle. True: over 0.1 s, or the body's ringing would be all there is.
+void decelerations(void**) {
+  GradeResult result = steady(60);
+  for (int i = 30; i < 60; ++i) {
+    GradeSample& one = result.samples[static_cast<std::size_t>(i)];
+    one.speed_wanted_mps = i < 31 ? 0.98 : 0.9;
+    one.speed_true_mps = 0.9;
+  }
+  result.samples[50].speed_true_mps = 0.95;
+  const GradeSummary summary = summary_of(result);
+  assert_near(summary.deceleration_wanted_mps2, 8.0, 1e-9);
+  assert_near(summary.deceleration_true_mps2, 1.0, 1e-9);
+}
+
+/// Up, down, up: two turns; ways of less than 0.02 m/s are none.
+void turns_of_the_wanted_speed(void**) {
+  GradeResult result = steady(400);
+  for (int i = 0; i < 400; ++i) {
+    const double triangle = std::abs((i % 200) - 100) / 100.0;
+    const double ripple = i % 2 == 0 ? 0.009 : -0.009;
+    result.samples[static_cast<std::size_t>(i)].speed_wanted_mps = 1.0 + 0.5 * triangle + ripple;
+  }
+  assert_int_equal(summary_of(result).sign_changes, 3);
+  for (GradeSample& one : result.samples) {
+    one.speed_wanted_mps = one.speed_wanted_mps > 1.2 ? 1.0 : 1.019;
+  }
+  assert_int_equal(summary_of(result).sign_changes, 0);
+}
+
+void shares_of_what_held_the_speed(void**) {
+  GradeResult result = steady(4);
+  result.samples[2].limit = {LimitKind::kImplementFlow, 0};
+  const cli::LimitShares shares = summary_of(result).limit_share;
+  assert_int_equal(shares.size(), 2);
+  assert_true(shares[0].first == "none" && shares[0].second == 0.75);
+  assert_true(shares[1].first == "implement flow" && shares[1].second == 0.25);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_run_that_never_came_to_the_grade_has_no_figures),
+      cmocka_unit_test(errors_count_below_as_above),
+      cmocka_unit_test(time_is_that_over_the_grade),
+      cmocka_unit_test(flow_above_the_limit_is_counted_by_occasion),
+      cmocka_unit_test(the_controllers_own_flow_beside_it),
+      cmocka_unit_test(decelerations),
+      cmocka_unit_test(turns_of_the_wanted_speed),
+      cmocka_unit_test(shares_of_what_held_the_speed),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,100 @@
+#pragma once
+/// The shipped dozer driving on its design, as a machine that does what it is told at once: what
+/// the controller needs to be brought to kActive the way an operator does it.
+
+#include <algorithm>
+
+#include "firmware/dozer_controller.hpp"
+#include "firmware/hydraulics/hydrostatic.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/dozer_fixture.hpp"
+#include "tests/unit/firmware/inputs.hpp"
+
+namespace graben::test {
+
+struct Grading {
+  static constexpr TimeUs kPeriod = 10 * kMillisecondUs;
+
+  explicit Grading(const DozerProfile& dozer_profile = dozer().profile)
+      : profile(dozer_profile), controller(profile), blade(profile.blade) {
+    stroke_m = blade.stroke_m(0.0);
+    DozerInputs released = next();
+    released.driver.enable.value = false;
+    step(released);
+    step(at_rest(false));
+    step(at_rest(true));
+    run(20);
+    assert_int_equal(outputs.status.mode, EcuMode::kActive);
+    assert_true(outputs.status.faults.empty());
+  }
+
+  /// What the machine says now. It stands level on level ground.
+  DozerInputs next() {
+    const double engine_radps = profile.hst.engine_radps;
+    speed_mps = track_speed_mps(profile.hst, engine_radps, outputs.pump_ratio[kLeft],
+                                outputs.motor_ratio[kLeft]);
+    position_m += speed_mps * 0.01;
+    const double blade_mps = outputs.enable ? outputs.status.wanted_blade_mps : 0.0;
+    stroke_m = std::clamp(stroke_m + blade_mps * 0.01, 0.0, blade.stroke_max_m());
+    DozerInputs inputs;
+    inputs.blade_stroke_m = fresh(stroke_m, now_us);
+    inputs.blade_spool_ratio = fresh(outputs.blade_duty_ratio, now_us);
+    inputs.valve_enabled = fresh(outputs.enable, now_us);
+    inputs.body.position_m = fresh(position_m, now_us);
+    inputs.body.height_m = fresh(height_m, now_us);
+    inputs.body.pitch_rad = fresh(0.0, now_us);
+    inputs.body.velocity_mps = fresh(speed_mps, now_us);
+    inputs.body.climb_mps = fresh(0.0, now_us);
+    inputs.body.pitch_rate_radps = fresh(0.0, now_us);
+    for (unsigned i = 0; i < kTrackCount; ++i) {
+      inputs.track[i].pump_ratio = fresh(outputs.pump_ratio[i], now_us);
+      inputs.track[i].motor_ratio = fresh(outputs.motor_ratio[i], now_us);
+      inputs.track[i].speed_mps = fresh(speed_mps, now_us);
+    }
+    inputs.engine_speed_radps = fresh(engine_radps, now_us);
+    inputs.driver.enable = fresh(true, now_us);
+    inputs.driver.mode = fresh(OperatorMode::kAutomatic, now_us);
+    inputs.driver.task = fresh(Task::kGrade, now_us);
+    inputs.driver.speed_override_ratio = fresh(1.0, now_us);
+    inputs.same_machine = fresh(true, now_us);
+    inputs.link.bus = BusState::kActive;
+    return inputs;
+  }
+  DozerInputs at_rest(bool enable) {
+    DozerInputs resting = next();
+    resting.driver.enable.value = enable;
+    resting.driver.task.value = Task::kNone;
+    return resting;
+  }
+  DozerOutputs step(const DozerInputs& inputs) {
+    outputs = controller.step(inputs, now_us);
+    now_us += kPeriod;
+    return outputs;
+  }
+  void run(int cycles) {
+    for (int n = 0; n < cycles; ++n) {
+      step(next());
+    }
+  }
+
+  DozerProfile profile;
+  DozerController controller;
+  BladeKinematics blade;
+  TimeUs now_us = kSecondUs;
+  DozerOutputs outputs;
+  double position_m = -3.0;
+  double height_m = 0.0;
+  double stroke_m = 0.0;
+  double speed_mps = 0.0;
+};
+
+inline void assert_neutral(const DozerOutputs& outputs) {
+  assert_false(outputs.enable);
+  assert_near(outputs.blade_duty_ratio, 0.0, 0.0);
+  for (unsigned i = 0; i < kTrackCount; ++i) {
+    assert_near(outputs.pump_ratio[i], 0.0, 0.0);
+    assert_near(outputs.motor_ratio[i], 1.0, 0.0);
+  }
+}
+
+}  // namespace graben::test

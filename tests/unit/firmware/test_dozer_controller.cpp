@@ -1,0 +1,272 @@
+// One step, from end to end: arming, driving, and what stops or slows it.
+
+#include <functional>
+#include <limits>
+
+#include "firmware/hydraulics/implement_flow.hpp"
+#include "tests/unit/firmware/flip_bit.hpp"
+#include "tests/unit/firmware/grading_dozer.hpp"
+
+namespace graben {
+
+/// The controller's friend: what it keeps from cycle to cycle.
+struct DozerMemoryAccess {
+  static auto& mode(DozerController& controller) { return controller.memory_.mode; }
+  static auto& speed(DozerController& controller) { return controller.memory_.speed_mps; }
+  static auto& gate(DozerController& controller) { return controller.memory_.gate; }
+};
+
+}  // namespace graben
+
+namespace {
+
+using namespace graben;
+using test::assert_neutral;
+using test::Grading;
+
+using Change = std::function<void(DozerInputs&)>;
+
+void before_anything_is_received_it_is_neutral_and_braked(void**) {
+  DozerController controller(test::dozer().profile);
+  const DozerOutputs outputs = controller.step(DozerInputs(), kSecondUs);
+  assert_neutral(outputs);
+  assert_true(outputs.brake);
+  assert_int_equal(outputs.status.mode, EcuMode::kSilent);
+  assert_true(outputs.status.why_not_armed != 0);
+}
+
+void it_gets_faster_at_its_rate_and_lets_the_brake_go(void**) {
+  Grading grading;
+  assert_false(grading.outputs.brake);
+  grading.run(130);
+  assert_near(grading.outputs.status.wanted_speed_mps, 0.5 * 1.5, 0.02);
+  assert_near(grading.speed_mps, grading.outputs.status.wanted_speed_mps, 0.05);
+  assert_near(grading.outputs.status.lambda, grading.outputs.status.wanted_speed_mps / 1.6, 1e-12);
+  assert_int_equal(grading.outputs.status.limit.kind, LimitKind::kRise);
+  assert_near(grading.outputs.pump_ratio[kLeft], grading.outputs.pump_ratio[kRight], 0.0);
+}
+
+/// The machine of the test stays level: only the edge's way into the trench asks for flow.
+void before_the_trench_it_slows_down_and_its_blade_follows(void**) {
+  Grading grading;
+  double slowest_mps = 9.0;
+  while (grading.position_m < 2.5) {
+    grading.run(1);
+    if (grading.position_m > 1.0) {
+      slowest_mps = std::min(slowest_mps, grading.outputs.status.wanted_speed_mps);
+      const DozerStatus& status = grading.outputs.status;
+      assert_true(status.required_flow_m3ps <= status.available_flow_m3ps);
+      assert_near(status.grade_error_m, 0.0, 0.01);
+    }
+  }
+  assert_true(slowest_mps < 1.0);
+  assert_true(grading.blade.angle_rad(grading.stroke_m) < -0.1);
+}
+
+void the_operators_share_of_the_speed_is_kept(void**) {
+  Grading grading;
+  for (int n = 0; n < 300; ++n) {
+    DozerInputs inputs = grading.next();
+    inputs.driver.speed_override_ratio.value = 0.25;
+    grading.step(inputs);
+  }
+  assert_near(grading.outputs.status.wanted_speed_mps, 0.4, 1e-9);
+  assert_near(grading.outputs.status.lambda, 0.25, 1e-9);
+}
+
+void without_a_task_it_stands(void**) {
+  Grading grading;
+  grading.run(100);
+  grading.step(grading.at_rest(true));
+  assert_int_equal(grading.outputs.status.mode, EcuMode::kArmed);
+  assert_neutral(grading.outputs);
+}
+
+void released_it_is_neutral_in_the_same_cycle(void**) {
+  Grading grading;
+  grading.run(100);
+  DozerInputs inputs = grading.next();
+  inputs.driver.enable.value = false;
+  assert_neutral(grading.step(inputs));
+  assert_int_equal(grading.outputs.status.mode, EcuMode::kReady);
+  grading.step(grading.at_rest(false));
+  assert_true(grading.outputs.brake);
+}
+
+void assert_stops(const char* what, Fault fault, const Change& change, int cycles) {
+  Grading grading;
+  grading.run(50);
+  for (int n = 0; n < cycles && grading.outputs.enable; ++n) {
+    DozerInputs inputs = grading.next();
+    change(inputs);
+    grading.step(inputs);
+  }
+  if (grading.outputs.status.fault != fault) {
+    print_error("%s: fault %d\n", what, static_cast<int>(grading.outputs.status.fault));
+  }
+  assert_neutral(grading.outputs);
+  assert_int_equal(grading.outputs.status.fault, fault);
+  assert_int_equal(grading.outputs.status.mode, EcuMode::kFault);
+  grading.step(grading.next());
+  assert_int_equal(grading.outputs.status.mode, EcuMode::kFault);
+  // Released, and given afresh at rest, it may go on.
+  for (int n = 0; n < 100; ++n) {
+    grading.step(grading.at_rest(false));
+  }
+  grading.step(grading.at_rest(true));
+  assert_int_equal(grading.outputs.status.mode, EcuMode::kArmed);
+}
+
+void what_stops_it_stops_it(void**) {
+  constexpr TimeUs kOld = 60 * kMillisecondUs;
+  const struct {
+    const char* what;
+    Fault fault;
+    int cycles;
+    Change change;
+  } rows[] = {
+      {"stroke old", Fault::kStrokeMissing, 1,
+       [](DozerInputs& in) { in.blade_stroke_m.stamp_us -= kOld; }},
+      {"spool lost", Fault::kSpoolMissing, 1,
+       [](DozerInputs& in) { in.blade_spool_ratio.validity = Validity::kNotAvailable; }},
+      {"height lost", Fault::kPoseMissing, 8,
+       [](DozerInputs& in) { in.body.height_m.validity = Validity::kNotAvailable; }},
+      {"pitch rate not finite", Fault::kPoseMissing, 8,
+       [](DozerInputs& in) {
+         in.body.pitch_rate_radps.value = std::numeric_limits<double>::quiet_NaN();
+       }},
+      {"pump feedback lost", Fault::kTransmissionMissing, 1,
+       [](DozerInputs& in) { in.track[kRight].pump_ratio.validity = Validity::kNotAvailable; }},
+      {"operator lost", Fault::kOperatorMissing, 1,
+       [](DozerInputs& in) { in.driver.mode.stamp_us -= kOld; }},
+      {"bus off", Fault::kBusOff, 1, [](DozerInputs& in) { in.link.bus = BusState::kOff; }},
+      {"another machine", Fault::kIdentityMismatch, 1,
+       [](DozerInputs& in) { in.same_machine.value = false; }},
+      {"spool open", Fault::kSpoolStuck, 100,
+       [](DozerInputs& in) { in.blade_spool_ratio.value = 0.8; }},
+      {"pump the wrong way", Fault::kDisplacementRunaway, 20,
+       [](DozerInputs& in) { in.track[kLeft].pump_ratio.value = -0.6; }},
+      {"pump stays behind", Fault::kDisplacementDisagrees, 200,
+       [](DozerInputs& in) {
+         in.track[kLeft].pump_ratio.value = std::min(0.5, in.track[kLeft].pump_ratio.value);
+       }},
+  };
+  for (const auto& row : rows) {
+    assert_stops(row.what, row.fault, row.change, row.cycles);
+  }
+}
+
+void a_runaway_asks_for_the_brake_at_once(void**) {
+  Grading grading;
+  grading.run(100);
+  for (int n = 0; n < 30 && grading.outputs.enable; ++n) {
+    DozerInputs inputs = grading.next();
+    inputs.track[kLeft].pump_ratio.value = -0.6;
+    grading.step(inputs);
+  }
+  assert_int_equal(grading.outputs.status.fault, Fault::kDisplacementRunaway);
+  assert_true(grading.outputs.brake);
+}
+
+void a_lost_engine_speed_slows_it(void**) {
+  Grading grading;
+  for (int n = 0; n < 400; ++n) {
+    DozerInputs inputs = grading.next();
+    if (n > 200) {
+      inputs.engine_speed_radps.validity = Validity::kNotAvailable;
+    }
+    grading.step(inputs);
+    assert_true(grading.outputs.enable);
+  }
+  assert_int_equal(grading.outputs.status.fault, Fault::kEngineSpeedMissing);
+  assert_near(grading.outputs.status.wanted_speed_mps,
+              1.6 * test::dozer().profile.safety.degraded_speed_ratio, 1e-6);
+  assert_near(grading.outputs.status.available_flow_m3ps,
+              available_flow_m3ps(grading.profile.implement, grading.profile.safety.idle_radps),
+              1e-12);
+}
+
+template <class Object>
+void assert_every_bit_counts(Object& (*object)(Grading&)) {
+  Grading running;
+  running.run(30);
+  for (std::size_t bit = 0; bit < 8 * sizeof(Object); bit += 7) {
+    Grading copy = running;
+    test::flip_bit(object(copy), bit);
+    copy.step(copy.next());
+    if (copy.outputs.enable) {
+      continue;  // Padding.
+    }
+    assert_neutral(copy.outputs);
+    assert_int_equal(copy.outputs.status.fault, Fault::kMemoryCorrupt);
+    return;
+  }
+  fail_msg("no bit of it was missed");
+}
+
+void a_flipped_bit_stops_it(void**) {
+  using Access = DozerMemoryAccess;
+  assert_every_bit_counts<Guarded<double>>(
+      [](Grading& g) -> Guarded<double>& { return Access::speed(g.controller); });
+  assert_every_bit_counts<Guarded<double>>(
+      [](Grading& g) -> Guarded<double>& { return Access::gate(g.controller).opening; });
+  assert_every_bit_counts<Guarded<double>>(
+      [](Grading& g) -> Guarded<double>& { return Access::gate(g.controller).pump_ratio[1]; });
+  assert_every_bit_counts<Guarded<ModeState>>(
+      [](Grading& g) -> Guarded<ModeState>& { return Access::mode(g.controller); });
+}
+
+void cycles_that_come_late_stop_it(void**) {
+  Grading grading;
+  grading.now_us += 6 * kMillisecondUs;
+  grading.step(grading.next());
+  assert_true(grading.outputs.enable);
+  grading.now_us += 6 * kMillisecondUs;
+  grading.step(grading.next());
+  assert_neutral(grading.outputs);
+  assert_int_equal(grading.outputs.status.fault, Fault::kCycleOverrun);
+}
+
+void told_to_end_it_is_neutral_for_good(void**) {
+  Grading grading;
+  DozerInputs last = grading.next();
+  last.link.stop_requested = true;
+  assert_neutral(grading.step(last));
+  assert_neutral(grading.step(grading.next()));
+  assert_int_equal(grading.outputs.status.mode, EcuMode::kStopping);
+}
+
+/// Where a blade cannot reach the design its end says so.
+void a_design_out_of_reach_ends_at_the_stroke(void**) {
+  DozerProfile deep = test::dozer().profile;
+  deep.grade = test::level(-1.0);
+  Grading grading(deep);
+  for (int n = 0; n < 1000; ++n) {
+    DozerInputs inputs = grading.next();
+    inputs.driver.speed_override_ratio.value = 0.1;  // What flow and ground allow anyway.
+    grading.step(inputs);
+  }
+  assert_near(grading.stroke_m, grading.blade.stroke_max_m(), 1e-3);
+  assert_int_equal(grading.outputs.status.limit.kind, LimitKind::kStrokeEnd);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(before_anything_is_received_it_is_neutral_and_braked),
+      cmocka_unit_test(it_gets_faster_at_its_rate_and_lets_the_brake_go),
+      cmocka_unit_test(before_the_trench_it_slows_down_and_its_blade_follows),
+      cmocka_unit_test(the_operators_share_of_the_speed_is_kept),
+      cmocka_unit_test(without_a_task_it_stands),
+      cmocka_unit_test(released_it_is_neutral_in_the_same_cycle),
+      cmocka_unit_test(what_stops_it_stops_it),
+      cmocka_unit_test(a_runaway_asks_for_the_brake_at_once),
+      cmocka_unit_test(a_lost_engine_speed_slows_it),
+      cmocka_unit_test(a_flipped_bit_stops_it),
+      cmocka_unit_test(cycles_that_come_late_stop_it),
+      cmocka_unit_test(told_to_end_it_is_neutral_for_good),
+      cmocka_unit_test(a_design_out_of_reach_ends_at_the_stroke),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,93 @@
+/// What a scenario changes of a dozer and of what its controller takes it for.
+
+#include "app/machines/dozer_scenario.hpp"
+
+#include <cstring>
+#include <stdexcept>
+
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+using machines::arranged;
+using machines::DozerMachine;
+using machines::DozerScenario;
+
+const DozerMachine& nominal() {
+  static const DozerMachine machine = machines::load_dozer(machines::find_profile("dozer_9t"));
+  return machine;
+}
+
+void without_a_word_nothing_changes(void**) {
+  const DozerMachine plain = arranged(nominal(), {});
+  assert_int_equal(plain.profile.travel.policy, SpeedPolicy::kBounded);
+  assert_near(plain.profile.travel.speed_desired_mps, 1.6, 0.0);
+  assert_near(plain.profile.travel.speed_min_mps, 0.1, 0.0);
+  assert_near(plain.plant.machine.hst.engine_radps, 157.08, 0.0);
+  assert_near(plain.plant.machine.body.mass_kg, 8900.0, 0.0);
+  assert_false(plain.plant.sensor_errors);
+}
+
+/// Policy and speed are the controller's; nothing says that a slow operator is not obeyed.
+void speed_is_the_controllers(void**) {
+  DozerScenario scenario;
+  scenario.policy = SpeedPolicy::kConstant;
+  scenario.speed_mps = 0.06;
+  const DozerMachine machine = arranged(nominal(), scenario);
+  assert_int_equal(machine.profile.travel.policy, SpeedPolicy::kConstant);
+  assert_near(machine.profile.travel.speed_desired_mps, 0.06, 0.0);
+  assert_near(machine.profile.travel.speed_min_mps, 0.06, 0.0);
+  assert_near(machine.plant.machine.travel.speed_desired_mps, 1.6, 0.0);
+}
+
+/// The throttle is the machine's: the controller has to measure it.
+void the_engine_is_the_machines(void**) {
+  DozerScenario scenario;
+  scenario.engine_radps = 104.72;
+  const DozerMachine machine = arranged(nominal(), scenario);
+  assert_near(machine.plant.machine.hst.engine_radps, 104.72, 0.0);
+  assert_near(machine.profile.hst.engine_radps, 157.08, 0.0);
+}
+
+void an_engine_out_of_range_is_refused(void**) {
+  for (const double radps : {94.2, 230.4}) {
+    DozerScenario scenario;
+    scenario.engine_radps = radps;
+    try {
+      static_cast<void>(arranged(nominal(), scenario));
+      fail_msg("an engine of %g rad/s", radps);
+    } catch (const std::runtime_error& error) {
+      assert_non_null(std::strstr(error.what(), "94.25 .. 230.38 rad/s"));
+    }
+  }
+}
+
+/// A drawn machine, with the throttle where it was set; its controller takes it for the nominal.
+void errors_draw_the_machine_only(void**) {
+  DozerScenario scenario;
+  scenario.errors = true;
+  scenario.seed = 5;
+  scenario.engine_radps = 104.72;
+  const DozerMachine machine = arranged(nominal(), scenario);
+  const plant::DozerPlantProfile drawn = machines::draw_dozer(nominal(), 5);
+  assert_true(machine.plant.sensor_errors && machine.plant.seed == 5);
+  assert_near(machine.plant.machine.body.mass_kg, drawn.machine.body.mass_kg, 0.0);
+  assert_near(machine.plant.machine.implement.efficiency, drawn.machine.implement.efficiency, 0.0);
+  assert_near(machine.plant.machine.hst.engine_radps, 104.72, 0.0);
+  assert_near(machine.profile.body.mass_kg, 8900.0, 0.0);
+  assert_near(machine.profile.implement.efficiency, 0.94, 0.0);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(without_a_word_nothing_changes),
+      cmocka_unit_test(speed_is_the_controllers),
+      cmocka_unit_test(the_engine_is_the_machines),
+      cmocka_unit_test(an_engine_out_of_range_is_refused),
+      cmocka_unit_test(errors_draw_the_machine_only),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,270 @@
+// The dozer's fault switches, as the bus and the machine show them.
+
+#include "app/plant/dozer_faults.hpp"
+#include "tests/unit/plant/fixture/dozer_rig.hpp"
+
+namespace {
+
+using namespace graben;
+using namespace graben::plant;
+using namespace graben::plant::test;
+namespace bus = dbc::dozer;
+using dbc::RawState;
+
+double shown_stroke(const DozerRig& rig) {
+  return last<bus::BladeStroke>(rig).blade_stroke_m.value;
+}
+
+void the_stroke_sensor_fails_in_its_ways(void**) {
+  DozerRig rig;
+  rig.spool_for(30, true, -0.5);
+  StrokeFault& fault = rig.machine.faults().stroke;
+  const double before_m = shown_stroke(rig);
+  fault.stuck = true;
+  rig.spool_for(30, true, -0.5);
+  assert_near(shown_stroke(rig), before_m, 0.0);
+  assert_true(rig.machine.plant().blade_stroke_m() < before_m - 0.005);
+  fault = {};
+  fault.jump_m = 0.05;
+  rig.spool_for(1, true, -0.5);
+  assert_near(shown_stroke(rig), rig.machine.plant().blade_stroke_m() + 0.05, 1e-4);
+  fault = {};
+  fault.drift_mps = 0.02;
+  rig.spool_for(50, true, -0.5);
+  assert_near(shown_stroke(rig), rig.machine.plant().blade_stroke_m() + 0.01, 1e-4);
+  fault = {};
+  fault.state = RawState::kError;
+  rig.spool_for(1, true, -0.5);
+  assert_true(last<bus::BladeStroke>(rig).blade_stroke_m.state == RawState::kError);
+  fault = {};
+  rig.spool_for(1, true, -0.5);
+  assert_near(shown_stroke(rig), rig.machine.plant().blade_stroke_m(), 1e-4);
+}
+
+void the_spool_can_be_held_or_open_uncommanded(void**) {
+  DozerRig rig;
+  rig.machine.faults().spool_offset_ratio = 0.25;
+  rig.spool_for(30, true, 0.3);
+  assert_near(rig.blade_spool(), 0.55, 1e-3);
+  rig.machine.faults().spool_held_ratio = -0.5;
+  rig.spool_for(40, true, 0.3);
+  assert_near(rig.blade_spool(), -0.5, 1e-3);
+  rig.machine.faults().spool_held_ratio.reset();
+  rig.machine.faults().spool_offset_ratio = 0.0;
+  rig.spool_for(60, true, 0.3);
+  assert_near(rig.blade_spool(), 0.3, 1e-3);
+}
+
+struct Pose {
+  std::array<dbc::Physical, 6> signal;
+};
+
+Pose pose_on(const DozerRig& rig) {
+  const auto position = last<bus::BodyPosition>(rig);
+  const auto pitch = last<bus::BodyPitch>(rig);
+  const auto velocity = last<bus::BodyVelocity>(rig);
+  return {{position.position_m, position.height_m, pitch.pitch_rad, velocity.forward_mps,
+           velocity.climb_mps, pitch.pitch_rate_radps}};
+}
+
+std::array<double, 6> truth_of(const DozerRig& rig) {
+  const DozerPlant& plant = rig.machine.plant();
+  return {plant.position_m(),   plant.height_m(),  plant.pitch_rad(),
+          plant.velocity_mps(), plant.climb_mps(), plant.pitch_rate_radps()};
+}
+
+std::array<ReadingFault*, 6> faults_of(PoseFaults& pose) {
+  return {&pose.position, &pose.height, &pose.pitch, &pose.velocity, &pose.climb, &pose.pitch_rate};
+}
+
+// Each switch at its own signal and at no other.
+void each_signal_of_the_pose_fails_alone(void**) {
+  DozerRig rig;
+  rig.pumps_for(50, false, 0.5, 0.5);
+  const std::array<ReadingFault*, 6> faults = faults_of(rig.machine.faults().pose);
+  for (std::size_t which = 0; which < faults.size(); ++which) {
+    faults[which]->jump = 0.2;
+    rig.pumps_for(1, false, 0.5, 0.5);
+    for (std::size_t i = 0; i < faults.size(); ++i) {
+      assert_near(pose_on(rig).signal[i].value, truth_of(rig)[i] + (i == which ? 0.2 : 0.0), 3e-4);
+    }
+    *faults[which] = {};
+    faults[which]->state = RawState::kNotAvailable;
+    rig.pumps_for(1, false, 0.5, 0.5);
+    for (std::size_t i = 0; i < faults.size(); ++i) {
+      assert_true(pose_on(rig).signal[i].state ==
+                  (i == which ? RawState::kNotAvailable : RawState::kValid));
+    }
+    *faults[which] = {};
+  }
+  rig.machine.faults().pose.position.stuck = true;
+  const double shown = pose_on(rig).signal[0].value;
+  rig.pumps_for(50, false, 0.5, 0.5);
+  assert_near(pose_on(rig).signal[0].value, shown, 0.0);
+  assert_true(rig.machine.plant().position_m() > shown + 0.1);
+}
+
+// With noise every reading changes each time: the one that is stuck does not.
+void each_signal_of_the_pose_sticks_alone(void**) {
+  DozerPlantProfile profile = dozer_9t();
+  profile.sensor_errors = true;
+  profile.seed = 3;
+  DozerRig rig(profile);
+  rig.cycles(3);
+  const std::array<ReadingFault*, 6> faults = faults_of(rig.machine.faults().pose);
+  for (std::size_t which = 0; which < faults.size(); ++which) {
+    const Pose before = pose_on(rig);
+    faults[which]->stuck = true;
+    std::array<bool, 6> moved{};
+    for (int i = 0; i < 20; ++i) {
+      rig.cycle();
+      for (std::size_t k = 0; k < moved.size(); ++k) {
+        moved[k] = moved[k] || pose_on(rig).signal[k].value != before.signal[k].value;
+      }
+    }
+    for (std::size_t k = 0; k < moved.size(); ++k) {
+      assert_true(moved[k] == (k != which));
+    }
+    *faults[which] = {};
+  }
+}
+
+void the_whole_pose_can_be_lost(void**) {
+  DozerRig rig;
+  rig.machine.faults().pose.set_state(RawState::kError);
+  rig.cycle();
+  for (const dbc::Physical& signal : pose_on(rig).signal) {
+    assert_true(signal.state == RawState::kError);
+  }
+  rig.machine.faults().pose.set_state(RawState::kValid);
+  rig.cycle();
+  for (const dbc::Physical& signal : pose_on(rig).signal) {
+    assert_true(signal.state == RawState::kValid);
+  }
+}
+
+void displacements_can_run_away_and_be_shown_wrong(void**) {
+  DozerRig rig;
+  PathFaults& left = rig.machine.faults().path[kLeft];
+  PathFaults& right = rig.machine.faults().path[kRight];
+  left.pump.held_ratio = 0.9;
+  right.pump.reversed = true;
+  right.motor.held_ratio = 0.6;
+  rig.pumps_for(100, true, 0.3, 0.3);
+  assert_near(rig.left_pump(), 0.9, 1e-3);
+  assert_near(rig.right_pump(), -0.3, 1e-3);
+  assert_near(last<bus::LeftTransmission>(rig).pump_ratio.value, 0.9, 1e-3);
+  assert_near(last<bus::RightTransmission>(rig).motor_ratio.value, 0.6, 1e-3);
+  left.pump = {};
+  right.pump = {};
+  right.motor = {};
+  right.pump.offset_ratio = 0.2;
+  left.shown_pump_ratio = 0.11;
+  right.shown_motor_ratio = 0.44;
+  rig.pumps_for(100, true, 0.3, 0.3);
+  assert_near(rig.left_pump(), 0.3, 1e-3);
+  assert_near(rig.right_pump(), 0.5, 1e-3);
+  assert_near(last<bus::LeftTransmission>(rig).pump_ratio.value, 0.11, 1e-4);
+  assert_near(last<bus::LeftTransmission>(rig).motor_ratio.value, 1.0, 1e-4);
+  assert_near(last<bus::RightTransmission>(rig).pump_ratio.value, 0.5, 1e-3);
+  assert_near(last<bus::RightTransmission>(rig).motor_ratio.value, 0.44, 1e-4);
+}
+
+void track_speeds_can_be_shown_wrong(void**) {
+  DozerRig rig;
+  rig.pumps_for(100, false, 0.5, 0.5);
+  rig.machine.faults().path[kLeft].speed.stuck = true;
+  rig.machine.faults().path[kRight].speed.jump = -0.4;
+  const double shown = last<bus::TrackSpeed>(rig).left_track_mps.value;
+  rig.pumps_for(100, false, 0.1, 0.1);
+  assert_near(last<bus::TrackSpeed>(rig).left_track_mps.value, shown, 0.0);
+  assert_near(last<bus::TrackSpeed>(rig).right_track_mps.value,
+              rig.machine.plant().track_speeds_mps()[kRight] - 0.4, 1e-4);
+  rig.machine.faults().path[kLeft].speed = {};
+  rig.machine.faults().path[kLeft].speed.state = RawState::kError;
+  rig.pumps_for(1, false, 0.1, 0.1);
+  assert_true(last<bus::TrackSpeed>(rig).left_track_mps.state == RawState::kError);
+  assert_true(last<bus::TrackSpeed>(rig).right_track_mps.state == RawState::kValid);
+}
+
+void commands_can_be_lost(void**) {
+  DozerRig rig;
+  rig.spool_for(10, true, 0.5);
+  rig.machine.faults().loses_spool_commands = true;
+  rig.spool_for(10, true, 0.5);
+  assert_false(rig.machine.spool_enabled());
+  rig.pumps_for(30, false, 0.5, 0.5);
+  assert_true(rig.left_pump() > 0.4);
+  rig.machine.faults().loses_displacement_commands = true;
+  rig.pumps_for(100, false, 0.5, 0.5);
+  assert_near(rig.left_pump(), 0.0, 1e-3);
+  assert_true(rig.braked());
+  assert_int_equal(rig.machine.pump_counters().timeouts, 1);
+}
+
+void frames_can_be_spoilt(void**) {
+  DozerRig rig;
+  DozerFaults& faults = rig.machine.faults();
+  rig.cycles(10);
+  faults.set_frozen_counter(bus::BladeStroke::kId, true);
+  faults.set_silent(bus::TrackSpeed::kId, true);
+  faults.frames.swapped_data_ids = {bus::BodyPitch::kId, bus::BodyVelocity::kId};
+  rig.cycles(10);
+  assert_int_equal(counter_of(rig.seen[bus::BladeStroke::kId][19]), 10);
+  assert_int_equal(rig.seen[bus::TrackSpeed::kId].size(), 10);
+  const auto fits = [&rig](std::uint32_t id, std::uint16_t data_id) {
+    return e2e_crc_fits(rig.seen[id].back().data, data_id);
+  };
+  assert_true(fits(bus::BodyPitch::kId, bus::BodyVelocity::kDataId));
+  assert_true(fits(bus::BodyVelocity::kId, bus::BodyPitch::kDataId));
+  assert_true(fits(bus::BodyPosition::kId, bus::BodyPosition::kDataId));
+  faults.frames = {};
+  faults.frames.delay_us = 200 * kMillisecondUs;
+  rig.cycles(20);
+  assert_int_equal(rig.seen[bus::BodyPosition::kId].size(), 20);
+  rig.cycles(5);
+  assert_int_equal(rig.seen[bus::BodyPosition::kId].size(), 25);
+  faults.frames.delay_us = 0;
+  faults.wrong_identity = true;
+  rig.cycles(100);
+  assert_int_not_equal(last<bus::MachineIdentity>(rig).profile_hash.value, kHash);
+}
+
+void noise_comes_from_the_seed(void**) {
+  DozerPlantProfile profile = dozer_9t();
+  profile.sensor_errors = true;
+  profile.seed = 5;
+  DozerRig one(profile);
+  DozerRig same(profile);
+  profile.seed = 6;
+  DozerRig other(profile);
+  bool differs = false;
+  for (int i = 0; i < 100; ++i) {
+    one.cycle();
+    same.cycle();
+    other.cycle();
+    const double height = last<bus::BodyPosition>(one).height_m.value;
+    assert_near(last<bus::BodyPosition>(same).height_m.value, height, 0.0);
+    differs = differs || last<bus::BodyPosition>(other).height_m.value != height;
+    assert_near(height, 0.0, 0.002 + 6 * 0.0015);
+  }
+  assert_true(differs);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(the_stroke_sensor_fails_in_its_ways),
+      cmocka_unit_test(the_spool_can_be_held_or_open_uncommanded),
+      cmocka_unit_test(each_signal_of_the_pose_fails_alone),
+      cmocka_unit_test(each_signal_of_the_pose_sticks_alone),
+      cmocka_unit_test(the_whole_pose_can_be_lost),
+      cmocka_unit_test(displacements_can_run_away_and_be_shown_wrong),
+      cmocka_unit_test(track_speeds_can_be_shown_wrong),
+      cmocka_unit_test(commands_can_be_lost),
+      cmocka_unit_test(frames_can_be_spoilt),
+      cmocka_unit_test(noise_comes_from_the_seed),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
