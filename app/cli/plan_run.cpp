@@ -17,8 +17,10 @@ constexpr double kTwoPi = 6.28318530717958647693;
 constexpr double kDegrees = 360.0 / kTwoPi;
 constexpr double kLpm = 6e4;
 
-/// mm of a stroke, degrees of the swing.
-double shown(unsigned drive, double value) { return value * (drive == kSwing ? kDegrees : 1e3); }
+/// mm of a stroke, degrees of the swing; no negative zero.
+double shown(unsigned drive, double value) {
+  return value * (drive == kSwing ? kDegrees : 1e3) + 0.0;
+}
 const char* unit(unsigned drive) { return drive == kSwing ? "deg" : "mm"; }
 
 PlanSample sample_at(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
@@ -144,7 +146,7 @@ std::string plan_summary(const ExcavatorProfile& profile, const LineRequest& req
       "line          {:>9.3f} m, attitude from {:.1f} to {:.1f} deg\n"
       "duration      {:>9.2f} s, {:.2f} s of it speeding up and as much slowing down; {}\n"
       "speed         {:>9.3f} m/s along the way at most, {:.3f} m/s2\n"
-      "slowed by     {:>9}{}\n{}",
+      "slowed by          {}{}\n{}",
       plan.line.change.position_m.norm(), from_deg,
       from_deg + kDegrees * plan.line.change.attitude_rad, ramp.duration_s, ramp.ramp_s, asked,
       plan.way_m * ramp.peak_rate_ps(), plan.way_m * ramp.peak_rate_change_ps2(),

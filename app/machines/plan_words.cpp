@@ -2,12 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/machines/axis_names.hpp"
 
 namespace graben::machines {
 namespace {
 
 const char* name(int drive) { return kDriveNames[static_cast<unsigned>(drive)]; }
+
+/// On the way the end is met to the micrometre; how far beyond matters where a line begins there.
+std::string stroke_words(const BlindSpot& blind, double most_m) {
+  constexpr double kWorthTelling_m = 1e-3;
+  const double beyond_m = std::max(-blind.stroke_m, blind.stroke_m - most_m);
+  return fmt::format(
+      "the {} cylinder would have to go beyond its {} end{}; its stroke is 0 .. {} m",
+      name(blind.drive), blind.stroke_m < 0.0 ? "closed" : "open",
+      beyond_m > kWorthTelling_m ? fmt::format(", to {:.3f} m", blind.stroke_m) : "", most_m);
+}
 
 std::string singular_words(int drive) {
   switch (drive) {
@@ -31,9 +43,7 @@ std::string blind_words(const ExcavatorGeometry& geometry, const BlindSpot& blin
       return "out of the reach of boom and arm, the arm's joint can neither stretch nor fold so "
              "far";
     case BlindKind::kStrokeEnd:
-      return fmt::format("the {} cylinder's stroke would be {:.3f} m; its range is 0 .. {} m",
-                         name(blind.drive), blind.stroke_m,
-                         geometry.cylinder[static_cast<unsigned>(blind.drive)].stroke_m);
+      return stroke_words(blind, geometry.cylinder[static_cast<unsigned>(blind.drive)].stroke_m);
     case BlindKind::kDeadCentre:
       return fmt::format("the {}'s joint would be past its cylinder's dead centre",
                          name(blind.drive));
