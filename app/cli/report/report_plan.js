@@ -46,7 +46,7 @@ const reportPlan = (() => {
       {id: 'speed', title: 'Speed of the bucket teeth', source: 'Zhang, Fig. 5 (b)',
         axis: 'speed (mm/s)', unit: 'mm/s', height: 200,
         body: part(() => single(data, 'speed_mps', 'speed', MM_PER_M, 1))},
-      {id: 'place', title: 'Place of the bucket teeth', source: 'Zhang, Fig. 6 and 7',
+      {id: 'place', title: 'Place of the bucket teeth', source: 'Zhang, Fig. 6',
         axis: 'place (m)', unit: 'm', height: 240, body: part(() => placePlot(data))},
       {id: 'attitude', title: 'Attitude of the bucket', source: 'Zhang, Fig. 6',
         axis: 'attitude (°)', unit: '°', height: 190,

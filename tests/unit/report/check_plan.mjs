@@ -36,7 +36,7 @@ test('a plan is complete, in the page\'s units, in the order of the paper\'s fig
   assert.equal(report.limitsShare, null);
   assert.equal(report.path, null);
   assert.deepEqual(report.plots.map((p) => p.source), ['Zhang, Fig. 5 (a)', 'Zhang, Fig. 5 (b)',
-    'Zhang, Fig. 6 and 7', 'Zhang, Fig. 6', 'Zhang, Fig. 8', 'Zhang, Fig. 8', 'Zhang, Fig. 9',
+    'Zhang, Fig. 6', 'Zhang, Fig. 6', 'Zhang, Fig. 8', 'Zhang, Fig. 8', 'Zhang, Fig. 9',
     'Zhang, Fig. 9', 'Zhang, Fig. 10', 'Zhang, Fig. 10']);
   assert.deepEqual(lines(report, 'way')[0].values, [0, 500, 1000]);
   assert.deepEqual(lines(report, 'speed')[0].values, [0, 1000, 0]);
