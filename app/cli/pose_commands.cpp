@@ -11,7 +11,7 @@
 #include "app/cli/guarded.hpp"
 #include "app/machines/axis_names.hpp"
 #include "app/machines/machine_file.hpp"
-#include "firmware/kinematics/excavator_kinematics.hpp"
+#include "firmware/kinematics/swing_kinematics.hpp"
 
 namespace graben::cli {
 namespace {
@@ -79,10 +79,12 @@ void print_pose(const std::string& profile, const std::vector<double>& strokes_m
   result["joints_rad"] = {joints.joints_rad[kBoom], joints.joints_rad[kArm],
                           joints.joints_rad[kBucket]};
   if (swing_rad != nullptr) {
-    // About the vertical through the origin; z to the right, so that swinging left is positive.
+    const SwingKinematics swinging(kinematics.geometry());
+    DriveVector joints_rad;
+    joints_rad << joints.joints_rad, *swing_rad;
+    const Eigen::Vector3d at = swinging.teeth_from_joints(joints_rad).position_m;
     result["swing_rad"] = *swing_rad;
-    result["position_m"] = {pose.x_m * std::cos(*swing_rad), pose.y_m,
-                            -pose.x_m * std::sin(*swing_rad)};
+    result["position_m"] = {at.x(), at.y(), at.z()};
   }
   fmt::print("{}\n", result.dump());
 }
@@ -120,7 +122,7 @@ void add_pose(CLI::App& app, int& status) {
       ->expected(3);
   CLI::Option* swing = command->add_option(
       "--swing", options->swing_rad,
-      "Swing in rad, left positive: adds the tip's position x, y, z (z to the right)");
+      "Swing in rad, left positive: adds the teeth's position in the ground frame, as in plan");
   command->callback([options, swing, &status] {
     status = guarded("pose", [&] {
       if (!std::isfinite(options->swing_rad)) {

@@ -3,10 +3,13 @@
 
 #include <array>
 
-#include "firmware/signals/excavator_signals.hpp"
+#include "firmware/machine/excavator_profile.hpp"
 
 namespace graben::machines {
 
 inline constexpr std::array<const char*, kAxisCount> kAxisNames = {"boom", "arm", "bucket"};
+/// With the swing, in the order of DriveVector.
+inline constexpr std::array<const char*, kDriveCount> kDriveNames = {"boom", "arm", "bucket",
+                                                                     "swing"};
 
 }  // namespace graben::machines

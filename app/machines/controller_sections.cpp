@@ -6,8 +6,10 @@
 
 #include "app/machines/axis_names.hpp"
 #include "app/machines/excavator_sections.hpp"
+#include "app/machines/plan_words.hpp"
 #include "app/machines/shared_sections.hpp"
 #include "firmware/excavator_controller.hpp"
+#include "firmware/motion/line_plan.hpp"
 
 namespace graben::machines {
 namespace {
@@ -16,6 +18,19 @@ constexpr Range kLength{0.1, 30.0, "m"};
 constexpr Range kPin{-10.0, 10.0, "m"};
 constexpr Range kFlowCoefficient{1e-9, 1e-3, "m3/(s sqrt(Pa))"};
 constexpr Range kSpoolArea{1e-7, 1e-2, "m2"};
+constexpr Range kPressure{1e6, 1e8, "Pa"};
+
+/// The boom cylinder as (6) of Zhang et al. has it: B the boom foot, A the pin on the body, C that
+/// on the boom; A below the horizontal X0, C above the boom's line X1.
+void read_pins_by_angles(TomlReader& reader, const std::string& at, CylinderGeometry& cylinder) {
+  const Range acute{0.0, 1.5, "rad"};
+  const double ab_m = reader.number(at + "AB", {0.05, 10.0, "m"});
+  const double bc_m = reader.number(at + "BC", {0.05, 10.0, "m"});
+  const double below_rad = reader.number(at + "angle_ABX0", acute);
+  const double above_rad = reader.number(at + "angle_CBX1", acute);
+  cylinder.base_m = {ab_m * std::cos(below_rad), -ab_m * std::sin(below_rad)};
+  cylinder.eye_m = {bc_m * std::cos(above_rad), bc_m * std::sin(above_rad)};
+}
 
 CylinderGeometry read_cylinder(TomlReader& reader, const std::string& axis, bool has_eye) {
   const std::string at = axis + ".cylinder.";
@@ -26,9 +41,13 @@ CylinderGeometry read_cylinder(TomlReader& reader, const std::string& axis, bool
   cylinder.rod_m = size.rod_m;
   cylinder.closed_length_m = reader.number(at + "closed_length", kLength);
   cylinder.stroke_m = reader.number(at + "stroke", {0.05, 10.0, "m"});
-  cylinder.base_m = reader.point(at + "base", kPin);
-  if (has_eye) {
-    cylinder.eye_m = reader.point(at + "eye", kPin);
+  if (axis == kAxisNames[kBoom] && reader.has(at + "AB")) {
+    read_pins_by_angles(reader, at, cylinder);
+  } else {
+    cylinder.base_m = reader.point(at + "base", kPin);
+    if (has_eye) {
+      cylinder.eye_m = reader.point(at + "eye", kPin);
+    }
   }
   if (cylinder.stroke_m >= cylinder.closed_length_m) {
     reader.fail(at + "stroke", fmt::format("{} m; allowed: less than the closed length of {} m",
@@ -52,6 +71,31 @@ ExcavatorGeometry read_geometry(TomlReader& reader) {
   return geometry;
 }
 
+/// Neither pump nor valve is to see more than it is built for.
+void check_relief(TomlReader& reader, const std::string& pump, double relief_pa) {
+  for (const std::string& key : {pump + "rated_pressure", std::string("valve.rated_pressure")}) {
+    const double rated_pa = reader.number(key, kPressure);
+    if (relief_pa > rated_pa) {
+      reader.fail(pump + "relief",
+                  fmt::format("{} Pa; allowed: at most {}, {} Pa", relief_pa, key, rated_pa));
+    }
+  }
+}
+
+SwingProfile read_swing(TomlReader& reader) {
+  return {reader.number("swing.speed_max", {0.01, 5.0, "rad/s"}),
+          reader.number("swing.acceleration_max", {0.01, 10.0, "rad/s2"})};
+}
+
+LineProfile read_line(TomlReader& reader) {
+  LineProfile line;
+  line.acceleration_mps2 = reader.number("line.acceleration", {0.01, 10.0, "m/s2"});
+  const std::vector<double> cylinder =
+      reader.numbers("line.cylinder_acceleration", {0.01, 10.0, "m/s2"}, kAxisCount);
+  std::copy(cylinder.begin(), cylinder.end(), line.cylinder_acceleration_mps2.begin());
+  return line;
+}
+
 PumpProfile read_pump(TomlReader& reader, unsigned index) {
   const std::string at = fmt::format("pump[{}].", index);
   PumpProfile pump;
@@ -59,16 +103,16 @@ PumpProfile read_pump(TomlReader& reader, unsigned index) {
   pump.rated_speed_radps = reader.number(at + "speed", {10.0, 1000.0, "rad/s"});
   pump.leak_linear = reader.number(at + "leak_linear", {0.0, 1e-9, "m3/(s Pa)"});
   pump.leak_quadratic = reader.number(at + "leak_quadratic", {0.0, 1e-16, "m3/(s Pa2)"});
-  pump.relief_pa = reader.number(at + "relief", {1e6, 1e8, "Pa"});
+  pump.relief_pa = reader.number(at + "relief", kPressure);
+  check_relief(reader, at, pump.relief_pa);
   const std::vector<double> series = reader.numbers(at + "bypass_series", kFlowCoefficient, 2);
   std::copy(series.begin(), series.end(), pump.bypass_series.begin());
   return pump;
 }
 
-SpoolProfile read_spool(TomlReader& reader, const std::string& axis) {
+SpoolProfile read_spool(TomlReader& reader, const std::string& axis, int pump_count) {
   SpoolProfile spool;
-  // Kim's Fig. 3: Pump 1 feeds the arm, Pump 2 boom and bucket.
-  spool.pump = axis == "arm" ? 0 : 1;
+  spool.pump = reader.integer("valve.pump." + axis, 1, pump_count) - 1;
   const std::vector<double> areas = reader.numbers("valve." + axis, kSpoolArea, 4);
   spool.extend_in_m2 = areas[0];
   spool.extend_out_m2 = areas[1];
@@ -95,14 +139,15 @@ SpoolProfile read_spool(TomlReader& reader, const std::string& axis) {
   return spool;
 }
 
-ValveProfile read_valve(TomlReader& reader) {
+ValveProfile read_valve(TomlReader& reader, int pump_count) {
   ValveProfile valve;
   valve.spool_travel_m = reader.number("valve.spool_travel", {1e-3, 0.1, "m"});
   valve.opening_exponent = reader.number("valve.opening_exponent", {0.5, 4.0, ""});
   valve.discharge = reader.number("valve.discharge", {0.3, 1.0, ""});
   valve.density_kgpm3 = reader.number("valve.density", {700.0, 1100.0, "kg/m3"});
+  valve.section_flow_m3ps = reader.number("valve.section_flow", {1e-5, 1e-1, "m3/s"});
   for (unsigned i = 0; i < kAxisCount; ++i) {
-    valve.spool[i] = read_spool(reader, kAxisNames[i]);
+    valve.spool[i] = read_spool(reader, kAxisNames[i], pump_count);
   }
   valve.spool_to_duty = read_spool_to_duty(reader, "valve.spool_to_duty");
   return valve;
@@ -196,26 +241,41 @@ void check_path(TomlReader& reader, const char* key, const ProfileCheck& check) 
   }
 }
 
+void check_line(TomlReader& reader, const ExcavatorProfile& profile, const LineTask& task) {
+  LineRequest request{task.from, task.to, profile.line.acceleration_mps2};
+  request.duration_s = task.duration_s;
+  const SwingKinematics kinematics(profile.geometry);
+  const PlanResult result = plan_line(kinematics, drive_limits(profile), request);
+  if (result.refusal != PlanRefusal::kNone) {
+    reader.fail("experiment.line", refusal_words(profile.geometry, result));
+  }
+}
+
 }  // namespace
 
 ExcavatorProfile read_controller_sections(TomlReader& reader) {
   ExcavatorProfile profile;
   profile.geometry = read_geometry(reader);
-  reader.table_count("pump", kPumpCount);
-  for (unsigned j = 0; j < kPumpCount; ++j) {
+  profile.geometry.boom_foot_m = reader.point("body.boom_foot", kPin);
+  profile.swing = read_swing(reader);
+  profile.line = read_line(reader);
+  profile.pump_count = reader.table_count("pump", 1, kPumpCount);
+  const auto pumps = static_cast<unsigned>(profile.pump_count);
+  for (unsigned j = 0; j < pumps; ++j) {
     profile.pump[j] = read_pump(reader, j);
   }
-  profile.valve = read_valve(reader);
+  profile.valve = read_valve(reader, profile.pump_count);
   profile.control = read_control(reader);
   profile.dig_path = read_path(reader, "experiment.path");
   profile.dig_speed_mps = reader.number("experiment.speed", {0.01, 3.0, "m/s"});
-  profile.dig_swash_ratio.fill(reader.number("experiment.swash", {0.0, 1.0, ""}));
+  const double swash_ratio = reader.number("experiment.swash", {0.0, 1.0, ""});
+  std::fill_n(profile.dig_swash_ratio.begin(), pumps, swash_ratio);
   profile.safety = read_safety(reader);
   return profile;
 }
 
 void check_across_keys(TomlReader& reader, const ExcavatorProfile& profile,
-                       const DigPath& air_path) {
+                       const Experiment& experiment) {
   std::array<std::vector<double>, kAxisCount> angle_range;
   for (unsigned i = 0; i < kAxisCount; ++i) {
     angle_range[i] = reader.numbers(angle_key(i), {-7.0, 7.0, "rad"}, 2);
@@ -231,8 +291,9 @@ void check_across_keys(TomlReader& reader, const ExcavatorProfile& profile,
   }
   check_path(reader, "experiment.path", check);
   ExcavatorProfile in_air = profile;
-  in_air.dig_path = air_path;
+  in_air.dig_path = experiment.air.path;
   check_path(reader, "experiment.air.path", profile_check(in_air));
+  check_line(reader, profile, experiment.line);
 }
 
 }  // namespace graben::machines

@@ -19,10 +19,10 @@ namespace graben::machines {
 [[nodiscard]] DigPath read_path(TomlReader& reader, const std::string& at);
 /// What can be tried on it; the obstacle stands on `path`.
 [[nodiscard]] Experiment read_experiment_sections(TomlReader& reader, const DigPath& path);
-/// Checks that need more than one key: both paths lie in the work space, angle ranges fit the
-/// stroke ends, orifices and tables fit each other. They are made only where
+/// Checks that need more than one key: both paths and the line lie in the work space, angle ranges
+/// fit the stroke ends, orifices and tables fit each other. They are made only where
 /// each key by itself is right.
 void check_across_keys(TomlReader& reader, const ExcavatorProfile& profile,
-                       const DigPath& air_path);
+                       const Experiment& experiment);
 
 }  // namespace graben::machines

@@ -5,7 +5,7 @@
 
 #include "app/plant/obstacle.hpp"
 #include "app/plant/soil.hpp"
-#include "firmware/kinematics/excavator_kinematics.hpp"
+#include "firmware/kinematics/swing_kinematics.hpp"
 #include "firmware/machine/excavator_profile.hpp"
 
 namespace graben::machines {
@@ -29,11 +29,19 @@ struct AirManoeuvre {
   Eigen::Vector2d payload_centre_m = Eigen::Vector2d::Zero();  ///< Bucket frame; a point mass.
 };
 
+/// A straight line of the teeth over the ground (Zhang et al., 4).
+struct LineTask {
+  TeethPose from;
+  TeethPose to;
+  double duration_s = 0.0;
+};
+
 struct Experiment {
   Uncertainty uncertainty;
   plant::SoilProfile soil;
   plant::ObstacleProfile obstacle;
   AirManoeuvre air;
+  LineTask line;
   double stiff_bulk_modulus_pa = 0.0;  ///< Oil as stiff as the paper's modes need it.
 };
 

@@ -58,6 +58,18 @@ AirManoeuvre read_air(TomlReader& reader) {
   return air;
 }
 
+TeethPose read_teeth(TomlReader& reader, const std::string& at) {
+  const std::vector<double> position = reader.numbers(at + ".position", {-30.0, 30.0, "m"}, 3);
+  return {{position[0], position[1], position[2]},
+          reader.number(at + ".attitude", {-7.0, 7.0, "rad"})};
+}
+
+LineTask read_line_task(TomlReader& reader) {
+  const std::string at = "experiment.line";
+  return {read_teeth(reader, at + ".from"), read_teeth(reader, at + ".to"),
+          reader.number(at + ".duration", {0.5, 600.0, "s"})};
+}
+
 }  // namespace
 
 DigPath read_path(TomlReader& reader, const std::string& at) {
@@ -95,6 +107,7 @@ Experiment read_experiment_sections(TomlReader& reader, const DigPath& path) {
   experiment.soil = read_soil(reader);
   experiment.obstacle = read_obstacle(reader, RoundedRectangle(path));
   experiment.air = read_air(reader);
+  experiment.line = read_line_task(reader);
   experiment.stiff_bulk_modulus_pa = reader.number("valve.bulk_modulus_kim", {1e8, 1e11, "Pa"});
   return experiment;
 }

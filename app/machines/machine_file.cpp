@@ -11,7 +11,7 @@ ExcavatorMachine load_excavator(const std::filesystem::path& file) {
         machine.profile = read_controller_sections(reader);
         machine.plant = read_plant_sections(reader, machine.profile);
         machine.experiment = read_experiment_sections(reader, machine.profile.dig_path);
-        check_across_keys(reader, machine.profile, machine.experiment.air.path);
+        check_across_keys(reader, machine.profile, machine.experiment);
       });
 }
 

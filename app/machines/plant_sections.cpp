@@ -48,8 +48,6 @@ plant::PlantProfile read_plant_sections(TomlReader& reader, const ExcavatorProfi
   plant.swash_ratio = nominal.dig_swash_ratio;
   plant.dead_time_s.fill(nominal.control.dead_time_s);
   plant.sensors = read_sensors(reader, nominal);
-  static_cast<void>(reader.number("swing.speed_max",
-                                  {0.01, 5.0, "rad/s"}));  // Checked, so that a typo shows today.
   return plant;
 }
 

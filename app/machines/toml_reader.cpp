@@ -150,13 +150,14 @@ std::vector<std::pair<double, double>> TomlReader::pairs(const std::string& key,
   return values;
 }
 
-void TomlReader::table_count(const std::string& key, std::size_t count) {
+int TomlReader::table_count(const std::string& key, int least, int most) {
   const toml::array* array = root_.at_path(key).as_array();
-  if (array == nullptr || array->size() != count) {
-    fail(key, fmt::format("must be {} tables; there {} {}", count,
-                          array != nullptr && array->size() == 1 ? "is" : "are",
-                          array == nullptr ? 0 : array->size()));
+  const int count = array == nullptr ? 0 : static_cast<int>(array->size());
+  if (count < least || count > most) {
+    fail(key, fmt::format("must be {} to {} tables; there {} {}", least, most,
+                          count == 1 ? "is" : "are", count));
   }
+  return std::clamp(count, least, most);
 }
 
 void TomlReader::refuse_unknown_keys() { refuse_unknown_in(root_, ""); }

@@ -41,8 +41,9 @@ class TomlReader {
   std::vector<std::pair<double, double>> pairs(const std::string& key, const Range& first,
                                                const Range& second, std::size_t least,
                                                std::size_t most);
-  /// Number of tables in an array of tables; an error unless it is `count`.
-  void table_count(const std::string& key, std::size_t count);
+  /// Number of tables in an array of tables; an error, and the nearer end, unless it is `least` to
+  /// `most`.
+  int table_count(const std::string& key, int least, int most);
 
   /// Records an error that concerns a key as a whole.
   void fail(const std::string& key, const std::string& what);

@@ -19,6 +19,7 @@ std::size_t sections_on(const PlantProfile& profile, int pump) {
 ExcavatorPlant::ExcavatorPlant(const PlantProfile& profile, const AxisArray& start_strokes_m)
     : profile_(profile),
       step_s_(profile.step_s()),
+      pump_count_(static_cast<std::size_t>(profile.machine.pump_count)),
       pump_{PumpLine(profile, 0, sections_on(profile, 0)),
             PumpLine(profile, 1, sections_on(profile, 1))},
       section_{ValveSection(profile, kBoom), ValveSection(profile, kArm),
@@ -44,8 +45,8 @@ ExcavatorPlant::ExcavatorPlant(const PlantProfile& profile, const AxisArray& sta
     obstacle_.emplace(*profile.obstacle, step_s_);
   }
   set_bypasses();
-  for (PumpLine& pump : pump_) {
-    pump.start();
+  for (std::size_t p = 0; p < pump_count_; ++p) {
+    pump_[p].start();
   }
   links_.start(LinkageGeometry(profile.machine.geometry).angles_at(start_strokes_m), {});
   const JointArray holding = links_.holding_forces();
@@ -73,7 +74,7 @@ void ExcavatorPlant::set_bypasses() {
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     inverse_square[pump_of_[i]] += section_[i].bypass_inverse_square();
   }
-  for (std::size_t p = 0; p < kPumpCount; ++p) {
+  for (std::size_t p = 0; p < pump_count_; ++p) {
     pump_[p].set_bypass(inverse_square[p]);
   }
 }
@@ -104,7 +105,7 @@ SectionPorts ExcavatorPlant::ports_of(std::size_t axis) const {
 }
 
 void ExcavatorPlant::move_swash() {
-  for (std::size_t i = 0; i < kPumpCount; ++i) {
+  for (std::size_t i = 0; i < pump_count_; ++i) {
     const double missing = wanted_swash_[i] - pump_[i].swash_ratio();
     if (missing != 0.0) {
       pump_[i].set_swash(pump_[i].swash_ratio() + swash_share_ * missing);
@@ -127,10 +128,10 @@ void ExcavatorPlant::step() {
       account_->add_section(profile_.oil(), ports, flows_[i], step_s_);
     }
   }
-  for (PumpLine& pump : pump_) {
-    pump.step();
+  for (std::size_t p = 0; p < pump_count_; ++p) {
+    pump_[p].step();
     if (account_ != nullptr) {
-      account_->add_pump(profile_.oil(), pump, step_s_);
+      account_->add_pump(profile_.oil(), pump_[p], step_s_);
     }
   }
   const JointArray velocity = links_.accelerate(load, step_s_);
@@ -167,8 +168,8 @@ double ExcavatorPlant::stored_energy_j() const {
   for (const Cylinder& cylinder : cylinder_) {
     energy += cylinder.cap().energy_j() + cylinder.rod().energy_j();
   }
-  for (const PumpLine& pump : pump_) {
-    energy += pump.line().energy_j();
+  for (std::size_t p = 0; p < pump_count_; ++p) {
+    energy += pump_[p].line().energy_j();
   }
   return energy;
 }

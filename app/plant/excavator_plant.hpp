@@ -97,6 +97,7 @@ class ExcavatorPlant {
 
   PlantProfile profile_;
   double step_s_;
+  std::size_t pump_count_;  ///< Lines beyond it are neither filled nor stepped.
   TimeUs pending_us_ = 0;
   /// Of each axis: its pump, and its place among the sections on that pump.
   std::array<std::size_t, kAxisCount> pump_of_{};

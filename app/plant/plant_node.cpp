@@ -148,7 +148,8 @@ void PlantNode::send_pumps(TimeUs now) {
   for (std::size_t i = 0; i < kPumpCount; ++i) {
     swash[i] = faults_.pump[i].shown_swash_ratio.value_or(swash[i]);
   }
-  send(bus::PumpState{valid(swash[0]), valid(swash[1])}, now);
+  const bool second = plant_.profile().machine.pump_count > 1;
+  send(bus::PumpState{valid(swash[0]), second ? valid(swash[1]) : Physical{}}, now);
   // One engine drives both pumps at the same speed.
   send(bus::EEC1{valid(plant_.profile().machine.pump[0].rated_speed_radps)}, now);
 }

@@ -51,8 +51,10 @@ LinkageState BucketLinkageSolver::with_rocker_end(const Eigen::Vector2d& rocker_
                                                   double angle_rad) const {
   const Eigen::Vector2d cylinder = rocker_end_m - base_m_;
   const Eigen::Vector2d coupler = lug_m - rocker_end_m;
-  const Eigen::Vector2d rocker_motion = left_of(rocker_end_m - linkage_.rocker_pivot_m);
-  const Eigen::Vector2d lug_motion = left_of(lug_m - pin_m_);
+  const Eigen::Vector2d rocker = rocker_end_m - linkage_.rocker_pivot_m;
+  const Eigen::Vector2d lug = lug_m - pin_m_;
+  const Eigen::Vector2d rocker_motion = left_of(rocker);
+  const Eigen::Vector2d lug_motion = left_of(lug);
   // The coupler keeps its length: (rocker_motion . coupler) d rocker = (lug_motion . coupler) d
   // lug.
   const double rocker_share = rocker_motion.dot(coupler);
@@ -61,7 +63,17 @@ LinkageState BucketLinkageSolver::with_rocker_end(const Eigen::Vector2d& rocker_
     return {};
   }
   const double rocker_per_bucket = lug_motion.dot(coupler) / rocker_share;
-  return {true, angle_rad, length_m, rocker_motion.dot(cylinder) / length_m * rocker_per_bucket};
+  const double per_rocker = rocker_motion.dot(cylinder) / length_m;
+  // The same condition once more by the bucket's angle; a point turns with the square of its rate
+  // towards its pivot.
+  const double square = rocker_per_bucket * rocker_per_bucket;
+  const double rocker_curvature = ((lug_motion - rocker_per_bucket * rocker_motion).squaredNorm() -
+                                   coupler.dot(lug) + square * coupler.dot(rocker)) /
+                                  rocker_share;
+  const double per_rocker_curvature =
+      (rocker.squaredNorm() - cylinder.dot(rocker) - per_rocker * per_rocker) / length_m;
+  return {true, angle_rad, length_m, per_rocker * rocker_per_bucket,
+          per_rocker_curvature * square + per_rocker * rocker_curvature};
 }
 
 LinkageState BucketLinkageSolver::from_angle(double angle_rad) const {

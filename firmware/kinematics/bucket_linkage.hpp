@@ -16,6 +16,7 @@ struct LinkageState {
   double angle_rad = 0.0;    ///< Bucket against arm.
   double length_m = 0.0;     ///< Cylinder, pin to pin.
   double length_rate = 0.0;  ///< d length / d angle, m/rad; negative: extension curls in.
+  double length_curvature = 0.0;  ///< d^2 length / d angle^2, m/rad^2.
 };
 
 /// Rocker on the arm at `rocker_pivot`, its end joined by the coupler to the bucket's lug and

@@ -14,6 +14,8 @@ constexpr double kStrokeTolerance_m = 1e-6;
 constexpr double kSameAngle_rad = 1e-6;
 /// Levers of a machine are decimetres; below this the inverse is of no use.
 constexpr double kSmallestLever_m = 1e-3;
+/// Of the joints' Jacobian: boom length * arm length * sin(arm angle).
+constexpr double kSmallestDeterminant_m2 = 1e-3;
 
 /// Sum of the first n joint angles gives the direction of link n.
 Eigen::Vector2d link(double length_m, double direction_rad) {
@@ -127,6 +129,70 @@ StrokeResult ExcavatorKinematics::strokes_from_pose(const TipPose& pose) const {
   return strokes_from_joints(joints.joints_rad);
 }
 
+Eigen::Matrix3d ExcavatorKinematics::joint_jacobian(const Eigen::Vector3d& joints_rad) const {
+  const double boom = joints_rad[kBoom];
+  const double arm = boom + joints_rad[kArm];
+  const double bucket = arm + joints_rad[kBucket];
+  const Eigen::Vector2d bucket_part = link(geometry_.bucket_length_m, bucket);
+  const Eigen::Vector2d arm_part = link(geometry_.arm_length_m, arm) + bucket_part;
+  const Eigen::Vector2d boom_part = link(geometry_.boom_length_m, boom) + arm_part;
+  Eigen::Matrix3d by_joint;
+  by_joint << -boom_part.y(), -arm_part.y(), -bucket_part.y(),  //
+      boom_part.x(), arm_part.x(), bucket_part.x(),             //
+      1.0, 1.0, 1.0;
+  return by_joint;
+}
+
+PathMotion ExcavatorKinematics::motion_from_pose(const TipPose& pose, const TipPose& rate,
+                                                 const TipPose& curvature) const {
+  PathMotion motion;
+  const JointResult joints = joints_from_pose(pose);
+  motion.status = joints.status;
+  if (joints.status != ReachStatus::kOk) {
+    return motion;
+  }
+  const Eigen::Vector3d& at = joints.joints_rad;
+  const StrokeResult strokes = strokes_from_joints(at);
+  motion.status = strokes.status;
+  motion.joints_rad = at;
+  motion.strokes_m = strokes.strokes_m;
+  if (strokes.status != ReachStatus::kOk) {
+    return motion;
+  }
+  const LinkageState linkage = bucket_.from_angle(at[kBucket]);
+  const Eigen::Vector3d levers(boom_.length_rate(at[kBoom]), arm_.length_rate(at[kArm]),
+                               linkage.length_rate);
+  const Eigen::Matrix3d by_joint = joint_jacobian(at);
+  bool invertible = false;
+  Eigen::Matrix3d inverse;
+  by_joint.computeInverseWithCheck(inverse, invertible, kSmallestDeterminant_m2);
+  if (!invertible || levers.cwiseAbs().minCoeff(&motion.axis) < kSmallestLever_m) {
+    motion.status = ReachStatus::kSingular;
+    // Boom and arm in one line: no joint but the arm's brings them out of it.
+    motion.axis = invertible ? motion.axis : kArm;
+    return motion;
+  }
+  motion.joints_rate = inverse * Eigen::Vector3d(rate.x_m, rate.y_m, rate.attitude_rad);
+  // Each link's end turns about its pin, with the square of its rate towards it.
+  Eigen::Vector3d asked(curvature.x_m, curvature.y_m, curvature.attitude_rad);
+  const Eigen::Vector3d length_m(geometry_.boom_length_m, geometry_.arm_length_m,
+                                 geometry_.bucket_length_m);
+  double direction = 0.0;
+  double turning = 0.0;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    direction += at[axis];
+    turning += motion.joints_rate[axis];
+    asked.head<2>() += turning * turning * link(length_m[axis], direction);
+  }
+  motion.joints_curvature = inverse * asked;
+  const Eigen::Vector3d bend(boom_.length_curvature(at[kBoom]), arm_.length_curvature(at[kArm]),
+                             linkage.length_curvature);
+  motion.strokes_rate = levers.cwiseProduct(motion.joints_rate);
+  motion.strokes_curvature = levers.cwiseProduct(motion.joints_curvature) +
+                             bend.cwiseProduct(motion.joints_rate.cwiseAbs2());
+  return motion;
+}
+
 KinematicState ExcavatorKinematics::state(const Eigen::Vector3d& strokes_m) const {
   KinematicState result;
   const JointResult joints = joints_from_strokes(strokes_m);
@@ -138,19 +204,10 @@ KinematicState ExcavatorKinematics::state(const Eigen::Vector3d& strokes_m) cons
   result.joints_rad = joints.joints_rad;
   result.tip = pose_from_joints(joints.joints_rad);
 
-  const double boom = joints.joints_rad[kBoom];
-  const double arm = boom + joints.joints_rad[kArm];
-  const double bucket = arm + joints.joints_rad[kBucket];
-  const Eigen::Vector2d bucket_part = link(geometry_.bucket_length_m, bucket);
-  const Eigen::Vector2d arm_part = link(geometry_.arm_length_m, arm) + bucket_part;
-  const Eigen::Vector2d boom_part = link(geometry_.boom_length_m, boom) + arm_part;
-  Eigen::Matrix3d by_joint;
-  by_joint << -boom_part.y(), -arm_part.y(), -bucket_part.y(),  //
-      boom_part.x(), arm_part.x(), bucket_part.x(),             //
-      1.0, 1.0, 1.0;
+  const Eigen::Matrix3d by_joint = joint_jacobian(joints.joints_rad);
   const LinkageState linkage = bucket_.from_angle(joints.joints_rad[kBucket]);
-  const Eigen::Vector3d levers(boom_.length_rate(boom), arm_.length_rate(joints.joints_rad[kArm]),
-                               linkage.length_rate);
+  const Eigen::Vector3d levers(boom_.length_rate(joints.joints_rad[kBoom]),
+                               arm_.length_rate(joints.joints_rad[kArm]), linkage.length_rate);
   if (!linkage.closed || levers.cwiseAbs().minCoeff() < kSmallestLever_m) {
     result.status = ReachStatus::kSingular;
     return result;
@@ -158,7 +215,7 @@ KinematicState ExcavatorKinematics::state(const Eigen::Vector3d& strokes_m) cons
   result.jacobian = by_joint * levers.cwiseInverse().asDiagonal();
   bool invertible = false;
   Eigen::Matrix3d joint_inverse;
-  by_joint.computeInverseWithCheck(joint_inverse, invertible, 1e-3);
+  by_joint.computeInverseWithCheck(joint_inverse, invertible, kSmallestDeterminant_m2);
   if (!invertible) {
     result.status = ReachStatus::kSingular;
     return result;

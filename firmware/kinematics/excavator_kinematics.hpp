@@ -51,6 +51,20 @@ struct KinematicState {
   Eigen::Matrix3d jacobian_inverse = Eigen::Matrix3d::Zero();  ///< V_L = J^-1 v_b of (3).
 };
 
+/// Where tip, joints and cylinders are at one place of a path, and how they go on from there: first
+/// and second derivatives by whatever parameter the path has.
+struct PathMotion {
+  ReachStatus status = ReachStatus::kNotFinite;
+  int axis = 0;  ///< Whose lever or reach it is, where the status is kSingular.
+  Eigen::Vector3d joints_rad = Eigen::Vector3d::Zero();
+  Eigen::Vector3d joints_rate = Eigen::Vector3d::Zero();
+  Eigen::Vector3d joints_curvature = Eigen::Vector3d::Zero();
+  /// Set where the joints are had, even if they are outside their range.
+  Eigen::Vector3d strokes_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d strokes_rate = Eigen::Vector3d::Zero();
+  Eigen::Vector3d strokes_curvature = Eigen::Vector3d::Zero();
+};
+
 /// Closed forms throughout; every function costs a constant number of operations and returns a
 /// status instead of a number that isn't one.
 class ExcavatorKinematics {
@@ -64,6 +78,10 @@ class ExcavatorKinematics {
   /// Elbow up: the arm folds in (its angle is negative), as its cylinder's range has it.
   [[nodiscard]] JointResult joints_from_pose(const TipPose& pose) const;
   [[nodiscard]] StrokeResult strokes_from_pose(const TipPose& pose) const;
+  /// What a path of the tip asks of joints and cylinders, by the inverse of the Jacobian: `pose`,
+  /// and the path's first and second derivative there.
+  [[nodiscard]] PathMotion motion_from_pose(const TipPose& pose, const TipPose& rate,
+                                            const TipPose& curvature) const;
   /// Pose, Jacobian and inverse at these strokes.
   [[nodiscard]] KinematicState state(const Eigen::Vector3d& strokes_m) const;
 
@@ -71,6 +89,8 @@ class ExcavatorKinematics {
 
  private:
   [[nodiscard]] ReachStatus check_strokes(const Eigen::Vector3d& strokes_m) const;
+  /// Of x, y and attitude by the joints.
+  [[nodiscard]] Eigen::Matrix3d joint_jacobian(const Eigen::Vector3d& joints_rad) const;
 
   ExcavatorGeometry geometry_;
   CylinderTriangle boom_;

@@ -40,6 +40,15 @@ double CylinderTriangle::length_rate(double angle_rad) const {
   return a_m_ * b_m_ * std::sin(offset_rad_ + angle_rad) / length_m;
 }
 
+double CylinderTriangle::length_curvature(double angle_rad) const {
+  const double length_m = length(angle_rad);
+  if (length_m <= 0.0) {
+    return 0.0;
+  }
+  const double rate = length_rate(angle_rad);
+  return (a_m_ * b_m_ * std::cos(offset_rad_ + angle_rad) - rate * rate) / length_m;
+}
+
 double CylinderTriangle::angle(double length_m) const {
   const double cosine = (a_m_ * a_m_ + b_m_ * b_m_ - length_m * length_m) / (2.0 * a_m_ * b_m_);
   const double opening = std::acos(std::clamp(cosine, -1.0, 1.0));

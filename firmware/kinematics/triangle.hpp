@@ -21,6 +21,8 @@ class CylinderTriangle {
   [[nodiscard]] double length(double angle_rad) const;
   /// d length / d angle, m/rad; negative where turning the child shortens the cylinder.
   [[nodiscard]] double length_rate(double angle_rad) const;
+  /// d^2 length / d angle^2, m/rad^2.
+  [[nodiscard]] double length_curvature(double angle_rad) const;
 
   /// Angle at a length. A length that the triangle can't have gives the nearest one it can.
   [[nodiscard]] double angle(double length_m) const;

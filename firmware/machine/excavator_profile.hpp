@@ -17,6 +17,8 @@ namespace graben {
 inline constexpr int kBoom = 0;
 inline constexpr int kArm = 1;
 inline constexpr int kBucket = 2;
+inline constexpr int kSwing = 3;  ///< theta_0 of Zhang et al.; after the axes with a cylinder.
+inline constexpr int kDriveCount = 4;
 
 /// Parallel cylinders of one axis. `base` is the pin on the link nearer to the body, `eye` the pin
 /// on the rod's side; which frame each is in stands at the axis.
@@ -51,6 +53,8 @@ struct ExcavatorGeometry {
   /// arm frame. Bucket: base in the arm frame; its eye is the rocker's end.
   std::array<CylinderGeometry, kAxisCount> cylinder;
   BucketLinkage linkage;
+  /// Boom foot pin: a_1 forward of the swing axis and d_0 above the ground, (2) of Zhang et al.
+  Eigen::Vector2d boom_foot_m = Eigen::Vector2d::Zero();
 };
 
 enum class RegenerationSide : int { kRetract = -1, kNone = 0, kExtend = 1 };
@@ -83,10 +87,11 @@ struct PumpProfile {
 };
 
 struct ValveProfile {
-  double spool_travel_m = 0.0;    ///< x_m of (13).
-  double opening_exponent = 1.0;  ///< Area over travel: (|x| / x_m) ^ exponent.
-  double discharge = 0.0;         ///< C_d.
-  double density_kgpm3 = 0.0;     ///< rho.
+  double spool_travel_m = 0.0;     ///< x_m of (13).
+  double opening_exponent = 1.0;   ///< Area over travel: (|x| / x_m) ^ exponent.
+  double discharge = 0.0;          ///< C_d.
+  double density_kgpm3 = 0.0;      ///< rho.
+  double section_flow_m3ps = 0.0;  ///< Rated, of one spool's section.
   std::array<SpoolProfile, kAxisCount> spool;
   /// Opening (|x| / x_m, 0 .. 1) to duty (0 .. 1). Its first value is the duty at which the spool
   /// begins to open, so that the deadband is crossed in one step; neutral is duty 0 always.
@@ -149,9 +154,24 @@ struct SafetyProfile {
   double pressure_rail_pa = 0.0;  ///< Where the pressure sensors end.
 };
 
+/// The platform's turning about the vertical, to the left and to the right.
+struct SwingProfile {
+  double speed_max_radps = 0.0;
+  double acceleration_max_radps2 = 0.0;
+};
+
+/// How straight lines of the teeth are planned.
+struct LineProfile {
+  double acceleration_mps2 = 0.0;  ///< Of the teeth, unless the task says another.
+  std::array<double, kAxisCount> cylinder_acceleration_mps2{};
+};
+
 struct ExcavatorProfile {
   ExcavatorGeometry geometry;
+  SwingProfile swing;
+  LineProfile line;
   ValveProfile valve;
+  int pump_count = kPumpCount;  ///< How many there are of them; the others stay at nothing.
   std::array<PumpProfile, kPumpCount> pump;
   DigPath dig_path;
   double dig_speed_mps = 0.0;                        ///< Of the tip along the path.

@@ -104,7 +104,7 @@ McvCheck check_input(const McvMachine& machine, const McvInput& input) {
 McvMachine mcv_machine(const ExcavatorProfile& profile) {
   McvMachine machine;
   machine.actuator_count = kAxisCount;
-  machine.pump_count = kPumpCount;
+  machine.pump_count = profile.pump_count;
   for (unsigned i = 0; i < kAxisCount; ++i) {
     const SpoolProfile& spool = profile.valve.spool[i];
     const double cap_m2 = profile.geometry.cylinder[i].cap_area_m2();
@@ -127,7 +127,7 @@ McvMachine mcv_machine(const ExcavatorProfile& profile) {
         profile.valve, full_opening_velocity_coefficient(profile.valve, spool.retract_in_m2,
                                                          spool.retract_out_m2, rod_m2, cap_m2));
   }
-  for (unsigned j = 0; j < kPumpCount; ++j) {
+  for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
     const PumpProfile& from = profile.pump[j];
     machine.pump[j] = {from.leak_linear, from.leak_quadratic, 0.0, true, from.relief_pa};
     for (const double coefficient : from.bypass_series) {

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kTwoPi = 6.28318530717958647693;
 
-constexpr std::size_t kRequiredCount = 4 * kAxisCount + kPumpCount;
+constexpr std::size_t kRequiredCount = 4 * kAxisCount;
 
 std::array<Required, kRequiredCount> required_signals(const ExcavatorInputs& inputs,
                                                       ValidInputs& valid) {
@@ -27,12 +27,8 @@ std::array<Required, kRequiredCount> required_signals(const ExcavatorInputs& inp
     return Required{&inputs.axis[i].spool_ratio, &valid.spool_ratio[i], Fault::kSpoolMissing,
                     Fault::kSensorError};
   };
-  const auto swash = [&](unsigned j) {
-    return Required{&inputs.swash_ratio[j], &valid.swash_ratio[j], Fault::kSwashMissing,
-                    Fault::kSensorError};
-  };
   return {{stroke(0), stroke(1), stroke(2), cap(0), cap(1), cap(2), rod(0), rod(1), rod(2),
-           spool(0), spool(1), spool(2), swash(0), swash(1)}};
+           spool(0), spool(1), spool(2)}};
 }
 
 /// Faster than this no cylinder moves, m/s.
@@ -65,6 +61,11 @@ ValidInputs validate(const ExcavatorInputs& inputs, const ExcavatorProfile& prof
   believe_strokes(inputs, profile, moving ? last : ValidationState{}, fresh, valid);
   for (const Required& row : required_signals(inputs, valid)) {
     read_required(row, fresh, valid.faults);
+  }
+  for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
+    read_required(
+        {&inputs.swash_ratio[j], &valid.swash_ratio[j], Fault::kSwashMissing, Fault::kSensorError},
+        fresh, valid.faults);
   }
   valid.engine_radps =
       engine_speed_radps(inputs.engine_speed_radps, profile.pump[0].rated_speed_radps,

@@ -10,7 +10,7 @@
 namespace graben {
 
 inline constexpr int kAxisCount = 3;
-inline constexpr int kPumpCount = 2;
+inline constexpr int kPumpCount = 2;  ///< At most; a machine may have one.
 
 struct AxisInputs {
   Signal<double> stroke_m;

@@ -36,7 +36,9 @@ def pose_and_back(graben):
     assert max(abs(a - b) for a, b in zip(strokes["strokes_m"], (1.0, 1.1, 0.4))) < 1e-9
     swung = good(graben, "pose", *machine, "--strokes", "1.0,1.1,0.4", "--swing", "0.5")
     x, y, z = swung["position_m"]
-    assert abs(math.hypot(x, z) - pose["x_m"]) < 1e-12 and y == pose["y_m"] and z < 0 < x
+    # The boom foot is 0.10 m ahead of the swing axis and 1.75 m above the ground.
+    assert abs(math.hypot(x, y) - pose["x_m"] - 0.10) < 1e-12
+    assert abs(math.atan2(y, x) - 0.5) < 1e-12 and abs(z - pose["y_m"] - 1.75) < 1e-12
     far = good(graben, "strokes", *machine, "--x", "15", "--y", "0", "--attitude", "1.5")
     assert far == {"strokes_m": None, "status": "out_of_reach"}
     negative = good(graben, "strokes", *machine, "--x", "-3", "--y", "-1", "--attitude", "-1.5")

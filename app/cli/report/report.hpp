@@ -7,7 +7,7 @@
 /// plot. Up to about 30 000 samples stay fluent.
 ///
 /// Of every kind of run:
-///   kind          "grade"; a digging run where it is missing
+///   kind          "grade" or "plan"; a digging run where it is missing
 ///   title         string
 ///   subtitle      string: profile, seed, command line
 ///   summary       [{label, value, unit, note?}]: key figures; value is a number or a string
@@ -59,6 +59,13 @@
 ///     spool_command, spool_real          -1 to 1 of the travel
 ///     track_mps               [left, right]
 ///     pump_command, pump_real, motor_command, motor_real   [left, right], of full displacement
+///
+/// Of a planned line, which has neither limits nor lambda:
+///   series
+///     way_m, speed_mps        of the teeth along the line
+///     teeth_m                 [x, y, z]
+///     attitude_rad
+///     displacement, velocity, acceleration   [boom, arm, bucket, swing]: m or rad, by s
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>

@@ -54,6 +54,8 @@ const reportPage = (() => {
   }
 
   function fillLimits() {
+    // A plan has no shares of time.
+    if (!report.limitsShare) return $('limits-table').parentNode.remove();
     if (!report.limitsShare.ok) {
       return $('limits-table').replaceWith(complaint(report.limitsShare.problem));
     }
@@ -262,7 +264,7 @@ const reportPage = (() => {
   }
 
   function show(data) {
-    report = (data?.kind === 'grade' ? reportGrade : reportData).prepare(data);
+    report = ({grade: reportGrade, plan: reportPlan}[data?.kind] ?? reportData).prepare(data);
     fillHead();
     fillLimits();
     fillPathHead();

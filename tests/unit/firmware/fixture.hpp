@@ -1,5 +1,5 @@
 #pragma once
-/// The shipped excavator for tests of the core.
+/// The shipped excavators for tests of the core.
 
 #include "app/machines/machine_file.hpp"
 
@@ -9,6 +9,12 @@ namespace graben::test {
 inline const machines::ExcavatorMachine& excavator() {
   static const machines::ExcavatorMachine machine =
       machines::load_excavator(machines::find_profile("excavator_22t"));
+  return machine;
+}
+
+inline const machines::ExcavatorMachine& excavator_12t() {
+  static const machines::ExcavatorMachine machine =
+      machines::load_excavator(machines::find_profile("excavator_12t"));
   return machine;
 }
 

@@ -43,6 +43,22 @@ void flow_is_displacement_speed_and_swash(void**) {
   assert_near(pump_flow_m3ps(profile(), 200.0, {-0.01, 0.75})[0], 0.0, 0.0);
 }
 
+/// What a machine with one pump says of a second is neither missed nor read.
+void a_second_pump_that_is_not_there(void**) {
+  ExcavatorProfile single = profile();
+  single.pump_count = 1;
+  ExcavatorInputs inputs = complete_inputs(kNow);
+  inputs.swash_ratio[1].validity = Validity::kNotAvailable;
+  ValidInputs valid = validate(inputs, single, {}, false, kNow);
+  assert_int_equal(valid.fault, Fault::kNone);
+  assert_true(valid.faults.empty());
+  assert_near(valid.swash_ratio[1], 0.0, 0.0);
+  inputs.swash_ratio[1].validity = Validity::kError;
+  assert_true(validate(inputs, single, {}, false, kNow).faults.empty());
+  inputs.swash_ratio[0].validity = Validity::kNotAvailable;
+  assert_int_equal(validate(inputs, single, {}, false, kNow).fault, Fault::kSwashMissing);
+}
+
 /// Every required signal, each in every state that is not usable, gives its own fault.
 void each_signal_is_required(void**) {
   struct Row {
@@ -196,6 +212,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(complete_inputs_become_a_state),
       cmocka_unit_test(flow_is_displacement_speed_and_swash),
+      cmocka_unit_test(a_second_pump_that_is_not_there),
       cmocka_unit_test(each_signal_is_required),
       cmocka_unit_test(a_value_that_is_no_number_is_missing),
       cmocka_unit_test(enable_must_be_fresh),

@@ -57,6 +57,34 @@ void figures_arrive_in_the_structs(void**) {
   assert_near(machine().plant.friction[kBucket].viscous_nspm, 12000.0, 0.0);
 }
 
+/// One pump for all three, and pins from the angles of (6): 28.208 and 44.714 deg.
+void the_12_t_machine(void**) {
+  const machines::ExcavatorMachine small =
+      machines::load_excavator(machines::find_profile("excavator_12t"));
+  const ExcavatorProfile& profile = small.profile;
+  assert_int_equal(profile.pump_count, 1);
+  for (const SpoolProfile& spool : profile.valve.spool) {
+    assert_int_equal(spool.pump, 0);
+  }
+  assert_near(profile.dig_swash_ratio[0], 0.643, 0.0);
+  assert_near(profile.dig_swash_ratio[1], 0.0, 0.0);
+  assert_near(profile.geometry.boom_foot_m.x(), 0.14, 0.0);
+  assert_near(profile.geometry.boom_foot_m.y(), 1.424, 0.0);
+  const CylinderGeometry& boom = profile.geometry.cylinder[kBoom];
+  assert_near(boom.base_m.x(), 0.3979, 1e-4);
+  assert_near(boom.base_m.y(), -0.3940, 1e-4);
+  assert_near(boom.eye_m.x(), 1.6937, 1e-4);
+  assert_near(boom.eye_m.y(), 0.9085, 1e-4);
+  assert_near(profile.swing.speed_max_radps, 1.435, 0.0);
+  assert_near(profile.swing.acceleration_max_radps2, 0.7, 0.0);
+  assert_near(profile.line.acceleration_mps2, 0.25, 0.0);
+  assert_near(profile.line.cylinder_acceleration_mps2[kBucket], 0.5, 0.0);
+  assert_near(profile.valve.section_flow_m3ps, 3.333e-3, 0.0);
+  assert_near(small.experiment.line.from.position_m.y(), 6.866, 0.0);
+  assert_near(small.experiment.line.to.attitude_rad, 1.221730, 0.0);
+  assert_near(small.experiment.line.duration_s, 18.4, 0.0);
+}
+
 /// Two boom cylinders of 120 mm bore and 85 mm rod, by hand: 2 pi/4 d^2.
 void piston_areas(void**) {
   const CylinderGeometry& boom = machine().profile.geometry.cylinder[kBoom];
@@ -78,6 +106,7 @@ void a_missing_profile_says_where_it_looked(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(figures_arrive_in_the_structs),
+      cmocka_unit_test(the_12_t_machine),
       cmocka_unit_test(piston_areas),
       cmocka_unit_test(a_missing_profile_says_where_it_looked),
   };

@@ -324,6 +324,25 @@ void shares_of_a_step_are_kept(void**) {
   assert_near(pieces.strokes_m()[kBoom], whole.strokes_m()[kBoom], 0.0);
 }
 
+// All three axes on the one pump of the 12 t machine, one after the other and together; the second
+// line stays out of it.
+void one_pump_feeds_all(void**) {
+  const PlantProfile profile =
+      machines::load_excavator(machines::find_profile("excavator_12t")).plant;
+  ExcavatorPlant plant(profile, {0.4, 0.5, 0.4});
+  const AxisArray before = plant.strokes_m();
+  for (const AxisArray& duty :
+       {AxisArray{0.6, 0.0, 0.0}, {0.0, 0.6, 0.0}, {0.0, 0.0, 0.6}, {0.5, 0.5, 0.5}}) {
+    run(plant, duty, 500 * kMillisecondUs);
+    assert_true(plant.pump_pressures_pa()[0] > 1e5);
+    assert_near(plant.pump_pressures_pa()[1], 0.0, 0.0);
+    assert_near(plant.pump_flows_m3ps()[1], 0.0, 0.0);
+  }
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    assert_true(plant.strokes_m()[i] > before[i] + 0.02);
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -341,6 +360,7 @@ int main() {
       cmocka_unit_test(half_the_step_gives_the_same_path),
       cmocka_unit_test(same_calls_same_numbers),
       cmocka_unit_test(shares_of_a_step_are_kept),
+      cmocka_unit_test(one_pump_feeds_all),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

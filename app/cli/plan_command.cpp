@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/commands.hpp"
+#include "app/cli/guarded.hpp"
+#include "app/cli/plan_report.hpp"
+#include "app/cli/plan_run.hpp"
+#include "app/cli/validators.hpp"
+#include "app/machines/plan_words.hpp"
+
+namespace graben::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string profile = "excavator_12t";
+  std::vector<double> from;
+  std::vector<double> to;
+  std::optional<double> duration_s;
+  std::optional<double> speed_mps;
+  std::optional<double> acceleration_mps2;
+  double step_s = 0.05;
+  std::string out = "out";
+  bool table = false;
+};
+
+TeethPose pose(const std::vector<double>& given, const TeethPose& otherwise) {
+  return given.empty() ? otherwise : TeethPose{{given[0], given[1], given[2]}, given[3]};
+}
+
+LineRequest request_of(const Options& options, const machines::ExcavatorMachine& machine) {
+  const machines::LineTask& task = machine.experiment.line;
+  LineRequest request{pose(options.from, task.from), pose(options.to, task.to),
+                      options.acceleration_mps2.value_or(machine.profile.line.acceleration_mps2)};
+  request.speed_mps = options.speed_mps.value_or(0.0);
+  request.duration_s = options.duration_s.value_or(options.speed_mps ? 0.0 : task.duration_s);
+  return request;
+}
+
+std::string words(const TeethPose& teeth) {
+  const Eigen::Vector3d& at = teeth.position_m;
+  return fmt::format("{:.3f}, {:.3f}, {:.3f} m, {:.3f} rad", at.x(), at.y(), at.z(),
+                     teeth.attitude_rad);
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) {
+    throw std::runtime_error(fmt::format("{}: can't be written", file.string()));
+  }
+}
+
+void plan(const Options& options) {
+  const machines::ExcavatorMachine machine =
+      machines::load_excavator(machines::find_profile(options.profile));
+  const ExcavatorProfile& profile = machine.profile;
+  const SwingKinematics kinematics(profile.geometry);
+  const LineRequest request = request_of(options, machine);
+  const PlanResult result = plan_line(kinematics, drive_limits(profile), request);
+  if (result.refusal != PlanRefusal::kNone) {
+    throw std::runtime_error(machines::refusal_words(profile.geometry, result));
+  }
+  const std::vector<PlanSample> samples =
+      sample_plan(profile, kinematics, result.plan, options.step_s);
+  const fs::path out(options.out);
+  fs::create_directories(out);
+  write_plan_report(
+      out / "plan.html", profile, result, samples,
+      fmt::format("{} | from {} | to {}", machine.name, words(request.from), words(request.to)));
+  write_plan_json(out / "plan.json", profile, result, samples);
+  write_text(out / "plan.csv", plan_csv(samples));
+  fmt::print("{}{}report  {}\n", options.table ? plan_table(samples) + "\n" : "",
+             plan_summary(profile, request, result, samples), (out / "plan.html").string());
+}
+
+}  // namespace
+
+void add_plan(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "plan",
+      "Plan a straight line of the bucket's teeth, with swing; nothing moves. Without --from, --to "
+      "and a pace: the profile's line. A line that can't be had ends with status 1 and says where");
+  command->add_option("--profile", options->profile, "Machine profile: file or shipped name")
+      ->capture_default_str();
+  command
+      ->add_option("--from", options->from,
+                   "Teeth x,y,z in m (x, y level, z up, from the swing axis on the ground), "
+                   "attitude in rad (from the teeth to the bucket pin)")
+      ->delimiter(',')
+      ->expected(4);
+  command->add_option("--to", options->to, "The same at the line's end")
+      ->delimiter(',')
+      ->expected(4);
+  auto* pace = command->add_option_group("pace", "One of the two; the other is found");
+  pace->add_option("--duration", options->duration_s, "s, longer where a limit asks for it")
+      ->check(number_between(0.1, 3600.0));
+  pace->add_option("--speed", options->speed_mps, "Of the teeth, m/s at most")
+      ->check(number_between(0.001, 10.0));
+  pace->require_option(0, 1);
+  command
+      ->add_option("--acceleration", options->acceleration_mps2,
+                   "Of the teeth, m/s2 at most; the profile's unless told")
+      ->check(number_between(0.001, 100.0));
+  command->add_option("--step", options->step_s, "Of table, CSV and report, s")
+      ->check(number_between(0.01, 60.0))
+      ->capture_default_str();
+  command->add_option("--out", options->out, "Folder for plan.html, plan.json and plan.csv")
+      ->capture_default_str();
+  command->add_flag("--table", options->table,
+                    "Print displacement, velocity and acceleration of each drive over time");
+  command->callback([options, &status] { status = guarded("plan", [&] { plan(*options); }); });
+}
+
+}  // namespace graben::cli

@@ -1,0 +1,113 @@
+"""`graben plan` as a user types it: the paper's line, other paces, lines that can't be had."""
+
+import csv
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+J = (0.0, 6.866, 0.0)
+K = (2.244, 3.886, 0.0)
+
+
+class Planner:
+    def __init__(self, graben, folder):
+        self._graben = graben
+        self._folder = folder
+
+    def run(self, *arguments):
+        return subprocess.run([self._graben, "plan", "--out", self._folder, *arguments],
+                              capture_output=True, text=True, timeout=120)
+
+    def plan(self, *arguments):
+        """Output, figures and rows of a plan that can be had."""
+        done = self.run(*arguments)
+        assert done.returncode == 0 and not done.stderr, f"{arguments}: {done.stderr}"
+        with open(os.path.join(self._folder, "plan.json"), encoding="utf-8") as stream:
+            figures = json.load(stream)
+        with open(os.path.join(self._folder, "plan.csv"), encoding="utf-8", newline="") as stream:
+            rows = [{key: float(value) for key, value in row.items()}
+                    for row in csv.DictReader(stream)]
+        return done.stdout, figures, rows
+
+    def refused(self, needles, *arguments, status=1):
+        for name in os.listdir(self._folder):
+            os.remove(os.path.join(self._folder, name))
+        done = self.run(*arguments)
+        assert done.returncode == status and not done.stdout, f"{arguments}: {done}"
+        assert all(needle in done.stderr for needle in needles), f"{arguments}: {done.stderr}"
+        assert not os.listdir(self._folder), f"{arguments}: files of a plan that there is not"
+
+
+def strokes_to_teeth(graben, row):
+    strokes = ",".join(str(row[f"{axis}_m"]) for axis in ("boom", "arm", "bucket"))
+    done = subprocess.run([graben, "pose", "--profile", "excavator_12t", f"--strokes={strokes}",
+                           f"--swing={row['swing_rad']}"], capture_output=True, text=True,
+                          timeout=60, check=True)
+    return json.loads(done.stdout)["position_m"]
+
+
+def paper_line(graben, planner):
+    output, figures, rows = planner.plan("--table")
+    assert "boom" in output and output.count("\n") > len(rows), output
+    assert figures["duration_s"] == 18.4 and figures["slowed_by"] == "none"
+    assert abs(figures["length_m"] - math.dist(J, K)) < 1e-12
+    assert rows[0]["time_s"] == 0.0 and rows[-1]["time_s"] == 18.4
+    for end, row in ((J, rows[0]), (K, rows[-1])):
+        assert math.dist(end, (row["x_m"], row["y_m"], row["z_m"])) < 1e-12, row
+    # Strokes and swing of the plan through `graben pose`.
+    for row in rows[::60]:
+        assert math.dist(strokes_to_teeth(graben, row), (row["x_m"], row["y_m"], row["z_m"])) < 1e-5
+    # Velocities against differences, away from the ends of the ramps.
+    for before, here, after in zip(rows[60:300], rows[61:300], rows[62:300]):
+        slope = (after["arm_m"] - before["arm_m"]) / (after["time_s"] - before["time_s"])
+        assert abs(slope - here["arm_mps"]) < 1e-5, here
+    with open(os.path.join(planner._folder, "plan.html"), encoding="utf-8") as stream:
+        assert '"kind":"plan"' in stream.read()
+
+
+def other_paces(planner):
+    _, timed, _ = planner.plan("--duration", "30")
+    assert timed["duration_s"] == 30.0
+    _, paced, _ = planner.plan("--speed", str(timed["speed_mps"]))
+    assert abs(paced["duration_s"] - 30.0) < 1e-9
+    _, hasty, _ = planner.plan("--duration", "0.5")
+    assert hasty["duration_s"] > 5.0 and hasty["slowed_by"] == "acceleration of the teeth"
+    _, limited, _ = planner.plan("--duration", "1", "--acceleration", "100")
+    assert limited["slowed_by"] in [f"{what} of the {drive}" for what in ("speed", "acceleration")
+                                    for drive in ("boom", "arm", "bucket", "swing")]
+    ratios = [drive[key] for drive in limited["drives"].values()
+              for key in ("speed_ratio", "acceleration_ratio")]
+    assert abs(max(ratios) - 1.0) < 1e-9, ratios
+    _, big, rows = planner.plan("--profile", "excavator_22t", "--step", "0.5")
+    assert big["duration_s"] == 18.4 and len(rows) == 38
+
+
+def impossible(planner):
+    where = ["% of the line", "teeth x", "attitude"]
+    planner.refused(["the arm cylinder", *where], "--to", "9.5,0,0,1.2")
+    planner.refused(["the boom cylinder", *where], "--to", "1,2,5,1.2")
+    planner.refused(["the bucket cylinder", *where], "--to", "2.244,3.886,0,-1.0")
+    planner.refused(["out of the reach", "0.00 % of the line"], "--from", "19,0,0,1.2")
+    planner.refused(["both ends"], "--from", "5,0,0,1.2", "--to", "5,0,0,1.2")
+    planner.refused(["not found"], "--profile", "no_such_machine")
+    planner.refused(["must be excavator"], "--profile", "dozer_9t")
+    for usage in (["--to", "1,2,3"], ["--duration", "0"], ["--speed", "nan"],
+                  ["--duration", "10", "--speed", "1"], ["--step", "-1"]):
+        planner.refused([""], *usage, status=2)
+
+
+def main():
+    graben = sys.argv[1]
+    with tempfile.TemporaryDirectory() as folder:
+        planner = Planner(graben, folder)
+        paper_line(graben, planner)
+        other_paces(planner)
+        impossible(planner)
+    print("lines are planned or told why not")
+
+
+if __name__ == "__main__":
+    main()
