@@ -36,14 +36,14 @@ double speed_of_track_mps(const HstProfile& hst, const ValidDozerInputs& valid, 
              : valid.track_speed_mps[track];
 }
 
-/// What holds the commanded speed: flow, transmission and what lies ahead before the blade's reach
+/// What holds the commanded motion: the blade's reach before flow, transmission and what lies ahead
 /// before a lost sensor.
 Limit reason(const SpeedChoice& speed, bool at_end, const FaultSet& degraded) {
-  if (speed.limit.kind != LimitKind::kNone) {
-    return speed.limit;
-  }
   if (at_end) {
     return {LimitKind::kStrokeEnd, 0};
+  }
+  if (speed.limit.kind != LimitKind::kNone) {
+    return speed.limit;
   }
   return degraded.empty()
              ? Limit{}
@@ -97,6 +97,7 @@ SpeedChoice DozerController::choose_speed(const ValidDozerInputs& valid, const W
                                           double period_s) const {
   SpeedDemand demand;
   demand.desired_mps = profile_.travel.speed_desired_mps * valid.speed_override_ratio;
+  demand.grade_error_m = wanted.blade.error_m;
   demand.measured_mps = valid.velocity_mps;
   demand.required_flow_m3ps = wanted.required_flow_m3ps;
   demand.available_flow_m3ps = wanted.available_flow_m3ps;

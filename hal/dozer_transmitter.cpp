@@ -18,7 +18,8 @@ using BusLimit = bus::EcuStatus::LimitKind;
 static_assert(same_code(BusLimit::kImplementFlow, LimitKind::kImplementFlow));
 static_assert(same_code(BusLimit::kTransmissionFlow, LimitKind::kTransmissionFlow));
 static_assert(same_code(BusLimit::kAhead, LimitKind::kAhead));
-static_assert(same_code(bus::EcuStatus::kLimitKind.raw_max, LimitKind::kAhead));
+static_assert(same_code(BusLimit::kOffGrade, LimitKind::kOffGrade));
+static_assert(same_code(bus::EcuStatus::kLimitKind.raw_max, LimitKind::kOffGrade));
 
 bool may_move(const DozerOutputs& outputs) {
   bool finite = std::isfinite(outputs.blade_duty_ratio);

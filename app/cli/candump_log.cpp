@@ -13,6 +13,16 @@ namespace {
 [[noreturn]] void fail(const std::filesystem::path& file, int error) {
   throw std::runtime_error(fmt::format("{}: {}", file.string(), std::strerror(error)));
 }
+
+/// Where to write until it is whole: beside a file, but straight into what is none, which a rename
+/// would replace.
+std::filesystem::path part_of(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::symlink_status(file, ignored);
+  const bool replaceable =
+      !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
+  return replaceable ? std::filesystem::path(file.string() + ".part") : file;
+}
 }  // namespace
 
 std::string candump_line(const CanFrame& frame, TimeUs now_us, const std::string& interface_name) {
@@ -35,7 +45,7 @@ std::string candump_line(const CanFrame& frame, TimeUs now_us, const std::string
 
 CandumpLog::CandumpLog(const std::filesystem::path& file, std::string interface_name)
     : file_(file),
-      part_(file.string() + ".part"),
+      part_(part_of(file)),
       interface_name_(std::move(interface_name)),
       stream_(std::fopen(part_.c_str(), "w")) {
   if (stream_ == nullptr) {
@@ -46,8 +56,10 @@ CandumpLog::CandumpLog(const std::filesystem::path& file, std::string interface_
 CandumpLog::~CandumpLog() {
   if (stream_ != nullptr) {
     std::fclose(stream_);
-    std::error_code ignored;
-    std::filesystem::remove(part_, ignored);
+    if (part_ != file_) {
+      std::error_code ignored;
+      std::filesystem::remove(part_, ignored);
+    }
   }
 }
 
@@ -62,7 +74,9 @@ void CandumpLog::close() {
   if (std::fclose(std::exchange(stream_, nullptr)) != 0) {
     fail(file_, errno);
   }
-  std::filesystem::rename(part_, file_);
+  if (part_ != file_) {
+    std::filesystem::rename(part_, file_);
+  }
 }
 
 }  // namespace graben::cli

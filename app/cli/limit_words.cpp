@@ -42,6 +42,8 @@ std::string limit_words(const Limit& limit, const ActuatorNames& actuators) {
       return fmt::format("transmission flow: {} track", limit.index == 0 ? "left" : "right");
     case LimitKind::kAhead:
       return "what lies ahead";
+    case LimitKind::kOffGrade:
+      return "off the grade";
   }
   return "unknown";
 }

@@ -239,6 +239,7 @@ std::string limit_name(const Limit& limit) {
     case LimitKind::kImplementFlow:
     case LimitKind::kTransmissionFlow:
     case LimitKind::kAhead:
+    case LimitKind::kOffGrade:
       break;
   }
   return "unknown";

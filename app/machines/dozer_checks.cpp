@@ -5,6 +5,8 @@
 
 #include "app/machines/dozer_sections.hpp"
 
+#include "firmware/travel/reach.hpp"
+
 namespace graben::machines {
 namespace {
 
@@ -187,6 +189,18 @@ void check_grade(TomlReader& reader, const DozerProfile& profile, double length_
   }
 }
 
+void check_reach(TomlReader& reader, const DozerProfile& profile, double length_m) {
+  const GradeReach reach = grade_reach(profile, profile.grade.point[0].x_m, length_m);
+  if (!reach.reached) {
+    reader.fail(
+        "experiment.profile",
+        fmt::format("with the body at x = {:.2f} m the cutting edge would have to be at {:.3f} "
+                    "m against the tracks' ground line; allowed: the blade's reach, {} .. {} m",
+                    reach.position_m, reach.edge_m, profile.blade.edge_min_m,
+                    profile.blade.edge_max_m));
+  }
+}
+
 }  // namespace
 
 void check_dozer_across_keys(TomlReader& reader, const DozerProfile& profile,
@@ -200,6 +214,9 @@ void check_dozer_across_keys(TomlReader& reader, const DozerProfile& profile,
   check_blade(reader, profile.blade, l11_m);
   check_engine(reader, profile);
   check_grade(reader, profile, experiment.length_m, depth_max_m);
+  if (reader.errors().empty()) {
+    check_reach(reader, profile, experiment.length_m);
+  }
 }
 
 }  // namespace graben::machines

@@ -90,9 +90,9 @@ TravelProfile read_travel(TomlReader& reader) {
   travel.speed_min_mps = reader.number("travel.speed_min", {0.01, 1.0, "m/s"});
   travel.acceleration_max_mps2 = reader.number("travel.acceleration_max", rate);
   travel.threshold_rad = reader.number("travel.threshold", {0.0, 0.5, "rad"});
-  travel.deceleration_max_mps2 = reader.number("travel.deceleration_max", rate);
+  travel.deceleration_max_mps2 = reader.number("travel.deceleration_max", {0.1, 1.2, "m/s2"});
   travel.flow_share = reader.number("travel.flow_share", {0.1, 1.0, ""});
-  travel.preview_m = reader.number("travel.preview", {0.0, 20.0, "m"});
+  travel.preview_m = reader.number("travel.preview", {1.5, 3.5, "m"});
   travel.track_gain = reader.number("travel.track_gain", {0.0, 10.0, ""});
   travel.track_integral_ps = reader.number("travel.track_integral", {0.0, 50.0, "1/s"});
   if (travel.speed_min_mps > travel.speed_desired_mps) {

@@ -611,6 +611,7 @@ struct EcuStatus {
     kImplementFlow = 7,
     kTransmissionFlow = 8,
     kAhead = 9,
+    kOffGrade = 10,
   };
 
   enum class Fault : std::uint8_t {
@@ -657,7 +658,7 @@ struct EcuStatus {
       "Mode", "", 0, 4, 0U, 5U, 14, 15, 0U,
       0, 1.0, 1.0};
   static constexpr Field kLimitKind{
-      "LimitKind", "", 4, 4, 0U, 9U, 14, 15, 0U,
+      "LimitKind", "", 4, 4, 0U, 10U, 14, 15, 0U,
       0, 1.0, 1.0};
   static constexpr Field kLimitIndex{
       "LimitIndex", "", 8, 8, 0U, 250U, 254, 255, 0U,

@@ -73,6 +73,7 @@ enum class LimitKind : std::uint8_t {
   kImplementFlow = 7,  ///< (11): the blade cylinders' flow, as measured.
   kTransmissionFlow = 8,  ///< (13): a track's transmission; index is the track's (left 0, right 1).
   kAhead = 9,             ///< Braking for what the blade will need further on.
+  kOffGrade = 10,         ///< The cutting edge is too far off the grade.
 };
 
 /// A limit and whose it is.

@@ -8,7 +8,8 @@ namespace {
 
 /// Until the oil has rung down after a spool has closed.
 constexpr double kSettle_s = 0.5;
-/// The anchor creeps after the stroke: leakage is no uncommanded motion.
+/// The anchor creeps after the stroke: leakage is no uncommanded motion. Nor is a stroke stuck that
+/// is asked, for minutes, for no more than leakage takes.
 constexpr double kForget_s = 10.0;
 /// More than the sensor's resolution and its noise.
 constexpr double kStill_m = 0.0005;
@@ -42,6 +43,7 @@ void look_for_stillness(CylinderState& cylinder, double stroke_m, double asked_m
   } else if (cylinder.direction * asked_mps > 0.0) {
     cylinder.unmoved_m += std::abs(asked_mps) * period_s;
   }
+  cylinder.unmoved_m -= cylinder.unmoved_m * std::min(1.0, period_s / kForget_s);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ struct CylinderState {
   double since_s = 0.0;    ///< Since it has been so.
   double anchor_m = 0.0;   ///< Furthest that the cylinder was allowed to come.
   double still_m = 0.0;    ///< Stroke at its last change.
-  double unmoved_m = 0.0;  ///< What it was asked to move since then.
+  double unmoved_m = 0.0;  ///< What it was asked to move since then, and of late.
 };
 
 /// What has come in of it, and what it was asked for in the last cycle.
@@ -37,7 +37,8 @@ struct CylinderWatchResult {
 /// less; leakage, which creeps, is forgotten within seconds.
 ///
 /// Stuck: with its spool open in the direction asked for, a stroke stands still to within its
-/// resolution while `stuck_m` were asked of it.
+/// resolution while `stuck_m` were asked of it. What was asked is forgotten within seconds too: held
+/// against leakage for minutes, a cylinder is not stuck.
 [[nodiscard]] CylinderWatchResult watch_cylinder(const CylinderLimits& limits,
                                                  const CylinderState& last,
                                                  const CylinderSeen& seen, double period_s);

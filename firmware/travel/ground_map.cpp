@@ -10,8 +10,7 @@ constexpr double kInAir_m = 0.08;
 }  // namespace
 
 int GroundMap::cell_of(double x_m) {
-  // Beyond what a grid of int can count nothing drives; not finite is no place.
-  constexpr double kFurthest_m = 1e6;
+  // Not finite is no place.
   const double x = std::isfinite(x_m) ? std::clamp(x_m, -kFurthest_m, kFurthest_m) : 0.0;
   return static_cast<int>(std::floor(x / kCell_m - 0.5));
 }

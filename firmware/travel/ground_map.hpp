@@ -8,6 +8,9 @@
 
 namespace graben {
 
+/// Further from x = 0 than what a grid of int can count nothing drives.
+inline constexpr double kFurthest_m = 1e6;
+
 /// Heights on a grid along x. It remembers kLength_m behind the furthest place that the cutting
 /// edge has reached; nothing of it is allocated, nothing is searched.
 class GroundMap {

@@ -34,7 +34,10 @@ Preview::Preview(const DozerProfile& profile)
       count_(std::clamp(static_cast<int>(profile.travel.preview_m / kStep_m), 1,
                         kMostStations - kBefore - kMargin)) {}
 
-int Preview::station_of(double x_m) { return static_cast<int>(std::floor(x_m / kStep_m)); }
+int Preview::station_of(double x_m) {
+  const double x = std::isfinite(x_m) ? std::clamp(x_m, -kFurthest_m, kFurthest_m) : 0.0;
+  return static_cast<int>(std::floor(x / kStep_m));
+}
 
 const Preview::Station& Preview::station(int index) const {
   return station_[static_cast<unsigned>(index % kMostStations + kMostStations) % kMostStations];
@@ -117,6 +120,9 @@ double Preview::speed_between(int index, double flow_m3ps) const {
 }
 
 AheadLimit Preview::limit(double x_m, double speed_mps, double flow_m3ps, double lead_s) const {
+  if (!std::isfinite(x_m) || !std::isfinite(speed_mps)) {
+    return {profile_.travel.speed_min_mps, profile_.travel.speed_min_mps};
+  }
   const auto limit_at = [&](int index) {
     return std::max(speed_between(index, flow_m3ps), profile_.travel.speed_min_mps);
   };

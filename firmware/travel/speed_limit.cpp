@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "firmware/hydraulics/hydrostatic.hpp"
 #include "firmware/travel/track_speeds.hpp"
@@ -14,6 +15,8 @@ constexpr double kBraking = 1.25;
 /// Low-pass of the flow that is measured as required: the ground ahead is planned with, this is for
 /// what the plan did not know.
 constexpr double kFlowFilter_s = 0.1;
+/// The same of the edge's error: its sensors' noise must not slow the machine down.
+constexpr double kErrorFilter_s = 0.1;
 /// What a rise has to gain to be begun.
 constexpr double kWorthIt = 0.10;
 /// Between a fall and the next rise.
@@ -32,6 +35,19 @@ double implement_speed_mps(const DozerProfile& profile, const SpeedDemand& deman
   const double normalised_m3pm =
       required_flow_m3ps / std::max(demand.measured_mps, profile.travel.speed_min_mps);
   return demand.available_flow_m3ps / std::max(normalised_m3pm, kNoFlow_m3ps);
+}
+
+double low_passed(double last, double now, double time_s, double period_s) {
+  return last + (now - last) * period_s / (time_s + period_s);
+}
+
+/// How fast with the edge so far off the grade.
+double on_grade_speed_mps(const DozerProfile& profile, const SpeedDemand& demand,
+                          double off_grade_m) {
+  const double share = (kOffGrade_m - off_grade_m) / (kOffGrade_m - kOnGrade_m);
+  const double least_mps = profile.travel.speed_min_mps;
+  return share >= 1.0 ? std::numeric_limits<double>::infinity()
+                      : least_mps + std::max(0.0, share) * (demand.desired_mps - least_mps);
 }
 
 /// Algorithm 1: where v_c may rise to. A body that is tipping needs more and more flow, which its
@@ -91,18 +107,22 @@ SpeedChoice next_speed(const DozerProfile& profile, const SpeedState& last,
       static_cast<std::uint8_t>(body_max_mps[kLeft] <= body_max_mps[kRight] ? kLeft : kRight);
   Limit holds{LimitKind::kTransmissionFlow, slower};
   const double required_m3ps =
-      last.required_flow_m3ps +
-      (demand.required_flow_m3ps - last.required_flow_m3ps) * period_s / (kFlowFilter_s + period_s);
+      low_passed(last.required_flow_m3ps, demand.required_flow_m3ps, kFlowFilter_s, period_s);
+  const double off_grade_m =
+      low_passed(last.off_grade_m, std::abs(demand.grade_error_m), kErrorFilter_s, period_s);
   const double implement_mps = implement_speed_mps(profile, demand, required_m3ps);
   if (profile.travel.policy == SpeedPolicy::kBounded) {
     take_lower(implement_mps, {LimitKind::kImplementFlow, 0}, choice.allowed_mps, holds);
     take_lower(demand.ahead.speed_mps, {LimitKind::kAhead, 0}, choice.allowed_mps, holds);
+    take_lower(on_grade_speed_mps(profile, demand, off_grade_m), {LimitKind::kOffGrade, 0},
+               choice.allowed_mps, holds);
   }
   choice.allowed_mps = std::max(choice.allowed_mps, profile.travel.speed_min_mps);
   const double target_mps = std::min(demand.desired_mps, choice.allowed_mps);
   choice.state = followed(profile, last, demand.desired_mps, target_mps,
                           room_mps(profile, demand, implement_mps, target_mps), period_s);
   choice.state.required_flow_m3ps = required_m3ps;
+  choice.state.off_grade_m = off_grade_m;
   if (choice.state.speed_mps < demand.desired_mps) {
     choice.limit = why_slower(choice.state, target_mps, holds);
   }

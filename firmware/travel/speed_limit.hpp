@@ -5,6 +5,9 @@
 
 namespace graben {
 
+inline constexpr double kOnGrade_m = 0.012;
+inline constexpr double kOffGrade_m = 0.040;
+
 /// What the speed is chosen from.
 struct SpeedDemand {
   double desired_mps = 0.0;          ///< v_d, the operator's share of it.
@@ -14,6 +17,7 @@ struct SpeedDemand {
   double engine_radps = 0.0;
   double heading_radps = 0.0;  ///< omega of (13).
   double blade_angle_rad = 0.0;
+  double grade_error_m = 0.0;  ///< Of the cutting edge.
   AheadLimit ahead;
 };
 
@@ -21,6 +25,7 @@ struct SpeedDemand {
 struct SpeedState {
   double speed_mps = 0.0;           ///< v_c
   double required_flow_m3ps = 0.0;  ///< Q_in, low-passed.
+  double off_grade_m = 0.0;         ///< The size of the edge's error, low-passed.
   bool rising = false;
   double since_fall_s = 1.0;  ///< Since v_c last fell.
 };
@@ -32,6 +37,10 @@ struct SpeedChoice {
 };
 
 /// v_c of (14) after the acceleration limit, from that of the last cycle.
+///
+/// Beyond the paper it slows down while the edge is more than kOnGrade_m off the grade, to v_min at
+/// kOffGrade_m: so it begins with the blade on the grade, and what went wrong is mended on the
+/// spot.
 ///
 /// v_max,imp of (11) is not computed while the blade needs no flow, as in the paper, and no speed
 /// below v_min is divided by. Every limit is at least v_min, but the operator's own.

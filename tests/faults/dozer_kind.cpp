@@ -163,7 +163,7 @@ double Dozer::slowed_mps(const Machine& machine, double before_mps, TimeUs after
 /// Faster; or what holds it is what would without any fault.
 bool Dozer::is_back(double slow_mps, double wanted_mps, Limit limit) {
   const bool held = limit.kind == LimitKind::kImplementFlow || limit.kind == LimitKind::kAhead ||
-                    limit.kind == LimitKind::kRise;
+                    limit.kind == LimitKind::kOffGrade || limit.kind == LimitKind::kRise;
   return held || wanted_mps > slow_mps + kFaster_mps;
 }
 

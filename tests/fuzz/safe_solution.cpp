@@ -89,6 +89,7 @@ bool limit_is_sound(const McvMachine& machine, const Limit& limit) {
     case LimitKind::kImplementFlow:
     case LimitKind::kTransmissionFlow:
     case LimitKind::kAhead:
+    case LimitKind::kOffGrade:
       break;
   }
   return false;

@@ -2,6 +2,7 @@
 
 #include "firmware/travel/ground_map.hpp"
 #include "firmware/travel/position_filter.hpp"
+#include "firmware/travel/reach.hpp"
 #include "firmware/travel/support.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
@@ -124,6 +125,24 @@ void where_it_stands_the_wheels_carry_it(void**) {
   assert_true(unrested <= 1);
 }
 
+void the_shipped_design_is_reached_all_the_way(void**) {
+  assert_true(grade_reach(test::dozer().profile, 0.0, 27.0).reached);
+}
+
+/// The same trench from its other end, where the slope that the body climbs is the steeper one.
+void a_design_out_of_reach_is_named_where_it_is(void**) {
+  DozerProfile mirrored = test::dozer().profile;
+  const GradeDesign given = mirrored.grade;
+  for (int i = 0; i < given.count; ++i) {
+    const GradePoint& point = given.point[static_cast<unsigned>(given.count - 1 - i)];
+    mirrored.grade.point[static_cast<unsigned>(i)] = {27.0 - point.x_m, point.z_m};
+  }
+  const GradeReach reach = grade_reach(mirrored, 0.0, 27.0);
+  assert_false(reach.reached);
+  assert_true(reach.edge_m < mirrored.blade.edge_min_m || reach.edge_m > mirrored.blade.edge_max_m);
+  assert_true(reach.position_m > 0.0 && reach.position_m < 27.0);
+}
+
 void without_wheels_below_it_comes_down(void**) {
   const GradeProfile design(test::level(0.0));
   Stand stand{3.0, 0.5};
@@ -157,6 +176,8 @@ int main() {
       cmocka_unit_test(it_remembers_as_far_as_the_tracks_reach),
       cmocka_unit_test(on_a_plane_it_stands_along_it),
       cmocka_unit_test(where_it_stands_the_wheels_carry_it),
+      cmocka_unit_test(the_shipped_design_is_reached_all_the_way),
+      cmocka_unit_test(a_design_out_of_reach_is_named_where_it_is),
       cmocka_unit_test(without_wheels_below_it_comes_down),
       cmocka_unit_test(noise_of_the_position_is_left_behind),
   };

@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "firmware/hydraulics/implement_flow.hpp"
 #include "firmware/travel/preview.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
@@ -105,6 +107,16 @@ void it_follows_wherever_the_machine_goes(void**) {
   assert_near(there_mps, standing_at(design, 7.0, 0.0, 0.0).speed_mps, 1e-6);
 }
 
+/// No place is too far to be looked at, and none need be a number.
+void far_away_it_stays_defined(void**) {
+  const GradeProfile design(test::level(0.0));
+  Preview preview(profile());
+  for (const double x_m : {1e9, -1e300, std::numeric_limits<double>::quiet_NaN()}) {
+    preview.look(GroundMap(), design, x_m, {0.0, 0.0});
+    assert_true(preview.limit(x_m, 1.0, flow_m3ps(), 0.2).speed_mps >= 0.0);
+  }
+}
+
 /// The ground that was really cut replaces the design under the tracks.
 void it_learns_what_was_cut(void**) {
   const GradeProfile design(test::level(0.0));
@@ -132,6 +144,7 @@ int main() {
       cmocka_unit_test(it_knows_that_the_body_will_tip),
       cmocka_unit_test(what_is_not_known_yet_is_slow),
       cmocka_unit_test(it_follows_wherever_the_machine_goes),
+      cmocka_unit_test(far_away_it_stays_defined),
       cmocka_unit_test(it_learns_what_was_cut),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

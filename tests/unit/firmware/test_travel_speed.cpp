@@ -127,6 +127,19 @@ void a_trembling_limit_does_not_make_it_tremble(void**) {
   assert_near(state.speed_mps, 0.78, 1e-12);
 }
 
+/// Off the grade it crawls, near it the error counts for nothing.
+void off_the_grade_it_slows_down(void**) {
+  SpeedDemand demand = easy();
+  demand.grade_error_m = -kOnGrade_m;
+  assert_near(after(demand, 6.0).state.speed_mps, 1.6, 1e-12);
+  demand.grade_error_m = 0.5 * (kOnGrade_m + kOffGrade_m);
+  const SpeedChoice half = after(demand, 6.0);
+  assert_near(half.state.speed_mps, 0.1 + 0.5 * 1.5, 1e-3);
+  assert_int_equal(half.limit.kind, LimitKind::kOffGrade);
+  demand.grade_error_m = -0.5;
+  assert_near(after(demand, 6.0).state.speed_mps, 0.1, 1e-12);
+}
+
 void constant_asks_neither_blade_nor_ground(void**) {
   DozerProfile constant = profile();
   constant.travel.policy = SpeedPolicy::kConstant;
@@ -153,6 +166,7 @@ int main() {
       cmocka_unit_test(it_brakes_no_harder_than_it_may),
       cmocka_unit_test(off_home_it_rises_no_higher_than_what_lies_ahead),
       cmocka_unit_test(a_trembling_limit_does_not_make_it_tremble),
+      cmocka_unit_test(off_the_grade_it_slows_down),
       cmocka_unit_test(constant_asks_neither_blade_nor_ground),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

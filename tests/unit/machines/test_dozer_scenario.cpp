@@ -50,6 +50,27 @@ void the_engine_is_the_machines(void**) {
   assert_near(machine.profile.hst.engine_radps, 157.08, 0.0);
 }
 
+void the_ends_of_the_engines_range_are_in_it(void**) {
+  constexpr double kPerRpm = 3.14159265358979323846 / 30.0;
+  for (const double rpm : {900.0, 2200.0}) {
+    DozerScenario scenario;
+    scenario.engine_radps = rpm * kPerRpm;
+    assert_near(arranged(nominal(), scenario).plant.machine.hst.engine_radps, rpm * kPerRpm, 0.0);
+  }
+}
+
+/// The simulated ground is level: there is nothing to fill it with.
+void a_design_above_the_ground_is_refused(void**) {
+  DozerMachine machine = nominal();
+  machine.profile.grade.plane_slope = 0.01;
+  try {
+    static_cast<void>(arranged(machine, {}));
+    fail_msg("a design above the ground");
+  } catch (const std::runtime_error& error) {
+    assert_non_null(std::strstr(error.what(), "above the simulated ground at x = 2."));
+  }
+}
+
 void an_engine_out_of_range_is_refused(void**) {
   for (const double radps : {94.2, 230.4}) {
     DozerScenario scenario;
@@ -86,6 +107,8 @@ int main() {
       cmocka_unit_test(without_a_word_nothing_changes),
       cmocka_unit_test(speed_is_the_controllers),
       cmocka_unit_test(the_engine_is_the_machines),
+      cmocka_unit_test(the_ends_of_the_engines_range_are_in_it),
+      cmocka_unit_test(a_design_above_the_ground_is_refused),
       cmocka_unit_test(an_engine_out_of_range_is_refused),
       cmocka_unit_test(errors_draw_the_machine_only),
   };
