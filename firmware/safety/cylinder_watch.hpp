@@ -37,8 +37,8 @@ struct CylinderWatchResult {
 /// less; leakage, which creeps, is forgotten within seconds.
 ///
 /// Stuck: with its spool open in the direction asked for, a stroke stands still to within its
-/// resolution while `stuck_m` were asked of it. What was asked is forgotten within seconds too: held
-/// against leakage for minutes, a cylinder is not stuck.
+/// resolution while `stuck_m` were asked of it. What was asked is forgotten within seconds too:
+/// held against leakage for minutes, a cylinder is not stuck.
 [[nodiscard]] CylinderWatchResult watch_cylinder(const CylinderLimits& limits,
                                                  const CylinderState& last,
                                                  const CylinderSeen& seen, double period_s);
