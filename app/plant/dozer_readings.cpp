@@ -7,7 +7,7 @@ DozerReadings::DozerReadings(const DozerPlantProfile& profile)
                profile.sensor_errors ? std::optional(profile.seed) : std::nullopt) {}
 
 dbc::dozer::BladeStroke DozerReadings::stroke(const DozerPlant& plant, const DozerFaults& faults) {
-  return {stroke_.show(sensors_.stroke_m(plant.blade_stroke_m()), faults.stroke)};
+  return {stroke_.show(sensors_.stroke_m(plant.blade_stroke_m()), ReadingFault(faults.stroke))};
 }
 
 dbc::dozer::BodyPosition DozerReadings::position(const DozerPlant& plant,

@@ -14,7 +14,7 @@ struct ReadingFault {
   dbc::RawState state{};  ///< kValid shows the reading; else 'error' or 'not available'.
 
   ReadingFault() = default;
-  ReadingFault(const StrokeFault& fault)
+  explicit ReadingFault(const StrokeFault& fault)
       : stuck(fault.stuck), jump(fault.jump_m), drift_ps(fault.drift_mps), state(fault.state) {}
 };
 

@@ -8,7 +8,7 @@ FaultySensors::FaultySensors(const PlantProfile& profile)
 
 dbc::Physical FaultySensors::stroke(std::size_t axis, double true_stroke_m,
                                     const StrokeFault& fault) {
-  return stroke_[axis].show(sensors_.stroke_m(axis, true_stroke_m), fault);
+  return stroke_[axis].show(sensors_.stroke_m(axis, true_stroke_m), ReadingFault(fault));
 }
 
 dbc::Physical FaultySensors::pressure(double reading_pa, const PressureFault& fault,
