@@ -98,6 +98,9 @@ void PlantBus<Operator>::let_go() {
 template <class Operator>
 PlantBusFigures PlantBus<Operator>::run(Task task, const std::function<void(TimeUs)>& machine) {
   driver_.set_schedule(schedule(options_, task));
+  // What has come in while the machine was made is not fresh any more.
+  open(port_, options_.interface);
+  open(operator_port_, options_.interface);
   CyclicClock clock(microseconds(static_cast<double>(kPlantPeriod_us) * 1e-6 / options_.speed));
   const TimeUs end_us = microseconds(options_.seconds);
   Reopener reopener(port_);
