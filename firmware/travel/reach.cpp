@@ -9,7 +9,7 @@
 namespace graben {
 namespace {
 
-constexpr double kStep_m = 0.05;
+constexpr double kStep_m = 0.2;
 constexpr int kMostSteps = 100'000;
 constexpr int kEdgeSteps = 6;
 constexpr double kMostAngle_rad = 1.0;

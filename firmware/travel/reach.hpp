@@ -14,7 +14,7 @@ struct GradeReach {
 };
 
 /// Walks the machine over the design as already cut, standing on it as its springs carry it at
-/// rest, from `from_m` to `to_m` in steps of 5 cm. Some millimetres beyond the blade's reach count
+/// rest, from `from_m` to `to_m` in steps of 20 cm. Some millimetres beyond the blade's reach count
 /// as reached. The ground before `from_m` is taken as level with the design there.
 [[nodiscard]] GradeReach grade_reach(const DozerProfile& profile, double from_m, double to_m);
 
