@@ -107,7 +107,10 @@ SpeedChoice DozerController::choose_speed(const ValidDozerInputs& valid, const W
   demand.ahead =
       preview_.limit(memory_.position.position_m, memory_.speed_mps.value(),
                      profile_.travel.flow_share * wanted.available_flow_m3ps, kTravelLead_s);
-  return next_speed(profile_, memory_.speed, demand, period_s);
+  // The speed itself from where it has a complement.
+  SpeedState last = memory_.speed;
+  last.speed_mps = memory_.speed_mps.value();
+  return next_speed(profile_, last, demand, period_s);
 }
 
 DozerController::Wanted DozerController::want(const ValidDozerInputs& valid, double period_s) {

@@ -13,6 +13,7 @@ namespace graben {
 struct DozerMemoryAccess {
   static auto& mode(DozerController& controller) { return controller.memory_.mode; }
   static auto& speed(DozerController& controller) { return controller.memory_.speed_mps; }
+  static auto& speed_state(DozerController& controller) { return controller.memory_.speed; }
   static auto& gate(DozerController& controller) { return controller.memory_.gate; }
 };
 
@@ -236,6 +237,17 @@ void a_flipped_bit_stops_it(void**) {
       [](Grading& g) -> Guarded<ModeState>& { return Access::mode(g.controller); });
 }
 
+/// v_c is gone on with from its guarded copy alone.
+void an_unguarded_speed_moves_nothing(void**) {
+  Grading sound;
+  sound.run(100);
+  Grading flipped = sound;
+  DozerMemoryAccess::speed_state(flipped.controller).speed_mps = 1.6;
+  sound.run(1);
+  flipped.run(1);
+  assert_near(flipped.outputs.status.wanted_speed_mps, sound.outputs.status.wanted_speed_mps, 0.0);
+}
+
 void cycles_that_come_late_stop_it(void**) {
   Grading grading;
   grading.now_us += 6 * kMillisecondUs;
@@ -285,6 +297,7 @@ int main() {
       cmocka_unit_test(a_lost_engine_speed_slows_it),
       cmocka_unit_test(a_wrong_track_speed_is_not_followed),
       cmocka_unit_test(a_flipped_bit_stops_it),
+      cmocka_unit_test(an_unguarded_speed_moves_nothing),
       cmocka_unit_test(cycles_that_come_late_stop_it),
       cmocka_unit_test(told_to_end_it_is_neutral_for_good),
       cmocka_unit_test(a_design_out_of_reach_ends_at_the_stroke),
