@@ -7,9 +7,7 @@ read -r task profile seconds <task
 controller_up can0 500000
 controller_up can1 500000
 record can0
-graben plant --can can1 --profile "$profile" --operator "$task" --seconds "$seconds" \
-  --summary "$OUT/summary.json" &
-plant=$!
 ecu_start can0 "$profile" --stats "$OUT/stats"
-wait "$plant" || fail "the machine's process ended with $?"
+graben plant --can can1 --profile "$profile" --operator "$task" --seconds "$seconds" \
+  --summary "$OUT/summary.json" || fail "the machine's process ended with $?"
 ecu_stop
