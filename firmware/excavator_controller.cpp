@@ -144,7 +144,7 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   }
   ExcavatorOutputs outputs;
   outputs.enable = command.enable;
-  outputs.duty_ratio = command.duty_ratio;
+  std::copy(command.duty_ratio.begin(), command.duty_ratio.end(), outputs.duty_ratio.begin());
   const PilotResult pressure = pilot(memory_.pilot, mode, valid.faults);
   outputs.pilot_cut = pressure.cut;
   outputs.pilot_known = pressure.state.known;

@@ -37,6 +37,15 @@ struct LimitCodes {
   static_assert(same_code(Bus::kDegraded, LimitKind::kDegraded));
 };
 
+/// What an excavator's tasks can meet beyond them.
+template <class EcuStatus>
+struct TaskLimitCodes {
+  using Bus = typename EcuStatus::LimitKind;
+  static_assert(same_code(Bus::kSwingEnd, LimitKind::kSwingEnd));
+  static_assert(same_code(Bus::kFence, LimitKind::kFence));
+  static_assert(same_code(Bus::kOffPath, LimitKind::kOffPath));
+};
+
 template <class EcuStatus>
 struct FaultCodes {
   using Bus = typename EcuStatus::Fault;
@@ -77,6 +86,7 @@ struct FaultCodes {
   static_assert(same_code(Bus::kDisplacementDisagrees, Fault::kDisplacementDisagrees));
   static_assert(same_code(Bus::kDisplacementRunaway, Fault::kDisplacementRunaway));
   static_assert(same_code(Bus::kTrackSpeedDisagrees, Fault::kTrackSpeedDisagrees));
+  static_assert(same_code(Bus::kTaskUnknown, Fault::kTaskUnknown));
   static_assert(EcuStatus::kFault.raw_max == kFaultCount - 1);
   // For LimitKind::kDegraded the index is a fault's number.
   static_assert(EcuStatus::kLimitIndex.raw_max >= kFaultCount - 1);

@@ -8,7 +8,7 @@ namespace {
 
 namespace bus = dbc::excavator;
 
-static_assert(bus::OperatorCommand::kTask.raw_max == static_cast<unsigned>(Task::kDig));
+static_assert(bus::OperatorCommand::kTask.raw_max == static_cast<unsigned>(Task::kProgram));
 
 void put_pressures(AxisInputs& axis, const dbc::Physical& cap, const dbc::Physical& rod,
                    TimeUs now) {

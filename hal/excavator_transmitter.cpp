@@ -9,12 +9,13 @@
 namespace graben {
 
 template struct BusCodes<dbc::excavator::EcuStatus, dbc::excavator::EcuHealth>;
+template struct TaskLimitCodes<dbc::excavator::EcuStatus>;
 
 namespace {
 
 namespace bus = dbc::excavator;
 
-static_assert(same_code(bus::EcuStatus::kLimitKind.raw_max, LimitKind::kDegraded));
+static_assert(same_code(bus::EcuStatus::kLimitKind.raw_max, LimitKind::kOffPath));
 
 bool may_move(const ExcavatorOutputs& outputs) {
   bool finite = true;

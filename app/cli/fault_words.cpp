@@ -78,6 +78,8 @@ const char* fault_words(Fault fault) {
       return "a displacement runs away";
     case Fault::kTrackSpeedDisagrees:
       return "a track's speed is not that of its displacements";
+    case Fault::kTaskUnknown:
+      return "the task that is chosen is none of ours";
   }
   return "unknown";
 }

@@ -10,7 +10,7 @@
 namespace graben::cli {
 
 const ActuatorNames& excavator_actuators() {
-  static const ActuatorNames names(machines::kAxisNames.begin(), machines::kAxisNames.end());
+  static const ActuatorNames names(machines::kDriveNames.begin(), machines::kDriveNames.end());
   return names;
 }
 
@@ -44,6 +44,12 @@ std::string limit_words(const Limit& limit, const ActuatorNames& actuators) {
       return "what lies ahead";
     case LimitKind::kOffGrade:
       return "off the grade";
+    case LimitKind::kSwingEnd:
+      return "swing end";
+    case LimitKind::kFence:
+      return fmt::format("fence {}", limit.index + 1);
+    case LimitKind::kOffPath:
+      return "behind the plan";
   }
   return "unknown";
 }

@@ -240,6 +240,9 @@ std::string limit_name(const Limit& limit) {
     case LimitKind::kTransmissionFlow:
     case LimitKind::kAhead:
     case LimitKind::kOffGrade:
+    case LimitKind::kSwingEnd:
+    case LimitKind::kFence:
+    case LimitKind::kOffPath:
       break;
   }
   return "unknown";

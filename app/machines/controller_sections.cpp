@@ -82,9 +82,26 @@ void check_relief(TomlReader& reader, const std::string& pump, double relief_pa)
   }
 }
 
+/// A machine whose valve has a section for the swing; without one the swing is held.
+bool has_swing_drive(const TomlReader& reader) { return reader.has("valve.swing"); }
+
 SwingProfile read_swing(TomlReader& reader) {
-  return {reader.number("swing.speed_max", {0.01, 5.0, "rad/s"}),
-          reader.number("swing.acceleration_max", {0.01, 10.0, "rad/s2"})};
+  SwingProfile swing;
+  swing.speed_max_radps = reader.number("swing.speed_max", {0.01, 5.0, "rad/s"});
+  swing.acceleration_max_radps2 = reader.number("swing.acceleration_max", {0.01, 10.0, "rad/s2"});
+  if (has_swing_drive(reader)) {
+    swing.displacement_m3prad = reader.number("swing.displacement", {1e-5, 1e-1, "m3/rad"});
+    swing.lever_m = reader.number("swing.lever", {0.05, 2.0, "m"});
+    const std::vector<double> range = reader.numbers("swing.range", {-3.1, 3.1, "rad"}, 2);
+    swing.right_end_rad = range[0];
+    swing.left_end_rad = range[1];
+    if (range[0] >= range[1]) {
+      reader.fail("swing.range", fmt::format("[{}, {}] rad; allowed: first the right end, then the "
+                                             "left one, which is more",
+                                             range[0], range[1]));
+    }
+  }
+  return swing;
 }
 
 LineProfile read_line(TomlReader& reader) {
@@ -121,8 +138,11 @@ SpoolProfile read_spool(TomlReader& reader, const std::string& axis, int pump_co
   spool.bypass_open = reader.number("valve.bypass.open", kFlowCoefficient);
   spool.bypass_closed = reader.number("valve.bypass.closed." + axis, kFlowCoefficient);
   const std::string at = "valve.regeneration." + axis + ".";
-  spool.regeneration =
-      static_cast<RegenerationSide>(reader.choice(at + "side", {"retract", "none", "extend"}) - 1);
+  // A motor has nothing to regenerate: both its sides are alike.
+  if (axis != kDriveNames[kSwing]) {
+    spool.regeneration = static_cast<RegenerationSide>(
+        reader.choice(at + "side", {"retract", "none", "extend"}) - 1);
+  }
   if (spool.regeneration != RegenerationSide::kNone) {
     spool.c_drain = reader.number(at + "c_drain", kFlowCoefficient);
     spool.c_check = reader.number(at + "c_check", kFlowCoefficient);
@@ -139,15 +159,15 @@ SpoolProfile read_spool(TomlReader& reader, const std::string& axis, int pump_co
   return spool;
 }
 
-ValveProfile read_valve(TomlReader& reader, int pump_count) {
+ValveProfile read_valve(TomlReader& reader, int pump_count, int drive_count) {
   ValveProfile valve;
   valve.spool_travel_m = reader.number("valve.spool_travel", {1e-3, 0.1, "m"});
   valve.opening_exponent = reader.number("valve.opening_exponent", {0.5, 4.0, ""});
   valve.discharge = reader.number("valve.discharge", {0.3, 1.0, ""});
   valve.density_kgpm3 = reader.number("valve.density", {700.0, 1100.0, "kg/m3"});
   valve.section_flow_m3ps = reader.number("valve.section_flow", {1e-5, 1e-1, "m3/s"});
-  for (unsigned i = 0; i < kAxisCount; ++i) {
-    valve.spool[i] = read_spool(reader, kAxisNames[i], pump_count);
+  for (unsigned i = 0; i < static_cast<unsigned>(drive_count); ++i) {
+    valve.spool[i] = read_spool(reader, kDriveNames[i], pump_count);
   }
   valve.spool_to_duty = read_spool_to_duty(reader, "valve.spool_to_duty");
   return valve;
@@ -257,6 +277,7 @@ ExcavatorProfile read_controller_sections(TomlReader& reader) {
   ExcavatorProfile profile;
   profile.geometry = read_geometry(reader);
   profile.geometry.boom_foot_m = reader.point("body.boom_foot", kPin);
+  profile.drive_count = has_swing_drive(reader) ? kDriveCount : kAxisCount;
   profile.swing = read_swing(reader);
   profile.line = read_line(reader);
   profile.pump_count = reader.table_count("pump", 1, kPumpCount);
@@ -264,7 +285,7 @@ ExcavatorProfile read_controller_sections(TomlReader& reader) {
   for (unsigned j = 0; j < pumps; ++j) {
     profile.pump[j] = read_pump(reader, j);
   }
-  profile.valve = read_valve(reader, profile.pump_count);
+  profile.valve = read_valve(reader, profile.pump_count, profile.drive_count);
   profile.control = read_control(reader);
   profile.dig_path = read_path(reader, "experiment.path");
   profile.dig_speed_mps = reader.number("experiment.speed", {0.01, 3.0, "m/s"});

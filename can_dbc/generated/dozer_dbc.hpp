@@ -18,7 +18,7 @@
 
 namespace graben::dbc::dozer {
 
-inline constexpr std::uint8_t kDbcVersion = 1;
+inline constexpr std::uint8_t kDbcVersion = 2;
 
 /// Measured stroke of the blade cylinders.
 struct BladeStroke {
@@ -652,6 +652,7 @@ struct EcuStatus {
     kDisplacementDisagrees = 34,
     kDisplacementRunaway = 35,
     kTrackSpeedDisagrees = 36,
+    kTaskUnknown = 37,
   };
 
   static constexpr Field kMode{
@@ -667,7 +668,7 @@ struct EcuStatus {
       "Lambda", "", 16, 16, 0U, 50000U, 65279, 65535, 0U,
       0, 1.0, 50000.0};
   static constexpr Field kFault{
-      "Fault", "", 32, 8, 0U, 36U, 254, 255, 0U,
+      "Fault", "", 32, 8, 0U, 37U, 254, 255, 0U,
       0, 1.0, 1.0};
   static constexpr Field kCycleTime{
       "CycleTime", "us", 40, 16, 0U, 64255U, 65279, 65535, 0U,

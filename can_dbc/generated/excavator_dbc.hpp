@@ -16,7 +16,7 @@
 
 namespace graben::dbc::excavator {
 
-inline constexpr std::uint8_t kDbcVersion = 3;
+inline constexpr std::uint8_t kDbcVersion = 4;
 
 /// Measured stroke of the boom cylinder.
 struct BoomStroke {
@@ -303,6 +303,8 @@ struct OperatorCommand {
   enum class Task : std::uint8_t {
     kNone = 0,
     kDig = 1,
+    kGrade = 2,
+    kProgram = 3,
   };
 
   static constexpr Field kEnable{
@@ -312,11 +314,14 @@ struct OperatorCommand {
       "OperatorMode", "", 16, 4, 0U, 1U, 14, 15, 0U,
       0, 1.0, 1.0};
   static constexpr Field kTask{
-      "Task", "", 24, 8, 0U, 1U, 254, 255, 0U,
+      "Task", "", 24, 8, 0U, 3U, 254, 255, 0U,
       0, 1.0, 1.0};
   static constexpr Field kSpeedOverride{
       "SpeedOverride", "", 32, 8, 0U, 200U, 254, 255, 0U,
       0, 1.0, 200.0};
+  static constexpr Field kTaskNumber{
+      "TaskNumber", "", 40, 8, 0U, 250U, 254, 255, 0U,
+      0, 1.0, 1.0};
 
   /// Deadman: motion only while it is On.
   Coded<Enable> enable{Enable::kOff, RawState::kValid};
@@ -326,6 +331,8 @@ struct OperatorCommand {
   Coded<Task> task{Task::kNone, RawState::kValid};
   /// Share of the task speed that the operator allows. [0 .. 100 % on the bus]
   Physical speed_override_ratio{physical_of(kSpeedOverride, 0U), RawState::kValid};
+  /// Which of the ECU's task files Program means, from 0. [0 .. 250 on the bus]
+  Count task_number{0U, RawState::kValid};
 
   /// Calls visitor(field, signal) for each signal.
   template <class Self, class Visitor>
@@ -334,6 +341,7 @@ struct OperatorCommand {
     visitor(kOperatorMode, self.operator_mode);
     visitor(kTask, self.task);
     visitor(kSpeedOverride, self.speed_override_ratio);
+    visitor(kTaskNumber, self.task_number);
   }
   static constexpr OperatorCommand decode(const Payload& payload) {
     return decode_message<OperatorCommand>(payload);
@@ -372,6 +380,49 @@ struct MachineIdentity {
   }
   static constexpr MachineIdentity decode(const Payload& payload) {
     return decode_message<MachineIdentity>(payload);
+  }
+  constexpr Payload encode() const { return encode_message(*this); }
+};
+
+/// Measured swing of the platform; of a machine whose profile has a swing drive.
+struct SwingState {
+  static constexpr const char* kName = "SwingState";
+  static constexpr const char* kSender = "Machine";
+  static constexpr std::uint32_t kId = 0x0CFF2A80;
+  static constexpr std::uint8_t kLength = 8;
+  static constexpr std::uint16_t kCycleTimeMs = 10;
+  static constexpr bool kProtected = true;
+  static constexpr std::uint16_t kDataId = 0xFF2A;
+  static constexpr std::uint8_t kMaxDeltaCounter = 3;
+
+  static constexpr Field kSwingAngle{
+      "SwingAngle", "rad", 16, 16, 0U, 64000U, 65279, 65535, 65535U,
+      -32000, 1.0, 10000.0};
+  static constexpr Field kSwingLeftPressure{
+      "SwingLeftPressure", "Pa", 32, 16, 0U, 64000U, 65279, 65535, 65535U,
+      0, 1000.0, 1.0};
+  static constexpr Field kSwingRightPressure{
+      "SwingRightPressure", "Pa", 48, 16, 0U, 64000U, 65279, 65535, 65535U,
+      0, 1000.0, 1.0};
+
+  /// Swing about the vertical; 0 looks along x, to the left is positive. [-3200 .. 3200 mrad on the
+  /// bus]
+  Physical swing_angle_rad{0.0, RawState::kNotAvailable};
+  /// Pressure at the motor port that turns the platform to the left, above ambient. [0 .. 64 MPa on
+  /// the bus]
+  Physical swing_left_pressure_pa{0.0, RawState::kNotAvailable};
+  /// Pressure at the motor port that turns it to the right, above ambient. [0 .. 64 MPa on the bus]
+  Physical swing_right_pressure_pa{0.0, RawState::kNotAvailable};
+
+  /// Calls visitor(field, signal) for each signal.
+  template <class Self, class Visitor>
+  static constexpr void visit(Self& self, Visitor&& visitor) {
+    visitor(kSwingAngle, self.swing_angle_rad);
+    visitor(kSwingLeftPressure, self.swing_left_pressure_pa);
+    visitor(kSwingRightPressure, self.swing_right_pressure_pa);
+  }
+  static constexpr SwingState decode(const Payload& payload) {
+    return decode_message<SwingState>(payload);
   }
   constexpr Payload encode() const { return encode_message(*this); }
 };
@@ -427,6 +478,36 @@ struct ValveState {
   }
   static constexpr ValveState decode(const Payload& payload) {
     return decode_message<ValveState>(payload);
+  }
+  constexpr Payload encode() const { return encode_message(*this); }
+};
+
+/// What the valve side measures of the swing section.
+struct SwingValveState {
+  static constexpr const char* kName = "SwingValveState";
+  static constexpr const char* kSender = "Valve";
+  static constexpr std::uint32_t kId = 0x0CFF2B83;
+  static constexpr std::uint8_t kLength = 8;
+  static constexpr std::uint16_t kCycleTimeMs = 20;
+  static constexpr bool kProtected = true;
+  static constexpr std::uint16_t kDataId = 0xFF2B;
+  static constexpr std::uint8_t kMaxDeltaCounter = 2;
+
+  static constexpr Field kSwingSpool{
+      "SwingSpool", "", 16, 16, 12000U, 52000U, 65279, 65535, 65535U,
+      -32000, 1.0, 20000.0};
+
+  /// Measured position of the swing spool over its full travel x_m, deadband included; positive
+  /// turns to the left. [-1000 .. 1000 per mille on the bus]
+  Physical swing_spool_ratio{0.0, RawState::kNotAvailable};
+
+  /// Calls visitor(field, signal) for each signal.
+  template <class Self, class Visitor>
+  static constexpr void visit(Self& self, Visitor&& visitor) {
+    visitor(kSwingSpool, self.swing_spool_ratio);
+  }
+  static constexpr SwingValveState decode(const Payload& payload) {
+    return decode_message<SwingValveState>(payload);
   }
   constexpr Payload encode() const { return encode_message(*this); }
 };
@@ -536,6 +617,48 @@ struct PumpCommand {
   constexpr Payload encode() const { return encode_message(*this); }
 };
 
+/// Command to the pilot valve of the swing section; sent where the profile has a swing drive. The
+/// spool opens only while SpoolCommand and this both say On.
+struct SwingCommand {
+  static constexpr const char* kName = "SwingCommand";
+  static constexpr const char* kSender = "Graben";
+  static constexpr std::uint32_t kId = 0x0CFF3782;
+  static constexpr std::uint8_t kLength = 8;
+  static constexpr std::uint16_t kCycleTimeMs = 10;
+  static constexpr bool kProtected = true;
+  static constexpr std::uint16_t kDataId = 0xFF37;
+  static constexpr std::uint8_t kMaxDeltaCounter = 3;
+
+  enum class Enable : std::uint8_t {
+    kOff = 0,
+    kOn = 1,
+  };
+
+  static constexpr Field kEnable{
+      "Enable", "", 12, 2, 0U, 1U, 2, 3, 0U,
+      0, 1.0, 1.0};
+  static constexpr Field kSwingDuty{
+      "SwingDuty", "", 16, 16, 12000U, 52000U, 65279, 65535, 32000U,
+      -32000, 1.0, 20000.0};
+
+  /// The swing spool may open only while it is On.
+  Coded<Enable> enable{Enable::kOff, RawState::kValid};
+  /// Duty of the swing spool; positive turns to the left, 0 is neutral. [-1000 .. 1000 per mille on
+  /// the bus]
+  Physical swing_duty_ratio{physical_of(kSwingDuty, 32000U), RawState::kValid};
+
+  /// Calls visitor(field, signal) for each signal.
+  template <class Self, class Visitor>
+  static constexpr void visit(Self& self, Visitor&& visitor) {
+    visitor(kEnable, self.enable);
+    visitor(kSwingDuty, self.swing_duty_ratio);
+  }
+  static constexpr SwingCommand decode(const Payload& payload) {
+    return decode_message<SwingCommand>(payload);
+  }
+  constexpr Payload encode() const { return encode_message(*this); }
+};
+
 /// State of the controller and what holds it back.
 struct EcuStatus {
   static constexpr const char* kName = "EcuStatus";
@@ -564,6 +687,13 @@ struct EcuStatus {
     kStrokeEnd = 4,
     kRise = 5,
     kDegraded = 6,
+    kImplementFlow = 7,
+    kTransmissionFlow = 8,
+    kAhead = 9,
+    kOffGrade = 10,
+    kSwingEnd = 11,
+    kFence = 12,
+    kOffPath = 13,
   };
 
   enum class Fault : std::uint8_t {
@@ -604,13 +734,14 @@ struct EcuStatus {
     kDisplacementDisagrees = 34,
     kDisplacementRunaway = 35,
     kTrackSpeedDisagrees = 36,
+    kTaskUnknown = 37,
   };
 
   static constexpr Field kMode{
       "Mode", "", 0, 4, 0U, 5U, 14, 15, 0U,
       0, 1.0, 1.0};
   static constexpr Field kLimitKind{
-      "LimitKind", "", 4, 4, 0U, 6U, 14, 15, 0U,
+      "LimitKind", "", 4, 4, 0U, 13U, 14, 15, 0U,
       0, 1.0, 1.0};
   static constexpr Field kLimitIndex{
       "LimitIndex", "", 8, 8, 0U, 250U, 254, 255, 0U,
@@ -619,7 +750,7 @@ struct EcuStatus {
       "Lambda", "", 16, 16, 0U, 50000U, 65279, 65535, 0U,
       0, 1.0, 50000.0};
   static constexpr Field kFault{
-      "Fault", "", 32, 8, 0U, 36U, 254, 255, 0U,
+      "Fault", "", 32, 8, 0U, 37U, 254, 255, 0U,
       0, 1.0, 1.0};
   static constexpr Field kCycleTime{
       "CycleTime", "us", 40, 16, 0U, 64255U, 65279, 65535, 0U,
@@ -632,8 +763,9 @@ struct EcuStatus {
   Coded<Mode> mode{Mode::kSilent, RawState::kValid};
   /// What holds Lambda below 1.
   Coded<LimitKind> limit_kind{LimitKind::kNone, RawState::kValid};
-  /// Whose limit it is: the index of the pump for PumpFlow, the number of the Fault for Degraded,
-  /// else the index of the actuator (boom 0, arm 1, bucket 2). [0 .. 250 on the bus]
+  /// Whose limit it is: the index of the pump for PumpFlow, of the fence in the task file for
+  /// Fence, the number of the Fault for Degraded, else the index of the drive (boom 0, arm 1,
+  /// bucket 2, swing 3). [0 .. 250 on the bus]
   Count limit_index{0U, RawState::kValid};
   /// Share of the wanted velocity that the hydraulics can follow. [0 .. 1 on the bus]
   Physical lambda{physical_of(kLambda, 0U), RawState::kValid};
@@ -850,6 +982,71 @@ struct EcuHealth {
   constexpr Payload encode() const { return encode_message(*this); }
 };
 
+/// How far the task is that runs; sent where the profile has a swing drive.
+struct TaskStatus {
+  static constexpr const char* kName = "TaskStatus";
+  static constexpr const char* kSender = "Graben";
+  static constexpr std::uint32_t kId = 0x18FF3882;
+  static constexpr std::uint8_t kLength = 8;
+  static constexpr std::uint16_t kCycleTimeMs = 20;
+  static constexpr bool kProtected = false;
+  static constexpr std::uint16_t kDataId = 0x0000;
+  static constexpr std::uint8_t kMaxDeltaCounter = 0;
+
+  enum class StepKind : std::uint8_t {
+    kNone = 0,
+    kApproach = 1,
+    kDig = 2,
+    kLift = 3,
+    kSwing = 4,
+    kDump = 5,
+    kReturnToDig = 6,
+    kDone = 7,
+  };
+
+  static constexpr Field kTaskNumber{
+      "TaskNumber", "", 0, 8, 0U, 250U, 254, 255, 255U,
+      0, 1.0, 1.0};
+  static constexpr Field kStep{
+      "Step", "", 8, 8, 0U, 250U, 254, 255, 0U,
+      0, 1.0, 1.0};
+  static constexpr Field kStepKind{
+      "StepKind", "", 16, 4, 0U, 7U, 14, 15, 0U,
+      0, 1.0, 1.0};
+  static constexpr Field kProgress{
+      "Progress", "", 24, 16, 0U, 50000U, 65279, 65535, 0U,
+      0, 1.0, 50000.0};
+  static constexpr Field kSwingWantedVelocity{
+      "SwingWantedVelocity", "rad/s", 40, 16, 0U, 64000U, 65279, 65535, 32000U,
+      -32000, 1.0, 10000.0};
+
+  /// Which of the ECU's task files, from 0; not available while none runs. [0 .. 250 on the bus]
+  Count task_number{0U, RawState::kNotAvailable};
+  /// Step of the task, from 0. [0 .. 250 on the bus]
+  Count step{0U, RawState::kValid};
+  /// What the step is.
+  Coded<StepKind> step_kind{StepKind::kNone, RawState::kValid};
+  /// Share of the step that is done. [0 .. 1 on the bus]
+  Physical progress{physical_of(kProgress, 0U), RawState::kValid};
+  /// Wanted swing rate before it is scaled by Lambda; to the left is positive. [-3200 .. 3200
+  /// mrad/s on the bus]
+  Physical swing_wanted_velocity_radps{physical_of(kSwingWantedVelocity, 32000U), RawState::kValid};
+
+  /// Calls visitor(field, signal) for each signal.
+  template <class Self, class Visitor>
+  static constexpr void visit(Self& self, Visitor&& visitor) {
+    visitor(kTaskNumber, self.task_number);
+    visitor(kStep, self.step);
+    visitor(kStepKind, self.step_kind);
+    visitor(kProgress, self.progress);
+    visitor(kSwingWantedVelocity, self.swing_wanted_velocity_radps);
+  }
+  static constexpr TaskStatus decode(const Payload& payload) {
+    return decode_message<TaskStatus>(payload);
+  }
+  constexpr Payload encode() const { return encode_message(*this); }
+};
+
 /// Active diagnostic trouble codes (PGN 65226), one a frame: no transport protocol is used. Several
 /// active codes take turns, so that up to ten of them are each on the bus within 1 s: the period is
 /// 1 s over their number, at least 100 ms, and a new one is sent at once. With none: lamps off, SPN
@@ -964,17 +1161,21 @@ using AllMessages =
                 EEC1,
                 OperatorCommand,
                 MachineIdentity,
+                SwingState,
                 ValveState,
+                SwingValveState,
                 SpoolCommand,
                 PumpCommand,
+                SwingCommand,
                 EcuStatus,
                 EcuMotion,
                 EcuHydraulics,
                 EcuIdentity,
                 EcuHealth,
+                TaskStatus,
                 DM1>;
 
-inline constexpr std::array<MessageInfo, 19> kMessages{{
+inline constexpr std::array<MessageInfo, 23> kMessages{{
     message_info<BoomStroke>(),
     message_info<ArmStroke>(),
     message_info<BucketStroke>(),
@@ -985,14 +1186,18 @@ inline constexpr std::array<MessageInfo, 19> kMessages{{
     message_info<EEC1>(),
     message_info<OperatorCommand>(),
     message_info<MachineIdentity>(),
+    message_info<SwingState>(),
     message_info<ValveState>(),
+    message_info<SwingValveState>(),
     message_info<SpoolCommand>(),
     message_info<PumpCommand>(),
+    message_info<SwingCommand>(),
     message_info<EcuStatus>(),
     message_info<EcuMotion>(),
     message_info<EcuHydraulics>(),
     message_info<EcuIdentity>(),
     message_info<EcuHealth>(),
+    message_info<TaskStatus>(),
     message_info<DM1>(),
 }};
 

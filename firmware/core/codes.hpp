@@ -57,9 +57,10 @@ enum class Fault : std::uint8_t {
   kDisplacementDisagrees = 34,  ///< A displacement does not reach what it was told to be.
   kDisplacementRunaway = 35,    ///< A displacement goes where no command of late has sent it.
   kTrackSpeedDisagrees = 36,    ///< A track's speed is not that of its displacements.
+  kTaskUnknown = 37,            ///< The task that is chosen is none of ours.
 };
 
-inline constexpr int kFaultCount = 37;
+inline constexpr int kFaultCount = 38;
 
 /// What holds lambda below 1.
 enum class LimitKind : std::uint8_t {
@@ -67,13 +68,16 @@ enum class LimitKind : std::uint8_t {
   kPumpFlow = 1,       ///< (29), (30): a pump cannot feed the in-flow; index is the pump's.
   kBackFlow = 2,       ///< (36) with F_offset: the load would push back; index is the actuator's.
   kSpoolTravel = 3,    ///< (13): the spool is fully open; index is the actuator's.
-  kStrokeEnd = 4,      ///< The cylinder is at its end; index is the actuator's.
+  kStrokeEnd = 4,      ///< The cylinder nears its end; index is the actuator's.
   kRise = 5,           ///< Nothing but the rate at which lambda may rise.
   kDegraded = 6,       ///< A lost sensor: the field is slower; index is the Fault.
   kImplementFlow = 7,  ///< (11): the blade cylinders' flow, as measured.
   kTransmissionFlow = 8,  ///< (13): a track's transmission; index is the track's (left 0, right 1).
   kAhead = 9,             ///< Braking for what the blade will need further on.
   kOffGrade = 10,         ///< The cutting edge is too far off the grade.
+  kSwingEnd = 11,         ///< The swing nears the end of its range.
+  kFence = 12,            ///< A point of the machine nears a plane; index is the fence's.
+  kOffPath = 13,          ///< The drives are behind the plan: its progress waits.
 };
 
 /// A limit and whose it is.

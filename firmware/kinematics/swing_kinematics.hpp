@@ -26,9 +26,8 @@ struct TeethPose {
   double attitude_rad = 0.0;
 };
 
-/// One value a drive, in the order kBoom, kArm, kBucket, kSwing: joint angles in rad, or strokes in
-/// m from the closed cylinder and the swing in rad, (lambda_1, lambda_2, lambda_3, lambda_0).
-using DriveVector = Eigen::Vector4d;
+// A DriveVector here holds joint angles in rad, or strokes in m from the closed cylinder and the
+// swing in rad, (lambda_1, lambda_2, lambda_3, lambda_0).
 
 /// Why the machine can't be somewhere.
 enum class BlindKind : std::uint8_t {

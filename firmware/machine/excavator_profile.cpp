@@ -8,4 +8,14 @@ double CylinderGeometry::cap_area_m2() const { return graben::cap_area_m2(count,
 
 double CylinderGeometry::rod_area_m2() const { return graben::rod_area_m2(count, bore_m, rod_m); }
 
+double ExcavatorProfile::extend_area_m2(int drive) const {
+  return drive == kSwing ? swing.area_m2()
+                         : geometry.cylinder[static_cast<unsigned>(drive)].cap_area_m2();
+}
+
+double ExcavatorProfile::retract_area_m2(int drive) const {
+  return drive == kSwing ? swing.area_m2()
+                         : geometry.cylinder[static_cast<unsigned>(drive)].rod_area_m2();
+}
+
 }  // namespace graben

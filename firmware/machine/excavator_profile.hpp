@@ -18,7 +18,9 @@ inline constexpr int kBoom = 0;
 inline constexpr int kArm = 1;
 inline constexpr int kBucket = 2;
 inline constexpr int kSwing = 3;  ///< theta_0 of Zhang et al.; after the axes with a cylinder.
-inline constexpr int kDriveCount = 4;
+
+/// One value a drive, in the order kBoom, kArm, kBucket, kSwing.
+using DriveVector = Eigen::Vector4d;
 
 /// Parallel cylinders of one axis. `base` is the pin on the link nearer to the body, `eye` the pin
 /// on the rod's side; which frame each is in stands at the axis.
@@ -92,7 +94,7 @@ struct ValveProfile {
   double discharge = 0.0;          ///< C_d.
   double density_kgpm3 = 0.0;      ///< rho.
   double section_flow_m3ps = 0.0;  ///< Rated, of one spool's section.
-  std::array<SpoolProfile, kAxisCount> spool;
+  std::array<SpoolProfile, kDriveCount> spool;
   /// Opening (|x| / x_m, 0 .. 1) to duty (0 .. 1). Its first value is the duty at which the spool
   /// begins to open, so that the deadband is crossed in one step; neutral is duty 0 always.
   MonotoneTable spool_to_duty;
@@ -154,10 +156,18 @@ struct SafetyProfile {
   double pressure_rail_pa = 0.0;  ///< Where the pressure sensors end.
 };
 
-/// The platform's turning about the vertical, to the left and to the right.
+/// The platform's turning about the vertical, to the left and to the right. Where a motor on one of
+/// the valve's sections drives it, it stands in the valve's equations as a cylinder with equal
+/// areas: travel, speed, force and area are those at `lever_m` from the swing axis.
 struct SwingProfile {
   double speed_max_radps = 0.0;
   double acceleration_max_radps2 = 0.0;
+  double displacement_m3prad = 0.0;  ///< Of the motor with its reduction, per radian of swing.
+  double lever_m = 0.0;              ///< Chosen, so that its area is like a cylinder's.
+  double right_end_rad = 0.0;        ///< Ends of the range that the controller keeps to.
+  double left_end_rad = 0.0;
+
+  [[nodiscard]] double area_m2() const { return displacement_m3prad / lever_m; }
 };
 
 /// How straight lines of the teeth are planned.
@@ -167,6 +177,7 @@ struct LineProfile {
 };
 
 struct ExcavatorProfile {
+  int drive_count = kAxisCount;  ///< kDriveCount with a swing section of the valve.
   ExcavatorGeometry geometry;
   SwingProfile swing;
   LineProfile line;
@@ -178,6 +189,11 @@ struct ExcavatorProfile {
   std::array<double, kPumpCount> dig_swash_ratio{};  ///< What the pumps are told to be at.
   ControlProfile control;
   SafetyProfile safety;
+
+  [[nodiscard]] bool has_swing() const { return drive_count == kDriveCount; }
+  /// Area that extends the drive, all its cylinders together; of the swing that at its lever.
+  [[nodiscard]] double extend_area_m2(int drive) const;
+  [[nodiscard]] double retract_area_m2(int drive) const;
 };
 
 }  // namespace graben

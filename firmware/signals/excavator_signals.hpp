@@ -1,7 +1,7 @@
 #pragma once
 /// What comes into and goes out of the excavator's controller. SI units; axes in the order boom,
-/// arm, bucket. Extension is positive for strokes, velocities, spools and duties; a stroke counts
-/// from the closed cylinder.
+/// arm, bucket, drives with the swing after them. Extension is positive for strokes, velocities,
+/// spools and duties, and so is the swing to the left; a stroke counts from the closed cylinder.
 
 #include <array>
 
@@ -9,8 +9,9 @@
 
 namespace graben {
 
-inline constexpr int kAxisCount = 3;
-inline constexpr int kPumpCount = 2;  ///< At most; a machine may have one.
+inline constexpr int kAxisCount = 3;   ///< Boom, arm, bucket: what has a cylinder.
+inline constexpr int kDriveCount = 4;  ///< With the swing, at most; a machine may be without.
+inline constexpr int kPumpCount = 2;   ///< At most; a machine may have one.
 
 struct AxisInputs {
   Signal<double> stroke_m;
@@ -19,8 +20,17 @@ struct AxisInputs {
   Signal<double> spool_ratio;  ///< Measured spool over its travel, deadband and all, -1 .. 1.
 };
 
+/// Of the swing motor. Each pressure is that of the port that turns the platform that way.
+struct SwingInputs {
+  Signal<double> angle_rad;
+  Signal<double> left_pressure_pa;
+  Signal<double> right_pressure_pa;
+  Signal<double> spool_ratio;
+};
+
 struct ExcavatorInputs {
   std::array<AxisInputs, kAxisCount> axis;
+  SwingInputs swing;  ///< Looked at only where the profile has a swing drive.
   std::array<Signal<double>, kPumpCount> swash_ratio;  ///< tan(alpha) / tan(alpha at full swash).
   Signal<double> engine_speed_radps;
   Signal<bool> valve_enabled;  ///< The valve side's echo of our enable.
@@ -30,11 +40,35 @@ struct ExcavatorInputs {
   LinkInputs link;
 };
 
+/// What a step of a task is for; the numbers are on the bus.
+enum class StepKind : std::uint8_t {
+  kNone = 0,
+  kApproach = 1,  ///< From where the machine stands to where the task begins.
+  kDig = 2,
+  kLift = 3,
+  kSwing = 4,
+  kDump = 5,
+  kReturnToDig = 6,
+  kDone = 7,  ///< The task is at its end; the machine stands.
+};
+
+/// How far a task is.
+struct TaskProgress {
+  bool runs = false;  ///< Without it the rest says nothing.
+  std::uint8_t number = 0;
+  std::uint8_t step = 0;
+  StepKind kind = StepKind::kNone;
+  double share = 0.0;  ///< Of the step, 0 .. 1.
+};
+
 /// What the excavator's controller says of itself.
 struct ExcavatorStatus : MachineStatus {
-  std::array<double, kAxisCount> wanted_velocity_mps{};  ///< V_L^d before scaling by lambda.
-  std::array<double, kPumpCount> pump_pressure_pa{};     ///< P_p that the solution expects.
+  /// V_L^d before scaling by lambda; the swing's at its lever, see SwingProfile.
+  std::array<double, kDriveCount> wanted_velocity_mps{};
+  std::array<double, kPumpCount> pump_pressure_pa{};  ///< P_p that the solution expects.
   double path_error_m = 0.0;  ///< Distance of the measured tip from the path.
+  double swing_wanted_radps = 0.0;
+  TaskProgress progress;
 };
 
 struct ExcavatorOutputs {
@@ -43,7 +77,7 @@ struct ExcavatorOutputs {
   /// Without it the controller does not know whether an earlier one has asked for a cut, and says
   /// so: a restart must not give the pressure back to a spool that is stuck.
   bool pilot_known = false;
-  std::array<double, kAxisCount> duty_ratio{};   ///< -1 .. 1; 0 is neutral.
+  std::array<double, kDriveCount> duty_ratio{};  ///< -1 .. 1; 0 is neutral.
   std::array<double, kPumpCount> swash_ratio{};  ///< Wanted of each pump; only with enable.
   ExcavatorStatus status;
 };

@@ -13,13 +13,14 @@ namespace graben {
 enum class OperatorMode : std::uint8_t { kManual = 0, kAutomatic = 1 };
 
 /// What the controller is to do.
-enum class Task : std::uint8_t { kNone = 0, kDig = 1, kGrade = 2 };
+enum class Task : std::uint8_t { kNone = 0, kDig = 1, kGrade = 2, kProgram = 3 };
 
 struct OperatorInputs {
   Signal<bool> enable;  ///< Deadman: motion only while it is given.
   Signal<OperatorMode> mode;
   Signal<Task> task;
   Signal<double> speed_override_ratio;  ///< 0 .. 1 of the task's speed.
+  Signal<std::uint8_t> task_number;     ///< Which of the task files kProgram means.
 };
 
 /// What the bus lets us do.
