@@ -14,8 +14,7 @@
 #include "app/ecu/dozer_ecu.hpp"
 #include "app/ecu/ecu_stats.hpp"
 #include "app/ecu/excavator_ecu.hpp"
-#include "app/machines/dozer_file.hpp"
-#include "app/machines/machine_file.hpp"
+#include "app/machines/any_machine.hpp"
 #include "platform/can_port_group.hpp"
 #include "platform/linux/allocation_counter.hpp"
 #include "platform/linux/cyclic_clock.hpp"
@@ -49,18 +48,9 @@ void become_real_time(const EcuOptions& options) {
   demand(set_fifo_priority(options.priority), kWayOut);
 }
 
-using Machine = std::variant<machines::ExcavatorMachine, machines::DozerMachine>;
-
-Machine load(const std::filesystem::path& file) {
-  if (machines::profile_kind(file) == machines::MachineKind::kDozer) {
-    return machines::load_dozer(file);
-  }
-  return machines::load_excavator(file);
-}
-
 /// Nothing, with every error told, if the profile is missing or wrong.
-std::optional<Machine> read_profile(const std::string& name) try {
-  return load(machines::find_profile(name, {"/etc/graben", "/usr/share/graben"}));
+std::optional<machines::AnyMachine> read_profile(const std::string& name) try {
+  return machines::load_any(machines::find_profile(name, {"/etc/graben", "/usr/share/graben"}));
 } catch (const std::exception& error) {
   std::fprintf(stderr, "graben-ecu: %s\n", error.what());
   return std::nullopt;

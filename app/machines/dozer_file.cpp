@@ -8,14 +8,18 @@
 
 namespace graben::machines {
 
-DozerMachine load_dozer(const std::filesystem::path& file) {
+DozerMachine load_dozer(const ProfileDocument& document) {
   return load_machine<DozerMachine>(
-      file, MachineKind::kDozer, [](TomlReader& reader, DozerMachine& machine) {
+      document, MachineKind::kDozer, [](TomlReader& reader, DozerMachine& machine) {
         machine.profile = read_dozer_controller_sections(reader);
         machine.plant = read_dozer_plant_sections(reader, machine.profile);
         machine.experiment = read_dozer_experiment_sections(reader);
         check_dozer_across_keys(reader, machine.profile, machine.experiment);
       });
+}
+
+DozerMachine load_dozer(const std::filesystem::path& file) {
+  return load_dozer(read_document(file));
 }
 
 plant::DozerPlantProfile draw_dozer(const DozerMachine& machine, std::uint64_t seed) {

@@ -11,6 +11,8 @@
 
 namespace graben::machines {
 
+struct ProfileDocument;
+
 /// How far a dozer may be off from what its controller takes it for, each way, as a share.
 struct DozerUncertainty {
   double mass = 0.0;        ///< Of the whole machine, its moment of inertia with it.
@@ -35,6 +37,7 @@ struct DozerMachine {
 
 /// Reads and checks a dozer's profile. Throws ProfileError with every error found.
 [[nodiscard]] DozerMachine load_dozer(const std::filesystem::path& file);
+[[nodiscard]] DozerMachine load_dozer(const ProfileDocument& document);
 
 /// A dozer that is not quite what its file says, and has sensor errors: mass (the moment of inertia
 /// in proportion), traction, rolling resistance and the efficiency of implement pump, pumps and

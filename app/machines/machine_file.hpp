@@ -12,6 +12,8 @@
 
 namespace graben::machines {
 
+struct ProfileDocument;
+
 /// An excavator as its file describes it: what the controller knows, and the machine that the
 /// simulation puts in its place.
 struct ExcavatorMachine {
@@ -24,5 +26,6 @@ struct ExcavatorMachine {
 
 /// Reads and checks an excavator's profile. Throws ProfileError with every error found.
 [[nodiscard]] ExcavatorMachine load_excavator(const std::filesystem::path& file);
+[[nodiscard]] ExcavatorMachine load_excavator(const ProfileDocument& document);
 
 }  // namespace graben::machines

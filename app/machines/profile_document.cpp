@@ -93,10 +93,13 @@ void throw_errors(const ProfileDocument& document, const TomlReader& reader) {
   }
 }
 
-MachineKind profile_kind(const std::filesystem::path& file) {
-  const ProfileDocument document = read_document(file);
+MachineKind profile_kind(const ProfileDocument& document) {
   TomlReader reader(document.root);
   return read_kind(document, reader);
+}
+
+MachineKind profile_kind(const std::filesystem::path& file) {
+  return profile_kind(read_document(file));
 }
 
 }  // namespace graben::machines

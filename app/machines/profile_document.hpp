@@ -23,6 +23,7 @@ struct ProfileDocument {
 
 /// What the file says it is. Throws ProfileError if it does not, or names no kind of ours.
 [[nodiscard]] MachineKind read_kind(const ProfileDocument& document, TomlReader& reader);
+[[nodiscard]] MachineKind profile_kind(const ProfileDocument& document);
 
 /// Throws ProfileError if it is a machine of another kind: its keys would only pile up errors.
 void require_kind(const ProfileDocument& document, TomlReader& reader, MachineKind kind);
@@ -33,13 +34,11 @@ void throw_errors(const ProfileDocument& document, const TomlReader& reader);
 /// A machine of this kind; `read(reader, machine)` fills it from its sections and checks it. No key
 /// may be left over. Throws as the above, with every error found.
 template <class Machine, class Read>
-[[nodiscard]] Machine load_machine(const std::filesystem::path& file, MachineKind kind,
-                                   Read&& read) {
-  const ProfileDocument document = read_document(file);
+[[nodiscard]] Machine load_machine(const ProfileDocument& document, MachineKind kind, Read&& read) {
   TomlReader reader(document.root);
   require_kind(document, reader, kind);
   Machine machine;
-  machine.name = file.stem().string();
+  machine.name = document.file.stem().string();
   machine.hash = document.hash;
   read(reader, machine);
   reader.refuse_unknown_keys();
