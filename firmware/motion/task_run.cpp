@@ -1,0 +1,117 @@
+#include "firmware/motion/task_run.hpp"
+
+#include <algorithm>
+
+namespace graben {
+namespace {
+
+const TaskStep& step_of(const TaskProgram& program, const TaskState& state) {
+  return program.step[static_cast<unsigned>(std::clamp(state.step, 0, kStepMost - 1))];
+}
+
+double duration_s(const TaskProgram& program, const TaskState& state) {
+  return state.phase == TaskPhase::kApproach ? state.approach.ramp.duration_s
+                                             : step_of(program, state).duration_s();
+}
+
+/// Where the drives are decides where the teeth are.
+TaskAim aim_of_drives(const SwingKinematics& kinematics, StepKind kind, const DriveState& drives,
+                      bool moves) {
+  TaskAim aim;
+  aim.kind = kind;
+  aim.share = moves ? drives.progress.share : 1.0;
+  aim.value = drives.value;
+  aim.velocity = drives.velocity;
+  const DriveResult joints = kinematics.joints_from_drive(aim.value);
+  aim.blind = joints.blind;
+  aim.teeth = kinematics.teeth_from_joints(joints.value);
+  return aim;
+}
+
+TaskAim aim_of_plan(const SwingKinematics& kinematics, StepKind kind, const DrivePlan& plan,
+                    double time_s) {
+  return aim_of_drives(kinematics, kind, drive_state(plan, time_s), plan.ramp.duration_s > 0.0);
+}
+
+TaskAim aim_of_line(const SwingKinematics& kinematics, StepKind kind, const LinePlan& plan,
+                    double time_s) {
+  const Progress progress = plan.ramp.at(time_s);
+  const DriveMotion drives = line_motion(kinematics, plan.line, progress.share);
+  TaskAim aim;
+  aim.kind = kind;
+  aim.blind = drives.blind;
+  aim.share = progress.share;
+  aim.value = drives.value;
+  aim.velocity = progress.rate_ps * drives.rate;
+  aim.teeth = plan.line.at(progress.share);
+  return aim;
+}
+
+/// After an end that has been reached.
+TaskState next_part(const TaskProgram& program, const TaskState& state) {
+  TaskState next = state;
+  next.time_s = 0.0;
+  next.settle_s = 0.0;
+  next.step = state.phase == TaskPhase::kApproach ? 0 : state.step + 1;
+  next.phase = TaskPhase::kSteps;
+  if (next.step >= program.step_count) {
+    const bool again = program.repeats && program.step_count > 0;
+    next.step = again ? 0 : std::max(0, program.step_count - 1);
+    next.phase = again ? TaskPhase::kSteps : TaskPhase::kDone;
+  }
+  return next;
+}
+
+}  // namespace
+
+TaskState task_start(const ExcavatorProfile& profile, const TaskProgram& program,
+                     const DriveVector& drives_now) {
+  DriveVector from = drives_now;
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    from[i] = std::clamp(from[i], 0.0, profile.geometry.cylinder[i].stroke_m);
+  }
+  if (!profile.has_swing()) {
+    from[kSwing] = program.start[kSwing];
+  }
+  TaskState state;
+  state.phase = TaskPhase::kApproach;
+  state.approach = plan_drives(drive_limits(profile), from, program.start, {kApproachPace, 0.0});
+  return state;
+}
+
+TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
+                 const TaskState& state) {
+  if (state.phase == TaskPhase::kApproach) {
+    return aim_of_plan(kinematics, StepKind::kApproach, state.approach, state.time_s);
+  }
+  if (state.phase == TaskPhase::kDone) {
+    DriveState stands;
+    stands.value = program.end;
+    return aim_of_drives(kinematics, StepKind::kDone, stands, false);
+  }
+  const TaskStep& step = step_of(program, state);
+  return step.straight ? aim_of_line(kinematics, step.kind, step.line, state.time_s)
+                       : aim_of_plan(kinematics, step.kind, step.drives, state.time_s);
+}
+
+TaskState task_advance(const ControlProfile& control, const TaskProgram& program,
+                       const TaskState& state, double advance_s, double period_s, double error_m) {
+  if (state.phase == TaskPhase::kDone) {
+    return state;
+  }
+  TaskState next = state;
+  const double off = error_m / control.slow_error_m;
+  const double end_s = duration_s(program, state);
+  const double by_s = advance_s / (1.0 + off * off);
+  // Written so that NaN stays where it is.
+  next.time_s += by_s > 0.0 ? by_s : 0.0;
+  if (next.time_s < end_s) {
+    return next;
+  }
+  next.time_s = end_s;
+  next.settle_s += period_s;
+  const bool there = error_m < kSettled_m || next.settle_s >= kSettleMost_s;
+  return there ? next_part(program, next) : next;
+}
+
+}  // namespace graben

@@ -1,0 +1,61 @@
+#pragma once
+/// Executes a program: where on its plan a task is, what is wanted there, and how it goes on.
+
+#include "firmware/machine/excavator_profile.hpp"
+#include "firmware/motion/task_program.hpp"
+
+namespace graben {
+
+enum class TaskPhase : std::uint8_t {
+  kApproach = 0,  ///< To the first pose.
+  kSteps = 1,
+  kDone = 2,  ///< Stands at the last pose.
+};
+
+/// What one cycle hands to the next. The place on the plan is a time of the plan, not of a clock:
+/// nothing is ever behind, and nothing has to be caught up.
+struct TaskState {
+  TaskPhase phase = TaskPhase::kDone;
+  int step = 0;
+  double time_s = 0.0;    ///< tau: of the plan of approach or step.
+  double settle_s = 0.0;  ///< How long it has waited at its end.
+  DrivePlan approach;
+};
+
+/// What the plan wants at one moment.
+struct TaskAim {
+  StepKind kind = StepKind::kNone;
+  /// kNone but for a program that was never planned for this machine: then nothing else holds.
+  BlindSpot blind;
+  double share = 0.0;  ///< Of approach or step, 0 .. 1.
+  DriveVector value = DriveVector::Zero();
+  DriveVector velocity = DriveVector::Zero();  ///< By the plan's time, at lambda 1.
+  TeethPose teeth;                             ///< Where they are planned to be.
+};
+
+/// An end is reached with the teeth so near to it ...
+inline constexpr double kSettled_m = 5e-3;
+/// ... or after so long: what is left then is the next step's to correct.
+inline constexpr double kSettleMost_s = 1.5;
+/// Share of the drives' limits that the approach keeps to.
+inline constexpr double kApproachPace = 0.3;
+
+/// From where the machine stands, its drives taken into their ranges: a move straight in drive
+/// space to the first pose. It can't meet a blind spot. It is not checked against fences, as a
+/// machine may have to come from anywhere, even from beyond one: there the soft limit holds it,
+/// and a machine that stands beyond a fence is free to leave.
+[[nodiscard]] TaskState task_start(const ExcavatorProfile& profile, const TaskProgram& program,
+                                   const DriveVector& drives_now);
+
+[[nodiscard]] TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
+                               const TaskState& state);
+
+/// One cycle on. `advance_s` is what the plan may go on by: lambda and every other factor on the
+/// velocity, times the period. It goes on by less where the teeth are off their planned place by
+/// `error_m`: half at control.slow_error_m, as the digging field does along its path. At the end of
+/// a step it waits until they are within kSettled_m, or for kSettleMost_s.
+[[nodiscard]] TaskState task_advance(const ControlProfile& control, const TaskProgram& program,
+                                     const TaskState& state, double advance_s, double period_s,
+                                     double error_m);
+
+}  // namespace graben
