@@ -8,15 +8,20 @@ namespace graben {
 namespace {
 
 McvInput mcv_input(const WatchResult& seen, const LoadState& load,
-                   const Eigen::Vector3d& velocity_mps) {
+                   const DriveVector& velocity_mps) {
   McvInput input;
-  for (unsigned i = 0; i < kAxisCount; ++i) {
+  for (unsigned i = 0; i < kDriveCount; ++i) {
     input.velocity_mps[i] = velocity_mps[i];
     input.cap_pressure_pa[i] = load.cap_pa[i];
     input.rod_pressure_pa[i] = load.rod_pa[i];
   }
   std::copy(seen.pump_flow_m3ps.begin(), seen.pump_flow_m3ps.end(), input.pump_flow_m3ps.begin());
   return input;
+}
+
+/// Whether the task that the operator asks for is one of ours.
+Fault task_fault(const ValidInputs& valid) {
+  return valid.task == Task::kNone || valid.task == Task::kDig ? Fault::kNone : Fault::kTaskUnknown;
 }
 
 /// What stands in the way beyond the inputs.
@@ -46,18 +51,24 @@ Limit reason(const McvSolution& solution, const VelocityCap& cap, const FaultSet
              : Limit{LimitKind::kDegraded, static_cast<std::uint8_t>(degraded.first())};
 }
 
+std::array<double, kDriveCount> drive_spools_m(const McvSolution& solution) {
+  std::array<double, kDriveCount> spool_m{};
+  std::copy_n(solution.point.spool_m.begin(), kDriveCount, spool_m.begin());
+  return spool_m;
+}
+
 double path_error_m(const RoundedRectangle& path, const TipPose& tip) {
   const Eigen::Vector2d at(tip.x_m, tip.y_m);
   return (path.closest(at).position_m - at).norm();
 }
 
-void describe_motion(const Eigen::Vector3d& wanted_mps, double path_error_m, const VelocityCap& cap,
+void describe_motion(const DriveVector& wanted_mps, double path_error_m, const VelocityCap& cap,
                      const McvSolution& solution, const FaultSet& degraded,
                      ExcavatorStatus& status) {
   status.lambda = cap.factor * solution.point.lambda;
   status.limit = reason(solution, cap, degraded);
   status.path_error_m = path_error_m;
-  for (unsigned i = 0; i < kAxisCount; ++i) {
+  for (unsigned i = 0; i < kDriveCount; ++i) {
     status.wanted_velocity_mps[i] = wanted_mps[i];
   }
   std::copy_n(solution.point.pump_pressure_pa.begin(), kPumpCount, status.pump_pressure_pa.begin());
@@ -80,15 +91,20 @@ WatchResult ExcavatorController::judge(const ExcavatorInputs& inputs, double per
   const ValidInputs valid =
       validate(inputs, profile_, memory_.validation, memory_.cycle.moving, now_us);
   memory_.validation = valid.state;
-  const WatchResult seen = watch(profile_, memory_.watch, memory_.cycle, valid, period_s);
+  WatchResult seen = watch(profile_, memory_.watch, memory_.cycle, valid, period_s);
   memory_.watch = seen.state;
+  if (const Fault unknown = task_fault(valid); unknown != Fault::kNone) {
+    FaultSet faults;
+    faults.add(unknown);
+    stop(faults, seen.inputs);
+  }
   return seen;
 }
 
 void ExcavatorController::observe(const ValidInputs& valid, double period_s) {
   const EcuMode mode = memory_.mode.value().mode;
   LoadState measured = memory_.load;
-  for (unsigned i = 0; i < kAxisCount; ++i) {
+  for (unsigned i = 0; i < kDriveCount; ++i) {
     if (valid.load_known[i]) {
       measured.cap_pa[i] = valid.cap_pressure_pa[i];
       measured.rod_pa[i] = valid.rod_pressure_pa[i];
@@ -106,14 +122,20 @@ void ExcavatorController::observe(const ValidInputs& valid, double period_s) {
   }
 }
 
-Eigen::Vector3d ExcavatorController::wanted_velocity(const ValidInputs& valid,
-                                                     const KinematicState& state) const {
-  if (valid.task != Task::kDig || state.status != ReachStatus::kOk) {
-    return Eigen::Vector3d::Zero();
-  }
-  const KinematicState then = kinematics_.state(strokes_then(profile_, memory_.servo));
+DriveVector ExcavatorController::dig_velocity(const ValidInputs& valid,
+                                              const KinematicState& state) const {
+  const DriveVector strokes_m = strokes_then(profile_, memory_.servo);
+  const KinematicState then = kinematics_.state(strokes_m.head<kAxisCount>());
   const KinematicState& there = then.status == ReachStatus::kOk ? then : state;
-  return field_.wanted(there, valid.speed_override_ratio);
+  DriveVector wanted_mps = DriveVector::Zero();
+  wanted_mps.head<kAxisCount>() = field_.wanted(there, valid.speed_override_ratio);
+  return wanted_mps;
+}
+
+DriveVector ExcavatorController::wanted_velocity(const ValidInputs& valid,
+                                                 const KinematicState& state) const {
+  const bool digs = valid.task == Task::kDig && state.status == ReachStatus::kOk;
+  return digs ? dig_velocity(valid, state) : DriveVector::Zero();
 }
 
 ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs now_us) {
@@ -122,10 +144,10 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   const WatchResult seen = judge(inputs, time.period_s, now_us);
   const ValidInputs& valid = seen.inputs;
   observe(valid, time.elapsed_s);
-  const KinematicState state = kinematics_.state(valid.strokes_m);
-  const Eigen::Vector3d wanted = wanted_velocity(valid, state);
+  const KinematicState state = kinematics_.state(valid.strokes_m.head<kAxisCount>());
+  const DriveVector wanted = wanted_velocity(valid, state);
   const double last_lambda = memory_.lambda.value();
-  const Eigen::Vector3d corrected =
+  const DriveVector corrected =
       corrected_velocity(profile_, wanted, memory_.servo, last_lambda, valid.speed_override_ratio);
   const VelocityCap cap = stroke_end_cap(profile_, valid.strokes_m, corrected);
   const McvSolution solution = steady_lambda(
@@ -136,9 +158,7 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
                    valid, spools_centred(profile_, valid), inputs.link.stop_requested);
   ModeState mode = next_mode(stored_mode(memory_.mode), request);
   const GateResult command = gate(profile_, memory_.gate, mode.mode == EcuMode::kActive,
-                                  {solution.point.spool_m[kBoom], solution.point.spool_m[kArm],
-                                   solution.point.spool_m[kBucket]},
-                                  time.period_s);
+                                  drive_spools_m(solution), time.period_s);
   if (command.fault != Fault::kNone) {
     mode = {EcuMode::kFault, command.fault};
   }
@@ -153,6 +173,9 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   if (mode.mode == EcuMode::kActive) {
     describe_motion(wanted, path_error_m(field_.path(), state.tip), cap, solution, valid.degraded,
                     outputs.status);
+    if (profile_.has_swing()) {
+      outputs.status.swing_wanted_radps = wanted[kSwing] / profile_.swing.lever_m;
+    }
   }
   memory_.mode = mode;
   memory_.gate = command.state;

@@ -41,8 +41,8 @@ class ExcavatorController {
     LastCycle cycle;
     LoadState load;
     ServoState servo;
-    /// lambda V_L^d, without corrections: what the servo expects of the cylinders.
-    Eigen::Vector3d expected_mps = Eigen::Vector3d::Zero();
+    /// lambda V_L^d, without corrections: what the servo expects of the drives.
+    DriveVector expected_mps = DriveVector::Zero();
     CycleState time;
     PilotState pilot;
   };
@@ -53,9 +53,12 @@ class ExcavatorController {
   [[nodiscard]] WatchResult judge(const ExcavatorInputs& inputs, double period_s, TimeUs now_us);
   /// Takes in what this cycle's sensors say of the last cycle's command.
   void observe(const ValidInputs& valid, double period_s);
+  /// V_L^d of the task that is chosen, the swing's at its lever.
+  [[nodiscard]] DriveVector wanted_velocity(const ValidInputs& valid,
+                                            const KinematicState& state) const;
   /// What the field wants where the cylinders will be when a command of now takes effect.
-  [[nodiscard]] Eigen::Vector3d wanted_velocity(const ValidInputs& valid,
-                                                const KinematicState& state) const;
+  [[nodiscard]] DriveVector dig_velocity(const ValidInputs& valid,
+                                         const KinematicState& state) const;
 
   ExcavatorProfile profile_;
   ExcavatorKinematics kinematics_;

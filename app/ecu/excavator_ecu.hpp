@@ -16,6 +16,7 @@ struct ExcavatorKind {
   using Receiver = ExcavatorReceiver;
   using Transmitter = ExcavatorTransmitter;
   using MemoryAccess = ControllerMemoryAccess;
+  [[nodiscard]] static BusParts parts(const Profile& profile) { return {profile.has_swing()}; }
   [[nodiscard]] static bool is_command(std::uint32_t id);
 };
 

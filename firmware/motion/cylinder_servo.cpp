@@ -19,16 +19,16 @@ double newest_share(double response_s, double period_s) {
 }
 
 /// What was asked for so many cycles ago.
-const Eigen::Vector3d& asked_before(const ServoState& servo, int cycles) {
+const DriveVector& asked_before(const ServoState& servo, int cycles) {
   const int place = servo.newest - cycles;
   return servo
       .asked_mps[static_cast<unsigned>(place < 0 ? place + ServoState::kMostDelayed : place)];
 }
 
 /// The ring's places that are not due yet, and what two equal lags, left alone, still give.
-Eigen::Vector3d under_way(const ControlProfile& control, const ServoState& servo) {
+DriveVector under_way(const ControlProfile& control, const ServoState& servo) {
   const double newest = newest_share(control.response_s, ServoState::kCycle_s);
-  Eigen::Vector3d sum_mps = (1.0 - newest) / newest * (servo.lag_mps[0] + servo.lag_mps[1]);
+  DriveVector sum_mps = (1.0 - newest) / newest * (servo.lag_mps[0] + servo.lag_mps[1]);
   for (int n = 0; n < dead_cycles(control.dead_time_s); ++n) {
     sum_mps += asked_before(servo, n);
   }
@@ -39,8 +39,8 @@ Eigen::Vector3d under_way(const ControlProfile& control, const ServoState& servo
 void repay(const ControlProfile& control, ServoState& next, double period_s) {
   const double turn = kTwoPi * control.servo_frequency_hz * period_s;
   const double slowed = 1.0 + turn * (2.0 * control.servo_damping + turn);
-  const Eigen::Vector3d pull_m = turn * turn * (next.owed_m - next.repay_m);
-  const Eigen::Vector3d step_m = (period_s * next.repay_mps + pull_m) / slowed;
+  const DriveVector pull_m = turn * turn * (next.owed_m - next.repay_m);
+  const DriveVector step_m = (period_s * next.repay_mps + pull_m) / slowed;
   next.repay_m += step_m;
   if (period_s > 0.0) {
     next.repay_mps = step_m / period_s;
@@ -49,15 +49,14 @@ void repay(const ControlProfile& control, ServoState& next, double period_s) {
 
 }  // namespace
 
-ServoState servo_at_rest(const Eigen::Vector3d& strokes_m) {
+ServoState servo_at_rest(const DriveVector& strokes_m) {
   ServoState servo;
   servo.strokes_m = strokes_m;
   return servo;
 }
 
 ServoState next_servo(const ControlProfile& control, const ServoState& last,
-                      const Eigen::Vector3d& asked_mps, const Eigen::Vector3d& strokes_m,
-                      double period_s) {
+                      const DriveVector& asked_mps, const DriveVector& strokes_m, double period_s) {
   ServoState next = last;
   next.newest = (last.newest + 1) % ServoState::kMostDelayed;
   next.asked_mps[static_cast<unsigned>(next.newest)] = asked_mps;
@@ -65,7 +64,7 @@ ServoState next_servo(const ControlProfile& control, const ServoState& last,
   next.lag_mps[0] +=
       newest * (asked_before(next, dead_cycles(control.dead_time_s)) - last.lag_mps[0]);
   next.lag_mps[1] += newest * (next.lag_mps[0] - last.lag_mps[1]);
-  const Eigen::Vector3d expected_m = period_s * next.lag_mps[1];
+  const DriveVector expected_m = period_s * next.lag_mps[1];
   next.under_way_m = under_way(control, next);
   next.owed_m += expected_m - (strokes_m - last.strokes_m);
   next.owed_m = next.owed_m.cwiseMax(-control.servo_most_m).cwiseMin(control.servo_most_m);
@@ -74,40 +73,43 @@ ServoState next_servo(const ControlProfile& control, const ServoState& last,
   return next;
 }
 
-Eigen::Vector3d strokes_then(const ExcavatorProfile& profile, const ServoState& servo) {
-  Eigen::Vector3d then = servo.strokes_m + servo.under_way_m;
-  for (int i = 0; i < kAxisCount; ++i) {
-    const double most_m = profile.geometry.cylinder[static_cast<unsigned>(i)].stroke_m;
-    then[i] = std::clamp(then[i], 0.0, most_m);
+DriveVector strokes_then(const ExcavatorProfile& profile, const ServoState& servo) {
+  DriveVector then = servo.strokes_m + servo.under_way_m;
+  for (int i = 0; i < profile.drive_count; ++i) {
+    then[i] = std::clamp(then[i], profile.least_travel_m(i), profile.most_travel_m(i));
   }
   return then;
 }
 
 ServoState servo_released(const ControlProfile& control, const ServoState& last,
-                          const Eigen::Vector3d& strokes_m, double period_s) {
-  ServoState next = next_servo(control, last, Eigen::Vector3d::Zero(), strokes_m, period_s);
+                          const DriveVector& strokes_m, double period_s) {
+  ServoState next = next_servo(control, last, DriveVector::Zero(), strokes_m, period_s);
   next.owed_m.setZero();
   next.repay_m.setZero();
   next.repay_mps.setZero();
   return next;
 }
 
-Eigen::Vector3d corrected_velocity(const ExcavatorProfile& profile,
-                                   const Eigen::Vector3d& wanted_mps, const ServoState& servo,
-                                   double last_lambda, double speed_override_ratio) {
+DriveVector corrected_velocity(const ExcavatorProfile& profile, const DriveVector& wanted_mps,
+                               const ServoState& servo, double last_lambda,
+                               double speed_override_ratio) {
   if (wanted_mps.isZero(0.0)) {
     return wanted_mps;
   }
   const ControlProfile& control = profile.control;
-  const double gain_ps = speed_override_ratio * control.servo_gain_ps /
-                         std::max(last_lambda, control.servo_least_lambda);
-  Eigen::Vector3d corrected = wanted_mps + gain_ps * servo.repay_m;
-  for (int i = 0; i < kAxisCount; ++i) {
-    const double most_m = profile.geometry.cylinder[static_cast<unsigned>(i)].stroke_m;
-    const double in_mps = -control.stroke_end_gain_ps * servo.strokes_m[i];
-    const double out_mps = control.stroke_end_gain_ps * (most_m - servo.strokes_m[i]);
-    corrected[i] =
-        std::clamp(corrected[i], std::min(in_mps, wanted_mps[i]), std::max(out_mps, wanted_mps[i]));
+  const double raised = std::max(last_lambda, control.servo_least_lambda);
+  DriveVector corrected = wanted_mps;
+  for (int i = 0; i < profile.drive_count; ++i) {
+    if (i == kSwing && wanted_mps[i] == 0.0) {
+      continue;
+    }
+    const double servo_gain_ps = i == kSwing ? control.swing_servo_gain_ps : control.servo_gain_ps;
+    const double gain_ps = speed_override_ratio * servo_gain_ps / raised;
+    const double stroke_m = servo.strokes_m[i];
+    const double in_mps = -control.stroke_end_gain_ps * (stroke_m - profile.least_travel_m(i));
+    const double out_mps = control.stroke_end_gain_ps * (profile.most_travel_m(i) - stroke_m);
+    corrected[i] = std::clamp(wanted_mps[i] + gain_ps * servo.repay_m[i],
+                              std::min(in_mps, wanted_mps[i]), std::max(out_mps, wanted_mps[i]));
   }
   return corrected;
 }
