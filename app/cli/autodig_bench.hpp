@@ -12,7 +12,7 @@ namespace graben::cli {
 struct AutodigBench : MachineBench<plant::PlantNode, plant::OperatorNode, ecu::ExcavatorEcu> {
   AutodigBench(const machines::ExcavatorMachine& machine, const TaskBook& book,
                const DriveVector& start, double override_ratio)
-      : MachineBench(ecu::ExcavatorSetup{machine.profile, book}, machine.hash, Task::kProgram,
+      : MachineBench(ExcavatorSetup(machine.profile, book), machine.hash, Task::kProgram,
                      override_ratio, machine.plant,
                      plant::ExcavatorPlant::AxisArray{start[kBoom], start[kArm], start[kBucket]},
                      start[kSwing]) {}

@@ -62,9 +62,9 @@ json step_of(const ExcavatorProfile& profile, const TaskProgram& program,
     const DriveVector drives = step.drives.from + share * step.drives.change;
     return kinematics.teeth_from_joints(kinematics.joints_from_drive(drives).value).position_m;
   };
-  return {{"name", step_words(figures.kind)},  {"kind", step.straight ? "line" : "drives"},
-          {"from_s", figures.from_s},          {"until_s", figures.until_s},
-          {"from_m", list_of(at(0.0))},        {"to_m", list_of(at(1.0))}};
+  return {{"name", step_words(figures.kind)}, {"kind", step.straight ? "line" : "drives"},
+          {"from_s", figures.from_s},         {"until_s", figures.until_s},
+          {"from_m", list_of(at(0.0))},       {"to_m", list_of(at(1.0))}};
 }
 
 std::string fence_text(const Fence& fence) {
@@ -175,9 +175,9 @@ std::string autodig_table(const AutodigSummary& summary) {
     const auto of_line = [&](double metres) {
       return step.straight ? mm(metres) : std::string("-");
     };
-    table += fmt::format("{:<10}{:>8.2f} {:>8.2f} {:>10.2f} {:>18} {:>12}\n",
-                         step_words(step.kind), step.from_s, step.until_s, step.planned_s,
-                         of_line(step.max_error_true_m), of_line(step.end_error_true_m));
+    table += fmt::format("{:<10}{:>8.2f} {:>8.2f} {:>10.2f} {:>18} {:>12}\n", step_words(step.kind),
+                         step.from_s, step.until_s, step.planned_s, of_line(step.max_error_true_m),
+                         of_line(step.end_error_true_m));
   }
   table += fmt::format(
       "                                true    measured\n"

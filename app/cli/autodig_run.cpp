@@ -76,8 +76,8 @@ class AutodigRun {
       return true;
     }
     result_.end = AutodigEnd::kNotFinished;
-    return seconds(now_us) > kStart_s + kLongerThanPlanned * options_.rounds *
-                                            planned_s(program_) / options_.speed_override_ratio;
+    return seconds(now_us) > kStart_s + kLongerThanPlanned * options_.rounds * planned_s(program_) /
+                                            options_.speed_override_ratio;
   }
 
   void look(TimeUs now_us, double cycle_us) {

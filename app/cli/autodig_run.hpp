@@ -30,7 +30,7 @@ struct AutodigSample {
 
   double time_s = 0.0;
   TaskProgress progress;
-  double progress_share = 0.0;  ///< Of the step.
+  double progress_share = 0.0;      ///< Of the step.
   std::array<double, 3> teeth_m{};  ///< True, in the ground frame.
   double attitude_rad = 0.0;
   std::array<double, 3> planned_m{kUnknown, kUnknown, kUnknown};
@@ -82,8 +82,8 @@ struct AutodigSummary {
   double max_error_measured_m = 0.0;
   double rmse_error_measured_m = 0.0;
   double end_error_true_m = 0.0;  ///< Largest.
-  double fence_left_m = 0.0;  ///< Least; not a number without fences.
-  double lambda_min = 0.0;    ///< From the first step on.
+  double fence_left_m = 0.0;      ///< Least; not a number without fences.
+  double lambda_min = 0.0;        ///< From the first step on.
   double lambda_mean = 0.0;
   double task_s = 0.0;      ///< From the first step's begin to the last one's end.
   double planned_s = 0.0;   ///< Of all these steps.

@@ -35,6 +35,24 @@ DriveVector under_way(const ControlProfile& control, const ServoState& servo) {
   return ServoState::kCycle_s * sum_mps;
 }
 
+/// What was asked for goes on its way; nothing is owed yet.
+ServoState with_asked(const ControlProfile& control, const ServoState& last,
+                      const DriveVector& asked_mps, double period_s) {
+  ServoState next = last;
+  next.newest = (last.newest + 1) % ServoState::kMostDelayed;
+  next.asked_mps[static_cast<unsigned>(next.newest)] = asked_mps;
+  const double newest = newest_share(control.response_s, period_s);
+  next.lag_mps[0] +=
+      newest * (asked_before(next, dead_cycles(control.dead_time_s)) - last.lag_mps[0]);
+  next.lag_mps[1] += newest * (next.lag_mps[0] - last.lag_mps[1]);
+  next.under_way_m = under_way(control, next);
+  return next;
+}
+
+DriveVector bounded_debt(const ControlProfile& control, const DriveVector& owed_m) {
+  return owed_m.cwiseMax(-control.servo_most_m).cwiseMin(control.servo_most_m);
+}
+
 /// One step of y'' = w^2 (owed - y) - 2 zeta w y', implicit: stable at any period.
 void repay(const ControlProfile& control, ServoState& next, double period_s) {
   const double turn = kTwoPi * control.servo_frequency_hz * period_s;
@@ -57,17 +75,19 @@ ServoState servo_at_rest(const DriveVector& strokes_m) {
 
 ServoState next_servo(const ControlProfile& control, const ServoState& last,
                       const DriveVector& asked_mps, const DriveVector& strokes_m, double period_s) {
-  ServoState next = last;
-  next.newest = (last.newest + 1) % ServoState::kMostDelayed;
-  next.asked_mps[static_cast<unsigned>(next.newest)] = asked_mps;
-  const double newest = newest_share(control.response_s, period_s);
-  next.lag_mps[0] +=
-      newest * (asked_before(next, dead_cycles(control.dead_time_s)) - last.lag_mps[0]);
-  next.lag_mps[1] += newest * (next.lag_mps[0] - last.lag_mps[1]);
+  ServoState next = with_asked(control, last, asked_mps, period_s);
   const DriveVector expected_m = period_s * next.lag_mps[1];
-  next.under_way_m = under_way(control, next);
-  next.owed_m += expected_m - (strokes_m - last.strokes_m);
-  next.owed_m = next.owed_m.cwiseMax(-control.servo_most_m).cwiseMin(control.servo_most_m);
+  next.owed_m = bounded_debt(control, last.owed_m + (expected_m - (strokes_m - last.strokes_m)));
+  next.strokes_m = strokes_m;
+  repay(control, next, period_s);
+  return next;
+}
+
+ServoState next_servo_on_plan(const ControlProfile& control, const ServoState& last,
+                              const DriveVector& asked_mps, const DriveVector& strokes_m,
+                              const DriveVector& planned_m, double period_s) {
+  ServoState next = with_asked(control, last, asked_mps, period_s);
+  next.owed_m = bounded_debt(control, planned_m - next.under_way_m - strokes_m);
   next.strokes_m = strokes_m;
   repay(control, next, period_s);
   return next;
@@ -92,15 +112,15 @@ ServoState servo_released(const ControlProfile& control, const ServoState& last,
 
 DriveVector corrected_velocity(const ExcavatorProfile& profile, const DriveVector& wanted_mps,
                                const ServoState& servo, double last_lambda,
-                               double speed_override_ratio) {
-  if (wanted_mps.isZero(0.0)) {
+                               double speed_override_ratio, bool holds) {
+  if (!holds && wanted_mps.isZero(0.0)) {
     return wanted_mps;
   }
   const ControlProfile& control = profile.control;
   const double raised = std::max(last_lambda, control.servo_least_lambda);
   DriveVector corrected = wanted_mps;
   for (int i = 0; i < profile.drive_count; ++i) {
-    if (i == kSwing && wanted_mps[i] == 0.0) {
+    if (i == kSwing && !holds && wanted_mps[i] == 0.0) {
       continue;
     }
     const double servo_gain_ps = i == kSwing ? control.swing_servo_gain_ps : control.servo_gain_ps;

@@ -46,6 +46,13 @@ struct ServoState {
                                     const DriveVector& asked_mps, const DriveVector& strokes_m,
                                     double period_s);
 
+/// The same where a plan says what the drives owe: `planned_m` is the travel that it has asked for
+/// until now. No sum of errors, so nothing is forgotten and nothing adds up over a long task.
+[[nodiscard]] ServoState next_servo_on_plan(const ControlProfile& control, const ServoState& last,
+                                            const DriveVector& asked_mps,
+                                            const DriveVector& strokes_m,
+                                            const DriveVector& planned_m, double period_s);
+
 /// Where the cylinders will be when what is under way has arrived, within their strokes: where the
 /// field has to be asked, so that neither lag nor dead time carries the bucket past a bend.
 [[nodiscard]] DriveVector strokes_then(const ExcavatorProfile& profile, const ServoState& servo);
@@ -60,8 +67,10 @@ struct ServoState {
 /// closed, whatever it owes: its motor holds it. All that is asked of the valve scales with lambda;
 /// so that this does not turn the direction, what is owed is raised as lambda falls, down to
 /// `servo_least_lambda`. The swing has a gain of its own, `swing_servo_gain_ps`.
+/// Where `holds`, drives that are wanted to stand are corrected too.
 [[nodiscard]] DriveVector corrected_velocity(const ExcavatorProfile& profile,
                                              const DriveVector& wanted_mps, const ServoState& servo,
-                                             double last_lambda, double speed_override_ratio);
+                                             double last_lambda, double speed_override_ratio,
+                                             bool holds = false);
 
 }  // namespace graben

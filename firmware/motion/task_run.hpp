@@ -50,10 +50,14 @@ inline constexpr double kApproachPace = 0.3;
 [[nodiscard]] TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
                                const TaskState& state);
 
+/// What the teeth's error leaves of the plan's speed, as the digging field does along its path:
+/// half at control.slow_error_m.
+[[nodiscard]] double task_pace(const ControlProfile& control, double error_m);
+
 /// One cycle on. `advance_s` is what the plan may go on by: lambda and every other factor on the
 /// velocity, times the period. It goes on by less where the teeth are off their planned place by
-/// `error_m`: half at control.slow_error_m, as the digging field does along its path. At the end of
-/// a step it waits until they are within kSettled_m, or for kSettleMost_s.
+/// `error_m`, see task_pace. At the end of a step it waits until they are within kSettled_m, or for
+/// kSettleMost_s.
 [[nodiscard]] TaskState task_advance(const ControlProfile& control, const TaskProgram& program,
                                      const TaskState& state, double advance_s, double period_s,
                                      double error_m);
