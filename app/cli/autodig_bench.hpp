@@ -12,10 +12,10 @@ namespace graben::cli {
 struct AutodigBench : MachineBench<plant::PlantNode, plant::OperatorNode, ecu::ExcavatorEcu> {
   AutodigBench(const machines::ExcavatorMachine& machine, const TaskBook& book,
                const DriveVector& start, double override_ratio)
-      : MachineBench(ExcavatorSetup(machine.profile, book), machine.hash, Task::kProgram,
-                     override_ratio, machine.plant,
-                     plant::ExcavatorPlant::AxisArray{start[kBoom], start[kArm], start[kBucket]},
-                     start[kSwing]) {}
+      : MachineBench(
+            ExcavatorSetup(machine.profile, book), machine.hash, Task::kProgram, override_ratio,
+            machine.plant,
+            plant::PlantStart({start[kBoom], start[kArm], start[kBucket]}, start[kSwing])) {}
 };
 
 }  // namespace graben::cli

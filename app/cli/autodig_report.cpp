@@ -8,6 +8,7 @@
 #include "app/cli/json_file.hpp"
 #include "app/cli/report/report.hpp"
 #include "app/cli/report_parts.hpp"
+#include "app/machines/task_words.hpp"
 
 namespace graben::cli {
 namespace {
@@ -62,9 +63,12 @@ json step_of(const ExcavatorProfile& profile, const TaskProgram& program,
     const DriveVector drives = step.drives.from + share * step.drives.change;
     return kinematics.teeth_from_joints(kinematics.joints_from_drive(drives).value).position_m;
   };
-  return {{"name", step_words(figures.kind)}, {"kind", step.straight ? "line" : "drives"},
-          {"from_s", figures.from_s},         {"until_s", figures.until_s},
-          {"from_m", list_of(at(0.0))},       {"to_m", list_of(at(1.0))}};
+  return {{"name", machines::step_name(figures.kind)},
+          {"kind", step.straight ? "line" : "drives"},
+          {"from_s", figures.from_s},
+          {"until_s", figures.until_s},
+          {"from_m", list_of(at(0.0))},
+          {"to_m", list_of(at(1.0))}};
 }
 
 std::string fence_text(const Fence& fence) {
@@ -154,7 +158,7 @@ void write_autodig_summary(const std::filesystem::path& file, const AutodigSumma
   for (const StepFigures& step : summary.steps) {
     figures["steps"].push_back({{"step", step.step},
                                 {"round", step.round},
-                                {"kind", step_words(step.kind)},
+                                {"kind", machines::step_name(step.kind)},
                                 {"straight", step.straight},
                                 {"from_s", step.from_s},
                                 {"until_s", step.until_s},
@@ -175,9 +179,9 @@ std::string autodig_table(const AutodigSummary& summary) {
     const auto of_line = [&](double metres) {
       return step.straight ? mm(metres) : std::string("-");
     };
-    table += fmt::format("{:<10}{:>8.2f} {:>8.2f} {:>10.2f} {:>18} {:>12}\n", step_words(step.kind),
-                         step.from_s, step.until_s, step.planned_s, of_line(step.max_error_true_m),
-                         of_line(step.end_error_true_m));
+    table += fmt::format("{:<10}{:>8.2f} {:>8.2f} {:>10.2f} {:>18} {:>12}\n",
+                         machines::step_name(step.kind), step.from_s, step.until_s, step.planned_s,
+                         of_line(step.max_error_true_m), of_line(step.end_error_true_m));
   }
   table += fmt::format(
       "                                true    measured\n"

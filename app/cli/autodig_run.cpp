@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "app/cli/autodig_bench.hpp"
+#include "app/machines/task_words.hpp"
 #include "firmware/motion/task_run.hpp"
 
 namespace graben::cli {
@@ -43,7 +45,7 @@ class AutodigRun {
         [&](TimeUs now_us, double cycle_us) {
           look(now_us, cycle_us);
           const TaskProgress& at = result_.samples.back().progress;
-          show(share_done(at), step_words(at.kind));
+          show(share_done(at), machines::step_name(at.kind));
         });
     result_.wall_s = figures.wall_s;
     result_.rejected_frames = figures.rejected_frames;
@@ -207,28 +209,6 @@ class AutodigRun {
 AutodigResult run_autodig(const machines::ExcavatorMachine& machine, const TaskProgram& program,
                           const AutodigOptions& options, const Progress& progress) {
   return AutodigRun(machine, program, options).run(progress);
-}
-
-const char* step_words(StepKind kind) {
-  switch (kind) {
-    case StepKind::kNone:
-      return "waiting";
-    case StepKind::kApproach:
-      return "approach";
-    case StepKind::kDig:
-      return "dig";
-    case StepKind::kLift:
-      return "lift";
-    case StepKind::kSwing:
-      return "swing";
-    case StepKind::kDump:
-      return "dump";
-    case StepKind::kReturnToDig:
-      return "return";
-    case StepKind::kDone:
-      return "done";
-  }
-  return "unknown";
 }
 
 }  // namespace graben::cli

@@ -13,7 +13,7 @@
 #include "app/cli/bench_run.hpp"
 #include "app/cli/limit_words.hpp"
 #include "app/machines/machine_file.hpp"
-#include "app/machines/task_file.hpp"
+#include "firmware/motion/task_program.hpp"
 
 namespace graben::cli {
 
@@ -103,8 +103,5 @@ struct AutodigSummary {
                                         const Progress& progress);
 
 [[nodiscard]] AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result);
-
-/// "dig", "lift", ...
-[[nodiscard]] const char* step_words(StepKind kind);
 
 }  // namespace graben::cli

@@ -79,7 +79,9 @@ nlohmann::ordered_json run_excavator(const Options& options, const std::filesyst
   }
   const machines::ExcavatorMachine machine =
       arranged(machines::load_excavator(profile), options.scenario);
-  return summary_of(run_plant(machine, run, usual_run(machine, options.scenario).start_strokes_m));
+  const Eigen::Vector3d strokes_m = usual_run(machine, options.scenario).start_strokes_m;
+  return summary_of(run_plant(
+      machine, run, plant::ExcavatorPlant::AxisArray{strokes_m[0], strokes_m[1], strokes_m[2]}));
 }
 
 nlohmann::ordered_json run_dozer(const Options& options, const std::filesystem::path& profile,

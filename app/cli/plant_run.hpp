@@ -5,6 +5,7 @@
 
 #include "app/cli/plant_bus.hpp"
 #include "app/machines/machine_file.hpp"
+#include "app/plant/plant_node.hpp"
 
 namespace graben::cli {
 
@@ -25,6 +26,6 @@ struct PlantRunResult {
 /// Throws std::runtime_error where the interface is not there.
 [[nodiscard]] PlantRunResult run_plant(const machines::ExcavatorMachine& machine,
                                        const PlantRunOptions& options,
-                                       const Eigen::Vector3d& start_strokes_m);
+                                       const plant::PlantStart& start);
 
 }  // namespace graben::cli

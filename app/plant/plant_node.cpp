@@ -25,9 +25,9 @@ bool all_valid(const bus::SpoolCommand& command) {
 
 }  // namespace
 
-PlantNode::PlantNode(const PlantProfile& profile, const ExcavatorPlant::AxisArray& start_strokes_m,
-                     CanPort& port, std::uint32_t profile_hash, double start_swing_rad)
-    : plant_(profile, start_strokes_m, start_swing_rad),
+PlantNode::PlantNode(const PlantProfile& profile, const PlantStart& start, CanPort& port,
+                     std::uint32_t profile_hash)
+    : plant_(profile, start.strokes_m, start.swing_rad),
       sensors_(profile),
       port_(port),
       sender_(port, bus::kMessages),

@@ -13,6 +13,16 @@
 
 namespace graben::plant {
 
+/// Where a machine starts.
+struct PlantStart {
+  // NOLINTNEXTLINE(google-explicit-constructor): it looks along x unless told.
+  PlantStart(const ExcavatorPlant::AxisArray& strokes, double swing = 0.0)
+      : strokes_m(strokes), swing_rad(swing) {}
+
+  ExcavatorPlant::AxisArray strokes_m;
+  double swing_rad;
+};
+
 /// The bus port belongs to the caller, who opens it. Without a command for `kCommandTimeoutUs`,
 /// with enable off or unusable, or with an unusable duty every spool is sent to neutral, which
 /// takes its dead time. Once a command has been missing for so long, enable has to be Off before it
@@ -27,8 +37,8 @@ class PlantNode {
  public:
   static constexpr TimeUs kCycleUs = 10 * kMillisecondUs;
 
-  PlantNode(const PlantProfile& profile, const ExcavatorPlant::AxisArray& start_strokes_m,
-            CanPort& port, std::uint32_t profile_hash, double start_swing_rad = 0.0);
+  PlantNode(const PlantProfile& profile, const PlantStart& start, CanPort& port,
+            std::uint32_t profile_hash);
 
   /// To be called every 10 ms: takes the commands that are pending, runs the plant on by 10 ms,
   /// then reports its state: strokes, swing and pressures each time, pumps and engine every second

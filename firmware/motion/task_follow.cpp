@@ -1,5 +1,6 @@
 #include "firmware/motion/task_follow.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace graben {

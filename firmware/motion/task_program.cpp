@@ -58,7 +58,7 @@ class Planning {
 
  private:
   [[nodiscard]] bool usable_request() const;
-  void raise_digging();
+  void raise_digging(bool closed);
   [[nodiscard]] bool plan_step(int number);
   [[nodiscard]] bool plan_straight(const StepRequest& asked, TaskStep& step, StepNote& note,
                                    int number);
@@ -94,8 +94,9 @@ bool Planning::usable_request() const {
                      [](const StepRequest& step) { return usable(step); });
 }
 
-/// A line between two ends that keep the clearance keeps it all along.
-void Planning::raise_digging() {
+/// A line between two ends that keep the clearance keeps it all along. What is `closed` stays so:
+/// one pose, raised as the end of the one step or as the beginning of the other.
+void Planning::raise_digging(bool closed) {
   std::array<double, kStepMost + 1> raised_m{};
   for (int i = 0; i < request_.step_count; ++i) {
     const StepRequest& step = request_.step[static_cast<unsigned>(i)];
@@ -110,7 +111,14 @@ void Planning::raise_digging() {
       raised_m[static_cast<unsigned>(end)] += up_m;
     }
   }
-  for (unsigned i = 0; i < static_cast<unsigned>(request_.step_count); ++i) {
+  const auto last = static_cast<unsigned>(request_.step_count);
+  if (closed) {
+    TeethPose& end = pose_[last];
+    end.position_m.z() = std::max(end.position_m.z(), pose_[0].position_m.z());
+    pose_[0] = end;
+    raised_m[0] = raised_m[last] = std::max(raised_m[0], raised_m[last]);
+  }
+  for (unsigned i = 0; i < last; ++i) {
     result_.note[i].raised_m = std::max(raised_m[i], raised_m[i + 1]);
   }
 }
@@ -188,14 +196,8 @@ ProgramResult Planning::run() {
   TaskProgram& program = result_.program;
   program.fences = request_.fences;
   if (request_.has_design) {
-    raise_digging();
+    raise_digging(closed);
     program.fences.fence[static_cast<unsigned>(program.fences.count++)] = request_.design.fence();
-  }
-  if (closed) {
-    // Raised as the end of the one step or as the beginning of the other, it stays one pose.
-    TeethPose& end = pose(request_.step_count);
-    end.position_m.z() = std::max(end.position_m.z(), pose(0).position_m.z());
-    pose(0) = end;
   }
   const DriveResult start = kinematics_.drive_from_teeth(pose(0));
   if (start.blind.kind != BlindKind::kNone) {
