@@ -94,16 +94,10 @@ TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
                        : aim_of_plan(kinematics, step.kind, step.drives, state.time_s);
 }
 
-<<<<<<< HEAD
-double task_pace(const ControlProfile& control, double error_m) {
-  const double off = error_m / control.slow_error_m;
-  return 1.0 / (1.0 + off * off);
-=======
 double task_slowing(const ControlProfile& control, double error_m) {
   const double off = error_m / control.slow_error_m;
   const double slowed = 1.0 / (1.0 + off * off);
   return slowed > 0.0 ? slowed : 0.0;
->>>>>>> tasks
 }
 
 TaskState task_advance(const ControlProfile& control, const TaskProgram& program,
@@ -113,11 +107,7 @@ TaskState task_advance(const ControlProfile& control, const TaskProgram& program
   }
   TaskState next = state;
   const double end_s = duration_s(program, state);
-<<<<<<< HEAD
-  const double by_s = advance_s * task_pace(control, error_m);
-=======
   const double by_s = task_slowing(control, error_m) * advance_s;
->>>>>>> tasks
   // Written so that NaN stays where it is.
   next.time_s += by_s > 0.0 ? by_s : 0.0;
   if (next.time_s < end_s) {

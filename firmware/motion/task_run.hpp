@@ -51,16 +51,6 @@ inline constexpr double kApproachPace = 0.3;
 [[nodiscard]] TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
                                const TaskState& state);
 
-<<<<<<< HEAD
-/// What the teeth's error leaves of the plan's speed, as the digging field does along its path:
-/// half at control.slow_error_m.
-[[nodiscard]] double task_pace(const ControlProfile& control, double error_m);
-
-/// One cycle on. `advance_s` is what the plan may go on by: lambda and every other factor on the
-/// velocity, times the period. It goes on by less where the teeth are off their planned place by
-/// `error_m`, see task_pace. At the end of a step it waits until they are within kSettled_m, or for
-/// kSettleMost_s.
-=======
 /// How much slower the plan goes on with the teeth off their planned place by `error_m`: half at
 /// control.slow_error_m, as the digging field does along its path; 0 for NaN. The aim's velocity
 /// has to be scaled by the same figure, of the same cycle's error, before what is owed is added:
@@ -71,7 +61,6 @@ inline constexpr double kApproachPace = 0.3;
 /// One cycle on. `advance_s` is what the plan may go on by: lambda and every other factor on the
 /// velocity but task_slowing, which is taken from `error_m` here, times the period. At the end of a
 /// step it waits until the teeth are within kSettled_m, or for kSettleMost_s.
->>>>>>> tasks
 [[nodiscard]] TaskState task_advance(const ControlProfile& control, const TaskProgram& program,
                                      const TaskState& state, double advance_s, double period_s,
                                      double error_m);
