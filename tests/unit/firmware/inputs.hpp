@@ -20,6 +20,7 @@ inline ExcavatorInputs complete_inputs(TimeUs now_us) {
     inputs.axis[i].rod_pressure_pa = fresh(3e6, now_us);
     inputs.axis[i].spool_ratio = fresh(0.0, now_us);
   }
+  inputs.swing = {fresh(0.0, now_us), fresh(4e6, now_us), fresh(3e6, now_us), fresh(0.0, now_us)};
   for (Signal<double>& swash : inputs.swash_ratio) {
     swash = fresh(0.643, now_us);
   }
@@ -41,6 +42,7 @@ inline ExcavatorInputs following_inputs(const ExcavatorOutputs& told, TimeUs now
   for (unsigned i = 0; i < kAxisCount; ++i) {
     inputs.axis[i].spool_ratio.value = told.duty_ratio[i];
   }
+  inputs.swing.spool_ratio.value = told.duty_ratio[3];
   return inputs;
 }
 
