@@ -35,6 +35,15 @@ inline ExcavatorInputs complete_inputs(TimeUs now_us) {
   return inputs;
 }
 
+/// The same machine's inputs as the 12 t machine's: within its strokes, its pump at its speed.
+inline void make_12t(ExcavatorInputs& inputs) {
+  const double strokes_m[] = {0.475, 0.565, 0.4375};
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    inputs.axis[i].stroke_m.value = strokes_m[i];
+  }
+  inputs.engine_speed_radps.value = 151.8;
+}
+
 /// The same from a valve that has done what it was told.
 inline ExcavatorInputs following_inputs(const ExcavatorOutputs& told, TimeUs now_us) {
   ExcavatorInputs inputs = complete_inputs(now_us);

@@ -170,17 +170,9 @@ void a_plan_asks_no_more_than_the_motor_is_fed(void**) {
   assert_near(drive_limits(starved).speed_in[kSwing], 1.6665e-3 / 1.2e-3, 1e-9);
 }
 
-/// The 12 t machine at rest within its strokes, its pump at its rated speed.
-void of_12t(ExcavatorInputs& inputs) {
-  for (unsigned i = 0; i < kAxisCount; ++i) {
-    inputs.axis[i].stroke_m.value = half_out()[i];
-  }
-  inputs.engine_speed_radps.value = profile().pump[0].rated_speed_radps;
-}
-
 /// The machine in motion, digging; its swing stands.
 struct Digging : test::Running {
-  Digging() : Running(profile(), of_12t) {
+  Digging() : Running(profile(), test::make_12t) {
     assert_int_equal(outputs.status.mode, EcuMode::kActive);
     assert_true(outputs.enable);
   }
@@ -248,7 +240,7 @@ void a_swing_that_turns_by_itself_is_neutral(void**) {
 void a_task_that_is_none_of_ours_is_refused(void**) {
   for (const bool has_swing : {true, false}) {
     const auto running = [has_swing] {
-      return has_swing ? test::Running(profile(), of_12t) : test::Running();
+      return has_swing ? test::Running(profile(), test::make_12t) : test::Running();
     };
     for (const Task task : {Task::kProgram, Task::kGrade}) {
       test::Running moving = running();
