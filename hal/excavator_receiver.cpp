@@ -25,6 +25,9 @@ struct Store {
   static constexpr bool is_ours(const Message&) {
     return true;
   }
+  static constexpr bool is_ours(const bus::OperatorCommand& message) {
+    return message.task.value != BusTask::kGrade;
+  }
   template <class Message>
   static constexpr BusPart part(const Message&) {
     return nullptr;
