@@ -25,7 +25,8 @@ const ExcavatorMachine& nominal() {
 /// Every parameter that a draw may change, in a fixed order.
 std::vector<double> parameters(const ExcavatorProfile& profile) {
   std::vector<double> values;
-  for (const SpoolProfile& spool : profile.valve.spool) {
+  for (unsigned i = 0; i < static_cast<unsigned>(profile.drive_count); ++i) {
+    const SpoolProfile& spool = profile.valve.spool[i];
     values.insert(values.end(), {spool.extend_in_m2, spool.extend_out_m2, spool.retract_in_m2,
                                  spool.retract_out_m2, spool.bypass_open, spool.bypass_closed,
                                  spool.c_drain, spool.c_check});
