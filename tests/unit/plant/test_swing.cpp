@@ -305,6 +305,14 @@ void without_the_drive_the_swing_is_held(void**) {
   run(told, {0.6, -0.5, 0.4, 1.0}, 2 * kSecondUs);
   assert_true(plain.strokes_m() == told.strokes_m());
   assert_true(plain.pump_pressures_pa() == told.pump_pressures_pa());
+  // What stands where its section would be is not looked at, not even as a port of a pump's line.
+  PlantProfile profile = machine_22t();
+  profile.machine.valve.spool[kSwing] = profile.machine.valve.spool[kArm];
+  profile.machine.valve.spool[kSwing].pump = 1;
+  ExcavatorPlant other(profile, {0.7, 0.7, 0.6}, 0.4);
+  run(other, {0.6, -0.5, 0.4, 1.0}, 2 * kSecondUs);
+  assert_true(plain.strokes_m() == other.strokes_m());
+  assert_true(plain.pump_pressures_pa() == other.pump_pressures_pa());
   assert_near(told.swing_rad(), 0.4, 0.0);
   assert_near(told.swing_rate_radps() + told.swing_spool_ratio() + told.swing_inertia_kgm2(), 0.0,
               0.0);
