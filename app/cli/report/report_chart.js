@@ -16,12 +16,12 @@ const reportChart = (() => {
   const colour = (name) =>
     getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
-  /// What is seen of a stretch, in pixels; null where nothing is.
+  /// What is seen of a stretch, in pixels; less than nothing where it is out of sight.
   function seen(chart, {from, until}) {
     const {left, width} = chart.bbox;
     const first = Math.max(chart.valToPos(from, 'x', true), left);
     const last = Math.min(chart.valToPos(until, 'x', true), left + width);
-    return last >= first ? {from: first, width: last - first} : null;
+    return {from: first, width: last - first};
   }
 
   /// Lets `draw` paint inside the plotting area only, from stretch to stretch in pixels.
@@ -68,7 +68,7 @@ const reportChart = (() => {
     ctx.textAlign = 'center';
     for (const stage of stages) {
       const at = seen(chart, stage);
-      const words = at && [`${stage.number} ${stage.name}`, String(stage.number)]
+      const words = [`${stage.number} ${stage.name}`, String(stage.number)]
           .find((text) => ctx.measureText(text).width + STAGE_GAP_PX * ratio <= at.width);
       if (words) ctx.fillText(words, at.from + at.width / 2, bbox.top - STAGE_GAP_PX * ratio);
     }

@@ -187,10 +187,13 @@ test('faults of the steps and fences are named, and the rest stays', () => {
     [/“steps”, entry 3, “from_s”: "0" is no number/, (run) => { run.steps[2].from_s = '0'; }],
     [/“steps”, entry 3, “to_m”: \[1,2\] is not 3 numbers/,
       (run) => { run.steps[2].to_m = [1, 2]; }],
+    [/“steps”, entry 1, “from_m”: \[1,2,null\] is not 3 numbers/,
+      (run) => { run.steps[0].from_m = [1, 2, null]; }],
     [/“steps”, entry 3, ends before it begins/, (run) => { run.steps[2].until_s = 1; }],
     [/“fences” is missing/, (run) => delete run.fences],
     [/“fences”, entry 2, has no words/, (run) => { run.fences[1] = 'wall'; }],
     [/“design” has no words/, (run) => { run.design = {}; }],
+    [/“design” has no words/, (run) => { run.design = 0; }],
   ];
   for (const [sentence, change] of faults) {
     const report = changed(change);

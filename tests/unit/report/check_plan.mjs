@@ -47,6 +47,8 @@ test('a plan is complete, in the page\'s units, in the order of the paper\'s fig
       ['boom', 'arm', 'bucket']);
   assert.deepEqual(lines(report, 'cylinder-velocity').map((line) => line.values[1]),
       [100, 1100, 2100]);
+  assert.deepEqual(lines(report, 'cylinder-velocity').map((line) => [line.colour, line.wide]),
+      [['boom', undefined], ['arm', undefined], ['bucket', undefined]]);
   assert.deepEqual(lines(report, 'swing-acceleration')[0].values[1], 3.2 * (180 / Math.PI));
 });
 
@@ -58,6 +60,8 @@ test('the planned teeth are seen in space, and cost only themselves where they a
   const report = changed((data) => delete data.series.teeth_m);
   assert.match(report.space.problem, /“series.teeth_m” is missing/);
   assert.deepEqual(report.problems, [report.space.problem], 'told once, of picture and plot');
+  const unknown = changed((data) => data.series.teeth_m[2].fill(null));
+  assert.deepEqual(unknown.problems, ['“series.teeth_m” has no point that is known.']);
 });
 
 test('what is missing or malformed is told once, and the rest stays', () => {
