@@ -7,11 +7,12 @@ const reportSpace = (() => {
   const {fit, ticks, thin, placeLabels, element, text, polyline, drawAxes} = reportSvg;
   const INTERVALS_S = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 60];
   const POINTS_MOST = 60;
-  const MARGIN = {left: 58, right: 14, top: 12, bottom: 50};
+  const MARGIN = {left: 58, right: 28, top: 12, bottom: 50};
   const AXONOMETRIC_MARGIN = {left: 44, right: 34, top: 24, bottom: 34};
   const MAX_HEIGHT = 430;
   const VIEW_GAP_PX = 18;
   const VIEW_LEAST_PX = 300;
+  const BESIDE_SHARE = 0.09;  // of a flat view, free on each side: room for a name
   const DUG_M = 0.05;
   const LEAST_RISE = 0.25;  // of the z axis, to the ground's extent: room for its name
   const FLATTEST = 0.35;  // height to width of a view: a level line still has room for its labels
@@ -118,7 +119,7 @@ const reportSpace = (() => {
     if (view.id === 'corner') return bounds(corners(extent(geometry)).map(view.project));
     const all = [[0, 0, 0], ...geometry.planned ?? [], ...geometry.real ?? []].filter(Boolean);
     const {x0, x1, y0, y1} = bounds(all.map(view.project));
-    const pad = Math.max(0.05 * Math.max(x1 - x0, y1 - y0), 0.1);
+    const pad = Math.max(BESIDE_SHARE * Math.max(x1 - x0, y1 - y0), 0.1);
     const more = Math.max(pad, (FLATTEST * (x1 - x0) - (y1 - y0)) / 2);
     return {x0: x0 - pad, x1: x1 + pad, y0: y0 - more, y1: y1 + more};
   }
@@ -189,8 +190,9 @@ const reportSpace = (() => {
       mark(swing[1], 'swing axis', 68, 'name')];
     const middle = (k) => way.reduce((sum, point) => sum + point[k], 0) / way.length;
     const [low, high] = swing;
+    const room = {...frame, right: frame.right + MARGIN.right};
     const upright = {x: low[0], y: (low[1] + high[1]) / 2, w: 4, h: low[1] - high[1]};
-    return placeLabels(marks, {x: middle(0), y: middle(1)}, frame, [...taken, upright], way)
+    return placeLabels(marks, {x: middle(0), y: middle(1)}, room, [...taken, upright], way)
         .map((place, i) => ({text: marks[i].text, kind: marks[i].kind, place}));
   }
 
@@ -209,7 +211,7 @@ const reportSpace = (() => {
       points: geometry.points.map(toPx), start: toPx(geometry.start), end: toPx(geometry.end),
       names: namesOf(geometry, {toPx, way, swing, frame: scaled.frame, taken: corner?.taken ?? []}),
       ...(corner ? {corner} : {
-        xTicks: ticks(scaled.x0, scaled.x1, scaled.innerWidth / 70),
+        xTicks: ticks(scaled.x0, scaled.x1, scaled.innerWidth / 52),
         yTicks: ticks(scaled.y0, scaled.y1, scaled.innerHeight / 44)}),
     };
   }
