@@ -16,6 +16,7 @@ std::size_t sections_on(const PlantProfile& profile, int pump) {
 
 std::vector<ValveSection> sections_of(const PlantProfile& profile) {
   std::vector<ValveSection> sections;
+  sections.reserve(profile.drive_count());
   for (int drive = 0; drive < profile.machine.drive_count; ++drive) {
     sections.emplace_back(profile, drive);
   }
@@ -24,6 +25,7 @@ std::vector<ValveSection> sections_of(const PlantProfile& profile) {
 
 std::vector<PilotValve> pilots_of(const PlantProfile& profile) {
   std::vector<PilotValve> pilots;
+  pilots.reserve(profile.drive_count());
   for (std::size_t i = 0; i < profile.drive_count(); ++i) {
     pilots.emplace_back(profile.dead_time_s[i], profile.step_s());
   }
