@@ -7,6 +7,7 @@ const reportSpace = (() => {
   const {fit, ticks, thin, placeLabels, element, text, polyline, drawAxes} = reportSvg;
   const INTERVALS_S = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 60];
   const POINTS_MOST = 60;
+  const APART_M = 0.003;
   const MARGIN = {left: 58, right: 28, top: 12, bottom: 50};
   const AXONOMETRIC_MARGIN = {left: 44, right: 34, top: 24, bottom: 34};
   const MAX_HEIGHT = 430;
@@ -26,6 +27,18 @@ const reportSpace = (() => {
         .map((point) => (point.includes(null) ? null : point));
     if (!list.some(Boolean)) throw new Problem(`“series.${name}” has no point that is known.`);
     return list;
+  }
+
+  /// Without the points that no picture can show apart; gaps, and what is beside them, stay. A run
+  /// has up to 30 000 samples and three views, drawn again at each new width.
+  function thinned(list) {
+    let kept = null;
+    return list.filter((point, i) => {
+      const stays = !point || !kept || !list[i + 1] ||
+          Math.hypot(...point.map((value, k) => value - kept[k])) >= APART_M;
+      if (stays) kept = point;
+      return stays;
+    });
   }
 
   /// Straight between samples; null beside a gap.
@@ -61,7 +74,9 @@ const reportSpace = (() => {
     const times = time(data);
     const known = main.filter(Boolean);
     return {ok: true, problems, value: {
-      planned: planned.ok ? planned.value : null, real: real?.ok ? real.value : null, main,
+      main,
+      planned: planned.ok ? thinned(planned.value) : null,
+      real: real?.ok ? thinned(real.value) : null,
       ...atEqualTimes(times, main), start: known[0], end: known[known.length - 1],
       numbers: stretches.map(({from, until, number}) => (
         {text: String(number), at: placeAt(times, main, (from + until) / 2)}))
@@ -172,7 +187,8 @@ const reportSpace = (() => {
         ...along.y.map((tick) => line([x0, tick.value, z0], [x1, tick.value, z0]))],
       edges: [[[x0, y0, z1], [x0, y0, z0], [x1, y0, z0], [x1, y1, z0]].map(toPx)],
       swing: line([0, 0, z0], [0, 0, z1]),
-      shadow: pieces(geometry.main.map((point) => point && [point[0], point[1], z0]), toPx),
+      shadow: pieces((geometry.real ?? geometry.planned).map((point) => (
+        point && [point[0], point[1], z0])), toPx),
       drops: [geometry.start, geometry.end].map((point) => line(point, [point[0], point[1], z0])),
     };
   }

@@ -136,6 +136,19 @@ test('a gap stays a gap', () => {
   assert.equal(picture.value.points.length, 61 - 19 - 10, 'no point beside a gap');
 });
 
+test('of points that lie on one another a picture keeps the ends, and every gap', () => {
+  const slow = Array.from({length: 3001}, (_, i) => 5 + i * 1e-4);
+  slow[1500] = null;
+  const picture = space.picture({series: {time_s: slow.map((_, i) => i),
+    planned_m: [slow, slow.map(() => 0), slow.map(() => 0)]}}, {planned: 'planned_m'});
+  const {planned, main} = picture.value;
+  assert.equal(main.length, 3001, 'the cursor needs them all');
+  assert.ok(planned.length < 110, String(planned.length));
+  const gap = planned.indexOf(null);
+  assert.deepEqual([0, gap - 1, gap + 1, planned.length - 1].map((i) => planned[i][0]),
+      [5, slow[1499], slow[1501], slow[3000]]);
+});
+
 test('a missing line costs itself, and is told; without both there is no picture', () => {
   const faults = [
     [/“series.planned_m” is missing/, (series) => delete series.planned_m, 'planned'],
