@@ -113,7 +113,7 @@ void ExcavatorController::observe(const ValidInputs& valid, const TaskAim& aim, 
   memory_.load = next_load(profile_.control.pressure_filter_s, memory_.load, measured, period_s,
                            mode != EcuMode::kActive);
   if (mode == EcuMode::kActive && aim.kind != StepKind::kNone) {
-    memory_.servo = next_servo_on_plan(profile_.control, memory_.servo, memory_.expected_mps,
+    memory_.servo = next_servo_on_plan(profile_, memory_.servo, memory_.expected_mps,
                                        valid.strokes_m, travel_of(profile_, aim.value), period_s);
   } else if (mode == EcuMode::kActive) {
     memory_.servo = next_servo(profile_.control, memory_.servo, memory_.expected_mps,

@@ -83,13 +83,17 @@ ServoState next_servo(const ControlProfile& control, const ServoState& last,
   return next;
 }
 
-ServoState next_servo_on_plan(const ControlProfile& control, const ServoState& last,
+ServoState next_servo_on_plan(const ExcavatorProfile& profile, const ServoState& last,
                               const DriveVector& asked_mps, const DriveVector& strokes_m,
                               const DriveVector& planned_m, double period_s) {
+  const ControlProfile& control = profile.control;
   ServoState next = with_asked(control, last, asked_mps, period_s);
   next.owed_m = bounded_debt(control, planned_m - next.under_way_m - strokes_m);
   next.strokes_m = strokes_m;
   repay(control, next, period_s);
+  next.trim_mps += period_s * profile.line.trim_ps2 * next.owed_m;
+  next.trim_mps =
+      next.trim_mps.cwiseMax(-profile.line.trim_most_mps).cwiseMin(profile.line.trim_most_mps);
   return next;
 }
 
@@ -107,6 +111,7 @@ ServoState servo_released(const ControlProfile& control, const ServoState& last,
   next.owed_m.setZero();
   next.repay_m.setZero();
   next.repay_mps.setZero();
+  next.trim_mps.setZero();
   return next;
 }
 
@@ -128,7 +133,7 @@ DriveVector corrected_velocity(const ExcavatorProfile& profile, const DriveVecto
     const double stroke_m = servo.strokes_m[i];
     const double in_mps = -control.stroke_end_gain_ps * (stroke_m - profile.least_travel_m(i));
     const double out_mps = control.stroke_end_gain_ps * (profile.most_travel_m(i) - stroke_m);
-    corrected[i] = std::clamp(wanted_mps[i] + gain_ps * servo.repay_m[i],
+    corrected[i] = std::clamp(wanted_mps[i] + gain_ps * servo.repay_m[i] + servo.trim_mps[i],
                               std::min(in_mps, wanted_mps[i]), std::max(out_mps, wanted_mps[i]));
   }
   return corrected;

@@ -23,6 +23,7 @@ struct ServoState {
   DriveVector owed_m = DriveVector::Zero();     ///< Due, not yet seen.
   DriveVector repay_m = DriveVector::Zero();    ///< Behind its low-pass: what is asked for.
   DriveVector repay_mps = DriveVector::Zero();  ///< Its rate of change.
+  DriveVector trim_mps = DriveVector::Zero();   ///< What has been learnt to be always missing.
   DriveVector strokes_m = DriveVector::Zero();  ///< Measured.
 };
 
@@ -47,8 +48,10 @@ struct ServoState {
                                     double period_s);
 
 /// The same where a plan says what the drives owe: `planned_m` is the travel that it has asked for
-/// until now. No sum of errors, so nothing is forgotten and nothing adds up over a long task.
-[[nodiscard]] ServoState next_servo_on_plan(const ControlProfile& control, const ServoState& last,
+/// until now. No sum of errors, so nothing is forgotten and nothing adds up over a long task. What
+/// a drive goes on owing is learnt (`line.trim_ps2`) and asked for on top: a motor leaks, and a
+/// line in space is as straight as its slowest drive.
+[[nodiscard]] ServoState next_servo_on_plan(const ExcavatorProfile& profile, const ServoState& last,
                                             const DriveVector& asked_mps,
                                             const DriveVector& strokes_m,
                                             const DriveVector& planned_m, double period_s);

@@ -86,7 +86,7 @@ TaskWant want_of_task(const ExcavatorProfile& profile, const SwingKinematics& ki
   const TaskStep& step = program.step[static_cast<unsigned>(memory.state.step)];
   const bool on_line = memory.state.phase == TaskPhase::kSteps && step.straight;
   want.path_error_m = on_line ? distance_m(step.line.line, at_m) : want.error_m;
-  want.pace_ratio = task_slowing(profile.control, want.error_m);
+  want.pace_ratio = task_slowing(profile.line, want.error_m);
   want.wanted_mps = speed_override_ratio * want.pace_ratio * travel_of(profile, aim.velocity);
   return want;
 }
@@ -104,7 +104,7 @@ TaskMemory next_task(const ExcavatorProfile& profile, const TaskProgram& program
   if (!last.runs || last.number != number) {
     return remembered(number, task_start(profile, program, drives_of(profile, travel_m)));
   }
-  return remembered(number, task_advance(profile.control, program, last.state,
+  return remembered(number, task_advance(profile.line, program, last.state,
                                          followed_ratio * period_s, period_s, error_m));
 }
 

@@ -17,7 +17,7 @@ struct TaskMemory {
   std::uint8_t number = 0;
   TaskState state;
   Guarded<double> time_s = 0.0;  ///< Of the state, and its place in one number: kept twice.
-  Guarded<int> place = 0;
+  Guarded<int> place = static_cast<int>(TaskPhase::kDone);
 
   /// Whether the state is what it was when it was stored.
   [[nodiscard]] bool intact() const;

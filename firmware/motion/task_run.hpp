@@ -52,16 +52,16 @@ inline constexpr double kApproachPace = 0.3;
                                const TaskState& state);
 
 /// How much slower the plan goes on with the teeth off their planned place by `error_m`: half at
-/// control.slow_error_m, as the digging field does along its path; 0 for NaN. The aim's velocity
+/// line.slow_error_m, as the digging field does along its path; 0 for NaN. The aim's velocity
 /// has to be scaled by the same figure, of the same cycle's error, before what is owed is added:
 /// drives that went on at full speed would run ahead of the plan that waits for them, and make the
 /// error that it waits for.
-[[nodiscard]] double task_slowing(const ControlProfile& control, double error_m);
+[[nodiscard]] double task_slowing(const LineProfile& line, double error_m);
 
 /// One cycle on. `advance_s` is what the plan may go on by: lambda and every other factor on the
 /// velocity but task_slowing, which is taken from `error_m` here, times the period. At the end of a
 /// step it waits until the teeth are within kSettled_m, or for kSettleMost_s.
-[[nodiscard]] TaskState task_advance(const ControlProfile& control, const TaskProgram& program,
+[[nodiscard]] TaskState task_advance(const LineProfile& line, const TaskProgram& program,
                                      const TaskState& state, double advance_s, double period_s,
                                      double error_m);
 

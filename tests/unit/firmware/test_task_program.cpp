@@ -191,12 +191,12 @@ void assert_replays_inside(const TaskProgram& program, bool late) {
     // Half a cycle of a rising speed is asked for too late.
     assert_true(error_m < 0.02);
     const DriveVector velocity =
-        task_slowing(machine().profile.control, error_m) * aim.velocity + 2.0 * (aim.value - then);
+        task_slowing(machine().profile.line, error_m) * aim.velocity + 2.0 * (aim.value - then);
     const VelocityCap cap =
         soft_limit(machine().profile, machine().kinematics, program.fences, then, velocity);
     drives.ask(cap.factor * velocity);
     assert_true(test::overrun_m(machine(), program.fences, drives.value()) <= 0.5e-3);
-    state = task_advance(machine().profile.control, program, state, cap.factor * kCycle_s, kCycle_s,
+    state = task_advance(machine().profile.line, program, state, cap.factor * kCycle_s, kCycle_s,
                          error_m);
   }
   assert_int_equal(state.phase, TaskPhase::kDone);

@@ -32,8 +32,7 @@ TaskProgram program(bool repeats) {
 
 TaskState advance(const TaskProgram& program, const TaskState& state, double lambda,
                   double error_m = 0.0) {
-  return task_advance(machine().profile.control, program, state, lambda * kCycle_s, kCycle_s,
-                      error_m);
+  return task_advance(machine().profile.line, program, state, lambda * kCycle_s, kCycle_s, error_m);
 }
 
 TaskAim aim_of(const TaskProgram& program, const TaskState& state) {
@@ -121,8 +120,8 @@ void an_error_slows_it_and_nan_stops_it(void**) {
   state.time_s = 1.0;
   assert_near(advance(task, state, 1.0, slow_m).time_s, 1.0 + 0.5 * kCycle_s, 1e-12);
   assert_near(advance(task, state, 0.5, 2.0 * slow_m).time_s, 1.0 + 0.1 * kCycle_s, 1e-12);
-  assert_near(task_slowing(machine().profile.control, slow_m), 0.5, 1e-12);
-  assert_near(task_slowing(machine().profile.control, nan), 0.0, 0.0);
+  assert_near(task_slowing(machine().profile.line, slow_m), 0.5, 1e-12);
+  assert_near(task_slowing(machine().profile.line, nan), 0.0, 0.0);
   assert_near(advance(task, state, 0.0).time_s, 1.0, 0.0);
   assert_near(advance(task, state, -1.0).time_s, 1.0, 0.0);
   assert_near(advance(task, state, nan).time_s, 1.0, 0.0);
