@@ -69,6 +69,7 @@ StepRequest read_step(TomlReader& reader, const std::string& at, const Excavator
   constexpr std::array<StepKind, 5> kKinds = {StepKind::kDig, StepKind::kLift, StepKind::kSwing,
                                               StepKind::kDump, StepKind::kReturnToDig};
   std::vector<std::string> names;
+  names.reserve(kKinds.size());
   for (const StepKind kind : kKinds) {
     names.emplace_back(step_name(kind));
   }

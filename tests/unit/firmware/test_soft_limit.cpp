@@ -58,6 +58,14 @@ void swing_ends(void**) {
               0.0);
 }
 
+/// Whichever comes first: boom 4 mm, arm 10 mm before its end, both as fast.
+void the_strongest_limit_holds(void**) {
+  assert_cap(cap({0.946, 1.120, 0.4375, 0.0}, {0.1, 0.1, 0.0, 0.0}), 2.0 * 0.00405 / 0.1,
+             LimitKind::kStrokeEnd, kBoom);
+  assert_cap(cap({0.940, 1.126, 0.4375, 0.0}, {0.1, 0.1, 0.0, 0.0}), 2.0 * 0.00405 / 0.1,
+             LimitKind::kStrokeEnd, kArm);
+}
+
 /// A ceiling over the arm pin, the highest of the points: the boom alone rises towards it.
 void fences_hold_the_point_that_is_nearest(void**) {
   const DriveVector then(0.475, 0.565, 0.4375, 0.3);
@@ -152,6 +160,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(cylinder_ends),
       cmocka_unit_test(swing_ends),
+      cmocka_unit_test(the_strongest_limit_holds),
       cmocka_unit_test(fences_hold_the_point_that_is_nearest),
       cmocka_unit_test(a_wall_holds_the_swing),
       cmocka_unit_test(rounding_is_free_and_nan_is_not),

@@ -157,6 +157,48 @@ void digging_is_raised_above_the_design(void**) {
   assert_int_equal(program.fences.fence[0].guard, FenceGuard::kTeeth);
 }
 
+/// The last step's end is the first one's start, though the first does not dig.
+void what_repeats_is_raised_as_one_pose(void**) {
+  const ProgramRequest plain = plain_request();
+  ProgramRequest request = plain;
+  request.start = plain.step[0].to;
+  request.step[0] = plain.step[1];
+  request.step[1] = move_to(plain.start);
+  request.step[2] = plain.step[0];
+  request.step_count = 3;
+  request.repeats = true;
+  request.has_design = true;
+  request.design.through_m = {0.0, 0.0, -0.3};
+  const ProgramResult result = plan(request);
+  assert_int_equal(result.refusal, ProgramRefusal::kNone);
+  assert_near(machine().teeth(result.program.start).position_m.z(), -0.3, 1e-9);
+  assert_true((result.program.start - result.program.end).norm() < 1e-9);
+  assert_near(result.note[0].raised_m, 0.1, 1e-9);
+}
+
+/// A swing past a wall that the teeth pass by 20 um for less than a step of the walk.
+void what_is_passed_between_two_steps_is_found(void**) {
+  ProgramRequest request;
+  const TeethPose ahead{{6.9, 0.0, 0.5}, 1.9};
+  const auto turned = [&](double swing_rad) {
+    TeethPose pose = ahead;
+    pose.position_m.x() = 6.9 * std::cos(swing_rad);
+    pose.position_m.y() = 6.9 * std::sin(swing_rad);
+    return pose;
+  };
+  request.start = turned(-0.7);
+  request.step[0] = move_to(turned(0.73));
+  request.step_count = 1;
+  request.fences.count = 1;
+  request.fences.fence[0] = {Eigen::Vector3d::UnitX(), 6.9 - 20e-6, FenceGuard::kTeeth};
+  const ProgramResult result = plan(request);
+  assert_int_equal(result.refusal, ProgramRefusal::kFence);
+  // Where 6.9 (1 - cos) is 19 um: the tolerance is 1.
+  assert_near(result.place.share, (0.7 - std::sqrt(2.0 * 19e-6 / 6.9)) / 1.43, 1e-6);
+  request.fences.fence[0].offset_m = 6.9;
+  assert_int_equal(plan(request).refusal, ProgramRefusal::kNone);
+}
+
 ProgramRequest random_request(plant::Random& random, const DriveVector& start) {
   ProgramRequest request;
   request.start = machine().teeth(start);
@@ -262,6 +304,8 @@ int main() {
       cmocka_unit_test(the_swing_keeps_to_its_range),
       cmocka_unit_test(a_machine_without_swing_does_not_turn),
       cmocka_unit_test(digging_is_raised_above_the_design),
+      cmocka_unit_test(what_repeats_is_raised_as_one_pose),
+      cmocka_unit_test(what_is_passed_between_two_steps_is_found),
       cmocka_unit_test(random_programs_stay_inside_or_say_where_not),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
