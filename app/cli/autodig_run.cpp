@@ -44,7 +44,7 @@ class AutodigRun {
         bench_, options_.log_file, [this](TimeUs now_us) { return ended(now_us); },
         [&](TimeUs now_us, double cycle_us) {
           look(now_us, cycle_us);
-          const TaskProgress& at = result_.samples.back().progress;
+          const TaskProgress& at = bench_.ecu.outputs().status.progress;
           show(share_done(at), machines::step_name(at.kind));
         });
     result_.wall_s = figures.wall_s;
@@ -88,9 +88,11 @@ class AutodigRun {
     sample.cycle_us = cycle_us;
     read_controller(sample);
     read_truth(sample);
-    compare(sample);
     count_rounds(sample.progress);
-    result_.samples.push_back(sample);
+    if (round_ < options_.rounds) {
+      compare(sample);
+      result_.samples.push_back(sample);
+    }
   }
 
   void count_rounds(const TaskProgress& at) {

@@ -177,8 +177,10 @@ struct SwingProfile {
 struct LineProfile {
   double acceleration_mps2 = 0.0;  ///< Of the teeth, unless the task says another.
   std::array<double, kAxisCount> cylinder_acceleration_mps2{};
-  /// Of a task that is followed: error of the teeth at which the plan goes on at half its speed.
+  /// Of a task that is followed: error of the teeth at which the plan goes on at half its speed, on
+  /// a straight line and on a move of the drives, which only has to arrive.
   double slow_error_m = 0.0;
+  double move_slow_error_m = 0.0;
   /// How fast a drive's lasting lag is learnt and given on top, per second of what it owes and
   /// second: leakage of the swing's motor, deadbands.
   double trim_ps2 = 0.0;

@@ -84,9 +84,9 @@ TaskWant want_of_task(const ExcavatorProfile& profile, const SwingKinematics& ki
       teeth_m(kinematics, drives_of(profile, bounded(profile, want.planned_m - servo.under_way_m)));
   want.error_m = (at_m - due_m).norm();
   const TaskStep& step = program.step[static_cast<unsigned>(memory.state.step)];
-  const bool on_line = memory.state.phase == TaskPhase::kSteps && step.straight;
-  want.path_error_m = on_line ? distance_m(step.line.line, at_m) : want.error_m;
-  want.pace_ratio = task_slowing(profile.line, want.error_m);
+  want.path_error_m =
+      on_line(program, memory.state) ? distance_m(step.line.line, at_m) : want.error_m;
+  want.pace_ratio = task_slowing(profile.line, program, memory.state, want.error_m);
   want.wanted_mps = speed_override_ratio * want.pace_ratio * travel_of(profile, aim.velocity);
   return want;
 }

@@ -94,8 +94,14 @@ TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
                        : aim_of_plan(kinematics, step.kind, step.drives, state.time_s);
 }
 
-double task_slowing(const LineProfile& line, double error_m) {
-  const double off = error_m / line.slow_error_m;
+bool on_line(const TaskProgram& program, const TaskState& state) {
+  return state.phase == TaskPhase::kSteps && step_of(program, state).straight;
+}
+
+double task_slowing(const LineProfile& line, const TaskProgram& program, const TaskState& state,
+                    double error_m) {
+  const double off =
+      error_m / (on_line(program, state) ? line.slow_error_m : line.move_slow_error_m);
   const double slowed = 1.0 / (1.0 + off * off);
   return slowed > 0.0 ? slowed : 0.0;
 }
@@ -107,7 +113,7 @@ TaskState task_advance(const LineProfile& line, const TaskProgram& program, cons
   }
   TaskState next = state;
   const double end_s = duration_s(program, state);
-  const double by_s = task_slowing(line, error_m) * advance_s;
+  const double by_s = task_slowing(line, program, state, error_m) * advance_s;
   // Written so that NaN stays where it is.
   next.time_s += by_s > 0.0 ? by_s : 0.0;
   if (next.time_s < end_s) {

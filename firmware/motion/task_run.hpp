@@ -51,12 +51,17 @@ inline constexpr double kApproachPace = 0.3;
 [[nodiscard]] TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
                                const TaskState& state);
 
+/// Whether a straight line of the teeth is being followed; else a move of the drives, or none.
+[[nodiscard]] bool on_line(const TaskProgram& program, const TaskState& state);
+
 /// How much slower the plan goes on with the teeth off their planned place by `error_m`: half at
-/// line.slow_error_m, as the digging field does along its path; 0 for NaN. The aim's velocity
+/// line.slow_error_m, as the digging field does along its path, or at line.move_slow_error_m where
+/// the drives are only moved; 0 for NaN. The aim's velocity
 /// has to be scaled by the same figure, of the same cycle's error, before what is owed is added:
 /// drives that went on at full speed would run ahead of the plan that waits for them, and make the
 /// error that it waits for.
-[[nodiscard]] double task_slowing(const LineProfile& line, double error_m);
+[[nodiscard]] double task_slowing(const LineProfile& line, const TaskProgram& program,
+                                  const TaskState& state, double error_m);
 
 /// One cycle on. `advance_s` is what the plan may go on by: lambda and every other factor on the
 /// velocity but task_slowing, which is taken from `error_m` here, times the period. At the end of a

@@ -233,7 +233,7 @@ void assert_replays_inside(const TaskProgram& program, bool late) {
     // Half a cycle of a rising speed is asked for too late.
     assert_true(error_m < 0.02);
     const DriveVector velocity =
-        task_slowing(machine().profile.line, error_m) * aim.velocity + 2.0 * (aim.value - then);
+        task_slowing(machine().profile.line, program, state, error_m) * aim.velocity + 2.0 * (aim.value - then);
     const VelocityCap cap =
         soft_limit(machine().profile, machine().kinematics, program.fences, then, velocity);
     drives.ask(cap.factor * velocity);
