@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -65,8 +66,9 @@ machines::ExcavatorMachine machine_of(const TaskRunOptions& options) {
   machines::ExcavatorMachine machine =
       arranged(machines::load_excavator(machines::find_profile(options.profile)), scenario);
   if (options.swash) {
-    machine.profile.dig_swash_ratio.fill(*options.swash);
-    machine.plant.swash_ratio.fill(*options.swash);
+    std::fill_n(machine.profile.dig_swash_ratio.begin(), machine.profile.pump_count,
+                *options.swash);
+    machine.plant.swash_ratio = machine.profile.dig_swash_ratio;
   }
   return machine;
 }

@@ -112,6 +112,7 @@ LineProfile read_line(TomlReader& reader) {
   std::copy(cylinder.begin(), cylinder.end(), line.cylinder_acceleration_mps2.begin());
   line.slow_error_m = reader.number("line.slow_error", {1e-3, 10.0, "m"});
   line.move_slow_error_m = reader.number("line.move_slow_error", {1e-3, 10.0, "m"});
+  line.pace_rate_ps = reader.number("line.pace_rate", {0.05, 100.0, "1/s"});
   line.trim_ps2 = reader.number("line.trim", {0.0, 20.0, "1/s2"});
   line.trim_most_mps = reader.number("line.trim_most", {0.0, 0.1, "m/s"});
   return line;

@@ -181,6 +181,7 @@ struct LineProfile {
   /// a straight line and on a move of the drives, which only has to arrive.
   double slow_error_m = 0.0;
   double move_slow_error_m = 0.0;
+  double pace_rate_ps = 0.0;  ///< How fast it may slow down and speed up for that, per second.
   /// How fast a drive's lasting lag is learnt and given on top, per second of what it owes and
   /// second: leakage of the swing's motor, deadbands.
   double trim_ps2 = 0.0;

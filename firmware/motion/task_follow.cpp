@@ -86,7 +86,7 @@ TaskWant want_of_task(const ExcavatorProfile& profile, const SwingKinematics& ki
   const TaskStep& step = program.step[static_cast<unsigned>(memory.state.step)];
   want.path_error_m =
       on_line(program, memory.state) ? distance_m(step.line.line, at_m) : want.error_m;
-  want.pace_ratio = task_slowing(profile.line, program, memory.state, want.error_m);
+  want.pace_ratio = memory.state.pace_ratio;
   want.wanted_mps = speed_override_ratio * want.pace_ratio * travel_of(profile, aim.velocity);
   return want;
 }

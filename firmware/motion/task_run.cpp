@@ -98,7 +98,7 @@ bool on_line(const TaskProgram& program, const TaskState& state) {
   return state.phase == TaskPhase::kSteps && step_of(program, state).straight;
 }
 
-double task_slowing(const LineProfile& line, const TaskProgram& program, const TaskState& state,
+double wanted_pace(const LineProfile& line, const TaskProgram& program, const TaskState& state,
                     double error_m) {
   const double off =
       error_m / (on_line(program, state) ? line.slow_error_m : line.move_slow_error_m);
@@ -113,7 +113,10 @@ TaskState task_advance(const LineProfile& line, const TaskProgram& program, cons
   }
   TaskState next = state;
   const double end_s = duration_s(program, state);
-  const double by_s = task_slowing(line, program, state, error_m) * advance_s;
+  const double by_s = state.pace_ratio * advance_s;
+  const double change = line.pace_rate_ps * period_s;
+  next.pace_ratio = std::clamp(wanted_pace(line, program, state, error_m),
+                               state.pace_ratio - change, state.pace_ratio + change);
   // Written so that NaN stays where it is.
   next.time_s += by_s > 0.0 ? by_s : 0.0;
   if (next.time_s < end_s) {

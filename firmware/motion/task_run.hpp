@@ -19,6 +19,10 @@ struct TaskState {
   int step = 0;
   double time_s = 0.0;    ///< tau: of the plan of approach or step.
   double settle_s = 0.0;  ///< How long it has waited at its end.
+  /// Of the plan's speed, 0 .. 1: the aim's velocity has to be scaled by it before what is owed is
+  /// added, and task_advance goes on by it. Drives that went on at full speed would run ahead of a
+  /// plan that waits for them, and make the error that it waits for.
+  double pace_ratio = 1.0;
   DrivePlan approach;
 };
 
@@ -54,18 +58,17 @@ inline constexpr double kApproachPace = 0.3;
 /// Whether a straight line of the teeth is being followed; else a move of the drives, or none.
 [[nodiscard]] bool on_line(const TaskProgram& program, const TaskState& state);
 
-/// How much slower the plan goes on with the teeth off their planned place by `error_m`: half at
-/// line.slow_error_m, as the digging field does along its path, or at line.move_slow_error_m where
-/// the drives are only moved; 0 for NaN. The aim's velocity
-/// has to be scaled by the same figure, of the same cycle's error, before what is owed is added:
-/// drives that went on at full speed would run ahead of the plan that waits for them, and make the
-/// error that it waits for.
-[[nodiscard]] double task_slowing(const LineProfile& line, const TaskProgram& program,
-                                  const TaskState& state, double error_m);
+/// The pace that an error of the teeth asks for: half where they are line.slow_error_m off their
+/// planned place, as the digging field does along its path, or line.move_slow_error_m where the
+/// drives are only moved; 0 for NaN.
+[[nodiscard]] double wanted_pace(const LineProfile& line, const TaskProgram& program,
+                                 const TaskState& state, double error_m);
 
 /// One cycle on. `advance_s` is what the plan may go on by: lambda and every other factor on the
-/// velocity but task_slowing, which is taken from `error_m` here, times the period. At the end of a
-/// step it waits until the teeth are within kSettled_m, or for kSettleMost_s.
+/// velocity but its own pace, times the period. The pace follows wanted_pace no faster than
+/// line.pace_rate_ps: a platform can't be slowed at once, and a plan that tries makes it swing about
+/// its place. At the end of a step it waits until the teeth are within kSettled_m, or for
+/// kSettleMost_s.
 [[nodiscard]] TaskState task_advance(const LineProfile& line, const TaskProgram& program,
                                      const TaskState& state, double advance_s, double period_s,
                                      double error_m);
