@@ -111,6 +111,7 @@ LineProfile read_line(TomlReader& reader) {
       reader.numbers("line.cylinder_acceleration", {0.01, 10.0, "m/s2"}, kAxisCount);
   std::copy(cylinder.begin(), cylinder.end(), line.cylinder_acceleration_mps2.begin());
   line.slow_error_m = reader.number("line.slow_error", {1e-3, 10.0, "m"});
+  line.slow_error_s = reader.number("line.slow_error_per_speed", {0.0, 1.0, "s"});
   line.move_slow_error_m = reader.number("line.move_slow_error", {1e-3, 10.0, "m"});
   line.pace_rate_ps = reader.number("line.pace_rate", {0.05, 100.0, "1/s"});
   line.trim_ps2 = reader.number("line.trim", {0.0, 20.0, "1/s2"});

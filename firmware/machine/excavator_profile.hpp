@@ -180,6 +180,7 @@ struct LineProfile {
   /// Of a task that is followed: error of the teeth at which the plan goes on at half its speed, on
   /// a straight line and on a move of the drives, which only has to arrive.
   double slow_error_m = 0.0;
+  double slow_error_s = 0.0;  ///< So much more of it for each m/s of a line's planned speed.
   double move_slow_error_m = 0.0;
   double pace_rate_ps = 0.0;  ///< How fast it may slow down and speed up for that, per second.
   /// How fast a drive's lasting lag is learnt and given on top, per second of what it owes and

@@ -62,6 +62,15 @@ TaskState next_part(const TaskProgram& program, const TaskState& state) {
   return next;
 }
 
+double slow_error_m(const LineProfile& line, const TaskProgram& program, const TaskState& state) {
+  if (state.phase != TaskPhase::kSteps || !step_of(program, state).straight) {
+    return line.move_slow_error_m;
+  }
+  const LinePlan& plan = step_of(program, state).line;
+  const double speed_mps = plan.way_m * plan.ramp.at(state.time_s).rate_ps;
+  return line.slow_error_m + line.slow_error_s * speed_mps;
+}
+
 }  // namespace
 
 TaskState task_start(const ExcavatorProfile& profile, const TaskProgram& program,
@@ -99,9 +108,8 @@ bool on_line(const TaskProgram& program, const TaskState& state) {
 }
 
 double wanted_pace(const LineProfile& line, const TaskProgram& program, const TaskState& state,
-                    double error_m) {
-  const double off =
-      error_m / (on_line(program, state) ? line.slow_error_m : line.move_slow_error_m);
+                   double error_m) {
+  const double off = error_m / slow_error_m(line, program, state);
   const double slowed = 1.0 / (1.0 + off * off);
   return slowed > 0.0 ? slowed : 0.0;
 }

@@ -59,15 +59,16 @@ inline constexpr double kApproachPace = 0.3;
 [[nodiscard]] bool on_line(const TaskProgram& program, const TaskState& state);
 
 /// The pace that an error of the teeth asks for: half where they are line.slow_error_m off their
-/// planned place, as the digging field does along its path, or line.move_slow_error_m where the
-/// drives are only moved; 0 for NaN.
+/// planned place and line.slow_error_s times the line's planned speed there, as the digging field
+/// does along its path; or line.move_slow_error_m where the drives are only moved; 0 for NaN. From
+/// rest a drive that sticks is waited for sooner than one that lags on the way.
 [[nodiscard]] double wanted_pace(const LineProfile& line, const TaskProgram& program,
                                  const TaskState& state, double error_m);
 
 /// One cycle on. `advance_s` is what the plan may go on by: lambda and every other factor on the
 /// velocity but its own pace, times the period. The pace follows wanted_pace no faster than
-/// line.pace_rate_ps: a platform can't be slowed at once, and a plan that tries makes it swing about
-/// its place. At the end of a step it waits until the teeth are within kSettled_m, or for
+/// line.pace_rate_ps: a platform can't be slowed at once, and a plan that tries makes it swing
+/// about its place. At the end of a step it waits until the teeth are within kSettled_m, or for
 /// kSettleMost_s.
 [[nodiscard]] TaskState task_advance(const LineProfile& line, const TaskProgram& program,
                                      const TaskState& state, double advance_s, double period_s,
