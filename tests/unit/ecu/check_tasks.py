@@ -1,4 +1,5 @@
-"""What graben-ecu takes as --task, up to the bus, which is not there: check_tasks.py GRABEN_ECU MACHINES"""
+"""What graben-ecu takes as --task, up to the bus, which is not there, the README's example among it:
+check_tasks.py GRABEN_ECU ROOT"""
 
 import pathlib
 import re
@@ -12,9 +13,11 @@ WRONG, FAILED = 2, 1
 
 
 def main() -> int:
-    ecu, machines = sys.argv[1:]
-    excavator, dozer = (pathlib.Path(machines, name) for name in ("excavator_12t.toml", "dozer_9t.toml"))
-    flatten, loading = (pathlib.Path(machines, "tasks", name)
+    ecu, root = sys.argv[1:]
+    machines = pathlib.Path(root, "app", "machines")
+    example = re.search(r"^```toml\n(.*?)^```", pathlib.Path(root, "README.md").read_text(), re.S | re.M)[1]
+    excavator, dozer = (machines / name for name in ("excavator_12t.toml", "dozer_9t.toml"))
+    flatten, loading = (machines / "tasks" / name
                         for name in ("flatten.toml", "truck_loading.toml"))
     problems = []
 
@@ -31,6 +34,9 @@ def main() -> int:
         wrong, far = pathlib.Path(folder, "wrong.toml"), pathlib.Path(folder, "far.toml")
         wrong.write_text(flatten.read_text().replace("duration = 18.4", "duration = -1\nsurplus = 2"))
         far.write_text(flatten.read_text().replace("2.244, 3.886", "9.0, 9.0"))
+        shown = pathlib.Path(folder, "shown.toml")
+        shown.write_text(example)
+        expect(FAILED, [], excavator, shown, reaches_bus=True)
         expect(FAILED, [], excavator, reaches_bus=True)
         expect(FAILED, [], excavator, flatten, reaches_bus=True)
         expect(FAILED, [], excavator, *[flatten, loading] * 2, reaches_bus=True)
