@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "platform/linux/cyclic_clock.hpp"
@@ -79,9 +78,9 @@ class Reopener {
 // The operator reads nothing; its port lets through the least there is: the status, whose id all
 // kinds share.
 template <class Operator>
-PlantBus<Operator>::PlantBus(const PlantRunOptions& options, std::vector<std::uint32_t> ids)
+PlantBus<Operator>::PlantBus(const PlantRunOptions& options, const std::vector<std::uint32_t>& ids)
     : options_(options),
-      port_(options.interface, std::move(ids)),
+      port_(options.interface, ids),
       operator_port_(options.interface, {dbc::excavator::EcuStatus::kId}),
       driver_(operator_port_) {
   open(port_, options.interface);

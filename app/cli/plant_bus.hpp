@@ -44,7 +44,7 @@ class PlantBus {
  public:
   /// Opens the interface for a machine that takes these ids. Throws std::runtime_error where it is
   /// not there.
-  PlantBus(const PlantRunOptions& options, std::vector<std::uint32_t> ids);
+  PlantBus(const PlantRunOptions& options, const std::vector<std::uint32_t>& ids);
 
   /// The machine's.
   [[nodiscard]] CanPort& port() { return port_; }

@@ -15,7 +15,8 @@ using dbc::RawState;
 using dbc::excavator::TaskStatus;
 using Kind = TaskStatus::StepKind;
 
-constexpr std::uint8_t kNumber = 2;
+/// What a number that is not available has as its value.
+constexpr std::uint8_t kNumber = 0;
 
 /// A controller, and the machine's port with its ear.
 struct Rig {
