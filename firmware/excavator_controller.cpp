@@ -114,7 +114,8 @@ void ExcavatorController::observe(const ValidInputs& valid, const TaskAim& aim, 
                            mode != EcuMode::kActive);
   if (mode == EcuMode::kActive && aim.kind != StepKind::kNone) {
     memory_.servo = next_servo_on_plan(profile_, memory_.servo, memory_.expected_mps,
-                                       valid.strokes_m, travel_of(profile_, aim.value), period_s);
+                                       valid.strokes_m, travel_of(profile_, aim.value),
+                                       memory_.task.state.time_s == 0.0, period_s);
   } else if (mode == EcuMode::kActive) {
     memory_.servo = next_servo(profile_.control, memory_.servo, memory_.expected_mps,
                                valid.strokes_m, period_s);
