@@ -112,20 +112,60 @@ void velocity_is_the_value_s_difference(void**) {
   }
 }
 
-void an_error_slows_it_and_nan_stops_it(void**) {
+void an_error_asks_for_less_pace_and_nan_for_none(void**) {
   const TaskProgram task = program(false);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double slow_m = machine().profile.control.slow_error_m;
+  const LineProfile& line = machine().profile.line;
+  TaskState state = at_first_step();
+  // The first step is a line, at uniform speed there.
+  const LinePlan& plan = task.step[0].line;
+  const double speed_mps = plan.way_m * plan.ramp.at(3.0).rate_ps;
+  assert_true(speed_mps > 0.4 && speed_mps <= 0.5 + 1e-9);
+  const double half_m = line.slow_error_m + speed_mps * line.slow_error_s;
+  state.time_s = 3.0;
+  assert_near(wanted_pace(line, task, state, 0.0), 1.0, 0.0);
+  assert_near(wanted_pace(line, task, state, half_m), 0.5, 1e-12);
+  assert_near(wanted_pace(line, task, state, 2.0 * half_m), 0.2, 1e-12);
+  assert_near(wanted_pace(line, task, state, nan), 0.0, 0.0);
+  // From rest, where a drive may stick, it waits sooner.
+  state.time_s = 0.0;
+  assert_near(wanted_pace(line, task, state, line.slow_error_m), 0.5, 1e-12);
+  // Drives that are only moved have to arrive, no more: steps without a line, and the approach.
+  state.step = 1;
+  assert_near(wanted_pace(line, task, state, line.move_slow_error_m), 0.5, 1e-12);
+  const TaskState approach = task_start(machine().profile, task, task.end);
+  assert_near(wanted_pace(line, task, approach, line.move_slow_error_m), 0.5, 1e-12);
+}
+
+/// It goes on by its pace times what it may, and the pace changes no faster than its rate.
+void the_pace_changes_at_its_rate(void**) {
+  const TaskProgram task = program(false);
+  const LineProfile& line = machine().profile.line;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double change = line.pace_rate_ps * kCycle_s;
   TaskState state = at_first_step();
   state.time_s = 1.0;
-  assert_near(advance(task, state, 1.0, slow_m).time_s, 1.0 + 0.5 * kCycle_s, 1e-12);
-  assert_near(advance(task, state, 0.5, 2.0 * slow_m).time_s, 1.0 + 0.1 * kCycle_s, 1e-12);
-  assert_near(task_slowing(machine().profile.line, slow_m), 0.5, 1e-12);
-  assert_near(task_slowing(machine().profile.line, nan), 0.0, 0.0);
+  assert_near(state.pace_ratio, 1.0, 0.0);
+  TaskState next = advance(task, state, 0.5, 1e3);
+  assert_near(next.time_s, 1.0 + 0.5 * kCycle_s, 1e-12);
+  assert_near(next.pace_ratio, 1.0 - change, 1e-12);
+  next = advance(task, next, 1.0, 1e3);
+  assert_near(next.time_s, 1.0 + (1.5 - change) * kCycle_s, 1e-12);
+  state.pace_ratio = 0.5;
+  next = advance(task, state, 1.0);
+  assert_near(next.time_s, 1.0 + 0.5 * kCycle_s, 1e-12);
+  assert_near(next.pace_ratio, 0.5 + change, 1e-12);
+  // What is near is reached, no more.
+  state.pace_ratio = 1.0 - 0.1 * change;
+  assert_near(advance(task, state, 1.0).pace_ratio, 1.0, 0.0);
+  state.pace_ratio = 0.1 * change;
+  assert_near(advance(task, state, 1.0, nan).pace_ratio, 0.0, 0.0);
+  state.pace_ratio = 1.0;
   assert_near(advance(task, state, 0.0).time_s, 1.0, 0.0);
   assert_near(advance(task, state, -1.0).time_s, 1.0, 0.0);
   assert_near(advance(task, state, nan).time_s, 1.0, 0.0);
-  assert_near(advance(task, state, 1.0, nan).time_s, 1.0, 0.0);
+  state.pace_ratio = nan;
+  assert_near(advance(task, state, 1.0).time_s, 1.0, 0.0);
 }
 
 /// At the end it waits for the teeth, but not for ever.
@@ -163,7 +203,10 @@ void the_approach_leads_to_the_start(void**) {
   const TaskProgram task = program(false);
   DriveVector now = task.start;
   now[kSwing] = 2.5;
-  TaskState state = task_start(machine().profile, task, now);
+  // Quick enough to reach its uniform speed on the way.
+  ExcavatorProfile quick = machine().profile;
+  quick.swing.acceleration_max_radps2 = 0.7;
+  TaskState state = task_start(quick, task, now);
   assert_int_equal(state.phase, TaskPhase::kApproach);
   const TaskAim first = aim_of(task, state);
   assert_int_equal(first.kind, StepKind::kApproach);
@@ -207,7 +250,8 @@ int main() {
       cmocka_unit_test(the_plan_s_times_hold),
       cmocka_unit_test(lambda_leaves_the_path),
       cmocka_unit_test(velocity_is_the_value_s_difference),
-      cmocka_unit_test(an_error_slows_it_and_nan_stops_it),
+      cmocka_unit_test(an_error_asks_for_less_pace_and_nan_for_none),
+      cmocka_unit_test(the_pace_changes_at_its_rate),
       cmocka_unit_test(a_step_ends_settled_or_late),
       cmocka_unit_test(it_begins_again_if_it_repeats),
       cmocka_unit_test(the_approach_leads_to_the_start),
