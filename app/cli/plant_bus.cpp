@@ -36,7 +36,8 @@ std::vector<plant::OperatorPhase> schedule(const PlantRunOptions& options, Task 
   const auto work_from = [&](TimeUs enable_us) {
     phases.push_back({enable_us, {true, OperatorMode::kAutomatic, Task::kNone, 0.0}});
     phases.push_back({enable_us + kTaskAfter_us,
-                      {true, OperatorMode::kAutomatic, task, options.speed_override_ratio}});
+                      {true, OperatorMode::kAutomatic, task, options.speed_override_ratio,
+                       options.task_number}});
   };
   const TimeUs begin_us = microseconds(options.enable_after_s);
   const TimeUs end_us = options.seconds > 0.0 ? microseconds(options.seconds) - kRelease_us
