@@ -140,7 +140,8 @@ def report_is_whole(digger):
     digger.figures("--task", "truck_loading")
     data = json.loads(re.search(rb'id="data">(.*?)</script', digger.content("autodig.html"),
                                 re.S)[1])
-    assert "truck_loading" in data["subtitle"] and "errors none" in data["subtitle"], data["subtitle"]
+    words = data["subtitle"]
+    assert "truck_loading" in words and "errors none" in words, words
     assert data["kind"] == "autodig", data["kind"]
 
 
@@ -163,8 +164,8 @@ def repeats(digger):
 
 def tasks_that_cannot_be_had(digger):
     digger.refused(["4 errors", "start.position (line 1)", "3 numbers", "start.attitude", "99",
-                    "allowed: -7 .. 7 rad", "step[0].do", "'dance'", "dig, lift, swing, dump, return",
-                    "step[0].speed", "0.01 .. 3 m/s"],
+                    "allowed: -7 .. 7 rad", "step[0].do", "'dance'",
+                    "dig, lift, swing, dump, return", "step[0].speed", "0.01 .. 3 m/s"],
                    *digger.task("""start = { position = [7.0, 0.0], attitude = 99 }
 [[step]]
 do = "dance"
@@ -179,7 +180,7 @@ speed = -0.4
     digger.refused(["step 0 (dig)", "the arm cylinder", *place],
                    *digger.task(line.format(x=9.0, y=0.0)))
     # On the way, neither begin nor end.
-    digger.refused(["step 0 (swing)", "teeth would pass fence 1", *place],
+    digger.refused(["step 0 (swing)", "teeth would pass fence[1]", *place],
                    *digger.task(MOVE.format(x=-6.0, y=3.0) + WALL.format(through=7.5)
                                 + WALL.format(through=-5.0).replace("[1.0", "[-1.0")))
     digger.refused(["a machine of kind dozer"], "--profile", "dozer_9t")
