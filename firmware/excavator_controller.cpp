@@ -114,7 +114,8 @@ void ExcavatorController::observe(const ValidInputs& valid, const TaskAim& aim, 
                            mode != EcuMode::kActive);
   if (mode == EcuMode::kActive && aim.kind != StepKind::kNone) {
     memory_.servo = next_servo_on_plan(profile_, memory_.servo, memory_.expected_mps,
-                                       valid.strokes_m, travel_of(profile_, aim.value), period_s);
+                                       valid.strokes_m, travel_of(profile_, aim.value),
+                                       memory_.task.state.time_s == 0.0, period_s);
   } else if (mode == EcuMode::kActive) {
     memory_.servo = next_servo(profile_.control, memory_.servo, memory_.expected_mps,
                                valid.strokes_m, period_s);
@@ -150,7 +151,8 @@ ExcavatorController::Motion ExcavatorController::dig_motion(const ValidInputs& v
 
 ExcavatorController::Motion ExcavatorController::task_motion(const TaskProgram& program,
                                                              const TaskAim& aim,
-                                                             double speed_override_ratio) const {
+                                                             double speed_override_ratio,
+                                                             double period_s) const {
   Motion motion;
   motion.task = want_of_task(profile_, kinematics_, program, memory_.task, aim, memory_.servo,
                              speed_override_ratio);
@@ -158,6 +160,8 @@ ExcavatorController::Motion ExcavatorController::task_motion(const TaskProgram& 
   motion.corrected_mps =
       corrected_velocity(profile_, motion.wanted_mps, memory_.servo, memory_.lambda.value(),
                          speed_override_ratio, motion.task.holds);
+  motion.corrected_mps[kSwing] +=
+      swing_lead_mps(profile_, motion.wanted_mps[kSwing], memory_.swing_wanted_mps, period_s);
   motion.cap = task_cap(profile_, kinematics_, program, strokes_then(profile_, memory_.servo),
                         motion.corrected_mps);
   motion.path_error_m = motion.task.path_error_m;
@@ -205,8 +209,9 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
       program != nullptr ? task_aim(kinematics_, *program, memory_.task.state) : TaskAim{};
   observe(valid, aim, time.elapsed_s);
   const KinematicState state = kinematics_.planar().state(valid.strokes_m.head<kAxisCount>());
-  const Motion motion = program != nullptr ? task_motion(*program, aim, valid.speed_override_ratio)
-                                           : dig_motion(valid, state);
+  const Motion motion = program != nullptr
+                            ? task_motion(*program, aim, valid.speed_override_ratio, time.period_s)
+                            : dig_motion(valid, state);
   const McvSolution solution =
       steady_lambda(valve_, mcv_input(seen, memory_.load, motion.cap.factor * motion.corrected_mps),
                     profile_.control.lambda_policy, profile_.control.lambda_rise,
@@ -238,6 +243,7 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
                    {command.enable, command.duty_ratio},
                    memory_.lambda.value() * motion.cap.factor * motion.corrected_mps};
   memory_.expected_mps = memory_.lambda.value() * motion.cap.factor * motion.wanted_mps;
+  memory_.swing_wanted_mps = motion.task.wanted_mps[kSwing];
   memory_.task = task_afterwards(valid, motion, mode.mode, memory_.lambda.value(), time.period_s);
   memory_.pilot = pressure.state;
   memory_.time = time.state;

@@ -53,6 +53,7 @@ class ExcavatorController {
     /// lambda V_L^d, without corrections: what the servo expects of the drives.
     DriveVector expected_mps = DriveVector::Zero();
     TaskMemory task;
+    double swing_wanted_mps = 0.0;  ///< V_L^d of the last cycle's program.
     CycleState time;
     PilotState pilot;
   };
@@ -77,7 +78,7 @@ class ExcavatorController {
   [[nodiscard]] const TaskProgram* running(const ValidInputs& valid) const;
   [[nodiscard]] Motion dig_motion(const ValidInputs& valid, const KinematicState& state) const;
   [[nodiscard]] Motion task_motion(const TaskProgram& program, const TaskAim& aim,
-                                   double speed_override_ratio) const;
+                                   double speed_override_ratio, double period_s) const;
   void describe_motion(const Motion& motion, const McvSolution& solution, const FaultSet& degraded,
                        ExcavatorStatus& status) const;
   /// The program's place after this cycle.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -71,17 +72,33 @@ json step_of(const ExcavatorProfile& profile, const TaskProgram& program,
           {"to_m", list_of(at(1.0))}};
 }
 
-std::string fence_text(const Fence& fence) {
+/// "z >= -0.500 m", or all that is not 0 of a plane that leans.
+std::string plane_text(const Fence& fence) {
+  constexpr std::array<char, 3> kAxes = {'x', 'y', 'z'};
   const Eigen::Vector3d& normal = fence.normal;
+  std::string sum;
+  for (unsigned i = 0; i < kAxes.size(); ++i) {
+    const double share = normal[i];
+    if (std::abs(share) == 1.0) {
+      return fmt::format("{} {} {:.3f} m", kAxes.at(i),
+                         share > 0.0 ? "<=" : ">=", fence.offset_m / share);
+    }
+    if (share != 0.0) {
+      sum += fmt::format("{}{:.3f} {}", sum.empty() ? "" : " + ", share, kAxes.at(i));
+    }
+  }
+  return fmt::format("{} <= {:.3f} m", sum, fence.offset_m);
+}
+
+std::string fence_text(const Fence& fence, int index) {
   const char* guards = fence.guard == FenceGuard::kTeeth ? "teeth" : "teeth, bucket pin, arm pin";
-  return fmt::format("{:.3f} x + {:.3f} y + {:.3f} z <= {:.3f} m for {}", normal.x(), normal.y(),
-                     normal.z(), fence.offset_m, guards);
+  return fmt::format("fence[{}]: {} for {}", index, plane_text(fence), guards);
 }
 
 json fences(const TaskProgram& program) {
   json all = json::array();
   for (int i = 0; i < program.fences.count; ++i) {
-    all.push_back({{"words", fence_text(program.fences.fence[static_cast<unsigned>(i)])}});
+    all.push_back({{"words", fence_text(program.fences.fence[static_cast<unsigned>(i)], i)}});
   }
   return all;
 }

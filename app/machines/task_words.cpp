@@ -21,7 +21,7 @@ const char* point_name(MachinePoint point) {
 
 std::string fence_words(const ProgramRequest& request, const ProgramResult& result) {
   const bool design = request.has_design && result.fence == request.fences.count;
-  const std::string which = design ? "the design surface" : fmt::format("fence {}", result.fence);
+  const std::string which = design ? "the design surface" : fmt::format("fence[{}]", result.fence);
   return fmt::format("{} would pass {}", point_name(result.point), which);
 }
 

@@ -85,9 +85,12 @@ ServoState next_servo(const ControlProfile& control, const ServoState& last,
 
 ServoState next_servo_on_plan(const ExcavatorProfile& profile, const ServoState& last,
                               const DriveVector& asked_mps, const DriveVector& strokes_m,
-                              const DriveVector& planned_m, double period_s) {
+                              const DriveVector& planned_m, bool new_plan, double period_s) {
   const ControlProfile& control = profile.control;
   ServoState next = with_asked(control, last, asked_mps, period_s);
+  if (new_plan) {
+    next.trim_mps.setZero();
+  }
   next.owed_m = bounded_debt(control, planned_m - next.under_way_m - strokes_m);
   next.strokes_m = strokes_m;
   repay(control, next, period_s);

@@ -50,11 +50,13 @@ struct ServoState {
 /// The same where a plan says what the drives owe: `planned_m` is the travel that it has asked for
 /// until now. No sum of errors, so nothing is forgotten and nothing adds up over a long task. What
 /// a drive goes on owing is learnt (`line.trim_ps2`) and asked for on top: a motor leaks, and a
-/// line in space is as straight as its slowest drive.
+/// line in space is as straight as its slowest drive. A new plan has other lags, and learns them
+/// anew.
 [[nodiscard]] ServoState next_servo_on_plan(const ExcavatorProfile& profile, const ServoState& last,
                                             const DriveVector& asked_mps,
                                             const DriveVector& strokes_m,
-                                            const DriveVector& planned_m, double period_s);
+                                            const DriveVector& planned_m, bool new_plan,
+                                            double period_s);
 
 /// Where the cylinders will be when what is under way has arrived, within their strokes: where the
 /// field has to be asked, so that neither lag nor dead time carries the bucket past a bend.

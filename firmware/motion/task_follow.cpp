@@ -91,6 +91,16 @@ TaskWant want_of_task(const ExcavatorProfile& profile, const SwingKinematics& ki
   return want;
 }
 
+double swing_lead_mps(const ExcavatorProfile& profile, double wanted_mps, double last_wanted_mps,
+                      double period_s) {
+  if (!profile.has_swing() || !(period_s > 0.0)) {
+    return 0.0;
+  }
+  const double most_mps2 = profile.swing.acceleration_max_radps2 * profile.swing.lever_m;
+  const double change_mps2 = (wanted_mps - last_wanted_mps) / period_s;
+  return profile.control.swing_lead_s * std::clamp(change_mps2, -most_mps2, most_mps2);
+}
+
 VelocityCap task_cap(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
                      const TaskProgram& program, const DriveVector& travel_then_m,
                      const DriveVector& velocity_mps) {

@@ -50,6 +50,12 @@ struct TaskWant {
                                     const TaskMemory& memory, const TaskAim& aim,
                                     const ServoState& servo, double speed_override_ratio);
 
+/// What the swing has to be asked for beyond `wanted_mps` so that its platform is as fast by then:
+/// its lag (control.swing_lead_s) times the change of what is wanted, as far as the platform can
+/// follow that at all.
+[[nodiscard]] double swing_lead_mps(const ExcavatorProfile& profile, double wanted_mps,
+                                    double last_wanted_mps, double period_s);
+
 /// soft_limit for travels: `velocity_mps` is what the valve would be asked for.
 [[nodiscard]] VelocityCap task_cap(const ExcavatorProfile& profile,
                                    const SwingKinematics& kinematics, const TaskProgram& program,

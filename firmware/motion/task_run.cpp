@@ -52,6 +52,7 @@ TaskState next_part(const TaskProgram& program, const TaskState& state) {
   TaskState next = state;
   next.time_s = 0.0;
   next.settle_s = 0.0;
+  next.calm_s = 0.0;
   next.step = state.phase == TaskPhase::kApproach ? 0 : state.step + 1;
   next.phase = TaskPhase::kSteps;
   if (next.step >= program.step_count) {
@@ -132,7 +133,8 @@ TaskState task_advance(const LineProfile& line, const TaskProgram& program, cons
   }
   next.time_s = end_s;
   next.settle_s += period_s;
-  const bool there = error_m < kSettled_m || next.settle_s >= kSettleMost_s;
+  next.calm_s = error_m < kSettled_m ? state.calm_s + period_s : 0.0;
+  const bool there = next.calm_s >= kCalm_s || next.settle_s >= kSettleMost_s;
   return there ? next_part(program, next) : next;
 }
 

@@ -19,6 +19,7 @@ struct TaskState {
   int step = 0;
   double time_s = 0.0;    ///< tau: of the plan of approach or step.
   double settle_s = 0.0;  ///< How long it has waited at its end.
+  double calm_s = 0.0;    ///< How long of that the teeth have been there without a break.
   /// Of the plan's speed, 0 .. 1: the aim's velocity has to be scaled by it before what is owed is
   /// added, and task_advance goes on by it. Drives that went on at full speed would run ahead of a
   /// plan that waits for them, and make the error that it waits for.
@@ -38,10 +39,12 @@ struct TaskAim {
   TeethPose teeth;          ///< Where they are planned to be.
 };
 
-/// An end is reached with the teeth so near to it ...
+/// An end is reached with the teeth so near to it for so long: a platform that swings through its
+/// place is not there yet ...
 inline constexpr double kSettled_m = 5e-3;
+inline constexpr double kCalm_s = 0.2;
 /// ... or after so long: what is left then is the next step's to correct.
-inline constexpr double kSettleMost_s = 1.5;
+inline constexpr double kSettleMost_s = 2.0;
 /// Share of the drives' limits that the approach keeps to.
 inline constexpr double kApproachPace = 0.3;
 
@@ -68,8 +71,8 @@ inline constexpr double kApproachPace = 0.3;
 /// One cycle on. `advance_s` is what the plan may go on by: lambda and every other factor on the
 /// velocity but its own pace, times the period. The pace follows wanted_pace no faster than
 /// line.pace_rate_ps: a platform can't be slowed at once, and a plan that tries makes it swing
-/// about its place. At the end of a step it waits until the teeth are within kSettled_m, or for
-/// kSettleMost_s.
+/// about its place. At the end of a step it waits until the teeth have been within
+/// kSettled_m for kCalm_s, or for kSettleMost_s.
 [[nodiscard]] TaskState task_advance(const LineProfile& line, const TaskProgram& program,
                                      const TaskState& state, double advance_s, double period_s,
                                      double error_m);

@@ -80,6 +80,28 @@ def bad_usage(graben):
     refused(graben, "", "dig", "--start", "5,0,1.5", "--random-start", status=2)
 
 
+def bad_tasks(graben):
+    """What is of Kim's path alone goes with no task, and is not silently left out."""
+    for option in (("--soil",), ("--air",), ("--obstacle",), ("--stiff-oil",),
+                   ("--dead-time", "0.1"), ("--fixed-lambda",), ("--start-strokes", "1,1,0.4"),
+                   ("--start", "5,0,1.5"), ("--random-start",), ("--loops", "1")):
+        done = call(graben, "dig", "--task", "flatten", *option)
+        assert done.returncode == 2 and not done.stdout, f"{option}: {done}"
+        assert "excludes" in done.stderr and option[0] in done.stderr and "--task" in done.stderr, \
+            f"{option}: {done.stderr}"
+    refused(graben, "task '' not found", "dig", "--task", "")
+    refused(graben, "this machine's swing is held", "dig", "--task", "flatten", "--profile",
+            "excavator_22t")
+    refused(graben, "none,stroke-bias,sensors,parameters,all", "autodig", "--errors", "some",
+            status=2)
+    refused(graben, "0.01 is not a number from 0.05 to 1", "autodig", "--speed", "0.01", status=2)
+    refused(graben, "1.1 is not a number from 0.05 to 1", "autodig", "--swash", "1.1", status=2)
+    refused(graben, "nan is not a number", "autodig", "--duration", "nan", status=2)
+    refused(graben, "-1 is not a whole number", "autodig", "--seed=-1", status=2)
+    refused(graben, "", "autodig", "--rounds", "0", status=2)
+    refused(graben, "", "autodig", "--start", "5,0,1.5", status=2)
+
+
 def bad_grades(graben):
     refused(graben, "bounded,constant", "grade", "--speed-mode", "fast", status=2)
     refused(graben, "nan is not a number", "grade", "--speed", "nan", status=2)
@@ -120,11 +142,12 @@ def unwritable(graben):
         blocked = os.path.join(folder, "file")
         with open(blocked, "w", encoding="ascii") as stream:
             stream.write("kept")
-        refused(graben, "file", "dig", "--out", blocked)
+        for command in (("dig",), ("dig", "--task", "flatten"), ("autodig",)):
+            refused(graben, "file", *command, "--out", blocked)
         with open(blocked, encoding="ascii") as stream:
             assert stream.read() == "kept"
         missing = os.path.join(folder, "no", "such", "file")
-        for command, option in (("dig", "--summary"), ("grade", "--summary"), ("grade", "--log")):
+        for command, option in (("dig", "--summary"), ("autodig", "--summary"), ("grade", "--summary"), ("grade", "--log")):
             done = call(graben, command, "--out", folder, option, missing)
             assert done.returncode == 1 and missing in done.stderr, done.stderr
 
@@ -143,6 +166,7 @@ def main():
     graben = sys.argv[1]
     pose_and_back(graben)
     bad_usage(graben)
+    bad_tasks(graben)
     bad_grades(graben)
     no_constant_speed(graben)
     unwritable(graben)

@@ -44,7 +44,13 @@ void cylinder_ends(void**) {
              kBoom);
 }
 
+/// 0.7 rad/s2; slack 0.02 mrad.
 void swing_ends(void**) {
+  ExcavatorProfile quick = machine().profile;
+  quick.swing.acceleration_max_radps2 = 0.7;
+  const auto cap = [&quick](const DriveVector& then, const DriveVector& velocity) {
+    return soft_limit(quick, machine().kinematics, {}, then, velocity);
+  };
   assert_cap(cap({0.475, 0.565, 0.4375, 2.9}, {0.0, 0.0, 0.0, 0.5}), 2.0 * 0.10002 / 0.5,
              LimitKind::kSwingEnd, 0);
   assert_cap(cap({0.475, 0.565, 0.4375, -2.2}, {0.0, 0.0, 0.0, -1.4}),

@@ -115,14 +115,17 @@ void a_swing_velocity_gives_a_duty_of_its_sign(void**) {
 
 /// At its own gain: 1 1/s where the cylinders have 2.
 void the_swing_owes_at_its_own_gain(void**) {
+  ExcavatorProfile machine = profile();
+  machine.control.servo_gain_ps = 2.0;
+  machine.control.swing_servo_gain_ps = 1.0;
   ServoState servo = servo_at_rest(half_out());
   servo.repay_m = {0.01, 0.01, 0.01, 0.01};
   const DriveVector wanted(0.01, 0.01, 0.01, 0.01);
-  const DriveVector asked = corrected_velocity(profile(), wanted, servo, 1.0, 1.0);
+  const DriveVector asked = corrected_velocity(machine, wanted, servo, 1.0, 1.0);
   assert_near(asked[kArm], 0.03, 1e-15);
   assert_near(asked[kSwing], 0.02, 1e-15);
   const DriveVector held(0.01, 0.01, 0.01, 0.0);
-  assert_near(corrected_velocity(profile(), held, servo, 1.0, 1.0)[kSwing], 0.0, 0.0);
+  assert_near(corrected_velocity(machine, held, servo, 1.0, 1.0)[kSwing], 0.0, 0.0);
 }
 
 /// What is owed does not push it into an end of its range, and a prediction ends there.
@@ -221,10 +224,13 @@ void whatever_fails_of_the_swing_is_neutral(void**) {
 /// A platform that turns by itself, 0.2 rad/s, long after its spool has closed.
 void a_swing_that_turns_by_itself_is_neutral(void**) {
   Digging digging;
+  const SwingProfile& swing = profile().swing;
+  // When one at full speed would have come to rest, half a second for the oil, and a second.
+  const double stopped_s = swing.speed_max_radps / swing.acceleration_max_radps2 + 1.5;
   double angle_rad = 0.0;
-  for (int n = 0; n < 1000 && digging.outputs.status.mode == EcuMode::kActive; ++n) {
+  for (int n = 0; n < 3000 && digging.outputs.status.mode == EcuMode::kActive; ++n) {
     ExcavatorInputs inputs = digging.inputs();
-    angle_rad += n > 300 ? 0.002 : 0.0;
+    angle_rad += 0.01 * n > stopped_s ? 0.002 : 0.0;
     inputs.swing.angle_rad.value = angle_rad;
     for (AxisInputs& axis : inputs.axis) {
       axis.stroke_m.value += 0.001 * (n % 2);

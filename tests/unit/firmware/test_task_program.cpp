@@ -232,8 +232,7 @@ void assert_replays_inside(const TaskProgram& program, bool late) {
     const double error_m = (machine().teeth(then).position_m - aim.teeth.position_m).norm();
     // Half a cycle of a rising speed is asked for too late.
     assert_true(error_m < 0.02);
-    const DriveVector velocity =
-        task_slowing(machine().profile.line, program, state, error_m) * aim.velocity + 2.0 * (aim.value - then);
+    const DriveVector velocity = state.pace_ratio * aim.velocity + 2.0 * (aim.value - then);
     const VelocityCap cap =
         soft_limit(machine().profile, machine().kinematics, program.fences, then, velocity);
     drives.ask(cap.factor * velocity);

@@ -45,7 +45,8 @@ TaskState at_first_step() {
   return state;
 }
 
-/// At lambda 1 every step takes what its plan says, to the cycle in which it ends.
+/// At lambda 1 every step takes what its plan says and is then seen to stand, to the cycle in which
+/// that ends.
 void the_plan_s_times_hold(void**) {
   const TaskProgram task = program(false);
   TaskState state = at_first_step();
@@ -57,7 +58,7 @@ void the_plan_s_times_hold(void**) {
     }
     const double took_s = cycles * kCycle_s;
     const double planned_s = task.step[static_cast<unsigned>(step)].duration_s();
-    assert_true(took_s >= planned_s - 1e-9 && took_s < planned_s + kCycle_s + 1e-9);
+    assert_true(took_s >= planned_s - 1e-9 && took_s < planned_s + kCalm_s + kCycle_s + 1e-9);
   }
   assert_int_equal(state.phase, TaskPhase::kDone);
   const TaskAim aim = aim_of(task, state);
@@ -112,39 +113,98 @@ void velocity_is_the_value_s_difference(void**) {
   }
 }
 
-void an_error_slows_it_and_nan_stops_it(void**) {
+void an_error_asks_for_less_pace_and_nan_for_none(void**) {
   const TaskProgram task = program(false);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double slow_m = machine().profile.control.slow_error_m;
+  const LineProfile& line = machine().profile.line;
+  TaskState state = at_first_step();
+  // The first step is a line, at uniform speed there.
+  const LinePlan& plan = task.step[0].line;
+  const double speed_mps = plan.way_m * plan.ramp.at(3.0).rate_ps;
+  assert_true(speed_mps > 0.4 && speed_mps <= 0.5 + 1e-9);
+  const double half_m = line.slow_error_m + speed_mps * line.slow_error_s;
+  state.time_s = 3.0;
+  assert_near(wanted_pace(line, task, state, 0.0), 1.0, 0.0);
+  assert_near(wanted_pace(line, task, state, half_m), 0.5, 1e-12);
+  assert_near(wanted_pace(line, task, state, 2.0 * half_m), 0.2, 1e-12);
+  assert_near(wanted_pace(line, task, state, nan), 0.0, 0.0);
+  // From rest, where a drive may stick, it waits sooner.
+  state.time_s = 0.0;
+  assert_near(wanted_pace(line, task, state, line.slow_error_m), 0.5, 1e-12);
+  // Drives that are only moved have to arrive, no more: steps without a line, and the approach.
+  state.step = 1;
+  assert_near(wanted_pace(line, task, state, line.move_slow_error_m), 0.5, 1e-12);
+  const TaskState approach = task_start(machine().profile, task, task.end);
+  assert_near(wanted_pace(line, task, approach, line.move_slow_error_m), 0.5, 1e-12);
+}
+
+/// It goes on by its pace times what it may, and the pace changes no faster than its rate.
+void the_pace_changes_at_its_rate(void**) {
+  const TaskProgram task = program(false);
+  const LineProfile& line = machine().profile.line;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double change = line.pace_rate_ps * kCycle_s;
   TaskState state = at_first_step();
   state.time_s = 1.0;
-  assert_near(advance(task, state, 1.0, slow_m).time_s, 1.0 + 0.5 * kCycle_s, 1e-12);
-  assert_near(advance(task, state, 0.5, 2.0 * slow_m).time_s, 1.0 + 0.1 * kCycle_s, 1e-12);
-  assert_near(task_slowing(machine().profile.line, slow_m), 0.5, 1e-12);
-  assert_near(task_slowing(machine().profile.line, nan), 0.0, 0.0);
+  assert_near(state.pace_ratio, 1.0, 0.0);
+  TaskState next = advance(task, state, 0.5, 1e3);
+  assert_near(next.time_s, 1.0 + 0.5 * kCycle_s, 1e-12);
+  assert_near(next.pace_ratio, 1.0 - change, 1e-12);
+  next = advance(task, next, 1.0, 1e3);
+  assert_near(next.time_s, 1.0 + (1.5 - change) * kCycle_s, 1e-12);
+  state.pace_ratio = 0.5;
+  next = advance(task, state, 1.0);
+  assert_near(next.time_s, 1.0 + 0.5 * kCycle_s, 1e-12);
+  assert_near(next.pace_ratio, 0.5 + change, 1e-12);
+  // What is near is reached, no more.
+  state.pace_ratio = 1.0 - 0.1 * change;
+  assert_near(advance(task, state, 1.0).pace_ratio, 1.0, 0.0);
+  state.pace_ratio = 0.1 * change;
+  assert_near(advance(task, state, 1.0, nan).pace_ratio, 0.0, 0.0);
+  state.pace_ratio = 1.0;
   assert_near(advance(task, state, 0.0).time_s, 1.0, 0.0);
   assert_near(advance(task, state, -1.0).time_s, 1.0, 0.0);
   assert_near(advance(task, state, nan).time_s, 1.0, 0.0);
-  assert_near(advance(task, state, 1.0, nan).time_s, 1.0, 0.0);
+  state.pace_ratio = nan;
+  assert_near(advance(task, state, 1.0).time_s, 1.0, 0.0);
 }
 
-/// At the end it waits for the teeth, but not for ever.
-void a_step_ends_settled_or_late(void**) {
+/// Cycles until a step that has come to its end is left, with the error that `error_m(cycle)` says.
+template <class Error>
+int cycles_at_the_end(Error&& error_m) {
   const TaskProgram task = program(false);
   TaskState state = at_first_step();
   state.time_s = task.step[0].duration_s() - 0.5 * kCycle_s;
-  assert_int_equal(advance(task, state, 1.0, 0.9 * kSettled_m).step, 1);
-  for (int cycle = 0; cycle < 149; ++cycle) {
-    state = advance(task, state, 1.0, 1.1 * kSettled_m);
-    assert_int_equal(state.step, 0);
-    assert_near(aim_of(task, state).share, 1.0, 1e-6);
+  int cycle = 0;
+  for (; state.step == 0 && cycle < 1000; ++cycle) {
+    assert_true(aim_of(task, state).share > 0.999);
+    state = advance(task, state, 1.0, error_m(cycle));
   }
-  assert_int_equal(advance(task, state, 1.0, 0.0).step, 1);
-  state = advance(task, state, 1.0, 1.1 * kSettled_m);
-  state = advance(task, state, 1.0, 1.1 * kSettled_m);
   assert_int_equal(state.step, 1);
   assert_near(state.settle_s, 0.0, 0.0);
-  assert_near(state.time_s, 0.0, 0.02);
+  assert_near(state.calm_s, 0.0, 0.0);
+  assert_near(state.time_s, 0.0, 0.0);
+  return cycle;
+}
+
+int cycles_of(double time_s) { return static_cast<int>(std::lround(time_s / kCycle_s)); }
+
+/// At the end it waits for the teeth to stand there, but not for ever.
+void a_step_ends_settled_or_late(void**) {
+  const int calm = cycles_of(kCalm_s);
+  const int most = cycles_of(kSettleMost_s);
+  const auto near_m = [](int) { return 0.9 * kSettled_m; };
+  const auto far_m = [](int) { return 1.1 * kSettled_m; };
+  // A cycle more where the sum of periods rounds to just below.
+  assert_in_range(cycles_at_the_end(near_m), calm, calm + 1);
+  assert_in_range(cycles_at_the_end(far_m), most, most + 1);
+  // What swings through its place is not there yet: the count begins anew.
+  const int swung =
+      cycles_at_the_end([calm](int cycle) { return (cycle == calm - 2 ? 1.1 : 0.9) * kSettled_m; });
+  assert_in_range(swung, 2 * calm - 1, 2 * calm);
+  assert_in_range(
+      cycles_at_the_end([](int cycle) { return (cycle % 9 == 0 ? 1.1 : 0.9) * kSettled_m; }), most,
+      most + 1);
 }
 
 void it_begins_again_if_it_repeats(void**) {
@@ -152,6 +212,7 @@ void it_begins_again_if_it_repeats(void**) {
   TaskState state = at_first_step();
   state.step = 2;
   state.time_s = task.step[2].duration_s();
+  state.calm_s = kCalm_s;
   state = advance(task, state, 1.0);
   assert_int_equal(state.phase, TaskPhase::kSteps);
   assert_int_equal(state.step, 0);
@@ -163,7 +224,10 @@ void the_approach_leads_to_the_start(void**) {
   const TaskProgram task = program(false);
   DriveVector now = task.start;
   now[kSwing] = 2.5;
-  TaskState state = task_start(machine().profile, task, now);
+  // Quick enough to reach its uniform speed on the way.
+  ExcavatorProfile quick = machine().profile;
+  quick.swing.acceleration_max_radps2 = 0.7;
+  TaskState state = task_start(quick, task, now);
   assert_int_equal(state.phase, TaskPhase::kApproach);
   const TaskAim first = aim_of(task, state);
   assert_int_equal(first.kind, StepKind::kApproach);
@@ -190,12 +254,14 @@ void the_approach_leads_to_the_start(void**) {
   // Where it stands already nothing is waited for.
   TaskState there = task_start(machine().profile, task, task.start);
   assert_near(aim_of(task, there).share, 1.0, 0.0);
+  there.calm_s = kCalm_s;
   assert_int_equal(advance(task, there, 1.0).phase, TaskPhase::kSteps);
 }
 
 void no_program_is_done(void**) {
   const TaskProgram none;
   TaskState state = at_first_step();
+  state.calm_s = kCalm_s;
   assert_int_equal(advance(none, state, 1.0).phase, TaskPhase::kDone);
   assert_int_equal(TaskState{}.phase, TaskPhase::kDone);
 }
@@ -207,7 +273,8 @@ int main() {
       cmocka_unit_test(the_plan_s_times_hold),
       cmocka_unit_test(lambda_leaves_the_path),
       cmocka_unit_test(velocity_is_the_value_s_difference),
-      cmocka_unit_test(an_error_slows_it_and_nan_stops_it),
+      cmocka_unit_test(an_error_asks_for_less_pace_and_nan_for_none),
+      cmocka_unit_test(the_pace_changes_at_its_rate),
       cmocka_unit_test(a_step_ends_settled_or_late),
       cmocka_unit_test(it_begins_again_if_it_repeats),
       cmocka_unit_test(the_approach_leads_to_the_start),
