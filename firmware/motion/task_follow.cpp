@@ -6,8 +6,10 @@
 namespace graben {
 namespace {
 
-int place_of(bool runs, std::uint8_t number, const TaskState& state) {
-  return ((number * 256 + state.step) * 4 + static_cast<int>(state.phase)) * 2 + (runs ? 1 : 0);
+/// Wide enough for whatever a bit may make of the step.
+std::int64_t place_of(bool runs, std::uint8_t number, const TaskState& state) {
+  const std::int64_t step = state.step;
+  return ((step * 256 + number) * 4 + static_cast<int>(state.phase)) * 2 + (runs ? 1 : 0);
 }
 
 /// From the straight line through both ends.

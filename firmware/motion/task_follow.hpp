@@ -19,7 +19,7 @@ struct TaskMemory {
   Guarded<double> time_s = 0.0;  ///< Of the state, like its pace: kept twice.
   Guarded<double> pace_ratio = 1.0;
   /// All else that says where it is, in one number; as constructed it does not run.
-  Guarded<int> place = 2 * static_cast<int>(TaskPhase::kDone);
+  Guarded<std::int64_t> place = 2 * static_cast<int>(TaskPhase::kDone);
 
   /// Whether the state is what it was when it was stored.
   [[nodiscard]] bool intact() const;

@@ -209,7 +209,7 @@ void a_flipped_bit_of_the_place_stops(void**) {
     assert_stops([bit](TaskMemory& task) { test::flip_bit(task.state.pace_ratio, bit); });
     assert_stops([bit](TaskMemory& task) { test::flip_bit(task.time_s, 2 * bit); });
     assert_stops([bit](TaskMemory& task) { test::flip_bit(task.pace_ratio, 2 * bit); });
-    assert_stops([bit](TaskMemory& task) { test::flip_bit(task.place, bit); });
+    assert_stops([bit](TaskMemory& task) { test::flip_bit(task.place, 2 * bit); });
     assert_stops([bit](TaskMemory& task) { test::flip_bit(task.number, bit % 8); });
     assert_stops([bit](TaskMemory& task) { test::flip_bit(task.state.step, bit % 32); });
   }

@@ -146,7 +146,7 @@ void what_is_remembered_is_intact(void**) {
     assert_true(flipped([bit](TaskMemory& m) { test::flip_bit(m.state.time_s, bit); }));
     assert_true(flipped([bit](TaskMemory& m) { test::flip_bit(m.state.pace_ratio, bit); }));
     assert_true(flipped([bit](TaskMemory& m) { test::flip_bit(m.number, bit % 8); }));
-    assert_true(flipped([bit](TaskMemory& m) { test::flip_bit(m.state.step, bit % 8); }));
+    assert_true(flipped([bit](TaskMemory& m) { test::flip_bit(m.state.step, bit % 32); }));
   }
   for (const TaskPhase phase : {TaskPhase::kApproach, TaskPhase::kDone}) {
     assert_true(flipped([phase](TaskMemory& m) { m.state.phase = phase; }));
