@@ -170,7 +170,9 @@ ExcavatorController::Motion ExcavatorController::task_motion(const TaskProgram& 
 
 const TaskProgram* ExcavatorController::running(const ValidInputs& valid) const {
   const TaskMemory& task = memory_.task;
-  const bool goes_on = task.runs && valid.task == Task::kProgram && task.number < book_.count;
+  // A place that is not what was stored must not be looked up: it need not be in the program.
+  const bool goes_on =
+      task.runs && task.intact() && valid.task == Task::kProgram && task.number < book_.count;
   return goes_on ? &book_.program[task.number] : nullptr;
 }
 

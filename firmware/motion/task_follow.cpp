@@ -6,8 +6,10 @@
 namespace graben {
 namespace {
 
-int place_of(std::uint8_t number, const TaskState& state) {
-  return (number * 256 + state.step) * 4 + static_cast<int>(state.phase);
+/// Wide enough for whatever a bit may make of the step.
+std::int64_t place_of(bool runs, std::uint8_t number, const TaskState& state) {
+  const std::int64_t step = state.step;
+  return ((step * 256 + number) * 4 + static_cast<int>(state.phase)) * 2 + (runs ? 1 : 0);
 }
 
 /// From the straight line through both ends.
@@ -44,8 +46,9 @@ TaskProgress progress_of(const TaskMemory& memory, const TaskAim& aim) {
 }  // namespace
 
 bool TaskMemory::intact() const {
-  return time_s.intact() && place.intact() && time_s.value() == state.time_s &&
-         place.value() == place_of(number, state);
+  return time_s.intact() && pace_ratio.intact() && place.intact() &&
+         time_s.value() == state.time_s && pace_ratio.value() == state.pace_ratio &&
+         place.value() == place_of(runs, number, state);
 }
 
 TaskMemory remembered(std::uint8_t number, const TaskState& state) {
@@ -54,7 +57,8 @@ TaskMemory remembered(std::uint8_t number, const TaskState& state) {
   memory.number = number;
   memory.state = state;
   memory.time_s = state.time_s;
-  memory.place = place_of(number, state);
+  memory.pace_ratio = state.pace_ratio;
+  memory.place = place_of(true, number, state);
   return memory;
 }
 

@@ -16,8 +16,10 @@ struct TaskMemory {
   bool runs = false;
   std::uint8_t number = 0;
   TaskState state;
-  Guarded<double> time_s = 0.0;  ///< Of the state, and its place in one number: kept twice.
-  Guarded<int> place = static_cast<int>(TaskPhase::kDone);
+  Guarded<double> time_s = 0.0;  ///< Of the state, like its pace: kept twice.
+  Guarded<double> pace_ratio = 1.0;
+  /// All else that says where it is, in one number; as constructed it does not run.
+  Guarded<std::int64_t> place = 2 * static_cast<int>(TaskPhase::kDone);
 
   /// Whether the state is what it was when it was stored.
   [[nodiscard]] bool intact() const;

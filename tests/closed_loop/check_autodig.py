@@ -74,13 +74,22 @@ class Digger:
             return stream.read()
 
 
+def teeth(graben, row):
+    strokes = ",".join(row[f"{axis}_m"] for axis in ("boom", "arm", "bucket"))
+    done = subprocess.run([graben, "pose", "--profile", "excavator_12t", f"--strokes={strokes}",
+                           f"--swing={row['swing_rad']}"], capture_output=True, text=True,
+                          timeout=60, check=True)
+    return json.loads(done.stdout)["position_m"]
+
+
 def planned_line(digger):
-    """Poses of the plan through forward kinematics, at 1000 points and more."""
+    """How far the teeth are off it at most: strokes and swing of the plan through the forward
+    kinematics, at 1000 points and more."""
     done = digger.call("plan", "--step", "0.0184")
     assert done.returncode == 0, done.stderr
     with open(digger.path("plan.csv"), encoding="utf-8", newline="") as stream:
-        points = [[float(row[key]) for key in ("x_m", "y_m", "z_m")]
-                  for row in csv.DictReader(stream)]
+        rows = list(csv.DictReader(stream))
+    points = [teeth(digger.graben, row) for row in rows]
     assert len(points) >= 1000, len(points)
     way = [b - a for a, b in zip(J, K)]
 

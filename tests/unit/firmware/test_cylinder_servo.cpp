@@ -273,6 +273,84 @@ void what_stays_owed_is_asked_for_whole(void**) {
   assert_near(servo.repay_mps[0], 0.1, 0.0);
 }
 
+/// The shipped machine's control and a trim of its own.
+ExcavatorProfile trimmed() {
+  ExcavatorProfile profile = machine();
+  profile.line.trim_ps2 = 1.0;
+  profile.line.trim_most_mps = 0.004;
+  return profile;
+}
+
+/// On a plan the plan says what is owed: less what is under way, less the stroke, bounded, and
+/// nothing of what was owed before.
+void on_a_plan_it_owes_what_the_plan_says(void**) {
+  const ExcavatorProfile profile = trimmed();
+  ServoState servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
+  servo.owed_m = {0.02, -0.02, 0.01, 0.01};
+  const DriveVector strokes_m(0.5, 0.5, 0.5, 0.0);
+  DriveVector planned_m(0.503, 0.5, 0.48, 0.9);
+  servo = next_servo_on_plan(profile, servo, DriveVector::Zero(), strokes_m, planned_m, false,
+                             kPeriod_s);
+  assert_true((servo.owed_m - DriveVector(0.003, 0.0, -0.02, 0.02)).norm() < 1e-12);
+  // What was asked for is under way, not owed.
+  const DriveVector asked_mps(0.1, 0.0, 0.0, 0.0);
+  planned_m = strokes_m;
+  for (int n = 0; n < 4; ++n) {
+    planned_m += kPeriod_s * asked_mps;
+    servo = next_servo_on_plan(profile, servo, asked_mps, strokes_m, planned_m, false, kPeriod_s);
+    assert_true(servo.under_way_m[0] > 0.0);
+    assert_near(servo.owed_m[0], planned_m[0] - servo.under_way_m[0] - 0.5, 1e-12);
+  }
+  assert_true((servo.strokes_m - strokes_m).isZero(0.0));
+}
+
+/// A drive that goes on owing gets more and more, up to a bound; a new plan and a release forget
+/// it.
+void a_lasting_lag_is_learnt(void**) {
+  const ExcavatorProfile profile = trimmed();
+  const DriveVector strokes_m(0.5, 0.5, 0.5, 0.0);
+  const DriveVector planned_m = strokes_m + DriveVector(0.002, -0.002, 0.0, 0.002);
+  const auto next = [&](const ServoState& servo, bool new_plan) {
+    return next_servo_on_plan(profile, servo, DriveVector::Zero(), strokes_m, planned_m, new_plan,
+                              kPeriod_s);
+  };
+  ServoState servo = servo_at_rest(strokes_m);
+  for (int n = 0; n < 100; ++n) {
+    servo = next(servo, false);
+  }
+  // 1 s of 1 /s2 of 2 mm.
+  assert_true((servo.trim_mps - DriveVector(0.002, -0.002, 0.0, 0.002)).norm() < 1e-9);
+  assert_near(next(servo, true).trim_mps[0], kPeriod_s * 0.002, 1e-9);
+  for (int n = 0; n < 400; ++n) {
+    servo = next(servo, false);
+  }
+  assert_true((servo.trim_mps - DriveVector(0.004, -0.004, 0.0, 0.004)).norm() < 1e-12);
+  assert_true(servo_released(profile.control, servo, strokes_m, kPeriod_s).trim_mps.isZero(0.0));
+  // What is learnt is asked for, with what is owed, also of a drive that is to stand where it
+  // holds.
+  const DriveVector wanted_mps(0.01, 0.0, 0.0, 0.0);
+  servo.repay_m.setZero();
+  const DriveVector moved = corrected_velocity(profile, wanted_mps, servo, 1.0, 1.0, false);
+  assert_near(moved[0], 0.014, 1e-12);
+  assert_true(corrected_velocity(profile, DriveVector::Zero(), servo, 1.0, 1.0).isZero(0.0));
+  const DriveVector held = corrected_velocity(profile, DriveVector::Zero(), servo, 1.0, 1.0, true);
+  assert_near(held[0], 0.004, 1e-12);
+  assert_near(held[1], -0.004, 1e-12);
+}
+
+/// The 12 t machine's swing: closed where it owes and does not hold, corrected where it does.
+void a_swing_that_holds_is_corrected(void**) {
+  ExcavatorProfile profile = test::excavator_12t().profile;
+  profile.control.swing_servo_gain_ps = 1.5;
+  ServoState servo = servo_at_rest({0.4, 0.5, 0.3, 0.0});
+  servo.repay_m[kSwing] = 0.01;
+  const DriveVector boom_only(0.01, 0.0, 0.0, 0.0);
+  const DriveVector closed = corrected_velocity(profile, boom_only, servo, 1.0, 1.0, false);
+  assert_near(closed[kSwing], 0.0, 0.0);
+  const DriveVector holds = corrected_velocity(profile, boom_only, servo, 1.0, 1.0, true);
+  assert_near(holds[kSwing], 0.015, 1e-12);
+}
+
 /// A step of load: two thirds after the time constant, all in the end; at once when it starts.
 void the_load_is_low_passed(void**) {
   const LoadState low = {{1e6, 2e6, 3e6, 4e6}, {4e6, 5e6, 6e6, 7e6}};
@@ -305,6 +383,9 @@ int main() {
       cmocka_unit_test(a_prediction_stays_within_the_strokes),
       cmocka_unit_test(what_shakes_is_asked_for_a_quarter_of_a_period_later),
       cmocka_unit_test(what_stays_owed_is_asked_for_whole),
+      cmocka_unit_test(on_a_plan_it_owes_what_the_plan_says),
+      cmocka_unit_test(a_lasting_lag_is_learnt),
+      cmocka_unit_test(a_swing_that_holds_is_corrected),
       cmocka_unit_test(the_load_is_low_passed),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
