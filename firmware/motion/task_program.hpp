@@ -53,7 +53,7 @@ struct TaskProgram {
   FenceSet fences;                          ///< The design surface is the last of them.
 };
 
-/// What can be chosen over the bus: task number n is program[n - 1].
+/// What can be chosen over the bus, by task number from 0.
 struct TaskBook {
   std::array<TaskProgram, kTaskMost> program;
   int count = 0;
