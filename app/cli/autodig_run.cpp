@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "app/cli/autodig_bench.hpp"
+#include "app/cli/line_truth.hpp"
 #include "app/machines/task_words.hpp"
 #include "firmware/motion/task_run.hpp"
 
@@ -166,8 +166,8 @@ class AutodigRun {
       return;
     }
     plan_at(line_motion(kinematics_, step.line.line, at.share).value, sample);
-    sample.error_true_m = distance_m(step.line.line, teeth_m);
-    sample.error_measured_m = distance_m(step.line.line, measured_teeth_m());
+    sample.error_true_m = line_distance_m(step.line.line, teeth_m);
+    sample.error_measured_m = line_distance_m(step.line.line, measured_teeth_m());
   }
 
   void plan_at(const DriveVector& value, AutodigSample& sample) const {
@@ -189,12 +189,6 @@ class AutodigRun {
         sample.fence_left_m = std::fmin(sample.fence_left_m, left_m);
       }
     }
-  }
-
-  /// From the straight line through both ends.
-  static double distance_m(const TeethLine& line, const Eigen::Vector3d& teeth_m) {
-    const Eigen::Vector3d direction = line.change.position_m.normalized();
-    return (teeth_m - line.from.position_m).cross(direction).norm();
   }
 
   const machines::ExcavatorMachine& machine_;

@@ -56,9 +56,7 @@ PlantRunResult run_plant(const machines::ExcavatorMachine& machine, const PlantR
     node.step(now_us);
     observer.see(node, now_us);
   });
-  result.commands_accepted = node.counters().accepted;
-  result.commands_rejected = node.counters().rejected + node.counters().wrong_format;
-  result.command_timeouts = node.counters().timeouts;
+  result.spool = node.counters();
   result.peak_chamber_pressure_pa = node.plant().peak_chamber_pressure_pa();
   return result;
 }
