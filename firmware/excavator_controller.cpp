@@ -162,8 +162,7 @@ ExcavatorController::Motion ExcavatorController::task_motion(const TaskProgram& 
                          speed_override_ratio, motion.task.holds);
   motion.corrected_mps[kSwing] +=
       swing_lead_mps(profile_, motion.wanted_mps[kSwing], memory_.swing_wanted_mps, period_s);
-  motion.cap = task_cap(profile_, kinematics_, program, strokes_then(profile_, memory_.servo),
-                        motion.corrected_mps);
+  motion.cap = task_cap(profile_, kinematics_, program, memory_.servo, motion.corrected_mps);
   motion.path_error_m = motion.task.path_error_m;
   return motion;
 }

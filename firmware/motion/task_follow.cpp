@@ -106,8 +106,11 @@ double swing_lead_mps(const ExcavatorProfile& profile, double wanted_mps, double
 }
 
 VelocityCap task_cap(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                     const TaskProgram& program, const DriveVector& travel_then_m,
+                     const TaskProgram& program, const ServoState& servo,
                      const DriveVector& velocity_mps) {
+  DriveVector travel_then_m = strokes_then(profile, servo);
+  // Nothing stops a platform at the end of its range: one that is beyond has to be seen there.
+  travel_then_m[kSwing] = servo.strokes_m[kSwing] + servo.under_way_m[kSwing];
   return soft_limit(profile, kinematics, program.fences, drives_of(profile, travel_then_m),
                     drives_of(profile, velocity_mps));
 }

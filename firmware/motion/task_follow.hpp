@@ -58,11 +58,11 @@ struct TaskWant {
 [[nodiscard]] double swing_lead_mps(const ExcavatorProfile& profile, double wanted_mps,
                                     double last_wanted_mps, double period_s);
 
-/// soft_limit for travels: `velocity_mps` is what the valve would be asked for.
+/// soft_limit for travels, where what is under way will have brought them: `velocity_mps` is what
+/// the valve would be asked for.
 [[nodiscard]] VelocityCap task_cap(const ExcavatorProfile& profile,
                                    const SwingKinematics& kinematics, const TaskProgram& program,
-                                   const DriveVector& travel_then_m,
-                                   const DriveVector& velocity_mps);
+                                   const ServoState& servo, const DriveVector& velocity_mps);
 
 /// The memory after a cycle in which the task was followed at `followed_ratio` of the plan's
 /// velocity, but for its own pace: lambda, the soft limit's factor and the operator's override. A

@@ -190,7 +190,6 @@ void it_stands_before_the_end_of_the_swing(void**) {
   assert_int_equal(status.progress.kind, StepKind::kSwing);
   assert_int_equal(status.limit.kind, LimitKind::kSwingEnd);
   assert_true(status.faults.empty());
-  print_message("%g\n", running.drives.value()[kSwing]);
   assert_true(running.drives.value()[kSwing] > 0.99 && running.drives.value()[kSwing] < 1.0002);
 }
 

@@ -198,11 +198,18 @@ void the_cap_is_the_soft_limit_s(void**) {
   then[kSwing] = profile().swing.left_end_rad - 0.05;
   const DriveVector velocity(0.0, 0.0, 0.0, 0.5);
   const VelocityCap expected = soft_limit(profile(), kinematics(), dig().fences, then, velocity);
-  const VelocityCap cap = task_cap(profile(), kinematics(), dig(), travel_of(profile(), then),
-                                   travel_of(profile(), velocity));
+  const VelocityCap cap =
+      task_cap(profile(), kinematics(), dig(), servo_at_rest(travel_of(profile(), then)),
+               travel_of(profile(), velocity));
   assert_true(expected.factor < 0.5);
   assert_near(cap.factor, expected.factor, 1e-12);
   assert_int_equal(cap.limit.kind, LimitKind::kSwingEnd);
+  // Beyond its end, measured or by what is under way, it goes no further at all.
+  ServoState beyond = servo_at_rest(travel_of(profile(), then));
+  beyond.under_way_m[kSwing] = 0.06 * profile().swing.lever_m;
+  assert_near(
+      task_cap(profile(), kinematics(), dig(), beyond, travel_of(profile(), velocity)).factor, 0.0,
+      0.0);
 }
 
 }  // namespace
