@@ -196,6 +196,7 @@ ControlProfile read_control(TomlReader& reader) {
   control.lambda_rise.hold_share = reader.number("control.lambda_hold_share", {0.0, 1.0, ""});
   control.servo_gain_ps = reader.number("control.servo_gain", {0.0, 20.0, "1/s"});
   if (has_swing_drive(reader)) {
+    control.swing_servo_most_rad = reader.number("control.swing_servo_most", {0.0, 1.0, "rad"});
     control.swing_lead_s = reader.number("control.swing_lead", {0.0, 2.0, "s"});
     control.swing_servo_gain_ps = reader.number("control.swing_servo_gain", {0.0, 20.0, "1/s"});
   }

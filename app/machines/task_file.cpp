@@ -15,6 +15,8 @@ namespace {
 constexpr Range kPlace{-30.0, 30.0, "m"};
 /// A drive move without a pace of its own leaves half of the limits to the others on the pump.
 constexpr double kUsualPace = 0.5;
+/// What the teeth may dip below their line while a drive breaks loose or lags, and some more.
+constexpr double kLeastClearance_m = 0.03;
 
 Eigen::Vector3d read_vector(TomlReader& reader, const std::string& key, const Range& range) {
   const std::vector<double> values = reader.numbers(key, range, 3);
@@ -108,7 +110,7 @@ DesignPlane read_design(TomlReader& reader) {
   DesignPlane design;
   design.through_m = read_vector(reader, "design.through", kPlace);
   design.up = read_direction(reader, "design.normal", 3);
-  design.clearance_m = reader.number("design.clearance", {0.0, 1.0, "m"});
+  design.clearance_m = reader.number("design.clearance", {kLeastClearance_m, 1.0, "m"});
   if (design.up.z() < kLeastUp) {
     reader.fail("design.normal",
                 fmt::format("must point up; its upward part is {:.3f} of its length; allowed: {} "

@@ -78,6 +78,7 @@ ServoState next_servo(const ControlProfile& control, const ServoState& last,
   ServoState next = with_asked(control, last, asked_mps, period_s);
   const DriveVector expected_m = period_s * next.lag_mps[1];
   next.owed_m = bounded_debt(control, last.owed_m + (expected_m - (strokes_m - last.strokes_m)));
+  next.trim_mps.setZero();
   next.strokes_m = strokes_m;
   repay(control, next, period_s);
   return next;
@@ -92,6 +93,8 @@ ServoState next_servo_on_plan(const ExcavatorProfile& profile, const ServoState&
     next.trim_mps.setZero();
   }
   next.owed_m = bounded_debt(control, planned_m - next.under_way_m - strokes_m);
+  const double swing_most_m = control.swing_servo_most_rad * profile.swing.lever_m;
+  next.owed_m[kSwing] = std::clamp(next.owed_m[kSwing], -swing_most_m, swing_most_m);
   next.strokes_m = strokes_m;
   repay(control, next, period_s);
   next.trim_mps += period_s * profile.line.trim_ps2 * next.owed_m;
@@ -136,8 +139,9 @@ DriveVector corrected_velocity(const ExcavatorProfile& profile, const DriveVecto
     const double stroke_m = servo.strokes_m[i];
     const double in_mps = -control.stroke_end_gain_ps * (stroke_m - profile.least_travel_m(i));
     const double out_mps = control.stroke_end_gain_ps * (profile.most_travel_m(i) - stroke_m);
-    corrected[i] = std::clamp(wanted_mps[i] + gain_ps * servo.repay_m[i] + servo.trim_mps[i],
-                              std::min(in_mps, wanted_mps[i]), std::max(out_mps, wanted_mps[i]));
+    corrected[i] = std::clamp(
+        wanted_mps[i] + gain_ps * servo.repay_m[i] + speed_override_ratio * servo.trim_mps[i],
+        std::min(in_mps, wanted_mps[i]), std::max(out_mps, wanted_mps[i]));
   }
   return corrected;
 }

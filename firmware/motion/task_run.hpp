@@ -24,7 +24,8 @@ struct TaskState {
   /// added, and task_advance goes on by it. Drives that went on at full speed would run ahead of a
   /// plan that waits for them, and make the error that it waits for.
   double pace_ratio = 1.0;
-  DrivePlan approach;
+  DrivePlan approach;  ///< Step 0 of the approach: to above the first pose.
+  DrivePlan descent;   ///< Step 1: down to it.
 };
 
 /// What the plan wants at one moment.
@@ -45,11 +46,17 @@ inline constexpr double kSettled_m = 5e-3;
 inline constexpr double kCalm_s = 0.2;
 /// ... or after so long: what is left then is the next step's to correct.
 inline constexpr double kSettleMost_s = 2.0;
+/// How far above the first pose an approach comes to, or half of it; teeth nearer than kNear_m to
+/// that pose need none of it.
+inline constexpr double kLift_m = 0.8;
+inline constexpr double kNear_m = 0.3;
 /// Share of the drives' limits that the approach keeps to.
 inline constexpr double kApproachPace = 0.3;
 
 /// From where the machine stands, its drives taken into their ranges: a move straight in drive
-/// space to the first pose. It can't meet a blind spot. It is not checked against fences, as a
+/// space to above the first pose, and one down to it, so that a bucket that stands in a cut comes
+/// out of it before it goes back; at once down where it is near, or where nothing above can be had.
+/// It can't meet a blind spot. It is not checked against fences, as a
 /// machine may have to come from anywhere, even from beyond one: there the soft limit holds it,
 /// and a machine that stands beyond a fence is free to leave.
 [[nodiscard]] TaskState task_start(const ExcavatorProfile& profile, const TaskProgram& program,

@@ -42,8 +42,14 @@ double fastest_mps(const ExcavatorProfile& profile, int drive) {
   const SpoolProfile& spool = profile.valve.spool[static_cast<unsigned>(drive)];
   const PumpProfile& pump = profile.pump[static_cast<unsigned>(spool.pump)];
   const double flow_m3ps = pump.displacement_m3prev / kTwoPi * pump.rated_speed_radps;
-  return kFasterThanPumps * flow_m3ps / profile.retract_area_m2(drive);
+  const double flow_mps = kFasterThanPumps * flow_m3ps / profile.retract_area_m2(drive);
+  return drive == kSwing ? std::min(flow_mps, kFasterThanPumps * profile.swing.speed_max_radps *
+                                                  profile.swing.lever_m)
+                         : flow_mps;
 }
+
+/// As kJumpMargin_m: noise, and frames that were lost. 0.1 m at teeth 7 m away.
+constexpr double kSwingJumpMargin_rad = 0.015;
 
 double bounded_swing_m(double travel_m, double lever_m, FaultSet& faults) {
   const double most_m = kSwingMost_rad * lever_m;
@@ -58,7 +64,9 @@ void read_drives(const ExcavatorInputs& inputs, const ExcavatorProfile& profile,
   const Drives drives = drives_of(inputs, profile.swing);
   for (int drive = 0; drive < profile.drive_count; ++drive) {
     const auto i = static_cast<unsigned>(drive);
-    const ChangeLimit change{fastest_mps(profile, drive), kJumpMargin_m, Fault::kStrokeJump};
+    const double margin_m =
+        drive == kSwing ? kSwingJumpMargin_rad * profile.swing.lever_m : kJumpMargin_m;
+    const ChangeLimit change{fastest_mps(profile, drive), margin_m, Fault::kStrokeJump};
     const BelievedResult stroke = believe(drives[i].stroke_m, change, fresh, last.stroke_m[i]);
     valid.state.stroke_m[i] = stroke.state;
     valid.faults.add(stroke.faults);

@@ -149,7 +149,7 @@ void every_error_is_listed(void**) {
   assert_says(errors, "step[1].speed (line 13): 9.0 is out of range; allowed: 0.01 .. 3 m/s");
   assert_says(errors, "fence[0].normal (line 17): has no direction");
   assert_says(errors, "design.normal (line 20): must point up");
-  assert_says(errors, "design.clearance (line 21): -1.0 is out of range; allowed: 0 .. 1 m");
+  assert_says(errors, "design.clearance (line 21): -1.0 is out of range; allowed: 0.03 .. 1 m");
 }
 
 /// A pace on a line, a speed on a move of the drives: keys that nothing asks for.
