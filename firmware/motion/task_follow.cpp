@@ -37,7 +37,8 @@ TaskProgress progress_of(const TaskMemory& memory, const TaskAim& aim) {
   TaskProgress progress;
   progress.runs = true;
   progress.number = memory.number;
-  progress.step = static_cast<std::uint8_t>(memory.state.step);
+  const bool approaches = memory.state.phase == TaskPhase::kApproach;
+  progress.step = approaches ? std::uint8_t{0} : static_cast<std::uint8_t>(memory.state.step);
   progress.kind = aim.kind;
   progress.share = aim.share;
   return progress;

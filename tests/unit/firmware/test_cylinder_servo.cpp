@@ -278,6 +278,8 @@ ExcavatorProfile trimmed() {
   ExcavatorProfile profile = machine();
   profile.line.trim_ps2 = 1.0;
   profile.line.trim_most_mps = 0.004;
+  profile.swing.lever_m = 0.5;
+  profile.control.swing_servo_most_rad = 0.04;
   return profile;
 }
 

@@ -101,9 +101,9 @@ void an_angle_beyond_its_sensor_is_implausible(void**) {
   }
 }
 
-/// The pump's whole flow twice over is 1 m/s at the lever, 8 rad/s; and 20 mm at once, 0.16 rad.
+/// Twice its highest speed, and 15 mrad at once: a tenth of a metre at the teeth.
 void a_jump_is_not_believed(void**) {
-  const double most_rad = 8.0 * 0.010 + 0.16;
+  const double most_rad = 2.0 * profile().swing.speed_max_radps * 0.010 + 0.015;
   for (const double sign : {1.0, -1.0}) {
     ValidationState last =
         validate(complete_inputs(kNow - 10'000), profile(), {}, true, kNow - 10'000).state;

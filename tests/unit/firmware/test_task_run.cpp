@@ -254,6 +254,9 @@ void the_approach_leads_to_the_start(void**) {
   // Where it stands already nothing is waited for.
   TaskState there = task_start(machine().profile, task, task.start);
   assert_near(aim_of(task, there).share, 1.0, 0.0);
+  there = advance(task, there, 1.0);
+  assert_int_equal(there.phase, TaskPhase::kApproach);
+  assert_int_equal(there.step, 1);
   there.calm_s = kCalm_s;
   assert_int_equal(advance(task, there, 1.0).phase, TaskPhase::kSteps);
 }

@@ -173,7 +173,7 @@ void refusals_name_step_joint_and_place(void**) {
   assert_says(reach, "step 1 (lift): ");
   assert_says(reach, "% of the step, teeth x ");
   const std::string ceiling = errors_of(edited("truck_loading", "height = 6.5", "height = 4.0"));
-  assert_says(ceiling, "(lift): the arm's pin would pass fence 0; at ");
+  assert_says(ceiling, "(lift): the arm's pin would pass fence[0]; at ");
   const std::string wall = errors_of(edited("truck_loading", "[0.0, 7.5]", "[0.0, 5.8]"));
   assert_says(wall, "(dump): the teeth would pass fence 2; at ");
   const std::string design =
