@@ -175,7 +175,7 @@ void refusals_name_step_joint_and_place(void**) {
   const std::string ceiling = errors_of(edited("truck_loading", "height = 6.5", "height = 4.0"));
   assert_says(ceiling, "(lift): the arm's pin would pass fence[0]; at ");
   const std::string wall = errors_of(edited("truck_loading", "[0.0, 7.5]", "[0.0, 5.8]"));
-  assert_says(wall, "(dump): the teeth would pass fence 2; at ");
+  assert_says(wall, "(dump): the teeth would pass fence[2]; at ");
   const std::string design =
       errors_of(edited("truck_loading", "through = [0.0, 0.0, -0.5]", "through = [0.0, 0.0, 2.5]"));
   assert_says(design, "the design surface");
