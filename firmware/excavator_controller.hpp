@@ -1,11 +1,11 @@
 #pragma once
 /// The excavator's controller: one step from signals to commands, 100 times a second.
 
-#include "firmware/kinematics/excavator_kinematics.hpp"
 #include "firmware/mcv/steady_lambda.hpp"
 #include "firmware/motion/cylinder_servo.hpp"
 #include "firmware/motion/dig_field.hpp"
 #include "firmware/motion/load_filter.hpp"
+#include "firmware/motion/task_follow.hpp"
 #include "firmware/safety/cycle_watch.hpp"
 #include "firmware/safety/gate.hpp"
 #include "firmware/safety/mode.hpp"
@@ -14,6 +14,16 @@
 
 namespace graben {
 
+/// What an excavator's controller is made of.
+struct ExcavatorSetup {
+  // NOLINTNEXTLINE(google-explicit-constructor): a machine without programs is one too.
+  ExcavatorSetup(const ExcavatorProfile& machine, const TaskBook& tasks = {})
+      : profile(machine), book(tasks) {}
+
+  ExcavatorProfile profile;  ///< Must have passed its check (`profile_check`).
+  TaskBook book;             ///< Planned for it (`plan_program`).
+};
+
 /// Belongs to the tests; nothing of ours defines it.
 struct ControllerMemoryAccess;
 
@@ -21,8 +31,7 @@ struct ControllerMemoryAccess;
 /// No clock, no globals, no heap; `step` costs a bounded number of operations.
 class ExcavatorController {
  public:
-  /// The profile must have passed its check (`profile_check`).
-  explicit ExcavatorController(const ExcavatorProfile& profile);
+  explicit ExcavatorController(const ExcavatorSetup& setup);
 
   /// One cycle. Any fault gives neutral commands and its code; time only ever counts by
   /// difference, and `now_us` must not fall from call to call.
@@ -41,24 +50,47 @@ class ExcavatorController {
     LastCycle cycle;
     LoadState load;
     ServoState servo;
-    /// lambda V_L^d, without corrections: what the servo expects of the cylinders.
-    Eigen::Vector3d expected_mps = Eigen::Vector3d::Zero();
+    /// lambda V_L^d, without corrections: what the servo expects of the drives.
+    DriveVector expected_mps = DriveVector::Zero();
+    TaskMemory task;
+    double swing_wanted_mps = 0.0;  ///< V_L^d of the last cycle's program.
     CycleState time;
     PilotState pilot;
+  };
+
+  /// What a cycle asks of the drives, whatever the task.
+  struct Motion {
+    DriveVector wanted_mps = DriveVector::Zero();     ///< V_L^d, the swing's at its lever.
+    DriveVector corrected_mps = DriveVector::Zero();  ///< With what the drives owe.
+    VelocityCap cap;
+    double path_error_m = 0.0;
+    TaskWant task;  ///< Of a program.
   };
 
   /// Whether what one cycle handed to the next is as it was.
   [[nodiscard]] Fault memory_fault() const;
   /// Inputs with all that validation and watches have to say of them.
   [[nodiscard]] WatchResult judge(const ExcavatorInputs& inputs, double period_s, TimeUs now_us);
-  /// Takes in what this cycle's sensors say of the last cycle's command.
-  void observe(const ValidInputs& valid, double period_s);
+  /// Takes in what this cycle's sensors say of the last cycle's command; `aim` is where the program
+  /// that runs has come to.
+  void observe(const ValidInputs& valid, const TaskAim& aim, double period_s);
+  /// The program that is being followed and goes on to be asked for; null without one.
+  [[nodiscard]] const TaskProgram* running(const ValidInputs& valid) const;
+  [[nodiscard]] Motion dig_motion(const ValidInputs& valid, const KinematicState& state) const;
+  [[nodiscard]] Motion task_motion(const TaskProgram& program, const TaskAim& aim,
+                                   double speed_override_ratio, double period_s) const;
+  void describe_motion(const Motion& motion, const McvSolution& solution, const FaultSet& degraded,
+                       ExcavatorStatus& status) const;
+  /// The program's place after this cycle.
+  [[nodiscard]] TaskMemory task_afterwards(const ValidInputs& valid, const Motion& motion,
+                                           EcuMode mode, double lambda, double period_s) const;
   /// What the field wants where the cylinders will be when a command of now takes effect.
-  [[nodiscard]] Eigen::Vector3d wanted_velocity(const ValidInputs& valid,
-                                                const KinematicState& state) const;
+  [[nodiscard]] DriveVector dig_velocity(const ValidInputs& valid,
+                                         const KinematicState& state) const;
 
   ExcavatorProfile profile_;
-  ExcavatorKinematics kinematics_;
+  SwingKinematics kinematics_;
+  TaskBook book_;
   DigField field_;
   McvMachine valve_;
   Memory memory_;

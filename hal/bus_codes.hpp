@@ -3,7 +3,7 @@
 /// for each bus; a number that differs does not compile.
 
 #include "firmware/core/codes.hpp"
-#include "firmware/signals/machine_signals.hpp"
+#include "firmware/signals/excavator_signals.hpp"
 
 namespace graben {
 
@@ -44,6 +44,21 @@ struct TaskLimitCodes {
   static_assert(same_code(Bus::kSwingEnd, LimitKind::kSwingEnd));
   static_assert(same_code(Bus::kFence, LimitKind::kFence));
   static_assert(same_code(Bus::kOffPath, LimitKind::kOffPath));
+};
+
+/// What the steps of an excavator's tasks are for.
+template <class TaskStatus>
+struct StepCodes {
+  using Bus = typename TaskStatus::StepKind;
+  static_assert(same_code(Bus::kNone, StepKind::kNone));
+  static_assert(same_code(Bus::kApproach, StepKind::kApproach));
+  static_assert(same_code(Bus::kDig, StepKind::kDig));
+  static_assert(same_code(Bus::kLift, StepKind::kLift));
+  static_assert(same_code(Bus::kSwing, StepKind::kSwing));
+  static_assert(same_code(Bus::kDump, StepKind::kDump));
+  static_assert(same_code(Bus::kReturnToDig, StepKind::kReturnToDig));
+  static_assert(same_code(Bus::kDone, StepKind::kDone));
+  static_assert(same_code(TaskStatus::kStepKind.raw_max, StepKind::kDone));
 };
 
 template <class EcuStatus>

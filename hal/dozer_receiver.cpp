@@ -26,6 +26,10 @@ struct Store {
   static constexpr bool is_ours(const Message&) {
     return true;
   }
+  template <class Message>
+  static constexpr BusPart part(const Message&) {
+    return nullptr;
+  }
   static constexpr bool is_ours(const bus::OperatorCommand& message) {
     return message.task.value != BusTask::kDig;
   }

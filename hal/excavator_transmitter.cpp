@@ -10,6 +10,7 @@ namespace graben {
 
 template struct BusCodes<dbc::excavator::EcuStatus, dbc::excavator::EcuHealth>;
 template struct TaskLimitCodes<dbc::excavator::EcuStatus>;
+template struct StepCodes<dbc::excavator::TaskStatus>;
 
 namespace {
 
@@ -33,6 +34,15 @@ bus::SpoolCommand spool_command(const ExcavatorOutputs& outputs, const EcuDiagno
     message.boom_duty_ratio = physical(outputs.duty_ratio[0]);
     message.arm_duty_ratio = physical(outputs.duty_ratio[1]);
     message.bucket_duty_ratio = physical(outputs.duty_ratio[2]);
+  }
+  return message;
+}
+
+bus::SwingCommand swing_command(const ExcavatorOutputs& outputs, const EcuDiagnosis&) {
+  bus::SwingCommand message;  // its start values are Off and neutral
+  if (may_move(outputs)) {
+    message.enable = coded<bus::SwingCommand::Enable>(bus::SwingCommand::Enable::kOn);
+    message.swing_duty_ratio = physical(outputs.duty_ratio[3]);
   }
   return message;
 }
@@ -69,16 +79,31 @@ bus::EcuHydraulics ecu_hydraulics(const ExcavatorOutputs& outputs, const EcuDiag
   return message;
 }
 
+bus::TaskStatus task_status(const ExcavatorOutputs& outputs, const EcuDiagnosis&) {
+  const TaskProgress& progress = outputs.status.progress;
+  bus::TaskStatus message;  // its start values say that no task runs
+  if (progress.runs) {
+    message.task_number = count(progress.number);
+    message.step = count(progress.step);
+    message.step_kind = coded<bus::TaskStatus::StepKind>(progress.kind);
+    message.progress = physical(progress.share);
+  }
+  message.swing_wanted_velocity_radps = physical(outputs.status.swing_wanted_radps);
+  return message;
+}
+
 template <class Message, Message (*make)(const ExcavatorOutputs&, const EcuDiagnosis&)>
-constexpr auto row(TimeUs phase_us) {
-  return send_row<ExcavatorOutputs, Message, make>(phase_us);
+constexpr auto row(TimeUs phase_us, BusPart part = nullptr) {
+  return send_row<ExcavatorOutputs, Message, make>(phase_us, part);
 }
 
 constexpr auto kTable = send_table<bus::DM1>(
-    row<bus::SpoolCommand, spool_command>(0), row<bus::PumpCommand, pump_command>(0),
-    row<bus::EcuStatus, ecu_status<bus::EcuStatus>>(0),
+    row<bus::SpoolCommand, spool_command>(0),
+    row<bus::SwingCommand, swing_command>(0, &BusParts::swing_drive),
+    row<bus::PumpCommand, pump_command>(0), row<bus::EcuStatus, ecu_status<bus::EcuStatus>>(0),
     row<bus::EcuMotion, ecu_motion>(kControlPeriod_us),
     row<bus::EcuHydraulics, ecu_hydraulics>(kControlPeriod_us),
+    row<bus::TaskStatus, task_status>(kControlPeriod_us, &BusParts::swing_drive),
     row<bus::EcuHealth, ecu_health<bus::EcuHealth>>(5 * kControlPeriod_us),
     row<bus::EcuIdentity, ecu_identity<bus::EcuIdentity, bus::kDbcVersion>>(0));
 

@@ -7,14 +7,15 @@
 namespace graben {
 
 /// SpoolCommand every 10 ms, PumpCommand, EcuStatus, EcuMotion and EcuHydraulics every 20 ms,
-/// EcuHealth every 100 ms, EcuIdentity every second.
+/// EcuHealth every 100 ms, EcuIdentity every second. A machine with a swing drive also sends
+/// SwingCommand every 10 ms and TaskStatus every 20 ms.
 ///
-/// Without enable, and if any duty is not finite, SpoolCommand says Off and neutral for every
-/// spool, and PumpCommand 'not available' for every pump; also for one whose swash is not finite or
-/// not above 0. PilotCut is sent whatever else is.
+/// Without enable, and if any duty is not finite, SpoolCommand and SwingCommand say Off and neutral
+/// for every spool, and PumpCommand 'not available' for every pump; also for one whose swash is not
+/// finite or not above 0. PilotCut is sent whatever else is.
 struct ExcavatorTransmission {
   using Outputs = ExcavatorOutputs;
-  static constexpr int kPeriodicCount = 7;
+  static constexpr int kPeriodicCount = 9;
   [[nodiscard]] static const SendTable<Outputs, kPeriodicCount>& table();
 };
 

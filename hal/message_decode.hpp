@@ -62,7 +62,8 @@ bool in_range(const Message& message) {
 
 /// Decodes and stores a payload; false, and nothing stored, if a value is out of range.
 /// `Store::is_ours` says whether this kind of machine can be meant by what is in range;
-/// `Store::store` puts the signals into their places.
+/// `Store::store` puts the signals into their places, `Store::part` says what part of a machine a
+/// message belongs to.
 template <class Inputs, class Store, class Message>
 bool decode(const dbc::Payload& payload, TimeUs now, Received<Inputs>& to) {
   const Message message = Message::decode(payload);
@@ -78,11 +79,12 @@ template <class Inputs, class Store, class... Messages, std::size_t all_count>
 constexpr auto receive_table(dbc::MessageList<Messages...>,
                              const std::array<dbc::MessageInfo, all_count>& all,
                              std::uint8_t dbc_version) {
-  return ReceiveTable<Inputs, sizeof...(Messages)>{{message_rule<Messages>()...},
-                                                   {&decode<Inputs, Store, Messages>...},
-                                                   all.data(),
-                                                   all_count,
-                                                   dbc_version};
+  return ReceiveTable<Inputs, sizeof...(Messages)>{
+      {message_rule<Messages>(Store::part(Messages{}))...},
+      {&decode<Inputs, Store, Messages>...},
+      all.data(),
+      all_count,
+      dbc_version};
 }
 
 }  // namespace graben

@@ -96,10 +96,10 @@ dbc::Payload encode(const Outputs& outputs, const EcuDiagnosis& diagnosis) {
   return make(outputs, diagnosis).encode();
 }
 
-/// `make` fills in the message.
+/// `make` fills in the message, which only a machine with `part` sends.
 template <class Outputs, class Message, Message (*make)(const Outputs&, const EcuDiagnosis&)>
-constexpr SendRow<Outputs> send_row(TimeUs phase_us) {
-  return {send_rule<Message>(phase_us), &encode<Outputs, make>};
+constexpr SendRow<Outputs> send_row(TimeUs phase_us, BusPart part = nullptr) {
+  return {send_rule<Message>(phase_us, part), &encode<Outputs, make>};
 }
 
 /// The table of a bus on which `rows` are sent, beside its DM1 `Trouble`.

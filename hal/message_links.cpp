@@ -36,7 +36,7 @@ E2eMark mark_of(E2eCheck check) {
 
 int MessageLinks::index_of(std::uint32_t id) const {
   for (std::size_t i = 0; i < rules_.count; ++i) {
-    if (rules_.rule[i].id == id) {
+    if (rules_.rule[i].id == id && has_part(parts_, rules_.rule[i].part)) {
       return static_cast<int>(i);
     }
   }

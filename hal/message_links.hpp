@@ -8,6 +8,7 @@
 #include "can_dbc/codec.hpp"
 #include "firmware/core/fault_set.hpp"
 #include "firmware/core/time.hpp"
+#include "hal/bus_parts.hpp"
 #include "hal/can_frame.hpp"
 #include "hal/e2e.hpp"
 #include "hal/e2e_window.hpp"
@@ -21,17 +22,19 @@ struct MessageRule {
   std::uint8_t length = 0;
   bool is_protected = false;
   E2eConfig e2e;
+  BusPart part = nullptr;  ///< Taken only by a machine that has it.
 };
 
 /// One cycle more than the counter may skip: then the counter alone would refuse the frame, and it
 /// is far below the 15 cycles after which it would not.
 template <class Message>
-constexpr MessageRule message_rule() {
+constexpr MessageRule message_rule(BusPart part) {
   constexpr TimeUs kMaxSilenceUs =
       (Message::kMaxDeltaCounter + 1) * Message::kCycleTimeMs * kMillisecondUs;
   return {Message::kId, Message::kLength, Message::kProtected,
           E2eConfig{Message::kDataId, Message::kMaxDeltaCounter, kMaxSilenceUs,
-                    Message::kCycleTimeMs * kMillisecondUs}};
+                    Message::kCycleTimeMs * kMillisecondUs},
+          part};
 }
 
 /// The rules of a receiver, and all messages of its bus; both have to outlive what uses them.
@@ -42,14 +45,15 @@ struct MessageRules {
   std::size_t all_count = 0;
 };
 
-/// The links of all messages that a receiver takes. A message's index is that of its rule.
+/// The links of all messages that a receiver takes: those of parts that the machine hasn't got are
+/// foreign to it. A message's index is that of its rule.
 class MessageLinks {
  public:
   static constexpr std::size_t kMostMessages = 16;
   static constexpr int kNoMessage = -1;
 
   /// At most kMostMessages rules.
-  explicit MessageLinks(const MessageRules& rules) : rules_(rules) {}
+  MessageLinks(const MessageRules& rules, const BusParts& parts) : rules_(rules), parts_(parts) {}
 
   /// Index of the message whose data may be decoded, or kNoMessage; the reason is counted.
   [[nodiscard]] int admit(const CanFrame& frame, TimeUs now);
@@ -70,6 +74,7 @@ class MessageLinks {
   void count(std::size_t index, std::uint32_t LinkCounters::*counter);
 
   MessageRules rules_;
+  BusParts parts_;
   std::array<E2eState, kMostMessages> e2e_{};
   std::array<E2eWindow, kMostMessages> window_{};
   std::array<LinkCounters, kMostMessages> link_{};

@@ -58,7 +58,10 @@ class MessageReceiver {
   static constexpr int kMessageCount = Reception::kMessageCount;
   static_assert(kMessageCount <= static_cast<int>(MessageLinks::kMostMessages));
 
-  /// The 29-bit ids that it keeps, for a port's filters.
+  explicit MessageReceiver(const BusParts& parts = {})
+      : links_(Reception::table().rules(), parts) {}
+
+  /// The 29-bit ids that it keeps, those of all parts too, for a port's filters.
   [[nodiscard]] static std::array<std::uint32_t, kMessageCount> ids() {
     const auto& rules = Reception::table().rule;
     std::array<std::uint32_t, kMessageCount> ids{};
@@ -105,7 +108,7 @@ class MessageReceiver {
 
  private:
   Received received_;
-  MessageLinks links_{Reception::table().rules()};
+  MessageLinks links_;
 };
 
 }  // namespace graben

@@ -7,6 +7,7 @@
 
 #include "can_dbc/codec.hpp"
 #include "firmware/core/time.hpp"
+#include "hal/bus_parts.hpp"
 #include "hal/can_frame.hpp"
 
 namespace graben {
@@ -20,13 +21,15 @@ struct SendRule {
   TimeUs phase_us = 0;  ///< Spreads the load: no cycle sends all.
   bool is_protected = false;
   std::uint16_t data_id = 0;
+  BusPart part = nullptr;  ///< Sent only by a machine that has it.
 };
 
 template <class Message>
-constexpr SendRule send_rule(TimeUs phase_us) {
+constexpr SendRule send_rule(TimeUs phase_us, BusPart part) {
   static_assert(Message::kLength == 8);
-  return {Message::kId, Message::kCycleTimeMs * kMillisecondUs, phase_us, Message::kProtected,
-          Message::kDataId};
+  return {Message::kId,     Message::kCycleTimeMs * kMillisecondUs,
+          phase_us,         Message::kProtected,
+          Message::kDataId, part};
 }
 
 /// What is remembered of a message that is sent.

@@ -31,6 +31,8 @@ struct SendTable {
 /// Values beyond a signal's range are saturated; one that is not finite is sent as 'error', unless
 /// it is a command's.
 ///
+/// Messages of parts that the machine hasn't got are not sent.
+///
 /// `Transmission` says what is sent: Outputs, kPeriodicCount, and table() with a SendTable, most
 /// urgent first.
 template <class Transmission>
@@ -41,6 +43,8 @@ class MessageTransmitter {
   static constexpr int kMessageCount = kPeriodicCount + 1;  ///< DM1 has its own times.
   using Frames = std::array<CanFrame, kMessageCount>;
 
+  explicit MessageTransmitter(const BusParts& parts = {}) : parts_(parts) {}
+
   /// Writes the frames due at `now` into `out`, most urgent first; returns how many. To be called
   /// every 10 ms.
   [[nodiscard]] int frames(const Outputs& outputs, const EcuDiagnosis& diagnosis, TimeUs now,
@@ -49,6 +53,7 @@ class MessageTransmitter {
  private:
   void start(TimeUs now);
 
+  BusParts parts_;
   bool started_ = false;
   std::array<SendState, kPeriodicCount> state_{};
   Dm1 dm1_;
@@ -71,7 +76,8 @@ int MessageTransmitter<Transmission>::frames(const Outputs& outputs, const EcuDi
   }
   std::size_t written = 0;
   for (std::size_t i = 0; i < state_.size(); ++i) {
-    if (take_due(state_[i].due_us, table.rule[i].period_us, now)) {
+    const bool is_due = take_due(state_[i].due_us, table.rule[i].period_us, now);
+    if (is_due && has_part(parts_, table.rule[i].part)) {
       out[written++] =
           next_frame(table.rule[i], state_[i], table.encode[i](outputs, diagnosis), now);
     }

@@ -14,6 +14,7 @@ void add_campaign(CLI::App& app, int& status);
 void add_solve(CLI::App& app, int& status);
 void add_pose(CLI::App& app, int& status);
 void add_strokes(CLI::App& app, int& status);
+void add_autodig(CLI::App& app, int& status);
 void add_plan(CLI::App& app, int& status);
 void add_plant(CLI::App& app, int& status);
 

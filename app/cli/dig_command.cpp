@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/autodig_command.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/dig_report.hpp"
 #include "app/cli/dig_run.hpp"
@@ -22,7 +23,8 @@ namespace {
 
 struct Options {
   ScenarioOptions scenario;
-  std::string profile = "excavator_22t";
+  std::optional<std::string> profile;
+  std::optional<std::string> task;
   std::string out = "out";
   std::string summary;
   std::vector<double> start_strokes_m;
@@ -84,8 +86,9 @@ const char* end_text(DigEnd end) {
 void dig(const Options& options) {
   ScenarioOptions scenario = options.scenario;
   scenario.scenario.seed = options.seed;
-  const machines::ExcavatorMachine machine =
-      arranged(machines::load_excavator(machines::find_profile(options.profile)), scenario);
+  const machines::ExcavatorMachine machine = arranged(
+      machines::load_excavator(machines::find_profile(options.profile.value_or("excavator_22t"))),
+      scenario);
   DigOptions run_options = usual_run(machine, scenario);
   run_options.start_strokes_m =
       start_strokes(options, machine.profile).value_or(run_options.start_strokes_m);
@@ -122,14 +125,41 @@ void dig(const Options& options) {
   }
 }
 
+/// What can be told of a task's run too, in the words of `autodig`.
+TaskRunOptions task_run(const Options& options) {
+  TaskRunOptions run;
+  run.profile = options.profile.value_or(run.profile);
+  run.task = options.task.value_or(run.task);
+  run.out = options.out;
+  run.name = "dig";
+  run.summary = options.summary;
+  run.errors = options.scenario.errors;
+  run.seed = options.seed;
+  run.speed = options.speed;
+  return run;
+}
+
+/// Adds --task, which goes with none of the options that are of Kim's path alone.
+void add_task(CLI::App& command, Options& options) {
+  CLI::Option* task = command.add_option("--task", options.task,
+                                         "Run a task of straight lines instead, as `autodig` does: "
+                                         "a file, or the name of one of ours");
+  for (const char* of_the_path :
+       {"--soil", "--air", "--obstacle", "--stiff-oil", "--dead-time", "--fixed-lambda",
+        "--start-strokes", "--start", "--random-start", "--loops"}) {
+    task->excludes(command.get_option(of_the_path));
+  }
+}
+
 }  // namespace
 
 void add_dig(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "dig", "Dig round Kim's path on the simulated machine, over a CAN bus in memory");
-  command->add_option("--profile", options->profile, "Machine profile: file or shipped name")
-      ->capture_default_str();
+  command->add_option("--profile", options->profile,
+                      "Machine profile: file or shipped name; excavator_22t unless told, with "
+                      "--task excavator_12t");
   command->add_option("--out", options->out, "Folder for dig.log and dig.html")
       ->capture_default_str();
   command->add_option("--summary", options->summary, "Write the figures as JSON to this file");
@@ -156,7 +186,16 @@ void add_dig(CLI::App& app, int& status) {
   command
       ->add_option("--loops", options->loops, "Times round the path, 0.1 .. 100; once unless told")
       ->check(number_between(0.1, 100.0));
-  command->callback([options, &status] { status = guarded("dig", [&] { dig(*options); }); });
+  add_task(*command, *options);
+  command->callback([options, &status] {
+    status = guarded("dig", [&] {
+      if (options->task) {
+        run_task(task_run(*options));
+      } else {
+        dig(*options);
+      }
+    });
+  });
 }
 
 }  // namespace graben::cli

@@ -62,9 +62,7 @@ GradePlantResult run_plant(const machines::DozerMachine& machine, const PlantRun
       has_let_go = true;
     }
   });
-  result.commands_accepted = node.counters().accepted;
-  result.commands_rejected = node.counters().rejected + node.counters().wrong_format;
-  result.command_timeouts = node.counters().timeouts;
+  result.spool = node.counters();
   return result;
 }
 

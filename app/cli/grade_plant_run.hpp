@@ -1,10 +1,9 @@
 #pragma once
 /// The simulated dozer in real time on a CAN interface.
 
-#include <cstdint>
-
 #include "app/cli/plant_bus.hpp"
 #include "app/machines/dozer_file.hpp"
+#include "app/plant/command_link.hpp"
 
 namespace graben::cli {
 
@@ -17,9 +16,7 @@ struct GradePlantResult {
   double edge_x_m = 0.0;  ///< Where it ended.
   double max_error_m = 0.0;
   double rmse_error_m = 0.0;
-  std::uint64_t commands_accepted = 0;  ///< Of the blade's spool.
-  std::uint64_t commands_rejected = 0;
-  std::uint64_t command_timeouts = 0;
+  plant::CommandCounters spool;  ///< The blade's.
 };
 
 /// The operator lets go once the edge has come to the grade's length. Throws std::runtime_error

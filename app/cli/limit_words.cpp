@@ -47,7 +47,7 @@ std::string limit_words(const Limit& limit, const ActuatorNames& actuators) {
     case LimitKind::kSwingEnd:
       return "swing end";
     case LimitKind::kFence:
-      return fmt::format("fence {}", limit.index + 1);
+      return fmt::format("fence[{}]", limit.index);
     case LimitKind::kOffPath:
       return "behind the plan";
   }

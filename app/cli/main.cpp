@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   graben::cli::add_solve(app, status);
   graben::cli::add_pose(app, status);
   graben::cli::add_strokes(app, status);
+  graben::cli::add_autodig(app, status);
   graben::cli::add_plan(app, status);
   graben::cli::add_plant(app, status);
   try {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "platform/linux/cyclic_clock.hpp"
@@ -36,7 +35,8 @@ std::vector<plant::OperatorPhase> schedule(const PlantRunOptions& options, Task 
   const auto work_from = [&](TimeUs enable_us) {
     phases.push_back({enable_us, {true, OperatorMode::kAutomatic, Task::kNone, 0.0}});
     phases.push_back({enable_us + kTaskAfter_us,
-                      {true, OperatorMode::kAutomatic, task, options.speed_override_ratio}});
+                      {true, OperatorMode::kAutomatic, task, options.speed_override_ratio,
+                       options.task_number}});
   };
   const TimeUs begin_us = microseconds(options.enable_after_s);
   const TimeUs end_us = options.seconds > 0.0 ? microseconds(options.seconds) - kRelease_us
@@ -78,9 +78,9 @@ class Reopener {
 // The operator reads nothing; its port lets through the least there is: the status, whose id all
 // kinds share.
 template <class Operator>
-PlantBus<Operator>::PlantBus(const PlantRunOptions& options, std::vector<std::uint32_t> ids)
+PlantBus<Operator>::PlantBus(const PlantRunOptions& options, const std::vector<std::uint32_t>& ids)
     : options_(options),
-      port_(options.interface, std::move(ids)),
+      port_(options.interface, ids),
       operator_port_(options.interface, {dbc::excavator::EcuStatus::kId}),
       driver_(operator_port_) {
   open(port_, options.interface);

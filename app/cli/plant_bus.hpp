@@ -26,6 +26,7 @@ struct PlantRunOptions {
   Player player = Player::kNobody;
   double enable_after_s = 1.5;  ///< Then the operator enables, and 0.1 s later sets the task.
   double speed_override_ratio = 1.0;
+  std::uint8_t task_number = 0;  ///< Of Task::kProgram.
 };
 
 /// What became of a run, beside what the machine did in it.
@@ -43,7 +44,7 @@ class PlantBus {
  public:
   /// Opens the interface for a machine that takes these ids. Throws std::runtime_error where it is
   /// not there.
-  PlantBus(const PlantRunOptions& options, std::vector<std::uint32_t> ids);
+  PlantBus(const PlantRunOptions& options, const std::vector<std::uint32_t>& ids);
 
   /// The machine's.
   [[nodiscard]] CanPort& port() { return port_; }

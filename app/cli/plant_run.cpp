@@ -45,20 +45,18 @@ class Observer {
 }  // namespace
 
 PlantRunResult run_plant(const machines::ExcavatorMachine& machine, const PlantRunOptions& options,
-                         const Eigen::Vector3d& start_strokes_m) {
+                         const plant::PlantStart& start) {
   namespace ids = dbc::excavator;
-  PlantBus<plant::OperatorNode> bus(options, {ids::SpoolCommand::kId, ids::PumpCommand::kId});
-  plant::PlantNode node(machine.plant, {start_strokes_m[0], start_strokes_m[1], start_strokes_m[2]},
-                        bus.port(), machine.hash);
+  PlantBus<plant::OperatorNode> bus(
+      options, {ids::SpoolCommand::kId, ids::PumpCommand::kId, ids::SwingCommand::kId});
+  plant::PlantNode node(machine.plant, start, bus.port(), machine.hash);
   PlantRunResult result;
   Observer observer(machine, result);
   result.bus = bus.run(Task::kDig, [&](TimeUs now_us) {
     node.step(now_us);
     observer.see(node, now_us);
   });
-  result.commands_accepted = node.counters().accepted;
-  result.commands_rejected = node.counters().rejected + node.counters().wrong_format;
-  result.command_timeouts = node.counters().timeouts;
+  result.spool = node.counters();
   result.peak_chamber_pressure_pa = node.plant().peak_chamber_pressure_pa();
   return result;
 }

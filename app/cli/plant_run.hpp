@@ -1,10 +1,9 @@
 #pragma once
 /// The simulated excavator in real time on a CAN interface.
 
-#include <cstdint>
-
 #include "app/cli/plant_bus.hpp"
 #include "app/machines/machine_file.hpp"
+#include "app/plant/plant_node.hpp"
 
 namespace graben::cli {
 
@@ -16,15 +15,13 @@ struct PlantRunResult {
   double max_error_m = 0.0;
   double rmse_error_m = 0.0;
   double enabled_s = 0.0;  ///< That the valve side let spools open.
-  std::uint64_t commands_accepted = 0;
-  std::uint64_t commands_rejected = 0;
-  std::uint64_t command_timeouts = 0;
+  plant::CommandCounters spool;
   double peak_chamber_pressure_pa = 0.0;
 };
 
 /// Throws std::runtime_error where the interface is not there.
 [[nodiscard]] PlantRunResult run_plant(const machines::ExcavatorMachine& machine,
                                        const PlantRunOptions& options,
-                                       const Eigen::Vector3d& start_strokes_m);
+                                       const plant::PlantStart& start);
 
 }  // namespace graben::cli

@@ -16,6 +16,7 @@ struct DozerKind {
   using Receiver = DozerReceiver;
   using Transmitter = DozerTransmitter;
   using MemoryAccess = DozerMemoryAccess;
+  [[nodiscard]] static BusParts parts(const Profile&) { return {}; }
   [[nodiscard]] static bool is_command(std::uint32_t id);
 };
 

@@ -16,8 +16,8 @@ namespace graben::ecu {
 /// One controller on one port. The caller owns the port and the clock.
 ///
 /// `Kind` says whose: Profile, Controller, Receiver, Transmitter, Inputs, Outputs, MemoryAccess (of
-/// the tests), and is_command(id), whether losing a frame with this id leaves the machine without
-/// its command.
+/// the tests), parts(profile), what its bus has beyond every machine of its kind, and
+/// is_command(id), whether losing a frame with this id leaves the machine without its command.
 template <class Kind>
 class EcuNode {
  public:
@@ -26,7 +26,11 @@ class EcuNode {
   using Receiver = typename Kind::Receiver;
 
   EcuNode(const typename Kind::Profile& profile, std::uint32_t profile_hash, CanPort& port)
-      : port_(port), watch_(port), controller_(profile) {
+      : port_(port),
+        watch_(port),
+        receiver_(Kind::parts(profile)),
+        controller_(profile),
+        transmitter_(Kind::parts(profile)) {
     diagnosis_.profile_hash = profile_hash;
   }
 

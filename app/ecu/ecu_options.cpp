@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "firmware/motion/task_program.hpp"
+
 namespace graben::ecu {
 namespace {
 constexpr int kWrongUsage = 2;
@@ -32,6 +34,10 @@ std::optional<EcuOptions> read_options(int argc, const char* const* argv, int& s
   app.add_option("--profile", options.profile,
                  "Machine profile: a file, or a name in /etc/graben or /usr/share/graben")
       ->required();
+  app.add_option("--task", options.tasks,
+                 "Task of an excavator: a file, or a name in /etc/graben/tasks or "
+                 "/usr/share/graben/tasks; up to 4, for the operator's TaskNumber 0, 1, ...")
+      ->expected(1, kTaskMost);
   app.add_option("--rt-priority", options.priority, "SCHED_FIFO priority, 1 .. 99")
       ->check(CLI::Range(1, 99))
       ->capture_default_str();

@@ -10,7 +10,8 @@ namespace graben::ecu {
 struct EcuOptions {
   std::vector<std::string> interfaces;  ///< CAN interfaces by name; all are heard, all are sent to.
   std::string profile;
-  std::string stats_file;  ///< Written on the way out; none if empty.
+  std::vector<std::string> tasks;  ///< Files or names, in the order of their numbers, from 0.
+  std::string stats_file;          ///< Written on the way out; none if empty.
   bool real_time = true;
   int priority = 80;  ///< SCHED_FIFO.
   std::optional<int> cpu;

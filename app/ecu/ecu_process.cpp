@@ -8,13 +8,13 @@
 #include <deque>
 #include <optional>
 #include <stdexcept>
-#include <type_traits>
 #include <variant>
 
 #include "app/ecu/dozer_ecu.hpp"
 #include "app/ecu/ecu_stats.hpp"
 #include "app/ecu/excavator_ecu.hpp"
 #include "app/machines/any_machine.hpp"
+#include "app/machines/task_book.hpp"
 #include "platform/can_port_group.hpp"
 #include "platform/linux/allocation_counter.hpp"
 #include "platform/linux/cyclic_clock.hpp"
@@ -29,7 +29,8 @@ namespace {
 constexpr TimeUs kPeriod_us = 10 * kMillisecondUs;
 constexpr int kNeutralCycles = 5;
 constexpr int kFailed = 1;
-constexpr int kWrongProfile = 2;
+/// The profile, or a task.
+constexpr int kWrongFile = 2;
 /// The manager wants to hear from us within an interval; three times in it is on the safe side.
 constexpr TimeUs kWatchdogShare = 3;
 
@@ -51,6 +52,15 @@ void become_real_time(const EcuOptions& options) {
 /// Nothing, with every error told, if the profile is missing or wrong.
 std::optional<machines::AnyMachine> read_profile(const std::string& name) try {
   return machines::load_any(machines::find_profile(name, {"/etc/graben", "/usr/share/graben"}));
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "graben-ecu: %s\n", error.what());
+  return std::nullopt;
+}
+
+/// Nothing, with every error told, if one of the tasks is missing, wrong, or can't be had.
+std::optional<TaskBook> read_tasks(const std::vector<std::string>& names,
+                                   const ExcavatorProfile& profile) try {
+  return machines::load_tasks(names, {"/etc/graben/tasks", "/usr/share/graben/tasks"}, profile);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "graben-ecu: %s\n", error.what());
   return std::nullopt;
@@ -158,14 +168,14 @@ void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, Usage
   static_cast<void>(clock.wait());
 }
 
-/// From the interfaces to the statistics, with the controller of the machine's kind.
-template <class Of>
-int run_machine(const Of& machine, const EcuOptions& options, TimeUs began_us) {
-  using Ecu =
-      std::conditional_t<std::is_same_v<Of, machines::DozerMachine>, DozerEcu, ExcavatorEcu>;
+/// From the interfaces to the statistics, with the controller of the machine's kind; `setup` is
+/// what it is made of.
+template <class Ecu, class Setup>
+int run_controller(const Setup& setup, std::uint32_t profile_hash, const EcuOptions& options,
+                   TimeUs began_us) {
   const auto ids = Ecu::Receiver::ids();
   Buses buses(options.interfaces, {ids.begin(), ids.end()});
-  Ecu ecu(machine.profile, machine.hash, buses.group);
+  Ecu ecu(setup, profile_hash, buses.group);
   CyclicClock clock(kPeriod_us);
   ServiceNotify manager(std::getenv("NOTIFY_SOCKET"));
   Watchdog watchdog(manager);
@@ -196,12 +206,31 @@ int run_machine(const Of& machine, const EcuOptions& options, TimeUs began_us) {
   return written ? 0 : kFailed;
 }
 
+int run_machine(const machines::ExcavatorMachine& machine, const EcuOptions& options,
+                TimeUs began_us) {
+  const std::optional<TaskBook> book = read_tasks(options.tasks, machine.profile);
+  if (!book) {
+    return kWrongFile;
+  }
+  return run_controller<ExcavatorEcu>(ExcavatorSetup(machine.profile, *book), machine.hash, options,
+                                      began_us);
+}
+
+int run_machine(const machines::DozerMachine& machine, const EcuOptions& options, TimeUs began_us) {
+  if (!options.tasks.empty()) {
+    std::fprintf(stderr, "graben-ecu: --task: %s is a dozer's profile; tasks are an excavator's\n",
+                 options.profile.c_str());
+    return kWrongFile;
+  }
+  return run_controller<DozerEcu>(machine.profile, machine.hash, options, began_us);
+}
+
 }  // namespace
 
 int run(const EcuOptions& options, TimeUs began_us) try {
   const auto machine = read_profile(options.profile);
   if (!machine) {
-    return kWrongProfile;
+    return kWrongFile;
   }
   return std::visit([&](const auto& of) { return run_machine(of, options, began_us); }, *machine);
 } catch (const std::exception& error) {

@@ -4,7 +4,9 @@
 
 namespace graben::ecu {
 
-bool ExcavatorKind::is_command(std::uint32_t id) { return id == dbc::excavator::SpoolCommand::kId; }
+bool ExcavatorKind::is_command(std::uint32_t id) {
+  return id == dbc::excavator::SpoolCommand::kId || id == dbc::excavator::SwingCommand::kId;
+}
 
 template class EcuNode<ExcavatorKind>;
 

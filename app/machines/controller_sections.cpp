@@ -110,6 +110,12 @@ LineProfile read_line(TomlReader& reader) {
   const std::vector<double> cylinder =
       reader.numbers("line.cylinder_acceleration", {0.01, 10.0, "m/s2"}, kAxisCount);
   std::copy(cylinder.begin(), cylinder.end(), line.cylinder_acceleration_mps2.begin());
+  line.slow_error_m = reader.number("line.slow_error", {1e-3, 10.0, "m"});
+  line.slow_error_s = reader.number("line.slow_error_per_speed", {0.0, 1.0, "s"});
+  line.move_slow_error_m = reader.number("line.move_slow_error", {1e-3, 10.0, "m"});
+  line.pace_rate_ps = reader.number("line.pace_rate", {0.05, 100.0, "1/s"});
+  line.trim_ps2 = reader.number("line.trim", {0.0, 20.0, "1/s2"});
+  line.trim_most_mps = reader.number("line.trim_most", {0.0, 0.1, "m/s"});
   return line;
 }
 
@@ -189,6 +195,11 @@ ControlProfile read_control(TomlReader& reader) {
   control.lambda_rise.reserve_n = reader.number("control.lambda_rise_reserve", {0.0, 1e5, "N"});
   control.lambda_rise.hold_share = reader.number("control.lambda_hold_share", {0.0, 1.0, ""});
   control.servo_gain_ps = reader.number("control.servo_gain", {0.0, 20.0, "1/s"});
+  if (has_swing_drive(reader)) {
+    control.swing_servo_most_rad = reader.number("control.swing_servo_most", {0.0, 1.0, "rad"});
+    control.swing_lead_s = reader.number("control.swing_lead", {0.0, 2.0, "s"});
+    control.swing_servo_gain_ps = reader.number("control.swing_servo_gain", {0.0, 20.0, "1/s"});
+  }
   control.servo_most_m = reader.number("control.servo_most", {0.0, 0.2, "m"});
   control.servo_least_lambda = reader.number("control.servo_least_lambda", {0.01, 1.0, ""});
   control.servo_frequency_hz = reader.number("control.servo_frequency", {0.2, 100.0, "Hz"});
@@ -205,6 +216,10 @@ ControlProfile read_control(TomlReader& reader) {
 
 SafetyProfile read_safety(TomlReader& reader) {
   auto safety = read_safety_of_valve<SafetyProfile>(reader);
+  if (has_swing_drive(reader)) {
+    safety.swing_uncommanded_rad = reader.number("safety.swing_uncommanded", {0.01, 1.0, "rad"});
+    safety.swing_stuck_rad = reader.number("safety.swing_stuck", {0.01, 1.0, "rad"});
+  }
   safety.swash_tolerance = reader.number("safety.swash_tolerance", {0.01, 0.5, ""});
   safety.pressure_rail_pa = reader.number("sensors.pressure_range", {1e6, 1e8, "Pa"});
   return safety;

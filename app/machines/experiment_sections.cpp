@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/machines/excavator_sections.hpp"
+#include "app/machines/teeth_pose_key.hpp"
 #include "firmware/motion/rounded_rectangle.hpp"
 
 namespace graben::machines {
@@ -56,12 +57,6 @@ AirManoeuvre read_air(TomlReader& reader) {
   air.payload_kg = reader.number("experiment.air.payload", {0.0, 1e5, "kg"});
   air.payload_centre_m = reader.point("experiment.air.payload_centre", {-10.0, 10.0, "m"});
   return air;
-}
-
-TeethPose read_teeth(TomlReader& reader, const std::string& at) {
-  const std::vector<double> position = reader.numbers(at + ".position", {-30.0, 30.0, "m"}, 3);
-  return {{position[0], position[1], position[2]},
-          reader.number(at + ".attitude", {-7.0, 7.0, "rad"})};
 }
 
 LineTask read_line_task(TomlReader& reader) {

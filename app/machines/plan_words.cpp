@@ -57,6 +57,13 @@ std::string blind_words(const ExcavatorGeometry& geometry, const BlindSpot& blin
   return "a number is not finite";
 }
 
+std::string place_words(const BlindPlace& place, const char* of_what) {
+  const Eigen::Vector3d& at = place.teeth.position_m;
+  return fmt::format(
+      "at {:.2f} % of the {}, teeth x {:.3f} m, y {:.3f} m, z {:.3f} m, attitude {:.3f} rad",
+      100.0 * place.share, of_what, at.x(), at.y(), at.z(), place.teeth.attitude_rad);
+}
+
 std::string refusal_words(const ExcavatorGeometry& geometry, const PlanResult& result) {
   switch (result.refusal) {
     case PlanRefusal::kNone:
@@ -68,12 +75,8 @@ std::string refusal_words(const ExcavatorGeometry& geometry, const PlanResult& r
     case PlanRefusal::kBlindSpot:
       break;
   }
-  const BlindPlace& place = result.blind;
-  const Eigen::Vector3d& at = place.teeth.position_m;
-  return fmt::format(
-      "{}; at {:.2f} % of the line, teeth x {:.3f} m, y {:.3f} m, z {:.3f} m, attitude {:.3f} rad",
-      blind_words(geometry, place.blind), 100.0 * place.share, at.x(), at.y(), at.z(),
-      place.teeth.attitude_rad);
+  return fmt::format("{}; {}", blind_words(geometry, result.blind.blind),
+                     place_words(result.blind, "line"));
 }
 
 std::string plan_limit_words(const PlanResult& result) {

@@ -10,6 +10,9 @@ namespace graben::machines {
 /// Why the machine can't be there: whose joint, and by how much where that is known.
 [[nodiscard]] std::string blind_words(const ExcavatorGeometry& geometry, const BlindSpot& blind);
 
+/// Where it is of what, a "line" or a "step".
+[[nodiscard]] std::string place_words(const BlindPlace& place, const char* of_what);
+
 /// Why there is no plan, and for a blind spot where on the line it begins. Without a full stop.
 [[nodiscard]] std::string refusal_words(const ExcavatorGeometry& geometry,
                                         const PlanResult& result);

@@ -43,8 +43,8 @@ ProfileError::ProfileError(const std::string& file, std::vector<std::string> err
                                      errors.size() == 1 ? "" : "s", fmt::join(errors, "\n  "))),
       errors_(std::move(errors)) {}
 
-std::filesystem::path find_profile(const std::string& name,
-                                   const std::vector<std::filesystem::path>& folders) {
+std::filesystem::path find_file(const char* what, const std::string& name,
+                                const std::vector<std::filesystem::path>& folders) {
   if (std::filesystem::is_regular_file(name)) {
     return name;
   }
@@ -58,7 +58,12 @@ std::filesystem::path find_profile(const std::string& name,
     looked_in += (looked_in.empty() ? "" : ", ") + folder.string();
   }
   throw std::runtime_error(
-      fmt::format("profile '{}' not found, neither as a file nor in {}", name, looked_in));
+      fmt::format("{} '{}' not found, neither as a file nor in {}", what, name, looked_in));
+}
+
+std::filesystem::path find_profile(const std::string& name,
+                                   const std::vector<std::filesystem::path>& folders) {
+  return find_file("profile", name, folders);
 }
 
 ProfileDocument read_document(const std::filesystem::path& file) {

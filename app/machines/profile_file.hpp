@@ -20,7 +20,10 @@ class ProfileError : public std::runtime_error {
 };
 
 /// Finds `name` as a path, or as NAME or NAME.toml in one of the folders, in their order. Throws
-/// std::runtime_error that lists where it looked.
+/// std::runtime_error that lists where it looked, and calls it `what`.
+[[nodiscard]] std::filesystem::path find_file(const char* what, const std::string& name,
+                                              const std::vector<std::filesystem::path>& folders);
+/// A profile.
 [[nodiscard]] std::filesystem::path find_profile(const std::string& name,
                                                  const std::vector<std::filesystem::path>& folders);
 /// The same among the profiles of this source tree: for the tool and the tests, which stay in it.

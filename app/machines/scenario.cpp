@@ -18,7 +18,8 @@ void vary(double& value, double share, Random& random) { value *= 1.0 + random.s
 void vary_parameters(ExcavatorProfile& profile, const Uncertainty& uncertainty,
                      std::uint64_t seed) {
   Random random(seed, Draw::kParameters);
-  for (SpoolProfile& spool : profile.valve.spool) {
+  for (unsigned i = 0; i < static_cast<unsigned>(profile.drive_count); ++i) {
+    SpoolProfile& spool = profile.valve.spool[i];
     for (double* area :
          {&spool.extend_in_m2, &spool.extend_out_m2, &spool.retract_in_m2, &spool.retract_out_m2}) {
       vary(*area, uncertainty.spool_opening, random);

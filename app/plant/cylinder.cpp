@@ -15,15 +15,16 @@ PistonAreas piston_areas(int count, double bore_m, double rod_m) {
 }
 
 Cylinder::Cylinder(const CylinderData& data, double step_s)
-    : cap_(2, {data.bulk_modulus_pa, data.details.boiling_pa}, step_s),
-      rod_(2, {data.bulk_modulus_pa, data.details.boiling_pa}, step_s),
+    : chambers_({data.area.cap_m2,
+                 data.area.rod_m2,
+                 data.details.piston_leak_m3pspa,
+                 {data.bulk_modulus_pa, data.details.boiling_pa}},
+                step_s),
       cap_area_(data.area.cap_m2),
       rod_area_(data.area.rod_m2),
       step_(step_s),
       full_stroke_(data.stroke_m),
       dead_volume_(data.dead_volume_m3),
-      leak_(data.details.piston_leak_m3pspa),
-      boiling_(data.details.boiling_pa),
       back_pressure_(data.details.start_back_pressure_pa),
       friction_(data.friction),
       cushion_length_(data.cushion.length_m),
@@ -41,10 +42,10 @@ Cylinder::Cylinder(const CylinderData& data, double step_s)
 void Cylinder::start(double stroke_m, double force_n) {
   set_motion(stroke_m, 0.0);
   const double balance = force_n - back_pressure_ * (cap_area_ - rod_area_);
-  cap_.start(dead_volume_ + cap_area_ * stroke_m,
-             back_pressure_ + std::max(0.0, balance) / cap_area_);
-  rod_.start(dead_volume_ + rod_area_ * (full_stroke_ - stroke_m),
-             back_pressure_ + std::max(0.0, -balance) / rod_area_);
+  chambers_.start(dead_volume_ + cap_area_ * stroke_m,
+                  back_pressure_ + std::max(0.0, balance) / cap_area_,
+                  dead_volume_ + rod_area_ * (full_stroke_ - stroke_m),
+                  back_pressure_ + std::max(0.0, -balance) / rod_area_);
 }
 
 void Cylinder::set_motion(double stroke_m, double velocity_mps) {
@@ -63,50 +64,29 @@ void Cylinder::add_end_stop(PistonLoad& load) const {
   }
 }
 
-WavePort Cylinder::piston_port(const WaveVolume& chamber, double last_inflow_m3ps) const {
-  const WavePort port = chamber.port(kPiston);
-  return port.pressure_pa(last_inflow_m3ps) < boiling_ ? WavePort{boiling_, 0.0} : port;
-}
-
 PistonLoad Cylinder::load() const {
-  const double leak = leak_m3ps();
-  const WavePort cap = piston_port(cap_, -cap_area_ * velocity_ - leak);
-  const WavePort rod = piston_port(rod_, rod_area_ * velocity_ + leak);
+  const ChamberLoads oil = chambers_.load(velocity_);
   PistonLoad load;
-  load.force_n = cap_area_ * cap.pressure_pa(-leak) - rod_area_ * rod.pressure_pa(leak);
-  load.damping_nspm = cap_area_ * cap_area_ * cap.impedance_paspm3 +
-                      rod_area_ * rod_area_ * rod.impedance_paspm3 + friction_.viscous_nspm;
+  load.force_n = oil.a.force - oil.b.force;
+  load.damping_nspm = oil.a.damping + oil.b.damping + friction_.viscous_nspm;
   load.coulomb_n = friction_.coulomb_n;
   add_end_stop(load);
   return load;
 }
 
 PistonPower Cylinder::power(double velocity_mps) const {
-  const double leak = leak_m3ps();
-  const double swept_cap = -cap_area_ * velocity_mps - leak;
-  const double swept_rod = rod_area_ * velocity_mps + leak;
   PistonLoad stop;
   add_end_stop(stop);
-  PistonPower power;
-  power.cap_pa = piston_port(cap_, -cap_area_ * velocity_ - leak).pressure_pa(swept_cap);
-  power.rod_pa = piston_port(rod_, rod_area_ * velocity_ + leak).pressure_pa(swept_rod);
-  power.leak_m3ps = leak;
+  PistonPower power{chambers_.power(velocity_, velocity_mps)};
   power.viscous_w = friction_.viscous_nspm * velocity_mps * velocity_mps;
   power.end_stop_w = (stop.damping_nspm * velocity_mps - stop.force_n) * velocity_mps;
   return power;
 }
 
 void Cylinder::step(double cap_in_m3ps, double rod_in_m3ps, double velocity_mps) {
-  const double leak = leak_m3ps();
+  chambers_.step(cap_in_m3ps, rod_in_m3ps, velocity_mps);
   const double travel = step_ * velocity_mps;
-  cap_.set_flow(kValve, cap_in_m3ps);
-  cap_.set_flow(kPiston, -cap_area_ * velocity_mps - leak);
-  cap_.scatter();
-  cap_.grow(cap_area_ * travel);
-  rod_.set_flow(kValve, rod_in_m3ps);
-  rod_.set_flow(kPiston, rod_area_ * velocity_mps + leak);
-  rod_.scatter();
-  rod_.grow(-rod_area_ * travel);
+  chambers_.grow(cap_area_ * travel, -rod_area_ * travel);
 }
 
 }  // namespace graben::plant

@@ -3,9 +3,8 @@
 
 #include <algorithm>
 
+#include "app/plant/chamber_pair.hpp"
 #include "app/plant/hydraulic_details.hpp"
-#include "app/plant/oil.hpp"
-#include "app/plant/wave_volume.hpp"
 
 namespace graben::plant {
 
@@ -50,19 +49,14 @@ struct PistonLoad {
   double coulomb_n = 0.0;
 };
 
-/// What the piston loses in a step, for the energy account.
-struct PistonPower {
-  double cap_pa = 0.0;  ///< As the piston saw it.
-  double rod_pa = 0.0;
-  double leak_m3ps = 0.0;
-  double viscous_w = 0.0;
+/// What the piston loses in a step, for the energy account; chamber a is the cap side.
+struct PistonPower : ChamberPower {
   double end_stop_w = 0.0;
 };
 
 /// Chamber volume is the dead volume plus area times travel; travel is the sum of the steps' mean
 /// velocities, so that oil neither appears nor vanishes (against the links' geometry it lags by
-/// half a step). Leakage past the piston is laminar and lags by one step (its time constant is
-/// minutes). The end stops are springs, damped on the way in.
+/// half a step). The end stops are springs, damped on the way in.
 class Cylinder {
  public:
   Cylinder(const CylinderData& data, double step_s);
@@ -73,8 +67,8 @@ class Cylinder {
 
   /// Before the step: where the piston is and how fast it last moved.
   void set_motion(double stroke_m, double velocity_mps);
-  [[nodiscard]] WavePort cap_port() const { return cap_.port(kValve); }
-  [[nodiscard]] WavePort rod_port() const { return rod_.port(kValve); }
+  [[nodiscard]] WavePort cap_port() const { return chambers_.a_port(); }
+  [[nodiscard]] WavePort rod_port() const { return chambers_.b_port(); }
   /// Resistance of each cushion to what leaves its chamber, 1 / K^2; 0 where the piston is not in
   /// it. It grows as length over what is left of it, less 1: a piston that slows evenly meets even
   /// pressure.
@@ -90,18 +84,10 @@ class Cylinder {
   /// Ends the step with its chamber flows (into the chambers) and mean velocity.
   void step(double cap_in_m3ps, double rod_in_m3ps, double velocity_mps);
 
-  [[nodiscard]] const WaveVolume& cap() const { return cap_; }
-  [[nodiscard]] const WaveVolume& rod() const { return rod_; }
+  [[nodiscard]] const WaveVolume& cap() const { return chambers_.a(); }
+  [[nodiscard]] const WaveVolume& rod() const { return chambers_.b(); }
 
  private:
-  static constexpr std::size_t kValve = 0;
-  static constexpr std::size_t kPiston = 1;
-
-  [[nodiscard]] double leak_m3ps() const {
-    return leak_ * (cap_.pressure_pa() - rod_.pressure_pa());
-  }
-  /// As the piston sees it: a chamber that boils at the last velocity pulls no harder.
-  [[nodiscard]] WavePort piston_port(const WaveVolume& chamber, double last_inflow_m3ps) const;
   [[nodiscard]] double cushion_pas2pm6(double left_m, double at_half_length) const {
     return left_m < cushion_length_
                ? at_half_length * (cushion_length_ / std::max(left_m, cushion_end_) - 1.0)
@@ -109,15 +95,12 @@ class Cylinder {
   }
   void add_end_stop(PistonLoad& load) const;
 
-  WaveVolume cap_;
-  WaveVolume rod_;
+  ChamberPair chambers_;
   double cap_area_;
   double rod_area_;
   double step_;
   double full_stroke_;
   double dead_volume_;
-  double leak_;
-  double boiling_;
   double back_pressure_;
   PistonFriction friction_;
   double cushion_length_;

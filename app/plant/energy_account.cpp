@@ -27,12 +27,22 @@ void EnergyAccount::add_section(const Oil& oil, const SectionPorts& ports,
                              (flows.rod_hose_m3ps - flows.rod_in_m3ps) * rod);
 }
 
+void EnergyAccount::add_chambers(const Oil& oil, const ChamberPower& power, double coulomb_w,
+                                 double step_s) {
+  piston_leak_j +=
+      step_s * power.leak_m3ps * (flow_energy_w(oil, power.a_pa) - flow_energy_w(oil, power.b_pa));
+  friction_j += step_s * (power.viscous_w - coulomb_w);
+}
+
 void EnergyAccount::add_piston(const Oil& oil, const PistonPower& power, double coulomb_n,
                                double velocity_mps, double step_s) {
-  piston_leak_j += step_s * power.leak_m3ps *
-                   (flow_energy_w(oil, power.cap_pa) - flow_energy_w(oil, power.rod_pa));
-  friction_j += step_s * (power.viscous_w - coulomb_n * velocity_mps);
+  add_chambers(oil, power, coulomb_n * velocity_mps, step_s);
   end_stop_j += step_s * power.end_stop_w;
+}
+
+void EnergyAccount::add_motor(const Oil& oil, const ChamberPower& power, double coulomb_nm,
+                              double rate_radps, double step_s) {
+  add_chambers(oil, power, coulomb_nm * rate_radps, step_s);
 }
 
 }  // namespace graben::plant

@@ -20,8 +20,8 @@ struct EnergyAccount {
   double bypass_j = 0.0;
   double valve_j = 0.0;        ///< Edges, galleries, regeneration checks, hoses, cushions.
   double port_relief_j = 0.0;  ///< With the make-up.
-  double piston_leak_j = 0.0;
-  double friction_j = 0.0;  ///< Coulomb and viscous.
+  double piston_leak_j = 0.0;  ///< With that of motors.
+  double friction_j = 0.0;     ///< Coulomb and viscous.
   double end_stop_j = 0.0;
 
   [[nodiscard]] double in_j() const { return pump_j + tip_j; }
@@ -36,6 +36,12 @@ struct EnergyAccount {
   /// `coulomb_n` is the friction force that acted, positive in extension.
   void add_piston(const Oil& oil, const PistonPower& power, double coulomb_n, double velocity_mps,
                   double step_s);
+  /// Of a motor and what it turns; `coulomb_nm` positive in the direction of a's pressure.
+  void add_motor(const Oil& oil, const ChamberPower& power, double coulomb_nm, double rate_radps,
+                 double step_s);
+
+ private:
+  void add_chambers(const Oil& oil, const ChamberPower& power, double coulomb_w, double step_s);
 };
 
 }  // namespace graben::plant

@@ -8,33 +8,50 @@ namespace {
 
 std::size_t sections_on(const PlantProfile& profile, int pump) {
   std::size_t count = 0;
-  for (const SpoolProfile& spool : profile.machine.valve.spool) {
-    count += spool.pump == pump ? 1U : 0U;
+  for (std::size_t i = 0; i < profile.drive_count(); ++i) {
+    count += profile.machine.valve.spool[i].pump == pump ? 1U : 0U;
   }
   return count;
 }
 
+std::vector<ValveSection> sections_of(const PlantProfile& profile) {
+  std::vector<ValveSection> sections;
+  sections.reserve(profile.drive_count());
+  for (int drive = 0; drive < profile.machine.drive_count; ++drive) {
+    sections.emplace_back(profile, drive);
+  }
+  return sections;
+}
+
+std::vector<PilotValve> pilots_of(const PlantProfile& profile) {
+  std::vector<PilotValve> pilots;
+  pilots.reserve(profile.drive_count());
+  for (std::size_t i = 0; i < profile.drive_count(); ++i) {
+    pilots.emplace_back(profile.dead_time_s[i], profile.step_s());
+  }
+  return pilots;
+}
+
 }  // namespace
 
-ExcavatorPlant::ExcavatorPlant(const PlantProfile& profile, const AxisArray& start_strokes_m)
+ExcavatorPlant::ExcavatorPlant(const PlantProfile& profile, const AxisArray& start_strokes_m,
+                               double start_swing_rad)
     : profile_(profile),
       step_s_(profile.step_s()),
       pump_count_(static_cast<std::size_t>(profile.machine.pump_count)),
       pump_{PumpLine(profile, 0, sections_on(profile, 0)),
             PumpLine(profile, 1, sections_on(profile, 1))},
-      section_{ValveSection(profile, kBoom), ValveSection(profile, kArm),
-               ValveSection(profile, kBucket)},
+      section_(sections_of(profile)),
       cylinder_{Cylinder(profile.cylinder(kBoom), step_s_),
                 Cylinder(profile.cylinder(kArm), step_s_),
                 Cylinder(profile.cylinder(kBucket), step_s_)},
       links_(profile),
-      pilot_{PilotValve(profile.dead_time_s[kBoom], step_s_),
-             PilotValve(profile.dead_time_s[kArm], step_s_),
-             PilotValve(profile.dead_time_s[kBucket], step_s_)},
+      start_swing_(start_swing_rad),
+      pilot_(pilots_of(profile)),
       wanted_swash_(profile.swash_ratio),
       swash_share_(-std::expm1(-step_s_ / profile.swash_time_constant_s)) {
   std::array<std::size_t, kPumpCount> next_place{};
-  for (std::size_t i = 0; i < kAxisCount; ++i) {
+  for (std::size_t i = 0; i < section_.size(); ++i) {
     pump_of_[i] = static_cast<std::size_t>(profile.machine.valve.spool[i].pump);
     place_of_[i] = next_place[pump_of_[i]]++;
   }
@@ -53,10 +70,14 @@ ExcavatorPlant::ExcavatorPlant(const PlantProfile& profile, const AxisArray& sta
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     cylinder_[i].start(links_.levers()[i].stroke_m, holding[i]);
   }
+  if (profile.machine.has_swing()) {
+    swing_.emplace(Swing{SwingMotor(profile.motor(), step_s_),
+                         Platform(profile.platform, start_swing_, links_.swing_inertia_kgm2())});
+  }
 }
 
-void ExcavatorPlant::set_duty(const AxisArray& duty_ratio, bool enable) {
-  for (std::size_t i = 0; i < kAxisCount; ++i) {
+void ExcavatorPlant::set_duty(const DriveArray& duty_ratio, bool enable) {
+  for (std::size_t i = 0; i < kDriveCount; ++i) {
     duty_[i] = enable && std::isfinite(duty_ratio[i]) ? duty_ratio[i] : 0.0;
   }
 }
@@ -71,7 +92,7 @@ void ExcavatorPlant::advance(TimeUs duration_us) {
 
 void ExcavatorPlant::set_bypasses() {
   std::array<double, kPumpCount> inverse_square{};
-  for (std::size_t i = 0; i < kAxisCount; ++i) {
+  for (std::size_t i = 0; i < section_.size(); ++i) {
     inverse_square[pump_of_[i]] += section_[i].bypass_inverse_square();
   }
   for (std::size_t p = 0; p < pump_count_; ++p) {
@@ -93,13 +114,18 @@ void ExcavatorPlant::push_tip() {
   links_.set_tip_force(tip_force_n_);
 }
 
-SectionPorts ExcavatorPlant::ports_of(std::size_t axis) const {
-  const Cylinder& cylinder = cylinder_[axis];
-  const PumpLine& pump = pump_[pump_of_[axis]];
+SectionPorts ExcavatorPlant::ports_of(std::size_t drive) const {
+  const PumpLine& pump = pump_[pump_of_[drive]];
+  const WavePort supply = pump.supply_port(place_of_[drive]);
+  const WavePort recycle = pump.recycle_port(place_of_[drive]);
+  if (drive == kSwing) {
+    return {swing_->motor.left_port(), swing_->motor.right_port(), supply, recycle};
+  }
+  const Cylinder& cylinder = cylinder_[drive];
   return {cylinder.cap_port(),
           cylinder.rod_port(),
-          pump.supply_port(place_of_[axis]),
-          pump.recycle_port(place_of_[axis]),
+          supply,
+          recycle,
           cylinder.cap_cushion_pas2pm6(),
           cylinder.rod_cushion_pas2pm6()};
 }
@@ -113,17 +139,13 @@ void ExcavatorPlant::move_swash() {
   }
 }
 
-void ExcavatorPlant::step() {
-  push_tip();
-  move_swash();
-  std::array<PistonLoad, kAxisCount> load;
-  for (std::size_t i = 0; i < kAxisCount; ++i) {
+void ExcavatorPlant::meter() {
+  for (std::size_t i = 0; i < section_.size(); ++i) {
     section_[i].set_command(pilot_[i].step(duty_[i], pilot_cut_));
-    PumpLine& pump = pump_[pump_of_[i]];
     const SectionPorts ports = ports_of(i);
     flows_[i] = section_[i].solve(ports);
-    pump.set_section_flows(place_of_[i], flows_[i].supply_out_m3ps, flows_[i].recycle_in_m3ps);
-    load[i] = cylinder_[i].load();
+    pump_[pump_of_[i]].set_section_flows(place_of_[i], flows_[i].supply_out_m3ps,
+                                         flows_[i].recycle_in_m3ps);
     if (account_ != nullptr) {
       account_->add_section(profile_.oil(), ports, flows_[i], step_s_);
     }
@@ -134,13 +156,19 @@ void ExcavatorPlant::step() {
       account_->add_pump(profile_.oil(), pump_[p], step_s_);
     }
   }
+}
+
+void ExcavatorPlant::move_links() {
+  std::array<PistonLoad, kAxisCount> load;
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    load[i] = cylinder_[i].load();
+  }
   const JointArray velocity = links_.accelerate(load, step_s_);
   if (account_ != nullptr) {
     add_pistons_to_account(velocity);
   }
   links_.move(step_s_);
   const JointArray rate = links_.rates();
-  bool spool_moved = false;
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     cylinder_[i].step(flows_[i].cap_in_m3ps, flows_[i].rod_in_m3ps, velocity[i]);
     const Lever& lever = links_.levers()[i];
@@ -148,7 +176,37 @@ void ExcavatorPlant::step() {
     peak_chamber_pressure_pa_ =
         std::max({peak_chamber_pressure_pa_, cylinder_[i].cap().pressure_pa(),
                   cylinder_[i].rod().pressure_pa()});
-    spool_moved = section_[i].step(step_s_) || spool_moved;
+  }
+}
+
+void ExcavatorPlant::turn_platform() {
+  SwingMotor& motor = swing_->motor;
+  Platform& platform = swing_->platform;
+  const double rate = platform.accelerate(motor.load(), links_.swing_inertia_kgm2(), step_s_);
+  if (account_ != nullptr) {
+    ChamberPower power = motor.power(rate);
+    power.viscous_w = platform.viscous_w(rate);
+    account_->add_motor(profile_.oil(), power, platform.friction_nm(), rate, step_s_);
+  }
+  platform.move(step_s_);
+  motor.step(flows_[kSwing].cap_in_m3ps, flows_[kSwing].rod_in_m3ps, rate);
+  motor.set_rate(platform.rate_radps());
+  links_.set_swing_rate(platform.rate_radps());
+  peak_chamber_pressure_pa_ = std::max(
+      {peak_chamber_pressure_pa_, motor.left().pressure_pa(), motor.right().pressure_pa()});
+}
+
+void ExcavatorPlant::step() {
+  push_tip();
+  move_swash();
+  meter();
+  move_links();
+  if (swing_) {
+    turn_platform();
+  }
+  bool spool_moved = false;
+  for (ValveSection& section : section_) {
+    spool_moved = section.step(step_s_) || spool_moved;
   }
   if (spool_moved) {
     set_bypasses();
@@ -168,6 +226,10 @@ double ExcavatorPlant::stored_energy_j() const {
   for (const Cylinder& cylinder : cylinder_) {
     energy += cylinder.cap().energy_j() + cylinder.rod().energy_j();
   }
+  if (swing_) {
+    energy += swing_->platform.energy_j() + swing_->motor.left().energy_j() +
+              swing_->motor.right().energy_j();
+  }
   for (std::size_t p = 0; p < pump_count_; ++p) {
     energy += pump_[p].line().energy_j();
   }
@@ -186,9 +248,9 @@ ExcavatorPlant::AxisArray ExcavatorPlant::stroke_velocities_mps() const {
           levers[2].stroke_per_angle_m * rate[2]};
 }
 
-double ExcavatorPlant::valve_pressure_pa(std::size_t axis, const WaveVolume& chamber,
+double ExcavatorPlant::valve_pressure_pa(std::size_t drive, const WaveVolume& chamber,
                                          double hose_m3ps, double cushion_pas2pm6) const {
-  const double drop = section_[axis].hose_drop_pa(hose_m3ps, cushion_pas2pm6);
+  const double drop = section_[drive].hose_drop_pa(hose_m3ps, cushion_pas2pm6);
   return std::max(profile_.boiling_pa, chamber.pressure_pa() + drop);
 }
 
@@ -213,6 +275,40 @@ ExcavatorPlant::AxisArray ExcavatorPlant::rod_pressures_pa() const {
 ExcavatorPlant::AxisArray ExcavatorPlant::spool_travels_ratio() const {
   return {section_[0].spool().travel_ratio(), section_[1].spool().travel_ratio(),
           section_[2].spool().travel_ratio()};
+}
+
+double ExcavatorPlant::swing_rad() const {
+  return swing_ ? swing_->platform.angle_rad() : start_swing_;
+}
+
+double ExcavatorPlant::swing_rate_radps() const {
+  return swing_ ? swing_->platform.rate_radps() : 0.0;
+}
+
+double ExcavatorPlant::swing_inertia_kgm2() const {
+  return swing_ ? swing_->platform.inertia_kgm2() : 0.0;
+}
+
+std::array<double, 2> ExcavatorPlant::swing_pressures_pa() const {
+  if (!swing_) {
+    return {};
+  }
+  const SectionFlows& flows = flows_[kSwing];
+  return {valve_pressure_pa(kSwing, swing_->motor.left(), flows.cap_hose_m3ps, 0.0),
+          valve_pressure_pa(kSwing, swing_->motor.right(), flows.rod_hose_m3ps, 0.0)};
+}
+
+double ExcavatorPlant::swing_spool_ratio() const {
+  return swing_ ? section_[kSwing].spool().travel_ratio() : 0.0;
+}
+
+TeethTruth ExcavatorPlant::teeth() const {
+  const TipPose tip = links_.tip();
+  const Eigen::Vector2d& boom_foot_m = profile_.machine.geometry.boom_foot_m;
+  const double radius = boom_foot_m.x() + tip.position_m.x();
+  return {{radius * std::cos(swing_rad()), radius * std::sin(swing_rad()),
+           boom_foot_m.y() + tip.position_m.y()},
+          tip.attitude_rad};
 }
 
 ExcavatorPlant::PumpArray ExcavatorPlant::swash_ratios() const {

@@ -1,20 +1,31 @@
 #pragma once
-/// The simulated excavator, swing held: pumps, main control valve, cylinders, links.
+/// The simulated excavator: pumps, main control valve, cylinders, links, and on a machine with a
+/// swing drive its motor and platform; else the swing is held.
 
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "app/plant/cylinder.hpp"
 #include "app/plant/energy_account.hpp"
 #include "app/plant/linkage_dynamics.hpp"
 #include "app/plant/pilot_valve.hpp"
 #include "app/plant/plant_profile.hpp"
+#include "app/plant/platform.hpp"
 #include "app/plant/pump_line.hpp"
+#include "app/plant/swing_motor.hpp"
 #include "app/plant/valve_section.hpp"
 #include "firmware/core/time.hpp"
 
 namespace graben::plant {
+
+/// Where the bucket's teeth are over the ground: x and y level, z up, origin where the swing axis
+/// meets the ground; swing 0 looks along x and turns towards y to the left.
+struct TeethTruth {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  double attitude_rad = 0.0;  ///< As TipPose has it.
+};
 
 /// The circuit of Kim 3 with what his detailed model adds (Kim 5): compressible chambers and lines,
 /// spool dynamics, deadband, leakage, link inertia, friction; in addition port reliefs, make-up
@@ -25,28 +36,31 @@ namespace graben::plant {
 /// accuracy, which is of second order but for the elements' small filter.
 ///
 /// One step, from the state at t to that at t + h: valve sections between the ports' waves, then
-/// the pumps with their bypasses, then the links against the chambers' impedance, then all waves.
+/// the pumps with their bypasses, then the links against the chambers' impedance, then the platform
+/// with the links where they are now, then all waves.
 class ExcavatorPlant {
  public:
   using AxisArray = std::array<double, kAxisCount>;
+  using DriveArray = std::array<double, kDriveCount>;
   using PumpArray = std::array<double, kPumpCount>;
 
   /// Starts in static equilibrium: spools closed, chamber pressures carry the links' weight, pumps
-  /// in standby. Each stroke must be within its cylinder's.
-  ExcavatorPlant(const PlantProfile& profile, const AxisArray& start_strokes_m);
+  /// in standby, the platform at rest. Each stroke must be within its cylinder's.
+  ExcavatorPlant(const PlantProfile& profile, const AxisArray& start_strokes_m,
+                 double start_swing_rad = 0.0);
 
   /// Duty -1 .. 1 is the wanted spool travel in units of full travel; without `enable` neutral.
-  /// A value that is not finite counts as 0.
-  void set_duty(const AxisArray& duty_ratio, bool enable);
+  /// A value that is not finite counts as 0. The swing's is left aside without a swing drive.
+  void set_duty(const DriveArray& duty_ratio, bool enable);
   /// Wanted swash of each pump, followed with a first-order lag; at the start the profile's.
   void set_swash(const PumpArray& swash_ratio) { wanted_swash_ = swash_ratio; }
   /// Without pilot pressure every spool centres by its springs, with no dead time, whatever its
   /// pilot valve does.
   void set_pilot_cut(bool cut) { pilot_cut_ = cut; }
   /// A pilot valve that sends its spool to `held_ratio` whatever the duty, or `offset_ratio` beyond
-  /// what the duty asks for.
-  void set_pilot_fault(std::size_t axis, std::optional<double> held_ratio, double offset_ratio) {
-    pilot_[axis].set_fault(held_ratio, offset_ratio);
+  /// what the duty asks for. Of a drive that the machine has.
+  void set_pilot_fault(std::size_t drive, std::optional<double> held_ratio, double offset_ratio) {
+    pilot_[drive].set_fault(held_ratio, offset_ratio);
   }
   /// Force on the bucket tip beside soil and obstacle, N, x forward and y up, until changed.
   void set_tip_force(const Eigen::Vector2d& force_n) { outer_force_n_ = force_n; }
@@ -67,12 +81,26 @@ class ExcavatorPlant {
   [[nodiscard]] AxisArray rod_pressures_pa() const;
   /// Position x / x_m of each spool: of its whole travel, the deadband included.
   [[nodiscard]] AxisArray spool_travels_ratio() const;
+
+  /// Left is positive; beyond whole turns it goes on. Without a swing drive where it started.
+  [[nodiscard]] double swing_rad() const;
+  // The others are 0 without a swing drive.
+  [[nodiscard]] double swing_rate_radps() const;
+  /// Of the platform with the links as they are, about the swing axis.
+  [[nodiscard]] double swing_inertia_kgm2() const;
+  /// Left and right port at the valve's end of the hoses, as those of the cylinders.
+  [[nodiscard]] std::array<double, 2> swing_pressures_pa() const;
+  [[nodiscard]] double swing_spool_ratio() const;
+  [[nodiscard]] TeethTruth teeth() const;
+
   [[nodiscard]] PumpArray swash_ratios() const;
   [[nodiscard]] PumpArray pump_pressures_pa() const;
   /// Delivery after leakage, before the relief valve.
   [[nodiscard]] PumpArray pump_flows_m3ps() const;
   /// Flow that each section takes from its pump's line and gives back by regeneration, m^3/s.
-  [[nodiscard]] const std::array<SectionFlows, kAxisCount>& section_flows() const { return flows_; }
+  [[nodiscard]] const std::array<SectionFlows, kDriveCount>& section_flows() const {
+    return flows_;
+  }
   [[nodiscard]] const Cylinder& cylinder(std::size_t axis) const { return cylinder_[axis]; }
   [[nodiscard]] const PumpLine& pump(std::size_t index) const { return pump_[index]; }
   [[nodiscard]] const JointArray& joint_angles_rad() const { return links_.angles(); }
@@ -86,10 +114,18 @@ class ExcavatorPlant {
   [[nodiscard]] const PlantProfile& profile() const { return profile_; }
 
  private:
+  struct Swing {
+    SwingMotor motor;
+    Platform platform;
+  };
+
   void step();
+  void meter();
+  void move_links();
+  void turn_platform();
   void add_pistons_to_account(const JointArray& velocity_mps);
-  [[nodiscard]] SectionPorts ports_of(std::size_t axis) const;
-  [[nodiscard]] double valve_pressure_pa(std::size_t axis, const WaveVolume& chamber,
+  [[nodiscard]] SectionPorts ports_of(std::size_t drive) const;
+  [[nodiscard]] double valve_pressure_pa(std::size_t drive, const WaveVolume& chamber,
                                          double hose_m3ps, double cushion_pas2pm6) const;
   void set_bypasses();
   void push_tip();
@@ -99,16 +135,18 @@ class ExcavatorPlant {
   double step_s_;
   std::size_t pump_count_;  ///< Lines beyond it are neither filled nor stepped.
   TimeUs pending_us_ = 0;
-  /// Of each axis: its pump, and its place among the sections on that pump.
-  std::array<std::size_t, kAxisCount> pump_of_{};
-  std::array<std::size_t, kAxisCount> place_of_{};
+  /// Of each drive: its pump, and its place among the sections on that pump.
+  std::array<std::size_t, kDriveCount> pump_of_{};
+  std::array<std::size_t, kDriveCount> place_of_{};
 
   std::array<PumpLine, kPumpCount> pump_;
-  std::array<ValveSection, kAxisCount> section_;
+  std::vector<ValveSection> section_;  ///< One a drive.
   std::array<Cylinder, kAxisCount> cylinder_;
   LinkageDynamics links_;
-  AxisArray duty_{};
-  std::array<PilotValve, kAxisCount> pilot_;
+  std::optional<Swing> swing_;
+  double start_swing_;
+  DriveArray duty_{};
+  std::vector<PilotValve> pilot_;  ///< One a drive.
   bool pilot_cut_ = false;
   PumpArray wanted_swash_;
   double swash_share_;  ///< Of the way to the wanted swash, in a step.
@@ -116,7 +154,7 @@ class ExcavatorPlant {
   std::optional<Obstacle> obstacle_;
   Eigen::Vector2d outer_force_n_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d tip_force_n_ = Eigen::Vector2d::Zero();
-  std::array<SectionFlows, kAxisCount> flows_{};
+  std::array<SectionFlows, kDriveCount> flows_{};
   double peak_chamber_pressure_pa_ = 0.0;
   EnergyAccount* account_ = nullptr;
 };

@@ -16,6 +16,8 @@ struct ReadingFault {
   ReadingFault() = default;
   explicit ReadingFault(const StrokeFault& fault)
       : stuck(fault.stuck), jump(fault.jump_m), drift_ps(fault.drift_mps), state(fault.state) {}
+  explicit ReadingFault(const AngleFault& fault)
+      : stuck(fault.stuck), jump(fault.jump_rad), drift_ps(fault.drift_radps), state(fault.state) {}
 };
 
 /// A sensor that can fail. A reading is taken once a cycle of 10 ms.

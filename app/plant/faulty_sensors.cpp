@@ -11,6 +11,10 @@ dbc::Physical FaultySensors::stroke(std::size_t axis, double true_stroke_m,
   return stroke_[axis].show(sensors_.stroke_m(axis, true_stroke_m), ReadingFault(fault));
 }
 
+dbc::Physical FaultySensors::swing(double true_swing_rad, const AngleFault& fault) {
+  return swing_.show(sensors_.swing_rad(true_swing_rad), ReadingFault(fault));
+}
+
 dbc::Physical FaultySensors::pressure(double reading_pa, const PressureFault& fault,
                                       double& shown_pa) {
   if (!fault.stuck) {
@@ -19,14 +23,14 @@ dbc::Physical FaultySensors::pressure(double reading_pa, const PressureFault& fa
   return {fault.rail_pa ? *fault.rail_pa : shown_pa, dbc::RawState::kValid};
 }
 
-dbc::Physical FaultySensors::cap_pressure(std::size_t axis, double true_pressure_pa,
+dbc::Physical FaultySensors::cap_pressure(std::size_t drive, double true_pressure_pa,
                                           const PressureFault& fault) {
-  return pressure(sensors_.cap_pressure_pa(axis, true_pressure_pa), fault, cap_pa_[axis]);
+  return pressure(sensors_.cap_pressure_pa(drive, true_pressure_pa), fault, cap_pa_[drive]);
 }
 
-dbc::Physical FaultySensors::rod_pressure(std::size_t axis, double true_pressure_pa,
+dbc::Physical FaultySensors::rod_pressure(std::size_t drive, double true_pressure_pa,
                                           const PressureFault& fault) {
-  return pressure(sensors_.rod_pressure_pa(axis, true_pressure_pa), fault, rod_pa_[axis]);
+  return pressure(sensors_.rod_pressure_pa(drive, true_pressure_pa), fault, rod_pa_[drive]);
 }
 
 }  // namespace graben::plant

@@ -1,5 +1,5 @@
 #pragma once
-/// What the bus is told of strokes and pressures, faults included.
+/// What the bus is told of strokes, swing and pressures, faults included.
 
 #include <array>
 
@@ -17,9 +17,11 @@ class FaultySensors {
 
   [[nodiscard]] dbc::Physical stroke(std::size_t axis, double true_stroke_m,
                                      const StrokeFault& fault);
-  [[nodiscard]] dbc::Physical cap_pressure(std::size_t axis, double true_pressure_pa,
+  [[nodiscard]] dbc::Physical swing(double true_swing_rad, const AngleFault& fault);
+  /// Of the swing cap is the left port, rod the right one.
+  [[nodiscard]] dbc::Physical cap_pressure(std::size_t drive, double true_pressure_pa,
                                            const PressureFault& fault);
-  [[nodiscard]] dbc::Physical rod_pressure(std::size_t axis, double true_pressure_pa,
+  [[nodiscard]] dbc::Physical rod_pressure(std::size_t drive, double true_pressure_pa,
                                            const PressureFault& fault);
 
  private:
@@ -27,9 +29,10 @@ class FaultySensors {
 
   SensorModel sensors_;
   std::array<FaultyReading, kAxisCount> stroke_;
+  FaultyReading swing_;
   // What was shown last: a stuck sensor goes on showing it.
-  std::array<double, kAxisCount> cap_pa_{};
-  std::array<double, kAxisCount> rod_pa_{};
+  std::array<double, kDriveCount> cap_pa_{};
+  std::array<double, kDriveCount> rod_pa_{};
 };
 
 }  // namespace graben::plant

@@ -50,6 +50,9 @@ LinkageDynamics::LinkageDynamics(const PlantProfile& profile)
                         carried * link_length_[i] * link_length_[i];
     carried += body_[i].mass_kg;
   }
+  if (profile.machine.has_swing()) {
+    swing_.emplace(profile);
+  }
 }
 
 void LinkageDynamics::start(const JointArray& angle_rad, const JointArray& rate_radps) {
@@ -73,6 +76,9 @@ void LinkageDynamics::update() {
   for (std::size_t i = kAxisCount; i-- > 0;) {
     bodies_.first_moment[i] += carried * bodies_.link[i];
     carried += body_[i].mass_kg;
+  }
+  if (swing_) {
+    swing_->update(joint_);
   }
 }
 
@@ -104,6 +110,11 @@ JointArray LinkageDynamics::generalised_force(const JointArray& rate_radps) cons
       const double arm = cross(bodies_.link[i], bodies_.first_moment[j]);
       force[i] += arm * rate[j] * rate[j];
       force[j] -= arm * rate[i] * rate[i];
+    }
+  }
+  if (swing_) {
+    for (std::size_t i = 0; i < kAxisCount; ++i) {
+      force[i] += 0.5 * swing_rate_ * swing_rate_ * swing_->gradient_kgm2prad()[i];
     }
   }
   return to_joints(force);

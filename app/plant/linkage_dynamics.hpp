@@ -3,15 +3,18 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 
 #include "app/plant/cylinder.hpp"
 #include "app/plant/linkage_geometry.hpp"
 #include "app/plant/plant_profile.hpp"
+#include "app/plant/swing_inertia.hpp"
 
 namespace graben::plant {
 
 /// M(q) q'' + h(q, q') = Q(q) + G(q) f: joint angles q, mass matrix M, centrifugal terms h, gravity
-/// and tip force Q, levers G = diag(dl/dq), piston forces f.
+/// and tip force Q, levers G = diag(dl/dq), piston forces f. On a platform that swings at w the
+/// links' inertia I(q) about its axis adds w^2 / 2 dI/dq to Q.
 ///
 /// Scheme: leapfrog. Angles live at the steps, rates between them. Piston damping (with it the
 /// impedance of the chambers) acts on the mean rate of the step, implicitly. Coulomb friction is
@@ -26,6 +29,8 @@ class LinkageDynamics {
 
   /// Force on the bucket tip in the plane's axes, N, constant until changed.
   void set_tip_force(const Eigen::Vector2d& force_n) { tip_force_ = force_n; }
+  /// At the instant of the angles; without a swing drive of no effect.
+  void set_swing_rate(double rate_radps) { swing_rate_ = rate_radps; }
 
   /// Levers at the present angles.
   [[nodiscard]] const std::array<Lever, kAxisCount>& levers() const { return levers_; }
@@ -40,7 +45,9 @@ class LinkageDynamics {
   [[nodiscard]] const JointArray& angles() const { return angle_; }
   /// Rates at the instant of the angles (extrapolated by half a step).
   [[nodiscard]] JointArray rates() const;
-  /// Kinetic and potential.
+  /// Of the links about the swing axis; 0 without a swing drive.
+  [[nodiscard]] double swing_inertia_kgm2() const { return swing_ ? swing_->inertia_kgm2() : 0.0; }
+  /// Kinetic, that of the swing left off, and potential.
   [[nodiscard]] double energy_j() const;
   /// Coulomb friction that acted in the last step, N, positive in extension.
   [[nodiscard]] const JointArray& friction_n() const { return friction_n_; }
@@ -78,6 +85,8 @@ class LinkageDynamics {
   double step_ = 0.0;
   Bodies bodies_;
   std::array<Lever, kAxisCount> levers_{};
+  std::optional<SwingInertia> swing_;
+  double swing_rate_ = 0.0;
 };
 
 }  // namespace graben::plant

@@ -30,6 +30,14 @@ struct StrokeFault {
   dbc::RawState state{};   ///< kValid shows the stroke; else 'error' or 'not available'.
 };
 
+/// What an angle sensor shows.
+struct AngleFault {
+  bool stuck = false;        ///< What it showed when this began.
+  double jump_rad = 0.0;     ///< Added.
+  double drift_radps = 0.0;  ///< Added, growing from 0 on; 0 takes it back.
+  dbc::RawState state{};     ///< kValid shows the angle; else 'error' or 'not available'.
+};
+
 struct NodeFaults {
   bool wrong_identity = false;        ///< The machine names another profile.
   bool loses_spool_commands = false;  ///< SpoolCommand does not reach the valve side.

@@ -17,6 +17,11 @@ const auto& messages_with(const dbc::excavator::OperatorCommand*) {
 }
 const auto& messages_with(const dbc::dozer::OperatorCommand*) { return dbc::dozer::kMessages; }
 
+void say_task_number(dbc::excavator::OperatorCommand& command, std::uint8_t number) {
+  command.task_number = {number, RawState::kValid};
+}
+void say_task_number(dbc::dozer::OperatorCommand& /*command*/, std::uint8_t /*number*/) {}
+
 }  // namespace
 
 OperatorRequest request_at(const std::vector<OperatorPhase>& schedule, TimeUs now) {
@@ -48,6 +53,7 @@ void OperatorStation<Command>::step(TimeUs now) {
   command.operator_mode = coded<typename Command::OperatorMode>(request.mode);
   command.task = coded<typename Command::Task>(request.task);
   command.speed_override_ratio = {request.speed_override_ratio, RawState::kValid};
+  say_task_number(command, request.task_number);
   sender_.send(command, faults_.frames, now);
 }
 

@@ -19,6 +19,7 @@ struct OperatorRequest {
   OperatorMode mode = OperatorMode::kManual;
   Task task = Task::kNone;
   double speed_override_ratio = 0.0;
+  std::uint8_t task_number = 0;  ///< Of the task file that Task::kProgram means; of an excavator.
 };
 
 /// From `from_us` on the operator asks for this.

@@ -15,14 +15,24 @@ struct PressureFault {
   std::optional<double> rail_pa;  ///< This.
 };
 
-struct AxisFaults {
+struct SpoolFaults {
   /// The pilot valve is stuck and holds the spool here, -1 .. 1. Only the pilot cut centres it.
   std::optional<double> spool_held_ratio;
   /// The spool opens that much beyond its command, neutral or not.
   double spool_offset_ratio = 0.0;
+};
+
+struct AxisFaults : SpoolFaults {
   StrokeFault stroke;
   PressureFault cap;
   PressureFault rod;
+};
+
+/// Of no effect on a machine without a swing drive.
+struct SwingFaults : SpoolFaults {
+  AngleFault angle;
+  PressureFault left;
+  PressureFault right;
 };
 
 struct PumpFaults {
@@ -32,6 +42,7 @@ struct PumpFaults {
 
 struct PlantFaults : NodeFaults {
   std::array<AxisFaults, kAxisCount> axis;
+  SwingFaults swing;
   std::array<PumpFaults, kPumpCount> pump;
 
   void set_stroke_state(int axis_index, dbc::RawState state) {

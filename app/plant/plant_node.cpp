@@ -25,9 +25,9 @@ bool all_valid(const bus::SpoolCommand& command) {
 
 }  // namespace
 
-PlantNode::PlantNode(const PlantProfile& profile, const ExcavatorPlant::AxisArray& start_strokes_m,
-                     CanPort& port, std::uint32_t profile_hash)
-    : plant_(profile, start_strokes_m),
+PlantNode::PlantNode(const PlantProfile& profile, const PlantStart& start, CanPort& port,
+                     std::uint32_t profile_hash)
+    : plant_(profile, start.strokes_m, start.swing_rad),
       sensors_(profile),
       port_(port),
       sender_(port, bus::kMessages),
@@ -36,13 +36,7 @@ PlantNode::PlantNode(const PlantProfile& profile, const ExcavatorPlant::AxisArra
 
 void PlantNode::step(TimeUs now) {
   receive(now);
-  if (spool_link_.dies(now)) {
-    spool_silence_.command_lost();
-    go_neutral();
-  }
-  if (pump_link_.dies(now)) {
-    wanted_swash_ = plant_.profile().swash_ratio;
-  }
+  check_links(now);
   apply_faults();
   plant_.advance(kCycleUs);
   sender_.send_late(faults_.frames, now);
@@ -59,9 +53,35 @@ void PlantNode::step(TimeUs now) {
   ++cycle_;
 }
 
+void PlantNode::check_links(TimeUs now) {
+  if (spool_link_.dies(now)) {
+    spool_silence_.command_lost();
+    enabled_ = false;
+    set_duties();
+  }
+  if (swing_link_.dies(now)) {
+    swing_silence_.command_lost();
+    swing_enabled_ = false;
+    set_duties();
+  }
+  if (pump_link_.dies(now)) {
+    wanted_swash_ = plant_.profile().swash_ratio;
+  }
+}
+
+void PlantNode::set_duties() {
+  ExcavatorPlant::DriveArray duty = duty_;
+  duty[kSwing] = swing_enabled_ ? duty_[kSwing] : 0.0;
+  plant_.set_duty(duty, enabled_);
+}
+
 void PlantNode::apply_faults() {
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     plant_.set_pilot_fault(i, faults_.axis[i].spool_held_ratio, faults_.axis[i].spool_offset_ratio);
+  }
+  if (has_swing()) {
+    plant_.set_pilot_fault(kSwing, faults_.swing.spool_held_ratio,
+                           faults_.swing.spool_offset_ratio);
   }
   ExcavatorPlant::PumpArray swash = wanted_swash_;
   for (std::size_t i = 0; i < kPumpCount; ++i) {
@@ -74,6 +94,9 @@ void PlantNode::receive(TimeUs now) {
   receive_frames(port_, [this, now](const CanFrame& frame) {
     if (frame.id == bus::SpoolCommand::kId && !faults_.loses_spool_commands) {
       take_spool_command(frame, now);
+    }
+    if (frame.id == bus::SwingCommand::kId && has_swing()) {
+      take_swing_command(frame, now);
     }
     if (frame.id == bus::PumpCommand::kId) {
       take_pump_command(frame, now);
@@ -89,15 +112,23 @@ void PlantNode::take_spool_command(const CanFrame& frame, TimeUs now) {
   if (command.pilot_cut.state == RawState::kValid) {
     plant_.set_pilot_cut(command.pilot_cut.value == bus::SpoolCommand::PilotCut::kOn);
   }
-  const bool enabled = lets_through(command, spool_silence_);
-  if (!enabled || !all_valid(command)) {
-    go_neutral();
+  const bool lets = lets_through(command, spool_silence_);
+  enabled_ = lets && all_valid(command);
+  duty_[kBoom] = command.boom_duty_ratio.value;
+  duty_[kArm] = command.arm_duty_ratio.value;
+  duty_[kBucket] = command.bucket_duty_ratio.value;
+  set_duties();
+}
+
+void PlantNode::take_swing_command(const CanFrame& frame, TimeUs now) {
+  if (!swing_link_.accepts<bus::SwingCommand>(frame, now)) {
     return;
   }
-  enabled_ = true;
-  plant_.set_duty({command.boom_duty_ratio.value, command.arm_duty_ratio.value,
-                   command.bucket_duty_ratio.value},
-                  true);
+  const bus::SwingCommand command = bus::SwingCommand::decode(frame.data);
+  const bool lets = lets_through(command, swing_silence_);
+  swing_enabled_ = lets && command.swing_duty_ratio.state == RawState::kValid;
+  duty_[kSwing] = command.swing_duty_ratio.value;
+  set_duties();
 }
 
 void PlantNode::take_pump_command(const CanFrame& frame, TimeUs now) {
@@ -113,11 +144,6 @@ void PlantNode::take_pump_command(const CanFrame& frame, TimeUs now) {
                    wanted(command.pump2_swash_ratio, set[1])};
 }
 
-void PlantNode::go_neutral() {
-  enabled_ = false;
-  plant_.set_duty({}, false);
-}
-
 Physical PlantNode::stroke(std::size_t axis) {
   return sensors_.stroke(axis, plant_.strokes_m()[axis], faults_.axis[axis].stroke);
 }
@@ -127,6 +153,18 @@ void PlantNode::send_axes(TimeUs now) {
   send(bus::ArmStroke{stroke(kArm)}, now);
   send(bus::BucketStroke{stroke(kBucket)}, now);
   send_pressures(now);
+  if (has_swing()) {
+    send_swing(now);
+  }
+}
+
+void PlantNode::send_swing(TimeUs now) {
+  const auto [left_pa, right_pa] = plant_.swing_pressures_pa();
+  bus::SwingState message;
+  message.swing_angle_rad = sensors_.swing(plant_.swing_rad(), faults_.swing.angle);
+  message.swing_left_pressure_pa = sensors_.cap_pressure(kSwing, left_pa, faults_.swing.left);
+  message.swing_right_pressure_pa = sensors_.rod_pressure(kSwing, right_pa, faults_.swing.right);
+  send(message, now);
 }
 
 void PlantNode::send_pressures(TimeUs now) {
@@ -163,6 +201,9 @@ void PlantNode::send_valve(TimeUs now) {
   message.arm_spool_ratio = valid(spool[kArm]);
   message.bucket_spool_ratio = valid(spool[kBucket]);
   send(message, now);
+  if (has_swing()) {
+    send(bus::SwingValveState{valid(plant_.swing_spool_ratio())}, now);
+  }
 }
 
 }  // namespace graben::plant

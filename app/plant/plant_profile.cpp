@@ -16,4 +16,14 @@ CylinderData PlantProfile::cylinder(int axis) const {
   return data;
 }
 
+SwingMotorData PlantProfile::motor() const {
+  SwingMotorData data;
+  data.displacement_m3prad = machine.swing.displacement_m3prad;
+  data.chamber_volume_m3 = swing_motor.dead_volume_m3;
+  data.leak_m3pspa = swing_motor.leak_m3pspa;
+  data.start_pa = start_back_pressure_pa;
+  data.oil = oil();
+  return data;
+}
+
 }  // namespace graben::plant

@@ -1,7 +1,8 @@
 #pragma once
 /// What the simulated excavator is. The nominal data are those that its controller has too; the
 /// rest only a plant knows: masses, friction, compressibility, spool dynamics, deadband, leakage.
-/// SI units, pressures above ambient; axes in the order boom, arm, bucket.
+/// SI units, pressures above ambient; axes in the order boom, arm, bucket, drives with the swing
+/// after them.
 
 #include <Eigen/Core>
 #include <array>
@@ -12,8 +13,10 @@
 #include "app/plant/hydraulic_details.hpp"
 #include "app/plant/obstacle.hpp"
 #include "app/plant/oil.hpp"
+#include "app/plant/platform.hpp"
 #include "app/plant/soil.hpp"
 #include "app/plant/spool.hpp"
+#include "app/plant/swing_motor.hpp"
 #include "firmware/core/time.hpp"
 #include "firmware/machine/excavator_profile.hpp"
 
@@ -30,9 +33,18 @@ struct LinkBody {
 struct SensorErrors {
   double stroke_resolution_m = 0.0;
   double stroke_bias_m = 0.0;
+  double swing_resolution_rad = 0.0;
+  double swing_bias_rad = 0.0;
   double pressure_range_pa = 0.0;
   double pressure_bias_ratio = 0.0;
   double pressure_noise_ratio = 0.0;
+};
+
+/// The swing motor as the simulated machine has it; its displacement is the nominal one.
+struct SwingMotorDetails {
+  double dead_volume_m3 = 0.0;  ///< Each of its two chambers, with hose.
+  double leak_m3pspa = 0.0;     ///< From port to port, laminar.
+  double port_relief_pa = 0.0;  ///< Brakes the platform when the spool closes.
 };
 
 struct PlantProfile : HydraulicDetails {
@@ -42,6 +54,8 @@ struct PlantProfile : HydraulicDetails {
 
   std::array<LinkBody, kAxisCount> link;  ///< The bucket's includes its linkage.
   std::array<PistonFriction, kAxisCount> friction;
+  PlatformData platform;  ///< With `swing_motor` looked at only where there is a swing drive.
+  SwingMotorDetails swing_motor;
   double gravity_mps2 = 9.80665;
 
   double spool_time_constant_s = 0.0;  ///< 1 / natural frequency of the second-order lag (Kim 5).
@@ -59,7 +73,7 @@ struct PlantProfile : HydraulicDetails {
   std::uint64_t seed = 0;
   bool sensor_errors = false;  ///< Without: strokes to the resolution, pressures exact.
   /// From a duty to the spool's first movement.
-  std::array<double, kAxisCount> dead_time_s{};
+  std::array<double, kDriveCount> dead_time_s{};
   std::optional<SoilProfile> soil;
   std::optional<ObstacleProfile> obstacle;
 
@@ -97,6 +111,14 @@ struct PlantProfile : HydraulicDetails {
             bypass_closing_travel};
   }
   [[nodiscard]] CylinderData cylinder(int axis) const;
+  [[nodiscard]] SwingMotorData motor() const;
+  /// Of the ports of a valve section.
+  [[nodiscard]] PortProtection port_protection(int drive) const {
+    return protection(drive == kSwing ? swing_motor.port_relief_pa : port_relief_pa);
+  }
+  [[nodiscard]] std::size_t drive_count() const {
+    return static_cast<std::size_t>(machine.drive_count);
+  }
   [[nodiscard]] double step_s() const { return 1e-6 * static_cast<double>(step_us); }
 };
 

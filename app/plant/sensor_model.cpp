@@ -5,6 +5,16 @@
 
 namespace graben::plant {
 
+namespace {
+
+constexpr double kTwoPi = 6.283185307179586;
+
+double in_steps(double shown, double resolution) {
+  return resolution > 0.0 ? std::round(shown / resolution) * resolution : shown;
+}
+
+}  // namespace
+
 SensorModel::SensorModel(const SensorErrors& errors, std::optional<std::uint64_t> seed)
     : errors_(errors) {
   if (!seed) {
@@ -18,22 +28,26 @@ SensorModel::SensorModel(const SensorErrors& errors, std::optional<std::uint64_t
     cap_bias_pa_[i] = bias.symmetric(pressure_bias_pa);
     rod_bias_pa_[i] = bias.symmetric(pressure_bias_pa);
   }
+  swing_bias_rad_ = bias.symmetric(errors.swing_bias_rad);
+  cap_bias_pa_[kSwing] = bias.symmetric(pressure_bias_pa);
+  rod_bias_pa_[kSwing] = bias.symmetric(pressure_bias_pa);
 }
 
 double SensorModel::stroke_m(std::size_t axis, double true_stroke_m) const {
-  const double shown = true_stroke_m + stroke_bias_m_[axis];
-  if (errors_.stroke_resolution_m <= 0.0) {
-    return shown;
-  }
-  return std::round(shown / errors_.stroke_resolution_m) * errors_.stroke_resolution_m;
+  return in_steps(true_stroke_m + stroke_bias_m_[axis], errors_.stroke_resolution_m);
 }
 
-double SensorModel::cap_pressure_pa(std::size_t axis, double true_pressure_pa) {
-  return pressure_pa(true_pressure_pa, cap_bias_pa_[axis]);
+double SensorModel::swing_rad(double true_swing_rad) const {
+  const double shown = std::remainder(true_swing_rad + swing_bias_rad_, kTwoPi);
+  return in_steps(shown, errors_.swing_resolution_rad);
 }
 
-double SensorModel::rod_pressure_pa(std::size_t axis, double true_pressure_pa) {
-  return pressure_pa(true_pressure_pa, rod_bias_pa_[axis]);
+double SensorModel::cap_pressure_pa(std::size_t drive, double true_pressure_pa) {
+  return pressure_pa(true_pressure_pa, cap_bias_pa_[drive]);
+}
+
+double SensorModel::rod_pressure_pa(std::size_t drive, double true_pressure_pa) {
+  return pressure_pa(true_pressure_pa, rod_bias_pa_[drive]);
 }
 
 double SensorModel::pressure_pa(double true_pressure_pa, double bias_pa) {

@@ -9,18 +9,20 @@
 
 namespace graben::plant {
 
-/// Strokes in steps of the encoder's resolution, pressures within the transducer's range. With a
-/// seed each stroke and each pressure also has a constant bias, uniform within the profile's
-/// bounds, and each pressure reading white noise of the profile's standard deviation (Kim 5). The
-/// CAN codec quantises and saturates by itself.
+/// Strokes and the swing in steps of the encoder's resolution, pressures within the transducer's
+/// range. With a seed each stroke, the swing and each pressure also has a constant bias, uniform
+/// within the profile's bounds, and each pressure reading white noise of the profile's standard
+/// deviation (Kim 5). The CAN codec quantises and saturates by itself.
 class SensorModel {
  public:
   SensorModel(const SensorErrors& errors, std::optional<std::uint64_t> seed);
 
   [[nodiscard]] double stroke_m(std::size_t axis, double true_stroke_m) const;
-  /// One reading: noise is drawn anew.
-  [[nodiscard]] double cap_pressure_pa(std::size_t axis, double true_pressure_pa);
-  [[nodiscard]] double rod_pressure_pa(std::size_t axis, double true_pressure_pa);
+  /// In -pi .. pi: the sensor does not count turns.
+  [[nodiscard]] double swing_rad(double true_swing_rad) const;
+  /// One reading: noise is drawn anew. Of the swing cap is the left port, rod the right one.
+  [[nodiscard]] double cap_pressure_pa(std::size_t drive, double true_pressure_pa);
+  [[nodiscard]] double rod_pressure_pa(std::size_t drive, double true_pressure_pa);
 
  private:
   [[nodiscard]] double pressure_pa(double true_pressure_pa, double bias_pa);
@@ -28,8 +30,9 @@ class SensorModel {
   SensorErrors errors_;
   std::optional<Random> noise_;
   std::array<double, kAxisCount> stroke_bias_m_{};
-  std::array<double, kAxisCount> cap_bias_pa_{};
-  std::array<double, kAxisCount> rod_bias_pa_{};
+  double swing_bias_rad_ = 0.0;
+  std::array<double, kDriveCount> cap_bias_pa_{};
+  std::array<double, kDriveCount> rod_bias_pa_{};
 };
 
 }  // namespace graben::plant

@@ -56,10 +56,10 @@ ReturnFlow solve_gallery(double k_out, double k_drain, double k_check, const Wav
   return flow;
 }
 
-ValveSection::ValveSection(const PlantProfile& profile, int axis)
-    : spool_(profile.spool_dynamics()), protection_(profile.protection(profile.port_relief_pa)) {
+ValveSection::ValveSection(const PlantProfile& profile, int drive)
+    : spool_(profile.spool_dynamics()), protection_(profile.port_protection(drive)) {
   const ValveProfile& valve = profile.machine.valve;
-  const SpoolProfile& spool = valve.spool[static_cast<std::size_t>(axis)];
+  const SpoolProfile& spool = valve.spool[static_cast<std::size_t>(drive)];
   const auto coefficient = [&valve](double area_m2) {
     return orifice_coefficient(area_m2, valve.discharge, valve.density_kgpm3);
   };

@@ -41,10 +41,11 @@ struct ReturnFlow {
 /// with a drain orifice c_d to tank and a check c_r to the pump line, elsewhere it goes to tank.
 /// The gallery's volume is small against the chambers': its pressure is algebraic. The hoses'
 /// resistance is in series with the edges; port relief and make-up sit at the chamber, as their
-/// slopes are far larger than the hose's.
+/// slopes are far larger than the hose's. Of the swing's section the cap side is the left port, the
+/// rod side the right one.
 class ValveSection {
  public:
-  ValveSection(const PlantProfile& profile, int axis);
+  ValveSection(const PlantProfile& profile, int drive);
 
   void set_command(double travel_ratio) { spool_.set_command(travel_ratio); }
   [[nodiscard]] SectionFlows solve(const SectionPorts& ports) const;

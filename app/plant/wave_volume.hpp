@@ -28,8 +28,8 @@ namespace graben::plant {
 /// see each other within a step.
 class WaveVolume {
  public:
-  static constexpr std::size_t kMaxPorts = 8;
-  static constexpr double kFilter = 0.1;  ///< a; the alternation decays by 0.8 a step.
+  static constexpr std::size_t kMaxPorts = 10;  ///< A pump, its bypass, four sections of two.
+  static constexpr double kFilter = 0.1;        ///< a; the alternation decays by 0.8 a step.
 
   WaveVolume(std::size_t port_count, const Oil& oil, double step_s);
 

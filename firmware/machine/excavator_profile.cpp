@@ -18,4 +18,13 @@ double ExcavatorProfile::retract_area_m2(int drive) const {
                          : geometry.cylinder[static_cast<unsigned>(drive)].rod_area_m2();
 }
 
+double ExcavatorProfile::least_travel_m(int drive) const {
+  return drive == kSwing ? swing.right_end_rad * swing.lever_m : 0.0;
+}
+
+double ExcavatorProfile::most_travel_m(int drive) const {
+  return drive == kSwing ? swing.left_end_rad * swing.lever_m
+                         : geometry.cylinder[static_cast<unsigned>(drive)].stroke_m;
+}
+
 }  // namespace graben

@@ -130,18 +130,21 @@ struct ControlProfile {
   double stroke_end_gain_ps = 0.0;  ///< Largest speed towards a cylinder's end, per metre left.
   McvPolicy lambda_policy = McvPolicy::kGlobal;
   LambdaRise lambda_rise;
-  double spool_rate_ps = 0.0;       ///< Largest change of |x| / x_m per second.
-  double spool_threshold = 0.0;     ///< |x| / x_m under which a spool is kept at neutral.
-  double sensor_timeout_s = 0.0;    ///< A signal older than this is missing.
-  double response_s = 0.0;          ///< Lag of a cylinder's speed behind its spool command.
-  double servo_gain_ps = 0.0;       ///< What a cylinder owes to its speed.
-  double servo_most_m = 0.0;        ///< It can owe no more than this.
-  double servo_least_lambda = 1.0;  ///< Corrections stay whole down to this lambda.
-  double servo_frequency_hz = 0.0;  ///< Of the low-pass of what is owed; undamped.
-  double servo_damping = 0.0;       ///< Its damping ratio.
-  double pressure_filter_s = 0.0;   ///< Low-pass of the load that the valve's model compensates.
-  double slow_error_m = 0.0;        ///< Path error at which the speed along the path is halved.
-  double dead_time_s = 0.0;         ///< From a duty to the spool's first movement.
+  double spool_rate_ps = 0.0;     ///< Largest change of |x| / x_m per second.
+  double spool_threshold = 0.0;   ///< |x| / x_m under which a spool is kept at neutral.
+  double sensor_timeout_s = 0.0;  ///< A signal older than this is missing.
+  double response_s = 0.0;        ///< Lag of a cylinder's speed behind its spool command.
+  double servo_gain_ps = 0.0;     ///< What a cylinder owes to its speed.
+  double swing_servo_most_rad = 0.0;  ///< It can owe no more than this, where a plan turns it.
+  double swing_lead_s = 0.0;      ///< Lag of the platform behind its spool, where a plan turns it.
+  double swing_servo_gain_ps = 0.0;  ///< The same of the swing; the platform's oil is softer.
+  double servo_most_m = 0.0;         ///< It can owe no more than this.
+  double servo_least_lambda = 1.0;   ///< Corrections stay whole down to this lambda.
+  double servo_frequency_hz = 0.0;   ///< Of the low-pass of what is owed; undamped.
+  double servo_damping = 0.0;        ///< Its damping ratio.
+  double pressure_filter_s = 0.0;    ///< Low-pass of the load that the valve's model compensates.
+  double slow_error_m = 0.0;         ///< Path error at which the speed along the path is halved.
+  double dead_time_s = 0.0;          ///< From a duty to the spool's first movement.
 };
 
 /// What the watches may think of the machine. Ranges are checked where it is read.
@@ -152,8 +155,10 @@ struct SafetyProfile {
   double spool_tolerance = 0.0;  ///< Of the spool's travel.
   double uncommanded_m = 0.0;    ///< A cylinder may go so far where its spool does not lead.
   double stuck_m = 0.0;          ///< Asked of a cylinder whose stroke stands still.
-  double swash_tolerance = 0.0;  ///< Of full swash.
-  double pressure_rail_pa = 0.0;  ///< Where the pressure sensors end.
+  double swing_uncommanded_rad = 0.0;  ///< As uncommanded_m, of the swing.
+  double swing_stuck_rad = 0.0;        ///< As stuck_m, of the swing.
+  double swash_tolerance = 0.0;        ///< Of full swash.
+  double pressure_rail_pa = 0.0;       ///< Where the pressure sensors end.
 };
 
 /// The platform's turning about the vertical, to the left and to the right. Where a motor on one of
@@ -174,6 +179,16 @@ struct SwingProfile {
 struct LineProfile {
   double acceleration_mps2 = 0.0;  ///< Of the teeth, unless the task says another.
   std::array<double, kAxisCount> cylinder_acceleration_mps2{};
+  /// Of a task that is followed: error of the teeth at which the plan goes on at half its speed, on
+  /// a straight line and on a move of the drives, which only has to arrive.
+  double slow_error_m = 0.0;
+  double slow_error_s = 0.0;  ///< So much more of it for each m/s of a line's planned speed.
+  double move_slow_error_m = 0.0;
+  double pace_rate_ps = 0.0;  ///< How fast it may slow down and speed up for that, per second.
+  /// How fast a drive's lasting lag is learnt and given on top, per second of what it owes and
+  /// second: leakage of the swing's motor, deadbands.
+  double trim_ps2 = 0.0;
+  double trim_most_mps = 0.0;  ///< No more than this.
 };
 
 struct ExcavatorProfile {
@@ -194,6 +209,9 @@ struct ExcavatorProfile {
   /// Area that extends the drive, all its cylinders together; of the swing that at its lever.
   [[nodiscard]] double extend_area_m2(int drive) const;
   [[nodiscard]] double retract_area_m2(int drive) const;
+  /// Ends of the drive's way: a cylinder's stroke, the swing's range at its lever.
+  [[nodiscard]] double least_travel_m(int drive) const;
+  [[nodiscard]] double most_travel_m(int drive) const;
 };
 
 }  // namespace graben

@@ -103,12 +103,13 @@ McvCheck check_input(const McvMachine& machine, const McvInput& input) {
 
 McvMachine mcv_machine(const ExcavatorProfile& profile) {
   McvMachine machine;
-  machine.actuator_count = kAxisCount;
+  machine.actuator_count = profile.drive_count;
   machine.pump_count = profile.pump_count;
-  for (unsigned i = 0; i < kAxisCount; ++i) {
+  for (int drive = 0; drive < profile.drive_count; ++drive) {
+    const auto i = static_cast<unsigned>(drive);
     const SpoolProfile& spool = profile.valve.spool[i];
-    const double cap_m2 = profile.geometry.cylinder[i].cap_area_m2();
-    const double rod_m2 = profile.geometry.cylinder[i].rod_area_m2();
+    const double cap_m2 = profile.extend_area_m2(drive);
+    const double rod_m2 = profile.retract_area_m2(drive);
     McvActuator& actuator = machine.actuator[i];
     actuator.area_cap_m2 = cap_m2;
     actuator.area_rod_m2 = rod_m2;

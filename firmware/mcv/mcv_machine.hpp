@@ -19,7 +19,8 @@ using PerActuator = std::array<T, kMaxActuators>;
 template <class T>
 using PerPump = std::array<T, kMaxPumps>;
 
-/// A cylinder with its spool. Areas in m^2, flow coefficients in m^3/(s sqrt(Pa)).
+/// A cylinder with its spool, or the swing's motor at its lever, with equal areas. Areas in m^2,
+/// flow coefficients in m^3/(s sqrt(Pa)).
 struct McvActuator {
   double area_cap_m2 = 0.0;  ///< A_A, parallel cylinders added up.
   double area_rod_m2 = 0.0;  ///< A_B.
@@ -90,7 +91,8 @@ struct McvCheck {
 /// First defect of an input for a machine that passed its check.
 [[nodiscard]] McvCheck check_input(const McvMachine& machine, const McvInput& input);
 
-/// The excavator's valve as a table of this kind. The pumps' flow is an input.
+/// The excavator's valve as a table of this kind, actuators in the order of the drives. The pumps'
+/// flow is an input.
 [[nodiscard]] McvMachine mcv_machine(const ExcavatorProfile& profile);
 
 }  // namespace graben

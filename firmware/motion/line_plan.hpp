@@ -16,7 +16,8 @@ struct DriveLimits {
 };
 
 /// Of the profile: a cylinder's speed is what a spool's section lets through over its area, or its
-/// pump's whole flow if that is less.
+/// pump's whole flow if that is less; the swing's is its own limit, or what that flow gives its
+/// motor.
 [[nodiscard]] DriveLimits drive_limits(const ExcavatorProfile& profile);
 
 /// Exactly one of duration and speed above 0; the other is found.

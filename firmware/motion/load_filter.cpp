@@ -11,7 +11,7 @@ LoadState next_load(double pressure_filter_s, const LoadState& last, const LoadS
   }
   const double newest = 1.0 - std::exp(-period_s / pressure_filter_s);
   LoadState load = last;
-  for (unsigned i = 0; i < kAxisCount; ++i) {
+  for (unsigned i = 0; i < kDriveCount; ++i) {
     load.cap_pa[i] += newest * (measured.cap_pa[i] - last.cap_pa[i]);
     load.rod_pa[i] += newest * (measured.rod_pa[i] - last.rod_pa[i]);
   }

@@ -9,8 +9,8 @@ namespace graben {
 
 /// What one cycle hands to the next.
 struct LoadState {
-  std::array<double, kAxisCount> cap_pa{};
-  std::array<double, kAxisCount> rod_pa{};
+  std::array<double, kDriveCount> cap_pa{};
+  std::array<double, kDriveCount> rod_pa{};
 };
 
 /// Chamber pressures through a first-order low-pass of `pressure_filter_s`; `afresh` starts it at

@@ -4,19 +4,19 @@
 
 namespace graben {
 
-VelocityCap stroke_end_cap(const ExcavatorProfile& profile, const Eigen::Vector3d& strokes_m,
-                           const Eigen::Vector3d& velocity_mps) {
+VelocityCap stroke_end_cap(const ExcavatorProfile& profile, const DriveVector& strokes_m,
+                           const DriveVector& velocity_mps) {
   VelocityCap cap;
-  for (int axis = 0; axis < kAxisCount; ++axis) {
-    const auto i = static_cast<unsigned>(axis);
-    const double velocity = velocity_mps[axis];
-    const double left_m =
-        velocity > 0.0 ? profile.geometry.cylinder[i].stroke_m - strokes_m[axis] : strokes_m[axis];
+  for (int drive = 0; drive < profile.drive_count; ++drive) {
+    const double velocity = velocity_mps[drive];
+    const double left_m = velocity > 0.0 ? profile.most_travel_m(drive) - strokes_m[drive]
+                                         : strokes_m[drive] - profile.least_travel_m(drive);
     const double allowed_mps = profile.control.stroke_end_gain_ps * std::max(0.0, left_m);
     const double speed_mps = velocity > 0.0 ? velocity : -velocity;
     if (speed_mps * cap.factor > allowed_mps) {
       cap.factor = allowed_mps / speed_mps;
-      cap.limit = {LimitKind::kStrokeEnd, static_cast<std::uint8_t>(axis)};
+      cap.limit = {drive == kSwing ? LimitKind::kSwingEnd : LimitKind::kStrokeEnd,
+                   static_cast<std::uint8_t>(drive)};
     }
   }
   return cap;

@@ -21,6 +21,7 @@ void read_driver(const OperatorInputs& driver, const Freshness& fresh, CommonVal
   }
   valid.automatic = driver.mode.value == OperatorMode::kAutomatic;
   valid.task = driver.task.value;
+  valid.task_number = fresh.holds(driver.task_number) ? driver.task_number.value : -1;
   valid.speed_override_ratio = std::clamp(driver.speed_override_ratio.value, 0.0, 1.0);
 }
 

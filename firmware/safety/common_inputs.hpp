@@ -18,6 +18,7 @@ struct CommonValid {
   bool enable = false;         ///< Fresh, valid and given.
   bool automatic = false;
   Task task = Task::kNone;
+  int task_number = -1;  ///< Of Task::kProgram; below 0 none was given.
   double speed_override_ratio = 0.0;
 };
 

@@ -6,8 +6,6 @@
 namespace graben {
 namespace {
 
-/// Until the oil has rung down after a spool has closed.
-constexpr double kSettle_s = 0.5;
 /// The anchor creeps after the stroke: leakage is no uncommanded motion. Nor is a stroke stuck that
 /// is asked, for minutes, for no more than leakage takes.
 constexpr double kForget_s = 10.0;
@@ -21,11 +19,12 @@ int direction_of(double spool_edge, double spool_ratio) {
   return spool_ratio > 0.0 ? 1 : -1;
 }
 
-CylinderState followed(const CylinderState& last, int direction, double stroke_m, double period_s) {
+CylinderState followed(const CylinderLimits& limits, const CylinderState& last, int direction,
+                       double stroke_m, double period_s) {
   CylinderState cylinder = last;
   cylinder.direction = direction;
   cylinder.since_s = direction == last.direction ? last.since_s + period_s : 0.0;
-  const bool settling = cylinder.since_s < kSettle_s;
+  const bool settling = cylinder.since_s < limits.settle_s;
   const bool leads = direction != 0 && direction * (stroke_m - cylinder.anchor_m) > 0.0;
   if (settling || leads) {
     cylinder.anchor_m = stroke_m;
@@ -52,8 +51,8 @@ CylinderWatchResult watch_cylinder(const CylinderLimits& limits, const CylinderS
                                    const CylinderSeen& seen, double period_s) {
   CylinderWatchResult result;
   CylinderState& cylinder = result.state;
-  cylinder =
-      followed(last, direction_of(limits.spool_edge, seen.spool_ratio), seen.stroke_m, period_s);
+  cylinder = followed(limits, last, direction_of(limits.spool_edge, seen.spool_ratio),
+                      seen.stroke_m, period_s);
   look_for_stillness(cylinder, seen.stroke_m, seen.asked_mps, period_s);
   // Where its spool leads, the anchor has come along.
   result.uncommanded = std::abs(seen.stroke_m - cylinder.anchor_m) > limits.uncommanded_m;

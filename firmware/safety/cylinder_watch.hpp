@@ -3,11 +3,16 @@
 
 namespace graben {
 
+/// A cylinder's oil has rung down by then after its spool has closed.
+inline constexpr double kCylinderSettle_s = 0.5;
+
 /// What the watch may think of a cylinder and its spool.
 struct CylinderLimits {
   double spool_edge = 0.0;     ///< Duty, 0 .. 1, up to which the spool is closed.
   double uncommanded_m = 0.0;  ///< It may go so far where its spool does not lead.
   double stuck_m = 0.0;        ///< Asked of it while its stroke stands still.
+  /// Until its oil has rung down, or its mass come to rest, after its spool has closed.
+  double settle_s = kCylinderSettle_s;
 };
 
 /// What the watch needs of the last cycle.

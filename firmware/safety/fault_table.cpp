@@ -53,7 +53,7 @@ constexpr std::array<FaultRow, kFaultCount> kRows{{
     {Fault::kDisplacementDisagrees, Reaction::kStop, kNotResponding, true, ArmBlock::kTransmission},
     {Fault::kDisplacementRunaway, Reaction::kStop, kNotResponding, true, ArmBlock::kTransmission},
     {Fault::kTrackSpeedDisagrees, Reaction::kDegrade, kErratic, false, ArmBlock::kTransmission},
-    {Fault::kTaskUnknown, Reaction::kStop, kConditionExists, false, ArmBlock::kOperator},
+    {Fault::kTaskUnknown, Reaction::kStop, kConditionExists, true, ArmBlock::kOperator},
 }};
 
 constexpr bool rows_are_in_order() {

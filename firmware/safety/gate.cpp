@@ -8,13 +8,13 @@
 namespace graben {
 
 GateResult gate(const ExcavatorProfile& profile, const GateState& last, bool active,
-                const std::array<double, kAxisCount>& spool_m, double period_s) {
+                const std::array<double, kDriveCount>& spool_m, double period_s) {
   GateResult result;
   if (!active) {
     return result;
   }
   const double change_max = profile.control.spool_rate_ps * std::max(0.0, period_s);
-  for (unsigned i = 0; i < kAxisCount; ++i) {
+  for (unsigned i = 0; i < static_cast<unsigned>(profile.drive_count); ++i) {
     if (!std::isfinite(spool_m[i]) || !std::isfinite(change_max)) {
       return {false, Fault::kCommandNotFinite, {}, {}};
     }

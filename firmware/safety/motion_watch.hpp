@@ -1,5 +1,5 @@
 #pragma once
-/// Whether the cylinders move as their spools let them.
+/// Whether cylinders and swing move as their spools let them.
 
 #include <array>
 
@@ -9,9 +9,9 @@
 
 namespace graben {
 
-/// What the watch needs of the last cycle, for each cylinder.
+/// What the watch needs of the last cycle, for each drive.
 struct MotionWatchState {
-  std::array<CylinderState, kAxisCount> axis{};
+  std::array<CylinderState, kDriveCount> drive{};
 };
 
 struct MotionWatchResult {
@@ -19,10 +19,11 @@ struct MotionWatchResult {
   MotionWatchState state;
 };
 
-/// Each cylinder as watch_cylinder has it, with `safety.uncommanded_m` and `safety.stuck_m`.
+/// Each cylinder as watch_cylinder has it, with `safety.uncommanded_m` and `safety.stuck_m`; the
+/// swing, whose mass takes time to stop, with its own figures.
 /// `asked_mps` is what the spools were opened for.
 [[nodiscard]] MotionWatchResult watch_motion(const ExcavatorProfile& profile,
                                              const MotionWatchState& last, const ValidInputs& valid,
-                                             const Eigen::Vector3d& asked_mps, double period_s);
+                                             const DriveVector& asked_mps, double period_s);
 
 }  // namespace graben

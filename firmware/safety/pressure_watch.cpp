@@ -38,7 +38,7 @@ PressureWatchResult watch_pressures(const ExcavatorProfile& profile, const Press
                                     const ValidInputs& valid, double period_s) {
   PressureWatchResult result;
   result.state = last;
-  for (unsigned i = 0; i < kAxisCount; ++i) {
+  for (unsigned i = 0; i < static_cast<unsigned>(profile.drive_count); ++i) {
     if (!valid.load_known[i]) {
       continue;
     }

@@ -16,12 +16,12 @@ struct PressureWatchState {
     double at_rail_s = 0.0;
     bool wrong = false;
   };
-  /// Cap and rod side of each axis.
-  std::array<std::array<Sensor, 2>, kAxisCount> sensor{};
+  /// Cap and rod side of each drive; left and right of the swing.
+  std::array<std::array<Sensor, 2>, kDriveCount> sensor{};
 };
 
 struct PressureWatchResult {
-  std::array<bool, kAxisCount> wrong{};  ///< One of the axis's two is not to be believed.
+  std::array<bool, kDriveCount> wrong{};  ///< One of the drive's two is not to be believed.
   PressureWatchState state;
 };
 

@@ -10,7 +10,7 @@ SpoolWatchResult watch_spools(const ExcavatorProfile& profile, const SpoolWatchS
                            profile.safety.spool_tolerance};
   const bool received = !valid.faults.has(Fault::kSpoolMissing);
   SpoolWatchResult result;
-  for (unsigned i = 0; i < kAxisCount; ++i) {
+  for (unsigned i = 0; i < static_cast<unsigned>(profile.drive_count); ++i) {
     const SpoolFollowResult spool =
         follow_spool(limits, last.spool[i], sent.duty_ratio[i], received, valid.spool_ratio[i]);
     result.state.spool[i] = spool.state;
@@ -28,7 +28,8 @@ SpoolWatchResult watch_spools(const ExcavatorProfile& profile, const SpoolWatchS
 }
 
 bool spools_centred(const ExcavatorProfile& profile, const ValidInputs& valid) {
-  return std::all_of(valid.spool_ratio.begin(), valid.spool_ratio.end(), [&profile](double spool) {
+  const auto* const first = valid.spool_ratio.data();
+  return std::all_of(first, first + profile.drive_count, [&profile](double spool) {
     return spool_centred(spool, profile.safety.spool_tolerance);
   });
 }

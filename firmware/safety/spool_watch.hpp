@@ -13,11 +13,11 @@ namespace graben {
 /// What went to the valve in one cycle.
 struct SentCommand {
   bool enable = false;
-  std::array<double, kAxisCount> duty_ratio{};
+  std::array<double, kDriveCount> duty_ratio{};
 };
 
 struct SpoolWatchState {
-  std::array<SpoolState, kAxisCount> spool;
+  std::array<SpoolState, kDriveCount> spool;
   int echo_cycles = 0;  ///< In a row, that the echo has differed.
 };
 

@@ -28,7 +28,7 @@ WatchResult watch(const ExcavatorProfile& profile, const WatchState& last, const
     stops.add(motion.faults);
     const PressureWatchResult pressures = watch_pressures(profile, last.pressure, inputs, period_s);
     state.pressure = pressures.state;
-    for (unsigned i = 0; i < kAxisCount; ++i) {
+    for (unsigned i = 0; i < static_cast<unsigned>(profile.drive_count); ++i) {
       if (pressures.wrong[i]) {
         result.inputs.load_known[i] = false;
         degrade(Fault::kPressureImplausible, result.inputs);

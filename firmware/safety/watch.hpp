@@ -24,7 +24,7 @@ struct LastCycle {
   SentCommand sent;
   /// What the spools were opened for: lambda times the wanted velocity with its corrections. A
   /// stroke that stands still makes its cylinder owe, and that alone can run it to its end.
-  Eigen::Vector3d asked_mps = Eigen::Vector3d::Zero();
+  DriveVector asked_mps = DriveVector::Zero();
 };
 
 struct WatchResult {

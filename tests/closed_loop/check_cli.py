@@ -62,6 +62,14 @@ def bad_usage(graben):
     refused(graben, "no_such", "plant", "--can", "can0", "--profile", "no_such")
     refused(graben, "nan is not a number", "plant", "--can", "can0", "--speed", "nan", status=2)
     refused(graben, "operator", "plant", "--can", "can0", "--operator", "nobody", status=2)
+    program = ("plant", "--can", "can0", "--operator", "program", "--profile")
+    refused(graben, "an excavator with a swing drive", *program, "excavator_22t")
+    refused(graben, "an excavator", *program, "dozer_9t")
+    refused(graben, "'no_such' not found", *program, "excavator_12t", "--task", "no_such")
+    refused(graben, "soil, errors none: not with", *program, "excavator_12t", "--soil")
+    refused(graben, "0 to 3", *program, "excavator_12t", "--task-number", "4", status=2)
+    refused(graben, "only with --operator program", "plant", "--can", "can0", "--task", "flatten")
+    refused(graben, "only with --operator program", "plant", "--can", "can0", "--task-number", "0")
     refused(graben, "", "dig", "--speed", "7", status=2)
     refused(graben, "nan is not a number", "dig", "--loops", "nan", status=2)
     refused(graben, "nan is not a number", "dig", "--speed", "nan", status=2)
@@ -70,6 +78,28 @@ def bad_usage(graben):
     refused(graben, "outside the work space", "dig", "--start", "20,0,1.5")
     refused(graben, "--start-strokes: entry 2", "dig", "--start-strokes", "1.0,9.0,0.4")
     refused(graben, "", "dig", "--start", "5,0,1.5", "--random-start", status=2)
+
+
+def bad_tasks(graben):
+    """What is of Kim's path alone goes with no task, and is not silently left out."""
+    for option in (("--soil",), ("--air",), ("--obstacle",), ("--stiff-oil",),
+                   ("--dead-time", "0.1"), ("--fixed-lambda",), ("--start-strokes", "1,1,0.4"),
+                   ("--start", "5,0,1.5"), ("--random-start",), ("--loops", "1")):
+        done = call(graben, "dig", "--task", "flatten", *option)
+        assert done.returncode == 2 and not done.stdout, f"{option}: {done}"
+        assert "excludes" in done.stderr and option[0] in done.stderr and "--task" in done.stderr, \
+            f"{option}: {done.stderr}"
+    refused(graben, "task '' not found", "dig", "--task", "")
+    refused(graben, "this machine's swing is held", "dig", "--task", "flatten", "--profile",
+            "excavator_22t")
+    refused(graben, "none,stroke-bias,sensors,parameters,all", "autodig", "--errors", "some",
+            status=2)
+    refused(graben, "0.01 is not a number from 0.05 to 1", "autodig", "--speed", "0.01", status=2)
+    refused(graben, "1.1 is not a number from 0.05 to 1", "autodig", "--swash", "1.1", status=2)
+    refused(graben, "nan is not a number", "autodig", "--duration", "nan", status=2)
+    refused(graben, "-1 is not a whole number", "autodig", "--seed=-1", status=2)
+    refused(graben, "", "autodig", "--rounds", "0", status=2)
+    refused(graben, "", "autodig", "--start", "5,0,1.5", status=2)
 
 
 def bad_grades(graben):
@@ -112,11 +142,12 @@ def unwritable(graben):
         blocked = os.path.join(folder, "file")
         with open(blocked, "w", encoding="ascii") as stream:
             stream.write("kept")
-        refused(graben, "file", "dig", "--out", blocked)
+        for command in (("dig",), ("dig", "--task", "flatten"), ("autodig",)):
+            refused(graben, "file", *command, "--out", blocked)
         with open(blocked, encoding="ascii") as stream:
             assert stream.read() == "kept"
         missing = os.path.join(folder, "no", "such", "file")
-        for command, option in (("dig", "--summary"), ("grade", "--summary"), ("grade", "--log")):
+        for command, option in (("dig", "--summary"), ("autodig", "--summary"), ("grade", "--summary"), ("grade", "--log")):
             done = call(graben, command, "--out", folder, option, missing)
             assert done.returncode == 1 and missing in done.stderr, done.stderr
 
@@ -135,6 +166,7 @@ def main():
     graben = sys.argv[1]
     pose_and_back(graben)
     bad_usage(graben)
+    bad_tasks(graben)
     bad_grades(graben)
     no_constant_speed(graben)
     unwritable(graben)

@@ -80,7 +80,8 @@ Excavator::Scenery Excavator::scenery_of(std::uint64_t seed) {
 
 plant::PlantNode Excavator::node(const Scenery& scenery, CanPort& port) {
   const Eigen::Vector3d& start_m = scenery.start_strokes_m;
-  return {scenery.machine.plant, {start_m[0], start_m[1], start_m[2]}, port, scenery.machine.hash};
+  return {scenery.machine.plant, plant::PlantStart({start_m[0], start_m[1], start_m[2]}), port,
+          scenery.machine.hash};
 }
 
 std::vector<Defect> Excavator::defects() {

@@ -105,7 +105,7 @@ struct Excavator {
   /// Told to be neutral, nothing of it broken.
   static void make_neutral_and_sound(Plant& plant);
   [[nodiscard]] static AxisArray duties(const ExcavatorOutputs& outputs) {
-    return outputs.duty_ratio;
+    return {outputs.duty_ratio[kBoom], outputs.duty_ratio[kArm], outputs.duty_ratio[kBucket]};
   }
   [[nodiscard]] static double heard_stroke_m(const ExcavatorInputs& inputs, unsigned axis) {
     return inputs.axis[axis].stroke_m.value;

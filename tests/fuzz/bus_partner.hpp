@@ -13,12 +13,24 @@ namespace graben::test {
 
 inline constexpr unsigned kInputMessages = 11;
 
-/// Messages to the controller, in the order of the DBC.
+/// Messages to the controller of every machine of the kind, in the order of the DBC.
+template <class Kind>
+[[nodiscard]] constexpr std::array<dbc::MessageInfo, kInputMessages> input_messages() {
+  std::array<dbc::MessageInfo, kInputMessages> inputs{};
+  unsigned count = 0;
+  for (unsigned i = 0; count < kInputMessages; ++i) {
+    if (!Kind::is_of_a_part(Kind::kMessages[i].id)) {
+      inputs[count++] = Kind::kMessages[i];
+    }
+  }
+  return inputs;
+}
+
 template <class Kind>
 [[nodiscard]] const dbc::MessageInfo& input_message(unsigned index) {
-  static_assert(Kind::kMessages[kInputMessages - 1].id == Kind::ValveState::kId);
-  static_assert(Kind::kMessages[kInputMessages].id == Kind::SpoolCommand::kId);
-  return Kind::kMessages[index % kInputMessages];
+  static constexpr auto kInputs = input_messages<Kind>();
+  static_assert(kInputs[kInputMessages - 1].id == Kind::ValveState::kId);
+  return kInputs[index % kInputMessages];
 }
 
 struct OperatorHand {

@@ -38,6 +38,7 @@ struct DozerBus {
 
   [[nodiscard]] static const Machine& shipped();
   [[nodiscard]] static bool is_needed(std::uint32_t id);
+  [[nodiscard]] static constexpr bool is_of_a_part(std::uint32_t) { return false; }
   [[nodiscard]] static bool may_miss(std::uint32_t) { return false; }
   [[nodiscard]] static std::array<double, kSpools> duties(const SpoolCommand& command) {
     return {command.blade_duty_ratio.value};

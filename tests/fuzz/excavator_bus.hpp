@@ -34,6 +34,10 @@ struct ExcavatorBus {
   [[nodiscard]] static const Machine& shipped();
   /// Without it nothing may move: the others only slow.
   [[nodiscard]] static bool is_needed(std::uint32_t id);
+  /// Of a swing drive, which the shipped machine has not got.
+  [[nodiscard]] static constexpr bool is_of_a_part(std::uint32_t id) {
+    return id == dbc::excavator::SwingState::kId || id == dbc::excavator::SwingValveState::kId;
+  }
   /// Whether its values may be not available.
   [[nodiscard]] static bool may_miss(std::uint32_t id) {
     return id == dbc::excavator::PumpCommand::kId;

@@ -1,6 +1,7 @@
 /// The controller's whole cycle on any signals: values, validity and age of each as raw as a driver
 /// could hand them over, over a dozen cycles that start the way an operator starts the machine.
-/// Then all is well again, and whatever came before, the operator gets it going within 4 s.
+/// Then all is well again, and whatever came before, the operator gets it going within 4 s. The
+/// same for a machine without a swing drive and for one with it.
 
 #include <fmt/format.h>
 
@@ -57,18 +58,21 @@ std::string unsafe_outputs(const ExcavatorOutputs& outputs) {
     return fmt::format("lambda {}", status.lambda);
   }
   return all(status.wanted_velocity_mps, finite) && all(status.pump_pressure_pa, finite) &&
-                 std::isfinite(status.path_error_m)
+                 std::isfinite(status.path_error_m) && std::isfinite(status.swing_wanted_radps)
              ? ""
              : "a status that is not finite";
 }
 
 /// Sound inputs, enable released, then given afresh with the task at rest, then the task.
-std::string recover(ExcavatorController& controller, TimeUs now_us) {
+std::string recover(ExcavatorController& controller, bool has_swing, TimeUs now_us) {
   ExcavatorOutputs told;
   int active = 0;
   for (const TimeUs end_us = now_us + kRecovery_us; now_us < end_us;) {
     now_us += kPeriod_us;
     ExcavatorInputs inputs = following_inputs(told, now_us);
+    if (has_swing) {
+      make_12t(inputs);
+    }
     const EcuMode mode = told.status.mode;
     const bool in_motion = mode == EcuMode::kArmed || mode == EcuMode::kActive;
     inputs.driver.enable.value = in_motion || mode == EcuMode::kReady;
@@ -87,11 +91,8 @@ std::string recover(ExcavatorController& controller, TimeUs now_us) {
                      told.status.why_not_armed);
 }
 
-}  // namespace
-
-std::string check_bytes(const std::uint8_t* data, std::size_t size) {
-  auto run = raw_from_bytes<RawRun>(data, size);
-  ExcavatorController controller(excavator().profile);
+std::string check_run(const ExcavatorProfile& profile, RawRun run) {
+  ExcavatorController controller(profile);
   TimeUs now_us = kStart_us;
   bool stopped = false;
   for (RawCycle& cycle : run) {
@@ -108,7 +109,15 @@ std::string check_bytes(const std::uint8_t* data, std::size_t size) {
     }
   }
   // Told to end, it stays where it is.
-  return stopped ? "" : recover(controller, now_us);
+  return stopped ? "" : recover(controller, profile.has_swing(), now_us);
+}
+
+}  // namespace
+
+std::string check_bytes(const std::uint8_t* data, std::size_t size) {
+  const auto run = raw_from_bytes<RawRun>(data, size);
+  const std::string wrong = check_run(excavator().profile, run);
+  return wrong.empty() ? check_run(excavator_12t().profile, run) : wrong;
 }
 
 bool inputs_are_numbers() { return true; }

@@ -98,6 +98,22 @@ void feed_exactly(RandomCase& result, unsigned pump) {
   }
 }
 
+/// A swing's motor among the cylinders: equal areas, alike both ways, nothing to regenerate.
+void make_motor(McvActuator& actuator) {
+  actuator.area_rod_m2 = actuator.area_cap_m2;
+  actuator.regeneration = RegenerationSide::kNone;
+  actuator.retract = actuator.extend;
+}
+
+/// Three cylinders and a swing on one pump, as the 12 t machine has them.
+void hang_on_one_pump(RandomCase& result) {
+  result.machine.pump_count = 1;
+  for (unsigned i = 0; i < static_cast<unsigned>(result.machine.actuator_count); ++i) {
+    result.machine.actuator[i].pump = 0;
+  }
+  make_motor(result.machine.actuator[kSwing]);
+}
+
 }  // namespace
 
 RandomCase random_case(std::uint64_t seed) {
@@ -131,6 +147,10 @@ RandomCase random_case(std::uint64_t seed) {
   }
   if (draw.chance(0.05)) {
     feed_exactly(result, static_cast<unsigned>(draw.whole(0, machine.pump_count - 1)));
+  }
+  // Last, so that what else a seed draws stays what it was.
+  if (machine.actuator_count == kDriveCount && draw.chance(0.5)) {
+    hang_on_one_pump(result);
   }
   return result;
 }

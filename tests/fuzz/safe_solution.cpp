@@ -90,6 +90,9 @@ bool limit_is_sound(const McvMachine& machine, const Limit& limit) {
     case LimitKind::kTransmissionFlow:
     case LimitKind::kAhead:
     case LimitKind::kOffGrade:
+    case LimitKind::kSwingEnd:
+    case LimitKind::kFence:
+    case LimitKind::kOffPath:
       break;
   }
   return false;

@@ -3,11 +3,11 @@
 . ./hil.sh
 . ./ecu.sh
 
-read -r task profile seconds <task
+read -r operator profile seconds program <task
 controller_up can0 500000
 controller_up can1 500000
 record can0
-ecu_start can0 "$profile" --stats "$OUT/stats"
-graben plant --can can1 --profile "$profile" --operator "$task" --seconds "$seconds" \
-  --summary "$OUT/summary.json" || fail "the machine's process ended with $?"
+ecu_start can0 "$profile" ${program:+--task "$program"} --stats "$OUT/stats"
+graben plant --can can1 --profile "$profile" --operator "$operator" --seconds "$seconds" \
+  ${program:+--task "$program"} --summary "$OUT/summary.json" || fail "the machine's process ended with $?"
 ecu_stop

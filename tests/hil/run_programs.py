@@ -19,7 +19,8 @@ def main(script: str, check: Callable[[pathlib.Path], list[str]], timeout_s: flo
     scenario = Scenario(script=HERE / script, programs=programs, controllers=controllers,
                         timeout_s=timeout_s, patience_s=max(600.0, 4.0 * timeout_s),
                         files={"ecu.sh": HERE / "ecu.sh", **(extra or {}),
-                               **{profile.name: profile for profile in PROFILES.glob("*.toml")}})
+                               **{file.name: file for pattern in ("*.toml", "tasks/*.toml")
+                                  for file in PROFILES.glob(pattern)}})
     try:
         # The guest's clock counts instructions: times do not hang on how busy this host is.
         result = guest.run(scenario, out, where="vm")

@@ -3,10 +3,10 @@
 . ./hil.sh
 . ./ecu.sh
 
-read -r task profile seconds <task
+read -r operator profile seconds program <task
 vcan_up vcan0
 record vcan0
-ecu_start vcan0 "$profile" --stats "$OUT/stats"
-graben plant --can vcan0 --profile "$profile" --operator "$task" --seconds "$seconds" \
-  --summary "$OUT/summary.json" || fail "the machine's process ended with $?"
+ecu_start vcan0 "$profile" ${program:+--task "$program"} --stats "$OUT/stats"
+graben plant --can vcan0 --profile "$profile" --operator "$operator" --seconds "$seconds" \
+  ${program:+--task "$program"} --summary "$OUT/summary.json" || fail "the machine's process ended with $?"
 ecu_stop

@@ -94,6 +94,17 @@ def check_refusals(root: Root):
         root.demand(bool(re.fullmatch(r"graben-ecu: (no_can0: .* is the interface there|socket\(AF_CAN\): "
                                       r".*needs a kernel with CAN).*\n", said)),
                     f"a missing interface is told otherwise: {said}")
+    # A task by name, in the order of the folders.
+    excavator = "/usr/share/graben/excavator_12t.toml"
+    root.expect(2, ["'none' not found", "/etc/graben/tasks", "/usr/share/graben/tasks"],
+                ecu, "--can", "no_can0", "--profile", excavator, "--task", "none")
+    root.expect(1, [], ecu, "--can", "no_can0", "--profile", excavator, "--task", "flatten")
+    own = root.path / "etc/graben/tasks/flatten.toml"
+    own.parent.mkdir()
+    own.write_text("surplus = 1\n")
+    root.expect(2, ["/etc/graben/tasks/flatten.toml", "surplus"],
+                ecu, "--can", "no_can0", "--profile", excavator, "--task", "flatten")
+    shutil.rmtree(own.parent)
     for name in ("broken", "wrong", "mine"):
         (root.path / f"etc/graben/{name}.toml").unlink()
 

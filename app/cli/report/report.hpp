@@ -7,7 +7,7 @@
 /// plot. Up to about 30 000 samples stay fluent.
 ///
 /// Of every kind of run:
-///   kind          "grade" or "plan"; a digging run where it is missing
+///   kind          "grade", "plan" or "autodig"; a digging run where it is missing
 ///   title         string
 ///   subtitle      string: profile, seed, command line
 ///   summary       [{label, value, unit, note?}]: key figures; value is a number or a string
@@ -66,6 +66,24 @@
 ///     teeth_m                 [x, y, z]
 ///     attitude_rad
 ///     displacement, velocity, acceleration   [boom, arm, bucket, swing]: m or rad, by s
+///
+/// Of a task's run by an excavator with swing; each number null where it is not known:
+///   steps         [{name, kind, from_s, until_s, from_m, to_m}]: kind "line" (of the teeth) or
+///                 "drives" (straight in drive space); from_m and to_m [x, y, z] of the planned
+///                 teeth. Without from_s it has not begun, without until_s it lasts to the end
+///   fences        [{words}]: what the machine may not pass; may be empty
+///   design        null or {words}: the surface to dig to
+///   series
+///     teeth_m, planned_m      [x, y, z]: true and planned; x forward, y left, z up, from the swing
+///                             axis on the ground
+///     attitude_rad, planned_attitude_rad
+///     error_true_m            distance of the true teeth from the step's line; null without one
+///     error_measured_m        the same, of the measured teeth
+///     progress                of the step, 0 to 1
+///     planned, real           [boom, arm, bucket, swing] m, rad: strokes and angle
+///     velocity_wanted, velocity_real   the same, by s; wanted after lambda
+///     spool_command, spool_real        the same, each -1 to 1 of the travel
+///     pump_expected_pa, pump_real_pa   one list a pump
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>

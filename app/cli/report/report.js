@@ -3,21 +3,18 @@
 const reportPage = (() => {
   const PRINT_WIDTH_PX = 690;  // A4 less its margins, at 96 px to the inch
   const PALETTE_SIZE = 9;
+  const KINDS =
+    {dig: reportData, grade: reportGrade, plan: reportPlan, autodig: reportAutodig};
   const AROUND = 2;  // of the x axis: shown before and after what the reader wants to see closely
 
   let report = null;
   let figures = [];  // {plot, holder, legend, chart}
   let pathFigure = {showAt: () => {}};
+  let spaceFigure = {showAt: () => {}};
   const hiddenLayers = new Set();
 
-  const $ = (id) => document.getElementById(id);
+  const {$, make, complaint} = reportDom;
   const root = document.documentElement;
-
-  function make(name, properties = {}, ...children) {
-    const node = Object.assign(document.createElement(name), properties);
-    node.append(...children);
-    return node;
-  }
 
   /// Beyond the palette, tones repeat; the live legend still names the limit.
   function limitColour(name) {
@@ -30,8 +27,6 @@ const reportPage = (() => {
     node.style.background = `var(--${limitColour(name)})`;
     return node;
   }
-
-  const complaint = (text) => make('p', {className: 'complaint', textContent: text});
 
   function fillHead() {
     document.title = report.title;
@@ -55,7 +50,7 @@ const reportPage = (() => {
 
   function fillLimits() {
     // A plan has no shares of time.
-    if (!report.limitsShare) return $('limits-table').parentNode.remove();
+    if (!report.limitsShare) return $('limits-section').remove();
     if (!report.limitsShare.ok) {
       return $('limits-table').replaceWith(complaint(report.limitsShare.problem));
     }
@@ -87,10 +82,7 @@ const reportPage = (() => {
   }
 
   function fillPathHead() {
-    if (!report.path) {
-      $('path-section').parentNode.classList.add('single');
-      return $('path-section').remove();
-    }
+    if (!report.path) return $('path-section').remove();
     $('path-title').append(' ', sourceNote(report.path.source));
     $('path').after(...report.path.problems.map(complaint));
   }
@@ -101,6 +93,11 @@ const reportPage = (() => {
       ['field', 'velocity field'], ['attitude', 'attitude every 5 s']];
     const {obstacle, changes} = report.path.value;
     if (obstacle || changes.length > 0) layers.push(['obstacle', 'obstacle, held and let go']);
+    fillLayers($('path-legend'), layers, fillPath);
+  }
+
+  /// Buttons that show and hide layers of a picture, which `refill` draws again.
+  function fillLayers(legend, layers, refill) {
     for (const [name, text] of layers) {
       const button = make('button', {type: 'button', className: 'layer'},
           make('span', {className: `line ${name}`}), text);
@@ -108,10 +105,38 @@ const reportPage = (() => {
       button.addEventListener('click', () => {
         hiddenLayers.has(name) ? hiddenLayers.delete(name) : hiddenLayers.add(name);
         button.setAttribute('aria-pressed', String(!hiddenLayers.has(name)));
-        fillPath();
+        refill();
       });
-      $('path-legend').append(button);
+      legend.append(button);
     }
+  }
+
+  function fillSpaceHead() {
+    const {space} = report;
+    if (!space) return $('space-section').remove();
+    $('space-section').hidden = false;
+    $('space-title').append(' ', sourceNote('Zhang, Fig. 7'));
+    $('space').after(...space.problems.map(complaint));
+    if (!space.ok) return;
+    const {planned, real, interval_s: interval} = space.value;
+    fillLayers($('space-legend'), [
+      ...(planned ? [['planned-teeth', 'planned']] : []), ...(real ? [['real-teeth', 'real']] : []),
+      ['points', `a point every ${reportParts.formatKey(interval)} s`]], fillSpace);
+  }
+
+  function fillSpace(width) {
+    if (!report.space) return;
+    const box = $('space');
+    if (!report.space.ok) return box.replaceChildren(complaint(report.space.problem));
+    spaceFigure = reportSpace.draw(report.space.value, width ?? box.clientWidth, hiddenLayers);
+    box.replaceChildren(...spaceFigure.views.map(({title, svg}) =>
+      make('figure', {}, make('figcaption', {textContent: title}), svg)));
+  }
+
+  /// One alone has the whole width.
+  function layOutTop() {
+    const top = document.querySelector('.top');
+    top.classList.toggle('single', top.childElementCount < 2);
   }
 
   /// The library's legend is for the mouse; the same rows for the keyboard.
@@ -233,7 +258,11 @@ const reportPage = (() => {
         shade: report.shade.ok ? report.shade.value : [],
         limitColour,
         mountLegend: (table) => figure.legend.replaceChildren(table),
-        showAt: (index) => pathFigure.showAt(index),
+        stages: report.stages,
+        showAt: (index) => {
+          pathFigure.showAt(index);
+          spaceFigure.showAt(index);
+        },
       });
       figure.chart = new uPlot(options, data, figure.holder);
       makeLegendKeys(figure);
@@ -248,6 +277,7 @@ const reportPage = (() => {
       figure.chart.setSize({width: figure.holder.clientWidth, height: figure.plot.height});
     }
     fillPath();
+    fillSpace();
   }
 
   // Browsers may report the sheet as a new window size or a new theme; print() has chosen both.
@@ -261,15 +291,20 @@ const reportPage = (() => {
     root.classList.toggle('printing', on);
     drawCharts(on ? PRINT_WIDTH_PX : undefined);
     fillPath(on ? PRINT_WIDTH_PX : undefined);
+    fillSpace(on ? PRINT_WIDTH_PX : undefined);
   }
 
   function show(data) {
-    report = ({grade: reportGrade, plan: reportPlan}[data?.kind] ?? reportData).prepare(data);
+    report = KINDS[Object.hasOwn(KINDS, data?.kind) ? data.kind : 'dig'].prepare(data);
     fillHead();
     fillLimits();
     fillPathHead();
     fillPathLegend();
     fillPath();
+    fillSpaceHead();
+    fillSpace();
+    reportTask.fill(report, zoomAll);
+    layOutTop();
     fillShade();
     makeFigures();
     drawCharts();

@@ -9,10 +9,20 @@ const reportChart = (() => {
   const RIGHT_PX = 48;
   const SOFT_ZERO = {pad: 0.08, soft: 0, mode: 3};
   const RANGE = {min: SOFT_ZERO, max: SOFT_ZERO};
+  const [TOP_PX, STAGE_GAP_PX] = [10, 6];
+  const STAGES_PX = 24;  // room for their names above a plot
   const LOWER_SHARE = 2 / 3;  // of a plot that has lambda above its own quantity
 
   const colour = (name) =>
     getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+
+  /// What is seen of a stretch, in pixels; less than nothing where it is out of sight.
+  function seen(chart, {from, until}) {
+    const {left, width} = chart.bbox;
+    const first = Math.max(chart.valToPos(from, 'x', true), left);
+    const last = Math.min(chart.valToPos(until, 'x', true), left + width);
+    return {from: first, width: last - first};
+  }
 
   /// Lets `draw` paint inside the plotting area only, from stretch to stretch in pixels.
   function clipped(chart, draw) {
@@ -44,6 +54,25 @@ const reportChart = (() => {
         }
       }
     });
+  }
+
+  /// Behind the lines every second step of a task; above them what the steps are called, by number
+  /// where the name is too long, and nothing where even that is.
+  function drawStages(chart, stages) {
+    drawShade(chart, stages.filter((stage, i) => i % 2 === 1));
+    const {ctx, bbox} = chart;
+    const ratio = globalThis.devicePixelRatio ?? 1;
+    ctx.save();
+    ctx.font = FONT.replace(/^\d+/, (size) => size * ratio);
+    ctx.fillStyle = colour('ink');
+    ctx.textAlign = 'center';
+    for (const stage of stages) {
+      const at = seen(chart, stage);
+      const words = [`${stage.number} ${stage.name}`, String(stage.number)]
+          .find((text) => ctx.measureText(text).width + STAGE_GAP_PX * ratio <= at.width);
+      if (words) ctx.fillText(words, at.from + at.width / 2, bbox.top - STAGE_GAP_PX * ratio);
+    }
+    ctx.restore();
   }
 
   function drawStrip(chart, strip, limitColour) {
@@ -123,13 +152,15 @@ const reportChart = (() => {
   }
 
   /// `page` has what a chart shares with the others: its x axis, the shaded stretches of it, the
-  /// limits' colours, what to do with its legend and with the sample under the cursor.
+  /// steps of a task, the limits' colours, what to do with its legend and with the sample under the
+  /// cursor.
   function options(plot, width, page) {
     const {lines, strip} = plot.body.value;
+    const stages = page.stages ?? [];
     const made = {
       width,
       height: plot.height,
-      padding: [10, RIGHT_PX, 0, 0],
+      padding: [stages.length > 0 ? STAGES_PX : TOP_PX, RIGHT_PX, 0, 0],
       scales: {x: {time: false}, y: {range: RANGE}},
       // The y axes are equally wide, so one instant is in one column all down the page.
       axes: [axisLook({label: page.x.label, labelSize: 19, size: 30}),
@@ -151,7 +182,8 @@ const reportChart = (() => {
         markers: {width: 0, fill: (chart, i) => (lines[i - 1] ? colour(lines[i - 1].colour) : '')},
       },
       hooks: {
-        drawAxes: [(chart) => drawShade(chart, page.shade)],
+        drawAxes: [(chart) => drawShade(chart, page.shade),
+          (chart) => drawStages(chart, stages)],
         setCursor: [(chart) => page.showAt(chart.cursor.idx ?? null)],
       },
     };
@@ -160,5 +192,5 @@ const reportChart = (() => {
     return made;
   }
 
-  return {options, drawShade};
+  return {options, drawShade, drawStages};
 })();

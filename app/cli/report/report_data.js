@@ -6,9 +6,7 @@ const reportData = (() => {
   const AXES = ['boom', 'arm', 'bucket'];
   const {Problem, part, isObject, need, needList, checkTuples, time, seriesList, seriesGroup} =
     reportChecks;
-  const PA_PER_MPA = 1e6;
   const N_PER_KN = 1e3;
-  const MM_PER_M = 1e3;
 
   function axisPair(wide, narrow, i, words, digits) {
     return [
@@ -18,48 +16,15 @@ const reportData = (() => {
   }
 
   function spoolPlot(data) {
-    const command = seriesGroup(data, 'spool_command', [3, 3], 100);
-    const real = seriesGroup(data, 'spool_real', [3, 3], 100);
-    const lines = AXES.map((axis, i) => axisPair(
-        command, real, i, [`${axis} command`, `${axis} real`], 1));
-    // All commands first: the pale lines must not cover another axis' real line.
-    return {lines: [...lines.map((pair) => pair[0]), ...lines.map((pair) => pair[1])]};
+    const series = [{name: 'spool_command', words: 'command'}, {name: 'spool_real', words: 'real'}];
+    return {lines: reportDrives.lines(data, series, reportDrives.CYLINDERS,
+        {count: AXES.length, factor: 100, digits: 1})};
   }
 
   function velocityPlot(data, i) {
     const wanted = seriesGroup(data, 'velocity_wanted', [3, 3]);
     const real = seriesGroup(data, 'velocity_real', [3, 3]);
     return {lines: axisPair(wanted, real, i, ['wanted', 'real'], 3)};
-  }
-
-  function pressurePlot(data) {
-    const expected = seriesGroup(data, 'pump_pressure_expected', [1, 3], 1 / PA_PER_MPA);
-    const real = seriesGroup(data, 'pump_pressure_real', [1, 3], 1 / PA_PER_MPA);
-    if (expected.length !== real.length) {
-      throw new Problem(
-          '“series.pump_pressure_expected” and “_real” differ in the number of pumps.');
-    }
-    return {
-      lines: [
-        ...expected.map((values, i) => ({
-          label: `Pump ${i + 1} expected`, colour: `pump${i + 1}-soft`, wide: true,
-          values, digits: 2,
-        })),
-        ...real.map((values, i) => (
-          {label: `Pump ${i + 1} real`, colour: `pump${i + 1}`, values, digits: 2})),
-      ],
-    };
-  }
-
-  function errorPlot(data) {
-    const measured = seriesList(data, 'error_measured_m', MM_PER_M);
-    const real = seriesList(data, 'error_true_m', MM_PER_M);
-    return {
-      lines: [
-        {label: 'measured', colour: 'measured', values: measured, digits: 1},
-        {label: 'true', colour: 'true', values: real, digits: 1},
-      ],
-    };
   }
 
   /// x and y of a vector over time.
@@ -112,9 +77,10 @@ const reportData = (() => {
         source: 'Kim, Fig. 15', axis: 'velocity (m/s)', unit: 'm/s', height: 320,
         body: part(() => tipVelocityPlot(data))}] : []),
       {id: 'pressure', title: 'Pump pressures, expected and real', axis: 'pressure (MPa)',
-        unit: 'MPa', height: 240, body: part(() => pressurePlot(data))},
+        unit: 'MPa', height: 240, body: part(() => reportParts.pressurePlot(
+            data, 'pump_pressure_expected', 'pump_pressure_real'))},
       {id: 'error', title: 'Path error of the bucket tip', axis: 'path error (mm)', unit: 'mm',
-        height: 230, body: part(() => errorPlot(data))},
+        height: 230, body: part(() => reportParts.errorPlot(data))},
       ...reportParts.cyclePlots(data),
     ];
   }

@@ -4,7 +4,6 @@
 const reportGrade = (() => {
   const {Problem, part, isObject, need, needList, checkTuples, time, runs, seriesList, seriesGroup} =
     reportChecks;
-  const MM_PER_M = 1e3;
   const LPM_PER_M3PS = 6e4;
   const DEGREES = 180 / Math.PI;
   // As the summary counts: what is kept, and what belongs to one occasion.
@@ -61,15 +60,6 @@ const reportGrade = (() => {
       {label: 'ground as left', colour: 'ground', values: heights(ground(data), places), digits: 3},
       {label: 'body', colour: 'body', values: bodyHeights(data, places), digits: 3},
       {label: 'cutting edge', colour: 'true', values: seriesList(data, 'edge_z_m'), digits: 3},
-    ]};
-  }
-
-  function errorPlot(data) {
-    return {lines: [
-      {label: 'measured', colour: 'measured', digits: 1,
-        values: seriesList(data, 'error_measured_m', MM_PER_M)},
-      {label: 'true', colour: 'true', digits: 1,
-        values: seriesList(data, 'error_true_m', MM_PER_M)},
     ]};
   }
 
@@ -146,7 +136,7 @@ const reportGrade = (() => {
       {id: 'elevation', title: 'Elevation: design, cut and body', source: source('a'),
         axis: 'elevation (m)', unit: 'm', height: 300, body: part(() => elevationPlot(data))},
       {id: 'error', title: 'Elevation error of the cutting edge', source: source('b'),
-        axis: 'error (mm)', unit: 'mm', height: 230, body: part(() => errorPlot(data))},
+        axis: 'error (mm)', unit: 'mm', height: 230, body: part(() => reportParts.errorPlot(data))},
       {id: 'speed', title: 'Travel speed', source: source('c'), axis: 'speed (m/s)', unit: 'm/s',
         height: 230, body: part(() => speedPlot(data))},
       {id: 'flow', title: 'Flow that the blade needs, and what there is', source: source('d'),

@@ -2,7 +2,11 @@
 // What the page of every kind of run shows: key figures, shares of time, lambda with what holds it,
 // numbers as they are read. Pure: no document, no drawing, so that it runs outside a browser too.
 const reportParts = (() => {
-  const {Problem, part, isObject, needList, runs, seriesList} = reportChecks;
+  const {Problem, part, isObject, needList, runs, seriesList, seriesGroup} = reportChecks;
+  const PA_PER_MPA = 1e6;
+  const MM_PER_M = 1e3;
+  const ZHANG =
+    'B. Zhang et al., Research on Trajectory Planning and Autodig of Hydraulic Excavator';
 
   /// Each limit's number in the palette, the same in the table, the strip and its key. 'none' has
   /// its own neutral tone (0); the others follow in the order of the table, then of the series.
@@ -33,6 +37,38 @@ const reportParts = (() => {
     return {
       lines: [{label: 'λ', colour: 'ink', values: seriesList(data, 'lambda'), digits: 3}],
       strip: {label: 'held by', values: limits, names, runs: runs(x, limits)},
+    };
+  }
+
+  /// One list a pump; as many expected as real ones.
+  function pressurePlot(data, expectedName, realName) {
+    const expected = seriesGroup(data, expectedName, [1, 3], 1 / PA_PER_MPA);
+    const real = seriesGroup(data, realName, [1, 3], 1 / PA_PER_MPA);
+    if (expected.length !== real.length) {
+      throw new Problem(
+          `“series.${expectedName}” and “${realName}” differ in the number of pumps.`);
+    }
+    return {
+      lines: [
+        ...expected.map((values, i) => ({
+          label: `Pump ${i + 1} expected`, colour: `pump${i + 1}-soft`, wide: true,
+          values, digits: 2,
+        })),
+        ...real.map((values, i) => (
+          {label: `Pump ${i + 1} real`, colour: `pump${i + 1}`, values, digits: 2})),
+      ],
+    };
+  }
+
+  /// Of a tip or an edge that is both measured and known.
+  function errorPlot(data) {
+    const measured = seriesList(data, 'error_measured_m', MM_PER_M);
+    const real = seriesList(data, 'error_true_m', MM_PER_M);
+    return {
+      lines: [
+        {label: 'measured', colour: 'measured', values: measured, digits: 1},
+        {label: 'true', colour: 'true', values: real, digits: 1},
+      ],
     };
   }
 
@@ -108,5 +144,6 @@ const reportParts = (() => {
   const problems = (parts, more = []) =>
     [...new Set([...parts.filter((p) => !p.ok).map((p) => p.problem), ...more])];
 
-  return {limitColours, lambdaPlot, cyclePlots, head, problems, formatKey, formatLive, formatShare};
+  return {ZHANG, limitColours, lambdaPlot, pressurePlot, errorPlot, cyclePlots, head, problems,
+    formatKey, formatLive, formatShare};
 })();

@@ -4,7 +4,8 @@
 const reportPath = (() => {
   const MARGIN = {left: 66, right: 14, top: 12, bottom: 54};
   const MAX_HEIGHT = 600;
-  const LABEL = {width: 40, height: 18, distance: 20};
+  const {fit, ticks, thin, clearOf, placeLabels, element, text, pair, polyline, drawAxes} =
+    reportSvg;
 
   function bounds(geometry) {
     let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
@@ -26,46 +27,6 @@ const reportPath = (() => {
     return {x0: x0 - pad, x1: x1 + pad, y0: y0 - pad, y1: y1 + pad};
   }
 
-  /// One scale for both directions; the shorter one gets room on both sides.
-  function fit(box, width) {
-    const innerWidth = Math.max(width - MARGIN.left - MARGIN.right, 50);
-    const spanX = box.x1 - box.x0;
-    const spanY = box.y1 - box.y0;
-    const highest = MAX_HEIGHT - MARGIN.top - MARGIN.bottom;
-    const innerHeight = Math.min(innerWidth * spanY / spanX, highest);
-    const scale = Math.min(innerWidth / spanX, innerHeight / spanY);
-    const centre = (box.x0 + box.x1) / 2;
-    const x0 = centre - innerWidth / scale / 2;
-    return {
-      scale, innerWidth, innerHeight,
-      x0, x1: centre + innerWidth / scale / 2, y0: box.y0, y1: box.y1,
-      width, height: innerHeight + MARGIN.top + MARGIN.bottom,
-      px: (x) => MARGIN.left + (x - x0) * scale,
-      py: (y) => MARGIN.top + (box.y1 - y) * scale,
-    };
-  }
-
-  function ticks(from, to, about) {
-    const raw = (to - from) / Math.max(about, 1);
-    const power = 10 ** Math.floor(Math.log10(raw));
-    const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= raw * 0.999);
-    const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-    const list = [];
-    for (let i = Math.ceil(from / step - 1e-9); i * step <= to + 1e-9 * step; ++i) {
-      list.push({value: i * step, text: (i * step + 0).toFixed(digits).replace(/^-/, '−')});
-    }
-    return list;
-  }
-
-  /// Leaves out points nearer than `least` pixels to the last one kept, never the last one.
-  function thin(points, least) {
-    return points.filter(((kept) => (p, i) => {
-      const far = !kept || Math.hypot(p[0] - kept[0], p[1] - kept[1]) >= least;
-      if (far) kept = p;
-      return far || i === points.length - 1;
-    })(null));
-  }
-
   /// The longest arrow is as long as the grid's spacing allows, so that arrows never touch.
   function arrows(field, scale) {
     const fastest = field.reduce((top, [, , vx, vy]) => Math.max(top, Math.hypot(vx, vy)), 0);
@@ -82,39 +43,6 @@ const reportPath = (() => {
     }).filter((a) => Math.hypot(a.dx, a.dy) > 1);
   }
 
-  const overlap = (a, b) =>
-    Math.abs(a.x - b.x) < (a.w + b.w) / 2 && Math.abs(a.y - b.y) < (a.h + b.h) / 2;
-
-  const clearOf = (box, lines) => !lines.some(([x, y]) => overlap(box, {x, y, w: 2, h: 2}));
-
-  /// The places beside a mark, outwards from the middle of the path first.
-  function placesAt(mark, centre) {
-    const outward = Math.atan2(mark.y - centre.y, mark.x - centre.x);
-    const w = mark.width ?? LABEL.width;
-    return [0, 1, -1, 2, -2, 3, -3, 4].map((turn) => {
-      const angle = outward + turn * Math.PI / 4;
-      return {x: mark.x + Math.cos(angle) * (w / 2 + 10),
-        y: mark.y + Math.sin(angle) * LABEL.distance, w, h: LABEL.height};
-    });
-  }
-
-  /// For each mark a place clear of the `lines` if there is one, else on them; null when every
-  /// place is taken: a missing number is better than two on one spot. The first marks choose first;
-  /// those with a longer text than an attitude have its `width`.
-  function placeLabels(marks, centre, frame, taken, lines = []) {
-    const dots = marks.map((m) => ({x: m.x, y: m.y, w: 8, h: 8}));
-    const placed = [...taken];
-    const inside = (box) => box.x - box.w / 2 > frame.left && box.x + box.w / 2 < frame.right &&
-        box.y - box.h / 2 > frame.top && box.y + box.h / 2 < frame.bottom;
-    return marks.map((mark) => {
-      const free = placesAt(mark, centre).filter((box) => inside(box) &&
-          ![...placed, ...dots].some((other) => overlap(box, other)));
-      const box = free.find((place) => clearOf(place, lines)) ?? free[0] ?? null;
-      if (box) placed.push(box);
-      return box;
-    });
-  }
-
   /// On the ground line, where neither the path nor the tip runs through the word.
   function placeOnGround(y, frame, lines) {
     const places = [frame.right - 32, frame.left + 32, (frame.left + frame.right) / 2]
@@ -123,10 +51,9 @@ const reportPath = (() => {
   }
 
   function layout(geometry, width) {
-    const view = fit(bounds(geometry), width);
+    const view = fit(bounds(geometry), width, MARGIN, MAX_HEIGHT);
     const toPx = ([x, y]) => [view.px(x), view.py(y)];
-    const frame = {left: MARGIN.left, right: MARGIN.left + view.innerWidth,
-      top: MARGIN.top, bottom: MARGIN.top + view.innerHeight};
+    const {frame} = view;
     const path = thin(geometry.path.map(toPx), 0.5);
     const centre = {
       x: path.reduce((sum, p) => sum + p[0], 0) / path.length,
@@ -158,21 +85,6 @@ const reportPath = (() => {
     };
   }
 
-  function element(name, attributes, content) {
-    const node = document.createElementNS('http://www.w3.org/2000/svg', name);
-    for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
-    if (content !== undefined) node.textContent = content;
-    return node;
-  }
-
-  const text = (kind, x, y, anchor, content) =>
-    element('text', {class: kind, x, y, 'text-anchor': anchor}, content);
-
-  const pair = (x, y) => `${x.toFixed(1)},${y.toFixed(1)}`;
-
-  const polyline = (points, closed) => (points.length === 0 ? '' :
-      `M${points.map((p) => pair(p[0], p[1])).join('L')}${closed ? 'Z' : ''}`);
-
   /// A shaft with a head of two short strokes, all arrows in one path element.
   function arrowPath(list) {
     return list.map(({x, y, dx, dy}) => {
@@ -185,26 +97,6 @@ const reportPath = (() => {
       const tip = pair(endX, endY);
       return `M${pair(x, y)}L${tip}M${head(0.5)}L${tip}L${head(-0.5)}`;
     }).join('');
-  }
-
-  function drawAxes(svg, plan) {
-    const {frame} = plan;
-    for (const tick of plan.xTicks) {
-      const x = plan.view.px(tick.value);
-      svg.append(element('path', {class: 'grid', d: `M${x},${frame.top}V${frame.bottom}`}));
-      svg.append(text('tick', x, frame.bottom + 20, 'middle', tick.text));
-    }
-    for (const tick of plan.yTicks) {
-      const y = plan.view.py(tick.value);
-      svg.append(element('path', {class: 'grid', d: `M${frame.left},${y}H${frame.right}`}));
-      svg.append(text('tick', frame.left - 8, y + 4, 'end', tick.text));
-    }
-    svg.append(text('axis', (frame.left + frame.right) / 2, plan.view.height - 8, 'middle',
-        'x, forward from the boom foot (m)'));
-    const middle = (frame.top + frame.bottom) / 2;
-    const label = text('axis', 16, middle, 'middle', 'y, up (m)');
-    label.setAttribute('transform', `rotate(-90 16 ${middle})`);
-    svg.append(label);
   }
 
   /// The face that the bucket meets is the outline's first side.
@@ -234,7 +126,7 @@ const reportPath = (() => {
     const svg = element('svg', {width, height: plan.view.height, role: 'img',
       viewBox: `0 0 ${width} ${plan.view.height}`,
       'aria-label': 'Path of the bucket tip seen from the side, with the attitude in degrees'});
-    drawAxes(svg, plan);
+    drawAxes(svg, plan, ['x, forward from the boom foot (m)', 'y, up (m)']);
     const layer = (name, ...nodes) => {
       if (!hidden.has(name)) svg.append(...nodes);
     };
@@ -274,5 +166,5 @@ const reportPath = (() => {
     return {svg, showAt};
   }
 
-  return {bounds, fit, ticks, thin, arrows, placeLabels, layout, draw};
+  return {layout, draw};
 })();

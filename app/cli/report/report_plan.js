@@ -5,8 +5,6 @@ const reportPlan = (() => {
   const {part, time, seriesList, seriesGroup} = reportChecks;
   const MM_PER_M = 1e3;
   const DEGREES = 180 / Math.PI;
-  const CYLINDERS = ['boom', 'arm', 'bucket'];
-  const SWING = 3;
 
   const single = (data, name, label, factor, digits) =>
     ({lines: [{label, colour: 'true', values: seriesList(data, name, factor), digits}]});
@@ -20,24 +18,8 @@ const reportPlan = (() => {
     ]};
   }
 
-  const cylinderPlot = (data, name) => ({lines: seriesGroup(data, name, [4, 4], MM_PER_M)
-      .slice(0, SWING).map((values, i) => (
-        {label: CYLINDERS[i], colour: CYLINDERS[i], values, digits: 1}))});
-
-  const swingPlot = (data, name) => ({lines: [{label: 'swing', colour: 'measured', digits: 2,
-    values: seriesGroup(data, name, [4, 4], DEGREES)[SWING]}]});
-
-  /// Cylinders and swing have two units: two plots of one figure of the paper.
-  function drivePlots(data, name, words, per, figure) {
-    const source = `Zhang, Fig. ${figure}`;
-    return [
-      {id: `cylinder-${name}`, title: `Cylinders: ${words}`, source,
-        axis: `${words} (mm${per})`, unit: `mm${per}`, height: 240,
-        body: part(() => cylinderPlot(data, name))},
-      {id: `swing-${name}`, title: `Swing: ${words}`, source, axis: `${words} (°${per})`,
-        unit: `°${per}`, height: 190, body: part(() => swingPlot(data, name))},
-    ];
-  }
+  const drivePlots = (data, name, per, figure) =>
+    reportDrives.plots(data, name, [{name}], name, per, `Zhang, Fig. ${figure}`);
 
   function plots(data) {
     return [
@@ -51,24 +33,26 @@ const reportPlan = (() => {
       {id: 'attitude', title: 'Attitude of the bucket', source: 'Zhang, Fig. 6',
         axis: 'attitude (°)', unit: '°', height: 190,
         body: part(() => single(data, 'attitude_rad', 'attitude', DEGREES, 2))},
-      ...drivePlots(data, 'displacement', 'displacement', '', 8),
-      ...drivePlots(data, 'velocity', 'velocity', '/s', 9),
-      ...drivePlots(data, 'acceleration', 'acceleration', '/s²', 10),
+      ...drivePlots(data, 'displacement', '', 8),
+      ...drivePlots(data, 'velocity', '/s', 9),
+      ...drivePlots(data, 'acceleration', '/s²', 10),
     ];
   }
 
   function prepare(data) {
+    const space = reportSpace.picture(data, {planned: 'teeth_m'});
     const report = {
       ...reportParts.head(data),
       limitsShare: null,
-      paper: 'B. Zhang et al., Research on Trajectory Planning and Autodig of Hydraulic Excavator',
+      paper: reportParts.ZHANG,
       path: null,
+      space,
       x: {...part(() => time(data)), name: 'time', unit: 's', digits: 2, label: 'time (s)'},
       shade: {ok: true, value: []},
       plots: plots(data),
     };
-    report.problems = reportParts.problems(
-        [report.summary, report.x, ...report.plots.map((plot) => plot.body)]);
+    report.problems = reportParts.problems([report.summary, space, report.x,
+      ...report.plots.map((plot) => plot.body)], space.problems);
     return report;
   }
 

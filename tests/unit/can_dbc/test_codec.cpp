@@ -35,9 +35,16 @@ constexpr Scale kScales[] = {
     {"Pump1ExpectedPressure", 2e3, 0.0, 0.0, 128e6},
     {"Pump2ExpectedPressure", 2e3, 0.0, 0.0, 128e6},
     {"PathError", 1e-4, 0.0, 0.0, 6.4},
+    {"SwingAngle", 1e-4, -3.2, -3.2, 3.2},
+    {"SwingLeftPressure", 1e3, 0.0, 0.0, 64e6},
+    {"SwingRightPressure", 1e3, 0.0, 0.0, 64e6},
+    {"SwingSpool", 5e-5, -1.6, -1.0, 1.0},
+    {"SwingDuty", 5e-5, -1.6, -1.0, 1.0},
+    {"Progress", 2e-5, 0.0, 0.0, 1.0},
+    {"SwingWantedVelocity", 1e-4, -3.2, -3.2, 3.2},
 };
 
-void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 59); }
+void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 71); }
 
 void saturates_and_refuses(void**) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
 
@@ -68,6 +75,14 @@ void known_payloads(void**) {
   command.bucket_duty_ratio.value = 0.00005;
   const Payload moving{0xFF, 0x1F, 0x20, 0xCB, 0xE0, 0x2E, 0x01, 0x7D};
   assert_memory_equal(command.encode().data(), moving.data(), moving.size());
+
+  bus::SwingCommand swing;
+  const Payload held{0xFF, 0xCF, 0x00, 0x7D, 0xFF, 0xFF, 0xFF, 0xFF};
+  assert_memory_equal(swing.encode().data(), held.data(), held.size());
+  swing.enable.value = bus::SwingCommand::Enable::kOn;
+  swing.swing_duty_ratio.value = -1.0;
+  const Payload right{0xFF, 0xDF, 0xE0, 0x2E, 0xFF, 0xFF, 0xFF, 0xFF};
+  assert_memory_equal(swing.encode().data(), right.data(), right.size());
 
   command = {};
   command.pilot_cut.value = bus::SpoolCommand::PilotCut::kOn;
@@ -108,6 +123,9 @@ void start_values(void**) {
   assert_int_equal(bus::BoomStroke{}.boom_stroke_m.state, RawState::kNotAvailable);
   assert_int_equal(bus::SpoolCommand{}.enable.value, bus::SpoolCommand::Enable::kOff);
   assert_int_equal(bus::SpoolCommand{}.pilot_cut.value, bus::SpoolCommand::PilotCut::kOff);
+  assert_int_equal(bus::SwingState{}.swing_angle_rad.state, RawState::kNotAvailable);
+  assert_int_equal(bus::SwingCommand{}.enable.value, bus::SwingCommand::Enable::kOff);
+  assert_int_equal(bus::TaskStatus{}.task_number.state, RawState::kNotAvailable);
   assert_int_equal(bus::PumpCommand{}.pump1_swash_ratio.state, RawState::kNotAvailable);
   assert_int_equal(bus::ValveState{}.enabled.state, RawState::kNotAvailable);
   assert_int_equal(bus::EcuHealth{}.real_time.value, bus::EcuHealth::RealTime::kOff);

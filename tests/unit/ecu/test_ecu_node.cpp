@@ -27,6 +27,16 @@ struct Excavator {
   static ExcavatorProfile profile() { return plant::machine_22t().machine; }
 };
 
+// With a swing drive.
+struct ExcavatorWithSwing : Excavator {
+  static std::vector<std::uint32_t> commands() {
+    return {dbc::excavator::SpoolCommand::kId, dbc::excavator::SwingCommand::kId};
+  }
+  static ExcavatorProfile profile() {
+    return machines::load_excavator(machines::find_profile("excavator_12t")).profile;
+  }
+};
+
 struct Dozer {
   using Ecu = ecu::DozerEcu;
   using Stroke = dbc::dozer::BladeStroke;
@@ -311,6 +321,7 @@ int main() {
       ON_BOTH(a_stall_throws_away_what_queued_up),
       ON_BOTH(the_machine_has_to_be_ours),
       ON_BOTH(commands_that_are_not_taken_are_counted),
+      cmocka_unit_test(commands_that_are_not_taken_are_counted<ExcavatorWithSwing>),
       ON_BOTH(the_process_is_told_of),
       ON_BOTH(what_is_wrong_with_frames_reaches_the_controller),
   };

@@ -20,6 +20,7 @@ inline ExcavatorInputs complete_inputs(TimeUs now_us) {
     inputs.axis[i].rod_pressure_pa = fresh(3e6, now_us);
     inputs.axis[i].spool_ratio = fresh(0.0, now_us);
   }
+  inputs.swing = {fresh(0.0, now_us), fresh(4e6, now_us), fresh(3e6, now_us), fresh(0.0, now_us)};
   for (Signal<double>& swash : inputs.swash_ratio) {
     swash = fresh(0.643, now_us);
   }
@@ -34,6 +35,15 @@ inline ExcavatorInputs complete_inputs(TimeUs now_us) {
   return inputs;
 }
 
+/// The same machine's inputs as the 12 t machine's: within its strokes, its pump at its speed.
+inline void make_12t(ExcavatorInputs& inputs) {
+  const double strokes_m[] = {0.475, 0.565, 0.4375};
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    inputs.axis[i].stroke_m.value = strokes_m[i];
+  }
+  inputs.engine_speed_radps.value = 151.8;
+}
+
 /// The same from a valve that has done what it was told.
 inline ExcavatorInputs following_inputs(const ExcavatorOutputs& told, TimeUs now_us) {
   ExcavatorInputs inputs = complete_inputs(now_us);
@@ -41,6 +51,7 @@ inline ExcavatorInputs following_inputs(const ExcavatorOutputs& told, TimeUs now
   for (unsigned i = 0; i < kAxisCount; ++i) {
     inputs.axis[i].spool_ratio.value = told.duty_ratio[i];
   }
+  inputs.swing.spool_ratio.value = told.duty_ratio[3];
   return inputs;
 }
 

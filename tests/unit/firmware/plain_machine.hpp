@@ -45,4 +45,20 @@ inline ExcavatorProfile plain_machine() {
   return profile;
 }
 
+/// The same with a swing on the first pump, 1 m/s at its lever too; its range is 2 rad each way.
+inline ExcavatorProfile plain_machine_with_swing() {
+  ExcavatorProfile profile = plain_machine();
+  profile.drive_count = kDriveCount;
+  profile.swing.lever_m = 0.125;
+  profile.swing.displacement_m3prad = 0.125 * 0.002 * kPi;
+  profile.swing.right_end_rad = -2.0;
+  profile.swing.left_end_rad = 2.0;
+  profile.swing.speed_max_radps = 1.0;
+  profile.swing.acceleration_max_radps2 = 0.5;
+  profile.valve.spool[kSwing].pump = 0;
+  profile.safety.swing_uncommanded_rad = 0.25;
+  profile.safety.swing_stuck_rad = 0.5;
+  return profile;
+}
+
 }  // namespace graben::test

@@ -10,8 +10,11 @@ namespace graben::test {
 
 struct Running {
   static constexpr TimeUs kPeriod = 10 * kMillisecondUs;
+  /// Makes inputs of the shipped 22 t machine those of another.
+  using Adapt = void (*)(ExcavatorInputs&);
 
-  ExcavatorController controller{excavator().profile};
+  ExcavatorController controller;
+  Adapt adapt;
   TimeUs now_us = kSecondUs;
   ExcavatorOutputs outputs;
 
@@ -20,7 +23,11 @@ struct Running {
     now_us += kPeriod;
     return outputs;
   }
-  [[nodiscard]] ExcavatorInputs inputs() const { return following_inputs(outputs, now_us); }
+  [[nodiscard]] ExcavatorInputs inputs() const {
+    ExcavatorInputs inputs = following_inputs(outputs, now_us);
+    adapt(inputs);
+    return inputs;
+  }
 
   [[nodiscard]] ExcavatorInputs at_rest(bool enable) const {
     ExcavatorInputs resting = inputs();
@@ -29,7 +36,10 @@ struct Running {
     return resting;
   }
 
-  Running() {
+  explicit Running(
+      const ExcavatorProfile& machine = excavator().profile,
+      Adapt as_it_is = [](ExcavatorInputs&) {})
+      : controller(machine), adapt(as_it_is) {
     ExcavatorInputs released = inputs();
     released.driver.enable.value = false;
     step(released);

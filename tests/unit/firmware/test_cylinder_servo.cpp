@@ -66,7 +66,7 @@ class Ideal {
 };
 
 struct Run {
-  ServoState servo = servo_at_rest({0.5, 0.5, 0.5});
+  ServoState servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
   Ideal cylinder;
   ControlProfile profile;
 
@@ -75,7 +75,8 @@ struct Run {
 
   void step(double asked_mps) {
     const double stroke_m = cylinder.after(asked_mps);
-    servo = next_servo(profile, servo, {asked_mps, 0.0, 0.0}, {stroke_m, 0.5, 0.5}, kPeriod_s);
+    servo = next_servo(profile, servo, {asked_mps, 0.0, 0.0, 0.0}, {stroke_m, 0.5, 0.5, 0.0},
+                       kPeriod_s);
   }
 };
 
@@ -126,46 +127,45 @@ void where_lambda_is_0_nothing_winds_up(void**) {
 }
 
 void what_is_owed_is_asked_for_whole_at_any_lambda(void**) {
-  ServoState servo = servo_at_rest({0.5, 0.5, 0.5});
-  servo.repay_m = {0.01, -0.005, 0.0};
-  const Eigen::Vector3d wanted(0.1, 0.1, 0.1);
+  ServoState servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
+  servo.repay_m = {0.01, -0.005, 0.0, 0.0};
+  const DriveVector wanted(0.1, 0.1, 0.1, 0.0);
   for (const double lambda : {1.0, 0.5, 0.2}) {
-    const Eigen::Vector3d asked =
-        lambda * corrected_velocity(machine(), wanted, servo, lambda, 1.0);
+    const DriveVector asked = lambda * corrected_velocity(machine(), wanted, servo, lambda, 1.0);
     assert_near((asked - (lambda * wanted + 2.0 * servo.repay_m)).norm(), 0.0, 1e-12);
   }
   // Below the least lambda it shrinks with it, so that it ends where lambda does.
-  const Eigen::Vector3d asked = 0.1 * corrected_velocity(machine(), wanted, servo, 0.1, 1.0);
+  const DriveVector asked = 0.1 * corrected_velocity(machine(), wanted, servo, 0.1, 1.0);
   assert_near((asked - (0.1 * wanted + 0.5 * 2.0 * servo.repay_m)).norm(), 0.0, 1e-12);
 }
 
 /// A slow dial is a slow machine: what is owed is paid in its ratio.
 void what_is_owed_goes_with_the_operators_speed(void**) {
-  ServoState servo = servo_at_rest({0.5, 0.5, 0.5});
-  servo.repay_m = {0.02, 0.02, -0.02};
-  const Eigen::Vector3d wanted(0.001, 0.001, 0.001);
-  const Eigen::Vector3d full = corrected_velocity(machine(), wanted, servo, 1.0, 1.0) - wanted;
-  const Eigen::Vector3d slow = corrected_velocity(machine(), wanted, servo, 1.0, 0.01) - wanted;
+  ServoState servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
+  servo.repay_m = {0.02, 0.02, -0.02, 0.0};
+  const DriveVector wanted(0.001, 0.001, 0.001, 0.0);
+  const DriveVector full = corrected_velocity(machine(), wanted, servo, 1.0, 1.0) - wanted;
+  const DriveVector slow = corrected_velocity(machine(), wanted, servo, 1.0, 0.01) - wanted;
   assert_near((slow - 0.01 * full).norm(), 0.0, 1e-15);
   assert_near(full[0], 0.04, 1e-12);
 }
 
 /// At a cylinder's end what is owed is not asked for, and does not hold up the others.
 void what_is_owed_stops_at_a_stroke_end(void**) {
-  ServoState servo = servo_at_rest({0.5, 0.5, 0.0});
-  servo.repay_m = {0.01, 0.0, -0.02};
-  const Eigen::Vector3d away = corrected_velocity(machine(), {0.1, 0.1, 0.03}, servo, 0.5, 1.0);
+  ServoState servo = servo_at_rest({0.5, 0.5, 0.0, 0.0});
+  servo.repay_m = {0.01, 0.0, -0.02, 0.0};
+  const DriveVector away = corrected_velocity(machine(), {0.1, 0.1, 0.03, 0.0}, servo, 0.5, 1.0);
   assert_near(away[2], 0.0, 0.0);
   assert_near(away[0], 0.14, 1e-12);
   // What the field wants there is the stroke end cap's to slow.
-  const Eigen::Vector3d into = corrected_velocity(machine(), {0.1, 0.1, -0.03}, servo, 0.5, 1.0);
+  const DriveVector into = corrected_velocity(machine(), {0.1, 0.1, -0.03, 0.0}, servo, 0.5, 1.0);
   assert_near(into[2], -0.03, 0.0);
   // The same at the other end.
   const double most_m = machine().geometry.cylinder[kBucket].stroke_m;
-  servo = servo_at_rest({0.5, 0.5, most_m});
-  servo.repay_m = {0.0, 0.0, 0.02};
-  assert_near(corrected_velocity(machine(), {0.1, 0.1, -0.03}, servo, 0.5, 1.0)[2], 0.0, 0.0);
-  assert_near(corrected_velocity(machine(), {0.1, 0.1, 0.03}, servo, 0.5, 1.0)[2], 0.03, 0.0);
+  servo = servo_at_rest({0.5, 0.5, most_m, 0.0});
+  servo.repay_m = {0.0, 0.0, 0.02, 0.0};
+  assert_near(corrected_velocity(machine(), {0.1, 0.1, -0.03, 0.0}, servo, 0.5, 1.0)[2], 0.0, 0.0);
+  assert_near(corrected_velocity(machine(), {0.1, 0.1, 0.03, 0.0}, servo, 0.5, 1.0)[2], 0.03, 0.0);
 }
 
 /// Let go, what is under way still arrives and is no debt.
@@ -179,7 +179,7 @@ void a_released_servo_still_expects_what_is_under_way(void**) {
   const double from_m = run.servo.strokes_m[0];
   for (int n = 0; n < 60; ++n) {
     const double stroke_m = run.cylinder.after(0.0);
-    run.servo = servo_released(run.profile, run.servo, {stroke_m, 0.5, 0.5}, kPeriod_s);
+    run.servo = servo_released(run.profile, run.servo, {stroke_m, 0.5, 0.5, 0.0}, kPeriod_s);
     assert_near(run.servo.owed_m.norm() + run.servo.repay_m.norm(), 0.0, 0.0);
     assert_near(run.servo.repay_mps.norm(), 0.0, 0.0);
     assert_near(run.servo.strokes_m[0] + run.servo.under_way_m[0], from_m + coming_m, 1e-9);
@@ -193,7 +193,7 @@ void an_uneven_period_leaves_nothing_behind(void**) {
   Run run(0.15, 1.0);
   for (int n = 0; n < 400; ++n) {
     const double asked_mps = n < 200 ? 0.2 * std::sin(0.3 * n) : 0.0;
-    run.servo = next_servo(run.profile, run.servo, {asked_mps, 0.0, 0.0}, {0.5, 0.5, 0.5},
+    run.servo = next_servo(run.profile, run.servo, {asked_mps, 0.0, 0.0, 0.0}, {0.5, 0.5, 0.5, 0.0},
                            n % 7 == 0 ? 0.04 : 0.008);
   }
   assert_near(run.servo.under_way_m.norm(), 0.0, 1e-9);
@@ -201,18 +201,17 @@ void an_uneven_period_leaves_nothing_behind(void**) {
 
 /// At rest is at rest, whatever is owed.
 void nothing_wanted_is_nothing_asked(void**) {
-  ServoState servo = servo_at_rest({0.5, 0.5, 0.5});
-  servo.owed_m = {0.01, 0.01, 0.01};
+  ServoState servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
+  servo.owed_m = {0.01, 0.01, 0.01, 0.0};
   servo.repay_m = servo.owed_m;
-  assert_near(corrected_velocity(machine(), Eigen::Vector3d::Zero(), servo, 0.5, 1.0).norm(), 0.0,
-              0.0);
+  assert_near(corrected_velocity(machine(), DriveVector::Zero(), servo, 0.5, 1.0).norm(), 0.0, 0.0);
 }
 
 void a_prediction_stays_within_the_strokes(void**) {
   const ExcavatorProfile& profile = test::excavator().profile;
-  ServoState servo = servo_at_rest({0.01, 0.7, 1.1});
-  servo.under_way_m = {-0.05, 0.01, 0.05};
-  const Eigen::Vector3d then = strokes_then(profile, servo);
+  ServoState servo = servo_at_rest({0.01, 0.7, 1.1, 0.0});
+  servo.under_way_m = {-0.05, 0.01, 0.05, 0.0};
+  const DriveVector then = strokes_then(profile, servo);
   assert_near(then[0], 0.0, 0.0);
   assert_near(then[1], 0.71, 1e-15);
   assert_near(then[2], profile.geometry.cylinder[kBucket].stroke_m, 0.0);
@@ -222,14 +221,14 @@ void a_prediction_stays_within_the_strokes(void**) {
 /// for, as a phasor of what it owes.
 std::complex<double> shaken(double frequency_hz, double period_s) {
   const ControlProfile profile = control();
-  ServoState servo = servo_at_rest({0.5, 0.5, 0.5});
+  ServoState servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
   const double turn = 2.0 * kPi * frequency_hz * period_s;
   const int cycles = static_cast<int>(std::lround(10.0 / (frequency_hz * period_s)));
   std::complex<double> owed = 0.0;
   std::complex<double> repaid = 0.0;
   for (int n = 1; n <= 2 * cycles; ++n) {
     const double stroke_m = 0.5 + 0.001 * std::sin(turn * n);
-    servo = next_servo(profile, servo, {0.0, 0.0, 0.0}, {stroke_m, 0.5, 0.5}, period_s);
+    servo = next_servo(profile, servo, {0.0, 0.0, 0.0, 0.0}, {stroke_m, 0.5, 0.5, 0.0}, period_s);
     if (n > cycles) {
       owed += servo.owed_m[0] * std::polar(1.0, -turn * n);
       repaid += servo.repay_m[0] * std::polar(1.0, -turn * n);
@@ -255,35 +254,115 @@ void what_shakes_is_asked_for_a_quarter_of_a_period_later(void**) {
 void what_stays_owed_is_asked_for_whole(void**) {
   const ControlProfile profile = control();
   for (const double period_s : {0.001, 0.01, 0.05}) {
-    ServoState servo = servo_at_rest({0.5, 0.5, 0.5});
-    servo.owed_m = {0.01, -0.02, 0.0};
+    ServoState servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
+    servo.owed_m = {0.01, -0.02, 0.0, 0.0};
     double most_m = 0.0;
     for (double time_s = 0.0; time_s < 3.0; time_s += period_s) {
-      servo = next_servo(profile, servo, Eigen::Vector3d::Zero(), servo.strokes_m, period_s);
+      servo = next_servo(profile, servo, DriveVector::Zero(), servo.strokes_m, period_s);
       most_m = std::max(most_m, servo.repay_m[0]);
     }
     assert_near((servo.repay_m - servo.owed_m).norm(), 0.0, 1e-6);
     assert_true(most_m < 0.0133);
   }
   // A period of 0, as a first cycle has, changes nothing.
-  ServoState servo = servo_at_rest({0.5, 0.5, 0.5});
-  servo.owed_m = {0.01, 0.0, 0.0};
-  servo.repay_mps = {0.1, 0.0, 0.0};
-  servo = next_servo(profile, servo, Eigen::Vector3d::Zero(), servo.strokes_m, 0.0);
+  ServoState servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
+  servo.owed_m = {0.01, 0.0, 0.0, 0.0};
+  servo.repay_mps = {0.1, 0.0, 0.0, 0.0};
+  servo = next_servo(profile, servo, DriveVector::Zero(), servo.strokes_m, 0.0);
   assert_near(servo.repay_m.norm(), 0.0, 0.0);
   assert_near(servo.repay_mps[0], 0.1, 0.0);
 }
 
+/// The shipped machine's control and a trim of its own.
+ExcavatorProfile trimmed() {
+  ExcavatorProfile profile = machine();
+  profile.line.trim_ps2 = 1.0;
+  profile.line.trim_most_mps = 0.004;
+  profile.swing.lever_m = 0.5;
+  profile.control.swing_servo_most_rad = 0.04;
+  return profile;
+}
+
+/// On a plan the plan says what is owed: less what is under way, less the stroke, bounded, and
+/// nothing of what was owed before.
+void on_a_plan_it_owes_what_the_plan_says(void**) {
+  const ExcavatorProfile profile = trimmed();
+  ServoState servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
+  servo.owed_m = {0.02, -0.02, 0.01, 0.01};
+  const DriveVector strokes_m(0.5, 0.5, 0.5, 0.0);
+  DriveVector planned_m(0.503, 0.5, 0.48, 0.9);
+  servo = next_servo_on_plan(profile, servo, DriveVector::Zero(), strokes_m, planned_m, false,
+                             kPeriod_s);
+  assert_true((servo.owed_m - DriveVector(0.003, 0.0, -0.02, 0.02)).norm() < 1e-12);
+  // What was asked for is under way, not owed.
+  const DriveVector asked_mps(0.1, 0.0, 0.0, 0.0);
+  planned_m = strokes_m;
+  for (int n = 0; n < 4; ++n) {
+    planned_m += kPeriod_s * asked_mps;
+    servo = next_servo_on_plan(profile, servo, asked_mps, strokes_m, planned_m, false, kPeriod_s);
+    assert_true(servo.under_way_m[0] > 0.0);
+    assert_near(servo.owed_m[0], planned_m[0] - servo.under_way_m[0] - 0.5, 1e-12);
+  }
+  assert_true((servo.strokes_m - strokes_m).isZero(0.0));
+}
+
+/// A drive that goes on owing gets more and more, up to a bound; a new plan and a release forget
+/// it.
+void a_lasting_lag_is_learnt(void**) {
+  const ExcavatorProfile profile = trimmed();
+  const DriveVector strokes_m(0.5, 0.5, 0.5, 0.0);
+  const DriveVector planned_m = strokes_m + DriveVector(0.002, -0.002, 0.0, 0.002);
+  const auto next = [&](const ServoState& servo, bool new_plan) {
+    return next_servo_on_plan(profile, servo, DriveVector::Zero(), strokes_m, planned_m, new_plan,
+                              kPeriod_s);
+  };
+  ServoState servo = servo_at_rest(strokes_m);
+  for (int n = 0; n < 100; ++n) {
+    servo = next(servo, false);
+  }
+  // 1 s of 1 /s2 of 2 mm.
+  assert_true((servo.trim_mps - DriveVector(0.002, -0.002, 0.0, 0.002)).norm() < 1e-9);
+  assert_near(next(servo, true).trim_mps[0], kPeriod_s * 0.002, 1e-9);
+  for (int n = 0; n < 400; ++n) {
+    servo = next(servo, false);
+  }
+  assert_true((servo.trim_mps - DriveVector(0.004, -0.004, 0.0, 0.004)).norm() < 1e-12);
+  assert_true(servo_released(profile.control, servo, strokes_m, kPeriod_s).trim_mps.isZero(0.0));
+  // What is learnt is asked for, with what is owed, also of a drive that is to stand where it
+  // holds.
+  const DriveVector wanted_mps(0.01, 0.0, 0.0, 0.0);
+  servo.repay_m.setZero();
+  const DriveVector moved = corrected_velocity(profile, wanted_mps, servo, 1.0, 1.0, false);
+  assert_near(moved[0], 0.014, 1e-12);
+  assert_true(corrected_velocity(profile, DriveVector::Zero(), servo, 1.0, 1.0).isZero(0.0));
+  const DriveVector held = corrected_velocity(profile, DriveVector::Zero(), servo, 1.0, 1.0, true);
+  assert_near(held[0], 0.004, 1e-12);
+  assert_near(held[1], -0.004, 1e-12);
+}
+
+/// The 12 t machine's swing: closed where it owes and does not hold, corrected where it does.
+void a_swing_that_holds_is_corrected(void**) {
+  ExcavatorProfile profile = test::excavator_12t().profile;
+  profile.control.swing_servo_gain_ps = 1.5;
+  ServoState servo = servo_at_rest({0.4, 0.5, 0.3, 0.0});
+  servo.repay_m[kSwing] = 0.01;
+  const DriveVector boom_only(0.01, 0.0, 0.0, 0.0);
+  const DriveVector closed = corrected_velocity(profile, boom_only, servo, 1.0, 1.0, false);
+  assert_near(closed[kSwing], 0.0, 0.0);
+  const DriveVector holds = corrected_velocity(profile, boom_only, servo, 1.0, 1.0, true);
+  assert_near(holds[kSwing], 0.015, 1e-12);
+}
+
 /// A step of load: two thirds after the time constant, all in the end; at once when it starts.
 void the_load_is_low_passed(void**) {
-  const LoadState low = {{1e6, 2e6, 3e6}, {4e6, 5e6, 6e6}};
-  const LoadState high = {{2e6, 4e6, 6e6}, {8e6, 10e6, 12e6}};
+  const LoadState low = {{1e6, 2e6, 3e6, 4e6}, {4e6, 5e6, 6e6, 7e6}};
+  const LoadState high = {{2e6, 4e6, 6e6, 8e6}, {8e6, 10e6, 12e6, 14e6}};
   LoadState load = next_load(0.1, {}, low, kPeriod_s, true);
   assert_near(load.rod_pa[kBucket], 6e6, 0.0);
   for (int n = 0; n < 10; ++n) {
     load = next_load(0.1, load, high, kPeriod_s, false);
   }
-  for (unsigned i = 0; i < kAxisCount; ++i) {
+  for (unsigned i = 0; i < kDriveCount; ++i) {
     assert_near(load.cap_pa[i], low.cap_pa[i] * (2.0 - std::exp(-1.0)), 1e-6);
     assert_near(load.rod_pa[i], low.rod_pa[i] * (2.0 - std::exp(-1.0)), 1e-6);
   }
@@ -306,6 +385,9 @@ int main() {
       cmocka_unit_test(a_prediction_stays_within_the_strokes),
       cmocka_unit_test(what_shakes_is_asked_for_a_quarter_of_a_period_later),
       cmocka_unit_test(what_stays_owed_is_asked_for_whole),
+      cmocka_unit_test(on_a_plan_it_owes_what_the_plan_says),
+      cmocka_unit_test(a_lasting_lag_is_learnt),
+      cmocka_unit_test(a_swing_that_holds_is_corrected),
       cmocka_unit_test(the_load_is_low_passed),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

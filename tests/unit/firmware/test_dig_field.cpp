@@ -102,7 +102,7 @@ void every_pose_leads_to_the_path(void**) {
   std::mt19937 random(7);
   constexpr double kPeriod_s = 0.02;
   for (int start = 0; start < 200; ++start) {
-    Eigen::Vector3d strokes;
+    DriveVector strokes = DriveVector::Zero();
     for (int axis = 0; axis < kAxisCount; ++axis) {
       const double most = profile().geometry.cylinder[static_cast<unsigned>(axis)].stroke_m;
       strokes[axis] = std::uniform_real_distribution<double>(0.0, most)(random);
@@ -113,9 +113,10 @@ void every_pose_leads_to_the_path(void**) {
     double error_m = 0.0;
     double last_on_path_s = 0.0;
     for (double t = 0.0; t < 60.0; t += kPeriod_s) {
-      const KinematicState state = machine().state(strokes);
+      const KinematicState state = machine().state(strokes.head<kAxisCount>());
       assert_int_equal(state.status, ReachStatus::kOk);
-      const Eigen::Vector3d wanted = field().wanted(state, 1.0);
+      DriveVector wanted = DriveVector::Zero();
+      wanted.head<kAxisCount>() = field().wanted(state, 1.0);
       assert_true(wanted.allFinite());
       const VelocityCap cap = stroke_end_cap(profile(), strokes, wanted);
       strokes += kPeriod_s * cap.factor * wanted;
@@ -161,14 +162,14 @@ void a_path_out_of_reach_is_told(void**) {
 void a_cylinder_near_its_end_slows_all_axes_alike(void**) {
   const double most = profile().geometry.cylinder[kBoom].stroke_m;
   const double gain = profile().control.stroke_end_gain_ps;
-  const Eigen::Vector3d velocity(0.3, -0.1, 0.1);
-  const VelocityCap near_end = stroke_end_cap(profile(), {most - 0.01, 0.7, 0.5}, velocity);
+  const DriveVector velocity(0.3, -0.1, 0.1, 0.0);
+  const VelocityCap near_end = stroke_end_cap(profile(), {most - 0.01, 0.7, 0.5, 0.0}, velocity);
   assert_near(near_end.factor, gain * 0.01 / 0.3, 1e-12);
   assert_int_equal(near_end.limit.kind, LimitKind::kStrokeEnd);
   assert_int_equal(near_end.limit.index, kBoom);
-  const VelocityCap away = stroke_end_cap(profile(), {most - 0.01, 0.7, 0.5}, -velocity);
+  const VelocityCap away = stroke_end_cap(profile(), {most - 0.01, 0.7, 0.5, 0.0}, -velocity);
   assert_near(away.factor, 1.0, 0.0);
-  const VelocityCap closing = stroke_end_cap(profile(), {0.5, 0.0, 0.5}, velocity);
+  const VelocityCap closing = stroke_end_cap(profile(), {0.5, 0.0, 0.5, 0.0}, velocity);
   assert_near(closing.factor, 0.0, 0.0);
   assert_int_equal(closing.limit.index, kArm);
 }

@@ -57,6 +57,8 @@ const Promise kPromises[] = {
     {22, Fault::kUncommandedMotion, 'N', 7, ArmBlock::kImplausible, kCutsPilot},
     {26, Fault::kSwashDisagrees, 'D', 7, ArmBlock::kSwash},
     {28, Fault::kValveNotFollowing, 'N', 7, ArmBlock::kSpool, kCutsPilot},
+    // The operator asks for what is not there: FMI 31, condition exists.
+    {37, Fault::kTaskUnknown, 'N', 31, ArmBlock::kOperator},
     // The dozer's own.
     {31, Fault::kPoseMissing, 'N', 9, ArmBlock::kPose},
     {32, Fault::kPoseImplausible, 'N', 2, ArmBlock::kPose},

@@ -129,7 +129,7 @@ void what_is_no_number_is_refused(void**) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {nan, infinity, -infinity}) {
     for (unsigned i = 0; i < kAxisCount; ++i) {
-      std::array<double, kAxisCount> spool = {travel(), travel(), travel()};
+      std::array<double, kDriveCount> spool = {travel(), travel(), travel(), 0.0};
       spool[i] = bad;
       const GateResult result = gate(profile(), {}, true, spool, 0.01);
       assert_false(result.enable);
@@ -148,14 +148,14 @@ void what_is_no_number_is_refused(void**) {
 /// Whichever bit of whichever stored opening: refused in this cycle, and nothing of it is kept.
 void a_flipped_bit_is_refused(void**) {
   for (unsigned i = 0; i < kAxisCount; ++i) {
-    for (std::size_t bit = 0; bit < 8 * sizeof(GateState) / kAxisCount; ++bit) {
+    for (std::size_t bit = 0; bit < 8 * sizeof(GateState) / kDriveCount; ++bit) {
       GateState open;
       open.opening = {Guarded(0.5), Guarded(-0.5), Guarded(0.25)};
       test::flip_bit(open.opening[i], bit);
       const GateResult result = gate(profile(), open, true, {travel(), travel(), travel()}, 0.01);
       assert_false(result.enable);
       assert_int_equal(result.fault, Fault::kMemoryCorrupt);
-      for (unsigned k = 0; k < kAxisCount; ++k) {
+      for (unsigned k = 0; k < kDriveCount; ++k) {
         assert_near(result.duty_ratio[k], 0.0, 0.0);
         assert_true(result.state.opening[k].intact());
         assert_near(result.state.opening[k].value(), 0.0, 0.0);

@@ -25,10 +25,10 @@ struct Cylinder {
 
   FaultSet step(double period_s = kPeriod_s) {
     ValidInputs valid;
-    valid.strokes_m = {kRest_m, kRest_m, kRest_m};
+    valid.strokes_m = {kRest_m, kRest_m, kRest_m, 0.0};
     valid.strokes_m[axis] = stroke_m;
     valid.spool_ratio[axis] = spool;
-    Eigen::Vector3d asked = Eigen::Vector3d::Zero();
+    DriveVector asked = DriveVector::Zero();
     asked[axis] = asked_mps;
     const MotionWatchResult result =
         watch_motion(test::plain_machine(), state, valid, asked, period_s);

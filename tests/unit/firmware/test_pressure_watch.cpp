@@ -20,7 +20,7 @@ struct Chamber {
   PressureWatchState state;
   int cycle = 0;
 
-  std::array<bool, kAxisCount> step(double period_s = kPeriod_s) {
+  std::array<bool, kDriveCount> step(double period_s = kPeriod_s) {
     ValidInputs valid;
     const double alive_pa = 6e6 + 1e3 * (++cycle % 7);
     for (unsigned i = 0; i < kAxisCount; ++i) {
@@ -35,7 +35,7 @@ struct Chamber {
     return result.wrong;
   }
   bool wrong(double period_s = kPeriod_s) {
-    const std::array<bool, kAxisCount> all = step(period_s);
+    const std::array<bool, kDriveCount> all = step(period_s);
     for (unsigned i = 0; i < kAxisCount; ++i) {
       assert_true(i == axis || !all[i]);
     }

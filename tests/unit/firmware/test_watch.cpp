@@ -25,7 +25,7 @@ struct Machine {
     inputs.enable = inputs.automatic = inputs.valve_enabled = true;
     inputs.task = Task::kDig;
     inputs.speed_override_ratio = 0.5;
-    inputs.strokes_m = {0.5, 0.5, 0.5};
+    inputs.strokes_m = {0.5, 0.5, 0.5, 0.0};
     inputs.load_known = {true, true, true};
     inputs.swash_ratio = profile.dig_swash_ratio;
     inputs.engine_radps = 200.0;
@@ -53,8 +53,8 @@ void assert_well(const ValidInputs& inputs) {
   assert_true(inputs.faults.empty());
   assert_true(inputs.degraded.empty());
   assert_near(inputs.speed_override_ratio, 0.5, 0.0);
-  for (const bool known : inputs.load_known) {
-    assert_true(known);
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    assert_true(inputs.load_known[i]);
   }
 }
 
@@ -152,10 +152,10 @@ void a_stopped_machine_is_not_judged(void**) {
   machine.run(20);
   machine.inputs.fault = Fault::kStrokeMissing;
   machine.inputs.faults.add(Fault::kStrokeMissing);
-  machine.inputs.strokes_m = {0.0, 0.0, 0.0};
+  machine.inputs.strokes_m = {0.0, 0.0, 0.0, 0.0};
   machine.run(20);
   assert_int_equal(machine.seen.inputs.faults.bits(), 1U << 1U);
-  assert_near(machine.state.motion.axis[0].since_s, 0.0, 0.0);
+  assert_near(machine.state.motion.drive[0].since_s, 0.0, 0.0);
 }
 
 /// A machine whose operator has let go of it while its spools were open.
@@ -218,7 +218,7 @@ void not_in_motion_the_machine_is_the_operators(void**) {
   machine.inputs.swash_ratio = {1.0, 0.0};
   for (int n = 0; n < 100; ++n) {
     machine.inputs.spool_ratio = {1.0, -1.0, 0.75};
-    machine.inputs.strokes_m = {0.01 * n, 0.5 - 0.01 * n, 0.0};
+    machine.inputs.strokes_m = {0.01 * n, 0.5 - 0.01 * n, 0.0, 0.0};
     const ValidInputs& inputs = machine.step();
     assert_int_equal(inputs.fault, Fault::kNone);
     assert_true(inputs.faults.empty());
@@ -236,11 +236,11 @@ void every_motion_begins_afresh(void**) {
   machine.inputs.swash_ratio[0] = 0.0;
   machine.run(7);
   assert_true(machine.state.swash[0] > 0.0);
-  assert_true(machine.state.motion.axis[0].since_s > 0.0);
+  assert_true(machine.state.motion.drive[0].since_s > 0.0);
   machine.cycle.moving = false;
   machine.step();
   assert_near(machine.state.swash[0], 0.0, 0.0);
-  assert_near(machine.state.motion.axis[0].since_s, 0.0, 0.0);
+  assert_near(machine.state.motion.drive[0].since_s, 0.0, 0.0);
   assert_near(machine.state.pressure.sensor[0][0].last_pa, 0.0, 0.0);
   machine.cycle.moving = true;
   machine.run(8);

@@ -27,9 +27,15 @@ CanFrame frame_of(const Message& message, std::uint8_t counter) {
 template <class... Messages>
 struct List {};
 
+// A receiver or transmitter of a machine with every part that its bus knows of.
+template <class End>
+struct WithAllParts : End {
+  WithAllParts() : End(BusParts{true}) {}
+};
+
 // `Other` are messages that a sender could send under the id of Stroke.
 struct ExcavatorBus {
-  using Receiver = ExcavatorReceiver;
+  using Receiver = WithAllParts<ExcavatorReceiver>;
   using Stroke = dbc::excavator::BoomStroke;
   using SpoolCommand = dbc::excavator::SpoolCommand;
   using OperatorCommand = dbc::excavator::OperatorCommand;
@@ -37,7 +43,8 @@ struct ExcavatorBus {
       List<dbc::excavator::BoomStroke, dbc::excavator::ArmStroke, dbc::excavator::BucketStroke,
            dbc::excavator::BoomPressure, dbc::excavator::ArmPressure,
            dbc::excavator::BucketPressure, dbc::excavator::PumpState,
-           dbc::excavator::OperatorCommand, dbc::excavator::ValveState>;
+           dbc::excavator::OperatorCommand, dbc::excavator::ValveState, dbc::excavator::SwingState,
+           dbc::excavator::SwingValveState>;
   using Unprotected = List<dbc::excavator::EEC1, dbc::excavator::MachineIdentity>;
   using Other = List<dbc::excavator::ArmStroke, dbc::excavator::ValveState,
                      dbc::excavator::SpoolCommand, dbc::excavator::PumpCommand>;
@@ -56,6 +63,11 @@ struct DozerBus {
   using Other = List<dbc::dozer::BodyPitch, dbc::dozer::ValveState, dbc::dozer::SpoolCommand,
                      dbc::dozer::MotorDisplacementCommand>;
 };
+
+template <class... Messages>
+constexpr int count_of(List<Messages...>) {
+  return static_cast<int>(sizeof...(Messages));
+}
 
 template <class Test, class... Messages>
 void for_each(List<Messages...>, Test test) {

@@ -17,13 +17,16 @@ void see(Seen& seen, const Signals&... signals) {
 }
 
 inline void see_driver(Seen& seen, const OperatorInputs& driver) {
-  see(seen, driver.enable, driver.mode, driver.task, driver.speed_override_ratio);
+  see(seen, driver.enable, driver.mode, driver.task, driver.speed_override_ratio,
+      driver.task_number);
 }
 
 inline Seen seen_in(const ExcavatorInputs& in) {
   Seen seen;
   see(seen, in.engine_speed_radps, in.swash_ratio[0], in.swash_ratio[1], in.valve_enabled);
   see_driver(seen, in.driver);
+  see(seen, in.swing.angle_rad, in.swing.left_pressure_pa, in.swing.right_pressure_pa,
+      in.swing.spool_ratio);
   for (const AxisInputs& axis : in.axis) {
     see(seen, axis.stroke_m, axis.cap_pressure_pa, axis.rod_pressure_pa, axis.spool_ratio);
   }

@@ -56,6 +56,36 @@ void pumps_engine_and_valve(void**) {
   assert_signal(in.valve_enabled, 1.0, valve_us);
 }
 
+void swing(void**) {
+  Feed<WithAllParts<ExcavatorReceiver>> feed;
+  const TimeUs motor_us = feed.send(bus::SwingState{
+      {-1.25, RawState::kValid}, {11e6, RawState::kValid}, {12e6, RawState::kValid}});
+  const TimeUs valve_us = feed.send(bus::SwingValveState{{-0.75, RawState::kValid}});
+  const SwingInputs& in = feed.receiver.inputs().swing;
+  assert_signal(in.angle_rad, -1.25, motor_us);
+  assert_signal(in.left_pressure_pa, 11e6, motor_us);
+  assert_signal(in.right_pressure_pa, 12e6, motor_us);
+  assert_signal(in.spool_ratio, -0.75, valve_us);
+  assert_int_equal(feed.receiver.foreign(), 0);
+}
+
+// Without a swing drive its frames, good or bad, are nobody's.
+void another_machines_swing_is_foreign(void**) {
+  ExcavatorFeed feed;
+  CanFrame corrupt = frame_of(filled<bus::SwingState>(1000), 1);
+  corrupt.data[3] ^= 1U;
+  for (int n = 0; n < 10; ++n) {
+    feed.receiver.accept(frame_of(filled<bus::SwingValveState>(1000), 0), ++feed.start_us);
+    feed.receiver.accept(corrupt, ++feed.start_us);
+  }
+  assert_int_equal(feed.receiver.foreign(), 20);
+  assert_int_equal(rejected(feed.receiver.total()), 0);
+  assert_true(feed.receiver.message_faults(feed.start_us).empty());
+  const SwingInputs& in = feed.receiver.inputs().swing;
+  assert_int_equal(in.angle_rad.validity, Validity::kNotReceived);
+  assert_int_equal(in.spool_ratio.validity, Validity::kNotReceived);
+}
+
 void operator_and_identity(void**) {
   ExcavatorFeed feed;
   bus::OperatorCommand command;
@@ -63,6 +93,7 @@ void operator_and_identity(void**) {
   command.operator_mode.value = bus::OperatorCommand::OperatorMode::kAutomatic;
   command.task.value = bus::OperatorCommand::Task::kDig;
   command.speed_override_ratio.value = 0.5;
+  command.task_number.value = 7;
   const TimeUs driver_us = feed.send(command);
   const TimeUs identity_us =
       feed.send(bus::MachineIdentity{{0xDEADBEEFU, RawState::kValid}, {7U, RawState::kValid}});
@@ -71,6 +102,7 @@ void operator_and_identity(void**) {
   assert_signal(driver.mode, 1.0, driver_us);
   assert_signal(driver.task, 1.0, driver_us);
   assert_signal(driver.speed_override_ratio, 0.5, driver_us);
+  assert_signal(driver.task_number, 7.0, driver_us);
   assert_signal(feed.receiver.identity().profile_hash, 3735928559.0, identity_us);
   assert_signal(feed.receiver.identity().dbc_version, 7.0, identity_us);
 }
@@ -100,7 +132,7 @@ void another_kinds_task_is_out_of_range(void**) {
   ExcavatorReceiver receiver;
   const TimeUs now = synchronise<bus::OperatorCommand>(receiver);
   receiver.accept(frame_with<bus::OperatorCommand>(bus::OperatorCommand::kTask, 2, 3), now);
-  assert_int_equal(receiver.inputs().driver.task.value, Task::kDig);
+  assert_int_equal(receiver.inputs().driver.task.value, Task::kProgram);
   assert_int_equal(receiver.link(bus::OperatorCommand::kId).out_of_range, 1);
 }
 
@@ -110,6 +142,8 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(strokes_and_pressures),
       cmocka_unit_test(pumps_engine_and_valve),
+      cmocka_unit_test(swing),
+      cmocka_unit_test(another_machines_swing_is_foreign),
       cmocka_unit_test(operator_and_identity),
       cmocka_unit_test(one_signal_is_lost_the_other_stays),
       cmocka_unit_test(another_kinds_task_is_out_of_range),

@@ -11,6 +11,11 @@ namespace bus = dbc::excavator;
 using dbc::RawState;
 using ExcavatorSender = Sender<ExcavatorTransmitter>;
 
+struct SwingTransmitter : ExcavatorTransmitter {
+  SwingTransmitter() : ExcavatorTransmitter(BusParts{true}) {}
+};
+using SwingSender = Sender<SwingTransmitter>;
+
 void periods(void**) {
   for (const TimeUs jitter_us : {0, 4000}) {
     const auto tally = sent_in_10_s<ExcavatorTransmitter, bus::SpoolCommand, bus::PumpCommand,
@@ -22,9 +27,30 @@ void periods(void**) {
   }
 }
 
+// Beside the rest, which stays as it is; without a swing drive nothing of it.
+void periods_of_the_swings_frames(void**) {
+  const auto tally =
+      sent_in_10_s<SwingTransmitter, bus::SpoolCommand, bus::SwingCommand, bus::PumpCommand,
+                   bus::EcuMotion, bus::TaskStatus, bus::EcuIdentity>(0);
+  const std::array<int, 6> expected = {1000, 1000, 500, 500, 500, 10};
+  assert_true(std::equal(expected.begin(), expected.end(), tally.begin()));
+  assert_in_range(tally.back(), 5, 6);
+  const auto without = sent_in_10_s<ExcavatorTransmitter, bus::SwingCommand, bus::TaskStatus>(0);
+  assert_int_equal(without[0] + without[1], 0);
+  // Right behind the other spools, and TaskStatus when PumpCommand is not.
+  SwingSender sender;
+  sender.call(kStartUs);
+  assert_int_equal(sender.out[1].id, bus::SwingCommand::kId);
+  assert_null(sender.find<bus::TaskStatus>());
+  sender.call(kStartUs + kPeriodUs);
+  assert_non_null(sender.find<bus::TaskStatus>());
+  assert_null(sender.find<bus::PumpCommand>());
+}
+
 void protection(void**) {
   check_protection<ExcavatorTransmitter, bus::SpoolCommand>();
   check_protection<ExcavatorTransmitter, bus::PumpCommand>();
+  check_protection<SwingTransmitter, bus::SwingCommand>();
 }
 
 void pilot_cut(void**) { check_pilot_cut<ExcavatorTransmitter, bus::SpoolCommand>(); }
@@ -76,6 +102,63 @@ void a_duty_that_is_not_finite_stops_all(void**) {
       assert_neutral(sender);
     }
   }
+}
+
+void assert_swing(const SwingSender& sender, bool on, double duty) {
+  const auto swing = sender.sent<bus::SwingCommand>();
+  assert_int_equal(swing.enable.state, RawState::kValid);
+  assert_int_equal(swing.enable.value == bus::SwingCommand::Enable::kOn, on);
+  assert_int_equal(sender.sent<bus::SpoolCommand>().enable.value == bus::SpoolCommand::Enable::kOn,
+                   on);
+  assert_int_equal(swing.swing_duty_ratio.state, RawState::kValid);
+  assert_near(swing.swing_duty_ratio.value, duty, 1e-12);
+}
+
+void swing_duty(void**) {
+  SwingSender sender;
+  sender.call(kStartUs);
+  assert_swing(sender, false, 0.0);
+  sender.outputs.enable = true;
+  sender.outputs.duty_ratio = {0.25, -0.5, 0.75, -0.375};
+  sender.call(kStartUs + kPeriodUs);
+  assert_swing(sender, true, -0.375);
+  sender.outputs.duty_ratio[3] = -7.0;
+  sender.call(kStartUs + 2 * kPeriodUs);
+  assert_swing(sender, true, -1.0);
+  sender.outputs.enable = false;
+  sender.call(kStartUs + 3 * kPeriodUs);
+  assert_swing(sender, false, 0.0);
+  // One that is not finite stops all spools together.
+  for (std::size_t drive = 0; drive < 4; ++drive) {
+    sender.outputs.enable = true;
+    sender.outputs.duty_ratio = {0.5, 0.5, 0.5, 0.5};
+    sender.outputs.duty_ratio[drive] = kNan;
+    sender.call(kStartUs + static_cast<TimeUs>(4 + drive) * kPeriodUs);
+    assert_swing(sender, false, 0.0);
+    assert_near(sender.sent<bus::SpoolCommand>().boom_duty_ratio.value, 0.0, 0.0);
+  }
+}
+
+void task_status(void**) {
+  SwingSender sender;
+  ExcavatorStatus& out = sender.outputs.status;
+  out.swing_wanted_radps = -0.5;
+  out.progress = {false, 3, 2, StepKind::kDump, 0.25};
+  sender.call(kStartUs);
+  sender.call(kStartUs + kPeriodUs);
+  auto sent = sender.sent<bus::TaskStatus>();
+  assert_int_equal(sent.task_number.state, RawState::kNotAvailable);
+  assert_int_equal(sent.step_kind.value, bus::TaskStatus::StepKind::kNone);
+  assert_near(sent.swing_wanted_velocity_radps.value, -0.5, 1e-12);
+  out.progress.runs = true;
+  sender.call(kStartUs + 2 * kPeriodUs);
+  sender.call(kStartUs + 3 * kPeriodUs);
+  sent = sender.sent<bus::TaskStatus>();
+  assert_int_equal(sent.task_number.state, RawState::kValid);
+  assert_int_equal(sent.task_number.value, 3);
+  assert_int_equal(sent.step.value, 2);
+  assert_int_equal(sent.step_kind.value, bus::TaskStatus::StepKind::kDump);
+  assert_near(sent.progress.value, 0.25, 1e-12);
 }
 
 // A value or, for NaN, 'not available'.
@@ -134,13 +217,11 @@ void motion_and_hydraulics(void**) {
 
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(periods),
-      cmocka_unit_test(protection),
-      cmocka_unit_test(pilot_cut),
-      cmocka_unit_test(duty),
-      cmocka_unit_test(a_duty_that_is_not_finite_stops_all),
-      cmocka_unit_test(swash),
-      cmocka_unit_test(motion_and_hydraulics),
+      cmocka_unit_test(periods),    cmocka_unit_test(periods_of_the_swings_frames),
+      cmocka_unit_test(protection), cmocka_unit_test(pilot_cut),
+      cmocka_unit_test(duty),       cmocka_unit_test(a_duty_that_is_not_finite_stops_all),
+      cmocka_unit_test(swing_duty), cmocka_unit_test(task_status),
+      cmocka_unit_test(swash),      cmocka_unit_test(motion_and_hydraulics),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -25,7 +25,8 @@ const ExcavatorMachine& nominal() {
 /// Every parameter that a draw may change, in a fixed order.
 std::vector<double> parameters(const ExcavatorProfile& profile) {
   std::vector<double> values;
-  for (const SpoolProfile& spool : profile.valve.spool) {
+  for (unsigned i = 0; i < static_cast<unsigned>(profile.drive_count); ++i) {
+    const SpoolProfile& spool = profile.valve.spool[i];
     values.insert(values.end(), {spool.extend_in_m2, spool.extend_out_m2, spool.retract_in_m2,
                                  spool.retract_out_m2, spool.bypass_open, spool.bypass_closed,
                                  spool.c_drain, spool.c_check});
@@ -112,6 +113,25 @@ void what_is_switched_on_beside_it_changes_no_draw(void**) {
   assert_true(of(busy) != of(with_errors(Errors::kAll, 10)));
 }
 
+/// The swing's section is drawn where there is one, after the others; where there is none it takes
+/// no draw from what comes after it.
+void swing_is_drawn_where_it_is_driven(void**) {
+  const ExcavatorMachine driven = machines::load_excavator(machines::find_profile("excavator_12t"));
+  ExcavatorMachine held = driven;
+  held.profile.drive_count = kAxisCount;
+  const Scenario scenario = with_errors(Errors::kAll, 4);
+  const ExcavatorProfile of_driven = arranged(driven, scenario).profile;
+  const ExcavatorProfile of_held = arranged(held, scenario).profile;
+  const SpoolProfile& exact = driven.profile.valve.spool[kSwing];
+  assert_true(of_driven.valve.spool[kSwing].extend_in_m2 != exact.extend_in_m2);
+  assert_near(of_driven.valve.spool[kSwing].bypass_closed, exact.bypass_closed,
+              driven.experiment.uncertainty.bypass * exact.bypass_closed);
+  assert_near(of_held.valve.spool[kSwing].extend_in_m2, exact.extend_in_m2, 0.0);
+  assert_near(of_held.valve.spool[kBucket].bypass_open, of_driven.valve.spool[kBucket].bypass_open,
+              0.0);
+  assert_true(of_held.pump[0].leak_linear != of_driven.pump[0].leak_linear);
+}
+
 void each_switch_does_its_part(void**) {
   const ExcavatorMachine plain = arranged(nominal(), {});
   assert_false(plain.plant.soil.has_value() || plain.plant.obstacle.has_value());
@@ -169,6 +189,7 @@ int main() {
       cmocka_unit_test(draws_fill_their_ranges),
       cmocka_unit_test(only_the_controller_errs),
       cmocka_unit_test(what_is_switched_on_beside_it_changes_no_draw),
+      cmocka_unit_test(swing_is_drawn_where_it_is_driven),
       cmocka_unit_test(each_switch_does_its_part),
       cmocka_unit_test(a_payload_adds_to_the_bucket),
   };

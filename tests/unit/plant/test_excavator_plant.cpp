@@ -18,12 +18,13 @@ using namespace graben;
 using namespace graben::plant;
 
 using AxisArray = ExcavatorPlant::AxisArray;
+using DriveArray = ExcavatorPlant::DriveArray;
 
 constexpr TimeUs kCycleUs = 10 * kMillisecondUs;
 constexpr AxisArray kStart{0.7, 0.7, 0.6};
 constexpr double kPi = 3.141592653589793;
 
-void run(ExcavatorPlant& plant, const AxisArray& duty, TimeUs duration_us) {
+void run(ExcavatorPlant& plant, const DriveArray& duty, TimeUs duration_us) {
   plant.set_duty(duty, true);
   plant.advance(duration_us);
 }
@@ -133,7 +134,7 @@ void motion_follows_the_flow_balance(void**) {
   for (const Case& c : {Case{kBoom, 0.9, 5.6e-7, 1.0}, Case{kArm, -0.9, 4e-7, 0.0},
                         Case{kBucket, 0.8, 5.6e-7, 1.0}}) {
     ExcavatorPlant plant(profile, {0.4, 1.2, 0.2});
-    AxisArray duty{};
+    DriveArray duty{};
     duty[c.axis] = c.duty;
     run(plant, duty, kSecondUs);
     const double before = plant.strokes_m()[c.axis];
@@ -213,8 +214,8 @@ void full_speed_into_the_end_stops(void**) {
     profile.swash_ratio = {1.0, 1.0};
     ExcavatorPlant plant(profile, kStart);
     Extremes extremes;
-    for (const AxisArray& duty : {AxisArray{1.0, 1.0, 1.0}, AxisArray{-1.0, -1.0, -1.0},
-                                  AxisArray{1.0, 0.0, 0.0}, AxisArray{-1.0, 0.0, 0.0}}) {
+    for (const DriveArray& duty : {DriveArray{1.0, 1.0, 1.0}, DriveArray{-1.0, -1.0, -1.0},
+                                   DriveArray{1.0, 0.0, 0.0}, DriveArray{-1.0, 0.0, 0.0}}) {
       for (int i = 0; i < 2000; ++i) {
         run(plant, duty, kCycleUs);
         watch(plant, extremes);
@@ -236,7 +237,7 @@ void random_duty_for_a_minute(void**) {
     std::mt19937 generator(7);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     Extremes extremes;
-    AxisArray duty{};
+    DriveArray duty{};
     for (int i = 0; i < 6000; ++i) {
       if (i % 7 == 0) {
         duty = {any(generator), any(generator), any(generator)};
@@ -259,7 +260,7 @@ std::vector<AxisArray> spool_steps(PlantProfile profile, TimeUs step_us) {
   std::vector<AxisArray> strokes;
   for (int i = 0; i < 500; ++i) {
     const double t = 0.01 * i;
-    AxisArray duty{};
+    DriveArray duty{};
     duty[kBoom] = t < 0.2 ? 0.0 : t < 1.8 ? 0.5 : t < 2.2 ? 0.0 : t < 3.6 ? -0.45 : 0.3;
     duty[kArm] = t < 0.4 ? 0.0 : t < 2.2 ? 0.6 : t < 3.2 ? -0.6 : t < 4.4 ? 0.3 : 0.0;
     duty[kBucket] = t < 1.0 ? 0.0 : t < 1.8 ? -0.5 : t < 3.2 ? 0.5 : t < 4.0 ? 0.0 : 0.3;
@@ -331,8 +332,8 @@ void one_pump_feeds_all(void**) {
       machines::load_excavator(machines::find_profile("excavator_12t")).plant;
   ExcavatorPlant plant(profile, {0.4, 0.5, 0.4});
   const AxisArray before = plant.strokes_m();
-  for (const AxisArray& duty :
-       {AxisArray{0.6, 0.0, 0.0}, {0.0, 0.6, 0.0}, {0.0, 0.0, 0.6}, {0.5, 0.5, 0.5}}) {
+  for (const DriveArray& duty :
+       {DriveArray{0.6, 0.0, 0.0}, {0.0, 0.6, 0.0}, {0.0, 0.0, 0.6}, {0.5, 0.5, 0.5}}) {
     run(plant, duty, 500 * kMillisecondUs);
     assert_true(plant.pump_pressures_pa()[0] > 1e5);
     assert_near(plant.pump_pressures_pa()[1], 0.0, 0.0);

@@ -102,7 +102,7 @@ Impact run_into_end(const PlantProfile& profile, std::size_t axis, double duty) 
   AxisArray start{0.7, 0.7, 0.6};
   start[axis] = duty > 0.0 ? full - 0.5 : 0.5;
   ExcavatorPlant plant(profile, start);
-  AxisArray wanted{};
+  ExcavatorPlant::DriveArray wanted{};
   wanted[axis] = duty;
   plant.set_duty(wanted, true);
   Impact impact;

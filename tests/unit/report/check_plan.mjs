@@ -6,7 +6,8 @@ import {join} from 'node:path';
 import test from 'node:test';
 
 const folder = process.argv[2];
-const files = ['report_checks.js', 'report_parts.js', 'report_plan.js'];
+const files = ['report_checks.js', 'report_parts.js', 'report_svg.js', 'report_drives.js',
+  'report_space.js', 'report_plan.js'];
 const plan = new Function(`${
   files.map((file) => readFileSync(join(folder, file), 'utf8')).join('\n')}
   return reportPlan;`)();
@@ -46,7 +47,21 @@ test('a plan is complete, in the page\'s units, in the order of the paper\'s fig
       ['boom', 'arm', 'bucket']);
   assert.deepEqual(lines(report, 'cylinder-velocity').map((line) => line.values[1]),
       [100, 1100, 2100]);
+  assert.deepEqual(lines(report, 'cylinder-velocity').map((line) => [line.colour, line.wide]),
+      [['boom', undefined], ['arm', undefined], ['bucket', undefined]]);
   assert.deepEqual(lines(report, 'swing-acceleration')[0].values[1], 3.2 * (180 / Math.PI));
+});
+
+test('the planned teeth are seen in space, and cost only themselves where they are missing', () => {
+  const {value, problems} = plan.prepare(good()).space;
+  assert.deepEqual(problems, []);
+  assert.equal(value.real, null);
+  assert.deepEqual(value.main, [[0, 6, 0], [1, 5, 0], [2, 4, 0.1]]);
+  const report = changed((data) => delete data.series.teeth_m);
+  assert.match(report.space.problem, /“series.teeth_m” is missing/);
+  assert.deepEqual(report.problems, [report.space.problem], 'told once, of picture and plot');
+  const unknown = changed((data) => data.series.teeth_m[2].fill(null));
+  assert.deepEqual(unknown.problems, ['“series.teeth_m” has no point that is known.']);
 });
 
 test('what is missing or malformed is told once, and the rest stays', () => {

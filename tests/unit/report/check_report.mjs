@@ -7,10 +7,11 @@ import test from 'node:test';
 
 const folder = process.argv[2];
 // As in the page: one script after the other in one scope.
-const [checks, parts, data, path] = new Function(`${
-  ['report_checks.js', 'report_parts.js', 'report_scene.js', 'report_data.js', 'report_path.js']
-      .map((file) => readFileSync(join(folder, file), 'utf8')).join('\n')}
-  return [reportChecks, reportParts, reportData, reportPath];`)();
+const files = ['report_checks.js', 'report_parts.js', 'report_svg.js', 'report_drives.js',
+  'report_scene.js', 'report_data.js', 'report_path.js'];
+const [checks, parts, svg, data, path] = new Function(`${
+  files.map((file) => readFileSync(join(folder, file), 'utf8')).join('\n')}
+  return [reportChecks, reportParts, reportSvg, reportData, reportPath];`)();
 
 /// As written before forces, tip velocity and obstacle were recorded.
 function good() {
@@ -169,7 +170,7 @@ test('a run that never moves can still be drawn', () => {
 test('labels keep off the lines where they can, and stay where they cannot', () => {
   const frame = {left: 0, right: 400, top: 0, bottom: 400};
   const [centre, mark] = [{x: 200, y: 200}, {x: 300, y: 200, width: 60}];
-  const place = (lines) => path.placeLabels([mark], centre, frame, [], lines)[0];
+  const place = (lines) => svg.placeLabels([mark], centre, frame, [], lines)[0];
   assert.ok(place([]).x - 30 > 300, 'outwards');
   const clear = place([[340, 200]]);
   assert.ok(Math.abs(clear.x - 340) > 30 || Math.abs(clear.y - 200) > 9);
@@ -181,7 +182,7 @@ test('labels never overlap, whatever the number of marks', () => {
   const marks = Array.from({length: 120}, (_, i) => (
     {x: 300 + 150 * Math.cos(i / 9), y: 300 + 150 * Math.sin(i / 9)}));
   const frame = {left: 60, right: 600, top: 10, bottom: 600};
-  const places = path.placeLabels(marks, {x: 300, y: 300}, frame, []).filter(Boolean);
+  const places = svg.placeLabels(marks, {x: 300, y: 300}, frame, []).filter(Boolean);
   assert.ok(places.length > 10);
   places.forEach((a, i) => places.slice(0, i).forEach((b) => assert.ok(
       Math.abs(a.x - b.x) >= a.w || Math.abs(a.y - b.y) >= a.h)));
@@ -189,13 +190,13 @@ test('labels never overlap, whatever the number of marks', () => {
 
 test('thinning keeps both ends', () => {
   const line = Array.from({length: 30000}, (_, i) => [i * 0.01, 0]);
-  const kept = path.thin(line, 0.5);
+  const kept = svg.thin(line, 0.5);
   assert.ok(kept.length < 700);
   assert.deepEqual([kept[0], kept[kept.length - 1]], [line[0], line[29999]]);
 });
 
 test('ticks are round and inside', () => {
-  assert.deepEqual(path.ticks(-2.9, 0.4, 7).map((t) => t.text),
+  assert.deepEqual(svg.ticks(-2.9, 0.4, 7).map((t) => t.text),
       ['−2.5', '−2.0', '−1.5', '−1.0', '−0.5', '0.0']);
 });
 

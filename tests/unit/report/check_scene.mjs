@@ -19,8 +19,8 @@ const document = {
 };
 const getComputedStyle = () => ({getPropertyValue: (name) => ` ${name}`});
 const uPlot = {rangeNum: (min, max) => [min, max]};
-const files = ['report_checks.js', 'report_parts.js', 'report_scene.js', 'report_data.js', 'report_path.js',
-  'report_chart.js'];
+const files = ['report_checks.js', 'report_parts.js', 'report_svg.js', 'report_drives.js',
+  'report_scene.js', 'report_data.js', 'report_path.js', 'report_chart.js'];
 const [data, path, chart] = new Function('document', 'getComputedStyle', 'uPlot', `${
   files.map((file) => readFileSync(join(folder, file), 'utf8')).join('\n')}
   return [reportData, reportPath, reportChart];`)(document, getComputedStyle, uPlot);

@@ -1,0 +1,171 @@
+#include "app/machines/task_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/machines/profile_document.hpp"
+#include "app/machines/task_words.hpp"
+#include "app/machines/teeth_pose_key.hpp"
+
+namespace graben::machines {
+namespace {
+
+constexpr Range kPlace{-30.0, 30.0, "m"};
+/// A drive move without a pace of its own leaves half of the limits to the others on the pump.
+constexpr double kUsualPace = 0.5;
+/// What the teeth may dip below their line while a drive breaks loose or lags, and some more.
+constexpr double kLeastClearance_m = 0.03;
+
+Eigen::Vector3d read_vector(TomlReader& reader, const std::string& key, const Range& range) {
+  const std::vector<double> values = reader.numbers(key, range, 3);
+  return {values[0], values[1], values[2]};
+}
+
+/// A direction of any length but none.
+Eigen::Vector3d read_direction(TomlReader& reader, const std::string& key, std::size_t count) {
+  constexpr double kLeast = 1e-3;
+  std::vector<double> values = reader.numbers(key, {-1e3, 1e3, ""}, count);
+  values.resize(3, 0.0);
+  const Eigen::Vector3d direction(values[0], values[1], values[2]);
+  if (direction.norm() < kLeast) {
+    reader.fail(key, "has no direction");
+    return Eigen::Vector3d::UnitZ();
+  }
+  return direction.normalized();
+}
+
+enum class PathForm { kLine = 0, kDrives = 1 };
+
+bool is_straight(TomlReader& reader, const std::string& at, StepKind kind) {
+  const std::string key = at + ".path";
+  if (!reader.has(key)) {
+    return kind == StepKind::kDig || kind == StepKind::kLift;
+  }
+  return static_cast<PathForm>(reader.choice(key, {"line", "drives"})) == PathForm::kLine;
+}
+
+void read_line_pace(TomlReader& reader, const std::string& at, double usual_mps,
+                    StepRequest& step) {
+  if (reader.has(at + ".duration")) {
+    step.duration_s = reader.number(at + ".duration", {0.1, 600.0, "s"});
+    if (reader.has(at + ".speed")) {
+      static_cast<void>(reader.number(at + ".speed", {0.01, 3.0, "m/s"}));
+      reader.fail(at, "has a speed and a duration; allowed: one of them");
+    }
+    return;
+  }
+  step.speed_mps =
+      reader.has(at + ".speed") ? reader.number(at + ".speed", {0.01, 3.0, "m/s"}) : usual_mps;
+}
+
+void read_drive_pace(TomlReader& reader, const std::string& at, StepRequest& step) {
+  step.pace_ratio =
+      reader.has(at + ".pace") ? reader.number(at + ".pace", {0.01, 1.0, ""}) : kUsualPace;
+  step.duration_s =
+      reader.has(at + ".duration") ? reader.number(at + ".duration", {0.1, 600.0, "s"}) : 0.0;
+}
+
+StepRequest read_step(TomlReader& reader, const std::string& at, const ExcavatorProfile& profile) {
+  constexpr std::array<StepKind, 5> kKinds = {StepKind::kDig, StepKind::kLift, StepKind::kSwing,
+                                              StepKind::kDump, StepKind::kReturnToDig};
+  std::vector<std::string> names;
+  names.reserve(kKinds.size());
+  for (const StepKind kind : kKinds) {
+    names.emplace_back(step_name(kind));
+  }
+  StepRequest step;
+  step.kind = kKinds[static_cast<unsigned>(reader.choice(at + ".do", names))];
+  step.to = read_teeth(reader, at + ".to");
+  step.straight = is_straight(reader, at, step.kind);
+  if (step.straight) {
+    read_line_pace(reader, at, profile.dig_speed_mps, step);
+  } else {
+    read_drive_pace(reader, at, step);
+  }
+  return step;
+}
+
+enum class FenceKind { kCeiling = 0, kFloor = 1, kWall = 2 };
+
+Fence read_fence(TomlReader& reader, const std::string& at) {
+  const auto kind =
+      static_cast<FenceKind>(reader.choice(at + ".kind", {"ceiling", "floor", "wall"}));
+  Fence fence;
+  if (kind == FenceKind::kWall) {
+    const Eigen::Vector2d through_m = reader.point(at + ".through", kPlace);
+    fence.normal = read_direction(reader, at + ".normal", 2);
+    fence.offset_m = fence.normal.head<2>().dot(through_m);
+    return fence;
+  }
+  const double up = kind == FenceKind::kCeiling ? 1.0 : -1.0;
+  fence.normal = up * Eigen::Vector3d::UnitZ();
+  fence.offset_m = up * reader.number(at + ".height", kPlace);
+  return fence;
+}
+
+DesignPlane read_design(TomlReader& reader) {
+  constexpr double kLeastUp = 0.2;
+  DesignPlane design;
+  design.through_m = read_vector(reader, "design.through", kPlace);
+  design.up = read_direction(reader, "design.normal", 3);
+  design.clearance_m = reader.number("design.clearance", {kLeastClearance_m, 1.0, "m"});
+  if (design.up.z() < kLeastUp) {
+    reader.fail("design.normal",
+                fmt::format("must point up; its upward part is {:.3f} of its length; allowed: {} "
+                            ".. 1",
+                            design.up.z(), kLeastUp));
+  }
+  return design;
+}
+
+ProgramRequest read_request(TomlReader& reader, const ExcavatorProfile& profile) {
+  ProgramRequest request;
+  request.start = read_teeth(reader, "start");
+  request.repeats = reader.has("repeat") && reader.boolean("repeat");
+  request.step_count = reader.table_count("step", 1, kStepMost);
+  for (int i = 0; i < request.step_count; ++i) {
+    request.step[static_cast<unsigned>(i)] = read_step(reader, fmt::format("step[{}]", i), profile);
+  }
+  request.has_design = reader.has("design");
+  if (request.has_design) {
+    request.design = read_design(reader);
+  }
+  if (reader.has("fence")) {
+    const int most = request.has_design ? kFenceMost - 1 : kFenceMost;
+    request.fences.count = reader.table_count("fence", 1, most);
+  }
+  for (int i = 0; i < request.fences.count; ++i) {
+    request.fences.fence[static_cast<unsigned>(i)] =
+        read_fence(reader, fmt::format("fence[{}]", i));
+  }
+  return request;
+}
+
+}  // namespace
+
+TaskFile load_task(const std::filesystem::path& file, const ExcavatorProfile& profile) {
+  const ProfileDocument document = read_document(file);
+  TomlReader reader(document.root);
+  TaskFile task;
+  task.name = file.stem().string();
+  task.hash = document.hash;
+  task.request = read_request(reader, profile);
+  reader.refuse_unknown_keys();
+  throw_errors(document, reader);
+  task.result = plan_program(profile, task.request);
+  if (task.result.refusal != ProgramRefusal::kNone) {
+    reader.fail(fmt::format("step[{}]", task.result.step),
+                program_refusal_words(profile, task.request, task.result));
+  }
+  throw_errors(document, reader);
+  return task;
+}
+
+std::filesystem::path find_task(const std::string& name,
+                                const std::vector<std::filesystem::path>& folders) {
+  return find_file("task", name, folders);
+}
+
+}  // namespace graben::machines

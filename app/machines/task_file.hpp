@@ -1,0 +1,33 @@
+#pragma once
+/// Tasks as files: TOML in, checked and planned as a whole for one machine.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/machines/profile_file.hpp"
+#include "firmware/motion/task_program.hpp"
+
+namespace graben::machines {
+
+/// A task as its file describes it, and what became of it on the machine that it was read for.
+struct TaskFile {
+  std::string name;        ///< File name without its ending.
+  std::uint32_t hash = 0;  ///< FNV-1a of the file's bytes.
+  ProgramRequest request;
+  ProgramResult result;  ///< Never a refusal.
+};
+
+/// Reads, checks and plans a task. Throws ProfileError with every error found; a task that can't be
+/// planned on this machine is one, and says which step, what is in the way and where.
+[[nodiscard]] TaskFile load_task(const std::filesystem::path& file,
+                                 const ExcavatorProfile& profile);
+
+/// Finds `name` as a path, or as NAME or NAME.toml in one of the folders, like find_profile.
+[[nodiscard]] std::filesystem::path find_task(const std::string& name,
+                                              const std::vector<std::filesystem::path>& folders);
+/// The same among the tasks of this source tree.
+[[nodiscard]] std::filesystem::path find_task(const std::string& name);
+
+}  // namespace graben::machines

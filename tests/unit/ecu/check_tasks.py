@@ -1,0 +1,54 @@
+"""What graben-ecu takes as --task, up to the bus, which is not there, the README's example among it:
+check_tasks.py GRABEN_ECU ROOT"""
+
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+NO_BUS = re.compile(r"graben-ecu: (no_can0: .* is the interface there"
+                    r"|socket\(AF_CAN\): .*needs a kernel with CAN).*\n")
+WRONG, FAILED = 2, 1
+
+
+def main() -> int:
+    ecu, root = sys.argv[1:]
+    machines = pathlib.Path(root, "app", "machines")
+    example = re.search(r"^```toml\n(.*?)^```", pathlib.Path(root, "README.md").read_text(), re.S | re.M)[1]
+    excavator, dozer = (machines / name for name in ("excavator_12t.toml", "dozer_9t.toml"))
+    flatten, loading = (machines / "tasks" / name
+                        for name in ("flatten.toml", "truck_loading.toml"))
+    problems = []
+
+    def expect(status, words, profile, *tasks, reaches_bus=False):
+        told = [word for task in tasks for word in ("--task", task)]
+        done = subprocess.run([ecu, "--can", "no_can0", "--profile", profile, *told, "--no-realtime"],
+                              capture_output=True, text=True, timeout=60, check=False)
+        if done.returncode != status or done.stdout or not all(word in done.stderr for word in words):
+            problems.append(f"{told}: status {done.returncode}, expected {status} and {words}:\n{done.stderr}")
+        if (NO_BUS.fullmatch(done.stderr) is not None) != reaches_bus:
+            problems.append(f"{told}: bus and task in the wrong order:\n{done.stderr}")
+
+    with tempfile.TemporaryDirectory() as folder:
+        wrong, far = pathlib.Path(folder, "wrong.toml"), pathlib.Path(folder, "far.toml")
+        wrong.write_text(flatten.read_text().replace("duration = 18.4", "duration = -1\nsurplus = 2"))
+        far.write_text(flatten.read_text().replace("2.244, 3.886", "9.0, 9.0"))
+        shown = pathlib.Path(folder, "shown.toml")
+        shown.write_text(example)
+        expect(FAILED, [], excavator, shown, reaches_bus=True)
+        expect(FAILED, [], excavator, reaches_bus=True)
+        expect(FAILED, [], excavator, flatten, reaches_bus=True)
+        expect(FAILED, [], excavator, *[flatten, loading] * 2, reaches_bus=True)
+        expect(WRONG, ["--task"], excavator, *[flatten] * 5)
+        expect(WRONG, ["dozer_9t.toml", "dozer", "excavator"], dozer, flatten)
+        expect(WRONG, ["'none' not found", "/etc/graben/tasks", "/usr/share/graben/tasks"], excavator, "none")
+        expect(WRONG, ["step[0].duration", "surplus"], excavator, wrong)
+        # All of them in one go.
+        expect(WRONG, ["surplus", "far.toml", "step[0]", "'none' not found"], excavator, flatten, wrong, far, "none")
+    print("\n".join([*problems, f"tasks of graben-ecu: {len(problems)} problems"]))
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,272 @@
+// The swing as a drive among the others: what is needed of it, what its watches see, what the gate
+// lets through; and that a machine without one does not look at it.
+
+#include <cmath>
+#include <limits>
+
+#include "firmware/safety/gate.hpp"
+#include "firmware/safety/watch.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/inputs.hpp"
+#include "tests/unit/firmware/plain_machine.hpp"
+
+namespace {
+
+using namespace graben;
+using test::complete_inputs;
+
+constexpr TimeUs kNow = 5 * kSecondUs;
+constexpr double kPeriod_s = 0.0625;
+constexpr double kLever_m = 0.125;
+constexpr double kOpen = 0.75;  // Duty; a spool begins to open at 0.25.
+
+const ExcavatorProfile& profile() {
+  static const ExcavatorProfile machine = test::plain_machine_with_swing();
+  return machine;
+}
+const ExcavatorProfile& without_swing() {
+  static const ExcavatorProfile machine = test::plain_machine();
+  return machine;
+}
+
+void the_swing_is_read_at_its_lever(void**) {
+  ExcavatorInputs inputs = complete_inputs(kNow);
+  inputs.swing.angle_rad.value = -1.5;
+  inputs.swing.spool_ratio.value = 0.375;
+  const ValidInputs valid = validate(inputs, profile(), {}, false, kNow);
+  assert_int_equal(valid.fault, Fault::kNone);
+  assert_near(valid.strokes_m[kSwing], -1.5 * kLever_m, 0.0);
+  assert_near(valid.cap_pressure_pa[kSwing], 4e6, 0.0);
+  assert_near(valid.rod_pressure_pa[kSwing], 3e6, 0.0);
+  assert_near(valid.spool_ratio[kSwing], 0.375, 0.0);
+  assert_true(valid.load_known[kSwing]);
+}
+
+struct Row {
+  Signal<double>* (*signal)(SwingInputs&);
+  Fault missing;
+  Fault wrong;
+};
+const Row kRows[] = {
+    {[](SwingInputs& in) { return &in.angle_rad; }, Fault::kStrokeMissing, Fault::kSensorError},
+    {[](SwingInputs& in) { return &in.left_pressure_pa; }, Fault::kPressureMissing,
+     Fault::kPressureImplausible},
+    {[](SwingInputs& in) { return &in.right_pressure_pa; }, Fault::kPressureMissing,
+     Fault::kPressureImplausible},
+    {[](SwingInputs& in) { return &in.spool_ratio; }, Fault::kSpoolMissing, Fault::kSensorError},
+};
+
+void each_of_its_signals_is_required(void**) {
+  for (const Row& row : kRows) {
+    for (const Validity validity : {Validity::kNotReceived, Validity::kNotAvailable,
+                                    Validity::kError, Validity::kOutOfRange}) {
+      ExcavatorInputs inputs = complete_inputs(kNow);
+      row.signal(inputs.swing)->validity = validity;
+      const ValidInputs valid = validate(inputs, profile(), {}, false, kNow);
+      assert_int_equal(valid.fault, row.missing);
+      assert_int_equal(valid.faults.has(row.wrong), validity == Validity::kError);
+      assert_int_equal(valid.load_known[kSwing], row.missing != Fault::kPressureMissing);
+    }
+    ExcavatorInputs old = complete_inputs(kNow);
+    row.signal(old.swing)->stamp_us = kNow - 45 * kMillisecondUs - 1;
+    assert_int_equal(validate(old, profile(), {}, true, kNow).faults.first(), row.missing);
+    ExcavatorInputs no_number = complete_inputs(kNow);
+    row.signal(no_number.swing)->value = std::numeric_limits<double>::quiet_NaN();
+    assert_int_equal(validate(no_number, profile(), {}, false, kNow).fault, row.missing);
+  }
+}
+
+/// Whatever another machine's swing says, nothing of it is known here.
+void without_a_swing_drive_nothing_is_looked_at(void**) {
+  for (const Row& row : kRows) {
+    ExcavatorInputs inputs = complete_inputs(kNow);
+    row.signal(inputs.swing)->validity = Validity::kError;
+    const ValidInputs valid = validate(inputs, without_swing(), {}, false, kNow);
+    assert_true(valid.faults.empty());
+    assert_near(valid.strokes_m[kSwing], 0.0, 0.0);
+    assert_false(valid.load_known[kSwing]);
+  }
+}
+
+/// 3.2 rad are the end of what its sensor tells.
+void an_angle_beyond_its_sensor_is_implausible(void**) {
+  for (const double sign : {1.0, -1.0}) {
+    ExcavatorInputs inputs = complete_inputs(kNow);
+    inputs.swing.angle_rad.value = sign * 3.2;
+    assert_int_equal(validate(inputs, profile(), {}, false, kNow).fault, Fault::kNone);
+    inputs.swing.angle_rad.value = std::nextafter(sign * 3.2, sign * 9.0);
+    const ValidInputs beyond = validate(inputs, profile(), {}, false, kNow);
+    assert_int_equal(beyond.fault, Fault::kStrokeImplausible);
+    assert_near(beyond.strokes_m[kSwing], sign * 3.2 * kLever_m, 0.0);
+  }
+}
+
+/// Twice its highest speed, and 15 mrad at once: a tenth of a metre at the teeth.
+void a_jump_is_not_believed(void**) {
+  const double most_rad = 2.0 * profile().swing.speed_max_radps * 0.010 + 0.015;
+  for (const double sign : {1.0, -1.0}) {
+    ValidationState last =
+        validate(complete_inputs(kNow - 10'000), profile(), {}, true, kNow - 10'000).state;
+    ExcavatorInputs inputs = complete_inputs(kNow);
+    inputs.swing.angle_rad.value = sign * (most_rad - 1e-9);
+    assert_true(validate(inputs, profile(), last, true, kNow).faults.empty());
+    inputs.swing.angle_rad.value = sign * (most_rad + 1e-9);
+    const ValidInputs jumped = validate(inputs, profile(), last, true, kNow);
+    assert_true(jumped.degraded.has(Fault::kStrokeJump));
+    assert_near(jumped.strokes_m[kSwing], 0.0, 0.0);
+  }
+}
+
+void its_spool_is_watched(void**) {
+  for (const bool has_swing : {true, false}) {
+    const ExcavatorProfile& machine = has_swing ? profile() : without_swing();
+    SpoolWatchState state;
+    ValidInputs valid;
+    valid.spool_ratio[kSwing] = 0.5;
+    assert_int_equal(spools_centred(machine, valid), !has_swing);
+    bool stuck = false;
+    for (int n = 0; n < kSpoolWrongCycles; ++n) {
+      const SpoolWatchResult seen = watch_spools(machine, state, {}, valid);
+      state = seen.state;
+      stuck = seen.faults.has(Fault::kSpoolStuck);
+    }
+    assert_int_equal(stuck, has_swing);
+  }
+}
+
+/// The swing between its spool and its angle; the cylinders rest.
+struct Swing {
+  MotionWatchState state;
+  double angle_rad = 0.0;
+  double spool = 0.0;
+  double asked_radps = 0.0;
+
+  FaultSet step(double period_s = kPeriod_s) {
+    ValidInputs valid;
+    valid.strokes_m[kSwing] = kLever_m * angle_rad;
+    valid.spool_ratio[kSwing] = spool;
+    DriveVector asked_mps = DriveVector::Zero();
+    asked_mps[kSwing] = kLever_m * asked_radps;
+    const MotionWatchResult seen = watch_motion(profile(), state, valid, asked_mps, period_s);
+    state = seen.state;
+    return seen.faults;
+  }
+  void run(int cycles) {
+    for (int n = 0; n < cycles; ++n) {
+      assert_true(step().empty());
+    }
+  }
+};
+
+/// 0.25 rad from where it came to rest, either way, and not a bit further.
+void a_swing_that_drifts_is_uncommanded(void**) {
+  for (const double sign : {1.0, -1.0}) {
+    Swing swing;
+    swing.run(60);
+    swing.angle_rad = sign * 0.25;
+    assert_true(swing.step(0.0).empty());
+    swing.angle_rad = std::nextafter(sign * 0.25, sign * 9.0);
+    assert_true(swing.step(0.0).has(Fault::kUncommandedMotion));
+  }
+}
+
+/// 0.5 s and the 2 s that 1 rad/s takes at 0.5 rad/s^2: 40 cycles from its spool's closing.
+void its_mass_may_come_to_rest(void**) {
+  Swing swing;
+  swing.spool = kOpen;
+  swing.run(60);
+  swing.spool = 0.0;
+  for (int n = 0; n < 40; ++n) {
+    swing.angle_rad += 0.0625;
+    assert_true(swing.step().empty());
+  }
+  swing.angle_rad += 0.3125;
+  assert_true(swing.step().has(Fault::kUncommandedMotion));
+}
+
+/// 0.5 rad asked of it while it stands.
+void a_swing_that_stands_still_is_stuck(void**) {
+  for (const double sign : {1.0, -1.0}) {
+    Swing swing;
+    swing.spool = sign * kOpen;
+    swing.run(60);
+    swing.asked_radps = sign;
+    swing.run(8);
+    assert_true(swing.step().has(Fault::kStrokeStuck));
+  }
+}
+
+/// A swing that nothing is wanted of trips nothing, for as long as it stands.
+void a_swing_at_rest_is_well(void**) {
+  Swing swing;
+  for (int n = 0; n < 2000; ++n) {
+    swing.angle_rad = n % 2 == 0 ? 1e-4 : -1e-4;
+    assert_true(swing.step().empty());
+  }
+}
+
+/// Its pressures stand still over 0.06 m of travel, or at the rail.
+void its_pressures_are_watched(void**) {
+  for (const bool right : {false, true}) {
+    for (const bool has_swing : {true, false}) {
+      const ExcavatorProfile& machine = has_swing ? profile() : without_swing();
+      WatchState state;
+      LastCycle cycle;
+      cycle.moving = true;
+      bool wrong = false;
+      for (int n = 0; n < 40; ++n) {
+        ValidInputs valid;
+        valid.load_known = {false, false, false, has_swing};
+        valid.cap_pressure_pa[kSwing] = right ? 5e6 + n : 5e6;
+        valid.rod_pressure_pa[kSwing] = right ? 5e6 : 5e6 + n;
+        valid.strokes_m[kSwing] = 0.004 * n;
+        valid.spool_ratio[kSwing] = 0.0;
+        cycle.sent.duty_ratio[kSwing] = 0.0;
+        const WatchResult seen = watch(machine, state, cycle, valid, 0.01);
+        state = seen.state;
+        wrong = wrong || seen.inputs.degraded.has(Fault::kPressureImplausible);
+        assert_int_equal(seen.inputs.load_known[kSwing], has_swing && !wrong);
+      }
+      assert_int_equal(wrong, has_swing);
+    }
+  }
+}
+
+void the_gate_lets_it_through_like_the_others(void**) {
+  const double travel_m = profile().valve.spool_travel_m;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double sign : {1.0, -1.0}) {
+    const GateResult open = gate(profile(), {}, true, {0.0, 0.0, 0.0, sign * 0.5 * travel_m}, 1.0);
+    assert_true(open.enable);
+    assert_near(open.duty_ratio[kSwing], sign * 0.625, 1e-12);
+    assert_near(open.duty_ratio[kBoom], 0.0, 0.0);
+    assert_near(gate(profile(), open.state, false, {0.0, 0.0, 0.0, travel_m}, 1.0).duty_ratio[3],
+                0.0, 0.0);
+  }
+  const GateResult refused = gate(profile(), {}, true, {travel_m, 0.0, 0.0, nan}, 1.0);
+  assert_false(refused.enable);
+  assert_int_equal(refused.fault, Fault::kCommandNotFinite);
+  const GateResult held = gate(without_swing(), {}, true, {travel_m, 0.0, 0.0, travel_m}, 1.0);
+  assert_true(held.enable);
+  assert_near(held.duty_ratio[kSwing], 0.0, 0.0);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(the_swing_is_read_at_its_lever),
+      cmocka_unit_test(each_of_its_signals_is_required),
+      cmocka_unit_test(without_a_swing_drive_nothing_is_looked_at),
+      cmocka_unit_test(an_angle_beyond_its_sensor_is_implausible),
+      cmocka_unit_test(a_jump_is_not_believed),
+      cmocka_unit_test(its_spool_is_watched),
+      cmocka_unit_test(a_swing_that_drifts_is_uncommanded),
+      cmocka_unit_test(its_mass_may_come_to_rest),
+      cmocka_unit_test(a_swing_that_stands_still_is_stuck),
+      cmocka_unit_test(a_swing_at_rest_is_well),
+      cmocka_unit_test(its_pressures_are_watched),
+      cmocka_unit_test(the_gate_lets_it_through_like_the_others),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

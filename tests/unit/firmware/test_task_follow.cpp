@@ -1,0 +1,231 @@
+#include "firmware/motion/task_follow.hpp"
+
+#include <limits>
+
+#include "tests/unit/firmware/flip_bit.hpp"
+#include "tests/unit/firmware/task_machine.hpp"
+
+namespace {
+
+using namespace graben;
+using test::kCycle_s;
+
+const ExcavatorProfile& profile() {
+  static const ExcavatorProfile answering = test::answering_12t();
+  return answering;
+}
+
+const TaskProgram& dig() {
+  static const TaskProgram program = test::program_of(test::level_dig());
+  return program;
+}
+
+const SwingKinematics& kinematics() {
+  static const SwingKinematics loaded(profile().geometry);
+  return loaded;
+}
+
+/// Half way on the first line, or on the move after it.
+TaskMemory half_way(int step) {
+  TaskState state;
+  state.phase = TaskPhase::kSteps;
+  state.step = step;
+  state.time_s = 0.5 * dig().step[static_cast<unsigned>(step)].duration_s();
+  return remembered(0, state);
+}
+
+TaskAim aim_of(const TaskMemory& memory) { return task_aim(kinematics(), dig(), memory.state); }
+
+TaskWant want(const TaskMemory& memory, const ServoState& servo, double override_ratio = 1.0) {
+  return want_of_task(profile(), kinematics(), dig(), memory, aim_of(memory), servo,
+                      override_ratio);
+}
+
+/// Drives where the teeth are so far off their place.
+DriveVector drives_off(const TaskMemory& memory, const Eigen::Vector3d& off_m) {
+  TeethPose teeth = aim_of(memory).teeth;
+  teeth.position_m += off_m;
+  const DriveResult drives = kinematics().drive_from_teeth(teeth);
+  assert_int_equal(drives.blind.kind, BlindKind::kNone);
+  return drives.value;
+}
+
+void the_swing_s_travel_is_at_its_lever(void**) {
+  const DriveVector drives(0.4, 0.5, 0.3, -1.2);
+  const DriveVector travel_m = travel_of(profile(), drives);
+  assert_true(travel_m.head<3>() == drives.head<3>());
+  assert_near(travel_m[kSwing], -1.2 * profile().swing.lever_m, 1e-15);
+  assert_true((drives_of(profile(), travel_m) - drives).norm() < 1e-15);
+  // A swing that is held has none, either way.
+  const ExcavatorProfile& held = test::excavator().profile;
+  assert_near(travel_of(held, drives)[kSwing], 0.0, 0.0);
+  assert_near(drives_of(held, drives)[kSwing], 0.0, 0.0);
+}
+
+/// On its place nothing is off; what is wanted is the plan's velocity by override and pace.
+void where_it_should_be_it_goes_on(void**) {
+  TaskMemory memory = half_way(0);
+  const ServoState servo = servo_at_rest(travel_of(profile(), aim_of(memory).value));
+  const TaskWant whole = want(memory, servo);
+  assert_true(whole.runs && whole.known && whole.holds);
+  assert_near(whole.error_m, 0.0, 1e-9);
+  assert_near(whole.path_error_m, 0.0, 1e-9);
+  assert_near(whole.pace_ratio, 1.0, 0.0);
+  assert_true((whole.planned_m - travel_of(profile(), aim_of(memory).value)).norm() < 1e-15);
+  assert_true((whole.wanted_mps - travel_of(profile(), aim_of(memory).velocity)).norm() < 1e-15);
+  assert_true(whole.wanted_mps.norm() > 0.05);
+  memory.state.pace_ratio = 0.5;
+  const TaskWant slow = want(memory, servo, 0.4);
+  assert_near(slow.pace_ratio, 0.5, 0.0);
+  assert_true((slow.wanted_mps - 0.2 * whole.wanted_mps).norm() < 1e-15);
+  assert_true(slow.progress.runs);
+  assert_int_equal(slow.progress.number, 0);
+  assert_int_equal(slow.progress.kind, StepKind::kDig);
+  assert_near(slow.progress.share, 0.5, 1e-9);
+  assert_int_equal(want(half_way(1), servo).progress.step, 1);
+}
+
+/// Off along the line is an error of the place alone; off across it is one of the path too, on a
+/// line. On a move there is no line to be off.
+void off_its_place_is_told_from_off_its_path(void**) {
+  const TaskMemory on_line = half_way(0);
+  const auto at = [](const TaskMemory& memory, const Eigen::Vector3d& off_m) {
+    return want(memory, servo_at_rest(travel_of(profile(), drives_off(memory, off_m))));
+  };
+  // The line runs along x.
+  const TaskWant along = at(on_line, {0.03, 0.0, 0.0});
+  assert_near(along.error_m, 0.03, 1e-9);
+  assert_near(along.path_error_m, 0.0, 1e-9);
+  const TaskWant across = at(on_line, {0.03, 0.0, 0.04});
+  assert_near(across.error_m, 0.05, 1e-9);
+  assert_near(across.path_error_m, 0.04, 1e-9);
+  const TaskWant moved = at(half_way(1), {0.0, 0.0, 0.04});
+  assert_near(moved.error_m, 0.04, 1e-9);
+  assert_near(moved.path_error_m, 0.04, 1e-9);
+}
+
+/// What is still under way is no error; beyond a drive's end nothing can be under way.
+void what_is_under_way_is_not_missed(void**) {
+  const TaskMemory memory = half_way(0);
+  ServoState servo;
+  servo.under_way_m = {0.004, -0.006, 0.003, 0.001};
+  servo.strokes_m = travel_of(profile(), aim_of(memory).value) - servo.under_way_m;
+  assert_near(want(memory, servo).error_m, 0.0, 1e-9);
+  servo.under_way_m[kBoom] = -10.0;
+  assert_true(std::isfinite(want(memory, servo).error_m));
+}
+
+void a_plan_of_another_machine_is_unknown(void**) {
+  const TaskMemory memory = half_way(0);
+  TaskAim aim = aim_of(memory);
+  aim.blind.kind = BlindKind::kOutOfReach;
+  const ServoState servo = servo_at_rest(travel_of(profile(), dig().start));
+  assert_false(want_of_task(profile(), kinematics(), dig(), memory, aim, servo, 1.0).known);
+}
+
+/// At its end nothing is wanted, and the valve stays closed.
+void done_holds_nothing(void**) {
+  TaskState state;
+  state.phase = TaskPhase::kDone;
+  const TaskWant done = want(remembered(0, state), servo_at_rest(travel_of(profile(), dig().end)));
+  assert_true(done.runs);
+  assert_false(done.holds);
+  assert_true(done.wanted_mps.isZero(0.0));
+}
+
+void what_is_remembered_is_intact(void**) {
+  assert_true(TaskMemory{}.intact());
+  const TaskMemory memory = half_way(1);
+  assert_true(memory.intact());
+  const auto flipped = [&memory](auto&& flip) {
+    TaskMemory other = memory;
+    flip(other);
+    return !other.intact();
+  };
+  for (std::size_t bit = 0; bit < 64; ++bit) {
+    assert_true(flipped([bit](TaskMemory& m) { test::flip_bit(m.state.time_s, bit); }));
+    assert_true(flipped([bit](TaskMemory& m) { test::flip_bit(m.state.pace_ratio, bit); }));
+    assert_true(flipped([bit](TaskMemory& m) { test::flip_bit(m.number, bit % 8); }));
+    assert_true(flipped([bit](TaskMemory& m) { test::flip_bit(m.state.step, bit % 32); }));
+  }
+  for (const TaskPhase phase : {TaskPhase::kApproach, TaskPhase::kDone}) {
+    assert_true(flipped([phase](TaskMemory& m) { m.state.phase = phase; }));
+  }
+  assert_true(flipped([](TaskMemory& m) { m.runs = false; }));
+  TaskMemory none;
+  none.runs = true;
+  assert_false(none.intact());
+}
+
+void it_goes_on_or_starts_afresh(void**) {
+  const TaskMemory memory = half_way(1);
+  const DriveVector travel_m = travel_of(profile(), dig().end);
+  const auto next = [&](const TaskMemory& last, std::uint8_t number, double followed) {
+    return next_task(profile(), dig(), last, number, travel_m, followed, 0.0, kCycle_s);
+  };
+  const TaskMemory on = next(memory, 0, 0.25);
+  assert_true(on.runs && on.intact());
+  assert_int_equal(on.state.step, 1);
+  assert_near(on.state.time_s, memory.state.time_s + 0.25 * kCycle_s, 1e-12);
+  assert_near(next(memory, 0, 0.0).state.time_s, memory.state.time_s, 0.0);
+  for (const TaskMemory& afresh : {next(memory, 1, 1.0), next(TaskMemory{}, 1, 1.0)}) {
+    assert_true(afresh.runs && afresh.intact());
+    assert_int_equal(afresh.number, 1);
+    assert_int_equal(afresh.state.phase, TaskPhase::kApproach);
+    assert_near(afresh.state.time_s, 0.0, 0.0);
+    assert_true((afresh.state.approach.from - dig().end).norm() < 1e-9);
+  }
+}
+
+/// The lag times the change, no more than what the platform can do; none without a swing.
+void the_swing_is_led_by_its_lag(void**) {
+  ExcavatorProfile lagging = profile();
+  lagging.control.swing_lead_s = 0.2;
+  const double most_mps2 = lagging.swing.acceleration_max_radps2 * lagging.swing.lever_m;
+  const double change_mps = 0.5 * most_mps2 * kCycle_s;
+  assert_near(swing_lead_mps(lagging, 0.01 + change_mps, 0.01, kCycle_s), 0.1 * most_mps2, 1e-12);
+  assert_near(swing_lead_mps(lagging, 0.01 - change_mps, 0.01, kCycle_s), -0.1 * most_mps2, 1e-12);
+  assert_near(swing_lead_mps(lagging, 1.0, 0.0, kCycle_s), 0.2 * most_mps2, 1e-12);
+  assert_near(swing_lead_mps(lagging, -1.0, 0.0, kCycle_s), -0.2 * most_mps2, 1e-12);
+  assert_near(swing_lead_mps(lagging, 1.0, 0.0, 0.0), 0.0, 0.0);
+  lagging.drive_count = kAxisCount;
+  assert_near(swing_lead_mps(lagging, 1.0, 0.0, kCycle_s), 0.0, 0.0);
+}
+
+/// The soft limit sees a travel as the angle that it stands for.
+void the_cap_is_the_soft_limit_s(void**) {
+  DriveVector then = dig().start;
+  then[kSwing] = profile().swing.left_end_rad - 0.05;
+  const DriveVector velocity(0.0, 0.0, 0.0, 0.5);
+  const VelocityCap expected = soft_limit(profile(), kinematics(), dig().fences, then, velocity);
+  const VelocityCap cap =
+      task_cap(profile(), kinematics(), dig(), servo_at_rest(travel_of(profile(), then)),
+               travel_of(profile(), velocity));
+  assert_true(expected.factor < 0.5);
+  assert_near(cap.factor, expected.factor, 1e-12);
+  assert_int_equal(cap.limit.kind, LimitKind::kSwingEnd);
+  // Beyond its end, measured or by what is under way, it goes no further at all.
+  ServoState beyond = servo_at_rest(travel_of(profile(), then));
+  beyond.under_way_m[kSwing] = 0.06 * profile().swing.lever_m;
+  assert_near(
+      task_cap(profile(), kinematics(), dig(), beyond, travel_of(profile(), velocity)).factor, 0.0,
+      0.0);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(the_swing_s_travel_is_at_its_lever),
+      cmocka_unit_test(where_it_should_be_it_goes_on),
+      cmocka_unit_test(off_its_place_is_told_from_off_its_path),
+      cmocka_unit_test(what_is_under_way_is_not_missed),
+      cmocka_unit_test(a_plan_of_another_machine_is_unknown),
+      cmocka_unit_test(done_holds_nothing),
+      cmocka_unit_test(what_is_remembered_is_intact),
+      cmocka_unit_test(it_goes_on_or_starts_afresh),
+      cmocka_unit_test(the_swing_is_led_by_its_lag),
+      cmocka_unit_test(the_cap_is_the_soft_limit_s),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

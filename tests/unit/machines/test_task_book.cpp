@@ -1,0 +1,87 @@
+/// Several tasks for one machine: their numbers, and all that is wrong with them in one go.
+
+#include "app/machines/task_book.hpp"
+
+#include "app/machines/machine_file.hpp"
+#include "app/machines/task_file.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+
+const ExcavatorProfile& profile() {
+  static const machines::ExcavatorMachine machine =
+      machines::load_excavator(machines::find_profile("excavator_12t"));
+  return machine.profile;
+}
+
+const std::filesystem::path& shipped() {
+  static const std::filesystem::path folder = machines::find_task("flatten").parent_path();
+  return folder;
+}
+
+TaskBook book(const std::vector<std::string>& names) {
+  return machines::load_tasks(names, {"no_such_folder", shipped()}, profile());
+}
+
+std::string errors_of(const std::vector<std::string>& names) {
+  try {
+    static_cast<void>(book(names));
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void assert_says(const std::string& errors, const std::string& what) {
+  if (errors.find(what) == std::string::npos) {
+    print_error("'%s' not in:\n%s", what.c_str(), errors.c_str());
+    _fail(__FILE__, __LINE__);
+  }
+}
+
+void none_is_a_book_too(void**) { assert_int_equal(book({}).count, 0); }
+
+void numbered_as_they_are_told(void**) {
+  const TaskBook both = book({"truck_loading", "flatten.toml"});
+  assert_int_equal(both.count, 2);
+  assert_int_equal(both.program[0].step_count, 5);
+  assert_int_equal(both.program[1].step_count, 1);
+  assert_int_equal(both.program[2].step_count, 0);
+  assert_true(both.program[0].repeats);
+  assert_near(both.program[1].step[0].duration_s(), 18.4, 1e-9);
+}
+
+void a_file_is_found_without_a_folder(void**) {
+  assert_int_equal(book({(shipped() / "flatten.toml").string()}).count, 1);
+}
+
+void every_error_is_told(void**) {
+  // A profile is TOML, but no task.
+  const std::string profile_file = machines::find_profile("excavator_12t").string();
+  const std::string errors = errors_of({"missing", "flatten", profile_file, "gone"});
+  assert_says(errors, "'missing' not found");
+  assert_says(errors, "no_such_folder");
+  assert_says(errors, "excavator_12t.toml");
+  assert_says(errors, "start");
+  assert_says(errors, "'gone' not found");
+}
+
+void five_are_too_many(void**) {
+  assert_int_equal(book({"flatten", "flatten", "flatten", "flatten"}).count, 4);
+  assert_says(errors_of({"flatten", "flatten", "flatten", "flatten", "flatten"}), "at most 4");
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(none_is_a_book_too),
+      cmocka_unit_test(numbered_as_they_are_told),
+      cmocka_unit_test(a_file_is_found_without_a_folder),
+      cmocka_unit_test(every_error_is_told),
+      cmocka_unit_test(five_are_too_many),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,213 @@
+#include "app/machines/task_file.hpp"
+
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "app/machines/machine_file.hpp"
+#include "app/machines/task_words.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+
+const ExcavatorProfile& profile(const char* name) {
+  static const machines::ExcavatorMachine small =
+      machines::load_excavator(machines::find_profile("excavator_12t"));
+  static const machines::ExcavatorMachine large =
+      machines::load_excavator(machines::find_profile("excavator_22t"));
+  return std::string(name) == "excavator_12t" ? small.profile : large.profile;
+}
+
+std::string shipped(const char* name) {
+  std::ifstream in(machines::find_task(name));
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A task file with this text, for as long as it is looked at.
+class Written {
+ public:
+  explicit Written(const std::string& text)
+      : path_(std::filesystem::temp_directory_path() /
+              ("graben_task_" + std::to_string(getpid()) + ".toml")) {
+    std::ofstream(path_) << text;
+  }
+  ~Written() { std::filesystem::remove(path_); }
+  Written(const Written&) = delete;
+  Written& operator=(const Written&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The errors of a text, one a line; empty if it is a task.
+std::string errors_of(const std::string& text, const char* machine = "excavator_12t") {
+  const Written file(text);
+  try {
+    static_cast<void>(machines::load_task(file.path(), profile(machine)));
+  } catch (const machines::ProfileError& error) {
+    std::string all;
+    for (const std::string& line : error.errors()) {
+      all += line + "\n";
+    }
+    return all;
+  }
+  return "";
+}
+
+/// The shipped text with one part of it replaced.
+std::string edited(const char* name, const std::string& from, const std::string& to) {
+  std::string text = shipped(name);
+  const std::size_t at = text.find(from);
+  assert_true(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+void assert_says(const std::string& errors, const std::string& what) {
+  if (errors.find(what) == std::string::npos) {
+    print_error("'%s' not in:\n%s", what.c_str(), errors.c_str());
+    _fail(__FILE__, __LINE__);
+  }
+}
+
+void the_paper_s_line(void**) {
+  const machines::TaskFile task =
+      machines::load_task(machines::find_task("flatten"), profile("excavator_12t"));
+  assert_string_equal(task.name.c_str(), "flatten");
+  const TaskProgram& program = task.result.program;
+  assert_int_equal(program.step_count, 1);
+  assert_false(program.repeats);
+  assert_true(program.step[0].straight);
+  assert_int_equal(program.step[0].kind, StepKind::kDig);
+  assert_near(program.step[0].duration_s(), 18.4, 0.0);
+  assert_near(program.step[0].line.way_m, 3.7304, 1e-4);
+}
+
+void loading_a_truck(void**) {
+  const machines::TaskFile task =
+      machines::load_task(machines::find_task("truck_loading"), profile("excavator_12t"));
+  const TaskProgram& program = task.result.program;
+  assert_int_equal(program.step_count, 5);
+  assert_true(program.repeats);
+  constexpr std::array<StepKind, 5> kKinds = {StepKind::kDig, StepKind::kLift, StepKind::kSwing,
+                                              StepKind::kDump, StepKind::kReturnToDig};
+  double whole_s = 0.0;
+  for (unsigned i = 0; i < kKinds.size(); ++i) {
+    assert_int_equal(program.step[i].kind, kKinds[i]);
+    assert_int_equal(program.step[i].straight, i < 2);
+    whole_s += program.step[i].duration_s();
+    print_message("%s %.2f s, slowed %.2f\n", machines::step_name(kKinds[i]),
+                  program.step[i].duration_s(), task.result.note[i].slowed_ratio);
+  }
+  assert_true(whole_s > 15.0 && whole_s < 40.0);
+  assert_near(program.step[2].drives.change[kSwing], 1.5707963, 1e-6);
+  assert_int_equal(program.fences.count, 4);
+  assert_near(program.fences.fence[0].offset_m, 6.5, 0.0);
+  assert_near(program.fences.fence[1].offset_m, 0.8, 0.0);
+  assert_near(program.fences.fence[2].normal.y(), 1.0, 0.0);
+  assert_int_equal(program.fences.fence[3].guard, FenceGuard::kTeeth);
+}
+
+/// Everything that is wrong at once, each with key, line, value, unit and what is allowed.
+void every_error_is_listed(void**) {
+  const std::string errors = errors_of(
+      "start = { position = [7.0, 0.0], attitude = 9.0 }\n"
+      "repeat = 1\n"
+      "colour = \"red\"\n"
+      "[[step]]\n"
+      "do = \"dance\"\n"
+      "to = { position = [4.8, 0.0, 99.0] }\n"
+      "speed = 0.4\n"
+      "duration = 5.0\n"
+      "[[step]]\n"
+      "do = \"swing\"\n"
+      "path = \"spiral\"\n"
+      "to = { position = [0.0, 6.0, 2.0], attitude = 0.5 }\n"
+      "speed = 9.0\n"
+      "[[fence]]\n"
+      "kind = \"wall\"\n"
+      "through = [0.0, 7.0]\n"
+      "normal = [0.0, 0.0]\n"
+      "[design]\n"
+      "through = [0.0, 0.0, 0.0]\n"
+      "normal = [1.0, 0.0, 0.0]\n"
+      "clearance = -1.0\n");
+  assert_says(errors,
+              "start.position (line 1): must be an array of 3 numbers; allowed: -30 .. 30 m");
+  assert_says(errors, "start.attitude (line 1): 9.0 is out of range; allowed: -7 .. 7 rad");
+  assert_says(errors, "repeat (line 2): 1; allowed: true, false");
+  assert_says(errors, "colour (line 3): unknown key");
+  assert_says(errors, "step[0].do (line 5): 'dance'; allowed: dig, lift, swing, dump, return");
+  assert_says(errors,
+              "step[0].to.position[2] (line 6): 99.0 is out of range; allowed: -30 .. 30 m");
+  assert_says(errors, "step[0].to.attitude: missing");
+  assert_says(errors, "step[0] (line 4): has a speed and a duration; allowed: one of them");
+  assert_says(errors, "step[1].path (line 11): 'spiral'; allowed: line, drives");
+  assert_says(errors, "step[1].speed (line 13): 9.0 is out of range; allowed: 0.01 .. 3 m/s");
+  assert_says(errors, "fence[0].normal (line 17): has no direction");
+  assert_says(errors, "design.normal (line 20): must point up");
+  assert_says(errors, "design.clearance (line 21): -1.0 is out of range; allowed: 0.03 .. 1 m");
+}
+
+/// A pace on a line, a speed on a move of the drives: keys that nothing asks for.
+void a_pace_of_the_other_form_is_unknown(void**) {
+  assert_says(errors_of(edited("flatten", "duration = 18.4", "pace = 0.5")),
+              "step[0].pace (line 9): unknown key");
+  assert_says(errors_of(edited("flatten", "duration = 18.4", "path = \"drives\"\nspeed = 0.5")),
+              "step[0].speed (line 10): unknown key");
+  assert_true(errors_of(edited("flatten", "duration = 18.4", "")).empty());
+  assert_says(errors_of("start = { position = [7.0, 0.0, 0.0], attitude = 2.0 }\n"),
+              "step: must be 1 to 12 tables; there are 0");
+}
+
+/// What can't be planned says which step, what is in the way and where.
+void refusals_name_step_joint_and_place(void**) {
+  assert_says(
+      errors_of(edited("flatten", "[2.244, 3.886, 0.0]", "[9.0, 3.886, 0.0]")),
+      "step[0] (line 6): step 0 (dig): the arm cylinder would have to go beyond its closed end");
+  const std::string reach =
+      errors_of(edited("truck_loading", "[4.9, 0.0, 2.4]", "[9.9, 0.0, 2.4]"));
+  assert_says(reach, "step 1 (lift): ");
+  assert_says(reach, "% of the step, teeth x ");
+  const std::string ceiling = errors_of(edited("truck_loading", "height = 6.5", "height = 4.0"));
+  assert_says(ceiling, "(lift): the arm's pin would pass fence[0]; at ");
+  const std::string wall = errors_of(edited("truck_loading", "[0.0, 7.5]", "[0.0, 5.8]"));
+  assert_says(wall, "(dump): the teeth would pass fence[2]; at ");
+  const std::string design =
+      errors_of(edited("truck_loading", "through = [0.0, 0.0, -0.5]", "through = [0.0, 0.0, 2.5]"));
+  assert_says(design, "the design surface");
+  const std::string open =
+      errors_of(edited("truck_loading", "[7.0, 0.0, -0.45], attitude = 2.2 }\n\n[[step]]",
+                       "[6.9, 0.0, -0.45], attitude = 2.2 }\n\n[[step]]"));
+  assert_says(open, "step 4 (return): the task repeats, but does not end where it starts");
+  assert_says(errors_of(shipped("flatten"), "excavator_22t"), "this machine's swing is held");
+  assert_says(errors_of("start = { position = [6.0, 0.0, 0.0], attitude = 2.0 }\n[[step]]\n"
+                        "do = \"swing\"\nto = { position = [-6.0, 0.1, 0.0], attitude = 2.0 }\n"),
+              "the swing would leave its range, -3 .. 3 rad; at ");
+}
+
+void a_missing_task_says_where_it_looked(void**) {
+  try {
+    static_cast<void>(machines::find_task("no_such_task"));
+    fail_msg("found a task that is not there");
+  } catch (const std::runtime_error& error) {
+    assert_says(error.what(), "task 'no_such_task' not found");
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(the_paper_s_line),
+      cmocka_unit_test(loading_a_truck),
+      cmocka_unit_test(every_error_is_listed),
+      cmocka_unit_test(a_pace_of_the_other_form_is_unknown),
+      cmocka_unit_test(refusals_name_step_joint_and_place),
+      cmocka_unit_test(a_missing_task_says_where_it_looked),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
