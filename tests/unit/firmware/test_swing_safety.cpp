@@ -117,6 +117,18 @@ void a_jump_is_not_believed(void**) {
   }
 }
 
+/// Which task file is meant: none where the operator does not say, or no longer.
+void a_task_number_is_believed_while_it_is_fresh(void**) {
+  ExcavatorInputs inputs = complete_inputs(kNow);
+  assert_int_equal(validate(inputs, profile(), {}, false, kNow).task_number, -1);
+  inputs.driver.task_number.value = 3;
+  inputs.driver.task_number.validity = Validity::kValid;
+  inputs.driver.task_number.stamp_us = kNow - 45 * kMillisecondUs;
+  assert_int_equal(validate(inputs, profile(), {}, false, kNow).task_number, 3);
+  inputs.driver.task_number.stamp_us -= 1;
+  assert_int_equal(validate(inputs, profile(), {}, false, kNow).task_number, -1);
+}
+
 void its_spool_is_watched(void**) {
   for (const bool has_swing : {true, false}) {
     const ExcavatorProfile& machine = has_swing ? profile() : without_swing();
@@ -260,6 +272,7 @@ int main() {
       cmocka_unit_test(without_a_swing_drive_nothing_is_looked_at),
       cmocka_unit_test(an_angle_beyond_its_sensor_is_implausible),
       cmocka_unit_test(a_jump_is_not_believed),
+      cmocka_unit_test(a_task_number_is_believed_while_it_is_fresh),
       cmocka_unit_test(its_spool_is_watched),
       cmocka_unit_test(a_swing_that_drifts_is_uncommanded),
       cmocka_unit_test(its_mass_may_come_to_rest),
