@@ -25,6 +25,14 @@ void duty_follows_the_profiles_table(void**) {
   assert_near(result.duty_ratio[2], 0.0, 0.0);
 }
 
+/// A machine without a swing drive has no fourth spool, whatever is asked of one.
+void a_drive_that_is_not_there_stays_neutral(void**) {
+  const GateResult result = gate(profile(), {}, true, {0.0, 0.0, travel(), travel()}, kLong_s);
+  assert_true(result.enable);
+  assert_near(result.duty_ratio[2], 1.0, 1e-12);
+  assert_near(result.duty_ratio[3], 0.0, 0.0);
+}
+
 void a_spool_hardly_open_stays_neutral(void**) {
   const double threshold = profile().control.spool_threshold;
   for (const double sign : {1.0, -1.0}) {
@@ -178,6 +186,7 @@ void a_flipped_bit_does_not_matter_at_rest(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(duty_follows_the_profiles_table),
+      cmocka_unit_test(a_drive_that_is_not_there_stays_neutral),
       cmocka_unit_test(a_spool_hardly_open_stays_neutral),
       cmocka_unit_test(positions_beyond_the_travel_are_clamped),
       cmocka_unit_test(duties_beyond_the_range_are_clamped),
