@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "app/cli/autodig_bench.hpp"
-#include "app/cli/line_truth.hpp"
 #include "app/machines/task_words.hpp"
 #include "firmware/motion/task_run.hpp"
 

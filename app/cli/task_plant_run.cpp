@@ -2,11 +2,11 @@
 
 #include <optional>
 
-#include "app/cli/line_truth.hpp"
 #include "app/cli/statistics.hpp"
 #include "app/cli/task_ear.hpp"
 #include "app/plant/plant_node.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
+#include "firmware/motion/line.hpp"
 
 namespace graben::cli {
 namespace {

@@ -1,5 +1,6 @@
 #include "firmware/motion/line.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -138,6 +139,13 @@ TeethLine line_between(const SwingKinematics& kinematics, const TeethPose& from,
   const double from_rad = attitude_of_joints_rad(kinematics, from);
   const double to_rad = attitude_of_joints_rad(kinematics, to);
   return {{from.position_m, from_rad}, {to.position_m - from.position_m, to_rad - from_rad}};
+}
+
+double line_distance_m(const TeethLine& line, const Eigen::Vector3d& teeth_m) {
+  const Eigen::Vector3d& way_m = line.change.position_m;
+  const double length_m = way_m.norm();
+  const Eigen::Vector3d off_m = teeth_m - line.from.position_m;
+  return length_m > 0.0 ? off_m.cross(way_m).norm() / length_m : off_m.norm();
 }
 
 double way_m(const SwingKinematics& kinematics, const TeethLine& line) {

@@ -20,6 +20,10 @@ struct TeethLine {
 [[nodiscard]] TeethLine line_between(const SwingKinematics& kinematics, const TeethPose& from,
                                      const TeethPose& to);
 
+/// From the straight line through both ends, m, ground frame; from its place where the line only
+/// turns the bucket.
+[[nodiscard]] double line_distance_m(const TeethLine& line, const Eigen::Vector3d& teeth_m);
+
 /// How far the teeth go, or the bucket pin about them, whichever is more, m: what speed and
 /// acceleration of a plan are measured on.
 [[nodiscard]] double way_m(const SwingKinematics& kinematics, const TeethLine& line);

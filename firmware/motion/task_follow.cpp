@@ -1,6 +1,5 @@
 #include "firmware/motion/task_follow.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace graben {
@@ -10,15 +9,6 @@ namespace {
 std::int64_t place_of(bool runs, std::uint8_t number, const TaskState& state) {
   const std::int64_t step = state.step;
   return ((step * 256 + number) * 4 + static_cast<int>(state.phase)) * 2 + (runs ? 1 : 0);
-}
-
-/// From the straight line through both ends.
-double distance_m(const TeethLine& line, const Eigen::Vector3d& teeth_m) {
-  const Eigen::Vector3d& way_m = line.change.position_m;
-  const double length_m = way_m.norm();
-  // A line that only turns the bucket is a point.
-  const Eigen::Vector3d off_m = teeth_m - line.from.position_m;
-  return length_m > 0.0 ? off_m.cross(way_m).norm() / length_m : off_m.norm();
 }
 
 Eigen::Vector3d teeth_m(const SwingKinematics& kinematics, const DriveVector& drives) {
@@ -90,7 +80,7 @@ TaskWant want_of_task(const ExcavatorProfile& profile, const SwingKinematics& ki
   want.error_m = (at_m - due_m).norm();
   const TaskStep& step = program.step[static_cast<unsigned>(memory.state.step)];
   want.path_error_m =
-      on_line(program, memory.state) ? distance_m(step.line.line, at_m) : want.error_m;
+      on_line(program, memory.state) ? line_distance_m(step.line.line, at_m) : want.error_m;
   want.pace_ratio = memory.state.pace_ratio;
   want.wanted_mps = speed_override_ratio * want.pace_ratio * travel_of(profile, aim.velocity);
   return want;

@@ -72,7 +72,7 @@ TaskState next_part(const TaskProgram& program, const TaskState& state) {
 }
 
 double slow_error_m(const LineProfile& line, const TaskProgram& program, const TaskState& state) {
-  if (state.phase != TaskPhase::kSteps || !step_of(program, state).straight) {
+  if (!on_line(program, state)) {
     return line.move_slow_error_m;
   }
   const LinePlan& plan = step_of(program, state).line;

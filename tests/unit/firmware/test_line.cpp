@@ -143,6 +143,16 @@ void way_of_a_turn_on_the_spot(void**) {
   assert_near(way_m(machine(), line_between(machine(), from, far)), 5.0, 1e-12);
 }
 
+void distance_from_a_line_and_from_a_turn_on_the_spot(void**) {
+  TeethLine line;
+  line.from.position_m = {1.0, 2.0, 3.0};
+  line.change.position_m = {0.0, 4.0, 0.0};
+  assert_near(line_distance_m(line, {4.0, 9.0, 7.0}), 5.0, 1e-12);
+  line.change.position_m.setZero();
+  line.change.attitude_rad = 0.5;
+  assert_near(line_distance_m(line, {1.0, 2.0, 2.5}), 0.5, 1e-12);
+}
+
 }  // namespace
 
 int main() {
@@ -154,6 +164,7 @@ int main() {
       cmocka_unit_test(no_line_over_the_swing_axis),
       cmocka_unit_test(full_turns_of_the_attitude_are_none),
       cmocka_unit_test(way_of_a_turn_on_the_spot),
+      cmocka_unit_test(distance_from_a_line_and_from_a_turn_on_the_spot),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

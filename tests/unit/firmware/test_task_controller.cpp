@@ -227,6 +227,10 @@ void at_override_0_it_waits(void**) {
   running.run(200);
   assert_near(running.outputs.status.progress.share, share, 0.0);
   assert_true((running.drives.value() - stood).norm() < 2e-3);
+  // Nothing is corrected either: no spool opens, whatever a drive owes.
+  for (const double duty : running.outputs.duty_ratio) {
+    assert_near(duty, 0.0, 0.0);
+  }
   running.driver.speed_override_ratio.value = 1.0;
   running.run_until([](const TaskProgress& at) { return at.kind == StepKind::kSwing; });
 }
