@@ -72,7 +72,7 @@ TaskWant want_of_task(const ExcavatorProfile& profile, const SwingKinematics& ki
   want.runs = true;
   want.known = aim.blind.kind == BlindKind::kNone;
   want.progress = progress_of(memory, aim);
-  want.holds = memory.state.phase != TaskPhase::kDone && speed_override_ratio > 0.0;
+  want.holds = memory.state.phase != TaskPhase::kDone;
   want.planned_m = travel_of(profile, aim.value);
   const Eigen::Vector3d at_m = teeth_m(kinematics, drives_of(profile, servo.strokes_m));
   const Eigen::Vector3d due_m =

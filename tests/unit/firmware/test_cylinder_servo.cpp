@@ -338,6 +338,11 @@ void a_lasting_lag_is_learnt(void**) {
   const DriveVector held = corrected_velocity(profile, DriveVector::Zero(), servo, 1.0, 1.0, true);
   assert_near(held[0], 0.004, 1e-12);
   assert_near(held[1], -0.004, 1e-12);
+  // In the ratio of the operator's speed, like what is owed: without any nothing moves, or what is
+  // learnt would swing a drive about its place.
+  const DriveVector none = DriveVector::Zero();
+  assert_near(corrected_velocity(profile, none, servo, 1.0, 0.5, true)[0], 0.002, 1e-12);
+  assert_true(corrected_velocity(profile, none, servo, 1.0, 0.0, true).isZero(0.0));
 }
 
 /// The 12 t machine's swing: closed where it owes and does not hold, corrected where it does.
