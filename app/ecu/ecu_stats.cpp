@@ -1,12 +1,18 @@
 #include "app/ecu/ecu_stats.hpp"
 
+#include <cinttypes>
 #include <cstdio>
 
 namespace graben::ecu {
 namespace {
 
 void count(std::FILE* to, const char* name, std::uint64_t value) {
-  std::fprintf(to, "%s %llu\n", name, static_cast<unsigned long long>(value));
+  std::fprintf(to, "# %s %llu\n", name, static_cast<unsigned long long>(value));
+}
+
+void durations(std::FILE* to, const char* name, const Histogram& of) {
+  std::fprintf(to, "# %s_min_ns %" PRId64 "\n# %s_mean_ns %" PRId64 "\n# %s_max_ns %" PRId64 "\n",
+               name, of.min_ns(), name, of.mean_ns(), name, of.max_ns());
 }
 
 void print(std::FILE* to, const CyclicClock& clock, const LinkCounters& link,
@@ -19,7 +25,7 @@ void print(std::FILE* to, const CyclicClock& clock, const LinkCounters& link,
   if (usage.allocations_counted) {
     count(to, "allocations", usage.allocations);
   } else {
-    std::fprintf(to, "allocations not counted\n");
+    std::fprintf(to, "# allocations not counted\n");
   }
   count(to, "page_faults", usage.page_faults);
   count(to, "frames_accepted", link.accepted);
@@ -30,10 +36,10 @@ void print(std::FILE* to, const CyclicClock& clock, const LinkCounters& link,
   count(to, "receive_overflow", port.receive_overflow);
   count(to, "error_frames", port.error_frames);
   count(to, "reopened", port.reopened);
-  clock.wake_up_latency().print_summary(to, "wake_up_latency");
-  clock.cycle_time().print_summary(to, "cycle_time");
-  clock.wake_up_latency().print_bins(to, "wake_up_latency");
-  clock.cycle_time().print_bins(to, "cycle_time");
+  durations(to, "wake_up_latency", clock.wake_up_latency());
+  durations(to, "cycle_time", clock.cycle_time());
+  std::fprintf(to, "# Columns: us, wake_up_latency, cycle_time\n");
+  print_histograms(to, {&clock.wake_up_latency(), &clock.cycle_time()});
 }
 
 }  // namespace

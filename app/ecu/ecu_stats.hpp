@@ -20,8 +20,9 @@ struct Usage {
   TimeUs start_us = 0;  ///< From the process's begin to its first frame.
 };
 
-/// Writes counters as `name value` lines, then both histograms in cyclictest's form. False, with
-/// the reason on standard error, if the file cannot be written.
+/// Writes counters as `# name value` lines, then the histograms of wake-up latency and cycle time
+/// as two threads of cyclictest -h, for what plots those. False, with the reason on standard error,
+/// if the file cannot be written.
 bool write_stats(const std::string& file, const CyclicClock& clock, const LinkCounters& link,
                  const CanPortCounters& port, const Usage& usage);
 

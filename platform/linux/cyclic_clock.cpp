@@ -46,7 +46,7 @@ CyclicClock::Cycle CyclicClock::wait() {
   Cycle cycle;
   if (started_) {
     cycle.last_us = (done_ns - woken_ns_) / kNsPerUs;
-    cycle_time_.add(cycle.last_us);
+    cycle_time_.add(done_ns - woken_ns_);
   } else {
     deadline_ns_ = done_ns;
     started_ = true;
@@ -61,7 +61,7 @@ CyclicClock::Cycle CyclicClock::wait() {
   woken_ns_ = monotonic_now_ns();
   cycle.now_us = woken_ns_ / kNsPerUs;
   cycle.late_us = (woken_ns_ - deadline_ns_) / kNsPerUs;
-  latency_.add(cycle.late_us);
+  latency_.add(woken_ns_ - deadline_ns_);
   return cycle;
 }
 

@@ -6,53 +6,86 @@
 namespace graben {
 namespace {
 
-void print_row(std::FILE* to, std::size_t from_us, std::uint64_t count) {
-  if (count > 0) {
-    static_cast<void>(std::fprintf(to, "%06zu %06" PRIu64 "\n", from_us, count));
+constexpr std::int64_t kNsPerUs = 1000;
+
+std::uint64_t whole_us(std::int64_t duration_ns) {
+  return static_cast<std::uint64_t>(duration_ns / kNsPerUs);
+}
+
+void print_row(std::FILE* to, std::size_t us, const std::vector<const Histogram*>& columns) {
+  static_cast<void>(std::fprintf(to, "%06zu", us));
+  char before = ' ';
+  for (const Histogram* column : columns) {
+    static_cast<void>(std::fprintf(to, "%c%06" PRIu64, before, column->bin(us)));
+    before = '\t';
   }
+  static_cast<void>(std::fprintf(to, "\n"));
+}
+
+template <class Value>
+void print_line(std::FILE* to, const char* name, int digits,
+                const std::vector<const Histogram*>& columns, Value value) {
+  static_cast<void>(std::fprintf(to, "# %s:", name));
+  for (const Histogram* column : columns) {
+    static_cast<void>(std::fprintf(to, " %0*" PRIu64, digits, value(*column)));
+  }
+  static_cast<void>(std::fprintf(to, "\n"));
+}
+
+void print_overflows(std::FILE* to, std::size_t number, const Histogram& column) {
+  static_cast<void>(std::fprintf(to, "# Thread %zu:", number));
+  const auto noted = std::min<std::uint64_t>(column.overflows(), Histogram::kNotedOverflows);
+  for (std::size_t i = 0; i < noted; ++i) {
+    static_cast<void>(std::fprintf(to, " %05" PRIu64, column.overflow_at(i)));
+  }
+  if (noted < column.overflows()) {
+    static_cast<void>(std::fprintf(to, " # %05" PRIu64 " others", column.overflows() - noted));
+  }
+  static_cast<void>(std::fprintf(to, "\n"));
 }
 
 }  // namespace
 
-void Histogram::add(TimeUs duration_us) {
-  const TimeUs duration = std::max<TimeUs>(duration_us, 0);
-  const auto us = static_cast<std::size_t>(duration);
-  if (us < kFineBins) {
-    ++fine_[us];
+void Histogram::add(std::int64_t duration_ns) {
+  const std::int64_t duration = std::max<std::int64_t>(duration_ns, 0);
+  const std::uint64_t us = whole_us(duration);
+  if (us < kBins) {
+    ++bins_[us];
   } else {
-    ++coarse_[std::min<std::size_t>(us / kCoarseUs, kCoarseBins) - 1];
+    if (overflows_ < kNotedOverflows) {
+      overflow_at_[overflows_] = count_;
+    }
+    ++overflows_;
   }
-  min_us_ = count_ == 0 ? duration : std::min(min_us_, duration);
-  max_us_ = std::max(max_us_, duration);
-  sum_us_ += duration;
+  min_ns_ = count_ == 0 ? duration : std::min(min_ns_, duration);
+  max_ns_ = std::max(max_ns_, duration);
+  sum_ns_ += duration;
   ++count_;
 }
 
-TimeUs Histogram::mean_us() const {
-  return count_ == 0 ? 0 : sum_us_ / static_cast<TimeUs>(count_);
+std::int64_t Histogram::mean_ns() const {
+  return count_ == 0 ? 0 : sum_ns_ / static_cast<std::int64_t>(count_);
 }
 
-void Histogram::print_summary(std::FILE* to, const char* name) const {
-  static_cast<void>(
-      std::fprintf(to, "%s: C:%7" PRIu64 " Min:%7" PRId64 " Avg:%5" PRId64 " Max:%8" PRId64 "\n",
-                   name, count_, min_us_, mean_us(), max_us_));
-}
-
-void Histogram::print_bins(std::FILE* to, const char* name) const {
-  static_cast<void>(std::fprintf(to, "# Histogram: %s, us\n", name));
-  for (std::size_t us = 0; us < kFineBins; ++us) {
-    print_row(to, us, fine(us));
+void print_histograms(std::FILE* to, const std::vector<const Histogram*>& columns) {
+  static_cast<void>(std::fprintf(to, "# Histogram\n"));
+  for (std::size_t us = 0; us < Histogram::kBins; ++us) {
+    print_row(to, us, columns);
   }
-  std::uint64_t overflows = 0;
-  for (std::size_t ms = 1; ms <= kCoarseBins; ++ms) {
-    print_row(to, ms * kCoarseUs, coarse(ms));
-    overflows += coarse(ms);
+  print_line(to, "Total", 9, columns,
+             [](const Histogram& of) { return of.count() - of.overflows(); });
+  print_line(to, "Min Latencies", 5, columns,
+             [](const Histogram& of) { return whole_us(of.min_ns()); });
+  print_line(to, "Avg Latencies", 5, columns,
+             [](const Histogram& of) { return whole_us(of.mean_ns()); });
+  print_line(to, "Max Latencies", 5, columns,
+             [](const Histogram& of) { return whole_us(of.max_ns()); });
+  print_line(to, "Histogram Overflows", 5, columns,
+             [](const Histogram& of) { return of.overflows(); });
+  static_cast<void>(std::fprintf(to, "# Histogram Overflow at cycle number:\n"));
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    print_overflows(to, i, *columns[i]);
   }
-  static_cast<void>(std::fprintf(to,
-                                 "# Total: %09" PRIu64 "\n# Min Latencies: %05" PRId64
-                                 "\n# Avg Latencies: %05" PRId64 "\n# Max Latencies: %05" PRId64
-                                 "\n# Histogram Overflows: %05" PRIu64 "\n",
-                                 count_, min_us_, mean_us(), max_us_, overflows));
 }
 
 }  // namespace graben

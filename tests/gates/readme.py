@@ -2,13 +2,17 @@
 """Gate: every shell command of README.md works, run in the repository.
 
 A block is run as one script, so that a `cd` or a variable holds until its end. A block behind
-<!-- not run: reason --> is left out, loudly. ./test, which runs this gate, is only looked at.
+<!-- not run: reason --> is left out, loudly. ./test, which runs this gate, is only looked at. With
+--build, so is a command that is word by word a test of that build, or a ctest that names some: ./test
+runs it anyway.
 """
 
+import json
 import os
 import pathlib
 import re
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
@@ -17,6 +21,7 @@ import tree
 
 FENCE = re.compile(r"^```(\w*)\s*$")
 NOT_RUN = re.compile(r"^<!--\s*not run:\s*(.+?)\s*-->$")
+OWN_CTEST = re.compile(r"^ctest --test-dir build/release -R (\S+)(?: --verbose)?$")
 CHECKS_ONLY = re.compile(r"^(\./test|\.ci/run)(\s|$)")
 
 
@@ -59,6 +64,41 @@ def commands(start: int, lines: list[str]):
         yield first, "\n".join(pending)
 
 
+def own_tests() -> dict[tuple[str, ...], str]:
+    """The command of each test of the build, and its name."""
+    if arguments.build is None:
+        return {}
+    listed = subprocess.run(["ctest", "--test-dir", arguments.build, "--show-only=json-v1"],
+                            stdout=subprocess.PIPE, check=True).stdout
+    return {words_of(test["command"]): test["name"]
+            for test in json.loads(listed)["tests"] if "command" in test}
+
+
+def words_of(command: list[str]) -> tuple[str, ...]:
+    """To be compared: whichever the interpreter, and from wherever a file is named."""
+    words = [str(root / word) if (root / word).exists() else word for word in command]
+    if words and re.fullmatch(r"python3(\.\d+)?", os.path.basename(words[0])):
+        words = ["python3"] + [word for word in words[1:] if word != "-B"]
+    elif words:
+        words[0] = shutil.which(words[0]) or words[0]
+    return tuple(words)
+
+
+def run_by(command: str, where: str) -> str:
+    """Names of the tests that run the command; nothing if none does."""
+    try:
+        words = shlex.split(command)
+    except ValueError:
+        return ""
+    if arguments.build is not None and (own := OWN_CTEST.match(command)):
+        named = [name for name in tests.values() if re.search(shlex.split(own[1])[0], name)]
+        if not named:
+            problems.append(f"{where}: no test is called {own[1]}")
+            return "one that is not there"
+        return ", ".join(named)
+    return tests.get(words_of(words), "")
+
+
 def script_of(start: int, lines: list[str]) -> tuple[str, int]:
     script, count = ["set -o pipefail"], 0
     for number, command in commands(start, lines):
@@ -69,6 +109,9 @@ def script_of(start: int, lines: list[str]) -> tuple[str, int]:
             if not (program.is_file() and os.access(program, os.X_OK)):
                 problems.append(f"{where}: {own[1]} is not there or not executable")
             print(f"{where}: {own[1]} runs this gate; only looked at")
+            continue
+        if name := run_by(command, where):
+            print(f"{where}: {command}: ./test runs it as {name}; only looked at")
             continue
         shown = shlex.quote(f"{where}: {command}")
         script += [f"echo {shown}", command,
@@ -96,10 +139,12 @@ def run(start: int, script: str):
 
 parser = tree.arguments(__doc__)
 parser.add_argument("--limit", type=float, default=300, help="seconds that a block may take")
+parser.add_argument("--build", type=pathlib.Path, help="the build whose tests need not run again")
 arguments = parser.parse_args()
 root = arguments.root.resolve()
 sys.stdout.reconfigure(line_buffering=True)
 problems, total = [], 0
+tests = own_tests()
 for start, lines, reason in blocks((root / "README.md").read_text()):
     if reason:
         print(f"SKIPPED README.md:{start}: not run: {reason}")

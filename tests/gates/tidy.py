@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 """Gate: clang-tidy, with the tree's .clang-tidy, finds nothing in our sources.
 
+The sources of a folder are looked at as one: what takes the time is to read their headers, and to
+match every check against them.
+
 What was clean is remembered in the build folder under a hash of everything of ours that goes into
 it: the source, each of our headers that it includes, the compile command, .clang-tidy, the tool's
 version. A system header that changes is not noticed; a fresh build folder knows nothing.
@@ -16,10 +19,13 @@ import shlex
 import shutil
 import subprocess
 import sys
+import tempfile
 
 import tree
 
 OURS = ("firmware", "hal", "can_dbc", "platform", "app", "tests")
+REFUSED = re.compile(r"^([^:\n]+):\d+:\d+: (?:error|warning): ", re.MULTILINE)
+JUST_COMPILED = "-*,clang-diagnostic-*"
 INCLUDE = re.compile(rb'^[ \t]*#[ \t]*include[ \t]*[<"]([^>"\n]+)[>"]', re.MULTILINE)
 # GCC, whose warnings are errors, decides on its own; these differ from it in kind, not in care:
 # clang counts signedness as part of -Wconversion, sees a promotion in the macro NAN, and knows not
@@ -40,15 +46,29 @@ def our_entries() -> list[dict]:
     wanted = {str(root / name) for name in tree.cxx_files(root)}
     entries = json.loads((arguments.build / "compile_commands.json").read_text())
     tests = root / "tests"
-    return [e for e in entries if os.path.realpath(e["file"]) in wanted
-            and not pathlib.Path(e["file"]).resolve().is_relative_to(tests)]
+    for entry in entries:
+        entry["path"] = os.path.realpath(os.path.join(entry["directory"], entry["file"]))
+    return [without_precompiled(e) for e in entries if e["path"] in wanted
+            and not pathlib.Path(e["path"]).is_relative_to(tests)]
+
+
+def without_precompiled(entry: dict) -> dict:
+    """As if nothing were precompiled: what GCC made of it, clang cannot read."""
+    words, kept = iter(shlex.split(entry["command"])), []
+    for word in words:
+        if word == "-include":
+            header = next(words)
+            kept += [] if header.endswith("/cmake_pch.hxx") else [word, header]
+        elif word != "-Winvalid-pch":
+            kept.append(word)
+    return {**entry, "command": shlex.join(kept)}
 
 
 def our_inputs(entry: dict) -> tuple[list[pathlib.Path], bool]:
     """The source and every header it reaches below our -I folders, and whether one is HEAVY."""
     folders = [pathlib.Path(entry["directory"], word[2:])
                for word in shlex.split(entry["command"]) if word.startswith("-I")]
-    found, heavy, todo = set(), False, [pathlib.Path(entry["file"])]
+    found, heavy, todo = set(), False, [pathlib.Path(entry["path"])]
     while todo:
         current = todo.pop().resolve()
         if current in found or not current.is_file():
@@ -67,23 +87,81 @@ def key_of(entry: dict, inputs: list[pathlib.Path]) -> str:
     return digest.hexdigest()
 
 
-def check(entry: dict) -> str:
-    """What clang-tidy has to say on a source; nothing when it is clean."""
-    inputs, heavy = our_inputs(entry)
-    short = heavy or pathlib.Path(entry["file"]).resolve().is_relative_to(root / "app")
-    remembered = cache / key_of(entry, inputs)
-    if remembered.exists():
-        return ""
-    done = subprocess.run(
-        [tool, "-p", str(arguments.build), "--quiet", f"--config-file={config}",
-         f"--header-filter=^{re.escape(str(root))}/({'|'.join(OURS)})/",
-         *(f"--extra-arg={flag}" for flag in CLANG_ONLY),
-         *([f"--checks={SHORT_LIST}"] if short else []), entry["file"]],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+def batches_of(entries: list[dict]) -> list[list[dict]]:
+    """What is not remembered as clean, by folder, flags and list of checks: one pass reads their
+    headers once."""
+    together: dict[tuple, list[dict]] = {}
+    for entry in entries:
+        inputs, heavy = our_inputs(entry)
+        remembered = cache / key_of(entry, inputs)
+        if remembered.exists():
+            continue
+        words = shlex.split(entry["command"])
+        flags = tuple(word for word in words if word.startswith(("-D", "-f", "-I", "-std")))
+        path = pathlib.Path(entry["path"])
+        checks = SHORT_LIST if heavy or path.is_relative_to(root / "app") else ""
+        together.setdefault((path.parent, flags, checks), []).append(
+            {**entry, "remembered": remembered, "checks": checks})
+    return list(together.values())
+
+
+def as_one(batch: list[dict]) -> tuple[str, list[tuple[str, int]]]:
+    """The sources one behind the other, and for each line whence it is. They are copied, not included:
+    the analyzer follows paths only through what stands in the main file."""
+    lines, whence = [], []
+    for number, entry in enumerate(batch):
+        path = pathlib.Path(entry["path"])
+        # Whoever looks for an #include too many begins again behind a macro.
+        for line, text in enumerate([f"#define GRABEN_TIDY_{number}", *path.read_text().splitlines()]):
+            lines.append(text)
+            whence.append((str(path), line))
+    return "\n".join(lines) + "\n", whence
+
+
+def run(batch: list[dict], checks: str) -> str:
+    """What clang-tidy has to say on sources as if they were one; nothing when they are clean."""
+    text, whence = as_one(batch)
+    with tempfile.TemporaryDirectory(dir=cache) as folder:
+        one = pathlib.Path(folder, "sources.cpp").resolve()
+        one.write_text(text)
+        words = [str(one) if word == batch[0]["file"] else word
+                 for word in shlex.split(batch[0]["command"])]
+        words.insert(1, f"-I{os.path.dirname(batch[0]['path'])}")
+        pathlib.Path(folder, "compile_commands.json").write_text(json.dumps(
+            [{"directory": batch[0]["directory"], "file": str(one), "command": shlex.join(words)}]))
+        done = subprocess.run(
+            [tool, "-p", folder, "--quiet", f"--config-file={config}",
+             f"--header-filter=^{re.escape(str(root))}/({'|'.join(OURS)})/",
+             *(f"--extra-arg={flag}" for flag in CLANG_ONLY),
+             *([f"--checks={checks}"] if checks else []), str(one)],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
     if done.returncode == 0 and not done.stdout.strip():
-        remembered.touch()
         return ""
-    return done.stdout.strip() or f"{entry['file']}: {done.stderr.strip()}"
+
+    def at_home(match: re.Match) -> str:
+        path, line = whence[int(match[1]) - 1]
+        return f"{path}:{line}"
+    return (re.sub(re.escape(str(one)) + r":(\d+)", at_home, done.stdout).strip()
+            or f"{batch[0]['path']}: {done.stderr.strip()}")
+
+
+def check(batch: list[dict]) -> list[str]:
+    """What there is to say on a batch. Some cannot stand behind the others, as their unnamed namespaces
+    have the same names: those that are complained of make up the next batch, and in the end only
+    what is said of a source alone counts."""
+    alone = len(batch) == 1
+    said = ("" if alone else run(batch, JUST_COMPILED)) or run(batch, batch[0]["checks"])
+    if not said:
+        for entry in batch:
+            entry["remembered"].touch()
+        return []
+    if alone:
+        return [said]
+    refused = set(REFUSED.findall(said))
+    later = [e for e in batch if e["path"] in refused]
+    if not 0 < len(later) < len(batch):
+        later = batch[len(batch) // 2:]
+    return check([e for e in batch if e not in later]) + check(later)
 
 
 parser = tree.arguments(__doc__)
@@ -102,6 +180,7 @@ version = subprocess.run([tool, "--version"], stdout=subprocess.PIPE, text=True,
 
 entries = our_entries()
 with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-    # A header's finding comes up in every source that includes it; once is enough.
-    problems = list(dict.fromkeys(text for text in pool.map(check, entries) if text))
+    # A header's finding comes up in every batch that includes it; once is enough.
+    problems = list(dict.fromkeys(text for texts in pool.map(check, batches_of(entries))
+                                  for text in texts))
 tree.report("tidy", problems, len(entries), "sources")

@@ -14,8 +14,9 @@ ecu_start() {
 # A frame within this second.
 ecu_sends() { candump -T 50 -n 1 "$1,0CFF3082:1FFFFFFF" | grep -q 0CFF3082; }
 
-# ecu_stop: told to end, it has to end by itself and with 0.
+# ecu_stop: told to end, it has to end by itself and with 0. What memory it had is in $OUT/memory.
 ecu_stop() {
+  cat "/proc/$ecu/smaps_rollup" "/proc/$ecu/status" >"$OUT/memory" || fail 'no graben-ecu'
   kill -TERM "$ecu"
   wait "$ecu" || fail "graben-ecu ended with $?: $(cat "$OUT/ecu.err")"
 }

@@ -36,12 +36,17 @@ KERNEL_OPTIONS = [
     # Half of the boot's instructions: what the kernel tries of its own ciphers, its certificates.
     "cryptomgr.notests", "initcall_blacklist=init_kprobe_trace,load_system_certificate_list",
 ]
+# QEMU takes the exponent of 2.
+ICOUNT_SHIFT = 2
+NS_PER_INSTRUCTION = 2**ICOUNT_SHIFT
 QEMU_OPTIONS = [
     "-nodefaults", "-no-user-config", "-no-reboot", "-display", "none", "-serial", "stdio",
     # On the older "pc", ACPI's way to an interrupt costs a device a second.
-    "-machine", "q35", "-accel", "tcg", "-icount", "shift=2,sleep=off", "-smp", "1",
+    "-machine", "q35", "-accel", "tcg", "-icount", f"shift={ICOUNT_SHIFT},sleep=off", "-smp", "1",
     # The wall clock follows the same count and starts at the same moment each time.
     "-rtc", "base=2026-01-01T00:00:00,clock=vm",
+    # The seed of the kernel's random numbers, which are in its hash tables and addresses.
+    "-seed", "1",
 ]
 MEMORY_MB, MEMORY_WITH_ROOT_MB = 512, 1024
 # Where a user's PATH may not lead.

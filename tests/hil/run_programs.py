@@ -13,9 +13,9 @@ HERE = pathlib.Path(__file__).resolve().parent
 PROFILES = HERE.parents[1] / "app" / "machines"
 
 
-def main(script: str, check: Callable[[pathlib.Path], list[str]], timeout_s: float,
-         controllers: int = 0, extra: dict[str, pathlib.Path] | None = None) -> int:
-    out, *programs = map(pathlib.Path, sys.argv[1:])
+def run(script: str, out: pathlib.Path, programs: list[pathlib.Path],
+        check: Callable[[pathlib.Path], list[str]], timeout_s: float, controllers: int = 0,
+        extra: dict[str, pathlib.Path] | None = None) -> int:
     scenario = Scenario(script=HERE / script, programs=programs, controllers=controllers,
                         timeout_s=timeout_s, patience_s=max(600.0, 4.0 * timeout_s),
                         files={"ecu.sh": HERE / "ecu.sh", **(extra or {}),
@@ -35,3 +35,9 @@ def main(script: str, check: Callable[[pathlib.Path], list[str]], timeout_s: flo
     problems = check(out)
     print("\n".join([*problems, f"hil: {script}: {len(problems)} problems, {result.wall_s:.1f} s"]))
     return 1 if problems else 0
+
+
+def main(script: str, check: Callable[[pathlib.Path], list[str]], timeout_s: float,
+         controllers: int = 0, extra: dict[str, pathlib.Path] | None = None) -> int:
+    out, *programs = map(pathlib.Path, sys.argv[1:])
+    return run(script, out, programs, check, timeout_s, controllers, extra)

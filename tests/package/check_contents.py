@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What is in the package of graben-ecu: check_contents.py [--without-lintian] PACKAGE. Its files and no
-others, no library beyond the three, no symbols, nothing of the folder that it was built in, and what
+others, no library beyond the C library, no symbols, nothing of the folder that it was built in, and what
 lintian says."""
 
 import os
@@ -12,7 +12,7 @@ import sys
 import tarfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-LIBRARIES = {"libc6", "libgcc-s1", "libstdc++6"}
+LIBRARIES = {"libc6"}
 DOCUMENTS = "./usr/share/doc/graben-ecu"
 FILES = {
     "./etc/default/graben-ecu": 0o644,

@@ -7,7 +7,9 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <string>
+#include <vector>
 
 #include "tests/unit/cmocka_cpp.hpp"
 
@@ -44,66 +46,90 @@ void an_overrun_skips_whole_periods(void**) {
 
 void a_clock_that_is_early_waits_for_the_next(void**) { expect_deadline(-5, kPeriodNs, 0); }
 
-void a_bin_a_microsecond_then_a_millisecond(void**) {
+void a_bin_a_microsecond_below_a_millisecond(void**) {
   Histogram histogram;
-  for (const TimeUs us : {-3, 0, 1, 1, 999, 1000, 1999, 2000, 99'999, 100'000, 7'000'000}) {
-    histogram.add(us);
+  for (const std::int64_t ns : {-3, 0, 1000, 1999, 999'999, 1'000'000, 20, 2'000'000'000}) {
+    histogram.add(ns);
   }
-  assert_int_equal(histogram.count(), 11);
-  assert_int_equal(histogram.fine(0), 2);
-  assert_int_equal(histogram.fine(1), 2);
-  assert_int_equal(histogram.fine(2), 0);
-  assert_int_equal(histogram.fine(999), 1);
-  assert_int_equal(histogram.coarse(1), 2);
-  assert_int_equal(histogram.coarse(2), 1);
-  assert_int_equal(histogram.coarse(99), 1);
-  assert_int_equal(histogram.coarse(100), 2);
-  assert_int_equal(histogram.min_us(), 0);
-  assert_int_equal(histogram.max_us(), 7'000'000);
+  assert_int_equal(histogram.count(), 8);
+  assert_int_equal(histogram.bin(0), 3);
+  assert_int_equal(histogram.bin(1), 2);
+  assert_int_equal(histogram.bin(2), 0);
+  assert_int_equal(histogram.bin(999), 1);
+  assert_int_equal(histogram.overflows(), 2);
+  assert_int_equal(histogram.overflow_at(0), 5);
+  assert_int_equal(histogram.overflow_at(1), 7);
+  assert_int_equal(histogram.min_ns(), 0);
+  assert_int_equal(histogram.max_ns(), 2'000'000'000);
 }
 
 void minimum_mean_and_maximum(void**) {
   Histogram histogram;
-  assert_int_equal(histogram.min_us(), 0);
-  assert_int_equal(histogram.max_us(), 0);
-  assert_int_equal(histogram.mean_us(), 0);
+  assert_int_equal(histogram.min_ns(), 0);
+  assert_int_equal(histogram.max_ns(), 0);
+  assert_int_equal(histogram.mean_ns(), 0);
   histogram.add(20);
-  assert_int_equal(histogram.min_us(), 20);
+  assert_int_equal(histogram.min_ns(), 20);
   histogram.add(10);
   histogram.add(61);
-  assert_int_equal(histogram.min_us(), 10);
-  assert_int_equal(histogram.max_us(), 61);
-  assert_int_equal(histogram.mean_us(), 30);
+  assert_int_equal(histogram.min_ns(), 10);
+  assert_int_equal(histogram.max_ns(), 61);
+  assert_int_equal(histogram.mean_ns(), 30);
 }
 
-template <class Print>
-std::string printed(Print print) {
-  char text[4096] = {};
+std::string printed(const std::vector<const Histogram*>& columns) {
+  char text[65536] = {};
   std::FILE* const to = fmemopen(text, sizeof text, "w");
   assert_non_null(to);
-  print(to);
+  print_histograms(to, columns);
   std::fclose(to);
   return text;
 }
 
-void it_prints_as_cyclictest_does(void**) {
-  Histogram histogram;
-  for (const TimeUs us : {7, 7, 12, 3'500}) {
-    histogram.add(us);
+/// Every row from `begin` to before `end`, all counts 0.
+std::string empty_rows(int begin, int end) {
+  std::string rows;
+  for (int us = begin; us < end; ++us) {
+    char row[32];
+    std::snprintf(row, sizeof row, "%06d 000000\t000000\n", us);
+    rows += row;
   }
-  assert_string_equal(
-      printed([&](std::FILE* to) { histogram.print_summary(to, "latency"); }).c_str(),
-      "latency: C:      4 Min:      7 Avg:  881 Max:    3500\n");
-  assert_string_equal(printed([&](std::FILE* to) { histogram.print_bins(to, "latency"); }).c_str(),
-                      "# Histogram: latency, us\n"
-                      "000007 000002\n"
-                      "000012 000001\n"
-                      "003000 000001\n"
-                      "# Total: 000000004\n"
-                      "# Min Latencies: 00007\n"
-                      "# Avg Latencies: 00881\n"
-                      "# Max Latencies: 03500\n"
-                      "# Histogram Overflows: 00001\n");
+  return rows;
+}
+
+void two_of_them_print_as_two_threads_of_cyclictest(void**) {
+  Histogram latency;
+  for (const std::int64_t ns : {7'000, 7'999, 12'500}) {
+    latency.add(ns);
+  }
+  Histogram cycle;
+  for (const std::int64_t ns : {12'000, 3'500'000, 999'000}) {
+    cycle.add(ns);
+  }
+  assert_string_equal(printed({&latency, &cycle}).c_str(),
+                      ("# Histogram\n" + empty_rows(0, 7) + "000007 000002\t000000\n" +
+                       empty_rows(8, 12) + "000012 000001\t000001\n" + empty_rows(13, 999) +
+                       "000999 000000\t000001\n"
+                       "# Total: 000000003 000000002\n"
+                       "# Min Latencies: 00007 00012\n"
+                       "# Avg Latencies: 00009 01503\n"
+                       "# Max Latencies: 00012 03500\n"
+                       "# Histogram Overflows: 00000 00001\n"
+                       "# Histogram Overflow at cycle number:\n"
+                       "# Thread 0:\n"
+                       "# Thread 1: 00001\n")
+                          .c_str());
+}
+
+void the_first_overflows_are_named_and_the_others_counted(void**) {
+  Histogram histogram;
+  for (std::size_t i = 0; i < Histogram::kNotedOverflows + 3; ++i) {
+    histogram.add(5'000'000);
+  }
+  const std::string text = printed({&histogram});
+  assert_non_null(std::strstr(text.c_str(), "# Histogram Overflows: 00067\n"));
+  assert_non_null(std::strstr(text.c_str(), "# Thread 0: 00000 00001 00002 "));
+  assert_non_null(std::strstr(text.c_str(), " 00062 00063 # 00003 others\n"));
 }
 
 /// A test may share its processor with anything: bounds below are sharp, those above are not there.
@@ -144,7 +170,7 @@ void a_cycle_that_overruns_is_told_and_not_made_up_for(void**) {
                   periods * kPeriodUs - 1, periods * kPeriodUs + 1);
   assert_int_equal(clock.overruns(), 1);
   assert_int_equal(clock.skipped(), second.skipped);
-  assert_true(clock.cycle_time().max_us() >= 2 * kPeriodUs);
+  assert_true(clock.cycle_time().max_ns() >= 2 * kPeriodUs * 1000);
 }
 
 volatile std::sig_atomic_t g_signals = 0;
@@ -174,9 +200,10 @@ int main() {
       cmocka_unit_test(in_time_the_next_one_is_due),
       cmocka_unit_test(an_overrun_skips_whole_periods),
       cmocka_unit_test(a_clock_that_is_early_waits_for_the_next),
-      cmocka_unit_test(a_bin_a_microsecond_then_a_millisecond),
+      cmocka_unit_test(a_bin_a_microsecond_below_a_millisecond),
       cmocka_unit_test(minimum_mean_and_maximum),
-      cmocka_unit_test(it_prints_as_cyclictest_does),
+      cmocka_unit_test(two_of_them_print_as_two_threads_of_cyclictest),
+      cmocka_unit_test(the_first_overflows_are_named_and_the_others_counted),
       cmocka_unit_test(cycles_begin_on_the_grid),
       cmocka_unit_test(a_cycle_that_overruns_is_told_and_not_made_up_for),
       cmocka_unit_test(a_signal_does_not_end_the_sleep),

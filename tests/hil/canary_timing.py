@@ -1,0 +1,100 @@
+"""Proves that the judges of timing and memory can say no: canary_timing.py OUT takes what hil_timing
+left, as it is, then with one figure of it changed."""
+
+import contextlib
+import io
+import pathlib
+import re
+import shutil
+import sys
+import tempfile
+from collections.abc import Callable
+
+import guest
+import resident
+import timing
+from scenario import Nowhere
+
+RUN = timing.RUNS[0]
+
+
+def edit(path: pathlib.Path, pattern: str, becomes: Callable[[re.Match], str]):
+    before = path.read_text()
+    path.write_text(re.sub(pattern, becomes, before, count=1, flags=re.MULTILINE))
+    assert path.read_text() != before, f"{path.name} is another one: the seed has no effect"
+
+
+def in_stats(counter: str, change: Callable[[int], int]):
+    return lambda out: edit(out / "first" / f"{RUN.name}.stats", rf"^# {counter} (\d+)$",
+                            lambda found: f"# {counter} {change(int(found[1]))}")
+
+
+def unloaded(out: pathlib.Path):
+    """One frame in ten was not sent."""
+    begin = float((out / "first" / f"{RUN.name}.frames").read_text().split()[0])
+    edit(out / "first" / f"{RUN.name}.frames", r"\n(\d+) ",
+         lambda found: f"\n{round(begin + 0.9 * (float(found[1]) - begin))} ")
+
+
+def lost_row(out: pathlib.Path):
+    edit(out / "first" / f"{RUN.name}.stats", r"^(\d{6} \d{6})\t0*[1-9]\d*$",
+         lambda found: f"{found[1]}\t000000")
+
+
+def unheard(out: pathlib.Path):
+    heard = next(run for run in timing.RUNS if run.identifier)
+    edit(out / "first" / f"{heard.name}.stats", r"^# frames_received \d+$",
+         lambda _: "# frames_received 4000")
+
+
+def another(out: pathlib.Path):
+    edit(out / "again" / f"{RUN.name}.stats", r"_mean_ns (\d+)$",
+         lambda found: f"_mean_ns {int(found[1]) + 1}")
+
+
+def in_memory(name: str, size_kb: int):
+    return lambda out: edit(out / "first" / "memory", rf"^{name}:\s+\d+ kB$",
+                            lambda _: f"{name}: {size_kb} kB")
+
+
+def judge(out: pathlib.Path) -> list[str]:
+    return [*timing.check(out / "first"), *timing.check_again(out / "first", out / "again"),
+            *resident.check(out / "first" / "memory")]
+
+
+CASES = {
+    "an overrun": (in_stats("overruns", lambda _: 1), "full: overruns 1, expected 0"),
+    "a page fault": (in_stats("page_faults", lambda _: 1), "full: page_faults 1, expected 0"),
+    "slow": (in_stats("cycle_time_max_ns", lambda ns: 2 * ns), "cycle_time up to"),
+    "woken late": (in_stats("wake_up_latency_max_ns", lambda ns: 3 * ns), "wake_up_latency up to"),
+    "little load": (unloaded, r"the bus was filled to (89|9\d)\.\d% instead of 100%"),
+    "a load that is not heard": (unheard, "frames to hear, 4000 heard"),
+    "a lost row": (lost_row, r"cycle_time: \d+ in its rows, \d+ in all"),
+    "another time": (another, "booted again, full.stats is another one"),
+    "resident": (in_memory("Rss", 6145), "6145 kB resident, .* 6144 kB is the most"),
+    "locked": (in_memory("VmLck", 6145), "6145 kB locked, 6144 kB is the most"),
+    "not locked": (in_memory("VmLck", 0), "^0 kB locked of"),
+}
+
+
+def main() -> int:
+    left = pathlib.Path(sys.argv[1])
+    if not (left / "again" / "console.txt").exists():
+        return guest.give_up("timing's canary", Nowhere("hil_timing left nothing to judge"))
+    with contextlib.redirect_stdout(io.StringIO()):
+        if problems := judge(left):
+            sys.exit(f"canary: refused as it is: {problems}")
+    for case, (seed, words) in CASES.items():
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()):
+            out = pathlib.Path(folder, "out")
+            shutil.copytree(left, out)
+            seed(out)
+            problems = judge(out)
+        if not any(re.search(words, problem) for problem in problems):
+            sys.exit(f"canary: {case}: '{words}' is not among {problems}")
+        print(f"canary: {case}: as expected")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
