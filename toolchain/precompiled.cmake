@@ -11,3 +11,15 @@ endif()
 set(graben_precompiled <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath> <cstddef> <cstdint>
   <cstdio> <cstring> <functional> <limits> <map> <optional> <random> <string> <string_view> <utility>
   <vector>)
+
+# graben_as_one(TARGET): its sources are compiled in two batches, where headers are precompiled: what
+# templates they have in common are made once. Not for the core, whose objects are judged one by one.
+function(graben_as_one target)
+  if(CMAKE_DISABLE_PRECOMPILE_HEADERS)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  list(LENGTH sources count)
+  math(EXPR half "(${count} + 1) / 2")
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${half})
+endfunction()

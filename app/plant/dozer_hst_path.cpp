@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/plant/turn.hpp"
+
 namespace graben::plant {
 namespace {
-
-constexpr double kTwoPi = 6.283185307179586;
 
 /// The port with a laminar leak to the charge gallery, from where pressures count here.
 WavePort leaking(const WavePort& port, double leak_m3pspa) {

@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/plant/turn.hpp"
+
 namespace graben::plant {
-namespace {
-
-constexpr double kTwoPi = 6.283185307179586;
-
-}  // namespace
 
 ImplementCircuit::ImplementCircuit(const DozerPlantProfile& profile)
     : spool_(profile.spool_dynamics()),

@@ -2,10 +2,11 @@
 
 #include <cmath>
 
+#include "app/plant/turn.hpp"
+
 namespace graben::plant {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
 constexpr std::size_t kPumpPort = 0;
 constexpr std::size_t kBypassPort = 1;
 constexpr int kStandbyHalvings = 60;

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <random>
 
+#include "app/plant/turn.hpp"
+
 namespace graben::plant {
 
 /// What is drawn. Each has a stream of its own, so that what is switched on beside it changes
@@ -31,7 +33,6 @@ class Random {
   double symmetric(double most) { return most * (2.0 * uniform() - 1.0); }
   /// Mean 0, standard deviation 1 (Box and Muller).
   double normal() {
-    constexpr double kTwoPi = 6.283185307179586;
     const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
     return radius * std::cos(kTwoPi * uniform());
   }

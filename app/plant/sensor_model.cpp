@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/plant/turn.hpp"
+
 namespace graben::plant {
-
 namespace {
-
-constexpr double kTwoPi = 6.283185307179586;
 
 double in_steps(double shown, double resolution) {
   return resolution > 0.0 ? std::round(shown / resolution) * resolution : shown;

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/plant/turn.hpp"
+
 namespace graben::plant {
 namespace {
-constexpr double kTwoPi = 6.283185307179586;
 constexpr double kTick_s = 1e-3;
 }  // namespace
 
