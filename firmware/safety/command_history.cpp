@@ -11,14 +11,16 @@ constexpr double kCycle_s = 0.01;
 CommandHistory::CommandHistory(double neutral) { sent_.fill(neutral); }
 
 void CommandHistory::add(double sent) {
-  newest_ = (newest_ + 1) % kMostCycles;
+  newest_ = newest_ + 1 == kMostCycles ? 0 : newest_ + 1;
   sent_[static_cast<unsigned>(newest_)] = sent;
 }
 
 CommandHistory::Range CommandHistory::range(int cycles) const {
   Range range{newest(), newest()};
+  int at = newest_;
   for (int n = 1; n < cycles; ++n) {
-    const double sent = sent_[static_cast<unsigned>((newest_ + kMostCycles - n) % kMostCycles)];
+    at = at == 0 ? kMostCycles - 1 : at - 1;
+    const double sent = sent_[static_cast<unsigned>(at)];
     range = {std::min(range.least, sent), std::max(range.most, sent)};
   }
   return range;
