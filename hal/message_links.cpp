@@ -1,5 +1,7 @@
 #include "hal/message_links.hpp"
 
+#include <algorithm>
+
 namespace graben {
 namespace {
 
@@ -34,23 +36,66 @@ E2eMark mark_of(E2eCheck check) {
 
 }  // namespace
 
-int MessageLinks::index_of(std::uint32_t id) const {
+MessageLinks::MessageLinks(const MessageRules& rules, const BusParts& parts) : rules_(rules) {
   for (std::size_t i = 0; i < rules_.count; ++i) {
-    if (rules_.rule[i].id == id && has_part(parts_, rules_.rule[i].part)) {
-      return static_cast<int>(i);
+    if (has_part(parts, rules_.rule[i].part)) {
+      known_[known_count_++] = {rules_.rule[i].id, static_cast<int>(i)};
     }
   }
-  return kNoMessage;
+  std::sort(known_.begin(), known_.begin() + known_count_,
+            [](const Known& a, const Known& b) { return a.id < b.id; });
+  for (std::size_t i = 0; i < rules_.all_count; ++i) {
+    if (rules_.all[i].is_protected) {
+      fits_a_message_[e2e_signature(rules_.all[i].data_id)] = true;
+    }
+  }
+}
+
+int MessageLinks::index_of(std::uint32_t id) const {
+  const auto* const end = known_.begin() + known_count_;
+  const auto* const found = std::lower_bound(
+      known_.begin(), end, id, [](const Known& known, std::uint32_t of) { return known.id < of; });
+  return found != end && found->id == id ? found->index : kNoMessage;
 }
 
 /// Whether the CRC is that of any protected message of the bus.
 bool MessageLinks::is_any_message(const CanFrame& frame) const {
-  bool fits = false;
-  for (std::size_t i = 0; i < rules_.all_count; ++i) {
-    const dbc::MessageInfo& message = rules_.all[i];
-    fits = fits || (message.is_protected && e2e_crc_fits(frame.data, message.data_id));
+  return fits_a_message_[e2e_fitting_signature(frame.data)];
+}
+
+/// From 1 on; it counts no further than it matters.
+int MessageLinks::place_in_batch(std::size_t index, TimeUs now) {
+  constexpr int kMostCounted = kMostAtOnce + kE2eWindowLimit + 1;
+  Batch& batch = batch_[index];
+  batch = {now, batch.now == now ? std::min(batch.frames + 1, kMostCounted) : 1};
+  return batch.frames;
+}
+
+/// Only as many are noted as make a fault: more would push what else was wrong out of the window.
+void MessageLinks::refuse_surplus(std::size_t index, int place, const CanFrame& frame, TimeUs now) {
+  const unsigned bit = 1U << index;
+  if (!rules_.rule[index].is_protected) {
+    newest_[index] = frame.data;
+    if ((has_newest_ & bit) == 0U) {
+      has_newest_ |= bit;
+      return;
+    }
+  } else if (place <= kMostAtOnce + kE2eWindowLimit) {
+    e2e_note(window_[index], E2eMark::kSequence, now);
   }
-  return fits;
+  count(index, &LinkCounters::surplus);
+}
+
+int MessageLinks::take_newest(dbc::Payload& payload) {
+  for (std::size_t i = 0; has_newest_ != 0U && i < kMostMessages; ++i) {
+    const unsigned bit = 1U << i;
+    if ((has_newest_ & bit) != 0U) {
+      has_newest_ &= ~bit;
+      payload = newest_[i];
+      return static_cast<int>(i);
+    }
+  }
+  return kNoMessage;
 }
 
 void MessageLinks::count(std::size_t index, std::uint32_t LinkCounters::*counter) {
@@ -95,6 +140,11 @@ int MessageLinks::admit(const CanFrame& frame, TimeUs now) {
   }
   if (frame.length != rule.length) {
     count(i, &LinkCounters::wrong_length);
+    return kNoMessage;
+  }
+  const int place = place_in_batch(i, now);
+  if (place > kMostAtOnce) {
+    refuse_surplus(i, place, frame, now);
     return kNoMessage;
   }
   return rule.is_protected && !passes_e2e(i, frame, now) ? kNoMessage : index;
