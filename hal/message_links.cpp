@@ -39,11 +39,9 @@ E2eMark mark_of(E2eCheck check) {
 MessageLinks::MessageLinks(const MessageRules& rules, const BusParts& parts) : rules_(rules) {
   for (std::size_t i = 0; i < rules_.count; ++i) {
     if (has_part(parts, rules_.rule[i].part)) {
-      known_[known_count_++] = {rules_.rule[i].id, static_cast<int>(i)};
+      known_[place_of(rules_.rule[i].id)] = {rules_.rule[i].id, static_cast<int>(i)};
     }
   }
-  std::sort(known_.begin(), known_.begin() + known_count_,
-            [](const Known& a, const Known& b) { return a.id < b.id; });
   for (std::size_t i = 0; i < rules_.all_count; ++i) {
     if (rules_.all[i].is_protected) {
       fits_a_message_[e2e_signature(rules_.all[i].data_id)] = true;
@@ -51,11 +49,19 @@ MessageLinks::MessageLinks(const MessageRules& rules, const BusParts& parts) : r
   }
 }
 
-int MessageLinks::index_of(std::uint32_t id) const {
-  const auto* const end = known_.begin() + known_count_;
-  const auto* const found = std::lower_bound(
-      known_.begin(), end, id, [](const Known& known, std::uint32_t of) { return known.id < of; });
-  return found != end && found->id == id ? found->index : kNoMessage;
+/// Where the id is, or where it would be.
+std::size_t MessageLinks::place_of(std::uint32_t id) const {
+  constexpr std::uint32_t kMultiplier = 0x9E3779B1U;  // Knuth: 2^32 over the golden ratio
+  constexpr unsigned kShift = 26;
+  static_assert(kPlaces == 1U << (32U - kShift));
+  std::size_t place = (id * kMultiplier) >> kShift;
+  for (std::size_t n = 0; n < kPlaces && known_[place].index != kNoMessage; ++n) {
+    if (known_[place].id == id) {
+      return place;
+    }
+    place = (place + 1) % kPlaces;
+  }
+  return place;
 }
 
 /// Whether the CRC is that of any protected message of the bus.

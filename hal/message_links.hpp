@@ -79,17 +79,20 @@ class MessageLinks {
   [[nodiscard]] bool take_out_of_range();
 
  private:
+  /// A place of the hash table of ids; linear probing.
   struct Known {
     std::uint32_t id = 0;
-    int index = 0;
+    int index = kNoMessage;
   };
+  static constexpr std::size_t kPlaces = 4 * kMostMessages;
   /// Frames of one message with one stamp.
   struct Batch {
     TimeUs now = 0;
     int frames = 0;
   };
 
-  [[nodiscard]] int index_of(std::uint32_t id) const;
+  [[nodiscard]] std::size_t place_of(std::uint32_t id) const;
+  [[nodiscard]] int index_of(std::uint32_t id) const { return known_[place_of(id)].index; }
   [[nodiscard]] bool is_any_message(const CanFrame& frame) const;
   [[nodiscard]] int place_in_batch(std::size_t index, TimeUs now);
   void refuse_surplus(std::size_t index, int place, const CanFrame& frame, TimeUs now);
@@ -97,8 +100,7 @@ class MessageLinks {
   void count(std::size_t index, std::uint32_t LinkCounters::*counter);
 
   MessageRules rules_;
-  std::array<Known, kMostMessages> known_{};  ///< By id.
-  std::size_t known_count_ = 0;
+  std::array<Known, kPlaces> known_{};
   std::array<bool, 256> fits_a_message_{};  ///< By e2e_fitting_signature, of all of the bus.
   std::array<Batch, kMostMessages> batch_{};
   std::array<dbc::Payload, kMostMessages> newest_{};  ///< Of an unprotected message's surplus.

@@ -6,7 +6,14 @@
 namespace graben {
 namespace {
 constexpr double kCycle_s = 0.01;
+
+CommandHistory::Range widened(CommandHistory::Range range, const double* begin, const double* end) {
+  for (const double* sent = begin; sent != end; ++sent) {
+    range = {std::min(range.least, *sent), std::max(range.most, *sent)};
+  }
+  return range;
 }
+}  // namespace
 
 CommandHistory::CommandHistory(double neutral) { sent_.fill(neutral); }
 
@@ -16,14 +23,10 @@ void CommandHistory::add(double sent) {
 }
 
 CommandHistory::Range CommandHistory::range(int cycles) const {
-  Range range{newest(), newest()};
-  int at = newest_;
-  for (int n = 1; n < cycles; ++n) {
-    at = at == 0 ? kMostCycles - 1 : at - 1;
-    const double sent = sent_[static_cast<unsigned>(at)];
-    range = {std::min(range.least, sent), std::max(range.most, sent)};
-  }
-  return range;
+  const double* const ring = sent_.data();
+  const int first = newest_ + 1 - cycles;
+  const Range range = widened({newest(), newest()}, ring + std::max(first, 0), ring + newest_);
+  return widened(range, ring + kMostCycles + std::min(first, 0), ring + kMostCycles);
 }
 
 int cycles_under_way(double time_s) {
