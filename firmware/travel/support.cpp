@@ -11,8 +11,8 @@ constexpr double kMostStep_m = 0.05;
 constexpr double kMostStep_rad = 0.05;
 constexpr double kMostPitch_rad = 0.8;
 /// The next step of Newton's method is the square of this.
-constexpr double kAtRest_m = 1e-5;
-constexpr double kAtRest_rad = 1e-5;
+constexpr double kAtRest_m = 1e-4;
+constexpr double kAtRest_rad = 1e-4;
 
 /// What is missing to equilibrium, and how it changes with height and pitch.
 struct Balance {
