@@ -80,23 +80,29 @@ constexpr MessageInfo message_info() {
 template <class... Messages>
 struct MessageList {};
 
+/// The bytes as one word and back, Intel order: one load and one store where a loop would be eight.
+constexpr std::uint64_t word_of(const Payload& bytes) {
+  return std::uint64_t{bytes[0]} | std::uint64_t{bytes[1]} << 8U | std::uint64_t{bytes[2]} << 16U |
+         std::uint64_t{bytes[3]} << 24U | std::uint64_t{bytes[4]} << 32U |
+         std::uint64_t{bytes[5]} << 40U | std::uint64_t{bytes[6]} << 48U |
+         std::uint64_t{bytes[7]} << 56U;
+}
+constexpr Payload payload_of(std::uint64_t word) {
+  const auto byte = [word](unsigned n) { return static_cast<std::uint8_t>(word >> (8U * n)); };
+  return {byte(0), byte(1), byte(2), byte(3), byte(4), byte(5), byte(6), byte(7)};
+}
+
 /// Raw value of the `width` (1 .. 32) bits from `start_bit`, Intel order.
 constexpr std::uint32_t extract(const Payload& payload, unsigned start_bit, unsigned width) {
-  std::uint64_t bits = 0;
-  for (unsigned i = 0; i < payload.size(); ++i) {
-    bits |= static_cast<std::uint64_t>(payload[i]) << (8U * i);
-  }
-  return static_cast<std::uint32_t>((bits >> start_bit) & ((std::uint64_t{1} << width) - 1U));
+  return static_cast<std::uint32_t>((word_of(payload) >> start_bit) &
+                                    ((std::uint64_t{1} << width) - 1U));
 }
 
 /// Puts the low `width` (1 .. 32) bits of `raw` to `start_bit`, Intel order; other bits stay.
 constexpr void insert(Payload& payload, unsigned start_bit, unsigned width, std::uint32_t raw) {
-  for (unsigned i = 0; i < width; ++i) {
-    const unsigned bit = start_bit + i;
-    const auto mask = static_cast<std::uint8_t>(1U << (bit % 8U));
-    std::uint8_t& byte = payload[bit / 8U];
-    byte = static_cast<std::uint8_t>(((raw >> i) & 1U) != 0U ? byte | mask : byte & ~mask);
-  }
+  const std::uint64_t mask = ((std::uint64_t{1} << width) - 1U) << start_bit;
+  const std::uint64_t bits = (std::uint64_t{raw} << start_bit) & mask;
+  payload = payload_of((word_of(payload) & ~mask) | bits);
 }
 
 /// J1939 gives a special value of two bytes or more by its top byte alone: 0xFE00 .. 0xFEFF are all

@@ -134,6 +134,12 @@ void e2e_protect(E2ePayload& payload, std::uint16_t data_id, std::uint8_t counte
   payload[0] = crc_of(payload, data_id);
 }
 
+std::uint8_t e2e_signature(std::uint16_t data_id) { return crc_of({}, data_id); }
+
+std::uint8_t e2e_fitting_signature(const E2ePayload& payload) {
+  return static_cast<std::uint8_t>(payload[0] ^ crc_of(payload, 0));
+}
+
 bool e2e_crc_fits(const E2ePayload& payload, std::uint16_t data_id) {
   return payload[0] == crc_of(payload, data_id);
 }

@@ -118,6 +118,12 @@ std::uint8_t crc8(std::uint8_t crc, const std::uint8_t* data, std::size_t length
 /// must be 0 .. 14.
 void e2e_protect(E2ePayload& payload, std::uint16_t data_id, std::uint8_t counter);
 
+/// What a data id adds to the CRC of a payload, which is linear in both.
+[[nodiscard]] std::uint8_t e2e_signature(std::uint16_t data_id);
+
+/// The signature of every data id that the payload's CRC fits.
+[[nodiscard]] std::uint8_t e2e_fitting_signature(const E2ePayload& payload);
+
 /// Whether the payload's CRC is that of a message with this data id.
 [[nodiscard]] bool e2e_crc_fits(const E2ePayload& payload, std::uint16_t data_id);
 

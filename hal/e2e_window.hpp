@@ -19,7 +19,7 @@ inline constexpr TimeUs kE2eWindowForget_us = kSecondUs;
 
 enum class E2eMark : std::uint8_t {
   kGood = 0,
-  kSequence = 1,    ///< Conflicting, jumping, late, early, or counter 15.
+  kSequence = 1,    ///< Conflicting, jumping, late, early, surplus, counter 15.
   kCorrupt = 2,     ///< Wrong CRC.
   kMasquerade = 3,  ///< Wrong CRC, and it fits another message.
 };

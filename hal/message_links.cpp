@@ -1,5 +1,7 @@
 #include "hal/message_links.hpp"
 
+#include <algorithm>
+
 namespace graben {
 namespace {
 
@@ -34,23 +36,72 @@ E2eMark mark_of(E2eCheck check) {
 
 }  // namespace
 
-int MessageLinks::index_of(std::uint32_t id) const {
+MessageLinks::MessageLinks(const MessageRules& rules, const BusParts& parts) : rules_(rules) {
   for (std::size_t i = 0; i < rules_.count; ++i) {
-    if (rules_.rule[i].id == id && has_part(parts_, rules_.rule[i].part)) {
-      return static_cast<int>(i);
+    if (has_part(parts, rules_.rule[i].part)) {
+      known_[place_of(rules_.rule[i].id)] = {rules_.rule[i].id, static_cast<int>(i)};
     }
   }
-  return kNoMessage;
+  for (std::size_t i = 0; i < rules_.all_count; ++i) {
+    if (rules_.all[i].is_protected) {
+      fits_a_message_[e2e_signature(rules_.all[i].data_id)] = true;
+    }
+  }
+}
+
+/// Where the id is, or where it would be.
+std::size_t MessageLinks::place_of(std::uint32_t id) const {
+  constexpr std::uint32_t kMultiplier = 0x9E3779B1U;  // Knuth: 2^32 over the golden ratio
+  constexpr unsigned kShift = 26;
+  static_assert(kPlaces == 1U << (32U - kShift));
+  std::size_t place = (id * kMultiplier) >> kShift;
+  for (std::size_t n = 0; n < kPlaces && known_[place].index != kNoMessage; ++n) {
+    if (known_[place].id == id) {
+      return place;
+    }
+    place = (place + 1) % kPlaces;
+  }
+  return place;
 }
 
 /// Whether the CRC is that of any protected message of the bus.
 bool MessageLinks::is_any_message(const CanFrame& frame) const {
-  bool fits = false;
-  for (std::size_t i = 0; i < rules_.all_count; ++i) {
-    const dbc::MessageInfo& message = rules_.all[i];
-    fits = fits || (message.is_protected && e2e_crc_fits(frame.data, message.data_id));
+  return fits_a_message_[e2e_fitting_signature(frame.data)];
+}
+
+/// From 1 on; it counts no further than it matters.
+int MessageLinks::place_in_batch(std::size_t index, TimeUs now) {
+  constexpr int kMostCounted = kMostAtOnce + kE2eWindowLimit + 1;
+  Batch& batch = batch_[index];
+  batch = {now, batch.now == now ? std::min(batch.frames + 1, kMostCounted) : 1};
+  return batch.frames;
+}
+
+/// Only as many are noted as make a fault: more would push what else was wrong out of the window.
+void MessageLinks::refuse_surplus(std::size_t index, int place, const CanFrame& frame, TimeUs now) {
+  const unsigned bit = 1U << index;
+  if (!rules_.rule[index].is_protected) {
+    newest_[index] = frame.data;
+    if ((has_newest_ & bit) == 0U) {
+      has_newest_ |= bit;
+      return;
+    }
+  } else if (place <= kMostAtOnce + kE2eWindowLimit) {
+    e2e_note(window_[index], E2eMark::kSequence, now);
   }
-  return fits;
+  count(index, &LinkCounters::surplus);
+}
+
+int MessageLinks::take_newest(dbc::Payload& payload) {
+  for (std::size_t i = 0; has_newest_ != 0U && i < kMostMessages; ++i) {
+    const unsigned bit = 1U << i;
+    if ((has_newest_ & bit) != 0U) {
+      has_newest_ &= ~bit;
+      payload = newest_[i];
+      return static_cast<int>(i);
+    }
+  }
+  return kNoMessage;
 }
 
 void MessageLinks::count(std::size_t index, std::uint32_t LinkCounters::*counter) {
@@ -95,6 +146,11 @@ int MessageLinks::admit(const CanFrame& frame, TimeUs now) {
   }
   if (frame.length != rule.length) {
     count(i, &LinkCounters::wrong_length);
+    return kNoMessage;
+  }
+  const int place = place_in_batch(i, now);
+  if (place > kMostAtOnce) {
+    refuse_surplus(i, place, frame, now);
     return kNoMessage;
   }
   return rule.is_protected && !passes_e2e(i, frame, now) ? kNoMessage : index;

@@ -47,16 +47,27 @@ struct MessageRules {
 
 /// The links of all messages that a receiver takes: those of parts that the machine hasn't got are
 /// foreign to it. A message's index is that of its rule.
+///
+/// What comes at one time is bounded, or a babbling sender could make a cycle as long as it likes.
+/// No sender of ours is faster than a cycle of 10 ms, and what waits longer than 50 ms is thrown
+/// away: more than kMostAtOnce frames of a message with one `now` are not its sender's. Of a
+/// protected message the surplus is refused unseen, and its first three frames count as wrong in
+/// sequence, which is a fault. Of an unprotected one, where nothing tells right from wrong, the
+/// newest of them counts, as it does among fewer (take_newest).
 class MessageLinks {
  public:
   static constexpr std::size_t kMostMessages = 16;
   static constexpr int kNoMessage = -1;
+  static constexpr int kMostAtOnce = 7;
 
   /// At most kMostMessages rules.
-  MessageLinks(const MessageRules& rules, const BusParts& parts) : rules_(rules), parts_(parts) {}
+  MessageLinks(const MessageRules& rules, const BusParts& parts);
 
   /// Index of the message whose data may be decoded, or kNoMessage; the reason is counted.
   [[nodiscard]] int admit(const CanFrame& frame, TimeUs now);
+  /// After all frames of a cycle: index of a message of whose surplus the newest, `payload`, is
+  /// still to be decoded, or kNoMessage. To be called until then.
+  [[nodiscard]] int take_newest(dbc::Payload& payload);
   /// Whether all values of an admitted frame were in their ranges.
   void note_decoded(int index, bool in_range);
 
@@ -68,13 +79,32 @@ class MessageLinks {
   [[nodiscard]] bool take_out_of_range();
 
  private:
-  [[nodiscard]] int index_of(std::uint32_t id) const;
+  /// A place of the hash table of ids; linear probing.
+  struct Known {
+    std::uint32_t id = 0;
+    int index = kNoMessage;
+  };
+  static constexpr std::size_t kPlaces = 4 * kMostMessages;
+  /// Frames of one message with one stamp.
+  struct Batch {
+    TimeUs now = 0;
+    int frames = 0;
+  };
+
+  [[nodiscard]] std::size_t place_of(std::uint32_t id) const;
+  [[nodiscard]] int index_of(std::uint32_t id) const { return known_[place_of(id)].index; }
   [[nodiscard]] bool is_any_message(const CanFrame& frame) const;
+  [[nodiscard]] int place_in_batch(std::size_t index, TimeUs now);
+  void refuse_surplus(std::size_t index, int place, const CanFrame& frame, TimeUs now);
   [[nodiscard]] bool passes_e2e(std::size_t index, const CanFrame& frame, TimeUs now);
   void count(std::size_t index, std::uint32_t LinkCounters::*counter);
 
   MessageRules rules_;
-  BusParts parts_;
+  std::array<Known, kPlaces> known_{};
+  std::array<bool, 256> fits_a_message_{};  ///< By e2e_fitting_signature, of all of the bus.
+  std::array<Batch, kMostMessages> batch_{};
+  std::array<dbc::Payload, kMostMessages> newest_{};  ///< Of an unprotected message's surplus.
+  unsigned has_newest_ = 0;                           ///< A bit for each message.
   std::array<E2eState, kMostMessages> e2e_{};
   std::array<E2eWindow, kMostMessages> window_{};
   std::array<LinkCounters, kMostMessages> link_{};

@@ -75,8 +75,15 @@ class MessageReceiver {
   void accept(const CanFrame& frame, TimeUs now) {
     const int index = links_.admit(frame, now);
     if (index != MessageLinks::kNoMessage) {
-      const auto decode = Reception::table().decode[static_cast<std::size_t>(index)];
-      links_.note_decoded(index, decode(frame.data, now, received_));
+      decode(index, frame.data, now);
+    }
+  }
+  /// After the last frame of a cycle: what MessageLinks has held back of it.
+  void finish(TimeUs now) {
+    dbc::Payload payload{};
+    for (int index = links_.take_newest(payload); index != MessageLinks::kNoMessage;
+         index = links_.take_newest(payload)) {
+      decode(index, payload, now);
     }
   }
 
@@ -107,6 +114,11 @@ class MessageReceiver {
   [[nodiscard]] bool take_out_of_range() { return links_.take_out_of_range(); }
 
  private:
+  void decode(int index, const dbc::Payload& payload, TimeUs now) {
+    const auto store = Reception::table().decode[static_cast<std::size_t>(index)];
+    links_.note_decoded(index, store(payload, now, received_));
+  }
+
   Received received_;
   MessageLinks links_;
 };

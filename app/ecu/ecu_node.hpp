@@ -13,6 +13,14 @@
 
 namespace graben::ecu {
 
+/// A cycle takes up to two batches, as many frames of 8 bytes as a full 500 kbit/s bus brings in
+/// the 50 ms after which it counts as stalled, and throws away up to two more, the capacity of any
+/// queue of ours: what waited for the next cycle would be an old frame taken for a fresh one. The
+/// messages' counters tell of what is thrown away.
+inline constexpr int kFramesPerBatch = 96;
+inline constexpr int kBatchesTaken = 2;
+inline constexpr int kBatchesRead = 4;
+
 /// One controller on one port. The caller owns the port and the clock.
 ///
 /// `Kind` says whose: Profile, Controller, Receiver, Transmitter, Inputs, Outputs, MemoryAccess (of
@@ -68,29 +76,25 @@ class EcuNode {
   typename Kind::Controller controller_;
   Transmitter transmitter_;
   EcuDiagnosis diagnosis_;
+  std::array<CanFrame, kFramesPerBatch> frames_{};  ///< Of one batch.
   Inputs inputs_;
   Outputs outputs_;
   int dropped_cycles_ = 0;
   bool stop_requested_ = false;
 };
 
-/// A cycle takes all that is pending, up to the capacity of any queue of ours; a 500 kbit/s bus
-/// brings some 75 of the shortest frames in 10 ms.
-inline constexpr int kFramesPerBatch = 96;
-inline constexpr int kBatchesPerCycle = 4;
-
 template <class Kind>
 void EcuNode<Kind>::receive(TimeUs now_us, bool stale) {
-  std::array<CanFrame, kFramesPerBatch> frames;
-  for (int batch = 0; batch < kBatchesPerCycle; ++batch) {
-    const int count = port_.receive(frames.data(), kFramesPerBatch);
-    for (int i = 0; i < count && !stale; ++i) {
-      receiver_.accept(frames[static_cast<unsigned>(i)], now_us);
+  for (int batch = 0; batch < kBatchesRead; ++batch) {
+    const int count = port_.receive(frames_.data(), kFramesPerBatch);
+    for (int i = 0; i < count && !stale && batch < kBatchesTaken; ++i) {
+      receiver_.accept(frames_[static_cast<unsigned>(i)], now_us);
     }
     if (count < kFramesPerBatch) {
-      return;
+      break;
     }
   }
+  receiver_.finish(now_us);
 }
 
 template <class Kind>

@@ -38,7 +38,7 @@ enum class Fault : std::uint8_t {
   kTransmitFailed = 15,       ///< The bus did not take our frames, two cycles in a row.
   kCycleOverrun = 16,         ///< Two cycles in a row came late.
   kMessageCorrupt = 17,       ///< Three wrong CRCs of a message in its window.
-  kMessageSequence = 18,      ///< Three frames of a message out of sequence: two senders, a replay.
+  kMessageSequence = 18,      ///< Three of a message out of sequence: two senders, replay, babble.
   kMessageMasquerade = 19,    ///< A CRC that fits another message.
   kSpoolMissing = 20,         ///< No feedback of the valve.
   kSpoolStuck = 21,           ///< A spool is where no command of late has sent it.

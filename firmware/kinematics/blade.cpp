@@ -57,11 +57,6 @@ Eigen::Vector2d BladeKinematics::edge_m(double angle_rad) const {
   return pivot_m_ + edge_radius_m_ * Eigen::Vector2d(std::cos(direction), std::sin(direction));
 }
 
-Eigen::Vector2d BladeKinematics::edge_rate_mprad(double angle_rad) const {
-  const double direction = edge_home_rad_ + angle_rad;
-  return edge_radius_m_ * Eigen::Vector2d(-std::sin(direction), std::cos(direction));
-}
-
 double blade_stroke_max_m(const BladeGeometry& geometry) {
   return BladeKinematics(geometry).stroke_max_m();
 }

@@ -21,7 +21,13 @@ class BladeKinematics {
   [[nodiscard]] double stroke_rate_mprad(double angle_rad) const;
   /// Cutting edge, x and z, and its derivative by theta_1.
   [[nodiscard]] Eigen::Vector2d edge_m(double angle_rad) const;
-  [[nodiscard]] Eigen::Vector2d edge_rate_mprad(double angle_rad) const;
+  [[nodiscard]] Eigen::Vector2d edge_rate_mprad(double angle_rad) const {
+    return edge_rate_at_mprad(edge_m(angle_rad));
+  }
+  /// The same where the edge itself is known.
+  [[nodiscard]] Eigen::Vector2d edge_rate_at_mprad(const Eigen::Vector2d& edge_m) const {
+    return {pivot_m_.y() - edge_m.y(), edge_m.x() - pivot_m_.x()};
+  }
 
   [[nodiscard]] double stroke_max_m() const { return stroke_max_m_; }
   [[nodiscard]] double angle_min_rad() const { return angle_min_rad_; }

@@ -6,8 +6,8 @@
 namespace graben {
 namespace {
 
-double slope_after(const GradeDesign& design, int i) {
-  if (i < 0 || i + 1 >= design.count) {
+double slope_after(const GradeDesign& design, int count, int i) {
+  if (i + 1 >= count) {
     return 0.0;
   }
   const GradePoint& from = design.point[static_cast<unsigned>(i)];
@@ -15,39 +15,38 @@ double slope_after(const GradeDesign& design, int i) {
   return (to.z_m - from.z_m) / (to.x_m - from.x_m);
 }
 
-/// A ramp that begins at 0 with slope 1, its corner rounded over `half_m` to either side.
-GradeSample rounded_ramp(double from_corner_m, double half_m) {
-  if (from_corner_m >= half_m) {
-    return {from_corner_m, 1.0};
-  }
-  if (from_corner_m <= -half_m) {
-    return {};
-  }
-  const double along_m = from_corner_m + half_m;
-  return {along_m * along_m / (4.0 * half_m), along_m / (2.0 * half_m)};
-}
-
 }  // namespace
 
-GradeProfile::GradeProfile(const GradeDesign& design) : design_(design) {
-  design_.count = std::clamp(design_.count, 0, GradeDesign::kMostPoints);
-  for (int i = 0; i < design_.count; ++i) {
-    kink_[static_cast<unsigned>(i)] = slope_after(design_, i) - slope_after(design_, i - 1);
+GradeProfile::GradeProfile(const GradeDesign& design)
+    : plane_height_m_(design.plane_height_m),
+      plane_slope_(design.plane_slope),
+      count_(std::clamp(design.count, 0, GradeDesign::kMostPoints)) {
+  line_[0].height_m = count_ > 0 ? design.point[0].z_m : 0.0;
+  for (int i = 0; i < count_; ++i) {
+    const auto n = static_cast<unsigned>(i);
+    const bool is_end = i == 0 || i + 1 == count_;
+    corner_m_[n] = design.point[n].x_m;
+    curve_end_m_[n] = corner_m_[n] + (is_end ? 0.0 : design.rounding_m);
+    line_[n + 1] = {corner_m_[n], design.point[n].z_m, slope_after(design, count_, i)};
   }
 }
 
 GradeSample GradeProfile::at(double x_m) const {
-  GradeSample sample{design_.plane_height_m + design_.plane_slope * x_m, design_.plane_slope};
-  if (design_.count > 0) {
-    sample.height_m += design_.point[0].z_m;
-  }
-  for (int i = 0; i < design_.count; ++i) {
-    const bool is_end = i == 0 || i + 1 == design_.count;
-    const auto n = static_cast<unsigned>(i);
-    const GradeSample ramp =
-        rounded_ramp(x_m - design_.point[n].x_m, is_end ? 0.0 : design_.rounding_m);
-    sample.height_m += kink_[n] * ramp.height_m;
-    sample.slope += kink_[n] * ramp.slope;
+  const auto end = curve_end_m_.begin() + count_;
+  const auto n = static_cast<unsigned>(std::upper_bound(curve_end_m_.begin(), end, x_m) -
+                                       curve_end_m_.begin());
+  const Line& line = line_[n];
+  GradeSample sample{
+      plane_height_m_ + plane_slope_ * x_m + line.height_m + line.slope * (x_m - line.from_m),
+      plane_slope_ + line.slope};
+  if (static_cast<int>(n) < count_) {
+    const double half_m = curve_end_m_[n] - corner_m_[n];
+    const double along_m = x_m - (corner_m_[n] - half_m);
+    if (along_m > 0.0 && half_m > 0.0) {
+      const double kink = line_[n + 1].slope - line.slope;
+      sample.height_m += kink * along_m * along_m / (4.0 * half_m);
+      sample.slope += kink * along_m / (2.0 * half_m);
+    }
   }
   return sample;
 }

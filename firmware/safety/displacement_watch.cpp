@@ -25,14 +25,11 @@ double nearer(const CommandHistory::Range& range, const DisplacementState& last,
 
 }  // namespace
 
-DisplacementState::DisplacementState(double neutral) : sent(neutral) {}
-
 DisplacementResult watch_displacement(const DisplacementLimits& limits,
                                       const DisplacementState& last, double sent,
                                       DisplacementTask task, double measured, double period_s) {
-  DisplacementResult result{false, false, DisplacementState(sent)};
+  DisplacementResult result{false, false, DisplacementState(last.sent)};
   DisplacementState& state = result.state;
-  state.sent = last.sent;
   state.sent.add(sent);
   if (task == DisplacementTask::kNone) {
     return result;

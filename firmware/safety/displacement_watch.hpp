@@ -16,7 +16,8 @@ inline constexpr int kRunawayCycles = 3;
 /// What the watch needs of the last cycle.
 struct DisplacementState {
   /// As if it had been told `neutral` all the time.
-  explicit DisplacementState(double neutral);
+  explicit DisplacementState(double neutral) : sent(neutral) {}
+  explicit DisplacementState(const CommandHistory& of_late) : sent(of_late) {}
 
   CommandHistory sent;
   bool judged = false;

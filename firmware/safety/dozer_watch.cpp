@@ -58,8 +58,8 @@ DisplacementTask displacement_task(bool returning, const DozerLastCycle& cycle,
 DozerWatchResult watch(const DozerProfile& profile, const DozerWatchState& last,
                        const DozerLastCycle& cycle, const ValidDozerInputs& inputs,
                        double period_s) {
-  DozerWatchResult result;
-  result.inputs = inputs;
+  // Afresh but for the histories, which would be filled for nothing.
+  DozerWatchResult result{inputs, {last.spool, 0, {}, last.transmission, {}, false, false}};
   DozerWatchState& state = result.state;
   FaultSet stops = watch_valve(profile, last, cycle, inputs, state);
   // Without stroke and spool the blade cannot be judged, and the fault is there anyway.

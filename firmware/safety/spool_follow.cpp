@@ -10,8 +10,7 @@ constexpr double kDeadTimeSpread = 1.3;
 
 SpoolFollowResult follow_spool(const SpoolLimits& limits, const SpoolState& last, double duty_ratio,
                                bool received, double spool_ratio) {
-  SpoolFollowResult result;
-  result.state.sent = last.sent;
+  SpoolFollowResult result{false, {last.sent}};
   result.state.sent.add(duty_ratio);
   if (!received) {
     return result;

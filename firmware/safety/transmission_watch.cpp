@@ -40,7 +40,8 @@ TransmissionWatchResult watch_transmission(const DozerProfile& profile,
                                   profile.safety.displacement_settle_s};
   const bool tracks_judged =
       task == DisplacementTask::kFollow && !valid.faults.has(Fault::kEngineSpeedMissing);
-  TransmissionWatchResult result;
+  // Not afresh: each would fill its histories for nothing.
+  TransmissionWatchResult result{{}, false, {last.pump, last.motor}};
   for (unsigned i = 0; i < kTrackCount; ++i) {
     result.state.pump[i] = take(
         watch_displacement(limits, last.pump[i], sent.pump[i], task, valid.pump_ratio[i], period_s),

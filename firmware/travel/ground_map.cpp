@@ -1,19 +1,12 @@
 #include "firmware/travel/ground_map.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace graben {
 namespace {
 /// Above the design by more than control and sensors ever leave it.
 constexpr double kInAir_m = 0.08;
 }  // namespace
-
-int GroundMap::cell_of(double x_m) {
-  // Not finite is no place.
-  const double x = std::isfinite(x_m) ? std::clamp(x_m, -kFurthest_m, kFurthest_m) : 0.0;
-  return static_cast<int>(std::floor(x / kCell_m - 0.5));
-}
 
 void GroundMap::start(double edge_x_m, double stand_x_m, double stand_z_m, double slope) {
   front_ = cell_of(edge_x_m);

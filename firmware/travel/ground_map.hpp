@@ -2,7 +2,9 @@
 /// What the ground is around the machine: as it was before, cut where the blade has been, and the
 /// design where it has still to go.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "firmware/motion/grade_profile.hpp"
 
@@ -10,6 +12,15 @@ namespace graben {
 
 /// Further from x = 0 than what a grid of int can count nothing drives.
 inline constexpr double kFurthest_m = 1e6;
+
+/// The last line of a grid of `step_m`, the first at `first_m`, that is not beyond x. Not finite is
+/// no place: that of x = 0.
+[[nodiscard]] inline int grid_index(double x_m, double step_m, double first_m) {
+  const double x = std::isfinite(x_m) ? std::clamp(x_m, -kFurthest_m, kFurthest_m) : 0.0;
+  const double lines = (x - first_m) / step_m;
+  const int below_or_above = static_cast<int>(lines);  // towards 0; std::floor may be a call
+  return below_or_above - (lines < below_or_above ? 1 : 0);
+}
 
 /// Heights on a grid along x. It remembers kLength_m behind the furthest place that the cutting
 /// edge has reached; nothing of it is allocated, nothing is searched.
@@ -36,13 +47,15 @@ class GroundMap {
   /// Heights of a straight line over all cells up to the edge.
   void start(double edge_x_m, double stand_x_m, double stand_z_m, double slope);
   /// The last one whose middle is not beyond x.
-  [[nodiscard]] static int cell_of(double x_m);
-  [[nodiscard]] double cell(int index) const {
-    return height_m_[static_cast<unsigned>(index % kCells + kCells) % kCells];
+  [[nodiscard]] static int cell_of(double x_m) { return grid_index(x_m, kCell_m, 0.5 * kCell_m); }
+  /// Whole turns of the ring, more than kFurthest_m has.
+  static constexpr int kTurns = 200'000 * kCells;
+  static_assert(kTurns * kCell_m > kFurthest_m + kLength_m);
+  [[nodiscard]] static unsigned slot(int index) {
+    return static_cast<unsigned>(index + kTurns) % kCells;
   }
-  void set(int index, double height_m) {
-    height_m_[static_cast<unsigned>(index % kCells + kCells) % kCells] = height_m;
-  }
+  [[nodiscard]] double cell(int index) const { return height_m_[slot(index)]; }
+  void set(int index, double height_m) { height_m_[slot(index)] = height_m; }
 
   std::array<double, kCells> height_m_{};
   int front_ = 0;  ///< Last cell whose middle the edge has passed.

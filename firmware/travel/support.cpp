@@ -6,11 +6,13 @@
 namespace graben {
 namespace {
 
-constexpr int kSteps = 8;
 constexpr double kGravity_mps2 = 9.80665;
 constexpr double kMostStep_m = 0.05;
 constexpr double kMostStep_rad = 0.05;
 constexpr double kMostPitch_rad = 0.8;
+/// The next step of Newton's method is the square of this.
+constexpr double kAtRest_m = 1e-4;
+constexpr double kAtRest_rad = 1e-4;
 
 /// What is missing to equilibrium, and how it changes with height and pitch.
 struct Balance {
@@ -30,25 +32,27 @@ Balance balance_of(const DozerBody& body, const GroundMap& ground, const GradePr
   const double sag_m = weight_n / (body.wheels * body.suspension_npm);
   const double c = std::cos(stand.pitch_rad);
   const double s = std::sin(stand.pitch_rad);
+  const double spacing_m = body.track_contact_m / (body.wheels - 1);
+  const double back_m = body.mass_centre_height_m * s;
+  double along_m = -0.5 * body.track_contact_m;
   Balance balance;
   balance.force_n = -weight_n;
-  for (int i = 0; i < body.wheels; ++i) {
-    const double along_m =
-        body.track_contact_m * (static_cast<double>(i) / (body.wheels - 1) - 0.5);
-    const double wheel_x_m = x_m + along_m * c;
-    const double wheel_z_m = stand.height_m + along_m * s;
-    const double pressed_m = ground.height_m(wheel_x_m, design) + sag_m - wheel_z_m;
+  for (int i = 0; i < body.wheels; ++i, along_m += spacing_m) {
+    const double ahead_m = along_m * c;
+    const double up_m = along_m * s;
+    const double pressed_m =
+        ground.height_m(x_m + ahead_m, design) + sag_m - (stand.height_m + up_m);
     if (pressed_m > 0.0) {
       // l cos - h sin of (15): about the mass centre, which the pitch takes back or forth.
-      const double lever_m = along_m * c + body.mass_centre_height_m * s;
+      const double lever_m = ahead_m + back_m;
       const double force_n = body.suspension_npm * pressed_m;
       balance.force_n += force_n;
       balance.moment_nm += force_n * lever_m;
       balance.force_per_m -= body.suspension_npm;
-      balance.force_per_rad -= body.suspension_npm * along_m * c;
+      balance.force_per_rad -= body.suspension_npm * ahead_m;
       balance.moment_per_m -= body.suspension_npm * lever_m;
-      balance.moment_per_rad -= body.suspension_npm * along_m * c * lever_m;
-      balance.moment_per_rad += force_n * (body.mass_centre_height_m * c - along_m * s);
+      balance.moment_per_rad -= body.suspension_npm * ahead_m * lever_m;
+      balance.moment_per_rad += force_n * (body.mass_centre_height_m * c - up_m);
     }
   }
   return balance;
@@ -76,14 +80,20 @@ Stand next_stand(const Balance& balance, const Stand& stand) {
 
 }  // namespace
 
+StandStep step_to_rest(const DozerBody& body, const GroundMap& ground, const GradeProfile& design,
+                       double x_m, const Stand& stand) {
+  const Stand next = next_stand(balance_of(body, ground, design, x_m, stand), stand);
+  return {next, std::abs(next.height_m - stand.height_m) < kAtRest_m &&
+                    std::abs(next.pitch_rad - stand.pitch_rad) < kAtRest_rad};
+}
+
 Stand stand_at(const DozerBody& body, const GroundMap& ground, const GradeProfile& design,
                double x_m, const Stand& guess) {
-  Stand stand = guess;
-  for (int step = 0; step < kSteps; ++step) {
-    const Balance balance = balance_of(body, ground, design, x_m, stand);
-    stand = next_stand(balance, stand);
+  StandStep step{guess};
+  for (int n = 0; n < kMostStandSteps && !step.at_rest; ++n) {
+    step = step_to_rest(body, ground, design, x_m, step.stand);
   }
-  return stand;
+  return step.stand;
 }
 
 }  // namespace graben

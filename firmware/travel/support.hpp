@@ -12,9 +12,21 @@ struct Stand {
   double pitch_rad = 0.0;
 };
 
-/// Where (15) and (16) come to rest with the origin at `x_m`: wheels on springs that only push
-/// carry the weight and no moment. Newton's method from `guess`, with a fixed number of bounded
-/// steps; on a ledge that has no rest it returns the last of them.
+/// One step on the way to a rest.
+struct StandStep {
+  Stand stand;
+  bool at_rest = false;  ///< Another step would change nothing that counts.
+};
+
+/// So many steps find any rest that there is.
+inline constexpr int kMostStandSteps = 8;
+
+/// Towards where (15) and (16) come to rest with the origin at `x_m`: wheels on springs that only
+/// push carry the weight and no moment. One bounded step of Newton's method from `stand`.
+[[nodiscard]] StandStep step_to_rest(const DozerBody& body, const GroundMap& ground,
+                                     const GradeProfile& design, double x_m, const Stand& stand);
+
+/// The rest itself, from `guess`; on a ledge that has none, the last of kMostStandSteps steps.
 [[nodiscard]] Stand stand_at(const DozerBody& body, const GroundMap& ground,
                              const GradeProfile& design, double x_m, const Stand& guess);
 

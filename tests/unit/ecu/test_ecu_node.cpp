@@ -204,6 +204,26 @@ void a_stall_throws_away_what_queued_up(void**) {
   assert_int_equal(rig.port.opened, 1);
 }
 
+// Nothing is left to be taken for fresh in the next cycle until the port holds more than it should.
+template <class Kind>
+void what_a_cycle_reads_is_bounded(void**) {
+  constexpr int kTaken = 2 * 96;
+  constexpr int kRead = 4 * 96;
+  Rig<Kind> rig;
+  rig.step();
+  rig.port.pending = kRead;
+  rig.step();
+  assert_int_equal(rig.port.pending, 0);
+  assert_int_equal(rig.ecu.link().wrong_length, kTaken);
+  rig.port.pending = kRead + 10;
+  rig.step();
+  assert_int_equal(rig.port.pending, 10);
+  assert_int_equal(rig.ecu.link().wrong_length, 2 * kTaken);
+  rig.step();
+  assert_int_equal(rig.port.pending, 0);
+  assert_int_equal(rig.ecu.link().wrong_length, 2 * kTaken + 10);
+}
+
 // A cycle counts as dropped if any of its commands was not taken; other frames do not count.
 template <class Kind>
 void commands_that_are_not_taken_are_counted(void**) {
@@ -279,6 +299,32 @@ void the_machine_has_to_be_ours(void**) {
   }
 }
 
+// One that babbles is believed in what it said last.
+template <class Kind>
+void the_newest_identity_counts(void**) {
+  LoopbackBus can;
+  LoopbackPort& port = can.attach();
+  assert_true(port.open());
+  typename Kind::Ecu ecu(Kind::profile(), 0x1234, port);
+  TimeUs now = 0;
+  for (const std::uint32_t last : {0x1234U, 0x4321U}) {
+    typename Kind::MachineIdentity identity;
+    identity.dbc_version = {Kind::kDbcVersion, dbc::RawState::kValid};
+    CanFrame frame;
+    frame.id = Kind::MachineIdentity::kId;
+    frame.length = 8;
+    for (int n = 1; n <= 20; ++n) {
+      identity.profile_hash.value = n == 20 ? last : 0x1234U ^ 0x4321U ^ last;
+      frame.data = identity.encode();
+      can.inject(frame);
+    }
+    ecu.step(now, 0);
+    now += kCycleUs;
+    assert_int_equal(ecu.inputs().same_machine.value, last == 0x1234U);
+    assert_true(ecu.inputs().link.message_faults.empty());
+  }
+}
+
 template <class Kind>
 void what_is_wrong_with_frames_reaches_the_controller(void**) {
   LoopbackBus can;
@@ -319,7 +365,9 @@ int main() {
       ON_BOTH(a_short_bus_off_is_seen),
       ON_BOTH(a_state_that_reading_ends_is_seen),
       ON_BOTH(a_stall_throws_away_what_queued_up),
+      ON_BOTH(what_a_cycle_reads_is_bounded),
       ON_BOTH(the_machine_has_to_be_ours),
+      ON_BOTH(the_newest_identity_counts),
       ON_BOTH(commands_that_are_not_taken_are_counted),
       cmocka_unit_test(commands_that_are_not_taken_are_counted<ExcavatorWithSwing>),
       ON_BOTH(the_process_is_told_of),

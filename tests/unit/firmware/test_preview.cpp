@@ -93,6 +93,46 @@ void what_is_not_known_yet_is_slow(void**) {
               1e-12);
 }
 
+/// Looks from a place on the level, from this stand, until all that is near is known. Until then it
+/// is as slow as what is not known.
+int looks_until_known(const Stand& measured) {
+  const GradeProfile design(test::level(0.0));
+  const GroundMap untouched;
+  Preview preview(profile());
+  for (int looks = 1; looks < 300; ++looks) {
+    preview.look(untouched, design, 0.0, measured);
+    const AheadLimit ahead = preview.limit(0.0, 0.0, flow_m3ps(), 0.0);
+    if (ahead.lowest_mps > profile().travel.speed_min_mps) {
+      return looks;
+    }
+    assert_near(ahead.lowest_mps, profile().travel.speed_min_mps, 1e-12);
+  }
+  return 0;
+}
+
+/// 36 stations, three a cycle, as one on the level takes a step. From 0.75 m up it comes down by
+/// 0.05 m a step: the first two stations take eight each, all that a cycle has.
+void what_takes_more_steps_takes_more_cycles(void**) {
+  assert_int_equal(looks_until_known({0.0, 0.0}), 12);
+  assert_int_equal(looks_until_known({0.75, 0.0}), 2 + 12);
+}
+
+/// One whose turn it is again counts as what it was until it is worked out.
+void what_is_known_stays_known(void**) {
+  const GradeProfile design(test::bend(-0.4, 0.3));
+  const GroundMap untouched;
+  Preview preview(profile());
+  double settled_mps = 0.0;
+  for (int n = 0; n < 300; ++n) {
+    preview.look(untouched, design, 7.0, {0.0, 0.0});
+    const double now_mps = preview.limit(7.0, 0.0, flow_m3ps(), 0.0).speed_mps;
+    settled_mps = n == 100 ? now_mps : settled_mps;
+    if (n > 100) {
+      assert_near(now_mps, settled_mps, 1e-6);
+    }
+  }
+}
+
 /// Forwards, backwards, and far away.
 void it_follows_wherever_the_machine_goes(void**) {
   const GradeProfile design(test::bend(-0.4, 0.3));
@@ -143,6 +183,8 @@ int main() {
       cmocka_unit_test(the_lead_is_left_off),
       cmocka_unit_test(it_knows_that_the_body_will_tip),
       cmocka_unit_test(what_is_not_known_yet_is_slow),
+      cmocka_unit_test(what_takes_more_steps_takes_more_cycles),
+      cmocka_unit_test(what_is_known_stays_known),
       cmocka_unit_test(it_follows_wherever_the_machine_goes),
       cmocka_unit_test(far_away_it_stays_defined),
       cmocka_unit_test(it_learns_what_was_cut),

@@ -374,6 +374,8 @@ void crc_fits_its_own_data_id(void**) {
   assert_true(e2e_crc_fits(frame(3), kDataId));
   assert_false(e2e_crc_fits(frame(3), kDataId + 1));
   assert_int_equal(frame(0)[0], 0xCC);
+  assert_int_equal(e2e_fitting_signature(frame(3)), e2e_signature(kDataId));
+  assert_int_not_equal(e2e_signature(kDataId), e2e_signature(kDataId + 1));
 }
 
 }  // namespace

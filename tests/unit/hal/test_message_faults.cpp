@@ -1,6 +1,7 @@
 // What the receiver makes of several wrong frames of a message.
 
 #include "tests/unit/hal/bus_frames.hpp"
+#include "tests/unit/hal/seen_inputs.hpp"
 
 namespace {
 
@@ -109,8 +110,76 @@ void a_burst_of_one_message_is_cut(void**) {
     receiver.accept(frame_of(filled<bus::PumpState>(1000U + counter), counter), now);
   }
   assert_int_equal(receiver.link(bus::PumpState::kId).accepted, 1 + 2);
-  assert_int_equal(receiver.link(bus::PumpState::kId).wrong_counter, 8);
+  assert_int_equal(receiver.link(bus::PumpState::kId).wrong_counter, 5);
+  assert_int_equal(receiver.link(bus::PumpState::kId).surplus, 3);
   assert_true(receiver.message_faults(now).has(Fault::kMessageSequence));
+}
+
+// A babbling sender costs a cycle seven frames: what it says beyond is not looked at, however good
+// it is, and three of it are a fault. In the next cycle its frames are looked at again.
+template <class Bus>
+void surplus_is_refused_unseen(void**) {
+  for_each(typename Bus::Protected{}, [](auto type) {
+    using Message = decltype(type);
+    typename Bus::Receiver receiver;
+    TimeUs now = synchronise<Message>(receiver);
+    now += Message::kCycleTimeMs * kMillisecondUs;
+    CanFrame repeated = frame_of(filled<Message>(1000), 2);
+    for (int i = 0; i < MessageLinks::kMostAtOnce; ++i) {
+      receiver.accept(repeated, now);
+    }
+    const LinkCounters before = receiver.link(Message::kId);
+    for (int surplus = 1; surplus <= 3; ++surplus) {
+      assert_true(receiver.message_faults(now).empty());
+      receiver.accept(frame_of(filled<Message>(2000), 3), now);
+      assert_int_equal(receiver.link(Message::kId).surplus, surplus);
+    }
+    assert_true(receiver.message_faults(now).has(Fault::kMessageSequence));
+    assert_int_equal(receiver.link(Message::kId).accepted, before.accepted);
+    assert_int_equal(rejected(receiver.link(Message::kId)), rejected(before) + 3);
+    receiver.finish(now);
+    assert_int_equal(receiver.link(Message::kId).accepted, before.accepted);
+    receiver.accept(frame_of(filled<Message>(2000), 3), now + 1);
+    assert_int_equal(receiver.link(Message::kId).accepted, before.accepted + 1);
+  });
+}
+
+// However many there are: the wrong CRCs are still named beside them.
+void surplus_hides_nothing(void**) {
+  ExcavatorReceiver receiver;
+  const TimeUs now = synchronise<bus::BoomStroke>(receiver) + 10 * kMillisecondUs;
+  CanFrame frame = frame_of(filled<bus::BoomStroke>(2000), 3);
+  frame.data[2] ^= 0x10;
+  for (int i = 0; i < 300; ++i) {
+    receiver.accept(frame, now);
+  }
+  assert_int_equal(receiver.link(bus::BoomStroke::kId).wrong_crc, MessageLinks::kMostAtOnce);
+  assert_int_equal(receiver.total().surplus, 300 - MessageLinks::kMostAtOnce);
+  assert_true(receiver.message_faults(now).has(Fault::kMessageCorrupt));
+  assert_true(receiver.message_faults(now).has(Fault::kMessageSequence));
+}
+
+// Nothing tells which of an unprotected message's frames is right: the newest counts, as ever.
+template <class Bus>
+void the_newest_of_an_unprotected_surplus_counts(void**) {
+  for_each(typename Bus::Unprotected{}, [](auto type) {
+    using Message = decltype(type);
+    constexpr int kFrames = 20;
+    typename Bus::Receiver flooded;
+    typename Bus::Receiver quiet;
+    for (int i = 0; i < kFrames; ++i) {
+      flooded.accept(frame_of(filled<Message>(1000U + static_cast<unsigned>(i)), 0), kStartUs);
+    }
+    flooded.finish(kStartUs);
+    quiet.accept(frame_of(filled<Message>(1000U + kFrames - 1), 0), kStartUs);
+    assert_true(seen_by(flooded) == seen_by(quiet));
+    assert_int_equal(flooded.link(Message::kId).accepted, MessageLinks::kMostAtOnce + 1);
+    assert_int_equal(flooded.total().surplus, kFrames - MessageLinks::kMostAtOnce - 1);
+    assert_true(flooded.message_faults(kStartUs).empty());
+    const Seen seen = seen_by(flooded);
+    flooded.finish(kStartUs + 1);
+    assert_true(seen_by(flooded) == seen);
+  });
 }
 
 }  // namespace
@@ -124,6 +193,11 @@ int main() {
       cmocka_unit_test(windows_are_each_messages_own<DozerBus>),
       cmocka_unit_test(two_senders_of_one_message_are_a_fault),
       cmocka_unit_test(a_burst_of_one_message_is_cut),
+      cmocka_unit_test(surplus_is_refused_unseen<ExcavatorBus>),
+      cmocka_unit_test(surplus_is_refused_unseen<DozerBus>),
+      cmocka_unit_test(surplus_hides_nothing),
+      cmocka_unit_test(the_newest_of_an_unprotected_surplus_counts<ExcavatorBus>),
+      cmocka_unit_test(the_newest_of_an_unprotected_surplus_counts<DozerBus>),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
