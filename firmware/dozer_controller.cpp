@@ -62,8 +62,14 @@ void describe_motion(const DozerProfile& profile, const SpeedChoice& speed,
 
 }  // namespace
 
-DozerController::DozerController(const DozerProfile& profile)
-    : profile_(profile), blade_(profile.blade), design_(profile.grade), preview_(profile) {}
+DozerSetup::DozerSetup(const DozerProfile& machine)
+    : profile(machine), blade(profile.blade), design(profile.grade) {}
+
+DozerController::DozerController(const DozerSetup& setup)
+    : profile_(setup.profile),
+      blade_(setup.blade),
+      design_(setup.design),
+      preview_(profile_, blade_) {}
 
 Fault DozerController::memory_fault() const {
   return memory_.mode.intact() && memory_.speed_mps.intact() ? Fault::kNone : Fault::kMemoryCorrupt;

@@ -28,7 +28,8 @@ class Preview {
   static constexpr int kStationsPerCycle = 3;
   static constexpr double kHold_m = 1.5;
 
-  explicit Preview(const DozerProfile& profile);
+  /// Both have to outlive it.
+  Preview(const DozerProfile& profile, const BladeKinematics& blade);
 
   /// The origin is at x with this measured stand.
   void look(const GroundMap& ground, const GradeProfile& design, double x_m, const Stand& measured);
@@ -55,8 +56,8 @@ class Preview {
   [[nodiscard]] double stroke_on(const GradeProfile& design, double x_m, const Stand& stand) const;
   [[nodiscard]] double speed_between(int index, double flow_m3ps) const;
 
-  DozerProfile profile_;
-  BladeKinematics blade_;
+  const DozerProfile& profile_;
+  const BladeKinematics& blade_;
   int count_;  ///< Of stations ahead.
   std::array<Station, kMostStations> station_{};
   int first_ = 0;  ///< The one at or before the origin.
