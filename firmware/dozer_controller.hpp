@@ -70,7 +70,7 @@ class DozerController {
   /// Whether what one cycle handed to the next is as it was.
   [[nodiscard]] Fault memory_fault() const;
   /// Inputs with all that validation and watches have to say of them.
-  [[nodiscard]] DozerWatchResult judge(const DozerInputs& inputs, double period_s, TimeUs now_us);
+  [[nodiscard]] ValidDozerInputs judge(const DozerInputs& inputs, double period_s, TimeUs now_us);
   /// Takes in where the machine is: what the blade has cut, what lies ahead.
   void observe(const ValidDozerInputs& valid, double period_s);
   /// v_c of this cycle and what it is chosen from.

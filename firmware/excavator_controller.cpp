@@ -99,7 +99,6 @@ WatchResult ExcavatorController::judge(const ExcavatorInputs& inputs, double per
       validate(inputs, profile_, memory_.validation, memory_.cycle.moving, now_us);
   memory_.validation = valid.state;
   WatchResult seen = watch(profile_, memory_.watch, memory_.cycle, valid, period_s);
-  memory_.watch = seen.state;
   if (const Fault unknown = task_fault(valid, book_.count); unknown != Fault::kNone) {
     FaultSet faults;
     faults.add(unknown);
