@@ -27,15 +27,28 @@ PolicyResult choose(const McvCircuit& circuit, McvPolicy policy, double lambda_m
 /// that can hardly start still starts, and the reserve of the others stays what it is.
 constexpr double kMostReserveShare = 0.5;
 
-/// The circuit with every load heavier by the reserve.
-McvCircuit with_reserve(const McvCircuit& circuit, const LambdaRange& range) {
-  McvCircuit heavier = circuit;
+PerActuator<double> loads_n(const McvCircuit& circuit) {
+  PerActuator<double> loads{};
+  for (unsigned i = 0; i < circuit.axis_count; ++i) {
+    loads[i] = circuit.axis[i].load_force_n;
+  }
+  return loads;
+}
+
+void set_loads(McvCircuit& circuit, const PerActuator<double>& loads_n) {
+  for (unsigned i = 0; i < circuit.axis_count; ++i) {
+    circuit.axis[i].load_force_n = loads_n[i];
+  }
+}
+
+/// Makes every load heavier by the reserve.
+void add_reserve(McvCircuit& circuit, const LambdaRange& range) {
   PerPump<double> standstill{};
   for (unsigned j = 0; j < circuit.pump_count; ++j) {
     standstill[j] = solve_pump_pressure(circuit.line[j], 0.0).sqrt_pressure;
   }
-  for (unsigned i = 0; i < heavier.axis_count; ++i) {
-    CircuitAxis& axis = heavier.axis[i];
+  for (unsigned i = 0; i < circuit.axis_count; ++i) {
+    CircuitAxis& axis = circuit.axis[i];
     const double left_n =
         drive_force(axis, 0.0, standstill[axis.pump]).force_n - axis.force_offset_n;
     if (axis.moves && left_n > 0.0) {
@@ -43,16 +56,18 @@ McvCircuit with_reserve(const McvCircuit& circuit, const LambdaRange& range) {
           range.reserve_share * std::min(range.reserve_n, kMostReserveShare * left_n);
     }
   }
-  return heavier;
 }
 
 /// The choice for loads that are heavier by the reserve, and the circuit as it is at that lambda.
-PolicyResult choose_with_reserve(const McvCircuit& circuit, McvPolicy policy,
-                                 const LambdaRange& range) {
+/// It is the same circuit, for a while: a second one is a fifth of the stack that an ECU has.
+PolicyResult choose_with_reserve(McvCircuit& circuit, McvPolicy policy, const LambdaRange& range) {
   if (!(range.reserve_n * range.reserve_share > 0.0) || policy == McvPolicy::kFixed) {
     return choose(circuit, policy, range.most);
   }
-  PolicyResult chosen = choose(with_reserve(circuit, range), policy, range.most);
+  const PerActuator<double> loads = loads_n(circuit);
+  add_reserve(circuit, range);
+  PolicyResult chosen = choose(circuit, policy, range.most);
+  set_loads(circuit, loads);
   if (chosen.point.lambda > 0.0) {
     chosen.point = evaluate(circuit, chosen.point.lambda, &chosen.point);
     // Less load is never less feasible, but for rounding where the reserve is next to nothing.
@@ -176,10 +191,11 @@ McvSolution solve_mcv(const McvMachine& machine, const McvInput& input, McvPolic
   if (solution.defect.defect != McvDefect::kNone) {
     return solution;
   }
-  const McvCircuit circuit = make_circuit(machine, input);
+  McvCircuit circuit = make_circuit(machine, input);
   const PolicyResult chosen = choose_with_reserve(circuit, policy, range);
   if (!chosen.bounded) {
-    return stopped(SolveStatus::kNotConverged, chosen.iterations);
+    solution = stopped(SolveStatus::kNotConverged, chosen.iterations);
+    return solution;
   }
   solution.status = SolveStatus::kOk;
   solution.point = chosen.point;
@@ -193,7 +209,10 @@ McvSolution solve_mcv(const McvMachine& machine, const McvInput& input, McvPolic
     solution.status = solution.standstill.can_start ? SolveStatus::kOk : SolveStatus::kInfeasible;
   }
   // Numbers that no machine has, though each is in its range, can still end outside of all ranges.
-  return finite(solution) ? solution : stopped(SolveStatus::kNotConverged, chosen.iterations);
+  if (!finite(solution)) {
+    solution = stopped(SolveStatus::kNotConverged, chosen.iterations);
+  }
+  return solution;
 }
 
 }  // namespace graben
