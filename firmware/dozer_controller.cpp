@@ -62,20 +62,24 @@ void describe_motion(const DozerProfile& profile, const SpeedChoice& speed,
 
 }  // namespace
 
-DozerController::DozerController(const DozerProfile& profile)
-    : profile_(profile), blade_(profile.blade), design_(profile.grade), preview_(profile) {}
+DozerSetup::DozerSetup(const DozerProfile& machine)
+    : profile(machine), blade(profile.blade), design(profile.grade) {}
+
+DozerController::DozerController(const DozerSetup& setup)
+    : profile_(setup.profile),
+      blade_(setup.blade),
+      design_(setup.design),
+      preview_(profile_, blade_) {}
 
 Fault DozerController::memory_fault() const {
   return memory_.mode.intact() && memory_.speed_mps.intact() ? Fault::kNone : Fault::kMemoryCorrupt;
 }
 
-DozerWatchResult DozerController::judge(const DozerInputs& inputs, double period_s, TimeUs now_us) {
+ValidDozerInputs DozerController::judge(const DozerInputs& inputs, double period_s, TimeUs now_us) {
   const ValidDozerInputs valid =
       validate(inputs, profile_, memory_.validation, memory_.cycle.moving, now_us);
   memory_.validation = valid.state;
-  const DozerWatchResult seen = watch(profile_, memory_.watch, memory_.cycle, valid, period_s);
-  memory_.watch = seen.state;
-  return seen;
+  return watch(profile_, memory_.watch, memory_.cycle, valid, period_s);
 }
 
 void DozerController::observe(const ValidDozerInputs& valid, double period_s) {
@@ -150,8 +154,7 @@ void DozerController::keep(const Wanted& wanted, bool active) {
 DozerOutputs DozerController::step(const DozerInputs& inputs, TimeUs now_us) {
   const CycleWatchResult time = watch_cycle(memory_.time, now_us);
   const Fault memory = memory_fault();
-  const DozerWatchResult seen = judge(inputs, time.period_s, now_us);
-  const ValidDozerInputs& valid = seen.inputs;
+  const ValidDozerInputs valid = judge(inputs, time.period_s, now_us);
   observe(valid, time.period_s);
   const Wanted wanted = want(valid, time.period_s);
   const ModeRequest request =

@@ -13,15 +13,26 @@
 
 namespace graben {
 
+/// What a dozer's controller is made of, as ExcavatorSetup.
+struct DozerSetup {
+  // NOLINTNEXTLINE(google-explicit-constructor): a profile is all that it takes.
+  DozerSetup(const DozerProfile& machine);
+
+  DozerProfile profile;  ///< Must have passed the application's check.
+  BladeKinematics blade;
+  GradeProfile design;
+};
+
 /// Belongs to the tests; nothing of ours defines it.
 struct DozerMemoryAccess;
 
-/// Holds what the machine is (constant after construction) and what one cycle hands to the next.
+/// Holds what one cycle hands to the next; what the machine is stays with the caller.
 /// No clock, no globals, no heap; `step` costs a bounded number of operations.
 class DozerController {
  public:
-  /// The profile must have passed the application's check.
-  explicit DozerController(const DozerProfile& profile);
+  /// `setup` has to outlive it and its copies.
+  explicit DozerController(const DozerSetup& setup);
+  explicit DozerController(DozerSetup&&) = delete;
 
   /// One cycle. Any fault gives neutral commands and its code; time only ever counts by
   /// difference, and `now_us` must not fall from call to call.
@@ -59,7 +70,7 @@ class DozerController {
   /// Whether what one cycle handed to the next is as it was.
   [[nodiscard]] Fault memory_fault() const;
   /// Inputs with all that validation and watches have to say of them.
-  [[nodiscard]] DozerWatchResult judge(const DozerInputs& inputs, double period_s, TimeUs now_us);
+  [[nodiscard]] ValidDozerInputs judge(const DozerInputs& inputs, double period_s, TimeUs now_us);
   /// Takes in where the machine is: what the blade has cut, what lies ahead.
   void observe(const ValidDozerInputs& valid, double period_s);
   /// v_c of this cycle and what it is chosen from.
@@ -69,9 +80,9 @@ class DozerController {
   [[nodiscard]] Wanted want(const ValidDozerInputs& valid, double period_s);
   void keep(const Wanted& wanted, bool active);
 
-  DozerProfile profile_;
-  BladeKinematics blade_;
-  GradeProfile design_;
+  const DozerProfile& profile_;
+  const BladeKinematics& blade_;
+  const GradeProfile& design_;
   GroundMap ground_;
   Preview preview_;
   Memory memory_;

@@ -74,12 +74,19 @@ double path_error_m(const RoundedRectangle& path, const TipPose& tip) {
 
 }  // namespace
 
+ExcavatorSetup::ExcavatorSetup(const ExcavatorProfile& machine, const TaskBook& tasks)
+    : profile(machine),
+      book(tasks),
+      kinematics(profile.geometry),
+      field(profile, kinematics.planar()),
+      valve(mcv_machine(profile)) {}
+
 ExcavatorController::ExcavatorController(const ExcavatorSetup& setup)
     : profile_(setup.profile),
-      kinematics_(profile_.geometry),
+      kinematics_(setup.kinematics),
       book_(setup.book),
-      field_(profile_, kinematics_.planar()),
-      valve_(mcv_machine(profile_)) {}
+      field_(setup.field),
+      valve_(setup.valve) {}
 
 Fault ExcavatorController::memory_fault() const {
   const bool intact = memory_.mode.intact() && memory_.lambda.intact() && memory_.task.intact();
@@ -92,7 +99,6 @@ WatchResult ExcavatorController::judge(const ExcavatorInputs& inputs, double per
       validate(inputs, profile_, memory_.validation, memory_.cycle.moving, now_us);
   memory_.validation = valid.state;
   WatchResult seen = watch(profile_, memory_.watch, memory_.cycle, valid, period_s);
-  memory_.watch = seen.state;
   if (const Fault unknown = task_fault(valid, book_.count); unknown != Fault::kNone) {
     FaultSet faults;
     faults.add(unknown);

@@ -14,24 +14,29 @@
 
 namespace graben {
 
-/// What an excavator's controller is made of.
+/// What an excavator's controller is made of: all that is worked out once, at start or, for an ECU
+/// that keeps it in flash, before it is built.
 struct ExcavatorSetup {
   // NOLINTNEXTLINE(google-explicit-constructor): a machine without programs is one too.
-  ExcavatorSetup(const ExcavatorProfile& machine, const TaskBook& tasks = {})
-      : profile(machine), book(tasks) {}
+  ExcavatorSetup(const ExcavatorProfile& machine, const TaskBook& tasks = {});
 
   ExcavatorProfile profile;  ///< Must have passed its check (`profile_check`).
   TaskBook book;             ///< Planned for it (`plan_program`).
+  SwingKinematics kinematics;
+  DigField field;
+  McvMachine valve;
 };
 
 /// Belongs to the tests; nothing of ours defines it.
 struct ControllerMemoryAccess;
 
-/// Holds what the machine is (constant after construction) and what one cycle hands to the next.
+/// Holds what one cycle hands to the next; what the machine is stays with the caller.
 /// No clock, no globals, no heap; `step` costs a bounded number of operations.
 class ExcavatorController {
  public:
+  /// `setup` has to outlive it and its copies.
   explicit ExcavatorController(const ExcavatorSetup& setup);
+  explicit ExcavatorController(ExcavatorSetup&&) = delete;
 
   /// One cycle. Any fault gives neutral commands and its code; time only ever counts by
   /// difference, and `now_us` must not fall from call to call.
@@ -88,11 +93,11 @@ class ExcavatorController {
   [[nodiscard]] DriveVector dig_velocity(const ValidInputs& valid,
                                          const KinematicState& state) const;
 
-  ExcavatorProfile profile_;
-  SwingKinematics kinematics_;
-  TaskBook book_;
-  DigField field_;
-  McvMachine valve_;
+  const ExcavatorProfile& profile_;
+  const SwingKinematics& kinematics_;
+  const TaskBook& book_;
+  const DigField& field_;
+  const McvMachine& valve_;
   Memory memory_;
 };
 

@@ -9,14 +9,14 @@
 namespace graben::ecu {
 
 struct DozerKind {
-  using Profile = DozerProfile;
+  using Setup = DozerSetup;
   using Inputs = DozerInputs;
   using Outputs = DozerOutputs;
   using Controller = DozerController;
   using Receiver = DozerReceiver;
   using Transmitter = DozerTransmitter;
   using MemoryAccess = DozerMemoryAccess;
-  [[nodiscard]] static BusParts parts(const Profile&) { return {}; }
+  [[nodiscard]] static BusParts parts(const Setup&) { return {}; }
   [[nodiscard]] static bool is_command(std::uint32_t id);
 };
 

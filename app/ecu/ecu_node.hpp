@@ -23,8 +23,8 @@ inline constexpr int kBatchesRead = 4;
 
 /// One controller on one port. The caller owns the port and the clock.
 ///
-/// `Kind` says whose: Profile, Controller, Receiver, Transmitter, Inputs, Outputs, MemoryAccess (of
-/// the tests), parts(profile), what its bus has beyond every machine of its kind, and
+/// `Kind` says whose: Setup, Controller, Receiver, Transmitter, Inputs, Outputs, MemoryAccess (of
+/// the tests), parts(setup), what its bus has beyond every machine of its kind, and
 /// is_command(id), whether losing a frame with this id leaves the machine without its command.
 template <class Kind>
 class EcuNode {
@@ -33,14 +33,18 @@ class EcuNode {
   using Outputs = typename Kind::Outputs;
   using Receiver = typename Kind::Receiver;
 
-  EcuNode(const typename Kind::Profile& profile, std::uint32_t profile_hash, CanPort& port)
+  EcuNode(const typename Kind::Setup& setup, std::uint32_t profile_hash, CanPort& port)
       : port_(port),
         watch_(port),
-        receiver_(Kind::parts(profile)),
-        controller_(profile),
-        transmitter_(Kind::parts(profile)) {
+        setup_(setup),
+        receiver_(Kind::parts(setup_)),
+        controller_(setup_),
+        transmitter_(Kind::parts(setup_)) {
     diagnosis_.profile_hash = profile_hash;
   }
+  /// The controller refers to the node's own setup.
+  EcuNode(const EcuNode&) = delete;
+  EcuNode& operator=(const EcuNode&) = delete;
 
   /// One cycle at `now_us`, to be called every 10 ms. After a stall what is queued is discarded: an
   /// old frame must not be taken for a fresh one. `last_cycle_us` is how long the cycle before
@@ -72,6 +76,7 @@ class EcuNode {
 
   CanPort& port_;
   BusWatch watch_;
+  typename Kind::Setup setup_;
   Receiver receiver_;
   typename Kind::Controller controller_;
   Transmitter transmitter_;

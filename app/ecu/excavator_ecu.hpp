@@ -9,14 +9,14 @@
 namespace graben::ecu {
 
 struct ExcavatorKind {
-  using Profile = ExcavatorSetup;
+  using Setup = ExcavatorSetup;
   using Inputs = ExcavatorInputs;
   using Outputs = ExcavatorOutputs;
   using Controller = ExcavatorController;
   using Receiver = ExcavatorReceiver;
   using Transmitter = ExcavatorTransmitter;
   using MemoryAccess = ControllerMemoryAccess;
-  [[nodiscard]] static BusParts parts(const Profile& setup) { return {setup.profile.has_swing()}; }
+  [[nodiscard]] static BusParts parts(const Setup& setup) { return {setup.profile.has_swing()}; }
   [[nodiscard]] static bool is_command(std::uint32_t id);
 };
 

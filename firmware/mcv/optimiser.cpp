@@ -45,24 +45,35 @@ PerActuator<double> reserves_n(const McvCircuit& circuit, double reserve_n) {
   return extra_n;
 }
 
-McvCircuit heavier(const McvCircuit& circuit, const PerActuator<double>& extra_n, double share) {
-  McvCircuit result = circuit;
+PerActuator<double> loads_n(const McvCircuit& circuit) {
+  PerActuator<double> loads{};
   for (unsigned i = 0; i < circuit.axis_count; ++i) {
-    result.axis[i].load_force_n += share * extra_n[i];
+    loads[i] = circuit.axis[i].load_force_n;
   }
-  return result;
+  return loads;
+}
+
+/// Makes every load `loads_n`, and heavier by a share of `extra_n`.
+void load(McvCircuit& circuit, const PerActuator<double>& loads_n,
+          const PerActuator<double>& extra_n, double share) {
+  for (unsigned i = 0; i < circuit.axis_count; ++i) {
+    circuit.axis[i].load_force_n = loads_n[i] + share * extra_n[i];
+  }
 }
 
 /// The choice for loads that are heavier by the reserve, and the circuit as it is at that lambda.
-PolicyResult choose_with_reserve(const McvCircuit& circuit, McvPolicy policy,
-                                 const LambdaRange& range) {
+/// It is itself the heavier one for a while: a third is a fifth of the stack that an ECU has.
+PolicyResult choose_with_reserve(McvCircuit& circuit, McvPolicy policy, const LambdaRange& range) {
   if (!(range.reserve_n > 0.0) || policy == McvPolicy::kFixed) {
     return choose({circuit, circuit, range.most, 0.0}, policy);
   }
   const PerActuator<double> extra_n = reserves_n(circuit, range.reserve_n);
-  const McvCircuit rising = heavier(circuit, extra_n, 1.0);
-  const McvCircuit holding = heavier(circuit, extra_n, range.hold_share);
-  PolicyResult chosen = choose({rising, holding, range.most, range.hold}, policy);
+  const PerActuator<double> loads = loads_n(circuit);
+  McvCircuit holding = circuit;
+  load(holding, loads, extra_n, range.hold_share);
+  load(circuit, loads, extra_n, 1.0);
+  PolicyResult chosen = choose({circuit, holding, range.most, range.hold}, policy);
+  load(circuit, loads, extra_n, 0.0);
   if (chosen.point.lambda > 0.0) {
     chosen.point = reloaded(circuit, chosen.point);
     // Less load is never less feasible, but for rounding where the reserve is next to nothing.
@@ -186,10 +197,11 @@ McvSolution solve_mcv(const McvMachine& machine, const McvInput& input, McvPolic
   if (solution.defect.defect != McvDefect::kNone) {
     return solution;
   }
-  const McvCircuit circuit = make_circuit(machine, input);
+  McvCircuit circuit = make_circuit(machine, input);
   const PolicyResult chosen = choose_with_reserve(circuit, policy, range);
   if (!chosen.bounded) {
-    return stopped(SolveStatus::kNotConverged, chosen.iterations);
+    solution = stopped(SolveStatus::kNotConverged, chosen.iterations);
+    return solution;
   }
   solution.status = SolveStatus::kOk;
   solution.point = chosen.point;
@@ -204,7 +216,10 @@ McvSolution solve_mcv(const McvMachine& machine, const McvInput& input, McvPolic
     solution.status = solution.standstill.can_start ? SolveStatus::kOk : SolveStatus::kInfeasible;
   }
   // Numbers that no machine has, though each is in its range, can still end outside of all ranges.
-  return finite(solution) ? solution : stopped(SolveStatus::kNotConverged, chosen.iterations);
+  if (!finite(solution)) {
+    solution = stopped(SolveStatus::kNotConverged, chosen.iterations);
+  }
+  return solution;
 }
 
 }  // namespace graben

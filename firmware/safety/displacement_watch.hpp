@@ -13,18 +13,22 @@ struct DisplacementLimits {
 /// Cycles in a row that a displacement must have run away: one wrong frame may be seen in two.
 inline constexpr int kRunawayCycles = 3;
 
-/// What the watch needs of the last cycle.
-struct DisplacementState {
-  /// As if it had been told `neutral` all the time.
-  explicit DisplacementState(double neutral) : sent(neutral) {}
-  explicit DisplacementState(const CommandHistory& of_late) : sent(of_late) {}
-
-  CommandHistory sent;
+/// Of a displacement that is judged.
+struct DisplacementCourse {
   bool judged = false;
   double nearest = 0.0;  ///< To the commands of late, since it was last within them.
   int off_side = 0;      ///< On which side of its command it is off; 0: it isn't.
   double off_s = 0.0;    ///< How long it has been so.
   int runaway_cycles = 0;
+};
+
+/// What the watch needs of the last cycle.
+struct DisplacementState {
+  /// As if it had been told `neutral` all the time.
+  explicit DisplacementState(double neutral);
+
+  CommandHistory sent;
+  DisplacementCourse course;
 };
 
 /// What is asked of it: nothing; to follow its command; or, after motion, to have come to neutral.
@@ -33,11 +37,10 @@ enum class DisplacementTask { kNone, kFollow, kReturn };
 struct DisplacementResult {
   bool disagrees = false;
   bool runs_away = false;
-  DisplacementState state;
 };
 
-/// Disagrees: off its command, on the same side, by more than the tolerance for longer than the
-/// time to settle.
+/// `state` goes on by a cycle. Disagrees: off its command, on the same side, by more than the
+/// tolerance for longer than the time to settle.
 ///
 /// Runs away: for kRunawayCycles it is further than the tolerance from all that it was told within
 /// the time to settle, and either has moved away from that by as much, or stands on the other side
@@ -45,7 +48,7 @@ struct DisplacementResult {
 /// where it was then drives the machine. `sent` is the last cycle's command, `measured` what has
 /// come in since.
 [[nodiscard]] DisplacementResult watch_displacement(const DisplacementLimits& limits,
-                                                    const DisplacementState& last, double sent,
+                                                    DisplacementState& state, double sent,
                                                     DisplacementTask task, double measured,
                                                     double period_s);
 

@@ -4,21 +4,18 @@ namespace graben {
 namespace {
 
 /// The spool against its duty, the valve's echo against our enable.
-FaultSet watch_valve(const DozerProfile& profile, const DozerWatchState& last,
-                     const DozerLastCycle& cycle, const ValidDozerInputs& inputs,
-                     DozerWatchState& state) {
+FaultSet watch_valve(const DozerProfile& profile, const DozerLastCycle& cycle,
+                     const ValidDozerInputs& inputs, DozerWatchState& state) {
   const bool received = !inputs.faults.has(Fault::kSpoolMissing);
-  const SpoolFollowResult spool = follow_spool(
+  const bool stuck = follow_spool(
       {profile.control.dead_time_s, profile.safety.settle_s, profile.safety.spool_tolerance},
-      last.spool, cycle.blade_duty_ratio, received, inputs.blade_spool_ratio);
-  state.spool = spool.state;
-  if (received) {
-    state.echo_cycles = echo_cycles(last.echo_cycles, cycle.enable, inputs.valve_enabled);
-  }
-  state.closing = cycle.moving || still_closing(last.closing, spool_centred(profile, inputs),
+      state.spool, cycle.blade_duty_ratio, received, inputs.blade_spool_ratio);
+  state.echo_cycles =
+      received ? echo_cycles(state.echo_cycles, cycle.enable, inputs.valve_enabled) : 0;
+  state.closing = cycle.moving || still_closing(state.closing, spool_centred(profile, inputs),
                                                 Fault::kSpoolMissing, inputs);
   FaultSet stops;
-  if (state.closing && spool.stuck) {
+  if (state.closing && stuck) {
     stops.add(Fault::kSpoolStuck);
   }
   if (state.echo_cycles >= kEchoCycles) {
@@ -27,13 +24,12 @@ FaultSet watch_valve(const DozerProfile& profile, const DozerWatchState& last,
   return stops;
 }
 
-FaultSet watch_blade(const DozerProfile& profile, const DozerWatchState& last,
-                     const DozerLastCycle& cycle, const ValidDozerInputs& inputs, double period_s,
-                     DozerWatchState& state) {
+FaultSet watch_blade(const DozerProfile& profile, const DozerLastCycle& cycle,
+                     const ValidDozerInputs& inputs, double period_s, DozerWatchState& state) {
   const CylinderWatchResult blade = watch_cylinder(
       {profile.implement.spool_to_duty.y_first(), profile.safety.uncommanded_m,
        profile.safety.stuck_m},
-      last.blade, {inputs.blade_stroke_m, inputs.blade_spool_ratio, cycle.asked_mps}, period_s);
+      state.blade, {inputs.blade_stroke_m, inputs.blade_spool_ratio, cycle.asked_mps}, period_s);
   state.blade = blade.state;
   FaultSet stops;
   if (blade.uncommanded) {
@@ -55,31 +51,30 @@ DisplacementTask displacement_task(bool returning, const DozerLastCycle& cycle,
 
 }  // namespace
 
-DozerWatchResult watch(const DozerProfile& profile, const DozerWatchState& last,
+ValidDozerInputs watch(const DozerProfile& profile, DozerWatchState& state,
                        const DozerLastCycle& cycle, const ValidDozerInputs& inputs,
                        double period_s) {
-  // Afresh but for the histories, which would be filled for nothing.
-  DozerWatchResult result{inputs, {last.spool, 0, {}, last.transmission, {}, false, false}};
-  DozerWatchState& state = result.state;
-  FaultSet stops = watch_valve(profile, last, cycle, inputs, state);
+  ValidDozerInputs watched = inputs;
+  FaultSet stops = watch_valve(profile, cycle, inputs, state);
   // Without stroke and spool the blade cannot be judged, and the fault is there anyway.
   if (cycle.moving && inputs.fault == Fault::kNone) {
-    stops.add(watch_blade(profile, last, cycle, inputs, period_s, state));
+    stops.add(watch_blade(profile, cycle, inputs, period_s, state));
+  } else {
+    state.blade = {};
   }
-  state.returning = cycle.moving || still_closing(last.returning, pumps_neutral(profile, inputs),
+  state.returning = cycle.moving || still_closing(state.returning, pumps_neutral(profile, inputs),
                                                   Fault::kTransmissionMissing, inputs);
   const TransmissionWatchResult transmission =
-      watch_transmission(profile, last.transmission, {cycle.pump_ratio, cycle.motor_ratio},
+      watch_transmission(profile, state.transmission, {cycle.pump_ratio, cycle.motor_ratio},
                          displacement_task(state.returning, cycle, inputs), inputs, period_s);
-  state.transmission = transmission.state;
   stops.add(transmission.stops);
   if (transmission.tracks_disagree) {
-    degrade(Fault::kTrackSpeedDisagrees, result.inputs);
+    degrade(Fault::kTrackSpeedDisagrees, watched);
   }
-  stop(stops, result.inputs);
-  state.slowing = slow_down(profile.safety.degraded_speed_ratio, last.slowing, cycle.moving,
-                            period_s, result.inputs);
-  return result;
+  stop(stops, watched);
+  state.slowing = slow_down(profile.safety.degraded_speed_ratio, state.slowing, cycle.moving,
+                            period_s, watched);
+  return watched;
 }
 
 bool spool_centred(const DozerProfile& profile, const ValidDozerInputs& valid) {

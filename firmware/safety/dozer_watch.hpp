@@ -28,18 +28,14 @@ struct DozerLastCycle {
   double asked_mps = 0.0;  ///< What the blade's spool was opened for; extension is positive.
 };
 
-struct DozerWatchResult {
-  /// As they came, with the watches' faults, and the operator's speed times
-  /// `safety.degraded_speed` while anything is degraded.
-  ValidDozerInputs inputs;
-  DozerWatchState state;
-};
-
+/// The inputs as they came, with the watches' faults, and the operator's speed times
+/// `safety.degraded_speed` while anything is degraded; `state` goes on by a cycle.
+///
 /// Outside motion the machine may be moved by hand: blade and transmission are then not judged, and
 /// every watch begins afresh. Only the spool and the displacements are, until they have been
 /// neutral once or the operator has taken over in manual mode: what stays open or stroked when the
 /// deadman is let go is stuck or runs away. What degrades goes on doing so for 0.5 s.
-[[nodiscard]] DozerWatchResult watch(const DozerProfile& profile, const DozerWatchState& last,
+[[nodiscard]] ValidDozerInputs watch(const DozerProfile& profile, DozerWatchState& state,
                                      const DozerLastCycle& cycle, const ValidDozerInputs& inputs,
                                      double period_s);
 

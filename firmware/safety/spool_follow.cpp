@@ -8,20 +8,19 @@ namespace {
 constexpr double kDeadTimeSpread = 1.3;
 }
 
-SpoolFollowResult follow_spool(const SpoolLimits& limits, const SpoolState& last, double duty_ratio,
-                               bool received, double spool_ratio) {
-  SpoolFollowResult result{false, {last.sent}};
-  result.state.sent.add(duty_ratio);
+bool follow_spool(const SpoolLimits& limits, SpoolState& state, double duty_ratio, bool received,
+                  double spool_ratio) {
+  state.sent.add(duty_ratio);
   if (!received) {
-    return result;
+    state.wrong_cycles = 0;
+    return false;
   }
-  const CommandHistory::Range range = result.state.sent.range(
-      cycles_under_way(kDeadTimeSpread * limits.dead_time_s + limits.settle_s));
+  const CommandHistory::Range range =
+      state.sent.range(cycles_under_way(kDeadTimeSpread * limits.dead_time_s + limits.settle_s));
   const bool wrong =
       spool_ratio < range.least - limits.tolerance || spool_ratio > range.most + limits.tolerance;
-  result.state.wrong_cycles = wrong ? std::min(last.wrong_cycles + 1, kSpoolWrongCycles) : 0;
-  result.stuck = result.state.wrong_cycles >= kSpoolWrongCycles;
-  return result;
+  state.wrong_cycles = wrong ? std::min(state.wrong_cycles + 1, kSpoolWrongCycles) : 0;
+  return state.wrong_cycles >= kSpoolWrongCycles;
 }
 
 int echo_cycles(int last, bool sent, bool echoed) {

@@ -17,21 +17,18 @@ struct SpoolLimits {
   double tolerance = 0.0;    ///< Of its travel.
 };
 
+/// A watch changes its state in place: copies of its histories were most of the stack.
 struct SpoolState {
   CommandHistory sent;
   int wrong_cycles = 0;  ///< In a row.
 };
 
-struct SpoolFollowResult {
-  bool stuck = false;
-  SpoolState state;
-};
-
-/// A spool answers within the dead time and the time to settle: it must lie between the least and
-/// the largest duty of that time, within the tolerance. `duty_ratio` is what the last cycle sent,
-/// `spool_ratio` what has come in since; one that was not `received` is not judged.
-[[nodiscard]] SpoolFollowResult follow_spool(const SpoolLimits& limits, const SpoolState& last,
-                                             double duty_ratio, bool received, double spool_ratio);
+/// Whether it is stuck; `state` goes on by a cycle. A spool answers within the dead time and the
+/// time to settle: it must lie between the least and the largest duty of that time, within the
+/// tolerance. `duty_ratio` is what the last cycle sent, `spool_ratio` what has come in since; one
+/// that was not `received` is not judged.
+[[nodiscard]] bool follow_spool(const SpoolLimits& limits, SpoolState& state, double duty_ratio,
+                                bool received, double spool_ratio);
 
 /// Cycles in a row, up to kEchoCycles, that the valve side's echo of our enable has differed.
 [[nodiscard]] int echo_cycles(int last, bool sent, bool echoed);

@@ -4,27 +4,23 @@
 
 namespace graben {
 
-SpoolWatchResult watch_spools(const ExcavatorProfile& profile, const SpoolWatchState& last,
-                              const SentCommand& sent, const ValidInputs& valid) {
+FaultSet watch_spools(const ExcavatorProfile& profile, SpoolWatchState& state,
+                      const SentCommand& sent, const ValidInputs& valid) {
   const SpoolLimits limits{profile.control.dead_time_s, profile.safety.settle_s,
                            profile.safety.spool_tolerance};
   const bool received = !valid.faults.has(Fault::kSpoolMissing);
-  SpoolWatchResult result;
+  FaultSet faults;
   for (unsigned i = 0; i < static_cast<unsigned>(profile.drive_count); ++i) {
-    const SpoolFollowResult spool =
-        follow_spool(limits, last.spool[i], sent.duty_ratio[i], received, valid.spool_ratio[i]);
-    result.state.spool[i] = spool.state;
-    if (spool.stuck) {
-      result.faults.add(Fault::kSpoolStuck);
+    if (follow_spool(limits, state.spool[i], sent.duty_ratio[i], received, valid.spool_ratio[i])) {
+      faults.add(Fault::kSpoolStuck);
     }
   }
-  if (received) {
-    result.state.echo_cycles = echo_cycles(last.echo_cycles, sent.enable, valid.valve_enabled);
+  state.echo_cycles =
+      received ? echo_cycles(state.echo_cycles, sent.enable, valid.valve_enabled) : 0;
+  if (state.echo_cycles >= kEchoCycles) {
+    faults.add(Fault::kValveNotFollowing);
   }
-  if (result.state.echo_cycles >= kEchoCycles) {
-    result.faults.add(Fault::kValveNotFollowing);
-  }
-  return result;
+  return faults;
 }
 
 bool spools_centred(const ExcavatorProfile& profile, const ValidInputs& valid) {

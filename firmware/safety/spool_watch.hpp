@@ -21,16 +21,11 @@ struct SpoolWatchState {
   int echo_cycles = 0;  ///< In a row, that the echo has differed.
 };
 
-struct SpoolWatchResult {
-  FaultSet faults;  ///< kSpoolStuck, kValveNotFollowing
-  SpoolWatchState state;
-};
-
-/// Each spool as follow_spool has it. `sent` is what the last cycle sent, `valid` what has come in
+/// kSpoolStuck, kValveNotFollowing; `state` goes on by a cycle. Each spool as follow_spool has it.
+/// `sent` is what the last cycle sent, `valid` what has come in
 /// since; spools that were not received are not judged.
-[[nodiscard]] SpoolWatchResult watch_spools(const ExcavatorProfile& profile,
-                                            const SpoolWatchState& last, const SentCommand& sent,
-                                            const ValidInputs& valid);
+[[nodiscard]] FaultSet watch_spools(const ExcavatorProfile& profile, SpoolWatchState& state,
+                                    const SentCommand& sent, const ValidInputs& valid);
 
 /// Whether every spool is near its middle: the machine is not being moved by hand.
 [[nodiscard]] bool spools_centred(const ExcavatorProfile& profile, const ValidInputs& valid);

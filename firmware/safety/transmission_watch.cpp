@@ -13,14 +13,13 @@ constexpr double kTrackOff_s = 0.3;
 constexpr double kLossShare = 0.1;
 
 /// Takes in what one displacement's watch says.
-DisplacementState take(const DisplacementResult& result, FaultSet& stops) {
+void take(const DisplacementResult& result, FaultSet& stops) {
   if (result.disagrees) {
     stops.add(Fault::kDisplacementDisagrees);
   }
   if (result.runs_away) {
     stops.add(Fault::kDisplacementRunaway);
   }
-  return result.state;
 }
 
 bool track_is_off(const DozerProfile& profile, const ValidDozerInputs& valid, unsigned track) {
@@ -33,26 +32,27 @@ bool track_is_off(const DozerProfile& profile, const ValidDozerInputs& valid, un
 }  // namespace
 
 TransmissionWatchResult watch_transmission(const DozerProfile& profile,
-                                           const TransmissionWatchState& last,
-                                           const SentRatios& sent, DisplacementTask task,
-                                           const ValidDozerInputs& valid, double period_s) {
+                                           TransmissionWatchState& state, const SentRatios& sent,
+                                           DisplacementTask task, const ValidDozerInputs& valid,
+                                           double period_s) {
   const DisplacementLimits limits{profile.safety.displacement_tolerance,
                                   profile.safety.displacement_settle_s};
   const bool tracks_judged =
       task == DisplacementTask::kFollow && !valid.faults.has(Fault::kEngineSpeedMissing);
-  // Not afresh: each would fill its histories for nothing.
-  TransmissionWatchResult result{{}, false, {last.pump, last.motor}};
+  TransmissionWatchResult result;
+  const std::array<double, kTrackCount> last_off_s = state.track_off_s;
+  state.track_off_s = {};
   for (unsigned i = 0; i < kTrackCount; ++i) {
-    result.state.pump[i] = take(
-        watch_displacement(limits, last.pump[i], sent.pump[i], task, valid.pump_ratio[i], period_s),
-        result.stops);
-    result.state.motor[i] = take(watch_displacement(limits, last.motor[i], sent.motor[i], task,
-                                                    valid.motor_ratio[i], period_s),
-                                 result.stops);
+    take(watch_displacement(limits, state.pump[i], sent.pump[i], task, valid.pump_ratio[i],
+                            period_s),
+         result.stops);
+    take(watch_displacement(limits, state.motor[i], sent.motor[i], task, valid.motor_ratio[i],
+                            period_s),
+         result.stops);
     if (tracks_judged && track_is_off(profile, valid, i)) {
-      result.state.track_off_s[i] = last.track_off_s[i] + period_s;
+      state.track_off_s[i] = last_off_s[i] + period_s;
     }
-    result.tracks_disagree = result.tracks_disagree || result.state.track_off_s[i] > kTrackOff_s;
+    result.tracks_disagree = result.tracks_disagree || state.track_off_s[i] > kTrackOff_s;
   }
   return result;
 }

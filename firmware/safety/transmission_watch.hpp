@@ -26,17 +26,16 @@ struct TransmissionWatchState {
 struct TransmissionWatchResult {
   FaultSet stops;  ///< kDisplacementDisagrees, kDisplacementRunaway
   bool tracks_disagree = false;
-  TransmissionWatchState state;
 };
 
-/// Each displacement as watch_displacement has it. In motion also the tracks: one whose speed has
-/// been off that of (9), with measured displacements and engine speed, by more than
-/// `safety.track_speed_tolerance_mps` and a tenth of it for longer than 0.3 s, disagrees. On the
-/// simulated machine (2026-11) losses that the profile has wrong by as much again are 0.38 m/s at
-/// 2.6 m/s; stopping at once from 1.8 m/s gives 0.56 m/s, over 0.35 for 0.09 s. Without an engine
-/// speed it isn't judged.
+/// `state` goes on by a cycle. Each displacement as watch_displacement has it. In motion also the
+/// tracks: one whose speed has been off that of (9), with measured displacements and engine speed,
+/// by more than `safety.track_speed_tolerance_mps` and a tenth of it for longer than 0.3 s,
+/// disagrees. On the simulated machine (2026-11) losses that the profile has wrong by as much again
+/// are 0.38 m/s at 2.6 m/s; stopping at once from 1.8 m/s gives 0.56 m/s, over 0.35 for 0.09 s.
+/// Without an engine speed it isn't judged.
 [[nodiscard]] TransmissionWatchResult watch_transmission(
-    const DozerProfile& profile, const TransmissionWatchState& last, const SentRatios& sent,
+    const DozerProfile& profile, TransmissionWatchState& state, const SentRatios& sent,
     DisplacementTask task, const ValidDozerInputs& valid, double period_s);
 
 /// Whether both pumps are near 0.

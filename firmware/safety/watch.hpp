@@ -32,14 +32,13 @@ struct WatchResult {
   /// operator's speed times `safety.degraded_speed` while anything is degraded.
   ValidInputs inputs;
   std::array<double, kPumpCount> pump_flow_m3ps{};  ///< v omega tan(alpha) of (25).
-  WatchState state;
 };
 
-/// Outside motion the machine may be moved by hand: spools, cylinders and pressures are then not
-/// judged, and every watch begins afresh. Only spools are, until all have been in their middle once
-/// or the operator has taken over in manual mode: one that stays open when the deadman is let go is
-/// stuck. What degrades goes on doing so for 0.5 s.
-[[nodiscard]] WatchResult watch(const ExcavatorProfile& profile, const WatchState& last,
+/// `state` goes on by a cycle. Outside motion the machine may be moved by hand: spools, cylinders
+/// and pressures are then not judged, and every watch begins afresh. Only spools are, until all
+/// have been in their middle once or the operator has taken over in manual mode: one that stays
+/// open when the deadman is let go is stuck. What degrades goes on doing so for 0.5 s.
+[[nodiscard]] WatchResult watch(const ExcavatorProfile& profile, WatchState& state,
                                 const LastCycle& cycle, const ValidInputs& inputs, double period_s);
 
 }  // namespace graben

@@ -27,9 +27,9 @@ constexpr double kOnDesign_rad = 1e-4;
 
 }  // namespace
 
-Preview::Preview(const DozerProfile& profile)
+Preview::Preview(const DozerProfile& profile, const BladeKinematics& blade)
     : profile_(profile),
-      blade_(profile.blade),
+      blade_(blade),
       count_(std::clamp(static_cast<int>(profile.travel.preview_m / kStep_m), 1,
                         kMostStations - kBefore - kMargin)) {}
 

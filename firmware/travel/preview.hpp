@@ -32,7 +32,8 @@ class Preview {
   static constexpr int kStandStepsPerCycle = 8;
   static constexpr double kHold_m = 1.5;
 
-  explicit Preview(const DozerProfile& profile);
+  /// Both have to outlive it.
+  Preview(const DozerProfile& profile, const BladeKinematics& blade);
 
   /// The origin is at x with this measured stand.
   void look(const GroundMap& ground, const GradeProfile& design, double x_m, const Stand& measured);
@@ -85,8 +86,8 @@ class Preview {
   [[nodiscard]] double flow_between(int index) const;
   [[nodiscard]] double limit_of(int index, double flow_m3ps) const;
 
-  DozerProfile profile_;
-  BladeKinematics blade_;
+  const DozerProfile& profile_;
+  const BladeKinematics& blade_;
   int count_;  ///< Of stations ahead.
   std::array<Station, kMostStations> station_{};
   int first_ = 0;         ///< The one at or before the origin.

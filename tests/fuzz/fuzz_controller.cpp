@@ -92,7 +92,8 @@ std::string recover(ExcavatorController& controller, bool has_swing, TimeUs now_
 }
 
 std::string check_run(const ExcavatorProfile& profile, RawRun run) {
-  ExcavatorController controller(profile);
+  const ExcavatorSetup setup(profile);
+  ExcavatorController controller(setup);
   TimeUs now_us = kStart_us;
   bool stopped = false;
   for (RawCycle& cycle : run) {

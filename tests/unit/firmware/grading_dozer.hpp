@@ -3,6 +3,7 @@
 /// the controller needs to be brought to kActive the way an operator does it.
 
 #include <algorithm>
+#include <memory>
 
 #include "firmware/dozer_controller.hpp"
 #include "firmware/hydraulics/hydrostatic.hpp"
@@ -16,7 +17,10 @@ struct Grading {
   static constexpr TimeUs kPeriod = 10 * kMillisecondUs;
 
   explicit Grading(const DozerProfile& dozer_profile = dozer().profile)
-      : profile(dozer_profile), controller(profile), blade(profile.blade) {
+      : profile(dozer_profile),
+        setup(std::make_shared<DozerSetup>(profile)),
+        controller(*setup),
+        blade(profile.blade) {
     stroke_m = blade.stroke_m(0.0);
     DozerInputs released = next();
     released.driver.enable.value = false;
@@ -78,6 +82,7 @@ struct Grading {
   }
 
   DozerProfile profile;
+  std::shared_ptr<const DozerSetup> setup;  ///< Of its copies too.
   DozerController controller;
   BladeKinematics blade;
   TimeUs now_us = kSecondUs;

@@ -1,6 +1,8 @@
 #pragma once
 /// A controller brought to kActive the way an operator does it, and what it must be after a fault.
 
+#include <memory>
+
 #include "firmware/excavator_controller.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
@@ -13,6 +15,7 @@ struct Running {
   /// Makes inputs of the shipped 22 t machine those of another.
   using Adapt = void (*)(ExcavatorInputs&);
 
+  std::shared_ptr<const ExcavatorSetup> setup;  ///< Of its copies too.
   ExcavatorController controller;
   Adapt adapt;
   TimeUs now_us = kSecondUs;
@@ -39,7 +42,7 @@ struct Running {
   explicit Running(
       const ExcavatorProfile& machine = excavator().profile,
       Adapt as_it_is = [](ExcavatorInputs&) {})
-      : controller(machine), adapt(as_it_is) {
+      : setup(std::make_shared<ExcavatorSetup>(machine)), controller(*setup), adapt(as_it_is) {
     ExcavatorInputs released = inputs();
     released.driver.enable.value = false;
     step(released);

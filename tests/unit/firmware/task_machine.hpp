@@ -2,6 +2,8 @@
 /// The 12 t machine with tasks, and one that does what its valve is asked: a controller in a closed
 /// loop with drives alone.
 
+#include <memory>
+
 #include "firmware/excavator_controller.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
@@ -56,6 +58,7 @@ inline TaskBook book_of(std::initializer_list<TaskProgram> programs) {
 /// Armed as an operator does it; asked for the first task from the next cycle on.
 struct TaskMachine {
   ExcavatorProfile profile;
+  std::shared_ptr<const ExcavatorSetup> setup;  ///< Of its copies too.
   ExcavatorController controller;
   ReplayedDrives drives;  ///< Swing in rad.
   OperatorInputs driver;
@@ -65,7 +68,10 @@ struct TaskMachine {
 
   TaskMachine(const TaskBook& book, const DriveVector& start,
               const ExcavatorProfile& machine = answering_12t())
-      : profile(machine), controller(ExcavatorSetup(machine, book)), drives(start, true) {
+      : profile(machine),
+        setup(std::make_shared<ExcavatorSetup>(machine, book)),
+        controller(*setup),
+        drives(start, true) {
     driver.speed_override_ratio.value = 1.0;
     driver.mode.value = OperatorMode::kAutomatic;
     for (const bool enable : {false, false, true}) {

@@ -13,7 +13,8 @@ constexpr TimeUs kPeriod = Running::kPeriod;
 const ExcavatorProfile& profile() { return test::excavator().profile; }
 
 void starts_silent_and_neutral(void**) {
-  ExcavatorController controller(profile());
+  const ExcavatorSetup setup(profile());
+  ExcavatorController controller(setup);
   const ExcavatorOutputs outputs = controller.step({}, 0);
   assert_int_equal(outputs.status.mode, EcuMode::kSilent);
   assert_neutral(outputs);

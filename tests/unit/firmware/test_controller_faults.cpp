@@ -255,7 +255,8 @@ void a_spool_left_open_stays_without_pilot(void**) {
 
 /// Until it has armed or asked for a cut a process does not know what one before it has asked for.
 void a_start_leaves_the_pilot_as_it_is(void**) {
-  ExcavatorController controller(test::excavator().profile);
+  const ExcavatorSetup setup(test::excavator().profile);
+  ExcavatorController controller(setup);
   assert_false(controller.step({}, 0).pilot_known);
   Digging digging;
   assert_true(digging.outputs.pilot_known);

@@ -20,11 +20,10 @@ struct Displacement {
   DisplacementTask task = DisplacementTask::kFollow;
   double sent = 0.0;
   double measured = 0.0;
-  DisplacementResult seen{false, false, DisplacementState(0.0)};
+  DisplacementResult seen;
 
   bool disagrees(double period_s) {
     seen = watch_displacement(kLimits, state, sent, task, measured, period_s);
-    state = seen.state;
     return seen.disagrees;
   }
   bool runs_away() {

@@ -28,7 +28,8 @@ using test::Grading;
 using Change = std::function<void(DozerInputs&)>;
 
 void before_anything_is_received_it_is_neutral_and_braked(void**) {
-  DozerController controller(test::dozer().profile);
+  const DozerSetup setup(test::dozer().profile);
+  DozerController controller(setup);
   const DozerOutputs outputs = controller.step(DozerInputs(), kSecondUs);
   assert_neutral(outputs);
   assert_true(outputs.brake);

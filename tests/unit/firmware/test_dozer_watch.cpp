@@ -21,7 +21,7 @@ struct Machine {
   DozerWatchState state;
   DozerLastCycle cycle;
   ValidDozerInputs inputs;
-  DozerWatchResult seen;
+  ValidDozerInputs seen;
 
   Machine() {
     cycle.moving = cycle.enable = true;
@@ -40,14 +40,13 @@ struct Machine {
   }
   const ValidDozerInputs& step() {
     seen = watch(profile, state, cycle, inputs, kPeriod_s);
-    state = seen.state;
-    return seen.inputs;
+    return seen;
   }
   const ValidDozerInputs& run(int count) {
     for (int n = 0; n < count; ++n) {
       step();
     }
-    return seen.inputs;
+    return seen;
   }
   /// Cycles until a fault, counting the one that has it; -1 if none comes.
   int cycles_until(Fault fault) {
@@ -104,7 +103,7 @@ void the_spool_and_its_echo_stop(void**) {
   stuck.run(kSpoolUnderWay);
   stuck.inputs.blade_spool_ratio = kOpen;
   assert_int_equal(stuck.cycles_until(Fault::kSpoolStuck), kSpoolWrongCycles);
-  assert_stopped_by(Fault::kSpoolStuck, stuck.seen.inputs);
+  assert_stopped_by(Fault::kSpoolStuck, stuck.seen);
   // Within its tolerance it is well.
   stuck.inputs.blade_spool_ratio = 0.125;
   assert_well(stuck.step());
@@ -117,7 +116,7 @@ void the_spool_and_its_echo_stop(void**) {
   Machine deaf;
   deaf.inputs.valve_enabled = false;
   assert_int_equal(deaf.cycles_until(Fault::kValveNotFollowing), kEchoCycles);
-  assert_stopped_by(Fault::kValveNotFollowing, deaf.seen.inputs);
+  assert_stopped_by(Fault::kValveNotFollowing, deaf.seen);
   deaf.inputs.valve_enabled = true;
   assert_well(deaf.step());
 }
@@ -131,8 +130,8 @@ void a_spool_that_is_not_seen_is_not_judged(void**) {
   machine.inputs.faults.add(Fault::kSpoolMissing);
   machine.inputs.fault = Fault::kSpoolMissing;
   machine.run(50);
-  assert_false(machine.seen.inputs.faults.has(Fault::kSpoolStuck));
-  assert_false(machine.seen.inputs.faults.has(Fault::kValveNotFollowing));
+  assert_false(machine.seen.faults.has(Fault::kSpoolStuck));
+  assert_false(machine.seen.faults.has(Fault::kValveNotFollowing));
   machine.inputs.faults = {};
   machine.inputs.fault = Fault::kNone;
   assert_int_equal(machine.cycles_until(Fault::kSpoolStuck), kSpoolWrongCycles);
@@ -169,9 +168,9 @@ void a_displacement_that_stays_behind_stops(void**) {
       // 0.5 s are eight cycles.
       assert_false(machine.run(8).faults.has(Fault::kDisplacementDisagrees));
       machine.step();
-      assert_true(machine.seen.inputs.faults.has(Fault::kDisplacementDisagrees));
-      assert_false(machine.seen.inputs.faults.has(Fault::kDisplacementRunaway));
-      assert_int_equal(machine.seen.inputs.fault, Fault::kDisplacementDisagrees);
+      assert_true(machine.seen.faults.has(Fault::kDisplacementDisagrees));
+      assert_false(machine.seen.faults.has(Fault::kDisplacementRunaway));
+      assert_int_equal(machine.seen.fault, Fault::kDisplacementDisagrees);
     }
   }
 }
@@ -184,7 +183,7 @@ void a_displacement_that_runs_away_stops(void**) {
       (motor ? machine.inputs.motor_ratio : machine.inputs.pump_ratio)[track] = 0.75;
       machine.inputs.track_speed_mps[track] *= motor ? 1.0 / 0.75 : 1.5;
       assert_int_equal(machine.cycles_until(Fault::kDisplacementRunaway), kRunawayCycles);
-      assert_stopped_by(Fault::kDisplacementRunaway, machine.seen.inputs);
+      assert_stopped_by(Fault::kDisplacementRunaway, machine.seen);
     }
   }
 }
@@ -206,7 +205,7 @@ void a_track_off_its_displacements_slows(void**) {
       }
       machine.run(4);
       assert_slowed_by(Fault::kTrackSpeedDisagrees, machine.step());
-      assert_true(machine.seen.inputs.faults.has(Fault::kTrackSpeedDisagrees));
+      assert_true(machine.seen.faults.has(Fault::kTrackSpeedDisagrees));
     }
   }
 }
@@ -306,7 +305,7 @@ void a_pump_that_does_not_return_after_motion_runs_away(void**) {
                      kUnderWay - 1 + kRunawayCycles);
     machine.inputs.pump_ratio[track] = -0.125;
     machine.step();
-    assert_false(machine.seen.inputs.faults.has(Fault::kDisplacementRunaway));
+    assert_false(machine.seen.faults.has(Fault::kDisplacementRunaway));
     machine.inputs.pump_ratio[track] = 0.5;
     assert_int_equal(machine.cycles_until(Fault::kDisplacementRunaway), -1);
   }
@@ -317,12 +316,12 @@ void manual_mode_takes_over(void**) {
   Released taken;
   taken.inputs.automatic = false;
   assert_int_equal(taken.cycles_until(Fault::kDisplacementRunaway), -1);
-  assert_false(taken.seen.inputs.faults.has(Fault::kSpoolStuck));
+  assert_false(taken.seen.faults.has(Fault::kSpoolStuck));
   Released unheard;
   unheard.inputs.automatic = false;
   unheard.inputs.faults.add(Fault::kOperatorMissing);
   assert_true(unheard.cycles_until(Fault::kDisplacementRunaway) > 0);
-  assert_true(unheard.seen.inputs.faults.has(Fault::kSpoolStuck));
+  assert_true(unheard.seen.faults.has(Fault::kSpoolStuck));
 }
 
 /// A transmission that is not seen is not judged, and has not returned either.
@@ -341,7 +340,7 @@ void tracks_are_judged_in_motion_only(void**) {
   Released machine;
   machine.inputs.track_speed_mps = {3.0, 3.0};
   machine.run(20);
-  assert_false(machine.seen.inputs.faults.has(Fault::kTrackSpeedDisagrees));
+  assert_false(machine.seen.faults.has(Fault::kTrackSpeedDisagrees));
 }
 
 void what_degraded_goes_on_for_half_a_second(void**) {

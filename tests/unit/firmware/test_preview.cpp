@@ -11,11 +11,16 @@ using namespace graben;
 
 const DozerProfile& profile() { return test::dozer().profile; }
 
+const BladeKinematics& blade() {
+  static const BladeKinematics of(profile().blade);
+  return of;
+}
+
 double flow_m3ps() { return available_flow_m3ps(profile().implement, 157.08); }
 
 /// What the preview allows at `x_m`, after it has stood there for long.
 AheadLimit standing_at(const GradeProfile& design, double x_m, double speed_mps, double lead_s) {
-  Preview preview(profile());
+  Preview preview(profile(), blade());
   const GroundMap untouched;
   for (int n = 0; n < 100; ++n) {
     preview.look(untouched, design, x_m, {0.0, 0.0});
@@ -75,7 +80,7 @@ void the_lead_is_left_off(void**) {
 void it_knows_that_the_body_will_tip(void**) {
   const GradeProfile design(profile().grade);
   const GroundMap untouched;
-  Preview preview(profile());
+  Preview preview(profile(), blade());
   for (int n = 0; n < 100; ++n) {
     preview.look(untouched, design, 3.3, {0.0, 0.0});
   }
@@ -87,7 +92,7 @@ void it_knows_that_the_body_will_tip(void**) {
 /// Until a station is known it counts as the slowest.
 void what_is_not_known_yet_is_slow(void**) {
   const GradeProfile design(test::level(0.0));
-  Preview preview(profile());
+  Preview preview(profile(), blade());
   preview.look(GroundMap(), design, 0.0, {0.0, 0.0});
   assert_near(preview.limit(0.0, 0.0, flow_m3ps(), 0.0).lowest_mps, profile().travel.speed_min_mps,
               1e-12);
@@ -137,7 +142,7 @@ void what_is_known_stays_known(void**) {
 void it_follows_wherever_the_machine_goes(void**) {
   const GradeProfile design(test::bend(-0.4, 0.3));
   const GroundMap untouched;
-  Preview preview(profile());
+  Preview preview(profile(), blade());
   for (const double target_m : {7.0, 3.0, 7.0, 500.0, -80.0, 7.0}) {
     for (int n = 0; n < 200; ++n) {
       preview.look(untouched, design, target_m, {0.0, 0.0});
@@ -150,7 +155,7 @@ void it_follows_wherever_the_machine_goes(void**) {
 /// No place is too far to be looked at, and none need be a number.
 void far_away_it_stays_defined(void**) {
   const GradeProfile design(test::level(0.0));
-  Preview preview(profile());
+  Preview preview(profile(), blade());
   for (const double x_m : {1e9, -1e300, std::numeric_limits<double>::quiet_NaN()}) {
     preview.look(GroundMap(), design, x_m, {0.0, 0.0});
     assert_true(preview.limit(x_m, 1.0, flow_m3ps(), 0.2).speed_mps >= 0.0);
@@ -165,7 +170,7 @@ void it_learns_what_was_cut(void**) {
     const double dent_m = x_m > 4.0 && x_m < 4.4 ? -0.07 : 0.0;
     ground.pass(x_m, dent_m, design, -2.2, 0.0, 0.0);
   }
-  Preview preview(profile());
+  Preview preview(profile(), blade());
   for (int n = 0; n < 200; ++n) {
     preview.look(ground, design, 2.8, {0.0, 0.0});
   }

@@ -22,11 +22,7 @@ struct Valve {
   bool stuck() { return step().has(Fault::kSpoolStuck); }
   /// Whether it finds that the valve side does not say what we say.
   bool deaf() { return step().has(Fault::kValveNotFollowing); }
-  FaultSet step() {
-    const SpoolWatchResult result = watch_spools(profile, state, sent, valid);
-    state = result.state;
-    return result.faults;
-  }
+  FaultSet step() { return watch_spools(profile, state, sent, valid); }
   /// Cycles until a fault, counting the one that has it; -1 if none comes.
   int cycles_until(Fault fault) {
     for (int n = 1; n <= 200; ++n) {

@@ -37,7 +37,6 @@ struct Machine {
       inputs.rod_pressure_pa = {3e6 + cycles, 3e6 + cycles, 3e6 + cycles};
     }
     seen = watch(profile, state, cycle, inputs, period_s);
-    state = seen.state;
     return seen.inputs;
   }
   void run(int count) {
