@@ -1,7 +1,7 @@
 /// count_cycles TRACES [BURN]: replays every cycle of the traces through the controllers that they
 /// are of, each a counted section: frames in, step, frames out. With BURN each section executes
-/// about so many instructions more. Prints how many cycles there were and how many of them ended
-/// in another mode than on the machine that they were recorded with.
+/// about so many instructions more. Prints a line for each trace: how many cycles, and how many of
+/// them ended in another mode than that in which they were recorded.
 ///
 /// The same source on every target; what it counts is firmware, hal and the node between them.
 
@@ -21,11 +21,6 @@ namespace {
 using namespace graben;
 using namespace graben::timing;
 
-struct Tally {
-  unsigned long cycles = 0;
-  unsigned long other_mode = 0;
-};
-
 /// Not on the stack: they are large, and bare metal has little.
 TraceCycle cycle;
 TracePort port;
@@ -34,24 +29,22 @@ std::optional<ecu::DozerEcu> dozer;
 
 template <class Ecu, class Machine>
 bool replay(std::FILE* file, std::optional<Ecu>& ecu, const Machine& machine,
-            const TraceStart& start, std::uint32_t wasted, Tally& tally) {
-  ecu.reset();
+            const TraceStart& start, std::uint32_t wasted) {
+  unsigned other_mode = 0;
+  ecu.emplace(machine, start.profile_hash, port);
   for (std::uint32_t n = 0; n < start.cycles; ++n) {
     if (!read(file, cycle)) {
       return false;
-    }
-    if (cycle.fresh || !ecu) {
-      ecu.emplace(machine, start.profile_hash, port);
     }
     port.begin(cycle);
     graben_count_begin();
     ecu->step(cycle.now_us, 0);
     burn(wasted);
     graben_count_end();
-    ++tally.cycles;
     const auto mode = static_cast<std::uint8_t>(ecu->outputs().status.mode);
-    tally.other_mode += mode == cycle.mode ? 0U : 1U;
+    other_mode += mode == cycle.mode ? 0U : 1U;
   }
+  std::printf("%u %u\n", static_cast<unsigned>(start.cycles), other_mode);
   return true;
 }
 
@@ -69,16 +62,14 @@ int main(int count, char** words) {
   }
   const auto wasted =
       count > 2 ? static_cast<std::uint32_t>(std::strtoul(words[2], nullptr, 10)) : 0U;
-  Tally tally;
   TraceStart start;
   bool whole = true;
   while (whole && read(file, start)) {
     const bool is_dozer = start.setup == Setup::kDozer || start.setup == Setup::kDozerBumps;
-    whole = is_dozer ? replay(file, dozer, dozer_setup(start.setup), start, wasted, tally)
-                     : replay(file, excavator, excavator_setup(start.setup), start, wasted, tally);
+    whole = is_dozer ? replay(file, dozer, dozer_setup(start.setup), start, wasted)
+                     : replay(file, excavator, excavator_setup(start.setup), start, wasted);
   }
   whole = whole && std::feof(file) != 0;
   std::fclose(file);
-  std::printf("%lu cycles, %lu in another mode\n", tally.cycles, tally.other_mode);
   return whole ? 0 : 1;
 }

@@ -28,7 +28,6 @@ Played played(const Script& script, std::uint32_t hash, Bench& bench) {
   for (int n = 0; n < script.cycles; ++n) {
     result.cycles.push_back(bench.step());
   }
-  result.cycles.front().fresh = true;
   return result;
 }
 
@@ -76,6 +75,9 @@ Played play_dozer(const Script& script) {
 }  // namespace
 
 Played play(const Script& script) {
+  if (script.row) {
+    return play_row(script);
+  }
   const bool is_dozer = script.setup == Setup::kDozer || script.setup == Setup::kDozerBumps;
   return is_dozer ? play_dozer(script) : play_excavator(script);
 }

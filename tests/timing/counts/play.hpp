@@ -14,5 +14,7 @@ struct Played {
 
 /// Throws std::runtime_error.
 [[nodiscard]] Played play(const Script& script);
+/// One with a row of tests/faults.
+[[nodiscard]] Played play_row(const Script& script);
 
 }  // namespace graben::timing

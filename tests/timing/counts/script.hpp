@@ -6,8 +6,9 @@
 ///
 /// GROUP is free; the maxima are kept by it. SETUP: 22t, 12t, dozer, bumps. The operator enables at
 /// 200 ms and gives the task 100 ms later. `start`: shares of the strokes, of an excavator; else
-/// drawn from the seed. `row`: of tests/faults, 22t and dozer. EDIT holds for the cycles from 60 to
-/// 64, or for one cycle:
+/// drawn from the seed. `row`: of tests/faults, 22t and dozer; of the controllers that it
+/// starts, the one that ran longest. Only even seeds leave the controller's profile as it is
+/// shipped. EDIT holds for the cycles from 60 to 64, or for one cycle:
 ///
 ///   raw MESSAGE.FIELD N   the field's raw value; counter and CRC stay right
 ///   mute MESSAGE          lost

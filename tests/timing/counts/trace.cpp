@@ -102,8 +102,7 @@ bool read(std::FILE* file, TraceStart& start) {
 }
 
 bool write(std::FILE* file, const TraceCycle& cycle) {
-  bool written = put(file, cycle.fresh ? 1U : 0U, 1) &&
-                 put(file, static_cast<std::uint64_t>(cycle.now_us), 8) &&
+  bool written = put(file, static_cast<std::uint64_t>(cycle.now_us), 8) &&
                  put_answers(file, cycle) && put(file, cycle.refused, 4) &&
                  put(file, static_cast<std::uint64_t>(cycle.frames), 2);
   for (unsigned i = 0; i < static_cast<unsigned>(cycle.frames); ++i) {
@@ -113,8 +112,8 @@ bool write(std::FILE* file, const TraceCycle& cycle) {
 }
 
 bool read(std::FILE* file, TraceCycle& cycle) {
-  bool there = get(file, 1, cycle.fresh) && get(file, 8, cycle.now_us) &&
-               get_answers(file, cycle) && get(file, 4, cycle.refused) &&
+  bool there = get(file, 8, cycle.now_us) && get_answers(file, cycle) &&
+               get(file, 4, cycle.refused) &&
                get_count(file, 2, TraceCycle::kMostFrames, cycle.frames);
   for (unsigned i = 0; there && i < static_cast<unsigned>(cycle.frames); ++i) {
     there = get_frame(file, cycle.frame[i]);

@@ -35,7 +35,6 @@ struct TraceCycle {
   static constexpr int kMostAnswers = 8;
   static constexpr int kMostSent = 32;
 
-  bool fresh = false;  ///< A controller that has just been started.
   TimeUs now_us = 0;
   /// What each call of state() and open() gave, in their order.
   std::array<CanPortState, kMostAnswers> state{};
