@@ -9,7 +9,8 @@ has_command() { command -v "$1" >/dev/null 2>&1; }
 
 has_header() { [ -e "/usr/include/$1" ] || [ -e "/usr/local/include/$1" ]; }
 
-# graben_missing build|check|fuzz|bench|hil|package|install: the packages that are not there yet, a line each.
+# graben_missing build|check|fuzz|bench|hil|cross|package|install: the packages that are not there yet,
+# a line each.
 graben_missing() {
   has_command g++ || echo g++
   has_command cmake || echo cmake
@@ -52,6 +53,18 @@ graben_missing() {
     has_command busybox || echo busybox-static
     has_command qemu-system-x86_64 || echo qemu-system-x86
   fi
+  if [ "$1" = cross ]; then
+    has_command aarch64-linux-gnu-g++ || echo g++-aarch64-linux-gnu
+    has_command arm-linux-gnueabihf-g++ || echo g++-arm-linux-gnueabihf
+    has_command arm-none-eabi-g++ || echo gcc-arm-none-eabi
+    # The C++ library has no command and no fixed version in its path; it brings newlib.
+    echo '#include <vector>' | arm-none-eabi-g++ -x c++ -E - >/dev/null 2>&1 ||
+      echo libstdc++-arm-none-eabi-newlib
+    has_command qemu-aarch64 || echo qemu-user
+    has_command qemu-system-arm || echo qemu-system-arm
+    # CMocka's source for what has no package of it.
+    has_command xz || echo xz-utils
+  fi
   # What makes the package; what judges and tries it.
   if [ "$1" = package ] || [ "$1" = install ]; then
     has_command dpkg-shlibdeps || echo dpkg-dev
@@ -67,7 +80,8 @@ graben_apt() {
     apt-get -q -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 "$@" </dev/null
 }
 
-# graben_install build|check|fuzz|bench|hil|package|install: nothing when all is there; otherwise says what, then installs it.
+# graben_install build|check|fuzz|bench|hil|cross|package|install: nothing when all is there; otherwise
+# says what, then installs it.
 graben_install() {
   # Word splitting is wanted: package names have no blanks.
   graben_packages=$(graben_missing "$1" | tr '\n' ' ')
