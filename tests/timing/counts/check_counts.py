@@ -3,6 +3,7 @@
   check_counts.py BUILD            fails where a maximum is more than 2 % above what is committed
   check_counts.py BUILD --update   writes what it found into observed.json
   check_counts.py --table          prints observed.json as the README's table
+  check_counts.py --readme FILE    fails unless FILE has that table; with --update writes it there
 
 BUILD is a build of any target; the traces that it replays are recorded by the host's release build.
 The scripts are those of cases/: what has cost most, group by group (search.py). An observed
@@ -36,6 +37,23 @@ def table(known: dict) -> str:
         rows.append([target, *[f"{known[target][group]['count']:,}".replace(",", " ")
                                if group in known[target] else "-" for group in GROUPS]])
     return "\n".join("| " + " | ".join(row) + " |" for row in rows)
+
+
+def check_readme(path: pathlib.Path, known: dict, renew: bool) -> list[str]:
+    """The table's lines follow each other, the head first."""
+    lines, wanted = path.read_text(encoding="utf-8").splitlines(), table(known).splitlines()
+    if wanted[0] not in lines:
+        return [f"{path.name}: no table begins with '{wanted[0]}'"]
+    begin = end = lines.index(wanted[0])
+    while end < len(lines) and lines[end].startswith("|"):
+        end += 1
+    if renew:
+        path.write_text("\n".join([*lines[:begin], *wanted, *lines[end:]]) + "\n", encoding="utf-8")
+        return []
+    return [f"{path.name}: '{line}' is not in its table"
+            for line in wanted if line not in lines[begin:end]] + [
+                f"{path.name}: '{line}' is not committed in {counting.OBSERVED.name}"
+                for line in lines[begin:end] if line not in wanted]
 
 
 def count_all(bench: counting.Bench, options) -> list[counting.Counted]:
@@ -100,6 +118,7 @@ def arguments():
                         help="so many wasted instructions in each section")
     parser.add_argument("--observed", type=pathlib.Path, default=counting.OBSERVED)
     parser.add_argument("--table", action="store_true")
+    parser.add_argument("--readme", type=pathlib.Path, metavar="FILE")
     return parser.parse_args()
 
 
@@ -108,6 +127,10 @@ def main() -> int:
     if options.table:
         print(table(observed(options.observed)))
         return 0
+    if options.readme:
+        problems = check_readme(options.readme, observed(options.observed), options.update)
+        print("\n".join([*problems, f"counts: {len(problems)} problems"]))
+        return 1 if problems else 0
     if options.build is None:
         counting.fail("BUILD is missing")
     began = time.monotonic()

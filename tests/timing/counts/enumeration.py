@@ -12,7 +12,11 @@ sys.dont_write_bytecode = True
 from dbcgen import derive, parse  # noqa: E402  pylint: disable=wrong-import-position
 
 DBC = {"22t": "excavator", "12t": "excavator", "dozer": "dozer", "bumps": "dozer"}
-FAULT_ROWS = range(1, 51)
+# Those that run a controller, whose frames are all that it differs in: 48 flips bits of its memory,
+# 49 has a profile of its own.
+UNTRIED = {"22t": {23, 39, 40, 45, 48, 49}, "dozer": {5, 23, 37, 45, 48, 49}}
+FAULT_ROWS = {setup: [row for row in range(1, 51) if row not in untried]
+              for setup, untried in UNTRIED.items()}
 # When the controller is Active on its task.
 ACTIVE = {"22t": 60, "12t": 60, "dozer": 90, "bumps": 90}
 QUEUE = 384  # frames that a cycle takes at most
@@ -52,19 +56,19 @@ def boundaries(setup: str) -> list[str]:
                 found += [f"{head}+{cycles} raw {message}.{field} {raw}" for cycles in (1, 8)]
         for what in (f"+8 mute {message}", f"+3 wrong {message}", f"+3 length {message} 7",
                      f"+3 odd {message} 1", f"+3 odd {message} 2", f"+3 odd {message} 4",
-                     f" good {message} 75"):
+                     f" good {message} 60"):
             found.append(head + what)
         found.append(f"{group(setup)}-queue {setup} seed=1 cycles={start + 3} "
                      f"| @{start} flood {message} {QUEUE} 0x0123456789abcdef")
     for what in (" late 20", " late 200", "+3 port 2", "+3 port 3", "+3 port 4", "+3 refuse",
-                 "+4 hold 0", "+4 hold 1", "+4 speed 0", " flood foreign 75", " flood error 75"):
+                 "+4 hold 0", "+4 hold 1", "+4 speed 0", " flood foreign 60", " flood error 60"):
         found.append(head + what)
     return found
 
 
 def fault_rows(setup: str) -> list[str]:
     return [f"{setup} {setup} row={row} seed={seed} cycles=4000"
-            for row in FAULT_ROWS for seed in (2, 4)]
+            for row in FAULT_ROWS[setup] for seed in (2, 4)]
 
 
 def tasks() -> list[str]:

@@ -9,6 +9,7 @@ namespace graben::timing {
 namespace {
 
 /// A trace for each controller that a row starts.
+// NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor): final, and nobody deletes through it.
 class Witness final : public faults::EcuWitness {
  public:
   [[nodiscard]] CanPort& port_of(LoopbackPort& port) override {
