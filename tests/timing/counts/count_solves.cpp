@@ -1,6 +1,6 @@
-/// count_solves CASES [BURN]: solves each case with the policy that machines are shipped with, each
-/// a counted section; with BURN of about so many instructions more. Prints a line for each: the
-/// status as SolveStatus counts, and lambda.
+/// count_solves CASES [BURN]: lambda of each case as a controller's cycle asks for it, with the
+/// policy that machines are shipped with; each a counted section, with BURN of about so many
+/// instructions more. Prints a line for each: the status as SolveStatus counts, and lambda.
 
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +12,8 @@ namespace {
 
 using namespace graben;
 using namespace graben::timing;
+
+constexpr double kPeriod_s = 0.01;
 
 /// Not on the stack: they are large, and bare metal has little.
 SolveCase one;
@@ -33,7 +35,8 @@ int main(int count, char** words) {
       count > 2 ? static_cast<std::uint32_t>(std::strtoul(words[2], nullptr, 10)) : 0U;
   while (read(file, one)) {
     graben_count_begin();
-    solution = solve_mcv(one.machine, one.input, McvPolicy::kGlobal, one.range);
+    solution = steady_lambda(one.machine, one.input, McvPolicy::kGlobal, one.rise, one.last_lambda,
+                             kPeriod_s);
     burn(wasted);
     graben_count_end();
     std::printf("%d %.9f\n", static_cast<int>(solution.status), solution.point.lambda);

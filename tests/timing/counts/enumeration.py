@@ -85,25 +85,25 @@ def valve_corners(setup: str, count: int) -> list[str]:
     draw = random.Random(f"{setup} corners")
     speeds, loads = (-0.8, -0.3, -1e-3, 0.0, 1e-3, 0.3, 0.8), (0.0, 1e5, 2e6, 1e7, 3.4e7, 6.4e7)
     found = []
-    for speed, flow, reserve in itertools.product((-0.8, 0.8), (0.0, 2.3e-3, 6e-3), (0, 2e4)):
+    for speed, flow, last in itertools.product((-0.8, 0.8), (0.0, 2.3e-3, 6e-3), (0.0, 0.9)):
         for cap, rod in itertools.product(loads, loads):
             found.append(solve_line(setup, [speed] * drives, [cap] * drives, [rod] * drives,
-                                    [flow] * pumps, reserve))
+                                    [flow] * pumps, last))
     while len(found) < count:
         found.append(solve_line(
             setup, [draw.choice(speeds) for _ in range(drives)],
             [draw.choice(loads) * draw.random() for _ in range(drives)],
             [draw.choice(loads) * draw.random() for _ in range(drives)],
             [draw.choice((0.0, 1e-3, 2.3e-3, 6e-3)) for _ in range(pumps)],
-            draw.choice((0, 2e4))))
+            draw.random()))
     return found
 
 
-def solve_line(setup: str, v, cap, rod, flow, reserve, most=1.0) -> str:
+def solve_line(setup: str, v, cap, rod, flow, last) -> str:
     def text(numbers):
         return ",".join(f"{number:.9g}" for number in numbers)
     return (f"solve {setup} v={text(v)} cap={text(cap)} rod={text(rod)} flow={text(flow)} "
-            f"most={most:.9g} reserve={reserve:.9g}")
+            f"last={last:.9g}")
 
 
 def scripts(kind: str) -> list[str]:

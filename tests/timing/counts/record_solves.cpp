@@ -1,7 +1,7 @@
 // record_solves SCRIPTS VECTORS CASES: writes the cases of the optimiser that the scripts name, and
-// prints a line for each. A script is a line, # a remark:
+// prints a line for each. `last` is the lambda of the cycle before. A script is a line, # a remark:
 //
-//   GROUP 22t v=0.1,0.2,-0.3 cap=1e6,2e6,3e6 rod=1e6,1e6,1e6 flow=2e-3,2e-3 most=1 reserve=2e4
+//   GROUP 22t v=0.1,0.2,-0.3 cap=1e6,2e6,3e6 rod=1e6,1e6,1e6 flow=2e-3,2e-3 last=0.7
 //   GROUP vector 17       the 17th line of VECTORS (tests/vectors/mcv.jsonl)
 //   GROUP random 4711     a valve of a seed: 1 to 6 spools on 1 to 3 pumps (tests/fuzz)
 
@@ -26,6 +26,9 @@ namespace {
 using namespace graben;
 using namespace graben::timing;
 
+/// Up to 1 within a cycle, with nothing in reserve.
+constexpr LambdaRise kFree = {1000.0, 0.0, 0.0};
+
 std::vector<double> numbers_of(std::string words) {
   std::replace(words.begin(), words.end(), ',', ' ');
   std::istringstream stream(words);
@@ -43,7 +46,9 @@ void fill(Array& array, const std::vector<double>& numbers) {
 
 SolveCase valve_case(Setup setup, std::istringstream& words) {
   SolveCase one;
-  one.machine = mcv_machine(excavator_setup(setup).profile);
+  const ExcavatorProfile& profile = excavator_setup(setup).profile;
+  one.machine = mcv_machine(profile);
+  one.rise = profile.control.lambda_rise;
   for (std::string word; words >> word;) {
     const std::size_t at = word.find('=');
     const std::string key = word.substr(0, at);
@@ -59,10 +64,8 @@ SolveCase valve_case(Setup setup, std::istringstream& words) {
       fill(one.input.rod_pressure_pa, numbers);
     } else if (key == "flow") {
       fill(one.input.pump_flow_m3ps, numbers);
-    } else if (key == "most") {
-      one.range.most = numbers[0];
-    } else if (key == "reserve") {
-      one.range.reserve_n = numbers[0];
+    } else if (key == "last") {
+      one.last_lambda = numbers[0];
     } else {
       throw std::runtime_error("'" + word + "' is not known");
     }
@@ -76,7 +79,7 @@ SolveCase vector_case(const std::string& vectors, long line) {
   for (long n = 0; n < line && std::getline(stream, text); ++n) {
   }
   const cli::McvCase read = cli::parse_mcv_case(text);
-  return {read.machine, read.input, {}};
+  return {read.machine, read.input, kFree, 0.0};
 }
 
 SolveCase case_of(const std::string& line, const std::string& vectors) {
@@ -95,7 +98,7 @@ SolveCase case_of(const std::string& line, const std::string& vectors) {
     return vector_case(vectors, number);
   }
   const test::RandomCase drawn = test::random_case(static_cast<std::uint64_t>(number));
-  return {drawn.machine, drawn.input, {}};
+  return {drawn.machine, drawn.input, kFree, 0.0};
 }
 
 void record(const std::string& scripts, const std::string& vectors, const std::string& cases) {

@@ -7,6 +7,7 @@ group, cut off behind its dearest cycle. The same seed, cases and code find the 
 """
 
 import argparse
+import dataclasses
 import functools
 import pathlib
 import random
@@ -155,37 +156,44 @@ def mutant_of_solves(draw: random.Random, script: str) -> str:
         return f"{words[0]} random {draw.randrange(10_000_000)}"
     numbers = {word.split("=")[0]: [float(number) for number in word.split("=")[1].split(",")]
                for word in words[2:]}
-    largest = {"v": 0.8, "cap": 6.4e7, "rod": 6.4e7, "flow": 6e-3, "most": 1.0, "reserve": 1e5}
+    largest = {"v": 0.8, "cap": 6.4e7, "rod": 6.4e7, "flow": 6e-3, "last": 1.0}
     for _ in range(draw.choice((1, 1, 2, 4))):
-        key = draw.choice(("v", "v", "cap", "cap", "rod", "rod", "flow", "most", "reserve"))
+        key = draw.choice(("v", "v", "cap", "cap", "rod", "rod", "flow", "last"))
         at = draw.randrange(len(numbers[key]))
         sign = draw.choice((-1.0, 1.0)) if key == "v" else 1.0
         value = numbers[key][at]
         value = draw.choice((value * draw.uniform(0.5, 2.0), value * draw.uniform(0.97, 1.03),
                              sign * largest[key] * draw.random(), sign * value))
-        least = {"v": -0.8, "most": 1e-4}.get(key, 0.0)
-        numbers[key][at] = min(max(value, least), largest[key])
+        numbers[key][at] = min(max(value, -0.8 if key == "v" else 0.0), largest[key])
     return enumeration.solve_line(words[1], *[numbers[key] for key in ("v", "cap", "rod", "flow")],
-                                  numbers["reserve"][0], numbers["most"][0])
+                                  numbers["last"][0])
 
 
-def cut(counted: counting.Counted) -> str:
+def cut(counted: counting.Counted) -> counting.Counted:
     """Without what comes after the dearest cycle."""
     if len(counted.counts) == 1:
-        return counted.script
+        return counted
+    dearest = counted.counts.index(counted.most)
     head, edits = parts_of(counted.script)
-    return joined(with_key(head, "cycles", counted.counts.index(counted.most) + 1), edits)
+    edits = [edit for edit in edits if int(re.match(r"@(\d+)", edit)[1]) <= dearest]
+    script = joined(with_key(head, "cycles", dearest + 1), edits)
+    return dataclasses.replace(counted, script=script, counts=counted.counts[:dearest + 1])
 
 
 def family(script: str) -> str:
-    """One of each is kept: the same script with other numbers is no other case."""
-    return re.sub(r"(?<![A-Za-z])-?[\d.,]+(e-?\d+)?|0x[0-9a-f]+", "#", script)
+    """One of each is kept: the same edits with other messages and numbers are no other case."""
+    head, edits = parts_of(script)
+    words = script.split()
+    if len(words) > 2 and words[2].startswith("v="):
+        return re.sub(r"-?[\d.]+(e[-+]?\d+)?", "#", " ".join(words[:3]))
+    return " ".join([*head[:2], "row" if key_of(head, "row") else "",
+                     *sorted({edit.split()[1] for edit in edits})])
 
 
 def best(known: list[counting.Counted]) -> list[counting.Counted]:
     kept: dict[str, list[counting.Counted]] = {}
     seen = set()
-    for counted in sorted(known, key=lambda one: -one.most):
+    for counted in sorted(map(cut, known), key=lambda one: -one.most):
         mark = (counted.group, family(counted.script))
         if mark not in seen and len(kept.setdefault(counted.group, [])) < KEEP:
             seen.add(mark)
@@ -196,7 +204,7 @@ def best(known: list[counting.Counted]) -> list[counting.Counted]:
 def write(path: pathlib.Path, known: list[counting.Counted]):
     remarks = [line for line in path.read_text(encoding="utf-8").splitlines()
                if line.startswith("#")]
-    lines = [*remarks, *[cut(counted) for counted in known]]
+    lines = [*remarks, *[counted.script for counted in known]]
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
@@ -212,7 +220,7 @@ def refused(bench: counting.Bench, kind: str, scripts: list[str]) -> list[counti
         return refused(bench, kind, scripts[:half]) + refused(bench, kind, scripts[half:])
 
 
-def search(bench: counting.Bench, kind: str, until: float, options):
+def search(bench: counting.Bench, kind: str, options):
     path = counting.CASES[kind]
     draw = random.Random(options.seed)
     mutate = mutant_of_cycles if kind == "cycles" else mutant_of_solves
@@ -221,11 +229,13 @@ def search(bench: counting.Bench, kind: str, until: float, options):
         scripts += enumeration.scripts(kind)
     known = best(bench.count(kind, scripts))
     write(path, known)
-    tried = 0
+    tried, until = 0, time.monotonic() + options.seconds
     while time.monotonic() < until:
         mutants = []
         for group in sorted({counted.group for counted in known}):
-            own = [counted.script for counted in known if counted.group == group]
+            own = [counted for counted in known if counted.group == group]
+            # A long one costs as much as many short ones.
+            own = [one.script for one in own if len(one.counts) <= LONGEST] or [own[0].script]
             if options.only in (None, group):
                 count = MUTANTS * (20 if kind == "solves" else 1)
                 mutants += [mutate(draw, draw.choice(own)) for _ in range(count)]
@@ -245,15 +255,16 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--seconds", type=float, default=600.0, help="half of them for each kind")
+    parser.add_argument("--seconds", type=float, default=300.0, help="of either kind")
+    parser.add_argument("--kind", choices=list(counting.CASES), help="one of them only")
     parser.add_argument("--only", metavar="GROUP")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--start-thorough", action="store_true",
                         help="with all scripts of enumeration.py to begin with")
     options = parser.parse_args()
     bench = counting.Bench(options.build)
-    for kind in counting.CASES:
-        search(bench, kind, time.monotonic() + options.seconds / 2.0, options)
+    for kind in [options.kind] if options.kind else counting.CASES:
+        search(bench, kind, options)
     return 0
 
 

@@ -97,9 +97,10 @@ void pass_case(Way& way, Case& one) {
     way.number(pump.relief_pa);
     way.number(one.input.pump_flow_m3ps[j]);
   }
-  way.number(one.range.most);
-  way.number(one.range.reserve_n);
-  way.number(one.range.reserve_share);
+  way.number(one.rise.rate_ps);
+  way.number(one.rise.reserve_n);
+  way.number(one.rise.hold_share);
+  way.number(one.last_lambda);
 }
 
 }  // namespace

@@ -4,14 +4,15 @@
 
 #include <cstdio>
 
-#include "firmware/mcv/optimiser.hpp"
+#include "firmware/mcv/steady_lambda.hpp"
 
 namespace graben::timing {
 
 struct SolveCase {
   McvMachine machine;
   McvInput input;
-  LambdaRange range;
+  LambdaRise rise;
+  double last_lambda = 0.0;
 };
 
 [[nodiscard]] bool write(std::FILE* file, const SolveCase& written);
