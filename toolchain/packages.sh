@@ -31,6 +31,8 @@ graben_missing() {
     has_command clang-format-14 || has_command clang-format || echo clang-format
     has_command clang-tidy-14 || has_command clang-tidy || echo clang-tidy
     has_command gcovr || echo gcovr
+    # For the counts of instructions.
+    has_command qemu-x86_64 || echo qemu-user
   fi
   if [ "$1" = fuzz ]; then
     has_command clang++-14 || echo clang-14

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -58,19 +57,6 @@ bool read(int count, char** words, Options& options) {
 }
 
 template <class Kind>
-Rows<Kind> all_rows(const Rows<Kind>& own) {
-  Rows<Kind> rows;
-  for (const Rows<Kind>& some :
-       {silence_rows<Kind>(), message_rows<Kind>(), format_rows<Kind>(), bus_rows<Kind>(),
-        machine_rows<Kind>(), process_rows<Kind>(), own}) {
-    rows.insert(rows.end(), some.begin(), some.end());
-  }
-  std::sort(rows.begin(), rows.end(),
-            [](const auto& a, const auto& b) { return a.number < b.number; });
-  return rows;
-}
-
-template <class Kind>
 Outcome tried(const Row<Kind>& row, std::uint64_t seed) {
   Trial<Kind> trial(seed, row.number);
   try {
@@ -82,9 +68,9 @@ Outcome tried(const Row<Kind>& row, std::uint64_t seed) {
 }
 
 template <class Kind>
-bool run(const Options& options, const Rows<Kind>& own) {
+bool run(const Options& options) {
   std::vector<RowResult> results;
-  for (const Row<Kind>& row : all_rows(own)) {
+  for (const Row<Kind>& row : all_rows<Kind>()) {
     if (options.row != 0 && options.row != row.number) {
       continue;
     }
@@ -116,8 +102,8 @@ int main(int count, char** words) {
     return EXIT_FAILURE;
   }
   try {
-    const bool excavator = !options.excavator || run(options, excavator_rows());
-    const bool dozer = !options.dozer || run(options, dozer_rows());
+    const bool excavator = !options.excavator || run<Excavator>(options);
+    const bool dozer = !options.dozer || run<Dozer>(options);
     return excavator && dozer ? EXIT_SUCCESS : EXIT_FAILURE;
   } catch (const std::exception& error) {
     fmt::print(stderr, "fault_cases: {}\n", error.what());

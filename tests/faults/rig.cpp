@@ -8,14 +8,15 @@
 namespace graben::faults {
 
 template <class Kind>
-Rig<Kind>::Rig(const typename Kind::Scenery& scenery, std::size_t ecu_queue)
+Rig<Kind>::Rig(const typename Kind::Scenery& scenery, std::size_t ecu_queue, EcuWitness* witness)
     : machine(scenery.machine),
       machine_port(bus.attach()),
       operator_port(bus.attach()),
       ecu_port(bus.attach(ecu_queue)),
       other_port(bus.attach()),
       plant(Kind::node(scenery, machine_port)),
-      driver(operator_port) {
+      driver(operator_port),
+      witness_(witness) {
   if (!machine_port.open() || !operator_port.open() || !ecu_port.open() || !other_port.open()) {
     throw std::runtime_error("the bus in memory did not open");
   }
@@ -32,7 +33,8 @@ Rig<Kind>::Rig(const typename Kind::Scenery& scenery, std::size_t ecu_queue)
 template <class Kind>
 void Rig<Kind>::start_ecu() {
   static_cast<void>(ecu_port.open());
-  ecu.emplace(machine.profile, machine.hash, ecu_port);
+  CanPort& port = witness_ != nullptr ? witness_->port_of(ecu_port) : ecu_port;
+  ecu.emplace(machine.profile, machine.hash, port);
 }
 
 template <class Kind>
@@ -67,6 +69,9 @@ void Rig<Kind>::step() {
   if (ecu && ecu_on) {
     // Time is simulated: how long the cycle took is not known.
     ecu->step(now_us, 0);
+    if (witness_ != nullptr) {
+      witness_->note_cycle(ecu_port, now_us, mode());
+    }
   }
   CanFrame ignored;
   while (other_port.receive(&ignored, 1) == 1) {

@@ -14,12 +14,25 @@ namespace graben::faults {
 
 inline constexpr TimeUs kCycle_us = 10 * kMillisecondUs;
 
+/// Sees what every controller of a rig has of its bus.
+class EcuWitness {
+ public:
+  /// What a controller that starts now has as its port; lives as long as the witness.
+  [[nodiscard]] virtual CanPort& port_of(LoopbackPort& port) = 0;
+  /// After a cycle of the controller on that port.
+  virtual void note_cycle(const LoopbackPort& port, TimeUs now_us, EcuMode mode) = 0;
+
+ protected:
+  ~EcuWitness() = default;
+};
+
 template <class Kind>
 class Rig {
  public:
   using Outputs = typename Kind::Ecu::Outputs;
 
-  Rig(const typename Kind::Scenery& scenery, std::size_t ecu_queue);
+  /// `witness` sees its controllers; null: nobody does.
+  Rig(const typename Kind::Scenery& scenery, std::size_t ecu_queue, EcuWitness* witness = nullptr);
 
   /// A cycle of everybody who is on: machine, operator, then the controller.
   void step();
@@ -64,6 +77,7 @@ class Rig {
   std::function<void()> before_ecu;
 
  private:
+  EcuWitness* witness_;
   bool from_ecu_ = false;
 };
 

@@ -42,5 +42,8 @@ template <class Kind>
 /// Those that each kind has in its own way, or not at all: 5, 37 - 40, 49.
 [[nodiscard]] Rows<Excavator> excavator_rows();
 [[nodiscard]] Rows<Dozer> dozer_rows();
+/// All of a kind, by their numbers.
+template <class Kind>
+[[nodiscard]] Rows<Kind> all_rows();
 
 }  // namespace graben::faults

@@ -17,18 +17,18 @@ Trial<Kind>::Trial(std::uint64_t seed, int row)
     : random(seed + kSeedsPerRow * static_cast<std::uint64_t>(row), plant::Draw::kStart),
       seed_(seed),
       scenery_(Kind::scenery_of(seed)) {
-  rig.emplace(scenery_, LoopbackBus::kQueueCapacity);
+  rig.emplace(scenery_, LoopbackBus::kQueueCapacity, witness);
 }
 
 template <class Kind>
 void Trial<Kind>::set_up(const typename Kind::Scenery& scenery, std::size_t ecu_queue) {
   scenery_ = scenery;
-  rig.emplace(scenery_, ecu_queue);
+  rig.emplace(scenery_, ecu_queue, witness);
 }
 
 template <class Kind>
 void Trial<Kind>::set_queue(std::size_t ecu_queue) {
-  rig.emplace(scenery_, ecu_queue);
+  rig.emplace(scenery_, ecu_queue, witness);
 }
 
 template <class Kind>

@@ -1,6 +1,7 @@
 #!/bin/sh
 # Runs a program for the Cortex-M7 on QEMU's board mps2-an500: run.sh PROGRAM [ARGUMENT...]
-# Arguments, files, output and the exit status (0 or 1) go by semihosting.
+# Arguments, files, output and the exit status (0 or 1) go by semihosting. QEMU_PLUGIN names a plugin
+# with its arguments, as it does for QEMU's user mode.
 set -eu
 
 program=$1
@@ -15,5 +16,5 @@ for argument in "$@"; do
   esac
   config=$config,arg=$argument
 done
-exec qemu-system-arm -M mps2-an500 -nographic -monitor none -serial none -semihosting-config "$config" \
+exec qemu-system-arm ${QEMU_PLUGIN:+-plugin "$QEMU_PLUGIN"} -M mps2-an500 -nographic -monitor none -serial none -semihosting-config "$config" \
   -kernel "$program" </dev/null

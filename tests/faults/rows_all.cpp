@@ -1,0 +1,29 @@
+#include <algorithm>
+
+#include "tests/faults/row.hpp"
+
+namespace graben::faults {
+namespace {
+
+Rows<Excavator> own_rows(const Excavator&) { return excavator_rows(); }
+Rows<Dozer> own_rows(const Dozer&) { return dozer_rows(); }
+
+}  // namespace
+
+template <class Kind>
+Rows<Kind> all_rows() {
+  Rows<Kind> rows;
+  for (const Rows<Kind>& some :
+       {silence_rows<Kind>(), message_rows<Kind>(), format_rows<Kind>(), bus_rows<Kind>(),
+        machine_rows<Kind>(), process_rows<Kind>(), own_rows(Kind{})}) {
+    rows.insert(rows.end(), some.begin(), some.end());
+  }
+  std::sort(rows.begin(), rows.end(),
+            [](const auto& a, const auto& b) { return a.number < b.number; });
+  return rows;
+}
+
+template Rows<Excavator> all_rows();
+template Rows<Dozer> all_rows();
+
+}  // namespace graben::faults

@@ -1,0 +1,14 @@
+#pragma once
+/// The machines whose controllers are counted.
+
+#include "firmware/excavator_controller.hpp"
+#include "firmware/machine/dozer_profile.hpp"
+#include "tests/timing/counts/trace.hpp"
+
+namespace graben::timing {
+
+/// Of an excavator; the 12 t one has two tasks, truck_loading and flatten.
+[[nodiscard]] const ExcavatorSetup& excavator_setup(Setup setup);
+[[nodiscard]] const DozerProfile& dozer_setup(Setup setup);
+
+}  // namespace graben::timing
