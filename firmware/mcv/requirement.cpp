@@ -11,6 +11,8 @@ namespace {
 
 /// For all stretches together; random circuits need at most a quarter of it.
 constexpr int kSteps = 96;
+/// On a line that is starved, where rounding can use them all up, and halving takes over.
+constexpr int kStarvedSteps = 32;
 /// A step is the last where Newton would change lambda by less than this share: Newton's own leaves
 /// an error of the order of its square, the chord's, which ends inside Newton's, at most that.
 constexpr double kLastNewton = 1e-7;
@@ -98,7 +100,8 @@ class StretchSearch {
         stretch_(stretch),
         slower_(towards == Towards::kSlower),
         // The driving length is a straight line where no load helps.
-        straight_(slower_ && requirement.load_n > 0.0) {}
+        straight_(slower_ && requirement.load_n > 0.0),
+        most_steps_(is_starved(line) ? kStarvedSteps : kSteps) {}
 
   /// Moves `change.ratio` up to `end`, or to the change if that comes first.
   void run(Change& change, double end) const {
@@ -107,7 +110,7 @@ class StretchSearch {
     double nudge = 4.440892098500626e-16;
     Lengths at = lengths(requirement_, line_, stretch_, change.ratio, 0.0);
     while (change.ratio != end) {
-      if (++change.steps > kSteps) {
+      if (++change.steps > most_steps_) {
         change.bounded = false;
         return;
       }
@@ -225,6 +228,7 @@ class StretchSearch {
   const Stretch& stretch_;
   bool slower_;
   bool straight_;
+  int most_steps_;
 };
 
 }  // namespace
