@@ -48,8 +48,8 @@ inline constexpr int kGlobalJumps = 64;
 
 /// The largest feasible lambda on [0, most], to 1e-9 of itself but where rounding decides: a
 /// load that ties with what the relief valve can hold, or a line without pump flow, fed by
-/// regeneration alone. There, and where a search does not end, the larger of its result and
-/// Algorithm 1's.
+/// regeneration alone. There its result is halved towards the last infeasible lambda that it met;
+/// where it found none or did not end, Algorithm 1's counts.
 ///
 /// Why the largest: the search starts at `most`, or at the pump flow limit if that is lower (in
 /// closed form: r = 0). Where `evaluate` finds the point feasible, nothing larger is left. Where it
