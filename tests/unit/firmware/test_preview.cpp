@@ -103,7 +103,7 @@ void what_is_not_known_yet_is_slow(void**) {
 int looks_until_known(const Stand& measured) {
   const GradeProfile design(test::level(0.0));
   const GroundMap untouched;
-  Preview preview(profile());
+  Preview preview(profile(), blade());
   for (int looks = 1; looks < 300; ++looks) {
     preview.look(untouched, design, 0.0, measured);
     const AheadLimit ahead = preview.limit(0.0, 0.0, flow_m3ps(), 0.0);
@@ -126,7 +126,7 @@ void what_takes_more_steps_takes_more_cycles(void**) {
 void what_is_known_stays_known(void**) {
   const GradeProfile design(test::bend(-0.4, 0.3));
   const GroundMap untouched;
-  Preview preview(profile());
+  Preview preview(profile(), blade());
   double settled_mps = 0.0;
   for (int n = 0; n < 300; ++n) {
     preview.look(untouched, design, 7.0, {0.0, 0.0});

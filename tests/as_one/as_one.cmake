@@ -1,0 +1,64 @@
+# Unit tests as one program, each test a run of it: read, compiled and linked together they cost a
+# tenth of as many programs.
+
+# graben_collect_unit_test(NAME source libs...): for the program that graben_unit_program makes
+function(graben_collect_unit_test name source)
+  set_property(GLOBAL APPEND PROPERTY graben_collected_tests ${name})
+  set_property(GLOBAL APPEND PROPERTY graben_collected_sources ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+  set_property(GLOBAL APPEND PROPERTY graben_collected_libraries ${ARGN})
+endfunction()
+
+# graben_unit_program(TARGET libs...): of what was collected, whose names are `tests` then
+function(graben_unit_program target)
+  get_property(tests GLOBAL PROPERTY graben_collected_tests)
+  get_property(sources GLOBAL PROPERTY graben_collected_sources)
+  get_property(libraries GLOBAL PROPERTY graben_collected_libraries)
+  list(REMOVE_DUPLICATES libraries)
+  # A test that reads another header is put together anew.
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${sources})
+
+  # All headers that any of them reads, once. What two of them call alike is one in this program, though
+  # not in the tests' own: here it does not compile.
+  set(headers)
+  foreach(source ${sources})
+    file(STRINGS ${source} lines REGEX "^#include ")
+    list(APPEND headers ${lines})
+  endforeach()
+  list(REMOVE_DUPLICATES headers)
+  # First the libraries': CMocka's macro `fail` breaks some.
+  set(libraries_headers ${headers})
+  list(FILTER libraries_headers INCLUDE REGEX "<")
+  list(FILTER headers EXCLUDE REGEX "<")
+  list(JOIN libraries_headers "\n" libraries_headers)
+  list(JOIN headers "\n" headers)
+  file(CONFIGURE OUTPUT headers.hpp CONTENT "#pragma once\n@libraries_headers@\n@headers@\n" @ONLY)
+
+  # The sources in a few parts, each source in a namespace of its own: so main, and whatever else two of
+  # them call alike, is not the same.
+  set(group 9)
+  set(parts)
+  list(LENGTH tests count)
+  math(EXPR last "${count} - 1")
+  foreach(first RANGE 0 ${last} ${group})
+    set(bodies)
+    list(SUBLIST tests ${first} ${group} part)
+    list(SUBLIST sources ${first} ${group} part_sources)
+    foreach(test source IN ZIP_LISTS part part_sources)
+      string(APPEND bodies "namespace ${test} {\n#include \"${source}\"\n}\n")
+    endforeach()
+    file(CONFIGURE OUTPUT tests_${first}.cpp CONTENT "#include \"headers.hpp\"\n@bodies@" @ONLY)
+    list(APPEND parts ${CMAKE_CURRENT_BINARY_DIR}/tests_${first}.cpp)
+  endforeach()
+
+  set(declared)
+  set(rows)
+  foreach(test ${tests})
+    string(APPEND declared "namespace ${test} {\nint main();\n}\n")
+    string(APPEND rows "    {\"${test}\", ${test}::main},\n")
+  endforeach()
+  configure_file(${CMAKE_CURRENT_FUNCTION_LIST_DIR}/run_one.cpp.in run_one.cpp @ONLY)
+  add_executable(${target} ${CMAKE_CURRENT_BINARY_DIR}/run_one.cpp ${parts})
+  target_precompile_headers(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/headers.hpp)
+  target_link_libraries(${target} PRIVATE ${libraries} ${ARGN} cmocka graben_build_flags)
+  set(tests ${tests} PARENT_SCOPE)
+endfunction()
