@@ -48,7 +48,7 @@ class Words {
   double number() {
     expect();
     const std::uint64_t bits = std::strtoull(word_, nullptr, 16);
-    double value;
+    double value = 0.0;
     std::memcpy(&value, &bits, sizeof value);
     return value;
   }
@@ -110,7 +110,7 @@ McvPump read_pump(Words& words, double& flow_m3ps) {
 }
 
 void print(double value) {
-  std::uint64_t bits;
+  std::uint64_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);
   // newlib may be without 64-bit formats.
   std::printf(" %08" PRIx32 "%08" PRIx32, static_cast<std::uint32_t>(bits >> 32),
