@@ -10,6 +10,7 @@ import posixpath
 import re
 
 import tree
+from freestanding import ALLOWED_HEADERS, FREESTANDING
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"]', re.MULTILINE)
 
@@ -26,13 +27,6 @@ FORBIDDEN_INDIRECTLY = {
     "app/plant/": tuple(f"firmware/{part}/" for part in (
         "hydraulics", "mcv", "kinematics", "motion", "travel", "safety")),
 }
-# The core and what it links are freestanding: a list of what is allowed, so that a header nobody
-# has thought of is refused.
-FREESTANDING = ("firmware/", "hal/", "can_dbc/")
-ALLOWED_HEADERS = set("""
-    algorithm array bitset cfloat climits cmath cstddef cstdint cstring initializer_list iterator
-    limits numeric optional string_view tuple type_traits utility variant
-""".split())
 
 
 def includes_of(name: str, text: str):

@@ -1,7 +1,5 @@
-#include <ctime>
+// Declared here: a target without a clock has no header for it.
+struct timespec;
+extern "C" int clock_gettime(int clock, timespec* now);
 
-long refused() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_nsec;
-}
+int refused(timespec* now) { return clock_gettime(1, now); }

@@ -10,7 +10,7 @@
 #include "can_dbc/codec.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace graben::test {
+namespace graben::codec_test {
 
 using namespace graben::dbc;
 
@@ -196,4 +196,4 @@ void check_start_values() {
   });
 }
 
-}  // namespace graben::test
+}  // namespace graben::codec_test

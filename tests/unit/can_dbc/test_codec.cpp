@@ -5,7 +5,7 @@
 
 namespace {
 
-using namespace graben::test;
+using namespace graben::codec_test;
 namespace bus = graben::dbc::excavator;
 
 constexpr Scale kScales[] = {

@@ -5,7 +5,7 @@
 
 namespace {
 
-using namespace graben::test;
+using namespace graben::codec_test;
 namespace bus = graben::dbc::dozer;
 
 constexpr double kLitrePerMinute = 1e-3 / 60.0;

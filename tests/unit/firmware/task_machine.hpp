@@ -6,16 +6,7 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
 #include "tests/unit/firmware/inputs.hpp"
-
-namespace graben {
-
-/// The controller's friend: what it keeps from cycle to cycle.
-struct ControllerMemoryAccess {
-  static auto& task(ExcavatorController& controller) { return controller.memory_.task; }
-  static auto& cycle(ExcavatorController& controller) { return controller.memory_.cycle; }
-};
-
-}  // namespace graben
+#include "tests/unit/firmware/memory_access.hpp"
 
 namespace graben::test {
 

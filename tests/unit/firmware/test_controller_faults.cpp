@@ -5,18 +5,8 @@
 #include <initializer_list>
 
 #include "tests/unit/firmware/flip_bit.hpp"
+#include "tests/unit/firmware/memory_access.hpp"
 #include "tests/unit/firmware/running.hpp"
-
-namespace graben {
-
-/// The controller's friend: what it keeps from cycle to cycle.
-struct ControllerMemoryAccess {
-  static auto& mode(ExcavatorController& controller) { return controller.memory_.mode; }
-  static auto& lambda(ExcavatorController& controller) { return controller.memory_.lambda; }
-  static auto& opening(ExcavatorController& controller) { return controller.memory_.gate.opening; }
-};
-
-}  // namespace graben
 
 namespace {
 

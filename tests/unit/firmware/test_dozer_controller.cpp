@@ -6,18 +6,7 @@
 #include "firmware/hydraulics/implement_flow.hpp"
 #include "tests/unit/firmware/flip_bit.hpp"
 #include "tests/unit/firmware/grading_dozer.hpp"
-
-namespace graben {
-
-/// The controller's friend: what it keeps from cycle to cycle.
-struct DozerMemoryAccess {
-  static auto& mode(DozerController& controller) { return controller.memory_.mode; }
-  static auto& speed(DozerController& controller) { return controller.memory_.speed_mps; }
-  static auto& speed_state(DozerController& controller) { return controller.memory_.speed; }
-  static auto& gate(DozerController& controller) { return controller.memory_.gate; }
-};
-
-}  // namespace graben
+#include "tests/unit/firmware/memory_access.hpp"
 
 namespace {
 

@@ -11,7 +11,12 @@ namespace {
 using namespace graben;
 using test::kCycle_s;
 
+// GRABEN_EMULATED: on another machine's processor, which runs a twentieth as fast.
+#ifdef GRABEN_EMULATED
+constexpr int kTargets = 500;
+#else
 constexpr int kTargets = 10000;
+#endif
 constexpr int kCyclesMost = 400;
 constexpr double kOverrun_m = 1e-3;
 /// A factor below this holds the machine.
@@ -175,10 +180,10 @@ void no_limit_is_overrun(void**) {
                   1e3 * tally.worst_m, tally.held_by_stroke, tally.held_by_swing,
                   tally.held_by_fence, tally.free);
     assert_true(tally.worst_m <= kOverrun_m);
-    assert_true(tally.held_by_stroke > 100);
-    assert_true(tally.held_by_swing > 20);
-    assert_true(tally.held_by_fence > 300);
-    assert_true(tally.free > 500);
+    assert_true(tally.held_by_stroke > kTargets / 100);
+    assert_true(tally.held_by_swing > kTargets / 500);
+    assert_true(tally.held_by_fence > kTargets * 3 / 100);
+    assert_true(tally.free > kTargets / 20);
   }
 }
 

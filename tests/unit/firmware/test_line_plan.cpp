@@ -11,7 +11,12 @@ namespace {
 
 using namespace graben;
 
+// GRABEN_EMULATED: on another machine's processor, which runs a twentieth as fast.
+#ifdef GRABEN_EMULATED
+constexpr int kTargets = 500;
+#else
 constexpr int kTargets = 10000;
+#endif
 /// What a stroke may pass its range by: rounding of a pose made from a stroke at its end.
 constexpr double kStrokeTolerance_m = 1.001e-6;
 
@@ -287,9 +292,9 @@ void random_targets_keep_all_limits_or_say_where_not(void**) {
       "%d accepted, %d of them slowed; refused for boom %d, arm %d, bucket %d, swing %d\n",
       accepted, slowed, refused[kBoom], refused[kArm], refused[kBucket], refused[kSwing]);
   assert_true(accepted > kTargets / 10);
-  assert_true(slowed > 100 && accepted - slowed > 100);
+  assert_true(slowed > kTargets / 100 && accepted - slowed > kTargets / 100);
   for (int drive = 0; drive < kAxisCount; ++drive) {
-    assert_true(refused[static_cast<unsigned>(drive)] > 100);
+    assert_true(refused[static_cast<unsigned>(drive)] > kTargets / 100);
   }
 }
 

@@ -9,7 +9,7 @@
 
 namespace graben::test {
 
-inline constexpr TimeUs kStartUs = 5'000'000;
+inline constexpr TimeUs kFirstFrameUs = 5'000'000;
 
 template <class Message>
 CanFrame frame_of(const Message& message, std::uint8_t counter) {
@@ -103,7 +103,7 @@ CanFrame frame_with(const dbc::Field& field, std::uint32_t raw, std::uint8_t cou
 // Brings the link to acceptance with counters 0, 1, 2; returns the time of the last frame.
 template <class Message, class Receiver>
 TimeUs synchronise(Receiver& receiver) {
-  TimeUs now = kStartUs;
+  TimeUs now = kFirstFrameUs;
   for (std::uint8_t counter = 0; counter < 3; ++counter) {
     now += Message::kCycleTimeMs * kMillisecondUs;
     receiver.accept(frame_of(filled<Message>(1000), counter), now);
@@ -122,7 +122,7 @@ void assert_signal(const Signal<T>& signal, double value, TimeUs stamp_us) {
 template <class Receiver>
 struct Feed {
   Receiver receiver;
-  TimeUs start_us = kStartUs;
+  TimeUs start_us = kFirstFrameUs;
 
   // Stamp of the frame that was taken last.
   template <class Message>

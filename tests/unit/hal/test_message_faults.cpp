@@ -71,7 +71,7 @@ void every_messages_window_counts(void**) {
 template <class Bus>
 void windows_are_each_messages_own(void**) {
   typename Bus::Receiver receiver;
-  TimeUs now = kStartUs;
+  TimeUs now = kFirstFrameUs;
   for_each(typename Bus::Protected{}, [&](auto type) {
     using Message = decltype(type);
     now = synchronise<Message>(receiver);

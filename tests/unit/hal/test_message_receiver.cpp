@@ -253,11 +253,11 @@ void same_machine(void**) {
     Identity message;
     message.profile_hash.value = hash;
     message.dbc_version = dbc_version;
-    receiver.accept(frame_of(message, 0), kStartUs);
+    receiver.accept(frame_of(message, 0), kFirstFrameUs);
     return receiver.same_machine(kOwn);
   };
   assert_true(told(kOwn, {version, dbc::RawState::kValid}).value);
-  assert_int_equal(receiver.same_machine(kOwn).stamp_us, kStartUs);
+  assert_int_equal(receiver.same_machine(kOwn).stamp_us, kFirstFrameUs);
   assert_false(told(kOwn, {version + 1U, dbc::RawState::kValid}).value);
   assert_false(told(kOwn + 1U, {version, dbc::RawState::kValid}).value);
   assert_int_equal(told(kOwn, {version, dbc::RawState::kNotAvailable}).validity,
@@ -275,7 +275,7 @@ void rejected_sum_saturates(void**) {
 }  // namespace
 
 // clang-format off
-#define ON_BOTH(test) cmocka_unit_test(test<ExcavatorBus>), cmocka_unit_test(test<DozerBus>)
+#define ON_BOTH_BUSES(test) cmocka_unit_test(test<ExcavatorBus>), cmocka_unit_test(test<DozerBus>)
 // clang-format on
 
 int main() {
@@ -285,18 +285,18 @@ int main() {
       same_machine<ExcavatorBus, excavator::MachineIdentity, excavator::kDbcVersion>;
   const auto of_dozer = same_machine<DozerBus, dozer::MachineIdentity, dozer::kDbcVersion>;
   const CMUnitTest tests[] = {
-      ON_BOTH(nothing_received_at_the_start),
-      ON_BOTH(ids_are_those_of_its_messages),
-      ON_BOTH(wrong_crc),
-      ON_BOTH(masquerade),
-      ON_BOTH(wrong_counter),
-      ON_BOTH(some_lost_is_accepted),
-      ON_BOTH(silence_needs_three_frames),
-      ON_BOTH(wrong_kind_and_length),
-      ON_BOTH(error_frame_is_nobodys),
-      ON_BOTH(foreign_ids_are_counted_apart),
-      ON_BOTH(out_of_range_is_refused_as_a_whole),
-      ON_BOTH(sender_says_error_or_not_available),
+      ON_BOTH_BUSES(nothing_received_at_the_start),
+      ON_BOTH_BUSES(ids_are_those_of_its_messages),
+      ON_BOTH_BUSES(wrong_crc),
+      ON_BOTH_BUSES(masquerade),
+      ON_BOTH_BUSES(wrong_counter),
+      ON_BOTH_BUSES(some_lost_is_accepted),
+      ON_BOTH_BUSES(silence_needs_three_frames),
+      ON_BOTH_BUSES(wrong_kind_and_length),
+      ON_BOTH_BUSES(error_frame_is_nobodys),
+      ON_BOTH_BUSES(foreign_ids_are_counted_apart),
+      ON_BOTH_BUSES(out_of_range_is_refused_as_a_whole),
+      ON_BOTH_BUSES(sender_says_error_or_not_available),
       cmocka_unit_test(of_excavator),
       cmocka_unit_test(of_dozer),
       cmocka_unit_test(rejected_sum_saturates),
