@@ -101,7 +101,8 @@ def changed_head(draw: random.Random, head: list[str]) -> list[str]:
     if roll == 3 and setup == "12t":
         return with_key(head, "task", draw.randrange(2))
     if roll == 3 and setup == "22t":
-        return head[:-1] if head[-1] == "soil" else [*head, "soil"]
+        bare = [word for word in head if word != "soil"]
+        return bare if "soil" in head else [*bare, "soil"]
     if roll == 3:
         return [head[0], "bumps" if setup == "dozer" else "dozer", *head[2:]]
     return with_key(head, "cycles", draw.randrange(70, LONGEST))
