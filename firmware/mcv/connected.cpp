@@ -5,10 +5,13 @@
 namespace graben {
 namespace {
 
-/// Lowers `start` to where the constraint first fails on the way up from standstill.
-void hold(const McvCircuit& circuit, const McvPoint& standstill, const McvPoint& fastest,
+/// Of the interval that is halved.
+constexpr double kWidth = 1.0 / 1073741824.0;  // 2^-30
+
+/// Lowers `start` to where the constraint first fails on the way up from `slow`.
+void hold(const McvCircuit& circuit, const McvPoint& slow, const McvPoint& fastest,
           const Limit& limit, Start& start, PolicyResult& result) {
-  const LambdaChange change = fails_first(circuit, limit, standstill, fastest);
+  const LambdaChange change = fails_first(circuit, limit, slow, fastest);
   result.iterations += change.steps;
   result.bounded = result.bounded && change.bounded;
   if (change.lambda < start.lambda) {
@@ -16,49 +19,89 @@ void hold(const McvCircuit& circuit, const McvPoint& standstill, const McvPoint&
   }
 }
 
-}  // namespace
-
-PolicyResult choose_connected(const McvCircuit& circuit, double lambda_max) {
+/// The end of the feasible interval that contains `slow`, a feasible point, up to `most`.
+PolicyResult climb(const McvCircuit& circuit, const McvPoint& slow, double most) {
   PolicyResult result;
   Inset inset;
-  Start start = fed_start(circuit, lambda_max, inset);
-  if (start.lambda < kStandstillLambda) {
+  Start start = fed_start(circuit, most, inset);
+  result.point = slow;
+  if (start.lambda <= slow.lambda) {
     result.limit = start.limit;
     return result;
   }
-  const McvPoint standstill = evaluate(circuit, kStandstillLambda);
   const McvPoint fastest = evaluate(circuit, start.lambda);
-  result.iterations = 2;
-  result.bounded = standstill.converged && fastest.converged;
-  if (!standstill.feasible) {
-    result.limit = standstill.limit;
-    return result;
-  }
+  result.iterations = 1;
+  result.bounded = fastest.converged;
   const Start fed = start;
   for (unsigned i = 0; i < circuit.axis_count && result.bounded; ++i) {
     const CircuitAxis& axis = circuit.axis[i];
     if (axis.moves && !is_starved(circuit.line[axis.pump])) {
       const auto index = static_cast<std::uint8_t>(i);
-      hold(circuit, standstill, fastest, {LimitKind::kBackFlow, index}, start, result);
-      hold(circuit, standstill, fastest, {LimitKind::kSpoolTravel, index}, start, result);
+      hold(circuit, slow, fastest, {LimitKind::kBackFlow, index}, start, result);
+      hold(circuit, slow, fastest, {LimitKind::kSpoolTravel, index}, start, result);
     }
   }
   const double inside = start.limit.kind == LimitKind::kNone ? start.lambda : inset(start.lambda);
   if (result.bounded && !is_any_starved(circuit)) {
-    result.point = evaluate(circuit, inside);
-    result.limit = start.limit;
+    const McvPoint point = evaluate(circuit, inside);
     ++result.iterations;
-    if (result.point.feasible) {
+    if (point.feasible) {
+      result.point = point;
+      result.limit = start.limit;
       return result;
     }
   }
   // Rounding decides where the interval ends.
   const Start& end = result.bounded ? start : fed;
-  const Halved found = halved(circuit, standstill, end.lambda);
-  result.point = found.point;
-  result.limit = found.limit.kind == LimitKind::kNone ? end.limit : found.limit;
-  result.iterations += found.evaluations;
+  const McvPoint high = evaluate(circuit, end.lambda);
+  ++result.iterations;
+  result.limit = end.limit;
   result.bounded = true;
+  if (high.feasible) {
+    result.point = high;
+    return result;
+  }
+  const Halved found = halved(circuit, slow, high, kWidth * high.lambda);
+  result.point = found.point;
+  result.limit = found.limit;
+  result.iterations += found.evaluations;
+  return result;
+}
+
+PolicyResult climb_from_standstill(const McvCircuit& circuit, double most) {
+  if (most < kStandstillLambda) {
+    return {};
+  }
+  const McvPoint standstill = evaluate(circuit, kStandstillLambda);
+  if (standstill.feasible) {
+    return climb(circuit, standstill, most);
+  }
+  PolicyResult result;
+  result.limit = standstill.limit;
+  result.iterations = 1;
+  result.bounded = standstill.converged;
+  return result;
+}
+
+}  // namespace
+
+PolicyResult choose_connected(const Asked& asked) {
+  const bool holds = asked.hold >= kStandstillLambda;
+  PolicyResult result =
+      holds ? climb_from_standstill(asked.holding(), std::min(asked.hold, asked.most))
+            : climb_from_standstill(asked.rising(), asked.most);
+  if (!holds || result.limit.kind != LimitKind::kNone || asked.hold >= asked.most) {
+    return result;
+  }
+  const McvPoint slow = evaluate(asked.rising(), result.point.lambda, &result.point);
+  ++result.iterations;
+  if (!slow.feasible) {
+    result.limit = slow.limit;
+    return result;
+  }
+  const int iterations = result.iterations;
+  result = climb(asked.rising(), slow, asked.most);
+  result.iterations += iterations;
   return result;
 }
 

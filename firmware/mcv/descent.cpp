@@ -40,8 +40,8 @@ LambdaChange stagnant_change(const FlowBalance& line, const Requirement& require
 
 }  // namespace
 
-Start fed_start(const McvCircuit& circuit, double lambda_max, const Inset& inset) {
-  Start start{lambda_max, {}};
+Start fed_start(const McvCircuit& circuit, double most, const Inset& inset) {
+  Start start{most, {}};
   for (unsigned j = 0; j < circuit.pump_count; ++j) {
     const double fed = fed_lambda(circuit.line[j]);
     if (fed < start.lambda) {
@@ -51,12 +51,18 @@ Start fed_start(const McvCircuit& circuit, double lambda_max, const Inset& inset
   return start;
 }
 
-LambdaChange holds_again(const McvCircuit& circuit, const McvPoint& failing, Limit& limit) {
+LambdaChange holds_again(const McvCircuit& circuit, const McvPoint& failing, double least,
+                         Limit& limit) {
   const CircuitAxis& axis = circuit.axis[static_cast<unsigned>(failing.hardest_axis)];
   const FlowBalance& line = circuit.line[axis.pump];
   const bool stagnant = is_stagnant(line);
   double ratio = failing.sqrt_pressure[axis.pump] / failing.lambda;
-  const double end = stagnant ? std::max(ratio, stagnant_ratio(line)) : kInfinity;
+  double end = kInfinity;
+  if (stagnant) {
+    end = std::max(ratio, stagnant_ratio(line));
+  } else if (least > 0.0) {
+    end = std::max(ratio, solve_pump_pressure(line, least).sqrt_pressure / least);
+  }
   LambdaChange result;
   // The stricter of the two first; where it fails, the other need not be looked at on its own.
   const bool travel_first =
@@ -72,6 +78,7 @@ LambdaChange holds_again(const McvCircuit& circuit, const McvPoint& failing, Lim
     result.bounded = change.bounded;
     if (!change.found) {
       limit = next;
+      result.ratio = stagnant || least <= 0.0 ? 0.0 : end;
       return stagnant ? stagnant_change(line, requirement, failing.lambda, end, result) : result;
     }
     if (change.ratio != ratio) {
@@ -87,12 +94,12 @@ LambdaChange holds_again(const McvCircuit& circuit, const McvPoint& failing, Lim
   return result;
 }
 
-LambdaChange fails_first(const McvCircuit& circuit, const Limit& limit, const McvPoint& standstill,
+LambdaChange fails_first(const McvCircuit& circuit, const Limit& limit, const McvPoint& slow,
                          const McvPoint& fastest) {
   const CircuitAxis& axis = circuit.axis[limit.index];
   const FlowBalance& line = circuit.line[axis.pump];
   const Requirement requirement = requirement_of(axis, limit);
-  const double from = standstill.sqrt_pressure[axis.pump] / standstill.lambda;
+  const double from = slow.sqrt_pressure[axis.pump] / slow.lambda;
   const double end = fastest.sqrt_pressure[axis.pump] / fastest.lambda;
   const Change change =
       first_change(requirement, line, Towards::kFaster, from, std::min(from, end));
@@ -107,26 +114,31 @@ bool is_any_starved(const McvCircuit& circuit) {
   return starved;
 }
 
-Halved halved(const McvCircuit& circuit, const McvPoint& feasible, double high_lambda) {
+Halved halved(const McvCircuit& circuit, const McvPoint& low, const McvPoint& high, double width) {
   Halved result;
-  result.point = feasible;
-  const McvPoint high = evaluate(circuit, high_lambda);
-  if (high.feasible) {
-    result.point = high;
-    return result;
-  }
-  result.limit = high.limit;
-  double infeasible = high_lambda;
-  for (int n = 0; n < kHalvings; ++n) {
-    const McvPoint middle = evaluate(circuit, 0.5 * (result.point.lambda + infeasible));
+  result.point = low;
+  McvPoint fails = high;
+  McvPoint near = high;
+  double infeasible = high.lambda;
+  for (int n = 0; n < kHalvings && infeasible - result.point.lambda > width; ++n) {
+    const double middle = 0.5 * (result.point.lambda + infeasible);
     ++result.evaluations;
-    if (middle.feasible) {
-      result.point = middle;
-    } else {
-      infeasible = middle.lambda;
-      result.limit = middle.limit;
+    if (still_fails(circuit, fails, middle, near)) {
+      infeasible = middle;
+      continue;
     }
+    near = evaluate(circuit, middle, &near);
+    result.bounded = result.bounded && near.converged;
+    (near.feasible ? result.point : fails) = near;
+    infeasible = near.feasible ? infeasible : middle;
   }
+  if (infeasible < fails.lambda) {
+    // All of it, for the constraint that comes first.
+    fails = evaluate(circuit, infeasible, &near);
+    ++result.evaluations;
+    result.bounded = result.bounded && fails.converged;
+  }
+  result.limit = fails.limit;
   return result;
 }
 

@@ -18,12 +18,12 @@ class Inset {
   double share_ = 1.0 / 1073741824.0;  // 2^-30
 };
 
-/// lambda_max, or the smallest lambda at which a pump can just feed its line, and that limit.
+/// `most`, or the smallest lambda at which a pump can just feed its line, and that limit.
 struct Start {
   double lambda = 0.0;
   Limit limit;
 };
-[[nodiscard]] Start fed_start(const McvCircuit& circuit, double lambda_max, const Inset& inset);
+[[nodiscard]] Start fed_start(const McvCircuit& circuit, double most, const Inset& inset);
 
 /// Where a constraint changes, as a lambda.
 struct LambdaChange {
@@ -34,26 +34,31 @@ struct LambdaChange {
 };
 
 /// Largest lambda under that of `failing` at which both constraints of the axis that lacks most
-/// there hold; 0 if there is none. `limit` becomes the one that fails just above it.
+/// there hold; below `least`, which is not looked at, 0 or any. `limit` becomes the one that fails
+/// just above it.
 [[nodiscard]] LambdaChange holds_again(const McvCircuit& circuit, const McvPoint& failing,
-                                       Limit& limit);
+                                       double least, Limit& limit);
 
-/// Smallest lambda over standstill at which a constraint that holds there fails; infinite if there
-/// is none up to `fastest`. Not for starved lines. Only the pressures of the two points count.
+/// Smallest lambda over that of `slow` at which a constraint that holds there fails; infinite if
+/// there is none up to `fastest`. Not for starved lines. Only the pressures of the two points
+/// count.
 [[nodiscard]] LambdaChange fails_first(const McvCircuit& circuit, const Limit& limit,
-                                       const McvPoint& standstill, const McvPoint& fastest);
+                                       const McvPoint& slow, const McvPoint& fastest);
 
 /// Whether a line has no pump flow to speak of and still feeds motion by regeneration: there
 /// rounding shows in lambda over r, and what a search over r finds is only a guess.
 [[nodiscard]] bool is_any_starved(const McvCircuit& circuit);
 
-/// The end of an interval by halving, at most 31 evaluations.
+/// The end of an interval by halving, down to `width` of lambda, at most 31 evaluations. `low` is
+/// feasible or lambda 0, `high` infeasible. While the axis or the pump that failed last still
+/// fails, nothing else is asked.
 struct Halved {
   McvPoint point;
-  Limit limit;  ///< What fails just above; none where `high_lambda` itself is feasible.
-  int evaluations = 1;
+  Limit limit;  ///< What fails just above.
+  int evaluations = 0;
+  bool bounded = true;
 };
-[[nodiscard]] Halved halved(const McvCircuit& circuit, const McvPoint& feasible,
-                            double high_lambda);
+[[nodiscard]] Halved halved(const McvCircuit& circuit, const McvPoint& low, const McvPoint& high,
+                            double width);
 
 }  // namespace graben

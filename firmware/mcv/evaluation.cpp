@@ -14,14 +14,21 @@ void fail(McvPoint& point, LimitKind kind, unsigned index) {
   point.limit = {kind, static_cast<std::uint8_t>(index)};
 }
 
+PumpPressure solve_line(const McvCircuit& circuit, unsigned pump, double lambda,
+                        const McvPoint* near) {
+  // What a point has not solved for is 0 and says nothing.
+  if (near == nullptr || !(near->sqrt_pressure[pump] > 0.0)) {
+    return solve_pump_pressure(circuit.line[pump], lambda);
+  }
+  // s / lambda changes less than s.
+  return solve_pump_pressure(circuit.line[pump], lambda,
+                             lambda / near->lambda * near->sqrt_pressure[pump]);
+}
+
 /// (39): false where a pump can't feed its line.
 bool solve_pumps(const McvCircuit& circuit, const McvPoint* near, McvPoint& point) {
   for (unsigned j = 0; j < circuit.pump_count; ++j) {
-    // s / lambda changes less than s.
-    const PumpPressure solved =
-        near == nullptr ? solve_pump_pressure(circuit.line[j], point.lambda)
-                        : solve_pump_pressure(circuit.line[j], point.lambda,
-                                              point.lambda / near->lambda * near->sqrt_pressure[j]);
+    const PumpPressure solved = solve_line(circuit, j, point.lambda, near);
     point.newton_steps += solved.iterations;
     point.feed_margin_m3ps[j] = feed_margin_m3ps(circuit.line[j], point.lambda);
     if (!solved.fed || !solved.converged) {
@@ -35,48 +42,10 @@ bool solve_pumps(const McvCircuit& circuit, const McvPoint* near, McvPoint& poin
   return true;
 }
 
-/// (40), (41): false where a load would push back.
-bool drive_forces(const McvCircuit& circuit, McvPoint& point) {
-  double most_lacking = 0.0;
-  for (unsigned i = 0; i < circuit.axis_count; ++i) {
-    const CircuitAxis& axis = circuit.axis[i];
-    if (!axis.moves) {
-      continue;
-    }
-    const DriveForce drive = drive_force(axis, point.lambda, point.sqrt_pressure[axis.pump]);
-    point.out_pressure_pa[i] = drive.out_pressure_pa;
-    point.regenerating[i] = drive.regenerating;
-    point.drive_force_n[i] = drive.force_n;
-    const double full_n = point.lambda * point.lambda * axis.full_opening_force_n;
-    const double lacks_n = std::max(full_n, axis.force_offset_n) - drive.force_n;
-    const double lacking = lacks_n / (axis.inlet_area_m2 * point.pump_pressure_pa[axis.pump]);
-    if (lacking > most_lacking) {
-      most_lacking = lacking;
-      point.hardest_axis = static_cast<int>(i);
-    }
-    if (point.feasible && !(drive.force_n >= axis.force_offset_n)) {
-      fail(point, LimitKind::kBackFlow, i);
-    }
-  }
-  return point.feasible;
-}
-
-/// (42), (13): false where a spool would have to open farther than it can.
-bool spools(const McvCircuit& circuit, McvPoint& point) {
-  for (unsigned i = 0; i < circuit.axis_count; ++i) {
-    const CircuitAxis& axis = circuit.axis[i];
-    if (!axis.moves) {
-      continue;
-    }
-    const double coefficient = needed_coefficient(axis, point.lambda, point.drive_force_n[i]);
-    if (!(coefficient <= axis.spool->y_last())) {
-      fail(point, LimitKind::kSpoolTravel, i);
-      return false;
-    }
-    const double travel_m = axis.spool->inverse(coefficient);
-    point.spool_m[i] = axis.extends ? travel_m : -travel_m;
-  }
-  return true;
+/// Drive force that an axis needs: F_offset of (36), and what (42) asks for with its spool fully
+/// open, (13).
+double needed_force_n(const CircuitAxis& axis, double lambda) {
+  return std::max(lambda * lambda * axis.full_opening_force_n, axis.force_offset_n);
 }
 
 }  // namespace
@@ -105,15 +74,65 @@ McvPoint evaluate(const McvCircuit& circuit, double lambda, const McvPoint* near
   McvPoint point;
   point.lambda = lambda;
   point.feasible = true;
-  if (solve_pumps(circuit, near, point) && drive_forces(circuit, point)) {
-    // The last check; its failure is in the point.
-    static_cast<void>(spools(circuit, point));
-  }
-  const bool axis_fails = !point.feasible && point.limit.kind != LimitKind::kPumpFlow;
-  if (axis_fails && point.hardest_axis < 0) {
-    point.hardest_axis = point.limit.index;
+  if (solve_pumps(circuit, near, point)) {
+    reload(circuit, point);
   }
   return point;
+}
+
+void reload(const McvCircuit& circuit, McvPoint& point) {
+  point.feasible = true;
+  point.limit = {};
+  point.hardest_axis = -1;
+  double most_lacking = 0.0;
+  for (unsigned i = 0; i < circuit.axis_count; ++i) {
+    const CircuitAxis& axis = circuit.axis[i];
+    if (!axis.moves) {
+      continue;
+    }
+    const DriveForce drive = drive_force(axis, point.lambda, point.sqrt_pressure[axis.pump]);
+    point.out_pressure_pa[i] = drive.out_pressure_pa;
+    point.regenerating[i] = drive.regenerating;
+    point.drive_force_n[i] = drive.force_n;
+    const double lacks_n = needed_force_n(axis, point.lambda) - drive.force_n;
+    if (lacks_n <= 0.0) {
+      continue;
+    }
+    const double lacking = lacks_n / (axis.inlet_area_m2 * point.pump_pressure_pa[axis.pump]);
+    if (lacking > most_lacking || point.feasible) {
+      most_lacking = lacking;
+      point.hardest_axis = static_cast<int>(i);
+    }
+    // Back flow of any axis comes before travel of any.
+    const bool back_flow = !(drive.force_n >= axis.force_offset_n);
+    if (point.feasible || (back_flow && point.limit.kind == LimitKind::kSpoolTravel)) {
+      fail(point, back_flow ? LimitKind::kBackFlow : LimitKind::kSpoolTravel, i);
+    }
+  }
+}
+
+void open_spools(const McvCircuit& circuit, McvPoint& point) {
+  for (unsigned i = 0; i < circuit.axis_count; ++i) {
+    const CircuitAxis& axis = circuit.axis[i];
+    if (axis.moves) {
+      const double travel_m =
+          axis.spool->inverse(needed_coefficient(axis, point.lambda, point.drive_force_n[i]));
+      point.spool_m[i] = axis.extends ? travel_m : -travel_m;
+    }
+  }
+}
+
+bool still_fails(const McvCircuit& circuit, const McvPoint& fails, double lambda, McvPoint& near) {
+  if (fails.hardest_axis < 0) {
+    return feed_margin_m3ps(circuit.line[fails.limit.index], lambda) < 0.0;
+  }
+  const CircuitAxis& axis = circuit.axis[static_cast<unsigned>(fails.hardest_axis)];
+  const PumpPressure solved = solve_line(circuit, axis.pump, lambda, &near);
+  if (!solved.fed || !solved.converged) {
+    return !solved.fed;
+  }
+  near.sqrt_pressure[axis.pump] = solved.sqrt_pressure * (near.lambda / lambda);
+  return drive_force(axis, lambda, solved.sqrt_pressure).force_n < needed_force_n(axis, lambda);
 }
 
 }  // namespace graben

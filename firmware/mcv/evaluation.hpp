@@ -22,14 +22,27 @@ struct McvPoint {
   PerPump<double> feed_margin_m3ps{};     ///< Of (29), (30).
   PerActuator<double> out_pressure_pa{};  ///< P_out
   PerActuator<double> drive_force_n{};    ///< F_s - F_L sgn(x); 0 for an actuator at rest
-  PerActuator<double> spool_m{};          ///< x, signed; 0 for an actuator at rest
-  PerActuator<bool> regenerating{};       ///< Whether the check valve is open.
+  /// x, signed; 0 for an actuator at rest, and everywhere before `open_spools`.
+  PerActuator<double> spool_m{};
+  PerActuator<bool> regenerating{};  ///< Whether the check valve is open.
 };
 
 /// Evaluates (27) - (30), (36) with F_offset and (13) at `lambda` in (0, 1]. Where a constraint
 /// fails, what depends on it stays 0. `near`, a point of the same circuit, saves Newton steps.
 [[nodiscard]] McvPoint evaluate(const McvCircuit& circuit, double lambda,
                                 const McvPoint* near = nullptr);
+
+/// `point` under the loads of a circuit with the same lines: its pressures are what they were.
+void reload(const McvCircuit& circuit, McvPoint& point);
+
+/// Sets the spools of a point with drive forces, (42); fully open where that is not enough.
+void open_spools(const McvCircuit& circuit, McvPoint& point);
+
+/// Whether at `lambda` what failed in `fails` fails again, the pump or the axis that lacks most:
+/// for the price of one line. False where that is not sure, too. `near` as for `evaluate`; it
+/// learns the line's pressure.
+[[nodiscard]] bool still_fails(const McvCircuit& circuit, const McvPoint& fails, double lambda,
+                               McvPoint& near);
 
 /// (40), (41) of one axis at a given pressure of its pump's line.
 struct DriveForce {

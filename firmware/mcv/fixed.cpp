@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-
 #include "firmware/mcv/policies.hpp"
 
 namespace graben {
@@ -22,13 +19,10 @@ PolicyResult choose_fixed(const McvCircuit& circuit, double lambda_max) {
     const double sqrt_pressure =
         solve_pump_pressure(circuit.line[axis.pump], lambda_max).sqrt_pressure;
     const DriveForce drive = drive_force(axis, lambda_max, sqrt_pressure);
-    const double coefficient = needed_coefficient(axis, lambda_max, drive.force_n);
-    const double travel_m = axis.spool->inverse(std::min(coefficient, axis.spool->y_last()));
     result.point.sqrt_pressure[axis.pump] = sqrt_pressure;
     result.point.pump_pressure_pa[axis.pump] = sqrt_pressure * sqrt_pressure;
     result.point.out_pressure_pa[i] = drive.out_pressure_pa;
     result.point.drive_force_n[i] = drive.force_n;
-    result.point.spool_m[i] = axis.extends ? travel_m : -travel_m;
   }
   return result;
 }

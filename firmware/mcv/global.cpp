@@ -3,10 +3,11 @@
 namespace graben {
 namespace {
 
-PolicyResult search(const McvCircuit& circuit, double lambda_max) {
+/// `above`: the last infeasible point that was met; lambda 0 without one.
+PolicyResult search(const Asked& asked, McvPoint& above) {
   PolicyResult result;
   Inset inset;
-  Start start = fed_start(circuit, lambda_max, inset);
+  Start start = fed_start(asked.rising(), asked.most, inset);
   double lambda = start.lambda;
   McvPoint last;  // With what is known of r at the next lambda.
   result.limit = start.limit;
@@ -14,6 +15,7 @@ PolicyResult search(const McvCircuit& circuit, double lambda_max) {
     if (!(lambda >= kStandstillLambda)) {
       return result;
     }
+    const McvCircuit& circuit = asked.at(lambda);
     const McvPoint point = evaluate(circuit, lambda, jump == 0 ? nullptr : &last);
     ++result.iterations;
     if (point.feasible) {
@@ -23,10 +25,12 @@ PolicyResult search(const McvCircuit& circuit, double lambda_max) {
     result.limit = point.limit;
     result.bounded = point.converged;
     last = point;
+    above = point;
     double next = lambda;
     // A pump flow limit here is rounding: the search starts where every pump feeds its line.
     if (point.limit.kind != LimitKind::kPumpFlow) {
-      const LambdaChange change = holds_again(circuit, point, result.limit);
+      const double least = lambda > asked.hold ? asked.hold : 0.0;
+      const LambdaChange change = holds_again(circuit, point, least, result.limit);
       result.iterations += change.steps;
       result.bounded = result.bounded && change.bounded;
       next = inset(change.lambda);
@@ -34,12 +38,12 @@ PolicyResult search(const McvCircuit& circuit, double lambda_max) {
         last.sqrt_pressure[circuit.axis[result.limit.index].pump] = change.ratio * last.lambda;
       }
     }
-    if (next < inset(lambda)) {
-      lambda = next;
-    } else {
-      lambda = inset(lambda);
+    if (!(next < inset(lambda))) {
+      next = inset(lambda);
       inset.widen();
     }
+    // What is left out above says nothing of `hold` and below, where less reserve is asked for.
+    lambda = lambda > asked.hold && next < asked.hold ? asked.hold : next;
   }
   result.bounded = false;
   return result;
@@ -47,15 +51,27 @@ PolicyResult search(const McvCircuit& circuit, double lambda_max) {
 
 }  // namespace
 
-PolicyResult choose_global(const McvCircuit& circuit, double lambda_max) {
-  const PolicyResult found = search(circuit, lambda_max);
-  if (found.bounded && !is_any_starved(circuit)) {
+PolicyResult choose_global(const Asked& asked) {
+  McvPoint above;
+  PolicyResult found = search(asked, above);
+  if (found.bounded && !is_any_starved(asked.rising())) {
     return found;
   }
-  PolicyResult other = choose_algorithm1(circuit, lambda_max);
+  if (found.bounded && found.point.lambda > 0.0) {
+    // The search came down to it by its own guess and by insets that grew.
+    if (above.lambda > 0.0) {
+      const Halved end =
+          halved(asked.at(above.lambda), found.point, above, kAlgorithm1Width * asked.most);
+      found.point = end.point;
+      found.limit = end.limit;
+      found.iterations += end.evaluations;
+      found.bounded = end.bounded;
+    }
+    return found;
+  }
+  PolicyResult other = choose_algorithm1(asked);
   other.iterations += found.iterations;
-  const bool better = found.bounded && found.point.lambda >= other.point.lambda;
-  return better || !other.bounded ? found : other;
+  return other.bounded ? other : found;
 }
 
 }  // namespace graben

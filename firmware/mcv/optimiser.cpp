@@ -9,16 +9,16 @@ namespace {
 /// c_L beyond which a shortfall of travel is not told apart, as a multiple of the table's last.
 constexpr double kMostCoefficients = 16.0;
 
-PolicyResult choose(const McvCircuit& circuit, McvPolicy policy, double lambda_max) {
+PolicyResult choose(const Asked& asked, McvPolicy policy) {
   switch (policy) {
     case McvPolicy::kAlgorithm1:
-      return choose_algorithm1(circuit, lambda_max);
+      return choose_algorithm1(asked);
     case McvPolicy::kConnected:
-      return choose_connected(circuit, lambda_max);
+      return choose_connected(asked);
     case McvPolicy::kGlobal:
-      return choose_global(circuit, lambda_max);
+      return choose_global(asked);
     case McvPolicy::kFixed:
-      return choose_fixed(circuit, lambda_max);
+      return choose_fixed(asked.rising(), asked.most);
   }
   return {};
 }
@@ -27,49 +27,46 @@ PolicyResult choose(const McvCircuit& circuit, McvPolicy policy, double lambda_m
 /// that can hardly start still starts, and the reserve of the others stays what it is.
 constexpr double kMostReserveShare = 0.5;
 
-PerActuator<double> loads_n(const McvCircuit& circuit) {
-  PerActuator<double> loads{};
-  for (unsigned i = 0; i < circuit.axis_count; ++i) {
-    loads[i] = circuit.axis[i].load_force_n;
-  }
-  return loads;
-}
-
-void set_loads(McvCircuit& circuit, const PerActuator<double>& loads_n) {
-  for (unsigned i = 0; i < circuit.axis_count; ++i) {
-    circuit.axis[i].load_force_n = loads_n[i];
-  }
-}
-
-/// Makes every load heavier by the reserve.
-void add_reserve(McvCircuit& circuit, const LambdaRange& range) {
+/// What the reserve adds to the load of each axis.
+PerActuator<double> reserves_n(const McvCircuit& circuit, double reserve_n) {
+  PerActuator<double> extra_n{};
   PerPump<double> standstill{};
   for (unsigned j = 0; j < circuit.pump_count; ++j) {
     standstill[j] = solve_pump_pressure(circuit.line[j], 0.0).sqrt_pressure;
   }
   for (unsigned i = 0; i < circuit.axis_count; ++i) {
-    CircuitAxis& axis = circuit.axis[i];
+    const CircuitAxis& axis = circuit.axis[i];
     const double left_n =
         drive_force(axis, 0.0, standstill[axis.pump]).force_n - axis.force_offset_n;
     if (axis.moves && left_n > 0.0) {
-      axis.load_force_n +=
-          range.reserve_share * std::min(range.reserve_n, kMostReserveShare * left_n);
+      extra_n[i] = std::min(reserve_n, kMostReserveShare * left_n);
     }
   }
+  return extra_n;
+}
+
+PerActuator<double> loads_n(const McvCircuit& circuit, const PerActuator<double>& extra_n,
+                            double share) {
+  PerActuator<double> loads{};
+  for (unsigned i = 0; i < circuit.axis_count; ++i) {
+    loads[i] = circuit.axis[i].load_force_n + share * extra_n[i];
+  }
+  return loads;
 }
 
 /// The choice for loads that are heavier by the reserve, and the circuit as it is at that lambda.
-/// It is the same circuit, for a while: a second one is a fifth of the stack that an ECU has.
 PolicyResult choose_with_reserve(McvCircuit& circuit, McvPolicy policy, const LambdaRange& range) {
-  if (!(range.reserve_n * range.reserve_share > 0.0) || policy == McvPolicy::kFixed) {
-    return choose(circuit, policy, range.most);
+  const PerActuator<double> plain_n = loads_n(circuit, {}, 0.0);
+  if (!(range.reserve_n > 0.0) || policy == McvPolicy::kFixed) {
+    return choose({circuit, plain_n, plain_n, range.most, 0.0}, policy);
   }
-  const PerActuator<double> loads = loads_n(circuit);
-  add_reserve(circuit, range);
-  PolicyResult chosen = choose(circuit, policy, range.most);
-  set_loads(circuit, loads);
+  const PerActuator<double> extra_n = reserves_n(circuit, range.reserve_n);
+  const Asked asked{circuit, loads_n(circuit, extra_n, 1.0),
+                    loads_n(circuit, extra_n, range.hold_share), range.most, range.hold};
+  PolicyResult chosen = choose(asked, policy);
+  asked.with_loads(plain_n);
   if (chosen.point.lambda > 0.0) {
-    chosen.point = evaluate(circuit, chosen.point.lambda, &chosen.point);
+    reload(circuit, chosen.point);
     // Less load is never less feasible, but for rounding where the reserve is next to nothing.
     chosen.bounded = chosen.bounded && chosen.point.feasible;
   }
@@ -82,8 +79,8 @@ McvCheck check(const McvMachine& machine, const McvInput& input, const LambdaRan
     found = check_input(machine, input);
   }
   const bool sound = range.most > 0.0 && range.most <= 1.0 && range.reserve_n >= 0.0 &&
-                     std::isfinite(range.reserve_n) && range.reserve_share >= 0.0 &&
-                     range.reserve_share <= 1.0;
+                     std::isfinite(range.reserve_n) && range.hold >= 0.0 && range.hold <= 1.0 &&
+                     range.hold_share >= 0.0 && range.hold_share <= 1.0;
   return found.defect == McvDefect::kNone && !sound ? McvCheck{McvDefect::kLambdaRange, 0} : found;
 }
 
@@ -203,7 +200,8 @@ McvSolution solve_mcv(const McvMachine& machine, const McvInput& input, McvPolic
   solution.shortfall = shortfall_at_full(circuit, chosen.limit);
   solution.iterations = chosen.iterations;
   if (solution.point.lambda > 0.0) {
-    solution.margins = margins_of(circuit, chosen.point);
+    open_spools(circuit, solution.point);
+    solution.margins = margins_of(circuit, solution.point);
   } else {
     look_at_standstill(circuit, solution);
     solution.status = solution.standstill.can_start ? SolveStatus::kOk : SolveStatus::kInfeasible;

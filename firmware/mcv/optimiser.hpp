@@ -24,7 +24,9 @@ struct Standstill {
 struct McvSolution {
   SolveStatus status = SolveStatus::kBadInput;
   McvPoint point;  ///< The circuit at the lambda returned; at lambda 0 every spool is closed.
-  Limit limit;     ///< The constraint that fails just above; none at range.most.
+  /// The constraint that fails just above; none at range.most. At range.hold what the reserve for
+  /// more is lacking for.
+  Limit limit;
   /// How much the limit lacks at lambda = 1: m^3/s of pump flow, N of drive force, m of spool
   /// travel (as far as the table's last segment would have to go on, at most 15 x_m). Below 0 where
   /// the limit fails only in between, in a gap of the feasible set.
@@ -42,7 +44,10 @@ struct LambdaRange {
   /// it has left over at standstill, (43). It shapes the choice of lambda; pressures, spools and
   /// margins are those without it.
   double reserve_n = 0.0;
-  double reserve_share = 1.0;  ///< 0 .. 1 of the reserve as it then is.
+  /// At this lambda and below a share of the reserve, as it then is, is enough: what was held
+  /// before is held with less than it was reached with. 0 .. 1 each.
+  double hold = 0.0;
+  double hold_share = 1.0;
 };
 
 /// Largest lambda in [0, range.most] by `policy` (kFixed alone asks for no feasibility: comparisons

@@ -9,33 +9,59 @@ namespace graben {
 
 struct PolicyResult {
   McvPoint point;  ///< lambda 0 with nothing set where no lambda was found.
-  Limit limit;     ///< The constraint that fails just above; none where lambda_max was reached.
+  Limit limit;     ///< The constraint that fails just above; none where `most` was reached. Where
+                   ///< lambda is `hold`, what the rise lacks the reserve for.
   int iterations = 0;
   bool bounded =
       true;  ///< False: a fixed number of steps was not enough; the point may not be used.
 };
 
-/// Halvings of Algorithm 1: the step after the last is 2^-24 = 6.0e-8.
-inline constexpr int kAlgorithm1Iterations = 24;
+/// What is asked of lambda: over `hold` that the circuit be feasible with the whole reserve on its
+/// loads, from `hold` down with the share that holding asks for, which is never more. Both circuits
+/// have the same lines, and so the same pressures; they are one that takes on the loads of either,
+/// and is that of whoever was asked for last: each would be a fifth of the stack that an ECU has.
+struct Asked {
+  McvCircuit& circuit;
+  PerActuator<double> rising_n;  ///< Loads with the whole reserve.
+  PerActuator<double> holding_n;
+  double most = 1.0;
+  double hold = 0.0;
+
+  [[nodiscard]] const McvCircuit& rising() const { return with_loads(rising_n); }
+  [[nodiscard]] const McvCircuit& holding() const { return with_loads(holding_n); }
+  [[nodiscard]] const McvCircuit& at(double lambda) const {
+    return lambda > hold ? rising() : holding();
+  }
+  const McvCircuit& with_loads(const PerActuator<double>& loads_n) const {
+    for (unsigned i = 0; i < circuit.axis_count; ++i) {
+      circuit.axis[i].load_force_n = loads_n[i];
+    }
+    return circuit;
+  }
+};
+
+/// Algorithm 1 ends after 24 halvings of [0, most], with a step of 2^-24 = 6.0e-8 of it.
+inline constexpr double kAlgorithm1Width = 1.0 / 16777216.0;
 
 /// Algorithm 1 of Kim et al.: divide and conquer. A local maximum of (37), the global one unless
-/// regeneration splits the feasible set (Theorem 4). At most 25 evaluations.
-[[nodiscard]] PolicyResult choose_algorithm1(const McvCircuit& circuit, double lambda_max);
+/// regeneration splits the feasible set (Theorem 4). `hold` splits the first interval where
+/// halving would otherwise do so. At most 27 evaluations.
+[[nodiscard]] PolicyResult choose_algorithm1(const Asked& asked);
 
 /// The end of the feasible interval that contains lambda = 0: `first_change` of every constraint
 /// from standstill towards faster motion, the slowest of them. By halving where a search does not
 /// end and on lines without pump flow.
-[[nodiscard]] PolicyResult choose_connected(const McvCircuit& circuit, double lambda_max);
+[[nodiscard]] PolicyResult choose_connected(const Asked& asked);
 
 /// Jumps of the global policy from one failing constraint to where it holds next.
 inline constexpr int kGlobalJumps = 64;
 
-/// The largest feasible lambda on [0, lambda_max], to 1e-9 of itself but where rounding decides: a
+/// The largest feasible lambda on [0, most], to 1e-9 of itself but where rounding decides: a
 /// load that ties with what the relief valve can hold, or a line without pump flow, fed by
 /// regeneration alone. There, and where a search does not end, the larger of its result and
 /// Algorithm 1's.
 ///
-/// Why the largest: the search starts at lambda_max, or at the pump flow limit if that is lower (in
+/// Why the largest: the search starts at `most`, or at the pump flow limit if that is lower (in
 /// closed form: r = 0). Where `evaluate` finds the point feasible, nothing larger is left. Where it
 /// does not, some axis fails its constraints, and lambda falls to the next smaller value at which
 /// that axis holds them again. `first_change` passes no such value, because between two openings of
@@ -48,7 +74,7 @@ inline constexpr int kGlobalJumps = 64;
 /// small (two a stretch where the load resists; one where it helps and the axis' own check valve is
 /// closed), and both jumps and steps are capped besides. Feasible intervals shorter than 1e-9 of
 /// lambda may be passed over: the result is put that far inside, so that rounding does not decide.
-[[nodiscard]] PolicyResult choose_global(const McvCircuit& circuit, double lambda_max);
+[[nodiscard]] PolicyResult choose_global(const Asked& asked);
 
 /// What the optimisation is for, by leaving it out: lambda_max whatever it takes. Spools that can't
 /// give their part open fully; the point may be infeasible.

@@ -5,12 +5,15 @@
 #include <limits>
 
 #include "firmware/hydraulics/regeneration.hpp"
+#include "firmware/numeric/cube_root.hpp"
 
 namespace graben {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kNewtonSteps = 24;
+/// A first step longer than this share of y: what was known of it says less than the leakage does.
+constexpr double kNear = 0.25;
 
 /// h(r)
 Tangent demand(const FlowBalance& line, const Stretch& stretch, double ratio) {
@@ -31,7 +34,15 @@ double leaking_only(double flow, double h, double quadratic) {
     return std::sqrt(std::sqrt(quadratic / flow));
   }
   return std::min(std::sqrt(std::sqrt(quadratic / (2.0 * flow))),
-                  std::cbrt(quadratic / (-2.0 * h)));
+                  cube_root(quadratic / (-2.0 * h)));
+}
+
+/// A y under the root for a demand of h and both leakages.
+double under_root(double flow, double h, double linear, double quadratic) {
+  // Without the quadratic leakage a quadratic equation; h may be below 0 there.
+  const double root = std::sqrt(h * h + 4.0 * flow * linear);
+  const double y = h >= 0.0 ? (h + root) / (2.0 * flow) : 2.0 * linear / (root - h);
+  return quadratic <= flow * y * y * y * y ? y : std::max(y, leaking_only(flow, h, quadratic));
 }
 
 }  // namespace
@@ -58,7 +69,8 @@ Stretch stretch_left_of(const FlowBalance& line, double ratio) {
   return stretch;
 }
 
-Tangent inverse_lambda(const FlowBalance& line, const Stretch& stretch, double ratio) {
+Tangent inverse_lambda(const FlowBalance& line, const Stretch& stretch, double ratio,
+                       double least) {
   const double flow = line.ratio_flow_m3ps;
   const Tangent h = demand(line, stretch, ratio);
   const double held = line.has_relief ? ratio / line.sqrt_relief : 0.0;
@@ -67,19 +79,21 @@ Tangent inverse_lambda(const FlowBalance& line, const Stretch& stretch, double r
   }
   const double linear = line.leak_linear * ratio * ratio;
   const double quadratic = line.leak_quadratic * ratio * ratio * ratio * ratio;
-  // Without the quadratic leakage a quadratic equation; h may be below 0 there.
-  const double root = std::sqrt(h.value * h.value + 4.0 * flow * linear);
-  double y = h.value >= 0.0 ? (h.value + root) / (2.0 * flow) : 2.0 * linear / (root - h.value);
-  // The quadratic leakage only raises y, and what is left over of the balance is concave in y: from
+  bool near = quadratic > 0.0 && least > 0.0 && least < kInfinity;
+  double y = near ? least : under_root(flow, h.value, linear, quadratic);
+  // The quadratic leakage only raises y, and what is left over of the balance is convex in y: from
   // below Newton rises onto the root and never passes it.
-  if (!(quadratic <= flow * y * y * y * y)) {
-    y = std::max(y, leaking_only(flow, h.value, quadratic));
-  }
   for (int step = 0; step < kNewtonSteps && quadratic > 0.0; ++step) {
     const double per_y = 1.0 / y;
     const double leak = quadratic * per_y * per_y * per_y;
     const double missing = h.value + linear * per_y + leak - flow * y;
     const double rise = missing / (flow + (linear * per_y + 3.0 * leak) * per_y);
+    if (near && rise > kNear * y) {
+      y = std::max(y, under_root(flow, h.value, linear, quadratic));
+      near = false;
+      continue;
+    }
+    near = false;
     y += rise;
     // The error after a step is at most about the square of its relative length.
     if (!(rise > 1e-8 * y)) {

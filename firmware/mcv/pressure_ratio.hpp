@@ -33,8 +33,10 @@ struct Tangent {
 };
 
 /// y = 1 / lambda at r in a stretch; infinite where only lambda = 0 belongs to r, 0 where lambda is
-/// not bounded.
-[[nodiscard]] Tangent inverse_lambda(const FlowBalance& line, const Stretch& stretch, double ratio);
+/// not bounded. `least` is a y that is known not to be over it, as a tangent of the same stretch
+/// has it, and saves steps; 0 if there is none.
+[[nodiscard]] Tangent inverse_lambda(const FlowBalance& line, const Stretch& stretch, double ratio,
+                                     double least = 0.0);
 
 /// No pump flow to speak of, and still something to move: then lambda is so steep in r that
 /// rounding shows in it.

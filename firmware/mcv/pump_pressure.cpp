@@ -8,7 +8,10 @@
 namespace graben {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kNewtonSteps = 24;
+/// A guess whose first step is a larger share of it is too far off for so few of them.
+constexpr double kFar = 0.25;
 /// Relative length of the last step; its square is under what a number can say.
 constexpr double kLastStep = 1e-8;
 /// What rounding alone leaves over, as a share of all flows. A pump that only just feeds its line
@@ -64,7 +67,7 @@ double right_of_root(const FlowBalance& balance, double lambda, double guess, do
   for (int i = 0; i < balance.regeneration_count; ++i) {
     const double opening = lambda * balance.regeneration[static_cast<unsigned>(i)].opening;
     if (opening >= guess && opening <= tangent_end) {
-      return std::numeric_limits<double>::infinity();
+      return kInfinity;
     }
   }
   return tangent_end;
@@ -100,26 +103,22 @@ PumpPressure solve_pump_pressure(const FlowBalance& balance, double lambda, doub
     return result;
   }
   const double rounding_m3ps = rounding_of(balance, lambda);
-  double bound = upper_bound(balance, left_at_zero);
-  if (balance.has_relief && balance.sqrt_relief < bound) {
-    if (flow_left(balance, lambda, balance.sqrt_relief) >= 0.0) {
-      result.converged = true;
-      result.sqrt_pressure = balance.sqrt_relief;
-      return result;
-    }
-    bound = balance.sqrt_relief;
-  }
-  double s = std::min(guess, bound);
+  const double relief = balance.has_relief ? balance.sqrt_relief : kInfinity;
+  double s = std::min(guess < kInfinity ? guess : upper_bound(balance, left_at_zero), relief);
   for (int step = 0; step < kNewtonSteps && !result.converged; ++step) {
     const Residual at = residual(balance, lambda, s);
     const double fall = at.left_m3ps / at.slope;
     result.converged = std::abs(fall) <= kLastStep * s || std::abs(at.left_m3ps) <= rounding_m3ps;
-    if (fall >= 0.0) {
+    if (s >= relief && at.left_m3ps >= 0.0) {
+      result.converged = true;
+    } else if (fall >= 0.0) {
+      const bool far = step == 0 && fall > kFar * s;
       s = std::max(stretch_start(balance, lambda, s), s - fall);
+      s = far ? std::min(s, upper_bound(balance, left_at_zero)) : s;
     } else if (step == 0) {
       const double right = right_of_root(balance, lambda, s, s - fall);
-      result.converged = result.converged && std::isfinite(right);
-      s = std::min(bound, right);
+      result.converged = result.converged && right < kInfinity;
+      s = std::min(right < kInfinity ? right : upper_bound(balance, left_at_zero), relief);
     } else {
       result.converged = true;  // Only rounding puts s left of the root again.
     }

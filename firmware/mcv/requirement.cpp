@@ -11,10 +11,15 @@ namespace {
 
 /// For all stretches together; random circuits need at most a quarter of it.
 constexpr int kSteps = 96;
+/// On a line that is starved, where rounding can use them all up, and halving takes over.
+constexpr int kStarvedSteps = 32;
 /// A step is the last where Newton would change lambda by less than this share: Newton's own leaves
 /// an error of the order of its square, the chord's, which ends inside Newton's, at most that.
 constexpr double kLastNewton = 1e-7;
 constexpr double kLastChord = 1e-5;
+/// What a chord spans at first, in lambda: where lambda goes to 0 at a finite r, as it does without
+/// pump flow, a longer one would say next to nothing.
+constexpr double kReach = 4.0;
 /// Difference of drive and resistance that rounding alone explains, as a share of their sum.
 constexpr double kRoundingShare = 1e-14;
 
@@ -30,8 +35,9 @@ Tangent length(double square, double half_slope) {
   return {value, value > 0.0 ? half_slope / value : 0.0};
 }
 
+/// `least`: of 1 / lambda, as `inverse_lambda` has it.
 Lengths lengths(const Requirement& requirement, const FlowBalance& line, const Stretch& stretch,
-                double ratio) {
+                double ratio, double least) {
   double drive = requirement.drive_area_m2 * ratio * ratio;
   double drive_slope = requirement.drive_area_m2 * ratio;
   double resist = requirement.full_opening_n;
@@ -46,7 +52,7 @@ Lengths lengths(const Requirement& requirement, const FlowBalance& line, const S
   }
   Tangent y;
   if (requirement.load_n != 0.0) {
-    y = inverse_lambda(line, stretch, ratio);
+    y = inverse_lambda(line, stretch, ratio, least);
     const double weight = std::abs(requirement.load_n);
     (requirement.load_n > 0.0 ? resist : drive) += weight * y.value * y.value;
     (requirement.load_n > 0.0 ? resist_slope : drive_slope) += weight * y.value * y.slope;
@@ -94,15 +100,17 @@ class StretchSearch {
         stretch_(stretch),
         slower_(towards == Towards::kSlower),
         // The driving length is a straight line where no load helps.
-        straight_(slower_ && requirement.load_n > 0.0) {}
+        straight_(slower_ && requirement.load_n > 0.0),
+        most_steps_(is_starved(line) ? kStarvedSteps : kSteps) {}
 
   /// Moves `change.ratio` up to `end`, or to the change if that comes first.
   void run(Change& change, double end) const {
     double reach = std::abs(end - change.ratio);
+    double looked_to = change.ratio;
     double nudge = 4.440892098500626e-16;
-    Lengths at = lengths(requirement_, line_, stretch_, change.ratio);
+    Lengths at = lengths(requirement_, line_, stretch_, change.ratio, 0.0);
     while (change.ratio != end) {
-      if (++change.steps > kSteps) {
+      if (++change.steps > most_steps_) {
         change.bounded = false;
         return;
       }
@@ -125,10 +133,15 @@ class StretchSearch {
       }
       Free free{newton, reach, false, {}};
       if (!straight_) {
-        free = free_by_chord(gap, change.ratio, std::min({newton, left, reach}));
+        if (slower_ && change.ratio >= looked_to) {
+          looked_to = ratio_at(at.inverse_lambda.value * kReach, change.ratio);
+          reach = looked_to > change.ratio ? std::min(left, looked_to - change.ratio) : left;
+        }
+        free = free_by_chord(at, gap, change.ratio, std::min({newton, left, reach}));
         reach = free.reach;
       }
-      const double next = change.ratio + sign() * free.length;
+      const double ratio = change.ratio;
+      const double next = ratio + sign() * free.length;
       if (!(free.length < left)) {
         change.ratio = end;
         return;
@@ -144,7 +157,7 @@ class StretchSearch {
       if (change.found) {
         return;
       }
-      at = free.whole ? free.there : lengths(requirement_, line_, stretch_, change.ratio);
+      at = free.whole ? free.there : lengths_from(at, ratio, change.ratio);
     }
   }
 
@@ -181,9 +194,22 @@ class StretchSearch {
     return gap;
   }
 
-  [[nodiscard]] Free free_by_chord(const Gap& gap, double ratio, double length) const {
-    Free free{length, 4.0 * length, true,
-              lengths(requirement_, line_, stretch_, ratio + sign() * length)};
+  /// At another r of the stretch: 1 / lambda is nowhere under its tangent.
+  [[nodiscard]] Lengths lengths_from(const Lengths& at, double ratio, double there) const {
+    const Tangent& y = at.inverse_lambda;
+    return lengths(requirement_, line_, stretch_, there, y.value + y.slope * (there - ratio));
+  }
+
+  /// r at 1 / lambda; `otherwise` where lambda bounds nothing.
+  [[nodiscard]] double ratio_at(double inverse_lambda, double otherwise) const {
+    const double lambda = 1.0 / inverse_lambda;
+    return std::isfinite(lambda) ? solve_pump_pressure(line_, lambda).sqrt_pressure * inverse_lambda
+                                 : otherwise;
+  }
+
+  [[nodiscard]] Free free_by_chord(const Lengths& at, const Gap& gap, double ratio,
+                                   double length) const {
+    Free free{length, 4.0 * length, true, lengths_from(at, ratio, ratio + sign() * length)};
     const double end = (slower_ ? free.there.drive : free.there.resist).value;
     if (!std::isfinite(end)) {
       return {0.0, 0.25 * length, false, {}};  // The chord's end is beyond lambda = 0.
@@ -202,6 +228,7 @@ class StretchSearch {
   const Stretch& stretch_;
   bool slower_;
   bool straight_;
+  int most_steps_;
 };
 
 }  // namespace

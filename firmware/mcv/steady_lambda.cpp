@@ -13,20 +13,9 @@ constexpr double kLeastBound = 1e-3;
 McvSolution steady_lambda(const McvMachine& machine, const McvInput& input, McvPolicy policy,
                           const LambdaRise& rise, double last_lambda, double period_s) {
   const double bound = std::clamp(last_lambda + rise.rate_ps * period_s, kLeastBound, 1.0);
-  McvSolution solution = solve_mcv(machine, input, policy, {bound, rise.reserve_n});
-  if (solution.status == SolveStatus::kBadInput || solution.point.lambda >= last_lambda) {
-    return solution;
-  }
-  const Limit risen_limit = solution.limit;
-  const double risen_shortfall = solution.shortfall;
-  solution =
-      solve_mcv(machine, input, policy,
-                {std::clamp(last_lambda, kLeastBound, 1.0), rise.reserve_n, rise.hold_share});
-  if (solution.status == SolveStatus::kOk && solution.limit.kind == LimitKind::kNone) {
-    solution.limit = risen_limit;
-    solution.shortfall = risen_shortfall;
-  }
-  return solution;
+  const double hold = last_lambda > 0.0 ? std::clamp(last_lambda, kLeastBound, 1.0) : 0.0;
+  return solve_mcv(machine, input, policy,
+                   {std::max(bound, hold), rise.reserve_n, hold, rise.hold_share});
 }
 
 }  // namespace graben

@@ -18,7 +18,7 @@ namespace graben {
 /// rise. To come back above a gap that it fell across, it needs the gap gone for all of the climb,
 /// with the rest of the reserve on top; pressure noise worth less than that can then neither open
 /// the gap under it nor close it again. The price: below a stretch of lambda that is feasible, but
-/// not with the reserve, it stays too. At most two solves. Where it stays, `limit` is what lacks
+/// not with the reserve, it stays too. Where it stays, `limit` is what lacks
 /// the reserve. A rise or a period that is no number, a reserve below 0, or a share outside 0 .. 1
 /// is kBadInput.
 [[nodiscard]] McvSolution steady_lambda(const McvMachine& machine, const McvInput& input,

@@ -49,6 +49,8 @@ struct RawSolve {
   std::int32_t pump_count;
   double most;
   double reserve_n;
+  double hold;
+  double hold_share;
   double rise_ps;
   double last_lambda;
   double period_s;
@@ -106,6 +108,8 @@ RawSolve raw_from(const RandomCase& sound) {
   raw.actuator_count = sound.machine.actuator_count;
   raw.pump_count = sound.machine.pump_count;
   raw.most = 1.0;
+  raw.hold = 0.25;
+  raw.hold_share = 0.75;
   raw.rise_ps = 4.0;
   raw.last_lambda = 0.5;
   raw.period_s = 0.01;
@@ -139,7 +143,7 @@ RawSolve raw_from(const RandomCase& sound) {
 std::string check_bytes(const std::uint8_t* data, std::size_t size) {
   const auto raw = raw_from_bytes<RawSolve>(data, size);
   const McvMachine machine = machine_from(raw);
-  const LambdaRange range{raw.most, raw.reserve_n};
+  const LambdaRange range{raw.most, raw.reserve_n, raw.hold, raw.hold_share};
   for (const McvPolicy policy :
        {McvPolicy::kAlgorithm1, McvPolicy::kConnected, McvPolicy::kGlobal}) {
     const std::string wrong =
@@ -149,9 +153,10 @@ std::string check_bytes(const std::uint8_t* data, std::size_t size) {
     }
   }
   // A bound below lambda's last value holds nothing back.
-  const LambdaRise rise{raw.rise_ps, raw.reserve_n};
+  const LambdaRise rise{raw.rise_ps, raw.reserve_n, raw.hold_share};
   const double bound = std::clamp(raw.last_lambda + rise.rate_ps * raw.period_s, 1e-3, 1.0);
-  const LambdaRange steady{std::max(bound, std::clamp(raw.last_lambda, 0.0, 1.0)), rise.reserve_n};
+  const LambdaRange steady{std::max(bound, std::clamp(raw.last_lambda, 0.0, 1.0)), rise.reserve_n,
+                           0.0, rise.hold_share};
   return unsafe(
       machine, raw.input, steady,
       steady_lambda(machine, raw.input, McvPolicy::kGlobal, rise, raw.last_lambda, raw.period_s));

@@ -42,7 +42,9 @@ bool sound(const McvMachine& machine, const McvInput& input, const LambdaRange& 
       machine.pump_count < 1 || machine.pump_count > kMaxPumps) {
     return false;
   }
-  bool good = over_0(range.most) && range.most <= 1.0 && at_least_0(range.reserve_n);
+  bool good = over_0(range.most) && range.most <= 1.0 && at_least_0(range.reserve_n) &&
+              at_least_0(range.hold) && range.hold <= 1.0 && at_least_0(range.hold_share) &&
+              range.hold_share <= 1.0;
   for (unsigned j = 0; j < static_cast<unsigned>(machine.pump_count); ++j) {
     const McvPump& pump = machine.pump[j];
     good = good && at_least_0(input.pump_flow_m3ps[j]) && at_least_0(pump.leak_linear) &&
