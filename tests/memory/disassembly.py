@@ -49,7 +49,7 @@ class Arm:
         return count
 
     @classmethod
-    def lowering(cls, code):
+    def lowering(cls, code, _):
         if found := cls.vector_pushes.match(code):
             return (8 if found[1].strip().startswith("d") else 4) * cls.registers(found[1])
         if found := cls.pushes.match(code):
@@ -74,7 +74,12 @@ class AArch64:
     lowered_by_register = re.compile(r"^sub\s+sp, sp, x|^mov\s+sp, x(?!29)|^and\s+sp, ")
 
     @staticmethod
-    def lowering(code):
+    def lowering(code, before):
+        # A number that is too long for one word has been put into a register.
+        if found := re.match(r"^sub\s+sp, sp, (x\d+)$", code):
+            put = rf"^mov\s+{found[1]}, #(0x[0-9a-f]+|\d+)$"
+            numbers = [number for line in before[-4:] if (number := re.match(put, line))]
+            return hexadecimal(numbers[-1][1]) if numbers else 0
         if found := re.match(r"^st[rp]\s.*\[sp, #-(\d+)\]!", code):
             return int(found[1])
         found = re.match(r"^sub\s+sp, sp, #(0x[0-9a-f]+|\d+)(?:, lsl #(\d+))?", code)
@@ -96,7 +101,7 @@ class X86:
     lowered_by_register = re.compile(r"^sub\s+%r\w+,%rsp|^and\s+.*,%rsp")
 
     @staticmethod
-    def lowering(code):
+    def lowering(code, _):
         if code.startswith("push"):
             return 8
         if found := re.match(r"^sub\s+\$0x([0-9a-f]+),%rsp", code):
@@ -159,8 +164,10 @@ def functions_of(tools, file):
 
 
 def read(machine, function, code, before):
-    function.frame += machine.lowering(code)
-    function.dynamic = function.dynamic or bool(machine.lowered_by_register.match(code))
+    lowering = machine.lowering(code, before)
+    function.frame += lowering
+    if not lowering and machine.lowered_by_register.match(code):
+        function.dynamic = True
     if found := machine.direct.match(code):
         # A branch within the function is none, a call of itself is one.
         if found[2].split("+0x")[0] != function.name or re.match(r"bl |blx |call", code):
