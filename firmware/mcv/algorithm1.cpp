@@ -13,10 +13,10 @@ PolicyResult choose_algorithm1(const Asked& asked) {
     return result;
   }
   if (asked.hold > 0.0 && asked.hold < asked.most) {
-    const McvPoint held = evaluate(asked.holding, asked.hold, &high);
+    const McvPoint held = evaluate(asked.holding(), asked.hold, &high);
     ++result.iterations;
     result.bounded = result.bounded && held.converged;
-    circuit = held.feasible ? &asked.rising : &asked.holding;
+    circuit = held.feasible ? &asked.rising() : &asked.holding();
     (held.feasible ? low : high) = held;
   }
   // The last infeasible point lies one last step above the last feasible one (Theorem 4), so

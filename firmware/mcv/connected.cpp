@@ -86,22 +86,23 @@ PolicyResult climb_from_standstill(const McvCircuit& circuit, double most) {
 }  // namespace
 
 PolicyResult choose_connected(const Asked& asked) {
-  if (asked.hold < kStandstillLambda) {
-    return climb_from_standstill(asked.rising, asked.most);
+  const bool holds = asked.hold >= kStandstillLambda;
+  PolicyResult result =
+      holds ? climb_from_standstill(asked.holding(), std::min(asked.hold, asked.most))
+            : climb_from_standstill(asked.rising(), asked.most);
+  if (!holds || result.limit.kind != LimitKind::kNone || asked.hold >= asked.most) {
+    return result;
   }
-  PolicyResult held = climb_from_standstill(asked.holding, std::min(asked.hold, asked.most));
-  if (held.limit.kind != LimitKind::kNone || asked.hold >= asked.most) {
-    return held;
-  }
-  const McvPoint slow = evaluate(asked.rising, held.point.lambda, &held.point);
-  ++held.iterations;
+  const McvPoint slow = evaluate(asked.rising(), result.point.lambda, &result.point);
+  ++result.iterations;
   if (!slow.feasible) {
-    held.limit = slow.limit;
-    return held;
+    result.limit = slow.limit;
+    return result;
   }
-  PolicyResult risen = climb(asked.rising, slow, asked.most);
-  risen.iterations += held.iterations;
-  return risen;
+  const int iterations = result.iterations;
+  result = climb(asked.rising(), slow, asked.most);
+  result.iterations += iterations;
+  return result;
 }
 
 }  // namespace graben

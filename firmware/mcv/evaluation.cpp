@@ -74,10 +74,13 @@ McvPoint evaluate(const McvCircuit& circuit, double lambda, const McvPoint* near
   McvPoint point;
   point.lambda = lambda;
   point.feasible = true;
-  return solve_pumps(circuit, near, point) ? reloaded(circuit, point) : point;
+  if (solve_pumps(circuit, near, point)) {
+    reload(circuit, point);
+  }
+  return point;
 }
 
-McvPoint reloaded(const McvCircuit& circuit, McvPoint point) {
+void reload(const McvCircuit& circuit, McvPoint& point) {
   point.feasible = true;
   point.limit = {};
   point.hardest_axis = -1;
@@ -106,7 +109,6 @@ McvPoint reloaded(const McvCircuit& circuit, McvPoint point) {
       fail(point, back_flow ? LimitKind::kBackFlow : LimitKind::kSpoolTravel, i);
     }
   }
-  return point;
 }
 
 void open_spools(const McvCircuit& circuit, McvPoint& point) {

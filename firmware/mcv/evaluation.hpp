@@ -33,7 +33,7 @@ struct McvPoint {
                                 const McvPoint* near = nullptr);
 
 /// `point` under the loads of a circuit with the same lines: its pressures are what they were.
-[[nodiscard]] McvPoint reloaded(const McvCircuit& circuit, McvPoint point);
+void reload(const McvCircuit& circuit, McvPoint& point);
 
 /// Sets the spools of a point with drive forces, (42); fully open where that is not enough.
 void open_spools(const McvCircuit& circuit, McvPoint& point);

@@ -7,7 +7,7 @@ namespace {
 PolicyResult search(const Asked& asked, McvPoint& above) {
   PolicyResult result;
   Inset inset;
-  Start start = fed_start(asked.rising, asked.most, inset);
+  Start start = fed_start(asked.rising(), asked.most, inset);
   double lambda = start.lambda;
   McvPoint last;  // With what is known of r at the next lambda.
   result.limit = start.limit;
@@ -54,7 +54,7 @@ PolicyResult search(const Asked& asked, McvPoint& above) {
 PolicyResult choose_global(const Asked& asked) {
   McvPoint above;
   PolicyResult found = search(asked, above);
-  if (found.bounded && !is_any_starved(asked.rising)) {
+  if (found.bounded && !is_any_starved(asked.rising())) {
     return found;
   }
   if (found.bounded && found.point.lambda > 0.0) {

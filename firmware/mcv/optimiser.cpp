@@ -18,7 +18,7 @@ PolicyResult choose(const Asked& asked, McvPolicy policy) {
     case McvPolicy::kGlobal:
       return choose_global(asked);
     case McvPolicy::kFixed:
-      return choose_fixed(asked.rising, asked.most);
+      return choose_fixed(asked.rising(), asked.most);
   }
   return {};
 }
@@ -45,37 +45,28 @@ PerActuator<double> reserves_n(const McvCircuit& circuit, double reserve_n) {
   return extra_n;
 }
 
-PerActuator<double> loads_n(const McvCircuit& circuit) {
+PerActuator<double> loads_n(const McvCircuit& circuit, const PerActuator<double>& extra_n,
+                            double share) {
   PerActuator<double> loads{};
   for (unsigned i = 0; i < circuit.axis_count; ++i) {
-    loads[i] = circuit.axis[i].load_force_n;
+    loads[i] = circuit.axis[i].load_force_n + share * extra_n[i];
   }
   return loads;
 }
 
-/// Makes every load `loads_n`, and heavier by a share of `extra_n`.
-void load(McvCircuit& circuit, const PerActuator<double>& loads_n,
-          const PerActuator<double>& extra_n, double share) {
-  for (unsigned i = 0; i < circuit.axis_count; ++i) {
-    circuit.axis[i].load_force_n = loads_n[i] + share * extra_n[i];
-  }
-}
-
 /// The choice for loads that are heavier by the reserve, and the circuit as it is at that lambda.
-/// It is itself the heavier one for a while: a third is a fifth of the stack that an ECU has.
 PolicyResult choose_with_reserve(McvCircuit& circuit, McvPolicy policy, const LambdaRange& range) {
+  const PerActuator<double> plain_n = loads_n(circuit, {}, 0.0);
   if (!(range.reserve_n > 0.0) || policy == McvPolicy::kFixed) {
-    return choose({circuit, circuit, range.most, 0.0}, policy);
+    return choose({circuit, plain_n, plain_n, range.most, 0.0}, policy);
   }
   const PerActuator<double> extra_n = reserves_n(circuit, range.reserve_n);
-  const PerActuator<double> loads = loads_n(circuit);
-  McvCircuit holding = circuit;
-  load(holding, loads, extra_n, range.hold_share);
-  load(circuit, loads, extra_n, 1.0);
-  PolicyResult chosen = choose({circuit, holding, range.most, range.hold}, policy);
-  load(circuit, loads, extra_n, 0.0);
+  const Asked asked{circuit, loads_n(circuit, extra_n, 1.0),
+                    loads_n(circuit, extra_n, range.hold_share), range.most, range.hold};
+  PolicyResult chosen = choose(asked, policy);
+  asked.with_loads(plain_n);
   if (chosen.point.lambda > 0.0) {
-    chosen.point = reloaded(circuit, chosen.point);
+    reload(circuit, chosen.point);
     // Less load is never less feasible, but for rounding where the reserve is next to nothing.
     chosen.bounded = chosen.bounded && chosen.point.feasible;
   }

@@ -18,15 +18,25 @@ struct PolicyResult {
 
 /// What is asked of lambda: over `hold` that the circuit be feasible with the whole reserve on its
 /// loads, from `hold` down with the share that holding asks for, which is never more. Both circuits
-/// have the same lines, and so the same pressures.
+/// have the same lines, and so the same pressures; they are one that takes on the loads of either,
+/// and is that of whoever was asked for last: each would be a fifth of the stack that an ECU has.
 struct Asked {
-  const McvCircuit& rising;
-  const McvCircuit& holding;
+  McvCircuit& circuit;
+  PerActuator<double> rising_n;  ///< Loads with the whole reserve.
+  PerActuator<double> holding_n;
   double most = 1.0;
   double hold = 0.0;
 
+  [[nodiscard]] const McvCircuit& rising() const { return with_loads(rising_n); }
+  [[nodiscard]] const McvCircuit& holding() const { return with_loads(holding_n); }
   [[nodiscard]] const McvCircuit& at(double lambda) const {
-    return lambda > hold ? rising : holding;
+    return lambda > hold ? rising() : holding();
+  }
+  const McvCircuit& with_loads(const PerActuator<double>& loads_n) const {
+    for (unsigned i = 0; i < circuit.axis_count; ++i) {
+      circuit.axis[i].load_force_n = loads_n[i];
+    }
+    return circuit;
   }
 };
 
