@@ -50,10 +50,10 @@ void Histogram::add(std::int64_t duration_ns) {
   const std::int64_t duration = std::max<std::int64_t>(duration_ns, 0);
   const std::uint64_t us = whole_us(duration);
   if (us < kBins) {
-    ++bins_[us];
+    ++bins_[static_cast<std::size_t>(us)];
   } else {
     if (overflows_ < kNotedOverflows) {
-      overflow_at_[overflows_] = count_;
+      overflow_at_[static_cast<std::size_t>(overflows_)] = count_;
     }
     ++overflows_;
   }
