@@ -19,7 +19,7 @@ FAULT_ROWS = {setup: [row for row in range(1, 51) if row not in untried]
               for setup, untried in UNTRIED.items()}
 # When the controller is Active on its task.
 ACTIVE = {"22t": 60, "12t": 60, "dozer": 90, "bumps": 90}
-QUEUE = 384  # frames that a cycle takes at most
+QUEUE = 384  # frames that a cycle reads at most
 
 
 def group(setup: str) -> str:

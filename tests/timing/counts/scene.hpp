@@ -60,8 +60,8 @@ class Scene {
   [[nodiscard]] TraceCycle step();
 
  private:
-  /// As many frames as a cycle of the controller takes.
-  static constexpr std::size_t kQueue = ecu::kFramesPerBatch * ecu::kBatchesPerCycle;
+  /// As many frames as a cycle of the controller reads.
+  static constexpr std::size_t kQueue = ecu::kFramesPerBatch * ecu::kBatchesRead;
 
   void give_task();
   /// False loses the frame.

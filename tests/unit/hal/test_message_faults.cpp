@@ -168,16 +168,16 @@ void the_newest_of_an_unprotected_surplus_counts(void**) {
     typename Bus::Receiver flooded;
     typename Bus::Receiver quiet;
     for (int i = 0; i < kFrames; ++i) {
-      flooded.accept(frame_of(filled<Message>(1000U + static_cast<unsigned>(i)), 0), kStartUs);
+      flooded.accept(frame_of(filled<Message>(1000U + static_cast<unsigned>(i)), 0), kFirstFrameUs);
     }
-    flooded.finish(kStartUs);
-    quiet.accept(frame_of(filled<Message>(1000U + kFrames - 1), 0), kStartUs);
+    flooded.finish(kFirstFrameUs);
+    quiet.accept(frame_of(filled<Message>(1000U + kFrames - 1), 0), kFirstFrameUs);
     assert_true(seen_by(flooded) == seen_by(quiet));
     assert_int_equal(flooded.link(Message::kId).accepted, MessageLinks::kMostAtOnce + 1);
     assert_int_equal(flooded.total().surplus, kFrames - MessageLinks::kMostAtOnce - 1);
-    assert_true(flooded.message_faults(kStartUs).empty());
+    assert_true(flooded.message_faults(kFirstFrameUs).empty());
     const Seen seen = seen_by(flooded);
-    flooded.finish(kStartUs + 1);
+    flooded.finish(kFirstFrameUs + 1);
     assert_true(seen_by(flooded) == seen);
   });
 }
