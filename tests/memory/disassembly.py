@@ -104,8 +104,9 @@ class X86:
     def lowering(code, _):
         if code.startswith("push"):
             return 8
+        # By less than nothing it is raised: 128 takes one byte less so.
         if found := re.match(r"^sub\s+\$0x([0-9a-f]+),%rsp", code):
-            return int(found[1], 16)
+            return int(found[1], 16) if int(found[1], 16) < 1 << 63 else 0
         found = re.match(r"^add\s+\$0x(ffffffff[0-9a-f]{8}),%rsp", code)
         return (1 << 64) - int(found[1], 16) if found else 0
 

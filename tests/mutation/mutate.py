@@ -97,8 +97,8 @@ def outcome(arguments, job: Job, text: str, limit_s: int = LOOP_S) -> str:
         program = pathlib.Path(folder) / "program"
         # Checked accesses turn reading past an end into a failure.
         made = subprocess.run(
-            [arguments.compiler, "-std=c++17", "-O0", "-w", "-D_GLIBCXX_ASSERTIONS", "-I", folder,
-             "-I", arguments.root, *(f"-isystem{path}" for path in arguments.system), source,
+            [arguments.compiler, "-std=c++17", "-O0", "-w", "-D_GLIBCXX_ASSERTIONS",
+             *(f"-D{name}" for name in arguments.define), "-I", folder, "-I", arguments.root, *(f"-isystem{path}" for path in arguments.system), source,
              *job.linked, "-lcmocka", "-o", program], stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE, text=True)
         if made.returncode != 0:
@@ -131,6 +131,7 @@ parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--root", required=True, type=pathlib.Path)
 parser.add_argument("--equivalent", required=True, type=pathlib.Path)
 parser.add_argument("--compiler", default="g++")
+parser.add_argument("--define", action="append", default=[], help="as what it is linked with has it")
 parser.add_argument("--system", action="append", default=[], help="a folder of others' headers")
 parser.add_argument("--jobs", type=int, default=2, help="at once")
 parser.add_argument("--timeout", type=float, default=60.0, help="of each test, in seconds")
