@@ -16,6 +16,7 @@ import timing
 from scenario import Nowhere
 
 RUN = timing.RUNS[0]
+HEARD = next(run for run in timing.RUNS if run.identifier)
 
 
 def edit(path: pathlib.Path, pattern: str, becomes: Callable[[re.Match], str]):
@@ -42,9 +43,13 @@ def lost_row(out: pathlib.Path):
 
 
 def unheard(out: pathlib.Path):
-    heard = next(run for run in timing.RUNS if run.identifier)
-    edit(out / "first" / f"{heard.name}.stats", r"^# frames_received \d+$",
+    edit(out / "first" / f"{HEARD.name}.stats", r"^# frames_received \d+$",
          lambda _: "# frames_received 4000")
+
+
+def none_refused(out: pathlib.Path):
+    edit(out / "first" / f"{HEARD.name}.stats", r"^# frames_rejected \d+$",
+         lambda _: "# frames_rejected 0")
 
 
 def another(out: pathlib.Path):
@@ -65,6 +70,8 @@ def judge(out: pathlib.Path) -> list[str]:
 CASES = {
     "an overrun": (in_stats("overruns", lambda _: 1), "full: overruns 1, expected 0"),
     "a page fault": (in_stats("page_faults", lambda _: 1), "full: page_faults 1, expected 0"),
+    "a refused frame": (in_stats("frames_rejected", lambda _: 1), "full: frames_rejected 1, expected 0"),
+    "all of a babble": (none_refused, "heard: frames_rejected 0, expected what is too many"),
     "slow": (in_stats("cycle_time_max_ns", lambda ns: 2 * ns), "cycle_time up to"),
     "woken late": (in_stats("wake_up_latency_max_ns", lambda ns: 3 * ns), "wake_up_latency up to"),
     "little load": (unloaded, r"the bus was filled to (89|9\d)\.\d% instead of 100%"),

@@ -98,8 +98,9 @@ def outcome(arguments, job: Job, text: str, limit_s: int = LOOP_S) -> str:
         # Checked accesses turn reading past an end into a failure.
         made = subprocess.run(
             [arguments.compiler, "-std=c++17", "-O0", "-w", "-D_GLIBCXX_ASSERTIONS",
-             *(f"-D{name}" for name in arguments.define), "-I", folder, "-I", arguments.root, *(f"-isystem{path}" for path in arguments.system), source,
-             *job.linked, "-lcmocka", "-o", program], stdout=subprocess.DEVNULL,
+             *(f"-D{name}" for name in arguments.define), "-I", folder, "-I", arguments.root,
+             *(f"-isystem{path}" for path in arguments.system), source, *job.linked, "-lcmocka", "-o",
+             program], stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE, text=True)
         if made.returncode != 0:
             if arguments.verbose:

@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""What a reviewer asks first, for every target in one table: instructions of a cycle and a solve
+(counts/observed.json) and bytes of stack, RAM and flash (tests/memory/observed.toml).
+
+  one_table.py                    prints it
+  one_table.py --readme FILE      fails unless FILE has it; with --update writes it there
+"""
+
+import argparse
+import json
+import pathlib
+import sys
+import tomllib
+
+HERE = pathlib.Path(__file__).resolve().parent
+COUNTS = HERE / "counts" / "observed.json"
+MEMORY = HERE.parent / "memory" / "observed.toml"
+HEAD = ["target", "cycle, excavator", "cycle, dozer", "solve", "stack, B", "RAM, B", "flash, B"]
+# Of a group of counts what is dearest, whatever the bus brings.
+CYCLES = {"cycle, excavator": ("22t", "22t-queue", "12t", "12t-queue"),
+          "cycle, dozer": ("dozer", "dozer-queue"), "solve": ("solve", "solve-any")}
+# The build's own word for the machine that builds.
+SAME = {"x86_64": "x86_64-linux-gnu"}
+
+
+def spaced(number: int) -> str:
+    return f"{number:,}".replace(",", " ")
+
+
+def table(counts: dict, memory: dict) -> list[str]:
+    counted = {SAME.get(target, target): groups for target, groups in counts.items()}
+    if counted.keys() != memory.keys():
+        sys.exit(f"one_table: counted are {sorted(counted)}, measured {sorted(memory)}")
+    rows = [HEAD, ["---", *["---:"] * (len(HEAD) - 1)]]
+    for target in sorted(counted):
+        most = [spaced(max(counted[target][group]["count"] for group in groups))
+                for groups in CYCLES.values()]
+        images = memory[target]
+        sizes = [" / ".join(spaced(images[kind][figure]) for kind in ("excavator", "dozer"))
+                 for figure in ("stack", "ram", "flash")]
+        rows.append([target, *most, *sizes])
+    return ["| " + " | ".join(row) + " |" for row in rows]
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--readme", type=pathlib.Path)
+    parser.add_argument("--update", action="store_true")
+    options = parser.parse_args()
+    wanted = table(json.loads(COUNTS.read_text("utf-8")), tomllib.loads(MEMORY.read_text("utf-8")))
+    if not options.readme:
+        print("\n".join(wanted))
+        return 0
+    lines = options.readme.read_text("utf-8").splitlines()
+    if wanted[0] not in lines:
+        print(f"{options.readme.name}: no table begins with '{wanted[0]}'")
+        return 1
+    begin = end = lines.index(wanted[0])
+    while end < len(lines) and lines[end].startswith("|"):
+        end += 1
+    if options.update:
+        text = "\n".join([*lines[:begin], *wanted, *lines[end:]]) + "\n"
+        options.readme.write_text(text, "utf-8")
+    elif lines[begin:end] != wanted:
+        print(f"{options.readme.name}: its table is not what one_table.py prints")
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
