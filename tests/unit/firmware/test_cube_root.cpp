@@ -16,13 +16,35 @@ std::int64_t bits_of(double value) {
   return bits;
 }
 
-/// Units in the last place between a root and that of a wider type.
-double ulps_off(double value) {
-  const double root = cube_root(value);
-  const long double exact = std::cbrt(static_cast<long double>(value));
-  const double unit =
-      std::nextafter(std::abs(root), std::numeric_limits<double>::infinity()) - std::abs(root);
-  return static_cast<double>(std::abs(static_cast<long double>(root) - exact)) / unit;
+struct Product {
+  double value;
+  double lost;  ///< What rounding took of it.
+};
+
+/// Dekker's: exact, where no wider type and no fused operation can be had.
+Product product(double a, double b) {
+  constexpr double kHalves = 134217729.0;  // 2^27 + 1
+  const double a_high = kHalves * a - (kHalves * a - a);
+  const double b_high = kHalves * b - (kHalves * b - b);
+  const double a_low = a - a_high;
+  const double b_low = b - b_high;
+  const double value = a * b;
+  return {value, ((a_high * b_high - value) + a_high * b_low + a_low * b_high) + a_low * b_low};
+}
+
+/// Units in the last place that a root is off: by what its cube leaves of the number.
+double ulps_off(double number) {
+  const double root_as_is = cube_root(number);
+  // Where nothing overflows or loses digits.
+  int exponent = 0;
+  std::frexp(root_as_is, &exponent);
+  const double root = std::ldexp(std::abs(root_as_is), -exponent);
+  const double value = std::ldexp(std::abs(number), -3 * exponent);
+  const Product square = product(root, root);
+  const Product cube = product(square.value, root);
+  const double left = ((value - cube.value) - cube.lost) - square.lost * root;
+  const double unit = std::nextafter(root, 1.0) - root;
+  return std::abs(left) / (3.0 * square.value) / unit;
 }
 
 void it_is_within_a_unit_in_the_last_place(void**) {
