@@ -56,7 +56,7 @@ PolicyResult climb(const McvCircuit& circuit, const McvPoint& slow, double most)
   const McvPoint high = evaluate(circuit, end.lambda);
   ++result.iterations;
   result.limit = end.limit;
-  result.bounded = true;
+  result.bounded = high.converged;
   if (high.feasible) {
     result.point = high;
     return result;
@@ -65,6 +65,7 @@ PolicyResult climb(const McvCircuit& circuit, const McvPoint& slow, double most)
   result.point = found.point;
   result.limit = found.limit;
   result.iterations += found.evaluations;
+  result.bounded = result.bounded && found.bounded;
   return result;
 }
 
@@ -97,6 +98,7 @@ PolicyResult choose_connected(const Asked& asked) {
   ++result.iterations;
   if (!slow.feasible) {
     result.limit = slow.limit;
+    result.bounded = slow.converged;
     return result;
   }
   const int iterations = result.iterations;

@@ -62,10 +62,12 @@ PolicyResult choose_global(const Asked& asked) {
     if (above.lambda > 0.0) {
       const Halved end =
           halved(asked.at(above.lambda), found.point, above, kAlgorithm1Width * asked.most);
-      found.point = end.point;
-      found.limit = end.limit;
       found.iterations += end.evaluations;
-      found.bounded = end.bounded;
+      // Without an end what was found stays, as it is feasible.
+      if (end.bounded) {
+        found.point = end.point;
+        found.limit = end.limit;
+      }
     }
     return found;
   }

@@ -8,7 +8,7 @@ namespace {
 constexpr double kCycle_s = 0.01;
 
 CommandHistory::Range widened(CommandHistory::Range range, const double* begin, const double* end) {
-  for (const double* sent = begin; sent != end; ++sent) {
+  for (const double* sent = begin; sent < end; ++sent) {
     range = {std::min(range.least, *sent), std::max(range.most, *sent)};
   }
   return range;

@@ -25,8 +25,8 @@ struct Board {
   [[nodiscard]] static BusState bus();
 };
 
-/// A 500 kbit/s bus brings some 75 of the shortest frames in a cycle; what is more stays for the
-/// next.
+/// A 500 kbit/s bus brings some 75 of the shortest frames in a cycle. As many more are thrown away:
+/// in the next cycle an old frame would be taken for a fresh one.
 inline constexpr int kFramesPerCycle = 96;
 
 /// As app/ecu/ecu_node.hpp, but for what a process has: no port that is lost and opened again, no
@@ -62,6 +62,9 @@ class BareEcu {
     CanFrame frame;
     for (int n = 0; n < kFramesPerCycle && Board::take(frame); ++n) {
       receiver_.accept(frame, now_us);
+    }
+    receiver_.finish(now_us);
+    for (int n = 0; n < kFramesPerCycle && Board::take(frame); ++n) {
     }
   }
 

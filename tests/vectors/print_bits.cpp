@@ -137,7 +137,10 @@ void print(const McvMachine& machine, const McvSolution& solution) {
   std::printf("\n");
 }
 
-/// The id is the word that was read last.
+/// What a controller asks for: a rise that ends, a reserve for it, and less of that to stay.
+constexpr LambdaRange kAsInACycle{0.9, 5000.0, 0.3, 0.75};
+
+/// The id is the word that was read last, a + behind the policy the second of its results.
 void solve_case(Words& words) {
   char id[64];
   std::memcpy(id, words.word(), sizeof id);
@@ -160,6 +163,8 @@ void solve_case(Words& words) {
   for (int policy = 0; policy < kPolicies; ++policy) {
     std::printf("%s %d", id, policy);
     print(machine, solve_mcv(machine, input, static_cast<McvPolicy>(policy)));
+    std::printf("%s %d+", id, policy);
+    print(machine, solve_mcv(machine, input, static_cast<McvPolicy>(policy), kAsInACycle));
   }
 }
 
