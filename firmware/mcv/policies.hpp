@@ -22,8 +22,8 @@ struct PolicyResult {
 /// and is that of whoever was asked for last: each would be a fifth of the stack that an ECU has.
 struct Asked {
   McvCircuit& circuit;
-  PerActuator<double> rising_n;  ///< Loads with the whole reserve.
-  PerActuator<double> holding_n;
+  PerActuator<double> rising_n{};  ///< Loads with the whole reserve.
+  PerActuator<double> holding_n{};
   double most = 1.0;
   double hold = 0.0;
 

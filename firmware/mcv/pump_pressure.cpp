@@ -109,18 +109,19 @@ PumpPressure solve_pump_pressure(const FlowBalance& balance, double lambda, doub
     const Residual at = residual(balance, lambda, s);
     const double fall = at.left_m3ps / at.slope;
     result.converged = std::abs(fall) <= kLastStep * s || std::abs(at.left_m3ps) <= rounding_m3ps;
-    if (s >= relief && at.left_m3ps >= 0.0) {
+    const bool relieves = s >= relief && at.left_m3ps >= 0.0;
+    // Only rounding puts s left of the root again.
+    const bool rounded = step > 0 && !(fall >= 0.0);
+    if (relieves || rounded) {
       result.converged = true;
     } else if (fall >= 0.0) {
       const bool far = step == 0 && fall > kFar * s;
       s = std::max(stretch_start(balance, lambda, s), s - fall);
       s = far ? std::min(s, upper_bound(balance, left_at_zero)) : s;
-    } else if (step == 0) {
+    } else {
       const double right = right_of_root(balance, lambda, s, s - fall);
       result.converged = result.converged && right < kInfinity;
       s = std::min(right < kInfinity ? right : upper_bound(balance, left_at_zero), relief);
-    } else {
-      result.converged = true;  // Only rounding puts s left of the root again.
     }
     ++result.iterations;
   }
