@@ -122,22 +122,6 @@ void what_takes_more_steps_takes_more_cycles(void**) {
   assert_int_equal(looks_until_known({0.75, 0.0}), 2 + 12);
 }
 
-/// One whose turn it is again counts as what it was until it is worked out.
-void what_is_known_stays_known(void**) {
-  const GradeProfile design(test::bend(-0.4, 0.3));
-  const GroundMap untouched;
-  Preview preview(profile(), blade());
-  double settled_mps = 0.0;
-  for (int n = 0; n < 300; ++n) {
-    preview.look(untouched, design, 7.0, {0.0, 0.0});
-    const double now_mps = preview.limit(7.0, 0.0, flow_m3ps(), 0.0).speed_mps;
-    settled_mps = n == 100 ? now_mps : settled_mps;
-    if (n > 100) {
-      assert_near(now_mps, settled_mps, 1e-6);
-    }
-  }
-}
-
 /// Forwards, backwards, and far away.
 void it_follows_wherever_the_machine_goes(void**) {
   const GradeProfile design(test::bend(-0.4, 0.3));
@@ -189,7 +173,6 @@ int main() {
       cmocka_unit_test(it_knows_that_the_body_will_tip),
       cmocka_unit_test(what_is_not_known_yet_is_slow),
       cmocka_unit_test(what_takes_more_steps_takes_more_cycles),
-      cmocka_unit_test(what_is_known_stays_known),
       cmocka_unit_test(it_follows_wherever_the_machine_goes),
       cmocka_unit_test(far_away_it_stays_defined),
       cmocka_unit_test(it_learns_what_was_cut),
