@@ -1,0 +1,299 @@
+/// What the parts of the page know of each other. SI units unless the name says otherwise; times in
+/// seconds as the log has them (candump's stamps, which may be seconds since 1970).
+///
+/// Frames. The ground frame: x forward, y to the left, z up; an excavator's origin is where its
+/// swing axis meets the ground, a dozer's is its track ground line at the start of the grade.
+/// Planar link frames of an excavator are those of its profile: x along the link, from pin to pin.
+
+export type Kind = 'excavator' | 'dozer';
+export type Vector2 = readonly [number, number];
+export type Vector3 = readonly [number, number, number];
+
+// ---- What the server (or the file that is a report) says before the first frame --------------
+
+export interface Setup {
+  source: Source;
+  machines: readonly Machine[];  ///< Every shipped profile and what was given; chosen by hash.
+  words: Words;
+  sim?: SimSetup;  ///< With mode 'sim' alone.
+  run?: Run;       ///< With modes 'report' and 'plan'.
+}
+
+export interface Source {
+  /// 'can': a real or virtual bus, which is only heard. 'log': a file. 'sim': simulated, in real
+  /// time. 'report': a log inside the page. 'plan': no frames, only `run.pose`.
+  mode: 'can' | 'log' | 'sim' | 'report' | 'plan';
+  name: string;     ///< Interface, file name, or task.
+  bytes?: number;   ///< Of a log, for the progress of loading.
+  bitrate: number;  ///< Of the bus, bit/s, for its load; assumed where it cannot be asked.
+}
+
+export interface Words {
+  fault: Readonly<Record<string, string>>;  ///< By the number that EcuStatus.Fault has.
+  /// By bit of EcuHealth.WhyNotArmed, from bit 0.
+  why_not_armed: readonly string[];
+}
+
+export type Machine = ExcavatorMachine | DozerMachine;
+
+interface AnyMachine {
+  name: string;  ///< Of its profile.
+  hash: number;  ///< ProfileHash on the bus.
+}
+
+export interface Cylinder {
+  count: number;
+  bore_m: number;
+  rod_m: number;
+  closed_length_m: number;  ///< Pin to pin, closed.
+  stroke_m: number;
+  base_m: Vector2;  ///< Pin on the link nearer to the body, in that link's frame.
+  eye_m: Vector2;   ///< Pin on the moved link, in its frame. The bucket's: unused.
+}
+
+export interface ExcavatorMachine extends AnyMachine {
+  kind: 'excavator';
+  boom_m: number;    ///< Pin to pin.
+  arm_m: number;
+  bucket_m: number;  ///< Pin to teeth.
+  boom_foot_m: Vector2;  ///< Boom foot pin: forward of the swing axis, above the ground.
+  cylinders: {boom: Cylinder; arm: Cylinder; bucket: Cylinder};
+  linkage: {
+    rocker_pivot_m: Vector2;  ///< Arm frame.
+    rocker_m: number;
+    coupler_m: number;
+    lug_m: Vector2;  ///< Bucket frame.
+  };
+  has_swing: boolean;
+  pumps: number;
+  relief_pa: number;
+  dig: Dig;
+  tasks: readonly Task[];  ///< By the number that TaskStatus has.
+}
+
+/// The closed path of the digging task, and the contour field around it.
+export interface Dig {
+  path: readonly Vector3[];  ///< x, z of the ground frame in m, and attitude in rad there.
+  speed_mps: number;
+  field: readonly (readonly [number, number, number, number])[];  ///< x, z, vx, vz.
+  ground_z_m: number;        ///< Surface of the soil before the first pass.
+}
+
+export interface Pose {
+  position_m: Vector3;   ///< Of the teeth, ground frame.
+  attitude_rad: number;  ///< From the teeth to the bucket pin against the horizontal.
+}
+
+export interface Task {
+  name: string;
+  steps: readonly {
+    kind: string;        ///< As the profile's words have it: dig, lift, ...
+    straight: boolean;   ///< A line of the teeth; else straight in drive space.
+    from: Pose;
+    to: Pose;
+    from_drives: readonly number[];  ///< boom, arm, bucket strokes in m, swing in rad.
+    to_drives: readonly number[];
+    duration_s: number;
+  }[];
+  fences: readonly Fence[];
+  /// The surface to dig to, where the task has one; its fence is the last of `fences`.
+  design: {through_m: Vector3; up: Vector3} | null;
+}
+
+/// What is left to the machine is normal . p <= offset_m.
+export interface Fence {
+  words: string;
+  normal: Vector3;
+  offset_m: number;
+}
+
+export interface DozerMachine extends AnyMachine {
+  kind: 'dozer';
+  blade: {
+    pivot_m: Vector2;  ///< Body frame, x forward, z up, origin at the tracks' ground line.
+    arm_m: Vector2;    ///< Pivot to the blade's foot, at home.
+    cutting_edge_m: number;  ///< Pivot to cutting edge.
+    base_m: Vector2;         ///< Cylinder base.
+    length_home_m: number;
+    edge_min_m: number;  ///< Reach of the edge against the ground line, body level.
+    edge_max_m: number;
+    cylinders: number;
+    bore_m: number;
+    rod_m: number;
+  };
+  track_contact_m: number;
+  half_gauge_m: number;
+  mass_centre_height_m: number;
+  design: readonly Vector2[];  ///< x, z; x rises.
+  length_m: number;            ///< The grade is made from x = 0 to here.
+}
+
+/// A run that is over: what its report shows beside the frames.
+export interface Run {
+  title: string;
+  subtitle: string;
+  summary: readonly {label: string; value: string | number; unit: string; note: string}[];
+  limits_share: readonly {name: string; share: number}[];
+  /// What only a simulation knows. A value that is not known is null. Lines of one unit on the plot
+  /// of that name (see view/plots.ts), or on a plot of its own by a name that is not there.
+  truth: {
+    time_s: readonly number[];
+    lines: readonly {plot: string; title?: string; label: string; unit: string;
+      values: readonly (number | null)[]}[];
+  };
+  /// Drives over truth.time_s, where there are no frames: strokes in m, swing in rad.
+  pose?: {drives: readonly (readonly number[])[]};
+  /// Way that the true teeth or edge took, ground frame, over truth.time_s.
+  way?: readonly Vector3[];
+  log?: string;  ///< candump text, gzip, base64.
+}
+
+export interface SimSetup {
+  task: 'dig' | 'grade' | 'autodig';
+  can: {soil: boolean; obstacle: boolean};  ///< What this machine can be given.
+  faults: readonly SimFault[];
+}
+
+export interface SimFault {
+  id: string;      ///< What a control message names it by.
+  number: number;  ///< Of the table of faults.
+  words: string;
+  reaction: string;  ///< What the controller is meant to do, in words.
+  once: boolean;     ///< Happens and is over; else stays until it is taken back.
+}
+
+// ---- Messages on the WebSocket: JSON as text, candump lines as binary ------------------------
+
+export type FromServer =
+  | ({kind: 'setup'} & Setup)
+  | {kind: 'dropped'; frames: number}  ///< Lost for this page since it connected, in all.
+  | {kind: 'bus'; up: boolean; words: string}
+  | {kind: 'end'}                      ///< Of a log: all of it was sent.
+  | ({kind: 'sim'} & SimState)
+  | {kind: 'refused'; why: string};
+
+export interface SimState {
+  running: boolean;
+  pace: number;   ///< Simulated over real time.
+  speed: number;  ///< Operator's speed override, 0.05 .. 1.
+  soil: boolean;
+  obstacle: boolean;
+  faults: readonly string[];  ///< Ids of those that are on.
+}
+
+/// Only with mode 'sim'; the server refuses the rest.
+export type ToServer =
+  | {do: 'run'} | {do: 'stop'} | {do: 'restart'} | {do: 'clear'}
+  | {do: 'pace' | 'speed'; value: number}
+  | {do: 'soil' | 'obstacle'; value: boolean}
+  | {do: 'fault'; id: string; value: boolean};
+
+// ---- Frames ------------------------------------------------------------------------------------
+
+export interface SignalDef {
+  readonly name: string;
+  readonly message: MessageDef;
+  readonly unit: string;
+  readonly factor: number;
+  readonly offset: number;
+  readonly min: number;
+  readonly max: number;
+  readonly states: ReadonlyMap<number, string>;  ///< VAL_ of the DBC.
+  readonly description: string;
+  /// The raw value in the 8 bytes that begin at `at`.
+  raw(bytes: Uint8Array, at: number): number;
+  /// 'error' and 'not available' as the DBC's attributes have them.
+  state(raw: number): 'valid' | 'error' | 'notAvailable';
+}
+
+export interface MessageDef {
+  readonly name: string;
+  readonly id: number;  ///< 29 bit.
+  readonly sender: string;
+  readonly cycle_ms: number;  ///< 0: none.
+  readonly data_id: number;   ///< 0: without end-to-end protection.
+  readonly max_delta: number;
+  readonly signals: ReadonlyMap<string, SignalDef>;
+}
+
+export interface Database {
+  readonly kind: Kind;
+  readonly version: number;
+  readonly messages: ReadonlyMap<string, MessageDef>;
+  readonly by_id: ReadonlyMap<number, MessageDef>;
+  signal(path: string): SignalDef;  ///< 'BoomStroke.BoomStroke'; throws where there is none.
+}
+
+export interface Reading {
+  value: number;  ///< Physical, in the signal's unit; NaN unless valid.
+  raw: number;
+  state: 'valid' | 'error' | 'notAvailable' | 'never';
+  age_s: number;  ///< Since its frame; Infinity with 'never'.
+}
+
+/// All frames of one message, oldest first.
+export interface Rows {
+  readonly count: number;
+  time(index: number): number;
+  /// Index of the last frame at or before `time_s`; -1 if there is none.
+  at(time_s: number): number;
+  /// Its 8 bytes, at an offset in a buffer. Valid until frames are added.
+  bytes(index: number): {buffer: Uint8Array; at: number};
+}
+
+/// A curve over a window, few enough points for the screen: within each bucket least and greatest.
+export interface Curve {
+  time_s: Float64Array;
+  value: Float64Array;  ///< NaN: a gap.
+}
+
+export interface FrameStore {
+  readonly database: Database | null;  ///< Until the first frames tell which machine it is.
+  readonly from_s: number;   ///< Of the oldest frame that is kept.
+  readonly until_s: number;  ///< Of the newest.
+  readonly frames: number;   ///< Seen, kept or not.
+  readonly revision: number; ///< Changes whenever frames came or went.
+  rows(message: string): Rows;
+  reading(signal: string, time_s: number): Reading;
+  curve(signal: string, from_s: number, until_s: number, buckets: number): Curve;
+  /// Every frame's bits in the second before, over the bitrate.
+  bus_load(time_s: number, bitrate: number): number;
+  /// Times at which a fault begins, as EcuStatus has it, with its number.
+  faults(): readonly {time_s: number; code: number}[];
+  readonly health: LogHealth;
+}
+
+export interface LogHealth {
+  lines: number;
+  malformed: number;
+  first_malformed: {line: number; text: string} | null;
+  foreign: number;         ///< Frames that the DBC does not have.
+  backwards: number;       ///< Stamps before the one before.
+  profile_hash: number | null;     ///< As the controller or the machine says.
+  dbc_version: number | null;
+}
+
+export type Integrity = 'ok' | 'crc' | 'repeated' | 'lost' | 'sequence' | 'silent' | 'unprotected';
+
+export interface MessageState {
+  message: MessageDef;
+  age_s: number;
+  stale: boolean;    ///< Older than three of its cycles.
+  counter: number;   ///< -1: has none.
+  integrity: Integrity;
+  wrong: number;     ///< Frames with a wrong CRC or counter in the last second.
+  rate_hz: number;   ///< Over the last second.
+}
+
+// ---- Where the page looks ---------------------------------------------------------------------
+
+/// One for the whole page; changes come as calls of the listeners.
+export interface Playhead {
+  now_s: number;       ///< What everything shows.
+  follow: boolean;     ///< At the newest frame, as it comes.
+  playing: boolean;
+  rate: number;        ///< Of replay.
+  window: readonly [number, number];  ///< What the plots show.
+  seek(time_s: number): void;
+  on_change(listener: () => void): void;
+}
