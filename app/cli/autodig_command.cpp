@@ -108,7 +108,7 @@ void run_task(const TaskRunOptions& options) {
   }
   const AutodigSummary summary = summarise(program, result);
   const fs::path report = out / (options.name + ".html");
-  write_autodig_report(report, machine, program, result, summary,
+  write_autodig_report(report, run.log_file, machine, {options.task, program}, result, summary,
                        fmt::format("{} | task {} | errors {} | speed {:.0f} %", machine.name,
                                    options.task, options.errors, options.speed * 100.0));
   if (!options.summary.empty()) {

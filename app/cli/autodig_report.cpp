@@ -7,100 +7,54 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/json_file.hpp"
-#include "app/cli/report/report.hpp"
 #include "app/cli/report_parts.hpp"
+#include "app/machines/axis_names.hpp"
 #include "app/machines/task_words.hpp"
+#include "app/scope/machine_json.hpp"
+#include "app/scope/report_file.hpp"
 
 namespace graben::cli {
 namespace {
 
 using nlohmann::json;
+using Sample = AutodigSample;
 
-json list_of(const Eigen::Vector3d& at) { return {at.x(), at.y(), at.z()}; }
+/// Of a drive: in mm, and in mrad of the swing.
+constexpr double kThousandths = 1e3;
 
-/// The first `count` of what may be there.
-template <std::size_t kCount>
-json rows(const std::vector<AutodigSample>& samples,
-          std::array<double, kCount> AutodigSample::*member, int count) {
-  json all = lists(samples, member);
-  all.erase(all.begin() + count, all.end());
-  return all;
-}
+const char* unit_of(unsigned drive) { return drive == kSwing ? "mrad" : "mm"; }
 
-json series(const ExcavatorProfile& profile, const AutodigResult& result) {
-  const std::vector<AutodigSample>& samples = result.samples;
-  json data;
-  data["time_s"] = list(samples, &AutodigSample::time_s);
-  data["teeth_m"] = lists(samples, &AutodigSample::teeth_m);
-  data["planned_m"] = lists(samples, &AutodigSample::planned_m);
-  data["attitude_rad"] = list(samples, &AutodigSample::attitude_rad);
-  data["planned_attitude_rad"] = list(samples, &AutodigSample::planned_attitude_rad);
-  data["error_true_m"] = list(samples, &AutodigSample::error_true_m);
-  data["error_measured_m"] = list(samples, &AutodigSample::error_measured_m);
-  data["progress"] = list(samples, &AutodigSample::progress_share);
-  data["lambda"] = list(samples, &AutodigSample::lambda);
-  data["planned"] = lists(samples, &AutodigSample::planned);
-  data["real"] = lists(samples, &AutodigSample::real);
-  data["velocity_wanted"] = lists(samples, &AutodigSample::velocity_wanted);
-  data["velocity_real"] = lists(samples, &AutodigSample::velocity_real);
-  data["spool_command"] = lists(samples, &AutodigSample::spool_command);
-  data["spool_real"] = lists(samples, &AutodigSample::spool_real);
-  data["pump_expected_pa"] = rows(samples, &AutodigSample::pump_expected_pa, profile.pump_count);
-  data["pump_real_pa"] = rows(samples, &AutodigSample::pump_real_pa, profile.pump_count);
-  data["cycle_time_us"] = list(samples, &AutodigSample::cycle_us);
-  add_limits(data, samples, excavator_actuators());
-  return data;
-}
-
-/// Where a step begins and ends, as it is planned.
-json step_of(const ExcavatorProfile& profile, const TaskProgram& program,
-             const StepFigures& figures) {
-  const SwingKinematics kinematics(profile.geometry);
-  const TaskStep& step = program.step[static_cast<unsigned>(figures.step)];
-  const auto at = [&](double share) {
-    if (step.straight) {
-      return step.line.line.at(share).position_m;
-    }
-    const DriveVector drives = step.drives.from + share * step.drives.change;
-    return kinematics.teeth_from_joints(kinematics.joints_from_drive(drives).value).position_m;
-  };
-  return {{"name", machines::step_name(figures.kind)},
-          {"kind", step.straight ? "line" : "drives"},
-          {"from_s", figures.from_s},
-          {"until_s", figures.until_s},
-          {"from_m", list_of(at(0.0))},
-          {"to_m", list_of(at(1.0))}};
-}
-
-/// "z >= -0.500 m", or all that is not 0 of a plane that leans.
-std::string plane_text(const Fence& fence) {
-  constexpr std::array<char, 3> kAxes = {'x', 'y', 'z'};
-  const Eigen::Vector3d& normal = fence.normal;
-  std::string sum;
-  for (unsigned i = 0; i < kAxes.size(); ++i) {
-    const double share = normal[i];
-    if (std::abs(share) == 1.0) {
-      return fmt::format("{} {} {:.3f} m", kAxes.at(i),
-                         share > 0.0 ? "<=" : ">=", fence.offset_m / share);
-    }
-    if (share != 0.0) {
-      sum += fmt::format("{}{:.3f} {}", sum.empty() ? "" : " + ", share, kAxes.at(i));
-    }
+/// What of the run no frame has: plan and truth, as Zhang's figures 5 to 10 have them.
+json truth(const ExcavatorProfile& profile, const std::vector<Sample>& samples) {
+  Truth<Sample> lines(samples);
+  lines.add("path_error", "", "true", "mm", 2,
+            [](const Sample& s) { return s.error_true_m * kThousandths; });
+  for (unsigned i = 0; i < kDriveCount; ++i) {
+    const char* name = machines::kDriveNames[i];
+    const std::string title = fmt::format("{}, planned and true", name);
+    lines.add(fmt::format("drive_{}", i), title, "planned", unit_of(i), 2,
+              [i](const Sample& s) { return s.planned[i] * kThousandths; });
+    lines.add(fmt::format("drive_{}", i), title, "true", unit_of(i), 2,
+              [i](const Sample& s) { return s.real[i] * kThousandths; });
+    lines.add(i == kSwing ? "swing_velocity" : "velocities", "", fmt::format("{}, true", name),
+              i == kSwing ? "mrad/s" : "mm/s", 2,
+              [i](const Sample& s) { return s.velocity_real[i] * kThousandths; });
   }
-  return fmt::format("{} <= {:.3f} m", sum, fence.offset_m);
-}
-
-std::string fence_text(const Fence& fence, int index) {
-  const char* guards = fence.guard == FenceGuard::kTeeth ? "teeth" : "teeth, bucket pin, arm pin";
-  return fmt::format("fence[{}]: {} for {}", index, plane_text(fence), guards);
-}
-
-json fences(const TaskProgram& program) {
-  json all = json::array();
-  for (int i = 0; i < program.fences.count; ++i) {
-    all.push_back({{"words", fence_text(program.fences.fence[static_cast<unsigned>(i)], i)}});
+  for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
+    lines.add("pressures", "", fmt::format("Pump {}, true", j + 1), "MPa", 3,
+              [j](const Sample& s) { return s.pump_real_pa[j] * 1e-6; });
   }
-  return all;
+  lines.add("fence", "Distance to the nearest fence", "least of all points", "mm", 1,
+            [](const Sample& s) { return s.fence_left_m * kThousandths; });
+  lines.add("cycle_time", "", "on this computer", "us", 2,
+            [](const Sample& s) { return s.cycle_us; });
+  return lines.json();
+}
+
+json way(const std::vector<Sample>& samples) {
+  return Truth<Sample>(samples).way([](const Sample& s) { return s.teeth_m[0]; },
+                                    [](const Sample& s) { return s.teeth_m[1]; },
+                                    [](const Sample& s) { return s.teeth_m[2]; });
 }
 
 std::string mm(double metres) { return fmt::format("{:.1f}", metres * 1e3); }
@@ -132,23 +86,16 @@ json key_figures(const AutodigSummary& summary) {
 }  // namespace
 
 void write_autodig_report(const std::filesystem::path& file,
-                          const machines::ExcavatorMachine& machine, const TaskProgram& program,
+                          const std::filesystem::path& log_file,
+                          const machines::ExcavatorMachine& machine, const scope::NamedTask& task,
                           const AutodigResult& result, const AutodigSummary& summary,
                           const std::string& subtitle) {
-  json report;
-  report["kind"] = "autodig";
-  report["title"] = "Graben: a task's run";
-  report["subtitle"] = subtitle;
-  report["summary"] = key_figures(summary);
-  report["limits_share"] = shares_list(summary.limit_share);
-  report["steps"] = json::array();
-  for (const StepFigures& step : summary.steps) {
-    report["steps"].push_back(step_of(machine.profile, program, step));
-  }
-  report["fences"] = fences(program);
-  report["design"] = nullptr;
-  report["series"] = series(machine.profile, result);
-  write_report(file, report);
+  const RunWords words = {"A task's run", subtitle, key_figures(summary), summary.limit_share};
+  json run = run_json(words, truth(machine.profile, result.samples));
+  run["way"] = way(result.samples);
+  add_log(run, log_file);
+  scope::write_report(
+      file, report_setup(log_file, scope::machine_json(machine, {task}), std::move(run)));
 }
 
 void write_autodig_summary(const std::filesystem::path& file, const AutodigSummary& summary) {

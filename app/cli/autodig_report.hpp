@@ -11,7 +11,8 @@ namespace graben::cli {
 
 /// Writes the HTML report. Throws std::runtime_error that names the file.
 void write_autodig_report(const std::filesystem::path& file,
-                          const machines::ExcavatorMachine& machine, const TaskProgram& program,
+                          const std::filesystem::path& log_file,
+                          const machines::ExcavatorMachine& machine, const scope::NamedTask& task,
                           const AutodigResult& result, const AutodigSummary& summary,
                           const std::string& subtitle);
 

@@ -106,7 +106,7 @@ void dig(const Options& options) {
   }
   const DigSummary summary = summarise(result);
   const std::filesystem::path report = out / "dig.html";
-  write_dig_report(report, machine, result, summary,
+  write_dig_report(report, run_options.log_file, machine, result, summary,
                    fmt::format("{} | {} | start strokes {:.3f}, {:.3f}, {:.3f} m | speed {:.0f} %",
                                machine.name, scenario_words(scenario),
                                run_options.start_strokes_m[0], run_options.start_strokes_m[1],

@@ -5,112 +5,52 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/json_file.hpp"
-#include "app/cli/report/report.hpp"
 #include "app/cli/report_parts.hpp"
-#include "firmware/motion/dig_field.hpp"
+#include "app/machines/axis_names.hpp"
+#include "app/scope/machine_json.hpp"
+#include "app/scope/report_file.hpp"
 
 namespace graben::cli {
 namespace {
 
 using nlohmann::json;
+using Sample = DigSample;
 
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
-constexpr double kMarkEvery_s = 5.0;
-
-json point(const Eigen::Vector2d& at) { return {at.x(), at.y()}; }
-
-/// Path, field, where the tip was, and its attitude every five seconds (Fig. 9).
-json geometry(const machines::ExcavatorMachine& machine, const DigResult& result) {
-  constexpr int kPathPoints = 240;
-  constexpr double kFieldStep_m = 0.35;
-  constexpr double kMargin_m = 0.7;
-  const ExcavatorKinematics kinematics(machine.profile.geometry);
-  const DigField field(machine.profile, kinematics);
-  const DigPath& path = machine.profile.dig_path;
-  json geometry;
-  geometry["path"] = json::array();
-  for (int k = 0; k < kPathPoints; ++k) {
-    geometry["path"].push_back(
-        point(field.path().at_share(static_cast<double>(k) / kPathPoints).position_m));
+/// What of the run no frame has: Kim's figures 10 to 15 beside what is on the bus.
+json truth(const machines::ExcavatorMachine& machine, const std::vector<Sample>& samples) {
+  Truth<Sample> lines(samples);
+  lines.add("path_error", "", "true", "mm", 2, [](const Sample& s) { return s.error_true_m * 1e3; });
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    lines.add("velocities", "", fmt::format("{}, true", machines::kDriveNames[i]), "mm/s", 2,
+              [i](const Sample& s) { return s.velocity_real_mps[i] * 1e3; });
   }
-  geometry["field"] = json::array();
-  const auto columns =
-      static_cast<int>((path.x_max_m - path.x_min_m + 2.0 * kMargin_m) / kFieldStep_m);
-  const auto rows =
-      static_cast<int>((path.y_max_m - path.y_min_m + 2.0 * kMargin_m) / kFieldStep_m);
-  for (int i = 0; i <= columns; ++i) {
-    for (int j = 0; j <= rows; ++j) {
-      const TipPose at = {path.x_min_m - kMargin_m + i * kFieldStep_m,
-                          path.y_min_m - kMargin_m + j * kFieldStep_m, 0.0};
-      const TipVelocity velocity = field.contour(at);
-      geometry["field"].push_back(
-          {at.x_m, at.y_m, velocity.linear_mps.x(), velocity.linear_mps.y()});
-    }
+  for (unsigned j = 0; j < static_cast<unsigned>(machine.profile.pump_count); ++j) {
+    lines.add("pressures", "", fmt::format("Pump {}, true", j + 1), "MPa", 3,
+              [j](const Sample& s) { return s.pump_real_pa[j] * 1e-6; });
   }
-  geometry["tip_true"] = json::array();
-  geometry["tip_measured"] = json::array();
-  geometry["marks"] = json::array();
-  double next_mark_s = 0.0;
-  for (const DigSample& sample : result.samples) {
-    geometry["tip_true"].push_back(point(sample.tip_true_m));
-    geometry["tip_measured"].push_back(point(sample.tip_measured_m));
-    if (sample.time_s >= next_mark_s) {
-      geometry["marks"].push_back({{"x", sample.tip_true_m.x()},
-                                   {"y", sample.tip_true_m.y()},
-                                   {"attitude_deg", sample.attitude_true_rad * kDegrees},
-                                   {"time_s", sample.time_s}});
-      next_mark_s += kMarkEvery_s;
-    }
-  }
-  geometry["ground_y_m"] = nullptr;
-  if (machine.plant.soil) {
-    geometry["ground_y_m"] = machine.plant.soil->ground_y_m;
-  }
+  const char* forces = "Force on the tip";
+  lines.add("force", forces, "forward", "kN", 2,
+            [](const Sample& s) { return s.tip_force_n.x() * 1e-3; });
+  lines.add("force", forces, "up", "kN", 2,
+            [](const Sample& s) { return s.tip_force_n.y() * 1e-3; });
   if (machine.plant.obstacle) {
-    const plant::ObstacleProfile& obstacle = *machine.plant.obstacle;
-    geometry["obstacle"] = {{"point", point(obstacle.point_m)},
-                            {"normal", point(obstacle.normal)},
-                            {"size_m", obstacle.size_m}};
+    lines.add("obstacle", "Obstacle", "holds the tip", "", 0, [](const Sample& s) {
+      return s.obstruction == Obstruction::kHolding ? 1.0 : 0.0;
+    });
   }
-  if (!result.samples.empty()) {
-    geometry["start"] = point(result.samples.front().tip_true_m);
-  }
-  return geometry;
+  lines.add("regeneration", "Regeneration", "a check valve is open", "", 0,
+            [](const Sample& s) { return s.regenerating ? 1.0 : 0.0; });
+  lines.add("cycle_time", "", "on this computer", "us", 2,
+            [](const Sample& s) { return s.cycle_us; });
+  return lines.json();
 }
 
-/// x and y of a vector over time.
-json components(const DigResult& result, Eigen::Vector2d DigSample::*member) {
-  json x = json::array();
-  json y = json::array();
-  for (const DigSample& sample : result.samples) {
-    x.push_back((sample.*member).x());
-    y.push_back((sample.*member).y());
-  }
-  return {std::move(x), std::move(y)};
-}
-
-json series(const DigResult& result) {
-  const std::vector<DigSample>& samples = result.samples;
-  json data;
-  data["time_s"] = list(samples, &DigSample::time_s);
-  data["lambda"] = list(samples, &DigSample::lambda);
-  data["spool_command"] = lists(samples, &DigSample::spool_command);
-  data["spool_real"] = lists(samples, &DigSample::spool_real);
-  data["velocity_wanted"] = lists(samples, &DigSample::velocity_wanted_mps);
-  data["velocity_real"] = lists(samples, &DigSample::velocity_real_mps);
-  data["pump_pressure_expected"] = lists(samples, &DigSample::pump_expected_pa);
-  data["pump_pressure_real"] = lists(samples, &DigSample::pump_real_pa);
-  data["error_true_m"] = list(samples, &DigSample::error_true_m);
-  data["error_measured_m"] = list(samples, &DigSample::error_measured_m);
-  data["tip_force_n"] = components(result, &DigSample::tip_force_n);
-  data["tip_velocity_mps"] = components(result, &DigSample::velocity_true_mps);
-  data["obstruction"] = json::array();
-  for (const DigSample& sample : samples) {
-    data["obstruction"].push_back(static_cast<int>(sample.obstruction));
-  }
-  data["cycle_time_us"] = list(samples, &DigSample::cycle_us);
-  add_limits(data, samples, excavator_actuators());
-  return data;
+json way(const machines::ExcavatorMachine& machine, const std::vector<Sample>& samples) {
+  const Eigen::Vector2d foot_m = machine.profile.geometry.boom_foot_m;
+  return Truth<Sample>(samples).way(
+      [&](const Sample& s) { return s.tip_true_m.x() + foot_m.x(); },
+      [](const Sample&) { return 0.0; },
+      [&](const Sample& s) { return s.tip_true_m.y() + foot_m.y(); });
 }
 
 json key_figures(const DigSummary& summary) {
@@ -137,17 +77,14 @@ json key_figures(const DigSummary& summary) {
 
 }  // namespace
 
-void write_dig_report(const std::filesystem::path& file, const machines::ExcavatorMachine& machine,
-                      const DigResult& result, const DigSummary& summary,
-                      const std::string& subtitle) {
-  json report;
-  report["title"] = "Graben: digging run";
-  report["subtitle"] = subtitle;
-  report["summary"] = key_figures(summary);
-  report["limits_share"] = shares_list(summary.limit_share);
-  report["geometry"] = geometry(machine, result);
-  report["series"] = series(result);
-  write_report(file, report);
+void write_dig_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
+                      const machines::ExcavatorMachine& machine, const DigResult& result,
+                      const DigSummary& summary, const std::string& subtitle) {
+  const RunWords words = {"Digging run", subtitle, key_figures(summary), summary.limit_share};
+  json run = run_json(words, truth(machine, result.samples));
+  run["way"] = way(machine, result.samples);
+  add_log(run, log_file);
+  scope::write_report(file, report_setup(log_file, scope::machine_json(machine), std::move(run)));
 }
 
 void write_dig_summary(const std::filesystem::path& file, const DigSummary& summary) {

@@ -9,9 +9,9 @@
 namespace graben::cli {
 
 /// Writes the HTML report. Throws std::runtime_error that names the file.
-void write_dig_report(const std::filesystem::path& file, const machines::ExcavatorMachine& machine,
-                      const DigResult& result, const DigSummary& summary,
-                      const std::string& subtitle);
+void write_dig_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
+                      const machines::ExcavatorMachine& machine, const DigResult& result,
+                      const DigSummary& summary, const std::string& subtitle);
 
 /// Writes the figures as JSON. Throws std::runtime_error that names the file.
 void write_dig_summary(const std::filesystem::path& file, const DigSummary& summary);

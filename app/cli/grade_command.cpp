@@ -65,7 +65,7 @@ void grade(const Options& options) {
   }
   const GradeSummary summary = summarise(machine, result);
   const std::filesystem::path report = out / "grade.html";
-  write_grade_report(report, machine, result, summary, words_of(options, machine));
+  write_grade_report(report, run.log_file, machine, result, summary, words_of(options, machine));
   if (!options.summary.empty()) {
     write_grade_summary(options.summary, summary);
   }

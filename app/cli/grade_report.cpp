@@ -5,57 +5,48 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/json_file.hpp"
-#include "app/cli/report/report.hpp"
 #include "app/cli/report_parts.hpp"
+#include "app/scope/machine_json.hpp"
+#include "app/scope/report_file.hpp"
 
 namespace graben::cli {
 namespace {
 
 using nlohmann::json;
+using Sample = GradeSample;
 
-/// One number of each sample.
-template <class Of>
-json of_samples(const std::vector<GradeSample>& samples, Of of) {
-  json values = json::array();
-  for (const GradeSample& sample : samples) {
-    values.push_back(of(sample));
-  }
-  return values;
+constexpr double kLitresPerMinute = 6e4;  ///< In a m^3/s.
+
+/// What of the run no frame has: Mononen and Mattila's figures 5, 7, 8 and 9 beside what is on the
+/// bus.
+json truth(const machines::DozerMachine& machine, const std::vector<Sample>& samples) {
+  Truth<Sample> lines(samples);
+  lines.add("path_error", "", "true", "mm", 2, [](const Sample& s) { return s.error_true_m * 1e3; });
+  lines.add("speed", "", "true", "mm/s", 1, [](const Sample& s) { return s.speed_true_mps * 1e3; });
+  const double desired_mmps = machine.profile.travel.speed_desired_mps * 1e3;
+  lines.add("speed", "", "desired", "mm/s", 1, [=](const Sample&) { return desired_mmps; });
+  lines.add("flow", "", "required, true motion", "L/min", 2,
+            [](const Sample& s) { return s.flow_required_m3ps * kLitresPerMinute; });
+  lines.add("flow", "", "available, true", "L/min", 2,
+            [](const Sample& s) { return s.flow_available_m3ps * kLitresPerMinute; });
+  lines.add("velocities", "", "blade, true", "mm/s", 2,
+            [](const Sample& s) { return s.blade_true_mps * 1e3; });
+  const char* heights = "Edge, design and body";
+  lines.add("heights", heights, "edge", "m", 4, [](const Sample& s) { return s.edge_m.y(); });
+  lines.add("heights", heights, "design under it", "m", 4,
+            [](const Sample& s) { return s.design_m; });
+  lines.add("heights", heights, "body", "m", 4, [](const Sample& s) { return s.body.height_m; });
+  lines.add("place", "Edge along the grade", "x", "m", 3,
+            [](const Sample& s) { return s.edge_m.x(); });
+  lines.add("cycle_time", "", "on this computer", "us", 2,
+            [](const Sample& s) { return s.cycle_us; });
+  return lines.json();
 }
 
-json series(const machines::DozerMachine& machine, const GradeResult& result) {
-  const std::vector<GradeSample>& samples = result.samples;
-  json data;
-  data["time_s"] = list(samples, &GradeSample::time_s);
-  data["edge_x_m"] = of_samples(samples, [](const GradeSample& s) { return s.edge_m.x(); });
-  data["edge_z_m"] = of_samples(samples, [](const GradeSample& s) { return s.edge_m.y(); });
-  data["body_x_m"] = of_samples(samples, [](const GradeSample& s) { return s.body.position_m; });
-  data["body_z_m"] = of_samples(samples, [](const GradeSample& s) { return s.body.height_m; });
-  data["pitch_rad"] = of_samples(samples, [](const GradeSample& s) { return s.body.pitch_rad; });
-  data["design_m"] = list(samples, &GradeSample::design_m);
-  data["error_true_m"] = list(samples, &GradeSample::error_true_m);
-  data["error_measured_m"] = list(samples, &GradeSample::error_measured_m);
-  data["speed_wanted_mps"] = list(samples, &GradeSample::speed_wanted_mps);
-  data["speed_true_mps"] = list(samples, &GradeSample::speed_true_mps);
-  data["speed_measured_mps"] = list(samples, &GradeSample::speed_measured_mps);
-  data["speed_limit_mps"] = list(samples, &GradeSample::speed_limit_mps);
-  data["speed_desired_mps"] = machine.profile.travel.speed_desired_mps;
-  data["flow_required_m3ps"] = list(samples, &GradeSample::flow_required_m3ps);
-  data["flow_reported_m3ps"] = list(samples, &GradeSample::flow_reported_m3ps);
-  data["flow_available_m3ps"] = list(samples, &GradeSample::flow_available_m3ps);
-  data["lambda"] = list(samples, &GradeSample::lambda);
-  data["blade_wanted_mps"] = list(samples, &GradeSample::blade_wanted_mps);
-  data["blade_true_mps"] = list(samples, &GradeSample::blade_true_mps);
-  data["spool_command"] = list(samples, &GradeSample::spool_command);
-  data["spool_real"] = list(samples, &GradeSample::spool_real);
-  data["track_mps"] = lists(samples, &GradeSample::track_mps);
-  data["pump_command"] = lists(samples, &GradeSample::pump_command);
-  data["pump_real"] = lists(samples, &GradeSample::pump_real);
-  data["motor_command"] = lists(samples, &GradeSample::motor_command);
-  data["motor_real"] = lists(samples, &GradeSample::motor_real);
-  data["cycle_time_us"] = list(samples, &GradeSample::cycle_us);
-  add_limits(data, samples, dozer_actuators());
-  return data;
+json way(const std::vector<Sample>& samples) {
+  return Truth<Sample>(samples).way([](const Sample& s) { return s.edge_m.x(); },
+                                    [](const Sample&) { return 0.0; },
+                                    [](const Sample& s) { return s.edge_m.y(); });
 }
 
 json key_figures(const GradeSummary& summary) {
@@ -82,30 +73,16 @@ json key_figures(const GradeSummary& summary) {
   };
 }
 
-json terrain(const GradeResult& result) {
-  json points = json::array();
-  for (const Eigen::Vector2d& point : result.terrain_m) {
-    points.push_back({point.x(), point.y()});
-  }
-  return points;
-}
-
 }  // namespace
 
-void write_grade_report(const std::filesystem::path& file, const machines::DozerMachine& machine,
-                        const GradeResult& result, const GradeSummary& summary,
-                        const std::string& subtitle) {
-  json report;
-  report["kind"] = "grade";
-  report["speed_mode"] =
-      machine.profile.travel.policy == SpeedPolicy::kConstant ? "constant" : "bounded";
-  report["title"] = "Graben: grading run";
-  report["subtitle"] = subtitle;
-  report["summary"] = key_figures(summary);
-  report["limits_share"] = shares_list(summary.limit_share);
-  report["terrain"] = terrain(result);
-  report["series"] = series(machine, result);
-  write_report(file, report);
+void write_grade_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
+                        const machines::DozerMachine& machine, const GradeResult& result,
+                        const GradeSummary& summary, const std::string& subtitle) {
+  const RunWords words = {"Grading run", subtitle, key_figures(summary), summary.limit_share};
+  json run = run_json(words, truth(machine, result.samples));
+  run["way"] = way(result.samples);
+  add_log(run, log_file);
+  scope::write_report(file, report_setup(log_file, scope::machine_json(machine), std::move(run)));
 }
 
 void write_grade_summary(const std::filesystem::path& file, const GradeSummary& summary) {

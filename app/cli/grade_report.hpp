@@ -9,9 +9,9 @@
 namespace graben::cli {
 
 /// Writes the HTML report. Throws std::runtime_error that names the file.
-void write_grade_report(const std::filesystem::path& file, const machines::DozerMachine& machine,
-                        const GradeResult& result, const GradeSummary& summary,
-                        const std::string& subtitle);
+void write_grade_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
+                        const machines::DozerMachine& machine, const GradeResult& result,
+                        const GradeSummary& summary, const std::string& subtitle);
 
 /// Writes the figures as JSON. Throws std::runtime_error that names the file.
 void write_grade_summary(const std::filesystem::path& file, const GradeSummary& summary);

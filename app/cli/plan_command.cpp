@@ -75,7 +75,7 @@ void plan(const Options& options) {
   const fs::path out(options.out);
   fs::create_directories(out);
   write_plan_report(
-      out / "plan.html", profile, result, samples,
+      out / "plan.html", machine, result, samples,
       fmt::format("{} | from {} | to {}", machine.name, words(request.from), words(request.to)));
   write_plan_json(out / "plan.json", profile, result, samples);
   write_text(out / "plan.csv", plan_csv(samples));

@@ -5,10 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/json_file.hpp"
-#include "app/cli/report/report.hpp"
 #include "app/cli/report_parts.hpp"
 #include "app/machines/axis_names.hpp"
 #include "app/machines/plan_words.hpp"
+#include "app/scope/machine_json.hpp"
+#include "app/scope/report_file.hpp"
 
 namespace graben::cli {
 namespace {
@@ -16,17 +17,49 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-json series(const std::vector<PlanSample>& samples) {
-  json data;
-  data["time_s"] = list(samples, &PlanSample::time_s);
-  data["way_m"] = list(samples, &PlanSample::way_m);
-  data["speed_mps"] = list(samples, &PlanSample::speed_mps);
-  data["teeth_m"] = lists(samples, &PlanSample::teeth_m);
-  data["attitude_rad"] = list(samples, &PlanSample::attitude_rad);
-  data["displacement"] = lists(samples, &PlanSample::displacement);
-  data["velocity"] = lists(samples, &PlanSample::velocity);
-  data["acceleration"] = lists(samples, &PlanSample::acceleration);
-  return data;
+using Sample = PlanSample;
+
+const char* unit_of(unsigned drive) { return drive == kSwing ? "mrad" : "mm"; }
+
+/// Zhang's figures 5 to 10: displacement, velocity and acceleration of each drive.
+json truth(const std::vector<Sample>& samples) {
+  constexpr double kThousandths = 1e3;
+  Truth<Sample> lines(samples);
+  lines.add("way", "Teeth along the line", "way", "m", 4, [](const Sample& s) { return s.way_m; });
+  lines.add("teeth_speed", "Speed of the teeth", "along the line", "mm/s", 2,
+            [](const Sample& s) { return s.speed_mps * kThousandths; });
+  const auto add = [&](const char* plot, const char* title, const char* per, unsigned drive,
+                       std::array<double, kDriveCount> Sample::*member) {
+    // The swing's unit is another: a plot of its own.
+    const bool is_swing = drive == kSwing;
+    lines.add(fmt::format("{}{}", plot, is_swing ? "_swing" : ""),
+              fmt::format("{} of the {}", title, is_swing ? "swing" : "cylinders"),
+              machines::kDriveNames[drive], fmt::format("{}{}", unit_of(drive), per), 3,
+              [=](const Sample& s) { return (s.*member)[drive] * kThousandths; });
+  };
+  for (unsigned i = 0; i < kDriveCount; ++i) {
+    add("displacement", "Displacement", "", i, &Sample::displacement);
+  }
+  for (unsigned i = 0; i < kDriveCount; ++i) {
+    add("velocity", "Velocity", "/s", i, &Sample::velocity);
+  }
+  for (unsigned i = 0; i < kDriveCount; ++i) {
+    add("acceleration", "Acceleration", "/s²", i, &Sample::acceleration);
+  }
+  return lines.json();
+}
+
+json drives(const std::vector<Sample>& samples) {
+  constexpr int kMicrometres = 6;
+  json all = json::array();
+  for (const Sample& sample : samples) {
+    json row = json::array();
+    for (const double value : sample.displacement) {
+      row.push_back(plotted(value, kMicrometres));
+    }
+    all.push_back(std::move(row));
+  }
+  return all;
 }
 
 json key_figures(const ExcavatorProfile& profile, const PlanResult& result,
@@ -65,16 +98,18 @@ ordered_json pose(const TeethPose& teeth) {
 
 }  // namespace
 
-void write_plan_report(const std::filesystem::path& file, const ExcavatorProfile& profile,
-                       const PlanResult& result, const std::vector<PlanSample>& samples,
-                       const std::string& subtitle) {
-  json report;
-  report["kind"] = "plan";
-  report["title"] = "Graben: planned line";
-  report["subtitle"] = subtitle;
-  report["summary"] = key_figures(profile, result, samples);
-  report["series"] = series(samples);
-  write_report(file, report);
+void write_plan_report(const std::filesystem::path& file,
+                       const machines::ExcavatorMachine& machine, const PlanResult& result,
+                       const std::vector<PlanSample>& samples, const std::string& subtitle) {
+  json run = run_json({"Planned line", subtitle, key_figures(machine.profile, result, samples), {}},
+                      truth(samples));
+  run["pose"]["drives"] = drives(samples);
+  run["way"] = Truth<Sample>(samples).way([](const Sample& s) { return s.teeth_m[0]; },
+                                          [](const Sample& s) { return s.teeth_m[1]; },
+                                          [](const Sample& s) { return s.teeth_m[2]; });
+  json setup = report_setup(file, scope::machine_json(machine), std::move(run));
+  setup["source"]["mode"] = "plan";
+  scope::write_report(file, setup);
 }
 
 void write_plan_json(const std::filesystem::path& file, const ExcavatorProfile& profile,

@@ -1,11 +1,9 @@
 #pragma once
-/// Parts of a report's data that every kind of run has. `Samples` is a list of a run's samples.
+/// Parts of a report's setup (app/scope/page/src/model/api.ts) that every kind of run has.
 
-#include <fmt/format.h>
-
-#include <array>
-#include <cstddef>
-#include <map>
+#include <cmath>
+#include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -14,69 +12,83 @@
 
 namespace graben::cli {
 
-template <class Sample>
-[[nodiscard]] nlohmann::json list(const std::vector<Sample>& samples, double Sample::*member) {
-  nlohmann::json values = nlohmann::json::array();
-  for (const Sample& sample : samples) {
-    values.push_back(sample.*member);
-  }
-  return values;
-}
+/// What a report tells of a run, before its frames: `Run` of the page.
+struct RunWords {
+  std::string title;
+  std::string subtitle;
+  nlohmann::json summary = nlohmann::json::array();  ///< Of key_figure.
+  LimitShares limit_share;                           ///< Empty: there is no lambda.
+};
 
-/// One list over the samples for each entry of an array.
-template <class Sample, std::size_t kCount>
-[[nodiscard]] nlohmann::json lists(const std::vector<Sample>& samples,
-                                   std::array<double, kCount> Sample::*member) {
-  nlohmann::json all = nlohmann::json::array();
-  for (std::size_t i = 0; i < kCount; ++i) {
-    nlohmann::json values = nlohmann::json::array();
-    for (const Sample& sample : samples) {
-      values.push_back((sample.*member)[i]);
-    }
-    all.push_back(std::move(values));
-  }
-  return all;
-}
-
-/// What held lambda at each sample: `limit` and `limit_names`.
-template <class Sample>
-void add_limits(nlohmann::json& series, const std::vector<Sample>& samples,
-                const ActuatorNames& actuators) {
-  std::map<std::string, std::size_t> index = {{"none", 0}};
-  nlohmann::json names = {"none"};
-  nlohmann::json limits = nlohmann::json::array();
-  for (const Sample& sample : samples) {
-    const std::string name = limit_words(sample.limit, actuators);
-    const auto [found, is_new] = index.emplace(name, index.size());
-    if (is_new) {
-      names.push_back(name);
-    }
-    limits.push_back(found->second);
-  }
-  series["limit"] = std::move(limits);
-  series["limit_names"] = std::move(names);
-}
-
-[[nodiscard]] inline nlohmann::json key_figure(const char* label, const std::string& value,
-                                               const char* unit, const char* note) {
-  return {{"label", label}, {"value", value}, {"unit", unit}, {"note", note}};
-}
-
-[[nodiscard]] inline nlohmann::json shares_list(const LimitShares& shares) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const auto& [name, share] : shares) {
-    list.push_back({{"name", name}, {"share", share}});
-  }
-  return list;
-}
+[[nodiscard]] nlohmann::json key_figure(const std::string& label, const std::string& value,
+                                        const std::string& unit, const std::string& note);
 
 /// Lines of a terminal's table.
-[[nodiscard]] inline std::string shares_table(const LimitShares& shares) {
-  std::string lines;
-  for (const auto& [name, share] : shares) {
-    lines += fmt::format("  {:<26}{:>9.1f} %\n", name, share * 100.0);
+[[nodiscard]] std::string shares_table(const LimitShares& shares);
+
+/// Rounded to as many decimals as anybody reads off a plot; null where it is not finite.
+[[nodiscard]] nlohmann::json plotted(double value, int decimals);
+
+/// Curves over a run's samples that no frame has.
+template <class Sample>
+class Truth {
+ public:
+  using Of = std::function<double(const Sample&)>;
+
+  /// `samples` has to outlive this.
+  explicit Truth(const std::vector<Sample>& samples) : samples_(samples) {}
+
+  /// A line on the page's plot of that name (view/plot_table.ts); where it has none, on one of its
+  /// own by that title.
+  void add(const std::string& plot, const std::string& title, const std::string& label,
+           const std::string& unit, int decimals, const Of& of) {
+    lines_.push_back({{"plot", plot},
+                      {"title", title},
+                      {"label", label},
+                      {"unit", unit},
+                      {"values", values(decimals, of)}});
   }
-  return lines;
-}
+
+  /// `truth` of the page.
+  [[nodiscard]] nlohmann::json json() const {
+    constexpr int kMilliseconds = 3;
+    return {{"time_s", values(kMilliseconds, [](const Sample& s) { return s.time_s; })},
+            {"lines", lines_}};
+  }
+
+  /// `way` of the page: places in the ground frame, by the millimetre.
+  [[nodiscard]] nlohmann::json way(const Of& x_m, const Of& y_m, const Of& z_m) const {
+    constexpr int kMillimetres = 3;
+    nlohmann::json places = nlohmann::json::array();
+    for (const Sample& sample : samples_) {
+      places.push_back({plotted(x_m(sample), kMillimetres), plotted(y_m(sample), kMillimetres),
+                        plotted(z_m(sample), kMillimetres)});
+    }
+    return places;
+  }
+
+ private:
+  [[nodiscard]] nlohmann::json values(int decimals, const Of& of) const {
+    nlohmann::json all = nlohmann::json::array();
+    for (const Sample& sample : samples_) {
+      all.push_back(plotted(of(sample), decimals));
+    }
+    return all;
+  }
+
+  const std::vector<Sample>& samples_;
+  nlohmann::json lines_ = nlohmann::json::array();
+};
+
+/// `run` of the page, to which `way` and others may be added.
+[[nodiscard]] nlohmann::json run_json(const RunWords& words, nlohmann::json truth);
+
+/// The same with the frames of the run's log inside. What is no regular file, such as a device, has
+/// nothing to be read back: the report then has no frames, and says so.
+void add_log(nlohmann::json& run, const std::filesystem::path& log_file);
+
+/// `Setup` of the page: one machine, the run, and the file that the frames are from.
+[[nodiscard]] nlohmann::json report_setup(const std::filesystem::path& log_file,
+                                          nlohmann::json machine, nlohmann::json run);
 
 }  // namespace graben::cli

@@ -7,9 +7,10 @@ import csv
 import json
 import math
 import os
-import re
 import subprocess
 import tempfile
+
+import report_page
 
 MM = 1e-3
 LINE_MM, END_MM, UNSURE_MM = 15.0, 10.0, 46.0
@@ -147,11 +148,14 @@ def truck(digger):
 
 def report_is_whole(digger):
     digger.figures("--task", "truck_loading")
-    data = json.loads(re.search(rb'id="data">(.*?)</script', digger.content("autodig.html"),
-                                re.S)[1])
-    words = data["subtitle"]
-    assert "truck_loading" in words and "errors none" in words, words
-    assert data["kind"] == "autodig", data["kind"]
+    setup = report_page.setup_of(digger.content("autodig.html"))
+    report_page.assert_of_run(
+        setup, ["truck_loading", "errors none"],
+        {"path_error", "velocities", "swing_velocity", "pressures", "fence", "cycle_time",
+         *(f"drive_{i}" for i in range(4))}, least=3000)
+    assert report_page.log_of(setup) == digger.content("autodig.log")
+    task, = setup["machines"][0]["tasks"]
+    assert task["name"] == "truck_loading" and len(task["steps"]) == 5, task["name"]
 
 
 def repeats(digger):

@@ -8,6 +8,8 @@ import subprocess
 import sys
 import tempfile
 
+import report_page
+
 MM = 1e-3
 FIGURES = {
     "max_error_true_m", "rmse_error_true_m", "max_error_measured_m", "rmse_error_measured_m", "time_s",
@@ -78,19 +80,14 @@ def repeats(graben, folder):
 
 def report_is_whole(graben, folder):
     grade(graben, folder, "--speed-mode", "constant", "--speed", "1.2")
-    page = content(folder, "grade.html").decode()
-    data = json.loads(re.search(r'id="data">(.*?)</script', page, re.S)[1])
-    assert data["kind"] == "grade" and data["speed_mode"] == "constant", data["kind"]
-    assert "dozer_9t | constant, wanted 1.2 m/s, 1500 rpm, errors none" in data["subtitle"]
-    series = data["series"]
-    counts = {name: len(values) for name, values in series.items()
-              if name not in ("limit_names", "speed_desired_mps")
-              and not isinstance(values[0], list)}
-    assert len(set(counts.values())) == 1 and len(counts) == 23, counts
-    assert series["speed_desired_mps"] == 1.2
-    # What was cut is on the ground: over the last metres nothing comes after the edge.
-    heights = [z for x, z in data["terrain"] if 24.0 <= x <= 26.0]
-    assert max(map(abs, heights)) < 0.1 and min(z for _, z in data["terrain"]) < -0.3
+    setup = report_page.setup_of(content(folder, "grade.html"))
+    report_page.assert_of_run(
+        setup, ["dozer_9t | constant, wanted 1.2 m/s, 1500 rpm, errors none"],
+        {"path_error", "speed", "flow", "velocities", "heights", "place", "cycle_time"}, least=1500)
+    assert report_page.log_of(setup) == content(folder, "grade.log")
+    lines = {line["label"]: line["values"] for line in setup["run"]["truth"]["lines"]}
+    assert set(lines["desired"]) == {1200.0}
+    assert min(lines["edge"]) < -0.3 and lines["x"][-1] > 26.0
 
 
 def fastest_constant(graben, folder):

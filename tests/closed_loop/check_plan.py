@@ -8,6 +8,8 @@ import subprocess
 import sys
 import tempfile
 
+import report_page
+
 J = (0.0, 6.866, 0.0)
 K = (2.244, 3.886, 0.0)
 
@@ -64,8 +66,11 @@ def paper_line(graben, planner):
     for before, here, after in zip(rows[60:300], rows[61:300], rows[62:300]):
         slope = (after["arm_m"] - before["arm_m"]) / (after["time_s"] - before["time_s"])
         assert abs(slope - here["arm_mps"]) < 1e-5, here
-    with open(os.path.join(planner._folder, "plan.html"), encoding="utf-8") as stream:
-        assert '"kind":"plan"' in stream.read()
+    with open(os.path.join(planner._folder, "plan.html"), "rb") as stream:
+        setup = report_page.setup_of(stream.read())
+    run = setup["run"]
+    assert setup["source"]["mode"] == "plan" and len(run["pose"]["drives"]) == len(rows), len(rows)
+    assert math.dist(run["way"][-1], K) < 1e-3, run["way"][-1]
 
 
 def other_paces(planner):

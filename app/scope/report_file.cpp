@@ -1,4 +1,4 @@
-#include "app/cli/report/report.hpp"
+#include "app/scope/report_file.hpp"
 
 #include <unistd.h>
 
@@ -10,9 +10,9 @@
 #include <string_view>
 #include <system_error>
 
-#include "app/cli/report/report_template.hpp"
+#include "app/scope/scope_page.hpp"
 
-namespace graben::cli {
+namespace graben::scope {
 namespace {
 
 namespace fs = std::filesystem;
@@ -72,12 +72,13 @@ fs::path resolved(const fs::path& file) {
 
 }  // namespace
 
-void write_report(const fs::path& file, const nlohmann::json& data) {
+void write_report(const fs::path& file, const nlohmann::json& setup) {
   const fs::path target = resolved(file);
   fs::path partial = target;
   partial += ".part-" + std::to_string(getpid());
   std::error_code ignored;
-  if (const int error = write_whole(partial, report_head(), embeddable(data), report_tail())) {
+  if (const int error = write_whole(partial, scope_page_head(), embeddable(setup),
+                                     scope_page_tail())) {
     fs::remove(partial, ignored);
     fail(file, system_message(error));
   }
@@ -89,4 +90,4 @@ void write_report(const fs::path& file, const nlohmann::json& data) {
   }
 }
 
-}  // namespace graben::cli
+}  // namespace graben::scope
