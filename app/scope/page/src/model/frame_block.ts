@@ -16,7 +16,8 @@ export interface ParseCount {
   malformed: number;
   first_malformed: {line: number; text: string} | null;
   backwards: number;  ///< Stamps before the one before.
-  unheard: number;    ///< CAN FD and error frames, and ids beyond the number that is kept.
+  /// CAN FD and error frames, ids beyond the number that is kept, stamps far ahead of all others.
+  unheard: number;
 }
 
 export interface FrameBlock {
