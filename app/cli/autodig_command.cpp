@@ -24,10 +24,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The task as its file has it, but for the pace of its first line where that is told.
-TaskProgram planned(const TaskRunOptions& options, const ExcavatorProfile& profile) {
+machines::TaskFile planned(const TaskRunOptions& options, const ExcavatorProfile& profile) {
   machines::TaskFile task = machines::load_task(machines::find_task(options.task), profile);
   if (!options.duration_s) {
-    return task.result.program;
+    return task;
   }
   auto* const end = task.request.step.begin() + task.request.step_count;
   auto* const line = std::find_if(task.request.step.begin(), end,
@@ -37,11 +37,11 @@ TaskProgram planned(const TaskRunOptions& options, const ExcavatorProfile& profi
   }
   line->duration_s = *options.duration_s;
   line->speed_mps = 0.0;
-  const ProgramResult result = plan_program(profile, task.request);
-  if (result.refusal != ProgramRefusal::kNone) {
-    throw std::runtime_error(machines::program_refusal_words(profile, task.request, result));
+  task.result = plan_program(profile, task.request);
+  if (task.result.refusal != ProgramRefusal::kNone) {
+    throw std::runtime_error(machines::program_refusal_words(profile, task.request, task.result));
   }
-  return result.program;
+  return task;
 }
 
 DriveVector start_of(const TaskRunOptions& options, const ExcavatorProfile& profile,
@@ -92,7 +92,8 @@ void throw_unless_done(const AutodigResult& result) {
 
 void run_task(const TaskRunOptions& options) {
   const machines::ExcavatorMachine machine = machine_of(options);
-  const TaskProgram program = planned(options, machine.profile);
+  const machines::TaskFile task = planned(options, machine.profile);
+  const TaskProgram& program = task.result.program;
   AutodigOptions run;
   run.start = start_of(options, machine.profile, program);
   run.speed_override_ratio = options.speed;
@@ -108,7 +109,7 @@ void run_task(const TaskRunOptions& options) {
   }
   const AutodigSummary summary = summarise(program, result);
   const fs::path report = out / (options.name + ".html");
-  write_autodig_report(report, run.log_file, machine, {options.task, program}, result, summary,
+  write_autodig_report(report, run.log_file, machine, task, result, summary,
                        fmt::format("{} | task {} | errors {} | speed {:.0f} %", machine.name,
                                    options.task, options.errors, options.speed * 100.0));
   if (!options.summary.empty()) {

@@ -17,44 +17,38 @@ namespace graben::cli {
 namespace {
 
 using nlohmann::json;
-using Sample = AutodigSample;
-
-/// Of a drive: in mm, and in mrad of the swing.
-constexpr double kThousandths = 1e3;
-
-const char* unit_of(unsigned drive) { return drive == kSwing ? "mrad" : "mm"; }
 
 /// What of the run no frame has: plan and truth, as Zhang's figures 5 to 10 have them.
-json truth(const ExcavatorProfile& profile, const std::vector<Sample>& samples) {
-  Truth<Sample> lines(samples);
+json truth(const ExcavatorProfile& profile, const std::vector<AutodigSample>& samples) {
+  Truth<AutodigSample> lines(samples);
   lines.add("path_error", "", "true", "mm", 2,
-            [](const Sample& s) { return s.error_true_m * kThousandths; });
+            [](const AutodigSample& s) { return s.error_true_m * kThousandths; });
   for (unsigned i = 0; i < kDriveCount; ++i) {
     const char* name = machines::kDriveNames[i];
     const std::string title = fmt::format("{}, planned and true", name);
-    lines.add(fmt::format("drive_{}", i), title, "planned", unit_of(i), 2,
-              [i](const Sample& s) { return s.planned[i] * kThousandths; });
-    lines.add(fmt::format("drive_{}", i), title, "true", unit_of(i), 2,
-              [i](const Sample& s) { return s.real[i] * kThousandths; });
+    lines.add(fmt::format("drive_{}", i), title, "planned", drive_unit(i), 2,
+              [i](const AutodigSample& s) { return s.planned[i] * kThousandths; });
+    lines.add(fmt::format("drive_{}", i), title, "true", drive_unit(i), 2,
+              [i](const AutodigSample& s) { return s.real[i] * kThousandths; });
     lines.add(i == kSwing ? "swing_velocity" : "velocities", "", fmt::format("{}, true", name),
               i == kSwing ? "mrad/s" : "mm/s", 2,
-              [i](const Sample& s) { return s.velocity_real[i] * kThousandths; });
+              [i](const AutodigSample& s) { return s.velocity_real[i] * kThousandths; });
   }
   for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
     lines.add("pressures", "", fmt::format("Pump {}, true", j + 1), "MPa", 3,
-              [j](const Sample& s) { return s.pump_real_pa[j] * 1e-6; });
+              [j](const AutodigSample& s) { return s.pump_real_pa[j] * 1e-6; });
   }
   lines.add("fence", "Distance to the nearest fence", "least of all points", "mm", 1,
-            [](const Sample& s) { return s.fence_left_m * kThousandths; });
+            [](const AutodigSample& s) { return s.fence_left_m * kThousandths; });
   lines.add("cycle_time", "", "on this computer", "us", 2,
-            [](const Sample& s) { return s.cycle_us; });
+            [](const AutodigSample& s) { return s.cycle_us; });
   return lines.json();
 }
 
-json way(const std::vector<Sample>& samples) {
-  return Truth<Sample>(samples).way([](const Sample& s) { return s.teeth_m[0]; },
-                                    [](const Sample& s) { return s.teeth_m[1]; },
-                                    [](const Sample& s) { return s.teeth_m[2]; });
+json way(const std::vector<AutodigSample>& samples) {
+  return Truth<AutodigSample>(samples).way([](const AutodigSample& s) { return s.teeth_m[0]; },
+                                           [](const AutodigSample& s) { return s.teeth_m[1]; },
+                                           [](const AutodigSample& s) { return s.teeth_m[2]; });
 }
 
 std::string mm(double metres) { return fmt::format("{:.1f}", metres * 1e3); }
@@ -85,17 +79,16 @@ json key_figures(const AutodigSummary& summary) {
 
 }  // namespace
 
-void write_autodig_report(const std::filesystem::path& file,
-                          const std::filesystem::path& log_file,
-                          const machines::ExcavatorMachine& machine, const scope::NamedTask& task,
+void write_autodig_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
+                          const machines::ExcavatorMachine& machine, const machines::TaskFile& task,
                           const AutodigResult& result, const AutodigSummary& summary,
                           const std::string& subtitle) {
   const RunWords words = {"A task's run", subtitle, key_figures(summary), summary.limit_share};
   json run = run_json(words, truth(machine.profile, result.samples));
   run["way"] = way(result.samples);
   add_log(run, log_file);
-  scope::write_report(
-      file, report_setup(log_file, scope::machine_json(machine, {task}), std::move(run)));
+  scope::write_report(file,
+                      report_setup(log_file, scope::machine_json(machine, {task}), std::move(run)));
 }
 
 void write_autodig_summary(const std::filesystem::path& file, const AutodigSummary& summary) {

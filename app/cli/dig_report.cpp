@@ -14,43 +14,43 @@ namespace graben::cli {
 namespace {
 
 using nlohmann::json;
-using Sample = DigSample;
 
 /// What of the run no frame has: Kim's figures 10 to 15 beside what is on the bus.
-json truth(const machines::ExcavatorMachine& machine, const std::vector<Sample>& samples) {
-  Truth<Sample> lines(samples);
-  lines.add("path_error", "", "true", "mm", 2, [](const Sample& s) { return s.error_true_m * 1e3; });
+json truth(const machines::ExcavatorMachine& machine, const std::vector<DigSample>& samples) {
+  Truth<DigSample> lines(samples);
+  lines.add("path_error", "", "true", "mm", 2,
+            [](const DigSample& s) { return s.error_true_m * 1e3; });
   for (unsigned i = 0; i < kAxisCount; ++i) {
     lines.add("velocities", "", fmt::format("{}, true", machines::kDriveNames[i]), "mm/s", 2,
-              [i](const Sample& s) { return s.velocity_real_mps[i] * 1e3; });
+              [i](const DigSample& s) { return s.velocity_real_mps[i] * 1e3; });
   }
   for (unsigned j = 0; j < static_cast<unsigned>(machine.profile.pump_count); ++j) {
     lines.add("pressures", "", fmt::format("Pump {}, true", j + 1), "MPa", 3,
-              [j](const Sample& s) { return s.pump_real_pa[j] * 1e-6; });
+              [j](const DigSample& s) { return s.pump_real_pa[j] * 1e-6; });
   }
   const char* forces = "Force on the tip";
   lines.add("force", forces, "forward", "kN", 2,
-            [](const Sample& s) { return s.tip_force_n.x() * 1e-3; });
+            [](const DigSample& s) { return s.tip_force_n.x() * 1e-3; });
   lines.add("force", forces, "up", "kN", 2,
-            [](const Sample& s) { return s.tip_force_n.y() * 1e-3; });
+            [](const DigSample& s) { return s.tip_force_n.y() * 1e-3; });
   if (machine.plant.obstacle) {
-    lines.add("obstacle", "Obstacle", "holds the tip", "", 0, [](const Sample& s) {
+    lines.add("obstacle", "Obstacle", "holds the tip", "", 0, [](const DigSample& s) {
       return s.obstruction == Obstruction::kHolding ? 1.0 : 0.0;
     });
   }
   lines.add("regeneration", "Regeneration", "a check valve is open", "", 0,
-            [](const Sample& s) { return s.regenerating ? 1.0 : 0.0; });
+            [](const DigSample& s) { return s.regenerating ? 1.0 : 0.0; });
   lines.add("cycle_time", "", "on this computer", "us", 2,
-            [](const Sample& s) { return s.cycle_us; });
+            [](const DigSample& s) { return s.cycle_us; });
   return lines.json();
 }
 
-json way(const machines::ExcavatorMachine& machine, const std::vector<Sample>& samples) {
+json way(const machines::ExcavatorMachine& machine, const std::vector<DigSample>& samples) {
   const Eigen::Vector2d foot_m = machine.profile.geometry.boom_foot_m;
-  return Truth<Sample>(samples).way(
-      [&](const Sample& s) { return s.tip_true_m.x() + foot_m.x(); },
-      [](const Sample&) { return 0.0; },
-      [&](const Sample& s) { return s.tip_true_m.y() + foot_m.y(); });
+  return Truth<DigSample>(samples).way(
+      [&](const DigSample& s) { return s.tip_true_m.x() + foot_m.x(); },
+      [](const DigSample&) { return 0.0; },
+      [&](const DigSample& s) { return s.tip_true_m.y() + foot_m.y(); });
 }
 
 json key_figures(const DigSummary& summary) {
@@ -84,7 +84,8 @@ void write_dig_report(const std::filesystem::path& file, const std::filesystem::
   json run = run_json(words, truth(machine, result.samples));
   run["way"] = way(machine, result.samples);
   add_log(run, log_file);
-  scope::write_report(file, report_setup(log_file, scope::machine_json(machine), std::move(run)));
+  scope::write_report(file,
+                      report_setup(log_file, scope::machine_json(machine, {}), std::move(run)));
 }
 
 void write_dig_summary(const std::filesystem::path& file, const DigSummary& summary) {

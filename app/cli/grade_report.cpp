@@ -13,40 +13,42 @@ namespace graben::cli {
 namespace {
 
 using nlohmann::json;
-using Sample = GradeSample;
 
 constexpr double kLitresPerMinute = 6e4;  ///< In a m^3/s.
 
 /// What of the run no frame has: Mononen and Mattila's figures 5, 7, 8 and 9 beside what is on the
 /// bus.
-json truth(const machines::DozerMachine& machine, const std::vector<Sample>& samples) {
-  Truth<Sample> lines(samples);
-  lines.add("path_error", "", "true", "mm", 2, [](const Sample& s) { return s.error_true_m * 1e3; });
-  lines.add("speed", "", "true", "mm/s", 1, [](const Sample& s) { return s.speed_true_mps * 1e3; });
+json truth(const machines::DozerMachine& machine, const std::vector<GradeSample>& samples) {
+  Truth<GradeSample> lines(samples);
+  lines.add("path_error", "", "true", "mm", 2,
+            [](const GradeSample& s) { return s.error_true_m * 1e3; });
+  lines.add("speed", "", "true", "mm/s", 1,
+            [](const GradeSample& s) { return s.speed_true_mps * 1e3; });
   const double desired_mmps = machine.profile.travel.speed_desired_mps * 1e3;
-  lines.add("speed", "", "desired", "mm/s", 1, [=](const Sample&) { return desired_mmps; });
+  lines.add("speed", "", "desired", "mm/s", 1, [=](const GradeSample&) { return desired_mmps; });
   lines.add("flow", "", "required, true motion", "L/min", 2,
-            [](const Sample& s) { return s.flow_required_m3ps * kLitresPerMinute; });
+            [](const GradeSample& s) { return s.flow_required_m3ps * kLitresPerMinute; });
   lines.add("flow", "", "available, true", "L/min", 2,
-            [](const Sample& s) { return s.flow_available_m3ps * kLitresPerMinute; });
+            [](const GradeSample& s) { return s.flow_available_m3ps * kLitresPerMinute; });
   lines.add("velocities", "", "blade, true", "mm/s", 2,
-            [](const Sample& s) { return s.blade_true_mps * 1e3; });
+            [](const GradeSample& s) { return s.blade_true_mps * 1e3; });
   const char* heights = "Edge, design and body";
-  lines.add("heights", heights, "edge", "m", 4, [](const Sample& s) { return s.edge_m.y(); });
+  lines.add("heights", heights, "edge", "m", 4, [](const GradeSample& s) { return s.edge_m.y(); });
   lines.add("heights", heights, "design under it", "m", 4,
-            [](const Sample& s) { return s.design_m; });
-  lines.add("heights", heights, "body", "m", 4, [](const Sample& s) { return s.body.height_m; });
+            [](const GradeSample& s) { return s.design_m; });
+  lines.add("heights", heights, "body", "m", 4,
+            [](const GradeSample& s) { return s.body.height_m; });
   lines.add("place", "Edge along the grade", "x", "m", 3,
-            [](const Sample& s) { return s.edge_m.x(); });
+            [](const GradeSample& s) { return s.edge_m.x(); });
   lines.add("cycle_time", "", "on this computer", "us", 2,
-            [](const Sample& s) { return s.cycle_us; });
+            [](const GradeSample& s) { return s.cycle_us; });
   return lines.json();
 }
 
-json way(const std::vector<Sample>& samples) {
-  return Truth<Sample>(samples).way([](const Sample& s) { return s.edge_m.x(); },
-                                    [](const Sample&) { return 0.0; },
-                                    [](const Sample& s) { return s.edge_m.y(); });
+json way(const std::vector<GradeSample>& samples) {
+  return Truth<GradeSample>(samples).way([](const GradeSample& s) { return s.edge_m.x(); },
+                                         [](const GradeSample&) { return 0.0; },
+                                         [](const GradeSample& s) { return s.edge_m.y(); });
 }
 
 json key_figures(const GradeSummary& summary) {

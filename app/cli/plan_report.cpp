@@ -17,42 +17,38 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-using Sample = PlanSample;
-
-const char* unit_of(unsigned drive) { return drive == kSwing ? "mrad" : "mm"; }
-
 /// Zhang's figures 5 to 10: displacement, velocity and acceleration of each drive.
-json truth(const std::vector<Sample>& samples) {
-  constexpr double kThousandths = 1e3;
-  Truth<Sample> lines(samples);
-  lines.add("way", "Teeth along the line", "way", "m", 4, [](const Sample& s) { return s.way_m; });
+json truth(const std::vector<PlanSample>& samples) {
+  Truth<PlanSample> lines(samples);
+  lines.add("way", "Teeth along the line", "way", "m", 4,
+            [](const PlanSample& s) { return s.way_m; });
   lines.add("teeth_speed", "Speed of the teeth", "along the line", "mm/s", 2,
-            [](const Sample& s) { return s.speed_mps * kThousandths; });
+            [](const PlanSample& s) { return s.speed_mps * kThousandths; });
   const auto add = [&](const char* plot, const char* title, const char* per, unsigned drive,
-                       std::array<double, kDriveCount> Sample::*member) {
+                       std::array<double, kDriveCount> PlanSample::*member) {
     // The swing's unit is another: a plot of its own.
     const bool is_swing = drive == kSwing;
     lines.add(fmt::format("{}{}", plot, is_swing ? "_swing" : ""),
               fmt::format("{} of the {}", title, is_swing ? "swing" : "cylinders"),
-              machines::kDriveNames[drive], fmt::format("{}{}", unit_of(drive), per), 3,
-              [=](const Sample& s) { return (s.*member)[drive] * kThousandths; });
+              machines::kDriveNames[drive], fmt::format("{}{}", drive_unit(drive), per), 3,
+              [=](const PlanSample& s) { return (s.*member)[drive] * kThousandths; });
   };
   for (unsigned i = 0; i < kDriveCount; ++i) {
-    add("displacement", "Displacement", "", i, &Sample::displacement);
+    add("displacement", "Displacement", "", i, &PlanSample::displacement);
   }
   for (unsigned i = 0; i < kDriveCount; ++i) {
-    add("velocity", "Velocity", "/s", i, &Sample::velocity);
+    add("velocity", "Velocity", "/s", i, &PlanSample::velocity);
   }
   for (unsigned i = 0; i < kDriveCount; ++i) {
-    add("acceleration", "Acceleration", "/s²", i, &Sample::acceleration);
+    add("acceleration", "Acceleration", "/s²", i, &PlanSample::acceleration);
   }
   return lines.json();
 }
 
-json drives(const std::vector<Sample>& samples) {
+json drives(const std::vector<PlanSample>& samples) {
   constexpr int kMicrometres = 6;
   json all = json::array();
-  for (const Sample& sample : samples) {
+  for (const PlanSample& sample : samples) {
     json row = json::array();
     for (const double value : sample.displacement) {
       row.push_back(plotted(value, kMicrometres));
@@ -98,16 +94,16 @@ ordered_json pose(const TeethPose& teeth) {
 
 }  // namespace
 
-void write_plan_report(const std::filesystem::path& file,
-                       const machines::ExcavatorMachine& machine, const PlanResult& result,
-                       const std::vector<PlanSample>& samples, const std::string& subtitle) {
+void write_plan_report(const std::filesystem::path& file, const machines::ExcavatorMachine& machine,
+                       const PlanResult& result, const std::vector<PlanSample>& samples,
+                       const std::string& subtitle) {
   json run = run_json({"Planned line", subtitle, key_figures(machine.profile, result, samples), {}},
                       truth(samples));
   run["pose"]["drives"] = drives(samples);
-  run["way"] = Truth<Sample>(samples).way([](const Sample& s) { return s.teeth_m[0]; },
-                                          [](const Sample& s) { return s.teeth_m[1]; },
-                                          [](const Sample& s) { return s.teeth_m[2]; });
-  json setup = report_setup(file, scope::machine_json(machine), std::move(run));
+  run["way"] = Truth<PlanSample>(samples).way([](const PlanSample& s) { return s.teeth_m[0]; },
+                                              [](const PlanSample& s) { return s.teeth_m[1]; },
+                                              [](const PlanSample& s) { return s.teeth_m[2]; });
+  json setup = report_setup(file, scope::machine_json(machine, {}), std::move(run));
   setup["source"]["mode"] = "plan";
   scope::write_report(file, setup);
 }

@@ -2,10 +2,16 @@
 
 #include <fmt/format.h>
 
-#include "app/scope/machine_json.hpp"
 #include "app/scope/packed_log.hpp"
+#include "app/scope/setup_json.hpp"
 
 namespace graben::cli {
+namespace {
+
+/// What the bus of a simulated run would have; see the README.
+constexpr int kBitrate_bps = 500000;
+
+}  // namespace
 
 nlohmann::json key_figure(const std::string& label, const std::string& value,
                           const std::string& unit, const std::string& note) {
@@ -41,16 +47,14 @@ nlohmann::json run_json(const RunWords& words, nlohmann::json truth) {
 }
 
 void add_log(nlohmann::json& run, const std::filesystem::path& log_file) {
-  run["log"] = std::filesystem::is_regular_file(log_file) ? scope::packed_file(log_file)
-                                                          : scope::packed("");
+  run["log"] =
+      std::filesystem::is_regular_file(log_file) ? scope::packed_file(log_file) : scope::packed("");
 }
 
 nlohmann::json report_setup(const std::filesystem::path& log_file, nlohmann::json machine,
                             nlohmann::json run) {
   return {{"source",
-           {{"mode", "report"},
-            {"name", log_file.filename().string()},
-            {"bitrate", scope::kUsualBitrate_bps}}},
+           {{"mode", "report"}, {"name", log_file.filename().string()}, {"bitrate", kBitrate_bps}}},
           {"machines", nlohmann::json::array({std::move(machine)})},
           {"words", scope::words_json()},
           {"run", std::move(run)}};

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/cli/limit_words.hpp"
+#include "firmware/machine/excavator_profile.hpp"
 
 namespace graben::cli {
 
@@ -25,6 +26,12 @@ struct RunWords {
 
 /// Lines of a terminal's table.
 [[nodiscard]] std::string shares_table(const LimitShares& shares);
+
+/// What is plotted of a drive: mm, and mrad of the swing, both by the thousandth of a unit.
+inline constexpr double kThousandths = 1e3;
+[[nodiscard]] inline const char* drive_unit(unsigned drive) {
+  return drive == kSwing ? "mrad" : "mm";
+}
 
 /// Rounded to as many decimals as anybody reads off a plot; null where it is not finite.
 [[nodiscard]] nlohmann::json plotted(double value, int decimals);

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "app/scope/scope_page.hpp"
 
@@ -22,6 +23,14 @@ namespace fs = std::filesystem;
 }
 
 std::string system_message(int error) { return std::generic_category().message(error); }
+
+/// Until where the setup belongs, and from there on.
+std::pair<std::string_view, std::string_view> page_around_setup() {
+  constexpr std::string_view kMark = "<script type=\"application/json\" id=\"graben-setup\">";
+  const std::string_view page = scope_page();
+  const std::size_t at = page.find(kMark) + kMark.size();
+  return {page.substr(0, at), page.substr(at)};
+}
 
 /// JSON for a script element. '<' occurs in strings only, and written as an escape it can neither
 /// close the element nor open a comment in it.
@@ -77,8 +86,8 @@ void write_report(const fs::path& file, const nlohmann::json& setup) {
   fs::path partial = target;
   partial += ".part-" + std::to_string(getpid());
   std::error_code ignored;
-  if (const int error = write_whole(partial, scope_page_head(), embeddable(setup),
-                                     scope_page_tail())) {
+  const auto [head, tail] = page_around_setup();
+  if (const int error = write_whole(partial, head, embeddable(setup), tail)) {
     fs::remove(partial, ignored);
     fail(file, system_message(error));
   }

@@ -7,10 +7,10 @@
 
 namespace graben::scope {
 
-/// `setup` is a `Setup` of app/scope/page/src/model/api.ts, of mode "report" or "plan". A value that
-/// is not finite becomes null, and a gap in the plot. The report is written beside `file` and
-/// renamed into place, so that whatever goes wrong, `file` is either the complete new report or what
-/// it was before. Throws std::runtime_error, naming the file and the reason, when it cannot be
+/// `setup` is a `Setup` of app/scope/page/src/model/api.ts, of mode "report" or "plan". A value
+/// that is not finite becomes null, and a gap in the plot. The report is written beside `file` and
+/// renamed into place, so that whatever goes wrong, `file` is either the complete new report or
+/// what it was before. Throws std::runtime_error, naming the file and the reason, when it cannot be
 /// written.
 void write_report(const std::filesystem::path& file, const nlohmann::json& setup);
 
