@@ -10,12 +10,10 @@
 namespace graben::cli {
 namespace {
 
-constexpr double kPeriod_s = static_cast<double>(kPlantPeriod_us) * 1e-6;
-
 /// Adds up what the figures speak of.
-class Observer {
+class GradeObserver {
  public:
-  Observer(const machines::DozerMachine& machine, GradePlantResult& result)
+  GradeObserver(const machines::DozerMachine& machine, GradePlantResult& result)
       : truth_(machine.profile), length_m_(machine.experiment.length_m), result_(result) {}
 
   void see(const plant::DozerNode& node) {
@@ -24,11 +22,11 @@ class Observer {
     if (!node.spool_enabled()) {
       return;
     }
-    result_.enabled_s += kPeriod_s;
+    result_.enabled_s += kPlantPeriod_s;
     if (edge_m.x() < 0.0 || through()) {
       return;
     }
-    result_.over_grade_s += kPeriod_s;
+    result_.over_grade_s += kPlantPeriod_s;
     error_.add(std::abs(truth_.error_m(edge_m)));
     result_.max_error_m = error_.max();
     result_.rmse_error_m = error_.rms();
@@ -52,7 +50,7 @@ GradePlantResult run_plant(const machines::DozerMachine& machine, const PlantRun
                                           ids::MotorDisplacementCommand::kId});
   plant::DozerNode node(machine.plant, bus.port(), machine.hash);
   GradePlantResult result;
-  Observer observer(machine, result);
+  GradeObserver observer(machine, result);
   bool has_let_go = false;
   result.bus = bus.run(Task::kGrade, [&](TimeUs now_us) {
     node.step(now_us);

@@ -37,6 +37,7 @@ struct PlantBusFigures {
 };
 
 inline constexpr TimeUs kPlantPeriod_us = 10 * kMillisecondUs;
+inline constexpr double kPlantPeriod_s = static_cast<double>(kPlantPeriod_us) * 1e-6;
 
 /// `Operator` is the kind's operator node.
 template <class Operator>

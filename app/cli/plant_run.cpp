@@ -10,27 +10,25 @@
 namespace graben::cli {
 namespace {
 
-constexpr double kPeriod_s = static_cast<double>(kPlantPeriod_us) * 1e-6;
-
 /// Adds up what the figures speak of.
-class Observer {
+class PathObserver {
  public:
-  Observer(const machines::ExcavatorMachine& machine, PlantRunResult& result)
+  PathObserver(const machines::ExcavatorMachine& machine, PlantRunResult& result)
       : path_(machine.profile.dig_path), progress_(path_, 1.0), result_(result) {}
 
   void see(const plant::PlantNode& node, TimeUs now_us) {
     if (!node.spools_enabled()) {
       return;
     }
-    result_.enabled_s += kPeriod_s;
+    result_.enabled_s += kPlantPeriod_s;
     const plant::TipPose tip = node.plant().tip();
     progress_.update(tip.position_m, near_path(path_, tip.position_m, tip.attitude_rad), now_us);
     if (progress_.on_path()) {
       const double error_m = (path_.closest(tip.position_m).position_m - tip.position_m).norm();
       result_.max_error_m = std::max(result_.max_error_m, error_m);
       squares_m2_ += error_m * error_m;
-      result_.on_path_s += kPeriod_s;
-      result_.rmse_error_m = std::sqrt(squares_m2_ * kPeriod_s / result_.on_path_s);
+      result_.on_path_s += kPlantPeriod_s;
+      result_.rmse_error_m = std::sqrt(squares_m2_ * kPlantPeriod_s / result_.on_path_s);
       result_.loops = progress_.share();
     }
   }
@@ -51,7 +49,7 @@ PlantRunResult run_plant(const machines::ExcavatorMachine& machine, const PlantR
       options, {ids::SpoolCommand::kId, ids::PumpCommand::kId, ids::SwingCommand::kId});
   plant::PlantNode node(machine.plant, start, bus.port(), machine.hash);
   PlantRunResult result;
-  Observer observer(machine, result);
+  PathObserver observer(machine, result);
   result.bus = bus.run(Task::kDig, [&](TimeUs now_us) {
     node.step(now_us);
     observer.see(node, now_us);

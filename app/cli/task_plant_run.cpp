@@ -11,19 +11,17 @@
 namespace graben::cli {
 namespace {
 
-constexpr double kPeriod_s = static_cast<double>(kPlantPeriod_us) * 1e-6;
-
 /// Adds up what the figures speak of.
-class Observer {
+class TaskObserver {
  public:
-  Observer(const TaskProgram& program, TaskPlantResult& result)
+  TaskObserver(const TaskProgram& program, TaskPlantResult& result)
       : program_(program), result_(result) {}
 
   void see(const plant::PlantNode& node, const TaskEar& ear) {
     if (!node.spools_enabled()) {
       return;
     }
-    result_.enabled_s += kPeriod_s;
+    result_.enabled_s += kPlantPeriod_s;
     const std::optional<int> step = ear.step();
     const bool begins_again = step && *step < last_step_;
     result_.finished = result_.finished || ear.is_done() || begins_again;
@@ -35,11 +33,11 @@ class Observer {
 
  private:
   void see_step(const plant::PlantNode& node, const TaskStep& step) {
-    result_.in_steps_s += kPeriod_s;
+    result_.in_steps_s += kPlantPeriod_s;
     if (!step.straight) {
       return;
     }
-    result_.on_lines_s += kPeriod_s;
+    result_.on_lines_s += kPlantPeriod_s;
     error_.add(line_distance_m(step.line.line, node.plant().teeth().position_m));
     result_.max_error_m = error_.max();
     result_.rmse_error_m = error_.rms();
@@ -66,7 +64,7 @@ TaskPlantResult run_task_plant(const machines::ExcavatorMachine& machine,
   TaskEar ear(bus.port(), options.task_number);
   plant::PlantNode node(machine.plant, start_of(program), ear, machine.hash);
   TaskPlantResult result;
-  Observer observer(program, result);
+  TaskObserver observer(program, result);
   result.bus = bus.run(Task::kProgram, [&](TimeUs now_us) {
     ear.begin_cycle(now_us);
     node.step(now_us);
