@@ -1,0 +1,128 @@
+/// A browser, servers of the scope, and how a test reads the page. Everything that is started here
+/// ends with the test.
+
+import {spawn} from 'node:child_process';
+import {existsSync, mkdirSync} from 'node:fs';
+import {join} from 'node:path';
+import {chromium} from 'playwright-core';
+
+const BROWSERS = ['/usr/bin/chromium', '/usr/bin/chromium-browser'];
+/// WebGL without a graphics card; a container's root has no sandbox.
+const BROWSER_OPTIONS = ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader',
+  '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'];
+const PATIENCE_MS = 60_000;
+/// What ctest takes for a test that could not be tried.
+const SKIPPED = 77;
+
+/// The browser, or the end of the process: skipped aloud, and failed where CI=true.
+export async function open_browser() {
+  const executablePath = BROWSERS.find(existsSync);
+  if (executablePath === undefined) {
+    console.log('scope: no Chromium here (Debian: chromium); the page is NOT driven');
+    process.exit(process.env.CI === 'true' ? 1 : SKIPPED);
+  }
+  return chromium.launch({executablePath, args: BROWSER_OPTIONS});
+}
+
+const started = new Set();
+process.on('exit', () => started.forEach((child) => child.kill('SIGKILL')));
+
+/// Runs `program` until it says where it listens.
+export async function serve(program, options) {
+  const child = spawn(program, options, {stdio: ['ignore', 'pipe', 'pipe']});
+  started.add(child);
+  let said = '';
+  let errors = '';
+  child.stderr.on('data', (data) => {
+    errors += data;
+  });
+  const ended = new Promise((done) => child.on('exit', (code) => {
+    started.delete(child);
+    done(code);
+  }));
+  const url = await new Promise((done, fail) => {
+    child.stdout.on('data', (data) => {
+      said += data;
+      const found = /http:\/\/\S+/.exec(said);
+      if (found) done(found[0]);
+    });
+    ended.then((code) => fail(new Error(`${program} ${options.join(' ')} ended with ${code}: `
+      + `${said}${errors}`)));
+  });
+  return {
+    url, pid: child.pid, errors: () => errors,
+    async stop() {
+      child.kill('SIGTERM');
+      return ended;
+    },
+  };
+}
+
+/// A page that complains of what it should not do: errors, and requests to anywhere else.
+export async function open_page(browser, url, size = {width: 1400, height: 900}) {
+  const context = await browser.newContext({viewport: size, reducedMotion: 'reduce'});
+  const page = await context.newPage();
+  page.problems = [];
+  page.setDefaultTimeout(PATIENCE_MS);
+  page.on('pageerror', (error) => page.problems.push(`error: ${error.message}`));
+  page.on('console', (line) => {
+    if (line.type() === 'error') page.problems.push(`console: ${line.text()}`);
+  });
+  const allowed = new URL(url).protocol === 'file:' ? 'file:' : new URL(url).origin;
+  page.on('request', (request) => {
+    const to = request.url();
+    if (!to.startsWith(allowed) && !/^(data|blob):/.test(to)) {
+      page.problems.push(`request to ${to}`);
+    }
+  });
+  await page.goto(url);
+  return page;
+}
+
+/// What window.grabenScope says, all of one moment.
+export function look(page) {
+  return page.evaluate(() => {
+    const scope = window.grabenScope;
+    return {tip: scope.tip(), screen: scope.tipOnScreen(), now: scope.now(), mode: scope.mode(),
+      frames: scope.frames(), held: scope.heldFrames(), fps: scope.fps()};
+  });
+}
+
+export function distance(a, b) {
+  return Math.hypot(...a.map((value, i) => value - b[i]));
+}
+
+/// Until `holds` gives something true, which is returned.
+export async function until(what, holds, patience_ms = PATIENCE_MS) {
+  const begin = Date.now();
+  for (;;) {
+    const found = await holds();
+    if (found) return found;
+    if (Date.now() - begin > patience_ms) throw new Error(`not within ${patience_ms} ms: ${what}`);
+    await new Promise((done) => setTimeout(done, 50));
+  }
+}
+
+export const rest = (ms) => new Promise((done) => setTimeout(done, ms));
+
+/// Each scenario by its name; a red one does not hide the next and leaves a picture.
+export async function run_scenarios(out, browser, scenarios) {
+  mkdirSync(out, {recursive: true});
+  let failed = 0;
+  for (const [name, scenario] of Object.entries(scenarios)) {
+    const began = Date.now();
+    try {
+      const words = await scenario();
+      console.log(`ok   ${name}: ${words ?? ''} (${((Date.now() - began) / 1000).toFixed(1)} s)`);
+    } catch (error) {
+      failed += 1;
+      console.log(`FAIL ${name}: ${error.stack}`);
+      for (const [i, page] of browser.contexts().flatMap((c) => c.pages()).entries()) {
+        const file = join(out, `${name}_${i}.png`);
+        await page.screenshot({path: file}).then(() => console.log(`     ${file}`), () => {});
+      }
+    }
+    for (const context of browser.contexts()) await context.close();
+  }
+  return failed;
+}
