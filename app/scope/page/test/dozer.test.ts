@@ -59,8 +59,7 @@ test('the edge is where the controller has it over its design', () => {
   for (let row = 0; row < errors.count; ++row) {
     const time_s = errors.time(row);
     const told = store.reading('EcuGrade.GradeError', time_s);
-    // The controller looked at the frames of a cycle before it sent this.
-    const pose = dozerPose(DOZER_9T, dozerState(store, time_s - 0.01));
+    const pose = dozerPose(DOZER_9T, dozerState(store, time_s));
     if (told.state !== 'valid' || pose === null) {
       continue;
     }
