@@ -165,3 +165,41 @@ test('noise of ids does not fill the memory', () => {
   assert.equal(rows.length, 1024);
   assert.equal(block.count.unheard, 3000 - 1024);
 });
+
+/// What a line is, said once more.
+const DATA = '(?:R[0-8]?|(?:[0-9A-Fa-f]{2}){8}_[9A-Fa-f]|(?:[0-9A-Fa-f]{2}){0,8}|#[0-9A-Fa-f]+)';
+const ID = '(?:[0-3][0-9A-Fa-f]{7}|[0-7][0-9A-Fa-f]{2})';
+const STAMP = '\\(\\d{1,12}\\.\\d{1,9}\\)';
+const LINE = new RegExp(`^${STAMP} [^\\x00-\\x20]+ ${ID}#${DATA}(?: [A-Z ]*)?\\r?$`);
+const LETTERS = ' ()#.:_RTaAfFgG0123456789\r\t-/\u0000\u00ff';
+
+test('a garbled line is a line or none, as its form has it', () => {
+  const next = random(17);
+  const lines = ['(0000000012.340000) vcan0 18FF2080#0011223344556677',
+    '(1700000000.123456) can0 0CF00400#FFFFFF803EFFFFFF', '(12.5) can0 7FF#AB T',
+    '(0000000012.340000) can0 123##1AABB'];
+  let wrong = 0;
+  for (let i = 0; i < 40000; ++i) {
+    const letters = [...lines[Math.floor(lines.length * next())]];
+    for (let change = Math.floor(3 * next()); change >= 0; --change) {
+      const letter = LETTERS[Math.floor(LETTERS.length * next())];
+      const cut = next() < 0.5 ? 1 : 0;
+      letters.splice(Math.floor(letters.length * next()), cut, ...next() < 0.7 ? [letter] : []);
+    }
+    const text = letters.join('');
+    const parser = new CandumpParser();
+    parser.feed(Uint8Array.from(`${text}\n(0000000012.340000) v 18FF2080#0011223344556677\n`,
+      (letter) => letter.charCodeAt(0)));
+    const {count} = parser.take();
+    const empty = text === '' || text === '\r';
+    assert.equal(count.lines, empty ? 1 : 2, JSON.stringify(text));
+    assert.equal(count.malformed, empty || LINE.test(text) ? 0 : 1, JSON.stringify(text));
+    wrong += count.malformed;
+  }
+  assert.ok(wrong > 10000 && wrong < 39000);
+});
+
+test('a line without its frame does not take the next line for it', () => {
+  const {rows, block} = parse('(0000000012.340000) vcan0\n18FF2080#0011223344556677\n');
+  assert.deepEqual([rows.length, block.count.lines, block.count.malformed], [0, 2, 2]);
+});

@@ -38,7 +38,9 @@ function machine_alarms(state: PageState, words: PageWords): Alarm[] {
   } else if (now.mode === 'Fault' && now.fault === 0) {
     alarms.push({id: 'fault', level: 'alarm', at: 'fault', words: 'The controller is in Fault.'});
   }
-  const others = active_codes(store, playhead.now_s).filter((code) => code !== now.fault);
+  // DM1 says up to a second late that a fault is over; EcuStatus says it at once.
+  const others = now.fault === 0 ? []
+    : active_codes(store, playhead.now_s).filter((code) => code !== now.fault);
   if (others.length > 0) {
     alarms.push({
       id: 'dm1', level: 'warning',

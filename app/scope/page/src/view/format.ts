@@ -30,7 +30,8 @@ export function digits_of(factor: number): number {
 
 /// Units as they are read, not as a DBC file can write them.
 export function unit_words(unit: string): string {
-  return unit === 'per mille' ? '‰' : unit.replace('m3', 'm³').replace('s2', 's²');
+  return unit === 'per mille' ? '‰' : unit === 'us' ? 'µs'
+    : unit.replace('m3', 'm³').replace('s2', 's²');
 }
 
 /// Hours only where there are some: 0:12.34, 1:02:03.40.

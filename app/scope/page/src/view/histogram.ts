@@ -1,6 +1,7 @@
 /// How long the control cycles took, over the window of the plots.
 
 import uPlot from 'uplot';
+import {on_processor} from './cpu_canvas';
 import {el, set_shown, set_text} from './dom';
 import {count, fixed, time_words} from './format';
 import type {PageState} from './page_state';
@@ -91,7 +92,7 @@ export class Histogram {
       Array.from(of.bars, (_, bar) => (bar + 0.5) * of.bar_us), Array.from(of.bars),
     ];
     if (this.plot === null) {
-      this.plot = new uPlot(this.options(), data, this.canvas);
+      this.plot = on_processor(() => new uPlot(this.options(), data, this.canvas));
       this.fit();
     } else {
       this.plot.setData(data);

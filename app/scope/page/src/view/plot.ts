@@ -2,9 +2,10 @@
 
 import uPlot from 'uplot';
 import type {FrameStore} from '../model/api';
+import {on_processor} from './cpu_canvas';
 import {align} from './curves';
 import {el, set_attribute} from './dom';
-import {time_words, unit_words} from './format';
+import {digits_of, fixed, time_words, unit_words} from './format';
 import {Legend} from './legend';
 import type {LimitStrip} from './limit_strip';
 import type {PlotSpec} from './plots';
@@ -50,7 +51,8 @@ export class Plot {
         el('h3', {}, spec.title, el('span', {class: 'unit'}, unit)),
         el('p', {class: 'note'}, spec.note)),
       this.legend.node, canvas, strip?.key ?? null);
-    this.plot = new uPlot(this.options(), [[], ...spec.lines.map(() => [])], canvas);
+    this.plot = on_processor(() =>
+      new uPlot(this.options(), [[], ...spec.lines.map(() => [])], canvas));
     this.plot.over.append(this.playhead_line);
     this.plot.over.addEventListener('click', (event) => {
       const left = event.clientX - this.plot.over.getBoundingClientRect().left;
@@ -135,13 +137,17 @@ export class Plot {
       },
       scales: {
         x: {time: false, auto: false},
-        y: {range: stable_range(this.spec.least, this.strip !== null)},
+        y: {
+          range: stable_range(this.spec.least, this.strip !== null),
+          ...(this.spec.straight_to === undefined ? {} : {distr: 4, asinh: this.spec.straight_to}),
+        },
       },
       axes: [
         {...axis, size: 26, space: 70, values: (_u, splits, _a, _s, step) => time_ticks(splits, step)},
         {
-          ...axis, size: 48, space: 28,
+          ...axis, size: 48, space: 28, values: (_u, splits) => numbers(splits),
           ...(this.strip === null ? {} : {splits: () => [0, 0.25, 0.5, 0.75, 1]}),
+          ...(this.spec.straight_to === undefined ? {} : {splits: bent_splits}),
         },
       ],
       series: [{}, ...this.spec.lines.map((line): uPlot.Series => ({
@@ -178,6 +184,17 @@ export class Plot {
   describe(words: string): void {
     set_attribute(this.plot.root, 'aria-description', words);
   }
+}
+
+function numbers(splits: readonly number[]): string[] {
+  const step = splits.length > 1 ? Math.abs(splits[1]! - splits[0]!) : 1;
+  return splits.map((value) => fixed(value, digits_of(step)));
+}
+
+/// Marks of an axis that is straight about 0 and then goes by powers of ten.
+function bent_splits(_plot: uPlot, _axis: number, min: number, max: number): number[] {
+  const marks = [1000, 100, 30, 10, 5].flatMap((mark) => [-mark, mark]);
+  return [0, ...marks].filter((mark) => mark >= min && mark <= max).sort((a, b) => a - b);
 }
 
 /// Times of the axis, with as many digits as its steps need.
