@@ -55,9 +55,17 @@ test('a frame of each kind', () => {
 });
 
 test('stamps are the very numbers that their text is', () => {
-  for (const text of ['0.000001', '1700000000.123456', '4102444799.999999', '12.5', '3.000000001']) {
+  for (const text of ['0.000001', '4102444799.999999', '12.5', '3.000000001']) {
     const [row] = parse(`(${text}) can0 123#00\n`).rows;
     assert.equal(row.time_s, Number(text));
+  }
+  const next = random(5);
+  for (let i = 0; i < 3000; ++i) {
+    const micros = String(Math.floor(1e6 * next())).padStart(6, '0');
+    const text = `${Math.floor((i % 2 === 0 ? 20 : 2e9) * next())}.${micros}`;
+    for (const rest of ['123#00', '18FF2080#0011223344556677']) {
+      assert.equal(parse(`(${text}) can0 ${rest}\n`).rows[0].time_s, Number(text));
+    }
   }
 });
 
@@ -154,6 +162,22 @@ test('a source that begins anew is another time; a leap ahead is not', () => {
   const leap = parse(`${before}(1700000000.0) a 123#02\n(1700000000.1) a 123#03\n`);
   assert.equal(leap.block.restart, false);
   assert.deepEqual(leap.rows.map(({time_s}) => time_s), [100, 100.1, 1700000000.1]);
+});
+
+test('many frames, ids and lengths, each in its column', () => {
+  const next = random(23);
+  const sent: number[][] = [];
+  let text = '';
+  for (let i = 0; i < 9000; ++i) {
+    const data = [i & 255, i >> 8, 3, 4, 5, 6, 7, 8].slice(0, 2 + Math.floor(7 * next()));
+    const id = Math.floor(12 * next());
+    sent.push([id, ...data]);
+    text += line(0, id, data);
+  }
+  const got = rows_of(parse(text).block)
+    .map(({key, length, bytes}) => [key - 0x80000000, ...bytes.slice(0, length)]);
+  const order = (rows: number[][]): string[] => rows.map(String).sort();
+  assert.deepEqual(order(got), order(sent));
 });
 
 test('noise of ids does not fill the memory', () => {

@@ -1,5 +1,5 @@
-/// 20 messages at 100 Hz for an hour: 7.2 million lines through parser and store, then what the page
-/// asks for while it scrubs.
+/// 20 messages at 100 Hz for an hour: 7.2 million lines through parser and store, then what the
+/// page asks for while it scrubs.
 
 import {CandumpParser} from '../src/model/candump';
 import {loadDatabase} from '../src/model/dbc';

@@ -113,6 +113,8 @@ test('silence, and what is older than a second', () => {
   assert.deepEqual(seen(0.9), ['silent', 0, true]);
   assert.deepEqual(seen(1.5), ['crc', 1, false]);
   assert.deepEqual(seen(1.6), ['ok', 2, false]);
+  assert.deepEqual(seen(2.505), ['ok', 1, false]);
+  assert.deepEqual(seen(2.515), ['ok', 0, false]);
   assert.deepEqual(seen(2.6), ['ok', 0, false]);
   assert.deepEqual(seen(4.015), ['ok', 0, false]);
   assert.deepEqual(seen(4.025), ['silent', 0, true]);

@@ -33,6 +33,9 @@ test('on a silent bus time goes on, where it is told to', () => {
   head.clock_rate = 1;
   head.tick(0.2);
   assert.equal(head.now_s, 100);  // frames come in batches
+  head.follow = false;
+  head.follow = true;
+  assert.equal(head.now_s, 100);
   for (let i = 0; i < 40; ++i) {
     head.tick(0.02);
   }

@@ -160,6 +160,7 @@ test('a curve is kept until frames come or the window moves', () => {
   const first = store.curve('BoomStroke.BoomStroke', 0, 2, 10);
   assert.equal(store.curve('BoomStroke.BoomStroke', 0, 2, 10), first);
   assert.notEqual(store.curve('BoomStroke.BoomStroke', 0, 3, 10), first);
+  store.curve('BoomStroke.BoomStroke', 0, 2, 10);
   const parser = new CandumpParser();
   parser.feed(bytes_of(boom_line(1.02, 3)));
   store.append(parser.take());
@@ -198,7 +199,7 @@ test('a live store forgets what is old, and stays right about the rest', () => {
 
 test('faults begin where their number changes, trimmed or not', () => {
   const codes = [0, 0, 5, 5, 5, 0, 5, 17, 255, 17, 0, 254, 0, 3];
-  const text = codes.map((code, i) => status_line(i, code)).join('') + boom_line(20, 1);
+  const text = boom_line(0, 1) + codes.map((code, i) => status_line(i, code)).join('');
   const expected = [[2, 5], [6, 5], [7, 17], [13, 3]];
   const found = (store: PageStore): number[][] =>
     store.faults().map(({time_s, code}) => [time_s, code]);
@@ -208,9 +209,29 @@ test('faults begin where their number changes, trimmed or not', () => {
   for (const one of text.split('\n').slice(0, -1)) {
     parser.feed(bytes_of(`${one}\n`));
     store.append(parser.take());
-    store.trim(3);
   }
   assert.deepEqual(found(store), expected);
+});
+
+test('no fault is found twice or missed where old frames are forgotten', () => {
+  const store = new PageStore();
+  store.keep_s = 50;
+  const parser = new CandumpParser();
+  const expected: number[] = [];
+  parser.feed(bytes_of(boom_line(0, 1)));
+  for (let i = 0; i < 30000; ++i) {
+    const code = i % 700 < 350 ? 0 : 1 + (i / 700 | 0) % 30;
+    parser.feed(bytes_of(status_line(i / 100, code)));
+    if (i % 700 === 350) {
+      expected.push(i / 100);
+    }
+    if (i % 13 === 0) {
+      store.append(parser.take());
+    }
+  }
+  store.append(parser.take());
+  assert.ok(store.rows('EcuStatus').count < 15000);
+  assert.deepEqual(store.faults().map(({time_s}) => time_s), expected);
 });
 
 test('the database is the one whose machine is on the bus', () => {

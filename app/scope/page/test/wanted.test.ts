@@ -149,5 +149,6 @@ test('a velocity is the slope of its stroke', () => {
   near(velocity(store, 'BoomStroke.BoomStroke', 2).value, 100, 1e-6, 'in the middle');
   near(velocity(store, 'BoomStroke.BoomStroke', 4.99).value, 100, 1e-6, 'at the end');
   assert.ok(Number.isNaN(velocity(store, 'BoomStroke.BoomStroke', 4.005).value), 'not available');
-  assert.ok(velocity_curve(store, 'BoomStroke.BoomStroke', 3.5, 4.5, 1000).value.some(Number.isNaN));
+  const broken = velocity_curve(store, 'BoomStroke.BoomStroke', 3.5, 4.5, 1000);
+  assert.ok(broken.value.some(Number.isNaN));
 });
