@@ -25,7 +25,8 @@ export class FaultList implements View {
   private known: unknown = null;
 
   constructor(
-    private readonly log: FaultLog, private readonly words: PageWords, seek: (time_s: number) => void,
+    private readonly log: FaultLog, private readonly words: PageWords,
+    seek: (time_s: number) => void,
   ) {
     this.node = section('faults', 'Faults', this.none, this.list, this.more);
     this.rows = new Rows(this.list, () => {

@@ -24,6 +24,8 @@ export interface PlotHost {
 
 const FONT = '12px system-ui, sans-serif';
 const PIXELS_PER_BUCKET = 2;
+const TIME_STEPS_S = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30,
+  60, 120, 300, 600, 900, 1800, 3600, 7200, 14400, 28800, 86400];
 
 export class Plot {
   readonly node: HTMLElement;
@@ -143,7 +145,8 @@ export class Plot {
         },
       },
       axes: [
-        {...axis, size: 26, space: 70, values: (_u, splits, _a, _s, step) => time_ticks(splits, step)},
+        {...axis, size: 26, space: 70, incrs: TIME_STEPS_S, values: (_u, splits, _a, _s, step) =>
+          time_ticks(splits, step)},
         {
           ...axis, size: 48, space: 28, values: (_u, splits) => numbers(splits),
           ...(this.strip === null ? {} : {splits: () => [0, 0.25, 0.5, 0.75, 1]}),

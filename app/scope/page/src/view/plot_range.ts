@@ -1,7 +1,7 @@
 /// The vertical range of a plot: at least what the plot says, rounded to calm numbers, so that it
 /// stands still while a live curve breathes.
 
-import uPlot from 'uplot';
+import type uPlot from 'uplot';
 
 const STRIP_SHARE = 0.2;  ///< Below 0, for the coloured strip of limits.
 

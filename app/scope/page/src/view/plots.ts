@@ -72,8 +72,9 @@ function excavator_plots(machine: ExcavatorMachine): PlotSpec[] {
       real('Swing', 'swing', 'SwingValveState.SwingSpool', 0));
   }
   const plots: PlotSpec[] = [LAMBDA, {
-    name: 'error', title: 'Path error', unit: 'mm', note: 'Measured tip from the path; axis straight to 10 mm', straight_to: 10,
-    lines: [real('Path error', 'error', 'EcuHydraulics.PathError', 1)], least: [0, 5],
+    name: 'error', title: 'Path error', unit: 'mm', least: [0, 5], straight_to: 10,
+    note: 'Measured tip from the path; axis straight to 10 mm',
+    lines: [real('Path error', 'error', 'EcuHydraulics.PathError', 1)],
   }, {
     name: 'spools', title: 'Spools', unit: 'per mille', lines: spools, least: [-100, 100],
     note: 'Command pale, feedback strong; positive extends',
@@ -98,7 +99,8 @@ function excavator_plots(machine: ExcavatorMachine): PlotSpec[] {
     name: 'chambers', title: 'Chamber pressures', unit: 'MPa', least: [0, 5],
     note: 'Measured; cap side strong, rod side thin', lines: chambers(machine),
   }, {
-    name: 'swash', title: 'Swash', unit: '%', least: [0, 100], note: 'Command pale, measured strong',
+    name: 'swash', title: 'Swash', unit: '%', least: [0, 100],
+    note: 'Command pale, measured strong',
     lines: pumps.flatMap((pump) => [
       wanted(`Pump ${pump} command`, `pump${pump}`, `PumpCommand.Pump${pump}Swash`, 1),
       real(`Pump ${pump}`, `pump${pump}`, `PumpState.Pump${pump}Swash`, 1),
@@ -121,8 +123,8 @@ function chambers(machine: ExcavatorMachine): Line[] {
 function dozer_plots(): PlotSpec[] {
   const sides = ['Left', 'Right'] as const;
   return [LAMBDA, {
-    name: 'error', title: 'Grade error', unit: 'mm', least: [-5, 5],
-    note: 'Edge against the grade, above is positive; axis straight to 10 mm', straight_to: 10,
+    name: 'error', title: 'Grade error', unit: 'mm', least: [-5, 5], straight_to: 10,
+    note: 'Edge against the grade, above is positive; axis straight to 10 mm',
     lines: [real('Grade error', 'error', 'EcuGrade.GradeError', 1)],
   }, {
     name: 'speeds', title: 'Travel speed', unit: 'mm/s', least: [0, 500],
@@ -187,7 +189,8 @@ const TRUTH_COLOURS = ['true', 'boom', 'arm', 'swing', 'right', 'error'];
 function with_truth(plots: PlotSpec[], run: Run): PlotSpec[] {
   const all = plots.map((plot) => ({...plot, lines: [...plot.lines]}));
   for (const line of run.truth.lines) {
-    let plot = all.find(({name, unit}) => name === line.plot && unit_factor(line.unit, unit) !== null);
+    let plot = all.find(({name, unit}) =>
+      name === line.plot && unit_factor(line.unit, unit) !== null);
     if (plot === undefined) {
       const title = line.title ?? line.plot.charAt(0).toUpperCase() + line.plot.slice(1);
       plot = {name: line.plot, title, unit: line.unit, note: 'Known to the simulation', lines: []};
