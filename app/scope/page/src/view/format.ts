@@ -8,7 +8,7 @@ export function fixed(value: number, digits: number): string {
     return '–';
   }
   const [whole, part] = Math.abs(value).toFixed(digits).split('.');
-  const grouped = whole!.length > 4 ? whole!.replace(/\B(?=(\d{3})+$)/g, '\u202f') : whole!;
+  const grouped = whole!.replace(/\B(?=(\d{3})+$)/g, '\u202f');
   const words = part === undefined ? grouped : `${grouped}.${part}`;
   return value < 0 && Number(words.replace(/\u202f/g, '')) !== 0 ? `\u2212${words}` : words;
 }
