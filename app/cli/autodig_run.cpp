@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/cli/autodig_bench.hpp"
+#include "app/bench/autodig_bench.hpp"
 #include "app/machines/task_words.hpp"
 #include "firmware/motion/task_run.hpp"
 
@@ -43,7 +43,7 @@ class AutodigRun {
         bench_, options_.log_file, [this](TimeUs now_us) { return ended(now_us); },
         [&](TimeUs now_us, double cycle_us) {
           look(now_us, cycle_us);
-          const TaskProgress& at = bench_.ecu.outputs().status.progress;
+          const TaskProgress& at = bench_.ecu->outputs().status.progress;
           show(share_done(at), machines::step_name(at.kind));
         });
     result_.wall_s = figures.wall_s;
@@ -66,7 +66,7 @@ class AutodigRun {
   }
 
   bool ended(TimeUs now_us) {
-    const ExcavatorStatus& status = bench_.ecu.outputs().status;
+    const ExcavatorStatus& status = bench_.ecu->outputs().status;
     if (status.mode == EcuMode::kFault) {
       result_.end = AutodigEnd::kFault;
       result_.fault = status.fault;
@@ -118,7 +118,7 @@ class AutodigRun {
   }
 
   void read_controller(AutodigSample& sample) const {
-    const ExcavatorOutputs& outputs = bench_.ecu.outputs();
+    const ExcavatorOutputs& outputs = bench_.ecu->outputs();
     const ExcavatorStatus& status = outputs.status;
     sample.progress = status.progress;
     sample.progress_share = status.progress.share;
@@ -134,7 +134,7 @@ class AutodigRun {
 
   /// Of what the controller was told; not finite until all of it was.
   [[nodiscard]] Eigen::Vector3d measured_teeth_m() const {
-    const ExcavatorInputs& inputs = bench_.ecu.inputs();
+    const ExcavatorInputs& inputs = bench_.ecu->inputs();
     DriveVector drives;
     bool known = inputs.swing.angle_rad.validity == Validity::kValid;
     for (unsigned i = 0; i < kAxisCount; ++i) {
@@ -194,7 +194,7 @@ class AutodigRun {
   const TaskProgram& program_;
   AutodigOptions options_;
   SwingKinematics kinematics_;
-  AutodigBench bench_;
+  bench::AutodigBench bench_;
   int round_ = 0;
   AutodigResult result_;
 };

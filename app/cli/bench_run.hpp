@@ -46,7 +46,7 @@ BenchFigures run_bench(Bench& bench, const std::filesystem::path& log_file, Ende
   }
   BenchFigures figures;
   figures.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  figures.rejected_frames = rejected(bench.ecu.link());
+  figures.rejected_frames = rejected(bench.ecu->link());
   bench.bus.set_tap(nullptr);
   if (log) {
     log->close();

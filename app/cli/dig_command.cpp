@@ -63,8 +63,8 @@ std::optional<Eigen::Vector3d> start_strokes(const Options& options,
     return strokes_m;
   }
   if (!options.start_pose.empty()) {
-    return strokes_at(profile,
-                      {options.start_pose[0], options.start_pose[1], options.start_pose[2]});
+    return machines::strokes_at(
+        profile, {options.start_pose[0], options.start_pose[1], options.start_pose[2]});
   }
   return std::nullopt;
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/cli/dig_bench.hpp"
+#include "app/bench/dig_bench.hpp"
 #include "app/cli/path_progress.hpp"
 
 namespace graben::cli {
@@ -40,7 +40,7 @@ class DigRun {
 
  private:
   bool ended(TimeUs now_us) {
-    const ExcavatorStatus& status = bench_.ecu.outputs().status;
+    const ExcavatorStatus& status = bench_.ecu->outputs().status;
     if (status.mode == EcuMode::kFault) {
       result_.end = DigEnd::kFault;
       result_.fault = status.fault;
@@ -68,7 +68,7 @@ class DigRun {
     sample.time_s = seconds(now_us);
     read_truth(sample);
     read_controller(sample);
-    const bool moving = bench_.ecu.outputs().status.mode == EcuMode::kActive;
+    const bool moving = bench_.ecu->outputs().status.mode == EcuMode::kActive;
     progress_.update(
         sample.tip_true_m,
         moving && near_path(path_, sample.tip_measured_m, sample.attitude_measured_rad), now_us);
@@ -85,8 +85,8 @@ class DigRun {
     const plant::TipPose tip = plant.tip();
     sample.tip_true_m = tip.position_m;
     if (!result_.samples.empty()) {
-      sample.velocity_true_mps =
-          (tip.position_m - result_.samples.back().tip_true_m) / seconds(DigBench::kPeriod_us);
+      sample.velocity_true_mps = (tip.position_m - result_.samples.back().tip_true_m) /
+                                 seconds(bench::DigBench::kPeriod_us);
     }
     sample.attitude_true_rad = tip.attitude_rad;
     sample.off_field_rad =
@@ -115,8 +115,8 @@ class DigRun {
   }
 
   [[nodiscard]] double mean_off_field_rad(const DigSample& sample) const {
-    constexpr auto kCycles =
-        static_cast<std::size_t>(kOilPeriod_s * 1e6 / static_cast<double>(DigBench::kPeriod_us));
+    constexpr auto kCycles = static_cast<std::size_t>(
+        kOilPeriod_s * 1e6 / static_cast<double>(bench::DigBench::kPeriod_us));
     const std::size_t count = result_.samples.size();
     if (count < kCycles) {
       return 0.0;
@@ -131,8 +131,8 @@ class DigRun {
   }
 
   void read_controller(DigSample& sample) const {
-    const ExcavatorInputs& inputs = bench_.ecu.inputs();
-    const ExcavatorOutputs& outputs = bench_.ecu.outputs();
+    const ExcavatorInputs& inputs = bench_.ecu->inputs();
+    const ExcavatorOutputs& outputs = bench_.ecu->outputs();
     Eigen::Vector3d strokes_m;
     bool measured = true;
     for (unsigned i = 0; i < kAxisCount; ++i) {
@@ -155,7 +155,7 @@ class DigRun {
 
   const machines::ExcavatorMachine& machine_;
   DigOptions options_;
-  DigBench bench_;
+  bench::DigBench bench_;
   ExcavatorKinematics kinematics_;
   DigField field_;
   RoundedRectangle path_;

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/cli/grade_bench.hpp"
+#include "app/bench/grade_bench.hpp"
 
 namespace graben::cli {
 namespace {
@@ -37,7 +37,7 @@ class GradeRun {
   [[nodiscard]] double way_m() const { return machine_.experiment.length_m - start_m_; }
 
   bool ended(TimeUs now_us) {
-    const DozerStatus& status = bench_.ecu.outputs().status;
+    const DozerStatus& status = bench_.ecu->outputs().status;
     if (status.mode == EcuMode::kFault) {
       result_.end = GradeEnd::kFault;
       result_.fault = status.fault;
@@ -83,7 +83,7 @@ class GradeRun {
   }
 
   void read_measured(GradeSample& sample) const {
-    const DozerInputs& inputs = bench_.ecu.inputs();
+    const DozerInputs& inputs = bench_.ecu->inputs();
     const BodyInputs& body = inputs.body;
     const auto known = [](const Signal<double>& signal) {
       return signal.validity == Validity::kValid;
@@ -100,7 +100,7 @@ class GradeRun {
   }
 
   void read_controller(GradeSample& sample) const {
-    const DozerOutputs& outputs = bench_.ecu.outputs();
+    const DozerOutputs& outputs = bench_.ecu->outputs();
     const DozerStatus& status = outputs.status;
     sample.speed_wanted_mps = status.wanted_speed_mps;
     sample.speed_limit_mps = status.speed_limit_mps;
@@ -130,7 +130,7 @@ class GradeRun {
 
   const machines::DozerMachine& machine_;
   GradeOptions options_;
-  GradeBench bench_;
+  bench::GradeBench bench_;
   GradeTruth truth_;
   double start_m_;
   GradeResult result_;

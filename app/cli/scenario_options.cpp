@@ -9,15 +9,9 @@
 #include <vector>
 
 #include "app/cli/validators.hpp"
-#include "firmware/kinematics/excavator_kinematics.hpp"
-#include "firmware/motion/rounded_rectangle.hpp"
 
 namespace graben::cli {
 namespace {
-
-/// Above the path's far upper corner.
-constexpr double kStartAbove_m = 0.6;
-constexpr double kStartBack_m = 0.8;
 
 constexpr double kNeverSlow_m = 1e3;
 
@@ -89,30 +83,15 @@ std::string scenario_words(const ScenarioOptions& options) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-Eigen::Vector3d strokes_at(const ExcavatorProfile& profile, const TipPose& pose) {
-  const StrokeResult strokes = ExcavatorKinematics(profile.geometry).strokes_from_pose(pose);
-  if (strokes.status != ReachStatus::kOk) {
-    throw std::runtime_error(
-        fmt::format("start pose x {} m, y {} m, attitude {} rad is outside the work space",
-                    pose.x_m, pose.y_m, pose.attitude_rad));
-  }
-  return strokes.strokes_m;
-}
-
 DigOptions usual_run(const machines::ExcavatorMachine& machine, const ScenarioOptions& options) {
   DigOptions run;
   if (options.scenario.air) {
     const machines::AirManoeuvre& air = machine.experiment.air;
-    run.start_strokes_m = strokes_at(machine.profile, air.start);
+    run.start_strokes_m = machines::strokes_at(machine.profile, air.start);
     run.loops = air.loops;
     return run;
   }
-  const DigPath& path = machine.profile.dig_path;
-  const PathPoint below =
-      RoundedRectangle(path).closest({path.x_max_m - kStartBack_m, path.y_max_m});
-  run.start_strokes_m =
-      strokes_at(machine.profile,
-                 {below.position_m.x(), below.position_m.y() + kStartAbove_m, below.attitude_rad});
+  run.start_strokes_m = machines::dig_start(machine.profile);
   return run;
 }
 

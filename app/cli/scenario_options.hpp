@@ -5,7 +5,6 @@
 
 #include "app/cli/dig_run.hpp"
 #include "app/machines/scenario.hpp"
-#include "firmware/kinematics/excavator_kinematics.hpp"
 
 namespace CLI {
 class App;
@@ -29,12 +28,8 @@ void add_scenario_options(CLI::App& command, ScenarioOptions& options);
 /// "soil, stiff oil, dead time 0.15 s, errors all"; the same words, the same scenario.
 [[nodiscard]] std::string scenario_words(const ScenarioOptions& options);
 
-/// Strokes of a start pose. Throws std::runtime_error where it is out of reach.
-[[nodiscard]] Eigen::Vector3d strokes_at(const ExcavatorProfile& profile, const TipPose& pose);
-
-/// Where the bucket starts and how far it goes unless told: from above the path's far upper corner,
-/// as it comes down, once round; in the air as the profile has it. Throws std::runtime_error where
-/// that is out of reach.
+/// Where the bucket starts and how far it goes unless told: machines::dig_start(), once round; in
+/// the air as the profile has it. Throws std::runtime_error where that is out of reach.
 [[nodiscard]] DigOptions usual_run(const machines::ExcavatorMachine& machine,
                                    const ScenarioOptions& options);
 

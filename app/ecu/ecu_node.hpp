@@ -29,11 +29,12 @@ inline constexpr int kBatchesRead = 4;
 template <class Kind>
 class EcuNode {
  public:
+  using Setup = typename Kind::Setup;
   using Inputs = typename Kind::Inputs;
   using Outputs = typename Kind::Outputs;
   using Receiver = typename Kind::Receiver;
 
-  EcuNode(const typename Kind::Setup& setup, std::uint32_t profile_hash, CanPort& port)
+  EcuNode(const Setup& setup, std::uint32_t profile_hash, CanPort& port)
       : port_(port),
         watch_(port),
         setup_(setup),
@@ -76,7 +77,7 @@ class EcuNode {
 
   CanPort& port_;
   BusWatch watch_;
-  typename Kind::Setup setup_;
+  Setup setup_;
   Receiver receiver_;
   typename Kind::Controller controller_;
   Transmitter transmitter_;

@@ -1,8 +1,13 @@
 #include "app/machines/scenario.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <stdexcept>
 
 #include "app/plant/random.hpp"
+#include "firmware/kinematics/excavator_kinematics.hpp"
+#include "firmware/motion/rounded_rectangle.hpp"
 
 namespace graben::machines {
 namespace {
@@ -12,6 +17,10 @@ using plant::Random;
 
 /// A draw keeps the drain this much smaller than the check, or regeneration would have no model.
 constexpr double kMostDrainToCheck = 0.95;
+
+/// Above the path's far upper corner.
+constexpr double kStartAbove_m = 0.6;
+constexpr double kStartBack_m = 0.8;
 
 void vary(double& value, double share, Random& random) { value *= 1.0 + random.symmetric(share); }
 
@@ -87,6 +96,24 @@ ExcavatorMachine arranged(ExcavatorMachine machine, const Scenario& scenario) {
     vary_parameters(machine.profile, experiment.uncertainty, scenario.seed);
   }
   return machine;
+}
+
+Eigen::Vector3d strokes_at(const ExcavatorProfile& profile, const TipPose& pose) {
+  const StrokeResult strokes = ExcavatorKinematics(profile.geometry).strokes_from_pose(pose);
+  if (strokes.status != ReachStatus::kOk) {
+    throw std::runtime_error(
+        fmt::format("start pose x {} m, y {} m, attitude {} rad is outside the work space",
+                    pose.x_m, pose.y_m, pose.attitude_rad));
+  }
+  return strokes.strokes_m;
+}
+
+Eigen::Vector3d dig_start(const ExcavatorProfile& profile) {
+  const DigPath& path = profile.dig_path;
+  const PathPoint below =
+      RoundedRectangle(path).closest({path.x_max_m - kStartBack_m, path.y_max_m});
+  return strokes_at(
+      profile, {below.position_m.x(), below.position_m.y() + kStartAbove_m, below.attitude_rad});
 }
 
 }  // namespace graben::machines

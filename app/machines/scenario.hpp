@@ -2,6 +2,7 @@
 /// A machine as one run meets it: what is tried on it, and how far its controller is from knowing
 /// it.
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 
@@ -25,5 +26,12 @@ struct Scenario {
 /// uniform draw within `experiment.uncertainty` of each. The plant keeps the nominal figures, but
 /// for dead times, which only it has. Same seed, same draw, whatever else is switched on.
 [[nodiscard]] ExcavatorMachine arranged(ExcavatorMachine machine, const Scenario& scenario);
+
+/// Strokes of a start pose. Throws std::runtime_error where it is out of reach.
+[[nodiscard]] Eigen::Vector3d strokes_at(const ExcavatorProfile& profile, const TipPose& pose);
+
+/// Strokes that a digging machine starts at unless told: from above the path's far upper corner, as
+/// it comes down. Throws as strokes_at().
+[[nodiscard]] Eigen::Vector3d dig_start(const ExcavatorProfile& profile);
 
 }  // namespace graben::machines

@@ -55,12 +55,8 @@ ExcavatorPlant::ExcavatorPlant(const PlantProfile& profile, const AxisArray& sta
     pump_of_[i] = static_cast<std::size_t>(profile.machine.valve.spool[i].pump);
     place_of_[i] = next_place[pump_of_[i]]++;
   }
-  if (profile.soil) {
-    soil_.emplace(*profile.soil, profile.seed, step_s_);
-  }
-  if (profile.obstacle) {
-    obstacle_.emplace(*profile.obstacle, step_s_);
-  }
+  set_soil(profile.soil);
+  set_obstacle(profile.obstacle);
   set_bypasses();
   for (std::size_t p = 0; p < pump_count_; ++p) {
     pump_[p].start();
@@ -79,6 +75,22 @@ ExcavatorPlant::ExcavatorPlant(const PlantProfile& profile, const AxisArray& sta
 void ExcavatorPlant::set_duty(const DriveArray& duty_ratio, bool enable) {
   for (std::size_t i = 0; i < kDriveCount; ++i) {
     duty_[i] = enable && std::isfinite(duty_ratio[i]) ? duty_ratio[i] : 0.0;
+  }
+}
+
+void ExcavatorPlant::set_soil(const std::optional<SoilProfile>& soil) {
+  profile_.soil = soil;
+  soil_.reset();
+  if (soil) {
+    soil_.emplace(*soil, profile_.seed, step_s_);
+  }
+}
+
+void ExcavatorPlant::set_obstacle(const std::optional<ObstacleProfile>& obstacle) {
+  profile_.obstacle = obstacle;
+  obstacle_.reset();
+  if (obstacle) {
+    obstacle_.emplace(*obstacle, step_s_);
   }
 }
 

@@ -65,6 +65,11 @@ class ExcavatorPlant {
   /// Force on the bucket tip beside soil and obstacle, N, x forward and y up, until changed.
   void set_tip_force(const Eigen::Vector2d& force_n) { outer_force_n_ = force_n; }
 
+  /// Another ground from now on, as it is at its first step; none without a profile.
+  void set_soil(const std::optional<SoilProfile>& soil);
+  /// Another rock, not touched yet; none without a profile. The tip should not be inside.
+  void set_obstacle(const std::optional<ObstacleProfile>& obstacle);
+
   /// From now on each step adds to this account, which belongs to the caller; null ends it.
   void keep_account(EnergyAccount* account) { account_ = account; }
   /// Kinetic, potential and of compressed oil, J.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <stdexcept>
 #include <thread>
 
@@ -20,6 +21,12 @@ constexpr int kOpenEvery = 50;
 /// So that lost frames are told as they come, but not each.
 constexpr int kTellEvery = 50;
 static_assert(kFlushPeriodUs == kFlushEvery * 10 * kMillisecondUs);
+
+TimeUs wall_now_us() {
+  timespec now{};
+  static_cast<void>(clock_gettime(CLOCK_REALTIME, &now));
+  return TimeUs{now.tv_sec} * kSecondUs + now.tv_nsec / 1000;
+}
 
 std::string words_of(const CanEar& ear) {
   std::string words = ear.is_open()
@@ -70,9 +77,7 @@ nlohmann::json CanSource::setup() const {
 void CanSource::run(FrameFeed& feed, const std::atomic<bool>& stop) {
   auto next = std::chrono::steady_clock::now();
   for (int turn = 0; !stop; ++turn) {
-    for (CanEar& ear : ears_) {
-      ear.hear([&](const CanFrame& frame) { feed.append(frame, frame.stamp_us, ear.interface()); });
-    }
+    hear(feed);
     if (turn % kFlushEvery == 0) {
       feed.flush();
     }
@@ -86,6 +91,26 @@ void CanSource::run(FrameFeed& feed, const std::atomic<bool>& stop) {
     next = std::max(next + kHearPeriod, std::chrono::steady_clock::now() - kHearPeriod);
     std::this_thread::sleep_until(next);
   }
+}
+
+/// Interfaces are heard one after the other: what comes meanwhile waits for the next turn, so that
+/// the stamps rise over all of them.
+void CanSource::hear(FrameFeed& feed) {
+  const TimeUs begin_us = wall_now_us();
+  const auto waited = static_cast<std::ptrdiff_t>(heard_.size());
+  for (CanEar& ear : ears_) {
+    ear.hear([&](const CanFrame& frame) { heard_.push_back({frame, &ear}); });
+  }
+  const auto end = std::stable_partition(
+      heard_.begin() + waited, heard_.end(),
+      [begin_us](const Heard& heard) { return heard.frame.stamp_us <= begin_us; });
+  std::stable_sort(heard_.begin(), end, [](const Heard& a, const Heard& b) {
+    return a.frame.stamp_us < b.frame.stamp_us;
+  });
+  for (auto heard = heard_.begin(); heard != end; ++heard) {
+    feed.append(heard->frame, heard->frame.stamp_us, heard->from->interface());
+  }
+  heard_.erase(heard_.begin(), end);
 }
 
 void CanSource::open_what_is_closed() {

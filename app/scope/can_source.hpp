@@ -25,12 +25,19 @@ class CanSource : public FrameSource {
   [[nodiscard]] std::optional<nlohmann::json> state(std::uint64_t& seen) const override;
 
  private:
+  struct Heard {
+    CanFrame frame;
+    const CanEar* from = nullptr;
+  };
+
+  void hear(FrameFeed& feed);
   void open_what_is_closed();
   void tell_state(const FrameFeed& feed);
 
   std::string name_;
   int bitrate_bps_;
   std::vector<CanEar> ears_;
+  std::vector<Heard> heard_;  ///< And not fed yet.
 
   mutable std::mutex mutex_;
   nlohmann::json state_;  ///< A `bus` message.

@@ -24,7 +24,8 @@ bool is_port(std::string_view text) {
 
 bool is_address(std::string_view text, int family) {
   std::array<unsigned char, sizeof(in6_addr)> address{};
-  return inet_pton(family, std::string(text).c_str(), address.data()) == 1;
+  return text.find('\0') == std::string_view::npos &&
+         inet_pton(family, std::string(text).c_str(), address.data()) == 1;
 }
 
 struct HostAndPort {

@@ -132,7 +132,10 @@ class ScopeServer::Work {
   }
 
   void run(const std::function<bool()>& should_stop) {
-    while (!should_stop() && lws_service(context_, 0) >= 0) {
+    while (!should_stop()) {
+      if (lws_service(context_, 0) < 0) {
+        throw std::runtime_error("the server cannot go on");
+      }
     }
   }
   void wake() { lws_cancel_service(context_); }

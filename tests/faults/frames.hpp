@@ -1,53 +1,22 @@
 #pragma once
-/// What is done to frames on their way.
+/// What is done to frames on their way, by the names that the rows have for it.
 
-#include "can_dbc/codec.hpp"
+#include "app/bench/frame_edit.hpp"
 #include "firmware/core/time.hpp"
-#include "hal/can_frame.hpp"
-#include "hal/e2e.hpp"
 
 namespace graben::faults {
 
-template <class Kind>
-[[nodiscard]] const dbc::MessageInfo& info_of(std::uint32_t id) {
-  const dbc::MessageInfo* found = &Kind::kMessages[0];
-  for (const dbc::MessageInfo& message : Kind::kMessages) {
-    found = message.id == id ? &message : found;
-  }
-  return *found;
-}
+using bench::alter;
+using bench::corrupt;
+using bench::counter_of;
+using bench::info_of;
+using bench::protect;
+using bench::set_raw;
+using bench::special_raw;
 
 template <class Kind>
 [[nodiscard]] TimeUs cycle_us_of(std::uint32_t id) {
   return info_of<Kind>(id).cycle_time_ms * kMillisecondUs;
-}
-
-[[nodiscard]] inline std::uint8_t counter_of(const CanFrame& frame) {
-  return static_cast<std::uint8_t>(frame.data[1] & 0x0FU);
-}
-
-/// Right again after its data were changed.
-template <class Kind>
-void protect(CanFrame& frame, std::uint8_t counter) {
-  const dbc::MessageInfo& info = info_of<Kind>(frame.id);
-  if (info.is_protected) {
-    e2e_protect(frame.data, info.data_id, counter);
-  }
-}
-
-/// Another value than it had, nothing else: within range for every message of ours.
-inline void alter(CanFrame& frame) {
-  frame.data[2] = static_cast<std::uint8_t>(frame.data[2] ^ 0x10U);
-}
-
-inline void corrupt(CanFrame& frame) {
-  frame.data[0] = static_cast<std::uint8_t>(frame.data[0] ^ 0x5AU);
-}
-
-template <class Kind>
-void set_raw(CanFrame& frame, const dbc::Field& field, std::uint32_t raw) {
-  dbc::insert(frame.data, field.start_bit, field.width, raw);
-  protect<Kind>(frame, counter_of(frame));
 }
 
 }  // namespace graben::faults

@@ -105,12 +105,6 @@ void raw_value(Rig<Kind>& rig, std::uint32_t id, const dbc::Field& field, std::u
   };
 }
 
-/// The special value whose 16-bit form is `raw16`.
-std::uint32_t special(const dbc::Field& field, std::uint32_t raw16) {
-  constexpr unsigned kBits = 16;
-  return raw16 << (field.width - kBits);
-}
-
 /// Of a sensor that stops the machine by every second seed, of one that slows it by the others.
 template <class Kind>
 void special_value(Trial<Kind>& trial, std::uint32_t raw16, std::vector<Fault> beside) {
@@ -119,7 +113,7 @@ void special_value(Trial<Kind>& trial, std::uint32_t raw16, std::vector<Fault> b
   const auto cure = [&rig] { rig.tamper = nullptr; };
   const Sensor& sensor = trial.any_sensor(trial.odd() ? Kind::vital() : Kind::slowing());
   const dbc::Field& field = trial.any_field(sensor);
-  raw_value(rig, sensor.id, field, special(field, raw16));
+  raw_value(rig, sensor.id, field, special_raw(field, raw16));
   if (trial.odd()) {
     Stop stop;
     stop.since_us = rig.now_us;

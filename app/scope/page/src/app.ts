@@ -57,7 +57,7 @@ export function start(root: HTMLElement): void {
   ];
   const views: View[] = [header, alarms, ...panel, replay, files];
   lay_out(root, {
-    header: header.node, alarms: alarms.node, scene: scene.node, layers: scene.layers,
+    header: header.node, alarms: alarms.node, scene: scene.node, layers: scene.layers.node,
     plots: [plots.node, histogram.node], panel: panel.map(({node}) => node), replay: replay.node,
   });
   listen_to_keys({

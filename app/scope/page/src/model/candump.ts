@@ -27,6 +27,8 @@ for (let digit = 0; digit < 16; ++digit) {
   HEX[digit.toString(16).charCodeAt(0)] = digit;
   HEX[digit.toString(16).toUpperCase().charCodeAt(0)] = digit;
 }
+/// The same of decimal digits.
+const DECIMAL = HEX.map((digit) => digit > 9 ? -1 : digit);
 const POWER_OF_TEN = [1, 10, 100, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
 
 /// Takes text in pieces cut anywhere and gives columns of frames.
@@ -124,7 +126,7 @@ export class CandumpParser {
         continue;
       }
       ++this.lines;
-      const next = this.line(text, at);
+      const next = this.usual(text, at) || this.line(text, at);
       if (next > 0) {
         at = next;
       } else {
@@ -133,6 +135,43 @@ export class CandumpParser {
         at = end + 1;
       }
     }
+  }
+
+  /// A line as all but a few are: ten digits and six, an extended id, eight bytes. Where the next
+  /// one begins; 0: it may still be another line, and nothing was done.
+  private usual(text: Uint8Array, at: number): number {
+    if (text[at + 11] !== POINT || text[at + 18] !== CLOSE || text[at] !== OPEN ||
+        text[at + 19] !== SPACE) {
+      return 0;
+    }
+    const high = five_digits(text, at + 1);
+    const low = five_digits(text, at + 6);
+    const micros = five_digits(text, at + 12) * 10 + DECIMAL[text[at + 17]];
+    let id_at = at + 20;
+    while (text[id_at] > SPACE) {
+      ++id_at;
+    }
+    const data_at = ++id_at + 9;
+    const id_high = four_hex(text, id_at);
+    const id_low = four_hex(text, id_at + 4);
+    if (text[id_at - 1] !== SPACE || id_at === at + 21 || text[data_at - 1] !== HASH ||
+        text[data_at + 16] !== NEW_LINE ||
+        (high | low | micros | id_high | id_low) < 0 || id_high >= ERROR >>> 16) {
+      return 0;
+    }
+    const {data} = this;
+    let wrong = DECIMAL[text[at + 17]];
+    for (let i = 0, digit_at = data_at; i < 8; ++i, digit_at += 2) {
+      const byte = (HEX[text[digit_at]] << 4) | HEX[text[digit_at + 1]];
+      data[i] = byte;
+      wrong |= byte;
+    }
+    if (wrong < 0) {
+      return 0;
+    }
+    const key = ((id_high << 16) | id_low | EXTENDED) >>> 0;
+    this.add(key, 8, ((high * 1e5 + low) * 1e6 + micros) / 1e6);
+    return data_at + 17;
   }
 
   /// One line. Where the next one begins; 0 where this one is none.
@@ -280,6 +319,20 @@ export class CandumpParser {
     }
   }
 }
+
+/// Below 0 where one of them is none.
+function five_digits(text: Uint8Array, at: number): number {
+  const a = DECIMAL[text[at]];
+  const b = DECIMAL[text[at + 1]];
+  const c = DECIMAL[text[at + 2]];
+  const d = DECIMAL[text[at + 3]];
+  const e = DECIMAL[text[at + 4]];
+  return (a | b | c | d | e) < 0 ? -1 : (((a * 10 + b) * 10 + c) * 10 + d) * 10 + e;
+}
+
+/// Below 0 where one of them is none.
+const four_hex = (text: Uint8Array, at: number): number =>
+  (HEX[text[at]] << 12) | (HEX[text[at + 1]] << 8) | (HEX[text[at + 2]] << 4) | HEX[text[at + 3]];
 
 /// Where the next line begins, with nothing left of this one but what candump may write after a
 /// frame: the DLC of a frame of eight bytes, and letters that say which way it went. Else 0.

@@ -67,14 +67,15 @@ export class PagePlayhead implements Playhead {
     }
   }
 
-  /// A zoom. As wide as all there is, it is the whole log again.
+  /// A zoom. Where it holds all there is, it is the whole log, and grows with it; while following,
+  /// only its width counts.
   set window([from_s, until_s]: readonly [number, number]) {
-    if (!(until_s > from_s)) {
+    if (!(until_s >= from_s)) {
       return;
     }
     const middle = 0.5 * (from_s + until_s);
     const span = Math.max(LEAST_SPAN_S, until_s - from_s);
-    const all = span >= this.extent.until_s - this.extent.from_s;
+    const all = from_s <= this.extent.from_s && until_s >= this.extent.until_s;
     this.span_s = all && !this.following ? null : span;
     this.shown = this.into_extent(middle - 0.5 * span, middle + 0.5 * span);
     if (this.following) {

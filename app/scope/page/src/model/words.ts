@@ -92,4 +92,5 @@ export function health_words(health: LogHealth, database: Database | null,
   return words;
 }
 
-const counted = (count: number, what: string): string => `${count} ${what}${count === 1 ? '' : 's'}`;
+const counted = (count: number, what: string): string =>
+  `${count} ${what}${count === 1 ? '' : 's'}`;

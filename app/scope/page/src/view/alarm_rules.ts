@@ -38,11 +38,14 @@ function machine_alarms(state: PageState, words: PageWords): Alarm[] {
   } else if (now.mode === 'Fault' && now.fault === 0) {
     alarms.push({id: 'fault', level: 'alarm', at: 'fault', words: 'The controller is in Fault.'});
   }
-  const others = active_codes(store, playhead.now_s).filter((code) => code !== now.fault);
+  // DM1 says up to a second late that a fault is over; EcuStatus says it at once.
+  const others = now.fault === 0 ? []
+    : active_codes(store, playhead.now_s).filter((code) => code !== now.fault);
   if (others.length > 0) {
     alarms.push({
       id: 'dm1', level: 'warning',
-      words: `Also active by DM1: ${others.map((code) => `${code}, ${words.fault(code)}`).join('; ')}.`,
+      words: 'Also active by DM1: '
+        + `${others.map((code) => `${code}, ${words.fault(code)}`).join('; ')}.`,
     });
   }
   return alarms;
@@ -116,8 +119,8 @@ function log_alarms({store, setup, machine, ended, link}: PageState): Alarm[] {
   } else if (health.malformed > 0) {
     alarms.push({
       id: 'malformed', level: 'warning',
-      words: `${count(health.malformed)} line${health.malformed === 1 ? ' is' : 's are'} not candump`
-        + `${first_line(store)}.`,
+      words: `${count(health.malformed)} line${health.malformed === 1 ? ' is' : 's are'} not `
+        + `candump${first_line(store)}.`,
     });
   } else if (whole && !plan && frames === 0) {
     alarms.push({id: 'empty', level: 'alarm', words: 'This log is empty: it has no frames.'});
@@ -134,8 +137,9 @@ function log_alarms({store, setup, machine, ended, link}: PageState): Alarm[] {
   }
   if (health.profile_hash !== null && machine === null && setup !== null) {
     alarms.push({
-      id: 'profile', level: 'alarm', words: `No profile with hash ${hash_words(health.profile_hash)} `
-        + 'is known here: the machine is not drawn; say --profile.',
+      id: 'profile', level: 'alarm',
+      words: `No profile with hash ${hash_words(health.profile_hash)} is known here: the machine `
+        + 'is not drawn; say --profile.',
     });
   }
   if (health.backwards > 0) {

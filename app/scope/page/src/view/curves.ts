@@ -66,7 +66,8 @@ export function cut(
       least = least < 0 || at < value[least]! ? k : least;
       most = most < 0 || at > value[most]! ? k : most;
     }
-    const kept = least < 0 ? [begin] : least === most ? [least] : [least, most].sort((a, b) => a - b);
+    const kept = least < 0 ? [begin] : least === most ? [least]
+      : [Math.min(least, most), Math.max(least, most)];
     for (const k of kept) {
       times.push(time_s[k]!);
       values.push((value[k] ?? NaN) * scale);

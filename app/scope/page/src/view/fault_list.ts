@@ -4,6 +4,7 @@ import {button, el, Rows, section, set_attribute, set_shown, set_text} from './d
 import type {FaultLog} from './fault_log';
 import {date_words, time_words} from './format';
 import type {PageState, View} from './page_state';
+import {snapshot} from './snapshot';
 import type {PageWords} from './words';
 
 interface Row {
@@ -24,7 +25,8 @@ export class FaultList implements View {
   private known: unknown = null;
 
   constructor(
-    private readonly log: FaultLog, private readonly words: PageWords, seek: (time_s: number) => void,
+    private readonly log: FaultLog, private readonly words: PageWords,
+    seek: (time_s: number) => void,
   ) {
     this.node = section('faults', 'Faults', this.none, this.list, this.more);
     this.rows = new Rows(this.list, () => {
@@ -47,7 +49,8 @@ export class FaultList implements View {
     set_shown(this.none, events.length === 0);
     set_shown(this.more, total > events.length);
     set_text(this.more, `${total - events.length} older ones are not listed.`);
-    const now = this.log.last(state.playhead.now_s);
+    const {fault} = snapshot(state.store, state.playhead.now_s);
+    const now = fault === 0 ? undefined : this.log.last(state.playhead.now_s);
     for (const row of this.rows.take(events.length)) {
       set_attribute(row.press, 'aria-current', row.time_s === now?.time_s ? 'true' : null);
     }

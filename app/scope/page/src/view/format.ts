@@ -8,7 +8,7 @@ export function fixed(value: number, digits: number): string {
     return '–';
   }
   const [whole, part] = Math.abs(value).toFixed(digits).split('.');
-  const grouped = whole!.length > 4 ? whole!.replace(/\B(?=(\d{3})+$)/g, '\u202f') : whole!;
+  const grouped = whole!.replace(/\B(?=(\d{3})+$)/g, '\u202f');
   const words = part === undefined ? grouped : `${grouped}.${part}`;
   return value < 0 && Number(words.replace(/\u202f/g, '')) !== 0 ? `\u2212${words}` : words;
 }
@@ -30,7 +30,8 @@ export function digits_of(factor: number): number {
 
 /// Units as they are read, not as a DBC file can write them.
 export function unit_words(unit: string): string {
-  return unit === 'per mille' ? '‰' : unit.replace('m3', 'm³').replace('s2', 's²');
+  return unit === 'per mille' ? '‰' : unit === 'us' ? 'µs'
+    : unit.replace('m3', 'm³').replace('s2', 's²');
 }
 
 /// Hours only where there are some: 0:12.34, 1:02:03.40.

@@ -1,5 +1,6 @@
 /// Name, source in words, machine, connection.
 
+import type {Machine} from '../model/api';
 import {button, el, set_attribute, set_text} from './dom';
 import {count, hash_words} from './format';
 import type {PageState, View} from './page_state';
@@ -54,7 +55,7 @@ export class Header implements View {
     }
     const {machine, store} = state;
     const hash = store.health.profile_hash;
-    set_text(this.machine, machine !== null ? `${machine.kind} ${machine.name}`
+    set_text(this.machine, machine !== null ? machine_words(machine)
       : hash !== null ? `unknown machine ${hash_words(hash)}` : 'no machine yet');
     set_attribute(this.link, 'data-state', state.link.state);
     set_text(this.link, link_words(state));
@@ -63,6 +64,11 @@ export class Header implements View {
   private name_theme(): void {
     set_text(this.theme_button, this.theme.dark ? 'Light theme' : 'Dark theme');
   }
+}
+
+/// Names of shipped profiles tell the kind themselves.
+function machine_words({kind, name}: Machine): string {
+  return name.startsWith(kind) ? name : `${kind} ${name}`;
 }
 
 function link_words({link, loaded_share, store, setup, ended}: PageState): string {

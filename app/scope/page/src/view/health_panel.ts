@@ -31,7 +31,8 @@ const ROWS: readonly Row[] = [
   ['Frames the bus did not take', 'EcuHealth.DroppedFrames', counted, some],
   ['Frames rejected', 'EcuStatus.RejectedFrames', counted, some],
   ['Last cycle', 'EcuStatus.CycleTime', (reading) =>
-    (reading.value === 0 ? 'not measured: simulated time' : `${fixed(reading.value, 0)} µs`), never],
+    (reading.value === 0 ? 'not measured: simulated time'
+      : `${fixed(reading.value, 0)} µs`), never],
   ['Profile', 'EcuIdentity.ProfileHash', (reading, {machine}) => machine?.hash === reading.raw
     ? `${machine.name} (${hash_words(reading.raw)})` : hash_words(reading.raw), never],
   ['DBC version of the controller', 'EcuIdentity.DbcVersion',

@@ -1,43 +1,15 @@
 /// How long the control cycles took, over the window of the plots.
 
 import uPlot from 'uplot';
+import {on_processor} from './cpu_canvas';
 import {el, set_shown, set_text} from './dom';
+import {BARS, distribution, type Distribution} from './distribution';
 import {count, fixed, time_words} from './format';
 import type {PageState} from './page_state';
-import {nice_step} from './plot_range';
 import type {ThemeSwitch} from './theme';
 
-const BARS = 24;
 const EVERY_MS = 500;
 const HEIGHT_PX = 130;
-
-export interface Distribution {
-  cycles: number;
-  all_zero: boolean;
-  median_us: number;
-  p99_us: number;
-  max_us: number;
-  bar_us: number;
-  bars: Uint32Array;
-}
-
-/// Of times in us; they are sorted in place.
-export function distribution(times_us: Float64Array): Distribution {
-  times_us.sort();
-  const cycles = times_us.length;
-  const at = (share: number) =>
-    cycles === 0 ? NaN : times_us[Math.min(cycles - 1, Math.floor(share * cycles))]!;
-  const max_us = cycles === 0 ? NaN : times_us[cycles - 1]!;
-  // A single outlier must not squeeze all others into one bar: the last bar holds what is beyond.
-  const bar_us = Math.max(1, nice_step((at(0.995) * 1.1) / BARS || 1));
-  const bars = new Uint32Array(BARS);
-  for (const time_us of times_us) {
-    ++bars[Math.min(BARS - 1, Math.floor(time_us / bar_us))]!;
-  }
-  return {
-    cycles, all_zero: max_us === 0, median_us: at(0.5), p99_us: at(0.99), max_us, bar_us, bars,
-  };
-}
 
 export class Histogram {
   readonly node: HTMLElement;
@@ -79,8 +51,8 @@ export class Histogram {
     } else if (of.all_zero) {
       set_text(this.words, 'Not measured: simulated time.');
     } else {
-      set_text(this.words, `${count(of.cycles)} reported cycles in ${time_words(span_s, 1)}: median `
-        + `${fixed(of.median_us, 0)} µs, 99 % below ${fixed(of.p99_us, 0)} µs, largest `
+      set_text(this.words, `${count(of.cycles)} reported cycles in ${time_words(span_s, 1)}: `
+        + `median ${fixed(of.median_us, 0)} µs, 99 % below ${fixed(of.p99_us, 0)} µs, largest `
         + `${fixed(of.max_us, 0)} µs. The last bar holds all beyond.`);
       this.draw(of);
     }
@@ -91,7 +63,7 @@ export class Histogram {
       Array.from(of.bars, (_, bar) => (bar + 0.5) * of.bar_us), Array.from(of.bars),
     ];
     if (this.plot === null) {
-      this.plot = new uPlot(this.options(), data, this.canvas);
+      this.plot = on_processor(() => new uPlot(this.options(), data, this.canvas));
       this.fit();
     } else {
       this.plot.setData(data);

@@ -15,8 +15,8 @@ export interface Parts {
 export function lay_out(root: HTMLElement, parts: Parts): void {
   root.replaceChildren(
     el('a', {class: 'skip', href: '#panel'}, 'To the panel'),
-    parts.header, parts.alarms,
-    el('main', {},
+    parts.header,
+    el('main', {}, parts.alarms,
       el('section', {class: 'scene', 'aria-label': 'Scene: the machine in space'},
         parts.scene, parts.layers),
       el('section', {class: 'plot-column', 'aria-label': 'Plots'}, ...parts.plots),

@@ -34,7 +34,7 @@ class MessageRow {
       type: 'button', class: 'disclose', 'aria-expanded': 'false', 'aria-controls': id,
       title: `Id ${definition.id.toString(16).toUpperCase().padStart(8, '0')}, `
         + (definition.cycle_ms > 0 ? `every ${definition.cycle_ms} ms` : 'on demand'),
-    }, definition.name);
+    }, ...breakable(definition.name));
     this.press.addEventListener('click', () => this.toggle());
     this.node.append(el('th', {scope: 'row'}, this.press), this.age, this.rate, this.counter,
       this.integrity);
@@ -70,6 +70,11 @@ class MessageRow {
   }
 }
 
+/// A long name may break where a word begins.
+function breakable(name: string): (Node | string)[] {
+  return name.split(/(?=[A-Z][a-z])/).flatMap((part, k) => (k === 0 ? [part] : [el('wbr'), part]));
+}
+
 export class MessageTable implements View {
   readonly node: HTMLElement;
   private readonly load = el('p', {class: 'bus-load'});
@@ -81,10 +86,12 @@ export class MessageTable implements View {
   constructor() {
     this.table = el('table', {class: 'messages'},
       el('caption', {class: 'hidden'}, 'Messages of the bus by sender'),
+      el('colgroup', {}, el('col'), ...['age', 'rate', 'counter', 'state'].map((name) =>
+        el('col', {class: name}))),
       el('thead', {}, el('tr', {},
         el('th', {scope: 'col'}, 'Message'),
         el('th', {scope: 'col', class: 'number'}, 'Age, ms'),
-        el('th', {scope: 'col', class: 'number'}, 'Rate, Hz'),
+        el('th', {scope: 'col', class: 'number', title: 'Frames in the last second'}, 'Rate, Hz'),
         el('th', {scope: 'col', class: 'number', title: 'Counter, 0 to 14'}, 'Count'),
         el('th', {scope: 'col'}, 'State'))));
     this.node = section('messages', 'Bus', this.load, this.none,

@@ -17,6 +17,7 @@ function drive_of(kind: Kind, name: string): DriveSignals {
 export function moved_trace(kind: Kind, name: string): Trace {
   const {measured} = drive_of(kind, name);
   return {
+    message: measured.split('.')[0]!,
     curve: (store, from_s, until_s, buckets) =>
       velocity_curve(store, measured, from_s, until_s, buckets),
     reading: (store, time_s) => velocity(store, measured, time_s),
@@ -26,6 +27,7 @@ export function moved_trace(kind: Kind, name: string): Trace {
 export function followed_trace(kind: Kind, name: string): Trace {
   const drive = drive_of(kind, name);
   return {
+    message: drive.wanted.split('.')[0]!,
     curve: (store, from_s, until_s, buckets) =>
       scaled(store, drive, store.curve(drive.wanted, from_s, until_s, buckets)),
     reading: (store, time_s) => followed_velocity(store, drive, time_s),

@@ -2,9 +2,10 @@
 
 import uPlot from 'uplot';
 import type {FrameStore} from '../model/api';
+import {on_processor} from './cpu_canvas';
 import {align} from './curves';
 import {el, set_attribute} from './dom';
-import {time_words, unit_words} from './format';
+import {digits_of, fixed, time_words, unit_words} from './format';
 import {Legend} from './legend';
 import type {LimitStrip} from './limit_strip';
 import type {PlotSpec} from './plots';
@@ -23,6 +24,8 @@ export interface PlotHost {
 
 const FONT = '12px system-ui, sans-serif';
 const PIXELS_PER_BUCKET = 2;
+const TIME_STEPS_S = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30,
+  60, 120, 300, 600, 900, 1800, 3600, 7200, 14400, 28800, 86400];
 
 export class Plot {
   readonly node: HTMLElement;
@@ -50,7 +53,8 @@ export class Plot {
         el('h3', {}, spec.title, el('span', {class: 'unit'}, unit)),
         el('p', {class: 'note'}, spec.note)),
       this.legend.node, canvas, strip?.key ?? null);
-    this.plot = new uPlot(this.options(), [[], ...spec.lines.map(() => [])], canvas);
+    this.plot = on_processor(() =>
+      new uPlot(this.options(), [[], ...spec.lines.map(() => [])], canvas));
     this.plot.over.append(this.playhead_line);
     this.plot.over.addEventListener('click', (event) => {
       const left = event.clientX - this.plot.over.getBoundingClientRect().left;
@@ -135,13 +139,18 @@ export class Plot {
       },
       scales: {
         x: {time: false, auto: false},
-        y: {range: stable_range(this.spec.least, this.strip !== null)},
+        y: {
+          range: stable_range(this.spec.least, this.strip !== null),
+          ...(this.spec.straight_to === undefined ? {} : {distr: 4, asinh: this.spec.straight_to}),
+        },
       },
       axes: [
-        {...axis, size: 26, space: 70, values: (_u, splits, _a, _s, step) => time_ticks(splits, step)},
+        {...axis, size: 26, space: 70, incrs: TIME_STEPS_S, values: (_u, splits, _a, _s, step) =>
+          time_ticks(splits, step)},
         {
-          ...axis, size: 48, space: 28,
+          ...axis, size: 48, space: 28, values: (_u, splits) => numbers(splits),
           ...(this.strip === null ? {} : {splits: () => [0, 0.25, 0.5, 0.75, 1]}),
+          ...(this.spec.straight_to === undefined ? {} : {splits: bent_splits}),
         },
       ],
       series: [{}, ...this.spec.lines.map((line): uPlot.Series => ({
@@ -178,6 +187,17 @@ export class Plot {
   describe(words: string): void {
     set_attribute(this.plot.root, 'aria-description', words);
   }
+}
+
+function numbers(splits: readonly number[]): string[] {
+  const step = splits.length > 1 ? Math.abs(splits[1]! - splits[0]!) : 1;
+  return splits.map((value) => fixed(value, digits_of(step)));
+}
+
+/// Marks of an axis that is straight about 0 and then goes by powers of ten.
+function bent_splits(_plot: uPlot, _axis: number, min: number, max: number): number[] {
+  const marks = [1000, 100, 30, 10, 5].flatMap((mark) => [-mark, mark]);
+  return [0, ...marks].filter((mark) => mark >= min && mark <= max).sort((a, b) => a - b);
 }
 
 /// Times of the axis, with as many digits as its steps need.

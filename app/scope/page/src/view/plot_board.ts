@@ -12,6 +12,7 @@ import type {ThemeSwitch} from './theme';
 
 const REFRESH_MS = 66;
 const BUDGET_MS = 7;
+const SLOW_MS = 40;
 const HEIGHT_PX = 150;
 const STRIP_HEIGHT_PX = 176;
 
@@ -20,10 +21,14 @@ export class PlotBoard {
   private readonly empty = el('p', {class: 'quiet'}, 'No frames yet: nothing to plot.');
   private plots: Plot[] = [];
   private shown_for = '';
+  private store: unknown = null;
+  private machine: unknown = null;
+  private readonly came = new Set<string>();  ///< Messages, at least once.
   private hover_s: number | null = null;
   private revision = -1;
   private window: readonly [number, number] = [0, 0];
   private values_ms = 0;
+  private frame_ms = 0;
   private marked = '';
   private readonly sight = new IntersectionObserver((entries) => {
     for (const {target, isIntersecting} of entries) {
@@ -52,12 +57,16 @@ export class PlotBoard {
 
   /// To be called a frame of the screen: does as much as there is time for.
   frame(now_ms: number): void {
-    this.choose();
-    const {store, playhead} = this.state;
+    const {store, playhead, machine} = this.state;
     const [from_s, until_s] = playhead.window;
     const begun_ms = performance.now();
-    if (store.revision !== this.revision || from_s !== this.window[0] || until_s !== this.window[1]) {
+    const slow = now_ms - this.frame_ms > SLOW_MS;
+    this.frame_ms = now_ms;
+    if (store !== this.store || store.revision !== this.revision || machine !== this.machine
+        || from_s !== this.window[0] || until_s !== this.window[1]) {
       this.revision = store.revision;
+      this.machine = machine;
+      this.choose();
       this.window = [from_s, until_s];
       for (const plot of this.plots) {
         plot.dirty = true;
@@ -71,7 +80,8 @@ export class PlotBoard {
       plot.refresh(store, this.window);
       plot.drawn_ms = now_ms;
       plot.mark(playhead.now_s, this.hover_s);
-      if (performance.now() - begun_ms > BUDGET_MS) {
+      // Where frames come slowly as it is, one plot in each is enough.
+      if (slow || performance.now() - begun_ms > BUDGET_MS) {
         break;
       }
     }
@@ -81,25 +91,32 @@ export class PlotBoard {
     }
   }
 
-  /// Plots are made anew only for another machine.
+  /// Plots are made anew for another machine, and when a message came for the first time.
   private choose(): void {
     const {machine, setup, store} = this.state;
-    const frames = store.database !== null;
-    const key = `${machine?.hash ?? 'none'} ${frames} ${setup?.run?.title ?? ''}`;
-    if (key === this.shown_for) {
-      return;
+    if (store !== this.store) {
+      this.store = store;
+      this.came.clear();
     }
-    this.shown_for = key;
-    this.build(machine, frames);
+    for (const name of store.database?.messages.keys() ?? []) {
+      if (!this.came.has(name) && store.rows(name).count > 0) {
+        this.came.add(name);
+      }
+    }
+    const key = `${machine?.hash ?? 'none'} ${[...this.came].join()} ${setup?.run?.title ?? ''}`;
+    if (key !== this.shown_for) {
+      this.shown_for = key;
+      this.build(machine);
+    }
   }
 
-  private build(machine: Machine | null, frames: boolean): void {
+  private build(machine: Machine | null): void {
     for (const plot of this.plots) {
       this.sight.unobserve(plot.node);
       plot.destroy();
     }
     const host = this.host();
-    this.plots = plots_of(machine, this.state.setup?.run, frames).map((spec) => {
+    this.plots = plots_of(machine, this.state.setup?.run, this.came).map((spec) => {
       const strip = spec.strip === true ? new LimitStrip(this.theme, this.words) : null;
       return new Plot(spec, host, strip);
     });

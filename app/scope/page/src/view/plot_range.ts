@@ -1,7 +1,7 @@
 /// The vertical range of a plot: at least what the plot says, rounded to calm numbers, so that it
 /// stands still while a live curve breathes.
 
-import uPlot from 'uplot';
+import type uPlot from 'uplot';
 
 const STRIP_SHARE = 0.2;  ///< Below 0, for the coloured strip of limits.
 
@@ -23,8 +23,8 @@ export function stable_range(
       max += 1;
     }
     const step = nice_step((max - min) / 5);
-    const low = Math.floor(min / step - 1e-9) * step;
-    const high = Math.ceil(max / step + 1e-9) * step;
+    const low = Math.floor(min / step + 1e-9) * step;
+    const high = Math.ceil(max / step - 1e-9) * step;
     // A curve along the frame could be taken for the frame; one that is 0 at rest needs no room.
     return [min === low && min !== 0 ? low - step / 2 : low, max === high ? high + step / 4 : high];
   };

@@ -23,6 +23,8 @@ export interface PlotSpec {
   /// Least range of the vertical axis; without it the curves alone decide.
   least?: readonly [number, number];
   strip?: boolean;  ///< With the limits as a coloured strip below.
+  /// So far the vertical axis is straight, beyond it goes by powers of ten.
+  straight_to?: number;
 }
 
 const DRIVES = [
@@ -70,8 +72,9 @@ function excavator_plots(machine: ExcavatorMachine): PlotSpec[] {
       real('Swing', 'swing', 'SwingValveState.SwingSpool', 0));
   }
   const plots: PlotSpec[] = [LAMBDA, {
-    name: 'error', title: 'Path error', unit: 'mm', note: 'Measured tip from the path',
-    lines: [real('Path error', 'error', 'EcuHydraulics.PathError', 1)], least: [0, 5],
+    name: 'error', title: 'Path error', unit: 'mm', least: [0, 5], straight_to: 10,
+    note: 'Measured tip from the path; axis straight to 10 mm',
+    lines: [real('Path error', 'error', 'EcuHydraulics.PathError', 1)],
   }, {
     name: 'spools', title: 'Spools', unit: 'per mille', lines: spools, least: [-100, 100],
     note: 'Command pale, feedback strong; positive extends',
@@ -96,7 +99,8 @@ function excavator_plots(machine: ExcavatorMachine): PlotSpec[] {
     name: 'chambers', title: 'Chamber pressures', unit: 'MPa', least: [0, 5],
     note: 'Measured; cap side strong, rod side thin', lines: chambers(machine),
   }, {
-    name: 'swash', title: 'Swash', unit: '%', least: [0, 100], note: 'Command pale, measured strong',
+    name: 'swash', title: 'Swash', unit: '%', least: [0, 100],
+    note: 'Command pale, measured strong',
     lines: pumps.flatMap((pump) => [
       wanted(`Pump ${pump} command`, `pump${pump}`, `PumpCommand.Pump${pump}Swash`, 1),
       real(`Pump ${pump}`, `pump${pump}`, `PumpState.Pump${pump}Swash`, 1),
@@ -119,8 +123,8 @@ function chambers(machine: ExcavatorMachine): Line[] {
 function dozer_plots(): PlotSpec[] {
   const sides = ['Left', 'Right'] as const;
   return [LAMBDA, {
-    name: 'error', title: 'Grade error', unit: 'mm', least: [-5, 5],
-    note: 'Cutting edge against the grade; above is positive',
+    name: 'error', title: 'Grade error', unit: 'mm', least: [-5, 5], straight_to: 10,
+    note: 'Edge against the grade, above is positive; axis straight to 10 mm',
     lines: [real('Grade error', 'error', 'EcuGrade.GradeError', 1)],
   }, {
     name: 'speeds', title: 'Travel speed', unit: 'mm/s', least: [0, 500],
@@ -168,11 +172,15 @@ function dozer_plots(): PlotSpec[] {
   }];
 }
 
-/// All plots of a machine, with what a run knows beside the frames. Of a plan without frames only
-/// what it knows is left.
-export function plots_of(machine: Machine | null, run: Run | undefined, frames: boolean): PlotSpec[] {
-  const plots = machine === null || !frames ? []
+/// All plots of a machine, of the lines whose frames came, with what a run knows beside them.
+export function plots_of(
+  machine: Machine | null, run: Run | undefined, came: ReadonlySet<string>,
+): PlotSpec[] {
+  const all = machine === null ? []
     : machine.kind === 'excavator' ? excavator_plots(machine) : dozer_plots();
+  const plots = all.map((plot) => ({
+    ...plot, lines: plot.lines.filter(({trace}) => came.has(trace.message ?? '')),
+  })).filter(({lines}) => lines.length > 0);
   return run === undefined ? plots : with_truth(plots, run);
 }
 
@@ -181,7 +189,8 @@ const TRUTH_COLOURS = ['true', 'boom', 'arm', 'swing', 'right', 'error'];
 function with_truth(plots: PlotSpec[], run: Run): PlotSpec[] {
   const all = plots.map((plot) => ({...plot, lines: [...plot.lines]}));
   for (const line of run.truth.lines) {
-    let plot = all.find(({name, unit}) => name === line.plot && unit_factor(line.unit, unit) !== null);
+    let plot = all.find(({name, unit}) =>
+      name === line.plot && unit_factor(line.unit, unit) !== null);
     if (plot === undefined) {
       const title = line.title ?? line.plot.charAt(0).toUpperCase() + line.plot.slice(1);
       plot = {name: line.plot, title, unit: line.unit, note: 'Known to the simulation', lines: []};

@@ -1,28 +1,28 @@
-/// The scene and its layers; in a browser without WebGL the rest of the page goes on without it.
+/// The scene and its layers. Without WebGL it says so itself, and the rest goes on.
 
 import {createScene} from '../scene/scene';
 import type {SceneView} from '../scene/types';
 import {el} from './dom';
-import {layer_bar, LAYERS, type Layer} from './layers';
+import {LayerBar} from './layers';
 import {lower_bound} from './curves';
 import {is_live, type PageState} from './page_state';
 import type {ThemeSwitch} from './theme';
 
 export class SceneFrame {
   readonly node = el('div', {class: 'scene-host'});
-  readonly layers: HTMLElement;
-  private readonly view: SceneView | null;
-  private readonly shown = Object.fromEntries(
-    LAYERS.map((layer) => [layer, true])) as Record<Layer, boolean>;
-  private shown_for: unknown = null;
+  readonly layers: LayerBar;
+  private readonly view: SceneView;
+  private shown_for: readonly unknown[] = [];
+  private drives: readonly number[] | undefined;
+  private drives_s = NaN;
   private sized = false;
 
   constructor(theme: ThemeSwitch) {
-    this.view = this.make();
-    this.layers = layer_bar(this.shown, () => this.view?.setLayers(this.shown),
-      () => this.view?.resetCamera());
-    this.view?.setTheme(theme.dark);
-    theme.on_change(() => this.view?.setTheme(theme.dark));
+    this.view = createScene(this.node);
+    this.layers = new LayerBar(() => this.view.setLayers(this.layers.shown),
+      () => this.view.resetCamera());
+    this.view.setTheme(theme.dark);
+    theme.on_change(() => this.view.setTheme(theme.dark));
     new ResizeObserver(() => {
       this.sized = false;
     }).observe(this.node);
@@ -30,36 +30,31 @@ export class SceneFrame {
 
   frame(state: PageState): void {
     const {setup, machine, store, playhead} = state;
-    if (this.view === null || setup === null) {
+    if (setup === null) {
       return;
     }
     if (!this.sized) {
       this.sized = true;
       this.view.resize();
     }
-    const key = `${machine?.hash}`;
-    if (this.shown_for !== key) {
-      this.shown_for = key;
+    if (this.shown_for[0] !== setup || this.shown_for[1] !== machine) {
+      this.shown_for = [setup, machine];
+      this.drives_s = NaN;
       this.view.setMachine(setup, machine);
+      this.layers.offer(machine);
+    }
+    if (playhead.now_s !== this.drives_s) {
+      this.drives_s = playhead.now_s;
+      this.drives = planned_drives(state);
     }
     this.view.update({
       store, now_s: playhead.now_s, live: is_live(state) && playhead.follow,
-      drives: planned_drives(state),
+      drives: this.drives,
     });
   }
 
   tip(): readonly [number, number, number] | null {
-    return this.view?.tip() ?? null;
-  }
-
-  private make(): SceneView | null {
-    try {
-      return createScene(this.node);
-    } catch (error) {
-      this.node.append(el('p', {class: 'no-scene'},
-        `The machine cannot be drawn, the rest works: ${(error as Error).message}`));
-      return null;
-    }
+    return this.view.tip();
   }
 }
 

@@ -57,7 +57,8 @@ export class StatePanel implements View {
 
   private write_lambda({lambda, limit_kind, limit_index, mode}: Snapshot): void {
     const valid = lambda.state === 'valid';
-    set_text(this.lambda, valid ? fixed(lambda.value, 3) : lambda.state === 'error' ? 'error' : '–');
+    set_text(this.lambda, valid ? fixed(lambda.value, 3)
+      : lambda.state === 'error' ? 'error' : '–');
     const share = valid ? Math.max(0, Math.min(1, lambda.value)) : 0;
     this.bar.style.setProperty('--share', `${share * 100}%`);
     const held = limit_kind !== null && limit_kind !== 0;

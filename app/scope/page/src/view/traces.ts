@@ -5,12 +5,15 @@ import type {Curve, FrameStore, Reading, Run} from '../model/api';
 import {cut, lower_bound} from './curves';
 
 export interface Trace {
+  /// Of whose frames it is made; null: of none.
+  readonly message: string | null;
   curve(store: FrameStore, from_s: number, until_s: number, buckets: number): Curve;
   reading(store: FrameStore, time_s: number): Reading;
 }
 
 export function signal_trace(signal: string): Trace {
   return {
+    message: signal.split('.')[0]!,
     curve: (store, from_s, until_s, buckets) => store.curve(signal, from_s, until_s, buckets),
     reading: (store, time_s) => store.reading(signal, time_s),
   };
@@ -21,6 +24,7 @@ type TruthLine = Run['truth']['lines'][number];
 export function truth_trace(run: Run, line: TruthLine, scale: number): Trace {
   const times = run.truth.time_s;
   return {
+    message: null,
     curve: (_store, from_s, until_s, buckets) =>
       cut(times, line.values, scale, from_s, until_s, buckets),
     reading(_store, time_s) {

@@ -1,13 +1,13 @@
 #pragma once
 /// The bench of a digging run.
 
-#include "app/cli/machine_bench.hpp"
+#include "app/bench/machine_bench.hpp"
 #include "app/ecu/excavator_ecu.hpp"
 #include "app/machines/machine_file.hpp"
 #include "app/plant/operator_node.hpp"
 #include "app/plant/plant_node.hpp"
 
-namespace graben::cli {
+namespace graben::bench {
 
 struct DigBench : MachineBench<plant::PlantNode, plant::OperatorNode, ecu::ExcavatorEcu> {
   DigBench(const machines::ExcavatorMachine& machine, const Eigen::Vector3d& start_strokes_m,
@@ -17,4 +17,4 @@ struct DigBench : MachineBench<plant::PlantNode, plant::OperatorNode, ecu::Excav
                                                       start_strokes_m[2]}) {}
 };
 
-}  // namespace graben::cli
+}  // namespace graben::bench

@@ -1,13 +1,13 @@
 #pragma once
 /// The bench of a task's run.
 
-#include "app/cli/machine_bench.hpp"
+#include "app/bench/machine_bench.hpp"
 #include "app/ecu/excavator_ecu.hpp"
 #include "app/machines/machine_file.hpp"
 #include "app/plant/operator_node.hpp"
 #include "app/plant/plant_node.hpp"
 
-namespace graben::cli {
+namespace graben::bench {
 
 struct AutodigBench : MachineBench<plant::PlantNode, plant::OperatorNode, ecu::ExcavatorEcu> {
   AutodigBench(const machines::ExcavatorMachine& machine, const TaskBook& book,
@@ -18,4 +18,4 @@ struct AutodigBench : MachineBench<plant::PlantNode, plant::OperatorNode, ecu::E
             plant::PlantStart({start[kBoom], start[kArm], start[kBucket]}, start[kSwing])) {}
 };
 
-}  // namespace graben::cli
+}  // namespace graben::bench

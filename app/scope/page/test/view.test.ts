@@ -1,0 +1,190 @@
+import assert from 'node:assert/strict';
+import {test} from 'node:test';
+import type {Run, Setup} from '../src/model/api';
+import {loadDatabase} from '../src/model/dbc';
+import {State} from '../src/state';
+import {alarms_of} from '../src/view/alarm_rules';
+import {align, cut, lower_bound} from '../src/view/curves';
+import {BARS, distribution} from '../src/view/distribution';
+import {FaultLog} from '../src/view/fault_log';
+import {digits_of, fixed, time_words} from '../src/view/format';
+import {stable_range} from '../src/view/plot_range';
+import {plots_of} from '../src/view/plots';
+import {unit_factor} from '../src/view/traces';
+import {page_words} from '../src/view/words';
+import {CandumpParser} from '../src/model/candump';
+import {bytes_of, line} from './make';
+
+const SETUP: Setup = {
+  source: {mode: 'log', name: 'a.log', bytes: 1, bitrate: 500000}, machines: [],
+  words: {fault: {0: 'none', 21: 'a spool does not obey', 37: 'no such task'}, why_not_armed: []},
+};
+const EXCAVATOR = loadDatabase('excavator');
+
+const id = (message: string): number => EXCAVATOR.messages.get(message)!.id;
+const stroke = (time_s: number): string => line(time_s, id('BoomStroke'), new Uint8Array(8));
+
+function status(time_s: number, mode: number, fault: number, limit = 0, lambda = 0): string {
+  const raw = Math.round(lambda / 0.00002);
+  return line(time_s, id('EcuStatus'),
+    [mode | (limit << 4), 0, raw & 0xff, raw >> 8, fault, 0, 0, 0]);
+}
+
+function trouble(time_s: number, fault: number): string {
+  const spn = fault === 0 ? 0 : 520192 + fault;
+  return line(time_s, id('DM1'),
+    [0, 0xff, spn & 0xff, (spn >> 8) & 0xff, (spn >> 16) << 5, 1, 0xff, 0xff]);
+}
+
+function identity(time_s: number, hash: number, version: number): string {
+  return line(time_s, id('EcuIdentity'), [hash & 0xff, (hash >> 8) & 0xff, (hash >> 16) & 0xff,
+    hash >>> 24, version, 0xff, 0xff, 0xff]);
+}
+
+/// The page after a log that ended, at its last moment.
+function page(text: string, setup = SETUP): State {
+  const state = new State(false);
+  const parser = new CandumpParser();
+  parser.feed(bytes_of(text));
+  parser.end();
+  state.onOpened();
+  state.onSetup(setup);
+  state.onFrames({...parser.take(), restart: true}, text.length);
+  state.onMessage({kind: 'end'});
+  state.know_machine();
+  state.playhead.seek(state.extent.until_s);
+  return state;
+}
+
+const alarms = (state: State): Record<string, string> => Object.fromEntries(
+  alarms_of(state, page_words(state))
+    .map(({id: name, level, words}) => [name, `${level}: ${words}`]));
+
+test('curves of other times share one axis, without points that none has', () => {
+  const one = {time_s: Float64Array.of(10, 12), value: Float64Array.of(1, NaN)};
+  const two = {time_s: Float64Array.of(11, 12), value: Float64Array.of(5, 6)};
+  assert.deepEqual(align([one, two], 10),
+    [[0, 1, 2], [1, undefined, null], [undefined, 5, 6]]);
+  assert.deepEqual(align([], 0), [[]]);
+});
+
+test('a line is cut with a point beyond each end, and peaks stay', () => {
+  const times = Array.from({length: 1000}, (_, k) => k / 100);
+  const values = times.map((_, k) => (k === 555 ? 9 : 0));
+  const part = cut(times, values, 1000, 5, 6, 10);
+  assert.equal(part.time_s[0], 4.99);
+  assert.ok(part.time_s.length <= 2 * 10 + 2);
+  assert.equal(Math.max(...part.value), 9000);
+  const gap = cut([0, 1, 2], [1, null, 3], 1, 0, 2, 50);
+  assert.ok(Number.isNaN(gap.value[1]));
+  assert.equal(lower_bound(times, 9.99), 999);
+  assert.equal(lower_bound(times, 99), 1000);
+});
+
+test('numbers and times as they are read', () => {
+  assert.equal(fixed(-0.04, 1), '0.0');
+  assert.equal(fixed(-1234567.25, 1), '\u22121\u202f234\u202f567.3');
+  assert.equal(fixed(NaN, 1), '–');
+  assert.deepEqual([1, 0.05, 0.00002, 0.125, 10].map(digits_of), [0, 2, 4, 3, 0]);
+  assert.equal(time_words(59.996), '1:00.00');
+  assert.equal(time_words(3723.4, 1), '1:02:03.4');
+  assert.equal(time_words(-5, 0), '\u22120:05');
+});
+
+test('the vertical range holds the data and the least that is asked', () => {
+  const range = stable_range([0, 5], false) as
+    (plot: unknown, min: number, max: number) => [number, number];
+  for (const [min, max] of [[0, 3], [-20, 700], [1e-3, 2e-3], [4.9, 5]] as const) {
+    const [low, high] = range(null, min, max);
+    assert.ok(low <= Math.min(min, 0) && high >= Math.max(max, 5), `${min} .. ${max}`);
+  }
+  assert.equal(range(null, 0, 3)[0], 0);
+});
+
+test('a histogram counts every time once', () => {
+  const times = Float64Array.from({length: 1000}, (_, k) => (k === 7 ? 5000 : 4 + (k % 10) / 10));
+  const of = distribution(times);
+  assert.equal(of.bars.length, BARS);
+  assert.equal(of.bars.reduce((sum, bar) => sum + bar), 1000);
+  assert.equal(of.max_us, 5000);
+  assert.ok(of.median_us > 4 && of.median_us < 5);
+  assert.ok(of.bar_us * BARS < 100);  // the outlier does not squeeze the others
+  assert.equal(distribution(new Float64Array(5)).all_zero, true);
+});
+
+test('lines that only a simulation knows join the plot they name, in its unit', () => {
+  assert.equal(unit_factor('m', 'mm'), 1000);
+  assert.equal(unit_factor('m', 'MPa'), null);
+  const run: Run = {
+    title: 'a', subtitle: '', summary: [], limits_share: [],
+    truth: {time_s: [0, 1], lines: [
+      {plot: 'error', label: 'True tip', unit: 'm', values: [0.001, null]},
+      {plot: 'force', title: 'Force', label: 'x', unit: 'N', values: [1, 2]},
+      {plot: 'force', label: 'z', unit: 'N', values: [3, 4]},
+    ]},
+  };
+  const plots = plots_of(null, run, new Set());
+  assert.deepEqual(plots.map(({name, unit, lines}) => [name, unit, lines.length]),
+    [['error', 'm', 1], ['force', 'N', 2]]);
+});
+
+test('each fault is listed once, whether EcuStatus or DM1 tells it', () => {
+  const text = stroke(0) + status(0, 3, 0) + status(1, 5, 21) + trouble(1.01, 21)
+    + trouble(1.11, 17) + trouble(1.21, 21) + trouble(2.1, 17) + status(3, 3, 0) + trouble(3, 0)
+    + status(9, 5, 21) + trouble(9.01, 21);
+  const log = new FaultLog();
+  log.update(page(text).store);
+  assert.deepEqual(log.events.map(({time_s, code, dm1_only}) => [time_s, code, dm1_only]),
+    [[1, 21, false], [1.11, 17, true], [9, 21, false]]);
+  assert.equal(log.last(8)?.code, 17);
+  assert.equal(log.next(1.11)?.time_s, 9);
+  assert.equal(log.next(9), undefined);
+});
+
+test('the list of faults is bounded', () => {
+  let text = stroke(0);
+  for (let k = 1; k <= 300; ++k) {
+    text += status(k, 5, 21) + status(k + 0.5, 3, 0);
+  }
+  const log = new FaultLog();
+  log.update(page(text).store);
+  assert.equal(log.events.length, 200);
+  assert.equal(log.total, 300);
+  assert.equal(log.events.at(-1)?.time_s, 300);
+});
+
+test('a stopped machine and a plan that cannot work are alarms', () => {
+  const good = alarms(page(stroke(0) + status(0, 3, 0, 0, 1)));
+  assert.deepEqual(good, {});
+  const stopped = alarms(page(stroke(0) + status(0, 5, 21)));
+  assert.equal(stopped.fault, 'alarm: Stopped by fault 21: a spool does not obey.');
+  const task = alarms(page(stroke(0) + status(0, 1, 37)));
+  assert.equal(task.plan, 'alarm: This plan cannot work: no such task (fault 37).');
+  assert.match(alarms(page(stroke(0) + status(0, 3, 0, 12, 0))).fence!, /^alarm: This plan cannot/);
+  assert.match(alarms(page(stroke(0) + status(0, 3, 0, 12, 0.5))).fence!, /^warning: Slowed by/);
+});
+
+test('what is wrong with a log is said with place and number', () => {
+  const frames = stroke(0) + status(0, 3, 0);
+  const other = alarms(page(frames + identity(0, 0xdeadbeef, EXCAVATOR.version - 1)));
+  assert.equal(other.dbc, `alarm: Written with DBC version ${EXCAVATOR.version - 1}, this page `
+    + `reads version ${EXCAVATOR.version}: values may be wrong.`);
+  assert.match(other.profile!, /hash 0xDEADBEEF is known here/);
+  assert.equal(alarms(page(`${frames}rubbish\n`)).malformed,
+    'warning: 1 line is not candump, the first is line 3: ‘rubbish’.');
+  assert.match(alarms(page('hello\n')).malformed!, /^alarm: This is no candump log, .*line 1/);
+  assert.match(alarms(page('')).empty!, /^alarm: This log is empty/);
+});
+
+test('what is wrong with the way here is said', () => {
+  const state = page(stroke(0) + status(0, 3, 0));
+  state.onMessage({kind: 'dropped', frames: 1234});
+  state.onMessage({kind: 'bus', up: false, words: 'bus-off'});
+  state.onMessage({kind: 'refused', why: 'not now'});
+  state.onClosed('the server does not answer', 2);
+  const all = alarms(state);
+  assert.equal(all.dropped, 'warning: This page is too slow: 1\u202f234 frames were left out.');
+  assert.equal(all.bus, 'alarm: The bus is down: bus-off.');
+  assert.equal(all.refused, 'warning: Refused: not now');
+  assert.match(all.link!, /^alarm: The connection to the server is lost/);
+});
