@@ -21,7 +21,7 @@
 namespace graben::cli {
 namespace {
 
-struct Options {
+struct DigCommand {
   ScenarioOptions scenario;
   std::optional<std::string> profile;
   std::optional<std::string> task;
@@ -45,7 +45,7 @@ Eigen::Vector3d random_strokes(const ExcavatorGeometry& geometry, std::uint64_t 
 }
 
 /// Where the options say it, if they do.
-std::optional<Eigen::Vector3d> start_strokes(const Options& options,
+std::optional<Eigen::Vector3d> start_strokes(const DigCommand& options,
                                              const ExcavatorProfile& profile) {
   if (options.random_start) {
     return random_strokes(profile.geometry, options.seed);
@@ -83,7 +83,7 @@ const char* end_text(DigEnd end) {
   return "unknown";
 }
 
-void dig(const Options& options) {
+void dig(const DigCommand& options) {
   ScenarioOptions scenario = options.scenario;
   scenario.scenario.seed = options.seed;
   const machines::ExcavatorMachine machine = arranged(
@@ -126,7 +126,7 @@ void dig(const Options& options) {
 }
 
 /// What can be told of a task's run too, in the words of `autodig`.
-TaskRunOptions task_run(const Options& options) {
+TaskRunOptions task_run(const DigCommand& options) {
   TaskRunOptions run;
   run.profile = options.profile.value_or(run.profile);
   run.task = options.task.value_or(run.task);
@@ -140,7 +140,7 @@ TaskRunOptions task_run(const Options& options) {
 }
 
 /// Adds --task, which goes with none of the options that are of Kim's path alone.
-void add_task(CLI::App& command, Options& options) {
+void add_task(CLI::App& command, DigCommand& options) {
   CLI::Option* task = command.add_option("--task", options.task,
                                          "Run a task of straight lines instead, as `autodig` does: "
                                          "a file, or the name of one of ours");
@@ -154,7 +154,7 @@ void add_task(CLI::App& command, Options& options) {
 }  // namespace
 
 void add_dig(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DigCommand>();
   CLI::App* command = app.add_subcommand(
       "dig", "Dig round Kim's path on the simulated machine, over a CAN bus in memory");
   command->add_option("--profile", options->profile,

@@ -20,7 +20,7 @@
 namespace graben::cli {
 namespace {
 
-struct Options {
+struct GradeCommand {
   GradeScenario scenario;
   std::string profile = "dozer_9t";
   std::string out = "out";
@@ -37,7 +37,7 @@ std::string end_text(const GradeResult& result) {
              : "the grade was not finished in time";
 }
 
-machines::DozerMachine machine_of(const Options& options) {
+machines::DozerMachine machine_of(const GradeCommand& options) {
   if (options.scenario.errors == "all" && !options.seed) {
     throw std::runtime_error("--errors all draws the errors: it needs --seed");
   }
@@ -45,12 +45,12 @@ machines::DozerMachine machine_of(const Options& options) {
                   options.seed.value_or(0));
 }
 
-std::string words_of(const Options& options, const machines::DozerMachine& machine) {
+std::string words_of(const GradeCommand& options, const machines::DozerMachine& machine) {
   const std::string seed = options.seed ? fmt::format(" | seed {}", *options.seed) : "";
   return fmt::format("{} | {}{}", machine.name, scenario_words(machine, options.scenario), seed);
 }
 
-void grade(const Options& options) {
+void grade(const GradeCommand& options) {
   const machines::DozerMachine machine = machine_of(options);
   const std::filesystem::path out(options.out);
   std::filesystem::create_directories(out);
@@ -77,7 +77,7 @@ void grade(const Options& options) {
 }
 
 /// How fast one may go without the controller's bound.
-void search(const Options& options) {
+void search(const GradeCommand& options) {
   if (options.scenario.speed_mode != "constant") {
     throw std::runtime_error("--within looks for a constant speed: it needs --speed-mode constant");
   }
@@ -102,7 +102,7 @@ void search(const Options& options) {
 }  // namespace
 
 void add_grade(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<GradeCommand>();
   CLI::App* command = app.add_subcommand(
       "grade", "Cut the profile's grade with the simulated dozer, over a CAN bus in memory");
   command->add_option("--profile", options->profile, "Machine profile: file or shipped name")

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct PlanCommand {
   std::string profile = "excavator_12t";
   std::vector<double> from;
   std::vector<double> to;
@@ -36,7 +36,7 @@ TeethPose pose(const std::vector<double>& given, const TeethPose& otherwise) {
   return given.empty() ? otherwise : TeethPose{{given[0], given[1], given[2]}, given[3]};
 }
 
-LineRequest request_of(const Options& options, const machines::ExcavatorMachine& machine) {
+LineRequest request_of(const PlanCommand& options, const machines::ExcavatorMachine& machine) {
   const machines::LineTask& task = machine.experiment.line;
   LineRequest request{pose(options.from, task.from), pose(options.to, task.to),
                       options.acceleration_mps2.value_or(machine.profile.line.acceleration_mps2)};
@@ -60,7 +60,7 @@ void write_text(const fs::path& file, const std::string& text) {
   }
 }
 
-void plan(const Options& options) {
+void plan(const PlanCommand& options) {
   const machines::ExcavatorMachine machine =
       machines::load_excavator(machines::find_profile(options.profile));
   const ExcavatorProfile& profile = machine.profile;
@@ -86,7 +86,7 @@ void plan(const Options& options) {
 }  // namespace
 
 void add_plan(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PlanCommand>();
   CLI::App* command = app.add_subcommand(
       "plan",
       "Plan a straight line of the bucket's teeth, with swing; nothing moves. Without --from, --to "

@@ -22,7 +22,7 @@
 namespace graben::cli {
 namespace {
 
-struct Options {
+struct PlantCommand {
   ScenarioOptions scenario;
   GradeScenario grade;
   PlantRunOptions run;
@@ -105,7 +105,7 @@ Player player_of(const std::string& name, machines::MachineKind kind) {
   return name == "none" ? Player::kNobody : name == "shifts" ? Player::kShifts : Player::kTask;
 }
 
-nlohmann::ordered_json run_program(const Options& options,
+nlohmann::ordered_json run_program(const PlantCommand& options,
                                    const machines::ExcavatorMachine& machine, PlantRunOptions run) {
   if (!machine.profile.has_swing()) {
     refuse("--operator program", "an excavator with a swing drive");
@@ -120,7 +120,8 @@ nlohmann::ordered_json run_program(const Options& options,
   return summary_of(run_task_plant(arranged(machine, options.scenario), task.result.program, run));
 }
 
-nlohmann::ordered_json run_excavator(const Options& options, const std::filesystem::path& profile,
+nlohmann::ordered_json run_excavator(const PlantCommand& options,
+                                     const std::filesystem::path& profile,
                                      const PlantRunOptions& run) {
   if (options.grade.engine_rpm) {
     refuse("--engine-rpm", "a dozer");
@@ -135,7 +136,7 @@ nlohmann::ordered_json run_excavator(const Options& options, const std::filesyst
       machine, run, plant::ExcavatorPlant::AxisArray{strokes_m[0], strokes_m[1], strokes_m[2]}));
 }
 
-nlohmann::ordered_json run_dozer(const Options& options, const std::filesystem::path& profile,
+nlohmann::ordered_json run_dozer(const PlantCommand& options, const std::filesystem::path& profile,
                                  const PlantRunOptions& run) {
   const std::string& errors = options.scenario.errors;
   const bool is_known = errors == "none" || errors == "all";
@@ -148,7 +149,7 @@ nlohmann::ordered_json run_dozer(const Options& options, const std::filesystem::
       arranged(machines::load_dozer(profile), grade, options.scenario.scenario.seed), run));
 }
 
-void plant_on_bus(const Options& options) {
+void plant_on_bus(const PlantCommand& options) {
   if (options.player != "program" && (options.task || options.task_number)) {
     throw std::runtime_error("--task, --task-number: only with --operator program");
   }
@@ -169,7 +170,7 @@ void plant_on_bus(const Options& options) {
 }  // namespace
 
 void add_plant(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PlantCommand>();
   CLI::App* command = app.add_subcommand(
       "plant", "The simulated machine in real time on a CAN interface, valve side and all");
   command->add_option("--can", options->run.interface, "CAN interface, such as vcan0")->required();

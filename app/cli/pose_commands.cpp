@@ -104,12 +104,12 @@ void print_strokes(const std::string& profile, const TipPose& pose) {
 }  // namespace
 
 void add_pose(CLI::App& app, int& status) {
-  struct Options {
+  struct PoseCommand {
     std::string profile;
     std::vector<double> strokes_m;
     double swing_rad = 0.0;
   };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PoseCommand>();
   CLI::App* command =
       app.add_subcommand("pose", "Tip pose and joint angles at given strokes, as JSON");
   command->add_option("--profile", options->profile, "Machine profile: file or shipped name")
@@ -135,11 +135,11 @@ void add_pose(CLI::App& app, int& status) {
 }
 
 void add_strokes(CLI::App& app, int& status) {
-  struct Options {
+  struct PoseCommand {
     std::string profile;
     TipPose pose;
   };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PoseCommand>();
   CLI::App* command = app.add_subcommand(
       "strokes",
       "Strokes for a tip pose, as JSON; a pose that can't be had gives strokes null and a status");

@@ -1,6 +1,9 @@
 """How long a cycle takes, kernel included, and how late it begins, by the load of the bus:
 timing.py OUT PROGRAM... boots once for all runs of the table, then again for the first of them, which
-has to give the same histograms. What is printed is an observed maximum, no bound."""
+has to give the same histograms. The emulator's clock counts instructions, but when its devices are
+served is up to the host. One boot that went another way was seen (2026-11-22), so up to three are
+tried, of which one has to be as the first.
+What is printed is an observed maximum, no bound."""
 
 import dataclasses
 import json
@@ -52,6 +55,7 @@ SLOT_S = 320e-6
 SHARE_MARGIN = 0.03
 OWN_SHARE = (0.30, 0.45)
 ENABLED_S = 1.0
+AGAIN_MOST = 3
 
 
 def bus_share(out: pathlib.Path, run: Run) -> float:
@@ -128,7 +132,10 @@ def main() -> int:
     first, again = out / "first", out / "again"
     if (status := boot(first, programs, len(RUNS), check)) or not (first / "console.txt").exists():
         return status
-    return boot(again, programs, 1, lambda seen: check_again(first, seen))
+    for _ in range(AGAIN_MOST):
+        if not (status := boot(again, programs, 1, lambda seen: check_again(first, seen))):
+            break
+    return status
 
 
 if __name__ == "__main__":

@@ -12,6 +12,13 @@ namespace {
 using namespace graben;
 using test::kCycle_s;
 
+// GRABEN_EMULATED: on another machine's processor, which runs a twentieth as fast.
+#ifdef GRABEN_EMULATED
+constexpr int kPrograms = 200;
+#else
+constexpr int kPrograms = 3000;
+#endif
+
 const test::ReplayMachine& machine() {
   static const test::ReplayMachine loaded(test::excavator_12t());
   return loaded;
@@ -272,7 +279,7 @@ void assert_refused_at(const ProgramResult& result) {
 void random_programs_stay_inside_or_say_where_not(void**) {
   std::array<int, 8> ended{};
   int replayed = 0;
-  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+  for (std::uint64_t seed = 0; seed < kPrograms; ++seed) {
     plant::Random random(seed, plant::Draw::kStart);
     const DriveVector start = machine().random_drive(random, -0.02);
     const ProgramResult result = plan(random_request(random, start));
@@ -290,7 +297,10 @@ void random_programs_stay_inside_or_say_where_not(void**) {
   }
   print_message("planned %d, refused for blind spots %d, fences %d, swing %d\n", ended[0], ended[3],
                 ended[4], ended[5]);
-  assert_true(ended[0] > 300 && ended[3] > 300 && ended[4] > 300 && ended[5] > 20);
+  // Enough of each that the round says something.
+  constexpr int kMany = kPrograms / 10;
+  assert_true(ended[0] > kMany && ended[3] > kMany && ended[4] > kMany &&
+              ended[5] > kPrograms / 150);
 }
 
 }  // namespace
