@@ -21,7 +21,7 @@
 namespace graben::cli {
 namespace {
 
-struct Options {
+struct ScopeCommand {
   std::vector<std::string> can;
   std::optional<std::string> log;
   std::optional<std::string> sim;
@@ -33,7 +33,7 @@ struct Options {
 
 constexpr int kUsualBitrate_bps = 500000;
 
-scope::SimOptions simulation(const Options& options) {
+scope::SimOptions simulation(const ScopeCommand& options) {
   const bool has_task = *options.sim == "autodig";
   if (options.setup.tasks.size() > (has_task ? 1U : 0U)) {
     throw std::runtime_error(
@@ -53,7 +53,7 @@ scope::SimOptions simulation(const Options& options) {
 }
 
 /// The simulated controller has the one task, by the number 0.
-scope::SetupOptions setup_of(const Options& options) {
+scope::SetupOptions setup_of(const ScopeCommand& options) {
   scope::SetupOptions setup = options.setup;
   if (options.sim == "autodig" && setup.tasks.empty()) {
     setup.tasks = {"flatten"};
@@ -61,7 +61,7 @@ scope::SetupOptions setup_of(const Options& options) {
   return setup;
 }
 
-void show(const Options& options) {
+void show(const ScopeCommand& options) {
   if (options.seed && !options.sim) {
     throw std::runtime_error("--seed: only with --sim");
   }
@@ -82,7 +82,7 @@ void show(const Options& options) {
 }  // namespace
 
 void add_scope(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ScopeCommand>();
   CLI::App* command = app.add_subcommand(
       "scope",
       "The machine in a browser: posed, with plots and faults, from what is on the bus. Serves a "
