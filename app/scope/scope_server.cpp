@@ -4,6 +4,7 @@
 #include <libwebsockets.h>
 
 #include <array>
+#include <atomic>
 #include <stdexcept>
 
 #include "app/scope/frames_service.hpp"
@@ -99,7 +100,17 @@ lws_protocols protocol(const char* name, lws_callback_function* callback) {
   return result;
 }
 
-void say_error(int /*level*/, const char* line) { fmt::print(stderr, "graben scope: {}", line); }
+/// What the library has to say of connections. Whoever sends nonsense must not fill a disk by it.
+void say_error(int /*level*/, const char* line) {
+  constexpr int kMost = 20;
+  static std::atomic<int> said{0};
+  const int before = said.fetch_add(said < kMost + 1 ? 1 : 0);
+  if (before < kMost) {
+    fmt::print(stderr, "graben scope: {}", line);
+  } else if (before == kMost) {
+    fmt::print(stderr, "graben scope: more of this is not shown\n");
+  }
+}
 
 }  // namespace
 

@@ -22,7 +22,8 @@ inline CanFrame numbered_frame(std::uint32_t number) {
   return frame;
 }
 
-/// Feeds numbered frames at the rate that is set, a block every millisecond.
+/// Feeds numbered frames, as many as are set every 4 ms: a server's thread that had to wait for a
+/// processor has a second until its pages miss some.
 class ScriptedSource : public scope::FrameSource {
  public:
   explicit ScriptedSource(int frames_per_block) : frames_per_block_(frames_per_block) {}
@@ -44,12 +45,13 @@ class ScriptedSource : public scope::FrameSource {
         told_ = revision_.load();
         feed.wake();
       }
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      std::this_thread::sleep_for(std::chrono::milliseconds(4));
     }
   }
 
   /// Takes {"do": "stop"} alone; each changes the state.
   [[nodiscard]] std::optional<std::string> control(const nlohmann::json& wish) override {
+    ++wishes_;
     if (wish.at("do") != "stop") {
       return "only stop is known";
     }
@@ -66,10 +68,13 @@ class ScriptedSource : public scope::FrameSource {
   }
 
   void set_frames_per_block(int frames) { frames_per_block_ = frames; }
+  /// That got so far.
+  [[nodiscard]] std::uint64_t wishes() const { return wishes_; }
 
  private:
   std::atomic<int> frames_per_block_;
   std::atomic<std::uint64_t> revision_{1};
+  std::atomic<std::uint64_t> wishes_{0};
   std::uint64_t told_ = 1;
 };
 
@@ -101,8 +106,8 @@ class ServedShow {
 /// Both, at work.
 class LiveRig {
  public:
-  explicit LiveRig(int frames_per_block)
-      : source_(frames_per_block), show_(source_, nlohmann::json::object()), served_(show_) {
+  explicit LiveRig(ScriptedSource& source)
+      : source_(source), show_(source_, nlohmann::json::object()), served_(show_) {
     show_.start([this] { served_.server().wake(); });
   }
   LiveRig(const LiveRig&) = delete;
@@ -113,7 +118,7 @@ class LiveRig {
   [[nodiscard]] int port() const { return served_.port(); }
 
  private:
-  ScriptedSource source_;
+  ScriptedSource& source_;
   scope::LiveShow show_;
   ServedShow served_;
 };

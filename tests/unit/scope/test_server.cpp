@@ -13,12 +13,22 @@ namespace {
 
 using namespace graben;
 using nlohmann::json;
-using test::LiveRig;
 using test::Milliseconds;
 using test::Opcode;
 using test::ServedShow;
 using test::WsClient;
 using test::WsMessage;
+
+/// A server of a source that makes so many frames every 4 ms.
+struct LiveRig {
+  explicit LiveRig(int frames_per_block) : source_(frames_per_block) {}
+  [[nodiscard]] test::ScriptedSource& source() { return source_; }
+  [[nodiscard]] int port() const { return rig_.port(); }
+
+ private:
+  test::ScriptedSource source_;
+  test::LiveRig rig_{source_};
+};
 
 std::string own_host(int port) { return "127.0.0.1:" + std::to_string(port); }
 
@@ -194,7 +204,7 @@ void setup_and_state_come_first(void**) {
 }
 
 void two_pages_get_the_same_bytes(void**) {
-  LiveRig rig(5);
+  LiveRig rig(20);
   WsClient first(rig.port());
   WsClient second(rig.port());
   assert_true(first.open());
@@ -223,10 +233,10 @@ long resident_bytes() {
   return pages * sysconf(_SC_PAGESIZE);
 }
 
-/// 50 frames in a millisecond are 2 MB/s, twenty times a full bus: the one that does not read has
+/// 200 frames in 4 ms are 2 MB/s, twenty times a full bus: the one that does not read has
 /// its buffers full at once.
 void one_that_does_not_read_loses_frames_and_is_told(void**) {
-  LiveRig rig(50);
+  LiveRig rig(200);
   WsClient stuck(rig.port(), 4096);
   WsClient good(rig.port());
   assert_true(stuck.open());
@@ -326,7 +336,7 @@ void what_is_no_message_closes_the_connection(void**) {
 }
 
 void a_flood_is_read_slowly_and_costs_the_others_nothing(void**) {
-  LiveRig rig(5);
+  LiveRig rig(20);
   WsClient flood(rig.port());
   WsClient good(rig.port());
   assert_true(flood.open());
@@ -399,7 +409,7 @@ void other_addresses_are_known_as_such(void**) {
 }
 
 void it_stops_at_once_with_pages_open(void**) {
-  auto rig = std::make_unique<LiveRig>(5);
+  auto rig = std::make_unique<LiveRig>(20);
   WsClient client(rig->port());
   assert_true(client.open());
   const auto begin = std::chrono::steady_clock::now();

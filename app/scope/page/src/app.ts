@@ -43,7 +43,7 @@ export function start(root: HTMLElement): void {
   const header = new Header(theme, () => help.showModal());
   const alarms = new Alarms(words, () => replay.jump_to_current());
   const feed = createFeed(state, setup);
-  state.send = (message) => feed.send(message);
+  state.send_by((message) => feed.send(message));
   const files = new FileOpener((file) => {
     state.file_opened();
     feed.open_file(file);

@@ -9,6 +9,7 @@ import {LIVE_KEEP_S, PageStore} from './model/store';
 import type {Link, PageState} from './view/page_state';
 
 const LIVE_WINDOW_S = 30;
+const REFUSED_MS = 8000;
 
 export class State implements PageState, FeedEvents {
   setup: Setup | null = null;
@@ -19,12 +20,12 @@ export class State implements PageState, FeedEvents {
   dropped = 0;
   bus: PageState['bus'] = null;
   sim: PageState['sim'] = null;
-  refused = '';
+  private refusal = {words: '', until_ms: 0};
   ended = false;
   loaded_share = 1;
   trouble = '';
   origin_s = 0;
-  send: (message: ToServer) => void = () => undefined;
+  private sender: (message: ToServer) => void = () => undefined;
   private machine_known_at = -1;
 
   /// With a setup in the page nothing is connected.
@@ -37,6 +38,21 @@ export class State implements PageState, FeedEvents {
     if (embedded) {
       this.link = {state: 'file', words: 'The log is in this page.'};
     }
+  }
+
+  /// Long enough to be read; the next wish takes it away.
+  get refused(): string {
+    return performance.now() < this.refusal.until_ms ? this.refusal.words : '';
+  }
+
+  send(message: ToServer): void {
+    this.refusal.words = '';
+    this.sender(message);
+  }
+
+  /// By whom wishes reach the server.
+  send_by(sender: (message: ToServer) => void): void {
+    this.sender = sender;
   }
 
   get extent(): {from_s: number; until_s: number} {
@@ -75,7 +91,7 @@ export class State implements PageState, FeedEvents {
     this.dropped = 0;
     this.bus = null;
     this.sim = null;
-    this.refused = '';
+    this.refusal.words = '';
     this.trouble = '';
     this.ended = mode === 'plan';
     this.loaded_share = mode === 'log' || mode === 'report' ? 0 : 1;
@@ -114,11 +130,10 @@ export class State implements PageState, FeedEvents {
         break;
       case 'sim':
         this.sim = message;
-        this.refused = '';
         this.follow_clock();
         break;
       case 'refused':
-        this.refused = message.why;
+        this.refusal = {words: message.why, until_ms: performance.now() + REFUSED_MS};
         break;
     }
   }

@@ -2,9 +2,10 @@
 /// rod chamber from there on, and the rod.
 
 import {
-  Color, CylinderGeometry, Group, Mesh, MeshLambertMaterial, Quaternion, SRGBColorSpace, Vector3,
+  Color, CylinderGeometry, Group, Mesh, Quaternion, SRGBColorSpace, Vector3,
 } from 'three';
 import {type CylinderSize, cylinder_places} from './cylinder_places';
+import {type Light, PartMaterial} from './light';
 import {kOrder} from './materials';
 import {pressure_colour} from './pressure_colour';
 import type {SceneColours} from './theme';
@@ -13,17 +14,17 @@ const kAxis = new Vector3(0, 0, 1);
 
 export class Cylinder {
   readonly node = new Group();
-  private readonly cap: Mesh<CylinderGeometry, MeshLambertMaterial>;
-  private readonly ring: Mesh<CylinderGeometry, MeshLambertMaterial>;
-  private readonly rod: Mesh<CylinderGeometry, MeshLambertMaterial>;
+  private readonly cap: Mesh<CylinderGeometry, PartMaterial>;
+  private readonly ring: Mesh<CylinderGeometry, PartMaterial>;
+  private readonly rod: Mesh<CylinderGeometry, PartMaterial>;
   private stale = new Color();
   private plain = new Color('#b9bfc4');
 
-  constructor(private readonly size: CylinderSize) {
+  constructor(private readonly size: CylinderSize, light: Light) {
     const barrel = 0.5 * size.bore_m + 0.02;
-    this.cap = tube(barrel);
-    this.ring = tube(barrel);
-    this.rod = tube(0.5 * size.rod_m);
+    this.cap = tube(barrel, light);
+    this.ring = tube(barrel, light);
+    this.rod = tube(0.5 * size.rod_m, light);
     this.node.add(this.cap, this.ring, this.rod);
     this.node.matrixAutoUpdate = false;
   }
@@ -39,6 +40,13 @@ export class Cylinder {
     stretch(this.rod, places.gland_m, places.eye_m);
   }
 
+  /// Base pin and rod eye as they are drawn.
+  ends(): {base: Vector3; eye: Vector3} {
+    return {
+      base: new Vector3().setFromMatrixPosition(this.node.matrixWorld),
+      eye: new Vector3(0, 0, 1).applyMatrix4(this.rod.matrixWorld)};
+  }
+
   /// Shares of the relief's pressure; NaN: not known. Null: this cylinder has no sensors.
   show(cap_share: number | null, rod_share: number | null, stale: boolean): void {
     this.paint(this.cap.material, cap_share, stale);
@@ -46,13 +54,13 @@ export class Cylinder {
     this.paint(this.rod.material, rod_share, stale);
   }
 
-  private paint(material: MeshLambertMaterial, share: number | null, stale: boolean): void {
+  private paint(material: PartMaterial, share: number | null, stale: boolean): void {
     if (share === null) {
-      material.color.copy(stale ? this.stale : this.plain);
+      material.tint.copy(stale ? this.stale : this.plain);
     } else if (Number.isNaN(share)) {
-      material.color.copy(this.stale);
+      material.tint.copy(this.stale);
     } else {
-      material.color.setRGB(...pressure_colour(share), SRGBColorSpace);
+      material.tint.setRGB(...pressure_colour(share), SRGBColorSpace);
     }
   }
 
@@ -69,10 +77,10 @@ export class Cylinder {
 }
 
 /// A unit tube along z from 0 to 1.
-function tube(radius_m: number): Mesh<CylinderGeometry, MeshLambertMaterial> {
+function tube(radius_m: number, light: Light): Mesh<CylinderGeometry, PartMaterial> {
   const geometry = new CylinderGeometry(radius_m, radius_m, 1, 14);
   geometry.rotateX(Math.PI / 2).translate(0, 0, 0.5);
-  const mesh = new Mesh(geometry, new MeshLambertMaterial());
+  const mesh = new Mesh(geometry, new PartMaterial(light));
   mesh.renderOrder = kOrder.machine;
   return mesh;
 }

@@ -37,7 +37,7 @@ export class DozerModel {
     for (let i = 0; i < machine.blade.cylinders; ++i) {
       const cylinder = new Cylinder({
         bore_m: machine.blade.bore_m, rod_m: machine.blade.rod_m,
-        closed_length_m: linkage.shortest_m, stroke_m: linkage.stroke_max_m});
+        closed_length_m: linkage.shortest_m, stroke_m: linkage.stroke_max_m}, shared.light);
       this.cylinders.push(cylinder);
       this.body.node.add(cylinder.node);
     }

@@ -51,7 +51,7 @@ function house(machine: DozerMachine, cylinder_y: number): Piece[] {
   const contact = machine.track_contact_m;
   const half = machine.half_gauge_m;
   const deck = 1.08 * track_height_m(machine);
-  const hood = deck + 0.62 * machine.mass_centre_height_m;
+  const hood = deck + 0.8 * machine.mass_centre_height_m;
   const narrow = cylinder_y - 0.5 * machine.blade.bore_m - 0.06;
   const nose = 0.5 * contact;
   const hood_side: Vector2[] = [
@@ -63,7 +63,7 @@ function house(machine: DozerMachine, cylinder_y: number): Piece[] {
     box('frame', [nose, nose + 0.05], [-0.85 * narrow, 0.85 * narrow], [deck - 0.2, hood - 0.22]),
     box('body', [-0.56 * contact, -0.02 * contact], [-fender, fender], [deck - 0.02, deck + 0.1]),
     box('weight', [-0.56 * contact, -0.4 * contact], [-fender, fender], [deck, hood - 0.1]),
-    ...cab([-0.4 * contact, -0.02 * contact], [-0.78 * half, 0.78 * half], deck + 0.1),
+    ...cab([-0.4 * contact, -0.02 * contact], [-0.74 * half, 0.74 * half], deck + 0.02),
     top('steel', hull_of_discs([{at_m: [0.22 * contact, 0.4 * narrow], radius_m: 0.05}], 12),
       hood - 0.1, hood + 0.55),
     ...cylinder_brackets(machine, cylinder_y, narrow),
@@ -86,6 +86,8 @@ function cylinder_brackets(machine: DozerMachine, cylinder_y: number, narrow: nu
 const kMouldboard: readonly Vector2[] = [
   [0, 0], [-0.06, 0.12], [-0.105, 0.28], [-0.12, 0.45], [-0.11, 0.62], [-0.07, 0.8], [0, 0.97]];
 
+const kFootRadius_m = 0.11;
+
 function blade(machine: DozerMachine, cylinder_y: number): Piece[] {
   const {cutting_edge_m, pivot_m, arm_m} = machine.blade;
   const edge_home = Math.asin(-pivot_m[1] / cutting_edge_m);
@@ -96,7 +98,8 @@ function blade(machine: DozerMachine, cylinder_y: number): Piece[] {
   const thick = 0.03 * height;
   const board = sized(kMouldboard, height, add(edge, [-thick, thick]));
   const back = edge[0] - 0.13 * height - 2 * thick;
-  const foot = polar(Math.min(norm(arm_m), back / Math.cos(direction(arm_m))), direction(arm_m));
+  const foot = polar(
+    Math.min(norm(arm_m), back / Math.cos(direction(arm_m))) - kFootRadius_m, direction(arm_m));
   const end = hull_of_discs(board.map((at_m) => ({at_m, radius_m: thick})), 8);
   return [
     side('body', beam(board, board.map(() => thick)), -half, half),
@@ -119,7 +122,7 @@ const cutting_edge = (edge: Vector2, height: number): Vector2[] => [
 function arms(cylinder_y: number, foot: Vector2): Piece[] {
   const eye = polar(0.5 * norm(foot), direction(foot));
   const bar = hull_of_discs([
-    {at_m: [0, 0], radius_m: 0.09}, {at_m: eye, radius_m: 0.1}, {at_m: foot, radius_m: 0.11}]);
+    {at_m: [0, 0], radius_m: 0.09}, {at_m: eye, radius_m: 0.1}, {at_m: foot, radius_m: kFootRadius_m}]);
   const cross = minus(foot, polar(0.12, direction(foot)));
   return [
     ...pair('frame', bar, cylinder_y - 0.07, cylinder_y + 0.07),

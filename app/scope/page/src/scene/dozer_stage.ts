@@ -2,6 +2,7 @@
 
 import {Group, Object3D, Sphere, Vector3 as Point} from 'three';
 import type {DozerMachine, Vector2} from '../model/api';
+import {designHeight, wantedDozer} from '../model/wanted';
 import {DozerModel} from './dozer_model';
 import {blade_walk} from './edges';
 import {GroundLayer} from './ground_layer';
@@ -31,6 +32,7 @@ export class DozerStage implements Stage {
   private readonly design: Pane;
   private readonly trail: TrailLayer;
   private readonly ruler: Ruler;
+  private ghost_wanted = true;
 
   constructor(
     private readonly machine: DozerMachine, shared: SharedMaterials, labels: Labels) {
@@ -39,15 +41,15 @@ export class DozerStage implements Stage {
     const width = this.model.shape.blade_width_m;
     const grid = dozer_grid(machine);
     this.ground = new GroundLayer(
-      {grid, start: () => 0, width_m: width, walk: blade_walk(machine)});
+      {grid, start: () => 0, width_m: width, walk: blade_walk(machine)}, shared.light);
     this.design = ribbon(graded(machine), width);
     this.trail = new TrailLayer(blade_walk(machine));
     this.ruler = new Ruler({
       from_x_m: Math.ceil(grid.x_m) + 4, to_x_m: Math.ceil(machine.length_m) + 2,
-      y_m: -0.5 * width - 0.5, low_z_m: -1, high_z_m: 1});
-    this.ruler.label(labels);
+      aside_m: 0.5 * width + 0.5, low_z_m: -1, high_z_m: 1},
+    labels);
     this.home = new Sphere(
-      new Point(0.5 * machine.track_contact_m, 0, 0.4), 1.35 * machine.track_contact_m + 1.2);
+      new Point(0.5 * machine.track_contact_m, 0, 0.6), 1.2 * machine.track_contact_m + 0.8);
     this.model.node.visible = false;
     this.model.pose_ghost(null);
     this.node.add(
@@ -65,10 +67,17 @@ export class DozerStage implements Stage {
       this.ground.set_centre(this.along_m, 0, kSeen_m);
     }
     this.model.show(state);
+    this.model.pose_ghost(this.ghost_wanted && store.database !== null ?
+      wantedDozer(store, this.machine, now_s) : null);
     this.trail.update(store, now_s);
   }
 
+  face(eye_y_m: number): void {
+    this.ruler.face(eye_y_m);
+  }
+
   set_layers(layers: SceneLayers): void {
+    this.ghost_wanted = layers.ghost;
     this.design.node.visible = layers.design;
     this.trail.node.visible = layers.path;
     this.ground.show(layers.terrain);
@@ -90,14 +99,7 @@ export class DozerStage implements Stage {
 /// The design from x = 0 to the grade's end, and no farther.
 function graded(machine: DozerMachine): Vector2[] {
   const {design, length_m} = machine;
-  const height_at = (x: number): number => {
-    const next = design.findIndex(([at]) => at >= x);
-    if (next <= 0) {
-      return design[next === 0 ? 0 : design.length - 1]?.[1] ?? 0;
-    }
-    const [from, to] = [design[next - 1]!, design[next]!];
-    return from[1] + (to[1] - from[1]) * (x - from[0]) / (to[0] - from[0]);
-  };
   const inside = design.filter(([x]) => x > 0 && x < length_m);
-  return [[0, height_at(0)], ...inside, [length_m, height_at(length_m)]];
+  return [
+    [0, designHeight(design, 0)], ...inside, [length_m, designHeight(design, length_m)]];
 }

@@ -25,7 +25,7 @@ function place(node: Object3D, at_m: Vector2, turn_rad: number): void {
 
 /// Pins are of the pose's space; links and cylinders stand in the plane that turns with the swing.
 const in_plane = (point: readonly number[], swing_rad: number): Vector2 =>
-  [point[0]! * Math.cos(swing_rad) + point[1]! * Math.sin(swing_rad), point[2]!];
+  [point[0] * Math.cos(swing_rad) + point[1] * Math.sin(swing_rad), point[2]];
 
 function chain(links: Links): void {
   links.platform.add(links.boom);
@@ -61,7 +61,7 @@ export class ExcavatorModel {
   private readonly ghosts: Links;
   private readonly cylinders: {axis: 'boom' | 'arm' | 'bucket'; y_m: number; part: Cylinder}[] = [];
 
-  constructor(private readonly machine: ExcavatorMachine, shared: SharedMaterials) {
+  constructor(private readonly machine: ExcavatorMachine, private readonly shared: SharedMaterials) {
     this.shape = excavator_shape(machine);
     const names = [...kLinks, 'undercarriage'] as const;
     this.geometries = Object.fromEntries(
@@ -89,7 +89,7 @@ export class ExcavatorModel {
       const data: CylinderData = this.machine.cylinders[axis];
       const spread = axis === 'boom' ? this.shape.widths.boom_cylinder_y_m : 0.13;
       for (let i = 0; i < data.count; ++i) {
-        const part = new Cylinder(data);
+        const part = new Cylinder(data, this.shared.light);
         const y = data.count === 1 ? 0 : (i / (data.count - 1) - 0.5) * 2 * spread;
         this.cylinders.push({axis, y_m: y, part});
         this.links.platform.add(part.node);
@@ -105,6 +105,11 @@ export class ExcavatorModel {
         [in_plane(base_m, pose.swing_rad), in_plane(eye_m, pose.swing_rad)];
       part.place(new Vector3(base[0], y_m, base[1]), new Vector3(eye[0], y_m, eye[1]));
     }
+  }
+
+  /// Where the drawn cylinders begin and end, in the frame of this model's parent.
+  cylinder_ends(): {axis: 'boom' | 'arm' | 'bucket'; base: Vector3; eye: Vector3}[] {
+    return this.cylinders.map(({axis, part}) => ({axis, ...part.ends()}));
   }
 
   /// Null hides it.

@@ -1,7 +1,9 @@
 /// The excavator with its path, its soil and what bounds it.
 
 import {Box3, Group, Object3D, Sphere, Vector3 as Point} from 'three';
-import type {ExcavatorMachine, Setup, Task, Vector3} from '../model/api';
+import type {ExcavatorMachine, FrameStore, Setup, Task, Vector3} from '../model/api';
+import {excavatorPose} from '../model/excavator';
+import {wantedExcavator} from '../model/wanted';
 import {teeth_walk} from './edges';
 import {ExcavatorModel} from './excavator_model';
 import {GroundLayer} from './ground_layer';
@@ -49,12 +51,12 @@ export class ExcavatorStage implements Stage {
     this.trail = new TrailLayer(teeth_walk(machine));
     this.ground = new GroundLayer({
       grid: excavator_grid(machine), start: excavator_start(machine),
-      width_m: this.model.shape.widths.bucket_m, walk: teeth_walk(machine)});
+      width_m: this.model.shape.widths.bucket_m, walk: teeth_walk(machine)}, shared.light);
     const far = Math.ceil(reach_m(machine));
     this.ground.set_centre(0, 0, 5 * far);
     this.ruler = new Ruler({
-      from_x_m: 0, to_x_m: far, y_m: -0.35 * machine.boom_m - 0.3, low_z_m: -2, high_z_m: 4});
-    this.ruler.label(labels);
+      from_x_m: 0, to_x_m: far, aside_m: 0.35 * machine.boom_m + 0.3, low_z_m: -2, high_z_m: 4},
+    labels);
     this.choice = new TaskChoice(machine, setup);
     this.home = home_of(machine);
     this.model.node.visible = false;
@@ -75,11 +77,23 @@ export class ExcavatorStage implements Stage {
       this.model.node.visible = true;
     }
     this.model.show(state);
+    this.pose_ghost(store, now_s);
     this.trail.update(store, now_s);
     const task = this.choice.at(store, now_s);
     if (task !== this.shown) {
       this.choose(task);
     }
+  }
+
+  face(eye_y_m: number): void {
+    this.ruler.face(eye_y_m);
+  }
+
+  private pose_ghost(store: FrameStore, now_s: number): void {
+    const drives = this.layers?.ghost && store.database !== null ?
+      wantedExcavator(store, this.machine, now_s)?.drives : null;
+    this.model.pose_ghost(drives ?
+      excavatorPose(this.machine, [drives[0], drives[1], drives[2]], drives[3]) : null);
   }
 
   private choose(task: ShownTask): void {
@@ -145,7 +159,6 @@ export class ExcavatorStage implements Stage {
     this.trail.node.visible = layers.path;
     this.fences.visible = layers.fences;
     this.design.visible = layers.design;
-    this.model.ghost.visible &&= layers.ghost;
     this.ground.show(layers.terrain);
   }
 

@@ -4,9 +4,10 @@ import {
   BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments, Mesh,
 } from 'three';
 import type {FrameStore} from '../model/api';
-import {ground_material} from './ground';
+import {GroundMaterial} from './ground';
 import {GroundSurface} from './ground_surface';
 import {type Grid, HeightField} from './height_field';
+import type {Light} from './light';
 import {kOrder} from './materials';
 import {type EdgeWalk, TerrainHistory} from './terrain_history';
 import type {SceneColours} from './theme';
@@ -24,7 +25,7 @@ const kFar_m = 300;
 
 export class GroundLayer {
   readonly node = new Group();
-  private readonly material = ground_material();
+  private readonly material: GroundMaterial;
   private history: TerrainHistory;
   private surface: GroundSurface;
   private readonly soil_mesh: Mesh;
@@ -32,12 +33,13 @@ export class GroundLayer {
   private readonly land: Mesh;
   private visible = true;
 
-  constructor(private readonly soil: Soil) {
+  constructor(private readonly soil: Soil, light: Light) {
+    this.material = new GroundMaterial(light);
     this.history = this.begin();
     this.surface = new GroundSurface(this.history.field);
-    this.soil_mesh = new Mesh(this.surface.geometry, this.material.surface);
+    this.soil_mesh = new Mesh(this.surface.geometry, this.material);
     this.soil_mesh.frustumCulled = false;
-    this.land = new Mesh(land(soil.grid), this.material.surface);
+    this.land = new Mesh(land(soil.grid), this.material);
     this.flat = new LineSegments(metre_lines(soil.grid), new LineBasicMaterial());
     this.flat.visible = false;
     for (const object of [this.soil_mesh, this.land, this.flat]) {
@@ -94,7 +96,7 @@ export class GroundLayer {
     this.land.geometry.dispose();
     this.flat.geometry.dispose();
     this.flat.material.dispose();
-    this.material.surface.dispose();
+    this.material.dispose();
   }
 }
 

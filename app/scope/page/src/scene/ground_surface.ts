@@ -4,7 +4,7 @@ import {BufferAttribute, BufferGeometry} from 'three';
 import type {HeightField} from './height_field';
 
 /// Cells along a tile's side.
-const kTile = 20;
+const kTile = 10;
 
 export class GroundSurface {
   readonly geometry = new BufferGeometry();
@@ -25,7 +25,7 @@ export class GroundSurface {
     for (let node = 0; node < count; ++node) {
       place[3 * node] = x_m + (node % columns) * cell_m;
       place[3 * node + 1] = y_m + Math.floor(node / columns) * cell_m;
-      place[3 * node + 2] = field.heights[node]!;
+      place[3 * node + 2] = field.heights[node];
     }
     this.start = field.heights.slice();
     this.height = new BufferAttribute(place, 3);
@@ -56,9 +56,9 @@ export class GroundSurface {
     }
     const around = new Set<number>();
     for (const node of this.moved) {
-      const height = this.field.heights[node]!;
+      const height = this.field.heights[node];
       this.height.array[3 * node + 2] = height;
-      this.depth.array[node] = this.start[node]! - height;
+      this.depth.array[node] = this.start[node] - height;
       this.refine(node);
       const column = node % columns;
       const row = Math.floor(node / columns);
@@ -96,9 +96,9 @@ export class GroundSurface {
 
   private start_is_flat(node: number): void {
     const {columns} = this.field.grid;
-    const before = node % columns > 0 ? this.start[node - 1]! : this.start[node]!;
-    const below = node >= columns ? this.start[node - columns]! : this.start[node]!;
-    if (Math.abs(before - this.start[node]!) + Math.abs(below - this.start[node]!) > 1e-6) {
+    const before = node % columns > 0 ? this.start[node - 1] : this.start[node];
+    const below = node >= columns ? this.start[node - columns] : this.start[node];
+    if (Math.abs(before - this.start[node]) + Math.abs(below - this.start[node]) > 1e-6) {
       this.refine(node);
     }
   }
@@ -108,10 +108,10 @@ export class GroundSurface {
     const {heights} = this.field;
     const column = node % columns;
     const row = Math.floor(node / columns);
-    const left = heights[column > 0 ? node - 1 : node]!;
-    const right = heights[column < columns - 1 ? node + 1 : node]!;
-    const below = heights[row > 0 ? node - columns : node]!;
-    const above = heights[row < rows - 1 ? node + columns : node]!;
+    const left = heights[column > 0 ? node - 1 : node];
+    const right = heights[column < columns - 1 ? node + 1 : node];
+    const below = heights[row > 0 ? node - columns : node];
+    const above = heights[row < rows - 1 ? node + columns : node];
     const x = (left - right) / (2 * cell_m);
     const y = (below - above) / (2 * cell_m);
     const length = Math.hypot(x, y, 1);

@@ -48,12 +48,12 @@ export class HeightField {
 
   /// The height after all cuts, whatever is shown.
   latest_m(node: number): number {
-    return this.latest[node]!;
+    return this.latest[node];
   }
 
   /// Takes the node down to a height, if it is above. Times must not fall.
   lower(time_s: number, node: number, height_m: number): void {
-    const was = this.latest[node]!;
+    const was = this.latest[node];
     if (height_m > was - kLeastCut_m) {
       return;
     }
@@ -73,10 +73,10 @@ export class HeightField {
   show(time_s: number, changed: (node: number) => void): void {
     const target = this.entries_until(time_s);
     for (; this.shown < target; ++this.shown) {
-      this.put(this.node[this.shown]!, this.after[this.shown]!, changed);
+      this.put(this.node[this.shown], this.after[this.shown], changed);
     }
     for (; this.shown > target; --this.shown) {
-      this.put(this.node[this.shown - 1]!, this.before[this.shown - 1]!, changed);
+      this.put(this.node[this.shown - 1], this.before[this.shown - 1], changed);
     }
   }
 
@@ -90,7 +90,7 @@ export class HeightField {
     let high = this.count;
     while (low < high) {
       const middle = (low + high) >> 1;
-      if (this.time[middle]! <= time_s) {
+      if (this.time[middle] <= time_s) {
         low = middle + 1;
       } else {
         high = middle;
@@ -111,7 +111,7 @@ export class HeightField {
     const gone = this.count >> 1;
     // What is forgotten has to be in what is shown.
     for (; this.shown < gone; ++this.shown) {
-      this.heights[this.node[this.shown]!] = this.after[this.shown]!;
+      this.heights[this.node[this.shown]] = this.after[this.shown];
     }
     for (const list of [this.time, this.node, this.before, this.after]) {
       list.copyWithin(0, gone, this.count);

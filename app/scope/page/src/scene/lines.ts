@@ -27,7 +27,7 @@ export class Lines {
     this.material = new LineMaterial({linewidth: look.width_px, ...dash});
     this.objects = [object(this.geometry, this.material, kOrder.lines)];
     this.behind = look.seen_through ? new LineMaterial({
-      linewidth: Math.max(1, 0.5 * look.width_px), depthFunc: GreaterDepth, depthWrite: false,
+      linewidth: Math.max(1.2, 0.6 * look.width_px), depthFunc: GreaterDepth, depthWrite: false,
     }) : null;
     if (this.behind) {
       this.objects.push(object(this.geometry, this.behind, kOrder.hidden));
@@ -59,7 +59,7 @@ export class Lines {
 
   set_colour(colour: string, soil: string): void {
     this.material.color.set(colour);
-    this.behind?.color.copy(new Color(colour).lerp(new Color(soil), 0.55));
+    this.behind?.color.copy(new Color(colour).lerp(new Color(soil), 0.3));
   }
 
   /// With shades: they are the colours themselves.
@@ -86,10 +86,10 @@ function object(
 export function chained(points: readonly Vector3[], closed = false): Vector3[] {
   const segments: Vector3[] = [];
   for (let i = 1; i < points.length; ++i) {
-    segments.push(points[i - 1]!, points[i]!);
+    segments.push(points[i - 1], points[i]);
   }
   if (closed && points.length > 2) {
-    segments.push(points[points.length - 1]!, points[0]!);
+    segments.push(points[points.length - 1], points[0]);
   }
   return segments;
 }

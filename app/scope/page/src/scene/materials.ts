@@ -1,54 +1,22 @@
-/// Matt surfaces that can turn grey as a whole, and the lines of a part's outline.
+/// Materials that all parts share, and the order in which things are drawn.
 
-import {
-  Color, DoubleSide, GreaterDepth, LineBasicMaterial, MeshBasicMaterial, MeshLambertMaterial,
-} from 'three';
+import {GreaterDepth, LineBasicMaterial, MeshBasicMaterial} from 'three';
+import {make_light} from './light';
 import type {SceneColours} from './theme';
 
-/// One for each part of the machine: a part greys alone.
-export interface PartMaterial {
-  surface: MeshLambertMaterial;
-  set_stale(stale: boolean): void;
-  set_theme(colours: SceneColours): void;
-}
-
-/// A part that is not known keeps its shading and loses its colour.
-export function part_material(): PartMaterial {
-  const surface = new MeshLambertMaterial({vertexColors: true});
-  const grey = {value: new Color()};
-  const share = {value: 0};
-  surface.onBeforeCompile = (shader) => {
-    shader.uniforms.staleColour = grey;
-    shader.uniforms.staleShare = share;
-    shader.fragmentShader = shader.fragmentShader
-      .replace('void main() {',
-        'uniform vec3 staleColour;\nuniform float staleShare;\nvoid main() {')
-      .replace('#include <color_fragment>', `#include <color_fragment>
-        float light = dot(diffuseColor.rgb, vec3(0.3, 0.5, 0.2));
-        diffuseColor.rgb = mix(diffuseColor.rgb, staleColour * (0.5 + light), staleShare);`);
-  };
-  surface.customProgramCacheKey = () => 'part';
-  return {
-    surface,
-    set_stale: (stale) => {
-      share.value = stale ? 1 : 0;
-    },
-    set_theme: (colours) => {
-      grey.value.set(colours.stale);
-    },
-  };
-}
-
-/// Materials that all parts share; `set_theme` recolours them.
 export class SharedMaterials {
+  readonly light = make_light();
   readonly edge = new LineBasicMaterial();
   /// Outlines where soil is in front of them, as a drawing has its hidden edges.
   readonly hidden = new LineBasicMaterial({depthFunc: GreaterDepth, depthWrite: false});
   readonly ghost_line = new LineBasicMaterial({transparent: true, opacity: 0.75});
+  /// Where it is the same as the machine's own surface it is not seen.
   readonly ghost = new MeshBasicMaterial({
-    transparent: true, opacity: 0.13, depthWrite: false, side: DoubleSide});
+    transparent: true, opacity: 0.13, depthWrite: false,
+    polygonOffset: true, polygonOffsetFactor: 4, polygonOffsetUnits: 40});
 
   set_theme(colours: SceneColours): void {
+    this.light.set_theme(colours);
     this.edge.color.set(colours.edge);
     this.hidden.color.set(colours.hidden);
     this.ghost_line.color.set(colours.ghost);
@@ -62,5 +30,6 @@ export class SharedMaterials {
   }
 }
 
-/// Order in which things are drawn, which is not that of their distance.
+/// Order in which things are drawn, which is not that of their distance: what lies behind soil is
+/// drawn while there is nothing but soil.
 export const kOrder = {ground: 0, hidden: 1, machine: 2, lines: 3, ghost: 4, planes: 5} as const;

@@ -2,10 +2,10 @@
 
 import type {SceneView} from './types';
 
-export function without_webgl(host: HTMLElement): SceneView {
+export function without_webgl(host: HTMLElement, why: string): SceneView {
   const words = document.createElement('p');
-  words.textContent = 'This browser has no WebGL, so the machine is not drawn. Plots, state and ' +
-    'replay work without it.';
+  words.textContent = 'The machine is not drawn: this browser gives no WebGL. Plots, state and ' +
+    `replay work without it. (${why})`;
   Object.assign(words.style, {padding: '1rem', maxWidth: '40rem'});
   host.append(words);
   const nothing = (): void => {};

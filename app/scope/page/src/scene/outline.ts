@@ -27,7 +27,7 @@ export function convex_hull(points: readonly Vector2[]): Vector2[] {
   const half = (ordered: readonly Vector2[]): Vector2[] => {
     const chain: Vector2[] = [];
     for (const point of ordered) {
-      while (chain.length > 1 && turn(chain[chain.length - 2]!, chain[chain.length - 1]!, point)
+      while (chain.length > 1 && turn(chain[chain.length - 2], chain[chain.length - 1], point)
           <= 1e-9) {
         chain.pop();
       }
@@ -46,7 +46,7 @@ const turn = (a: Vector2, b: Vector2, c: Vector2): number =>
 /// Twice the area: above 0 where the outline runs counter-clockwise.
 export function doubled_area(outline: readonly Vector2[]): number {
   return outline.reduce((sum, point, i) => {
-    const next = outline[(i + 1) % outline.length]!;
+    const next = outline[(i + 1) % outline.length];
     return sum + point[0] * next[1] - next[0] * point[1];
   }, 0);
 }
@@ -72,9 +72,9 @@ export function bent_line(
 export function beam(line: readonly Vector2[], half_m: readonly number[]): Vector2[] {
   const last = line.length - 1;
   const along = line.map((_, i) =>
-    direction(minus(line[Math.min(i + 1, last)]!, line[Math.max(i - 1, 0)]!)));
+    direction(minus(line[Math.min(i + 1, last)], line[Math.max(i - 1, 0)])));
   const side = (i: number, turn_rad: number): Vector2 =>
-    add(line[i]!, polar(half_m[i]!, along[i]! + turn_rad));
+    add(line[i], polar(half_m[i], along[i] + turn_rad));
   const outline: Vector2[] = [];
   for (let i = 0; i <= last; ++i) {
     outline.push(side(i, -Math.PI / 2));
@@ -94,7 +94,7 @@ export function beam(line: readonly Vector2[], half_m: readonly number[]): Vecto
 /// Points along a closed outline at equal distances, for the shoes of a track.
 export function evenly_along(outline: readonly Vector2[], count: number): Vector2[] {
   const lengths = outline.map((point, i) => {
-    const next = outline[(i + 1) % outline.length]!;
+    const next = outline[(i + 1) % outline.length];
     return Math.hypot(next[0] - point[0], next[1] - point[1]);
   });
   const whole = lengths.reduce((sum, length) => sum + length, 0);
@@ -103,13 +103,45 @@ export function evenly_along(outline: readonly Vector2[], count: number): Vector
   let before = 0;
   for (let i = 0; i < count; ++i) {
     const at = whole * i / count;
-    while (edge < outline.length - 1 && before + lengths[edge]! < at) {
-      before += lengths[edge]!;
+    while (edge < outline.length - 1 && before + lengths[edge] < at) {
+      before += lengths[edge];
       ++edge;
     }
-    const from = outline[edge]!;
-    const to = outline[(edge + 1) % outline.length]!;
-    points.push(add(from, scaled(minus(to, from), (at - before) / lengths[edge]!)));
+    const from = outline[edge];
+    const to = outline[(edge + 1) % outline.length];
+    points.push(add(from, scaled(minus(to, from), (at - before) / lengths[edge])));
   }
   return points;
+}
+
+/// A chain of points without those that stand less than `off_m` aside of what is left (Douglas and
+/// Peucker): a line costs by its points.
+export function simplified<Point extends readonly number[]>(
+  points: readonly Point[], off_m: number): Point[] {
+  if (points.length < 3) {
+    return [...points];
+  }
+  const [from, to] = [points[0], points[points.length - 1]];
+  let worst = 0;
+  let at = 0;
+  for (let i = 1; i + 1 < points.length; ++i) {
+    const off = distance_to_segment(points[i], from, to);
+    if (off > worst) {
+      [worst, at] = [off, i];
+    }
+  }
+  return worst <= off_m ? [from, to] : [
+    ...simplified(points.slice(0, at + 1), off_m).slice(0, -1),
+    ...simplified(points.slice(at), off_m)];
+}
+
+function distance_to_segment(
+  point: readonly number[], from: readonly number[], to: readonly number[]): number {
+  let [along, square] = [0, 0];
+  for (let i = 0; i < point.length; ++i) {
+    along += (point[i] - from[i]) * (to[i] - from[i]);
+    square += (to[i] - from[i]) ** 2;
+  }
+  const share = square > 0 ? Math.min(Math.max(along / square, 0), 1) : 0;
+  return Math.hypot(...point.map((part, i) => part - from[i] - share * (to[i] - from[i])));
 }

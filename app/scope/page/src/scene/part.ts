@@ -3,7 +3,8 @@
 import {
   BufferGeometry, EdgesGeometry, Group, LineSegments, Mesh, type Object3D,
 } from 'three';
-import {kOrder, part_material, type PartMaterial, type SharedMaterials} from './materials';
+import {PartMaterial} from './light';
+import {kOrder, type SharedMaterials} from './materials';
 import type {Piece} from './pieces';
 import {solid} from './solid';
 import type {SceneColours} from './theme';
@@ -28,8 +29,8 @@ export class Part {
 
   constructor(
     private readonly geometry: PartGeometry, shared: SharedMaterials, seen_through_soil: boolean) {
-    this.material = part_material();
-    this.add(new Mesh(geometry.surface, this.material.surface), kOrder.machine);
+    this.material = new PartMaterial(shared.light);
+    this.add(new Mesh(geometry.surface, this.material), kOrder.machine);
     this.add(new LineSegments(geometry.edges, shared.edge), kOrder.machine);
     if (seen_through_soil) {
       this.add(new LineSegments(geometry.edges, shared.hidden), kOrder.hidden);
@@ -54,7 +55,7 @@ export class Part {
   dispose(): void {
     this.geometry.surface.dispose();
     this.geometry.edges.dispose();
-    this.material.surface.dispose();
+    this.material.dispose();
   }
 }
 

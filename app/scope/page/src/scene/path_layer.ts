@@ -2,13 +2,15 @@
 /// steps of a task.
 
 import {
-  BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial,
+  BufferAttribute, BufferGeometry, Color, DoubleSide, GreaterDepth, Group, Mesh,
+  MeshBasicMaterial,
 } from 'three';
 import type {Dig, ExcavatorMachine, Task, Vector3} from '../model/api';
 import {excavatorPose} from '../model/excavator';
 import type {Labels} from './labels';
 import {chained, Lines} from './lines';
 import {kOrder} from './materials';
+import {simplified} from './outline';
 import type {SceneColours} from './theme';
 
 /// Points of a move that is straight in drive space only.
@@ -20,15 +22,19 @@ export class DigLayer {
   readonly field = new Group();
   private readonly line: Lines;
   private readonly arrows: Mesh<BufferGeometry, MeshBasicMaterial>;
+  private readonly buried: Mesh<BufferGeometry, MeshBasicMaterial>;
 
   constructor(dig: Dig) {
-    const points = dig.path.map(([x, z]): Vector3 => [x, 0, z]);
+    const points = simplified(dig.path.map(([x, z]): Vector3 => [x, 0, z]), 0.002);
     this.line = new Lines({width_px: 3.5, seen_through: true}, chained(points, true));
     this.path.add(this.line.node);
-    this.arrows = new Mesh(arrows(dig), new MeshBasicMaterial({
-      side: DoubleSide, transparent: true, opacity: 0.75, depthWrite: false}));
+    const shape = arrows(dig);
+    this.arrows = new Mesh(shape, new MeshBasicMaterial({side: DoubleSide}));
     this.arrows.renderOrder = kOrder.lines;
-    this.field.add(this.arrows);
+    this.buried = new Mesh(shape, new MeshBasicMaterial({
+      side: DoubleSide, depthFunc: GreaterDepth, depthWrite: false}));
+    this.buried.renderOrder = kOrder.hidden;
+    this.field.add(this.arrows, this.buried);
   }
 
   turn(swing_rad: number): void {
@@ -38,13 +44,15 @@ export class DigLayer {
 
   set_theme(colours: SceneColours): void {
     this.line.set_colour(colours.path, colours.cut);
-    this.arrows.material.color.set(colours.path);
+    this.arrows.material.color.set(colours.path).lerp(new Color(colours.ground), 0.25);
+    this.buried.material.color.set(colours.path).lerp(new Color(colours.soil), 0.65);
   }
 
   dispose(): void {
     this.line.dispose();
     this.arrows.geometry.dispose();
     this.arrows.material.dispose();
+    this.buried.material.dispose();
   }
 }
 
@@ -101,7 +109,7 @@ export class TaskLayer {
       .filter((step) => step.straight)
       .flatMap((step) => [step.from.position_m, step.to.position_m]));
     this.moves = new Lines({width_px: 2, seen_through: true, dashed: true}, steps
-      .filter((step) => !step.straight).flatMap((step) => chained(way_of(machine, step))));
+      .filter((step) => !step.straight).flatMap((step) => chained(simplified(way_of(machine, step), 0.005))));
     this.ends = new Lines({width_px: 2.5, seen_through: true}, steps.flatMap((step) =>
       [...cross(step.from.position_m), ...cross(step.to.position_m)]));
     this.node.add(this.straight.node, this.moves.node, this.ends.node);
@@ -110,7 +118,7 @@ export class TaskLayer {
   label(labels: Labels): void {
     this.task.steps.forEach((step, i) => {
       const middle = step.from.position_m.map(
-        (from, axis) => 0.5 * (from + step.to.position_m[axis]!)) as unknown as Vector3;
+        (from, axis) => 0.5 * (from + step.to.position_m[axis])) as unknown as Vector3;
       labels.put(`step${i}`, 'path', `${i + 1} ${step.kind}`, middle);
     });
   }

@@ -12,7 +12,7 @@ const kWall = [-0.15, 0.45] as const;
 export function plane_outline(through_m: Vector3, normal: Vector3, reach_m: number): Corners {
   const length = Math.hypot(...normal) || 1;
   const unit = normal.map((part) => part / length) as unknown as Vector3;
-  const distance = through_m.reduce((sum, part, i) => sum + part * unit[i]!, 0);
+  const distance = through_m.reduce((sum, part, i) => sum + part * unit[i], 0);
   const foot = unit.map((part) => part * distance) as unknown as Vector3;
   const level = Math.hypot(unit[0], unit[1]);
   // Along the plane: level, and uphill within it.
@@ -26,6 +26,6 @@ export function plane_outline(through_m: Vector3, normal: Vector3, reach_m: numb
     [-0.75 * reach_m, 0.75 * reach_m];
   const wide = 0.75 * reach_m;
   const at = (a: number, b: number): Vector3 =>
-    [0, 1, 2].map((i) => foot[i]! + a * along[i]! + b * up[i]!) as unknown as Vector3;
+    [0, 1, 2].map((i) => foot[i] + a * along[i] + b * up[i]) as unknown as Vector3;
   return [at(-wide, low), at(wide, low), at(wide, high), at(-wide, high)];
 }

@@ -6,6 +6,7 @@ import {
 import type {Vector2, Vector3} from '../model/api';
 import {chained, Lines} from './lines';
 import {kOrder} from './materials';
+import {simplified} from './outline';
 import {plane_outline} from './plane_outline';
 import type {SceneColours} from './theme';
 
@@ -26,7 +27,8 @@ export class Pane {
       return [at, at + 2, at + 1, at + 1, at + 2, at + 3];
     }));
     this.surface = new Mesh(geometry, new MeshBasicMaterial({
-      side: DoubleSide, transparent: true, depthWrite: false,
+      side: DoubleSide, forceSinglePass: true, transparent: true, depthWrite: false,
+      polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -4,
       opacity: kind === 'design' ? 0.3 : 0.1}));
     this.surface.renderOrder = kOrder.planes;
     const round = [...strip.map(([a]) => a), ...strip.map(([, b]) => b).reverse()];
@@ -61,6 +63,6 @@ export function plane_pane(
 /// A ribbon of a width along x and z.
 export function ribbon(line: readonly Vector2[], width_m: number): Pane {
   const half = 0.5 * width_m;
-  return new Pane(line.map(([x, z]): [Vector3, Vector3] => [[x, -half, z], [x, half, z]]),
+  return new Pane(simplified(line, 0.001).map(([x, z]): [Vector3, Vector3] => [[x, -half, z], [x, half, z]]),
     'design');
 }

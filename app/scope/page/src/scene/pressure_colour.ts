@@ -10,7 +10,7 @@ export function pressure_colour(share: number): readonly [number, number, number
   const below = Math.min(Math.floor(place), kStops.length - 2);
   const part = place - below;
   const mixed = (i: 0 | 1 | 2): number =>
-    (kStops[below]![i] * (1 - part) + kStops[below + 1]![i] * part) / 255;
+    (kStops[below][i] * (1 - part) + kStops[below + 1][i] * part) / 255;
   return [mixed(0), mixed(1), mixed(2)];
 }
 

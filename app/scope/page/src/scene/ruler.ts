@@ -9,33 +9,51 @@ import type {SceneColours} from './theme';
 export interface RulerPlace {
   from_x_m: number;  ///< Whole metres.
   to_x_m: number;
-  y_m: number;
+  aside_m: number;   ///< From the middle of the machine, to the reader's side.
   low_z_m: number;   ///< Of the staff.
   high_z_m: number;
 }
 
 export class Ruler {
   readonly node = new Group();
-  private readonly lines: Lines;
+  private readonly lines = new Lines({width_px: 1.5, seen_through: false});
+  private side = 0;  ///< +1 where it lies on the left of the machine.
 
-  constructor(private readonly place: RulerPlace) {
-    const {from_x_m, to_x_m, y_m, low_z_m, high_z_m} = place;
-    const segments: Vector3[] = [[from_x_m, y_m, 0.01], [to_x_m, y_m, 0.01]];
-    for (let x = from_x_m; x <= to_x_m; ++x) {
-      segments.push([x, y_m, 0.01], [x, y_m - (x % 5 === 0 ? 0.3 : 0.15), 0.01]);
-    }
-    segments.push([to_x_m, y_m, low_z_m], [to_x_m, y_m, high_z_m]);
-    for (let z = low_z_m; z <= high_z_m; ++z) {
-      segments.push([to_x_m, y_m, z], [to_x_m + 0.2, y_m, z]);
-    }
-    this.lines = new Lines({width_px: 1.5, seen_through: true}, segments);
+  constructor(private readonly place: RulerPlace, private readonly labels: Labels) {
     this.node.add(this.lines.node);
+    this.face(-1);
   }
 
-  label(labels: Labels): void {
-    const {from_x_m, to_x_m, y_m, low_z_m, high_z_m} = this.place;
+  /// Lies on the reader's side of the machine, where nothing stands before it.
+  face(eye_y_m: number): void {
+    const side = eye_y_m > 0 ? 1 : -1;
+    if (side !== this.side) {
+      this.side = side;
+      this.lines.set(this.segments());
+      this.label();
+    }
+  }
+
+  private segments(): Vector3[] {
+    const {from_x_m, to_x_m, aside_m, low_z_m, high_z_m} = this.place;
+    const y = this.side * aside_m;
+    const segments: Vector3[] = [[from_x_m, y, 0.01], [to_x_m, y, 0.01]];
     for (let x = from_x_m; x <= to_x_m; ++x) {
-      labels.put(`x${x}`, 'scale', x === from_x_m ? `x ${x} m` : `${x}`, [x, y_m - 0.6, 0]);
+      segments.push([x, y, 0.01], [x, y + this.side * (x % 5 === 0 ? 0.3 : 0.15), 0.01]);
+    }
+    segments.push([to_x_m, y, low_z_m], [to_x_m, y, high_z_m]);
+    for (let z = low_z_m; z <= high_z_m; ++z) {
+      segments.push([to_x_m, y, z], [to_x_m + 0.2, y, z]);
+    }
+    return segments;
+  }
+
+  private label(): void {
+    const {labels} = this;
+    const {from_x_m, to_x_m, low_z_m, high_z_m} = this.place;
+    const y_m = this.side * this.place.aside_m;
+    for (let x = from_x_m; x <= to_x_m; ++x) {
+      labels.put(`x${x}`, 'scale', x === from_x_m ? `x ${x} m` : `${x}`, [x, y_m + 0.6 * this.side, 0]);
     }
     for (let z = low_z_m; z <= high_z_m; ++z) {
       if (z !== 0) {

@@ -1,9 +1,8 @@
 /// The machine in three dimensions, as its frames have it.
 
-import {
-  Color, DirectionalLight, HemisphereLight, Scene, Vector3 as Point, WebGLRenderer,
-} from 'three';
+import {Color, type PerspectiveCamera, Scene, Vector3 as Point} from 'three';
 import type {Machine, Setup, Vector2, Vector3} from '../model/api';
+import {Canvas} from './canvas';
 import {DozerStage} from './dozer_stage';
 import {ExcavatorStage} from './excavator_stage';
 import {Labels} from './labels';
@@ -13,34 +12,26 @@ import {without_webgl} from './no_webgl';
 import type {Stage} from './stage';
 import {scene_colours} from './theme';
 import type {SceneLayers, SceneUpdate, SceneView} from './types';
-import {ViewCamera} from './view_camera';
+import {make_camera, ViewCamera} from './view_camera';
 
 export type {SceneView} from './types';
 
-/// More points than this to a CSS pixel cost time and are not seen.
-const kMostPixelRatio = 2;
 const kAll: SceneLayers =
   {ghost: true, path: true, field: true, design: true, fences: true, terrain: true};
 
 /// Fills the host, which has to have a size and to be positioned. Without WebGL it says so there,
 /// and everything else does nothing.
 export function createScene(host: HTMLElement): SceneView {
-  const renderer = make_renderer();
-  return renderer === null ? without_webgl(host) : new DrawnScene(host, renderer);
-}
-
-function make_renderer(): WebGLRenderer | null {
+  const scene = new Scene();
+  const camera = make_camera();
   try {
-    return new WebGLRenderer({antialias: true});
-  } catch {
-    return null;
+    return new DrawnScene(host, scene, camera, new Canvas(scene, camera));
+  } catch (error) {
+    return without_webgl(host, (error as Error).message);
   }
 }
 
 class DrawnScene implements SceneView {
-  private readonly scene = new Scene();
-  private readonly sky = new HemisphereLight();
-  private readonly sun = new DirectionalLight();
   private readonly shared = new SharedMaterials();
   private readonly labels = new Labels();
   private readonly legend = new Legend();
@@ -55,12 +46,13 @@ class DrawnScene implements SceneView {
   private width = 1;
   private height = 1;
 
-  constructor(private readonly host: HTMLElement, private readonly renderer: WebGLRenderer) {
-    const canvas = renderer.domElement;
-    Object.assign(canvas.style, {display: 'block', width: '100%', height: '100%'});
-    canvas.tabIndex = 0;
-    canvas.setAttribute('role', 'img');
-    canvas.setAttribute('aria-label', 'The machine as its frames have it. Arrow keys turn the ' +
+  constructor(
+    private readonly host: HTMLElement, private readonly scene: Scene,
+    private readonly camera: PerspectiveCamera, private readonly canvas: Canvas) {
+    const {element} = canvas;
+    element.tabIndex = 0;
+    element.setAttribute('role', 'img');
+    element.setAttribute('aria-label', 'The machine as its frames have it. Arrow keys turn the ' +
       'view, plus and minus bring it nearer or farther, Home is the first view.');
     Object.assign(this.note.style, {
       position: 'absolute', left: '12px', top: '10px', font: '13px system-ui, sans-serif',
@@ -68,10 +60,9 @@ class DrawnScene implements SceneView {
     if (getComputedStyle(host).position === 'static') {
       host.style.position = 'relative';
     }
-    host.append(canvas, this.labels.node, this.legend.node, this.note);
-    this.eye = new ViewCamera(canvas, () => this.draw_soon());
-    this.scene.add(this.sky, this.sun, this.sun.target);
-    canvas.addEventListener('webglcontextrestored', this.draw_soon);
+    host.append(element, this.labels.node, this.legend.node, this.note);
+    this.eye = new ViewCamera(camera, element, () => this.draw_soon());
+    element.addEventListener('webglcontextrestored', this.draw_soon);
     this.setTheme(false);
     this.resize();
   }
@@ -94,7 +85,6 @@ class DrawnScene implements SceneView {
       this.eye.set_home(this.stage.home);
     }
     this.legend.show(this.stage?.relief_pa ?? null);
-    this.shown.revision = -1;
     this.setTheme(this.dark);
   }
 
@@ -115,8 +105,7 @@ class DrawnScene implements SceneView {
   resize(): void {
     this.width = Math.max(this.host.clientWidth, 1);
     this.height = Math.max(this.host.clientHeight, 1);
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio || 1, kMostPixelRatio));
-    this.renderer.setSize(this.width, this.height, false);
+    this.canvas.resize(this.width, this.height);
     this.eye.resize(this.width, this.height);
     this.draw_soon();
   }
@@ -125,16 +114,15 @@ class DrawnScene implements SceneView {
     this.dark = dark;
     const colours = scene_colours(dark);
     this.scene.background = new Color(colours.background);
-    this.sky.color.set(colours.sky_light);
-    this.sky.groundColor.set(colours.ground_light);
-    this.sky.position.set(0, 0, 1);
-    this.sky.intensity = colours.sky_power;
-    this.sun.intensity = colours.sun_power;
     this.note.style.color = colours.text;
     for (const part of [this.shared, this.labels, this.legend, this.stage]) {
       part?.set_theme(colours);
     }
-    // Parts take their grey from the theme when they are shown next.
+    // Cylinders take their grey when they are shown next.
+    this.show_again();
+  }
+
+  private show_again(): void {
     this.shown.revision = -1;
     if (this.view) {
       this.update(this.view);
@@ -148,8 +136,7 @@ class DrawnScene implements SceneView {
       this.labels.show(group, this.layers[group]);
     }
     this.stage?.set_layers(this.layers);
-    this.shown.revision = -1;
-    this.draw_soon();
+    this.show_again();
   }
 
   resetCamera(): void {
@@ -170,8 +157,8 @@ class DrawnScene implements SceneView {
     if (tip === null) {
       return null;
     }
-    this.eye.camera.updateMatrixWorld();
-    const at = new Point(...tip).project(this.eye.camera);
+    this.camera.updateMatrixWorld();
+    const at = new Point(...tip).project(this.camera);
     return [(0.5 + 0.5 * at.x) * this.width, (0.5 - 0.5 * at.y) * this.height];
   }
 
@@ -191,12 +178,9 @@ class DrawnScene implements SceneView {
         this.draw_soon();
       }
     }
-    // The sun stands behind the reader's left shoulder.
-    const {camera, target} = this.eye;
-    this.sun.target.position.copy(target);
-    this.sun.position.copy(target).add(new Point(-4, -7, 11));
-    this.renderer.render(this.scene, camera);
-    this.labels.update(camera, this.width, this.height);
+    this.stage?.face(this.camera.position.y);
+    this.canvas.draw();
+    this.labels.update(this.camera, this.width, this.height);
   }
 
   dispose(): void {
@@ -204,7 +188,7 @@ class DrawnScene implements SceneView {
     this.stage?.dispose();
     this.shared.dispose();
     this.eye.dispose();
-    this.renderer.dispose();
+    this.canvas.dispose();
     this.host.replaceChildren();
   }
 }

@@ -11,11 +11,11 @@ const kRoundCosine = Math.cos(0.7);
 /// The same in both themes: each stands off light and dark ground, and all off grey.
 const kPaints: Readonly<Record<Paint, string>> = {
   body: '#d9a63a',
-  frame: '#565b60',
+  frame: '#60666c',
   steel: '#b9bfc4',
   glass: '#3c4a55',
-  belt: '#44484c',
-  weight: '#6b6f73',
+  belt: '#4d5257',
+  weight: '#73787d',
 };
 
 export function solid(pieces: readonly Piece[]): BufferGeometry {
@@ -48,7 +48,7 @@ function extrude(piece: Piece, position: number[], normal: number[]): void {
   };
   const triangle = (corners: readonly (readonly [Vector2, number, Vector2, number])[]): void => {
     for (const i of mirrored ? [0, 2, 1] : [0, 1, 2]) {
-      const [[u, v], w, [nu, nv], nw] = corners[i]!;
+      const [[u, v], w, [nu, nv], nw] = corners[i];
       put(position, u, v, w);
       put(normal, nu, nv, nw);
     }
@@ -76,7 +76,7 @@ function caps(
   const as_points = (ring: readonly Vector2[]): Point[] => ring.map(([x, y]) => new Point(x, y));
   const faces = ShapeUtils.triangulateShape(as_points(outline), hole ? [as_points(hole)] : []);
   for (const [a, b, c] of faces) {
-    take(points[a!]!, points[b!]!, points[c!]!);
+    take(points[a!], points[b!], points[c!]);
   }
 }
 
@@ -86,7 +86,7 @@ function walls(
   take: (a: Vector2, na: Vector2, b: Vector2, nb: Vector2) => void): void {
   const count = ring.length;
   const flat = ring.map((a, i): Vector2 => {
-    const b = ring[(i + 1) % count]!;
+    const b = ring[(i + 1) % count];
     const length = Math.hypot(b[0] - a[0], b[1] - a[1]) || 1;
     return [(b[1] - a[1]) / length, (a[0] - b[0]) / length];
   });
@@ -99,8 +99,8 @@ function walls(
     return [sum[0] / length, sum[1] / length];
   };
   for (let i = 0; i < count; ++i) {
-    const own = flat[i]!;
-    take(ring[i]!, shared(own, flat[(i + count - 1) % count]!),
-      ring[(i + 1) % count]!, shared(own, flat[(i + 1) % count]!));
+    const own = flat[i];
+    take(ring[i], shared(own, flat[(i + count - 1) % count]),
+      ring[(i + 1) % count], shared(own, flat[(i + 1) % count]));
   }
 }

@@ -14,6 +14,7 @@ export interface Stage {
   readonly along_m: number;   ///< Driven so far.
   readonly placed: boolean;   ///< The machine has been somewhere; until then it is not drawn.
   update(view: SceneUpdate): void;
+  face(eye_y_m: number): void;  ///< Where the reader's eye is.
   set_layers(layers: SceneLayers): void;
   set_theme(colours: SceneColours): void;
   dispose(): void;

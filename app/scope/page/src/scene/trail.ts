@@ -1,12 +1,14 @@
 /// The way that the teeth or the blade's edge took lately.
 
 import type {FrameStore, Vector3} from '../model/api';
+import {simplified} from './outline';
 import type {EdgeWalk} from './terrain_history';
 
 /// Points of the trail stand at whole multiples of this, so that they stay as time goes on.
 const kStep_s = 0.04;
 /// Over a longer time without a place the trail has a gap.
 const kGap_s = 0.2;
+const kTimeWeight_mps = 0.01;
 
 export interface TrailPoint {
   time_s: number;
@@ -34,24 +36,22 @@ export class Trail {
       return this.points;
     }
     // Frames may have come before where the trail ends: its last moments are read again.
-    const keep = forward ? this.until_s - 2 * kGap_s : from;
+    const first = slot_of(forward ? this.until_s - 2 * kGap_s : from);
     this.points = forward ?
-      this.points.filter(({time_s}) => time_s > from && time_s <= keep) : [];
-    this.read(store, Math.max(keep, from), now_s);
+      this.points.filter(({time_s}) => time_s > from && slot_of(time_s) < first) : [];
+    this.read(store, first, from, now_s);
     this.until_s = now_s;
     this.revision = store.revision;
     return this.points;
   }
 
-  private read(store: FrameStore, after_s: number, until_s: number): void {
-    const walk = this.walk(store, after_s);
-    let slot = Math.floor(after_s / kStep_s);
+  /// The first place of each slot from `first` on.
+  private read(store: FrameStore, first: number, from_s: number, until_s: number): void {
+    const walk = this.walk(store, Math.max(first * kStep_s - 0.5 * kStep_s, from_s));
+    let slot = first - 1;
     for (let time = walk.next(); time <= until_s; time = walk.next()) {
-      const its = Math.floor(time / kStep_s);
-      if (its === slot) {
-        continue;
-      }
-      const edge = walk.edge();
+      const its = slot_of(time);
+      const edge = its > slot ? walk.edge() : null;
       if (edge !== null) {
         slot = its;
         this.points.push({time_s: time, at_m: [edge.x_m, edge.y_m, edge.z_m]});
@@ -60,18 +60,37 @@ export class Trail {
   }
 }
 
-/// Neighbouring points as segments, with how old each end is: 0 now, 1 at the trail's end.
+/// Stamps are whole microseconds, which no sum of doubles is.
+const slot_of = (time_s: number): number => Math.floor((time_s + 1e-7) / kStep_s);
+
+/// The points as segments, with how old each end is: 0 now, 1 at the trail's end.
 export function trail_segments(
   points: readonly TrailPoint[], now_s: number, length_s: number,
 ): {segments: Vector3[]; ages: number[]} {
   const segments: Vector3[] = [];
   const ages: number[] = [];
-  for (let i = 1; i < points.length; ++i) {
-    const [from, to] = [points[i - 1]!, points[i]!];
-    if (to.time_s - from.time_s <= kGap_s) {
-      segments.push(from.at_m, to.at_m);
-      ages.push((now_s - from.time_s) / length_s, (now_s - to.time_s) / length_s);
+  for (const piece of pieces(points)) {
+    // With time as a coordinate, so that what is left out had nearly the age it gets.
+    const line = simplified(piece.map(({at_m, time_s}) =>
+      [...at_m, kTimeWeight_mps * (now_s - time_s)] as const), 0.004);
+    for (let i = 1; i < line.length; ++i) {
+      for (const [x, y, z, age] of [line[i - 1], line[i]]) {
+        segments.push([x, y, z]);
+        ages.push(age / kTimeWeight_mps / length_s);
+      }
     }
   }
   return {segments, ages};
+}
+
+/// Runs without a gap.
+function pieces(points: readonly TrailPoint[]): TrailPoint[][] {
+  const runs: TrailPoint[][] = [];
+  points.forEach((point, i) => {
+    if (i === 0 || point.time_s - points[i - 1].time_s > kGap_s) {
+      runs.push([]);
+    }
+    runs[runs.length - 1].push(point);
+  });
+  return runs;
 }

@@ -11,16 +11,22 @@ const kFirst = new Point(0.42, -1, 0.34).normalize();
 /// Nearer to the ground than this nothing is to be told apart.
 const kLowest_rad = 0.49 * Math.PI;
 
+export function make_camera(): PerspectiveCamera {
+  const camera = new PerspectiveCamera(kField_deg, 1, 0.1, 400);
+  camera.up.set(0, 0, 1);
+  return camera;
+}
+
 export class ViewCamera {
-  readonly camera = new PerspectiveCamera(kField_deg, 1, 0.1, 400);
   private readonly controls: OrbitControls;
   private home = new Sphere(new Point(3, 0, 1), 6);
   private followed = 0;
   private touched = false;
   private aspect = 1;
 
-  constructor(private readonly element: HTMLElement, changed: () => void) {
-    this.camera.up.set(0, 0, 1);
+  constructor(
+    private readonly camera: PerspectiveCamera, private readonly element: HTMLElement,
+    changed: () => void) {
     this.controls = new OrbitControls(this.camera, element);
     this.controls.maxPolarAngle = kLowest_rad;
     this.controls.minDistance = 2;
@@ -66,14 +72,6 @@ export class ViewCamera {
       this.controls.target.x += moved;
       this.controls.update();
     }
-  }
-
-  get target(): Point {
-    return this.controls.target;
-  }
-
-  get distance_m(): number {
-    return this.camera.position.distanceTo(this.controls.target);
   }
 
   resize(width_px: number, height_px: number): void {

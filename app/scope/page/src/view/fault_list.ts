@@ -40,6 +40,7 @@ export class FaultList implements View {
   }
 
   update(state: PageState): void {
+    set_shown(this.node, state.setup?.source.mode !== 'plan');
     this.log.update(state.store);
     const {events, total} = this.log;
     if (this.known !== events) {

@@ -60,6 +60,7 @@ export class HealthPanel implements View {
 
   update(state: PageState): void {
     const {store, playhead} = state;
+    set_shown(this.node, state.setup?.source.mode !== 'plan');
     const database = store.database;
     set_text(this.page, database === null ? '–' : `${database.version} (${database.kind})`);
     for (const {row, value, signal, words, wrong} of this.facts) {

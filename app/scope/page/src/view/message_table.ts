@@ -99,6 +99,7 @@ export class MessageTable implements View {
   }
 
   update(state: PageState): void {
+    set_shown(this.node, state.setup?.source.mode !== 'plan');
     const messages = state.messages();
     set_shown(this.none, messages.length === 0);
     set_shown(this.table, messages.length > 0);

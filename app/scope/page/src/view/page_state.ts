@@ -22,7 +22,7 @@ export interface PageState {
   dropped: number;          ///< Frames that the server left out for this page.
   bus: {up: boolean; words: string} | null;
   sim: SimState | null;
-  refused: string;          ///< The server's last refusal; '' for none.
+  readonly refused: string;          ///< The server's last refusal; '' for none.
   ended: boolean;           ///< All of a log is here.
   loaded_share: number;     ///< Of a log that is being read; 1: all.
   trouble: string;          ///< Of a file that could not be read; '' for none.

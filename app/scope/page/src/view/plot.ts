@@ -150,7 +150,9 @@ export class Plot {
         {
           ...axis, size: 48, space: 28, values: (_u, splits) => numbers(splits),
           ...(this.strip === null ? {} : {splits: () => [0, 0.25, 0.5, 0.75, 1]}),
-          ...(this.spec.straight_to === undefined ? {} : {splits: bent_splits}),
+          ...(this.spec.straight_to === undefined ? {} : {
+            splits: bent_splits, filter: (_u: uPlot, splits: number[]) => splits,
+          }),
         },
       ],
       series: [{}, ...this.spec.lines.map((line): uPlot.Series => ({

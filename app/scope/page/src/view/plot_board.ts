@@ -14,6 +14,7 @@ const REFRESH_MS = 66;
 const BUDGET_MS = 7;
 const SLOW_MS = 40;
 const HEIGHT_PX = 150;
+const PRINT_WIDTH_PX = 310;  ///< Two beside each other on A4.
 const STRIP_HEIGHT_PX = 176;
 
 export class PlotBoard {
@@ -53,6 +54,9 @@ export class PlotBoard {
     });
     plot_gestures(this.node, state);
     state.playhead.on_change(() => this.mark());
+    // Paper shows what was never scrolled to, too.
+    addEventListener('beforeprint', () => this.draw_all(PRINT_WIDTH_PX));
+    addEventListener('afterprint', () => this.fit());
   }
 
   /// To be called a frame of the screen: does as much as there is time for.
@@ -126,6 +130,16 @@ export class PlotBoard {
     }
     set_shown(this.empty, this.plots.length === 0);
     this.fit();
+  }
+
+  private draw_all(width_px: number): void {
+    const {store, playhead} = this.state;
+    for (const plot of this.plots) {
+      plot.resize(width_px, plot.spec.strip === true ? STRIP_HEIGHT_PX : HEIGHT_PX);
+      plot.refresh(store, playhead.window);
+      plot.mark(playhead.now_s, null);
+      plot.values(store, playhead.now_s);
+    }
   }
 
   private host(): PlotHost {

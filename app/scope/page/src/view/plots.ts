@@ -186,21 +186,36 @@ export function plots_of(
 
 const TRUTH_COLOURS = ['true', 'boom', 'arm', 'swing', 'right', 'error'];
 
+const DRIVE_NAMES = ['boom', 'arm', 'bucket', 'swing', 'left', 'right'];
+
+/// A line named after a drive has its colour.
+function colour_of(label: string, line: number): string {
+  const first = label.toLowerCase().split(/[^a-z]/)[0]!;
+  return DRIVE_NAMES.includes(first) ? first : TRUTH_COLOURS[line % TRUTH_COLOURS.length]!;
+}
+
+/// Four figures that tell something.
+function digits_for(values: readonly (number | null)[]): number {
+  const most = values.reduce<number>((max, value) => Math.max(max, Math.abs(value ?? 0)), 0);
+  return most > 0 ? Math.max(0, Math.min(4, 3 - Math.floor(Math.log10(most)))) : 2;
+}
+
 function with_truth(plots: PlotSpec[], run: Run): PlotSpec[] {
   const all = plots.map((plot) => ({...plot, lines: [...plot.lines]}));
+  const planned = run.pose === undefined ? 'Known to the simulation' : 'As planned';
   for (const line of run.truth.lines) {
     let plot = all.find(({name, unit}) =>
       name === line.plot && unit_factor(line.unit, unit) !== null);
     if (plot === undefined) {
       const title = line.title ?? line.plot.charAt(0).toUpperCase() + line.plot.slice(1);
-      plot = {name: line.plot, title, unit: line.unit, note: 'Known to the simulation', lines: []};
+      plot = {name: line.plot, title, unit: line.unit, note: planned, lines: []};
       all.push(plot);
     }
-    const own = plot.lines.filter(({style}) => style !== 'truth').length === 0;
     const factor = unit_factor(line.unit, plot.unit) ?? 1;
     plot.lines.push({
-      label: line.label, style: own ? 'real' : 'truth', digits: 2,
-      colour: TRUTH_COLOURS[plot.lines.length % TRUTH_COLOURS.length]!,
+      label: line.label, style: all.indexOf(plot) < plots.length ? 'truth' : 'real',
+      colour: colour_of(line.label, plot.lines.length),
+      digits: plot.lines[0]?.digits ?? digits_for(line.values),
       trace: truth_trace(run, line, factor),
     });
   }

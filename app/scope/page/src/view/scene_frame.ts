@@ -40,6 +40,9 @@ export class SceneFrame {
     if (this.shown_for[0] !== setup || this.shown_for[1] !== machine) {
       this.shown_for = [setup, machine];
       this.drives_s = NaN;
+      // A new machine is drawn at once, and not from the frames that the last one had.
+      this.view.setMachine(setup, null);
+      this.view.update({store, now_s: playhead.now_s, live: false});
       this.view.setMachine(setup, machine);
       this.layers.offer(machine);
     }

@@ -41,6 +41,7 @@ export class StatePanel implements View {
   }
 
   update(state: PageState): void {
+    set_shown(this.node, state.setup?.source.mode !== 'plan');
     const now = snapshot(state.store, state.playhead.now_s);
     this.node.classList.toggle('stale', now.stale);
     set_text(this.mode, now.mode ?? 'Unknown');
