@@ -65,7 +65,7 @@ void show(const ScopeCommand& options) {
   if (options.seed && !options.sim) {
     throw std::runtime_error("--seed: only with --sim");
   }
-  const std::string page = std::string(scope::scope_page_head()).append(scope::scope_page_tail());
+  const std::string_view page = scope::scope_page();
   const int bitrate_bps = options.bitrate_bps.value_or(kUsualBitrate_bps);
   if (options.sim) {
     const auto source = scope::make_sim_source(simulation(options));
