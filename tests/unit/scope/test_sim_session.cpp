@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <optional>
 
 #include "tests/unit/scope/sim_watch.hpp"
 
@@ -202,7 +202,7 @@ void a_task_begins_anew(void**) {
   int begun = 0;
   int jumps = 0;
   bool in_step = false;
-  double swing_rad = 0.0;
+  std::optional<double> swing_rad;
   sim.also = [&](const CanFrame& frame) {
     using dbc::excavator::SwingState;
     using dbc::excavator::TaskStatus;
@@ -213,9 +213,9 @@ void a_task_begins_anew(void**) {
       in_step = now;
     }
     if (frame.id == SwingState::kId) {
-      const double before_rad =
-          std::exchange(swing_rad, SwingState::decode(frame.data).swing_angle_rad.value);
-      jumps += std::abs(swing_rad - before_rad) > 0.1 ? 1 : 0;
+      const double now_rad = SwingState::decode(frame.data).swing_angle_rad.value;
+      jumps += std::abs(now_rad - swing_rad.value_or(now_rad)) > 0.1 ? 1 : 0;
+      swing_rad = now_rad;
     }
   };
   assert_true(sim.run_until(90.0, [&begun] { return begun == 3; }));
