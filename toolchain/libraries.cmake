@@ -8,6 +8,13 @@ if(NOT CMAKE_CROSSCOMPILING)
   find_package(nlohmann_json REQUIRED)
   find_package(tomlplusplus REQUIRED)
   find_package(cmocka REQUIRED)
+  # Not by its own package file, which would link what the library has for itself: OpenSSL, zlib,
+  # and the event libraries that it can be run on.
+  find_path(libwebsockets_include libwebsockets.h REQUIRED)
+  find_library(libwebsockets_library websockets REQUIRED)
+  add_library(graben_libwebsockets INTERFACE IMPORTED GLOBAL)
+  target_include_directories(graben_libwebsockets SYSTEM INTERFACE ${libwebsockets_include})
+  target_link_libraries(graben_libwebsockets INTERFACE ${libwebsockets_library})
   if(GRABEN_BENCH)
     find_package(benchmark REQUIRED)
     find_package(Boost 1.74 REQUIRED)

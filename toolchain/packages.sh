@@ -22,6 +22,7 @@ graben_missing() {
   has_header CLI/CLI.hpp || echo libcli11-dev
   has_header fmt/core.h || echo libfmt-dev
   has_header nlohmann/json.hpp || echo nlohmann-json3-dev
+  has_header libwebsockets.h || echo libwebsockets-dev
   # Debian's npm conflicts with a Node.js from elsewhere, which brings its own.
   has_command node || echo nodejs
   has_command npm || echo npm

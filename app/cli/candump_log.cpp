@@ -10,6 +10,9 @@
 
 namespace graben::cli {
 namespace {
+/// How can-utils mark what is a report of the bus controller: CAN_ERR_FLAG.
+constexpr std::uint32_t kErrorFlag = 0x20000000U;
+
 [[noreturn]] void fail(const std::filesystem::path& file, int error) {
   throw std::runtime_error(fmt::format("{}: {}", file.string(), std::strerror(error)));
 }
@@ -30,8 +33,9 @@ std::string candump_line(const CanFrame& frame, TimeUs now_us, const std::string
   // one.
   std::string line = fmt::format(FMT_COMPILE("({:010d}.{:06d}) {} "), now_us / kSecondUs,
                                  now_us % kSecondUs, interface_name);
-  line += frame.extended ? fmt::format(FMT_COMPILE("{:08X}#"), frame.id)
-                         : fmt::format(FMT_COMPILE("{:03X}#"), frame.id);
+  const std::uint32_t id = frame.error ? frame.id | kErrorFlag : frame.id;
+  line += frame.extended || frame.error ? fmt::format(FMT_COMPILE("{:08X}#"), id)
+                                        : fmt::format(FMT_COMPILE("{:03X}#"), id);
   if (frame.remote) {
     return line + "R";
   }

@@ -17,5 +17,6 @@ void add_strokes(CLI::App& app, int& status);
 void add_autodig(CLI::App& app, int& status);
 void add_plan(CLI::App& app, int& status);
 void add_plant(CLI::App& app, int& status);
+void add_scope(CLI::App& app, int& status);
 
 }  // namespace graben::cli

@@ -84,4 +84,42 @@ const char* fault_words(Fault fault) {
   return "unknown";
 }
 
+const char* arm_block_words(ArmBlock block) {
+  switch (block) {
+    case ArmBlock::kStroke:
+      return "a stroke is missing";
+    case ArmBlock::kPressure:
+      return "a pressure is missing (excavator), or the body's pose (dozer)";
+    case ArmBlock::kSwash:
+      return "a pump's swash is missing (excavator), or the transmission's feedback (dozer)";
+    case ArmBlock::kEngineSpeed:
+      return "the engine's speed is missing";
+    case ArmBlock::kOperator:
+      return "the operator's frames are missing";
+    case ArmBlock::kSpool:
+      return "the valve's feedback is missing";
+    case ArmBlock::kIdentity:
+      return "the machine has another profile or DBC, or does not say";
+    case ArmBlock::kBus:
+      return "the bus is not active, or does not take the controller's frames";
+    case ArmBlock::kMessages:
+      return "messages with wrong CRCs or out of sequence";
+    case ArmBlock::kImplausible:
+      return "a stroke, pressure, swash or pose that cannot be";
+    case ArmBlock::kCycle:
+      return "control cycles are late";
+    case ArmBlock::kManual:
+      return "the operator drives by hand";
+    case ArmBlock::kTaskNotAtRest:
+      return "a task is chosen already: first none, then the task";
+    case ArmBlock::kEnableNotFresh:
+      return "enable is not given, or was not released before";
+    case ArmBlock::kFaultLatched:
+      return "a fault is latched: release enable, then give it again";
+    case ArmBlock::kStopping:
+      return "the controller was told to end";
+  }
+  return "unknown";
+}
+
 }  // namespace graben::cli

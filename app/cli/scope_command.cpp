@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "app/cli/commands.hpp"
+#include "app/cli/guarded.hpp"
+#include "app/cli/validators.hpp"
+#include "app/scope/can_source.hpp"
+#include "app/scope/log_show.hpp"
+#include "app/scope/scope_page.hpp"
+#include "app/scope/serve.hpp"
+#include "app/scope/setup_json.hpp"
+#include "app/scope/sim_source.hpp"
+
+namespace graben::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> can;
+  std::optional<std::string> log;
+  std::optional<std::string> sim;
+  std::optional<std::uint64_t> seed;
+  std::optional<int> bitrate_bps;
+  scope::ServerOptions server;
+  scope::SetupOptions setup;
+};
+
+constexpr int kUsualBitrate_bps = 500000;
+
+scope::SimOptions simulation(const Options& options) {
+  const bool has_task = *options.sim == "autodig";
+  if (options.setup.tasks.size() > (has_task ? 1U : 0U)) {
+    throw std::runtime_error(
+        fmt::format("--sim {}: takes {}", *options.sim, has_task ? "one --task" : "no --task"));
+  }
+  if (options.bitrate_bps) {
+    throw std::runtime_error("--bitrate: not with --sim, whose bus has its own");
+  }
+  scope::SimOptions result;
+  result.task = *options.sim;
+  result.profile = options.setup.profile;
+  result.seed = options.seed;
+  if (!options.setup.tasks.empty()) {
+    result.task_file = options.setup.tasks.front();
+  }
+  return result;
+}
+
+/// The simulated controller has the one task, by the number 0.
+scope::SetupOptions setup_of(const Options& options) {
+  scope::SetupOptions setup = options.setup;
+  if (options.sim == "autodig" && setup.tasks.empty()) {
+    setup.tasks = {"flatten"};
+  }
+  return setup;
+}
+
+void show(const Options& options) {
+  if (options.seed && !options.sim) {
+    throw std::runtime_error("--seed: only with --sim");
+  }
+  const std::string page = std::string(scope::scope_page_head()).append(scope::scope_page_tail());
+  const int bitrate_bps = options.bitrate_bps.value_or(kUsualBitrate_bps);
+  if (options.sim) {
+    const auto source = scope::make_sim_source(simulation(options));
+    scope::serve(options.server, page, *source, scope::shared_setup(setup_of(options)));
+  } else if (options.log) {
+    scope::LogShow log(*options.log, bitrate_bps, scope::shared_setup(options.setup));
+    scope::serve(options.server, page, log);
+  } else {
+    scope::CanSource source(options.can, bitrate_bps);
+    scope::serve(options.server, page, source, scope::shared_setup(options.setup));
+  }
+}
+
+}  // namespace
+
+void add_scope(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "scope",
+      "The machine in a browser: posed, with plots and faults, from what is on the bus. Serves a "
+      "page until SIGINT or SIGTERM; a bus is only heard. Needs no privilege");
+  auto* source = command->add_option_group("source", "What is shown; one of them");
+  source->add_option("--can", options->can, "CAN interfaces, such as can0 or can0,can1")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  source->add_option("--log", options->log, "Log of candump -l, from its start to its end");
+  source->add_option("--sim", options->sim, "Simulation in real time: dig, grade or autodig")
+      ->check(CLI::IsMember({"dig", "grade", "autodig"}));
+  source->require_option(1);
+  command
+      ->add_option("--port", options->server.port, "Of the page, 0 .. 65535; 0: any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command
+      ->add_option("--host", options->server.host,
+                   "Address to listen on; another one than this lets other machines look")
+      ->capture_default_str();
+  command->add_option("--profile", options->setup.profile,
+                      "Machine profile beside the shipped ones: file or shipped name; with --sim "
+                      "the simulated one");
+  command
+      ->add_option("--task", options->setup.tasks,
+                   "Task that the controller has, as it was told: file or shipped name, up to 4, "
+                   "for TaskNumber 0, 1, ...; without it the shipped ones that the machine can "
+                   "do. With --sim autodig the one that it does, flatten unless told")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--bitrate", options->bitrate_bps,
+                   "Of the bus, bit/s, 10000 .. 1000000, for its load; 500000 unless told")
+      ->check(CLI::Range(10000, 1000000));
+  command
+      ->add_option("--seed", options->seed,
+                   "Of the simulated sensors' errors and of what the controller does not know; "
+                   "exact without it")
+      ->check(whole_number());
+  command->callback([options, &status] { status = guarded("scope", [&] { show(*options); }); });
+}
+
+}  // namespace graben::cli

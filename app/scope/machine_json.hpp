@@ -1,0 +1,27 @@
+#pragma once
+/// Machines as a page has to know them: `Machine` of page/src/model/api.ts. Lengths in m, angles in
+/// rad, in the ground frame where it says so: an excavator's origin is where its swing axis meets
+/// the ground.
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "app/machines/any_machine.hpp"
+#include "app/machines/task_file.hpp"
+
+namespace graben::scope {
+
+/// `tasks` by the number that they have on the bus, read for this machine.
+[[nodiscard]] nlohmann::json machine_json(const machines::ExcavatorMachine& machine,
+                                          const std::vector<machines::TaskFile>& tasks);
+[[nodiscard]] nlohmann::json machine_json(const machines::DozerMachine& machine);
+
+/// `Task`, with the fences as `task` has them planned.
+[[nodiscard]] nlohmann::json task_json(const machines::TaskFile& task,
+                                       const ExcavatorProfile& profile);
+
+/// Rounded to a micrometre, or whatever a millionth of the unit is: a double that is written in
+/// full costs three times as much to send.
+[[nodiscard]] double rounded(double value);
+
+}  // namespace graben::scope

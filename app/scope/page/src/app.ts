@@ -1,0 +1,88 @@
+/// The page put together: what shows what is known, and the loop that keeps it in step.
+
+import {createFeed, embedded_setup} from './feed/feed';
+import {State} from './state';
+import {Alarms} from './view/alarms';
+import {FaultList} from './view/fault_list';
+import {FaultLog} from './view/fault_log';
+import {FileOpener} from './view/files';
+import {FrameRate} from './view/frame_rate';
+import {Header} from './view/header';
+import {HealthPanel} from './view/health_panel';
+import {help_dialog} from './view/help';
+import {Histogram} from './view/histogram';
+import {listen_to_keys} from './view/keys';
+import {lay_out} from './view/layout';
+import {MessageTable} from './view/message_table';
+import type {View} from './view/page_state';
+import {PlotBoard} from './view/plot_board';
+import {ReplayBar} from './view/replay_bar';
+import {RunPanel} from './view/run_panel';
+import {SceneFrame} from './view/scene_frame';
+import {SimPanel} from './view/sim_panel';
+import {StatePanel} from './view/state_panel';
+import {tell_tests} from './view/tests_window';
+import {create_theme} from './view/theme';
+import {page_words} from './view/words';
+
+/// Ten times a second is as often as words can be read.
+const PANEL_MS = 100;
+
+export function start(root: HTMLElement): void {
+  const setup = embedded_setup(document);
+  const state = new State(setup !== null);
+  const theme = create_theme();
+  const words = page_words(state);
+  const faults = new FaultLog();
+  const help = help_dialog();
+
+  const scene = new SceneFrame(theme);
+  const plots = new PlotBoard(state, theme, words.limit);
+  const histogram = new Histogram(theme);
+  const replay = new ReplayBar(state, faults, theme);
+  const header = new Header(theme, () => help.showModal());
+  const alarms = new Alarms(words, () => replay.jump_to_current());
+  const feed = createFeed(state, setup);
+  state.send = (message) => feed.send(message);
+  const files = new FileOpener((file) => {
+    state.file_opened();
+    feed.open_file(file);
+  });
+  header.node.lastElementChild?.prepend(files.node);
+
+  const panel: View[] = [
+    new StatePanel(words), new RunPanel(), new SimPanel((message) => state.send(message)),
+    new FaultList(faults, words, (time_s) => state.playhead.seek(time_s)), new MessageTable(),
+    new HealthPanel(),
+  ];
+  const views: View[] = [header, alarms, ...panel, replay, files];
+  lay_out(root, {
+    header: header.node, alarms: alarms.node, scene: scene.node, layers: scene.layers.node,
+    plots: [plots.node, histogram.node], panel: panel.map(({node}) => node), replay: replay.node,
+  });
+  listen_to_keys({
+    state, replay, theme: () => theme.toggle(), help: () => help.showModal(),
+  });
+
+  const rate = new FrameRate();
+  let panel_ms = -Infinity;
+  let last_ms: number | null = null;
+  const frame = (now_ms: number): void => {
+    requestAnimationFrame(frame);
+    state.playhead.tick(last_ms === null ? 0 : (now_ms - last_ms) / 1000);
+    last_ms = now_ms;
+    state.know_machine();
+    scene.frame(state);
+    plots.frame(now_ms);
+    histogram.frame(now_ms, state);
+    if (now_ms - panel_ms >= PANEL_MS) {
+      panel_ms = now_ms;
+      for (const view of views) {
+        view.update(state);
+      }
+    }
+    rate.count(now_ms);
+  };
+  requestAnimationFrame(frame);
+  tell_tests(state, scene, rate);
+}

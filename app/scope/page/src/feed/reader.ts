@@ -1,0 +1,65 @@
+/// An intake in a worker; on the page's own thread where the browser makes none, as some do for a
+/// page from a file.
+
+import {Intake} from './intake';
+import type {Hear, Order, Told} from './orders';
+
+/// What a Worker is, as far as it is used here.
+export interface AnyWorker {
+  onmessage: ((event: MessageEvent<Told>) => void) | null;
+  onerror: ((event: ErrorEvent) => void) | null;
+  postMessage(order: Order): void;
+  terminate(): void;
+}
+
+export interface Reader {
+  obey(order: Order): void;
+}
+
+/// `make` may throw, or the worker may fail before it says that it is ready: then the orders so far
+/// are obeyed here.
+export function make_reader(make: () => AnyWorker, hear: Hear): Reader {
+  const orders: Order[] = [];
+  let ready = false;
+  let own: Intake | null = null;
+  let worker: AnyWorker | null = null;
+  const read_here = (): void => {
+    worker?.terminate();
+    worker = null;
+    own = new Intake(hear);
+    orders.splice(0).forEach((order) => own?.obey(order));
+  };
+  try {
+    worker = make();
+    worker.onmessage = ({data}) => {
+      ready = true;
+      orders.length = 0;
+      if (data.told !== 'ready') {
+        hear(data, []);
+      }
+    };
+    worker.onerror = (event) => {
+      event.preventDefault();
+      if (!ready) {
+        read_here();
+      } else {
+        const why = `the page's reader failed: ${event.message}`;
+        hear({told: 'closed', why, again_s: null}, []);
+      }
+    };
+  } catch {
+    read_here();
+  }
+  return {
+    obey(order) {
+      if (own !== null) {
+        own.obey(order);
+        return;
+      }
+      if (!ready) {
+        orders.push(order);
+      }
+      worker?.postMessage(order);
+    },
+  };
+}

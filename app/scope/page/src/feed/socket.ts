@@ -1,0 +1,113 @@
+/// The WebSocket to the server, for as long as the page lives: lost, it is tried again.
+
+import type {FromServer, Setup} from '../model/api';
+import type {Batches} from './batches';
+import type {Hear, PlainMessage} from './orders';
+
+const PROTOCOL = 'graben-scope';
+const FIRST_WAIT_S = 1;
+const MOST_WAIT_S = 5;
+const KINDS: ReadonlySet<string> =
+  new Set<PlainMessage['kind']>(['dropped', 'bus', 'end', 'sim', 'refused']);
+
+export class ServerSocket {
+  private socket: WebSocket | null = null;
+  private wait_s = FIRST_WAIT_S;
+  private setup_text = '';
+  private mode: Setup['source']['mode'] | null = null;
+  private all_there = false;
+  private given_up = false;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(private readonly url: string, private readonly batches: Batches,
+              private readonly hear: Hear) {
+    this.open();
+  }
+
+  send(text: string): void {
+    if (this.socket?.readyState === WebSocket.OPEN) {
+      this.socket.send(text);
+    } else {
+      const why = 'there is no connection to the server';
+      this.hear({told: 'message', message: {kind: 'refused', why}}, []);
+    }
+  }
+
+  close(): void {
+    this.given_up = true;
+    clearTimeout(this.timer);
+    this.socket?.close();
+  }
+
+  private open(): void {
+    const socket = new WebSocket(this.url, PROTOCOL);
+    socket.binaryType = 'arraybuffer';
+    socket.onopen = () => {
+      this.wait_s = FIRST_WAIT_S;
+      this.hear({told: 'opened'}, []);
+    };
+    socket.onmessage = (event: MessageEvent<string | ArrayBuffer>) => {
+      if (this.given_up) {
+        return;
+      }
+      if (typeof event.data === 'string') {
+        this.text(event.data);
+      } else {
+        this.batches.feed(new Uint8Array(event.data));
+      }
+    };
+    socket.onclose = (event) => this.closed(event.reason);
+    this.socket = socket;
+  }
+
+  private text(text: string): void {
+    let message: FromServer;
+    try {
+      message = JSON.parse(text) as FromServer;
+    } catch {
+      message = {kind: 'refused', why: 'a message of the server that is no JSON'};
+    }
+    if (message.kind === 'setup') {
+      this.begin(text, message);
+    } else if (KINDS.has(message.kind)) {
+      if (message.kind === 'end') {
+        this.batches.end();
+        this.all_there = true;
+      }
+      this.hear({told: 'message', message}, []);
+    }
+  }
+
+  /// The first message of every connection. Live frames of the same server go on; a log is sent
+  /// from its beginning again.
+  private begin(text: string, setup: Setup & {kind: 'setup'}): void {
+    this.mode = setup.source.mode;
+    this.all_there = false;
+    this.batches.loading = this.mode === 'log';
+    const same = text === this.setup_text;
+    this.setup_text = text;
+    if (same && this.mode !== 'log') {
+      this.batches.resume();
+      return;
+    }
+    this.batches.begin();
+    if (!same) {
+      const {kind: _, ...said} = setup;
+      this.hear({told: 'setup', setup: said}, []);
+    }
+  }
+
+  private closed(reason: string): void {
+    this.socket = null;
+    if (this.given_up) {
+      return;
+    }
+    const again_s = this.all_there ? null : this.wait_s;
+    const why = reason !== '' ? reason : 'the server does not answer';
+    this.hear({told: 'closed', why, again_s}, []);
+    if (again_s !== null) {
+      this.timer = setTimeout(() => this.open(), 1000 * again_s);
+      this.wait_s = Math.min(MOST_WAIT_S, 2 * this.wait_s);
+    }
+  }
+}

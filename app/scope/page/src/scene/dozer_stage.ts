@@ -1,0 +1,103 @@
+/// The dozer with its grade and the ground that its blade cuts.
+
+import {Group, Object3D, Sphere, Vector3 as Point} from 'three';
+import type {DozerMachine, Vector2} from '../model/api';
+import {DozerModel} from './dozer_model';
+import {blade_walk} from './edges';
+import {GroundLayer} from './ground_layer';
+import type {Labels} from './labels';
+import {dozer_state} from './machine_state';
+import type {SharedMaterials} from './materials';
+import {type Pane, ribbon} from './planes';
+import {Ruler} from './ruler';
+import {dozer_grid} from './soil_shape';
+import type {Stage} from './stage';
+import type {SceneColours} from './theme';
+import {TrailLayer} from './trail_layer';
+import type {SceneLayers, SceneUpdate} from './types';
+
+/// How far around the machine the ground is seen, m.
+const kSeen_m = 55;
+
+export class DozerStage implements Stage {
+  readonly node = new Group();
+  readonly ground: GroundLayer;
+  readonly home: Sphere;
+  readonly tip: Object3D;
+  readonly relief_pa = null;
+  along_m = 0;
+  placed = false;
+  private readonly model: DozerModel;
+  private readonly design: Pane;
+  private readonly trail: TrailLayer;
+  private readonly ruler: Ruler;
+
+  constructor(
+    private readonly machine: DozerMachine, shared: SharedMaterials, labels: Labels) {
+    this.model = new DozerModel(machine, shared);
+    this.tip = this.model.edge;
+    const width = this.model.shape.blade_width_m;
+    const grid = dozer_grid(machine);
+    this.ground = new GroundLayer(
+      {grid, start: () => 0, width_m: width, walk: blade_walk(machine)});
+    this.design = ribbon(graded(machine), width);
+    this.trail = new TrailLayer(blade_walk(machine));
+    this.ruler = new Ruler({
+      from_x_m: Math.ceil(grid.x_m) + 4, to_x_m: Math.ceil(machine.length_m) + 2,
+      y_m: -0.5 * width - 0.5, low_z_m: -1, high_z_m: 1});
+    this.ruler.label(labels);
+    this.home = new Sphere(
+      new Point(0.5 * machine.track_contact_m, 0, 0.4), 1.35 * machine.track_contact_m + 1.2);
+    this.model.node.visible = false;
+    this.model.pose_ghost(null);
+    this.node.add(
+      this.model.node, this.model.ghost, this.design.node, this.trail.node, this.ground.node,
+      this.ruler.node);
+  }
+
+  update({store, now_s}: SceneUpdate): void {
+    const state = dozer_state(this.machine, store, now_s);
+    if (state.pose !== null) {
+      this.model.pose(state.pose);
+      this.along_m = state.pose.body_m[0];
+      this.placed = true;
+      this.model.node.visible = true;
+      this.ground.set_centre(this.along_m, 0, kSeen_m);
+    }
+    this.model.show(state);
+    this.trail.update(store, now_s);
+  }
+
+  set_layers(layers: SceneLayers): void {
+    this.design.node.visible = layers.design;
+    this.trail.node.visible = layers.path;
+    this.ground.show(layers.terrain);
+  }
+
+  set_theme(colours: SceneColours): void {
+    for (const part of [this.model, this.design, this.trail, this.ruler, this.ground]) {
+      part.set_theme(colours);
+    }
+  }
+
+  dispose(): void {
+    for (const part of [this.model, this.design, this.trail, this.ruler, this.ground]) {
+      part.dispose();
+    }
+  }
+}
+
+/// The design from x = 0 to the grade's end, and no farther.
+function graded(machine: DozerMachine): Vector2[] {
+  const {design, length_m} = machine;
+  const height_at = (x: number): number => {
+    const next = design.findIndex(([at]) => at >= x);
+    if (next <= 0) {
+      return design[next === 0 ? 0 : design.length - 1]?.[1] ?? 0;
+    }
+    const [from, to] = [design[next - 1]!, design[next]!];
+    return from[1] + (to[1] - from[1]) * (x - from[0]) / (to[0] - from[0]);
+  };
+  const inside = design.filter(([x]) => x > 0 && x < length_m);
+  return [[0, height_at(0)], ...inside, [length_m, height_at(length_m)]];
+}

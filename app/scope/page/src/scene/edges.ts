@@ -1,0 +1,50 @@
+/// The bucket's teeth or the blade's edge, frame by frame.
+
+import type {DozerMachine, ExcavatorMachine, FrameStore} from '../model/api';
+import {dozerPose} from '../model/dozer';
+import {excavatorPose} from '../model/excavator';
+import type {Edge} from './height_field';
+import {SignalWalk} from './measured';
+import type {EdgeWalk} from './terrain_history';
+
+/// A walk over the frames of one message, with a value of each of the signals at their times.
+function walk_over(
+  store: FrameStore, message: string, signals: readonly string[], after_s: number,
+  edge_of: (values: readonly number[]) => Edge | null): EdgeWalk {
+  const rows = store.rows(message);
+  const walks = signals.map((signal) => new SignalWalk(store, signal, after_s));
+  let index = rows.at(after_s);
+  return {
+    next: () => (++index < rows.count ? rows.time(index) : NaN),
+    edge: () => {
+      const time = rows.time(index);
+      const values = walks.map((walk) => walk.at(time));
+      return values.some(Number.isNaN) ? null : edge_of(values);
+    },
+  };
+}
+
+export const teeth_walk = (machine: ExcavatorMachine) =>
+  (store: FrameStore, after_s: number): EdgeWalk => {
+    const signals = ['BoomStroke.BoomStroke', 'ArmStroke.ArmStroke', 'BucketStroke.BucketStroke'];
+    if (machine.has_swing) {
+      signals.push('SwingState.SwingAngle');
+    }
+    return walk_over(store, 'BoomStroke', signals, after_s, ([boom, arm, bucket, swing = 0]) => {
+      const pose = excavatorPose(machine, [boom!, arm!, bucket!], swing);
+      return pose && {
+        x_m: pose.position_m[0], y_m: pose.position_m[1], z_m: pose.position_m[2],
+        heading_rad: swing};
+    });
+  };
+
+export const blade_walk = (machine: DozerMachine) =>
+  (store: FrameStore, after_s: number): EdgeWalk => {
+    const signals = ['BodyPosition.Position', 'BodyPosition.Height', 'BodyPitch.Pitch',
+      'BladeStroke.BladeStroke'];
+    return walk_over(store, 'BladeStroke', signals, after_s, ([along, height, pitch, stroke]) => {
+      const pose = dozerPose(machine, {
+        position_m: along!, height_m: height!, pitch_rad: pitch!, blade_stroke_m: stroke!});
+      return pose && {x_m: pose.edge_m[0], y_m: 0, z_m: pose.edge_m[1], heading_rad: 0};
+    });
+  };

@@ -1,0 +1,184 @@
+/// The excavator with its path, its soil and what bounds it.
+
+import {Box3, Group, Object3D, Sphere, Vector3 as Point} from 'three';
+import type {ExcavatorMachine, Setup, Task, Vector3} from '../model/api';
+import {teeth_walk} from './edges';
+import {ExcavatorModel} from './excavator_model';
+import {GroundLayer} from './ground_layer';
+import type {Labels} from './labels';
+import {excavator_state, planned_state} from './machine_state';
+import type {SharedMaterials} from './materials';
+import {DigLayer, TaskLayer} from './path_layer';
+import {type Pane, plane_pane} from './planes';
+import {Ruler} from './ruler';
+import {type ShownTask, TaskChoice} from './shown_task';
+import {excavator_grid, excavator_start, reach_m} from './soil_shape';
+import type {Stage} from './stage';
+import type {SceneColours} from './theme';
+import {TrailLayer} from './trail_layer';
+import type {SceneLayers, SceneUpdate} from './types';
+
+export class ExcavatorStage implements Stage {
+  readonly node = new Group();
+  readonly ground: GroundLayer;
+  readonly home: Sphere;
+  readonly tip: Object3D;
+  readonly relief_pa: number;
+  readonly along_m = 0;
+  placed = false;
+  private readonly model: ExcavatorModel;
+  private readonly dig: DigLayer;
+  private readonly trail: TrailLayer;
+  private readonly ruler: Ruler;
+  private readonly choice: TaskChoice;
+  private readonly task_node = new Group();
+  private readonly fences = new Group();
+  private readonly design = new Group();
+  private task_parts: (TaskLayer | Pane)[] = [];
+  private shown: ShownTask = 'none';
+  private layers: SceneLayers | null = null;
+  private colours: SceneColours | null = null;
+
+  constructor(
+    private readonly machine: ExcavatorMachine, setup: Setup, shared: SharedMaterials,
+    private readonly labels: Labels) {
+    this.model = new ExcavatorModel(machine, shared);
+    this.tip = this.model.teeth;
+    this.relief_pa = machine.relief_pa;
+    this.dig = new DigLayer(machine.dig);
+    this.trail = new TrailLayer(teeth_walk(machine));
+    this.ground = new GroundLayer({
+      grid: excavator_grid(machine), start: excavator_start(machine),
+      width_m: this.model.shape.widths.bucket_m, walk: teeth_walk(machine)});
+    const far = Math.ceil(reach_m(machine));
+    this.ground.set_centre(0, 0, 5 * far);
+    this.ruler = new Ruler({
+      from_x_m: 0, to_x_m: far, y_m: -0.35 * machine.boom_m - 0.3, low_z_m: -2, high_z_m: 4});
+    this.ruler.label(labels);
+    this.choice = new TaskChoice(machine, setup);
+    this.home = home_of(machine);
+    this.model.node.visible = false;
+    this.node.add(
+      this.model.node, this.model.ghost, this.dig.path, this.dig.field, this.trail.node,
+      this.task_node, this.fences, this.design, this.ground.node, this.ruler.node);
+    this.model.pose_ghost(null);
+    this.choose('none');
+  }
+
+  update({store, now_s, drives}: SceneUpdate): void {
+    const state = drives ?
+      planned_state(this.machine, drives) : excavator_state(this.machine, store, now_s);
+    if (state.pose !== null) {
+      this.model.pose(state.pose);
+      this.dig.turn(state.pose.swing_rad);
+      this.placed = true;
+      this.model.node.visible = true;
+    }
+    this.model.show(state);
+    this.trail.update(store, now_s);
+    const task = this.choice.at(store, now_s);
+    if (task !== this.shown) {
+      this.choose(task);
+    }
+  }
+
+  private choose(task: ShownTask): void {
+    this.shown = task;
+    this.task_parts.forEach((part) => part.dispose());
+    this.task_parts = [];
+    for (const group of [this.task_node, this.fences, this.design]) {
+      group.clear();
+    }
+    for (const group of ['path', 'fences', 'design'] as const) {
+      this.labels.clear(group);
+    }
+    const program = typeof task === 'number' ? this.machine.tasks[task] : undefined;
+    if (program) {
+      this.add_task(program);
+    }
+    if (this.colours) {
+      this.set_theme(this.colours);
+    }
+    this.apply_layers();
+  }
+
+  private add_task(task: Task): void {
+    const layer = new TaskLayer(this.machine, task);
+    layer.label(this.labels);
+    this.task_node.add(layer.node);
+    this.task_parts.push(layer);
+    const reach = reach_m(this.machine);
+    // The last fence is the design's own.
+    const fences = task.design ? task.fences.slice(0, -1) : task.fences;
+    fences.forEach((fence, i) => {
+      const through = fence.normal.map((part) => part * fence.offset_m) as unknown as Vector3;
+      this.add_plane('fence', `fence${i}`, fence.words, through, fence.normal, reach);
+    });
+    if (task.design) {
+      this.add_plane(
+        'design', 'design', 'design', task.design.through_m, task.design.up, reach);
+    }
+  }
+
+  private add_plane(
+    kind: 'design' | 'fence', name: string, words: string, through: Vector3, normal: Vector3,
+    reach: number): void {
+    const {pane, label_m} = plane_pane(kind, through, normal, reach);
+    this.task_parts.push(pane);
+    (kind === 'design' ? this.design : this.fences).add(pane.node);
+    this.labels.put(name, kind === 'design' ? 'design' : 'fences', words, label_m);
+  }
+
+  set_layers(layers: SceneLayers): void {
+    this.layers = layers;
+    this.apply_layers();
+  }
+
+  private apply_layers(): void {
+    const {layers} = this;
+    if (!layers) {
+      return;
+    }
+    this.dig.path.visible = layers.path && this.shown === 'dig';
+    this.dig.field.visible = layers.field && this.shown === 'dig';
+    this.task_node.visible = layers.path;
+    this.trail.node.visible = layers.path;
+    this.fences.visible = layers.fences;
+    this.design.visible = layers.design;
+    this.model.ghost.visible &&= layers.ghost;
+    this.ground.show(layers.terrain);
+  }
+
+  set_theme(colours: SceneColours): void {
+    this.colours = colours;
+    for (const part of [
+      this.model, this.dig, this.trail, this.ruler, this.ground, ...this.task_parts]) {
+      part.set_theme(colours);
+    }
+  }
+
+  dispose(): void {
+    for (const part of [
+      this.model, this.dig, this.trail, this.ruler, this.ground, ...this.task_parts]) {
+      part.dispose();
+    }
+  }
+}
+
+/// Machine and path, seen from the side.
+function home_of(machine: ExcavatorMachine): Sphere {
+  const box = new Box3(
+    new Point(-0.45 * machine.boom_m, 0, 0),
+    new Point(0.6 * reach_m(machine), 0, machine.boom_foot_m[1] + 0.45 * machine.boom_m));
+  for (const [x, z] of machine.dig.path) {
+    box.expandByPoint(new Point(x, 0, z));
+  }
+  for (const task of machine.tasks) {
+    for (const {from, to} of task.steps) {
+      for (const {position_m} of [from, to]) {
+        box.expandByPoint(new Point(Math.hypot(position_m[0], position_m[1]), 0, position_m[2]));
+      }
+    }
+  }
+  return box.getBoundingSphere(new Sphere());
+}

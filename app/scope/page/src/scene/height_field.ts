@@ -1,0 +1,175 @@
+/// The ground as heights over a grid, lowered in the order of time and shown as it was at any time.
+
+export interface Grid {
+  x_m: number;  ///< Of the first node.
+  y_m: number;
+  cell_m: number;
+  columns: number;  ///< Nodes along x.
+  rows: number;     ///< Along y.
+}
+
+/// Less than this is not worth an entry: a tip that goes the same way again, with the noise of its
+/// sensors, would fill the memory.
+const kLeastCut_m = 0.002;
+
+/// Every change is kept with its time, the height before and after it: so any time between the
+/// first and the last is shown by undoing or redoing what lies between. Soil only goes down, which
+/// bounds the entries by the soil that is there.
+export class HeightField {
+  readonly grid: Grid;
+  readonly heights: Float32Array;  ///< As shown; row by row from the first.
+  private readonly latest: Float32Array;
+  private time = new Float64Array(1024);
+  private node = new Int32Array(1024);
+  private before = new Float32Array(1024);
+  private after = new Float32Array(1024);
+  private count = 0;
+  private shown = 0;
+  private readonly most: number;
+
+  /// Of more than `most` entries the older half is forgotten: before their time the field shows
+  /// what they left.
+  constructor(grid: Grid, start: (x_m: number, y_m: number) => number, most = 1 << 21) {
+    this.grid = grid;
+    this.most = most;
+    this.heights = new Float32Array(grid.columns * grid.rows);
+    for (let row = 0; row < grid.rows; ++row) {
+      for (let column = 0; column < grid.columns; ++column) {
+        this.heights[row * grid.columns + column] =
+          start(grid.x_m + column * grid.cell_m, grid.y_m + row * grid.cell_m);
+      }
+    }
+    this.latest = this.heights.slice();
+  }
+
+  get entries(): number {
+    return this.count;
+  }
+
+  /// The height after all cuts, whatever is shown.
+  latest_m(node: number): number {
+    return this.latest[node]!;
+  }
+
+  /// Takes the node down to a height, if it is above. Times must not fall.
+  lower(time_s: number, node: number, height_m: number): void {
+    const was = this.latest[node]!;
+    if (height_m > was - kLeastCut_m) {
+      return;
+    }
+    if (this.count === this.time.length) {
+      this.make_room();
+    }
+    this.time[this.count] = time_s;
+    this.node[this.count] = node;
+    this.before[this.count] = was;
+    this.after[this.count] = height_m;
+    this.latest[node] = height_m;
+    ++this.count;
+  }
+
+  /// Shows the field as it was; calls `changed` for each node whose height that changes, perhaps
+  /// more than once.
+  show(time_s: number, changed: (node: number) => void): void {
+    const target = this.entries_until(time_s);
+    for (; this.shown < target; ++this.shown) {
+      this.put(this.node[this.shown]!, this.after[this.shown]!, changed);
+    }
+    for (; this.shown > target; --this.shown) {
+      this.put(this.node[this.shown - 1]!, this.before[this.shown - 1]!, changed);
+    }
+  }
+
+  private put(node: number, height_m: number, changed: (node: number) => void): void {
+    this.heights[node] = height_m;
+    changed(node);
+  }
+
+  private entries_until(time_s: number): number {
+    let low = 0;
+    let high = this.count;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (this.time[middle]! <= time_s) {
+        low = middle + 1;
+      } else {
+        high = middle;
+      }
+    }
+    return low;
+  }
+
+  private make_room(): void {
+    if (this.count < this.most) {
+      const size = Math.min(2 * this.count, this.most);
+      this.time = grown(this.time, new Float64Array(size));
+      this.node = grown(this.node, new Int32Array(size));
+      this.before = grown(this.before, new Float32Array(size));
+      this.after = grown(this.after, new Float32Array(size));
+      return;
+    }
+    const gone = this.count >> 1;
+    // What is forgotten has to be in what is shown.
+    for (; this.shown < gone; ++this.shown) {
+      this.heights[this.node[this.shown]!] = this.after[this.shown]!;
+    }
+    for (const list of [this.time, this.node, this.before, this.after]) {
+      list.copyWithin(0, gone, this.count);
+    }
+    this.count -= gone;
+    this.shown -= gone;
+  }
+}
+
+function grown<List extends Float64Array | Float32Array | Int32Array>(from: List, to: List): List {
+  to.set(from);
+  return to;
+}
+
+/// An edge that cuts: as wide as the bucket or the blade, level, square to where it looks.
+export interface Edge {
+  x_m: number;
+  y_m: number;
+  z_m: number;
+  heading_rad: number;
+}
+
+/// Lowers the nodes that an edge of this width passes over between two of its places.
+export function cut(
+  field: HeightField, time_s: number, from: Edge, to: Edge, width_m: number): void {
+  const {cell_m} = field.grid;
+  const way = Math.hypot(to.x_m - from.x_m, to.y_m - from.y_m);
+  const steps = Math.max(1, Math.ceil(way / (0.5 * cell_m)));
+  for (let i = 1; i <= steps; ++i) {
+    const share = i / steps;
+    stamp(field, time_s, width_m, {
+      x_m: from.x_m + share * (to.x_m - from.x_m),
+      y_m: from.y_m + share * (to.y_m - from.y_m),
+      z_m: from.z_m + share * (to.z_m - from.z_m),
+      heading_rad: from.heading_rad + share * (to.heading_rad - from.heading_rad),
+    });
+  }
+}
+
+/// Nodes under the edge: half a cell before and behind it, or it would slip between them.
+function stamp(field: HeightField, time_s: number, width_m: number, edge: Edge): void {
+  const {x_m, y_m, cell_m, columns, rows} = field.grid;
+  const [cos, sin] = [Math.cos(edge.heading_rad), Math.sin(edge.heading_rad)];
+  const half = Math.max(0.5 * width_m, 0.5 * cell_m) + 1e-6;
+  const thick = 0.5 * cell_m + 1e-6;
+  const reach_x = half * Math.abs(sin) + thick * Math.abs(cos);
+  const reach_y = half * Math.abs(cos) + thick * Math.abs(sin);
+  const first = Math.max(0, Math.ceil((edge.x_m - reach_x - x_m) / cell_m));
+  const last = Math.min(columns - 1, Math.floor((edge.x_m + reach_x - x_m) / cell_m));
+  const bottom = Math.max(0, Math.ceil((edge.y_m - reach_y - y_m) / cell_m));
+  const top = Math.min(rows - 1, Math.floor((edge.y_m + reach_y - y_m) / cell_m));
+  for (let row = bottom; row <= top; ++row) {
+    const dy = y_m + row * cell_m - edge.y_m;
+    for (let column = first; column <= last; ++column) {
+      const dx = x_m + column * cell_m - edge.x_m;
+      if (Math.abs(dx * cos + dy * sin) <= thick && Math.abs(dy * cos - dx * sin) <= half) {
+        field.lower(time_s, row * columns + column, edge.z_m);
+      }
+    }
+  }
+}

@@ -1,0 +1,17 @@
+/// What stands in the scene's place where the browser has no WebGL.
+
+import type {SceneView} from './types';
+
+export function without_webgl(host: HTMLElement): SceneView {
+  const words = document.createElement('p');
+  words.textContent = 'This browser has no WebGL, so the machine is not drawn. Plots, state and ' +
+    'replay work without it.';
+  Object.assign(words.style, {padding: '1rem', maxWidth: '40rem'});
+  host.append(words);
+  const nothing = (): void => {};
+  return {
+    setMachine: nothing, update: nothing, resize: nothing, setTheme: nothing,
+    setLayers: nothing, resetCamera: nothing, tip: () => null, tipOnScreen: () => null,
+    dispose: () => words.remove(),
+  };
+}

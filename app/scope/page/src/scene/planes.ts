@@ -1,0 +1,66 @@
+/// Surfaces that a machine must not pass or has to make: fences, a task's design, a dozer's grade.
+
+import {
+  BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial,
+} from 'three';
+import type {Vector2, Vector3} from '../model/api';
+import {chained, Lines} from './lines';
+import {kOrder} from './materials';
+import {plane_outline} from './plane_outline';
+import type {SceneColours} from './theme';
+
+/// A translucent surface with an edge.
+export class Pane {
+  readonly node = new Group();
+  private readonly surface: Mesh<BufferGeometry, MeshBasicMaterial>;
+  private readonly edge: Lines;
+
+  /// `strip` as pairs of opposite points along it.
+  constructor(
+    strip: readonly (readonly [Vector3, Vector3])[], private readonly kind: 'design' | 'fence') {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position',
+      new BufferAttribute(new Float32Array(strip.flatMap(([a, b]) => [...a, ...b])), 3));
+    geometry.setIndex(strip.slice(1).flatMap((_, i) => {
+      const at = 2 * i;
+      return [at, at + 2, at + 1, at + 1, at + 2, at + 3];
+    }));
+    this.surface = new Mesh(geometry, new MeshBasicMaterial({
+      side: DoubleSide, transparent: true, depthWrite: false,
+      opacity: kind === 'design' ? 0.3 : 0.1}));
+    this.surface.renderOrder = kOrder.planes;
+    const round = [...strip.map(([a]) => a), ...strip.map(([, b]) => b).reverse()];
+    this.edge = new Lines(
+      {width_px: kind === 'design' ? 2.5 : 2, seen_through: true}, chained(round, true));
+    this.node.add(this.surface, this.edge.node);
+  }
+
+  set_theme(colours: SceneColours): void {
+    const colour = this.kind === 'design' ? colours.design : colours.fence;
+    this.surface.material.color.set(colour);
+    this.edge.set_colour(colour, colours.cut);
+  }
+
+  dispose(): void {
+    this.surface.geometry.dispose();
+    this.surface.material.dispose();
+    this.edge.dispose();
+  }
+}
+
+/// A plane through a point, cut to what is in reach, and where its words go.
+export function plane_pane(
+  kind: 'design' | 'fence', through_m: Vector3, normal: Vector3, reach_m: number,
+): {pane: Pane; label_m: Vector3} {
+  const [a, b, c, d] = plane_outline(through_m, normal, reach_m);
+  const middle = (i: 0 | 1 | 2): number => 0.5 * (c[i] + d[i]);
+  return {
+    pane: new Pane([[a, d], [b, c]], kind), label_m: [middle(0), middle(1), middle(2)]};
+}
+
+/// A ribbon of a width along x and z.
+export function ribbon(line: readonly Vector2[], width_m: number): Pane {
+  const half = 0.5 * width_m;
+  return new Pane(line.map(([x, z]): [Vector3, Vector3] => [[x, -half, z], [x, half, z]]),
+    'design');
+}

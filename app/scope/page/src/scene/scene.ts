@@ -1,0 +1,210 @@
+/// The machine in three dimensions, as its frames have it.
+
+import {
+  Color, DirectionalLight, HemisphereLight, Scene, Vector3 as Point, WebGLRenderer,
+} from 'three';
+import type {Machine, Setup, Vector2, Vector3} from '../model/api';
+import {DozerStage} from './dozer_stage';
+import {ExcavatorStage} from './excavator_stage';
+import {Labels} from './labels';
+import {Legend} from './legend';
+import {SharedMaterials} from './materials';
+import {without_webgl} from './no_webgl';
+import type {Stage} from './stage';
+import {scene_colours} from './theme';
+import type {SceneLayers, SceneUpdate, SceneView} from './types';
+import {ViewCamera} from './view_camera';
+
+export type {SceneView} from './types';
+
+/// More points than this to a CSS pixel cost time and are not seen.
+const kMostPixelRatio = 2;
+const kAll: SceneLayers =
+  {ghost: true, path: true, field: true, design: true, fences: true, terrain: true};
+
+/// Fills the host, which has to have a size and to be positioned. Without WebGL it says so there,
+/// and everything else does nothing.
+export function createScene(host: HTMLElement): SceneView {
+  const renderer = make_renderer();
+  return renderer === null ? without_webgl(host) : new DrawnScene(host, renderer);
+}
+
+function make_renderer(): WebGLRenderer | null {
+  try {
+    return new WebGLRenderer({antialias: true});
+  } catch {
+    return null;
+  }
+}
+
+class DrawnScene implements SceneView {
+  private readonly scene = new Scene();
+  private readonly sky = new HemisphereLight();
+  private readonly sun = new DirectionalLight();
+  private readonly shared = new SharedMaterials();
+  private readonly labels = new Labels();
+  private readonly legend = new Legend();
+  private readonly note = document.createElement('div');
+  private readonly eye: ViewCamera;
+  private stage: Stage | null = null;
+  private layers = kAll;
+  private dark = false;
+  private view: SceneUpdate | null = null;
+  private shown = {now_s: NaN, revision: -1, drives: null as unknown};
+  private request = 0;
+  private width = 1;
+  private height = 1;
+
+  constructor(private readonly host: HTMLElement, private readonly renderer: WebGLRenderer) {
+    const canvas = renderer.domElement;
+    Object.assign(canvas.style, {display: 'block', width: '100%', height: '100%'});
+    canvas.tabIndex = 0;
+    canvas.setAttribute('role', 'img');
+    canvas.setAttribute('aria-label', 'The machine as its frames have it. Arrow keys turn the ' +
+      'view, plus and minus bring it nearer or farther, Home is the first view.');
+    Object.assign(this.note.style, {
+      position: 'absolute', left: '12px', top: '10px', font: '13px system-ui, sans-serif',
+      pointerEvents: 'none'});
+    if (getComputedStyle(host).position === 'static') {
+      host.style.position = 'relative';
+    }
+    host.append(canvas, this.labels.node, this.legend.node, this.note);
+    this.eye = new ViewCamera(canvas, () => this.draw_soon());
+    this.scene.add(this.sky, this.sun, this.sun.target);
+    canvas.addEventListener('webglcontextrestored', this.draw_soon);
+    this.setTheme(false);
+    this.resize();
+  }
+
+  setMachine(setup: Setup, machine: Machine | null): void {
+    if (this.stage) {
+      this.scene.remove(this.stage.node);
+      this.stage.dispose();
+      this.stage = null;
+    }
+    for (const group of ['path', 'design', 'fences', 'scale'] as const) {
+      this.labels.clear(group);
+    }
+    if (machine !== null) {
+      this.stage = machine.kind === 'excavator' ?
+        new ExcavatorStage(machine, setup, this.shared, this.labels) :
+        new DozerStage(machine, this.shared, this.labels);
+      this.scene.add(this.stage.node);
+      this.stage.set_layers(this.layers);
+      this.eye.set_home(this.stage.home);
+    }
+    this.legend.show(this.stage?.relief_pa ?? null);
+    this.shown.revision = -1;
+    this.setTheme(this.dark);
+  }
+
+  update(view: SceneUpdate): void {
+    const {now_s, store, drives} = view;
+    const same = now_s === this.shown.now_s && store.revision === this.shown.revision &&
+      drives === this.shown.drives && store === this.view?.store;
+    this.view = view;
+    if (same || this.stage === null) {
+      return;
+    }
+    this.shown = {now_s, revision: store.revision, drives};
+    this.stage.update(view);
+    this.eye.follow(this.stage.along_m);
+    this.draw_soon();
+  }
+
+  resize(): void {
+    this.width = Math.max(this.host.clientWidth, 1);
+    this.height = Math.max(this.host.clientHeight, 1);
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio || 1, kMostPixelRatio));
+    this.renderer.setSize(this.width, this.height, false);
+    this.eye.resize(this.width, this.height);
+    this.draw_soon();
+  }
+
+  setTheme(dark: boolean): void {
+    this.dark = dark;
+    const colours = scene_colours(dark);
+    this.scene.background = new Color(colours.background);
+    this.sky.color.set(colours.sky_light);
+    this.sky.groundColor.set(colours.ground_light);
+    this.sky.position.set(0, 0, 1);
+    this.sky.intensity = colours.sky_power;
+    this.sun.intensity = colours.sun_power;
+    this.note.style.color = colours.text;
+    for (const part of [this.shared, this.labels, this.legend, this.stage]) {
+      part?.set_theme(colours);
+    }
+    // Parts take their grey from the theme when they are shown next.
+    this.shown.revision = -1;
+    if (this.view) {
+      this.update(this.view);
+    }
+    this.draw_soon();
+  }
+
+  setLayers(layers: Partial<SceneLayers>): void {
+    this.layers = {...this.layers, ...layers};
+    for (const group of ['path', 'design', 'fences'] as const) {
+      this.labels.show(group, this.layers[group]);
+    }
+    this.stage?.set_layers(this.layers);
+    this.shown.revision = -1;
+    this.draw_soon();
+  }
+
+  resetCamera(): void {
+    this.eye.go_home();
+    this.draw_soon();
+  }
+
+  tip(): Vector3 | null {
+    if (!this.stage?.placed) {
+      return null;
+    }
+    const at = this.stage.tip.getWorldPosition(new Point());
+    return [at.x, at.y, at.z];
+  }
+
+  tipOnScreen(): Vector2 | null {
+    const tip = this.tip();
+    if (tip === null) {
+      return null;
+    }
+    this.eye.camera.updateMatrixWorld();
+    const at = new Point(...tip).project(this.eye.camera);
+    return [(0.5 + 0.5 * at.x) * this.width, (0.5 - 0.5 * at.y) * this.height];
+  }
+
+  private readonly draw_soon = (): void => {
+    this.request ||= requestAnimationFrame(() => {
+      this.request = 0;
+      this.draw();
+    });
+  };
+
+  private draw(): void {
+    if (this.stage && this.view) {
+      const {behind_s} = this.stage.ground.update(this.view.store, this.view.now_s);
+      this.note.textContent =
+        behind_s > 1 ? `Soil: ${Math.ceil(behind_s)} s of frames still to be worked in` : '';
+      if (behind_s > 0) {
+        this.draw_soon();
+      }
+    }
+    // The sun stands behind the reader's left shoulder.
+    const {camera, target} = this.eye;
+    this.sun.target.position.copy(target);
+    this.sun.position.copy(target).add(new Point(-4, -7, 11));
+    this.renderer.render(this.scene, camera);
+    this.labels.update(camera, this.width, this.height);
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.request);
+    this.stage?.dispose();
+    this.shared.dispose();
+    this.eye.dispose();
+    this.renderer.dispose();
+    this.host.replaceChildren();
+  }
+}

@@ -1,0 +1,85 @@
+/// The soil as the received frames have it cut: every frame's edge in the order of time, a little
+/// at a time, so that an hour of log does not hold the page up.
+
+import type {FrameStore} from '../model/api';
+import {cut, type Edge, type HeightField} from './height_field';
+
+/// Where the edge was at one time; null: not known then.
+export interface EdgeWalk {
+  /// Time of the next frame, in order; NaN after the last.
+  next(): number;
+  edge(): Edge | null;
+}
+
+/// Frames of one time come one after another: the newest moment is not complete yet.
+const kSettle_s = 0.05;
+/// Over a longer gap nobody knows which way the edge took.
+const kGap_s = 0.3;
+/// Frames between two looks at the clock.
+const kFramesAtOnce = 32;
+
+export class TerrainHistory {
+  private known_s = -Infinity;
+  private last: {edge: Edge; time_s: number} | null = null;
+
+  /// `walk` begins with the first frame after a time. The field has to be as it was at the start.
+  constructor(
+    readonly field: HeightField, private readonly width_m: number,
+    private readonly walk: (store: FrameStore, after_s: number) => EdgeWalk) {}
+
+  /// All frames until then are in the field.
+  get known_until_s(): number {
+    return this.known_s;
+  }
+
+  /// Whether what was worked in is of another time than what the store has now: a source that
+  /// began anew. This history is of no use then.
+  outlived(store: FrameStore): boolean {
+    return this.known_s > -Infinity && store.until_s < this.known_s;
+  }
+
+  /// Works frames in until `until_s` or for `budget_ms` of the clock. True: nothing is left to do.
+  advance(
+    store: FrameStore, until_s: number, budget_ms: number,
+    clock_ms: () => number = () => performance.now()): boolean {
+    const end = Math.min(until_s, store.until_s - kSettle_s);
+    if (store.database === null || !(this.known_s < end)) {
+      return true;
+    }
+    const stop_ms = clock_ms() + budget_ms;
+    const walk = this.walk(store, this.known_s);
+    for (let frame = 1; ; ++frame) {
+      const time = walk.next();
+      if (!(time <= end)) {
+        this.known_s = end;
+        return true;
+      }
+      this.take(time, walk.edge());
+      this.known_s = time;
+      if (frame % kFramesAtOnce === 0 && clock_ms() >= stop_ms) {
+        return false;
+      }
+    }
+  }
+
+  private take(time_s: number, edge: Edge | null): void {
+    const before = this.last;
+    if (edge === null) {
+      this.last = null;
+      return;
+    }
+    if (before === null || time_s - before.time_s > kGap_s) {
+      this.last = {edge, time_s};
+      return;
+    }
+    // Less than this moves no node that the frames around do not move.
+    const moved = Math.hypot(edge.x_m - before.edge.x_m, edge.y_m - before.edge.y_m);
+    const sunk = before.edge.z_m - edge.z_m;
+    if (moved < 0.1 * this.field.grid.cell_m && sunk < 0.002 &&
+        time_s - before.time_s < 0.5 * kGap_s) {
+      return;
+    }
+    cut(this.field, time_s, before.edge, edge, this.width_m);
+    this.last = {edge, time_s};
+  }
+}

@@ -1,0 +1,38 @@
+/// Colours of the scene in the light and the dark theme. The machine's own are in solid.ts.
+
+export interface SceneColours {
+  background: string;
+  ground: string;
+  cut: string;        ///< Soil that was under the start surface.
+  grid: string;
+  edge: string;       ///< Outlines of the machine.
+  hidden: string;     ///< The same behind soil.
+  stale: string;
+  text: string;
+  halo: string;       ///< Behind text.
+  path: string;       ///< Path, field and trail.
+  trail: string;
+  design: string;
+  fence: string;
+  ghost: string;
+  sky_light: string;
+  ground_light: string;
+  sky_power: number;
+  sun_power: number;
+}
+
+export const scene_colours = (dark: boolean): SceneColours => dark ? kDark : kLight;
+
+const kLight: SceneColours = {
+  background: '#eef0f1', ground: '#e2e0da', cut: '#b08f68', grid: '#9a978f', edge: '#2a2c2e',
+  hidden: '#6f5d45', stale: '#a3a7aa', text: '#26292c', halo: '#f6f7f7', path: '#1760c4',
+  trail: '#0b3f8a', design: '#1c8a45', fence: '#c62f2f', ghost: '#1f4e8c',
+  sky_light: '#ffffff', ground_light: '#c9c2b6', sky_power: 1.9, sun_power: 1.7,
+};
+
+const kDark: SceneColours = {
+  background: '#14171a', ground: '#2b2f32', cut: '#6a5238', grid: '#5d6469', edge: '#0b0c0d',
+  hidden: '#a98a63', stale: '#6d7276', text: '#e3e6e8', halo: '#14171a', path: '#5aa2ff',
+  trail: '#9cc8ff', design: '#46c878', fence: '#ff6b63', ghost: '#cfe2ff',
+  sky_light: '#e9eef2', ground_light: '#4a4641', sky_power: 1.5, sun_power: 1.5,
+};

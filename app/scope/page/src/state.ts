@@ -1,0 +1,156 @@
+/// What the page knows, and how what the feed says changes it.
+
+import type {FeedEvents} from './feed/feed';
+import type {Machine, MessageState, Setup, ToServer} from './model/api';
+import type {FrameBlock} from './model/frame_block';
+import {messageStates} from './model/integrity';
+import {PagePlayhead} from './model/playhead';
+import {LIVE_KEEP_S, PageStore} from './model/store';
+import type {Link, PageState} from './view/page_state';
+
+const LIVE_WINDOW_S = 30;
+
+export class State implements PageState, FeedEvents {
+  setup: Setup | null = null;
+  store = new PageStore();
+  readonly playhead: PagePlayhead;
+  machine: Machine | null = null;
+  link: Link = {state: 'connecting', words: 'Connecting.'};
+  dropped = 0;
+  bus: PageState['bus'] = null;
+  sim: PageState['sim'] = null;
+  refused = '';
+  ended = false;
+  loaded_share = 1;
+  trouble = '';
+  origin_s = 0;
+  send: (message: ToServer) => void = () => undefined;
+  private machine_known_at = -1;
+
+  /// With a setup in the page nothing is connected.
+  constructor(embedded: boolean) {
+    const state = this;
+    this.playhead = new PagePlayhead({
+      get from_s() { return state.extent.from_s; },
+      get until_s() { return state.extent.until_s; },
+    }, !embedded);
+    if (embedded) {
+      this.link = {state: 'file', words: 'The log is in this page.'};
+    }
+  }
+
+  get extent(): {from_s: number; until_s: number} {
+    const times = this.setup?.run?.truth.time_s;
+    if (this.store.frames > 0 || times === undefined || times.length === 0) {
+      return this.store;
+    }
+    return {from_s: times[0]!, until_s: times.at(-1)!};
+  }
+
+  messages(): readonly MessageState[] {
+    return messageStates(this.store, this.playhead.now_s);
+  }
+
+  /// The machine is the one that the frames name; of a plan, which has none, the one that is given.
+  know_machine(): void {
+    const {setup, store} = this;
+    if (setup === null || store.revision === this.machine_known_at) {
+      return;
+    }
+    this.machine_known_at = store.revision;
+    const hash = store.health.profile_hash;
+    this.machine = setup.source.mode === 'plan' ? setup.machines[0] ?? null
+      : setup.machines.find((machine) => machine.hash === hash) ?? null;
+    this.follow_clock();
+  }
+
+  onSetup(setup: Setup): void {
+    const {mode} = setup.source;
+    const live = mode === 'can' || mode === 'sim';
+    this.setup = setup;
+    this.store = new PageStore(setup.machines);
+    this.store.keep_s = live ? LIVE_KEEP_S : Infinity;
+    this.machine = null;
+    this.machine_known_at = -1;
+    this.dropped = 0;
+    this.bus = null;
+    this.sim = null;
+    this.refused = '';
+    this.trouble = '';
+    this.ended = mode === 'plan';
+    this.loaded_share = mode === 'log' || mode === 'report' ? 0 : 1;
+    this.origin_s = this.extent.from_s;
+    this.playhead.playing = false;
+    this.playhead.follow = live;
+    this.playhead.window = live ? [-LIVE_WINDOW_S, 0] : [this.extent.from_s, this.extent.until_s];
+    this.playhead.frames_came();
+    this.follow_clock();
+  }
+
+  onFrames(block: FrameBlock, text_bytes: number): void {
+    const anew = block.restart || this.store.frames === 0;
+    this.store.append(block);
+    if (anew && this.store.frames > 0) {
+      this.origin_s = this.store.from_s;
+    }
+    const bytes = this.setup?.source.bytes ?? 0;
+    this.loaded_share = this.ended || bytes === 0 ? this.loaded_share
+      : Math.min(1, text_bytes / bytes);
+    this.playhead.frames_came();
+  }
+
+  onMessage(message: Parameters<FeedEvents['onMessage']>[0]): void {
+    switch (message.kind) {
+      case 'dropped':
+        this.dropped = message.frames;
+        break;
+      case 'bus':
+        this.bus = {up: message.up, words: message.words};
+        break;
+      case 'end':
+        this.ended = true;
+        this.loaded_share = 1;
+        this.playhead.frames_came();
+        break;
+      case 'sim':
+        this.sim = message;
+        this.refused = '';
+        this.follow_clock();
+        break;
+      case 'refused':
+        this.refused = message.why;
+        break;
+    }
+  }
+
+  onOpened(): void {
+    this.link = {state: 'open', words: 'Connected.'};
+  }
+
+  onClosed(why: string, again_s: number | null): void {
+    if (again_s !== null) {
+      this.link = {
+        state: 'lost', words: `The connection to the server is lost (${why}): `
+          + 'what is shown is what came before.',
+      };
+    } else if (this.ended && this.link.state !== 'file') {
+      this.link = {state: 'file', words: 'All of the log is in this page.'};
+    } else {
+      this.trouble = `${why.charAt(0).toUpperCase()}${why.slice(1)}.`;
+    }
+    this.follow_clock();
+  }
+
+  /// A log of this computer, instead of what was shown.
+  file_opened(): void {
+    this.link = {state: 'file', words: 'A file of this computer.'};
+  }
+
+  /// How fast time goes on where no frames come.
+  private follow_clock(): void {
+    const connected = this.link.state === 'open';
+    const mode = this.setup?.source.mode;
+    this.playhead.clock_rate = !connected ? 0 : mode === 'can' ? 1
+      : mode === 'sim' && this.sim?.running === true ? this.sim.pace : 0;
+  }
+}

@@ -1,0 +1,20 @@
+/// Canvases that the processor draws.
+
+type GetContext = typeof HTMLCanvasElement.prototype.getContext;
+
+/// What `make` makes draws its canvases on the processor: a few hundred thin, overlapping segments
+/// are what a graphics driver is slow at, by a factor of ten where the driver is software. uPlot
+/// asks for its context itself and has no option for this.
+export function on_processor<T>(make: () => T): T {
+  const prototype = HTMLCanvasElement.prototype;
+  const own: GetContext = prototype.getContext;
+  prototype.getContext = function get(this: HTMLCanvasElement, kind: string, options?: object) {
+    return (own as (kind: string, options?: object) => RenderingContext | null).call(
+      this, kind, kind === '2d' ? {...options, willReadFrequently: true} : options);
+  } as GetContext;
+  try {
+    return make();
+  } finally {
+    prototype.getContext = own;
+  }
+}

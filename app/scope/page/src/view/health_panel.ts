@@ -1,0 +1,79 @@
+/// How the controller's process fares, and what it says that it is.
+
+import type {Reading} from '../model/api';
+import {el, section, set_shown, set_text} from './dom';
+import {count, fixed, hash_words} from './format';
+import type {PageState, View} from './page_state';
+
+const SATURATED = 250;
+
+interface Fact {
+  row: HTMLElement;
+  value: HTMLElement;
+  signal: string;
+  words(reading: Reading, state: PageState): string;
+  wrong(reading: Reading): boolean;
+}
+
+const counted = (reading: Reading) =>
+  reading.raw >= SATURATED ? `${SATURATED} or more` : count(reading.value);
+const some = (reading: Reading) => reading.state === 'valid' && reading.raw > 0;
+const never = () => false;
+
+type Row = readonly [string, string, Fact['words'], Fact['wrong']];
+
+const ROWS: readonly Row[] = [
+  ['Real-time priority and memory lock', 'EcuHealth.RealTime',
+    (reading) => (reading.raw === 1 ? 'on' : 'off'), (reading) => reading.raw === 0],
+  ['Heap allocations since the first cycle', 'EcuHealth.Allocations', counted, some],
+  ['Page faults since the first cycle', 'EcuHealth.PageFaults', counted, some],
+  ['Late cycles', 'EcuHealth.Overruns', counted, some],
+  ['Frames the bus did not take', 'EcuHealth.DroppedFrames', counted, some],
+  ['Frames rejected', 'EcuStatus.RejectedFrames', counted, some],
+  ['Last cycle', 'EcuStatus.CycleTime', (reading) =>
+    (reading.value === 0 ? 'not measured: simulated time' : `${fixed(reading.value, 0)} µs`), never],
+  ['Profile', 'EcuIdentity.ProfileHash', (reading, {machine}) => machine?.hash === reading.raw
+    ? `${machine.name} (${hash_words(reading.raw)})` : hash_words(reading.raw), never],
+  ['DBC version of the controller', 'EcuIdentity.DbcVersion',
+    (reading) => count(reading.value), never],
+  ['DBC version of the machine', 'MachineIdentity.DbcVersion',
+    (reading) => count(reading.value), never],
+];
+
+export class HealthPanel implements View {
+  readonly node: HTMLElement;
+  private readonly facts: Fact[];
+  private readonly page = el('dd');
+
+  constructor() {
+    const list = el('dl', {class: 'facts'});
+    this.facts = ROWS.map(([label, signal, words, wrong]) => {
+      const value = el('dd');
+      const row = el('div', {}, el('dt', {}, label), value);
+      list.append(row);
+      return {row, value, signal, words, wrong};
+    });
+    list.append(el('div', {}, el('dt', {}, 'DBC version of this page'), this.page));
+    this.node = section('health', 'Health and identity', list);
+  }
+
+  update(state: PageState): void {
+    const {store, playhead} = state;
+    const database = store.database;
+    set_text(this.page, database === null ? '–' : `${database.version} (${database.kind})`);
+    for (const {row, value, signal, words, wrong} of this.facts) {
+      const known = database?.messages.has(signal.split('.')[0]!) ?? false;
+      set_shown(row, known);
+      if (!known) {
+        continue;
+      }
+      const reading = store.reading(signal, playhead.now_s);
+      set_text(value, reading.state === 'valid' ? words(reading, state)
+        : reading.state === 'error' ? 'error'
+          : reading.state === 'notAvailable' ? 'not available' : 'not received');
+      row.classList.toggle('wrong', reading.state === 'valid' && wrong(reading));
+      const cycle_s = (database!.messages.get(signal.split('.')[0]!)?.cycle_ms ?? 0) / 1000;
+      row.classList.toggle('stale', cycle_s > 0 && reading.age_s > 3 * cycle_s);
+    }
+  }
+}

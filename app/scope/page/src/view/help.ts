@@ -1,0 +1,36 @@
+/// The keys, and what the picture means.
+
+import {button, el} from './dom';
+
+export const KEYS: readonly (readonly [string, string])[] = [
+  ['Space', 'play or pause'],
+  ['← →', 'cursor back and on (Shift: ten times as far)'],
+  [', .', 'one control cycle back and on'],
+  ['p n', 'to the fault before, to the next fault'],
+  ['[ ]', 'replay slower, faster'],
+  ['+ −', 'zoom the plots in and out about the cursor'],
+  ['0', 'whole log in the plots'],
+  ['l', 'back to live'],
+  ['Home End', 'to the start, to the end'],
+  ['t', 'light or dark theme'],
+  ['?', 'this help'],
+];
+
+const MORE: readonly string[] = [
+  'In a plot: move to read values, click to look at a moment, drag to zoom, double-click for the '
+    + 'whole log; Ctrl and wheel or two fingers zoom too. A name in the legend hides its line.',
+  'In the scene: drag turns, right drag or two fingers move, wheel zooms.',
+  'Grey values are stale: older than three cycles of their message.',
+  'This page only listens. On a real bus it sends nothing; in a simulation it asks the server.',
+];
+
+export function help_dialog(): HTMLDialogElement {
+  const dialog = el('dialog', {class: 'help', 'aria-labelledby': 'help-title'},
+    el('h2', {id: 'help-title'}, 'Help'),
+    el('dl', {}, ...KEYS.flatMap(([keys, words]) => [
+      el('dt', {}, ...keys.split(' ').map((key) => el('kbd', {}, key))), el('dd', {}, words)])),
+    ...MORE.map((words) => el('p', {}, words)));
+  dialog.append(button('Close', () => dialog.close(), {class: 'primary'}));
+  document.body.append(dialog);
+  return dialog;
+}

@@ -1,0 +1,65 @@
+/// The lines of a plot by name, colour and value at the cursor; each can be put out of the picture.
+
+import type {FrameStore, Reading} from '../model/api';
+import {button, el, set_attribute, set_text} from './dom';
+import {fixed, unit_words} from './format';
+import type {Line, PlotSpec} from './plots';
+
+const STALE_S = 0.5;
+
+interface Entry {
+  node: HTMLButtonElement;
+  value: HTMLElement;
+  line: Line;
+  shown: boolean;
+}
+
+export class Legend {
+  readonly node = el('div', {class: 'legend'});
+  private readonly entries: Entry[];
+
+  constructor(spec: PlotSpec, toggled: (line: number, shown: boolean) => void) {
+    this.entries = spec.lines.map((line, index) => {
+      const value = el('span', {class: 'value'}, '–');
+      const node = button('', () => {
+        entry.shown = !entry.shown;
+        set_attribute(node, 'aria-pressed', String(entry.shown));
+        toggled(index, entry.shown);
+      }, {class: 'legend-entry', 'aria-pressed': 'true', title: 'Show or hide this line'});
+      node.append(
+        el('span', {class: `swatch ${line.style}`, style: `--line: var(--${line.colour})`}),
+        el('span', {class: 'label'}, line.label), value,
+        el('span', {class: 'unit'}, unit_words(spec.unit)));
+      const entry: Entry = {node, value, line, shown: true};
+      return entry;
+    });
+    this.node.append(...this.entries.map(({node}) => node));
+  }
+
+  shown(line: number): boolean {
+    return this.entries[line]?.shown ?? false;
+  }
+
+  values(store: FrameStore, time_s: number): void {
+    for (const {value, line, shown} of this.entries) {
+      if (shown) {
+        const reading = line.trace.reading(store, time_s);
+        set_text(value, reading_words(reading, line.digits));
+        value.classList.toggle('stale', reading.age_s > STALE_S);
+      }
+    }
+  }
+}
+
+export function reading_words(reading: Reading, digits: number): string {
+  switch (reading.state) {
+    case 'valid':
+      return fixed(reading.value, digits);
+    case 'error':
+      return 'error';
+    case 'notAvailable':
+      return 'n/a';
+    case 'never':
+      return '–';
+  }
+}

@@ -1,0 +1,47 @@
+/// All values of one message, decoded, with units.
+
+import type {MessageDef, Reading, SignalDef} from '../model/api';
+import {el, set_text} from './dom';
+import {digits_of, fixed, name_words, unit_words} from './format';
+import type {PageState} from './page_state';
+
+export class MessageValues {
+  readonly node = el('dl', {class: 'facts signals'});
+  private readonly rows: {signal: SignalDef; row: HTMLElement; value: HTMLElement}[] = [];
+
+  constructor(private readonly message: MessageDef) {
+    for (const signal of message.signals.values()) {
+      const value = el('dd');
+      const row = el('div', {title: signal.description},
+        el('dt', {}, name_words(signal.name)), value);
+      this.rows.push({signal, row, value});
+      this.node.append(row);
+    }
+  }
+
+  update({store, playhead}: PageState): void {
+    const limit_s = this.message.cycle_ms > 0 ? (3 * this.message.cycle_ms) / 1000 : Infinity;
+    for (const {signal, row, value} of this.rows) {
+      const reading = store.reading(`${this.message.name}.${signal.name}`, playhead.now_s);
+      set_text(value, value_words(signal, reading));
+      row.classList.toggle('stale', reading.age_s > limit_s);
+    }
+  }
+}
+
+export function value_words(signal: SignalDef, reading: Reading): string {
+  switch (reading.state) {
+    case 'never':
+      return 'not received';
+    case 'error':
+      return 'error';
+    case 'notAvailable':
+      return 'not available';
+    case 'valid': {
+      const name = signal.states.get(reading.raw);
+      const value = fixed(reading.value, digits_of(signal.factor));
+      return name !== undefined ? `${name_words(name)} (${reading.raw})`
+        : signal.unit === '' ? value : `${value} ${unit_words(signal.unit)}`;
+    }
+  }
+}

@@ -1,0 +1,184 @@
+/// All plots of a machine: one window, one cursor. Curves are fetched only for plots in sight, at
+/// most fifteen times a second, and a few at a time, so that the scene keeps its frames.
+
+import type {Machine} from '../model/api';
+import {el, set_shown} from './dom';
+import {LimitStrip, type LimitWords} from './limit_strip';
+import type {PageState} from './page_state';
+import {Plot, type PlotHost} from './plot';
+import {plot_gestures} from './plot_gestures';
+import {plots_of} from './plots';
+import type {ThemeSwitch} from './theme';
+
+const REFRESH_MS = 66;
+const BUDGET_MS = 7;
+const SLOW_MS = 40;
+const HEIGHT_PX = 150;
+const STRIP_HEIGHT_PX = 176;
+
+export class PlotBoard {
+  readonly node = el('div', {class: 'plots'});
+  private readonly empty = el('p', {class: 'quiet'}, 'No frames yet: nothing to plot.');
+  private plots: Plot[] = [];
+  private shown_for = '';
+  private store: unknown = null;
+  private machine: unknown = null;
+  private readonly came = new Set<string>();  ///< Messages, at least once.
+  private hover_s: number | null = null;
+  private revision = -1;
+  private window: readonly [number, number] = [0, 0];
+  private values_ms = 0;
+  private frame_ms = 0;
+  private marked = '';
+  private readonly sight = new IntersectionObserver((entries) => {
+    for (const {target, isIntersecting} of entries) {
+      const plot = this.plots.find(({node}) => node === target);
+      if (plot !== undefined) {
+        plot.visible = isIntersecting;
+      }
+    }
+  });
+  private readonly size = new ResizeObserver(() => this.fit());
+
+  constructor(
+    private readonly state: PageState, private readonly theme: ThemeSwitch,
+    private readonly words: LimitWords,
+  ) {
+    this.node.append(this.empty);
+    this.size.observe(this.node);
+    theme.on_change(() => {
+      for (const plot of this.plots) {
+        plot.retheme();
+      }
+    });
+    plot_gestures(this.node, state);
+    state.playhead.on_change(() => this.mark());
+  }
+
+  /// To be called a frame of the screen: does as much as there is time for.
+  frame(now_ms: number): void {
+    const {store, playhead, machine} = this.state;
+    const [from_s, until_s] = playhead.window;
+    const begun_ms = performance.now();
+    const slow = now_ms - this.frame_ms > SLOW_MS;
+    this.frame_ms = now_ms;
+    if (store !== this.store || store.revision !== this.revision || machine !== this.machine
+        || from_s !== this.window[0] || until_s !== this.window[1]) {
+      this.revision = store.revision;
+      this.machine = machine;
+      this.choose();
+      this.window = [from_s, until_s];
+      for (const plot of this.plots) {
+        plot.dirty = true;
+      }
+    }
+    // Whoever has waited longest is first.
+    const waiting = this.plots
+      .filter(({visible, dirty, drawn_ms}) => visible && dirty && now_ms - drawn_ms >= REFRESH_MS)
+      .sort((a, b) => a.drawn_ms - b.drawn_ms);
+    for (const plot of waiting) {
+      plot.refresh(store, this.window);
+      plot.drawn_ms = now_ms;
+      plot.mark(playhead.now_s, this.hover_s);
+      // Where frames come slowly as it is, one plot in each is enough.
+      if (slow || performance.now() - begun_ms > BUDGET_MS) {
+        break;
+      }
+    }
+    if (now_ms - this.values_ms >= REFRESH_MS) {
+      this.values_ms = now_ms;
+      this.values();
+    }
+  }
+
+  /// Plots are made anew for another machine, and when a message came for the first time.
+  private choose(): void {
+    const {machine, setup, store} = this.state;
+    if (store !== this.store) {
+      this.store = store;
+      this.came.clear();
+    }
+    for (const name of store.database?.messages.keys() ?? []) {
+      if (!this.came.has(name) && store.rows(name).count > 0) {
+        this.came.add(name);
+      }
+    }
+    const key = `${machine?.hash ?? 'none'} ${[...this.came].join()} ${setup?.run?.title ?? ''}`;
+    if (key !== this.shown_for) {
+      this.shown_for = key;
+      this.build(machine);
+    }
+  }
+
+  private build(machine: Machine | null): void {
+    for (const plot of this.plots) {
+      this.sight.unobserve(plot.node);
+      plot.destroy();
+    }
+    const host = this.host();
+    this.plots = plots_of(machine, this.state.setup?.run, this.came).map((spec) => {
+      const strip = spec.strip === true ? new LimitStrip(this.theme, this.words) : null;
+      return new Plot(spec, host, strip);
+    });
+    for (const plot of this.plots) {
+      this.node.append(plot.node);
+      this.sight.observe(plot.node);
+    }
+    set_shown(this.empty, this.plots.length === 0);
+    this.fit();
+  }
+
+  private host(): PlotHost {
+    const {playhead} = this.state;
+    return {
+      theme: this.theme,
+      origin_s: () => this.state.origin_s,
+      hover: (time_s) => {
+        this.hover_s = time_s;
+        this.mark();
+        this.values();
+      },
+      seek: (time_s) => playhead.seek(time_s),
+      zoom: (from_s, until_s) => {
+        // A zoom into what comes would be pushed out of sight by it.
+        playhead.follow = false;
+        playhead.window = [from_s, until_s];
+      },
+      whole: () => {
+        playhead.window = [this.state.extent.from_s, this.state.extent.until_s];
+      },
+    };
+  }
+
+  private mark(): void {
+    const {now_s} = this.state.playhead;
+    const key = `${now_s} ${this.hover_s}`;
+    if (key === this.marked) {
+      return;
+    }
+    this.marked = key;
+    for (const plot of this.plots) {
+      if (plot.visible) {
+        plot.mark(now_s, this.hover_s);
+      }
+    }
+  }
+
+  private values(): void {
+    const time_s = this.hover_s ?? this.state.playhead.now_s;
+    for (const plot of this.plots) {
+      if (plot.visible) {
+        plot.values(this.state.store, time_s);
+      }
+    }
+  }
+
+  private fit(): void {
+    for (const plot of this.plots) {
+      const style = getComputedStyle(plot.node);
+      const width = plot.node.clientWidth - parseFloat(style.paddingLeft)
+        - parseFloat(style.paddingRight);
+      plot.resize(Math.floor(width), plot.spec.strip === true ? STRIP_HEIGHT_PX : HEIGHT_PX);
+    }
+  }
+}

@@ -1,0 +1,205 @@
+/// Which plots there are, by machine. Their names are those that Run.truth.lines[].plot may name;
+/// such a line is added, dashed, converted to the plot's unit.
+
+import type {ExcavatorMachine, Kind, Machine, Run} from '../model/api';
+import {followed_trace, moved_trace} from './motion_trace';
+import {signal_trace, truth_trace, unit_factor, type Trace} from './traces';
+
+export interface Line {
+  label: string;
+  colour: string;  ///< Name of a custom property of the theme.
+  /// 'wanted': broad and pale. 'real': strong. 'beside': thin. 'truth': dashed.
+  style: 'wanted' | 'real' | 'beside' | 'truth';
+  digits: number;
+  trace: Trace;
+}
+
+export interface PlotSpec {
+  name: string;
+  title: string;
+  unit: string;
+  note: string;
+  lines: readonly Line[];
+  /// Least range of the vertical axis; without it the curves alone decide.
+  least?: readonly [number, number];
+  strip?: boolean;  ///< With the limits as a coloured strip below.
+  /// So far the vertical axis is straight, beyond it goes by powers of ten.
+  straight_to?: number;
+}
+
+const DRIVES = [
+  {name: 'Boom', colour: 'boom'},
+  {name: 'Arm', colour: 'arm'},
+  {name: 'Bucket', colour: 'bucket'},
+] as const;
+
+function wanted(label: string, colour: string, signal: string, digits: number): Line {
+  return {label, colour: `${colour}-soft`, style: 'wanted', digits, trace: signal_trace(signal)};
+}
+
+function real(label: string, colour: string, signal: string, digits: number): Line {
+  return {label, colour, style: 'real', digits, trace: signal_trace(signal)};
+}
+
+function beside(label: string, colour: string, signal: string, digits: number): Line {
+  return {label, colour, style: 'beside', digits, trace: signal_trace(signal)};
+}
+
+/// What lambda leaves of the wanted velocity, and what becomes of it.
+function velocities(kind: Kind, label: string, colour: string): Line[] {
+  const drive = label.toLowerCase();
+  return [
+    {label: `${label} wanted`, colour: `${colour}-soft`, style: 'wanted', digits: 0,
+      trace: followed_trace(kind, drive)},
+    {label, colour, style: 'real', digits: 0, trace: moved_trace(kind, drive)},
+  ];
+}
+
+const LAMBDA: PlotSpec = {
+  name: 'lambda', title: 'Lambda and what holds it', unit: '',
+  note: 'Share of the wanted velocity that is followed',
+  lines: [real('lambda', 'lambda', 'EcuStatus.Lambda', 3)], least: [0, 1], strip: true,
+};
+
+function excavator_plots(machine: ExcavatorMachine): PlotSpec[] {
+  const pumps = [1, 2].slice(0, machine.pumps);
+  const spools = DRIVES.flatMap(({name, colour}) => [
+    wanted(`${name} command`, colour, `SpoolCommand.${name}Duty`, 0),
+    real(name, colour, `ValveState.${name}Spool`, 0),
+  ]);
+  if (machine.has_swing) {
+    spools.push(wanted('Swing command', 'swing', 'SwingCommand.SwingDuty', 0),
+      real('Swing', 'swing', 'SwingValveState.SwingSpool', 0));
+  }
+  const plots: PlotSpec[] = [LAMBDA, {
+    name: 'error', title: 'Path error', unit: 'mm', note: 'Measured tip from the path; axis straight to 10 mm', straight_to: 10,
+    lines: [real('Path error', 'error', 'EcuHydraulics.PathError', 1)], least: [0, 5],
+  }, {
+    name: 'spools', title: 'Spools', unit: 'per mille', lines: spools, least: [-100, 100],
+    note: 'Command pale, feedback strong; positive extends',
+  }, {
+    name: 'velocities', title: 'Cylinder velocities', unit: 'mm/s', least: [-20, 20],
+    note: 'Lambda times wanted pale, real strong',
+    lines: DRIVES.flatMap(({name, colour}) => velocities('excavator', name, colour)),
+  }];
+  if (machine.has_swing) {
+    plots.push({
+      name: 'swing', title: 'Swing rate', unit: 'mrad/s', least: [-20, 20],
+      note: 'Lambda times wanted pale, real strong; to the left is positive',
+      lines: velocities('excavator', 'Swing', 'swing'),
+    });
+  }
+  plots.push({
+    name: 'pumps', title: 'Pump pressures', unit: 'MPa', least: [0, 5],
+    note: 'That the solution expects',
+    lines: pumps.map((pump) => real(
+      `Pump ${pump} expected`, `pump${pump}`, `EcuHydraulics.Pump${pump}ExpectedPressure`, 2)),
+  }, {
+    name: 'chambers', title: 'Chamber pressures', unit: 'MPa', least: [0, 5],
+    note: 'Measured; cap side strong, rod side thin', lines: chambers(machine),
+  }, {
+    name: 'swash', title: 'Swash', unit: '%', least: [0, 100], note: 'Command pale, measured strong',
+    lines: pumps.flatMap((pump) => [
+      wanted(`Pump ${pump} command`, `pump${pump}`, `PumpCommand.Pump${pump}Swash`, 1),
+      real(`Pump ${pump}`, `pump${pump}`, `PumpState.Pump${pump}Swash`, 1),
+    ]),
+  });
+  return plots;
+}
+
+function chambers(machine: ExcavatorMachine): Line[] {
+  const lines = DRIVES.flatMap(({name, colour}) => [
+    real(`${name} cap`, colour, `${name}Pressure.${name}CapPressure`, 2),
+    beside(`${name} rod`, colour, `${name}Pressure.${name}RodPressure`, 2),
+  ]);
+  return machine.has_swing
+    ? [...lines, real('Swing left', 'swing', 'SwingState.SwingLeftPressure', 2),
+      beside('Swing right', 'swing', 'SwingState.SwingRightPressure', 2)]
+    : lines;
+}
+
+function dozer_plots(): PlotSpec[] {
+  const sides = ['Left', 'Right'] as const;
+  return [LAMBDA, {
+    name: 'error', title: 'Grade error', unit: 'mm', least: [-5, 5],
+    note: 'Edge against the grade, above is positive; axis straight to 10 mm', straight_to: 10,
+    lines: [real('Grade error', 'error', 'EcuGrade.GradeError', 1)],
+  }, {
+    name: 'speeds', title: 'Travel speed', unit: 'mm/s', least: [0, 500],
+    note: 'Wanted pale, real strong, limit of flow and transmission thin',
+    lines: [
+      wanted('Wanted', 'boom', 'EcuMotion.WantedSpeed', 0),
+      beside('Limit', 'error', 'EcuMotion.SpeedLimit', 0),
+      real('Real', 'boom', 'BodyVelocity.Forward', 0),
+      beside('Left track', 'left', 'TrackSpeed.LeftTrack', 0),
+      beside('Right track', 'right', 'TrackSpeed.RightTrack', 0),
+    ],
+  }, {
+    name: 'flow', title: 'Implement flow', unit: 'L/min', least: [0, 100],
+    note: 'That the grade requires of what there is',
+    lines: [wanted('Available', 'available', 'EcuGrade.AvailableFlow', 1),
+      real('Required', 'required', 'EcuGrade.RequiredFlow', 1)],
+  }, {
+    name: 'spools', title: 'Blade spool', unit: 'per mille', least: [-100, 100],
+    note: 'Command pale, feedback strong; positive lowers',
+    lines: [wanted('Blade command', 'boom', 'SpoolCommand.BladeDuty', 0),
+      real('Blade', 'boom', 'ValveState.BladeSpool', 0)],
+  }, {
+    name: 'velocities', title: 'Blade cylinder velocity', unit: 'mm/s', least: [-20, 20],
+    note: 'Wanted pale, real strong; positive lowers',
+    lines: velocities('dozer', 'Blade', 'boom'),
+  }, {
+    name: 'displacements', title: 'Pump displacements', unit: 'per mille', least: [0, 100],
+    note: 'Command pale, measured strong; forward is positive',
+    lines: sides.flatMap((side) => [
+      wanted(`${side} command`, side.toLowerCase(), `PumpDisplacementCommand.${side}Pump`, 0),
+      real(side, side.toLowerCase(), `${side}Transmission.Pump`, 0),
+    ]),
+  }, {
+    name: 'motors', title: 'Motor displacements', unit: '%', least: [0, 100],
+    note: 'Command pale, measured strong',
+    lines: sides.flatMap((side) => [
+      wanted(`${side} command`, side.toLowerCase(), `MotorDisplacementCommand.${side}Motor`, 1),
+      real(side, side.toLowerCase(), `${side}Transmission.Motor`, 1),
+    ]),
+  }, {
+    name: 'lines', title: 'Transmission pressures', unit: 'MPa', least: [0, 5],
+    note: 'Higher one of each path\'s two lines',
+    lines: sides.map((side) => real(
+      side, side.toLowerCase(), `${side}Transmission.LinePressure`, 2)),
+  }];
+}
+
+/// All plots of a machine, of the lines whose frames came, with what a run knows beside them.
+export function plots_of(
+  machine: Machine | null, run: Run | undefined, came: ReadonlySet<string>,
+): PlotSpec[] {
+  const all = machine === null ? []
+    : machine.kind === 'excavator' ? excavator_plots(machine) : dozer_plots();
+  const plots = all.map((plot) => ({
+    ...plot, lines: plot.lines.filter(({trace}) => came.has(trace.message ?? '')),
+  })).filter(({lines}) => lines.length > 0);
+  return run === undefined ? plots : with_truth(plots, run);
+}
+
+const TRUTH_COLOURS = ['true', 'boom', 'arm', 'swing', 'right', 'error'];
+
+function with_truth(plots: PlotSpec[], run: Run): PlotSpec[] {
+  const all = plots.map((plot) => ({...plot, lines: [...plot.lines]}));
+  for (const line of run.truth.lines) {
+    let plot = all.find(({name, unit}) => name === line.plot && unit_factor(line.unit, unit) !== null);
+    if (plot === undefined) {
+      const title = line.title ?? line.plot.charAt(0).toUpperCase() + line.plot.slice(1);
+      plot = {name: line.plot, title, unit: line.unit, note: 'Known to the simulation', lines: []};
+      all.push(plot);
+    }
+    const own = plot.lines.filter(({style}) => style !== 'truth').length === 0;
+    const factor = unit_factor(line.unit, plot.unit) ?? 1;
+    plot.lines.push({
+      label: line.label, style: own ? 'real' : 'truth', digits: 2,
+      colour: TRUTH_COLOURS[plot.lines.length % TRUTH_COLOURS.length]!,
+      trace: truth_trace(run, line, factor),
+    });
+  }
+  return all;
+}

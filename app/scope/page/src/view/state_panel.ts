@@ -1,0 +1,117 @@
+/// Mode, lambda with its reason, and why the controller is not armed, in words.
+
+import {el, Rows, section, set_attribute, set_shown, set_text} from './dom';
+import {fixed, name_words, time_words, unit_words} from './format';
+import {is_live, type PageState, type View} from './page_state';
+import {snapshot, type Mode, type Snapshot} from './snapshot';
+import type {PageWords} from './words';
+
+const MODE_WORDS: Readonly<Record<Mode, string>> = {
+  Silent: 'Silent: inputs are missing, nothing is commanded',
+  Ready: 'Ready: waits for enable',
+  Armed: 'Armed: enabled, spools in neutral',
+  Active: 'Active: the machine moves',
+  Stopping: 'Stopping: brings the machine to rest',
+  Fault: 'Fault: spools in neutral until enable is released',
+};
+
+export class StatePanel implements View {
+  readonly node: HTMLElement;
+  private readonly mode = el('p', {class: 'mode'});
+  private readonly mode_words = el('p', {class: 'mode-words'});
+  private readonly age = el('p', {class: 'quiet'});
+  private readonly lambda = el('span', {class: 'figure'});
+  private readonly bar = el('div', {class: 'lambda-bar', 'aria-hidden': 'true'});
+  private readonly reason = el('p', {class: 'reason'});
+  private readonly task = el('p', {class: 'task'});
+  private readonly why = el('div', {class: 'why'});
+  private readonly list = el('ul');
+  private readonly reasons = new Rows(this.list, () => ({node: el('li')}));
+
+  constructor(private readonly words: PageWords) {
+    this.why.append(el('h3', {}, 'Why not armed'), this.list);
+    this.bar.append(el('div'));
+    this.node = section('state', 'Controller',
+      el('div', {class: 'mode-line', role: 'status'}, this.mode, this.mode_words),
+      this.age, this.why,
+      el('div', {class: 'lambda'},
+        el('p', {class: 'figure-line'}, el('span', {class: 'label'}, 'lambda'), this.lambda),
+        this.bar, this.reason),
+      this.task);
+  }
+
+  update(state: PageState): void {
+    const now = snapshot(state.store, state.playhead.now_s);
+    this.node.classList.toggle('stale', now.stale);
+    set_text(this.mode, now.mode ?? 'Unknown');
+    set_attribute(this.mode, 'data-mode', now.mode ?? 'none');
+    set_text(this.mode_words, now.mode === null ? 'No word from the controller'
+      : MODE_WORDS[now.mode].replace(/^\w+: /, ''));
+    set_shown(this.age, now.stale && now.mode !== null);
+    set_text(this.age, `Stale: EcuStatus is ${time_words(now.mode_age_s)} old`
+      + `${is_live(state) ? '' : ' here'}.`);
+    this.write_lambda(now);
+    this.write_task(state);
+    this.write_why(now);
+  }
+
+  private write_lambda({lambda, limit_kind, limit_index, mode}: Snapshot): void {
+    const valid = lambda.state === 'valid';
+    set_text(this.lambda, valid ? fixed(lambda.value, 3) : lambda.state === 'error' ? 'error' : '–');
+    const share = valid ? Math.max(0, Math.min(1, lambda.value)) : 0;
+    this.bar.style.setProperty('--share', `${share * 100}%`);
+    const held = limit_kind !== null && limit_kind !== 0;
+    set_text(this.reason, !valid ? 'Share of the wanted velocity that is followed: not available'
+      : held ? `Held by ${this.words.limit(limit_kind, limit_index)}`
+        : mode === 'Active' ? 'Nothing holds it: the wanted velocity is followed whole'
+          : 'Nothing holds it');
+  }
+
+  private write_task({store, playhead, machine}: PageState): void {
+    const database = store.database;
+    const parts: string[] = [];
+    if (database?.messages.has('OperatorCommand') === true) {
+      const task = store.reading('OperatorCommand.Task', playhead.now_s);
+      const speed = store.reading('OperatorCommand.SpeedOverride', playhead.now_s);
+      const name = database.signal('OperatorCommand.Task').states.get(task.raw);
+      parts.push(`Task ${task.state === 'valid' ? name ?? task.raw : 'not chosen'}`);
+      parts.push(`speed ${speed.state === 'valid' ? `${fixed(speed.value, 0)} %` : 'not given'}`);
+    }
+    if (database?.messages.has('TaskStatus') === true) {
+      parts.push(...task_words(store, playhead.now_s, machine));
+    }
+    set_shown(this.task, parts.length > 0);
+    set_text(this.task, parts.join(', '));
+  }
+
+  private write_why({why_not_armed}: Snapshot): void {
+    const bits = why_not_armed.state === 'valid' ? why_not_armed.raw : 0;
+    set_shown(this.why, bits !== 0);
+    const sentences = this.words.why_not_armed(bits);
+    this.reasons.take(sentences.length).forEach(({node}, k) => set_text(node, sentences[k]!));
+  }
+}
+
+/// Which of the machine's tasks, and how far its step is.
+function task_words(
+  store: PageState['store'], now_s: number, machine: PageState['machine'],
+): string[] {
+  const number = store.reading('TaskStatus.TaskNumber', now_s);
+  const step = store.reading('TaskStatus.Step', now_s);
+  const kind = store.reading('TaskStatus.StepKind', now_s);
+  const progress = store.reading('TaskStatus.Progress', now_s);
+  if (number.state !== 'valid' || kind.raw === 0) {
+    return [];
+  }
+  const signal = store.database!.signal('TaskStatus.StepKind');
+  const name = machine?.kind === 'excavator' ? machine.tasks[number.raw]?.name : undefined;
+  const words = [name ?? `task file ${number.raw}`];
+  if (step.state === 'valid') {
+    const step_kind = name_words(signal.states.get(kind.raw) ?? '').toLowerCase();
+    words.push(`step ${step.raw + 1} (${step_kind})`);
+  }
+  if (progress.state === 'valid') {
+    words.push(`${fixed(progress.value * 100, 0)}${unit_words(' %')} done`);
+  }
+  return words;
+}

@@ -1,0 +1,56 @@
+/// Where the curves of the plots come from: a signal of a frame, what the model makes of signals,
+/// or what only the simulation of a finished run knew.
+
+import type {Curve, FrameStore, Reading, Run} from '../model/api';
+import {cut, lower_bound} from './curves';
+
+export interface Trace {
+  /// Of whose frames it is made; null: of none.
+  readonly message: string | null;
+  curve(store: FrameStore, from_s: number, until_s: number, buckets: number): Curve;
+  reading(store: FrameStore, time_s: number): Reading;
+}
+
+export function signal_trace(signal: string): Trace {
+  return {
+    message: signal.split('.')[0]!,
+    curve: (store, from_s, until_s, buckets) => store.curve(signal, from_s, until_s, buckets),
+    reading: (store, time_s) => store.reading(signal, time_s),
+  };
+}
+
+type TruthLine = Run['truth']['lines'][number];
+
+export function truth_trace(run: Run, line: TruthLine, scale: number): Trace {
+  const times = run.truth.time_s;
+  return {
+    message: null,
+    curve: (_store, from_s, until_s, buckets) =>
+      cut(times, line.values, scale, from_s, until_s, buckets),
+    reading(_store, time_s) {
+      const after = lower_bound(times, time_s);
+      const at = times[after] === time_s ? after : after - 1;
+      const value = line.values[at];
+      return value === null || value === undefined
+        ? {value: NaN, raw: 0, state: at < 0 ? 'never' : 'notAvailable', age_s: Infinity}
+        : {value: value * scale, raw: 0, state: 'valid', age_s: 0};
+    },
+  };
+}
+
+/// Factors into the units that the plots have.
+const FACTORS: Readonly<Record<string, number>> = {
+  'm>mm': 1e3,
+  'm/s>mm/s': 1e3,
+  'rad/s>mrad/s': 1e3,
+  'Pa>MPa': 1e-6,
+  'm3/s>L/min': 6e4,
+  '>per mille': 1e3,
+  '%>per mille': 10,
+  '>%': 100,
+};
+
+/// What a value in `from` is multiplied with to be one in `to`; nothing where they are not alike.
+export function unit_factor(from: string, to: string): number | null {
+  return from === to ? 1 : FACTORS[`${from}>${to}`] ?? null;
+}

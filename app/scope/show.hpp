@@ -1,0 +1,51 @@
+#pragma once
+/// What the server has to show its pages, whatever it comes from. Everything here is called from
+/// the server's thread.
+
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+namespace graben::scope {
+
+/// What one page gets, at its own pace.
+class ClientStream {
+ public:
+  ClientStream() = default;
+  ClientStream(const ClientStream&) = delete;
+  ClientStream& operator=(const ClientStream&) = delete;
+  virtual ~ClientStream() = default;
+
+  /// Appends the next whole candump lines to `message`, at most kMessageMostBytes of them. False,
+  /// and nothing appended, if there is none by now.
+  [[nodiscard]] virtual bool next(std::string& message) = 0;
+  /// All there will ever be was given.
+  [[nodiscard]] virtual bool ended() const { return false; }
+  /// Frames that this page has missed, in all.
+  [[nodiscard]] virtual std::uint64_t lost() const { return 0; }
+
+  static constexpr std::size_t kMessageMostBytes = 512 * 1024;
+};
+
+class Show {
+ public:
+  Show() = default;
+  Show(const Show&) = delete;
+  Show& operator=(const Show&) = delete;
+  virtual ~Show() = default;
+
+  /// The first message to every page: JSON of {kind: 'setup'} & Setup (page/src/model/api.ts).
+  [[nodiscard]] virtual const std::string& setup() const = 0;
+  /// In words, for the terminal.
+  [[nodiscard]] virtual std::string words() const = 0;
+  [[nodiscard]] virtual std::unique_ptr<ClientStream> open() const = 0;
+  /// What the kernel may hold for a page that reads slowly; 0: as it likes.
+  [[nodiscard]] virtual int send_buffer_bytes() const { return 0; }
+  /// As FrameSource has them.
+  [[nodiscard]] virtual std::optional<std::string> control(const nlohmann::json& wish) = 0;
+  [[nodiscard]] virtual std::optional<nlohmann::json> state(std::uint64_t& seen) const = 0;
+};
+
+}  // namespace graben::scope

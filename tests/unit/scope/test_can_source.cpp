@@ -1,0 +1,261 @@
+/// A bus that is heard, on one end of a socket pair that every kernel has, the test on the other.
+
+#include "app/scope/can_source.hpp"
+
+#include <linux/can/error.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <map>
+#include <thread>
+
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+using nlohmann::json;
+using scope::CanEar;
+using scope::CanSource;
+
+/// The other end of each interface, and those that cannot be opened just now.
+std::map<std::string, int> g_bus;
+std::map<std::string, bool> g_is_down;
+
+OpenedCanSocket open_pair(const CanSocketConfig& config) {
+  OpenedCanSocket result;
+  if (g_is_down[config.interface]) {
+    result.error.set("%s: the interface is down", config.interface.c_str());
+    return result;
+  }
+  int ends[2] = {-1, -1};
+  assert_int_equal(socketpair(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK, 0, ends), 0);
+  const int on = 1;
+  assert_int_equal(setsockopt(ends[0], SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on), 0);
+  if (g_bus.count(config.interface) != 0) {
+    close(g_bus[config.interface]);
+  }
+  g_bus[config.interface] = ends[1];
+  result.fd = ends[0];
+  result.state = CanPortState::kActive;
+  return result;
+}
+
+int set_up(void** /*state*/) {
+  for (const auto& [name, fd] : g_bus) {
+    close(fd);
+  }
+  g_bus.clear();
+  g_is_down.clear();
+  return 0;
+}
+
+void from_bus(const std::string& interface, canid_t id, std::uint8_t byte = 0) {
+  can_frame frame{};
+  frame.can_id = id;
+  frame.can_dlc = 1;
+  frame.data[0] = byte;
+  assert_int_equal(write(g_bus[interface], &frame, sizeof frame), sizeof frame);
+}
+
+std::vector<CanFrame> hear(CanEar& ear) {
+  std::vector<CanFrame> frames;
+  ear.hear([&](const CanFrame& frame) { frames.push_back(frame); });
+  return frames;
+}
+
+TimeUs wall_us() {
+  timespec now{};
+  clock_gettime(CLOCK_REALTIME, &now);
+  return TimeUs{now.tv_sec} * kSecondUs + now.tv_nsec / 1000;
+}
+
+void every_kind_of_frame_is_heard(void**) {
+  CanEar ear("can7", &open_pair);
+  assert_true(ear.open());
+  const TimeUs before_us = wall_us();
+  from_bus("can7", 0x18FF2080U | CAN_EFF_FLAG, 5);
+  from_bus("can7", 0x7FU);
+  from_bus("can7", CAN_ERR_FLAG | CAN_ERR_CRTL, 9);
+  const std::vector<CanFrame> frames = hear(ear);
+  assert_int_equal(frames.size(), 3);
+  assert_int_equal(frames[0].id, 0x18FF2080U);
+  assert_true(frames[0].extended);
+  assert_int_equal(frames[0].data[0], 5);
+  assert_false(frames[1].extended);
+  assert_true(frames[2].error);
+  assert_int_equal(frames[2].id, CAN_ERR_CRTL);
+  for (const CanFrame& frame : frames) {
+    assert_in_range(frame.stamp_us - before_us, 0, kSecondUs);
+  }
+  assert_int_equal(hear(ear).size(), 0);
+  assert_true(ear.is_open());
+}
+
+void what_is_no_frame_is_left_out(void**) {
+  CanEar ear("can7", &open_pair);
+  assert_true(ear.open());
+  assert_int_equal(write(g_bus["can7"], "x", 1), 1);
+  const std::string fd_frame(72, 'x');
+  assert_int_equal(write(g_bus["can7"], fd_frame.data(), fd_frame.size()), fd_frame.size());
+  from_bus("can7", 0x7FU);
+  assert_int_equal(hear(ear).size(), 1);
+}
+
+void a_socket_that_fails_is_not_open_any_more(void**) {
+  CanEar ear("can7", &open_pair);
+  assert_true(ear.open());
+  shutdown(g_bus["can7"], SHUT_RDWR);
+  // The kernel says of a pair that its other end is gone by an empty datagram or an error; of an
+  // interface by ENETDOWN.
+  close(g_bus["can7"]);
+  g_bus.erase("can7");
+  static_cast<void>(hear(ear));
+  g_is_down["can7"] = true;
+  assert_false(ear.open());
+  assert_string_equal(ear.last_error(), "can7: the interface is down");
+  g_is_down["can7"] = false;
+  assert_true(ear.open());
+  from_bus("can7", 1);
+  assert_int_equal(hear(ear).size(), 1);
+}
+
+/// A source at work, read as a page does.
+struct Rig {
+  CanSource source;
+  scope::FrameFeed feed;
+  scope::FrameReader reader{feed};
+  std::atomic<bool> stop{false};
+  std::thread thread;
+
+  explicit Rig(const std::vector<std::string>& interfaces)
+      : source(interfaces, 250000, &open_pair), thread([this] { source.run(feed, stop); }) {}
+  ~Rig() {
+    stop = true;
+    thread.join();
+  }
+
+  std::string lines(int frames) {
+    std::string text;
+    for (int i = 0; i < 200 && frames > 0; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      while (const auto block = reader.next()) {
+        text += block->text;
+        frames -= static_cast<int>(block->frames);
+      }
+    }
+    return text;
+  }
+
+  /// The state that says this, within two seconds.
+  json state_with(const std::string& words) {
+    std::uint64_t seen = 0;
+    json state;
+    for (int i = 0; i < 200; ++i) {
+      if (const std::optional<json> news = source.state(seen)) {
+        state = *news;
+      }
+      if (state["words"].get<std::string>().find(words) != std::string::npos) {
+        return state;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    print_error("'%s' not in %s\n", words.c_str(), state.dump().c_str());
+    _fail(__FILE__, __LINE__);
+    return state;
+  }
+};
+
+void frames_become_lines_of_their_interface(void**) {
+  Rig rig({"can7", "can8"});
+  from_bus("can7", 0x18FF2080U | CAN_EFF_FLAG, 0xA5);
+  from_bus("can8", CAN_ERR_FLAG | CAN_ERR_CRTL, 1);
+  const std::string text = rig.lines(2);
+  assert_true(text.find(" can7 18FF2080#A5\n") != std::string::npos);
+  assert_true(text.find(" can8 20000004#01\n") != std::string::npos);
+}
+
+/// Sent to and fro between two interfaces while both are heard.
+void stamps_rise_over_all_interfaces(void**) {
+  Rig rig({"can7", "can8"});
+  std::string text;
+  for (int i = 0; i < 2000; ++i) {
+    from_bus(i % 2 == 0 ? "can8" : "can7", 1);
+    if (i % 10 == 0) {
+      std::this_thread::sleep_for(std::chrono::microseconds(300));
+    }
+    if (i % 100 == 99) {
+      text += rig.lines(1);
+    }
+  }
+  text += rig.lines(2000);
+  std::string before;
+  std::stringstream stream(text);
+  int lines = 0;
+  for (std::string line; std::getline(stream, line); ++lines) {
+    const std::string stamp = line.substr(0, line.find(')'));
+    assert_true(before <= stamp);
+    before = stamp;
+  }
+  assert_int_equal(lines, 2000);
+}
+
+void the_bus_is_told_in_words(void**) {
+  g_is_down["can8"] = false;
+  Rig rig({"can7", "can8"});
+  const json up = rig.state_with("can7: heard; can8: heard");
+  assert_true(up["up"].get<bool>());
+  assert_true(up["kind"] == "bus");
+  const json setup = rig.source.setup()["source"];
+  assert_true(setup["mode"] == "can");
+  assert_true(setup["name"] == "can7, can8");
+  assert_int_equal(setup["bitrate"].get<int>(), 250000);
+  assert_true(rig.source.control({{"do", "run"}}).has_value());
+}
+
+void a_state_is_told_once(void**) {
+  Rig rig({"can7"});
+  std::uint64_t seen = 0;
+  assert_true(rig.source.state(seen).has_value());
+  assert_false(rig.source.state(seen).has_value());
+}
+
+void assert_no_source(const std::vector<std::string>& interfaces, const char* why) {
+  std::string error;
+  try {
+    const CanSource source(interfaces, 500000, &open_pair);
+  } catch (const std::runtime_error& refusal) {
+    error = refusal.what();
+  }
+  assert_string_equal(error.c_str(), why);
+}
+
+void what_cannot_be_heard_is_refused(void**) {
+  assert_no_source({}, "no CAN interface is named");
+  assert_no_source({"can7", "can8", "can7"}, "CAN interface 'can7' is named twice");
+  g_is_down["can9"] = true;
+  assert_no_source({"can9"}, "can9: the interface is down");
+  // One that this machine has is waited for.
+  g_is_down["lo"] = true;
+  Rig rig({"lo"});
+  const json down = rig.state_with("lo: the interface is down; tried again every half second");
+  assert_false(down["up"].get<bool>());
+  g_is_down["lo"] = false;
+  assert_true(rig.state_with("lo: heard")["up"].get<bool>());
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test_setup(every_kind_of_frame_is_heard, &set_up),
+      cmocka_unit_test_setup(what_is_no_frame_is_left_out, &set_up),
+      cmocka_unit_test_setup(a_socket_that_fails_is_not_open_any_more, &set_up),
+      cmocka_unit_test_setup(frames_become_lines_of_their_interface, &set_up),
+      cmocka_unit_test_setup(stamps_rise_over_all_interfaces, &set_up),
+      cmocka_unit_test_setup(the_bus_is_told_in_words, &set_up),
+      cmocka_unit_test_setup(a_state_is_told_once, &set_up),
+      cmocka_unit_test_setup(what_cannot_be_heard_is_refused, &set_up),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,432 @@
+/// The server over real sockets: who gets in, what two pages get, and that one that does not read
+/// costs the others nothing.
+
+#include <unistd.h>
+
+#include "app/scope/log_show.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/scope/scripted_source.hpp"
+#include "tests/unit/scope/tcp_peer.hpp"
+#include "tests/unit/scope/temporary_file.hpp"
+
+namespace {
+
+using namespace graben;
+using nlohmann::json;
+using test::LiveRig;
+using test::Milliseconds;
+using test::Opcode;
+using test::ServedShow;
+using test::WsClient;
+using test::WsMessage;
+
+std::string own_host(int port) { return "127.0.0.1:" + std::to_string(port); }
+
+/// All of an answer whose connection ends, or nothing more comes for a moment.
+std::string ask(int port, const std::string& request) {
+  test::TcpPeer peer(port);
+  assert_true(peer.send(request));
+  std::string answer;
+  for (std::string more = peer.receive(Milliseconds(2000)); !more.empty();
+       more = peer.receive(Milliseconds(100))) {
+    answer += more;
+  }
+  return answer;
+}
+
+std::string get(int port, const std::string& path, const std::string& host) {
+  return ask(port, "GET " + path + " HTTP/1.1\r\nHost: " + host + "\r\n\r\n");
+}
+
+void assert_begins(const std::string& text, const std::string& with) {
+  if (text.compare(0, with.size(), with) != 0) {
+    print_error("not '%s' but '%s'\n", with.c_str(), text.substr(0, 200).c_str());
+    _fail(__FILE__, __LINE__);
+  }
+}
+
+void assert_has(const std::string& text, const std::string& part) {
+  if (text.find(part) == std::string::npos) {
+    print_error("'%s' not in '%s'\n", part.c_str(), text.substr(0, 2000).c_str());
+    _fail(__FILE__, __LINE__);
+  }
+}
+
+/// Longer than a socket takes at once.
+std::string long_page() {
+  std::string page = "<!doctype html>";
+  for (int i = 0; i < 300000; ++i) {
+    page += std::to_string(i) + "\n";
+  }
+  return page;
+}
+
+void the_page_is_given_whole(void**) {
+  const test::TemporaryFile file("x\n");
+  scope::LogShow show(file.path(), 500000, json::object());
+  const std::string page = long_page();
+  ServedShow served(show, page);
+  for (const char* path : {"/", "/index.html"}) {
+    const std::string answer = get(served.port(), path, own_host(served.port()));
+    assert_begins(answer, "HTTP/1.1 200 OK\r\n");
+    for (const char* header :
+         {"content-type: text/html; charset=utf-8\r\n", "cache-control: no-store\r\n",
+          "x-content-type-options: nosniff\r\n", "content-security-policy: default-src 'none'; "}) {
+      assert_has(answer, header);
+    }
+    assert_true(answer.substr(answer.find("\r\n\r\n") + 4) == page);
+  }
+}
+
+void nothing_else_is_there(void**) {
+  LiveRig rig(1);
+  const std::string host = own_host(rig.port());
+  for (const char* path : {"/x", "/frames", "/index.htm", "/../etc/passwd", "/%2e%2e/etc"}) {
+    assert_begins(get(rig.port(), path, host), "HTTP/1.1 404");
+  }
+  for (const char* method : {"POST", "PUT", "DELETE"}) {
+    assert_begins(ask(rig.port(), std::string(method) + " / HTTP/1.1\r\nHost: " + host +
+                                      "\r\nContent-Length: 0\r\n\r\n"),
+                  "HTTP/1.1 405");
+  }
+}
+
+void foreign_names_get_nothing(void**) {
+  LiveRig rig(1);
+  const std::string port = ":" + std::to_string(rig.port());
+  for (const std::string& host : {"evil.example" + port, std::string("localhost.evil.example")}) {
+    assert_begins(get(rig.port(), "/", host), "HTTP/1.1 403");
+    assert_has(WsClient(rig.port()).ask(test::ws_request(host, "Origin: http://" + host + "\r\n")),
+               " 403 ");
+  }
+  assert_begins(ask(rig.port(), "GET / HTTP/1.1\r\n\r\n"), "HTTP/1.1 403");
+  assert_begins(get(rig.port(), "/", "localhost" + port), "HTTP/1.1 200");
+}
+
+void foreign_pages_get_no_frames(void**) {
+  LiveRig rig(1);
+  const std::string host = own_host(rig.port());
+  for (const char* origin : {"http://evil.example", "null", "https://127.0.0.1", "file://"}) {
+    const std::string header = std::string("Origin: ") + origin + "\r\n";
+    assert_has(WsClient(rig.port()).ask(test::ws_request(host, header)), " 403 ");
+  }
+  // What is no browser has no origin.
+  assert_begins(WsClient(rig.port()).ask(test::ws_request(host)), "HTTP/1.1 101");
+}
+
+void the_handshake_has_to_be_ours(void**) {
+  LiveRig rig(1);
+  const std::string host = own_host(rig.port());
+  WsClient good(rig.port());
+  assert_true(good.open());
+  assert_has(WsClient(rig.port()).ask(test::ws_request(host, "", "/other")), " 404 ");
+  for (const char* protocol : {"", "http", "chat", "http, graben-scope"}) {
+    assert_has(WsClient(rig.port()).ask(test::ws_request(host, "", "/frames", protocol)), " 400 ");
+  }
+}
+
+/// The page's first message, and every later one that is of this kind.
+json read_kind(WsClient& client, const std::string& kind) {
+  for (int i = 0; i < 20000; ++i) {
+    const std::optional<WsMessage> message = client.read();
+    assert_true(message.has_value());
+    if (message->opcode == Opcode::kText) {
+      const json content = json::parse(message->content);
+      if (content["kind"] == kind) {
+        return content;
+      }
+    }
+  }
+  print_error("no message '%s'\n", kind.c_str());
+  _fail(__FILE__, __LINE__);
+  return {};
+}
+
+/// Lines as they come; those that were lost are told in `dropped`.
+struct Lines {
+  std::string text;
+  std::uint64_t dropped = 0;
+};
+
+void read_lines(WsClient& client, Milliseconds during, Lines& lines) {
+  const auto until = std::chrono::steady_clock::now() + during;
+  while (std::chrono::steady_clock::now() < until) {
+    const std::optional<WsMessage> message = client.read(Milliseconds(200));
+    if (message && message->opcode == Opcode::kBinary) {
+      lines.text += message->content;
+    } else if (message && message->opcode == Opcode::kText) {
+      const json content = json::parse(message->content);
+      lines.dropped =
+          content["kind"] == "dropped" ? content["frames"].get<std::uint64_t>() : lines.dropped;
+    }
+  }
+}
+
+std::uint32_t number_of(const std::string& line) {
+  return static_cast<std::uint32_t>(std::stoul(line.substr(line.find('#') + 1), nullptr, 16));
+}
+
+/// Frames that the numbers have left out between the first line and the last.
+std::uint64_t left_out(const std::string& text) {
+  std::stringstream stream(text);
+  std::uint64_t left = 0;
+  std::optional<std::uint32_t> before;
+  for (std::string line; std::getline(stream, line);) {
+    const std::uint32_t number = number_of(line);
+    assert_true(!before || number > *before);
+    left += before ? number - *before - 1 : 0;
+    before = number;
+  }
+  return left;
+}
+
+void setup_and_state_come_first(void**) {
+  LiveRig rig(1);
+  WsClient client(rig.port());
+  assert_true(client.open());
+  const std::optional<WsMessage> first = client.read();
+  assert_true(first && first->opcode == Opcode::kText);
+  const json setup = json::parse(first->content);
+  assert_true(setup["kind"] == "setup");
+  assert_true(setup["source"]["name"] == "script");
+  const std::optional<WsMessage> second = client.read();
+  assert_true(second && json::parse(second->content)["kind"] == "sim");
+}
+
+void two_pages_get_the_same_bytes(void**) {
+  LiveRig rig(5);
+  WsClient first(rig.port());
+  WsClient second(rig.port());
+  assert_true(first.open());
+  assert_true(second.open());
+  Lines one;
+  Lines two;
+  std::thread other([&] { read_lines(second, Milliseconds(1000), two); });
+  read_lines(first, Milliseconds(1000), one);
+  other.join();
+  assert_true(left_out(one.text) == 0 && left_out(two.text) == 0);
+  // They began and ended at different moments; between them every byte is the same.
+  const std::size_t shift = two.text.find(one.text.substr(0, one.text.find('\n')));
+  const std::string& later = shift == std::string::npos ? two.text : one.text;
+  const std::string& earlier = shift == std::string::npos ? one.text : two.text;
+  const std::size_t from = earlier.find(later.substr(0, later.find('\n')));
+  assert_true(from != std::string::npos);
+  const std::size_t common = std::min(earlier.size() - from, later.size());
+  assert_true(common > 50000);
+  assert_true(earlier.compare(from, common, later, 0, common) == 0);
+}
+
+long resident_bytes() {
+  long pages = 0;
+  std::ifstream statm("/proc/self/statm");
+  statm >> pages >> pages;
+  return pages * sysconf(_SC_PAGESIZE);
+}
+
+/// 50 frames in a millisecond are 2 MB/s, twenty times a full bus: the one that does not read has
+/// its buffers full at once.
+void one_that_does_not_read_loses_frames_and_is_told(void**) {
+  LiveRig rig(50);
+  WsClient stuck(rig.port(), 4096);
+  WsClient good(rig.port());
+  assert_true(stuck.open());
+  assert_true(good.open());
+  static_cast<void>(read_kind(stuck, "setup"));
+  Lines read;
+  read_lines(good, Milliseconds(1500), read);
+  const long before_bytes = resident_bytes();
+  read.text.reserve(64 * 1024 * 1024);
+  read_lines(good, Milliseconds(3000), read);
+  assert_int_equal(left_out(read.text), 0);
+  assert_int_equal(read.dropped, 0);
+  // What this test has read itself is in it; ten seconds of frames that waited would be, too.
+  const long own_bytes = static_cast<long>(read.text.size()) + 16 * 1024 * 1024;
+  assert_true(resident_bytes() - before_bytes < own_bytes);
+  rig.source().set_frames_per_block(1);
+  Lines late;
+  read_lines(stuck, Milliseconds(2500), late);
+  assert_true(late.dropped > 10000);
+  assert_int_equal(left_out(late.text), late.dropped);
+}
+
+void wishes_are_done_or_refused(void**) {
+  LiveRig rig(1);
+  WsClient asks(rig.port());
+  WsClient watches(rig.port());
+  assert_true(asks.open());
+  assert_true(watches.open());
+  assert_int_equal(read_kind(watches, "sim")["revision"].get<int>(), 1);
+  assert_true(asks.send(Opcode::kText, R"({"do":"stop"})"));
+  // Everybody sees the state that one has changed.
+  assert_int_equal(read_kind(watches, "sim")["revision"].get<int>(), 2);
+  for (const auto& [wish, why] :
+       {std::pair<const char*, const char*>{R"({"do":"fly"})", "only stop is known"},
+        {"{", "this is not JSON"},
+        {R"({"do":[1]})", "only stop is known"},
+        {"{}", "[json.exception.out_of_range.403] key 'do' not found"}}) {
+    assert_true(asks.send(Opcode::kText, wish));
+    assert_string_equal(read_kind(asks, "refused")["why"].get<std::string>().c_str(), why);
+  }
+}
+
+void a_log_takes_no_wishes_and_ends(void**) {
+  std::string text;
+  for (int i = 0; i < 100000; ++i) {
+    text += "(0000000001.000000) can0 18FF2080#" + std::to_string(10000000 + i) + "\n";
+  }
+  const test::TemporaryFile file(text);
+  scope::LogShow show(file.path(), 500000, json::object());
+  ServedShow served(show);
+  WsClient client(served.port());
+  assert_true(client.open());
+  std::string read;
+  for (bool ended = false; !ended;) {
+    const std::optional<WsMessage> message = client.read();
+    assert_true(message.has_value());
+    if (message->opcode == Opcode::kBinary) {
+      assert_int_equal(message->content.back(), '\n');
+      read += message->content;
+    }
+    ended = message->opcode == Opcode::kText && message->content == R"({"kind":"end"})";
+  }
+  assert_true(read == text);
+  assert_true(client.send(Opcode::kText, R"({"do":"stop"})"));
+  assert_string_equal(read_kind(client, "refused")["why"].get<std::string>().c_str(),
+                      "this is a log: it can only be looked at");
+}
+
+/// Status of a close that the server sends, within two seconds; 0: none.
+int closed_with(WsClient& client) {
+  for (int i = 0; i < 10000; ++i) {
+    const std::optional<WsMessage> message = client.read();
+    if (!message) {
+      return 0;
+    }
+    if (message->opcode == Opcode::kClose && message->content.size() >= 2) {
+      return static_cast<unsigned char>(message->content[0]) * 256 +
+             static_cast<unsigned char>(message->content[1]);
+    }
+  }
+  return 0;
+}
+
+void what_is_no_message_closes_the_connection(void**) {
+  LiveRig rig(1);
+  const auto assert_closed = [&](int status, Opcode opcode, const std::string& content) {
+    WsClient client(rig.port());
+    assert_true(client.open());
+    assert_true(client.send(opcode, content));
+    assert_int_equal(closed_with(client), status);
+  };
+  assert_closed(1003, Opcode::kBinary, "x");
+  assert_closed(1009, Opcode::kText, std::string(4097, ' '));
+  assert_closed(1009, Opcode::kText, std::string(1000000, ' '));
+  assert_closed(1007, Opcode::kText, "\xC3\x28");
+  assert_closed(1000, Opcode::kClose, "\x03\xE8");
+}
+
+void a_flood_is_read_slowly_and_costs_the_others_nothing(void**) {
+  LiveRig rig(5);
+  WsClient flood(rig.port());
+  WsClient good(rig.port());
+  assert_true(flood.open());
+  assert_true(good.open());
+  std::string many;
+  for (int i = 0; i < 1000; ++i) {
+    many += test::ws_frame(Opcode::kText, R"({"do":"stop"})");
+  }
+  std::atomic<bool> done{false};
+  std::thread flooding([&] {
+    while (!done && flood.peer().send(many)) {
+    }
+  });
+  Lines read;
+  read_lines(good, Milliseconds(1000), read);
+  assert_int_equal(left_out(read.text), 0);
+  assert_true(read.text.size() > 50000);
+  // A hundred a second, and a hundred at once in the beginning.
+  std::uint64_t seen = 0;
+  const int wishes = (*rig.source().state(seen))["revision"].get<int>() - 1;
+  assert_in_range(wishes, 100, 250);
+  done = true;
+  flooding.join();
+}
+
+void the_thirty_third_page_is_told_so(void**) {
+  LiveRig rig(1);
+  std::vector<std::unique_ptr<WsClient>> clients;
+  for (std::size_t i = 0; i < scope::kClientsMost; ++i) {
+    clients.push_back(std::make_unique<WsClient>(rig.port()));
+    assert_true(clients.back()->open());
+  }
+  const std::string request = test::ws_request(own_host(rig.port()));
+  assert_has(WsClient(rig.port()).ask(request), " 503 ");
+  clients.pop_back();
+  bool open = false;
+  for (int i = 0; i < 100 && !open; ++i) {
+    std::this_thread::sleep_for(Milliseconds(10));
+    open = WsClient(rig.port()).ask(request).rfind("HTTP/1.1 101", 0) == 0;
+  }
+  assert_true(open);
+}
+
+void a_port_in_use_is_said(void**) {
+  LiveRig rig(1);
+  const test::TemporaryFile file("x\n");
+  scope::LogShow show(file.path(), 500000, json::object());
+  const auto error_of = [&](const scope::ServerOptions& options) {
+    try {
+      const scope::ScopeServer server(options, "page", show);
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  assert_has(error_of({"127.0.0.1", rig.port()}), "Address already in use");
+  assert_has(error_of({"no.such.name.invalid", 0}), "--host 'no.such.name.invalid'");
+  assert_has(error_of({"192.0.2.1", 0}), "192.0.2.1 port 0: Cannot assign requested address");
+}
+
+void other_addresses_are_known_as_such(void**) {
+  const test::TemporaryFile file("x\n");
+  scope::LogShow show(file.path(), 500000, json::object());
+  const scope::ScopeServer everywhere({"0.0.0.0", 0}, "page", show);
+  assert_false(everywhere.is_loopback());
+  const scope::ScopeServer named({"localhost", 0}, "page", show);
+  assert_true(named.is_loopback());
+  assert_true(named.port() > 0);
+  assert_has(named.url(), ":" + std::to_string(named.port()) + "/");
+}
+
+void it_stops_at_once_with_pages_open(void**) {
+  auto rig = std::make_unique<LiveRig>(5);
+  WsClient client(rig->port());
+  assert_true(client.open());
+  const auto begin = std::chrono::steady_clock::now();
+  rig.reset();
+  assert_true(std::chrono::steady_clock::now() - begin < std::chrono::seconds(1));
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(the_page_is_given_whole),
+      cmocka_unit_test(nothing_else_is_there),
+      cmocka_unit_test(foreign_names_get_nothing),
+      cmocka_unit_test(foreign_pages_get_no_frames),
+      cmocka_unit_test(the_handshake_has_to_be_ours),
+      cmocka_unit_test(setup_and_state_come_first),
+      cmocka_unit_test(two_pages_get_the_same_bytes),
+      cmocka_unit_test(one_that_does_not_read_loses_frames_and_is_told),
+      cmocka_unit_test(wishes_are_done_or_refused),
+      cmocka_unit_test(a_log_takes_no_wishes_and_ends),
+      cmocka_unit_test(what_is_no_message_closes_the_connection),
+      cmocka_unit_test(a_flood_is_read_slowly_and_costs_the_others_nothing),
+      cmocka_unit_test(the_thirty_third_page_is_told_so),
+      cmocka_unit_test(a_port_in_use_is_said),
+      cmocka_unit_test(other_addresses_are_known_as_such),
+      cmocka_unit_test(it_stops_at_once_with_pages_open),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
