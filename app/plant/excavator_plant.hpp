@@ -67,7 +67,7 @@ class ExcavatorPlant {
 
   /// Another ground from now on, as it is at its first step; none without a profile.
   void set_soil(const std::optional<SoilProfile>& soil);
-  /// Another rock, not touched yet; none without a profile. The tip should not be inside.
+  /// Another rock, not touched yet; none without a profile. The tip should be in front of it.
   void set_obstacle(const std::optional<ObstacleProfile>& obstacle);
 
   /// From now on each step adds to this account, which belongs to the caller; null ends it.

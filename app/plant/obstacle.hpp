@@ -17,9 +17,6 @@ struct ObstacleProfile {
   double hold_s = 0.0;        ///< From the first touch.
 };
 
-/// Whether the tip is where the rock would be.
-[[nodiscard]] bool is_inside(const ObstacleProfile& profile, const Eigen::Vector2d& tip_m);
-
 class Obstacle {
  public:
   Obstacle(const ObstacleProfile& profile, double step_s) : profile_(profile), step_s_(step_s) {}

@@ -16,8 +16,8 @@ class SimGround {
   [[nodiscard]] bool soil() const { return soil_; }
   [[nodiscard]] bool obstacle() const { return obstacle_; }
 
-  /// Before each cycle: gives the plant what is wanted. A rock is put down once the bucket is clear
-  /// of its place.
+  /// Before each cycle: gives the plant what is wanted. A rock is put down once the tip is well
+  /// in front of its face.
   void step(plant::ExcavatorPlant& plant);
 
  private:

@@ -1,6 +1,8 @@
 // What a simulation does by itself, and what becomes of what a page asks of it.
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "tests/unit/scope/sim_watch.hpp"
 
@@ -194,11 +196,15 @@ void a_grade_begins_anew(void**) {
   assert_false(sim.bus.backwards);
 }
 
+/// From its start, where the machine stands at once: nothing has to be approached.
 void a_task_begins_anew(void**) {
   SimWatch sim("autodig");
   int begun = 0;
+  int jumps = 0;
   bool in_step = false;
+  std::optional<double> swing_rad;
   sim.also = [&](const CanFrame& frame) {
+    using dbc::excavator::SwingState;
     using dbc::excavator::TaskStatus;
     if (frame.id == TaskStatus::kId) {
       const auto kind = TaskStatus::decode(frame.data).step_kind.value;
@@ -206,8 +212,15 @@ void a_task_begins_anew(void**) {
       begun += now && !in_step ? 1 : 0;
       in_step = now;
     }
+    if (frame.id == SwingState::kId) {
+      const double now_rad = SwingState::decode(frame.data).swing_angle_rad.value;
+      jumps += std::abs(now_rad - swing_rad.value_or(now_rad)) > 0.1 ? 1 : 0;
+      swing_rad = now_rad;
+    }
   };
   assert_true(sim.run_until(90.0, [&begun] { return begun == 3; }));
+  assert_int_equal(jumps, 2);
+  assert_false(sim.bus.backwards);
 }
 
 /// Frames of the same simulated time are the same, whatever the pace, but for measured times.
