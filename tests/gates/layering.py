@@ -21,6 +21,8 @@ FORBIDDEN = {
     "can_dbc/": ("platform/", "app/", "tests/"),
     "platform/": ("app/", "tests/"),
     "app/": ("tests/",),
+    # The controller's process opens no TCP socket.
+    "app/ecu/": ("app/scope/", "app/cli/"),
 }
 # The same through any number of headers in between.
 FORBIDDEN_INDIRECTLY = {

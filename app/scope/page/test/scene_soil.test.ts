@@ -28,7 +28,8 @@ test('an edge lowers what it passes over, as wide as it is, to its own height', 
   cut(field, 1, edge(-1, 0, -0.2), edge(1, 0, -0.4), 1);
   field.show(all, ignore);
   for (const [x, y, z] of [[-0.9, 0, -0.21], [0, 0.5, -0.3], [0.9, -0.5, -0.39]]) {
-    assert.ok(Math.abs(height_at(field, x, y) - z) < 0.011, `${x}, ${y}: ${height_at(field, x, y)}`);
+    const height = height_at(field, x, y);
+    assert.ok(Math.abs(height - z) < 0.011, `${x}, ${y}: ${height}`);
   }
   for (const [x, y] of [[0, 0.6], [0, -0.6], [-1.2, 0], [1.2, 0]]) {
     assert.equal(height_at(field, x, y), 0, `${x}, ${y} is beside it`);

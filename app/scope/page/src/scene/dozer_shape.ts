@@ -122,7 +122,8 @@ const cutting_edge = (edge: Vector2, height: number): Vector2[] => [
 function arms(cylinder_y: number, foot: Vector2): Piece[] {
   const eye = polar(0.5 * norm(foot), direction(foot));
   const bar = hull_of_discs([
-    {at_m: [0, 0], radius_m: 0.09}, {at_m: eye, radius_m: 0.1}, {at_m: foot, radius_m: kFootRadius_m}]);
+    {at_m: [0, 0], radius_m: 0.09}, {at_m: eye, radius_m: 0.1},
+    {at_m: foot, radius_m: kFootRadius_m}]);
   const cross = minus(foot, polar(0.12, direction(foot)));
   return [
     ...pair('frame', bar, cylinder_y - 0.07, cylinder_y + 0.07),

@@ -61,7 +61,8 @@ export class ExcavatorModel {
   private readonly ghosts: Links;
   private readonly cylinders: {axis: 'boom' | 'arm' | 'bucket'; y_m: number; part: Cylinder}[] = [];
 
-  constructor(private readonly machine: ExcavatorMachine, private readonly shared: SharedMaterials) {
+  constructor(
+    private readonly machine: ExcavatorMachine, private readonly shared: SharedMaterials) {
     this.shape = excavator_shape(machine);
     const names = [...kLinks, 'undercarriage'] as const;
     this.geometries = Object.fromEntries(

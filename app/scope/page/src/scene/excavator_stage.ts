@@ -182,7 +182,7 @@ export class ExcavatorStage implements Stage {
 function home_of(machine: ExcavatorMachine): Sphere {
   const box = new Box3(
     new Point(-0.45 * machine.boom_m, 0, 0),
-    new Point(0.6 * reach_m(machine), 0, machine.boom_foot_m[1] + 0.45 * machine.boom_m));
+    new Point(0.6 * reach_m(machine), 0, machine.boom_foot_m[1] + 0.6 * machine.boom_m));
   for (const [x, z] of machine.dig.path) {
     box.expandByPoint(new Point(x, 0, z));
   }

@@ -1,5 +1,5 @@
-/// Soft light from the sky and a sun, worked out at the corners of the triangles: that is all that a
-/// matt surface needs, and a computer without a graphics unit still draws it fast enough.
+/// Soft light from the sky and a sun, worked out at the corners of the triangles: that is all that
+/// a matt surface needs, and a computer without a graphics unit still draws it fast enough.
 
 import {Color, type IUniform, ShaderMaterial, Vector3} from 'three';
 import type {SceneColours} from './theme';

@@ -109,7 +109,8 @@ export class TaskLayer {
       .filter((step) => step.straight)
       .flatMap((step) => [step.from.position_m, step.to.position_m]));
     this.moves = new Lines({width_px: 2, seen_through: true, dashed: true}, steps
-      .filter((step) => !step.straight).flatMap((step) => chained(simplified(way_of(machine, step), 0.005))));
+      .filter((step) => !step.straight)
+      .flatMap((step) => chained(simplified(way_of(machine, step), 0.005))));
     this.ends = new Lines({width_px: 2.5, seen_through: true}, steps.flatMap((step) =>
       [...cross(step.from.position_m), ...cross(step.to.position_m)]));
     this.node.add(this.straight.node, this.moves.node, this.ends.node);

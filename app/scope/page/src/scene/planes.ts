@@ -55,7 +55,9 @@ export function plane_pane(
   kind: 'design' | 'fence', through_m: Vector3, normal: Vector3, reach_m: number,
 ): {pane: Pane; label_m: Vector3} {
   const [a, b, c, d] = plane_outline(through_m, normal, reach_m);
-  const middle = (i: 0 | 1 | 2): number => 0.5 * (c[i] + d[i]);
+  // Not both in the middle: a design and the fence below it are near each other.
+  const share = kind === 'design' ? 0.85 : 0.5;
+  const middle = (i: 0 | 1 | 2): number => d[i] + share * (c[i] - d[i]);
   return {
     pane: new Pane([[a, d], [b, c]], kind), label_m: [middle(0), middle(1), middle(2)]};
 }
@@ -63,6 +65,6 @@ export function plane_pane(
 /// A ribbon of a width along x and z.
 export function ribbon(line: readonly Vector2[], width_m: number): Pane {
   const half = 0.5 * width_m;
-  return new Pane(simplified(line, 0.001).map(([x, z]): [Vector3, Vector3] => [[x, -half, z], [x, half, z]]),
-    'design');
+  const across = ([x, z]: Vector2): [Vector3, Vector3] => [[x, -half, z], [x, half, z]];
+  return new Pane(simplified(line, 0.001).map(across), 'design');
 }

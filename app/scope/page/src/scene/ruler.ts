@@ -6,6 +6,9 @@ import type {Labels} from './labels';
 import {Lines} from './lines';
 import type {SceneColours} from './theme';
 
+/// Above the ground, or both would be at one depth.
+const kOff_m = 0.03;
+
 export interface RulerPlace {
   from_x_m: number;  ///< Whole metres.
   to_x_m: number;
@@ -37,9 +40,10 @@ export class Ruler {
   private segments(): Vector3[] {
     const {from_x_m, to_x_m, aside_m, low_z_m, high_z_m} = this.place;
     const y = this.side * aside_m;
-    const segments: Vector3[] = [[from_x_m, y, 0.01], [to_x_m, y, 0.01]];
+    const segments: Vector3[] = [[from_x_m, y, kOff_m], [to_x_m, y, kOff_m]];
     for (let x = from_x_m; x <= to_x_m; ++x) {
-      segments.push([x, y, 0.01], [x, y + this.side * (x % 5 === 0 ? 0.3 : 0.15), 0.01]);
+      const long = this.side * (x % 5 === 0 ? 0.3 : 0.15);
+      segments.push([x, y, kOff_m], [x, y + long, kOff_m]);
     }
     segments.push([to_x_m, y, low_z_m], [to_x_m, y, high_z_m]);
     for (let z = low_z_m; z <= high_z_m; ++z) {
@@ -53,11 +57,13 @@ export class Ruler {
     const {from_x_m, to_x_m, low_z_m, high_z_m} = this.place;
     const y_m = this.side * this.place.aside_m;
     for (let x = from_x_m; x <= to_x_m; ++x) {
-      labels.put(`x${x}`, 'scale', x === from_x_m ? `x ${x} m` : `${x}`, [x, y_m + 0.6 * this.side, 0]);
+      const words = x === from_x_m ? `x ${x} m` : `${x}`;
+      labels.put(`x${x}`, 'scale', words, [x, y_m + 0.6 * this.side, 0]);
     }
     for (let z = low_z_m; z <= high_z_m; ++z) {
       if (z !== 0) {
-        labels.put(`z${z}`, 'scale', z === high_z_m ? `z ${z} m` : `${z}`, [to_x_m + 0.5, y_m, z]);
+        const words = z === high_z_m ? `z ${z} m` : `${z}`;
+        labels.put(`z${z}`, 'scale', words, [to_x_m + 0.5, y_m, z]);
       }
     }
   }

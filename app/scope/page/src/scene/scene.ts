@@ -1,7 +1,7 @@
 /// The machine in three dimensions, as its frames have it.
 
 import {Color, type PerspectiveCamera, Scene, Vector3 as Point} from 'three';
-import type {Machine, Setup, Vector2, Vector3} from '../model/api';
+import type {FrameStore, Kind, Machine, Setup, Vector2, Vector3} from '../model/api';
 import {Canvas} from './canvas';
 import {DozerStage} from './dozer_stage';
 import {ExcavatorStage} from './excavator_stage';
@@ -38,6 +38,7 @@ class DrawnScene implements SceneView {
   private readonly note = document.createElement('div');
   private readonly eye: ViewCamera;
   private stage: Stage | null = null;
+  private kind: Kind | null = null;
   private layers = kAll;
   private dark = false;
   private view: SceneUpdate | null = null;
@@ -76,6 +77,7 @@ class DrawnScene implements SceneView {
     for (const group of ['path', 'design', 'fences', 'scale'] as const) {
       this.labels.clear(group);
     }
+    this.kind = machine?.kind ?? null;
     if (machine !== null) {
       this.stage = machine.kind === 'excavator' ?
         new ExcavatorStage(machine, setup, this.shared, this.labels) :
@@ -93,13 +95,18 @@ class DrawnScene implements SceneView {
     const same = now_s === this.shown.now_s && store.revision === this.shown.revision &&
       drives === this.shown.drives && store === this.view?.store;
     this.view = view;
-    if (same || this.stage === null) {
+    if (same || this.stage === null || !this.fits(store)) {
       return;
     }
     this.shown = {now_s, revision: store.revision, drives};
     this.stage.update(view);
     this.eye.follow(this.stage.along_m);
     this.draw_soon();
+  }
+
+  /// Frames of another kind of machine than the one that is shown say nothing of it.
+  private fits(store: FrameStore): boolean {
+    return store.database === null || store.database.kind === this.kind;
   }
 
   resize(): void {
@@ -170,7 +177,7 @@ class DrawnScene implements SceneView {
   };
 
   private draw(): void {
-    if (this.stage && this.view) {
+    if (this.stage && this.view && this.fits(this.view.store)) {
       const {behind_s} = this.stage.ground.update(this.view.store, this.view.now_s);
       this.note.textContent =
         behind_s > 1 ? `Soil: ${Math.ceil(behind_s)} s of frames still to be worked in` : '';

@@ -10,14 +10,13 @@ import {Trail, trail_segments} from './trail';
 const kLength_s = 8;
 
 export class TrailLayer {
-  private readonly lines = new Lines({width_px: 3, seen_through: false});
+  private readonly lines = new Lines({width_px: 3, seen_through: true});
   private readonly trail: Trail;
   private readonly young = new Color();
   private readonly old = new Color();
 
   constructor(walk: (store: FrameStore, after_s: number) => EdgeWalk) {
     this.trail = new Trail(kLength_s, walk);
-    this.lines.set_shaded();
   }
 
   get node(): Group {
@@ -37,6 +36,8 @@ export class TrailLayer {
   set_theme(colours: SceneColours): void {
     this.young.set(colours.trail);
     this.old.set(colours.ground);
+    this.lines.set_colour(colours.trail, colours.cut);
+    this.lines.set_shaded();
   }
 
   dispose(): void {

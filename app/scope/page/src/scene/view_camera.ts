@@ -32,6 +32,7 @@ export class ViewCamera {
     this.controls.minDistance = 2;
     this.controls.maxDistance = 120;
     this.controls.zoomToCursor = true;
+    this.controls.rotateSpeed = 0.6;
     this.controls.mouseButtons =
       {LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN};
     this.controls.touches = {ONE: TOUCH.ROTATE, TWO: TOUCH.DOLLY_PAN};

@@ -1,0 +1,1 @@
+#include "app/scope/server.hpp"
