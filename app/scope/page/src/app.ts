@@ -28,9 +28,15 @@ import {page_words} from './view/words';
 /// Ten times a second is as often as words can be read.
 const PANEL_MS = 100;
 
+/// `?keep=60`: seconds of a live run that the page keeps, 10 s to a day.
+function told_keep_s(search: string): number | undefined {
+  const told = Number(new URLSearchParams(search).get('keep') ?? NaN);
+  return told >= 10 && told <= 86_400 ? told : undefined;
+}
+
 export function start(root: HTMLElement): void {
   const setup = embedded_setup(document);
-  const state = new State(setup !== null);
+  const state = new State(setup !== null, told_keep_s(location.search));
   const theme = create_theme();
   const words = page_words(state);
   const faults = new FaultLog();

@@ -28,8 +28,8 @@ export class State implements PageState, FeedEvents {
   private sender: (message: ToServer) => void = () => undefined;
   private machine_known_at = -1;
 
-  /// With a setup in the page nothing is connected.
-  constructor(embedded: boolean) {
+  /// With a setup in the page nothing is connected. Of a live run, frames are kept so long.
+  constructor(embedded: boolean, private readonly live_keep_s = LIVE_KEEP_S) {
     const state = this;
     this.playhead = new PagePlayhead({
       get from_s() { return state.extent.from_s; },
@@ -85,7 +85,7 @@ export class State implements PageState, FeedEvents {
     const live = mode === 'can' || mode === 'sim';
     this.setup = setup;
     this.store = new PageStore(setup.machines);
-    this.store.keep_s = live ? LIVE_KEEP_S : Infinity;
+    this.store.keep_s = live ? this.live_keep_s : Infinity;
     this.machine = null;
     this.machine_known_at = -1;
     this.dropped = 0;

@@ -59,6 +59,10 @@ export class SceneFrame {
   tip(): readonly [number, number, number] | null {
     return this.view.tip();
   }
+
+  tipOnScreen(): readonly [number, number] | null {
+    return this.view.tipOnScreen();
+  }
 }
 
 /// Of a run without frames: where its drives are just then, between two of its times.
