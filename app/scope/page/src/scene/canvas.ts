@@ -8,6 +8,10 @@ import {type Camera, type Scene, WebGLRenderer} from 'three';
 const kMostPixelRatio = 2;
 /// Nothing has changed for so long: the picture stands.
 const kStill_ms = 200;
+/// Where even a plain picture takes longer, it has to do with fewer points while it moves.
+const kSlow_ms = 34;
+const kFast_ms = 20;
+const kCoarse = 0.7;
 /// Names of drawing programs that run on the processor.
 const kSoftware = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 
@@ -17,6 +21,9 @@ export class Canvas {
   private still: ReturnType<typeof setTimeout> | undefined;
   private width = 1;
   private height = 1;
+  private drawn_ms = 0;
+  private pace_ms = kFast_ms;  ///< From picture to picture, averaged.
+  private moving = 1;
 
   /// Throws where the browser has no WebGL.
   constructor(private readonly scene: Scene, private readonly camera: Camera) {
@@ -34,7 +41,8 @@ export class Canvas {
 
   draw(): void {
     if (this.software) {
-      this.size(1);
+      this.choose();
+      this.size(this.moving);
       clearTimeout(this.still);
       this.still = setTimeout(() => {
         this.size(kMostPixelRatio);
@@ -42,6 +50,21 @@ export class Canvas {
       }, kStill_ms);
     }
     this.renderer.render(this.scene, this.camera);
+  }
+
+  /// Points for pictures in motion, by how fast the last ones came.
+  private choose(): void {
+    const now_ms = performance.now();
+    const since_ms = now_ms - this.drawn_ms;
+    this.drawn_ms = now_ms;
+    if (since_ms < kStill_ms) {
+      this.pace_ms += 0.2 * (since_ms - this.pace_ms);
+    }
+    if (this.pace_ms > kSlow_ms) {
+      this.moving = kCoarse;
+    } else if (this.pace_ms < kFast_ms) {
+      this.moving = 1;
+    }
   }
 
   /// Of the last picture.

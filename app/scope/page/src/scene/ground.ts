@@ -28,18 +28,17 @@ uniform vec2 centre;
 uniform float reach;
 varying vec3 vColour;
 varying vec2 vPlace;
-float gridLine(vec2 place, vec2 width, float pixels) {
-  vec2 off = abs(fract(place - 0.5) - 0.5) / max(width, vec2(1e-5));
-  vec2 lines = clamp(pixels - off, 0.0, 1.0) * clamp(1.0 - width * 2.5, 0.0, 1.0);
-  return max(lines.x, lines.y);
-}
 void main() {
+  // The nearest line each way, how many points off it is, and whether it is a fifth one. Lines
+  // nearer to each other than some points would only shimmer.
   vec2 width = fwidth(vPlace);
-  float line = max(0.4 * gridLine(vPlace, width, 1.0),
-    0.75 * gridLine(0.2 * vPlace, 0.2 * width, 1.3));
-  vec3 colour = mix(vColour, gridColour, line);
-  float far = clamp(1.8 * distance(vPlace, centre) / reach - 0.8, 0.0, 1.0);
-  gl_FragColor = vec4(mix(colour, farColour, far), 1.0);
+  vec2 line = floor(vPlace + 0.5);
+  vec2 fifth = step(abs(line - 5.0 * floor(0.2 * line + 0.5)), vec2(0.5));
+  vec2 strength = mix(0.4 - width, 0.75 - 0.4 * width, fifth);
+  vec2 shown = clamp(1.2 - abs(vPlace - line) / width, 0.0, 1.0) * max(strength, 0.0);
+  vec3 colour = mix(vColour, gridColour, max(shown.x, shown.y));
+  vec2 off = (vPlace - centre) / reach;
+  gl_FragColor = vec4(mix(colour, farColour, clamp(1.6 * dot(off, off) - 0.2, 0.0, 1.0)), 1.0);
 }`;
 
 export class GroundMaterial extends ShaderMaterial {

@@ -39,8 +39,10 @@ export class GroundSurface {
     this.fine = new Uint8Array(this.tiles_x * this.tiles_y);
     for (let node = 0; node < count; ++node) {
       this.shade(node);
-      this.start_is_flat(node);
     }
+    this.fine.forEach((_, tile) => {
+      this.fine[tile] = this.is_plane(tile) ? 0 : 1;
+    });
   }
 
   /// A node of the field has another height.
@@ -94,13 +96,30 @@ export class GroundSurface {
     }
   }
 
-  private start_is_flat(node: number): void {
-    const {columns} = this.field.grid;
-    const before = node % columns > 0 ? this.start[node - 1] : this.start[node];
-    const below = node >= columns ? this.start[node - columns] : this.start[node];
-    if (Math.abs(before - this.start[node]) + Math.abs(below - this.start[node]) > 1e-6) {
-      this.refine(node);
+  /// Whether two triangles are enough for the tile before anything is cut.
+  private is_plane(tile: number): boolean {
+    const {column, row, wide, high} = this.tile(tile);
+    const at = (x: number, y: number): number =>
+      this.start[(row + y) * this.field.grid.columns + column + x];
+    const corner = at(0, 0);
+    const [along, up] = [(at(wide, 0) - corner) / wide, (at(0, high) - corner) / high];
+    for (let y = 0; y <= high; ++y) {
+      for (let x = 0; x <= wide; ++x) {
+        if (Math.abs(at(x, y) - corner - x * along - y * up) > 1e-5) {
+          return false;
+        }
+      }
     }
+    return true;
+  }
+
+  private tile(tile: number): {column: number; row: number; wide: number; high: number} {
+    const {columns, rows} = this.field.grid;
+    const column = (tile % this.tiles_x) * kTile;
+    const row = Math.floor(tile / this.tiles_x) * kTile;
+    return {
+      column, row, wide: Math.min(kTile, columns - 1 - column),
+      high: Math.min(kTile, rows - 1 - row)};
   }
 
   private shade(node: number): void {
@@ -121,7 +140,7 @@ export class GroundSurface {
   }
 
   private index(): void {
-    const {columns, rows} = this.field.grid;
+    const {columns} = this.field.grid;
     const list: number[] = [];
     const quad = (column: number, row: number, wide: number, high: number): void => {
       const a = row * columns + column;
@@ -129,10 +148,7 @@ export class GroundSurface {
       list.push(a, b, c + wide, a, c + wide, c);
     };
     for (let tile = 0; tile < this.fine.length; ++tile) {
-      const column = (tile % this.tiles_x) * kTile;
-      const row = Math.floor(tile / this.tiles_x) * kTile;
-      const wide = Math.min(kTile, columns - 1 - column);
-      const high = Math.min(kTile, rows - 1 - row);
+      const {column, row, wide, high} = this.tile(tile);
       if (!this.fine[tile]) {
         quad(column, row, wide, high);
         continue;

@@ -11,7 +11,7 @@ export interface Disc {
 }
 
 /// What a band stretched round the discs encloses.
-export function hull_of_discs(discs: readonly Disc[], corners = 24): Vector2[] {
+export function hull_of_discs(discs: readonly Disc[], corners = 16): Vector2[] {
   const points: Vector2[] = [];
   for (const disc of discs) {
     for (let i = 0; i < corners; ++i) {

@@ -21,17 +21,19 @@ export function excavator_grid(machine: ExcavatorMachine): Grid {
 }
 
 /// Soil that lies higher or lower than the tracks stand is a bank or a pit before them: its side
-/// begins where the tracks end and rises by 45 degrees, to the sides as well.
+/// begins where the tracks end and rises within whole metres, to the sides as well, so that it is
+/// drawn with few triangles.
 export function excavator_start(machine: ExcavatorMachine): (x_m: number, y_m: number) => number {
   const level = machine.dig.ground_z_m;
-  const tracks = 0.36 * machine.boom_m + 0.2;
+  const tracks = Math.round(0.36 * machine.boom_m + 0.2);
+  const run = Math.max(Math.ceil(Math.abs(level)), 1);
   const grid = excavator_grid(machine);
   const side = machine.has_swing ? Infinity : -grid.y_m - 1;
   const far = machine.has_swing ? -grid.x_m : grid.x_m + (grid.columns - 1) * grid.cell_m;
   return (x, y) => {
     const out = machine.has_swing ? Math.hypot(x, y) : x;
     const inside = Math.min(out - tracks, far - out, side - Math.abs(y));
-    return Math.sign(level) * Math.min(Math.max(inside, 0), Math.abs(level));
+    return level * Math.min(Math.max(inside / run, 0), 1);
   };
 }
 

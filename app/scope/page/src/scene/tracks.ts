@@ -60,5 +60,5 @@ function band(size: TrackSize, inset_m: number): Vector2[] {
   const lift = 0.04 * size.height_m;
   return hull_of_discs([-1, 1].flatMap((sign): Disc[] => [
     {at_m: [sign * end, wheel + 0.5 * lift], radius_m: wheel - 0.5 * lift - inset_m},
-    {at_m: [sign * 0.5 * size.contact_m, roller], radius_m: roller - inset_m}]), 28);
+    {at_m: [sign * 0.5 * size.contact_m, roller], radius_m: roller - inset_m}]), 24);
 }

@@ -14,13 +14,28 @@ function drive_of(kind: Kind, name: string): DriveSignals {
   return drive;
 }
 
+/// Faster, in mm/s or mrad/s, no drive goes: what was measured jumped, as where a simulation begins
+/// anew. It would leave no room on the axis for what is a velocity.
+const MOST = 1500;
+
+function without_jumps(curve: Curve): Curve {
+  return curve.value.every((value) => !(Math.abs(value) > MOST)) ? curve : {
+    time_s: curve.time_s,
+    value: curve.value.map((value) => (Math.abs(value) > MOST ? NaN : value)),
+  };
+}
+
 export function moved_trace(kind: Kind, name: string): Trace {
   const {measured} = drive_of(kind, name);
   return {
     message: measured.split('.')[0]!,
     curve: (store, from_s, until_s, buckets) =>
-      velocity_curve(store, measured, from_s, until_s, buckets),
-    reading: (store, time_s) => velocity(store, measured, time_s),
+      without_jumps(velocity_curve(store, measured, from_s, until_s, buckets)),
+    reading(store, time_s) {
+      const reading = velocity(store, measured, time_s);
+      return Math.abs(reading.value) > MOST
+        ? {...reading, value: NaN, state: 'notAvailable' as const} : reading;
+    },
   };
 }
 

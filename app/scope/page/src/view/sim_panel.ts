@@ -126,7 +126,7 @@ class FaultButton {
     this.press.append(el('span', {class: 'code'}, String(fault.number)),
       el('span', {class: 'words'}, fault.words),
       el('span', {class: 'reaction', id: reaction},
-        `${fault.once ? 'Once. ' : ''}${fault.reaction}`));
+        `${fault.once ? 'Once. ' : ''}Expected: ${fault.reaction}`));
     this.node = el('li', {}, this.press);
   }
 

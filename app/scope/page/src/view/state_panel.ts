@@ -66,7 +66,7 @@ export class StatePanel implements View {
     set_text(this.reason, !valid ? 'Share of the wanted velocity that is followed: not available'
       : held ? `Held by ${this.words.limit(limit_kind, limit_index)}`
         : mode === 'Active' ? 'Nothing holds it: the wanted velocity is followed whole'
-          : 'Nothing holds it');
+          : 'No motion is followed: the controller is not active');
   }
 
   private write_task({store, playhead, machine}: PageState): void {
