@@ -6,11 +6,11 @@ import {execFileSync} from 'node:child_process';
 import {appendFileSync, mkdirSync, readFileSync, writeFileSync} from 'node:fs';
 import {connect} from 'node:net';
 import {dirname, join} from 'node:path';
-import {fileURLToPath, pathToFileURL} from 'node:url';
+import {pathToFileURL} from 'node:url';
 import {distance, look, open_browser, open_page, rest, run_scenarios, serve, until} from './harness.mjs';
 
 const [out, run, graben] = process.argv.slice(2);
-const here = dirname(fileURLToPath(import.meta.url));
+const here = join(dirname(run), 'tests', 'scope', 'browser');
 const CENTIMETRE = 0.01;
 
 const browser = await open_browser();
@@ -42,7 +42,7 @@ async function seek(page, time_s) {
 async function loaded(page) {
   return until('the log is whole', async () => {
     const seen = await look(page);
-    return seen.frames > 1000 && seen.tip && await page.locator('progress').count() === 0 && seen;
+    return seen.frames > 1000 && seen.tip && seen.loaded === 1 && seen;
   });
 }
 

@@ -84,7 +84,7 @@ export function look(page) {
   return page.evaluate(() => {
     const scope = window.grabenScope;
     return {tip: scope.tip(), screen: scope.tipOnScreen(), now: scope.now(), mode: scope.mode(),
-      frames: scope.frames(), held: scope.heldFrames(), fps: scope.fps()};
+      frames: scope.frames(), held: scope.heldFrames(), loaded: scope.loaded(), fps: scope.fps()};
   });
 }
 

@@ -61,7 +61,7 @@ const server = await serve(graben, ['scope', '--port', '0', '--log', hour]);
 const listens_ms = Date.now() - began;
 const page = await open_page(browser, server.url);
 await page.waitForFunction((frames) => window.grabenScope?.frames() === frames
-  && document.querySelector('progress') === null && window.grabenScope.tip() !== null,
+  && window.grabenScope.loaded() === 1 && window.grabenScope.tip() !== null,
 CYCLES * MESSAGES, {polling: 20, timeout: 120_000});
 const open_ms = Date.now() - began;
 

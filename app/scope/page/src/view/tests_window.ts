@@ -16,6 +16,7 @@ export interface GrabenScope {
   /// EcuStatus.Mode in words; null while it is not known.
   mode(): string | null;
   frames(): number;      ///< Seen since the source began.
+  loaded(): number;      ///< Share of a log that was read; 1 when all is there.
   heldFrames(): number;  ///< Of the DBC's messages, in memory.
   fps(): number;         ///< Frames of the screen drawn in the last second.
   /// All signals of a message as of now, physical; null where not valid.
@@ -36,10 +37,11 @@ export function tell_tests(state: PageState, scene: SceneFrame, rate: FrameRate)
     now: () => state.playhead.now_s,
     mode: () => snapshot(state.store, state.playhead.now_s).mode,
     frames: () => state.store.frames,
+    loaded: () => state.loaded_share,
     heldFrames: () => [...state.store.database?.messages.keys() ?? []]
       .reduce((sum, name) => sum + state.store.rows(name).count, 0),
     fps: () => rate.per_second(performance.now()),
-    values: (message) => Object.fromEntries(
+    values: (message: string) => Object.fromEntries(
       [...state.store.database?.messages.get(message)?.signals.keys() ?? []].map((name) => {
         const {value} = state.store.reading(`${message}.${name}`, state.playhead.now_s);
         return [name, Number.isFinite(value) ? value : null];
