@@ -21,7 +21,7 @@ using nlohmann::json;
 /// What of the run no frame has: plan and truth, as Zhang's figures 5 to 10 have them.
 json truth(const ExcavatorProfile& profile, const std::vector<AutodigSample>& samples) {
   Truth<AutodigSample> lines(samples);
-  lines.add("path_error", "", "true", "mm", 2,
+  lines.add("error", "", "true", "mm", 2,
             [](const AutodigSample& s) { return s.error_true_m * kThousandths; });
   for (unsigned i = 0; i < kDriveCount; ++i) {
     const char* name = machines::kDriveNames[i];
@@ -30,17 +30,17 @@ json truth(const ExcavatorProfile& profile, const std::vector<AutodigSample>& sa
               [i](const AutodigSample& s) { return s.planned[i] * kThousandths; });
     lines.add(fmt::format("drive_{}", i), title, "true", drive_unit(i), 2,
               [i](const AutodigSample& s) { return s.real[i] * kThousandths; });
-    lines.add(i == kSwing ? "swing_velocity" : "velocities", "", fmt::format("{}, true", name),
+    lines.add(i == kSwing ? "swing" : "velocities", "", fmt::format("{}, true", name),
               i == kSwing ? "mrad/s" : "mm/s", 2,
               [i](const AutodigSample& s) { return s.velocity_real[i] * kThousandths; });
   }
   for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
-    lines.add("pressures", "", fmt::format("Pump {}, true", j + 1), "MPa", 3,
+    lines.add("pumps", "", fmt::format("Pump {}, true", j + 1), "MPa", 3,
               [j](const AutodigSample& s) { return s.pump_real_pa[j] * 1e-6; });
   }
   lines.add("fence", "Distance to the nearest fence", "least of all points", "mm", 1,
             [](const AutodigSample& s) { return s.fence_left_m * kThousandths; });
-  lines.add("cycle_time", "", "on this computer", "us", 2,
+  lines.add("cycle_time", "Cycle time", "on this computer", "us", 2,
             [](const AutodigSample& s) { return s.cycle_us; });
   return lines.json();
 }

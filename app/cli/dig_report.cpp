@@ -18,14 +18,14 @@ using nlohmann::json;
 /// What of the run no frame has: Kim's figures 10 to 15 beside what is on the bus.
 json truth(const machines::ExcavatorMachine& machine, const std::vector<DigSample>& samples) {
   Truth<DigSample> lines(samples);
-  lines.add("path_error", "", "true", "mm", 2,
+  lines.add("error", "", "true", "mm", 2,
             [](const DigSample& s) { return s.error_true_m * 1e3; });
   for (unsigned i = 0; i < kAxisCount; ++i) {
     lines.add("velocities", "", fmt::format("{}, true", machines::kDriveNames[i]), "mm/s", 2,
               [i](const DigSample& s) { return s.velocity_real_mps[i] * 1e3; });
   }
   for (unsigned j = 0; j < static_cast<unsigned>(machine.profile.pump_count); ++j) {
-    lines.add("pressures", "", fmt::format("Pump {}, true", j + 1), "MPa", 3,
+    lines.add("pumps", "", fmt::format("Pump {}, true", j + 1), "MPa", 3,
               [j](const DigSample& s) { return s.pump_real_pa[j] * 1e-6; });
   }
   const char* forces = "Force on the tip";
@@ -40,7 +40,7 @@ json truth(const machines::ExcavatorMachine& machine, const std::vector<DigSampl
   }
   lines.add("regeneration", "Regeneration", "a check valve is open", "", 0,
             [](const DigSample& s) { return s.regenerating ? 1.0 : 0.0; });
-  lines.add("cycle_time", "", "on this computer", "us", 2,
+  lines.add("cycle_time", "Cycle time", "on this computer", "us", 2,
             [](const DigSample& s) { return s.cycle_us; });
   return lines.json();
 }

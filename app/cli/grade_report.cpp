@@ -20,12 +20,12 @@ constexpr double kLitresPerMinute = 6e4;  ///< In a m^3/s.
 /// bus.
 json truth(const machines::DozerMachine& machine, const std::vector<GradeSample>& samples) {
   Truth<GradeSample> lines(samples);
-  lines.add("path_error", "", "true", "mm", 2,
+  lines.add("error", "", "true", "mm", 2,
             [](const GradeSample& s) { return s.error_true_m * 1e3; });
-  lines.add("speed", "", "true", "mm/s", 1,
+  lines.add("speeds", "", "true", "mm/s", 1,
             [](const GradeSample& s) { return s.speed_true_mps * 1e3; });
   const double desired_mmps = machine.profile.travel.speed_desired_mps * 1e3;
-  lines.add("speed", "", "desired", "mm/s", 1, [=](const GradeSample&) { return desired_mmps; });
+  lines.add("speeds", "", "desired", "mm/s", 1, [=](const GradeSample&) { return desired_mmps; });
   lines.add("flow", "", "required, true motion", "L/min", 2,
             [](const GradeSample& s) { return s.flow_required_m3ps * kLitresPerMinute; });
   lines.add("flow", "", "available, true", "L/min", 2,
@@ -40,7 +40,7 @@ json truth(const machines::DozerMachine& machine, const std::vector<GradeSample>
             [](const GradeSample& s) { return s.body.height_m; });
   lines.add("place", "Edge along the grade", "x", "m", 3,
             [](const GradeSample& s) { return s.edge_m.x(); });
-  lines.add("cycle_time", "", "on this computer", "us", 2,
+  lines.add("cycle_time", "Cycle time", "on this computer", "us", 2,
             [](const GradeSample& s) { return s.cycle_us; });
   return lines.json();
 }

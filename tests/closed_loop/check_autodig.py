@@ -151,7 +151,7 @@ def report_is_whole(digger):
     setup = report_page.setup_of(digger.content("autodig.html"))
     report_page.assert_of_run(
         setup, ["truck_loading", "errors none"],
-        {"path_error", "velocities", "swing_velocity", "pressures", "fence", "cycle_time",
+        {"error", "velocities", "swing", "pumps", "fence", "cycle_time",
          *(f"drive_{i}" for i in range(4))}, least=3000)
     assert report_page.log_of(setup) == digger.content("autodig.log")
     task, = setup["machines"][0]["tasks"]

@@ -83,7 +83,7 @@ def report_is_whole(graben, folder):
     setup = report_page.setup_of(content(folder, "grade.html"))
     report_page.assert_of_run(
         setup, ["dozer_9t | constant, wanted 1.2 m/s, 1500 rpm, errors none"],
-        {"path_error", "speed", "flow", "velocities", "heights", "place", "cycle_time"}, least=1500)
+        {"error", "speeds", "flow", "velocities", "heights", "place", "cycle_time"}, least=1500)
     assert report_page.log_of(setup) == content(folder, "grade.log")
     lines = {line["label"]: line["values"] for line in setup["run"]["truth"]["lines"]}
     assert set(lines["desired"]) == {1200.0}

@@ -124,7 +124,7 @@ function log_alarms({store, setup, machine, ended, link}: PageState): Alarm[] {
     });
   } else if (whole && !plan && frames === 0) {
     alarms.push({id: 'empty', level: 'alarm', words: 'This log is empty: it has no frames.'});
-  } else if (whole && !plan && health.foreign > 0 && health.foreign === frames) {
+  } else if (whole && !plan && (database === null || health.foreign === frames)) {
     alarms.push({id: 'foreign', level: 'alarm', words: 'No frame of this log is in a DBC that '
       + 'this page has: it is not of an excavator or a dozer of ours.'});
   }
