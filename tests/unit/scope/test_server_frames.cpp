@@ -73,6 +73,18 @@ std::uint64_t left_out(const std::string& text) {
   return left;
 }
 
+std::size_t bytes_before_gap(const std::string& text) {
+  std::size_t at = text.find('\n') + 1;
+  for (std::uint32_t before = number_of(text); at < text.size(); ++before) {
+    const std::size_t end = text.find('\n', at);
+    if (number_of(text.substr(at, end - at)) != before + 1) {
+      return at;
+    }
+    at = end + 1;
+  }
+  return at;
+}
+
 void setup_and_state_come_first(void**) {
   ScriptRig rig(1);
   WsClient client(rig.port());
@@ -140,6 +152,8 @@ void one_that_does_not_read_loses_frames_and_is_told(void**) {
   read_lines(stuck, Milliseconds(2500), late);
   assert_true(late.dropped > 10000);
   assert_int_equal(left_out(late.text), late.dropped);
+  // Nor did so much wait for it that it would be shown what was long ago.
+  assert_true(bytes_before_gap(late.text) < 1000000);
 }
 
 void wishes_are_done_or_refused(void**) {
