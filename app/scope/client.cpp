@@ -43,9 +43,6 @@ std::optional<Content> Client::next(std::string& buffer) {
   if (stream_->next(buffer)) {
     return Content::kLines;
   }
-  if (stream_->ended() && !std::exchange(has_end_, true)) {
-    return add(buffer, R"({"kind":"end"})");
-  }
   return std::nullopt;
 }
 

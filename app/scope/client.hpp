@@ -65,7 +65,6 @@ class Client {
   Show& show_;
   std::unique_ptr<ClientStream> stream_;
   bool has_setup_ = false;
-  bool has_end_ = false;
   std::uint64_t seen_state_ = 0;
   std::uint64_t told_lost_ = 0;
   std::string heard_;  ///< Of a message that is not whole yet.

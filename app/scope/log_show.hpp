@@ -1,7 +1,9 @@
 #pragma once
-/// A candump log in a file: every page gets all of it, from its start, as fast as it takes it.
+/// A candump log in a file. Every page gets the file as it is, by HTTP: a browser takes that seven
+/// times as fast as WebSocket messages (tests/scope/browser/hour.mjs).
 
 #include <filesystem>
+#include <string>
 
 #include "app/scope/show.hpp"
 
@@ -13,11 +15,11 @@ class LogShow : public Show {
   /// file, if it is not there, no file, or empty. What is in it, the page judges; what it grows by
   /// from here on is not shown.
   LogShow(const std::filesystem::path& file, int bitrate_bps, const nlohmann::json& parts);
-  ~LogShow() override;
 
   [[nodiscard]] const std::string& setup() const override { return setup_; }
   [[nodiscard]] std::string words() const override { return "log " + name_; }
   [[nodiscard]] std::unique_ptr<ClientStream> open() const override;
+  [[nodiscard]] std::string log_file() const override { return file_; }
   [[nodiscard]] std::optional<std::string> control(const nlohmann::json& /*wish*/) override {
     return "this is a log: it can only be looked at";
   }
@@ -27,8 +29,7 @@ class LogShow : public Show {
 
  private:
   std::string name_;
-  int file_;  ///< Read at an offset by all streams.
-  std::uint64_t bytes_ = 0;
+  std::string file_;
   std::string setup_;
 };
 

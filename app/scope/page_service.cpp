@@ -4,6 +4,7 @@
 #include <array>
 
 #include "app/scope/request.hpp"
+#include "app/scope/show.hpp"
 
 namespace graben::scope {
 namespace {
@@ -43,6 +44,9 @@ int PageService::on_request(lws* wsi, std::string_view path, PageProgress& progr
   if (lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) <= 0) {
     return answer(wsi, HTTP_STATUS_METHOD_NOT_ALLOWED, "Here is only a page to get.");
   }
+  if (path == kLogPath && !log_file_.empty()) {
+    return begin_log(wsi);
+  }
   if (path != "/" && path != "/index.html") {
     return answer(wsi, HTTP_STATUS_NOT_FOUND, "There is only one page here: /");
   }
@@ -65,6 +69,16 @@ int PageService::begin(lws* wsi, PageProgress& progress) {
   progress.sent = 0;
   lws_callback_on_writable(wsi);
   return 0;
+}
+
+int PageService::begin_log(lws* wsi) const {
+  static constexpr std::string_view kAlso =
+      "cache-control: no-store\r\nx-content-type-options: nosniff\r\n"
+      "cross-origin-resource-policy: same-origin\r\n";
+  // The library reads and sends it by itself from here on.
+  const int result = lws_serve_http_file(wsi, log_file_.c_str(), "application/octet-stream",
+                                         kAlso.data(), static_cast<int>(kAlso.size()));
+  return result < 0 || (result > 0 && lws_http_transaction_completed(wsi) != 0) ? -1 : 0;
 }
 
 int PageService::on_writeable(lws* wsi, PageProgress& progress) {

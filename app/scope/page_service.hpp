@@ -1,5 +1,5 @@
 #pragma once
-/// GET /: the page. Nothing else is there.
+/// GET /: the page; GET /log: the log that is shown, if one is. Nothing else is there.
 
 #include <libwebsockets.h>
 
@@ -18,8 +18,9 @@ struct PageProgress {
 
 class PageService {
  public:
-  PageService(std::string_view page, std::string listened_on)
-      : page_(page), listened_on_(std::move(listened_on)) {}
+  /// `log_file`: empty if there is none.
+  PageService(std::string_view page, std::string log_file, std::string listened_on)
+      : page_(page), log_file_(std::move(log_file)), listened_on_(std::move(listened_on)) {}
 
   /// A whole request. For the library: 0 goes on, -1 hangs up.
   int on_request(lws* wsi, std::string_view path, PageProgress& progress);
@@ -28,8 +29,10 @@ class PageService {
 
  private:
   int begin(lws* wsi, PageProgress& progress);
+  int begin_log(lws* wsi) const;
 
   std::string_view page_;
+  std::string log_file_;
   std::string listened_on_;
   std::vector<unsigned char> buffer_;
 };

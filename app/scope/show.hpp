@@ -21,13 +21,14 @@ class ClientStream {
   /// Appends the next whole candump lines to `message`, at most kMessageMostBytes of them. False,
   /// and nothing appended, if there is none by now.
   [[nodiscard]] virtual bool next(std::string& message) = 0;
-  /// All there will ever be was given.
-  [[nodiscard]] virtual bool ended() const { return false; }
   /// Frames that this page has missed, in all.
   [[nodiscard]] virtual std::uint64_t lost() const { return 0; }
 
   static constexpr std::size_t kMessageMostBytes = 512 * 1024;
 };
+
+/// Where on the server a log is, if there is one.
+inline constexpr const char* kLogPath = "/log";
 
 class Show {
  public:
@@ -41,6 +42,8 @@ class Show {
   /// In words, for the terminal.
   [[nodiscard]] virtual std::string words() const = 0;
   [[nodiscard]] virtual std::unique_ptr<ClientStream> open() const = 0;
+  /// The file that pages get at kLogPath; empty: none.
+  [[nodiscard]] virtual std::string log_file() const { return {}; }
   /// What the kernel may hold for a page that reads slowly; 0: as it likes.
   [[nodiscard]] virtual int send_buffer_bytes() const { return 0; }
   /// As FrameSource has them.

@@ -18,7 +18,6 @@ using scope::Received;
 struct Script {
   std::vector<std::string> blocks;  ///< Taken from the front.
   std::uint64_t lost = 0;
-  bool ends = false;
   std::uint64_t revision = 0;  ///< Of the state; 0: there is none.
   std::vector<json> wishes;
 };
@@ -34,7 +33,6 @@ class ScriptedStream : public scope::ClientStream {
     script_.blocks.erase(script_.blocks.begin());
     return true;
   }
-  [[nodiscard]] bool ended() const override { return script_.ends && script_.blocks.empty(); }
   [[nodiscard]] std::uint64_t lost() const override { return script_.lost; }
 
  private:
@@ -117,17 +115,6 @@ void lost_frames_are_told_when_their_count_changes(void**) {
   rig.script.blocks = {"a\n"};
   assert_next(rig, R"({"kind":"dropped","frames":12})");
   assert_next(rig, "=a\n");
-  assert_next(rig, "-");
-}
-
-void the_end_is_told_once_and_last(void**) {
-  Rig rig;
-  rig.past_setup();
-  rig.script.ends = true;
-  rig.script.blocks = {"a\n", "b\n"};
-  assert_next(rig, "=a\n");
-  assert_next(rig, "=b\n");
-  assert_next(rig, R"({"kind":"end"})");
   assert_next(rig, "-");
 }
 
@@ -237,7 +224,6 @@ int main() {
       cmocka_unit_test(setup_is_first_and_once),
       cmocka_unit_test(state_comes_before_frames_and_when_it_changes),
       cmocka_unit_test(lost_frames_are_told_when_their_count_changes),
-      cmocka_unit_test(the_end_is_told_once_and_last),
       cmocka_unit_test(a_wish_is_handed_on_and_not_answered),
       cmocka_unit_test(what_is_refused_is_answered),
       cmocka_unit_test(pieces_become_one_message),

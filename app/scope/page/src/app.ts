@@ -27,6 +27,8 @@ import {page_words} from './view/words';
 
 /// Ten times a second is as often as words can be read.
 const PANEL_MS = 100;
+/// What a log shows while it is read is passed over at once; reading it is what the processor is for.
+const LOADING_MS = 1000;
 
 /// `?keep=60`: seconds of a live run that the page keeps, 10 s to a day.
 function told_keep_s(search: string): number | undefined {
@@ -72,15 +74,19 @@ export function start(root: HTMLElement): void {
 
   const rate = new FrameRate();
   let panel_ms = -Infinity;
+  let drawn_ms = -Infinity;
   let last_ms: number | null = null;
   const frame = (now_ms: number): void => {
     requestAnimationFrame(frame);
     state.playhead.tick(last_ms === null ? 0 : (now_ms - last_ms) / 1000);
     last_ms = now_ms;
     state.know_machine();
-    scene.frame(state);
-    plots.frame(now_ms);
-    histogram.frame(now_ms, state);
+    if (state.loaded_share === 1 || now_ms - drawn_ms >= LOADING_MS) {
+      drawn_ms = now_ms;
+      scene.frame(state);
+      plots.frame(now_ms);
+      histogram.frame(now_ms, state);
+    }
     if (now_ms - panel_ms >= PANEL_MS) {
       panel_ms = now_ms;
       for (const view of views) {

@@ -139,7 +139,7 @@ async function connected(setup: object, run: (ear: Ear, intake: Intake) => Promi
 
 const live = {kind: 'setup', source: {mode: 'can', name: 'vcan0', bitrate: 500000}, machines: [],
   words: {fault: {}, why_not_armed: []}};
-const log = {...live, source: {...live.source, mode: 'log'}};
+const log = {...live, source: {...live.source, mode: 'log', get: '/log'}};
 const is_block = (told: Told): boolean => told.told === 'block';
 
 async function reconnected(ear: Ear, setup: object): Promise<FakeSocket> {
@@ -184,17 +184,48 @@ test('a live bus: batches, messages, and on after a lost connection', async () =
   });
 });
 
-test('a log is sent from its beginning again, and at its end that is all', async () => {
+/// A server whose file is `text`, cut short the first time.
+function serve_file(text: string): {asked: string[]; end: () => void} {
+  const asked: string[] = [];
+  const before = globalThis.fetch;
+  globalThis.fetch = async (url) => {
+    asked.push(String(url));
+    const whole = new TextEncoder().encode(text);
+    return new Response(new ReadableStream({
+      start(control) {
+        control.enqueue(whole.subarray(0, asked.length === 1 ? 5000 : undefined));
+        if (asked.length > 1) control.close();
+      },
+    }));
+  };
+  return {asked, end: () => {
+    globalThis.fetch = before;
+  }};
+}
+
+test('a log is a file, got from its beginning again, and at its end that is all', async () => {
+  const file = serve_file(`${boom_lines(0, 300)}(0000000009.000000) vcan0 0CFF2080#00`);
   await connected(log, async (ear) => {
-    FakeSocket.all[0].frames(boom_lines(0, 100));
     await ear.next(is_block);
+    assert.ok(ear.store.frames > 50 && ear.store.frames < 200, `${ear.store.frames}`);
     const again = await reconnected(ear, log);
-    again.frames(boom_lines(0, 300) + '(0000000009.000000) vcan0 0CFF2080#00');
-    again.say({kind: 'end'});
+    await ear.next(is_end);
     assert.equal(ear.store.frames, 301);
-    assert.equal(ear.told[ear.told.length - 1].told, 'message');
+    assert.deepEqual(file.asked, ['http://127.0.0.1:1/log', 'http://127.0.0.1:1/log']);
     again.drop('over');
     assert.deepEqual(ear.of('closed')[1], {told: 'closed', why: 'over', again_s: null});
+  }).finally(file.end);
+});
+
+test('a log that the server does not give is said', async () => {
+  const before = globalThis.fetch;
+  globalThis.fetch = async () => new Response('', {status: 404});
+  await connected(log, async (ear) => {
+    await ear.next(is_closed);
+    assert.deepEqual(ear.of('closed')[0], {told: 'closed', again_s: null,
+      why: 'the log could not be read to its end: the server answers 404'});
+  }).finally(() => {
+    globalThis.fetch = before;
   });
 });
 

@@ -18,6 +18,7 @@ export class ServerSocket {
   private all_there = false;
   private given_up = false;
   private timer: ReturnType<typeof setTimeout> | undefined;
+  private fetching: AbortController | null = null;
 
   constructor(private readonly url: string, private readonly batches: Batches,
               private readonly hear: Hear) {
@@ -35,6 +36,7 @@ export class ServerSocket {
 
   close(): void {
     this.given_up = true;
+    this.fetching?.abort();
     clearTimeout(this.timer);
     this.socket?.close();
   }
@@ -70,10 +72,6 @@ export class ServerSocket {
     if (message.kind === 'setup') {
       this.begin(text, message);
     } else if (KINDS.has(message.kind)) {
-      if (message.kind === 'end') {
-        this.batches.end();
-        this.all_there = true;
-      }
       this.hear({told: 'message', message}, []);
     }
   }
@@ -81,6 +79,7 @@ export class ServerSocket {
   /// The first message of every connection. Live frames of the same server go on; a log is sent
   /// from its beginning again.
   private begin(text: string, setup: Setup & {kind: 'setup'}): void {
+    this.fetching?.abort();
     this.mode = setup.source.mode;
     this.all_there = false;
     this.batches.loading = this.mode === 'log';
@@ -94,6 +93,34 @@ export class ServerSocket {
     if (!same) {
       const {kind: _, ...said} = setup;
       this.hear({told: 'setup', setup: said}, []);
+    }
+    if (setup.source.get !== undefined) {
+      this.fetching = new AbortController();
+      void this.fetch_log(setup.source.get, this.fetching.signal);
+    }
+  }
+
+  /// A log is a file of the server's.
+  private async fetch_log(path: string, signal: AbortSignal): Promise<void> {
+    const url = new URL(path, this.url);
+    url.protocol = url.protocol === 'wss:' ? 'https:' : 'http:';
+    try {
+      const answer = await fetch(url, {signal});
+      if (!answer.ok || answer.body === null) {
+        throw new Error(`the server answers ${answer.status}`);
+      }
+      const reader = answer.body.getReader();
+      for (let part = await reader.read(); !part.done; part = await reader.read()) {
+        this.batches.feed(part.value);
+      }
+      this.batches.end();
+      this.all_there = true;
+      this.hear({told: 'message', message: {kind: 'end'}}, []);
+    } catch (error) {
+      if (!signal.aborted) {
+        const why = `the log could not be read to its end: ${(error as Error).message}`;
+        this.hear({told: 'closed', why, again_s: null}, []);
+      }
     }
   }
 

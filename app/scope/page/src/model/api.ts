@@ -25,6 +25,8 @@ export interface Source {
   mode: 'can' | 'log' | 'sim' | 'report' | 'plan';
   name: string;     ///< Interface, file name, or task.
   bytes?: number;   ///< Of a log, for the progress of loading.
+  /// Where a server's log is got from, by HTTP: a browser takes that many times as fast as messages.
+  get?: string;
   bitrate: number;  ///< Of the bus, bit/s, for its load; assumed where it cannot be asked.
 }
 
@@ -168,7 +170,7 @@ export type FromServer =
   | ({kind: 'setup'} & Setup)
   | {kind: 'dropped'; frames: number}  ///< Lost for this page since it connected, in all.
   | {kind: 'bus'; up: boolean; words: string}
-  | {kind: 'end'}                      ///< Of a log: all of it was sent.
+  | {kind: 'end'}                      ///< Of a log: all of it is here. The page says so itself.
   | ({kind: 'sim'} & SimState)
   | {kind: 'refused'; why: string};
 
