@@ -1,5 +1,6 @@
-/// The scope as a user has it: drive.mjs OUT RUN GRABEN. RUN is the script `run`, GRABEN the tool; what
-/// is left of a failure is in OUT.
+/// The scope as a user has it: drive.mjs OUT RUN GRABEN [--blind]. RUN is the script `run`, GRABEN the
+/// tool; what is left of a failure is in OUT. With --blind a page whose machine stands 2 cm beside
+/// what the log says, which must be found.
 
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
@@ -9,7 +10,7 @@ import {dirname, join} from 'node:path';
 import {pathToFileURL} from 'node:url';
 import {distance, look, open_browser, open_page, rest, run_scenarios, serve, until} from './harness.mjs';
 
-const [out, run, graben] = process.argv.slice(2);
+const [out, run, graben, blind] = process.argv.slice(2);
 const here = join(dirname(run), 'tests', 'scope', 'browser');
 const CENTIMETRE = 0.01;
 
@@ -82,7 +83,7 @@ async function pose_on_screen() {
   for (const time_s of [0.5, 4.005, 9.999, 15.25, 21.0]) {
     await seek(page, time_s);
     const {tip, screen} = await look(page);
-    const off = distance(tip, teeth_at(time_s));
+    const off = distance(tip, teeth_at(time_s)) + (blind ? 2 * CENTIMETRE : 0);
     worst = Math.max(worst, off);
     const box = await page.locator('section.scene canvas').first().boundingBox();
     assert.ok(screen[0] > 0 && screen[0] < box.width && screen[1] > 0 && screen[1] < box.height,
@@ -249,13 +250,14 @@ async function bounded_memory() {
     const {usedSize, backingStorageSize = 0} = await session.send('Runtime.getHeapUsage');
     return {held: (await look(page)).held, bytes: usedSize + backingStorageSize};
   };
-  await rest(5000);
+  // Frames go in pieces of up to 4096 of a message: some 40 s of the simulation's time.
+  await rest(9000);
   const first = await memory();
   await rest(12_000);
   const {frames} = await look(page);
   const last = await memory();
-  assert.ok(frames > 3 * last.held, `${frames} frames came, ${last.held} are kept`);
-  assert.ok(last.held < 1.3 * first.held, `${first.held} frames were kept, then ${last.held}`);
+  assert.ok(frames > 2 * last.held, `${frames} frames came, ${last.held} are kept`);
+  assert.ok(last.held < 1.25 * first.held, `${first.held} frames were kept, then ${last.held}`);
   assert.ok(last.bytes < 1.25 * first.bytes, `${first.bytes} bytes, then ${last.bytes}`);
   clean(page);
   await server.stop();
@@ -315,7 +317,7 @@ async function no_webgl() {
   await server.stop();
 }
 
-const failed = await run_scenarios(join(out, 'failed'), browser, {
+const failed = await run_scenarios(join(out, 'failed'), browser, blind ? {pose_on_screen} : {
   live_dig, pose_on_screen, reports_from_a_file, replay_and_pause, fault_by_button,
   client_that_stops_reading, bounded_memory, bad_logs, no_webgl,
 });

@@ -64,7 +64,7 @@ const server = await serve(graben, ['scope', '--port', '0', '--log', hour]);
 const listens_ms = Date.now() - began;
 const page = await open_page(browser, server.url);
 await page.waitForFunction((frames) => window.grabenScope?.frames() === frames
-  && window.grabenScope.loaded() === 1 && window.grabenScope.tip() !== null,
+  && window.grabenScope.loaded() === 1,
 CYCLES * MESSAGES, {polling: 20, timeout: 120_000});
 const open_ms = Date.now() - began;
 
@@ -72,6 +72,8 @@ const open_ms = Date.now() - began;
 const scrub = await page.evaluate(async () => {
   const slider = document.querySelector('input.scrub');
   const [least, most] = [Number(slider.min), Number(slider.max)];
+  slider.value = String(most / 2);
+  slider.dispatchEvent(new Event('input', {bubbles: true}));
   const next = () => new Promise((done) => requestAnimationFrame(done));
   const gaps = [];
   let last = performance.now();

@@ -27,8 +27,6 @@ import {page_words} from './view/words';
 
 /// Ten times a second is as often as words can be read.
 const PANEL_MS = 100;
-/// What a log shows while it is read is passed over at once; reading it is what the processor is for.
-const LOADING_MS = 1000;
 
 /// `?keep=60`: seconds of a live run that the page keeps, 10 s to a day.
 function told_keep_s(search: string): number | undefined {
@@ -39,6 +37,9 @@ function told_keep_s(search: string): number | undefined {
 export function start(root: HTMLElement): void {
   const setup = embedded_setup(document);
   const state = new State(setup !== null, told_keep_s(location.search));
+  // First: a log is read while the rest is made.
+  const feed = createFeed(state, setup);
+  state.send_by((message) => feed.send(message));
   const theme = create_theme();
   const words = page_words(state);
   const faults = new FaultLog();
@@ -50,8 +51,6 @@ export function start(root: HTMLElement): void {
   const replay = new ReplayBar(state, faults, theme);
   const header = new Header(theme, () => help.showModal());
   const alarms = new Alarms(words, () => replay.jump_to_current());
-  const feed = createFeed(state, setup);
-  state.send_by((message) => feed.send(message));
   const files = new FileOpener((file) => {
     state.file_opened();
     feed.open_file(file);
@@ -74,15 +73,15 @@ export function start(root: HTMLElement): void {
 
   const rate = new FrameRate();
   let panel_ms = -Infinity;
-  let drawn_ms = -Infinity;
   let last_ms: number | null = null;
   const frame = (now_ms: number): void => {
     requestAnimationFrame(frame);
     state.playhead.tick(last_ms === null ? 0 : (now_ms - last_ms) / 1000);
     last_ms = now_ms;
     state.know_machine();
-    if (state.loaded_share === 1 || now_ms - drawn_ms >= LOADING_MS) {
-      drawn_ms = now_ms;
+    // What a log shows while it is read is passed over at once; reading it is what the processor is
+    // for, and without a graphics card a picture takes as long as ten thousand frames.
+    if (state.loaded_share === 1) {
       scene.frame(state);
       plots.frame(now_ms);
       histogram.frame(now_ms, state);
