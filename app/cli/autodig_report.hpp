@@ -11,8 +11,7 @@
 namespace graben::cli {
 
 /// Writes the HTML report. Throws std::runtime_error that names the file.
-void write_autodig_report(const std::filesystem::path& file,
-                          const std::filesystem::path& log_file,
+void write_autodig_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
                           const machines::ExcavatorMachine& machine, const machines::TaskFile& task,
                           const AutodigResult& result, const AutodigSummary& summary,
                           const std::string& subtitle);

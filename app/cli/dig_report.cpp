@@ -18,8 +18,7 @@ using nlohmann::json;
 /// What of the run no frame has: Kim's figures 10 to 15 beside what is on the bus.
 json truth(const machines::ExcavatorMachine& machine, const std::vector<DigSample>& samples) {
   Truth<DigSample> lines(samples);
-  lines.add("error", "", "true", "mm", 2,
-            [](const DigSample& s) { return s.error_true_m * 1e3; });
+  lines.add("error", "", "true", "mm", 2, [](const DigSample& s) { return s.error_true_m * 1e3; });
   for (unsigned i = 0; i < kAxisCount; ++i) {
     lines.add("velocities", "", fmt::format("{}, true", machines::kDriveNames[i]), "mm/s", 2,
               [i](const DigSample& s) { return s.velocity_real_mps[i] * 1e3; });

@@ -121,7 +121,8 @@ class ScopeServer::Work {
  public:
   Work(const ServerOptions& options, std::string_view page, Show& show)
       : address_(listen_address(options.host, options.port)),
-        services_{PageService(page, show.log_file(), options.host), FramesService(show, options.host)} {
+        services_{PageService(page, show.log_file(), options.host),
+                  FramesService(show, options.host)} {
     protocols_[0] = protocol("http", &guarded<on_http>);
     protocols_[0].per_session_data_size = sizeof(PageProgress);
     protocols_[1] = protocol(FramesService::kProtocol, &guarded<on_frames>);

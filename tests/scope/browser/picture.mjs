@@ -1,10 +1,10 @@
-/// The README's picture: picture.mjs RUN OUT.png. A simulated dig, some seconds after its start.
+/// The README's picture: picture.mjs GRABEN OUT.png. A simulated dig, some seconds after its start.
 
 import {rename} from 'node:fs/promises';
 import {open_browser, open_page, rest, serve} from './harness.mjs';
 
 const [graben, file] = process.argv.slice(2);
-const SHOWN_S = 21;
+const SHOWN_S = 33;
 
 const browser = await open_browser();
 const server = await serve(graben, ['scope', '--sim', 'dig', '--port', '0']);

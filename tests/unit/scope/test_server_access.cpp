@@ -61,7 +61,8 @@ void the_page_is_given_whole(void**) {
 void nothing_else_is_there(void**) {
   ScriptRig rig(1);
   const std::string host = own_host(rig.port());
-  for (const char* path : {"/x", "/log", "/frames", "/index.htm", "/../etc/passwd", "/%2e%2e/etc"}) {
+  for (const char* path :
+       {"/x", "/log", "/frames", "/index.htm", "/../etc/passwd", "/%2e%2e/etc"}) {
     assert_begins(get(rig.port(), path, host), "HTTP/1.1 404");
   }
   for (const char* method : {"POST", "PUT", "DELETE"}) {

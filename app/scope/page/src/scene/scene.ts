@@ -42,7 +42,7 @@ class DrawnScene implements SceneView {
   private layers = kAll;
   private dark = false;
   private view: SceneUpdate | null = null;
-  private shown = {now_s: NaN, revision: -1, drives: null as unknown};
+  private shown = {now_s: NaN, revision: -1, until_s: -Infinity, drives: null as unknown};
   private request = 0;
   private width = 1;
   private height = 1;
@@ -92,13 +92,15 @@ class DrawnScene implements SceneView {
 
   update(view: SceneUpdate): void {
     const {now_s, store, drives} = view;
-    const same = now_s === this.shown.now_s && store.revision === this.shown.revision &&
+    // What comes later than what is shown changes nothing of it: a paused picture stands.
+    const settled = store.revision === this.shown.revision || this.shown.until_s > now_s;
+    const same = now_s === this.shown.now_s && settled &&
       drives === this.shown.drives && store === this.view?.store;
     this.view = view;
     if (same || this.stage === null || !this.fits(store)) {
       return;
     }
-    this.shown = {now_s, revision: store.revision, drives};
+    this.shown = {now_s, revision: store.revision, until_s: store.until_s, drives};
     this.stage.update(view);
     this.eye.follow(this.stage.along_m);
     this.draw_soon();
@@ -130,7 +132,7 @@ class DrawnScene implements SceneView {
   }
 
   private show_again(): void {
-    this.shown.revision = -1;
+    this.shown.now_s = NaN;
     if (this.view) {
       this.update(this.view);
     }
