@@ -129,7 +129,7 @@ long resident_bytes() {
 }
 
 /// What the sanitizer keeps of what was freed is not what the server keeps.
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kMemoryIsCounted = false;
 #else
 constexpr bool kMemoryIsCounted = true;
