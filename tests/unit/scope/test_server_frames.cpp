@@ -128,10 +128,18 @@ long resident_bytes() {
   return pages * sysconf(_SC_PAGESIZE);
 }
 
-/// 200 frames in 4 ms are 2 MB/s, twenty times a full bus: the one that does not read has
-/// its buffers full at once.
+/// What the sanitizer keeps of what was freed is not what the server keeps.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kMemoryIsCounted = false;
+#else
+constexpr bool kMemoryIsCounted = true;
+#endif
+
+/// 800 frames in 4 ms are 8 MB/s, eighty times a full bus: the one that does not read has its
+/// buffers full at once.
 void one_that_does_not_read_loses_frames_and_is_told(void**) {
-  ScriptRig rig(200);
+  constexpr long kServerMost_bytes = 8 * 1024 * 1024;
+  ScriptRig rig(800);
   WsClient stuck(rig.port(), 4096);
   WsClient good(rig.port());
   assert_true(stuck.open());
@@ -140,13 +148,13 @@ void one_that_does_not_read_loses_frames_and_is_told(void**) {
   Lines read;
   read_lines(good, Milliseconds(1500), read);
   const long before_bytes = resident_bytes();
-  read.text.reserve(64 * 1024 * 1024);
+  read.text.reserve(128 * 1024 * 1024);
   read_lines(good, Milliseconds(3000), read);
   assert_int_equal(left_out(read.text), 0);
   assert_int_equal(read.dropped, 0);
-  // What this test has read itself is in it; ten seconds of frames that waited would be, too.
-  const long own_bytes = static_cast<long>(read.text.size()) + 16 * 1024 * 1024;
-  assert_true(resident_bytes() - before_bytes < own_bytes);
+  // What this test has read itself is in it; what would have waited would be, too.
+  const long grown_bytes = resident_bytes() - before_bytes - static_cast<long>(read.text.size());
+  assert_true(!kMemoryIsCounted || grown_bytes < kServerMost_bytes);
   rig.source().set_frames_per_block(1);
   Lines late;
   read_lines(stuck, Milliseconds(2500), late);
