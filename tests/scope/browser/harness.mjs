@@ -7,9 +7,8 @@ import {join} from 'node:path';
 import {chromium} from 'playwright-core';
 
 const BROWSERS = ['/usr/bin/chromium', '/usr/bin/chromium-browser'];
-/// WebGL without a graphics card; a container's root has no sandbox.
-const BROWSER_OPTIONS = ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader',
-  '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'];
+/// WebGL by the processor, where there is no graphics card; a container's root has no sandbox.
+const BROWSER_OPTIONS = ['--no-sandbox', '--enable-unsafe-swiftshader'];
 const PATIENCE_MS = 60_000;
 /// What ctest takes for a test that could not be tried.
 const SKIPPED = 77;
