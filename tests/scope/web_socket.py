@@ -47,7 +47,7 @@ class WebSocket:
         if not data:
             raise ConnectionError("the server hung up")
         self._received += data
-        while (message := self._next()) is not None:
+        while (message := whole_message(self._received)) is not None:
             opcode, content = message
             if opcode == PING:
                 self.send(PONG, content)
@@ -56,19 +56,20 @@ class WebSocket:
             else:
                 yield opcode, json.loads(content) if opcode == TEXT else content
 
-    def _next(self):
-        received = self._received
-        if len(received) < 2:
+
+def whole_message(received: bytearray) -> tuple[int, bytes] | None:
+    """Takes the first whole message of a server's bytes; None if there is none yet."""
+    if len(received) < 2:
+        return None
+    size, header = received[1], 2
+    if size >= 126:
+        header = 4 if size == 126 else 10
+        if len(received) < header:
             return None
-        size, header = received[1], 2
-        if size >= 126:
-            header = 4 if size == 126 else 10
-            if len(received) < header:
-                return None
-            size = int.from_bytes(received[2:header], "big")
-        if len(received) < header + size:
-            return None
-        content = bytes(received[header:header + size])
-        opcode = received[0] & 15
-        del received[:header + size]
-        return opcode, content
+        size = int.from_bytes(received[2:header], "big")
+    if len(received) < header + size:
+        return None
+    content = bytes(received[header:header + size])
+    opcode = received[0] & 15
+    del received[:header + size]
+    return opcode, content
