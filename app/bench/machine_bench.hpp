@@ -37,7 +37,9 @@ struct MachineBench {
     if (!plant_port.open() || !operator_port.open()) {
       throw std::runtime_error("the bus in memory did not open");
     }
-    start_ecu();
+    if (!start_ecu()) {
+      throw std::runtime_error("the controller's port did not open");
+    }
     enable_from(kEnable_us);
   }
   virtual ~MachineBench() = default;
@@ -68,11 +70,11 @@ struct MachineBench {
   }
 
   /// The controller's process begins, neutral and knowing nothing; it ends by ecu.reset().
-  void start_ecu() {
-    if (!ecu_port.open()) {
-      throw std::runtime_error("the controller's port did not open");
-    }
+  /// False: its bus is down, and it opens that itself once it can.
+  bool start_ecu() {
+    const bool is_open = ecu_port.open();
     ecu.emplace(setup, profile_hash, ecu_port);
+    return is_open;
   }
 
   /// The operator lets go of the deadman, for good.

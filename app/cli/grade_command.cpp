@@ -55,7 +55,12 @@ void grade(const GradeCommand& options) {
   const std::filesystem::path out(options.out);
   std::filesystem::create_directories(out);
   GradeOptions run;
+  const std::filesystem::path report = out / "grade.html";
   run.log_file = options.log.empty() ? out / "grade.log" : std::filesystem::path(options.log);
+  if (std::filesystem::weakly_canonical(run.log_file) ==
+      std::filesystem::weakly_canonical(report)) {
+    throw std::runtime_error("--log: that is where the report goes");
+  }
 
   GradeResult result;
   {
@@ -64,7 +69,6 @@ void grade(const GradeCommand& options) {
                        [&](double share, const std::string& where) { bar.show(share, where); });
   }
   const GradeSummary summary = summarise(machine, result);
-  const std::filesystem::path report = out / "grade.html";
   write_grade_report(report, run.log_file, machine, result, summary, words_of(options, machine));
   if (!options.summary.empty()) {
     write_grade_summary(options.summary, summary);

@@ -23,12 +23,10 @@ int hang_up(lws* wsi, lws_close_status status, std::string_view why) {
 
 const char* FramesService::refusal(lws* wsi, unsigned& status) const {
   status = HTTP_STATUS_FORBIDDEN;
-  const std::string host = header_of(wsi, WSI_TOKEN_HOST);
-  if (!is_own_host(host, listened_on_)) {
+  if (!has_own_host(wsi, listened_on_)) {
     return "This server is not known by that name.";
   }
-  if (lws_hdr_total_length(wsi, WSI_TOKEN_ORIGIN) > 0 &&
-      !is_own_origin(header_of(wsi, WSI_TOKEN_ORIGIN), host)) {
+  if (has_foreign_origin(wsi)) {
     return "A page from elsewhere gets nothing here.";
   }
   if (header_of(wsi, WSI_TOKEN_GET_URI) != "/frames") {

@@ -22,8 +22,8 @@ class NoStream : public ClientStream {
   throw std::runtime_error(fmt::format("{}: {}", file.string(), why));
 }
 
-/// Throws where it is no log; what can't be read is seen now, not when a page asks.
-std::uint64_t log_size(const std::filesystem::path& name) {
+/// Throws where it is no log; closed by whoever has it.
+LogFile open_log(const std::filesystem::path& name) {
   // Without O_NONBLOCK a pipe that nobody writes to would be waited for.
   const int file = ::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) {
@@ -40,28 +40,29 @@ std::uint64_t log_size(const std::filesystem::path& name) {
   } else if (status.st_size == 0) {
     problem = "is empty";
   }
-  close(file);
   if (problem != nullptr) {
+    close(file);
     fail(name, problem);
   }
-  return static_cast<std::uint64_t>(status.st_size);
+  return {file, static_cast<std::uint64_t>(status.st_size)};
 }
 
 }  // namespace
 
 LogShow::LogShow(const std::filesystem::path& file, int bitrate_bps, const nlohmann::json& parts)
-    : name_(file.filename().string()), file_(std::filesystem::absolute(file).string()) {
-  const std::uint64_t bytes = log_size(file);
+    : name_(file.filename().string()), log_(open_log(file)) {
   nlohmann::json setup = parts;
   setup["kind"] = "setup";
   setup["source"] = {{"mode", "log"},
                      {"name", name_},
-                     {"bytes", bytes},
+                     {"bytes", log_.bytes},
                      {"get", kLogPath},
                      {"bitrate", bitrate_bps}};
   // A file's name need not be UTF-8.
   setup_ = setup.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
+
+LogShow::~LogShow() { close(log_.file); }
 
 std::unique_ptr<ClientStream> LogShow::open() const { return std::make_unique<NoStream>(); }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// A candump log in a file. Every page gets the file as it is, by HTTP: a browser takes that seven
-/// times as fast as WebSocket messages (tests/scope/browser/hour.mjs).
+/// A candump log in a file. Every page gets it by HTTP, as long as it was at the start: a browser
+/// takes that seven times as fast as WebSocket messages (tests/scope/browser/hour.mjs).
 
 #include <filesystem>
 #include <string>
@@ -15,11 +15,12 @@ class LogShow : public Show {
   /// file, if it is not there, no file, or empty. What is in it, the page judges; what it grows by
   /// from here on is not shown.
   LogShow(const std::filesystem::path& file, int bitrate_bps, const nlohmann::json& parts);
+  ~LogShow() override;
 
   [[nodiscard]] const std::string& setup() const override { return setup_; }
   [[nodiscard]] std::string words() const override { return "log " + name_; }
   [[nodiscard]] std::unique_ptr<ClientStream> open() const override;
-  [[nodiscard]] std::string log_file() const override { return file_; }
+  [[nodiscard]] const LogFile* log() const override { return &log_; }
   [[nodiscard]] std::optional<std::string> control(const nlohmann::json& /*wish*/) override {
     return "this is a log: it can only be looked at";
   }
@@ -29,7 +30,7 @@ class LogShow : public Show {
 
  private:
   std::string name_;
-  std::string file_;
+  LogFile log_;
   std::string setup_;
 };
 

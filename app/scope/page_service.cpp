@@ -1,15 +1,18 @@
 #include "app/scope/page_service.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
 
 #include "app/scope/request.hpp"
-#include "app/scope/show.hpp"
 
 namespace graben::scope {
 namespace {
 
-constexpr std::size_t kPieceBytes = 64 * 1024;
+constexpr std::size_t kPieceBytes = 256 * 1024;
+constexpr int kPatience_s = 120;
 constexpr std::size_t kHeaderBytes = 1024;
 
 struct Header {
@@ -44,10 +47,11 @@ int PageService::on_request(lws* wsi, std::string_view path, PageProgress& progr
   if (lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) <= 0) {
     return answer(wsi, HTTP_STATUS_METHOD_NOT_ALLOWED, "Here is only a page to get.");
   }
-  if (path == kLogPath && !log_file_.empty()) {
-    return begin_log(wsi);
+  progress.is_log = path == kLogPath && log_ != nullptr;
+  if (progress.is_log && has_foreign_origin(wsi)) {
+    return answer(wsi, HTTP_STATUS_FORBIDDEN, "A page from elsewhere gets nothing here.");
   }
-  if (path != "/" && path != "/index.html") {
+  if (!progress.is_log && path != "/" && path != "/index.html") {
     return answer(wsi, HTTP_STATUS_NOT_FOUND, "There is only one page here: /");
   }
   return begin(wsi, progress);
@@ -58,8 +62,9 @@ int PageService::begin(lws* wsi, PageProgress& progress) {
   unsigned char* const start = header.data() + LWS_PRE;
   unsigned char* at = start;
   unsigned char* const end = header.data() + header.size();
-  bool whole = lws_add_http_common_headers(wsi, HTTP_STATUS_OK, "text/html; charset=utf-8",
-                                           page_.size(), &at, end) == 0;
+  const char* type = progress.is_log ? "application/octet-stream" : "text/html; charset=utf-8";
+  bool whole =
+      lws_add_http_common_headers(wsi, HTTP_STATUS_OK, type, size_of(progress), &at, end) == 0;
   for (const Header& each : kHeaders) {
     whole = whole && add_header(wsi, each, at, end);
   }
@@ -71,25 +76,39 @@ int PageService::begin(lws* wsi, PageProgress& progress) {
   return 0;
 }
 
-int PageService::begin_log(lws* wsi) const {
-  static constexpr std::string_view kAlso =
-      "cache-control: no-store\r\nx-content-type-options: nosniff\r\n"
-      "cross-origin-resource-policy: same-origin\r\n";
-  // The library reads and sends it by itself from here on.
-  const int result = lws_serve_http_file(wsi, log_file_.c_str(), "application/octet-stream",
-                                         kAlso.data(), static_cast<int>(kAlso.size()));
-  return result < 0 || (result > 0 && lws_http_transaction_completed(wsi) != 0) ? -1 : 0;
+bool PageService::take_piece(const PageProgress& progress, std::size_t size) {
+  buffer_.resize(LWS_PRE + kPieceBytes);
+  unsigned char* const to = buffer_.data() + LWS_PRE;
+  if (!progress.is_log) {
+    const std::string_view piece = page_.substr(progress.sent, size);
+    std::copy(piece.begin(), piece.end(), to);
+    return true;
+  }
+  std::size_t got = 0;
+  while (got < size) {
+    const ssize_t count =
+        pread(log_->file, to + got, size - got, static_cast<off_t>(progress.sent + got));
+    if (count == 0 || (count < 0 && errno != EINTR)) {
+      // Shorter than it was: what was promised can't be kept.
+      return false;
+    }
+    got += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
+  }
+  return true;
 }
 
 int PageService::on_writeable(lws* wsi, PageProgress& progress) {
-  const std::string_view piece = page_.substr(progress.sent, kPieceBytes);
-  buffer_.resize(LWS_PRE + kPieceBytes);
-  std::copy(piece.begin(), piece.end(), buffer_.begin() + LWS_PRE);
-  progress.sent += piece.size();
-  const bool is_last = progress.sent == page_.size();
-  const int wanted = static_cast<int>(piece.size());
-  if (lws_write(wsi, buffer_.data() + LWS_PRE, piece.size(),
-                is_last ? LWS_WRITE_HTTP_FINAL : LWS_WRITE_HTTP) < wanted) {
+  const std::uint64_t left = size_of(progress) - progress.sent;
+  const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(left, kPieceBytes));
+  if (!take_piece(progress, size)) {
+    return -1;
+  }
+  // A reader may pause; one that is gone must not be kept for ever.
+  lws_set_timeout(wsi, PENDING_TIMEOUT_HTTP_CONTENT, kPatience_s);
+  progress.sent += size;
+  const bool is_last = size == left;
+  if (lws_write(wsi, buffer_.data() + LWS_PRE, size,
+                is_last ? LWS_WRITE_HTTP_FINAL : LWS_WRITE_HTTP) < static_cast<int>(size)) {
     return -1;
   }
   if (!is_last) {

@@ -4,23 +4,27 @@
 #include <libwebsockets.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "app/scope/show.hpp"
+
 namespace graben::scope {
 
-/// What of the page a connection was sent; the library makes it, all zero.
+/// What of the page, or of the log, a connection was sent; the library makes it, all zero.
 struct PageProgress {
-  std::size_t sent;
+  std::uint64_t sent;
+  bool is_log;
 };
 
 class PageService {
  public:
-  /// `log_file`: empty if there is none.
-  PageService(std::string_view page, std::string log_file, std::string listened_on)
-      : page_(page), log_file_(std::move(log_file)), listened_on_(std::move(listened_on)) {}
+  /// `log`: null if there is none. Both have to outlive this.
+  PageService(std::string_view page, const LogFile* log, std::string listened_on)
+      : page_(page), log_(log), listened_on_(std::move(listened_on)) {}
 
   /// A whole request. For the library: 0 goes on, -1 hangs up.
   int on_request(lws* wsi, std::string_view path, PageProgress& progress);
@@ -29,10 +33,14 @@ class PageService {
 
  private:
   int begin(lws* wsi, PageProgress& progress);
-  int begin_log(lws* wsi) const;
+  /// The next piece into the buffer, behind what the library needs; false: it can't be had.
+  bool take_piece(const PageProgress& progress, std::size_t size);
+  [[nodiscard]] std::uint64_t size_of(const PageProgress& progress) const {
+    return progress.is_log ? log_->bytes : page_.size();
+  }
 
   std::string_view page_;
-  std::string log_file_;
+  const LogFile* log_;
   std::string listened_on_;
   std::vector<unsigned char> buffer_;
 };

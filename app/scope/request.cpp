@@ -29,4 +29,9 @@ bool has_own_host(lws* wsi, const std::string& listened_on) {
   return is_own_host(header_of(wsi, WSI_TOKEN_HOST), listened_on);
 }
 
+bool has_foreign_origin(lws* wsi) {
+  return lws_hdr_total_length(wsi, WSI_TOKEN_ORIGIN) > 0 &&
+         !is_own_origin(header_of(wsi, WSI_TOKEN_ORIGIN), header_of(wsi, WSI_TOKEN_HOST));
+}
+
 }  // namespace graben::scope

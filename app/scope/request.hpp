@@ -16,4 +16,7 @@ namespace graben::scope {
 /// Whether its `Host` is this server (http_guard.hpp).
 [[nodiscard]] bool has_own_host(lws* wsi, const std::string& listened_on);
 
+/// Whether it comes from a page of another server; what is no browser says no `Origin`.
+[[nodiscard]] bool has_foreign_origin(lws* wsi);
+
 }  // namespace graben::scope

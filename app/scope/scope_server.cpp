@@ -22,8 +22,6 @@ constexpr int kRequestTimeout_s = 5;
 constexpr unsigned kSocketsMost = 128;
 /// So much is handed to the kernel at once; what it does not take waits in the library.
 constexpr std::size_t kSendMostBytes = ClientStream::kMessageMostBytes;
-/// Of a log that is sent as a file.
-constexpr unsigned kFilePieceBytes = 256 * 1024;
 
 /// A page of which nothing was heard for a while is asked, and after another while given up.
 constexpr lws_retry_bo_t life_signs() {
@@ -121,8 +119,7 @@ class ScopeServer::Work {
  public:
   Work(const ServerOptions& options, std::string_view page, Show& show)
       : address_(listen_address(options.host, options.port)),
-        services_{PageService(page, show.log_file(), options.host),
-                  FramesService(show, options.host)} {
+        services_{PageService(page, show.log(), options.host), FramesService(show, options.host)} {
     protocols_[0] = protocol("http", &guarded<on_http>);
     protocols_[0].per_session_data_size = sizeof(PageProgress);
     protocols_[1] = protocol(FramesService::kProtocol, &guarded<on_frames>);
@@ -178,7 +175,6 @@ class ScopeServer::Work {
     info.timeout_secs = kRequestTimeout_s;
     info.keepalive_timeout = kRequestTimeout_s;
     info.fd_limit_per_thread = kSocketsMost;
-    info.pt_serv_buf_size = kFilePieceBytes;
     info.retry_and_idle_policy = &kLifeSigns;
     return lws_create_context(&info);
   }

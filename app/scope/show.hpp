@@ -27,6 +27,12 @@ class ClientStream {
   static constexpr std::size_t kMessageMostBytes = 512 * 1024;
 };
 
+/// A file as it was when it was opened: what it grows by is not shown.
+struct LogFile {
+  int file = -1;  ///< Read at an offset by whoever asks.
+  std::uint64_t bytes = 0;
+};
+
 /// Where on the server a log is, if there is one.
 inline constexpr const char* kLogPath = "/log";
 
@@ -42,8 +48,8 @@ class Show {
   /// In words, for the terminal.
   [[nodiscard]] virtual std::string words() const = 0;
   [[nodiscard]] virtual std::unique_ptr<ClientStream> open() const = 0;
-  /// The file that pages get at kLogPath; empty: none.
-  [[nodiscard]] virtual std::string log_file() const { return {}; }
+  /// What pages get at kLogPath; null: nothing is there.
+  [[nodiscard]] virtual const LogFile* log() const { return nullptr; }
   /// What the kernel may hold for a page that reads slowly; 0: as it likes.
   [[nodiscard]] virtual int send_buffer_bytes() const { return 0; }
   /// As FrameSource has them.

@@ -30,7 +30,7 @@ SimEffect killed(SimRig<Kind>& rig) {
   constexpr int kAwayCycles = 100;
   rig.nodes().ecu.reset();
   SimEffect effect = cycles_left_out(kAwayCycles);
-  effect.undo = [&rig] { rig.nodes().start_ecu(); };
+  effect.undo = [&rig] { static_cast<void>(rig.nodes().start_ecu()); };
   return effect;
 }
 

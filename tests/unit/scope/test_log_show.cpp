@@ -19,7 +19,7 @@ LogShow show_of(const std::filesystem::path& file) {
 void the_file_is_what_pages_get(void**) {
   const TemporaryFile file("(0000000001.000000) can0 123#\n");
   const LogShow show = show_of(file.path());
-  assert_string_equal(show.log_file().c_str(), file.path().c_str());
+  assert_int_equal(show.log()->bytes, 30);
   std::string chunk;
   assert_false(show.open()->next(chunk));
   assert_true(chunk.empty());

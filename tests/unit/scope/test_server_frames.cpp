@@ -184,6 +184,25 @@ void wishes_are_done_or_refused(void**) {
   }
 }
 
+/// What it grows by is not shown; what it has lost can't be: that connection ends, others go on.
+void a_log_that_changes_while_it_is_shown(void**) {
+  const std::string text(4U << 20U, 'x');
+  const test::TemporaryFile file(text);
+  scope::LogShow show(file.path(), 500000, json::object());
+  ServedShow served(show);
+  const std::string ask =
+      "GET /log HTTP/1.1\r\nHost: " + test::own_host(served.port()) + "\r\n\r\n";
+  file.write(text + "more");
+  const std::string whole = test::ask(served.port(), ask);
+  assert_true(whole.substr(whole.find("\r\n\r\n") + 4) == text);
+  file.write("short");
+  const std::string cut = test::ask(served.port(), ask);
+  assert_true(cut.size() < 1000);
+  test::assert_begins(test::ask(served.port(), "GET /x HTTP/1.1\r\nHost: " +
+                                                   test::own_host(served.port()) + "\r\n\r\n"),
+                      "HTTP/1.1 404");
+}
+
 void a_log_is_a_file_and_takes_no_wishes(void**) {
   std::string text;
   for (int i = 0; i < 100000; ++i) {
@@ -200,6 +219,8 @@ void a_log_is_a_file_and_takes_no_wishes(void**) {
   test::assert_has(answer.substr(0, 1000), "x-content-type-options: nosniff\r\n");
   assert_true(answer.substr(answer.find("\r\n\r\n") + 4) == text);
   test::assert_begins(get("evil.example"), "HTTP/1.1 403");
+  const std::string own = test::own_host(served.port());
+  test::assert_begins(get(own + "\r\nOrigin: http://evil.example"), "HTTP/1.1 403");
   WsClient client(served.port());
   assert_true(client.open());
   assert_true(client.send(Opcode::kText, R"({"do":"stop"})"));
@@ -282,6 +303,7 @@ int main() {
       cmocka_unit_test(one_that_does_not_read_loses_frames_and_is_told),
       cmocka_unit_test(wishes_are_done_or_refused),
       cmocka_unit_test(a_log_is_a_file_and_takes_no_wishes),
+      cmocka_unit_test(a_log_that_changes_while_it_is_shown),
       cmocka_unit_test(what_is_no_message_closes_the_connection),
       cmocka_unit_test(a_flood_is_read_slowly_and_costs_the_others_nothing),
       cmocka_unit_test(it_stops_at_once_with_pages_open),

@@ -15,7 +15,6 @@ using test::SimWatch;
 
 constexpr double kReacts_s = 3.0;
 constexpr double kWorksAgain_s = 5.0;
-constexpr TimeUs kValveCloses_us = 110 * kMillisecondUs;
 
 bool reacts_as(const json& fault, SimReaction reaction) {
   return fault["reaction"] == scope::reaction_words(reaction);
@@ -74,10 +73,9 @@ class Row {
 
   /// Nothing opens any more, whatever the bus still carries; afterwards it says that it stopped.
   void stops_unheard() {
-    const TimeUs since_us = sim_.session.now_us();
     sim_.run(0.2);
-    check(sim_.bus.commands_neutral || sim_.bus.command_us - since_us < kValveCloses_us,
-          "still commanded");
+    // In a babble the valve side is not heard either.
+    check(sim_.bus.valve_closed || id_ == "babble", "the valve side is still open");
     sim_.run(1.5);
     sim_.fault(id_, false);
     sim_.run(0.6);
@@ -185,6 +183,22 @@ void of_the_dozer(void**) {
                     22, 24, 26, 27, 28, 29, 33, 34, 35, 36, 38, 39, 40, 41, 42, 43, 46, 47});
 }
 
+/// What is broken twice: a controller that is killed and finds its bus down when it starts again.
+void two_at_once(void**) {
+  for (const char* first : {"controller-killed", "bus-down"}) {
+    const char* second = first == std::string("bus-down") ? "controller-killed" : "bus-down";
+    SimWatch sim("dig");
+    assert_true(sim.run_to_active(kReacts_s));
+    sim.fault(first, true);
+    sim.fault(second, true);
+    sim.run(3.0);
+    assert_true(sim.bus.valve_closed);
+    sim.wish({{"do", "clear"}});
+    sim.run(0.05);
+    assert_true(sim.run_to_active(kWorksAgain_s));
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -192,6 +206,7 @@ int main() {
       cmocka_unit_test(of_the_digging_excavator),
       cmocka_unit_test(of_the_excavator_with_swing),
       cmocka_unit_test(of_the_dozer),
+      cmocka_unit_test(two_at_once),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
