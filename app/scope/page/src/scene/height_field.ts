@@ -27,6 +27,8 @@ export class HeightField {
   private count = 0;
   private shown = 0;
   private readonly most: number;
+  /// Changed where entries were forgotten; the next `show` tells of them.
+  private readonly untold = new Set<number>();
 
   /// Of more than `most` entries the older half is forgotten: before their time the field shows
   /// what they left.
@@ -80,6 +82,8 @@ export class HeightField {
   /// Shows the field as it was; calls `changed` for each node whose height that changes, perhaps
   /// more than once.
   show(time_s: number, changed: (node: number) => void): void {
+    this.untold.forEach((node) => changed(node));
+    this.untold.clear();
     const target = this.entries_until(time_s);
     for (; this.shown < target; ++this.shown) {
       this.put(this.node[this.shown], this.after[this.shown], changed);
@@ -120,7 +124,7 @@ export class HeightField {
     const gone = this.count >> 1;
     // What is forgotten has to be in what is shown.
     for (; this.shown < gone; ++this.shown) {
-      this.heights[this.node[this.shown]] = this.after[this.shown];
+      this.put(this.node[this.shown], this.after[this.shown], (node) => this.untold.add(node));
     }
     for (const list of [this.time, this.node, this.before, this.after]) {
       list.copyWithin(0, gone, this.count);
