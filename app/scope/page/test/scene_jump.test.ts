@@ -3,10 +3,10 @@ import {test} from 'node:test';
 import type {FrameStore} from '../src/model/api';
 import {blade_walk, teeth_walk} from '../src/scene/edges';
 import {type Edge, type Grid, HeightField} from '../src/scene/height_field';
-import {dozer_grid} from '../src/scene/soil_shape';
+import {dozer_grid, excavator_grid} from '../src/scene/soil_shape';
 import {type EdgeWalk, TerrainHistory} from '../src/scene/terrain_history';
 import {Trail, trail_segments} from '../src/scene/trail';
-import {DOZER_9T, EXCAVATOR_22T} from './machines';
+import {DOZER_9T, EXCAVATOR_12T, EXCAVATOR_22T} from './machines';
 import {store_of} from './make';
 import {graben_log} from './tool';
 
@@ -100,13 +100,14 @@ test('one sensor that jumps leaves the soil as it is', () => {
 });
 
 test('no frame of a machine at work is taken for a jump', () => {
-  const field = new HeightField(GRID, () => 0);
+  const field = new HeightField(excavator_grid(EXCAVATOR_12T), () => 1);
   let laid = 0;
   field.lay_anew = () => {
     ++laid;
   };
-  for (const task of ['dig', 'autodig']) {
-    worked(field, store_of(graben_log(task)), teeth_walk(EXCAVATOR_22T));
+  for (const [task, machine] of [['dig', EXCAVATOR_22T], ['autodig', EXCAVATOR_12T]] as const) {
+    worked(field, store_of(graben_log(task)), teeth_walk(machine));
+    assert.ok(field.entries > 100, task);
   }
   assert.equal(laid, 0);
 });
