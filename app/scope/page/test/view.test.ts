@@ -290,7 +290,8 @@ test('a page counts what is left out by connection', () => {
 
 test('a log that is still read is not called empty, and a packed one has no share', () => {
   const state = new State(true);
-  state.onSetup({...source('report'), run: {log: 'x', truth: {time_s: [], lines: []}} as unknown as Run});
+  const run = {log: 'x', truth: {time_s: [], lines: []}} as unknown as Run;
+  state.onSetup({...source('report'), run});
   assert.ok(!('empty' in alarms(state)) && !('foreign' in alarms(state)));
   state.onMessage({kind: 'end'});
   assert.match(alarms(state).empty!, /^alarm: This log is empty/);

@@ -8,7 +8,7 @@ import {signal_trace, truth_trace, unit_factor, type Trace} from './traces';
 export interface Line {
   label: string;
   colour: string;  ///< Name of a custom property of the theme.
-  /// 'wanted': broad and pale. 'real': strong. 'beside': thin. 'truth': dashed.
+  /// 'wanted': broad and dotted. 'real': strong. 'beside': thin. 'truth': dashed.
   style: 'wanted' | 'real' | 'beside' | 'truth';
   digits: number;
   trace: Trace;
@@ -81,16 +81,16 @@ function excavator_plots(count: number, came: ReadonlySet<string>): PlotSpec[] {
     lines: [real('Path error', 'error', 'EcuHydraulics.PathError', 1)],
   }, {
     name: 'spools', title: 'Spools', unit: 'per mille', lines: spools, least: [-100, 100],
-    note: 'Command pale, feedback strong; positive extends',
+    note: 'Command dotted, feedback whole; positive extends',
   }, {
     name: 'velocities', title: 'Cylinder velocities', unit: 'mm/s', least: [-20, 20],
-    note: 'Lambda times wanted pale, real strong',
+    note: 'Lambda times wanted dotted, real whole',
     lines: DRIVES.flatMap(({name, colour}) => velocities('excavator', name, colour)),
   }];
   if (has_swing) {
     plots.push({
       name: 'swing', title: 'Swing rate', unit: 'mrad/s', least: [-20, 20],
-      note: 'Lambda times wanted pale, real strong; to the left is positive',
+      note: 'Lambda times wanted dotted, real whole; to the left is positive',
       lines: velocities('excavator', 'Swing', 'swing'),
     });
   }
@@ -104,7 +104,7 @@ function excavator_plots(count: number, came: ReadonlySet<string>): PlotSpec[] {
     note: 'Measured; cap side strong, rod side thin', lines: chambers(has_swing),
   }, {
     name: 'swash', title: 'Swash', unit: '%', least: [0, 100],
-    note: 'Command pale, measured strong',
+    note: 'Command dotted, measured whole',
     lines: pumps.flatMap((pump) => [
       wanted(`Pump ${pump} command`, `pump${pump}`, `PumpCommand.Pump${pump}Swash`, 1),
       real(`Pump ${pump}`, `pump${pump}`, `PumpState.Pump${pump}Swash`, 1),
@@ -132,7 +132,7 @@ function dozer_plots(): PlotSpec[] {
     lines: [real('Grade error', 'error', 'EcuGrade.GradeError', 1)],
   }, {
     name: 'speeds', title: 'Travel speed', unit: 'mm/s', least: [0, 500],
-    note: 'Wanted pale, real strong, limit of flow and transmission thin',
+    note: 'Wanted dotted, real whole, limit of flow and transmission thin',
     lines: [
       wanted('Wanted', 'boom', 'EcuMotion.WantedSpeed', 0),
       beside('Limit', 'error', 'EcuMotion.SpeedLimit', 0),
@@ -147,23 +147,23 @@ function dozer_plots(): PlotSpec[] {
       real('Required', 'required', 'EcuGrade.RequiredFlow', 1)],
   }, {
     name: 'spools', title: 'Blade spool', unit: 'per mille', least: [-100, 100],
-    note: 'Command pale, feedback strong; positive lowers',
+    note: 'Command dotted, feedback whole; positive lowers',
     lines: [wanted('Blade command', 'boom', 'SpoolCommand.BladeDuty', 0),
       real('Blade', 'boom', 'ValveState.BladeSpool', 0)],
   }, {
     name: 'velocities', title: 'Blade cylinder velocity', unit: 'mm/s', least: [-20, 20],
-    note: 'Wanted pale, real strong; positive lowers',
+    note: 'Wanted dotted, real whole; positive lowers',
     lines: velocities('dozer', 'Blade', 'boom'),
   }, {
     name: 'displacements', title: 'Pump displacements', unit: 'per mille', least: [0, 100],
-    note: 'Command pale, measured strong; forward is positive',
+    note: 'Command dotted, measured whole; forward is positive',
     lines: sides.flatMap((side) => [
       wanted(`${side} command`, side.toLowerCase(), `PumpDisplacementCommand.${side}Pump`, 0),
       real(side, side.toLowerCase(), `${side}Transmission.Pump`, 0),
     ]),
   }, {
     name: 'motors', title: 'Motor displacements', unit: '%', least: [0, 100],
-    note: 'Command pale, measured strong',
+    note: 'Command dotted, measured whole',
     lines: sides.flatMap((side) => [
       wanted(`${side} command`, side.toLowerCase(), `MotorDisplacementCommand.${side}Motor`, 1),
       real(side, side.toLowerCase(), `${side}Transmission.Motor`, 1),
