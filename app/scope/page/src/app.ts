@@ -81,7 +81,7 @@ export function start(root: HTMLElement): void {
     state.know_machine();
     // What a log shows while it is read is passed over at once; reading it is what the processor is
     // for, and without a graphics card a picture takes as long as ten thousand frames.
-    if (state.loaded_share === 1) {
+    if (state.drawn) {
       scene.frame(state);
       plots.frame(now_ms);
       histogram.frame(now_ms, state);

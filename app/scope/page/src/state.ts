@@ -10,6 +10,8 @@ import type {Link, PageState} from './view/page_state';
 
 const LIVE_WINDOW_S = 30;
 const REFUSED_MS = 8000;
+/// The last of a log is its end, which is told.
+const MOST_READ = 0.99;
 
 export class State implements PageState, FeedEvents {
   setup: Setup | null = null;
@@ -93,8 +95,8 @@ export class State implements PageState, FeedEvents {
     this.sim = null;
     this.refusal.words = '';
     this.trouble = '';
-    this.ended = mode === 'plan';
-    this.loaded_share = mode === 'log' || mode === 'report' ? 0 : 1;
+    this.ended = mode === 'plan' || (mode === 'report' && setup.run?.log === undefined);
+    this.loaded_share = live || this.ended ? 1 : 0;
     this.origin_s = this.extent.from_s;
     this.playhead.playing = false;
     this.playhead.follow = live;
@@ -104,6 +106,9 @@ export class State implements PageState, FeedEvents {
   }
 
   onFrames(block: FrameBlock, text_bytes: number): void {
+    if (block.restart) {
+      this.trouble = '';  // what could not be read is read again
+    }
     const anew = block.restart || this.store.frames === 0;
     this.store.append(block);
     if (anew && this.store.frames > 0) {
@@ -111,7 +116,7 @@ export class State implements PageState, FeedEvents {
     }
     const bytes = this.setup?.source.bytes ?? 0;
     this.loaded_share = this.ended || bytes === 0 ? this.loaded_share
-      : Math.min(1, text_bytes / bytes);
+      : Math.min(MOST_READ, text_bytes / bytes);
     this.playhead.frames_came();
   }
 
@@ -140,6 +145,8 @@ export class State implements PageState, FeedEvents {
 
   onOpened(): void {
     this.link = {state: 'open', words: 'Connected.'};
+    this.dropped = 0;  // the server counts by connection
+    this.follow_clock();
   }
 
   onClosed(why: string, again_s: number | null): void {
@@ -161,11 +168,23 @@ export class State implements PageState, FeedEvents {
     this.link = {state: 'file', words: 'A file of this computer.'};
   }
 
-  /// How fast time goes on where no frames come.
+  /// Whether there is a picture to draw: all of a log, or as much of it as will come for now.
+  get drawn(): boolean {
+    return this.loaded_share === 1 || this.link.state === 'lost' || this.trouble !== '';
+  }
+
+  /// How fast time goes on where no frames come. It goes on without the server too, so that what
+  /// came before becomes old.
   private follow_clock(): void {
-    const connected = this.link.state === 'open';
+    const {link, sim, playhead} = this;
     const mode = this.setup?.source.mode;
-    this.playhead.clock_rate = !connected ? 0 : mode === 'can' ? 1
-      : mode === 'sim' && this.sim?.running === true ? this.sim.pace : 0;
+    const live = (mode === 'can' || mode === 'sim') && link.state !== 'file';
+    const before = playhead.clock_rate;
+    playhead.clock_rate = !live || link.state === 'connecting' ? 0
+      : mode === 'sim' && sim?.running === true ? sim.pace
+        : mode === 'can' || link.state === 'lost' ? 1 : 0;
+    if (live && playhead.clock_rate === 0 && before > 0) {
+      playhead.frames_came();  // where time stands, the newest frame is now
+    }
   }
 }

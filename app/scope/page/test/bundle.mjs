@@ -1,5 +1,5 @@
 // What vite does for the page, as far as the model needs it: TypeScript into one module a file, and
-// DBC files as text.
+// DBC files and styles as text.
 
 import {readFileSync} from 'node:fs';
 import {dirname, join, resolve} from 'node:path';
@@ -14,6 +14,8 @@ const raw_dbc = {
   setup(of) {
     of.onResolve({filter: /^@dbc\/.*\?raw$/}, ({path}) => ({
       path: join(dbc, path.slice('@dbc/'.length, -'?raw'.length)), namespace: 'raw-dbc'}));
+    of.onResolve({filter: /\.css\?raw$/}, ({path, resolveDir}) => ({
+      path: join(resolveDir, path.slice(0, -'?raw'.length)), namespace: 'raw-dbc'}));
     of.onLoad({filter: /.*/, namespace: 'raw-dbc'}, ({path}) => ({
       contents: readFileSync(path, 'utf8'), loader: 'text'}));
   },

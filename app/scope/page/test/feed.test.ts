@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {gzipSync} from 'node:zlib';
 import {Intake} from '../src/feed/intake';
-import type {Order, Told} from '../src/feed/orders';
+import type {Order, Posted, Told} from '../src/feed/orders';
 import {make_reader, type AnyWorker} from '../src/feed/reader';
 import {PageStore} from '../src/model/store';
 import {bytes_of, line, protected_bytes} from './make';
@@ -273,7 +273,32 @@ test('a worker that fails before it is ready is replaced; later it is said', asy
   const other = new Ear();
   const ready = new FakeWorker();
   make_reader(() => ready, other.hear);
-  ready.onmessage?.({data: {told: 'ready'}} as MessageEvent<Told>);
+  ready.onmessage?.({data: {told: {told: 'ready'}, source: 0}} as MessageEvent<Posted>);
   ready.onerror?.({message: 'out of memory', preventDefault: () => undefined} as ErrorEvent);
   assert.match(other.of('closed')[0].why, /out of memory/);
+});
+
+test('what an older source still had on its way is not heard', async () => {
+  const posted: Posted[] = [];
+  const ear = new Ear();
+  const worker = new FakeWorker();
+  const intake = new Intake((told, _, source) => void posted.push({told, source}));
+  const reader = make_reader(() => worker, ear.hear);
+  const deliver = () => posted.splice(0).forEach((data) =>
+    worker.onmessage?.({data} as MessageEvent<Posted>));
+  const read = async (text: string): Promise<void> => {
+    reader.obey({order: 'file', file: new Blob([text])});
+    intake.obey(worker.orders.pop()!);
+    while (!posted.some(({told}) => is_end(told))) {
+      await new Promise((done) => setTimeout(done, 5));
+    }
+  };
+  await read(boom_lines(0, 30));
+  const late = posted.splice(0);
+  await read(boom_lines(500, 20));
+  posted.unshift(...late);
+  deliver();
+  assert.equal(ear.of('message').length, 1);
+  assert.deepEqual(ear.of('block').map(({block}) => block.columns[0]?.time_s[0]), [5]);
+  assert.equal(ear.store.frames, 20);
 });

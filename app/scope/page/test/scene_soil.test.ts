@@ -96,6 +96,23 @@ test('a field that has forgotten its oldest cuts keeps what they left', () => {
   }
 });
 
+test('a change by forgetting is told with the next time that is shown', () => {
+  const field = new HeightField(GRID, () => 0, 2048);
+  random_cuts(field, 10);
+  const mesh = field.heights.slice();
+  const told = (node: number): void => {
+    mesh[node] = field.heights[node];
+  };
+  field.show(2, told);
+  const before = field.entries;
+  for (let time = 11; field.entries >= before; ++time) {
+    cut(field, time, edge(-2, 0, -time), edge(2, 0, -time), 4);
+  }
+  assert.notDeepEqual(field.heights, mesh);
+  field.show(2, told);
+  assert.deepEqual(field.heights, mesh);
+});
+
 const GRADE = store_of(graben_log('grade'));
 const graded = (): TerrainHistory => new TerrainHistory(
   new HeightField(dozer_grid(DOZER_9T), () => 0), 2.4, blade_walk(DOZER_9T));

@@ -6,14 +6,17 @@ import {State} from '../src/state';
 import {alarms_of} from '../src/view/alarm_rules';
 import {align, cut, lower_bound} from '../src/view/curves';
 import {BARS, distribution} from '../src/view/distribution';
+import {file_setup} from '../src/feed/file_setup';
+import {link_words} from '../src/view/header';
 import {FaultLog} from '../src/view/fault_log';
 import {digits_of, fixed, time_words} from '../src/view/format';
 import {stable_range} from '../src/view/plot_range';
-import {plots_of} from '../src/view/plots';
+import {empty_words, plots_of, plotted} from '../src/view/plots';
 import {unit_factor} from '../src/view/traces';
 import {page_words} from '../src/view/words';
 import {CandumpParser} from '../src/model/candump';
-import {bytes_of, line} from './make';
+import {bytes_of, line, store_of} from './make';
+import {DOZER_9T, EXCAVATOR_12T, EXCAVATOR_22T} from './machines';
 
 const SETUP: Setup = {
   source: {mode: 'log', name: 'a.log', bytes: 1, bitrate: 500000}, machines: [],
@@ -187,4 +190,160 @@ test('what is wrong with the way here is said', () => {
   assert.equal(all.bus, 'alarm: The bus is down: bus-off.');
   assert.equal(all.refused, 'warning: Refused: not now');
   assert.match(all.link!, /^alarm: The connection to the server is lost/);
+});
+
+test('every signal that a plot reads is in the DBC of its machine', () => {
+  for (const machine of [EXCAVATOR_22T, EXCAVATOR_12T, DOZER_9T]) {
+    const database = loadDatabase(machine.kind);
+    const store = store_of(stroke(0));
+    const plots = plots_of(plotted(machine, store), undefined, new Set(database.messages.keys()));
+    assert.ok(plots.length >= 8, machine.name);
+    for (const {trace} of plots.flatMap(({lines}) => lines)) {
+      assert.ok(trace.signals.length > 0);
+      trace.signals.forEach((signal) => database.signal(signal));
+    }
+  }
+});
+
+test('a machine whose profile nobody knows has plots, by what its frames tell', () => {
+  const text = stroke(0) + status(0, 3, 0) + identity(0, 0xdeadbeef, EXCAVATOR.version);
+  const pumps = (second: number): string => line(0, id('PumpState'), [0, 0xf0, 0, 0, second & 0xff,
+    second >> 8, second & 0xff, second >> 8]);
+  const names = (log: string, more: readonly string[]): string[] => {
+    const state = page(log);
+    assert.equal(state.machine, null);
+    const came = new Set([...EXCAVATOR.messages.keys()]
+      .filter((name) => state.store.rows(name).count > 0).concat(more));
+    return plots_of(plotted(null, state.store), undefined, came)
+      .flatMap(({name, lines}) => lines.map(({label}) => `${name}: ${label}`));
+  };
+  assert.deepEqual(names(text, []).filter((name) => name.startsWith('lambda')), ['lambda: lambda']);
+  const swash = (log: string) => names(log, ['PumpState']).filter((name) => /^swash/.test(name));
+  assert.deepEqual(swash(text + pumps(0xffff)), ['swash: Pump 1']);
+  assert.deepEqual(swash(text + pumps(100)), ['swash: Pump 1', 'swash: Pump 2']);
+  assert.ok(!names(text, ['TaskStatus']).some((name) => name.startsWith('swing')));
+  assert.ok(names(text, ['SwingState']).includes('swing: Swing'));
+});
+
+test('why there is no plot', () => {
+  assert.match(empty_words(store_of('')), /^No frames yet/);
+  assert.match(empty_words(store_of(line(0, 0x123, new Uint8Array(8)))), /excavator or a dozer/);
+  assert.match(empty_words(store_of(stroke(0))), /^No message that is plotted/);
+});
+
+test('another log in a new store has its own faults, whatever its revision', () => {
+  const log = new FaultLog();
+  const one = page(stroke(0) + status(1, 5, 21) + trouble(2, 17)).store;
+  const two = page(stroke(0) + status(1, 5, 37) + trouble(3, 18)).store;
+  assert.equal(one.revision, two.revision);
+  assert.ok(log.update(one));
+  assert.ok(log.update(two));
+  assert.deepEqual(log.events.map(({code}) => code), [37, 18]);
+  assert.ok(!log.update(two));
+});
+
+test('the beginning of a fault is that of its own code', () => {
+  const log = new FaultLog();
+  log.update(page(stroke(0) + status(1, 5, 21) + trouble(1.5, 17)).store);
+  assert.equal(log.last(2)?.code, 17);
+  assert.equal(log.last(2, 21)?.time_s, 1);
+  assert.equal(log.last(0.5, 21), undefined);
+});
+
+const source = (mode: Setup['source']['mode']): Setup =>
+  ({...SETUP, source: {...SETUP.source, mode}});
+
+function live_page(mode: 'can' | 'sim'): State {
+  const state = new State(false);
+  const parser = new CandumpParser();
+  parser.feed(bytes_of(stroke(0) + status(0, 3, 0)));
+  parser.end();
+  state.onOpened();
+  state.onSetup(source(mode));
+  state.onFrames({...parser.take(), restart: true}, 1);
+  state.know_machine();
+  return state;
+}
+
+test('what a lost server said becomes old', () => {
+  for (const mode of ['can', 'sim'] as const) {
+    const state = live_page(mode);
+    state.onClosed('the server does not answer', 1);
+    state.playhead.tick(2);
+    assert.equal(state.playhead.now_s, 2, mode);
+    assert.ok(state.messages().every(({stale, message}) => stale || message.cycle_ms === 0));
+    state.onOpened();
+    state.onMessage({kind: 'sim', running: false, pace: 1, speed: 1, soil: false, obstacle: false,
+      faults: []});
+    state.playhead.tick(2);
+    assert.equal(state.playhead.now_s, mode === 'sim' ? 0 : 4, mode);
+  }
+});
+
+test('a page counts what is left out by connection', () => {
+  const state = live_page('can');
+  state.onMessage({kind: 'dropped', frames: 3});
+  state.onClosed('the server does not answer', 1);
+  state.onOpened();
+  assert.equal(state.dropped, 0);
+});
+
+test('a log that is still read is not called empty, and a packed one has no share', () => {
+  const state = new State(true);
+  const run = {log: 'x', truth: {time_s: [], lines: []}} as unknown as Run;
+  state.onSetup({...source('report'), run});
+  assert.ok(!('empty' in alarms(state)) && !('foreign' in alarms(state)));
+  state.onMessage({kind: 'end'});
+  assert.match(alarms(state).empty!, /^alarm: This log is empty/);
+
+  const opened = (name: string, bytes: number): string => {
+    state.file_opened();
+    state.onSetup(file_setup(SETUP, {name, size: 100}));
+    state.onFrames({columns: [], restart: true, count: {lines: 0, malformed: 0,
+      first_malformed: null, backwards: 0, unheard: 0}}, bytes);
+    return link_words(state);
+  };
+  assert.equal(opened('a.log.gz', 900), 'reading');
+  assert.equal(opened('a.log', 50), 'reading, 50 %');
+  assert.equal(opened('a.log', 100), 'reading, 99 %');
+});
+
+test('a log that was cut off and comes again is no trouble any more', () => {
+  const state = new State(false);
+  const parser = new CandumpParser();
+  parser.feed(bytes_of(stroke(0)));
+  parser.end();
+  const block = {...parser.take(), restart: true};
+  state.onOpened();
+  state.onSetup({...SETUP, source: {...SETUP.source, bytes: 1000}});
+  state.onFrames(block, 10);
+  assert.equal(state.drawn, false);
+  state.onClosed('the server does not answer', 1);
+  assert.equal(state.drawn, true);
+  state.onClosed('the log could not be read to its end: cut', null);
+  assert.match(state.trouble, /^The log could not/);
+  state.onOpened();
+  state.onFrames(block, 10);
+  state.onMessage({kind: 'end'});
+  assert.equal(state.trouble, '');
+  assert.equal(state.loaded_share, 1);
+});
+
+test('a pose out of reach is the fault of the plan only where a plan is followed', () => {
+  const strokes = (raw: number) => ['BoomStroke', 'ArmStroke', 'BucketStroke'].map((name) =>
+    line(0, id(name), [0, 0xf0, raw & 0xff, raw >> 8, raw & 0xff, raw >> 8, 0xff, 0xff])).join('');
+  const operator = (task: number) => line(0, id('OperatorCommand'),
+    [0, 0xf0, 0, task, 0, 0, 0xff, 0xff]);
+  const unreachable = (text: string) => alarms(page(text + status(0, 5, 7)));
+  assert.match(unreachable(strokes(100) + operator(3)).plan!, /^alarm: This plan cannot work/);
+  for (const text of [strokes(100) + operator(1), strokes(0xffff) + operator(3)]) {
+    assert.equal(unreachable(text).plan, undefined);
+    assert.match(unreachable(text).fault!, /^alarm: Stopped by fault 7/);
+  }
+});
+
+test('one frame is one', () => {
+  const state = page(stroke(1) + stroke(0.9) + stroke(1.1));
+  assert.equal(alarms(state).backwards,
+    'warning: 1 frame is stamped before the one before it.');
 });

@@ -1,10 +1,8 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
-import type {LogHealth, Words} from '../src/model/api';
+import type {Words} from '../src/model/api';
 import {loadDatabase} from '../src/model/dbc';
-import {
-  fault_words, health_words, limit_words, mode_words, step_words, why_not_armed,
-} from '../src/model/words';
+import {fault_words, limit_words, why_not_armed} from '../src/model/words';
 
 const WORDS: Words = {
   fault: {'1': 'a stroke is missing', '17': 'wrong CRCs of a message'},
@@ -24,19 +22,24 @@ test('limits as the reports word them', () => {
   assert.equal(limit_words(12, 0, {...CONTEXT, task}), 'fence: wall');
 });
 
-test('every limit, mode and step that the DBC knows has words of its own', () => {
-  const database = loadDatabase('excavator');
-  const names = (signal: string): number[] => [...database.signal(signal).states]
-    .filter(([, name]) => name !== 'Error' && name !== 'NotAvailable').map(([number]) => number);
-  const check = (signal: string, words: (number: number) => string): void => {
-    const all = names(signal).map(words);
-    assert.equal(new Set(all).size, all.length, signal);
-    assert.ok(all.every((one) => !one.startsWith('unknown')), signal);
-    assert.match(words(names(signal).length), /^unknown/);
-  };
-  check('EcuStatus.LimitKind', (limit) => limit_words(limit, 0, CONTEXT));
-  check('EcuStatus.Mode', mode_words);
-  check('TaskStatus.StepKind', step_words);
+test('every limit that the DBC knows has words of its own', () => {
+  for (const kind of ['excavator', 'dozer'] as const) {
+    const numbers = [...loadDatabase(kind).signal('EcuStatus.LimitKind').states.keys()];
+    const all = numbers.map((limit) => limit_words(limit, 0, {...CONTEXT, kind}));
+    assert.equal(new Set(all).size, all.length);
+    assert.ok(all.every((one) => !one.startsWith('unknown')), all.join());
+  }
+  assert.equal(limit_words(99, 0, CONTEXT), 'unknown limit 99');
+});
+
+test('a limit that is in error or not available says so', () => {
+  assert.equal(limit_words(14, 0, CONTEXT), 'limit in error');
+  assert.equal(limit_words(15, 255, CONTEXT), 'limit not available');
+  assert.equal(limit_words(4, 254, CONTEXT), 'stroke end: drive in error');
+  assert.equal(limit_words(4, 255, CONTEXT), 'stroke end: drive not available');
+  for (const limit of [1, 2, 3, 4, 6, 8, 12]) {
+    assert.doesNotMatch(limit_words(limit, 255, CONTEXT), /unknown|25[56]|right/);
+  }
 });
 
 test('faults and reasons', () => {
@@ -45,23 +48,4 @@ test('faults and reasons', () => {
   assert.deepEqual(why_not_armed(WORDS, 0), []);
   assert.deepEqual(why_not_armed(WORDS, 0b101), ['a stroke is missing', 'a swash is missing']);
   assert.deepEqual(why_not_armed(WORDS, 0x8000), ['unknown reason, bit 15']);
-});
-
-const WELL: LogHealth = {lines: 10, malformed: 0, first_malformed: null, foreign: 3, backwards: 0,
-  profile_hash: 7, dbc_version: 4};
-const EXCAVATOR = loadDatabase('excavator');
-const MACHINES = [{hash: 7}] as never[];
-
-test('what is wrong with a log', () => {
-  const words = (health: Partial<LogHealth>): string =>
-    health_words({...WELL, ...health}, EXCAVATOR, MACHINES, false).join('|');
-  assert.equal(words({}), '');
-  assert.equal(words({dbc_version: null, profile_hash: null}), '');
-  assert.match(words({dbc_version: 3}), /version 3 of excavator\.dbc, this page has version 4/);
-  assert.match(words({profile_hash: 0xabc}), /00000ABC/);
-  assert.match(words({malformed: 1, first_malformed: {line: 5, text: 'rubbish'}}),
-    /^1 line of 10 .* line 5: rubbish$/);
-  assert.match(words({backwards: 2}), /^2 stamps went back/);
-  assert.match(health_words(WELL, null, MACHINES, false).join(), /no frame of an excavator/);
-  assert.deepEqual(health_words(WELL, null, MACHINES, true), []);
 });

@@ -3,12 +3,10 @@
 
 import type {Setup, ToServer} from '../model/api';
 import type {FrameBlock} from '../model/frame_block';
+import {file_setup} from './file_setup';
 import type {PlainMessage, Told} from './orders';
 import {make_reader, type AnyWorker} from './reader';
 import FeedWorker from './worker?worker&inline';
-
-/// Of a log's bus, which no log tells.
-const ASSUMED_BITRATE = 500000;
 
 export interface FeedEvents {
   /// Again after a reconnect, if the server shows something else then, and for each opened file:
@@ -65,16 +63,6 @@ export function createFeed(events: FeedEvents, setup: Setup | null): Feed {
 export function embedded_setup(page: Document): Setup | null {
   const text = page.getElementById('graben-setup')?.textContent?.trim() ?? '';
   return text === '' ? null : JSON.parse(text) as Setup;
-}
-
-/// Machines and words stay those that the page knows.
-function file_setup(last: Setup | null, file: File): Setup {
-  return {
-    source: {mode: 'log', name: file.name, bytes: file.size,
-      bitrate: last?.source.bitrate ?? ASSUMED_BITRATE},
-    machines: last?.machines ?? [],
-    words: last?.words ?? {fault: {}, why_not_armed: []},
-  };
 }
 
 function pass_on(told: Told, events: FeedEvents): void {

@@ -2,7 +2,7 @@
 /// can be none, on the page's own thread.
 
 import {Batches} from './batches';
-import type {Hear, Order} from './orders';
+import type {Hear, HearOf, Order} from './orders';
 import {ServerSocket} from './socket';
 
 /// So much text is parsed before others get a turn.
@@ -11,11 +11,13 @@ const BASE64_PIECE = 1 << 20;  ///< A multiple of 4.
 
 export class Intake {
   private readonly batches: Batches;
+  private readonly hear: Hear;
   private socket: ServerSocket | null = null;
   private turn = 0;  ///< Of the sources: an older one has nothing to say any more.
 
-  constructor(private readonly hear: Hear) {
-    this.batches = new Batches(hear);
+  constructor(hear: HearOf) {
+    this.hear = (told, transfer) => hear(told, transfer, this.turn);
+    this.batches = new Batches(this.hear);
   }
 
   obey(order: Order): void {

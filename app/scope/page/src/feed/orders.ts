@@ -21,3 +21,12 @@ export type Told =
   | {told: 'closed'; why: string; again_s: number | null};
 
 export type Hear = (told: Told, transfer: ArrayBuffer[]) => void;
+
+/// `source` counts the orders that named one: what an older one still had to say is not heard.
+export type HearOf = (told: Told, transfer: ArrayBuffer[], source: number) => void;
+
+/// What a worker posts.
+export interface Posted {
+  told: Told;
+  source: number;
+}

@@ -2,11 +2,11 @@
 /// page from a file.
 
 import {Intake} from './intake';
-import type {Hear, Order, Told} from './orders';
+import type {Hear, HearOf, Order, Posted} from './orders';
 
 /// What a Worker is, as far as it is used here.
 export interface AnyWorker {
-  onmessage: ((event: MessageEvent<Told>) => void) | null;
+  onmessage: ((event: MessageEvent<Posted>) => void) | null;
   onerror: ((event: ErrorEvent) => void) | null;
   postMessage(order: Order): void;
   terminate(): void;
@@ -20,13 +20,19 @@ export interface Reader {
 /// are obeyed here.
 export function make_reader(make: () => AnyWorker, hear: Hear): Reader {
   const orders: Order[] = [];
+  let source = 0;  // the intake counts alike
+  const hear_now: HearOf = (told, transfer, of) => {
+    if (of === source) {
+      hear(told, transfer);
+    }
+  };
   let ready = false;
   let own: Intake | null = null;
   let worker: AnyWorker | null = null;
   const read_here = (): void => {
     worker?.terminate();
     worker = null;
-    own = new Intake(hear);
+    own = new Intake(hear_now);
     orders.splice(0).forEach((order) => own?.obey(order));
   };
   try {
@@ -34,8 +40,8 @@ export function make_reader(make: () => AnyWorker, hear: Hear): Reader {
     worker.onmessage = ({data}) => {
       ready = true;
       orders.length = 0;
-      if (data.told !== 'ready') {
-        hear(data, []);
+      if (data.told.told !== 'ready') {
+        hear_now(data.told, [], data.source);
       }
     };
     worker.onerror = (event) => {
@@ -52,6 +58,7 @@ export function make_reader(make: () => AnyWorker, hear: Hear): Reader {
   }
   return {
     obey(order) {
+      source += order.order === 'send' ? 0 : 1;
       if (own !== null) {
         own.obey(order);
         return;

@@ -111,6 +111,9 @@ export class ServerSocket {
       }
       const reader = answer.body.getReader();
       for (let part = await reader.read(); !part.done; part = await reader.read()) {
+        if (signal.aborted) {
+          return;  // the log has begun anew
+        }
         this.batches.feed(part.value);
       }
       this.batches.end();

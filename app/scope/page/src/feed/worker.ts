@@ -1,13 +1,14 @@
 /// The worker's end: an intake that speaks by messages.
 
 import {Intake} from './intake';
-import type {Order, Told} from './orders';
+import type {Order, Posted} from './orders';
 
 const scope = self as unknown as {
   onmessage: ((event: MessageEvent<Order>) => void) | null;
-  postMessage(told: Told, transfer: Transferable[]): void;
+  postMessage(posted: Posted, transfer: Transferable[]): void;
 };
 
-const intake = new Intake((told, transfer) => scope.postMessage(told, transfer));
+const intake = new Intake((told, transfer, source) =>
+  scope.postMessage({told, source}, transfer));
 scope.onmessage = (event) => intake.obey(event.data);
-scope.postMessage({told: 'ready'}, []);
+scope.postMessage({told: {told: 'ready'}, source: 0}, []);

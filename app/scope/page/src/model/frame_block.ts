@@ -31,10 +31,6 @@ export const EXTENDED = 0x80000000;
 export const REMOTE = 0x40000000;
 export const ERROR = 0x20000000;
 
-/// Frames in a block.
-export const frames_in = (block: FrameBlock): number =>
-  block.columns.reduce((sum, column) => sum + column.time_s.length, 0);
-
 /// Buffers that a block can be handed over with instead of copied.
 export function buffers_of(block: FrameBlock): ArrayBuffer[] {
   const buffers = new Set<ArrayBuffer>();

@@ -61,6 +61,17 @@ export class CounterWatch {
   }
 }
 
+/// Older than this a message is stale, s; one that comes on demand never is.
+export function stale_after_s(message: MessageDef | undefined): number {
+  const cycle_ms = message?.cycle_ms ?? 0;
+  return cycle_ms > 0 ? STALE_CYCLES * cycle_ms / 1000 : Infinity;
+}
+
+/// What never came is stale too.
+export function is_stale(store: FrameStore, message: string, age_s: number): boolean {
+  return age_s === Infinity || age_s > stale_after_s(store.database?.messages.get(message));
+}
+
 /// All messages of the database, in its order; none before the database is known.
 export function messageStates(store: FrameStore, time_s: number): MessageState[] {
   const messages = store.database?.messages.values() ?? [];
@@ -72,7 +83,7 @@ function message_state(store: FrameStore, message: MessageDef, time_s: number): 
   const last = rows.at(time_s);
   const age_s = last < 0 ? Infinity : time_s - rows.time(last);
   const cycle_s = message.cycle_ms / 1000;
-  const stale = last < 0 || (cycle_s > 0 && age_s > STALE_CYCLES * cycle_s);
+  const stale = last < 0 || age_s > stale_after_s(message);
   const first = rows.at(time_s - LOOK_BACK_S) + 1;
   // A log that begins within the second has no whole one.
   const span_s = Math.min(LOOK_BACK_S, Math.max(time_s - store.from_s, cycle_s));

@@ -67,12 +67,6 @@ export class Canvas {
     }
   }
 
-  /// Of the last picture.
-  cost(): {calls: number; triangles: number} {
-    const {calls, triangles} = this.renderer.info.render;
-    return {calls, triangles};
-  }
-
   private finest(): number {
     return Math.min(devicePixelRatio || 1, kMostPixelRatio);
   }

@@ -68,7 +68,7 @@ export class DozerModel {
   show(state: DozerMachineState): void {
     this.body.set_stale(state.stale.body);
     this.blade.set_stale(state.stale.blade);
-    // The bus has no pressures of the blade's cylinders.
+    // The bus has no pressures of the blade's cylinders, which the legend says.
     this.cylinders.forEach((cylinder) => cylinder.show(null, null, state.stale.blade));
   }
 

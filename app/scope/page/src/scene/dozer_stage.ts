@@ -6,6 +6,7 @@ import {designHeight, wantedDozer} from '../model/wanted';
 import {DozerModel} from './dozer_model';
 import {blade_walk} from './edges';
 import {GroundLayer} from './ground_layer';
+import {dozer_key, type KeyEntry} from './key';
 import type {Labels} from './labels';
 import {dozer_state} from './machine_state';
 import type {SharedMaterials} from './materials';
@@ -32,7 +33,7 @@ export class DozerStage implements Stage {
   private readonly design: Pane;
   private readonly trail: TrailLayer;
   private readonly ruler: Ruler;
-  private ghost_wanted = true;
+  private layers: SceneLayers | null = null;
 
   constructor(
     private readonly machine: DozerMachine, shared: SharedMaterials, labels: Labels) {
@@ -67,7 +68,7 @@ export class DozerStage implements Stage {
       this.ground.set_centre(this.along_m, 0, kSeen_m);
     }
     this.model.show(state);
-    this.model.pose_ghost(this.ghost_wanted && store.database !== null ?
+    this.model.pose_ghost(this.layers?.ghost && store.database !== null ?
       wantedDozer(store, this.machine, now_s) : null);
     this.trail.update(store, now_s);
   }
@@ -76,8 +77,12 @@ export class DozerStage implements Stage {
     this.ruler.face(eye_y_m);
   }
 
+  key(): readonly KeyEntry[] {
+    return this.layers ? dozer_key(this.layers) : [];
+  }
+
   set_layers(layers: SceneLayers): void {
-    this.ghost_wanted = layers.ghost;
+    this.layers = layers;
     this.design.node.visible = layers.design;
     this.trail.node.visible = layers.path;
     this.ground.show(layers.terrain);

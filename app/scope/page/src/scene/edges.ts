@@ -34,7 +34,7 @@ export const teeth_walk = (machine: ExcavatorMachine) =>
       const pose = excavatorPose(machine, [boom!, arm!, bucket!], swing);
       return pose && {
         x_m: pose.position_m[0], y_m: pose.position_m[1], z_m: pose.position_m[2],
-        heading_rad: swing};
+        heading_rad: swing, drives: [boom!, arm!, bucket!, swing]};
     });
   };
 

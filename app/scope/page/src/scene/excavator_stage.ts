@@ -7,6 +7,7 @@ import {wantedExcavator} from '../model/wanted';
 import {teeth_walk} from './edges';
 import {ExcavatorModel} from './excavator_model';
 import {GroundLayer} from './ground_layer';
+import {excavator_key, type KeyEntry} from './key';
 import type {Labels} from './labels';
 import {excavator_state, planned_state} from './machine_state';
 import type {SharedMaterials} from './materials';
@@ -42,8 +43,8 @@ export class ExcavatorStage implements Stage {
   private colours: SceneColours | null = null;
 
   constructor(
-    private readonly machine: ExcavatorMachine, setup: Setup, shared: SharedMaterials,
-    private readonly labels: Labels) {
+    private readonly machine: ExcavatorMachine, private readonly setup: Setup,
+    shared: SharedMaterials, private readonly labels: Labels) {
     this.model = new ExcavatorModel(machine, shared);
     this.tip = this.model.teeth;
     this.relief_pa = machine.relief_pa;
@@ -141,6 +142,12 @@ export class ExcavatorStage implements Stage {
     this.task_parts.push(pane);
     (kind === 'design' ? this.design : this.fences).add(pane.node);
     this.labels.put(name, kind === 'design' ? 'design' : 'fences', words, label_m);
+  }
+
+  key(): readonly KeyEntry[] {
+    const has_frames = this.setup.source.mode !== 'plan';
+    return this.layers ?
+      excavator_key(this.machine, this.layers, this.shown, has_frames) : [];
   }
 
   set_layers(layers: SceneLayers): void {

@@ -13,12 +13,13 @@ export interface Grid {
 const kLeastCut_m = 0.002;
 
 /// Every change is kept with its time, the height before and after it: so any time between the
-/// first and the last is shown by undoing or redoing what lies between. Soil only goes down, which
-/// bounds the entries by the soil that is there.
+/// first and the last is shown by undoing or redoing what lies between. Soil only goes down until it
+/// is laid anew, which bounds the entries by the soil that is there.
 export class HeightField {
   readonly grid: Grid;
   readonly heights: Float32Array;  ///< As shown; row by row from the first.
   private readonly latest: Float32Array;
+  private readonly start: Float32Array;
   private time = new Float64Array(1024);
   private node = new Int32Array(1024);
   private before = new Float32Array(1024);
@@ -26,6 +27,8 @@ export class HeightField {
   private count = 0;
   private shown = 0;
   private readonly most: number;
+  /// Changed where entries were forgotten; the next `show` tells of them.
+  private readonly untold = new Set<number>();
 
   /// Of more than `most` entries the older half is forgotten: before their time the field shows
   /// what they left.
@@ -40,23 +43,31 @@ export class HeightField {
       }
     }
     this.latest = this.heights.slice();
+    this.start = this.heights.slice();
   }
 
   get entries(): number {
     return this.count;
   }
 
-  /// The height after all cuts, whatever is shown.
-  latest_m(node: number): number {
-    return this.latest[node];
-  }
-
   /// Takes the node down to a height, if it is above. Times must not fall.
   lower(time_s: number, node: number, height_m: number): void {
     const was = this.latest[node];
-    if (height_m > was - kLeastCut_m) {
-      return;
+    if (height_m <= was - kLeastCut_m) {
+      this.enter(time_s, node, was, height_m);
     }
+  }
+
+  /// From then on the soil lies as it did at the start. Times must not fall.
+  lay_anew(time_s: number): void {
+    this.latest.forEach((was, node) => {
+      if (was !== this.start[node]) {
+        this.enter(time_s, node, was, this.start[node]);
+      }
+    });
+  }
+
+  private enter(time_s: number, node: number, was: number, height_m: number): void {
     if (this.count === this.time.length) {
       this.make_room();
     }
@@ -71,6 +82,8 @@ export class HeightField {
   /// Shows the field as it was; calls `changed` for each node whose height that changes, perhaps
   /// more than once.
   show(time_s: number, changed: (node: number) => void): void {
+    this.untold.forEach((node) => changed(node));
+    this.untold.clear();
     const target = this.entries_until(time_s);
     for (; this.shown < target; ++this.shown) {
       this.put(this.node[this.shown], this.after[this.shown], changed);
@@ -111,7 +124,7 @@ export class HeightField {
     const gone = this.count >> 1;
     // What is forgotten has to be in what is shown.
     for (; this.shown < gone; ++this.shown) {
-      this.heights[this.node[this.shown]] = this.after[this.shown];
+      this.put(this.node[this.shown], this.after[this.shown], (node) => this.untold.add(node));
     }
     for (const list of [this.time, this.node, this.before, this.after]) {
       list.copyWithin(0, gone, this.count);
@@ -132,6 +145,7 @@ export interface Edge {
   y_m: number;
   z_m: number;
   heading_rad: number;
+  drives?: readonly number[];  ///< That hold it, m and rad, where each has a sensor of its own.
 }
 
 /// Lowers the nodes that an edge of this width passes over between two of its places.

@@ -5,13 +5,13 @@ import type {SceneColours} from './theme';
 
 export class Legend {
   readonly node = document.createElement('div');
+  private readonly scale = document.createElement('div');
   private readonly numbers = document.createElement('div');
   private readonly grey = document.createElement('span');
+  private readonly none = document.createElement('div');
 
   constructor() {
-    Object.assign(this.node.style, {
-      position: 'absolute', left: '12px', bottom: '10px', width: '190px', pointerEvents: 'none',
-      font: '12px/1.35 system-ui, sans-serif'});
+    Object.assign(this.node.style, {minWidth: '190px'});
     const title = document.createElement('div');
     title.textContent = 'Cylinder pressure, MPa';
     const bar = document.createElement('div');
@@ -24,13 +24,22 @@ export class Legend {
       display: 'inline-block', width: '12px', height: '9px', marginRight: '5px',
       border: '1px solid currentColor', boxSizing: 'border-box'});
     stale.append(this.grey, 'old or not available');
-    this.node.append(title, bar, this.numbers, stale);
-    this.show(null);
+    this.none.textContent = 'no cylinder pressures on this bus';
+    this.scale.append(title, bar, this.numbers);
+    this.node.append(this.scale, this.none, stale);
+    this.hide();
   }
 
-  /// Null hides it: the machine's pressures are not measured.
+  /// No machine is shown.
+  hide(): void {
+    this.node.style.display = 'none';
+  }
+
+  /// Null: the machine's pressures are not measured.
   show(relief_pa: number | null): void {
-    this.node.style.display = relief_pa === null ? 'none' : '';
+    this.node.style.display = '';
+    this.scale.style.display = relief_pa === null ? 'none' : '';
+    this.none.style.display = relief_pa === null ? '' : 'none';
     if (relief_pa === null) {
       return;
     }
@@ -45,8 +54,6 @@ export class Legend {
   }
 
   set_theme(colours: SceneColours): void {
-    this.node.style.color = colours.text;
-    this.node.style.textShadow = `0 0 3px ${colours.halo}`;
     this.grey.style.background = colours.stale;
   }
 }

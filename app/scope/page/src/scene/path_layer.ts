@@ -44,7 +44,7 @@ export class DigLayer {
 
   set_theme(colours: SceneColours): void {
     this.line.set_colour(colours.path, colours.cut);
-    this.arrows.material.color.set(colours.path).lerp(new Color(colours.ground), 0.25);
+    this.arrows.material.color.copy(field_colour(colours));
     this.buried.material.color.set(colours.path).lerp(new Color(colours.soil), 0.65);
   }
 
@@ -56,11 +56,18 @@ export class DigLayer {
   }
 }
 
+export const field_colour = (colours: SceneColours): Color =>
+  new Color(colours.path).lerp(new Color(colours.ground), 0.25);
+
+/// What the longest arrow stands for; 0 without a field.
+export const fastest_mps = (dig: Dig): number =>
+  dig.field.reduce((most, [, , x, z]) => Math.max(most, Math.hypot(x, z)), 0);
+
 /// Flat arrows in the field's plane: as long as the way of some tenths of a second, none longer
 /// than the places of the field are apart.
 function arrows(dig: Dig): BufferGeometry {
   const places = dig.field;
-  const fastest = Math.max(...places.map(([, , x, z]) => Math.hypot(x, z)), 1e-6);
+  const fastest = Math.max(fastest_mps(dig), 1e-6);
   const longest = 0.85 * apart(places);
   const list: number[] = [];
   for (const [x, z, vx, vz] of places) {

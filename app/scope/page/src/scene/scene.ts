@@ -3,10 +3,10 @@
 import {Color, type PerspectiveCamera, Scene, Vector3 as Point} from 'three';
 import type {FrameStore, Kind, Machine, Setup, Vector2, Vector3} from '../model/api';
 import {Canvas} from './canvas';
+import {Corner} from './corner';
 import {DozerStage} from './dozer_stage';
 import {ExcavatorStage} from './excavator_stage';
 import {Labels} from './labels';
-import {Legend} from './legend';
 import {SharedMaterials} from './materials';
 import {without_webgl} from './no_webgl';
 import type {Stage} from './stage';
@@ -34,7 +34,7 @@ export function createScene(host: HTMLElement): SceneView {
 class DrawnScene implements SceneView {
   private readonly shared = new SharedMaterials();
   private readonly labels = new Labels();
-  private readonly legend = new Legend();
+  private readonly corner = new Corner();
   private readonly note = document.createElement('div');
   private readonly eye: ViewCamera;
   private stage: Stage | null = null;
@@ -61,7 +61,7 @@ class DrawnScene implements SceneView {
     if (getComputedStyle(host).position === 'static') {
       host.style.position = 'relative';
     }
-    host.append(element, this.labels.node, this.legend.node, this.note);
+    host.append(element, this.labels.node, this.corner.node, this.note);
     this.eye = new ViewCamera(camera, element, () => this.draw_soon());
     element.addEventListener('webglcontextrestored', this.draw_soon);
     this.setTheme(false);
@@ -86,7 +86,7 @@ class DrawnScene implements SceneView {
       this.stage.set_layers(this.layers);
       this.eye.set_home(this.stage.home);
     }
-    this.legend.show(this.stage?.relief_pa ?? null);
+    this.corner.show(this.stage);
     this.setTheme(this.dark);
   }
 
@@ -102,6 +102,7 @@ class DrawnScene implements SceneView {
     }
     this.shown = {now_s, revision: store.revision, until_s: store.until_s, drives};
     this.stage.update(view);
+    this.corner.show_key(this.stage);
     this.eye.follow(this.stage.along_m);
     this.draw_soon();
   }
@@ -124,7 +125,7 @@ class DrawnScene implements SceneView {
     const colours = scene_colours(dark);
     this.scene.background = new Color(colours.background);
     this.note.style.color = colours.text;
-    for (const part of [this.shared, this.labels, this.legend, this.stage]) {
+    for (const part of [this.shared, this.labels, this.corner, this.stage]) {
       part?.set_theme(colours);
     }
     // Cylinders take their grey when they are shown next.
@@ -145,6 +146,7 @@ class DrawnScene implements SceneView {
       this.labels.show(group, this.layers[group]);
     }
     this.stage?.set_layers(this.layers);
+    this.corner.show_key(this.stage);
     this.show_again();
   }
 

@@ -2,6 +2,7 @@
 
 import type {Group, Object3D, Sphere} from 'three';
 import type {GroundLayer} from './ground_layer';
+import type {KeyEntry} from './key';
 import type {SceneColours} from './theme';
 import type {SceneLayers, SceneUpdate} from './types';
 
@@ -15,6 +16,7 @@ export interface Stage {
   readonly placed: boolean;   ///< The machine has been somewhere; until then it is not drawn.
   update(view: SceneUpdate): void;
   face(eye_y_m: number): void;  ///< Where the reader's eye is.
+  key(): readonly KeyEntry[];   ///< Of the layers that are on now.
   set_layers(layers: SceneLayers): void;
   set_theme(colours: SceneColours): void;
   dispose(): void;

@@ -1,8 +1,9 @@
 /// The soil as the received frames have it cut: every frame's edge in the order of time, a little
 /// at a time, so that an hour of log does not hold the page up.
 
-import type {FrameStore} from '../model/api';
+import type {FrameStore, Vector3} from '../model/api';
 import {cut, type Edge, type HeightField} from './height_field';
+import {is_jump, is_one_sensor} from './jump';
 
 /// Where the edge was at one time; null: not known then.
 export interface EdgeWalk {
@@ -15,12 +16,17 @@ export interface EdgeWalk {
 const kSettle_s = 0.05;
 /// Over a longer gap nobody knows which way the edge took.
 const kGap_s = 0.3;
+/// Until all messages tell of the place after a jump.
+const kArrive_s = 0.03;
 /// Frames between two looks at the clock.
 const kFramesAtOnce = 32;
 
 export class TerrainHistory {
   private known_s = -Infinity;
   private last: {edge: Edge; time_s: number} | null = null;
+  /// Newest place, kept where nothing is known for a while.
+  private seen: {edge: Edge; time_s: number} | null = null;
+  private arriving_s = -Infinity;
 
   /// `walk` begins with the first frame after a time. The field has to be as it was at the start.
   constructor(
@@ -68,7 +74,9 @@ export class TerrainHistory {
       this.last = null;
       return;
     }
-    if (before === null || time_s - before.time_s > kGap_s) {
+    this.look_for_jump(time_s, edge);
+    this.seen = {edge, time_s};
+    if (before === null || time_s - before.time_s > kGap_s || time_s <= this.arriving_s) {
       this.last = {edge, time_s};
       return;
     }
@@ -82,4 +90,19 @@ export class TerrainHistory {
     cut(this.field, time_s, before.edge, edge, this.width_m);
     this.last = {edge, time_s};
   }
+
+  /// No machine cuts on such a way. Who is at once elsewhere has begun anew, on soil as it was.
+  private look_for_jump(time_s: number, edge: Edge): void {
+    const {seen} = this;
+    const since_s = seen ? time_s - seen.time_s : Infinity;
+    if (seen === null || !is_jump(place(seen.edge), place(edge), since_s)) {
+      return;
+    }
+    this.arriving_s = time_s + kArrive_s;
+    if (!is_one_sensor(seen.edge.drives ?? [], edge.drives ?? [], since_s)) {
+      this.field.lay_anew(time_s);
+    }
+  }
 }
+
+const place = ({x_m, y_m, z_m}: Edge): Vector3 => [x_m, y_m, z_m];

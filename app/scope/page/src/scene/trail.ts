@@ -1,6 +1,7 @@
 /// The way that the teeth or the blade's edge took lately.
 
 import type {FrameStore, Vector3} from '../model/api';
+import {is_jump} from './jump';
 import {simplified} from './outline';
 import type {EdgeWalk} from './terrain_history';
 
@@ -83,11 +84,13 @@ export function trail_segments(
   return {segments, ages};
 }
 
-/// Runs without a gap.
+/// Runs without a gap or a jump.
 function pieces(points: readonly TrailPoint[]): TrailPoint[][] {
   const runs: TrailPoint[][] = [];
   points.forEach((point, i) => {
-    if (i === 0 || point.time_s - points[i - 1].time_s > kGap_s) {
+    const before = points[i - 1];
+    const since_s = before ? point.time_s - before.time_s : Infinity;
+    if (!before || since_s > kGap_s || is_jump(before.at_m, point.at_m, since_s)) {
       runs.push([]);
     }
     runs[runs.length - 1].push(point);

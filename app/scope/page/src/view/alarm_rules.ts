@@ -15,6 +15,7 @@ export interface Alarm {
 
 const TASK_UNKNOWN = 37;
 const POSE_UNREACHABLE = 7;
+const PROGRAM = 3;  ///< OperatorCommand.Task.
 const FENCE = 12;
 const HELD = 0.02;  ///< Lambda at which a fence holds the machine for good.
 
@@ -28,9 +29,10 @@ function machine_alarms(state: PageState, words: PageWords): Alarm[] {
     return [];
   }
   const now = snapshot(store, playhead.now_s);
-  const alarms = plan_alarms(now, state, words);
+  const by_plan = is_plan_fault(now.fault, store, playhead.now_s);
+  const alarms = plan_alarms(now, by_plan, state, words);
   const stopped = now.mode === 'Fault' || now.mode === 'Stopping';
-  if (now.fault !== 0 && !PLAN_FAULTS.has(now.fault)) {
+  if (now.fault !== 0 && !by_plan) {
     alarms.push({
       id: 'fault', level: stopped ? 'alarm' : 'warning', at: 'fault',
       words: `${stopped ? 'Stopped by fault' : 'Fault'} ${now.fault}: ${words.fault(now.fault)}.`,
@@ -51,11 +53,21 @@ function machine_alarms(state: PageState, words: PageWords): Alarm[] {
   return alarms;
 }
 
-const PLAN_FAULTS = new Set([TASK_UNKNOWN, POSE_UNREACHABLE]);
+const STROKES = ['BoomStroke.BoomStroke', 'ArmStroke.ArmStroke', 'BucketStroke.BucketStroke'];
+
+/// A pose out of reach is the plan's fault only while a plan is followed and the strokes are
+/// measured: strokes that no pose has, raise the same fault.
+function is_plan_fault(fault: number, store: PageState['store'], now_s: number): boolean {
+  return fault === TASK_UNKNOWN || (fault === POSE_UNREACHABLE
+    && store.reading('OperatorCommand.Task', now_s).raw === PROGRAM
+    && STROKES.every((stroke) => store.reading(stroke, now_s).state === 'valid'));
+}
 
 /// A plan that cannot work (Zhang et al.).
-function plan_alarms(now: Snapshot, {machine}: PageState, words: PageWords): Alarm[] {
-  if (PLAN_FAULTS.has(now.fault)) {
+function plan_alarms(
+  now: Snapshot, by_plan: boolean, {machine}: PageState, words: PageWords,
+): Alarm[] {
+  if (by_plan) {
     return [{
       id: 'plan', level: 'alarm', at: 'fault',
       words: `This plan cannot work: ${words.fault(now.fault)} (fault ${now.fault}).`,
@@ -108,10 +120,9 @@ function source_alarms(state: PageState): Alarm[] {
   return alarms;
 }
 
-function log_alarms({store, setup, machine, ended, link}: PageState): Alarm[] {
+function log_alarms({store, setup, machine, ended}: PageState): Alarm[] {
   const {health, database, frames} = store;
   const alarms: Alarm[] = [];
-  const whole = ended || link.state === 'file';
   const plan = setup?.source.mode === 'plan';
   if (health.malformed > 0 && health.malformed === health.lines) {
     alarms.push({id: 'malformed', level: 'alarm', words: 'This is no candump log'
@@ -122,9 +133,9 @@ function log_alarms({store, setup, machine, ended, link}: PageState): Alarm[] {
       words: `${count(health.malformed)} line${health.malformed === 1 ? ' is' : 's are'} not `
         + `candump${first_line(store)}.`,
     });
-  } else if (whole && !plan && frames === 0) {
+  } else if (ended && !plan && frames === 0) {
     alarms.push({id: 'empty', level: 'alarm', words: 'This log is empty: it has no frames.'});
-  } else if (whole && !plan && (database === null || health.foreign === frames)) {
+  } else if (ended && !plan && (database === null || health.foreign === frames)) {
     alarms.push({id: 'foreign', level: 'alarm', words: 'No frame of this log is in a DBC that '
       + 'this page has: it is not of an excavator or a dozer of ours.'});
   }
@@ -145,7 +156,8 @@ function log_alarms({store, setup, machine, ended, link}: PageState): Alarm[] {
   if (health.backwards > 0) {
     alarms.push({
       id: 'backwards', level: 'warning',
-      words: `${count(health.backwards)} frames are stamped before the one before them.`,
+      words: health.backwards === 1 ? '1 frame is stamped before the one before it.'
+        : `${count(health.backwards)} frames are stamped before the one before them.`,
     });
   }
   return alarms;

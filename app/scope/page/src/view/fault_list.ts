@@ -51,7 +51,7 @@ export class FaultList implements View {
     set_shown(this.more, total > events.length);
     set_text(this.more, `${total - events.length} older ones are not listed.`);
     const {fault} = snapshot(state.store, state.playhead.now_s);
-    const now = fault === 0 ? undefined : this.log.last(state.playhead.now_s);
+    const now = fault === 0 ? undefined : this.log.last(state.playhead.now_s, fault);
     for (const row of this.rows.take(events.length)) {
       set_attribute(row.press, 'aria-current', row.time_s === now?.time_s ? 'true' : null);
     }

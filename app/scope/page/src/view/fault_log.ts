@@ -18,6 +18,7 @@ export class FaultLog {
   /// Oldest first, the newest `MOST` of them.
   events: readonly FaultEvent[] = [];
   total = 0;
+  private store: FrameStore | null = null;
   private revision = -1;
   private read_s = -Infinity;
   private from_dm1: FaultEvent[] = [];
@@ -25,23 +26,25 @@ export class FaultLog {
 
   /// Whether there is something new.
   update(store: FrameStore): boolean {
-    if (store.revision === this.revision) {
+    const other = store !== this.store;
+    if (!other && store.revision === this.revision) {
       return false;
     }
-    if (store.until_s < this.read_s) {
+    this.store = store;
+    if (other || store.until_s < this.read_s) {
       this.begin_anew();
     }
     this.revision = store.revision;
     this.read_dm1(store);
     const status = store.faults().map(({time_s, code}) => ({time_s, code, dm1_only: false}));
-    const more = this.from_dm1.filter((event) => !status.some((other) =>
-      other.code === event.code && Math.abs(other.time_s - event.time_s) < TOGETHER_S));
+    const more = this.from_dm1.filter((event) => !status.some((one) =>
+      one.code === event.code && Math.abs(one.time_s - event.time_s) < TOGETHER_S));
     const all = more.length === 0 ? status
       : [...status, ...more].sort((a, b) => a.time_s - b.time_s);
     const ends = (list: readonly FaultEvent[]) =>
       `${list.length} ${list.at(0)?.time_s} ${list.at(-1)?.time_s}`;
     const kept = all.slice(-MOST);
-    const changed = ends(kept) !== ends(this.events) || all.length !== this.total;
+    const changed = other || ends(kept) !== ends(this.events) || all.length !== this.total;
     if (changed) {
       this.total = all.length;
       this.events = kept;
@@ -49,11 +52,12 @@ export class FaultLog {
     return changed;
   }
 
-  /// The fault that began last, at a time or before it.
-  last(time_s: number): FaultEvent | undefined {
+  /// The fault that began last, at a time or before it; with a code, the last one of that code.
+  last(time_s: number, code?: number): FaultEvent | undefined {
     let found: FaultEvent | undefined;
     for (const event of this.events) {
-      found = event.time_s <= time_s ? event : found;
+      const meant = event.time_s <= time_s && (code === undefined || event.code === code);
+      found = meant ? event : found;
     }
     return found;
   }

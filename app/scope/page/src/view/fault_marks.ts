@@ -12,6 +12,7 @@ const INSET_PX = 8;
 export class FaultMarks {
   readonly node = el('canvas', {class: 'fault-marks', height: HEIGHT_PX, 'aria-hidden': 'true'});
   private drawn = '';
+  private drawn_events: readonly FaultEvent[] = [];
   private width_px = 0;
 
   constructor(private readonly theme: ThemeSwitch) {
@@ -24,10 +25,11 @@ export class FaultMarks {
   }
 
   draw(events: readonly FaultEvent[], from_s: number, until_s: number): void {
-    const key = `${events.length} ${events.at(-1)?.time_s} ${from_s} ${until_s} ${this.width_px}`;
-    if (key === this.drawn) {
+    const key = `${from_s} ${until_s} ${this.width_px}`;
+    if (key === this.drawn && events === this.drawn_events) {
       return;
     }
+    this.drawn_events = events;
     this.drawn = key;
     this.node.width = this.width_px;
     const context = this.node.getContext('2d');

@@ -71,7 +71,7 @@ function machine_words({kind, name}: Machine): string {
   return name.startsWith(kind) ? name : `${kind} ${name}`;
 }
 
-function link_words({link, loaded_share, store, setup, ended}: PageState): string {
+export function link_words({link, loaded_share, store, setup, ended}: PageState): string {
   const frames = `${count(store.frames)} frames`;
   if (link.state === 'lost') {
     return 'connection lost';
@@ -80,7 +80,8 @@ function link_words({link, loaded_share, store, setup, ended}: PageState): strin
     return 'connecting …';
   }
   if (loaded_share < 1 && !ended) {
-    return `reading, ${count(loaded_share * 100)} %`;
+    return setup?.source.bytes === undefined ? 'reading'
+      : `reading, ${count(loaded_share * 100)} %`;
   }
   if (link.state === 'file') {
     return setup?.source.mode === 'plan' ? 'no frames: a plan' : `all here, ${frames}`;

@@ -1,6 +1,7 @@
 /// How the controller's process fares, and what it says that it is.
 
 import type {Reading} from '../model/api';
+import {is_stale} from '../model/integrity';
 import {el, section, set_shown, set_text} from './dom';
 import {count, fixed, hash_words} from './format';
 import type {PageState, View} from './page_state';
@@ -74,8 +75,7 @@ export class HealthPanel implements View {
         : reading.state === 'error' ? 'error'
           : reading.state === 'notAvailable' ? 'not available' : 'not received');
       row.classList.toggle('wrong', reading.state === 'valid' && wrong(reading));
-      const cycle_s = (database!.messages.get(signal.split('.')[0]!)?.cycle_ms ?? 0) / 1000;
-      row.classList.toggle('stale', cycle_s > 0 && reading.age_s > 3 * cycle_s);
+      row.classList.toggle('stale', is_stale(store, signal.split('.')[0]!, reading.age_s));
     }
   }
 }

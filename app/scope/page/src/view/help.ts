@@ -20,7 +20,7 @@ const MORE: readonly string[] = [
   'In a plot: move to read values, click to look at a moment, drag to zoom, double-click for the '
     + 'whole log; Ctrl and wheel or two fingers zoom too. A name in the legend hides its line.',
   'In the scene: drag turns, right drag or two fingers move, wheel zooms.',
-  'Grey values are stale: older than three cycles of their message.',
+  'Grey, slanted values are stale: older than three cycles of their message.',
   'This page only listens. On a real bus it sends nothing; in a simulation it asks the server.',
 ];
 

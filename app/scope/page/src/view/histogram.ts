@@ -17,6 +17,7 @@ export class Histogram {
   private readonly canvas = el('div', {class: 'plot-canvas'});
   private plot: uPlot | null = null;
   private key = '';
+  private store: unknown = null;
   private done_ms = 0;
   private visible = false;
 
@@ -35,10 +36,12 @@ export class Histogram {
     set_shown(this.node, state.store.database !== null);
     const [from_s, until_s] = state.playhead.window;
     const key = `${from_s} ${until_s} ${state.store.revision}`;
-    if (!this.visible || key === this.key || now_ms - this.done_ms < EVERY_MS) {
+    const same = key === this.key && state.store === this.store;
+    if (!this.visible || same || now_ms - this.done_ms < EVERY_MS) {
       return;
     }
     this.key = key;
+    this.store = state.store;
     this.done_ms = now_ms;
     this.write(distribution(cycle_times(state, from_s, until_s)), until_s - from_s);
   }
@@ -94,7 +97,10 @@ export class Histogram {
         }},
         y: {range: (_plot, _min, max) => [0, Math.max(1, max * 1.05)]},
       },
-      axes: [{...axis, size: 26, space: 60}, {...axis, size: 48, space: 28}],
+      axes: [{...axis, size: 26, space: 60}, {
+        ...axis, size: 48, space: 28, label: 'cycles', labelSize: 16, labelGap: 2,
+        labelFont: '12px system-ui, sans-serif',
+      }],
       series: [{}, {
         stroke: () => theme.colour('boom'), fill: () => theme.colour('boom-soft'), width: 1,
         points: {show: false}, paths: uPlot.paths.bars!({size: [1, Infinity], gap: 1}),

@@ -1,11 +1,10 @@
 /// The lines of a plot by name, colour and value at the cursor; each can be put out of the picture.
 
 import type {FrameStore, Reading} from '../model/api';
+import {is_stale} from '../model/integrity';
 import {button, el, set_attribute, set_text} from './dom';
 import {fixed, unit_words} from './format';
 import type {Line, PlotSpec} from './plots';
-
-const STALE_S = 0.5;
 
 interface Entry {
   node: HTMLButtonElement;
@@ -43,9 +42,11 @@ export class Legend {
   values(store: FrameStore, time_s: number): void {
     for (const {value, line, shown} of this.entries) {
       if (shown) {
+        const {message} = line.trace;
         const reading = line.trace.reading(store, time_s);
         set_text(value, reading_words(reading, line.digits));
-        value.classList.toggle('stale', reading.age_s > STALE_S);
+        const stale = message !== null && is_stale(store, message, reading.age_s);
+        value.classList.toggle('stale', stale);
       }
     }
   }

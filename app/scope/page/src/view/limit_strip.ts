@@ -9,7 +9,7 @@ import type {ThemeSwitch} from './theme';
 /// By the numbers that EcuStatus has.
 export type LimitWords = (kind: number, index: number) => string;
 
-const COLOURS = 9;
+const COLOURS = 13;
 const TOP = -0.04;
 const BOTTOM = -0.17;
 
@@ -96,7 +96,8 @@ export class LimitStrip {
     }
     let colour = this.colours.get(key);
     if (colour === undefined) {
-      colour = `limit${(this.colours.size % COLOURS) + 1}`;
+      // More than there are colours share one that none else has.
+      colour = this.colours.size < COLOURS ? `limit${this.colours.size + 1}` : 'limit-more';
       this.colours.set(key, colour);
     }
     return colour;

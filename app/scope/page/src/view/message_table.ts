@@ -16,6 +16,11 @@ export const INTEGRITY_WORDS: Readonly<Record<Integrity, string>> = {
   unprotected: 'no CRC',
 };
 
+/// `wrong`: frames of the last second.
+export function integrity_words(integrity: Integrity, wrong: number): string {
+  return INTEGRITY_WORDS[integrity] + (wrong > 0 ? `, ${wrong} wrong in 1 s` : '');
+}
+
 const COLUMNS = 5;
 
 class MessageRow {
@@ -48,9 +53,8 @@ class MessageRow {
     set_text(this.age, never ? 'never' : age_s < 100 ? count(age_s * 1000) : '> 100 s');
     set_text(this.rate, never ? '–' : fixed(rate_hz, rate_hz < 10 ? 1 : 0));
     set_text(this.counter, counter < 0 ? '–' : String(counter));
-    set_text(this.integrity, INTEGRITY_WORDS[integrity] + (wrong > 0 ? ` (${wrong})` : ''));
+    set_text(this.integrity, integrity_words(integrity, wrong));
     set_attribute(this.integrity, 'data-integrity', integrity);
-    set_attribute(this.integrity, 'title', wrong > 0 ? `${wrong} wrong in the last second` : null);
     if (!this.detail.hidden) {
       this.values?.update(state);
     }
@@ -92,7 +96,7 @@ export class MessageTable implements View {
         el('th', {scope: 'col'}, 'Message'),
         el('th', {scope: 'col', class: 'number'}, 'Age, ms'),
         el('th', {scope: 'col', class: 'number', title: 'Frames in the last second'}, 'Rate, Hz'),
-        el('th', {scope: 'col', class: 'number', title: 'Counter, 0 to 14'}, 'Count'),
+        el('th', {scope: 'col', class: 'number', title: 'Counter, 0 to 14'}, 'Counter'),
         el('th', {scope: 'col'}, 'State'))));
     this.node = section('messages', 'Bus', this.load, this.none,
       el('div', {class: 'table-frame'}, this.table));

@@ -1,6 +1,7 @@
 /// All values of one message, decoded, with units.
 
 import type {MessageDef, Reading, SignalDef} from '../model/api';
+import {is_stale} from '../model/integrity';
 import {el, set_text} from './dom';
 import {digits_of, fixed, name_words, unit_words} from './format';
 import type {PageState} from './page_state';
@@ -20,11 +21,10 @@ export class MessageValues {
   }
 
   update({store, playhead}: PageState): void {
-    const limit_s = this.message.cycle_ms > 0 ? (3 * this.message.cycle_ms) / 1000 : Infinity;
     for (const {signal, row, value} of this.rows) {
       const reading = store.reading(`${this.message.name}.${signal.name}`, playhead.now_s);
       set_text(value, value_words(signal, reading));
-      row.classList.toggle('stale', reading.age_s > limit_s);
+      row.classList.toggle('stale', is_stale(store, this.message.name, reading.age_s));
     }
   }
 }

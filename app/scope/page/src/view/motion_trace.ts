@@ -29,6 +29,7 @@ export function moved_trace(kind: Kind, name: string): Trace {
   const {measured} = drive_of(kind, name);
   return {
     message: measured.split('.')[0]!,
+    signals: [measured],
     curve: (store, from_s, until_s, buckets) =>
       without_jumps(velocity_curve(store, measured, from_s, until_s, buckets)),
     reading(store, time_s) {
@@ -43,6 +44,7 @@ export function followed_trace(kind: Kind, name: string): Trace {
   const drive = drive_of(kind, name);
   return {
     message: drive.wanted.split('.')[0]!,
+    signals: drive.scaled_by_lambda ? [drive.wanted, 'EcuStatus.Lambda'] : [drive.wanted],
     curve: (store, from_s, until_s, buckets) =>
       scaled(store, drive, store.curve(drive.wanted, from_s, until_s, buckets)),
     reading: (store, time_s) => followed_velocity(store, drive, time_s),

@@ -4,11 +4,11 @@ import uPlot from 'uplot';
 import type {FrameStore} from '../model/api';
 import {on_processor} from './cpu_canvas';
 import {align} from './curves';
-import {el, set_attribute} from './dom';
+import {el} from './dom';
 import {digits_of, fixed, time_words, unit_words} from './format';
 import {Legend} from './legend';
 import type {LimitStrip} from './limit_strip';
-import type {PlotSpec} from './plots';
+import type {Line, PlotSpec} from './plots';
 import type {ThemeSwitch} from './theme';
 import {stable_range} from './plot_range';
 
@@ -23,6 +23,8 @@ export interface PlotHost {
 }
 
 const FONT = '12px system-ui, sans-serif';
+const WIDTHS = {wanted: 3, real: 1.8, beside: 1, truth: 1.8};
+const DASHES: Partial<Record<Line['style'], number[]>> = {wanted: [2, 3], truth: [8, 4]};
 const PIXELS_PER_BUCKET = 2;
 const TIME_STEPS_S = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30,
   60, 120, 300, 600, 900, 1800, 3600, 7200, 14400, 28800, 86400];
@@ -157,8 +159,7 @@ export class Plot {
       ],
       series: [{}, ...this.spec.lines.map((line): uPlot.Series => ({
         stroke: () => theme.colour(line.colour), points: {show: false},
-        width: line.style === 'wanted' ? 4 : line.style === 'beside' ? 1 : 1.8,
-        ...(line.style === 'truth' ? {dash: [6, 4]} : {}),
+        width: WIDTHS[line.style], dash: DASHES[line.style] ?? [],
       }))],
       hooks: {
         setCursor: [(plot) => this.pointed(plot)],
@@ -183,11 +184,6 @@ export class Plot {
         plot.posToVal(left, 'x') + origin_s, plot.posToVal(left + width, 'x') + origin_s);
     }
     plot.setSelect({left: 0, top: 0, width: 0, height: 0}, false);
-  }
-
-  /// For the reader of the page, not of the picture.
-  describe(words: string): void {
-    set_attribute(this.plot.root, 'aria-description', words);
   }
 }
 

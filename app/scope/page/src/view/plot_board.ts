@@ -1,13 +1,13 @@
 /// All plots of a machine: one window, one cursor. Curves are fetched only for plots in sight, at
 /// most fifteen times a second, and a few at a time, so that the scene keeps its frames.
 
-import type {Machine} from '../model/api';
-import {el, set_shown} from './dom';
+import type {Run} from '../model/api';
+import {el, set_shown, set_text} from './dom';
 import {LimitStrip, type LimitWords} from './limit_strip';
 import type {PageState} from './page_state';
 import {Plot, type PlotHost} from './plot';
 import {plot_gestures} from './plot_gestures';
-import {plots_of} from './plots';
+import {empty_words, plots_of, plotted, type PlotSpec} from './plots';
 import type {ThemeSwitch} from './theme';
 
 const REFRESH_MS = 66;
@@ -19,9 +19,11 @@ const STRIP_HEIGHT_PX = 176;
 
 export class PlotBoard {
   readonly node = el('div', {class: 'plots'});
-  private readonly empty = el('p', {class: 'quiet'}, 'No frames yet: nothing to plot.');
+  private readonly empty = el('p', {class: 'quiet'});
   private plots: Plot[] = [];
-  private shown_for = '';
+  private chosen_for = '';
+  private run: Run | undefined;
+  private pumps = 0;  ///< Most that were ever seen in this store.
   private store: unknown = null;
   private machine: unknown = null;
   private readonly came = new Set<string>();  ///< Messages, at least once.
@@ -36,6 +38,8 @@ export class PlotBoard {
       const plot = this.plots.find(({node}) => node === target);
       if (plot !== undefined) {
         plot.visible = isIntersecting;
+        // The playhead went on while the plot was out of sight.
+        plot.mark(this.state.playhead.now_s, this.hover_s);
       }
     }
   });
@@ -95,40 +99,58 @@ export class PlotBoard {
     }
   }
 
-  /// Plots are made anew for another machine, and when a message came for the first time.
+  /// Plots go by the machine and by the messages that came so far.
   private choose(): void {
     const {machine, setup, store} = this.state;
     if (store !== this.store) {
       this.store = store;
       this.came.clear();
+      this.pumps = 0;
     }
     for (const name of store.database?.messages.keys() ?? []) {
       if (!this.came.has(name) && store.rows(name).count > 0) {
         this.came.add(name);
       }
     }
-    const key = `${machine?.hash ?? 'none'} ${[...this.came].join()} ${setup?.run?.title ?? ''}`;
-    if (key !== this.shown_for) {
-      this.shown_for = key;
-      this.build(machine);
+    const of = plotted(machine, store);
+    // A pump that fails has been there.
+    this.pumps = machine !== null ? of?.pumps ?? 0 : Math.max(this.pumps, of?.pumps ?? 0);
+    const {run} = setup ?? {};
+    const key = `${of?.kind} ${this.pumps} ${[...this.came].join()}`;
+    if (key === this.chosen_for && run === this.run) {
+      set_text(this.empty, empty_words(store));
+      return;
     }
+    this.chosen_for = key;
+    this.build(plots_of(of && {...of, pumps: this.pumps}, run, this.came), run);
+    set_shown(this.empty, this.plots.length === 0);
+    set_text(this.empty, empty_words(store));
   }
 
-  private build(machine: Machine | null): void {
-    for (const plot of this.plots) {
+  /// A plot whose lines are the same stays as it is, with what is hidden in it.
+  private build(specs: readonly PlotSpec[], run: Run | undefined): void {
+    const kept = new Map(run === this.run ? this.plots.map((plot) => [plot_key(plot.spec), plot])
+      : []);
+    this.run = run;
+    if (kept.size === specs.length && specs.every((spec) => kept.has(plot_key(spec)))) {
+      return;
+    }
+    const host = this.host();
+    const before = this.plots;
+    this.plots = specs.map((spec) => kept.get(plot_key(spec)) ?? new Plot(spec, host,
+      spec.strip === true ? new LimitStrip(this.theme, this.words) : null));
+    for (const plot of before.filter((one) => !this.plots.includes(one))) {
       this.sight.unobserve(plot.node);
       plot.destroy();
     }
-    const host = this.host();
-    this.plots = plots_of(machine, this.state.setup?.run, this.came).map((spec) => {
-      const strip = spec.strip === true ? new LimitStrip(this.theme, this.words) : null;
-      return new Plot(spec, host, strip);
-    });
-    for (const plot of this.plots) {
-      this.node.append(plot.node);
-      this.sight.observe(plot.node);
+    let last: Element = this.empty;
+    for (const {node} of this.plots) {
+      if (last.nextElementSibling !== node) {
+        last.after(node);
+      }
+      this.sight.observe(node);
+      last = node;
     }
-    set_shown(this.empty, this.plots.length === 0);
     this.fit();
   }
 
@@ -195,4 +217,10 @@ export class PlotBoard {
       plot.resize(Math.floor(width), plot.spec.strip === true ? STRIP_HEIGHT_PX : HEIGHT_PX);
     }
   }
+}
+
+/// Plots of the same key are the same, but for what a run knows.
+function plot_key({name, title, unit, lines}: PlotSpec): string {
+  return [name, title, unit, ...lines.map(({label, trace}) =>
+    `${label} ${trace.signals.join()}`)].join('|');
 }

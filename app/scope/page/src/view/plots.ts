@@ -1,14 +1,14 @@
 /// Which plots there are, by machine. Their names are those that Run.truth.lines[].plot may name;
 /// such a line is added, dashed, converted to the plot's unit.
 
-import type {ExcavatorMachine, Kind, Machine, Run} from '../model/api';
+import type {FrameStore, Kind, Machine, Run} from '../model/api';
 import {followed_trace, moved_trace} from './motion_trace';
 import {signal_trace, truth_trace, unit_factor, type Trace} from './traces';
 
 export interface Line {
   label: string;
   colour: string;  ///< Name of a custom property of the theme.
-  /// 'wanted': broad and pale. 'real': strong. 'beside': thin. 'truth': dashed.
+  /// 'wanted': broad and dotted. 'real': strong. 'beside': thin. 'truth': dashed.
   style: 'wanted' | 'real' | 'beside' | 'truth';
   digits: number;
   trace: Trace;
@@ -61,13 +61,17 @@ const LAMBDA: PlotSpec = {
   lines: [real('lambda', 'lambda', 'EcuStatus.Lambda', 3)], least: [0, 1], strip: true,
 };
 
-function excavator_plots(machine: ExcavatorMachine): PlotSpec[] {
-  const pumps = [1, 2].slice(0, machine.pumps);
+/// Messages that only a machine with a swing has.
+const SWING_MESSAGES = ['SwingState', 'SwingCommand', 'SwingValveState'];
+
+function excavator_plots(count: number, came: ReadonlySet<string>): PlotSpec[] {
+  const pumps = [1, 2].slice(0, count);
+  const has_swing = SWING_MESSAGES.some((message) => came.has(message));
   const spools = DRIVES.flatMap(({name, colour}) => [
     wanted(`${name} command`, colour, `SpoolCommand.${name}Duty`, 0),
     real(name, colour, `ValveState.${name}Spool`, 0),
   ]);
-  if (machine.has_swing) {
+  if (has_swing) {
     spools.push(wanted('Swing command', 'swing', 'SwingCommand.SwingDuty', 0),
       real('Swing', 'swing', 'SwingValveState.SwingSpool', 0));
   }
@@ -77,16 +81,16 @@ function excavator_plots(machine: ExcavatorMachine): PlotSpec[] {
     lines: [real('Path error', 'error', 'EcuHydraulics.PathError', 1)],
   }, {
     name: 'spools', title: 'Spools', unit: 'per mille', lines: spools, least: [-100, 100],
-    note: 'Command pale, feedback strong; positive extends',
+    note: 'Command dotted, feedback whole; positive extends',
   }, {
     name: 'velocities', title: 'Cylinder velocities', unit: 'mm/s', least: [-20, 20],
-    note: 'Lambda times wanted pale, real strong',
+    note: 'Lambda times wanted dotted, real whole',
     lines: DRIVES.flatMap(({name, colour}) => velocities('excavator', name, colour)),
   }];
-  if (machine.has_swing) {
+  if (has_swing) {
     plots.push({
       name: 'swing', title: 'Swing rate', unit: 'mrad/s', least: [-20, 20],
-      note: 'Lambda times wanted pale, real strong; to the left is positive',
+      note: 'Lambda times wanted dotted, real whole; to the left is positive',
       lines: velocities('excavator', 'Swing', 'swing'),
     });
   }
@@ -97,10 +101,10 @@ function excavator_plots(machine: ExcavatorMachine): PlotSpec[] {
       `Pump ${pump} expected`, `pump${pump}`, `EcuHydraulics.Pump${pump}ExpectedPressure`, 2)),
   }, {
     name: 'chambers', title: 'Chamber pressures', unit: 'MPa', least: [0, 5],
-    note: 'Measured; cap side strong, rod side thin', lines: chambers(machine),
+    note: 'Measured; cap side strong, rod side thin', lines: chambers(has_swing),
   }, {
     name: 'swash', title: 'Swash', unit: '%', least: [0, 100],
-    note: 'Command pale, measured strong',
+    note: 'Command dotted, measured whole',
     lines: pumps.flatMap((pump) => [
       wanted(`Pump ${pump} command`, `pump${pump}`, `PumpCommand.Pump${pump}Swash`, 1),
       real(`Pump ${pump}`, `pump${pump}`, `PumpState.Pump${pump}Swash`, 1),
@@ -109,12 +113,12 @@ function excavator_plots(machine: ExcavatorMachine): PlotSpec[] {
   return plots;
 }
 
-function chambers(machine: ExcavatorMachine): Line[] {
+function chambers(has_swing: boolean): Line[] {
   const lines = DRIVES.flatMap(({name, colour}) => [
     real(`${name} cap`, colour, `${name}Pressure.${name}CapPressure`, 2),
     beside(`${name} rod`, colour, `${name}Pressure.${name}RodPressure`, 2),
   ]);
-  return machine.has_swing
+  return has_swing
     ? [...lines, real('Swing left', 'swing', 'SwingState.SwingLeftPressure', 2),
       beside('Swing right', 'swing', 'SwingState.SwingRightPressure', 2)]
     : lines;
@@ -128,7 +132,7 @@ function dozer_plots(): PlotSpec[] {
     lines: [real('Grade error', 'error', 'EcuGrade.GradeError', 1)],
   }, {
     name: 'speeds', title: 'Travel speed', unit: 'mm/s', least: [0, 500],
-    note: 'Wanted pale, real strong, limit of flow and transmission thin',
+    note: 'Wanted dotted, real whole, limit of flow and transmission thin',
     lines: [
       wanted('Wanted', 'boom', 'EcuMotion.WantedSpeed', 0),
       beside('Limit', 'error', 'EcuMotion.SpeedLimit', 0),
@@ -143,23 +147,23 @@ function dozer_plots(): PlotSpec[] {
       real('Required', 'required', 'EcuGrade.RequiredFlow', 1)],
   }, {
     name: 'spools', title: 'Blade spool', unit: 'per mille', least: [-100, 100],
-    note: 'Command pale, feedback strong; positive lowers',
+    note: 'Command dotted, feedback whole; positive lowers',
     lines: [wanted('Blade command', 'boom', 'SpoolCommand.BladeDuty', 0),
       real('Blade', 'boom', 'ValveState.BladeSpool', 0)],
   }, {
     name: 'velocities', title: 'Blade cylinder velocity', unit: 'mm/s', least: [-20, 20],
-    note: 'Wanted pale, real strong; positive lowers',
+    note: 'Wanted dotted, real whole; positive lowers',
     lines: velocities('dozer', 'Blade', 'boom'),
   }, {
     name: 'displacements', title: 'Pump displacements', unit: 'per mille', least: [0, 100],
-    note: 'Command pale, measured strong; forward is positive',
+    note: 'Command dotted, measured whole; forward is positive',
     lines: sides.flatMap((side) => [
       wanted(`${side} command`, side.toLowerCase(), `PumpDisplacementCommand.${side}Pump`, 0),
       real(side, side.toLowerCase(), `${side}Transmission.Pump`, 0),
     ]),
   }, {
     name: 'motors', title: 'Motor displacements', unit: '%', least: [0, 100],
-    note: 'Command pale, measured strong',
+    note: 'Command dotted, measured whole',
     lines: sides.flatMap((side) => [
       wanted(`${side} command`, side.toLowerCase(), `MotorDisplacementCommand.${side}Motor`, 1),
       real(side, side.toLowerCase(), `${side}Transmission.Motor`, 1),
@@ -172,12 +176,39 @@ function dozer_plots(): PlotSpec[] {
   }];
 }
 
+/// What of a machine its plots go by.
+export interface Plotted {
+  kind: Kind;
+  pumps: number;
+}
+
+const SECOND_PUMP = ['PumpState.Pump2Swash', 'PumpCommand.Pump2Swash',
+  'EcuHydraulics.Pump2ExpectedPressure'];
+
+/// Of a machine whose profile is not known, the frames alone tell what it has.
+export function plotted(machine: Machine | null, store: FrameStore): Plotted | null {
+  const kind = machine?.kind ?? store.database?.kind ?? null;
+  if (kind !== 'excavator') {
+    return kind === null ? null : {kind, pumps: 2};
+  }
+  const second = () => SECOND_PUMP.some((signal) =>
+    store.reading(signal, store.until_s).state === 'valid');
+  return {kind, pumps: machine?.kind === 'excavator' ? machine.pumps : second() ? 2 : 1};
+}
+
+/// Why there is no plot.
+export function empty_words({frames, database}: FrameStore): string {
+  return frames === 0 ? 'No frames yet: nothing to plot.'
+    : database === null ? 'No frame of an excavator or a dozer yet: nothing to plot.'
+      : 'No message that is plotted has come yet.';
+}
+
 /// All plots of a machine, of the lines whose frames came, with what a run knows beside them.
 export function plots_of(
-  machine: Machine | null, run: Run | undefined, came: ReadonlySet<string>,
+  of: Plotted | null, run: Run | undefined, came: ReadonlySet<string>,
 ): PlotSpec[] {
-  const all = machine === null ? []
-    : machine.kind === 'excavator' ? excavator_plots(machine) : dozer_plots();
+  const all = of === null ? []
+    : of.kind === 'excavator' ? excavator_plots(of.pumps, came) : dozer_plots();
   const plots = all.map((plot) => ({
     ...plot, lines: plot.lines.filter(({trace}) => came.has(trace.message ?? '')),
   })).filter(({lines}) => lines.length > 0);

@@ -5,6 +5,7 @@ import type {FaultLog} from './fault_log';
 import {date_words, time_words} from './format';
 import {FaultMarks} from './fault_marks';
 import {is_live, type PageState, type View} from './page_state';
+import {snapshot} from './snapshot';
 import type {ThemeSwitch} from './theme';
 
 export const RATES = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50];
@@ -30,6 +31,7 @@ export class ReplayBar implements View {
   private readonly steps: HTMLButtonElement[];
   private readonly jumps: HTMLButtonElement[];
   private range = '';
+  private shown_rate = 1;
 
   constructor(
     private readonly state: PageState, private readonly log: FaultLog, theme: ThemeSwitch,
@@ -82,8 +84,9 @@ export class ReplayBar implements View {
 
   /// To the beginning of the fault that is on now.
   jump_to_current(): void {
-    const {playhead} = this.state;
-    const event = this.log.last(playhead.now_s);
+    const {playhead, store} = this.state;
+    const {fault} = snapshot(store, playhead.now_s);
+    const event = this.log.last(playhead.now_s, fault === 0 ? undefined : fault);
     if (event !== undefined) {
       playhead.seek(event.time_s);
     }
@@ -103,7 +106,9 @@ export class ReplayBar implements View {
     set_attribute(this.play, 'title', `${moving ? 'Pause' : 'Play'} (space)`);
     set_attribute(this.play, 'data-moving', String(moving));
     this.rate.disabled = playhead.follow;
-    if (document.activeElement !== this.rate) {
+    // Someone may be choosing: only what changed otherwise is written over that.
+    if (playhead.rate !== this.shown_rate || document.activeElement !== this.rate) {
+      this.shown_rate = playhead.rate;
       this.rate.value = String(playhead.rate);
     }
     for (const node of this.steps) {

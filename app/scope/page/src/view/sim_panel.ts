@@ -13,7 +13,10 @@ export class SimPanel implements View {
   private readonly controls = el('div', {class: 'sim-controls'});
   private readonly refused = el('p', {class: 'refused', role: 'status'});
   private built_for: SimSetup | null = null;
-  private refresh: (state: SimState) => void = () => undefined;
+  private said: SimState | null = null;
+  private said_refused = '';
+  /// `said`: the server had a word since the last time, and what was clicked gives way to it.
+  private refresh: (state: SimState, said: boolean) => void = () => undefined;
 
   constructor(private readonly send: (message: ToServer) => void) {
     this.node = section('sim', 'Simulation', this.controls, this.refused);
@@ -33,7 +36,10 @@ export class SimPanel implements View {
       node.disabled = link.state !== 'open' || sim === null;
     }
     if (sim !== null) {
-      this.refresh(sim);
+      const said = sim !== this.said || refused !== this.said_refused;
+      this.said = sim;
+      this.said_refused = refused;
+      this.refresh(sim, said);
     }
     set_shown(this.refused, refused !== '');
     set_text(this.refused, `Refused: ${refused}`);
@@ -58,10 +64,10 @@ export class SimPanel implements View {
       el('h3', {}, 'Faults'),
       button('Take all faults back and re-arm', () => this.send({do: 'clear'}), {class: 'wide'}),
       el('ul', {class: 'fault-buttons'}, ...faults.map(({node}) => node)));
-    this.refresh = (state) => {
+    this.refresh = (state, said) => {
       run.dataset.running = String(state.running);
       set_text(run, state.running ? 'Stop' : 'Start');
-      if (document.activeElement !== pace) {
+      if (said || document.activeElement !== pace) {
         show_pace(pace, state.pace);
       }
       speed.show(state.speed);

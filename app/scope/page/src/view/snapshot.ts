@@ -1,6 +1,7 @@
 /// What the controller says of itself at one moment, read once for all parts of the panel.
 
 import type {FrameStore, Reading} from '../model/api';
+import {is_stale} from '../model/integrity';
 
 export const MODES = ['Silent', 'Ready', 'Armed', 'Active', 'Stopping', 'Fault'] as const;
 export type Mode = (typeof MODES)[number];
@@ -16,7 +17,6 @@ export interface Snapshot {
   stale: boolean;        ///< EcuStatus does not come any more.
 }
 
-const STALE_S = 0.1;
 const VALID_FAULTS = 250;
 
 export function snapshot(store: FrameStore, time_s: number): Snapshot {
@@ -34,7 +34,7 @@ export function snapshot(store: FrameStore, time_s: number): Snapshot {
     limit_index: read('EcuStatus.LimitIndex').raw,
     fault: fault.state === 'valid' && fault.raw <= VALID_FAULTS ? fault.raw : 0,
     why_not_armed: read('EcuHealth.WhyNotArmed'),
-    stale: mode.age_s > STALE_S,
+    stale: is_stale(store, 'EcuStatus', mode.age_s),
   };
 }
 

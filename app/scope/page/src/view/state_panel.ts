@@ -1,5 +1,6 @@
 /// Mode, lambda with its reason, and why the controller is not armed, in words.
 
+import {is_stale} from '../model/integrity';
 import {el, Rows, section, set_attribute, set_shown, set_text} from './dom';
 import {fixed, name_words, time_words, unit_words} from './format';
 import {is_live, type PageState, type View} from './page_state';
@@ -25,11 +26,12 @@ export class StatePanel implements View {
   private readonly reason = el('p', {class: 'reason'});
   private readonly task = el('p', {class: 'task'});
   private readonly why = el('div', {class: 'why'});
+  private readonly why_title = el('h3');
   private readonly list = el('ul');
   private readonly reasons = new Rows(this.list, () => ({node: el('li')}));
 
   constructor(private readonly words: PageWords) {
-    this.why.append(el('h3', {}, 'Why not armed'), this.list);
+    this.why.append(this.why_title, this.list);
     this.bar.append(el('div'));
     this.node = section('state', 'Controller',
       el('div', {class: 'mode-line', role: 'status'}, this.mode, this.mode_words),
@@ -53,7 +55,7 @@ export class StatePanel implements View {
       + `${is_live(state) ? '' : ' here'}.`);
     this.write_lambda(now);
     this.write_task(state);
-    this.write_why(now);
+    this.write_why(now, state.store);
   }
 
   private write_lambda({lambda, limit_kind, limit_index, mode}: Snapshot): void {
@@ -70,23 +72,16 @@ export class StatePanel implements View {
   }
 
   private write_task({store, playhead, machine}: PageState): void {
-    const database = store.database;
-    const parts: string[] = [];
-    if (database?.messages.has('OperatorCommand') === true) {
-      const task = store.reading('OperatorCommand.Task', playhead.now_s);
-      const speed = store.reading('OperatorCommand.SpeedOverride', playhead.now_s);
-      const name = database.signal('OperatorCommand.Task').states.get(task.raw);
-      parts.push(`Task ${task.state === 'valid' ? name ?? task.raw : 'not chosen'}`);
-      parts.push(`speed ${speed.state === 'valid' ? `${fixed(speed.value, 0)} %` : 'not given'}`);
-    }
-    if (database?.messages.has('TaskStatus') === true) {
-      parts.push(...task_words(store, playhead.now_s, machine));
-    }
-    set_shown(this.task, parts.length > 0);
-    set_text(this.task, parts.join(', '));
+    const {words, stale} = task_line(store, playhead.now_s, machine);
+    set_shown(this.task, words !== '');
+    set_text(this.task, words);
+    this.task.classList.toggle('stale', stale);
   }
 
-  private write_why({why_not_armed}: Snapshot): void {
+  private write_why({why_not_armed}: Snapshot, store: PageState['store']): void {
+    const stale = is_stale(store, 'EcuHealth', why_not_armed.age_s);
+    this.why.classList.toggle('stale', stale);
+    set_text(this.why_title, stale ? 'Why not armed (old)' : 'Why not armed');
     const bits = why_not_armed.state === 'valid' ? why_not_armed.raw : 0;
     set_shown(this.why, bits !== 0);
     const sentences = this.words.why_not_armed(bits);
@@ -94,9 +89,37 @@ export class StatePanel implements View {
   }
 }
 
+type Machine = PageState['machine'];
+
+/// What the operator asks for and how far it is; what is not said any more is called old.
+export function task_line(
+  store: PageState['store'], now_s: number, machine: Machine,
+): {words: string; stale: boolean} {
+  const {database} = store;
+  const parts: {message: string; words: string[]}[] = [];
+  if (database?.messages.has('OperatorCommand') === true) {
+    const task = store.reading('OperatorCommand.Task', now_s);
+    const speed = store.reading('OperatorCommand.SpeedOverride', now_s);
+    const name = database.signal('OperatorCommand.Task').states.get(task.raw);
+    parts.push({message: 'OperatorCommand', words: [
+      `Task ${task.state === 'valid' ? name ?? task.raw : 'not chosen'}`,
+      `speed ${speed.state === 'valid' ? `${fixed(speed.value, 0)} %` : 'not given'}`]});
+  }
+  if (database?.messages.has('TaskStatus') === true) {
+    parts.push({message: 'TaskStatus', words: task_words(store, now_s, machine)});
+  }
+  const said = parts.filter(({words}) => words.length > 0).map(({message, words}) => {
+    const rows = store.rows(message);
+    const last = rows.at(now_s);
+    const old = last >= 0 && is_stale(store, message, now_s - rows.time(last));
+    return {words: words.join(', ') + (old ? ' (old)' : ''), old};
+  });
+  return {words: said.map(({words}) => words).join(', '), stale: said.some(({old}) => old)};
+}
+
 /// Which of the machine's tasks, and how far its step is.
 function task_words(
-  store: PageState['store'], now_s: number, machine: PageState['machine'],
+  store: PageState['store'], now_s: number, machine: Machine,
 ): string[] {
   const number = store.reading('TaskStatus.TaskNumber', now_s);
   const step = store.reading('TaskStatus.Step', now_s);

@@ -7,6 +7,7 @@ import {cut, lower_bound} from './curves';
 export interface Trace {
   /// Of whose frames it is made; null: of none.
   readonly message: string | null;
+  readonly signals: readonly string[];  ///< All that it reads.
   curve(store: FrameStore, from_s: number, until_s: number, buckets: number): Curve;
   reading(store: FrameStore, time_s: number): Reading;
 }
@@ -14,6 +15,7 @@ export interface Trace {
 export function signal_trace(signal: string): Trace {
   return {
     message: signal.split('.')[0]!,
+    signals: [signal],
     curve: (store, from_s, until_s, buckets) => store.curve(signal, from_s, until_s, buckets),
     reading: (store, time_s) => store.reading(signal, time_s),
   };
@@ -25,6 +27,7 @@ export function truth_trace(run: Run, line: TruthLine, scale: number): Trace {
   const times = run.truth.time_s;
   return {
     message: null,
+    signals: [],
     curve: (_store, from_s, until_s, buckets) =>
       cut(times, line.values, scale, from_s, until_s, buckets),
     reading(_store, time_s) {

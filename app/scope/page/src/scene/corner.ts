@@ -1,0 +1,44 @@
+/// The scene's lower left corner: the scale of pressures and the key of the layers, side by side
+/// where there is room.
+
+import {Key} from './key';
+import {Legend} from './legend';
+import type {Stage} from './stage';
+import type {SceneColours} from './theme';
+
+export class Corner {
+  readonly node = document.createElement('div');
+  private readonly legend = new Legend();
+  private readonly key = new Key();
+
+  constructor() {
+    Object.assign(this.node.style, {
+      position: 'absolute', left: '12px', right: '12px', bottom: '10px', display: 'flex',
+      flexWrap: 'wrap-reverse', alignItems: 'flex-end', gap: '4px 18px', pointerEvents: 'none',
+      font: '12px/1.35 system-ui, sans-serif'});
+    Object.assign(this.key.node.style, {flex: '1 1 200px'});
+    this.node.append(this.legend.node, this.key.node);
+  }
+
+  /// Of the machine; null: there is none.
+  show(stage: Stage | null): void {
+    if (stage === null) {
+      this.legend.hide();
+    } else {
+      this.legend.show(stage.relief_pa);
+    }
+    this.show_key(stage);
+  }
+
+  /// Of what the machine has in the picture now.
+  show_key(stage: Stage | null): void {
+    this.key.show(stage?.key() ?? []);
+  }
+
+  set_theme(colours: SceneColours): void {
+    this.node.style.color = colours.text;
+    this.node.style.textShadow = `0 0 3px ${colours.halo}`;
+    this.legend.set_theme(colours);
+    this.key.set_theme(colours);
+  }
+}

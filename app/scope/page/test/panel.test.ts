@@ -1,0 +1,93 @@
+import assert from 'node:assert/strict';
+import {test} from 'node:test';
+import {loadDatabase} from '../src/model/dbc';
+import type {Alarm} from '../src/view/alarm_rules';
+import {AlarmList} from '../src/view/alarms';
+import {LimitStrip} from '../src/view/limit_strip';
+import {integrity_words} from '../src/view/message_table';
+import {snapshot} from '../src/view/snapshot';
+import {task_line} from '../src/view/state_panel';
+import {is_stale} from '../src/model/integrity';
+import theme from '../src/view/styles/theme.css?raw';
+import {fake_document, type FakeNode} from './dom';
+import {line, store_of} from './make';
+
+fake_document();
+const EXCAVATOR = loadDatabase('excavator');
+const id = (message: string): number => EXCAVATOR.messages.get(message)!.id;
+
+const notice = (name: string, words: string): Alarm => ({id: name, level: 'warning', words});
+
+test('an alarm keeps its place in the page while others come, change and go', () => {
+  const list = new AlarmList('status', 'Notice', () => undefined);
+  const shown = () => (list.node as unknown as FakeNode).children;
+  const words = () => shown().map(({textContent}) => textContent);
+  list.show([notice('quiet', 'No frames for 2 s.'), notice('dropped', '5')]);
+  const [quiet, dropped] = shown();
+  list.show([notice('quiet', 'No frames for 3 s.'), notice('dropped', '5')]);
+  assert.deepEqual(shown(), [quiet, dropped]);
+  assert.deepEqual(words(), ['NoticeNo frames for 3 s.', 'Notice5']);
+  list.show([notice('bus', 'down'), notice('dropped', '6')]);
+  assert.deepEqual(words(), ['Noticedown', 'Notice6']);
+  assert.equal(shown()[1], dropped);
+  list.show([]);
+  assert.equal(shown().length, 0);
+});
+
+test('no two limits have one colour, and those beyond all colours have one of none', () => {
+  const strip = new LimitStrip({} as never, String);
+  const colours = Array.from({length: 30}, (_, key) => strip.colour(key + 1));
+  const own = colours.filter((colour) => colour !== 'limit-more');
+  assert.equal(new Set(own).size, own.length);
+  assert.ok(own.length >= 12);
+  for (const colour of new Set(colours)) {
+    assert.equal(theme.split(`--${colour}:`).length, 3, `${colour} in both themes`);
+  }
+});
+
+test('a message is stale after three of its cycles, whoever shows it', () => {
+  const text = line(0, id('BoomStroke'), new Uint8Array(8))
+    + line(0, id('EcuStatus'), [3, 0, 0, 0, 0, 0, 0, 0])
+    + line(0, id('OperatorCommand'), [0, 0, 0, 3, 200, 0, 0xff, 0xff]);
+  const store = store_of(text);
+  const cycle_s = (message: string) => EXCAVATOR.messages.get(message)!.cycle_ms / 1000;
+  for (const message of ['EcuStatus', 'EcuHealth', 'OperatorCommand']) {
+    assert.equal(is_stale(store, message, 2.9 * cycle_s(message)), false);
+    assert.equal(is_stale(store, message, 3.1 * cycle_s(message)), true);
+  }
+  assert.equal(is_stale(store, 'NoSuchMessage', Infinity), true);
+  assert.equal(snapshot(store, 2.9 * cycle_s('EcuStatus')).stale, false);
+  assert.equal(snapshot(store, 3.1 * cycle_s('EcuStatus')).stale, true);
+  const command_s = cycle_s('OperatorCommand');
+  assert.deepEqual(task_line(store, 2.9 * command_s, null),
+    {words: 'Task Program, speed 100 %', stale: false});
+  assert.deepEqual(task_line(store, 3.1 * command_s, null),
+    {words: 'Task Program, speed 100 % (old)', stale: true});
+});
+
+test('wrong frames are counted with their unit', () => {
+  assert.equal(integrity_words('ok', 3), 'whole, 3 wrong in 1 s');
+  assert.equal(integrity_words('crc', 0), 'CRC wrong');
+});
+
+/// Of WCAG 2.
+function contrast(one: string, other: string): number {
+  const light = (colour: string): number => [1, 3, 5]
+    .map((at) => parseInt(colour.slice(at, at + 2), 16) / 255)
+    .map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4))
+    .reduce((sum, part, k) => sum + part * [0.2126, 0.7152, 0.0722][k], 0);
+  const [low, high] = [light(one), light(other)].sort((a, b) => a - b);
+  return (high + 0.05) / (low + 0.05);
+}
+
+test('what was wanted can be seen in both themes', () => {
+  assert.ok(contrast('#ffffff', '#000000') > 20.9);
+  for (const part of theme.split(":root[data-theme='dark']")) {
+    const sheet = /--sheet: (#\w+)/.exec(part)![1];
+    const soft = [...part.matchAll(/--(\w+)-soft: (#\w+)/g)];
+    assert.equal(soft.length, 9);
+    for (const [, name, colour] of soft) {
+      assert.ok(contrast(colour, sheet) >= 3, `${name} ${colour} on ${sheet}`);
+    }
+  }
+});
