@@ -11,6 +11,8 @@ export class FakeNode {
   readonly attributes = new Map<string, string>();
   parent: FakeNode | null = null;
   hidden = false;
+  value = '';
+  readonly dataset = {};
   readonly style = {setProperty: () => undefined};
 
   constructor(readonly tag: string) {}
@@ -38,6 +40,20 @@ export class FakeNode {
     kid.parent?.kids.splice(kid.parent.kids.indexOf(kid), 1);
     kid.parent = this;
     this.kids.splice(before === null ? this.kids.length : this.kids.indexOf(before), 0, kid);
+  }
+  replaceChildren(...kids: FakeNode[]): void {
+    this.kids.length = 0;
+    this.append(...kids);
+  }
+  querySelectorAll(): FakeNode[] { return []; }
+  matches(): boolean { return false; }
+  get options(): FakeNode[] {
+    return this.children.map((kid) => Object.assign(kid, {value: kid.getAttribute('value')}));
+  }
+  /// The first of an id or tag, however deep.
+  find(what: string): FakeNode | undefined {
+    return this.getAttribute('id') === what || this.tag === what ? this
+      : this.children.map((kid) => kid.find(what)).find((found) => found !== undefined);
   }
   remove(): void {
     this.parent?.kids.splice(this.parent.kids.indexOf(this), 1);

@@ -1,10 +1,12 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {loadDatabase} from '../src/model/dbc';
+import type {SimState} from '../src/model/api';
 import type {Alarm} from '../src/view/alarm_rules';
 import {AlarmList} from '../src/view/alarms';
 import {LimitStrip} from '../src/view/limit_strip';
 import {integrity_words} from '../src/view/message_table';
+import {SimPanel} from '../src/view/sim_panel';
 import {snapshot} from '../src/view/snapshot';
 import {task_line} from '../src/view/state_panel';
 import {is_stale} from '../src/model/integrity';
@@ -90,4 +92,28 @@ test('what was wanted can be seen in both themes', () => {
       assert.ok(contrast(colour, sheet) >= 3, `${name} ${colour} on ${sheet}`);
     }
   }
+});
+
+test('a choice that has the focus gives way to the next word of the server', () => {
+  const panel = new SimPanel(() => undefined);
+  const setup = {source: {mode: 'sim'}, sim: {task: 'dig', can: {}, faults: []}};
+  const said = (): SimState =>
+    ({running: true, pace: 1, speed: 1, soil: false, obstacle: false, faults: []});
+  const show = (sim: SimState, refused = '') =>
+    panel.update({setup, sim, refused, link: {state: 'open'}} as never);
+  const first = said();
+  show(first);
+  const pace = (panel.node as unknown as FakeNode).find('sim-pace')!;
+  assert.equal(pace.value, '1');
+  Object.assign(document, {activeElement: pace});
+  pace.value = '10';
+  show(first);
+  assert.equal(pace.value, '10');
+  show(said());
+  assert.equal(pace.value, '1');
+  const last = said();
+  show(last);
+  pace.value = '10';
+  show(last, 'not now');
+  assert.equal(pace.value, '1');
 });
