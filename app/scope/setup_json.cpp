@@ -20,7 +20,15 @@ using machines::ExcavatorMachine;
 using machines::TaskFile;
 using nlohmann::json;
 
-std::vector<fs::path> files_in(const fs::path& folder) {
+/// Of what is shipped; none where the tool was taken away from its source tree.
+template <class Find>
+std::vector<fs::path> files_beside(const Find& find, const char* one_of_them) {
+  fs::path folder;
+  try {
+    folder = fs::path(find(one_of_them)).parent_path();
+  } catch (const std::runtime_error&) {
+    return {};
+  }
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() == ".toml") {
@@ -37,10 +45,14 @@ std::vector<fs::path> profiles(const SetupOptions& options) {
   if (options.profile) {
     files.push_back(machines::find_profile(*options.profile));
   }
-  for (const fs::path& file : files_in(machines::find_profile("excavator_22t").parent_path())) {
+  const auto find = [](const char* name) { return machines::find_profile(name); };
+  for (const fs::path& file : files_beside(find, "excavator_22t")) {
     if (files.empty() || !fs::equivalent(files.front(), file)) {
       files.push_back(file);
     }
+  }
+  if (files.empty()) {
+    throw std::runtime_error("no shipped profiles are here: say --profile");
   }
   return files;
 }
@@ -48,7 +60,8 @@ std::vector<fs::path> profiles(const SetupOptions& options) {
 /// Those of the shipped tasks that this machine can do.
 std::vector<TaskFile> shipped_tasks(const ExcavatorMachine& machine) {
   std::vector<TaskFile> tasks;
-  for (const fs::path& file : files_in(machines::find_task("flatten").parent_path())) {
+  const auto find = [](const char* name) { return machines::find_task(name); };
+  for (const fs::path& file : files_beside(find, "flatten")) {
     try {
       tasks.push_back(machines::load_task(file, machine.profile));
     } catch (const machines::ProfileError&) {

@@ -5,13 +5,13 @@
 
 sent() { cat /sys/class/net/vcan0/statistics/tx_packets; }
 machine() {
-  graben plant --can vcan0 --seconds 2 --summary "$OUT/summary.json" ||
+  graben plant --can vcan0 --profile excavator_22t.toml --seconds 2 --summary "$OUT/summary.json" ||
     fail "the machine's process ended with $?"
 }
 
 ip link set lo up || fail 'no loopback interface'
 vcan_up vcan0
-graben scope --can vcan0 --port 8080 >"$OUT/said" 2>"$OUT/errors" &
+graben scope --can vcan0 --port 8080 --profile excavator_22t.toml >"$OUT/said" 2>"$OUT/errors" &
 scope=$!
 wait_until 5 grep -q 'http://127.0.0.1:8080/' "$OUT/said" || fail "$(cat "$OUT/errors")"
 wait_until 5 is_listened_to vcan0 || fail 'the scope does not listen'

@@ -193,8 +193,15 @@ void a_log_that_changes_while_it_is_shown(void**) {
   const std::string ask =
       "GET /log HTTP/1.1\r\nHost: " + test::own_host(served.port()) + "\r\n\r\n";
   file.write(text + "more");
-  const std::string whole = test::ask(served.port(), ask);
+  test::TcpPeer peer(served.port());
+  assert_true(peer.send(ask));
+  std::string whole;
+  for (std::string more = "-"; !more.empty() && whole.size() < text.size();) {
+    more = peer.receive(test::Milliseconds(5000));
+    whole += more;
+  }
   assert_true(whole.substr(whole.find("\r\n\r\n") + 4) == text);
+  assert_true(peer.receive(test::Milliseconds(200)).empty());
   file.write("short");
   const std::string cut = test::ask(served.port(), ask);
   assert_true(cut.size() < 1000);
