@@ -23,11 +23,14 @@ import tempfile
 
 import tree
 
+JUDGED = ("firmware/", "hal/", "platform/", "app/")
 OURS = ("firmware", "hal", "can_dbc", "platform", "app", "tests")
 REFUSED = re.compile(r"^([^:\n]+):\d+:\d+: (?:error|warning): ", re.MULTILINE)
 # The tool refuses a list without any check of its own, which the compiler's warnings are not.
 JUST_COMPILED = "-*,clang-diagnostic-*,misc-unused-alias-decls"
 INCLUDE = re.compile(rb'^[ \t]*#[ \t]*include[ \t]*[<"]([^>"\n]+)[>"]', re.MULTILINE)
+UNITY = re.compile(r"/Unity/unity_\d+_cxx[.]cxx$")
+UNITY_INCLUDE = re.compile(r'^#include "([^"]+)"$', re.MULTILINE)
 # GCC, whose warnings are errors, decides on its own; these differ from it in kind, not in care:
 # clang counts signedness as part of -Wconversion, sees a promotion in the macro NAN, and knows not
 # all of GCC's flags.
@@ -45,12 +48,23 @@ SHORT_LIST = ("-*,clang-diagnostic-*,bugprone-use-after-move,bugprone-branch-clo
 
 def our_entries() -> list[dict]:
     wanted = {str(root / name) for name in tree.cxx_files(root)}
-    entries = json.loads((arguments.build / "compile_commands.json").read_text())
+    entries = [each for entry in json.loads((arguments.build / "compile_commands.json").read_text())
+               for each in apart(entry)]
     tests = root / "tests"
     for entry in entries:
         entry["path"] = os.path.realpath(os.path.join(entry["directory"], entry["file"]))
     return [without_precompiled(e) for e in entries if e["path"] in wanted
             and not pathlib.Path(e["path"]).is_relative_to(tests)]
+
+
+def apart(entry: dict) -> list[dict]:
+    """What is compiled as one, source by source."""
+    if not UNITY.search(entry["file"]):
+        return [entry]
+    words = shlex.split(entry["command"])
+    return [{**entry, "file": name, "command": shlex.join(
+                [name if word == entry["file"] else word for word in words])}
+            for name in UNITY_INCLUDE.findall(pathlib.Path(entry["file"]).read_text())]
 
 
 def without_precompiled(entry: dict) -> dict:
@@ -169,6 +183,13 @@ def check(batch: list[dict]) -> list[str]:
     return check([e for e in batch if e not in later]) + check(later)
 
 
+def unseen(seen: set[str]) -> list[str]:
+    """A source of the core or of an app that no command compiles is one that nobody looks at."""
+    return [f"{name}: nothing compiles it here, so it was not read"
+            for name in sorted(tree.cxx_files(root)) if name.endswith(".cpp")
+            and name.startswith(JUDGED) and str(root / name) not in seen]
+
+
 parser = tree.arguments(__doc__)
 parser.add_argument("--build", required=True, type=pathlib.Path)
 parser.add_argument("--cache", required=True, type=pathlib.Path)
@@ -189,5 +210,6 @@ with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
     # A header's finding comes up in every batch that includes it; once is enough.
     problems = list(dict.fromkeys(text for texts in pool.map(check, batches_of(entries))
                                   for text in texts))
+problems += unseen({entry["path"] for entry in entries})
 print(f"tidy: {sum(passes)} sources read in {len(passes)} passes")
 tree.report("tidy", problems, len(entries), "sources")
