@@ -33,7 +33,9 @@ def main(words: list[str] | None = None) -> int:
         check(database)
         text = emit(database, options.input.name)
         if not options.check:
-            options.output.write_text(text, encoding="ascii")
+            # What is the same keeps its time, so that nothing is built again for it.
+            if not options.output.exists() or options.output.read_bytes() != text.encode("ascii"):
+                options.output.write_text(text, encoding="ascii")
             return 0
         written = options.output.read_text(encoding="ascii")
     except Refusal as refusal:

@@ -23,8 +23,8 @@ struct ScriptRig {
 inline std::string own_host(int port) { return "127.0.0.1:" + std::to_string(port); }
 
 /// All of an answer whose connection ends, or nothing more comes for a moment.
-std::string ask(int port, const std::string& request) {
-  test::TcpPeer peer(port);
+inline std::string ask(int port, const std::string& request) {
+  TcpPeer peer(port);
   assert_true(peer.send(request));
   std::string answer;
   for (std::string more = peer.receive(Milliseconds(2000)); !more.empty();

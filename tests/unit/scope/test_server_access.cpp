@@ -8,6 +8,7 @@ namespace {
 
 using namespace graben;
 using nlohmann::json;
+using test::ask;
 using test::assert_begins;
 using test::assert_has;
 using test::Milliseconds;
@@ -15,18 +16,6 @@ using test::own_host;
 using test::ScriptRig;
 using test::ServedShow;
 using test::WsClient;
-
-/// All of an answer whose connection ends, or nothing more comes for a moment.
-std::string ask(int port, const std::string& request) {
-  test::TcpPeer peer(port);
-  assert_true(peer.send(request));
-  std::string answer;
-  for (std::string more = peer.receive(Milliseconds(2000)); !more.empty();
-       more = peer.receive(Milliseconds(100))) {
-    answer += more;
-  }
-  return answer;
-}
 
 std::string get(int port, const std::string& path, const std::string& host) {
   return ask(port, "GET " + path + " HTTP/1.1\r\nHost: " + host + "\r\n\r\n");
