@@ -1,18 +1,20 @@
 # Unit tests as one program, each test a run of it: read, compiled and linked together they cost a
 # tenth of as many programs.
 
-# graben_collect_unit_test(NAME source libs...): for the program that graben_unit_program makes
-function(graben_collect_unit_test name source)
+# graben_unit_test(NAME source libs...): for the program that graben_unit_program makes next
+function(graben_unit_test name source)
+  cmake_path(ABSOLUTE_PATH source)
   set_property(GLOBAL APPEND PROPERTY graben_collected_tests ${name})
-  set_property(GLOBAL APPEND PROPERTY graben_collected_sources ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+  set_property(GLOBAL APPEND PROPERTY graben_collected_sources ${source})
   set_property(GLOBAL APPEND PROPERTY graben_collected_libraries ${ARGN})
 endfunction()
 
-# graben_unit_program(TARGET libs...): of what was collected, whose names are `tests` then
+# graben_unit_program(TARGET libs...): of what was collected since the last one, whose names are `tests` then
 function(graben_unit_program target)
-  get_property(tests GLOBAL PROPERTY graben_collected_tests)
-  get_property(sources GLOBAL PROPERTY graben_collected_sources)
-  get_property(libraries GLOBAL PROPERTY graben_collected_libraries)
+  foreach(what tests sources libraries)
+    get_property(${what} GLOBAL PROPERTY graben_collected_${what})
+    set_property(GLOBAL PROPERTY graben_collected_${what})
+  endforeach()
   list(REMOVE_DUPLICATES libraries)
   # A test that reads another header is put together anew.
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${sources})
@@ -31,7 +33,8 @@ function(graben_unit_program target)
   list(FILTER headers EXCLUDE REGEX "<")
   list(JOIN libraries_headers "\n" libraries_headers)
   list(JOIN headers "\n" headers)
-  file(CONFIGURE OUTPUT headers.hpp CONTENT "#pragma once\n@libraries_headers@\n@headers@\n" @ONLY)
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.parts)
+  file(CONFIGURE OUTPUT ${folder}/headers.hpp CONTENT "#pragma once\n@libraries_headers@\n@headers@\n" @ONLY)
 
   # The sources in a few parts, each source in a namespace of its own: so main, and whatever else two of
   # them call alike, is not the same.
@@ -46,8 +49,8 @@ function(graben_unit_program target)
     foreach(test source IN ZIP_LISTS part part_sources)
       string(APPEND bodies "namespace ${test} {\n#include \"${source}\"\n}\n")
     endforeach()
-    file(CONFIGURE OUTPUT tests_${first}.cpp CONTENT "#include \"headers.hpp\"\n@bodies@" @ONLY)
-    list(APPEND parts ${CMAKE_CURRENT_BINARY_DIR}/tests_${first}.cpp)
+    file(CONFIGURE OUTPUT ${folder}/tests_${first}.cpp CONTENT "#include \"headers.hpp\"\n@bodies@" @ONLY)
+    list(APPEND parts ${folder}/tests_${first}.cpp)
   endforeach()
 
   set(declared)
@@ -56,9 +59,9 @@ function(graben_unit_program target)
     string(APPEND declared "namespace ${test} {\nint main();\n}\n")
     string(APPEND rows "    {\"${test}\", ${test}::main},\n")
   endforeach()
-  configure_file(${CMAKE_CURRENT_FUNCTION_LIST_DIR}/run_one.cpp.in run_one.cpp @ONLY)
-  add_executable(${target} ${CMAKE_CURRENT_BINARY_DIR}/run_one.cpp ${parts})
-  target_precompile_headers(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/headers.hpp)
+  configure_file(${CMAKE_CURRENT_FUNCTION_LIST_DIR}/run_one.cpp.in ${folder}/run_one.cpp @ONLY)
+  add_executable(${target} ${folder}/run_one.cpp ${parts})
+  target_precompile_headers(${target} PRIVATE ${folder}/headers.hpp)
   target_link_libraries(${target} PRIVATE ${libraries} ${ARGN} cmocka graben_build_flags)
   set(tests ${tests} PARENT_SCOPE)
 endfunction()

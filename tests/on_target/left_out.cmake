@@ -1,11 +1,10 @@
 # Which unit tests are not run on a target, and why: TEST|TARGETS, a regular expression|WHY. What
-# runs has fewer random rounds where it asks GRABEN_EMULATED. A row that fits no test, or no target,
-# is refused.
+# runs has fewer random rounds (tests/unit/rounds.hpp). A row that fits no test, or no target, is
+# refused.
 set(every_raw_value "every raw value of every signal, which bits alone decide")
 set(rows
   "unit_dbc_codec|^arm-|${every_raw_value}"
   "unit_dbc_dozer_codec|^arm-|${every_raw_value}"
-  "unit_dig_field|^arm-|thousands of paths, minutes under an emulator"
   "unit_steady_lambda|^arm-|a search at every step, minutes under an emulator")
 
 cmake_path(GET CMAKE_TOOLCHAIN_FILE STEM target)

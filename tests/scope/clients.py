@@ -76,12 +76,12 @@ def share(pid: int, pages: list[Page], seconds: float) -> float:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("graben")
-    parser.add_argument("--seconds", type=float, default=20.0)
+    parser.add_argument("--seconds", type=float, default=10.0)
     parser.add_argument("--most", type=float, default=0.10, help="share of one core")
     options = parser.parse_args()
     server, port = start(options.graben)
     try:
-        alone = share(server.pid, [], min(options.seconds, 5.0))
+        alone = share(server.pid, [], min(options.seconds, 3.0))
         pages = [Page(port) for _ in range(CLIENTS)]
         read_for(pages, 1.0)
         before = [(page.frames, page.until_s) for page in pages]

@@ -8,7 +8,8 @@ import {appendFileSync, mkdirSync, readFileSync, writeFileSync} from 'node:fs';
 import {connect} from 'node:net';
 import {dirname, join} from 'node:path';
 import {pathToFileURL} from 'node:url';
-import {distance, look, open_browser, open_page, rest, run_scenarios, serve, until} from './harness.mjs';
+import {distance, look, more_frames, open_browser, open_page, rest, run_scenarios, serve, until} from
+  './harness.mjs';
 
 const [out, run, graben, blind] = process.argv.slice(2);
 const here = join(dirname(run), 'tests', 'scope', 'browser');
@@ -228,19 +229,18 @@ async function client_that_stops_reading() {
   // Ten times as many frames, so that a socket's buffers fill in time.
   await page.locator('#sim-pace').selectOption('10');
   const deaf = [deaf_client(server.url), deaf_client(server.url)];
-  await rest(3000);
+  await more_frames(page, 25_000);
   const before = resident_kb(server.pid);
   const {frames} = await look(page);
-  await rest(5000);
+  await more_frames(page, 50_000);
   const after = await look(page);
-  assert.ok(after.frames > frames + 30_000, `${after.frames - frames} frames in 5 s`);
   assert.equal(await page.locator('[data-alarm="dropped"]').count(), 0, 'another page loses frames');
   const grown = resident_kb(server.pid) - before;
   assert.ok(grown < 8192, `the server grew by ${grown} kB`);
   deaf.forEach((socket) => socket.destroy());
   clean(page);
   await server.stop();
-  return `the other page had ${after.frames - frames} frames in 5 s, the server grew by ${grown} kB`;
+  return `the other page had ${after.frames - frames} frames, the server grew by ${grown} kB`;
 }
 
 async function bounded_memory() {
@@ -255,9 +255,9 @@ async function bounded_memory() {
     return {held: (await look(page)).held, bytes: usedSize + backingStorageSize};
   };
   // Frames go in pieces of up to 4096 of a message: some 40 s of the simulation's time.
-  await rest(9000);
+  await more_frames(page, 90_000);
   const first = await memory();
-  await rest(12_000);
+  await more_frames(page, 120_000);
   const {frames} = await look(page);
   const last = await memory();
   assert.ok(frames > 2 * last.held, `${frames} frames came, ${last.held} are kept`);

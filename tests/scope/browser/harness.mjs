@@ -87,6 +87,13 @@ export function look(page) {
   });
 }
 
+/// Until so many more frames have come, however slow the machine is.
+export async function more_frames(page, count) {
+  const {frames} = await look(page);
+  await page.waitForFunction((wanted) => window.grabenScope.frames() >= wanted, frames + count,
+    {timeout: 90_000});
+}
+
 export function distance(a, b) {
   return Math.hypot(...a.map((value, i) => value - b[i]));
 }

@@ -5,6 +5,7 @@
 #include "firmware/motion/stroke_end.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
+#include "tests/unit/rounds.hpp"
 
 namespace {
 
@@ -101,7 +102,7 @@ void contour_points_along_and_towards_the_path(void**) {
 void every_pose_leads_to_the_path(void**) {
   std::mt19937 random(7);
   constexpr double kPeriod_s = 0.02;
-  for (int start = 0; start < 200; ++start) {
+  for (int start = 0; start < test::rounds(200, 20); ++start) {
     DriveVector strokes = DriveVector::Zero();
     for (int axis = 0; axis < kAxisCount; ++axis) {
       const double most = profile().geometry.cylinder[static_cast<unsigned>(axis)].stroke_m;

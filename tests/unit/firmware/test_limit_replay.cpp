@@ -5,18 +5,14 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
+#include "tests/unit/rounds.hpp"
 
 namespace {
 
 using namespace graben;
 using test::kCycle_s;
 
-// GRABEN_EMULATED: on another machine's processor, which runs a twentieth as fast.
-#ifdef GRABEN_EMULATED
-constexpr int kTargets = 500;
-#else
-constexpr int kTargets = 10000;
-#endif
+constexpr int kTargets = test::rounds(10000, 500);
 constexpr int kCyclesMost = 400;
 constexpr double kOverrun_m = 1e-3;
 /// A factor below this holds the machine.

@@ -6,17 +6,13 @@
 #include "app/plant/random.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
+#include "tests/unit/rounds.hpp"
 
 namespace {
 
 using namespace graben;
 
-// GRABEN_EMULATED: on another machine's processor, which runs a twentieth as fast.
-#ifdef GRABEN_EMULATED
-constexpr int kTargets = 500;
-#else
-constexpr int kTargets = 10000;
-#endif
+constexpr int kTargets = test::rounds(10000, 500);
 /// What a stroke may pass its range by: rounding of a pose made from a stroke at its end.
 constexpr double kStrokeTolerance_m = 1.001e-6;
 

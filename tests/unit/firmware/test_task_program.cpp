@@ -6,18 +6,14 @@
 #include "firmware/motion/task_walk.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
+#include "tests/unit/rounds.hpp"
 
 namespace {
 
 using namespace graben;
 using test::kCycle_s;
 
-// GRABEN_EMULATED: on another machine's processor, which runs a twentieth as fast.
-#ifdef GRABEN_EMULATED
-constexpr int kPrograms = 200;
-#else
-constexpr int kPrograms = 3000;
-#endif
+constexpr int kPrograms = test::rounds(3000, 200);
 
 const test::ReplayMachine& machine() {
   static const test::ReplayMachine loaded(test::excavator_12t());

@@ -8,11 +8,11 @@ namespace {
 using namespace graben;
 using namespace graben::plant;
 using namespace graben::plant::test;
-namespace bus = dbc::dozer;
+namespace dozer_bus = dbc::dozer;
 using dbc::RawState;
 
 double shown_stroke(const DozerRig& rig) {
-  return last<bus::BladeStroke>(rig).blade_stroke_m.value;
+  return last<dozer_bus::BladeStroke>(rig).blade_stroke_m.value;
 }
 
 void the_stroke_sensor_fails_in_its_ways(void**) {
@@ -35,7 +35,7 @@ void the_stroke_sensor_fails_in_its_ways(void**) {
   fault = {};
   fault.state = RawState::kError;
   rig.spool_for(1, true, -0.5);
-  assert_true(last<bus::BladeStroke>(rig).blade_stroke_m.state == RawState::kError);
+  assert_true(last<dozer_bus::BladeStroke>(rig).blade_stroke_m.state == RawState::kError);
   fault = {};
   rig.spool_for(1, true, -0.5);
   assert_near(shown_stroke(rig), rig.machine.plant().blade_stroke_m(), 1e-4);
@@ -60,9 +60,9 @@ struct Pose {
 };
 
 Pose pose_on(const DozerRig& rig) {
-  const auto position = last<bus::BodyPosition>(rig);
-  const auto pitch = last<bus::BodyPitch>(rig);
-  const auto velocity = last<bus::BodyVelocity>(rig);
+  const auto position = last<dozer_bus::BodyPosition>(rig);
+  const auto pitch = last<dozer_bus::BodyPitch>(rig);
+  const auto velocity = last<dozer_bus::BodyVelocity>(rig);
   return {{position.position_m, position.height_m, pitch.pitch_rad, velocity.forward_mps,
            velocity.climb_mps, pitch.pitch_rate_radps}};
 }
@@ -153,8 +153,8 @@ void displacements_can_run_away_and_be_shown_wrong(void**) {
   rig.pumps_for(100, true, 0.3, 0.3);
   assert_near(rig.left_pump(), 0.9, 1e-3);
   assert_near(rig.right_pump(), -0.3, 1e-3);
-  assert_near(last<bus::LeftTransmission>(rig).pump_ratio.value, 0.9, 1e-3);
-  assert_near(last<bus::RightTransmission>(rig).motor_ratio.value, 0.6, 1e-3);
+  assert_near(last<dozer_bus::LeftTransmission>(rig).pump_ratio.value, 0.9, 1e-3);
+  assert_near(last<dozer_bus::RightTransmission>(rig).motor_ratio.value, 0.6, 1e-3);
   left.pump = {};
   right.pump = {};
   right.motor = {};
@@ -164,10 +164,10 @@ void displacements_can_run_away_and_be_shown_wrong(void**) {
   rig.pumps_for(100, true, 0.3, 0.3);
   assert_near(rig.left_pump(), 0.3, 1e-3);
   assert_near(rig.right_pump(), 0.5, 1e-3);
-  assert_near(last<bus::LeftTransmission>(rig).pump_ratio.value, 0.11, 1e-4);
-  assert_near(last<bus::LeftTransmission>(rig).motor_ratio.value, 1.0, 1e-4);
-  assert_near(last<bus::RightTransmission>(rig).pump_ratio.value, 0.5, 1e-3);
-  assert_near(last<bus::RightTransmission>(rig).motor_ratio.value, 0.44, 1e-4);
+  assert_near(last<dozer_bus::LeftTransmission>(rig).pump_ratio.value, 0.11, 1e-4);
+  assert_near(last<dozer_bus::LeftTransmission>(rig).motor_ratio.value, 1.0, 1e-4);
+  assert_near(last<dozer_bus::RightTransmission>(rig).pump_ratio.value, 0.5, 1e-3);
+  assert_near(last<dozer_bus::RightTransmission>(rig).motor_ratio.value, 0.44, 1e-4);
 }
 
 void track_speeds_can_be_shown_wrong(void**) {
@@ -175,16 +175,16 @@ void track_speeds_can_be_shown_wrong(void**) {
   rig.pumps_for(100, false, 0.5, 0.5);
   rig.machine.faults().path[kLeft].speed.stuck = true;
   rig.machine.faults().path[kRight].speed.jump = -0.4;
-  const double shown = last<bus::TrackSpeed>(rig).left_track_mps.value;
+  const double shown = last<dozer_bus::TrackSpeed>(rig).left_track_mps.value;
   rig.pumps_for(100, false, 0.1, 0.1);
-  assert_near(last<bus::TrackSpeed>(rig).left_track_mps.value, shown, 0.0);
-  assert_near(last<bus::TrackSpeed>(rig).right_track_mps.value,
+  assert_near(last<dozer_bus::TrackSpeed>(rig).left_track_mps.value, shown, 0.0);
+  assert_near(last<dozer_bus::TrackSpeed>(rig).right_track_mps.value,
               rig.machine.plant().track_speeds_mps()[kRight] - 0.4, 1e-4);
   rig.machine.faults().path[kLeft].speed = {};
   rig.machine.faults().path[kLeft].speed.state = RawState::kError;
   rig.pumps_for(1, false, 0.1, 0.1);
-  assert_true(last<bus::TrackSpeed>(rig).left_track_mps.state == RawState::kError);
-  assert_true(last<bus::TrackSpeed>(rig).right_track_mps.state == RawState::kValid);
+  assert_true(last<dozer_bus::TrackSpeed>(rig).left_track_mps.state == RawState::kError);
+  assert_true(last<dozer_bus::TrackSpeed>(rig).right_track_mps.state == RawState::kValid);
 }
 
 void commands_can_be_lost(void**) {
@@ -206,28 +206,28 @@ void frames_can_be_spoilt(void**) {
   DozerRig rig;
   DozerFaults& faults = rig.machine.faults();
   rig.cycles(10);
-  faults.set_frozen_counter(bus::BladeStroke::kId, true);
-  faults.set_silent(bus::TrackSpeed::kId, true);
-  faults.frames.swapped_data_ids = {bus::BodyPitch::kId, bus::BodyVelocity::kId};
+  faults.set_frozen_counter(dozer_bus::BladeStroke::kId, true);
+  faults.set_silent(dozer_bus::TrackSpeed::kId, true);
+  faults.frames.swapped_data_ids = {dozer_bus::BodyPitch::kId, dozer_bus::BodyVelocity::kId};
   rig.cycles(10);
-  assert_int_equal(counter_of(rig.seen[bus::BladeStroke::kId][19]), 10);
-  assert_int_equal(rig.seen[bus::TrackSpeed::kId].size(), 10);
+  assert_int_equal(counter_of(rig.seen[dozer_bus::BladeStroke::kId][19]), 10);
+  assert_int_equal(rig.seen[dozer_bus::TrackSpeed::kId].size(), 10);
   const auto fits = [&rig](std::uint32_t id, std::uint16_t data_id) {
     return e2e_crc_fits(rig.seen[id].back().data, data_id);
   };
-  assert_true(fits(bus::BodyPitch::kId, bus::BodyVelocity::kDataId));
-  assert_true(fits(bus::BodyVelocity::kId, bus::BodyPitch::kDataId));
-  assert_true(fits(bus::BodyPosition::kId, bus::BodyPosition::kDataId));
+  assert_true(fits(dozer_bus::BodyPitch::kId, dozer_bus::BodyVelocity::kDataId));
+  assert_true(fits(dozer_bus::BodyVelocity::kId, dozer_bus::BodyPitch::kDataId));
+  assert_true(fits(dozer_bus::BodyPosition::kId, dozer_bus::BodyPosition::kDataId));
   faults.frames = {};
   faults.frames.delay_us = 200 * kMillisecondUs;
   rig.cycles(20);
-  assert_int_equal(rig.seen[bus::BodyPosition::kId].size(), 20);
+  assert_int_equal(rig.seen[dozer_bus::BodyPosition::kId].size(), 20);
   rig.cycles(5);
-  assert_int_equal(rig.seen[bus::BodyPosition::kId].size(), 25);
+  assert_int_equal(rig.seen[dozer_bus::BodyPosition::kId].size(), 25);
   faults.frames.delay_us = 0;
   faults.wrong_identity = true;
   rig.cycles(100);
-  assert_int_not_equal(last<bus::MachineIdentity>(rig).profile_hash.value, kHash);
+  assert_int_not_equal(last<dozer_bus::MachineIdentity>(rig).profile_hash.value, kHash);
 }
 
 void noise_comes_from_the_seed(void**) {
@@ -243,9 +243,9 @@ void noise_comes_from_the_seed(void**) {
     one.cycle();
     same.cycle();
     other.cycle();
-    const double height = last<bus::BodyPosition>(one).height_m.value;
-    assert_near(last<bus::BodyPosition>(same).height_m.value, height, 0.0);
-    differs = differs || last<bus::BodyPosition>(other).height_m.value != height;
+    const double height = last<dozer_bus::BodyPosition>(one).height_m.value;
+    assert_near(last<dozer_bus::BodyPosition>(same).height_m.value, height, 0.0);
+    differs = differs || last<dozer_bus::BodyPosition>(other).height_m.value != height;
     assert_near(height, 0.0, 0.002 + 6 * 0.0015);
   }
   assert_true(differs);

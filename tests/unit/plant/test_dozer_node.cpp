@@ -9,39 +9,39 @@ namespace {
 using namespace graben;
 using namespace graben::plant;
 using namespace graben::plant::test;
-namespace bus = dbc::dozer;
+namespace dozer_bus = dbc::dozer;
 using dbc::RawState;
 
 void messages_come_at_their_rates(void**) {
   DozerRig rig;
   rig.cycle();
   assert_int_equal(rig.seen.size(), 10);
-  assert_int_equal(rig.seen.count(bus::ValveState::kId), 0);
+  assert_int_equal(rig.seen.count(dozer_bus::ValveState::kId), 0);
   rig.cycles(199);
   for (const std::uint32_t id :
-       {bus::BladeStroke::kId, bus::BodyPosition::kId, bus::BodyPitch::kId, bus::BodyVelocity::kId,
-        bus::LeftTransmission::kId, bus::RightTransmission::kId, bus::TrackSpeed::kId}) {
+       {dozer_bus::BladeStroke::kId, dozer_bus::BodyPosition::kId, dozer_bus::BodyPitch::kId, dozer_bus::BodyVelocity::kId,
+        dozer_bus::LeftTransmission::kId, dozer_bus::RightTransmission::kId, dozer_bus::TrackSpeed::kId}) {
     assert_int_equal(rig.seen[id].size(), 200);
   }
-  assert_int_equal(rig.seen[bus::EEC1::kId].size(), 100);
-  assert_int_equal(rig.seen[bus::ValveState::kId].size(), 100);
-  assert_int_equal(rig.seen[bus::OperatorCommand::kId].size(), 100);
-  assert_int_equal(rig.seen[bus::MachineIdentity::kId].size(), 2);
+  assert_int_equal(rig.seen[dozer_bus::EEC1::kId].size(), 100);
+  assert_int_equal(rig.seen[dozer_bus::ValveState::kId].size(), 100);
+  assert_int_equal(rig.seen[dozer_bus::OperatorCommand::kId].size(), 100);
+  assert_int_equal(rig.seen[dozer_bus::MachineIdentity::kId].size(), 2);
   assert_int_equal(rig.seen.size(), 11);
 }
 
 void frames_are_protected(void**) {
   DozerRig rig;
   rig.cycles(100);
-  check_protection<bus::BladeStroke>(rig);
-  check_protection<bus::BodyPosition>(rig);
-  check_protection<bus::BodyPitch>(rig);
-  check_protection<bus::BodyVelocity>(rig);
-  check_protection<bus::LeftTransmission>(rig);
-  check_protection<bus::RightTransmission>(rig);
-  check_protection<bus::TrackSpeed>(rig);
-  check_protection<bus::ValveState>(rig);
-  check_protection<bus::OperatorCommand>(rig);
+  check_protection<dozer_bus::BladeStroke>(rig);
+  check_protection<dozer_bus::BodyPosition>(rig);
+  check_protection<dozer_bus::BodyPitch>(rig);
+  check_protection<dozer_bus::BodyVelocity>(rig);
+  check_protection<dozer_bus::LeftTransmission>(rig);
+  check_protection<dozer_bus::RightTransmission>(rig);
+  check_protection<dozer_bus::TrackSpeed>(rig);
+  check_protection<dozer_bus::ValveState>(rig);
+  check_protection<dozer_bus::OperatorCommand>(rig);
 }
 
 /// Drives with the left track slower, blade going up, commands of every kind each cycle.
@@ -59,18 +59,18 @@ void values_are_the_plants(void**) {
   drive_for(rig, 100);
   const DozerPlant& plant = rig.machine.plant();
   assert_true(plant.velocity_mps() > 0.3);
-  assert_near(last<bus::BladeStroke>(rig).blade_stroke_m.value, plant.blade_stroke_m(), 0.06e-3);
-  const auto position = last<bus::BodyPosition>(rig);
+  assert_near(last<dozer_bus::BladeStroke>(rig).blade_stroke_m.value, plant.blade_stroke_m(), 0.06e-3);
+  const auto position = last<dozer_bus::BodyPosition>(rig);
   assert_near(position.position_m.value, plant.position_m(), 0.06e-3);
   assert_near(position.height_m.value, plant.height_m(), 0.3e-3);
-  const auto pitch = last<bus::BodyPitch>(rig);
+  const auto pitch = last<dozer_bus::BodyPitch>(rig);
   assert_near(pitch.pitch_rad.value, plant.pitch_rad(), 0.03e-3);
   assert_near(pitch.pitch_rate_radps.value, plant.pitch_rate_radps(), 0.06e-3);
-  const auto velocity = last<bus::BodyVelocity>(rig);
+  const auto velocity = last<dozer_bus::BodyVelocity>(rig);
   assert_near(velocity.forward_mps.value, plant.velocity_mps(), 0.06e-3);
   assert_near(velocity.climb_mps.value, plant.climb_mps(), 0.06e-3);
-  const auto left = last<bus::LeftTransmission>(rig);
-  const auto right = last<bus::RightTransmission>(rig);
+  const auto left = last<dozer_bus::LeftTransmission>(rig);
+  const auto right = last<dozer_bus::RightTransmission>(rig);
   assert_near(left.pump_ratio.value, plant.pump_ratios()[kLeft], 5e-5);
   assert_near(right.pump_ratio.value, plant.pump_ratios()[kRight], 5e-5);
   assert_near(left.motor_ratio.value, plant.motor_ratios()[kLeft], 5e-5);
@@ -80,16 +80,16 @@ void values_are_the_plants(void**) {
   const auto b = plant.path(kRight).pressures_pa();
   assert_near(left.line_pressure_pa.value, std::max(a[0], a[1]), 501.0);
   assert_near(right.line_pressure_pa.value, std::max(b[0], b[1]), 501.0);
-  const auto tracks = last<bus::TrackSpeed>(rig);
+  const auto tracks = last<dozer_bus::TrackSpeed>(rig);
   assert_near(tracks.left_track_mps.value, plant.track_speeds_mps()[kLeft], 0.06e-3);
   assert_near(tracks.right_track_mps.value, plant.track_speeds_mps()[kRight], 0.06e-3);
   assert_true(tracks.right_track_mps.value > tracks.left_track_mps.value + 0.02);
-  assert_near(last<bus::EEC1>(rig).engine_speed_radps.value, 157.08, 0.01);
-  const auto valve = last<bus::ValveState>(rig);
-  assert_int_equal(valve.enabled.value, bus::ValveState::Enabled::kOn);
+  assert_near(last<dozer_bus::EEC1>(rig).engine_speed_radps.value, 157.08, 0.01);
+  const auto valve = last<dozer_bus::ValveState>(rig);
+  assert_int_equal(valve.enabled.value, dozer_bus::ValveState::Enabled::kOn);
   assert_near(valve.blade_spool_ratio.value, -0.4, 1e-4);
-  assert_int_equal(last<bus::MachineIdentity>(rig).profile_hash.value, kHash);
-  assert_int_equal(last<bus::MachineIdentity>(rig).dbc_version.value, bus::kDbcVersion);
+  assert_int_equal(last<dozer_bus::MachineIdentity>(rig).profile_hash.value, kHash);
+  assert_int_equal(last<dozer_bus::MachineIdentity>(rig).dbc_version.value, dozer_bus::kDbcVersion);
 }
 
 void plant_runs_10_ms_a_cycle(void**) {
@@ -137,7 +137,7 @@ void a_silence_of_the_spool_is_neutral_and_wants_off(void**) {
   assert_int_equal(rig.machine.counters().timeouts, 1);
   rig.spool_for(20, true, 0.5);
   assert_false(rig.machine.spool_enabled());
-  bus::SpoolCommand unusable;
+  dozer_bus::SpoolCommand unusable;
   unusable.enable.state = RawState::kError;
   rig.send_and_cycle(rig.frame_of(unusable));
   rig.spool_for(2, true, 0.5);
@@ -152,8 +152,8 @@ void an_unusable_spool_command_is_neutral(void**) {
     for (int which = 0; which < 3; ++which) {
       DozerRig rig;
       rig.spool_for(30, true, 0.5);
-      bus::SpoolCommand message;
-      message.enable.value = bus::SpoolCommand::Enable::kOn;
+      dozer_bus::SpoolCommand message;
+      message.enable.value = dozer_bus::SpoolCommand::Enable::kOn;
       message.blade_duty_ratio.value = 0.5;
       (which == 0   ? message.blade_duty_ratio.state
        : which == 1 ? message.pilot_cut.state
@@ -169,15 +169,15 @@ void the_pilot_cut_centres_a_held_spool(void**) {
   rig.machine.faults().spool_held_ratio = 0.4;
   rig.spool_for(30, false, 0.0);
   assert_near(rig.blade_spool(), 0.4, 1e-3);
-  bus::SpoolCommand cut;
-  cut.pilot_cut.value = bus::SpoolCommand::PilotCut::kOn;
+  dozer_bus::SpoolCommand cut;
+  cut.pilot_cut.value = dozer_bus::SpoolCommand::PilotCut::kOn;
   for (int i = 0; i < 30; ++i) {
     rig.send_and_cycle(rig.frame_of(cut));
   }
   assert_near(rig.blade_spool(), 0.0, 1e-4);
   // Neither an unusable value nor silence ends it.
   for (int i = 0; i < 30; ++i) {
-    bus::SpoolCommand unusable;
+    dozer_bus::SpoolCommand unusable;
     unusable.pilot_cut.state = RawState::kError;
     rig.send_and_cycle(rig.frame_of(unusable));
   }
@@ -249,7 +249,7 @@ void unusable_commands_do_not_put_the_brake_off(void**) {
   rig.machine.faults().path[kRight].pump.held_ratio = 1.0;
   rig.pumps_for(200, false, 1.0, 1.0);
   for (int i = 0; i < 220; ++i) {
-    bus::PumpDisplacementCommand message;
+    dozer_bus::PumpDisplacementCommand message;
     message.left_pump_ratio.state = RawState::kError;
     rig.send_and_cycle(rig.frame_of(message));
   }
@@ -261,8 +261,8 @@ void unusable_displacements_stop_the_machine(void**) {
     DozerRig rig;
     rig.pumps_for(100, false, 1.0, 1.0);
     for (int i = 0; i < 150; ++i) {
-      bus::PumpDisplacementCommand message;
-      message.brake.value = bus::PumpDisplacementCommand::Brake::kOff;
+      dozer_bus::PumpDisplacementCommand message;
+      message.brake.value = dozer_bus::PumpDisplacementCommand::Brake::kOff;
       message.left_pump_ratio.value = 1.0;
       message.right_pump_ratio.value = 1.0;
       (which == 0   ? message.left_pump_ratio.state
@@ -280,7 +280,7 @@ void unusable_displacements_stop_the_machine(void**) {
   DozerRig rig;
   rig.motors_for(100, 0.5, 0.5);
   for (int i = 0; i < 100; ++i) {
-    bus::MotorDisplacementCommand message;
+    dozer_bus::MotorDisplacementCommand message;
     message.left_motor_ratio = {0.5, RawState::kNotAvailable};
     message.right_motor_ratio.value = 0.5;
     rig.send_and_cycle(rig.frame_of(message));
@@ -296,7 +296,7 @@ void wrong_frames_are_no_sign_of_life(void**) {
   using Spoil = void (*)(CanFrame&);
   const Spoil spoils[] = {
       [](CanFrame& f) { f.data[3] = static_cast<std::uint8_t>(f.data[3] ^ 0x10U); },
-      [](CanFrame& f) { e2e_protect(f.data, bus::SpoolCommand::kDataId, f.data[1] & 0x0FU); },
+      [](CanFrame& f) { e2e_protect(f.data, dozer_bus::SpoolCommand::kDataId, f.data[1] & 0x0FU); },
       [](CanFrame& f) { f.length = 7; },
       [](CanFrame& f) { f.extended = false; },
   };
@@ -319,19 +319,19 @@ void the_operator_asks_for_grading(void**) {
   DozerRig rig;
   rig.driver.set_schedule({{100'000, {true, OperatorMode::kAutomatic, Task::kGrade, 0.5}}});
   rig.cycles(9);
-  auto message = last<bus::OperatorCommand>(rig);
-  assert_true(message.enable.value == bus::OperatorCommand::Enable::kOff);
+  auto message = last<dozer_bus::OperatorCommand>(rig);
+  assert_true(message.enable.value == dozer_bus::OperatorCommand::Enable::kOff);
   rig.cycles(2);
-  message = last<bus::OperatorCommand>(rig);
-  assert_true(message.enable.value == bus::OperatorCommand::Enable::kOn);
-  assert_true(message.operator_mode.value == bus::OperatorCommand::OperatorMode::kAutomatic);
+  message = last<dozer_bus::OperatorCommand>(rig);
+  assert_true(message.enable.value == dozer_bus::OperatorCommand::Enable::kOn);
+  assert_true(message.operator_mode.value == dozer_bus::OperatorCommand::OperatorMode::kAutomatic);
   assert_true(message.task.state == RawState::kValid);
-  assert_true(message.task.value == bus::OperatorCommand::Task::kGrade);
+  assert_true(message.task.value == dozer_bus::OperatorCommand::Task::kGrade);
   assert_near(message.speed_override_ratio.value, 0.5, 1e-9);
   rig.driver.set_silent(true);
-  const std::size_t sent = rig.seen[bus::OperatorCommand::kId].size();
+  const std::size_t sent = rig.seen[dozer_bus::OperatorCommand::kId].size();
   rig.cycles(10);
-  assert_int_equal(rig.seen[bus::OperatorCommand::kId].size(), sent);
+  assert_int_equal(rig.seen[dozer_bus::OperatorCommand::kId].size(), sent);
 }
 
 }  // namespace
