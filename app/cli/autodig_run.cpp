@@ -12,7 +12,7 @@ namespace graben::cli {
 namespace {
 
 constexpr double kLongerThanPlanned = 10.0;
-constexpr double kStart_s = 60.0;
+constexpr double kApproach_s = 60.0;
 
 std::array<double, 3> list_of(const Eigen::Vector3d& at) { return {at.x(), at.y(), at.z()}; }
 
@@ -77,8 +77,8 @@ class AutodigRun {
       return true;
     }
     result_.end = AutodigEnd::kNotFinished;
-    return seconds(now_us) > kStart_s + kLongerThanPlanned * options_.rounds * planned_s(program_) /
-                                            options_.speed_override_ratio;
+    return seconds(now_us) > kApproach_s + kLongerThanPlanned * options_.rounds *
+                                               planned_s(program_) / options_.speed_override_ratio;
   }
 
   void look(TimeUs now_us, double cycle_us) {

@@ -8,6 +8,9 @@
 
 namespace graben::cli {
 
+inline constexpr double kMilli = 1e3;
+inline constexpr double kPercent = 100.0;
+
 /// A column and where its figure comes from.
 template <class Summary>
 struct CampaignFigure {

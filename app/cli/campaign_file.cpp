@@ -11,15 +11,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
 
 namespace graben::cli {
 namespace {
-
-constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
 std::string header(const CampaignKind& kind) {
   std::string line = "seed,end";

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -26,9 +27,12 @@ struct CampaignKind {
   std::vector<CampaignColumn> columns;
 };
 
+/// What a run has no figure for.
+inline constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
+
 struct CampaignRow {
   std::size_t end = 0;         ///< Of the kind's ends.
-  std::vector<double> figure;  ///< One for each column; not a number where the run has none.
+  std::vector<double> figure;  ///< One for each column; kAbsent where the run has none.
 
   [[nodiscard]] bool done() const { return end == 0; }
 };

@@ -1,19 +1,15 @@
 #include "app/cli/dig_campaign.hpp"
 
-#include <limits>
-
 #include "app/cli/campaign_figures.hpp"
+#include "firmware/numeric/constants.hpp"
 
 namespace graben::cli {
 namespace {
 
-constexpr double kMilli = 1e3;
-constexpr double kPercent = 100.0;
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+constexpr double kDegreesPerRad = 180.0 / kPi;
 constexpr double kMega = 1e-6;
-constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
-const std::vector<CampaignFigure<DigSummary>>& figures() {
+const std::vector<CampaignFigure<DigSummary>>& dig_figures() {
   using S = DigSummary;
   static const std::vector<CampaignFigure<S>> all = {
       {{"max_error_true_m", "path error of the true tip, max", "mm", kMilli},
@@ -36,9 +32,9 @@ const std::vector<CampaignFigure<DigSummary>>& figures() {
        [](const S& s) { return s.peak_chamber_pressure_pa; }},
       {{"lambda_held", "lambda while the obstacle holds, min", "", 1.0},
        [](const S& s) { return s.recovery ? s.recovery->lambda_held : kAbsent; }},
-      {{"off_field_max_rad", "mean direction off the field afterwards, max", "deg", kDegrees},
+      {{"off_field_max_rad", "mean direction off the field afterwards, max", "deg", kDegreesPerRad},
        [](const S& s) { return s.recovery ? s.recovery->off_field_max_rad : kAbsent; }},
-      {{"ringing_max_rad", "the same from cycle to cycle", "deg", kDegrees},
+      {{"ringing_max_rad", "the same from cycle to cycle", "deg", kDegreesPerRad},
        [](const S& s) { return s.recovery ? s.recovery->ringing_max_rad : kAbsent; }},
       {{"recovery_error_max_m", "path error of the true tip afterwards, max", "mm", kMilli},
        [](const S& s) { return s.recovery ? s.recovery->error_max_m : kAbsent; }},
@@ -52,12 +48,12 @@ const std::vector<CampaignFigure<DigSummary>>& figures() {
 const CampaignKind& dig_campaign() {
   // In the order of DigEnd.
   static const CampaignKind kind = {
-      "dig", {"done", "path-not-reached", "loop-not-closed", "fault"}, columns_of(figures())};
+      "dig", {"done", "path-not-reached", "loop-not-closed", "fault"}, columns_of(dig_figures())};
   return kind;
 }
 
 CampaignRow dig_campaign_row(const DigResult& result) {
-  return campaign_row(figures(), static_cast<std::size_t>(result.end), summarise(result));
+  return campaign_row(dig_figures(), static_cast<std::size_t>(result.end), summarise(result));
 }
 
 }  // namespace graben::cli

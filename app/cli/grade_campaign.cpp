@@ -5,10 +5,7 @@
 namespace graben::cli {
 namespace {
 
-constexpr double kMilli = 1e3;
-constexpr double kPercent = 100.0;
-
-const std::vector<CampaignFigure<GradeSummary>>& figures() {
+const std::vector<CampaignFigure<GradeSummary>>& grade_figures() {
   using S = GradeSummary;
   static const std::vector<CampaignFigure<S>> all = {
       {{"max_error_true_m", "true edge over the grade, max", "mm", kMilli},
@@ -39,12 +36,13 @@ const std::vector<CampaignFigure<GradeSummary>>& figures() {
 const CampaignKind& grade_campaign() {
   // In the order of GradeEnd.
   static const CampaignKind kind = {
-      "grade", {"done", "not-finished", "fault"}, columns_of(figures())};
+      "grade", {"done", "not-finished", "fault"}, columns_of(grade_figures())};
   return kind;
 }
 
 CampaignRow grade_campaign_row(const machines::DozerMachine& machine, const GradeResult& result) {
-  return campaign_row(figures(), static_cast<std::size_t>(result.end), summarise(machine, result));
+  return campaign_row(grade_figures(), static_cast<std::size_t>(result.end),
+                      summarise(machine, result));
 }
 
 }  // namespace graben::cli

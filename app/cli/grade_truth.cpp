@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/numeric/constants.hpp"
+
 namespace graben::cli {
 
 GradeTruth::GradeTruth(const DozerProfile& profile)
@@ -53,7 +55,6 @@ double GradeTruth::inflow_m3ps(double blade_mps) const {
 }
 
 double available_flow_m3ps(const DozerProfile& machine, double engine_radps) {
-  constexpr double kTwoPi = 6.283185307179586;
   const ImplementProfile& implement = machine.implement;
   return std::min(engine_radps / kTwoPi * implement.displacement_m3prev * implement.efficiency,
                   implement.valve_flow_max_m3ps);

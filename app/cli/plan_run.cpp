@@ -7,13 +7,13 @@
 
 #include "app/machines/axis_names.hpp"
 #include "app/machines/plan_words.hpp"
+#include "firmware/numeric/constants.hpp"
 
 namespace graben::cli {
 namespace {
 
 using machines::kDriveNames;
 
-constexpr double kTwoPi = 6.28318530717958647693;
 constexpr double kDegrees = 360.0 / kTwoPi;
 constexpr double kLpm = 6e4;
 

@@ -6,8 +6,6 @@
 namespace graben::scope {
 namespace {
 
-using R = SimReaction;
-
 constexpr double kShownSwash_ratio = 0.3;
 constexpr double kTooFast_mps = 1.0;
 
@@ -69,6 +67,7 @@ SimEffect track_speed_wrong(SimRig<SimDozer>& rig) {
 }  // namespace
 
 SimFaultRows<SimExcavator> sim_excavator_faults() {
+  using R = SimReaction;
   return {{"pressure-silent", 5, "the boom pressures' frames stop", R::kSlower, pressure_silent},
           {"out-of-range", 22, "a boom pressure is out of its range, its CRC right", R::kSlower,
            pressure_out_of_range},
@@ -79,6 +78,7 @@ SimFaultRows<SimExcavator> sim_excavator_faults() {
 }
 
 SimFaultRows<SimDozer> sim_dozer_faults() {
+  using R = SimReaction;
   return {{"out-of-range", 22, "the engine's speed is out of its range", R::kSlower,
            engine_out_of_range},
           {"displacement-stuck", 38, "the left pump's displacement stays where it is", R::kStops,

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "firmware/machine/dozer_profile.hpp"
+#include "firmware/numeric/constants.hpp"
 
 namespace graben {
 
@@ -23,7 +24,6 @@ namespace graben {
 /// min(Q_max,imp, Q_max,valve) of (11) with (12), m^3/s.
 [[nodiscard]] inline double available_flow_m3ps(const ImplementProfile& implement,
                                                 double engine_radps) {
-  constexpr double kTwoPi = 6.28318530717958647693;
   const double pump_m3ps =
       engine_radps / kTwoPi * implement.displacement_m3prev * implement.efficiency;
   return std::clamp(pump_m3ps, 0.0, implement.valve_flow_max_m3ps);

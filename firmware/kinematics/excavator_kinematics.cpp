@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/numeric/constants.hpp"
+
 namespace graben {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// A stroke may pass its range by this much: rounding of a pose computed from a stroke at its end.
 constexpr double kStrokeTolerance_m = 1e-6;
 /// Rounding of an angle computed from a length and back.

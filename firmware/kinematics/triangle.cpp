@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/numeric/constants.hpp"
+
 namespace graben {
 namespace {
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kTwoPi = 2.0 * kPi;
 
 double direction(const Eigen::Vector2d& v) { return std::atan2(v.y(), v.x()); }
 }  // namespace

@@ -1,12 +1,11 @@
 #include "firmware/mcv/descent.hpp"
 
 #include <algorithm>
-#include <limits>
+
+#include "firmware/numeric/constants.hpp"
 
 namespace graben {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 constexpr int kTurns = 8;
 constexpr int kHalvings = 30;

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "firmware/hydraulics/regeneration.hpp"
+#include "firmware/numeric/constants.hpp"
 #include "firmware/numeric/cube_root.hpp"
 
 namespace graben {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kNewtonSteps = 24;
+constexpr int kRatioSteps = 24;
 /// A first step longer than this share of y: what was known of it says less than the leakage does.
 constexpr double kNear = 0.25;
 
@@ -83,7 +82,7 @@ Tangent inverse_lambda(const FlowBalance& line, const Stretch& stretch, double r
   double y = near ? least : under_root(flow, h.value, linear, quadratic);
   // The quadratic leakage only raises y, and what is left over of the balance is convex in y: from
   // below Newton rises onto the root and never passes it.
-  for (int step = 0; step < kNewtonSteps && quadratic > 0.0; ++step) {
+  for (int step = 0; step < kRatioSteps && quadratic > 0.0; ++step) {
     const double per_y = 1.0 / y;
     const double leak = quadratic * per_y * per_y * per_y;
     const double missing = h.value + linear * per_y + leak - flow * y;

@@ -4,19 +4,19 @@
 #include <cmath>
 
 #include "firmware/hydraulics/regeneration.hpp"
+#include "firmware/numeric/constants.hpp"
 
 namespace graben {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kNewtonSteps = 24;
+constexpr int kPressureSteps = 24;
 /// A guess whose first step is a larger share of it is too far off for so few of them.
 constexpr double kFar = 0.25;
 /// Relative length of the last step; its square is under what a number can say.
 constexpr double kLastStep = 1e-8;
 /// What rounding alone leaves over, as a share of all flows. A pump that only just feeds its line
 /// has a root so near 0 that no step there gets shorter than kLastStep.
-constexpr double kRoundingShare = 4.4e-16;
+constexpr double kPressureRounding = 4.4e-16;
 
 struct Residual {
   double left_m3ps = 0.0;
@@ -46,7 +46,7 @@ double rounding_of(const FlowBalance& balance, double lambda) {
   for (int i = 0; i < balance.regeneration_count; ++i) {
     moved_m3ps += balance.regeneration[static_cast<unsigned>(i)].q_out_m3ps;
   }
-  return kRoundingShare * (balance.flow_m3ps + lambda * moved_m3ps);
+  return kPressureRounding * (balance.flow_m3ps + lambda * moved_m3ps);
 }
 
 /// An s at which each of the falling terms alone would use up the flow is right of the root.
@@ -105,7 +105,7 @@ PumpPressure solve_pump_pressure(const FlowBalance& balance, double lambda, doub
   const double rounding_m3ps = rounding_of(balance, lambda);
   const double relief = balance.has_relief ? balance.sqrt_relief : kInfinity;
   double s = std::min(guess < kInfinity ? guess : upper_bound(balance, left_at_zero), relief);
-  for (int step = 0; step < kNewtonSteps && !result.converged; ++step) {
+  for (int step = 0; step < kPressureSteps && !result.converged; ++step) {
     const Residual at = residual(balance, lambda, s);
     const double fall = at.left_m3ps / at.slope;
     result.converged = std::abs(fall) <= kLastStep * s || std::abs(at.left_m3ps) <= rounding_m3ps;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/numeric/constants.hpp"
+
 namespace graben {
 namespace {
-
-constexpr double kTwoPi = 6.283185307179586;
 
 int dead_cycles(double dead_time_s) {
   return static_cast<int>(

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/numeric/constants.hpp"
+
 namespace graben {
 namespace {
 
-constexpr double kTwoPi = 6.28318530717958647693;
 /// A way shorter than this is none.
 constexpr double kLeastWay_m = 1e-6;
 

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "firmware/numeric/constants.hpp"
+
 namespace graben {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Square of the shortest time that a way takes: half of it faster, half slower.
 double shortest_square_s2(double way_m, double acceleration_mps2) {

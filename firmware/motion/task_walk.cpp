@@ -6,7 +6,7 @@ namespace graben {
 namespace {
 
 /// Halvings of a step: 1 / 128 / 2^40 of the way is its last digit.
-constexpr int kHalvings = 40;
+constexpr int kWalkHalvings = 40;
 /// Both ends of the swing, and all points before all fences.
 constexpr int kBarMost = 2 + kFenceMost * kMachinePointCount;
 
@@ -113,7 +113,7 @@ BarredPlace BarWalk::unknown_at(double share) const {
 double BarWalk::least_between(const Sample& from, const Sample& to, unsigned bar) const {
   double before = from.share;
   double after = to.share;
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < kWalkHalvings; ++i) {
     const Sample middle = sample(0.5 * (before + after));
     if (barred(middle.gap[bar])) {
       return middle.share;
@@ -124,7 +124,7 @@ double BarWalk::least_between(const Sample& from, const Sample& to, unsigned bar
 }
 
 double BarWalk::begins_between(double free, double barred_share, unsigned bar) const {
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < kWalkHalvings; ++i) {
     const Sample middle = sample(0.5 * (free + barred_share));
     (barred(middle.gap[bar]) ? barred_share : free) = middle.share;
   }

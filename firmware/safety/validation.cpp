@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "firmware/numeric/constants.hpp"
+
 namespace graben {
 namespace {
-
-constexpr double kTwoPi = 6.28318530717958647693;
 
 /// As far as a swing angle is told, either way.
 constexpr double kSwingMost_rad = 3.2;

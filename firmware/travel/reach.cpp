@@ -11,14 +11,14 @@ namespace {
 
 constexpr double kStep_m = 0.2;
 constexpr int kMostSteps = 100'000;
-constexpr int kEdgeSteps = 6;
+constexpr int kReachSteps = 6;
 constexpr double kMostAngle_rad = 1.0;
 constexpr double kTolerance_m = 0.008;
 
 /// theta_1 with the edge on the design, whether the cylinders allow it or not.
 double angle_on(const BladeKinematics& blade, const GradeProfile& design, const BodyPose& body) {
   double angle_rad = 0.0;
-  for (int step = 0; step < kEdgeSteps; ++step) {
+  for (int step = 0; step < kReachSteps; ++step) {
     const Eigen::Vector3d edge = edge_in_world_m(blade, body, angle_rad);
     const GradeSample wanted = design.at(edge.x());
     const Vector6d rate = blade_jacobian(blade, body, angle_rad);

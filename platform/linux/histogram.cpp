@@ -6,10 +6,10 @@
 namespace graben {
 namespace {
 
-constexpr std::int64_t kNsPerUs = 1000;
+constexpr std::int64_t kNsPerBin = 1000;
 
 std::uint64_t whole_us(std::int64_t duration_ns) {
-  return static_cast<std::uint64_t>(duration_ns / kNsPerUs);
+  return static_cast<std::uint64_t>(duration_ns / kNsPerBin);
 }
 
 void print_row(std::FILE* to, std::size_t us, const std::vector<const Histogram*>& columns) {

@@ -62,7 +62,7 @@ def apart(entry: dict) -> list[dict]:
     if not UNITY.search(entry["file"]):
         return [entry]
     words = shlex.split(entry["command"])
-    return [{**entry, "file": name, "command": shlex.join(
+    return [{**entry, "file": name, "as_one": True, "command": shlex.join(
                 [name if word == entry["file"] else word for word in words])}
             for name in UNITY_INCLUDE.findall(pathlib.Path(entry["file"]).read_text())]
 
@@ -103,8 +103,8 @@ def key_of(entry: dict, inputs: list[pathlib.Path]) -> str:
 
 
 def batches_of(entries: list[dict]) -> list[list[dict]]:
-    """What is not remembered as clean, by folder, flags and list of checks: one pass reads their
-    headers once."""
+    """What is not remembered as clean, by folder, flags, list of checks and how it is compiled: one pass
+    reads their headers once."""
     together: dict[tuple, list[dict]] = {}
     for entry in entries:
         inputs, heavy = our_inputs(entry)
@@ -115,7 +115,8 @@ def batches_of(entries: list[dict]) -> list[list[dict]]:
         flags = tuple(word for word in words if word.startswith(("-D", "-f", "-I", "-std")))
         path = pathlib.Path(entry["path"])
         checks = SHORT_LIST if heavy or path.is_relative_to(root / "app") else ""
-        together.setdefault((path.parent, flags, checks), []).append(
+        # What was left out of the others' unity has names that others there have, too.
+        together.setdefault((path.parent, flags, checks, "as_one" in entry), []).append(
             {**entry, "remembered": remembered, "checks": checks})
     return list(together.values())
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "firmware/numeric/constants.hpp"
 #include "hal/dozer_transmitter.hpp"
 #include "hal/e2e.hpp"
 #include "hal/excavator_transmitter.hpp"
@@ -13,7 +14,6 @@ namespace graben::test {
 
 inline constexpr TimeUs kStartUs = 3'000'000;
 inline constexpr TimeUs kPeriodUs = 10'000;
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 template <class Transmitter>

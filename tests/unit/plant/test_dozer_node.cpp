@@ -19,8 +19,9 @@ void messages_come_at_their_rates(void**) {
   assert_int_equal(rig.seen.count(dozer_bus::ValveState::kId), 0);
   rig.cycles(199);
   for (const std::uint32_t id :
-       {dozer_bus::BladeStroke::kId, dozer_bus::BodyPosition::kId, dozer_bus::BodyPitch::kId, dozer_bus::BodyVelocity::kId,
-        dozer_bus::LeftTransmission::kId, dozer_bus::RightTransmission::kId, dozer_bus::TrackSpeed::kId}) {
+       {dozer_bus::BladeStroke::kId, dozer_bus::BodyPosition::kId, dozer_bus::BodyPitch::kId,
+        dozer_bus::BodyVelocity::kId, dozer_bus::LeftTransmission::kId,
+        dozer_bus::RightTransmission::kId, dozer_bus::TrackSpeed::kId}) {
     assert_int_equal(rig.seen[id].size(), 200);
   }
   assert_int_equal(rig.seen[dozer_bus::EEC1::kId].size(), 100);
@@ -59,7 +60,8 @@ void values_are_the_plants(void**) {
   drive_for(rig, 100);
   const DozerPlant& plant = rig.machine.plant();
   assert_true(plant.velocity_mps() > 0.3);
-  assert_near(last<dozer_bus::BladeStroke>(rig).blade_stroke_m.value, plant.blade_stroke_m(), 0.06e-3);
+  assert_near(last<dozer_bus::BladeStroke>(rig).blade_stroke_m.value, plant.blade_stroke_m(),
+              0.06e-3);
   const auto position = last<dozer_bus::BodyPosition>(rig);
   assert_near(position.position_m.value, plant.position_m(), 0.06e-3);
   assert_near(position.height_m.value, plant.height_m(), 0.3e-3);
