@@ -18,11 +18,12 @@ double Terrain::node(long index) const {
 }
 
 double Terrain::at(double place) const {
-  const double last = static_cast<double>(height_.size() - 1);
-  const double inside = std::clamp(place, 0.0, last);
-  const double below = std::floor(inside);
-  const long index = static_cast<long>(below);
-  return node(index) + (inside - below) * (node(index + 1) - node(index));
+  const std::size_t last = height_.size() - 1;
+  const double inside = std::clamp(place, 0.0, static_cast<double>(last));
+  const std::size_t index = std::min(static_cast<std::size_t>(inside), last);
+  const double below = height_[index];
+  return below +
+         (inside - static_cast<double>(index)) * (height_[std::min(index + 1, last)] - below);
 }
 
 double Terrain::mean_height_m(double x_m, double half_width_m) const {

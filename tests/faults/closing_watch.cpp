@@ -10,8 +10,6 @@
 namespace graben::faults {
 namespace {
 
-constexpr TimeUs kCycle_us = 10 * kMillisecondUs;
-
 template <class Kind>
 bool in_deadband(const typename Kind::Plant& plant) {
   const auto spools = Kind::spools(plant);

@@ -12,8 +12,6 @@
 
 namespace graben::faults {
 
-inline constexpr TimeUs kCycle_us = 10 * kMillisecondUs;
-
 /// Sees what every controller of a rig has of its bus.
 class EcuWitness {
  public:

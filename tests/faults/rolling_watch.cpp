@@ -5,7 +5,6 @@
 
 namespace graben::faults {
 namespace {
-constexpr TimeUs kCycle_us = 10 * kMillisecondUs;
 /// Slower than this it stands, as the parking brake has it of a track.
 constexpr double kAtRest_mps = 0.05;
 }  // namespace

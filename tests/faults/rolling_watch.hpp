@@ -12,6 +12,9 @@
 
 namespace graben::faults {
 
+/// Of the controller, and of what is recorded of its machine.
+inline constexpr TimeUs kCycle_us = 10 * kMillisecondUs;
+
 struct Rolling {
   double fastest_mps = 0.0;  ///< Of body and tracks.
   double position_m = 0.0;

@@ -15,8 +15,11 @@ import run_programs
 import stats_file
 from bus_log import ECU_HEALTH, SPOOL_COMMAND, VALVE_STATE
 
-# The error may differ by so much from that of the bus in memory.
-SHARE = 0.20
+# The error may be less or more than that of the bus in memory by such shares. More: a cycle that begins
+# while the machine's frames are on the bus has strokes of two ages, 10 ms apart, and by their phase
+# a dig of 8.9 mm is one of 11.3. Where in the cycle that is, is by chance of how long the processes
+# take to start.
+LESS, MORE = 0.20, 0.45
 
 
 @dataclasses.dataclass
@@ -86,8 +89,9 @@ def check(task: str, graben: pathlib.Path, out: pathlib.Path) -> list[str]:
     print(f"{task}: error {summary['max_error_true_m'] * 1e3:.2f} mm, in memory {expected_m * 1e3:.2f} mm, "
           f"over {summary[judged]:.2f} s")
     problems = []
-    allowed_m = max(SHARE * expected_m, RESOLUTION_M)
-    if summary[judged] < enough_s or abs(summary["max_error_true_m"] - expected_m) > allowed_m:
+    more_m = summary["max_error_true_m"] - expected_m
+    alike = -max(LESS * expected_m, RESOLUTION_M) <= more_m <= max(MORE * expected_m, RESOLUTION_M)
+    if summary[judged] < enough_s or not alike:
         problems.append("the error is another one")
     if not summary.get("finished", True):
         problems.append("the task was not finished")

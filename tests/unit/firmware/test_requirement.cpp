@@ -6,12 +6,13 @@
 #include "firmware/mcv/requirement.hpp"
 #include "tests/fuzz/random_case.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/rounds.hpp"
 
 namespace {
 
 using namespace graben;
 
-constexpr int kCases = 400;
+constexpr int kCases = test::rounds(400, 100);
 
 /// Calls `use(circuit)` for random valves.
 template <class Use>

@@ -3,6 +3,7 @@
 #include "firmware/mcv/steady_lambda.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/split.hpp"
+#include "tests/unit/rounds.hpp"
 
 namespace {
 
@@ -12,7 +13,7 @@ constexpr double kPeriod_s = 0.01;
 constexpr LambdaRise kRise{4.0, 8000.0, 0.0};
 /// About what 2 % of the pressures that hold the boom are.
 constexpr double kNoise_pa = 0.2e6;
-constexpr unsigned kDrives = 10;
+constexpr unsigned kDrives = test::rounds(10, 3);
 
 /// What lambda did while pressures were driven across the split.
 struct Passage {
