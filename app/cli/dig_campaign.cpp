@@ -6,7 +6,6 @@
 namespace graben::cli {
 namespace {
 
-constexpr double kDegreesPerRad = 180.0 / kPi;
 constexpr double kMega = 1e-6;
 
 const std::vector<CampaignFigure<DigSummary>>& dig_figures() {

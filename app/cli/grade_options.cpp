@@ -5,11 +5,12 @@
 #include <CLI/CLI.hpp>
 
 #include "app/cli/validators.hpp"
+#include "firmware/numeric/constants.hpp"
 
 namespace graben::cli {
 namespace {
 
-constexpr double kRadpsPerRpm = 2.0 * 3.14159265358979323846 / 60.0;
+constexpr double kRadpsPerRpm = kTwoPi / 60.0;
 
 }  // namespace
 

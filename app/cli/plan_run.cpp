@@ -14,12 +14,11 @@ namespace {
 
 using machines::kDriveNames;
 
-constexpr double kDegrees = 360.0 / kTwoPi;
 constexpr double kLpm = 6e4;
 
 /// mm of a stroke, degrees of the swing; no negative zero.
 double shown(unsigned drive, double value) {
-  return value * (drive == kSwing ? kDegrees : 1e3) + 0.0;
+  return value * (drive == kSwing ? kDegreesPerRad : 1e3) + 0.0;
 }
 const char* unit(unsigned drive) { return drive == kSwing ? "deg" : "mm"; }
 
@@ -141,15 +140,15 @@ std::string plan_summary(const ExcavatorProfile& profile, const LineRequest& req
   const std::string asked = request.duration_s > 0.0
                                 ? fmt::format("asked for: {:.2f} s", request.duration_s)
                                 : fmt::format("asked for: {:.3f} m/s at most", request.speed_mps);
-  const double from_deg = kDegrees * plan.line.from.attitude_rad;
+  const double from_deg = kDegreesPerRad * plan.line.from.attitude_rad;
   std::string text = fmt::format(
       "line          {:>9.3f} m, attitude from {:.1f} to {:.1f} deg\n"
       "duration      {:>9.2f} s, {:.2f} s of it speeding up and as much slowing down; {}\n"
       "speed         {:>9.3f} m/s along the way at most, {:.3f} m/s2\n"
       "slowed by          {}{}\n{}",
       plan.line.change.position_m.norm(), from_deg,
-      from_deg + kDegrees * plan.line.change.attitude_rad, ramp.duration_s, ramp.ramp_s, asked,
-      plan.way_m * ramp.peak_rate_ps(), plan.way_m * ramp.peak_rate_change_ps2(),
+      from_deg + kDegreesPerRad * plan.line.change.attitude_rad, ramp.duration_s, ramp.ramp_s,
+      asked, plan.way_m * ramp.peak_rate_ps(), plan.way_m * ramp.peak_rate_change_ps2(),
       machines::plan_limit_words(result),
       result.slowed_ratio > 1.0 ? fmt::format(", to {:.3f} times the time", result.slowed_ratio)
                                 : "",

@@ -5,6 +5,7 @@
 
 #include "app/machines/dozer_sections.hpp"
 
+#include "firmware/numeric/constants.hpp"
 #include "firmware/travel/reach.hpp"
 
 namespace graben::machines {
@@ -15,7 +16,6 @@ constexpr double kPinTolerance_m = 2e-3;
 /// The cylinder's lever fails where rod eye, pivot and base come into line; this near to it at
 /// most.
 constexpr double kLeastLeverAngle_rad = 0.15;
-constexpr double kPi = 3.14159265358979323846;
 /// Deeper in its springs than this no machine of the class sits.
 constexpr double kMostSag_m = 0.10;
 /// Steeper ground carries no dozer.

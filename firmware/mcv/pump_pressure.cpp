@@ -16,7 +16,7 @@ constexpr double kFar = 0.25;
 constexpr double kLastStep = 1e-8;
 /// What rounding alone leaves over, as a share of all flows. A pump that only just feeds its line
 /// has a root so near 0 that no step there gets shorter than kLastStep.
-constexpr double kPressureRounding = 4.4e-16;
+constexpr double kFlowRoundingShare = 4.4e-16;
 
 struct Residual {
   double left_m3ps = 0.0;
@@ -46,7 +46,7 @@ double rounding_of(const FlowBalance& balance, double lambda) {
   for (int i = 0; i < balance.regeneration_count; ++i) {
     moved_m3ps += balance.regeneration[static_cast<unsigned>(i)].q_out_m3ps;
   }
-  return kPressureRounding * (balance.flow_m3ps + lambda * moved_m3ps);
+  return kFlowRoundingShare * (balance.flow_m3ps + lambda * moved_m3ps);
 }
 
 /// An s at which each of the falling terms alone would use up the flow is right of the root.

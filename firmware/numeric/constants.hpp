@@ -6,6 +6,7 @@ namespace graben {
 
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kTwoPi = 2.0 * kPi;
+inline constexpr double kDegreesPerRad = 180.0 / kPi;
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace graben

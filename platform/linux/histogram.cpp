@@ -6,10 +6,10 @@
 namespace graben {
 namespace {
 
-constexpr std::int64_t kNsPerBin = 1000;
+constexpr std::int64_t kMicrosecond_ns = 1000;
 
 std::uint64_t whole_us(std::int64_t duration_ns) {
-  return static_cast<std::uint64_t>(duration_ns / kNsPerBin);
+  return static_cast<std::uint64_t>(duration_ns / kMicrosecond_ns);
 }
 
 void print_row(std::FILE* to, std::size_t us, const std::vector<const Histogram*>& columns) {

@@ -19,8 +19,7 @@ function(graben_unit_program target)
   # A test that reads another header is put together anew.
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${sources})
 
-  # All headers that any of them reads, once. What two of them call alike is one in this program, though
-  # not in the tests' own: here it does not compile.
+  # All headers that any of them reads, once. What two of them call alike does not compile.
   set(headers)
   foreach(source ${sources})
     file(STRINGS ${source} lines REGEX "^#include ")
@@ -64,4 +63,12 @@ function(graben_unit_program target)
   target_precompile_headers(${target} PRIVATE ${folder}/headers.hpp)
   target_link_libraries(${target} PRIVATE ${libraries} ${ARGN} cmocka graben_build_flags)
   set(tests ${tests} PARENT_SCOPE)
+endfunction()
+
+# graben_no_test_left(): what no program was made of would not be run, and nobody would miss it
+function(graben_no_test_left)
+  get_property(tests GLOBAL PROPERTY graben_collected_tests)
+  if(tests)
+    message(FATAL_ERROR "no program has these unit tests: ${tests}")
+  endif()
 endfunction()

@@ -3,8 +3,8 @@
 
 A block is run as one script, so that a `cd` or a variable holds until its end. A block behind
 <!-- not run: reason --> is left out, loudly. ./test, which runs this gate, is only looked at. With
---build, so is a command that is word by word a test of that build, a ctest that names some, or one of
-another target's that ./test goes through: ./test runs it anyway.
+--build, so is a command that is word by word a test of that build, or a ctest that names some: ./test
+runs it anyway.
 """
 
 import json
@@ -22,7 +22,6 @@ import tree
 FENCE = re.compile(r"^```(\w*)\s*$")
 NOT_RUN = re.compile(r"^<!--\s*not run:\s*(.+?)\s*-->$")
 OWN_CTEST = re.compile(r"^ctest --test-dir build/release -R (\S+)(?: --verbose)?$")
-TARGET_CTEST = re.compile(r"^ctest --preset (\S+)(?: -L \w+)?(?: --verbose)?$")
 CHECKS_ONLY = re.compile(r"^(\./test|\.ci/run)(\s|$)")
 
 
@@ -75,12 +74,6 @@ def own_tests() -> dict[tuple[str, ...], str]:
             for test in json.loads(listed)["tests"] if "command" in test}
 
 
-def targets() -> list[str]:
-    """The presets that ./test goes through, as its loop has them."""
-    loop = re.search(r"^  for target in (.*?); do$", (root / "test").read_text(), re.M | re.S)
-    return loop[1].replace("\\\n", " ").split() if loop else []
-
-
 def words_of(command: list[str]) -> tuple[str, ...]:
     """To be compared: whichever the interpreter, and from wherever a file is named."""
     words = [str(root / word) if (root / word).exists() else word for word in command]
@@ -103,8 +96,6 @@ def run_by(command: str, where: str) -> str:
             problems.append(f"{where}: no test is called {own[1]}")
             return "one that is not there"
         return ", ".join(named)
-    if arguments.build is not None and (own := TARGET_CTEST.match(command)):
-        return f"the tests of {own[1]}" if own[1] in targets() else ""
     return tests.get(words_of(words), "")
 
 

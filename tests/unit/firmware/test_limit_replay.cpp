@@ -12,7 +12,7 @@ namespace {
 using namespace graben;
 using test::kCycle_s;
 
-constexpr int kTargets = test::rounds(10000, 250);
+constexpr int kTargets = test::rounds(10000, 500);
 constexpr int kCyclesMost = 400;
 constexpr double kOverrun_m = 1e-3;
 /// A factor below this holds the machine.
@@ -34,8 +34,9 @@ class RandomTarget {
   RandomTarget(const test::ReplayMachine& machine, plant::Random& random, const DriveVector& start)
       : machine_(machine), line_(random.uniform() < 0.5) {
     if (line_) {
-      const Eigen::Vector3d level(random.symmetric(1.0), random.symmetric(1.0),
-                                  random.symmetric(1.0));
+      // In braces: drawn in this order by every compiler.
+      const Eigen::Vector3d level{random.symmetric(1.0), random.symmetric(1.0),
+                                  random.symmetric(1.0)};
       const bool turns = machine.profile.has_swing();
       const TeethPose teeth = machine.teeth(start);
       // In the plane that the machine stands in, where it has no swing to leave it.

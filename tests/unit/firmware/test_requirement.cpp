@@ -47,7 +47,7 @@ void lambda_to_r_and_back(void**) {
       }
     }
   });
-  assert_true(compared > 10000);
+  assert_true(compared > 25 * kCases);
 }
 
 /// Fact 1 and 2 of pressure_ratio.hpp: y rises with r, and between two openings it bends upwards;
@@ -85,7 +85,7 @@ void inverse_lambda_rises_and_is_convex(void**) {
       }
     }
   });
-  assert_true(compared > 5000);
+  assert_true(compared > 12 * kCases);
 }
 
 /// The requirement's own words, from the evaluation: whether it holds at lambda.
@@ -155,7 +155,7 @@ void first_change_is_the_first(void**) {
     }
   });
   print_message("%d changes, %d ways without\n", counted.found, counted.none);
-  assert_true(counted.found > 500 && counted.none > 500);
+  assert_true(counted.found > kCases && counted.none > kCases);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 using namespace graben;
 using test::kCycle_s;
 
-constexpr int kPrograms = test::rounds(3000, 100);
+constexpr int kPrograms = test::rounds(3000, 200);
 
 const test::ReplayMachine& machine() {
   static const test::ReplayMachine loaded(test::excavator_12t());

@@ -8,7 +8,6 @@ namespace {
 using namespace graben;
 using namespace graben::plant;
 using namespace graben::plant::test;
-namespace dozer_bus = dbc::dozer;
 using dbc::RawState;
 
 double shown_stroke(const DozerRig& rig) {

@@ -9,7 +9,6 @@ namespace {
 using namespace graben;
 using namespace graben::plant;
 using namespace graben::plant::test;
-namespace dozer_bus = dbc::dozer;
 using dbc::RawState;
 
 void messages_come_at_their_rates(void**) {
