@@ -1,4 +1,5 @@
 #pragma once
+/// Of the controller and its tools; the simulated machine has its own.
 
 #include <limits>
 

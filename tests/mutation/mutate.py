@@ -43,6 +43,7 @@ RULES = (
 )
 # What is no code: comments, literals, the preprocessor, and claims that only the compiler checks.
 NO_CODE = re.compile(r'//.*|^\s*#.*|^\s*static_assert.*|"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'')
+INCLUDE = re.compile(r"^#include .*$", re.MULTILINE)
 # Of processor time. The tests themselves take hundredths of a second and get TEST_S at most.
 TEST_S = 1
 LOOP_S = 3
@@ -85,9 +86,6 @@ def mutants_of(root: pathlib.Path, job: Job) -> list[Mutant]:
                     Mutant(job, number, place, line, line[:match.start()] + new + line[match.end():])
                     for new in replacements(match[0])]
     return found
-
-
-INCLUDE = re.compile(r"^#include .*$", re.MULTILINE)
 
 
 def compiler(arguments, *folders: pathlib.Path) -> list:
