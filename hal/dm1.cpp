@@ -1,6 +1,7 @@
 #include "hal/dm1.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "firmware/safety/fault_table.hpp"
 

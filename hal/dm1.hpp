@@ -8,6 +8,7 @@
 /// a fault that comes and goes does not flood the bus.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "firmware/core/fault_set.hpp"

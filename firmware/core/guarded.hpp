@@ -2,6 +2,7 @@
 /// A stored value with its complement: a bit that flips in memory is found before it is used.
 
 #include <array>
+#include <cstddef>
 #include <cstring>
 #include <type_traits>
 

@@ -1,6 +1,7 @@
 #include "firmware/safety/dozer_validation.hpp"
 
 #include <cmath>
+#include <cstddef>
 
 #include "firmware/kinematics/blade.hpp"
 

@@ -1,6 +1,7 @@
 #include "firmware/safety/fault_table.hpp"
 
 #include <array>
+#include <cstddef>
 
 namespace graben {
 namespace {

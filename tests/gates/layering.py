@@ -6,13 +6,9 @@ Eigen. The plant, which stands in for the real machine, must not even indirectly
 that the controller has of it: otherwise a wrong sign would cancel itself.
 """
 
-import posixpath
-import re
-
 import tree
 from freestanding import ALLOWED_HEADERS, FREESTANDING
-
-INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"]', re.MULTILINE)
+from includes import Includes
 
 # Folder: what a file in it must not include.
 FORBIDDEN = {
@@ -31,36 +27,11 @@ FORBIDDEN_INDIRECTLY = {
 }
 
 
-def includes_of(name: str, text: str):
-    """(line, header, quoted) with a quoted header as a path from the root."""
-    for match in INCLUDE.finditer(text):
-        line = text.count("\n", 0, match.start(2)) + 1
-        quoted = match[1] == '"'
-        header = match[2]
-        if quoted:
-            beside = posixpath.normpath(posixpath.join(posixpath.dirname(name), header))
-            header = beside if beside in sources else posixpath.normpath(header)
-        yield line, header, quoted
-
-
-def reached_from(name: str) -> dict[str, str]:
-    """Every header that name includes, directly or not, with the chain that leads there."""
-    reached, todo = {}, [(name, name)]
-    while todo:
-        current, chain = todo.pop()
-        for _, header, _ in includes.get(current, []):
-            if header not in reached:
-                reached[header] = f"{chain} -> {header}"
-                todo.append((header, reached[header]))
-    return reached
-
-
 root = tree.arguments(__doc__).parse_args().root.resolve()
-sources = {n: (root / n).read_text() for n in tree.files(root) if n.endswith(tree.CXX)}
-includes = {name: list(includes_of(name, text)) for name, text in sources.items()}
+includes = Includes(root)
 
 problems = []
-for name, found in includes.items():
+for name, found in includes.of.items():
     for folder, forbidden in FORBIDDEN.items():
         problems += [f"{name}:{line}: {folder} must not include {header}"
                      for line, header, _ in found
@@ -68,11 +39,11 @@ for name, found in includes.items():
     if name.startswith(FREESTANDING):
         problems += [f"{name}:{line}: <{header}> is not on the list of freestanding headers"
                      for line, header, quoted in found
-                     if header not in ALLOWED_HEADERS and header not in sources
+                     if header not in ALLOWED_HEADERS and header not in includes.sources
                      and (quoted or not header.startswith("Eigen/"))]
     for folder, forbidden in FORBIDDEN_INDIRECTLY.items():
         if name.startswith(folder):
             problems += [f"{folder} must not see {header}: {chain}"
-                         for header, chain in reached_from(name).items()
+                         for header, chain in includes.reached_from(name).items()
                          if header.startswith(forbidden)]
-tree.report("layering", sorted(set(problems)), sum(map(len, includes.values())), "includes")
+tree.report("layering", sorted(set(problems)), sum(map(len, includes.of.values())), "includes")

@@ -1,0 +1,39 @@
+"""Who includes what in the tree."""
+
+import pathlib
+import posixpath
+import re
+
+import tree
+
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"]', re.MULTILINE)
+
+
+class Includes:
+    """The sources of a tree, and for each its (line, header, quoted), a quoted header as a path from
+    the root."""
+
+    def __init__(self, root: pathlib.Path):
+        self.sources = {n: (root / n).read_text() for n in tree.files(root) if n.endswith(tree.CXX)}
+        self.of = {name: list(self._read(name, text)) for name, text in self.sources.items()}
+
+    def _read(self, name: str, text: str):
+        for match in INCLUDE.finditer(text):
+            line = text.count("\n", 0, match.start(2)) + 1
+            quoted = match[1] == '"'
+            header = match[2]
+            if quoted:
+                beside = posixpath.normpath(posixpath.join(posixpath.dirname(name), header))
+                header = beside if beside in self.sources else posixpath.normpath(header)
+            yield line, header, quoted
+
+    def reached_from(self, name: str) -> dict[str, str]:
+        """Every header that name includes, directly or not, with the chain that leads there."""
+        reached, todo = {}, [(name, name)]
+        while todo:
+            current, chain = todo.pop()
+            for _, header, _ in self.of.get(current, []):
+                if header not in reached:
+                    reached[header] = f"{chain} -> {header}"
+                    todo.append((header, reached[header]))
+        return reached
