@@ -25,16 +25,18 @@ const DigField& field() {
 
 void closest_point_is_the_nearest_of_the_path(void**) {
   const RoundedRectangle& path = field().path();
+  constexpr int kPoints = test::rounds(4000, 500);
   for (double x = 2.0; x <= 8.0; x += 0.31) {
     for (double y = -4.0; y <= 2.0; y += 0.29) {
       const Eigen::Vector2d from(x, y);
       double nearest = 1e9;
-      for (int k = 0; k < 4000; ++k) {
-        nearest = std::min(nearest, (path.at_share(k / 4000.0).position_m - from).norm());
+      for (int k = 0; k < kPoints; ++k) {
+        const double share = static_cast<double>(k) / kPoints;
+        nearest = std::min(nearest, (path.at_share(share).position_m - from).norm());
       }
       const double found = (path.closest(from).position_m - from).norm();
       assert_true(found <= nearest + 1e-12);
-      assert_near(found, nearest, 2e-3);
+      assert_near(found, nearest, 8.0 / kPoints);
     }
   }
 }

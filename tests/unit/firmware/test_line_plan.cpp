@@ -12,7 +12,7 @@ namespace {
 
 using namespace graben;
 
-constexpr int kTargets = test::rounds(10000, 500);
+constexpr int kTargets = test::rounds(10000, 300);
 /// What a stroke may pass its range by: rounding of a pose made from a stroke at its end.
 constexpr double kStrokeTolerance_m = 1.001e-6;
 

@@ -296,7 +296,7 @@ void a_gap_is_met_from_where_lambda_is_held(void**) {
 /// Where a line has no flow of its own and an axis regenerates, rounding shows in r: what the
 /// search finds is then brought to the end of its interval by halving.
 void a_starved_line_ends_where_halving_says(void**) {
-  constexpr int kCases = test::rounds(20000, 2000);
+  constexpr int kCases = test::rounds(20000, 1000);
   int held = 0;
   for (std::uint64_t seed = 0; seed < kCases; ++seed) {
     test::RandomCase problem = test::random_case(seed);
