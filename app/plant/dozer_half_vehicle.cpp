@@ -38,10 +38,9 @@ double HalfVehicle::ground_speed_mps() const {
   return velocity_ * std::cos(pitch_) + climb_mps() * std::sin(pitch_);
 }
 
-double HalfVehicle::wheel_load(const Terrain& terrain, double along_m) const {
+double HalfVehicle::wheel_load(const Terrain& terrain, double along_m, double cosine,
+                               double sine) const {
   // The wheel's bottom, l along and the sag below the origin, in the world and against the ground.
-  const double cosine = std::cos(pitch_);
-  const double sine = std::sin(pitch_);
   const double sag = wheel_depth_ - body_.mass_centre_height_m;
   const double ahead = along_m * cosine + sag * sine;
   const double x = position_ + ahead;
@@ -67,7 +66,7 @@ void HalfVehicle::step(const Terrain& terrain, double traction_n, double step_s)
   double moment = 0.0;
   for (int i = 0; i < body_.wheels; ++i) {
     const double along = wheel_place_m(i);
-    const double load = wheel_load(terrain, along);
+    const double load = wheel_load(terrain, along, cosine, sine);
     load_[static_cast<std::size_t>(i)] = load;
     whole_load_ += load;
     moment += load * (along * cosine + wheel_depth_ * sine);

@@ -39,7 +39,8 @@ class HalfVehicle {
   [[nodiscard]] double wheel_place_m(int wheel) const;
 
  private:
-  [[nodiscard]] double wheel_load(const Terrain& terrain, double along_m) const;
+  [[nodiscard]] double wheel_load(const Terrain& terrain, double along_m, double cosine,
+                                  double sine) const;
   [[nodiscard]] double rolling_resistance_n() const;
 
   DozerBody body_;
