@@ -3,8 +3,6 @@
 /// they use. Under the gate `layering` as every file here.
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,7 +1,8 @@
 # Headers from outside cost more to read than our sources: they are compiled once for each group of
 # targets (target_precompile_headers). Every source names what it uses all the same: the gate `names`
-# looks at the core's, and the preset `debug` and whoever has a compiler cache compile each one without.
-# Not so unit tests, which are compiled together everywhere (tests/as_one).
+# looks at what the core's take of std and Eigen, and the preset `debug` and whoever has a compiler
+# cache compile each one without. Not so unit tests, which are compiled together everywhere
+# (tests/as_one).
 
 # A compiler cache keeps nothing of a source with a precompiled header.
 if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")

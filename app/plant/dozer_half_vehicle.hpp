@@ -39,6 +39,7 @@ class HalfVehicle {
   [[nodiscard]] double wheel_place_m(int wheel) const;
 
  private:
+  /// With cosine and sine of the pitch.
   [[nodiscard]] double wheel_load(const Terrain& terrain, double along_m, double cosine,
                                   double sine) const;
   [[nodiscard]] double rolling_resistance_n() const;

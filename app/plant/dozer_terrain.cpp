@@ -20,7 +20,7 @@ double Terrain::node(long index) const {
 double Terrain::at(double place) const {
   const long last = static_cast<long>(height_.size()) - 1;
   const double inside = std::clamp(place, 0.0, static_cast<double>(last));
-  const long index = std::min(static_cast<long>(inside), last);
+  const long index = std::clamp(static_cast<long>(inside), 0L, last);
   const double* const below = height_.data() + index;
   return *below + (inside - static_cast<double>(index)) * (below[index < last ? 1 : 0] - *below);
 }

@@ -1,4 +1,5 @@
-"""Who includes what in the tree."""
+"""Who includes what in the tree. An #include counts wherever it stands, also where the preprocessor
+leaves it out, but not in a comment."""
 
 import pathlib
 import posixpath
@@ -6,7 +7,19 @@ import re
 
 import tree
 
+# A raw string with quotes in it would end too early.
+COMMENT_OR_QUOTED = re.compile(r"""//[^\n]*|/\*.*?\*/|(?<!')"(?:\\.|[^"\\\n])*\"""", re.DOTALL)
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"]', re.MULTILINE)
+
+
+def blank(text: str) -> str:
+    """As many lines, and nothing in them."""
+    return re.sub(r"[^\n]", " ", text)
+
+
+def without_comments(text: str, quoted_too: bool = False) -> str:
+    return COMMENT_OR_QUOTED.sub(
+        lambda match: blank(match[0]) if quoted_too or match[0][0] == "/" else match[0], text)
 
 
 class Includes:
@@ -18,7 +31,7 @@ class Includes:
         self.of = {name: list(self._read(name, text)) for name, text in self.sources.items()}
 
     def _read(self, name: str, text: str):
-        for match in INCLUDE.finditer(text):
+        for match in INCLUDE.finditer(without_comments(text)):
             line = text.count("\n", 0, match.start(2)) + 1
             quoted = match[1] == '"'
             header = match[2]

@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
-"""Gate: a source of the core includes what it uses of others, itself or by a header of ours.
+"""Gate: a source of the core includes what it takes of std and Eigen, itself or by a header of ours.
 
-With the headers from outside precompiled the compiler would not miss an #include. Looked at are all
-names with std:: or Eigen::, and what Eigen's modules add to a matrix; the table has to know them.
+With the headers from outside precompiled the compiler would not miss an #include. Looked at is every
+name with std:: or Eigen:: before it, which the table has to know; integers of C are to be written with
+std::, and neither namespace is to be taken in whole. Macros are not looked at.
 """
 
 import re
 
 import tree
 from freestanding import FREESTANDING
-from includes import Includes
+from includes import Includes, without_comments
 
 TABLE = {
     "algorithm": "all_of clamp copy copy_n find_if max min min_element transform upper_bound",
@@ -22,23 +23,32 @@ TABLE = {
     "limits": "numeric_limits",
     "type_traits": "has_unique_object_representations_v is_floating_point_v",
     "Eigen/Core": "Eigen::Matrix Eigen::Matrix3d Eigen::Vector2d Eigen::Vector3d Eigen::Vector4d",
-    "Eigen/Geometry": ".cross( .eulerAngles( .unitOrthogonal(",
-    "Eigen/LU": ".determinant( .inverse() .partialPivLu( .fullPivLu( .computeInverseWithCheck(",
 }
-HEADER_OF = {name if name.startswith((".", "Eigen::")) else f"std::{name}": header
+HEADER_OF = {name if "::" in name else f"std::{name}": header
              for header, names in TABLE.items() for name in names.split()}
-COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
-NAME = re.compile(r"\b(?:std|Eigen)::\w+|(?<![\w:])(?:u?int\d+_t|size_t)\b|"
-                  + "|".join(re.escape(name) for name in HEADER_OF if name[0] == "."))
+TAKEN = re.compile(r"\b(std|Eigen)\s*::\s*(\w+)")
+REFUSED = {
+    "write std:: before it": re.compile(
+        r"(?<![\w:])(?:::)?(?:u?int(?:_fast|_least)?\d+_t|size_t|ptrdiff_t)\b"),
+    "take what is needed, by its name": re.compile(
+        r"\b(?:using\s+namespace|namespace\s+\w+\s*=)\s*(?:std|Eigen)\b"),
+}
 
 
-def names_of(text: str):
-    """(line, name) of each that is used, the first time."""
-    code = COMMENT.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), text)
-    first: dict[str, int] = {}
-    for match in NAME.finditer(code):
-        first.setdefault(match[0], code.count("\n", 0, match.start()) + 1)
-    return [(line, name) for name, line in first.items()]
+def findings(text: str):
+    """(line, name, header that it needs, or None, or what is wrong with it)."""
+    code = without_comments(text, quoted_too=True)
+
+    def line(match: re.Match) -> int:
+        return code.count("\n", 0, match.start()) + 1
+    taken = {f"{match[1]}::{match[2]}": line(match) for match in reversed(list(TAKEN.finditer(code)))}
+    for name, number in sorted(taken.items(), key=lambda item: item[1]):
+        yield number, name, HEADER_OF.get(name), "" if name in HEADER_OF else (
+            "is not in the table of tests/gates/names.py (may the core have it?)")
+    code = TAKEN.sub(lambda match: re.sub(r"\S", "~", match[0]), code)
+    for wrong, pattern in REFUSED.items():
+        for match in pattern.finditer(code):
+            yield line(match), match[0], None, wrong
 
 
 includes = Includes(tree.arguments(__doc__).parse_args().root.resolve())
@@ -47,11 +57,10 @@ for source, text in includes.sources.items():
     if not source.startswith(FREESTANDING):
         continue
     reached = includes.reached_from(source)
-    for line, name in names_of(text):
+    for line, name, header, wrong in findings(text):
         looked_at += 1
-        header = HEADER_OF.get(name)
-        if header is None:
-            problems.append(f"{source}:{line}: {name} is not in the table of tests/gates/names.py")
+        if wrong:
+            problems.append(f"{source}:{line}: {name}: {wrong}")
         elif header not in reached:
             problems.append(f"{source}:{line}: {name} without <{header}>")
 tree.report("names", problems, looked_at, "names")

@@ -8,14 +8,15 @@ fail() {
   exit 1
 }
 
-# wait_until SECONDS command...: looks every 10 ms until the command succeeds.
+# wait_until SECONDS command...: looks every 10 ms, or LOOKS_PER_S times a second, until the command succeeds.
 wait_until() {
-  looks_left=$(($1 * 100))
+  looks_per_s=${LOOKS_PER_S:-100}
+  looks_left=$(($1 * looks_per_s))
   shift
   until "$@"; do
     looks_left=$((looks_left - 1))
     [ "$looks_left" -gt 0 ] || return 1
-    sleep 0.01
+    sleep "0.$(printf %03d $((1000 / looks_per_s)))"
   done
 }
 

@@ -26,6 +26,7 @@ const DigField& field() {
 void closest_point_is_the_nearest_of_the_path(void**) {
   const RoundedRectangle& path = field().path();
   constexpr int kPoints = test::rounds(4000, 500);
+  const double half_apart_m = 0.5 * path.length_m() / kPoints;
   for (double x = 2.0; x <= 8.0; x += 0.31) {
     for (double y = -4.0; y <= 2.0; y += 0.29) {
       const Eigen::Vector2d from(x, y);
@@ -36,7 +37,7 @@ void closest_point_is_the_nearest_of_the_path(void**) {
       }
       const double found = (path.closest(from).position_m - from).norm();
       assert_true(found <= nearest + 1e-12);
-      assert_near(found, nearest, 8.0 / kPoints);
+      assert_near(found, nearest, half_apart_m + 1e-12);
     }
   }
 }

@@ -12,7 +12,7 @@ namespace {
 using namespace graben;
 using test::kCycle_s;
 
-constexpr int kTargets = test::rounds(10000, 200);
+constexpr int kTargets = test::rounds(10000, 400);
 constexpr int kCyclesMost = 400;
 constexpr double kOverrun_m = 1e-3;
 /// A factor below this holds the machine.
