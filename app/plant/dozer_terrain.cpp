@@ -18,11 +18,12 @@ double Terrain::node(long index) const {
 }
 
 double Terrain::at(double place) const {
-  const long last = static_cast<long>(height_.size()) - 1;
+  const std::size_t last = height_.size() - 1;
   const double inside = std::clamp(place, 0.0, static_cast<double>(last));
-  const long index = std::clamp(static_cast<long>(inside), 0L, last);
-  const double* const below = height_.data() + index;
-  return *below + (inside - static_cast<double>(index)) * (below[index < last ? 1 : 0] - *below);
+  const std::size_t index = std::min(static_cast<std::size_t>(inside), last);
+  const double below = height_[index];
+  return below +
+         (inside - static_cast<double>(index)) * (height_[std::min(index + 1, last)] - below);
 }
 
 double Terrain::mean_height_m(double x_m, double half_width_m) const {
@@ -35,11 +36,8 @@ double Terrain::mean_height_m(double x_m, double half_width_m) const {
   }
   // Straight pieces: each is worth its middle times its length.
   double sum = (first - begin) * at(0.5 * (begin + first)) + (end - last) * at(0.5 * (last + end));
-  double before = node(static_cast<long>(first));
   for (long i = static_cast<long>(first); i < static_cast<long>(last); ++i) {
-    const double behind = node(i + 1);
-    sum += 0.5 * (before + behind);
-    before = behind;
+    sum += 0.5 * (node(i) + node(i + 1));
   }
   return sum / (end - begin);
 }

@@ -132,11 +132,6 @@ JointArray LinkageDynamics::holding_forces() const {
 void LinkageDynamics::add_friction(const Matrix3& inverse,
                                    const std::array<PistonLoad, kAxisCount>& load, double step_s,
                                    JointArray& rate_radps) {
-  JointArray mobility{};  // (m/s) per N
-  for (std::size_t i = 0; i < kAxisCount; ++i) {
-    const double lever = levers_[i].stroke_per_angle_m;
-    mobility[i] = step_s * lever * lever * inverse[i][i];
-  }
   const auto push = [&](std::size_t axis, double force_n) {
     const double moment = step_s * force_n * levers_[axis].stroke_per_angle_m;
     for (std::size_t i = 0; i < kAxisCount; ++i) {
@@ -151,10 +146,11 @@ void LinkageDynamics::add_friction(const Matrix3& inverse,
     double largest_change = 0.0;
     for (std::size_t i = 0; i < kAxisCount; ++i) {
       const double lever = levers_[i].stroke_per_angle_m;
-      if (load[i].coulomb_n <= 0.0 || mobility[i] <= 0.0) {
+      const double mobility = step_s * lever * lever * inverse[i][i];  // (m/s) per N
+      if (load[i].coulomb_n <= 0.0 || mobility <= 0.0) {
         continue;
       }
-      const double wanted = friction_n_[i] - lever * rate_radps[i] / mobility[i];
+      const double wanted = friction_n_[i] - lever * rate_radps[i] / mobility;
       const double change =
           std::clamp(wanted, -load[i].coulomb_n, load[i].coulomb_n) - friction_n_[i];
       friction_n_[i] += change;
