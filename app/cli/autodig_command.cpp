@@ -7,16 +7,16 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/cli/autodig_report.hpp"
-#include "app/cli/autodig_run.hpp"
+#include "app/reports/autodig_report.hpp"
+#include "app/runs/autodig_run.hpp"
 #include "app/cli/commands.hpp"
-#include "app/cli/fault_words.hpp"
+#include "app/runs/fault_text.hpp"
 #include "app/cli/guarded.hpp"
-#include "app/cli/progress_bar.hpp"
+#include "app/runs/progress_bar.hpp"
 #include "app/cli/scenario_options.hpp"
 #include "app/cli/validators.hpp"
-#include "app/machines/plan_words.hpp"
-#include "app/machines/task_words.hpp"
+#include "app/machines/plan_text.hpp"
+#include "app/machines/task_text.hpp"
 
 namespace graben::cli {
 namespace {

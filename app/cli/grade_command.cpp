@@ -8,13 +8,13 @@
 #include <string>
 
 #include "app/cli/commands.hpp"
-#include "app/cli/fastest_speed.hpp"
-#include "app/cli/fault_words.hpp"
+#include "app/runs/fastest_speed.hpp"
+#include "app/runs/fault_text.hpp"
 #include "app/cli/grade_options.hpp"
-#include "app/cli/grade_report.hpp"
-#include "app/cli/grade_run.hpp"
+#include "app/reports/grade_report.hpp"
+#include "app/runs/grade_run.hpp"
 #include "app/cli/guarded.hpp"
-#include "app/cli/progress_bar.hpp"
+#include "app/runs/progress_bar.hpp"
 #include "app/cli/validators.hpp"
 
 namespace graben::cli {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "app/machines/dozer_scenario.hpp"
+#include "app/machines/simulated/dozer_scenario.hpp"
 
 namespace CLI {
 class App;

@@ -10,10 +10,10 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/guarded.hpp"
-#include "app/cli/plan_report.hpp"
-#include "app/cli/plan_run.hpp"
+#include "app/reports/plan_report.hpp"
+#include "app/runs/plan_run.hpp"
 #include "app/cli/validators.hpp"
-#include "app/machines/plan_words.hpp"
+#include "app/machines/plan_text.hpp"
 
 namespace graben::cli {
 namespace {

@@ -10,8 +10,8 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/guarded.hpp"
 #include "app/machines/axis_names.hpp"
-#include "app/machines/machine_file.hpp"
-#include "firmware/kinematics/swing_kinematics.hpp"
+#include "app/machines/excavator_file.hpp"
+#include "firmware/excavator/kinematics/swing_kinematics.hpp"
 
 namespace graben::cli {
 namespace {

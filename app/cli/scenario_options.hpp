@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "app/cli/dig_run.hpp"
-#include "app/machines/scenario.hpp"
+#include "app/runs/dig_run.hpp"
+#include "app/machines/simulated/scenario.hpp"
 
 namespace CLI {
 class App;

@@ -2,9 +2,9 @@
 /// The dozer's controller as a node on its bus.
 
 #include "app/ecu/ecu_node.hpp"
-#include "firmware/dozer_controller.hpp"
-#include "hal/dozer_receiver.hpp"
-#include "hal/dozer_transmitter.hpp"
+#include "firmware/dozer/dozer_controller.hpp"
+#include "hal/buses/dozer_receiver.hpp"
+#include "hal/buses/dozer_transmitter.hpp"
 
 namespace graben::ecu {
 

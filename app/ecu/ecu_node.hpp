@@ -8,8 +8,8 @@
 
 #include "app/ecu/bus_watch.hpp"
 #include "hal/can_port.hpp"
-#include "hal/ecu_diagnosis.hpp"
-#include "hal/link_counters.hpp"
+#include "hal/link/ecu_diagnosis.hpp"
+#include "hal/link/link_counters.hpp"
 
 namespace graben::ecu {
 

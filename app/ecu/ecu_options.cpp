@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "firmware/motion/task_program.hpp"
+#include "firmware/excavator/tasks/task_program.hpp"
 
 namespace graben::ecu {
 namespace {

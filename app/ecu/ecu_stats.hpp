@@ -5,7 +5,7 @@
 #include <string>
 
 #include "firmware/core/time.hpp"
-#include "hal/link_counters.hpp"
+#include "hal/link/link_counters.hpp"
 #include "platform/linux/cyclic_clock.hpp"
 #include "platform/linux/socketcan_port.hpp"
 

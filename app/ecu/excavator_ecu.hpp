@@ -2,9 +2,9 @@
 /// The excavator's controller as a node on its bus.
 
 #include "app/ecu/ecu_node.hpp"
-#include "firmware/excavator_controller.hpp"
-#include "hal/excavator_receiver.hpp"
-#include "hal/excavator_transmitter.hpp"
+#include "firmware/excavator/excavator_controller.hpp"
+#include "hal/buses/excavator_receiver.hpp"
+#include "hal/buses/excavator_transmitter.hpp"
 
 namespace graben::ecu {
 

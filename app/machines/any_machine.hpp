@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "app/machines/dozer_file.hpp"
-#include "app/machines/machine_file.hpp"
+#include "app/machines/excavator_file.hpp"
 
 namespace graben::machines {
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "firmware/machine/excavator_profile.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
 
 namespace graben::machines {
 

@@ -6,10 +6,10 @@
 
 #include "app/machines/axis_names.hpp"
 #include "app/machines/excavator_sections.hpp"
-#include "app/machines/plan_words.hpp"
+#include "app/machines/plan_text.hpp"
 #include "app/machines/shared_sections.hpp"
-#include "firmware/excavator_controller.hpp"
-#include "firmware/motion/line_plan.hpp"
+#include "firmware/excavator/excavator_controller.hpp"
+#include "firmware/excavator/tasks/line_plan.hpp"
 
 namespace graben::machines {
 namespace {

@@ -6,7 +6,7 @@
 #include "app/machines/dozer_sections.hpp"
 
 #include "firmware/numeric/constants.hpp"
-#include "firmware/travel/reach.hpp"
+#include "firmware/dozer/travel/reach.hpp"
 
 namespace graben::machines {
 namespace {

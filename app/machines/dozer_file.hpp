@@ -6,8 +6,8 @@
 #include <string>
 
 #include "app/machines/profile_file.hpp"
-#include "app/plant/dozer_profile.hpp"
-#include "firmware/machine/dozer_profile.hpp"
+#include "app/plant/dozer_plant_profile.hpp"
+#include "firmware/dozer/dozer_profile.hpp"
 
 namespace graben::machines {
 

@@ -1,10 +1,10 @@
 #pragma once
 /// The sections of an excavator's TOML file.
 
-#include "app/machines/experiment.hpp"
+#include "app/machines/simulated/experiment.hpp"
 #include "app/machines/toml_reader.hpp"
-#include "app/plant/plant_profile.hpp"
-#include "firmware/machine/excavator_profile.hpp"
+#include "app/plant/excavator_plant_profile.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
 
 namespace graben::machines {
 

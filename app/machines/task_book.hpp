@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/motion/task_program.hpp"
+#include "firmware/excavator/tasks/task_program.hpp"
 
 namespace graben::machines {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "app/machines/profile_document.hpp"
-#include "app/machines/task_words.hpp"
+#include "app/machines/task_text.hpp"
 #include "app/machines/teeth_pose_key.hpp"
 
 namespace graben::machines {

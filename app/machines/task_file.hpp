@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/machines/profile_file.hpp"
-#include "firmware/motion/task_program.hpp"
+#include "firmware/excavator/tasks/task_program.hpp"
 
 namespace graben::machines {
 

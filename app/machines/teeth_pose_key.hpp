@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/machines/toml_reader.hpp"
-#include "firmware/kinematics/swing_kinematics.hpp"
+#include "firmware/excavator/kinematics/swing_kinematics.hpp"
 
 namespace graben::machines {
 

@@ -7,7 +7,7 @@
 #include "can_dbc/codec.hpp"
 #include "firmware/core/time.hpp"
 #include "hal/can_port.hpp"
-#include "hal/e2e.hpp"
+#include "hal/link/e2e.hpp"
 
 namespace graben::plant {
 

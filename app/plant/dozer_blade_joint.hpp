@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "app/plant/cylinder.hpp"
-#include "app/plant/dozer_profile.hpp"
+#include "app/plant/dozer_plant_profile.hpp"
 
 namespace graben::plant {
 

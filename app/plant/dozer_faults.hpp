@@ -7,7 +7,7 @@
 #include "app/plant/dozer_hst_path.hpp"
 #include "app/plant/faulty_reading.hpp"
 #include "app/plant/node_faults.hpp"
-#include "firmware/signals/dozer_signals.hpp"
+#include "firmware/dozer/dozer_signals.hpp"
 
 namespace graben::plant {
 

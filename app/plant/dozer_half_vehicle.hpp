@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "app/plant/dozer_profile.hpp"
+#include "app/plant/dozer_plant_profile.hpp"
 #include "app/plant/dozer_terrain.hpp"
 
 namespace graben::plant {

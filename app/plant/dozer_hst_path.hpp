@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "app/plant/dozer_profile.hpp"
+#include "app/plant/dozer_plant_profile.hpp"
 #include "app/plant/orifice.hpp"
 #include "app/plant/wave_volume.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The dozer's implement circuit: pump of fixed displacement, load-sensing section, port reliefs.
 
-#include "app/plant/dozer_profile.hpp"
+#include "app/plant/dozer_plant_profile.hpp"
 #include "app/plant/orifice.hpp"
 #include "app/plant/spool.hpp"
 

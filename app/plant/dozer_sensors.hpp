@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "app/plant/dozer_profile.hpp"
+#include "app/plant/dozer_plant_profile.hpp"
 #include "app/plant/random.hpp"
 
 namespace graben::plant {

@@ -1,7 +1,7 @@
 #pragma once
 /// What one track and the ground do to each other.
 
-#include "app/plant/dozer_profile.hpp"
+#include "app/plant/dozer_plant_profile.hpp"
 
 namespace graben::plant {
 

@@ -9,7 +9,7 @@
 #include "app/plant/node_faults.hpp"
 #include "can_dbc/codec.hpp"
 #include "hal/can_port.hpp"
-#include "hal/e2e.hpp"
+#include "hal/link/e2e.hpp"
 
 namespace graben::plant {
 

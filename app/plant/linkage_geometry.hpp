@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "firmware/machine/excavator_profile.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
 
 namespace graben::plant {
 

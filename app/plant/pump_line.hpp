@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "app/plant/plant_profile.hpp"
+#include "app/plant/excavator_plant_profile.hpp"
 #include "app/plant/wave_volume.hpp"
 
 namespace graben::plant {

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "app/plant/plant_profile.hpp"
+#include "app/plant/excavator_plant_profile.hpp"
 #include "app/plant/random.hpp"
 
 namespace graben::plant {

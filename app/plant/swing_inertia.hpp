@@ -5,7 +5,7 @@
 #include <array>
 
 #include "app/plant/linkage_geometry.hpp"
-#include "app/plant/plant_profile.hpp"
+#include "app/plant/excavator_plant_profile.hpp"
 
 namespace graben::plant {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Velocity coefficient of a spool and its cylinder, c_L of (9) and (11).
 
-#include "firmware/machine/excavator_profile.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
 
 namespace graben {
 

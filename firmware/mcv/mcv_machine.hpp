@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "firmware/machine/excavator_profile.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
 #include "firmware/numeric/monotone_table.hpp"
 
 namespace graben {

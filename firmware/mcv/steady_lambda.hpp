@@ -2,7 +2,7 @@
 /// lambda from cycle to cycle: falls as the machine needs, rises slowly and only with force to
 /// spare.
 
-#include "firmware/machine/excavator_profile.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
 #include "firmware/mcv/optimiser.hpp"
 
 namespace graben {

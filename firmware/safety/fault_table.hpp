@@ -5,7 +5,7 @@
 
 #include "firmware/core/codes.hpp"
 #include "firmware/core/fault_set.hpp"
-#include "firmware/signals/excavator_signals.hpp"
+#include "firmware/excavator/excavator_signals.hpp"
 
 namespace graben {
 

@@ -2,7 +2,7 @@
 /// What the machine may do: silent by default, positive and complete conditions before motion.
 
 #include "firmware/core/fault_set.hpp"
-#include "firmware/signals/excavator_signals.hpp"
+#include "firmware/excavator/excavator_signals.hpp"
 
 namespace graben {
 

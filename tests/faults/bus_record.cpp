@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hal/dm1.hpp"
+#include "hal/link/dm1.hpp"
 #include "tests/faults/dozer_kind.hpp"
 #include "tests/faults/excavator_kind.hpp"
 

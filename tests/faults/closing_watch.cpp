@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/cli/dig_run.hpp"
+#include "app/runs/dig_run.hpp"
 #include "tests/faults/dozer_kind.hpp"
 #include "tests/faults/excavator_kind.hpp"
 

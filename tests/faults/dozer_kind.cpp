@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/machines/machine_file.hpp"
-#include "firmware/kinematics/blade.hpp"
+#include "app/machines/excavator_file.hpp"
+#include "firmware/dozer/blade.hpp"
 #include "tests/unit/firmware/flip_bit.hpp"
 
 namespace graben {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "app/machines/scenario.hpp"
-#include "firmware/motion/rounded_rectangle.hpp"
+#include "app/machines/simulated/scenario.hpp"
+#include "firmware/excavator/field/rounded_rectangle.hpp"
 #include "tests/unit/firmware/flip_bit.hpp"
 
 namespace graben {

@@ -1,7 +1,7 @@
 #pragma once
 /// What is done to frames on their way, by the names that the rows have for it.
 
-#include "app/bench/frame_edit.hpp"
+#include "app/runs/frame_edit.hpp"
 #include "firmware/core/time.hpp"
 
 namespace graben::faults {

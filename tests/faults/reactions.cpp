@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "app/cli/fault_words.hpp"
+#include "app/runs/fault_text.hpp"
 #include "tests/faults/dozer_kind.hpp"
 #include "tests/faults/excavator_kind.hpp"
 #include "tests/faults/trial.hpp"

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "firmware/safety/common_inputs.hpp"
-#include "hal/e2e.hpp"
+#include "hal/link/e2e.hpp"
 #include "tests/fuzz/dozer_bus.hpp"
 #include "tests/fuzz/excavator_bus.hpp"
 

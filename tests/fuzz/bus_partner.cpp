@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hal/e2e.hpp"
+#include "hal/link/e2e.hpp"
 #include "tests/fuzz/dozer_bus.hpp"
 #include "tests/fuzz/excavator_bus.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "hal/e2e.hpp"
+#include "hal/link/e2e.hpp"
 #include "tests/fuzz/dozer_bus.hpp"
 #include "tests/fuzz/excavator_bus.hpp"
 

@@ -9,7 +9,7 @@
 #include "app/ecu/dozer_ecu.hpp"
 #include "app/machines/dozer_file.hpp"
 #include "can_dbc/generated/dozer_dbc.hpp"
-#include "firmware/kinematics/blade.hpp"
+#include "firmware/dozer/blade.hpp"
 #include "tests/fuzz/bus_port.hpp"
 
 namespace graben::test {

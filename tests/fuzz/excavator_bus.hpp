@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/ecu/excavator_ecu.hpp"
-#include "app/machines/machine_file.hpp"
+#include "app/machines/excavator_file.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "tests/fuzz/bus_port.hpp"
 

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "firmware/excavator_controller.hpp"
+#include "firmware/excavator/excavator_controller.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 #include "tests/unit/firmware/inputs.hpp"

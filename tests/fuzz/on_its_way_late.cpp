@@ -2,7 +2,7 @@
 /// have the same identifier, protection and place of it.
 
 #include "can_dbc/generated/excavator_dbc.hpp"
-#include "hal/e2e.hpp"
+#include "hal/link/e2e.hpp"
 #include "tests/fuzz/bus_port.hpp"
 
 namespace graben::test {

@@ -20,11 +20,15 @@ FORBIDDEN = {
     # The controller's process opens no TCP socket.
     "app/ecu/": ("app/scope/", "app/cli/"),
 }
-# The same through any number of headers in between.
-FORBIDDEN_INDIRECTLY = {
-    "app/plant/": tuple(f"firmware/{part}/" for part in (
-        "hydraulics", "mcv", "kinematics", "motion", "travel", "safety")),
-}
+# All that the plant may see of the core, through any number of headers in between: what a machine is, and
+# the codes and values that are on the bus.
+PLANT_SEES = (
+    "firmware/core/", "firmware/machine/", "firmware/numeric/", "firmware/signals/",
+    "firmware/dozer/dozer_profile.hpp", "firmware/dozer/dozer_signals.hpp",
+    "firmware/excavator/excavator_profile.hpp", "firmware/excavator/excavator_signals.hpp",
+)
+# A kind's wing never sees the other, and what is common sees neither.
+WINGS = ("firmware/excavator/", "firmware/dozer/")
 
 
 root = tree.arguments(__doc__).parse_args().root.resolve()
@@ -41,9 +45,13 @@ for name, found in includes.of.items():
                      for line, header, quoted in found
                      if header not in ALLOWED_HEADERS and header not in includes.sources
                      and (quoted or not header.startswith("Eigen/"))]
-    for folder, forbidden in FORBIDDEN_INDIRECTLY.items():
-        if name.startswith(folder):
-            problems += [f"{folder} must not see {header}: {chain}"
-                         for header, chain in includes.reached_from(name).items()
-                         if header.startswith(forbidden)]
+    if name.startswith("app/plant/"):
+        problems += [f"app/plant/ must not see {header}: {chain}"
+                     for header, chain in includes.reached_from(name).items()
+                     if header.startswith("firmware/") and not header.startswith(PLANT_SEES)]
+    if name.startswith("firmware/"):
+        own = next((wing for wing in WINGS if name.startswith(wing)), "")
+        problems += [f"{own or 'a common room'} must not see {header}: {chain}"
+                     for header, chain in includes.reached_from(name).items()
+                     if header.startswith(WINGS) and not (own and header.startswith(own))]
 tree.report("layering", sorted(set(problems)), sum(map(len, includes.of.values())), "includes")

@@ -1,8 +1,8 @@
 /// A dozer's ECU without an operating system.
 
-#include "firmware/dozer_controller.hpp"
-#include "hal/dozer_receiver.hpp"
-#include "hal/dozer_transmitter.hpp"
+#include "firmware/dozer/dozer_controller.hpp"
+#include "hal/buses/dozer_receiver.hpp"
+#include "hal/buses/dozer_transmitter.hpp"
 #include "tests/memory/bare_ecu.hpp"
 
 namespace graben::memory {

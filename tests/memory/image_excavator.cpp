@@ -1,8 +1,8 @@
 /// An excavator's ECU without an operating system.
 
-#include "firmware/excavator_controller.hpp"
-#include "hal/excavator_receiver.hpp"
-#include "hal/excavator_transmitter.hpp"
+#include "firmware/excavator/excavator_controller.hpp"
+#include "hal/buses/excavator_receiver.hpp"
+#include "hal/buses/excavator_transmitter.hpp"
 #include "tests/memory/bare_ecu.hpp"
 
 namespace graben::memory {

@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware/dozer_controller.hpp"
-#include "firmware/excavator_controller.hpp"
+#include "firmware/dozer/dozer_controller.hpp"
+#include "firmware/excavator/excavator_controller.hpp"
 
 namespace graben::memory {
 

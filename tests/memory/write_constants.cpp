@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "app/bench/autodig_bench.hpp"
-#include "app/bench/grade_bench.hpp"
+#include "app/runs/autodig_rig.hpp"
+#include "app/runs/grade_rig.hpp"
 #include "app/machines/task_book.hpp"
 #include "app/machines/task_file.hpp"
 #include "tests/memory/setup.hpp"

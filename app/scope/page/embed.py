@@ -9,7 +9,7 @@ import argparse
 import pathlib
 import sys
 
-# Where a report has its setup; app/scope/report_file.cpp looks for the same.
+# Where a report has its setup; app/reports/report_file.cpp looks for the same.
 MARK = '<script type="application/json" id="graben-setup">'
 
 SOURCE = """// Written by embed.py at build time.

@@ -1,8 +1,8 @@
 #include "tests/timing/counts/play.hpp"
 
 #include "app/machines/dozer_file.hpp"
-#include "app/machines/machine_file.hpp"
-#include "app/machines/scenario.hpp"
+#include "app/machines/excavator_file.hpp"
+#include "app/machines/simulated/scenario.hpp"
 #include "app/plant/random.hpp"
 #include "tests/timing/counts/scene.hpp"
 #include "tests/timing/counts/setups.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "hal/e2e.hpp"
+#include "hal/link/e2e.hpp"
 
 namespace graben::timing {
 namespace {

@@ -9,7 +9,7 @@
 #include "app/ecu/excavator_ecu.hpp"
 #include "app/plant/dozer_node.hpp"
 #include "app/plant/operator_node.hpp"
-#include "app/plant/plant_node.hpp"
+#include "app/plant/excavator_node.hpp"
 #include "platform/loopback/loopback_bus.hpp"
 #include "tests/timing/counts/recording_port.hpp"
 #include "tests/timing/counts/script.hpp"

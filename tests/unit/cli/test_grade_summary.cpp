@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "app/cli/grade_run.hpp"
+#include "app/runs/grade_run.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace {

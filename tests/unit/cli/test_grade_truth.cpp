@@ -1,6 +1,6 @@
 /// What the design asks of the blade, by hand.
 
-#include "app/cli/grade_truth.hpp"
+#include "app/runs/grade_truth.hpp"
 
 #include <cmath>
 

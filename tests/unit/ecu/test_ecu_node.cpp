@@ -6,7 +6,7 @@
 #include "app/ecu/dozer_ecu.hpp"
 #include "app/ecu/excavator_ecu.hpp"
 #include "app/machines/dozer_file.hpp"
-#include "app/machines/machine_file.hpp"
+#include "app/machines/excavator_file.hpp"
 #include "can_dbc/generated/dozer_dbc.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "platform/loopback/loopback_bus.hpp"

@@ -2,7 +2,7 @@
 /// The shipped dozer for tests of the core.
 
 #include "app/machines/dozer_file.hpp"
-#include "app/machines/machine_file.hpp"
+#include "app/machines/excavator_file.hpp"
 
 namespace graben::test {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "app/plant/random.hpp"
-#include "firmware/motion/drive_plan.hpp"
-#include "firmware/motion/soft_limit.hpp"
+#include "firmware/excavator/tasks/drive_plan.hpp"
+#include "firmware/excavator/tasks/soft_limit.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
 namespace graben::test {

@@ -1,7 +1,7 @@
 #pragma once
 /// The shipped excavators for tests of the core.
 
-#include "app/machines/machine_file.hpp"
+#include "app/machines/excavator_file.hpp"
 
 namespace graben::test {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "firmware/dozer_controller.hpp"
-#include "firmware/hydraulics/hydrostatic.hpp"
+#include "firmware/dozer/dozer_controller.hpp"
+#include "firmware/dozer/hydrostatic.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 #include "tests/unit/firmware/inputs.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// Complete, fresh inputs for tests of the core.
 
-#include "firmware/signals/excavator_signals.hpp"
+#include "firmware/excavator/excavator_signals.hpp"
 
 namespace graben::test {
 

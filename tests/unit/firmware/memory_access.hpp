@@ -1,8 +1,8 @@
 #pragma once
 /// The controllers' friends: what they keep from cycle to cycle.
 
-#include "firmware/dozer_controller.hpp"
-#include "firmware/excavator_controller.hpp"
+#include "firmware/dozer/dozer_controller.hpp"
+#include "firmware/excavator/excavator_controller.hpp"
 
 namespace graben {
 

@@ -2,7 +2,7 @@
 /// A dozer in round numbers, made without a file, as plain_machine.hpp has the excavator; and
 /// complete, fresh inputs for it.
 
-#include "firmware/machine/dozer_profile.hpp"
+#include "firmware/dozer/dozer_profile.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/inputs.hpp"
 

@@ -2,7 +2,7 @@
 /// A machine in round numbers, made without a file: enough of a profile for the safety code, so
 /// that limits can be hit to the last bit and nothing of the application has to be built.
 
-#include "firmware/machine/excavator_profile.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace graben::test {

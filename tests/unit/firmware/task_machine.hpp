@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "firmware/excavator_controller.hpp"
+#include "firmware/excavator/excavator_controller.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
 #include "tests/unit/firmware/inputs.hpp"

@@ -1,4 +1,4 @@
-#include "firmware/kinematics/blade.hpp"
+#include "firmware/dozer/blade.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 

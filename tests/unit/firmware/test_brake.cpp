@@ -1,4 +1,4 @@
-#include "firmware/safety/brake.hpp"
+#include "firmware/dozer/safety/brake.hpp"
 
 #include <cmath>
 

@@ -5,8 +5,8 @@
 #include <complex>
 #include <vector>
 
-#include "firmware/motion/cylinder_servo.hpp"
-#include "firmware/motion/load_filter.hpp"
+#include "firmware/drives/cylinder_servo.hpp"
+#include "firmware/drives/load_filter.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 

@@ -1,4 +1,4 @@
-#include "firmware/safety/cylinder_watch.hpp"
+#include "firmware/drives/cylinder_watch.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "firmware/safety/displacement_watch.hpp"
+#include "firmware/dozer/safety/displacement_watch.hpp"
 
 #include <algorithm>
 #include <cmath>

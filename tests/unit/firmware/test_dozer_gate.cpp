@@ -1,4 +1,4 @@
-#include "firmware/safety/dozer_gate.hpp"
+#include "firmware/dozer/safety/dozer_gate.hpp"
 
 #include <cmath>
 #include <limits>

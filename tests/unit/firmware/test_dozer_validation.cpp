@@ -1,9 +1,9 @@
-#include "firmware/safety/dozer_validation.hpp"
+#include "firmware/dozer/safety/dozer_validation.hpp"
 
 #include <cmath>
 #include <limits>
 
-#include "firmware/kinematics/blade.hpp"
+#include "firmware/dozer/blade.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/plain_dozer.hpp"
 

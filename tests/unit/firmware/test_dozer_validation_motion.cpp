@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "firmware/safety/dozer_validation.hpp"
+#include "firmware/dozer/safety/dozer_validation.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/plain_dozer.hpp"
 

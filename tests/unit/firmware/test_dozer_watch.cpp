@@ -1,4 +1,4 @@
-#include "firmware/safety/dozer_watch.hpp"
+#include "firmware/dozer/safety/dozer_watch.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "firmware/motion/drive_plan.hpp"
+#include "firmware/excavator/tasks/drive_plan.hpp"
 
 #include <cmath>
 

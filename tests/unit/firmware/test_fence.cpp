@@ -1,4 +1,4 @@
-#include "firmware/motion/fence.hpp"
+#include "firmware/excavator/tasks/fence.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"

@@ -1,6 +1,6 @@
 #include <limits>
 
-#include "firmware/safety/gate.hpp"
+#include "firmware/drives/drive_gate.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/flip_bit.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"

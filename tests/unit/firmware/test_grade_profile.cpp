@@ -1,4 +1,4 @@
-#include "firmware/motion/grade_profile.hpp"
+#include "firmware/dozer/grade_profile.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 

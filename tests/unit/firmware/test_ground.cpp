@@ -1,9 +1,9 @@
 #include <limits>
 
-#include "firmware/travel/ground_map.hpp"
-#include "firmware/travel/position_filter.hpp"
-#include "firmware/travel/reach.hpp"
-#include "firmware/travel/support.hpp"
+#include "firmware/dozer/travel/ground_map.hpp"
+#include "firmware/dozer/travel/position_filter.hpp"
+#include "firmware/dozer/travel/reach.hpp"
+#include "firmware/dozer/travel/support.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 

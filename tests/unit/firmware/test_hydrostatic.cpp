@@ -1,7 +1,7 @@
-#include "firmware/hydraulics/hydrostatic.hpp"
-#include "firmware/hydraulics/implement_flow.hpp"
-#include "firmware/travel/track_control.hpp"
-#include "firmware/travel/track_speeds.hpp"
+#include "firmware/dozer/hydrostatic.hpp"
+#include "firmware/dozer/implement_flow.hpp"
+#include "firmware/dozer/travel/track_control.hpp"
+#include "firmware/dozer/travel/track_speeds.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <limits>
 
-#include "firmware/kinematics/excavator_kinematics.hpp"
+#include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 

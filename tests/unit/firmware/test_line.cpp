@@ -1,4 +1,4 @@
-#include "firmware/motion/line.hpp"
+#include "firmware/excavator/tasks/line.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "firmware/motion/line_plan.hpp"
+#include "firmware/excavator/tasks/line_plan.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,7 +1,7 @@
 #include <Eigen/Geometry>
 #include <random>
 
-#include "firmware/kinematics/mobile_jacobian.hpp"
+#include "firmware/dozer/mobile_jacobian.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 

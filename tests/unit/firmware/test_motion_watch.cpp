@@ -1,4 +1,4 @@
-#include "firmware/safety/motion_watch.hpp"
+#include "firmware/drives/motion_watch.hpp"
 
 #include <cmath>
 #include "tests/unit/cmocka_cpp.hpp"

@@ -1,4 +1,4 @@
-#include "firmware/safety/pressure_watch.hpp"
+#include "firmware/drives/pressure_watch.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"

@@ -1,7 +1,7 @@
 #include <limits>
 
-#include "firmware/hydraulics/implement_flow.hpp"
-#include "firmware/travel/preview.hpp"
+#include "firmware/dozer/implement_flow.hpp"
+#include "firmware/dozer/travel/preview.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 

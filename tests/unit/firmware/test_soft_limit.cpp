@@ -1,4 +1,4 @@
-#include "firmware/motion/soft_limit.hpp"
+#include "firmware/excavator/tasks/soft_limit.hpp"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "firmware/safety/spool_watch.hpp"
+#include "firmware/drives/spool_watch.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"

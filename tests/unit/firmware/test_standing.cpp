@@ -1,4 +1,4 @@
-#include "firmware/safety/standing.hpp"
+#include "firmware/safety/status.hpp"
 
 #include "firmware/safety/fault_table.hpp"
 #include "tests/unit/cmocka_cpp.hpp"

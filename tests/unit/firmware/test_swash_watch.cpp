@@ -1,4 +1,4 @@
-#include "firmware/safety/swash_watch.hpp"
+#include "firmware/excavator/safety/swash_watch.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "firmware/mcv/steady_lambda.hpp"
-#include "firmware/motion/line_plan.hpp"
-#include "firmware/motion/stroke_end.hpp"
+#include "firmware/excavator/tasks/line_plan.hpp"
+#include "firmware/drives/stroke_end.hpp"
 #include "tests/fuzz/plain_circuit.hpp"
 #include "tests/unit/firmware/running.hpp"
 

@@ -1,4 +1,4 @@
-#include "firmware/kinematics/swing_kinematics.hpp"
+#include "firmware/excavator/kinematics/swing_kinematics.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "firmware/safety/gate.hpp"
-#include "firmware/safety/watch.hpp"
+#include "firmware/drives/drive_gate.hpp"
+#include "firmware/excavator/safety/excavator_watch.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/inputs.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"

@@ -1,4 +1,4 @@
-#include "firmware/motion/task_follow.hpp"
+#include "firmware/excavator/tasks/task_follow.hpp"
 
 #include <limits>
 

@@ -1,9 +1,9 @@
-#include "firmware/motion/task_program.hpp"
+#include "firmware/excavator/tasks/task_program.hpp"
 
 #include <limits>
 
-#include "firmware/motion/task_run.hpp"
-#include "firmware/motion/task_walk.hpp"
+#include "firmware/excavator/tasks/task_run.hpp"
+#include "firmware/excavator/tasks/task_walk.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
 #include "tests/unit/rounds.hpp"

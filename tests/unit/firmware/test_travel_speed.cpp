@@ -1,5 +1,5 @@
-#include "firmware/hydraulics/implement_flow.hpp"
-#include "firmware/travel/speed_limit.hpp"
+#include "firmware/dozer/implement_flow.hpp"
+#include "firmware/dozer/travel/speed_limit.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 

@@ -1,6 +1,6 @@
 #include <limits>
 
-#include "firmware/safety/validation.hpp"
+#include "firmware/excavator/safety/excavator_validation.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/inputs.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"

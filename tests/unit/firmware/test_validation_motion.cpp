@@ -1,6 +1,6 @@
 // What the validation stops and what it bridges while the machine moves; the bus.
 
-#include "firmware/safety/validation.hpp"
+#include "firmware/excavator/safety/excavator_validation.hpp"
 
 #include <cmath>
 

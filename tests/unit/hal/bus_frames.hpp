@@ -3,8 +3,8 @@
 
 #include "can_dbc/generated/dozer_dbc.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
-#include "hal/dozer_receiver.hpp"
-#include "hal/excavator_receiver.hpp"
+#include "hal/buses/dozer_receiver.hpp"
+#include "hal/buses/excavator_receiver.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace graben::test {

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "firmware/numeric/constants.hpp"
-#include "hal/dozer_transmitter.hpp"
-#include "hal/e2e.hpp"
-#include "hal/excavator_transmitter.hpp"
+#include "hal/buses/dozer_transmitter.hpp"
+#include "hal/link/e2e.hpp"
+#include "hal/buses/excavator_transmitter.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace graben::test {

@@ -1,7 +1,7 @@
 #pragma once
 /// A receiver of one protected message, for the tests of the end-to-end protection.
 
-#include "hal/e2e.hpp"
+#include "hal/link/e2e.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace graben::test {

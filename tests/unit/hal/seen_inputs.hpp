@@ -4,8 +4,8 @@
 #include <tuple>
 #include <vector>
 
-#include "firmware/signals/dozer_signals.hpp"
-#include "firmware/signals/excavator_signals.hpp"
+#include "firmware/dozer/dozer_signals.hpp"
+#include "firmware/excavator/excavator_signals.hpp"
 
 namespace graben::test {
 

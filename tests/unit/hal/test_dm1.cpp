@@ -1,6 +1,6 @@
 // Which trouble code is said when.
 
-#include "hal/dm1.hpp"
+#include "hal/link/dm1.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,6 @@
-// Check values of the CRC, and every row of the table in hal/e2e.hpp.
+// Check values of the CRC, and every row of the table in hal/link/e2e.hpp.
 
-#include "hal/e2e.hpp"
+#include "hal/link/e2e.hpp"
 
 #include "tests/unit/hal/e2e_link.hpp"
 

@@ -1,8 +1,8 @@
-// A block of old, valid frames beside the live ones: the table in hal/e2e.hpp.
+// A block of old, valid frames beside the live ones: the table in hal/link/e2e.hpp.
 
 #include <algorithm>
 
-#include "hal/e2e_window.hpp"
+#include "hal/link/e2e_window.hpp"
 #include "tests/unit/hal/e2e_link.hpp"
 
 namespace {

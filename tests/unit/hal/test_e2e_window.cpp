@@ -1,6 +1,6 @@
 // Three wrong frames of the last sixteen are a fault, of one message and of one kind.
 
-#include "hal/e2e_window.hpp"
+#include "hal/link/e2e_window.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/machines/dozer_file.hpp"
-#include "app/machines/machine_file.hpp"
+#include "app/machines/excavator_file.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 3) {

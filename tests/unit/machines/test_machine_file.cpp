@@ -1,4 +1,4 @@
-#include "app/machines/machine_file.hpp"
+#include "app/machines/excavator_file.hpp"
 
 #include <cstring>
 

@@ -2,7 +2,7 @@
 
 #include "app/machines/task_book.hpp"
 
-#include "app/machines/machine_file.hpp"
+#include "app/machines/excavator_file.hpp"
 #include "app/machines/task_file.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 

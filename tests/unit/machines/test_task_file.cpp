@@ -5,8 +5,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "app/machines/machine_file.hpp"
-#include "app/machines/task_words.hpp"
+#include "app/machines/excavator_file.hpp"
+#include "app/machines/task_text.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // What the machine does beside spools and sensors that are well: pilot cut, pump commands, faults.
 
-#include "app/plant/plant_faults.hpp"
+#include "app/plant/excavator_faults.hpp"
 #include "tests/unit/plant/fixture/node_rig.hpp"
 
 namespace {

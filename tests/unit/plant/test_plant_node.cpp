@@ -1,6 +1,6 @@
 // The machine and the operator on a bus.
 
-#include "app/plant/plant_node.hpp"
+#include "app/plant/excavator_node.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/node_rig.hpp"

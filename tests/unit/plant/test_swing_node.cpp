@@ -1,6 +1,6 @@
 // The swing on the bus: what the machine says of it, what lets its spool open, what can be broken.
 
-#include "app/plant/plant_node.hpp"
+#include "app/plant/excavator_node.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/node_rig.hpp"

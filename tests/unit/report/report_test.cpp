@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "app/scope/packed_log.hpp"
-#include "app/scope/report_file.hpp"
+#include "app/reports/packed_log.hpp"
+#include "app/reports/report_file.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <thread>
 
-#include "app/scope/live_show.hpp"
-#include "app/scope/scope_server.hpp"
+#include "app/scope/server/live_show.hpp"
+#include "app/scope/server/scope_server.hpp"
 
 namespace graben::test {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/scope/sim_session.hpp"
+#include "app/scope/sim/sim_session.hpp"
 #include "can_dbc/generated/dozer_dbc.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "tests/unit/cmocka_cpp.hpp"

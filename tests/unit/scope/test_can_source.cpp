@@ -1,6 +1,6 @@
 /// A bus that is heard, on one end of a socket pair that every kernel has, the test on the other.
 
-#include "app/scope/can_source.hpp"
+#include "app/scope/server/can_source.hpp"
 
 #include <fcntl.h>
 #include <linux/can/error.h>

@@ -1,6 +1,6 @@
 /// What a page is sent, in which order, and what becomes of what it says.
 
-#include "app/scope/client.hpp"
+#include "app/scope/server/client.hpp"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 /// The ring between the source and the pages: what a reader gets, and what it is told it missed.
 
-#include "app/scope/frame_feed.hpp"
+#include "app/scope/server/frame_feed.hpp"
 
 #include <atomic>
 #include <thread>

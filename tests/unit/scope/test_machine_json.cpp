@@ -1,12 +1,12 @@
 /// What a page is told of machines, against their profiles.
 
-#include "app/scope/machine_json.hpp"
+#include "app/reports/machine_json.hpp"
 
 #include <set>
 
-#include "app/scope/setup_json.hpp"
-#include "firmware/motion/dig_field.hpp"
-#include "firmware/motion/grade_profile.hpp"
+#include "app/reports/setup_json.hpp"
+#include "firmware/excavator/field/dig_field.hpp"
+#include "firmware/dozer/grade_profile.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/scope/temporary_file.hpp"
 

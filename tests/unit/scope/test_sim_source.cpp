@@ -1,6 +1,6 @@
 // A simulation in real time: as fast as it is asked to be, and over when it is told so.
 
-#include "app/scope/sim_source.hpp"
+#include "app/scope/sim/sim_source.hpp"
 
 #include <atomic>
 #include <chrono>

@@ -1,5 +1,5 @@
 /// Numbers on the bus in words. What the controller itself has words for comes with the setup; the
-/// limits are worded as its own reports do (app/cli/limit_words.cpp).
+/// limits are worded as its own reports do (app/runs/limit_text.cpp).
 
 import type {Kind, Task, Words} from './api';
 

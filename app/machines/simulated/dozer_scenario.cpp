@@ -1,0 +1,59 @@
+#include "app/machines/simulated/dozer_scenario.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "firmware/dozer/grade_profile.hpp"
+
+namespace graben::machines {
+
+namespace {
+
+/// The simulated ground is level at z = 0, and a blade only cuts.
+constexpr double kFill_m = 0.02;
+
+/// A file has 900 rpm with two decimals of a rad/s.
+constexpr double kRounding_radps = 0.01;
+
+void demand_something_to_cut(const DozerMachine& machine) {
+  constexpr double kStep_m = 0.05;
+  const GradeProfile design(machine.profile.grade);
+  for (int step = 0; step * kStep_m <= machine.experiment.length_m; ++step) {
+    const double height_m = design.at(step * kStep_m).height_m;
+    if (height_m > kFill_m) {
+      throw std::runtime_error(fmt::format(
+          "the design is {:.3f} m above the simulated ground at x = {:.2f} m; allowed: at "
+          "most {} m, as a blade only cuts",
+          height_m, step * kStep_m, kFill_m));
+    }
+  }
+}
+
+}  // namespace
+
+DozerMachine arranged(DozerMachine machine, const DozerScenario& scenario) {
+  demand_something_to_cut(machine);
+  if (scenario.errors) {
+    machine.plant = draw_dozer(machine, scenario.seed);
+  }
+  if (scenario.engine_radps) {
+    HstProfile& hst = machine.plant.machine.hst;
+    if (*scenario.engine_radps < hst.engine_least_radps - kRounding_radps ||
+        *scenario.engine_radps > hst.engine_most_radps + kRounding_radps) {
+      throw std::runtime_error(
+          fmt::format("an engine speed of {:.2f} rad/s; the profile allows {} .. {} rad/s",
+                      *scenario.engine_radps, hst.engine_least_radps, hst.engine_most_radps));
+    }
+    hst.engine_radps = *scenario.engine_radps;
+  }
+  TravelProfile& travel = machine.profile.travel;
+  travel.policy = scenario.policy;
+  travel.speed_desired_mps = scenario.speed_mps.value_or(travel.speed_desired_mps);
+  // v_min is what a limit may not go below, not what the operator may not.
+  travel.speed_min_mps = std::min(travel.speed_min_mps, travel.speed_desired_mps);
+  return machine;
+}
+
+}  // namespace graben::machines

@@ -1,0 +1,119 @@
+#include "app/machines/simulated/scenario.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "app/plant/random.hpp"
+#include "firmware/excavator/kinematics/excavator_kinematics.hpp"
+#include "firmware/excavator/field/rounded_rectangle.hpp"
+
+namespace graben::machines {
+namespace {
+
+using plant::Draw;
+using plant::Random;
+
+/// A draw keeps the drain this much smaller than the check, or regeneration would have no model.
+constexpr double kMostDrainToCheck = 0.95;
+
+/// Above the path's far upper corner.
+constexpr double kStartAbove_m = 0.6;
+constexpr double kStartBack_m = 0.8;
+
+void vary(double& value, double share, Random& random) { value *= 1.0 + random.symmetric(share); }
+
+void vary_parameters(ExcavatorProfile& profile, const Uncertainty& uncertainty,
+                     std::uint64_t seed) {
+  Random random(seed, Draw::kParameters);
+  for (unsigned i = 0; i < static_cast<unsigned>(profile.drive_count); ++i) {
+    SpoolProfile& spool = profile.valve.spool[i];
+    for (double* area :
+         {&spool.extend_in_m2, &spool.extend_out_m2, &spool.retract_in_m2, &spool.retract_out_m2}) {
+      vary(*area, uncertainty.spool_opening, random);
+    }
+    vary(spool.bypass_open, uncertainty.bypass, random);
+    vary(spool.bypass_closed, uncertainty.bypass, random);
+    vary(spool.c_drain, uncertainty.regeneration, random);
+    vary(spool.c_check, uncertainty.regeneration, random);
+    spool.c_drain = std::min(spool.c_drain, kMostDrainToCheck * spool.c_check);
+  }
+  for (PumpProfile& pump : profile.pump) {
+    vary(pump.leak_linear, uncertainty.leak, random);
+    vary(pump.leak_quadratic, uncertainty.leak, random);
+    for (double& orifice : pump.bypass_series) {
+      vary(orifice, uncertainty.regeneration, random);
+    }
+  }
+}
+
+void load_bucket(plant::LinkBody& bucket, double mass_kg, const Eigen::Vector2d& centre_m) {
+  const double total_kg = bucket.mass_kg + mass_kg;
+  const double reduced_kg = bucket.mass_kg * mass_kg / total_kg;
+  bucket.inertia_kgm2 += reduced_kg * (centre_m - bucket.mass_centre_m).squaredNorm();
+  bucket.mass_centre_m = (bucket.mass_kg * bucket.mass_centre_m + mass_kg * centre_m) / total_kg;
+  bucket.mass_kg = total_kg;
+}
+
+}  // namespace
+
+ExcavatorMachine arranged(ExcavatorMachine machine, const Scenario& scenario) {
+  const Experiment& experiment = machine.experiment;
+  plant::PlantProfile& plant = machine.plant;
+  plant.seed = scenario.seed;
+  const bool parameter_errors =
+      scenario.errors == Errors::kParameters || scenario.errors == Errors::kAll;
+  plant.sensor_errors = scenario.errors != Errors::kNone && scenario.errors != Errors::kParameters;
+  if (scenario.errors == Errors::kStrokeBias) {
+    plant.sensors.pressure_bias_ratio = 0.0;
+    plant.sensors.pressure_noise_ratio = 0.0;
+  }
+  if (scenario.soil) {
+    plant.soil = experiment.soil;
+  }
+  if (scenario.obstacle) {
+    plant.obstacle = experiment.obstacle;
+  }
+  if (scenario.stiff_oil) {
+    plant.bulk_modulus_pa = experiment.stiff_bulk_modulus_pa;
+  }
+  if (scenario.air) {
+    machine.profile.dig_path = experiment.air.path;
+    machine.profile.dig_speed_mps = experiment.air.speed_mps;
+    load_bucket(plant.link[kBucket], experiment.air.payload_kg, experiment.air.payload_centre_m);
+  }
+  double& assumed_s = machine.profile.control.dead_time_s;
+  assumed_s = scenario.dead_time_s.value_or(assumed_s);
+  Random dead_time(scenario.seed, Draw::kDeadTime);
+  for (double& axis_s : plant.dead_time_s) {
+    axis_s = assumed_s;
+    if (parameter_errors) {
+      vary(axis_s, experiment.uncertainty.dead_time, dead_time);
+    }
+  }
+  if (parameter_errors) {
+    vary_parameters(machine.profile, experiment.uncertainty, scenario.seed);
+  }
+  return machine;
+}
+
+Eigen::Vector3d strokes_at(const ExcavatorProfile& profile, const TipPose& pose) {
+  const StrokeResult strokes = ExcavatorKinematics(profile.geometry).strokes_from_pose(pose);
+  if (strokes.status != ReachStatus::kOk) {
+    throw std::runtime_error(
+        fmt::format("start pose x {} m, y {} m, attitude {} rad is outside the work space",
+                    pose.x_m, pose.y_m, pose.attitude_rad));
+  }
+  return strokes.strokes_m;
+}
+
+Eigen::Vector3d dig_start(const ExcavatorProfile& profile) {
+  const DigPath& path = profile.dig_path;
+  const PathPoint below =
+      RoundedRectangle(path).closest({path.x_max_m - kStartBack_m, path.y_max_m});
+  return strokes_at(
+      profile, {below.position_m.x(), below.position_m.y() + kStartAbove_m, below.attitude_rad});
+}
+
+}  // namespace graben::machines

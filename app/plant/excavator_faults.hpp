@@ -1,0 +1,53 @@
+#pragma once
+/// What is broken on the simulated excavator, beside what can be on every machine.
+
+#include <array>
+#include <optional>
+
+#include "app/plant/node_faults.hpp"
+#include "firmware/excavator/excavator_signals.hpp"
+
+namespace graben::plant {
+
+/// What a pressure sensor shows.
+struct PressureFault {
+  bool stuck = false;             ///< What it showed when this began.
+  std::optional<double> rail_pa;  ///< This.
+};
+
+struct SpoolFaults {
+  /// The pilot valve is stuck and holds the spool here, -1 .. 1. Only the pilot cut centres it.
+  std::optional<double> spool_held_ratio;
+  /// The spool opens that much beyond its command, neutral or not.
+  double spool_offset_ratio = 0.0;
+};
+
+struct AxisFaults : SpoolFaults {
+  StrokeFault stroke;
+  PressureFault cap;
+  PressureFault rod;
+};
+
+/// Of no effect on a machine without a swing drive.
+struct SwingFaults : SpoolFaults {
+  AngleFault angle;
+  PressureFault left;
+  PressureFault right;
+};
+
+struct PumpFaults {
+  std::optional<double> shown_swash_ratio;   ///< What the feedback says.
+  std::optional<double> actual_swash_ratio;  ///< Where the pump goes, whatever is commanded.
+};
+
+struct PlantFaults : NodeFaults {
+  std::array<AxisFaults, kAxisCount> axis;
+  SwingFaults swing;
+  std::array<PumpFaults, kPumpCount> pump;
+
+  void set_stroke_state(int axis_index, dbc::RawState state) {
+    axis[static_cast<std::size_t>(axis_index)].stroke.state = state;
+  }
+};
+
+}  // namespace graben::plant

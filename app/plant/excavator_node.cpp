@@ -1,0 +1,209 @@
+#include "app/plant/excavator_node.hpp"
+
+#include "app/plant/node_identity.hpp"
+#include "can_dbc/generated/excavator_dbc.hpp"
+
+namespace graben::plant {
+namespace {
+
+namespace bus = dbc::excavator;
+using dbc::Physical;
+using dbc::RawState;
+
+constexpr std::uint64_t kPumpCycles = bus::PumpState::kCycleTimeMs / 10;
+constexpr std::uint64_t kValveCycles = bus::ValveState::kCycleTimeMs / 10;
+constexpr std::uint64_t kIdentityCycles = bus::MachineIdentity::kCycleTimeMs / 10;
+
+Physical valid(double value) { return {value, RawState::kValid}; }
+
+bool all_valid(const bus::SpoolCommand& command) {
+  return command.pilot_cut.state == RawState::kValid &&
+         command.boom_duty_ratio.state == RawState::kValid &&
+         command.arm_duty_ratio.state == RawState::kValid &&
+         command.bucket_duty_ratio.state == RawState::kValid;
+}
+
+}  // namespace
+
+PlantNode::PlantNode(const PlantProfile& profile, const PlantStart& start, CanPort& port,
+                     std::uint32_t profile_hash)
+    : plant_(profile, start.strokes_m, start.swing_rad),
+      sensors_(profile),
+      port_(port),
+      sender_(port, bus::kMessages),
+      profile_hash_(profile_hash),
+      wanted_swash_(profile.swash_ratio) {}
+
+void PlantNode::step(TimeUs now) {
+  receive(now);
+  check_links(now);
+  apply_faults();
+  plant_.advance(kCycleUs);
+  sender_.send_late(faults_.frames, now);
+  send_axes(now);
+  if (cycle_ % kPumpCycles == 0) {
+    send_pumps(now);
+  }
+  if (cycle_ % kValveCycles == 1) {
+    send_valve(now);
+  }
+  if (cycle_ % kIdentityCycles == 0) {
+    send(identity_of<bus::MachineIdentity>(profile_hash_, bus::kDbcVersion, faults_), now);
+  }
+  ++cycle_;
+}
+
+void PlantNode::check_links(TimeUs now) {
+  if (spool_link_.dies(now)) {
+    spool_silence_.command_lost();
+    enabled_ = false;
+    set_duties();
+  }
+  if (swing_link_.dies(now)) {
+    swing_silence_.command_lost();
+    swing_enabled_ = false;
+    set_duties();
+  }
+  if (pump_link_.dies(now)) {
+    wanted_swash_ = plant_.profile().swash_ratio;
+  }
+}
+
+void PlantNode::set_duties() {
+  ExcavatorPlant::DriveArray duty = duty_;
+  duty[kSwing] = swing_enabled_ ? duty_[kSwing] : 0.0;
+  plant_.set_duty(duty, enabled_);
+}
+
+void PlantNode::apply_faults() {
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    plant_.set_pilot_fault(i, faults_.axis[i].spool_held_ratio, faults_.axis[i].spool_offset_ratio);
+  }
+  if (has_swing()) {
+    plant_.set_pilot_fault(kSwing, faults_.swing.spool_held_ratio,
+                           faults_.swing.spool_offset_ratio);
+  }
+  ExcavatorPlant::PumpArray swash = wanted_swash_;
+  for (std::size_t i = 0; i < kPumpCount; ++i) {
+    swash[i] = faults_.pump[i].actual_swash_ratio.value_or(swash[i]);
+  }
+  plant_.set_swash(swash);
+}
+
+void PlantNode::receive(TimeUs now) {
+  receive_frames(port_, [this, now](const CanFrame& frame) {
+    if (frame.id == bus::SpoolCommand::kId && !faults_.loses_spool_commands) {
+      take_spool_command(frame, now);
+    }
+    if (frame.id == bus::SwingCommand::kId && has_swing()) {
+      take_swing_command(frame, now);
+    }
+    if (frame.id == bus::PumpCommand::kId) {
+      take_pump_command(frame, now);
+    }
+  });
+}
+
+void PlantNode::take_spool_command(const CanFrame& frame, TimeUs now) {
+  if (!spool_link_.accepts<bus::SpoolCommand>(frame, now)) {
+    return;
+  }
+  const bus::SpoolCommand command = bus::SpoolCommand::decode(frame.data);
+  if (command.pilot_cut.state == RawState::kValid) {
+    plant_.set_pilot_cut(command.pilot_cut.value == bus::SpoolCommand::PilotCut::kOn);
+  }
+  const bool lets = lets_through(command, spool_silence_);
+  enabled_ = lets && all_valid(command);
+  duty_[kBoom] = command.boom_duty_ratio.value;
+  duty_[kArm] = command.arm_duty_ratio.value;
+  duty_[kBucket] = command.bucket_duty_ratio.value;
+  set_duties();
+}
+
+void PlantNode::take_swing_command(const CanFrame& frame, TimeUs now) {
+  if (!swing_link_.accepts<bus::SwingCommand>(frame, now)) {
+    return;
+  }
+  const bus::SwingCommand command = bus::SwingCommand::decode(frame.data);
+  const bool lets = lets_through(command, swing_silence_);
+  swing_enabled_ = lets && command.swing_duty_ratio.state == RawState::kValid;
+  duty_[kSwing] = command.swing_duty_ratio.value;
+  set_duties();
+}
+
+void PlantNode::take_pump_command(const CanFrame& frame, TimeUs now) {
+  if (!pump_link_.accepts<bus::PumpCommand>(frame, now)) {
+    return;
+  }
+  const bus::PumpCommand command = bus::PumpCommand::decode(frame.data);
+  const auto& set = plant_.profile().swash_ratio;
+  const auto wanted = [](const Physical& swash, double otherwise) {
+    return swash.state == RawState::kValid ? swash.value : otherwise;
+  };
+  wanted_swash_ = {wanted(command.pump1_swash_ratio, set[0]),
+                   wanted(command.pump2_swash_ratio, set[1])};
+}
+
+Physical PlantNode::stroke(std::size_t axis) {
+  return sensors_.stroke(axis, plant_.strokes_m()[axis], faults_.axis[axis].stroke);
+}
+
+void PlantNode::send_axes(TimeUs now) {
+  send(bus::BoomStroke{stroke(kBoom)}, now);
+  send(bus::ArmStroke{stroke(kArm)}, now);
+  send(bus::BucketStroke{stroke(kBucket)}, now);
+  send_pressures(now);
+  if (has_swing()) {
+    send_swing(now);
+  }
+}
+
+void PlantNode::send_swing(TimeUs now) {
+  const auto [left_pa, right_pa] = plant_.swing_pressures_pa();
+  bus::SwingState message;
+  message.swing_angle_rad = sensors_.swing(plant_.swing_rad(), faults_.swing.angle);
+  message.swing_left_pressure_pa = sensors_.cap_pressure(kSwing, left_pa, faults_.swing.left);
+  message.swing_right_pressure_pa = sensors_.rod_pressure(kSwing, right_pa, faults_.swing.right);
+  send(message, now);
+}
+
+void PlantNode::send_pressures(TimeUs now) {
+  const auto cap = plant_.cap_pressures_pa();
+  const auto rod = plant_.rod_pressures_pa();
+  std::array<Physical, kAxisCount> cap_shown;
+  std::array<Physical, kAxisCount> rod_shown;
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    cap_shown[i] = sensors_.cap_pressure(i, cap[i], faults_.axis[i].cap);
+    rod_shown[i] = sensors_.rod_pressure(i, rod[i], faults_.axis[i].rod);
+  }
+  send(bus::BoomPressure{cap_shown[kBoom], rod_shown[kBoom]}, now);
+  send(bus::ArmPressure{cap_shown[kArm], rod_shown[kArm]}, now);
+  send(bus::BucketPressure{cap_shown[kBucket], rod_shown[kBucket]}, now);
+}
+
+void PlantNode::send_pumps(TimeUs now) {
+  ExcavatorPlant::PumpArray swash = plant_.swash_ratios();
+  for (std::size_t i = 0; i < kPumpCount; ++i) {
+    swash[i] = faults_.pump[i].shown_swash_ratio.value_or(swash[i]);
+  }
+  const bool second = plant_.profile().machine.pump_count > 1;
+  send(bus::PumpState{valid(swash[0]), second ? valid(swash[1]) : Physical{}}, now);
+  // One engine drives both pumps at the same speed.
+  send(bus::EEC1{valid(plant_.profile().machine.pump[0].rated_speed_radps)}, now);
+}
+
+void PlantNode::send_valve(TimeUs now) {
+  const auto spool = plant_.spool_travels_ratio();
+  bus::ValveState message;
+  message.enabled = {enabled_ ? bus::ValveState::Enabled::kOn : bus::ValveState::Enabled::kOff,
+                     RawState::kValid};
+  message.boom_spool_ratio = valid(spool[kBoom]);
+  message.arm_spool_ratio = valid(spool[kArm]);
+  message.bucket_spool_ratio = valid(spool[kBucket]);
+  send(message, now);
+  if (has_swing()) {
+    send(bus::SwingValveState{valid(plant_.swing_spool_ratio())}, now);
+  }
+}
+
+}  // namespace graben::plant

@@ -1,0 +1,101 @@
+#pragma once
+/// The simulated machine on the bus: valve side, sensors, engine.
+
+#include <array>
+#include <cstdint>
+
+#include "app/plant/command_link.hpp"
+#include "app/plant/excavator_plant.hpp"
+#include "app/plant/faulty_sensors.hpp"
+#include "app/plant/frame_sender.hpp"
+#include "app/plant/excavator_faults.hpp"
+#include "hal/can_port.hpp"
+
+namespace graben::plant {
+
+/// Where a machine starts.
+struct PlantStart {
+  // NOLINTNEXTLINE(google-explicit-constructor): it looks along x unless told.
+  PlantStart(const ExcavatorPlant::AxisArray& strokes, double swing = 0.0)
+      : strokes_m(strokes), swing_rad(swing) {}
+
+  ExcavatorPlant::AxisArray strokes_m;
+  double swing_rad;
+};
+
+/// The bus port belongs to the caller, who opens it. Without a command for `kCommandTimeoutUs`,
+/// with enable off or unusable, or with an unusable duty every spool is sent to neutral, which
+/// takes its dead time. Once a command has been missing for so long, enable has to be Off before it
+/// counts again: what comes first may be frames that were stuck in a controller's queue, each of
+/// them right and in order. With PilotCut On every spool centres at once, until it is Off; an
+/// unusable one changes nothing of that and is neutral like the others. A pump follows PumpCommand;
+/// without it for as long, or without a value, it goes back to the profile's swash. The swing spool
+/// follows SwingCommand by the same rules as the others SpoolCommand, and opens only while
+/// SpoolCommand lets them open too. A machine without a swing drive neither listens to nor says
+/// anything of the swing.
+class PlantNode {
+ public:
+  static constexpr TimeUs kCycleUs = 10 * kMillisecondUs;
+
+  PlantNode(const PlantProfile& profile, const PlantStart& start, CanPort& port,
+            std::uint32_t profile_hash);
+
+  /// To be called every 10 ms: takes the commands that are pending, runs the plant on by 10 ms,
+  /// then reports its state: strokes, swing and pressures each time, pumps and engine every second
+  /// time, the valve's in the times between, identity every hundredth; in the first all but the
+  /// valve's. `now` is for stamps, timeouts and delays only.
+  void step(TimeUs now);
+
+  [[nodiscard]] ExcavatorPlant& plant() { return plant_; }
+  [[nodiscard]] const ExcavatorPlant& plant() const { return plant_; }
+  [[nodiscard]] const CommandCounters& counters() const { return spool_link_.counters(); }
+  [[nodiscard]] bool spools_enabled() const { return enabled_; }
+  /// What SwingCommand says; the spool opens only with the others enabled.
+  [[nodiscard]] bool swing_enabled() const { return swing_enabled_; }
+
+  [[nodiscard]] const CommandCounters& swing_counters() const { return swing_link_.counters(); }
+  [[nodiscard]] const CommandCounters& pump_counters() const { return pump_link_.counters(); }
+
+  /// The fault switches.
+  [[nodiscard]] PlantFaults& faults() { return faults_; }
+
+ private:
+  void receive(TimeUs now);
+  void apply_faults();
+  void check_links(TimeUs now);
+  void take_spool_command(const CanFrame& frame, TimeUs now);
+  void take_swing_command(const CanFrame& frame, TimeUs now);
+  void take_pump_command(const CanFrame& frame, TimeUs now);
+  void set_duties();
+  void send_axes(TimeUs now);
+  void send_pressures(TimeUs now);
+  void send_swing(TimeUs now);
+  void send_pumps(TimeUs now);
+  void send_valve(TimeUs now);
+  [[nodiscard]] dbc::Physical stroke(std::size_t axis);
+  template <class Message>
+  void send(const Message& message, TimeUs now) {
+    sender_.send(message, faults_.frames, now);
+  }
+
+  [[nodiscard]] bool has_swing() const { return plant_.profile().machine.has_swing(); }
+
+  ExcavatorPlant plant_;
+  FaultySensors sensors_;
+  CanPort& port_;
+  FrameSender sender_;
+  std::uint32_t profile_hash_;
+  PlantFaults faults_;
+  CommandLink spool_link_;
+  CommandLink swing_link_;
+  CommandLink pump_link_;
+  bool enabled_ = false;
+  bool swing_enabled_ = false;
+  ExcavatorPlant::DriveArray duty_{};
+  NeutralFirst spool_silence_;
+  NeutralFirst swing_silence_;
+  ExcavatorPlant::PumpArray wanted_swash_;
+  std::uint64_t cycle_ = 0;
+};
+
+}  // namespace graben::plant

@@ -1,0 +1,125 @@
+#pragma once
+/// What the simulated excavator is. The nominal data are those that its controller has too; the
+/// rest only a plant knows: masses, friction, compressibility, spool dynamics, deadband, leakage.
+/// SI units, pressures above ambient; axes in the order boom, arm, bucket, drives with the swing
+/// after them.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "app/plant/cylinder.hpp"
+#include "app/plant/hydraulic_details.hpp"
+#include "app/plant/obstacle.hpp"
+#include "app/plant/oil.hpp"
+#include "app/plant/platform.hpp"
+#include "app/plant/soil.hpp"
+#include "app/plant/spool.hpp"
+#include "app/plant/swing_motor.hpp"
+#include "firmware/core/time.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
+
+namespace graben::plant {
+
+/// One link as a rigid body in the sagittal plane.
+struct LinkBody {
+  double mass_kg = 0.0;
+  double inertia_kgm2 = 0.0;  ///< About the mass centre, out of plane.
+  Eigen::Vector2d mass_centre_m = Eigen::Vector2d::Zero();  ///< Link frame, x from pin to pin.
+};
+
+/// Kim 5. Ratios are of `pressure_range_pa`.
+struct SensorErrors {
+  double stroke_resolution_m = 0.0;
+  double stroke_bias_m = 0.0;
+  double swing_resolution_rad = 0.0;
+  double swing_bias_rad = 0.0;
+  double pressure_range_pa = 0.0;
+  double pressure_bias_ratio = 0.0;
+  double pressure_noise_ratio = 0.0;
+};
+
+/// The swing motor as the simulated machine has it; its displacement is the nominal one.
+struct SwingMotorDetails {
+  double dead_volume_m3 = 0.0;  ///< Each of its two chambers, with hose.
+  double leak_m3pspa = 0.0;     ///< From port to port, laminar.
+  double port_relief_pa = 0.0;  ///< Brakes the platform when the spool closes.
+};
+
+struct PlantProfile : HydraulicDetails {
+  /// Geometry, valve areas, regeneration, pumps: the plant reads these numbers, and none of the
+  /// functions that the controller has for them.
+  ExcavatorProfile machine;
+
+  std::array<LinkBody, kAxisCount> link;  ///< The bucket's includes its linkage.
+  std::array<PistonFriction, kAxisCount> friction;
+  PlatformData platform;  ///< With `swing_motor` looked at only where there is a swing drive.
+  SwingMotorDetails swing_motor;
+  double gravity_mps2 = 9.80665;
+
+  double spool_time_constant_s = 0.0;  ///< 1 / natural frequency of the second-order lag (Kim 5).
+  double spool_damping = 1.0;
+  double deadband_ratio = 0.0;  ///< Of the full travel, each side (Kim 5).
+
+  double bulk_modulus_pa = 0.0;
+  std::array<double, kAxisCount> dead_volume_m3{};  ///< Each of the axis' two chambers, with hose.
+  std::array<double, kPumpCount> line_volume_m3{};
+  double port_relief_pa = 0.0;  ///< Opening pressure of the relief at each cylinder port.
+
+  std::array<double, kPumpCount> swash_ratio{};  ///< Of full swash, unless commanded.
+  SensorErrors sensors;
+  /// Seed of the sensors' bias and noise and of the soil's random part.
+  std::uint64_t seed = 0;
+  bool sensor_errors = false;  ///< Without: strokes to the resolution, pressures exact.
+  /// From a duty to the spool's first movement.
+  std::array<double, kDriveCount> dead_time_s{};
+  std::optional<SoilProfile> soil;
+  std::optional<ObstacleProfile> obstacle;
+
+  // No source gives the figures below; each default says why it is what it is.
+
+  /// First-order lag from a commanded swash to the pump's. Chosen: regulators of the class take 0.1
+  /// to 0.3 s over their whole range.
+  double swash_time_constant_s = 0.1;
+
+  /// Travel, in units of the full travel, over which a spool's bypass goes from open to closed; it
+  /// ends at the deadband's edge, where the metering edges begin to open: so (20), with the
+  /// deadband collapsed, holds wherever the cylinder can move. (20) itself switches; a land edge
+  /// takes some way.
+  double bypass_closing_travel = 0.1;
+  /// Hose between valve and cylinder, laminar and turbulent share of its pressure drop: 0.1 and 0.3
+  /// MPa at 200 L/min. Chosen; some 3 m of 25 mm hose with its fittings.
+  double hose_linear_paspm3 = 3e7;
+  double hose_quadratic_pas2pm6 = 2.7e10;
+  /// Cushions: over this last part of the stroke the way out of the chamber narrows, so that a
+  /// piston brakes evenly. Chosen.
+  double cushion_length_m = 0.05;
+  /// At half the cushion's length a piston of this speed meets this pressure: at full swash pistons
+  /// come in at 0.07 - 0.24 m/s and then touch the end at less than 0.06.
+  double cushion_speed_mps = 0.15;
+  double cushion_pressure_pa = 15e6;
+  /// What stays of the cushion's length to compute with at the very end, where it would be shut.
+  double cushion_end_m = 1e-3;
+  /// Fixed step of the simulation. Stable at any length (transmission-line elements); the length
+  /// decides accuracy only, see `ExcavatorPlant`.
+  TimeUs step_us = 200;
+
+  [[nodiscard]] Oil oil() const { return {bulk_modulus_pa, boiling_pa}; }
+  [[nodiscard]] SpoolDynamics spool_dynamics() const {
+    return {spool_time_constant_s, spool_damping, deadband_ratio, machine.valve.opening_exponent,
+            bypass_closing_travel};
+  }
+  [[nodiscard]] CylinderData cylinder(int axis) const;
+  [[nodiscard]] SwingMotorData motor() const;
+  /// Of the ports of a valve section.
+  [[nodiscard]] PortProtection port_protection(int drive) const {
+    return protection(drive == kSwing ? swing_motor.port_relief_pa : port_relief_pa);
+  }
+  [[nodiscard]] std::size_t drive_count() const {
+    return static_cast<std::size_t>(machine.drive_count);
+  }
+  [[nodiscard]] double step_s() const { return 1e-6 * static_cast<double>(step_us); }
+};
+
+}  // namespace graben::plant

@@ -1,0 +1,25 @@
+#pragma once
+/// What a task's run leaves behind: the table, the summary file and the report.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/runs/autodig_run.hpp"
+#include "app/machines/task_file.hpp"
+
+namespace graben::cli {
+
+/// Writes the HTML report. Throws std::runtime_error that names the file.
+void write_autodig_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
+                          const machines::ExcavatorMachine& machine, const machines::TaskFile& task,
+                          const AutodigResult& result, const AutodigSummary& summary,
+                          const std::string& subtitle);
+
+/// Writes the figures as JSON. Throws std::runtime_error that names the file.
+void write_autodig_summary(const std::filesystem::path& file, const AutodigSummary& summary);
+
+/// The short table for a terminal.
+[[nodiscard]] std::string autodig_table(const AutodigSummary& summary);
+
+}  // namespace graben::cli

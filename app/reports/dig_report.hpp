@@ -1,0 +1,22 @@
+#pragma once
+/// What a digging run leaves behind: the table, the summary file and the report.
+
+#include <filesystem>
+#include <string>
+
+#include "app/runs/dig_run.hpp"
+
+namespace graben::cli {
+
+/// Writes the HTML report. Throws std::runtime_error that names the file.
+void write_dig_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
+                      const machines::ExcavatorMachine& machine, const DigResult& result,
+                      const DigSummary& summary, const std::string& subtitle);
+
+/// Writes the figures as JSON. Throws std::runtime_error that names the file.
+void write_dig_summary(const std::filesystem::path& file, const DigSummary& summary);
+
+/// The short table for a terminal.
+[[nodiscard]] std::string dig_table(const DigSummary& summary);
+
+}  // namespace graben::cli

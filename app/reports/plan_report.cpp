@@ -1,0 +1,139 @@
+#include "app/reports/plan_report.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/reports/json_file.hpp"
+#include "app/reports/report_parts.hpp"
+#include "app/machines/axis_names.hpp"
+#include "app/machines/plan_text.hpp"
+#include "app/reports/machine_json.hpp"
+#include "app/reports/report_file.hpp"
+
+namespace graben::cli {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+/// Zhang's figures 5 to 10: displacement, velocity and acceleration of each drive.
+json truth(const std::vector<PlanSample>& samples) {
+  Truth<PlanSample> lines(samples);
+  lines.add("way", "Teeth along the line", "way", "m", 4,
+            [](const PlanSample& s) { return s.way_m; });
+  lines.add("teeth_speed", "Speed of the teeth", "along the line", "mm/s", 2,
+            [](const PlanSample& s) { return s.speed_mps * kThousandths; });
+  const auto add = [&](const char* plot, const char* title, const char* per, unsigned drive,
+                       std::array<double, kDriveCount> PlanSample::*member) {
+    // The swing's unit is another: a plot of its own.
+    const bool is_swing = drive == kSwing;
+    lines.add(fmt::format("{}{}", plot, is_swing ? "_swing" : ""),
+              fmt::format("{} of the {}", title, is_swing ? "swing" : "cylinders"),
+              machines::kDriveNames[drive], fmt::format("{}{}", drive_unit(drive), per), 3,
+              [=](const PlanSample& s) { return (s.*member)[drive] * kThousandths; });
+  };
+  for (unsigned i = 0; i < kDriveCount; ++i) {
+    add("displacement", "Displacement", "", i, &PlanSample::displacement);
+  }
+  for (unsigned i = 0; i < kDriveCount; ++i) {
+    add("velocity", "Velocity", "/s", i, &PlanSample::velocity);
+  }
+  for (unsigned i = 0; i < kDriveCount; ++i) {
+    add("acceleration", "Acceleration", "/s²", i, &PlanSample::acceleration);
+  }
+  return lines.json();
+}
+
+json drives(const std::vector<PlanSample>& samples) {
+  constexpr int kMicrometres = 6;
+  json all = json::array();
+  for (const PlanSample& sample : samples) {
+    json row = json::array();
+    for (const double value : sample.displacement) {
+      row.push_back(plotted(value, kMicrometres));
+    }
+    all.push_back(std::move(row));
+  }
+  return all;
+}
+
+json key_figures(const ExcavatorProfile& profile, const PlanResult& result,
+                 const std::vector<PlanSample>& samples) {
+  const LinePlan& plan = result.plan;
+  json figures = {
+      key_figure("Line", fmt::format("{:.3f}", plan.line.change.position_m.norm()), "m", ""),
+      key_figure("Duration", fmt::format("{:.2f}", plan.ramp.duration_s), "s", ""),
+      key_figure("Speeding up", fmt::format("{:.2f}", plan.ramp.ramp_s), "s",
+                 "and as long slowing down"),
+      key_figure("Speed, max", fmt::format("{:.3f}", plan.way_m * plan.ramp.peak_rate_ps()), "m/s",
+                 "of the teeth"),
+      key_figure("Slowed by", machines::plan_limit_words(result), "", "what sets the duration"),
+  };
+  for (unsigned i = 0; i < kDriveCount; ++i) {
+    figures.push_back({{"label", fmt::format("Most of the {}'s speed", machines::kDriveNames[i])},
+                       {"value", fmt::format("{:.0f}", 100.0 * result.peaks.speed_ratio[i])},
+                       {"unit", "%"},
+                       {"note", "of its limit"}});
+  }
+  const auto flow = greatest_flow_m3ps(samples);
+  for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
+    figures.push_back({{"label", fmt::format("Flow of Pump {}, max", j + 1)},
+                       {"value", fmt::format("{:.0f}", 6e4 * flow[j])},
+                       {"unit", "L/min"},
+                       {"note", fmt::format("of {:.0f}; cylinders alone",
+                                            6e4 * full_flow_m3ps(profile.pump[j]))}});
+  }
+  return figures;
+}
+
+ordered_json pose(const TeethPose& teeth) {
+  const Eigen::Vector3d& at = teeth.position_m;
+  return {{"position_m", {at.x(), at.y(), at.z()}}, {"attitude_rad", teeth.attitude_rad}};
+}
+
+}  // namespace
+
+void write_plan_report(const std::filesystem::path& file, const machines::ExcavatorMachine& machine,
+                       const PlanResult& result, const std::vector<PlanSample>& samples,
+                       const std::string& subtitle) {
+  json run = run_json({"Planned line", subtitle, key_figures(machine.profile, result, samples), {}},
+                      truth(samples));
+  run["pose"]["drives"] = drives(samples);
+  run["way"] = Truth<PlanSample>(samples).way([](const PlanSample& s) { return s.teeth_m[0]; },
+                                              [](const PlanSample& s) { return s.teeth_m[1]; },
+                                              [](const PlanSample& s) { return s.teeth_m[2]; });
+  json setup = report_setup(file, scope::machine_json(machine, {}), std::move(run));
+  setup["source"]["mode"] = "plan";
+  scope::write_report(file, setup);
+}
+
+void write_plan_json(const std::filesystem::path& file, const ExcavatorProfile& profile,
+                     const PlanResult& result, const std::vector<PlanSample>& samples) {
+  const LinePlan& plan = result.plan;
+  ordered_json figures;
+  figures["from"] = pose(plan.line.from);
+  figures["to"] = pose(plan.line.at(1.0));
+  figures["length_m"] = plan.line.change.position_m.norm();
+  figures["duration_s"] = plan.ramp.duration_s;
+  figures["ramp_s"] = plan.ramp.ramp_s;
+  figures["speed_mps"] = plan.way_m * plan.ramp.peak_rate_ps();
+  figures["acceleration_mps2"] = plan.way_m * plan.ramp.peak_rate_change_ps2();
+  figures["slowed_by"] = machines::plan_limit_words(result);
+  figures["slowed_ratio"] = result.slowed_ratio;
+  for (unsigned i = 0; i < kDriveCount; ++i) {
+    figures["drives"][machines::kDriveNames[i]] = {
+        {"unit", i == kSwing ? "rad" : "m"},
+        {"from", samples.front().displacement[i]},
+        {"to", samples.back().displacement[i]},
+        {"speed", result.peaks.speed[i]},
+        {"speed_ratio", result.peaks.speed_ratio[i]},
+        {"acceleration", result.peaks.acceleration[i]},
+        {"acceleration_ratio", result.peaks.acceleration_ratio[i]}};
+  }
+  const auto flow = greatest_flow_m3ps(samples);
+  figures["pump_flow_m3ps"] = std::vector<double>(flow.begin(), flow.begin() + profile.pump_count);
+  write_json(file, figures);
+}
+
+}  // namespace graben::cli

@@ -1,0 +1,19 @@
+#pragma once
+/// A planned line as report and as JSON.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/runs/plan_run.hpp"
+
+namespace graben::cli {
+
+/// Both throw std::runtime_error, naming the file, when it can't be written.
+void write_plan_report(const std::filesystem::path& file, const machines::ExcavatorMachine& machine,
+                       const PlanResult& result, const std::vector<PlanSample>& samples,
+                       const std::string& subtitle);
+void write_plan_json(const std::filesystem::path& file, const ExcavatorProfile& profile,
+                     const PlanResult& result, const std::vector<PlanSample>& samples);
+
+}  // namespace graben::cli

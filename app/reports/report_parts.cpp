@@ -1,0 +1,63 @@
+#include "app/reports/report_parts.hpp"
+
+#include <fmt/format.h>
+
+#include "app/reports/packed_log.hpp"
+#include "app/reports/setup_json.hpp"
+
+namespace graben::cli {
+namespace {
+
+/// What the bus of a simulated run would have; see the README.
+constexpr int kBitrate_bps = 500000;
+
+}  // namespace
+
+nlohmann::json key_figure(const std::string& label, const std::string& value,
+                          const std::string& unit, const std::string& note) {
+  return {{"label", label}, {"value", value}, {"unit", unit}, {"note", note}};
+}
+
+std::string shares_table(const LimitShares& shares) {
+  std::string lines;
+  for (const auto& [name, share] : shares) {
+    lines += fmt::format("  {:<26}{:>9.1f} %\n", name, share * 100.0);
+  }
+  return lines;
+}
+
+nlohmann::json plotted(double value, int decimals) {
+  if (!std::isfinite(value)) {
+    return nullptr;
+  }
+  const double scale = std::pow(10.0, decimals);
+  return std::round(value * scale) / scale;
+}
+
+nlohmann::json run_json(const RunWords& words, nlohmann::json truth) {
+  nlohmann::json shares = nlohmann::json::array();
+  for (const auto& [name, share] : words.limit_share) {
+    shares.push_back({{"name", name}, {"share", share}});
+  }
+  return {{"title", words.title},
+          {"subtitle", words.subtitle},
+          {"summary", words.summary},
+          {"limits_share", std::move(shares)},
+          {"truth", std::move(truth)}};
+}
+
+void add_log(nlohmann::json& run, const std::filesystem::path& log_file) {
+  run["log"] =
+      std::filesystem::is_regular_file(log_file) ? scope::packed_file(log_file) : scope::packed("");
+}
+
+nlohmann::json report_setup(const std::filesystem::path& log_file, nlohmann::json machine,
+                            nlohmann::json run) {
+  return {{"source",
+           {{"mode", "report"}, {"name", log_file.filename().string()}, {"bitrate", kBitrate_bps}}},
+          {"machines", nlohmann::json::array({std::move(machine)})},
+          {"words", scope::words_json()},
+          {"run", std::move(run)}};
+}
+
+}  // namespace graben::cli

@@ -1,0 +1,152 @@
+#include "app/reports/setup_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "app/runs/fault_text.hpp"
+#include "app/machines/any_machine.hpp"
+#include "app/machines/profile_file.hpp"
+#include "app/machines/task_file.hpp"
+#include "app/reports/machine_json.hpp"
+
+namespace graben::scope {
+namespace {
+
+namespace fs = std::filesystem;
+using machines::ExcavatorMachine;
+using machines::TaskFile;
+using nlohmann::json;
+
+/// Of what is shipped; none where the tool was taken away from its source tree.
+template <class Find>
+std::vector<fs::path> files_beside(const Find& find, const char* one_of_them) {
+  fs::path folder;
+  try {
+    folder = fs::path(find(one_of_them)).parent_path();
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".toml") {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// The one that is told, then the shipped ones, each once.
+std::vector<fs::path> profiles(const SetupOptions& options) {
+  std::vector<fs::path> files;
+  if (options.profile) {
+    files.push_back(machines::find_profile(*options.profile));
+  }
+  const auto find = [](const char* name) { return machines::find_profile(name); };
+  for (const fs::path& file : files_beside(find, "excavator_22t")) {
+    if (files.empty() || !fs::equivalent(files.front(), file)) {
+      files.push_back(file);
+    }
+  }
+  if (files.empty()) {
+    throw std::runtime_error("no shipped profiles are here: say --profile");
+  }
+  return files;
+}
+
+/// Those of the shipped tasks that this machine can do.
+std::vector<TaskFile> shipped_tasks(const ExcavatorMachine& machine) {
+  std::vector<TaskFile> tasks;
+  const auto find = [](const char* name) { return machines::find_task(name); };
+  for (const fs::path& file : files_beside(find, "flatten")) {
+    try {
+      tasks.push_back(machines::load_task(file, machine.profile));
+    } catch (const machines::ProfileError&) {
+      // Is for another machine.
+      continue;
+    }
+  }
+  return tasks;
+}
+
+/// Tasks that are told, on one machine after the other.
+class ToldTasks {
+ public:
+  explicit ToldTasks(const std::vector<std::string>& names) {
+    if (names.size() > kTaskMost) {
+      throw std::runtime_error(
+          fmt::format("{} tasks; at most {} are allowed", names.size(), kTaskMost));
+    }
+    for (const std::string& name : names) {
+      files_.push_back(machines::find_task(name));
+    }
+  }
+
+  /// All, or none if one of them does not fit.
+  std::vector<TaskFile> on(const ExcavatorMachine& machine) {
+    std::vector<TaskFile> tasks;
+    try {
+      for (const fs::path& file : files_) {
+        tasks.push_back(machines::load_task(file, machine.profile));
+      }
+      has_fitted_ = true;
+    } catch (const machines::ProfileError& error) {
+      errors_ += fmt::format("\non {}: {}", machine.name, error.what());
+      tasks.clear();
+    }
+    return tasks;
+  }
+
+  void throw_unless_fitted() const {
+    if (!files_.empty() && !has_fitted_) {
+      throw std::runtime_error("--task: fits no machine" + errors_);
+    }
+  }
+
+ private:
+  std::vector<fs::path> files_;
+  bool has_fitted_ = false;
+  std::string errors_;
+};
+
+}  // namespace
+
+json words_json() {
+  json words;
+  for (int i = 0; i < kFaultCount; ++i) {
+    words["fault"][std::to_string(i)] = cli::fault_words(static_cast<Fault>(i));
+  }
+  words["why_not_armed"] = json::array();
+  for (int i = 0; i < cli::kArmBlockCount; ++i) {
+    words["why_not_armed"].push_back(cli::arm_block_words(static_cast<ArmBlock>(i)));
+  }
+  return words;
+}
+
+json shared_setup(const SetupOptions& options) {
+  ToldTasks told(options.tasks);
+  json machines_json = json::array();
+  for (const fs::path& file : profiles(options)) {
+    const machines::AnyMachine any = machines::load_any(file);
+    if (const auto* dozer = std::get_if<machines::DozerMachine>(&any)) {
+      machines_json.push_back(machine_json(*dozer));
+    } else {
+      const auto& excavator = std::get<ExcavatorMachine>(any);
+      const bool has_tasks = excavator.profile.has_swing();
+      const bool has_told = has_tasks && !options.tasks.empty();
+      machines_json.push_back(machine_json(excavator, has_told    ? told.on(excavator)
+                                                      : has_tasks ? shipped_tasks(excavator)
+                                                                  : std::vector<TaskFile>{}));
+    }
+    if (options.profile && machines_json.size() == 1) {
+      told.throw_unless_fitted();
+    }
+  }
+  told.throw_unless_fitted();
+  return {{"machines", machines_json}, {"words", words_json()}};
+}
+
+}  // namespace graben::scope

@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include "app/machines/task_text.hpp"
+#include "app/reports/machine_json.hpp"
+#include "firmware/excavator/kinematics/swing_kinematics.hpp"
+
+namespace graben::scope {
+namespace {
+
+using nlohmann::json;
+
+json vector(const Eigen::Vector3d& v) { return {rounded(v.x()), rounded(v.y()), rounded(v.z())}; }
+
+json pose_json(const TeethPose& teeth) {
+  return {{"position_m", vector(teeth.position_m)}, {"attitude_rad", rounded(teeth.attitude_rad)}};
+}
+
+json drives_json(const DriveVector& drives) {
+  json values = json::array();
+  for (const double value : drives) {
+    values.push_back(rounded(value));
+  }
+  return values;
+}
+
+/// An end of a step; a program that was planned has no blind spots.
+struct End {
+  TeethPose teeth;
+  DriveVector drives;
+};
+
+End end_of(const SwingKinematics& kinematics, const TaskStep& step, double time_s) {
+  if (step.straight) {
+    const PlanState state = plan_state(kinematics, step.line, time_s);
+    return {state.teeth, state.by_share.value};
+  }
+  const DriveVector drives = drive_state(step.drives, time_s).value;
+  return {kinematics.teeth_from_joints(kinematics.joints_from_drive(drives).value), drives};
+}
+
+json step_json(const SwingKinematics& kinematics, const TaskStep& step) {
+  const End from = end_of(kinematics, step, 0.0);
+  const End to = end_of(kinematics, step, step.duration_s());
+  return {{"kind", machines::step_name(step.kind)},  {"straight", step.straight},
+          {"from", pose_json(from.teeth)},           {"to", pose_json(to.teeth)},
+          {"from_drives", drives_json(from.drives)}, {"to_drives", drives_json(to.drives)},
+          {"duration_s", rounded(step.duration_s())}};
+}
+
+std::string fence_words(const Fence& fence, bool is_design) {
+  const double up = fence.normal.z();
+  if (is_design) {
+    return "design surface";
+  }
+  if (up > 0.999) {
+    return fmt::format("ceiling at {:.2f} m", fence.offset_m);
+  }
+  if (up < -0.999) {
+    return fmt::format("floor at {:.2f} m", -fence.offset_m);
+  }
+  return "wall";
+}
+
+json fences_json(const FenceSet& fences, bool has_design) {
+  json result = json::array();
+  for (int i = 0; i < fences.count; ++i) {
+    const Fence& fence = fences.fence[static_cast<unsigned>(i)];
+    const bool is_design = has_design && i + 1 == fences.count;
+    result.push_back({{"words", fence_words(fence, is_design)},
+                      {"normal", vector(fence.normal)},
+                      {"offset_m", rounded(fence.offset_m)}});
+  }
+  return result;
+}
+
+}  // namespace
+
+json task_json(const machines::TaskFile& task, const ExcavatorProfile& profile) {
+  const SwingKinematics kinematics(profile.geometry);
+  const TaskProgram& program = task.result.program;
+  json result = {{"name", task.name}, {"steps", json::array()}, {"design", nullptr}};
+  for (int i = 0; i < program.step_count; ++i) {
+    result["steps"].push_back(step_json(kinematics, program.step[static_cast<unsigned>(i)]));
+  }
+  result["fences"] = fences_json(program.fences, task.request.has_design);
+  if (task.request.has_design) {
+    const DesignPlane& design = task.request.design;
+    result["design"] = {{"through_m", vector(design.through_m)}, {"up", vector(design.up)}};
+  }
+  return result;
+}
+
+}  // namespace graben::scope

@@ -1,0 +1,209 @@
+#include "app/runs/autodig_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/runs/autodig_rig.hpp"
+#include "app/machines/task_text.hpp"
+#include "firmware/excavator/tasks/task_run.hpp"
+
+namespace graben::cli {
+namespace {
+
+constexpr double kLongerThanPlanned = 10.0;
+constexpr double kApproach_s = 60.0;
+
+std::array<double, 3> list_of(const Eigen::Vector3d& at) { return {at.x(), at.y(), at.z()}; }
+
+std::array<double, kDriveCount> list_of(const DriveVector& drives) {
+  return {drives[0], drives[1], drives[2], drives[3]};
+}
+
+double planned_s(const TaskProgram& program) {
+  double sum_s = 0.0;
+  for (int i = 0; i < program.step_count; ++i) {
+    sum_s += program.step[static_cast<unsigned>(i)].duration_s();
+  }
+  return sum_s;
+}
+
+class AutodigRun {
+ public:
+  AutodigRun(const machines::ExcavatorMachine& machine, const TaskProgram& program,
+             const AutodigOptions& options)
+      : machine_(machine),
+        program_(program),
+        options_(options),
+        kinematics_(machine.profile.geometry),
+        bench_(machine, book_of(program), options.start, options.speed_override_ratio) {}
+
+  AutodigResult run(const Progress& show) {
+    const BenchFigures figures = run_bench(
+        bench_, options_.log_file, [this](TimeUs now_us) { return ended(now_us); },
+        [&](TimeUs now_us, double cycle_us) {
+          look(now_us, cycle_us);
+          const TaskProgress& at = bench_.ecu->outputs().status.progress;
+          show(share_done(at), machines::step_name(at.kind));
+        });
+    result_.wall_s = figures.wall_s;
+    result_.rejected_frames = figures.rejected_frames;
+    return std::move(result_);
+  }
+
+ private:
+  static TaskBook book_of(const TaskProgram& program) {
+    TaskBook book;
+    book.program[0] = program;
+    book.count = 1;
+    return book;
+  }
+
+  [[nodiscard]] double share_done(const TaskProgress& at) const {
+    const bool in_step = at.runs && at.kind != StepKind::kApproach;
+    return (round_ + (in_step ? (at.step + at.share) / program_.step_count : 0.0)) /
+           options_.rounds;
+  }
+
+  bool ended(TimeUs now_us) {
+    const ExcavatorStatus& status = bench_.ecu->outputs().status;
+    if (status.mode == EcuMode::kFault) {
+      result_.end = AutodigEnd::kFault;
+      result_.fault = status.fault;
+      return true;
+    }
+    if (status.progress.kind == StepKind::kDone || round_ >= options_.rounds) {
+      result_.end = AutodigEnd::kDone;
+      return true;
+    }
+    result_.end = AutodigEnd::kNotFinished;
+    return seconds(now_us) > kApproach_s + kLongerThanPlanned * options_.rounds *
+                                               planned_s(program_) / options_.speed_override_ratio;
+  }
+
+  void look(TimeUs now_us, double cycle_us) {
+    AutodigSample sample;
+    sample.time_s = seconds(now_us);
+    sample.cycle_us = cycle_us;
+    read_controller(sample);
+    read_truth(sample);
+    count_rounds(sample.progress);
+    if (round_ < options_.rounds) {
+      compare(sample);
+      result_.samples.push_back(sample);
+    }
+  }
+
+  void count_rounds(const TaskProgress& at) {
+    if (!result_.samples.empty() && at.runs && at.step < result_.samples.back().progress.step) {
+      ++round_;
+    }
+  }
+
+  void read_truth(AutodigSample& sample) const {
+    const plant::ExcavatorPlant& plant = bench_.plant.plant();
+    const auto strokes = plant.strokes_m();
+    const auto velocities = plant.stroke_velocities_mps();
+    const auto spools = plant.spool_travels_ratio();
+    std::copy(strokes.begin(), strokes.end(), sample.real.begin());
+    std::copy(velocities.begin(), velocities.end(), sample.velocity_real.begin());
+    std::copy(spools.begin(), spools.end(), sample.spool_real.begin());
+    sample.real[kSwing] = plant.swing_rad();
+    sample.velocity_real[kSwing] = plant.swing_rate_radps();
+    sample.spool_real[kSwing] = plant.swing_spool_ratio();
+    const plant::TeethTruth teeth = plant.teeth();
+    sample.teeth_m = list_of(teeth.position_m);
+    sample.attitude_rad = teeth.attitude_rad;
+    sample.pump_real_pa = plant.pump_pressures_pa();
+  }
+
+  void read_controller(AutodigSample& sample) const {
+    const ExcavatorOutputs& outputs = bench_.ecu->outputs();
+    const ExcavatorStatus& status = outputs.status;
+    sample.progress = status.progress;
+    sample.progress_share = status.progress.share;
+    sample.lambda = status.lambda;
+    sample.limit = status.limit;
+    for (unsigned i = 0; i < kDriveCount; ++i) {
+      const double lever_m = i == kSwing ? machine_.profile.swing.lever_m : 1.0;
+      sample.velocity_wanted[i] = status.lambda * status.wanted_velocity_mps[i] / lever_m;
+      sample.spool_command[i] = outputs.duty_ratio[i];
+    }
+    sample.pump_expected_pa = status.pump_pressure_pa;
+  }
+
+  /// Of what the controller was told; not finite until all of it was.
+  [[nodiscard]] Eigen::Vector3d measured_teeth_m() const {
+    const ExcavatorInputs& inputs = bench_.ecu->inputs();
+    DriveVector drives;
+    bool known = inputs.swing.angle_rad.validity == Validity::kValid;
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+      known = known && inputs.axis[i].stroke_m.validity == Validity::kValid;
+      drives[i] = std::clamp(inputs.axis[i].stroke_m.value, 0.0,
+                             machine_.profile.geometry.cylinder[i].stroke_m);
+    }
+    drives[kSwing] = inputs.swing.angle_rad.value;
+    const DriveResult joints = kinematics_.joints_from_drive(drives);
+    if (!known || joints.blind.kind != BlindKind::kNone) {
+      return Eigen::Vector3d::Constant(AutodigSample::kUnknown);
+    }
+    return kinematics_.teeth_from_joints(joints.value).position_m;
+  }
+
+  /// What is real beside the plan at the place that the controller says it is at.
+  void compare(AutodigSample& sample) const {
+    const Eigen::Vector3d teeth_m(sample.teeth_m[0], sample.teeth_m[1], sample.teeth_m[2]);
+    look_at_fences(sample);
+    const TaskProgress& at = sample.progress;
+    if (!at.runs || at.kind == StepKind::kApproach || at.kind == StepKind::kDone) {
+      return;
+    }
+    const TaskStep& step = program_.step[at.step];
+    if (!step.straight) {
+      const DriveVector value = step.drives.from + at.share * step.drives.change;
+      plan_at(value, sample);
+      return;
+    }
+    plan_at(line_motion(kinematics_, step.line.line, at.share).value, sample);
+    sample.error_true_m = line_distance_m(step.line.line, teeth_m);
+    sample.error_measured_m = line_distance_m(step.line.line, measured_teeth_m());
+  }
+
+  void plan_at(const DriveVector& value, AutodigSample& sample) const {
+    sample.planned = list_of(value);
+    const DriveResult joints = kinematics_.joints_from_drive(value);
+    const TeethPose teeth = kinematics_.teeth_from_joints(joints.value);
+    sample.planned_m = list_of(teeth.position_m);
+    sample.planned_attitude_rad = teeth.attitude_rad;
+  }
+
+  void look_at_fences(AutodigSample& sample) const {
+    const DriveVector drives(sample.real.data());
+    const MachineMotion machine = machine_motion(kinematics_, drives, DriveVector::Zero());
+    for (int i = 0; i < program_.fences.count; ++i) {
+      const Fence& fence = program_.fences.fence[static_cast<unsigned>(i)];
+      for (int point = 0; point < fence.guarded(); ++point) {
+        const double left_m =
+            fence_gap(fence, machine.point[static_cast<unsigned>(point)]).distance_m;
+        sample.fence_left_m = std::fmin(sample.fence_left_m, left_m);
+      }
+    }
+  }
+
+  const machines::ExcavatorMachine& machine_;
+  const TaskProgram& program_;
+  AutodigOptions options_;
+  SwingKinematics kinematics_;
+  bench::AutodigBench bench_;
+  int round_ = 0;
+  AutodigResult result_;
+};
+
+}  // namespace
+
+AutodigResult run_autodig(const machines::ExcavatorMachine& machine, const TaskProgram& program,
+                          const AutodigOptions& options, const Progress& progress) {
+  return AutodigRun(machine, program, options).run(progress);
+}
+
+}  // namespace graben::cli

@@ -1,0 +1,107 @@
+#pragma once
+/// A task of an excavator with swing in simulated time: plant, operator and controller as three
+/// nodes on a bus in memory that exchange nothing but CAN frames.
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "app/runs/logged_run.hpp"
+#include "app/runs/limit_text.hpp"
+#include "app/machines/excavator_file.hpp"
+#include "firmware/excavator/tasks/task_program.hpp"
+
+namespace graben::cli {
+
+struct AutodigOptions {
+  DriveVector start = DriveVector::Zero();  ///< Strokes in m and swing in rad.
+  double speed_override_ratio = 1.0;
+  int rounds = 1;                  ///< Of a task that repeats.
+  std::filesystem::path log_file;  ///< candump log; none if empty.
+};
+
+/// State at one control cycle. Not a number: unknown, or of no meaning there.
+struct AutodigSample {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+  double time_s = 0.0;
+  TaskProgress progress;
+  double progress_share = 0.0;      ///< Of the step.
+  std::array<double, 3> teeth_m{};  ///< True, in the ground frame.
+  double attitude_rad = 0.0;
+  std::array<double, 3> planned_m{kUnknown, kUnknown, kUnknown};
+  double planned_attitude_rad = kUnknown;
+  double error_true_m = kUnknown;      ///< Of the teeth from the step's straight line.
+  double error_measured_m = kUnknown;  ///< By what the controller was told.
+  double fence_left_m = kUnknown;      ///< Least of all points to all fences; below 0 beyond one.
+  double lambda = 0.0;
+  Limit limit;
+  /// Strokes in m, swing in rad; velocities m/s and rad/s, the wanted ones after lambda.
+  std::array<double, kDriveCount> planned{kUnknown, kUnknown, kUnknown, kUnknown};
+  std::array<double, kDriveCount> real{};
+  std::array<double, kDriveCount> velocity_wanted{};
+  std::array<double, kDriveCount> velocity_real{};
+  std::array<double, kDriveCount> spool_command{};
+  std::array<double, kDriveCount> spool_real{};
+  std::array<double, kPumpCount> pump_expected_pa{};
+  std::array<double, kPumpCount> pump_real_pa{};
+  double cycle_us = 0.0;  ///< Computing time of the controller's cycle.
+};
+
+enum class AutodigEnd { kDone, kNotFinished, kFault };
+
+struct AutodigResult {
+  AutodigEnd end = AutodigEnd::kDone;
+  Fault fault = Fault::kNone;  ///< With kFault.
+  std::vector<AutodigSample> samples;
+  double wall_s = 0.0;
+  std::uint32_t rejected_frames = 0;
+};
+
+/// One step as it was done.
+struct StepFigures {
+  int step = 0;
+  int round = 0;
+  StepKind kind = StepKind::kNone;
+  bool straight = false;
+  double from_s = 0.0;
+  double until_s = 0.0;
+  double planned_s = 0.0;
+  double max_error_true_m = 0.0;  ///< From its line, where it is one.
+  double max_error_measured_m = 0.0;
+  double end_error_true_m = 0.0;  ///< From its end, when it was left; the teeth of a line.
+};
+
+struct AutodigSummary {
+  double max_error_true_m = 0.0;  ///< Of all straight steps, like the next ones.
+  double rmse_error_true_m = 0.0;
+  double max_error_measured_m = 0.0;
+  double rmse_error_measured_m = 0.0;
+  double end_error_true_m = 0.0;  ///< Largest.
+  double fence_left_m = 0.0;      ///< Least; not a number without fences.
+  double lambda_min = 0.0;        ///< From the first step on.
+  double lambda_mean = 0.0;
+  double task_s = 0.0;      ///< From the first step's begin to the last one's end.
+  double planned_s = 0.0;   ///< Of all these steps.
+  double duration_s = 0.0;  ///< Of the whole run, simulated.
+  double real_time_factor = 0.0;
+  long cycles = 0;
+  double cycle_median_us = 0.0;
+  double cycle_max_us = 0.0;
+  std::vector<StepFigures> steps;
+  LimitShares limit_share;
+};
+
+/// Runs the task until it is done, something fails, or ten times the planned time is over. The same
+/// machine and options give the same samples (but cycle_us) and the same bytes in the log.
+[[nodiscard]] AutodigResult run_autodig(const machines::ExcavatorMachine& machine,
+                                        const TaskProgram& program, const AutodigOptions& options,
+                                        const Progress& progress);
+
+[[nodiscard]] AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result);
+
+}  // namespace graben::cli

@@ -1,0 +1,168 @@
+#include "app/runs/campaign_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <exception>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+#include "app/runs/progress_bar.hpp"
+
+namespace graben::cli {
+namespace {
+
+/// Set by SIGINT and SIGTERM: runs that have begun are finished, no more are begun.
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void interrupt(int /*signal*/) { interrupted = true; }
+
+constexpr std::uint64_t kMostSeed = 999999999999999999;  // What a file's seed may have.
+
+struct Shard {
+  std::uint64_t index;
+  std::uint64_t count;
+};
+
+Shard shard_of(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  const auto number = [&](const std::string& part) {
+    const bool digits = !part.empty() && part.size() <= 9 &&
+                        part.find_first_not_of("0123456789") == std::string::npos;
+    return digits ? std::stoull(part) : 0;
+  };
+  const Shard shard = {number(text.substr(0, slash)),
+                       slash == std::string::npos ? 0 : number(text.substr(slash + 1))};
+  if (shard.count == 0 || shard.index == 0 || shard.index > shard.count) {
+    throw std::runtime_error(
+        fmt::format("--shard: '{}'; allowed: i/n with i from 1 to n, as in 2/8", text));
+  }
+  return shard;
+}
+
+/// Draws the seeds that the log lacks, on `jobs` threads.
+class Campaign {
+ public:
+  Campaign(const CampaignDraw& draw, CampaignLog& log, std::vector<std::uint64_t> seeds)
+      : draw_(draw), log_(log), seeds_(std::move(seeds)) {}
+
+  void run(unsigned jobs) {
+    std::vector<std::thread> threads;
+    try {
+      for (std::size_t i = 0; i < std::min<std::size_t>(jobs, seeds_.size()); ++i) {
+        threads.emplace_back([this] { work(); });
+      }
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      failure_ = std::current_exception();
+      interrupted = true;
+    }
+    for (std::thread& thread : threads) {
+      thread.join();
+    }
+    if (failure_) {
+      std::rethrow_exception(failure_);
+    }
+  }
+
+ private:
+  void work() {
+    while (!interrupted) {
+      const std::size_t index = next_++;
+      if (index >= seeds_.size()) {
+        return;
+      }
+      try {
+        const CampaignRow row = draw_(seeds_[index]);
+        const std::lock_guard<std::mutex> lock(mutex_);
+        if (failure_) {
+          return;  // What a full disk has cut short must stay the last line.
+        }
+        log_.add(seeds_[index], row);
+        ++done_;
+        bar_.show(static_cast<double>(done_) / static_cast<double>(seeds_.size()),
+                  fmt::format("{} of {} draws", done_, seeds_.size()));
+      } catch (...) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        failure_ = std::current_exception();
+        interrupted = true;
+      }
+    }
+  }
+
+  const CampaignDraw& draw_;
+  CampaignLog& log_;
+  std::vector<std::uint64_t> seeds_;
+  std::atomic<std::size_t> next_{0};
+  std::mutex mutex_;
+  std::size_t done_ = 0;
+  std::exception_ptr failure_;
+  ProgressBar bar_{"campaign"};
+};
+
+/// Those of the shard that the log lacks.
+std::vector<std::uint64_t> seeds_left(const CampaignOptions& options, const CampaignLog& log) {
+  const Shard shard = shard_of(options.shard);
+  std::vector<std::uint64_t> seeds;
+  for (std::uint64_t n = shard.index - 1; n < options.draws; n += shard.count) {
+    if (!log.has(options.seed + n)) {
+      seeds.push_back(options.seed + n);
+    }
+  }
+  return seeds;
+}
+
+}  // namespace
+
+void run_campaign(const CampaignOptions& options, const CampaignKind& kind,
+                  const std::string& tried, const CampaignDraw& draw) {
+  static_cast<void>(shard_of(options.shard));  // Wrong options before the file is touched.
+  if (options.seed > kMostSeed - options.draws) {
+    throw std::runtime_error(
+        fmt::format("--seed and --draws: the last seed is more than {}", kMostSeed));
+  }
+  CampaignLog log(options.summary, kind, tried);
+  std::vector<std::uint64_t> seeds = seeds_left(options, log);
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  const unsigned jobs =
+      options.jobs > 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
+  Campaign(draw, log, std::move(seeds)).run(jobs);
+  write_campaign(options.summary, kind, log.data());
+  fmt::print("{}", campaign_table(kind, log.data()));
+  const auto failed = std::count_if(log.data().rows.begin(), log.data().rows.end(),
+                                    [](const auto& row) { return !row.second.done(); });
+  if (failed > 0) {
+    throw std::runtime_error(fmt::format("{} draws did not come to their end", failed));
+  }
+  if (interrupted) {
+    throw std::runtime_error(
+        fmt::format("interrupted; the same command goes on with what {} lacks", options.summary));
+  }
+}
+
+void merge_campaigns(const std::vector<std::string>& files, const std::string& summary,
+                     const CampaignKind& kind) {
+  CampaignData all;
+  for (const std::string& file : files) {
+    const CampaignData part = read_campaign(file, kind);
+    if (!all.tried.empty() && part.tried != all.tried) {
+      throw std::runtime_error(
+          fmt::format("{}: holds another campaign ('{}', not '{}')", file, part.tried, all.tried));
+    }
+    all.tried = part.tried;
+    for (const auto& [seed, row] : part.rows) {
+      if (!all.rows.emplace(seed, row).second) {
+        throw std::runtime_error(fmt::format("{}: seed {} is in two files", file, seed));
+      }
+    }
+  }
+  write_campaign(summary, kind, all);
+  fmt::print("{}", campaign_table(kind, all));
+}
+
+}  // namespace graben::cli

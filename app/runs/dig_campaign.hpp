@@ -1,0 +1,12 @@
+#pragma once
+/// A campaign of digging runs.
+
+#include "app/runs/campaign_file.hpp"
+#include "app/runs/dig_run.hpp"
+
+namespace graben::cli {
+
+[[nodiscard]] const CampaignKind& dig_campaign();
+[[nodiscard]] CampaignRow dig_campaign_row(const DigResult& result);
+
+}  // namespace graben::cli

@@ -1,0 +1,13 @@
+#pragma once
+/// A campaign of grading runs.
+
+#include "app/runs/campaign_file.hpp"
+#include "app/runs/grade_run.hpp"
+
+namespace graben::cli {
+
+[[nodiscard]] const CampaignKind& grade_campaign();
+[[nodiscard]] CampaignRow grade_campaign_row(const machines::DozerMachine& machine,
+                                             const GradeResult& result);
+
+}  // namespace graben::cli

@@ -1,0 +1,67 @@
+#include "app/runs/grade_plant_run.hpp"
+
+#include <cmath>
+
+#include "app/runs/grade_truth.hpp"
+#include "app/runs/statistics.hpp"
+#include "app/plant/dozer_node.hpp"
+#include "can_dbc/generated/dozer_dbc.hpp"
+
+namespace graben::cli {
+namespace {
+
+/// Adds up what the figures speak of.
+class GradeObserver {
+ public:
+  GradeObserver(const machines::DozerMachine& machine, GradePlantResult& result)
+      : truth_(machine.profile), length_m_(machine.experiment.length_m), result_(result) {}
+
+  void see(const plant::DozerNode& node) {
+    const Eigen::Vector2d edge_m = node.plant().cutting_edge_m();
+    result_.edge_x_m = edge_m.x();
+    if (!node.spool_enabled()) {
+      return;
+    }
+    result_.enabled_s += kPlantPeriod_s;
+    if (edge_m.x() < 0.0 || through()) {
+      return;
+    }
+    result_.over_grade_s += kPlantPeriod_s;
+    error_.add(std::abs(truth_.error_m(edge_m)));
+    result_.max_error_m = error_.max();
+    result_.rmse_error_m = error_.rms();
+  }
+
+  [[nodiscard]] bool through() const { return result_.edge_x_m > length_m_; }
+
+ private:
+  GradeTruth truth_;
+  double length_m_;
+  GradePlantResult& result_;
+  Spread error_;
+};
+
+}  // namespace
+
+GradePlantResult run_plant(const machines::DozerMachine& machine, const PlantRunOptions& options) {
+  namespace ids = dbc::dozer;
+  PlantBus<plant::DozerOperatorNode> bus(options,
+                                         {ids::SpoolCommand::kId, ids::PumpDisplacementCommand::kId,
+                                          ids::MotorDisplacementCommand::kId});
+  plant::DozerNode node(machine.plant, bus.port(), machine.hash);
+  GradePlantResult result;
+  GradeObserver observer(machine, result);
+  bool has_let_go = false;
+  result.bus = bus.run(Task::kGrade, [&](TimeUs now_us) {
+    node.step(now_us);
+    observer.see(node);
+    if (observer.through() && !has_let_go) {
+      bus.let_go();
+      has_let_go = true;
+    }
+  });
+  result.spool = node.counters();
+  return result;
+}
+
+}  // namespace graben::cli

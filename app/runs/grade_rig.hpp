@@ -1,0 +1,17 @@
+#pragma once
+/// The bench of a grading run.
+
+#include "app/runs/loopback_rig.hpp"
+#include "app/ecu/dozer_ecu.hpp"
+#include "app/machines/dozer_file.hpp"
+#include "app/plant/dozer_node.hpp"
+#include "app/plant/operator_node.hpp"
+
+namespace graben::bench {
+
+struct GradeBench : MachineBench<plant::DozerNode, plant::DozerOperatorNode, ecu::DozerEcu> {
+  GradeBench(const machines::DozerMachine& machine, double override_ratio)
+      : MachineBench(machine.profile, machine.hash, Task::kGrade, override_ratio, machine.plant) {}
+};
+
+}  // namespace graben::bench

@@ -1,0 +1,146 @@
+#include "app/runs/grade_run.hpp"
+
+#include <fmt/format.h>
+
+#include "app/runs/grade_rig.hpp"
+
+namespace graben::cli {
+namespace {
+
+constexpr double kLongerThanWanted = 10.0;
+constexpr double kStart_s = 20.0;
+
+class GradeRun {
+ public:
+  GradeRun(const machines::DozerMachine& machine, const GradeOptions& options)
+      : machine_(machine),
+        options_(options),
+        bench_(machine, options.speed_override_ratio),
+        truth_(machine.profile),
+        start_m_(edge_x_m()) {}
+
+  GradeResult run(const Progress& show) {
+    const BenchFigures figures = run_bench(
+        bench_, options_.log_file, [this](TimeUs now_us) { return ended(now_us); },
+        [&](TimeUs now_us, double cycle_us) {
+          look(now_us, cycle_us);
+          show((edge_x_m() - start_m_) / way_m(), fmt::format("at {:.1f} m", edge_x_m()));
+        });
+    result_.wall_s = figures.wall_s;
+    result_.rejected_frames = figures.rejected_frames;
+    keep_terrain();
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] double edge_x_m() const { return bench_.plant.plant().cutting_edge_m().x(); }
+  [[nodiscard]] double way_m() const { return machine_.experiment.length_m - start_m_; }
+
+  bool ended(TimeUs now_us) {
+    const DozerStatus& status = bench_.ecu->outputs().status;
+    if (status.mode == EcuMode::kFault) {
+      result_.end = GradeEnd::kFault;
+      result_.fault = status.fault;
+      return true;
+    }
+    if (edge_x_m() >= machine_.experiment.length_m) {
+      result_.end = GradeEnd::kDone;
+      return true;
+    }
+    result_.end = GradeEnd::kNotFinished;
+    const double speed_mps =
+        options_.speed_override_ratio * machine_.profile.travel.speed_desired_mps;
+    return seconds(now_us) > kStart_s + kLongerThanWanted * way_m() / speed_mps;
+  }
+
+  void look(TimeUs now_us, double cycle_us) {
+    GradeSample sample;
+    sample.time_s = seconds(now_us);
+    sample.cycle_us = cycle_us;
+    read_truth(sample);
+    read_measured(sample);
+    read_controller(sample);
+    result_.samples.push_back(sample);
+  }
+
+  void read_truth(GradeSample& sample) const {
+    const plant::DozerPlant& plant = bench_.plant.plant();
+    sample.body = {plant.position_m(), plant.height_m(), plant.pitch_rad()};
+    sample.edge_m = plant.cutting_edge_m();
+    sample.judged = sample.edge_m.x() >= 0.0 && sample.edge_m.x() <= machine_.experiment.length_m;
+    sample.design_m = truth_.design_m(sample.edge_m.x());
+    sample.error_true_m = truth_.error_m(sample.edge_m);
+    sample.speed_true_mps = plant.velocity_mps();
+    const BodyRates rates = {plant.velocity_mps(), plant.climb_mps(), plant.pitch_rate_radps()};
+    sample.flow_required_m3ps = truth_.inflow_m3ps(truth_.required_blade_mps(
+        sample.body, rates, truth_.blade_angle_rad(plant.blade_stroke_m())));
+    sample.flow_available_m3ps = available_flow_m3ps(machine_.plant.machine, plant.engine_radps());
+    sample.blade_true_mps = plant.blade_velocity_mps();
+    sample.spool_real = plant.spool_travel_ratio();
+    sample.track_mps = plant.track_speeds_mps();
+    sample.pump_real = plant.pump_ratios();
+    sample.motor_real = plant.motor_ratios();
+  }
+
+  void read_measured(GradeSample& sample) const {
+    const DozerInputs& inputs = bench_.ecu->inputs();
+    const BodyInputs& body = inputs.body;
+    const auto known = [](const Signal<double>& signal) {
+      return signal.validity == Validity::kValid;
+    };
+    if (known(body.velocity_mps)) {
+      sample.speed_measured_mps = body.velocity_mps.value;
+    }
+    if (known(body.position_m) && known(body.height_m) && known(body.pitch_rad) &&
+        known(inputs.blade_stroke_m)) {
+      const BodyPose pose = {body.position_m.value, body.height_m.value, body.pitch_rad.value};
+      sample.error_measured_m =
+          truth_.error_m(truth_.edge_m(pose, truth_.blade_angle_rad(inputs.blade_stroke_m.value)));
+    }
+  }
+
+  void read_controller(GradeSample& sample) const {
+    const DozerOutputs& outputs = bench_.ecu->outputs();
+    const DozerStatus& status = outputs.status;
+    sample.speed_wanted_mps = status.wanted_speed_mps;
+    sample.speed_limit_mps = status.speed_limit_mps;
+    sample.lambda = status.lambda;
+    sample.limit = status.limit;
+    sample.flow_reported_m3ps = status.required_flow_m3ps;
+    sample.flow_limit_reported_m3ps = status.available_flow_m3ps;
+    sample.blade_wanted_mps = status.wanted_blade_mps;
+    sample.spool_command = outputs.blade_duty_ratio;
+    sample.pump_command = outputs.pump_ratio;
+    sample.motor_command = outputs.motor_ratio;
+  }
+
+  /// From behind the start to before the last edge.
+  void keep_terrain() {
+    constexpr double kMargin_m = 3.0;
+    constexpr double kStep_m = 0.05;
+    const plant::Terrain& terrain = bench_.plant.plant().terrain();
+    const double from_m = machine_.plant.start_position_m - kMargin_m;
+    const auto steps =
+        static_cast<int>((machine_.experiment.length_m + kMargin_m - from_m) / kStep_m);
+    for (int i = 0; i <= steps; ++i) {
+      const double x_m = from_m + i * kStep_m;
+      result_.terrain_m.emplace_back(x_m, terrain.height_m(x_m));
+    }
+  }
+
+  const machines::DozerMachine& machine_;
+  GradeOptions options_;
+  bench::GradeBench bench_;
+  GradeTruth truth_;
+  double start_m_;
+  GradeResult result_;
+};
+
+}  // namespace
+
+GradeResult run_grade(const machines::DozerMachine& machine, const GradeOptions& options,
+                      const Progress& progress) {
+  return GradeRun(machine, options).run(progress);
+}
+
+}  // namespace graben::cli

@@ -1,0 +1,104 @@
+#pragma once
+/// The grading task in simulated time: plant, operator and controller as three nodes on a bus in
+/// memory that exchange nothing but CAN frames.
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "app/runs/logged_run.hpp"
+#include "app/runs/grade_truth.hpp"
+#include "app/runs/limit_text.hpp"
+#include "app/machines/dozer_file.hpp"
+
+namespace graben::cli {
+
+struct GradeOptions {
+  double speed_override_ratio = 1.0;
+  std::filesystem::path log_file;  ///< candump log; none if empty.
+};
+
+/// State at one control cycle, true and as the controller has it. What is measured is not a number
+/// until it was received; flows are magnitudes.
+struct GradeSample {
+  double time_s = 0.0;
+  bool judged = false;  ///< The cutting edge is over the grade, from x = 0 to its length.
+  BodyPose body;
+  Eigen::Vector2d edge_m = Eigen::Vector2d::Zero();  ///< True, world.
+  double design_m = 0.0;                             ///< The design's height at the edge.
+  double error_true_m = 0.0;                         ///< Edge over the design, straight up.
+  double error_measured_m = std::nan("");
+  double speed_wanted_mps = 0.0;  ///< v_c of (14)
+  double speed_true_mps = 0.0;
+  double speed_measured_mps = std::nan("");
+  double speed_limit_mps = 0.0;  ///< (14) without v_d.
+  double lambda = 0.0;
+  Limit limit;
+  double flow_required_m3ps = 0.0;   ///< (7), for the true motion to follow the design.
+  double flow_available_m3ps = 0.0;  ///< Of the true machine.
+  double flow_reported_m3ps = 0.0;   ///< The controller's (7).
+  double flow_limit_reported_m3ps = 0.0;
+  double blade_wanted_mps = 0.0;
+  double blade_true_mps = 0.0;
+  double spool_command = 0.0;  ///< Of its travel; extension is positive.
+  double spool_real = 0.0;
+  std::array<double, kTrackCount> track_mps{};  ///< True, of the tracks.
+  std::array<double, kTrackCount> pump_command{};
+  std::array<double, kTrackCount> pump_real{};
+  std::array<double, kTrackCount> motor_command{};
+  std::array<double, kTrackCount> motor_real{};
+  double cycle_us = 0.0;  ///< Computing time of the controller's cycle.
+};
+
+enum class GradeEnd { kDone, kNotFinished, kFault };
+
+struct GradeResult {
+  GradeEnd end = GradeEnd::kDone;
+  Fault fault = Fault::kNone;  ///< With kFault.
+  std::vector<GradeSample> samples;
+  std::vector<Eigen::Vector2d> terrain_m;  ///< As it was left, x and z.
+  double wall_s = 0.0;
+  std::uint32_t rejected_frames = 0;
+};
+
+/// Figures of the time during which the cutting edge was over the grade.
+struct GradeSummary {
+  double max_error_true_m = 0.0;  ///< Magnitude.
+  double rmse_error_true_m = 0.0;
+  double max_error_measured_m = 0.0;
+  double rmse_error_measured_m = 0.0;
+  double time_s = 0.0;  ///< The edge's from x = 0 to the grade's length.
+  double mean_speed_mps = 0.0;
+  double flow_share_max = 0.0;  ///< Largest of required over available, of the true motion.
+  double flow_share_reported_max = 0.0;  ///< The same as the controller had it.
+  double flow_above_share = 0.0;         ///< Of the time: required is above available.
+  /// Stretches above it; what is less than kOccasion_m further on belongs to the same one.
+  int flow_occasions = 0;
+  double deceleration_wanted_mps2 = 0.0;  ///< Largest of v_c, from cycle to cycle.
+  double deceleration_true_mps2 = 0.0;    ///< Largest mean over kDeceleration_s, of the body.
+  /// Of the slope of v_c; it counts as turned when v_c has gone kSpeedResolution_mps back.
+  int sign_changes = 0;
+  int corners = 0;          ///< Of the design between its ends.
+  double duration_s = 0.0;  ///< Of the whole run, simulated.
+  double real_time_factor = 0.0;
+  long cycles = 0;  ///< Of the whole run.
+  double cycle_median_us = 0.0;
+  double cycle_max_us = 0.0;
+  LimitShares limit_share;  ///< Of the time over the grade.
+};
+inline constexpr double kOccasion_m = 0.5;
+inline constexpr double kDeceleration_s = 0.1;
+inline constexpr double kSpeedResolution_mps = 0.02;
+
+/// Runs until the cutting edge has come to the grade's length, something fails, or the time is
+/// over: ten times what the wanted speed needs, and 20 s. The same machine and options give the
+/// same samples (but cycle_us) and the same bytes in the log.
+[[nodiscard]] GradeResult run_grade(const machines::DozerMachine& machine,
+                                    const GradeOptions& options, const Progress& progress);
+
+[[nodiscard]] GradeSummary summarise(const machines::DozerMachine& machine,
+                                     const GradeResult& result);
+
+}  // namespace graben::cli

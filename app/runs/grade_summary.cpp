@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "app/runs/grade_run.hpp"
+#include "app/runs/statistics.hpp"
+
+namespace graben::cli {
+namespace {
+
+/// What the required flow may be above the available one and still count as kept.
+constexpr double kFlowTolerance = 0.02;
+
+/// How often a value that runs up and down turns round, smaller ways than `resolution` left out.
+class Turns {
+ public:
+  explicit Turns(double resolution) : resolution_(resolution) {}
+
+  void add(double value) {
+    highest_ = std::max(highest_, value);
+    lowest_ = std::min(lowest_, value);
+    if (way_ != -1 && highest_ - value > resolution_) {
+      turn(-1, value);
+    } else if (way_ != 1 && value - lowest_ > resolution_) {
+      turn(1, value);
+    }
+  }
+  [[nodiscard]] int count() const { return count_; }
+
+ private:
+  void turn(int way, double value) {
+    count_ += way_ != 0 ? 1 : 0;
+    way_ = way;
+    highest_ = value;
+    lowest_ = value;
+  }
+
+  double resolution_;
+  double highest_ = -std::numeric_limits<double>::infinity();
+  double lowest_ = std::numeric_limits<double>::infinity();
+  int way_ = 0;
+  int count_ = 0;
+};
+
+/// Flow that the true motion needs, over what there is.
+class FlowCount {
+ public:
+  void add(const GradeSample& sample) {
+    const double share = sample.flow_required_m3ps / sample.flow_available_m3ps;
+    most_ = std::max(most_, share);
+    ++all_;
+    if (share <= 1.0 + kFlowTolerance) {
+      return;
+    }
+    ++above_;
+    occasions_ += last_m_ && sample.edge_m.x() - *last_m_ < kOccasion_m ? 0 : 1;
+    last_m_ = sample.edge_m.x();
+  }
+  [[nodiscard]] double most() const { return most_; }
+  [[nodiscard]] int occasions() const { return occasions_; }
+  [[nodiscard]] double above_share() const {
+    return all_ > 0 ? static_cast<double>(above_) / static_cast<double>(all_) : 0.0;
+  }
+
+ private:
+  double most_ = 0.0;
+  long all_ = 0;
+  long above_ = 0;
+  int occasions_ = 0;
+  std::optional<double> last_m_;
+};
+
+/// Largest fall of a speed over so many cycles, per second.
+double deceleration_mps2(const std::vector<GradeSample>& judged, double GradeSample::*speed_mps,
+                         std::size_t cycles) {
+  double most = 0.0;
+  for (std::size_t n = cycles; n < judged.size(); ++n) {
+    const GradeSample& before = judged[n - cycles];
+    const double fall_mps = before.*speed_mps - judged[n].*speed_mps;
+    most = std::max(most, fall_mps / (judged[n].time_s - before.time_s));
+  }
+  return most;
+}
+
+std::vector<GradeSample> judged_samples(const GradeResult& result) {
+  std::vector<GradeSample> judged;
+  std::copy_if(result.samples.begin(), result.samples.end(), std::back_inserter(judged),
+               [](const GradeSample& sample) { return sample.judged; });
+  return judged;
+}
+
+void count_cycles(const GradeResult& result, GradeSummary& summary) {
+  std::vector<double> cycle_us;
+  for (const GradeSample& sample : result.samples) {
+    cycle_us.push_back(sample.cycle_us);
+    summary.cycle_max_us = std::max(summary.cycle_max_us, sample.cycle_us);
+  }
+  summary.cycle_median_us = median(cycle_us);
+  summary.cycles = static_cast<long>(result.samples.size());
+  summary.duration_s = result.samples.empty() ? 0.0 : result.samples.back().time_s;
+  summary.real_time_factor = result.wall_s > 0.0 ? summary.duration_s / result.wall_s : 0.0;
+}
+
+}  // namespace
+
+GradeSummary summarise(const machines::DozerMachine& machine, const GradeResult& result) {
+  GradeSummary summary;
+  const std::vector<GradeSample> judged = judged_samples(result);
+  Spread error_true;
+  Spread error_measured;
+  FlowCount flow;
+  Turns turns(kSpeedResolution_mps);
+  LimitCount limits(dozer_actuators());
+  for (const GradeSample& sample : judged) {
+    error_true.add(std::abs(sample.error_true_m));
+    error_measured.add(std::abs(sample.error_measured_m));
+    flow.add(sample);
+    turns.add(sample.speed_wanted_mps);
+    limits.add(sample.limit);
+    if (sample.flow_limit_reported_m3ps > 0.0) {
+      summary.flow_share_reported_max =
+          std::max(summary.flow_share_reported_max,
+                   sample.flow_reported_m3ps / sample.flow_limit_reported_m3ps);
+    }
+  }
+  summary.max_error_true_m = error_true.max();
+  summary.rmse_error_true_m = error_true.rms();
+  summary.max_error_measured_m = error_measured.max();
+  summary.rmse_error_measured_m = error_measured.rms();
+  if (!judged.empty()) {
+    summary.time_s = judged.back().time_s - judged.front().time_s;
+    const double way_m = judged.back().edge_m.x() - judged.front().edge_m.x();
+    summary.mean_speed_mps = summary.time_s > 0.0 ? way_m / summary.time_s : 0.0;
+  }
+  summary.flow_share_max = flow.most();
+  summary.flow_above_share = flow.above_share();
+  summary.flow_occasions = flow.occasions();
+  summary.deceleration_wanted_mps2 = deceleration_mps2(judged, &GradeSample::speed_wanted_mps, 1);
+  // In cycles of 10 ms.
+  summary.deceleration_true_mps2 =
+      deceleration_mps2(judged, &GradeSample::speed_true_mps,
+                        static_cast<std::size_t>(std::lround(kDeceleration_s * 100.0)));
+  summary.sign_changes = turns.count();
+  summary.corners = std::max(machine.profile.grade.count - 2, 0);
+  summary.limit_share = limits.shares();
+  count_cycles(result, summary);
+  return summary;
+}
+
+}  // namespace graben::cli

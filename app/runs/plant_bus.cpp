@@ -1,0 +1,131 @@
+#include "app/runs/plant_bus.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "can_dbc/generated/excavator_dbc.hpp"
+#include "platform/linux/cyclic_clock.hpp"
+#include "platform/linux/stop_signal.hpp"
+
+namespace graben::cli {
+namespace {
+
+constexpr TimeUs kTaskAfter_us = 100 * kMillisecondUs;
+/// The operator lets go before the end, and what the machine then does is seen.
+constexpr TimeUs kRelease_us = 500 * kMillisecondUs;
+constexpr TimeUs kShift_us = 5 * kSecondUs;
+constexpr TimeUs kPause_us = kSecondUs;
+constexpr TimeUs kMostShifts = 10000;
+constexpr int kReopenCycles = 20;
+
+TimeUs microseconds(double time_s) { return static_cast<TimeUs>(std::llround(time_s * 1e6)); }
+
+void open(SocketCanPort& port, const std::string& interface) {
+  if (!port.open()) {
+    throw std::runtime_error(interface + ": " + port.last_error());
+  }
+}
+
+const plant::OperatorRequest kAtRest = {false, OperatorMode::kAutomatic, Task::kNone, 0.0};
+
+/// Everything that the operator does, in its order.
+std::vector<plant::OperatorPhase> schedule(const PlantRunOptions& options, Task task) {
+  std::vector<plant::OperatorPhase> phases = {{0, kAtRest}};
+  const auto work_from = [&](TimeUs enable_us) {
+    phases.push_back({enable_us, {true, OperatorMode::kAutomatic, Task::kNone, 0.0}});
+    phases.push_back({enable_us + kTaskAfter_us,
+                      {true, OperatorMode::kAutomatic, task, options.speed_override_ratio,
+                       options.task_number}});
+  };
+  const TimeUs begin_us = microseconds(options.enable_after_s);
+  const TimeUs end_us = options.seconds > 0.0 ? microseconds(options.seconds) - kRelease_us
+                                              : kMostShifts * (kShift_us + kPause_us);
+  work_from(begin_us);
+  if (options.player == Player::kShifts) {
+    for (TimeUs pause_us = begin_us + kShift_us; pause_us + kPause_us < end_us;
+         pause_us += kPause_us + kShift_us) {
+      phases.push_back({pause_us, kAtRest});
+      work_from(pause_us + kPause_us);
+    }
+  }
+  if (options.seconds > 0.0) {
+    phases.push_back({end_us, kAtRest});
+  }
+  return phases;
+}
+
+/// An interface that went down is opened again when it is back.
+class Reopener {
+ public:
+  explicit Reopener(SocketCanPort& port) : port_(port) {}
+
+  void look(int cycle) {
+    const CanPortState state = port_.state();
+    if (cycle % kReopenCycles == 0 &&
+        (state == CanPortState::kDown || state == CanPortState::kBusOff)) {
+      // Still away: tried again in a moment.
+      static_cast<void>(port_.open());
+    }
+  }
+
+ private:
+  SocketCanPort& port_;
+};
+
+}  // namespace
+
+// The operator reads nothing; its port lets through the least there is: the status, whose id all
+// kinds share.
+template <class Operator>
+PlantBus<Operator>::PlantBus(const PlantRunOptions& options, const std::vector<std::uint32_t>& ids)
+    : options_(options),
+      port_(options.interface, ids),
+      operator_port_(options.interface, {dbc::excavator::EcuStatus::kId}),
+      driver_(operator_port_) {
+  open(port_, options.interface);
+  open(operator_port_, options.interface);
+  if (const ErrorText error = catch_stop_signals(); !error.empty()) {
+    throw std::runtime_error(error.c_str());
+  }
+}
+
+template <class Operator>
+void PlantBus<Operator>::let_go() {
+  driver_.set_schedule({{0, kAtRest}});
+}
+
+template <class Operator>
+PlantBusFigures PlantBus<Operator>::run(Task task, const std::function<void(TimeUs)>& machine) {
+  driver_.set_schedule(schedule(options_, task));
+  // What has come in while the machine was made is not fresh any more.
+  open(port_, options_.interface);
+  open(operator_port_, options_.interface);
+  CyclicClock clock(microseconds(static_cast<double>(kPlantPeriod_us) * 1e-6 / options_.speed));
+  const TimeUs end_us = microseconds(options_.seconds);
+  Reopener reopener(port_);
+  Reopener operator_reopener(operator_port_);
+  PlantBusFigures figures;
+  int cycle = 0;
+  for (TimeUs now_us = 0; !stop_requested() && (end_us == 0 || now_us < end_us);
+       now_us += kPlantPeriod_us) {
+    static_cast<void>(clock.wait());
+    reopener.look(cycle);
+    operator_reopener.look(cycle);
+    ++cycle;
+    machine(now_us);
+    if (options_.player != Player::kNobody) {
+      driver_.step(now_us);
+    }
+    figures.simulated_s += static_cast<double>(kPlantPeriod_us) * 1e-6;
+  }
+  figures.late_cycles = clock.overruns();
+  figures.frames_dropped =
+      port_.counters().dropped_transmit + operator_port_.counters().dropped_transmit;
+  return figures;
+}
+
+template class PlantBus<plant::OperatorNode>;
+template class PlantBus<plant::DozerOperatorNode>;
+
+}  // namespace graben::cli

@@ -1,0 +1,62 @@
+#include "app/runs/plant_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/runs/path_progress.hpp"
+#include "app/plant/excavator_node.hpp"
+#include "can_dbc/generated/excavator_dbc.hpp"
+
+namespace graben::cli {
+namespace {
+
+/// Adds up what the figures speak of.
+class PathObserver {
+ public:
+  PathObserver(const machines::ExcavatorMachine& machine, PlantRunResult& result)
+      : path_(machine.profile.dig_path), progress_(path_, 1.0), result_(result) {}
+
+  void see(const plant::PlantNode& node, TimeUs now_us) {
+    if (!node.spools_enabled()) {
+      return;
+    }
+    result_.enabled_s += kPlantPeriod_s;
+    const plant::TipPose tip = node.plant().tip();
+    progress_.update(tip.position_m, near_path(path_, tip.position_m, tip.attitude_rad), now_us);
+    if (progress_.on_path()) {
+      const double error_m = (path_.closest(tip.position_m).position_m - tip.position_m).norm();
+      result_.max_error_m = std::max(result_.max_error_m, error_m);
+      squares_m2_ += error_m * error_m;
+      result_.on_path_s += kPlantPeriod_s;
+      result_.rmse_error_m = std::sqrt(squares_m2_ * kPlantPeriod_s / result_.on_path_s);
+      result_.loops = progress_.share();
+    }
+  }
+
+ private:
+  RoundedRectangle path_;
+  PathProgress progress_;
+  PlantRunResult& result_;
+  double squares_m2_ = 0.0;
+};
+
+}  // namespace
+
+PlantRunResult run_plant(const machines::ExcavatorMachine& machine, const PlantRunOptions& options,
+                         const plant::PlantStart& start) {
+  namespace ids = dbc::excavator;
+  PlantBus<plant::OperatorNode> bus(
+      options, {ids::SpoolCommand::kId, ids::PumpCommand::kId, ids::SwingCommand::kId});
+  plant::PlantNode node(machine.plant, start, bus.port(), machine.hash);
+  PlantRunResult result;
+  PathObserver observer(machine, result);
+  result.bus = bus.run(Task::kDig, [&](TimeUs now_us) {
+    node.step(now_us);
+    observer.see(node, now_us);
+  });
+  result.spool = node.counters();
+  result.peak_chamber_pressure_pa = node.plant().peak_chamber_pressure_pa();
+  return result;
+}
+
+}  // namespace graben::cli

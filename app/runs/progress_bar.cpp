@@ -1,0 +1,45 @@
+#include "app/runs/progress_bar.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+namespace graben::cli {
+namespace {
+constexpr int kWidth = 32;
+constexpr std::chrono::milliseconds kRedraw(100);
+}  // namespace
+
+ProgressBar::ProgressBar(std::string label)
+    : label_(std::move(label)),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      started_(std::chrono::steady_clock::now()),
+      drawn_(started_ - kRedraw) {}
+
+ProgressBar::~ProgressBar() {
+  if (terminal_) {
+    fmt::print(stderr, "\r\x1b[K");
+    std::fflush(stderr);
+  }
+}
+
+void ProgressBar::show(double share, const std::string& where) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!terminal_ || now - drawn_ < kRedraw) {
+    return;
+  }
+  drawn_ = now;
+  const double done = std::clamp(share, 0.0, 1.0);
+  const auto filled = static_cast<int>(done * kWidth);
+  const double elapsed_s = std::chrono::duration<double>(now - started_).count();
+  const std::string left =
+      done > 0.02 ? fmt::format("{:.0f} s left", elapsed_s * (1.0 - done) / done) : "";
+  fmt::print(stderr, "\r\x1b[K{} [{:#<{}}{:.<{}}] {:3.0f} % {} {}", label_, "", filled, "",
+             kWidth - filled, done * 100.0, where, left);
+  std::fflush(stderr);
+}
+
+}  // namespace graben::cli

@@ -1,0 +1,79 @@
+#include "app/runs/task_plant_run.hpp"
+
+#include <optional>
+
+#include "app/runs/statistics.hpp"
+#include "app/runs/task_listener.hpp"
+#include "app/plant/excavator_node.hpp"
+#include "can_dbc/generated/excavator_dbc.hpp"
+#include "firmware/excavator/tasks/line.hpp"
+
+namespace graben::cli {
+namespace {
+
+/// Adds up what the figures speak of.
+class TaskObserver {
+ public:
+  TaskObserver(const TaskProgram& program, TaskPlantResult& result)
+      : program_(program), result_(result) {}
+
+  void see(const plant::PlantNode& node, const TaskEar& ear) {
+    if (!node.spools_enabled()) {
+      return;
+    }
+    result_.enabled_s += kPlantPeriod_s;
+    const std::optional<int> step = ear.step();
+    const bool begins_again = step && *step < last_step_;
+    result_.finished = result_.finished || ear.is_done() || begins_again;
+    if (step && *step < program_.step_count) {
+      last_step_ = *step;
+      see_step(node, program_.step[static_cast<unsigned>(*step)]);
+    }
+  }
+
+ private:
+  void see_step(const plant::PlantNode& node, const TaskStep& step) {
+    result_.in_steps_s += kPlantPeriod_s;
+    if (!step.straight) {
+      return;
+    }
+    result_.on_lines_s += kPlantPeriod_s;
+    error_.add(line_distance_m(step.line.line, node.plant().teeth().position_m));
+    result_.max_error_m = error_.max();
+    result_.rmse_error_m = error_.rms();
+  }
+
+  const TaskProgram& program_;
+  TaskPlantResult& result_;
+  int last_step_ = 0;
+  Spread error_;
+};
+
+plant::PlantStart start_of(const TaskProgram& program) {
+  const DriveVector& start = program.start;
+  return {{start[kBoom], start[kArm], start[kBucket]}, start[kSwing]};
+}
+
+}  // namespace
+
+TaskPlantResult run_task_plant(const machines::ExcavatorMachine& machine,
+                               const TaskProgram& program, const PlantRunOptions& options) {
+  namespace ids = dbc::excavator;
+  PlantBus<plant::OperatorNode> bus(options, {ids::SpoolCommand::kId, ids::PumpCommand::kId,
+                                              ids::SwingCommand::kId, ids::TaskStatus::kId});
+  TaskEar ear(bus.port(), options.task_number);
+  plant::PlantNode node(machine.plant, start_of(program), ear, machine.hash);
+  TaskPlantResult result;
+  TaskObserver observer(program, result);
+  result.bus = bus.run(Task::kProgram, [&](TimeUs now_us) {
+    ear.begin_cycle(now_us);
+    node.step(now_us);
+    observer.see(node, ear);
+  });
+  result.spool = node.counters();
+  result.swing = node.swing_counters();
+  result.peak_chamber_pressure_pa = node.plant().peak_chamber_pressure_pa();
+  return result;
+}
+
+}  // namespace graben::cli

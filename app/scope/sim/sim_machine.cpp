@@ -1,0 +1,123 @@
+#include "app/scope/sim/sim_machine.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+#include "app/runs/autodig_rig.hpp"
+#include "app/runs/dig_rig.hpp"
+#include "app/runs/grade_rig.hpp"
+#include "app/machines/simulated/dozer_scenario.hpp"
+#include "app/machines/simulated/scenario.hpp"
+#include "app/machines/task_file.hpp"
+#include "app/scope/sim/sim_faults.hpp"
+#include "app/scope/sim/sim_rig.hpp"
+
+namespace graben::scope {
+namespace {
+
+/// The nodes take the operator's share of the speed from SimOperator.
+constexpr double kFullSpeed = 1.0;
+
+std::filesystem::path profile_of(const SimOptions& options, const char* usual,
+                                 machines::MachineKind kind, const char* words) {
+  const std::filesystem::path file = machines::find_profile(options.profile.value_or(usual));
+  if (machines::profile_kind(file) != kind) {
+    throw std::runtime_error(
+        fmt::format("{}: the task {} needs {}", file.string(), options.task, words));
+  }
+  return file;
+}
+
+machines::ExcavatorMachine excavator_of(const SimOptions& options, const char* usual) {
+  machines::Scenario scenario;
+  if (options.seed) {
+    scenario.errors = machines::Errors::kAll;
+    scenario.seed = *options.seed;
+  }
+  return machines::arranged(machines::load_excavator(profile_of(
+                                options, usual, machines::MachineKind::kExcavator, "an excavator")),
+                            scenario);
+}
+
+SimSite<SimExcavator> dig_site(const SimOptions& options) {
+  auto machine =
+      std::make_shared<const machines::ExcavatorMachine>(excavator_of(options, "excavator_22t"));
+  const Eigen::Vector3d start_m = machines::dig_start(machine->profile);
+  SimSite<SimExcavator> site;
+  site.make = [machine, start_m] {
+    return std::make_unique<bench::DigBench>(*machine, start_m, kFullSpeed);
+  };
+  site.is_done = [](const SimExcavator::Bench&) { return false; };
+  site.ground = std::make_shared<SimGround>(machine->experiment.soil, machine->experiment.obstacle);
+  site.before_cycle = [ground = site.ground](SimExcavator::Bench& nodes) {
+    ground->step(nodes.plant.plant());
+  };
+  return site;
+}
+
+SimSite<SimExcavator> autodig_site(const SimOptions& options) {
+  auto machine =
+      std::make_shared<const machines::ExcavatorMachine>(excavator_of(options, "excavator_12t"));
+  if (!machine->profile.has_swing()) {
+    throw std::runtime_error(
+        fmt::format("{}: the task autodig needs an excavator with a swing drive", machine->name));
+  }
+  auto book = std::make_shared<TaskBook>();
+  book->program[0] = machines::load_task(machines::find_task(options.task_file.value_or("flatten")),
+                                         machine->profile)
+                         .result.program;
+  book->count = 1;
+  SimSite<SimExcavator> site;
+  site.make = [machine, book] {
+    return std::make_unique<bench::AutodigBench>(*machine, *book, book->program[0].start,
+                                                 kFullSpeed);
+  };
+  site.is_done = [](const SimExcavator::Bench& nodes) {
+    return nodes.ecu->outputs().status.progress.kind == StepKind::kDone;
+  };
+  return site;
+}
+
+SimSite<SimDozer> grade_site(const SimOptions& options) {
+  machines::DozerScenario scenario;
+  scenario.errors = options.seed.has_value();
+  scenario.seed = options.seed.value_or(0);
+  auto machine = std::make_shared<const machines::DozerMachine>(
+      machines::arranged(machines::load_dozer(profile_of(options, "dozer_9t",
+                                                         machines::MachineKind::kDozer, "a dozer")),
+                         scenario));
+  SimSite<SimDozer> site;
+  site.make = [machine] { return std::make_unique<bench::GradeBench>(*machine, kFullSpeed); };
+  site.is_done = [machine](const SimDozer::Bench& nodes) {
+    return nodes.plant.plant().cutting_edge_m().x() >= machine->experiment.length_m;
+  };
+  return site;
+}
+
+template <class Kind>
+std::unique_ptr<SimMachine> rig_of(SimSite<Kind> site, FrameTap tap) {
+  return std::make_unique<SimRig<Kind>>(std::move(site), sim_faults<Kind>(), std::move(tap));
+}
+
+}  // namespace
+
+std::unique_ptr<SimMachine> make_sim_machine(const SimOptions& options, FrameTap tap) {
+  if (options.task_file && options.task != "autodig") {
+    throw std::runtime_error(
+        fmt::format("{}: a task file is of the task autodig alone", *options.task_file));
+  }
+  if (options.task == "dig") {
+    return rig_of(dig_site(options), std::move(tap));
+  }
+  if (options.task == "grade") {
+    return rig_of(grade_site(options), std::move(tap));
+  }
+  if (options.task == "autodig") {
+    return rig_of(autodig_site(options), std::move(tap));
+  }
+  throw std::runtime_error(fmt::format("task '{}': allowed: dig, grade, autodig", options.task));
+}
+
+}  // namespace graben::scope

@@ -1,0 +1,64 @@
+#include "firmware/dozer/blade.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben {
+namespace {
+
+double direction_rad(const Eigen::Vector2d& vector) { return std::atan2(vector.y(), vector.x()); }
+
+}  // namespace
+
+BladeKinematics::BladeKinematics(const BladeGeometry& geometry)
+    : pivot_m_(geometry.pivot_m),
+      edge_radius_m_(geometry.cutting_edge_m),
+      edge_home_rad_(std::asin(-geometry.pivot_m.y() / geometry.cutting_edge_m)),
+      l11_m_((geometry.base_m - geometry.pivot_m).norm()),
+      enclosed_home_rad_(direction_rad(geometry.base_m - geometry.pivot_m) -
+                         direction_rad(geometry.arm_m)) {
+  // Law of cosines for L12: the side that makes the cylinder as long at home as it is.
+  const double along = l11_m_ * std::cos(enclosed_home_rad_);
+  const double across = l11_m_ * std::sin(enclosed_home_rad_);
+  l12_m_ = along + std::sqrt(geometry.length_home_m * geometry.length_home_m - across * across);
+  const auto angle_at = [&](double height_m) {
+    return std::asin((height_m - pivot_m_.y()) / edge_radius_m_) - edge_home_rad_;
+  };
+  angle_min_rad_ = angle_at(geometry.edge_min_m);
+  angle_max_rad_ = angle_at(geometry.edge_max_m);
+  shortest_m_ = length_m(angle_max_rad_);
+  stroke_max_m_ = length_m(angle_min_rad_) - shortest_m_;
+}
+
+double BladeKinematics::length_m(double angle_rad) const {
+  const double enclosed_rad = enclosed_home_rad_ - angle_rad;
+  return std::sqrt(l11_m_ * l11_m_ + l12_m_ * l12_m_ -
+                   2.0 * l11_m_ * l12_m_ * std::cos(enclosed_rad));
+}
+
+double BladeKinematics::angle_rad(double stroke_m) const {
+  const double length = shortest_m_ + std::clamp(stroke_m, 0.0, stroke_max_m_);
+  const double cosine =
+      (l11_m_ * l11_m_ + l12_m_ * l12_m_ - length * length) / (2.0 * l11_m_ * l12_m_);
+  return enclosed_home_rad_ - std::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
+double BladeKinematics::stroke_m(double angle_rad) const {
+  return length_m(std::clamp(angle_rad, angle_min_rad_, angle_max_rad_)) - shortest_m_;
+}
+
+double BladeKinematics::stroke_rate_mprad(double angle_rad) const {
+  const double angle = std::clamp(angle_rad, angle_min_rad_, angle_max_rad_);
+  return -l11_m_ * l12_m_ * std::sin(enclosed_home_rad_ - angle) / length_m(angle);
+}
+
+Eigen::Vector2d BladeKinematics::edge_m(double angle_rad) const {
+  const double direction = edge_home_rad_ + angle_rad;
+  return pivot_m_ + edge_radius_m_ * Eigen::Vector2d(std::cos(direction), std::sin(direction));
+}
+
+double blade_stroke_max_m(const BladeGeometry& geometry) {
+  return BladeKinematics(geometry).stroke_max_m();
+}
+
+}  // namespace graben

@@ -1,0 +1,56 @@
+#pragma once
+/// Joint 1 of the dozer: blade cylinder, angle, cutting edge. Body frame as in dozer_signals.hpp.
+
+#include <Eigen/Core>
+
+#include "firmware/dozer/dozer_profile.hpp"
+
+namespace graben {
+
+/// theta_1 is 0 at home and rises with the blade. The stroke counts from the blade fully raised, so
+/// extension lowers it.
+class BladeKinematics {
+ public:
+  explicit BladeKinematics(const BladeGeometry& geometry);
+
+  /// Strokes and angles outside the blade's reach are taken for its end.
+  [[nodiscard]] double angle_rad(double stroke_m) const;
+  [[nodiscard]] double stroke_m(double angle_rad) const;
+  /// dx_cyl / dtheta_1 of (6), m/rad; below 0. The paper's minus stands here: its q_cc, the angle
+  /// between L11 and L12, falls as the blade rises.
+  [[nodiscard]] double stroke_rate_mprad(double angle_rad) const;
+  /// Cutting edge, x and z, and its derivative by theta_1.
+  [[nodiscard]] Eigen::Vector2d edge_m(double angle_rad) const;
+  [[nodiscard]] Eigen::Vector2d edge_rate_mprad(double angle_rad) const {
+    return edge_rate_at_mprad(edge_m(angle_rad));
+  }
+  /// The same where the edge itself is known.
+  [[nodiscard]] Eigen::Vector2d edge_rate_at_mprad(const Eigen::Vector2d& edge_m) const {
+    return {pivot_m_.y() - edge_m.y(), edge_m.x() - pivot_m_.x()};
+  }
+
+  [[nodiscard]] double stroke_max_m() const { return stroke_max_m_; }
+  [[nodiscard]] double angle_min_rad() const { return angle_min_rad_; }
+  [[nodiscard]] double angle_max_rad() const { return angle_max_rad_; }
+  /// L12: pivot to rod eye.
+  [[nodiscard]] double eye_radius_m() const { return l12_m_; }
+
+ private:
+  [[nodiscard]] double length_m(double angle_rad) const;
+
+  Eigen::Vector2d pivot_m_;
+  double edge_radius_m_;
+  double edge_home_rad_;  ///< Direction of the cutting edge from the pivot, at home.
+  double l11_m_;
+  double l12_m_;
+  double enclosed_home_rad_;  ///< q_cc at home.
+  double angle_min_rad_;
+  double angle_max_rad_;
+  double shortest_m_;
+  double stroke_max_m_;
+};
+
+/// Way of the blade cylinders from the blade fully raised to fully lowered.
+[[nodiscard]] double blade_stroke_max_m(const BladeGeometry& geometry);
+
+}  // namespace graben

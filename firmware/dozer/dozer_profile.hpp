@@ -1,0 +1,141 @@
+#pragma once
+/// What a dozer is, as its controller knows it: body, blade, flows, transmission, grade. Constant
+/// after start; read and range-checked by the application. SI units; frames as in
+/// signals/dozer_signals.hpp.
+
+#include <Eigen/Core>
+#include <array>
+
+#include "firmware/machine/piston_area.hpp"
+#include "firmware/numeric/monotone_table.hpp"
+#include "firmware/dozer/dozer_signals.hpp"
+
+namespace graben {
+
+/// The half-vehicle of (15), (16): wheels on push-only springs, evenly spaced over the contact.
+struct DozerBody {
+  double mass_kg = 0.0;
+  double mass_centre_height_m = 0.0;  ///< Above the body frame's origin.
+  int wheels = 0;                     ///< 2 .. kMostWheels.
+  double track_contact_m = 0.0;       ///< First to last wheel, centred below the mass centre.
+  double half_gauge_m = 0.0;          ///< d of (8).
+  double suspension_npm = 0.0;        ///< Of each wheel of the half-vehicle.
+  double suspension_nspm = 0.0;       ///< Damping; acts on the way in and out while pushed.
+};
+inline constexpr int kMostWheels = 16;
+
+/// Joint 1. Home is where the cutting edge is at the tracks' ground line; the rod eye lies on the
+/// line from the pivot to the blade's foot, at L12, which follows from the home length.
+struct BladeGeometry {
+  Eigen::Vector2d pivot_m = Eigen::Vector2d::Zero();  ///< Body frame.
+  Eigen::Vector2d arm_m = Eigen::Vector2d::Zero();    ///< Pivot to the blade's foot, at home.
+  double cutting_edge_m = 0.0;                        ///< Pivot to cutting edge.
+  Eigen::Vector2d base_m = Eigen::Vector2d::Zero();   ///< Cylinder base, body frame.
+  double length_home_m = 0.0;                         ///< Of the cylinder.
+  double edge_min_m = 0.0;  ///< Reach of the cutting edge against the ground line, body level.
+  double edge_max_m = 0.0;
+  int cylinder_count = 0;
+  double bore_m = 0.0;
+  double rod_m = 0.0;
+
+  /// A_A and A_B of (7), m^2.
+  [[nodiscard]] double cap_area_m2() const { return graben::cap_area_m2(cylinder_count, bore_m); }
+  [[nodiscard]] double rod_area_m2() const {
+    return graben::rod_area_m2(cylinder_count, bore_m, rod_m);
+  }
+};
+
+struct ImplementProfile {
+  double displacement_m3prev = 0.0;  ///< V_p,imp of (12).
+  double efficiency = 0.0;           ///< eta_p,imp,vol of (12).
+  double valve_flow_max_m3ps =
+      0.0;  ///< Q_max,valve of (11); what the spool lets through fully open.
+  /// Opening (0 .. 1 of valve_flow_max) to duty (0 .. 1), as ValveProfile::spool_to_duty.
+  MonotoneTable spool_to_duty;
+};
+
+/// Dual-path transmission (9); both paths alike.
+struct HstProfile {
+  double engine_radps = 0.0;  ///< At work.
+  double engine_least_radps = 0.0;
+  double engine_most_radps = 0.0;
+  double pump_m3prev = 0.0;   ///< V_p
+  double motor_m3prev = 0.0;  ///< V_m
+  double motor_ratio_min = 0.0;
+  double gear_ratio = 0.0;        ///< u_G
+  double pump_efficiency = 0.0;   ///< eta_vol,p
+  double motor_efficiency = 0.0;  ///< eta_vol,m
+  double sprocket_radius_m = 0.0;
+  double pump_rate_ps = 0.0;   ///< Largest change of the pump's ratio per second.
+  double motor_rate_ps = 0.0;  ///< The same of the motor.
+  double response_s = 0.0;     ///< Lag of a displacement behind its command.
+};
+
+/// How the travel speed is chosen (14) and followed.
+struct TravelProfile {
+  SpeedPolicy policy = SpeedPolicy::kBounded;
+  double speed_desired_mps = 0.0;      ///< v_d
+  double speed_min_mps = 0.0;          ///< v_min
+  double acceleration_max_mps2 = 0.0;  ///< Algorithm 1.
+  double threshold_rad = 0.0;          ///< theta_threshold of Algorithm 1.
+  double deceleration_max_mps2 = 0.0;  ///< What the speed ahead is planned with.
+  double flow_share = 0.0;             ///< Of the available flow, that is planned with.
+  double preview_m = 0.0;              ///< How far ahead the ground is looked at.
+  double track_gain = 0.0;             ///< PI of a track's speed: m/s to m/s.
+  double track_integral_ps = 0.0;
+};
+
+/// One corner of the design profile.
+struct GradePoint {
+  double x_m = 0.0;
+  double z_m = 0.0;
+};
+
+/// The design: heights over a plane through points with rounded corners. Before the first point and
+/// after the last one it goes on level with them.
+struct GradeDesign {
+  static constexpr int kMostPoints = 32;
+
+  std::array<GradePoint, kMostPoints> point{};
+  int count = 0;                ///< 2 .. kMostPoints, x rising.
+  double rounding_m = 0.0;      ///< From each corner to where its curve begins, either side.
+  double plane_height_m = 0.0;  ///< Of the plane at x = 0.
+  double plane_slope = 0.0;     ///< dz/dx of the plane.
+};
+
+struct DozerControl {
+  double sensor_timeout_s = 0.0;
+  double spool_rate_ps = 0.0;    ///< Largest opening per second.
+  double spool_threshold = 0.0;  ///< Opening under which the spool is kept at neutral.
+  double dead_time_s = 0.0;      ///< From a duty to the spool's first movement.
+  double response_s = 0.0;       ///< Lag of the blade cylinders' speed behind their command.
+  double blade_gain_ps = 0.0;    ///< Height error to velocity.
+  double blade_integral_ps2 = 0.0;
+  double blade_integral_most_mps = 0.0;
+};
+
+/// What the watches may think of the machine.
+struct DozerSafety {
+  double degraded_speed_ratio = 0.0;
+  double idle_radps = 0.0;
+  double settle_s = 0.0;
+  double spool_tolerance = 0.0;
+  double uncommanded_m = 0.0;
+  double stuck_m = 0.0;
+  double displacement_tolerance = 0.0;  ///< Of full displacement.
+  double displacement_settle_s = 0.0;   ///< Within which a displacement reaches its command.
+  double track_speed_tolerance_mps = 0.0;
+};
+
+struct DozerProfile {
+  DozerBody body;
+  BladeGeometry blade;
+  ImplementProfile implement;
+  HstProfile hst;
+  TravelProfile travel;
+  GradeDesign grade;
+  DozerControl control;
+  DozerSafety safety;
+};
+
+}  // namespace graben

@@ -1,0 +1,59 @@
+#include "firmware/dozer/grade_profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben {
+namespace {
+
+double slope_after(const GradeDesign& design, int count, int i) {
+  if (i + 1 >= count) {
+    return 0.0;
+  }
+  const GradePoint& from = design.point[static_cast<unsigned>(i)];
+  const GradePoint& to = design.point[static_cast<unsigned>(i) + 1];
+  return (to.z_m - from.z_m) / (to.x_m - from.x_m);
+}
+
+}  // namespace
+
+GradeProfile::GradeProfile(const GradeDesign& design)
+    : plane_height_m_(design.plane_height_m),
+      plane_slope_(design.plane_slope),
+      count_(std::clamp(design.count, 0, GradeDesign::kMostPoints)) {
+  line_[0].height_m = count_ > 0 ? design.point[0].z_m : 0.0;
+  for (int i = 0; i < count_; ++i) {
+    const auto n = static_cast<unsigned>(i);
+    const bool is_end = i == 0 || i + 1 == count_;
+    corner_m_[n] = design.point[n].x_m;
+    curve_end_m_[n] = corner_m_[n] + (is_end ? 0.0 : design.rounding_m);
+    line_[n + 1] = {corner_m_[n], design.point[n].z_m, slope_after(design, count_, i)};
+  }
+}
+
+GradeSample GradeProfile::at(double x_m) const {
+  const auto end = curve_end_m_.begin() + count_;
+  const auto n = static_cast<unsigned>(std::upper_bound(curve_end_m_.begin(), end, x_m) -
+                                       curve_end_m_.begin());
+  const Line& line = line_[n];
+  GradeSample sample{
+      plane_height_m_ + plane_slope_ * x_m + line.height_m + line.slope * (x_m - line.from_m),
+      plane_slope_ + line.slope};
+  if (static_cast<int>(n) < count_) {
+    const double half_m = curve_end_m_[n] - corner_m_[n];
+    const double along_m = x_m - (corner_m_[n] - half_m);
+    if (along_m > 0.0 && half_m > 0.0) {
+      const double kink = line_[n + 1].slope - line.slope;
+      sample.height_m += kink * along_m * along_m / (4.0 * half_m);
+      sample.slope += kink * along_m / (2.0 * half_m);
+    }
+  }
+  return sample;
+}
+
+double grade_error_m(const GradeProfile& profile, double x_m, double z_m) {
+  const GradeSample design = profile.at(x_m);
+  return (z_m - design.height_m) / std::sqrt(1.0 + design.slope * design.slope);
+}
+
+}  // namespace graben

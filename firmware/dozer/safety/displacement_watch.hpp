@@ -1,0 +1,55 @@
+#pragma once
+/// Whether one displacement, of a pump or a motor, is what it was told to be.
+
+#include "firmware/drives/command_history.hpp"
+
+namespace graben {
+
+struct DisplacementLimits {
+  double tolerance = 0.0;  ///< Of full displacement.
+  double settle_s = 0.0;   ///< Within which it reaches its command.
+};
+
+/// Cycles in a row that a displacement must have run away: one wrong frame may be seen in two.
+inline constexpr int kRunawayCycles = 3;
+
+/// Of a displacement that is judged.
+struct DisplacementCourse {
+  bool judged = false;
+  double nearest = 0.0;  ///< To the commands of late, since it was last within them.
+  int off_side = 0;      ///< On which side of its command it is off; 0: it isn't.
+  double off_s = 0.0;    ///< How long it has been so.
+  int runaway_cycles = 0;
+};
+
+/// What the watch needs of the last cycle.
+struct DisplacementState {
+  /// As if it had been told `neutral` all the time.
+  explicit DisplacementState(double neutral);
+
+  CommandHistory sent;
+  DisplacementCourse course;
+};
+
+/// What is asked of it: nothing; to follow its command; or, after motion, to have come to neutral.
+enum class DisplacementTask { kNone, kFollow, kReturn };
+
+struct DisplacementResult {
+  bool disagrees = false;
+  bool runs_away = false;
+};
+
+/// `state` goes on by a cycle. Disagrees: off its command, on the same side, by more than the
+/// tolerance for longer than the time to settle.
+///
+/// Runs away: for kRunawayCycles it is further than the tolerance from all that it was told within
+/// the time to settle, and either has moved away from that by as much, or stands on the other side
+/// of 0 than its command. One that has to return has run away without having moved, too: what stays
+/// where it was then drives the machine. `sent` is the last cycle's command, `measured` what has
+/// come in since.
+[[nodiscard]] DisplacementResult watch_displacement(const DisplacementLimits& limits,
+                                                    DisplacementState& state, double sent,
+                                                    DisplacementTask task, double measured,
+                                                    double period_s);
+
+}  // namespace graben

@@ -1,0 +1,67 @@
+#pragma once
+/// What the ground is around the machine: as it was before, cut where the blade has been, and the
+/// design where it has still to go.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "firmware/dozer/grade_profile.hpp"
+
+namespace graben {
+
+/// Further from x = 0 than what a grid of int can count nothing drives.
+inline constexpr double kFurthest_m = 1e6;
+
+/// The last line of a grid of `step_m`, the first at `first_m`, that is not beyond x. Not finite is
+/// no place: that of x = 0.
+[[nodiscard]] inline int grid_index(double x_m, double step_m, double first_m) {
+  const double x = std::isfinite(x_m) ? std::clamp(x_m, -kFurthest_m, kFurthest_m) : 0.0;
+  const double lines = (x - first_m) / step_m;
+  const int below_or_above = static_cast<int>(lines);  // towards 0; std::floor may be a call
+  return below_or_above - (lines < below_or_above ? 1 : 0);
+}
+
+/// Heights on a grid along x. It remembers kLength_m behind the furthest place that the cutting
+/// edge has reached; nothing of it is allocated, nothing is searched.
+class GroundMap {
+ public:
+  static constexpr double kCell_m = 0.05;
+  static constexpr int kCells = 160;
+  static constexpr double kLength_m = kCells * kCell_m;
+
+  /// The machine stands with its origin at `stand_x_m`, its tracks on a line of this height there
+  /// and of this slope, and the cutting edge has come to (x, z). Every cell that the edge has
+  /// passed since is now at most as high as its way; a step back changes nothing. Where the edge is
+  /// clearly above the design it cuts nothing: what lies below is then taken for the line that the
+  /// tracks stand on. The first time, and after a jump of more than the map's length, all is that
+  /// line.
+  void pass(double edge_x_m, double edge_z_m, const GradeProfile& design, double stand_x_m,
+            double stand_z_m, double slope);
+
+  /// Ground at x: remembered behind the edge, `design` before it. Further back than it remembers,
+  /// the last that it does.
+  [[nodiscard]] double height_m(double x_m, const GradeProfile& design) const;
+
+ private:
+  /// Heights of a straight line over all cells up to the edge.
+  void start(double edge_x_m, double stand_x_m, double stand_z_m, double slope);
+  /// The last one whose middle is not beyond x.
+  [[nodiscard]] static int cell_of(double x_m) { return grid_index(x_m, kCell_m, 0.5 * kCell_m); }
+  /// Whole turns of the ring, more than kFurthest_m has.
+  static constexpr int kTurns = 200'000 * kCells;
+  static_assert(kTurns * kCell_m > kFurthest_m + kLength_m);
+  [[nodiscard]] static unsigned slot(int index) {
+    return static_cast<unsigned>(index + kTurns) % kCells;
+  }
+  [[nodiscard]] double cell(int index) const { return height_m_[slot(index)]; }
+  void set(int index, double height_m) { height_m_[slot(index)] = height_m; }
+
+  std::array<double, kCells> height_m_{};
+  int front_ = 0;  ///< Last cell whose middle the edge has passed.
+  double edge_x_m_ = 0.0;
+  double edge_z_m_ = 0.0;
+  bool started_ = false;
+};
+
+}  // namespace graben

@@ -1,0 +1,132 @@
+#include "firmware/dozer/travel/speed_limit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "firmware/dozer/hydrostatic.hpp"
+#include "firmware/dozer/travel/track_speeds.hpp"
+
+namespace graben {
+namespace {
+
+constexpr double kNoFlow_m3ps = 1e-9;
+constexpr double kBraking = 1.25;
+/// Low-pass of the flow that is measured as required: the ground ahead is planned with, this is for
+/// what the plan did not know.
+constexpr double kFlowFilter_s = 0.1;
+/// The same of the edge's error: its sensors' noise must not slow the machine down.
+constexpr double kErrorFilter_s = 0.1;
+/// What a rise has to gain to be begun.
+constexpr double kWorthIt = 0.10;
+/// Between a fall and the next rise.
+constexpr double kPause_s = 0.3;
+
+void take_lower(double speed_mps, Limit limit, double& allowed_mps, Limit& holds) {
+  if (speed_mps < allowed_mps) {
+    allowed_mps = speed_mps;
+    holds = limit;
+  }
+}
+
+/// v_max,imp of (11), over the normalised flow of (10).
+double implement_speed_mps(const DozerProfile& profile, const SpeedDemand& demand,
+                           double required_flow_m3ps) {
+  const double normalised_m3pm =
+      required_flow_m3ps / std::max(demand.measured_mps, profile.travel.speed_min_mps);
+  return demand.available_flow_m3ps / std::max(normalised_m3pm, kNoFlow_m3ps);
+}
+
+double low_passed(double last, double now, double time_s, double period_s) {
+  return last + (now - last) * period_s / (time_s + period_s);
+}
+
+/// How fast with the edge so far off the grade.
+double on_grade_speed_mps(const DozerProfile& profile, const SpeedDemand& demand,
+                          double off_grade_m) {
+  const double share = (kOffGrade_m - off_grade_m) / (kOffGrade_m - kOnGrade_m);
+  const double least_mps = profile.travel.speed_min_mps;
+  return share >= 1.0 ? std::numeric_limits<double>::infinity()
+                      : least_mps + std::max(0.0, share) * (demand.desired_mps - least_mps);
+}
+
+/// Algorithm 1: where v_c may rise to. A body that is tipping needs more and more flow, which its
+/// rest on the ground ahead does not show; so the measured flow has its reserve here too.
+double room_mps(const DozerProfile& profile, const SpeedDemand& demand, double implement_mps,
+                double target_mps) {
+  if (profile.travel.policy == SpeedPolicy::kConstant) {
+    return target_mps;
+  }
+  const bool off_home = std::abs(demand.blade_angle_rad) > profile.travel.threshold_rad;
+  const double ahead_mps = off_home ? demand.ahead.lowest_mps : target_mps;
+  const double held_mps = std::min(ahead_mps, profile.travel.flow_share * implement_mps);
+  return std::min(target_mps, std::max(held_mps, profile.travel.speed_min_mps));
+}
+
+SpeedState followed(const DozerProfile& profile, const SpeedState& last, double desired_mps,
+                    double target_mps, double room_mps, double period_s) {
+  const TravelProfile& travel = profile.travel;
+  SpeedState state = last;
+  if (target_mps < last.speed_mps) {
+    const double slowest_mps = last.speed_mps - kBraking * travel.deceleration_max_mps2 * period_s;
+    state.speed_mps = std::max(target_mps, slowest_mps);
+    state.rising = false;
+    state.since_fall_s = 0.0;
+    return state;
+  }
+  state.since_fall_s = std::min(last.since_fall_s + period_s, kPause_s);
+  // Up to what is desired nothing will hold it again soon.
+  const bool is_worth_it = room_mps > last.speed_mps * (1.0 + kWorthIt) || room_mps >= desired_mps;
+  state.rising =
+      room_mps > last.speed_mps && (last.rising || (is_worth_it && state.since_fall_s >= kPause_s));
+  if (state.rising) {
+    state.speed_mps = std::min(room_mps, last.speed_mps + travel.acceleration_max_mps2 * period_s);
+  }
+  return state;
+}
+
+/// What keeps v_c below v_d. Below what is allowed now it gets faster as fast as it may, or waits
+/// as there is no room ahead.
+Limit why_slower(const SpeedState& state, double target_mps, const Limit& holds) {
+  if (target_mps <= state.speed_mps) {
+    return holds;
+  }
+  return state.rising ? Limit{LimitKind::kRise, 0} : Limit{LimitKind::kAhead, 0};
+}
+
+}  // namespace
+
+SpeedChoice next_speed(const DozerProfile& profile, const SpeedState& last,
+                       const SpeedDemand& demand, double period_s) {
+  const double track_max_mps = track_speed_max_mps(profile.hst, demand.engine_radps);
+  const std::array<double, kTrackCount> body_max_mps =
+      body_speeds_max_mps(profile.body, {track_max_mps, track_max_mps}, demand.heading_radps);
+  SpeedChoice choice;
+  choice.allowed_mps = std::min(body_max_mps[kLeft], body_max_mps[kRight]);
+  const auto slower =
+      static_cast<std::uint8_t>(body_max_mps[kLeft] <= body_max_mps[kRight] ? kLeft : kRight);
+  Limit holds{LimitKind::kTransmissionFlow, slower};
+  const double required_m3ps =
+      low_passed(last.required_flow_m3ps, demand.required_flow_m3ps, kFlowFilter_s, period_s);
+  const double off_grade_m =
+      low_passed(last.off_grade_m, std::abs(demand.grade_error_m), kErrorFilter_s, period_s);
+  const double implement_mps = implement_speed_mps(profile, demand, required_m3ps);
+  if (profile.travel.policy == SpeedPolicy::kBounded) {
+    take_lower(implement_mps, {LimitKind::kImplementFlow, 0}, choice.allowed_mps, holds);
+    take_lower(demand.ahead.speed_mps, {LimitKind::kAhead, 0}, choice.allowed_mps, holds);
+    take_lower(on_grade_speed_mps(profile, demand, off_grade_m), {LimitKind::kOffGrade, 0},
+               choice.allowed_mps, holds);
+  }
+  choice.allowed_mps = std::max(choice.allowed_mps, profile.travel.speed_min_mps);
+  const double target_mps = std::min(demand.desired_mps, choice.allowed_mps);
+  choice.state = followed(profile, last, demand.desired_mps, target_mps,
+                          room_mps(profile, demand, implement_mps, target_mps), period_s);
+  choice.state.required_flow_m3ps = required_m3ps;
+  choice.state.off_grade_m = off_grade_m;
+  if (choice.state.speed_mps < demand.desired_mps) {
+    choice.limit = why_slower(choice.state, target_mps, holds);
+  }
+  return choice;
+}
+
+}  // namespace graben

@@ -1,0 +1,99 @@
+#include "firmware/dozer/travel/support.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben {
+namespace {
+
+constexpr double kGravity_mps2 = 9.80665;
+constexpr double kMostStep_m = 0.05;
+constexpr double kMostStep_rad = 0.05;
+constexpr double kMostPitch_rad = 0.8;
+/// The next step of Newton's method is the square of this.
+constexpr double kAtRest_m = 1e-4;
+constexpr double kAtRest_rad = 1e-4;
+
+/// What is missing to equilibrium, and how it changes with height and pitch.
+struct Balance {
+  double force_n = 0.0;
+  double moment_nm = 0.0;
+  double force_per_m = 0.0;
+  double force_per_rad = 0.0;
+  double moment_per_m = 0.0;
+  double moment_per_rad = 0.0;
+};
+
+/// The wheels' springs on this stand. On level ground the origin is at the ground: each spring has
+/// then given way by its share of the weight.
+Balance balance_of(const DozerBody& body, const GroundMap& ground, const GradeProfile& design,
+                   double x_m, const Stand& stand) {
+  const double weight_n = body.mass_kg * kGravity_mps2;
+  const double sag_m = weight_n / (body.wheels * body.suspension_npm);
+  const double c = std::cos(stand.pitch_rad);
+  const double s = std::sin(stand.pitch_rad);
+  const double spacing_m = body.track_contact_m / (body.wheels - 1);
+  const double back_m = body.mass_centre_height_m * s;
+  double along_m = -0.5 * body.track_contact_m;
+  Balance balance;
+  balance.force_n = -weight_n;
+  for (int i = 0; i < body.wheels; ++i, along_m += spacing_m) {
+    const double ahead_m = along_m * c;
+    const double up_m = along_m * s;
+    const double pressed_m =
+        ground.height_m(x_m + ahead_m, design) + sag_m - (stand.height_m + up_m);
+    if (pressed_m > 0.0) {
+      // l cos - h sin of (15): about the mass centre, which the pitch takes back or forth.
+      const double lever_m = ahead_m + back_m;
+      const double force_n = body.suspension_npm * pressed_m;
+      balance.force_n += force_n;
+      balance.moment_nm += force_n * lever_m;
+      balance.force_per_m -= body.suspension_npm;
+      balance.force_per_rad -= body.suspension_npm * ahead_m;
+      balance.moment_per_m -= body.suspension_npm * lever_m;
+      balance.moment_per_rad -= body.suspension_npm * ahead_m * lever_m;
+      balance.moment_per_rad += force_n * (body.mass_centre_height_m * c - up_m);
+    }
+  }
+  return balance;
+}
+
+/// One bounded step of Newton's method.
+Stand next_stand(const Balance& balance, const Stand& stand) {
+  const double determinant =
+      balance.force_per_m * balance.moment_per_rad - balance.force_per_rad * balance.moment_per_m;
+  double up_m = -balance.force_n / std::min(balance.force_per_m, -1.0);
+  double turn_rad = 0.0;
+  if (determinant > 0.0) {
+    up_m = -(balance.force_n * balance.moment_per_rad - balance.moment_nm * balance.force_per_rad) /
+           determinant;
+    turn_rad = -(balance.moment_nm * balance.force_per_m - balance.force_n * balance.moment_per_m) /
+               determinant;
+  } else if (balance.force_per_m < 0.0) {
+    // No rest here: it tips to where the moment drives it.
+    turn_rad = std::copysign(kMostStep_rad, balance.moment_nm);
+  }
+  return {stand.height_m + std::clamp(up_m, -kMostStep_m, kMostStep_m),
+          std::clamp(stand.pitch_rad + std::clamp(turn_rad, -kMostStep_rad, kMostStep_rad),
+                     -kMostPitch_rad, kMostPitch_rad)};
+}
+
+}  // namespace
+
+StandStep step_to_rest(const DozerBody& body, const GroundMap& ground, const GradeProfile& design,
+                       double x_m, const Stand& stand) {
+  const Stand next = next_stand(balance_of(body, ground, design, x_m, stand), stand);
+  return {next, std::abs(next.height_m - stand.height_m) < kAtRest_m &&
+                    std::abs(next.pitch_rad - stand.pitch_rad) < kAtRest_rad};
+}
+
+Stand stand_at(const DozerBody& body, const GroundMap& ground, const GradeProfile& design,
+               double x_m, const Stand& guess) {
+  StandStep step{guess};
+  for (int n = 0; n < kMostStandSteps && !step.at_rest; ++n) {
+    step = step_to_rest(body, ground, design, x_m, step.stand);
+  }
+  return step.stand;
+}
+
+}  // namespace graben

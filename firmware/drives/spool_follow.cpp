@@ -1,0 +1,34 @@
+#include "firmware/drives/spool_follow.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben {
+namespace {
+constexpr double kDeadTimeSpread = 1.3;
+}
+
+bool follow_spool(const SpoolLimits& limits, SpoolState& state, double duty_ratio, bool received,
+                  double spool_ratio) {
+  state.sent.add(duty_ratio);
+  if (!received) {
+    state.wrong_cycles = 0;
+    return false;
+  }
+  const CommandHistory::Range range =
+      state.sent.range(cycles_under_way(kDeadTimeSpread * limits.dead_time_s + limits.settle_s));
+  const bool wrong =
+      spool_ratio < range.least - limits.tolerance || spool_ratio > range.most + limits.tolerance;
+  state.wrong_cycles = wrong ? std::min(state.wrong_cycles + 1, kSpoolWrongCycles) : 0;
+  return state.wrong_cycles >= kSpoolWrongCycles;
+}
+
+int echo_cycles(int last, bool sent, bool echoed) {
+  return echoed == sent ? 0 : std::min(last + 1, kEchoCycles);
+}
+
+bool spool_centred(double spool_ratio, double tolerance) {
+  return std::abs(spool_ratio) <= tolerance;
+}
+
+}  // namespace graben

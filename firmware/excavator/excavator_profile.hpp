@@ -1,0 +1,217 @@
+#pragma once
+/// What an excavator is, as its controller knows it: geometry, valve, pumps, task. Constant after
+/// start; read and range-checked by the application, cross-checked by `profile_check`.
+/// SI units. Sagittal plane: x forward, y up, origin at the boom foot pin; link frames have x from
+/// one pin to the next; joint angles: boom against the horizontal, arm against the boom, bucket
+/// against the arm, folding in is negative.
+
+#include <Eigen/Core>
+#include <array>
+
+#include "firmware/core/codes.hpp"
+#include "firmware/numeric/monotone_table.hpp"
+#include "firmware/excavator/excavator_signals.hpp"
+
+namespace graben {
+
+inline constexpr int kBoom = 0;
+inline constexpr int kArm = 1;
+inline constexpr int kBucket = 2;
+inline constexpr int kSwing = 3;  ///< theta_0 of Zhang et al.; after the axes with a cylinder.
+
+/// One value a drive, in the order kBoom, kArm, kBucket, kSwing.
+using DriveVector = Eigen::Vector4d;
+
+/// Parallel cylinders of one axis. `base` is the pin on the link nearer to the body, `eye` the pin
+/// on the rod's side; which frame each is in stands at the axis.
+struct CylinderGeometry {
+  int count = 1;
+  double bore_m = 0.0;
+  double rod_m = 0.0;
+  double closed_length_m = 0.0;  ///< Pin to pin, closed.
+  double stroke_m = 0.0;
+  Eigen::Vector2d base_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d eye_m = Eigen::Vector2d::Zero();
+
+  /// A_A: cap-side piston area of all of them together, m^2.
+  [[nodiscard]] double cap_area_m2() const;
+  /// A_B: rod-side piston area of all of them together, m^2.
+  [[nodiscard]] double rod_area_m2() const;
+};
+
+/// Rocker on the arm, coupler to the bucket's lug; the bucket cylinder pushes the rocker's end.
+struct BucketLinkage {
+  Eigen::Vector2d rocker_pivot_m = Eigen::Vector2d::Zero();  ///< Arm frame.
+  double rocker_m = 0.0;
+  double coupler_m = 0.0;
+  Eigen::Vector2d lug_m = Eigen::Vector2d::Zero();  ///< Bucket frame, x from pin to tip.
+};
+
+struct ExcavatorGeometry {
+  double boom_length_m = 0.0;
+  double arm_length_m = 0.0;
+  double bucket_length_m = 0.0;  ///< Pin to tip.
+  /// Boom: base in the body frame, eye in the boom frame. Arm: base in the boom frame, eye in the
+  /// arm frame. Bucket: base in the arm frame; its eye is the rocker's end.
+  std::array<CylinderGeometry, kAxisCount> cylinder;
+  BucketLinkage linkage;
+  /// Boom foot pin: a_1 forward of the swing axis and d_0 above the ground, (2) of Zhang et al.
+  Eigen::Vector2d boom_foot_m = Eigen::Vector2d::Zero();
+};
+
+enum class RegenerationSide : int { kRetract = -1, kNone = 0, kExtend = 1 };
+
+/// One four-way directional valve with its bypass and regeneration (Kim 3.1 - 3.3).
+struct SpoolProfile {
+  int pump = 0;               ///< Which pump feeds it.
+  double extend_in_m2 = 0.0;  ///< Areas at full opening: A_v,in and A_v,out of (4), (5).
+  double extend_out_m2 = 0.0;
+  double retract_in_m2 = 0.0;
+  double retract_out_m2 = 0.0;
+  double bypass_open = 0.0;    ///< c_v,by at x = 0 of (20), m^3/(s sqrt(Pa)).
+  double bypass_closed = 0.0;  ///< c_v,by at x != 0 of (20).
+  RegenerationSide regeneration = RegenerationSide::kNone;
+  double c_drain = 0.0;         ///< c_d of (15).
+  double c_check = 0.0;         ///< c_r of (16).
+  double force_offset_n = 0.0;  ///< F_offset of (38).
+  double c_inflow_check = 0.0;  ///< Extra check valve before the spool (Remark 3); 0: none.
+};
+
+/// Swash-plate pump of (25): flow = displacement * speed * swash - leak_linear P - leak_quadratic
+/// P^2.
+struct PumpProfile {
+  double displacement_m3prev = 0.0;  ///< Per revolution at full swash.
+  double rated_speed_radps = 0.0;
+  double leak_linear = 0.0;     ///< m^3/(s Pa)
+  double leak_quadratic = 0.0;  ///< m^3/(s Pa^2)
+  double relief_pa = 0.0;
+  std::array<double, 2> bypass_series{};  ///< Make-up valve and tank orifice of (21), (22).
+};
+
+struct ValveProfile {
+  double spool_travel_m = 0.0;     ///< x_m of (13).
+  double opening_exponent = 1.0;   ///< Area over travel: (|x| / x_m) ^ exponent.
+  double discharge = 0.0;          ///< C_d.
+  double density_kgpm3 = 0.0;      ///< rho.
+  double section_flow_m3ps = 0.0;  ///< Rated, of one spool's section.
+  std::array<SpoolProfile, kDriveCount> spool;
+  /// Opening (|x| / x_m, 0 .. 1) to duty (0 .. 1). Its first value is the duty at which the spool
+  /// begins to open, so that the deadband is crossed in one step; neutral is duty 0 always.
+  MonotoneTable spool_to_duty;
+};
+
+/// Closed rounded rectangle that the bucket tip follows in the digging direction: down at the far
+/// side, in along the bottom, up at the near side, out along the top.
+struct DigPath {
+  double x_min_m = 0.0;
+  double x_max_m = 0.0;
+  double y_min_m = 0.0;
+  double y_max_m = 0.0;
+  double corner_radius_m = 0.0;
+  double attitude_at_x_min_rad = 0.0;  ///< Bucket attitude, linear in x between the two.
+  double attitude_at_x_max_rad = 0.0;
+};
+
+/// How lambda may rise from cycle to cycle; it may fall at once.
+struct LambdaRise {
+  double rate_ps = 0.0;     ///< Per second.
+  double reserve_n = 0.0;   ///< Drive force that every moving cylinder must have beyond its need.
+  double hold_share = 0.0;  ///< Share of the reserve (0 .. 1) for lambda to stay where it is.
+};
+
+/// How the field converges and how commands may change. Ranges are checked where it is read.
+struct ControlProfile {
+  double convergence_length_m = 0.0;  ///< Distance at which the field points at 45 deg to the path.
+  double attitude_gain_ps = 0.0;      ///< Attitude error to attitude rate.
+  double attitude_rate_max_radps = 0.0;  ///< Of the field.
+  double approach_inner_m = 0.0;    ///< Stroke distance under which the contour field alone holds.
+  double approach_outer_m = 0.0;    ///< Stroke distance over which the approach alone holds.
+  double approach_speed_mps = 0.0;  ///< Largest cylinder speed of the approach.
+  double stroke_end_gain_ps = 0.0;  ///< Largest speed towards a cylinder's end, per metre left.
+  McvPolicy lambda_policy = McvPolicy::kGlobal;
+  LambdaRise lambda_rise;
+  double spool_rate_ps = 0.0;         ///< Largest change of |x| / x_m per second.
+  double spool_threshold = 0.0;       ///< |x| / x_m under which a spool is kept at neutral.
+  double sensor_timeout_s = 0.0;      ///< A signal older than this is missing.
+  double response_s = 0.0;            ///< Lag of a cylinder's speed behind its spool command.
+  double servo_gain_ps = 0.0;         ///< What a cylinder owes to its speed.
+  double swing_servo_most_rad = 0.0;  ///< It can owe no more than this, where a plan turns it.
+  double swing_lead_s = 0.0;  ///< Lag of the platform behind its spool, where a plan turns it.
+  double swing_servo_gain_ps = 0.0;  ///< The same of the swing; the platform's oil is softer.
+  double servo_most_m = 0.0;         ///< It can owe no more than this.
+  double servo_least_lambda = 1.0;   ///< Corrections stay whole down to this lambda.
+  double servo_frequency_hz = 0.0;   ///< Of the low-pass of what is owed; undamped.
+  double servo_damping = 0.0;        ///< Its damping ratio.
+  double pressure_filter_s = 0.0;    ///< Low-pass of the load that the valve's model compensates.
+  double slow_error_m = 0.0;         ///< Path error at which the speed along the path is halved.
+  double dead_time_s = 0.0;          ///< From a duty to the spool's first movement.
+};
+
+/// What the watches may think of the machine. Ranges are checked where it is read.
+struct SafetyProfile {
+  double degraded_speed_ratio = 0.0;  ///< Of the task's speed, while a sensor is lost.
+  double idle_radps = 0.0;            ///< Engine at its slowest, assumed where its speed is lost.
+  double settle_s = 0.0;         ///< A spool has reached its duty after this, beside the dead time.
+  double spool_tolerance = 0.0;  ///< Of the spool's travel.
+  double uncommanded_m = 0.0;    ///< A cylinder may go so far where its spool does not lead.
+  double stuck_m = 0.0;          ///< Asked of a cylinder whose stroke stands still.
+  double swing_uncommanded_rad = 0.0;  ///< As uncommanded_m, of the swing.
+  double swing_stuck_rad = 0.0;        ///< As stuck_m, of the swing.
+  double swash_tolerance = 0.0;        ///< Of full swash.
+  double pressure_rail_pa = 0.0;       ///< Where the pressure sensors end.
+};
+
+/// The platform's turning about the vertical, to the left and to the right. Where a motor on one of
+/// the valve's sections drives it, it stands in the valve's equations as a cylinder with equal
+/// areas: travel, speed, force and area are those at `lever_m` from the swing axis.
+struct SwingProfile {
+  double speed_max_radps = 0.0;
+  double acceleration_max_radps2 = 0.0;
+  double displacement_m3prad = 0.0;  ///< Of the motor with its reduction, per radian of swing.
+  double lever_m = 0.0;              ///< Chosen, so that its area is like a cylinder's.
+  double right_end_rad = 0.0;        ///< Ends of the range that the controller keeps to.
+  double left_end_rad = 0.0;
+
+  [[nodiscard]] double area_m2() const { return displacement_m3prad / lever_m; }
+};
+
+/// How straight lines of the teeth are planned.
+struct LineProfile {
+  double acceleration_mps2 = 0.0;  ///< Of the teeth, unless the task says another.
+  std::array<double, kAxisCount> cylinder_acceleration_mps2{};
+  /// Of a task that is followed: error of the teeth at which the plan goes on at half its speed, on
+  /// a straight line and on a move of the drives, which only has to arrive.
+  double slow_error_m = 0.0;
+  double slow_error_s = 0.0;  ///< So much more of it for each m/s of a line's planned speed.
+  double move_slow_error_m = 0.0;
+  double pace_rate_ps = 0.0;  ///< How fast it may slow down and speed up for that, per second.
+  /// How fast a drive's lasting lag is learnt and given on top, per second of what it owes and
+  /// second: leakage of the swing's motor, deadbands.
+  double trim_ps2 = 0.0;
+  double trim_most_mps = 0.0;  ///< No more than this.
+};
+
+struct ExcavatorProfile {
+  int drive_count = kAxisCount;  ///< kDriveCount with a swing section of the valve.
+  ExcavatorGeometry geometry;
+  SwingProfile swing;
+  LineProfile line;
+  ValveProfile valve;
+  int pump_count = kPumpCount;  ///< How many there are of them; the others stay at nothing.
+  std::array<PumpProfile, kPumpCount> pump;
+  DigPath dig_path;
+  double dig_speed_mps = 0.0;                        ///< Of the tip along the path.
+  std::array<double, kPumpCount> dig_swash_ratio{};  ///< What the pumps are told to be at.
+  ControlProfile control;
+  SafetyProfile safety;
+
+  [[nodiscard]] bool has_swing() const { return drive_count == kDriveCount; }
+  /// Area that extends the drive, all its cylinders together; of the swing that at its lever.
+  [[nodiscard]] double extend_area_m2(int drive) const;
+  [[nodiscard]] double retract_area_m2(int drive) const;
+  /// Ends of the drive's way: a cylinder's stroke, the swing's range at its lever.
+  [[nodiscard]] double least_travel_m(int drive) const;
+  [[nodiscard]] double most_travel_m(int drive) const;
+};
+
+}  // namespace graben

@@ -1,0 +1,75 @@
+#pragma once
+/// A program as the control cycle follows it: what its plan wants of each drive now, how fast the
+/// machine's own place lets it, and how it goes on. Travels and velocities of the swing are those
+/// at its lever (SwingProfile).
+
+#include "firmware/core/guarded.hpp"
+#include "firmware/drives/cylinder_servo.hpp"
+#include "firmware/excavator/tasks/soft_limit.hpp"
+#include "firmware/excavator/tasks/task_run.hpp"
+#include "firmware/excavator/excavator_signals.hpp"
+
+namespace graben {
+
+/// What one cycle hands to the next.
+struct TaskMemory {
+  bool runs = false;
+  std::uint8_t number = 0;
+  TaskState state;
+  Guarded<double> time_s = 0.0;  ///< Of the state, like its pace: kept twice.
+  Guarded<double> pace_ratio = 1.0;
+  /// All else that says where it is, in one number; as constructed it does not run.
+  Guarded<std::int64_t> place = 2 * static_cast<int>(TaskPhase::kDone);
+
+  /// Whether the state is what it was when it was stored.
+  [[nodiscard]] bool intact() const;
+};
+
+[[nodiscard]] TaskMemory remembered(std::uint8_t number, const TaskState& state);
+
+/// What the drives are to do now.
+struct TaskWant {
+  bool runs = false;
+  bool holds = false;  ///< Drives that are to stand are held where they are planned to be.
+  bool known = true;   ///< False: the plan is not one of this machine.
+  DriveVector planned_m = DriveVector::Zero();   ///< Travel that was asked for until now.
+  DriveVector wanted_mps = DriveVector::Zero();  ///< V_L^d.
+  double pace_ratio = 1.0;    ///< Of the plan's speed: less where the teeth are behind it.
+  double error_m = 0.0;       ///< Of the teeth from where they should be by now.
+  double path_error_m = 0.0;  ///< The same from the step's straight line, where it is one.
+  TaskProgress progress;
+};
+
+/// Strokes and swing angle as travels, and back.
+[[nodiscard]] DriveVector travel_of(const ExcavatorProfile& profile, const DriveVector& drives);
+[[nodiscard]] DriveVector drives_of(const ExcavatorProfile& profile, const DriveVector& travel_m);
+
+/// `aim` is task_aim of the memory's state; `servo` has this cycle's strokes. Speed is that of the
+/// plan times `speed_override_ratio`. The place where the teeth should be is the plan's less what
+/// is still under way to the drives.
+[[nodiscard]] TaskWant want_of_task(const ExcavatorProfile& profile,
+                                    const SwingKinematics& kinematics, const TaskProgram& program,
+                                    const TaskMemory& memory, const TaskAim& aim,
+                                    const ServoState& servo, double speed_override_ratio);
+
+/// What the swing has to be asked for beyond `wanted_mps` so that its platform is as fast by then:
+/// its lag (control.swing_lead_s) times the change of what is wanted, as far as the platform can
+/// follow that at all.
+[[nodiscard]] double swing_lead_mps(const ExcavatorProfile& profile, double wanted_mps,
+                                    double last_wanted_mps, double period_s);
+
+/// soft_limit for travels, where what is under way will have brought them: `velocity_mps` is what
+/// the valve would be asked for.
+[[nodiscard]] VelocityCap task_cap(const ExcavatorProfile& profile,
+                                   const SwingKinematics& kinematics, const TaskProgram& program,
+                                   const ServoState& servo, const DriveVector& velocity_mps);
+
+/// The memory after a cycle in which the task was followed at `followed_ratio` of the plan's
+/// velocity, but for its own pace: lambda, the soft limit's factor and the operator's override. A
+/// task that does not run yet, or another number, starts from `travel_m`.
+[[nodiscard]] TaskMemory next_task(const ExcavatorProfile& profile, const TaskProgram& program,
+                                   const TaskMemory& last, std::uint8_t number,
+                                   const DriveVector& travel_m, double followed_ratio,
+                                   double error_m, double period_s);
+
+}  // namespace graben

@@ -1,0 +1,234 @@
+#include "firmware/excavator/tasks/task_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/excavator/tasks/task_walk.hpp"
+
+namespace graben {
+namespace {
+
+constexpr double kSameLength = 1e-6;  ///< A normal's, against 1.
+/// Steeper than this, the cosine to the vertical, raising straight up leads too far.
+constexpr double kLeastUp = 0.2;
+constexpr double kSame_m = 1e-6;
+constexpr double kSame_rad = 1e-6;
+
+bool unit(const Eigen::Vector3d& normal) {
+  return normal.allFinite() && std::abs(normal.norm() - 1.0) < kSameLength;
+}
+
+bool not_negative(double value) { return std::isfinite(value) && value >= 0.0; }
+
+bool usable(const FenceSet& fences, int most) {
+  if (fences.count < 0 || fences.count > most) {
+    return false;
+  }
+  return std::all_of(fences.fence.begin(), fences.fence.begin() + fences.count,
+                     [](const Fence& f) { return unit(f.normal) && std::isfinite(f.offset_m); });
+}
+
+bool usable(const DesignPlane& design) {
+  return design.through_m.allFinite() && unit(design.up) && design.up.z() > kLeastUp &&
+         not_negative(design.clearance_m);
+}
+
+/// A line's pace and poses are plan_line's to judge.
+bool usable(const StepRequest& step) {
+  const bool kind = step.kind >= StepKind::kDig && step.kind <= StepKind::kReturnToDig;
+  return kind && (step.straight || (step.pace_ratio > 0.0 && step.pace_ratio <= 1.0 &&
+                                    not_negative(step.duration_s)));
+}
+
+bool same(const TeethPose& a, const TeethPose& b) {
+  return (a.position_m - b.position_m).norm() < kSame_m &&
+         std::abs(a.attitude_rad - b.attitude_rad) < kSame_rad;
+}
+
+/// Plans one program.
+class Planning {
+ public:
+  Planning(const ExcavatorProfile& profile, const ProgramRequest& request)
+      : profile_(profile),
+        request_(request),
+        kinematics_(profile.geometry),
+        limits_(drive_limits(profile)) {}
+
+  [[nodiscard]] ProgramResult run();
+
+ private:
+  [[nodiscard]] bool usable_request() const;
+  void raise_digging(bool closed);
+  [[nodiscard]] bool plan_step(int number);
+  [[nodiscard]] bool plan_straight(const StepRequest& asked, TaskStep& step, StepNote& note,
+                                   int number);
+  [[nodiscard]] bool plan_move(const StepRequest& asked, TaskStep& step, int number);
+  [[nodiscard]] bool keeps_free(const TaskStep& step, int number);
+  /// Always false.
+  bool refuse(ProgramRefusal why, int step, const BlindPlace& place = {});
+
+  /// Of the pose that step `number` begins at; of its end with number + 1.
+  [[nodiscard]] TeethPose& pose(int number) { return pose_[static_cast<unsigned>(number)]; }
+
+  const ExcavatorProfile& profile_;
+  const ProgramRequest& request_;
+  SwingKinematics kinematics_;
+  DriveLimits limits_;
+  std::array<TeethPose, kStepMost + 1> pose_;
+  DriveVector drives_ = DriveVector::Zero();  ///< Where the steps planned so far end.
+  ProgramResult result_;
+};
+
+bool Planning::refuse(ProgramRefusal why, int step, const BlindPlace& place) {
+  result_.refusal = why;
+  result_.step = step;
+  result_.place = place;
+  return false;
+}
+
+bool Planning::usable_request() const {
+  const int fence_most = request_.has_design ? kFenceMost - 1 : kFenceMost;
+  return request_.step_count > 0 && request_.step_count <= kStepMost &&
+         usable(request_.fences, fence_most) && (!request_.has_design || usable(request_.design)) &&
+         std::all_of(request_.step.begin(), request_.step.begin() + request_.step_count,
+                     [](const StepRequest& step) { return usable(step); });
+}
+
+/// A line between two ends that keep the clearance keeps it all along. What is `closed` stays so:
+/// one pose, raised as the end of the one step or as the beginning of the other.
+void Planning::raise_digging(bool closed) {
+  std::array<double, kStepMost + 1> raised_m{};
+  for (int i = 0; i < request_.step_count; ++i) {
+    const StepRequest& step = request_.step[static_cast<unsigned>(i)];
+    if (step.kind != StepKind::kDig || !step.straight) {
+      continue;
+    }
+    for (const int end : {i, i + 1}) {
+      const double missing_m =
+          request_.design.clearance_m - request_.design.height_m(pose(end).position_m);
+      const double up_m = std::max(0.0, missing_m / request_.design.up.z());
+      pose(end).position_m.z() += up_m;
+      raised_m[static_cast<unsigned>(end)] += up_m;
+    }
+  }
+  const auto last = static_cast<unsigned>(request_.step_count);
+  if (closed) {
+    TeethPose& end = pose_[last];
+    end.position_m.z() = std::max(end.position_m.z(), pose_[0].position_m.z());
+    pose_[0] = end;
+    raised_m[0] = raised_m[last] = std::max(raised_m[0], raised_m[last]);
+  }
+  for (unsigned i = 0; i < last; ++i) {
+    result_.note[i].raised_m = std::max(raised_m[i], raised_m[i + 1]);
+  }
+}
+
+bool Planning::plan_straight(const StepRequest& asked, TaskStep& step, StepNote& note, int number) {
+  LineRequest line{pose(number), pose(number + 1), profile_.line.acceleration_mps2};
+  line.duration_s = asked.duration_s;
+  line.speed_mps = asked.speed_mps;
+  const PlanResult plan = plan_line(kinematics_, limits_, line);
+  switch (plan.refusal) {
+    case PlanRefusal::kNone:
+      break;
+    case PlanRefusal::kNoWay:
+      return refuse(ProgramRefusal::kNoWay, number);
+    case PlanRefusal::kBlindSpot:
+      return refuse(ProgramRefusal::kBlindSpot, number, plan.blind);
+    default:
+      return refuse(ProgramRefusal::kBadRequest, number);
+  }
+  step.line = plan.plan;
+  note.slowed_by = plan.slowed_by;
+  note.drive = plan.drive;
+  note.slowed_ratio = plan.slowed_ratio;
+  drives_ = line_motion(kinematics_, step.line.line, 1.0).value;
+  return true;
+}
+
+bool Planning::plan_move(const StepRequest& asked, TaskStep& step, int number) {
+  const DriveResult to = kinematics_.drive_from_teeth(pose(number + 1));
+  if (to.blind.kind != BlindKind::kNone) {
+    return refuse(ProgramRefusal::kBlindSpot, number, {to.blind, 1.0, pose(number + 1)});
+  }
+  step.drives = plan_drives(limits_, drives_, to.value, {asked.pace_ratio, asked.duration_s});
+  if (!(step.drives.ramp.duration_s > 0.0)) {
+    return refuse(ProgramRefusal::kNoWay, number);
+  }
+  drives_ = to.value;
+  return true;
+}
+
+bool Planning::keeps_free(const TaskStep& step, int number) {
+  const BarredPlace barred =
+      first_barred_place(profile_, kinematics_, result_.program.fences, step);
+  result_.fence = barred.fence;
+  result_.point = barred.point;
+  return barred.why == ProgramRefusal::kNone || refuse(barred.why, number, barred.place);
+}
+
+bool Planning::plan_step(int number) {
+  const auto i = static_cast<unsigned>(number);
+  const StepRequest& asked = request_.step[i];
+  TaskStep& step = result_.program.step[i];
+  step.kind = asked.kind;
+  step.straight = asked.straight;
+  const bool planned = asked.straight ? plan_straight(asked, step, result_.note[i], number)
+                                      : plan_move(asked, step, number);
+  if (!planned) {
+    return false;
+  }
+  if (!profile_.has_swing() && std::abs(drives_[kSwing]) > kSame_rad) {
+    return refuse(ProgramRefusal::kNoSwing, number, {{}, 1.0, pose(number + 1)});
+  }
+  return keeps_free(step, number);
+}
+
+ProgramResult Planning::run() {
+  if (!usable_request()) {
+    return result_;
+  }
+  pose(0) = request_.start;
+  for (int i = 0; i < request_.step_count; ++i) {
+    pose(i + 1) = request_.step[static_cast<unsigned>(i)].to;
+  }
+  const bool closed = same(pose(request_.step_count), pose(0));
+  TaskProgram& program = result_.program;
+  program.fences = request_.fences;
+  if (request_.has_design) {
+    raise_digging(closed);
+    program.fences.fence[static_cast<unsigned>(program.fences.count++)] = request_.design.fence();
+  }
+  const DriveResult start = kinematics_.drive_from_teeth(pose(0));
+  if (start.blind.kind != BlindKind::kNone) {
+    refuse(ProgramRefusal::kBlindSpot, 0, {start.blind, 0.0, pose(0)});
+    return result_;
+  }
+  if (!profile_.has_swing() && std::abs(start.value[kSwing]) > kSame_rad) {
+    refuse(ProgramRefusal::kNoSwing, 0, {{}, 0.0, pose(0)});
+    return result_;
+  }
+  program.start = drives_ = start.value;
+  for (int i = 0; i < request_.step_count; ++i) {
+    if (!plan_step(i)) {
+      return result_;
+    }
+  }
+  if (request_.repeats && !closed) {
+    refuse(ProgramRefusal::kOpenEnd, request_.step_count - 1, {{}, 1.0, pose(request_.step_count)});
+    return result_;
+  }
+  program.step_count = request_.step_count;
+  program.repeats = request_.repeats;
+  program.end = drives_;
+  result_.refusal = ProgramRefusal::kNone;
+  return result_;
+}
+
+}  // namespace
+
+ProgramResult plan_program(const ExcavatorProfile& profile, const ProgramRequest& request) {
+  return Planning(profile, request).run();
+}
+
+}  // namespace graben

@@ -1,0 +1,105 @@
+#pragma once
+/// A task as a sequence of steps, planned from end to end and looked at as a whole before anything
+/// moves.
+
+#include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/excavator/tasks/drive_plan.hpp"
+#include "firmware/excavator/tasks/fence.hpp"
+#include "firmware/excavator/tasks/line_plan.hpp"
+
+namespace graben {
+
+inline constexpr int kStepMost = 12;
+inline constexpr int kTaskMost = 4;
+
+/// A step as it is asked for: from where the one before ends.
+struct StepRequest {
+  StepKind kind = StepKind::kNone;
+  TeethPose to;
+  bool straight = true;    ///< A straight line of the teeth; else a move straight in drive space.
+  double speed_mps = 0.0;  ///< Of a line, as in LineRequest: either this or the duration.
+  double duration_s = 0.0;
+  double pace_ratio = 1.0;  ///< Of a drive move, see DrivePace.
+};
+
+struct ProgramRequest {
+  TeethPose start;
+  std::array<StepRequest, kStepMost> step;
+  int step_count = 0;
+  bool repeats = false;  ///< Its last step has to end where it starts.
+  FenceSet fences;       ///< With a design plane one less than there is room for.
+  bool has_design = false;
+  DesignPlane design;
+};
+
+struct TaskStep {
+  StepKind kind = StepKind::kNone;
+  bool straight = true;
+  LinePlan line;     ///< Where it is straight.
+  DrivePlan drives;  ///< Where it is not.
+
+  [[nodiscard]] double duration_s() const {
+    return straight ? line.ramp.duration_s : drives.ramp.duration_s;
+  }
+};
+
+/// All that an executor needs. As constructed there is none.
+struct TaskProgram {
+  std::array<TaskStep, kStepMost> step;
+  int step_count = 0;
+  bool repeats = false;
+  DriveVector start = DriveVector::Zero();  ///< Drives at the first pose.
+  DriveVector end = DriveVector::Zero();    ///< Drives at the last.
+  FenceSet fences;                          ///< The design surface is the last of them.
+};
+
+/// What can be chosen over the bus, by task number from 0.
+struct TaskBook {
+  std::array<TaskProgram, kTaskMost> program;
+  int count = 0;
+};
+static_assert(sizeof(TaskBook) < 12 * 1024, "a controller's memory holds it beside all else");
+
+/// Why there is no program.
+enum class ProgramRefusal : std::uint8_t {
+  kNone = 0,
+  kBadRequest = 1,  ///< A number is not finite, out of its range, or not one of the two paces.
+  kNoWay = 2,       ///< The step ends where it begins.
+  kBlindSpot = 3,   ///< The machine can't be at `place`, or can't move from there.
+  kFence = 4,       ///< `point` of the machine passes `fence` at `place`.
+  kSwingEnd = 5,    ///< The swing leaves its range at `place`.
+  kNoSwing = 6,     ///< It would have to turn, and no drive of this machine does.
+  kOpenEnd = 7,     ///< It repeats, but its end is not its start.
+};
+
+/// What planning did to a step.
+struct StepNote {
+  double raised_m = 0.0;  ///< The higher of its ends, to keep the clearance above the design.
+  PlanLimit slowed_by = PlanLimit::kNone;  ///< As in PlanResult; of a line.
+  int drive = 0;
+  double slowed_ratio = 1.0;
+};
+
+struct ProgramResult {
+  ProgramRefusal refusal = ProgramRefusal::kBadRequest;
+  int step = 0;      ///< Which, from 0; the start belongs to the first.
+  BlindPlace place;  ///< Share of the step and teeth there; `blind` only where it is one.
+  int fence = 0;
+  MachinePoint point = MachinePoint::kTeeth;
+  std::array<StepNote, kStepMost> note;
+  TaskProgram program;  ///< Valid only if nothing is refused.
+};
+
+/// Every step planned from where the one before ends, then walked against swing range and fences.
+/// Both ends of a straight `dig` step that are lower than the clearance above the design plane are
+/// raised to it, straight up; with them the whole line is, and a step before or after it meets it
+/// where it now begins or ends (see StepNote). The design surface itself then is one more fence,
+/// for the teeth: no other step may go below it either.
+///
+/// The approach from wherever the machine stands is no part of it: see task_start.
+///
+/// Not for a control cycle: some 500 poses a step, at most 21000 and 10000 a fence.
+[[nodiscard]] ProgramResult plan_program(const ExcavatorProfile& profile,
+                                         const ProgramRequest& request);
+
+}  // namespace graben

@@ -1,0 +1,190 @@
+#include "firmware/excavator/tasks/task_run.hpp"
+
+#include <algorithm>
+
+namespace graben {
+namespace {
+
+const TaskStep& step_of(const TaskProgram& program, const TaskState& state) {
+  return program.step[static_cast<unsigned>(std::clamp(state.step, 0, kStepMost - 1))];
+}
+
+const DrivePlan& approach_of(const TaskState& state) {
+  return state.step == 0 ? state.approach : state.descent;
+}
+
+double duration_s(const TaskProgram& program, const TaskState& state) {
+  return state.phase == TaskPhase::kApproach ? approach_of(state).ramp.duration_s
+                                             : step_of(program, state).duration_s();
+}
+
+/// Where the drives are decides where the teeth are.
+TaskAim aim_of_drives(const SwingKinematics& kinematics, StepKind kind, const DriveState& drives,
+                      bool moves) {
+  TaskAim aim;
+  aim.kind = kind;
+  aim.share = moves ? drives.progress.share : 1.0;
+  aim.value = drives.value;
+  aim.velocity = drives.velocity;
+  const DriveResult joints = kinematics.joints_from_drive(aim.value);
+  aim.blind = joints.blind;
+  aim.teeth = kinematics.teeth_from_joints(joints.value);
+  return aim;
+}
+
+TaskAim aim_of_plan(const SwingKinematics& kinematics, StepKind kind, const DrivePlan& plan,
+                    double time_s) {
+  return aim_of_drives(kinematics, kind, drive_state(plan, time_s), plan.ramp.duration_s > 0.0);
+}
+
+TaskAim aim_of_line(const SwingKinematics& kinematics, StepKind kind, const LinePlan& plan,
+                    double time_s) {
+  const Progress progress = plan.ramp.at(time_s);
+  const DriveMotion drives = line_motion(kinematics, plan.line, progress.share);
+  TaskAim aim;
+  aim.kind = kind;
+  aim.blind = drives.blind;
+  aim.share = progress.share;
+  aim.value = drives.value;
+  aim.velocity = progress.rate_ps * drives.rate;
+  aim.teeth = plan.line.at(progress.share);
+  return aim;
+}
+
+/// After an end that has been reached.
+TaskState next_part(const TaskProgram& program, const TaskState& state) {
+  TaskState next = state;
+  next.time_s = 0.0;
+  next.settle_s = 0.0;
+  next.calm_s = 0.0;
+  if (state.phase == TaskPhase::kApproach && state.step == 0) {
+    next.step = 1;
+    return next;
+  }
+  next.step = state.phase == TaskPhase::kApproach ? 0 : state.step + 1;
+  next.phase = TaskPhase::kSteps;
+  if (next.step >= program.step_count) {
+    const bool again = program.repeats && program.step_count > 0;
+    next.step = again ? 0 : std::max(0, program.step_count - 1);
+    next.phase = again ? TaskPhase::kSteps : TaskPhase::kDone;
+  }
+  return next;
+}
+
+double slow_error_m(const LineProfile& line, const TaskProgram& program, const TaskState& state) {
+  if (!on_line(program, state)) {
+    return line.move_slow_error_m;
+  }
+  const LinePlan& plan = step_of(program, state).line;
+  const double speed_mps = plan.way_m * plan.ramp.at(state.time_s).rate_ps;
+  return line.slow_error_m + line.slow_error_s * speed_mps;
+}
+
+bool inside(const SwingKinematics& kinematics, const FenceSet& fences, const DriveVector& drives) {
+  const MachineMotion machine = machine_motion(kinematics, drives, DriveVector::Zero());
+  bool all = machine.status == ReachStatus::kOk;
+  for (int i = 0; i < fences.count; ++i) {
+    const Fence& fence = fences.fence[static_cast<unsigned>(i)];
+    for (int point = 0; point < fence.guarded(); ++point) {
+      all = all && fence_gap(fence, machine.point[static_cast<unsigned>(point)]).distance_m > 0.0;
+    }
+  }
+  return all;
+}
+
+/// Where an approach comes to before it goes down to the start.
+DriveVector above_start(const ExcavatorProfile& profile, const TaskProgram& program,
+                        const DriveVector& from) {
+  const SwingKinematics kinematics(profile.geometry);
+  const auto teeth = [&](const DriveVector& drives) {
+    return kinematics.teeth_from_joints(kinematics.joints_from_drive(drives).value);
+  };
+  const TeethPose start = teeth(program.start);
+  if ((teeth(from).position_m - start.position_m).norm() < kNear_m) {
+    return program.start;
+  }
+  for (const double lift_m : {kLift_m, 0.5 * kLift_m}) {
+    TeethPose lifted = start;
+    lifted.position_m.z() += lift_m;
+    DriveResult above = kinematics.drive_from_teeth(lifted);
+    above.value[kSwing] = program.start[kSwing];
+    if (above.blind.kind == BlindKind::kNone && inside(kinematics, program.fences, above.value)) {
+      return above.value;
+    }
+  }
+  return program.start;
+}
+
+}  // namespace
+
+TaskState task_start(const ExcavatorProfile& profile, const TaskProgram& program,
+                     const DriveVector& drives_now) {
+  DriveVector from = drives_now;
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    from[i] = std::clamp(from[i], 0.0, profile.geometry.cylinder[i].stroke_m);
+  }
+  if (!profile.has_swing()) {
+    from[kSwing] = program.start[kSwing];
+  }
+  TaskState state;
+  state.phase = TaskPhase::kApproach;
+  const DriveLimits limits = drive_limits(profile);
+  const DriveVector above = above_start(profile, program, from);
+  state.approach = plan_drives(limits, from, above, {kApproachPace, 0.0});
+  state.descent = plan_drives(limits, above, program.start, {kApproachPace, 0.0});
+  return state;
+}
+
+TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
+                 const TaskState& state) {
+  if (state.phase == TaskPhase::kApproach) {
+    return aim_of_plan(kinematics, StepKind::kApproach, approach_of(state), state.time_s);
+  }
+  if (state.phase == TaskPhase::kDone) {
+    DriveState stands;
+    stands.value = program.end;
+    return aim_of_drives(kinematics, StepKind::kDone, stands, false);
+  }
+  const TaskStep& step = step_of(program, state);
+  return step.straight ? aim_of_line(kinematics, step.kind, step.line, state.time_s)
+                       : aim_of_plan(kinematics, step.kind, step.drives, state.time_s);
+}
+
+bool on_line(const TaskProgram& program, const TaskState& state) {
+  return state.phase == TaskPhase::kSteps && step_of(program, state).straight;
+}
+
+double wanted_pace(const LineProfile& line, const TaskProgram& program, const TaskState& state,
+                   double error_m) {
+  const double off = error_m / slow_error_m(line, program, state);
+  const double slowed = 1.0 / (1.0 + off * off);
+  return slowed > 0.0 ? slowed : 0.0;
+}
+
+TaskState task_advance(const LineProfile& line, const TaskProgram& program, const TaskState& state,
+                       double advance_s, double period_s, double error_m) {
+  if (state.phase == TaskPhase::kDone) {
+    return state;
+  }
+  TaskState next = state;
+  const double end_s = duration_s(program, state);
+  const double by_s = state.pace_ratio * advance_s;
+  const double change = line.pace_rate_ps * period_s;
+  next.pace_ratio = std::clamp(wanted_pace(line, program, state, error_m),
+                               state.pace_ratio - change, state.pace_ratio + change);
+  // Written so that NaN stays where it is.
+  next.time_s += by_s > 0.0 ? by_s : 0.0;
+  if (next.time_s < end_s) {
+    return next;
+  }
+  if (state.phase == TaskPhase::kApproach && state.step == 0) {
+    return next_part(program, next);
+  }
+  next.time_s = end_s;
+  next.settle_s += period_s;
+  next.calm_s = error_m < kSettled_m ? state.calm_s + period_s : 0.0;
+  const bool there = next.calm_s >= kCalm_s || next.settle_s >= kSettleMost_s;
+  return there ? next_part(program, next) : next;
+}
+
+}  // namespace graben

@@ -1,0 +1,87 @@
+#pragma once
+/// Executes a program: where on its plan a task is, what is wanted there, and how it goes on.
+
+#include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/excavator/tasks/task_program.hpp"
+
+namespace graben {
+
+enum class TaskPhase : std::uint8_t {
+  kApproach = 0,  ///< To the first pose.
+  kSteps = 1,
+  kDone = 2,  ///< Stands at the last pose.
+};
+
+/// What one cycle hands to the next. The place on the plan is a time of the plan, not of a clock:
+/// nothing is ever behind, and nothing has to be caught up.
+struct TaskState {
+  TaskPhase phase = TaskPhase::kDone;
+  int step = 0;
+  double time_s = 0.0;    ///< tau: of the plan of approach or step.
+  double settle_s = 0.0;  ///< How long it has waited at its end.
+  double calm_s = 0.0;    ///< How long of that the teeth have been there without a break.
+  /// Of the plan's speed, 0 .. 1: the aim's velocity has to be scaled by it before what is owed is
+  /// added, and task_advance goes on by it. Drives that went on at full speed would run ahead of a
+  /// plan that waits for them, and make the error that it waits for.
+  double pace_ratio = 1.0;
+  DrivePlan approach;  ///< Step 0 of the approach: to above the first pose.
+  DrivePlan descent;   ///< Step 1: down to it.
+};
+
+/// What the plan wants at one moment.
+struct TaskAim {
+  StepKind kind = StepKind::kNone;
+  /// kNone but for a program that was never planned for this machine: then nothing else holds.
+  BlindSpot blind;
+  double share = 0.0;  ///< Of approach or step, 0 .. 1.
+  DriveVector value = DriveVector::Zero();
+  DriveVector velocity =
+      DriveVector::Zero();  ///< By the plan's time, at lambda 1; see task_slowing.
+  TeethPose teeth;          ///< Where they are planned to be.
+};
+
+/// An end is reached with the teeth so near to it for so long: a platform that swings through its
+/// place is not there yet ...
+inline constexpr double kSettled_m = 5e-3;
+inline constexpr double kCalm_s = 0.2;
+/// ... or after so long: what is left then is the next step's to correct.
+inline constexpr double kSettleMost_s = 2.0;
+/// How far above the first pose an approach comes to, or half of it; teeth nearer than kNear_m to
+/// that pose need none of it.
+inline constexpr double kLift_m = 0.8;
+inline constexpr double kNear_m = 0.3;
+/// Share of the drives' limits that the approach keeps to.
+inline constexpr double kApproachPace = 0.3;
+
+/// From where the machine stands, its drives taken into their ranges: a move straight in drive
+/// space to above the first pose, and one down to it, so that a bucket that stands in a cut comes
+/// out of it before it goes back; at once down where it is near, or where nothing above can be had.
+/// It can't meet a blind spot. It is not checked against fences, as a
+/// machine may have to come from anywhere, even from beyond one: there the soft limit holds it,
+/// and a machine that stands beyond a fence is free to leave.
+[[nodiscard]] TaskState task_start(const ExcavatorProfile& profile, const TaskProgram& program,
+                                   const DriveVector& drives_now);
+
+[[nodiscard]] TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
+                               const TaskState& state);
+
+/// Whether a straight line of the teeth is being followed; else a move of the drives, or none.
+[[nodiscard]] bool on_line(const TaskProgram& program, const TaskState& state);
+
+/// The pace that an error of the teeth asks for: half where they are line.slow_error_m off their
+/// planned place and line.slow_error_s times the line's planned speed there, as the digging field
+/// does along its path; or line.move_slow_error_m where the drives are only moved; 0 for NaN. From
+/// rest a drive that sticks is waited for sooner than one that lags on the way.
+[[nodiscard]] double wanted_pace(const LineProfile& line, const TaskProgram& program,
+                                 const TaskState& state, double error_m);
+
+/// One cycle on. `advance_s` is what the plan may go on by: lambda and every other factor on the
+/// velocity but its own pace, times the period. The pace follows wanted_pace no faster than
+/// line.pace_rate_ps: a platform can't be slowed at once, and a plan that tries makes it swing
+/// about its place. At the end of a step it waits until the teeth have been within
+/// kSettled_m for kCalm_s, or for kSettleMost_s.
+[[nodiscard]] TaskState task_advance(const LineProfile& line, const TaskProgram& program,
+                                     const TaskState& state, double advance_s, double period_s,
+                                     double error_m);
+
+}  // namespace graben

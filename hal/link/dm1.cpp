@@ -1,0 +1,96 @@
+#include "hal/link/dm1.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "firmware/safety/fault_table.hpp"
+
+namespace graben {
+namespace {
+
+constexpr TimeUs kRoundUs = kSecondUs;
+constexpr TimeUs kCallUs = 10 * kMillisecondUs;
+constexpr TimeUs kShortestUs = 100 * kMillisecondUs;
+constexpr TimeUs kSlackUs = kCallUs / 2;  ///< A call may come early by that.
+
+TimeUs period_us(const FaultSet& active) {
+  TimeUs count = 0;
+  for (Fault fault = active.first(); fault != Fault::kNone; fault = active.after(fault)) {
+    ++count;
+  }
+  const TimeUs share_us = kRoundUs / std::max<TimeUs>(count, 1);
+  return std::max(share_us - share_us % kCallUs, kShortestUs);
+}
+
+/// Whether at least `period_us` have passed. A clock that went back is no reason to fall silent.
+bool has_passed(TimeUs since_us, TimeUs period_us, TimeUs now) {
+  return now < since_us || now - since_us >= period_us - kSlackUs;
+}
+
+Dm1Content lamps(const FaultSet& active) {
+  Dm1Content content;
+  for (Fault fault = active.first(); fault != Fault::kNone; fault = active.after(fault)) {
+    (fault_row(fault).red_stop ? content.red_stop : content.amber_warning) = true;
+  }
+  return content;
+}
+
+}  // namespace
+
+void Dm1::note(const FaultSet& active, TimeUs now) {
+  for (Fault fault = active.first(); fault != Fault::kNone; fault = active.after(fault)) {
+    if (active_.has(fault)) {
+      continue;
+    }
+    Entry& of = entry(fault);
+    of.occurrences =
+        std::min<std::uint8_t>(static_cast<std::uint8_t>(of.occurrences + 1U), kDm1MaxOccurrences);
+    of.is_new = !of.was_said || has_passed(of.said_us, kRoundUs, now);
+  }
+  active_ = active;
+}
+
+Fault Dm1::first_new() const {
+  for (Fault fault = active_.first(); fault != Fault::kNone; fault = active_.after(fault)) {
+    if (entries_[static_cast<std::size_t>(fault)].is_new) {
+      return fault;
+    }
+  }
+  return Fault::kNone;
+}
+
+bool Dm1::is_turn(const FaultSet& active, TimeUs now) const {
+  return !has_started_ || has_passed(turn_us_, period_us(active), now);
+}
+
+bool Dm1::due(const FaultSet& active, TimeUs now, Dm1Content& content) {
+  note(active, now);
+  Fault fault = first_new();
+  const bool is_new = fault != Fault::kNone;
+  if (!is_new && !is_turn(active, now)) {
+    return false;
+  }
+  if (!is_new) {
+    const Fault next = active.after(last_);
+    fault = next != Fault::kNone ? next : active.first();
+    last_ = fault;
+  }
+  // A new fault is said beside the turns and does not hold them up.
+  if (!is_new || !has_started_) {
+    turn_us_ = now;
+  }
+  has_started_ = true;
+  content = lamps(active);
+  if (fault != Fault::kNone) {
+    Entry& of = entry(fault);
+    of.is_new = false;
+    of.was_said = true;
+    of.said_us = now;
+    content.spn = kDm1FirstSpn + static_cast<std::uint32_t>(fault);
+    content.fmi = fault_row(fault).fmi;
+    content.occurrences = of.occurrences;
+  }
+  return true;
+}
+
+}  // namespace graben

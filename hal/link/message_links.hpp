@@ -1,0 +1,116 @@
+#pragma once
+/// Which frames of a bus may be used: kind, length, end-to-end protection, and what became of each.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "can_dbc/codec.hpp"
+#include "firmware/core/fault_set.hpp"
+#include "firmware/core/time.hpp"
+#include "hal/link/bus_parts.hpp"
+#include "hal/can_frame.hpp"
+#include "hal/link/e2e.hpp"
+#include "hal/link/e2e_window.hpp"
+#include "hal/link/link_counters.hpp"
+
+namespace graben {
+
+/// How a message that is received is known and protected.
+struct MessageRule {
+  std::uint32_t id = 0;  ///< 29 bits: priority, page, PGN and source address.
+  std::uint8_t length = 0;
+  bool is_protected = false;
+  E2eConfig e2e;
+  BusPart part = nullptr;  ///< Taken only by a machine that has it.
+};
+
+/// One cycle more than the counter may skip: then the counter alone would refuse the frame, and it
+/// is far below the 15 cycles after which it would not.
+template <class Message>
+constexpr MessageRule message_rule(BusPart part) {
+  constexpr TimeUs kMaxSilenceUs =
+      (Message::kMaxDeltaCounter + 1) * Message::kCycleTimeMs * kMillisecondUs;
+  return {Message::kId, Message::kLength, Message::kProtected,
+          E2eConfig{Message::kDataId, Message::kMaxDeltaCounter, kMaxSilenceUs,
+                    Message::kCycleTimeMs * kMillisecondUs},
+          part};
+}
+
+/// The rules of a receiver, and all messages of its bus; both have to outlive what uses them.
+struct MessageRules {
+  const MessageRule* rule = nullptr;
+  std::size_t count = 0;
+  const dbc::MessageInfo* all = nullptr;
+  std::size_t all_count = 0;
+};
+
+/// The links of all messages that a receiver takes: those of parts that the machine hasn't got are
+/// foreign to it. A message's index is that of its rule.
+///
+/// What comes at one time is bounded, or a babbling sender could make a cycle as long as it likes.
+/// No sender of ours is faster than a cycle of 10 ms, and what waits longer than 50 ms is thrown
+/// away: more than kMostAtOnce frames of a message with one `now` are not its sender's. Of a
+/// protected message the surplus is refused unseen, and its first three frames count as wrong in
+/// sequence, which is a fault. Of an unprotected one, where nothing tells right from wrong, the
+/// newest of them counts, as it does among fewer (take_newest).
+class MessageLinks {
+ public:
+  static constexpr std::size_t kMostMessages = 16;
+  static constexpr int kNoMessage = -1;
+  static constexpr int kMostAtOnce = 7;
+
+  /// At most kMostMessages rules.
+  MessageLinks(const MessageRules& rules, const BusParts& parts);
+
+  /// Index of the message whose data may be decoded, or kNoMessage; the reason is counted.
+  [[nodiscard]] int admit(const CanFrame& frame, TimeUs now);
+  /// After all frames of a cycle: index of a message of whose surplus the newest, `payload`, is
+  /// still to be decoded, or kNoMessage. To be called until then.
+  [[nodiscard]] int take_newest(dbc::Payload& payload);
+  /// Whether all values of an admitted frame were in their ranges.
+  void note_decoded(int index, bool in_range);
+
+  [[nodiscard]] const LinkCounters& total() const { return total_; }
+  [[nodiscard]] std::uint32_t foreign() const { return foreign_; }
+  [[nodiscard]] LinkCounters link(std::uint32_t id) const;
+  [[nodiscard]] E2eCheck link_check(std::uint32_t id, TimeUs now) const;
+  [[nodiscard]] FaultSet message_faults(TimeUs now) const;
+  [[nodiscard]] bool take_out_of_range();
+
+ private:
+  /// A place of the hash table of ids; linear probing.
+  struct Known {
+    std::uint32_t id = 0;
+    int index = kNoMessage;
+  };
+  static constexpr std::size_t kPlaces = 4 * kMostMessages;
+  /// Frames of one message with one stamp.
+  struct Batch {
+    TimeUs now = 0;
+    int frames = 0;
+  };
+
+  [[nodiscard]] std::size_t place_of(std::uint32_t id) const;
+  [[nodiscard]] int index_of(std::uint32_t id) const { return known_[place_of(id)].index; }
+  [[nodiscard]] bool is_any_message(const CanFrame& frame) const;
+  [[nodiscard]] int place_in_batch(std::size_t index, TimeUs now);
+  void refuse_surplus(std::size_t index, int place, const CanFrame& frame, TimeUs now);
+  [[nodiscard]] bool passes_e2e(std::size_t index, const CanFrame& frame, TimeUs now);
+  void count(std::size_t index, std::uint32_t LinkCounters::*counter);
+
+  MessageRules rules_;
+  std::array<Known, kPlaces> known_{};
+  std::array<bool, 256> fits_a_message_{};  ///< By e2e_fitting_signature, of all of the bus.
+  std::array<Batch, kMostMessages> batch_{};
+  std::array<dbc::Payload, kMostMessages> newest_{};  ///< Of an unprotected message's surplus.
+  unsigned has_newest_ = 0;                           ///< A bit for each message.
+  std::array<E2eState, kMostMessages> e2e_{};
+  std::array<E2eWindow, kMostMessages> window_{};
+  std::array<LinkCounters, kMostMessages> link_{};
+  LinkCounters total_;
+  std::uint32_t foreign_ = 0;
+  bool out_of_range_ = false;
+};
+
+}  // namespace graben

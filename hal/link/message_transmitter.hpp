@@ -1,0 +1,92 @@
+#pragma once
+/// Outputs to frames: what is due in this cycle, protected and saturated.
+
+#include <array>
+#include <cstdint>
+
+#include "firmware/core/time.hpp"
+#include "hal/can_frame.hpp"
+#include "hal/link/dm1.hpp"
+#include "hal/link/ecu_diagnosis.hpp"
+#include "hal/link/message_schedule.hpp"
+
+namespace graben {
+
+/// What a transmitter knows of its messages; made by hal/link/message_encode.hpp.
+template <class Outputs, int count>
+struct SendTable {
+  using Encode = dbc::Payload (*)(const Outputs&, const EcuDiagnosis&);
+
+  std::array<SendRule, count> rule{};
+  std::array<Encode, count> encode{};
+  std::uint32_t dm1_id = 0;
+  dbc::Payload (*dm1)(const Dm1Content&) = nullptr;
+};
+
+/// Sends each message at its cycle time, counted from the first call and spread so that no call
+/// sends all; DM1 as hal/link/dm1.hpp has it. A call that comes up to half a control cycle early or late
+/// keeps the schedule; one that comes later starts it afresh from there: nothing is sent twice to
+/// catch up.
+///
+/// Values beyond a signal's range are saturated; one that is not finite is sent as 'error', unless
+/// it is a command's.
+///
+/// Messages of parts that the machine hasn't got are not sent.
+///
+/// `Transmission` says what is sent: Outputs, kPeriodicCount, and table() with a SendTable, most
+/// urgent first.
+template <class Transmission>
+class MessageTransmitter {
+ public:
+  using Outputs = typename Transmission::Outputs;
+  static constexpr int kPeriodicCount = Transmission::kPeriodicCount;
+  static constexpr int kMessageCount = kPeriodicCount + 1;  ///< DM1 has its own times.
+  using Frames = std::array<CanFrame, kMessageCount>;
+
+  explicit MessageTransmitter(const BusParts& parts = {}) : parts_(parts) {}
+
+  /// Writes the frames due at `now` into `out`, most urgent first; returns how many. To be called
+  /// every 10 ms.
+  [[nodiscard]] int frames(const Outputs& outputs, const EcuDiagnosis& diagnosis, TimeUs now,
+                           Frames& out);
+
+ private:
+  void start(TimeUs now);
+
+  BusParts parts_;
+  bool started_ = false;
+  std::array<SendState, kPeriodicCount> state_{};
+  Dm1 dm1_;
+};
+
+template <class Transmission>
+void MessageTransmitter<Transmission>::start(TimeUs now) {
+  started_ = true;
+  for (std::size_t i = 0; i < state_.size(); ++i) {
+    state_[i].due_us = now + Transmission::table().rule[i].phase_us;
+  }
+}
+
+template <class Transmission>
+int MessageTransmitter<Transmission>::frames(const Outputs& outputs, const EcuDiagnosis& diagnosis,
+                                             TimeUs now, Frames& out) {
+  const auto& table = Transmission::table();
+  if (!started_) {
+    start(now);
+  }
+  std::size_t written = 0;
+  for (std::size_t i = 0; i < state_.size(); ++i) {
+    const bool is_due = take_due(state_[i].due_us, table.rule[i].period_us, now);
+    if (is_due && has_part(parts_, table.rule[i].part)) {
+      out[written++] =
+          next_frame(table.rule[i], state_[i], table.encode[i](outputs, diagnosis), now);
+    }
+  }
+  Dm1Content content;
+  if (dm1_.due(outputs.status.faults, now, content)) {
+    out[written++] = frame_of(table.dm1_id, table.dm1(content), now);
+  }
+  return static_cast<int>(written);
+}
+
+}  // namespace graben
