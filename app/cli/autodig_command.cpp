@@ -7,16 +7,16 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/reports/autodig_report.hpp"
-#include "app/runs/autodig_run.hpp"
 #include "app/cli/commands.hpp"
-#include "app/runs/fault_text.hpp"
 #include "app/cli/guarded.hpp"
-#include "app/runs/progress_bar.hpp"
 #include "app/cli/scenario_options.hpp"
 #include "app/cli/validators.hpp"
 #include "app/machines/plan_text.hpp"
 #include "app/machines/task_text.hpp"
+#include "app/reports/autodig_report.hpp"
+#include "app/runs/autodig_run.hpp"
+#include "app/runs/fault_text.hpp"
+#include "app/runs/progress_bar.hpp"
 
 namespace graben::cli {
 namespace {

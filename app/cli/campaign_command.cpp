@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "app/runs/campaign_run.hpp"
 #include "app/cli/commands.hpp"
-#include "app/runs/dig_campaign.hpp"
-#include "app/runs/grade_campaign.hpp"
 #include "app/cli/grade_options.hpp"
 #include "app/cli/guarded.hpp"
 #include "app/cli/scenario_options.hpp"
 #include "app/cli/validators.hpp"
+#include "app/runs/campaign_run.hpp"
+#include "app/runs/dig_campaign.hpp"
+#include "app/runs/grade_campaign.hpp"
 
 namespace graben::cli {
 namespace {

@@ -9,14 +9,14 @@
 
 #include "app/cli/autodig_command.hpp"
 #include "app/cli/commands.hpp"
-#include "app/reports/dig_report.hpp"
-#include "app/runs/dig_run.hpp"
-#include "app/runs/fault_text.hpp"
 #include "app/cli/guarded.hpp"
-#include "app/runs/progress_bar.hpp"
 #include "app/cli/scenario_options.hpp"
 #include "app/cli/validators.hpp"
 #include "app/plant/random.hpp"
+#include "app/reports/dig_report.hpp"
+#include "app/runs/dig_run.hpp"
+#include "app/runs/fault_text.hpp"
+#include "app/runs/progress_bar.hpp"
 
 namespace graben::cli {
 namespace {

@@ -8,14 +8,14 @@
 #include <string>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/grade_options.hpp"
+#include "app/cli/guarded.hpp"
+#include "app/cli/validators.hpp"
+#include "app/reports/grade_report.hpp"
 #include "app/runs/fastest_speed.hpp"
 #include "app/runs/fault_text.hpp"
-#include "app/cli/grade_options.hpp"
-#include "app/reports/grade_report.hpp"
 #include "app/runs/grade_run.hpp"
-#include "app/cli/guarded.hpp"
 #include "app/runs/progress_bar.hpp"
-#include "app/cli/validators.hpp"
 
 namespace graben::cli {
 namespace {

@@ -10,10 +10,10 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/guarded.hpp"
-#include "app/reports/plan_report.hpp"
-#include "app/runs/plan_run.hpp"
 #include "app/cli/validators.hpp"
 #include "app/machines/plan_text.hpp"
+#include "app/reports/plan_report.hpp"
+#include "app/runs/plan_run.hpp"
 
 namespace graben::cli {
 namespace {

@@ -10,14 +10,14 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/grade_options.hpp"
-#include "app/runs/grade_plant_run.hpp"
 #include "app/cli/guarded.hpp"
-#include "app/reports/json_file.hpp"
-#include "app/runs/plant_run.hpp"
 #include "app/cli/scenario_options.hpp"
-#include "app/runs/task_plant_run.hpp"
 #include "app/cli/validators.hpp"
 #include "app/machines/task_file.hpp"
+#include "app/reports/json_file.hpp"
+#include "app/runs/grade_plant_run.hpp"
+#include "app/runs/plant_run.hpp"
+#include "app/runs/task_plant_run.hpp"
 
 namespace graben::cli {
 namespace {

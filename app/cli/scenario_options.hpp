@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "app/runs/dig_run.hpp"
 #include "app/machines/simulated/scenario.hpp"
+#include "app/runs/dig_run.hpp"
 
 namespace CLI {
 class App;

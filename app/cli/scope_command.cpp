@@ -11,11 +11,11 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/guarded.hpp"
 #include "app/cli/validators.hpp"
+#include "app/reports/setup_json.hpp"
+#include "app/scope/scope_page.hpp"
 #include "app/scope/server/can_source.hpp"
 #include "app/scope/server/log_show.hpp"
-#include "app/scope/scope_page.hpp"
 #include "app/scope/server/serve.hpp"
-#include "app/reports/setup_json.hpp"
 #include "app/scope/sim/sim_source.hpp"
 
 namespace graben::cli {

@@ -5,8 +5,8 @@
 
 #include "app/machines/dozer_sections.hpp"
 
-#include "firmware/numeric/constants.hpp"
 #include "firmware/dozer/travel/reach.hpp"
+#include "firmware/numeric/constants.hpp"
 
 namespace graben::machines {
 namespace {

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "app/machines/simulated/experiment.hpp"
 #include "app/machines/profile_file.hpp"
+#include "app/machines/simulated/experiment.hpp"
 #include "app/plant/excavator_plant_profile.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
 

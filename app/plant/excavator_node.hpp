@@ -5,10 +5,10 @@
 #include <cstdint>
 
 #include "app/plant/command_link.hpp"
+#include "app/plant/excavator_faults.hpp"
 #include "app/plant/excavator_plant.hpp"
 #include "app/plant/faulty_sensors.hpp"
 #include "app/plant/frame_sender.hpp"
-#include "app/plant/excavator_faults.hpp"
 #include "hal/can_port.hpp"
 
 namespace graben::plant {

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "app/plant/faulty_reading.hpp"
 #include "app/plant/excavator_faults.hpp"
+#include "app/plant/faulty_reading.hpp"
 #include "app/plant/sensor_model.hpp"
 #include "can_dbc/codec.hpp"
 

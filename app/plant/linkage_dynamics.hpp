@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "app/plant/cylinder.hpp"
-#include "app/plant/linkage_geometry.hpp"
 #include "app/plant/excavator_plant_profile.hpp"
+#include "app/plant/linkage_geometry.hpp"
 #include "app/plant/swing_inertia.hpp"
 
 namespace graben::plant {

@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "app/plant/linkage_geometry.hpp"
 #include "app/plant/excavator_plant_profile.hpp"
+#include "app/plant/linkage_geometry.hpp"
 
 namespace graben::plant {
 

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/reports/json_file.hpp"
-#include "app/reports/report_parts.hpp"
 #include "app/machines/axis_names.hpp"
 #include "app/machines/task_text.hpp"
+#include "app/reports/json_file.hpp"
 #include "app/reports/machine_json.hpp"
 #include "app/reports/report_file.hpp"
+#include "app/reports/report_parts.hpp"
 
 namespace graben::cli {
 namespace {

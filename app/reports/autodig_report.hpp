@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/runs/autodig_run.hpp"
 #include "app/machines/task_file.hpp"
+#include "app/runs/autodig_run.hpp"
 
 namespace graben::cli {
 

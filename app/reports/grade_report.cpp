@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/reports/json_file.hpp"
-#include "app/reports/report_parts.hpp"
 #include "app/reports/machine_json.hpp"
 #include "app/reports/report_file.hpp"
+#include "app/reports/report_parts.hpp"
 
 namespace graben::cli {
 namespace {

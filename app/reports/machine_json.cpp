@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "firmware/excavator/field/dig_field.hpp"
 #include "firmware/dozer/grade_profile.hpp"
+#include "firmware/excavator/field/dig_field.hpp"
 
 namespace graben::scope {
 namespace {

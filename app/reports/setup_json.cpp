@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "app/runs/fault_text.hpp"
 #include "app/machines/any_machine.hpp"
 #include "app/machines/profile_file.hpp"
 #include "app/machines/task_file.hpp"
 #include "app/reports/machine_json.hpp"
+#include "app/runs/fault_text.hpp"
 
 namespace graben::scope {
 namespace {

@@ -1,11 +1,11 @@
 #pragma once
 /// The bench of a task's run.
 
-#include "app/runs/loopback_rig.hpp"
 #include "app/ecu/excavator_ecu.hpp"
 #include "app/machines/excavator_file.hpp"
-#include "app/plant/operator_node.hpp"
 #include "app/plant/excavator_node.hpp"
+#include "app/plant/operator_node.hpp"
+#include "app/runs/loopback_rig.hpp"
 
 namespace graben::bench {
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "app/runs/autodig_rig.hpp"
 #include "app/machines/task_text.hpp"
+#include "app/runs/autodig_rig.hpp"
 #include "firmware/excavator/tasks/task_run.hpp"
 
 namespace graben::cli {

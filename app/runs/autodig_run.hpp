@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "app/runs/logged_run.hpp"
-#include "app/runs/limit_text.hpp"
 #include "app/machines/excavator_file.hpp"
+#include "app/runs/limit_text.hpp"
+#include "app/runs/logged_run.hpp"
 #include "firmware/excavator/tasks/task_program.hpp"
 
 namespace graben::cli {

@@ -9,9 +9,9 @@
 #include <optional>
 #include <vector>
 
-#include "app/runs/logged_run.hpp"
-#include "app/runs/limit_text.hpp"
 #include "app/machines/excavator_file.hpp"
+#include "app/runs/limit_text.hpp"
+#include "app/runs/logged_run.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 
 namespace graben::cli {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "app/plant/dozer_node.hpp"
 #include "app/runs/grade_truth.hpp"
 #include "app/runs/statistics.hpp"
-#include "app/plant/dozer_node.hpp"
 #include "can_dbc/generated/dozer_dbc.hpp"
 
 namespace graben::cli {

@@ -1,9 +1,9 @@
 #pragma once
 /// The simulated dozer in real time on a CAN interface.
 
-#include "app/runs/plant_bus.hpp"
 #include "app/machines/dozer_file.hpp"
 #include "app/plant/command_link.hpp"
+#include "app/runs/plant_bus.hpp"
 
 namespace graben::cli {
 

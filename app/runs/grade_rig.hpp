@@ -1,11 +1,11 @@
 #pragma once
 /// The bench of a grading run.
 
-#include "app/runs/loopback_rig.hpp"
 #include "app/ecu/dozer_ecu.hpp"
 #include "app/machines/dozer_file.hpp"
 #include "app/plant/dozer_node.hpp"
 #include "app/plant/operator_node.hpp"
+#include "app/runs/loopback_rig.hpp"
 
 namespace graben::bench {
 

@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <vector>
 
-#include "app/runs/logged_run.hpp"
+#include "app/machines/dozer_file.hpp"
 #include "app/runs/grade_truth.hpp"
 #include "app/runs/limit_text.hpp"
-#include "app/machines/dozer_file.hpp"
+#include "app/runs/logged_run.hpp"
 
 namespace graben::cli {
 

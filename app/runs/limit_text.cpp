@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "app/runs/fault_text.hpp"
 #include "app/machines/axis_names.hpp"
+#include "app/runs/fault_text.hpp"
 
 namespace graben::cli {
 

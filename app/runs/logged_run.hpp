@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "platform/loopback/candump_log.hpp"
 #include "hal/link/link_counters.hpp"
+#include "platform/loopback/candump_log.hpp"
 
 namespace graben::cli {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/runs/path_progress.hpp"
 #include "app/plant/excavator_node.hpp"
+#include "app/runs/path_progress.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 
 namespace graben::cli {

@@ -1,9 +1,9 @@
 #pragma once
 /// The simulated excavator in real time on a CAN interface.
 
-#include "app/runs/plant_bus.hpp"
 #include "app/machines/excavator_file.hpp"
 #include "app/plant/excavator_node.hpp"
+#include "app/runs/plant_bus.hpp"
 
 namespace graben::cli {
 

@@ -2,9 +2,9 @@
 
 #include <optional>
 
+#include "app/plant/excavator_node.hpp"
 #include "app/runs/statistics.hpp"
 #include "app/runs/task_listener.hpp"
-#include "app/plant/excavator_node.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "firmware/excavator/tasks/line.hpp"
 

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "app/runs/plant_bus.hpp"
 #include "app/machines/excavator_file.hpp"
 #include "app/plant/command_link.hpp"
+#include "app/runs/plant_bus.hpp"
 #include "firmware/excavator/tasks/task_program.hpp"
 
 namespace graben::cli {

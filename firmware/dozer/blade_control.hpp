@@ -1,8 +1,8 @@
 #pragma once
 /// The blade on the grade: feed-forward of the body's motion and of the design ahead, and feedback.
 
-#include "firmware/dozer/mobile_jacobian.hpp"
 #include "firmware/dozer/grade_profile.hpp"
+#include "firmware/dozer/mobile_jacobian.hpp"
 
 namespace graben {
 

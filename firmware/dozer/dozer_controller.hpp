@@ -3,13 +3,13 @@
 
 #include "firmware/dozer/blade_control.hpp"
 #include "firmware/dozer/safety/brake.hpp"
-#include "firmware/safety/cycle_watch.hpp"
 #include "firmware/dozer/safety/dozer_gate.hpp"
 #include "firmware/dozer/safety/dozer_watch.hpp"
-#include "firmware/safety/status.hpp"
 #include "firmware/dozer/travel/position_filter.hpp"
 #include "firmware/dozer/travel/speed_limit.hpp"
 #include "firmware/dozer/travel/track_control.hpp"
+#include "firmware/safety/cycle_watch.hpp"
+#include "firmware/safety/status.hpp"
 
 namespace graben {
 

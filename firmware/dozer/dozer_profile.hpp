@@ -6,9 +6,9 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "firmware/dozer/dozer_signals.hpp"
 #include "firmware/machine/piston_area.hpp"
 #include "firmware/numeric/monotone_table.hpp"
-#include "firmware/dozer/dozer_signals.hpp"
 
 namespace graben {
 

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "firmware/excavator/excavator_profile.hpp"
 #include "firmware/drives/cylinder_watch.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
 #include "firmware/excavator/safety/excavator_validation.hpp"
 
 namespace graben {

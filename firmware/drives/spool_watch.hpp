@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "firmware/excavator/excavator_profile.hpp"
 #include "firmware/drives/spool_follow.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
 #include "firmware/excavator/safety/excavator_validation.hpp"
 
 namespace graben {

@@ -1,16 +1,16 @@
 #pragma once
 /// The excavator's controller: one step from signals to commands, 100 times a second.
 
-#include "firmware/mcv/steady_lambda.hpp"
 #include "firmware/drives/cylinder_servo.hpp"
-#include "firmware/excavator/field/dig_field.hpp"
-#include "firmware/drives/load_filter.hpp"
-#include "firmware/excavator/tasks/task_follow.hpp"
-#include "firmware/safety/cycle_watch.hpp"
 #include "firmware/drives/drive_gate.hpp"
+#include "firmware/drives/load_filter.hpp"
+#include "firmware/excavator/field/dig_field.hpp"
+#include "firmware/excavator/safety/excavator_watch.hpp"
+#include "firmware/excavator/tasks/task_follow.hpp"
+#include "firmware/mcv/steady_lambda.hpp"
+#include "firmware/safety/cycle_watch.hpp"
 #include "firmware/safety/mode.hpp"
 #include "firmware/safety/status.hpp"
-#include "firmware/excavator/safety/excavator_watch.hpp"
 
 namespace graben {
 

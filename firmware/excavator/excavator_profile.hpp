@@ -9,8 +9,8 @@
 #include <array>
 
 #include "firmware/core/codes.hpp"
-#include "firmware/numeric/monotone_table.hpp"
 #include "firmware/excavator/excavator_signals.hpp"
+#include "firmware/numeric/monotone_table.hpp"
 
 namespace graben {
 

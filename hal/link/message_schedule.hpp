@@ -7,8 +7,8 @@
 
 #include "can_dbc/codec.hpp"
 #include "firmware/core/time.hpp"
-#include "hal/link/bus_parts.hpp"
 #include "hal/can_frame.hpp"
+#include "hal/link/bus_parts.hpp"
 
 namespace graben {
 

@@ -24,9 +24,9 @@ struct SendTable {
 };
 
 /// Sends each message at its cycle time, counted from the first call and spread so that no call
-/// sends all; DM1 as hal/link/dm1.hpp has it. A call that comes up to half a control cycle early or late
-/// keeps the schedule; one that comes later starts it afresh from there: nothing is sent twice to
-/// catch up.
+/// sends all; DM1 as hal/link/dm1.hpp has it. A call that comes up to half a control cycle early or
+/// late keeps the schedule; one that comes later starts it afresh from there: nothing is sent twice
+/// to catch up.
 ///
 /// Values beyond a signal's range are saturated; one that is not finite is sent as 'error', unless
 /// it is a command's.

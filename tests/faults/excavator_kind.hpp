@@ -7,8 +7,8 @@
 
 #include "app/ecu/excavator_ecu.hpp"
 #include "app/machines/excavator_file.hpp"
-#include "app/plant/operator_node.hpp"
 #include "app/plant/excavator_node.hpp"
+#include "app/plant/operator_node.hpp"
 #include "app/plant/random.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "tests/faults/bus_record.hpp"

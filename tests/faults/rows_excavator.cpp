@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 #include "firmware/excavator/field/rounded_rectangle.hpp"
+#include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 #include "tests/faults/row.hpp"
 #include "tests/faults/silence.hpp"
 

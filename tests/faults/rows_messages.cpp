@@ -137,8 +137,8 @@ struct Replay {
 };
 
 /// An old block of 8 to 20 frames, all at once or one a cycle beside the live ones. Before the
-/// window trips, an old value may be the newest one for two cycles, hal/link/e2e.hpp says; it then is
-/// the last one for at most one more.
+/// window trips, an old value may be the newest one for two cycles, hal/link/e2e.hpp says; it then
+/// is the last one for at most one more.
 template <class Kind>
 void old_block_replayed(Trial<Kind>& trial) {
   trial.work();

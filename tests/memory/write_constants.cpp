@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
-#include "app/runs/autodig_rig.hpp"
-#include "app/runs/grade_rig.hpp"
 #include "app/machines/task_book.hpp"
 #include "app/machines/task_file.hpp"
+#include "app/runs/autodig_rig.hpp"
+#include "app/runs/grade_rig.hpp"
 #include "tests/memory/setup.hpp"
 
 namespace {

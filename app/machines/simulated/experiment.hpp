@@ -5,8 +5,8 @@
 
 #include "app/plant/obstacle.hpp"
 #include "app/plant/soil.hpp"
-#include "firmware/excavator/kinematics/swing_kinematics.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/excavator/kinematics/swing_kinematics.hpp"
 
 namespace graben::machines {
 

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "app/plant/random.hpp"
-#include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 #include "firmware/excavator/field/rounded_rectangle.hpp"
+#include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 
 namespace graben::machines {
 namespace {

@@ -1,12 +1,12 @@
 #pragma once
 /// The kinds of machine, as the simulation's faults need them.
 
-#include "app/runs/loopback_rig.hpp"
 #include "app/ecu/dozer_ecu.hpp"
 #include "app/ecu/excavator_ecu.hpp"
 #include "app/plant/dozer_node.hpp"
-#include "app/plant/operator_node.hpp"
 #include "app/plant/excavator_node.hpp"
+#include "app/plant/operator_node.hpp"
+#include "app/runs/loopback_rig.hpp"
 #include "can_dbc/generated/dozer_dbc.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 

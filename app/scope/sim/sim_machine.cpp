@@ -5,12 +5,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/runs/autodig_rig.hpp"
-#include "app/runs/dig_rig.hpp"
-#include "app/runs/grade_rig.hpp"
 #include "app/machines/simulated/dozer_scenario.hpp"
 #include "app/machines/simulated/scenario.hpp"
 #include "app/machines/task_file.hpp"
+#include "app/runs/autodig_rig.hpp"
+#include "app/runs/dig_rig.hpp"
+#include "app/runs/grade_rig.hpp"
 #include "app/scope/sim/sim_faults.hpp"
 #include "app/scope/sim/sim_rig.hpp"
 

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "firmware/dozer/dozer_profile.hpp"
-#include "firmware/safety/plausibility.hpp"
 #include "firmware/safety/common_inputs.hpp"
+#include "firmware/safety/plausibility.hpp"
 
 namespace graben {
 

@@ -1,10 +1,10 @@
 #pragma once
 /// The dozer against what it was told: all watches, and what they take away.
 
-#include "firmware/drives/cylinder_watch.hpp"
-#include "firmware/safety/degrade.hpp"
-#include "firmware/drives/spool_follow.hpp"
 #include "firmware/dozer/safety/transmission_watch.hpp"
+#include "firmware/drives/cylinder_watch.hpp"
+#include "firmware/drives/spool_follow.hpp"
+#include "firmware/safety/degrade.hpp"
 
 namespace graben {
 

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 #include "firmware/excavator/field/rounded_rectangle.hpp"
+#include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 
 namespace graben {
 

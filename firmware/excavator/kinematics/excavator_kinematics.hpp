@@ -5,9 +5,9 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "firmware/excavator/excavator_profile.hpp"
 #include "firmware/excavator/kinematics/bucket_linkage.hpp"
 #include "firmware/numeric/triangle.hpp"
-#include "firmware/excavator/excavator_profile.hpp"
 
 namespace graben {
 

@@ -2,9 +2,9 @@
 /// Signals -> machine state: freshness, validity and plausibility, from one table.
 
 #include "firmware/excavator/excavator_profile.hpp"
-#include "firmware/safety/plausibility.hpp"
-#include "firmware/safety/common_inputs.hpp"
 #include "firmware/excavator/excavator_signals.hpp"
+#include "firmware/safety/common_inputs.hpp"
+#include "firmware/safety/plausibility.hpp"
 
 namespace graben {
 

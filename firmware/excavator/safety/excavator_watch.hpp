@@ -1,11 +1,11 @@
 #pragma once
 /// The machine against what it was told: all watches, and what they take away.
 
-#include "firmware/safety/degrade.hpp"
 #include "firmware/drives/motion_watch.hpp"
 #include "firmware/drives/pressure_watch.hpp"
 #include "firmware/drives/spool_watch.hpp"
 #include "firmware/excavator/safety/swash_watch.hpp"
+#include "firmware/safety/degrade.hpp"
 
 namespace graben {
 

@@ -1,9 +1,9 @@
 #pragma once
 /// Slowing down before the end of a cylinder, of the swing's range, before a fence.
 
+#include "firmware/drives/stroke_end.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
 #include "firmware/excavator/tasks/fence.hpp"
-#include "firmware/drives/stroke_end.hpp"
 
 namespace graben {
 

@@ -5,9 +5,9 @@
 
 #include "firmware/core/guarded.hpp"
 #include "firmware/drives/cylinder_servo.hpp"
+#include "firmware/excavator/excavator_signals.hpp"
 #include "firmware/excavator/tasks/soft_limit.hpp"
 #include "firmware/excavator/tasks/task_run.hpp"
-#include "firmware/excavator/excavator_signals.hpp"
 
 namespace graben {
 

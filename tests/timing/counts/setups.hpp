@@ -1,8 +1,8 @@
 #pragma once
 /// The machines whose controllers are counted.
 
-#include "firmware/excavator/excavator_controller.hpp"
 #include "firmware/dozer/dozer_profile.hpp"
+#include "firmware/excavator/excavator_controller.hpp"
 #include "tests/timing/counts/trace.hpp"
 
 namespace graben::timing {

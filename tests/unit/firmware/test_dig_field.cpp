@@ -1,8 +1,8 @@
 #include <cmath>
 #include <random>
 
-#include "firmware/excavator/field/dig_field.hpp"
 #include "firmware/drives/stroke_end.hpp"
+#include "firmware/excavator/field/dig_field.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 #include "tests/unit/rounds.hpp"

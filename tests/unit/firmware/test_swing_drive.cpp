@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "firmware/mcv/steady_lambda.hpp"
-#include "firmware/excavator/tasks/line_plan.hpp"
 #include "firmware/drives/stroke_end.hpp"
+#include "firmware/excavator/tasks/line_plan.hpp"
+#include "firmware/mcv/steady_lambda.hpp"
 #include "tests/fuzz/plain_circuit.hpp"
 #include "tests/unit/firmware/running.hpp"
 

@@ -6,8 +6,8 @@
 
 #include "firmware/numeric/constants.hpp"
 #include "hal/buses/dozer_transmitter.hpp"
-#include "hal/link/e2e.hpp"
 #include "hal/buses/excavator_transmitter.hpp"
+#include "hal/link/e2e.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace graben::test {

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "app/reports/setup_json.hpp"
-#include "firmware/excavator/field/dig_field.hpp"
 #include "firmware/dozer/grade_profile.hpp"
+#include "firmware/excavator/field/dig_field.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/scope/temporary_file.hpp"
 
