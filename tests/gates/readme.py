@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Gate: every shell command of README.md works, run in the repository.
+"""Gate: every shell command of the tree's Markdown files works, run in the repository's root.
 
-A block is run as one script, so that a `cd` or a variable holds until its end. A block behind
-<!-- not run: reason --> is left out, loudly. ./test, which runs this gate, is only looked at. With
---build, so is a command that is word by word a test of that build, or a ctest that names some: ./test
-runs it anyway.
+A block is run as one script, so that a `cd` or a variable holds until its end; one that stands in two
+files is run once. A block behind <!-- not run: reason --> is left out, loudly. ./test, which runs this
+gate, is only looked at. With --build, so is a command that is word by word a test of that build, or a
+ctest that names some: ./test runs it anyway.
 """
 
 import json
@@ -99,19 +99,19 @@ def run_by(command: str, where: str) -> str:
     return tests.get(words_of(words), "")
 
 
-def script_of(start: int, lines: list[str]) -> tuple[str, int]:
+def script_of(name: str, start: int, lines: list[str]) -> tuple[str, int]:
     script, count = ["set -o pipefail"], 0
     for number, command in commands(start, lines):
         count += 1
-        where = f"README.md:{number}"
+        where = f"{name}:{number}"
         if own := CHECKS_ONLY.match(command):
             program = root / own[1]
             if not (program.is_file() and os.access(program, os.X_OK)):
                 problems.append(f"{where}: {own[1]} is not there or not executable")
             print(f"{where}: {own[1]} runs this gate; only looked at")
             continue
-        if name := run_by(command, where):
-            print(f"{where}: {command}: ./test runs it as {name}; only looked at")
+        if test := run_by(command, where):
+            print(f"{where}: {command}: ./test runs it as {test}; only looked at")
             continue
         shown = shlex.quote(f"{where}: {command}")
         script += [f"echo {shown}", command,
@@ -120,7 +120,7 @@ def script_of(start: int, lines: list[str]) -> tuple[str, int]:
     return "\n".join(script), count
 
 
-def run(start: int, script: str):
+def run(where: str, script: str):
     process = subprocess.Popen(
         ["bash", "-c", script], cwd=root, start_new_session=True, stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
@@ -131,10 +131,10 @@ def run(start: int, script: str):
         # The whole session: a command may have left something in the background.
         os.killpg(process.pid, signal.SIGKILL)
         output, _ = process.communicate()
-        problems.append(f"README.md:{start}: block took longer than {arguments.limit:g} s")
+        problems.append(f"{where}: block took longer than {arguments.limit:g} s")
     print(output, end="")
     if process.returncode > 0:
-        problems.append(f"README.md:{start}: block failed")
+        problems.append(f"{where}: block failed")
 
 
 parser = tree.arguments(__doc__)
@@ -143,13 +143,19 @@ parser.add_argument("--build", type=pathlib.Path, help="the build whose tests ne
 arguments = parser.parse_args()
 root = arguments.root.resolve()
 sys.stdout.reconfigure(line_buffering=True)
-problems, total = [], 0
+problems, total, done = [], 0, {}
 tests = own_tests()
-for start, lines, reason in blocks((root / "README.md").read_text()):
-    if reason:
-        print(f"SKIPPED README.md:{start}: not run: {reason}")
-        continue
-    script, count = script_of(start, lines)
-    total += count
-    run(start, script)
+for name in sorted((n for n in tree.files(root) if n.endswith(".md")), key=lambda n: (n.count("/"), n)):
+    for start, lines, reason in blocks((root / name).read_text()):
+        where, body = f"{name}:{start}", "\n".join(lines)
+        if reason:
+            print(f"SKIPPED {where}: not run: {reason}")
+            continue
+        if body in done:
+            print(f"{where}: the same as {done[body]}")
+            continue
+        done[body] = where
+        script, count = script_of(name, start, lines)
+        total += count
+        run(where, script)
 tree.report("readme", problems, total, "commands")

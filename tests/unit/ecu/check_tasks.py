@@ -1,4 +1,4 @@
-"""What graben-ecu takes as --task, up to the bus, which is not there, the README's example among it:
+"""What graben-ecu takes as --task, up to the bus, which is not there, the manual's example among it:
 check_tasks.py GRABEN_ECU ROOT"""
 
 import pathlib
@@ -15,7 +15,11 @@ WRONG, FAILED = 2, 1
 def main() -> int:
     ecu, root = sys.argv[1:]
     machines = pathlib.Path(root, "app", "machines")
-    example = re.search(r"^```toml\n(.*?)^```", pathlib.Path(root, "README.md").read_text(), re.S | re.M)[1]
+    manuals = [path for folder in ("", "app", "app/machines", "app/machines/tasks")
+               if (path := pathlib.Path(root, folder, "README.md")).exists()]
+    example, = [block for path in manuals
+                for block in re.findall(r"^```toml\n(.*?)^```", path.read_text(), re.S | re.M)
+                if "[[step]]" in block]
     excavator, dozer = (machines / name for name in ("excavator_12t.toml", "dozer_9t.toml"))
     flatten, loading = (machines / "tasks" / name
                         for name in ("flatten.toml", "truck_loading.toml"))
