@@ -32,8 +32,8 @@ def blanked(match: re.Match) -> str:
 
 
 def anchors(text: str) -> set[str]:
-    """As the forges make them of headings."""
-    found = set()
+    """As the forges make them of headings, and those that are written out."""
+    found = set(re.findall(r'<a id="([^"]+)">', text))
     for match in HEADING.finditer(FENCED.sub(blanked, text)):
         plain = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", match[1])
         slug = re.sub(r"[^\w\- ]", "", plain.lower()).replace(" ", "-")
