@@ -73,18 +73,18 @@ machines::ExcavatorMachine machine_of(const TaskRunOptions& options) {
   return machine;
 }
 
-void throw_unless_done(const AutodigResult& result) {
-  if (result.end == AutodigEnd::kFault) {
+void throw_unless_done(const runs::AutodigResult& result) {
+  if (result.end == runs::AutodigEnd::kFault) {
     throw std::runtime_error(fmt::format("the controller stopped with a fault: {} (fault {})",
-                                         fault_words(result.fault),
+                                         runs::fault_words(result.fault),
                                          static_cast<int>(result.fault)));
   }
-  if (result.end == AutodigEnd::kNotFinished) {
-    const AutodigSample& last = result.samples.back();
-    throw std::runtime_error(
-        fmt::format("the task was not finished in time: step {} ({}) at {:.0f} %, held by {}",
-                    last.progress.step, machines::step_name(last.progress.kind),
-                    100.0 * last.progress.share, limit_words(last.limit, excavator_actuators())));
+  if (result.end == runs::AutodigEnd::kNotFinished) {
+    const runs::AutodigSample& last = result.samples.back();
+    throw std::runtime_error(fmt::format(
+        "the task was not finished in time: step {} ({}) at {:.0f} %, held by {}",
+        last.progress.step, machines::step_name(last.progress.kind), 100.0 * last.progress.share,
+        runs::limit_words(last.limit, runs::excavator_actuators())));
   }
 }
 
@@ -94,28 +94,30 @@ void run_task(const TaskRunOptions& options) {
   const machines::ExcavatorMachine machine = machine_of(options);
   const machines::TaskFile task = planned(options, machine.profile);
   const TaskProgram& program = task.result.program;
-  AutodigOptions run;
+  runs::AutodigOptions run;
   run.start = start_of(options, machine.profile, program);
   run.speed_override_ratio = options.speed;
   run.rounds = program.repeats ? options.rounds : 1;
   const fs::path out(options.out);
   fs::create_directories(out);
   run.log_file = out / (options.name + ".log");
-  AutodigResult result;
+  runs::AutodigResult result;
   {
-    ProgressBar bar(options.name);
-    result = run_autodig(machine, program, run,
-                         [&](double share, const std::string& where) { bar.show(share, where); });
+    runs::ProgressBar bar(options.name);
+    result = runs::run_autodig(machine, program, run, [&](double share, const std::string& where) {
+      bar.show(share, where);
+    });
   }
-  const AutodigSummary summary = summarise(program, result);
+  const runs::AutodigSummary summary = runs::summarise(program, result);
   const fs::path report = out / (options.name + ".html");
-  write_autodig_report(report, run.log_file, machine, task, result, summary,
-                       fmt::format("{} | task {} | errors {} | speed {:.0f} %", machine.name,
-                                   options.task, options.errors, options.speed * 100.0));
+  reports::write_autodig_report(
+      report, run.log_file, machine, task, result, summary,
+      fmt::format("{} | task {} | errors {} | speed {:.0f} %", machine.name, options.task,
+                  options.errors, options.speed * 100.0));
   if (!options.summary.empty()) {
-    write_autodig_summary(options.summary, summary);
+    reports::write_autodig_summary(options.summary, summary);
   }
-  fmt::print("{}log     {}\nreport  {}\n", autodig_table(summary), run.log_file.string(),
+  fmt::print("{}log     {}\nreport  {}\n", reports::autodig_table(summary), run.log_file.string(),
              report.string());
   throw_unless_done(result);
 }

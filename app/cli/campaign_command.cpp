@@ -19,14 +19,14 @@ namespace graben::cli {
 namespace {
 
 struct DigCampaignOptions {
-  CampaignOptions campaign;
+  runs::CampaignOptions campaign;
   ScenarioOptions scenario;
   std::string profile = "excavator_22t";
   double speed = 1.0;
 };
 
 struct GradeCampaignOptions {
-  CampaignOptions campaign;
+  runs::CampaignOptions campaign;
   GradeScenario scenario;
   std::string profile = "dozer_9t";
 };
@@ -36,7 +36,7 @@ struct MergeOptions {
   std::string summary;
 };
 
-void add_campaign_options(CLI::App& command, CampaignOptions& options) {
+void add_campaign_options(CLI::App& command, runs::CampaignOptions& options) {
   command.add_option("--draws", options.draws, "How many, 1 .. 1000000")
       ->check(whole_number() & CLI::Range(1, 1000000))
       ->capture_default_str();
@@ -50,45 +50,46 @@ void add_campaign_options(CLI::App& command, CampaignOptions& options) {
       ->check(whole_number() & CLI::Range(1, 256));
 }
 
-CampaignRow dig_draw(const DigCampaignOptions& options, const machines::ExcavatorMachine& nominal,
-                     std::uint64_t seed) {
+runs::CampaignRow dig_draw(const DigCampaignOptions& options,
+                           const machines::ExcavatorMachine& nominal, std::uint64_t seed) {
   ScenarioOptions scenario = options.scenario;
   scenario.scenario.seed = seed;
   const machines::ExcavatorMachine machine = arranged(nominal, scenario);
-  DigOptions dig = usual_run(machine, scenario);
+  runs::DigOptions dig = usual_run(machine, scenario);
   dig.speed_override_ratio = options.speed;
-  return dig_campaign_row(run_dig(machine, dig, [](double, const std::string&) {}));
+  return runs::dig_campaign_row(runs::run_dig(machine, dig, [](double, const std::string&) {}));
 }
 
 void campaign_dig(const DigCampaignOptions& options) {
   const machines::ExcavatorMachine nominal =
       machines::load_excavator(machines::find_profile(options.profile));
-  run_campaign(options.campaign, dig_campaign(),
-               fmt::format("dig {} {:08x}, speed {}, {}", nominal.name, nominal.hash, options.speed,
-                           scenario_words(options.scenario)),
-               [&](std::uint64_t seed) { return dig_draw(options, nominal, seed); });
+  runs::run_campaign(options.campaign, runs::dig_campaign(),
+                     fmt::format("dig {} {:08x}, speed {}, {}", nominal.name, nominal.hash,
+                                 options.speed, scenario_words(options.scenario)),
+                     [&](std::uint64_t seed) { return dig_draw(options, nominal, seed); });
 }
 
-CampaignRow grade_draw(const GradeCampaignOptions& options, const machines::DozerMachine& nominal,
-                       std::uint64_t seed) {
+runs::CampaignRow grade_draw(const GradeCampaignOptions& options,
+                             const machines::DozerMachine& nominal, std::uint64_t seed) {
   const machines::DozerMachine machine = arranged(nominal, options.scenario, seed);
-  return grade_campaign_row(machine, run_grade(machine, {}, [](double, const std::string&) {}));
+  return runs::grade_campaign_row(machine,
+                                  runs::run_grade(machine, {}, [](double, const std::string&) {}));
 }
 
 void campaign_grade(const GradeCampaignOptions& options) {
   const machines::DozerMachine nominal =
       machines::load_dozer(machines::find_profile(options.profile));
-  run_campaign(options.campaign, grade_campaign(),
-               fmt::format("grade {} {:08x}, {}", nominal.name, nominal.hash,
-                           scenario_words(nominal, options.scenario)),
-               [&](std::uint64_t seed) { return grade_draw(options, nominal, seed); });
+  runs::run_campaign(options.campaign, runs::grade_campaign(),
+                     fmt::format("grade {} {:08x}, {}", nominal.name, nominal.hash,
+                                 scenario_words(nominal, options.scenario)),
+                     [&](std::uint64_t seed) { return grade_draw(options, nominal, seed); });
 }
 
 void merge(const MergeOptions& options) {
-  const std::string name = campaign_name(options.from.front());
-  for (const CampaignKind* kind : {&dig_campaign(), &grade_campaign()}) {
+  const std::string name = runs::campaign_name(options.from.front());
+  for (const runs::CampaignKind* kind : {&runs::dig_campaign(), &runs::grade_campaign()}) {
     if (name == kind->name) {
-      merge_campaigns(options.from, options.summary, *kind);
+      runs::merge_campaigns(options.from, options.summary, *kind);
       return;
     }
   }

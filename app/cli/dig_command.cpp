@@ -69,15 +69,15 @@ std::optional<Eigen::Vector3d> start_strokes(const DigCommand& options,
   return std::nullopt;
 }
 
-const char* end_text(DigEnd end) {
+const char* end_text(runs::DigEnd end) {
   switch (end) {
-    case DigEnd::kDone:
+    case runs::DigEnd::kDone:
       return "done";
-    case DigEnd::kPathNotReached:
+    case runs::DigEnd::kPathNotReached:
       return "the path was not reached in time";
-    case DigEnd::kLoopNotClosed:
+    case runs::DigEnd::kLoopNotClosed:
       return "the loop was not closed in time";
-    case DigEnd::kFault:
+    case runs::DigEnd::kFault:
       return "the controller stopped with a fault";
   }
   return "unknown";
@@ -89,7 +89,7 @@ void dig(const DigCommand& options) {
   const machines::ExcavatorMachine machine = arranged(
       machines::load_excavator(machines::find_profile(options.profile.value_or("excavator_22t"))),
       scenario);
-  DigOptions run_options = usual_run(machine, scenario);
+  runs::DigOptions run_options = usual_run(machine, scenario);
   run_options.start_strokes_m =
       start_strokes(options, machine.profile).value_or(run_options.start_strokes_m);
   run_options.speed_override_ratio = options.speed;
@@ -98,28 +98,29 @@ void dig(const DigCommand& options) {
   std::filesystem::create_directories(out);
   run_options.log_file = out / "dig.log";
 
-  DigResult result;
+  runs::DigResult result;
   {
-    ProgressBar bar("dig");
-    result = run_dig(machine, run_options,
-                     [&](double share, const std::string& where) { bar.show(share, where); });
+    runs::ProgressBar bar("dig");
+    result = runs::run_dig(machine, run_options,
+                           [&](double share, const std::string& where) { bar.show(share, where); });
   }
-  const DigSummary summary = summarise(result);
+  const runs::DigSummary summary = runs::summarise(result);
   const std::filesystem::path report = out / "dig.html";
-  write_dig_report(report, run_options.log_file, machine, result, summary,
-                   fmt::format("{} | {} | start strokes {:.3f}, {:.3f}, {:.3f} m | speed {:.0f} %",
-                               machine.name, scenario_words(scenario),
-                               run_options.start_strokes_m[0], run_options.start_strokes_m[1],
-                               run_options.start_strokes_m[2], options.speed * 100.0));
+  reports::write_dig_report(
+      report, run_options.log_file, machine, result, summary,
+      fmt::format("{} | {} | start strokes {:.3f}, {:.3f}, {:.3f} m | speed {:.0f} %", machine.name,
+                  scenario_words(scenario), run_options.start_strokes_m[0],
+                  run_options.start_strokes_m[1], run_options.start_strokes_m[2],
+                  options.speed * 100.0));
   if (!options.summary.empty()) {
-    write_dig_summary(options.summary, summary);
+    reports::write_dig_summary(options.summary, summary);
   }
-  fmt::print("{}log     {}\nreport  {}\n", dig_table(summary), run_options.log_file.string(),
-             report.string());
-  if (result.end != DigEnd::kDone) {
-    throw std::runtime_error(result.end == DigEnd::kFault
+  fmt::print("{}log     {}\nreport  {}\n", reports::dig_table(summary),
+             run_options.log_file.string(), report.string());
+  if (result.end != runs::DigEnd::kDone) {
+    throw std::runtime_error(result.end == runs::DigEnd::kFault
                                  ? fmt::format("{}: {} (fault {})", end_text(result.end),
-                                               fault_words(result.fault),
+                                               runs::fault_words(result.fault),
                                                static_cast<int>(result.fault))
                                  : end_text(result.end));
   }

@@ -30,10 +30,10 @@ struct GradeCommand {
   std::optional<double> within_m;
 };
 
-std::string end_text(const GradeResult& result) {
-  return result.end == GradeEnd::kFault
+std::string end_text(const runs::GradeResult& result) {
+  return result.end == runs::GradeEnd::kFault
              ? fmt::format("the controller stopped with a fault: {} (fault {})",
-                           fault_words(result.fault), static_cast<int>(result.fault))
+                           runs::fault_words(result.fault), static_cast<int>(result.fault))
              : "the grade was not finished in time";
 }
 
@@ -54,7 +54,7 @@ void grade(const GradeCommand& options) {
   const machines::DozerMachine machine = machine_of(options);
   const std::filesystem::path out(options.out);
   std::filesystem::create_directories(out);
-  GradeOptions run;
+  runs::GradeOptions run;
   const std::filesystem::path report = out / "grade.html";
   run.log_file = options.log.empty() ? out / "grade.log" : std::filesystem::path(options.log);
   if (std::filesystem::weakly_canonical(run.log_file) ==
@@ -62,20 +62,21 @@ void grade(const GradeCommand& options) {
     throw std::runtime_error("--log: that is where the report goes");
   }
 
-  GradeResult result;
+  runs::GradeResult result;
   {
-    ProgressBar bar("grade");
-    result = run_grade(machine, run,
-                       [&](double share, const std::string& where) { bar.show(share, where); });
+    runs::ProgressBar bar("grade");
+    result = runs::run_grade(
+        machine, run, [&](double share, const std::string& where) { bar.show(share, where); });
   }
-  const GradeSummary summary = summarise(machine, result);
-  write_grade_report(report, run.log_file, machine, result, summary, words_of(options, machine));
+  const runs::GradeSummary summary = runs::summarise(machine, result);
+  reports::write_grade_report(report, run.log_file, machine, result, summary,
+                              words_of(options, machine));
   if (!options.summary.empty()) {
-    write_grade_summary(options.summary, summary);
+    reports::write_grade_summary(options.summary, summary);
   }
-  fmt::print("{}log     {}\nreport  {}\n", grade_table(summary), run.log_file.string(),
+  fmt::print("{}log     {}\nreport  {}\n", reports::grade_table(summary), run.log_file.string(),
              report.string());
-  if (result.end != GradeEnd::kDone) {
+  if (result.end != runs::GradeEnd::kDone) {
     throw std::runtime_error(end_text(result));
   }
 }
@@ -86,20 +87,21 @@ void search(const GradeCommand& options) {
     throw std::runtime_error("--within looks for a constant speed: it needs --speed-mode constant");
   }
   const machines::DozerMachine machine = machine_of(options);
-  FastestSpeed result;
+  runs::FastestSpeed result;
   {
-    ProgressBar bar("grade");
-    result = find_fastest(machine, *options.within_m,
-                          [&](double share, const std::string& where) { bar.show(share, where); });
+    runs::ProgressBar bar("grade");
+    result =
+        runs::find_fastest(machine, *options.within_m,
+                           [&](double share, const std::string& where) { bar.show(share, where); });
   }
-  fmt::print("{}", fastest_table(result, *options.within_m));
+  fmt::print("{}", runs::fastest_table(result, *options.within_m));
   if (!result.found) {
     throw std::runtime_error(
         fmt::format("no constant speed from {} m/s on keeps the grade within {} m",
-                    kSlowestTrial_mps, *options.within_m));
+                    runs::kSlowestTrial_mps, *options.within_m));
   }
   if (!options.summary.empty()) {
-    write_grade_summary(options.summary, result.found->summary);
+    reports::write_grade_summary(options.summary, result.found->summary);
   }
 }
 

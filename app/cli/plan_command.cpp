@@ -70,17 +70,17 @@ void plan(const PlanCommand& options) {
   if (result.refusal != PlanRefusal::kNone) {
     throw std::runtime_error(machines::refusal_words(profile.geometry, result));
   }
-  const std::vector<PlanSample> samples =
-      sample_plan(profile, kinematics, result.plan, options.step_s);
+  const std::vector<runs::PlanSample> samples =
+      runs::sample_plan(profile, kinematics, result.plan, options.step_s);
   const fs::path out(options.out);
   fs::create_directories(out);
-  write_plan_report(
+  reports::write_plan_report(
       out / "plan.html", machine, result, samples,
       fmt::format("{} | from {} | to {}", machine.name, words(request.from), words(request.to)));
-  write_plan_json(out / "plan.json", profile, result, samples);
-  write_text(out / "plan.csv", plan_csv(samples));
-  fmt::print("{}{}report  {}\n", options.table ? plan_table(samples) + "\n" : "",
-             plan_summary(profile, request, result, samples), (out / "plan.html").string());
+  reports::write_plan_json(out / "plan.json", profile, result, samples);
+  write_text(out / "plan.csv", runs::plan_csv(samples));
+  fmt::print("{}{}report  {}\n", options.table ? runs::plan_table(samples) + "\n" : "",
+             runs::plan_summary(profile, request, result, samples), (out / "plan.html").string());
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ namespace {
 struct PlantCommand {
   ScenarioOptions scenario;
   GradeScenario grade;
-  PlantRunOptions run;
+  runs::PlantRunOptions run;
   std::string profile = "excavator_22t";
   std::string player = "none";
   std::optional<std::string> task;  ///< Of the player `program`, like its number.
@@ -42,12 +42,12 @@ void add_command(nlohmann::ordered_json& figures, const std::string& of,
 }
 
 /// What all runs have at their end.
-void add_bus(nlohmann::ordered_json& figures, const PlantBusFigures& bus) {
+void add_bus(nlohmann::ordered_json& figures, const runs::PlantBusFigures& bus) {
   figures["late_cycles"] = bus.late_cycles;
   figures["frames_dropped"] = bus.frames_dropped;
 }
 
-nlohmann::ordered_json summary_of(const PlantRunResult& result) {
+nlohmann::ordered_json summary_of(const runs::PlantRunResult& result) {
   nlohmann::ordered_json figures = {
       {"simulated_s", result.bus.simulated_s},  {"enabled_s", result.enabled_s},
       {"on_path_s", result.on_path_s},          {"loops", result.loops},
@@ -58,7 +58,7 @@ nlohmann::ordered_json summary_of(const PlantRunResult& result) {
   return figures;
 }
 
-nlohmann::ordered_json summary_of(const GradePlantResult& result) {
+nlohmann::ordered_json summary_of(const runs::GradePlantResult& result) {
   nlohmann::ordered_json figures = {
       {"simulated_s", result.bus.simulated_s},  {"enabled_s", result.enabled_s},
       {"over_grade_s", result.over_grade_s},    {"edge_x_m", result.edge_x_m},
@@ -68,7 +68,7 @@ nlohmann::ordered_json summary_of(const GradePlantResult& result) {
   return figures;
 }
 
-nlohmann::ordered_json summary_of(const TaskPlantResult& result) {
+nlohmann::ordered_json summary_of(const runs::TaskPlantResult& result) {
   nlohmann::ordered_json figures = {{"simulated_s", result.bus.simulated_s},
                                     {"enabled_s", result.enabled_s},
                                     {"in_steps_s", result.in_steps_s},
@@ -95,18 +95,21 @@ bool has_errors_alone(const ScenarioOptions& options) {
 }
 
 /// The player by its name, whose task must be the machine's.
-Player player_of(const std::string& name, machines::MachineKind kind) {
+runs::Player player_of(const std::string& name, machines::MachineKind kind) {
   if ((name == "dig" || name == "program") && kind != machines::MachineKind::kExcavator) {
     refuse("--operator " + name, "an excavator");
   }
   if (name == "grade" && kind != machines::MachineKind::kDozer) {
     refuse("--operator grade", "a dozer");
   }
-  return name == "none" ? Player::kNobody : name == "shifts" ? Player::kShifts : Player::kTask;
+  return name == "none"     ? runs::Player::kNobody
+         : name == "shifts" ? runs::Player::kShifts
+                            : runs::Player::kTask;
 }
 
 nlohmann::ordered_json run_program(const PlantCommand& options,
-                                   const machines::ExcavatorMachine& machine, PlantRunOptions run) {
+                                   const machines::ExcavatorMachine& machine,
+                                   runs::PlantRunOptions run) {
   if (!machine.profile.has_swing()) {
     refuse("--operator program", "an excavator with a swing drive");
   }
@@ -117,12 +120,13 @@ nlohmann::ordered_json run_program(const PlantCommand& options,
   const machines::TaskFile task =
       machines::load_task(machines::find_task(options.task.value_or("flatten")), machine.profile);
   run.task_number = static_cast<std::uint8_t>(options.task_number.value_or(0));
-  return summary_of(run_task_plant(arranged(machine, options.scenario), task.result.program, run));
+  return summary_of(
+      runs::run_task_plant(arranged(machine, options.scenario), task.result.program, run));
 }
 
 nlohmann::ordered_json run_excavator(const PlantCommand& options,
                                      const std::filesystem::path& profile,
-                                     const PlantRunOptions& run) {
+                                     const runs::PlantRunOptions& run) {
   if (options.grade.engine_rpm) {
     refuse("--engine-rpm", "a dozer");
   }
@@ -132,12 +136,12 @@ nlohmann::ordered_json run_excavator(const PlantCommand& options,
   const machines::ExcavatorMachine machine =
       arranged(machines::load_excavator(profile), options.scenario);
   const Eigen::Vector3d strokes_m = usual_run(machine, options.scenario).start_strokes_m;
-  return summary_of(run_plant(
+  return summary_of(runs::run_plant(
       machine, run, plant::ExcavatorPlant::AxisArray{strokes_m[0], strokes_m[1], strokes_m[2]}));
 }
 
 nlohmann::ordered_json run_dozer(const PlantCommand& options, const std::filesystem::path& profile,
-                                 const PlantRunOptions& run) {
+                                 const runs::PlantRunOptions& run) {
   const std::string& errors = options.scenario.errors;
   const bool is_known = errors == "none" || errors == "all";
   if (!is_known || !has_errors_alone(options.scenario)) {
@@ -145,7 +149,7 @@ nlohmann::ordered_json run_dozer(const PlantCommand& options, const std::filesys
   }
   GradeScenario grade = options.grade;
   grade.errors = errors;
-  return summary_of(run_plant(
+  return summary_of(runs::run_plant(
       arranged(machines::load_dozer(profile), grade, options.scenario.scenario.seed), run));
 }
 
@@ -155,7 +159,7 @@ void plant_on_bus(const PlantCommand& options) {
   }
   const std::filesystem::path profile = machines::find_profile(options.profile);
   const machines::MachineKind kind = machines::profile_kind(profile);
-  PlantRunOptions run = options.run;
+  runs::PlantRunOptions run = options.run;
   run.player = player_of(options.player, kind);
   const nlohmann::ordered_json figures = kind == machines::MachineKind::kDozer
                                              ? run_dozer(options, profile, run)
@@ -163,7 +167,7 @@ void plant_on_bus(const PlantCommand& options) {
   if (options.summary.empty()) {
     fmt::print("{}\n", figures.dump(2));
   } else {
-    write_json(options.summary, figures);
+    reports::write_json(options.summary, figures);
   }
 }
 

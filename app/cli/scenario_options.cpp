@@ -83,8 +83,9 @@ std::string scenario_words(const ScenarioOptions& options) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-DigOptions usual_run(const machines::ExcavatorMachine& machine, const ScenarioOptions& options) {
-  DigOptions run;
+runs::DigOptions usual_run(const machines::ExcavatorMachine& machine,
+                           const ScenarioOptions& options) {
+  runs::DigOptions run;
   if (options.scenario.air) {
     const machines::AirManoeuvre& air = machine.experiment.air;
     run.start_strokes_m = machines::strokes_at(machine.profile, air.start);

@@ -30,7 +30,7 @@ void add_scenario_options(CLI::App& command, ScenarioOptions& options);
 
 /// Where the bucket starts and how far it goes unless told: machines::dig_start(), once round; in
 /// the air as the profile has it. Throws std::runtime_error where that is out of reach.
-[[nodiscard]] DigOptions usual_run(const machines::ExcavatorMachine& machine,
-                                   const ScenarioOptions& options);
+[[nodiscard]] runs::DigOptions usual_run(const machines::ExcavatorMachine& machine,
+                                         const ScenarioOptions& options);
 
 }  // namespace graben::cli

@@ -28,7 +28,7 @@ struct ScopeCommand {
   std::optional<std::uint64_t> seed;
   std::optional<int> bitrate_bps;
   scope::ServerOptions server;
-  scope::SetupOptions setup;
+  reports::SetupOptions setup;
 };
 
 constexpr int kUsualBitrate_bps = 500000;
@@ -53,8 +53,8 @@ scope::SimOptions simulation(const ScopeCommand& options) {
 }
 
 /// The simulated controller has the one task, by the number 0.
-scope::SetupOptions setup_of(const ScopeCommand& options) {
-  scope::SetupOptions setup = options.setup;
+reports::SetupOptions setup_of(const ScopeCommand& options) {
+  reports::SetupOptions setup = options.setup;
   if (options.sim == "autodig" && setup.tasks.empty()) {
     setup.tasks = {"flatten"};
   }
@@ -69,13 +69,13 @@ void show(const ScopeCommand& options) {
   const int bitrate_bps = options.bitrate_bps.value_or(kUsualBitrate_bps);
   if (options.sim) {
     const auto source = scope::make_sim_source(simulation(options));
-    scope::serve(options.server, page, *source, scope::shared_setup(setup_of(options)));
+    scope::serve(options.server, page, *source, reports::shared_setup(setup_of(options)));
   } else if (options.log) {
-    scope::LogShow log(*options.log, bitrate_bps, scope::shared_setup(options.setup));
+    scope::LogShow log(*options.log, bitrate_bps, reports::shared_setup(options.setup));
     scope::serve(options.server, page, log);
   } else {
     scope::CanSource source(options.can, bitrate_bps);
-    scope::serve(options.server, page, source, scope::shared_setup(options.setup));
+    scope::serve(options.server, page, source, reports::shared_setup(options.setup));
   }
 }
 

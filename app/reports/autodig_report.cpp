@@ -13,47 +13,48 @@
 #include "app/reports/report_file.hpp"
 #include "app/reports/report_parts.hpp"
 
-namespace graben::cli {
+namespace graben::reports {
 namespace {
 
 using nlohmann::json;
 
 /// What of the run no frame has: plan and truth, as Zhang's figures 5 to 10 have them.
-json truth(const ExcavatorProfile& profile, const std::vector<AutodigSample>& samples) {
-  Truth<AutodigSample> lines(samples);
+json truth(const ExcavatorProfile& profile, const std::vector<runs::AutodigSample>& samples) {
+  Truth<runs::AutodigSample> lines(samples);
   lines.add("error", "", "true", "mm", 2,
-            [](const AutodigSample& s) { return s.error_true_m * kThousandths; });
+            [](const runs::AutodigSample& s) { return s.error_true_m * kThousandths; });
   for (unsigned i = 0; i < kDriveCount; ++i) {
     const char* name = machines::kDriveNames[i];
     const std::string title = fmt::format("{}, planned and true", name);
     lines.add(fmt::format("drive_{}", i), title, "planned", drive_unit(i), 2,
-              [i](const AutodigSample& s) { return s.planned[i] * kThousandths; });
+              [i](const runs::AutodigSample& s) { return s.planned[i] * kThousandths; });
     lines.add(fmt::format("drive_{}", i), title, "true", drive_unit(i), 2,
-              [i](const AutodigSample& s) { return s.real[i] * kThousandths; });
+              [i](const runs::AutodigSample& s) { return s.real[i] * kThousandths; });
     lines.add(i == kSwing ? "swing" : "velocities", "", fmt::format("{}, true", name),
               i == kSwing ? "mrad/s" : "mm/s", 2,
-              [i](const AutodigSample& s) { return s.velocity_real[i] * kThousandths; });
+              [i](const runs::AutodigSample& s) { return s.velocity_real[i] * kThousandths; });
   }
   for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
     lines.add("pumps", "", fmt::format("Pump {}, true", j + 1), "MPa", 3,
-              [j](const AutodigSample& s) { return s.pump_real_pa[j] * 1e-6; });
+              [j](const runs::AutodigSample& s) { return s.pump_real_pa[j] * 1e-6; });
   }
   lines.add("fence", "Distance to the nearest fence", "least of all points", "mm", 1,
-            [](const AutodigSample& s) { return s.fence_left_m * kThousandths; });
+            [](const runs::AutodigSample& s) { return s.fence_left_m * kThousandths; });
   lines.add("cycle_time", "Cycle time", "on this computer", "us", 2,
-            [](const AutodigSample& s) { return s.cycle_us; });
+            [](const runs::AutodigSample& s) { return s.cycle_us; });
   return lines.json();
 }
 
-json way(const std::vector<AutodigSample>& samples) {
-  return Truth<AutodigSample>(samples).way([](const AutodigSample& s) { return s.teeth_m[0]; },
-                                           [](const AutodigSample& s) { return s.teeth_m[1]; },
-                                           [](const AutodigSample& s) { return s.teeth_m[2]; });
+json way(const std::vector<runs::AutodigSample>& samples) {
+  return Truth<runs::AutodigSample>(samples).way(
+      [](const runs::AutodigSample& s) { return s.teeth_m[0]; },
+      [](const runs::AutodigSample& s) { return s.teeth_m[1]; },
+      [](const runs::AutodigSample& s) { return s.teeth_m[2]; });
 }
 
 std::string mm(double metres) { return fmt::format("{:.1f}", metres * 1e3); }
 
-json key_figures(const AutodigSummary& summary) {
+json key_figures(const runs::AutodigSummary& summary) {
   json figures = {
       key_figure("Max distance from the lines, true", mm(summary.max_error_true_m), "mm",
                  "of the teeth"),
@@ -81,17 +82,16 @@ json key_figures(const AutodigSummary& summary) {
 
 void write_autodig_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
                           const machines::ExcavatorMachine& machine, const machines::TaskFile& task,
-                          const AutodigResult& result, const AutodigSummary& summary,
+                          const runs::AutodigResult& result, const runs::AutodigSummary& summary,
                           const std::string& subtitle) {
   const RunWords words = {"A task's run", subtitle, key_figures(summary), summary.limit_share};
   json run = run_json(words, truth(machine.profile, result.samples));
   run["way"] = way(result.samples);
   add_log(run, log_file);
-  scope::write_report(file,
-                      report_setup(log_file, scope::machine_json(machine, {task}), std::move(run)));
+  write_report(file, report_setup(log_file, machine_json(machine, {task}), std::move(run)));
 }
 
-void write_autodig_summary(const std::filesystem::path& file, const AutodigSummary& summary) {
+void write_autodig_summary(const std::filesystem::path& file, const runs::AutodigSummary& summary) {
   nlohmann::ordered_json figures;
   figures["max_error_true_m"] = summary.max_error_true_m;
   figures["rmse_error_true_m"] = summary.rmse_error_true_m;
@@ -112,7 +112,7 @@ void write_autodig_summary(const std::filesystem::path& file, const AutodigSumma
   figures["cycle_median_us"] = summary.cycle_median_us;
   figures["cycle_max_us"] = summary.cycle_max_us;
   figures["steps"] = json::array();
-  for (const StepFigures& step : summary.steps) {
+  for (const runs::StepFigures& step : summary.steps) {
     figures["steps"].push_back({{"step", step.step},
                                 {"round", step.round},
                                 {"kind", machines::step_name(step.kind)},
@@ -130,9 +130,9 @@ void write_autodig_summary(const std::filesystem::path& file, const AutodigSumma
   write_json(file, figures);
 }
 
-std::string autodig_table(const AutodigSummary& summary) {
+std::string autodig_table(const runs::AutodigSummary& summary) {
   std::string table = "step        from s  until s  planned s  from line, max mm  from end mm\n";
-  for (const StepFigures& step : summary.steps) {
+  for (const runs::StepFigures& step : summary.steps) {
     const auto of_line = [&](double metres) {
       return step.straight ? mm(metres) : std::string("-");
     };
@@ -163,4 +163,4 @@ std::string autodig_table(const AutodigSummary& summary) {
   return table;
 }
 
-}  // namespace graben::cli
+}  // namespace graben::reports

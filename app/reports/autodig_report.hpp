@@ -8,18 +8,18 @@
 #include "app/machines/task_file.hpp"
 #include "app/runs/autodig_run.hpp"
 
-namespace graben::cli {
+namespace graben::reports {
 
 /// Writes the HTML report. Throws std::runtime_error that names the file.
 void write_autodig_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
                           const machines::ExcavatorMachine& machine, const machines::TaskFile& task,
-                          const AutodigResult& result, const AutodigSummary& summary,
+                          const runs::AutodigResult& result, const runs::AutodigSummary& summary,
                           const std::string& subtitle);
 
 /// Writes the figures as JSON. Throws std::runtime_error that names the file.
-void write_autodig_summary(const std::filesystem::path& file, const AutodigSummary& summary);
+void write_autodig_summary(const std::filesystem::path& file, const runs::AutodigSummary& summary);
 
 /// The short table for a terminal.
-[[nodiscard]] std::string autodig_table(const AutodigSummary& summary);
+[[nodiscard]] std::string autodig_table(const runs::AutodigSummary& summary);
 
-}  // namespace graben::cli
+}  // namespace graben::reports

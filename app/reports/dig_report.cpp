@@ -10,49 +10,50 @@
 #include "app/reports/report_file.hpp"
 #include "app/reports/report_parts.hpp"
 
-namespace graben::cli {
+namespace graben::reports {
 namespace {
 
 using nlohmann::json;
 
 /// What of the run no frame has: Kim's figures 10 to 15 beside what is on the bus.
-json truth(const machines::ExcavatorMachine& machine, const std::vector<DigSample>& samples) {
-  Truth<DigSample> lines(samples);
-  lines.add("error", "", "true", "mm", 2, [](const DigSample& s) { return s.error_true_m * 1e3; });
+json truth(const machines::ExcavatorMachine& machine, const std::vector<runs::DigSample>& samples) {
+  Truth<runs::DigSample> lines(samples);
+  lines.add("error", "", "true", "mm", 2,
+            [](const runs::DigSample& s) { return s.error_true_m * 1e3; });
   for (unsigned i = 0; i < kAxisCount; ++i) {
     lines.add("velocities", "", fmt::format("{}, true", machines::kDriveNames[i]), "mm/s", 2,
-              [i](const DigSample& s) { return s.velocity_real_mps[i] * 1e3; });
+              [i](const runs::DigSample& s) { return s.velocity_real_mps[i] * 1e3; });
   }
   for (unsigned j = 0; j < static_cast<unsigned>(machine.profile.pump_count); ++j) {
     lines.add("pumps", "", fmt::format("Pump {}, true", j + 1), "MPa", 3,
-              [j](const DigSample& s) { return s.pump_real_pa[j] * 1e-6; });
+              [j](const runs::DigSample& s) { return s.pump_real_pa[j] * 1e-6; });
   }
   const char* forces = "Force on the tip";
   lines.add("force", forces, "forward", "kN", 2,
-            [](const DigSample& s) { return s.tip_force_n.x() * 1e-3; });
+            [](const runs::DigSample& s) { return s.tip_force_n.x() * 1e-3; });
   lines.add("force", forces, "up", "kN", 2,
-            [](const DigSample& s) { return s.tip_force_n.y() * 1e-3; });
+            [](const runs::DigSample& s) { return s.tip_force_n.y() * 1e-3; });
   if (machine.plant.obstacle) {
-    lines.add("obstacle", "Obstacle", "holds the tip", "", 0, [](const DigSample& s) {
-      return s.obstruction == Obstruction::kHolding ? 1.0 : 0.0;
+    lines.add("obstacle", "Obstacle", "holds the tip", "", 0, [](const runs::DigSample& s) {
+      return s.obstruction == runs::Obstruction::kHolding ? 1.0 : 0.0;
     });
   }
   lines.add("regeneration", "Regeneration", "a check valve is open", "", 0,
-            [](const DigSample& s) { return s.regenerating ? 1.0 : 0.0; });
+            [](const runs::DigSample& s) { return s.regenerating ? 1.0 : 0.0; });
   lines.add("cycle_time", "Cycle time", "on this computer", "us", 2,
-            [](const DigSample& s) { return s.cycle_us; });
+            [](const runs::DigSample& s) { return s.cycle_us; });
   return lines.json();
 }
 
-json way(const machines::ExcavatorMachine& machine, const std::vector<DigSample>& samples) {
+json way(const machines::ExcavatorMachine& machine, const std::vector<runs::DigSample>& samples) {
   const Eigen::Vector2d foot_m = machine.profile.geometry.boom_foot_m;
-  return Truth<DigSample>(samples).way(
-      [&](const DigSample& s) { return s.tip_true_m.x() + foot_m.x(); },
-      [](const DigSample&) { return 0.0; },
-      [&](const DigSample& s) { return s.tip_true_m.y() + foot_m.y(); });
+  return Truth<runs::DigSample>(samples).way(
+      [&](const runs::DigSample& s) { return s.tip_true_m.x() + foot_m.x(); },
+      [](const runs::DigSample&) { return 0.0; },
+      [&](const runs::DigSample& s) { return s.tip_true_m.y() + foot_m.y(); });
 }
 
-json key_figures(const DigSummary& summary) {
+json key_figures(const runs::DigSummary& summary) {
   const auto mm = [](double metres) { return fmt::format("{:.1f}", metres * 1e3); };
   return {
       key_figure("Max error, true tip", mm(summary.max_error_true_m), "mm", "on the path"),
@@ -77,17 +78,16 @@ json key_figures(const DigSummary& summary) {
 }  // namespace
 
 void write_dig_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
-                      const machines::ExcavatorMachine& machine, const DigResult& result,
-                      const DigSummary& summary, const std::string& subtitle) {
+                      const machines::ExcavatorMachine& machine, const runs::DigResult& result,
+                      const runs::DigSummary& summary, const std::string& subtitle) {
   const RunWords words = {"Digging run", subtitle, key_figures(summary), summary.limit_share};
   json run = run_json(words, truth(machine, result.samples));
   run["way"] = way(machine, result.samples);
   add_log(run, log_file);
-  scope::write_report(file,
-                      report_setup(log_file, scope::machine_json(machine, {}), std::move(run)));
+  write_report(file, report_setup(log_file, machine_json(machine, {}), std::move(run)));
 }
 
-void write_dig_summary(const std::filesystem::path& file, const DigSummary& summary) {
+void write_dig_summary(const std::filesystem::path& file, const runs::DigSummary& summary) {
   nlohmann::ordered_json figures;
   figures["max_error_true_m"] = summary.max_error_true_m;
   figures["rmse_error_true_m"] = summary.rmse_error_true_m;
@@ -117,7 +117,7 @@ void write_dig_summary(const std::filesystem::path& file, const DigSummary& summ
   write_json(file, figures);
 }
 
-std::string dig_table(const DigSummary& summary) {
+std::string dig_table(const runs::DigSummary& summary) {
   return fmt::format(
       "                                true    measured\n"
       "path error, max           {:>10.1f}  {:>10.1f} mm\n"
@@ -141,4 +141,4 @@ std::string dig_table(const DigSummary& summary) {
       shares_table(summary.limit_share));
 }
 
-}  // namespace graben::cli
+}  // namespace graben::reports

@@ -6,17 +6,17 @@
 
 #include "app/runs/dig_run.hpp"
 
-namespace graben::cli {
+namespace graben::reports {
 
 /// Writes the HTML report. Throws std::runtime_error that names the file.
 void write_dig_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
-                      const machines::ExcavatorMachine& machine, const DigResult& result,
-                      const DigSummary& summary, const std::string& subtitle);
+                      const machines::ExcavatorMachine& machine, const runs::DigResult& result,
+                      const runs::DigSummary& summary, const std::string& subtitle);
 
 /// Writes the figures as JSON. Throws std::runtime_error that names the file.
-void write_dig_summary(const std::filesystem::path& file, const DigSummary& summary);
+void write_dig_summary(const std::filesystem::path& file, const runs::DigSummary& summary);
 
 /// The short table for a terminal.
-[[nodiscard]] std::string dig_table(const DigSummary& summary);
+[[nodiscard]] std::string dig_table(const runs::DigSummary& summary);
 
-}  // namespace graben::cli
+}  // namespace graben::reports

@@ -9,7 +9,7 @@
 #include "app/reports/report_file.hpp"
 #include "app/reports/report_parts.hpp"
 
-namespace graben::cli {
+namespace graben::reports {
 namespace {
 
 using nlohmann::json;
@@ -18,40 +18,43 @@ constexpr double kLitresPerMinute = 6e4;  ///< In a m^3/s.
 
 /// What of the run no frame has: Mononen and Mattila's figures 5, 7, 8 and 9 beside what is on the
 /// bus.
-json truth(const machines::DozerMachine& machine, const std::vector<GradeSample>& samples) {
-  Truth<GradeSample> lines(samples);
+json truth(const machines::DozerMachine& machine, const std::vector<runs::GradeSample>& samples) {
+  Truth<runs::GradeSample> lines(samples);
   lines.add("error", "", "true", "mm", 2,
-            [](const GradeSample& s) { return s.error_true_m * 1e3; });
+            [](const runs::GradeSample& s) { return s.error_true_m * 1e3; });
   lines.add("speeds", "", "true", "mm/s", 1,
-            [](const GradeSample& s) { return s.speed_true_mps * 1e3; });
+            [](const runs::GradeSample& s) { return s.speed_true_mps * 1e3; });
   const double desired_mmps = machine.profile.travel.speed_desired_mps * 1e3;
-  lines.add("speeds", "", "desired", "mm/s", 1, [=](const GradeSample&) { return desired_mmps; });
+  lines.add("speeds", "", "desired", "mm/s", 1,
+            [=](const runs::GradeSample&) { return desired_mmps; });
   lines.add("flow", "", "required, true motion", "L/min", 2,
-            [](const GradeSample& s) { return s.flow_required_m3ps * kLitresPerMinute; });
+            [](const runs::GradeSample& s) { return s.flow_required_m3ps * kLitresPerMinute; });
   lines.add("flow", "", "available, true", "L/min", 2,
-            [](const GradeSample& s) { return s.flow_available_m3ps * kLitresPerMinute; });
+            [](const runs::GradeSample& s) { return s.flow_available_m3ps * kLitresPerMinute; });
   lines.add("velocities", "", "blade, true", "mm/s", 2,
-            [](const GradeSample& s) { return s.blade_true_mps * 1e3; });
+            [](const runs::GradeSample& s) { return s.blade_true_mps * 1e3; });
   const char* heights = "Edge, design and body";
-  lines.add("heights", heights, "edge", "m", 4, [](const GradeSample& s) { return s.edge_m.y(); });
+  lines.add("heights", heights, "edge", "m", 4,
+            [](const runs::GradeSample& s) { return s.edge_m.y(); });
   lines.add("heights", heights, "design under it", "m", 4,
-            [](const GradeSample& s) { return s.design_m; });
+            [](const runs::GradeSample& s) { return s.design_m; });
   lines.add("heights", heights, "body", "m", 4,
-            [](const GradeSample& s) { return s.body.height_m; });
+            [](const runs::GradeSample& s) { return s.body.height_m; });
   lines.add("place", "Edge along the grade", "x", "m", 3,
-            [](const GradeSample& s) { return s.edge_m.x(); });
+            [](const runs::GradeSample& s) { return s.edge_m.x(); });
   lines.add("cycle_time", "Cycle time", "on this computer", "us", 2,
-            [](const GradeSample& s) { return s.cycle_us; });
+            [](const runs::GradeSample& s) { return s.cycle_us; });
   return lines.json();
 }
 
-json way(const std::vector<GradeSample>& samples) {
-  return Truth<GradeSample>(samples).way([](const GradeSample& s) { return s.edge_m.x(); },
-                                         [](const GradeSample&) { return 0.0; },
-                                         [](const GradeSample& s) { return s.edge_m.y(); });
+json way(const std::vector<runs::GradeSample>& samples) {
+  return Truth<runs::GradeSample>(samples).way(
+      [](const runs::GradeSample& s) { return s.edge_m.x(); },
+      [](const runs::GradeSample&) { return 0.0; },
+      [](const runs::GradeSample& s) { return s.edge_m.y(); });
 }
 
-json key_figures(const GradeSummary& summary) {
+json key_figures(const runs::GradeSummary& summary) {
   const auto mm = [](double metres) { return fmt::format("{:.1f}", metres * 1e3); };
   return {
       key_figure("Max error, true edge", mm(summary.max_error_true_m), "mm", "over the grade"),
@@ -78,16 +81,16 @@ json key_figures(const GradeSummary& summary) {
 }  // namespace
 
 void write_grade_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
-                        const machines::DozerMachine& machine, const GradeResult& result,
-                        const GradeSummary& summary, const std::string& subtitle) {
+                        const machines::DozerMachine& machine, const runs::GradeResult& result,
+                        const runs::GradeSummary& summary, const std::string& subtitle) {
   const RunWords words = {"Grading run", subtitle, key_figures(summary), summary.limit_share};
   json run = run_json(words, truth(machine, result.samples));
   run["way"] = way(result.samples);
   add_log(run, log_file);
-  scope::write_report(file, report_setup(log_file, scope::machine_json(machine), std::move(run)));
+  write_report(file, report_setup(log_file, machine_json(machine), std::move(run)));
 }
 
-void write_grade_summary(const std::filesystem::path& file, const GradeSummary& summary) {
+void write_grade_summary(const std::filesystem::path& file, const runs::GradeSummary& summary) {
   nlohmann::ordered_json figures;
   figures["max_error_true_m"] = summary.max_error_true_m;
   figures["rmse_error_true_m"] = summary.rmse_error_true_m;
@@ -114,7 +117,7 @@ void write_grade_summary(const std::filesystem::path& file, const GradeSummary& 
   write_json(file, figures);
 }
 
-std::string grade_table(const GradeSummary& summary) {
+std::string grade_table(const runs::GradeSummary& summary) {
   return fmt::format(
       "                                true    measured\n"
       "edge over the grade, max  {:>10.1f}  {:>10.1f} mm\n"
@@ -139,4 +142,4 @@ std::string grade_table(const GradeSummary& summary) {
       summary.real_time_factor, shares_table(summary.limit_share));
 }
 
-}  // namespace graben::cli
+}  // namespace graben::reports

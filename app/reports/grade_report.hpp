@@ -6,17 +6,17 @@
 
 #include "app/runs/grade_run.hpp"
 
-namespace graben::cli {
+namespace graben::reports {
 
 /// Writes the HTML report. Throws std::runtime_error that names the file.
 void write_grade_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
-                        const machines::DozerMachine& machine, const GradeResult& result,
-                        const GradeSummary& summary, const std::string& subtitle);
+                        const machines::DozerMachine& machine, const runs::GradeResult& result,
+                        const runs::GradeSummary& summary, const std::string& subtitle);
 
 /// Writes the figures as JSON. Throws std::runtime_error that names the file.
-void write_grade_summary(const std::filesystem::path& file, const GradeSummary& summary);
+void write_grade_summary(const std::filesystem::path& file, const runs::GradeSummary& summary);
 
 /// The short table for a terminal.
-[[nodiscard]] std::string grade_table(const GradeSummary& summary);
+[[nodiscard]] std::string grade_table(const runs::GradeSummary& summary);
 
-}  // namespace graben::cli
+}  // namespace graben::reports

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-namespace graben::cli {
+namespace graben::reports {
 
 /// Throws std::runtime_error that names the file.
 inline void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& figures) {
@@ -20,4 +20,4 @@ inline void write_json(const std::filesystem::path& file, const nlohmann::ordere
   }
 }
 
-}  // namespace graben::cli
+}  // namespace graben::reports

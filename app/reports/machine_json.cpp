@@ -5,7 +5,7 @@
 #include "firmware/dozer/grade_profile.hpp"
 #include "firmware/excavator/field/dig_field.hpp"
 
-namespace graben::scope {
+namespace graben::reports {
 namespace {
 
 using nlohmann::json;
@@ -137,4 +137,4 @@ json machine_json(const machines::DozerMachine& machine) {
           {"length_m", machine.experiment.length_m}};
 }
 
-}  // namespace graben::scope
+}  // namespace graben::reports

@@ -9,7 +9,7 @@
 #include "app/machines/any_machine.hpp"
 #include "app/machines/task_file.hpp"
 
-namespace graben::scope {
+namespace graben::reports {
 
 /// `tasks` by the number that they have on the bus, read for this machine.
 [[nodiscard]] nlohmann::json machine_json(const machines::ExcavatorMachine& machine,
@@ -24,4 +24,4 @@ namespace graben::scope {
 /// full costs three times as much to send.
 [[nodiscard]] double rounded(double value);
 
-}  // namespace graben::scope
+}  // namespace graben::reports

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <vector>
 
-namespace graben::scope {
+namespace graben::reports {
 namespace {
 
 constexpr int kLargestWindow = 15;
@@ -88,4 +88,4 @@ std::string packed_file(const std::filesystem::path& file) {
   return packed(text);
 }
 
-}  // namespace graben::scope
+}  // namespace graben::reports

@@ -11,44 +11,44 @@
 #include "app/reports/report_file.hpp"
 #include "app/reports/report_parts.hpp"
 
-namespace graben::cli {
+namespace graben::reports {
 namespace {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
 
 /// Zhang's figures 5 to 10: displacement, velocity and acceleration of each drive.
-json truth(const std::vector<PlanSample>& samples) {
-  Truth<PlanSample> lines(samples);
+json truth(const std::vector<runs::PlanSample>& samples) {
+  Truth<runs::PlanSample> lines(samples);
   lines.add("way", "Teeth along the line", "way", "m", 4,
-            [](const PlanSample& s) { return s.way_m; });
+            [](const runs::PlanSample& s) { return s.way_m; });
   lines.add("teeth_speed", "Speed of the teeth", "along the line", "mm/s", 2,
-            [](const PlanSample& s) { return s.speed_mps * kThousandths; });
+            [](const runs::PlanSample& s) { return s.speed_mps * kThousandths; });
   const auto add = [&](const char* plot, const char* title, const char* per, unsigned drive,
-                       std::array<double, kDriveCount> PlanSample::*member) {
+                       std::array<double, kDriveCount> runs::PlanSample::*member) {
     // The swing's unit is another: a plot of its own.
     const bool is_swing = drive == kSwing;
     lines.add(fmt::format("{}{}", plot, is_swing ? "_swing" : ""),
               fmt::format("{} of the {}", title, is_swing ? "swing" : "cylinders"),
               machines::kDriveNames[drive], fmt::format("{}{}", drive_unit(drive), per), 3,
-              [=](const PlanSample& s) { return (s.*member)[drive] * kThousandths; });
+              [=](const runs::PlanSample& s) { return (s.*member)[drive] * kThousandths; });
   };
   for (unsigned i = 0; i < kDriveCount; ++i) {
-    add("displacement", "Displacement", "", i, &PlanSample::displacement);
+    add("displacement", "Displacement", "", i, &runs::PlanSample::displacement);
   }
   for (unsigned i = 0; i < kDriveCount; ++i) {
-    add("velocity", "Velocity", "/s", i, &PlanSample::velocity);
+    add("velocity", "Velocity", "/s", i, &runs::PlanSample::velocity);
   }
   for (unsigned i = 0; i < kDriveCount; ++i) {
-    add("acceleration", "Acceleration", "/s²", i, &PlanSample::acceleration);
+    add("acceleration", "Acceleration", "/s²", i, &runs::PlanSample::acceleration);
   }
   return lines.json();
 }
 
-json drives(const std::vector<PlanSample>& samples) {
+json drives(const std::vector<runs::PlanSample>& samples) {
   constexpr int kMicrometres = 6;
   json all = json::array();
-  for (const PlanSample& sample : samples) {
+  for (const runs::PlanSample& sample : samples) {
     json row = json::array();
     for (const double value : sample.displacement) {
       row.push_back(plotted(value, kMicrometres));
@@ -59,7 +59,7 @@ json drives(const std::vector<PlanSample>& samples) {
 }
 
 json key_figures(const ExcavatorProfile& profile, const PlanResult& result,
-                 const std::vector<PlanSample>& samples) {
+                 const std::vector<runs::PlanSample>& samples) {
   const LinePlan& plan = result.plan;
   json figures = {
       key_figure("Line", fmt::format("{:.3f}", plan.line.change.position_m.norm()), "m", ""),
@@ -76,13 +76,13 @@ json key_figures(const ExcavatorProfile& profile, const PlanResult& result,
                        {"unit", "%"},
                        {"note", "of its limit"}});
   }
-  const auto flow = greatest_flow_m3ps(samples);
+  const auto flow = runs::greatest_flow_m3ps(samples);
   for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
     figures.push_back({{"label", fmt::format("Flow of Pump {}, max", j + 1)},
                        {"value", fmt::format("{:.0f}", 6e4 * flow[j])},
                        {"unit", "L/min"},
                        {"note", fmt::format("of {:.0f}; cylinders alone",
-                                            6e4 * full_flow_m3ps(profile.pump[j]))}});
+                                            6e4 * runs::full_flow_m3ps(profile.pump[j]))}});
   }
   return figures;
 }
@@ -95,21 +95,22 @@ ordered_json pose(const TeethPose& teeth) {
 }  // namespace
 
 void write_plan_report(const std::filesystem::path& file, const machines::ExcavatorMachine& machine,
-                       const PlanResult& result, const std::vector<PlanSample>& samples,
+                       const PlanResult& result, const std::vector<runs::PlanSample>& samples,
                        const std::string& subtitle) {
   json run = run_json({"Planned line", subtitle, key_figures(machine.profile, result, samples), {}},
                       truth(samples));
   run["pose"]["drives"] = drives(samples);
-  run["way"] = Truth<PlanSample>(samples).way([](const PlanSample& s) { return s.teeth_m[0]; },
-                                              [](const PlanSample& s) { return s.teeth_m[1]; },
-                                              [](const PlanSample& s) { return s.teeth_m[2]; });
-  json setup = report_setup(file, scope::machine_json(machine, {}), std::move(run));
+  run["way"] =
+      Truth<runs::PlanSample>(samples).way([](const runs::PlanSample& s) { return s.teeth_m[0]; },
+                                           [](const runs::PlanSample& s) { return s.teeth_m[1]; },
+                                           [](const runs::PlanSample& s) { return s.teeth_m[2]; });
+  json setup = report_setup(file, machine_json(machine, {}), std::move(run));
   setup["source"]["mode"] = "plan";
-  scope::write_report(file, setup);
+  write_report(file, setup);
 }
 
 void write_plan_json(const std::filesystem::path& file, const ExcavatorProfile& profile,
-                     const PlanResult& result, const std::vector<PlanSample>& samples) {
+                     const PlanResult& result, const std::vector<runs::PlanSample>& samples) {
   const LinePlan& plan = result.plan;
   ordered_json figures;
   figures["from"] = pose(plan.line.from);
@@ -131,9 +132,9 @@ void write_plan_json(const std::filesystem::path& file, const ExcavatorProfile& 
         {"acceleration", result.peaks.acceleration[i]},
         {"acceleration_ratio", result.peaks.acceleration_ratio[i]}};
   }
-  const auto flow = greatest_flow_m3ps(samples);
+  const auto flow = runs::greatest_flow_m3ps(samples);
   figures["pump_flow_m3ps"] = std::vector<double>(flow.begin(), flow.begin() + profile.pump_count);
   write_json(file, figures);
 }
 
-}  // namespace graben::cli
+}  // namespace graben::reports

@@ -13,7 +13,7 @@
 
 #include "app/scope/scope_page.hpp"
 
-namespace graben::scope {
+namespace graben::reports {
 namespace {
 
 namespace fs = std::filesystem;
@@ -99,4 +99,4 @@ void write_report(const fs::path& file, const nlohmann::json& setup) {
   }
 }
 
-}  // namespace graben::scope
+}  // namespace graben::reports

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 
-namespace graben::scope {
+namespace graben::reports {
 
 /// `setup` is a `Setup` of app/scope/page/src/model/api.ts, of mode "report" or "plan". A value
 /// that is not finite becomes null, and a gap in the plot. The report is written beside `file` and
@@ -14,4 +14,4 @@ namespace graben::scope {
 /// written.
 void write_report(const std::filesystem::path& file, const nlohmann::json& setup);
 
-}  // namespace graben::scope
+}  // namespace graben::reports

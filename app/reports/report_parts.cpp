@@ -5,7 +5,7 @@
 #include "app/reports/packed_log.hpp"
 #include "app/reports/setup_json.hpp"
 
-namespace graben::cli {
+namespace graben::reports {
 namespace {
 
 /// What the bus of a simulated run would have; see the README.
@@ -18,7 +18,7 @@ nlohmann::json key_figure(const std::string& label, const std::string& value,
   return {{"label", label}, {"value", value}, {"unit", unit}, {"note", note}};
 }
 
-std::string shares_table(const LimitShares& shares) {
+std::string shares_table(const runs::LimitShares& shares) {
   std::string lines;
   for (const auto& [name, share] : shares) {
     lines += fmt::format("  {:<26}{:>9.1f} %\n", name, share * 100.0);
@@ -47,8 +47,7 @@ nlohmann::json run_json(const RunWords& words, nlohmann::json truth) {
 }
 
 void add_log(nlohmann::json& run, const std::filesystem::path& log_file) {
-  run["log"] =
-      std::filesystem::is_regular_file(log_file) ? scope::packed_file(log_file) : scope::packed("");
+  run["log"] = std::filesystem::is_regular_file(log_file) ? packed_file(log_file) : packed("");
 }
 
 nlohmann::json report_setup(const std::filesystem::path& log_file, nlohmann::json machine,
@@ -56,8 +55,8 @@ nlohmann::json report_setup(const std::filesystem::path& log_file, nlohmann::jso
   return {{"source",
            {{"mode", "report"}, {"name", log_file.filename().string()}, {"bitrate", kBitrate_bps}}},
           {"machines", nlohmann::json::array({std::move(machine)})},
-          {"words", scope::words_json()},
+          {"words", words_json()},
           {"run", std::move(run)}};
 }
 
-}  // namespace graben::cli
+}  // namespace graben::reports

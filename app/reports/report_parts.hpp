@@ -11,21 +11,21 @@
 #include "app/runs/limit_text.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
 
-namespace graben::cli {
+namespace graben::reports {
 
 /// What a report tells of a run, before its frames: `Run` of the page.
 struct RunWords {
   std::string title;
   std::string subtitle;
   nlohmann::json summary = nlohmann::json::array();  ///< Of key_figure.
-  LimitShares limit_share;                           ///< Empty: there is no lambda.
+  runs::LimitShares limit_share;                     ///< Empty: there is no lambda.
 };
 
 [[nodiscard]] nlohmann::json key_figure(const std::string& label, const std::string& value,
                                         const std::string& unit, const std::string& note);
 
 /// Lines of a terminal's table.
-[[nodiscard]] std::string shares_table(const LimitShares& shares);
+[[nodiscard]] std::string shares_table(const runs::LimitShares& shares);
 
 /// What is plotted of a drive: mm, and mrad of the swing, both by the thousandth of a unit.
 inline constexpr double kThousandths = 1e3;
@@ -98,4 +98,4 @@ void add_log(nlohmann::json& run, const std::filesystem::path& log_file);
 [[nodiscard]] nlohmann::json report_setup(const std::filesystem::path& log_file,
                                           nlohmann::json machine, nlohmann::json run);
 
-}  // namespace graben::cli
+}  // namespace graben::reports

@@ -12,7 +12,7 @@
 #include "app/reports/machine_json.hpp"
 #include "app/runs/fault_text.hpp"
 
-namespace graben::scope {
+namespace graben::reports {
 namespace {
 
 namespace fs = std::filesystem;
@@ -117,11 +117,11 @@ class ToldTasks {
 json words_json() {
   json words;
   for (int i = 0; i < kFaultCount; ++i) {
-    words["fault"][std::to_string(i)] = cli::fault_words(static_cast<Fault>(i));
+    words["fault"][std::to_string(i)] = runs::fault_words(static_cast<Fault>(i));
   }
   words["why_not_armed"] = json::array();
-  for (int i = 0; i < cli::kArmBlockCount; ++i) {
-    words["why_not_armed"].push_back(cli::arm_block_words(static_cast<ArmBlock>(i)));
+  for (int i = 0; i < runs::kArmBlockCount; ++i) {
+    words["why_not_armed"].push_back(runs::arm_block_words(static_cast<ArmBlock>(i)));
   }
   return words;
 }
@@ -149,4 +149,4 @@ json shared_setup(const SetupOptions& options) {
   return {{"machines", machines_json}, {"words", words_json()}};
 }
 
-}  // namespace graben::scope
+}  // namespace graben::reports

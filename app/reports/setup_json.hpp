@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace graben::scope {
+namespace graben::reports {
 
 struct SetupOptions {
   /// A profile beside the shipped ones: file or shipped name. Comes first.
@@ -23,4 +23,4 @@ struct SetupOptions {
 /// `Words`.
 [[nodiscard]] nlohmann::json words_json();
 
-}  // namespace graben::scope
+}  // namespace graben::reports

@@ -4,7 +4,7 @@
 #include "app/reports/machine_json.hpp"
 #include "firmware/excavator/kinematics/swing_kinematics.hpp"
 
-namespace graben::scope {
+namespace graben::reports {
 namespace {
 
 using nlohmann::json;
@@ -90,4 +90,4 @@ json task_json(const machines::TaskFile& task, const ExcavatorProfile& profile) 
   return result;
 }
 
-}  // namespace graben::scope
+}  // namespace graben::reports

@@ -7,7 +7,7 @@
 #include "app/plant/operator_node.hpp"
 #include "app/runs/loopback_rig.hpp"
 
-namespace graben::bench {
+namespace graben::runs {
 
 struct AutodigBench : MachineBench<plant::PlantNode, plant::OperatorNode, ecu::ExcavatorEcu> {
   AutodigBench(const machines::ExcavatorMachine& machine, const TaskBook& book,
@@ -18,4 +18,4 @@ struct AutodigBench : MachineBench<plant::PlantNode, plant::OperatorNode, ecu::E
             plant::PlantStart({start[kBoom], start[kArm], start[kBucket]}, start[kSwing])) {}
 };
 
-}  // namespace graben::bench
+}  // namespace graben::runs

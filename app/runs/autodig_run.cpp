@@ -8,7 +8,7 @@
 #include "app/runs/autodig_rig.hpp"
 #include "firmware/excavator/tasks/task_run.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 namespace {
 
 constexpr double kLongerThanPlanned = 10.0;
@@ -194,7 +194,7 @@ class AutodigRun {
   const TaskProgram& program_;
   AutodigOptions options_;
   SwingKinematics kinematics_;
-  bench::AutodigBench bench_;
+  AutodigBench bench_;
   int round_ = 0;
   AutodigResult result_;
 };
@@ -206,4 +206,4 @@ AutodigResult run_autodig(const machines::ExcavatorMachine& machine, const TaskP
   return AutodigRun(machine, program, options).run(progress);
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

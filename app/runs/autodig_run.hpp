@@ -15,7 +15,7 @@
 #include "app/runs/logged_run.hpp"
 #include "firmware/excavator/tasks/task_program.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 struct AutodigOptions {
   DriveVector start = DriveVector::Zero();  ///< Strokes in m and swing in rad.
@@ -104,4 +104,4 @@ struct AutodigSummary {
 
 [[nodiscard]] AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result);
 
-}  // namespace graben::cli
+}  // namespace graben::runs

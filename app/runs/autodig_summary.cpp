@@ -4,7 +4,7 @@
 #include "app/runs/autodig_run.hpp"
 #include "app/runs/statistics.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 namespace {
 
 bool in_step(const AutodigSample& sample) {
@@ -124,4 +124,4 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
   return summary;
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

@@ -6,7 +6,7 @@
 
 #include "app/runs/campaign_file.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 inline constexpr double kMilli = 1e3;
 inline constexpr double kPercent = 100.0;
@@ -41,4 +41,4 @@ template <class Summary>
   return row;
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

@@ -15,7 +15,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace graben::cli {
+namespace graben::runs {
 namespace {
 
 std::string header(const CampaignKind& kind) {
@@ -214,4 +214,4 @@ std::string campaign_table(const CampaignKind& kind, const CampaignData& data) {
   return table;
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace graben::cli {
+namespace graben::runs {
 
 /// A figure of a draw. `shown` turns it into the unit of the table.
 struct CampaignColumn {
@@ -89,4 +89,4 @@ class CampaignLog {
 /// Median, 95th percentile (nearest rank) and largest of every figure that is there.
 [[nodiscard]] std::string campaign_table(const CampaignKind& kind, const CampaignData& data);
 
-}  // namespace graben::cli
+}  // namespace graben::runs

@@ -12,7 +12,7 @@
 
 #include "app/runs/progress_bar.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 namespace {
 
 /// Set by SIGINT and SIGTERM: runs that have begun are finished, no more are begun.
@@ -165,4 +165,4 @@ void merge_campaigns(const std::vector<std::string>& files, const std::string& s
   fmt::print("{}", campaign_table(kind, all));
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

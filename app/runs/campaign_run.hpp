@@ -8,7 +8,7 @@
 
 #include "app/runs/campaign_file.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 struct CampaignOptions {
   std::uint64_t draws = 0;
@@ -33,4 +33,4 @@ void run_campaign(const CampaignOptions& options, const CampaignKind& kind,
 void merge_campaigns(const std::vector<std::string>& files, const std::string& summary,
                      const CampaignKind& kind);
 
-}  // namespace graben::cli
+}  // namespace graben::runs

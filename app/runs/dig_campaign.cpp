@@ -3,7 +3,7 @@
 #include "app/runs/campaign_figures.hpp"
 #include "firmware/numeric/constants.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 namespace {
 
 constexpr double kMega = 1e-6;
@@ -55,4 +55,4 @@ CampaignRow dig_campaign_row(const DigResult& result) {
   return campaign_row(dig_figures(), static_cast<std::size_t>(result.end), summarise(result));
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

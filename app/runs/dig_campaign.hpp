@@ -4,9 +4,9 @@
 #include "app/runs/campaign_file.hpp"
 #include "app/runs/dig_run.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 [[nodiscard]] const CampaignKind& dig_campaign();
 [[nodiscard]] CampaignRow dig_campaign_row(const DigResult& result);
 
-}  // namespace graben::cli
+}  // namespace graben::runs

@@ -7,7 +7,7 @@
 #include "app/plant/operator_node.hpp"
 #include "app/runs/loopback_rig.hpp"
 
-namespace graben::bench {
+namespace graben::runs {
 
 struct DigBench : MachineBench<plant::PlantNode, plant::OperatorNode, ecu::ExcavatorEcu> {
   DigBench(const machines::ExcavatorMachine& machine, const Eigen::Vector3d& start_strokes_m,
@@ -17,4 +17,4 @@ struct DigBench : MachineBench<plant::PlantNode, plant::OperatorNode, ecu::Excav
                                                       start_strokes_m[2]}) {}
 };
 
-}  // namespace graben::bench
+}  // namespace graben::runs

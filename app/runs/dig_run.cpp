@@ -8,7 +8,7 @@
 #include "app/runs/dig_rig.hpp"
 #include "app/runs/path_progress.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 namespace {
 
 /// Slower than this a direction says nothing.
@@ -85,8 +85,8 @@ class DigRun {
     const plant::TipPose tip = plant.tip();
     sample.tip_true_m = tip.position_m;
     if (!result_.samples.empty()) {
-      sample.velocity_true_mps = (tip.position_m - result_.samples.back().tip_true_m) /
-                                 seconds(bench::DigBench::kPeriod_us);
+      sample.velocity_true_mps =
+          (tip.position_m - result_.samples.back().tip_true_m) / seconds(DigBench::kPeriod_us);
     }
     sample.attitude_true_rad = tip.attitude_rad;
     sample.off_field_rad =
@@ -115,8 +115,8 @@ class DigRun {
   }
 
   [[nodiscard]] double mean_off_field_rad(const DigSample& sample) const {
-    constexpr auto kCycles = static_cast<std::size_t>(
-        kOilPeriod_s * 1e6 / static_cast<double>(bench::DigBench::kPeriod_us));
+    constexpr auto kCycles =
+        static_cast<std::size_t>(kOilPeriod_s * 1e6 / static_cast<double>(DigBench::kPeriod_us));
     const std::size_t count = result_.samples.size();
     if (count < kCycles) {
       return 0.0;
@@ -155,7 +155,7 @@ class DigRun {
 
   const machines::ExcavatorMachine& machine_;
   DigOptions options_;
-  bench::DigBench bench_;
+  DigBench bench_;
   ExcavatorKinematics kinematics_;
   DigField field_;
   RoundedRectangle path_;
@@ -171,4 +171,4 @@ DigResult run_dig(const machines::ExcavatorMachine& machine, const DigOptions& o
   return DigRun(machine, options).run(progress);
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

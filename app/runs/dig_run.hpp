@@ -14,7 +14,7 @@
 #include "app/runs/logged_run.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 struct DigOptions {
   Eigen::Vector3d start_strokes_m = Eigen::Vector3d::Zero();
@@ -111,4 +111,4 @@ struct DigSummary {
 
 [[nodiscard]] DigSummary summarise(const DigResult& result);
 
-}  // namespace graben::cli
+}  // namespace graben::runs

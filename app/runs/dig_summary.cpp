@@ -3,7 +3,7 @@
 #include "app/runs/dig_run.hpp"
 #include "app/runs/statistics.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 namespace {
 
 /// The rebound of the oil is over after this; what comes then is judged for so long.
@@ -92,4 +92,4 @@ DigSummary summarise(const DigResult& result) {
   return summary;
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

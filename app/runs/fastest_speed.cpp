@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace graben::cli {
+namespace graben::runs {
 namespace {
 
 /// Speeds are counted in these.
@@ -92,4 +92,4 @@ std::string fastest_table(const FastestSpeed& result, double most_m) {
   return table;
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

@@ -6,7 +6,7 @@
 
 #include "app/runs/grade_run.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 struct SpeedTrial {
   double speed_mps = 0.0;
@@ -37,4 +37,4 @@ inline constexpr double kFineTrial_mps = 0.01;
 /// A line for each trial.
 [[nodiscard]] std::string fastest_table(const FastestSpeed& result, double most_m);
 
-}  // namespace graben::cli
+}  // namespace graben::runs

@@ -1,6 +1,6 @@
 #include "app/runs/fault_text.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 const char* fault_words(Fault fault) {
   switch (fault) {
@@ -122,4 +122,4 @@ const char* arm_block_words(ArmBlock block) {
   return "unknown";
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

@@ -4,7 +4,7 @@
 #include "firmware/core/codes.hpp"
 #include "firmware/signals/machine_signals.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 /// "a stroke is missing", ...; "none" for kNone.
 [[nodiscard]] const char* fault_words(Fault fault);
@@ -15,4 +15,4 @@ inline constexpr int kArmBlockCount = 16;
 /// the other.
 [[nodiscard]] const char* arm_block_words(ArmBlock block);
 
-}  // namespace graben::cli
+}  // namespace graben::runs

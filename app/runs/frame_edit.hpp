@@ -5,7 +5,7 @@
 #include "hal/can_frame.hpp"
 #include "hal/link/e2e.hpp"
 
-namespace graben::bench {
+namespace graben::runs {
 
 /// Of a message that the DBC has.
 template <class Kind>
@@ -51,4 +51,4 @@ void set_raw(CanFrame& frame, const dbc::Field& field, std::uint32_t raw) {
   return raw16 << (field.width - kBits);
 }
 
-}  // namespace graben::bench
+}  // namespace graben::runs

@@ -2,7 +2,7 @@
 
 #include "app/runs/campaign_figures.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 namespace {
 
 const std::vector<CampaignFigure<GradeSummary>>& grade_figures() {
@@ -45,4 +45,4 @@ CampaignRow grade_campaign_row(const machines::DozerMachine& machine, const Grad
                       summarise(machine, result));
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

@@ -4,10 +4,10 @@
 #include "app/runs/campaign_file.hpp"
 #include "app/runs/grade_run.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 [[nodiscard]] const CampaignKind& grade_campaign();
 [[nodiscard]] CampaignRow grade_campaign_row(const machines::DozerMachine& machine,
                                              const GradeResult& result);
 
-}  // namespace graben::cli
+}  // namespace graben::runs

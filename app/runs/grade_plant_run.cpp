@@ -7,7 +7,7 @@
 #include "app/runs/statistics.hpp"
 #include "can_dbc/generated/dozer_dbc.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 namespace {
 
 /// Adds up what the figures speak of.
@@ -64,4 +64,4 @@ GradePlantResult run_plant(const machines::DozerMachine& machine, const PlantRun
   return result;
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

@@ -5,7 +5,7 @@
 #include "app/plant/command_link.hpp"
 #include "app/runs/plant_bus.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 /// What the run saw. Errors are of the true cutting edge, while it was over the grade and the valve
 /// side let the spool open.
@@ -24,4 +24,4 @@ struct GradePlantResult {
 [[nodiscard]] GradePlantResult run_plant(const machines::DozerMachine& machine,
                                          const PlantRunOptions& options);
 
-}  // namespace graben::cli
+}  // namespace graben::runs

@@ -7,11 +7,11 @@
 #include "app/plant/operator_node.hpp"
 #include "app/runs/loopback_rig.hpp"
 
-namespace graben::bench {
+namespace graben::runs {
 
 struct GradeBench : MachineBench<plant::DozerNode, plant::DozerOperatorNode, ecu::DozerEcu> {
   GradeBench(const machines::DozerMachine& machine, double override_ratio)
       : MachineBench(machine.profile, machine.hash, Task::kGrade, override_ratio, machine.plant) {}
 };
 
-}  // namespace graben::bench
+}  // namespace graben::runs

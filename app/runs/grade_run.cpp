@@ -4,7 +4,7 @@
 
 #include "app/runs/grade_rig.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 namespace {
 
 constexpr double kLongerThanWanted = 10.0;
@@ -130,7 +130,7 @@ class GradeRun {
 
   const machines::DozerMachine& machine_;
   GradeOptions options_;
-  bench::GradeBench bench_;
+  GradeBench bench_;
   GradeTruth truth_;
   double start_m_;
   GradeResult result_;
@@ -143,4 +143,4 @@ GradeResult run_grade(const machines::DozerMachine& machine, const GradeOptions&
   return GradeRun(machine, options).run(progress);
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

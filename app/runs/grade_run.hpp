@@ -13,7 +13,7 @@
 #include "app/runs/limit_text.hpp"
 #include "app/runs/logged_run.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 struct GradeOptions {
   double speed_override_ratio = 1.0;
@@ -101,4 +101,4 @@ inline constexpr double kSpeedResolution_mps = 0.02;
 [[nodiscard]] GradeSummary summarise(const machines::DozerMachine& machine,
                                      const GradeResult& result);
 
-}  // namespace graben::cli
+}  // namespace graben::runs

@@ -6,7 +6,7 @@
 #include "app/runs/grade_run.hpp"
 #include "app/runs/statistics.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 namespace {
 
 /// What the required flow may be above the available one and still count as kept.
@@ -148,4 +148,4 @@ GradeSummary summarise(const machines::DozerMachine& machine, const GradeResult&
   return summary;
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

@@ -5,7 +5,7 @@
 
 #include "firmware/numeric/constants.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 GradeTruth::GradeTruth(const DozerProfile& profile)
     : linkage_(profile.blade),
@@ -60,4 +60,4 @@ double available_flow_m3ps(const DozerProfile& machine, double engine_radps) {
                   implement.valve_flow_max_m3ps);
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

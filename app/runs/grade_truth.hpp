@@ -7,7 +7,7 @@
 #include "app/plant/dozer_blade_joint.hpp"
 #include "firmware/dozer/grade_profile.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 /// Of the body frame's origin, in the world; pitch is positive nose up.
 struct BodyPose {
@@ -56,4 +56,4 @@ class GradeTruth {
 /// min of (11): what the implement pump of this machine gives at this speed, and the valve's most.
 [[nodiscard]] double available_flow_m3ps(const DozerProfile& machine, double engine_radps);
 
-}  // namespace graben::cli
+}  // namespace graben::runs

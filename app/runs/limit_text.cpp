@@ -7,7 +7,7 @@
 #include "app/machines/axis_names.hpp"
 #include "app/runs/fault_text.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 const ActuatorNames& excavator_actuators() {
   static const ActuatorNames names(machines::kDriveNames.begin(), machines::kDriveNames.end());
@@ -73,4 +73,4 @@ LimitShares LimitCount::shares() const {
   return shares;
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

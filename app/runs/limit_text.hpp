@@ -8,7 +8,7 @@
 
 #include "firmware/core/codes.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 /// Of a kind's actuators, in the order of their indices.
 using ActuatorNames = std::vector<const char*>;
@@ -35,4 +35,4 @@ class LimitCount {
   long all_ = 0;
 };
 
-}  // namespace graben::cli
+}  // namespace graben::runs

@@ -11,7 +11,7 @@
 #include "hal/link/link_counters.hpp"
 #include "platform/loopback/candump_log.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 /// Share of the work done and where it stands.
 using Progress = std::function<void(double share, const std::string& where)>;
@@ -54,4 +54,4 @@ BenchFigures run_bench(Bench& bench, const std::filesystem::path& log_file, Ende
   return figures;
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

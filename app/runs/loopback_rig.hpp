@@ -10,7 +10,7 @@
 #include "firmware/signals/machine_signals.hpp"
 #include "platform/loopback/loopback_bus.hpp"
 
-namespace graben::bench {
+namespace graben::runs {
 
 /// A bench for a kind of machine: its `Node`, its `Operator`, its `Ecu`. The operator gives nothing
 /// until kEnable_us, then enables automatic mode, then sets the task.
@@ -108,4 +108,4 @@ struct MachineBench {
   TimeUs said_cycle_us = 0;
 };
 
-}  // namespace graben::bench
+}  // namespace graben::runs

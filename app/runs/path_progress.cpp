@@ -4,7 +4,7 @@
 
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 namespace {
 constexpr double kReached_m = 0.02;
 constexpr double kReached_rad = 0.07;
@@ -29,4 +29,4 @@ void PathProgress::update(const Eigen::Vector2d& tip_m, bool near, TimeUs now_us
 
 double PathProgress::share() const { return travelled_m_ / (loops_ * path_.length_m()); }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

@@ -4,7 +4,7 @@
 #include "firmware/core/time.hpp"
 #include "firmware/excavator/field/rounded_rectangle.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 /// Whether a pose is on the path: the attitude belongs to it, because an approach may cross the
 /// path long before it has arrived. Not a number is not on it.
@@ -32,4 +32,4 @@ class PathProgress {
   Eigen::Vector2d last_tip_m_ = Eigen::Vector2d::Zero();
 };
 
-}  // namespace graben::cli
+}  // namespace graben::runs

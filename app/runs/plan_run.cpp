@@ -9,7 +9,7 @@
 #include "app/machines/plan_text.hpp"
 #include "firmware/numeric/constants.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 namespace {
 
 using machines::kDriveNames;
@@ -161,4 +161,4 @@ std::string plan_summary(const ExcavatorProfile& profile, const LineRequest& req
   return text;
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

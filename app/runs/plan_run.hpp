@@ -8,7 +8,7 @@
 #include "app/machines/excavator_file.hpp"
 #include "firmware/excavator/tasks/line_plan.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 /// A plan at one moment; drives in the order of DriveVector, m and rad.
 struct PlanSample {
@@ -46,4 +46,4 @@ struct PlanSample {
                                        const PlanResult& result,
                                        const std::vector<PlanSample>& samples);
 
-}  // namespace graben::cli
+}  // namespace graben::runs

@@ -8,7 +8,7 @@
 #include "platform/linux/cyclic_clock.hpp"
 #include "platform/linux/stop_signal.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 namespace {
 
 constexpr TimeUs kTaskAfter_us = 100 * kMillisecondUs;
@@ -128,4 +128,4 @@ PlantBusFigures PlantBus<Operator>::run(Task task, const std::function<void(Time
 template class PlantBus<plant::OperatorNode>;
 template class PlantBus<plant::DozerOperatorNode>;
 
-}  // namespace graben::cli
+}  // namespace graben::runs

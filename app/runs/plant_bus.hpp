@@ -10,7 +10,7 @@
 #include "app/plant/operator_node.hpp"
 #include "platform/linux/socketcan_port.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 /// Who gives enable and task.
 enum class Player {
@@ -65,4 +65,4 @@ class PlantBus {
 extern template class PlantBus<plant::OperatorNode>;
 extern template class PlantBus<plant::DozerOperatorNode>;
 
-}  // namespace graben::cli
+}  // namespace graben::runs

@@ -7,7 +7,7 @@
 #include "app/runs/path_progress.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 namespace {
 
 /// Adds up what the figures speak of.
@@ -59,4 +59,4 @@ PlantRunResult run_plant(const machines::ExcavatorMachine& machine, const PlantR
   return result;
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

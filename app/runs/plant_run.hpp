@@ -5,7 +5,7 @@
 #include "app/plant/excavator_node.hpp"
 #include "app/runs/plant_bus.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 /// What the run saw. Errors are of the true tip, while it was on the path and the spools enabled.
 struct PlantRunResult {
@@ -24,4 +24,4 @@ struct PlantRunResult {
                                        const PlantRunOptions& options,
                                        const plant::PlantStart& start);
 
-}  // namespace graben::cli
+}  // namespace graben::runs

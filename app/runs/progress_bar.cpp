@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace graben::cli {
+namespace graben::runs {
 namespace {
 constexpr int kWidth = 32;
 constexpr std::chrono::milliseconds kRedraw(100);
@@ -42,4 +42,4 @@ void ProgressBar::show(double share, const std::string& where) {
   std::fflush(stderr);
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

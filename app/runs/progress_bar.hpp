@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string>
 
-namespace graben::cli {
+namespace graben::runs {
 
 class ProgressBar {
  public:
@@ -25,4 +25,4 @@ class ProgressBar {
   std::chrono::steady_clock::time_point drawn_;
 };
 
-}  // namespace graben::cli
+}  // namespace graben::runs

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace graben::cli {
+namespace graben::runs {
 
 /// The upper one of two in the middle; 0 of nothing.
 [[nodiscard]] inline double median(std::vector<double> values) {
@@ -37,4 +37,4 @@ class Spread {
   long count_ = 0;
 };
 
-}  // namespace graben::cli
+}  // namespace graben::runs

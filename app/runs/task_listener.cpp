@@ -1,11 +1,11 @@
 #include "app/runs/task_listener.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 using dbc::RawState;
 using dbc::excavator::TaskStatus;
 
-std::optional<int> TaskEar::step() const {
+std::optional<int> TaskListener::step() const {
   using Kind = TaskStatus::StepKind;
   if (!is_at_task() || said_->step.state != RawState::kValid) {
     return std::nullopt;
@@ -15,17 +15,17 @@ std::optional<int> TaskEar::step() const {
   return in_step ? std::optional<int>(static_cast<int>(said_->step.value)) : std::nullopt;
 }
 
-bool TaskEar::is_done() const {
+bool TaskListener::is_done() const {
   return is_at_task() && said_->step_kind.value == TaskStatus::StepKind::kDone;
 }
 
-bool TaskEar::is_at_task() const {
+bool TaskListener::is_at_task() const {
   return said_ && now_us_ - said_us_ < kHeldFor_us &&
          said_->task_number.state == RawState::kValid && said_->task_number.value == number_ &&
          said_->step_kind.state == RawState::kValid;
 }
 
-int TaskEar::receive(CanFrame* frames, int capacity) {
+int TaskListener::receive(CanFrame* frames, int capacity) {
   const int count = port_.receive(frames, capacity);
   for (int i = 0; i < count; ++i) {
     hear(frames[i]);
@@ -33,7 +33,7 @@ int TaskEar::receive(CanFrame* frames, int capacity) {
   return count;
 }
 
-void TaskEar::hear(const CanFrame& frame) {
+void TaskListener::hear(const CanFrame& frame) {
   const bool whole = frame.extended && !frame.remote && !frame.error && !frame.fd &&
                      frame.length == TaskStatus::kLength;
   if (whole && frame.id == TaskStatus::kId) {
@@ -42,4 +42,4 @@ void TaskEar::hear(const CanFrame& frame) {
   }
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

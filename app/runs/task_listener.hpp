@@ -8,18 +8,18 @@
 #include "firmware/core/time.hpp"
 #include "hal/can_port.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
-/// The machine's port, whose owner keeps it, with an ear for TaskStatus: all that is received and
-/// sent passes through unchanged.
+/// The machine's port, whose owner keeps it, with a listener for TaskStatus: all that is received
+/// and sent passes through unchanged.
 // NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor): final, and CanPort deletes nothing.
-class TaskEar final : public CanPort {
+class TaskListener final : public CanPort {
  public:
   /// A controller that has not spoken for so long is at no task.
   static constexpr TimeUs kHeldFor_us = 100 * kMillisecondUs;
 
   /// Only what is said of the task with this number counts.
-  TaskEar(CanPort& port, std::uint8_t number) : port_(port), number_(number) {}
+  TaskListener(CanPort& port, std::uint8_t number) : port_(port), number_(number) {}
 
   /// Before anything is received at this time.
   void begin_cycle(TimeUs now_us) { now_us_ = now_us; }
@@ -44,4 +44,4 @@ class TaskEar final : public CanPort {
   std::optional<dbc::excavator::TaskStatus> said_;
 };
 
-}  // namespace graben::cli
+}  // namespace graben::runs

@@ -8,7 +8,7 @@
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "firmware/excavator/tasks/line.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 namespace {
 
 /// Adds up what the figures speak of.
@@ -17,14 +17,14 @@ class TaskObserver {
   TaskObserver(const TaskProgram& program, TaskPlantResult& result)
       : program_(program), result_(result) {}
 
-  void see(const plant::PlantNode& node, const TaskEar& ear) {
+  void see(const plant::PlantNode& node, const TaskListener& listener) {
     if (!node.spools_enabled()) {
       return;
     }
     result_.enabled_s += kPlantPeriod_s;
-    const std::optional<int> step = ear.step();
+    const std::optional<int> step = listener.step();
     const bool begins_again = step && *step < last_step_;
-    result_.finished = result_.finished || ear.is_done() || begins_again;
+    result_.finished = result_.finished || listener.is_done() || begins_again;
     if (step && *step < program_.step_count) {
       last_step_ = *step;
       see_step(node, program_.step[static_cast<unsigned>(*step)]);
@@ -61,14 +61,14 @@ TaskPlantResult run_task_plant(const machines::ExcavatorMachine& machine,
   namespace ids = dbc::excavator;
   PlantBus<plant::OperatorNode> bus(options, {ids::SpoolCommand::kId, ids::PumpCommand::kId,
                                               ids::SwingCommand::kId, ids::TaskStatus::kId});
-  TaskEar ear(bus.port(), options.task_number);
-  plant::PlantNode node(machine.plant, start_of(program), ear, machine.hash);
+  TaskListener listener(bus.port(), options.task_number);
+  plant::PlantNode node(machine.plant, start_of(program), listener, machine.hash);
   TaskPlantResult result;
   TaskObserver observer(program, result);
   result.bus = bus.run(Task::kProgram, [&](TimeUs now_us) {
-    ear.begin_cycle(now_us);
+    listener.begin_cycle(now_us);
     node.step(now_us);
-    observer.see(node, ear);
+    observer.see(node, listener);
   });
   result.spool = node.counters();
   result.swing = node.swing_counters();
@@ -76,4 +76,4 @@ TaskPlantResult run_task_plant(const machines::ExcavatorMachine& machine,
   return result;
 }
 
-}  // namespace graben::cli
+}  // namespace graben::runs

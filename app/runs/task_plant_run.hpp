@@ -8,7 +8,7 @@
 #include "app/runs/plant_bus.hpp"
 #include "firmware/excavator/tasks/task_program.hpp"
 
-namespace graben::cli {
+namespace graben::runs {
 
 /// What the run saw. Errors are of the true teeth from a step's straight line, while the
 /// controller's TaskStatus said that it was in this step and the valve side let spools open.
@@ -32,4 +32,4 @@ struct TaskPlantResult {
                                              const TaskProgram& program,
                                              const PlantRunOptions& options);
 
-}  // namespace graben::cli
+}  // namespace graben::runs

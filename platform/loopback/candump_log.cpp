@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace graben::cli {
+namespace graben {
 namespace {
 /// How can-utils mark what is a report of the bus controller: CAN_ERR_FLAG.
 constexpr std::uint32_t kErrorFlag = 0x20000000U;
@@ -83,4 +83,4 @@ void CandumpLog::close() {
   }
 }
 
-}  // namespace graben::cli
+}  // namespace graben

@@ -8,7 +8,7 @@
 #include "firmware/core/time.hpp"
 #include "hal/can_frame.hpp"
 
-namespace graben::cli {
+namespace graben {
 
 /// Writes a log beside its final name and renames it when closed, so that an interrupted run leaves
 /// no half log behind. Errors throw std::runtime_error that names the file.
@@ -33,4 +33,4 @@ class CandumpLog {
 [[nodiscard]] std::string candump_line(const CanFrame& frame, TimeUs now_us,
                                        const std::string& interface_name);
 
-}  // namespace graben::cli
+}  // namespace graben

@@ -65,7 +65,7 @@ void ClosingWatch<Kind>::after(const Plant& plant, bool closed) {
 
 template <class Kind>
 double ClosingWatch<Kind>::creep_share() const {
-  constexpr auto kPeriod = static_cast<std::size_t>(cli::kOilPeriod_s * 100.0 + 0.5);
+  constexpr auto kPeriod = static_cast<std::size_t>(runs::kOilPeriod_s * 100.0 + 0.5);
   if (strokes_.size() < 2 * kPeriod) {
     return 0.0;
   }

@@ -6,13 +6,13 @@
 
 namespace graben::faults {
 
-using bench::alter;
-using bench::corrupt;
-using bench::counter_of;
-using bench::info_of;
-using bench::protect;
-using bench::set_raw;
-using bench::special_raw;
+using runs::alter;
+using runs::corrupt;
+using runs::counter_of;
+using runs::info_of;
+using runs::protect;
+using runs::set_raw;
+using runs::special_raw;
 
 template <class Kind>
 [[nodiscard]] TimeUs cycle_us_of(std::uint32_t id) {

@@ -170,9 +170,9 @@ void Trial<Kind>::judge_rolling(const RollingWatch& rolling, bool brake_at_once)
 template <class Kind>
 void Trial<Kind>::expect_reported(Fault fault, TimeUs since_us, TimeUs from_us) {
   check(rig->record.status_named(fault, since_us),
-        fmt::format("the status frame never says '{}'", cli::fault_words(fault)));
+        fmt::format("the status frame never says '{}'", runs::fault_words(fault)));
   check(rig->record.dm1_named(fault, since_us, from_us + kReported_us),
-        fmt::format("no DM1 of '{}' within 1 s", cli::fault_words(fault)));
+        fmt::format("no DM1 of '{}' within 1 s", runs::fault_words(fault)));
 }
 
 template <class Kind>
@@ -186,7 +186,7 @@ void Trial<Kind>::expect_stop(const Stop& stop) {
   check(detected_us_ >= 0 && detected_us_ - stop.since_us <= stop.detect_us,
         fmt::format("not detected within {} ms (mode {}, '{}')", ms(stop.detect_us),
                     static_cast<int>(rig->mode()),
-                    rig->ecu ? cli::fault_words(rig->outputs().status.fault) : "no controller"));
+                    rig->ecu ? runs::fault_words(rig->outputs().status.fault) : "no controller"));
   check(neutral_us_ >= 0, "no neutral command");
   if (detected_us_ < 0 || neutral_us_ < 0) {
     saw("none");
@@ -235,7 +235,7 @@ void Trial<Kind>::expect_arms_again() {
     return rig->mode() == EcuMode::kReady && rig->outputs().status.fault == Fault::kNone;
   });
   check(ready, fmt::format("not Ready after letting go ('{}')",
-                           cli::fault_words(rig->outputs().status.fault)));
+                           runs::fault_words(rig->outputs().status.fault)));
   rig->run(50 * kMillisecondUs);
   rig->ask(true, Task::kNone);
   rig->run(100 * kMillisecondUs);
@@ -257,7 +257,7 @@ void Trial<Kind>::expect_slower(const Slowing& slowing) {
         return is_there;
       });
   const TimeUs detected_us = rig->at_us();
-  check(detected, fmt::format("'{}' not detected within {} ms", cli::fault_words(slowing.fault),
+  check(detected, fmt::format("'{}' not detected within {} ms", runs::fault_words(slowing.fault),
                               ms(slowing.detect_us)));
   if (!detected) {
     saw("none");
@@ -271,7 +271,7 @@ void Trial<Kind>::expect_slower(const Slowing& slowing) {
         fmt::format("not slower: {:.3f} m/s after {:.3f}", wanted_mps(), before_mps));
   const bool left =
       rig->run_until(slowing.hold_us, [this] { return rig->mode() != EcuMode::kActive; });
-  check(!left, fmt::format("did not go on ('{}')", cli::fault_words(rig->outputs().status.fault)));
+  check(!left, fmt::format("did not go on ('{}')", runs::fault_words(rig->outputs().status.fault)));
   expect_reported(slowing.fault, detected_us, detected_us);
   if (slowing.cure) {
     slowing.cure();
@@ -284,7 +284,7 @@ void Trial<Kind>::expect_slower(const Slowing& slowing) {
   });
   check(over && rig->mode() == EcuMode::kActive,
         fmt::format("full speed does not come back: {:.3f} m/s after {:.3f}, '{}'", wanted_mps(),
-                    slow_mps, cli::fault_words(rig->outputs().status.fault)));
+                    slow_mps, runs::fault_words(rig->outputs().status.fault)));
   saw("D");
 }
 
@@ -304,7 +304,7 @@ void Trial<Kind>::expect_ignored(TimeUs duration_us, double bound_m) {
     }
   }
   check(active, fmt::format("not Active all the time ('{}')",
-                            cli::fault_words(rig->outputs().status.fault)));
+                            runs::fault_words(rig->outputs().status.fault)));
   check(!rig->record.any_fault(since_us), "a fault is on the bus");
   check(most_m <= bound_m,
         fmt::format("the machine is {:.2f} mm off the undisturbed run", 1e3 * most_m));

@@ -9,7 +9,7 @@ namespace graben::scope {
 FrameFeed::FrameFeed(std::size_t blocks_most) : ring_(blocks_most) {}
 
 void FrameFeed::append(const CanFrame& frame, TimeUs stamp_us, const std::string& interface_name) {
-  open_.text += cli::candump_line(frame, stamp_us, interface_name);
+  open_.text += candump_line(frame, stamp_us, interface_name);
   open_.text += '\n';
   ++open_.frames;
   if (open_.text.size() >= kLargestBlockBytes) {

@@ -50,7 +50,7 @@ SimEffect short_id(SimRig<Kind>& rig) {
 template <class Kind>
 SimEffect special_value(std::uint32_t raw16) {
   return tampered(Kind::Stroke::kId, [raw16](CanFrame& frame) {
-    bench::set_raw<Kind>(frame, Kind::kStroke, bench::special_raw(Kind::kStroke, raw16));
+    runs::set_raw<Kind>(frame, Kind::kStroke, runs::special_raw(Kind::kStroke, raw16));
     return true;
   });
 }

@@ -14,7 +14,7 @@ template <class Kind>
 SimEffect out_of_range(std::uint32_t id, const dbc::Field& field) {
   constexpr std::uint32_t kBeyond = 0x80;
   return tampered(id, [field](CanFrame& frame) {
-    bench::set_raw<Kind>(frame, field, field.raw_max + kBeyond);
+    runs::set_raw<Kind>(frame, field, field.raw_max + kBeyond);
     return true;
   });
 }

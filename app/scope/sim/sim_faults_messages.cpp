@@ -8,10 +8,10 @@
 namespace graben::scope {
 namespace {
 
-using bench::alter;
-using bench::corrupt;
-using bench::counter_of;
-using bench::protect;
+using runs::alter;
+using runs::corrupt;
+using runs::counter_of;
+using runs::protect;
 
 template <class Kind>
 SimEffect command_lost(SimRig<Kind>& /*rig*/) {

@@ -13,7 +13,7 @@
 namespace graben::scope {
 
 struct SimExcavator {
-  using Bench = bench::MachineBench<plant::PlantNode, plant::OperatorNode, ecu::ExcavatorEcu>;
+  using Bench = runs::MachineBench<plant::PlantNode, plant::OperatorNode, ecu::ExcavatorEcu>;
   using Status = dbc::excavator::EcuStatus;
   using Command = dbc::excavator::SpoolCommand;
   using Engine = dbc::excavator::EEC1;
@@ -36,7 +36,7 @@ struct SimExcavator {
 };
 
 struct SimDozer {
-  using Bench = bench::MachineBench<plant::DozerNode, plant::DozerOperatorNode, ecu::DozerEcu>;
+  using Bench = runs::MachineBench<plant::DozerNode, plant::DozerOperatorNode, ecu::DozerEcu>;
   using Status = dbc::dozer::EcuStatus;
   using Command = dbc::dozer::SpoolCommand;
   using Engine = dbc::dozer::EEC1;

@@ -47,7 +47,7 @@ SimSite<SimExcavator> dig_site(const SimOptions& options) {
   const Eigen::Vector3d start_m = machines::dig_start(machine->profile);
   SimSite<SimExcavator> site;
   site.make = [machine, start_m] {
-    return std::make_unique<bench::DigBench>(*machine, start_m, kFullSpeed);
+    return std::make_unique<runs::DigBench>(*machine, start_m, kFullSpeed);
   };
   site.is_done = [](const SimExcavator::Bench&) { return false; };
   site.ground = std::make_shared<SimGround>(machine->experiment.soil, machine->experiment.obstacle);
@@ -71,8 +71,8 @@ SimSite<SimExcavator> autodig_site(const SimOptions& options) {
   book->count = 1;
   SimSite<SimExcavator> site;
   site.make = [machine, book] {
-    return std::make_unique<bench::AutodigBench>(*machine, *book, book->program[0].start,
-                                                 kFullSpeed);
+    return std::make_unique<runs::AutodigBench>(*machine, *book, book->program[0].start,
+                                                kFullSpeed);
   };
   site.is_done = [](const SimExcavator::Bench& nodes) {
     return nodes.ecu->outputs().status.progress.kind == StepKind::kDone;
@@ -89,7 +89,7 @@ SimSite<SimDozer> grade_site(const SimOptions& options) {
                                                          machines::MachineKind::kDozer, "a dozer")),
                          scenario));
   SimSite<SimDozer> site;
-  site.make = [machine] { return std::make_unique<bench::GradeBench>(*machine, kFullSpeed); };
+  site.make = [machine] { return std::make_unique<runs::GradeBench>(*machine, kFullSpeed); };
   site.is_done = [machine](const SimDozer::Bench& nodes) {
     return nodes.plant.plant().cutting_edge_m().x() >= machine->experiment.length_m;
   };

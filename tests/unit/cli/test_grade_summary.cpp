@@ -9,9 +9,9 @@
 namespace {
 
 using namespace graben;
-using cli::GradeResult;
-using cli::GradeSample;
-using cli::GradeSummary;
+using runs::GradeResult;
+using runs::GradeSample;
+using runs::GradeSummary;
 
 const machines::DozerMachine& machine() {
   static const machines::DozerMachine loaded =
@@ -41,7 +41,7 @@ GradeResult steady(int cycles) {
   return result;
 }
 
-GradeSummary summary_of(const GradeResult& result) { return cli::summarise(machine(), result); }
+GradeSummary summary_of(const GradeResult& result) { return runs::summarise(machine(), result); }
 
 void a_run_that_never_came_to_the_grade_has_no_figures(void**) {
   GradeResult result = steady(5);
@@ -138,7 +138,7 @@ void turns_of_the_wanted_speed(void**) {
 void shares_of_what_held_the_speed(void**) {
   GradeResult result = steady(4);
   result.samples[2].limit = {LimitKind::kImplementFlow, 0};
-  const cli::LimitShares shares = summary_of(result).limit_share;
+  const runs::LimitShares shares = summary_of(result).limit_share;
   assert_int_equal(shares.size(), 2);
   assert_true(shares[0].first == "none" && shares[0].second == 0.75);
   assert_true(shares[1].first == "implement flow" && shares[1].second == 0.25);

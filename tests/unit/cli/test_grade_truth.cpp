@@ -10,9 +10,9 @@
 namespace {
 
 using namespace graben;
-using cli::BodyPose;
-using cli::BodyRates;
-using cli::GradeTruth;
+using runs::BodyPose;
+using runs::BodyRates;
+using runs::GradeTruth;
 
 const DozerProfile& profile() {
   static const machines::DozerMachine machine =
@@ -97,9 +97,9 @@ void flow_of_a_velocity(void**) {
 
 /// 84.6 L/min at 1500 rpm, in proportion at 1000; never more than the valve's 120 L/min.
 void available_flow(void**) {
-  assert_near(cli::available_flow_m3ps(profile(), 157.08) * 6e4, 84.6, 0.01);
-  assert_near(cli::available_flow_m3ps(profile(), 104.72) * 6e4, 56.4, 0.01);
-  assert_near(cli::available_flow_m3ps(profile(), 230.38) * 6e4, 120.0, 1e-9);
+  assert_near(runs::available_flow_m3ps(profile(), 157.08) * 6e4, 84.6, 0.01);
+  assert_near(runs::available_flow_m3ps(profile(), 104.72) * 6e4, 56.4, 0.01);
+  assert_near(runs::available_flow_m3ps(profile(), 230.38) * 6e4, 120.0, 1e-9);
 }
 
 }  // namespace

@@ -22,9 +22,9 @@
 namespace {
 
 namespace fs = std::filesystem;
-using graben::scope::packed;
-using graben::scope::packed_file;
-using graben::scope::write_report;
+using graben::reports::packed;
+using graben::reports::packed_file;
+using graben::reports::write_report;
 using nlohmann::json;
 
 const fs::path& folder() {

@@ -31,7 +31,7 @@ const json& machine_named(const json& setup, const std::string& name) {
 }
 
 void every_shipped_machine_is_there(void**) {
-  const json setup = scope::shared_setup({});
+  const json setup = reports::shared_setup({});
   assert_int_equal(setup["machines"].size(), 3);
   for (const char* name : {"excavator_12t", "excavator_22t"}) {
     const json& told = machine_named(setup, name);
@@ -48,7 +48,7 @@ void every_shipped_machine_is_there(void**) {
 void geometry_is_the_profile_s(void**) {
   const machines::ExcavatorMachine machine = excavator("excavator_12t");
   const ExcavatorGeometry& geometry = machine.profile.geometry;
-  const json told = scope::machine_json(machine, {});
+  const json told = reports::machine_json(machine, {});
   assert_near(told["boom_m"].get<double>(), geometry.boom_length_m, 0.0);
   assert_near(told["arm_m"].get<double>(), geometry.arm_length_m, 0.0);
   assert_near(told["bucket_m"].get<double>(), geometry.bucket_length_m, 0.0);
@@ -74,7 +74,7 @@ void geometry_is_the_profile_s(void**) {
   assert_true(told["has_swing"].get<bool>());
   assert_int_equal(told["pumps"].get<int>(), machine.profile.pump_count);
   assert_near(told["relief_pa"].get<double>(), machine.profile.pump[0].relief_pa, 0.0);
-  assert_false(scope::machine_json(excavator("excavator_22t"), {})["has_swing"].get<bool>());
+  assert_false(reports::machine_json(excavator("excavator_22t"), {})["has_swing"].get<bool>());
 }
 
 /// Closed, in short steps, and every point of it on the rectangle, seen from the boom foot.
@@ -83,7 +83,7 @@ void the_path_is_the_task_s(void**) {
     const machines::ExcavatorMachine machine = excavator(name);
     const Eigen::Vector2d foot_m = machine.profile.geometry.boom_foot_m;
     const RoundedRectangle path(machine.profile.dig_path);
-    const json told = scope::machine_json(machine, {})["dig"];
+    const json told = reports::machine_json(machine, {})["dig"];
     const json& points = told["path"];
     assert_true(points.front() == points.back());
     double length_m = 0.0;
@@ -109,7 +109,7 @@ void the_field_is_the_controller_s(void**) {
   const machines::ExcavatorMachine machine = excavator("excavator_22t");
   const Eigen::Vector2d foot_m = machine.profile.geometry.boom_foot_m;
   const DigField field(machine.profile, ExcavatorKinematics(machine.profile.geometry));
-  const json told = scope::machine_json(machine, {})["dig"]["field"];
+  const json told = reports::machine_json(machine, {})["dig"]["field"];
   // 3 m by 2.4 m, a metre more on every side.
   assert_int_equal(told.size(), 21 * 19);
   for (int i = 0; i < 21 * 19; ++i) {
@@ -142,7 +142,7 @@ void steps_join_and_their_drives_fit(void**) {
   const SwingKinematics kinematics(machine.profile.geometry);
   const machines::TaskFile task =
       machines::load_task(machines::find_task("truck_loading"), machine.profile);
-  const json told = scope::task_json(task, machine.profile);
+  const json told = reports::task_json(task, machine.profile);
   const json& steps = told["steps"];
   assert_int_equal(steps.size(), 5);
   const char* kinds[] = {"dig", "lift", "swing", "dump", "return"};
@@ -167,7 +167,7 @@ void steps_join_and_their_drives_fit(void**) {
 
 void fences_have_words_and_the_design_is_the_last(void**) {
   const machines::ExcavatorMachine machine = excavator("excavator_12t");
-  const json told = scope::task_json(
+  const json told = reports::task_json(
       machines::load_task(machines::find_task("truck_loading"), machine.profile), machine.profile);
   const char* words[] = {"ceiling at 6.50 m", "floor at -0.80 m", "wall", "design surface"};
   assert_int_equal(told["fences"].size(), 4);
@@ -178,7 +178,7 @@ void fences_have_words_and_the_design_is_the_last(void**) {
   assert_near((vector(told["fences"][2]["normal"]) - Eigen::Vector3d::UnitY()).norm(), 0.0, 1e-9);
   assert_near(vector(told["design"]["through_m"]).z(), -0.5, kRounding);
   assert_near(vector(told["design"]["up"]).z(), 1.0, kRounding);
-  const json flatten = scope::task_json(
+  const json flatten = reports::task_json(
       machines::load_task(machines::find_task("flatten"), machine.profile), machine.profile);
   assert_true(flatten["design"].is_null());
   assert_int_equal(flatten["fences"].size(), 0);
@@ -186,7 +186,7 @@ void fences_have_words_and_the_design_is_the_last(void**) {
 
 void the_dozer_is_the_profile_s(void**) {
   const machines::DozerMachine machine = machines::load_dozer(machines::find_profile("dozer_9t"));
-  const json told = scope::machine_json(machine);
+  const json told = reports::machine_json(machine);
   const BladeGeometry& blade = machine.profile.blade;
   assert_near(told["blade"]["pivot_m"][0].get<double>(), blade.pivot_m.x(), 0.0);
   assert_near(told["blade"]["arm_m"][1].get<double>(), blade.arm_m.y(), 0.0);
@@ -208,7 +208,7 @@ void the_dozer_is_the_profile_s(void**) {
 void the_design_rises_in_x_and_is_the_grade(void**) {
   const machines::DozerMachine machine = machines::load_dozer(machines::find_profile("dozer_9t"));
   const GradeProfile grade(machine.profile.grade);
-  const json design = scope::machine_json(machine)["design"];
+  const json design = reports::machine_json(machine)["design"];
   assert_true(design.front()[0].get<double>() <= 0.0);
   assert_true(design.back()[0].get<double>() >= machine.experiment.length_m);
   double lowest_m = 0.0;
@@ -222,7 +222,7 @@ void the_design_rises_in_x_and_is_the_grade(void**) {
 }
 
 void every_number_has_words_of_its_own(void**) {
-  const json words = scope::words_json();
+  const json words = reports::words_json();
   std::set<std::string> faults;
   for (int i = 0; i < kFaultCount; ++i) {
     faults.insert(words["fault"].at(std::to_string(i)).get<std::string>());
@@ -248,22 +248,22 @@ std::vector<std::string> tasks_of(const json& setup, const std::string& machine)
 
 void tasks_are_numbered_as_told(void**) {
   const std::vector<std::string> shipped = {"flatten", "truck_loading"};
-  assert_true(tasks_of(scope::shared_setup({}), "excavator_12t") == shipped);
-  assert_true(tasks_of(scope::shared_setup({}), "excavator_22t").empty());
+  assert_true(tasks_of(reports::shared_setup({}), "excavator_12t") == shipped);
+  assert_true(tasks_of(reports::shared_setup({}), "excavator_22t").empty());
   const std::vector<std::string> told = {"truck_loading", "flatten", "flatten"};
-  assert_true(tasks_of(scope::shared_setup({std::nullopt, told}), "excavator_12t") == told);
+  assert_true(tasks_of(reports::shared_setup({std::nullopt, told}), "excavator_12t") == told);
 }
 
-std::string error_of(const scope::SetupOptions& options) {
+std::string error_of(const reports::SetupOptions& options) {
   try {
-    static_cast<void>(scope::shared_setup(options));
+    static_cast<void>(reports::shared_setup(options));
   } catch (const std::runtime_error& error) {
     return error.what();
   }
   return "";
 }
 
-void assert_error(const scope::SetupOptions& options, const std::string& words) {
+void assert_error(const reports::SetupOptions& options, const std::string& words) {
   const std::string error = error_of(options);
   if (error.find(words) == std::string::npos) {
     print_error("'%s' not in '%s'\n", words.c_str(), error.c_str());
@@ -286,11 +286,11 @@ void a_profile_that_is_told_comes_first_and_once(void**) {
   std::stringstream text;
   text << shipped.rdbuf();
   const test::TemporaryFile copy(text.str() + "\n# another one\n");
-  const json setup = scope::shared_setup({copy.path().string(), {}});
+  const json setup = reports::shared_setup({copy.path().string(), {}});
   assert_int_equal(setup["machines"].size(), 4);
   assert_true(setup["machines"][0]["name"] == copy.path().stem().string());
   assert_true(setup["machines"][0]["hash"] != machine_named(setup, "excavator_12t")["hash"]);
-  const json same = scope::shared_setup({"dozer_9t", {}});
+  const json same = reports::shared_setup({"dozer_9t", {}});
   assert_int_equal(same["machines"].size(), 3);
   assert_true(same["machines"][0]["name"] == "dozer_9t");
 }
