@@ -27,7 +27,7 @@ std::string system_message(int error) { return std::generic_category().message(e
 /// Until where the setup belongs, and from there on.
 std::pair<std::string_view, std::string_view> page_around_setup() {
   constexpr std::string_view kMark = "<script type=\"application/json\" id=\"graben-setup\">";
-  const std::string_view page = scope_page();
+  const std::string_view page = scope::scope_page();
   const std::size_t at = page.find(kMark) + kMark.size();
   return {page.substr(0, at), page.substr(at)};
 }
