@@ -115,7 +115,8 @@ def check(name: str):
 
 root = tree.arguments(__doc__).parse_args().root.resolve()
 names = tree.files(root)
-known = set(names) | {parent.as_posix() for name in names for parent in pathlib.PurePosixPath(name).parents}
+every = tree.files(root, seeds=True)
+known = set(every) | {parent.as_posix() for name in every for parent in pathlib.PurePosixPath(name).parents}
 top = {name.split("/")[0] for name in names if "/" in name}
 problems, looked_at = [], 0
 documents = [name for name in names if name.endswith(".md")]

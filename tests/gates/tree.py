@@ -17,8 +17,8 @@ def arguments(what: str) -> argparse.ArgumentParser:
     return parser
 
 
-def files(root: pathlib.Path) -> list[str]:
-    """Tracked files and new ones that are not ignored, as paths relative to root."""
+def files(root: pathlib.Path, seeds: bool = False) -> list[str]:
+    """Tracked files and new ones that are not ignored, as paths relative to root; seeded faults too, if asked."""
     command = ["git", "-C", str(root), "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     try:
         listed = subprocess.run(command, capture_output=True, check=True).stdout.decode()
@@ -27,7 +27,7 @@ def files(root: pathlib.Path) -> list[str]:
         names = set()
     # No git, an unpacked archive, or somebody else's checkout, which git refuses to read.
     names = names or set(walk(root))
-    return sorted(n for n in names if not n.startswith(NOT_OURS) and (root / n).is_file())
+    return sorted(n for n in names if (seeds or not n.startswith(NOT_OURS)) and (root / n).is_file())
 
 
 def walk(root: pathlib.Path):

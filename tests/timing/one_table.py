@@ -1,12 +1,7 @@
 #!/usr/bin/env python3
 """What a reviewer asks first, for every target in one table: instructions of a cycle and a solve
-(counts/observed.json) and bytes of stack, RAM and flash (tests/memory/observed.toml).
+(counts/observed.json) and bytes of stack, RAM and flash (tests/memory/observed.toml). Prints it."""
 
-  one_table.py                    prints it
-  one_table.py --readme FILE      fails unless FILE has it; with --update writes it there
-"""
-
-import argparse
 import json
 import pathlib
 import sys
@@ -42,31 +37,5 @@ def table(counts: dict, memory: dict) -> list[str]:
     return ["| " + " | ".join(row) + " |" for row in rows]
 
 
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--readme", type=pathlib.Path)
-    parser.add_argument("--update", action="store_true")
-    options = parser.parse_args()
-    wanted = table(json.loads(COUNTS.read_text("utf-8")), tomllib.loads(MEMORY.read_text("utf-8")))
-    if not options.readme:
-        print("\n".join(wanted))
-        return 0
-    lines = options.readme.read_text("utf-8").splitlines()
-    if wanted[0] not in lines:
-        print(f"{options.readme.name}: no table begins with '{wanted[0]}'")
-        return 1
-    begin = end = lines.index(wanted[0])
-    while end < len(lines) and lines[end].startswith("|"):
-        end += 1
-    if options.update:
-        text = "\n".join([*lines[:begin], *wanted, *lines[end:]]) + "\n"
-        options.readme.write_text(text, "utf-8")
-    elif lines[begin:end] != wanted:
-        print(f"{options.readme.name}: its table is not what one_table.py prints")
-        return 1
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    print("\n".join(table(json.loads(COUNTS.read_text("utf-8")), tomllib.loads(MEMORY.read_text("utf-8")))))

@@ -67,6 +67,7 @@ def row_of(solver: str, timings: dict, counts: dict, expects: dict) -> dict:
         "error_worst": max(errors.values()),
         **{kind: sum(v == kind for v in verdicts.values())
            for kind in (verdict.MISSED, verdict.WRONG, verdict.INFEASIBLE)},
+        "not_largest": sum(v != verdict.RIGHT for v in verdicts.values()),
         "results": [{"line": n, "lambda": t.returned, "lambda_global": expects[n]["lambda_global"],
                      "verdict": verdicts[n], "time_ns": t.time_ns, "instructions": counts.get(n)}
                     for n, t in sorted(timings.items())],

@@ -1,9 +1,9 @@
 """How many instructions a controller's cycle and a solve cost at most, against observed.json.
 
-  check_counts.py BUILD            fails where a maximum is more than 2 % above what is committed
-  check_counts.py BUILD --update   writes what it found into observed.json
-  check_counts.py --table          prints observed.json as the README's table
-  check_counts.py --readme FILE    fails unless FILE has that table; with --update writes it there
+  check_counts.py BUILD             fails where a maximum is more than 10 % above what is committed
+  check_counts.py BUILD --thorough  tries more, and fails from 2 % on (--strict: that alone)
+  check_counts.py BUILD --update    writes what it found into observed.json
+  check_counts.py --table           prints observed.json as a table (tests/README.md has it)
 
 BUILD is a build of any target; the traces that it replays are recorded by the host's release build.
 The scripts are those of cases/: what has cost most, group by group (search.py). An observed
@@ -19,7 +19,9 @@ import time
 import counting
 import enumeration
 
-ALLOWED = 0.02
+# Another compiler moves a count by some percent, and what a change costs is not to be known before it is
+# done: in ./test only what nobody would have wanted is red.
+ALLOWED, ALLOWED_STRICT = 0.10, 0.02
 # Cycles that end in another mode than on the host: another C library's last bit may decide.
 OTHER_MODE = 0.01
 GROUPS = ("22t", "22t-queue", "12t", "12t-queue", "dozer", "dozer-queue", "solve", "solve-any")
@@ -39,23 +41,6 @@ def table(known: dict) -> str:
     return "\n".join("| " + " | ".join(row) + " |" for row in rows)
 
 
-def check_readme(path: pathlib.Path, known: dict, renew: bool) -> list[str]:
-    """The table's lines follow each other, the head first."""
-    lines, wanted = path.read_text(encoding="utf-8").splitlines(), table(known).splitlines()
-    if wanted[0] not in lines:
-        return [f"{path.name}: no table begins with '{wanted[0]}'"]
-    begin = end = lines.index(wanted[0])
-    while end < len(lines) and lines[end].startswith("|"):
-        end += 1
-    if renew:
-        path.write_text("\n".join([*lines[:begin], *wanted, *lines[end:]]) + "\n", encoding="utf-8")
-        return []
-    return [f"{path.name}: '{line}' is not in its table"
-            for line in wanted if line not in lines[begin:end]] + [
-                f"{path.name}: '{line}' is not committed in {counting.OBSERVED.name}"
-                for line in lines[begin:end] if line not in wanted]
-
-
 def count_all(bench: counting.Bench, options) -> list[counting.Counted]:
     found = []
     for kind, path in counting.CASES.items():
@@ -70,7 +55,7 @@ def count_all(bench: counting.Bench, options) -> list[counting.Counted]:
     return found
 
 
-def judge(target: str, most: dict[str, counting.Counted], known: dict) -> list[str]:
+def judge(target: str, most: dict[str, counting.Counted], known: dict, allowed: float) -> list[str]:
     problems = []
     for group, counted in sorted(most.items()):
         committed = known.get(target, {}).get(group)
@@ -78,9 +63,10 @@ def judge(target: str, most: dict[str, counting.Counted], known: dict) -> list[s
             problems.append(f"{target} {group}: nothing is committed (--update)")
             continue
         more = counted.most / committed["count"] - 1.0
-        verdict = "" if abs(more) <= ALLOWED else "  less: --update" if more < 0.0 else "  TOO MUCH"
+        verdict = ("" if abs(more) <= ALLOWED_STRICT else "  less: --update" if more < 0.0 else
+                   "  TOO MUCH" if more > allowed else "  more: --update, if it is meant")
         print(f"{target} {group}: {counted.most}, {100.0 * more:+.2f} %, {counted.place}{verdict}")
-        if more > ALLOWED:
+        if more > allowed:
             problems.append(f"{target} {group}: {counted.most} instructions, {100.0 * more:.2f} % "
                             f"above the committed {committed['count']}")
     return problems
@@ -112,13 +98,13 @@ def arguments():
     parser.add_argument("--update", action="store_true")
     parser.add_argument("--twice", action="store_true", help="counts have to be the same again")
     parser.add_argument("--thorough", action="store_true",
-                        help="also all boundaries, all fault rows, whole tasks (enumeration.py)")
+                        help="strict; also all boundaries, all fault rows, whole tasks (enumeration.py)")
+    parser.add_argument("--strict", action="store_true", help="what is more than 2 %% above is red")
     parser.add_argument("--only", metavar="GROUP")
     parser.add_argument("--burn", type=int, default=0, metavar="N",
                         help="so many wasted instructions in each section")
     parser.add_argument("--observed", type=pathlib.Path, default=counting.OBSERVED)
     parser.add_argument("--table", action="store_true")
-    parser.add_argument("--readme", type=pathlib.Path, metavar="FILE")
     return parser.parse_args()
 
 
@@ -127,10 +113,6 @@ def main() -> int:
     if options.table:
         print(table(observed(options.observed)))
         return 0
-    if options.readme:
-        problems = check_readme(options.readme, observed(options.observed), options.update)
-        print("\n".join([*problems, f"counts: {len(problems)} problems"]))
-        return 1 if problems else 0
     if options.build is None:
         counting.fail("BUILD is missing")
     began = time.monotonic()
@@ -138,9 +120,13 @@ def main() -> int:
     found = count_all(bench, options)
     most = counting.maxima(found)
     problems = replays(found, bench.target)
+    before = observed(options.observed)
+    options.strict = options.strict or options.thorough
     if options.update:
         update(options.observed, bench.target, most)
-    problems += judge(bench.target, most, observed(options.observed))
+    # A thorough run says what it changes; by itself --update is how a change is taken over.
+    problems += judge(bench.target, most, before if options.thorough else observed(options.observed),
+                      ALLOWED_STRICT if options.strict else ALLOWED)
     committed = set(observed(options.observed).get(bench.target, {}))
     if options.only is None:
         problems += [f"{bench.target} {group}: committed, and no case of it is left"

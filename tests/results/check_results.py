@@ -1,0 +1,101 @@
+"""Canary of results.py, on a little book of its own: tables that were written by hand are found, figures
+that changed are found, what is stopped goes on, and what can't be read is an error."""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+PROGRAM = pathlib.Path(__file__).with_name("results.py")
+ROWS = """
+[table.speed]
+columns = ["figure", "value"]
+[run.first]
+command = "sh -c 'echo ran >> {counted}; echo \\"{{\\\\\\"a\\\\\\": {{\\\\\\"b_m\\\\\\": 0.0125}}}}\\" > $0/summary.json; echo speed 3.5' {folder}"
+patterns = ['^speed (?P<speed>[\\d.]+)']
+quick = true
+[run.draws]
+command = "sh -c 'test ! -e {hang} || sleep 60; printf \\"# head\\\\nseed,end,x\\\\n1,done,1\\\\n2,done,5\\\\n3,done,2\\\\n\\" > $0/campaign.csv' {folder}"
+minutes = 1
+[[row]]
+name = "json"
+table = "speed"
+run = "first"
+cells = ["of a summary and the output", "{place_json} at {place_speed}"]
+[[row]]
+name = "csv"
+table = "speed"
+run = "draws"
+cells = ["of a campaign", "{place_median} / {place_p95} / {place_max}"]
+"""
+PLACES = {"{place_json}": "{a/b_m|mm|.1f} mm", "{place_speed}": "{speed||.2f}",
+          "{place_median}": "{x.median||d}", "{place_p95}": "{x.p95||d}", "{place_max}": "{x.max||d}"}
+README = "# Results\n\n<!-- table speed (tests) -->\n\n<!-- end of table -->\n"
+WANTED = ["| of a summary and the output | 12.5 mm at 3.50 |", "| of a campaign | 2 / 5 / 5 |"]
+
+folder = tempfile.TemporaryDirectory()
+here = pathlib.Path(folder.name)
+rows, data, readme, counted, hang = (here / name for name in
+                                     ("rows.toml", "results.json", "README.md", "counted", "hang"))
+text = ROWS.replace("{counted}", str(counted)).replace("{hang}", str(hang)).replace("{{", "{").replace("}}", "}")
+for place, meant in PLACES.items():
+    text = text.replace(place, meant)
+words = [sys.executable, "-B", str(PROGRAM), "--rows", str(rows), "--results", str(data), "--readme", str(readme),
+         "--state", str(here / "state"), "--build", str(here)]
+
+
+def expect(status, *said, action):
+    done = subprocess.run([*words, *action.split()], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          check=False)
+    assert done.returncode == status, f"{action}: exit status {done.returncode}, not {status}\n{done.stdout}"
+    for each in said:
+        assert each in done.stdout, f"{action}: '{each}' is not said:\n{done.stdout}"
+
+
+rows.write_text(text)
+readme.write_text(README)
+data.write_text(json.dumps({name: {"cells": ["", "?"], "date": "-"} for name in ("json", "csv")}))
+expect(1, "table speed is not what the data say", action="--check")
+
+# Stopped in its middle, it goes on with what is left.
+hang.touch()
+stopped = subprocess.Popen([*words, "--make"], stdout=subprocess.DEVNULL, start_new_session=True)
+for _ in range(300):
+    if (here / "state/first.json").exists():
+        break
+    time.sleep(0.1)
+os.killpg(stopped.pid, signal.SIGKILL)
+stopped.wait()
+hang.unlink()
+assert "?" in data.read_text(), "results were written though nothing was finished"
+expect(0, "first: already there", "draws: sh", "2 rows, 0 problems", action="--make")
+assert counted.read_text() == "ran\n", "the first run was made twice"
+written = readme.read_text()
+assert all(line in written for line in WANTED), written
+expect(0, action="--check")
+expect(0, "2 rows, 0 problems", action="--quick")
+
+for wrong in (written.replace("12.5", "12.4"), written.replace("| of a campaign", "| a campaign"),
+              written.replace("<!-- table speed (tests) -->", "")):
+    readme.write_text(wrong)
+    expect(1, "README.md: ", action="--check")
+readme.write_text(written)
+good = data.read_text()
+data.write_text(good.replace("12.5 mm", "12.4 mm"))
+expect(1, "['of a summary and the output', '12.5 mm at 3.50'] now", action="--quick")
+data.write_text(json.dumps({"json": json.loads(good)["json"]}))
+expect(1, "csv: no figure in results.json", action="--check")
+data.write_text(good)
+rows.write_text(text.replace("{x.median||d}", "{y.median||d}"))
+expect(1, "no figure 'y.median'", action="--make --again --only draws")
+rows.write_text(text.replace("^speed ", "^pace "))
+expect(1, "nothing in the output is like", action="--make --only first")
+rows.write_text(text.replace("echo speed 3.5", "exit 3"))
+expect(1, "exit status 3", action="--make --only first")
+rows.write_text(text.replace("quick = true", ""))
+expect(1, "nothing was compared", action="--quick")
+print("tables, figures and what was stopped: all found")
