@@ -41,7 +41,8 @@ def filled(cell: str, figures: dict[str, float]) -> str:
 
 def shown_command(run: dict) -> str:
     words = run.get("show") or re.sub(r" --(?:out|summary|json) \{folder\}\S*", "", run["command"])
-    return f"`{words}`" if "`" not in words else words
+    # In a table a | ends the cell, also within code.
+    return (f"`{words}`" if "`" not in words else words).replace("|", "\\|")
 
 
 class Book:
