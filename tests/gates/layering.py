@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 """Gate: #include points one way, app -> platform -> hal -> firmware.
 
+Inside app the tool and the scope stand on reports and runs, those on the deployed process, the plant and the
+machines' files; no two rooms (app/runs, firmware/mcv) include each other, however far round.
+
 firmware and hal take no header that needs an operating system or a heap, and no third party but
 Eigen. The plant, which stands in for the real machine, must not even indirectly see the model
 that the controller has of it: otherwise a wrong sign would cancel itself.
@@ -9,6 +12,7 @@ that the controller has of it: otherwise a wrong sign would cancel itself.
 import tree
 from freestanding import ALLOWED_HEADERS, FREESTANDING
 from includes import Includes
+from rooms import circle, edges
 
 # Folder: what a file in it must not include.
 FORBIDDEN = {
@@ -17,8 +21,14 @@ FORBIDDEN = {
     "can_dbc/": ("platform/", "app/", "tests/"),
     "platform/": ("app/", "tests/"),
     "app/": ("tests/",),
-    # The controller's process opens no TCP socket.
-    "app/ecu/": ("app/scope/", "app/cli/"),
+    # The controller's process opens no TCP socket and has no part of a simulation.
+    "app/ecu/": ("app/plant/", "app/runs/", "app/reports/", "app/scope/", "app/cli/"),
+    "app/plant/": ("app/machines/", "app/ecu/", "app/runs/", "app/reports/", "app/scope/", "app/cli/"),
+    "app/machines/": ("app/ecu/", "app/runs/", "app/reports/", "app/scope/", "app/cli/"),
+    "app/runs/": ("app/reports/", "app/scope/", "app/cli/"),
+    # A report is the scope's page with a log inside.
+    "app/reports/": ("app/scope/server/", "app/scope/sim/", "app/cli/"),
+    "app/scope/": ("app/cli/",),
 }
 # All that the plant may see of the core, through any number of headers in between: what a machine is, and
 # the codes and values that are on the bus.
@@ -54,4 +64,8 @@ for name, found in includes.of.items():
         problems += [f"{own or 'a common room'} must not see {header}: {chain}"
                      for header, chain in includes.reached_from(name).items()
                      if header.startswith(WINGS) and not (own and header.startswith(own))]
+between = edges(includes)
+if around := circle({name: to for name, to in between.items() if not name.startswith("tests")}):
+    problems.append(f"a circle of rooms: {' -> '.join(around)}: " + "; ".join(
+        between[here][there] for here, there in zip(around, around[1:])))
 tree.report("layering", sorted(set(problems)), sum(map(len, includes.of.values())), "includes")
