@@ -120,7 +120,7 @@ json words_json() {
     words["fault"][std::to_string(i)] = runs::fault_words(static_cast<Fault>(i));
   }
   words["why_not_armed"] = json::array();
-  for (int i = 0; i < runs::kArmBlockCount; ++i) {
+  for (int i = 0; i < kArmBlockCount; ++i) {
     words["why_not_armed"].push_back(runs::arm_block_words(static_cast<ArmBlock>(i)));
   }
   return words;

@@ -79,7 +79,7 @@ const char* fault_words(Fault fault) {
     case Fault::kTrackSpeedDisagrees:
       return "a track's speed is not that of its displacements";
     case Fault::kTaskUnknown:
-      return "the task that is chosen is none of ours";
+      return "unknown task number";
   }
   return "unknown";
 }
@@ -87,11 +87,11 @@ const char* fault_words(Fault fault) {
 const char* arm_block_words(ArmBlock block) {
   switch (block) {
     case ArmBlock::kStroke:
-      return "a stroke is missing";
+      return "a stroke is missing or cannot be";
     case ArmBlock::kPressure:
-      return "a pressure is missing (excavator), or the body's pose (dozer)";
+      return "a pressure is missing or cannot be";
     case ArmBlock::kSwash:
-      return "a pump's swash is missing (excavator), or the transmission's feedback (dozer)";
+      return "a pump's swash is missing or not as commanded";
     case ArmBlock::kEngineSpeed:
       return "the engine's speed is missing";
     case ArmBlock::kOperator:
@@ -103,9 +103,9 @@ const char* arm_block_words(ArmBlock block) {
     case ArmBlock::kBus:
       return "the bus is not active, or does not take the controller's frames";
     case ArmBlock::kMessages:
-      return "messages with wrong CRCs or out of sequence";
-    case ArmBlock::kImplausible:
-      return "a stroke, pressure, swash or pose that cannot be";
+      return "messages with wrong CRCs, out of sequence or with values out of range";
+    case ArmBlock::kUnreachable:
+      return "the strokes give no pose";
     case ArmBlock::kCycle:
       return "control cycles are late";
     case ArmBlock::kManual:
@@ -118,6 +118,20 @@ const char* arm_block_words(ArmBlock block) {
       return "a fault is latched: release enable, then give it again";
     case ArmBlock::kStopping:
       return "the controller was told to end";
+    case ArmBlock::kPose:
+      return "the body's pose is missing or cannot be";
+    case ArmBlock::kTransmission:
+      return "the transmission's feedback is missing or not as commanded";
+    case ArmBlock::kNotCentred:
+      return "a spool is not in its middle: release the levers";
+    case ArmBlock::kValve:
+      return "the valve does not do as it is told";
+    case ArmBlock::kController:
+      return "the controller's own check has failed";
+    case ArmBlock::kSensorError:
+      return "a sensor reports an error of its own";
+    case ArmBlock::kTask:
+      return "unknown task number";
   }
   return "unknown";
 }

@@ -9,8 +9,6 @@ namespace graben::runs {
 /// "a stroke is missing", ...; "none" for kNone.
 [[nodiscard]] const char* fault_words(Fault fault);
 
-inline constexpr int kArmBlockCount = 16;
-
 /// What a bit of MachineStatus::why_not_armed says; two of them say it of one kind of machine or
 /// the other.
 [[nodiscard]] const char* arm_block_words(ArmBlock block);

@@ -16,7 +16,7 @@
 
 namespace graben::dbc::excavator {
 
-inline constexpr std::uint8_t kDbcVersion = 4;
+inline constexpr std::uint8_t kDbcVersion = 5;
 
 /// Measured stroke of the boom cylinder.
 struct BoomStroke {
@@ -929,31 +929,41 @@ struct EcuHealth {
     kOn = 1,
   };
 
+  enum class StandIn : std::uint8_t {
+    kOff = 0,
+    kOn = 1,
+  };
+
   static constexpr Field kWhyNotArmed{
-      "WhyNotArmed", "", 0, 16, 0U, 65535U, -1, -1, 0U,
+      "WhyNotArmed", "", 0, 32, 0U, 4294967295U, -1, -1, 0U,
       0, 1.0, 1.0};
   static constexpr Field kAllocations{
-      "Allocations", "", 16, 8, 0U, 250U, 254, 255, 255U,
+      "Allocations", "", 32, 4, 0U, 13U, 14, 15, 15U,
       0, 1.0, 1.0};
   static constexpr Field kPageFaults{
-      "PageFaults", "", 24, 8, 0U, 250U, 254, 255, 255U,
+      "PageFaults", "", 40, 8, 0U, 250U, 254, 255, 255U,
       0, 1.0, 1.0};
   static constexpr Field kOverruns{
-      "Overruns", "", 32, 8, 0U, 250U, 254, 255, 255U,
+      "Overruns", "", 48, 8, 0U, 250U, 254, 255, 255U,
       0, 1.0, 1.0};
   static constexpr Field kDroppedFrames{
-      "DroppedFrames", "", 40, 8, 0U, 250U, 254, 255, 255U,
+      "DroppedFrames", "", 56, 8, 0U, 250U, 254, 255, 255U,
       0, 1.0, 1.0};
   static constexpr Field kRealTime{
-      "RealTime", "", 48, 2, 0U, 1U, 2, 3, 0U,
+      "RealTime", "", 36, 2, 0U, 1U, 2, 3, 0U,
+      0, 1.0, 1.0};
+  static constexpr Field kStandIn{
+      "StandIn", "", 38, 2, 0U, 1U, 2, 3, 0U,
       0, 1.0, 1.0};
 
-  /// A bit for each reason, from bit 0: stroke, pressure, swash, engine speed, operator, spool,
-  /// identity, bus, messages, implausible, cycle, manual, task not at rest, enable not fresh, fault
-  /// latched, stopping. 0 when armed. [0 .. 65535 on the bus]
+  /// A bit for each reason, from bit 0: stroke, pressure, swash, engine speed, operator, spool
+  /// feedback, identity, bus, messages, unreachable pose, cycle, manual, task not at rest, enable
+  /// not fresh, fault latched, stopping, body pose, transmission, spools not centred, valve not
+  /// obeying, controller's own check, sensor error, unknown task. 0 when armed. [0 .. 4294967295 on
+  /// the bus]
   Count why_not_armed{0U, RawState::kValid};
-  /// Heap allocations of the process since its first cycle; stays at 250 from there on. [0 .. 250
-  /// on the bus]
+  /// Heap allocations of the process since its first cycle; stays at 13 from there on. [0 .. 13 on
+  /// the bus]
   Count allocations{0U, RawState::kNotAvailable};
   /// Page faults of the control thread since its first cycle; stays at 250 from there on. [0 .. 250
   /// on the bus]
@@ -965,6 +975,9 @@ struct EcuHealth {
   Count dropped_frames{0U, RawState::kNotAvailable};
   /// Off: the process runs without real-time priority and memory lock.
   Coded<RealTime> real_time{RealTime::kOff, RawState::kValid};
+  /// On: the bus does not carry all that the controller checks, and the profile says what stands in
+  /// for it.
+  Coded<StandIn> stand_in{StandIn::kOff, RawState::kValid};
 
   /// Calls visitor(field, signal) for each signal.
   template <class Self, class Visitor>
@@ -975,6 +988,7 @@ struct EcuHealth {
     visitor(kOverruns, self.overruns);
     visitor(kDroppedFrames, self.dropped_frames);
     visitor(kRealTime, self.real_time);
+    visitor(kStandIn, self.stand_in);
   }
   static constexpr EcuHealth decode(const Payload& payload) {
     return decode_message<EcuHealth>(payload);

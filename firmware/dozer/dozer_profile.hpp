@@ -9,6 +9,7 @@
 #include "firmware/dozer/dozer_signals.hpp"
 #include "firmware/machine/piston_area.hpp"
 #include "firmware/numeric/monotone_table.hpp"
+#include "firmware/signals/bus_capabilities.hpp"
 
 namespace graben {
 
@@ -128,6 +129,7 @@ struct DozerSafety {
 };
 
 struct DozerProfile {
+  BusCapabilities bus;
   DozerBody body;
   BladeGeometry blade;
   ImplementProfile implement;

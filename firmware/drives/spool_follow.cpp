@@ -6,6 +6,10 @@
 namespace graben {
 namespace {
 constexpr double kDeadTimeSpread = 1.3;
+}  // namespace
+
+double spool_arrives_s(double dead_time_s, double settle_s) {
+  return kDeadTimeSpread * dead_time_s + settle_s;
 }
 
 bool follow_spool(const SpoolLimits& limits, SpoolState& state, double duty_ratio, bool received,
@@ -16,7 +20,7 @@ bool follow_spool(const SpoolLimits& limits, SpoolState& state, double duty_rati
     return false;
   }
   const CommandHistory::Range range =
-      state.sent.range(cycles_under_way(kDeadTimeSpread * limits.dead_time_s + limits.settle_s));
+      state.sent.range(cycles_under_way(spool_arrives_s(limits.dead_time_s, limits.settle_s)));
   const bool wrong =
       spool_ratio < range.least - limits.tolerance || spool_ratio > range.most + limits.tolerance;
   state.wrong_cycles = wrong ? std::min(state.wrong_cycles + 1, kSpoolWrongCycles) : 0;

@@ -10,6 +10,9 @@ inline constexpr int kSpoolWrongCycles = 4;
 /// The valve side has this many cycles to say what we say.
 inline constexpr int kEchoCycles = 12;
 
+/// Time that a spool may take to where its command sends it, s.
+[[nodiscard]] double spool_arrives_s(double dead_time_s, double settle_s);
+
 /// What one spool may take.
 struct SpoolLimits {
   double dead_time_s = 0.0;  ///< Known within 30 %.

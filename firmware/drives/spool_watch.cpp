@@ -11,12 +11,14 @@ FaultSet watch_spools(const ExcavatorProfile& profile, SpoolWatchState& state,
   const bool received = !valid.faults.has(Fault::kSpoolMissing);
   FaultSet faults;
   for (unsigned i = 0; i < static_cast<unsigned>(profile.drive_count); ++i) {
-    if (follow_spool(limits, state.spool[i], sent.duty_ratio[i], received, valid.spool_ratio[i])) {
+    if (profile.bus.spool_feedback &&
+        follow_spool(limits, state.spool[i], sent.duty_ratio[i], received, valid.spool_ratio[i])) {
       faults.add(Fault::kSpoolStuck);
     }
   }
-  state.echo_cycles =
-      received ? echo_cycles(state.echo_cycles, sent.enable, valid.valve_enabled) : 0;
+  state.echo_cycles = received && profile.bus.valve_echo
+                          ? echo_cycles(state.echo_cycles, sent.enable, valid.valve_enabled)
+                          : 0;
   if (state.echo_cycles >= kEchoCycles) {
     faults.add(Fault::kValveNotFollowing);
   }
@@ -24,6 +26,9 @@ FaultSet watch_spools(const ExcavatorProfile& profile, SpoolWatchState& state,
 }
 
 bool spools_centred(const ExcavatorProfile& profile, const ValidInputs& valid) {
+  if (!profile.bus.spool_feedback) {
+    return true;
+  }
   const auto* const first = valid.spool_ratio.data();
   return std::all_of(first, first + profile.drive_count, [&profile](double spool) {
     return spool_centred(spool, profile.safety.spool_tolerance);

@@ -27,7 +27,8 @@ struct SpoolWatchState {
 [[nodiscard]] FaultSet watch_spools(const ExcavatorProfile& profile, SpoolWatchState& state,
                                     const SentCommand& sent, const ValidInputs& valid);
 
-/// Whether every spool is near its middle: the machine is not being moved by hand.
+/// Whether every spool is near its middle: the machine is not being moved by hand. True where the
+/// bus does not say.
 [[nodiscard]] bool spools_centred(const ExcavatorProfile& profile, const ValidInputs& valid);
 
 }  // namespace graben

@@ -11,6 +11,7 @@
 #include "firmware/core/codes.hpp"
 #include "firmware/excavator/excavator_signals.hpp"
 #include "firmware/numeric/monotone_table.hpp"
+#include "firmware/signals/bus_capabilities.hpp"
 
 namespace graben {
 
@@ -192,6 +193,7 @@ struct LineProfile {
 };
 
 struct ExcavatorProfile {
+  BusCapabilities bus;
   int drive_count = kAxisCount;  ///< kDriveCount with a swing section of the valve.
   ExcavatorGeometry geometry;
   SwingProfile swing;

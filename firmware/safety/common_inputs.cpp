@@ -25,7 +25,8 @@ void read_driver(const OperatorInputs& driver, const Freshness& fresh, CommonVal
   valid.speed_override_ratio = std::clamp(driver.speed_override_ratio.value, 0.0, 1.0);
 }
 
-void read_bus(const LinkInputs& link, CommonValid& valid) {
+void read_bus(const BusCapabilities& bus, const LinkInputs& link, CommonValid& valid) {
+  valid.stand_in = bus.lacks_any();
   valid.faults.add(link.message_faults);
   if (link.bus != BusState::kActive) {
     valid.faults.add(link.bus == BusState::kOff       ? Fault::kBusOff
@@ -40,14 +41,22 @@ void read_bus(const LinkInputs& link, CommonValid& valid) {
   }
 }
 
-void read_identity(const Signal<bool>& same_machine, TimeUs now_us, CommonValid& valid) {
+void read_identity(const BusCapabilities& bus, const Signal<bool>& same_machine, TimeUs now_us,
+                   CommonValid& valid) {
+  if (!bus.identity) {
+    return;
+  }
   const Freshness known(kIdentityTimeout_s, now_us);
   if (!known.holds(same_machine) || !same_machine.value) {
     valid.faults.add(Fault::kIdentityMismatch);
   }
 }
 
-bool read_echo(const Signal<bool>& valve_enabled, const Freshness& fresh, FaultSet& faults) {
+bool read_echo(const BusCapabilities& bus, const Signal<bool>& valve_enabled,
+               const Freshness& fresh, FaultSet& faults) {
+  if (!bus.valve_echo) {
+    return false;
+  }
   if (!fresh.holds(valve_enabled)) {
     faults.add(Fault::kSpoolMissing);
     return false;

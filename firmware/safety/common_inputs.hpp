@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "firmware/safety/freshness.hpp"
+#include "firmware/signals/bus_capabilities.hpp"
 #include "firmware/signals/machine_signals.hpp"
 
 namespace graben {
@@ -17,6 +18,7 @@ struct CommonValid {
   FaultSet degraded;           ///< Those of them that slow and do not stop.
   bool enable = false;         ///< Fresh, valid and given.
   bool automatic = false;
+  bool stand_in = false;  ///< The bus lacks something that the profile replaces.
   Task task = Task::kNone;
   int task_number = -1;  ///< Of Task::kProgram; below 0 none was given.
   double speed_override_ratio = 0.0;
@@ -37,12 +39,14 @@ inline constexpr double kFasterThanPumps = 2.0;
 inline constexpr double kIdentityTimeout_s = 2.5;
 
 void read_driver(const OperatorInputs& driver, const Freshness& fresh, CommonValid& valid);
-void read_bus(const LinkInputs& link, CommonValid& valid);
-void read_identity(const Signal<bool>& same_machine, TimeUs now_us, CommonValid& valid);
+void read_bus(const BusCapabilities& bus, const LinkInputs& link, CommonValid& valid);
+/// A bus that does not carry it is not asked.
+void read_identity(const BusCapabilities& bus, const Signal<bool>& same_machine, TimeUs now_us,
+                   CommonValid& valid);
 
-/// Missing echo counts as no feedback of the valve.
-[[nodiscard]] bool read_echo(const Signal<bool>& valve_enabled, const Freshness& fresh,
-                             FaultSet& faults);
+/// Missing echo counts as no feedback of the valve, unless the bus does not carry it.
+[[nodiscard]] bool read_echo(const BusCapabilities& bus, const Signal<bool>& valve_enabled,
+                             const Freshness& fresh, FaultSet& faults);
 
 /// The engine's speed, rad/s. Its frame is the one without protection, and a flow that is not there
 /// would let the machine go faster: missing, or above `rated_radps` by more than any engine, it is

@@ -5,7 +5,7 @@
 
 #include "firmware/core/codes.hpp"
 #include "firmware/core/fault_set.hpp"
-#include "firmware/excavator/excavator_signals.hpp"
+#include "firmware/signals/machine_signals.hpp"
 
 namespace graben {
 
@@ -23,7 +23,7 @@ struct FaultRow {
   Reaction reaction = Reaction::kNone;
   std::uint8_t fmi = 0;                     ///< Failure mode identifier of SAE J1939-73.
   bool red_stop = false;                    ///< Lamp: red stop; else amber warning.
-  ArmBlock block = ArmBlock::kImplausible;  ///< What the operator reads while it is there.
+  ArmBlock block = ArmBlock::kUnreachable;  ///< Shown to the operator while it is there.
 };
 
 /// The row of a fault; that of kNone for a number that is none.

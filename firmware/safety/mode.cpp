@@ -5,9 +5,7 @@
 namespace graben {
 namespace {
 
-constexpr std::uint16_t bit(ArmBlock block) {
-  return static_cast<std::uint16_t>(1U << static_cast<unsigned>(block));
-}
+constexpr std::uint32_t bit(ArmBlock block) { return 1U << static_cast<unsigned>(block); }
 
 ModeState after_fault(const ModeState& last, Fault fault) {
   if (last.mode == EcuMode::kFault) {
@@ -43,12 +41,12 @@ ModeState next_mode(const ModeState& last, const ModeRequest& request) {
   return {last.may_arm && at_rest ? EcuMode::kArmed : EcuMode::kReady, Fault::kNone};
 }
 
-std::uint16_t why_not_armed(const ModeState& now, const ModeRequest& request,
+std::uint32_t why_not_armed(const ModeState& now, const ModeRequest& request,
                             const FaultSet& faults) {
   if (in_motion(now.mode)) {
     return 0;
   }
-  unsigned bits = bit(ArmBlock::kEnableNotFresh);
+  std::uint32_t bits = bit(ArmBlock::kEnableNotFresh);
   for (Fault fault = faults.first(); fault != Fault::kNone; fault = faults.after(fault)) {
     bits |= bit(fault_row(fault).block);
   }
@@ -57,13 +55,13 @@ std::uint16_t why_not_armed(const ModeState& now, const ModeRequest& request,
     ArmBlock block;
   } rows[] = {{!request.automatic && !faults.has(Fault::kOperatorMissing), ArmBlock::kManual},
               {request.has_task, ArmBlock::kTaskNotAtRest},
-              {!request.centred, ArmBlock::kSpool},
+              {!request.centred, ArmBlock::kNotCentred},
               {now.mode == EcuMode::kFault, ArmBlock::kFaultLatched},
               {now.mode == EcuMode::kStopping, ArmBlock::kStopping}};
   for (const auto& row : rows) {
     bits |= row.blocks ? bit(row.block) : 0U;
   }
-  return static_cast<std::uint16_t>(bits);
+  return bits;
 }
 
 }  // namespace graben

@@ -2,7 +2,7 @@
 /// What the machine may do: silent by default, positive and complete conditions before motion.
 
 #include "firmware/core/fault_set.hpp"
-#include "firmware/excavator/excavator_signals.hpp"
+#include "firmware/signals/machine_signals.hpp"
 
 namespace graben {
 
@@ -36,7 +36,7 @@ struct ModeRequest {
 
 /// Bits of ArmBlock: all that stands between `now` and Armed; 0 in motion. `faults` are those that
 /// are there.
-[[nodiscard]] std::uint16_t why_not_armed(const ModeState& now, const ModeRequest& request,
+[[nodiscard]] std::uint32_t why_not_armed(const ModeState& now, const ModeRequest& request,
                                           const FaultSet& faults);
 
 }  // namespace graben

@@ -37,6 +37,7 @@ MachineStatus describe(const ModeState& mode, const ModeRequest& request,
                        const CommonValid& valid) {
   MachineStatus status;
   status.mode = mode.mode;
+  status.stand_in = valid.stand_in;
   status.faults = valid.faults;
   status.faults.add(request.fault);
   status.why_not_armed = why_not_armed(mode, request, status.faults);

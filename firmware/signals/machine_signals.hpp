@@ -39,33 +39,41 @@ struct LinkInputs {
 /// are on the bus; never renumber, only add.
 enum class ArmBlock : std::uint8_t {
   kStroke = 0,
-  kPressure = 1,      ///< Excavator.
-  kPose = 1,          ///< Dozer: position, height, pitch of its body.
-  kSwash = 2,         ///< Excavator.
-  kTransmission = 2,  ///< Dozer: displacements, track speeds.
+  kPressure = 1,
+  kSwash = 2,
   kEngineSpeed = 3,
   kOperator = 4,
-  kSpool = 5,
+  kSpool = 5,  ///< No feedback of the valve.
   kIdentity = 6,
   kBus = 7,          ///< Not active, or it does not take our frames.
-  kMessages = 8,     ///< Wrong CRCs, wrong sequences.
-  kImplausible = 9,  ///< A stroke, pressure, swash or pose that cannot be.
+  kMessages = 8,     ///< Wrong CRC, wrong sequence, a value out of range.
+  kUnreachable = 9,  ///< The strokes give no pose.
   kCycle = 10,       ///< Cycles late.
   kManual = 11,
   kTaskNotAtRest = 12,
   kEnableNotFresh = 13,  ///< Not given; or it was given all the time and has to be released first.
   kFaultLatched = 14,    ///< Release enable, then give it again.
   kStopping = 15,
+  kPose = 16,          ///< Position, height, pitch of a dozer's body.
+  kTransmission = 17,  ///< Displacements, track speeds.
+  kNotCentred = 18,    ///< A spool is not in its middle: the machine is moved by hand.
+  kValve = 19,         ///< Spools or cylinders do not do what they are told.
+  kController = 20,    ///< The controller's own check has failed.
+  kSensorError = 21,   ///< A sender calls its own value wrong.
+  kTask = 22,          ///< The task that is chosen is not known.
 };
+
+inline constexpr int kArmBlockCount = 23;
 
 /// What a controller says of itself; nothing of it moves metal.
 struct MachineStatus {
   EcuMode mode = EcuMode::kSilent;
   Fault fault = Fault::kNone;       ///< What stopped it; else what slows it; else what is missing.
   FaultSet faults;                  ///< All that are there now, and the one that is latched.
-  std::uint16_t why_not_armed = 0;  ///< Bits of ArmBlock; 0 when Armed or Active.
+  std::uint32_t why_not_armed = 0;  ///< Bits of ArmBlock; 0 when Armed or Active.
   Limit limit;
-  double lambda = 0.0;  ///< Share of the wanted speed that is followed, 0 .. 1.
+  bool stand_in = false;  ///< The bus lacks something that the profile replaces.
+  double lambda = 0.0;    ///< Share of the wanted speed that is followed, 0 .. 1.
 };
 
 }  // namespace graben

@@ -110,8 +110,7 @@ struct FaultCodes {
 template <class EcuHealth>
 struct BlockCodes {
   // Every reason has its bit.
-  static_assert(EcuHealth::kWhyNotArmed.raw_max >> static_cast<unsigned>(ArmBlock::kStopping) ==
-                1U);
+  static_assert(kArmBlockCount <= 32 && EcuHealth::kWhyNotArmed.raw_max == UINT32_MAX);
 };
 
 /// All of them, of one bus.

@@ -65,6 +65,7 @@ EcuHealth ecu_health(const Outputs& outputs, const EcuDiagnosis& diagnosis) {
   message.page_faults = count(process.page_faults);
   message.overruns = count(process.overruns);
   message.dropped_frames = count(diagnosis.dropped_frames);
+  message.stand_in = coded<typename EcuHealth::StandIn>(status.stand_in ? 1 : 0);
   message.real_time = coded<typename EcuHealth::RealTime>(process.real_time ? 1 : 0);
   return message;
 }

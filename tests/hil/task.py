@@ -78,7 +78,7 @@ def check_frames(log: list[bus_log.Frame]) -> list[str]:
     problems = [f"{len(late)} commands late, up to {max(late):.4f} s apart"] if late else []
     health = [frame for frame in log if frame.name == ECU_HEALTH][-1]
     # Allocations, page faults, overruns; whether real time is on.
-    if (said := (*(health.bits(start, 8) for start in (16, 24, 32)), health.bits(48, 2))) != (0, 0, 0, 1):
+    if (said := tuple(health.bits(*at) for at in ((32, 4), (40, 8), (48, 8), (36, 2)))) != (0, 0, 0, 1):
         problems.append(f"EcuHealth says {said}")
     return problems
 

@@ -126,7 +126,7 @@ def check_frames(log: list[Frame]) -> list[str]:
     if all(frame.neutral for frame in digging[-50:]):
         problems.append("it does not dig: nothing is known of how it stops")
     # Allocations, page faults, overruns; whether real time is on.
-    if (said := (*(health.bits(start, 8) for start in (16, 24, 32)), health.bits(48, 2))) != (0, 0, 0, 1):
+    if (said := tuple(health.bits(*at) for at in ((32, 4), (40, 8), (48, 8), (36, 2)))) != (0, 0, 0, 1):
         problems.append(f"EcuHealth says {said}")
     silent = commands(between(log, STOPPED, RUNNING)[:1] + between(log, REMOVED, LAST))
     if silent:

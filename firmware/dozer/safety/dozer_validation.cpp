@@ -8,7 +8,7 @@
 namespace graben {
 namespace {
 
-constexpr std::size_t kRequiredCount = 8 + 3 * kTrackCount;
+constexpr std::size_t kRequiredCount = 7 + 3 * kTrackCount;
 
 /// Errors of what is believed are named when it comes in.
 std::array<Required, kRequiredCount> required_signals(const DozerInputs& inputs,
@@ -24,8 +24,6 @@ std::array<Required, kRequiredCount> required_signals(const DozerInputs& inputs,
   const TrackInputs& right = inputs.track[kRight];
   return {
       {{&state.blade_stroke_m.signal, &valid.blade_stroke_m, Fault::kStrokeMissing, Fault::kNone},
-       {&inputs.blade_spool_ratio, &valid.blade_spool_ratio, Fault::kSpoolMissing,
-        Fault::kSensorError},
        pose(state.position_m.value.signal, valid.position_m),
        pose(state.height_m.value.signal, valid.height_m),
        pose(state.pitch_rad.value.signal, valid.pitch_rad),
@@ -82,15 +80,20 @@ ValidDozerInputs validate(const DozerInputs& inputs, const DozerProfile& profile
   ValidDozerInputs valid;
   const Freshness fresh(profile.control.sensor_timeout_s, now_us);
   read_driver(inputs.driver, fresh, valid);
-  read_identity(inputs.same_machine, now_us, valid);
-  read_bus(inputs.link, valid);
+  read_identity(profile.bus, inputs.same_machine, now_us, valid);
+  read_bus(profile.bus, inputs.link, valid);
   believe_motion(inputs, profile, moving ? last : DozerValidationState{}, fresh, valid);
   for (const Required& row : required_signals(inputs, valid)) {
     read_required(row, fresh, valid.faults);
   }
+  if (profile.bus.spool_feedback) {
+    read_required({&inputs.blade_spool_ratio, &valid.blade_spool_ratio, Fault::kSpoolMissing,
+                   Fault::kSensorError},
+                  fresh, valid.faults);
+  }
   valid.engine_radps = engine_speed_radps(inputs.engine_speed_radps, profile.hst.engine_most_radps,
                                           profile.safety.idle_radps, fresh, valid.faults);
-  valid.valve_enabled = read_echo(inputs.valve_enabled, fresh, valid.faults);
+  valid.valve_enabled = read_echo(profile.bus, inputs.valve_enabled, fresh, valid.faults);
   valid.blade_stroke_m =
       bounded_stroke_m(valid.blade_stroke_m, blade_stroke_max_m(profile.blade), valid.faults);
   // What cannot be is no jump to be bridged.

@@ -7,11 +7,14 @@ namespace {
 FaultSet watch_valve(const DozerProfile& profile, const DozerLastCycle& cycle,
                      const ValidDozerInputs& inputs, DozerWatchState& state) {
   const bool received = !inputs.faults.has(Fault::kSpoolMissing);
-  const bool stuck = follow_spool(
-      {profile.control.dead_time_s, profile.safety.settle_s, profile.safety.spool_tolerance},
-      state.spool, cycle.blade_duty_ratio, received, inputs.blade_spool_ratio);
-  state.echo_cycles =
-      received ? echo_cycles(state.echo_cycles, cycle.enable, inputs.valve_enabled) : 0;
+  const bool stuck =
+      profile.bus.spool_feedback &&
+      follow_spool(
+          {profile.control.dead_time_s, profile.safety.settle_s, profile.safety.spool_tolerance},
+          state.spool, cycle.blade_duty_ratio, received, inputs.blade_spool_ratio);
+  state.echo_cycles = received && profile.bus.valve_echo
+                          ? echo_cycles(state.echo_cycles, cycle.enable, inputs.valve_enabled)
+                          : 0;
   state.closing = cycle.moving || still_closing(state.closing, spool_centred(profile, inputs),
                                                 Fault::kSpoolMissing, inputs);
   FaultSet stops;
@@ -26,10 +29,16 @@ FaultSet watch_valve(const DozerProfile& profile, const DozerLastCycle& cycle,
 
 FaultSet watch_blade(const DozerProfile& profile, const DozerLastCycle& cycle,
                      const ValidDozerInputs& inputs, double period_s, DozerWatchState& state) {
+  const bool measured = profile.bus.spool_feedback;
+  const double unseen_s =
+      measured ? 0.0 : spool_arrives_s(profile.control.dead_time_s, profile.safety.settle_s);
   const CylinderWatchResult blade = watch_cylinder(
       {profile.implement.spool_to_duty.y_first(), profile.safety.uncommanded_m,
-       profile.safety.stuck_m},
-      state.blade, {inputs.blade_stroke_m, inputs.blade_spool_ratio, cycle.asked_mps}, period_s);
+       profile.safety.stuck_m, kCylinderSettle_s + unseen_s},
+      state.blade,
+      {inputs.blade_stroke_m, measured ? inputs.blade_spool_ratio : cycle.blade_duty_ratio,
+       cycle.asked_mps},
+      period_s);
   state.blade = blade.state;
   FaultSet stops;
   if (blade.uncommanded) {
@@ -78,7 +87,8 @@ ValidDozerInputs watch(const DozerProfile& profile, DozerWatchState& state,
 }
 
 bool spool_centred(const DozerProfile& profile, const ValidDozerInputs& valid) {
-  return spool_centred(valid.blade_spool_ratio, profile.safety.spool_tolerance);
+  return !profile.bus.spool_feedback ||
+         spool_centred(valid.blade_spool_ratio, profile.safety.spool_tolerance);
 }
 
 }  // namespace graben

@@ -23,16 +23,21 @@ Drives drives_of(const ExcavatorInputs& inputs, const SwingProfile& profile) {
   return drives;
 }
 
-void read_drive(const AxisInputs& drive, unsigned i, const Freshness& fresh, ValidInputs& valid) {
+void read_drive(const BusCapabilities& bus, const AxisInputs& drive, unsigned i,
+                const Freshness& fresh, ValidInputs& valid) {
   const Required rows[] = {
       {&valid.state.stroke_m[i].signal, &valid.strokes_m[i], Fault::kStrokeMissing, Fault::kNone},
       {&drive.cap_pressure_pa, &valid.cap_pressure_pa[i], Fault::kPressureMissing,
        Fault::kPressureImplausible},
       {&drive.rod_pressure_pa, &valid.rod_pressure_pa[i], Fault::kPressureMissing,
-       Fault::kPressureImplausible},
-      {&drive.spool_ratio, &valid.spool_ratio[i], Fault::kSpoolMissing, Fault::kSensorError}};
+       Fault::kPressureImplausible}};
   for (const Required& row : rows) {
     read_required(row, fresh, valid.faults);
+  }
+  if (bus.spool_feedback) {
+    read_required(
+        {&drive.spool_ratio, &valid.spool_ratio[i], Fault::kSpoolMissing, Fault::kSensorError},
+        fresh, valid.faults);
   }
   valid.load_known[i] = fresh.number(drive.cap_pressure_pa) && fresh.number(drive.rod_pressure_pa);
 }
@@ -70,7 +75,7 @@ void read_drives(const ExcavatorInputs& inputs, const ExcavatorProfile& profile,
     const BelievedResult stroke = believe(drives[i].stroke_m, change, fresh, last.stroke_m[i]);
     valid.state.stroke_m[i] = stroke.state;
     valid.faults.add(stroke.faults);
-    read_drive(drives[i], i, fresh, valid);
+    read_drive(profile.bus, drives[i], i, fresh, valid);
     valid.strokes_m[drive] =
         drive == kSwing
             ? bounded_swing_m(valid.strokes_m[drive], profile.swing.lever_m, valid.faults)
@@ -86,18 +91,22 @@ ValidInputs validate(const ExcavatorInputs& inputs, const ExcavatorProfile& prof
   ValidInputs valid;
   const Freshness fresh(profile.control.sensor_timeout_s, now_us);
   read_driver(inputs.driver, fresh, valid);
-  read_identity(inputs.same_machine, now_us, valid);
-  read_bus(inputs.link, valid);
+  read_identity(profile.bus, inputs.same_machine, now_us, valid);
+  read_bus(profile.bus, inputs.link, valid);
   read_drives(inputs, profile, moving ? last : ValidationState{}, fresh, valid);
   for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
-    read_required(
-        {&inputs.swash_ratio[j], &valid.swash_ratio[j], Fault::kSwashMissing, Fault::kSensorError},
-        fresh, valid.faults);
+    if (!profile.bus.swash_feedback) {
+      valid.swash_ratio[j] = profile.dig_swash_ratio[j];
+    } else {
+      read_required({&inputs.swash_ratio[j], &valid.swash_ratio[j], Fault::kSwashMissing,
+                     Fault::kSensorError},
+                    fresh, valid.faults);
+    }
   }
   valid.engine_radps =
       engine_speed_radps(inputs.engine_speed_radps, profile.pump[0].rated_speed_radps,
                          profile.safety.idle_radps, fresh, valid.faults);
-  valid.valve_enabled = read_echo(inputs.valve_enabled, fresh, valid.faults);
+  valid.valve_enabled = read_echo(profile.bus, inputs.valve_enabled, fresh, valid.faults);
   judge(moving, {{Fault::kStrokeJump, Fault::kStrokeMissing}}, valid);
   return valid;
 }

@@ -6,6 +6,9 @@ WatchResult watch(const ExcavatorProfile& profile, WatchState& state, const Last
                   const ValidInputs& inputs, double period_s) {
   WatchResult result;
   result.inputs = inputs;
+  if (!profile.bus.spool_feedback) {
+    result.inputs.spool_ratio = cycle.sent.duty_ratio;
+  }
 
   const FaultSet spools = watch_spools(profile, state.spool, cycle.sent, inputs);
   FaultSet stops;
@@ -21,11 +24,11 @@ WatchResult watch(const ExcavatorProfile& profile, WatchState& state, const Last
   // Without their strokes and spools the cylinders cannot be judged, and the fault is there anyway.
   if (cycle.moving && inputs.fault == Fault::kNone) {
     const MotionWatchResult motion =
-        watch_motion(profile, state.motion, inputs, cycle.asked_mps, period_s);
+        watch_motion(profile, state.motion, result.inputs, cycle.asked_mps, period_s);
     state.motion = motion.state;
     stops.add(motion.faults);
     const PressureWatchResult pressures =
-        watch_pressures(profile, state.pressure, inputs, period_s);
+        watch_pressures(profile, state.pressure, result.inputs, period_s);
     state.pressure = pressures.state;
     for (unsigned i = 0; i < static_cast<unsigned>(profile.drive_count); ++i) {
       if (pressures.wrong[i]) {

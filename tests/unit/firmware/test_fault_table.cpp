@@ -31,16 +31,16 @@ const Promise kPromises[] = {
     {20, Fault::kSpoolMissing, 'N', 9, ArmBlock::kSpool},
     // Values that cannot be: FMI 2, erratic; 10, abnormal rate of change; 31, condition exists.
     {6, Fault::kStrokeImplausible, 'N', 2, ArmBlock::kStroke},
-    {7, Fault::kPoseUnreachable, 'N', 2, ArmBlock::kImplausible},
+    {7, Fault::kPoseUnreachable, 'N', 2, ArmBlock::kUnreachable},
     {23, Fault::kStrokeStuck, 'N', 2, ArmBlock::kStroke},
     {24, Fault::kStrokeJump, 'N', 10, ArmBlock::kStroke},
     {25, Fault::kPressureImplausible, 'D', 2, ArmBlock::kPressure},
     {29, Fault::kValueOutOfRange, 'D', 31, ArmBlock::kMessages},
     // Ourselves and failed devices: FMI 12; too late: 9.
-    {8, Fault::kSolverFailed, 'N', 12, ArmBlock::kImplausible},
-    {9, Fault::kCommandNotFinite, 'N', 12, ArmBlock::kImplausible},
-    {27, Fault::kMemoryCorrupt, 'N', 12, ArmBlock::kImplausible},
-    {30, Fault::kSensorError, 'N', 12, ArmBlock::kImplausible},
+    {8, Fault::kSolverFailed, 'N', 12, ArmBlock::kController},
+    {9, Fault::kCommandNotFinite, 'N', 12, ArmBlock::kController},
+    {27, Fault::kMemoryCorrupt, 'N', 12, ArmBlock::kController},
+    {30, Fault::kSensorError, 'N', 12, ArmBlock::kSensorError},
     {10, Fault::kCycleStalled, 'N', 9, ArmBlock::kCycle},
     {16, Fault::kCycleOverrun, 'N', 9, ArmBlock::kCycle},
     // The bus: FMI 19, received network data in error; another machine: 14, special.
@@ -53,12 +53,12 @@ const Promise kPromises[] = {
     {18, Fault::kMessageSequence, 'N', 19, ArmBlock::kMessages},
     {19, Fault::kMessageMasquerade, 'N', 19, ArmBlock::kMessages},
     // The machine does not do as it is told: FMI 7, mechanical system not responding.
-    {21, Fault::kSpoolStuck, 'N', 7, ArmBlock::kSpool, kCutsPilot},
-    {22, Fault::kUncommandedMotion, 'N', 7, ArmBlock::kImplausible, kCutsPilot},
+    {21, Fault::kSpoolStuck, 'N', 7, ArmBlock::kValve, kCutsPilot},
+    {22, Fault::kUncommandedMotion, 'N', 7, ArmBlock::kValve, kCutsPilot},
     {26, Fault::kSwashDisagrees, 'D', 7, ArmBlock::kSwash},
-    {28, Fault::kValveNotFollowing, 'N', 7, ArmBlock::kSpool, kCutsPilot},
+    {28, Fault::kValveNotFollowing, 'N', 7, ArmBlock::kValve, kCutsPilot},
     // The operator asks for what is not there: FMI 31, condition exists.
-    {37, Fault::kTaskUnknown, 'N', 31, ArmBlock::kOperator},
+    {37, Fault::kTaskUnknown, 'N', 31, ArmBlock::kTask},
     // The dozer's own.
     {31, Fault::kPoseMissing, 'N', 9, ArmBlock::kPose},
     {32, Fault::kPoseImplausible, 'N', 2, ArmBlock::kPose},

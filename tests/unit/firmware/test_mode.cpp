@@ -169,7 +169,7 @@ void each_condition_has_its_bit(void**) {
                    enable | bits({ArmBlock::kTaskNotAtRest}));
   ModeRequest by_hand = ready;
   by_hand.centred = false;
-  assert_int_equal(why(EcuMode::kReady, by_hand), enable | bits({ArmBlock::kSpool}));
+  assert_int_equal(why(EcuMode::kReady, by_hand), enable | bits({ArmBlock::kNotCentred}));
   assert_int_equal(why(EcuMode::kFault, ready), enable | bits({ArmBlock::kFaultLatched}));
   assert_int_equal(why(EcuMode::kStopping, ready), enable | bits({ArmBlock::kStopping}));
 }
@@ -189,7 +189,7 @@ void each_fault_has_its_bit(void**) {
                       {Fault::kIdentityMismatch, ArmBlock::kIdentity},
                       {Fault::kBusPassive, ArmBlock::kBus},
                       {Fault::kMessageMasquerade, ArmBlock::kMessages},
-                      {Fault::kPoseUnreachable, ArmBlock::kImplausible},
+                      {Fault::kPoseUnreachable, ArmBlock::kUnreachable},
                       {Fault::kCycleStalled, ArmBlock::kCycle}};
   const ModeRequest ready = asks(false, Task::kNone);
   FaultSet all;

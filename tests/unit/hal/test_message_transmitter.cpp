@@ -101,18 +101,21 @@ void health(void**) {
   assert_int_equal(message.overruns.value, 3);
   assert_int_equal(message.dropped_frames.value, 4);
   assert_int_equal(message.real_time.value, Kind::EcuHealth::RealTime::kOn);
+  assert_int_equal(message.stand_in.value, Kind::EcuHealth::StandIn::kOff);
 
   SenderOf<Kind> ill;
-  ill.outputs.status.why_not_armed = 0xFFFF;
+  ill.outputs.status.why_not_armed = 0xFFFFFFFF;
+  ill.outputs.status.stand_in = true;
   ill.diagnosis.process = {251, 1000, UINT32_MAX, false};
   ill.diagnosis.dropped_frames = 100'000;
   message = health_of<Kind>(ill);
-  assert_int_equal(message.why_not_armed.value, 0xFFFF);
-  assert_int_equal(message.allocations.value, 250);
+  assert_int_equal(message.why_not_armed.value, 0xFFFFFFFF);
+  assert_int_equal(message.allocations.value, 13);
   assert_int_equal(message.page_faults.value, 250);
   assert_int_equal(message.overruns.value, 250);
   assert_int_equal(message.dropped_frames.value, 250);
   assert_int_equal(message.real_time.value, Kind::EcuHealth::RealTime::kOff);
+  assert_int_equal(message.stand_in.value, Kind::EcuHealth::StandIn::kOn);
 }
 
 template <class Trouble>

@@ -47,5 +47,5 @@ test('faults and reasons', () => {
   assert.equal(fault_words(WORDS, 200), 'unknown fault 200');
   assert.deepEqual(why_not_armed(WORDS, 0), []);
   assert.deepEqual(why_not_armed(WORDS, 0b101), ['a stroke is missing', 'a swash is missing']);
-  assert.deepEqual(why_not_armed(WORDS, 0x8000), ['unknown reason, bit 15']);
+  assert.deepEqual(why_not_armed(WORDS, 0x80000000), ['unknown reason, bit 31']);
 });

@@ -13,8 +13,8 @@ export const fault_words = (words: Words, code: number): string =>
 /// EcuHealth.WhyNotArmed: a sentence for each bit.
 export function why_not_armed(words: Words, bits: number): string[] {
   const why: string[] = [];
-  for (let bit = 0; bit < 16; ++bit) {
-    if ((bits >> bit) & 1) {
+  for (let bit = 0; bit < 32; ++bit) {
+    if ((bits >>> bit) & 1) {
       why.push(words.why_not_armed[bit] ?? `unknown reason, bit ${bit}`);
     }
   }

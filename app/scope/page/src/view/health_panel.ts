@@ -7,6 +7,7 @@ import {count, fixed, hash_words} from './format';
 import type {PageState, View} from './page_state';
 
 const SATURATED = 250;
+const ALLOCATIONS_SATURATED = 13;
 
 interface Fact {
   row: HTMLElement;
@@ -18,6 +19,8 @@ interface Fact {
 
 const counted = (reading: Reading) =>
   reading.raw >= SATURATED ? `${SATURATED} or more` : count(reading.value);
+const allocated = (reading: Reading) =>
+  reading.raw >= ALLOCATIONS_SATURATED ? `${ALLOCATIONS_SATURATED} or more` : count(reading.value);
 const some = (reading: Reading) => reading.state === 'valid' && reading.raw > 0;
 const never = () => false;
 
@@ -26,7 +29,9 @@ type Row = readonly [string, string, Fact['words'], Fact['wrong']];
 const ROWS: readonly Row[] = [
   ['Real-time priority and memory lock', 'EcuHealth.RealTime',
     (reading) => (reading.raw === 1 ? 'on' : 'off'), (reading) => reading.raw === 0],
-  ['Heap allocations since the first cycle', 'EcuHealth.Allocations', counted, some],
+  ['Heap allocations since the first cycle', 'EcuHealth.Allocations', allocated, some],
+  ['Stand-ins for what the bus lacks', 'EcuHealth.StandIn',
+    (reading) => (reading.raw === 1 ? 'in use' : 'none'), (reading) => reading.raw === 1],
   ['Page faults since the first cycle', 'EcuHealth.PageFaults', counted, some],
   ['Late cycles', 'EcuHealth.Overruns', counted, some],
   ['Frames the bus did not take', 'EcuHealth.DroppedFrames', counted, some],

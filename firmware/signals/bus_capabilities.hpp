@@ -1,0 +1,34 @@
+#pragma once
+/// What a machine's bus can say to its controller. A bus that lacks something has a stand-in, which
+/// the profile has to name; EcuHealth.StandIn shows that one is in use.
+
+namespace graben {
+
+/// Capabilities of a bus; by default those of our own DBCs, which lack nothing.
+///
+///   lacks           stand-in   what it costs
+///   identity        profile    another machine's frames are not told from this one's: no
+///                              kIdentityMismatch
+///   valve_echo      motion     a valve side that ignores enable shows only by its spools and
+///                              cylinders: no kValveNotFollowing
+///   spool_feedback  command    a spool counts as where it was sent: no kSpoolMissing, no
+///                              kSpoolStuck, no arm condition of centred spools; the motion watch
+///                              waits for dead time and lag after each command
+///   swash_feedback  command    a pump counts as where it was sent: no kSwashMissing, no
+///                              kSwashDisagrees
+///   protection      range      a frame without counter and CRC counts if it is fresh and in range:
+///                              no kMessageCorrupt, kMessageSequence, kMessageMasquerade
+struct BusCapabilities {
+  bool identity = true;        ///< The machine's end says which profile and DBC it has.
+  bool valve_echo = true;      ///< The valve side says which enable it acts on.
+  bool spool_feedback = true;  ///< Measured positions of the spools.
+  bool swash_feedback = true;  ///< Measured displacements of the pumps, where a kind has them.
+  bool protection = true;      ///< Counter and CRC in what moves metal and in what is measured.
+  double latency_s = 0.0;      ///< Of the bus, either way; part of the profile's dead time.
+
+  [[nodiscard]] constexpr bool lacks_any() const {
+    return !(identity && valve_echo && spool_feedback && swash_feedback && protection);
+  }
+};
+
+}  // namespace graben
