@@ -1,0 +1,255 @@
+// A bus that can't say something: what it lacks is not asked for, what stands in for it still
+// protects, and what a complete bus must say is missed as ever.
+
+#include "firmware/signals/bus_capabilities.hpp"
+
+#include "firmware/dozer/safety/dozer_watch.hpp"
+#include "tests/unit/firmware/plain_dozer.hpp"
+#include "tests/unit/firmware/plain_machine.hpp"
+#include "tests/unit/firmware/running.hpp"
+
+namespace {
+
+using namespace graben;
+using Silence = test::Running::Adapt;
+
+void no_identity(ExcavatorInputs& inputs) { inputs.same_machine = {}; }
+void no_echo(ExcavatorInputs& inputs) { inputs.valve_enabled = {}; }
+void no_spools(ExcavatorInputs& inputs) {
+  for (AxisInputs& axis : inputs.axis) {
+    axis.spool_ratio = {};
+  }
+}
+void no_swash(ExcavatorInputs& inputs) { inputs.swash_ratio = {}; }
+
+struct Case {
+  bool BusCapabilities::*lacks;
+  Silence silence;
+  Fault missed;  ///< On a bus that should say it.
+};
+const Case kCases[] = {{&BusCapabilities::identity, no_identity, Fault::kIdentityMismatch},
+                       {&BusCapabilities::valve_echo, no_echo, Fault::kSpoolMissing},
+                       {&BusCapabilities::spool_feedback, no_spools, Fault::kSpoolMissing},
+                       {&BusCapabilities::swash_feedback, no_swash, Fault::kSwashMissing}};
+
+ExcavatorProfile with_bus(ExcavatorProfile profile, bool BusCapabilities::*lacks) {
+  profile.bus.*lacks = false;
+  return profile;
+}
+
+void our_own_bus_lacks_nothing(void**) {
+  assert_false(BusCapabilities{}.lacks_any());
+  assert_false(test::excavator().profile.bus.lacks_any());
+  for (const Case& row : kCases) {
+    BusCapabilities bus;
+    bus.*row.lacks = false;
+    assert_true(bus.lacks_any());
+  }
+  BusCapabilities bare;
+  bare.protection = false;
+  assert_true(bare.lacks_any());
+}
+
+void what_the_bus_lacks_is_not_asked_for(void**) {
+  for (const Case& row : kCases) {
+    const test::Running moving(with_bus(test::excavator().profile, row.lacks), row.silence);
+    assert_int_equal(moving.outputs.status.mode, EcuMode::kActive);
+    assert_true(moving.outputs.status.faults.empty());
+    assert_true(moving.outputs.enable);
+    assert_true(moving.outputs.status.stand_in);
+  }
+}
+
+void what_the_bus_should_say_is_missed(void**) {
+  for (const Case& row : kCases) {
+    const test::Running still(test::excavator().profile, row.silence);
+    assert_int_equal(still.outputs.status.mode, EcuMode::kSilent);
+    assert_true(still.outputs.status.faults.has(row.missed));
+    assert_false(still.outputs.enable);
+    assert_false(still.outputs.status.stand_in);
+  }
+}
+
+/// One lack does not excuse another.
+void each_lack_excuses_itself_alone(void**) {
+  for (const Case& lacking : kCases) {
+    for (const Case& silent : kCases) {
+      if (silent.lacks == lacking.lacks) {
+        continue;
+      }
+      const test::Running still(with_bus(test::excavator().profile, lacking.lacks), silent.silence);
+      assert_int_equal(still.outputs.status.mode, EcuMode::kSilent);
+      assert_true(still.outputs.status.faults.has(silent.missed));
+    }
+  }
+}
+
+/// A machine in motion of whose spools nothing is heard.
+struct Unseen {
+  ExcavatorProfile profile = with_bus(test::plain_machine(), &BusCapabilities::spool_feedback);
+  WatchState state;
+  LastCycle cycle;
+  ValidInputs inputs;
+
+  Unseen() {
+    cycle.moving = cycle.sent.enable = true;
+    inputs.enable = inputs.automatic = inputs.valve_enabled = true;
+    inputs.strokes_m = {0.5, 0.5, 0.5, 0.0};
+    inputs.swash_ratio = profile.dig_swash_ratio;
+    inputs.engine_radps = 200.0;
+  }
+  Fault step() { return watch(profile, state, cycle, inputs, 0.01).inputs.fault; }
+  Fault run(int cycles) {
+    Fault fault = Fault::kNone;
+    for (int n = 0; n < cycles && fault == Fault::kNone; ++n) {
+      fault = step();
+    }
+    return fault;
+  }
+};
+
+/// Commanded closed, a cylinder that runs off is found without its spool.
+void the_command_stands_in_for_the_spool(void**) {
+  Unseen machine;
+  assert_int_equal(machine.run(100), Fault::kNone);
+  for (int n = 0; n < 20; ++n) {
+    machine.inputs.strokes_m[1] += 0.005;
+    const Fault fault = machine.step();
+    if (fault != Fault::kNone) {
+      assert_int_equal(fault, Fault::kUncommandedMotion);
+      return;
+    }
+  }
+  fail_msg("0.1 m without a command, and no fault");
+}
+
+/// Commanded open it may go there, and one that does not is stuck.
+void a_commanded_cylinder_may_move_and_must(void**) {
+  Unseen machine;
+  machine.cycle.sent.duty_ratio[1] = 0.75;
+  machine.cycle.asked_mps[1] = 0.1;
+  for (int n = 0; n < 100; ++n) {
+    machine.inputs.strokes_m[1] += 0.001;
+    assert_int_equal(machine.step(), Fault::kNone);
+  }
+  assert_int_equal(machine.run(100), Fault::kStrokeStuck);
+}
+
+/// After its command has ended, dead time and lag of the spool are waited for.
+void a_closing_spool_has_its_time(void**) {
+  for (const double dead_time_s : {0.0, 0.2}) {
+    Unseen machine;
+    machine.profile.control.dead_time_s = dead_time_s;
+    machine.cycle.sent.duty_ratio[1] = 0.75;
+    machine.run(100);
+    machine.cycle.sent.duty_ratio[1] = 0.0;
+    // 0.5 s for the oil, settle_s for the spool, 1.3 dead times; then 0.0625 m.
+    const double allowed_s = 0.5 + 0.1 + 1.3 * dead_time_s;
+    int cycles = 0;
+    while (machine.step() == Fault::kNone && cycles < 500) {
+      machine.inputs.strokes_m[1] += 0.001;
+      ++cycles;
+    }
+    assert_near(cycles * 0.01, allowed_s + 0.63, 0.05);
+  }
+}
+
+/// Nobody knows whether they are in their middle: that condition of arming is off.
+void unseen_spools_count_as_centred(void**) {
+  ValidInputs valid;
+  valid.spool_ratio.fill(1.0);
+  assert_false(spools_centred(test::plain_machine(), valid));
+  assert_true(spools_centred(Unseen{}.profile, valid));
+}
+
+void no_echo_no_fault_of_following(void**) {
+  for (const bool carried : {true, false}) {
+    Unseen machine;
+    machine.profile.bus.valve_echo = carried;
+    machine.inputs.valve_enabled = false;
+    assert_int_equal(machine.run(50), carried ? Fault::kValveNotFollowing : Fault::kNone);
+  }
+}
+
+/// Flow is reckoned with what the pumps were told.
+void the_command_stands_in_for_the_swash(void**) {
+  const ExcavatorProfile profile =
+      with_bus(test::plain_machine(), &BusCapabilities::swash_feedback);
+  ExcavatorInputs inputs = test::complete_inputs(kSecondUs);
+  no_swash(inputs);
+  const ValidInputs valid = validate(inputs, profile, {}, false, kSecondUs);
+  assert_true(valid.swash_ratio == profile.dig_swash_ratio);
+  assert_false(valid.faults.has(Fault::kSwashMissing));
+  assert_true(valid.stand_in);
+}
+
+void a_dozer_without_them_is_not_asked_either(void**) {
+  struct DozerCase {
+    bool BusCapabilities::*lacks;
+    void (*silence)(DozerInputs&);
+    Fault missed;
+  };
+  const DozerCase cases[] = {
+      {&BusCapabilities::identity, [](DozerInputs& inputs) { inputs.same_machine = {}; },
+       Fault::kIdentityMismatch},
+      {&BusCapabilities::valve_echo, [](DozerInputs& inputs) { inputs.valve_enabled = {}; },
+       Fault::kSpoolMissing},
+      {&BusCapabilities::spool_feedback, [](DozerInputs& inputs) { inputs.blade_spool_ratio = {}; },
+       Fault::kSpoolMissing}};
+  for (const DozerCase& row : cases) {
+    DozerProfile profile = test::plain_dozer();
+    DozerInputs inputs = test::complete_dozer_inputs(kSecondUs);
+    row.silence(inputs);
+    const ValidDozerInputs missed = validate(inputs, profile, {}, false, kSecondUs);
+    assert_int_equal(missed.fault, row.missed);
+    assert_false(missed.stand_in);
+    profile.bus.*row.lacks = false;
+    const ValidDozerInputs excused = validate(inputs, profile, {}, false, kSecondUs);
+    assert_int_equal(excused.fault, Fault::kNone);
+    assert_true(excused.stand_in);
+  }
+}
+
+/// The blade's spool stuck open shows where it is measured; unseen, a blade that runs off shows.
+void the_blade_is_watched_by_its_command(void**) {
+  DozerProfile profile = test::plain_dozer();
+  profile.bus.spool_feedback = false;
+  DozerWatchState state;
+  DozerLastCycle cycle;
+  cycle.moving = cycle.enable = true;
+  ValidDozerInputs inputs;
+  inputs.valve_enabled = true;
+  inputs.blade_spool_ratio = 1.0;  // is not looked at
+  inputs.blade_stroke_m = 0.2;
+  inputs.motor_ratio = cycle.motor_ratio;
+  for (int n = 0; n < 100; ++n) {
+    assert_int_equal(watch(profile, state, cycle, inputs, 0.01).fault, Fault::kNone);
+  }
+  Fault fault = Fault::kNone;
+  for (int n = 0; n < 100 && fault == Fault::kNone; ++n) {
+    inputs.blade_stroke_m += 0.005;
+    fault = watch(profile, state, cycle, inputs, 0.01).fault;
+  }
+  assert_int_equal(fault, Fault::kUncommandedMotion);
+  assert_true(spool_centred(profile, inputs));
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(our_own_bus_lacks_nothing),
+      cmocka_unit_test(what_the_bus_lacks_is_not_asked_for),
+      cmocka_unit_test(what_the_bus_should_say_is_missed),
+      cmocka_unit_test(each_lack_excuses_itself_alone),
+      cmocka_unit_test(the_command_stands_in_for_the_spool),
+      cmocka_unit_test(a_commanded_cylinder_may_move_and_must),
+      cmocka_unit_test(a_closing_spool_has_its_time),
+      cmocka_unit_test(unseen_spools_count_as_centred),
+      cmocka_unit_test(no_echo_no_fault_of_following),
+      cmocka_unit_test(the_command_stands_in_for_the_swash),
+      cmocka_unit_test(a_dozer_without_them_is_not_asked_either),
+      cmocka_unit_test(the_blade_is_watched_by_its_command),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
