@@ -12,7 +12,7 @@
 #include "app/cli/guarded.hpp"
 #include "app/cli/validators.hpp"
 #include "app/reports/setup_json.hpp"
-#include "app/scope/scope_page.hpp"
+#include "app/scope/page/scope_page.hpp"
 #include "app/scope/server/can_source.hpp"
 #include "app/scope/server/log_show.hpp"
 #include "app/scope/server/serve.hpp"

@@ -6,7 +6,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "app/ecu/bus_watch.hpp"
+#include "firmware/core/time.hpp"
+#include "firmware/signals/machine_signals.hpp"
 #include "hal/can_port.hpp"
 #include "hal/link/ecu_diagnosis.hpp"
 #include "hal/link/link_counters.hpp"
@@ -21,11 +22,41 @@ inline constexpr int kFramesPerBatch = 96;
 inline constexpr int kBatchesTaken = 2;
 inline constexpr int kBatchesRead = 4;
 
+/// Watches a port through a cycle of 10 ms: begin, the port is read, judge, frames are sent, end.
+/// A port that is off the bus or down is opened again at most every 200 ms, and that discards what
+/// is queued; every such state is seen for one cycle at least. The caller owns the port.
+class BusWatch {
+ public:
+  explicit BusWatch(CanPort& port) : port_(port) {}
+
+  /// True if what is queued is not fresh: it waited through a stall or a lost bus.
+  [[nodiscard]] bool begin(TimeUs now_us);
+  [[nodiscard]] BusState judge(TimeUs now_us);
+  /// May wait for the kernel: what has to be sent must not wait for it.
+  void end(TimeUs now_us);
+
+ private:
+  CanPort& port_;
+  BusState before_ = BusState::kDown;  ///< Before the port was read.
+  BusState bus_ = BusState::kDown;
+  bool needs_open_ = false;  ///< It was off the bus and has not been opened since.
+  TimeUs open_from_us_ = 0;  ///< Not to be opened again before.
+  bool stalled_ = false;
+  TimeUs last_us_ = 0;
+  bool has_begun_ = false;
+};
+
 /// One controller on one port. The caller owns the port and the clock.
 ///
-/// `Kind` says whose: Setup, Controller, Receiver, Transmitter, Inputs, Outputs, MemoryAccess (of
-/// the tests), parts(setup), what its bus has beyond every machine of its kind, and
-/// is_command(id), whether losing a frame with this id leaves the machine without its command.
+/// `Kind` is a machine kind, as app/ecu/excavator_kind.hpp is one:
+///   Setup, Inputs, Outputs, Controller   of firmware;
+///   Receiver, Transmitter                of hal;
+///   parts(setup)                         what its bus has beyond every machine of its kind;
+///   is_command(id)                       true where losing this frame leaves the machine without
+///                                        its command;
+///   MemoryAccess                         of the tests.
+/// What is built around the node needs more: Dbc, the bus's messages; Ecu, the node's own type;
+/// Profile, Machine and kHasTasks, to make a setup from files; kName, `kind` in a profile.
 template <class Kind>
 class EcuNode {
  public:

@@ -10,9 +10,8 @@
 #include <stdexcept>
 #include <variant>
 
-#include "app/ecu/dozer_ecu.hpp"
 #include "app/ecu/ecu_stats.hpp"
-#include "app/ecu/excavator_ecu.hpp"
+#include "app/ecu/kinds.hpp"
 #include "app/machines/any_machine.hpp"
 #include "app/machines/task_book.hpp"
 #include "platform/can_port_group.hpp"
@@ -168,14 +167,13 @@ void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, Usage
   static_cast<void>(clock.wait());
 }
 
-/// From the interfaces to the statistics, with the controller of the machine's kind; `setup` is
-/// what it is made of.
-template <class Ecu, class Setup>
-int run_controller(const Setup& setup, std::uint32_t profile_hash, const EcuOptions& options,
-                   TimeUs began_us) {
-  const auto ids = Ecu::Receiver::ids();
+/// From the interfaces to the statistics, with the controller of a machine kind.
+template <class Kind>
+int run_controller(const typename Kind::Setup& setup, std::uint32_t profile_hash,
+                   const EcuOptions& options, TimeUs began_us) {
+  const auto ids = Kind::Receiver::ids();
   Buses buses(options.interfaces, {ids.begin(), ids.end()});
-  Ecu ecu(setup, profile_hash, buses.group);
+  EcuNode<Kind> ecu(setup, profile_hash, buses.group);
   CyclicClock clock(kPeriod_us);
   ServiceNotify manager(std::getenv("NOTIFY_SOCKET"));
   Watchdog watchdog(manager);
@@ -206,23 +204,21 @@ int run_controller(const Setup& setup, std::uint32_t profile_hash, const EcuOpti
   return written ? 0 : kFailed;
 }
 
-int run_machine(const machines::ExcavatorMachine& machine, const EcuOptions& options,
-                TimeUs began_us) {
-  const std::optional<TaskBook> book = read_tasks(options.tasks, machine.profile);
-  if (!book) {
-    return kWrongFile;
+template <class Machine>
+int run_machine(const Machine& machine, const EcuOptions& options, TimeUs began_us) {
+  using Kind = KindOf<Machine>;
+  if constexpr (Kind::kHasTasks) {
+    const auto book = read_tasks(options.tasks, machine.profile);
+    return book ? run_controller<Kind>({machine.profile, *book}, machine.hash, options, began_us)
+                : kWrongFile;
+  } else {
+    if (!options.tasks.empty()) {
+      std::fprintf(stderr, "graben-ecu: --task: %s is a %s's profile; a %s has no tasks\n",
+                   options.profile.c_str(), Kind::kName, Kind::kName);
+      return kWrongFile;
+    }
+    return run_controller<Kind>(machine.profile, machine.hash, options, began_us);
   }
-  return run_controller<ExcavatorEcu>(ExcavatorSetup(machine.profile, *book), machine.hash, options,
-                                      began_us);
-}
-
-int run_machine(const machines::DozerMachine& machine, const EcuOptions& options, TimeUs began_us) {
-  if (!options.tasks.empty()) {
-    std::fprintf(stderr, "graben-ecu: --task: %s is a dozer's profile; tasks are an excavator's\n",
-                 options.profile.c_str());
-    return kWrongFile;
-  }
-  return run_controller<DozerEcu>(machine.profile, machine.hash, options, began_us);
 }
 
 }  // namespace

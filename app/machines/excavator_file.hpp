@@ -20,7 +20,7 @@ struct ExcavatorMachine {
   std::string name;        ///< File name without its ending.
   std::uint32_t hash = 0;  ///< FNV-1a of the file's bytes; on the bus as ProfileHash.
   ExcavatorProfile profile;
-  plant::PlantProfile plant;
+  plant::ExcavatorPlantProfile plant;
   Experiment experiment;
 };
 

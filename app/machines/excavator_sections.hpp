@@ -12,8 +12,8 @@ namespace graben::machines {
 [[nodiscard]] ExcavatorProfile read_controller_sections(TomlReader& reader);
 
 /// What only the simulated machine has, beside the nominal data in `nominal`.
-[[nodiscard]] plant::PlantProfile read_plant_sections(TomlReader& reader,
-                                                      const ExcavatorProfile& nominal);
+[[nodiscard]] plant::ExcavatorPlantProfile read_plant_sections(TomlReader& reader,
+                                                               const ExcavatorProfile& nominal);
 
 /// A path at this key.
 [[nodiscard]] DigPath read_path(TomlReader& reader, const std::string& at);

@@ -42,7 +42,7 @@ class DozerReadings {
 
 /// The bus port belongs to the caller, who opens it.
 ///
-/// Blade: as PlantNode has it for the spools. Without a command for `kCommandTimeoutUs`, with
+/// Blade: as ExcavatorNode has it for the spools. Without a command for `kCommandTimeoutUs`, with
 /// enable off or unusable, or with an unusable duty the spool is sent to neutral; after such a
 /// silence enable has to be Off before it counts again. With PilotCut On the spool centres at once,
 /// until it is Off; an unusable one changes nothing of that.

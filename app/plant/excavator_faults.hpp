@@ -40,7 +40,7 @@ struct PumpFaults {
   std::optional<double> actual_swash_ratio;  ///< Where the pump goes, whatever is commanded.
 };
 
-struct PlantFaults : NodeFaults {
+struct ExcavatorFaults : NodeFaults {
   std::array<AxisFaults, kAxisCount> axis;
   SwingFaults swing;
   std::array<PumpFaults, kPumpCount> pump;

@@ -25,8 +25,8 @@ bool all_valid(const bus::SpoolCommand& command) {
 
 }  // namespace
 
-PlantNode::PlantNode(const PlantProfile& profile, const PlantStart& start, CanPort& port,
-                     std::uint32_t profile_hash)
+ExcavatorNode::ExcavatorNode(const ExcavatorPlantProfile& profile, const ExcavatorStart& start,
+                             CanPort& port, std::uint32_t profile_hash)
     : plant_(profile, start.strokes_m, start.swing_rad),
       sensors_(profile),
       port_(port),
@@ -34,7 +34,7 @@ PlantNode::PlantNode(const PlantProfile& profile, const PlantStart& start, CanPo
       profile_hash_(profile_hash),
       wanted_swash_(profile.swash_ratio) {}
 
-void PlantNode::step(TimeUs now) {
+void ExcavatorNode::step(TimeUs now) {
   receive(now);
   check_links(now);
   apply_faults();
@@ -53,7 +53,7 @@ void PlantNode::step(TimeUs now) {
   ++cycle_;
 }
 
-void PlantNode::check_links(TimeUs now) {
+void ExcavatorNode::check_links(TimeUs now) {
   if (spool_link_.dies(now)) {
     spool_silence_.command_lost();
     enabled_ = false;
@@ -69,13 +69,13 @@ void PlantNode::check_links(TimeUs now) {
   }
 }
 
-void PlantNode::set_duties() {
+void ExcavatorNode::set_duties() {
   ExcavatorPlant::DriveArray duty = duty_;
   duty[kSwing] = swing_enabled_ ? duty_[kSwing] : 0.0;
   plant_.set_duty(duty, enabled_);
 }
 
-void PlantNode::apply_faults() {
+void ExcavatorNode::apply_faults() {
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     plant_.set_pilot_fault(i, faults_.axis[i].spool_held_ratio, faults_.axis[i].spool_offset_ratio);
   }
@@ -90,7 +90,7 @@ void PlantNode::apply_faults() {
   plant_.set_swash(swash);
 }
 
-void PlantNode::receive(TimeUs now) {
+void ExcavatorNode::receive(TimeUs now) {
   receive_frames(port_, [this, now](const CanFrame& frame) {
     if (frame.id == bus::SpoolCommand::kId && !faults_.loses_spool_commands) {
       take_spool_command(frame, now);
@@ -104,7 +104,7 @@ void PlantNode::receive(TimeUs now) {
   });
 }
 
-void PlantNode::take_spool_command(const CanFrame& frame, TimeUs now) {
+void ExcavatorNode::take_spool_command(const CanFrame& frame, TimeUs now) {
   if (!spool_link_.accepts<bus::SpoolCommand>(frame, now)) {
     return;
   }
@@ -120,7 +120,7 @@ void PlantNode::take_spool_command(const CanFrame& frame, TimeUs now) {
   set_duties();
 }
 
-void PlantNode::take_swing_command(const CanFrame& frame, TimeUs now) {
+void ExcavatorNode::take_swing_command(const CanFrame& frame, TimeUs now) {
   if (!swing_link_.accepts<bus::SwingCommand>(frame, now)) {
     return;
   }
@@ -131,7 +131,7 @@ void PlantNode::take_swing_command(const CanFrame& frame, TimeUs now) {
   set_duties();
 }
 
-void PlantNode::take_pump_command(const CanFrame& frame, TimeUs now) {
+void ExcavatorNode::take_pump_command(const CanFrame& frame, TimeUs now) {
   if (!pump_link_.accepts<bus::PumpCommand>(frame, now)) {
     return;
   }
@@ -144,11 +144,11 @@ void PlantNode::take_pump_command(const CanFrame& frame, TimeUs now) {
                    wanted(command.pump2_swash_ratio, set[1])};
 }
 
-Physical PlantNode::stroke(std::size_t axis) {
+Physical ExcavatorNode::stroke(std::size_t axis) {
   return sensors_.stroke(axis, plant_.strokes_m()[axis], faults_.axis[axis].stroke);
 }
 
-void PlantNode::send_axes(TimeUs now) {
+void ExcavatorNode::send_axes(TimeUs now) {
   send(bus::BoomStroke{stroke(kBoom)}, now);
   send(bus::ArmStroke{stroke(kArm)}, now);
   send(bus::BucketStroke{stroke(kBucket)}, now);
@@ -158,7 +158,7 @@ void PlantNode::send_axes(TimeUs now) {
   }
 }
 
-void PlantNode::send_swing(TimeUs now) {
+void ExcavatorNode::send_swing(TimeUs now) {
   const auto [left_pa, right_pa] = plant_.swing_pressures_pa();
   bus::SwingState message;
   message.swing_angle_rad = sensors_.swing(plant_.swing_rad(), faults_.swing.angle);
@@ -167,7 +167,7 @@ void PlantNode::send_swing(TimeUs now) {
   send(message, now);
 }
 
-void PlantNode::send_pressures(TimeUs now) {
+void ExcavatorNode::send_pressures(TimeUs now) {
   const auto cap = plant_.cap_pressures_pa();
   const auto rod = plant_.rod_pressures_pa();
   std::array<Physical, kAxisCount> cap_shown;
@@ -181,7 +181,7 @@ void PlantNode::send_pressures(TimeUs now) {
   send(bus::BucketPressure{cap_shown[kBucket], rod_shown[kBucket]}, now);
 }
 
-void PlantNode::send_pumps(TimeUs now) {
+void ExcavatorNode::send_pumps(TimeUs now) {
   ExcavatorPlant::PumpArray swash = plant_.swash_ratios();
   for (std::size_t i = 0; i < kPumpCount; ++i) {
     swash[i] = faults_.pump[i].shown_swash_ratio.value_or(swash[i]);
@@ -192,7 +192,7 @@ void PlantNode::send_pumps(TimeUs now) {
   send(bus::EEC1{valid(plant_.profile().machine.pump[0].rated_speed_radps)}, now);
 }
 
-void PlantNode::send_valve(TimeUs now) {
+void ExcavatorNode::send_valve(TimeUs now) {
   const auto spool = plant_.spool_travels_ratio();
   bus::ValveState message;
   message.enabled = {enabled_ ? bus::ValveState::Enabled::kOn : bus::ValveState::Enabled::kOff,

@@ -14,9 +14,9 @@
 namespace graben::plant {
 
 /// Where a machine starts.
-struct PlantStart {
+struct ExcavatorStart {
   // NOLINTNEXTLINE(google-explicit-constructor): it looks along x unless told.
-  PlantStart(const ExcavatorPlant::AxisArray& strokes, double swing = 0.0)
+  ExcavatorStart(const ExcavatorPlant::AxisArray& strokes, double swing = 0.0)
       : strokes_m(strokes), swing_rad(swing) {}
 
   ExcavatorPlant::AxisArray strokes_m;
@@ -33,12 +33,12 @@ struct PlantStart {
 /// follows SwingCommand by the same rules as the others SpoolCommand, and opens only while
 /// SpoolCommand lets them open too. A machine without a swing drive neither listens to nor says
 /// anything of the swing.
-class PlantNode {
+class ExcavatorNode {
  public:
   static constexpr TimeUs kCycleUs = 10 * kMillisecondUs;
 
-  PlantNode(const PlantProfile& profile, const PlantStart& start, CanPort& port,
-            std::uint32_t profile_hash);
+  ExcavatorNode(const ExcavatorPlantProfile& profile, const ExcavatorStart& start, CanPort& port,
+                std::uint32_t profile_hash);
 
   /// To be called every 10 ms: takes the commands that are pending, runs the plant on by 10 ms,
   /// then reports its state: strokes, swing and pressures each time, pumps and engine every second
@@ -57,7 +57,7 @@ class PlantNode {
   [[nodiscard]] const CommandCounters& pump_counters() const { return pump_link_.counters(); }
 
   /// The fault switches.
-  [[nodiscard]] PlantFaults& faults() { return faults_; }
+  [[nodiscard]] ExcavatorFaults& faults() { return faults_; }
 
  private:
   void receive(TimeUs now);
@@ -85,7 +85,7 @@ class PlantNode {
   CanPort& port_;
   FrameSender sender_;
   std::uint32_t profile_hash_;
-  PlantFaults faults_;
+  ExcavatorFaults faults_;
   CommandLink spool_link_;
   CommandLink swing_link_;
   CommandLink pump_link_;

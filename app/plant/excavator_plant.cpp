@@ -6,7 +6,7 @@
 namespace graben::plant {
 namespace {
 
-std::size_t sections_on(const PlantProfile& profile, int pump) {
+std::size_t sections_on(const ExcavatorPlantProfile& profile, int pump) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < profile.drive_count(); ++i) {
     count += profile.machine.valve.spool[i].pump == pump ? 1U : 0U;
@@ -14,7 +14,7 @@ std::size_t sections_on(const PlantProfile& profile, int pump) {
   return count;
 }
 
-std::vector<ValveSection> sections_of(const PlantProfile& profile) {
+std::vector<ValveSection> sections_of(const ExcavatorPlantProfile& profile) {
   std::vector<ValveSection> sections;
   sections.reserve(profile.drive_count());
   for (int drive = 0; drive < profile.machine.drive_count; ++drive) {
@@ -23,7 +23,7 @@ std::vector<ValveSection> sections_of(const PlantProfile& profile) {
   return sections;
 }
 
-std::vector<PilotValve> pilots_of(const PlantProfile& profile) {
+std::vector<PilotValve> pilots_of(const ExcavatorPlantProfile& profile) {
   std::vector<PilotValve> pilots;
   pilots.reserve(profile.drive_count());
   for (std::size_t i = 0; i < profile.drive_count(); ++i) {
@@ -34,8 +34,8 @@ std::vector<PilotValve> pilots_of(const PlantProfile& profile) {
 
 }  // namespace
 
-ExcavatorPlant::ExcavatorPlant(const PlantProfile& profile, const AxisArray& start_strokes_m,
-                               double start_swing_rad)
+ExcavatorPlant::ExcavatorPlant(const ExcavatorPlantProfile& profile,
+                               const AxisArray& start_strokes_m, double start_swing_rad)
     : profile_(profile),
       step_s_(profile.step_s()),
       pump_count_(static_cast<std::size_t>(profile.machine.pump_count)),

@@ -46,7 +46,7 @@ class ExcavatorPlant {
 
   /// Starts in static equilibrium: spools closed, chamber pressures carry the links' weight, pumps
   /// in standby, the platform at rest. Each stroke must be within its cylinder's.
-  ExcavatorPlant(const PlantProfile& profile, const AxisArray& start_strokes_m,
+  ExcavatorPlant(const ExcavatorPlantProfile& profile, const AxisArray& start_strokes_m,
                  double start_swing_rad = 0.0);
 
   /// Duty -1 .. 1 is the wanted spool travel in units of full travel; without `enable` neutral.
@@ -116,7 +116,7 @@ class ExcavatorPlant {
   [[nodiscard]] const Eigen::Vector2d& tip_force_n() const { return tip_force_n_; }
   /// Null without one.
   [[nodiscard]] const Obstacle* obstacle() const { return obstacle_ ? &*obstacle_ : nullptr; }
-  [[nodiscard]] const PlantProfile& profile() const { return profile_; }
+  [[nodiscard]] const ExcavatorPlantProfile& profile() const { return profile_; }
 
  private:
   struct Swing {
@@ -136,7 +136,7 @@ class ExcavatorPlant {
   void push_tip();
   void move_swash();
 
-  PlantProfile profile_;
+  ExcavatorPlantProfile profile_;
   double step_s_;
   std::size_t pump_count_;  ///< Lines beyond it are neither filled nor stepped.
   TimeUs pending_us_ = 0;

@@ -2,7 +2,7 @@
 
 namespace graben::plant {
 
-CylinderData PlantProfile::cylinder(int axis) const {
+CylinderData ExcavatorPlantProfile::cylinder(int axis) const {
   const auto index = static_cast<std::size_t>(axis);
   const CylinderGeometry& geometry = machine.geometry.cylinder[index];
   CylinderData data;
@@ -16,7 +16,7 @@ CylinderData PlantProfile::cylinder(int axis) const {
   return data;
 }
 
-SwingMotorData PlantProfile::motor() const {
+SwingMotorData ExcavatorPlantProfile::motor() const {
   SwingMotorData data;
   data.displacement_m3prad = machine.swing.displacement_m3prad;
   data.chamber_volume_m3 = swing_motor.dead_volume_m3;

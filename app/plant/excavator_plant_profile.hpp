@@ -47,7 +47,7 @@ struct SwingMotorDetails {
   double port_relief_pa = 0.0;  ///< Brakes the platform when the spool closes.
 };
 
-struct PlantProfile : HydraulicDetails {
+struct ExcavatorPlantProfile : HydraulicDetails {
   /// Geometry, valve areas, regeneration, pumps: the plant reads these numbers, and none of the
   /// functions that the controller has for them.
   ExcavatorProfile machine;

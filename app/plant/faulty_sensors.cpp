@@ -2,7 +2,7 @@
 
 namespace graben::plant {
 
-FaultySensors::FaultySensors(const PlantProfile& profile)
+FaultySensors::FaultySensors(const ExcavatorPlantProfile& profile)
     : sensors_(profile.sensors,
                profile.sensor_errors ? std::optional(profile.seed) : std::nullopt) {}
 

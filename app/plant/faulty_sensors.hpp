@@ -13,7 +13,7 @@ namespace graben::plant {
 /// Sensors that can fail. A reading is taken once a cycle.
 class FaultySensors {
  public:
-  explicit FaultySensors(const PlantProfile& profile);
+  explicit FaultySensors(const ExcavatorPlantProfile& profile);
 
   [[nodiscard]] dbc::Physical stroke(std::size_t axis, double true_stroke_m,
                                      const StrokeFault& fault);

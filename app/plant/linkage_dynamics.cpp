@@ -37,7 +37,7 @@ JointArray link_rates(const JointArray& joint) {
 
 }  // namespace
 
-LinkageDynamics::LinkageDynamics(const PlantProfile& profile)
+LinkageDynamics::LinkageDynamics(const ExcavatorPlantProfile& profile)
     : geometry_(profile.machine.geometry),
       body_(profile.link),
       link_length_{profile.machine.geometry.boom_length_m, profile.machine.geometry.arm_length_m,

@@ -23,7 +23,7 @@ namespace graben::plant {
 /// does not creep.
 class LinkageDynamics {
  public:
-  explicit LinkageDynamics(const PlantProfile& profile);
+  explicit LinkageDynamics(const ExcavatorPlantProfile& profile);
 
   void start(const JointArray& angle_rad, const JointArray& rate_radps);
 

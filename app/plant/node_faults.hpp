@@ -20,6 +20,18 @@ struct FrameFaults {
   std::optional<std::pair<std::uint32_t, std::uint32_t>> swapped_data_ids;
   /// Every frame goes out that much later. What is still on its way when it becomes 0 is lost.
   TimeUs delay_us = 0;
+
+  void set_silent(std::uint32_t id, bool on) { set(silent, id, on); }
+  void set_frozen_counter(std::uint32_t id, bool on) { set(frozen_counter, id, on); }
+
+ private:
+  static void set(std::set<std::uint32_t>& ids, std::uint32_t id, bool in) {
+    if (in) {
+      ids.insert(id);
+    } else {
+      ids.erase(id);
+    }
+  }
 };
 
 /// What a stroke sensor shows.
@@ -43,17 +55,8 @@ struct NodeFaults {
   bool loses_spool_commands = false;  ///< SpoolCommand does not reach the valve side.
   FrameFaults frames;
 
-  void set_silent(std::uint32_t id, bool silent) { set(frames.silent, id, silent); }
-  void set_frozen_counter(std::uint32_t id, bool frozen) { set(frames.frozen_counter, id, frozen); }
-
- private:
-  static void set(std::set<std::uint32_t>& ids, std::uint32_t id, bool in) {
-    if (in) {
-      ids.insert(id);
-    } else {
-      ids.erase(id);
-    }
-  }
+  void set_silent(std::uint32_t id, bool silent) { frames.set_silent(id, silent); }
+  void set_frozen_counter(std::uint32_t id, bool frozen) { frames.set_frozen_counter(id, frozen); }
 };
 
 }  // namespace graben::plant

@@ -1,13 +1,13 @@
 #pragma once
 /// The simulated operator on the bus: deadman, mode, task, speed override.
 
+#include <array>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "app/plant/frame_sender.hpp"
-#include "can_dbc/generated/dozer_dbc.hpp"
-#include "can_dbc/generated/excavator_dbc.hpp"
 #include "firmware/core/time.hpp"
 #include "firmware/signals/machine_signals.hpp"
 #include "hal/can_port.hpp"
@@ -19,7 +19,8 @@ struct OperatorRequest {
   OperatorMode mode = OperatorMode::kManual;
   Task task = Task::kNone;
   double speed_override_ratio = 0.0;
-  std::uint8_t task_number = 0;  ///< Of the task file that Task::kProgram means; of an excavator.
+  /// Of the task file that Task::kProgram means, where the machine kind has tasks.
+  std::uint8_t task_number = 0;
 };
 
 /// From `from_us` on the operator asks for this.
@@ -30,20 +31,41 @@ struct OperatorPhase {
 
 /// Of one request after the other, the one that holds at a time; before the first the default:
 /// nothing.
-[[nodiscard]] OperatorRequest request_at(const std::vector<OperatorPhase>& schedule, TimeUs now);
+[[nodiscard]] inline OperatorRequest request_at(const std::vector<OperatorPhase>& schedule,
+                                                TimeUs now) {
+  OperatorRequest request;
+  for (const OperatorPhase& phase : schedule) {
+    if (phase.from_us <= now) {
+      request = phase.request;
+    }
+  }
+  return request;
+}
 
-/// Sends OperatorCommand, as the machine kind's DBC has it, every 20 ms. The bus port belongs to
-/// the caller, who opens it; what it receives is thrown away.
+/// OperatorCommand of a machine kind's DBC.
 template <class Command>
-class OperatorStation {
+[[nodiscard]] Command operator_command(const OperatorRequest& request);
+
+/// Sends OperatorCommand of the machine kind's DBC every 20 ms. The bus port belongs to the caller,
+/// who opens it; what it receives is thrown away.
+template <class Dbc>
+class OperatorNode {
  public:
-  explicit OperatorStation(CanPort& port);
+  explicit OperatorNode(CanPort& port) : port_(port), sender_(port, Dbc::kMessages) {}
 
   /// Phases in the order of their times.
   void set_schedule(std::vector<OperatorPhase> schedule) { schedule_ = std::move(schedule); }
 
   /// To be called every 10 ms; sends in the first and every second call.
-  void step(TimeUs now);
+  void step(TimeUs now) {
+    constexpr int kFramesPerRead = 64;
+    constexpr std::uint64_t kSendCycles = Command::kCycleTimeMs / 10;
+    std::array<CanFrame, kFramesPerRead> ignored;
+    static_cast<void>(port_.receive(ignored.data(), kFramesPerRead));
+    if (cycle_++ % kSendCycles == 0) {
+      sender_.send(operator_command<Command>(request_at(now)), faults_, now);
+    }
+  }
 
   [[nodiscard]] OperatorRequest request_at(TimeUs now) const {
     return plant::request_at(schedule_, now);
@@ -51,14 +73,38 @@ class OperatorStation {
   void set_silent(bool silent) { faults_.set_silent(Command::kId, silent); }
 
  private:
+  using Command = typename Dbc::OperatorCommand;
+
   CanPort& port_;
   FrameSender sender_;
-  NodeFaults faults_;
+  FrameFaults faults_;
   std::vector<OperatorPhase> schedule_;
   std::uint64_t cycle_ = 0;
 };
 
-using OperatorNode = OperatorStation<dbc::excavator::OperatorCommand>;
-using DozerOperatorNode = OperatorStation<dbc::dozer::OperatorCommand>;
+namespace detail {
+
+template <class Command, class = void>
+inline constexpr bool kHasTaskNumber = false;
+template <class Command>
+inline constexpr bool
+    kHasTaskNumber<Command, std::void_t<decltype(std::declval<Command>().task_number)>> = true;
+
+}  // namespace detail
+
+template <class Command>
+Command operator_command(const OperatorRequest& request) {
+  constexpr auto kValid = dbc::RawState::kValid;
+  using Enable = typename Command::Enable;
+  Command command;
+  command.enable = {request.enable ? Enable::kOn : Enable::kOff, kValid};
+  command.operator_mode = {static_cast<typename Command::OperatorMode>(request.mode), kValid};
+  command.task = {static_cast<typename Command::Task>(request.task), kValid};
+  command.speed_override_ratio = {request.speed_override_ratio, kValid};
+  if constexpr (detail::kHasTaskNumber<Command>) {
+    command.task_number = {request.task_number, kValid};
+  }
+  return command;
+}
 
 }  // namespace graben::plant

@@ -15,7 +15,7 @@ double inverse_square(double k) { return 1.0 / (k * k); }
 
 }  // namespace
 
-PumpLine::PumpLine(const PlantProfile& profile, int pump, std::size_t section_count)
+PumpLine::PumpLine(const ExcavatorPlantProfile& profile, int pump, std::size_t section_count)
     : line_(2 + 2 * section_count, profile.oil(), profile.step_s()) {
   const auto index = static_cast<std::size_t>(pump);
   const PumpProfile& data = profile.machine.pump[index];

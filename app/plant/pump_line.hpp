@@ -22,7 +22,7 @@ struct PumpFlows {
 /// make-up sit at the pump. The bypass chain is one orifice from line to tank.
 class PumpLine {
  public:
-  PumpLine(const PlantProfile& profile, int pump, std::size_t section_count);
+  PumpLine(const ExcavatorPlantProfile& profile, int pump, std::size_t section_count);
 
   [[nodiscard]] WavePort supply_port(std::size_t section) const {
     return line_.port(2 + 2 * section);

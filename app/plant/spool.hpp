@@ -8,7 +8,7 @@ struct SpoolDynamics {
   double damping = 1.0;
   double deadband_ratio = 0.0;  ///< Of the full travel, each side.
   double opening_exponent = 1.0;
-  double bypass_closing_travel = 1.0;  ///< See PlantProfile.
+  double bypass_closing_travel = 1.0;  ///< See ExcavatorPlantProfile.
 };
 
 /// Second-order lag from duty to travel with mechanical limits at full travel (Kim 5). Travel is in

@@ -2,7 +2,7 @@
 
 namespace graben::plant {
 
-SwingInertia::SwingInertia(const PlantProfile& profile)
+SwingInertia::SwingInertia(const ExcavatorPlantProfile& profile)
     : body_(profile.link),
       link_length_{profile.machine.geometry.boom_length_m, profile.machine.geometry.arm_length_m,
                    profile.machine.geometry.bucket_length_m},

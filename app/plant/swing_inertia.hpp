@@ -15,7 +15,7 @@ namespace graben::plant {
 /// the share of J is a tenth of the whole at the most.
 class SwingInertia {
  public:
-  explicit SwingInertia(const PlantProfile& profile);
+  explicit SwingInertia(const ExcavatorPlantProfile& profile);
 
   /// To these joints, relative as the joint angles.
   void update(const JointRotations& joint);

@@ -56,7 +56,7 @@ ReturnFlow solve_gallery(double k_out, double k_drain, double k_check, const Wav
   return flow;
 }
 
-ValveSection::ValveSection(const PlantProfile& profile, int drive)
+ValveSection::ValveSection(const ExcavatorPlantProfile& profile, int drive)
     : spool_(profile.spool_dynamics()), protection_(profile.port_protection(drive)) {
   const ValveProfile& valve = profile.machine.valve;
   const SpoolProfile& spool = valve.spool[static_cast<std::size_t>(drive)];

@@ -45,7 +45,7 @@ struct ReturnFlow {
 /// rod side the right one.
 class ValveSection {
  public:
-  ValveSection(const PlantProfile& profile, int drive);
+  ValveSection(const ExcavatorPlantProfile& profile, int drive);
 
   void set_command(double travel_ratio) { spool_.set_command(travel_ratio); }
   [[nodiscard]] SectionFlows solve(const SectionPorts& ports) const;

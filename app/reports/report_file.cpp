@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "app/scope/scope_page.hpp"
+#include "app/scope/page/scope_page.hpp"
 
 namespace graben::reports {
 namespace {

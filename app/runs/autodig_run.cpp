@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "app/machines/task_text.hpp"
-#include "app/runs/autodig_rig.hpp"
+#include "app/runs/excavator_rig.hpp"
 #include "firmware/excavator/tasks/task_run.hpp"
 
 namespace graben::runs {
@@ -194,7 +194,7 @@ class AutodigRun {
   const TaskProgram& program_;
   AutodigOptions options_;
   SwingKinematics kinematics_;
-  AutodigBench bench_;
+  AutodigRig bench_;
   int round_ = 0;
   AutodigResult result_;
 };

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/runs/dig_rig.hpp"
+#include "app/runs/excavator_rig.hpp"
 #include "app/runs/path_progress.hpp"
 
 namespace graben::runs {
@@ -86,7 +86,7 @@ class DigRun {
     sample.tip_true_m = tip.position_m;
     if (!result_.samples.empty()) {
       sample.velocity_true_mps =
-          (tip.position_m - result_.samples.back().tip_true_m) / seconds(DigBench::kPeriod_us);
+          (tip.position_m - result_.samples.back().tip_true_m) / seconds(DigRig::kPeriod_us);
     }
     sample.attitude_true_rad = tip.attitude_rad;
     sample.off_field_rad =
@@ -116,7 +116,7 @@ class DigRun {
 
   [[nodiscard]] double mean_off_field_rad(const DigSample& sample) const {
     constexpr auto kCycles =
-        static_cast<std::size_t>(kOilPeriod_s * 1e6 / static_cast<double>(DigBench::kPeriod_us));
+        static_cast<std::size_t>(kOilPeriod_s * 1e6 / static_cast<double>(DigRig::kPeriod_us));
     const std::size_t count = result_.samples.size();
     if (count < kCycles) {
       return 0.0;
@@ -155,7 +155,7 @@ class DigRun {
 
   const machines::ExcavatorMachine& machine_;
   DigOptions options_;
-  DigBench bench_;
+  DigRig bench_;
   ExcavatorKinematics kinematics_;
   DigField field_;
   RoundedRectangle path_;

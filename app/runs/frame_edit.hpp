@@ -1,5 +1,5 @@
 #pragma once
-/// What is done to frames on their way. `Kind` has kMessages, those of its DBC.
+/// What is done to frames on their way. `Kind` is a machine kind: its Dbc names the messages.
 
 #include "can_dbc/codec.hpp"
 #include "hal/can_frame.hpp"
@@ -10,8 +10,8 @@ namespace graben::runs {
 /// Of a message that the DBC has.
 template <class Kind>
 [[nodiscard]] const dbc::MessageInfo& info_of(std::uint32_t id) {
-  const dbc::MessageInfo* found = &Kind::kMessages[0];
-  for (const dbc::MessageInfo& message : Kind::kMessages) {
+  const dbc::MessageInfo* found = &Kind::Dbc::kMessages[0];
+  for (const dbc::MessageInfo& message : Kind::Dbc::kMessages) {
     found = message.id == id ? &message : found;
   }
   return *found;

@@ -45,9 +45,8 @@ class GradeObserver {
 
 GradePlantResult run_plant(const machines::DozerMachine& machine, const PlantRunOptions& options) {
   namespace ids = dbc::dozer;
-  PlantBus<plant::DozerOperatorNode> bus(options,
-                                         {ids::SpoolCommand::kId, ids::PumpDisplacementCommand::kId,
-                                          ids::MotorDisplacementCommand::kId});
+  PlantBus<DozerSim> bus(options, {ids::SpoolCommand::kId, ids::PumpDisplacementCommand::kId,
+                                   ids::MotorDisplacementCommand::kId});
   plant::DozerNode node(machine.plant, bus.port(), machine.hash);
   GradePlantResult result;
   GradeObserver observer(machine, result);

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/runs/grade_rig.hpp"
+#include "app/runs/dozer_rig.hpp"
 
 namespace graben::runs {
 namespace {
@@ -130,7 +130,7 @@ class GradeRun {
 
   const machines::DozerMachine& machine_;
   GradeOptions options_;
-  GradeBench bench_;
+  GradeRig bench_;
   GradeTruth truth_;
   double start_m_;
   GradeResult result_;

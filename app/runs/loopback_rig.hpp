@@ -12,27 +12,31 @@
 
 namespace graben::runs {
 
-/// A bench for a kind of machine: its `Node`, its `Operator`, its `Ecu`. The operator gives nothing
-/// until kEnable_us, then enables automatic mode, then sets the task.
-template <class Node, class Operator, class Ecu>
-struct MachineBench {
-  using Setup = typename Ecu::Setup;
+/// The nodes of one run. The operator gives nothing until kEnable_us, then enables automatic mode,
+/// then sets the task.
+///
+/// `Kind` is a machine kind (app/ecu/ecu_node.hpp) that can be simulated: Machine, what its files
+/// say, with `hash`; Node, the machine on its bus, with step(now_us); Operator, as
+/// plant::OperatorNode; Start, where a machine begins; node(machine, start, port), which makes it.
+template <class Kind>
+struct LoopbackRig {
+  using Machine = typename Kind::Machine;
+  using Setup = typename Kind::Setup;
+  using Start = typename Kind::Start;
   static constexpr TimeUs kPeriod_us = 10 * kMillisecondUs;
   static constexpr TimeUs kEnable_us = 200 * kMillisecondUs;
   static constexpr TimeUs kTask_us = 300 * kMillisecondUs;
 
-  /// `node_arguments` are what the node takes before its port and the hash.
-  template <class... NodeArguments>
-  MachineBench(const Setup& ecu_setup, std::uint32_t hash, Task given_task, double override_ratio,
-               const NodeArguments&... node_arguments)
+  LoopbackRig(const Machine& machine, const Setup& ecu_setup, const Start& start, Task given_task,
+              double override_ratio)
       : setup(ecu_setup),
-        profile_hash(hash),
+        profile_hash(machine.hash),
         plant_port(bus.attach()),
         operator_port(bus.attach()),
         ecu_port(bus.attach()),
         task(given_task),
         speed_override_ratio(override_ratio),
-        plant(node_arguments..., plant_port, profile_hash),
+        plant(Kind::node(machine, start, plant_port)),
         driver(operator_port) {
     if (!plant_port.open() || !operator_port.open()) {
       throw std::runtime_error("the bus in memory did not open");
@@ -42,9 +46,9 @@ struct MachineBench {
     }
     enable_from(kEnable_us);
   }
-  virtual ~MachineBench() = default;
-  MachineBench(const MachineBench&) = delete;
-  MachineBench& operator=(const MachineBench&) = delete;
+  virtual ~LoopbackRig() = default;
+  LoopbackRig(const LoopbackRig&) = delete;
+  LoopbackRig& operator=(const LoopbackRig&) = delete;
 
   /// Everyone's cycle at `now_us`, machine first; returns how long the controller computed, in
   /// microseconds of real time.
@@ -98,9 +102,9 @@ struct MachineBench {
   LoopbackPort& ecu_port;
   Task task;
   double speed_override_ratio;
-  Node plant;
-  Operator driver;
-  std::optional<Ecu> ecu;
+  typename Kind::Node plant;
+  typename Kind::Operator driver;
+  std::optional<typename Kind::Ecu> ecu;
   /// Time is simulated: a measured cycle time on the bus makes every run's bytes different.
   bool says_cycle_time = false;
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "can_dbc/generated/excavator_dbc.hpp"
 #include "platform/linux/cyclic_clock.hpp"
 #include "platform/linux/stop_signal.hpp"
 
@@ -77,11 +76,11 @@ class Reopener {
 
 // The operator reads nothing; its port lets through the least there is: the status, whose id all
 // kinds share.
-template <class Operator>
-PlantBus<Operator>::PlantBus(const PlantRunOptions& options, const std::vector<std::uint32_t>& ids)
+template <class Kind>
+PlantBus<Kind>::PlantBus(const PlantRunOptions& options, const std::vector<std::uint32_t>& ids)
     : options_(options),
       port_(options.interface, ids),
-      operator_port_(options.interface, {dbc::excavator::EcuStatus::kId}),
+      operator_port_(options.interface, {Kind::Dbc::EcuStatus::kId}),
       driver_(operator_port_) {
   open(port_, options.interface);
   open(operator_port_, options.interface);
@@ -90,13 +89,13 @@ PlantBus<Operator>::PlantBus(const PlantRunOptions& options, const std::vector<s
   }
 }
 
-template <class Operator>
-void PlantBus<Operator>::let_go() {
+template <class Kind>
+void PlantBus<Kind>::let_go() {
   driver_.set_schedule({{0, kAtRest}});
 }
 
-template <class Operator>
-PlantBusFigures PlantBus<Operator>::run(Task task, const std::function<void(TimeUs)>& machine) {
+template <class Kind>
+PlantBusFigures PlantBus<Kind>::run(Task task, const std::function<void(TimeUs)>& machine) {
   driver_.set_schedule(schedule(options_, task));
   // What has come in while the machine was made is not fresh any more.
   open(port_, options_.interface);
@@ -125,7 +124,7 @@ PlantBusFigures PlantBus<Operator>::run(Task task, const std::function<void(Time
   return figures;
 }
 
-template class PlantBus<plant::OperatorNode>;
-template class PlantBus<plant::DozerOperatorNode>;
+template class PlantBus<ExcavatorSim>;
+template class PlantBus<DozerSim>;
 
 }  // namespace graben::runs

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "app/plant/operator_node.hpp"
+#include "app/runs/dozer_rig.hpp"
+#include "app/runs/excavator_rig.hpp"
 #include "platform/linux/socketcan_port.hpp"
 
 namespace graben::runs {
@@ -39,8 +40,8 @@ struct PlantBusFigures {
 inline constexpr TimeUs kPlantPeriod_us = 10 * kMillisecondUs;
 inline constexpr double kPlantPeriod_s = static_cast<double>(kPlantPeriod_us) * 1e-6;
 
-/// `Operator` is the kind's operator node.
-template <class Operator>
+/// `Kind` is a simulated machine kind.
+template <class Kind>
 class PlantBus {
  public:
   /// Opens the interface for a machine that takes these ids. Throws std::runtime_error where it is
@@ -59,10 +60,10 @@ class PlantBus {
   PlantRunOptions options_;
   SocketCanPort port_;
   SocketCanPort operator_port_;
-  Operator driver_;
+  typename Kind::Operator driver_;
 };
 
-extern template class PlantBus<plant::OperatorNode>;
-extern template class PlantBus<plant::DozerOperatorNode>;
+extern template class PlantBus<ExcavatorSim>;
+extern template class PlantBus<DozerSim>;
 
 }  // namespace graben::runs

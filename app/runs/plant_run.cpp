@@ -16,7 +16,7 @@ class PathObserver {
   PathObserver(const machines::ExcavatorMachine& machine, PlantRunResult& result)
       : path_(machine.profile.dig_path), progress_(path_, 1.0), result_(result) {}
 
-  void see(const plant::PlantNode& node, TimeUs now_us) {
+  void see(const plant::ExcavatorNode& node, TimeUs now_us) {
     if (!node.spools_enabled()) {
       return;
     }
@@ -43,11 +43,11 @@ class PathObserver {
 }  // namespace
 
 PlantRunResult run_plant(const machines::ExcavatorMachine& machine, const PlantRunOptions& options,
-                         const plant::PlantStart& start) {
+                         const plant::ExcavatorStart& start) {
   namespace ids = dbc::excavator;
-  PlantBus<plant::OperatorNode> bus(
+  PlantBus<ExcavatorSim> bus(
       options, {ids::SpoolCommand::kId, ids::PumpCommand::kId, ids::SwingCommand::kId});
-  plant::PlantNode node(machine.plant, start, bus.port(), machine.hash);
+  plant::ExcavatorNode node(machine.plant, start, bus.port(), machine.hash);
   PlantRunResult result;
   PathObserver observer(machine, result);
   result.bus = bus.run(Task::kDig, [&](TimeUs now_us) {

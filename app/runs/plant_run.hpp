@@ -22,6 +22,6 @@ struct PlantRunResult {
 /// Throws std::runtime_error where the interface is not there.
 [[nodiscard]] PlantRunResult run_plant(const machines::ExcavatorMachine& machine,
                                        const PlantRunOptions& options,
-                                       const plant::PlantStart& start);
+                                       const plant::ExcavatorStart& start);
 
 }  // namespace graben::runs

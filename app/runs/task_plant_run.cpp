@@ -17,7 +17,7 @@ class TaskObserver {
   TaskObserver(const TaskProgram& program, TaskPlantResult& result)
       : program_(program), result_(result) {}
 
-  void see(const plant::PlantNode& node, const TaskListener& listener) {
+  void see(const plant::ExcavatorNode& node, const TaskListener& listener) {
     if (!node.spools_enabled()) {
       return;
     }
@@ -32,7 +32,7 @@ class TaskObserver {
   }
 
  private:
-  void see_step(const plant::PlantNode& node, const TaskStep& step) {
+  void see_step(const plant::ExcavatorNode& node, const TaskStep& step) {
     result_.in_steps_s += kPlantPeriod_s;
     if (!step.straight) {
       return;
@@ -49,7 +49,7 @@ class TaskObserver {
   Spread error_;
 };
 
-plant::PlantStart start_of(const TaskProgram& program) {
+plant::ExcavatorStart start_of(const TaskProgram& program) {
   const DriveVector& start = program.start;
   return {{start[kBoom], start[kArm], start[kBucket]}, start[kSwing]};
 }
@@ -59,10 +59,10 @@ plant::PlantStart start_of(const TaskProgram& program) {
 TaskPlantResult run_task_plant(const machines::ExcavatorMachine& machine,
                                const TaskProgram& program, const PlantRunOptions& options) {
   namespace ids = dbc::excavator;
-  PlantBus<plant::OperatorNode> bus(options, {ids::SpoolCommand::kId, ids::PumpCommand::kId,
-                                              ids::SwingCommand::kId, ids::TaskStatus::kId});
+  PlantBus<ExcavatorSim> bus(options, {ids::SpoolCommand::kId, ids::PumpCommand::kId,
+                                       ids::SwingCommand::kId, ids::TaskStatus::kId});
   TaskListener listener(bus.port(), options.task_number);
-  plant::PlantNode node(machine.plant, start_of(program), listener, machine.hash);
+  plant::ExcavatorNode node(machine.plant, start_of(program), listener, machine.hash);
   TaskPlantResult result;
   TaskObserver observer(program, result);
   result.bus = bus.run(Task::kProgram, [&](TimeUs now_us) {

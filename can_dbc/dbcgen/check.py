@@ -32,7 +32,7 @@ _KEYWORDS = frozenset(
 )
 # Names that the generated code uses itself.
 _TAKEN = frozenset(
-    "Name Sender Id Length CycleTimeMs Protected DataId MaxDeltaCounter AllMessages "
+    "Name Sender Id Length CycleTimeMs Protected DataId MaxDeltaCounter AllMessages Dbc "
     "Payload Physical Coded Count Field MessageInfo MessageList RawState".split()
 )
 

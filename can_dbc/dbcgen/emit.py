@@ -160,6 +160,13 @@ def emit(database: Database, source: str) -> str:
             infos.rstrip("\n"),
             "}};",
             "",
+            "/// All of this as one type, for what is the same on every machine kind's bus.",
+            "struct Dbc {",
+            *(f"  using {name} = {namespace}::{name};" for name in [*names, "AllMessages"]),
+            f"  static constexpr const auto& kMessages = {namespace}::kMessages;",
+            f"  static constexpr std::uint8_t kDbcVersion = {namespace}::kDbcVersion;",
+            "};",
+            "",
             f"}}  // namespace graben::dbc::{namespace}",
             "",
         ]

@@ -1061,4 +1061,31 @@ inline constexpr std::array<MessageInfo, 20> kMessages{{
     message_info<DM1>(),
 }};
 
+/// All of this as one type, for what is the same on every machine kind's bus.
+struct Dbc {
+  using BladeStroke = dozer::BladeStroke;
+  using BodyPosition = dozer::BodyPosition;
+  using BodyPitch = dozer::BodyPitch;
+  using BodyVelocity = dozer::BodyVelocity;
+  using LeftTransmission = dozer::LeftTransmission;
+  using RightTransmission = dozer::RightTransmission;
+  using TrackSpeed = dozer::TrackSpeed;
+  using EEC1 = dozer::EEC1;
+  using OperatorCommand = dozer::OperatorCommand;
+  using MachineIdentity = dozer::MachineIdentity;
+  using ValveState = dozer::ValveState;
+  using SpoolCommand = dozer::SpoolCommand;
+  using PumpDisplacementCommand = dozer::PumpDisplacementCommand;
+  using MotorDisplacementCommand = dozer::MotorDisplacementCommand;
+  using EcuStatus = dozer::EcuStatus;
+  using EcuMotion = dozer::EcuMotion;
+  using EcuGrade = dozer::EcuGrade;
+  using EcuIdentity = dozer::EcuIdentity;
+  using EcuHealth = dozer::EcuHealth;
+  using DM1 = dozer::DM1;
+  using AllMessages = dozer::AllMessages;
+  static constexpr const auto& kMessages = dozer::kMessages;
+  static constexpr std::uint8_t kDbcVersion = dozer::kDbcVersion;
+};
+
 }  // namespace graben::dbc::dozer

@@ -1215,4 +1215,34 @@ inline constexpr std::array<MessageInfo, 23> kMessages{{
     message_info<DM1>(),
 }};
 
+/// All of this as one type, for what is the same on every machine kind's bus.
+struct Dbc {
+  using BoomStroke = excavator::BoomStroke;
+  using ArmStroke = excavator::ArmStroke;
+  using BucketStroke = excavator::BucketStroke;
+  using BoomPressure = excavator::BoomPressure;
+  using ArmPressure = excavator::ArmPressure;
+  using BucketPressure = excavator::BucketPressure;
+  using PumpState = excavator::PumpState;
+  using EEC1 = excavator::EEC1;
+  using OperatorCommand = excavator::OperatorCommand;
+  using MachineIdentity = excavator::MachineIdentity;
+  using SwingState = excavator::SwingState;
+  using ValveState = excavator::ValveState;
+  using SwingValveState = excavator::SwingValveState;
+  using SpoolCommand = excavator::SpoolCommand;
+  using PumpCommand = excavator::PumpCommand;
+  using SwingCommand = excavator::SwingCommand;
+  using EcuStatus = excavator::EcuStatus;
+  using EcuMotion = excavator::EcuMotion;
+  using EcuHydraulics = excavator::EcuHydraulics;
+  using EcuIdentity = excavator::EcuIdentity;
+  using EcuHealth = excavator::EcuHealth;
+  using TaskStatus = excavator::TaskStatus;
+  using DM1 = excavator::DM1;
+  using AllMessages = excavator::AllMessages;
+  static constexpr const auto& kMessages = excavator::kMessages;
+  static constexpr std::uint8_t kDbcVersion = excavator::kDbcVersion;
+};
+
 }  // namespace graben::dbc::excavator

@@ -54,16 +54,17 @@ void BusRecord::see(const CanFrame& frame, bool from_controller) {
   }
   see_command<Kind>(frame);
   switch (frame.id) {
-    case Kind::EcuStatus::kId:
-      statuses.push_back(status_of<typename Kind::EcuStatus>(frame));
+    case Kind::Dbc::EcuStatus::kId:
+      statuses.push_back(status_of<typename Kind::Dbc::EcuStatus>(frame));
       break;
-    case Kind::TroubleCodes::kId:
-      troubles.push_back(trouble_of<typename Kind::TroubleCodes>(frame));
+    case Kind::Dbc::DM1::kId:
+      troubles.push_back(trouble_of<typename Kind::Dbc::DM1>(frame));
       break;
-    case Kind::EcuHealth::kId:
-      refusals.push_back({frame.stamp_us, Kind::EcuHealth::decode(frame.data).why_not_armed.value});
+    case Kind::Dbc::EcuHealth::kId:
+      refusals.push_back(
+          {frame.stamp_us, Kind::Dbc::EcuHealth::decode(frame.data).why_not_armed.value});
       break;
-    case Kind::EcuMotion::kId:
+    case Kind::Dbc::EcuMotion::kId:
       wanted.push_back({frame.stamp_us, Kind::wanted_mps(frame)});
       break;
     default:

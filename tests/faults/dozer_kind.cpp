@@ -11,7 +11,7 @@ namespace graben {
 
 /// The controller's friend: what it keeps from cycle to cycle.
 struct DozerMemoryAccess {
-  static auto& memory(ecu::DozerEcu& ecu) { return ecu.controller_.memory_; }
+  static auto& memory(ecu::DozerKind::Ecu& ecu) { return ecu.controller_.memory_; }
 };
 
 }  // namespace graben
@@ -124,8 +124,8 @@ bool Dozer::read_command(const CanFrame& frame, BusRecord::Command& command) {
   using Pumps = bus::PumpDisplacementCommand;
   using Motors = bus::MotorDisplacementCommand;
   switch (frame.id) {
-    case SpoolCommand::kId: {
-      const auto message = read_spool_command<SpoolCommand>(frame, command);
+    case Dbc::SpoolCommand::kId: {
+      const auto message = read_spool_command<Dbc::SpoolCommand>(frame, command);
       command.neutral = command.neutral && says(message.blade_duty_ratio, 0.0);
       return true;
     }
@@ -149,7 +149,7 @@ bool Dozer::read_command(const CanFrame& frame, BusRecord::Command& command) {
 }
 
 double Dozer::wanted_mps(const CanFrame& motion) {
-  return EcuMotion::decode(motion.data).wanted_speed_mps.value;
+  return Dbc::EcuMotion::decode(motion.data).wanted_speed_mps.value;
 }
 
 double Dozer::slowed_mps(const Machine& machine, double before_mps, TimeUs after_us) {
@@ -189,7 +189,7 @@ void Dozer::make_neutral_and_sound(Plant& plant) {
 }
 
 /// The stroke, or one of the coordinates of the body.
-Reading Dozer::any_reading(PlantNode& node, plant::Random& random) {
+Reading Dozer::any_reading(Node& node, plant::Random& random) {
   plant::DozerFaults& faults = node.faults();
   const double way = random.uniform() < 0.5 ? 1.0 : -1.0;
   const double size = way * (1.0 + 3.0 * random.uniform());

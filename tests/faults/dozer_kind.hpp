@@ -5,34 +5,16 @@
 #include <filesystem>
 #include <optional>
 
-#include "app/ecu/dozer_ecu.hpp"
-#include "app/machines/dozer_file.hpp"
-#include "app/plant/dozer_node.hpp"
-#include "app/plant/operator_node.hpp"
 #include "app/plant/random.hpp"
-#include "can_dbc/generated/dozer_dbc.hpp"
+#include "app/runs/dozer_rig.hpp"
 #include "tests/faults/bus_record.hpp"
 #include "tests/faults/rolling_watch.hpp"
 #include "tests/faults/sensor.hpp"
 
 namespace graben::faults {
 
-struct Dozer {
-  using Machine = machines::DozerMachine;
-  using PlantNode = plant::DozerNode;
+struct Dozer : runs::DozerSim {
   using Plant = plant::DozerPlant;
-  using Driver = plant::DozerOperatorNode;
-  using Ecu = ecu::DozerEcu;
-  using SpoolCommand = dbc::dozer::SpoolCommand;
-  using OperatorCommand = dbc::dozer::OperatorCommand;
-  using MachineIdentity = dbc::dozer::MachineIdentity;
-  using EngineSpeed = dbc::dozer::EEC1;
-  using EcuStatus = dbc::dozer::EcuStatus;
-  using EcuHealth = dbc::dozer::EcuHealth;
-  using EcuMotion = dbc::dozer::EcuMotion;
-  using TroubleCodes = dbc::dozer::DM1;
-  static constexpr const auto& kMessages = dbc::dozer::kMessages;
-  static constexpr std::uint8_t kDbcVersion = dbc::dozer::kDbcVersion;
   static constexpr const char* kProfile = "dozer_9t";
   static constexpr Task kTask = Task::kGrade;
 
@@ -63,7 +45,7 @@ struct Dozer {
   };
   /// Of a seed: sensors wrong in all, in every second also mass, ground and transmission.
   [[nodiscard]] static Scenery scenery_of(std::uint64_t seed);
-  [[nodiscard]] static PlantNode node(const Scenery& scenery, CanPort& port);
+  [[nodiscard]] static Node node(const Scenery& scenery, CanPort& port);
   [[nodiscard]] static std::vector<Defect> defects();
   /// Throws ProfileError as the loader does.
   static void load(const std::filesystem::path& file) {
@@ -87,7 +69,7 @@ struct Dozer {
                                          TimeUs after_us);
   [[nodiscard]] static bool is_back(double slow_mps, double wanted_mps, Limit limit);
 
-  [[nodiscard]] static bool enabled(const PlantNode& node) { return node.spool_enabled(); }
+  [[nodiscard]] static bool enabled(const Node& node) { return node.spool_enabled(); }
   [[nodiscard]] static AxisArray strokes_m(const Plant& plant) { return {plant.blade_stroke_m()}; }
   [[nodiscard]] static AxisArray longest_m(const Plant& plant);
   [[nodiscard]] static AxisArray spools(const Plant& plant) { return {plant.spool_travel_ratio()}; }
@@ -105,8 +87,8 @@ struct Dozer {
   [[nodiscard]] static double heard_stroke_m(const DozerInputs& inputs, unsigned) {
     return inputs.blade_stroke_m.value;
   }
-  [[nodiscard]] static plant::DozerFaults& axis(PlantNode& node, unsigned) { return node.faults(); }
-  [[nodiscard]] static Reading any_reading(PlantNode& node, plant::Random& random);
+  [[nodiscard]] static plant::DozerFaults& axis(Node& node, unsigned) { return node.faults(); }
+  [[nodiscard]] static Reading any_reading(Node& node, plant::Random& random);
   /// A bit of one of the guarded setpoints: mode, v_c, what the gate let through.
   static void flip(Ecu& ecu, unsigned setpoint, unsigned bit);
 };

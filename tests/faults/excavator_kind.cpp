@@ -10,7 +10,7 @@ namespace graben {
 
 /// The controller's friend: what it keeps from cycle to cycle.
 struct ControllerMemoryAccess {
-  static auto& memory(ecu::ExcavatorEcu& ecu) { return ecu.controller_.memory_; }
+  static auto& memory(ecu::ExcavatorKind::Ecu& ecu) { return ecu.controller_.memory_; }
 };
 
 }  // namespace graben
@@ -78,9 +78,9 @@ Excavator::Scenery Excavator::scenery_of(std::uint64_t seed) {
   return scenery;
 }
 
-plant::PlantNode Excavator::node(const Scenery& scenery, CanPort& port) {
+plant::ExcavatorNode Excavator::node(const Scenery& scenery, CanPort& port) {
   const Eigen::Vector3d& start_m = scenery.start_strokes_m;
-  return {scenery.machine.plant, plant::PlantStart({start_m[0], start_m[1], start_m[2]}), port,
+  return {scenery.machine.plant, plant::ExcavatorStart({start_m[0], start_m[1], start_m[2]}), port,
           scenery.machine.hash};
 }
 
@@ -144,10 +144,10 @@ const std::vector<Fault>& Excavator::missing() {
 }
 
 bool Excavator::read_command(const CanFrame& frame, BusRecord::Command& command) {
-  if (frame.id != SpoolCommand::kId) {
+  if (frame.id != Dbc::SpoolCommand::kId) {
     return false;
   }
-  const auto message = read_spool_command<SpoolCommand>(frame, command);
+  const auto message = read_spool_command<Dbc::SpoolCommand>(frame, command);
   for (const dbc::Physical& duty :
        {message.boom_duty_ratio, message.arm_duty_ratio, message.bucket_duty_ratio}) {
     command.neutral = command.neutral && says(duty, 0.0);
@@ -156,7 +156,7 @@ bool Excavator::read_command(const CanFrame& frame, BusRecord::Command& command)
 }
 
 double Excavator::wanted_mps(const CanFrame& motion) {
-  const EcuMotion message = EcuMotion::decode(motion.data);
+  const Dbc::EcuMotion message = Dbc::EcuMotion::decode(motion.data);
   return std::hypot(message.boom_wanted_velocity_mps.value, message.arm_wanted_velocity_mps.value,
                     message.bucket_wanted_velocity_mps.value);
 }
@@ -184,7 +184,7 @@ void Excavator::make_neutral_and_sound(Plant& plant) {
   }
 }
 
-Reading Excavator::any_reading(PlantNode& node, plant::Random& random) {
+Reading Excavator::any_reading(Node& node, plant::Random& random) {
   const auto axis = static_cast<unsigned>(random.uniform() * kAxes);
   const double way = random.uniform() < 0.5 ? 1.0 : -1.0;
   return {&node.faults().axis[axis].stroke.jump_m, way * (0.06 + 0.2 * random.uniform()),

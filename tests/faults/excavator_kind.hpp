@@ -5,34 +5,16 @@
 #include <filesystem>
 #include <optional>
 
-#include "app/ecu/excavator_ecu.hpp"
-#include "app/machines/excavator_file.hpp"
-#include "app/plant/excavator_node.hpp"
-#include "app/plant/operator_node.hpp"
 #include "app/plant/random.hpp"
-#include "can_dbc/generated/excavator_dbc.hpp"
+#include "app/runs/excavator_rig.hpp"
 #include "tests/faults/bus_record.hpp"
 #include "tests/faults/rolling_watch.hpp"
 #include "tests/faults/sensor.hpp"
 
 namespace graben::faults {
 
-struct Excavator {
-  using Machine = machines::ExcavatorMachine;
-  using PlantNode = plant::PlantNode;
+struct Excavator : runs::ExcavatorSim {
   using Plant = plant::ExcavatorPlant;
-  using Driver = plant::OperatorNode;
-  using Ecu = ecu::ExcavatorEcu;
-  using SpoolCommand = dbc::excavator::SpoolCommand;
-  using OperatorCommand = dbc::excavator::OperatorCommand;
-  using MachineIdentity = dbc::excavator::MachineIdentity;
-  using EngineSpeed = dbc::excavator::EEC1;
-  using EcuStatus = dbc::excavator::EcuStatus;
-  using EcuHealth = dbc::excavator::EcuHealth;
-  using EcuMotion = dbc::excavator::EcuMotion;
-  using TroubleCodes = dbc::excavator::DM1;
-  static constexpr const auto& kMessages = dbc::excavator::kMessages;
-  static constexpr std::uint8_t kDbcVersion = dbc::excavator::kDbcVersion;
   static constexpr const char* kProfile = "excavator_22t";
   static constexpr Task kTask = Task::kDig;
 
@@ -65,7 +47,7 @@ struct Excavator {
   /// Of a seed: sensors wrong in all, parameters too in every second, soil in half of them, a
   /// random pose near the path.
   [[nodiscard]] static Scenery scenery_of(std::uint64_t seed);
-  [[nodiscard]] static PlantNode node(const Scenery& scenery, CanPort& port);
+  [[nodiscard]] static Node node(const Scenery& scenery, CanPort& port);
   [[nodiscard]] static std::vector<Defect> defects();
   /// Throws ProfileError as the loader does.
   static void load(const std::filesystem::path& file) {
@@ -93,7 +75,7 @@ struct Excavator {
                                          TimeUs after_us);
   [[nodiscard]] static bool is_back(double slow_mps, double wanted_mps, Limit limit);
 
-  [[nodiscard]] static bool enabled(const PlantNode& node) { return node.spools_enabled(); }
+  [[nodiscard]] static bool enabled(const Node& node) { return node.spools_enabled(); }
   [[nodiscard]] static AxisArray strokes_m(const Plant& plant) { return plant.strokes_m(); }
   [[nodiscard]] static AxisArray longest_m(const Plant& plant);
   [[nodiscard]] static AxisArray spools(const Plant& plant) { return plant.spool_travels_ratio(); }
@@ -110,10 +92,10 @@ struct Excavator {
   [[nodiscard]] static double heard_stroke_m(const ExcavatorInputs& inputs, unsigned axis) {
     return inputs.axis[axis].stroke_m.value;
   }
-  [[nodiscard]] static plant::AxisFaults& axis(PlantNode& node, unsigned axis) {
+  [[nodiscard]] static plant::AxisFaults& axis(Node& node, unsigned axis) {
     return node.faults().axis[axis];
   }
-  [[nodiscard]] static Reading any_reading(PlantNode& node, plant::Random& random);
+  [[nodiscard]] static Reading any_reading(Node& node, plant::Random& random);
   /// A bit of one of the guarded setpoints: mode, lambda, the openings that the gate let through.
   static void flip(Ecu& ecu, unsigned setpoint, unsigned bit);
 };

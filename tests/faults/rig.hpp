@@ -58,8 +58,8 @@ class Rig {
   LoopbackPort& operator_port;
   LoopbackPort& ecu_port;
   LoopbackPort& other_port;  ///< Of a node that should not be there.
-  typename Kind::PlantNode plant;
-  typename Kind::Driver driver;
+  typename Kind::Node plant;
+  typename Kind::Operator driver;
   std::optional<typename Kind::Ecu> ecu;
   BusRecord record;
   std::optional<ClosingWatch<Kind>> closing;

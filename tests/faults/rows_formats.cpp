@@ -51,7 +51,7 @@ void beside_the_live(Trial<Kind>& trial, void (*make)(Trial<Kind>& trial, CanFra
   auto& rig = *trial.rig;
   rig.before_ecu = [&trial, &rig, make] {
     const auto& message =
-        Kind::kMessages[trial.any_of(static_cast<unsigned>(std::size(Kind::kMessages)))];
+        Kind::Dbc::kMessages[trial.any_of(static_cast<unsigned>(std::size(Kind::Dbc::kMessages)))];
     CanFrame frame;
     frame.id = message.id;
     frame.length = 8;

@@ -279,7 +279,7 @@ void swapped_data_ids(Trial<Kind>& trial) {
   std::uint32_t other = one;
   while (other == one) {
     other = trial.any_id(Kind::protected_ids());
-    other = other == Kind::OperatorCommand::kId ? one : other;
+    other = other == Kind::Dbc::OperatorCommand::kId ? one : other;
   }
   Stop stop;
   stop.since_us = trial.last_us(one);

@@ -72,9 +72,9 @@ void other_identity(Trial<Kind>& trial) {
     rig.plant.faults().wrong_identity = true;
   } else {
     rig.tamper = [](CanFrame& frame, const LoopbackPort*) {
-      if (frame.id == Kind::MachineIdentity::kId) {
-        auto message = Kind::MachineIdentity::decode(frame.data);
-        message.dbc_version.value = Kind::kDbcVersion + 1U;
+      if (frame.id == Kind::Dbc::MachineIdentity::kId) {
+        auto message = Kind::Dbc::MachineIdentity::decode(frame.data);
+        message.dbc_version.value = Kind::Dbc::kDbcVersion + 1U;
         frame.data = message.encode();
       }
       return true;

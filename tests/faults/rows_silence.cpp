@@ -21,7 +21,7 @@ void one_frame_lost(Trial<Kind>& trial) {
   const std::uint32_t lost_command = Kind::command_ids()[trial.seed() % Kind::command_ids().size()];
   lose_one(trial, trial.any_id(Kind::protected_ids()));
   trial.expect_ignored(300 * kMillisecondUs, Kind::kLittle_m);
-  lose_one(trial, Kind::OperatorCommand::kId);
+  lose_one(trial, Kind::Dbc::OperatorCommand::kId);
   trial.expect_ignored(300 * kMillisecondUs, Kind::kLittle_m);
   lose_one(trial, lost_command);
   trial.expect_ignored(300 * kMillisecondUs, Kind::kLittle_m);
@@ -33,7 +33,7 @@ void operator_silent(Trial<Kind>& trial) {
   trial.work();
   trial.rig->driver.set_silent(true);
   Stop stop;
-  stop.since_us = trial.last_us(Kind::OperatorCommand::kId);
+  stop.since_us = trial.last_us(Kind::Dbc::OperatorCommand::kId);
   stop.any = {Fault::kOperatorMissing};
   stop.detect_us = stop.neutral_us = kSilence_us;
   stop.cure = [&] { trial.rig->driver.set_silent(false); };
@@ -52,17 +52,17 @@ void enable_released(Trial<Kind>& trial) {
   } else {
     const std::uint32_t raw = 2 + trial.any_of(2);
     rig.tamper = [raw](CanFrame& frame, const LoopbackPort*) {
-      if (frame.id == Kind::OperatorCommand::kId) {
-        set_raw<Kind>(frame, Kind::OperatorCommand::kEnable, raw);
+      if (frame.id == Kind::Dbc::OperatorCommand::kId) {
+        set_raw<Kind>(frame, Kind::Dbc::OperatorCommand::kEnable, raw);
       }
       return true;
     };
     stop.any = {Fault::kOperatorMissing};
     stop.cure = [&rig] { rig.tamper = nullptr; };
   }
-  const TimeUs last_us = trial.last_us(Kind::OperatorCommand::kId);
+  const TimeUs last_us = trial.last_us(Kind::Dbc::OperatorCommand::kId);
   // The frame that says so is on its way already in the cycle in which the controller is asked.
-  stop.since_us = last_us + cycle_us_of<Kind>(Kind::OperatorCommand::kId);
+  stop.since_us = last_us + cycle_us_of<Kind>(Kind::Dbc::OperatorCommand::kId);
   stop.detect_us = stop.neutral_us = kCycle_us;
   stop.latches = !let_go;
   trial.expect_stop(stop);
@@ -84,7 +84,7 @@ void sensor_silent(Trial<Kind>& trial) {
 
 template <class Kind>
 void engine_silent(Trial<Kind>& trial) {
-  slowed_by_silence(trial, Kind::EngineSpeed::kId, Fault::kEngineSpeedMissing);
+  slowed_by_silence(trial, Kind::Dbc::EEC1::kId, Fault::kEngineSpeedMissing);
 }
 
 }  // namespace

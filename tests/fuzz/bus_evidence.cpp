@@ -47,7 +47,7 @@ bool is_whole(const CanFrame& frame, const dbc::MessageInfo& info) {
 
 template <class Kind>
 bool wants_motion(const CanFrame& frame) {
-  using Command = typename Kind::OperatorCommand;
+  using Command = typename Kind::Dbc::OperatorCommand;
   const Command command = Command::decode(frame.data);
   return command.enable.value == Command::Enable::kOn &&
          command.operator_mode.value == Command::OperatorMode::kAutomatic &&
@@ -67,7 +67,7 @@ BusEvidence<Kind>::BusEvidence(const typename Kind::Profile& profile, std::uint3
 
 template <class Kind>
 void BusEvidence<Kind>::note_operator(const CanFrame& frame, bool alone, TimeUs now) {
-  using Command = typename Kind::OperatorCommand;
+  using Command = typename Kind::Dbc::OperatorCommand;
   constexpr TimeUs kCycle_us = Command::kCycleTimeMs * kMillisecondUs;
   const int counter = frame.data[1] & 0x0F;
   const auto task = Command::decode(frame.data).task.value;
@@ -90,13 +90,13 @@ void BusEvidence<Kind>::note_operator(const CanFrame& frame, bool alone, TimeUs 
 
 template <class Kind>
 void BusEvidence<Kind>::note(const std::vector<CanFrame>& received, bool stale, TimeUs now) {
-  const auto of_operator =
-      std::count_if(received.begin(), received.end(),
-                    [](const CanFrame& frame) { return frame.id == Kind::OperatorCommand::kId; });
+  const auto of_operator = std::count_if(
+      received.begin(), received.end(),
+      [](const CanFrame& frame) { return frame.id == Kind::Dbc::OperatorCommand::kId; });
   for (const CanFrame& frame : received) {
     for (unsigned i = 0; i < kInputMessages; ++i) {
       const dbc::MessageInfo& info = input_message<Kind>(i);
-      const bool is_operator = info.id == Kind::OperatorCommand::kId;
+      const bool is_operator = info.id == Kind::Dbc::OperatorCommand::kId;
       if (!is_whole(frame, info)) {
         run_.frames = is_operator && frame.id == info.id ? 0 : run_.frames;
         continue;
@@ -104,15 +104,15 @@ void BusEvidence<Kind>::note(const std::vector<CanFrame>& received, bool stale, 
       if (is_operator) {
         note_operator(frame, of_operator == 1, now);
       }
-      if (values_are(typename Kind::AllMessages{}, frame, is_valid) &&
+      if (values_are(typename Kind::Dbc::AllMessages{}, frame, is_valid) &&
           (!is_operator || wants_motion<Kind>(frame))) {
         said_us_[i] = now;
       }
-      if (info.id == Kind::MachineIdentity::kId &&
-          values_are(typename Kind::AllMessages{}, frame, is_in_range)) {
-        const auto identity = Kind::MachineIdentity::decode(frame.data);
+      if (info.id == Kind::Dbc::MachineIdentity::kId &&
+          values_are(typename Kind::Dbc::AllMessages{}, frame, is_in_range)) {
+        const auto identity = Kind::Dbc::MachineIdentity::decode(frame.data);
         const bool is_other = identity.profile_hash.value != profile_hash_ ||
-                              identity.dbc_version.value != Kind::kDbcVersion;
+                              identity.dbc_version.value != Kind::Dbc::kDbcVersion;
         other_machine_ = is_other && (other_machine_ || !stale);
       }
     }
@@ -128,7 +128,7 @@ const char* BusEvidence<Kind>::against_motion(TimeUs now) const {
     if (Kind::is_needed(info.id) && age_us > timeout_us_) {
       return info.name;
     }
-    if (info.id == Kind::MachineIdentity::kId && (age_us > kIdentity_us || other_machine_)) {
+    if (info.id == Kind::Dbc::MachineIdentity::kId && (age_us > kIdentity_us || other_machine_)) {
       return info.name;
     }
   }

@@ -36,10 +36,10 @@ void BusPartner<Kind>::listen(TimeUs now) {
       continue;
     }
     body.hear(sent.frame);
-    if (sent.frame.id == Kind::SpoolCommand::kId) {
+    if (sent.frame.id == Kind::Dbc::SpoolCommand::kId) {
       command_us_ = now;
-    } else if (sent.frame.id == Kind::EcuStatus::kId) {
-      status_ = Kind::EcuStatus::decode(sent.frame.data);
+    } else if (sent.frame.id == Kind::Dbc::EcuStatus::kId) {
+      status_ = Kind::Dbc::EcuStatus::decode(sent.frame.data);
     }
   }
 }
@@ -67,7 +67,7 @@ void BusPartner<Kind>::run_until(TimeUs now) {
 
 template <class Kind>
 void BusPartner<Kind>::lead_to_active() {
-  using Mode = typename Kind::EcuStatus::Mode;
+  using Mode = typename Kind::Dbc::EcuStatus::Mode;
   const Mode mode = status_.mode.value;
   const bool in_motion = mode == Mode::kArmed || mode == Mode::kActive;
   const bool ready = mode == Mode::kReady;
@@ -98,11 +98,11 @@ void BusPartner<Kind>::mend() {
 template <class Kind>
 dbc::Payload BusPartner<Kind>::payload_of(unsigned message) const {
   using dbc::RawState;
-  using Command = typename Kind::OperatorCommand;
-  using Identity = typename Kind::MachineIdentity;
+  using Command = typename Kind::Dbc::OperatorCommand;
+  using Identity = typename Kind::Dbc::MachineIdentity;
   const std::uint32_t id = input_message<Kind>(message).id;
   if (id == Identity::kId) {
-    return Identity{{profile_hash_, RawState::kValid}, {Kind::kDbcVersion, RawState::kValid}}
+    return Identity{{profile_hash_, RawState::kValid}, {Kind::Dbc::kDbcVersion, RawState::kValid}}
         .encode();
   }
   if (id != Command::kId) {

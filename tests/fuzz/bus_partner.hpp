@@ -19,8 +19,8 @@ template <class Kind>
   std::array<dbc::MessageInfo, kInputMessages> inputs{};
   unsigned count = 0;
   for (unsigned i = 0; count < kInputMessages; ++i) {
-    if (!Kind::is_of_a_part(Kind::kMessages[i].id)) {
-      inputs[count++] = Kind::kMessages[i];
+    if (!Kind::is_of_a_part(Kind::Dbc::kMessages[i].id)) {
+      inputs[count++] = Kind::Dbc::kMessages[i];
     }
   }
   return inputs;
@@ -29,7 +29,7 @@ template <class Kind>
 template <class Kind>
 [[nodiscard]] const dbc::MessageInfo& input_message(unsigned index) {
   static constexpr auto kInputs = input_messages<Kind>();
-  static_assert(kInputs[kInputMessages - 1].id == Kind::ValveState::kId);
+  static_assert(kInputs[kInputMessages - 1].id == Kind::Dbc::ValveState::kId);
   return kInputs[index % kInputMessages];
 }
 
@@ -93,7 +93,7 @@ class BusPartner {
   std::deque<CanFrame> last_sent_;
   // What the controller said last.
   TimeUs command_us_ = 0;
-  typename Kind::EcuStatus status_;
+  typename Kind::Dbc::EcuStatus status_;
   TimeUs enabled_since_us_ = 0;
   TimeUs released_since_us_ = 0;
 };

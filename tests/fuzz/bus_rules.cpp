@@ -23,7 +23,7 @@ constexpr double kDutyStep = 5e-5;
 
 template <class Kind>
 const dbc::MessageInfo* own_message(std::uint32_t id) {
-  for (const dbc::MessageInfo& message : Kind::kMessages) {
+  for (const dbc::MessageInfo& message : Kind::Dbc::kMessages) {
     if (message.id == id && std::strcmp(message.sender, "Graben") == 0) {
       return &message;
     }
@@ -71,7 +71,7 @@ std::string BusRules<Kind>::check_frame(const CanFrame& frame) {
       frame.length != message->length) {
     return fmt::format("a frame {:X} that is none of its messages", frame.id);
   }
-  if (const char* name = unsaid<Kind>(typename Kind::AllMessages{}, frame); name != nullptr) {
+  if (const char* name = unsaid<Kind>(typename Kind::Dbc::AllMessages{}, frame); name != nullptr) {
     return fmt::format("{} of {} has no value", name, message->name);
   }
   if (!message->is_protected) {
@@ -109,7 +109,8 @@ std::string BusRules<Kind>::may_not_move(const BusCycle<Kind>& cycle) const {
 
 /// Opening a spool has a rate, closing none; the step across the deadband takes no time.
 template <class Kind>
-std::string BusRules<Kind>::check_opening(const typename Kind::SpoolCommand& command, TimeUs now) {
+std::string BusRules<Kind>::check_opening(const typename Kind::Dbc::SpoolCommand& command,
+                                          TimeUs now) {
   const double edge = Kind::duty_edge(profile_);
   const double elapsed_s = static_cast<double>(now - command_us_) * 1e-6;
   const double most = any_command_ ? profile_.control.spool_rate_ps * elapsed_s : 0.0;
@@ -133,8 +134,8 @@ std::string BusRules<Kind>::check_opening(const typename Kind::SpoolCommand& com
 
 template <class Kind>
 std::string BusRules<Kind>::check_command(const BusCycle<Kind>& cycle, const CanFrame& frame) {
-  const auto command = Kind::SpoolCommand::decode(frame.data);
-  const bool cuts = command.pilot_cut.value == Kind::SpoolCommand::PilotCut::kOn;
+  const auto command = Kind::Dbc::SpoolCommand::decode(frame.data);
+  const bool cuts = command.pilot_cut.value == Kind::Dbc::SpoolCommand::PilotCut::kOn;
   if (is_on(command)) {
     if (const std::string why_not = may_not_move(cycle); !why_not.empty()) {
       return "enable On " + why_not;
@@ -151,8 +152,8 @@ std::string BusRules<Kind>::check_command(const BusCycle<Kind>& cycle, const Can
 template <class Kind>
 std::string BusRules<Kind>::check_status(const BusCycle<Kind>& cycle, const CanFrame& frame) {
   const MachineStatus& inner = cycle.outputs->status;
-  if (frame.id == Kind::EcuStatus::kId) {
-    const auto status = Kind::EcuStatus::decode(frame.data);
+  if (frame.id == Kind::Dbc::EcuStatus::kId) {
+    const auto status = Kind::Dbc::EcuStatus::decode(frame.data);
     if (static_cast<int>(status.mode.value) != static_cast<int>(inner.mode)) {
       return fmt::format("mode {} is called {}", static_cast<int>(inner.mode),
                          static_cast<int>(status.mode.value));
@@ -161,8 +162,8 @@ std::string BusRules<Kind>::check_status(const BusCycle<Kind>& cycle, const CanF
           inner.lambda <= 1.0)) {
       return fmt::format("lambda {}", inner.lambda);
     }
-  } else if (frame.id == Kind::EcuHealth::kId) {
-    const auto why = Kind::EcuHealth::decode(frame.data).why_not_armed.value;
+  } else if (frame.id == Kind::Dbc::EcuHealth::kId) {
+    const auto why = Kind::Dbc::EcuHealth::decode(frame.data).why_not_armed.value;
     if ((why == 0) != armed_or_active(inner.mode)) {
       return fmt::format("WhyNotArmed {:X} in mode {}", why, static_cast<int>(inner.mode));
     }
@@ -203,7 +204,7 @@ std::string BusRules<Kind>::check(const BusCycle<Kind>& cycle) {
         return fmt::format("two frames {:X} in a cycle", sent.frame.id);
       }
     }
-    command = sent.frame.id == Kind::SpoolCommand::kId ? &sent : command;
+    command = sent.frame.id == Kind::Dbc::SpoolCommand::kId ? &sent : command;
     wrong = check_frame(sent.frame);
     wrong = wrong.empty() ? check_status(cycle, sent.frame) : wrong;
   }
@@ -219,7 +220,7 @@ std::string BusRules<Kind>::check(const BusCycle<Kind>& cycle) {
   command_us_ = cycle.now;
   refused_ = command->taken ? 0 : refused_ + 1;
   if (wrong.empty()) {
-    const bool moves = is_on(Kind::SpoolCommand::decode(command->frame.data));
+    const bool moves = is_on(Kind::Dbc::SpoolCommand::decode(command->frame.data));
     wrong = others_.check(*cycle.sent, moves, cycle.now);
   }
   return wrong;

@@ -33,7 +33,8 @@ class BusRules {
  private:
   [[nodiscard]] std::string check_frame(const CanFrame& frame);
   [[nodiscard]] std::string check_command(const BusCycle<Kind>& cycle, const CanFrame& frame);
-  [[nodiscard]] std::string check_opening(const typename Kind::SpoolCommand& command, TimeUs now);
+  [[nodiscard]] std::string check_opening(const typename Kind::Dbc::SpoolCommand& command,
+                                          TimeUs now);
   [[nodiscard]] std::string check_status(const BusCycle<Kind>& cycle, const CanFrame& frame);
   [[nodiscard]] std::string check_arming(const BusCycle<Kind>& cycle);
   [[nodiscard]] std::string may_not_move(const BusCycle<Kind>& cycle) const;

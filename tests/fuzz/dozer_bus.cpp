@@ -34,8 +34,8 @@ DozerBus::Body::Body(const Profile& profile)
 
 void DozerBus::Body::hear(const CanFrame& frame) {
   switch (frame.id) {
-    case SpoolCommand::kId:
-      command_ = SpoolCommand::decode(frame.data);
+    case Dbc::SpoolCommand::kId:
+      command_ = Dbc::SpoolCommand::decode(frame.data);
       break;
     case PumpCommand::kId: {
       const auto pumps = PumpCommand::decode(frame.data);
@@ -67,7 +67,7 @@ double DozerBus::Body::speed_mps() const {
 }
 
 void DozerBus::Body::move(double elapsed_s) {
-  const bool follows = command_.enable.value == SpoolCommand::Enable::kOn;
+  const bool follows = command_.enable.value == Dbc::SpoolCommand::Enable::kOn;
   const double blade_mps = follows ? motion_.wanted_blade_velocity_mps.value : 0.0;
   stroke_m_ =
       std::clamp(stroke_m_ + (blade_mps + pushed_mps[0]) * elapsed_s, 0.0, blade_.stroke_max_m());
@@ -109,9 +109,9 @@ dbc::Payload DozerBus::Body::payload_of(std::uint32_t id) const {
     default:
       break;
   }
-  const bool enabled = command_.enable.value == SpoolCommand::Enable::kOn;
-  return ValveState{
-      {enabled ? ValveState::Enabled::kOn : ValveState::Enabled::kOff, RawState::kValid},
+  const bool enabled = command_.enable.value == Dbc::SpoolCommand::Enable::kOn;
+  return Dbc::ValveState{
+      {enabled ? Dbc::ValveState::Enabled::kOn : Dbc::ValveState::Enabled::kOff, RawState::kValid},
       physical(command_.blade_duty_ratio.value)}
       .encode();
 }

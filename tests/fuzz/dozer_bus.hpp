@@ -6,32 +6,18 @@
 #include <string>
 #include <vector>
 
-#include "app/ecu/dozer_ecu.hpp"
+#include "app/ecu/dozer_kind.hpp"
 #include "app/machines/dozer_file.hpp"
-#include "can_dbc/generated/dozer_dbc.hpp"
 #include "firmware/dozer/blade.hpp"
 #include "tests/fuzz/bus_port.hpp"
 
 namespace graben::test {
 
-struct DozerBus {
-  using Machine = machines::DozerMachine;
-  using Profile = DozerProfile;
-  using Ecu = ecu::DozerEcu;
-  using Outputs = DozerOutputs;
-  using AllMessages = dbc::dozer::AllMessages;
-  using SpoolCommand = dbc::dozer::SpoolCommand;
-  using OperatorCommand = dbc::dozer::OperatorCommand;
-  using MachineIdentity = dbc::dozer::MachineIdentity;
-  using ValveState = dbc::dozer::ValveState;
-  using EcuStatus = dbc::dozer::EcuStatus;
-  using EcuHealth = dbc::dozer::EcuHealth;
-  using PumpCommand = dbc::dozer::PumpDisplacementCommand;
-  using MotorCommand = dbc::dozer::MotorDisplacementCommand;
-  static constexpr const auto& kMessages = dbc::dozer::kMessages;
-  static constexpr std::uint8_t kDbcVersion = dbc::dozer::kDbcVersion;
-  static constexpr auto kTask = OperatorCommand::Task::kGrade;
-  static constexpr std::size_t kMostFrames = DozerTransmitter::kMessageCount;
+struct DozerBus : ecu::DozerKind {
+  using PumpCommand = Dbc::PumpDisplacementCommand;
+  using MotorCommand = Dbc::MotorDisplacementCommand;
+  static constexpr auto kTask = Dbc::OperatorCommand::Task::kGrade;
+  static constexpr std::size_t kMostFrames = Transmitter::kMessageCount;
   static constexpr unsigned kSpools = 1;
   /// Blade cylinders, the body along the grade, its climb.
   static constexpr unsigned kPushed = 3;
@@ -40,7 +26,7 @@ struct DozerBus {
   [[nodiscard]] static bool is_needed(std::uint32_t id);
   [[nodiscard]] static constexpr bool is_of_a_part(std::uint32_t) { return false; }
   [[nodiscard]] static bool may_miss(std::uint32_t) { return false; }
-  [[nodiscard]] static std::array<double, kSpools> duties(const SpoolCommand& command) {
+  [[nodiscard]] static std::array<double, kSpools> duties(const Dbc::SpoolCommand& command) {
     return {command.blade_duty_ratio.value};
   }
   [[nodiscard]] static double duty_edge(const Profile& profile) {
@@ -67,8 +53,8 @@ struct DozerBus {
     double stroke_m_;
     double position_m_ = -3.0;
     double height_m_ = 0.0;
-    SpoolCommand command_;
-    dbc::dozer::EcuMotion motion_;
+    Dbc::SpoolCommand command_;
+    Dbc::EcuMotion motion_;
     std::array<double, kTrackCount> pump_ratio_{};
     std::array<double, kTrackCount> motor_ratio_ = {1.0, 1.0};
   };

@@ -38,7 +38,7 @@ bool ExcavatorBus::is_needed(std::uint32_t id) {
   }
 }
 
-std::array<double, kAxisCount> ExcavatorBus::duties(const SpoolCommand& command) {
+std::array<double, kAxisCount> ExcavatorBus::duties(const Dbc::SpoolCommand& command) {
   return {command.boom_duty_ratio.value, command.arm_duty_ratio.value,
           command.bucket_duty_ratio.value};
 }

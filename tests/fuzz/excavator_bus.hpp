@@ -5,29 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "app/ecu/excavator_ecu.hpp"
+#include "app/ecu/excavator_kind.hpp"
 #include "app/machines/excavator_file.hpp"
-#include "can_dbc/generated/excavator_dbc.hpp"
 #include "tests/fuzz/bus_port.hpp"
 
 namespace graben::test {
 
-struct ExcavatorBus {
-  using Machine = machines::ExcavatorMachine;
-  using Profile = ExcavatorProfile;
-  using Ecu = ecu::ExcavatorEcu;
-  using Outputs = ExcavatorOutputs;
-  using AllMessages = dbc::excavator::AllMessages;
-  using SpoolCommand = dbc::excavator::SpoolCommand;
-  using OperatorCommand = dbc::excavator::OperatorCommand;
-  using MachineIdentity = dbc::excavator::MachineIdentity;
-  using ValveState = dbc::excavator::ValveState;
-  using EcuStatus = dbc::excavator::EcuStatus;
-  using EcuHealth = dbc::excavator::EcuHealth;
-  static constexpr const auto& kMessages = dbc::excavator::kMessages;
-  static constexpr std::uint8_t kDbcVersion = dbc::excavator::kDbcVersion;
-  static constexpr auto kTask = OperatorCommand::Task::kDig;
-  static constexpr std::size_t kMostFrames = ExcavatorTransmitter::kMessageCount;
+struct ExcavatorBus : ecu::ExcavatorKind {
+  static constexpr auto kTask = Dbc::OperatorCommand::Task::kDig;
+  static constexpr std::size_t kMostFrames = Transmitter::kMessageCount;
   static constexpr unsigned kSpools = kAxisCount;
   static constexpr unsigned kPushed = kAxisCount;
 
@@ -36,13 +22,11 @@ struct ExcavatorBus {
   [[nodiscard]] static bool is_needed(std::uint32_t id);
   /// Of a swing drive, which the shipped machine has not got.
   [[nodiscard]] static constexpr bool is_of_a_part(std::uint32_t id) {
-    return id == dbc::excavator::SwingState::kId || id == dbc::excavator::SwingValveState::kId;
+    return id == Dbc::SwingState::kId || id == Dbc::SwingValveState::kId;
   }
   /// Whether its values may be not available.
-  [[nodiscard]] static bool may_miss(std::uint32_t id) {
-    return id == dbc::excavator::PumpCommand::kId;
-  }
-  [[nodiscard]] static std::array<double, kSpools> duties(const SpoolCommand& command);
+  [[nodiscard]] static bool may_miss(std::uint32_t id) { return id == Dbc::PumpCommand::kId; }
+  [[nodiscard]] static std::array<double, kSpools> duties(const Dbc::SpoolCommand& command);
   /// The duty at which a spool begins to open.
   [[nodiscard]] static double duty_edge(const Profile& profile) {
     return profile.valve.spool_to_duty.y_first();
@@ -66,9 +50,9 @@ struct ExcavatorBus {
    private:
     const Profile& profile_;
     std::array<double, kAxisCount> strokes_m_{};
-    SpoolCommand command_;
-    dbc::excavator::EcuStatus status_;
-    dbc::excavator::EcuMotion motion_;
+    Dbc::SpoolCommand command_;
+    Dbc::EcuStatus status_;
+    Dbc::EcuMotion motion_;
   };
 
   /// What must hold of a cycle's commands beside the spools'.

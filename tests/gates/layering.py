@@ -9,6 +9,8 @@ Eigen. The plant, which stands in for the real machine, must not even indirectly
 that the controller has of it: otherwise a wrong sign would cancel itself.
 """
 
+import re
+
 import tree
 from freestanding import ALLOWED_HEADERS, FREESTANDING
 from includes import Includes
@@ -31,18 +33,20 @@ FORBIDDEN = {
     "app/scope/": ("app/cli/",),
 }
 # All that the plant may see of the core, through any number of headers in between: what a machine is, and
-# the codes and values that are on the bus.
-PLANT_SEES = (
-    "firmware/core/", "firmware/machine/", "firmware/numeric/", "firmware/signals/",
-    "firmware/dozer/dozer_profile.hpp", "firmware/dozer/dozer_signals.hpp",
-    "firmware/excavator/excavator_profile.hpp", "firmware/excavator/excavator_signals.hpp",
-)
-# A kind's wing never sees the other, and what is common sees neither.
-WINGS = ("firmware/excavator/", "firmware/dozer/")
-
+# the codes and values that are on the bus. Of a kind's wing these two headers.
+PLANT_SEES = ("firmware/core/", "firmware/machine/", "firmware/numeric/", "firmware/signals/")
+PLANT_SEES_OF_A_WING = ("{0}/{0}_profile.hpp", "{0}/{0}_signals.hpp")
 
 root = tree.arguments(__doc__).parse_args().root.resolve()
 includes = Includes(root)
+
+# A folder of the core with a controller is a machine kind's wing. It never sees another one, and what is
+# common sees none.
+KINDS = sorted({match[1] for name in includes.sources
+                if (match := re.fullmatch(r"firmware/(\w+)/\1_controller\.hpp", name))})
+WINGS = tuple(f"firmware/{kind}/" for kind in KINDS)
+PLANT_SEES += tuple("firmware/" + header.format(kind)
+                    for kind in KINDS for header in PLANT_SEES_OF_A_WING)
 
 problems = []
 for name, found in includes.of.items():

@@ -30,8 +30,8 @@ struct Board {
 inline constexpr int kFramesPerCycle = 96;
 
 /// As app/ecu/ecu_node.hpp, but for what a process has: no port that is lost and opened again, no
-/// request to end. `Kind` says whose: Setup, Controller, Receiver, Transmitter, Inputs, Outputs,
-/// parts(setup).
+/// request to end. `Kind` is a machine kind: Setup, Controller, Receiver, Transmitter, Inputs,
+/// Outputs, parts(setup).
 template <class Kind>
 class BareEcu {
  public:

@@ -1,25 +1,10 @@
 /// A dozer's ECU without an operating system.
 
-#include "firmware/dozer/dozer_controller.hpp"
-#include "hal/buses/dozer_receiver.hpp"
-#include "hal/buses/dozer_transmitter.hpp"
+#include "app/ecu/dozer_kind.hpp"
 #include "tests/memory/bare_ecu.hpp"
 
 namespace graben::memory {
-namespace {
 
-struct Dozer {
-  using Setup = DozerSetup;
-  using Inputs = DozerInputs;
-  using Outputs = DozerOutputs;
-  using Controller = DozerController;
-  using Receiver = DozerReceiver;
-  using Transmitter = DozerTransmitter;
-  [[nodiscard]] static BusParts parts(const Setup&) { return {}; }
-};
-
-}  // namespace
-
-void run_image() { run<Dozer>(held_setup<DozerSetup>()); }
+void run_image() { run<ecu::DozerKind>(held_setup<DozerSetup>()); }
 
 }  // namespace graben::memory

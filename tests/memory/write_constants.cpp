@@ -10,8 +10,8 @@
 
 #include "app/machines/task_book.hpp"
 #include "app/machines/task_file.hpp"
-#include "app/runs/autodig_rig.hpp"
-#include "app/runs/grade_rig.hpp"
+#include "app/runs/dozer_rig.hpp"
+#include "app/runs/excavator_rig.hpp"
 #include "tests/memory/setup.hpp"
 
 namespace {
@@ -72,7 +72,7 @@ void write_excavator(bool with_replay) {
       {machines::find_task("truck_loading").string(), machines::find_task("flatten").string()}, {},
       machine.profile);
   if (with_replay) {
-    runs::AutodigBench bench(machine, book, book.program[0].start, 1.0);
+    runs::AutodigRig bench(machine, book, book.program[0].start, 1.0);
     write_replay(bench);
   } else {
     write_setup("ExcavatorSetup", ExcavatorSetup(machine.profile, book), machine.hash);
@@ -82,7 +82,7 @@ void write_excavator(bool with_replay) {
 void write_dozer(bool with_replay) {
   const auto machine = machines::load_dozer(machines::find_profile("dozer_9t"));
   if (with_replay) {
-    runs::GradeBench bench(machine, 1.0);
+    runs::GradeRig bench(machine, 1.0);
     write_replay(bench);
   } else {
     write_setup("DozerSetup", DozerSetup(machine.profile), machine.hash);

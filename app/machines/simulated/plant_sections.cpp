@@ -16,7 +16,7 @@ plant::LinkBody read_link(TomlReader& reader, const std::string& axis) {
   return link;
 }
 
-void read_swing(TomlReader& reader, plant::PlantProfile& plant) {
+void read_swing(TomlReader& reader, plant::ExcavatorPlantProfile& plant) {
   plant.platform.inertia_kgm2 = reader.number("swing.inertia", {100.0, 1e6, "kg m2"});
   plant.platform.coulomb_nm = reader.number("swing.coulomb", {0.0, 1e6, "N m"});
   plant.platform.viscous_nmsprad = reader.number("swing.viscous", {0.0, 1e6, "N m s/rad"});
@@ -41,8 +41,9 @@ plant::SensorErrors read_sensors(TomlReader& reader, const ExcavatorProfile& nom
 
 }  // namespace
 
-plant::PlantProfile read_plant_sections(TomlReader& reader, const ExcavatorProfile& nominal) {
-  plant::PlantProfile plant;
+plant::ExcavatorPlantProfile read_plant_sections(TomlReader& reader,
+                                                 const ExcavatorProfile& nominal) {
+  plant::ExcavatorPlantProfile plant;
   plant.machine = nominal;
   const std::vector<double> coulomb =
       reader.numbers("friction.coulomb", {0.0, 1e6, "N"}, kAxisCount);

@@ -60,7 +60,7 @@ void load_bucket(plant::LinkBody& bucket, double mass_kg, const Eigen::Vector2d&
 
 ExcavatorMachine arranged(ExcavatorMachine machine, const Scenario& scenario) {
   const Experiment& experiment = machine.experiment;
-  plant::PlantProfile& plant = machine.plant;
+  plant::ExcavatorPlantProfile& plant = machine.plant;
   plant.seed = scenario.seed;
   const bool parameter_errors =
       scenario.errors == Errors::kParameters || scenario.errors == Errors::kAll;

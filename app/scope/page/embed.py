@@ -13,7 +13,7 @@ import sys
 MARK = '<script type="application/json" id="graben-setup">'
 
 SOURCE = """// Written by embed.py at build time.
-#include "app/scope/scope_page.hpp"
+#include "app/scope/page/scope_page.hpp"
 
 #include <cstddef>
 

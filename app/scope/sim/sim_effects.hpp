@@ -32,7 +32,7 @@ inline SimEffect tampered_once(std::uint32_t id, std::function<bool(CanFrame&)> 
 
 /// What `set` does to the nodes now and, with false, when it is taken back.
 template <class Kind>
-SimEffect switched(SimRig<Kind>& rig, std::function<void(typename Kind::Bench&, bool on)> set) {
+SimEffect switched(SimRig<Kind>& rig, std::function<void(typename Kind::Rig&, bool on)> set) {
   set(rig.nodes(), true);
   SimEffect effect;
   effect.undo = [&rig, set = std::move(set)] { set(rig.nodes(), false); };
@@ -48,7 +48,7 @@ inline std::optional<double> forced(bool on, double value) {
 template <class Kind>
 SimEffect silent(SimRig<Kind>& rig, std::uint32_t id) {
   return switched<Kind>(
-      rig, [id](typename Kind::Bench& nodes, bool on) { nodes.plant.faults().set_silent(id, on); });
+      rig, [id](typename Kind::Rig& nodes, bool on) { nodes.plant.faults().set_silent(id, on); });
 }
 
 }  // namespace graben::scope

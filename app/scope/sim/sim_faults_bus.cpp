@@ -10,7 +10,7 @@ namespace {
 template <class Kind>
 SimEffect babble(SimRig<Kind>& rig) {
   constexpr int kFramesPerCycle = 38;
-  SimEffect effect = switched<Kind>(rig, [](typename Kind::Bench& nodes, bool on) {
+  SimEffect effect = switched<Kind>(rig, [](typename Kind::Rig& nodes, bool on) {
     nodes.bus.set_babble(on ? std::optional<std::uint32_t>(0) : std::nullopt);
   });
   effect.before_controller = [&rig] {
@@ -51,7 +51,7 @@ SimEffect interface_down(SimRig<Kind>& rig) {
 template <class Kind>
 SimEffect queue_full(SimRig<Kind>& rig) {
   return switched<Kind>(
-      rig, [](typename Kind::Bench& nodes, bool on) { nodes.ecu_port.set_send_fails(on); });
+      rig, [](typename Kind::Rig& nodes, bool on) { nodes.ecu_port.set_send_fails(on); });
 }
 
 }  // namespace

@@ -29,37 +29,37 @@ SimEffect pressure_out_of_range(SimRig<SimExcavator>& /*rig*/) {
 
 SimEffect pressure_at_rail(SimRig<SimExcavator>& rig) {
   const double rail_pa = rig.nodes().setup.profile.safety.pressure_rail_pa;
-  return switched<SimExcavator>(rig, [rail_pa](SimExcavator::Bench& nodes, bool on) {
+  return switched<SimExcavator>(rig, [rail_pa](SimExcavator::Rig& nodes, bool on) {
     nodes.plant.faults().axis[kBoom].cap.rail_pa = forced(on, rail_pa);
   });
 }
 
 SimEffect swash_wrong(SimRig<SimExcavator>& rig) {
-  return switched<SimExcavator>(rig, [](SimExcavator::Bench& nodes, bool on) {
+  return switched<SimExcavator>(rig, [](SimExcavator::Rig& nodes, bool on) {
     nodes.plant.faults().pump[0].shown_swash_ratio = forced(on, kShownSwash_ratio);
   });
 }
 
 SimEffect engine_out_of_range(SimRig<SimDozer>& /*rig*/) {
-  return out_of_range<SimDozer>(SimDozer::Engine::kId, SimDozer::Engine::kEngineSpeed);
+  return out_of_range<SimDozer>(SimDozer::Dbc::EEC1::kId, SimDozer::Dbc::EEC1::kEngineSpeed);
 }
 
 /// The servo stays where it is: what it is told next it does not reach.
 SimEffect displacement_stuck(SimRig<SimDozer>& rig) {
   const double ratio = rig.nodes().plant.plant().pump_ratios()[kLeft];
-  return switched<SimDozer>(rig, [ratio](SimDozer::Bench& nodes, bool on) {
+  return switched<SimDozer>(rig, [ratio](SimDozer::Rig& nodes, bool on) {
     nodes.plant.faults().path[kLeft].pump.held_ratio = forced(on, ratio);
   });
 }
 
 SimEffect displacement_reversed(SimRig<SimDozer>& rig) {
-  return switched<SimDozer>(rig, [](SimDozer::Bench& nodes, bool on) {
+  return switched<SimDozer>(rig, [](SimDozer::Rig& nodes, bool on) {
     nodes.plant.faults().path[kLeft].pump.reversed = on;
   });
 }
 
 SimEffect track_speed_wrong(SimRig<SimDozer>& rig) {
-  return switched<SimDozer>(rig, [](SimDozer::Bench& nodes, bool on) {
+  return switched<SimDozer>(rig, [](SimDozer::Rig& nodes, bool on) {
     nodes.plant.faults().path[kLeft].speed.jump = on ? kTooFast_mps : 0.0;
   });
 }

@@ -8,7 +8,7 @@ namespace {
 
 /// Wide open, against the way that the spool is open now.
 template <class Kind>
-double against(const typename Kind::Bench& nodes, unsigned axis) {
+double against(const typename Kind::Rig& nodes, unsigned axis) {
   constexpr double kOpen_ratio = 0.6;
   return Kind::spool_ratio(nodes, axis) > 0.0 ? -kOpen_ratio : kOpen_ratio;
 }
@@ -17,7 +17,7 @@ template <class Kind>
 SimEffect spool_held(SimRig<Kind>& rig) {
   const unsigned axis = Kind::moving_axis(rig.nodes());
   const double held = against<Kind>(rig.nodes(), axis);
-  return switched<Kind>(rig, [axis, held](typename Kind::Bench& nodes, bool on) {
+  return switched<Kind>(rig, [axis, held](typename Kind::Rig& nodes, bool on) {
     Kind::axis(nodes, axis).spool_held_ratio = forced(on, held);
   });
 }
@@ -26,7 +26,7 @@ template <class Kind>
 SimEffect spool_moves(SimRig<Kind>& rig) {
   const unsigned axis = Kind::moving_axis(rig.nodes());
   const double beyond = against<Kind>(rig.nodes(), axis);
-  return switched<Kind>(rig, [axis, beyond](typename Kind::Bench& nodes, bool on) {
+  return switched<Kind>(rig, [axis, beyond](typename Kind::Rig& nodes, bool on) {
     Kind::axis(nodes, axis).spool_offset_ratio = on ? beyond : 0.0;
   });
 }
@@ -34,7 +34,7 @@ SimEffect spool_moves(SimRig<Kind>& rig) {
 template <class Kind>
 SimEffect stroke_stuck(SimRig<Kind>& rig) {
   const unsigned axis = Kind::moving_axis(rig.nodes());
-  return switched<Kind>(rig, [axis](typename Kind::Bench& nodes, bool on) {
+  return switched<Kind>(rig, [axis](typename Kind::Rig& nodes, bool on) {
     Kind::axis(nodes, axis).stroke.stuck = on;
   });
 }
@@ -42,7 +42,7 @@ SimEffect stroke_stuck(SimRig<Kind>& rig) {
 template <class Kind>
 SimEffect stroke_jumps(SimRig<Kind>& rig) {
   constexpr double kJump_m = 0.15;
-  return switched<Kind>(rig, [](typename Kind::Bench& nodes, bool on) {
+  return switched<Kind>(rig, [](typename Kind::Rig& nodes, bool on) {
     Kind::axis(nodes, 0).stroke.jump_m = on ? kJump_m : 0.0;
   });
 }

@@ -15,13 +15,13 @@ using runs::protect;
 
 template <class Kind>
 SimEffect command_lost(SimRig<Kind>& /*rig*/) {
-  return tampered_once(Kind::Command::kId, [](CanFrame&) { return false; });
+  return tampered_once(Kind::Dbc::SpoolCommand::kId, [](CanFrame&) { return false; });
 }
 
 template <class Kind>
 SimEffect operator_silent(SimRig<Kind>& rig) {
   return switched<Kind>(rig,
-                        [](typename Kind::Bench& nodes, bool on) { nodes.driver.set_silent(on); });
+                        [](typename Kind::Rig& nodes, bool on) { nodes.driver.set_silent(on); });
 }
 
 template <class Kind>
@@ -41,7 +41,7 @@ SimEffect stroke_silent(SimRig<Kind>& rig) {
 
 template <class Kind>
 SimEffect engine_silent(SimRig<Kind>& rig) {
-  return silent(rig, Kind::Engine::kId);
+  return silent(rig, Kind::Dbc::EEC1::kId);
 }
 
 template <class Kind>
@@ -65,7 +65,7 @@ SimEffect many_wrong_crcs(SimRig<Kind>& /*rig*/) {
 
 template <class Kind>
 SimEffect frozen_counter(SimRig<Kind>& rig) {
-  return switched<Kind>(rig, [](typename Kind::Bench& nodes, bool on) {
+  return switched<Kind>(rig, [](typename Kind::Rig& nodes, bool on) {
     nodes.plant.faults().set_frozen_counter(Kind::Stroke::kId, on);
   });
 }
@@ -104,14 +104,14 @@ SimEffect duplicates(SimRig<Kind>& rig) {
 template <class Kind>
 SimEffect stream_late(SimRig<Kind>& rig) {
   constexpr TimeUs kLate_us = 200 * kMillisecondUs;
-  return switched<Kind>(rig, [](typename Kind::Bench& nodes, bool on) {
+  return switched<Kind>(rig, [](typename Kind::Rig& nodes, bool on) {
     nodes.plant.faults().frames.delay_us = on ? kLate_us : 0;
   });
 }
 
 template <class Kind>
 SimEffect swapped_data_ids(SimRig<Kind>& rig) {
-  return switched<Kind>(rig, [](typename Kind::Bench& nodes, bool on) {
+  return switched<Kind>(rig, [](typename Kind::Rig& nodes, bool on) {
     auto& swapped = nodes.plant.faults().frames.swapped_data_ids;
     swapped.reset();
     if (on) {

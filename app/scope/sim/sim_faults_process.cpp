@@ -37,7 +37,7 @@ SimEffect killed(SimRig<Kind>& rig) {
 template <class Kind>
 SimEffect wrong_identity(SimRig<Kind>& rig) {
   return switched<Kind>(
-      rig, [](typename Kind::Bench& nodes, bool on) { nodes.plant.faults().wrong_identity = on; });
+      rig, [](typename Kind::Rig& nodes, bool on) { nodes.plant.faults().wrong_identity = on; });
 }
 
 /// The operator gives the task all the time, also while he lets go and enables afresh, which he

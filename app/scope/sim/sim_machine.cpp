@@ -8,9 +8,8 @@
 #include "app/machines/simulated/dozer_scenario.hpp"
 #include "app/machines/simulated/scenario.hpp"
 #include "app/machines/task_file.hpp"
-#include "app/runs/autodig_rig.hpp"
-#include "app/runs/dig_rig.hpp"
-#include "app/runs/grade_rig.hpp"
+#include "app/runs/dozer_rig.hpp"
+#include "app/runs/excavator_rig.hpp"
 #include "app/scope/sim/sim_faults.hpp"
 #include "app/scope/sim/sim_rig.hpp"
 
@@ -47,11 +46,11 @@ SimSite<SimExcavator> dig_site(const SimOptions& options) {
   const Eigen::Vector3d start_m = machines::dig_start(machine->profile);
   SimSite<SimExcavator> site;
   site.make = [machine, start_m] {
-    return std::make_unique<runs::DigBench>(*machine, start_m, kFullSpeed);
+    return std::make_unique<runs::DigRig>(*machine, start_m, kFullSpeed);
   };
-  site.is_done = [](const SimExcavator::Bench&) { return false; };
+  site.is_done = [](const SimExcavator::Rig&) { return false; };
   site.ground = std::make_shared<SimGround>(machine->experiment.soil, machine->experiment.obstacle);
-  site.before_cycle = [ground = site.ground](SimExcavator::Bench& nodes) {
+  site.before_cycle = [ground = site.ground](SimExcavator::Rig& nodes) {
     ground->step(nodes.plant.plant());
   };
   return site;
@@ -71,10 +70,9 @@ SimSite<SimExcavator> autodig_site(const SimOptions& options) {
   book->count = 1;
   SimSite<SimExcavator> site;
   site.make = [machine, book] {
-    return std::make_unique<runs::AutodigBench>(*machine, *book, book->program[0].start,
-                                                kFullSpeed);
+    return std::make_unique<runs::AutodigRig>(*machine, *book, book->program[0].start, kFullSpeed);
   };
-  site.is_done = [](const SimExcavator::Bench& nodes) {
+  site.is_done = [](const SimExcavator::Rig& nodes) {
     return nodes.ecu->outputs().status.progress.kind == StepKind::kDone;
   };
   return site;
@@ -89,8 +87,8 @@ SimSite<SimDozer> grade_site(const SimOptions& options) {
                                                          machines::MachineKind::kDozer, "a dozer")),
                          scenario));
   SimSite<SimDozer> site;
-  site.make = [machine] { return std::make_unique<runs::GradeBench>(*machine, kFullSpeed); };
-  site.is_done = [machine](const SimDozer::Bench& nodes) {
+  site.make = [machine] { return std::make_unique<runs::GradeRig>(*machine, kFullSpeed); };
+  site.is_done = [machine](const SimDozer::Rig& nodes) {
     return nodes.plant.plant().cutting_edge_m().x() >= machine->experiment.length_m;
   };
   return site;

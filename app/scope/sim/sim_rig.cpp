@@ -6,7 +6,7 @@
 
 namespace graben::scope {
 
-unsigned SimExcavator::moving_axis(const Bench& nodes) {
+unsigned SimExcavator::moving_axis(const Rig& nodes) {
   unsigned most = 0;
   for (unsigned axis = 1; axis < kAxisCount; ++axis) {
     if (std::abs(spool_ratio(nodes, axis)) > std::abs(spool_ratio(nodes, most))) {

@@ -13,20 +13,20 @@ namespace graben::scope {
 /// What makes one machine of a kind another simulation than the next.
 template <class Kind>
 struct SimSite {
-  using Bench = typename Kind::Bench;
+  using Rig = typename Kind::Rig;
 
   /// The nodes, as they are at the start.
-  std::function<std::unique_ptr<Bench>()> make;
-  std::function<bool(const Bench& nodes)> is_done;
+  std::function<std::unique_ptr<Rig>()> make;
+  std::function<bool(const Rig& nodes)> is_done;
   /// Before each cycle; may be empty.
-  std::function<void(Bench& nodes)> before_cycle;
+  std::function<void(Rig& nodes)> before_cycle;
   std::shared_ptr<SimGround> ground;  ///< Null without.
 };
 
 template <class Kind>
 class SimRig final : public SimMachine {
  public:
-  using Bench = typename Kind::Bench;
+  using Rig = typename Kind::Rig;
 
   SimRig(SimSite<Kind> site, std::vector<SimFaultRow<Kind>> rows, FrameTap tap);
 
@@ -40,7 +40,7 @@ class SimRig final : public SimMachine {
   [[nodiscard]] SimGround* ground() const override { return site_.ground.get(); }
 
   /// Others after a restart.
-  [[nodiscard]] Bench& nodes() { return *nodes_; }
+  [[nodiscard]] Rig& nodes() { return *nodes_; }
 
  private:
   struct Live {
@@ -58,7 +58,7 @@ class SimRig final : public SimMachine {
   std::vector<SimFaultRow<Kind>> rows_;
   std::vector<SimFault> faults_;  ///< Of the rows.
   FrameTap tap_;
-  std::unique_ptr<Bench> nodes_;
+  std::unique_ptr<Rig> nodes_;
   std::vector<Live> live_;
 };
 

@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <optional>
 
-#include "app/ecu/dozer_ecu.hpp"
-#include "app/ecu/excavator_ecu.hpp"
+#include "app/ecu/dozer_kind.hpp"
+#include "app/ecu/excavator_kind.hpp"
 #include "tests/timing/counts/section.hpp"
 #include "tests/timing/counts/setups.hpp"
 #include "tests/timing/counts/trace.hpp"
@@ -24,8 +24,8 @@ using namespace graben::timing;
 /// Not on the stack: they are large, and bare metal has little.
 TraceCycle cycle;
 TracePort port;
-std::optional<ecu::ExcavatorEcu> excavator;
-std::optional<ecu::DozerEcu> dozer;
+std::optional<ecu::ExcavatorKind::Ecu> excavator;
+std::optional<ecu::DozerKind::Ecu> dozer;
 
 template <class Ecu, class Machine>
 bool replay(std::FILE* file, std::optional<Ecu>& ecu, const Machine& machine,

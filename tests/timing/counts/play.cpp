@@ -32,7 +32,7 @@ Played played(const Script& script, std::uint32_t hash, Bench& bench) {
 }
 
 /// Where it starts: at the task's first pose, at shares of its strokes, or anywhere in them.
-plant::PlantStart start_of(const Script& script, const ExcavatorSetup& setup) {
+plant::ExcavatorStart start_of(const Script& script, const ExcavatorSetup& setup) {
   const ExcavatorProfile& profile = setup.profile;
   plant::Random random(script.seed, plant::Draw::kStart);
   plant::ExcavatorPlant::AxisArray strokes_m{};
@@ -56,8 +56,8 @@ Played play_excavator(const Script& script) {
   const machines::ExcavatorMachine machine = arranged(excavator(script.setup), scenario);
   const ExcavatorSetup& setup = excavator_setup(script.setup);
   const Task task = setup.book.count > 0 ? Task::kProgram : Task::kDig;
-  Scene<ExcavatorScene> scene(script, setup, machine.hash, task, [&](CanPort& port) {
-    return plant::PlantNode(machine.plant, start_of(script, setup), port, machine.hash);
+  Scene<runs::ExcavatorSim> scene(script, setup, machine.hash, task, [&](CanPort& port) {
+    return runs::ExcavatorSim::node(machine, start_of(script, setup), port);
   });
   return played(script, machine.hash, scene);
 }
@@ -66,7 +66,7 @@ Played play_dozer(const Script& script) {
   plant::DozerPlantProfile machine = draw_dozer(dozer(), script.seed);
   machine.seed = script.seed;
   machine.sensor_errors = true;
-  Scene<DozerScene> scene(
+  Scene<runs::DozerSim> scene(
       script, dozer_setup(script.setup), dozer().hash, Task::kGrade,
       [&](CanPort& port) { return plant::DozerNode(machine, port, dozer().hash); });
   return played(script, dozer().hash, scene);

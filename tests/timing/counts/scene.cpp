@@ -14,7 +14,7 @@ constexpr int kTaskCycle = 30;
 
 template <class Kind>
 const dbc::MessageInfo& info_of(const std::string& name) {
-  const auto& all = Kind::kMessages;
+  const auto& all = Kind::Dbc::kMessages;
   const auto* const found = std::find_if(
       all.begin(), all.end(), [&](const dbc::MessageInfo& info) { return name == info.name; });
   if (found == all.end()) {
@@ -63,7 +63,7 @@ bool Scene<Kind>::alter(const Edit& edit, CanFrame& frame) {
     return false;
   }
   if (edit.what == "raw") {
-    const dbc::Field& field = field_of(typename Kind::AllMessages{}, edit.message, edit.other);
+    const dbc::Field& field = field_of(typename Kind::Dbc::AllMessages{}, edit.message, edit.other);
     dbc::insert(frame.data, field.start_bit, field.width, static_cast<std::uint32_t>(edit.number));
     protect_again(frame, info);
   } else if (edit.what == "wrong") {
@@ -167,7 +167,7 @@ TraceCycle Scene<Kind>::step() {
   return seen;
 }
 
-template class Scene<ExcavatorScene>;
-template class Scene<DozerScene>;
+template class Scene<runs::ExcavatorSim>;
+template class Scene<runs::DozerSim>;
 
 }  // namespace graben::timing

@@ -5,32 +5,13 @@
 #include <functional>
 #include <stdexcept>
 
-#include "app/ecu/dozer_ecu.hpp"
-#include "app/ecu/excavator_ecu.hpp"
-#include "app/plant/dozer_node.hpp"
-#include "app/plant/excavator_node.hpp"
-#include "app/plant/operator_node.hpp"
+#include "app/runs/dozer_rig.hpp"
+#include "app/runs/excavator_rig.hpp"
 #include "platform/loopback/loopback_bus.hpp"
 #include "tests/timing/counts/recording_port.hpp"
 #include "tests/timing/counts/script.hpp"
 
 namespace graben::timing {
-
-struct ExcavatorScene {
-  using Node = plant::PlantNode;
-  using Driver = plant::OperatorNode;
-  using Ecu = ecu::ExcavatorEcu;
-  using AllMessages = dbc::excavator::AllMessages;
-  static constexpr const auto& kMessages = dbc::excavator::kMessages;
-};
-
-struct DozerScene {
-  using Node = plant::DozerNode;
-  using Driver = plant::DozerOperatorNode;
-  using Ecu = ecu::DozerEcu;
-  using AllMessages = dbc::dozer::AllMessages;
-  static constexpr const auto& kMessages = dbc::dozer::kMessages;
-};
 
 template <class Kind>
 class Scene {
@@ -78,7 +59,7 @@ class Scene {
   LoopbackPort& ecu_port_;
   RecordingPort recorder_;
   typename Kind::Node plant_;
-  typename Kind::Driver driver_;
+  typename Kind::Operator driver_;
   typename Kind::Ecu ecu_;
   int cycle_ = 0;
   TimeUs now_us_ = 0;

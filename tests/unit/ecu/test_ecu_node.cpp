@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "app/ecu/dozer_ecu.hpp"
-#include "app/ecu/excavator_ecu.hpp"
+#include "app/ecu/dozer_kind.hpp"
+#include "app/ecu/excavator_kind.hpp"
 #include "app/machines/dozer_file.hpp"
 #include "app/machines/excavator_file.hpp"
 #include "can_dbc/generated/dozer_dbc.hpp"
@@ -18,7 +18,7 @@ namespace {
 using namespace graben;
 
 struct Excavator {
-  using Ecu = ecu::ExcavatorEcu;
+  using Ecu = ecu::ExcavatorKind::Ecu;
   using Stroke = dbc::excavator::BoomStroke;
   using EcuHealth = dbc::excavator::EcuHealth;
   using MachineIdentity = dbc::excavator::MachineIdentity;
@@ -38,7 +38,7 @@ struct ExcavatorWithSwing : Excavator {
 };
 
 struct Dozer {
-  using Ecu = ecu::DozerEcu;
+  using Ecu = ecu::DozerKind::Ecu;
   using Stroke = dbc::dozer::BladeStroke;
   using EcuHealth = dbc::dozer::EcuHealth;
   using MachineIdentity = dbc::dozer::MachineIdentity;

@@ -41,7 +41,7 @@ void drive(ExcavatorPlant& plant, int cycle) {
 
 void energy_is_accounted_for(void**) {
   for (const double bulk_modulus : {1.4e9, 1.0e10}) {
-    PlantProfile profile = machine_22t();
+    ExcavatorPlantProfile profile = machine_22t();
     profile.bulk_modulus_pa = bulk_modulus;
     profile.swash_ratio = {1.0, 1.0};
     profile.piston_leak_m3pspa = 2e-12;  // a worn seal, so that its loss counts
@@ -107,7 +107,7 @@ double oil_held_m3(const ExcavatorPlant& plant) {
 
 // Oil in lines and chambers changes by what pumps give and tank takes, to rounding, voids or not.
 void oil_is_conserved(void**) {
-  PlantProfile profile = machine_22t();
+  ExcavatorPlantProfile profile = machine_22t();
   profile.makeup_paspm3 = 1e12;  // next to none, so that chambers boil
   const double step_s = profile.step_s();
   ExcavatorPlant plant(profile, kStart);

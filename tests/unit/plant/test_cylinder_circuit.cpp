@@ -16,7 +16,7 @@ constexpr double kRodArea = kCircuitRodArea;
 
 // Steady extension: in-flow and out-flow of an asymmetric cylinder, force balance, pump balance.
 void steady_extension_meets_the_orifice_equations(void**) {
-  const PlantProfile profile = hopsan_circuit(200);
+  const ExcavatorPlantProfile profile = hopsan_circuit(200);
   CylinderCircuit circuit(profile, 0.1, 20000.0, 60000.0);
   circuit.run(5.0, 0.4);
   const double v = circuit.velocity_mps;
@@ -45,7 +45,7 @@ void pump_relief_takes_what_the_bypass_cannot(void**) {
 }
 
 void regeneration_feeds_the_pump_line(void**) {
-  PlantProfile profile = hopsan_circuit(200);
+  ExcavatorPlantProfile profile = hopsan_circuit(200);
   SpoolProfile& spool = profile.machine.valve.spool[kArm];
   spool.regeneration = RegenerationSide::kExtend;
   spool.c_drain = 7e-7;
@@ -66,7 +66,7 @@ void regeneration_feeds_the_pump_line(void**) {
 
 void load_above_the_pump_flows_back(void**) {
   // No load check in the circuit: opening towards a pump at standby lets the load down at first.
-  PlantProfile profile = hopsan_circuit(200);
+  ExcavatorPlantProfile profile = hopsan_circuit(200);
   profile.machine.valve.spool[kArm].bypass_open = 4.5e-6;
   profile.machine.valve.spool[kArm].bypass_closed = 4.5e-6;
   CylinderCircuit circuit(profile, 0.752, 20000.0, 150000.0);
@@ -76,7 +76,7 @@ void load_above_the_pump_flows_back(void**) {
 }
 
 void blocked_chambers_carry_a_load_like_a_spring(void**) {
-  PlantProfile profile = hopsan_circuit(200);
+  ExcavatorPlantProfile profile = hopsan_circuit(200);
   profile.friction[kArm] = {0.0, 4e5};  // settles soon
   CylinderCircuit circuit(profile, 0.752, 20000.0, 60000.0);
   circuit.load_n += 10000.0;
@@ -87,7 +87,7 @@ void blocked_chambers_carry_a_load_like_a_spring(void**) {
 }
 
 void piston_leakage_is_laminar(void**) {
-  PlantProfile profile = hopsan_circuit(200);
+  ExcavatorPlantProfile profile = hopsan_circuit(200);
   profile.piston_leak_m3pspa = 1e-12;
   Cylinder cylinder(profile.cylinder(kArm), profile.step_s());
   cylinder.start(0.752, 200e3);
@@ -102,7 +102,7 @@ void piston_leakage_is_laminar(void**) {
 
 // A load that would need 41 MPa presses in through the cap relief and draws on the rod side.
 void port_relief_and_make_up_hold_the_chambers(void**) {
-  PlantProfile profile = hopsan_circuit(200);
+  ExcavatorPlantProfile profile = hopsan_circuit(200);
   profile.port_relief_pa = 38e6;
   profile.makeup_paspm3 = 3e6;
   profile.boiling_pa = -0.1e6;
@@ -119,7 +119,7 @@ void port_relief_and_make_up_hold_the_chambers(void**) {
 // Closed valve, no make-up: a pull that the oil cannot follow opens a void, and the piston flies on
 // against the rod side alone. It comes back to where it was when the void closes.
 void void_closes_where_it_opened(void**) {
-  PlantProfile profile = hopsan_circuit(200);
+  ExcavatorPlantProfile profile = hopsan_circuit(200);
   profile.start_back_pressure_pa = 0.5e6;
   CylinderCircuit circuit(profile, 0.752, 20000.0, 0.0);
   const double content = circuit.cylinder.cap().content_m3();

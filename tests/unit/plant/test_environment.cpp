@@ -147,7 +147,7 @@ void dead_time_is_a_pure_delay(void**) {
 
 /// The plant's spool does not stir before its dead time, and then as without one.
 void a_spool_waits_its_dead_time(void**) {
-  PlantProfile profile = machine_22t();
+  ExcavatorPlantProfile profile = machine_22t();
   ExcavatorPlant prompt(profile, {0.6, 0.7, 0.5});
   profile.dead_time_s = {0.15, 0.0, 0.0};
   ExcavatorPlant late(profile, {0.6, 0.7, 0.5});

@@ -29,12 +29,12 @@ void run(ExcavatorPlant& plant, const DriveArray& duty, TimeUs duration_us) {
   plant.advance(duration_us);
 }
 
-double cap_area(const PlantProfile& profile, std::size_t axis) {
+double cap_area(const ExcavatorPlantProfile& profile, std::size_t axis) {
   const CylinderGeometry& c = profile.machine.geometry.cylinder[axis];
   return c.count * kPi / 4.0 * c.bore_m * c.bore_m;
 }
 
-double rod_area(const PlantProfile& profile, std::size_t axis) {
+double rod_area(const ExcavatorPlantProfile& profile, std::size_t axis) {
   const CylinderGeometry& c = profile.machine.geometry.cylinder[axis];
   return c.count * kPi / 4.0 * (c.bore_m * c.bore_m - c.rod_m * c.rod_m);
 }
@@ -42,7 +42,7 @@ double rod_area(const PlantProfile& profile, std::size_t axis) {
 // Boom foot: the links' weights with their arms against the cylinder force with its arm, all from
 // plain trigonometry on the reported joint angles.
 void start_pressures_balance_the_boom(void**) {
-  const PlantProfile profile = machine_22t();
+  const ExcavatorPlantProfile profile = machine_22t();
   const ExcavatorPlant plant(profile, kStart);
   const JointArray q = plant.joint_angles_rad();
   const double boom = q[0];
@@ -72,7 +72,7 @@ void start_pressures_balance_the_boom(void**) {
 }
 
 void start_is_an_equilibrium(void**) {
-  PlantProfile profile = machine_22t();
+  ExcavatorPlantProfile profile = machine_22t();
   profile.friction = {};  // friction would hold what is not balanced
   profile.piston_leak_m3pspa = 0.0;
   ExcavatorPlant plant(profile, kStart);
@@ -89,7 +89,7 @@ void start_is_an_equilibrium(void**) {
 }
 
 void pumps_start_in_standby(void**) {
-  const PlantProfile profile = machine_22t();
+  const ExcavatorPlantProfile profile = machine_22t();
   const ExcavatorPlant plant(profile, kStart);
   for (std::size_t p = 0; p < 2; ++p) {
     const double pressure = plant.pump_pressures_pa()[p];
@@ -124,7 +124,7 @@ void deadband_moves_nothing(void**) {
 // Mean cylinder velocity of one second against the flow that its pump can give, the closed bypass
 // taken off.
 void motion_follows_the_flow_balance(void**) {
-  const PlantProfile profile = machine_22t();
+  const ExcavatorPlantProfile profile = machine_22t();
   struct Case {
     std::size_t axis;
     double duty;
@@ -209,7 +209,7 @@ void watch(const ExcavatorPlant& plant, Extremes& extremes) {
 
 void full_speed_into_the_end_stops(void**) {
   for (const double bulk_modulus : {1.4e9, 1.0e10}) {
-    PlantProfile profile = machine_22t();
+    ExcavatorPlantProfile profile = machine_22t();
     profile.bulk_modulus_pa = bulk_modulus;
     profile.swash_ratio = {1.0, 1.0};
     ExcavatorPlant plant(profile, kStart);
@@ -231,7 +231,7 @@ void full_speed_into_the_end_stops(void**) {
 
 void random_duty_for_a_minute(void**) {
   for (const double bulk_modulus : {1.4e9, 1.0e10}) {
-    PlantProfile profile = machine_22t();
+    ExcavatorPlantProfile profile = machine_22t();
     profile.bulk_modulus_pa = bulk_modulus;
     ExcavatorPlant plant(profile, kStart);
     std::mt19937 generator(7);
@@ -254,7 +254,7 @@ void random_duty_for_a_minute(void**) {
 }
 
 // Five seconds of spool steps on all axes, both ways, several at a time.
-std::vector<AxisArray> spool_steps(PlantProfile profile, TimeUs step_us) {
+std::vector<AxisArray> spool_steps(ExcavatorPlantProfile profile, TimeUs step_us) {
   profile.step_us = step_us;
   ExcavatorPlant plant(profile, kStart);
   std::vector<AxisArray> strokes;
@@ -280,7 +280,7 @@ double largest_difference(const std::vector<AxisArray>& a, const std::vector<Axi
   return largest;
 }
 
-double largest_tip_difference(const PlantProfile& profile, const std::vector<AxisArray>& a,
+double largest_tip_difference(const ExcavatorPlantProfile& profile, const std::vector<AxisArray>& a,
                               const std::vector<AxisArray>& b) {
   const LinkageGeometry geometry(profile.machine.geometry);
   double largest = 0.0;
@@ -294,7 +294,7 @@ double largest_tip_difference(const PlantProfile& profile, const std::vector<Axi
 
 void half_the_step_gives_the_same_path(void**) {
   for (const double bulk_modulus : {1.4e9, 1.0e10}) {
-    PlantProfile profile = machine_22t();
+    ExcavatorPlantProfile profile = machine_22t();
     profile.bulk_modulus_pa = bulk_modulus;
     const std::vector<AxisArray> full = spool_steps(profile, 200);
     assert_true(largest_difference(full, {full.size(), kStart}) > 0.1);
@@ -328,7 +328,7 @@ void shares_of_a_step_are_kept(void**) {
 // All three axes on the one pump of the 12 t machine, one after the other and together; the second
 // line stays out of it.
 void one_pump_feeds_all(void**) {
-  const PlantProfile profile =
+  const ExcavatorPlantProfile profile =
       machines::load_excavator(machines::find_profile("excavator_12t")).plant;
   ExcavatorPlant plant(profile, {0.4, 0.5, 0.4});
   const AxisArray before = plant.strokes_m();

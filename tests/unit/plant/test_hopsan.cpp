@@ -37,8 +37,8 @@ const Case kCylinder{"cylinder.csv", spool_of_b, load_from_half_a_second};
 const Case kLoaded{"cylinder_loaded.csv", spool_of_b, load_always};
 const Case kRegeneration{"regeneration.csv", spool_of_c, pull_from_half_a_second, true};
 
-PlantProfile profile_of(const Case& c, TimeUs step_us) {
-  PlantProfile profile = hopsan_circuit(step_us);
+ExcavatorPlantProfile profile_of(const Case& c, TimeUs step_us) {
+  ExcavatorPlantProfile profile = hopsan_circuit(step_us);
   if (c.load_n(0.0) == 0.0) {
     profile.start_back_pressure_pa = 2e6;
   }

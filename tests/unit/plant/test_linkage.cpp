@@ -67,7 +67,7 @@ void levers_are_the_slopes_of_the_strokes(void**) {
 }
 
 void angles_reproduce_the_strokes(void**) {
-  const PlantProfile profile = machine_22t();
+  const ExcavatorPlantProfile profile = machine_22t();
   const LinkageGeometry geometry(profile.machine.geometry);
   for (int k = 0; k <= 20; ++k) {
     const double share = 0.05 * k;
@@ -95,7 +95,8 @@ void tip_of_a_stretched_machine(void**) {
 }
 
 // Work of a small turn of one joint against gravity, from the mass centres alone.
-double lifting_moment(const PlantProfile& profile, const JointArray& angle, std::size_t joint) {
+double lifting_moment(const ExcavatorPlantProfile& profile, const JointArray& angle,
+                      std::size_t joint) {
   const auto potential = [&](const JointArray& q) {
     const std::array<double, 3> length{profile.machine.geometry.boom_length_m,
                                        profile.machine.geometry.arm_length_m, 0.0};
@@ -120,7 +121,7 @@ double lifting_moment(const PlantProfile& profile, const JointArray& angle, std:
 }
 
 void holding_forces_balance_gravity(void**) {
-  const PlantProfile profile = machine_22t();
+  const ExcavatorPlantProfile profile = machine_22t();
   LinkageDynamics links(profile);
   for (const JointArray& pose : {kPose, JointArray{-0.6, -2.2, 0.1}, JointArray{0.8, -0.6, -2.2}}) {
     links.start(pose, {});
@@ -132,7 +133,7 @@ void holding_forces_balance_gravity(void**) {
 }
 
 void tip_force_works_through_the_tip(void**) {
-  PlantProfile profile = machine_22t();
+  ExcavatorPlantProfile profile = machine_22t();
   profile.gravity_mps2 = 0.0;
   LinkageDynamics links(profile);
   const LinkageGeometry geometry(profile.machine.geometry);
@@ -176,7 +177,7 @@ void free_swing_keeps_its_energy(void**) {
 
 void single_body_swings_with_the_pendulum_period(void**) {
   // Everything but the boom without mass; small swings about hanging down.
-  PlantProfile profile = machine_22t();
+  ExcavatorPlantProfile profile = machine_22t();
   profile.link[kBoom] = {2000.0, 5000.0, {2.5, 0.0}};
   profile.link[kArm] = {1e-6, 1e-6, {0.0, 0.0}};
   profile.link[kBucket] = {1e-6, 1e-6, {0.0, 0.0}};
@@ -230,7 +231,7 @@ void friction_slips_beyond_its_limit(void**) {
 }
 
 void friction_brakes_a_piston_to_rest(void**) {
-  PlantProfile profile = machine_22t();
+  ExcavatorPlantProfile profile = machine_22t();
   profile.gravity_mps2 = 0.0;
   LinkageDynamics links(profile);
   links.start(kPose, {0.2, -0.3, 0.1});

@@ -31,7 +31,7 @@ constexpr AxisArray kCloseIn{0.845, 1.285, 0.456};  // tip (3.5, -2.2) m
 
 // M from the mass centres' Jacobians, K from the chambers' stiffness and the levers, both written
 // anew; frequencies in Hz, ascending.
-Eigen::Vector3d small_motion_hz(const PlantProfile& profile, const AxisArray& stroke_m) {
+Eigen::Vector3d small_motion_hz(const ExcavatorPlantProfile& profile, const AxisArray& stroke_m) {
   const LinkageGeometry geometry(profile.machine.geometry);
   const JointArray angle = geometry.angles_at(stroke_m);
   const auto lever = geometry.levers(rotations_of(angle));
@@ -76,7 +76,7 @@ Eigen::Vector3d small_motion_hz(const PlantProfile& profile, const AxisArray& st
 
 // Stroke velocities after the force goes, each millisecond. Without friction, which would end the
 // ringing within a second or two; spools stay shut.
-std::vector<AxisArray> ringing(const PlantProfile& profile, const AxisArray& stroke_m) {
+std::vector<AxisArray> ringing(const ExcavatorPlantProfile& profile, const AxisArray& stroke_m) {
   ExcavatorPlant plant(profile, stroke_m);
   plant.set_tip_force({4e3, -4e3});
   plant.advance(20 * kMillisecondUs);
@@ -123,7 +123,7 @@ struct Modes {
 };
 
 Modes measured_modes(double bulk_modulus_pa, const AxisArray& stroke_m, const char* where) {
-  PlantProfile profile = machine_22t();
+  ExcavatorPlantProfile profile = machine_22t();
   profile.bulk_modulus_pa = bulk_modulus_pa;
   profile.friction = {};
   const std::vector<AxisArray> velocity = ringing(profile, stroke_m);

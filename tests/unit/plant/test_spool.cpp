@@ -11,7 +11,7 @@ using namespace graben::plant;
 
 constexpr double kStep = 1e-4;
 
-Spool settled_at(const PlantProfile& profile, double travel_ratio) {
+Spool settled_at(const ExcavatorPlantProfile& profile, double travel_ratio) {
   Spool spool(profile.spool_dynamics());
   spool.set_command(travel_ratio);
   for (int i = 0; i < 10000; ++i) {
@@ -21,7 +21,7 @@ Spool settled_at(const PlantProfile& profile, double travel_ratio) {
 }
 
 void step_response_is_the_critically_damped_one(void**) {
-  PlantProfile profile = machine_22t();
+  ExcavatorPlantProfile profile = machine_22t();
   profile.spool_time_constant_s = 0.02;
   profile.spool_damping = 1.0;
   Spool spool(profile.spool_dynamics());
@@ -34,7 +34,7 @@ void step_response_is_the_critically_damped_one(void**) {
 }
 
 void travel_is_limited(void**) {
-  PlantProfile profile = machine_22t();
+  ExcavatorPlantProfile profile = machine_22t();
   assert_near(settled_at(profile, 3.0).travel_ratio(), 1.0, 1e-9);
   Spool beyond(profile.spool_dynamics());
   Spool full(profile.spool_dynamics());
@@ -55,7 +55,7 @@ void travel_is_limited(void**) {
 }
 
 void deadband_is_shut(void**) {
-  PlantProfile profile = machine_22t();
+  ExcavatorPlantProfile profile = machine_22t();
   profile.deadband_ratio = 0.2;
   for (const double travel : {-0.2, -0.1, 0.0, 0.1, 0.2}) {
     const Spool spool = settled_at(profile, travel);
@@ -64,7 +64,7 @@ void deadband_is_shut(void**) {
 }
 
 void opening_follows_the_travel_outside_it(void**) {
-  PlantProfile profile = machine_22t();
+  ExcavatorPlantProfile profile = machine_22t();
   profile.deadband_ratio = 0.2;
   profile.machine.valve.opening_exponent = 1.6;
   for (const double sign : {-1.0, 1.0}) {
@@ -74,7 +74,7 @@ void opening_follows_the_travel_outside_it(void**) {
 }
 
 void bypass_closes_continuously(void**) {
-  PlantProfile profile = machine_22t();
+  ExcavatorPlantProfile profile = machine_22t();
   profile.deadband_ratio = 0.2;
   profile.bypass_closing_travel = 0.1;
   assert_near(settled_at(profile, 0.0).bypass_closed_ratio(), 0.0, 0.0);

@@ -29,7 +29,7 @@ void hose_drops_0_4_mpa_at_200_l_per_min(void**) {
 // Steady extension: pump line to bore through edge and hose, rod side to tank through hose and
 // edge.
 void hose_is_in_series_with_the_edge(void**) {
-  PlantProfile profile = hopsan_circuit(200);
+  ExcavatorPlantProfile profile = hopsan_circuit(200);
   profile.hose_linear_paspm3 = 3e8;
   profile.hose_quadratic_pas2pm6 = 2e11;
   CylinderCircuit circuit(profile, 0.1, 20000.0, 60000.0);
@@ -50,7 +50,7 @@ void hose_is_in_series_with_the_edge(void**) {
 }
 
 void cushion_grows_towards_the_end_only(void**) {
-  const PlantProfile profile = machine_22t();
+  const ExcavatorPlantProfile profile = machine_22t();
   Cylinder cylinder(profile.cylinder(kArm), profile.step_s());
   const double cap_area = 0.785398163397448 * 0.140 * 0.140;
   const double rod_area = cap_area - 0.785398163397448 * 0.100 * 0.100;
@@ -97,7 +97,7 @@ struct Impact {
 };
 
 // Full duty into the end of one axis at full swash, chambers watched in every step.
-Impact run_into_end(const PlantProfile& profile, std::size_t axis, double duty) {
+Impact run_into_end(const ExcavatorPlantProfile& profile, std::size_t axis, double duty) {
   const double full = profile.machine.geometry.cylinder[axis].stroke_m;
   AxisArray start{0.7, 0.7, 0.6};
   start[axis] = duty > 0.0 ? full - 0.5 : 0.5;
@@ -127,9 +127,9 @@ Impact run_into_end(const PlantProfile& profile, std::size_t axis, double duty) 
 }
 
 void cushions_end_the_blow(void**) {
-  PlantProfile profile = machine_22t();
+  ExcavatorPlantProfile profile = machine_22t();
   profile.swash_ratio = {1.0, 1.0};
-  PlantProfile bare = profile;
+  ExcavatorPlantProfile bare = profile;
   bare.cushion_pressure_pa = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (const double duty : {1.0, -1.0}) {

@@ -142,7 +142,7 @@ void speed_is_flow_over_displacement(void**) {
 // Left to itself on the oil that the spool shuts in: K = beta D^2 2 / V. Make-up fills what the
 // first swings leave open, then nothing but the filter of the elements takes energy.
 void shut_in_it_rings_at_its_own_frequency(void**) {
-  PlantProfile profile = machine_12t();
+  ExcavatorPlantProfile profile = machine_12t();
   profile.platform.coulomb_nm = 0.0;
   profile.platform.viscous_nmsprad = 0.0;
   profile.swing_motor.leak_m3pspa = 0.0;
@@ -235,7 +235,7 @@ void platform_keeps_its_momentum_and_sticks(void**) {
 // Both ways, with the boom going up and down in between, into the reliefs, until it stands.
 void energy_is_accounted_for(void**) {
   for (const double coupled : {0.0, 1.0}) {
-    PlantProfile profile = machine_12t();
+    ExcavatorPlantProfile profile = machine_12t();
     profile.swash_ratio = {1.0, 1.0};
     profile.swing_motor.leak_m3pspa = 1e-11;
     ExcavatorPlant plant(profile, kStart);
@@ -268,7 +268,7 @@ void energy_is_accounted_for(void**) {
 }
 
 void pilot_of_the_swing_is_as_the_others(void**) {
-  PlantProfile profile = machine_12t();
+  ExcavatorPlantProfile profile = machine_12t();
   profile.dead_time_s = {0.0, 0.0, 0.0, 0.1};
   ExcavatorPlant plant(profile, kStart);
   run(plant, {0.1, 0.0, 0.0, 0.1}, 90 * kMillisecondUs);
@@ -306,7 +306,7 @@ void without_the_drive_the_swing_is_held(void**) {
   assert_true(plain.strokes_m() == told.strokes_m());
   assert_true(plain.pump_pressures_pa() == told.pump_pressures_pa());
   // What stands where its section would be is not looked at, not even as a port of a pump's line.
-  PlantProfile profile = machine_22t();
+  ExcavatorPlantProfile profile = machine_22t();
   profile.machine.valve.spool[kSwing] = profile.machine.valve.spool[kArm];
   profile.machine.valve.spool[kSwing].pump = 1;
   ExcavatorPlant other(profile, {0.7, 0.7, 0.6}, 0.4);

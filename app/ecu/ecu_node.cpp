@@ -1,6 +1,8 @@
-#include "app/ecu/bus_watch.hpp"
+#include "app/ecu/ecu_node.hpp"
 
 #include <algorithm>
+
+#include "app/ecu/kinds.hpp"
 
 namespace graben::ecu {
 namespace {
@@ -51,5 +53,8 @@ void BusWatch::end(TimeUs now_us) {
     open_from_us_ = now_us + kOpenAgain_us;
   }
 }
+
+template class EcuNode<ExcavatorKind>;
+template class EcuNode<DozerKind>;
 
 }  // namespace graben::ecu

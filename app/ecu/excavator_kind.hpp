@@ -1,14 +1,27 @@
 #pragma once
-/// The excavator's controller as a node on its bus.
+/// The excavator as a machine kind: what its ECU is made of.
+
+#include <cstdint>
 
 #include "app/ecu/ecu_node.hpp"
+#include "can_dbc/generated/excavator_dbc.hpp"
 #include "firmware/excavator/excavator_controller.hpp"
 #include "hal/buses/excavator_receiver.hpp"
 #include "hal/buses/excavator_transmitter.hpp"
 
+namespace graben::machines {
+struct ExcavatorMachine;
+}
+
 namespace graben::ecu {
 
+/// Members as EcuNode describes them.
 struct ExcavatorKind {
+  static constexpr const char* kName = "excavator";
+  static constexpr bool kHasTasks = true;
+  using Machine = machines::ExcavatorMachine;
+  using Dbc = dbc::excavator::Dbc;
+  using Profile = ExcavatorProfile;
   using Setup = ExcavatorSetup;
   using Inputs = ExcavatorInputs;
   using Outputs = ExcavatorOutputs;
@@ -16,11 +29,14 @@ struct ExcavatorKind {
   using Receiver = ExcavatorReceiver;
   using Transmitter = ExcavatorTransmitter;
   using MemoryAccess = ControllerMemoryAccess;
+  using Ecu = EcuNode<ExcavatorKind>;
+
   [[nodiscard]] static BusParts parts(const Setup& setup) { return {setup.profile.has_swing()}; }
-  [[nodiscard]] static bool is_command(std::uint32_t id);
+  [[nodiscard]] static constexpr bool is_command(std::uint32_t id) {
+    return id == Dbc::SpoolCommand::kId || id == Dbc::SwingCommand::kId;
+  }
 };
 
 extern template class EcuNode<ExcavatorKind>;
-using ExcavatorEcu = EcuNode<ExcavatorKind>;
 
 }  // namespace graben::ecu

@@ -1,0 +1,2 @@
+#include "firmware/drives/servo.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
