@@ -59,12 +59,12 @@ DriveVector start_of(const TaskRunOptions& options, const ExcavatorProfile& prof
   return drives.value;
 }
 
-machines::ExcavatorMachine machine_of(const TaskRunOptions& options) {
+machines::SimulatedExcavator machine_of(const TaskRunOptions& options) {
   ScenarioOptions scenario;
   scenario.errors = options.errors;
   scenario.scenario.seed = options.seed;
-  machines::ExcavatorMachine machine =
-      arranged(machines::load_excavator(machines::find_profile(options.profile)), scenario);
+  machines::SimulatedExcavator machine = arranged(
+      machines::load_simulated_excavator(machines::find_profile(options.profile)), scenario);
   if (options.swash) {
     std::fill_n(machine.profile.dig_swash_ratio.begin(), machine.profile.pump_count,
                 *options.swash);
@@ -91,7 +91,7 @@ void throw_unless_done(const runs::AutodigResult& result) {
 }  // namespace
 
 void run_task(const TaskRunOptions& options) {
-  const machines::ExcavatorMachine machine = machine_of(options);
+  const machines::SimulatedExcavator machine = machine_of(options);
   const machines::TaskFile task = planned(options, machine.profile);
   const TaskProgram& program = task.result.program;
   runs::AutodigOptions run;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/machines/excavator_file.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/machines/task_file.hpp"
 
 namespace graben::cli {

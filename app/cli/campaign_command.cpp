@@ -51,18 +51,18 @@ void add_campaign_options(CLI::App& command, runs::CampaignOptions& options) {
 }
 
 runs::CampaignRow dig_draw(const DigCampaignOptions& options,
-                           const machines::ExcavatorMachine& nominal, std::uint64_t seed) {
+                           const machines::SimulatedExcavator& nominal, std::uint64_t seed) {
   ScenarioOptions scenario = options.scenario;
   scenario.scenario.seed = seed;
-  const machines::ExcavatorMachine machine = arranged(nominal, scenario);
+  const machines::SimulatedExcavator machine = arranged(nominal, scenario);
   runs::DigOptions dig = usual_run(machine, scenario);
   dig.speed_override_ratio = options.speed;
   return runs::dig_campaign_row(runs::run_dig(machine, dig, [](double, const std::string&) {}));
 }
 
 void campaign_dig(const DigCampaignOptions& options) {
-  const machines::ExcavatorMachine nominal =
-      machines::load_excavator(machines::find_profile(options.profile));
+  const machines::SimulatedExcavator nominal =
+      machines::load_simulated_excavator(machines::find_profile(options.profile));
   runs::run_campaign(options.campaign, runs::dig_campaign(),
                      fmt::format("dig {} {:08x}, speed {}, {}", nominal.name, nominal.hash,
                                  options.speed, scenario_words(options.scenario)),
@@ -70,15 +70,15 @@ void campaign_dig(const DigCampaignOptions& options) {
 }
 
 runs::CampaignRow grade_draw(const GradeCampaignOptions& options,
-                             const machines::DozerMachine& nominal, std::uint64_t seed) {
-  const machines::DozerMachine machine = arranged(nominal, options.scenario, seed);
+                             const machines::SimulatedDozer& nominal, std::uint64_t seed) {
+  const machines::SimulatedDozer machine = arranged(nominal, options.scenario, seed);
   return runs::grade_campaign_row(machine,
                                   runs::run_grade(machine, {}, [](double, const std::string&) {}));
 }
 
 void campaign_grade(const GradeCampaignOptions& options) {
-  const machines::DozerMachine nominal =
-      machines::load_dozer(machines::find_profile(options.profile));
+  const machines::SimulatedDozer nominal =
+      machines::load_simulated_dozer(machines::find_profile(options.profile));
   runs::run_campaign(options.campaign, runs::grade_campaign(),
                      fmt::format("grade {} {:08x}, {}", nominal.name, nominal.hash,
                                  scenario_words(nominal, options.scenario)),

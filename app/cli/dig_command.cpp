@@ -86,9 +86,10 @@ const char* end_text(runs::DigEnd end) {
 void dig(const DigCommand& options) {
   ScenarioOptions scenario = options.scenario;
   scenario.scenario.seed = options.seed;
-  const machines::ExcavatorMachine machine = arranged(
-      machines::load_excavator(machines::find_profile(options.profile.value_or("excavator_22t"))),
-      scenario);
+  const machines::SimulatedExcavator machine =
+      arranged(machines::load_simulated_excavator(
+                   machines::find_profile(options.profile.value_or("excavator_22t"))),
+               scenario);
   runs::DigOptions run_options = usual_run(machine, scenario);
   run_options.start_strokes_m =
       start_strokes(options, machine.profile).value_or(run_options.start_strokes_m);

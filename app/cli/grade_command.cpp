@@ -37,21 +37,21 @@ std::string end_text(const runs::GradeResult& result) {
              : "the grade was not finished in time";
 }
 
-machines::DozerMachine machine_of(const GradeCommand& options) {
+machines::SimulatedDozer machine_of(const GradeCommand& options) {
   if (options.scenario.errors == "all" && !options.seed) {
     throw std::runtime_error("--errors all draws the errors: it needs --seed");
   }
-  return arranged(machines::load_dozer(machines::find_profile(options.profile)), options.scenario,
-                  options.seed.value_or(0));
+  return arranged(machines::load_simulated_dozer(machines::find_profile(options.profile)),
+                  options.scenario, options.seed.value_or(0));
 }
 
-std::string words_of(const GradeCommand& options, const machines::DozerMachine& machine) {
+std::string words_of(const GradeCommand& options, const machines::SimulatedDozer& machine) {
   const std::string seed = options.seed ? fmt::format(" | seed {}", *options.seed) : "";
   return fmt::format("{} | {}{}", machine.name, scenario_words(machine, options.scenario), seed);
 }
 
 void grade(const GradeCommand& options) {
-  const machines::DozerMachine machine = machine_of(options);
+  const machines::SimulatedDozer machine = machine_of(options);
   const std::filesystem::path out(options.out);
   std::filesystem::create_directories(out);
   runs::GradeOptions run;
@@ -86,7 +86,7 @@ void search(const GradeCommand& options) {
   if (options.scenario.speed_mode != "constant") {
     throw std::runtime_error("--within looks for a constant speed: it needs --speed-mode constant");
   }
-  const machines::DozerMachine machine = machine_of(options);
+  const machines::SimulatedDozer machine = machine_of(options);
   runs::FastestSpeed result;
   {
     runs::ProgressBar bar("grade");

@@ -43,8 +43,8 @@ void add_error_option(CLI::App& command, GradeScenario& scenario) {
       ->capture_default_str();
 }
 
-machines::DozerMachine arranged(const machines::DozerMachine& machine,
-                                const GradeScenario& scenario, std::uint64_t seed) {
+machines::SimulatedDozer arranged(const machines::SimulatedDozer& machine,
+                                  const GradeScenario& scenario, std::uint64_t seed) {
   machines::DozerScenario wanted;
   wanted.policy =
       scenario.speed_mode == "constant" ? SpeedPolicy::kConstant : SpeedPolicy::kBounded;
@@ -57,7 +57,7 @@ machines::DozerMachine arranged(const machines::DozerMachine& machine,
   return machines::arranged(machine, wanted);
 }
 
-std::string scenario_words(const machines::DozerMachine& nominal, const GradeScenario& scenario) {
+std::string scenario_words(const machines::SimulatedDozer& nominal, const GradeScenario& scenario) {
   const double rpm = scenario.engine_rpm.value_or(nominal.profile.hst.engine_radps / kRadpsPerRpm);
   return fmt::format("{}, wanted {} m/s, {:.0f} rpm, errors {}", scenario.speed_mode,
                      scenario.speed_mps.value_or(nominal.profile.travel.speed_desired_mps), rpm,

@@ -27,11 +27,11 @@ void add_engine_option(CLI::App& command, GradeScenario& scenario);
 void add_error_option(CLI::App& command, GradeScenario& scenario);
 
 /// The machine as the options have it. Throws std::runtime_error where its engine can't run so.
-[[nodiscard]] machines::DozerMachine arranged(const machines::DozerMachine& machine,
-                                              const GradeScenario& scenario, std::uint64_t seed);
+[[nodiscard]] machines::SimulatedDozer arranged(const machines::SimulatedDozer& machine,
+                                                const GradeScenario& scenario, std::uint64_t seed);
 
 /// "bounded, wanted 1.6 m/s, 1500 rpm, errors all"; the same words, the same scenario.
-[[nodiscard]] std::string scenario_words(const machines::DozerMachine& nominal,
+[[nodiscard]] std::string scenario_words(const machines::SimulatedDozer& nominal,
                                          const GradeScenario& scenario);
 
 }  // namespace graben::cli

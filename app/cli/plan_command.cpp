@@ -12,6 +12,7 @@
 #include "app/cli/guarded.hpp"
 #include "app/cli/validators.hpp"
 #include "app/machines/plan_text.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/reports/plan_report.hpp"
 #include "app/runs/plan_run.hpp"
 
@@ -36,8 +37,15 @@ TeethPose pose(const std::vector<double>& given, const TeethPose& otherwise) {
   return given.empty() ? otherwise : TeethPose{{given[0], given[1], given[2]}, given[3]};
 }
 
-LineRequest request_of(const PlanCommand& options, const machines::ExcavatorMachine& machine) {
-  const machines::LineTask& task = machine.experiment.line;
+/// What the command does not tell of the line is the simulated machine's.
+machines::LineTask task_of(const PlanCommand& options, const fs::path& file) {
+  const bool is_whole = !options.from.empty() && !options.to.empty() &&
+                        (options.duration_s.has_value() || options.speed_mps.has_value());
+  return is_whole ? machines::LineTask{} : machines::load_simulated_excavator(file).experiment.line;
+}
+
+LineRequest request_of(const PlanCommand& options, const machines::ExcavatorMachine& machine,
+                       const machines::LineTask& task) {
   LineRequest request{pose(options.from, task.from), pose(options.to, task.to),
                       options.acceleration_mps2.value_or(machine.profile.line.acceleration_mps2)};
   request.speed_mps = options.speed_mps.value_or(0.0);
@@ -61,11 +69,11 @@ void write_text(const fs::path& file, const std::string& text) {
 }
 
 void plan(const PlanCommand& options) {
-  const machines::ExcavatorMachine machine =
-      machines::load_excavator(machines::find_profile(options.profile));
+  const fs::path file = machines::find_profile(options.profile);
+  const machines::ExcavatorMachine machine = machines::load_excavator(file);
   const ExcavatorProfile& profile = machine.profile;
   const SwingKinematics kinematics(profile.geometry);
-  const LineRequest request = request_of(options, machine);
+  const LineRequest request = request_of(options, machine, task_of(options, file));
   const PlanResult result = plan_line(kinematics, drive_limits(profile), request);
   if (result.refusal != PlanRefusal::kNone) {
     throw std::runtime_error(machines::refusal_words(profile.geometry, result));
@@ -90,7 +98,8 @@ void add_plan(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand(
       "plan",
       "Plan a straight line of the bucket's teeth, with swing; nothing moves. Without --from, --to "
-      "and a pace: the profile's line. A line that can't be had ends with status 1 and says where");
+      "and a pace: the line of NAME.sim.toml. A line that can't be had ends with status 1 and says "
+      "where");
   command->add_option("--profile", options->profile, "Machine profile: file or shipped name")
       ->capture_default_str();
   command

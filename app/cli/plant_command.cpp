@@ -108,7 +108,7 @@ runs::Player player_of(const std::string& name, machines::MachineKind kind) {
 }
 
 nlohmann::ordered_json run_program(const PlantCommand& options,
-                                   const machines::ExcavatorMachine& machine,
+                                   const machines::SimulatedExcavator& machine,
                                    runs::PlantRunOptions run) {
   if (!machine.profile.has_swing()) {
     refuse("--operator program", "an excavator with a swing drive");
@@ -131,10 +131,10 @@ nlohmann::ordered_json run_excavator(const PlantCommand& options,
     refuse("--engine-rpm", "a dozer");
   }
   if (options.player == "program") {
-    return run_program(options, machines::load_excavator(profile), run);
+    return run_program(options, machines::load_simulated_excavator(profile), run);
   }
-  const machines::ExcavatorMachine machine =
-      arranged(machines::load_excavator(profile), options.scenario);
+  const machines::SimulatedExcavator machine =
+      arranged(machines::load_simulated_excavator(profile), options.scenario);
   const Eigen::Vector3d strokes_m = usual_run(machine, options.scenario).start_strokes_m;
   return summary_of(runs::run_plant(
       machine, run, plant::ExcavatorPlant::AxisArray{strokes_m[0], strokes_m[1], strokes_m[2]}));
@@ -150,7 +150,8 @@ nlohmann::ordered_json run_dozer(const PlantCommand& options, const std::filesys
   GradeScenario grade = options.grade;
   grade.errors = errors;
   return summary_of(runs::run_plant(
-      arranged(machines::load_dozer(profile), grade, options.scenario.scenario.seed), run));
+      arranged(machines::load_simulated_dozer(profile), grade, options.scenario.scenario.seed),
+      run));
 }
 
 void plant_on_bus(const PlantCommand& options) {

@@ -51,11 +51,11 @@ void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
                    "For comparison: lambda stays 1, whatever the machine can do");
 }
 
-machines::ExcavatorMachine arranged(const machines::ExcavatorMachine& machine,
-                                    const ScenarioOptions& options) {
+machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machine,
+                                      const ScenarioOptions& options) {
   machines::Scenario scenario = options.scenario;
   scenario.errors = errors_of(options.errors);
-  machines::ExcavatorMachine result = machines::arranged(machine, scenario);
+  machines::SimulatedExcavator result = machines::arranged(machine, scenario);
   if (options.fixed_lambda) {
     result.profile.control.lambda_policy = McvPolicy::kFixed;
     // Nor does anything else slow it.
@@ -83,7 +83,7 @@ std::string scenario_words(const ScenarioOptions& options) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-runs::DigOptions usual_run(const machines::ExcavatorMachine& machine,
+runs::DigOptions usual_run(const machines::SimulatedExcavator& machine,
                            const ScenarioOptions& options) {
   runs::DigOptions run;
   if (options.scenario.air) {

@@ -22,15 +22,15 @@ struct ScenarioOptions {
 void add_scenario_options(CLI::App& command, ScenarioOptions& options);
 
 /// The machine as the options have it.
-[[nodiscard]] machines::ExcavatorMachine arranged(const machines::ExcavatorMachine& machine,
-                                                  const ScenarioOptions& options);
+[[nodiscard]] machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machine,
+                                                    const ScenarioOptions& options);
 
 /// "soil, stiff oil, dead time 0.15 s, errors all"; the same words, the same scenario.
 [[nodiscard]] std::string scenario_words(const ScenarioOptions& options);
 
 /// Where the bucket starts and how far it goes unless told: machines::dig_start(), once round; in
 /// the air as the profile has it. Throws std::runtime_error where that is out of reach.
-[[nodiscard]] runs::DigOptions usual_run(const machines::ExcavatorMachine& machine,
+[[nodiscard]] runs::DigOptions usual_run(const machines::SimulatedExcavator& machine,
                                          const ScenarioOptions& options);
 
 }  // namespace graben::cli

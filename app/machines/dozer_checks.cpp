@@ -20,7 +20,6 @@ constexpr double kLeastLeverAngle_rad = 0.15;
 constexpr double kMostSag_m = 0.10;
 /// Steeper ground carries no dozer.
 constexpr double kMostSlope = 0.6;
-constexpr double kDepthTolerance_m = 1e-3;
 constexpr double kGravity_mps2 = 9.80665;
 
 double angle_rad(const Eigen::Vector2d& direction) {
@@ -143,7 +142,7 @@ void check_corners(TomlReader& reader, const GradeDesign& grade) {
     const GradePoint& from = grade.point[i - 1];
     const GradePoint& to = grade.point[i];
     const double apart_m = to.x_m - from.x_m;
-    const std::string key = fmt::format("experiment.profile[{}]", i);
+    const std::string key = fmt::format("grade.profile[{}]", i);
     if (!(apart_m > 0.0)) {
       reader.fail(key, fmt::format("x = {} m; allowed: more than the point before, {} m", to.x_m,
                                    from.x_m));
@@ -163,59 +162,51 @@ void check_corners(TomlReader& reader, const GradeDesign& grade) {
   }
 }
 
-void check_grade(TomlReader& reader, const DozerProfile& profile, double length_m,
-                 double depth_max_m) {
-  const GradeDesign& grade = profile.grade;
-  check_corners(reader, grade);
-  const auto end = grade.point.begin() + grade.count;
-  const double lowest_m =
-      std::min_element(grade.point.begin(), end, [](const GradePoint& a, const GradePoint& b) {
-        return a.z_m < b.z_m;
-      })->z_m;
-  if (std::abs(lowest_m + depth_max_m) > kDepthTolerance_m) {
-    reader.fail("experiment.depth_max",
-                fmt::format("{} m; the profile's lowest point is at {} m", depth_max_m, lowest_m));
-  }
-  if (depth_max_m > -profile.blade.edge_min_m) {
-    reader.fail("experiment.depth_max",
-                fmt::format("{} m; allowed: at most what the blade reaches below the tracks, {} m",
-                            depth_max_m, -profile.blade.edge_min_m));
-  }
-  const GradePoint& last = *(end - 1);
-  if (length_m > last.x_m) {
-    reader.fail("experiment.length", fmt::format("{} m; allowed: at most to the profile's end, {} "
-                                                 "m",
-                                                 length_m, last.x_m));
+void check_depth(TomlReader& reader, const DozerProfile& profile) {
+  const double lowest_m = lowest_point_m(profile.grade);
+  if (lowest_m < profile.blade.edge_min_m) {
+    reader.fail("grade.profile",
+                fmt::format("its lowest point is at {} m; allowed: down to what the blade reaches "
+                            "below the tracks, {} m",
+                            lowest_m, profile.blade.edge_min_m));
   }
 }
 
-void check_reach(TomlReader& reader, const DozerProfile& profile, double length_m) {
-  const GradeReach reach = grade_reach(profile, profile.grade.point[0].x_m, length_m);
+void check_reach(TomlReader& reader, const DozerProfile& profile) {
+  const GradeDesign& grade = profile.grade;
+  const GradePoint& last = grade.point[static_cast<unsigned>(grade.count - 1)];
+  const GradeReach reach = grade_reach(profile, grade.point[0].x_m, last.x_m);
   if (!reach.reached) {
-    reader.fail(
-        "experiment.profile",
-        fmt::format("with the body at x = {:.2f} m the cutting edge would have to be at {:.3f} "
-                    "m against the tracks' ground line; allowed: the blade's reach, {} .. {} m",
-                    reach.position_m, reach.edge_m, profile.blade.edge_min_m,
-                    profile.blade.edge_max_m));
+    reader.fail("grade.profile",
+                fmt::format("with the body at x = {:.2f} m the cutting edge would have to be at "
+                            "{:.3f} m against the tracks' ground line; allowed: the blade's reach, "
+                            "{} .. {} m",
+                            reach.position_m, reach.edge_m, profile.blade.edge_min_m,
+                            profile.blade.edge_max_m));
   }
 }
 
 }  // namespace
 
-void check_dozer_across_keys(TomlReader& reader, const DozerProfile& profile,
-                             const DozerExperiment& experiment) {
+double lowest_point_m(const GradeDesign& grade) {
+  const auto* const end = grade.point.begin() + grade.count;
+  return std::min_element(grade.point.begin(), end,
+                          [](const GradePoint& a, const GradePoint& b) { return a.z_m < b.z_m; })
+      ->z_m;
+}
+
+void check_dozer_across_keys(TomlReader& reader, const DozerProfile& profile) {
   const double l11_m = reader.number("blade.L11", {0.05, 5.0, "m"});
-  const double depth_max_m = reader.number("experiment.depth_max", {0.0, 5.0, "m"});
   if (!reader.errors().empty()) {
     return;
   }
   check_body(reader, profile.body);
   check_blade(reader, profile.blade, l11_m);
   check_engine(reader, profile);
-  check_grade(reader, profile, experiment.length_m, depth_max_m);
+  check_corners(reader, profile.grade);
+  check_depth(reader, profile);
   if (reader.errors().empty()) {
-    check_reach(reader, profile, experiment.length_m);
+    check_reach(reader, profile);
   }
 }
 

@@ -6,13 +6,13 @@
 namespace graben::machines {
 
 ExcavatorMachine load_excavator(const ProfileDocument& document) {
-  return load_machine<ExcavatorMachine>(
-      document, MachineKind::kExcavator, [](TomlReader& reader, ExcavatorMachine& machine) {
-        machine.profile = read_controller_sections(reader);
-        machine.plant = read_plant_sections(reader, machine.profile);
-        machine.experiment = read_experiment_sections(reader, machine.profile.dig_path);
-        check_across_keys(reader, machine.profile, machine.experiment);
-      });
+  ExcavatorMachine machine;
+  machine.name = document.file.stem().string();
+  machine.hash = read_as(document, MachineKind::kExcavator, [&](TomlReader& reader) {
+    machine.profile = read_excavator_sections(reader);
+    check_excavator_across_keys(reader, machine.profile);
+  });
+  return machine;
 }
 
 ExcavatorMachine load_excavator(const std::filesystem::path& file) {

@@ -6,22 +6,15 @@
 #include <string>
 
 #include "app/machines/profile_file.hpp"
-#include "app/machines/simulated/experiment.hpp"
-#include "app/plant/excavator_plant_profile.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
 
 namespace graben::machines {
 
-struct ProfileDocument;
-
-/// An excavator as its file describes it: what the controller knows, and the machine that the
-/// simulation puts in its place.
+/// An excavator as its controller has to know it.
 struct ExcavatorMachine {
   std::string name;        ///< File name without its ending.
-  std::uint32_t hash = 0;  ///< FNV-1a of the file's bytes; on the bus as ProfileHash.
+  std::uint32_t hash = 0;  ///< Of the checked values (TomlReader::hash); on the bus as ProfileHash.
   ExcavatorProfile profile;
-  plant::ExcavatorPlantProfile plant;
-  Experiment experiment;
 };
 
 /// Reads and checks an excavator's profile. Throws ProfileError with every error found.

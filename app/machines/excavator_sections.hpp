@@ -1,28 +1,29 @@
 #pragma once
-/// The sections of an excavator's TOML file.
+/// The sections of an excavator's TOML files, and keys that several of them have.
 
-#include "app/machines/simulated/experiment.hpp"
+#include <string>
+
 #include "app/machines/toml_reader.hpp"
-#include "app/plant/excavator_plant_profile.hpp"
+#include "firmware/excavator/excavator_controller.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/excavator/kinematics/swing_kinematics.hpp"
 
 namespace graben::machines {
 
-/// What the controller knows: geometry, pumps, valve, control, path.
-[[nodiscard]] ExcavatorProfile read_controller_sections(TomlReader& reader);
+/// All that the controller knows: geometry, pumps, valve, control, safety, task.
+[[nodiscard]] ExcavatorProfile read_excavator_sections(TomlReader& reader);
 
-/// What only the simulated machine has, beside the nominal data in `nominal`.
-[[nodiscard]] plant::ExcavatorPlantProfile read_plant_sections(TomlReader& reader,
-                                                               const ExcavatorProfile& nominal);
+/// Checks that need more than one key: the path lies in the work space, angle ranges fit the stroke
+/// ends, orifices and tables fit each other. They are made only where each key by itself is right.
+void check_excavator_across_keys(TomlReader& reader, const ExcavatorProfile& profile);
 
 /// A path at this key.
 [[nodiscard]] DigPath read_path(TomlReader& reader, const std::string& at);
-/// What can be tried on it; the obstacle stands on `path`.
-[[nodiscard]] Experiment read_experiment_sections(TomlReader& reader, const DigPath& path);
-/// Checks that need more than one key: both paths and the line lie in the work space, angle ranges
-/// fit the stroke ends, orifices and tables fit each other. They are made only where
-/// each key by itself is right.
-void check_across_keys(TomlReader& reader, const ExcavatorProfile& profile,
-                       const Experiment& experiment);
+/// An error at this key where a checked profile's path leaves the work space.
+void check_path(TomlReader& reader, const char* key, const ProfileCheck& check);
+
+/// A pose of the teeth, { position = [x, y, z], attitude = a }: m and rad, in the ground frame of
+/// the swing axis.
+[[nodiscard]] TeethPose read_teeth(TomlReader& reader, const std::string& at);
 
 }  // namespace graben::machines

@@ -1,5 +1,7 @@
 #pragma once
-/// Machine profiles as files, whatever their kind: TOML in, checked as a whole.
+/// Machine profiles as files, whatever their kind: TOML in, checked as a whole. NAME.toml is the
+/// machine, as its controller has to know it; NAME.sim.toml beside it is what only a simulation of
+/// it needs.
 
 #include <filesystem>
 #include <stdexcept>
@@ -8,8 +10,7 @@
 
 namespace graben::machines {
 
-/// Everything that is wrong with a profile, a line each: key path, line, value, unit, allowed
-/// range.
+/// Everything that is wrong with a file, a line each: key path, line, value, unit, allowed range.
 class ProfileError : public std::runtime_error {
  public:
   ProfileError(const std::string& file, std::vector<std::string> errors);
@@ -23,16 +24,23 @@ class ProfileError : public std::runtime_error {
 /// std::runtime_error that lists where it looked, and calls it `what`.
 [[nodiscard]] std::filesystem::path find_file(const char* what, const std::string& name,
                                               const std::vector<std::filesystem::path>& folders);
-/// A profile.
+/// A profile. Throws the same, and where the file is a simulated machine's.
 [[nodiscard]] std::filesystem::path find_profile(const std::string& name,
                                                  const std::vector<std::filesystem::path>& folders);
 /// The same among the profiles of this source tree: for the tool and the tests, which stay in it.
 [[nodiscard]] std::filesystem::path find_profile(const std::string& name);
 
+/// NAME.sim.toml beside this machine's NAME.toml, be it there or not.
+[[nodiscard]] std::filesystem::path simulation_file(const std::filesystem::path& file);
+/// True for NAME.sim.toml.
+[[nodiscard]] bool is_simulation_file(const std::filesystem::path& file);
+
 enum class MachineKind { kExcavator, kDozer };
 
-/// Which kind of machine a profile describes; reads no more of it. Throws ProfileError if its
+/// The kind of machine that a file describes; reads no more of it. Throws ProfileError if its
 /// `kind` is missing or none of these.
 [[nodiscard]] MachineKind profile_kind(const std::filesystem::path& file);
+
+struct ProfileDocument;
 
 }  // namespace graben::machines

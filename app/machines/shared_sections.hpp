@@ -35,15 +35,6 @@ template <class Control>
   return control;
 }
 
-/// Oil and spool of the simulated valve, in section `valve`.
-template <class Plant>
-void read_valve_of_plant(TomlReader& reader, const std::string& valve, Plant& plant) {
-  plant.spool_time_constant_s = reader.number(valve + ".time_constant", {0.001, 1.0, "s"});
-  plant.spool_damping = reader.number(valve + ".damping", {0.1, 10.0, ""});
-  plant.deadband_ratio = reader.number(valve + ".deadband", {0.0, 0.9, ""});
-  plant.bulk_modulus_pa = reader.number(valve + ".bulk_modulus", {1e8, 1e11, "Pa"});
-}
-
 /// The watches' keys that each kind's safety struct has.
 template <class Safety>
 [[nodiscard]] Safety read_safety_of_valve(TomlReader& reader) {

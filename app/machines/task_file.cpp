@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/machines/excavator_sections.hpp"
 #include "app/machines/profile_document.hpp"
 #include "app/machines/task_text.hpp"
-#include "app/machines/teeth_pose_key.hpp"
 
 namespace graben::machines {
 namespace {
@@ -150,10 +150,10 @@ TaskFile load_task(const std::filesystem::path& file, const ExcavatorProfile& pr
   TomlReader reader(document.root);
   TaskFile task;
   task.name = file.stem().string();
-  task.hash = document.hash;
   task.request = read_request(reader, profile);
   reader.refuse_unknown_keys();
   throw_errors(document, reader);
+  task.hash = reader.hash();
   task.result = plan_program(profile, task.request);
   if (task.result.refusal != ProgramRefusal::kNone) {
     reader.fail(fmt::format("step[{}]", task.result.step),

@@ -14,7 +14,7 @@ namespace graben::machines {
 /// A task as its file describes it, and what became of it on the machine that it was read for.
 struct TaskFile {
   std::string name;        ///< File name without its ending.
-  std::uint32_t hash = 0;  ///< FNV-1a of the file's bytes.
+  std::uint32_t hash = 0;  ///< Of the checked values: TomlReader::hash.
   ProgramRequest request;
   ProgramResult result;  ///< Never a refusal.
 };

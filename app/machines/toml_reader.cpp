@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <sstream>
 
 namespace graben::machines {
@@ -20,6 +21,30 @@ std::string value_text(const toml::node& node) {
   return text.str();
 }
 
+/// FNV-1a, a byte after the other.
+class Hash {
+ public:
+  void add(std::uint8_t byte) { hash_ = (hash_ ^ byte) * 16777619u; }
+  void add(const std::string& text) {
+    for (const char c : text) {
+      add(static_cast<std::uint8_t>(c));
+    }
+    add(std::uint8_t{0});
+  }
+  /// Its IEEE 754 bits, the low ones first.
+  void add(double value) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    for (int i = 0; i < 8; ++i) {
+      add(static_cast<std::uint8_t>(bits >> (8 * i)));
+    }
+  }
+  [[nodiscard]] std::uint32_t value() const { return hash_; }
+
+ private:
+  std::uint32_t hash_ = 2166136261u;
+};
+
 }  // namespace
 
 bool TomlReader::has(const std::string& key) const { return root_.at_path(key).node() != nullptr; }
@@ -31,6 +56,25 @@ const toml::node* TomlReader::find(const std::string& key) {
     errors_.push_back(fmt::format("{}: missing", key));
   }
   return node;
+}
+
+void TomlReader::note(const std::string& key, std::vector<double> values) {
+  for (double& value : values) {
+    value += 0.0;  // -0.0 is 0.0.
+  }
+  values_[key] = std::move(values);
+}
+
+std::uint32_t TomlReader::hash() const {
+  Hash hash;
+  for (const auto& [key, values] : values_) {
+    hash.add(key);
+    hash.add(static_cast<double>(values.size()));
+    for (const double value : values) {
+      hash.add(value);
+    }
+  }
+  return hash.value();
 }
 
 void TomlReader::fail(const std::string& key, const std::string& what) {
@@ -61,7 +105,10 @@ double TomlReader::checked(const toml::node& node, const std::string& key, const
 
 double TomlReader::number(const std::string& key, const Range& range) {
   const toml::node* node = find(key);
-  return node != nullptr ? checked(*node, key, range) : std::clamp(0.0, range.least, range.most);
+  const double value =
+      node != nullptr ? checked(*node, key, range) : std::clamp(0.0, range.least, range.most);
+  note(key, {value});
+  return value;
 }
 
 int TomlReader::integer(const std::string& key, int least, int most) {
@@ -74,8 +121,10 @@ int TomlReader::integer(const std::string& key, int least, int most) {
                           most));
     return least;
   }
-  return static_cast<int>(
-      checked(*node, key, {static_cast<double>(least), static_cast<double>(most), ""}));
+  const double value =
+      checked(*node, key, {static_cast<double>(least), static_cast<double>(most), ""});
+  note(key, {value});
+  return static_cast<int>(value);
 }
 
 bool TomlReader::boolean(const std::string& key) {
@@ -83,7 +132,9 @@ bool TomlReader::boolean(const std::string& key) {
   if (node != nullptr && !node->is_boolean()) {
     fail(key, fmt::format("{}; allowed: true, false", value_text(*node)));
   }
-  return node != nullptr && node->value<bool>().value_or(false);
+  const bool value = node != nullptr && node->value<bool>().value_or(false);
+  note(key, {value ? 1.0 : 0.0});
+  return value;
 }
 
 int TomlReader::choice(const std::string& key, const std::vector<std::string>& allowed_values) {
@@ -97,6 +148,7 @@ int TomlReader::choice(const std::string& key, const std::vector<std::string>& a
     fail(key, fmt::format("{}; allowed: {}", value_text(*node), fmt::join(allowed_values, ", ")));
     return 0;
   }
+  note(key, {found->begin(), found->end()});
   return static_cast<int>(found - allowed_values.begin());
 }
 
@@ -115,6 +167,7 @@ std::vector<double> TomlReader::numbers(const std::string& key, const Range& ran
   for (std::size_t i = 0; i < count; ++i) {
     values[i] = checked(*array->get(i), fmt::format("{}[{}]", key, i), range);
   }
+  note(key, values);
   return values;
 }
 
@@ -147,6 +200,11 @@ std::vector<std::pair<double, double>> TomlReader::pairs(const std::string& key,
     values.emplace_back(checked(*pair->get(0), names[0], first),
                         checked(*pair->get(1), names[1], second));
   }
+  std::vector<double> flat;
+  for (const auto& [x, y] : values) {
+    flat.insert(flat.end(), {x, y});
+  }
+  note(key, std::move(flat));
   return values;
 }
 
@@ -157,6 +215,7 @@ int TomlReader::table_count(const std::string& key, int least, int most) {
     fail(key, fmt::format("must be {} to {} tables; there {} {}", least, most,
                           count == 1 ? "is" : "are", count));
   }
+  note(key, {static_cast<double>(count)});
   return std::clamp(count, least, most);
 }
 

@@ -4,10 +4,10 @@
 
 #include <toml++/toml.h>
 #include <Eigen/Core>
-#include <limits>
+#include <cstdint>
+#include <map>
 #include <set>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -47,6 +47,9 @@ class TomlReader {
 
   /// Records an error that concerns a key as a whole.
   void fail(const std::string& key, const std::string& what);
+  /// FNV-1a of every key that was asked for and its value, in the keys' order: the same for each
+  /// way to write a value, and whatever the order, the layout and the comments are.
+  [[nodiscard]] std::uint32_t hash() const;
   /// Records every key that no getter has asked for.
   void refuse_unknown_keys();
 
@@ -54,11 +57,13 @@ class TomlReader {
 
  private:
   const toml::node* find(const std::string& key);
+  void note(const std::string& key, std::vector<double> values);
   double checked(const toml::node& node, const std::string& key, const Range& range);
   void refuse_unknown_in(const toml::node& node, const std::string& path);
 
   const toml::table& root_;
   std::set<std::string> known_;
+  std::map<std::string, std::vector<double>> values_;
   std::vector<std::string> errors_;
 };
 

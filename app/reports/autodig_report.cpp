@@ -81,9 +81,9 @@ json key_figures(const runs::AutodigSummary& summary) {
 }  // namespace
 
 void write_autodig_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
-                          const machines::ExcavatorMachine& machine, const machines::TaskFile& task,
-                          const runs::AutodigResult& result, const runs::AutodigSummary& summary,
-                          const std::string& subtitle) {
+                          const machines::SimulatedExcavator& machine,
+                          const machines::TaskFile& task, const runs::AutodigResult& result,
+                          const runs::AutodigSummary& summary, const std::string& subtitle) {
   const RunWords words = {"A task's run", subtitle, key_figures(summary), summary.limit_share};
   json run = run_json(words, truth(machine.profile, result.samples));
   run["way"] = way(result.samples);

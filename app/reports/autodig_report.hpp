@@ -12,9 +12,9 @@ namespace graben::reports {
 
 /// Writes the HTML report. Throws std::runtime_error that names the file.
 void write_autodig_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
-                          const machines::ExcavatorMachine& machine, const machines::TaskFile& task,
-                          const runs::AutodigResult& result, const runs::AutodigSummary& summary,
-                          const std::string& subtitle);
+                          const machines::SimulatedExcavator& machine,
+                          const machines::TaskFile& task, const runs::AutodigResult& result,
+                          const runs::AutodigSummary& summary, const std::string& subtitle);
 
 /// Writes the figures as JSON. Throws std::runtime_error that names the file.
 void write_autodig_summary(const std::filesystem::path& file, const runs::AutodigSummary& summary);

@@ -16,7 +16,8 @@ namespace {
 using nlohmann::json;
 
 /// What of the run no frame has: Kim's figures 10 to 15 beside what is on the bus.
-json truth(const machines::ExcavatorMachine& machine, const std::vector<runs::DigSample>& samples) {
+json truth(const machines::SimulatedExcavator& machine,
+           const std::vector<runs::DigSample>& samples) {
   Truth<runs::DigSample> lines(samples);
   lines.add("error", "", "true", "mm", 2,
             [](const runs::DigSample& s) { return s.error_true_m * 1e3; });
@@ -45,7 +46,7 @@ json truth(const machines::ExcavatorMachine& machine, const std::vector<runs::Di
   return lines.json();
 }
 
-json way(const machines::ExcavatorMachine& machine, const std::vector<runs::DigSample>& samples) {
+json way(const machines::SimulatedExcavator& machine, const std::vector<runs::DigSample>& samples) {
   const Eigen::Vector2d foot_m = machine.profile.geometry.boom_foot_m;
   return Truth<runs::DigSample>(samples).way(
       [&](const runs::DigSample& s) { return s.tip_true_m.x() + foot_m.x(); },
@@ -78,7 +79,7 @@ json key_figures(const runs::DigSummary& summary) {
 }  // namespace
 
 void write_dig_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
-                      const machines::ExcavatorMachine& machine, const runs::DigResult& result,
+                      const machines::SimulatedExcavator& machine, const runs::DigResult& result,
                       const runs::DigSummary& summary, const std::string& subtitle) {
   const RunWords words = {"Digging run", subtitle, key_figures(summary), summary.limit_share};
   json run = run_json(words, truth(machine, result.samples));

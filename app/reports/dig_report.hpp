@@ -10,7 +10,7 @@ namespace graben::reports {
 
 /// Writes the HTML report. Throws std::runtime_error that names the file.
 void write_dig_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
-                      const machines::ExcavatorMachine& machine, const runs::DigResult& result,
+                      const machines::SimulatedExcavator& machine, const runs::DigResult& result,
                       const runs::DigSummary& summary, const std::string& subtitle);
 
 /// Writes the figures as JSON. Throws std::runtime_error that names the file.

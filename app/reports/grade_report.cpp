@@ -18,7 +18,7 @@ constexpr double kLitresPerMinute = 6e4;  ///< In a m^3/s.
 
 /// What of the run no frame has: Mononen and Mattila's figures 5, 7, 8 and 9 beside what is on the
 /// bus.
-json truth(const machines::DozerMachine& machine, const std::vector<runs::GradeSample>& samples) {
+json truth(const machines::SimulatedDozer& machine, const std::vector<runs::GradeSample>& samples) {
   Truth<runs::GradeSample> lines(samples);
   lines.add("error", "", "true", "mm", 2,
             [](const runs::GradeSample& s) { return s.error_true_m * 1e3; });
@@ -81,7 +81,7 @@ json key_figures(const runs::GradeSummary& summary) {
 }  // namespace
 
 void write_grade_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
-                        const machines::DozerMachine& machine, const runs::GradeResult& result,
+                        const machines::SimulatedDozer& machine, const runs::GradeResult& result,
                         const runs::GradeSummary& summary, const std::string& subtitle) {
   const RunWords words = {"Grading run", subtitle, key_figures(summary), summary.limit_share};
   json run = run_json(words, truth(machine, result.samples));

@@ -10,7 +10,7 @@ namespace graben::reports {
 
 /// Writes the HTML report. Throws std::runtime_error that names the file.
 void write_grade_report(const std::filesystem::path& file, const std::filesystem::path& log_file,
-                        const machines::DozerMachine& machine, const runs::GradeResult& result,
+                        const machines::SimulatedDozer& machine, const runs::GradeResult& result,
                         const runs::GradeSummary& summary, const std::string& subtitle);
 
 /// Writes the figures as JSON. Throws std::runtime_error that names the file.

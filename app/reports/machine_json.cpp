@@ -58,26 +58,48 @@ json field_json(const DigField& field, const DigPath& path, const Eigen::Vector2
   return arrows;
 }
 
-json dig_json(const machines::ExcavatorMachine& machine) {
-  const ExcavatorProfile& profile = machine.profile;
+json dig_json(const ExcavatorProfile& profile) {
   const Eigen::Vector2d foot_m = profile.geometry.boom_foot_m;
   const DigField field(profile, ExcavatorKinematics(profile.geometry));
   return {{"path", path_json(field.path(), foot_m)},
           {"speed_mps", profile.dig_speed_mps},
           {"field", field_json(field, profile.dig_path, foot_m)},
-          {"ground_z_m", machine.experiment.soil.ground_y_m + foot_m.y()}};
+          {"ground_z_m", 0.0}};
 }
 
-json design_json(const machines::DozerMachine& machine) {
-  const GradeProfile design(machine.profile.grade);
-  const int count = static_cast<int>(
-      std::ceil((machine.experiment.length_m + 2.0 * kDesignMargin_m) / kDesignStep_m));
+json design_json(const GradeDesign& grade, double length_m) {
+  const GradeProfile design(grade);
+  const int count = static_cast<int>(std::ceil((length_m + 2.0 * kDesignMargin_m) / kDesignStep_m));
   json points = json::array();
   for (int i = 0; i <= count; ++i) {
     const double x_m = i * kDesignStep_m - kDesignMargin_m;
     points.push_back({rounded(x_m), rounded(design.at(x_m).height_m)});
   }
   return points;
+}
+
+json dozer_json(const machines::DozerMachine& machine, double length_m) {
+  const DozerBody& body = machine.profile.body;
+  const BladeGeometry& blade = machine.profile.blade;
+  return {{"kind", "dozer"},
+          {"name", machine.name},
+          {"hash", machine.hash},
+          {"blade",
+           {{"pivot_m", vector(blade.pivot_m)},
+            {"arm_m", vector(blade.arm_m)},
+            {"cutting_edge_m", blade.cutting_edge_m},
+            {"base_m", vector(blade.base_m)},
+            {"length_home_m", blade.length_home_m},
+            {"edge_min_m", blade.edge_min_m},
+            {"edge_max_m", blade.edge_max_m},
+            {"cylinders", blade.cylinder_count},
+            {"bore_m", blade.bore_m},
+            {"rod_m", blade.rod_m}}},
+          {"track_contact_m", body.track_contact_m},
+          {"half_gauge_m", body.half_gauge_m},
+          {"mass_centre_height_m", body.mass_centre_height_m},
+          {"design", design_json(machine.profile.grade, length_m)},
+          {"length_m", length_m}};
 }
 
 }  // namespace
@@ -105,7 +127,7 @@ json machine_json(const machines::ExcavatorMachine& machine,
                        {"rocker_m", geometry.linkage.rocker_m},
                        {"coupler_m", geometry.linkage.coupler_m},
                        {"lug_m", vector(geometry.linkage.lug_m)}};
-  result["dig"] = dig_json(machine);
+  result["dig"] = dig_json(profile);
   result["tasks"] = json::array();
   for (const machines::TaskFile& task : tasks) {
     result["tasks"].push_back(task_json(task, profile));
@@ -113,28 +135,21 @@ json machine_json(const machines::ExcavatorMachine& machine,
   return result;
 }
 
+json machine_json(const machines::SimulatedExcavator& machine,
+                  const std::vector<machines::TaskFile>& tasks) {
+  json result = machine_json(static_cast<const machines::ExcavatorMachine&>(machine), tasks);
+  result["dig"]["ground_z_m"] =
+      machine.experiment.soil.ground_y_m + machine.profile.geometry.boom_foot_m.y();
+  return result;
+}
+
 json machine_json(const machines::DozerMachine& machine) {
-  const DozerBody& body = machine.profile.body;
-  const BladeGeometry& blade = machine.profile.blade;
-  return {{"kind", "dozer"},
-          {"name", machine.name},
-          {"hash", machine.hash},
-          {"blade",
-           {{"pivot_m", vector(blade.pivot_m)},
-            {"arm_m", vector(blade.arm_m)},
-            {"cutting_edge_m", blade.cutting_edge_m},
-            {"base_m", vector(blade.base_m)},
-            {"length_home_m", blade.length_home_m},
-            {"edge_min_m", blade.edge_min_m},
-            {"edge_max_m", blade.edge_max_m},
-            {"cylinders", blade.cylinder_count},
-            {"bore_m", blade.bore_m},
-            {"rod_m", blade.rod_m}}},
-          {"track_contact_m", body.track_contact_m},
-          {"half_gauge_m", body.half_gauge_m},
-          {"mass_centre_height_m", body.mass_centre_height_m},
-          {"design", design_json(machine)},
-          {"length_m", machine.experiment.length_m}};
+  const GradeDesign& grade = machine.profile.grade;
+  return dozer_json(machine, grade.point[static_cast<unsigned>(grade.count - 1)].x_m);
+}
+
+json machine_json(const machines::SimulatedDozer& machine) {
+  return dozer_json(machine, machine.experiment.length_m);
 }
 
 }  // namespace graben::reports

@@ -6,15 +6,21 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/machines/any_machine.hpp"
+#include "app/machines/simulated/simulated_dozer.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/machines/task_file.hpp"
 
 namespace graben::reports {
 
-/// `tasks` by the number that they have on the bus, read for this machine.
+/// `tasks` by the number that they have on the bus, read for this machine. The ground is where the
+/// tracks stand; a simulated machine's where its soil is.
 [[nodiscard]] nlohmann::json machine_json(const machines::ExcavatorMachine& machine,
                                           const std::vector<machines::TaskFile>& tasks);
+[[nodiscard]] nlohmann::json machine_json(const machines::SimulatedExcavator& machine,
+                                          const std::vector<machines::TaskFile>& tasks);
+/// The grade is the design's whole length; a simulated machine's that of its experiment.
 [[nodiscard]] nlohmann::json machine_json(const machines::DozerMachine& machine);
+[[nodiscard]] nlohmann::json machine_json(const machines::SimulatedDozer& machine);
 
 /// `Task`, with the fences as `task` has them planned.
 [[nodiscard]] nlohmann::json task_json(const machines::TaskFile& task,

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "app/machines/any_machine.hpp"
 #include "app/machines/profile_file.hpp"
 #include "app/machines/task_file.hpp"
 #include "app/reports/machine_json.hpp"
@@ -31,7 +30,7 @@ std::vector<fs::path> files_beside(const Find& find, const char* one_of_them) {
   }
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".toml") {
+    if (entry.path().extension() == ".toml" && !machines::is_simulation_file(entry.path())) {
       files.push_back(entry.path());
     }
   }
@@ -112,6 +111,15 @@ class ToldTasks {
   std::string errors_;
 };
 
+/// With the tasks that are told, else with those of the shipped ones that it can do.
+template <class Machine>
+json excavator_json(const Machine& machine, const SetupOptions& options, ToldTasks& told) {
+  if (!machine.profile.has_swing()) {
+    return machine_json(machine, {});
+  }
+  return machine_json(machine, options.tasks.empty() ? shipped_tasks(machine) : told.on(machine));
+}
+
 }  // namespace
 
 json words_json() {
@@ -130,16 +138,14 @@ json shared_setup(const SetupOptions& options) {
   ToldTasks told(options.tasks);
   json machines_json = json::array();
   for (const fs::path& file : profiles(options)) {
-    const machines::AnyMachine any = machines::load_any(file);
-    if (const auto* dozer = std::get_if<machines::DozerMachine>(&any)) {
-      machines_json.push_back(machine_json(*dozer));
+    const bool is_simulated = fs::is_regular_file(machines::simulation_file(file));
+    if (machines::profile_kind(file) == machines::MachineKind::kDozer) {
+      machines_json.push_back(is_simulated ? machine_json(machines::load_simulated_dozer(file))
+                                           : machine_json(machines::load_dozer(file)));
     } else {
-      const auto& excavator = std::get<ExcavatorMachine>(any);
-      const bool has_tasks = excavator.profile.has_swing();
-      const bool has_told = has_tasks && !options.tasks.empty();
-      machines_json.push_back(machine_json(excavator, has_told    ? told.on(excavator)
-                                                      : has_tasks ? shipped_tasks(excavator)
-                                                                  : std::vector<TaskFile>{}));
+      machines_json.push_back(
+          is_simulated ? excavator_json(machines::load_simulated_excavator(file), options, told)
+                       : excavator_json(machines::load_excavator(file), options, told));
     }
     if (options.profile && machines_json.size() == 1) {
       told.throw_unless_fitted();

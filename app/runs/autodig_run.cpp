@@ -30,7 +30,7 @@ double planned_s(const TaskProgram& program) {
 
 class AutodigRun {
  public:
-  AutodigRun(const machines::ExcavatorMachine& machine, const TaskProgram& program,
+  AutodigRun(const machines::SimulatedExcavator& machine, const TaskProgram& program,
              const AutodigOptions& options)
       : machine_(machine),
         program_(program),
@@ -190,7 +190,7 @@ class AutodigRun {
     }
   }
 
-  const machines::ExcavatorMachine& machine_;
+  const machines::SimulatedExcavator& machine_;
   const TaskProgram& program_;
   AutodigOptions options_;
   SwingKinematics kinematics_;
@@ -201,7 +201,7 @@ class AutodigRun {
 
 }  // namespace
 
-AutodigResult run_autodig(const machines::ExcavatorMachine& machine, const TaskProgram& program,
+AutodigResult run_autodig(const machines::SimulatedExcavator& machine, const TaskProgram& program,
                           const AutodigOptions& options, const Progress& progress) {
   return AutodigRun(machine, program, options).run(progress);
 }

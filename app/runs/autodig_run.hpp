@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "app/machines/excavator_file.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/runs/limit_text.hpp"
 #include "app/runs/logged_run.hpp"
 #include "firmware/excavator/tasks/task_program.hpp"
@@ -98,7 +98,7 @@ struct AutodigSummary {
 
 /// Runs the task until it is done, something fails, or ten times the planned time is over. The same
 /// machine and options give the same samples (but cycle_us) and the same bytes in the log.
-[[nodiscard]] AutodigResult run_autodig(const machines::ExcavatorMachine& machine,
+[[nodiscard]] AutodigResult run_autodig(const machines::SimulatedExcavator& machine,
                                         const TaskProgram& program, const AutodigOptions& options,
                                         const Progress& progress);
 

@@ -16,7 +16,7 @@ constexpr double kMoving_mps = 0.02;
 
 class DigRun {
  public:
-  DigRun(const machines::ExcavatorMachine& machine, const DigOptions& options)
+  DigRun(const machines::SimulatedExcavator& machine, const DigOptions& options)
       : machine_(machine),
         options_(options),
         bench_(machine, options.start_strokes_m, options.speed_override_ratio),
@@ -153,7 +153,7 @@ class DigRun {
     sample.pump_expected_pa = outputs.status.pump_pressure_pa;
   }
 
-  const machines::ExcavatorMachine& machine_;
+  const machines::SimulatedExcavator& machine_;
   DigOptions options_;
   DigRig bench_;
   ExcavatorKinematics kinematics_;
@@ -166,7 +166,7 @@ class DigRun {
 
 }  // namespace
 
-DigResult run_dig(const machines::ExcavatorMachine& machine, const DigOptions& options,
+DigResult run_dig(const machines::SimulatedExcavator& machine, const DigOptions& options,
                   const Progress& progress) {
   return DigRun(machine, options).run(progress);
 }

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/machines/excavator_file.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/runs/limit_text.hpp"
 #include "app/runs/logged_run.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
@@ -106,7 +106,7 @@ struct DigSummary {
 
 /// Runs until the path was followed `loops` times, something fails, or the time is over. The same
 /// machine and options give the same samples (but cycle_us) and the same bytes in the log.
-[[nodiscard]] DigResult run_dig(const machines::ExcavatorMachine& machine,
+[[nodiscard]] DigResult run_dig(const machines::SimulatedExcavator& machine,
                                 const DigOptions& options, const Progress& progress);
 
 [[nodiscard]] DigSummary summarise(const DigResult& result);

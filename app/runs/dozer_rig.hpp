@@ -2,7 +2,7 @@
 /// The dozer as a simulated machine kind, and the rig of its runs.
 
 #include "app/ecu/dozer_kind.hpp"
-#include "app/machines/dozer_file.hpp"
+#include "app/machines/simulated/simulated_dozer.hpp"
 #include "app/plant/dozer_node.hpp"
 #include "app/plant/operator_node.hpp"
 #include "app/runs/loopback_rig.hpp"
@@ -11,6 +11,7 @@ namespace graben::runs {
 
 /// Members as LoopbackRig describes them.
 struct DozerSim : ecu::DozerKind {
+  using Machine = machines::SimulatedDozer;
   using Node = plant::DozerNode;
   using Operator = plant::OperatorNode<Dbc>;
   /// Its plant's profile says where it starts.
@@ -25,7 +26,7 @@ using DozerRig = LoopbackRig<DozerSim>;
 
 /// Of a grading run.
 struct GradeRig : DozerRig {
-  GradeRig(const machines::DozerMachine& machine, double override_ratio)
+  GradeRig(const machines::SimulatedDozer& machine, double override_ratio)
       : LoopbackRig(machine, machine.profile, {}, Task::kGrade, override_ratio) {}
 };
 

@@ -2,7 +2,7 @@
 /// The excavator as a simulated machine kind, and the rigs of its runs.
 
 #include "app/ecu/excavator_kind.hpp"
-#include "app/machines/excavator_file.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/plant/excavator_node.hpp"
 #include "app/plant/operator_node.hpp"
 #include "app/runs/loopback_rig.hpp"
@@ -11,6 +11,7 @@ namespace graben::runs {
 
 /// Members as LoopbackRig describes them.
 struct ExcavatorSim : ecu::ExcavatorKind {
+  using Machine = machines::SimulatedExcavator;
   using Node = plant::ExcavatorNode;
   using Operator = plant::OperatorNode<Dbc>;
   using Start = plant::ExcavatorStart;
@@ -32,7 +33,7 @@ using ExcavatorRig = LoopbackRig<ExcavatorSim>;
 
 /// Of a digging run.
 struct DigRig : ExcavatorRig {
-  DigRig(const machines::ExcavatorMachine& machine, const Eigen::Vector3d& start_strokes_m,
+  DigRig(const machines::SimulatedExcavator& machine, const Eigen::Vector3d& start_strokes_m,
          double override_ratio)
       : LoopbackRig(machine, machine.profile, start_at(start_strokes_m), Task::kDig,
                     override_ratio) {}
@@ -40,7 +41,7 @@ struct DigRig : ExcavatorRig {
 
 /// Of a task's run.
 struct AutodigRig : ExcavatorRig {
-  AutodigRig(const machines::ExcavatorMachine& machine, const TaskBook& book,
+  AutodigRig(const machines::SimulatedExcavator& machine, const TaskBook& book,
              const DriveVector& start, double override_ratio)
       : LoopbackRig(machine, ExcavatorSetup(machine.profile, book), start_at(start), Task::kProgram,
                     override_ratio) {}

@@ -13,7 +13,7 @@ long steps(double speed_mps) { return std::lround(speed_mps / kFineTrial_mps); }
 
 class Search {
  public:
-  Search(const machines::DozerMachine& machine, double most_m, const Progress& progress)
+  Search(const machines::SimulatedDozer& machine, double most_m, const Progress& progress)
       : machine_(machine),
         most_m_(most_m),
         progress_(progress),
@@ -43,7 +43,7 @@ class Search {
   bool is_within(long speed) {
     SpeedTrial trial;
     trial.speed_mps = static_cast<double>(speed) * kFineTrial_mps;
-    machines::DozerMachine machine = machine_;
+    machines::SimulatedDozer machine = machine_;
     machine.profile.travel.speed_desired_mps = trial.speed_mps;
     machine.profile.travel.speed_min_mps =
         std::min(machine.profile.travel.speed_min_mps, trial.speed_mps);
@@ -61,7 +61,7 @@ class Search {
                          [&](const SpeedTrial& trial) { return steps(trial.speed_mps) == speed; });
   }
 
-  const machines::DozerMachine& machine_;
+  const machines::SimulatedDozer& machine_;
   double most_m_;
   const Progress& progress_;
   long fastest_;
@@ -70,7 +70,7 @@ class Search {
 
 }  // namespace
 
-FastestSpeed find_fastest(const machines::DozerMachine& machine, double most_m,
+FastestSpeed find_fastest(const machines::SimulatedDozer& machine, double most_m,
                           const Progress& progress) {
   return Search(machine, most_m, progress).run();
 }

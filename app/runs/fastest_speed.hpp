@@ -31,7 +31,7 @@ inline constexpr double kFineTrial_mps = 0.01;
 /// constant policy. The error need not rise with the speed: so every kCoarseTrial_mps from the
 /// fastest down until one is within `most_m`, then every kFineTrial_mps from the one above it
 /// down.
-[[nodiscard]] FastestSpeed find_fastest(const machines::DozerMachine& machine, double most_m,
+[[nodiscard]] FastestSpeed find_fastest(const machines::SimulatedDozer& machine, double most_m,
                                         const Progress& progress);
 
 /// A line for each trial.

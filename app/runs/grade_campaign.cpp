@@ -40,7 +40,7 @@ const CampaignKind& grade_campaign() {
   return kind;
 }
 
-CampaignRow grade_campaign_row(const machines::DozerMachine& machine, const GradeResult& result) {
+CampaignRow grade_campaign_row(const machines::SimulatedDozer& machine, const GradeResult& result) {
   return campaign_row(grade_figures(), static_cast<std::size_t>(result.end),
                       summarise(machine, result));
 }

@@ -7,7 +7,7 @@
 namespace graben::runs {
 
 [[nodiscard]] const CampaignKind& grade_campaign();
-[[nodiscard]] CampaignRow grade_campaign_row(const machines::DozerMachine& machine,
+[[nodiscard]] CampaignRow grade_campaign_row(const machines::SimulatedDozer& machine,
                                              const GradeResult& result);
 
 }  // namespace graben::runs

@@ -13,7 +13,7 @@ namespace {
 /// Adds up what the figures speak of.
 class GradeObserver {
  public:
-  GradeObserver(const machines::DozerMachine& machine, GradePlantResult& result)
+  GradeObserver(const machines::SimulatedDozer& machine, GradePlantResult& result)
       : truth_(machine.profile), length_m_(machine.experiment.length_m), result_(result) {}
 
   void see(const plant::DozerNode& node) {
@@ -43,7 +43,8 @@ class GradeObserver {
 
 }  // namespace
 
-GradePlantResult run_plant(const machines::DozerMachine& machine, const PlantRunOptions& options) {
+GradePlantResult run_plant(const machines::SimulatedDozer& machine,
+                           const PlantRunOptions& options) {
   namespace ids = dbc::dozer;
   PlantBus<DozerSim> bus(options, {ids::SpoolCommand::kId, ids::PumpDisplacementCommand::kId,
                                    ids::MotorDisplacementCommand::kId});

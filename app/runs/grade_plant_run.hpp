@@ -1,7 +1,7 @@
 #pragma once
 /// The simulated dozer in real time on a CAN interface.
 
-#include "app/machines/dozer_file.hpp"
+#include "app/machines/simulated/simulated_dozer.hpp"
 #include "app/plant/command_link.hpp"
 #include "app/runs/plant_bus.hpp"
 
@@ -21,7 +21,7 @@ struct GradePlantResult {
 
 /// The operator lets go once the edge has come to the grade's length. Throws std::runtime_error
 /// where the interface is not there.
-[[nodiscard]] GradePlantResult run_plant(const machines::DozerMachine& machine,
+[[nodiscard]] GradePlantResult run_plant(const machines::SimulatedDozer& machine,
                                          const PlantRunOptions& options);
 
 }  // namespace graben::runs

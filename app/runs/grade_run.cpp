@@ -12,7 +12,7 @@ constexpr double kStart_s = 20.0;
 
 class GradeRun {
  public:
-  GradeRun(const machines::DozerMachine& machine, const GradeOptions& options)
+  GradeRun(const machines::SimulatedDozer& machine, const GradeOptions& options)
       : machine_(machine),
         options_(options),
         bench_(machine, options.speed_override_ratio),
@@ -128,7 +128,7 @@ class GradeRun {
     }
   }
 
-  const machines::DozerMachine& machine_;
+  const machines::SimulatedDozer& machine_;
   GradeOptions options_;
   GradeRig bench_;
   GradeTruth truth_;
@@ -138,7 +138,7 @@ class GradeRun {
 
 }  // namespace
 
-GradeResult run_grade(const machines::DozerMachine& machine, const GradeOptions& options,
+GradeResult run_grade(const machines::SimulatedDozer& machine, const GradeOptions& options,
                       const Progress& progress) {
   return GradeRun(machine, options).run(progress);
 }

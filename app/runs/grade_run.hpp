@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "app/machines/dozer_file.hpp"
+#include "app/machines/simulated/simulated_dozer.hpp"
 #include "app/runs/grade_truth.hpp"
 #include "app/runs/limit_text.hpp"
 #include "app/runs/logged_run.hpp"
@@ -95,10 +95,10 @@ inline constexpr double kSpeedResolution_mps = 0.02;
 /// Runs until the cutting edge has come to the grade's length, something fails, or the time is
 /// over: ten times what the wanted speed needs, and 20 s. The same machine and options give the
 /// same samples (but cycle_us) and the same bytes in the log.
-[[nodiscard]] GradeResult run_grade(const machines::DozerMachine& machine,
+[[nodiscard]] GradeResult run_grade(const machines::SimulatedDozer& machine,
                                     const GradeOptions& options, const Progress& progress);
 
-[[nodiscard]] GradeSummary summarise(const machines::DozerMachine& machine,
+[[nodiscard]] GradeSummary summarise(const machines::SimulatedDozer& machine,
                                      const GradeResult& result);
 
 }  // namespace graben::runs

@@ -104,7 +104,7 @@ void count_cycles(const GradeResult& result, GradeSummary& summary) {
 
 }  // namespace
 
-GradeSummary summarise(const machines::DozerMachine& machine, const GradeResult& result) {
+GradeSummary summarise(const machines::SimulatedDozer& machine, const GradeResult& result) {
   GradeSummary summary;
   const std::vector<GradeSample> judged = judged_samples(result);
   Spread error_true;

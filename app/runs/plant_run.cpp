@@ -13,7 +13,7 @@ namespace {
 /// Adds up what the figures speak of.
 class PathObserver {
  public:
-  PathObserver(const machines::ExcavatorMachine& machine, PlantRunResult& result)
+  PathObserver(const machines::SimulatedExcavator& machine, PlantRunResult& result)
       : path_(machine.profile.dig_path), progress_(path_, 1.0), result_(result) {}
 
   void see(const plant::ExcavatorNode& node, TimeUs now_us) {
@@ -42,8 +42,8 @@ class PathObserver {
 
 }  // namespace
 
-PlantRunResult run_plant(const machines::ExcavatorMachine& machine, const PlantRunOptions& options,
-                         const plant::ExcavatorStart& start) {
+PlantRunResult run_plant(const machines::SimulatedExcavator& machine,
+                         const PlantRunOptions& options, const plant::ExcavatorStart& start) {
   namespace ids = dbc::excavator;
   PlantBus<ExcavatorSim> bus(
       options, {ids::SpoolCommand::kId, ids::PumpCommand::kId, ids::SwingCommand::kId});

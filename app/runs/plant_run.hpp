@@ -1,7 +1,7 @@
 #pragma once
 /// The simulated excavator in real time on a CAN interface.
 
-#include "app/machines/excavator_file.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/plant/excavator_node.hpp"
 #include "app/runs/plant_bus.hpp"
 
@@ -20,7 +20,7 @@ struct PlantRunResult {
 };
 
 /// Throws std::runtime_error where the interface is not there.
-[[nodiscard]] PlantRunResult run_plant(const machines::ExcavatorMachine& machine,
+[[nodiscard]] PlantRunResult run_plant(const machines::SimulatedExcavator& machine,
                                        const PlantRunOptions& options,
                                        const plant::ExcavatorStart& start);
 

@@ -56,7 +56,7 @@ plant::ExcavatorStart start_of(const TaskProgram& program) {
 
 }  // namespace
 
-TaskPlantResult run_task_plant(const machines::ExcavatorMachine& machine,
+TaskPlantResult run_task_plant(const machines::SimulatedExcavator& machine,
                                const TaskProgram& program, const PlantRunOptions& options) {
   namespace ids = dbc::excavator;
   PlantBus<ExcavatorSim> bus(options, {ids::SpoolCommand::kId, ids::PumpCommand::kId,

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "app/machines/excavator_file.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/plant/command_link.hpp"
 #include "app/runs/plant_bus.hpp"
 #include "firmware/excavator/tasks/task_program.hpp"
@@ -28,7 +28,7 @@ struct TaskPlantResult {
 /// The machine, which has a swing drive, stands where `program` begins, and the operator asks for
 /// the task with the options' number, which has to be that program. Throws std::runtime_error where
 /// the interface is not there.
-[[nodiscard]] TaskPlantResult run_task_plant(const machines::ExcavatorMachine& machine,
+[[nodiscard]] TaskPlantResult run_task_plant(const machines::SimulatedExcavator& machine,
                                              const TaskProgram& program,
                                              const PlantRunOptions& options);
 

@@ -49,9 +49,9 @@ class Blade:
 class Design:
     """A corner's parabola is the mean of both lines over the rounding to either side."""
 
-    def __init__(self, experiment, plane):
-        self.points, self.rounding = experiment["profile"], experiment["rounding"]
-        self.plane = plane
+    def __init__(self, grade):
+        self.points, self.rounding = grade["profile"], grade["rounding"]
+        self.plane = grade
 
     def line(self, x):
         points = self.points
@@ -91,6 +91,8 @@ def main():
     graben, dbc, profile_path = sys.argv[1:]
     with open(profile_path, "rb") as stream:
         profile = tomllib.load(stream)
+    with open(profile_path.replace(".toml", ".sim.toml"), "rb") as stream:
+        length = tomllib.load(stream)["experiment"]["length"]
     messages = read_dbc(dbc)
     with tempfile.TemporaryDirectory() as folder:
         summary_path = os.path.join(folder, "summary.json")
@@ -100,11 +102,11 @@ def main():
             summary = json.load(stream)
         counts, moments = read_log(os.path.join(folder, "grade.log"), messages)
     check_counts(counts, messages, moments[-1][0])
-    blade, design = Blade(profile["blade"]), Design(profile["experiment"], profile["grade"])
+    blade, design = Blade(profile["blade"]), Design(profile["grade"])
     errors, times = [], []
     for time, stroke, body, pitch in moments:
         edge = body + blade.edge_in_body(stroke) * cmath.exp(1j * pitch)
-        if 0.0 <= edge.real <= profile["experiment"]["length"]:
+        if 0.0 <= edge.real <= length:
             errors.append(edge.imag - design.height(edge.real))
             times.append(time)
     rmse = math.sqrt(sum(e * e for e in errors) / len(errors))

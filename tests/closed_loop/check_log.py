@@ -107,7 +107,7 @@ def main():
         counts, moments = read_log(os.path.join(folder, "dig.log"), messages)
     check_counts(counts, without_swing(messages), moments[-1][0])
     begin = summary["approach_s"]
-    errors = [distance_to_path(profile["experiment"]["path"], tip(profile, strokes))
+    errors = [distance_to_path(profile["task"]["path"], tip(profile, strokes))
               for time, *strokes in moments
               if begin - 1e-6 <= time <= begin + summary["loop_s"] + 1e-6]
     rmse = math.sqrt(sum(e * e for e in errors) / len(errors))

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/machines/excavator_file.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 #include "firmware/dozer/blade.hpp"
 #include "tests/unit/firmware/flip_bit.hpp"
 
@@ -27,9 +27,9 @@ constexpr double kRoundOff_mps = 1e-3;
 /// A speed that is held by nothing but the operator's share gets that much higher in kBack_us.
 constexpr double kFaster_mps = 0.1;
 
-const machines::DozerMachine& shipped() {
-  static const machines::DozerMachine machine =
-      machines::load_dozer(machines::find_profile(Dozer::kProfile));
+const machines::SimulatedDozer& shipped() {
+  static const machines::SimulatedDozer machine =
+      machines::load_simulated_dozer(machines::find_profile(Dozer::kProfile));
   return machine;
 }
 
@@ -50,7 +50,7 @@ plant::DozerNode Dozer::node(const Scenery& scenery, CanPort& port) {
 }
 
 std::vector<Defect> Dozer::defects() {
-  return {{"pitch_inertia = 12000.0", "pitch_inertia = nan", "body.pitch_inertia"},
+  return {{"mass_centre_height = 0.85", "mass_centre_height = nan", "body.mass_centre_height"},
           {"cutting_edge = 1.60", "cutting_edge = 1600.0", "blade.cutting_edge"},
           {"half_gauge = 0.90", "half_gauge = -inf", "body.half_gauge"},
           {"valve_flow_max = 2.0e-3", "valve_flow_max = 120.0", "implement.valve_flow_max"},
@@ -60,7 +60,7 @@ std::vector<Defect> Dozer::defects() {
           {"sensor_timeout = 0.045", "sensor_timeout = 0.045\nsensor_timeuot = 0.1",
            "control.sensor_timeuot"},
           {"displacement_settle = 0.5", "displacement_settle = inf", "safety.displacement_settle"},
-          {"depth_max = 0.35", "depth_max = \"deep\"", "experiment.depth_max"}};
+          {"rounding = 0.3", "rounding = \"round\"", "grade.rounding"}};
 }
 
 std::vector<Sensor> Dozer::strokes() {

@@ -27,9 +27,9 @@ constexpr double kLowestStart_m = -0.9;
 /// degraded_speed is 0.3 of full speed; the field itself changes a little meanwhile.
 constexpr double kSlower_share = 0.5;
 
-const machines::ExcavatorMachine& shipped() {
-  static const machines::ExcavatorMachine machine =
-      machines::load_excavator(machines::find_profile(Excavator::kProfile));
+const machines::SimulatedExcavator& shipped() {
+  static const machines::SimulatedExcavator machine =
+      machines::load_simulated_excavator(machines::find_profile(Excavator::kProfile));
   return machine;
 }
 
@@ -42,7 +42,7 @@ bool well_inside(const ExcavatorGeometry& geometry, const StrokeResult& strokes)
   return inside;
 }
 
-Eigen::Vector3d start_of(const machines::ExcavatorMachine& machine, std::uint64_t seed) {
+Eigen::Vector3d start_of(const machines::SimulatedExcavator& machine, std::uint64_t seed) {
   plant::Random random(seed, plant::Draw::kStart);
   const ExcavatorKinematics kinematics(machine.profile.geometry);
   const RoundedRectangle path(machine.profile.dig_path);
@@ -85,17 +85,17 @@ plant::ExcavatorNode Excavator::node(const Scenery& scenery, CanPort& port) {
 }
 
 std::vector<Defect> Excavator::defects() {
-  return {{"inertia = 6850.0", "inertia = nan", "boom.inertia"},
-          {"mass = 2130.0", "mass = inf", "boom.mass"},
+  return {{"closed_length = 1.760", "closed_length = nan", "boom.cylinder.closed_length"},
+          {"stroke = 1.260", "stroke = inf", "boom.cylinder.stroke"},
           {"length = 2.90", "length = 2900.0", "arm.length"},
           {"spool_travel = 0.010", "spool_travel = 10.0", "valve.spool_travel"},
-          {"port_relief = 38.0e6", "port_relief = 380.0", "valve.port_relief"},
+          {"pressure_range = 40e6", "pressure_range = 400.0", "sensors.pressure_range"},
           {"servo_gain = 2.0", "", "control.servo_gain"},
           {"degraded_speed = 0.3", "", "safety.degraded_speed"},
           {"sensor_timeout = 0.045", "sensor_timeout = 0.045\nsensor_timeuot = 0.1",
            "control.sensor_timeuot"},
-          {"deadband = 0.2", "deadband = -inf", "valve.deadband"},
-          {"swash = 0.643", "swash = \"full\"", "experiment.swash"}};
+          {"opening_exponent = 1.6", "opening_exponent = -inf", "valve.opening_exponent"},
+          {"swash = 0.643", "swash = \"full\"", "task.swash"}};
 }
 
 std::vector<Sensor> Excavator::strokes() {

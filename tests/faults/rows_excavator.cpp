@@ -109,7 +109,7 @@ Closest closest_to_an_end(const ExcavatorProfile& profile, const ExcavatorKinema
 /// starts a little before that place.
 void runs_at_its_end(Trial<Excavator>& trial) {
   Excavator::Scenery scenery = Excavator::scenery_of(trial.seed());
-  machines::ExcavatorMachine& machine = scenery.machine;
+  machines::SimulatedExcavator& machine = scenery.machine;
   DigPath& path = machine.profile.dig_path;
   const ExcavatorKinematics kinematics(machine.profile.geometry);
   // Towards x_min the field itself is slower at the arm's end than the limit there.

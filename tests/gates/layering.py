@@ -33,6 +33,9 @@ FORBIDDEN = {
     "app/scope/": ("app/cli/",),
 }
 # All that the plant may see of the core, through any number of headers in between: what a machine is, and
+# What runs on a machine never sees what stands in for one.
+DEPLOYED = ("app/ecu/", "app/machines/")
+SIMULATED = ("app/plant/", "app/machines/simulated/")
 # the codes and values that are on the bus. Of a kind's wing these two headers.
 PLANT_SEES = ("firmware/core/", "firmware/machine/", "firmware/numeric/", "firmware/signals/")
 PLANT_SEES_OF_A_WING = ("{0}/{0}_profile.hpp", "{0}/{0}_signals.hpp")
@@ -59,6 +62,10 @@ for name, found in includes.of.items():
                      for line, header, quoted in found
                      if header not in ALLOWED_HEADERS and header not in includes.sources
                      and (quoted or not header.startswith("Eigen/"))]
+    if name.startswith(DEPLOYED) and not name.startswith(SIMULATED):
+        problems += [f"{name} is deployed and must not see {header}: {chain}"
+                     for header, chain in includes.reached_from(name).items()
+                     if header.startswith(SIMULATED)]
     if name.startswith("app/plant/"):
         problems += [f"app/plant/ must not see {header}: {chain}"
                      for header, chain in includes.reached_from(name).items()

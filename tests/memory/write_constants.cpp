@@ -67,7 +67,7 @@ void write_replay(Bench& bench) {
 }
 
 void write_excavator(bool with_replay) {
-  const auto machine = machines::load_excavator(machines::find_profile("excavator_12t"));
+  const auto machine = machines::load_simulated_excavator(machines::find_profile("excavator_12t"));
   const TaskBook book = machines::load_tasks(
       {machines::find_task("truck_loading").string(), machines::find_task("flatten").string()}, {},
       machine.profile);
@@ -80,7 +80,7 @@ void write_excavator(bool with_replay) {
 }
 
 void write_dozer(bool with_replay) {
-  const auto machine = machines::load_dozer(machines::find_profile("dozer_9t"));
+  const auto machine = machines::load_simulated_dozer(machines::find_profile("dozer_9t"));
   if (with_replay) {
     runs::GradeRig bench(machine, 1.0);
     write_replay(bench);

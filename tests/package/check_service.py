@@ -17,6 +17,7 @@ from bus_log import ECU_HEALTH, MARK, SPOOL_COMMAND, Frame
 from scenario import Broken, Scenario, tail
 
 PROFILE = HERE.parents[1] / "app" / "machines" / "excavator_22t.toml"
+SIMULATION = PROFILE.with_suffix(".sim.toml")  # of graben plant
 LOG = "can1.log"
 INSTALLED, STALLED, KILLED, DIGGING, STOPPED, RUNNING, REMOVED, LAST = range(8)
 PERIOD_S, LATE_S = 0.010, 0.0015
@@ -159,7 +160,7 @@ def main() -> int:
         scenario = Scenario(
             script=HERE / "service.sh", controllers=2, root=roots / "service.cpio", timeout_s=120.0,
             patience_s=1200.0,
-            files={"graben-ecu.deb": package, "graben": graben, PROFILE.name: PROFILE,
+            files={"graben-ecu.deb": package, "graben": graben, PROFILE.name: PROFILE, SIMULATION.name: SIMULATION,
                    **libraries_beyond(roots / "service.tar", graben)})
         result = guest.run(scenario, out, where="vm")
     except Nowhere as reason:

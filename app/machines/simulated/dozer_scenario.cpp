@@ -17,7 +17,7 @@ constexpr double kFill_m = 0.02;
 /// A file has 900 rpm with two decimals of a rad/s.
 constexpr double kRounding_radps = 0.01;
 
-void demand_something_to_cut(const DozerMachine& machine) {
+void demand_something_to_cut(const SimulatedDozer& machine) {
   constexpr double kStep_m = 0.05;
   const GradeProfile design(machine.profile.grade);
   for (int step = 0; step * kStep_m <= machine.experiment.length_m; ++step) {
@@ -33,7 +33,7 @@ void demand_something_to_cut(const DozerMachine& machine) {
 
 }  // namespace
 
-DozerMachine arranged(DozerMachine machine, const DozerScenario& scenario) {
+SimulatedDozer arranged(SimulatedDozer machine, const DozerScenario& scenario) {
   demand_something_to_cut(machine);
   if (scenario.errors) {
     machine.plant = draw_dozer(machine, scenario.seed);

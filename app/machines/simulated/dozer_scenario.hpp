@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "app/machines/dozer_file.hpp"
+#include "app/machines/simulated/simulated_dozer.hpp"
 
 namespace graben::machines {
 
@@ -20,6 +20,6 @@ struct DozerScenario {
 /// The machine with this scenario's plant, and a controller profile with its policy and speed. The
 /// engine's speed is the machine's alone: the controller has to take it from the bus. Throws
 /// std::runtime_error where it is out of the profile's range.
-[[nodiscard]] DozerMachine arranged(DozerMachine machine, const DozerScenario& scenario);
+[[nodiscard]] SimulatedDozer arranged(SimulatedDozer machine, const DozerScenario& scenario);
 
 }  // namespace graben::machines

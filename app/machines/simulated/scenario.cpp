@@ -58,7 +58,7 @@ void load_bucket(plant::LinkBody& bucket, double mass_kg, const Eigen::Vector2d&
 
 }  // namespace
 
-ExcavatorMachine arranged(ExcavatorMachine machine, const Scenario& scenario) {
+SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario) {
   const Experiment& experiment = machine.experiment;
   plant::ExcavatorPlantProfile& plant = machine.plant;
   plant.seed = scenario.seed;

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "app/machines/excavator_file.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 
 namespace graben::machines {
 
@@ -25,7 +25,7 @@ struct Scenario {
 /// The machine with this scenario's plant, and a controller profile whose parameters are off by a
 /// uniform draw within `experiment.uncertainty` of each. The plant keeps the nominal figures, but
 /// for dead times, which only it has. Same seed, same draw, whatever else is switched on.
-[[nodiscard]] ExcavatorMachine arranged(ExcavatorMachine machine, const Scenario& scenario);
+[[nodiscard]] SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario);
 
 /// Strokes of a start pose. Throws std::runtime_error where it is out of reach.
 [[nodiscard]] Eigen::Vector3d strokes_at(const ExcavatorProfile& profile, const TipPose& pose);

@@ -29,20 +29,20 @@ std::filesystem::path profile_of(const SimOptions& options, const char* usual,
   return file;
 }
 
-machines::ExcavatorMachine excavator_of(const SimOptions& options, const char* usual) {
+machines::SimulatedExcavator excavator_of(const SimOptions& options, const char* usual) {
   machines::Scenario scenario;
   if (options.seed) {
     scenario.errors = machines::Errors::kAll;
     scenario.seed = *options.seed;
   }
-  return machines::arranged(machines::load_excavator(profile_of(
+  return machines::arranged(machines::load_simulated_excavator(profile_of(
                                 options, usual, machines::MachineKind::kExcavator, "an excavator")),
                             scenario);
 }
 
 SimSite<SimExcavator> dig_site(const SimOptions& options) {
   auto machine =
-      std::make_shared<const machines::ExcavatorMachine>(excavator_of(options, "excavator_22t"));
+      std::make_shared<const machines::SimulatedExcavator>(excavator_of(options, "excavator_22t"));
   const Eigen::Vector3d start_m = machines::dig_start(machine->profile);
   SimSite<SimExcavator> site;
   site.make = [machine, start_m] {
@@ -58,7 +58,7 @@ SimSite<SimExcavator> dig_site(const SimOptions& options) {
 
 SimSite<SimExcavator> autodig_site(const SimOptions& options) {
   auto machine =
-      std::make_shared<const machines::ExcavatorMachine>(excavator_of(options, "excavator_12t"));
+      std::make_shared<const machines::SimulatedExcavator>(excavator_of(options, "excavator_12t"));
   if (!machine->profile.has_swing()) {
     throw std::runtime_error(
         fmt::format("{}: the task autodig needs an excavator with a swing drive", machine->name));
@@ -82,9 +82,9 @@ SimSite<SimDozer> grade_site(const SimOptions& options) {
   machines::DozerScenario scenario;
   scenario.errors = options.seed.has_value();
   scenario.seed = options.seed.value_or(0);
-  auto machine = std::make_shared<const machines::DozerMachine>(
-      machines::arranged(machines::load_dozer(profile_of(options, "dozer_9t",
-                                                         machines::MachineKind::kDozer, "a dozer")),
+  auto machine = std::make_shared<const machines::SimulatedDozer>(
+      machines::arranged(machines::load_simulated_dozer(profile_of(
+                             options, "dozer_9t", machines::MachineKind::kDozer, "a dozer")),
                          scenario));
   SimSite<SimDozer> site;
   site.make = [machine] { return std::make_unique<runs::GradeRig>(*machine, kFullSpeed); };

@@ -1,8 +1,8 @@
 #include "tests/timing/counts/play.hpp"
 
-#include "app/machines/dozer_file.hpp"
-#include "app/machines/excavator_file.hpp"
 #include "app/machines/simulated/scenario.hpp"
+#include "app/machines/simulated/simulated_dozer.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/plant/random.hpp"
 #include "tests/timing/counts/scene.hpp"
 #include "tests/timing/counts/setups.hpp"
@@ -10,14 +10,16 @@
 namespace graben::timing {
 namespace {
 
-const machines::ExcavatorMachine& excavator(Setup setup) {
-  static const auto large = machines::load_excavator(machines::find_profile("excavator_22t"));
-  static const auto small = machines::load_excavator(machines::find_profile("excavator_12t"));
+const machines::SimulatedExcavator& excavator(Setup setup) {
+  static const auto large =
+      machines::load_simulated_excavator(machines::find_profile("excavator_22t"));
+  static const auto small =
+      machines::load_simulated_excavator(machines::find_profile("excavator_12t"));
   return setup == Setup::kExcavator12t ? small : large;
 }
 
-const machines::DozerMachine& dozer() {
-  static const auto machine = machines::load_dozer(machines::find_profile("dozer_9t"));
+const machines::SimulatedDozer& dozer() {
+  static const auto machine = machines::load_simulated_dozer(machines::find_profile("dozer_9t"));
   return machine;
 }
 
@@ -53,7 +55,7 @@ Played play_excavator(const Script& script) {
   scenario.seed = script.seed;
   scenario.soil = script.soil;
   scenario.errors = machines::Errors::kSensors;
-  const machines::ExcavatorMachine machine = arranged(excavator(script.setup), scenario);
+  const machines::SimulatedExcavator machine = arranged(excavator(script.setup), scenario);
   const ExcavatorSetup& setup = excavator_setup(script.setup);
   const Task task = setup.book.count > 0 ? Task::kProgram : Task::kDig;
   Scene<runs::ExcavatorSim> scene(script, setup, machine.hash, task, [&](CanPort& port) {

@@ -13,9 +13,9 @@ using runs::GradeResult;
 using runs::GradeSample;
 using runs::GradeSummary;
 
-const machines::DozerMachine& machine() {
-  static const machines::DozerMachine loaded =
-      machines::load_dozer(machines::find_profile("dozer_9t"));
+const machines::SimulatedDozer& machine() {
+  static const machines::SimulatedDozer loaded =
+      machines::load_simulated_dozer(machines::find_profile("dozer_9t"));
   return loaded;
 }
 

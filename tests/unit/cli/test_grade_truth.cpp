@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "app/machines/dozer_file.hpp"
+#include "app/machines/simulated/simulated_dozer.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace {
@@ -15,8 +15,8 @@ using runs::BodyRates;
 using runs::GradeTruth;
 
 const DozerProfile& profile() {
-  static const machines::DozerMachine machine =
-      machines::load_dozer(machines::find_profile("dozer_9t"));
+  static const machines::SimulatedDozer machine =
+      machines::load_simulated_dozer(machines::find_profile("dozer_9t"));
   return machine.profile;
 }
 

@@ -1,15 +1,15 @@
 #pragma once
 /// The shipped dozer for tests of the core.
 
-#include "app/machines/dozer_file.hpp"
-#include "app/machines/excavator_file.hpp"
+#include "app/machines/simulated/simulated_dozer.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 
 namespace graben::test {
 
 /// Read once; a profile that can't be loaded ends the test program with its errors.
-inline const machines::DozerMachine& dozer() {
-  static const machines::DozerMachine machine =
-      machines::load_dozer(machines::find_profile("dozer_9t"));
+inline const machines::SimulatedDozer& dozer() {
+  static const machines::SimulatedDozer machine =
+      machines::load_simulated_dozer(machines::find_profile("dozer_9t"));
   return machine;
 }
 

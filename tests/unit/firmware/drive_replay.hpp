@@ -58,7 +58,7 @@ class ReplayedDrives {
 
 /// An excavator with all that a replay asks of it.
 struct ReplayMachine {
-  explicit ReplayMachine(const machines::ExcavatorMachine& machine)
+  explicit ReplayMachine(const machines::SimulatedExcavator& machine)
       : profile(machine.profile),
         kinematics(machine.profile.geometry),
         limits(drive_limits(machine.profile)) {}

@@ -17,7 +17,7 @@ constexpr int kTargets = test::rounds(10000, 300);
 constexpr double kStrokeTolerance_m = 1.001e-6;
 
 struct Machine {
-  explicit Machine(const machines::ExcavatorMachine& machine)
+  explicit Machine(const machines::SimulatedExcavator& machine)
       : kinematics(machine.profile.geometry),
         limits(drive_limits(machine.profile)),
         task(machine.experiment.line) {

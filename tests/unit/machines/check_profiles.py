@@ -1,5 +1,6 @@
-"""Shipped profiles load; wrong ones are refused with every error listed, each of their keys if it is
-missing or out of range: check_profiles.py GRABEN READ_PROFILE MACHINES_FOLDER."""
+"""Shipped profiles load, with and without the simulated machine's file; wrong ones of both files are
+refused with every error listed, each of their keys if it is missing or out of range:
+check_profiles.py GRABEN READ_PROFILE MACHINES_FOLDER."""
 
 import os
 import re
@@ -13,14 +14,20 @@ import excavator_cases
 from profile_edit import key_path, leaves, with_number, without
 
 KINDS = {"excavator": "excavator_22t.toml", "dozer": "dozer_9t.toml"}
+SIMULATED = "simulated-"
+
+
+def simulation(path):
+    return path.replace(".toml", ".sim.toml")
 
 
 class Reader:
-    """Reads profiles by the loader of a kind."""
+    """Reads profiles by the loader of a kind; with a SIMULATED kind a text is that of the file beside."""
 
-    def __init__(self, program, scratch):
+    def __init__(self, program, scratch, good):
         self._program = program
         self._path = os.path.join(scratch, "changed.toml")
+        self._good = good
 
     def errors_of_file(self, kind, path):
         done = subprocess.run([self._program, kind, path], capture_output=True, text=True,
@@ -29,8 +36,13 @@ class Reader:
         return done.stderr
 
     def errors_of(self, kind, text):
+        machine = text
+        if kind.startswith(SIMULATED):
+            machine = self._good[kind.removeprefix(SIMULATED)]
+            with open(simulation(self._path), "w", encoding="utf-8") as stream:
+                stream.write(text)
         with open(self._path, "w", encoding="utf-8") as stream:
-            stream.write(text)
+            stream.write(machine)
         return self.errors_of_file(kind, self._path)
 
 
@@ -79,28 +91,59 @@ def command_reports(graben, path):
         yield f"graben pose: status {done.returncode}: {done.stdout}{done.stderr}"
 
 
+def run(*command):
+    return subprocess.run(command, capture_output=True, text=True, timeout=60)
+
+
+def without_simulation(graben, scratch, good):
+    """What a real machine needs: nothing of a simulated one. What simulates says which file lacks."""
+    path = os.path.join(scratch, "alone.toml")
+    with open(path, "w", encoding="utf-8") as stream:
+        stream.write(good["excavator"])
+    line = ("plan", "--profile", path, "--out", scratch)
+    for command in (("pose", "--profile", path, "--strokes=1.0,1.1,0.4"),
+                    ("strokes", "--profile", path, "--x=5.5", "--y=-0.5", "--attitude=1.5"),
+                    (*line, "--from=0.0,8.0,0.0,2.27", "--to=2.6,4.6,0.0,1.22", "--speed=0.3")):
+        done = run(graben, *command)
+        if done.returncode != 0 or not done.stdout or done.stderr:
+            yield f"{command}: status {done.returncode}: {done.stdout}{done.stderr}"
+    for command in (("dig", "--profile", path, "--out", scratch), line):
+        done = run(graben, *command)
+        if (done.returncode != 1 or done.stdout or f"{simulation(path)}: not found" not in done.stderr
+                or "masses" not in done.stderr):
+            yield f"{command}: status {done.returncode}: {done.stdout}{done.stderr}"
+
+
 def main():
     graben, program, folder = sys.argv[1:]
-    shipped = [name for name in sorted(os.listdir(folder)) if name.endswith(".toml")]
+    shipped = [name for name in sorted(os.listdir(folder))
+               if name.endswith(".toml") and not name.endswith(".sim.toml")]
     wrong = [] if shipped else ["no shipped profile"]
-    good = {}
+    good, simulated = {}, {}
     for kind, name in KINDS.items():
-        with open(os.path.join(folder, name), encoding="utf-8") as stream:
+        path = os.path.join(folder, name)
+        with open(path, encoding="utf-8") as stream:
             good[kind] = stream.read()
+        with open(simulation(path), encoding="utf-8") as stream:
+            simulated[kind] = stream.read()
     with tempfile.TemporaryDirectory() as scratch:
-        reader = Reader(program, scratch)
+        reader = Reader(program, scratch, good)
         for name in shipped:
             path = os.path.join(folder, name)
             with open(path, "rb") as stream:
                 kind = tomllib.load(stream)["kind"]
-            wrong += [f"{name}: {text}" for read_as in (kind, "kind")
+            wrong += [f"{name}: {text}" for read_as in (kind, SIMULATED + kind, "kind")
                       for text in [reader.errors_of_file(read_as, path)] if text]
         for kind, cases in (("excavator", excavator_cases), ("dozer", dozer_cases)):
             wrong += wrong_cases(reader, kind, good[kind], cases.CASES)
             wrong += wrong_keys(reader, kind, good[kind], cases.RANGES)
+            wrong += wrong_cases(reader, SIMULATED + kind, simulated[kind], cases.SIMULATION_CASES)
+            wrong += wrong_keys(reader, SIMULATED + kind, simulated[kind], cases.SIMULATION_RANGES)
         wrong += wrong_kind(reader, good)
+        wrong += without_simulation(graben, scratch, good)
         wrong += command_reports(graben, os.path.join(folder, KINDS["dozer"]))
-    cases = len(excavator_cases.CASES) + len(dozer_cases.CASES)
+    cases = sum(len(found) for kind in (excavator_cases, dozer_cases)
+                for found in (kind.CASES, kind.SIMULATION_CASES))
     print("\n".join(wrong) or f"{len(shipped)} shipped, {cases} wrong profiles told")
     return 1 if wrong else 0
 

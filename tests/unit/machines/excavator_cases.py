@@ -6,6 +6,8 @@ from profile_edit import replaced
 
 # (what is wrong, change, what the message must contain: key path, value, unit, allowed range)
 CASES = [
+    ("the simulation's key", lambda t: replaced(t, "[boom]", "[boom]\nmass = 2130.0"),
+     ["1 error", "boom.mass", "unknown key"]),
     ("out of range", lambda t: replaced(t, "bore = 0.120", "bore = 12.0"),
      ["boom.cylinder.bore", "12", "0.02 .. 1 m", "line "]),
     ("wrong sign", lambda t: replaced(t, "length = 5.70", "length = -5.70"),
@@ -46,12 +48,6 @@ CASES = [
       "0.1 .. 10"]),
     ("dead time", lambda t: replaced(t, "dead_time = 0.0 ", "dead_time = 0.9 "),
      ["valve.dead_time", "0 .. 0.5 s"]),
-    ("soil", lambda t: replaced(t, "sine = 0.20", "sine = 20"),
-     ["experiment.soil.sine", "0 .. 1"]),
-    ("obstacle", lambda t: replaced(t, "stiffness = 2e7", "stiffness = 2e3"),
-     ["experiment.obstacle.stiffness", "N/m"]),
-    ("air path out of reach", lambda t: replaced(t, "y = [-1.1, 2.0]", "y = [1.1, 5.0]"),
-     ["experiment.air.path", "leaves the work space"]),
     ("in-flow check valve", lambda t: replaced(t, "force_offset = 2000.0",
                                                "force_offset = 2000.0\ninflow_check = { arm = 0.0 }"),
      ["valve.inflow_check.arm", "0"]),
@@ -70,17 +66,12 @@ CASES = [
         t, "section_flow = 3.57e-3       # m3/s: a pump's whole flow\nrated_pressure = 38.0e6",
         "section_flow = 3.57e-3\nrated_pressure = 34.0e6"),
      ["pump[0].relief", "pump[1].relief", "at most valve.rated_pressure"]),
-    ("line out of reach", lambda t: replaced(t, "[2.6, 4.6, 0.0]", "[2.6, 4.6, 9.0]"),
-     ["experiment.line", "the boom cylinder", "% of the line"]),
-    ("line without a way", lambda t: replaced(replaced(t, "[2.6, 4.6, 0.0]", "[0.0, 8.0, 0.0]"),
-                                              "attitude = 1.221730", "attitude = 2.268928"),
-     ["experiment.line", "both ends of the line are the same"]),
     ("pin on the wrong side", lambda t: replaced(t, "eye = [2.33, 0.85]", "eye = [2.33, -0.85]"),
      ["boom.angle", "the pins and stroke ends give"]),
     ("path out of reach", lambda t: replaced(replaced(t, "x = [3.5, 6.5]", "x = [7.5, 10.5]"),
                                              "[[3.5, 0.785398], [6.5, 2.094395]]",
                                              "[[7.5, 0.785398], [10.5, 2.094395]]"),
-     ["experiment.path", "leaves the work space"]),
+     ["task.path", "leaves the work space"]),
     ("rod thicker than bore", lambda t: replaced(t, "rod = 0.085", "rod = 0.125"),
      ["boom.cylinder.rod", "less than the bore"]),
     ("wrong kind", lambda t: replaced(t, 'kind = "excavator"', 'kind = "crane"'),
@@ -91,5 +82,30 @@ CASES = [
      ["2 errors", "valve.discharge", "valve.spool_travel"]),
 ]
 
+# The same of NAME.sim.toml.
+SIMULATION_CASES = [
+    ("plant", lambda t: replaced(replaced(t, "mass = 2130.0", "mass = inf"),
+                                 "port_relief = 38.0e6", "port_relief = 380.0"),
+     ["2 errors", "boom.mass", "not finite", "valve.port_relief", "1000000 .. 100000000 Pa"]),
+    ("unknown key", lambda t: replaced(t, "hold = 3.0", "hold = 3.0, held = 3.0"),
+     ["1 error", "experiment.obstacle.held", "unknown key"]),
+    ("the machine's key", lambda t: replaced(t, "[boom]", "[boom]\nlength = 5.70"),
+     ["1 error", "boom.length", "unknown key"]),
+    ("another kind", lambda t: replaced(t, 'kind = "excavator"', 'kind = "dozer"'),
+     ["1 error", "kind", "a machine of kind dozer; here it must be excavator"]),
+    ("soil", lambda t: replaced(t, "sine = 0.20", "sine = 20"),
+     ["experiment.soil.sine", "0 .. 1"]),
+    ("obstacle", lambda t: replaced(t, "stiffness = 2e7", "stiffness = 2e3"),
+     ["experiment.obstacle.stiffness", "N/m"]),
+    ("air path out of reach", lambda t: replaced(t, "y = [-1.1, 2.0]", "y = [1.1, 5.0]"),
+     ["experiment.air.path", "leaves the work space"]),
+    ("line out of reach", lambda t: replaced(t, "[2.6, 4.6, 0.0]", "[2.6, 4.6, 9.0]"),
+     ["experiment.line", "the boom cylinder", "% of the line"]),
+    ("line without a way", lambda t: replaced(replaced(t, "[2.6, 4.6, 0.0]", "[0.0, 8.0, 0.0]"),
+                                              "attitude = 1.221730", "attitude = 2.268928"),
+     ["experiment.line", "both ends of the line are the same"]),
+]
+
 # The dozer's ranges are listed key by key; these are read by the same code.
 RANGES = {}
+SIMULATION_RANGES = {}

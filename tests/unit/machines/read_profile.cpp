@@ -1,16 +1,17 @@
-/// Reads a profile as one of a machine of this kind: read_profile KIND FILE. Says what is wrong
-/// with it and ends with 1; ends with 0 and in silence else.
+/// Reads a profile as one of a machine of this kind: read_profile KIND FILE; as a simulated one
+/// with the file beside it too. Says what is wrong with it and ends with 1; ends with 0 and in
+/// silence else.
 
 #include <cstdio>
 #include <exception>
 #include <string>
 
-#include "app/machines/dozer_file.hpp"
-#include "app/machines/excavator_file.hpp"
+#include "app/machines/simulated/simulated_dozer.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 3) {
-    std::fputs("read_profile excavator|dozer|kind FILE\n", stderr);
+    std::fputs("read_profile [simulated-]excavator|[simulated-]dozer|kind FILE\n", stderr);
     return 2;
   }
   using namespace graben::machines;
@@ -20,8 +21,12 @@ int main(int argc, char** argv) {
       static_cast<void>(profile_kind(argv[2]));
     } else if (kind == "dozer") {
       static_cast<void>(load_dozer(argv[2]));
-    } else {
+    } else if (kind == "excavator") {
       static_cast<void>(load_excavator(argv[2]));
+    } else if (kind == "simulated-dozer") {
+      static_cast<void>(load_simulated_dozer(argv[2]));
+    } else {
+      static_cast<void>(load_simulated_excavator(argv[2]));
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -1,4 +1,4 @@
-#include "app/machines/dozer_file.hpp"
+#include "app/machines/simulated/simulated_dozer.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,9 +11,9 @@ namespace {
 
 using namespace graben;
 
-const machines::DozerMachine& machine() {
-  static const machines::DozerMachine loaded =
-      machines::load_dozer(machines::find_profile("dozer_9t"));
+const machines::SimulatedDozer& machine() {
+  static const machines::SimulatedDozer loaded =
+      machines::load_simulated_dozer(machines::find_profile("dozer_9t"));
   return loaded;
 }
 

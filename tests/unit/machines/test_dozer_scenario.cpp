@@ -11,16 +11,17 @@ namespace {
 
 using namespace graben;
 using machines::arranged;
-using machines::DozerMachine;
 using machines::DozerScenario;
+using machines::SimulatedDozer;
 
-const DozerMachine& nominal() {
-  static const DozerMachine machine = machines::load_dozer(machines::find_profile("dozer_9t"));
+const SimulatedDozer& nominal() {
+  static const SimulatedDozer machine =
+      machines::load_simulated_dozer(machines::find_profile("dozer_9t"));
   return machine;
 }
 
 void without_a_word_nothing_changes(void**) {
-  const DozerMachine plain = arranged(nominal(), {});
+  const SimulatedDozer plain = arranged(nominal(), {});
   assert_int_equal(plain.profile.travel.policy, SpeedPolicy::kBounded);
   assert_near(plain.profile.travel.speed_desired_mps, 1.6, 0.0);
   assert_near(plain.profile.travel.speed_min_mps, 0.1, 0.0);
@@ -34,7 +35,7 @@ void speed_is_the_controllers(void**) {
   DozerScenario scenario;
   scenario.policy = SpeedPolicy::kConstant;
   scenario.speed_mps = 0.06;
-  const DozerMachine machine = arranged(nominal(), scenario);
+  const SimulatedDozer machine = arranged(nominal(), scenario);
   assert_int_equal(machine.profile.travel.policy, SpeedPolicy::kConstant);
   assert_near(machine.profile.travel.speed_desired_mps, 0.06, 0.0);
   assert_near(machine.profile.travel.speed_min_mps, 0.06, 0.0);
@@ -45,7 +46,7 @@ void speed_is_the_controllers(void**) {
 void the_engine_is_the_machines(void**) {
   DozerScenario scenario;
   scenario.engine_radps = 104.72;
-  const DozerMachine machine = arranged(nominal(), scenario);
+  const SimulatedDozer machine = arranged(nominal(), scenario);
   assert_near(machine.plant.machine.hst.engine_radps, 104.72, 0.0);
   assert_near(machine.profile.hst.engine_radps, 157.08, 0.0);
 }
@@ -61,7 +62,7 @@ void the_ends_of_the_engines_range_are_in_it(void**) {
 
 /// The simulated ground is level: there is nothing to fill it with.
 void a_design_above_the_ground_is_refused(void**) {
-  DozerMachine machine = nominal();
+  SimulatedDozer machine = nominal();
   machine.profile.grade.plane_slope = 0.01;
   try {
     static_cast<void>(arranged(machine, {}));
@@ -90,7 +91,7 @@ void errors_draw_the_machine_only(void**) {
   scenario.errors = true;
   scenario.seed = 5;
   scenario.engine_radps = 104.72;
-  const DozerMachine machine = arranged(nominal(), scenario);
+  const SimulatedDozer machine = arranged(nominal(), scenario);
   const plant::DozerPlantProfile drawn = machines::draw_dozer(nominal(), 5);
   assert_true(machine.plant.sensor_errors && machine.plant.seed == 5);
   assert_near(machine.plant.machine.body.mass_kg, drawn.machine.body.mass_kg, 0.0);

@@ -1,4 +1,4 @@
-#include "app/machines/excavator_file.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 
 #include <cstring>
 
@@ -8,9 +8,9 @@ namespace {
 
 using namespace graben;
 
-const machines::ExcavatorMachine& machine() {
-  static const machines::ExcavatorMachine loaded =
-      machines::load_excavator(machines::find_profile("excavator_22t"));
+const machines::SimulatedExcavator& machine() {
+  static const machines::SimulatedExcavator loaded =
+      machines::load_simulated_excavator(machines::find_profile("excavator_22t"));
   return loaded;
 }
 
@@ -59,8 +59,8 @@ void figures_arrive_in_the_structs(void**) {
 
 /// One pump for all three, and pins from the angles of (6): 28.208 and 44.714 deg.
 void the_12_t_machine(void**) {
-  const machines::ExcavatorMachine small =
-      machines::load_excavator(machines::find_profile("excavator_12t"));
+  const machines::SimulatedExcavator small =
+      machines::load_simulated_excavator(machines::find_profile("excavator_12t"));
   const ExcavatorProfile& profile = small.profile;
   assert_int_equal(profile.pump_count, 1);
   for (const SpoolProfile& spool : profile.valve.spool) {

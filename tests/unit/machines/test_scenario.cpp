@@ -13,12 +13,12 @@ namespace {
 using namespace graben;
 using machines::arranged;
 using machines::Errors;
-using machines::ExcavatorMachine;
 using machines::Scenario;
+using machines::SimulatedExcavator;
 
-const ExcavatorMachine& nominal() {
-  static const ExcavatorMachine machine =
-      machines::load_excavator(machines::find_profile("excavator_22t"));
+const SimulatedExcavator& nominal() {
+  static const SimulatedExcavator machine =
+      machines::load_simulated_excavator(machines::find_profile("excavator_22t"));
   return machine;
 }
 
@@ -66,7 +66,7 @@ void draws_fill_their_ranges(void**) {
   std::vector<double> least(exact.size(), 1.0);
   std::vector<double> most(exact.size(), -1.0);
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
-    const ExcavatorMachine drawn = arranged(nominal(), with_errors(Errors::kAll, seed));
+    const SimulatedExcavator drawn = arranged(nominal(), with_errors(Errors::kAll, seed));
     const std::vector<double> values = parameters(drawn.profile);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double off = values[i] / exact[i] - 1.0;
@@ -92,7 +92,7 @@ void only_the_controller_errs(void**) {
   for (const Errors errors : {Errors::kNone, Errors::kStrokeBias, Errors::kSensors}) {
     assert_true(parameters(arranged(nominal(), with_errors(errors, 3)).profile) == exact);
   }
-  const ExcavatorMachine drawn = arranged(nominal(), with_errors(Errors::kAll, 3));
+  const SimulatedExcavator drawn = arranged(nominal(), with_errors(Errors::kAll, 3));
   assert_true(parameters(drawn.profile) != exact);
   assert_true(parameters(drawn.plant.machine) == exact);
   assert_true(drawn.hash == nominal().hash);
@@ -116,8 +116,9 @@ void what_is_switched_on_beside_it_changes_no_draw(void**) {
 /// The swing's section is drawn where there is one, after the others; where there is none it takes
 /// no draw from what comes after it.
 void swing_is_drawn_where_it_is_driven(void**) {
-  const ExcavatorMachine driven = machines::load_excavator(machines::find_profile("excavator_12t"));
-  ExcavatorMachine held = driven;
+  const SimulatedExcavator driven =
+      machines::load_simulated_excavator(machines::find_profile("excavator_12t"));
+  SimulatedExcavator held = driven;
   held.profile.drive_count = kAxisCount;
   const Scenario scenario = with_errors(Errors::kAll, 4);
   const ExcavatorProfile of_driven = arranged(driven, scenario).profile;
@@ -133,7 +134,7 @@ void swing_is_drawn_where_it_is_driven(void**) {
 }
 
 void each_switch_does_its_part(void**) {
-  const ExcavatorMachine plain = arranged(nominal(), {});
+  const SimulatedExcavator plain = arranged(nominal(), {});
   assert_false(plain.plant.soil.has_value() || plain.plant.obstacle.has_value());
   assert_false(plain.plant.sensor_errors);
   Scenario scenario = with_errors(Errors::kAll, 5);
@@ -141,7 +142,7 @@ void each_switch_does_its_part(void**) {
   scenario.obstacle = true;
   scenario.stiff_oil = true;
   scenario.dead_time_s = 0.15;
-  const ExcavatorMachine all = arranged(nominal(), scenario);
+  const SimulatedExcavator all = arranged(nominal(), scenario);
   assert_true(all.plant.soil.has_value() && all.plant.obstacle.has_value());
   assert_true(all.plant.sensor_errors && all.plant.seed == 5);
   assert_near(all.plant.bulk_modulus_pa, 1e10, 0.0);
@@ -159,7 +160,7 @@ void each_switch_does_its_part(void**) {
   assert_near(biased.stroke_bias_m, 2e-3, 0.0);
   Scenario up;
   up.air = true;
-  const ExcavatorMachine air = arranged(nominal(), up);
+  const SimulatedExcavator air = arranged(nominal(), up);
   assert_near(air.profile.dig_path.y_max_m, nominal().experiment.air.path.y_max_m, 0.0);
   assert_near(air.profile.dig_speed_mps, nominal().experiment.air.speed_mps, 0.0);
 }

@@ -329,7 +329,7 @@ void shares_of_a_step_are_kept(void**) {
 // line stays out of it.
 void one_pump_feeds_all(void**) {
   const ExcavatorPlantProfile profile =
-      machines::load_excavator(machines::find_profile("excavator_12t")).plant;
+      machines::load_simulated_excavator(machines::find_profile("excavator_12t")).plant;
   ExcavatorPlant plant(profile, {0.4, 0.5, 0.4});
   const AxisArray before = plant.strokes_m();
   for (const DriveArray& duty :

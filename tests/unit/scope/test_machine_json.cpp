@@ -17,8 +17,8 @@ using nlohmann::json;
 
 constexpr double kRounding = 1e-6;
 
-machines::ExcavatorMachine excavator(const char* name) {
-  return machines::load_excavator(machines::find_profile(name));
+machines::SimulatedExcavator excavator(const char* name) {
+  return machines::load_simulated_excavator(machines::find_profile(name));
 }
 
 const json& machine_named(const json& setup, const std::string& name) {
@@ -35,18 +35,18 @@ void every_shipped_machine_is_there(void**) {
   assert_int_equal(setup["machines"].size(), 3);
   for (const char* name : {"excavator_12t", "excavator_22t"}) {
     const json& told = machine_named(setup, name);
-    const machines::ExcavatorMachine machine = excavator(name);
+    const machines::SimulatedExcavator machine = excavator(name);
     assert_true(told["kind"] == "excavator");
     assert_int_equal(told["hash"].get<std::uint32_t>(), machine.hash);
   }
   const json& dozer = machine_named(setup, "dozer_9t");
   assert_true(dozer["kind"] == "dozer");
   assert_int_equal(dozer["hash"].get<std::uint32_t>(),
-                   machines::load_dozer(machines::find_profile("dozer_9t")).hash);
+                   machines::load_simulated_dozer(machines::find_profile("dozer_9t")).hash);
 }
 
 void geometry_is_the_profile_s(void**) {
-  const machines::ExcavatorMachine machine = excavator("excavator_12t");
+  const machines::SimulatedExcavator machine = excavator("excavator_12t");
   const ExcavatorGeometry& geometry = machine.profile.geometry;
   const json told = reports::machine_json(machine, {});
   assert_near(told["boom_m"].get<double>(), geometry.boom_length_m, 0.0);
@@ -80,7 +80,7 @@ void geometry_is_the_profile_s(void**) {
 /// Closed, in short steps, and every point of it on the rectangle, seen from the boom foot.
 void the_path_is_the_task_s(void**) {
   for (const char* name : {"excavator_12t", "excavator_22t"}) {
-    const machines::ExcavatorMachine machine = excavator(name);
+    const machines::SimulatedExcavator machine = excavator(name);
     const Eigen::Vector2d foot_m = machine.profile.geometry.boom_foot_m;
     const RoundedRectangle path(machine.profile.dig_path);
     const json told = reports::machine_json(machine, {})["dig"];
@@ -106,7 +106,7 @@ void the_path_is_the_task_s(void**) {
 }
 
 void the_field_is_the_controller_s(void**) {
-  const machines::ExcavatorMachine machine = excavator("excavator_22t");
+  const machines::SimulatedExcavator machine = excavator("excavator_22t");
   const Eigen::Vector2d foot_m = machine.profile.geometry.boom_foot_m;
   const DigField field(machine.profile, ExcavatorKinematics(machine.profile.geometry));
   const json told = reports::machine_json(machine, {})["dig"]["field"];
@@ -138,7 +138,7 @@ DriveVector drives(const json& told) {
 
 /// Each step from where the one before ends; its drives put the teeth where it says.
 void steps_join_and_their_drives_fit(void**) {
-  const machines::ExcavatorMachine machine = excavator("excavator_12t");
+  const machines::SimulatedExcavator machine = excavator("excavator_12t");
   const SwingKinematics kinematics(machine.profile.geometry);
   const machines::TaskFile task =
       machines::load_task(machines::find_task("truck_loading"), machine.profile);
@@ -166,7 +166,7 @@ void steps_join_and_their_drives_fit(void**) {
 }
 
 void fences_have_words_and_the_design_is_the_last(void**) {
-  const machines::ExcavatorMachine machine = excavator("excavator_12t");
+  const machines::SimulatedExcavator machine = excavator("excavator_12t");
   const json told = reports::task_json(
       machines::load_task(machines::find_task("truck_loading"), machine.profile), machine.profile);
   const char* words[] = {"ceiling at 6.50 m", "floor at -0.80 m", "wall", "design surface"};
@@ -185,7 +185,8 @@ void fences_have_words_and_the_design_is_the_last(void**) {
 }
 
 void the_dozer_is_the_profile_s(void**) {
-  const machines::DozerMachine machine = machines::load_dozer(machines::find_profile("dozer_9t"));
+  const machines::SimulatedDozer machine =
+      machines::load_simulated_dozer(machines::find_profile("dozer_9t"));
   const json told = reports::machine_json(machine);
   const BladeGeometry& blade = machine.profile.blade;
   assert_near(told["blade"]["pivot_m"][0].get<double>(), blade.pivot_m.x(), 0.0);
@@ -206,7 +207,8 @@ void the_dozer_is_the_profile_s(void**) {
 }
 
 void the_design_rises_in_x_and_is_the_grade(void**) {
-  const machines::DozerMachine machine = machines::load_dozer(machines::find_profile("dozer_9t"));
+  const machines::SimulatedDozer machine =
+      machines::load_simulated_dozer(machines::find_profile("dozer_9t"));
   const GradeProfile grade(machine.profile.grade);
   const json design = reports::machine_json(machine)["design"];
   assert_true(design.front()[0].get<double>() <= 0.0);

@@ -1,11 +1,14 @@
 #pragma once
-/// What can be tried on a simulated excavator beside its plain run.
+/// An excavator with what only its simulation needs: its plant, and what can be tried on it beside
+/// its plain run.
 
 #include <Eigen/Core>
+#include <filesystem>
 
+#include "app/machines/excavator_file.hpp"
+#include "app/plant/excavator_plant_profile.hpp"
 #include "app/plant/obstacle.hpp"
 #include "app/plant/soil.hpp"
-#include "firmware/excavator/excavator_profile.hpp"
 #include "firmware/excavator/kinematics/swing_kinematics.hpp"
 
 namespace graben::machines {
@@ -44,5 +47,15 @@ struct Experiment {
   LineTask line;
   double stiff_bulk_modulus_pa = 0.0;  ///< Oil as stiff as the paper's modes need it.
 };
+
+/// What the controller knows, and the machine that a simulation puts in its place.
+struct SimulatedExcavator : ExcavatorMachine {
+  plant::ExcavatorPlantProfile plant;
+  Experiment experiment;
+};
+
+/// Reads and checks NAME.toml, then NAME.sim.toml beside it. Throws ProfileError with every error
+/// of the first that has any, std::runtime_error where a file is missing.
+[[nodiscard]] SimulatedExcavator load_simulated_excavator(const std::filesystem::path& file);
 
 }  // namespace graben::machines

@@ -105,10 +105,10 @@ TravelProfile read_travel(TomlReader& reader) {
 GradeDesign read_grade(TomlReader& reader) {
   GradeDesign grade;
   for (const auto& [x_m, z_m] :
-       reader.pairs("experiment.profile", kX, kHeight, 2, GradeDesign::kMostPoints)) {
+       reader.pairs("grade.profile", kX, kHeight, 2, GradeDesign::kMostPoints)) {
     grade.point[static_cast<unsigned>(grade.count++)] = {x_m, z_m};
   }
-  grade.rounding_m = reader.number("experiment.rounding", {0.0, 10.0, "m"});
+  grade.rounding_m = reader.number("grade.rounding", {0.0, 10.0, "m"});
   grade.plane_height_m = reader.number("grade.plane_height", kHeight);
   grade.plane_slope = reader.number("grade.plane_slope", {-0.3, 0.3, ""});
   return grade;
@@ -133,7 +133,7 @@ DozerSafety read_safety(TomlReader& reader) {
 
 }  // namespace
 
-DozerProfile read_dozer_controller_sections(TomlReader& reader) {
+DozerProfile read_dozer_sections(TomlReader& reader) {
   DozerProfile profile;
   profile.body = read_body(reader);
   profile.blade = read_blade(reader);
@@ -144,15 +144,6 @@ DozerProfile read_dozer_controller_sections(TomlReader& reader) {
   profile.control = read_control(reader);
   profile.safety = read_safety(reader);
   return profile;
-}
-
-DozerExperiment read_dozer_experiment_sections(TomlReader& reader) {
-  DozerExperiment experiment;
-  experiment.length_m = reader.number("experiment.length", {1.0, 1000.0, "m"});
-  experiment.uncertainty = {reader.number("uncertainty.mass", {0.0, 0.5, ""}),
-                            reader.number("uncertainty.friction", {0.0, 0.5, ""}),
-                            reader.number("uncertainty.efficiency", {0.0, 0.5, ""})};
-  return experiment;
 }
 
 }  // namespace graben::machines

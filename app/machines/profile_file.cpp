@@ -4,7 +4,7 @@
 
 #include <fstream>
 #include <sstream>
-#include <vector>
+#include <string_view>
 
 namespace graben::machines {
 namespace {
@@ -19,13 +19,7 @@ const std::string& kind_name(MachineKind kind) {
   return kind_names()[static_cast<std::size_t>(kind)];
 }
 
-std::uint32_t fnv1a(const std::string& bytes) {
-  std::uint32_t hash = 2166136261u;
-  for (const char byte : bytes) {
-    hash = (hash ^ static_cast<unsigned char>(byte)) * 16777619u;
-  }
-  return hash;
-}
+constexpr std::string_view kSimulation = ".sim.toml";
 
 std::string read_file(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -34,6 +28,12 @@ std::string read_file(const std::filesystem::path& file) {
     throw std::runtime_error(fmt::format("{}: can't be read", file.string()));
   }
   return text.str();
+}
+
+MachineKind read_kind(const ProfileDocument& document, TomlReader& reader) {
+  const auto kind = static_cast<MachineKind>(reader.choice("kind", kind_names()));
+  throw_errors(document, reader);
+  return kind;
 }
 
 }  // namespace
@@ -63,24 +63,35 @@ std::filesystem::path find_file(const char* what, const std::string& name,
 
 std::filesystem::path find_profile(const std::string& name,
                                    const std::vector<std::filesystem::path>& folders) {
-  return find_file("profile", name, folders);
+  std::filesystem::path file = find_file("profile", name, folders);
+  if (is_simulation_file(file)) {
+    throw std::runtime_error(
+        fmt::format("{}: describes a simulated machine; the profile is the file beside it without "
+                    "'.sim'",
+                    file.string()));
+  }
+  return file;
+}
+
+std::filesystem::path simulation_file(const std::filesystem::path& file) {
+  return file.parent_path() / (file.stem().string() + std::string(kSimulation));
+}
+
+bool is_simulation_file(const std::filesystem::path& file) {
+  const std::string name = file.filename().string();
+  return name.size() > kSimulation.size() &&
+         name.compare(name.size() - kSimulation.size(), kSimulation.size(), kSimulation) == 0;
 }
 
 ProfileDocument read_document(const std::filesystem::path& file) {
   const std::string text = read_file(file);
   try {
-    return {file, fnv1a(text), toml::parse(text, file.string())};
+    return {file, toml::parse(text, file.string())};
   } catch (const toml::parse_error& error) {
     throw ProfileError(file.string(),
                        {fmt::format("line {}, column {}: {}", error.source().begin.line,
                                     error.source().begin.column, error.description())});
   }
-}
-
-MachineKind read_kind(const ProfileDocument& document, TomlReader& reader) {
-  const auto kind = static_cast<MachineKind>(reader.choice("kind", kind_names()));
-  throw_errors(document, reader);
-  return kind;
 }
 
 void require_kind(const ProfileDocument& document, TomlReader& reader, MachineKind kind) {

@@ -6,10 +6,7 @@
 
 #include "app/machines/axis_names.hpp"
 #include "app/machines/excavator_sections.hpp"
-#include "app/machines/plan_text.hpp"
 #include "app/machines/shared_sections.hpp"
-#include "firmware/excavator/excavator_controller.hpp"
-#include "firmware/excavator/tasks/line_plan.hpp"
 
 namespace graben::machines {
 namespace {
@@ -225,70 +222,44 @@ SafetyProfile read_safety(TomlReader& reader) {
   return safety;
 }
 
-const char* hindrance_text(ReachStatus status) {
-  switch (status) {
-    case ReachStatus::kBoomStroke:
-      return "the boom cylinder's stroke";
-    case ReachStatus::kArmStroke:
-      return "the arm cylinder's stroke";
-    case ReachStatus::kBucketStroke:
-      return "the bucket cylinder's stroke";
-    case ReachStatus::kLinkageOpen:
-      return "the bucket's linkage";
-    default:
-      return "the reach of boom and arm";
-  }
-}
-
-std::string angle_key(unsigned axis) { return std::string(kAxisNames[axis]) + ".angle"; }
-
-/// The angle range is documentation; off by more than this, a pin is wrong.
-constexpr double kAngleTolerance_rad = 0.15;
-
-void check_angles(TomlReader& reader, const ExcavatorProfile& profile,
-                  const std::array<std::vector<double>, kAxisCount>& range) {
-  const ExcavatorKinematics kinematics(profile.geometry);
-  const auto stroke = [&](unsigned i) { return profile.geometry.cylinder[i].stroke_m; };
-  const JointResult closed = kinematics.joints_from_strokes(Eigen::Vector3d::Zero());
-  const JointResult open = kinematics.joints_from_strokes({stroke(0), stroke(1), stroke(2)});
-  for (unsigned i = 0; i < kAxisCount; ++i) {
-    const std::string key = angle_key(i);
-    if (closed.status != ReachStatus::kOk || open.status != ReachStatus::kOk) {
-      reader.fail("bucket.linkage", "can't close over the whole stroke of the bucket cylinder");
-      return;
-    }
-    const auto [least, most] = std::minmax(closed.joints_rad[i], open.joints_rad[i]);
-    if (std::abs(least - range[i][0]) > kAngleTolerance_rad ||
-        std::abs(most - range[i][1]) > kAngleTolerance_rad) {
-      reader.fail(key, fmt::format("[{}, {}] rad; the pins and stroke ends give [{:.3f}, {:.3f}] "
-                                   "rad; allowed: within {} rad of that",
-                                   range[i][0], range[i][1], least, most, kAngleTolerance_rad));
-    }
-  }
-}
-
-void check_path(TomlReader& reader, const char* key, const ProfileCheck& check) {
-  if (check.path != ReachStatus::kOk) {
-    reader.fail(key, fmt::format("leaves the work space at x {:.3f} m, y {:.3f} m, attitude {:.3f} "
-                                 "rad: {} does not allow it",
-                                 check.unreached.x_m, check.unreached.y_m,
-                                 check.unreached.attitude_rad, hindrance_text(check.path)));
-  }
-}
-
-void check_line(TomlReader& reader, const ExcavatorProfile& profile, const LineTask& task) {
-  LineRequest request{task.from, task.to, profile.line.acceleration_mps2};
-  request.duration_s = task.duration_s;
-  const SwingKinematics kinematics(profile.geometry);
-  const PlanResult result = plan_line(kinematics, drive_limits(profile), request);
-  if (result.refusal != PlanRefusal::kNone) {
-    reader.fail("experiment.line", refusal_words(profile.geometry, result));
-  }
-}
-
 }  // namespace
 
-ExcavatorProfile read_controller_sections(TomlReader& reader) {
+DigPath read_path(TomlReader& reader, const std::string& at) {
+  DigPath path;
+  const std::vector<double> x = reader.numbers(at + ".x", {-30.0, 30.0, "m"}, 2);
+  const std::vector<double> y = reader.numbers(at + ".y", {-30.0, 30.0, "m"}, 2);
+  path.x_min_m = x[0];
+  path.x_max_m = x[1];
+  path.y_min_m = y[0];
+  path.y_max_m = y[1];
+  path.corner_radius_m = reader.number(at + ".corner_radius", {0.01, 10.0, "m"});
+  const double half_side = 0.5 * std::min(path.x_max_m - path.x_min_m, path.y_max_m - path.y_min_m);
+  if (!(half_side > 0.0)) {
+    reader.fail(at, "x and y must each be given as [least, most]");
+  } else if (path.corner_radius_m > half_side) {
+    reader.fail(at + ".corner_radius", fmt::format("{} m; allowed: at most half the shorter side, "
+                                                   "{} m",
+                                                   path.corner_radius_m, half_side));
+  }
+  const auto attitude =
+      reader.pairs(at + ".attitude", {-30.0, 30.0, "m"}, {-7.0, 7.0, "rad"}, 2, 2);
+  if (attitude.size() == 2) {
+    if (attitude[0].first != path.x_min_m || attitude[1].first != path.x_max_m) {
+      reader.fail(at + ".attitude", "must be given at both ends of x, in their order");
+    }
+    path.attitude_at_x_min_rad = attitude[0].second;
+    path.attitude_at_x_max_rad = attitude[1].second;
+  }
+  return path;
+}
+
+TeethPose read_teeth(TomlReader& reader, const std::string& at) {
+  const std::vector<double> position = reader.numbers(at + ".position", {-30.0, 30.0, "m"}, 3);
+  return {{position[0], position[1], position[2]},
+          reader.number(at + ".attitude", {-7.0, 7.0, "rad"})};
+}
+
+ExcavatorProfile read_excavator_sections(TomlReader& reader) {
   ExcavatorProfile profile;
   profile.geometry = read_geometry(reader);
   profile.geometry.boom_foot_m = reader.point("body.boom_foot", kPin);
@@ -302,34 +273,12 @@ ExcavatorProfile read_controller_sections(TomlReader& reader) {
   }
   profile.valve = read_valve(reader, profile.pump_count, profile.drive_count);
   profile.control = read_control(reader);
-  profile.dig_path = read_path(reader, "experiment.path");
-  profile.dig_speed_mps = reader.number("experiment.speed", {0.01, 3.0, "m/s"});
-  const double swash_ratio = reader.number("experiment.swash", {0.0, 1.0, ""});
+  profile.dig_path = read_path(reader, "task.path");
+  profile.dig_speed_mps = reader.number("task.speed", {0.01, 3.0, "m/s"});
+  const double swash_ratio = reader.number("task.swash", {0.0, 1.0, ""});
   std::fill_n(profile.dig_swash_ratio.begin(), pumps, swash_ratio);
   profile.safety = read_safety(reader);
   return profile;
-}
-
-void check_across_keys(TomlReader& reader, const ExcavatorProfile& profile,
-                       const Experiment& experiment) {
-  std::array<std::vector<double>, kAxisCount> angle_range;
-  for (unsigned i = 0; i < kAxisCount; ++i) {
-    angle_range[i] = reader.numbers(angle_key(i), {-7.0, 7.0, "rad"}, 2);
-  }
-  if (!reader.errors().empty()) {
-    return;
-  }
-  check_angles(reader, profile, angle_range);
-  const ProfileCheck check = profile_check(profile);
-  if (check.valve.defect != McvDefect::kNone) {
-    reader.fail("valve", fmt::format("spool or pump {} can't be solved (defect {})",
-                                     check.valve.index, static_cast<int>(check.valve.defect)));
-  }
-  check_path(reader, "experiment.path", check);
-  ExcavatorProfile in_air = profile;
-  in_air.dig_path = experiment.air.path;
-  check_path(reader, "experiment.air.path", profile_check(in_air));
-  check_line(reader, profile, experiment.line);
 }
 
 }  // namespace graben::machines

@@ -1,0 +1,41 @@
+#pragma once
+/// A dozer with what only its simulation needs.
+
+#include <cstdint>
+#include <filesystem>
+
+#include "app/machines/dozer_file.hpp"
+#include "app/plant/dozer_plant_profile.hpp"
+
+namespace graben::machines {
+
+/// How far a dozer may be off from what its controller takes it for, each way, as a share.
+struct DozerUncertainty {
+  double mass = 0.0;        ///< Of the whole machine, its moment of inertia with it.
+  double friction = 0.0;    ///< The ground's: largest traction, and rolling resistance.
+  double efficiency = 0.0;  ///< Volumetric, of each pump and of the motors.
+};
+
+struct DozerExperiment {
+  double length_m = 0.0;  ///< The grade is made and judged from x = 0 to here.
+  DozerUncertainty uncertainty;
+};
+
+/// What the controller knows, and the machine that a simulation puts in its place.
+struct SimulatedDozer : DozerMachine {
+  plant::DozerPlantProfile plant;
+  DozerExperiment experiment;
+};
+
+/// Reads and checks NAME.toml, then NAME.sim.toml beside it. Throws as load_simulated_excavator.
+[[nodiscard]] SimulatedDozer load_simulated_dozer(const std::filesystem::path& file);
+
+/// A dozer that is not quite what its file says, and has sensor errors: mass (the moment of inertia
+/// in proportion), traction, rolling resistance and the efficiency of implement pump, pumps and
+/// motors each off by a uniform draw within `experiment.uncertainty`. An efficiency is drawn about
+/// its nominal value, as a share of it, and is at most 1. Same seed, same draw; the controller's
+/// profile is for the caller to leave as it is.
+[[nodiscard]] plant::DozerPlantProfile draw_dozer(const SimulatedDozer& machine,
+                                                  std::uint64_t seed);
+
+}  // namespace graben::machines

@@ -1,0 +1,176 @@
+#include "app/machines/simulated/simulated_excavator.hpp"
+
+#include <array>
+#include <string>
+
+#include "app/machines/axis_names.hpp"
+#include "app/machines/excavator_sections.hpp"
+#include "app/machines/plan_text.hpp"
+#include "app/machines/simulated/simulated_sections.hpp"
+#include "firmware/excavator/field/rounded_rectangle.hpp"
+#include "firmware/excavator/tasks/line_plan.hpp"
+
+namespace graben::machines {
+namespace {
+
+plant::LinkBody read_link(TomlReader& reader, const std::string& axis) {
+  plant::LinkBody link;
+  link.mass_kg = reader.number(axis + ".mass", {10.0, 1e5, "kg"});
+  link.inertia_kgm2 = reader.number(axis + ".inertia", {1.0, 1e6, "kg m2"});
+  link.mass_centre_m = reader.point(axis + ".mass_centre", {-10.0, 10.0, "m"});
+  return link;
+}
+
+void read_swing(TomlReader& reader, plant::ExcavatorPlantProfile& plant) {
+  plant.platform.inertia_kgm2 = reader.number("swing.inertia", {100.0, 1e6, "kg m2"});
+  plant.platform.coulomb_nm = reader.number("swing.coulomb", {0.0, 1e6, "N m"});
+  plant.platform.viscous_nmsprad = reader.number("swing.viscous", {0.0, 1e6, "N m s/rad"});
+  plant.swing_motor.dead_volume_m3 = reader.number("swing.dead_volume", {1e-5, 1.0, "m3"});
+  plant.swing_motor.leak_m3pspa = reader.number("swing.leak", {0.0, 1e-9, "m3/(s Pa)"});
+  plant.swing_motor.port_relief_pa = reader.number("swing.port_relief", {1e6, 1e8, "Pa"});
+}
+
+plant::SensorErrors read_sensors(TomlReader& reader, const ExcavatorProfile& nominal) {
+  plant::SensorErrors sensors;
+  sensors.stroke_resolution_m = reader.number("sensors.stroke_resolution", {0.0, 0.01, "m"});
+  sensors.stroke_bias_m = reader.number("sensors.stroke_bias", {0.0, 0.05, "m"});
+  if (nominal.has_swing()) {
+    sensors.swing_resolution_rad = reader.number("sensors.swing_resolution", {0.0, 0.01, "rad"});
+    sensors.swing_bias_rad = reader.number("sensors.swing_bias", {0.0, 0.05, "rad"});
+  }
+  sensors.pressure_range_pa = nominal.safety.pressure_rail_pa;
+  sensors.pressure_bias_ratio = reader.number("sensors.pressure_bias", {0.0, 0.5, ""});
+  sensors.pressure_noise_ratio = reader.number("sensors.pressure_noise", {0.0, 0.5, ""});
+  return sensors;
+}
+
+plant::ExcavatorPlantProfile read_plant(TomlReader& reader, const ExcavatorProfile& nominal) {
+  plant::ExcavatorPlantProfile plant;
+  plant.machine = nominal;
+  const std::vector<double> coulomb =
+      reader.numbers("friction.coulomb", {0.0, 1e6, "N"}, kAxisCount);
+  const std::vector<double> viscous =
+      reader.numbers("friction.viscous", {0.0, 1e7, "N s/m"}, kAxisCount);
+  const std::vector<double> dead_volume =
+      reader.numbers("valve.dead_volume", {1e-5, 1.0, "m3"}, kAxisCount);
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    plant.link[i] = read_link(reader, kAxisNames[i]);
+    plant.friction[i] = {coulomb[i], viscous[i]};
+    plant.dead_volume_m3[i] = dead_volume[i];
+  }
+  plant.line_volume_m3.fill(reader.number("valve.line_volume", {1e-5, 1.0, "m3"}));
+  read_valve_of_plant(reader, "valve", plant);
+  plant.port_relief_pa = reader.number("valve.port_relief", {1e6, 1e8, "Pa"});
+  if (nominal.has_swing()) {
+    read_swing(reader, plant);
+  }
+  plant.swash_ratio = nominal.dig_swash_ratio;
+  plant.dead_time_s.fill(nominal.control.dead_time_s);
+  plant.sensors = read_sensors(reader, nominal);
+  return plant;
+}
+
+plant::SoilProfile read_soil(TomlReader& reader) {
+  const std::string at = "experiment.soil.";
+  plant::SoilProfile soil;
+  soil.ground_y_m = reader.number(at + "ground", {-30.0, 30.0, "m"});
+  const std::vector<double> bias = reader.numbers(at + "bias", {0.0, 1e6, "N"}, 2);
+  soil.bias_n = {bias[0], bias[1]};
+  soil.ramp_m = reader.number(at + "ramp", {0.0, 10.0, "m"});
+  soil.sine_ratio = reader.number(at + "sine", {0.0, 1.0, ""});
+  soil.sine_hz = reader.number(at + "sine_frequency", {0.0, 50.0, "Hz"});
+  soil.random_ratio = reader.number(at + "random", {0.0, 1.0, ""});
+  soil.random_hz = reader.number(at + "random_frequency", {0.0, 50.0, "Hz"});
+  return soil;
+}
+
+/// It stands across the path, so that the bucket runs into it.
+plant::ObstacleProfile read_obstacle(TomlReader& reader, const RoundedRectangle& path) {
+  const std::string at = "experiment.obstacle.";
+  plant::ObstacleProfile obstacle;
+  const PathPoint point = path.at_share(reader.number(at + "share", {0.0, 1.0, ""}));
+  obstacle.point_m = point.position_m;
+  obstacle.normal = -point.tangent;
+  obstacle.stiffness_npm = reader.number(at + "stiffness", {1e5, 1e9, "N/m"});
+  obstacle.damping_nspm = reader.number(at + "damping", {0.0, 1e6, "N s/m"});
+  obstacle.friction = reader.number(at + "friction", {0.0, 2.0, ""});
+  obstacle.size_m = reader.number(at + "size", {0.01, 2.0, "m"});
+  obstacle.hold_s = reader.number(at + "hold", {0.1, 60.0, "s"});
+  return obstacle;
+}
+
+Uncertainty read_uncertainty(TomlReader& reader) {
+  const Range share{0.0, 0.9, ""};
+  return {reader.number("uncertainty.regeneration", share),
+          reader.number("uncertainty.spool_opening", share),
+          reader.number("uncertainty.bypass", share), reader.number("uncertainty.leak", share),
+          reader.number("uncertainty.dead_time", share)};
+}
+
+AirManoeuvre read_air(TomlReader& reader) {
+  AirManoeuvre air;
+  air.path = read_path(reader, "experiment.air.path");
+  const std::vector<double> start =
+      reader.numbers("experiment.air.start", {-30.0, 30.0, "m, m, rad"}, 3);
+  air.start = {start[0], start[1], start[2]};
+  air.loops = reader.number("experiment.air.loops", {0.1, 10.0, ""});
+  air.speed_mps = reader.number("experiment.air.speed", {0.01, 3.0, "m/s"});
+  air.payload_kg = reader.number("experiment.air.payload", {0.0, 1e5, "kg"});
+  air.payload_centre_m = reader.point("experiment.air.payload_centre", {-10.0, 10.0, "m"});
+  return air;
+}
+
+LineTask read_line_task(TomlReader& reader) {
+  const std::string at = "experiment.line";
+  return {read_teeth(reader, at + ".from"), read_teeth(reader, at + ".to"),
+          reader.number(at + ".duration", {0.5, 600.0, "s"})};
+}
+
+Experiment read_experiment(TomlReader& reader, const DigPath& path) {
+  Experiment experiment;
+  experiment.uncertainty = read_uncertainty(reader);
+  experiment.soil = read_soil(reader);
+  experiment.obstacle = read_obstacle(reader, RoundedRectangle(path));
+  experiment.air = read_air(reader);
+  experiment.line = read_line_task(reader);
+  experiment.stiff_bulk_modulus_pa = reader.number("valve.bulk_modulus_kim", {1e8, 1e11, "Pa"});
+  return experiment;
+}
+
+void check_line(TomlReader& reader, const ExcavatorProfile& profile, const LineTask& task) {
+  LineRequest request{task.from, task.to, profile.line.acceleration_mps2};
+  request.duration_s = task.duration_s;
+  const SwingKinematics kinematics(profile.geometry);
+  const PlanResult result = plan_line(kinematics, drive_limits(profile), request);
+  if (result.refusal != PlanRefusal::kNone) {
+    reader.fail("experiment.line", refusal_words(profile.geometry, result));
+  }
+}
+
+/// The path in the air lies in the work space, the line can be planned. Only where each key by
+/// itself is right.
+void check_experiment(TomlReader& reader, const ExcavatorProfile& profile,
+                      const Experiment& experiment) {
+  if (!reader.errors().empty()) {
+    return;
+  }
+  ExcavatorProfile in_air = profile;
+  in_air.dig_path = experiment.air.path;
+  check_path(reader, "experiment.air.path", profile_check(in_air));
+  check_line(reader, profile, experiment.line);
+}
+
+}  // namespace
+
+SimulatedExcavator load_simulated_excavator(const std::filesystem::path& file) {
+  SimulatedExcavator machine;
+  static_cast<ExcavatorMachine&>(machine) = load_excavator(file);
+  read_as(read_simulation(file), MachineKind::kExcavator, [&](TomlReader& reader) {
+    machine.plant = read_plant(reader, machine.profile);
+    machine.experiment = read_experiment(reader, machine.profile.dig_path);
+    check_experiment(reader, machine.profile, machine.experiment);
+  });
+  return machine;
+}
+
+}  // namespace graben::machines

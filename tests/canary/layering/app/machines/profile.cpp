@@ -1,0 +1,1 @@
+#include "app/machines/simulated/machine.hpp"

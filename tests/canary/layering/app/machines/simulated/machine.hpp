@@ -1,0 +1,2 @@
+#pragma once
+#include "app/plant/plant.hpp"
