@@ -32,10 +32,10 @@ FORBIDDEN = {
     "app/reports/": ("app/scope/server/", "app/scope/sim/", "app/cli/"),
     "app/scope/": ("app/cli/",),
 }
-# All that the plant may see of the core, through any number of headers in between: what a machine is, and
 # What runs on a machine never sees what stands in for one.
 DEPLOYED = ("app/ecu/", "app/machines/")
 SIMULATED = ("app/plant/", "app/machines/simulated/")
+# All that the plant may see of the core, through any number of headers in between: what a machine is, and
 # the codes and values that are on the bus. Of a kind's wing these two headers.
 PLANT_SEES = ("firmware/core/", "firmware/machine/", "firmware/numeric/", "firmware/signals/")
 PLANT_SEES_OF_A_WING = ("{0}/{0}_profile.hpp", "{0}/{0}_signals.hpp")
