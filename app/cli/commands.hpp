@@ -2,6 +2,10 @@
 /// The subcommands of `graben`. Each adds itself to the CLI11 application and sets `status` to its
 /// exit status when it has run: 0 done, 1 the input or the result is at fault, 2 wrong usage.
 
+#include <string>
+
+#include "app/runs/scenarios.hpp"
+
 namespace CLI {
 class App;
 }
@@ -18,5 +22,18 @@ void add_autodig(CLI::App& app, int& status);
 void add_plan(CLI::App& app, int& status);
 void add_plant(CLI::App& app, int& status);
 void add_scope(CLI::App& app, int& status);
+
+/// A task on the simulated machine, as both `autodig` and `dig --task` run it.
+struct TaskCommand {
+  runs::TaskScenario scenario;
+  std::string profile = "excavator_12t";
+  std::string out = "out";
+  std::string name = "autodig";  ///< Of the files in `out`.
+  std::string summary;
+};
+
+/// Runs it, writes log, report and summary, prints the figures. Throws std::runtime_error where the
+/// run did not come to its end.
+void run_task(const TaskCommand& options);
 
 }  // namespace graben::cli

@@ -7,22 +7,19 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/autodig_command.hpp"
 #include "app/cli/commands.hpp"
-#include "app/cli/guarded.hpp"
+#include "app/cli/console.hpp"
 #include "app/cli/scenario_options.hpp"
-#include "app/cli/validators.hpp"
-#include "app/plant/random.hpp"
-#include "app/reports/dig_report.hpp"
+#include "app/reports/run_reports.hpp"
 #include "app/runs/dig_run.hpp"
 #include "app/runs/fault_text.hpp"
-#include "app/runs/progress_bar.hpp"
+#include "app/scope/page/scope_page.hpp"
 
 namespace graben::cli {
 namespace {
 
 struct DigCommand {
-  ScenarioOptions scenario;
+  runs::DigScenario scenario;
   std::optional<std::string> profile;
   std::optional<std::string> task;
   std::string out = "out";
@@ -35,20 +32,11 @@ struct DigCommand {
   std::optional<double> loops;
 };
 
-Eigen::Vector3d random_strokes(const ExcavatorGeometry& geometry, std::uint64_t seed) {
-  plant::Random random(seed, plant::Draw::kStart);
-  Eigen::Vector3d strokes_m;
-  for (unsigned i = 0; i < kAxisCount; ++i) {
-    strokes_m[i] = random.uniform() * geometry.cylinder[i].stroke_m;
-  }
-  return strokes_m;
-}
-
-/// Where the options say it, if they do.
+/// Start that the options name, if they do.
 std::optional<Eigen::Vector3d> start_strokes(const DigCommand& options,
                                              const ExcavatorProfile& profile) {
   if (options.random_start) {
-    return random_strokes(profile.geometry, options.seed);
+    return runs::random_strokes(profile.geometry, options.seed);
   }
   if (!options.start_strokes_m.empty()) {
     const Eigen::Vector3d strokes_m(options.start_strokes_m[0], options.start_strokes_m[1],
@@ -84,13 +72,13 @@ const char* end_text(runs::DigEnd end) {
 }
 
 void dig(const DigCommand& options) {
-  ScenarioOptions scenario = options.scenario;
+  runs::DigScenario scenario = options.scenario;
   scenario.scenario.seed = options.seed;
   const machines::SimulatedExcavator machine =
-      arranged(machines::load_simulated_excavator(
-                   machines::find_profile(options.profile.value_or("excavator_22t"))),
-               scenario);
-  runs::DigOptions run_options = usual_run(machine, scenario);
+      runs::arranged(machines::load_simulated_excavator(
+                         machines::find_profile(options.profile.value_or("excavator_22t"))),
+                     scenario);
+  runs::DigOptions run_options = runs::usual_run(machine, scenario);
   run_options.start_strokes_m =
       start_strokes(options, machine.profile).value_or(run_options.start_strokes_m);
   run_options.speed_override_ratio = options.speed;
@@ -101,22 +89,22 @@ void dig(const DigCommand& options) {
 
   runs::DigResult result;
   {
-    runs::ProgressBar bar("dig");
-    result = runs::run_dig(machine, run_options,
-                           [&](double share, const std::string& where) { bar.show(share, where); });
+    ProgressBar bar("dig");
+    result = runs::run_dig(machine, run_options, bar.progress());
   }
   const runs::DigSummary summary = runs::summarise(result);
+  const runs::RunFigures figures = runs::figures_of(summary);
   const std::filesystem::path report = out / "dig.html";
   reports::write_dig_report(
-      report, run_options.log_file, machine, result, summary,
+      {report, scope::scope_page()}, run_options.log_file, machine, result, summary,
       fmt::format("{} | {} | start strokes {:.3f}, {:.3f}, {:.3f} m | speed {:.0f} %", machine.name,
-                  scenario_words(scenario), run_options.start_strokes_m[0],
+                  runs::scenario_text(scenario), run_options.start_strokes_m[0],
                   run_options.start_strokes_m[1], run_options.start_strokes_m[2],
                   options.speed * 100.0));
   if (!options.summary.empty()) {
-    reports::write_dig_summary(options.summary, summary);
+    reports::write_summary(options.summary, figures);
   }
-  fmt::print("{}log     {}\nreport  {}\n", reports::dig_table(summary),
+  fmt::print("{}log     {}\nreport  {}\n", runs::figures_text(figures),
              run_options.log_file.string(), report.string());
   if (result.end != runs::DigEnd::kDone) {
     throw std::runtime_error(result.end == runs::DigEnd::kFault
@@ -127,17 +115,17 @@ void dig(const DigCommand& options) {
   }
 }
 
-/// What can be told of a task's run too, in the words of `autodig`.
-TaskRunOptions task_run(const DigCommand& options) {
-  TaskRunOptions run;
+/// Options that a task's run has too, as `autodig` names them.
+TaskCommand task_command(const DigCommand& options) {
+  TaskCommand run;
+  run.scenario.task = options.task.value_or(run.scenario.task);
+  run.scenario.errors = options.scenario.errors;
+  run.scenario.seed = options.seed;
+  run.scenario.speed_override_ratio = options.speed;
   run.profile = options.profile.value_or(run.profile);
-  run.task = options.task.value_or(run.task);
   run.out = options.out;
   run.name = "dig";
   run.summary = options.summary;
-  run.errors = options.scenario.errors;
-  run.seed = options.seed;
-  run.speed = options.speed;
   return run;
 }
 
@@ -164,8 +152,7 @@ void add_dig(CLI::App& app, int& status) {
                       "--task excavator_12t");
   command->add_option("--out", options->out, "Folder for dig.log and dig.html")
       ->capture_default_str();
-  command->add_option("--summary", options->summary, "Write the figures as JSON to this file");
-  options->scenario.errors = "none";
+  add_summary_option(*command, options->summary);
   add_scenario_options(*command, options->scenario);
   command
       ->add_option("--seed", options->seed,
@@ -182,9 +169,7 @@ void add_dig(CLI::App& app, int& status) {
   start->add_flag("--random-start", options->random_start,
                   "Any pose of the work space, drawn from the seed");
   start->require_option(0, 1);
-  command->add_option("--speed", options->speed, "Operator's speed override, 0.05 .. 1")
-      ->check(number_between(0.05, 1.0))
-      ->capture_default_str();
+  add_override_option(*command, options->speed);
   command
       ->add_option("--loops", options->loops, "Times round the path, 0.1 .. 100; once unless told")
       ->check(number_between(0.1, 100.0));
@@ -192,7 +177,7 @@ void add_dig(CLI::App& app, int& status) {
   command->callback([options, &status] {
     status = guarded("dig", [&] {
       if (options->task) {
-        run_task(task_run(*options));
+        run_task(task_command(*options));
       } else {
         dig(*options);
       }

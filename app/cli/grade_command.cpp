@@ -8,20 +8,19 @@
 #include <string>
 
 #include "app/cli/commands.hpp"
-#include "app/cli/grade_options.hpp"
-#include "app/cli/guarded.hpp"
-#include "app/cli/validators.hpp"
-#include "app/reports/grade_report.hpp"
+#include "app/cli/console.hpp"
+#include "app/cli/scenario_options.hpp"
+#include "app/reports/run_reports.hpp"
 #include "app/runs/fastest_speed.hpp"
 #include "app/runs/fault_text.hpp"
 #include "app/runs/grade_run.hpp"
-#include "app/runs/progress_bar.hpp"
+#include "app/scope/page/scope_page.hpp"
 
 namespace graben::cli {
 namespace {
 
 struct GradeCommand {
-  GradeScenario scenario;
+  runs::GradeScenario scenario;
   std::string profile = "dozer_9t";
   std::string out = "out";
   std::string log;
@@ -41,13 +40,14 @@ machines::SimulatedDozer machine_of(const GradeCommand& options) {
   if (options.scenario.errors == "all" && !options.seed) {
     throw std::runtime_error("--errors all draws the errors: it needs --seed");
   }
-  return arranged(machines::load_simulated_dozer(machines::find_profile(options.profile)),
-                  options.scenario, options.seed.value_or(0));
+  return runs::arranged(machines::load_simulated_dozer(machines::find_profile(options.profile)),
+                        options.scenario, options.seed.value_or(0));
 }
 
-std::string words_of(const GradeCommand& options, const machines::SimulatedDozer& machine) {
+std::string subtitle_of(const GradeCommand& options, const machines::SimulatedDozer& machine) {
   const std::string seed = options.seed ? fmt::format(" | seed {}", *options.seed) : "";
-  return fmt::format("{} | {}{}", machine.name, scenario_words(machine, options.scenario), seed);
+  return fmt::format("{} | {}{}", machine.name, runs::scenario_text(machine, options.scenario),
+                     seed);
 }
 
 void grade(const GradeCommand& options) {
@@ -64,24 +64,24 @@ void grade(const GradeCommand& options) {
 
   runs::GradeResult result;
   {
-    runs::ProgressBar bar("grade");
-    result = runs::run_grade(
-        machine, run, [&](double share, const std::string& where) { bar.show(share, where); });
+    ProgressBar bar("grade");
+    result = runs::run_grade(machine, run, bar.progress());
   }
   const runs::GradeSummary summary = runs::summarise(machine, result);
-  reports::write_grade_report(report, run.log_file, machine, result, summary,
-                              words_of(options, machine));
+  const runs::RunFigures figures = runs::figures_of(summary);
+  reports::write_grade_report({report, scope::scope_page()}, run.log_file, machine, result, summary,
+                              subtitle_of(options, machine));
   if (!options.summary.empty()) {
-    reports::write_grade_summary(options.summary, summary);
+    reports::write_summary(options.summary, figures);
   }
-  fmt::print("{}log     {}\nreport  {}\n", reports::grade_table(summary), run.log_file.string(),
+  fmt::print("{}log     {}\nreport  {}\n", runs::figures_text(figures), run.log_file.string(),
              report.string());
   if (result.end != runs::GradeEnd::kDone) {
     throw std::runtime_error(end_text(result));
   }
 }
 
-/// How fast one may go without the controller's bound.
+/// Fastest speed without the controller's bound.
 void search(const GradeCommand& options) {
   if (options.scenario.speed_mode != "constant") {
     throw std::runtime_error("--within looks for a constant speed: it needs --speed-mode constant");
@@ -89,7 +89,7 @@ void search(const GradeCommand& options) {
   const machines::SimulatedDozer machine = machine_of(options);
   runs::FastestSpeed result;
   {
-    runs::ProgressBar bar("grade");
+    ProgressBar bar("grade");
     result =
         runs::find_fastest(machine, *options.within_m,
                            [&](double share, const std::string& where) { bar.show(share, where); });
@@ -101,7 +101,7 @@ void search(const GradeCommand& options) {
                     runs::kSlowestTrial_mps, *options.within_m));
   }
   if (!options.summary.empty()) {
-    reports::write_grade_summary(options.summary, result.found->summary);
+    reports::write_summary(options.summary, runs::figures_of(result.found->summary));
   }
 }
 
@@ -111,13 +111,11 @@ void add_grade(CLI::App& app, int& status) {
   auto options = std::make_shared<GradeCommand>();
   CLI::App* command = app.add_subcommand(
       "grade", "Cut the profile's grade with the simulated dozer, over a CAN bus in memory");
-  command->add_option("--profile", options->profile, "Machine profile: file or shipped name")
-      ->capture_default_str();
+  add_profile_option(*command, options->profile);
   command->add_option("--out", options->out, "Folder for grade.log and grade.html")
       ->capture_default_str();
   command->add_option("--log", options->log, "candump log; grade.log in that folder unless told");
-  command->add_option("--summary", options->summary, "Write the figures as JSON to this file");
-  options->scenario.errors = "none";
+  add_summary_option(*command, options->summary);
   add_speed_options(*command, options->scenario);
   add_engine_option(*command, options->scenario);
   add_error_option(*command, options->scenario);

@@ -9,12 +9,13 @@
 #include <vector>
 
 #include "app/cli/commands.hpp"
-#include "app/cli/guarded.hpp"
-#include "app/cli/validators.hpp"
+#include "app/cli/console.hpp"
+#include "app/cli/scenario_options.hpp"
 #include "app/machines/plan_text.hpp"
 #include "app/machines/simulated/simulated_excavator.hpp"
-#include "app/reports/plan_report.hpp"
+#include "app/reports/run_reports.hpp"
 #include "app/runs/plan_run.hpp"
+#include "app/scope/page/scope_page.hpp"
 
 namespace graben::cli {
 namespace {
@@ -37,7 +38,7 @@ TeethPose pose(const std::vector<double>& given, const TeethPose& otherwise) {
   return given.empty() ? otherwise : TeethPose{{given[0], given[1], given[2]}, given[3]};
 }
 
-/// What the command does not tell of the line is the simulated machine's.
+/// Line of the simulated machine, for what the command does not tell.
 machines::LineTask task_of(const PlanCommand& options, const fs::path& file) {
   const bool is_whole = !options.from.empty() && !options.to.empty() &&
                         (options.duration_s.has_value() || options.speed_mps.has_value());
@@ -53,7 +54,7 @@ LineRequest request_of(const PlanCommand& options, const machines::ExcavatorMach
   return request;
 }
 
-std::string words(const TeethPose& teeth) {
+std::string pose_text(const TeethPose& teeth) {
   const Eigen::Vector3d& at = teeth.position_m;
   return fmt::format("{:.3f}, {:.3f}, {:.3f} m, {:.3f} rad", at.x(), at.y(), at.z(),
                      teeth.attitude_rad);
@@ -82,9 +83,9 @@ void plan(const PlanCommand& options) {
       runs::sample_plan(profile, kinematics, result.plan, options.step_s);
   const fs::path out(options.out);
   fs::create_directories(out);
-  reports::write_plan_report(
-      out / "plan.html", machine, result, samples,
-      fmt::format("{} | from {} | to {}", machine.name, words(request.from), words(request.to)));
+  reports::write_plan_report({out / "plan.html", scope::scope_page()}, machine, result, samples,
+                             fmt::format("{} | from {} | to {}", machine.name,
+                                         pose_text(request.from), pose_text(request.to)));
   reports::write_plan_json(out / "plan.json", profile, result, samples);
   write_text(out / "plan.csv", runs::plan_csv(samples));
   fmt::print("{}{}report  {}\n", options.table ? runs::plan_table(samples) + "\n" : "",
@@ -100,8 +101,7 @@ void add_plan(CLI::App& app, int& status) {
       "Plan a straight line of the bucket's teeth, with swing; nothing moves. Without --from, --to "
       "and a pace: the line of NAME.sim.toml. A line that can't be had ends with status 1 and says "
       "where");
-  command->add_option("--profile", options->profile, "Machine profile: file or shipped name")
-      ->capture_default_str();
+  add_profile_option(*command, options->profile);
   command
       ->add_option("--from", options->from,
                    "Teeth x,y,z in m (x, y level, z up, from the swing axis on the ground), "

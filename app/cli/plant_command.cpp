@@ -9,22 +9,19 @@
 #include <string>
 
 #include "app/cli/commands.hpp"
-#include "app/cli/grade_options.hpp"
-#include "app/cli/guarded.hpp"
+#include "app/cli/console.hpp"
 #include "app/cli/scenario_options.hpp"
-#include "app/cli/validators.hpp"
 #include "app/machines/task_file.hpp"
-#include "app/reports/json_file.hpp"
-#include "app/runs/grade_plant_run.hpp"
-#include "app/runs/plant_run.hpp"
-#include "app/runs/task_plant_run.hpp"
+#include "app/reports/plant_json.hpp"
+#include "app/reports/report_file.hpp"
+#include "app/runs/plant_runs.hpp"
 
 namespace graben::cli {
 namespace {
 
 struct PlantCommand {
-  ScenarioOptions scenario;
-  GradeScenario grade;
+  runs::DigScenario scenario;
+  runs::GradeScenario grade;
   runs::PlantRunOptions run;
   std::string profile = "excavator_22t";
   std::string player = "none";
@@ -33,65 +30,15 @@ struct PlantCommand {
   std::string summary;
 };
 
-/// What came of a command; with `of` before the names, if it is not the cylinders'.
-void add_command(nlohmann::ordered_json& figures, const std::string& of,
-                 const plant::CommandCounters& command) {
-  figures[of + "commands_accepted"] = command.accepted;
-  figures[of + "commands_rejected"] = command.rejected + command.wrong_format;
-  figures[of + "command_timeouts"] = command.timeouts;
-}
-
-/// What all runs have at their end.
-void add_bus(nlohmann::ordered_json& figures, const runs::PlantBusFigures& bus) {
-  figures["late_cycles"] = bus.late_cycles;
-  figures["frames_dropped"] = bus.frames_dropped;
-}
-
-nlohmann::ordered_json summary_of(const runs::PlantRunResult& result) {
-  nlohmann::ordered_json figures = {
-      {"simulated_s", result.bus.simulated_s},  {"enabled_s", result.enabled_s},
-      {"on_path_s", result.on_path_s},          {"loops", result.loops},
-      {"max_error_true_m", result.max_error_m}, {"rmse_error_true_m", result.rmse_error_m}};
-  add_command(figures, "", result.spool);
-  add_bus(figures, result.bus);
-  figures["peak_chamber_pressure_pa"] = result.peak_chamber_pressure_pa;
-  return figures;
-}
-
-nlohmann::ordered_json summary_of(const runs::GradePlantResult& result) {
-  nlohmann::ordered_json figures = {
-      {"simulated_s", result.bus.simulated_s},  {"enabled_s", result.enabled_s},
-      {"over_grade_s", result.over_grade_s},    {"edge_x_m", result.edge_x_m},
-      {"max_error_true_m", result.max_error_m}, {"rmse_error_true_m", result.rmse_error_m}};
-  add_command(figures, "", result.spool);
-  add_bus(figures, result.bus);
-  return figures;
-}
-
-nlohmann::ordered_json summary_of(const runs::TaskPlantResult& result) {
-  nlohmann::ordered_json figures = {{"simulated_s", result.bus.simulated_s},
-                                    {"enabled_s", result.enabled_s},
-                                    {"in_steps_s", result.in_steps_s},
-                                    {"on_lines_s", result.on_lines_s},
-                                    {"finished", result.finished},
-                                    {"max_error_true_m", result.max_error_m},
-                                    {"rmse_error_true_m", result.rmse_error_m}};
-  add_command(figures, "", result.spool);
-  add_command(figures, "swing_", result.swing);
-  add_bus(figures, result.bus);
-  figures["peak_chamber_pressure_pa"] = result.peak_chamber_pressure_pa;
-  return figures;
-}
-
 [[noreturn]] void refuse(const std::string& option, const char* kind) {
   throw std::runtime_error(fmt::format("{}: the profile is not one of {}", option, kind));
 }
 
-/// Whether nothing is told of what is tried but --errors.
-bool has_errors_alone(const ScenarioOptions& options) {
-  ScenarioOptions plain;
-  plain.errors = options.errors;
-  return scenario_words(options) == scenario_words(plain);
+/// Nothing of the scenario is told but --errors.
+bool has_errors_alone(const runs::DigScenario& scenario) {
+  runs::DigScenario plain;
+  plain.errors = scenario.errors;
+  return runs::scenario_text(scenario) == runs::scenario_text(plain);
 }
 
 /// The player by its name, whose task must be the machine's.
@@ -115,13 +62,13 @@ nlohmann::ordered_json run_program(const PlantCommand& options,
   }
   if (!has_errors_alone(options.scenario)) {
     throw std::runtime_error(
-        fmt::format("{}: not with --operator program", scenario_words(options.scenario)));
+        fmt::format("{}: not with --operator program", runs::scenario_text(options.scenario)));
   }
   const machines::TaskFile task =
       machines::load_task(machines::find_task(options.task.value_or("flatten")), machine.profile);
   run.task_number = static_cast<std::uint8_t>(options.task_number.value_or(0));
-  return summary_of(
-      runs::run_task_plant(arranged(machine, options.scenario), task.result.program, run));
+  return reports::plant_json(
+      runs::run_task_plant(runs::arranged(machine, options.scenario), task.result.program, run));
 }
 
 nlohmann::ordered_json run_excavator(const PlantCommand& options,
@@ -134,10 +81,9 @@ nlohmann::ordered_json run_excavator(const PlantCommand& options,
     return run_program(options, machines::load_simulated_excavator(profile), run);
   }
   const machines::SimulatedExcavator machine =
-      arranged(machines::load_simulated_excavator(profile), options.scenario);
-  const Eigen::Vector3d strokes_m = usual_run(machine, options.scenario).start_strokes_m;
-  return summary_of(runs::run_plant(
-      machine, run, plant::ExcavatorPlant::AxisArray{strokes_m[0], strokes_m[1], strokes_m[2]}));
+      runs::arranged(machines::load_simulated_excavator(profile), options.scenario);
+  const Eigen::Vector3d strokes_m = runs::usual_run(machine, options.scenario).start_strokes_m;
+  return reports::plant_json(runs::run_plant(machine, run, runs::start_at(strokes_m)));
 }
 
 nlohmann::ordered_json run_dozer(const PlantCommand& options, const std::filesystem::path& profile,
@@ -145,13 +91,13 @@ nlohmann::ordered_json run_dozer(const PlantCommand& options, const std::filesys
   const std::string& errors = options.scenario.errors;
   const bool is_known = errors == "none" || errors == "all";
   if (!is_known || !has_errors_alone(options.scenario)) {
-    refuse(scenario_words(options.scenario), "an excavator");
+    refuse(runs::scenario_text(options.scenario), "an excavator");
   }
-  GradeScenario grade = options.grade;
+  runs::GradeScenario grade = options.grade;
   grade.errors = errors;
-  return summary_of(runs::run_plant(
-      arranged(machines::load_simulated_dozer(profile), grade, options.scenario.scenario.seed),
-      run));
+  return reports::plant_json(runs::run_plant(runs::arranged(machines::load_simulated_dozer(profile),
+                                                            grade, options.scenario.scenario.seed),
+                                             run));
 }
 
 void plant_on_bus(const PlantCommand& options) {
@@ -179,8 +125,7 @@ void add_plant(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand(
       "plant", "The simulated machine in real time on a CAN interface, valve side and all");
   command->add_option("--can", options->run.interface, "CAN interface, such as vcan0")->required();
-  command->add_option("--profile", options->profile, "Machine profile: file or shipped name")
-      ->capture_default_str();
+  add_profile_option(*command, options->profile);
   command->add_option("--speed", options->run.speed, "Simulated over real time, 0.1 .. 10")
       ->check(number_between(0.1, 10.0))
       ->capture_default_str();
@@ -207,8 +152,7 @@ void add_plant(CLI::App& app, int& status) {
                    "When that operator enables, 0 .. 3600 s")
       ->check(number_between(0.0, 3600.0))
       ->capture_default_str();
-  command->add_option("--summary", options->summary, "Write the figures as JSON to this file");
-  options->scenario.errors = "none";
+  add_summary_option(*command, options->summary);
   add_scenario_options(*command, options->scenario);
   add_engine_option(*command, options->grade);
   command->add_option("--seed", options->scenario.scenario.seed, "Of --errors and --soil")

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/cli/commands.hpp"
-#include "app/cli/guarded.hpp"
+#include "app/cli/console.hpp"
 #include "app/machines/axis_names.hpp"
 #include "app/machines/excavator_file.hpp"
 #include "firmware/excavator/kinematics/swing_kinematics.hpp"

@@ -1,36 +1,35 @@
 #pragma once
-/// The options of `dig` and `campaign dig` that say what is tried.
+/// Options that say what a run is to try, as several commands have them.
 
-#include <string>
+#include <CLI/CLI.hpp>
 
-#include "app/machines/simulated/scenario.hpp"
-#include "app/runs/dig_run.hpp"
-
-namespace CLI {
-class App;
-}
+#include "app/runs/scenarios.hpp"
 
 namespace graben::cli {
 
-struct ScenarioOptions {
-  machines::Scenario scenario;
-  bool fixed_lambda = false;
-  std::string errors;
-};
+// Of `dig`, `campaign dig` and `plant`.
 
 /// Adds --soil, --obstacle, --air, --stiff-oil, --dead-time, --errors, --fixed-lambda.
-void add_scenario_options(CLI::App& command, ScenarioOptions& options);
+void add_scenario_options(CLI::App& command, runs::DigScenario& scenario);
 
-/// The machine as the options have it.
-[[nodiscard]] machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machine,
-                                                    const ScenarioOptions& options);
+// Of `grade`, `campaign grade` and `plant`, for a dozer.
 
-/// "soil, stiff oil, dead time 0.15 s, errors all"; the same words, the same scenario.
-[[nodiscard]] std::string scenario_words(const ScenarioOptions& options);
+/// Adds --speed-mode, --speed.
+void add_speed_options(CLI::App& command, runs::GradeScenario& scenario);
+/// Adds --engine-rpm.
+void add_engine_option(CLI::App& command, runs::GradeScenario& scenario);
+/// Adds --errors.
+void add_error_option(CLI::App& command, runs::GradeScenario& scenario);
 
-/// Where the bucket starts and how far it goes unless told: machines::dig_start(), once round; in
-/// the air as the profile has it. Throws std::runtime_error where that is out of reach.
-[[nodiscard]] runs::DigOptions usual_run(const machines::SimulatedExcavator& machine,
-                                         const ScenarioOptions& options);
+// Of commands that run anything.
+
+/// Adds --profile, whose default is the value that it has.
+void add_profile_option(CLI::App& command, std::string& profile);
+/// Adds --summary for a JSON file.
+void add_summary_option(CLI::App& command, std::string& summary);
+/// Adds --speed, the operator's override.
+void add_override_option(CLI::App& command, double& speed_override_ratio);
+/// Names of all errors that an excavator's controller can have.
+[[nodiscard]] CLI::Validator error_name();
 
 }  // namespace graben::cli

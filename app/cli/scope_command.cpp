@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "app/cli/commands.hpp"
-#include "app/cli/guarded.hpp"
-#include "app/cli/validators.hpp"
-#include "app/reports/setup_json.hpp"
+#include "app/cli/console.hpp"
+#include "app/reports/page_setup.hpp"
 #include "app/scope/page/scope_page.hpp"
 #include "app/scope/server/can_source.hpp"
 #include "app/scope/server/log_show.hpp"

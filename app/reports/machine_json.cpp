@@ -1,7 +1,6 @@
-#include "app/reports/machine_json.hpp"
-
 #include <cmath>
 
+#include "app/reports/page_setup.hpp"
 #include "firmware/dozer/grade_profile.hpp"
 #include "firmware/excavator/field/dig_field.hpp"
 

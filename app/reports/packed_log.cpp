@@ -1,5 +1,3 @@
-#include "app/reports/packed_log.hpp"
-
 #include <zlib.h>
 
 #include <cerrno>
@@ -10,6 +8,8 @@
 #include <stdexcept>
 #include <system_error>
 #include <vector>
+
+#include "app/reports/report_file.hpp"
 
 namespace graben::reports {
 namespace {

@@ -1,15 +1,13 @@
-#include "app/reports/plan_report.hpp"
-
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
 #include "app/machines/axis_names.hpp"
 #include "app/machines/plan_text.hpp"
-#include "app/reports/json_file.hpp"
-#include "app/reports/machine_json.hpp"
+#include "app/reports/page_setup.hpp"
 #include "app/reports/report_file.hpp"
 #include "app/reports/report_parts.hpp"
+#include "app/reports/run_reports.hpp"
 
 namespace graben::reports {
 namespace {
@@ -94,7 +92,7 @@ ordered_json pose(const TeethPose& teeth) {
 
 }  // namespace
 
-void write_plan_report(const std::filesystem::path& file, const machines::ExcavatorMachine& machine,
+void write_plan_report(const ReportTarget& target, const machines::ExcavatorMachine& machine,
                        const PlanResult& result, const std::vector<runs::PlanSample>& samples,
                        const std::string& subtitle) {
   json run = run_json({"Planned line", subtitle, key_figures(machine.profile, result, samples), {}},
@@ -104,9 +102,9 @@ void write_plan_report(const std::filesystem::path& file, const machines::Excava
       Truth<runs::PlanSample>(samples).way([](const runs::PlanSample& s) { return s.teeth_m[0]; },
                                            [](const runs::PlanSample& s) { return s.teeth_m[1]; },
                                            [](const runs::PlanSample& s) { return s.teeth_m[2]; });
-  json setup = report_setup(file, machine_json(machine, {}), std::move(run));
+  json setup = report_setup(target.file, machine_json(machine, {}), std::move(run));
   setup["source"]["mode"] = "plan";
-  write_report(file, setup);
+  write_report(target.file, target.page, setup);
 }
 
 void write_plan_json(const std::filesystem::path& file, const ExcavatorProfile& profile,

@@ -1,17 +1,16 @@
 #include "app/reports/report_file.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
-#include <nlohmann/json.hpp>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
-
-#include "app/scope/page/scope_page.hpp"
 
 namespace graben::reports {
 namespace {
@@ -25,10 +24,12 @@ namespace fs = std::filesystem;
 std::string system_message(int error) { return std::generic_category().message(error); }
 
 /// Until where the setup belongs, and from there on.
-std::pair<std::string_view, std::string_view> page_around_setup() {
+std::pair<std::string_view, std::string_view> around_setup(const fs::path& file,
+                                                           std::string_view page) {
   constexpr std::string_view kMark = "<script type=\"application/json\" id=\"graben-setup\">";
-  const std::string_view page = scope::scope_page();
-  const std::size_t at = page.find(kMark) + kMark.size();
+  const std::size_t found = page.find(kMark);
+  if (found == std::string_view::npos) fail(file, "its page has no place for what it shows");
+  const std::size_t at = found + kMark.size();
   return {page.substr(0, at), page.substr(at)};
 }
 
@@ -81,12 +82,12 @@ fs::path resolved(const fs::path& file) {
 
 }  // namespace
 
-void write_report(const fs::path& file, const nlohmann::json& setup) {
+void write_report(const fs::path& file, std::string_view page, const nlohmann::json& setup) {
   const fs::path target = resolved(file);
   fs::path partial = target;
   partial += ".part-" + std::to_string(getpid());
   std::error_code ignored;
-  const auto [head, tail] = page_around_setup();
+  const auto [head, tail] = around_setup(file, page);
   if (const int error = write_whole(partial, head, embeddable(setup), tail)) {
     fs::remove(partial, ignored);
     fail(file, system_message(error));
@@ -96,6 +97,15 @@ void write_report(const fs::path& file, const nlohmann::json& setup) {
   if (error) {
     fs::remove(partial, ignored);
     fail(file, error.message());
+  }
+}
+
+void write_json(const fs::path& file, const nlohmann::ordered_json& figures) {
+  std::ofstream stream(file);
+  stream << figures.dump(2) << '\n';
+  stream.close();
+  if (!stream) {
+    throw std::runtime_error(fmt::format("{}: can't be written", file.string()));
   }
 }
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "app/reports/packed_log.hpp"
-#include "app/reports/setup_json.hpp"
+#include "app/reports/page_setup.hpp"
+#include "app/reports/report_file.hpp"
 
 namespace graben::reports {
 namespace {
@@ -18,12 +18,16 @@ nlohmann::json key_figure(const std::string& label, const std::string& value,
   return {{"label", label}, {"value", value}, {"unit", unit}, {"note", note}};
 }
 
-std::string shares_table(const runs::LimitShares& shares) {
-  std::string lines;
-  for (const auto& [name, share] : shares) {
-    lines += fmt::format("  {:<26}{:>9.1f} %\n", name, share * 100.0);
+RunText run_text(const std::string& title, const std::string& subtitle,
+                 const runs::RunFigures& figures) {
+  RunText text = {title, subtitle, nlohmann::json::array(), figures.limit_share};
+  for (const runs::FigureValue& figure : figures.values) {
+    if (std::isfinite(figure.value)) {
+      text.summary.push_back(
+          key_figure(figure.info->text, runs::shown_value(figure), figure.info->unit.text, ""));
+    }
   }
-  return lines;
+  return text;
 }
 
 nlohmann::json plotted(double value, int decimals) {
@@ -34,14 +38,14 @@ nlohmann::json plotted(double value, int decimals) {
   return std::round(value * scale) / scale;
 }
 
-nlohmann::json run_json(const RunWords& words, nlohmann::json truth) {
+nlohmann::json run_json(const RunText& text, nlohmann::json truth) {
   nlohmann::json shares = nlohmann::json::array();
-  for (const auto& [name, share] : words.limit_share) {
+  for (const auto& [name, share] : text.limit_share) {
     shares.push_back({{"name", name}, {"share", share}});
   }
-  return {{"title", words.title},
-          {"subtitle", words.subtitle},
-          {"summary", words.summary},
+  return {{"title", text.title},
+          {"subtitle", text.subtitle},
+          {"summary", text.summary},
           {"limits_share", std::move(shares)},
           {"truth", std::move(truth)}};
 }

@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "app/runs/limit_text.hpp"
+#include "app/runs/figures.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
 
 namespace graben::reports {
 
-/// What a report tells of a run, before its frames: `Run` of the page.
-struct RunWords {
+/// Text of a report about a run, before its frames: `Run` of the page.
+struct RunText {
   std::string title;
   std::string subtitle;
   nlohmann::json summary = nlohmann::json::array();  ///< Of key_figure.
@@ -24,10 +24,11 @@ struct RunWords {
 [[nodiscard]] nlohmann::json key_figure(const std::string& label, const std::string& value,
                                         const std::string& unit, const std::string& note);
 
-/// Lines of a terminal's table.
-[[nodiscard]] std::string shares_table(const runs::LimitShares& shares);
+/// The text with a row for each figure that the run has, and its shares.
+[[nodiscard]] RunText run_text(const std::string& title, const std::string& subtitle,
+                               const runs::RunFigures& figures);
 
-/// What is plotted of a drive: mm, and mrad of the swing, both by the thousandth of a unit.
+/// Unit of a drive's plots: mm, and mrad of the swing, both a thousandth of the SI unit.
 inline constexpr double kThousandths = 1e3;
 [[nodiscard]] inline const char* drive_unit(unsigned drive) {
   return drive == kSwing ? "mrad" : "mm";
@@ -88,7 +89,7 @@ class Truth {
 };
 
 /// `run` of the page, to which `way` and others may be added.
-[[nodiscard]] nlohmann::json run_json(const RunWords& words, nlohmann::json truth);
+[[nodiscard]] nlohmann::json run_json(const RunText& text, nlohmann::json truth);
 
 /// The same with the frames of the run's log inside. What is no regular file, such as a device, has
 /// nothing to be read back: the report then has no frames, and says so.

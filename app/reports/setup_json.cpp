@@ -1,5 +1,3 @@
-#include "app/reports/setup_json.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +6,7 @@
 
 #include "app/machines/profile_file.hpp"
 #include "app/machines/task_file.hpp"
-#include "app/reports/machine_json.hpp"
+#include "app/reports/page_setup.hpp"
 #include "app/runs/fault_text.hpp"
 
 namespace graben::reports {

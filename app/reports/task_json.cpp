@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "app/machines/task_text.hpp"
-#include "app/reports/machine_json.hpp"
+#include "app/reports/page_setup.hpp"
 #include "firmware/excavator/kinematics/swing_kinematics.hpp"
 
 namespace graben::reports {

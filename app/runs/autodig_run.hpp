@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "app/machines/simulated/simulated_excavator.hpp"
-#include "app/runs/limit_text.hpp"
+#include "app/runs/figures.hpp"
 #include "app/runs/logged_run.hpp"
 #include "firmware/excavator/tasks/task_program.hpp"
 
@@ -85,13 +85,9 @@ struct AutodigSummary {
   double fence_left_m = 0.0;      ///< Least; not a number without fences.
   double lambda_min = 0.0;        ///< From the first step on.
   double lambda_mean = 0.0;
-  double task_s = 0.0;      ///< From the first step's begin to the last one's end.
-  double planned_s = 0.0;   ///< Of all these steps.
-  double duration_s = 0.0;  ///< Of the whole run, simulated.
-  double real_time_factor = 0.0;
-  long cycles = 0;
-  double cycle_median_us = 0.0;
-  double cycle_max_us = 0.0;
+  double task_s = 0.0;     ///< From the first step's begin to the last one's end.
+  double planned_s = 0.0;  ///< Of all these steps.
+  RunPace pace;
   std::vector<StepFigures> steps;
   LimitShares limit_share;
 };
@@ -103,5 +99,12 @@ struct AutodigSummary {
                                         const Progress& progress);
 
 [[nodiscard]] AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result);
+[[nodiscard]] const FigureTable<AutodigSummary>& autodig_figures();
+[[nodiscard]] inline RunFigures figures_of(const AutodigSummary& summary) {
+  return figures_of(autodig_figures(), summary, "share of time per limit of lambda");
+}
+
+/// A line for each step as it was done.
+[[nodiscard]] std::string steps_text(const AutodigSummary& summary);
 
 }  // namespace graben::runs

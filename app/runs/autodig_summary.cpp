@@ -1,8 +1,10 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "app/machines/task_text.hpp"
 #include "app/runs/autodig_run.hpp"
-#include "app/runs/statistics.hpp"
 
 namespace graben::runs {
 namespace {
@@ -79,14 +81,11 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
   Spread error_measured;
   LimitCount limits(excavator_actuators());
   Steps steps(program);
-  std::vector<double> cycle_us;
   double lambda_sum = 0.0;
   long in_steps = 0;
   summary.lambda_min = 1.0;
   summary.fence_left_m = AutodigSample::kUnknown;
   for (const AutodigSample& sample : result.samples) {
-    cycle_us.push_back(sample.cycle_us);
-    summary.cycle_max_us = std::max(summary.cycle_max_us, sample.cycle_us);
     summary.fence_left_m = std::fmin(summary.fence_left_m, sample.fence_left_m);
     steps.add(sample);
     if (!in_step(sample)) {
@@ -116,12 +115,48 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
   } else {
     summary.lambda_min = 0.0;
   }
-  summary.cycles = static_cast<long>(result.samples.size());
-  summary.duration_s = result.samples.empty() ? 0.0 : result.samples.back().time_s;
-  summary.real_time_factor = result.wall_s > 0.0 ? summary.duration_s / result.wall_s : 0.0;
-  summary.cycle_median_us = median(cycle_us);
+  summary.pace = pace_of(result.samples, result.wall_s);
   summary.limit_share = limits.shares();
   return summary;
+}
+
+const FigureTable<AutodigSummary>& autodig_figures() {
+  using S = AutodigSummary;
+  static const FigureTable<S> all = with_pace<S>({
+      {{"max_error_true_m", "true teeth from the lines, max", kMillimetres},
+       [](const S& s) { return s.max_error_true_m; }},
+      {{"rmse_error_true_m", "true teeth from the lines, RMSE", kMillimetres},
+       [](const S& s) { return s.rmse_error_true_m; }},
+      {{"max_error_measured_m", "measured teeth from the lines, max", kMillimetres},
+       [](const S& s) { return s.max_error_measured_m; }},
+      {{"rmse_error_measured_m", "measured teeth from the lines, RMSE", kMillimetres},
+       [](const S& s) { return s.rmse_error_measured_m; }},
+      {{"end_error_true_m", "true teeth from a line's end, max", kMillimetres},
+       [](const S& s) { return s.end_error_true_m; }},
+      {{"fence_left_m", "distance to the nearest fence, min", kMillimetres, nullptr, BadEnd::kLow},
+       [](const S& s) { return s.fence_left_m; }},
+      {{"lambda_min", "lambda, min", kRatio, nullptr, BadEnd::kLow},
+       [](const S& s) { return s.lambda_min; }},
+      {{"lambda_mean", "lambda, mean", kRatio, nullptr, BadEnd::kLow},
+       [](const S& s) { return s.lambda_mean; }},
+      {{"task_s", "time of the steps", kSeconds}, [](const S& s) { return s.task_s; }},
+      {{"planned_s", "time of the steps, planned", kSeconds},
+       [](const S& s) { return s.planned_s; }},
+  });
+  return all;
+}
+
+std::string steps_text(const AutodigSummary& summary) {
+  std::string text = "step        from s  until s  planned s  from line, max mm  from end mm\n";
+  for (const StepFigures& step : summary.steps) {
+    const auto of_line = [&](double error_m) {
+      return step.straight ? fmt::format("{:.1f}", error_m * kMillimetres.per_si) : "-";
+    };
+    text += fmt::format("{:<10}{:>8.2f} {:>8.2f} {:>10.2f} {:>18} {:>12}\n",
+                        machines::step_name(step.kind), step.from_s, step.until_s, step.planned_s,
+                        of_line(step.max_error_true_m), of_line(step.end_error_true_m));
+  }
+  return text;
 }
 
 }  // namespace graben::runs

@@ -20,8 +20,8 @@ namespace {
 
 std::string header(const CampaignKind& kind) {
   std::string line = "seed,end";
-  for (const CampaignColumn& column : kind.columns) {
-    line += fmt::format(",{}", column.name);
+  for (const FigureInfo* figure : kind.columns) {
+    line += fmt::format(",{}", figure->column);
   }
   return line;
 }
@@ -103,6 +103,17 @@ std::string tried_line(std::ifstream& stream, const std::filesystem::path& file)
 }
 
 }  // namespace
+
+CampaignRow campaign_row(std::size_t end, const RunFigures& figures) {
+  CampaignRow row;
+  row.end = end;
+  for (const FigureValue& figure : figures.values) {
+    if (figure.info->column != nullptr) {
+      row.figure.push_back(row.done() ? figure.value : kAbsent);
+    }
+  }
+  return row;
+}
 
 std::string campaign_name(const std::filesystem::path& file) {
   std::ifstream stream(file);
@@ -189,22 +200,26 @@ void CampaignLog::add(std::uint64_t seed, const CampaignRow& row) {
 std::string campaign_table(const CampaignKind& kind, const CampaignData& data) {
   const auto done = std::count_if(data.rows.begin(), data.rows.end(),
                                   [](const auto& row) { return row.second.done(); });
-  std::string table = fmt::format("{}, {} of {} draws done\n{:<50}{:>10}{:>10}{:>10}\n", data.tried,
-                                  done, data.rows.size(), "", "median", "p95", "max");
+  std::string table =
+      fmt::format("{}, {} of {} draws done\n{:<{}}{:>10}{:>10}{:>10}\n", data.tried, done,
+                  data.rows.size(), "", kFigureTextWidth, "median", "p95", "max");
   for (std::size_t i = 0; i < kind.columns.size(); ++i) {
-    const CampaignColumn& column = kind.columns[i];
+    const FigureInfo& figure = *kind.columns[i];
     std::vector<double> values;
     for (const auto& [seed, row] : data.rows) {
       if (std::isfinite(row.figure[i])) {
-        values.push_back(column.shown * row.figure[i]);
+        values.push_back(figure.unit.per_si * row.figure[i]);
       }
     }
     if (values.empty()) {
       continue;
     }
     std::sort(values.begin(), values.end());
-    table += fmt::format("{:<50}{:>10.3f}{:>10.3f}{:>10.3f} {}\n", column.words, rank(values, 0.5),
-                         rank(values, 0.95), values.back(), column.unit);
+    const bool is_low = figure.bad == BadEnd::kLow;
+    table += fmt::format("{:<{}}{:>10.3f}{:>10.3f}{:>10.3f} {}{}\n", figure.text, kFigureTextWidth,
+                         rank(values, 0.5), rank(values, is_low ? 0.05 : 0.95),
+                         is_low ? values.front() : values.back(), figure.unit.text,
+                         is_low ? "(p5, min)" : "");
   }
   for (const auto& [seed, row] : data.rows) {
     if (!row.done()) {

@@ -5,38 +5,44 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "app/runs/figures.hpp"
+
 namespace graben::runs {
 
-/// A figure of a draw. `shown` turns it into the unit of the table.
-struct CampaignColumn {
-  const char* name;
-  const char* words;
-  const char* unit;
-  double shown;
-};
-
-/// What is drawn again and again, and what is kept of each draw.
+/// Kind of run that is drawn again and again, and the figures that are kept of each draw.
 struct CampaignKind {
-  const char* name;               ///< "dig": the first word of what was tried.
-  std::vector<const char*> ends;  ///< How a draw can end; the first one is "done".
-  std::vector<CampaignColumn> columns;
+  const char* name;                        ///< "dig": the first word of what was tried.
+  std::vector<const char*> ends;           ///< How a draw can end; the first one is "done".
+  std::vector<const FigureInfo*> columns;  ///< Each has a name of its own for the file.
 };
 
-/// What a run has no figure for.
-inline constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
+/// Those of a table that have a column.
+template <class Summary>
+[[nodiscard]] std::vector<const FigureInfo*> columns_of(const FigureTable<Summary>& table) {
+  std::vector<const FigureInfo*> columns;
+  for (const Figure<Summary>& figure : table) {
+    if (figure.info.column != nullptr) {
+      columns.push_back(&figure.info);
+    }
+  }
+  return columns;
+}
 
 struct CampaignRow {
   std::size_t end = 0;         ///< Of the kind's ends.
-  std::vector<double> figure;  ///< One for each column; kAbsent where the run has none.
+  std::vector<double> figure;  ///< In SI units, one for each column; kAbsent where there is none.
 
   [[nodiscard]] bool done() const { return end == 0; }
 };
 using CampaignRows = std::map<std::uint64_t, CampaignRow>;  ///< By seed.
+
+/// The row of a run, of its figures that have a column. One that did not come to its end has none:
+/// 0 mm would be the best of all.
+[[nodiscard]] CampaignRow campaign_row(std::size_t end, const RunFigures& figures);
 
 /// The whole of a file. Throws std::runtime_error with file and line of what can't be read; a last
 /// line without its end is what an interrupted run leaves, and is not there.
@@ -86,7 +92,8 @@ class CampaignLog {
   CampaignData data_;
 };
 
-/// Median, 95th percentile (nearest rank) and largest of every figure that is there.
+/// Median, 95th percentile (nearest rank) and largest of every figure that is there; where low is
+/// bad, 5th percentile and least.
 [[nodiscard]] std::string campaign_table(const CampaignKind& kind, const CampaignData& data);
 
 }  // namespace graben::runs

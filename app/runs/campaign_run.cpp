@@ -10,8 +10,6 @@
 #include <stdexcept>
 #include <thread>
 
-#include "app/runs/progress_bar.hpp"
-
 namespace graben::runs {
 namespace {
 
@@ -47,8 +45,9 @@ Shard shard_of(const std::string& text) {
 /// Draws the seeds that the log lacks, on `jobs` threads.
 class Campaign {
  public:
-  Campaign(const CampaignDraw& draw, CampaignLog& log, std::vector<std::uint64_t> seeds)
-      : draw_(draw), log_(log), seeds_(std::move(seeds)) {}
+  Campaign(const CampaignDraw& draw, CampaignLog& log, std::vector<std::uint64_t> seeds,
+           const Progress& progress)
+      : draw_(draw), log_(log), seeds_(std::move(seeds)), progress_(progress) {}
 
   void run(unsigned jobs) {
     std::vector<std::thread> threads;
@@ -84,7 +83,7 @@ class Campaign {
         }
         log_.add(seeds_[index], row);
         ++done_;
-        bar_.show(static_cast<double>(done_) / static_cast<double>(seeds_.size()),
+        progress_(static_cast<double>(done_) / static_cast<double>(seeds_.size()),
                   fmt::format("{} of {} draws", done_, seeds_.size()));
       } catch (...) {
         const std::lock_guard<std::mutex> lock(mutex_);
@@ -97,11 +96,11 @@ class Campaign {
   const CampaignDraw& draw_;
   CampaignLog& log_;
   std::vector<std::uint64_t> seeds_;
+  const Progress& progress_;
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;
   std::size_t done_ = 0;
   std::exception_ptr failure_;
-  ProgressBar bar_{"campaign"};
 };
 
 /// Those of the shard that the log lacks.
@@ -118,8 +117,9 @@ std::vector<std::uint64_t> seeds_left(const CampaignOptions& options, const Camp
 
 }  // namespace
 
-void run_campaign(const CampaignOptions& options, const CampaignKind& kind,
-                  const std::string& tried, const CampaignDraw& draw) {
+CampaignOutcome run_campaign(const CampaignOptions& options, const CampaignKind& kind,
+                             const std::string& tried, const CampaignDraw& draw,
+                             const Progress& progress) {
   static_cast<void>(shard_of(options.shard));  // Wrong options before the file is touched.
   if (options.seed > kMostSeed - options.draws) {
     throw std::runtime_error(
@@ -131,38 +131,19 @@ void run_campaign(const CampaignOptions& options, const CampaignKind& kind,
   std::signal(SIGTERM, interrupt);
   const unsigned jobs =
       options.jobs > 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
-  Campaign(draw, log, std::move(seeds)).run(jobs);
+  Campaign(draw, log, std::move(seeds), progress).run(jobs);
   write_campaign(options.summary, kind, log.data());
-  fmt::print("{}", campaign_table(kind, log.data()));
+  CampaignOutcome outcome;
+  outcome.table = campaign_table(kind, log.data());
   const auto failed = std::count_if(log.data().rows.begin(), log.data().rows.end(),
                                     [](const auto& row) { return !row.second.done(); });
   if (failed > 0) {
-    throw std::runtime_error(fmt::format("{} draws did not come to their end", failed));
+    outcome.error = fmt::format("{} draws did not come to their end", failed);
+  } else if (interrupted) {
+    outcome.error =
+        fmt::format("interrupted; the same command goes on with what {} lacks", options.summary);
   }
-  if (interrupted) {
-    throw std::runtime_error(
-        fmt::format("interrupted; the same command goes on with what {} lacks", options.summary));
-  }
-}
-
-void merge_campaigns(const std::vector<std::string>& files, const std::string& summary,
-                     const CampaignKind& kind) {
-  CampaignData all;
-  for (const std::string& file : files) {
-    const CampaignData part = read_campaign(file, kind);
-    if (!all.tried.empty() && part.tried != all.tried) {
-      throw std::runtime_error(
-          fmt::format("{}: holds another campaign ('{}', not '{}')", file, part.tried, all.tried));
-    }
-    all.tried = part.tried;
-    for (const auto& [seed, row] : part.rows) {
-      if (!all.rows.emplace(seed, row).second) {
-        throw std::runtime_error(fmt::format("{}: seed {} is in two files", file, seed));
-      }
-    }
-  }
-  write_campaign(summary, kind, all);
-  fmt::print("{}", campaign_table(kind, all));
+  return outcome;
 }
 
 }  // namespace graben::runs

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/runs/campaign_file.hpp"
+#include "app/runs/scenarios.hpp"
 
 namespace graben::runs {
 
@@ -18,19 +19,35 @@ struct CampaignOptions {
   unsigned jobs = 0;          ///< Threads; 0 for all cores.
 };
 
+/// Distribution of what the file has now, and why the campaign is not done; empty: it is.
+struct CampaignOutcome {
+  std::string table;
+  std::string error;
+};
+
+/// Digging and grading campaigns. Each draws what the file lacks; SIGINT and SIGTERM let the runs
+/// that have begun come to their end, and the same options then go on with the rest. Throws
+/// std::runtime_error for what is wrong with the options, the profile or the file.
+[[nodiscard]] CampaignOutcome campaign_dig(const CampaignOptions& options,
+                                           const machines::SimulatedExcavator& nominal,
+                                           const DigScenario& scenario, double speed_override_ratio,
+                                           const Progress& progress);
+[[nodiscard]] CampaignOutcome campaign_grade(const CampaignOptions& options,
+                                             const machines::SimulatedDozer& nominal,
+                                             const GradeScenario& scenario,
+                                             const Progress& progress);
+
+/// Shards of one campaign of any kind into one file; returns the table. Throws std::runtime_error
+/// where they do not belong together.
+[[nodiscard]] std::string merge_campaigns(const std::vector<std::string>& files,
+                                          const std::string& summary);
+
 /// The run of a seed. Called from several threads at once.
 using CampaignDraw = std::function<CampaignRow(std::uint64_t seed)>;
 
-/// Draws what the file lacks and prints the table. SIGINT and SIGTERM let the runs that have begun
-/// come to their end. `tried` says what is tried, and must begin with the kind's name. Throws
-/// std::runtime_error for what is wrong with the options or the file, after an interruption, and if
-/// any draw did not come to its end.
-void run_campaign(const CampaignOptions& options, const CampaignKind& kind,
-                  const std::string& tried, const CampaignDraw& draw);
-
-/// Shards of one campaign into one file, and the table. Throws std::runtime_error where they do
-/// not belong together.
-void merge_campaigns(const std::vector<std::string>& files, const std::string& summary,
-                     const CampaignKind& kind);
+/// A campaign of any kind. `tried` says what is tried, and must begin with the kind's name.
+[[nodiscard]] CampaignOutcome run_campaign(const CampaignOptions& options, const CampaignKind& kind,
+                                           const std::string& tried, const CampaignDraw& draw,
+                                           const Progress& progress);
 
 }  // namespace graben::runs

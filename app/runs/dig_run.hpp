@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/machines/simulated/simulated_excavator.hpp"
-#include "app/runs/limit_text.hpp"
+#include "app/runs/figures.hpp"
 #include "app/runs/logged_run.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 
@@ -95,11 +95,7 @@ struct DigSummary {
   std::optional<Recovery> recovery;
   double approach_s = 0.0;  ///< Until the path was reached.
   double loop_s = 0.0;      ///< On the path.
-  double duration_s = 0.0;  ///< Of the whole run, simulated.
-  double real_time_factor = 0.0;
-  long cycles = 0;  ///< Of the whole run.
-  double cycle_median_us = 0.0;
-  double cycle_max_us = 0.0;
+  RunPace pace;
   /// Share of the time on the path for each limit that was active, by its name, "none" first.
   LimitShares limit_share;
 };
@@ -110,5 +106,9 @@ struct DigSummary {
                                 const DigOptions& options, const Progress& progress);
 
 [[nodiscard]] DigSummary summarise(const DigResult& result);
+[[nodiscard]] const FigureTable<DigSummary>& dig_figures();
+[[nodiscard]] inline RunFigures figures_of(const DigSummary& summary) {
+  return figures_of(dig_figures(), summary, "share of time per limit of lambda");
+}
 
 }  // namespace graben::runs

@@ -1,12 +1,11 @@
 #include <algorithm>
 
 #include "app/runs/dig_run.hpp"
-#include "app/runs/statistics.hpp"
 
 namespace graben::runs {
 namespace {
 
-/// The rebound of the oil is over after this; what comes then is judged for so long.
+/// The rebound of the oil is over after this; the figures are of the time that follows, so long.
 constexpr double kRebound_s = 0.3;
 constexpr double kJudged_s = 3.0;
 
@@ -45,15 +44,12 @@ DigSummary summarise(const DigResult& result) {
   Spread error_true;
   Spread error_measured;
   LimitCount limits(excavator_actuators());
-  std::vector<double> cycle_us;
   double lambda_sum = 0.0;
   long on_path = 0;
   long below_1 = 0;
   long regenerating = 0;
   summary.lambda_min = 1.0;
   for (const DigSample& sample : result.samples) {
-    cycle_us.push_back(sample.cycle_us);
-    summary.cycle_max_us = std::max(summary.cycle_max_us, sample.cycle_us);
     if (!sample.on_path) {
       continue;
     }
@@ -84,12 +80,51 @@ DigSummary summarise(const DigResult& result) {
   summary.regeneration_share = share(regenerating);
   summary.peak_chamber_pressure_pa = result.peak_chamber_pressure_pa;
   summary.recovery = recovery(result.samples);
-  summary.cycles = static_cast<long>(result.samples.size());
-  summary.duration_s = result.samples.empty() ? 0.0 : result.samples.back().time_s;
-  summary.real_time_factor = result.wall_s > 0.0 ? summary.duration_s / result.wall_s : 0.0;
-  summary.cycle_median_us = median(cycle_us);
+  summary.pace = pace_of(result.samples, result.wall_s);
   summary.limit_share = limits.shares();
   return summary;
+}
+
+const FigureTable<DigSummary>& dig_figures() {
+  using S = DigSummary;
+  static const FigureTable<S> all = with_pace<S>({
+      {{"max_error_true_m", "path error of the true tip, max", kMillimetres, "max_error_true_m"},
+       [](const S& s) { return s.max_error_true_m; }},
+      {{"rmse_error_true_m", "path error of the true tip, RMSE", kMillimetres, "rmse_error_true_m"},
+       [](const S& s) { return s.rmse_error_true_m; }},
+      {{"max_error_measured_m", "path error of the measured tip, max", kMillimetres,
+        "max_error_measured_m"},
+       [](const S& s) { return s.max_error_measured_m; }},
+      {{"rmse_error_measured_m", "path error of the measured tip, RMSE", kMillimetres,
+        "rmse_error_measured_m"},
+       [](const S& s) { return s.rmse_error_measured_m; }},
+      {{"lambda_min", "lambda, min", kRatio, "lambda_min", BadEnd::kLow},
+       [](const S& s) { return s.lambda_min; }},
+      {{"lambda_mean", "lambda, mean", kRatio, "lambda_mean", BadEnd::kLow},
+       [](const S& s) { return s.lambda_mean; }},
+      {{"lambda_below_1_share", "time with lambda below 1", kPercent, "lambda_below_1"},
+       [](const S& s) { return s.lambda_below_1_share; }},
+      {{"regeneration_share", "time with a regeneration check open", kPercent, "regeneration"},
+       [](const S& s) { return s.regeneration_share; }},
+      {{"loop_s", "time round the path", kSeconds, "loop_s"}, [](const S& s) { return s.loop_s; }},
+      {{"approach_s", "time to reach the path", kSeconds, "approach_s"},
+       [](const S& s) { return s.approach_s; }},
+      {{"peak_chamber_pressure_pa", "highest chamber pressure", kMegapascals,
+        "peak_chamber_pressure_pa"},
+       [](const S& s) { return s.peak_chamber_pressure_pa; }},
+      {{"recovery.lambda_held", "lambda while the obstacle holds, min", kRatio, "lambda_held",
+        BadEnd::kLow},
+       [](const S& s) { return s.recovery ? s.recovery->lambda_held : kAbsent; }},
+      {{"recovery.off_field_max_rad", "mean direction off the field afterwards, max", kDegrees,
+        "off_field_max_rad"},
+       [](const S& s) { return s.recovery ? s.recovery->off_field_max_rad : kAbsent; }},
+      {{"recovery.ringing_max_rad", "the same from cycle to cycle", kDegrees, "ringing_max_rad"},
+       [](const S& s) { return s.recovery ? s.recovery->ringing_max_rad : kAbsent; }},
+      {{"recovery.error_max_m", "path error of the true tip afterwards, max", kMillimetres,
+        "recovery_error_max_m"},
+       [](const S& s) { return s.recovery ? s.recovery->error_max_m : kAbsent; }},
+  });
+  return all;
 }
 
 }  // namespace graben::runs

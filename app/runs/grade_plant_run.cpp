@@ -1,10 +1,10 @@
-#include "app/runs/grade_plant_run.hpp"
+#include "app/runs/plant_runs.hpp"
 
 #include <cmath>
 
 #include "app/plant/dozer_node.hpp"
+#include "app/runs/figures.hpp"
 #include "app/runs/grade_truth.hpp"
-#include "app/runs/statistics.hpp"
 #include "can_dbc/generated/dozer_dbc.hpp"
 
 namespace graben::runs {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "app/machines/simulated/simulated_dozer.hpp"
+#include "app/runs/figures.hpp"
 #include "app/runs/grade_truth.hpp"
-#include "app/runs/limit_text.hpp"
 #include "app/runs/logged_run.hpp"
 
 namespace graben::runs {
@@ -80,12 +80,8 @@ struct GradeSummary {
   double deceleration_true_mps2 = 0.0;    ///< Largest mean over kDeceleration_s, of the body.
   /// Of the slope of v_c; it counts as turned when v_c has gone kSpeedResolution_mps back.
   int sign_changes = 0;
-  int corners = 0;          ///< Of the design between its ends.
-  double duration_s = 0.0;  ///< Of the whole run, simulated.
-  double real_time_factor = 0.0;
-  long cycles = 0;  ///< Of the whole run.
-  double cycle_median_us = 0.0;
-  double cycle_max_us = 0.0;
+  int corners = 0;  ///< Of the design between its ends.
+  RunPace pace;
   LimitShares limit_share;  ///< Of the time over the grade.
 };
 inline constexpr double kOccasion_m = 0.5;
@@ -100,5 +96,9 @@ inline constexpr double kSpeedResolution_mps = 0.02;
 
 [[nodiscard]] GradeSummary summarise(const machines::SimulatedDozer& machine,
                                      const GradeResult& result);
+[[nodiscard]] const FigureTable<GradeSummary>& grade_figures();
+[[nodiscard]] inline RunFigures figures_of(const GradeSummary& summary) {
+  return figures_of(grade_figures(), summary, "share of time per limit of the speed");
+}
 
 }  // namespace graben::runs

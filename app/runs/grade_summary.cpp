@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "app/runs/grade_run.hpp"
-#include "app/runs/statistics.hpp"
 
 namespace graben::runs {
 namespace {
@@ -90,18 +89,6 @@ std::vector<GradeSample> judged_samples(const GradeResult& result) {
   return judged;
 }
 
-void count_cycles(const GradeResult& result, GradeSummary& summary) {
-  std::vector<double> cycle_us;
-  for (const GradeSample& sample : result.samples) {
-    cycle_us.push_back(sample.cycle_us);
-    summary.cycle_max_us = std::max(summary.cycle_max_us, sample.cycle_us);
-  }
-  summary.cycle_median_us = median(cycle_us);
-  summary.cycles = static_cast<long>(result.samples.size());
-  summary.duration_s = result.samples.empty() ? 0.0 : result.samples.back().time_s;
-  summary.real_time_factor = result.wall_s > 0.0 ? summary.duration_s / result.wall_s : 0.0;
-}
-
 }  // namespace
 
 GradeSummary summarise(const machines::SimulatedDozer& machine, const GradeResult& result) {
@@ -144,8 +131,45 @@ GradeSummary summarise(const machines::SimulatedDozer& machine, const GradeResul
   summary.sign_changes = turns.count();
   summary.corners = std::max(machine.profile.grade.count - 2, 0);
   summary.limit_share = limits.shares();
-  count_cycles(result, summary);
+  summary.pace = pace_of(result.samples, result.wall_s);
   return summary;
+}
+
+const FigureTable<GradeSummary>& grade_figures() {
+  using S = GradeSummary;
+  static const FigureTable<S> all = with_pace<S>({
+      {{"max_error_true_m", "true edge over the grade, max", kMillimetres, "max_error_true_m"},
+       [](const S& s) { return s.max_error_true_m; }},
+      {{"rmse_error_true_m", "true edge over the grade, RMSE", kMillimetres, "rmse_error_true_m"},
+       [](const S& s) { return s.rmse_error_true_m; }},
+      {{"max_error_measured_m", "measured edge over the grade, max", kMillimetres,
+        "max_error_measured_m"},
+       [](const S& s) { return s.max_error_measured_m; }},
+      {{"rmse_error_measured_m", "measured edge over the grade, RMSE", kMillimetres},
+       [](const S& s) { return s.rmse_error_measured_m; }},
+      {{"time_s", "time for the grade", kSeconds, "time_s"}, [](const S& s) { return s.time_s; }},
+      {{"mean_speed_mps", "mean speed over the grade", kMetresPerSecond},
+       [](const S& s) { return s.mean_speed_mps; }},
+      {{"flow_share_max", "required flow over the available, max", kPercent, "flow_share_max"},
+       [](const S& s) { return s.flow_share_max; }},
+      {{"flow_share_reported_max", "the same by the controller's figures", kPercent},
+       [](const S& s) { return s.flow_share_reported_max; }},
+      {{"flow_above_share", "time with more than 102 % of it", kPercent, "flow_above"},
+       [](const S& s) { return s.flow_above_share; }},
+      {{"flow_occasions", "occasions of that", kCount, "flow_occasions"},
+       [](const S& s) { return static_cast<double>(s.flow_occasions); }},
+      {{"deceleration_wanted_mps2", "deceleration of the wanted speed, max", kMetresPerSecond2,
+        "deceleration_wanted_mps2"},
+       [](const S& s) { return s.deceleration_wanted_mps2; }},
+      {{"deceleration_true_mps2", "deceleration of the machine, max over 0.1 s", kMetresPerSecond2,
+        "deceleration_true_mps2"},
+       [](const S& s) { return s.deceleration_true_mps2; }},
+      {{"sign_changes", "turns of the wanted speed", kCount, "sign_changes"},
+       [](const S& s) { return static_cast<double>(s.sign_changes); }},
+      {{"corners", "corners of the design", kCount},
+       [](const S& s) { return static_cast<double>(s.corners); }},
+  });
+  return all;
 }
 
 }  // namespace graben::runs

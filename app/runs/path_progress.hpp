@@ -1,15 +1,24 @@
 #pragma once
-/// Where a run stands with respect to its path.
+/// Place of a run on its path.
+
+#include <cmath>
 
 #include "firmware/core/time.hpp"
 #include "firmware/excavator/field/rounded_rectangle.hpp"
+#include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 
 namespace graben::runs {
 
-/// Whether a pose is on the path: the attitude belongs to it, because an approach may cross the
-/// path long before it has arrived. Not a number is not on it.
-[[nodiscard]] bool near_path(const RoundedRectangle& path, const Eigen::Vector2d& tip_m,
-                             double attitude_rad);
+/// The pose is on the path, attitude and all, because an approach may cross the path long before it
+/// has arrived. Not a number is not on it.
+[[nodiscard]] inline bool near_path(const RoundedRectangle& path, const Eigen::Vector2d& tip_m,
+                                    double attitude_rad) {
+  constexpr double kReached_m = 0.02;
+  constexpr double kReached_rad = 0.07;
+  const PathPoint closest = path.closest(tip_m);
+  const double turn_rad = wrap_near(closest.attitude_rad - attitude_rad, 0.0);
+  return (closest.position_m - tip_m).norm() <= kReached_m && std::abs(turn_rad) <= kReached_rad;
+}
 
 /// The path counts as reached when the pose has stayed near for half a second; from there on the
 /// way along it adds up.
@@ -18,12 +27,22 @@ class PathProgress {
   /// `path` must outlive this.
   PathProgress(const RoundedRectangle& path, double loops) : path_(path), loops_(loops) {}
 
-  void update(const Eigen::Vector2d& tip_m, bool near, TimeUs now_us);
+  void update(const Eigen::Vector2d& tip_m, bool near, TimeUs now_us) {
+    if (!on_path_) {
+      near_since_us_ = near ? near_since_us_ : now_us;
+      on_path_ = now_us - near_since_us_ >= kReachedFor_us;
+    } else {
+      travelled_m_ += (tip_m - last_tip_m_).dot(path_.closest(tip_m).tangent);
+    }
+    last_tip_m_ = tip_m;
+  }
   [[nodiscard]] bool on_path() const { return on_path_; }
   /// Of all loops together.
-  [[nodiscard]] double share() const;
+  [[nodiscard]] double share() const { return travelled_m_ / (loops_ * path_.length_m()); }
 
  private:
+  static constexpr TimeUs kReachedFor_us = 500 * kMillisecondUs;
+
   const RoundedRectangle& path_;
   double loops_;
   bool on_path_ = false;

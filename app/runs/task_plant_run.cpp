@@ -1,9 +1,9 @@
-#include "app/runs/task_plant_run.hpp"
+#include "app/runs/plant_runs.hpp"
 
 #include <optional>
 
 #include "app/plant/excavator_node.hpp"
-#include "app/runs/statistics.hpp"
+#include "app/runs/figures.hpp"
 #include "app/runs/task_listener.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "firmware/excavator/tasks/line.hpp"

@@ -53,8 +53,8 @@ void a_run_that_never_came_to_the_grade_has_no_figures(void**) {
   const GradeSummary summary = summary_of(result);
   assert_near(summary.max_error_true_m + summary.time_s + summary.flow_share_max, 0.0, 0.0);
   assert_int_equal(summary.flow_occasions, 0);
-  assert_int_equal(summary.cycles, 5);
-  assert_int_equal(summary_of({}).cycles, 0);
+  assert_int_equal(summary.pace.cycles, 5);
+  assert_int_equal(summary_of({}).pace.cycles, 0);
 }
 
 void errors_count_below_as_above(void**) {
@@ -80,7 +80,7 @@ void time_is_that_over_the_grade(void**) {
   assert_near(summary.time_s, 1.0, 1e-9);
   assert_near(summary.mean_speed_mps, 1.0, 1e-9);
   assert_near(summary.max_error_true_m, 0.0, 0.0);
-  assert_near(summary.duration_s, 6.0, 1e-9);
+  assert_near(summary.pace.duration_s, 6.0, 1e-9);
   assert_int_equal(summary.corners, 8);
 }
 

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "app/reports/packed_log.hpp"
 #include "app/reports/report_file.hpp"
+#include "app/scope/page/scope_page.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace {
@@ -24,8 +24,11 @@ namespace {
 namespace fs = std::filesystem;
 using graben::reports::packed;
 using graben::reports::packed_file;
-using graben::reports::write_report;
 using nlohmann::json;
+
+void write_report(const fs::path& file, const json& setup) {
+  graben::reports::write_report(file, graben::scope::scope_page(), setup);
+}
 
 const fs::path& folder() {
   static const fs::path path =

@@ -1,10 +1,9 @@
 /// What a page is told of machines, against their profiles.
 
-#include "app/reports/machine_json.hpp"
+#include "app/reports/page_setup.hpp"
 
 #include <set>
 
-#include "app/reports/setup_json.hpp"
 #include "firmware/dozer/grade_profile.hpp"
 #include "firmware/excavator/field/dig_field.hpp"
 #include "tests/unit/cmocka_cpp.hpp"

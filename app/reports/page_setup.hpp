@@ -1,9 +1,11 @@
 #pragma once
-/// Machines as a page has to know them: `Machine` of page/src/model/api.ts. Lengths in m, angles in
-/// rad, in the ground frame where it says so: an excavator's origin is where its swing axis meets
-/// the ground.
+/// What the page has to know before the first frame: `Setup` and `Machine` of
+/// app/scope/page/src/model/api.ts. Lengths in m, angles in rad, in the ground frame where it says
+/// so: an excavator's origin is where its swing axis meets the ground.
 
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "app/machines/simulated/simulated_dozer.hpp"
@@ -11,6 +13,22 @@
 #include "app/machines/task_file.hpp"
 
 namespace graben::reports {
+
+struct SetupOptions {
+  /// A profile beside the shipped ones: file or shipped name. Comes first.
+  std::optional<std::string> profile;
+  /// What the controller was given, by its number: files or shipped names. None: what is shipped
+  /// and can be planned on the machine, in the order of the names.
+  std::vector<std::string> tasks;
+};
+
+/// {"machines": [...], "words": {...}, "version": "..."}: what is the same whatever the frames come
+/// from. Throws std::runtime_error with what is wrong with a profile or a task. Tasks that are told
+/// must all fit one machine, with a profile that one.
+[[nodiscard]] nlohmann::json shared_setup(const SetupOptions& options);
+
+/// `Words`.
+[[nodiscard]] nlohmann::json words_json();
 
 /// `tasks` by the number that they have on the bus, read for this machine. The ground is where the
 /// tracks stand; a simulated machine's where its soil is.

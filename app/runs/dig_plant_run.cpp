@@ -1,4 +1,4 @@
-#include "app/runs/plant_run.hpp"
+#include "app/runs/plant_runs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,56 @@
+#pragma once
+/// What the commands share on their way to the user: progress, errors, checks of options.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <exception>
+#include <string>
+
+#include "app/runs/logged_run.hpp"
+
+namespace graben::cli {
+
+/// 0 if `work` returned, 1 with its message on standard error if it threw.
+template <class Work>
+int guarded(const char* command, Work work) {
+  try {
+    work();
+    return 0;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "graben {}: {}\n", command, error.what());
+    return 1;
+  }
+}
+
+/// Progress on standard error: a bar that redraws itself on a terminal, nothing elsewhere.
+class ProgressBar {
+ public:
+  explicit ProgressBar(std::string label);
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+  /// Clears the bar's line.
+  ~ProgressBar();
+
+  /// `share` of the work done, 0 .. 1, and a few words on where it is. Redraws at most ten times a
+  /// second.
+  void show(double share, const std::string& where);
+  /// show(), for a run; this must outlive it.
+  [[nodiscard]] runs::Progress progress();
+
+ private:
+  std::string label_;
+  bool terminal_;
+  std::chrono::steady_clock::time_point started_;
+  std::chrono::steady_clock::time_point drawn_;
+};
+
+// Checks of options that CLI11's own let too much through.
+
+/// CLI::Range lets "nan" pass.
+[[nodiscard]] CLI::Validator number_between(double least, double most);
+/// An unsigned option takes "-1" for its largest value.
+[[nodiscard]] CLI::Validator whole_number();
+
+}  // namespace graben::cli

@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "app/runs/campaign_run.hpp"
+#include "app/runs/dig_run.hpp"
+#include "app/runs/grade_run.hpp"
+
+namespace graben::runs {
+namespace {
+
+void show_nothing(double /*share*/, const std::string& /*where*/) {}
+
+const CampaignKind& dig_kind() {
+  // In the order of DigEnd.
+  static const CampaignKind kind = {
+      "dig", {"done", "path-not-reached", "loop-not-closed", "fault"}, columns_of(dig_figures())};
+  return kind;
+}
+
+const CampaignKind& grade_kind() {
+  // In the order of GradeEnd.
+  static const CampaignKind kind = {
+      "grade", {"done", "not-finished", "fault"}, columns_of(grade_figures())};
+  return kind;
+}
+
+const CampaignKind& kind_of(const std::string& file) {
+  const std::string name = campaign_name(file);
+  for (const CampaignKind* kind : {&dig_kind(), &grade_kind()}) {
+    if (name == kind->name) {
+      return *kind;
+    }
+  }
+  throw std::runtime_error(
+      fmt::format("{}: holds a campaign of '{}', which this program does not have", file, name));
+}
+
+}  // namespace
+
+CampaignOutcome campaign_dig(const CampaignOptions& options,
+                             const machines::SimulatedExcavator& nominal,
+                             const DigScenario& scenario, double speed_override_ratio,
+                             const Progress& progress) {
+  const auto draw = [&](std::uint64_t seed) {
+    DigScenario drawn = scenario;
+    drawn.scenario.seed = seed;
+    const machines::SimulatedExcavator machine = arranged(nominal, drawn);
+    DigOptions run = usual_run(machine, drawn);
+    run.speed_override_ratio = speed_override_ratio;
+    const DigResult result = run_dig(machine, run, show_nothing);
+    return campaign_row(static_cast<std::size_t>(result.end), figures_of(summarise(result)));
+  };
+  return run_campaign(options, dig_kind(),
+                      fmt::format("dig {} {:08x}, speed {}, {}", nominal.name, nominal.hash,
+                                  speed_override_ratio, scenario_text(scenario)),
+                      draw, progress);
+}
+
+CampaignOutcome campaign_grade(const CampaignOptions& options,
+                               const machines::SimulatedDozer& nominal,
+                               const GradeScenario& scenario, const Progress& progress) {
+  const auto draw = [&](std::uint64_t seed) {
+    const machines::SimulatedDozer machine = arranged(nominal, scenario, seed);
+    const GradeResult result = run_grade(machine, {}, show_nothing);
+    return campaign_row(static_cast<std::size_t>(result.end),
+                        figures_of(summarise(machine, result)));
+  };
+  return run_campaign(options, grade_kind(),
+                      fmt::format("grade {} {:08x}, {}", nominal.name, nominal.hash,
+                                  scenario_text(nominal, scenario)),
+                      draw, progress);
+}
+
+std::string merge_campaigns(const std::vector<std::string>& files, const std::string& summary) {
+  const CampaignKind& kind = kind_of(files.front());
+  CampaignData all;
+  for (const std::string& file : files) {
+    const CampaignData part = read_campaign(file, kind);
+    if (!all.tried.empty() && part.tried != all.tried) {
+      throw std::runtime_error(
+          fmt::format("{}: holds another campaign ('{}', not '{}')", file, part.tried, all.tried));
+    }
+    all.tried = part.tried;
+    for (const auto& [seed, row] : part.rows) {
+      if (!all.rows.emplace(seed, row).second) {
+        throw std::runtime_error(fmt::format("{}: seed {} is in two files", file, seed));
+      }
+    }
+  }
+  write_campaign(summary, kind, all);
+  return campaign_table(kind, all);
+}
+
+}  // namespace graben::runs

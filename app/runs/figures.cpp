@@ -1,0 +1,30 @@
+#include "app/runs/figures.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace graben::runs {
+
+std::string shown_value(const FigureValue& figure) {
+  const ShownUnit& unit = figure.info->unit;
+  return fmt::format("{:.{}f}", unit.per_si * figure.value, unit.decimals);
+}
+
+std::string figures_text(const RunFigures& figures) {
+  std::string text;
+  for (const FigureValue& figure : figures.values) {
+    if (std::isfinite(figure.value)) {
+      const char* unit = figure.info->unit.text;
+      text += fmt::format("{:<{}}{:>10}{}{}\n", figure.info->text, kFigureTextWidth,
+                          shown_value(figure), *unit != '\0' ? " " : "", unit);
+    }
+  }
+  text += fmt::format("{}\n", figures.limits_text);
+  for (const auto& [name, share] : figures.limit_share) {
+    text += fmt::format("  {:<{}}{:>10.1f} %\n", name, kFigureTextWidth - 2, share * 100.0);
+  }
+  return text;
+}
+
+}  // namespace graben::runs

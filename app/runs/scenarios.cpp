@@ -1,0 +1,157 @@
+#include "app/runs/scenarios.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "app/machines/plan_text.hpp"
+#include "app/machines/task_text.hpp"
+#include "app/plant/random.hpp"
+#include "firmware/numeric/constants.hpp"
+
+namespace graben::runs {
+namespace {
+
+constexpr double kNeverSlow_m = 1e3;
+constexpr double kRadpsPerRpm = kTwoPi / 60.0;
+
+machines::Errors errors_of(const std::string& name) {
+  const auto* found = std::find(kErrorNames.begin(), kErrorNames.end(), name);
+  if (found == kErrorNames.end()) {
+    throw std::runtime_error(fmt::format("--errors: '{}' is unknown", name));
+  }
+  return static_cast<machines::Errors>(found - kErrorNames.begin());
+}
+
+}  // namespace
+
+machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machine,
+                                      const DigScenario& scenario) {
+  machines::Scenario tried = scenario.scenario;
+  tried.errors = errors_of(scenario.errors);
+  machines::SimulatedExcavator result = machines::arranged(machine, tried);
+  if (scenario.fixed_lambda) {
+    result.profile.control.lambda_policy = McvPolicy::kFixed;
+    // Nor does anything else slow it.
+    result.profile.control.slow_error_m = kNeverSlow_m;
+  }
+  return result;
+}
+
+std::string scenario_text(const DigScenario& scenario) {
+  std::vector<std::string> parts;
+  const auto add = [&parts](bool is_on, const char* part) {
+    if (is_on) {
+      parts.emplace_back(part);
+    }
+  };
+  add(scenario.scenario.soil, "soil");
+  add(scenario.scenario.air, "air");
+  add(scenario.scenario.obstacle, "obstacle");
+  add(scenario.scenario.stiff_oil, "stiff oil");
+  add(scenario.fixed_lambda, "lambda fixed at 1");
+  if (scenario.scenario.dead_time_s) {
+    parts.push_back(fmt::format("dead time {} s", *scenario.scenario.dead_time_s));
+  }
+  parts.push_back(fmt::format("errors {}", scenario.errors));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+DigOptions usual_run(const machines::SimulatedExcavator& machine, const DigScenario& scenario) {
+  DigOptions run;
+  if (scenario.scenario.air) {
+    const machines::AirManoeuvre& air = machine.experiment.air;
+    run.start_strokes_m = machines::strokes_at(machine.profile, air.start);
+    run.loops = air.loops;
+    return run;
+  }
+  run.start_strokes_m = machines::dig_start(machine.profile);
+  return run;
+}
+
+Eigen::Vector3d random_strokes(const ExcavatorGeometry& geometry, std::uint64_t seed) {
+  plant::Random random(seed, plant::Draw::kStart);
+  Eigen::Vector3d strokes_m;
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    strokes_m[i] = random.uniform() * geometry.cylinder[i].stroke_m;
+  }
+  return strokes_m;
+}
+
+machines::SimulatedDozer arranged(const machines::SimulatedDozer& machine,
+                                  const GradeScenario& scenario, std::uint64_t seed) {
+  machines::DozerScenario tried;
+  tried.policy = scenario.speed_mode == "constant" ? SpeedPolicy::kConstant : SpeedPolicy::kBounded;
+  tried.speed_mps = scenario.speed_mps;
+  if (scenario.engine_rpm) {
+    tried.engine_radps = *scenario.engine_rpm * kRadpsPerRpm;
+  }
+  tried.errors = scenario.errors == "all";
+  tried.seed = seed;
+  return machines::arranged(machine, tried);
+}
+
+std::string scenario_text(const machines::SimulatedDozer& nominal, const GradeScenario& scenario) {
+  const double rpm = scenario.engine_rpm.value_or(nominal.profile.hst.engine_radps / kRadpsPerRpm);
+  return fmt::format("{}, wanted {} m/s, {:.0f} rpm, errors {}", scenario.speed_mode,
+                     scenario.speed_mps.value_or(nominal.profile.travel.speed_desired_mps), rpm,
+                     scenario.errors);
+}
+
+machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machine,
+                                      const TaskScenario& scenario) {
+  machines::Scenario tried;
+  tried.errors = errors_of(scenario.errors);
+  tried.seed = scenario.seed;
+  machines::SimulatedExcavator result = machines::arranged(machine, tried);
+  if (scenario.swash_ratio) {
+    std::fill_n(result.profile.dig_swash_ratio.begin(), result.profile.pump_count,
+                *scenario.swash_ratio);
+    result.plant.swash_ratio = result.profile.dig_swash_ratio;
+  }
+  return result;
+}
+
+machines::TaskFile planned_task(const TaskScenario& scenario, const ExcavatorProfile& profile) {
+  machines::TaskFile task = machines::load_task(machines::find_task(scenario.task), profile);
+  if (!scenario.duration_s) {
+    return task;
+  }
+  auto* const end = task.request.step.begin() + task.request.step_count;
+  auto* const line = std::find_if(task.request.step.begin(), end,
+                                  [](const StepRequest& step) { return step.straight; });
+  if (line == end) {
+    throw std::runtime_error("--duration: the task has no straight step");
+  }
+  line->duration_s = *scenario.duration_s;
+  line->speed_mps = 0.0;
+  task.result = plan_program(profile, task.request);
+  if (task.result.refusal != ProgramRefusal::kNone) {
+    throw std::runtime_error(machines::program_refusal_words(profile, task.request, task.result));
+  }
+  return task;
+}
+
+AutodigOptions usual_run(const TaskScenario& scenario, const ExcavatorProfile& profile,
+                         const TaskProgram& program) {
+  AutodigOptions run;
+  run.start = program.start;
+  run.speed_override_ratio = scenario.speed_override_ratio;
+  run.rounds = program.repeats ? scenario.rounds : 1;
+  if (scenario.start.empty()) {
+    return run;
+  }
+  const TeethPose teeth = {{scenario.start[0], scenario.start[1], scenario.start[2]},
+                           scenario.start[3]};
+  const DriveResult drives = SwingKinematics(profile.geometry).drive_from_teeth(teeth);
+  if (drives.blind.kind != BlindKind::kNone) {
+    throw std::runtime_error(
+        fmt::format("--start: {}", machines::blind_words(profile.geometry, drives.blind)));
+  }
+  run.start = drives.value;
+  return run;
+}
+
+}  // namespace graben::runs

@@ -1,0 +1,77 @@
+#pragma once
+/// What a run tries, as its user says it: the machine that the simulation then has, where it
+/// starts, and the scenario in words.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/machines/simulated/dozer_scenario.hpp"
+#include "app/machines/simulated/scenario.hpp"
+#include "app/machines/task_file.hpp"
+#include "app/runs/autodig_run.hpp"
+#include "app/runs/dig_run.hpp"
+
+namespace graben::runs {
+
+/// What an excavator's controller does not know, by name, in the order of machines::Errors.
+inline constexpr std::array<const char*, 5> kErrorNames = {"none", "stroke-bias", "sensors",
+                                                           "parameters", "all"};
+
+struct DigScenario {
+  machines::Scenario scenario;  ///< Its errors come from the name below.
+  bool fixed_lambda = false;    ///< Lambda stays 1, and nothing else slows the machine.
+  std::string errors = "none";  ///< Of kErrorNames.
+};
+
+/// The machine of this scenario. Throws std::runtime_error for errors that have no such name.
+[[nodiscard]] machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machine,
+                                                    const DigScenario& scenario);
+/// "soil, stiff oil, dead time 0.15 s, errors all"; the same text, the same scenario.
+[[nodiscard]] std::string scenario_text(const DigScenario& scenario);
+
+/// Where the bucket starts and how far it goes unless told: machines::dig_start(), once round; in
+/// the air as the profile has it. Throws std::runtime_error where that is out of reach.
+[[nodiscard]] DigOptions usual_run(const machines::SimulatedExcavator& machine,
+                                   const DigScenario& scenario);
+/// Any strokes within the cylinders, drawn from the seed.
+[[nodiscard]] Eigen::Vector3d random_strokes(const ExcavatorGeometry& geometry, std::uint64_t seed);
+
+struct GradeScenario {
+  std::string speed_mode = "bounded";  ///< Or "constant": the wanted speed, whatever it takes.
+  std::optional<double> speed_mps;
+  std::optional<double> engine_rpm;
+  std::string errors = "none";  ///< Or "all".
+};
+
+/// The machine of this scenario. Throws std::runtime_error where its engine can't run so.
+[[nodiscard]] machines::SimulatedDozer arranged(const machines::SimulatedDozer& machine,
+                                                const GradeScenario& scenario, std::uint64_t seed);
+/// "bounded, wanted 1.6 m/s, 1500 rpm, errors all"; the same text, the same scenario.
+[[nodiscard]] std::string scenario_text(const machines::SimulatedDozer& nominal,
+                                        const GradeScenario& scenario);
+
+struct TaskScenario {
+  std::string task = "flatten";  ///< File or shipped name.
+  std::string errors = "none";   ///< Of kErrorNames.
+  std::uint64_t seed = 1;
+  std::vector<double> start;  ///< Teeth x, y, z in m and attitude in rad; where the task begins.
+  double speed_override_ratio = 1.0;
+  std::optional<double> swash_ratio;  ///< Of the pumps, instead of the profile's.
+  std::optional<double> duration_s;   ///< Of the first straight step.
+  int rounds = 1;                     ///< Of a task that repeats.
+};
+
+/// The machine of this scenario.
+[[nodiscard]] machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machine,
+                                                    const TaskScenario& scenario);
+/// The task as its file has it, but for the pace of its first line where that is told. Throws
+/// std::runtime_error where it can't be planned on this machine.
+[[nodiscard]] machines::TaskFile planned_task(const TaskScenario& scenario,
+                                              const ExcavatorProfile& profile);
+/// Start, speed and rounds. Throws std::runtime_error where the start is out of reach.
+[[nodiscard]] AutodigOptions usual_run(const TaskScenario& scenario,
+                                       const ExcavatorProfile& profile, const TaskProgram& program);
+
+}  // namespace graben::runs
