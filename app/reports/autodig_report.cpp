@@ -50,8 +50,6 @@ json way(const std::vector<runs::AutodigSample>& samples) {
       [](const runs::AutodigSample& s) { return s.teeth_m[2]; });
 }
 
-std::string mm(double metres) { return fmt::format("{:.1f}", metres * 1e3); }
-
 }  // namespace
 
 void write_autodig_report(const ReportTarget& target, const std::filesystem::path& log_file,
