@@ -14,14 +14,36 @@ set(graben_precompiled <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath>
   <cstdio> <cstring> <functional> <limits> <map> <optional> <random> <string> <string_view> <utility>
   <vector>)
 
-# graben_as_one(TARGET): its sources are compiled in two batches, where headers are precompiled: what
-# templates they have in common are made once. Not for the core, whose objects are judged one by one.
+# graben_as_one(TARGET [COUNT]): its sources are compiled in COUNT batches, two unless told, where headers are
+# precompiled: what templates they have in common are made once. Sources that call something alike are
+# never in the same batch (batches.py). Not for the core's release, whose objects are judged one by one.
 function(graben_as_one target)
   if(CMAKE_DISABLE_PRECOMPILE_HEADERS)
     return()
   endif()
+  set(count 2)
+  if(ARGC GREATER 1)
+    set(count ${ARGV1})
+  endif()
   get_target_property(sources ${target} SOURCES)
-  list(LENGTH sources count)
-  math(EXPR half "(${count} + 1) / 2")
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${half})
+  set(batched)
+  foreach(source ${sources})
+    get_source_file_property(alone ${source} SKIP_UNITY_BUILD_INCLUSION)
+    cmake_path(ABSOLUTE_PATH source)
+    if(NOT alone AND source MATCHES "[.]cpp$")
+      list(APPEND batched ${source})
+    endif()
+  endforeach()
+  # A source that calls something by another name may belong to another batch.
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${batched})
+  execute_process(COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/toolchain/batches.py ${count}
+      ${PROJECT_SOURCE_DIR} ${batched}
+    OUTPUT_VARIABLE batches OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE "\n" ";" batches "${batches}")
+  foreach(source batch IN ZIP_LISTS batched batches)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${batch})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # A class may have parts of its source's unnamed namespace: that source is no header.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()

@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
-"""Gate: no hand-written source is too long, no file knows the machine it was written on."""
+"""Gate: no hand-written source is too long, few are short, no file knows the machine it was written on.
+
+What is read together stands together: in no area may a fifth of the sources have 40 lines or fewer."""
 
 import re
 
 import tree
 
 SOURCES = (*tree.CXX, ".py", ".sh", ".cmake", ".js", ".mjs", ".css", ".html", "CMakeLists.txt")
-MAX_LINES = 450
-WARN_LINES = 400
+MAX_LINES = 400
+SHORT_LINES, SHORT_SHARE = 40, 0.20
+COUNTED = (".cpp", ".hpp", ".py", ".ts")
+AREAS = (("firmware/",), ("hal/",), ("platform/",), ("app/",), ("can_dbc/", "toolchain/"), ("tests/",))
 
 # A home folder, or the server that a package came from. The brackets keep this file from
 # matching itself.
@@ -17,7 +21,7 @@ MACHINE = re.compile(
 
 root = tree.arguments(__doc__).parse_args().root.resolve()
 names = tree.files(root)
-problems = []
+problems, lengths = [], {}
 for name in names:
     data = (root / name).read_bytes()
     if b"\0" in data:
@@ -26,9 +30,15 @@ for name in names:
     if name.endswith(SOURCES) and not tree.is_generated(name):
         if len(lines) > MAX_LINES:
             problems.append(f"{name}: {len(lines)} lines; {MAX_LINES} is the most")
-        elif len(lines) > WARN_LINES:
-            print(f"WARNING {name}: {len(lines)} lines, nearing {MAX_LINES}")
+        if name.endswith(COUNTED):
+            lengths[name] = len(lines)
     for number, line in enumerate(lines, 1):
         if match := MACHINE.search(line):
             problems.append(f"{name}:{number}: '{match[0]}' belongs to one machine or server")
+for area in AREAS:
+    counted = [length for name, length in lengths.items() if name.startswith(area)]
+    short = sum(length <= SHORT_LINES for length in counted)
+    if short >= SHORT_SHARE * len(counted) > 0:
+        problems.append(f"{' and '.join(area)}: {short} of {len(counted)} sources have {SHORT_LINES} lines or fewer; "
+                        f"under {SHORT_SHARE:.0%} may")
 tree.report("files", problems, len(names))

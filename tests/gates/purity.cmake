@@ -2,9 +2,17 @@
 # need, what its sources find. Wants functions.cmake.
 
 graben_gate(purity --nm ${CMAKE_NM} $<TARGET_FILE:graben_firmware> $<TARGET_FILE:graben_hal>)
+function(graben_purity_seed seed)  # one of tests/canary/purity, for whoever builds what the gates need
+  add_library(canary_purity_${seed} STATIC ${seeds}/purity/${seed}.cpp)
+  foreach(group quick_tests target_basics)
+    if(TARGET ${group})
+      add_dependencies(${group} canary_purity_${seed})
+    endif()
+  endforeach()
+endfunction()
 # graben_purity_canary(SEED REGEX): the seed is compiled as strangers would, exceptions and all
 function(graben_purity_canary seed regex)
-  add_library(canary_purity_${seed} STATIC ${seeds}/purity/${seed}.cpp)
+  graben_purity_seed(${seed})
   graben_canary(purity_${seed} "${regex}"
     ${python} ${gates}/purity.py --nm ${CMAKE_NM} $<TARGET_FILE:canary_purity_${seed}>)
 endfunction()
@@ -23,7 +31,7 @@ target_compile_options(canary_purity_static_local_unguarded PRIVATE -fno-threads
 graben_purity_canary(unlisted "needs getpid: not on the list")
 graben_purity_canary(empty "has no code: the gate is dead")
 # And the other way: what is pure has to pass.
-add_library(canary_purity_pure STATIC ${seeds}/purity/pure.cpp)
+graben_purity_seed(pure)
 target_compile_options(canary_purity_pure PRIVATE -fno-exceptions -fno-rtti)
 add_test(NAME canary_purity_accepts_pure
   COMMAND ${python} ${gates}/purity.py --nm ${CMAKE_NM} $<TARGET_FILE:canary_purity_pure>)

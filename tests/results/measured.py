@@ -1,4 +1,5 @@
-"""Runs a command of rows.toml and reads figures from what it leaves: names, each with a number."""
+"""Runs a command of rows.toml and reads figures from what it leaves: names, each with a number. As a
+program it prints the word for the state of the sources that a figure is remembered with."""
 
 import csv
 import datetime
@@ -9,7 +10,6 @@ import pathlib
 import re
 import shlex
 import subprocess
-import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # What a thorough run writes itself is no other state of the sources.
@@ -153,4 +153,4 @@ def make(name: str, run: dict, state_folder: pathlib.Path, build: pathlib.Path, 
 
 
 if __name__ == "__main__":
-    sys.exit("no program: see results.py")
+    print(sources())
