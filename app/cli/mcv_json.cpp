@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "firmware/hydraulics/orifice.hpp"
+#include "firmware/hydraulics/flow.hpp"
 
 namespace graben::cli {
 namespace {

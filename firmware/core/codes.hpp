@@ -80,6 +80,8 @@ enum class LimitKind : std::uint8_t {
   kOffPath = 13,          ///< The drives are behind the plan: its progress waits.
 };
 
+inline constexpr int kLimitKindCount = 14;
+
 /// A limit and whose it is.
 struct Limit {
   LimitKind kind = LimitKind::kNone;

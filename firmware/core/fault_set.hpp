@@ -12,6 +12,7 @@ class FaultSet {
  public:
   constexpr void add(Fault fault) { bits_ |= bit(fault); }
   constexpr void add(const FaultSet& other) { bits_ |= other.bits_; }
+  constexpr void remove(Fault fault) { bits_ &= ~bit(fault); }
   [[nodiscard]] constexpr bool has(Fault fault) const { return (bits_ & bit(fault)) != 0; }
   [[nodiscard]] constexpr bool empty() const { return bits_ == 0; }
   [[nodiscard]] constexpr std::uint64_t bits() const { return bits_; }

@@ -6,6 +6,9 @@
 namespace graben {
 namespace {
 
+/// Largest speed towards an end of the stroke, per metre left.
+constexpr double kEndGain_ps = 4.0;
+
 double direction_rad(const Eigen::Vector2d& vector) { return std::atan2(vector.y(), vector.x()); }
 
 }  // namespace
@@ -57,8 +60,30 @@ Eigen::Vector2d BladeKinematics::edge_m(double angle_rad) const {
   return pivot_m_ + edge_radius_m_ * Eigen::Vector2d(std::cos(direction), std::sin(direction));
 }
 
-double blade_stroke_max_m(const BladeGeometry& geometry) {
-  return BladeKinematics(geometry).stroke_max_m();
+DozerBank dozer_bank(const DozerProfile& profile) {
+  const DozerControl& control = profile.control;
+  DozerBank bank;
+  DriveRow& row = bank.row.front();
+  set_cylinder_range(BladeKinematics(profile.blade).stroke_max_m(), row);
+  row.extend_area_m2 = profile.blade.cap_area_m2();
+  row.retract_area_m2 = profile.blade.rod_area_m2();
+  row.metering.spool_travel_m = 1.0;
+  row.spool_to_duty = profile.implement.spool_to_duty;
+  row.control.spool_rate_ps = control.spool_rate_ps;
+  row.control.spool_threshold = control.spool_threshold;
+  row.control.dead_time_s = control.dead_time_s;
+  row.control.response_s = control.response_s;
+  row.control.stroke_end_gain_ps = kEndGain_ps;
+  row.watch.fastest_mps =
+      kFasterThanPumps * profile.implement.valve_flow_max_m3ps / profile.blade.rod_area_m2();
+  row.watch.senses_load = false;
+  row.watch.settle_s = profile.safety.settle_s;
+  row.watch.spool_tolerance = profile.safety.spool_tolerance;
+  row.watch.senses_spool = profile.bus.spool_feedback;
+  row.watch.rest_s = rest_s(row);
+  row.watch.uncommanded_m = profile.safety.uncommanded_m;
+  row.watch.stuck_m = profile.safety.stuck_m;
+  return bank;
 }
 
 }  // namespace graben

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "firmware/dozer/dozer_profile.hpp"
+#include "firmware/machine/drive_bank.hpp"
 
 namespace graben {
 
@@ -50,7 +51,10 @@ class BladeKinematics {
   double stroke_max_m_;
 };
 
-/// Way of the blade cylinders from the blade fully raised to fully lowered.
-[[nodiscard]] double blade_stroke_max_m(const BladeGeometry& geometry);
+/// The dozer's drives: the blade alone. Its pressures are not measured; its spool's travel is the
+/// share of ImplementProfile::valve_flow_max_m3ps.
+inline constexpr int kBladeCount = 1;
+using DozerBank = DriveBank<kBladeCount>;
+[[nodiscard]] DozerBank dozer_bank(const DozerProfile& profile);
 
 }  // namespace graben

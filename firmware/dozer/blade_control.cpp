@@ -4,14 +4,13 @@
 #include <cmath>
 
 #include "firmware/dozer/implement_flow.hpp"
+#include "firmware/drives/velocity_cap.hpp"
 
 namespace graben {
 namespace {
 
 /// Low-pass of the body's acceleration; shorter lets the gyro's noise through.
 constexpr double kAcceleration_s = 0.03;
-/// Largest speed towards an end of the stroke, per metre left.
-constexpr double kEndGain_ps = 4.0;
 
 Eigen::Vector3d normal_of(const GradeSample& design) {
   return Eigen::Vector3d(-design.slope, 0.0, 1.0).normalized();
@@ -28,20 +27,11 @@ void follow_body(const BladeState& last, double carried_mps, double period_s, Bl
   }
 }
 
-double capped_at_ends(const BladeKinematics& blade, double angle_rad, double velocity_mps,
-                      bool& at_end) {
-  const double stroke_m = blade.stroke_m(angle_rad);
-  const double left_m = velocity_mps > 0.0 ? blade.stroke_max_m() - stroke_m : stroke_m;
-  const double most_mps = kEndGain_ps * std::max(0.0, left_m);
-  at_end = std::abs(velocity_mps) > most_mps;
-  return std::clamp(velocity_mps, -most_mps, most_mps);
-}
-
 }  // namespace
 
-BladeCommand control_blade(const DozerProfile& profile, const BladeKinematics& blade,
-                           const GradeProfile& design, const BladeState& last,
-                           const BladeSituation& now, double period_s) {
+BladeCommand control_blade(const DozerProfile& profile, const DriveRow& drive,
+                           const BladeKinematics& blade, const GradeProfile& design,
+                           const BladeState& last, const BladeSituation& now, double period_s) {
   const DozerControl& control = profile.control;
   const double ahead_s = control.response_s + control.dead_time_s;
   BladeCommand command;
@@ -57,11 +47,11 @@ BladeCommand control_blade(const DozerProfile& profile, const BladeKinematics& b
   const Eigen::Vector3d normal = normal_of(design.at(edge_m.x() + carried[0] * ahead_s));
   const double wanted_mps = -control.blade_gain_ps * command.error_m - last.integral_mps -
                             normal.z() * command.state.carried_rate_mps2 * ahead_s;
-  command.velocity_mps =
-      capped_at_ends(blade, now.angle_rad,
-                     stroke_rate * joint_rate_radps(blade, now.body, now.angle_rad,
-                                                    now.body_velocity, normal, wanted_mps),
-                     command.at_end);
+  const double free_mps = stroke_rate * joint_rate_radps(blade, now.body, now.angle_rad,
+                                                         now.body_velocity, normal, wanted_mps);
+  const double most_mps = end_speed_mps(drive, blade.stroke_m(now.angle_rad), free_mps);
+  command.at_end = std::abs(free_mps) > most_mps;
+  command.velocity_mps = std::clamp(free_mps, -most_mps, most_mps);
   const bool fed = inflow_m3ps(profile.blade, command.velocity_mps) <= now.available_flow_m3ps;
   if (fed && !command.at_end) {
     command.state.integral_mps =

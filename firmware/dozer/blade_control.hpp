@@ -35,8 +35,9 @@ struct BladeCommand {
 /// `response_s` and the dead time later. The integral stands still while the pump can give no more.
 /// Towards the ends of the blade's reach the cylinders slow
 /// down. `last` is that of a cycle ago; a default one where there was none.
-[[nodiscard]] BladeCommand control_blade(const DozerProfile& profile, const BladeKinematics& blade,
-                                         const GradeProfile& design, const BladeState& last,
-                                         const BladeSituation& now, double period_s);
+[[nodiscard]] BladeCommand control_blade(const DozerProfile& profile, const DriveRow& drive,
+                                         const BladeKinematics& blade, const GradeProfile& design,
+                                         const BladeState& last, const BladeSituation& now,
+                                         double period_s);
 
 }  // namespace graben

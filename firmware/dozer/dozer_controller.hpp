@@ -8,17 +8,17 @@
 #include "firmware/dozer/travel/position_filter.hpp"
 #include "firmware/dozer/travel/speed_limit.hpp"
 #include "firmware/dozer/travel/track_control.hpp"
-#include "firmware/safety/cycle_watch.hpp"
-#include "firmware/safety/status.hpp"
+#include "firmware/safety/cycle.hpp"
 
 namespace graben {
 
-/// What a dozer's controller is made of, as ExcavatorSetup.
+/// Dozer controller configuration, computed once, at start or before it goes into flash.
 struct DozerSetup {
   // NOLINTNEXTLINE(google-explicit-constructor): a profile is all that it takes.
   DozerSetup(const DozerProfile& machine);
 
   DozerProfile profile;  ///< Must have passed the application's check.
+  DozerBank bank;
   BladeKinematics blade;
   GradeProfile design;
 };
@@ -42,47 +42,46 @@ class DozerController {
   /// Lets tests flip a bit of what is stored.
   friend struct DozerMemoryAccess;
 
-  struct Memory {
-    Guarded<ModeState> mode;
-    DozerGateState gate;
-    Guarded<double> speed_mps;  ///< v_c of the last cycle in motion.
-    DozerValidationState validation;
-    DozerWatchState watch;
-    DozerLastCycle cycle;
-    SpeedState speed;
-    BladeState blade;
-    std::array<TrackState, kTrackCount> track{};
-    PositionState position;
-    CycleState time;
-    PilotState pilot;
-    BrakeState brake;
-  };
-
-  /// What a cycle wants to do before the gate.
-  struct Wanted {
+  /// Motion of a cycle before the gate.
+  struct Motion {
     BladeCommand blade;
     SpeedChoice speed;
     DozerCommand command;
+    std::array<TrackState, kTrackCount> track{};
     double required_flow_m3ps = 0.0;
     double available_flow_m3ps = 0.0;
   };
 
-  /// Whether what one cycle handed to the next is as it was.
-  [[nodiscard]] Fault memory_fault() const;
-  /// Inputs with all that validation and watches have to say of them.
-  [[nodiscard]] ValidDozerInputs judge(const DozerInputs& inputs, double period_s, TimeUs now_us);
-  /// Takes in where the machine is: what the blade has cut, what lies ahead.
-  void observe(const ValidDozerInputs& valid, double period_s);
-  /// v_c of this cycle and what it is chosen from.
-  [[nodiscard]] SpeedChoice choose_speed(const ValidDozerInputs& valid, const Wanted& wanted,
-                                         double period_s) const;
-  /// Blade, speed, displacements; what they hand on is kept only in motion.
-  [[nodiscard]] Wanted want(const ValidDozerInputs& valid, double period_s);
-  void keep(const Wanted& wanted, bool active);
+  struct Memory {
+    CycleMemory cycle;
+    DozerGateState gate;
+    Guarded<double> speed_mps;  ///< v_c of the last cycle in motion.
+    DozerValidationState validation;
+    DozerWatchState watch;
+    DozerLastCommands last;
+    SpeedState speed;
+    BladeState blade;
+    std::array<TrackState, kTrackCount> track{};
+    PositionState position;
+    BrakeState brake;
+  };
 
+  [[nodiscard]] DriveRows drives() const { return setup_.bank.rows(); }
+  [[nodiscard]] DozerValid validate_and_watch(const DozerInputs& inputs, const Cycle& cycle,
+                                              TimeUs now_us);
+  /// Takes in where the machine is: what the blade has cut, what lies ahead.
+  void estimate(const DozerValid& valid, double period_s);
+  /// Blade and travel speed, and the displacements for it.
+  [[nodiscard]] Motion flow_limited(const DozerValid& valid, double period_s) const;
+  /// v_c of this cycle and what it is chosen from.
+  [[nodiscard]] SpeedChoice choose_speed(const DozerValid& valid, const Motion& motion,
+                                         double period_s) const;
+  void describe_motion(const Motion& motion, const FaultSet& degraded, DozerStatus& status) const;
+  /// Keeps what the next cycle needs of this one.
+  void remember(const Motion& motion, const ModeDecision& decision, const DozerGateResult& gated);
+
+  const DozerSetup& setup_;
   const DozerProfile& profile_;
-  const BladeKinematics& blade_;
-  const GradeProfile& design_;
   GroundMap ground_;
   Preview preview_;
   Memory memory_;

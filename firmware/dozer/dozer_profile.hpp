@@ -7,7 +7,7 @@
 #include <array>
 
 #include "firmware/dozer/dozer_signals.hpp"
-#include "firmware/machine/piston_area.hpp"
+#include "firmware/machine/valve.hpp"
 #include "firmware/numeric/monotone_table.hpp"
 #include "firmware/signals/bus_capabilities.hpp"
 

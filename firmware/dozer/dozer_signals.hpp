@@ -31,17 +31,11 @@ struct BodyInputs {
   Signal<double> pitch_rate_radps;
 };
 
-struct DozerInputs {
+struct DozerInputs : MachineInputs {
   Signal<double> blade_stroke_m;
-  Signal<double> blade_spool_ratio;  ///< Measured spool over its travel, deadband and all, -1 .. 1.
-  Signal<bool> valve_enabled;        ///< The valve side's echo of our enable.
+  Signal<double> blade_spool_ratio;  ///< See DriveInputs.
   BodyInputs body;
   std::array<TrackInputs, kTrackCount> track;
-  Signal<double> engine_speed_radps;
-  OperatorInputs driver;
-  /// Whether the machine's end runs with our profile hash and DBC version.
-  Signal<bool> same_machine;
-  LinkInputs link;
 };
 
 /// What the dozer's controller says of itself.
@@ -54,10 +48,7 @@ struct DozerStatus : MachineStatus {
   double grade_error_m = 0.0;        ///< Measured cutting edge above the grade.
 };
 
-struct DozerOutputs {
-  bool enable = false;       ///< The valve side closes the spool without it.
-  bool pilot_cut = false;    ///< Asks for the pilot pressure to be cut: the valve does not obey.
-  bool pilot_known = false;  ///< As ExcavatorOutputs::pilot_known.
+struct DozerOutputs : MachineOutputs {
   bool brake = true;  ///< Asks for the parking brake; also whenever nothing moves the machine.
   double blade_duty_ratio = 0.0;                             ///< -1 .. 1; 0 is neutral, + extends.
   std::array<double, kTrackCount> pump_ratio{};              ///< -1 .. 1; 0 stands still.

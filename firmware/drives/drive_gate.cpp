@@ -3,32 +3,68 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/drives/slew_limit.hpp"
-
 namespace graben {
+namespace {
 
-GateResult gate(const ExcavatorProfile& profile, const GateState& last, bool active,
-                const std::array<double, kDriveCount>& spool_m, double period_s) {
-  GateResult result;
+double change_max(const DriveRow& drive, double period_s) {
+  return drive.control.spool_rate_ps * std::max(0.0, period_s);
+}
+
+bool is_finite(DriveRows drives, Span<const double> spool_m, double period_s) {
+  bool finite = true;
+  for (int i = 0; i < drives.count(); ++i) {
+    finite = finite && std::isfinite(spool_m[i]) && std::isfinite(change_max(drives[i], period_s));
+  }
+  return finite;
+}
+
+bool is_intact(DriveRows drives, Span<Guarded<double>> opening) {
+  bool intact = true;
+  for (int i = 0; i < drives.count(); ++i) {
+    intact = intact && opening[i].intact();
+  }
+  return intact;
+}
+
+double duty_of(const DriveRow& drive, double opening) {
+  if (opening != 0.0 && std::abs(opening) >= drive.control.spool_threshold) {
+    return std::copysign(std::clamp(drive.spool_to_duty.at(std::abs(opening)), 0.0, 1.0), opening);
+  }
+  return 0.0;
+}
+
+GateResult neutral(Fault fault, Span<Guarded<double>> opening, Span<double> duty_ratio) {
+  std::fill(opening.begin(), opening.end(), Guarded(0.0));
+  std::fill(duty_ratio.begin(), duty_ratio.end(), 0.0);
+  return {false, fault};
+}
+
+}  // namespace
+
+double slew_limited(double wanted, double last, double change_max) {
+  const double open = std::max(0.0, std::signbit(wanted) ? -last : last);  // on wanted's side
+  const double limit = open + change_max;
+  return std::clamp(wanted, -limit, limit);
+}
+
+GateResult gate_drives(DriveRows drives, bool active, Span<const double> spool_m, double period_s,
+                       Span<Guarded<double>> opening, Span<double> duty_ratio) {
   if (!active) {
-    return result;
+    return neutral(Fault::kNone, opening, duty_ratio);
   }
-  const double change_max = profile.control.spool_rate_ps * std::max(0.0, period_s);
-  for (unsigned i = 0; i < static_cast<unsigned>(profile.drive_count); ++i) {
-    if (!std::isfinite(spool_m[i]) || !std::isfinite(change_max)) {
-      return {false, Fault::kCommandNotFinite, {}, {}};
-    }
-    if (!last.opening[i].intact()) {
-      return {false, Fault::kMemoryCorrupt, {}, {}};
-    }
-    const double wanted = std::clamp(spool_m[i] / profile.valve.spool_travel_m, -1.0, 1.0);
-    const double opening = limited(wanted, last.opening[i].value(), change_max);
-    result.state.opening[i] = opening;
-    result.duty_ratio[i] =
-        spool_duty(profile.valve.spool_to_duty, profile.control.spool_threshold, opening);
+  if (!is_finite(drives, spool_m, period_s)) {
+    return neutral(Fault::kCommandNotFinite, opening, duty_ratio);
   }
-  result.enable = true;
-  return result;
+  if (!is_intact(drives, opening)) {
+    return neutral(Fault::kMemoryCorrupt, opening, duty_ratio);
+  }
+  for (int i = 0; i < drives.count(); ++i) {
+    const double wanted = std::clamp(spool_m[i] / drives[i].metering.spool_travel_m, -1.0, 1.0);
+    const double next = slew_limited(wanted, opening[i].value(), change_max(drives[i], period_s));
+    opening[i] = next;
+    duty_ratio[i] = duty_of(drives[i], next);
+  }
+  return {true, Fault::kNone};
 }
 
 }  // namespace graben

@@ -2,31 +2,29 @@
 /// The last gate before the bus: what it lets through is finite, in range, rate-limited and
 /// enabled, whatever computed it.
 
-#include <array>
-
 #include "firmware/core/guarded.hpp"
-#include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/machine/drive_bank.hpp"
 
 namespace graben {
 
-/// What the gate needs of the last cycle.
-struct GateState {
-  std::array<Guarded<double>, kDriveCount> opening;  ///< x / x_m that was let through, -1 .. 1.
-};
+/// `wanted` after `last`, rising in magnitude by at most `change_max`. Only the way from zero is
+/// limited: towards zero, and through it on a reversal, it may always go at once.
+[[nodiscard]] double slew_limited(double wanted, double last, double change_max);
 
+/// Of the whole bank.
 struct GateResult {
   bool enable = false;
   Fault fault = Fault::kNone;  ///< kCommandNotFinite or kMemoryCorrupt when it had to refuse.
-  std::array<double, kDriveCount> duty_ratio{};  ///< -1 .. 1.
-  GateState state;
 };
 
-/// Spool positions -> duties. Not active, or any position not finite, or a stored opening that
+/// Spool positions -> signed duties, -1 .. 1, of each row; `opening` keeps x / x_m that was let
+/// through from cycle to cycle. Not active, or any position not finite, or a stored opening that
 /// differs from its complement: neutral in this cycle, enable withdrawn. Otherwise x / x_m is
 /// clamped to +-1, opens by at most spool_rate_ps (closing is never delayed), and is kept at
 /// neutral below spool_threshold; the duty then follows spool_to_duty. `period_s` is the time since
-/// the last cycle. A drive that the machine hasn't got stays at neutral.
-[[nodiscard]] GateResult gate(const ExcavatorProfile& profile, const GateState& last, bool active,
-                              const std::array<double, kDriveCount>& spool_m, double period_s);
+/// the last cycle. What lies in `opening` and `duty_ratio` beyond the rows is set to neutral too.
+[[nodiscard]] GateResult gate_drives(DriveRows drives, bool active, Span<const double> spool_m,
+                                     double period_s, Span<Guarded<double>> opening,
+                                     Span<double> duty_ratio);
 
 }  // namespace graben

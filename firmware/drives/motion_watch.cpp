@@ -1,47 +1,109 @@
 #include "firmware/drives/motion_watch.hpp"
 
-#include "firmware/drives/spool_follow.hpp"
+#include <algorithm>
+#include <cmath>
 
 namespace graben {
 namespace {
 
-CylinderLimits limits_of(const ExcavatorProfile& profile, int drive) {
-  const double spool_edge = profile.valve.spool_to_duty.y_first();
-  const SafetyProfile& safety = profile.safety;
-  const double settle_s =
-      kCylinderSettle_s + (profile.bus.spool_feedback
-                               ? 0.0
-                               : spool_arrives_s(profile.control.dead_time_s, safety.settle_s));
-  if (drive != kSwing) {
-    return {spool_edge, safety.uncommanded_m, safety.stuck_m, settle_s};
+/// The anchor creeps after the stroke: leakage is no uncommanded motion. Nor is a stroke stuck that
+/// is asked, for minutes, for no more than leakage takes.
+constexpr double kForget_s = 10.0;
+/// More than the sensor's resolution and its noise.
+constexpr double kStill_m = 0.0005;
+
+constexpr double kRail_s = 0.3;
+constexpr double kMoved_m = 0.06;
+/// Way is counted in steps of more than a stroke sensor's noise.
+constexpr double kStep_m = 0.002;
+/// A chamber that cavitates stays at one pressure for long.
+constexpr double kEmpty_pa = 0.2e6;
+
+/// The duty up to which a spool is closed is where its table begins.
+int direction_of(const DriveRow& drive, double spool_ratio) {
+  if (std::abs(spool_ratio) <= drive.spool_to_duty.y_first()) {
+    return 0;
   }
-  const SwingProfile& swing = profile.swing;
-  // A platform at full speed goes on turning against its reliefs when its spool closes at once.
-  const double stop_s = swing.speed_max_radps / swing.acceleration_max_radps2;
-  return {spool_edge, safety.swing_uncommanded_rad * swing.lever_m,
-          safety.swing_stuck_rad * swing.lever_m, settle_s + stop_s};
+  return spool_ratio > 0.0 ? 1 : -1;
+}
+
+void follow(double rest_s, int direction, double stroke_m, double period_s, MotionState& motion) {
+  motion.since_s = direction == motion.direction ? motion.since_s + period_s : 0.0;
+  motion.direction = direction;
+  const bool settling = motion.since_s < rest_s;
+  const bool leads = direction != 0 && direction * (stroke_m - motion.anchor_m) > 0.0;
+  if (settling || leads) {
+    motion.anchor_m = stroke_m;
+  } else {
+    motion.anchor_m += (stroke_m - motion.anchor_m) * std::min(1.0, period_s / kForget_s);
+  }
+}
+
+void look_for_stillness(double stroke_m, double asked_mps, double period_s, MotionState& motion) {
+  if (std::abs(stroke_m - motion.still_m) > kStill_m) {
+    motion.still_m = stroke_m;
+    motion.unmoved_m = 0.0;
+  } else if (motion.direction * asked_mps > 0.0) {
+    motion.unmoved_m += std::abs(asked_mps) * period_s;
+  }
+  motion.unmoved_m -= motion.unmoved_m * std::min(1.0, period_s / kForget_s);
+}
+
+/// True: the sensor is wrong.
+bool follow_pressure(double rail_pa, double pressure_pa, double stroke_m, double period_s,
+                     PressureState& sensor) {
+  const double step_m = std::abs(stroke_m - sensor.stroke_m);
+  if (pressure_pa != sensor.last_pa || pressure_pa <= kEmpty_pa) {
+    sensor.last_pa = pressure_pa;
+    sensor.stroke_m = stroke_m;
+    sensor.way_m = 0.0;
+  } else if (step_m > kStep_m) {
+    sensor.stroke_m = stroke_m;
+    sensor.way_m += step_m;
+  }
+  sensor.at_rail_s = pressure_pa >= rail_pa ? sensor.at_rail_s + period_s : 0.0;
+  return sensor.at_rail_s > kRail_s || sensor.way_m > kMoved_m;
 }
 
 }  // namespace
 
-MotionWatchResult watch_motion(const ExcavatorProfile& profile, const MotionWatchState& last,
-                               const ValidInputs& valid, const DriveVector& asked_mps,
-                               double period_s) {
-  MotionWatchResult result;
-  for (int drive = 0; drive < profile.drive_count; ++drive) {
-    const auto i = static_cast<unsigned>(drive);
-    const CylinderWatchResult cylinder =
-        watch_cylinder(limits_of(profile, drive), last.drive[i],
-                       {valid.strokes_m[drive], valid.spool_ratio[i], asked_mps[drive]}, period_s);
-    result.state.drive[i] = cylinder.state;
-    if (cylinder.uncommanded) {
-      result.faults.add(Fault::kUncommandedMotion);
+FaultSet watch_motion(DriveRows drives, Span<const ValidDrive> seen, Span<const double> asked_mps,
+                      double period_s, Span<MotionState> state) {
+  FaultSet faults;
+  for (int i = 0; i < drives.count(); ++i) {
+    const DriveWatch& bounds = drives[i].watch;
+    const double stroke_m = seen[i].stroke_m;
+    MotionState& motion = state[i];
+    follow(bounds.rest_s, direction_of(drives[i], seen[i].spool_ratio), stroke_m, period_s, motion);
+    look_for_stillness(stroke_m, asked_mps[i], period_s, motion);
+    // Where its spool leads, the anchor has come along.
+    if (std::abs(stroke_m - motion.anchor_m) > bounds.uncommanded_m) {
+      faults.add(Fault::kUncommandedMotion);
     }
-    if (cylinder.stuck) {
-      result.faults.add(Fault::kStrokeStuck);
+    if (motion.unmoved_m > bounds.stuck_m) {
+      faults.add(Fault::kStrokeStuck);
     }
   }
-  return result;
+  return faults;
+}
+
+bool watch_pressures(DriveRows drives, Span<ValidDrive> seen, double period_s,
+                     Span<PressurePair> state) {
+  bool any_wrong = false;
+  for (int i = 0; i < drives.count(); ++i) {
+    ValidDrive& drive = seen[i];
+    if (!drive.load_known) {
+      continue;
+    }
+    const double rail_pa = drives[i].watch.pressure_rail_pa;
+    const bool cap =
+        follow_pressure(rail_pa, drive.cap_pressure_pa, drive.stroke_m, period_s, state[i][0]);
+    const bool rod =
+        follow_pressure(rail_pa, drive.rod_pressure_pa, drive.stroke_m, period_s, state[i][1]);
+    drive.load_known = !cap && !rod;
+    any_wrong = any_wrong || cap || rod;
+  }
+  return any_wrong;
 }
 
 }  // namespace graben

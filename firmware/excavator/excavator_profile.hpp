@@ -10,6 +10,7 @@
 
 #include "firmware/core/codes.hpp"
 #include "firmware/excavator/excavator_signals.hpp"
+#include "firmware/machine/valve.hpp"
 #include "firmware/numeric/monotone_table.hpp"
 #include "firmware/signals/bus_capabilities.hpp"
 
@@ -35,9 +36,9 @@ struct CylinderGeometry {
   Eigen::Vector2d eye_m = Eigen::Vector2d::Zero();
 
   /// A_A: cap-side piston area of all of them together, m^2.
-  [[nodiscard]] double cap_area_m2() const;
+  [[nodiscard]] double cap_area_m2() const { return graben::cap_area_m2(count, bore_m); }
   /// A_B: rod-side piston area of all of them together, m^2.
-  [[nodiscard]] double rod_area_m2() const;
+  [[nodiscard]] double rod_area_m2() const { return graben::rod_area_m2(count, bore_m, rod_m); }
 };
 
 /// Rocker on the arm, coupler to the bucket's lug; the bucket cylinder pushes the rocker's end.
@@ -60,40 +61,8 @@ struct ExcavatorGeometry {
   Eigen::Vector2d boom_foot_m = Eigen::Vector2d::Zero();
 };
 
-enum class RegenerationSide : int { kRetract = -1, kNone = 0, kExtend = 1 };
-
-/// One four-way directional valve with its bypass and regeneration (Kim 3.1 - 3.3).
-struct SpoolProfile {
-  int pump = 0;               ///< Which pump feeds it.
-  double extend_in_m2 = 0.0;  ///< Areas at full opening: A_v,in and A_v,out of (4), (5).
-  double extend_out_m2 = 0.0;
-  double retract_in_m2 = 0.0;
-  double retract_out_m2 = 0.0;
-  double bypass_open = 0.0;    ///< c_v,by at x = 0 of (20), m^3/(s sqrt(Pa)).
-  double bypass_closed = 0.0;  ///< c_v,by at x != 0 of (20).
-  RegenerationSide regeneration = RegenerationSide::kNone;
-  double c_drain = 0.0;         ///< c_d of (15).
-  double c_check = 0.0;         ///< c_r of (16).
-  double force_offset_n = 0.0;  ///< F_offset of (38).
-  double c_inflow_check = 0.0;  ///< Extra check valve before the spool (Remark 3); 0: none.
-};
-
-/// Swash-plate pump of (25): flow = displacement * speed * swash - leak_linear P - leak_quadratic
-/// P^2.
-struct PumpProfile {
-  double displacement_m3prev = 0.0;  ///< Per revolution at full swash.
-  double rated_speed_radps = 0.0;
-  double leak_linear = 0.0;     ///< m^3/(s Pa)
-  double leak_quadratic = 0.0;  ///< m^3/(s Pa^2)
-  double relief_pa = 0.0;
-  std::array<double, 2> bypass_series{};  ///< Make-up valve and tank orifice of (21), (22).
-};
-
-struct ValveProfile {
-  double spool_travel_m = 0.0;     ///< x_m of (13).
-  double opening_exponent = 1.0;   ///< Area over travel: (|x| / x_m) ^ exponent.
-  double discharge = 0.0;          ///< C_d.
-  double density_kgpm3 = 0.0;      ///< rho.
+/// The main control valve; metering is the same of every section.
+struct ValveProfile : SpoolMetering {
   double section_flow_m3ps = 0.0;  ///< Rated, of one spool's section.
   std::array<SpoolProfile, kDriveCount> spool;
   /// Opening (|x| / x_m, 0 .. 1) to duty (0 .. 1). Its first value is the duty at which the spool
@@ -111,13 +80,6 @@ struct DigPath {
   double corner_radius_m = 0.0;
   double attitude_at_x_min_rad = 0.0;  ///< Bucket attitude, linear in x between the two.
   double attitude_at_x_max_rad = 0.0;
-};
-
-/// How lambda may rise from cycle to cycle; it may fall at once.
-struct LambdaRise {
-  double rate_ps = 0.0;     ///< Per second.
-  double reserve_n = 0.0;   ///< Drive force that every moving cylinder must have beyond its need.
-  double hold_share = 0.0;  ///< Share of the reserve (0 .. 1) for lambda to stay where it is.
 };
 
 /// How the field converges and how commands may change. Ranges are checked where it is read.
@@ -208,12 +170,6 @@ struct ExcavatorProfile {
   SafetyProfile safety;
 
   [[nodiscard]] bool has_swing() const { return drive_count == kDriveCount; }
-  /// Area that extends the drive, all its cylinders together; of the swing that at its lever.
-  [[nodiscard]] double extend_area_m2(int drive) const;
-  [[nodiscard]] double retract_area_m2(int drive) const;
-  /// Ends of the drive's way: a cylinder's stroke, the swing's range at its lever.
-  [[nodiscard]] double least_travel_m(int drive) const;
-  [[nodiscard]] double most_travel_m(int drive) const;
 };
 
 }  // namespace graben

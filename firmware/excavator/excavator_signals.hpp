@@ -13,12 +13,7 @@ inline constexpr int kAxisCount = 3;   ///< Boom, arm, bucket: what has a cylind
 inline constexpr int kDriveCount = 4;  ///< With the swing, at most; a machine may be without.
 inline constexpr int kPumpCount = 2;   ///< At most; a machine may have one.
 
-struct AxisInputs {
-  Signal<double> stroke_m;
-  Signal<double> cap_pressure_pa;
-  Signal<double> rod_pressure_pa;
-  Signal<double> spool_ratio;  ///< Measured spool over its travel, deadband and all, -1 .. 1.
-};
+using AxisInputs = DriveInputs;
 
 /// Of the swing motor. Each pressure is that of the port that turns the platform that way.
 struct SwingInputs {
@@ -28,16 +23,10 @@ struct SwingInputs {
   Signal<double> spool_ratio;
 };
 
-struct ExcavatorInputs {
+struct ExcavatorInputs : MachineInputs {
   std::array<AxisInputs, kAxisCount> axis;
   SwingInputs swing;  ///< Looked at only where the profile has a swing drive.
   std::array<Signal<double>, kPumpCount> swash_ratio;  ///< tan(alpha) / tan(alpha at full swash).
-  Signal<double> engine_speed_radps;
-  Signal<bool> valve_enabled;  ///< The valve side's echo of our enable.
-  OperatorInputs driver;
-  /// Whether the machine's end runs with our profile hash and DBC version.
-  Signal<bool> same_machine;
-  LinkInputs link;
 };
 
 /// What a step of a task is for; the numbers are on the bus.
@@ -61,7 +50,7 @@ struct TaskProgress {
   double share = 0.0;  ///< Of the step, 0 .. 1.
 };
 
-/// What the excavator's controller says of itself.
+/// Status of the excavator's controller.
 struct ExcavatorStatus : MachineStatus {
   /// V_L^d before scaling by lambda; the swing's at its lever, see SwingProfile.
   std::array<double, kDriveCount> wanted_velocity_mps{};
@@ -71,12 +60,7 @@ struct ExcavatorStatus : MachineStatus {
   TaskProgress progress;
 };
 
-struct ExcavatorOutputs {
-  bool enable = false;     ///< The valve side closes every spool without it.
-  bool pilot_cut = false;  ///< Asks for the pilot pressure to be cut: the valve does not obey.
-  /// Without it the controller does not know whether an earlier one has asked for a cut, and says
-  /// so: a restart must not give the pressure back to a spool that is stuck.
-  bool pilot_known = false;
+struct ExcavatorOutputs : MachineOutputs {
   std::array<double, kDriveCount> duty_ratio{};  ///< -1 .. 1; 0 is neutral.
   std::array<double, kPumpCount> swash_ratio{};  ///< Wanted of each pump; only with enable.
   ExcavatorStatus status;

@@ -5,7 +5,7 @@
 
 namespace graben {
 
-double full_opening_velocity_coefficient(const ValveProfile& valve, double spool_in_m2,
+double full_opening_velocity_coefficient(const SpoolMetering& metering, double spool_in_m2,
                                          double spool_out_m2, double inlet_area_m2,
                                          double outlet_area_m2) {
   const auto cube_over_square = [](double piston, double opening) {
@@ -13,10 +13,10 @@ double full_opening_velocity_coefficient(const ValveProfile& valve, double spool
   };
   const double resistance =
       cube_over_square(inlet_area_m2, spool_in_m2) + cube_over_square(outlet_area_m2, spool_out_m2);
-  return std::sqrt(2.0 / valve.density_kgpm3) * valve.discharge / std::sqrt(resistance);
+  return std::sqrt(2.0 / metering.density_kgpm3) * metering.discharge / std::sqrt(resistance);
 }
 
-MonotoneTable velocity_coefficient_table(const ValveProfile& valve, double coefficient_full) {
+MonotoneTable velocity_coefficient_table(const SpoolMetering& metering, double coefficient_full) {
   constexpr int kPoints = MonotoneTable::kCapacity;
   std::array<double, kPoints> travel{};
   std::array<double, kPoints> coefficient{};
@@ -24,8 +24,8 @@ MonotoneTable velocity_coefficient_table(const ValveProfile& valve, double coeff
     const auto k = static_cast<unsigned>(i);
     const double share = static_cast<double>(i) / (kPoints - 1);
     const double opening = share * share;
-    travel[k] = valve.spool_travel_m * opening;
-    coefficient[k] = coefficient_full * std::pow(opening, valve.opening_exponent);
+    travel[k] = metering.spool_travel_m * opening;
+    coefficient[k] = coefficient_full * std::pow(opening, metering.opening_exponent);
   }
   MonotoneTable table;
   // A profile that passed its check fills it; another leaves it empty, which the machine's check

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "firmware/hydraulics/orifice.hpp"
+#include "firmware/hydraulics/flow.hpp"
 
 namespace graben {
 namespace {

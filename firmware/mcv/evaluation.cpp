@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "firmware/hydraulics/regeneration.hpp"
+#include "firmware/hydraulics/flow.hpp"
 
 namespace graben {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "firmware/hydraulics/orifice.hpp"
+#include "firmware/hydraulics/flow.hpp"
 #include "firmware/hydraulics/spool.hpp"
 
 namespace graben {
@@ -101,39 +101,51 @@ McvCheck check_input(const McvMachine& machine, const McvInput& input) {
   return {};
 }
 
-McvMachine mcv_machine(const ExcavatorProfile& profile) {
-  McvMachine machine;
-  machine.actuator_count = profile.drive_count;
-  machine.pump_count = profile.pump_count;
-  for (int drive = 0; drive < profile.drive_count; ++drive) {
-    const auto i = static_cast<unsigned>(drive);
-    const SpoolProfile& spool = profile.valve.spool[i];
-    const double cap_m2 = profile.extend_area_m2(drive);
-    const double rod_m2 = profile.retract_area_m2(drive);
-    McvActuator& actuator = machine.actuator[i];
-    actuator.area_cap_m2 = cap_m2;
-    actuator.area_rod_m2 = rod_m2;
-    actuator.pump = spool.pump;
-    actuator.regeneration = spool.regeneration;
-    actuator.c_drain = spool.c_drain;
-    actuator.c_check = spool.c_check;
-    actuator.bypass_open = spool.bypass_open;
-    actuator.bypass_closed = spool.bypass_closed;
-    actuator.force_offset_n = spool.force_offset_n;
-    actuator.c_inflow_check = spool.c_inflow_check;
-    actuator.extend = velocity_coefficient_table(
-        profile.valve, full_opening_velocity_coefficient(profile.valve, spool.extend_in_m2,
-                                                         spool.extend_out_m2, cap_m2, rod_m2));
-    actuator.retract = velocity_coefficient_table(
-        profile.valve, full_opening_velocity_coefficient(profile.valve, spool.retract_in_m2,
-                                                         spool.retract_out_m2, rod_m2, cap_m2));
+namespace {
+
+McvActuator actuator_of(const DriveRow& drive) {
+  const SpoolProfile& spool = drive.spool;
+  const double cap_m2 = drive.extend_area_m2;
+  const double rod_m2 = drive.retract_area_m2;
+  McvActuator actuator;
+  actuator.area_cap_m2 = cap_m2;
+  actuator.area_rod_m2 = rod_m2;
+  actuator.pump = spool.pump;
+  actuator.regeneration = spool.regeneration;
+  actuator.c_drain = spool.c_drain;
+  actuator.c_check = spool.c_check;
+  actuator.bypass_open = spool.bypass_open;
+  actuator.bypass_closed = spool.bypass_closed;
+  actuator.force_offset_n = spool.force_offset_n;
+  actuator.c_inflow_check = spool.c_inflow_check;
+  actuator.extend = velocity_coefficient_table(
+      drive.metering, full_opening_velocity_coefficient(drive.metering, spool.extend_in_m2,
+                                                        spool.extend_out_m2, cap_m2, rod_m2));
+  actuator.retract = velocity_coefficient_table(
+      drive.metering, full_opening_velocity_coefficient(drive.metering, spool.retract_in_m2,
+                                                        spool.retract_out_m2, rod_m2, cap_m2));
+  return actuator;
+}
+
+McvPump pump_of(const PumpProfile& from) {
+  McvPump pump = {from.leak_linear, from.leak_quadratic, 0.0, true, from.relief_pa};
+  for (const double coefficient : from.bypass_series) {
+    pump.series_resistance += orifice_resistance(coefficient);
   }
-  for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
-    const PumpProfile& from = profile.pump[j];
-    machine.pump[j] = {from.leak_linear, from.leak_quadratic, 0.0, true, from.relief_pa};
-    for (const double coefficient : from.bypass_series) {
-      machine.pump[j].series_resistance += orifice_resistance(coefficient);
-    }
+  return pump;
+}
+
+}  // namespace
+
+McvMachine mcv_machine(DriveRows drives, Span<const PumpProfile> pumps) {
+  McvMachine machine;
+  machine.actuator_count = drives.count();
+  machine.pump_count = pumps.count();
+  for (int i = 0; i < drives.count(); ++i) {
+    machine.actuator[static_cast<unsigned>(i)] = actuator_of(drives[i]);
+  }
+  for (int j = 0; j < pumps.count(); ++j) {
+    machine.pump[static_cast<unsigned>(j)] = pump_of(pumps[j]);
   }
   return machine;
 }

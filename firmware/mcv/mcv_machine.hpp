@@ -5,12 +5,12 @@
 #include <array>
 #include <cstdint>
 
-#include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/machine/drive_bank.hpp"
 #include "firmware/numeric/monotone_table.hpp"
 
 namespace graben {
 
-inline constexpr int kMaxActuators = 6;
+inline constexpr int kMaxActuators = kMostDrives;
 inline constexpr int kMaxPumps = 3;
 inline constexpr int kMaxBypassSeries = 8;
 
@@ -91,8 +91,7 @@ struct McvCheck {
 /// First defect of an input for a machine that passed its check.
 [[nodiscard]] McvCheck check_input(const McvMachine& machine, const McvInput& input);
 
-/// The excavator's valve as a table of this kind, actuators in the order of the drives. The pumps'
-/// flow is an input.
-[[nodiscard]] McvMachine mcv_machine(const ExcavatorProfile& profile);
+/// The valve of a bank of drives, actuators in their order. The pumps' flow is an input.
+[[nodiscard]] McvMachine mcv_machine(DriveRows drives, Span<const PumpProfile> pumps);
 
 }  // namespace graben

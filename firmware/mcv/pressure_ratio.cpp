@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/hydraulics/regeneration.hpp"
+#include "firmware/hydraulics/flow.hpp"
 #include "firmware/numeric/constants.hpp"
 #include "firmware/numeric/cube_root.hpp"
 

@@ -2,10 +2,14 @@
 /// lambda from cycle to cycle: falls as the machine needs, rises slowly and only with force to
 /// spare.
 
-#include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/drives/drive_servo.hpp"
 #include "firmware/mcv/optimiser.hpp"
 
 namespace graben {
+
+/// Of a bank of drives: V_L^d, chamber pressures, and the pumps' flow at zero pressure.
+[[nodiscard]] McvInput mcv_input(Span<const double> velocity_mps, Span<const LoadState> load,
+                                 Span<const double> pump_flow_m3ps);
 
 /// This cycle's solution after one that ended at `last_lambda` (0 from rest), `period_s` ago.
 ///

@@ -10,8 +10,6 @@ namespace {
 /// Over its rated speed an engine runs by a few per cent, downhill by some more.
 constexpr double kMostOverspeed = 1.2;
 
-}  // namespace
-
 void read_driver(const OperatorInputs& driver, const Freshness& fresh, CommonValid& valid) {
   valid.enable = fresh.holds(driver.enable) && driver.enable.value;
   if (!fresh.holds(driver.enable) || !fresh.holds(driver.mode) || !fresh.holds(driver.task) ||
@@ -25,8 +23,7 @@ void read_driver(const OperatorInputs& driver, const Freshness& fresh, CommonVal
   valid.speed_override_ratio = std::clamp(driver.speed_override_ratio.value, 0.0, 1.0);
 }
 
-void read_bus(const BusCapabilities& bus, const LinkInputs& link, CommonValid& valid) {
-  valid.stand_in = bus.lacks_any();
+void read_bus(const LinkInputs& link, CommonValid& valid) {
   valid.faults.add(link.message_faults);
   if (link.bus != BusState::kActive) {
     valid.faults.add(link.bus == BusState::kOff       ? Fault::kBusOff
@@ -41,46 +38,37 @@ void read_bus(const BusCapabilities& bus, const LinkInputs& link, CommonValid& v
   }
 }
 
-void read_identity(const BusCapabilities& bus, const Signal<bool>& same_machine, TimeUs now_us,
-                   CommonValid& valid) {
-  if (!bus.identity) {
-    return;
-  }
+void read_identity(const Signal<bool>& same_machine, TimeUs now_us, CommonValid& valid) {
   const Freshness known(kIdentityTimeout_s, now_us);
   if (!known.holds(same_machine) || !same_machine.value) {
     valid.faults.add(Fault::kIdentityMismatch);
   }
 }
 
-bool read_echo(const BusCapabilities& bus, const Signal<bool>& valve_enabled,
-               const Freshness& fresh, FaultSet& faults) {
-  if (!bus.valve_echo) {
-    return false;
+}  // namespace
+
+void read_machine(const BusCapabilities& bus, const MachineInputs& inputs, const EngineRange& engine, const Freshness& fresh,
+                  TimeUs now_us, CommonValid& valid) {
+  read_driver(inputs.driver, fresh, valid);
+  if (bus.identity) {
+    read_identity(inputs.same_machine, now_us, valid);
   }
-  if (!fresh.holds(valve_enabled)) {
-    faults.add(Fault::kSpoolMissing);
-    return false;
+  read_bus(inputs.link, valid);
+  const Signal<double>& speed = inputs.engine_speed_radps;
+  const bool known = fresh.number(speed) && speed.value <= kMostOverspeed * engine.rated_radps;
+  valid.engine_radps = known ? speed.value : engine.idle_radps;
+  if (!known) {
+    valid.faults.add(Fault::kEngineSpeedMissing);
   }
-  return valve_enabled.value;
+  valid.stand_in = bus.lacks_any();
+  const bool echoed = bus.valve_echo && fresh.holds(inputs.valve_enabled);
+  valid.valve_enabled = echoed && inputs.valve_enabled.value;
+  if (bus.valve_echo && !echoed) {
+    valid.faults.add(Fault::kSpoolMissing);
+  }
 }
 
-double engine_speed_radps(const Signal<double>& measured_radps, double rated_radps,
-                          double idle_radps, const Freshness& fresh, FaultSet& faults) {
-  if (fresh.number(measured_radps) && measured_radps.value <= kMostOverspeed * rated_radps) {
-    return measured_radps.value;
-  }
-  faults.add(Fault::kEngineSpeedMissing);
-  return idle_radps;
-}
-
-double bounded_stroke_m(double stroke_m, double stroke_max_m, FaultSet& faults) {
-  if (stroke_m < -kStrokeMargin_m || stroke_m > stroke_max_m + kStrokeMargin_m) {
-    faults.add(Fault::kStrokeImplausible);
-  }
-  return std::clamp(stroke_m, 0.0, stroke_max_m);
-}
-
-void judge(bool moving, std::initializer_list<Bridge> bridges, CommonValid& valid) {
+void sort_faults(bool moving, std::initializer_list<Bridge> bridges, CommonValid& valid) {
   FaultSet bridged;
   for (const Bridge& bridge : bridges) {
     if (!valid.faults.has(bridge.missing)) {

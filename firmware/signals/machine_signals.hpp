@@ -1,5 +1,5 @@
 #pragma once
-/// What every machine kind's controller takes in and gives out beside its own signals.
+/// Signals that every machine kind's controller takes in and gives out beside its own. SI units.
 
 #include <cstdint>
 
@@ -33,6 +33,32 @@ struct LinkInputs {
   bool out_of_range = false;    ///< A frame since the last cycle was refused for a value.
   int dropped_cycles = 0;       ///< In a row, whose command the bus did not take.
   bool stop_requested = false;  ///< The process was told to end.
+};
+
+/// Of a hydraulic drive. Of a motor the ports stand for the sides: extending first.
+struct DriveInputs {
+  Signal<double> stroke_m;
+  Signal<double> cap_pressure_pa;
+  Signal<double> rod_pressure_pa;
+  Signal<double> spool_ratio;  ///< Measured spool over its travel, deadband and all, -1 .. 1.
+};
+
+/// Inputs of every kind.
+struct MachineInputs {
+  Signal<double> engine_speed_radps;
+  Signal<bool> valve_enabled;  ///< The valve side's echo of our enable.
+  OperatorInputs driver;
+  Signal<bool> same_machine;  ///< The machine's end runs with our profile hash and DBC version.
+  LinkInputs link;
+};
+
+/// Outputs of every kind.
+struct MachineOutputs {
+  bool enable = false;     ///< The valve side closes every spool without it.
+  bool pilot_cut = false;  ///< Asks for the pilot pressure to be cut: the valve does not obey.
+  /// Without it the controller does not know whether an earlier one has asked for a cut, and says
+  /// so: a restart must not give the pressure back to a spool that is stuck.
+  bool pilot_known = false;
 };
 
 /// Why the mode is neither Armed nor Active: bit numbers of MachineStatus::why_not_armed, as they

@@ -168,7 +168,7 @@ bool Dozer::is_back(double slow_mps, double wanted_mps, Limit limit) {
 }
 
 Dozer::AxisArray Dozer::longest_m(const Plant& plant) {
-  return {blade_stroke_max_m(plant.profile().machine.blade)};
+  return {BladeKinematics(plant.profile().machine.blade).stroke_max_m()};
 }
 
 std::optional<Rolling> Dozer::rolling(const Plant& plant) {
@@ -216,13 +216,13 @@ void Dozer::flip(Ecu& ecu, unsigned setpoint, unsigned bit) {
   auto& memory = DozerMemoryAccess::memory(ecu);
   switch (setpoint) {
     case 0:
-      test::flip_bit(memory.mode, bit);
+      test::flip_bit(memory.cycle.mode, bit);
       break;
     case 1:
       test::flip_bit(memory.speed_mps, bit);
       break;
     case 2:
-      test::flip_bit(memory.gate.opening, bit);
+      test::flip_bit(memory.gate.opening.front(), bit);
       break;
     case 3:
     case 4:

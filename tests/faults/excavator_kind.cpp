@@ -195,13 +195,13 @@ void Excavator::flip(Ecu& ecu, unsigned setpoint, unsigned bit) {
   auto& memory = ControllerMemoryAccess::memory(ecu);
   switch (setpoint) {
     case 0:
-      test::flip_bit(memory.mode, bit);
+      test::flip_bit(memory.cycle.mode, bit);
       break;
     case 1:
       test::flip_bit(memory.lambda, bit);
       break;
     default:
-      test::flip_bit(memory.gate.opening[setpoint % kAxes], bit);
+      test::flip_bit(memory.opening[setpoint % kAxes], bit);
   }
 }
 

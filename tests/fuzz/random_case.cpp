@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "firmware/excavator/excavator_profile.hpp"
+
 namespace graben::test {
 namespace {
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "firmware/hydraulics/orifice.hpp"
+#include "firmware/hydraulics/flow.hpp"
 #include "firmware/mcv/optimiser.hpp"
 
 namespace {

@@ -6,14 +6,14 @@
 namespace graben {
 namespace {
 
-bool tracks_at_rest(const ValidDozerInputs& valid) {
+bool tracks_at_rest(const DozerValid& valid) {
   return std::all_of(valid.track_speed_mps.begin(), valid.track_speed_mps.end(),
                      [](double speed) { return std::abs(speed) <= kTrackAtRest_mps; });
 }
 
 }  // namespace
 
-BrakeState brake(const BrakeState& last, const ModeState& mode, const ValidDozerInputs& valid,
+BrakeState brake(const BrakeState& last, const ModeState& mode, const DozerValid& valid,
                  double period_s) {
   const bool runs_away =
       valid.faults.has(Fault::kDisplacementRunaway) || mode.fault == Fault::kDisplacementRunaway;

@@ -22,6 +22,6 @@ struct BrakeState {
 /// that is dragged downhill keeps its brake. In manual mode only while the tracks are at rest: the
 /// machine is its operator's. `mode` is this cycle's.
 [[nodiscard]] BrakeState brake(const BrakeState& last, const ModeState& mode,
-                               const ValidDozerInputs& valid, double period_s);
+                               const DozerValid& valid, double period_s);
 
 }  // namespace graben

@@ -1,7 +1,7 @@
 #pragma once
 /// Whether one displacement, of a pump or a motor, is what it was told to be.
 
-#include "firmware/drives/command_history.hpp"
+#include "firmware/drives/spool_watch.hpp"
 
 namespace graben {
 

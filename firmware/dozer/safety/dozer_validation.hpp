@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "firmware/dozer/dozer_profile.hpp"
+#include "firmware/dozer/blade.hpp"
+#include "firmware/drives/drive_validation.hpp"
 #include "firmware/safety/common_inputs.hpp"
-#include "firmware/safety/plausibility.hpp"
 
 namespace graben {
 
@@ -15,19 +15,17 @@ struct BelievedCoordinate {
   Signal<double> rate;
 };
 
-/// What the validation needs of the last cycle.
+/// What the validation keeps from cycle to cycle.
 struct DozerValidationState {
-  Believed blade_stroke_m;
+  std::array<Believed, kBladeCount> stroke_m;
   BelievedCoordinate position_m;
   BelievedCoordinate height_m;
   BelievedCoordinate pitch_rad;
 };
 
 /// Inputs that may be used.
-struct ValidDozerInputs : CommonValid {
-  double blade_stroke_m = 0.0;  ///< Clamped into the blade's range.
-  double blade_spool_ratio = 0.0;
-  bool valve_enabled = false;
+struct DozerValid : CommonValid {
+  std::array<ValidDrive, kBladeCount> drive{};  ///< The blade; its load is never known.
   double position_m = 0.0;
   double height_m = 0.0;
   double pitch_rad = 0.0;
@@ -37,8 +35,8 @@ struct ValidDozerInputs : CommonValid {
   std::array<double, kTrackCount> pump_ratio{};
   std::array<double, kTrackCount> motor_ratio{};
   std::array<double, kTrackCount> track_speed_mps{};
-  double engine_radps = 0.0;  ///< The profile's idle where the measured one is lost.
-  DozerValidationState state;
+
+  [[nodiscard]] const ValidDrive& blade() const { return drive.front(); }
 };
 
 /// How far a coordinate may be from where its last value and its measured rate put it: noise,
@@ -55,10 +53,10 @@ inline constexpr double kMostPitch_rad = 0.8;
 /// A signal is missing when it was never valid or is older than control.sensor_timeout_s. `moving`:
 /// the mode of the last cycle was Armed or Active; then what only degrades does not stop, and a
 /// stroke that changed faster than its cylinders can, or a coordinate that is not where its rate
-/// takes it, is not believed: the last one ages until it is missing, or the signal comes back to
-/// it.
-[[nodiscard]] ValidDozerInputs validate(const DozerInputs& inputs, const DozerProfile& profile,
-                                        const DozerValidationState& last, bool moving,
-                                        TimeUs now_us);
+/// takes it, is rejected: the last one ages until it is missing, or the signal comes back to it.
+/// `state` goes on by a cycle.
+[[nodiscard]] DozerValid validate(const DozerProfile& profile, DriveRows drives,
+                                  const DozerInputs& inputs, bool moving, TimeUs now_us,
+                                  DozerValidationState& state);
 
 }  // namespace graben

@@ -22,7 +22,7 @@ void take(const DisplacementResult& result, FaultSet& stops) {
   }
 }
 
-bool track_is_off(const DozerProfile& profile, const ValidDozerInputs& valid, unsigned track) {
+bool track_is_off(const DozerProfile& profile, const DozerValid& valid, unsigned track) {
   const double expected_mps = track_speed_mps(profile.hst, valid.engine_radps,
                                               valid.pump_ratio[track], valid.motor_ratio[track]);
   return std::abs(valid.track_speed_mps[track] - expected_mps) >
@@ -33,7 +33,7 @@ bool track_is_off(const DozerProfile& profile, const ValidDozerInputs& valid, un
 
 TransmissionWatchResult watch_transmission(const DozerProfile& profile,
                                            TransmissionWatchState& state, const SentRatios& sent,
-                                           DisplacementTask task, const ValidDozerInputs& valid,
+                                           DisplacementTask task, const DozerValid& valid,
                                            double period_s) {
   const DisplacementLimits limits{profile.safety.displacement_tolerance,
                                   profile.safety.displacement_settle_s};
@@ -57,7 +57,7 @@ TransmissionWatchResult watch_transmission(const DozerProfile& profile,
   return result;
 }
 
-bool pumps_neutral(const DozerProfile& profile, const ValidDozerInputs& valid) {
+bool pumps_neutral(const DozerProfile& profile, const DozerValid& valid) {
   return std::all_of(valid.pump_ratio.begin(), valid.pump_ratio.end(), [&profile](double ratio) {
     return std::abs(ratio) <= profile.safety.displacement_tolerance;
   });

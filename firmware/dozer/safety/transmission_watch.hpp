@@ -34,11 +34,13 @@ struct TransmissionWatchResult {
 /// disagrees. On the simulated machine (2026-11) losses that the profile has wrong by as much again
 /// are 0.38 m/s at 2.6 m/s; stopping at once from 1.8 m/s gives 0.56 m/s, over 0.35 for 0.09 s.
 /// Without an engine speed it isn't judged.
-[[nodiscard]] TransmissionWatchResult watch_transmission(
-    const DozerProfile& profile, TransmissionWatchState& state, const SentRatios& sent,
-    DisplacementTask task, const ValidDozerInputs& valid, double period_s);
+[[nodiscard]] TransmissionWatchResult watch_transmission(const DozerProfile& profile,
+                                                         TransmissionWatchState& state,
+                                                         const SentRatios& sent,
+                                                         DisplacementTask task,
+                                                         const DozerValid& valid, double period_s);
 
 /// Whether both pumps are near 0.
-[[nodiscard]] bool pumps_neutral(const DozerProfile& profile, const ValidDozerInputs& valid);
+[[nodiscard]] bool pumps_neutral(const DozerProfile& profile, const DozerValid& valid);
 
 }  // namespace graben

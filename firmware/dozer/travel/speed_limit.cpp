@@ -6,6 +6,7 @@
 
 #include "firmware/dozer/hydrostatic.hpp"
 #include "firmware/dozer/travel/track_speeds.hpp"
+#include "firmware/drives/velocity_cap.hpp"
 
 namespace graben {
 namespace {
@@ -21,13 +22,6 @@ constexpr double kErrorFilter_s = 0.1;
 constexpr double kWorthIt = 0.10;
 /// Between a fall and the next rise.
 constexpr double kPause_s = 0.3;
-
-void take_lower(double speed_mps, Limit limit, double& allowed_mps, Limit& holds) {
-  if (speed_mps < allowed_mps) {
-    allowed_mps = speed_mps;
-    holds = limit;
-  }
-}
 
 /// v_max,imp of (11), over the normalised flow of (10).
 double implement_speed_mps(const DozerProfile& profile, const SpeedDemand& demand,
@@ -102,29 +96,28 @@ SpeedChoice next_speed(const DozerProfile& profile, const SpeedState& last,
   const std::array<double, kTrackCount> body_max_mps =
       body_speeds_max_mps(profile.body, {track_max_mps, track_max_mps}, demand.heading_radps);
   SpeedChoice choice;
-  choice.allowed_mps = std::min(body_max_mps[kLeft], body_max_mps[kRight]);
   const auto slower =
       static_cast<std::uint8_t>(body_max_mps[kLeft] <= body_max_mps[kRight] ? kLeft : kRight);
-  Limit holds{LimitKind::kTransmissionFlow, slower};
+  SpeedCap cap{std::min(body_max_mps[kLeft], body_max_mps[kRight]),
+               {LimitKind::kTransmissionFlow, slower}};
   const double required_m3ps =
       low_passed(last.required_flow_m3ps, demand.required_flow_m3ps, kFlowFilter_s, period_s);
   const double off_grade_m =
       low_passed(last.off_grade_m, std::abs(demand.grade_error_m), kErrorFilter_s, period_s);
   const double implement_mps = implement_speed_mps(profile, demand, required_m3ps);
   if (profile.travel.policy == SpeedPolicy::kBounded) {
-    take_lower(implement_mps, {LimitKind::kImplementFlow, 0}, choice.allowed_mps, holds);
-    take_lower(demand.ahead.speed_mps, {LimitKind::kAhead, 0}, choice.allowed_mps, holds);
-    take_lower(on_grade_speed_mps(profile, demand, off_grade_m), {LimitKind::kOffGrade, 0},
-               choice.allowed_mps, holds);
+    cap.tighten(implement_mps, {LimitKind::kImplementFlow, 0});
+    cap.tighten(demand.ahead.speed_mps, {LimitKind::kAhead, 0});
+    cap.tighten(on_grade_speed_mps(profile, demand, off_grade_m), {LimitKind::kOffGrade, 0});
   }
-  choice.allowed_mps = std::max(choice.allowed_mps, profile.travel.speed_min_mps);
+  choice.allowed_mps = std::max(cap.speed_mps, profile.travel.speed_min_mps);
   const double target_mps = std::min(demand.desired_mps, choice.allowed_mps);
   choice.state = followed(profile, last, demand.desired_mps, target_mps,
                           room_mps(profile, demand, implement_mps, target_mps), period_s);
   choice.state.required_flow_m3ps = required_m3ps;
   choice.state.off_grade_m = off_grade_m;
   if (choice.state.speed_mps < demand.desired_mps) {
-    choice.limit = why_slower(choice.state, target_mps, holds);
+    choice.limit = why_slower(choice.state, target_mps, cap.limit);
   }
   return choice;
 }

@@ -1,58 +1,45 @@
 #include "firmware/excavator/safety/excavator_watch.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/hydraulics/flow.hpp"
+
 namespace graben {
+namespace {
+constexpr double kSwashServo_s = 0.5;
+}
 
-WatchResult watch(const ExcavatorProfile& profile, WatchState& state, const LastCycle& cycle,
-                  const ValidInputs& inputs, double period_s) {
-  WatchResult result;
-  result.inputs = inputs;
-  if (!profile.bus.spool_feedback) {
-    result.inputs.spool_ratio = cycle.sent.duty_ratio;
+bool watch_swash(const ExcavatorProfile& profile, bool commanded, double period_s,
+                 std::array<double, kPumpCount>& swash_ratio, SwashState& state) {
+  bool disagrees = false;
+  for (unsigned j = 0; j < kPumpCount; ++j) {
+    const double wanted = profile.dig_swash_ratio[j];
+    const bool off =
+        commanded && std::abs(swash_ratio[j] - wanted) > profile.safety.swash_tolerance;
+    state[j] = off ? state[j] + period_s : 0.0;
+    if (state[j] > kSwashServo_s) {
+      disagrees = true;
+      swash_ratio[j] = std::min(swash_ratio[j], wanted);
+    }
   }
+  return disagrees;
+}
 
-  const FaultSet spools = watch_spools(profile, state.spool, cycle.sent, inputs);
-  FaultSet stops;
-  if (spools.has(Fault::kValveNotFollowing)) {
-    stops.add(Fault::kValveNotFollowing);
+void watch(const ExcavatorProfile& profile, DriveRows drives, const LastCommands<kDriveCount>& last,
+           double period_s, ExcavatorWatchState& state, ExcavatorValid& valid) {
+  const bool checked = last.moving && valid.fault == Fault::kNone;
+  const FaultSet stops = watch_drives(drives, profile.bus, last, valid.drive, period_s, state.drives, valid);
+  std::array<double, kPumpCount> swash_ratio = valid.swash_ratio;
+  if (watch_swash(profile, checked && last.enable && profile.bus.swash_feedback, period_s, swash_ratio, state.swash)) {
+    degrade(Fault::kSwashDisagrees, valid);
   }
-  state.closing = cycle.moving || still_closing(state.closing, spools_centred(profile, inputs),
-                                                Fault::kSpoolMissing, inputs);
-  if (state.closing && spools.has(Fault::kSpoolStuck)) {
-    stops.add(Fault::kSpoolStuck);
+  stop(stops, valid);
+  state.slowing =
+      slow_down(profile.safety.degraded_speed_ratio, state.slowing, last.moving, period_s, valid);
+  for (unsigned j = 0; j < kPumpCount; ++j) {
+    valid.pump_flow_m3ps[j] = pump_flow_m3ps(profile.pump[j], valid.engine_radps, swash_ratio[j]);
   }
-  std::array<double, kPumpCount> flow_swash_ratio = inputs.swash_ratio;
-  // Without their strokes and spools the cylinders cannot be judged, and the fault is there anyway.
-  if (cycle.moving && inputs.fault == Fault::kNone) {
-    const MotionWatchResult motion =
-        watch_motion(profile, state.motion, result.inputs, cycle.asked_mps, period_s);
-    state.motion = motion.state;
-    stops.add(motion.faults);
-    const PressureWatchResult pressures =
-        watch_pressures(profile, state.pressure, result.inputs, period_s);
-    state.pressure = pressures.state;
-    for (unsigned i = 0; i < static_cast<unsigned>(profile.drive_count); ++i) {
-      if (pressures.wrong[i]) {
-        result.inputs.load_known[i] = false;
-        degrade(Fault::kPressureImplausible, result.inputs);
-      }
-    }
-    const SwashWatchResult swash =
-        watch_swash(profile, state.swash, cycle.sent.enable, inputs.swash_ratio, period_s);
-    state.swash = swash.state;
-    flow_swash_ratio = swash.flow_swash_ratio;
-    if (swash.disagrees) {
-      degrade(Fault::kSwashDisagrees, result.inputs);
-    }
-  } else {
-    state.motion = {};
-    state.pressure = {};
-    state.swash = {};
-  }
-  stop(stops, result.inputs);
-  state.slowing = slow_down(profile.safety.degraded_speed_ratio, state.slowing, cycle.moving,
-                            period_s, result.inputs);
-  result.pump_flow_m3ps = pump_flow_m3ps(profile, inputs.engine_radps, flow_swash_ratio);
-  return result;
 }
 
 }  // namespace graben

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 
+#include "firmware/drives/velocity_cap.hpp"
 #include "firmware/excavator/kinematics/swing_kinematics.hpp"
 
 namespace graben {
@@ -67,6 +68,19 @@ struct FenceGap {
   return {fence.offset_m - fence.normal.dot(point.position_m),
           fence.normal.dot(point.velocity_mps)};
 }
+
+/// A fence stands so far behind what it guards. At the place itself the machine may still close at
+/// stroke_end_gain times it, which is what makes sliding along a fence possible, see
+/// approach_ends(). A feedback weaker than stroke_end_gain towards a plan that is not beyond the
+/// fence is never slowed at all. It is a part of the millimetre by which a limit may be overrun.
+inline constexpr double kFenceSlack_m = 0.2e-3;
+
+/// One factor on the whole velocity before the ends of the drives (approach_ends) and before the
+/// fences, which a point of the machine is stopped at with line.acceleration_mps2. `then_m` and
+/// `velocity_mps` are travels. What is not finite or can't be is 0, and no limit named.
+[[nodiscard]] VelocityCap motion_cap(const ExcavatorProfile& profile, DriveRows drives,
+                                     const SwingKinematics& kinematics, const FenceSet& fences,
+                                     const DriveVector& then_m, const DriveVector& velocity_mps);
 
 /// A surface that is to be made: no digging below it.
 struct DesignPlane {

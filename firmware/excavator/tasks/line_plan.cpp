@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/excavator/excavator_drives.hpp"
+#include "firmware/excavator/swing.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben {
@@ -78,32 +80,21 @@ void keep_limits(PlanResult& result) {
   result.peaks.acceleration_ratio /= factor * factor;
 }
 
-/// What reaches a drive at most: its section's flow, or its pump's whole flow if that is less.
-double most_flow_m3ps(const ExcavatorProfile& profile, int drive) {
-  const SpoolProfile& spool = profile.valve.spool[static_cast<unsigned>(drive)];
-  const PumpProfile& pump = profile.pump[static_cast<unsigned>(spool.pump)];
-  return std::min(profile.valve.section_flow_m3ps,
-                  pump.displacement_m3prev / kTwoPi * pump.rated_speed_radps);
-}
-
 }  // namespace
 
 DriveLimits drive_limits(const ExcavatorProfile& profile) {
   DriveLimits limits;
   for (int i = 0; i < kAxisCount; ++i) {
+    const CylinderGeometry& cylinder = profile.geometry.cylinder[static_cast<unsigned>(i)];
     const double flow_m3ps = most_flow_m3ps(profile, i);
-    limits.speed_out[i] = flow_m3ps / profile.extend_area_m2(i);
-    limits.speed_in[i] = flow_m3ps / profile.retract_area_m2(i);
+    limits.speed_out[i] = flow_m3ps / cylinder.cap_area_m2();
+    limits.speed_in[i] = flow_m3ps / cylinder.rod_area_m2();
     limits.acceleration[i] = profile.line.cylinder_acceleration_mps2[static_cast<unsigned>(i)];
   }
-  double swing_radps = profile.swing.speed_max_radps;
-  if (profile.has_swing()) {
-    const double fed_radps = most_flow_m3ps(profile, kSwing) / profile.swing.displacement_m3prad;
-    swing_radps = std::min(swing_radps, fed_radps);
-  }
-  limits.speed_out[kSwing] = swing_radps;
-  limits.speed_in[kSwing] = swing_radps;
-  limits.acceleration[kSwing] = profile.swing.acceleration_max_radps2;
+  const double swing_radps = swing_speed_max_radps(profile);
+  limits.speed_out = with_swing(limits.speed_out, swing_radps);
+  limits.speed_in = with_swing(limits.speed_in, swing_radps);
+  limits.acceleration = with_swing(limits.acceleration, profile.swing.acceleration_max_radps2);
   return limits;
 }
 

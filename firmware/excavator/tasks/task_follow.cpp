@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "firmware/excavator/swing.hpp"
+
 namespace graben {
 namespace {
 
@@ -16,9 +18,9 @@ Eigen::Vector3d teeth_m(const SwingKinematics& kinematics, const DriveVector& dr
 }
 
 /// Into the drives' ranges: what is under way may be what a correction has asked for.
-DriveVector bounded(const ExcavatorProfile& profile, DriveVector travel_m) {
-  for (int i = 0; i < profile.drive_count; ++i) {
-    travel_m[i] = std::clamp(travel_m[i], profile.least_travel_m(i), profile.most_travel_m(i));
+DriveVector bounded(DriveRows drives, DriveVector travel_m) {
+  for (int i = 0; i < drives.count(); ++i) {
+    travel_m[i] = std::clamp(travel_m[i], drives[i].least_travel_m, drives[i].most_travel_m);
   }
   return travel_m;
 }
@@ -53,30 +55,19 @@ TaskMemory remembered(std::uint8_t number, const TaskState& state) {
   return memory;
 }
 
-DriveVector travel_of(const ExcavatorProfile& profile, const DriveVector& drives) {
-  DriveVector travel_m = drives;
-  travel_m[kSwing] *= profile.has_swing() ? profile.swing.lever_m : 0.0;
-  return travel_m;
-}
-
-DriveVector drives_of(const ExcavatorProfile& profile, const DriveVector& travel_m) {
-  DriveVector drives = travel_m;
-  drives[kSwing] = profile.has_swing() ? travel_m[kSwing] / profile.swing.lever_m : 0.0;
-  return drives;
-}
-
-TaskWant want_of_task(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                      const TaskProgram& program, const TaskMemory& memory, const TaskAim& aim,
-                      const ServoState& servo, double speed_override_ratio) {
+TaskWant want_of_task(const ExcavatorProfile& profile, DriveRows drives,
+                      const SwingKinematics& kinematics, const TaskProgram& program,
+                      const TaskMemory& memory, const TaskAim& aim, const ExcavatorServo& servo,
+                      double speed_override_ratio) {
   TaskWant want;
   want.runs = true;
   want.known = aim.blind.kind == BlindKind::kNone;
   want.progress = progress_of(memory, aim);
   want.holds = memory.state.phase != TaskPhase::kDone;
   want.planned_m = travel_of(profile, aim.value);
-  const Eigen::Vector3d at_m = teeth_m(kinematics, drives_of(profile, servo.strokes_m));
-  const Eigen::Vector3d due_m =
-      teeth_m(kinematics, drives_of(profile, bounded(profile, want.planned_m - servo.under_way_m)));
+  const Eigen::Vector3d at_m = teeth_m(kinematics, drives_of(profile, servo.strokes_m()));
+  const Eigen::Vector3d due_m = teeth_m(
+      kinematics, drives_of(profile, bounded(drives, want.planned_m - servo.under_way_m())));
   want.error_m = (at_m - due_m).norm();
   const TaskStep& step = program.step[static_cast<unsigned>(memory.state.step)];
   want.path_error_m =
@@ -84,26 +75,6 @@ TaskWant want_of_task(const ExcavatorProfile& profile, const SwingKinematics& ki
   want.pace_ratio = memory.state.pace_ratio;
   want.wanted_mps = speed_override_ratio * want.pace_ratio * travel_of(profile, aim.velocity);
   return want;
-}
-
-double swing_lead_mps(const ExcavatorProfile& profile, double wanted_mps, double last_wanted_mps,
-                      double period_s) {
-  if (!profile.has_swing() || !(period_s > 0.0)) {
-    return 0.0;
-  }
-  const double most_mps2 = profile.swing.acceleration_max_radps2 * profile.swing.lever_m;
-  const double change_mps2 = (wanted_mps - last_wanted_mps) / period_s;
-  return profile.control.swing_lead_s * std::clamp(change_mps2, -most_mps2, most_mps2);
-}
-
-VelocityCap task_cap(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                     const TaskProgram& program, const ServoState& servo,
-                     const DriveVector& velocity_mps) {
-  DriveVector travel_then_m = strokes_then(profile, servo);
-  // Nothing stops a platform at the end of its range: one that is beyond has to be seen there.
-  travel_then_m[kSwing] = servo.strokes_m[kSwing] + servo.under_way_m[kSwing];
-  return soft_limit(profile, kinematics, program.fences, drives_of(profile, travel_then_m),
-                    drives_of(profile, velocity_mps));
 }
 
 TaskMemory next_task(const ExcavatorProfile& profile, const TaskProgram& program,

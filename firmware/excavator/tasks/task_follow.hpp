@@ -4,9 +4,8 @@
 /// at its lever (SwingProfile).
 
 #include "firmware/core/guarded.hpp"
-#include "firmware/drives/cylinder_servo.hpp"
-#include "firmware/excavator/excavator_signals.hpp"
-#include "firmware/excavator/tasks/soft_limit.hpp"
+#include "firmware/excavator/excavator_drives.hpp"
+#include "firmware/excavator/tasks/fence.hpp"
 #include "firmware/excavator/tasks/task_run.hpp"
 
 namespace graben {
@@ -40,32 +39,16 @@ struct TaskWant {
   TaskProgress progress;
 };
 
-/// Strokes and swing angle as travels, and back.
-[[nodiscard]] DriveVector travel_of(const ExcavatorProfile& profile, const DriveVector& drives);
-[[nodiscard]] DriveVector drives_of(const ExcavatorProfile& profile, const DriveVector& travel_m);
-
 /// `aim` is task_aim of the memory's state; `servo` has this cycle's strokes. Speed is that of the
 /// plan times `speed_override_ratio`. The place where the teeth should be is the plan's less what
 /// is still under way to the drives.
-[[nodiscard]] TaskWant want_of_task(const ExcavatorProfile& profile,
+[[nodiscard]] TaskWant want_of_task(const ExcavatorProfile& profile, DriveRows drives,
                                     const SwingKinematics& kinematics, const TaskProgram& program,
                                     const TaskMemory& memory, const TaskAim& aim,
-                                    const ServoState& servo, double speed_override_ratio);
-
-/// What the swing has to be asked for beyond `wanted_mps` so that its platform is as fast by then:
-/// its lag (control.swing_lead_s) times the change of what is wanted, as far as the platform can
-/// follow that at all.
-[[nodiscard]] double swing_lead_mps(const ExcavatorProfile& profile, double wanted_mps,
-                                    double last_wanted_mps, double period_s);
-
-/// soft_limit for travels, where what is under way will have brought them: `velocity_mps` is what
-/// the valve would be asked for.
-[[nodiscard]] VelocityCap task_cap(const ExcavatorProfile& profile,
-                                   const SwingKinematics& kinematics, const TaskProgram& program,
-                                   const ServoState& servo, const DriveVector& velocity_mps);
+                                    const ExcavatorServo& servo, double speed_override_ratio);
 
 /// The memory after a cycle in which the task was followed at `followed_ratio` of the plan's
-/// velocity, but for its own pace: lambda, the soft limit's factor and the operator's override. A
+/// velocity, but for its own pace: lambda, the cap's factor and the operator's override. A
 /// task that does not run yet, or another number, starts from `travel_m`.
 [[nodiscard]] TaskMemory next_task(const ExcavatorProfile& profile, const TaskProgram& program,
                                    const TaskMemory& last, std::uint8_t number,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/excavator/swing.hpp"
 #include "firmware/excavator/tasks/task_walk.hpp"
 
 namespace graben {
@@ -178,7 +179,7 @@ bool Planning::plan_step(int number) {
   if (!planned) {
     return false;
   }
-  if (!profile_.has_swing() && std::abs(drives_[kSwing]) > kSame_rad) {
+  if (!profile_.has_swing() && std::abs(swing_of(drives_)) > kSame_rad) {
     return refuse(ProgramRefusal::kNoSwing, number, {{}, 1.0, pose(number + 1)});
   }
   return keeps_free(step, number);
@@ -204,7 +205,7 @@ ProgramResult Planning::run() {
     refuse(ProgramRefusal::kBlindSpot, 0, {start.blind, 0.0, pose(0)});
     return result_;
   }
-  if (!profile_.has_swing() && std::abs(start.value[kSwing]) > kSame_rad) {
+  if (!profile_.has_swing() && std::abs(swing_of(start.value)) > kSame_rad) {
     refuse(ProgramRefusal::kNoSwing, 0, {{}, 0.0, pose(0)});
     return result_;
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "firmware/excavator/swing.hpp"
+
 namespace graben {
 namespace {
 
@@ -107,7 +109,7 @@ DriveVector above_start(const ExcavatorProfile& profile, const TaskProgram& prog
     TeethPose lifted = start;
     lifted.position_m.z() += lift_m;
     DriveResult above = kinematics.drive_from_teeth(lifted);
-    above.value[kSwing] = program.start[kSwing];
+    above.value = with_swing(above.value, swing_of(program.start));
     if (above.blind.kind == BlindKind::kNone && inside(kinematics, program.fences, above.value)) {
       return above.value;
     }
@@ -124,7 +126,7 @@ TaskState task_start(const ExcavatorProfile& profile, const TaskProgram& program
     from[i] = std::clamp(from[i], 0.0, profile.geometry.cylinder[i].stroke_m);
   }
   if (!profile.has_swing()) {
-    from[kSwing] = program.start[kSwing];
+    from = with_swing(from, swing_of(program.start));
   }
   TaskState state;
   state.phase = TaskPhase::kApproach;

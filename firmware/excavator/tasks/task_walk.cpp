@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "firmware/excavator/swing.hpp"
+
 namespace graben {
 namespace {
 
@@ -72,9 +74,9 @@ FenceGap BarWalk::gap(const Bar& bar, const DriveMotion& drives,
     return fence_gap(fences_.fence[static_cast<unsigned>(bar.fence)],
                      motion.point[static_cast<unsigned>(bar.point)]);
   }
-  const double swing_rad = drives.value[kSwing];
-  return bar.left_end ? FenceGap{profile_.swing.left_end_rad - swing_rad, drives.rate[kSwing]}
-                      : FenceGap{swing_rad - profile_.swing.right_end_rad, -drives.rate[kSwing]};
+  const double swing_rad = swing_of(drives.value);
+  return bar.left_end ? FenceGap{profile_.swing.left_end_rad - swing_rad, swing_of(drives.rate)}
+                      : FenceGap{swing_rad - profile_.swing.right_end_rad, -swing_of(drives.rate)};
 }
 
 Sample BarWalk::sample(double share) const {

@@ -7,8 +7,10 @@
 #include <cmath>
 
 #include "app/plant/random.hpp"
+#include "firmware/excavator/excavator_drives.hpp"
+#include "firmware/excavator/swing.hpp"
 #include "firmware/excavator/tasks/drive_plan.hpp"
-#include "firmware/excavator/tasks/soft_limit.hpp"
+#include "firmware/excavator/tasks/fence.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
 namespace graben::test {
@@ -93,6 +95,15 @@ struct ReplayMachine {
   SwingKinematics kinematics;
   DriveLimits limits;
 };
+
+/// The cap for strokes m and swing rad, and their velocities.
+inline VelocityCap motion_cap(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                              const FenceSet& fences, const DriveVector& then,
+                              const DriveVector& velocity) {
+  const ExcavatorBank bank = excavator_bank(profile);
+  return graben::motion_cap(profile, bank.rows(), kinematics, fences, travel_of(profile, then),
+                            travel_of(profile, velocity));
+}
 
 /// Beyond the farthest passed limit, m, the swing's at the teeth; negative inside all.
 inline double overrun_m(const ReplayMachine& machine, const FenceSet& fences,

@@ -7,15 +7,15 @@
 namespace graben {
 
 struct ControllerMemoryAccess {
-  static auto& mode(ExcavatorController& controller) { return controller.memory_.mode; }
+  static auto& mode(ExcavatorController& controller) { return controller.memory_.cycle.mode; }
   static auto& lambda(ExcavatorController& controller) { return controller.memory_.lambda; }
-  static auto& opening(ExcavatorController& controller) { return controller.memory_.gate.opening; }
+  static auto& opening(ExcavatorController& controller) { return controller.memory_.opening; }
   static auto& task(ExcavatorController& controller) { return controller.memory_.task; }
-  static auto& cycle(ExcavatorController& controller) { return controller.memory_.cycle; }
+  static auto& last(ExcavatorController& controller) { return controller.memory_.last; }
 };
 
 struct DozerMemoryAccess {
-  static auto& mode(DozerController& controller) { return controller.memory_.mode; }
+  static auto& mode(DozerController& controller) { return controller.memory_.cycle.mode; }
   static auto& speed(DozerController& controller) { return controller.memory_.speed_mps; }
   static auto& speed_state(DozerController& controller) { return controller.memory_.speed; }
   static auto& gate(DozerController& controller) { return controller.memory_.gate; }

@@ -2,7 +2,7 @@
 /// A dozer in round numbers, made without a file, as plain_machine.hpp has the excavator; and
 /// complete, fresh inputs for it.
 
-#include "firmware/dozer/dozer_profile.hpp"
+#include "firmware/dozer/safety/dozer_validation.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/inputs.hpp"
 
@@ -52,6 +52,21 @@ inline DozerProfile plain_dozer() {
   profile.safety.displacement_settle_s = 0.5;
   profile.safety.track_speed_tolerance_mps = 0.375;
   return profile;
+}
+
+/// The inputs that may be used, with the state after them.
+struct ValidatedDozer : DozerValid {
+  DozerValidationState state;
+};
+
+inline ValidatedDozer validate(const DozerInputs& inputs, const DozerProfile& profile,
+                               const DozerValidationState& last, bool moving, TimeUs now_us) {
+  const DozerBank bank = dozer_bank(profile);
+  ValidatedDozer valid;
+  valid.state = last;
+  static_cast<DozerValid&>(valid) =
+      graben::validate(profile, bank.rows(), inputs, moving, now_us, valid.state);
+  return valid;
 }
 
 /// Level and driving at 1 m/s with its blade in the middle, enabled for the task, everything

@@ -94,8 +94,10 @@ struct TaskMachine {
   }
   const ExcavatorOutputs& step(const ExcavatorInputs& inputs) {
     outputs = controller.step(inputs, now_us);
-    const DriveVector asked_mps =
-        outputs.enable ? ControllerMemoryAccess::cycle(controller).asked_mps : DriveVector::Zero();
+    DriveVector asked_mps = DriveVector::Zero();
+    if (outputs.enable) {
+      asked_mps = DriveVector(ControllerMemoryAccess::last(controller).asked_mps.data());
+    }
     drives.ask(drives_of(profile, asked_mps));
     now_us += 10 * kMillisecondUs;
     ++cycles;

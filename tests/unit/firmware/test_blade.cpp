@@ -26,7 +26,9 @@ void its_reach_is_that_of_the_file(void**) {
   assert_near(blade.edge_m(blade.angle_max_rad()).y(), 0.80, 1e-12);
   assert_near(blade.stroke_m(blade.angle_max_rad()), 0.0, 1e-12);
   assert_near(blade.stroke_m(blade.angle_min_rad()), blade.stroke_max_m(), 1e-12);
-  assert_near(blade.stroke_max_m(), blade_stroke_max_m(geometry()), 0.0);
+  const DozerProfile& profile = test::dozer().profile;
+  assert_near(dozer_bank(profile).row[0].most_travel_m,
+              BladeKinematics(profile.blade).stroke_max_m(), 0.0);
 }
 
 void stroke_and_angle_are_each_others_inverse(void**) {

@@ -20,8 +20,8 @@ BladeSituation driving(double speed_mps, double height_m) {
 }
 
 BladeCommand command(const GradeDesign& design, const BladeSituation& now, BladeState last = {}) {
-  return control_blade(profile(), BladeKinematics(profile().blade), GradeProfile(design), last, now,
-                       kPeriod_s);
+  return control_blade(profile(), dozer_bank(profile()).row[0], BladeKinematics(profile().blade),
+                       GradeProfile(design), last, now, kPeriod_s);
 }
 
 void on_the_grade_it_rests(void**) {

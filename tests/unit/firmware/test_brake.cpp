@@ -11,14 +11,14 @@ using namespace graben;
 constexpr double kPeriod_s = 0.0625;
 constexpr BrakeState kReleased{false, 0.0};
 
-ValidDozerInputs tracks_at(double left_mps, double right_mps) {
-  ValidDozerInputs valid;
+DozerValid tracks_at(double left_mps, double right_mps) {
+  DozerValid valid;
   valid.automatic = true;
   valid.track_speed_mps = {left_mps, right_mps};
   return valid;
 }
 
-bool wanted(const BrakeState& last, EcuMode mode, const ValidDozerInputs& valid) {
+bool wanted(const BrakeState& last, EcuMode mode, const DozerValid& valid) {
   return brake(last, {mode, Fault::kNone}, valid, kPeriod_s).wanted;
 }
 
@@ -51,7 +51,7 @@ void it_waits_for_both_tracks(void**) {
 /// Dragged downhill it keeps it, but for an operator who drives by hand. One who is not heard does
 /// not.
 void it_stays_until_the_next_motion(void**) {
-  ValidDozerInputs dragged = tracks_at(0.5, 0.5);
+  DozerValid dragged = tracks_at(0.5, 0.5);
   assert_true(wanted({true, 0.0}, EcuMode::kReady, dragged));
   dragged.automatic = false;
   assert_false(wanted({true, 0.0}, EcuMode::kReady, dragged));
@@ -62,7 +62,7 @@ void it_stays_until_the_next_motion(void**) {
 
 /// At once, at any speed: while it is there and while it is what stopped the machine.
 void a_runaway_is_braked_at_once(void**) {
-  ValidDozerInputs valid = tracks_at(2.0, 2.0);
+  DozerValid valid = tracks_at(2.0, 2.0);
   assert_true(
       brake(kReleased, {EcuMode::kFault, Fault::kDisplacementRunaway}, valid, kPeriod_s).wanted);
   for (const Fault other : {Fault::kDisplacementDisagrees, Fault::kTrackSpeedDisagrees}) {
@@ -77,7 +77,7 @@ void a_runaway_is_braked_at_once(void**) {
 /// Without the tracks' speeds it comes a second after the motion; in motion that time is not
 /// counted.
 void tracks_that_are_not_seen_come_to_rest_in_a_second(void**) {
-  ValidDozerInputs valid = tracks_at(0.0, 0.0);
+  DozerValid valid = tracks_at(0.0, 0.0);
   valid.faults.add(Fault::kTransmissionMissing);
   BrakeState state{false, 0.9};
   state = brake(state, {EcuMode::kActive, Fault::kNone}, valid, kPeriod_s);

@@ -4,6 +4,7 @@
 #include "firmware/signals/bus_capabilities.hpp"
 
 #include "firmware/dozer/safety/dozer_watch.hpp"
+#include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/plain_dozer.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 #include "tests/unit/firmware/running.hpp"
@@ -87,18 +88,25 @@ void each_lack_excuses_itself_alone(void**) {
 /// A machine in motion of whose spools nothing is heard.
 struct Unseen {
   ExcavatorProfile profile = with_bus(test::plain_machine(), &BusCapabilities::spool_feedback);
-  WatchState state;
-  LastCycle cycle;
-  ValidInputs inputs;
+  ExcavatorWatchState state;
+  LastCommands<kDriveCount> cycle;
+  ExcavatorValid inputs;
 
   Unseen() {
-    cycle.moving = cycle.sent.enable = true;
+    cycle.moving = cycle.enable = true;
     inputs.enable = inputs.automatic = inputs.valve_enabled = true;
-    inputs.strokes_m = {0.5, 0.5, 0.5, 0.0};
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+      inputs.drive[i].stroke_m = 0.5;
+    }
     inputs.swash_ratio = profile.dig_swash_ratio;
     inputs.engine_radps = 200.0;
   }
-  Fault step() { return watch(profile, state, cycle, inputs, 0.01).inputs.fault; }
+  Fault step() {
+    const ExcavatorBank bank = excavator_bank(profile);
+    ExcavatorValid seen = inputs;
+    watch(profile, bank.rows(), cycle, 0.01, state, seen);
+    return seen.fault;
+  }
   Fault run(int cycles) {
     Fault fault = Fault::kNone;
     for (int n = 0; n < cycles && fault == Fault::kNone; ++n) {
@@ -113,7 +121,7 @@ void the_command_stands_in_for_the_spool(void**) {
   Unseen machine;
   assert_int_equal(machine.run(100), Fault::kNone);
   for (int n = 0; n < 20; ++n) {
-    machine.inputs.strokes_m[1] += 0.005;
+    machine.inputs.drive[1].stroke_m += 0.005;
     const Fault fault = machine.step();
     if (fault != Fault::kNone) {
       assert_int_equal(fault, Fault::kUncommandedMotion);
@@ -126,10 +134,10 @@ void the_command_stands_in_for_the_spool(void**) {
 /// Commanded open it may go there, and one that does not is stuck.
 void a_commanded_cylinder_may_move_and_must(void**) {
   Unseen machine;
-  machine.cycle.sent.duty_ratio[1] = 0.75;
+  machine.cycle.duty_ratio[1] = 0.75;
   machine.cycle.asked_mps[1] = 0.1;
   for (int n = 0; n < 100; ++n) {
-    machine.inputs.strokes_m[1] += 0.001;
+    machine.inputs.drive[1].stroke_m += 0.001;
     assert_int_equal(machine.step(), Fault::kNone);
   }
   assert_int_equal(machine.run(100), Fault::kStrokeStuck);
@@ -140,14 +148,14 @@ void a_closing_spool_has_its_time(void**) {
   for (const double dead_time_s : {0.0, 0.2}) {
     Unseen machine;
     machine.profile.control.dead_time_s = dead_time_s;
-    machine.cycle.sent.duty_ratio[1] = 0.75;
+    machine.cycle.duty_ratio[1] = 0.75;
     machine.run(100);
-    machine.cycle.sent.duty_ratio[1] = 0.0;
+    machine.cycle.duty_ratio[1] = 0.0;
     // 0.5 s for the oil, settle_s for the spool, 1.3 dead times; then 0.0625 m.
     const double allowed_s = 0.5 + 0.1 + 1.3 * dead_time_s;
     int cycles = 0;
     while (machine.step() == Fault::kNone && cycles < 500) {
-      machine.inputs.strokes_m[1] += 0.001;
+      machine.inputs.drive[1].stroke_m += 0.001;
       ++cycles;
     }
     assert_near(cycles * 0.01, allowed_s + 0.63, 0.05);
@@ -156,10 +164,12 @@ void a_closing_spool_has_its_time(void**) {
 
 /// Nobody knows whether they are in their middle: that condition of arming is off.
 void unseen_spools_count_as_centred(void**) {
-  ValidInputs valid;
-  valid.spool_ratio.fill(1.0);
-  assert_false(spools_centred(test::plain_machine(), valid));
-  assert_true(spools_centred(Unseen{}.profile, valid));
+  ExcavatorValid valid;
+  for (ValidDrive& drive : valid.drive) {
+    drive.spool_ratio = 1.0;
+  }
+  assert_false(test::spools_centred(test::plain_machine(), valid));
+  assert_true(test::spools_centred(Unseen{}.profile, valid));
 }
 
 void no_echo_no_fault_of_following(void**) {
@@ -177,7 +187,7 @@ void the_command_stands_in_for_the_swash(void**) {
       with_bus(test::plain_machine(), &BusCapabilities::swash_feedback);
   ExcavatorInputs inputs = test::complete_inputs(kSecondUs);
   no_swash(inputs);
-  const ValidInputs valid = validate(inputs, profile, {}, false, kSecondUs);
+  const ExcavatorValid valid = test::validate(inputs, profile, {}, false, kSecondUs);
   assert_true(valid.swash_ratio == profile.dig_swash_ratio);
   assert_false(valid.faults.has(Fault::kSwashMissing));
   assert_true(valid.stand_in);
@@ -200,11 +210,11 @@ void a_dozer_without_them_is_not_asked_either(void**) {
     DozerProfile profile = test::plain_dozer();
     DozerInputs inputs = test::complete_dozer_inputs(kSecondUs);
     row.silence(inputs);
-    const ValidDozerInputs missed = validate(inputs, profile, {}, false, kSecondUs);
+    const DozerValid missed = test::validate(inputs, profile, {}, false, kSecondUs);
     assert_int_equal(missed.fault, row.missed);
     assert_false(missed.stand_in);
     profile.bus.*row.lacks = false;
-    const ValidDozerInputs excused = validate(inputs, profile, {}, false, kSecondUs);
+    const DozerValid excused = test::validate(inputs, profile, {}, false, kSecondUs);
     assert_int_equal(excused.fault, Fault::kNone);
     assert_true(excused.stand_in);
   }
@@ -215,23 +225,28 @@ void the_blade_is_watched_by_its_command(void**) {
   DozerProfile profile = test::plain_dozer();
   profile.bus.spool_feedback = false;
   DozerWatchState state;
-  DozerLastCycle cycle;
-  cycle.moving = cycle.enable = true;
-  ValidDozerInputs inputs;
+  const DozerBank bank = dozer_bank(profile);
+  DozerLastCommands cycle;
+  cycle.drives.moving = cycle.drives.enable = true;
+  DozerValid inputs;
   inputs.valve_enabled = true;
-  inputs.blade_spool_ratio = 1.0;  // is not looked at
-  inputs.blade_stroke_m = 0.2;
-  inputs.motor_ratio = cycle.motor_ratio;
+  inputs.drive[0].spool_ratio = 1.0;  // is not looked at
+  inputs.drive[0].stroke_m = 0.2;
+  inputs.motor_ratio = cycle.ratios.motor;
+  const auto fault_of = [&](DozerValid seen) {
+    watch(profile, bank.rows(), cycle, 0.01, state, seen);
+    return seen.fault;
+  };
   for (int n = 0; n < 100; ++n) {
-    assert_int_equal(watch(profile, state, cycle, inputs, 0.01).fault, Fault::kNone);
+    assert_int_equal(fault_of(inputs), Fault::kNone);
   }
   Fault fault = Fault::kNone;
   for (int n = 0; n < 100 && fault == Fault::kNone; ++n) {
-    inputs.blade_stroke_m += 0.005;
-    fault = watch(profile, state, cycle, inputs, 0.01).fault;
+    inputs.drive[0].stroke_m += 0.005;
+    fault = fault_of(inputs);
   }
   assert_int_equal(fault, Fault::kUncommandedMotion);
-  assert_true(spool_centred(profile, inputs));
+  assert_true(spools_centred(bank.rows(), inputs.drive));
 }
 
 }  // namespace

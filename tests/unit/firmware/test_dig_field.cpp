@@ -1,15 +1,16 @@
 #include <cmath>
 #include <random>
 
-#include "firmware/drives/stroke_end.hpp"
 #include "firmware/excavator/field/dig_field.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 #include "tests/unit/rounds.hpp"
 
 namespace {
 
 using namespace graben;
+using test::stroke_end_cap;
 
 const ExcavatorProfile& profile() { return test::excavator().profile; }
 

@@ -220,7 +220,7 @@ void a_flipped_bit_stops_it(void**) {
   assert_every_bit_counts<Guarded<double>>(
       [](Grading& g) -> Guarded<double>& { return Access::speed(g.controller); });
   assert_every_bit_counts<Guarded<double>>(
-      [](Grading& g) -> Guarded<double>& { return Access::gate(g.controller).opening; });
+      [](Grading& g) -> Guarded<double>& { return Access::gate(g.controller).opening[0]; });
   assert_every_bit_counts<Guarded<double>>(
       [](Grading& g) -> Guarded<double>& { return Access::gate(g.controller).pump_ratio[1]; });
   assert_every_bit_counts<Guarded<ModeState>>(

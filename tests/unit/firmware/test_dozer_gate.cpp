@@ -22,23 +22,38 @@ const DozerProfile& profile() {
   return machine;
 }
 
+/// The result with the state after it.
+struct Gated : DozerGateResult {
+  DozerGateState state;
+};
+
+Gated gate(const DozerProfile& machine, const DozerGateState& last, bool active,
+           const DozerCommand& wanted, double period_s) {
+  const DozerBank bank = dozer_bank(machine);
+  Gated gated;
+  gated.state = last;
+  static_cast<DozerGateResult&>(gated) =
+      gate_dozer(machine, bank.rows(), active, wanted, period_s, gated.state);
+  return gated;
+}
+
 DozerGateState at(double opening, double pump, double motor) {
   DozerGateState state;
-  state.opening = opening;
+  state.opening = {Guarded(opening)};
   state.pump_ratio = {Guarded(pump), Guarded(pump)};
   state.motor_ratio = {Guarded(motor), Guarded(motor)};
   return state;
 }
 
-DozerGateResult let(const DozerCommand& wanted, const DozerGateState& last, double period_s) {
+Gated let(const DozerCommand& wanted, const DozerGateState& last, double period_s) {
   return gate(profile(), last, true, wanted, period_s);
 }
 
-void assert_neutral(const DozerGateResult& result) {
+void assert_neutral(const Gated& result) {
   assert_false(result.enable);
-  assert_near(result.duty_ratio, 0.0, 0.0);
-  assert_true(result.state.opening.intact());
-  assert_near(result.state.opening.value(), 0.0, 0.0);
+  assert_near(result.duty_ratio[0], 0.0, 0.0);
+  assert_true(result.state.opening[0].intact());
+  assert_near(result.state.opening[0].value(), 0.0, 0.0);
   for (unsigned i = 0; i < kTrackCount; ++i) {
     assert_near(result.pump_ratio[i], 0.0, 0.0);
     assert_near(result.motor_ratio[i], 1.0, 0.0);
@@ -49,24 +64,23 @@ void assert_neutral(const DozerGateResult& result) {
 }
 
 void what_is_wanted_goes_through(void**) {
-  const DozerGateResult result = let({-0.5, {0.75, -0.25}, {1.0, 0.5}}, {}, kLong_s);
+  const Gated result = let({{-0.5}, {0.75, -0.25}, {1.0, 0.5}}, {}, kLong_s);
   assert_true(result.enable);
   assert_int_equal(result.fault, Fault::kNone);
-  assert_near(result.duty_ratio, -0.625, 1e-12);  // 0.25 .. 1
+  assert_near(result.duty_ratio[0], -0.625, 1e-12);  // 0.25 .. 1
   assert_near(result.pump_ratio[kLeft], 0.75, 0.0);
   assert_near(result.pump_ratio[kRight], -0.25, 0.0);
   assert_near(result.motor_ratio[kLeft], 1.0, 0.0);
   assert_near(result.motor_ratio[kRight], 0.5, 0.0);
-  assert_near(result.state.opening.value(), -0.5, 0.0);
+  assert_near(result.state.opening[0].value(), -0.5, 0.0);
   assert_near(result.state.pump_ratio[kRight].value(), -0.25, 0.0);
   assert_near(result.state.motor_ratio[kRight].value(), 0.5, 0.0);
 }
 
 void what_is_out_of_range_is_clamped(void**) {
   for (const double sign : {1.0, -1.0}) {
-    const DozerGateResult result =
-        let({sign * 9.0, {sign * 9.0, -sign * 9.0}, {-9.0, 9.0}}, {}, kLong_s);
-    assert_near(result.duty_ratio, sign, 1e-12);
+    const Gated result = let({{sign * 9.0}, {sign * 9.0, -sign * 9.0}, {-9.0, 9.0}}, {}, kLong_s);
+    assert_near(result.duty_ratio[0], sign, 1e-12);
     assert_near(result.pump_ratio[kLeft], sign, 0.0);
     assert_near(result.pump_ratio[kRight], -sign, 0.0);
     assert_near(result.motor_ratio[kLeft], 0.25, 0.0);
@@ -78,18 +92,18 @@ void a_spool_hardly_open_stays_neutral(void**) {
   const double threshold = profile().control.spool_threshold;
   for (const double sign : {1.0, -1.0}) {
     const double edge = sign * threshold;
-    assert_near(let({std::nextafter(edge, 0.0)}, {}, kLong_s).duty_ratio, 0.0, 0.0);
-    assert_near(let({edge}, {}, kLong_s).duty_ratio, sign * (0.25 + 0.75 * threshold), 1e-12);
+    assert_near(let({{std::nextafter(edge, 0.0)}}, {}, kLong_s).duty_ratio[0], 0.0, 0.0);
+    assert_near(let({{edge}}, {}, kLong_s).duty_ratio[0], sign * (0.25 + 0.75 * threshold), 1e-12);
   }
 }
 
 void the_way_from_neutral_is_limited(void**) {
   for (const double sign : {1.0, -1.0}) {
-    const DozerCommand all{sign, {sign, sign}, {0.25, 0.25}};
+    const DozerCommand all{{sign}, {sign, sign}, {0.25, 0.25}};
     DozerGateState last;
     for (int n = 1; n <= 3; ++n) {
       last = let(all, last, kStep_s).state;
-      assert_near(last.opening.value(), sign * n * kSpoolStep, 1e-12);
+      assert_near(last.opening[0].value(), sign * n * kSpoolStep, 1e-12);
       for (unsigned i = 0; i < kTrackCount; ++i) {
         assert_near(last.pump_ratio[i].value(), sign * n * kPumpStep, 0.0);
         assert_near(last.motor_ratio[i].value(), 1.0 - n * kMotorStep, 0.0);
@@ -97,8 +111,8 @@ void the_way_from_neutral_is_limited(void**) {
     }
     // No time, or a clock that ran back: not a bit further.
     for (const double period_s : {0.0, -1.0}) {
-      const DozerGateResult still = let(all, last, period_s);
-      assert_near(still.state.opening.value(), last.opening.value(), 0.0);
+      const Gated still = let(all, last, period_s);
+      assert_near(still.state.opening[0].value(), last.opening[0].value(), 0.0);
       assert_near(still.pump_ratio[kLeft], last.pump_ratio[kLeft].value(), 0.0);
       assert_near(still.motor_ratio[kRight], last.motor_ratio[kRight].value(), 0.0);
     }
@@ -109,14 +123,14 @@ void the_way_from_neutral_is_limited(void**) {
 void the_way_back_is_never_delayed(void**) {
   for (const double sign : {1.0, -1.0}) {
     const DozerGateState fast = at(sign, sign, 0.25);
-    const DozerGateResult slower = let({0.5 * sign, {0.0, 0.5 * sign}, {0.5, 1.0}}, fast, kStep_s);
-    assert_near(slower.state.opening.value(), 0.5 * sign, 0.0);
+    const Gated slower = let({{0.5 * sign}, {0.0, 0.5 * sign}, {0.5, 1.0}}, fast, kStep_s);
+    assert_near(slower.state.opening[0].value(), 0.5 * sign, 0.0);
     assert_near(slower.pump_ratio[kLeft], 0.0, 0.0);
     assert_near(slower.pump_ratio[kRight], 0.5 * sign, 0.0);
     assert_near(slower.motor_ratio[kLeft], 0.5, 0.0);
     assert_near(slower.motor_ratio[kRight], 1.0, 0.0);
-    const DozerGateResult back = let({-sign, {-sign, -0.125 * sign}, {0.25, 0.25}}, fast, kStep_s);
-    assert_near(back.state.opening.value(), -sign * kSpoolStep, 1e-12);
+    const Gated back = let({{-sign}, {-sign, -0.125 * sign}, {0.25, 0.25}}, fast, kStep_s);
+    assert_near(back.state.opening[0].value(), -sign * kSpoolStep, 1e-12);
     assert_near(back.pump_ratio[kLeft], -sign * kPumpStep, 0.0);
     assert_near(back.pump_ratio[kRight], -0.125 * sign, 0.0);
     assert_near(back.motor_ratio[kLeft], 0.25, 0.0);
@@ -125,8 +139,8 @@ void the_way_back_is_never_delayed(void**) {
 
 /// Neutral knows no rate: not active stops everything in the same cycle.
 void not_active_is_neutral_at_once(void**) {
-  const DozerGateResult result =
-      gate(profile(), at(1.0, -1.0, 0.25), false, {1.0, {1.0, 1.0}, {0.25, 0.25}}, kStep_s);
+  const Gated result =
+      gate(profile(), at(1.0, -1.0, 0.25), false, {{1.0}, {1.0, 1.0}, {0.25, 0.25}}, kStep_s);
   assert_int_equal(result.fault, Fault::kNone);
   assert_neutral(result);
 }
@@ -135,13 +149,13 @@ void what_is_no_number_is_refused(void**) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {nan, infinity, -infinity}) {
-    const DozerCommand commands[] = {{bad, {0.5, 0.5}, {1.0, 1.0}},
-                                     {0.5, {bad, 0.5}, {1.0, 1.0}},
-                                     {0.5, {0.5, bad}, {1.0, 1.0}},
-                                     {0.5, {0.5, 0.5}, {bad, 1.0}},
-                                     {0.5, {0.5, 0.5}, {1.0, bad}}};
+    const DozerCommand commands[] = {{{bad}, {0.5, 0.5}, {1.0, 1.0}},
+                                     {{0.5}, {bad, 0.5}, {1.0, 1.0}},
+                                     {{0.5}, {0.5, bad}, {1.0, 1.0}},
+                                     {{0.5}, {0.5, 0.5}, {bad, 1.0}},
+                                     {{0.5}, {0.5, 0.5}, {1.0, bad}}};
     for (const DozerCommand& command : commands) {
-      const DozerGateResult result = let(command, at(0.5, 0.5, 0.5), kStep_s);
+      const Gated result = let(command, at(0.5, 0.5, 0.5), kStep_s);
       assert_int_equal(result.fault, Fault::kCommandNotFinite);
       assert_neutral(result);
     }
@@ -158,13 +172,13 @@ void a_limit_that_is_no_number_is_refused(void**) {
   for (const auto& rate : rates) {
     DozerProfile wild = profile();
     *rate(wild) = infinity;
-    const DozerGateResult result = gate(wild, {}, true, {}, kStep_s);
+    const Gated result = gate(wild, {}, true, {}, kStep_s);
     assert_int_equal(result.fault, Fault::kCommandNotFinite);
     assert_neutral(result);
   }
   assert_neutral(let({}, {}, infinity));
-  const DozerGateResult timeless =
-      let({1.0, {1.0, 1.0}, {0.25, 0.25}}, {}, std::numeric_limits<double>::quiet_NaN());
+  const Gated timeless =
+      let({{1.0}, {1.0, 1.0}, {0.25, 0.25}}, {}, std::numeric_limits<double>::quiet_NaN());
   assert_true(timeless.enable);  // No time: nothing opens.
   assert_near(timeless.pump_ratio[kLeft], 0.0, 0.0);
   assert_near(timeless.motor_ratio[kLeft], 1.0, 0.0);
@@ -175,7 +189,7 @@ void a_flipped_bit_is_refused(void**) {
   for (std::size_t bit = 0; bit < 8 * sizeof(DozerGateState); ++bit) {
     DozerGateState open = at(0.5, -0.5, 0.5);
     test::flip_bit(open, bit);
-    const DozerGateResult result = let({1.0, {1.0, 1.0}, {0.25, 0.25}}, open, kStep_s);
+    const Gated result = let({{1.0}, {1.0, 1.0}, {0.25, 0.25}}, open, kStep_s);
     assert_int_equal(result.fault, Fault::kMemoryCorrupt);
     assert_neutral(result);
   }
@@ -185,7 +199,7 @@ void a_flipped_bit_is_refused(void**) {
 void a_flipped_bit_does_not_matter_at_rest(void**) {
   DozerGateState open;
   test::flip_bit(open, 3);
-  const DozerGateResult result = gate(profile(), open, false, {}, kStep_s);
+  const Gated result = gate(profile(), open, false, {}, kStep_s);
   assert_int_equal(result.fault, Fault::kNone);
   assert_neutral(result);
 }

@@ -22,13 +22,13 @@ const DozerProfile& profile() {
   return machine;
 }
 
-ValidDozerInputs judged(const DozerInputs& inputs, bool moving = false) {
-  return validate(inputs, profile(), {}, moving, kNow);
+test::ValidatedDozer judged(const DozerInputs& inputs, bool moving = false) {
+  return test::validate(inputs, profile(), {}, moving, kNow);
 }
 
 void assert_stops(Fault fault, const DozerInputs& inputs) {
   for (const bool moving : kEither) {
-    const ValidDozerInputs valid = judged(inputs, moving);
+    const test::ValidatedDozer valid = judged(inputs, moving);
     assert_int_equal(valid.fault, fault);
     assert_true(valid.faults.has(fault));
     assert_true(valid.degraded.empty());
@@ -43,14 +43,14 @@ void complete_inputs_become_a_state(void**) {
   inputs.track[kRight].motor_ratio.value = 0.75;
   inputs.track[kRight].speed_mps.value = -0.5;
   for (const bool moving : kEither) {
-    const ValidDozerInputs valid = judged(inputs, moving);
+    const test::ValidatedDozer valid = judged(inputs, moving);
     assert_int_equal(valid.fault, Fault::kNone);
     assert_true(valid.faults.empty() && valid.degraded.empty());
     assert_true(valid.enable && valid.automatic && valid.valve_enabled);
     assert_int_equal(valid.task, Task::kGrade);
     assert_near(valid.speed_override_ratio, 1.0, 0.0);
-    assert_near(valid.blade_stroke_m, 0.5, 0.0);
-    assert_near(valid.blade_spool_ratio, 0.375, 0.0);
+    assert_near(valid.drive[0].stroke_m, 0.5, 0.0);
+    assert_near(valid.drive[0].spool_ratio, 0.375, 0.0);
     assert_near(valid.position_m, 2.0, 0.0);
     assert_near(valid.height_m, 0.25, 0.0);
     assert_near(valid.pitch_rad, 0.125, 0.0);
@@ -116,7 +116,7 @@ void a_sensors_own_error_is_named(void**) {
   for (const Row& row : kRequired) {
     DozerInputs inputs = complete_dozer_inputs(kNow);
     row.signal(inputs)->validity = Validity::kError;
-    const ValidDozerInputs valid = judged(inputs, true);
+    const test::ValidatedDozer valid = judged(inputs, true);
     assert_true(valid.faults.has(row.missing));
     assert_int_equal(valid.faults.has(Fault::kSensorError), row.missing != Fault::kOperatorMissing);
     assert_int_equal(valid.fault, valid.faults.first());
@@ -153,7 +153,7 @@ void a_lost_engine_speed_slows_to_idle(void**) {
       inputs.engine_speed_radps.stamp_us = kStale;
     }
     assert_int_equal(judged(inputs, false).fault, Fault::kEngineSpeedMissing);
-    const ValidDozerInputs moving = judged(inputs, true);
+    const test::ValidatedDozer moving = judged(inputs, true);
     assert_int_equal(moving.fault, Fault::kNone);
     assert_true(moving.degraded.has(Fault::kEngineSpeedMissing));
     assert_near(moving.engine_radps, 20.0, 0.0);
@@ -164,14 +164,14 @@ void a_lost_engine_speed_slows_to_idle(void**) {
 }
 
 void a_stroke_beyond_the_blades_reach_is_implausible(void**) {
-  const double most_m = blade_stroke_max_m(profile().blade);
+  const double most_m = BladeKinematics(profile().blade).stroke_max_m();
   assert_near(most_m, std::sqrt(3.0) - 1.0, 1e-12);
   DozerInputs inputs = complete_dozer_inputs(kNow);
   for (const double edge_m : {most_m + kStrokeMargin_m, -kStrokeMargin_m}) {
     inputs.blade_stroke_m.value = edge_m;
-    const ValidDozerInputs biased = judged(inputs);
+    const test::ValidatedDozer biased = judged(inputs);
     assert_int_equal(biased.fault, Fault::kNone);
-    assert_near(biased.blade_stroke_m, edge_m > 0.0 ? most_m : 0.0, 0.0);
+    assert_near(biased.drive[0].stroke_m, edge_m > 0.0 ? most_m : 0.0, 0.0);
     inputs.blade_stroke_m.value = std::nextafter(edge_m, 9.0 * edge_m);
     assert_stops(Fault::kStrokeImplausible, inputs);
   }

@@ -18,8 +18,8 @@ constexpr TimeUs kPeriod = 10 * kMillisecondUs;
 struct Followed {
   Signal<double>* (*value)(DozerInputs&);
   Signal<double>* (*rate)(DozerInputs&);  ///< nullptr: it has none.
-  double (*believed)(const ValidDozerInputs&);
-  double (*believed_rate)(const ValidDozerInputs&);
+  double (*believed)(const DozerValid&);
+  double (*believed_rate)(const DozerValid&);
   double rate_ps;  ///< As measured.
   double most_ps;  ///< What it may change beside.
   double margin;
@@ -30,22 +30,22 @@ struct Followed {
 const Followed kFollowed[] = {
     // Twice 0.5 m/s, which all that the valve lets through gives.
     {[](DozerInputs& in) { return &in.blade_stroke_m; }, nullptr,
-     [](const ValidDozerInputs& valid) { return valid.blade_stroke_m; }, nullptr, 0.0, 1.0,
+     [](const DozerValid& valid) { return valid.drive[0].stroke_m; }, nullptr, 0.0, 1.0,
      kJumpMargin_m, Fault::kStrokeJump, Fault::kStrokeMissing},
     {[](DozerInputs& in) { return &in.body.position_m; },
      [](DozerInputs& in) { return &in.body.velocity_mps; },
-     [](const ValidDozerInputs& valid) { return valid.position_m; },
-     [](const ValidDozerInputs& valid) { return valid.velocity_mps; }, 1.5, kRateMargin_ps,
+     [](const DozerValid& valid) { return valid.position_m; },
+     [](const DozerValid& valid) { return valid.velocity_mps; }, 1.5, kRateMargin_ps,
      kPositionMargin_m, Fault::kPoseImplausible, Fault::kPoseMissing},
     {[](DozerInputs& in) { return &in.body.height_m; },
      [](DozerInputs& in) { return &in.body.climb_mps; },
-     [](const ValidDozerInputs& valid) { return valid.height_m; },
-     [](const ValidDozerInputs& valid) { return valid.climb_mps; }, -0.75, kRateMargin_ps,
+     [](const DozerValid& valid) { return valid.height_m; },
+     [](const DozerValid& valid) { return valid.climb_mps; }, -0.75, kRateMargin_ps,
      kHeightMargin_m, Fault::kPoseImplausible, Fault::kPoseMissing},
     {[](DozerInputs& in) { return &in.body.pitch_rad; },
      [](DozerInputs& in) { return &in.body.pitch_rate_radps; },
-     [](const ValidDozerInputs& valid) { return valid.pitch_rad; },
-     [](const ValidDozerInputs& valid) { return valid.pitch_rate_radps; }, 0.625, kRateMargin_ps,
+     [](const DozerValid& valid) { return valid.pitch_rad; },
+     [](const DozerValid& valid) { return valid.pitch_rate_radps; }, 0.625, kRateMargin_ps,
      kPitchMargin_rad, Fault::kPoseImplausible, Fault::kPoseMissing},
 };
 constexpr double kAt = 0.375;
@@ -55,14 +55,14 @@ struct Machine {
   const Followed* followed;
   DozerValidationState state;
   TimeUs now_us = kNow;
-  ValidDozerInputs valid;
+  test::ValidatedDozer valid;
   Signal<double> newest;
   double rate_ps;
 
   explicit Machine(const Followed& one) : followed(&one), rate_ps(one.rate_ps) {
     assert_true(frame(kAt).faults.empty());
   }
-  const ValidDozerInputs& step(bool moving = kMoving) {
+  const test::ValidatedDozer& step(bool moving = kMoving) {
     DozerInputs inputs = test::complete_dozer_inputs(now_us);
     inputs.body.velocity_mps.value = 0.0;
     inputs.body.climb_mps.value = 0.0;
@@ -71,16 +71,16 @@ struct Machine {
     if (followed->rate != nullptr) {
       *followed->rate(inputs) = {rate_ps, newest.validity, newest.stamp_us};
     }
-    valid = validate(inputs, test::plain_dozer(), state, moving, now_us);
+    valid = test::validate(inputs, test::plain_dozer(), state, moving, now_us);
     state = valid.state;
     now_us += kPeriod;
     return valid;
   }
-  const ValidDozerInputs& frame(double value, bool moving = kMoving) {
+  const test::ValidatedDozer& frame(double value, bool moving = kMoving) {
     newest = test::fresh(value, now_us);
     return step(moving);
   }
-  const ValidDozerInputs& lost() { return step(); }
+  const test::ValidatedDozer& lost() { return step(); }
   [[nodiscard]] double believed() const { return followed->believed(valid); }
   /// Further than the signal can get in any of these tests, and within what can be.
   [[nodiscard]] static double far() { return 0.7; }
@@ -101,7 +101,7 @@ void a_jump_is_not_believed(void**) {
           }
           const double to = kAt + one.rate_ps * time_s + beside + sign * (jumps ? 1e-9 : -1e-9);
           machine.rate_ps = one.rate_ps;
-          const ValidDozerInputs& valid = machine.frame(to);
+          const test::ValidatedDozer& valid = machine.frame(to);
           assert_int_equal(valid.fault, Fault::kNone);
           assert_int_equal(valid.faults.has(one.jump), jumps);
           assert_int_equal(valid.degraded.has(one.jump), jumps);
@@ -151,7 +151,7 @@ void a_jump_that_stays_stops(void**) {
       assert_int_equal(machine.frame(Machine::far()).fault, Fault::kNone);
       assert_near(machine.believed(), kAt, 0.0);
     }
-    const ValidDozerInputs& valid = machine.frame(Machine::far());
+    const test::ValidatedDozer& valid = machine.frame(Machine::far());
     assert_true(valid.faults.has(one.jump) && valid.faults.has(one.missing));
     assert_true(valid.fault == one.missing || valid.fault == one.jump);
     assert_true(valid.degraded.empty());
@@ -183,8 +183,8 @@ void without_a_rate_nothing_is_expected(void**) {
     one.value(inputs)->value = kAt;
     one.rate(inputs)->validity = Validity::kNotAvailable;
     one.rate(inputs)->value = 1e3;
-    const ValidDozerInputs valid =
-        validate(inputs, test::plain_dozer(), machine.state, kMoving, machine.now_us);
+    const test::ValidatedDozer valid =
+        test::validate(inputs, test::plain_dozer(), machine.state, kMoving, machine.now_us);
     assert_int_equal(valid.fault, Fault::kPoseMissing);
     assert_near(one.believed(valid), kAt, 0.0);
   }
@@ -197,8 +197,8 @@ void a_jump_hides_nothing(void**) {
     DozerInputs inputs = test::complete_dozer_inputs(before.now_us);
     *one.value(inputs) = test::fresh(Machine::far(), before.now_us);
     inputs.link.bus = BusState::kOff;
-    const ValidDozerInputs valid =
-        validate(inputs, test::plain_dozer(), before.state, kMoving, before.now_us);
+    const test::ValidatedDozer valid =
+        test::validate(inputs, test::plain_dozer(), before.state, kMoving, before.now_us);
     assert_int_equal(valid.fault, Fault::kBusOff);
     assert_true(valid.degraded.has(one.jump));
   }

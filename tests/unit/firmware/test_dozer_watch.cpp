@@ -19,30 +19,32 @@ constexpr int kSpoolUnderWay = 10;  // 0.1 s for the spool.
 struct Machine {
   DozerProfile profile = test::plain_dozer();
   DozerWatchState state;
-  DozerLastCycle cycle;
-  ValidDozerInputs inputs;
-  ValidDozerInputs seen;
+  DozerLastCommands cycle;
+  DozerValid inputs;
+  DozerValid seen;
 
   Machine() {
-    cycle.moving = cycle.enable = true;
+    cycle.drives.moving = cycle.drives.enable = true;
     inputs.enable = inputs.automatic = inputs.valve_enabled = true;
     inputs.task = Task::kGrade;
     inputs.speed_override_ratio = 0.5;
-    inputs.blade_stroke_m = 0.5;
+    inputs.drive[0].stroke_m = 0.5;
     inputs.engine_radps = 40.0;
     drive(0.5, 1.0);
   }
   /// Told and done on both tracks.
   void drive(double pump, double motor) {
-    cycle.pump_ratio = inputs.pump_ratio = {pump, pump};
-    cycle.motor_ratio = inputs.motor_ratio = {motor, motor};
+    cycle.ratios.pump = inputs.pump_ratio = {pump, pump};
+    cycle.ratios.motor = inputs.motor_ratio = {motor, motor};
     inputs.track_speed_mps = {2.0 * pump / motor, 2.0 * pump / motor};
   }
-  const ValidDozerInputs& step() {
-    seen = watch(profile, state, cycle, inputs, kPeriod_s);
+  const DozerValid& step() {
+    const DozerBank bank = dozer_bank(profile);
+    seen = inputs;
+    watch(profile, bank.rows(), cycle, kPeriod_s, state, seen);
     return seen;
   }
-  const ValidDozerInputs& run(int count) {
+  const DozerValid& run(int count) {
     for (int n = 0; n < count; ++n) {
       step();
     }
@@ -62,28 +64,28 @@ struct Machine {
 /// A machine whose operator has let go of it in motion: neutral is sent, nothing has answered yet.
 struct Released : Machine {
   Released() {
-    cycle.blade_duty_ratio = inputs.blade_spool_ratio = kOpen;
+    cycle.drives.duty_ratio[0] = inputs.drive[0].spool_ratio = kOpen;
     run(kUnderWay);
-    const DozerLastCycle nothing;
+    const DozerLastCommands nothing;
     cycle = nothing;
     inputs.valve_enabled = false;
   }
 };
 
-void assert_well(const ValidDozerInputs& inputs) {
+void assert_well(const DozerValid& inputs) {
   assert_int_equal(inputs.fault, Fault::kNone);
   assert_true(inputs.faults.empty());
   assert_true(inputs.degraded.empty());
   assert_near(inputs.speed_override_ratio, 0.5, 0.0);
 }
 
-void assert_stopped_by(Fault fault, const ValidDozerInputs& inputs) {
+void assert_stopped_by(Fault fault, const DozerValid& inputs) {
   assert_int_equal(inputs.fault, fault);
   assert_true(inputs.faults.has(fault));
   assert_true(inputs.degraded.empty());
 }
 
-void assert_slowed_by(Fault fault, const ValidDozerInputs& inputs) {
+void assert_slowed_by(Fault fault, const DozerValid& inputs) {
   assert_int_equal(inputs.fault, Fault::kNone);
   assert_true(inputs.degraded.has(fault));
   assert_near(inputs.speed_override_ratio, 0.5 * kSlower, 0.0);
@@ -93,7 +95,7 @@ void a_machine_that_obeys_is_left_alone(void**) {
   Machine machine;
   for (int n = 0; n < 200; ++n) {
     machine.drive(0.5 * std::sin(0.02 * n), 1.0);
-    machine.inputs.blade_stroke_m = 0.5 + 0.01 * std::sin(0.02 * n);
+    machine.inputs.drive[0].stroke_m = 0.5 + 0.01 * std::sin(0.02 * n);
     assert_well(machine.step());
   }
 }
@@ -101,16 +103,16 @@ void a_machine_that_obeys_is_left_alone(void**) {
 void the_spool_and_its_echo_stop(void**) {
   Machine stuck;
   stuck.run(kSpoolUnderWay);
-  stuck.inputs.blade_spool_ratio = kOpen;
+  stuck.inputs.drive[0].spool_ratio = kOpen;
   assert_int_equal(stuck.cycles_until(Fault::kSpoolStuck), kSpoolWrongCycles);
   assert_stopped_by(Fault::kSpoolStuck, stuck.seen);
   // Within its tolerance it is well.
-  stuck.inputs.blade_spool_ratio = 0.125;
+  stuck.inputs.drive[0].spool_ratio = 0.125;
   assert_well(stuck.step());
-  stuck.cycle.blade_duty_ratio = kOpen;
+  stuck.cycle.drives.duty_ratio[0] = kOpen;
   stuck.step();
-  stuck.cycle.blade_duty_ratio = 0.0;
-  stuck.inputs.blade_spool_ratio = kOpen;
+  stuck.cycle.drives.duty_ratio[0] = 0.0;
+  stuck.inputs.drive[0].spool_ratio = kOpen;
   assert_int_equal(stuck.cycles_until(Fault::kSpoolStuck), kSpoolUnderWay - 1 + kSpoolWrongCycles);
 
   Machine deaf;
@@ -125,7 +127,7 @@ void the_spool_and_its_echo_stop(void**) {
 void a_spool_that_is_not_seen_is_not_judged(void**) {
   Machine machine;
   machine.inputs.valve_enabled = false;
-  machine.inputs.blade_spool_ratio = kOpen;
+  machine.inputs.drive[0].spool_ratio = kOpen;
   machine.run(kSpoolWrongCycles - 1);
   machine.inputs.faults.add(Fault::kSpoolMissing);
   machine.inputs.fault = Fault::kSpoolMissing;
@@ -142,19 +144,19 @@ void a_spool_that_is_not_seen_is_not_judged(void**) {
 void the_blade_stops(void**) {
   Machine moves;
   moves.run(20);
-  moves.inputs.blade_stroke_m = 0.625;
+  moves.inputs.drive[0].stroke_m = 0.625;
   assert_stopped_by(Fault::kUncommandedMotion, moves.step());
 
   Machine stuck;
-  stuck.cycle.blade_duty_ratio = stuck.inputs.blade_spool_ratio = kOpen;
+  stuck.cycle.drives.duty_ratio[0] = stuck.inputs.drive[0].spool_ratio = kOpen;
   stuck.run(20);
-  stuck.cycle.asked_mps = 0.125;
+  stuck.cycle.drives.asked_mps[0] = 0.125;
   assert_well(stuck.run(8));
   assert_stopped_by(Fault::kStrokeStuck, stuck.step());
   // Within the deadband the spool is closed, and the blade may stand.
   Machine closed;
-  closed.cycle.blade_duty_ratio = closed.inputs.blade_spool_ratio = 0.25;
-  closed.cycle.asked_mps = 0.125;
+  closed.cycle.drives.duty_ratio[0] = closed.inputs.drive[0].spool_ratio = 0.25;
+  closed.cycle.drives.asked_mps[0] = 0.125;
   assert_well(closed.run(100));
 }
 
@@ -164,7 +166,7 @@ void a_displacement_that_stays_behind_stops(void**) {
     for (const bool motor : {false, true}) {
       Machine machine;
       machine.run(kUnderWay);
-      (motor ? machine.cycle.motor_ratio : machine.cycle.pump_ratio)[track] = 0.75;
+      (motor ? machine.cycle.ratios.motor : machine.cycle.ratios.pump)[track] = 0.75;
       // 0.5 s are eight cycles.
       assert_false(machine.run(8).faults.has(Fault::kDisplacementDisagrees));
       machine.step();
@@ -251,7 +253,7 @@ void the_first_fault_stays_the_first(void**) {
   machine.run(kEchoCycles - 1);
   machine.inputs.fault = Fault::kBusOff;
   machine.inputs.faults.add(Fault::kBusOff);
-  const ValidDozerInputs& both = machine.step();
+  const DozerValid& both = machine.step();
   assert_int_equal(both.fault, Fault::kBusOff);
   assert_true(both.faults.has(Fault::kBusOff) && both.faults.has(Fault::kValveNotFollowing));
 }
@@ -260,23 +262,23 @@ void the_first_fault_stays_the_first(void**) {
 void a_stopped_blade_is_not_judged(void**) {
   Machine machine;
   machine.run(20);
-  assert_true(machine.state.blade.since_s > 0.0);
+  assert_true(machine.state.drives.motion[0].since_s > 0.0);
   machine.inputs.fault = Fault::kStrokeMissing;
   machine.inputs.faults.add(Fault::kStrokeMissing);
-  machine.inputs.blade_stroke_m = 0.0;
+  machine.inputs.drive[0].stroke_m = 0.0;
   assert_false(machine.run(20).faults.has(Fault::kUncommandedMotion));
-  assert_near(machine.state.blade.since_s, 0.0, 0.0);
+  assert_near(machine.state.drives.motion[0].since_s, 0.0, 0.0);
 }
 
 /// Outside motion people move it: blade and transmission are theirs. The valve's echo is not.
 void not_in_motion_the_machine_is_the_operators(void**) {
   Machine machine;
-  const DozerLastCycle nothing;
+  const DozerLastCommands nothing;
   machine.cycle = nothing;
   machine.inputs.valve_enabled = false;
   for (int n = 0; n < 100; ++n) {
-    machine.inputs.blade_spool_ratio = 1.0;
-    machine.inputs.blade_stroke_m = 0.005 * n;
+    machine.inputs.drive[0].spool_ratio = 1.0;
+    machine.inputs.drive[0].stroke_m = 0.005 * n;
     machine.inputs.pump_ratio = {0.01 * n, -0.01 * n};
     machine.inputs.motor_ratio = {0.5, 0.25};
     assert_well(machine.step());
@@ -289,10 +291,10 @@ void a_spool_that_does_not_close_after_motion_is_stuck(void**) {
   Released machine;
   assert_int_equal(machine.cycles_until(Fault::kSpoolStuck),
                    kSpoolUnderWay - 1 + kSpoolWrongCycles);
-  machine.inputs.blade_spool_ratio = 0.0;
+  machine.inputs.drive[0].spool_ratio = 0.0;
   machine.inputs.pump_ratio = {0.0, 0.0};
   machine.step();
-  machine.inputs.blade_spool_ratio = kOpen;
+  machine.inputs.drive[0].spool_ratio = kOpen;
   assert_int_equal(machine.cycles_until(Fault::kSpoolStuck), -1);  // A hand has opened it.
 }
 
@@ -353,13 +355,13 @@ void what_degraded_goes_on_for_half_a_second(void**) {
 }
 
 void centred_is_within_the_tolerance(void**) {
-  const DozerProfile profile = test::plain_dozer();
-  ValidDozerInputs valid;
+  const DozerBank bank = dozer_bank(test::plain_dozer());
+  DozerValid valid;
   for (const double sign : {1.0, -1.0}) {
-    valid.blade_spool_ratio = sign * 0.125;
-    assert_true(spool_centred(profile, valid));
-    valid.blade_spool_ratio = std::nextafter(sign * 0.125, sign * 9.0);
-    assert_false(spool_centred(profile, valid));
+    valid.drive[0].spool_ratio = sign * 0.125;
+    assert_true(spools_centred(bank.rows(), valid.drive));
+    valid.drive[0].spool_ratio = std::nextafter(sign * 0.125, sign * 9.0);
+    assert_false(spools_centred(bank.rows(), valid.drive));
   }
 }
 

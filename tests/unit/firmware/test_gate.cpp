@@ -2,12 +2,16 @@
 
 #include "firmware/drives/drive_gate.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/flip_bit.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
 namespace {
 
 using namespace graben;
+using test::gate;
+using test::Gated;
+using test::GateState;
 
 constexpr double kLong_s = 1.0;  // Longer than any rate limit needs.
 
@@ -18,7 +22,7 @@ const ExcavatorProfile& profile() {
 double travel() { return profile().valve.spool_travel_m; }
 
 void duty_follows_the_profiles_table(void**) {
-  const GateResult result = gate(profile(), {}, true, {travel(), -0.5 * travel(), 0.0}, kLong_s);
+  const Gated result = gate(profile(), {}, true, {travel(), -0.5 * travel(), 0.0}, kLong_s);
   assert_true(result.enable);
   assert_near(result.duty_ratio[0], 1.0, 1e-12);
   assert_near(result.duty_ratio[1], -0.625, 1e-12);  // 0.25 .. 1
@@ -27,7 +31,7 @@ void duty_follows_the_profiles_table(void**) {
 
 /// A machine without a swing drive has no fourth spool, whatever is asked of one.
 void a_drive_that_is_not_there_stays_neutral(void**) {
-  const GateResult result = gate(profile(), {}, true, {0.0, 0.0, travel(), travel()}, kLong_s);
+  const Gated result = gate(profile(), {}, true, {0.0, 0.0, travel(), travel()}, kLong_s);
   assert_true(result.enable);
   assert_near(result.duty_ratio[2], 1.0, 1e-12);
   assert_near(result.duty_ratio[3], 0.0, 0.0);
@@ -37,18 +41,16 @@ void a_spool_hardly_open_stays_neutral(void**) {
   const double threshold = profile().control.spool_threshold;
   for (const double sign : {1.0, -1.0}) {
     const double edge_m = sign * threshold * travel();
-    const GateResult below =
-        gate(profile(), {}, true, {std::nextafter(edge_m, 0.0), 0.0, 0.0}, kLong_s);
+    const Gated below = gate(profile(), {}, true, {std::nextafter(edge_m, 0.0), 0.0, 0.0}, kLong_s);
     assert_true(below.enable);
     assert_near(below.duty_ratio[0], 0.0, 0.0);
-    const GateResult at = gate(profile(), {}, true, {edge_m, 0.0, 0.0}, kLong_s);
+    const Gated at = gate(profile(), {}, true, {edge_m, 0.0, 0.0}, kLong_s);
     assert_near(at.duty_ratio[0], sign * (0.25 + 0.75 * threshold), 1e-12);
   }
 }
 
 void positions_beyond_the_travel_are_clamped(void**) {
-  const GateResult result =
-      gate(profile(), {}, true, {9.0 * travel(), -9.0 * travel(), 0.0}, kLong_s);
+  const Gated result = gate(profile(), {}, true, {9.0 * travel(), -9.0 * travel(), 0.0}, kLong_s);
   assert_near(result.duty_ratio[0], 1.0, 1e-12);
   assert_near(result.duty_ratio[1], -1.0, 1e-12);
   assert_near(result.state.opening[0].value(), 1.0, 0.0);
@@ -61,7 +63,7 @@ void duties_beyond_the_range_are_clamped(void**) {
   const double opening[] = {0.0, 1.0};
   const double duty[] = {-1.0, 2.0};
   assert_int_equal(wild.valve.spool_to_duty.fill(opening, duty, 2), MonotoneTable::Fill::kOk);
-  const GateResult result = gate(wild, {}, true, {travel(), -travel(), 0.25 * travel()}, kLong_s);
+  const Gated result = gate(wild, {}, true, {travel(), -travel(), 0.25 * travel()}, kLong_s);
   assert_near(result.duty_ratio[0], 1.0, 0.0);
   assert_near(result.duty_ratio[1], -1.0, 0.0);
   assert_near(result.duty_ratio[2], 0.0, 0.0);
@@ -69,16 +71,16 @@ void duties_beyond_the_range_are_clamped(void**) {
 
 void changes_are_limited_in_rate(void**) {
   const double step = profile().control.spool_rate_ps * 0.01;
-  const GateResult first = gate(profile(), {}, true, {travel(), 0.0, 0.0}, 0.01);
+  const Gated first = gate(profile(), {}, true, {travel(), 0.0, 0.0}, 0.01);
   assert_near(first.state.opening[0].value(), step, 1e-12);
-  const GateResult second = gate(profile(), first.state, true, {travel(), 0.0, 0.0}, 0.01);
+  const Gated second = gate(profile(), first.state, true, {travel(), 0.0, 0.0}, 0.01);
   assert_near(second.state.opening[0].value(), 2.0 * step, 1e-12);
   // No time, or a clock that ran back: not a bit further open.
   for (const double period_s : {0.0, -1.0}) {
-    const GateResult still = gate(profile(), first.state, true, {travel(), 0.0, 0.0}, period_s);
+    const Gated still = gate(profile(), first.state, true, {travel(), 0.0, 0.0}, period_s);
     assert_near(still.state.opening[0].value(), step, 1e-12);
   }
-  const GateResult other_way = gate(profile(), {}, true, {-travel(), 0.0, 0.0}, 0.01);
+  const Gated other_way = gate(profile(), {}, true, {-travel(), 0.0, 0.0}, 0.01);
   assert_near(other_way.state.opening[0].value(), -step, 1e-12);
 }
 
@@ -87,12 +89,12 @@ void closing_is_never_delayed(void**) {
   GateState open;
   open.opening = {Guarded(1.0), Guarded(-1.0), Guarded(1.0)};
   const double step = profile().control.spool_rate_ps * 0.01;
-  const GateResult result = gate(profile(), open, true, {0.1 * travel(), 0.0, -travel()}, 0.01);
+  const Gated result = gate(profile(), open, true, {0.1 * travel(), 0.0, -travel()}, 0.01);
   assert_near(result.state.opening[0].value(), 0.1, 1e-12);
   assert_near(result.state.opening[1].value(), 0.0, 0.0);
   assert_near(result.duty_ratio[1], 0.0, 0.0);
   assert_near(result.state.opening[2].value(), -step, 1e-12);
-  const GateResult back = gate(profile(), open, true, {0.0, travel(), -0.1 * travel()}, 0.01);
+  const Gated back = gate(profile(), open, true, {0.0, travel(), -0.1 * travel()}, 0.01);
   assert_near(back.state.opening[0].value(), 0.0, 0.0);
   assert_near(back.state.opening[1].value(), step, 1e-12);
   assert_near(back.state.opening[2].value(), -step, 1e-12);
@@ -104,7 +106,7 @@ void the_least_opening_has_its_side(void**) {
   GateState open;
   open.opening = {Guarded(kLeast), Guarded(-kLeast), Guarded(kLeast)};
   const double further_m = 2.0 * kLeast * travel();
-  const GateResult result = gate(profile(), open, true, {further_m, -further_m, -further_m}, 0.0);
+  const Gated result = gate(profile(), open, true, {further_m, -further_m, -further_m}, 0.0);
   assert_near(result.state.opening[0].value() / kLeast, 1.0, 0.0);
   assert_near(result.state.opening[1].value() / kLeast, -1.0, 0.0);
   assert_near(result.state.opening[2].value() / kLeast, 0.0, 0.0);
@@ -114,7 +116,7 @@ void the_least_opening_has_its_side(void**) {
 void closed_is_duty_zero(void**) {
   ExcavatorProfile keen = profile();
   keen.control.spool_threshold = 0.0;
-  const GateResult result = gate(keen, {}, true, {0.0, -0.0, 0.0}, 0.01);
+  const Gated result = gate(keen, {}, true, {0.0, -0.0, 0.0}, 0.01);
   for (const double duty : result.duty_ratio) {
     assert_near(duty, 0.0, 0.0);
   }
@@ -124,7 +126,7 @@ void closed_is_duty_zero(void**) {
 void not_active_is_neutral_at_once(void**) {
   GateState open;
   open.opening = {Guarded(1.0), Guarded(-1.0), Guarded(0.5)};
-  const GateResult result = gate(profile(), open, false, {travel(), travel(), travel()}, 0.01);
+  const Gated result = gate(profile(), open, false, {travel(), travel(), travel()}, 0.01);
   assert_false(result.enable);
   for (unsigned i = 0; i < kAxisCount; ++i) {
     assert_near(result.duty_ratio[i], 0.0, 0.0);
@@ -139,7 +141,7 @@ void what_is_no_number_is_refused(void**) {
     for (unsigned i = 0; i < kAxisCount; ++i) {
       std::array<double, kDriveCount> spool = {travel(), travel(), travel(), 0.0};
       spool[i] = bad;
-      const GateResult result = gate(profile(), {}, true, spool, 0.01);
+      const Gated result = gate(profile(), {}, true, spool, 0.01);
       assert_false(result.enable);
       assert_int_equal(result.fault, Fault::kCommandNotFinite);
       for (const double duty : result.duty_ratio) {
@@ -148,7 +150,7 @@ void what_is_no_number_is_refused(void**) {
     }
   }
   for (const double bad_s : {infinity, nan}) {
-    const GateResult timeless = gate(profile(), {}, true, {0.0, 0.0, 0.0}, bad_s);
+    const Gated timeless = gate(profile(), {}, true, {0.0, 0.0, 0.0}, bad_s);
     assert_int_equal(timeless.enable, std::isnan(bad_s));  // No time: nothing opens.
   }
 }
@@ -160,7 +162,7 @@ void a_flipped_bit_is_refused(void**) {
       GateState open;
       open.opening = {Guarded(0.5), Guarded(-0.5), Guarded(0.25)};
       test::flip_bit(open.opening[i], bit);
-      const GateResult result = gate(profile(), open, true, {travel(), travel(), travel()}, 0.01);
+      const Gated result = gate(profile(), open, true, {travel(), travel(), travel()}, 0.01);
       assert_false(result.enable);
       assert_int_equal(result.fault, Fault::kMemoryCorrupt);
       for (unsigned k = 0; k < kDriveCount; ++k) {
@@ -176,7 +178,7 @@ void a_flipped_bit_is_refused(void**) {
 void a_flipped_bit_does_not_matter_at_rest(void**) {
   GateState open;
   test::flip_bit(open.opening[1], 3);
-  const GateResult result = gate(profile(), open, false, {0.0, 0.0, 0.0}, 0.01);
+  const Gated result = gate(profile(), open, false, {0.0, 0.0, 0.0}, 0.01);
   assert_int_equal(result.fault, Fault::kNone);
   assert_true(result.state.opening[1].intact());
 }

@@ -149,7 +149,7 @@ void replay(const test::ReplayMachine& machine, std::uint64_t seed, bool late, T
     if (velocity.isZero(0.0)) {
       break;
     }
-    cap = soft_limit(machine.profile, machine.kinematics, fences, then, velocity);
+    cap = test::motion_cap(machine.profile, machine.kinematics, fences, then, velocity);
     held = cap.factor < kHeld ? held + 1 : 0;
     if (held == 1) {
       assert_holds(machine, fences, then, velocity, cap.limit);

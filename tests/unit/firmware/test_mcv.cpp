@@ -2,7 +2,7 @@
 #include <limits>
 #include <random>
 
-#include "firmware/hydraulics/regeneration.hpp"
+#include "firmware/hydraulics/flow.hpp"
 #include "firmware/mcv/optimiser.hpp"
 #include "firmware/mcv/pump_pressure.hpp"
 #include "tests/unit/cmocka_cpp.hpp"

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
 namespace {
@@ -18,22 +19,22 @@ double beyond(double value, double towards) { return std::nextafter(value, towar
 /// One cylinder and its spool; the two others rest.
 struct Cylinder {
   unsigned axis = 0;
-  MotionWatchState state;
+  std::array<MotionState, kDriveCount> state{};
   double stroke_m = kRest_m;
   double spool = 0.0;
   double asked_mps = 0.0;
 
   FaultSet step(double period_s = kPeriod_s) {
-    ValidInputs valid;
-    valid.strokes_m = {kRest_m, kRest_m, kRest_m, 0.0};
-    valid.strokes_m[axis] = stroke_m;
-    valid.spool_ratio[axis] = spool;
-    DriveVector asked = DriveVector::Zero();
+    const ExcavatorBank bank = excavator_bank(test::plain_machine());
+    std::array<ValidDrive, kDriveCount> seen;
+    for (ValidDrive& drive : seen) {
+      drive.stroke_m = kRest_m;
+    }
+    seen[axis].stroke_m = stroke_m;
+    seen[axis].spool_ratio = spool;
+    std::array<double, kDriveCount> asked{};
     asked[axis] = asked_mps;
-    const MotionWatchResult result =
-        watch_motion(test::plain_machine(), state, valid, asked, period_s);
-    state = result.state;
-    return result.faults;
+    return watch_motion(bank.rows(), seen, asked, period_s, state);
   }
   bool uncommanded(double period_s = kPeriod_s) {
     return step(period_s).has(Fault::kUncommandedMotion);
@@ -223,6 +224,38 @@ void what_was_asked_adds_up(void**) {
   assert_true(cylinder.stuck());
 }
 
+/// Seconds until a stroke that does not move, spool open, counts as stuck; 600 if it never does.
+double stuck_after_s(double asked_mps) {
+  DriveRow row;
+  const double ends[] = {0.2, 1.0};
+  assert_int_equal(row.spool_to_duty.fill(ends, ends, 2), MonotoneTable::Fill::kOk);
+  row.watch.uncommanded_m = 0.02;
+  row.watch.stuck_m = 0.03;
+  row.watch.rest_s = kCylinderRest_s;
+  ValidDrive seen;
+  seen.stroke_m = 0.1;
+  seen.spool_ratio = asked_mps > 0.0 ? 0.4 : -0.4;
+  MotionState state;
+  for (int n = 1; n <= 60000; ++n) {
+    if (watch_motion({&row, 1}, {&seen, 1}, {&asked_mps, 1}, 0.01, {&state, 1})
+            .has(Fault::kStrokeStuck)) {
+      return n * 0.01;
+    }
+  }
+  return 600.0;
+}
+
+void what_is_asked_for_and_does_not_come_is_stuck(void**) {
+  assert_near(stuck_after_s(0.1), 0.3, 0.03);
+  assert_near(stuck_after_s(-0.02), 1.6, 0.1);
+}
+
+/// A blade on level ground is asked for what leaks, for minutes.
+void held_against_leakage_it_is_not_stuck(void**) {
+  assert_near(stuck_after_s(0.0005), 600.0, 0.0);
+  assert_near(stuck_after_s(-0.0025), 600.0, 0.0);
+}
+
 }  // namespace
 
 int main() {
@@ -238,6 +271,8 @@ int main() {
       cmocka_unit_test(only_what_is_asked_and_led_can_be_stuck),
       cmocka_unit_test(noise_is_no_motion),
       cmocka_unit_test(what_was_asked_adds_up),
+      cmocka_unit_test(what_is_asked_for_and_does_not_come_is_stuck),
+      cmocka_unit_test(held_against_leakage_it_is_not_stuck),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -1,6 +1,7 @@
-#include "firmware/drives/pressure_watch.hpp"
+#include "firmware/drives/motion_watch.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
 namespace {
@@ -17,22 +18,26 @@ struct Chamber {
   double pressure_pa = 5e6;
   double stroke_m = 0.0;
   bool known = true;
-  PressureWatchState state;
+  std::array<PressurePair, kDriveCount> state{};
   int cycle = 0;
 
   std::array<bool, kDriveCount> step(double period_s = kPeriod_s) {
-    ValidInputs valid;
+    const ExcavatorBank bank = excavator_bank(test::plain_machine());
+    std::array<ValidDrive, kDriveCount> seen;
+    std::array<bool, kDriveCount> wrong{};
     const double alive_pa = 6e6 + 1e3 * (++cycle % 7);
     for (unsigned i = 0; i < kAxisCount; ++i) {
-      valid.load_known[i] = i != axis || known;
-      valid.cap_pressure_pa[i] = i == axis && !rod ? pressure_pa : alive_pa;
-      valid.rod_pressure_pa[i] = i == axis && rod ? pressure_pa : alive_pa;
-      valid.strokes_m[i] = stroke_m;
+      seen[i].load_known = i != axis || known;
+      seen[i].cap_pressure_pa = i == axis && !rod ? pressure_pa : alive_pa;
+      seen[i].rod_pressure_pa = i == axis && rod ? pressure_pa : alive_pa;
+      seen[i].stroke_m = stroke_m;
     }
-    const PressureWatchResult result =
-        watch_pressures(test::plain_machine(), state, valid, period_s);
-    state = result.state;
-    return result.wrong;
+    const bool any = watch_pressures(bank.rows(), seen, period_s, state);
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+      wrong[i] = !seen[i].load_known && (i != axis || known);
+    }
+    assert_int_equal(any, wrong[0] || wrong[1] || wrong[2]);
+    return wrong;
   }
   bool wrong(double period_s = kPeriod_s) {
     const std::array<bool, kDriveCount> all = step(period_s);

@@ -1,28 +1,36 @@
 #include "firmware/drives/spool_watch.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
 namespace {
 
 using namespace graben;
+using test::spools_centred;
 
 constexpr double kTolerance = 0.125;
 /// 0.1 s to settle without a dead time, in cycles: a command still counts as under way in the last.
 constexpr int kUnderWay = 10;
 
+void all_at(ExcavatorValid& valid, double spool_ratio) {
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    valid.drive[i].spool_ratio = spool_ratio;
+  }
+}
+
 /// A valve and what is sent to it, cycle by cycle. Its spools are where `measured` says.
 struct Valve {
   ExcavatorProfile profile = test::plain_machine();
-  SpoolWatchState state;
-  SentCommand sent;
-  ValidInputs valid;
+  test::SpoolWatch state;
+  LastCommands<kDriveCount> sent;
+  ExcavatorValid valid;
 
   /// Whether this cycle finds a spool stuck.
   bool stuck() { return step().has(Fault::kSpoolStuck); }
   /// Whether it finds that the valve side does not say what we say.
   bool deaf() { return step().has(Fault::kValveNotFollowing); }
-  FaultSet step() { return watch_spools(profile, state, sent, valid); }
+  FaultSet step() { return test::watch_spools(profile, state, sent, valid); }
   /// Cycles until a fault, counting the one that has it; -1 if none comes.
   int cycles_until(Fault fault) {
     for (int n = 1; n <= 200; ++n) {
@@ -34,7 +42,7 @@ struct Valve {
   }
   void settle(double duty) {
     sent.duty_ratio = {duty, duty, duty};
-    valid.spool_ratio = {duty, duty, duty};
+    all_at(valid, duty);
     for (int n = 0; n < CommandHistory::kMostCycles; ++n) {
       assert_false(stuck());
     }
@@ -54,9 +62,9 @@ void the_tolerance_is_a_sharp_edge(void**) {
     for (const double sign : {1.0, -1.0}) {
       Valve valve;
       valve.settle(0.5);
-      valve.valid.spool_ratio[axis] = 0.5 + sign * kTolerance;
+      valve.valid.drive[axis].spool_ratio = 0.5 + sign * kTolerance;
       assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), -1);
-      valve.valid.spool_ratio[axis] = std::nextafter(0.5 + sign * kTolerance, sign * 9.0);
+      valve.valid.drive[axis].spool_ratio = std::nextafter(0.5 + sign * kTolerance, sign * 9.0);
       assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), kSpoolWrongCycles);
     }
   }
@@ -67,20 +75,20 @@ void it_must_be_wrong_in_a_row(void**) {
   Valve valve;
   valve.settle(0.0);
   for (int round = 0; round < 5; ++round) {
-    valve.valid.spool_ratio[1] = 0.5;
+    valve.valid.drive[1].spool_ratio = 0.5;
     for (int n = 1; n < kSpoolWrongCycles; ++n) {
       assert_false(valve.stuck());
     }
-    valve.valid.spool_ratio[1] = 0.0;
+    valve.valid.drive[1].spool_ratio = 0.0;
     assert_false(valve.stuck());
   }
-  valve.valid.spool_ratio[1] = 0.5;
+  valve.valid.drive[1].spool_ratio = 0.5;
   assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), kSpoolWrongCycles);
   // For as long as it lasts, and not a cycle longer.
   for (int n = 0; n < 100; ++n) {
     assert_true(valve.stuck());
   }
-  valve.valid.spool_ratio[1] = 0.0;
+  valve.valid.drive[1].spool_ratio = 0.0;
   assert_false(valve.stuck());
 }
 
@@ -89,8 +97,8 @@ void each_spool_is_counted_by_itself(void**) {
   Valve valve;
   valve.settle(0.0);
   for (int n = 0; n < 30; ++n) {
-    valve.valid.spool_ratio = {0.0, 0.0, 0.0};
-    valve.valid.spool_ratio[static_cast<unsigned>(n % 3)] = 0.5;
+    all_at(valve.valid, 0.0);
+    valve.valid.drive[static_cast<unsigned>(n % 3)].spool_ratio = 0.5;
     assert_false(valve.stuck());
   }
 }
@@ -140,7 +148,7 @@ void the_ring_has_no_seam(void**) {
     valve.sent.duty_ratio = {1.0, 1.0, 1.0};
     assert_false(valve.stuck());
     valve.sent.duty_ratio = {0.0, 0.0, 0.0};
-    valve.valid.spool_ratio = {1.0, 1.0, 1.0};
+    all_at(valve.valid, 1.0);
     assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), kUnderWay - 1 + kSpoolWrongCycles);
   }
 }
@@ -151,9 +159,9 @@ void between_old_and_new_is_well(void**) {
   valve.settle(-0.5);
   valve.sent.duty_ratio = {0.75, 0.75, 0.75};
   for (int n = 0; n < kUnderWay - 1; ++n) {
-    valve.valid.spool_ratio[0] = -0.5 + 1.25 * n / kUnderWay;
-    valve.valid.spool_ratio[1] = -0.5 - kTolerance;
-    valve.valid.spool_ratio[2] = 0.75 + kTolerance;
+    valve.valid.drive[0].spool_ratio = -0.5 + 1.25 * n / kUnderWay;
+    valve.valid.drive[1].spool_ratio = -0.5 - kTolerance;
+    valve.valid.drive[2].spool_ratio = 0.75 + kTolerance;
     assert_false(valve.stuck());
   }
 }
@@ -187,7 +195,7 @@ void missing_feedback_is_not_judged(void**) {
   Valve valve;
   valve.settle(0.75);
   valve.sent.enable = true;
-  valve.valid.spool_ratio = {0.0, 0.0, 0.0};
+  all_at(valve.valid, 0.0);
   for (int n = 1; n < kSpoolWrongCycles; ++n) {
     assert_true(valve.step().empty());
   }
@@ -212,14 +220,14 @@ void missing_feedback_is_not_judged(void**) {
 
 void centred_is_within_the_tolerance(void**) {
   const ExcavatorProfile profile = test::plain_machine();
-  ValidInputs valid;
+  ExcavatorValid valid;
   assert_true(spools_centred(profile, valid));
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     for (const double sign : {1.0, -1.0}) {
       valid = {};
-      valid.spool_ratio[axis] = sign * kTolerance;
+      valid.drive[axis].spool_ratio = sign * kTolerance;
       assert_true(spools_centred(profile, valid));
-      valid.spool_ratio[axis] = std::nextafter(sign * kTolerance, sign * 9.0);
+      valid.drive[axis].spool_ratio = std::nextafter(sign * kTolerance, sign * 9.0);
       assert_false(spools_centred(profile, valid));
     }
   }

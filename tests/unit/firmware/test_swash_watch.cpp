@@ -1,4 +1,4 @@
-#include "firmware/excavator/safety/swash_watch.hpp"
+#include "firmware/excavator/safety/excavator_watch.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
@@ -12,17 +12,16 @@ constexpr double kTolerance = 0.125;
 
 struct Pumps {
   std::array<double, kPumpCount> swash = kWanted;
-  SwashWatchState state{};
-  SwashWatchResult result;
+  SwashState state{};
+  std::array<double, kPumpCount> flow_with{};
 
   bool disagree(double period_s, bool commanded = true) {
-    result = watch_swash(test::plain_machine(), state, commanded, swash, period_s);
-    state = result.state;
-    return result.disagrees;
+    flow_with = swash;
+    return watch_swash(test::plain_machine(), commanded, period_s, flow_with, state);
   }
   void assert_flow_with(double first, double second) const {
-    assert_near(result.flow_swash_ratio[0], first, 0.0);
-    assert_near(result.flow_swash_ratio[1], second, 0.0);
+    assert_near(flow_with[0], first, 0.0);
+    assert_near(flow_with[1], second, 0.0);
   }
 };
 

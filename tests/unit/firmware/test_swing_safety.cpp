@@ -7,6 +7,7 @@
 #include "firmware/drives/drive_gate.hpp"
 #include "firmware/excavator/safety/excavator_watch.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/inputs.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
@@ -14,6 +15,7 @@ namespace {
 
 using namespace graben;
 using test::complete_inputs;
+using test::validate;
 
 constexpr TimeUs kNow = 5 * kSecondUs;
 constexpr double kPeriod_s = 0.0625;
@@ -33,13 +35,13 @@ void the_swing_is_read_at_its_lever(void**) {
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.swing.angle_rad.value = -1.5;
   inputs.swing.spool_ratio.value = 0.375;
-  const ValidInputs valid = validate(inputs, profile(), {}, false, kNow);
+  const test::Validated valid = validate(inputs, profile(), {}, false, kNow);
   assert_int_equal(valid.fault, Fault::kNone);
-  assert_near(valid.strokes_m[kSwing], -1.5 * kLever_m, 0.0);
-  assert_near(valid.cap_pressure_pa[kSwing], 4e6, 0.0);
-  assert_near(valid.rod_pressure_pa[kSwing], 3e6, 0.0);
-  assert_near(valid.spool_ratio[kSwing], 0.375, 0.0);
-  assert_true(valid.load_known[kSwing]);
+  assert_near(valid.drive[kSwing].stroke_m, -1.5 * kLever_m, 0.0);
+  assert_near(valid.drive[kSwing].cap_pressure_pa, 4e6, 0.0);
+  assert_near(valid.drive[kSwing].rod_pressure_pa, 3e6, 0.0);
+  assert_near(valid.drive[kSwing].spool_ratio, 0.375, 0.0);
+  assert_true(valid.drive[kSwing].load_known);
 }
 
 struct Row {
@@ -62,10 +64,10 @@ void each_of_its_signals_is_required(void**) {
                                     Validity::kError, Validity::kOutOfRange}) {
       ExcavatorInputs inputs = complete_inputs(kNow);
       row.signal(inputs.swing)->validity = validity;
-      const ValidInputs valid = validate(inputs, profile(), {}, false, kNow);
+      const test::Validated valid = validate(inputs, profile(), {}, false, kNow);
       assert_int_equal(valid.fault, row.missing);
       assert_int_equal(valid.faults.has(row.wrong), validity == Validity::kError);
-      assert_int_equal(valid.load_known[kSwing], row.missing != Fault::kPressureMissing);
+      assert_int_equal(valid.drive[kSwing].load_known, row.missing != Fault::kPressureMissing);
     }
     ExcavatorInputs old = complete_inputs(kNow);
     row.signal(old.swing)->stamp_us = kNow - 45 * kMillisecondUs - 1;
@@ -81,10 +83,10 @@ void without_a_swing_drive_nothing_is_looked_at(void**) {
   for (const Row& row : kRows) {
     ExcavatorInputs inputs = complete_inputs(kNow);
     row.signal(inputs.swing)->validity = Validity::kError;
-    const ValidInputs valid = validate(inputs, without_swing(), {}, false, kNow);
+    const test::Validated valid = validate(inputs, without_swing(), {}, false, kNow);
     assert_true(valid.faults.empty());
-    assert_near(valid.strokes_m[kSwing], 0.0, 0.0);
-    assert_false(valid.load_known[kSwing]);
+    assert_near(valid.drive[kSwing].stroke_m, 0.0, 0.0);
+    assert_false(valid.drive[kSwing].load_known);
   }
 }
 
@@ -95,9 +97,9 @@ void an_angle_beyond_its_sensor_is_implausible(void**) {
     inputs.swing.angle_rad.value = sign * 3.2;
     assert_int_equal(validate(inputs, profile(), {}, false, kNow).fault, Fault::kNone);
     inputs.swing.angle_rad.value = std::nextafter(sign * 3.2, sign * 9.0);
-    const ValidInputs beyond = validate(inputs, profile(), {}, false, kNow);
+    const test::Validated beyond = validate(inputs, profile(), {}, false, kNow);
     assert_int_equal(beyond.fault, Fault::kStrokeImplausible);
-    assert_near(beyond.strokes_m[kSwing], sign * 3.2 * kLever_m, 0.0);
+    assert_near(beyond.drive[kSwing].stroke_m, sign * 3.2 * kLever_m, 0.0);
   }
 }
 
@@ -105,15 +107,15 @@ void an_angle_beyond_its_sensor_is_implausible(void**) {
 void a_jump_is_not_believed(void**) {
   const double most_rad = 2.0 * profile().swing.speed_max_radps * 0.010 + 0.015;
   for (const double sign : {1.0, -1.0}) {
-    ValidationState last =
+    test::StrokesAccepted last =
         validate(complete_inputs(kNow - 10'000), profile(), {}, true, kNow - 10'000).state;
     ExcavatorInputs inputs = complete_inputs(kNow);
     inputs.swing.angle_rad.value = sign * (most_rad - 1e-9);
     assert_true(validate(inputs, profile(), last, true, kNow).faults.empty());
     inputs.swing.angle_rad.value = sign * (most_rad + 1e-9);
-    const ValidInputs jumped = validate(inputs, profile(), last, true, kNow);
+    const test::Validated jumped = validate(inputs, profile(), last, true, kNow);
     assert_true(jumped.degraded.has(Fault::kStrokeJump));
-    assert_near(jumped.strokes_m[kSwing], 0.0, 0.0);
+    assert_near(jumped.drive[kSwing].stroke_m, 0.0, 0.0);
   }
 }
 
@@ -132,13 +134,13 @@ void a_task_number_is_believed_while_it_is_fresh(void**) {
 void its_spool_is_watched(void**) {
   for (const bool has_swing : {true, false}) {
     const ExcavatorProfile& machine = has_swing ? profile() : without_swing();
-    SpoolWatchState state;
-    ValidInputs valid;
-    valid.spool_ratio[kSwing] = 0.5;
-    assert_int_equal(spools_centred(machine, valid), !has_swing);
+    test::SpoolWatch state;
+    ExcavatorValid valid;
+    valid.drive[kSwing].spool_ratio = 0.5;
+    assert_int_equal(test::spools_centred(machine, valid), !has_swing);
     bool stuck = false;
     for (int n = 0; n < kSpoolWrongCycles; ++n) {
-      stuck = watch_spools(machine, state, {}, valid).has(Fault::kSpoolStuck);
+      stuck = test::watch_spools(machine, state, {}, valid).has(Fault::kSpoolStuck);
     }
     assert_int_equal(stuck, has_swing);
   }
@@ -146,20 +148,18 @@ void its_spool_is_watched(void**) {
 
 /// The swing between its spool and its angle; the cylinders rest.
 struct Swing {
-  MotionWatchState state;
+  std::array<MotionState, kDriveCount> state{};
   double angle_rad = 0.0;
   double spool = 0.0;
   double asked_radps = 0.0;
 
   FaultSet step(double period_s = kPeriod_s) {
-    ValidInputs valid;
-    valid.strokes_m[kSwing] = kLever_m * angle_rad;
-    valid.spool_ratio[kSwing] = spool;
-    DriveVector asked_mps = DriveVector::Zero();
-    asked_mps[kSwing] = kLever_m * asked_radps;
-    const MotionWatchResult seen = watch_motion(profile(), state, valid, asked_mps, period_s);
-    state = seen.state;
-    return seen.faults;
+    const ExcavatorBank bank = excavator_bank(profile());
+    std::array<ValidDrive, kDriveCount> seen;
+    seen[kSwing].stroke_m = kLever_m * angle_rad;
+    seen[kSwing].spool_ratio = spool;
+    const std::array<double, kDriveCount> asked_mps = {0.0, 0.0, 0.0, kLever_m * asked_radps};
+    return watch_motion(bank.rows(), seen, asked_mps, period_s, state);
   }
   void run(int cycles) {
     for (int n = 0; n < cycles; ++n) {
@@ -220,21 +220,21 @@ void its_pressures_are_watched(void**) {
   for (const bool right : {false, true}) {
     for (const bool has_swing : {true, false}) {
       const ExcavatorProfile& machine = has_swing ? profile() : without_swing();
-      WatchState state;
-      LastCycle cycle;
+      const ExcavatorBank bank = excavator_bank(machine);
+      ExcavatorWatchState state;
+      LastCommands<kDriveCount> cycle;
       cycle.moving = true;
       bool wrong = false;
       for (int n = 0; n < 40; ++n) {
-        ValidInputs valid;
-        valid.load_known = {false, false, false, has_swing};
-        valid.cap_pressure_pa[kSwing] = right ? 5e6 + n : 5e6;
-        valid.rod_pressure_pa[kSwing] = right ? 5e6 : 5e6 + n;
-        valid.strokes_m[kSwing] = 0.004 * n;
-        valid.spool_ratio[kSwing] = 0.0;
-        cycle.sent.duty_ratio[kSwing] = 0.0;
-        const WatchResult seen = watch(machine, state, cycle, valid, 0.01);
-        wrong = wrong || seen.inputs.degraded.has(Fault::kPressureImplausible);
-        assert_int_equal(seen.inputs.load_known[kSwing], has_swing && !wrong);
+        ExcavatorValid valid;
+        valid.drive[kSwing].load_known = has_swing;
+        valid.drive[kSwing].cap_pressure_pa = right ? 5e6 + n : 5e6;
+        valid.drive[kSwing].rod_pressure_pa = right ? 5e6 : 5e6 + n;
+        valid.drive[kSwing].stroke_m = 0.004 * n;
+        valid.drive[kSwing].spool_ratio = 0.0;
+        watch(machine, bank.rows(), cycle, 0.01, state, valid);
+        wrong = wrong || valid.degraded.has(Fault::kPressureImplausible);
+        assert_int_equal(valid.drive[kSwing].load_known, has_swing && !wrong);
       }
       assert_int_equal(wrong, has_swing);
     }
@@ -245,17 +245,20 @@ void the_gate_lets_it_through_like_the_others(void**) {
   const double travel_m = profile().valve.spool_travel_m;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double sign : {1.0, -1.0}) {
-    const GateResult open = gate(profile(), {}, true, {0.0, 0.0, 0.0, sign * 0.5 * travel_m}, 1.0);
+    const test::Gated open =
+        test::gate(profile(), {}, true, {0.0, 0.0, 0.0, sign * 0.5 * travel_m}, 1.0);
     assert_true(open.enable);
     assert_near(open.duty_ratio[kSwing], sign * 0.625, 1e-12);
     assert_near(open.duty_ratio[kBoom], 0.0, 0.0);
-    assert_near(gate(profile(), open.state, false, {0.0, 0.0, 0.0, travel_m}, 1.0).duty_ratio[3],
-                0.0, 0.0);
+    assert_near(
+        test::gate(profile(), open.state, false, {0.0, 0.0, 0.0, travel_m}, 1.0).duty_ratio[3], 0.0,
+        0.0);
   }
-  const GateResult refused = gate(profile(), {}, true, {travel_m, 0.0, 0.0, nan}, 1.0);
+  const test::Gated refused = test::gate(profile(), {}, true, {travel_m, 0.0, 0.0, nan}, 1.0);
   assert_false(refused.enable);
   assert_int_equal(refused.fault, Fault::kCommandNotFinite);
-  const GateResult held = gate(without_swing(), {}, true, {travel_m, 0.0, 0.0, travel_m}, 1.0);
+  const test::Gated held =
+      test::gate(without_swing(), {}, true, {travel_m, 0.0, 0.0, travel_m}, 1.0);
   assert_true(held.enable);
   assert_near(held.duty_ratio[kSwing], 0.0, 0.0);
 }

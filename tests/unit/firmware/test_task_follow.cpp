@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "firmware/excavator/swing.hpp"
+#include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/flip_bit.hpp"
 #include "tests/unit/firmware/task_machine.hpp"
 
@@ -9,6 +11,8 @@ namespace {
 
 using namespace graben;
 using test::kCycle_s;
+using test::servo_at_rest;
+using test::set;
 
 const ExcavatorProfile& profile() {
   static const ExcavatorProfile answering = test::answering_12t();
@@ -25,6 +29,11 @@ const SwingKinematics& kinematics() {
   return loaded;
 }
 
+DriveRows rows() {
+  static const ExcavatorBank bank = excavator_bank(profile());
+  return bank.rows();
+}
+
 /// Half way on the first line, or on the move after it.
 TaskMemory half_way(int step) {
   TaskState state;
@@ -36,8 +45,8 @@ TaskMemory half_way(int step) {
 
 TaskAim aim_of(const TaskMemory& memory) { return task_aim(kinematics(), dig(), memory.state); }
 
-TaskWant want(const TaskMemory& memory, const ServoState& servo, double override_ratio = 1.0) {
-  return want_of_task(profile(), kinematics(), dig(), memory, aim_of(memory), servo,
+TaskWant want(const TaskMemory& memory, const ExcavatorServo& servo, double override_ratio = 1.0) {
+  return want_of_task(profile(), rows(), kinematics(), dig(), memory, aim_of(memory), servo,
                       override_ratio);
 }
 
@@ -65,7 +74,7 @@ void the_swing_s_travel_is_at_its_lever(void**) {
 /// On its place nothing is off; what is wanted is the plan's velocity by override and pace.
 void where_it_should_be_it_goes_on(void**) {
   TaskMemory memory = half_way(0);
-  const ServoState servo = servo_at_rest(travel_of(profile(), aim_of(memory).value));
+  const ExcavatorServo servo = servo_at_rest(travel_of(profile(), aim_of(memory).value));
   const TaskWant whole = want(memory, servo);
   assert_true(whole.runs && whole.known && whole.holds);
   assert_near(whole.error_m, 0.0, 1e-9);
@@ -107,11 +116,12 @@ void off_its_place_is_told_from_off_its_path(void**) {
 /// What is still under way is no error; beyond a drive's end nothing can be under way.
 void what_is_under_way_is_not_missed(void**) {
   const TaskMemory memory = half_way(0);
-  ServoState servo;
-  servo.under_way_m = {0.004, -0.006, 0.003, 0.001};
-  servo.strokes_m = travel_of(profile(), aim_of(memory).value) - servo.under_way_m;
+  ExcavatorServo servo;
+  const DriveVector under_way_m(0.004, -0.006, 0.003, 0.001);
+  set(servo, &ServoState::under_way_m, under_way_m);
+  set(servo, &ServoState::stroke_m, travel_of(profile(), aim_of(memory).value) - under_way_m);
   assert_near(want(memory, servo).error_m, 0.0, 1e-9);
-  servo.under_way_m[kBoom] = -10.0;
+  servo.drive[kBoom].under_way_m = -10.0;
   assert_true(std::isfinite(want(memory, servo).error_m));
 }
 
@@ -119,8 +129,8 @@ void a_plan_of_another_machine_is_unknown(void**) {
   const TaskMemory memory = half_way(0);
   TaskAim aim = aim_of(memory);
   aim.blind.kind = BlindKind::kOutOfReach;
-  const ServoState servo = servo_at_rest(travel_of(profile(), dig().start));
-  assert_false(want_of_task(profile(), kinematics(), dig(), memory, aim, servo, 1.0).known);
+  const ExcavatorServo servo = servo_at_rest(travel_of(profile(), dig().start));
+  assert_false(want_of_task(profile(), rows(), kinematics(), dig(), memory, aim, servo, 1.0).known);
 }
 
 /// At its end nothing is wanted, and the valve stays closed.
@@ -192,24 +202,20 @@ void the_swing_is_led_by_its_lag(void**) {
   assert_near(swing_lead_mps(lagging, 1.0, 0.0, kCycle_s), 0.0, 0.0);
 }
 
-/// The soft limit sees a travel as the angle that it stands for.
-void the_cap_is_the_soft_limit_s(void**) {
+/// Beyond its end, measured or by what is under way, the swing goes no further at all.
+void the_cap_looks_where_what_is_under_way_will_have_come(void**) {
   DriveVector then = dig().start;
   then[kSwing] = profile().swing.left_end_rad - 0.05;
-  const DriveVector velocity(0.0, 0.0, 0.0, 0.5);
-  const VelocityCap expected = soft_limit(profile(), kinematics(), dig().fences, then, velocity);
-  const VelocityCap cap =
-      task_cap(profile(), kinematics(), dig(), servo_at_rest(travel_of(profile(), then)),
-               travel_of(profile(), velocity));
-  assert_true(expected.factor < 0.5);
-  assert_near(cap.factor, expected.factor, 1e-12);
-  assert_int_equal(cap.limit.kind, LimitKind::kSwingEnd);
-  // Beyond its end, measured or by what is under way, it goes no further at all.
-  ServoState beyond = servo_at_rest(travel_of(profile(), then));
-  beyond.under_way_m[kSwing] = 0.06 * profile().swing.lever_m;
-  assert_near(
-      task_cap(profile(), kinematics(), dig(), beyond, travel_of(profile(), velocity)).factor, 0.0,
-      0.0);
+  const DriveVector velocity_mps = travel_of(profile(), {0.0, 0.0, 0.0, 0.5});
+  ExcavatorServo servo = servo_at_rest(travel_of(profile(), then));
+  const auto cap = [&] {
+    return motion_cap(profile(), rows(), kinematics(), dig().fences, strokes_then_m(rows(), servo),
+                      velocity_mps);
+  };
+  assert_near(cap().factor, profile().control.stroke_end_gain_ps * 0.05002 / 0.5, 1e-9);
+  assert_int_equal(cap().limit.kind, LimitKind::kSwingEnd);
+  servo.drive[kSwing].under_way_m = 0.06 * profile().swing.lever_m;
+  assert_near(cap().factor, 0.0, 0.0);
 }
 
 }  // namespace
@@ -225,7 +231,7 @@ int main() {
       cmocka_unit_test(what_is_remembered_is_intact),
       cmocka_unit_test(it_goes_on_or_starts_afresh),
       cmocka_unit_test(the_swing_is_led_by_its_lag),
-      cmocka_unit_test(the_cap_is_the_soft_limit_s),
+      cmocka_unit_test(the_cap_looks_where_what_is_under_way_will_have_come),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

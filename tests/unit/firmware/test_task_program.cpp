@@ -237,7 +237,7 @@ void assert_replays_inside(const TaskProgram& program, bool late) {
     assert_true(error_m < 0.02);
     const DriveVector velocity = state.pace_ratio * aim.velocity + 2.0 * (aim.value - then);
     const VelocityCap cap =
-        soft_limit(machine().profile, machine().kinematics, program.fences, then, velocity);
+        test::motion_cap(machine().profile, machine().kinematics, program.fences, then, velocity);
     drives.ask(cap.factor * velocity);
     assert_true(test::overrun_m(machine(), program.fences, drives.value()) <= 0.5e-3);
     state = task_advance(machine().profile.line, program, state, cap.factor * kCycle_s, kCycle_s,

@@ -1,7 +1,9 @@
 #include <limits>
 
 #include "firmware/excavator/safety/excavator_validation.hpp"
+#include "firmware/hydraulics/flow.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/inputs.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
@@ -9,6 +11,7 @@ namespace {
 
 using namespace graben;
 using test::complete_inputs;
+using test::validate;
 
 constexpr TimeUs kNow = 5 * kSecondUs;
 
@@ -22,25 +25,24 @@ Fault fault_of(const ExcavatorInputs& inputs) {
 }
 
 void complete_inputs_become_a_state(void**) {
-  const ValidInputs valid = validate(complete_inputs(kNow), profile(), {}, false, kNow);
+  const test::Validated valid = validate(complete_inputs(kNow), profile(), {}, false, kNow);
   assert_int_equal(valid.fault, Fault::kNone);
   assert_true(valid.enable && valid.automatic);
   assert_int_equal(valid.task, Task::kDig);
-  assert_near(valid.strokes_m[kArm], 1.1, 0.0);
+  assert_near(valid.drive[kArm].stroke_m, 1.1, 0.0);
   assert_true(valid.faults.empty() && valid.degraded.empty());
   for (unsigned i = 0; i < kAxisCount; ++i) {
-    assert_true(valid.load_known[i]);
-    assert_near(valid.cap_pressure_pa[i], 4e6, 0.0);
-    assert_near(valid.rod_pressure_pa[i], 3e6, 0.0);
+    assert_true(valid.drive[i].load_known);
+    assert_near(valid.drive[i].cap_pressure_pa, 4e6, 0.0);
+    assert_near(valid.drive[i].rod_pressure_pa, 3e6, 0.0);
   }
 }
 
 /// 2 pi 1e-5 and 4 pi 1e-5 m3/rev; a swash that reads below zero pumps nothing.
 void flow_is_displacement_speed_and_swash(void**) {
-  const auto flow_m3ps = pump_flow_m3ps(profile(), 200.0, {0.5, 0.75});
-  assert_near(flow_m3ps[0], 1e-3, 1e-15);
-  assert_near(flow_m3ps[1], 3e-3, 1e-15);
-  assert_near(pump_flow_m3ps(profile(), 200.0, {-0.01, 0.75})[0], 0.0, 0.0);
+  assert_near(pump_flow_m3ps(profile().pump[0], 200.0, 0.5), 1e-3, 1e-15);
+  assert_near(pump_flow_m3ps(profile().pump[1], 200.0, 0.75), 3e-3, 1e-15);
+  assert_near(pump_flow_m3ps(profile().pump[0], 200.0, -0.01), 0.0, 0.0);
 }
 
 /// What a machine with one pump says of a second is neither missed nor read.
@@ -49,7 +51,7 @@ void a_second_pump_that_is_not_there(void**) {
   single.pump_count = 1;
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.swash_ratio[1].validity = Validity::kNotAvailable;
-  ValidInputs valid = validate(inputs, single, {}, false, kNow);
+  test::Validated valid = validate(inputs, single, {}, false, kNow);
   assert_int_equal(valid.fault, Fault::kNone);
   assert_true(valid.faults.empty());
   assert_near(valid.swash_ratio[1], 0.0, 0.0);
@@ -118,7 +120,7 @@ void a_value_that_is_no_number_is_missing(void**) {
 void enable_must_be_fresh(void**) {
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.driver.enable.stamp_us = kNow - 60 * kMillisecondUs;
-  const ValidInputs stale = validate(inputs, profile(), {}, false, kNow);
+  const test::Validated stale = validate(inputs, profile(), {}, false, kNow);
   assert_false(stale.enable);
   assert_int_equal(stale.fault, Fault::kOperatorMissing);
 }
@@ -136,7 +138,7 @@ void the_operator_must_be_whole(void**) {
   for (const auto& lose : losses) {
     ExcavatorInputs inputs = complete_inputs(kNow);
     lose(inputs.driver);
-    const ValidInputs valid = validate(inputs, profile(), {}, false, kNow);
+    const test::Validated valid = validate(inputs, profile(), {}, false, kNow);
     assert_int_equal(valid.fault, Fault::kOperatorMissing);
     assert_false(valid.automatic);
     assert_int_equal(valid.task, Task::kNone);
@@ -149,7 +151,7 @@ void what_the_operator_gives_is_read(void**) {
   inputs.driver.enable.value = false;
   inputs.driver.mode.value = OperatorMode::kManual;
   inputs.driver.speed_override_ratio.value = 1.5;
-  const ValidInputs manual = validate(inputs, profile(), {}, false, kNow);
+  const test::Validated manual = validate(inputs, profile(), {}, false, kNow);
   assert_int_equal(manual.fault, Fault::kNone);
   assert_false(manual.enable);
   assert_false(manual.automatic);
@@ -164,7 +166,7 @@ void the_valves_echo_is_required(void**) {
   inputs.valve_enabled.value = true;
   assert_true(validate(inputs, profile(), {}, false, kNow).valve_enabled);
   inputs.valve_enabled.stamp_us = kNow - 50 * kMillisecondUs;
-  const ValidInputs stale = validate(inputs, profile(), {}, false, kNow);
+  const test::Validated stale = validate(inputs, profile(), {}, false, kNow);
   assert_int_equal(stale.fault, Fault::kSpoolMissing);
   assert_false(stale.valve_enabled);
   inputs.valve_enabled = test::fresh(true, kNow);
@@ -189,9 +191,9 @@ void strokes_outside_their_cylinder_are_implausible(void**) {
   const double most = profile().geometry.cylinder[kBucket].stroke_m;
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.axis[kBucket].stroke_m.value = most + 0.002;  // A worn encoder at the stroke's end.
-  const ValidInputs biased = validate(inputs, profile(), {}, false, kNow);
+  const test::Validated biased = validate(inputs, profile(), {}, false, kNow);
   assert_int_equal(biased.fault, Fault::kNone);
-  assert_near(biased.strokes_m[kBucket], most, 0.0);
+  assert_near(biased.drive[kBucket].stroke_m, most, 0.0);
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     const double out_m = profile().geometry.cylinder[axis].stroke_m + kStrokeMargin_m;
     for (const double edge_m : {out_m, -kStrokeMargin_m}) {
@@ -203,7 +205,7 @@ void strokes_outside_their_cylinder_are_implausible(void**) {
     }
   }
   inputs.axis[kBucket].stroke_m.value = -0.002;
-  assert_near(validate(inputs, profile(), {}, false, kNow).strokes_m[kBucket], 0.0, 0.0);
+  assert_near(validate(inputs, profile(), {}, false, kNow).drive[kBucket].stroke_m, 0.0, 0.0);
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "firmware/hydraulics/flow.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/inputs.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
@@ -12,6 +14,7 @@ namespace {
 
 using namespace graben;
 using test::complete_inputs;
+using test::validate;
 
 constexpr bool kMoving = true;
 constexpr TimeUs kNow = 5 * kSecondUs;
@@ -25,14 +28,14 @@ const ExcavatorProfile& profile() {
   return machine;
 }
 
-ValidInputs judged(const ExcavatorInputs& inputs, bool moving) {
+test::Validated judged(const ExcavatorInputs& inputs, bool moving) {
   return validate(inputs, profile(), {}, moving, kNow);
 }
 
 /// A fault of this kind stops, whether the machine moves or not.
 void assert_stops(Fault fault, const ExcavatorInputs& inputs) {
   for (const bool moving : kEither) {
-    const ValidInputs valid = judged(inputs, moving);
+    const test::Validated valid = judged(inputs, moving);
     assert_int_equal(valid.fault, fault);
     assert_true(valid.faults.has(fault));
     assert_true(valid.degraded.empty());
@@ -41,10 +44,10 @@ void assert_stops(Fault fault, const ExcavatorInputs& inputs) {
 
 /// A fault of this kind only slows in motion; before it, it stops: arming wants everything.
 void assert_degrades(Fault fault, const ExcavatorInputs& inputs) {
-  const ValidInputs before = judged(inputs, !kMoving);
+  const test::Validated before = judged(inputs, !kMoving);
   assert_int_equal(before.fault, fault);
   assert_true(before.degraded.empty());
-  const ValidInputs moving = judged(inputs, kMoving);
+  const test::Validated moving = judged(inputs, kMoving);
   assert_int_equal(moving.fault, Fault::kNone);
   assert_true(moving.faults.has(fault));
   assert_true(moving.degraded.bits() == moving.faults.bits());
@@ -58,7 +61,7 @@ void a_lost_pressure_slows_and_its_load_is_unknown(void**) {
           kStale;
       assert_degrades(Fault::kPressureMissing, inputs);
       for (unsigned i = 0; i < kAxisCount; ++i) {
-        assert_int_equal(judged(inputs, kMoving).load_known[i], i != axis);
+        assert_int_equal(judged(inputs, kMoving).drive[i].load_known, i != axis);
       }
     }
   }
@@ -109,7 +112,7 @@ void the_first_that_stops_is_named(void**) {
   inputs.swash_ratio[0].stamp_us = kStale;
   inputs.link.bus = BusState::kOff;
   inputs.link.out_of_range = true;
-  const ValidInputs valid = judged(inputs, kMoving);
+  const test::Validated valid = judged(inputs, kMoving);
   assert_int_equal(valid.fault, Fault::kSwashMissing);
   FaultSet slowing;
   slowing.add(Fault::kPressureMissing);
@@ -207,21 +210,22 @@ void an_engine_too_fast_is_not_believed(void**) {
 }
 
 void no_pump_gives_more_than_at_full_swash(void**) {
-  const auto full = pump_flow_m3ps(profile(), 100.0, {1.0, 0.5});
-  const auto beyond = pump_flow_m3ps(profile(), 100.0, {1.2, 0.5});
-  assert_near(beyond[0], full[0], 0.0);
-  assert_true(beyond[1] > 0.0 && beyond[1] == full[1]);
+  const PumpProfile& pump = profile().pump[0];
+  const double full_m3ps = pump_flow_m3ps(pump, 100.0, 1.0);
+  assert_true(full_m3ps > 0.0);
+  assert_near(pump_flow_m3ps(pump, 100.0, 1.2), full_m3ps, 0.0);
+  assert_near(pump_flow_m3ps(pump, 100.0, 0.5), 0.5 * full_m3ps, 1e-18);
 }
 
 /// A cylinder in motion, cycle by cycle; a frame each cycle unless it is lost.
 struct Stroke {
   unsigned axis = kBoom;
-  ValidationState state;
+  test::StrokesAccepted state;
   TimeUs now_us = kNow;
-  ValidInputs valid;
+  test::Validated valid;
   Signal<double> newest;
 
-  const ValidInputs& step(bool moving = kMoving) {
+  const test::Validated& step(bool moving = kMoving) {
     ExcavatorInputs inputs = complete_inputs(now_us);
     inputs.axis[axis].stroke_m = newest;
     valid = validate(inputs, profile(), state, moving, now_us);
@@ -229,11 +233,11 @@ struct Stroke {
     now_us += kPeriod;
     return valid;
   }
-  const ValidInputs& frame(double stroke_m, bool moving = kMoving) {
+  const test::Validated& frame(double stroke_m, bool moving = kMoving) {
     newest = test::fresh(stroke_m, now_us);
     return step(moving);
   }
-  const ValidInputs& lost() { return step(); }
+  const test::Validated& lost() { return step(); }
 };
 
 Stroke at_half(unsigned axis) {
@@ -261,11 +265,11 @@ void a_jump_is_not_believed(void**) {
             assert_true(stroke.lost().faults.empty());
           }
           const double to_m = 0.5 + sign * (change_m + (jumps ? 1e-9 : -1e-9));
-          const ValidInputs& valid = stroke.frame(to_m);
+          const test::Validated& valid = stroke.frame(to_m);
           assert_int_equal(valid.fault, Fault::kNone);
           assert_int_equal(valid.faults.has(Fault::kStrokeJump), jumps);
           assert_int_equal(valid.degraded.has(Fault::kStrokeJump), jumps);
-          assert_near(valid.strokes_m[axis], jumps ? 0.5 : to_m, 0.0);
+          assert_near(valid.drive[axis].stroke_m, jumps ? 0.5 : to_m, 0.0);
         }
       }
     }
@@ -291,7 +295,7 @@ void a_jump_and_back_is_bridged(void**) {
     assert_true(stroke.frame(0.75).degraded.has(Fault::kStrokeJump));
   }
   assert_true(stroke.frame(0.505).faults.empty());
-  assert_near(stroke.valid.strokes_m[kBoom], 0.505, 0.0);
+  assert_near(stroke.valid.drive[kBoom].stroke_m, 0.505, 0.0);
   assert_true(stroke.frame(0.51).faults.empty());
 }
 
@@ -301,7 +305,7 @@ void a_jump_that_stays_stops(void**) {
   Stroke stroke = at_half(kBoom);
   for (int n = 1; n <= 4; ++n) {
     assert_int_equal(stroke.frame(0.75).fault, Fault::kNone);
-    assert_near(stroke.valid.strokes_m[kBoom], 0.5, 0.0);
+    assert_near(stroke.valid.drive[kBoom].stroke_m, 0.5, 0.0);
   }
   stroke.frame(0.75);  // 50 ms
   assert_int_equal(stroke.valid.fault, Fault::kStrokeMissing);
@@ -309,7 +313,7 @@ void a_jump_that_stays_stops(void**) {
   assert_false(stroke.valid.degraded.has(Fault::kStrokeJump));
   // Stopped, the operator may begin again from where the sensor says.
   assert_true(stroke.frame(0.75, !kMoving).faults.empty());
-  assert_near(stroke.valid.strokes_m[kBoom], 0.75, 0.0);
+  assert_near(stroke.valid.drive[kBoom].stroke_m, 0.75, 0.0);
   assert_true(stroke.frame(0.76).faults.empty());
 }
 
@@ -335,7 +339,7 @@ void a_jump_hides_nothing(void**) {
   ExcavatorInputs inputs = complete_inputs(before.now_us);
   inputs.axis[kBoom].stroke_m.value = 0.75;
   inputs.link.bus = BusState::kOff;
-  const ValidInputs valid = validate(inputs, profile(), before.state, kMoving, before.now_us);
+  const test::Validated valid = validate(inputs, profile(), before.state, kMoving, before.now_us);
   assert_int_equal(valid.fault, Fault::kBusOff);
   assert_true(valid.degraded.has(Fault::kStrokeJump));
   assert_false(valid.degraded.has(Fault::kBusOff));
@@ -345,7 +349,7 @@ void a_jump_hides_nothing(void**) {
 void outside_motion_nothing_jumps(void**) {
   Stroke stroke = at_half(kBoom);
   assert_true(stroke.frame(1.0, !kMoving).faults.empty());
-  assert_near(stroke.valid.strokes_m[kBoom], 1.0, 0.0);
+  assert_near(stroke.valid.drive[kBoom].stroke_m, 1.0, 0.0);
 }
 
 }  // namespace

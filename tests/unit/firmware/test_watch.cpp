@@ -1,6 +1,7 @@
 #include "firmware/excavator/safety/excavator_watch.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
 namespace {
@@ -10,34 +11,51 @@ using namespace graben;
 constexpr double kPeriod_s = 0.0625;
 constexpr double kSlower = 0.25;  // safety.degraded_speed
 
+void set_spools(ExcavatorValid& inputs, const std::array<double, kAxisCount>& spool_ratio) {
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    inputs.drive[i].spool_ratio = spool_ratio[i];
+  }
+}
+void set_strokes(ExcavatorValid& inputs, const std::array<double, kDriveCount>& stroke_m) {
+  for (unsigned i = 0; i < kDriveCount; ++i) {
+    inputs.drive[i].stroke_m = stroke_m[i];
+  }
+}
+
 /// A machine in motion that does what it is told, at half the operator's speed.
 struct Machine {
   ExcavatorProfile profile = test::plain_machine();
-  WatchState state;
-  LastCycle cycle;
-  ValidInputs inputs;
-  WatchResult seen;
+  ExcavatorBank bank = excavator_bank(profile);
+  ExcavatorWatchState state;
+  LastCommands<kDriveCount> cycle;
+  ExcavatorValid inputs;
+  ExcavatorValid seen;
   int cycles = 0;
 
   Machine() {
     cycle.moving = true;
-    cycle.sent.enable = true;
+    cycle.enable = true;
     inputs.enable = inputs.automatic = inputs.valve_enabled = true;
     inputs.task = Task::kDig;
     inputs.speed_override_ratio = 0.5;
-    inputs.strokes_m = {0.5, 0.5, 0.5, 0.0};
-    inputs.load_known = {true, true, true};
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+      inputs.drive[i].stroke_m = 0.5;
+      inputs.drive[i].load_known = true;
+    }
     inputs.swash_ratio = profile.dig_swash_ratio;
     inputs.engine_radps = 200.0;
   }
-  const ValidInputs& step(double period_s = kPeriod_s) {
+  const ExcavatorValid& step(double period_s = kPeriod_s) {
     ++cycles;
     if (!frozen) {
-      inputs.cap_pressure_pa = {4e6 + cycles, 4e6 + cycles, 4e6 + cycles};
-      inputs.rod_pressure_pa = {3e6 + cycles, 3e6 + cycles, 3e6 + cycles};
+      for (unsigned i = 0; i < kAxisCount; ++i) {
+        inputs.drive[i].cap_pressure_pa = 4e6 + cycles;
+        inputs.drive[i].rod_pressure_pa = 3e6 + cycles;
+      }
     }
-    seen = watch(profile, state, cycle, inputs, period_s);
-    return seen.inputs;
+    seen = inputs;
+    watch(profile, bank.rows(), cycle, period_s, state, seen);
+    return seen;
   }
   void run(int count) {
     for (int n = 0; n < count; ++n) {
@@ -47,23 +65,23 @@ struct Machine {
   bool frozen = false;
 };
 
-void assert_well(const ValidInputs& inputs) {
+void assert_well(const ExcavatorValid& inputs) {
   assert_int_equal(inputs.fault, Fault::kNone);
   assert_true(inputs.faults.empty());
   assert_true(inputs.degraded.empty());
   assert_near(inputs.speed_override_ratio, 0.5, 0.0);
   for (unsigned i = 0; i < kAxisCount; ++i) {
-    assert_true(inputs.load_known[i]);
+    assert_true(inputs.drive[i].load_known);
   }
 }
 
-void assert_stopped_by(Fault fault, const ValidInputs& inputs) {
+void assert_stopped_by(Fault fault, const ExcavatorValid& inputs) {
   assert_int_equal(inputs.fault, fault);
   assert_true(inputs.faults.has(fault));
   assert_true(inputs.degraded.empty());
 }
 
-void assert_slowed_by(Fault fault, const ValidInputs& inputs) {
+void assert_slowed_by(Fault fault, const ExcavatorValid& inputs) {
   assert_int_equal(inputs.fault, Fault::kNone);
   assert_true(inputs.degraded.has(fault));
   assert_near(inputs.speed_override_ratio, 0.5 * kSlower, 0.0);
@@ -82,21 +100,21 @@ void a_machine_that_obeys_is_left_alone(void**) {
 void spools_and_cylinders_stop(void**) {
   Machine stuck;
   stuck.run(20);
-  stuck.inputs.spool_ratio[kArm] = 0.1875;  // Off, and yet within its deadband.
+  stuck.inputs.drive[kArm].spool_ratio = 0.1875;  // Off, and yet within its deadband.
   stuck.run(kSpoolWrongCycles - 1);
-  assert_well(stuck.seen.inputs);
+  assert_well(stuck.seen);
   assert_stopped_by(Fault::kSpoolStuck, stuck.step());
 
   Machine drifting;
   drifting.run(20);
-  drifting.inputs.strokes_m[kBoom] = 0.25;
+  drifting.inputs.drive[kBoom].stroke_m = 0.25;
   assert_stopped_by(Fault::kUncommandedMotion, drifting.step());
 
   Machine still;
-  still.cycle.sent.duty_ratio[kBucket] = still.inputs.spool_ratio[kBucket] = 0.75;
+  still.cycle.duty_ratio[kBucket] = still.inputs.drive[kBucket].spool_ratio = 0.75;
   still.cycle.asked_mps[kBucket] = 0.5;
   still.run(3);
-  assert_well(still.seen.inputs);
+  assert_well(still.seen);
   assert_stopped_by(Fault::kStrokeStuck, still.step());
 }
 
@@ -104,28 +122,28 @@ void pressures_and_swash_slow(void**) {
   Machine pressure;
   pressure.step();
   pressure.frozen = true;
-  pressure.inputs.rod_pressure_pa[kArm] = 40e6;
+  pressure.inputs.drive[kArm].rod_pressure_pa = 40e6;
   pressure.run(4);
-  assert_well(pressure.seen.inputs);
+  assert_well(pressure.seen);
   assert_slowed_by(Fault::kPressureImplausible, pressure.step());
-  assert_true(pressure.seen.inputs.faults.has(Fault::kPressureImplausible));
-  assert_true(pressure.seen.inputs.load_known[kBoom]);
-  assert_false(pressure.seen.inputs.load_known[kArm]);
-  assert_true(pressure.seen.inputs.load_known[kBucket]);
+  assert_true(pressure.seen.faults.has(Fault::kPressureImplausible));
+  assert_true(pressure.seen.drive[kBoom].load_known);
+  assert_false(pressure.seen.drive[kArm].load_known);
+  assert_true(pressure.seen.drive[kBucket].load_known);
 
   Machine swash;
   swash.inputs.swash_ratio = {1.0, 0.0};
   swash.run(8);
-  assert_well(swash.seen.inputs);
+  assert_well(swash.seen);
   assert_near(swash.seen.pump_flow_m3ps[0], 2e-3, 1e-15);
   assert_slowed_by(Fault::kSwashDisagrees, swash.step());
-  assert_true(swash.seen.inputs.faults.has(Fault::kSwashDisagrees));
+  assert_true(swash.seen.faults.has(Fault::kSwashDisagrees));
   assert_near(swash.seen.pump_flow_m3ps[0], 1e-3, 1e-15);  // As commanded: less than said.
   assert_near(swash.seen.pump_flow_m3ps[1], 0.0, 0.0);
   // Armed, without a command to the pumps, nothing is asked of them.
-  swash.cycle.sent.enable = swash.inputs.valve_enabled = false;
+  swash.cycle.enable = swash.inputs.valve_enabled = false;
   swash.run(20);
-  assert_well(swash.seen.inputs);
+  assert_well(swash.seen);
 }
 
 /// What came in as a stop stays the first; the watches' own are added.
@@ -135,7 +153,7 @@ void the_first_fault_stays_the_first(void**) {
   machine.run(kEchoCycles - 1);
   machine.inputs.fault = Fault::kBusOff;
   machine.inputs.faults.add(Fault::kBusOff);
-  const ValidInputs& both = machine.step();
+  const ExcavatorValid& both = machine.step();
   assert_int_equal(both.fault, Fault::kBusOff);
   assert_true(both.faults.has(Fault::kBusOff));
   assert_true(both.faults.has(Fault::kValveNotFollowing));
@@ -151,41 +169,40 @@ void a_stopped_machine_is_not_judged(void**) {
   machine.run(20);
   machine.inputs.fault = Fault::kStrokeMissing;
   machine.inputs.faults.add(Fault::kStrokeMissing);
-  machine.inputs.strokes_m = {0.0, 0.0, 0.0, 0.0};
+  set_strokes(machine.inputs, {0.0, 0.0, 0.0, 0.0});
   machine.run(20);
-  assert_int_equal(machine.seen.inputs.faults.bits(), 1U << 1U);
-  assert_near(machine.state.motion.drive[0].since_s, 0.0, 0.0);
+  assert_int_equal(machine.seen.faults.bits(), 1U << 1U);
+  assert_near(machine.state.drives.motion[0].since_s, 0.0, 0.0);
 }
 
 /// A machine whose operator has let go of it while its spools were open.
 struct Released : Machine {
   Released() {
     run(20);
-    cycle.moving = false;
-    cycle.sent = {};
+    cycle = {};
     inputs.valve_enabled = false;
-    inputs.spool_ratio = {0.0, 0.75, 0.0};
+    set_spools(inputs, {0.0, 0.75, 0.0});
   }
   bool stuck_after(int count) {
     run(count);
-    return seen.inputs.faults.has(Fault::kSpoolStuck);
+    return seen.faults.has(Fault::kSpoolStuck);
   }
 };
 
 void a_spool_that_does_not_close_after_motion_is_stuck(void**) {
   Released machine;
   assert_true(machine.stuck_after(30));
-  assert_int_equal(machine.seen.inputs.fault, Fault::kSpoolStuck);
-  machine.inputs.spool_ratio = {0.0, 0.0, 0.0};
+  assert_int_equal(machine.seen.fault, Fault::kSpoolStuck);
+  set_spools(machine.inputs, {0.0, 0.0, 0.0});
   assert_false(machine.stuck_after(1));
 }
 
 /// Once all have been in their middle, or manual mode says so, it is somebody's hand.
 void what_a_hand_opens_afterwards_is_not_stuck(void**) {
   Released closed;
-  closed.inputs.spool_ratio = {0.0, 0.0, 0.0};
+  set_spools(closed.inputs, {0.0, 0.0, 0.0});
   closed.run(1);
-  closed.inputs.spool_ratio = {0.0, 0.75, 0.0};
+  set_spools(closed.inputs, {0.0, 0.75, 0.0});
   assert_false(closed.stuck_after(30));
   Released manual;
   manual.inputs.automatic = false;
@@ -208,25 +225,24 @@ void what_is_not_known_does_not_end_the_closing(void**) {
 /// not.
 void not_in_motion_the_machine_is_the_operators(void**) {
   Machine machine;
-  machine.cycle.moving = false;
-  machine.cycle.sent = {};
+  machine.cycle = {};
   machine.inputs.valve_enabled = false;
   machine.inputs.degraded.add(Fault::kPressureMissing);  // Left over; means nothing here.
   machine.frozen = true;
-  machine.inputs.cap_pressure_pa[0] = 40e6;
+  machine.inputs.drive[0].cap_pressure_pa = 40e6;
   machine.inputs.swash_ratio = {1.0, 0.0};
   for (int n = 0; n < 100; ++n) {
-    machine.inputs.spool_ratio = {1.0, -1.0, 0.75};
-    machine.inputs.strokes_m = {0.01 * n, 0.5 - 0.01 * n, 0.0, 0.0};
-    const ValidInputs& inputs = machine.step();
+    set_spools(machine.inputs, {1.0, -1.0, 0.75});
+    set_strokes(machine.inputs, {0.01 * n, 0.5 - 0.01 * n, 0.0, 0.0});
+    const ExcavatorValid& inputs = machine.step();
     assert_int_equal(inputs.fault, Fault::kNone);
     assert_true(inputs.faults.empty());
-    assert_true(inputs.load_known[0]);
+    assert_true(inputs.drive[0].load_known);
     assert_near(inputs.speed_override_ratio, 0.5, 0.0);
   }
   machine.inputs.valve_enabled = true;
   machine.run(kEchoCycles);
-  assert_int_equal(machine.seen.inputs.fault, Fault::kValveNotFollowing);
+  assert_int_equal(machine.seen.fault, Fault::kValveNotFollowing);
 }
 
 /// Armed after that, every watch begins afresh, but for what was sent.
@@ -235,15 +251,15 @@ void every_motion_begins_afresh(void**) {
   machine.inputs.swash_ratio[0] = 0.0;
   machine.run(7);
   assert_true(machine.state.swash[0] > 0.0);
-  assert_true(machine.state.motion.drive[0].since_s > 0.0);
+  assert_true(machine.state.drives.motion[0].since_s > 0.0);
   machine.cycle.moving = false;
   machine.step();
   assert_near(machine.state.swash[0], 0.0, 0.0);
-  assert_near(machine.state.motion.drive[0].since_s, 0.0, 0.0);
-  assert_near(machine.state.pressure.sensor[0][0].last_pa, 0.0, 0.0);
+  assert_near(machine.state.drives.motion[0].since_s, 0.0, 0.0);
+  assert_near(machine.state.drives.pressure[0][0].last_pa, 0.0, 0.0);
   machine.cycle.moving = true;
   machine.run(8);
-  assert_well(machine.seen.inputs);
+  assert_well(machine.seen);
 }
 
 /// A value that comes and goes does not make the machine jerk: 0.5 s after it has come back the
@@ -258,7 +274,7 @@ void what_degraded_goes_on_for_half_a_second(void**) {
     machine.inputs.degraded = {};
     for (int n = 1; n < 8; ++n) {  // 7 * 0.0625 s
       assert_slowed_by(Fault::kEngineSpeedMissing, machine.step());
-      assert_true(machine.seen.inputs.faults.empty());  // It is not there any more.
+      assert_true(machine.seen.faults.empty());  // It is not there any more.
     }
     assert_well(machine.step());
     assert_well(machine.step());
@@ -276,8 +292,8 @@ void all_that_degraded_is_named(void**) {
   machine.step();
   machine.inputs.degraded = {};
   machine.run(7);
-  assert_slowed_by(Fault::kPressureMissing, machine.seen.inputs);
-  assert_slowed_by(Fault::kValueOutOfRange, machine.seen.inputs);
+  assert_slowed_by(Fault::kPressureMissing, machine.seen);
+  assert_slowed_by(Fault::kValueOutOfRange, machine.seen);
   assert_well(machine.step());
 }
 
@@ -288,10 +304,10 @@ void the_end_of_motion_ends_it(void**) {
   machine.step();
   machine.inputs.degraded = {};
   machine.step();
-  assert_slowed_by(Fault::kPressureMissing, machine.seen.inputs);
+  assert_slowed_by(Fault::kPressureMissing, machine.seen);
   machine.cycle.moving = false;
   machine.step();
-  assert_near(machine.seen.inputs.speed_override_ratio, 0.5, 0.0);
+  assert_near(machine.seen.speed_override_ratio, 0.5, 0.0);
   machine.cycle.moving = true;
   assert_well(machine.step());
 }

@@ -1,4 +1,4 @@
-#include "firmware/excavator/tasks/soft_limit.hpp"
+#include "firmware/excavator/tasks/fence.hpp"
 
 #include <limits>
 
@@ -16,7 +16,7 @@ const test::ReplayMachine& machine() {
 }
 
 VelocityCap cap(const DriveVector& then, const DriveVector& velocity, const FenceSet& fences = {}) {
-  return soft_limit(machine().profile, machine().kinematics, fences, then, velocity);
+  return test::motion_cap(machine().profile, machine().kinematics, fences, then, velocity);
 }
 
 void assert_cap(const VelocityCap& cap, double factor, LimitKind kind, int index) {
@@ -49,7 +49,7 @@ void swing_ends(void**) {
   ExcavatorProfile quick = machine().profile;
   quick.swing.acceleration_max_radps2 = 0.7;
   const auto cap = [&quick](const DriveVector& then, const DriveVector& velocity) {
-    return soft_limit(quick, machine().kinematics, {}, then, velocity);
+    return test::motion_cap(quick, machine().kinematics, {}, then, velocity);
   };
   assert_cap(cap({0.475, 0.565, 0.4375, 2.9}, {0.0, 0.0, 0.0, 0.5}), 2.0 * 0.10002 / 0.5,
              LimitKind::kSwingEnd, 0);
@@ -60,8 +60,9 @@ void swing_ends(void**) {
   ExcavatorProfile held = machine().profile;
   held.drive_count = kAxisCount;
   const DriveVector moves(0.1, 0.0, 0.0, 0.0);
-  assert_near(soft_limit(held, machine().kinematics, {}, {0.475, 0.5, 0.4, 9.0}, moves).factor, 1.0,
-              0.0);
+  assert_near(
+      test::motion_cap(held, machine().kinematics, {}, {0.475, 0.5, 0.4, 9.0}, moves).factor, 1.0,
+      0.0);
 }
 
 /// Whichever comes first: boom 4 mm, arm 10 mm before its end, both as fast.

@@ -5,14 +5,18 @@
 #include <complex>
 #include <vector>
 
-#include "firmware/drives/cylinder_servo.hpp"
-#include "firmware/drives/load_filter.hpp"
+#include "firmware/drives/drive_servo.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
 namespace {
 
 using namespace graben;
+using test::corrected_velocity;
+using test::of;
+using test::servo_at_rest;
+using test::set;
 
 constexpr double kPeriod_s = 0.01;
 constexpr double kPi = 3.14159265358979323846;
@@ -36,6 +40,40 @@ ExcavatorProfile machine() {
   profile.control = control();
   profile.control.stroke_end_gain_ps = stroke_end_gain_ps;
   return profile;
+}
+
+/// All drives a cycle on.
+ExcavatorServo next_servo(const ControlProfile& control, ExcavatorServo servo,
+                          const DriveVector& asked_mps, const DriveVector& strokes_m,
+                          double period_s) {
+  ExcavatorProfile profile = test::excavator().profile;
+  profile.control = control;
+  const ExcavatorBank bank = excavator_bank(profile);
+  for (int i = 0; i < bank.count; ++i) {
+    graben::next_servo(bank.rows()[i], asked_mps[i], strokes_m[i], period_s,
+                       servo.drive[static_cast<unsigned>(i)]);
+  }
+  return servo;
+}
+ExcavatorServo servo_released(const ControlProfile& control, ExcavatorServo servo,
+                              const DriveVector& strokes_m, double period_s) {
+  ExcavatorProfile profile = test::excavator().profile;
+  profile.control = control;
+  const ExcavatorBank bank = excavator_bank(profile);
+  for (int i = 0; i < bank.count; ++i) {
+    release_servo(bank.rows()[i], strokes_m[i], period_s, servo.drive[static_cast<unsigned>(i)]);
+  }
+  return servo;
+}
+ExcavatorServo next_servo_on_plan(const ExcavatorProfile& profile, ExcavatorServo servo,
+                                  const DriveVector& asked_mps, const DriveVector& strokes_m,
+                                  const DriveVector& planned_m, bool new_plan, double period_s) {
+  const ExcavatorBank bank = excavator_bank(profile);
+  for (int i = 0; i < bank.count; ++i) {
+    graben::next_servo_on_plan(bank.rows()[i], asked_mps[i], strokes_m[i], planned_m[i], new_plan,
+                               period_s, servo.drive[static_cast<unsigned>(i)]);
+  }
+  return servo;
 }
 
 /// A cylinder that answers as expected: after the dead time, with two equal lags.
@@ -66,7 +104,7 @@ class Ideal {
 };
 
 struct Run {
-  ServoState servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
+  ExcavatorServo servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
   Ideal cylinder;
   ControlProfile profile;
 
@@ -87,14 +125,15 @@ void a_cylinder_as_expected_owes_nothing(void**) {
     Run run(dead_time_s, 1.0);
     for (int n = 0; n < 200; ++n) {
       run.step(0.1 * std::sin(0.05 * n) + 0.02);
-      assert_near(run.servo.owed_m.norm(), 0.0, 1e-12);
+      assert_near(of(run.servo, &ServoState::integral_m).norm(), 0.0, 1e-12);
     }
-    const double predicted_m = run.servo.strokes_m[0] + run.servo.under_way_m[0];
+    const double predicted_m =
+        of(run.servo, &ServoState::stroke_m)[0] + of(run.servo, &ServoState::under_way_m)[0];
     for (int n = 0; n < 200; ++n) {
       run.step(0.0);
     }
-    assert_near(run.servo.strokes_m[0], predicted_m, 1e-6);
-    assert_near(run.servo.under_way_m.norm(), 0.0, 1e-6);
+    assert_near(of(run.servo, &ServoState::stroke_m)[0], predicted_m, 1e-6);
+    assert_near(of(run.servo, &ServoState::under_way_m).norm(), 0.0, 1e-6);
   }
 }
 
@@ -105,12 +144,12 @@ void a_slow_cylinder_owes_what_it_lacks(void**) {
     run.step(0.1);
   }
   // 1 s at 0.1 m/s less the two lags of 25 ms.
-  assert_near(run.servo.owed_m[0], 0.1 * 0.1 * (1.0 - 0.05), 2e-4);
-  assert_near(run.servo.owed_m[1], 0.0, 0.0);
+  assert_near(of(run.servo, &ServoState::integral_m)[0], 0.1 * 0.1 * (1.0 - 0.05), 2e-4);
+  assert_near(of(run.servo, &ServoState::integral_m)[1], 0.0, 0.0);
   for (int n = 0; n < 500; ++n) {
     run.step(0.1);
   }
-  assert_near(run.servo.owed_m[0], 0.02, 1e-12);
+  assert_near(of(run.servo, &ServoState::integral_m)[0], 0.02, 1e-12);
 }
 
 /// A held cylinder whose lambda has gone to 0 owes nothing new: nothing winds up.
@@ -119,30 +158,32 @@ void where_lambda_is_0_nothing_winds_up(void**) {
   for (int n = 0; n < 50; ++n) {
     run.step(0.01);
   }
-  const double before_m = run.servo.owed_m[0];
+  const double before_m = of(run.servo, &ServoState::integral_m)[0];
   for (int n = 0; n < 500; ++n) {
     run.step(0.0);
   }
-  assert_near(run.servo.owed_m[0], before_m + 0.01 * 0.05, 1e-4);
+  assert_near(of(run.servo, &ServoState::integral_m)[0], before_m + 0.01 * 0.05, 1e-4);
 }
 
 void what_is_owed_is_asked_for_whole_at_any_lambda(void**) {
-  ServoState servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
-  servo.repay_m = {0.01, -0.005, 0.0, 0.0};
+  ExcavatorServo servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
+  set(servo, &ServoState::correction_m, {0.01, -0.005, 0.0, 0.0});
   const DriveVector wanted(0.1, 0.1, 0.1, 0.0);
   for (const double lambda : {1.0, 0.5, 0.2}) {
     const DriveVector asked = lambda * corrected_velocity(machine(), wanted, servo, lambda, 1.0);
-    assert_near((asked - (lambda * wanted + 2.0 * servo.repay_m)).norm(), 0.0, 1e-12);
+    assert_near((asked - (lambda * wanted + 2.0 * of(servo, &ServoState::correction_m))).norm(),
+                0.0, 1e-12);
   }
   // Below the least lambda it shrinks with it, so that it ends where lambda does.
   const DriveVector asked = 0.1 * corrected_velocity(machine(), wanted, servo, 0.1, 1.0);
-  assert_near((asked - (0.1 * wanted + 0.5 * 2.0 * servo.repay_m)).norm(), 0.0, 1e-12);
+  assert_near((asked - (0.1 * wanted + 0.5 * 2.0 * of(servo, &ServoState::correction_m))).norm(),
+              0.0, 1e-12);
 }
 
 /// A slow dial is a slow machine: what is owed is paid in its ratio.
 void what_is_owed_goes_with_the_operators_speed(void**) {
-  ServoState servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
-  servo.repay_m = {0.02, 0.02, -0.02, 0.0};
+  ExcavatorServo servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
+  set(servo, &ServoState::correction_m, {0.02, 0.02, -0.02, 0.0});
   const DriveVector wanted(0.001, 0.001, 0.001, 0.0);
   const DriveVector full = corrected_velocity(machine(), wanted, servo, 1.0, 1.0) - wanted;
   const DriveVector slow = corrected_velocity(machine(), wanted, servo, 1.0, 0.01) - wanted;
@@ -152,8 +193,8 @@ void what_is_owed_goes_with_the_operators_speed(void**) {
 
 /// At a cylinder's end what is owed is not asked for, and does not hold up the others.
 void what_is_owed_stops_at_a_stroke_end(void**) {
-  ServoState servo = servo_at_rest({0.5, 0.5, 0.0, 0.0});
-  servo.repay_m = {0.01, 0.0, -0.02, 0.0};
+  ExcavatorServo servo = servo_at_rest({0.5, 0.5, 0.0, 0.0});
+  set(servo, &ServoState::correction_m, {0.01, 0.0, -0.02, 0.0});
   const DriveVector away = corrected_velocity(machine(), {0.1, 0.1, 0.03, 0.0}, servo, 0.5, 1.0);
   assert_near(away[2], 0.0, 0.0);
   assert_near(away[0], 0.14, 1e-12);
@@ -163,7 +204,7 @@ void what_is_owed_stops_at_a_stroke_end(void**) {
   // The same at the other end.
   const double most_m = machine().geometry.cylinder[kBucket].stroke_m;
   servo = servo_at_rest({0.5, 0.5, most_m, 0.0});
-  servo.repay_m = {0.0, 0.0, 0.02, 0.0};
+  set(servo, &ServoState::correction_m, {0.0, 0.0, 0.02, 0.0});
   assert_near(corrected_velocity(machine(), {0.1, 0.1, -0.03, 0.0}, servo, 0.5, 1.0)[2], 0.0, 0.0);
   assert_near(corrected_velocity(machine(), {0.1, 0.1, 0.03, 0.0}, servo, 0.5, 1.0)[2], 0.03, 0.0);
 }
@@ -174,17 +215,21 @@ void a_released_servo_still_expects_what_is_under_way(void**) {
   for (int n = 0; n < 40; ++n) {
     run.step(0.1);
   }
-  const double coming_m = run.servo.under_way_m[0];
+  const double coming_m = of(run.servo, &ServoState::under_way_m)[0];
   assert_near(coming_m, 0.1 * (0.15 + 0.05), 0.1 * 0.011);
-  const double from_m = run.servo.strokes_m[0];
+  const double from_m = of(run.servo, &ServoState::stroke_m)[0];
   for (int n = 0; n < 60; ++n) {
     const double stroke_m = run.cylinder.after(0.0);
     run.servo = servo_released(run.profile, run.servo, {stroke_m, 0.5, 0.5, 0.0}, kPeriod_s);
-    assert_near(run.servo.owed_m.norm() + run.servo.repay_m.norm(), 0.0, 0.0);
-    assert_near(run.servo.repay_mps.norm(), 0.0, 0.0);
-    assert_near(run.servo.strokes_m[0] + run.servo.under_way_m[0], from_m + coming_m, 1e-9);
+    assert_near(of(run.servo, &ServoState::integral_m).norm() +
+                    of(run.servo, &ServoState::correction_m).norm(),
+                0.0, 0.0);
+    assert_near(of(run.servo, &ServoState::correction_mps).norm(), 0.0, 0.0);
+    assert_near(
+        of(run.servo, &ServoState::stroke_m)[0] + of(run.servo, &ServoState::under_way_m)[0],
+        from_m + coming_m, 1e-9);
   }
-  assert_near(run.servo.under_way_m[0], 0.0, 1e-6);
+  assert_near(of(run.servo, &ServoState::under_way_m)[0], 0.0, 1e-6);
 }
 
 /// A late cycle leaves nothing behind: the prediction is what ring and lags hold, no sum of
@@ -196,22 +241,22 @@ void an_uneven_period_leaves_nothing_behind(void**) {
     run.servo = next_servo(run.profile, run.servo, {asked_mps, 0.0, 0.0, 0.0}, {0.5, 0.5, 0.5, 0.0},
                            n % 7 == 0 ? 0.04 : 0.008);
   }
-  assert_near(run.servo.under_way_m.norm(), 0.0, 1e-9);
+  assert_near(of(run.servo, &ServoState::under_way_m).norm(), 0.0, 1e-9);
 }
 
 /// At rest is at rest, whatever is owed.
 void nothing_wanted_is_nothing_asked(void**) {
-  ServoState servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
-  servo.owed_m = {0.01, 0.01, 0.01, 0.0};
-  servo.repay_m = servo.owed_m;
+  ExcavatorServo servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
+  set(servo, &ServoState::integral_m, {0.01, 0.01, 0.01, 0.0});
+  set(servo, &ServoState::correction_m, of(servo, &ServoState::integral_m));
   assert_near(corrected_velocity(machine(), DriveVector::Zero(), servo, 0.5, 1.0).norm(), 0.0, 0.0);
 }
 
 void a_prediction_stays_within_the_strokes(void**) {
   const ExcavatorProfile& profile = test::excavator().profile;
-  ServoState servo = servo_at_rest({0.01, 0.7, 1.1, 0.0});
-  servo.under_way_m = {-0.05, 0.01, 0.05, 0.0};
-  const DriveVector then = strokes_then(profile, servo);
+  ExcavatorServo servo = servo_at_rest({0.01, 0.7, 1.1, 0.0});
+  set(servo, &ServoState::under_way_m, {-0.05, 0.01, 0.05, 0.0});
+  const DriveVector then = strokes_then_m(excavator_bank(profile).rows(), servo);
   assert_near(then[0], 0.0, 0.0);
   assert_near(then[1], 0.71, 1e-15);
   assert_near(then[2], profile.geometry.cylinder[kBucket].stroke_m, 0.0);
@@ -221,7 +266,7 @@ void a_prediction_stays_within_the_strokes(void**) {
 /// for, as a phasor of what it owes.
 std::complex<double> shaken(double frequency_hz, double period_s) {
   const ControlProfile profile = control();
-  ServoState servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
+  ExcavatorServo servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
   const double turn = 2.0 * kPi * frequency_hz * period_s;
   const int cycles = static_cast<int>(std::lround(10.0 / (frequency_hz * period_s)));
   std::complex<double> owed = 0.0;
@@ -230,8 +275,8 @@ std::complex<double> shaken(double frequency_hz, double period_s) {
     const double stroke_m = 0.5 + 0.001 * std::sin(turn * n);
     servo = next_servo(profile, servo, {0.0, 0.0, 0.0, 0.0}, {stroke_m, 0.5, 0.5, 0.0}, period_s);
     if (n > cycles) {
-      owed += servo.owed_m[0] * std::polar(1.0, -turn * n);
-      repaid += servo.repay_m[0] * std::polar(1.0, -turn * n);
+      owed += of(servo, &ServoState::integral_m)[0] * std::polar(1.0, -turn * n);
+      repaid += of(servo, &ServoState::correction_m)[0] * std::polar(1.0, -turn * n);
     }
   }
   return repaid / owed;
@@ -254,23 +299,25 @@ void what_shakes_is_asked_for_a_quarter_of_a_period_later(void**) {
 void what_stays_owed_is_asked_for_whole(void**) {
   const ControlProfile profile = control();
   for (const double period_s : {0.001, 0.01, 0.05}) {
-    ServoState servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
-    servo.owed_m = {0.01, -0.02, 0.0, 0.0};
+    ExcavatorServo servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
+    set(servo, &ServoState::integral_m, {0.01, -0.02, 0.0, 0.0});
     double most_m = 0.0;
     for (double time_s = 0.0; time_s < 3.0; time_s += period_s) {
-      servo = next_servo(profile, servo, DriveVector::Zero(), servo.strokes_m, period_s);
-      most_m = std::max(most_m, servo.repay_m[0]);
+      servo = next_servo(profile, servo, DriveVector::Zero(), of(servo, &ServoState::stroke_m),
+                         period_s);
+      most_m = std::max(most_m, of(servo, &ServoState::correction_m)[0]);
     }
-    assert_near((servo.repay_m - servo.owed_m).norm(), 0.0, 1e-6);
+    assert_near((of(servo, &ServoState::correction_m) - of(servo, &ServoState::integral_m)).norm(),
+                0.0, 1e-6);
     assert_true(most_m < 0.0133);
   }
   // A period of 0, as a first cycle has, changes nothing.
-  ServoState servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
-  servo.owed_m = {0.01, 0.0, 0.0, 0.0};
-  servo.repay_mps = {0.1, 0.0, 0.0, 0.0};
-  servo = next_servo(profile, servo, DriveVector::Zero(), servo.strokes_m, 0.0);
-  assert_near(servo.repay_m.norm(), 0.0, 0.0);
-  assert_near(servo.repay_mps[0], 0.1, 0.0);
+  ExcavatorServo servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
+  set(servo, &ServoState::integral_m, {0.01, 0.0, 0.0, 0.0});
+  set(servo, &ServoState::correction_mps, {0.1, 0.0, 0.0, 0.0});
+  servo = next_servo(profile, servo, DriveVector::Zero(), of(servo, &ServoState::stroke_m), 0.0);
+  assert_near(of(servo, &ServoState::correction_m).norm(), 0.0, 0.0);
+  assert_near(of(servo, &ServoState::correction_mps)[0], 0.1, 0.0);
 }
 
 /// The shipped machine's control and a trim of its own.
@@ -278,6 +325,7 @@ ExcavatorProfile trimmed() {
   ExcavatorProfile profile = machine();
   profile.line.trim_ps2 = 1.0;
   profile.line.trim_most_mps = 0.004;
+  profile.drive_count = kDriveCount;
   profile.swing.lever_m = 0.5;
   profile.control.swing_servo_most_rad = 0.04;
   return profile;
@@ -287,23 +335,25 @@ ExcavatorProfile trimmed() {
 /// nothing of what was owed before.
 void on_a_plan_it_owes_what_the_plan_says(void**) {
   const ExcavatorProfile profile = trimmed();
-  ServoState servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
-  servo.owed_m = {0.02, -0.02, 0.01, 0.01};
+  ExcavatorServo servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
+  set(servo, &ServoState::integral_m, {0.02, -0.02, 0.01, 0.01});
   const DriveVector strokes_m(0.5, 0.5, 0.5, 0.0);
   DriveVector planned_m(0.503, 0.5, 0.48, 0.9);
   servo = next_servo_on_plan(profile, servo, DriveVector::Zero(), strokes_m, planned_m, false,
                              kPeriod_s);
-  assert_true((servo.owed_m - DriveVector(0.003, 0.0, -0.02, 0.02)).norm() < 1e-12);
+  assert_true((of(servo, &ServoState::integral_m) - DriveVector(0.003, 0.0, -0.02, 0.02)).norm() <
+              1e-12);
   // What was asked for is under way, not owed.
   const DriveVector asked_mps(0.1, 0.0, 0.0, 0.0);
   planned_m = strokes_m;
   for (int n = 0; n < 4; ++n) {
     planned_m += kPeriod_s * asked_mps;
     servo = next_servo_on_plan(profile, servo, asked_mps, strokes_m, planned_m, false, kPeriod_s);
-    assert_true(servo.under_way_m[0] > 0.0);
-    assert_near(servo.owed_m[0], planned_m[0] - servo.under_way_m[0] - 0.5, 1e-12);
+    assert_true(of(servo, &ServoState::under_way_m)[0] > 0.0);
+    assert_near(of(servo, &ServoState::integral_m)[0],
+                planned_m[0] - of(servo, &ServoState::under_way_m)[0] - 0.5, 1e-12);
   }
-  assert_true((servo.strokes_m - strokes_m).isZero(0.0));
+  assert_true((of(servo, &ServoState::stroke_m) - strokes_m).isZero(0.0));
 }
 
 /// A drive that goes on owing gets more and more, up to a bound; a new plan and a release forget
@@ -312,26 +362,31 @@ void a_lasting_lag_is_learnt(void**) {
   const ExcavatorProfile profile = trimmed();
   const DriveVector strokes_m(0.5, 0.5, 0.5, 0.0);
   const DriveVector planned_m = strokes_m + DriveVector(0.002, -0.002, 0.0, 0.002);
-  const auto next = [&](const ServoState& servo, bool new_plan) {
+  const auto next = [&](const ExcavatorServo& servo, bool new_plan) {
     return next_servo_on_plan(profile, servo, DriveVector::Zero(), strokes_m, planned_m, new_plan,
                               kPeriod_s);
   };
-  ServoState servo = servo_at_rest(strokes_m);
+  ExcavatorServo servo = servo_at_rest(strokes_m);
   for (int n = 0; n < 100; ++n) {
     servo = next(servo, false);
   }
   // 1 s of 1 /s2 of 2 mm.
-  assert_true((servo.trim_mps - DriveVector(0.002, -0.002, 0.0, 0.002)).norm() < 1e-9);
-  assert_near(next(servo, true).trim_mps[0], kPeriod_s * 0.002, 1e-9);
+  assert_true((of(servo, &ServoState::bias_mps) - DriveVector(0.002, -0.002, 0.0, 0.002)).norm() <
+              1e-9);
+  assert_near(of(next(servo, true), &ServoState::bias_mps)[0], kPeriod_s * 0.002, 1e-9);
   for (int n = 0; n < 400; ++n) {
     servo = next(servo, false);
   }
-  assert_true((servo.trim_mps - DriveVector(0.004, -0.004, 0.0, 0.004)).norm() < 1e-12);
-  assert_true(servo_released(profile.control, servo, strokes_m, kPeriod_s).trim_mps.isZero(0.0));
+  assert_true((of(servo, &ServoState::bias_mps) - DriveVector(0.004, -0.004, 0.0, 0.004)).norm() <
+              1e-12);
+  assert_true(
+      of(servo_released(profile.control, servo, strokes_m, kPeriod_s), &ServoState::bias_mps)
+          .head<3>()
+          .isZero(0.0));
   // What is learnt is asked for, with what is owed, also of a drive that is to stand where it
   // holds.
   const DriveVector wanted_mps(0.01, 0.0, 0.0, 0.0);
-  servo.repay_m.setZero();
+  set(servo, &ServoState::correction_m, DriveVector::Zero());
   const DriveVector moved = corrected_velocity(profile, wanted_mps, servo, 1.0, 1.0, false);
   assert_near(moved[0], 0.014, 1e-12);
   assert_true(corrected_velocity(profile, DriveVector::Zero(), servo, 1.0, 1.0).isZero(0.0));
@@ -349,8 +404,8 @@ void a_lasting_lag_is_learnt(void**) {
 void a_swing_that_holds_is_corrected(void**) {
   ExcavatorProfile profile = test::excavator_12t().profile;
   profile.control.swing_servo_gain_ps = 1.5;
-  ServoState servo = servo_at_rest({0.4, 0.5, 0.3, 0.0});
-  servo.repay_m[kSwing] = 0.01;
+  ExcavatorServo servo = servo_at_rest({0.4, 0.5, 0.3, 0.0});
+  servo.drive[kSwing].correction_m = 0.01;
   const DriveVector boom_only(0.01, 0.0, 0.0, 0.0);
   const DriveVector closed = corrected_velocity(profile, boom_only, servo, 1.0, 1.0, false);
   assert_near(closed[kSwing], 0.0, 0.0);
@@ -360,18 +415,31 @@ void a_swing_that_holds_is_corrected(void**) {
 
 /// A step of load: two thirds after the time constant, all in the end; at once when it starts.
 void the_load_is_low_passed(void**) {
-  const LoadState low = {{1e6, 2e6, 3e6, 4e6}, {4e6, 5e6, 6e6, 7e6}};
-  const LoadState high = {{2e6, 4e6, 6e6, 8e6}, {8e6, 10e6, 12e6, 14e6}};
-  LoadState load = next_load(0.1, {}, low, kPeriod_s, true);
-  assert_near(load.rod_pa[kBucket], 6e6, 0.0);
+  const auto pressures = [](double cap_pa, double rod_pa) {
+    ValidDrive seen;
+    seen.cap_pressure_pa = cap_pa;
+    seen.rod_pressure_pa = rod_pa;
+    seen.load_known = true;
+    return seen;
+  };
+  const std::array<ValidDrive, 2> low = {pressures(1e6, 4e6), pressures(2e6, 5e6)};
+  std::array<ValidDrive, 2> high = {pressures(2e6, 8e6), pressures(4e6, 10e6)};
+  std::array<LoadState, 2> load{};
+  next_loads(0.1, low, kPeriod_s, true, load);
+  assert_near(load[1].rod_pa, 5e6, 0.0);
   for (int n = 0; n < 10; ++n) {
-    load = next_load(0.1, load, high, kPeriod_s, false);
+    next_loads(0.1, high, kPeriod_s, false, load);
   }
-  for (unsigned i = 0; i < kDriveCount; ++i) {
-    assert_near(load.cap_pa[i], low.cap_pa[i] * (2.0 - std::exp(-1.0)), 1e-6);
-    assert_near(load.rod_pa[i], low.rod_pa[i] * (2.0 - std::exp(-1.0)), 1e-6);
+  for (unsigned i = 0; i < 2; ++i) {
+    assert_near(load[i].cap_pa, low[i].cap_pressure_pa * (2.0 - std::exp(-1.0)), 1e-6);
+    assert_near(load[i].rod_pa, low[i].rod_pressure_pa * (2.0 - std::exp(-1.0)), 1e-6);
   }
-  assert_near(next_load(0.0, low, high, kPeriod_s, false).cap_pa[kArm], 4e6, 0.0);
+  // Without a filter at once; a load that is not known stays what it was.
+  high[0].load_known = false;
+  const double before_pa = load[0].cap_pa;
+  next_loads(0.0, high, kPeriod_s, false, load);
+  assert_near(load[0].cap_pa, before_pa, 0.0);
+  assert_near(load[1].cap_pa, 4e6, 0.0);
 }
 
 }  // namespace

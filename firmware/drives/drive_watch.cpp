@@ -1,0 +1,39 @@
+#include "firmware/drives/drive_watch.hpp"
+
+#include <algorithm>
+
+#include "firmware/safety/degrade.hpp"
+
+namespace graben {
+
+FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus, const DriveCommands& last,
+                      Span<ValidDrive> seen, double period_s, DriveWatchView state,
+                      CommonValid& valid) {
+  const bool received = !valid.faults.has(Fault::kSpoolMissing);
+  FaultSet stops = watch_spools(drives, last.sent, seen,
+                                {received, bus.valve_echo, valid.valve_enabled}, state.spool,
+                                state.echo_cycles);
+  for (int i = 0; i < drives.count(); ++i) {
+    if (!drives[i].watch.senses_spool) {
+      seen[i].spool_ratio = last.sent.duty_ratio[i];
+    }
+  }
+  state.closing = last.moving || still_closing(state.closing, spools_centred(drives, seen),
+                                               Fault::kSpoolMissing, valid);
+  if (!state.closing) {
+    stops.remove(Fault::kSpoolStuck);
+  }
+  // Without their strokes and spools the drives cannot be checked, and the fault is there anyway.
+  if (last.moving && valid.fault == Fault::kNone) {
+    stops.add(watch_motion(drives, seen, last.asked_mps, period_s, state.motion));
+    if (watch_pressures(drives, seen, period_s, state.pressure)) {
+      degrade(Fault::kPressureImplausible, valid);
+    }
+  } else {
+    std::fill(state.motion.begin(), state.motion.end(), MotionState{});
+    std::fill(state.pressure.begin(), state.pressure.end(), PressurePair{});
+  }
+  return stops;
+}
+
+}  // namespace graben

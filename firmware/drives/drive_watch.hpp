@@ -1,0 +1,75 @@
+#pragma once
+/// A bank of drives against its commands: all watches together, and what they take away.
+
+#include <array>
+
+#include "firmware/drives/motion_watch.hpp"
+#include "firmware/drives/spool_watch.hpp"
+#include "firmware/safety/common_inputs.hpp"
+
+namespace graben {
+
+/// Commands of the last cycle.
+template <int kMost>
+struct LastCommands {
+  bool moving = false;  ///< Armed or Active.
+  bool enable = false;
+  std::array<double, kMost> duty_ratio{};
+  /// What the spools were opened for: lambda times the wanted velocity with its corrections. A
+  /// stroke that stands still puts its drive behind, and that alone can run it to its end.
+  std::array<double, kMost> asked_mps{};
+};
+
+/// The same of any bank.
+struct DriveCommands {
+  template <int kMost>
+  // NOLINTNEXTLINE(google-explicit-constructor): a view of it.
+  DriveCommands(const LastCommands<kMost>& last)
+      : moving(last.moving), sent{last.enable, last.duty_ratio}, asked_mps(last.asked_mps) {}
+
+  bool moving;
+  SentCommand sent;
+  Span<const double> asked_mps;
+};
+
+/// What the watches keep of a bank from cycle to cycle.
+template <int kMost>
+struct DriveWatchState {
+  std::array<SpoolState, kMost> spool;
+  std::array<MotionState, kMost> motion{};
+  std::array<PressurePair, kMost> pressure{};
+  int echo_cycles = 0;   ///< In a row, that the echo has differed.
+  bool closing = false;  ///< It was in motion, and some spool has not been in its middle since.
+};
+
+/// The same of any bank.
+struct DriveWatchView {
+  template <int kMost>
+  // NOLINTNEXTLINE(google-explicit-constructor): a view of it.
+  DriveWatchView(DriveWatchState<kMost>& state)
+      : spool(state.spool),
+        motion(state.motion),
+        pressure(state.pressure),
+        echo_cycles(state.echo_cycles),
+        closing(state.closing) {}
+
+  Span<SpoolState> spool;
+  Span<MotionState> motion;
+  Span<PressurePair> pressure;
+  int& echo_cycles;
+  bool& closing;
+};
+
+/// Faults that stop: kSpoolStuck, kValveNotFollowing, kUncommandedMotion, kStrokeStuck. A wrong
+/// pressure only degrades (kPressureImplausible), and its drive's load is not known then. The state
+/// goes on by a cycle. A spool that is not measured counts as where it was sent.
+///
+/// Outside motion the machine may be moved by hand: spools, drives and pressures are then not
+/// checked, and every watch begins newly. Only spools are, until all have been in their middle once
+/// or the operator has taken over in manual mode: one that stays open when the deadman is let go is
+/// stuck.
+[[nodiscard]] FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus,
+                                    const DriveCommands& last, Span<ValidDrive> seen, double period_s, DriveWatchView state,
+                                    CommonValid& valid);
+
+}  // namespace graben

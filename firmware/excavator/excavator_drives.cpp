@@ -1,0 +1,113 @@
+#include "firmware/excavator/excavator_drives.hpp"
+
+#include "firmware/excavator/swing.hpp"
+#include "firmware/hydraulics/flow.hpp"
+
+namespace graben {
+namespace {
+
+/// Half of what a stroke sensor resolves.
+constexpr double kEndSlack_m = 0.05e-3;
+
+const PumpProfile& pump_of(const ExcavatorProfile& profile, const SpoolProfile& spool) {
+  return profile.pump[static_cast<unsigned>(spool.pump)];
+}
+
+DriveRow cylinder_row(const ExcavatorProfile& profile, int axis) {
+  const CylinderGeometry& cylinder = profile.geometry.cylinder[static_cast<unsigned>(axis)];
+  DriveRow row = section_row(profile, axis);
+  set_cylinder_range(cylinder.stroke_m, row);
+  row.watch.rest_s = rest_s(row);
+  row.extend_area_m2 = cylinder.cap_area_m2();
+  row.retract_area_m2 = cylinder.rod_area_m2();
+  row.control.end_slack_m = kEndSlack_m;
+  row.control.deceleration_mps2 =
+      profile.line.cylinder_acceleration_mps2[static_cast<unsigned>(axis)];
+  row.control.at_end = {LimitKind::kStrokeEnd, static_cast<std::uint8_t>(axis)};
+  row.watch.fastest_mps = fastest_mps(profile, row);
+  row.watch.uncommanded_m = profile.safety.uncommanded_m;
+  row.watch.stuck_m = profile.safety.stuck_m;
+  return row;
+}
+
+}  // namespace
+
+double fastest_mps(const ExcavatorProfile& profile, const DriveRow& row) {
+  return kFasterThanPumps * rated_flow_m3ps(pump_of(profile, row.spool)) / row.retract_area_m2;
+}
+
+double most_flow_m3ps(const ExcavatorProfile& profile, int drive) {
+  const SpoolProfile& spool = profile.valve.spool[static_cast<unsigned>(drive)];
+  return std::min(profile.valve.section_flow_m3ps, rated_flow_m3ps(pump_of(profile, spool)));
+}
+
+DriveRow section_row(const ExcavatorProfile& profile, int drive) {
+  const ControlProfile& control = profile.control;
+  const SafetyProfile& safety = profile.safety;
+  DriveRow row;
+  row.spool = profile.valve.spool[static_cast<unsigned>(drive)];
+  row.metering = profile.valve;
+  row.spool_to_duty = profile.valve.spool_to_duty;
+  row.control.spool_rate_ps = control.spool_rate_ps;
+  row.control.spool_threshold = control.spool_threshold;
+  row.control.dead_time_s = control.dead_time_s;
+  row.control.response_s = control.response_s;
+  row.control.stroke_end_gain_ps = control.stroke_end_gain_ps;
+  row.feedback = {control.servo_gain_ps,      control.servo_most_m,       control.servo_most_m,
+                  control.servo_least_lambda, control.servo_frequency_hz, control.servo_damping,
+                  profile.line.trim_ps2,      profile.line.trim_most_mps};
+  row.watch.senses_spool = profile.bus.spool_feedback;
+  row.watch.settle_s = safety.settle_s;
+  row.watch.spool_tolerance = safety.spool_tolerance;
+  row.watch.pressure_rail_pa = safety.pressure_rail_pa;
+  return row;
+}
+
+ExcavatorBank excavator_bank(const ExcavatorProfile& profile) {
+  ExcavatorBank bank;
+  bank.count = profile.drive_count;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    bank.row[static_cast<unsigned>(axis)] = cylinder_row(profile, axis);
+  }
+  if (profile.has_swing()) {
+    bank.row.back() = swing_row(profile);
+  }
+  return bank;
+}
+
+McvMachine mcv_machine(const ExcavatorProfile& profile) {
+  const ExcavatorBank bank = excavator_bank(profile);
+  return mcv_machine(bank.rows(), {profile.pump.data(), profile.pump_count});
+}
+
+DriveVector ExcavatorServo::strokes_m() const {
+  return {drive[0].stroke_m, drive[1].stroke_m, drive[2].stroke_m, drive[3].stroke_m};
+}
+
+DriveVector ExcavatorServo::under_way_m() const {
+  return {drive[0].under_way_m, drive[1].under_way_m, drive[2].under_way_m, drive[3].under_way_m};
+}
+
+DriveVector strokes_then_m(DriveRows drives, const ExcavatorServo& servo) {
+  DriveVector then_m = DriveVector::Zero();
+  for (int i = 0; i < drives.count(); ++i) {
+    then_m[i] = stroke_then_m(drives[i], servo.drive[static_cast<unsigned>(i)]);
+  }
+  return then_m;
+}
+
+DriveVector corrected_velocity(DriveRows drives, const DriveVector& wanted_mps,
+                               const ExcavatorServo& servo, double last_lambda,
+                               double speed_override_ratio, bool hold) {
+  if (!hold && wanted_mps.isZero(0.0)) {
+    return wanted_mps;
+  }
+  DriveVector corrected = wanted_mps;
+  for (int i = 0; i < drives.count(); ++i) {
+    corrected[i] = corrected_mps(drives[i], servo.drive[static_cast<unsigned>(i)], wanted_mps[i],
+                                 last_lambda, speed_override_ratio, hold);
+  }
+  return corrected;
+}
+
+}  // namespace graben

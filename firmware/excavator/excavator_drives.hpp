@@ -1,0 +1,53 @@
+#pragma once
+/// The excavator's drives as a bank: boom, arm and bucket with their cylinders, and the swing where
+/// the machine has one.
+
+#include <array>
+
+#include "firmware/drives/drive_servo.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/mcv/mcv_machine.hpp"
+
+namespace graben {
+
+using ExcavatorBank = DriveBank<kDriveCount>;
+
+/// Made once, at start.
+[[nodiscard]] ExcavatorBank excavator_bank(const ExcavatorProfile& profile);
+
+/// The valve as the optimiser's table, actuators in the order of the drives.
+[[nodiscard]] McvMachine mcv_machine(const ExcavatorProfile& profile);
+
+/// What a row has of the valve's section, the control and the watches, whatever the drive.
+[[nodiscard]] DriveRow section_row(const ExcavatorProfile& profile, int drive);
+
+/// What reaches a drive at most, m^3/s: its section's flow, or its pump's whole flow if that is
+/// less.
+[[nodiscard]] double most_flow_m3ps(const ExcavatorProfile& profile, int drive);
+
+/// Faster than this a row with spool and areas never moves, m/s.
+[[nodiscard]] double fastest_mps(const ExcavatorProfile& profile, const DriveRow& row);
+
+/// Servos of the drives; those that the machine does not have stay at rest at 0.
+struct ExcavatorServo {
+  std::array<ServoState, kDriveCount> drive;
+
+  [[nodiscard]] DriveVector strokes_m() const;
+  [[nodiscard]] DriveVector under_way_m() const;
+};
+
+/// See stroke_then_m().
+[[nodiscard]] DriveVector strokes_then_m(DriveRows drives, const ExcavatorServo& servo);
+
+/// V_L^d with the corrections of all drives, see corrected_mps(); at rest where none is wanted to
+/// move. Where `hold`, drives that are wanted to stand are corrected too.
+[[nodiscard]] DriveVector corrected_velocity(DriveRows drives, const DriveVector& wanted_mps,
+                                             const ExcavatorServo& servo, double last_lambda,
+                                             double speed_override_ratio, bool hold = false);
+
+/// One value a drive, of a vector.
+[[nodiscard]] inline Span<const double> span_of(const DriveVector& values) {
+  return {values.data(), kDriveCount};
+}
+
+}  // namespace graben

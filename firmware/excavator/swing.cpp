@@ -1,0 +1,80 @@
+#include "firmware/excavator/swing.hpp"
+
+#include <algorithm>
+
+#include "firmware/excavator/excavator_drives.hpp"
+
+namespace graben {
+namespace {
+
+/// Sensed as far as this, either way.
+constexpr double kSensedMost_rad = 3.2;
+/// Noise, and frames that were lost. 0.1 m at teeth 7 m away.
+constexpr double kJumpMargin_rad = 0.015;
+/// 0.2 mm of teeth 10 m away.
+constexpr double kEndSlack_rad = 0.02e-3;
+
+}  // namespace
+
+DriveVector travel_of(const ExcavatorProfile& profile, const DriveVector& drives) {
+  return with_swing(drives, swing_of(drives) * (profile.has_swing() ? profile.swing.lever_m : 0.0));
+}
+
+DriveVector drives_of(const ExcavatorProfile& profile, const DriveVector& travel_m) {
+  return with_swing(travel_m,
+                    profile.has_swing() ? swing_of(travel_m) / profile.swing.lever_m : 0.0);
+}
+
+DriveRow swing_row(const ExcavatorProfile& profile) {
+  const SwingProfile& swing = profile.swing;
+  const double lever_m = swing.lever_m;
+  DriveRow row = section_row(profile, kSwing);
+  row.least_travel_m = swing.right_end_rad * lever_m;
+  row.most_travel_m = swing.left_end_rad * lever_m;
+  row.extend_area_m2 = swing.area_m2();
+  row.retract_area_m2 = swing.area_m2();
+  row.control.end_slack_m = kEndSlack_rad * lever_m;
+  row.control.deceleration_mps2 = swing.acceleration_max_radps2 * lever_m;
+  row.control.at_end = {LimitKind::kSwingEnd, 0};
+  row.control.has_end_stops = false;
+  row.control.holds_itself = true;
+  row.feedback.gain_ps = profile.control.swing_servo_gain_ps;
+  row.feedback.plan_most_m =
+      std::min(row.feedback.error_most_m, profile.control.swing_servo_most_rad * lever_m);
+  row.watch.fastest_mps =
+      std::min(fastest_mps(profile, row), kFasterThanPumps * swing.speed_max_radps * lever_m);
+  row.watch.jump_margin_m = kJumpMargin_rad * lever_m;
+  row.watch.sensed_least_m = -(kSensedMost_rad * lever_m);
+  row.watch.sensed_most_m = kSensedMost_rad * lever_m;
+  row.watch.uncommanded_m = profile.safety.swing_uncommanded_rad * lever_m;
+  row.watch.stuck_m = profile.safety.swing_stuck_rad * lever_m;
+  // A platform at full speed goes on turning against its reliefs when its spool closes at once.
+  row.watch.rest_s = rest_s(row) + swing.speed_max_radps / swing.acceleration_max_radps2;
+  return row;
+}
+
+DriveInputs swing_inputs(const SwingInputs& swing, const SwingProfile& profile) {
+  DriveInputs inputs = {swing.angle_rad, swing.left_pressure_pa, swing.right_pressure_pa,
+                        swing.spool_ratio};
+  inputs.stroke_m.value *= profile.lever_m;
+  return inputs;
+}
+
+double swing_lead_mps(const ExcavatorProfile& profile, double wanted_mps, double last_wanted_mps,
+                      double period_s) {
+  if (!profile.has_swing() || !(period_s > 0.0)) {
+    return 0.0;
+  }
+  const double most_mps2 = profile.swing.acceleration_max_radps2 * profile.swing.lever_m;
+  const double change_mps2 = (wanted_mps - last_wanted_mps) / period_s;
+  return profile.control.swing_lead_s * std::clamp(change_mps2, -most_mps2, most_mps2);
+}
+
+double swing_speed_max_radps(const ExcavatorProfile& profile) {
+  const double own_radps = profile.swing.speed_max_radps;
+  return profile.has_swing() ? std::min(own_radps, most_flow_m3ps(profile, kSwing) /
+                                                       profile.swing.displacement_m3prad)
+                             : own_radps;
+}
+
+}  // namespace graben

@@ -1,0 +1,39 @@
+#pragma once
+/// The swing among the excavator's drives: where a motor on one of the valve's sections turns the
+/// platform, it is one more row. Angles in rad, to the left positive; travels are those at
+/// SwingProfile::lever_m.
+
+#include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/machine/drive_bank.hpp"
+
+namespace graben {
+
+[[nodiscard]] inline double swing_of(const DriveVector& drives) { return drives[kSwing]; }
+
+[[nodiscard]] inline DriveVector with_swing(const DriveVector& drives, double swing) {
+  DriveVector changed = drives;
+  changed[kSwing] = swing;
+  return changed;
+}
+
+/// Strokes and swing angle as travels, and back. Without a swing drive its part is 0.
+[[nodiscard]] DriveVector travel_of(const ExcavatorProfile& profile, const DriveVector& drives);
+[[nodiscard]] DriveVector drives_of(const ExcavatorProfile& profile, const DriveVector& travel_m);
+
+/// The swing's row: equal areas, no end stops, a mass that takes time to stop.
+[[nodiscard]] DriveRow swing_row(const ExcavatorProfile& profile);
+
+/// The swing's signals as those of a drive, extending to the left.
+[[nodiscard]] DriveInputs swing_inputs(const SwingInputs& swing, const SwingProfile& profile);
+
+/// What the swing has to be asked for beyond `wanted_mps` so that its platform is as fast by then:
+/// its lag (control.swing_lead_s) times the change of what is wanted, as far as the platform can
+/// follow that at all.
+[[nodiscard]] double swing_lead_mps(const ExcavatorProfile& profile, double wanted_mps,
+                                    double last_wanted_mps, double period_s);
+
+/// Largest speed of the swing, rad/s: its own limit, or what the flow that reaches it gives its
+/// motor.
+[[nodiscard]] double swing_speed_max_radps(const ExcavatorProfile& profile);
+
+}  // namespace graben

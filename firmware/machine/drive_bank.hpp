@@ -1,0 +1,117 @@
+#pragma once
+/// The hydraulic drives of a machine, one row each: all that the common rooms know of a drive. A
+/// kind makes its rows once, at start, from its profile. What is said of a cylinder holds for a
+/// motor too, as travel, area and speed at a lever. SI units; extension is positive.
+
+#include <array>
+
+#include "firmware/core/codes.hpp"
+#include "firmware/core/span.hpp"
+#include "firmware/machine/valve.hpp"
+#include "firmware/numeric/monotone_table.hpp"
+
+namespace graben {
+
+inline constexpr int kMostDrives = 6;
+
+/// The drive's answer to its commands, and how these may change.
+struct DriveControl {
+  double spool_rate_ps = 0.0;       ///< Largest change of |x| / x_m per second.
+  double spool_threshold = 0.0;     ///< |x| / x_m under which the spool is kept at neutral.
+  double dead_time_s = 0.0;         ///< From a duty to the spool's first movement.
+  double response_s = 0.0;          ///< Lag of the drive's speed behind its spool command.
+  double stroke_end_gain_ps = 0.0;  ///< Largest speed towards an end of the travel, per metre left.
+  double end_slack_m = 0.0;         ///< See approach_ends().
+  double deceleration_mps2 = 0.0;   ///< That the drive is stopped with before an end.
+  Limit at_end{LimitKind::kStrokeEnd, 0};  ///< Reported where an end of the travel slows.
+  bool has_end_stops = true;  ///< Nothing takes the drive beyond the ends of its travel.
+  bool holds_itself = false;  ///< Closed, its spool needs no correction to hold the drive.
+};
+
+/// Feedback around the valve's model, see drive_servo.hpp.
+struct DriveFeedback {
+  double gain_ps = 0.0;        ///< Integrated error of the travel to speed.
+  double error_most_m = 0.0;   ///< Bound of the integrator.
+  double plan_most_m = 0.0;    ///< The same while a plan is followed.
+  double least_lambda = 1.0;   ///< Corrections have their full authority down to this lambda.
+  double frequency_hz = 0.0;   ///< Of the correction's low-pass; undamped.
+  double damping = 0.0;        ///< Its damping ratio.
+  double bias_ps2 = 0.0;       ///< How fast a lasting lag is learnt, per second and second.
+  double bias_most_mps = 0.0;  ///< No more than this is learnt.
+};
+
+/// Bounds that a healthy drive and its sensors keep.
+struct DriveWatch {
+  double fastest_mps = 0.0;     ///< Faster than this the drive never moves.
+  double jump_margin_m = 0.0;   ///< At once: noise, and frames that were lost.
+  double sensed_least_m = 0.0;  ///< Range into which the stroke is taken ...
+  double sensed_most_m = 0.0;
+  double sensed_margin_m = 0.0;   ///< ... and how far beyond it is implausible: bias, mounting.
+  bool senses_load = true;        ///< Pressures of both sides are measured.
+  bool senses_spool = true;       ///< Its position is; else it counts as where it was sent.
+  double settle_s = 0.0;          ///< A spool has reached its duty after this and the dead time.
+  double spool_tolerance = 0.0;   ///< Of the spool's travel.
+  double uncommanded_m = 0.0;     ///< Way that the drive may go where its spool does not lead.
+  double stuck_m = 0.0;           ///< Asked of a drive whose stroke stands still.
+  double rest_s = 0.0;            ///< Until it has come to rest after its spool has closed.
+  double pressure_rail_pa = 0.0;  ///< Where the pressure sensors end.
+};
+
+struct DriveRow {
+  double least_travel_m = 0.0;
+  double most_travel_m = 0.0;
+  double extend_area_m2 = 0.0;  ///< Area that extends the drive, all its cylinders together.
+  double retract_area_m2 = 0.0;
+  SpoolProfile spool;
+  SpoolMetering metering;
+  /// Opening (|x| / x_m, 0 .. 1) to duty (0 .. 1). Its first value is the duty at which the spool
+  /// begins to open; neutral is duty 0 always.
+  MonotoneTable spool_to_duty;
+  DriveControl control;
+  DriveFeedback feedback;
+  DriveWatch watch;
+};
+
+/// Time that a spool may take to where its command sends it, s. Its dead time is known within 30 %.
+[[nodiscard]] inline double spool_arrives_s(const DriveRow& drive) {
+  return 1.3 * drive.control.dead_time_s + drive.watch.settle_s;
+}
+
+using DriveRows = Span<const DriveRow>;
+
+/// Rows of a kind that has up to `kMost` drives.
+template <int kMost>
+struct DriveBank {
+  static_assert(kMost >= 1 && kMost <= kMostDrives);
+
+  std::array<DriveRow, kMost> row;
+  int count = kMost;
+
+  [[nodiscard]] DriveRows rows() const { return {row.data(), count}; }
+};
+
+/// A cylinder's oil has rung down by then after its spool has closed, s.
+inline constexpr double kCylinderRest_s = 0.5;
+/// How far a measured stroke may lie outside its cylinder's range: bias and mounting.
+inline constexpr double kStrokeMargin_m = 0.010;
+/// How far a stroke may change at once beyond what the cylinder can: noise, frames that were lost.
+inline constexpr double kJumpMargin_m = 0.020;
+/// A cylinder whose own oil feeds its other side, or whose load drives it, is faster than the pumps
+/// alone make it; twice is more than any of them does.
+inline constexpr double kFasterThanPumps = 2.0;
+
+/// Travel and sensed range of a cylinder of this stroke, with the margins above.
+inline void set_cylinder_range(double stroke_m, DriveRow& row) {
+  row.most_travel_m = stroke_m;
+  row.watch.sensed_most_m = stroke_m;
+  row.watch.sensed_margin_m = kStrokeMargin_m;
+  row.watch.jump_margin_m = kJumpMargin_m;
+}
+
+/// Until a cylinder has come to rest after its spool's command has closed: its oil rings down, and a
+/// spool that is not measured has to arrive first.
+[[nodiscard]] inline double rest_s(const DriveRow& row) {
+  return kCylinderRest_s + (row.watch.senses_spool ? 0.0 : spool_arrives_s(row));
+}
+
+}  // namespace graben

@@ -1,0 +1,95 @@
+#include "firmware/safety/cycle.hpp"
+
+#include <algorithm>
+
+#include "firmware/safety/fault_table.hpp"
+
+namespace graben {
+namespace {
+
+/// A stalled cycle must not turn into one large step of a rate limit.
+constexpr double kLongestPeriod_s = 0.02;
+/// Without a cycle for this long, what the machine did meanwhile is not known.
+constexpr TimeUs kStalled_us = 50 * kMillisecondUs;
+/// A cycle that comes later than this after the last one is an overrun.
+constexpr TimeUs kLate_us = 15 * kMillisecondUs;
+
+}  // namespace
+
+Fault first_of(std::initializer_list<Fault> faults) {
+  const auto* there =
+      std::find_if(faults.begin(), faults.end(), [](Fault fault) { return fault != Fault::kNone; });
+  return there == faults.end() ? Fault::kNone : *there;
+}
+
+TimeWatchResult watch_time(const TimeState& last, TimeUs now_us) {
+  const TimeUs elapsed_us = last.has_stepped ? now_us - last.last_us : 0;
+  TimeWatchResult result;
+  result.elapsed_s = static_cast<double>(std::clamp<TimeUs>(elapsed_us, 0, kStalled_us)) * 1e-6;
+  result.period_s = std::min(result.elapsed_s, kLongestPeriod_s);
+  result.state = {now_us, elapsed_us > kLate_us ? std::min(last.late_cycles + 1, 2) : 0, true};
+  if (elapsed_us > kStalled_us) {
+    result.fault = Fault::kCycleStalled;
+  } else if (result.state.late_cycles >= 2) {
+    result.fault = Fault::kCycleOverrun;
+  }
+  return result;
+}
+
+PilotResult pilot(const PilotState& last, const ModeState& mode, const FaultSet& faults) {
+  // Outside motion a spool is stuck only where it should have closed after it. Whatever stopped the
+  // machine first must not hide it.
+  const bool disobeyed =
+      faults.has(Fault::kSpoolStuck) ||
+      (mode.mode == EcuMode::kFault && (cuts_pilot(mode.fault) || cuts_pilot(faults)));
+  PilotResult result;
+  result.state.kept_cut = !in_motion(mode.mode) && (last.kept_cut || disobeyed);
+  result.cut = result.state.kept_cut || cuts_pilot(mode.fault) || cuts_pilot(faults);
+  result.state.known = last.known || in_motion(mode.mode) || result.cut;
+  return result;
+}
+
+Cycle begin_cycle(CycleMemory& memory, bool intact, TimeUs now_us) {
+  const TimeWatchResult time = watch_time(memory.time, now_us);
+  memory.time = time.state;
+  const Fault corrupt = intact && memory.mode.intact() ? Fault::kNone : Fault::kMemoryCorrupt;
+  return {first_of({time.fault, corrupt}), memory.mode.value().mode, time.elapsed_s, time.period_s};
+}
+
+ModeDecision decide_mode(const CycleMemory& memory, const Cycle& cycle, const CommonValid& valid,
+                         Fault fault, bool centred, bool stop_requested) {
+  const ModeRequest request = {first_of({cycle.fault, valid.fault, fault}),
+                               valid.enable,
+                               valid.automatic,
+                               valid.task != Task::kNone,
+                               centred,
+                               stop_requested};
+  const ModeState last = memory.mode.intact() ? memory.mode.value()
+                                              : ModeState{EcuMode::kFault, Fault::kMemoryCorrupt};
+  return {request, next_mode(last, request)};
+}
+
+void take_refusal(Fault refused, ModeDecision& decision) {
+  if (refused != Fault::kNone) {
+    decision.mode = {EcuMode::kFault, refused};
+  }
+}
+
+void end_cycle(const ModeDecision& decision, const CommonValid& valid, CycleMemory& memory,
+               MachineOutputs& outputs, MachineStatus& status) {
+  const ModeState& mode = decision.mode;
+  const PilotResult pressure = pilot(memory.pilot, mode, valid.faults);
+  outputs.pilot_cut = pressure.cut;
+  outputs.pilot_known = pressure.state.known;
+  status.mode = mode.mode;
+  status.stand_in = valid.stand_in;
+  status.faults = valid.faults;
+  status.faults.add(decision.request.fault);
+  status.why_not_armed = why_not_armed(mode, decision.request, status.faults);
+  status.faults.add(mode.fault);
+  status.fault = mode.fault != Fault::kNone ? mode.fault : valid.degraded.first();
+  memory.mode = mode;
+  memory.pilot = pressure.state;
+}
+
+}  // namespace graben

@@ -1,0 +1,90 @@
+#pragma once
+/// Everything that a controller does around a cycle, whatever its machine: its own time, the mode,
+/// the pilot pressure, and the status that the operator reads.
+
+#include <initializer_list>
+
+#include "firmware/core/guarded.hpp"
+#include "firmware/safety/common_inputs.hpp"
+#include "firmware/safety/mode.hpp"
+
+namespace graben {
+
+/// The first that is not kNone.
+[[nodiscard]] Fault first_of(std::initializer_list<Fault> faults);
+
+/// What is kept of a controller's own time.
+struct TimeState {
+  TimeUs last_us = 0;
+  int late_cycles = 0;  ///< In a row.
+  bool has_stepped = false;
+};
+
+struct TimeWatchResult {
+  /// kCycleStalled: so long without a cycle that it is not known what the machine did meanwhile.
+  /// kCycleOverrun: the second in a row that came late.
+  Fault fault = Fault::kNone;
+  double elapsed_s = 0.0;  ///< Since the last cycle, up to what is a stall; 0 in the first.
+  double period_s = 0.0;   ///< The same for what may change by so much a second.
+  TimeState state;
+};
+
+/// `now_us` must not fall from call to call.
+[[nodiscard]] TimeWatchResult watch_time(const TimeState& last, TimeUs now_us);
+
+/// What is kept of the pilot pressure from cycle to cycle.
+struct PilotState {
+  bool kept_cut = false;  ///< Until the operator arms again.
+  bool known = false;     ///< It has armed or asked for a cut since its start.
+};
+
+struct PilotResult {
+  bool cut = false;  ///< It has to go now.
+  PilotState state;
+};
+
+/// The cut lasts until the operator has armed again: a spool that did not obey may not have its
+/// pressure back because the deadman was let go.
+[[nodiscard]] PilotResult pilot(const PilotState& last, const ModeState& mode,
+                                const FaultSet& faults);
+
+/// What one cycle hands to the next, whatever the machine.
+struct CycleMemory {
+  Guarded<ModeState> mode;
+  TimeState time;
+  PilotState pilot;
+};
+
+/// The beginning of a cycle.
+struct Cycle {
+  Fault fault = Fault::kNone;  ///< Of its time, or kMemoryCorrupt.
+  EcuMode last_mode = EcuMode::kSilent;
+  double elapsed_s = 0.0;  ///< See TimeWatchResult.
+  double period_s = 0.0;
+};
+
+/// Watches time and memory; `intact`: the rest of what the controller stores is.
+[[nodiscard]] Cycle begin_cycle(CycleMemory& memory, bool intact, TimeUs now_us);
+
+/// Mode of a cycle and what was asked of it.
+struct ModeDecision {
+  ModeRequest request;
+  ModeState mode;
+
+  [[nodiscard]] bool active() const { return mode.mode == EcuMode::kActive; }
+};
+
+/// The mode after the inputs and whatever stops beside them: `fault` counts after theirs. A stored
+/// mode that is not intact counts as stopped by that, whatever it has become.
+[[nodiscard]] ModeDecision decide_mode(const CycleMemory& memory, const Cycle& cycle,
+                                       const CommonValid& valid, Fault fault, bool centred,
+                                       bool stop_requested);
+
+/// A gate that had to refuse stops the machine.
+void take_refusal(Fault refused, ModeDecision& decision);
+
+/// Ends the cycle: pilot pressure, what the operator reads of mode and faults, and what is kept.
+void end_cycle(const ModeDecision& decision, const CommonValid& valid, CycleMemory& memory,
+               MachineOutputs& outputs, MachineStatus& status);
+
+}  // namespace graben

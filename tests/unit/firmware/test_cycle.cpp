@@ -1,0 +1,275 @@
+#include "firmware/safety/cycle.hpp"
+
+#include "firmware/safety/fault_table.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/flip_bit.hpp"
+
+namespace {
+
+using namespace graben;
+
+constexpr EcuMode kModes[] = {EcuMode::kSilent, EcuMode::kReady,    EcuMode::kArmed,
+                              EcuMode::kActive, EcuMode::kStopping, EcuMode::kFault};
+
+FaultSet only(Fault fault) {
+  FaultSet faults;
+  faults.add(fault);
+  return faults;
+}
+
+void the_first_fault_is_named(void**) {
+  assert_int_equal(first_of({}), Fault::kNone);
+  assert_int_equal(first_of({Fault::kNone, Fault::kNone}), Fault::kNone);
+  assert_int_equal(first_of({Fault::kNone, Fault::kBusOff, Fault::kStrokeMissing}), Fault::kBusOff);
+}
+
+/// The next mode as the parts of a cycle make it.
+ModeDecision decided(const CommonValid& valid, Fault fault, bool centred, bool stop_requested,
+                     const Cycle& cycle = {}) {
+  return decide_mode({}, cycle, valid, fault, centred, stop_requested);
+}
+
+void a_mode_that_changed_in_memory_is_a_fault(void**) {
+  CycleMemory memory;
+  memory.mode = ModeState{EcuMode::kArmed, Fault::kNone, true};
+  CommonValid valid;
+  valid.enable = valid.automatic = true;
+  assert_int_equal(begin_cycle(memory, true, 0).fault, Fault::kNone);
+  assert_int_equal(begin_cycle(memory, false, 0).fault, Fault::kMemoryCorrupt);
+  assert_int_equal(decide_mode(memory, {}, valid, Fault::kNone, true, false).mode.mode,
+                   EcuMode::kArmed);
+  for (std::size_t bit = 0; bit < 8 * sizeof(memory.mode); ++bit) {
+    CycleMemory flipped = memory;
+    test::flip_bit(flipped.mode, bit);
+    const Cycle cycle = begin_cycle(flipped, true, 0);
+    assert_int_equal(cycle.fault, Fault::kMemoryCorrupt);
+    const ModeState mode = decide_mode(flipped, cycle, valid, Fault::kNone, true, false).mode;
+    assert_int_equal(mode.mode, EcuMode::kFault);
+    assert_int_equal(mode.fault, Fault::kMemoryCorrupt);
+    assert_false(mode.may_arm);
+  }
+}
+
+void each_part_of_the_request_has_its_source(void**) {
+  const ModeRequest nothing = decided({}, Fault::kNone, false, false).request;
+  assert_int_equal(nothing.fault, Fault::kNone);
+  assert_false(nothing.enable || nothing.automatic || nothing.has_task || nothing.centred ||
+               nothing.stop);
+  CommonValid valid;
+  valid.enable = true;
+  assert_true(decided(valid, Fault::kNone, false, false).request.enable);
+  valid = {};
+  valid.automatic = true;
+  assert_true(decided(valid, Fault::kNone, false, false).request.automatic);
+  for (const Task task : {Task::kDig, Task::kGrade}) {
+    valid = {};
+    valid.task = task;
+    assert_true(decided(valid, Fault::kNone, false, false).request.has_task);
+  }
+  assert_true(decided({}, Fault::kNone, true, false).request.centred);
+  assert_false(decided({}, Fault::kNone, true, false).request.stop);
+  assert_true(decided({}, Fault::kNone, false, true).request.stop);
+  // The cycle's own fault before the inputs', before what stands in the way beside them.
+  Cycle late;
+  late.fault = Fault::kCycleStalled;
+  valid.fault = Fault::kStrokeMissing;
+  assert_int_equal(decided(valid, Fault::kBusOff, false, false, late).request.fault,
+                   Fault::kCycleStalled);
+  assert_int_equal(decided(valid, Fault::kBusOff, false, false).request.fault,
+                   Fault::kStrokeMissing);
+  assert_int_equal(decided({}, Fault::kBusOff, false, false).request.fault, Fault::kBusOff);
+}
+
+void a_refusal_of_the_gate_stops(void**) {
+  ModeDecision active{{}, {EcuMode::kActive, Fault::kNone}};
+  take_refusal(Fault::kNone, active);
+  assert_true(active.active());
+  take_refusal(Fault::kCommandNotFinite, active);
+  assert_false(active.active());
+  assert_int_equal(active.mode.mode, EcuMode::kFault);
+  assert_int_equal(active.mode.fault, Fault::kCommandNotFinite);
+}
+
+/// Any fault by which the spools do not obey, latched or there now, in any mode.
+void a_spool_that_does_not_obey_cuts_the_pilot(void**) {
+  for (const EcuMode mode : kModes) {
+    for (int code = 0; code < kFaultCount; ++code) {
+      const auto fault = static_cast<Fault>(code);
+      assert_int_equal(pilot({}, {mode, Fault::kNone}, only(fault)).cut, cuts_pilot(fault));
+      assert_int_equal(pilot({}, {mode, fault}, {}).cut, cuts_pilot(fault));
+    }
+  }
+}
+
+/// It lasts after the fault has gone where the machine was stopped by it, or by something else at
+/// the same time; a stuck spool's wherever it was seen.
+void the_cut_is_kept_after_its_cause(void**) {
+  const auto kept = [](EcuMode mode, Fault latched, const FaultSet& faults) {
+    return pilot({}, {mode, latched}, faults).state.kept_cut;
+  };
+  assert_true(kept(EcuMode::kFault, Fault::kUncommandedMotion, {}));
+  assert_true(kept(EcuMode::kFault, Fault::kBusOff, only(Fault::kValveNotFollowing)));
+  assert_false(kept(EcuMode::kFault, Fault::kBusOff, only(Fault::kStrokeMissing)));
+  assert_true(kept(EcuMode::kReady, Fault::kNone, only(Fault::kSpoolStuck)));
+  assert_true(kept(EcuMode::kSilent, Fault::kBusOff, only(Fault::kSpoolStuck)));
+  // The echo of a valve that is only just being enabled by hand is no disobedience.
+  assert_false(kept(EcuMode::kSilent, Fault::kValveNotFollowing, only(Fault::kValveNotFollowing)));
+}
+
+/// Nothing but arming again gives the pressure back.
+void only_arming_ends_the_cut(void**) {
+  for (const EcuMode mode : kModes) {
+    const PilotResult result = pilot({true, true}, {mode, Fault::kNone}, {});
+    assert_int_equal(result.cut, !in_motion(mode));
+    assert_int_equal(result.state.kept_cut, !in_motion(mode));
+  }
+  assert_false(pilot({}, {EcuMode::kReady, Fault::kNone}, {}).state.kept_cut);
+}
+
+/// What an earlier process asked for is not known until this one has armed or asked itself.
+void the_pilot_is_known_from_arming_or_a_cut(void**) {
+  for (const EcuMode mode : kModes) {
+    assert_int_equal(pilot({}, {mode, Fault::kNone}, {}).state.known, in_motion(mode));
+    assert_true(pilot({false, true}, {mode, Fault::kNone}, {}).state.known);
+    assert_true(pilot({}, {mode, Fault::kNone}, only(Fault::kSpoolStuck)).state.known);
+  }
+}
+
+/// What the operator reads at the end of a cycle.
+MachineStatus describe(const ModeState& mode, const ModeRequest& request,
+                       const CommonValid& valid) {
+  CycleMemory memory;
+  MachineOutputs outputs;
+  MachineStatus status;
+  end_cycle({request, mode}, valid, memory, outputs, status);
+  assert_int_equal(memory.mode.value().mode, mode.mode);
+  assert_int_equal(outputs.pilot_known, memory.pilot.known);
+  assert_int_equal(outputs.pilot_cut, memory.pilot.kept_cut || cuts_pilot(status.faults));
+  return status;
+}
+
+void what_stopped_it_is_named_before_what_slows(void**) {
+  CommonValid valid;
+  valid.faults = only(Fault::kPressureMissing);
+  valid.degraded = only(Fault::kPressureMissing);
+  const MachineStatus slow = describe({EcuMode::kActive, Fault::kNone}, {}, valid);
+  assert_int_equal(slow.mode, EcuMode::kActive);
+  assert_int_equal(slow.fault, Fault::kPressureMissing);
+  assert_int_equal(slow.why_not_armed, 0);
+  const MachineStatus stopped = describe({EcuMode::kFault, Fault::kBusOff}, {}, valid);
+  assert_int_equal(stopped.fault, Fault::kBusOff);
+  assert_true(stopped.faults.has(Fault::kBusOff) && stopped.faults.has(Fault::kPressureMissing));
+  assert_int_equal(describe({}, {}, {}).fault, Fault::kNone);
+  assert_true(describe({}, {}, {}).faults.empty());
+}
+
+/// The request's fault is there now and blocks; the latched one was, and only says so.
+void what_blocks_is_what_is_there(void**) {
+  ModeRequest request;
+  request.automatic = true;
+  request.fault = Fault::kCycleStalled;
+  const MachineStatus status = describe({EcuMode::kFault, Fault::kBusOff}, request, {});
+  const auto blocks = [&status](ArmBlock block) {
+    return (status.why_not_armed & (1U << static_cast<unsigned>(block))) != 0U;
+  };
+  assert_true(status.faults.has(Fault::kCycleStalled) && status.faults.has(Fault::kBusOff));
+  assert_true(blocks(ArmBlock::kCycle) && blocks(ArmBlock::kFaultLatched));
+  assert_false(blocks(ArmBlock::kBus));
+}
+
+/// A controller that is called after so much time.
+struct Clock {
+  TimeState state;
+  TimeUs now_us = -3 * kSecondUs;  // Any instant.
+  TimeWatchResult seen;
+
+  Clock() { after(0); }
+  Fault after(TimeUs elapsed_us) {
+    now_us += elapsed_us;
+    seen = watch_time(state, now_us);
+    state = seen.state;
+    return seen.fault;
+  }
+};
+
+/// Whatever the clock says: there is nothing that it could be late after.
+void the_first_cycle_is_well(void**) {
+  for (const TimeUs now_us : {TimeUs{0}, 1000 * kSecondUs, -1000 * kSecondUs}) {
+    const TimeWatchResult seen = watch_time({}, now_us);
+    assert_int_equal(seen.fault, Fault::kNone);
+    assert_near(seen.elapsed_s, 0.0, 0.0);
+    assert_near(seen.period_s, 0.0, 0.0);
+    assert_int_equal(seen.state.last_us, now_us);
+  }
+}
+
+void time_is_counted_from_the_last_cycle(void**) {
+  Clock clock;
+  assert_int_equal(clock.after(10 * kMillisecondUs), Fault::kNone);
+  assert_near(clock.seen.elapsed_s, 0.010, 1e-15);
+  assert_near(clock.seen.period_s, 0.010, 1e-15);
+  assert_int_equal(clock.after(7 * kMillisecondUs), Fault::kNone);
+  assert_near(clock.seen.elapsed_s, 0.007, 1e-15);
+}
+
+/// What may change by so much a second gets no more than two cycles; a clock that ran back, none.
+void no_cycle_is_a_large_step(void**) {
+  Clock clock;
+  static_cast<void>(clock.after(40 * kMillisecondUs));
+  assert_near(clock.seen.elapsed_s, 0.040, 1e-15);
+  assert_near(clock.seen.period_s, 0.020, 1e-15);
+  static_cast<void>(clock.after(10 * kSecondUs));
+  assert_near(clock.seen.elapsed_s, 0.050, 1e-15);
+  assert_near(clock.seen.period_s, 0.020, 1e-15);
+  assert_int_equal(clock.after(-kSecondUs), Fault::kNone);
+  assert_near(clock.seen.elapsed_s, 0.0, 0.0);
+  assert_near(clock.seen.period_s, 0.0, 0.0);
+}
+
+void the_second_late_one_in_a_row_is_an_overrun(void**) {
+  constexpr TimeUs kLate = 15 * kMillisecondUs + 1;
+  Clock clock;
+  for (int round = 0; round < 3; ++round) {
+    assert_int_equal(clock.after(kLate), Fault::kNone);
+    assert_int_equal(clock.after(kLate - 1), Fault::kNone);
+  }
+  assert_int_equal(clock.after(kLate), Fault::kNone);
+  for (int n = 0; n < 5; ++n) {
+    assert_int_equal(clock.after(kLate), Fault::kCycleOverrun);
+  }
+  assert_int_equal(clock.after(10 * kMillisecondUs), Fault::kNone);
+  assert_int_equal(clock.after(kLate), Fault::kNone);
+}
+
+void a_long_gap_is_a_stall(void**) {
+  Clock clock;
+  assert_int_equal(clock.after(50 * kMillisecondUs), Fault::kNone);
+  static_cast<void>(clock.after(10 * kMillisecondUs));
+  assert_int_equal(clock.after(50 * kMillisecondUs + 1), Fault::kCycleStalled);
+  // It counts as late as well, and is the graver of the two.
+  assert_int_equal(clock.after(20 * kMillisecondUs), Fault::kCycleOverrun);
+  assert_int_equal(clock.after(60 * kMillisecondUs), Fault::kCycleStalled);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(the_first_fault_is_named),
+      cmocka_unit_test(a_mode_that_changed_in_memory_is_a_fault),
+      cmocka_unit_test(each_part_of_the_request_has_its_source),
+      cmocka_unit_test(a_refusal_of_the_gate_stops),
+      cmocka_unit_test(a_spool_that_does_not_obey_cuts_the_pilot),
+      cmocka_unit_test(the_cut_is_kept_after_its_cause),
+      cmocka_unit_test(only_arming_ends_the_cut),
+      cmocka_unit_test(the_pilot_is_known_from_arming_or_a_cut),
+      cmocka_unit_test(what_stopped_it_is_named_before_what_slows),
+      cmocka_unit_test(what_blocks_is_what_is_there),
+      cmocka_unit_test(the_first_cycle_is_well),
+      cmocka_unit_test(time_is_counted_from_the_last_cycle),
+      cmocka_unit_test(no_cycle_is_a_large_step),
+      cmocka_unit_test(the_second_late_one_in_a_row_is_an_overrun),
+      cmocka_unit_test(a_long_gap_is_a_stall),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
