@@ -196,8 +196,10 @@ double lowest_point_m(const GradeDesign& grade) {
 }
 
 void check_dozer_across_keys(TomlReader& reader, const DozerProfile& profile) {
-  const double l11_m = reader.number("blade.L11", {0.05, 5.0, "m"});
-  if (!reader.errors().empty()) {
+  const double l11_m =
+      reader.number("blade.L11", {0.05, 5.0, "m"},
+                    "pivot to cylinder base; says again what the two pins give, within 2 mm");
+  if (!reader.is_sound()) {
     return;
   }
   check_body(reader, profile.body);

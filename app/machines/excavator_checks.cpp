@@ -68,9 +68,11 @@ void check_path(TomlReader& reader, const char* key, const ProfileCheck& check) 
 void check_excavator_across_keys(TomlReader& reader, const ExcavatorProfile& profile) {
   std::array<std::vector<double>, kAxisCount> angle_range;
   for (unsigned i = 0; i < kAxisCount; ++i) {
-    angle_range[i] = reader.numbers(angle_key(i), {-7.0, 7.0, "rad"}, 2);
+    angle_range[i] = reader.numbers(
+        angle_key(i), {-7.0, 7.0, "rad"}, 2,
+        "joint range [least, most]; says again what pins and stroke ends give, within 0.15 rad");
   }
-  if (!reader.errors().empty()) {
+  if (!reader.is_sound()) {
     return;
   }
   check_angles(reader, profile, angle_range);

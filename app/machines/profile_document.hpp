@@ -16,6 +16,10 @@ struct ProfileDocument {
   toml::table root;
 };
 
+/// In the order of MachineKind.
+[[nodiscard]] const std::vector<std::string>& kind_names();
+inline constexpr const char* kKindHelp = "which controller; the same in both files";
+
 /// Throws std::runtime_error if the file can't be read, ProfileError if it is not TOML.
 [[nodiscard]] ProfileDocument read_document(const std::filesystem::path& file);
 

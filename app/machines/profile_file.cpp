@@ -9,12 +9,6 @@
 namespace graben::machines {
 namespace {
 
-/// In the order of MachineKind.
-const std::vector<std::string>& kind_names() {
-  static const std::vector<std::string> names = {"excavator", "dozer"};
-  return names;
-}
-
 const std::string& kind_name(MachineKind kind) {
   return kind_names()[static_cast<std::size_t>(kind)];
 }
@@ -31,12 +25,17 @@ std::string read_file(const std::filesystem::path& file) {
 }
 
 MachineKind read_kind(const ProfileDocument& document, TomlReader& reader) {
-  const auto kind = static_cast<MachineKind>(reader.choice("kind", kind_names()));
+  const auto kind = static_cast<MachineKind>(reader.choice("kind", kind_names(), kKindHelp));
   throw_errors(document, reader);
   return kind;
 }
 
 }  // namespace
+
+const std::vector<std::string>& kind_names() {
+  static const std::vector<std::string> names = {"excavator", "dozer"};
+  return names;
+}
 
 ProfileError::ProfileError(const std::string& file, std::vector<std::string> errors)
     : std::runtime_error(fmt::format("{}: {} error{}:\n  {}", file, errors.size(),

@@ -8,9 +8,9 @@ namespace graben::machines {
 
 CylinderSize read_cylinder_size(TomlReader& reader, const std::string& at) {
   CylinderSize size;
-  size.count = reader.integer(at + ".count", 1, 4);
-  size.bore_m = reader.number(at + ".bore", {0.02, 1.0, "m"});
-  size.rod_m = reader.number(at + ".rod", {0.01, 1.0, "m"});
+  size.count = reader.integer(at + ".count", 1, 4, "cylinders that move together");
+  size.bore_m = reader.number(at + ".bore", {0.02, 1.0, "m"}, "piston diameter");
+  size.rod_m = reader.number(at + ".rod", {0.01, 1.0, "m"}, "rod diameter; less than the bore");
   if (size.rod_m >= size.bore_m) {
     reader.fail(at + ".rod",
                 fmt::format("{} m; allowed: less than the bore of {} m", size.rod_m, size.bore_m));
@@ -20,7 +20,9 @@ CylinderSize read_cylinder_size(TomlReader& reader, const std::string& at) {
 
 MonotoneTable read_spool_to_duty(TomlReader& reader, const std::string& key) {
   const auto pairs =
-      reader.pairs(key, {0.0, 1.0, ""}, {0.0, 1000.0, "per mille"}, 2, MonotoneTable::kCapacity);
+      reader.pairs(key, {0.0, 1.0, ""}, {0.0, 1000.0, "per mille"}, 2, MonotoneTable::kCapacity,
+                   "opening to duty; rising in both, from opening 0, where the spool begins to "
+                   "open, to opening 1");
   std::vector<double> opening;
   std::vector<double> duty;
   for (const auto& [x, y] : pairs) {

@@ -27,11 +27,16 @@ struct CylinderSize {
 template <class Control>
 [[nodiscard]] Control read_control_of_valve(TomlReader& reader, const std::string& valve) {
   Control control;
-  control.spool_rate_ps = reader.number("control.spool_rate", {0.1, 1000.0, "1/s"});
-  control.spool_threshold = reader.number("control.spool_threshold", {0.0, 0.1, ""});
-  control.response_s = reader.number("control.response", {0.001, 1.0, "s"});
-  control.dead_time_s = reader.number(valve + ".dead_time", {0.0, 0.5, "s"});
-  control.sensor_timeout_s = reader.number("control.sensor_timeout", {0.02, 0.05, "s"});
+  control.spool_rate_ps =
+      reader.number("control.spool_rate", {0.1, 1000.0, "1/s"}, "slew limit of a spool's opening");
+  control.spool_threshold = reader.number("control.spool_threshold", {0.0, 0.1, ""},
+                                          "opening below which a spool stays at neutral");
+  control.response_s = reader.number("control.response", {0.001, 1.0, "s"},
+                                     "lag of a drive's speed behind its spool's command");
+  control.dead_time_s = reader.number(valve + ".dead_time", {0.0, 0.5, "s"},
+                                      "from a duty to the spool's first movement");
+  control.sensor_timeout_s = reader.number("control.sensor_timeout", {0.02, 0.05, "s"},
+                                           "age at which a signal is missing");
   return control;
 }
 
@@ -39,12 +44,19 @@ template <class Control>
 template <class Safety>
 [[nodiscard]] Safety read_safety_of_valve(TomlReader& reader) {
   Safety safety;
-  safety.degraded_speed_ratio = reader.number("safety.degraded_speed", {0.05, 1.0, ""});
-  safety.idle_radps = reader.number("safety.idle", {20.0, 400.0, "rad/s"});
-  safety.settle_s = reader.number("safety.settle", {0.01, 0.3, "s"});
-  safety.spool_tolerance = reader.number("safety.spool_tolerance", {0.01, 0.5, ""});
-  safety.uncommanded_m = reader.number("safety.uncommanded", {0.005, 0.5, "m"});
-  safety.stuck_m = reader.number("safety.stuck", {0.005, 0.5, "m"});
+  safety.degraded_speed_ratio = reader.number("safety.degraded_speed", {0.05, 1.0, ""},
+                                              "speed while a sensor is lost, of the task's");
+  safety.idle_radps = reader.number("safety.idle", {20.0, 400.0, "rad/s"},
+                                    "engine speed assumed where it is lost: its slowest");
+  safety.settle_s =
+      reader.number("safety.settle", {0.01, 0.3, "s"},
+                    "time within which a spool reaches its duty, beside the dead time");
+  safety.spool_tolerance = reader.number("safety.spool_tolerance", {0.01, 0.5, ""},
+                                         "allowed error of a spool's position, of its travel");
+  safety.uncommanded_m = reader.number("safety.uncommanded", {0.005, 0.5, "m"},
+                                       "motion of a cylinder against its spool");
+  safety.stuck_m = reader.number("safety.stuck", {0.005, 0.5, "m"},
+                                 "motion asked of a cylinder that does not come");
   return safety;
 }
 

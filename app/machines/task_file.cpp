@@ -18,15 +18,17 @@ constexpr double kUsualPace = 0.5;
 /// What the teeth may dip below their line while a drive breaks loose or lags, and some more.
 constexpr double kLeastClearance_m = 0.03;
 
-Eigen::Vector3d read_vector(TomlReader& reader, const std::string& key, const Range& range) {
-  const std::vector<double> values = reader.numbers(key, range, 3);
+Eigen::Vector3d read_vector(TomlReader& reader, const std::string& key, const Range& range,
+                            const char* help) {
+  const std::vector<double> values = reader.numbers(key, range, 3, help);
   return {values[0], values[1], values[2]};
 }
 
 /// A direction of any length but none.
-Eigen::Vector3d read_direction(TomlReader& reader, const std::string& key, std::size_t count) {
+Eigen::Vector3d read_direction(TomlReader& reader, const std::string& key, std::size_t count,
+                               const char* help) {
   constexpr double kLeast = 1e-3;
-  std::vector<double> values = reader.numbers(key, {-1e3, 1e3, ""}, count);
+  std::vector<double> values = reader.numbers(key, {-1e3, 1e3, ""}, count, help);
   values.resize(3, 0.0);
   const Eigen::Vector3d direction(values[0], values[1], values[2]);
   if (direction.norm() < kLeast) {
@@ -43,28 +45,33 @@ bool is_straight(TomlReader& reader, const std::string& at, StepKind kind) {
   if (!reader.has(key)) {
     return kind == StepKind::kDig || kind == StepKind::kLift;
   }
-  return static_cast<PathForm>(reader.choice(key, {"line", "drives"})) == PathForm::kLine;
+  return static_cast<PathForm>(reader.choice(
+             key, {"line", "drives"},
+             "way of the step: line of the teeth or move of the drives; dig and lift: line")) ==
+         PathForm::kLine;
 }
 
 void read_line_pace(TomlReader& reader, const std::string& at, double usual_mps,
                     StepRequest& step) {
   if (reader.has(at + ".duration")) {
-    step.duration_s = reader.number(at + ".duration", {0.1, 600.0, "s"});
+    step.duration_s = reader.number(at + ".duration", {0.1, 600.0, "s"},
+                                    "duration of the step; on a line instead of speed");
     if (reader.has(at + ".speed")) {
-      static_cast<void>(reader.number(at + ".speed", {0.01, 3.0, "m/s"}));
+      static_cast<void>(
+          reader.number(at + ".speed", {0.01, 3.0, "m/s"}, "speed of the teeth on a line at most"));
       reader.fail(at, "has a speed and a duration; allowed: one of them");
     }
     return;
   }
-  step.speed_mps =
-      reader.has(at + ".speed") ? reader.number(at + ".speed", {0.01, 3.0, "m/s"}) : usual_mps;
+  step.speed_mps = reader.number_or(usual_mps, at + ".speed", {0.01, 3.0, "m/s"},
+                                    "speed of the teeth on a line at most");
 }
 
 void read_drive_pace(TomlReader& reader, const std::string& at, StepRequest& step) {
-  step.pace_ratio =
-      reader.has(at + ".pace") ? reader.number(at + ".pace", {0.01, 1.0, ""}) : kUsualPace;
-  step.duration_s =
-      reader.has(at + ".duration") ? reader.number(at + ".duration", {0.1, 600.0, "s"}) : 0.0;
+  step.pace_ratio = reader.number_or(kUsualPace, at + ".pace", {0.01, 1.0, ""},
+                                     "share of the drives' limits on a move");
+  step.duration_s = reader.number_or(0.0, at + ".duration", {0.1, 600.0, "s"},
+                                     "duration of the step; on a line instead of speed");
 }
 
 StepRequest read_step(TomlReader& reader, const std::string& at, const ExcavatorProfile& profile) {
@@ -76,7 +83,7 @@ StepRequest read_step(TomlReader& reader, const std::string& at, const Excavator
     names.emplace_back(step_name(kind));
   }
   StepRequest step;
-  step.kind = kKinds[static_cast<unsigned>(reader.choice(at + ".do", names))];
+  step.kind = kKinds[static_cast<unsigned>(reader.choice(at + ".do", names, "kind of step"))];
   step.to = read_teeth(reader, at + ".to");
   step.straight = is_straight(reader, at, step.kind);
   if (step.straight) {
@@ -90,27 +97,31 @@ StepRequest read_step(TomlReader& reader, const std::string& at, const Excavator
 enum class FenceKind { kCeiling = 0, kFloor = 1, kWall = 2 };
 
 Fence read_fence(TomlReader& reader, const std::string& at) {
-  const auto kind =
-      static_cast<FenceKind>(reader.choice(at + ".kind", {"ceiling", "floor", "wall"}));
+  const auto kind = static_cast<FenceKind>(
+      reader.choice(at + ".kind", {"ceiling", "floor", "wall"}, "kind of fence"));
   Fence fence;
   if (kind == FenceKind::kWall) {
-    const Eigen::Vector2d through_m = reader.point(at + ".through", kPlace);
-    fence.normal = read_direction(reader, at + ".normal", 2);
+    const Eigen::Vector2d through_m =
+        reader.point(at + ".through", kPlace, "a point of the wall: x, y");
+    fence.normal =
+        read_direction(reader, at + ".normal", 2, "towards the side that is forbidden: x, y");
     fence.offset_m = fence.normal.head<2>().dot(through_m);
     return fence;
   }
   const double up = kind == FenceKind::kCeiling ? 1.0 : -1.0;
   fence.normal = up * Eigen::Vector3d::UnitZ();
-  fence.offset_m = up * reader.number(at + ".height", kPlace);
+  fence.offset_m = up * reader.number(at + ".height", kPlace, "height of ceiling or floor");
   return fence;
 }
 
 DesignPlane read_design(TomlReader& reader) {
   constexpr double kLeastUp = 0.2;
   DesignPlane design;
-  design.through_m = read_vector(reader, "design.through", kPlace);
-  design.up = read_direction(reader, "design.normal", 3);
-  design.clearance_m = reader.number("design.clearance", {kLeastClearance_m, 1.0, "m"});
+  design.through_m =
+      read_vector(reader, "design.through", kPlace, "a point of the design plane: x, y, z");
+  design.up = read_direction(reader, "design.normal", 3, "upward normal of the plane: x, y, z");
+  design.clearance_m = reader.number("design.clearance", {kLeastClearance_m, 1.0, "m"},
+                                     "least distance of a dig's ends from the design");
   if (design.up.z() < kLeastUp) {
     reader.fail("design.normal",
                 fmt::format("must point up; its upward part is {:.3f} of its length; allowed: {} "
@@ -123,8 +134,9 @@ DesignPlane read_design(TomlReader& reader) {
 ProgramRequest read_request(TomlReader& reader, const ExcavatorProfile& profile) {
   ProgramRequest request;
   request.start = read_teeth(reader, "start");
-  request.repeats = reader.has("repeat") && reader.boolean("repeat");
-  request.step_count = reader.table_count("step", 1, kStepMost);
+  request.repeats =
+      reader.boolean_or(false, "repeat", "starts again at its end, which has to be its start");
+  request.step_count = reader.table_count("step", 1, kStepMost, "steps, a table each");
   for (int i = 0; i < request.step_count; ++i) {
     request.step[static_cast<unsigned>(i)] = read_step(reader, fmt::format("step[{}]", i), profile);
   }
@@ -134,7 +146,8 @@ ProgramRequest read_request(TomlReader& reader, const ExcavatorProfile& profile)
   }
   if (reader.has("fence")) {
     const int most = request.has_design ? kFenceMost - 1 : kFenceMost;
-    request.fences.count = reader.table_count("fence", 1, most);
+    request.fences.count =
+        reader.table_count("fence", 1, most, "fences, a table each; one less with a design");
   }
   for (int i = 0; i < request.fences.count; ++i) {
     request.fences.fence[static_cast<unsigned>(i)] =

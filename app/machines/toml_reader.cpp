@@ -10,9 +10,11 @@
 namespace graben::machines {
 namespace {
 
+std::string ends(const Range& range) { return fmt::format("{} .. {}", range.least, range.most); }
+
 std::string allowed(const Range& range) {
   const std::string unit = range.unit[0] == '\0' ? "" : fmt::format(" {}", range.unit);
-  return fmt::format("allowed: {} .. {}{}", range.least, range.most, unit);
+  return fmt::format("allowed: {}{}", ends(range), unit);
 }
 
 std::string value_text(const toml::node& node) {
@@ -47,12 +49,26 @@ class Hash {
 
 }  // namespace
 
-bool TomlReader::has(const std::string& key) const { return root_.at_path(key).node() != nullptr; }
+TomlReader TomlReader::listing(bool has) {
+  static const toml::table nothing;
+  TomlReader reader(nothing);
+  reader.listed_has_ = has;
+  return reader;
+}
 
-const toml::node* TomlReader::find(const std::string& key) {
-  known_.insert(key);
+bool TomlReader::has(const std::string& key) const {
+  return listed_has_.value_or(root_.at_path(key).node() != nullptr);
+}
+
+/// Nothing, and an error, unless it may be left out.
+const toml::node* TomlReader::find(KeyEntry entry) {
+  const std::string key = entry.key;
+  const bool may_lack = listed_has_.has_value() || !entry.fallback.empty();
+  if (known_.insert(key).second) {
+    keys_.push_back(std::move(entry));
+  }
   const toml::node* node = root_.at_path(key).node();
-  if (node == nullptr) {
+  if (node == nullptr && !may_lack) {
     errors_.push_back(fmt::format("{}: missing", key));
   }
   return node;
@@ -78,6 +94,9 @@ std::uint32_t TomlReader::hash() const {
 }
 
 void TomlReader::fail(const std::string& key, const std::string& what) {
+  if (listed_has_.has_value()) {
+    return;
+  }
   const toml::node* node = root_.at_path(key).node();
   const std::string line =
       node != nullptr ? fmt::format(" (line {})", node->source().begin.line) : "";
@@ -103,16 +122,26 @@ double TomlReader::checked(const toml::node& node, const std::string& key, const
   return value;
 }
 
-double TomlReader::number(const std::string& key, const Range& range) {
-  const toml::node* node = find(key);
+double TomlReader::number(const std::string& key, const Range& range, const char* help) {
+  const toml::node* node = find({key, "number", ends(range), range.unit, "", help});
   const double value =
       node != nullptr ? checked(*node, key, range) : std::clamp(0.0, range.least, range.most);
   note(key, {value});
   return value;
 }
 
-int TomlReader::integer(const std::string& key, int least, int most) {
-  const toml::node* node = find(key);
+double TomlReader::number_or(double fallback, const std::string& key, const Range& range,
+                             const char* help) {
+  const toml::node* node =
+      find({key, "number", ends(range), range.unit, fmt::format("{}", fallback), help});
+  const double value = node != nullptr ? checked(*node, key, range) : fallback;
+  note(key, {value});
+  return value;
+}
+
+int TomlReader::integer(const std::string& key, int least, int most, const char* help) {
+  const toml::node* node =
+      find({key, "whole number", fmt::format("{} .. {}", least, most), "", "", help});
   if (node == nullptr) {
     return least;
   }
@@ -127,18 +156,21 @@ int TomlReader::integer(const std::string& key, int least, int most) {
   return static_cast<int>(value);
 }
 
-bool TomlReader::boolean(const std::string& key) {
-  const toml::node* node = find(key);
+bool TomlReader::boolean_or(bool fallback, const std::string& key, const char* help) {
+  const toml::node* node =
+      find({key, "truth value", "true, false", "", fallback ? "true" : "false", help});
   if (node != nullptr && !node->is_boolean()) {
     fail(key, fmt::format("{}; allowed: true, false", value_text(*node)));
   }
-  const bool value = node != nullptr && node->value<bool>().value_or(false);
+  const bool value = node != nullptr ? node->value<bool>().value_or(fallback) : fallback;
   note(key, {value ? 1.0 : 0.0});
   return value;
 }
 
-int TomlReader::choice(const std::string& key, const std::vector<std::string>& allowed_values) {
-  const toml::node* node = find(key);
+int TomlReader::choice(const std::string& key, const std::vector<std::string>& allowed_values,
+                       const char* help) {
+  const toml::node* node =
+      find({key, "one of", fmt::format("{}", fmt::join(allowed_values, ", ")), "", "", help});
   if (node == nullptr) {
     return 0;
   }
@@ -153,9 +185,10 @@ int TomlReader::choice(const std::string& key, const std::vector<std::string>& a
 }
 
 std::vector<double> TomlReader::numbers(const std::string& key, const Range& range,
-                                        std::size_t count) {
+                                        std::size_t count, const char* help) {
   std::vector<double> values(count, std::clamp(0.0, range.least, range.most));
-  const toml::node* node = find(key);
+  const toml::node* node =
+      find({key, fmt::format("{} numbers", count), ends(range), range.unit, "", help});
   if (node == nullptr) {
     return values;
   }
@@ -171,16 +204,21 @@ std::vector<double> TomlReader::numbers(const std::string& key, const Range& ran
   return values;
 }
 
-Eigen::Vector2d TomlReader::point(const std::string& key, const Range& range) {
-  const std::vector<double> values = numbers(key, range, 2);
+Eigen::Vector2d TomlReader::point(const std::string& key, const Range& range, const char* help) {
+  const std::vector<double> values = numbers(key, range, 2, help);
   return {values[0], values[1]};
 }
 
 std::vector<std::pair<double, double>> TomlReader::pairs(const std::string& key, const Range& first,
                                                          const Range& second, std::size_t least,
-                                                         std::size_t most) {
+                                                         std::size_t most, const char* help) {
   std::vector<std::pair<double, double>> values;
-  const toml::node* node = find(key);
+  const std::string units =
+      std::string(first.unit) + (first.unit[0] == '\0' ? "" : ", ") + second.unit;
+  const toml::node* node = find(
+      {key,
+       least == most ? fmt::format("{} pairs", least) : fmt::format("{} to {} pairs", least, most),
+       fmt::format("{}; {}", ends(first), ends(second)), units, "", help});
   if (node == nullptr) {
     return values;
   }
@@ -208,7 +246,8 @@ std::vector<std::pair<double, double>> TomlReader::pairs(const std::string& key,
   return values;
 }
 
-int TomlReader::table_count(const std::string& key, int least, int most) {
+int TomlReader::table_count(const std::string& key, int least, int most, const char* help) {
+  keys_.push_back({key, fmt::format("{} to {} tables", least, most), "", "", "", help});
   const toml::array* array = root_.at_path(key).as_array();
   const int count = array == nullptr ? 0 : static_cast<int>(array->size());
   if (count < least || count > most) {

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -20,30 +21,46 @@ struct Range {
   const char* unit;
 };
 
-/// A key path is written as in TOML with indices: "pump[0].displacement". Every getter returns a
-/// harmless value and records an error (key path, value, unit, allowed range, line) when the key is
-/// missing, of the wrong type or out of range.
+/// A key as the reader asks for it: a line of the reference.
+struct KeyEntry {
+  std::string key;      ///< Path as in TOML, with indices: "pump[0].displacement".
+  std::string type;     ///< "number", "whole number", "2 numbers", "one of" ...
+  std::string allowed;  ///< Range or choices.
+  std::string unit;
+  std::string fallback;  ///< Value where the key is not given; empty where it has to be.
+  std::string help;      ///< Its meaning.
+};
+
+/// Every getter returns a harmless value and records an error (key path, value, unit, allowed
+/// range, line) when the key is missing, of the wrong type or out of range. `help` is the key's
+/// meaning in the reference of all keys.
 class TomlReader {
  public:
   explicit TomlReader(const toml::table& root) : root_(root) {}
+  /// Reads nothing: every getter returns its harmless value, records no error, and only says what
+  /// it asks for. `has` is the answer for each optional key.
+  [[nodiscard]] static TomlReader listing(bool has);
 
-  /// Whether an optional key is there.
+  /// True if an optional key is there.
   [[nodiscard]] bool has(const std::string& key) const;
-  double number(const std::string& key, const Range& range);
-  int integer(const std::string& key, int least, int most);
-  bool boolean(const std::string& key);
+  double number(const std::string& key, const Range& range, const char* help);
+  /// The same of a key that may be left out.
+  double number_or(double fallback, const std::string& key, const Range& range, const char* help);
+  int integer(const std::string& key, int least, int most, const char* help);
+  bool boolean_or(bool fallback, const std::string& key, const char* help);
   /// One of `allowed`, by its index.
-  int choice(const std::string& key, const std::vector<std::string>& allowed);
-  /// Exactly `count` numbers, or any number from `count` on if `count_most` says so.
-  std::vector<double> numbers(const std::string& key, const Range& range, std::size_t count);
-  Eigen::Vector2d point(const std::string& key, const Range& range);
+  int choice(const std::string& key, const std::vector<std::string>& allowed, const char* help);
+  /// Exactly `count` numbers.
+  std::vector<double> numbers(const std::string& key, const Range& range, std::size_t count,
+                              const char* help);
+  Eigen::Vector2d point(const std::string& key, const Range& range, const char* help);
   /// `least` to `most` pairs.
   std::vector<std::pair<double, double>> pairs(const std::string& key, const Range& first,
                                                const Range& second, std::size_t least,
-                                               std::size_t most);
+                                               std::size_t most, const char* help);
   /// Number of tables in an array of tables; an error, and the nearer end, unless it is `least` to
   /// `most`.
-  int table_count(const std::string& key, int least, int most);
+  int table_count(const std::string& key, int least, int most, const char* help);
 
   /// Records an error that concerns a key as a whole.
   void fail(const std::string& key, const std::string& what);
@@ -54,15 +71,21 @@ class TomlReader {
   void refuse_unknown_keys();
 
   [[nodiscard]] const std::vector<std::string>& errors() const { return errors_; }
+  /// Values were read, and none is wrong: what needs several of them can be checked.
+  [[nodiscard]] bool is_sound() const { return errors_.empty() && !listed_has_; }
+  /// What was asked for, in that order, each key once.
+  [[nodiscard]] const std::vector<KeyEntry>& keys() const { return keys_; }
 
  private:
-  const toml::node* find(const std::string& key);
+  const toml::node* find(KeyEntry entry);
   void note(const std::string& key, std::vector<double> values);
   double checked(const toml::node& node, const std::string& key, const Range& range);
   void refuse_unknown_in(const toml::node& node, const std::string& path);
 
   const toml::table& root_;
+  std::optional<bool> listed_has_;  ///< Where it only lists.
   std::set<std::string> known_;
+  std::vector<KeyEntry> keys_;
   std::map<std::string, std::vector<double>> values_;
   std::vector<std::string> errors_;
 };

@@ -17,9 +17,13 @@ constexpr Range kVolume{1e-5, 1.0, "m3"};
 
 plant::GroundProfile read_ground(TomlReader& reader) {
   plant::GroundProfile ground;
-  ground.friction = reader.number("ground.friction", {0.05, 2.0, ""});
-  ground.slip_modulus_m = reader.number("ground.slip_modulus", {1e-3, 1.0, "m"});
-  ground.rolling_resistance = reader.number("ground.rolling_resistance", {0.0, 0.5, ""});
+  ground.friction =
+      reader.number("ground.friction", {0.05, 2.0, ""}, "largest traction over the load");
+  ground.slip_modulus_m =
+      reader.number("ground.slip_modulus", {1e-3, 1.0, "m"},
+                    "shear deformation modulus over the contact's length (Janosi and Hanamoto)");
+  ground.rolling_resistance = reader.number("ground.rolling_resistance", {0.0, 0.5, ""},
+                                            "rolling resistance over the load");
   return ground;
 }
 
@@ -27,61 +31,89 @@ plant::DozerSensorErrors read_sensors(TomlReader& reader) {
   const Range length{0.0, 0.1, "m"};
   const Range speed{0.0, 0.5, "m/s"};
   plant::DozerSensorErrors sensors;
-  sensors.stroke_resolution_m = reader.number("sensors.stroke_resolution", {0.0, 0.01, "m"});
-  sensors.position_noise_m = reader.number("sensors.position_noise", length);
-  sensors.height_noise_m = reader.number("sensors.height_noise", length);
-  sensors.pitch_noise_rad = reader.number("sensors.pitch_noise", {0.0, 0.1, "rad"});
-  sensors.velocity_noise_mps = reader.number("sensors.velocity_noise", speed);
-  sensors.climb_noise_mps = reader.number("sensors.climb_noise", speed);
-  sensors.pitch_rate_noise_radps = reader.number("sensors.pitch_rate_noise", {0.0, 0.5, "rad/s"});
-  sensors.track_speed_noise_mps = reader.number("sensors.track_speed_noise", speed);
-  sensors.height_bias_m = reader.number("sensors.height_bias", length);
+  sensors.stroke_resolution_m = reader.number("sensors.stroke_resolution", {0.0, 0.01, "m"},
+                                              "resolution of the blade's stroke");
+  sensors.position_noise_m =
+      reader.number("sensors.position_noise", length, "standard deviation of the position");
+  sensors.height_noise_m =
+      reader.number("sensors.height_noise", length, "standard deviation of the height");
+  sensors.pitch_noise_rad =
+      reader.number("sensors.pitch_noise", {0.0, 0.1, "rad"}, "standard deviation of the pitch");
+  sensors.velocity_noise_mps =
+      reader.number("sensors.velocity_noise", speed, "standard deviation of the velocity");
+  sensors.climb_noise_mps =
+      reader.number("sensors.climb_noise", speed, "standard deviation of the vertical velocity");
+  sensors.pitch_rate_noise_radps = reader.number("sensors.pitch_rate_noise", {0.0, 0.5, "rad/s"},
+                                                 "standard deviation of the pitch rate");
+  sensors.track_speed_noise_mps =
+      reader.number("sensors.track_speed_noise", speed, "standard deviation of each track's speed");
+  sensors.height_bias_m =
+      reader.number("sensors.height_bias", length, "constant error of the height, uniform within");
   return sensors;
 }
 
 void read_transmission(TomlReader& reader, plant::DozerPlantProfile& plant) {
-  plant.hst_relief_pa = reader.number("hst.relief", kPressure);
-  plant.charge_pa = reader.number("hst.charge", {1e5, 1e7, "Pa"});
-  plant.hst_line_volume_m3 = reader.number("hst.line_volume", kVolume);
+  plant.hst_relief_pa =
+      reader.number("hst.relief", kPressure, "relief of the transmission's lines");
+  plant.charge_pa =
+      reader.number("hst.charge", {1e5, 1e7, "Pa"}, "charge pressure of the transmission");
+  plant.hst_line_volume_m3 =
+      reader.number("hst.line_volume", kVolume, "oil in each line of the transmission");
   plant.pump_response_s = plant.machine.hst.response_s;
-  plant.motor_response_s = reader.number("hst.motor_response", {0.001, 2.0, "s"});
-  plant.path_inertia_kgm2 = reader.number("hst.inertia", {0.1, 1e4, "kg m2"});
-  plant.mechanical_efficiency = reader.number("hst.mechanical_efficiency", {0.3, 1.0, ""});
+  plant.motor_response_s = reader.number("hst.motor_response", {0.001, 2.0, "s"},
+                                         "first-order lag of the motor's displacement");
+  plant.path_inertia_kgm2 = reader.number("hst.inertia", {0.1, 1e4, "kg m2"},
+                                          "rotating parts of one track's drive, at the sprocket");
+  plant.mechanical_efficiency =
+      reader.number("hst.mechanical_efficiency", {0.3, 1.0, ""}, "of motor, gear and track");
 }
 
 plant::DozerPlantProfile read_plant(TomlReader& reader, const DozerProfile& nominal) {
   plant::DozerPlantProfile plant;
   plant.machine = nominal;
-  plant.pitch_inertia_kgm2 = reader.number("body.pitch_inertia", {10.0, 1e6, "kg m2"});
-  plant.blade_mass_kg = reader.number("blade.mass", {10.0, 1e5, "kg"});
-  plant.blade_reach_m = reader.number("blade.reach", {0.1, 5.0, "m"});
-  plant.coulomb_n = reader.number("implement.coulomb", {0.0, 1e6, "N"});
-  plant.viscous_nspm = reader.number("implement.viscous", {0.0, 1e7, "N s/m"});
+  plant.pitch_inertia_kgm2 = reader.number("body.pitch_inertia", {10.0, 1e6, "kg m2"},
+                                           "moment of inertia in pitch, blade included");
+  plant.blade_mass_kg = reader.number("blade.mass", {10.0, 1e5, "kg"}, "blade with its frame");
+  plant.blade_reach_m =
+      reader.number("blade.reach", {0.1, 5.0, "m"}, "pivot to the mass centre of blade and frame");
+  plant.coulomb_n = reader.number("implement.coulomb", {0.0, 1e6, "N"},
+                                  "Coulomb friction of the blade cylinders together");
+  plant.viscous_nspm = reader.number("implement.viscous", {0.0, 1e7, "N s/m"},
+                                     "viscous friction of the blade cylinders together");
   read_valve_of_plant(reader, "implement", plant);
   plant.dead_time_s = nominal.control.dead_time_s;
-  plant.dead_volume_m3 = reader.number("implement.dead_volume", kVolume);
-  plant.implement_relief_pa = reader.number("implement.relief", kPressure);
+  plant.dead_volume_m3 = reader.number("implement.dead_volume", kVolume,
+                                       "oil in each chamber with its hose, fully closed");
+  plant.implement_relief_pa =
+      reader.number("implement.relief", kPressure, "relief of the implement pump");
   read_transmission(reader, plant);
   plant.ground = read_ground(reader);
   plant.sensors = read_sensors(reader);
-  plant.start_position_m = reader.number("experiment.start", {-1000.0, 0.0, "m"});
+  plant.start_position_m = reader.number("experiment.start", {-1000.0, 0.0, "m"},
+                                         "position of the body at the start, on flat ground");
   return plant;
 }
 
 DozerExperiment read_experiment(TomlReader& reader) {
   DozerExperiment experiment;
-  experiment.length_m = reader.number("experiment.length", {1.0, 1000.0, "m"});
-  experiment.uncertainty = {reader.number("uncertainty.mass", {0.0, 0.5, ""}),
-                            reader.number("uncertainty.friction", {0.0, 0.5, ""}),
-                            reader.number("uncertainty.efficiency", {0.0, 0.5, ""})};
+  experiment.length_m = reader.number("experiment.length", {1.0, 1000.0, "m"},
+                                      "the grade is made and measured from x = 0 to here");
+  experiment.uncertainty = {reader.number("uncertainty.mass", {0.0, 0.5, ""},
+                                          "error of mass and pitch inertia, each way, as a share"),
+                            reader.number("uncertainty.friction", {0.0, 0.5, ""},
+                                          "error of traction and rolling resistance"),
+                            reader.number("uncertainty.efficiency", {0.0, 0.5, ""},
+                                          "error of each volumetric efficiency")};
   return experiment;
 }
 
 /// The paper's figures fit the design.
 void check_experiment(TomlReader& reader, const GradeDesign& grade, double length_m) {
   constexpr double kDepthTolerance_m = 1e-3;
-  const double depth_max_m = reader.number("experiment.depth_max", {0.0, 5.0, "m"});
-  if (!reader.errors().empty()) {
+  const double depth_max_m =
+      reader.number("experiment.depth_max", {0.0, 5.0, "m"},
+                    "depth of the design; says again its lowest point, within 1 mm");
+  if (!reader.is_sound()) {
     return;
   }
   const double lowest_m = lowest_point_m(grade);
@@ -99,14 +131,17 @@ void check_experiment(TomlReader& reader, const GradeDesign& grade, double lengt
 
 }  // namespace
 
+void read_simulated_sections(TomlReader& reader, SimulatedDozer& machine) {
+  machine.plant = read_plant(reader, machine.profile);
+  machine.experiment = read_experiment(reader);
+  check_experiment(reader, machine.profile.grade, machine.experiment.length_m);
+}
+
 SimulatedDozer load_simulated_dozer(const std::filesystem::path& file) {
   SimulatedDozer machine;
   static_cast<DozerMachine&>(machine) = load_dozer(file);
-  read_as(read_simulation(file), MachineKind::kDozer, [&](TomlReader& reader) {
-    machine.plant = read_plant(reader, machine.profile);
-    machine.experiment = read_experiment(reader);
-    check_experiment(reader, machine.profile.grade, machine.experiment.length_m);
-  });
+  read_as(read_simulation(file), MachineKind::kDozer,
+          [&](TomlReader& reader) { read_simulated_sections(reader, machine); });
   return machine;
 }
 

@@ -9,6 +9,8 @@
 
 namespace graben::machines {
 
+class TomlReader;
+
 /// How far a dozer may be off from what its controller takes it for, each way, as a share.
 struct DozerUncertainty {
   double mass = 0.0;        ///< Of the whole machine, its moment of inertia with it.
@@ -26,6 +28,9 @@ struct SimulatedDozer : DozerMachine {
   plant::DozerPlantProfile plant;
   DozerExperiment experiment;
 };
+
+/// Reads and checks the sections of NAME.sim.toml, for the machine whose NAME.toml has been read.
+void read_simulated_sections(TomlReader& reader, SimulatedDozer& machine);
 
 /// Reads and checks NAME.toml, then NAME.sim.toml beside it. Throws as load_simulated_excavator.
 [[nodiscard]] SimulatedDozer load_simulated_dozer(const std::filesystem::path& file);

@@ -15,32 +15,53 @@ namespace {
 
 plant::LinkBody read_link(TomlReader& reader, const std::string& axis) {
   plant::LinkBody link;
-  link.mass_kg = reader.number(axis + ".mass", {10.0, 1e5, "kg"});
-  link.inertia_kgm2 = reader.number(axis + ".inertia", {1.0, 1e6, "kg m2"});
-  link.mass_centre_m = reader.point(axis + ".mass_centre", {-10.0, 10.0, "m"});
+  link.mass_kg = reader.number(axis + ".mass", {10.0, 1e5, "kg"},
+                               "mass of the link; the bucket's with its linkage, empty");
+  link.inertia_kgm2 = reader.number(axis + ".inertia", {1.0, 1e6, "kg m2"},
+                                    "moment of inertia about the mass centre, out of plane");
+  link.mass_centre_m =
+      reader.point(axis + ".mass_centre", {-10.0, 10.0, "m"}, "mass centre, link frame");
   return link;
 }
 
 void read_swing(TomlReader& reader, plant::ExcavatorPlantProfile& plant) {
-  plant.platform.inertia_kgm2 = reader.number("swing.inertia", {100.0, 1e6, "kg m2"});
-  plant.platform.coulomb_nm = reader.number("swing.coulomb", {0.0, 1e6, "N m"});
-  plant.platform.viscous_nmsprad = reader.number("swing.viscous", {0.0, 1e6, "N m s/rad"});
-  plant.swing_motor.dead_volume_m3 = reader.number("swing.dead_volume", {1e-5, 1.0, "m3"});
-  plant.swing_motor.leak_m3pspa = reader.number("swing.leak", {0.0, 1e-9, "m3/(s Pa)"});
-  plant.swing_motor.port_relief_pa = reader.number("swing.port_relief", {1e6, 1e8, "Pa"});
+  plant.platform.inertia_kgm2 =
+      reader.number("swing.inertia", {100.0, 1e6, "kg m2"},
+                    "upper structure without boom, arm, bucket; only with valve.swing");
+  plant.platform.coulomb_nm = reader.number("swing.coulomb", {0.0, 1e6, "N m"},
+                                            "Coulomb friction of the swing; only with valve.swing");
+  plant.platform.viscous_nmsprad =
+      reader.number("swing.viscous", {0.0, 1e6, "N m s/rad"},
+                    "viscous friction of the swing; only with valve.swing");
+  plant.swing_motor.dead_volume_m3 =
+      reader.number("swing.dead_volume", {1e-5, 1.0, "m3"},
+                    "oil on each side of the motor with its hose; only with valve.swing");
+  plant.swing_motor.leak_m3pspa = reader.number("swing.leak", {0.0, 1e-9, "m3/(s Pa)"},
+                                                "leakage from port to port; only with valve.swing");
+  plant.swing_motor.port_relief_pa = reader.number(
+      "swing.port_relief", {1e6, 1e8, "Pa"}, "relief of the motor's ports; only with valve.swing");
 }
 
 plant::SensorErrors read_sensors(TomlReader& reader, const ExcavatorProfile& nominal) {
   plant::SensorErrors sensors;
-  sensors.stroke_resolution_m = reader.number("sensors.stroke_resolution", {0.0, 0.01, "m"});
-  sensors.stroke_bias_m = reader.number("sensors.stroke_bias", {0.0, 0.05, "m"});
+  sensors.stroke_resolution_m =
+      reader.number("sensors.stroke_resolution", {0.0, 0.01, "m"}, "resolution of the strokes");
+  sensors.stroke_bias_m = reader.number("sensors.stroke_bias", {0.0, 0.05, "m"},
+                                        "constant error of each stroke, uniform within");
   if (nominal.has_swing()) {
-    sensors.swing_resolution_rad = reader.number("sensors.swing_resolution", {0.0, 0.01, "rad"});
-    sensors.swing_bias_rad = reader.number("sensors.swing_bias", {0.0, 0.05, "rad"});
+    sensors.swing_resolution_rad =
+        reader.number("sensors.swing_resolution", {0.0, 0.01, "rad"},
+                      "resolution of the swing angle; only with valve.swing");
+    sensors.swing_bias_rad =
+        reader.number("sensors.swing_bias", {0.0, 0.05, "rad"},
+                      "constant error of the swing angle; only with valve.swing");
   }
   sensors.pressure_range_pa = nominal.safety.pressure_rail_pa;
-  sensors.pressure_bias_ratio = reader.number("sensors.pressure_bias", {0.0, 0.5, ""});
-  sensors.pressure_noise_ratio = reader.number("sensors.pressure_noise", {0.0, 0.5, ""});
+  sensors.pressure_bias_ratio = reader.number("sensors.pressure_bias", {0.0, 0.5, ""},
+                                              "constant error of each pressure, of pressure_range");
+  sensors.pressure_noise_ratio =
+      reader.number("sensors.pressure_noise", {0.0, 0.5, ""},
+                    "standard deviation of each pressure, of pressure_range");
   return sensors;
 }
 
@@ -48,19 +69,23 @@ plant::ExcavatorPlantProfile read_plant(TomlReader& reader, const ExcavatorProfi
   plant::ExcavatorPlantProfile plant;
   plant.machine = nominal;
   const std::vector<double> coulomb =
-      reader.numbers("friction.coulomb", {0.0, 1e6, "N"}, kAxisCount);
-  const std::vector<double> viscous =
-      reader.numbers("friction.viscous", {0.0, 1e7, "N s/m"}, kAxisCount);
+      reader.numbers("friction.coulomb", {0.0, 1e6, "N"}, kAxisCount,
+                     "Coulomb friction of boom, arm, bucket, all cylinders of an axis together");
+  const std::vector<double> viscous = reader.numbers(
+      "friction.viscous", {0.0, 1e7, "N s/m"}, kAxisCount, "viscous friction of boom, arm, bucket");
   const std::vector<double> dead_volume =
-      reader.numbers("valve.dead_volume", {1e-5, 1.0, "m3"}, kAxisCount);
+      reader.numbers("valve.dead_volume", {1e-5, 1.0, "m3"}, kAxisCount,
+                     "oil in each chamber with its hose, fully closed: boom, arm, bucket");
   for (unsigned i = 0; i < kAxisCount; ++i) {
     plant.link[i] = read_link(reader, kAxisNames[i]);
     plant.friction[i] = {coulomb[i], viscous[i]};
     plant.dead_volume_m3[i] = dead_volume[i];
   }
-  plant.line_volume_m3.fill(reader.number("valve.line_volume", {1e-5, 1.0, "m3"}));
+  plant.line_volume_m3.fill(
+      reader.number("valve.line_volume", {1e-5, 1.0, "m3"}, "oil in each pump line"));
   read_valve_of_plant(reader, "valve", plant);
-  plant.port_relief_pa = reader.number("valve.port_relief", {1e6, 1e8, "Pa"});
+  plant.port_relief_pa =
+      reader.number("valve.port_relief", {1e6, 1e8, "Pa"}, "relief of the cylinders' ports");
   if (nominal.has_swing()) {
     read_swing(reader, plant);
   }
@@ -73,14 +98,18 @@ plant::ExcavatorPlantProfile read_plant(TomlReader& reader, const ExcavatorProfi
 plant::SoilProfile read_soil(TomlReader& reader) {
   const std::string at = "experiment.soil.";
   plant::SoilProfile soil;
-  soil.ground_y_m = reader.number(at + "ground", {-30.0, 30.0, "m"});
-  const std::vector<double> bias = reader.numbers(at + "bias", {0.0, 1e6, "N"}, 2);
+  soil.ground_y_m =
+      reader.number(at + "ground", {-30.0, 30.0, "m"}, "surface of the soil, from the boom foot");
+  const std::vector<double> bias =
+      reader.numbers(at + "bias", {0.0, 1e6, "N"}, 2, "mean soil force on the teeth, +x and +y");
   soil.bias_n = {bias[0], bias[1]};
-  soil.ramp_m = reader.number(at + "ramp", {0.0, 10.0, "m"});
-  soil.sine_ratio = reader.number(at + "sine", {0.0, 1.0, ""});
-  soil.sine_hz = reader.number(at + "sine_frequency", {0.0, 50.0, "Hz"});
-  soil.random_ratio = reader.number(at + "random", {0.0, 1.0, ""});
-  soil.random_hz = reader.number(at + "random_frequency", {0.0, 50.0, "Hz"});
+  soil.ramp_m = reader.number(at + "ramp", {0.0, 10.0, "m"}, "depth at which it is full");
+  soil.sine_ratio = reader.number(at + "sine", {0.0, 1.0, ""}, "sinusoidal part, of the mean");
+  soil.sine_hz = reader.number(at + "sine_frequency", {0.0, 50.0, "Hz"}, "frequency of that part");
+  soil.random_ratio = reader.number(at + "random", {0.0, 1.0, ""},
+                                    "standard deviation of the random part, of the mean");
+  soil.random_hz = reader.number(at + "random_frequency", {0.0, 50.0, "Hz"},
+                                 "corner frequency of the random part");
   return soil;
 }
 
@@ -88,42 +117,52 @@ plant::SoilProfile read_soil(TomlReader& reader) {
 plant::ObstacleProfile read_obstacle(TomlReader& reader, const RoundedRectangle& path) {
   const std::string at = "experiment.obstacle.";
   plant::ObstacleProfile obstacle;
-  const PathPoint point = path.at_share(reader.number(at + "share", {0.0, 1.0, ""}));
+  const PathPoint point = path.at_share(reader.number(
+      at + "share", {0.0, 1.0, ""}, "where the rock stands: share of the way round the path"));
   obstacle.point_m = point.position_m;
   obstacle.normal = -point.tangent;
-  obstacle.stiffness_npm = reader.number(at + "stiffness", {1e5, 1e9, "N/m"});
-  obstacle.damping_nspm = reader.number(at + "damping", {0.0, 1e6, "N s/m"});
-  obstacle.friction = reader.number(at + "friction", {0.0, 2.0, ""});
-  obstacle.size_m = reader.number(at + "size", {0.01, 2.0, "m"});
-  obstacle.hold_s = reader.number(at + "hold", {0.1, 60.0, "s"});
+  obstacle.stiffness_npm =
+      reader.number(at + "stiffness", {1e5, 1e9, "N/m"}, "stiffness of the rock");
+  obstacle.damping_nspm = reader.number(at + "damping", {0.0, 1e6, "N s/m"}, "damping of the rock");
+  obstacle.friction =
+      reader.number(at + "friction", {0.0, 2.0, ""}, "friction of the teeth on the rock");
+  obstacle.size_m =
+      reader.number(at + "size", {0.01, 2.0, "m"}, "width of the rock across the path");
+  obstacle.hold_s = reader.number(at + "hold", {0.1, 60.0, "s"}, "time for which it holds");
   return obstacle;
 }
 
 Uncertainty read_uncertainty(TomlReader& reader) {
   const Range share{0.0, 0.9, ""};
-  return {reader.number("uncertainty.regeneration", share),
-          reader.number("uncertainty.spool_opening", share),
-          reader.number("uncertainty.bypass", share), reader.number("uncertainty.leak", share),
-          reader.number("uncertainty.dead_time", share)};
+  return {reader.number("uncertainty.regeneration", share,
+                        "error of c_drain, c_check and bypass_series, each way, as a share"),
+          reader.number("uncertainty.spool_opening", share, "error of each metering area"),
+          reader.number("uncertainty.bypass", share, "error of the bypass's coefficients"),
+          reader.number("uncertainty.leak", share, "error of the pumps' leakage"),
+          reader.number("uncertainty.dead_time", share, "error of each spool's dead time")};
 }
 
 AirManoeuvre read_air(TomlReader& reader) {
   AirManoeuvre air;
   air.path = read_path(reader, "experiment.air.path");
   const std::vector<double> start =
-      reader.numbers("experiment.air.start", {-30.0, 30.0, "m, m, rad"}, 3);
+      reader.numbers("experiment.air.start", {-30.0, 30.0, "m, m, rad"}, 3,
+                     "x, y of the teeth from the boom foot, attitude");
   air.start = {start[0], start[1], start[2]};
-  air.loops = reader.number("experiment.air.loops", {0.1, 10.0, ""});
-  air.speed_mps = reader.number("experiment.air.speed", {0.01, 3.0, "m/s"});
-  air.payload_kg = reader.number("experiment.air.payload", {0.0, 1e5, "kg"});
-  air.payload_centre_m = reader.point("experiment.air.payload_centre", {-10.0, 10.0, "m"});
+  air.loops = reader.number("experiment.air.loops", {0.1, 10.0, ""}, "how much of the way round");
+  air.speed_mps =
+      reader.number("experiment.air.speed", {0.01, 3.0, "m/s"}, "speed of the teeth in the air");
+  air.payload_kg =
+      reader.number("experiment.air.payload", {0.0, 1e5, "kg"}, "load in the bucket, a point mass");
+  air.payload_centre_m = reader.point("experiment.air.payload_centre", {-10.0, 10.0, "m"},
+                                      "where it is, bucket frame");
   return air;
 }
 
 LineTask read_line_task(TomlReader& reader) {
   const std::string at = "experiment.line";
   return {read_teeth(reader, at + ".from"), read_teeth(reader, at + ".to"),
-          reader.number(at + ".duration", {0.5, 600.0, "s"})};
+          reader.number(at + ".duration", {0.5, 600.0, "s"}, "duration of the line")};
 }
 
 Experiment read_experiment(TomlReader& reader, const DigPath& path) {
@@ -133,7 +172,9 @@ Experiment read_experiment(TomlReader& reader, const DigPath& path) {
   experiment.obstacle = read_obstacle(reader, RoundedRectangle(path));
   experiment.air = read_air(reader);
   experiment.line = read_line_task(reader);
-  experiment.stiff_bulk_modulus_pa = reader.number("valve.bulk_modulus_kim", {1e8, 1e11, "Pa"});
+  experiment.stiff_bulk_modulus_pa =
+      reader.number("valve.bulk_modulus_kim", {1e8, 1e11, "Pa"},
+                    "bulk modulus of the stiff variant (--stiff-oil)");
   return experiment;
 }
 
@@ -151,7 +192,7 @@ void check_line(TomlReader& reader, const ExcavatorProfile& profile, const LineT
 /// itself is right.
 void check_experiment(TomlReader& reader, const ExcavatorProfile& profile,
                       const Experiment& experiment) {
-  if (!reader.errors().empty()) {
+  if (!reader.is_sound()) {
     return;
   }
   ExcavatorProfile in_air = profile;
@@ -162,14 +203,17 @@ void check_experiment(TomlReader& reader, const ExcavatorProfile& profile,
 
 }  // namespace
 
+void read_simulated_sections(TomlReader& reader, SimulatedExcavator& machine) {
+  machine.plant = read_plant(reader, machine.profile);
+  machine.experiment = read_experiment(reader, machine.profile.dig_path);
+  check_experiment(reader, machine.profile, machine.experiment);
+}
+
 SimulatedExcavator load_simulated_excavator(const std::filesystem::path& file) {
   SimulatedExcavator machine;
   static_cast<ExcavatorMachine&>(machine) = load_excavator(file);
-  read_as(read_simulation(file), MachineKind::kExcavator, [&](TomlReader& reader) {
-    machine.plant = read_plant(reader, machine.profile);
-    machine.experiment = read_experiment(reader, machine.profile.dig_path);
-    check_experiment(reader, machine.profile, machine.experiment);
-  });
+  read_as(read_simulation(file), MachineKind::kExcavator,
+          [&](TomlReader& reader) { read_simulated_sections(reader, machine); });
   return machine;
 }
 

@@ -13,6 +13,8 @@
 
 namespace graben::machines {
 
+class TomlReader;
+
 /// How far a controller's parameters may be off, each way, as a share (Kim 5).
 struct Uncertainty {
   double regeneration = 0.0;   ///< c_r, c_d, and the fixed orifices of the bypass (Tk1, Tk2).
@@ -53,6 +55,9 @@ struct SimulatedExcavator : ExcavatorMachine {
   plant::ExcavatorPlantProfile plant;
   Experiment experiment;
 };
+
+/// Reads and checks the sections of NAME.sim.toml, for the machine whose NAME.toml has been read.
+void read_simulated_sections(TomlReader& reader, SimulatedExcavator& machine);
 
 /// Reads and checks NAME.toml, then NAME.sim.toml beside it. Throws ProfileError with every error
 /// of the first that has any, std::runtime_error where a file is missing.

@@ -45,7 +45,7 @@ def main() -> int:
         expect(FAILED, [], excavator, flatten, reaches_bus=True)
         expect(FAILED, [], excavator, *[flatten, loading] * 2, reaches_bus=True)
         expect(WRONG, ["--task"], excavator, *[flatten] * 5)
-        expect(WRONG, ["dozer_9t.toml", "dozer", "excavator"], dozer, flatten)
+        expect(WRONG, ["dozer_9t.toml", "a dozer has no tasks"], dozer, flatten)
         expect(WRONG, ["'none' not found", "/etc/graben/tasks", "/usr/share/graben/tasks"], excavator, "none")
         expect(WRONG, ["step[0].duration", "surplus"], excavator, wrong)
         # All of them in one go.
