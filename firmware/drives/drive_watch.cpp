@@ -10,9 +10,9 @@ FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus, const DriveC
                       Span<ValidDrive> seen, double period_s, DriveWatchView state,
                       CommonValid& valid) {
   const bool received = !valid.faults.has(Fault::kSpoolMissing);
-  FaultSet stops = watch_spools(drives, last.sent, seen,
-                                {received, bus.valve_echo, valid.valve_enabled}, state.spool,
-                                state.echo_cycles);
+  FaultSet stops =
+      watch_spools(drives, last.sent, seen, {received, bus.valve_echo, valid.valve_enabled},
+                   state.spool, state.echo_cycles);
   for (int i = 0; i < drives.count(); ++i) {
     if (!drives[i].watch.senses_spool) {
       seen[i].spool_ratio = last.sent.duty_ratio[i];

@@ -69,7 +69,7 @@ struct DriveWatchView {
 /// or the operator has taken over in manual mode: one that stays open when the deadman is let go is
 /// stuck.
 [[nodiscard]] FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus,
-                                    const DriveCommands& last, Span<ValidDrive> seen, double period_s, DriveWatchView state,
-                                    CommonValid& valid);
+                                    const DriveCommands& last, Span<ValidDrive> seen,
+                                    double period_s, DriveWatchView state, CommonValid& valid);
 
 }  // namespace graben

@@ -60,8 +60,7 @@ FaultSet watch_spools(DriveRows drives, const SentCommand& sent, Span<const Vali
       faults.add(Fault::kSpoolStuck);
     }
   }
-  const bool differs =
-      feedback.received && feedback.has_echo && feedback.enabled != sent.enable;
+  const bool differs = feedback.received && feedback.has_echo && feedback.enabled != sent.enable;
   echo_cycles = differs ? std::min(echo_cycles + 1, kEchoCycles) : 0;
   if (echo_cycles >= kEchoCycles) {
     faults.add(Fault::kValveNotFollowing);

@@ -108,8 +108,8 @@ inline void set_cylinder_range(double stroke_m, DriveRow& row) {
   row.watch.jump_margin_m = kJumpMargin_m;
 }
 
-/// Until a cylinder has come to rest after its spool's command has closed: its oil rings down, and a
-/// spool that is not measured has to arrive first.
+/// Until a cylinder has come to rest after its spool's command has closed: its oil rings down, and
+/// a spool that is not measured has to arrive first.
 [[nodiscard]] inline double rest_s(const DriveRow& row) {
   return kCylinderRest_s + (row.watch.senses_spool ? 0.0 : spool_arrives_s(row));
 }

@@ -47,8 +47,9 @@ void read_identity(const Signal<bool>& same_machine, TimeUs now_us, CommonValid&
 
 }  // namespace
 
-void read_machine(const BusCapabilities& bus, const MachineInputs& inputs, const EngineRange& engine, const Freshness& fresh,
-                  TimeUs now_us, CommonValid& valid) {
+void read_machine(const BusCapabilities& bus, const MachineInputs& inputs,
+                  const EngineRange& engine, const Freshness& fresh, TimeUs now_us,
+                  CommonValid& valid) {
   read_driver(inputs.driver, fresh, valid);
   if (bus.identity) {
     read_identity(inputs.same_machine, now_us, valid);

@@ -36,10 +36,12 @@ struct EngineRange {
 };
 
 /// Operator, bus, identity, the valve's echo (missing: no feedback of the valve), as far as the bus
-/// carries them, and the engine's speed. That frame is the one without protection, and a flow that is not there would let the
-/// machine go faster: missing, or above the rated speed by more than any engine, it is idle's.
-void read_machine(const BusCapabilities& bus, const MachineInputs& inputs, const EngineRange& engine, const Freshness& fresh,
-                  TimeUs now_us, CommonValid& valid);
+/// carries them, and the engine's speed. That frame is the one without protection, and a flow that
+/// is not there would let the machine go faster: missing, or above the rated speed by more than any
+/// engine, it is idle's.
+void read_machine(const BusCapabilities& bus, const MachineInputs& inputs,
+                  const EngineRange& engine, const Freshness& fresh, TimeUs now_us,
+                  CommonValid& valid);
 
 /// A jump whose last accepted value is still in time is not there yet; `missing` comes with its
 /// end.

@@ -13,7 +13,7 @@ from freestanding import FREESTANDING
 from includes import Includes, without_comments
 
 TABLE = {
-    "algorithm": "all_of clamp copy copy_n find_if max min min_element transform upper_bound",
+    "algorithm": "all_of clamp copy copy_n fill find_if max min min_element transform upper_bound",
     "array": "array",
     "cmath": "abs acos asin atan2 ceil copysign cos exp floor isfinite pow signbit sin sqrt tan",
     "cstddef": "size_t",

@@ -63,8 +63,8 @@ DozerValid validate(const DozerProfile& profile, DriveRows drives, const DozerIn
                     bool moving, TimeUs now_us, DozerValidationState& state) {
   DozerValid valid;
   const Freshness fresh(profile.control.sensor_timeout_s, now_us);
-  read_machine(profile.bus, inputs, {profile.hst.engine_most_radps, profile.safety.idle_radps}, fresh, now_us,
-               valid);
+  read_machine(profile.bus, inputs, {profile.hst.engine_most_radps, profile.safety.idle_radps},
+               fresh, now_us, valid);
   if (!moving) {
     state = {};
   }

@@ -15,7 +15,8 @@ DisplacementTask displacement_task(bool returning, bool moving, const DozerValid
 void watch(const DozerProfile& profile, DriveRows drives, const DozerLastCommands& last,
            double period_s, DozerWatchState& state, DozerValid& valid) {
   const bool moving = last.drives.moving;
-  FaultSet stops = watch_drives(drives, profile.bus, last.drives, valid.drive, period_s, state.drives, valid);
+  FaultSet stops =
+      watch_drives(drives, profile.bus, last.drives, valid.drive, period_s, state.drives, valid);
   state.returning = moving || still_closing(state.returning, pumps_neutral(profile, valid),
                                             Fault::kTransmissionMissing, valid);
   const TransmissionWatchResult transmission =

@@ -22,8 +22,8 @@ ExcavatorValid validate(const ExcavatorProfile& profile, DriveRows drives,
                         Span<Believed> accepted) {
   ExcavatorValid valid;
   const Freshness fresh(profile.control.sensor_timeout_s, now_us);
-  read_machine(profile.bus, inputs, {profile.pump[0].rated_speed_radps, profile.safety.idle_radps}, fresh,
-               now_us, valid);
+  read_machine(profile.bus, inputs, {profile.pump[0].rated_speed_radps, profile.safety.idle_radps},
+               fresh, now_us, valid);
   read_drives(drives, drive_inputs(inputs, profile.swing), moving, fresh, accepted, valid.drive,
               valid.faults);
   for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {

@@ -29,9 +29,11 @@ bool watch_swash(const ExcavatorProfile& profile, bool commanded, double period_
 void watch(const ExcavatorProfile& profile, DriveRows drives, const LastCommands<kDriveCount>& last,
            double period_s, ExcavatorWatchState& state, ExcavatorValid& valid) {
   const bool checked = last.moving && valid.fault == Fault::kNone;
-  const FaultSet stops = watch_drives(drives, profile.bus, last, valid.drive, period_s, state.drives, valid);
+  const FaultSet stops =
+      watch_drives(drives, profile.bus, last, valid.drive, period_s, state.drives, valid);
   std::array<double, kPumpCount> swash_ratio = valid.swash_ratio;
-  if (watch_swash(profile, checked && last.enable && profile.bus.swash_feedback, period_s, swash_ratio, state.swash)) {
+  if (watch_swash(profile, checked && last.enable && profile.bus.swash_feedback, period_s,
+                  swash_ratio, state.swash)) {
     degrade(Fault::kSwashDisagrees, valid);
   }
   stop(stops, valid);

@@ -59,10 +59,10 @@ struct SpoolWatch {
 inline FaultSet watch_spools(const ExcavatorProfile& profile, SpoolWatch& state,
                              const LastCommands<kDriveCount>& sent, const ExcavatorValid& valid) {
   const ExcavatorBank bank = excavator_bank(profile);
-  return graben::watch_spools(bank.rows(), DriveCommands(sent).sent, valid.drive,
-                              {!valid.faults.has(Fault::kSpoolMissing), profile.bus.valve_echo,
-                               valid.valve_enabled},
-                              state.spool, state.echo_cycles);
+  return graben::watch_spools(
+      bank.rows(), DriveCommands(sent).sent, valid.drive,
+      {!valid.faults.has(Fault::kSpoolMissing), profile.bus.valve_echo, valid.valve_enabled},
+      state.spool, state.echo_cycles);
 }
 
 inline bool spools_centred(const ExcavatorProfile& profile, const ExcavatorValid& valid) {
