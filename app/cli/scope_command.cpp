@@ -13,8 +13,8 @@
 #include "app/reports/page_setup.hpp"
 #include "app/scope/page/scope_page.hpp"
 #include "app/scope/server/can_source.hpp"
-#include "app/scope/server/log_show.hpp"
 #include "app/scope/server/serve.hpp"
+#include "app/scope/server/show.hpp"
 #include "app/scope/sim/sim_source.hpp"
 
 namespace graben::cli {

@@ -17,10 +17,9 @@
 #include "platform/can_port_group.hpp"
 #include "platform/linux/allocation_counter.hpp"
 #include "platform/linux/cyclic_clock.hpp"
-#include "platform/linux/real_time.hpp"
+#include "platform/linux/process.hpp"
 #include "platform/linux/service_notify.hpp"
 #include "platform/linux/socketcan_port.hpp"
-#include "platform/linux/stop_signal.hpp"
 
 namespace graben::ecu {
 namespace {

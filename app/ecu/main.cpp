@@ -4,7 +4,7 @@
 
 #include "app/ecu/ecu_process.hpp"
 #include "platform/linux/cyclic_clock.hpp"
-#include "platform/linux/real_time.hpp"
+#include "platform/linux/process.hpp"
 
 int main(int argc, char** argv) {
   const graben::TimeUs began_us = graben::monotonic_now_us();

@@ -1,7 +1,7 @@
 #pragma once
 /// Two oil chambers with what they push between them: a piston, or the rotor of a motor.
 
-#include "app/plant/oil.hpp"
+#include "app/plant/hydraulics.hpp"
 #include "app/plant/wave_volume.hpp"
 
 namespace graben::plant {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "app/plant/chamber_pair.hpp"
-#include "app/plant/hydraulic_details.hpp"
+#include "app/plant/hydraulics.hpp"
 
 namespace graben::plant {
 

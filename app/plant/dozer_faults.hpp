@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "app/plant/dozer_hst_path.hpp"
-#include "app/plant/faulty_reading.hpp"
 #include "app/plant/node_faults.hpp"
 #include "firmware/dozer/dozer_signals.hpp"
 

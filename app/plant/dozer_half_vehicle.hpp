@@ -3,8 +3,8 @@
 
 #include <array>
 
+#include "app/plant/dozer_ground.hpp"
 #include "app/plant/dozer_plant_profile.hpp"
-#include "app/plant/dozer_terrain.hpp"
 
 namespace graben::plant {
 

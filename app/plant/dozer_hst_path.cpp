@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/plant/turn.hpp"
+#include "firmware/numeric/constants.hpp"
 
 namespace graben::plant {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "app/plant/dozer_plant_profile.hpp"
-#include "app/plant/orifice.hpp"
+#include "app/plant/hydraulics.hpp"
 #include "app/plant/wave_volume.hpp"
 
 namespace graben::plant {

@@ -2,7 +2,7 @@
 /// The dozer's implement circuit: pump of fixed displacement, load-sensing section, port reliefs.
 
 #include "app/plant/dozer_plant_profile.hpp"
-#include "app/plant/orifice.hpp"
+#include "app/plant/hydraulics.hpp"
 #include "app/plant/spool.hpp"
 
 namespace graben::plant {

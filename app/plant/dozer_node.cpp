@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/plant/node_identity.hpp"
-
 namespace graben::plant {
 namespace {
 
@@ -12,70 +10,52 @@ namespace bus = dbc::dozer;
 using dbc::Physical;
 using dbc::RawState;
 
-constexpr std::uint64_t kEngineCycles = bus::EEC1::kCycleTimeMs / 10;
-constexpr std::uint64_t kValveCycles = bus::ValveState::kCycleTimeMs / 10;
-constexpr std::uint64_t kIdentityCycles = bus::MachineIdentity::kCycleTimeMs / 10;
 // What a parking brake may close at.
 constexpr double kStanding_mps = 0.03;
-
-Physical valid(double value) { return {value, RawState::kValid}; }
-
-bool usable(const Physical& value) { return value.state == RawState::kValid; }
 
 }  // namespace
 
 DozerNode::DozerNode(const DozerPlantProfile& profile, CanPort& port, std::uint32_t profile_hash)
-    : plant_(profile),
-      readings_(profile),
-      port_(port),
-      sender_(port, bus::kMessages),
-      profile_hash_(profile_hash) {}
+    : MachineNode(port, profile_hash, profile), readings_(profile) {}
 
 void DozerNode::step(TimeUs now) {
-  receive(now);
+  receive([this, now](const CanFrame& frame) { take(frame, now); });
   watch_commands(now);
   brake_when_stopped(now);
   apply_faults();
-  plant_.advance(kCycleUs);
-  sender_.send_late(faults_.frames, now);
+  advance(now);
   send(readings_.stroke(plant_, faults_), now);
   send(readings_.position(plant_, faults_.pose), now);
   send(readings_.pitch(plant_, faults_.pose), now);
   send(readings_.velocity(plant_, faults_.pose), now);
   send_transmission(now);
   send(readings_.tracks(plant_, faults_), now);
-  if (cycle_ % kEngineCycles == 0) {
+  if (is_due<bus::EEC1>()) {
     send(bus::EEC1{valid(plant_.engine_radps())}, now);
   }
-  if (cycle_ % kValveCycles == 1) {
+  if (is_due<bus::ValveState>(1)) {
     send_valve(now);
   }
-  if (cycle_ % kIdentityCycles == 0) {
-    send(identity_of<bus::MachineIdentity>(profile_hash_, bus::kDbcVersion, faults_), now);
-  }
-  ++cycle_;
+  end_cycle(now);
 }
 
-void DozerNode::receive(TimeUs now) {
-  receive_frames(port_, [this, now](const CanFrame& frame) {
-    if (frame.id == bus::SpoolCommand::kId && !faults_.loses_spool_commands) {
-      take_spool_command(frame, now);
-    }
-    if (faults_.loses_displacement_commands) {
-      return;
-    }
-    if (frame.id == bus::PumpDisplacementCommand::kId) {
-      take_pump_command(frame, now);
-    }
-    if (frame.id == bus::MotorDisplacementCommand::kId) {
-      take_motor_command(frame, now);
-    }
-  });
+void DozerNode::take(const CanFrame& frame, TimeUs now) {
+  if (frame.id == bus::SpoolCommand::kId) {
+    take_spool_command(frame, now);
+  }
+  if (faults_.loses_displacement_commands) {
+    return;
+  }
+  if (frame.id == bus::PumpDisplacementCommand::kId) {
+    take_pump_command(frame, now);
+  }
+  if (frame.id == bus::MotorDisplacementCommand::kId) {
+    take_motor_command(frame, now);
+  }
 }
 
 void DozerNode::watch_commands(TimeUs now) {
-  if (spool_link_.dies(now)) {
-    spool_silence_.command_lost();
+  if (spool_command_dies(now)) {
     go_neutral();
   }
   if (pump_link_.dies(now)) {
@@ -97,21 +77,17 @@ void DozerNode::apply_faults() {
 }
 
 void DozerNode::take_spool_command(const CanFrame& frame, TimeUs now) {
-  if (!spool_link_.accepts<bus::SpoolCommand>(frame, now)) {
+  const auto request = take_spool_request(frame, now);
+  if (!request) {
     return;
   }
-  const bus::SpoolCommand command = bus::SpoolCommand::decode(frame.data);
-  const bool cut_known = command.pilot_cut.state == RawState::kValid;
-  if (cut_known) {
-    plant_.set_pilot_cut(command.pilot_cut.value == bus::SpoolCommand::PilotCut::kOn);
-  }
-  const bool enabled = lets_through(command, spool_silence_);
-  if (!enabled || !cut_known || !usable(command.blade_duty_ratio)) {
+  const Physical& duty_ratio = request->command.blade_duty_ratio;
+  if (!request->enabled || !is_valid(duty_ratio)) {
     go_neutral();
     return;
   }
   enabled_ = true;
-  plant_.set_blade_duty(command.blade_duty_ratio.value, true);
+  plant_.set_blade_duty(duty_ratio.value, true);
 }
 
 void DozerNode::take_pump_command(const CanFrame& frame, TimeUs now) {
@@ -121,7 +97,7 @@ void DozerNode::take_pump_command(const CanFrame& frame, TimeUs now) {
   const bus::PumpDisplacementCommand command = bus::PumpDisplacementCommand::decode(frame.data);
   const DozerPlant::TrackArray wanted = {command.left_pump_ratio.value,
                                          command.right_pump_ratio.value};
-  const bool known = usable(command.left_pump_ratio) && usable(command.right_pump_ratio) &&
+  const bool known = is_valid(command.left_pump_ratio) && is_valid(command.right_pump_ratio) &&
                      command.brake.state == RawState::kValid;
   if (known && wanted == DozerPlant::TrackArray{}) {
     pump_silence_.saw_neutral();
@@ -140,7 +116,7 @@ void DozerNode::take_motor_command(const CanFrame& frame, TimeUs now) {
     return;
   }
   const bus::MotorDisplacementCommand command = bus::MotorDisplacementCommand::decode(frame.data);
-  const auto wanted = [](const Physical& ratio) { return usable(ratio) ? ratio.value : 1.0; };
+  const auto wanted = [](const Physical& ratio) { return is_valid(ratio) ? ratio.value : 1.0; };
   motor_ratio_ = {wanted(command.left_motor_ratio), wanted(command.right_motor_ratio)};
 }
 
@@ -183,9 +159,7 @@ void DozerNode::send_transmission(TimeUs now) {
 }
 
 void DozerNode::send_valve(TimeUs now) {
-  bus::ValveState message;
-  message.enabled = {enabled_ ? bus::ValveState::Enabled::kOn : bus::ValveState::Enabled::kOff,
-                     RawState::kValid};
+  bus::ValveState message = valve_state();
   message.blade_spool_ratio = valid(plant_.spool_travel_ratio());
   send(message, now);
 }

@@ -4,45 +4,18 @@
 #include <array>
 #include <cstdint>
 
-#include "app/plant/command_link.hpp"
 #include "app/plant/dozer_faults.hpp"
 #include "app/plant/dozer_plant.hpp"
 #include "app/plant/dozer_sensors.hpp"
-#include "app/plant/faulty_reading.hpp"
-#include "app/plant/frame_sender.hpp"
+#include "app/plant/machine_node.hpp"
 #include "can_dbc/generated/dozer_dbc.hpp"
 #include "hal/can_port.hpp"
 
 namespace graben::plant {
 
-/// What the bus is told of stroke, body and tracks. Each is read once a cycle.
-class DozerReadings {
- public:
-  explicit DozerReadings(const DozerPlantProfile& profile);
-
-  [[nodiscard]] dbc::dozer::BladeStroke stroke(const DozerPlant& plant, const DozerFaults& faults);
-  [[nodiscard]] dbc::dozer::BodyPosition position(const DozerPlant& plant,
-                                                  const PoseFaults& faults);
-  [[nodiscard]] dbc::dozer::BodyPitch pitch(const DozerPlant& plant, const PoseFaults& faults);
-  [[nodiscard]] dbc::dozer::BodyVelocity velocity(const DozerPlant& plant,
-                                                  const PoseFaults& faults);
-  [[nodiscard]] dbc::dozer::TrackSpeed tracks(const DozerPlant& plant, const DozerFaults& faults);
-
- private:
-  DozerSensorModel sensors_;
-  FaultyReading stroke_;
-  FaultyReading position_;
-  FaultyReading height_;
-  FaultyReading pitch_;
-  FaultyReading pitch_rate_;
-  FaultyReading velocity_;
-  FaultyReading climb_;
-  std::array<FaultyReading, kTrackCount> track_;
-};
-
 /// The bus port belongs to the caller, who opens it.
 ///
-/// Blade: as ExcavatorNode has it for the spools. Without a command for `kCommandTimeoutUs`, with
+/// Blade: as ExcavatorNode for its spools. Without a command for `kCommandTimeoutUs`, with
 /// enable off or unusable, or with an unusable duty the spool is sent to neutral; after such a
 /// silence enable has to be Off before it counts again. With PilotCut On the spool centres at once,
 /// until it is Off; an unusable one changes nothing of that.
@@ -52,9 +25,8 @@ class DozerReadings {
 /// `kBrakeLatestUs` if they do not; after such a silence both have to be commanded to 0 before they
 /// count again. The motors follow MotorDisplacementCommand; without it, or without a value, they go
 /// to full displacement.
-class DozerNode {
+class DozerNode : public MachineNode<dbc::dozer::Dbc, DozerPlant, DozerFaults> {
  public:
-  static constexpr TimeUs kCycleUs = 10 * kMillisecondUs;
   /// No stop by the pumps takes longer than 1 s.
   static constexpr TimeUs kBrakeLatestUs = 2 * kSecondUs;
 
@@ -66,18 +38,11 @@ class DozerNode {
   /// the valve's. `now` is for stamps, timeouts and delays only.
   void step(TimeUs now);
 
-  [[nodiscard]] DozerPlant& plant() { return plant_; }
-  [[nodiscard]] const DozerPlant& plant() const { return plant_; }
-  [[nodiscard]] const CommandCounters& counters() const { return spool_link_.counters(); }
   [[nodiscard]] const CommandCounters& pump_counters() const { return pump_link_.counters(); }
   [[nodiscard]] const CommandCounters& motor_counters() const { return motor_link_.counters(); }
-  [[nodiscard]] bool spool_enabled() const { return enabled_; }
-
-  /// The fault switches.
-  [[nodiscard]] DozerFaults& faults() { return faults_; }
 
  private:
-  void receive(TimeUs now);
+  void take(const CanFrame& frame, TimeUs now);
   void watch_commands(TimeUs now);
   void apply_faults();
   void take_spool_command(const CanFrame& frame, TimeUs now);
@@ -90,28 +55,15 @@ class DozerNode {
   void send_valve(TimeUs now);
   template <class Message>
   [[nodiscard]] Message path_state(std::size_t track) const;
-  template <class Message>
-  void send(const Message& message, TimeUs now) {
-    sender_.send(message, faults_.frames, now);
-  }
 
-  DozerPlant plant_;
   DozerReadings readings_;
-  CanPort& port_;
-  FrameSender sender_;
-  std::uint32_t profile_hash_;
-  DozerFaults faults_;
-  CommandLink spool_link_;
   CommandLink pump_link_;
   CommandLink motor_link_;
-  NeutralFirst spool_silence_;
   NeutralFirst pump_silence_;
-  bool enabled_ = false;
   bool stopping_ = false;  ///< By itself; the brake is to close.
   TimeUs stopping_since_us_ = 0;
   DozerPlant::TrackArray pump_ratio_{};
   DozerPlant::TrackArray motor_ratio_ = {1.0, 1.0};
-  std::uint64_t cycle_ = 0;
 };
 
 }  // namespace graben::plant

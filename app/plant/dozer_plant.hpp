@@ -7,13 +7,12 @@
 
 #include "app/plant/cylinder.hpp"
 #include "app/plant/dozer_blade_joint.hpp"
+#include "app/plant/dozer_ground.hpp"
 #include "app/plant/dozer_half_vehicle.hpp"
 #include "app/plant/dozer_hst_path.hpp"
 #include "app/plant/dozer_implement.hpp"
 #include "app/plant/dozer_plant_profile.hpp"
-#include "app/plant/dozer_terrain.hpp"
-#include "app/plant/dozer_traction.hpp"
-#include "app/plant/pilot_valve.hpp"
+#include "app/plant/spool.hpp"
 #include "firmware/core/time.hpp"
 #include "firmware/dozer/dozer_signals.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "app/plant/cylinder.hpp"
-#include "app/plant/hydraulic_details.hpp"
+#include "app/plant/hydraulics.hpp"
 #include "app/plant/spool.hpp"
 #include "firmware/core/time.hpp"
 #include "firmware/dozer/dozer_profile.hpp"

@@ -1,11 +1,16 @@
 #pragma once
-/// What the dozer's sensors make of the truth.
+/// What the dozer's sensors make of the truth, faults included.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
+#include "app/plant/dozer_faults.hpp"
+#include "app/plant/dozer_plant.hpp"
 #include "app/plant/dozer_plant_profile.hpp"
+#include "app/plant/node_faults.hpp"
 #include "app/plant/random.hpp"
+#include "can_dbc/generated/dozer_dbc.hpp"
 
 namespace graben::plant {
 
@@ -30,6 +35,31 @@ class DozerSensorModel {
   std::optional<Random> pose_noise_;
   std::optional<Random> track_noise_;
   double height_bias_m_ = 0.0;
+};
+
+/// What the bus is told of stroke, body and tracks. Each is read once a cycle.
+class DozerReadings {
+ public:
+  explicit DozerReadings(const DozerPlantProfile& profile);
+
+  [[nodiscard]] dbc::dozer::BladeStroke stroke(const DozerPlant& plant, const DozerFaults& faults);
+  [[nodiscard]] dbc::dozer::BodyPosition position(const DozerPlant& plant,
+                                                  const PoseFaults& faults);
+  [[nodiscard]] dbc::dozer::BodyPitch pitch(const DozerPlant& plant, const PoseFaults& faults);
+  [[nodiscard]] dbc::dozer::BodyVelocity velocity(const DozerPlant& plant,
+                                                  const PoseFaults& faults);
+  [[nodiscard]] dbc::dozer::TrackSpeed tracks(const DozerPlant& plant, const DozerFaults& faults);
+
+ private:
+  DozerSensorModel sensors_;
+  FaultyReading stroke_;
+  FaultyReading position_;
+  FaultyReading height_;
+  FaultyReading pitch_;
+  FaultyReading pitch_rate_;
+  FaultyReading velocity_;
+  FaultyReading climb_;
+  std::array<FaultyReading, kTrackCount> track_;
 };
 
 }  // namespace graben::plant

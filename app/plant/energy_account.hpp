@@ -2,7 +2,7 @@
 /// Where the simulated machine's energy goes: a check of the plant, not a part of its physics.
 
 #include "app/plant/cylinder.hpp"
-#include "app/plant/oil.hpp"
+#include "app/plant/hydraulics.hpp"
 #include "app/plant/pump_line.hpp"
 #include "app/plant/valve_section.hpp"
 

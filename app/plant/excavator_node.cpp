@@ -1,8 +1,5 @@
 #include "app/plant/excavator_node.hpp"
 
-#include "app/plant/node_identity.hpp"
-#include "can_dbc/generated/excavator_dbc.hpp"
-
 namespace graben::plant {
 namespace {
 
@@ -10,52 +7,36 @@ namespace bus = dbc::excavator;
 using dbc::Physical;
 using dbc::RawState;
 
-constexpr std::uint64_t kPumpCycles = bus::PumpState::kCycleTimeMs / 10;
-constexpr std::uint64_t kValveCycles = bus::ValveState::kCycleTimeMs / 10;
-constexpr std::uint64_t kIdentityCycles = bus::MachineIdentity::kCycleTimeMs / 10;
-
-Physical valid(double value) { return {value, RawState::kValid}; }
-
 bool all_valid(const bus::SpoolCommand& command) {
-  return command.pilot_cut.state == RawState::kValid &&
-         command.boom_duty_ratio.state == RawState::kValid &&
-         command.arm_duty_ratio.state == RawState::kValid &&
-         command.bucket_duty_ratio.state == RawState::kValid;
+  return is_valid(command.boom_duty_ratio) && is_valid(command.arm_duty_ratio) &&
+         is_valid(command.bucket_duty_ratio);
 }
 
 }  // namespace
 
 ExcavatorNode::ExcavatorNode(const ExcavatorPlantProfile& profile, const ExcavatorStart& start,
                              CanPort& port, std::uint32_t profile_hash)
-    : plant_(profile, start.strokes_m, start.swing_rad),
+    : MachineNode(port, profile_hash, profile, start.strokes_m, start.swing_rad),
       sensors_(profile),
-      port_(port),
-      sender_(port, bus::kMessages),
-      profile_hash_(profile_hash),
       wanted_swash_(profile.swash_ratio) {}
 
 void ExcavatorNode::step(TimeUs now) {
-  receive(now);
-  check_links(now);
+  receive([this, now](const CanFrame& frame) { take(frame, now); });
+  watch_commands(now);
   apply_faults();
-  plant_.advance(kCycleUs);
-  sender_.send_late(faults_.frames, now);
+  advance(now);
   send_axes(now);
-  if (cycle_ % kPumpCycles == 0) {
+  if (is_due<bus::PumpState>()) {
     send_pumps(now);
   }
-  if (cycle_ % kValveCycles == 1) {
+  if (is_due<bus::ValveState>(1)) {
     send_valve(now);
   }
-  if (cycle_ % kIdentityCycles == 0) {
-    send(identity_of<bus::MachineIdentity>(profile_hash_, bus::kDbcVersion, faults_), now);
-  }
-  ++cycle_;
+  end_cycle(now);
 }
 
-void ExcavatorNode::check_links(TimeUs now) {
-  if (spool_link_.dies(now)) {
-    spool_silence_.command_lost();
+void ExcavatorNode::watch_commands(TimeUs now) {
+  if (spool_command_dies(now)) {
     enabled_ = false;
     set_duties();
   }
@@ -90,30 +71,25 @@ void ExcavatorNode::apply_faults() {
   plant_.set_swash(swash);
 }
 
-void ExcavatorNode::receive(TimeUs now) {
-  receive_frames(port_, [this, now](const CanFrame& frame) {
-    if (frame.id == bus::SpoolCommand::kId && !faults_.loses_spool_commands) {
-      take_spool_command(frame, now);
-    }
-    if (frame.id == bus::SwingCommand::kId && has_swing()) {
-      take_swing_command(frame, now);
-    }
-    if (frame.id == bus::PumpCommand::kId) {
-      take_pump_command(frame, now);
-    }
-  });
+void ExcavatorNode::take(const CanFrame& frame, TimeUs now) {
+  if (frame.id == bus::SpoolCommand::kId) {
+    take_spool_command(frame, now);
+  }
+  if (frame.id == bus::SwingCommand::kId && has_swing()) {
+    take_swing_command(frame, now);
+  }
+  if (frame.id == bus::PumpCommand::kId) {
+    take_pump_command(frame, now);
+  }
 }
 
 void ExcavatorNode::take_spool_command(const CanFrame& frame, TimeUs now) {
-  if (!spool_link_.accepts<bus::SpoolCommand>(frame, now)) {
+  const auto request = take_spool_request(frame, now);
+  if (!request) {
     return;
   }
-  const bus::SpoolCommand command = bus::SpoolCommand::decode(frame.data);
-  if (command.pilot_cut.state == RawState::kValid) {
-    plant_.set_pilot_cut(command.pilot_cut.value == bus::SpoolCommand::PilotCut::kOn);
-  }
-  const bool lets = lets_through(command, spool_silence_);
-  enabled_ = lets && all_valid(command);
+  const bus::SpoolCommand& command = request->command;
+  enabled_ = request->enabled && all_valid(command);
   duty_[kBoom] = command.boom_duty_ratio.value;
   duty_[kArm] = command.arm_duty_ratio.value;
   duty_[kBucket] = command.bucket_duty_ratio.value;
@@ -126,7 +102,7 @@ void ExcavatorNode::take_swing_command(const CanFrame& frame, TimeUs now) {
   }
   const bus::SwingCommand command = bus::SwingCommand::decode(frame.data);
   const bool lets = lets_through(command, swing_silence_);
-  swing_enabled_ = lets && command.swing_duty_ratio.state == RawState::kValid;
+  swing_enabled_ = lets && is_valid(command.swing_duty_ratio);
   duty_[kSwing] = command.swing_duty_ratio.value;
   set_duties();
 }
@@ -138,7 +114,7 @@ void ExcavatorNode::take_pump_command(const CanFrame& frame, TimeUs now) {
   const bus::PumpCommand command = bus::PumpCommand::decode(frame.data);
   const auto& set = plant_.profile().swash_ratio;
   const auto wanted = [](const Physical& swash, double otherwise) {
-    return swash.state == RawState::kValid ? swash.value : otherwise;
+    return is_valid(swash) ? swash.value : otherwise;
   };
   wanted_swash_ = {wanted(command.pump1_swash_ratio, set[0]),
                    wanted(command.pump2_swash_ratio, set[1])};
@@ -194,9 +170,7 @@ void ExcavatorNode::send_pumps(TimeUs now) {
 
 void ExcavatorNode::send_valve(TimeUs now) {
   const auto spool = plant_.spool_travels_ratio();
-  bus::ValveState message;
-  message.enabled = {enabled_ ? bus::ValveState::Enabled::kOn : bus::ValveState::Enabled::kOff,
-                     RawState::kValid};
+  bus::ValveState message = valve_state();
   message.boom_spool_ratio = valid(spool[kBoom]);
   message.arm_spool_ratio = valid(spool[kArm]);
   message.bucket_spool_ratio = valid(spool[kBucket]);

@@ -1,14 +1,14 @@
 #pragma once
-/// The simulated machine on the bus: valve side, sensors, engine.
+/// The simulated excavator on the bus: valve side, sensors, engine.
 
 #include <array>
 #include <cstdint>
 
-#include "app/plant/command_link.hpp"
 #include "app/plant/excavator_faults.hpp"
 #include "app/plant/excavator_plant.hpp"
-#include "app/plant/faulty_sensors.hpp"
-#include "app/plant/frame_sender.hpp"
+#include "app/plant/excavator_sensors.hpp"
+#include "app/plant/machine_node.hpp"
+#include "can_dbc/generated/excavator_dbc.hpp"
 #include "hal/can_port.hpp"
 
 namespace graben::plant {
@@ -33,10 +33,8 @@ struct ExcavatorStart {
 /// follows SwingCommand by the same rules as the others SpoolCommand, and opens only while
 /// SpoolCommand lets them open too. A machine without a swing drive neither listens to nor says
 /// anything of the swing.
-class ExcavatorNode {
+class ExcavatorNode : public MachineNode<dbc::excavator::Dbc, ExcavatorPlant, ExcavatorFaults> {
  public:
-  static constexpr TimeUs kCycleUs = 10 * kMillisecondUs;
-
   ExcavatorNode(const ExcavatorPlantProfile& profile, const ExcavatorStart& start, CanPort& port,
                 std::uint32_t profile_hash);
 
@@ -46,23 +44,16 @@ class ExcavatorNode {
   /// valve's. `now` is for stamps, timeouts and delays only.
   void step(TimeUs now);
 
-  [[nodiscard]] ExcavatorPlant& plant() { return plant_; }
-  [[nodiscard]] const ExcavatorPlant& plant() const { return plant_; }
-  [[nodiscard]] const CommandCounters& counters() const { return spool_link_.counters(); }
-  [[nodiscard]] bool spools_enabled() const { return enabled_; }
   /// What SwingCommand says; the spool opens only with the others enabled.
   [[nodiscard]] bool swing_enabled() const { return swing_enabled_; }
 
   [[nodiscard]] const CommandCounters& swing_counters() const { return swing_link_.counters(); }
   [[nodiscard]] const CommandCounters& pump_counters() const { return pump_link_.counters(); }
 
-  /// The fault switches.
-  [[nodiscard]] ExcavatorFaults& faults() { return faults_; }
-
  private:
-  void receive(TimeUs now);
+  void take(const CanFrame& frame, TimeUs now);
   void apply_faults();
-  void check_links(TimeUs now);
+  void watch_commands(TimeUs now);
   void take_spool_command(const CanFrame& frame, TimeUs now);
   void take_swing_command(const CanFrame& frame, TimeUs now);
   void take_pump_command(const CanFrame& frame, TimeUs now);
@@ -73,29 +64,15 @@ class ExcavatorNode {
   void send_pumps(TimeUs now);
   void send_valve(TimeUs now);
   [[nodiscard]] dbc::Physical stroke(std::size_t axis);
-  template <class Message>
-  void send(const Message& message, TimeUs now) {
-    sender_.send(message, faults_.frames, now);
-  }
-
   [[nodiscard]] bool has_swing() const { return plant_.profile().machine.has_swing(); }
 
-  ExcavatorPlant plant_;
   FaultySensors sensors_;
-  CanPort& port_;
-  FrameSender sender_;
-  std::uint32_t profile_hash_;
-  ExcavatorFaults faults_;
-  CommandLink spool_link_;
   CommandLink swing_link_;
   CommandLink pump_link_;
-  bool enabled_ = false;
   bool swing_enabled_ = false;
   ExcavatorPlant::DriveArray duty_{};
-  NeutralFirst spool_silence_;
   NeutralFirst swing_silence_;
   ExcavatorPlant::PumpArray wanted_swash_;
-  std::uint64_t cycle_ = 0;
 };
 
 }  // namespace graben::plant

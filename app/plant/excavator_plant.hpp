@@ -11,10 +11,9 @@
 #include "app/plant/energy_account.hpp"
 #include "app/plant/excavator_plant_profile.hpp"
 #include "app/plant/linkage_dynamics.hpp"
-#include "app/plant/pilot_valve.hpp"
-#include "app/plant/platform.hpp"
 #include "app/plant/pump_line.hpp"
-#include "app/plant/swing_motor.hpp"
+#include "app/plant/spool.hpp"
+#include "app/plant/swing_drive.hpp"
 #include "app/plant/valve_section.hpp"
 #include "firmware/core/time.hpp"
 

@@ -9,14 +9,11 @@
 #include <cstdint>
 #include <optional>
 
+#include "app/plant/bucket_contact.hpp"
 #include "app/plant/cylinder.hpp"
-#include "app/plant/hydraulic_details.hpp"
-#include "app/plant/obstacle.hpp"
-#include "app/plant/oil.hpp"
-#include "app/plant/platform.hpp"
-#include "app/plant/soil.hpp"
+#include "app/plant/hydraulics.hpp"
 #include "app/plant/spool.hpp"
-#include "app/plant/swing_motor.hpp"
+#include "app/plant/swing_drive.hpp"
 #include "firmware/core/time.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/plant/turn.hpp"
+#include "firmware/numeric/constants.hpp"
 
 namespace graben::plant {
 namespace {

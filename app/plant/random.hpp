@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <random>
 
-#include "app/plant/turn.hpp"
+#include "firmware/numeric/constants.hpp"
 
 namespace graben::plant {
 

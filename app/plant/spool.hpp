@@ -1,8 +1,54 @@
 #pragma once
-/// A spool's travel and what it opens.
+/// From a duty to a spool's travel and what it opens: dead time, pilot valve, spool.
+
+#include <cstddef>
+#include <optional>
+#include <vector>
 
 namespace graben::plant {
 
+/// A pure delay of a signal that is given once a step.
+class DeadTime {
+ public:
+  /// Rounded to whole steps.
+  DeadTime(double dead_time_s, double step_s);
+
+  /// Takes this step's value, gives that of `dead_time_s` ago; 0 before.
+  double step(double value);
+
+ private:
+  std::vector<double> past_;
+  std::size_t next_ = 0;
+};
+
+/// What sends a spool where its duty asks, and what can be wrong with it.
+class PilotValve {
+ public:
+  PilotValve(double dead_time_s, double step_s) : dead_time_(dead_time_s, step_s) {}
+
+  /// Sends its spool to `held_ratio` whatever the duty, or `offset_ratio` beyond what it asks for.
+  void set_fault(std::optional<double> held_ratio, double offset_ratio) {
+    held_ratio_ = held_ratio;
+    offset_ratio_ = offset_ratio;
+  }
+
+  /// Takes this step's duty, gives where the spool is sent, of its travel. Without pilot pressure
+  /// (`cut`) the spool centres by its springs, with no dead time, whatever the pilot valve does.
+  double step(double duty_ratio, bool cut) {
+    const double delayed = dead_time_.step(duty_ratio);
+    if (cut) {
+      return 0.0;
+    }
+    return held_ratio_ ? *held_ratio_ : delayed + offset_ratio_;
+  }
+
+ private:
+  DeadTime dead_time_;
+  std::optional<double> held_ratio_;
+  double offset_ratio_ = 0.0;
+};
+
+/// A spool's lag and its openings.
 struct SpoolDynamics {
   double time_constant_s = 0.0;  ///< 1 / natural frequency.
   double damping = 1.0;

@@ -2,7 +2,7 @@
 /// One section of the main control valve: metering edges, return gallery, regeneration, bypass.
 
 #include "app/plant/excavator_plant_profile.hpp"
-#include "app/plant/orifice.hpp"
+#include "app/plant/hydraulics.hpp"
 #include "app/plant/spool.hpp"
 
 namespace graben::plant {

@@ -19,7 +19,7 @@ class GradeObserver {
   void see(const plant::DozerNode& node) {
     const Eigen::Vector2d edge_m = node.plant().cutting_edge_m();
     result_.edge_x_m = edge_m.x();
-    if (!node.spool_enabled()) {
+    if (!node.spools_enabled()) {
       return;
     }
     result_.enabled_s += kPlantPeriod_s;

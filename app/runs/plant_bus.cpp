@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "platform/linux/cyclic_clock.hpp"
-#include "platform/linux/stop_signal.hpp"
+#include "platform/linux/process.hpp"
 
 namespace graben::runs {
 namespace {

@@ -8,8 +8,7 @@
 #include <ctime>
 #include <utility>
 
-#include "platform/linux/can_errors.hpp"
-#include "platform/linux/can_translation.hpp"
+#include "platform/linux/can_frames.hpp"
 #include "platform/linux/cyclic_clock.hpp"
 
 namespace graben {

@@ -27,9 +27,9 @@
 #include <vector>
 
 #include "hal/can_port.hpp"
+#include "platform/linux/can_frames.hpp"
 #include "platform/linux/can_socket.hpp"
-#include "platform/linux/error_text.hpp"
-#include "platform/linux/receive_stamp.hpp"
+#include "platform/linux/process.hpp"
 
 namespace graben {
 

@@ -8,8 +8,8 @@
 #include "app/plant/random.hpp"
 #include "app/runs/dozer_rig.hpp"
 #include "tests/faults/bus_record.hpp"
+#include "tests/faults/frames.hpp"
 #include "tests/faults/rolling_watch.hpp"
-#include "tests/faults/sensor.hpp"
 
 namespace graben::faults {
 
@@ -69,7 +69,7 @@ struct Dozer : runs::DozerSim {
                                          TimeUs after_us);
   [[nodiscard]] static bool is_back(double slow_mps, double wanted_mps, Limit limit);
 
-  [[nodiscard]] static bool enabled(const Node& node) { return node.spool_enabled(); }
+  [[nodiscard]] static bool enabled(const Node& node) { return node.spools_enabled(); }
   [[nodiscard]] static AxisArray strokes_m(const Plant& plant) { return {plant.blade_stroke_m()}; }
   [[nodiscard]] static AxisArray longest_m(const Plant& plant);
   [[nodiscard]] static AxisArray spools(const Plant& plant) { return {plant.spool_travel_ratio()}; }

@@ -8,8 +8,8 @@
 #include "app/plant/random.hpp"
 #include "app/runs/excavator_rig.hpp"
 #include "tests/faults/bus_record.hpp"
+#include "tests/faults/frames.hpp"
 #include "tests/faults/rolling_watch.hpp"
-#include "tests/faults/sensor.hpp"
 
 namespace graben::faults {
 

@@ -6,7 +6,7 @@
 #include "firmware/excavator/field/rounded_rectangle.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 #include "tests/faults/row.hpp"
-#include "tests/faults/silence.hpp"
+#include "tests/faults/trial.hpp"
 
 namespace graben::faults {
 namespace {

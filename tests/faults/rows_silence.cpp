@@ -2,7 +2,7 @@
 
 #include "tests/faults/frames.hpp"
 #include "tests/faults/row.hpp"
-#include "tests/faults/silence.hpp"
+#include "tests/faults/trial.hpp"
 
 namespace graben::faults {
 namespace {

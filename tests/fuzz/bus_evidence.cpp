@@ -1,4 +1,4 @@
-#include "tests/fuzz/bus_evidence.hpp"
+#include "tests/fuzz/bus_run.hpp"
 
 #include <algorithm>
 #include <limits>

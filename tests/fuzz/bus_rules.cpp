@@ -1,4 +1,4 @@
-#include "tests/fuzz/bus_rules.hpp"
+#include "tests/fuzz/bus_run.hpp"
 
 #include <fmt/format.h>
 

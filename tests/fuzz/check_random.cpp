@@ -13,7 +13,6 @@
 
 #include "firmware/mcv/optimiser.hpp"
 #include "tests/fuzz/plain_circuit.hpp"
-#include "tests/fuzz/random_case.hpp"
 
 namespace {
 

@@ -7,8 +7,7 @@
 
 #include "firmware/mcv/steady_lambda.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
-#include "tests/fuzz/random_case.hpp"
-#include "tests/fuzz/safe_solution.hpp"
+#include "tests/fuzz/plain_circuit.hpp"
 
 namespace graben::test {
 namespace {

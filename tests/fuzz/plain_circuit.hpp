@@ -1,8 +1,14 @@
 #pragma once
-/// The circuit of Kim et al. once more, for checking the core: written from the equations, one
-/// halving at a time, and with nothing of firmware/mcv but its structs.
+/// What the optimiser is checked against: the circuit of Kim et al. once more, written from the
+/// equations, one halving at a time, and with nothing of firmware/mcv but its structs; random
+/// valves and inputs (1 to 6 spools on 1 to 3 pumps, regeneration on either side or none); what
+/// must hold of a solution whatever went in.
+
+#include <cstdint>
+#include <string>
 
 #include "firmware/mcv/mcv_machine.hpp"
+#include "firmware/mcv/optimiser.hpp"
 
 namespace graben::test {
 
@@ -21,5 +27,20 @@ struct PlainPoint {
 
 /// c_L of a table at |x|, by its points.
 [[nodiscard]] double plain_coefficient(const MonotoneTable& table, double travel_m);
+
+struct RandomCase {
+  McvMachine machine;
+  McvInput input;
+};
+
+/// The same seed gives the same case everywhere. Flows, loads and valves are drawn so wide and so
+/// correlated that every limit, and gaps in the feasible set, occur often.
+[[nodiscard]] RandomCase random_case(std::uint64_t seed);
+
+/// Empty, or in words what is unsafe: a number that is not finite, a lambda out of its range, a
+/// spool that is open too far, the wrong way or without a solution behind it, bad input that went
+/// through or good input that did not.
+[[nodiscard]] std::string unsafe(const McvMachine& machine, const McvInput& input,
+                                 const LambdaRange& range, const McvSolution& solution);
 
 }  // namespace graben::test

@@ -1,4 +1,4 @@
-#include "tests/fuzz/random_case.hpp"
+#include "tests/fuzz/plain_circuit.hpp"
 
 #include <algorithm>
 #include <array>

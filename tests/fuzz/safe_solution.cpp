@@ -1,4 +1,4 @@
-#include "tests/fuzz/safe_solution.hpp"
+#include "tests/fuzz/plain_circuit.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "tests/memory/bare_ecu.hpp"
-#include "tests/memory/replay.hpp"
+#include "tests/memory/setup.hpp"
 
 namespace graben::memory {
 namespace {

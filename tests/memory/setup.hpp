@@ -3,6 +3,7 @@
 /// that it lies in flash. Its types are Eigen's too, which GCC cannot initialise before the start;
 /// therefore it is written as the bytes that it has on the machine that wrote it, and kLayout says
 /// whether they mean the same on the one that reads it.
+/// Beside it a run of the simulated machine as frames.
 
 #include <array>
 #include <cstddef>
@@ -69,5 +70,21 @@ constexpr bool same(const std::array<std::size_t, count>& one,
   }
   return true;
 }
+
+struct ReplayFrame {
+  std::uint16_t cycle;  ///< From 0.
+  bool sent;            ///< By the controller; else heard by it before it was its turn.
+  std::uint8_t length;
+  std::uint32_t id;
+  std::array<std::uint8_t, 8> data;
+};
+
+struct Replay {
+  const ReplayFrame* frame;
+  std::size_t count;
+  int cycles;
+};
+
+[[nodiscard]] Replay replay();
 
 }  // namespace graben::memory

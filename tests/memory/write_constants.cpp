@@ -46,8 +46,7 @@ void write_setup(const char* type, const Setup& setup, std::uint32_t profile_has
 
 template <class Bench>
 void write_replay(Bench& bench) {
-  std::printf(
-      "#include \"tests/memory/replay.hpp\"\n\nnamespace graben::memory {\nnamespace {\n\n");
+  std::printf("#include \"tests/memory/setup.hpp\"\n\nnamespace graben::memory {\nnamespace {\n\n");
   std::printf("constexpr ReplayFrame kFrames[] = {\n");
   int cycle = 0;
   bench.bus.set_fault_hook([&](CanFrame& frame, const LoopbackPort* from) {

@@ -6,9 +6,8 @@
 #include <filesystem>
 
 #include "app/machines/excavator_file.hpp"
+#include "app/plant/bucket_contact.hpp"
 #include "app/plant/excavator_plant_profile.hpp"
-#include "app/plant/obstacle.hpp"
-#include "app/plant/soil.hpp"
 #include "firmware/excavator/kinematics/swing_kinematics.hpp"
 
 namespace graben::machines {

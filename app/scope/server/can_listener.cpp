@@ -11,7 +11,7 @@
 #include <ctime>
 #include <utility>
 
-#include "platform/linux/can_translation.hpp"
+#include "platform/linux/can_frames.hpp"
 
 namespace graben::scope {
 namespace {

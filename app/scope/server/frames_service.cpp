@@ -5,7 +5,7 @@
 #include <array>
 #include <optional>
 
-#include "app/scope/server/http_guard.hpp"
+#include "app/scope/server/access.hpp"
 #include "app/scope/server/request.hpp"
 #include "app/scope/server/scope_server.hpp"
 

@@ -1,6 +1,6 @@
 #include "app/scope/server/request.hpp"
 
-#include "app/scope/server/http_guard.hpp"
+#include "app/scope/server/access.hpp"
 
 namespace graben::scope {
 

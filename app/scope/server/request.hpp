@@ -13,7 +13,7 @@ namespace graben::scope {
 /// Answers with a status and some words. For the library: 0 goes on, -1 hangs up.
 [[nodiscard]] int answer(lws* wsi, unsigned status, const char* words);
 
-/// Whether its `Host` is this server (http_guard.hpp).
+/// Whether its `Host` is this server (access.hpp).
 [[nodiscard]] bool has_own_host(lws* wsi, const std::string& listened_on);
 
 /// Whether it comes from a page of another server; what is no browser says no `Origin`.

@@ -7,8 +7,8 @@
 #include <atomic>
 #include <stdexcept>
 
+#include "app/scope/server/access.hpp"
 #include "app/scope/server/frames_service.hpp"
-#include "app/scope/server/listen_address.hpp"
 #include "app/scope/server/page_service.hpp"
 
 namespace graben::scope {

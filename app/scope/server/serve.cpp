@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "app/scope/server/live_show.hpp"
-#include "platform/linux/stop_signal.hpp"
+#include "platform/linux/process.hpp"
 
 namespace graben::scope {
 namespace {

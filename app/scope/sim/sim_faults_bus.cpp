@@ -1,6 +1,5 @@
 // The bus itself.
 
-#include "app/scope/sim/sim_effects.hpp"
 #include "app/scope/sim/sim_faults.hpp"
 
 namespace graben::scope {

@@ -1,6 +1,5 @@
 // Frames and values that are not what they have to be.
 
-#include "app/scope/sim/sim_effects.hpp"
 #include "app/scope/sim/sim_faults.hpp"
 
 namespace graben::scope {

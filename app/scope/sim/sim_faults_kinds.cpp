@@ -1,6 +1,5 @@
 // What each kind of machine has in its own way, or not at all.
 
-#include "app/scope/sim/sim_effects.hpp"
 #include "app/scope/sim/sim_faults.hpp"
 
 namespace graben::scope {

@@ -1,6 +1,5 @@
 // The machine does not do, or does not show, what it was told.
 
-#include "app/scope/sim/sim_effects.hpp"
 #include "app/scope/sim/sim_faults.hpp"
 
 namespace graben::scope {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "app/scope/sim/sim_effects.hpp"
 #include "app/scope/sim/sim_faults.hpp"
 
 namespace graben::scope {

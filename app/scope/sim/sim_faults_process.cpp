@@ -1,6 +1,5 @@
 // The controller's own time, and whom it answers.
 
-#include "app/scope/sim/sim_effects.hpp"
 #include "app/scope/sim/sim_faults.hpp"
 
 namespace graben::scope {

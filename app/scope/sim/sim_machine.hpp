@@ -1,5 +1,6 @@
 #pragma once
-/// A simulated machine with its controller on a bus in memory, whatever its kind.
+/// A simulated machine with its controller on a bus in memory, whatever its kind, and what it digs
+/// in.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,13 +10,36 @@
 #include <string>
 #include <vector>
 
+#include "app/plant/excavator_plant.hpp"
 #include "app/plant/operator_node.hpp"
 #include "app/scope/sim/sim_fault.hpp"
-#include "app/scope/sim/sim_ground.hpp"
 #include "firmware/core/time.hpp"
 #include "hal/can_frame.hpp"
 
 namespace graben::scope {
+
+/// What the bucket of a simulated excavator meets, switched while it digs.
+class SimGround {
+ public:
+  SimGround(const plant::SoilProfile& soil, const plant::ObstacleProfile& obstacle)
+      : soil_profile_(soil), obstacle_profile_(obstacle) {}
+
+  void want_soil(bool wanted) { soil_ = wanted; }
+  /// A rock that has come loose is gone: it has to be wanted anew.
+  void want_obstacle(bool wanted) { obstacle_ = wanted; }
+  [[nodiscard]] bool soil() const { return soil_; }
+  [[nodiscard]] bool obstacle() const { return obstacle_; }
+
+  /// Before each cycle: gives the plant what is wanted. A rock is put down once the tip is well
+  /// in front of its face.
+  void step(plant::ExcavatorPlant& plant);
+
+ private:
+  plant::SoilProfile soil_profile_;
+  plant::ObstacleProfile obstacle_profile_;
+  bool soil_ = false;
+  bool obstacle_ = false;
+};
 
 struct SimOptions {
   std::string task = "dig";              ///< dig, grade or autodig.

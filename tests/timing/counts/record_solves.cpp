@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "app/cli/mcv_json.hpp"
-#include "tests/fuzz/random_case.hpp"
+#include "tests/fuzz/plain_circuit.hpp"
 #include "tests/timing/counts/setups.hpp"
 #include "tests/timing/counts/solve_case.hpp"
 

@@ -3,8 +3,7 @@
 #include <limits>
 
 #include "firmware/mcv/optimiser.hpp"
-#include "tests/fuzz/random_case.hpp"
-#include "tests/fuzz/safe_solution.hpp"
+#include "tests/fuzz/plain_circuit.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/split.hpp"
 #include "tests/unit/rounds.hpp"

@@ -4,7 +4,7 @@
 
 #include "firmware/mcv/evaluation.hpp"
 #include "firmware/mcv/requirement.hpp"
-#include "tests/fuzz/random_case.hpp"
+#include "tests/fuzz/plain_circuit.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/rounds.hpp"
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "app/plant/dozer_ground.hpp"
 #include "app/plant/dozer_half_vehicle.hpp"
 #include "app/plant/dozer_hst_path.hpp"
-#include "app/plant/dozer_traction.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/dozer_9t.hpp"
 

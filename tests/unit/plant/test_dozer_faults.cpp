@@ -191,7 +191,7 @@ void commands_can_be_lost(void**) {
   rig.spool_for(10, true, 0.5);
   rig.machine.faults().loses_spool_commands = true;
   rig.spool_for(10, true, 0.5);
-  assert_false(rig.machine.spool_enabled());
+  assert_false(rig.machine.spools_enabled());
   rig.pumps_for(30, false, 0.5, 0.5);
   assert_true(rig.left_pump() > 0.4);
   rig.machine.faults().loses_displacement_commands = true;

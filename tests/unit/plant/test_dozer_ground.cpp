@@ -1,7 +1,6 @@
 // The dozer's ground: heights between nodes, what the cutting edge takes away, Janosi and Hanamoto.
 
-#include "app/plant/dozer_terrain.hpp"
-#include "app/plant/dozer_traction.hpp"
+#include "app/plant/dozer_ground.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/dozer_9t.hpp"
 

@@ -110,7 +110,7 @@ void it_waits_braked_and_neutral(void**) {
   DozerRig rig;
   rig.cycles(20);
   assert_true(rig.braked());
-  assert_false(rig.machine.spool_enabled());
+  assert_false(rig.machine.spools_enabled());
   assert_near(rig.left_pump(), 0.0, 0.0);
   assert_near(rig.machine.plant().motor_ratios()[kLeft], 1.0, 0.0);
 }
@@ -118,12 +118,12 @@ void it_waits_braked_and_neutral(void**) {
 void the_spool_follows_its_command(void**) {
   DozerRig rig;
   rig.spool_for(2, true, 0.5);
-  assert_false(rig.machine.spool_enabled());  // the sequence is not confirmed yet
+  assert_false(rig.machine.spools_enabled());  // the sequence is not confirmed yet
   rig.spool_for(30, true, 0.5);
   assert_near(rig.blade_spool(), 0.5, 1e-3);
   assert_int_equal(rig.machine.counters().accepted, 30);
   rig.spool_for(1, false, 0.5);
-  assert_false(rig.machine.spool_enabled());
+  assert_false(rig.machine.spools_enabled());
   rig.spool_for(30, false, 0.5);
   assert_near(rig.blade_spool(), 0.0, 1e-4);
 }
@@ -132,20 +132,20 @@ void a_silence_of_the_spool_is_neutral_and_wants_off(void**) {
   DozerRig rig;
   rig.spool_for(30, true, 0.5);
   rig.cycles(9);
-  assert_true(rig.machine.spool_enabled());
+  assert_true(rig.machine.spools_enabled());
   rig.cycle();
-  assert_false(rig.machine.spool_enabled());
+  assert_false(rig.machine.spools_enabled());
   assert_int_equal(rig.machine.counters().timeouts, 1);
   rig.spool_for(20, true, 0.5);
-  assert_false(rig.machine.spool_enabled());
+  assert_false(rig.machine.spools_enabled());
   dozer_bus::SpoolCommand unusable;
   unusable.enable.state = RawState::kError;
   rig.send_and_cycle(rig.frame_of(unusable));
   rig.spool_for(2, true, 0.5);
-  assert_false(rig.machine.spool_enabled());
+  assert_false(rig.machine.spools_enabled());
   rig.spool_for(1, false, 0.0);
   rig.spool_for(1, true, 0.5);
-  assert_true(rig.machine.spool_enabled());
+  assert_true(rig.machine.spools_enabled());
 }
 
 void an_unusable_spool_command_is_neutral(void**) {
@@ -160,7 +160,7 @@ void an_unusable_spool_command_is_neutral(void**) {
        : which == 1 ? message.pilot_cut.state
                     : message.enable.state) = state;
       rig.send_and_cycle(rig.frame_of(message));
-      assert_false(rig.machine.spool_enabled());
+      assert_false(rig.machine.spools_enabled());
     }
   }
 }

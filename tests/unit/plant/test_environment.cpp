@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "app/plant/dead_time.hpp"
 #include "app/plant/excavator_plant.hpp"
-#include "app/plant/sensor_model.hpp"
+#include "app/plant/excavator_sensors.hpp"
+#include "app/plant/spool.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machine_22t.hpp"
 

@@ -1,6 +1,6 @@
 // Orifices, reliefs, make-up and the return gallery against closed forms.
 
-#include "app/plant/orifice.hpp"
+#include "app/plant/hydraulics.hpp"
 
 #include "app/plant/valve_section.hpp"
 #include "tests/unit/cmocka_cpp.hpp"

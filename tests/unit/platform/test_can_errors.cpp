@@ -1,6 +1,6 @@
 // What each report of the controller makes of the port's state.
 
-#include "platform/linux/can_errors.hpp"
+#include "platform/linux/can_frames.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
 

@@ -1,8 +1,8 @@
 // Frames and filters between the kernel's form and ours; stamps.
 
-#include "platform/linux/can_translation.hpp"
+#include "platform/linux/can_frames.hpp"
 
-#include "platform/linux/receive_stamp.hpp"
+#include "platform/linux/can_frames.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // The kernel's answer on an interface, made by hand and asked for.
 
-#include "platform/linux/can_link.hpp"
+#include "platform/linux/can_socket.hpp"
 
 #include <linux/can/netlink.h>
 #include <linux/if_link.h>

@@ -1,6 +1,6 @@
 // Each step does what it says or says what it lacks; every attempt in a child of its own.
 
-#include "platform/linux/real_time.hpp"
+#include "platform/linux/process.hpp"
 
 #include <sched.h>
 #include <sys/mman.h>

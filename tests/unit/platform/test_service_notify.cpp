@@ -12,7 +12,7 @@
 #include <cstring>
 #include <string>
 
-#include "platform/linux/stop_signal.hpp"
+#include "platform/linux/process.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 /// Which names this server goes by, and which pages may talk to it.
 
-#include "app/scope/server/http_guard.hpp"
+#include "app/scope/server/access.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
 

@@ -1,6 +1,6 @@
 /// What a page is told of a log, and what is no log.
 
-#include "app/scope/server/log_show.hpp"
+#include "app/scope/server/show.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/scope/temporary_file.hpp"

@@ -1,6 +1,6 @@
 /// The server over real sockets: what it gives, and to whom.
 
-#include "app/scope/server/log_show.hpp"
+#include "app/scope/server/show.hpp"
 #include "tests/unit/scope/server_rig.hpp"
 #include "tests/unit/scope/temporary_file.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <unistd.h>
 
-#include "app/scope/server/log_show.hpp"
+#include "app/scope/server/show.hpp"
 #include "tests/unit/scope/server_rig.hpp"
 #include "tests/unit/scope/temporary_file.hpp"
 

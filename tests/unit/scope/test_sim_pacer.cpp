@@ -1,6 +1,6 @@
 // When a simulation's cycles are due.
 
-#include "app/scope/sim/sim_pacer.hpp"
+#include "app/scope/sim/sim_source.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
 

@@ -1,0 +1,138 @@
+#pragma once
+/// What every simulated machine does on its bus, whatever its kind: takes the commands, spool
+/// command and pilot cut first of all, says what it is, reports in time, and can be broken.
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "app/plant/command_link.hpp"
+#include "app/plant/frame_sender.hpp"
+#include "app/plant/node_faults.hpp"
+#include "can_dbc/codec.hpp"
+#include "firmware/core/time.hpp"
+#include "hal/can_port.hpp"
+
+namespace graben::plant {
+
+[[nodiscard]] constexpr dbc::Physical valid(double value) { return {value, dbc::RawState::kValid}; }
+[[nodiscard]] constexpr bool is_valid(const dbc::Physical& value) {
+  return value.state == dbc::RawState::kValid;
+}
+
+/// A plant on its bus, of which a machine kind's node is made. `Dbc` is the kind's, with
+/// SpoolCommand, ValveState and MachineIdentity; `Plant` has advance(duration_us) and
+/// set_pilot_cut(on); `Faults` are NodeFaults and the kind's own. The bus port belongs to the
+/// caller, who opens it.
+template <class Dbc, class Plant, class Faults>
+class MachineNode {
+ public:
+  static constexpr TimeUs kCycleUs = 10 * kMillisecondUs;
+
+  [[nodiscard]] Plant& plant() { return plant_; }
+  [[nodiscard]] const Plant& plant() const { return plant_; }
+  /// Of SpoolCommand.
+  [[nodiscard]] const CommandCounters& counters() const { return spool_link_.counters(); }
+  /// The valve side lets SpoolCommand's duties through.
+  [[nodiscard]] bool spools_enabled() const { return enabled_; }
+  /// The fault switches.
+  [[nodiscard]] Faults& faults() { return faults_; }
+
+ protected:
+  using SpoolCommand = typename Dbc::SpoolCommand;
+
+  /// What SpoolCommand asks for, and whether its enable lets the duties through.
+  struct SpoolRequest {
+    SpoolCommand command;
+    bool enabled = false;
+  };
+
+  template <class... PlantArguments>
+  MachineNode(CanPort& port, std::uint32_t profile_hash, PlantArguments&&... plant_arguments)
+      : plant_(std::forward<PlantArguments>(plant_arguments)...),
+        port_(port),
+        sender_(port, Dbc::kMessages),
+        profile_hash_(profile_hash) {}
+  ~MachineNode() = default;
+
+  /// Gives each pending frame to `take`, but for what a fault keeps from the machine.
+  template <class Take>
+  void receive(const Take& take) {
+    receive_frames(port_, [&](const CanFrame& frame) {
+      if (frame.id != SpoolCommand::kId || !faults_.loses_spool_commands) {
+        take(frame);
+      }
+    });
+  }
+
+  /// Takes a frame of SpoolCommand, and does what its pilot cut says; an unusable one changes
+  /// nothing of that and lets no duty through. Nothing for a frame that is refused.
+  [[nodiscard]] std::optional<SpoolRequest> take_spool_request(const CanFrame& frame, TimeUs now) {
+    if (!spool_link_.template accepts<SpoolCommand>(frame, now)) {
+      return std::nullopt;
+    }
+    SpoolRequest request{SpoolCommand::decode(frame.data)};
+    const bool cut_known = request.command.pilot_cut.state == dbc::RawState::kValid;
+    if (cut_known) {
+      plant_.set_pilot_cut(request.command.pilot_cut.value == SpoolCommand::PilotCut::kOn);
+    }
+    request.enabled = lets_through(request.command, spool_silence_) && cut_known;
+    return request;
+  }
+  /// SpoolCommand has been missing for `kCommandTimeoutUs`, from just now on.
+  [[nodiscard]] bool spool_command_dies(TimeUs now) {
+    const bool dies = spool_link_.dies(now);
+    if (dies) {
+      spool_silence_.command_lost();
+    }
+    return dies;
+  }
+
+  /// Runs the plant on by a cycle; what has been delayed for long enough goes out.
+  void advance(TimeUs now) {
+    plant_.advance(kCycleUs);
+    sender_.send_late(faults_.frames, now);
+  }
+  /// A message is sent in every cycle that is so far from the first one, modulo its cycle time.
+  template <class Message>
+  [[nodiscard]] bool is_due(std::uint64_t offset = 0) const {
+    constexpr std::uint64_t kCycles = Message::kCycleTimeMs / 10;
+    return cycle_ % kCycles == offset;
+  }
+  template <class Message>
+  void send(const Message& message, TimeUs now) {
+    sender_.send(message, faults_.frames, now);
+  }
+  /// With `enabled`; the spools' places are the kind's.
+  [[nodiscard]] typename Dbc::ValveState valve_state() const {
+    using Enabled = typename Dbc::ValveState::Enabled;
+    typename Dbc::ValveState message;
+    message.enabled = {enabled_ ? Enabled::kOn : Enabled::kOff, dbc::RawState::kValid};
+    return message;
+  }
+  /// Last in a cycle.
+  void end_cycle(TimeUs now) {
+    if (is_due<typename Dbc::MachineIdentity>()) {
+      typename Dbc::MachineIdentity message;
+      message.profile_hash = {faults_.wrong_identity ? ~profile_hash_ : profile_hash_,
+                              dbc::RawState::kValid};
+      message.dbc_version = {Dbc::kDbcVersion, dbc::RawState::kValid};
+      send(message, now);
+    }
+    ++cycle_;
+  }
+
+  Plant plant_;
+  Faults faults_;
+  bool enabled_ = false;
+
+ private:
+  CanPort& port_;
+  FrameSender sender_;
+  std::uint32_t profile_hash_;
+  CommandLink spool_link_;
+  NeutralFirst spool_silence_;
+  std::uint64_t cycle_ = 0;
+};
+
+}  // namespace graben::plant

@@ -1,0 +1,44 @@
+// Cylinders and swing motor as the profiles describe them.
+
+#include "app/plant/dozer_plant_profile.hpp"
+#include "app/plant/excavator_plant_profile.hpp"
+
+namespace graben::plant {
+
+CylinderData ExcavatorPlantProfile::cylinder(int axis) const {
+  const auto index = static_cast<std::size_t>(axis);
+  const CylinderGeometry& geometry = machine.geometry.cylinder[index];
+  CylinderData data;
+  data.area = piston_areas(geometry.count, geometry.bore_m, geometry.rod_m);
+  data.stroke_m = geometry.stroke_m;
+  data.dead_volume_m3 = dead_volume_m3[index];
+  data.bulk_modulus_pa = bulk_modulus_pa;
+  data.friction = friction[index];
+  data.cushion = {cushion_length_m, cushion_end_m, cushion_speed_mps, cushion_pressure_pa};
+  data.details = details();
+  return data;
+}
+
+SwingMotorData ExcavatorPlantProfile::motor() const {
+  SwingMotorData data;
+  data.displacement_m3prad = machine.swing.displacement_m3prad;
+  data.chamber_volume_m3 = swing_motor.dead_volume_m3;
+  data.leak_m3pspa = swing_motor.leak_m3pspa;
+  data.start_pa = start_back_pressure_pa;
+  data.oil = oil();
+  return data;
+}
+
+CylinderData DozerPlantProfile::blade_cylinder(double stroke_m) const {
+  const BladeGeometry& blade = machine.blade;
+  CylinderData data;
+  data.area = piston_areas(blade.cylinder_count, blade.bore_m, blade.rod_m);
+  data.stroke_m = stroke_m;
+  data.dead_volume_m3 = dead_volume_m3;
+  data.bulk_modulus_pa = bulk_modulus_pa;
+  data.friction = {coulomb_n, viscous_nspm};
+  data.details = details();
+  return data;
+}
+
+}  // namespace graben::plant
