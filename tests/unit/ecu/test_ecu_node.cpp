@@ -11,7 +11,7 @@
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "platform/loopback/loopback_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/plant/fixture/machine_22t.hpp"
+#include "tests/unit/plant/fixture/machines.hpp"
 
 namespace {
 

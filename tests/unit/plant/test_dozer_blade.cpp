@@ -4,7 +4,7 @@
 
 #include "app/plant/dozer_plant.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/plant/fixture/dozer_9t.hpp"
+#include "tests/unit/plant/fixture/machines.hpp"
 
 namespace {
 

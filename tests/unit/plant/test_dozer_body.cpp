@@ -7,7 +7,7 @@
 #include "app/plant/dozer_half_vehicle.hpp"
 #include "app/plant/dozer_hst_path.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/plant/fixture/dozer_9t.hpp"
+#include "tests/unit/plant/fixture/machines.hpp"
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include "app/plant/dozer_ground.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/plant/fixture/dozer_9t.hpp"
+#include "tests/unit/plant/fixture/machines.hpp"
 
 namespace {
 

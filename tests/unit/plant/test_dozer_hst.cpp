@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/plant/fixture/dozer_9t.hpp"
+#include "tests/unit/plant/fixture/machines.hpp"
 
 namespace {
 

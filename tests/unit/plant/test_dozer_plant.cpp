@@ -8,7 +8,7 @@
 
 #include "app/plant/dozer_sensors.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/plant/fixture/dozer_9t.hpp"
+#include "tests/unit/plant/fixture/machines.hpp"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/plant/fixture/machine_22t.hpp"
+#include "tests/unit/plant/fixture/machines.hpp"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include "app/plant/linkage_dynamics.hpp"
 #include "app/plant/linkage_geometry.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/plant/fixture/machine_22t.hpp"
+#include "tests/unit/plant/fixture/machines.hpp"
 
 namespace {
 

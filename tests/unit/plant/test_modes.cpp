@@ -13,7 +13,7 @@
 
 #include "app/plant/excavator_plant.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/plant/fixture/machine_22t.hpp"
+#include "tests/unit/plant/fixture/machines.hpp"
 
 namespace {
 

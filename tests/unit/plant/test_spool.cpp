@@ -3,7 +3,7 @@
 #include "app/plant/spool.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/plant/fixture/machine_22t.hpp"
+#include "tests/unit/plant/fixture/machines.hpp"
 
 namespace {
 

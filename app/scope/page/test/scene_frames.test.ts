@@ -3,7 +3,7 @@ import {test} from 'node:test';
 import {blade_walk} from '../src/scene/edges';
 import {dozer_state, excavator_state} from '../src/scene/machine_state';
 import {measured} from '../src/scene/measured';
-import {pressure_colour} from '../src/scene/pressure_colour';
+import {pressure_colour} from '../src/scene/theme';
 import {Trail, trail_segments} from '../src/scene/trail';
 import {DOZER_9T, EXCAVATOR_22T} from './machines';
 import {hex, store_of} from './make';

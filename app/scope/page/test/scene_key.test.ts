@@ -3,7 +3,7 @@ import {test} from 'node:test';
 import type {ExcavatorMachine, Task} from '../src/model/api';
 import {Corner} from '../src/scene/corner';
 import {dozer_key, excavator_key, type KeyEntry} from '../src/scene/key';
-import type {Stage} from '../src/scene/stage';
+import type {Stage} from '../src/scene/types';
 import {scene_colours} from '../src/scene/theme';
 import type {SceneLayers} from '../src/scene/types';
 import {EXCAVATOR_22T as PLAIN} from './machines';

@@ -5,7 +5,7 @@ import {loadDatabase} from '../src/model/dbc';
 import {State} from '../src/state';
 import {alarms_of} from '../src/view/alarm_rules';
 import {align, cut, lower_bound} from '../src/view/curves';
-import {BARS, distribution} from '../src/view/distribution';
+import {BARS, distribution} from '../src/view/plot_range';
 import {file_setup} from '../src/feed/file_setup';
 import {link_words} from '../src/view/header';
 import {FaultLog} from '../src/view/fault_log';

@@ -3,7 +3,7 @@
 
 import {Key} from './key';
 import {Legend} from './legend';
-import type {Stage} from './stage';
+import type {Stage} from './types';
 import type {SceneColours} from './theme';
 
 export class Corner {

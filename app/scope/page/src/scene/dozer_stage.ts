@@ -13,7 +13,7 @@ import type {SharedMaterials} from './materials';
 import {type Pane, ribbon} from './planes';
 import {Ruler} from './ruler';
 import {dozer_grid} from './soil_shape';
-import type {Stage} from './stage';
+import type {Stage} from './types';
 import type {SceneColours} from './theme';
 import {TrailLayer} from './trail_layer';
 import type {SceneLayers, SceneUpdate} from './types';

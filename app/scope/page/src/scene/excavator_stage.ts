@@ -16,7 +16,7 @@ import {type Pane, plane_pane} from './planes';
 import {Ruler} from './ruler';
 import {type ShownTask, TaskChoice} from './shown_task';
 import {excavator_grid, excavator_start, reach_m} from './soil_shape';
-import type {Stage} from './stage';
+import type {Stage} from './types';
 import type {SceneColours} from './theme';
 import {TrailLayer} from './trail_layer';
 import type {SceneLayers, SceneUpdate} from './types';

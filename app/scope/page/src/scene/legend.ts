@@ -1,6 +1,6 @@
 /// The scale of the cylinders' colours, in a corner of the scene.
 
-import {pressure_gradient} from './pressure_colour';
+import {pressure_gradient} from './theme';
 import type {SceneColours} from './theme';
 
 export class Legend {

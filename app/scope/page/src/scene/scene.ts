@@ -9,7 +9,7 @@ import {ExcavatorStage} from './excavator_stage';
 import {Labels} from './labels';
 import {SharedMaterials} from './materials';
 import {without_webgl} from './no_webgl';
-import type {Stage} from './stage';
+import type {Stage} from './types';
 import {scene_colours} from './theme';
 import type {SceneLayers, SceneUpdate, SceneView} from './types';
 import {make_camera, ViewCamera} from './view_camera';

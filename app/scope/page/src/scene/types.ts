@@ -1,6 +1,10 @@
-/// What the page knows of the scene.
+/// What the page knows of the scene, and what a machine of either kind brings to it.
 
+import type {Group, Object3D, Sphere} from 'three';
 import type {FrameStore, Machine, Setup, Vector2, Vector3} from '../model/api';
+import type {GroundLayer} from './ground_layer';
+import type {KeyEntry} from './key';
+import type {SceneColours} from './theme';
 
 export interface SceneUpdate {
   store: FrameStore;
@@ -25,5 +29,21 @@ export interface SceneView {
   tip(): Vector3 | null;
   /// The same in CSS pixels from the host's upper left corner.
   tipOnScreen(): Vector2 | null;
+  dispose(): void;
+}
+
+export interface Stage {
+  readonly node: Group;
+  readonly ground: GroundLayer;
+  readonly home: Sphere;      ///< What the first view has to hold, with the machine at x = 0.
+  readonly tip: Object3D;     ///< Teeth or edge.
+  readonly relief_pa: number | null;  ///< Null: no pressures to show.
+  readonly along_m: number;   ///< Driven so far.
+  readonly placed: boolean;   ///< The machine has been somewhere; until then it is not drawn.
+  update(view: SceneUpdate): void;
+  face(eye_y_m: number): void;  ///< Where the reader's eye is.
+  key(): readonly KeyEntry[];   ///< Of the layers that are on now.
+  set_layers(layers: SceneLayers): void;
+  set_theme(colours: SceneColours): void;
   dispose(): void;
 }

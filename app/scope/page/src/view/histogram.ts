@@ -3,7 +3,7 @@
 import uPlot from 'uplot';
 import {on_processor} from './cpu_canvas';
 import {el, set_shown, set_text} from './dom';
-import {BARS, distribution, type Distribution} from './distribution';
+import {BARS, distribution, type Distribution} from './plot_range';
 import {count, fixed, time_words} from './format';
 import type {PageState} from './page_state';
 import type {ThemeSwitch} from './theme';
