@@ -23,7 +23,7 @@ constexpr dbc::Physical physical(double value) { return {value, RawState::kValid
 
 }  // namespace
 
-const machines::SimulatedDozer& DozerBus::shipped() { return dozer(); }
+const DozerBus::Machine& DozerBus::shipped() { return dozer(); }
 
 bool DozerBus::is_needed(std::uint32_t id) {
   return id != bus::EEC1::kId && id != bus::MachineIdentity::kId;

@@ -22,7 +22,7 @@ constexpr dbc::Physical physical(double value) { return {value, RawState::kValid
 
 }  // namespace
 
-const machines::SimulatedExcavator& ExcavatorBus::shipped() { return excavator(); }
+const ExcavatorBus::Machine& ExcavatorBus::shipped() { return excavator(); }
 
 bool ExcavatorBus::is_needed(std::uint32_t id) {
   switch (id) {
