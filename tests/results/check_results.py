@@ -61,6 +61,9 @@ readme.write_text(README)
 data.write_text(json.dumps({name: {"cells": ["", "?"], "date": "-"} for name in ("json", "csv")}))
 expect(1, "table speed is not what the data say", action="--check")
 
+# What another state of the sources has left there is not gone on with.
+(here / "state/first").mkdir(parents=True)
+(here / "state/first/stale").touch()
 # Stopped in its middle, it goes on with what is left.
 hang.touch()
 stopped = subprocess.Popen([*words, "--make"], stdout=subprocess.DEVNULL, start_new_session=True)
@@ -73,6 +76,7 @@ stopped.wait()
 hang.unlink()
 assert "?" in data.read_text(), "results were written though nothing was finished"
 expect(0, "first: already there", "draws: sh", "2 rows, 0 problems", action="--make")
+assert not (here / "state/first/stale").exists(), "a file of another run is still there"
 assert counted.read_text() == "ran\n", "the first run was made twice"
 written = readme.read_text()
 assert all(line in written for line in WANTED), written

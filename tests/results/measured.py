@@ -9,6 +9,7 @@ import math
 import pathlib
 import re
 import shlex
+import shutil
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -135,6 +136,15 @@ def remembered(path: pathlib.Path, key: dict) -> dict | None:
     return state if state.get("key") == key else None
 
 
+def begin(folder: pathlib.Path, key: dict):
+    """A campaign goes on with the draws that its file has: only with those of the same sources."""
+    begun = folder / "begun.json"
+    if remembered(begun, key) is None:
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        begun.write_text(json.dumps({"key": key}) + "\n")
+
+
 def make(name: str, run: dict, state_folder: pathlib.Path, build: pathlib.Path, again: bool) -> dict:
     """The figures of a run and their date, from the state folder if they are there already."""
     key = {"run": run, "sources": sources(), "build": str(build)}
@@ -144,6 +154,7 @@ def make(name: str, run: dict, state_folder: pathlib.Path, build: pathlib.Path, 
         print(f"{name}: already there", flush=True)
         return state
     print(f"{name}: {run['command']}", flush=True)
+    begin(state_folder / name, key)
     state = {"key": key, "date": today(), "figures": measure(run, state_folder / name, build)}
     # Whole or not at all: whoever is stopped here begins this one again.
     partial = path.with_suffix(".partial")
