@@ -8,9 +8,9 @@
 #include <deque>
 #include <optional>
 #include <stdexcept>
+#include <type_traits>
 #include <variant>
 
-#include "app/ecu/ecu_stats.hpp"
 #include "app/ecu/kinds.hpp"
 #include "app/machines/any_machine.hpp"
 #include "app/machines/task_book.hpp"
@@ -202,6 +202,9 @@ int run_controller(const typename Kind::Setup& setup, std::uint32_t profile_hash
                        write_stats(options.stats_file, clock, ecu.link(), buses.counters(), usage);
   return written ? 0 : kFailed;
 }
+
+static_assert(std::is_same_v<Kinds::AnyMachine, machines::AnyMachine>,
+              "each kind whose profiles are read has its controller");
 
 template <class Machine>
 int run_machine(const Machine& machine, const EcuOptions& options, TimeUs began_us) {

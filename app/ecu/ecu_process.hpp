@@ -1,10 +1,44 @@
 #pragma once
-/// graben-ecu from its start to its end: what is needed for real time, the cycle, the way out.
+/// graben-ecu from its start to its end: its options, real time, the cycle, the way out, and the
+/// statistics that a run leaves behind.
 
-#include "app/ecu/ecu_options.hpp"
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "firmware/core/time.hpp"
+#include "hal/link/link_counters.hpp"
+#include "platform/linux/cyclic_clock.hpp"
+#include "platform/linux/socketcan_port.hpp"
 
 namespace graben::ecu {
+
+/// The command line.
+struct EcuOptions {
+  std::vector<std::string> interfaces;  ///< CAN interfaces by name; all are heard, all are sent to.
+  std::string profile;
+  std::vector<std::string> tasks;  ///< Files or names, in the order of their numbers, from 0.
+  std::string stats_file;          ///< Written on the way out; none if empty.
+  bool real_time = true;
+  int priority = 80;  ///< SCHED_FIFO.
+  std::optional<int> cpu;
+};
+
+/// Of the process, since its first cycle.
+struct Usage {
+  std::uint64_t allocations = 0;
+  bool allocations_counted = false;
+  std::uint64_t page_faults = 0;
+  bool real_time = false;
+  TimeUs start_us = 0;  ///< From the process's begin to its first frame.
+};
+
+/// Writes counters as `# name value` lines, then the histograms of wake-up latency and cycle time
+/// as two threads of cyclictest -h, for what plots those. False, with the reason on standard error,
+/// if the file cannot be written.
+bool write_stats(const std::string& file, const CyclicClock& clock, const LinkCounters& link,
+                 const CanPortCounters& port, const Usage& usage);
 
 /// Runs until SIGTERM or SIGINT; returns the exit status. Everything that keeps it from starting
 /// is told on standard error, before a single frame was sent: status 2 if it is the profile, which

@@ -1,4 +1,4 @@
-#include "app/ecu/ecu_stats.hpp"
+#include "app/ecu/ecu_process.hpp"
 
 #include <cinttypes>
 #include <cstdio>

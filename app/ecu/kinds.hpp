@@ -2,6 +2,7 @@
 /// The machine kinds that are built in: a new one is a line here.
 
 #include <type_traits>
+#include <variant>
 
 #include "app/ecu/dozer_kind.hpp"
 #include "app/ecu/excavator_kind.hpp"
@@ -9,7 +10,10 @@
 namespace graben::ecu {
 
 template <class... Kind>
-struct KindList {};
+struct KindList {
+  /// What a profile is read as, whatever its kind.
+  using AnyMachine = std::variant<typename Kind::Machine...>;
+};
 
 using Kinds = KindList<ExcavatorKind, DozerKind>;
 
@@ -27,6 +31,7 @@ struct KindOf<Machine, KindList<>> {};
 
 }  // namespace detail
 
+/// The kind whose controller a machine takes.
 template <class Machine>
 using KindOf = typename detail::KindOf<Machine, Kinds>::type;
 

@@ -1,10 +1,76 @@
-/// graben-ecu: what is deployed.
+/// graben-ecu: what is deployed. Its command line, then the process.
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 
 #include "app/ecu/ecu_process.hpp"
-#include "platform/linux/cyclic_clock.hpp"
+#include "firmware/excavator/tasks/task_program.hpp"
 #include "platform/linux/process.hpp"
+
+namespace graben::ecu {
+namespace {
+constexpr int kWrongUsage = 2;
+constexpr std::size_t kMostInterfaces = 4;
+constexpr std::size_t kLongestName = 15;  // IFNAMSIZ without its end.
+
+std::string interface_name(const std::string& name) {
+  const bool good = !name.empty() && name.size() <= kLongestName &&
+                    name.find_first_of("/ \t") == std::string::npos;
+  return good ? ""
+              : "'" + name + "' is no name of an interface: 1 to 15 characters, no blank, no /";
+}
+
+/// Without a value when the process is to end at once, with `status`: 0 after --help or --version,
+/// 2 after wrong usage, which has been told.
+std::optional<EcuOptions> read_options(int argc, const char* const* argv, int& status) {
+  EcuOptions options;
+  CLI::App app(
+      "graben-ecu: the controller as a process on CAN. Silent until the machine, the "
+      "operator and the bus are all there; SIGTERM brings neutral, then ends it.");
+  app.set_version_flag("--version", GRABEN_VERSION);
+  app.add_option("--can", options.interfaces,
+                 "CAN interface; up to 4, heard and sent to alike (--can can0 --can can1)")
+      ->required()
+      ->expected(1, static_cast<int>(kMostInterfaces))
+      ->check(CLI::Validator(interface_name, "NAME"));
+  app.add_option("--profile", options.profile,
+                 "Machine profile: a file, or a name in /etc/graben or /usr/share/graben")
+      ->required();
+  app.add_option("--task", options.tasks,
+                 "Task of an excavator: a file, or a name in /etc/graben/tasks or "
+                 "/usr/share/graben/tasks; up to 4, for the operator's TaskNumber 0, 1, ...")
+      ->expected(1, kTaskMost);
+  app.add_option("--rt-priority", options.priority, "SCHED_FIFO priority, 1 .. 99")
+      ->check(CLI::Range(1, 99))
+      ->capture_default_str();
+  app.add_option("--cpu", options.cpu, "Stay on this processor, from 0")
+      ->check(CLI::Range(0, 1023));
+  app.add_option("--stats", options.stats_file,
+                 "Write cycle times, wake-up latencies and counters to this file at the end");
+  bool no_real_time = false;
+  app.add_flag("--no-realtime", no_real_time,
+               "Run without real-time priority and locked memory; said in every EcuHealth frame. "
+               "Not for a machine");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    status = app.exit(error) == 0 ? 0 : kWrongUsage;
+    return std::nullopt;
+  }
+  std::vector<std::string> names = options.interfaces;
+  std::sort(names.begin(), names.end());
+  if (std::adjacent_find(names.begin(), names.end()) != names.end()) {
+    std::fputs("graben-ecu: --can: an interface is named twice\n", stderr);
+    status = kWrongUsage;
+    return std::nullopt;
+  }
+  options.real_time = !no_real_time;
+  return options;
+}
+
+}  // namespace
+}  // namespace graben::ecu
 
 int main(int argc, char** argv) {
   const graben::TimeUs began_us = graben::monotonic_now_us();

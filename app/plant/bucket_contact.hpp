@@ -1,5 +1,5 @@
 #pragma once
-/// What the bucket meets: the ground (Kim 5.1), and something hard in its way (Kim 5.2).
+/// Forces on the bucket: the ground (Kim 5.1), and something hard in its way (Kim 5.2).
 
 #include <Eigen/Core>
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-/// How commands come in at a simulated machine, of whatever kind.
+/// Incoming commands of a simulated machine, of whatever kind.
 
 #include <array>
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-/// What is broken on the simulated dozer, beside what can be on every machine.
+/// Faults of the simulated dozer, beside those of every machine.
 
 #include <array>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-/// What the dozer moves on: the terrain that its blade cuts, and the traction of its tracks.
+/// The dozer's ground: the terrain that its blade cuts, and the traction of its tracks.
 
 #include <Eigen/Core>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-/// What the dozer's sensors make of the truth, faults included.
+/// The dozer's sensors: readings of the true state, faults included.
 
 #include <array>
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-/// What is broken on the simulated excavator, beside what can be on every machine.
+/// Faults of the simulated excavator, beside those of every machine.
 
 #include <array>
 #include <optional>

@@ -23,7 +23,7 @@ namespace graben::plant {
 /// meets the ground; swing 0 looks along x and turns towards y to the left.
 struct TeethTruth {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
-  double attitude_rad = 0.0;  ///< As TipPose has it.
+  double attitude_rad = 0.0;  ///< See TipPose.
 };
 
 /// The circuit of Kim 3 with what his detailed model adds (Kim 5): compressible chambers and lines,

@@ -1,5 +1,5 @@
 #pragma once
-/// What the excavator's sensors make of the truth, faults included.
+/// The excavator's sensors: readings of the true state, faults included.
 
 #include <array>
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
-/// What every simulated machine does on its bus, whatever its kind: takes the commands, spool
-/// command and pilot cut first of all, says what it is, reports in time, and can be broken.
+/// The part of a simulated machine's node that is the same for every kind: commands in, spool
+/// command and pilot cut first of all, identity, reports in time, faults.
 
 #include <cstdint>
 #include <optional>

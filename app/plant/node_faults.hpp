@@ -1,5 +1,5 @@
 #pragma once
-/// What can be broken on every simulated machine. The default is nothing; each switch acts from the
+/// Faults of every simulated machine. The default is nothing; each switch acts from the
 /// next cycle on and can be taken back.
 
 #include <cstdint>

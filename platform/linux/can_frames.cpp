@@ -99,7 +99,7 @@ constexpr TimeUs kMaxSlewUs = kMillisecondUs;
 void ReceiveStamp::set_now(TimeUs monotonic_us, TimeUs wall_us) {
   const TimeUs slew_us = (wall_us - wall_us_) - (monotonic_us - monotonic_us_);
   if (has_now_ && (slew_us > kMaxSlewUs || slew_us < -kMaxSlewUs)) {
-    believed_ = false;
+    trusted_ = false;
   }
   monotonic_us_ = monotonic_us;
   wall_us_ = wall_us;
@@ -109,7 +109,7 @@ void ReceiveStamp::set_now(TimeUs monotonic_us, TimeUs wall_us) {
 TimeUs ReceiveStamp::monotonic_us(TimeUs wall_stamp_us) const {
   const TimeUs age_us = wall_us_ - wall_stamp_us;
   const bool possible = age_us >= 0 && age_us <= kMaxAgeUs;
-  return believed_ && possible ? monotonic_us_ - age_us : monotonic_us_;
+  return trusted_ && possible ? monotonic_us_ - age_us : monotonic_us_;
 }
 
 }  // namespace graben

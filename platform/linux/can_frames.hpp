@@ -45,7 +45,7 @@ inline constexpr can_err_mask_t kCanErrorClasses = CAN_ERR_BUSOFF | CAN_ERR_REST
 /// Takes from a stamp the frame's age only, and counts that back from the monotonic now. The
 /// kernel offers CAN sockets no monotonic stamp. A wall clock that was stepped while a frame was
 /// waiting would make its age wrong: a step is seen in the two clocks' difference, and until the
-/// queue was empty once no stamp is believed. What is not believed, and an age below zero or above
+/// queue was empty once no stamp is used. A stamp that is not used, and an age below zero or above
 /// 1 s, becomes `now`. Control uses the cycle's `now` alone; stamps are for logs and diagnosis.
 class ReceiveStamp {
  public:
@@ -53,7 +53,7 @@ class ReceiveStamp {
   void set_now(TimeUs monotonic_us, TimeUs wall_us);
 
   /// Nothing waits that was stamped before the last set_now.
-  void queue_is_empty() { believed_ = true; }
+  void queue_is_empty() { trusted_ = true; }
 
   [[nodiscard]] TimeUs now_us() const { return monotonic_us_; }
 
@@ -64,7 +64,7 @@ class ReceiveStamp {
   TimeUs monotonic_us_ = 0;
   TimeUs wall_us_ = 0;
   bool has_now_ = false;
-  bool believed_ = true;
+  bool trusted_ = true;
 };
 
 }  // namespace graben

@@ -1,5 +1,5 @@
 #pragma once
-/// What wakes the controller: absolute deadlines on the monotonic clock, so that nothing drifts and
+/// The controller's clock: absolute deadlines on the monotonic clock, so that nothing drifts and
 /// a step of the wall clock is not felt.
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-/// What a process needs to keep deadlines and to end in order: errors without the heap, SIGTERM and
+/// A process that keeps deadlines and ends in order: errors without the heap, SIGTERM and
 /// SIGINT as a flag, real time. Order: tune_heap, lock_memory, prefault_stack, then CPU and
 /// priority, all before the first cycle. Each step that can fail returns what is missing, as text,
 /// and has then changed nothing.

@@ -34,7 +34,7 @@ struct Sensor {
 struct Reading {
   double* offset = nullptr;
   double jump = 0.0;             ///< More than the quantity can change within a cycle.
-  Fault jumped = Fault::kNone;   ///< While the last one is believed instead.
+  Fault jumped = Fault::kNone;   ///< While the last one is held instead.
   Fault missing = Fault::kNone;  ///< When that has become too old.
 };
 

@@ -50,7 +50,7 @@ class BusPartner {
   /// since the last call.
   void run_until(TimeUs now);
 
-  /// The hand does what the mode on the bus wants for Active: release, enable afresh, task.
+  /// The hand does what the mode on the bus wants for Active: release, enable again, task.
   void lead_to_active();
   /// No more interference, with the machine's motion neither.
   void mend();

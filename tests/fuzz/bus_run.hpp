@@ -103,7 +103,7 @@ class BusRun {
   /// One cycle `elapsed_us` after the last one; empty, or what was wrong with it.
   [[nodiscard]] std::string cycle(TimeUs elapsed_us);
 
-  /// Everything is well again and the operator starts afresh: Active within 4 s, and it stays so.
+  /// Everything is well again and the operator starts again: Active within 4 s, and it stays so.
   [[nodiscard]] std::string recover();
 
   [[nodiscard]] bool is_active() const { return ecu_.outputs().status.mode == EcuMode::kActive; }

@@ -20,7 +20,7 @@ struct ExcavatorBus : ecu::ExcavatorKind {
   [[nodiscard]] static const Machine& shipped();
   /// Without it nothing may move: the others only slow.
   [[nodiscard]] static bool is_needed(std::uint32_t id);
-  /// Of a swing drive, which the shipped machine has not got.
+  /// Of a swing drive, which the shipped machine does not have.
   [[nodiscard]] static constexpr bool is_of_a_part(std::uint32_t id) {
     return id == Dbc::SwingState::kId || id == Dbc::SwingValveState::kId;
   }

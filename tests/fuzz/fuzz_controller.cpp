@@ -63,7 +63,7 @@ std::string unsafe_outputs(const ExcavatorOutputs& outputs) {
              : "a status that is not finite";
 }
 
-/// Sound inputs, enable released, then given afresh with the task at rest, then the task.
+/// Sound inputs, enable released, then given again with the task at rest, then the task.
 std::string recover(ExcavatorController& controller, bool has_swing, TimeUs now_us) {
   ExcavatorOutputs told;
   int active = 0;

@@ -81,7 +81,7 @@ void ask_for_all(int fd) {
 
 }  // namespace
 
-CanEar::CanEar(CanEar&& other) noexcept
+CanListener::CanListener(CanListener&& other) noexcept
     : interface_(std::move(other.interface_)),
       opener_(other.opener_),
       fd_(std::exchange(other.fd_, -1)),
@@ -89,15 +89,15 @@ CanEar::CanEar(CanEar&& other) noexcept
       socket_lost_(other.socket_lost_),
       error_(other.error_) {}
 
-CanEar::~CanEar() { close(); }
+CanListener::~CanListener() { close(); }
 
-void CanEar::close() {
+void CanListener::close() {
   if (fd_ >= 0) {
     static_cast<void>(::close(std::exchange(fd_, -1)));
   }
 }
 
-bool CanEar::open() {
+bool CanListener::open() {
   close();
   CanSocketConfig config;
   config.interface = interface_;
@@ -112,7 +112,7 @@ bool CanEar::open() {
   return true;
 }
 
-void CanEar::hear(const std::function<void(const CanFrame&)>& frame) {
+void CanListener::hear(const std::function<void(const CanFrame&)>& frame) {
   for (int i = 0; i < kMostAtOnce && fd_ >= 0; ++i) {
     Received received;
     const int result = receive(fd_, received);

@@ -13,16 +13,16 @@
 
 namespace graben::scope {
 
-class CanEar {
+class CanListener {
  public:
   using Opener = OpenedCanSocket (*)(const CanSocketConfig& config);
 
-  explicit CanEar(std::string interface, Opener opener = &open_can_socket)
+  explicit CanListener(std::string interface, Opener opener = &open_can_socket)
       : interface_(std::move(interface)), opener_(opener) {}
-  CanEar(CanEar&& other) noexcept;
-  CanEar(const CanEar&) = delete;
-  CanEar& operator=(const CanEar&) = delete;
-  ~CanEar();
+  CanListener(CanListener&& other) noexcept;
+  CanListener(const CanListener&) = delete;
+  CanListener& operator=(const CanListener&) = delete;
+  ~CanListener();
 
   /// Opens the interface, again if it is open. False, with last_error(), if it is not to be had.
   bool open();

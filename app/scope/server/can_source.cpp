@@ -28,31 +28,31 @@ TimeUs wall_now_us() {
   return TimeUs{now.tv_sec} * kSecondUs + now.tv_nsec / 1000;
 }
 
-std::string words_of(const CanEar& ear) {
-  std::string words = ear.is_open()
-                          ? ear.interface() + ": heard"
-                          : fmt::format("{}; tried again every half second", ear.last_error());
-  if (ear.lost() > 0) {
-    words += fmt::format("; the kernel had no room for {} frames of it", ear.lost());
+std::string words_of(const CanListener& listener) {
+  std::string words = listener.is_open()
+                          ? listener.interface() + ": heard"
+                          : fmt::format("{}; tried again every half second", listener.last_error());
+  if (listener.lost() > 0) {
+    words += fmt::format("; the kernel had no room for {} frames of it", listener.lost());
   }
   return words;
 }
 
-nlohmann::json state_of(const std::vector<CanEar>& ears) {
+nlohmann::json state_of(const std::vector<CanListener>& listeners) {
   std::vector<std::string> words;
-  words.reserve(ears.size());
-  for (const CanEar& ear : ears) {
-    words.push_back(words_of(ear));
+  words.reserve(listeners.size());
+  for (const CanListener& listener : listeners) {
+    words.push_back(words_of(listener));
   }
-  const bool all_up =
-      std::all_of(ears.begin(), ears.end(), [](const CanEar& ear) { return ear.is_open(); });
+  const bool all_up = std::all_of(listeners.begin(), listeners.end(),
+                                  [](const CanListener& listener) { return listener.is_open(); });
   return {{"kind", "bus"}, {"up", all_up}, {"words", fmt::format("{}", fmt::join(words, "; "))}};
 }
 
 }  // namespace
 
 CanSource::CanSource(const std::vector<std::string>& interfaces, int bitrate_bps,
-                     CanEar::Opener opener)
+                     CanListener::Opener opener)
     : name_(fmt::format("{}", fmt::join(interfaces, ", "))), bitrate_bps_(bitrate_bps) {
   if (interfaces.empty()) {
     throw std::runtime_error("no CAN interface is named");
@@ -61,13 +61,13 @@ CanSource::CanSource(const std::vector<std::string>& interfaces, int bitrate_bps
     if (std::count(interfaces.begin(), interfaces.end(), interface) > 1) {
       throw std::runtime_error(fmt::format("CAN interface '{}' is named twice", interface));
     }
-    ears_.emplace_back(interface, opener);
+    listeners_.emplace_back(interface, opener);
     // One that is down is there all the same.
-    if (!ears_.back().open() && if_nametoindex(interface.c_str()) == 0) {
-      throw std::runtime_error(ears_.back().last_error());
+    if (!listeners_.back().open() && if_nametoindex(interface.c_str()) == 0) {
+      throw std::runtime_error(listeners_.back().last_error());
     }
   }
-  state_ = state_of(ears_);
+  state_ = state_of(listeners_);
 }
 
 nlohmann::json CanSource::setup() const {
@@ -98,8 +98,8 @@ void CanSource::run(FrameFeed& feed, const std::atomic<bool>& stop) {
 void CanSource::hear(FrameFeed& feed) {
   const TimeUs begin_us = wall_now_us();
   const auto waited = static_cast<std::ptrdiff_t>(heard_.size());
-  for (CanEar& ear : ears_) {
-    ear.hear([&](const CanFrame& frame) { heard_.push_back({frame, &ear}); });
+  for (CanListener& listener : listeners_) {
+    listener.hear([&](const CanFrame& frame) { heard_.push_back({frame, &listener}); });
   }
   const auto end = std::stable_partition(
       heard_.begin() + waited, heard_.end(),
@@ -114,16 +114,16 @@ void CanSource::hear(FrameFeed& feed) {
 }
 
 void CanSource::open_what_is_closed() {
-  for (CanEar& ear : ears_) {
-    if (!ear.is_open()) {
+  for (CanListener& listener : listeners_) {
+    if (!listener.is_open()) {
       // Still away: tried again in a moment.
-      static_cast<void>(ear.open());
+      static_cast<void>(listener.open());
     }
   }
 }
 
 void CanSource::tell_state(const FrameFeed& feed) {
-  nlohmann::json state = state_of(ears_);
+  nlohmann::json state = state_of(listeners_);
   {
     const std::lock_guard lock(mutex_);
     if (state == state_) {

@@ -17,7 +17,7 @@ class CanSource : public FrameSource {
   /// Throws std::runtime_error for a list that is empty or names an interface twice, and for an
   /// interface that this machine does not have. One that is down is waited for.
   CanSource(const std::vector<std::string>& interfaces, int bitrate_bps,
-            CanEar::Opener opener = &open_can_socket);
+            CanListener::Opener opener = &open_can_socket);
 
   [[nodiscard]] nlohmann::json setup() const override;
   [[nodiscard]] std::string words() const override { return "CAN " + name_; }
@@ -27,7 +27,7 @@ class CanSource : public FrameSource {
  private:
   struct Heard {
     CanFrame frame;
-    const CanEar* from = nullptr;
+    const CanListener* from = nullptr;
   };
 
   void hear(FrameFeed& feed);
@@ -36,7 +36,7 @@ class CanSource : public FrameSource {
 
   std::string name_;
   int bitrate_bps_;
-  std::vector<CanEar> ears_;
+  std::vector<CanListener> listeners_;
   std::vector<Heard> heard_;  ///< And not fed yet.
 
   mutable std::mutex mutex_;

@@ -1,5 +1,5 @@
 #pragma once
-/// What can be broken in a simulation while it runs: a row of the table of faults each.
+/// Faults of a simulation while it runs: a row of the table of faults each.
 
 #include <functional>
 #include <string>

@@ -39,7 +39,7 @@ SimEffect wrong_identity(SimRig<Kind>& rig) {
       rig, [](typename Kind::Rig& nodes, bool on) { nodes.plant.faults().wrong_identity = on; });
 }
 
-/// The operator gives the task all the time, also while he lets go and enables afresh, which he
+/// The operator gives the task all the time, also while he lets go and enables again, which he
 /// tries again and again.
 template <class Kind>
 SimEffect task_not_at_rest(SimRig<Kind>& rig) {
@@ -66,7 +66,7 @@ SimFaultRows<Kind> sim_process_faults() {
       {"controller-killed", 43, "the controller is killed, and starts again after 1 s",
        R::kStopsUnheard, killed<Kind>, true},
       {"identity-wrong", 46, "the machine names another profile", R::kStops, wrong_identity<Kind>},
-      {"task-not-at-rest", 47, "enable is given afresh with the task chosen already", R::kRefused,
+      {"task-not-at-rest", 47, "enable is given again with the task chosen already", R::kRefused,
        task_not_at_rest<Kind>}};
 }
 

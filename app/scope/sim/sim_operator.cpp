@@ -3,7 +3,7 @@
 namespace graben::scope {
 namespace {
 
-/// What was said so long ago is not believed any more.
+/// A mode that was told so long ago counts no more.
 constexpr TimeUs kStale_us = 100 * kMillisecondUs;
 /// What has not armed by then does not arm.
 constexpr TimeUs kArmsWithin_us = 500 * kMillisecondUs;

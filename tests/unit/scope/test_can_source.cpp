@@ -16,7 +16,7 @@ namespace {
 
 using namespace graben;
 using nlohmann::json;
-using scope::CanEar;
+using scope::CanListener;
 using scope::CanSource;
 
 /// The other end of each interface, and those that cannot be opened just now.
@@ -59,9 +59,9 @@ void from_bus(const std::string& interface, canid_t id, std::uint8_t byte = 0) {
   assert_int_equal(write(g_bus[interface], &frame, sizeof frame), sizeof frame);
 }
 
-std::vector<CanFrame> hear(CanEar& ear) {
+std::vector<CanFrame> hear(CanListener& listener) {
   std::vector<CanFrame> frames;
-  ear.hear([&](const CanFrame& frame) { frames.push_back(frame); });
+  listener.hear([&](const CanFrame& frame) { frames.push_back(frame); });
   return frames;
 }
 
@@ -72,13 +72,13 @@ TimeUs wall_us() {
 }
 
 void every_kind_of_frame_is_heard(void**) {
-  CanEar ear("can7", &open_pair);
-  assert_true(ear.open());
+  CanListener listener("can7", &open_pair);
+  assert_true(listener.open());
   const TimeUs before_us = wall_us();
   from_bus("can7", 0x18FF2080U | CAN_EFF_FLAG, 5);
   from_bus("can7", 0x7FU);
   from_bus("can7", CAN_ERR_FLAG | CAN_ERR_CRTL, 9);
-  const std::vector<CanFrame> frames = hear(ear);
+  const std::vector<CanFrame> frames = hear(listener);
   assert_int_equal(frames.size(), 3);
   assert_int_equal(frames[0].id, 0x18FF2080U);
   assert_true(frames[0].extended);
@@ -89,18 +89,18 @@ void every_kind_of_frame_is_heard(void**) {
   for (const CanFrame& frame : frames) {
     assert_in_range(frame.stamp_us - before_us, 0, kSecondUs);
   }
-  assert_int_equal(hear(ear).size(), 0);
-  assert_true(ear.is_open());
+  assert_int_equal(hear(listener).size(), 0);
+  assert_true(listener.is_open());
 }
 
 void what_is_no_frame_is_left_out(void**) {
-  CanEar ear("can7", &open_pair);
-  assert_true(ear.open());
+  CanListener listener("can7", &open_pair);
+  assert_true(listener.open());
   assert_int_equal(write(g_bus["can7"], "x", 1), 1);
   const std::string fd_frame(72, 'x');
   assert_int_equal(write(g_bus["can7"], fd_frame.data(), fd_frame.size()), fd_frame.size());
   from_bus("can7", 0x7FU);
-  assert_int_equal(hear(ear).size(), 1);
+  assert_int_equal(hear(listener).size(), 1);
 }
 
 /// What the kernel says of it does not matter: it says the same of an interface that is down.
@@ -112,23 +112,23 @@ OpenedCanSocket open_no_socket(const CanSocketConfig& /*config*/) {
 }
 
 void an_interface_that_fails_is_not_open_any_more(void**) {
-  CanEar ear("can7", &open_no_socket);
-  assert_true(ear.open());
-  assert_int_equal(hear(ear).size(), 0);
-  assert_false(ear.is_open());
-  assert_string_equal(ear.last_error(), "can7: Socket operation on non-socket");
-  assert_int_equal(hear(ear).size(), 0);
+  CanListener listener("can7", &open_no_socket);
+  assert_true(listener.open());
+  assert_int_equal(hear(listener).size(), 0);
+  assert_false(listener.is_open());
+  assert_string_equal(listener.last_error(), "can7: Socket operation on non-socket");
+  assert_int_equal(hear(listener).size(), 0);
 }
 
 void an_interface_that_is_down_can_be_opened_again(void**) {
-  CanEar ear("can7", &open_pair);
+  CanListener listener("can7", &open_pair);
   g_is_down["can7"] = true;
-  assert_false(ear.open());
-  assert_string_equal(ear.last_error(), "can7: the interface is down");
+  assert_false(listener.open());
+  assert_string_equal(listener.last_error(), "can7: the interface is down");
   g_is_down["can7"] = false;
-  assert_true(ear.open());
+  assert_true(listener.open());
   from_bus("can7", 1);
-  assert_int_equal(hear(ear).size(), 1);
+  assert_int_equal(hear(listener).size(), 1);
 }
 
 /// A source at work, read as a page does.
