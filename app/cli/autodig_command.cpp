@@ -6,7 +6,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
-#include "app/cli/scenario_options.hpp"
+#include "app/cli/options.hpp"
 #include "app/machines/task_text.hpp"
 #include "app/reports/run_reports.hpp"
 #include "app/runs/autodig_run.hpp"

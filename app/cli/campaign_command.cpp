@@ -8,7 +8,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
-#include "app/cli/scenario_options.hpp"
+#include "app/cli/options.hpp"
 #include "app/runs/campaign_run.hpp"
 
 namespace graben::cli {

@@ -1,9 +1,8 @@
 #pragma once
-/// What the commands share on their way to the user: progress, errors, checks of options.
+/// Parts that the commands share on their way to the user: progress and errors.
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <exception>
 #include <string>
@@ -45,12 +44,5 @@ class ProgressBar {
   std::chrono::steady_clock::time_point started_;
   std::chrono::steady_clock::time_point drawn_;
 };
-
-// Checks of options that CLI11's own let too much through.
-
-/// CLI::Range lets "nan" pass.
-[[nodiscard]] CLI::Validator number_between(double least, double most);
-/// An unsigned option takes "-1" for its largest value.
-[[nodiscard]] CLI::Validator whole_number();
 
 }  // namespace graben::cli

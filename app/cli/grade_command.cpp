@@ -9,7 +9,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
-#include "app/cli/scenario_options.hpp"
+#include "app/cli/options.hpp"
 #include "app/reports/run_reports.hpp"
 #include "app/runs/fastest_speed.hpp"
 #include "app/runs/fault_text.hpp"

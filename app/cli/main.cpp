@@ -1,4 +1,5 @@
-/// graben: the engineer's tool.
+/// graben: the engineer's tool. Simulates machines and their controller, plans, reports, and shows
+/// what is on a bus.
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -11,8 +12,9 @@ constexpr int kWrongUsage = 2;
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Graben: follows a path as fast as the hydraulics allow, and never in another "
+      "Graben: follows a path as fast as the hydraulics allow, without ever changing the path's "
       "direction");
+  app.set_version_flag("--version", GRABEN_VERSION);
   app.require_subcommand(1);
   int status = 0;
   graben::cli::add_dig(app, status);

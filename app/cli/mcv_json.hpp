@@ -30,7 +30,7 @@ struct McvCase {
 /// "algorithm1", "connected", "global".
 [[nodiscard]] const std::map<std::string, McvPolicy>& policies();
 
-/// What is out of any usable range, by its key.
+/// The key that is out of any usable range.
 [[nodiscard]] std::string defect_text(const McvCheck& check);
 
 /// "ok", "infeasible", "bad_input" or "not_converged".

@@ -10,7 +10,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
-#include "app/cli/scenario_options.hpp"
+#include "app/cli/options.hpp"
 #include "app/machines/plan_text.hpp"
 #include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/reports/run_reports.hpp"

@@ -10,7 +10,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
-#include "app/cli/scenario_options.hpp"
+#include "app/cli/options.hpp"
 #include "app/machines/task_file.hpp"
 #include "app/reports/plant_json.hpp"
 #include "app/reports/report_file.hpp"

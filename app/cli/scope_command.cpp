@@ -10,6 +10,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
+#include "app/cli/options.hpp"
 #include "app/reports/page_setup.hpp"
 #include "app/scope/page/scope_page.hpp"
 #include "app/scope/server/can_source.hpp"

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What of the run no frame has: plan and truth, as Zhang's figures 5 to 10 have them.
+/// Curves that no frame has: plan and truth, as Zhang's figures 5 to 10 have them.
 json truth(const ExcavatorProfile& profile, const std::vector<runs::AutodigSample>& samples) {
   Truth<runs::AutodigSample> lines(samples);
   lines.add("error", "", "true", "mm", 2,

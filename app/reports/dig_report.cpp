@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What of the run no frame has: Kim's figures 10 to 15 beside what is on the bus.
+/// Curves that no frame has: Kim's figures 10 to 15 beside what is on the bus.
 json truth(const machines::SimulatedExcavator& machine,
            const std::vector<runs::DigSample>& samples) {
   Truth<runs::DigSample> lines(samples);

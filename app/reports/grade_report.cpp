@@ -14,7 +14,7 @@ using nlohmann::json;
 
 constexpr double kLitresPerMinute = 6e4;  ///< In a m^3/s.
 
-/// What of the run no frame has: Mononen and Mattila's figures 5, 7, 8 and 9 beside what is on the
+/// Curves that no frame has: Mononen and Mattila's figures 5, 7, 8 and 9 beside what is on the
 /// bus.
 json truth(const machines::SimulatedDozer& machine, const std::vector<runs::GradeSample>& samples) {
   Truth<runs::GradeSample> lines(samples);

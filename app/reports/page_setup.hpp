@@ -1,5 +1,5 @@
 #pragma once
-/// What the page has to know before the first frame: `Setup` and `Machine` of
+/// Machines, tasks and text for the page, before the first frame: `Setup` and `Machine` of
 /// app/scope/page/src/model/api.ts. Lengths in m, angles in rad, in the ground frame where it says
 /// so: an excavator's origin is where its swing axis meets the ground.
 
@@ -17,18 +17,18 @@ namespace graben::reports {
 struct SetupOptions {
   /// A profile beside the shipped ones: file or shipped name. Comes first.
   std::optional<std::string> profile;
-  /// What the controller was given, by its number: files or shipped names. None: what is shipped
-  /// and can be planned on the machine, in the order of the names.
+  /// Tasks that the controller was given, by their number: files or shipped names. None: what is
+  /// shipped and can be planned on the machine, in the order of the names.
   std::vector<std::string> tasks;
 };
 
-/// {"machines": [...], "words": {...}, "version": "..."}: what is the same whatever the frames come
-/// from. Throws std::runtime_error with what is wrong with a profile or a task. Tasks that are told
+/// {"machines": [...], "words": {...}, "version": "..."}, the same whatever the frames come from.
+/// Throws std::runtime_error with what is wrong with a profile or a task. Tasks that are told
 /// must all fit one machine, with a profile that one.
 [[nodiscard]] nlohmann::json shared_setup(const SetupOptions& options);
 
 /// `Words`.
-[[nodiscard]] nlohmann::json words_json();
+[[nodiscard]] nlohmann::json text_json();
 
 /// `tasks` by the number that they have on the bus, read for this machine. The ground is where the
 /// tracks stand; a simulated machine's where its soil is.

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 std::string system_message(int error) { return std::generic_category().message(error); }
 
-/// Until where the setup belongs, and from there on.
+/// The page up to the place of the setup, and from there on.
 std::pair<std::string_view, std::string_view> around_setup(const fs::path& file,
                                                            std::string_view page) {
   constexpr std::string_view kMark = "<script type=\"application/json\" id=\"graben-setup\">";
@@ -67,7 +67,7 @@ int write_whole(const fs::path& file, std::string_view head, std::string_view bo
   return error;
 }
 
-/// What a symbolic link names, so that the link survives. A device or a folder is refused: the
+/// Target of a symbolic link, so that the link survives. A device or a folder is refused: the
 /// rename would replace it.
 fs::path resolved(const fs::path& file) {
   std::error_code error;

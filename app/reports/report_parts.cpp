@@ -8,7 +8,7 @@
 namespace graben::reports {
 namespace {
 
-/// What the bus of a simulated run would have; see the README.
+/// Bit rate of a real bus in the simulated one's place.
 constexpr int kBitrate_bps = 500000;
 
 }  // namespace
@@ -59,7 +59,8 @@ nlohmann::json report_setup(const std::filesystem::path& log_file, nlohmann::jso
   return {{"source",
            {{"mode", "report"}, {"name", log_file.filename().string()}, {"bitrate", kBitrate_bps}}},
           {"machines", nlohmann::json::array({std::move(machine)})},
-          {"words", words_json()},
+          {"words", text_json()},
+          {"version", GRABEN_VERSION},
           {"run", std::move(run)}};
 }
 

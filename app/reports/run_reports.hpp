@@ -1,6 +1,6 @@
 #pragma once
-/// What a run leaves behind for its reader: the report, one HTML page, and the figures as JSON. All
-/// throw std::runtime_error that names the file where it can't be written.
+/// Results of a run for its reader: the report, one HTML page, and the figures as JSON. All throw
+/// std::runtime_error that names the file where it can't be written.
 
 #include <filesystem>
 #include <string>
@@ -15,7 +15,7 @@
 
 namespace graben::reports {
 
-/// Where a report goes, and the page (scope_page()) that it is made of.
+/// File of a report, and the page (scope_page()) that it is made of.
 struct ReportTarget {
   std::filesystem::path file;
   std::string_view page;

@@ -120,16 +120,16 @@ json excavator_json(const Machine& machine, const SetupOptions& options, ToldTas
 
 }  // namespace
 
-json words_json() {
-  json words;
+json text_json() {
+  json text;
   for (int i = 0; i < kFaultCount; ++i) {
-    words["fault"][std::to_string(i)] = runs::fault_words(static_cast<Fault>(i));
+    text["fault"][std::to_string(i)] = runs::fault_words(static_cast<Fault>(i));
   }
-  words["why_not_armed"] = json::array();
+  text["why_not_armed"] = json::array();
   for (int i = 0; i < kArmBlockCount; ++i) {
-    words["why_not_armed"].push_back(runs::arm_block_words(static_cast<ArmBlock>(i)));
+    text["why_not_armed"].push_back(runs::arm_block_words(static_cast<ArmBlock>(i)));
   }
-  return words;
+  return text;
 }
 
 json shared_setup(const SetupOptions& options) {
@@ -150,7 +150,7 @@ json shared_setup(const SetupOptions& options) {
     }
   }
   told.throw_unless_fitted();
-  return {{"machines", machines_json}, {"words", words_json()}};
+  return {{"machines", machines_json}, {"words", text_json()}, {"version", GRABEN_VERSION}};
 }
 
 }  // namespace graben::reports

@@ -47,7 +47,7 @@ json step_json(const SwingKinematics& kinematics, const TaskStep& step) {
           {"duration_s", rounded(step.duration_s())}};
 }
 
-std::string fence_words(const Fence& fence, bool is_design) {
+std::string fence_text(const Fence& fence, bool is_design) {
   const double up = fence.normal.z();
   if (is_design) {
     return "design surface";
@@ -66,7 +66,7 @@ json fences_json(const FenceSet& fences, bool has_design) {
   for (int i = 0; i < fences.count; ++i) {
     const Fence& fence = fences.fence[static_cast<unsigned>(i)];
     const bool is_design = has_design && i + 1 == fences.count;
-    result.push_back({{"words", fence_words(fence, is_design)},
+    result.push_back({{"words", fence_text(fence, is_design)},
                       {"normal", vector(fence.normal)},
                       {"offset_m", rounded(fence.offset_m)}});
   }

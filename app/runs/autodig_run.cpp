@@ -36,14 +36,14 @@ class AutodigRun {
         program_(program),
         options_(options),
         kinematics_(machine.profile.geometry),
-        bench_(machine, book_of(program), options.start, options.speed_override_ratio) {}
+        rig_(machine, book_of(program), options.start, options.speed_override_ratio) {}
 
   AutodigResult run(const Progress& show) {
-    const BenchFigures figures = run_bench(
-        bench_, options_.log_file, [this](TimeUs now_us) { return ended(now_us); },
+    const LoggedRun figures = run_logged(
+        rig_, options_.log_file, [this](TimeUs now_us) { return ended(now_us); },
         [&](TimeUs now_us, double cycle_us) {
           look(now_us, cycle_us);
-          const TaskProgress& at = bench_.ecu->outputs().status.progress;
+          const TaskProgress& at = rig_.ecu->outputs().status.progress;
           show(share_done(at), machines::step_name(at.kind));
         });
     result_.wall_s = figures.wall_s;
@@ -66,7 +66,7 @@ class AutodigRun {
   }
 
   bool ended(TimeUs now_us) {
-    const ExcavatorStatus& status = bench_.ecu->outputs().status;
+    const ExcavatorStatus& status = rig_.ecu->outputs().status;
     if (status.mode == EcuMode::kFault) {
       result_.end = AutodigEnd::kFault;
       result_.fault = status.fault;
@@ -101,7 +101,7 @@ class AutodigRun {
   }
 
   void read_truth(AutodigSample& sample) const {
-    const plant::ExcavatorPlant& plant = bench_.plant.plant();
+    const plant::ExcavatorPlant& plant = rig_.plant.plant();
     const auto strokes = plant.strokes_m();
     const auto velocities = plant.stroke_velocities_mps();
     const auto spools = plant.spool_travels_ratio();
@@ -118,7 +118,7 @@ class AutodigRun {
   }
 
   void read_controller(AutodigSample& sample) const {
-    const ExcavatorOutputs& outputs = bench_.ecu->outputs();
+    const ExcavatorOutputs& outputs = rig_.ecu->outputs();
     const ExcavatorStatus& status = outputs.status;
     sample.progress = status.progress;
     sample.progress_share = status.progress.share;
@@ -134,7 +134,7 @@ class AutodigRun {
 
   /// Of what the controller was told; not finite until all of it was.
   [[nodiscard]] Eigen::Vector3d measured_teeth_m() const {
-    const ExcavatorInputs& inputs = bench_.ecu->inputs();
+    const ExcavatorInputs& inputs = rig_.ecu->inputs();
     DriveVector drives;
     bool known = inputs.swing.angle_rad.validity == Validity::kValid;
     for (unsigned i = 0; i < kAxisCount; ++i) {
@@ -150,7 +150,7 @@ class AutodigRun {
     return kinematics_.teeth_from_joints(joints.value).position_m;
   }
 
-  /// What is real beside the plan at the place that the controller says it is at.
+  /// The real machine beside the plan, at the place that the controller says it is at.
   void compare(AutodigSample& sample) const {
     const Eigen::Vector3d teeth_m(sample.teeth_m[0], sample.teeth_m[1], sample.teeth_m[2]);
     look_at_fences(sample);
@@ -194,7 +194,7 @@ class AutodigRun {
   const TaskProgram& program_;
   AutodigOptions options_;
   SwingKinematics kinematics_;
-  AutodigRig bench_;
+  AutodigRig rig_;
   int round_ = 0;
   AutodigResult result_;
 };

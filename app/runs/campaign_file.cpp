@@ -216,10 +216,14 @@ std::string campaign_table(const CampaignKind& kind, const CampaignData& data) {
     }
     std::sort(values.begin(), values.end());
     const bool is_low = figure.bad == BadEnd::kLow;
-    table += fmt::format("{:<{}}{:>10.3f}{:>10.3f}{:>10.3f} {}{}\n", figure.text, kFigureTextWidth,
+    table += fmt::format("{:<{}}{:>10.3f}{:>10.3f}{:>10.3f}", figure.text, kFigureTextWidth,
                          rank(values, 0.5), rank(values, is_low ? 0.05 : 0.95),
-                         is_low ? values.front() : values.back(), figure.unit.text,
-                         is_low ? "(p5, min)" : "");
+                         is_low ? values.front() : values.back());
+    for (const std::string& after :
+         {std::string(figure.unit.text), std::string(is_low ? "(p5, min)" : "")}) {
+      table += after.empty() ? "" : " " + after;
+    }
+    table += "\n";
   }
   for (const auto& [seed, row] : data.rows) {
     if (!row.done()) {

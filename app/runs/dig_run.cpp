@@ -19,28 +19,28 @@ class DigRun {
   DigRun(const machines::SimulatedExcavator& machine, const DigOptions& options)
       : machine_(machine),
         options_(options),
-        bench_(machine, options.start_strokes_m, options.speed_override_ratio),
+        rig_(machine, options.start_strokes_m, options.speed_override_ratio),
         kinematics_(machine.profile.geometry),
         field_(machine.profile, kinematics_),
         path_(machine.profile.dig_path),
         progress_(path_, options.loops) {}
 
   DigResult run(const Progress& show) {
-    const BenchFigures figures = run_bench(
-        bench_, options_.log_file, [this](TimeUs now_us) { return ended(now_us); },
+    const LoggedRun figures = run_logged(
+        rig_, options_.log_file, [this](TimeUs now_us) { return ended(now_us); },
         [&](TimeUs now_us, double cycle_us) {
           look(now_us, cycle_us);
           show(progress_.share(), progress_.on_path() ? "on the path" : "approaching the path");
         });
     result_.wall_s = figures.wall_s;
     result_.rejected_frames = figures.rejected_frames;
-    result_.peak_chamber_pressure_pa = bench_.plant.plant().peak_chamber_pressure_pa();
+    result_.peak_chamber_pressure_pa = rig_.plant.plant().peak_chamber_pressure_pa();
     return std::move(result_);
   }
 
  private:
   bool ended(TimeUs now_us) {
-    const ExcavatorStatus& status = bench_.ecu->outputs().status;
+    const ExcavatorStatus& status = rig_.ecu->outputs().status;
     if (status.mode == EcuMode::kFault) {
       result_.end = DigEnd::kFault;
       result_.fault = status.fault;
@@ -68,7 +68,7 @@ class DigRun {
     sample.time_s = seconds(now_us);
     read_truth(sample);
     read_controller(sample);
-    const bool moving = bench_.ecu->outputs().status.mode == EcuMode::kActive;
+    const bool moving = rig_.ecu->outputs().status.mode == EcuMode::kActive;
     progress_.update(
         sample.tip_true_m,
         moving && near_path(path_, sample.tip_measured_m, sample.attitude_measured_rad), now_us);
@@ -81,7 +81,7 @@ class DigRun {
   }
 
   void read_truth(DigSample& sample) const {
-    const plant::ExcavatorPlant& plant = bench_.plant.plant();
+    const plant::ExcavatorPlant& plant = rig_.plant.plant();
     const plant::TipPose tip = plant.tip();
     sample.tip_true_m = tip.position_m;
     if (!result_.samples.empty()) {
@@ -131,8 +131,8 @@ class DigRun {
   }
 
   void read_controller(DigSample& sample) const {
-    const ExcavatorInputs& inputs = bench_.ecu->inputs();
-    const ExcavatorOutputs& outputs = bench_.ecu->outputs();
+    const ExcavatorInputs& inputs = rig_.ecu->inputs();
+    const ExcavatorOutputs& outputs = rig_.ecu->outputs();
     Eigen::Vector3d strokes_m;
     bool measured = true;
     for (unsigned i = 0; i < kAxisCount; ++i) {
@@ -155,7 +155,7 @@ class DigRun {
 
   const machines::SimulatedExcavator& machine_;
   DigOptions options_;
-  DigRig bench_;
+  DigRig rig_;
   ExcavatorKinematics kinematics_;
   DigField field_;
   RoundedRectangle path_;

@@ -33,7 +33,8 @@ enum class Obstruction { kNone, kHolding, kReleased };
 /// State at one control cycle, true and as the controller has it.
 struct DigSample {
   double time_s = 0.0;
-  bool on_path = false;  ///< The path was reached and is being followed: what the figures speak of.
+  bool on_path =
+      false;  ///< The path was reached and is being followed: the figures are of these samples.
   Eigen::Vector2d tip_true_m = Eigen::Vector2d::Zero();
   /// Not a number, like the other measured values, until the first strokes were received.
   Eigen::Vector2d tip_measured_m = Eigen::Vector2d::Constant(std::nan(""));
@@ -72,7 +73,7 @@ struct DigResult {
   double peak_chamber_pressure_pa = 0.0;
 };
 
-/// What an obstacle did.
+/// Effects of an obstacle.
 struct Recovery {
   double lambda_held = 0.0;        ///< Least while it held.
   double off_field_max_rad = 0.0;  ///< Of the tip's true mean direction, afterwards.
@@ -91,7 +92,7 @@ struct DigSummary {
   double lambda_below_1_share = 0.0;  ///< Of the time on the path.
   double regeneration_share = 0.0;    ///< Of the time on the path: any check valve open.
   double peak_chamber_pressure_pa = 0.0;
-  /// Where something was in the way; from 0.3 s after it let go, for 3 s.
+  /// With something in the way; from 0.3 s after it let go, for 3 s.
   std::optional<Recovery> recovery;
   double approach_s = 0.0;  ///< Until the path was reached.
   double loop_s = 0.0;      ///< On the path.

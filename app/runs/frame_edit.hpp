@@ -1,5 +1,5 @@
 #pragma once
-/// What is done to frames on their way. `Kind` is a machine kind: its Dbc names the messages.
+/// Changes of frames on their way. `Kind` is a machine kind: its Dbc names the messages.
 
 #include "can_dbc/codec.hpp"
 #include "hal/can_frame.hpp"

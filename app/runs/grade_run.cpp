@@ -15,13 +15,13 @@ class GradeRun {
   GradeRun(const machines::SimulatedDozer& machine, const GradeOptions& options)
       : machine_(machine),
         options_(options),
-        bench_(machine, options.speed_override_ratio),
+        rig_(machine, options.speed_override_ratio),
         truth_(machine.profile),
         start_m_(edge_x_m()) {}
 
   GradeResult run(const Progress& show) {
-    const BenchFigures figures = run_bench(
-        bench_, options_.log_file, [this](TimeUs now_us) { return ended(now_us); },
+    const LoggedRun figures = run_logged(
+        rig_, options_.log_file, [this](TimeUs now_us) { return ended(now_us); },
         [&](TimeUs now_us, double cycle_us) {
           look(now_us, cycle_us);
           show((edge_x_m() - start_m_) / way_m(), fmt::format("at {:.1f} m", edge_x_m()));
@@ -33,11 +33,11 @@ class GradeRun {
   }
 
  private:
-  [[nodiscard]] double edge_x_m() const { return bench_.plant.plant().cutting_edge_m().x(); }
+  [[nodiscard]] double edge_x_m() const { return rig_.plant.plant().cutting_edge_m().x(); }
   [[nodiscard]] double way_m() const { return machine_.experiment.length_m - start_m_; }
 
   bool ended(TimeUs now_us) {
-    const DozerStatus& status = bench_.ecu->outputs().status;
+    const DozerStatus& status = rig_.ecu->outputs().status;
     if (status.mode == EcuMode::kFault) {
       result_.end = GradeEnd::kFault;
       result_.fault = status.fault;
@@ -64,10 +64,11 @@ class GradeRun {
   }
 
   void read_truth(GradeSample& sample) const {
-    const plant::DozerPlant& plant = bench_.plant.plant();
+    const plant::DozerPlant& plant = rig_.plant.plant();
     sample.body = {plant.position_m(), plant.height_m(), plant.pitch_rad()};
     sample.edge_m = plant.cutting_edge_m();
-    sample.judged = sample.edge_m.x() >= 0.0 && sample.edge_m.x() <= machine_.experiment.length_m;
+    sample.over_grade =
+        sample.edge_m.x() >= 0.0 && sample.edge_m.x() <= machine_.experiment.length_m;
     sample.design_m = truth_.design_m(sample.edge_m.x());
     sample.error_true_m = truth_.error_m(sample.edge_m);
     sample.speed_true_mps = plant.velocity_mps();
@@ -83,7 +84,7 @@ class GradeRun {
   }
 
   void read_measured(GradeSample& sample) const {
-    const DozerInputs& inputs = bench_.ecu->inputs();
+    const DozerInputs& inputs = rig_.ecu->inputs();
     const BodyInputs& body = inputs.body;
     const auto known = [](const Signal<double>& signal) {
       return signal.validity == Validity::kValid;
@@ -100,7 +101,7 @@ class GradeRun {
   }
 
   void read_controller(GradeSample& sample) const {
-    const DozerOutputs& outputs = bench_.ecu->outputs();
+    const DozerOutputs& outputs = rig_.ecu->outputs();
     const DozerStatus& status = outputs.status;
     sample.speed_wanted_mps = status.wanted_speed_mps;
     sample.speed_limit_mps = status.speed_limit_mps;
@@ -118,7 +119,7 @@ class GradeRun {
   void keep_terrain() {
     constexpr double kMargin_m = 3.0;
     constexpr double kStep_m = 0.05;
-    const plant::Terrain& terrain = bench_.plant.plant().terrain();
+    const plant::Terrain& terrain = rig_.plant.plant().terrain();
     const double from_m = machine_.plant.start_position_m - kMargin_m;
     const auto steps =
         static_cast<int>((machine_.experiment.length_m + kMargin_m - from_m) / kStep_m);
@@ -130,7 +131,7 @@ class GradeRun {
 
   const machines::SimulatedDozer& machine_;
   GradeOptions options_;
-  GradeRig bench_;
+  GradeRig rig_;
   GradeTruth truth_;
   double start_m_;
   GradeResult result_;

@@ -24,7 +24,7 @@ struct GradeOptions {
 /// until it was received; flows are magnitudes.
 struct GradeSample {
   double time_s = 0.0;
-  bool judged = false;  ///< The cutting edge is over the grade, from x = 0 to its length.
+  bool over_grade = false;  ///< The cutting edge is over the grade, from x = 0 to its length.
   BodyPose body;
   Eigen::Vector2d edge_m = Eigen::Vector2d::Zero();  ///< True, world.
   double design_m = 0.0;                             ///< The design's height at the edge.

@@ -8,10 +8,10 @@
 namespace graben::runs {
 namespace {
 
-/// What the required flow may be above the available one and still count as kept.
+/// Share by which the required flow may exceed the available one and still count as kept.
 constexpr double kFlowTolerance = 0.02;
 
-/// How often a value that runs up and down turns round, smaller ways than `resolution` left out.
+/// Count of turns of a value that runs up and down, smaller ways than `resolution` left out.
 class Turns {
  public:
   explicit Turns(double resolution) : resolution_(resolution) {}
@@ -71,35 +71,35 @@ class FlowCount {
 };
 
 /// Largest fall of a speed over so many cycles, per second.
-double deceleration_mps2(const std::vector<GradeSample>& judged, double GradeSample::*speed_mps,
+double deceleration_mps2(const std::vector<GradeSample>& over, double GradeSample::*speed_mps,
                          std::size_t cycles) {
   double most = 0.0;
-  for (std::size_t n = cycles; n < judged.size(); ++n) {
-    const GradeSample& before = judged[n - cycles];
-    const double fall_mps = before.*speed_mps - judged[n].*speed_mps;
-    most = std::max(most, fall_mps / (judged[n].time_s - before.time_s));
+  for (std::size_t n = cycles; n < over.size(); ++n) {
+    const GradeSample& before = over[n - cycles];
+    const double fall_mps = before.*speed_mps - over[n].*speed_mps;
+    most = std::max(most, fall_mps / (over[n].time_s - before.time_s));
   }
   return most;
 }
 
-std::vector<GradeSample> judged_samples(const GradeResult& result) {
-  std::vector<GradeSample> judged;
-  std::copy_if(result.samples.begin(), result.samples.end(), std::back_inserter(judged),
-               [](const GradeSample& sample) { return sample.judged; });
-  return judged;
+std::vector<GradeSample> samples_over_grade(const GradeResult& result) {
+  std::vector<GradeSample> over;
+  std::copy_if(result.samples.begin(), result.samples.end(), std::back_inserter(over),
+               [](const GradeSample& sample) { return sample.over_grade; });
+  return over;
 }
 
 }  // namespace
 
 GradeSummary summarise(const machines::SimulatedDozer& machine, const GradeResult& result) {
   GradeSummary summary;
-  const std::vector<GradeSample> judged = judged_samples(result);
+  const std::vector<GradeSample> over = samples_over_grade(result);
   Spread error_true;
   Spread error_measured;
   FlowCount flow;
   Turns turns(kSpeedResolution_mps);
   LimitCount limits(dozer_actuators());
-  for (const GradeSample& sample : judged) {
+  for (const GradeSample& sample : over) {
     error_true.add(std::abs(sample.error_true_m));
     error_measured.add(std::abs(sample.error_measured_m));
     flow.add(sample);
@@ -115,18 +115,18 @@ GradeSummary summarise(const machines::SimulatedDozer& machine, const GradeResul
   summary.rmse_error_true_m = error_true.rms();
   summary.max_error_measured_m = error_measured.max();
   summary.rmse_error_measured_m = error_measured.rms();
-  if (!judged.empty()) {
-    summary.time_s = judged.back().time_s - judged.front().time_s;
-    const double way_m = judged.back().edge_m.x() - judged.front().edge_m.x();
+  if (!over.empty()) {
+    summary.time_s = over.back().time_s - over.front().time_s;
+    const double way_m = over.back().edge_m.x() - over.front().edge_m.x();
     summary.mean_speed_mps = summary.time_s > 0.0 ? way_m / summary.time_s : 0.0;
   }
   summary.flow_share_max = flow.most();
   summary.flow_above_share = flow.above_share();
   summary.flow_occasions = flow.occasions();
-  summary.deceleration_wanted_mps2 = deceleration_mps2(judged, &GradeSample::speed_wanted_mps, 1);
+  summary.deceleration_wanted_mps2 = deceleration_mps2(over, &GradeSample::speed_wanted_mps, 1);
   // In cycles of 10 ms.
   summary.deceleration_true_mps2 =
-      deceleration_mps2(judged, &GradeSample::speed_true_mps,
+      deceleration_mps2(over, &GradeSample::speed_true_mps,
                         static_cast<std::size_t>(std::lround(kDeceleration_s * 100.0)));
   summary.sign_changes = turns.count();
   summary.corners = std::max(machine.profile.grade.count - 2, 0);

@@ -1,6 +1,6 @@
 #pragma once
-/// Where a dozer's cutting edge is, and what the design asks of its blade, by the simulation's own
-/// geometry: what the controller computes is judged by it, not with it.
+/// Place of a dozer's cutting edge, and the blade velocity that the design needs there, by the
+/// simulation's own geometry: the controller is measured against it and takes no part in it.
 
 #include <Eigen/Core>
 

@@ -41,7 +41,7 @@ struct PlanSample {
 /// The same with all there is, in SI units, a column each with its name and unit.
 [[nodiscard]] std::string plan_csv(const std::vector<PlanSample>& samples);
 
-/// What came of a request, a line each.
+/// Figures of a planned line, a row each.
 [[nodiscard]] std::string plan_summary(const ExcavatorProfile& profile, const LineRequest& request,
                                        const PlanResult& result,
                                        const std::vector<PlanSample>& samples);

@@ -13,7 +13,7 @@
 
 namespace graben::runs {
 
-/// Who gives enable and task.
+/// Source of enable and task.
 enum class Player {
   kNobody,  ///< Another node does.
   kTask,    ///< Enables once and lets go half a second before the end.
@@ -30,7 +30,7 @@ struct PlantRunOptions {
   std::uint8_t task_number = 0;  ///< Of Task::kProgram.
 };
 
-/// What became of a run, beside what the machine did in it.
+/// Figures of the run's own cycles and frames.
 struct PlantBusFigures {
   double simulated_s = 0.0;
   std::uint64_t late_cycles = 0;  ///< Of this process.

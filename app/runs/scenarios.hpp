@@ -1,6 +1,6 @@
 #pragma once
-/// What a run tries, as its user says it: the machine that the simulation then has, where it
-/// starts, and the scenario in words.
+/// Scenarios of runs, as their user says them: the machine that the simulation then has, its start,
+/// and the scenario as text.
 
 #include <array>
 #include <optional>
@@ -15,7 +15,7 @@
 
 namespace graben::runs {
 
-/// What an excavator's controller does not know, by name, in the order of machines::Errors.
+/// Errors that an excavator's controller does not know of, in the order of machines::Errors.
 inline constexpr std::array<const char*, 5> kErrorNames = {"none", "stroke-bias", "sensors",
                                                            "parameters", "all"};
 
@@ -31,7 +31,7 @@ struct DigScenario {
 /// "soil, stiff oil, dead time 0.15 s, errors all"; the same text, the same scenario.
 [[nodiscard]] std::string scenario_text(const DigScenario& scenario);
 
-/// Where the bucket starts and how far it goes unless told: machines::dig_start(), once round; in
+/// Start of the bucket and length of its way unless told: machines::dig_start(), once round; in
 /// the air as the profile has it. Throws std::runtime_error where that is out of reach.
 [[nodiscard]] DigOptions usual_run(const machines::SimulatedExcavator& machine,
                                    const DigScenario& scenario);

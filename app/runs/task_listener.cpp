@@ -28,12 +28,12 @@ bool TaskListener::is_at_task() const {
 int TaskListener::receive(CanFrame* frames, int capacity) {
   const int count = port_.receive(frames, capacity);
   for (int i = 0; i < count; ++i) {
-    hear(frames[i]);
+    read(frames[i]);
   }
   return count;
 }
 
-void TaskListener::hear(const CanFrame& frame) {
+void TaskListener::read(const CanFrame& frame) {
   const bool whole = frame.extended && !frame.remote && !frame.error && !frame.fd &&
                      frame.length == TaskStatus::kLength;
   if (whole && frame.id == TaskStatus::kId) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What a controller says of the task that it is at, heard beside the machine.
+/// TaskStatus of a controller, read beside the machine.
 
 #include <cstdint>
 #include <optional>
@@ -34,7 +34,7 @@ class TaskListener final : public CanPort {
   [[nodiscard]] CanPortState state() const override { return port_.state(); }
 
  private:
-  void hear(const CanFrame& frame);
+  void read(const CanFrame& frame);
   [[nodiscard]] bool is_at_task() const;
 
   CanPort& port_;

@@ -20,6 +20,9 @@ SETTINGS = "etc/default/graben-ecu"
 WANTS = "etc/systemd/system/multi-user.target.wants/graben-ecu.service"
 # dpkg's own book-keeping, and the loader's and the password file's copies.
 NOT_OURS = ("var/lib/dpkg/", "var/log/", "var/cache/", "etc/ld.so.cache", "proc/", "dev/", "sys/")
+# Of the sources: ./run says it without a build.
+VERSION = subprocess.run([pathlib.Path(__file__).resolve().parents[2] / "run", "--version"],
+                         stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
 
 
 class Root:
@@ -66,7 +69,7 @@ class Root:
 def check_refusals(root: Root):
     """Whatever keeps it from starting is told, with the status that says whether to try again."""
     ecu = "/usr/bin/graben-ecu"
-    root.expect(0, ["0.1.0"], ecu, "--version")
+    root.expect(0, [VERSION], ecu, "--version")
     said = root.expect(0, ["--can", "--profile", "SCHED_FIFO"], ecu, "--help")
     page = subprocess.run(["gzip", "-dc"], stdout=subprocess.PIPE, text=True, check=True, stdin=open(
         root.path / "usr/share/man/man8/graben-ecu.8.gz", "rb")).stdout.replace("\\", "")

@@ -31,6 +31,10 @@ class WebSocket:
         self._received = bytearray(rest)
         self._socket.setblocking(False)
 
+    def block(self, seconds: float) -> None:
+        """From now on take() waits for something, so long at most."""
+        self._socket.settimeout(seconds)
+
     def fileno(self) -> int:
         return self._socket.fileno()
 

@@ -15,6 +15,7 @@ export interface Setup {
   source: Source;
   machines: readonly Machine[];  ///< Every shipped profile and what was given; chosen by hash.
   words: Words;
+  version?: string;  ///< Of the program that says this; a file that is opened tells none.
   sim?: SimSetup;  ///< With mode 'sim' alone.
   run?: Run;       ///< With modes 'report' and 'plan'.
 }

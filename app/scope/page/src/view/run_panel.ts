@@ -20,7 +20,9 @@ export class RunPanel implements View {
     heading.textContent = run.title === '' ? 'Run' : run.title;
     this.node.replaceChildren(heading, el('p', {class: 'subtitle'}, run.subtitle),
       figures(run), ...(run.limits_share.length > 0 ? [el('h3', {}, 'What held lambda'),
-        shares(run)] : []));
+        shares(run)] : []),
+      ...(setup?.version === undefined ? [] :
+        [el('p', {class: 'subtitle'}, `Graben ${setup.version}`)]));
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-/// Options that say what a run is to try, as several commands have them.
+/// Options that several commands have, most of them for what a run is to try, and checks of their
+/// values.
 
 #include <CLI/CLI.hpp>
 
@@ -31,5 +32,12 @@ void add_summary_option(CLI::App& command, std::string& summary);
 void add_override_option(CLI::App& command, double& speed_override_ratio);
 /// Names of all errors that an excavator's controller can have.
 [[nodiscard]] CLI::Validator error_name();
+
+// Checks of options that CLI11's own let too much through.
+
+/// CLI::Range lets "nan" pass.
+[[nodiscard]] CLI::Validator number_between(double least, double most);
+/// An unsigned option takes "-1" for its largest value.
+[[nodiscard]] CLI::Validator whole_number();
 
 }  // namespace graben::cli

@@ -23,7 +23,7 @@ const machines::SimulatedDozer& machine() {
 GradeSample sample(int cycle) {
   GradeSample made;
   made.time_s = 5.0 + 0.01 * cycle;
-  made.judged = true;
+  made.over_grade = true;
   made.edge_m = {0.01 * cycle, 0.0};
   made.error_measured_m = 0.0;
   made.speed_wanted_mps = 1.0;
@@ -46,7 +46,7 @@ GradeSummary summary_of(const GradeResult& result) { return runs::summarise(mach
 void a_run_that_never_came_to_the_grade_has_no_figures(void**) {
   GradeResult result = steady(5);
   for (GradeSample& one : result.samples) {
-    one.judged = false;
+    one.over_grade = false;
     one.error_true_m = 1.0;
     one.flow_required_m3ps = 1.0;
   }
@@ -73,7 +73,7 @@ void errors_count_below_as_above(void**) {
 void time_is_that_over_the_grade(void**) {
   GradeResult result = steady(101);
   GradeSample before = sample(-100);
-  before.judged = false;
+  before.over_grade = false;
   before.error_true_m = 1.0;
   result.samples.insert(result.samples.begin(), before);
   const GradeSummary summary = summary_of(result);
