@@ -10,7 +10,7 @@
 #include "app/machines/task_text.hpp"
 #include "app/reports/run_reports.hpp"
 #include "app/runs/autodig_run.hpp"
-#include "app/runs/fault_text.hpp"
+#include "app/runs/code_text.hpp"
 #include "app/scope/page/scope_page.hpp"
 
 namespace graben::cli {

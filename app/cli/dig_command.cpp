@@ -11,8 +11,8 @@
 #include "app/cli/console.hpp"
 #include "app/cli/options.hpp"
 #include "app/reports/run_reports.hpp"
+#include "app/runs/code_text.hpp"
 #include "app/runs/dig_run.hpp"
-#include "app/runs/fault_text.hpp"
 #include "app/scope/page/scope_page.hpp"
 
 namespace graben::cli {

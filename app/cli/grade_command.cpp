@@ -12,7 +12,6 @@
 #include "app/cli/options.hpp"
 #include "app/reports/run_reports.hpp"
 #include "app/runs/fastest_speed.hpp"
-#include "app/runs/fault_text.hpp"
 #include "app/runs/grade_run.hpp"
 #include "app/scope/page/scope_page.hpp"
 

@@ -6,8 +6,7 @@
 #include "app/ecu/ecu_node.hpp"
 #include "can_dbc/generated/dozer_dbc.hpp"
 #include "firmware/dozer/dozer_controller.hpp"
-#include "hal/buses/dozer_receiver.hpp"
-#include "hal/buses/dozer_transmitter.hpp"
+#include "hal/buses/dozer_bus.hpp"
 
 namespace graben::machines {
 struct DozerMachine;

@@ -9,8 +9,8 @@
 #include "firmware/core/time.hpp"
 #include "firmware/signals/machine_signals.hpp"
 #include "hal/can_port.hpp"
-#include "hal/link/ecu_diagnosis.hpp"
-#include "hal/link/link_counters.hpp"
+#include "hal/link/message_links.hpp"
+#include "hal/link/message_transmitter.hpp"
 
 namespace graben::ecu {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "firmware/core/time.hpp"
-#include "hal/link/link_counters.hpp"
+#include "hal/link/message_links.hpp"
 #include "platform/linux/cyclic_clock.hpp"
 #include "platform/linux/socketcan_port.hpp"
 

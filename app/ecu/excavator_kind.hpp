@@ -6,8 +6,7 @@
 #include "app/ecu/ecu_node.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "firmware/excavator/excavator_controller.hpp"
-#include "hal/buses/excavator_receiver.hpp"
-#include "hal/buses/excavator_transmitter.hpp"
+#include "hal/buses/excavator_bus.hpp"
 
 namespace graben::machines {
 struct ExcavatorMachine;

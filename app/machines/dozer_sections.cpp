@@ -3,6 +3,7 @@
 #include <tuple>
 #include <utility>
 
+#include "app/machines/bus_key.hpp"
 #include "app/machines/dozer_sections.hpp"
 #include "app/machines/shared_sections.hpp"
 
@@ -188,6 +189,7 @@ DozerProfile read_dozer_sections(TomlReader& reader) {
   profile.grade = read_grade(reader);
   profile.control = read_control(reader);
   profile.safety = read_safety(reader);
+  profile.bus = read_bus(reader, profile.control.dead_time_s);
   return profile;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/machines/axis_names.hpp"
+#include "app/machines/bus_key.hpp"
 #include "app/machines/excavator_sections.hpp"
 #include "app/machines/shared_sections.hpp"
 
@@ -378,6 +379,7 @@ ExcavatorProfile read_excavator_sections(TomlReader& reader) {
       reader.number("task.swash", {0.0, 1.0, ""}, "swash that the pumps are told, of full");
   std::fill_n(profile.dig_swash_ratio.begin(), pumps, swash_ratio);
   profile.safety = read_safety(reader);
+  profile.bus = read_bus(reader, profile.control.dead_time_s);
   return profile;
 }
 

@@ -42,9 +42,9 @@ struct OperatorPhase {
   return request;
 }
 
-/// OperatorCommand of a machine kind's DBC.
-template <class Command>
-[[nodiscard]] Command operator_command(const OperatorRequest& request);
+/// OperatorCommand of a machine kind's DBC; with a task number where the kind reports on tasks.
+template <class Dbc>
+[[nodiscard]] typename Dbc::OperatorCommand operator_command(const OperatorRequest& request);
 
 /// Sends OperatorCommand of the machine kind's DBC every 20 ms. The bus port belongs to the caller,
 /// who opens it; what it receives is thrown away.
@@ -63,7 +63,7 @@ class OperatorNode {
     std::array<CanFrame, kFramesPerRead> ignored;
     static_cast<void>(port_.receive(ignored.data(), kFramesPerRead));
     if (cycle_++ % kSendCycles == 0) {
-      sender_.send(operator_command<Command>(request_at(now)), faults_, now);
+      sender_.send(operator_command<Dbc>(request_at(now)), faults_, now);
     }
   }
 
@@ -84,16 +84,16 @@ class OperatorNode {
 
 namespace detail {
 
-template <class Command, class = void>
-inline constexpr bool kHasTaskNumber = false;
-template <class Command>
-inline constexpr bool
-    kHasTaskNumber<Command, std::void_t<decltype(std::declval<Command>().task_number)>> = true;
+template <class Dbc, class = void>
+inline constexpr bool kHasTasks = false;
+template <class Dbc>
+inline constexpr bool kHasTasks<Dbc, std::void_t<typename Dbc::TaskStatus>> = true;
 
 }  // namespace detail
 
-template <class Command>
-Command operator_command(const OperatorRequest& request) {
+template <class Dbc>
+typename Dbc::OperatorCommand operator_command(const OperatorRequest& request) {
+  using Command = typename Dbc::OperatorCommand;
   constexpr auto kValid = dbc::RawState::kValid;
   using Enable = typename Command::Enable;
   Command command;
@@ -101,9 +101,8 @@ Command operator_command(const OperatorRequest& request) {
   command.operator_mode = {static_cast<typename Command::OperatorMode>(request.mode), kValid};
   command.task = {static_cast<typename Command::Task>(request.task), kValid};
   command.speed_override_ratio = {request.speed_override_ratio, kValid};
-  if constexpr (detail::kHasTaskNumber<Command>) {
-    command.task_number = {request.task_number, kValid};
-  }
+  command.task_number = {request.task_number,
+                         detail::kHasTasks<Dbc> ? kValid : dbc::RawState::kNotAvailable};
   return command;
 }
 

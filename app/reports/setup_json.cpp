@@ -7,7 +7,7 @@
 #include "app/machines/profile_file.hpp"
 #include "app/machines/task_file.hpp"
 #include "app/reports/page_setup.hpp"
-#include "app/runs/fault_text.hpp"
+#include "app/runs/code_text.hpp"
 
 namespace graben::reports {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "app/runs/limit_text.hpp"
+#include "app/runs/code_text.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben::runs {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "hal/link/link_counters.hpp"
+#include "hal/link/message_links.hpp"
 #include "platform/loopback/candump_log.hpp"
 
 namespace graben::runs {

@@ -21,7 +21,7 @@ _HEAD = """\
 #include <array>
 #include <cstdint>
 
-#include "can_dbc/codec.hpp"
+{includes}
 
 namespace graben::dbc::{namespace} {{
 
@@ -138,21 +138,28 @@ def _message(database: Database, message: Message) -> str:
     )
 
 
-def emit(database: Database, source: str) -> str:
-    """`source` is the file name of the DBC; its stem names the namespace."""
-    namespace = source.rsplit(".", 1)[0]
+def emit(database: Database, source: str, included: dict[str, list[str]]) -> str:
+    """`source` is the file name of the DBC; its stem names the namespace. The messages of `included` databases, by
+    their stems, have their types there."""
+    namespace = source.split(".")[0]
     names = [message.name for message in database.messages]
+    elsewhere = {name: stem for stem, theirs in included.items() for name in theirs}
+    includes = ["can_dbc/codec.hpp", *(f"can_dbc/generated/{stem}_dbc.hpp" for stem in included)]
     head = _HEAD.format(
         source=source,
         comment=_comment(database.comment, "").removeprefix("/// "),
+        includes="\n".join(f'#include "{name}"' for name in includes),
         namespace=namespace,
         version=database.value(database, "DbcVersion"),
     )
+    usings = [f"using {stem}::{name};" for name, stem in elsewhere.items()]
     infos = "".join(f"    message_info<{name}>(),\n" for name in names)
     return "\n".join(
         [
             head,
-            *(_message(database, message) for message in database.messages),
+            *usings,
+            *([""] if usings else []),
+            *(_message(database, message) for message in database.messages if message.name not in elsewhere),
             "using AllMessages =",
             "    MessageList<" + ",\n                ".join(names) + ">;",
             "",

@@ -1,11 +1,10 @@
 #pragma once
-/// What each fault does: the one table of reactions.
+/// Reactions to faults: the rows of faults.toml as the core needs them.
 
 #include <cstdint>
 
 #include "firmware/core/codes.hpp"
 #include "firmware/core/fault_set.hpp"
-#include "firmware/signals/machine_signals.hpp"
 
 namespace graben {
 
@@ -23,13 +22,14 @@ struct FaultRow {
   Reaction reaction = Reaction::kNone;
   std::uint8_t fmi = 0;                     ///< Failure mode identifier of SAE J1939-73.
   bool red_stop = false;                    ///< Lamp: red stop; else amber warning.
+  bool cuts_pilot = false;                  ///< The spools themselves do not obey.
   ArmBlock block = ArmBlock::kUnreachable;  ///< Shown to the operator while it is there.
 };
 
 /// The row of a fault; that of kNone for a number that is none.
 [[nodiscard]] const FaultRow& fault_row(Fault fault);
 
-/// Whether the pilot pressure has to go: the spools themselves do not obey.
+/// True if the pilot pressure has to go.
 [[nodiscard]] bool cuts_pilot(Fault fault);
 /// The same of any of them.
 [[nodiscard]] bool cuts_pilot(const FaultSet& faults);

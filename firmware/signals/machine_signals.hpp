@@ -61,36 +61,6 @@ struct MachineOutputs {
   bool pilot_known = false;
 };
 
-/// Why the mode is neither Armed nor Active: bit numbers of MachineStatus::why_not_armed, as they
-/// are on the bus; never renumber, only add.
-enum class ArmBlock : std::uint8_t {
-  kStroke = 0,
-  kPressure = 1,
-  kSwash = 2,
-  kEngineSpeed = 3,
-  kOperator = 4,
-  kSpool = 5,  ///< No feedback of the valve.
-  kIdentity = 6,
-  kBus = 7,          ///< Not active, or it does not take our frames.
-  kMessages = 8,     ///< Wrong CRC, wrong sequence, a value out of range.
-  kUnreachable = 9,  ///< The strokes give no pose.
-  kCycle = 10,       ///< Cycles late.
-  kManual = 11,
-  kTaskNotAtRest = 12,
-  kEnableNotFresh = 13,  ///< Not given; or it was given all the time and has to be released first.
-  kFaultLatched = 14,    ///< Release enable, then give it again.
-  kStopping = 15,
-  kPose = 16,          ///< Position, height, pitch of a dozer's body.
-  kTransmission = 17,  ///< Displacements, track speeds.
-  kNotCentred = 18,    ///< A spool is not in its middle: the machine is moved by hand.
-  kValve = 19,         ///< Spools or cylinders do not do what they are told.
-  kController = 20,    ///< The controller's own check has failed.
-  kSensorError = 21,   ///< A sender calls its own value wrong.
-  kTask = 22,          ///< The task that is chosen is not known.
-};
-
-inline constexpr int kArmBlockCount = 23;
-
 /// What a controller says of itself; nothing of it moves metal.
 struct MachineStatus {
   EcuMode mode = EcuMode::kSilent;

@@ -1,7 +1,7 @@
 #pragma once
-/// How a receiver's table comes of the types of its messages, and what every kind's bus carries.
+/// A receiver's table from the types of its messages.
 
-#include "firmware/signals/machine_signals.hpp"
+#include "firmware/signals/signal.hpp"
 #include "hal/link/message_receiver.hpp"
 
 namespace graben {
@@ -28,29 +28,7 @@ void put(Signal<T>& signal, const Raw& raw, TimeUs now) {
   signal.stamp_us = now;
 }
 
-template <class OperatorCommand>
-void put_driver(OperatorInputs& driver, const OperatorCommand& message, TimeUs now) {
-  using Mode = typename OperatorCommand::OperatorMode;
-  static_assert(static_cast<int>(Mode::kManual) == static_cast<int>(OperatorMode::kManual));
-  static_assert(static_cast<int>(Mode::kAutomatic) == static_cast<int>(OperatorMode::kAutomatic));
-  static_assert(OperatorCommand::kOperatorMode.raw_max ==
-                static_cast<unsigned>(OperatorMode::kAutomatic));
-  using BusTask = typename OperatorCommand::Task;
-  static_assert(static_cast<int>(BusTask::kNone) == static_cast<int>(Task::kNone));
-  static_assert(static_cast<int>(BusTask::kDig) == static_cast<int>(Task::kDig));
-  put(driver.enable, message.enable, now);
-  put(driver.mode, message.operator_mode, now);
-  put(driver.task, message.task, now);
-  put(driver.speed_override_ratio, message.speed_override_ratio, now);
-}
-
-template <class MachineIdentity>
-void put_identity(PartnerIdentity& identity, const MachineIdentity& message, TimeUs now) {
-  put(identity.profile_hash, message.profile_hash, now);
-  put(identity.dbc_version, message.dbc_version, now);
-}
-
-/// Whether every value is one that its signal may have.
+/// True if every value is one that its signal may have.
 template <class Message>
 bool in_range(const Message& message) {
   bool all = true;
@@ -74,14 +52,14 @@ bool decode(const dbc::Payload& payload, TimeUs now, Received<Inputs>& to) {
   return usable;
 }
 
-/// The table of a bus of which `Messages` are received.
-template <class Inputs, class Store, class... Messages, std::size_t all_count>
-constexpr auto receive_table(dbc::MessageList<Messages...>,
+/// The table of a bus of which `Own` and `Common` are received.
+template <class Inputs, class Store, class... Own, class... Common, std::size_t all_count>
+constexpr auto receive_table(dbc::MessageList<Own...>, dbc::MessageList<Common...>,
                              const std::array<dbc::MessageInfo, all_count>& all,
                              std::uint8_t dbc_version) {
-  return ReceiveTable<Inputs, sizeof...(Messages)>{
-      {message_rule<Messages>(Store::part(Messages{}))...},
-      {&decode<Inputs, Store, Messages>...},
+  return ReceiveTable<Inputs, sizeof...(Own) + sizeof...(Common)>{
+      {message_rule<Own>(Store::part(Own{}))..., message_rule<Common>(Store::part(Common{}))...},
+      {&decode<Inputs, Store, Own>..., &decode<Inputs, Store, Common>...},
       all.data(),
       all_count,
       dbc_version};

@@ -1,5 +1,5 @@
 #pragma once
-/// Which frames of a bus may be used: kind, length, end-to-end protection, and what became of each.
+/// Admission of frames: kind, length, end-to-end protection, and counters of what became of each.
 
 #include <array>
 #include <cstddef>
@@ -9,44 +9,34 @@
 #include "firmware/core/fault_set.hpp"
 #include "firmware/core/time.hpp"
 #include "hal/can_frame.hpp"
-#include "hal/link/bus_parts.hpp"
-#include "hal/link/e2e.hpp"
 #include "hal/link/e2e_window.hpp"
-#include "hal/link/link_counters.hpp"
+#include "hal/link/message_rules.hpp"
 
 namespace graben {
 
-/// How a message that is received is known and protected.
-struct MessageRule {
-  std::uint32_t id = 0;  ///< 29 bits: priority, page, PGN and source address.
-  std::uint8_t length = 0;
-  bool is_protected = false;
-  E2eConfig e2e;
-  BusPart part = nullptr;  ///< Taken only by a machine that has it.
+/// Frames by what became of them. The counters stay at their maximum.
+struct LinkCounters {
+  std::uint32_t accepted = 0;
+  std::uint32_t synchronising = 0;  ///< Good, but the sender's sequence is not confirmed yet.
+  std::uint32_t wrong_kind = 0;     ///< Remote, error, FD, or an 11-bit frame with one of our ids.
+  std::uint32_t wrong_length = 0;
+  std::uint32_t wrong_crc = 0;
+  std::uint32_t masquerade = 0;     ///< A wrong CRC that fits another message; not in wrong_crc.
+  std::uint32_t wrong_counter = 0;  ///< Repeated, invalid, late, early, or too many lost.
+  std::uint32_t out_of_range = 0;   ///< A value outside its [min|max] behind a right CRC.
+  std::uint32_t surplus = 0;        ///< More at once than are looked at (MessageLinks).
 };
 
-/// One cycle more than the counter may skip: then the counter alone would refuse the frame, and it
-/// is far below the 15 cycles after which it would not.
-template <class Message>
-constexpr MessageRule message_rule(BusPart part) {
-  constexpr TimeUs kMaxSilenceUs =
-      (Message::kMaxDeltaCounter + 1) * Message::kCycleTimeMs * kMillisecondUs;
-  return {Message::kId, Message::kLength, Message::kProtected,
-          E2eConfig{Message::kDataId, Message::kMaxDeltaCounter, kMaxSilenceUs,
-                    Message::kCycleTimeMs * kMillisecondUs},
-          part};
+/// All that were refused. Frames of a start-up handshake are not: every start has some.
+constexpr std::uint32_t rejected(const LinkCounters& counters) {
+  const std::uint64_t sum = std::uint64_t{counters.wrong_kind} + counters.wrong_length +
+                            counters.wrong_crc + counters.masquerade + counters.wrong_counter +
+                            counters.out_of_range + counters.surplus;
+  return sum > UINT32_MAX ? UINT32_MAX : static_cast<std::uint32_t>(sum);
 }
 
-/// The rules of a receiver, and all messages of its bus; both have to outlive what uses them.
-struct MessageRules {
-  const MessageRule* rule = nullptr;
-  std::size_t count = 0;
-  const dbc::MessageInfo* all = nullptr;
-  std::size_t all_count = 0;
-};
-
-/// The links of all messages that a receiver takes: those of parts that the machine hasn't got are
-/// foreign to it. A message's index is that of its rule.
+/// The links of all messages that a receiver takes: those of parts that the machine does not
+/// have are foreign to it. A message's index is that of its rule.
 ///
 /// What comes at one time is bounded, or a babbling sender could make a cycle as long as it likes.
 /// No sender of ours is faster than a cycle of 10 ms, and what waits longer than 50 ms is thrown

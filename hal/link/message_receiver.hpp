@@ -17,14 +17,14 @@ struct PartnerIdentity {
   Signal<std::uint32_t> dbc_version;
 };
 
-/// What the frames of a bus have brought.
+/// Values that the frames of a bus have brought.
 template <class Inputs>
 struct Received {
   Inputs inputs;
   PartnerIdentity identity;
 };
 
-/// What a receiver knows of its messages; made by hal/link/message_decode.hpp.
+/// Messages of a receiver; made by hal/link/message_decode.hpp.
 template <class Inputs, int count>
 struct ReceiveTable {
   static constexpr int kCount = count;
@@ -89,7 +89,7 @@ class MessageReceiver {
 
   [[nodiscard]] const Inputs& inputs() const { return received_.inputs; }
   [[nodiscard]] const PartnerIdentity& identity() const { return received_.identity; }
-  /// Whether the other end is what we are; as valid and as old as the worse of what it says.
+  /// True if the other end is what we are; as valid and as old as the worse of what it says.
   [[nodiscard]] Signal<bool> same_machine(std::uint32_t own_profile_hash) const {
     const auto& [hash, version] = received_.identity;
     return {hash.value == own_profile_hash && version.value == Reception::table().dbc_version,
@@ -110,7 +110,7 @@ class MessageReceiver {
 
   /// Of all messages: kMessageCorrupt, kMessageSequence, kMessageMasquerade.
   [[nodiscard]] FaultSet message_faults(TimeUs now) const { return links_.message_faults(now); }
-  /// Whether a value was out of range since the last call.
+  /// True if a value was out of range since the last call.
   [[nodiscard]] bool take_out_of_range() { return links_.take_out_of_range(); }
 
  private:

@@ -1,18 +1,52 @@
 #pragma once
-/// Outputs to frames: what is due in this cycle, protected and saturated.
+/// Outputs to frames: the schedule, what is due in this cycle, protected and saturated.
 
 #include <array>
 #include <cstdint>
 
+#include "can_dbc/codec.hpp"
 #include "firmware/core/time.hpp"
 #include "hal/can_frame.hpp"
 #include "hal/link/dm1.hpp"
-#include "hal/link/ecu_diagnosis.hpp"
-#include "hal/link/message_schedule.hpp"
+#include "hal/link/message_rules.hpp"
 
 namespace graben {
 
-/// What a transmitter knows of its messages; made by hal/link/message_encode.hpp.
+/// What is remembered of a message that is sent.
+struct SendState {
+  TimeUs due_us = 0;
+  std::uint8_t counter = 0;  ///< Of the next frame.
+};
+
+/// True if a message is due; sets when it is next. A call that comes up to half a control cycle
+/// early or late keeps the schedule; one that comes later starts it again from there.
+[[nodiscard]] bool take_due(TimeUs& due_us, TimeUs period_us, TimeUs now);
+
+/// The frame of an 8-byte message without protection.
+[[nodiscard]] CanFrame frame_of(std::uint32_t id, const dbc::Payload& payload, TimeUs now);
+
+/// The frame of a message, protected if it is to be.
+[[nodiscard]] CanFrame next_frame(const SendRule& rule, SendState& state,
+                                  const dbc::Payload& payload, TimeUs now);
+
+/// Health of the process that the controller runs in. Counts saturate at 250 on the bus.
+struct ProcessHealth {
+  std::uint32_t allocations = 0;  ///< Of the process since its first cycle.
+  std::uint32_t page_faults = 0;  ///< Of the control thread since its first cycle.
+  std::uint32_t overruns = 0;     ///< Late cycles since the start.
+  bool real_time = false;         ///< With real-time priority and locked memory.
+};
+
+/// What the process says of itself, beside the controller's outputs.
+struct EcuDiagnosis {
+  TimeUs cycle_time_us = 0;           ///< Of the last cycle; saturates at 64255.
+  std::uint32_t rejected_frames = 0;  ///< Since the start; saturates at 250.
+  std::uint32_t profile_hash = 0;
+  std::uint32_t dropped_frames = 0;  ///< That the bus did not take, since the start.
+  ProcessHealth process;
+};
+
+/// Messages of a transmitter; made by hal/link/message_encode.hpp.
 template <class Outputs, int count>
 struct SendTable {
   using Encode = dbc::Payload (*)(const Outputs&, const EcuDiagnosis&);
@@ -24,14 +58,14 @@ struct SendTable {
 };
 
 /// Sends each message at its cycle time, counted from the first call and spread so that no call
-/// sends all; DM1 as hal/link/dm1.hpp has it. A call that comes up to half a control cycle early or
-/// late keeps the schedule; one that comes later starts it afresh from there: nothing is sent twice
+/// sends all; DM1 see hal/link/dm1.hpp. A call that comes up to half a control cycle early or
+/// late keeps the schedule; one that comes later starts it again from there: nothing is sent twice
 /// to catch up.
 ///
 /// Values beyond a signal's range are saturated; one that is not finite is sent as 'error', unless
 /// it is a command's.
 ///
-/// Messages of parts that the machine hasn't got are not sent.
+/// Messages of parts that the machine does not have are not sent.
 ///
 /// `Transmission` says what is sent: Outputs, kPeriodicCount, and table() with a SendTable, most
 /// urgent first.

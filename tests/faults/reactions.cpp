@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "app/runs/fault_text.hpp"
+#include "app/runs/code_text.hpp"
 #include "tests/faults/dozer_kind.hpp"
 #include "tests/faults/excavator_kind.hpp"
 #include "tests/faults/trial.hpp"

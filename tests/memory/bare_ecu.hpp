@@ -9,7 +9,7 @@
 #include <new>
 
 #include "hal/can_frame.hpp"
-#include "hal/link/ecu_diagnosis.hpp"
+#include "hal/link/message_transmitter.hpp"
 #include "tests/memory/setup.hpp"
 
 namespace graben::memory {

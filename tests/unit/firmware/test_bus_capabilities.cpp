@@ -4,15 +4,15 @@
 #include "firmware/signals/bus_capabilities.hpp"
 
 #include "firmware/dozer/safety/dozer_watch.hpp"
+#include "firmware/safety/cycle.hpp"
 #include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/plain_dozer.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
-#include "tests/unit/firmware/running.hpp"
 
 namespace {
 
 using namespace graben;
-using Silence = test::Running::Adapt;
+using Silence = void (*)(ExcavatorInputs&);
 
 void no_identity(ExcavatorInputs& inputs) { inputs.same_machine = {}; }
 void no_echo(ExcavatorInputs& inputs) { inputs.valve_enabled = {}; }
@@ -40,7 +40,6 @@ ExcavatorProfile with_bus(ExcavatorProfile profile, bool BusCapabilities::*lacks
 
 void our_own_bus_lacks_nothing(void**) {
   assert_false(BusCapabilities{}.lacks_any());
-  assert_false(test::excavator().profile.bus.lacks_any());
   for (const Case& row : kCases) {
     BusCapabilities bus;
     bus.*row.lacks = false;
@@ -51,23 +50,37 @@ void our_own_bus_lacks_nothing(void**) {
   assert_true(bare.lacks_any());
 }
 
+ExcavatorValid seen(const ExcavatorProfile& profile, Silence silence) {
+  ExcavatorInputs inputs = test::complete_inputs(kSecondUs);
+  silence(inputs);
+  return test::validate(inputs, profile, {}, false, kSecondUs);
+}
+
+bool shows_stand_in(const ExcavatorValid& valid) {
+  CycleMemory memory;
+  MachineOutputs outputs;
+  MachineStatus status;
+  end_cycle({}, valid, memory, outputs, status);
+  return status.stand_in;
+}
+
+/// What arming and motion want of the inputs is there, and it is said that something stands in.
 void what_the_bus_lacks_is_not_asked_for(void**) {
   for (const Case& row : kCases) {
-    const test::Running moving(with_bus(test::excavator().profile, row.lacks), row.silence);
-    assert_int_equal(moving.outputs.status.mode, EcuMode::kActive);
-    assert_true(moving.outputs.status.faults.empty());
-    assert_true(moving.outputs.enable);
-    assert_true(moving.outputs.status.stand_in);
+    const ExcavatorValid valid = seen(with_bus(test::plain_machine(), row.lacks), row.silence);
+    assert_int_equal(valid.fault, Fault::kNone);
+    assert_true(valid.faults.empty());
+    assert_true(valid.stand_in);
+    assert_true(shows_stand_in(valid));
   }
 }
 
 void what_the_bus_should_say_is_missed(void**) {
   for (const Case& row : kCases) {
-    const test::Running still(test::excavator().profile, row.silence);
-    assert_int_equal(still.outputs.status.mode, EcuMode::kSilent);
-    assert_true(still.outputs.status.faults.has(row.missed));
-    assert_false(still.outputs.enable);
-    assert_false(still.outputs.status.stand_in);
+    const ExcavatorValid valid = seen(test::plain_machine(), row.silence);
+    assert_int_equal(valid.fault, row.missed);
+    assert_false(valid.stand_in);
+    assert_false(shows_stand_in(valid));
   }
 }
 
@@ -75,12 +88,9 @@ void what_the_bus_should_say_is_missed(void**) {
 void each_lack_excuses_itself_alone(void**) {
   for (const Case& lacking : kCases) {
     for (const Case& silent : kCases) {
-      if (silent.lacks == lacking.lacks) {
-        continue;
-      }
-      const test::Running still(with_bus(test::excavator().profile, lacking.lacks), silent.silence);
-      assert_int_equal(still.outputs.status.mode, EcuMode::kSilent);
-      assert_true(still.outputs.status.faults.has(silent.missed));
+      const ExcavatorValid valid =
+          seen(with_bus(test::plain_machine(), lacking.lacks), silent.silence);
+      assert_int_equal(valid.fault, silent.lacks == lacking.lacks ? Fault::kNone : silent.missed);
     }
   }
 }

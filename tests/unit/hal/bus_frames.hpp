@@ -3,8 +3,8 @@
 
 #include "can_dbc/generated/dozer_dbc.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
-#include "hal/buses/dozer_receiver.hpp"
-#include "hal/buses/excavator_receiver.hpp"
+#include "hal/buses/dozer_bus.hpp"
+#include "hal/buses/excavator_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace graben::test {
@@ -33,6 +33,30 @@ struct WithAllParts : End {
   WithAllParts() : End(BusParts{true}) {}
 };
 
+// Raw value that a test gives to a field: valid and distinct from its start value.
+inline std::uint32_t filled_raw(const dbc::Field& field, std::uint32_t raw) {
+  return field.width >= 16 ? field.raw_min + raw : field.raw_max;
+}
+
+// A message whose every value is valid and distinct from its start value.
+template <class Message>
+Message filled(std::uint32_t raw) {
+  Message message;
+  Message::visit(message, [raw](const dbc::Field& field, auto& signal) {
+    dbc::from_raw(field, filled_raw(field, raw), signal);
+  });
+  return message;
+}
+
+// The operator's frame to a dozer: the same message, its task one of a dozer's.
+struct DozerCommand : dbc::dozer::OperatorCommand {};
+template <>
+inline DozerCommand filled<DozerCommand>(std::uint32_t raw) {
+  DozerCommand command{filled<dbc::dozer::OperatorCommand>(raw)};
+  command.task.value = DozerCommand::Task::kGrade;
+  return command;
+}
+
 // `Other` are messages that a sender could send under the id of Stroke.
 struct ExcavatorBus {
   using Receiver = WithAllParts<ExcavatorReceiver>;
@@ -54,11 +78,11 @@ struct DozerBus {
   using Receiver = DozerReceiver;
   using Stroke = dbc::dozer::BladeStroke;
   using SpoolCommand = dbc::dozer::SpoolCommand;
-  using OperatorCommand = dbc::dozer::OperatorCommand;
+  using OperatorCommand = DozerCommand;
   using Protected =
       List<dbc::dozer::BladeStroke, dbc::dozer::BodyPosition, dbc::dozer::BodyPitch,
            dbc::dozer::BodyVelocity, dbc::dozer::LeftTransmission, dbc::dozer::RightTransmission,
-           dbc::dozer::TrackSpeed, dbc::dozer::OperatorCommand, dbc::dozer::ValveState>;
+           dbc::dozer::TrackSpeed, DozerCommand, dbc::dozer::ValveState>;
   using Unprotected = List<dbc::dozer::EEC1, dbc::dozer::MachineIdentity>;
   using Other = List<dbc::dozer::BodyPitch, dbc::dozer::ValveState, dbc::dozer::SpoolCommand,
                      dbc::dozer::MotorDisplacementCommand>;
@@ -72,21 +96,6 @@ constexpr int count_of(List<Messages...>) {
 template <class Test, class... Messages>
 void for_each(List<Messages...>, Test test) {
   (test(Messages{}), ...);
-}
-
-// Raw value that a test gives to a field: valid and distinct from its start value.
-inline std::uint32_t filled_raw(const dbc::Field& field, std::uint32_t raw) {
-  return field.width >= 16 ? field.raw_min + raw : field.raw_max;
-}
-
-// A message whose every value is valid and distinct from its start value.
-template <class Message>
-Message filled(std::uint32_t raw) {
-  Message message;
-  Message::visit(message, [raw](const dbc::Field& field, auto& signal) {
-    dbc::from_raw(field, filled_raw(field, raw), signal);
-  });
-  return message;
 }
 
 // A protected or plain frame whose field carries `raw`.

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "firmware/numeric/constants.hpp"
-#include "hal/buses/dozer_transmitter.hpp"
-#include "hal/buses/excavator_transmitter.hpp"
+#include "hal/buses/dozer_bus.hpp"
+#include "hal/buses/excavator_bus.hpp"
 #include "hal/link/e2e.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 

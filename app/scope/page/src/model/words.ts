@@ -1,7 +1,8 @@
-/// Numbers on the bus in words. What the controller itself has words for comes with the setup; the
-/// limits are worded as its own reports do (app/runs/limit_text.cpp).
+/// Numbers on the bus in text. Faults and reasons for not arming come with the setup, the limits from
+/// the table that the tool's reports use (firmware/safety/limits.toml).
 
 import type {Kind, Task, Words} from './api';
+import {LIMITS} from './generated/limits';
 
 const DRIVES: Readonly<Record<Kind, readonly string[]>> =
   {excavator: ['boom', 'arm', 'bucket', 'swing'], dozer: ['blade']};
@@ -45,25 +46,26 @@ function whose(what: string, index: number, words: (index: number) => string): s
 
 /// EcuStatus.LimitKind and LimitIndex, raw.
 export function limit_words(limit: number, index: number, context: LimitContext): string {
-  const drive = whose('drive', index, (at) => DRIVES[context.kind][at] ?? `drive ${at}`);
-  switch (limit) {
-    case 0: return 'none';
-    case 1: return `pump flow: ${whose('pump', index, (at) => `Pump ${at + 1}`)}`;
-    case 2: return `back flow: ${drive}`;
-    case 3: return `spool travel: ${drive}`;
-    case 4: return `stroke end: ${drive}`;
-    case 5: return 'rise of lambda';
-    case 6: return `slowed: ${whose('fault', index, (at) => fault_words(context.words, at))}`;
-    case 7: return 'implement flow';
-    case 8: return `transmission flow: ${whose('track', index, track)}`;
-    case 9: return 'what lies ahead';
-    case 10: return 'off the grade';
-    case 11: return 'swing end';
-    case 12: return `fence: ${whose('number', index, (at) =>
-      context.task?.fences[at]?.words ?? `number ${at}`)}`;
-    case 13: return 'behind the plan';
-    case KIND_ERROR: return 'limit in error';
-    case KIND_NOT_AVAILABLE: return 'limit not available';
-    default: return `unknown limit ${limit}`;
+  if (limit === KIND_ERROR || limit === KIND_NOT_AVAILABLE) {
+    return limit === KIND_ERROR ? 'limit in error' : 'limit not available';
   }
+  const known = LIMITS[limit];
+  if (known === undefined) {
+    return `unknown limit ${limit}`;
+  }
+  const owner = owners(context)[known.of];
+  return owner === undefined ? known.text
+    : `${known.text}: ${whose(owner.what, index, owner.words)}`;
+}
+
+/// By what LimitIndex may be the number of.
+function owners({kind, words, task}: LimitContext):
+    Partial<Record<string, {what: string; words: (index: number) => string}>> {
+  return {
+    pump: {what: 'pump', words: (at) => `Pump ${at + 1}`},
+    drive: {what: 'drive', words: (at) => DRIVES[kind][at] ?? `drive ${at}`},
+    fault: {what: 'fault', words: (at) => fault_words(words, at)},
+    track: {what: 'track', words: track},
+    fence: {what: 'number', words: (at) => task?.fences[at]?.words ?? `number ${at}`},
+  };
 }

@@ -1,4 +1,4 @@
-#include "hal/link/message_schedule.hpp"
+#include "hal/link/message_transmitter.hpp"
 
 #include "hal/link/e2e.hpp"
 

@@ -1,5 +1,6 @@
 #pragma once
-/// What holds lambda, in words and in shares of time.
+/// Faults, reasons for not arming and limits of lambda in text, from firmware/safety/faults.toml
+/// and limits.toml; shares of time of each limit.
 
 #include <map>
 #include <string>
@@ -9,6 +10,14 @@
 #include "firmware/core/codes.hpp"
 
 namespace graben::runs {
+
+/// "a stroke is missing", ...; "none" for kNone.
+[[nodiscard]] const char* fault_words(Fault fault);
+/// What the operator should do about it; empty for kNone.
+[[nodiscard]] const char* fault_help(Fault fault);
+
+/// Text of a bit of MachineStatus::why_not_armed.
+[[nodiscard]] const char* arm_block_words(ArmBlock block);
 
 /// Of a kind's actuators, in the order of their indices.
 using ActuatorNames = std::vector<const char*>;

@@ -1,0 +1,63 @@
+#include "app/machines/bus_key.hpp"
+
+#include <fmt/format.h>
+
+namespace graben::machines {
+namespace {
+
+/// What a bus may lack, and what then stands in for it (firmware/signals/bus_capabilities.hpp).
+struct Lack {
+  const char* key;
+  const char* stand_in;
+  bool BusCapabilities::*carried;
+};
+
+constexpr Lack kLacks[] = {
+    {"stand_in.identity", "profile", &BusCapabilities::identity},
+    {"stand_in.valve_echo", "motion", &BusCapabilities::valve_echo},
+    {"stand_in.spool_feedback", "command", &BusCapabilities::spool_feedback},
+    {"stand_in.swash_feedback", "command", &BusCapabilities::swash_feedback},
+    {"stand_in.protection", "range", &BusCapabilities::protection},
+};
+
+const KnownBus& named_bus(TomlReader& reader, const std::vector<KnownBus>& buses) {
+  if (!reader.has("bus")) {
+    return buses.front();
+  }
+  std::vector<std::string> names;
+  names.reserve(buses.size());
+  for (const KnownBus& bus : buses) {
+    names.push_back(bus.name);
+  }
+  return buses[static_cast<std::size_t>(reader.choice("bus", names))];
+}
+
+}  // namespace
+
+const std::vector<KnownBus>& known_buses() {
+  static const std::vector<KnownBus> buses = {{"graben", {}}};
+  return buses;
+}
+
+BusCapabilities read_bus(TomlReader& reader, double dead_time_s,
+                         const std::vector<KnownBus>& buses) {
+  const KnownBus& bus = named_bus(reader, buses);
+  for (const Lack& lack : kLacks) {
+    const bool carried = bus.capabilities.*lack.carried;
+    if (!carried) {
+      // Missing, or another one than there is: the reader says so.
+      static_cast<void>(reader.choice(lack.key, {lack.stand_in}));
+    } else if (reader.has(lack.key)) {
+      static_cast<void>(reader.choice(lack.key, {lack.stand_in}));
+      reader.fail(lack.key, fmt::format("bus \"{}\" carries it: nothing stands in", bus.name));
+    }
+  }
+  if (bus.capabilities.latency_s > dead_time_s) {
+    reader.fail("bus", fmt::format("a latency of {} s is more than the valve's dead time of {} s, "
+                                   "which has to cover it",
+                                   bus.capabilities.latency_s, dead_time_s));
+  }
+  return bus.capabilities;
+}
+
+}  // namespace graben::machines

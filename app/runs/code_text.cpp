@@ -1,0 +1,90 @@
+#include "app/runs/code_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/machines/axis_names.hpp"
+#include "app/runs/generated/code_texts.hpp"
+
+namespace graben::runs {
+
+const ActuatorNames& excavator_actuators() {
+  static const ActuatorNames names(machines::kDriveNames.begin(), machines::kDriveNames.end());
+  return names;
+}
+
+const ActuatorNames& dozer_actuators() {
+  static const ActuatorNames names = {"blade"};
+  return names;
+}
+
+namespace {
+
+std::string owner_words(LimitOf of, unsigned index, const ActuatorNames& actuators) {
+  switch (of) {
+    case LimitOf::kNothing:
+      return "";
+    case LimitOf::kPump:
+      return fmt::format(": Pump {}", index + 1);
+    case LimitOf::kDrive:
+      return fmt::format(": {}", actuators[std::min<std::size_t>(index, actuators.size() - 1)]);
+    case LimitOf::kFault:
+      return fmt::format(": {}", fault_words(static_cast<Fault>(index)));
+    case LimitOf::kTrack:
+      return index == 0 ? ": left track" : ": right track";
+    case LimitOf::kFence:
+      return fmt::format("[{}]", index);
+  }
+  return "";
+}
+
+/// The row with this number, or null.
+template <class Row, std::size_t count, class Code>
+const Row* row_of(const std::array<Row, count>& rows, Code code) {
+  const auto number = static_cast<std::size_t>(code);
+  return number < count ? &rows[number] : nullptr;
+}
+
+}  // namespace
+
+const char* fault_words(Fault fault) {
+  const FaultText* row = row_of(kFaultTexts, fault);
+  return row != nullptr ? row->text : "unknown";
+}
+
+const char* fault_help(Fault fault) {
+  const FaultText* row = row_of(kFaultTexts, fault);
+  return row != nullptr ? row->help : "";
+}
+
+const char* arm_block_words(ArmBlock block) {
+  const char* const* row = row_of(kArmBlockTexts, block);
+  return row != nullptr ? *row : "unknown";
+}
+
+std::string limit_words(const Limit& limit, const ActuatorNames& actuators) {
+  const LimitText* row = row_of(kLimitTexts, limit.kind);
+  return row != nullptr ? row->text + owner_words(row->of, limit.index, actuators) : "unknown";
+}
+
+void LimitCount::add(const Limit& limit) {
+  ++cycles_[limit_words(limit, actuators_)];
+  ++all_;
+}
+
+LimitShares LimitCount::shares() const {
+  const auto share = [this](long cycles) {
+    return all_ > 0 ? static_cast<double>(cycles) / static_cast<double>(all_) : 0.0;
+  };
+  const auto none = cycles_.find("none");
+  LimitShares shares = {{"none", share(none != cycles_.end() ? none->second : 0)}};
+  for (const auto& [name, cycles] : cycles_) {
+    if (name != "none") {
+      shares.emplace_back(name, share(cycles));
+    }
+  }
+  return shares;
+}
+
+}  // namespace graben::runs

@@ -1,0 +1,103 @@
+#include "hal/buses/common_messages.hpp"
+
+namespace graben {
+namespace {
+
+namespace bus = dbc::common;
+
+// The tables of the DBC and of the core, number by number where they do not come from one file.
+using BusMode = bus::EcuStatus::Mode;
+static_assert(same_code(BusMode::kSilent, EcuMode::kSilent));
+static_assert(same_code(BusMode::kReady, EcuMode::kReady));
+static_assert(same_code(BusMode::kArmed, EcuMode::kArmed));
+static_assert(same_code(BusMode::kActive, EcuMode::kActive));
+static_assert(same_code(BusMode::kStopping, EcuMode::kStopping));
+static_assert(same_code(BusMode::kFault, EcuMode::kFault));
+static_assert(same_code(bus::EcuStatus::kMode.raw_max, EcuMode::kFault));
+
+using BusOperatorMode = bus::OperatorCommand::OperatorMode;
+static_assert(same_code(BusOperatorMode::kManual, OperatorMode::kManual));
+static_assert(same_code(BusOperatorMode::kAutomatic, OperatorMode::kAutomatic));
+static_assert(same_code(bus::OperatorCommand::kOperatorMode.raw_max, OperatorMode::kAutomatic));
+
+using BusTask = bus::OperatorCommand::Task;
+static_assert(same_code(BusTask::kNone, Task::kNone));
+static_assert(same_code(BusTask::kDig, Task::kDig));
+static_assert(same_code(BusTask::kGrade, Task::kGrade));
+static_assert(same_code(BusTask::kProgram, Task::kProgram));
+static_assert(same_code(bus::OperatorCommand::kTask.raw_max, Task::kProgram));
+
+// faults.toml and limits.toml are behind both sides of these.
+static_assert(bus::EcuStatus::kFault.raw_max == kFaultCount - 1);
+static_assert(bus::EcuStatus::kLimitKind.raw_max == kLimitKindCount - 1);
+static_assert(bus::EcuHealth::kWhyNotArmed.raw_max == UINT32_MAX && kArmBlockCount <= 32);
+static_assert(same_code(bus::EcuStatus::Fault::kTaskUnknown, Fault::kTaskUnknown));
+static_assert(same_code(bus::EcuStatus::LimitKind::kOffPath, LimitKind::kOffPath));
+// For LimitKind::kDegraded the index is a fault's number.
+static_assert(bus::EcuStatus::kLimitIndex.raw_max >= kFaultCount - 1);
+static_assert(kDm1FirstSpn + kFaultCount <= 524288U);
+
+constexpr std::uint32_t non_negative(TimeUs time_us) {
+  const TimeUs low = time_us < 0 ? 0 : time_us;
+  return low > UINT32_MAX ? UINT32_MAX : static_cast<std::uint32_t>(low);
+}
+
+}  // namespace
+
+void store_operator(const bus::OperatorCommand& message, TimeUs now, OperatorInputs& to) {
+  put(to.enable, message.enable, now);
+  put(to.mode, message.operator_mode, now);
+  put(to.task, message.task, now);
+  put(to.speed_override_ratio, message.speed_override_ratio, now);
+  put(to.task_number, message.task_number, now);
+}
+
+void store_identity(const bus::MachineIdentity& message, TimeUs now, PartnerIdentity& to) {
+  put(to.profile_hash, message.profile_hash, now);
+  put(to.dbc_version, message.dbc_version, now);
+}
+
+bus::EcuStatus ecu_status(const MachineStatus& status, const EcuDiagnosis& diagnosis) {
+  bus::EcuStatus message;
+  message.mode = coded<bus::EcuStatus::Mode>(status.mode);
+  message.limit_kind = coded<bus::EcuStatus::LimitKind>(status.limit.kind);
+  message.limit_index = count(status.limit.index);
+  message.lambda = physical(status.lambda);
+  message.fault = coded<bus::EcuStatus::Fault>(status.fault);
+  message.cycle_time_us = count(non_negative(diagnosis.cycle_time_us));
+  message.rejected_frames = count(diagnosis.rejected_frames);
+  return message;
+}
+
+bus::EcuHealth ecu_health(const MachineStatus& status, const EcuDiagnosis& diagnosis) {
+  const ProcessHealth& process = diagnosis.process;
+  bus::EcuHealth message;
+  message.why_not_armed = count(status.why_not_armed);
+  message.allocations = count(process.allocations);
+  message.page_faults = count(process.page_faults);
+  message.overruns = count(process.overruns);
+  message.dropped_frames = count(diagnosis.dropped_frames);
+  message.real_time = coded<bus::EcuHealth::RealTime>(process.real_time ? 1 : 0);
+  message.stand_in = coded<bus::EcuHealth::StandIn>(status.stand_in ? 1 : 0);
+  return message;
+}
+
+bus::EcuIdentity ecu_identity(const EcuDiagnosis& diagnosis, std::uint8_t dbc_version) {
+  bus::EcuIdentity message;
+  message.profile_hash = count(diagnosis.profile_hash);
+  message.dbc_version = count(dbc_version);
+  return message;
+}
+
+dbc::Payload encode_trouble(const Dm1Content& content) {
+  bus::DM1 message;
+  message.amber_warning_lamp = coded<bus::DM1::AmberWarningLamp>(content.amber_warning ? 1 : 0);
+  message.red_stop_lamp = coded<bus::DM1::RedStopLamp>(content.red_stop ? 1 : 0);
+  message.spn_low = count(content.spn & 0xFFFFU);
+  message.spn_high = count(content.spn >> 16U);
+  message.fmi = count(content.fmi);
+  message.occurrence_count = count(content.occurrences);
+  return message.encode();
+}
+
+}  // namespace graben

@@ -1,0 +1,143 @@
+#include "hal/buses/dozer_bus.hpp"
+
+#include <cmath>
+
+#include "can_dbc/generated/dozer_dbc.hpp"
+#include "hal/buses/common_messages.hpp"
+
+namespace graben {
+namespace {
+
+namespace bus = dbc::dozer;
+
+/// Either path; its line pressure is for diagnosis only.
+template <class Transmission>
+void put_transmission(TrackInputs& track, const Transmission& message, TimeUs now) {
+  put(track.pump_ratio, message.pump_ratio, now);
+  put(track.motor_ratio, message.motor_ratio, now);
+}
+
+struct Store : CommonStore<DozerInputs> {
+  using CommonStore::is_ours;
+  using CommonStore::store;
+
+  static constexpr bool is_ours(const bus::OperatorCommand& message) {
+    return message.task.value == bus::OperatorCommand::Task::kNone ||
+           message.task.value == bus::OperatorCommand::Task::kGrade;
+  }
+
+  static void store(const bus::BladeStroke& message, TimeUs now, To& to) {
+    put(to.inputs.blade_stroke_m, message.blade_stroke_m, now);
+  }
+  static void store(const bus::BodyPosition& message, TimeUs now, To& to) {
+    put(to.inputs.body.position_m, message.position_m, now);
+    put(to.inputs.body.height_m, message.height_m, now);
+  }
+  static void store(const bus::BodyPitch& message, TimeUs now, To& to) {
+    put(to.inputs.body.pitch_rad, message.pitch_rad, now);
+    put(to.inputs.body.pitch_rate_radps, message.pitch_rate_radps, now);
+  }
+  static void store(const bus::BodyVelocity& message, TimeUs now, To& to) {
+    put(to.inputs.body.velocity_mps, message.forward_mps, now);
+    put(to.inputs.body.climb_mps, message.climb_mps, now);
+  }
+  static void store(const bus::LeftTransmission& message, TimeUs now, To& to) {
+    put_transmission(to.inputs.track[kLeft], message, now);
+  }
+  static void store(const bus::RightTransmission& message, TimeUs now, To& to) {
+    put_transmission(to.inputs.track[kRight], message, now);
+  }
+  static void store(const bus::TrackSpeed& message, TimeUs now, To& to) {
+    put(to.inputs.track[kLeft].speed_mps, message.left_track_mps, now);
+    put(to.inputs.track[kRight].speed_mps, message.right_track_mps, now);
+  }
+  static void store(const bus::ValveState& message, TimeUs now, To& to) {
+    put(to.inputs.blade_spool_ratio, message.blade_spool_ratio, now);
+    put(to.inputs.valve_enabled, message.enabled, now);
+  }
+};
+
+using OwnReceived = dbc::MessageList<bus::BladeStroke, bus::BodyPosition, bus::BodyPitch,
+                                     bus::BodyVelocity, bus::LeftTransmission,
+                                     bus::RightTransmission, bus::TrackSpeed, bus::ValveState>;
+constexpr auto kReceiveTable = receive_table<DozerInputs, Store>(OwnReceived{}, CommonReceived{},
+                                                                 bus::kMessages, bus::kDbcVersion);
+
+bool may_move(const DozerOutputs& outputs) {
+  bool finite = std::isfinite(outputs.blade_duty_ratio);
+  for (const auto& ratios : {outputs.pump_ratio, outputs.motor_ratio}) {
+    finite = finite && std::isfinite(ratios[kLeft]) && std::isfinite(ratios[kRight]);
+  }
+  return outputs.enable && finite;
+}
+
+bus::SpoolCommand spool_command(const DozerOutputs& outputs, const EcuDiagnosis&) {
+  bus::SpoolCommand message;  // its start values are Off, neutral and no cut
+  set_pilot_cut(message, outputs);
+  if (may_move(outputs)) {
+    message.enable = coded<bus::SpoolCommand::Enable>(bus::SpoolCommand::Enable::kOn);
+    message.blade_duty_ratio = physical(outputs.blade_duty_ratio);
+  }
+  return message;
+}
+
+bus::PumpDisplacementCommand pump_command(const DozerOutputs& outputs, const EcuDiagnosis&) {
+  bus::PumpDisplacementCommand message;  // its start values are 0 and brake
+  message.brake = coded<bus::PumpDisplacementCommand::Brake>(outputs.brake ? 1 : 0);
+  if (may_move(outputs)) {
+    message.left_pump_ratio = physical(outputs.pump_ratio[kLeft]);
+    message.right_pump_ratio = physical(outputs.pump_ratio[kRight]);
+  }
+  return message;
+}
+
+bus::MotorDisplacementCommand motor_command(const DozerOutputs& outputs, const EcuDiagnosis&) {
+  bus::MotorDisplacementCommand message;  // its start values are full displacement
+  if (may_move(outputs)) {
+    message.left_motor_ratio = physical(outputs.motor_ratio[kLeft]);
+    message.right_motor_ratio = physical(outputs.motor_ratio[kRight]);
+  }
+  return message;
+}
+
+bus::EcuMotion ecu_motion(const DozerOutputs& outputs, const EcuDiagnosis&) {
+  const DozerStatus& status = outputs.status;
+  bus::EcuMotion message;
+  message.wanted_speed_mps = physical(status.wanted_speed_mps);
+  message.speed_limit_mps = physical(status.speed_limit_mps);
+  message.wanted_blade_velocity_mps = physical(status.wanted_blade_mps);
+  return message;
+}
+
+bus::EcuGrade ecu_grade(const DozerOutputs& outputs, const EcuDiagnosis&) {
+  const DozerStatus& status = outputs.status;
+  bus::EcuGrade message;
+  message.required_flow_m3ps = physical(status.required_flow_m3ps);
+  message.available_flow_m3ps = physical(status.available_flow_m3ps);
+  message.grade_error_m = physical(status.grade_error_m);
+  return message;
+}
+
+template <class Message, Message (*make)(const DozerOutputs&, const EcuDiagnosis&)>
+constexpr auto row(TimeUs phase_us) {
+  return send_row<DozerOutputs, Message, make>(phase_us);
+}
+
+constexpr auto kSendTable = bus_send_table(
+    row<bus::SpoolCommand, spool_command>(0), row<bus::PumpDisplacementCommand, pump_command>(0),
+    row<bus::MotorDisplacementCommand, motor_command>(0), ecu_status_row<DozerOutputs>(),
+    row<bus::EcuMotion, ecu_motion>(kControlPeriod_us),
+    row<bus::EcuGrade, ecu_grade>(kControlPeriod_us), ecu_health_row<DozerOutputs>(),
+    ecu_identity_row<DozerOutputs, bus::kDbcVersion>());
+
+}  // namespace
+
+const ReceiveTable<DozerInputs, DozerReception::kMessageCount>& DozerReception::table() {
+  return kReceiveTable;
+}
+
+const SendTable<DozerOutputs, DozerTransmission::kPeriodicCount>& DozerTransmission::table() {
+  return kSendTable;
+}
+
+}  // namespace graben

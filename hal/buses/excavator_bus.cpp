@@ -1,0 +1,189 @@
+#include "hal/buses/excavator_bus.hpp"
+
+#include <cmath>
+
+#include "can_dbc/generated/excavator_dbc.hpp"
+#include "hal/buses/common_messages.hpp"
+
+namespace graben {
+namespace {
+
+namespace bus = dbc::excavator;
+
+// What the steps of an excavator's tasks are for.
+using BusStep = bus::TaskStatus::StepKind;
+static_assert(same_code(BusStep::kNone, StepKind::kNone));
+static_assert(same_code(BusStep::kApproach, StepKind::kApproach));
+static_assert(same_code(BusStep::kDig, StepKind::kDig));
+static_assert(same_code(BusStep::kLift, StepKind::kLift));
+static_assert(same_code(BusStep::kSwing, StepKind::kSwing));
+static_assert(same_code(BusStep::kDump, StepKind::kDump));
+static_assert(same_code(BusStep::kReturnToDig, StepKind::kReturnToDig));
+static_assert(same_code(BusStep::kDone, StepKind::kDone));
+static_assert(same_code(bus::TaskStatus::kStepKind.raw_max, StepKind::kDone));
+
+void put_pressures(AxisInputs& axis, const dbc::Physical& cap, const dbc::Physical& rod,
+                   TimeUs now) {
+  put(axis.cap_pressure_pa, cap, now);
+  put(axis.rod_pressure_pa, rod, now);
+}
+
+struct Store : CommonStore<ExcavatorInputs> {
+  using CommonStore::is_ours;
+  using CommonStore::part;
+  using CommonStore::store;
+
+  static constexpr bool is_ours(const bus::OperatorCommand& message) {
+    return message.task.value != bus::OperatorCommand::Task::kGrade;
+  }
+  static constexpr BusPart part(const bus::SwingState&) { return &BusParts::swing_drive; }
+  static constexpr BusPart part(const bus::SwingValveState&) { return &BusParts::swing_drive; }
+
+  static void store(const bus::BoomStroke& message, TimeUs now, To& to) {
+    put(to.inputs.axis[0].stroke_m, message.boom_stroke_m, now);
+  }
+  static void store(const bus::ArmStroke& message, TimeUs now, To& to) {
+    put(to.inputs.axis[1].stroke_m, message.arm_stroke_m, now);
+  }
+  static void store(const bus::BucketStroke& message, TimeUs now, To& to) {
+    put(to.inputs.axis[2].stroke_m, message.bucket_stroke_m, now);
+  }
+  static void store(const bus::BoomPressure& message, TimeUs now, To& to) {
+    put_pressures(to.inputs.axis[0], message.boom_cap_pressure_pa, message.boom_rod_pressure_pa,
+                  now);
+  }
+  static void store(const bus::ArmPressure& message, TimeUs now, To& to) {
+    put_pressures(to.inputs.axis[1], message.arm_cap_pressure_pa, message.arm_rod_pressure_pa, now);
+  }
+  static void store(const bus::BucketPressure& message, TimeUs now, To& to) {
+    put_pressures(to.inputs.axis[2], message.bucket_cap_pressure_pa, message.bucket_rod_pressure_pa,
+                  now);
+  }
+  static void store(const bus::SwingState& message, TimeUs now, To& to) {
+    put(to.inputs.swing.angle_rad, message.swing_angle_rad, now);
+    put(to.inputs.swing.left_pressure_pa, message.swing_left_pressure_pa, now);
+    put(to.inputs.swing.right_pressure_pa, message.swing_right_pressure_pa, now);
+  }
+  static void store(const bus::PumpState& message, TimeUs now, To& to) {
+    put(to.inputs.swash_ratio[0], message.pump1_swash_ratio, now);
+    put(to.inputs.swash_ratio[1], message.pump2_swash_ratio, now);
+  }
+  static void store(const bus::ValveState& message, TimeUs now, To& to) {
+    put(to.inputs.axis[0].spool_ratio, message.boom_spool_ratio, now);
+    put(to.inputs.axis[1].spool_ratio, message.arm_spool_ratio, now);
+    put(to.inputs.axis[2].spool_ratio, message.bucket_spool_ratio, now);
+    put(to.inputs.valve_enabled, message.enabled, now);
+  }
+  static void store(const bus::SwingValveState& message, TimeUs now, To& to) {
+    put(to.inputs.swing.spool_ratio, message.swing_spool_ratio, now);
+  }
+};
+
+using OwnReceived =
+    dbc::MessageList<bus::BoomStroke, bus::ArmStroke, bus::BucketStroke, bus::BoomPressure,
+                     bus::ArmPressure, bus::BucketPressure, bus::PumpState, bus::ValveState,
+                     bus::SwingState, bus::SwingValveState>;
+constexpr auto kReceiveTable = receive_table<ExcavatorInputs, Store>(
+    OwnReceived{}, CommonReceived{}, bus::kMessages, bus::kDbcVersion);
+
+bool may_move(const ExcavatorOutputs& outputs) {
+  bool finite = true;
+  for (const double duty_ratio : outputs.duty_ratio) {
+    finite = finite && std::isfinite(duty_ratio);
+  }
+  return outputs.enable && finite;
+}
+
+bus::SpoolCommand spool_command(const ExcavatorOutputs& outputs, const EcuDiagnosis&) {
+  bus::SpoolCommand message;  // its start values are Off, neutral and no cut
+  set_pilot_cut(message, outputs);
+  if (may_move(outputs)) {
+    message.enable = coded<bus::SpoolCommand::Enable>(bus::SpoolCommand::Enable::kOn);
+    message.boom_duty_ratio = physical(outputs.duty_ratio[0]);
+    message.arm_duty_ratio = physical(outputs.duty_ratio[1]);
+    message.bucket_duty_ratio = physical(outputs.duty_ratio[2]);
+  }
+  return message;
+}
+
+bus::SwingCommand swing_command(const ExcavatorOutputs& outputs, const EcuDiagnosis&) {
+  bus::SwingCommand message;  // its start values are Off and neutral
+  if (may_move(outputs)) {
+    message.enable = coded<bus::SwingCommand::Enable>(bus::SwingCommand::Enable::kOn);
+    message.swing_duty_ratio = physical(outputs.duty_ratio[3]);
+  }
+  return message;
+}
+
+/// 0 is not a swash that a pump of this machine can be wanted at: nothing is commanded.
+bool is_swash(double swash_ratio) { return std::isfinite(swash_ratio) && swash_ratio > 0.0; }
+
+bus::PumpCommand pump_command(const ExcavatorOutputs& outputs, const EcuDiagnosis&) {
+  bus::PumpCommand message;  // its start values are 'not available'
+  if (may_move(outputs) && is_swash(outputs.swash_ratio[0])) {
+    message.pump1_swash_ratio = physical(outputs.swash_ratio[0]);
+  }
+  if (may_move(outputs) && is_swash(outputs.swash_ratio[1])) {
+    message.pump2_swash_ratio = physical(outputs.swash_ratio[1]);
+  }
+  return message;
+}
+
+bus::EcuMotion ecu_motion(const ExcavatorOutputs& outputs, const EcuDiagnosis&) {
+  const ExcavatorStatus& status = outputs.status;
+  bus::EcuMotion message;
+  message.boom_wanted_velocity_mps = physical(status.wanted_velocity_mps[0]);
+  message.arm_wanted_velocity_mps = physical(status.wanted_velocity_mps[1]);
+  message.bucket_wanted_velocity_mps = physical(status.wanted_velocity_mps[2]);
+  return message;
+}
+
+bus::EcuHydraulics ecu_hydraulics(const ExcavatorOutputs& outputs, const EcuDiagnosis&) {
+  const ExcavatorStatus& status = outputs.status;
+  bus::EcuHydraulics message;
+  message.pump1_expected_pressure_pa = physical(status.pump_pressure_pa[0]);
+  message.pump2_expected_pressure_pa = physical(status.pump_pressure_pa[1]);
+  message.path_error_m = physical(status.path_error_m);
+  return message;
+}
+
+bus::TaskStatus task_status(const ExcavatorOutputs& outputs, const EcuDiagnosis&) {
+  const TaskProgress& progress = outputs.status.progress;
+  bus::TaskStatus message;  // its start values say that no task runs
+  if (progress.runs) {
+    message.task_number = count(progress.number);
+    message.step = count(progress.step);
+    message.step_kind = coded<bus::TaskStatus::StepKind>(progress.kind);
+    message.progress = physical(progress.share);
+  }
+  message.swing_wanted_velocity_radps = physical(outputs.status.swing_wanted_radps);
+  return message;
+}
+
+template <class Message, Message (*make)(const ExcavatorOutputs&, const EcuDiagnosis&)>
+constexpr auto row(TimeUs phase_us, BusPart part = nullptr) {
+  return send_row<ExcavatorOutputs, Message, make>(phase_us, part);
+}
+
+constexpr auto kSendTable = bus_send_table(
+    row<bus::SpoolCommand, spool_command>(0),
+    row<bus::SwingCommand, swing_command>(0, &BusParts::swing_drive),
+    row<bus::PumpCommand, pump_command>(0), ecu_status_row<ExcavatorOutputs>(),
+    row<bus::EcuMotion, ecu_motion>(kControlPeriod_us),
+    row<bus::EcuHydraulics, ecu_hydraulics>(kControlPeriod_us),
+    row<bus::TaskStatus, task_status>(kControlPeriod_us, &BusParts::swing_drive),
+    ecu_health_row<ExcavatorOutputs>(), ecu_identity_row<ExcavatorOutputs, bus::kDbcVersion>());
+
+}  // namespace
+
+const ReceiveTable<ExcavatorInputs, ExcavatorReception::kMessageCount>&
+ExcavatorReception::table() {
+  return kReceiveTable;
+}
+
+const SendTable<ExcavatorOutputs, ExcavatorTransmission::kPeriodicCount>&
+ExcavatorTransmission::table() {
+  return kSendTable;
+}
+
+}  // namespace graben

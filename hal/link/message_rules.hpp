@@ -1,0 +1,74 @@
+#pragma once
+/// Rules of the messages of a bus: which of them a machine has, how each is received and sent.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "can_dbc/codec.hpp"
+#include "firmware/core/time.hpp"
+#include "hal/link/e2e.hpp"
+
+namespace graben {
+
+/// Parts that not every machine of a kind has and that bring messages of their own.
+struct BusParts {
+  bool swing_drive = false;
+};
+
+/// The part that a message belongs to; null: a message of every machine of its kind.
+using BusPart = bool BusParts::*;
+
+constexpr bool has_part(const BusParts& parts, BusPart part) {
+  return part == nullptr || parts.*part;
+}
+
+/// How a message that is received is known and protected.
+struct MessageRule {
+  std::uint32_t id = 0;  ///< 29 bits: priority, page, PGN and source address.
+  std::uint8_t length = 0;
+  bool is_protected = false;
+  E2eConfig e2e;
+  BusPart part = nullptr;  ///< Taken only by a machine that has it.
+};
+
+/// One cycle more than the counter may skip: then the counter alone would refuse the frame, and it
+/// is far below the 15 cycles after which it would not.
+template <class Message>
+constexpr MessageRule message_rule(BusPart part) {
+  constexpr TimeUs kMaxSilenceUs =
+      (Message::kMaxDeltaCounter + 1) * Message::kCycleTimeMs * kMillisecondUs;
+  return {Message::kId, Message::kLength, Message::kProtected,
+          E2eConfig{Message::kDataId, Message::kMaxDeltaCounter, kMaxSilenceUs,
+                    Message::kCycleTimeMs * kMillisecondUs},
+          part};
+}
+
+/// The rules of a receiver, and all messages of its bus; both have to outlive what uses them.
+struct MessageRules {
+  const MessageRule* rule = nullptr;
+  std::size_t count = 0;
+  const dbc::MessageInfo* all = nullptr;
+  std::size_t all_count = 0;
+};
+
+inline constexpr TimeUs kControlPeriod_us = 10 * kMillisecondUs;
+
+/// How a message is sent.
+struct SendRule {
+  std::uint32_t id = 0;
+  TimeUs period_us = 0;
+  TimeUs phase_us = 0;  ///< Spreads the load: no cycle sends all.
+  bool is_protected = false;
+  std::uint16_t data_id = 0;
+  BusPart part = nullptr;  ///< Sent only by a machine that has it.
+};
+
+template <class Message>
+constexpr SendRule send_rule(TimeUs phase_us, BusPart part) {
+  static_assert(Message::kLength == 8);
+  return {Message::kId,     Message::kCycleTimeMs * kMillisecondUs,
+          phase_us,         Message::kProtected,
+          Message::kDataId, part};
+}
+
+}  // namespace graben

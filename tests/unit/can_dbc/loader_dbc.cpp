@@ -1,0 +1,2 @@
+// Compiled as a machine kind's bus would be.
+#include "loader_dbc.hpp"

@@ -1,0 +1,106 @@
+// Which bus a profile may name, and that what it lacks is lost knowingly.
+
+#include "app/machines/bus_key.hpp"
+
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+using machines::KnownBus;
+using Errors = std::vector<std::string>;
+
+const std::vector<KnownBus>& buses() {
+  static const std::vector<KnownBus> all = [] {
+    std::vector<KnownBus> made = {{"graben", {}}, {"mute", {}}, {"bare", {}}, {"slow", {}}};
+    made[1].capabilities.spool_feedback = false;
+    made[1].capabilities.valve_echo = false;
+    made[2].capabilities = {false, false, false, false, false, 0.0};
+    made[3].capabilities.latency_s = 0.04;
+    return made;
+  }();
+  return all;
+}
+
+struct Read {
+  BusCapabilities bus;
+  Errors errors;
+};
+
+Read read(const char* text) {
+  const toml::table document = toml::parse(text);
+  machines::TomlReader reader(document);
+  const BusCapabilities bus = machines::read_bus(reader, 0.03, buses());
+  reader.refuse_unknown_keys();
+  return {bus, reader.errors()};
+}
+
+void assert_refused(const char* text, const char* key, const char* why) {
+  const Errors errors = read(text).errors;
+  for (const std::string& error : errors) {
+    if (error.find(key) != std::string::npos && error.find(why) != std::string::npos) {
+      return;
+    }
+  }
+  fail_msg("\"%s\": no error of %s with \"%s\" among %zu; first: %s", text, key, why, errors.size(),
+           errors.empty() ? "" : errors.front().c_str());
+}
+
+void our_own_is_the_default(void**) {
+  for (const char* text : {"", "bus = \"graben\""}) {
+    const Read known = read(text);
+    assert_true(known.errors.empty());
+    assert_false(known.bus.lacks_any());
+  }
+  assert_int_equal(machines::known_buses().size(), 1);
+  assert_string_equal(machines::known_buses().front().name.c_str(), "graben");
+  assert_false(machines::known_buses().front().capabilities.lacks_any());
+}
+
+void another_name_is_refused_with_those_that_are_known(void**) {
+  assert_refused("bus = \"canopen\"", "bus", "graben, mute, bare, slow");
+}
+
+void what_is_lacking_has_its_stand_in(void**) {
+  const Read mute =
+      read("bus = \"mute\"\nstand_in = {spool_feedback = \"command\", valve_echo = \"motion\"}");
+  assert_true(mute.errors.empty());
+  assert_true(mute.bus.lacks_any());
+  assert_false(mute.bus.spool_feedback);
+  assert_true(mute.bus.identity);
+  const Read bare = read(
+      "bus = \"bare\"\n[stand_in]\nidentity = \"profile\"\nvalve_echo = \"motion\"\n"
+      "spool_feedback = \"command\"\nswash_feedback = \"command\"\nprotection = \"range\"");
+  assert_true(bare.errors.empty());
+}
+
+void nothing_is_lost_in_silence(void**) {
+  assert_refused("bus = \"mute\"", "stand_in.spool_feedback", "missing");
+  assert_refused("bus = \"mute\"\nstand_in = {spool_feedback = \"command\"}", "stand_in.valve_echo",
+                 "missing");
+  assert_refused("bus = \"mute\"\nstand_in = {spool_feedback = \"hope\", valve_echo = \"motion\"}",
+                 "stand_in.spool_feedback", "allowed: command");
+}
+
+void nothing_stands_in_for_what_is_there(void**) {
+  assert_refused("stand_in = {identity = \"profile\"}", "stand_in.identity", "carries it");
+  assert_refused("stand_in = {engine = \"idle\"}", "stand_in.engine", "unknown");
+}
+
+void the_dead_time_covers_the_latency(void**) {
+  assert_refused("bus = \"slow\"", "bus", "dead time");
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(our_own_is_the_default),
+      cmocka_unit_test(another_name_is_refused_with_those_that_are_known),
+      cmocka_unit_test(what_is_lacking_has_its_stand_in),
+      cmocka_unit_test(nothing_is_lost_in_silence),
+      cmocka_unit_test(nothing_stands_in_for_what_is_there),
+      cmocka_unit_test(the_dead_time_covers_the_latency),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
