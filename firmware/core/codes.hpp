@@ -20,8 +20,6 @@ enum class EcuMode : std::uint8_t {
   kFault = 5,     ///< Neutral until the enable has been released and given again.
 };
 
-inline constexpr int kLimitKindCount = 14;
-
 /// A limit and whose it is.
 struct Limit {
   LimitKind kind = LimitKind::kNone;
