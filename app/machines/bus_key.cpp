@@ -10,14 +10,20 @@ struct Lack {
   const char* key;
   const char* stand_in;
   bool BusCapabilities::*carried;
+  const char* help;
 };
 
 constexpr Lack kLacks[] = {
-    {"stand_in.identity", "profile", &BusCapabilities::identity},
-    {"stand_in.valve_echo", "motion", &BusCapabilities::valve_echo},
-    {"stand_in.spool_feedback", "command", &BusCapabilities::spool_feedback},
-    {"stand_in.swash_feedback", "command", &BusCapabilities::swash_feedback},
-    {"stand_in.protection", "range", &BusCapabilities::protection},
+    {"stand_in.identity", "profile", &BusCapabilities::identity,
+     "what stands in for an identity that the bus lacks"},
+    {"stand_in.valve_echo", "motion", &BusCapabilities::valve_echo,
+     "what stands in for the valve's echo of enable"},
+    {"stand_in.spool_feedback", "command", &BusCapabilities::spool_feedback,
+     "what stands in for measured spool positions"},
+    {"stand_in.swash_feedback", "command", &BusCapabilities::swash_feedback,
+     "what stands in for measured swash"},
+    {"stand_in.protection", "range", &BusCapabilities::protection,
+     "what stands in for counter and CRC"},
 };
 
 const KnownBus& named_bus(TomlReader& reader, const std::vector<KnownBus>& buses) {
@@ -29,7 +35,8 @@ const KnownBus& named_bus(TomlReader& reader, const std::vector<KnownBus>& buses
   for (const KnownBus& bus : buses) {
     names.push_back(bus.name);
   }
-  return buses[static_cast<std::size_t>(reader.choice("bus", names))];
+  return buses[static_cast<std::size_t>(
+      reader.choice("bus", names, "bus that the machine is on; without it the first"))];
 }
 
 }  // namespace
@@ -46,9 +53,9 @@ BusCapabilities read_bus(TomlReader& reader, double dead_time_s,
     const bool carried = bus.capabilities.*lack.carried;
     if (!carried) {
       // Missing, or another one than there is: the reader says so.
-      static_cast<void>(reader.choice(lack.key, {lack.stand_in}));
+      static_cast<void>(reader.choice(lack.key, {lack.stand_in}, lack.help));
     } else if (reader.has(lack.key)) {
-      static_cast<void>(reader.choice(lack.key, {lack.stand_in}));
+      static_cast<void>(reader.choice(lack.key, {lack.stand_in}, lack.help));
       reader.fail(lack.key, fmt::format("bus \"{}\" carries it: nothing stands in", bus.name));
     }
   }
