@@ -119,9 +119,12 @@ def git(*words: str) -> str:
 
 
 def sources() -> str:
-    """Another word for each state of the sources: a figure of another one is not gone on with."""
-    changed = git("diff", "HEAD", "--", ".", *(f":!{name}" for name in WRITTEN))
-    return hashlib.sha256(f"{git('rev-parse', 'HEAD')}\n{changed}".encode()).hexdigest()[:16]
+    """Another word for each state of the sources: a figure of another one is not gone on with. Manuals and
+    what is written down here are none."""
+    tracked = [line for line in git("ls-tree", "-r", "HEAD").splitlines()
+               if not line.endswith((".md", *WRITTEN))]
+    changed = git("diff", "HEAD", "--", ".", ":!*.md", *(f":!{name}" for name in WRITTEN))
+    return hashlib.sha256("\n".join([*tracked, changed]).encode()).hexdigest()[:16]
 
 
 def today() -> str:
