@@ -12,6 +12,7 @@ class App;
 
 namespace graben::cli {
 
+void add_check(CLI::App& app, int& status);
 void add_dig(CLI::App& app, int& status);
 void add_grade(CLI::App& app, int& status);
 void add_campaign(CLI::App& app, int& status);

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", GRABEN_VERSION);
   app.require_subcommand(1);
   int status = 0;
+  graben::cli::add_check(app, status);
   graben::cli::add_dig(app, status);
   graben::cli::add_grade(app, status);
   graben::cli::add_campaign(app, status);

@@ -1,0 +1,152 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/reports/check/machine_check.hpp"
+
+namespace graben::reports {
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    result += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+  }
+  return result;
+}
+
+std::string warning_count(const MachineCheck& check) {
+  const std::size_t count = check.warnings.size();
+  return count == 0 ? "no warnings" : fmt::format("{} warning{}", count, count == 1 ? "" : "s");
+}
+
+/// Numbers stand right, words left.
+bool is_number(const std::string& cell) {
+  return !cell.empty() && cell.find_first_of("0123456789") <= 1 && cell.find(';') == cell.npos;
+}
+
+std::string table_text(const FactTable& table) {
+  std::vector<std::vector<std::string>> lines = table.rows;
+  if (!table.columns.empty()) {
+    lines.insert(lines.begin(), table.columns);
+  }
+  std::vector<std::size_t> width;
+  for (const auto& line : lines) {
+    width.resize(std::max(width.size(), line.size()), 0);
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      width[i] = std::max(width[i], line[i].size());
+    }
+  }
+  std::string text = table.title + "\n";
+  for (const auto& line : lines) {
+    std::string shown = " ";
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const bool is_left =
+          i == 0 || (i < table.rows.front().size() && !is_number(table.rows.front()[i]));
+      shown += is_left ? fmt::format("{}{:<{}}", i == 0 ? " " : "  ", line[i], width[i])
+                       : fmt::format("  {:>{}}", line[i], width[i]);
+    }
+    shown.erase(shown.find_last_not_of(' ') + 1);
+    text += shown.empty() ? "" : shown + "\n";
+  }
+  return text + (table.note.empty() ? "" : "  (" + table.note + ")\n");
+}
+
+std::string table_html(const FactTable& table) {
+  std::string html = fmt::format("<section><h2>{}</h2>\n", escaped(table.title));
+  if (!table.rows.empty()) {
+    html += "<table>\n<tr>";
+    for (const std::string& column : table.columns) {
+      html += "<th>" + escaped(column) + "</th>";
+    }
+    html += "</tr>\n";
+    for (const auto& row : table.rows) {
+      html += "<tr>";
+      for (const std::string& cell : row) {
+        html += (is_number(cell) ? "<td>" : "<td class=\"left\">") + escaped(cell) + "</td>";
+      }
+      html += "</tr>\n";
+    }
+    html += "</table>\n";
+  }
+  return html + (table.note.empty() ? "" : "<p>" + escaped(table.note) + "</p>\n") + "</section>\n";
+}
+
+constexpr const char* kStyle = R"(
+:root { color-scheme: light; --ink: #1c2733; --soft: #5b6b7a; --line: #d8dee5; --paper: #ffffff; }
+* { box-sizing: border-box; }
+body { margin: 0; font: 15px/1.45 system-ui, sans-serif; color: var(--ink); background: #f2f4f6; }
+main { max-width: 1180px; margin: 0 auto; padding: 28px 24px 48px; }
+h1 { margin: 0; font-size: 26px; }
+h1 small { font-weight: 400; color: var(--soft); font-size: 16px; margin-left: 10px; }
+h2 { margin: 0 0 8px; font-size: 15px; }
+.sheet, section { background: var(--paper); border: 1px solid var(--line); border-radius: 8px; }
+.sheet { margin: 16px 0; padding: 12px; }
+.sheet svg { display: block; width: 100%; height: auto; max-height: 78vh; }
+.left { text-align: left; }
+.warnings h2:only-child, .warnings.none h2 { margin: 0; }
+.facts { display: grid; grid-template-columns: repeat(auto-fit, minmax(470px, 1fr)); gap: 14px; }
+section { padding: 14px 16px; }
+table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
+th, td { text-align: right; padding: 4px 8px; border-bottom: 1px solid var(--line); vertical-align: bottom; }
+th { font-weight: 500; color: var(--soft); font-size: 13px; }
+th:first-child, td:first-child { text-align: left; padding-left: 0; }
+section p { margin: 8px 0 0; color: var(--soft); font-size: 13px; }
+.warnings { margin: 16px 0; border-left: 5px solid #d98a00; }
+.warnings.none { border-left-color: #2b8a4b; }
+.warnings ul { margin: 6px 0 0; padding: 0; list-style: none; }
+.warnings li { padding: 5px 0; border-top: 1px solid var(--line); }
+code { font: 13px ui-monospace, monospace; background: #fbf1dd; padding: 1px 5px; border-radius: 3px; }
+.soil { fill: #efe6d8; } .ground { stroke: #8a6d46; stroke-width: 2; fill: none; }
+.grid { stroke: #000; stroke-opacity: .06; fill: none; } .grid.five { stroke-opacity: .16; }
+.tick { font-size: 11px; fill: var(--soft); } .measure { font-size: 14px; fill: var(--ink); }
+.reach { fill: #2f74c0; fill-opacity: .10; stroke: #2f74c0; stroke-width: 1.5; }
+.body { fill: #c9d1d9; stroke: #8492a0; } .track { fill: #6b7885; }
+.link { fill: #f2b233; stroke: #8a6200; stroke-width: 1.5; stroke-linejoin: round; fill-opacity: .92; }
+.link.thin { fill: none; stroke-width: 4; } .ghost { fill-opacity: .12; stroke-opacity: .4; }
+.cylinder { stroke: #4a5866; stroke-width: 7; stroke-linecap: round; fill: none; }
+.pin { fill: #fff; stroke: var(--ink); stroke-width: 1.5; } .teeth { fill: #c0392b; }
+.centre { fill: #fff; stroke: #c0392b; stroke-width: 2; }
+.path { fill: none; stroke: #c0392b; stroke-width: 2; stroke-dasharray: 6 4; }
+.dimension { stroke: var(--ink); fill: none; } .axis { stroke: var(--soft); stroke-dasharray: 8 3 2 3; fill: none; }
+@media print { body { background: #fff; } main { padding: 0; } section, .sheet { break-inside: avoid; } }
+)";
+
+}  // namespace
+
+std::string check_text(const MachineCheck& check) {
+  std::string text = fmt::format("{}: {}, hash {:08x}, {}\n", check.name, check.kind, check.hash,
+                                 warning_count(check));
+  for (const FactTable& table : check.tables) {
+    text += "\n" + table_text(table);
+  }
+  for (const Warning& warning : check.warnings) {
+    text += fmt::format("{}warning: {}: {}\n", &warning == check.warnings.data() ? "\n" : "",
+                        warning.key, warning.text);
+  }
+  return text;
+}
+
+std::string check_page(const MachineCheck& check) {
+  std::string warnings;
+  for (const Warning& warning : check.warnings) {
+    warnings +=
+        fmt::format("<li><code>{}</code> {}</li>\n", escaped(warning.key), escaped(warning.text));
+  }
+  std::string facts;
+  for (const FactTable& table : check.tables) {
+    facts += table_html(table);
+  }
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{0}</title>\n"
+      "<style>{1}</style>\n</head>\n<body>\n<main>\n"
+      "<h1>{0}<small>{2}, profile hash {3:08x}</small></h1>\n"
+      "<section class=\"warnings{4}\"><h2>{5}</h2><ul>\n{6}</ul></section>\n"
+      "<div class=\"sheet\">{7}</div>\n<div "
+      "class=\"facts\">\n{8}</div>\n</main>\n</body>\n</html>\n",
+      escaped(check.name), kStyle, check.kind, check.hash, check.warnings.empty() ? " none" : "",
+      warning_count(check), warnings, check.drawing, facts);
+}
+
+}  // namespace graben::reports

@@ -1,0 +1,210 @@
+#include <algorithm>
+#include <cmath>
+
+#include "app/reports/check/warnings.hpp"
+#include "firmware/dozer/blade.hpp"
+#include "firmware/dozer/hydrostatic.hpp"
+#include "firmware/dozer/implement_flow.hpp"
+#include "firmware/numeric/constants.hpp"
+
+namespace graben::reports {
+namespace {
+
+/// Speed of the cutting edge over that of the cylinders where the edge is at the ground line.
+double edge_per_stroke(const BladeGeometry& geometry) {
+  const BladeKinematics blade(geometry);
+  return std::abs(blade.edge_rate_mprad(0.0).y() / blade.stroke_rate_mprad(0.0));
+}
+
+FactTable blade_table(const DozerProfile& profile) {
+  const BladeKinematics blade(profile.blade);
+  const auto angle = [](double rad) { return fmt::format("{:.1f}", kDegreesPerRad * rad); };
+  return {"Blade",
+          {"", "fully lowered", "fully raised", ""},
+          {{"cutting edge", fmt::format("{:.2f}", profile.blade.edge_min_m),
+            fmt::format("{:.2f}", profile.blade.edge_max_m), "m, against the ground line"},
+           {"frame", angle(blade.angle_min_rad()), angle(blade.angle_max_rad()), "deg, from home"},
+           {"stroke", fmt::format("{:.3f}", blade.stroke_max_m()), "0.000",
+            "m; extension lowers the blade"}},
+          ""};
+}
+
+FactTable drive_table(const DozerProfile& profile, const machines::SimulatedDozer* simulated) {
+  const double flow_m3ps = available_flow_m3ps(profile.implement, profile.hst.engine_radps);
+  const double ratio = edge_per_stroke(profile.blade);
+  const double cap_m2 = profile.blade.cap_area_m2();
+  const double rod_m2 = profile.blade.rod_area_m2();
+  const auto force = [&](double area_m2) {
+    return simulated == nullptr
+               ? std::string("-")
+               : fmt::format("{:.0f}", 1e-3 * simulated->plant.implement_relief_pa * area_m2);
+  };
+  const auto row = [&](const char* name, double area_m2) {
+    return std::vector<std::string>{name, fmt::format("{:.3f}", flow_m3ps / area_m2),
+                                    fmt::format("{:.3f}", ratio * flow_m3ps / area_m2),
+                                    force(area_m2)};
+  };
+  FactTable table{"Blade cylinders at full flow and at relief",
+                  {"", "cylinders, m/s", "cutting edge at home, m/s", "cylinders' force, kN"},
+                  {row("lowers", cap_m2), row("raises", rod_m2)},
+                  fmt::format("{:.1f} L/min with the engine at {:g} rad/s", 6e4 * flow_m3ps,
+                              profile.hst.engine_radps)};
+  if (simulated == nullptr) {
+    table.note += "; forces need the relief: there is no NAME.sim.toml beside the profile";
+  }
+  return table;
+}
+
+FactTable travel_table(const DozerProfile& profile) {
+  const HstProfile& hst = profile.hst;
+  FactTable table{"Travel",
+                  {"engine", "rpm", "motor at full displacement, m/s", "at its least, m/s"},
+                  {},
+                  fmt::format("wanted: {:g} m/s", profile.travel.speed_desired_mps)};
+  for (const auto& [name, radps] :
+       {std::pair{"slowest", hst.engine_least_radps}, std::pair{"at work", hst.engine_radps},
+        std::pair{"fastest", hst.engine_most_radps}}) {
+    table.rows.push_back({name, fmt::format("{:.0f}", radps * 60.0 / kTwoPi),
+                          fmt::format("{:.2f}", track_speed_mps(hst, radps, 1.0, 1.0)),
+                          fmt::format("{:.2f}", track_speed_max_mps(hst, radps))});
+  }
+  return table;
+}
+
+/// Of body and blade: rocking on its springs, the blade on its oil.
+FactTable mode_table(const DozerProfile& profile, const machines::SimulatedDozer* simulated) {
+  const double springs_npm = 2.0 * profile.body.wheels * profile.body.suspension_npm;
+  FactTable table{
+      "Lowest modes",
+      {"", "Hz", ""},
+      {{"heave", fmt::format("{:.1f}", std::sqrt(springs_npm / profile.body.mass_kg) / kTwoPi),
+        "body on the springs of both tracks, blade in the air"}},
+      ""};
+  if (simulated == nullptr) {
+    table.note =
+        "pitch and blade need masses and oil: there is no NAME.sim.toml beside the profile";
+    return table;
+  }
+  const plant::DozerPlantProfile& plant = simulated->plant;
+  const double half_m = 0.5 * profile.body.track_contact_m;
+  const int wheels = profile.body.wheels;
+  double square_m2 = 0.0;
+  for (int i = 0; i < wheels; ++i) {
+    const double x_m = -half_m + 2.0 * half_m * i / (wheels - 1);
+    square_m2 += x_m * x_m;
+  }
+  const double pitch_nmprad = 2.0 * square_m2 * profile.body.suspension_npm;
+  const BladeKinematics blade(profile.blade);
+  const plant::CylinderData cylinder = plant.blade_cylinder(blade.stroke_max_m());
+  const double stroke_m = blade.stroke_m(0.0);
+  const double spring_npm =
+      plant.bulk_modulus_pa *
+      (cylinder.area.cap_m2 * cylinder.area.cap_m2 /
+           (cylinder.dead_volume_m3 + cylinder.area.cap_m2 * stroke_m) +
+       cylinder.area.rod_m2 * cylinder.area.rod_m2 /
+           (cylinder.dead_volume_m3 + cylinder.area.rod_m2 * (cylinder.stroke_m - stroke_m)));
+  const double lever_m = blade.stroke_rate_mprad(0.0);
+  const double inertia_kgm2 = plant.blade_mass_kg * plant.blade_reach_m * plant.blade_reach_m;
+  table.rows.push_back(
+      {"pitch", fmt::format("{:.1f}", std::sqrt(pitch_nmprad / plant.pitch_inertia_kgm2) / kTwoPi),
+       "body on the springs of both tracks"});
+  table.rows.push_back(
+      {"blade",
+       fmt::format("{:.1f}", std::sqrt(spring_npm * lever_m * lever_m / inertia_kgm2) / kTwoPi),
+       "at home on its oil, valve shut, body held"});
+  return table;
+}
+
+void expect_plant(Warnings& warnings, const machines::SimulatedDozer& machine) {
+  const DozerProfile& profile = machine.profile;
+  const plant::DozerPlantProfile& plant = machine.plant;
+  expect_oil(warnings, "implement", plant.bulk_modulus_pa);
+  expect_deadband(warnings, "implement", plant.deadband_ratio, profile.implement.spool_to_duty);
+  expect_spool(warnings, "implement", plant.spool_time_constant_s, plant.spool_damping,
+               profile.safety.settle_s, profile.control.response_s);
+  warnings.expect(
+      "blade.mass", plant.blade_mass_kg / profile.body.mass_kg, 0.04, 0.3,
+      fmt::format("blade with frame of {:g} kg, of the machine's mass", plant.blade_mass_kg));
+  warnings.expect("blade.reach", plant.blade_reach_m / profile.blade.cutting_edge_m, 0.4, 1.1,
+                  fmt::format("mass centre {:g} m from the pivot, of the cutting edge's distance",
+                              plant.blade_reach_m));
+  const double length_m = profile.body.track_contact_m;
+  warnings.expect(
+      "body.pitch_inertia", plant.pitch_inertia_kgm2 / (profile.body.mass_kg * length_m * length_m),
+      0.06, 0.6,
+      fmt::format("{:g} kg m2, over mass and squared track contact", plant.pitch_inertia_kgm2));
+  const double force_n = plant.implement_relief_pa * profile.blade.cap_area_m2();
+  warnings.expect("implement.coulomb", 100.0 * plant.coulomb_n / force_n, 0.05, 8.0,
+                  fmt::format("{:g} N, of the cylinders' force at relief", plant.coulomb_n), "%");
+  warnings.expect("implement.relief", force_n / (profile.body.mass_kg * plant.gravity_mps2), 0.8,
+                  20.0, "cylinders' force at relief, over the machine's weight");
+  warnings.add_if(plant.charge_pa > 0.2 * plant.hst_relief_pa, "hst.charge",
+                  fmt::format("{:.1f} MPa of charge under a relief of {:.1f} MPa; usual: at most a "
+                              "fifth",
+                              1e-6 * plant.charge_pa, 1e-6 * plant.hst_relief_pa));
+}
+
+}  // namespace
+
+std::vector<Warning> dozer_warnings(const machines::DozerMachine& machine,
+                                    const machines::SimulatedDozer* simulated) {
+  const DozerProfile& profile = machine.profile;
+  const HstProfile& hst = profile.hst;
+  Warnings warnings;
+  expect_rod(warnings, "blade.cylinder", profile.blade.bore_m, profile.blade.rod_m);
+  expect_times(warnings, profile.safety.settle_s, profile.control.sensor_timeout_s,
+               profile.control.response_s);
+  const double pump_m3ps = hst.engine_radps / kTwoPi * profile.implement.displacement_m3prev *
+                           profile.implement.efficiency;
+  warnings.expect("implement.valve_flow_max", profile.implement.valve_flow_max_m3ps / pump_m3ps,
+                  0.5, 3.0,
+                  fmt::format("{:.0f} L/min through the valve over {:.0f} L/min of its pump",
+                              6e4 * profile.implement.valve_flow_max_m3ps, 6e4 * pump_m3ps));
+  warnings.expect(
+      "hst.gear_ratio", track_speed_mps(hst, hst.engine_radps, 1.0, 1.0), 0.5, 4.0,
+      fmt::format("track speed with both displacements full at {:g} rad/s", hst.engine_radps),
+      "m/s");
+  const double fastest_mps = track_speed_max_mps(hst, hst.engine_radps);
+  warnings.add_if(profile.travel.speed_desired_mps > fastest_mps, "travel.speed_desired",
+                  fmt::format("{:g} m/s; the tracks reach {:.2f} m/s at the engine's speed at work",
+                              profile.travel.speed_desired_mps, fastest_mps));
+  warnings.expect("body.mass_centre_height",
+                  profile.body.mass_centre_height_m / profile.body.half_gauge_m, 0.4, 1.6,
+                  fmt::format("{:g} m over half a gauge of {:g} m",
+                              profile.body.mass_centre_height_m, profile.body.half_gauge_m));
+  warnings.expect("body.mass", profile.body.mass_kg / std::pow(profile.body.track_contact_m, 3.0),
+                  200.0, 2000.0,
+                  fmt::format("mass of {:g} kg on a track contact of {:g} m, over its cube",
+                              profile.body.mass_kg, profile.body.track_contact_m),
+                  "kg/m3");
+  warnings.expect(
+      "blade.cutting_edge", profile.blade.cutting_edge_m / profile.body.track_contact_m, 0.35, 1.6,
+      fmt::format("{:g} m from the pivot, over the track contact", profile.blade.cutting_edge_m));
+  warnings.add_if(profile.safety.idle_radps < hst.engine_least_radps - 0.01, "safety.idle",
+                  fmt::format("{:g} rad/s is below the slowest engine, {:g} rad/s",
+                              profile.safety.idle_radps, hst.engine_least_radps));
+  const double edge_mps = edge_per_stroke(profile.blade) *
+                          available_flow_m3ps(profile.implement, hst.engine_radps) /
+                          profile.blade.cap_area_m2();
+  warnings.expect("blade.cylinder.bore", edge_mps, 0.05, 1.0,
+                  "lowering of the cutting edge at full flow", "m/s");
+  if (simulated != nullptr) {
+    expect_plant(warnings, *simulated);
+  }
+  return warnings.take();
+}
+
+MachineCheck check_machine(const machines::DozerMachine& machine,
+                           const machines::SimulatedDozer* simulated) {
+  MachineCheck check;
+  check.name = machine.name;
+  check.kind = "dozer";
+  check.hash = machine.hash;
+  check.tables = {blade_table(machine.profile), drive_table(machine.profile, simulated),
+                  travel_table(machine.profile), mode_table(machine.profile, simulated)};
+  check.warnings = dozer_warnings(machine, simulated);
+  check.drawing = dozer_drawing(machine.profile);
+  return check;
+}
+
+}  // namespace graben::reports
