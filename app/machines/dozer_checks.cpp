@@ -5,7 +5,7 @@
 
 #include "app/machines/dozer_sections.hpp"
 
-#include "firmware/dozer/travel/reach.hpp"
+#include "firmware/dozer/travel/support.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben::machines {

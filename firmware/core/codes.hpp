@@ -26,7 +26,7 @@ struct Limit {
   std::uint8_t index = 0;
 };
 
-/// How lambda is chosen.
+/// Policies for the choice of lambda.
 enum class McvPolicy : std::uint8_t {
   kAlgorithm1 = 0,  ///< As in Kim et al.
   kConnected = 1,   ///< The end of the interval that contains 0.
@@ -36,7 +36,7 @@ enum class McvPolicy : std::uint8_t {
   kFixed = 3,
 };
 
-/// How a dozer's travel speed is chosen.
+/// Policies for a dozer's travel speed.
 enum class SpeedPolicy : std::uint8_t {
   kBounded = 0,
   /// For comparisons only, never on a machine: the speed that was asked for, whatever the blade
@@ -44,7 +44,7 @@ enum class SpeedPolicy : std::uint8_t {
   kConstant = 1,
 };
 
-/// How the optimiser ended.
+/// Ends of the optimiser.
 enum class SolveStatus : std::uint8_t {
   kOk = 0,
   kInfeasible = 1,    ///< No motion is possible even at lambda -> 0: (43) is not met.

@@ -6,7 +6,7 @@
 
 namespace graben {
 
-/// What one cycle hands to the next.
+/// State from cycle to cycle.
 struct BladeState {
   double integral_mps = 0.0;
   double carried_mps = 0.0;        ///< Vertical velocity of the edge that the body alone gives it.

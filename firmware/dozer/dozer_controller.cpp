@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/dozer/implement_flow.hpp"
-#include "firmware/dozer/travel/track_speeds.hpp"
+#include "firmware/dozer/blade.hpp"
+#include "firmware/dozer/travel/tracks.hpp"
 #include "firmware/drives/velocity_cap.hpp"
 
 namespace graben {

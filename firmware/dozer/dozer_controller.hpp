@@ -2,12 +2,11 @@
 /// The dozer's controller: one step from signals to commands, 100 times a second.
 
 #include "firmware/dozer/blade_control.hpp"
-#include "firmware/dozer/safety/brake.hpp"
 #include "firmware/dozer/safety/dozer_gate.hpp"
 #include "firmware/dozer/safety/dozer_watch.hpp"
-#include "firmware/dozer/travel/position_filter.hpp"
+#include "firmware/dozer/travel/preview.hpp"
 #include "firmware/dozer/travel/speed_limit.hpp"
-#include "firmware/dozer/travel/track_control.hpp"
+#include "firmware/dozer/travel/tracks.hpp"
 #include "firmware/safety/cycle.hpp"
 
 namespace graben {

@@ -1,6 +1,6 @@
 #pragma once
-/// What a dozer is, as its controller knows it: body, blade, flows, transmission, grade. Constant
-/// after start; read and range-checked by the application. SI units; frames as in
+/// Profile of a dozer, as its controller knows it: body, blade, flows, transmission, grade.
+/// Constant after start; read and range-checked by the application. SI units; frames as in
 /// signals/dozer_signals.hpp.
 
 #include <Eigen/Core>
@@ -72,7 +72,7 @@ struct HstProfile {
   double response_s = 0.0;     ///< Lag of a displacement behind its command.
 };
 
-/// How the travel speed is chosen (14) and followed.
+/// Choice (14) and control of the travel speed.
 struct TravelProfile {
   SpeedPolicy policy = SpeedPolicy::kBounded;
   double speed_desired_mps = 0.0;      ///< v_d
@@ -115,7 +115,7 @@ struct DozerControl {
   double blade_integral_most_mps = 0.0;
 };
 
-/// What the watches may think of the machine.
+/// Bounds that the watches hold the machine to.
 struct DozerSafety {
   double degraded_speed_ratio = 0.0;
   double idle_radps = 0.0;

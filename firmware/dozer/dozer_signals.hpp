@@ -1,5 +1,5 @@
 #pragma once
-/// What comes into and goes out of the dozer's controller. SI units; tracks in the order left,
+/// Inputs and outputs of the dozer's controller. SI units; tracks in the order left,
 /// right. World: x along the grade, z up. Body frame: x forward, z up, origin at the tracks' ground
 /// line below the mass centre. Pitch is positive nose up. Extension of the blade cylinders is
 /// positive and lowers the blade; their stroke counts from where the blade is raised fully.
@@ -38,7 +38,7 @@ struct DozerInputs : MachineInputs {
   std::array<TrackInputs, kTrackCount> track;
 };
 
-/// What the dozer's controller says of itself.
+/// Status of the dozer's controller.
 struct DozerStatus : MachineStatus {
   double wanted_speed_mps = 0.0;     ///< v_c of (14), after the acceleration limit.
   double speed_limit_mps = 0.0;      ///< (14) without v_d: what flow and transmission allow.

@@ -8,7 +8,7 @@
 
 namespace graben {
 
-/// What one cycle hands to the next, of one drive; as constructed, at rest at stroke 0.
+/// State from cycle to cycle, of one drive; as constructed, at rest at stroke 0.
 struct ServoState {
   static constexpr int kMostDelayed = 64;   ///< Cycles of dead time that can be remembered.
   static constexpr double kCycle_s = 0.01;  ///< What a place of the ring stands for.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "firmware/safety/degrade.hpp"
+#include "firmware/safety/common_inputs.hpp"
 
 namespace graben {
 

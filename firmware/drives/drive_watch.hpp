@@ -32,7 +32,7 @@ struct DriveCommands {
   Span<const double> asked_mps;
 };
 
-/// What the watches keep of a bank from cycle to cycle.
+/// State of the watches of a bank from cycle to cycle.
 template <int kMost>
 struct DriveWatchState {
   std::array<SpoolState, kMost> spool;

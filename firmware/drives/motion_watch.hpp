@@ -9,7 +9,7 @@
 
 namespace graben {
 
-/// What is kept of one drive's motion from cycle to cycle.
+/// State of one drive's motion from cycle to cycle.
 struct MotionState {
   int direction = 0;       ///< Where the spool lets the oil go; 0 while it is closed.
   double since_s = 0.0;    ///< Since it has been so.
@@ -31,7 +31,7 @@ struct MotionState {
                                     Span<const double> asked_mps, double period_s,
                                     Span<MotionState> state);
 
-/// What is kept of one pressure sensor from cycle to cycle.
+/// State of one pressure sensor from cycle to cycle.
 struct PressureState {
   double last_pa = 0.0;
   double stroke_m = 0.0;  ///< Up to which `way_m` is counted.

@@ -53,7 +53,7 @@ struct SentCommand {
   Span<const double> duty_ratio;
 };
 
-/// What has come in of the valve since then.
+/// Feedback of the valve since then.
 struct ValveFeedback {
   bool received = false;  ///< Spools and echo, as far as the bus carries them.
   bool has_echo = true;   ///< The bus carries the valve side's echo of our enable.

@@ -5,9 +5,9 @@
 #include "firmware/drives/velocity_cap.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/excavator/field/dig_field.hpp"
-#include "firmware/excavator/safety/excavator_watch.hpp"
+#include "firmware/excavator/safety/excavator_validation.hpp"
 #include "firmware/excavator/tasks/task_follow.hpp"
-#include "firmware/mcv/steady_lambda.hpp"
+#include "firmware/mcv/optimiser.hpp"
 #include "firmware/safety/cycle.hpp"
 
 namespace graben {
@@ -45,7 +45,7 @@ class ExcavatorController {
   /// Lets tests flip a bit of what is stored.
   friend struct ControllerMemoryAccess;
 
-  /// What a cycle asks of the drives, whatever the task.
+  /// Motion that a cycle asks of the drives, whatever the task.
   struct Motion {
     DriveVector wanted_mps = DriveVector::Zero();     ///< V_L^d, the swing's at its lever.
     DriveVector corrected_mps = DriveVector::Zero();  ///< With the servos' corrections.

@@ -18,11 +18,11 @@ using ExcavatorBank = DriveBank<kDriveCount>;
 /// The valve as the optimiser's table, actuators in the order of the drives.
 [[nodiscard]] McvMachine mcv_machine(const ExcavatorProfile& profile);
 
-/// What a row has of the valve's section, the control and the watches, whatever the drive.
+/// The row's share of valve section, control and watches, alike for every drive.
 [[nodiscard]] DriveRow section_row(const ExcavatorProfile& profile, int drive);
 
-/// What reaches a drive at most, m^3/s: its section's flow, or its pump's whole flow if that is
-/// less.
+/// Largest flow that reaches a drive, m^3/s: its section's flow, or its pump's whole flow if that
+/// is less.
 [[nodiscard]] double most_flow_m3ps(const ExcavatorProfile& profile, int drive);
 
 /// Faster than this a row with spool and areas never moves, m/s.

@@ -1,9 +1,9 @@
 #pragma once
-/// What an excavator is, as its controller knows it: geometry, valve, pumps, task. Constant after
-/// start; read and range-checked by the application, cross-checked by `profile_check`.
-/// SI units. Sagittal plane: x forward, y up, origin at the boom foot pin; link frames have x from
-/// one pin to the next; joint angles: boom against the horizontal, arm against the boom, bucket
-/// against the arm, folding in is negative.
+/// Profile of an excavator, as its controller knows it: geometry, valve, pumps, task. Constant
+/// after start; read and range-checked by the application, cross-checked by `profile_check`. SI
+/// units. Sagittal plane: x forward, y up, origin at the boom foot pin; link frames have x from one
+/// pin to the next; joint angles: boom against the horizontal, arm against the boom, bucket against
+/// the arm, folding in is negative.
 
 #include <Eigen/Core>
 #include <array>
@@ -82,7 +82,7 @@ struct DigPath {
   double attitude_at_x_max_rad = 0.0;
 };
 
-/// How the field converges and how commands may change. Ranges are checked where it is read.
+/// Convergence of the field, changes of commands, feedback. Ranges are checked where it is read.
 struct ControlProfile {
   double convergence_length_m = 0.0;  ///< Distance at which the field points at 45 deg to the path.
   double attitude_gain_ps = 0.0;      ///< Attitude error to attitude rate.
@@ -97,20 +97,20 @@ struct ControlProfile {
   double spool_threshold = 0.0;       ///< |x| / x_m under which a spool is kept at neutral.
   double sensor_timeout_s = 0.0;      ///< A signal older than this is missing.
   double response_s = 0.0;            ///< Lag of a cylinder's speed behind its spool command.
-  double servo_gain_ps = 0.0;         ///< What a cylinder owes to its speed.
-  double swing_servo_most_rad = 0.0;  ///< It can owe no more than this, where a plan turns it.
+  double servo_gain_ps = 0.0;         ///< Integrated error of a cylinder's travel to speed.
+  double swing_servo_most_rad = 0.0;  ///< Bound of its error where a plan turns it.
   double swing_lead_s = 0.0;  ///< Lag of the platform behind its spool, where a plan turns it.
   double swing_servo_gain_ps = 0.0;  ///< The same of the swing; the platform's oil is softer.
-  double servo_most_m = 0.0;         ///< It can owe no more than this.
+  double servo_most_m = 0.0;         ///< Bound of that error.
   double servo_least_lambda = 1.0;   ///< Corrections stay whole down to this lambda.
-  double servo_frequency_hz = 0.0;   ///< Of the low-pass of what is owed; undamped.
+  double servo_frequency_hz = 0.0;   ///< Of the correction's low-pass; undamped.
   double servo_damping = 0.0;        ///< Its damping ratio.
   double pressure_filter_s = 0.0;    ///< Low-pass of the load that the valve's model compensates.
   double slow_error_m = 0.0;         ///< Path error at which the speed along the path is halved.
   double dead_time_s = 0.0;          ///< From a duty to the spool's first movement.
 };
 
-/// What the watches may think of the machine. Ranges are checked where it is read.
+/// Bounds that the watches hold the machine to. Ranges are checked where it is read.
 struct SafetyProfile {
   double degraded_speed_ratio = 0.0;  ///< Of the task's speed, while a sensor is lost.
   double idle_radps = 0.0;            ///< Engine at its slowest, assumed where its speed is lost.
@@ -138,7 +138,7 @@ struct SwingProfile {
   [[nodiscard]] double area_m2() const { return displacement_m3prad / lever_m; }
 };
 
-/// How straight lines of the teeth are planned.
+/// Planning of straight lines of the teeth.
 struct LineProfile {
   double acceleration_mps2 = 0.0;  ///< Of the teeth, unless the task says another.
   std::array<double, kAxisCount> cylinder_acceleration_mps2{};
@@ -148,7 +148,7 @@ struct LineProfile {
   double slow_error_s = 0.0;  ///< So much more of it for each m/s of a line's planned speed.
   double move_slow_error_m = 0.0;
   double pace_rate_ps = 0.0;  ///< How fast it may slow down and speed up for that, per second.
-  /// How fast a drive's lasting lag is learnt and given on top, per second of what it owes and
+  /// Rate at which a drive's lasting lag is learnt and given on top, per second of its error and
   /// second: leakage of the swing's motor, deadbands.
   double trim_ps2 = 0.0;
   double trim_most_mps = 0.0;  ///< No more than this.

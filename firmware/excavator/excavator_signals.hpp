@@ -1,5 +1,5 @@
 #pragma once
-/// What comes into and goes out of the excavator's controller. SI units; axes in the order boom,
+/// Inputs and outputs of the excavator's controller. SI units; axes in the order boom,
 /// arm, bucket, drives with the swing after them. Extension is positive for strokes, velocities,
 /// spools and duties, and so is the swing to the left; a stroke counts from the closed cylinder.
 
@@ -29,7 +29,7 @@ struct ExcavatorInputs : MachineInputs {
   std::array<Signal<double>, kPumpCount> swash_ratio;  ///< tan(alpha) / tan(alpha at full swash).
 };
 
-/// What a step of a task is for; the numbers are on the bus.
+/// Purpose of a task's step; the numbers are on the bus.
 enum class StepKind : std::uint8_t {
   kNone = 0,
   kApproach = 1,  ///< From where the machine stands to where the task begins.
@@ -41,7 +41,7 @@ enum class StepKind : std::uint8_t {
   kDone = 7,  ///< The task is at its end; the machine stands.
 };
 
-/// How far a task is.
+/// Progress of a task.
 struct TaskProgress {
   bool runs = false;  ///< Without it the rest says nothing.
   std::uint8_t number = 0;

@@ -26,7 +26,7 @@ namespace graben {
 /// The swing's signals as those of a drive, extending to the left.
 [[nodiscard]] DriveInputs swing_inputs(const SwingInputs& swing, const SwingProfile& profile);
 
-/// What the swing has to be asked for beyond `wanted_mps` so that its platform is as fast by then:
+/// Speed to be asked of the swing beyond `wanted_mps` so that its platform is as fast by then:
 /// its lag (control.swing_lead_s) times the change of what is wanted, as far as the platform can
 /// follow that at all.
 [[nodiscard]] double swing_lead_mps(const ExcavatorProfile& profile, double wanted_mps,

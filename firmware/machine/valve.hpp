@@ -54,7 +54,7 @@ struct PumpProfile {
   std::array<double, 2> bypass_series{};  ///< Make-up valve and tank orifice of (21), (22).
 };
 
-/// How lambda may rise from cycle to cycle; it may fall at once.
+/// Bounds on lambda's rise from cycle to cycle; it may fall at once.
 struct LambdaRise {
   double rate_ps = 0.0;     ///< Per second.
   double reserve_n = 0.0;   ///< Drive force that every moving cylinder must have beyond its need.

@@ -1,5 +1,5 @@
 #pragma once
-/// What the policies that search over r share.
+/// Parts that the policies share that search over r.
 
 #include "firmware/mcv/policies.hpp"
 #include "firmware/mcv/requirement.hpp"
@@ -45,7 +45,7 @@ struct LambdaChange {
 [[nodiscard]] LambdaChange fails_first(const McvCircuit& circuit, const Limit& limit,
                                        const McvPoint& slow, const McvPoint& fastest);
 
-/// Whether a line has no pump flow to speak of and still feeds motion by regeneration: there
+/// True where a line has no pump flow to speak of and still feeds motion by regeneration: there
 /// rounding shows in lambda over r, and what a search over r finds is only a guess.
 [[nodiscard]] bool is_any_starved(const McvCircuit& circuit);
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "firmware/machine/drive_bank.hpp"
+#include "firmware/machine/valve.hpp"
 #include "firmware/numeric/monotone_table.hpp"
 
 namespace graben {
@@ -51,7 +52,7 @@ struct McvMachine {
   PerPump<McvPump> pump{};
 };
 
-/// What changes from cycle to cycle.
+/// Input of one cycle.
 struct McvInput {
   PerActuator<double> velocity_mps{};  ///< V_L^d; exactly 0 keeps that spool closed.
   PerActuator<double> cap_pressure_pa{};
@@ -59,7 +60,7 @@ struct McvInput {
   PerPump<double> pump_flow_m3ps{};  ///< v omega tan(alpha) of (25): flow at zero pressure.
 };
 
-/// What is wrong with a machine or an input, and where.
+/// Defects of a machine or an input, and their place.
 enum class McvDefect : std::uint8_t {
   kNone = 0,
   kBadActuatorCount,
@@ -93,5 +94,16 @@ struct McvCheck {
 
 /// The valve of a bank of drives, actuators in their order. The pumps' flow is an input.
 [[nodiscard]] McvMachine mcv_machine(DriveRows drives, Span<const PumpProfile> pumps);
+
+/// c_L at full opening, m/(s sqrt(N)): `inlet_area_m2` is the piston area that the in-flow fills
+/// (cap while extending, rod while retracting), `outlet_area_m2` the other one.
+[[nodiscard]] double full_opening_velocity_coefficient(const SpoolMetering& metering,
+                                                       double spool_in_m2, double spool_out_m2,
+                                                       double inlet_area_m2, double outlet_area_m2);
+
+/// c_L against |x|, from closed to x_m, for an area that grows as travel ^ opening_exponent.
+/// Points are denser near closed, where the curve bends most.
+[[nodiscard]] MonotoneTable velocity_coefficient_table(const SpoolMetering& metering,
+                                                       double coefficient_full);
 
 }  // namespace graben

@@ -16,7 +16,7 @@ struct PolicyResult {
       true;  ///< False: a fixed number of steps was not enough; the point may not be used.
 };
 
-/// What is asked of lambda: over `hold` that the circuit be feasible with the whole reserve on its
+/// Request to lambda: over `hold` that the circuit be feasible with the whole reserve on its
 /// loads, from `hold` down with the share that holding asks for, which is never more. Both circuits
 /// have the same lines, and so the same pressures; they are one that takes on the loads of either,
 /// and is that of whoever was asked for last: each would be a fifth of the stack that an ECU has.

@@ -34,7 +34,7 @@ struct FlowBalance {
   std::array<RegenerationDemand, kMaxActuators> regeneration{};
 };
 
-/// What the balance leaves over at s; strictly decreasing in s.
+/// Remainder of the balance at s; strictly decreasing in s.
 [[nodiscard]] double flow_left(const FlowBalance& balance, double lambda, double sqrt_pressure);
 
 /// Margin of the pump flow constraint (29), (30).

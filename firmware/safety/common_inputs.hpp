@@ -4,7 +4,7 @@
 
 #include <initializer_list>
 
-#include "firmware/safety/freshness.hpp"
+#include "firmware/safety/plausibility.hpp"
 #include "firmware/signals/bus_capabilities.hpp"
 #include "firmware/signals/machine_signals.hpp"
 
@@ -53,5 +53,28 @@ struct Bridge {
 /// Sorts the faults into those that stop and those that only slow: in motion those that the table
 /// says, and jumps that are bridged. Outside motion everything stops.
 void sort_faults(bool moving, std::initializer_list<Bridge> bridges, CommonValid& valid);
+
+/// Faults that degraded of late, and how long they still do.
+struct SlowingState {
+  FaultSet faults;
+  double for_s = 0.0;
+};
+
+/// Adds faults that stop; what came in as the first stays it.
+void stop(const FaultSet& faults, CommonValid& inputs);
+
+/// Adds one that only slows.
+void degrade(Fault fault, CommonValid& inputs);
+
+/// The operator's speed times `speed_ratio` while anything is degraded, and for 0.5 s after: a
+/// value that comes and goes must not make the machine jerk. Outside motion nothing is slowed or
+/// remembered.
+[[nodiscard]] SlowingState slow_down(double speed_ratio, const SlowingState& last, bool moving,
+                                     double period_s, CommonValid& inputs);
+
+/// True while something has still to come to neutral after motion: not `centred` since, and the
+/// operator has not taken over in manual mode. What is not known does not end it; with `unknown`,
+/// `centred` is not.
+[[nodiscard]] bool still_closing(bool last, bool centred, Fault unknown, const CommonValid& inputs);
 
 }  // namespace graben

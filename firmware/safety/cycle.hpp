@@ -13,7 +13,7 @@ namespace graben {
 /// The first that is not kNone.
 [[nodiscard]] Fault first_of(std::initializer_list<Fault> faults);
 
-/// What is kept of a controller's own time.
+/// State of the controller's own time.
 struct TimeState {
   TimeUs last_us = 0;
   int late_cycles = 0;  ///< In a row.
@@ -32,7 +32,7 @@ struct TimeWatchResult {
 /// `now_us` must not fall from call to call.
 [[nodiscard]] TimeWatchResult watch_time(const TimeState& last, TimeUs now_us);
 
-/// What is kept of the pilot pressure from cycle to cycle.
+/// State of the pilot pressure from cycle to cycle.
 struct PilotState {
   bool kept_cut = false;  ///< Until the operator arms again.
   bool known = false;     ///< It has armed or asked for a cut since its start.
@@ -48,7 +48,7 @@ struct PilotResult {
 [[nodiscard]] PilotResult pilot(const PilotState& last, const ModeState& mode,
                                 const FaultSet& faults);
 
-/// What one cycle hands to the next, whatever the machine.
+/// State from cycle to cycle, whatever the machine.
 struct CycleMemory {
   Guarded<ModeState> mode;
   TimeState time;

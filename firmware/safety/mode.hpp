@@ -1,19 +1,19 @@
 #pragma once
-/// What the machine may do: silent by default, positive and complete conditions before motion.
+/// Modes of the machine: silent by default, positive and complete conditions before motion.
 
 #include "firmware/core/fault_set.hpp"
 #include "firmware/signals/machine_signals.hpp"
 
 namespace graben {
 
-/// What the mode needs of the last cycle.
+/// State of the mode from cycle to cycle.
 struct ModeState {
   EcuMode mode = EcuMode::kSilent;
   Fault fault = Fault::kNone;  ///< Why kFault, held until it is left; why kSilent.
   bool may_arm = false;        ///< Enable has been seen released in automatic mode.
 };
 
-/// What this cycle asks and allows.
+/// Request of this cycle and its conditions.
 struct ModeRequest {
   Fault fault = Fault::kNone;  ///< First thing that stops.
   bool enable = false;
@@ -27,7 +27,7 @@ struct ModeRequest {
 [[nodiscard]] bool in_motion(EcuMode mode);
 
 /// Silent -> Ready when every input is complete and enable is not given; Ready -> Armed when enable
-/// is given afresh in automatic mode with the task at rest and the spools in their middle, so that
+/// is newly given in automatic mode with the task at rest and the spools in their middle, so that
 /// neither a held deadman nor a waiting task starts motion; Armed <-> Active with the task; enable
 /// released: Ready in the same cycle. Told to end: Stopping, for good.
 /// A fault while Armed or Active latches in kFault, left for Ready only with complete inputs and

@@ -4,6 +4,18 @@
 #include <cmath>
 
 namespace graben {
+
+void read_required(const Required& row, const Freshness& fresh, FaultSet& faults) {
+  if (fresh.number(*row.from)) {
+    *row.to = row.from->value;
+  } else {
+    faults.add(row.missing);
+  }
+  if (row.from->validity == Validity::kError) {
+    faults.add(row.wrong);
+  }
+}
+
 namespace {
 
 bool jumps(const Signal<double>& next, const ChangeLimit& change, const Believed& last) {

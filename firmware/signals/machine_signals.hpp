@@ -9,10 +9,10 @@
 
 namespace graben {
 
-/// What the operator lets the controller do.
+/// The operator's choice of who drives.
 enum class OperatorMode : std::uint8_t { kManual = 0, kAutomatic = 1 };
 
-/// What the controller is to do.
+/// The controller's task.
 enum class Task : std::uint8_t { kNone = 0, kDig = 1, kGrade = 2, kProgram = 3 };
 
 struct OperatorInputs {
@@ -23,10 +23,10 @@ struct OperatorInputs {
   Signal<std::uint8_t> task_number;     ///< Which of the task files kProgram means.
 };
 
-/// What the bus lets us do.
+/// State of the bus.
 enum class BusState : std::uint8_t { kActive = 0, kPassive = 1, kOff = 2, kDown = 3 };
 
-/// What is known of the bus and of the process beside the signals.
+/// State of bus and process beside the signals.
 struct LinkInputs {
   BusState bus = BusState::kDown;
   FaultSet message_faults;      ///< kMessageCorrupt, kMessageSequence, kMessageMasquerade.
@@ -61,7 +61,7 @@ struct MachineOutputs {
   bool pilot_known = false;
 };
 
-/// What a controller says of itself; nothing of it moves metal.
+/// Status of a controller; nothing of it moves metal.
 struct MachineStatus {
   EcuMode mode = EcuMode::kSilent;
   Fault fault = Fault::kNone;       ///< What stopped it; else what slows it; else what is missing.

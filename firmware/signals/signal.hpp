@@ -1,5 +1,5 @@
 #pragma once
-/// What comes in: a value together with whether it may be used and when it was received.
+/// Received values, each with its validity and the time of its reception.
 
 #include <cstdint>
 

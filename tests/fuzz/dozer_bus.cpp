@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/dozer/hydrostatic.hpp"
+#include "firmware/dozer/travel/tracks.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
 namespace graben::test {

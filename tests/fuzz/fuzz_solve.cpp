@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "firmware/mcv/steady_lambda.hpp"
+#include "firmware/mcv/optimiser.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 #include "tests/fuzz/plain_circuit.hpp"
 

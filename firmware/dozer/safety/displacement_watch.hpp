@@ -1,5 +1,5 @@
 #pragma once
-/// Whether one displacement, of a pump or a motor, is what it was told to be.
+/// Checks that a displacement, of a pump or a motor, follows its command.
 
 #include "firmware/drives/spool_watch.hpp"
 
@@ -22,7 +22,7 @@ struct DisplacementCourse {
   int runaway_cycles = 0;
 };
 
-/// What the watch needs of the last cycle.
+/// State of the watch from cycle to cycle.
 struct DisplacementState {
   /// As if it had been told `neutral` all the time.
   explicit DisplacementState(double neutral);
@@ -31,7 +31,8 @@ struct DisplacementState {
   DisplacementCourse course;
 };
 
-/// What is asked of it: nothing; to follow its command; or, after motion, to have come to neutral.
+/// Task of a displacement: nothing; to follow its command; or, after motion, to have come to
+/// neutral.
 enum class DisplacementTask { kNone, kFollow, kReturn };
 
 struct DisplacementResult {

@@ -33,12 +33,11 @@ bool is_intact(const DozerGateState& state) {
   return intact;
 }
 
-/// Of the transmission.
-Fault refusal(const DozerCommand& wanted, const Changes& changes, const DozerGateState& state) {
-  if (!is_finite(wanted, changes)) {
-    return Fault::kCommandNotFinite;
-  }
-  return is_intact(state) ? Fault::kNone : Fault::kMemoryCorrupt;
+DozerGateResult neutral(Fault fault, DozerGateState& state) {
+  DozerGateResult result;
+  result.fault = fault;
+  state = {};
+  return result;
 }
 
 }  // namespace
@@ -46,15 +45,17 @@ Fault refusal(const DozerCommand& wanted, const Changes& changes, const DozerGat
 DozerGateResult gate_dozer(const DozerProfile& profile, DriveRows drives, bool active,
                            const DozerCommand& wanted, double period_s, DozerGateState& state) {
   const Changes changes = changes_in(profile, period_s);
-  const Fault refused = active ? refusal(wanted, changes, state) : Fault::kNone;
-  const bool open = active && refused == Fault::kNone;
+  if (active && !is_finite(wanted, changes)) {
+    return neutral(Fault::kCommandNotFinite, state);
+  }
+  if (active && !is_intact(state)) {
+    return neutral(Fault::kMemoryCorrupt, state);
+  }
   DozerGateResult result;
   const GateResult blade =
-      gate_drives(drives, open, wanted.opening, period_s, state.opening, result.duty_ratio);
+      gate_drives(drives, active, wanted.opening, period_s, state.opening, result.duty_ratio);
   if (!blade.enable) {
-    result.fault = refused != Fault::kNone ? refused : blade.fault;
-    state = {};
-    return result;
+    return neutral(blade.fault, state);
   }
   for (unsigned i = 0; i < kTrackCount; ++i) {
     result.pump_ratio[i] = slew_limited(std::clamp(wanted.pump_ratio[i], -1.0, 1.0),

@@ -16,7 +16,7 @@ struct DozerCommand {
   std::array<double, kTrackCount> motor_ratio = {1.0, 1.0};
 };
 
-/// What the gate let through in the last cycle.
+/// Setpoints that the gate let through in the last cycle.
 struct DozerGateState {
   std::array<Guarded<double>, kBladeCount> opening;
   std::array<Guarded<double>, kTrackCount> pump_ratio;

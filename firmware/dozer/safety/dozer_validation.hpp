@@ -15,7 +15,7 @@ struct BelievedCoordinate {
   Signal<double> rate;
 };
 
-/// What the validation keeps from cycle to cycle.
+/// State of the validation from cycle to cycle.
 struct DozerValidationState {
   std::array<Believed, kBladeCount> stroke_m;
   BelievedCoordinate position_m;

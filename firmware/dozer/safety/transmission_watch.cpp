@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/dozer/hydrostatic.hpp"
+#include "firmware/dozer/travel/tracks.hpp"
 
 namespace graben {
 namespace {

@@ -1,5 +1,5 @@
 #pragma once
-/// Whether the dozer's transmission does what it was told, and the tracks run as it lets them.
+/// Checks that the dozer's transmission obeys, and that the tracks run as it lets them.
 
 #include <array>
 
@@ -8,13 +8,13 @@
 
 namespace graben {
 
-/// What went to the transmission in one cycle.
+/// Commands to the transmission in one cycle.
 struct SentRatios {
   std::array<double, kTrackCount> pump{};
   std::array<double, kTrackCount> motor = {1.0, 1.0};
 };
 
-/// What the watch needs of the last cycle.
+/// State of the watch from cycle to cycle.
 struct TransmissionWatchState {
   std::array<DisplacementState, kTrackCount> pump = {DisplacementState(0.0),
                                                      DisplacementState(0.0)};
@@ -40,7 +40,7 @@ struct TransmissionWatchResult {
                                                          DisplacementTask task,
                                                          const DozerValid& valid, double period_s);
 
-/// Whether both pumps are near 0.
+/// True where both pumps are near 0.
 [[nodiscard]] bool pumps_neutral(const DozerProfile& profile, const DozerValid& valid);
 
 }  // namespace graben

@@ -1,5 +1,5 @@
 #pragma once
-/// What the ground is around the machine: as it was before, cut where the blade has been, and the
+/// Map of the ground around the machine: as it was before, cut where the blade has been, and the
 /// design where it has still to go.
 
 #include <algorithm>

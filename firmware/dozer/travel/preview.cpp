@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/dozer/implement_flow.hpp"
+#include "firmware/dozer/blade.hpp"
 
 namespace graben {
 namespace {

@@ -1,7 +1,8 @@
 #pragma once
-/// What the ground ahead will ask of the blade, and how fast the machine may therefore be now.
+/// Demand of the ground ahead on the blade, and the speed that it leaves now.
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "firmware/dozer/mobile_jacobian.hpp"
@@ -9,7 +10,7 @@
 
 namespace graben {
 
-/// What a cycle gets to know of the way ahead.
+/// Limits of the way ahead, as a cycle takes them.
 struct AheadLimit {
   double speed_mps = 0.0;   ///< Largest from which braking in time is possible.
   double lowest_mps = 0.0;  ///< Least limit within kHold_m.
@@ -96,5 +97,24 @@ class Preview {
   Work work_;
   bool started_ = false;
 };
+
+struct PositionState {
+  double position_m = 0.0;
+  bool started = false;
+};
+
+/// Position from the measured velocity, drawn to the measured position within some tenths of a
+/// second; at once where they are further apart than noise and slip make them.
+[[nodiscard]] inline PositionState next_position(const PositionState& last, double measured_m,
+                                                 double velocity_mps, double period_s) {
+  constexpr double kDrawn_s = 0.2;
+  constexpr double kApart_m = 0.1;
+  const double predicted_m = last.position_m + velocity_mps * period_s;
+  const double off_m = measured_m - predicted_m;
+  if (!last.started || !(std::abs(off_m) <= kApart_m)) {
+    return {measured_m, true};
+  }
+  return {predicted_m + off_m * period_s / (kDrawn_s + period_s), true};
+}
 
 }  // namespace graben

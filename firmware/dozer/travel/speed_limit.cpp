@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "firmware/dozer/hydrostatic.hpp"
-#include "firmware/dozer/travel/track_speeds.hpp"
+#include "firmware/dozer/travel/tracks.hpp"
 #include "firmware/drives/velocity_cap.hpp"
 
 namespace graben {

@@ -8,7 +8,7 @@ namespace graben {
 inline constexpr double kOnGrade_m = 0.012;
 inline constexpr double kOffGrade_m = 0.040;
 
-/// What the speed is chosen from.
+/// Inputs of the choice of speed.
 struct SpeedDemand {
   double desired_mps = 0.0;          ///< v_d, the operator's share of it.
   double measured_mps = 0.0;         ///< v_v of (10).
@@ -21,7 +21,7 @@ struct SpeedDemand {
   AheadLimit ahead;
 };
 
-/// What one cycle hands to the next.
+/// State from cycle to cycle.
 struct SpeedState {
   double speed_mps = 0.0;           ///< v_c
   double required_flow_m3ps = 0.0;  ///< Q_in, low-passed.

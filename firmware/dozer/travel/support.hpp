@@ -1,7 +1,9 @@
 #pragma once
-/// How the machine stands on the ground: equilibrium of the half-vehicle (15), (16).
+/// Stand of the machine on the ground: equilibrium of the half-vehicle (15), (16).
 
+#include "firmware/dozer/blade.hpp"
 #include "firmware/dozer/dozer_profile.hpp"
+#include "firmware/dozer/grade_profile.hpp"
 #include "firmware/dozer/travel/ground_map.hpp"
 
 namespace graben {
@@ -29,5 +31,17 @@ inline constexpr int kMostStandSteps = 8;
 /// The rest itself, from `guess`; on a ledge that has none, the last of kMostStandSteps steps.
 [[nodiscard]] Stand stand_at(const DozerBody& body, const GroundMap& ground,
                              const GradeProfile& design, double x_m, const Stand& guess);
+
+/// Where the cutting edge would first have to be higher or lower than the blade reaches.
+struct GradeReach {
+  bool reached = true;
+  double position_m = 0.0;  ///< Of the body.
+  double edge_m = 0.0;      ///< Height of the edge on the design, in the body frame.
+};
+
+/// Walks the machine over the design as already cut, standing on it as its springs carry it at
+/// rest, from `from_m` to `to_m` in steps of 20 cm. Some millimetres beyond the blade's reach count
+/// as reached. The ground before `from_m` is taken as level with the design there.
+[[nodiscard]] GradeReach grade_reach(const DozerProfile& profile, double from_m, double to_m);
 
 }  // namespace graben

@@ -19,7 +19,7 @@ struct TipPose {
   double attitude_rad = 0.0;
 };
 
-/// Whether a pose or a set of strokes can be had, and what stands in the way.
+/// Reachability of a pose or a set of strokes, and the obstacle.
 enum class ReachStatus : std::uint8_t {
   kOk = 0,
   kOutOfReach = 1,  ///< The bucket pin is farther or nearer than boom and arm can set it.

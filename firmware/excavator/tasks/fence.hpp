@@ -11,7 +11,7 @@
 
 namespace graben {
 
-/// What is looked at of the machine.
+/// Points of the machine that fences guard.
 enum class MachinePoint : std::uint8_t {
   kTeeth = 0,
   kBucketPin = 1,

@@ -82,22 +82,6 @@ void keep_limits(PlanResult& result) {
 
 }  // namespace
 
-DriveLimits drive_limits(const ExcavatorProfile& profile) {
-  DriveLimits limits;
-  for (int i = 0; i < kAxisCount; ++i) {
-    const CylinderGeometry& cylinder = profile.geometry.cylinder[static_cast<unsigned>(i)];
-    const double flow_m3ps = most_flow_m3ps(profile, i);
-    limits.speed_out[i] = flow_m3ps / cylinder.cap_area_m2();
-    limits.speed_in[i] = flow_m3ps / cylinder.rod_area_m2();
-    limits.acceleration[i] = profile.line.cylinder_acceleration_mps2[static_cast<unsigned>(i)];
-  }
-  const double swing_radps = swing_speed_max_radps(profile);
-  limits.speed_out = with_swing(limits.speed_out, swing_radps);
-  limits.speed_in = with_swing(limits.speed_in, swing_radps);
-  limits.acceleration = with_swing(limits.acceleration, profile.swing.acceleration_max_radps2);
-  return limits;
-}
-
 PlanState plan_state(const SwingKinematics& kinematics, const LinePlan& plan, double time_s) {
   PlanState state;
   state.progress = plan.ramp.at(time_s);

@@ -3,22 +3,10 @@
 /// where the machine can't follow it is refused, where it can't as fast it is slowed as a whole.
 
 #include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/excavator/tasks/drive_plan.hpp"
 #include "firmware/excavator/tasks/line.hpp"
-#include "firmware/excavator/tasks/sine_ramp.hpp"
 
 namespace graben {
-
-/// What each drive may do, all above 0: m/s and m/s^2, the swing rad/s and rad/s^2.
-struct DriveLimits {
-  DriveVector speed_out = DriveVector::Zero();  ///< Extending; swing to the left.
-  DriveVector speed_in = DriveVector::Zero();   ///< Retracting; swing to the right.
-  DriveVector acceleration = DriveVector::Zero();
-};
-
-/// Of the profile: a cylinder's speed is what a spool's section lets through over its area, or its
-/// pump's whole flow if that is less; the swing's is its own limit, or what that flow gives its
-/// motor.
-[[nodiscard]] DriveLimits drive_limits(const ExcavatorProfile& profile);
 
 /// Exactly one of duration and speed above 0; the other is found.
 struct LineRequest {
@@ -79,7 +67,7 @@ enum class PlanRefusal : std::uint8_t {
   kBlindSpot = 3,   ///< The machine can't be at `blind`, or can't move from there.
 };
 
-/// What makes a plan slower than it was asked for.
+/// Reasons for a plan to be slower than asked for.
 enum class PlanLimit : std::uint8_t {
   kNone = 0,
   kTeethAcceleration = 1,  ///< The duration is too short for it.

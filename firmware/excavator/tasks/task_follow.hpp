@@ -10,7 +10,7 @@
 
 namespace graben {
 
-/// What one cycle hands to the next.
+/// State from cycle to cycle.
 struct TaskMemory {
   bool runs = false;
   std::uint8_t number = 0;
@@ -20,13 +20,13 @@ struct TaskMemory {
   /// All else that says where it is, in one number; as constructed it does not run.
   Guarded<std::int64_t> place = 2 * static_cast<int>(TaskPhase::kDone);
 
-  /// Whether the state is what it was when it was stored.
+  /// True while the state is what it was when it was stored.
   [[nodiscard]] bool intact() const;
 };
 
 [[nodiscard]] TaskMemory remembered(std::uint8_t number, const TaskState& state);
 
-/// What the drives are to do now.
+/// Wanted motion of the drives now.
 struct TaskWant {
   bool runs = false;
   bool holds = false;  ///< Drives that are to stand are held where they are planned to be.

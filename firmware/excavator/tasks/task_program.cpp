@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "firmware/excavator/swing.hpp"
-#include "firmware/excavator/tasks/task_walk.hpp"
 
 namespace graben {
 namespace {

@@ -53,7 +53,7 @@ struct TaskProgram {
   FenceSet fences;                          ///< The design surface is the last of them.
 };
 
-/// What can be chosen over the bus, by task number from 0.
+/// Programs that can be chosen over the bus, by task number from 0.
 struct TaskBook {
   std::array<TaskProgram, kTaskMost> program;
   int count = 0;
@@ -72,7 +72,7 @@ enum class ProgramRefusal : std::uint8_t {
   kOpenEnd = 7,     ///< It repeats, but its end is not its start.
 };
 
-/// What planning did to a step.
+/// Changes that planning made to a step.
 struct StepNote {
   double raised_m = 0.0;  ///< The higher of its ends, to keep the clearance above the design.
   PlanLimit slowed_by = PlanLimit::kNone;  ///< As in PlanResult; of a line.
@@ -101,5 +101,26 @@ struct ProgramResult {
 /// Not for a control cycle: some 500 poses a step, at most 21000 and 10000 a fence.
 [[nodiscard]] ProgramResult plan_program(const ExcavatorProfile& profile,
                                          const ProgramRequest& request);
+
+/// The first place that is not left to the machine.
+struct BarredPlace {
+  ProgramRefusal why = ProgramRefusal::kNone;  ///< kNone: there is none.
+  int fence = 0;
+  MachinePoint point = MachinePoint::kTeeth;
+  BlindPlace place;  ///< Its share to 1e-12; `blind` only where the points are not known.
+};
+
+/// A range or a fence may be passed by this much, m or rad: rounding of a pose that stands on it.
+inline constexpr double kBarTolerance = 1e-6;
+
+/// Drives of a step at this share of it, and their derivatives by the share.
+[[nodiscard]] DriveMotion step_motion(const SwingKinematics& kinematics, const TaskStep& step,
+                                      double share);
+
+/// Walks a step that meets no blind spot in kWalkSteps steps, and looks between them wherever a
+/// distance has its least there.
+[[nodiscard]] BarredPlace first_barred_place(const ExcavatorProfile& profile,
+                                             const SwingKinematics& kinematics,
+                                             const FenceSet& fences, const TaskStep& step);
 
 }  // namespace graben

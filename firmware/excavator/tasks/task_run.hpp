@@ -12,7 +12,7 @@ enum class TaskPhase : std::uint8_t {
   kDone = 2,  ///< Stands at the last pose.
 };
 
-/// What one cycle hands to the next. The place on the plan is a time of the plan, not of a clock:
+/// State from cycle to cycle. The place on the plan is a time of the plan, not of a clock:
 /// nothing is ever behind, and nothing has to be caught up.
 struct TaskState {
   TaskPhase phase = TaskPhase::kDone;
@@ -28,7 +28,7 @@ struct TaskState {
   DrivePlan descent;   ///< Step 1: down to it.
 };
 
-/// What the plan wants at one moment.
+/// Aim of the plan at one moment.
 struct TaskAim {
   StepKind kind = StepKind::kNone;
   /// kNone but for a program that was never planned for this machine: then nothing else holds.
@@ -65,7 +65,7 @@ inline constexpr double kApproachPace = 0.3;
 [[nodiscard]] TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
                                const TaskState& state);
 
-/// Whether a straight line of the teeth is being followed; else a move of the drives, or none.
+/// True while a straight line of the teeth is being followed; else a move of the drives, or none.
 [[nodiscard]] bool on_line(const TaskProgram& program, const TaskState& state);
 
 /// The pace that an error of the teeth asks for: half where they are line.slow_error_m off their

@@ -1,4 +1,4 @@
-#include "firmware/excavator/tasks/task_walk.hpp"
+#include "firmware/excavator/tasks/task_program.hpp"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "firmware/mcv/steady_lambda.hpp"
+#include "firmware/mcv/optimiser.hpp"
 
 namespace graben::timing {
 

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "firmware/dozer/dozer_controller.hpp"
-#include "firmware/dozer/hydrostatic.hpp"
+#include "firmware/dozer/travel/tracks.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 #include "tests/unit/firmware/inputs.hpp"

@@ -1,5 +1,5 @@
+#include "firmware/dozer/blade.hpp"
 #include "firmware/dozer/blade_control.hpp"
-#include "firmware/dozer/implement_flow.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 

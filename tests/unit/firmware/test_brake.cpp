@@ -1,4 +1,4 @@
-#include "firmware/dozer/safety/brake.hpp"
+#include "firmware/dozer/safety/dozer_watch.hpp"
 
 #include <cmath>
 

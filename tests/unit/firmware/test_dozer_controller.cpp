@@ -3,7 +3,7 @@
 #include <functional>
 #include <limits>
 
-#include "firmware/dozer/implement_flow.hpp"
+#include "firmware/dozer/blade.hpp"
 #include "tests/unit/firmware/flip_bit.hpp"
 #include "tests/unit/firmware/grading_dozer.hpp"
 #include "tests/unit/firmware/memory_access.hpp"

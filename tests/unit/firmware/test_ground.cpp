@@ -1,8 +1,7 @@
 #include <limits>
 
 #include "firmware/dozer/travel/ground_map.hpp"
-#include "firmware/dozer/travel/position_filter.hpp"
-#include "firmware/dozer/travel/reach.hpp"
+#include "firmware/dozer/travel/preview.hpp"
 #include "firmware/dozer/travel/support.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"

@@ -1,7 +1,5 @@
-#include "firmware/dozer/hydrostatic.hpp"
-#include "firmware/dozer/implement_flow.hpp"
-#include "firmware/dozer/travel/track_control.hpp"
-#include "firmware/dozer/travel/track_speeds.hpp"
+#include "firmware/dozer/blade.hpp"
+#include "firmware/dozer/travel/tracks.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 

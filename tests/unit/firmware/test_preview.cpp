@@ -1,6 +1,6 @@
 #include <limits>
 
-#include "firmware/dozer/implement_flow.hpp"
+#include "firmware/dozer/blade.hpp"
 #include "firmware/dozer/travel/preview.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"

@@ -1,4 +1,4 @@
-#include "firmware/excavator/tasks/sine_ramp.hpp"
+#include "firmware/excavator/tasks/drive_plan.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
 

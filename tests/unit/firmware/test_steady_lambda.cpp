@@ -1,6 +1,6 @@
 #include <random>
 
-#include "firmware/mcv/steady_lambda.hpp"
+#include "firmware/mcv/optimiser.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/split.hpp"
 #include "tests/unit/rounds.hpp"

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "firmware/excavator/tasks/task_run.hpp"
-#include "firmware/excavator/tasks/task_walk.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
 #include "tests/unit/rounds.hpp"

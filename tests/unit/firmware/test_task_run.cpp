@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "firmware/excavator/tasks/task_walk.hpp"
+#include "firmware/excavator/tasks/task_program.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
 

@@ -1,4 +1,4 @@
-#include "firmware/dozer/implement_flow.hpp"
+#include "firmware/dozer/blade.hpp"
 #include "firmware/dozer/travel/speed_limit.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"

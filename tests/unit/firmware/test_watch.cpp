@@ -1,4 +1,4 @@
-#include "firmware/excavator/safety/excavator_watch.hpp"
+#include "firmware/excavator/safety/excavator_validation.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/excavator_steps.hpp"
