@@ -3,8 +3,7 @@
 
 #include "app/reports/check/warnings.hpp"
 #include "firmware/dozer/blade.hpp"
-#include "firmware/dozer/hydrostatic.hpp"
-#include "firmware/dozer/implement_flow.hpp"
+#include "firmware/dozer/travel/tracks.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben::reports {
