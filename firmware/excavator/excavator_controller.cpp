@@ -17,12 +17,6 @@ FaultSet task_faults(const ExcavatorValid& valid, int program_count) {
   return faults;
 }
 
-Fault solver_fault(const McvSolution& solution) {
-  const bool solved =
-      solution.status == SolveStatus::kOk || solution.status == SolveStatus::kInfeasible;
-  return solved ? Fault::kNone : Fault::kSolverFailed;
-}
-
 /// A plan that is followed at less than this share of its pace waits.
 constexpr double kWaits = 0.5;
 

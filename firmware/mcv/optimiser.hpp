@@ -79,4 +79,11 @@ struct LambdaRange {
                                         McvPolicy policy, const LambdaRise& rise,
                                         double last_lambda, double period_s);
 
+/// kSolverFailed unless the optimiser ended with a lambda that may be followed, 0 included.
+[[nodiscard]] inline Fault solver_fault(const McvSolution& solution) {
+  const bool solved =
+      solution.status == SolveStatus::kOk || solution.status == SolveStatus::kInfeasible;
+  return solved ? Fault::kNone : Fault::kSolverFailed;
+}
+
 }  // namespace graben
