@@ -18,7 +18,7 @@ std::vector<ValveSection> sections_of(const ExcavatorPlantProfile& profile) {
   std::vector<ValveSection> sections;
   sections.reserve(profile.drive_count());
   for (int drive = 0; drive < profile.machine.drive_count; ++drive) {
-    sections.emplace_back(profile, drive);
+    sections.emplace_back(profile.section(drive));
   }
   return sections;
 }
@@ -39,8 +39,8 @@ ExcavatorPlant::ExcavatorPlant(const ExcavatorPlantProfile& profile,
     : profile_(profile),
       step_s_(profile.step_s()),
       pump_count_(static_cast<std::size_t>(profile.machine.pump_count)),
-      pump_{PumpLine(profile, 0, sections_on(profile, 0)),
-            PumpLine(profile, 1, sections_on(profile, 1))},
+      pump_{PumpLine(profile.pump_line(0), sections_on(profile, 0)),
+            PumpLine(profile.pump_line(1), sections_on(profile, 1))},
       section_(sections_of(profile)),
       cylinder_{Cylinder(profile.cylinder(kBoom), step_s_),
                 Cylinder(profile.cylinder(kArm), step_s_),

@@ -12,8 +12,10 @@
 #include "app/plant/bucket_contact.hpp"
 #include "app/plant/cylinder.hpp"
 #include "app/plant/hydraulics.hpp"
+#include "app/plant/pump_line.hpp"
 #include "app/plant/spool.hpp"
 #include "app/plant/swing_drive.hpp"
+#include "app/plant/valve_section.hpp"
 #include "firmware/core/time.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
 
@@ -109,6 +111,8 @@ struct ExcavatorPlantProfile : HydraulicDetails {
   }
   [[nodiscard]] CylinderData cylinder(int axis) const;
   [[nodiscard]] SwingMotorData motor() const;
+  [[nodiscard]] SectionData section(int drive) const;
+  [[nodiscard]] PumpLineData pump_line(int pump) const;
   /// Of the ports of a valve section.
   [[nodiscard]] PortProtection port_protection(int drive) const {
     return protection(drive == kSwing ? swing_motor.port_relief_pa : port_relief_pa);

@@ -29,6 +29,22 @@ SwingMotorData ExcavatorPlantProfile::motor() const {
   return data;
 }
 
+SectionData ExcavatorPlantProfile::section(int drive) const {
+  return {machine.valve.spool[static_cast<std::size_t>(drive)],
+          machine.valve,
+          spool_dynamics(),
+          port_protection(drive),
+          hose_linear_paspm3,
+          hose_quadratic_pas2pm6};
+}
+
+PumpLineData ExcavatorPlantProfile::pump_line(int pump) const {
+  const auto index = static_cast<std::size_t>(pump);
+  const PumpProfile& data = machine.pump[index];
+  return {data,    oil(), protection(data.relief_pa), line_volume_m3[index], swash_ratio[index],
+          step_s()};
+}
+
 CylinderData DozerPlantProfile::blade_cylinder(double stroke_m) const {
   const BladeGeometry& blade = machine.blade;
   CylinderData data;

@@ -15,19 +15,17 @@ double inverse_square(double k) { return 1.0 / (k * k); }
 
 }  // namespace
 
-PumpLine::PumpLine(const ExcavatorPlantProfile& profile, int pump, std::size_t section_count)
-    : line_(2 + 2 * section_count, profile.oil(), profile.step_s()) {
-  const auto index = static_cast<std::size_t>(pump);
-  const PumpProfile& data = profile.machine.pump[index];
-  displacement_m3prev_ = data.displacement_m3prev;
-  speed_radps_ = data.rated_speed_radps;
-  set_swash(profile.swash_ratio[index]);
-  leak_linear_ = data.leak_linear;
-  leak_quadratic_ = data.leak_quadratic;
-  protection_ = profile.protection(data.relief_pa);
-  fixed_inverse_square_ =
-      inverse_square(data.bypass_series[0]) + inverse_square(data.bypass_series[1]);
-  volume_ = profile.line_volume_m3[index];
+PumpLine::PumpLine(const PumpLineData& data, std::size_t section_count)
+    : line_(2 + 2 * section_count, data.oil, data.step_s),
+      volume_(data.volume_m3),
+      protection_(data.protection),
+      displacement_m3prev_(data.pump.displacement_m3prev),
+      speed_radps_(data.pump.rated_speed_radps),
+      leak_linear_(data.pump.leak_linear),
+      leak_quadratic_(data.pump.leak_quadratic),
+      fixed_inverse_square_(inverse_square(data.pump.bypass_series[0]) +
+                            inverse_square(data.pump.bypass_series[1])) {
+  set_swash(data.swash_ratio);
 }
 
 void PumpLine::set_swash(double swash_ratio) {

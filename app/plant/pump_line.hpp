@@ -3,10 +3,19 @@
 
 #include <cstddef>
 
-#include "app/plant/excavator_plant_profile.hpp"
 #include "app/plant/wave_volume.hpp"
+#include "firmware/machine/valve.hpp"
 
 namespace graben::plant {
+
+struct PumpLineData {
+  PumpProfile pump;
+  Oil oil;
+  PortProtection protection;
+  double volume_m3 = 0.0;
+  double swash_ratio = 1.0;  ///< Of full swash, at the start.
+  double step_s = 0.0;
+};
 
 /// What one step did at the pump's and the bypass' port of the line, m^3/s and Pa.
 struct PumpFlows {
@@ -22,7 +31,7 @@ struct PumpFlows {
 /// make-up sit at the pump. The bypass chain is one orifice from line to tank.
 class PumpLine {
  public:
-  PumpLine(const ExcavatorPlantProfile& profile, int pump, std::size_t section_count);
+  PumpLine(const PumpLineData& data, std::size_t section_count);
 
   [[nodiscard]] WavePort supply_port(std::size_t section) const {
     return line_.port(2 + 2 * section);

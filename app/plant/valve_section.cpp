@@ -56,12 +56,10 @@ ReturnFlow solve_gallery(double k_out, double k_drain, double k_check, const Wav
   return flow;
 }
 
-ValveSection::ValveSection(const ExcavatorPlantProfile& profile, int drive)
-    : spool_(profile.spool_dynamics()), protection_(profile.port_protection(drive)) {
-  const ValveProfile& valve = profile.machine.valve;
-  const SpoolProfile& spool = valve.spool[static_cast<std::size_t>(drive)];
-  const auto coefficient = [&valve](double area_m2) {
-    return orifice_coefficient(area_m2, valve.discharge, valve.density_kgpm3);
+ValveSection::ValveSection(const SectionData& data) : spool_(data.spool), protection_(data.ports) {
+  const SpoolProfile& spool = data.edges;
+  const auto coefficient = [&data](double area_m2) {
+    return orifice_coefficient(area_m2, data.metering.discharge, data.metering.density_kgpm3);
   };
   regeneration_ = spool.regeneration;
   k_extend_in_ = coefficient(spool.extend_in_m2);
@@ -72,8 +70,8 @@ ValveSection::ValveSection(const ExcavatorPlantProfile& profile, int drive)
   k_check_ = spool.c_check;
   k_bypass_open_ = spool.bypass_open;
   k_bypass_closed_ = spool.bypass_closed;
-  hose_linear_ = profile.hose_linear_paspm3;
-  hose_quadratic_ = profile.hose_quadratic_pas2pm6;
+  hose_linear_ = data.hose_linear_paspm3;
+  hose_quadratic_ = data.hose_quadratic_pas2pm6;
   update_openings();
 }
 

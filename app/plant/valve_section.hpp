@@ -1,11 +1,20 @@
 #pragma once
 /// One section of the main control valve: metering edges, return gallery, regeneration, bypass.
 
-#include "app/plant/excavator_plant_profile.hpp"
 #include "app/plant/hydraulics.hpp"
 #include "app/plant/spool.hpp"
+#include "firmware/machine/valve.hpp"
 
 namespace graben::plant {
+
+struct SectionData {
+  SpoolProfile edges;
+  SpoolMetering metering;
+  SpoolDynamics spool;
+  PortProtection ports;
+  double hose_linear_paspm3 = 0.0;  ///< Between valve and cylinder; laminar share.
+  double hose_quadratic_pas2pm6 = 0.0;
+};
 
 /// The four ports that a section joins during a step.
 struct SectionPorts {
@@ -45,7 +54,7 @@ struct ReturnFlow {
 /// rod side the right one.
 class ValveSection {
  public:
-  ValveSection(const ExcavatorPlantProfile& profile, int drive);
+  explicit ValveSection(const SectionData& data);
 
   void set_command(double travel_ratio) { spool_.set_command(travel_ratio); }
   [[nodiscard]] SectionFlows solve(const SectionPorts& ports) const;

@@ -17,7 +17,7 @@ using AxisArray = ExcavatorPlant::AxisArray;
 
 // By hand: 200 L/min through a hose of 3e7 Pa s/m^3 and 2.7e10 Pa s^2/m^6.
 void hose_drops_0_4_mpa_at_200_l_per_min(void**) {
-  const ValveSection section(machine_22t(), kArm);
+  const ValveSection section(machine_22t().section(kArm));
   const double flow = 0.2 / 60.0;
   assert_near(section.hose_drop_pa(flow, 0.0), 0.1e6 + 0.3e6, 1.0);
   assert_near(section.hose_drop_pa(-flow, 0.0), -0.4e6, 1.0);
@@ -74,7 +74,7 @@ void cushion_grows_towards_the_end_only(void**) {
 // the chamber is above the pump line. The way in does not.
 void cushion_throttles_every_way_out(void**) {
   const double k = 0.62 * std::sqrt(2.0 / 870.0);
-  ValveSection section(hopsan_circuit(200), kArm);
+  ValveSection section(hopsan_circuit(200).section(kArm));
   section.set_command(1.0);
   for (int i = 0; i < 20000; ++i) {
     section.step(2e-4);
