@@ -101,6 +101,17 @@ void release_servo(const DriveRow& drive, double stroke_m, double period_s, Serv
   servo.bias_mps = 0.0;
 }
 
+void servo_after(const DriveRow& drive, EcuMode mode, double asked_mps, double stroke_m,
+                 double period_s, ServoState& servo) {
+  if (mode == EcuMode::kActive) {
+    next_servo(drive, asked_mps, stroke_m, period_s, servo);
+  } else if (mode == EcuMode::kFault) {
+    servo_at_rest(stroke_m, servo);
+  } else {
+    release_servo(drive, stroke_m, period_s, servo);
+  }
+}
+
 double stroke_then_m(const DriveRow& drive, const ServoState& servo) {
   const double then_m = servo.stroke_m + servo.under_way_m;
   return drive.control.has_end_stops ? std::clamp(then_m, drive.least_travel_m, drive.most_travel_m)

@@ -54,6 +54,11 @@ void next_servo_on_plan(const DriveRow& drive, double asked_mps, double stroke_m
 /// Nothing is asked for any more, but what is under way still arrives; nothing is behind.
 void release_servo(const DriveRow& drive, double stroke_m, double period_s, ServoState& servo);
 
+/// A cycle on after one in `mode`: next_servo() where it was Active, at rest after a fault, else
+/// released.
+void servo_after(const DriveRow& drive, EcuMode mode, double asked_mps, double stroke_m,
+                 double period_s, ServoState& servo);
+
 /// Where the drive will be when what is under way has arrived, within its end stops: where a field
 /// has to be asked, so that neither lag nor dead time carries the machine past a bend. Where
 /// nothing stops a drive at its end, one that is beyond is seen there.

@@ -89,12 +89,8 @@ void ExcavatorController::estimate(const ExcavatorValid& valid, const TaskAim& a
     const double expected_mps = memory_.expected_mps[i];
     if (mode == EcuMode::kActive && on_plan) {
       next_servo_on_plan(drive, expected_mps, stroke_m, planned_m[i], new_plan, elapsed_s, servo);
-    } else if (mode == EcuMode::kActive) {
-      next_servo(drive, expected_mps, stroke_m, elapsed_s, servo);
-    } else if (mode == EcuMode::kFault) {
-      servo_at_rest(stroke_m, servo);
     } else {
-      release_servo(drive, stroke_m, elapsed_s, servo);
+      servo_after(drive, mode, expected_mps, stroke_m, elapsed_s, servo);
     }
   }
 }
