@@ -21,15 +21,19 @@ using CommonReceived =
 void store_operator(const dbc::common::OperatorCommand& message, TimeUs now, OperatorInputs& to);
 void store_identity(const dbc::common::MachineIdentity& message, TimeUs now, PartnerIdentity& to);
 
-/// Base of a kind's Store; a kind adds `store` of its own messages, and hides `is_ours` of
-/// OperatorCommand by one that knows its tasks.
-template <class Inputs>
+/// Base of a kind's Store; a kind adds `store` of its own messages. `own` are its tasks: an
+/// operator's frame with another is not for it.
+template <class Inputs, Task... own>
 struct CommonStore {
   using To = Received<Inputs>;
 
   template <class Message>
   static constexpr bool is_ours(const Message&) {
     return true;
+  }
+  static constexpr bool is_ours(const dbc::common::OperatorCommand& message) {
+    return (same_code(message.task.value, Task::kNone) || ... ||
+            same_code(message.task.value, own));
   }
   template <class Message>
   static constexpr BusPart part(const Message&) {

@@ -17,14 +17,8 @@ void put_transmission(TrackInputs& track, const Transmission& message, TimeUs no
   put(track.motor_ratio, message.motor_ratio, now);
 }
 
-struct Store : CommonStore<DozerInputs> {
-  using CommonStore::is_ours;
+struct Store : CommonStore<DozerInputs, Task::kGrade> {
   using CommonStore::store;
-
-  static constexpr bool is_ours(const bus::OperatorCommand& message) {
-    return message.task.value == bus::OperatorCommand::Task::kNone ||
-           message.task.value == bus::OperatorCommand::Task::kGrade;
-  }
 
   static void store(const bus::BladeStroke& message, TimeUs now, To& to) {
     put(to.inputs.blade_stroke_m, message.blade_stroke_m, now);

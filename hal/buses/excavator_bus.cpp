@@ -28,14 +28,10 @@ void put_pressures(AxisInputs& axis, const dbc::Physical& cap, const dbc::Physic
   put(axis.rod_pressure_pa, rod, now);
 }
 
-struct Store : CommonStore<ExcavatorInputs> {
-  using CommonStore::is_ours;
+struct Store : CommonStore<ExcavatorInputs, Task::kDig, Task::kProgram> {
   using CommonStore::part;
   using CommonStore::store;
 
-  static constexpr bool is_ours(const bus::OperatorCommand& message) {
-    return message.task.value != bus::OperatorCommand::Task::kGrade;
-  }
   static constexpr BusPart part(const bus::SwingState&) { return &BusParts::swing_drive; }
   static constexpr BusPart part(const bus::SwingValveState&) { return &BusParts::swing_drive; }
 

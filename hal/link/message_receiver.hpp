@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <type_traits>
 
 #include "firmware/signals/signal.hpp"
 #include "hal/link/message_links.hpp"
@@ -25,8 +26,9 @@ struct Received {
 };
 
 /// Messages of a receiver; made by hal/link/message_decode.hpp.
-template <class Inputs, int count>
+template <class To, int count>
 struct ReceiveTable {
+  using Inputs = To;
   static constexpr int kCount = count;
   /// Stores the data; false, and nothing stored, if a value is out of range.
   using Decode = bool (*)(const dbc::Payload&, TimeUs, Received<Inputs>&);
@@ -40,6 +42,14 @@ struct ReceiveTable {
   [[nodiscard]] constexpr MessageRules rules() const {
     return {rule.data(), rule.size(), all, all_count};
   }
+};
+
+/// What is received, of a table that is a constant of the program.
+template <const auto& kTable>
+struct ReceptionOf {
+  using Inputs = typename std::decay_t<decltype(kTable)>::Inputs;
+  static constexpr int kMessageCount = std::decay_t<decltype(kTable)>::kCount;
+  [[nodiscard]] static const auto& table() { return kTable; }
 };
 
 /// Receives every frame of the bus, keeps those that are meant for the controller. A message is

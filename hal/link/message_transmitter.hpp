@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <type_traits>
 
 #include "can_dbc/codec.hpp"
 #include "firmware/core/time.hpp"
@@ -47,14 +48,24 @@ struct EcuDiagnosis {
 };
 
 /// Messages of a transmitter; made by hal/link/message_encode.hpp.
-template <class Outputs, int count>
+template <class From, int count>
 struct SendTable {
+  using Outputs = From;
+  static constexpr int kCount = count;
   using Encode = dbc::Payload (*)(const Outputs&, const EcuDiagnosis&);
 
   std::array<SendRule, count> rule{};
   std::array<Encode, count> encode{};
   std::uint32_t dm1_id = 0;
   dbc::Payload (*dm1)(const Dm1Content&) = nullptr;
+};
+
+/// What is sent, of a table that is a constant of the program.
+template <const auto& kTable>
+struct TransmissionOf {
+  using Outputs = typename std::decay_t<decltype(kTable)>::Outputs;
+  static constexpr int kPeriodicCount = std::decay_t<decltype(kTable)>::kCount;
+  [[nodiscard]] static const auto& table() { return kTable; }
 };
 
 /// Sends each message at its cycle time, counted from the first call and spread so that no call
