@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Gate: no hand-written source is too long, few are short, no file knows the machine it was written on.
 
-What is read together stands together: in no area may a fifth of the sources have 40 lines or fewer."""
+What is read together stands together: in no area may a fifth of the sources have 40 lines or fewer.
+The example of a machine kind keeps to what its recipe promises."""
 
 import re
 
@@ -11,6 +12,8 @@ SOURCES = (*tree.CXX, ".py", ".sh", ".cmake", ".js", ".mjs", ".css", ".html", "C
 MAX_LINES = 400
 SHORT_LINES, SHORT_SHARE = 40, 0.20
 COUNTED = (".cpp", ".hpp", ".py", ".ts")
+# A machine kind by the recipe: what it takes is what the common rooms leave to it.
+SMALL = ("tests/example_kind/", "12", "600")
 AREAS = (("firmware/",), ("hal/",), ("platform/",), ("app/",), ("can_dbc/", "toolchain/"), ("tests/",))
 
 # A home folder, or the server that a package came from. The brackets keep this file from
@@ -19,7 +22,11 @@ MACHINE = re.compile(
     r"(?<![\w.])/(?:roo[t]|hom[e]|User[s]|wor[k]|workspac[e])/"
     r"|registr[y][.]npm|deb[.]debian[.]org|snapshot[.]debian|pypi[.]org|pythonhoste[d]|npmmirro[r]")
 
-root = tree.arguments(__doc__).parse_args().root.resolve()
+parser = tree.arguments(__doc__)
+parser.add_argument("--small", nargs=3, default=SMALL, metavar=("FOLDER", "FILES", "LINES"),
+                    help="a folder and the most that it may have")
+options = parser.parse_args()
+root = options.root.resolve()
 names = tree.files(root)
 problems, lengths = [], {}
 for name in names:
@@ -41,4 +48,8 @@ for area in AREAS:
     if short >= SHORT_SHARE * len(counted) > 0:
         problems.append(f"{' and '.join(area)}: {short} of {len(counted)} sources have {SHORT_LINES} lines or fewer; "
                         f"under {SHORT_SHARE:.0%} may")
+folder, most_files, most_lines = options.small[0], *map(int, options.small[1:])
+inside = [len((root / name).read_text().splitlines()) for name in names if name.startswith(folder)]
+if not 0 < len(inside) <= most_files or sum(inside) > most_lines:
+    problems.append(f"{folder}: {len(inside)} files, {sum(inside)} lines; {most_files} and {most_lines} are the most")
 tree.report("files", problems, len(names))

@@ -21,7 +21,7 @@ TABLE = {
     "cstring": "memcpy",
     "initializer_list": "initializer_list",
     "limits": "numeric_limits",
-    "type_traits": "has_unique_object_representations_v is_floating_point_v",
+    "type_traits": "decay_t has_unique_object_representations_v is_floating_point_v",
     "Eigen/Core": "Eigen::Matrix Eigen::Matrix3d Eigen::Vector2d Eigen::Vector3d Eigen::Vector4d",
 }
 HEADER_OF = {name if "::" in name else f"std::{name}": header
