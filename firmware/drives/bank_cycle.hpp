@@ -7,7 +7,6 @@
 #include "firmware/drives/drive_watch.hpp"
 #include "firmware/drives/velocity_cap.hpp"
 #include "firmware/safety/cycle.hpp"
-#include "firmware/safety/degrade.hpp"
 
 namespace graben {
 

@@ -8,7 +8,7 @@
 #include "firmware/drives/bank_cycle.hpp"
 #include "firmware/drives/drive_gate.hpp"
 #include "firmware/hydraulics/flow.hpp"
-#include "firmware/mcv/steady_lambda.hpp"
+#include "firmware/mcv/optimiser.hpp"
 #include "firmware/numeric/triangle.hpp"
 #include "tests/example_kind/loader_profile.hpp"
 
