@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <string_view>
 
 #include "can_dbc/codec.hpp"
 #include "tests/fuzz/bus_port.hpp"
@@ -13,17 +14,21 @@ namespace graben::test {
 
 inline constexpr unsigned kInputMessages = 11;
 
-/// Messages to the controller of every machine of the kind, in the order of the DBC.
+/// Messages to the controller of every machine of the kind, in the order of the DBC, the valve's
+/// answer last: the corpus counts on that.
 template <class Kind>
 [[nodiscard]] constexpr std::array<dbc::MessageInfo, kInputMessages> input_messages() {
   std::array<dbc::MessageInfo, kInputMessages> inputs{};
   unsigned count = 0;
-  for (unsigned i = 0; count < kInputMessages; ++i) {
-    if (!Kind::is_of_a_part(Kind::Dbc::kMessages[i].id)) {
-      inputs[count++] = Kind::Dbc::kMessages[i];
+  for (const dbc::MessageInfo& info : Kind::Dbc::kMessages) {
+    const bool from_ecu =
+        std::string_view(info.sender) == std::string_view(Kind::Dbc::EcuStatus::kSender);
+    if (!from_ecu && !Kind::is_of_a_part(info.id) && info.id != Kind::Dbc::ValveState::kId) {
+      inputs[count++] = info;
     }
   }
-  return inputs;
+  inputs[count++] = dbc::message_info<typename Kind::Dbc::ValveState>();
+  return count == kInputMessages ? inputs : decltype(inputs){};
 }
 
 template <class Kind>

@@ -6,12 +6,15 @@
 #include <cstdarg>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>  // before CMocka: its macro `fail` breaks the members of that name
+#include <fstream>
 #include <sstream>
 
 extern "C" {
 #include <cmocka.h>
 }
+
+// It would break every member of that name.
+#undef fail
 
 namespace graben::test {
 
