@@ -12,6 +12,10 @@
 extern "C" {
 #include <cmocka.h>
 }
+// Members of that name would not compile.
+#undef fail
+#undef fail_msg
+#define fail_msg(...) (print_error(__VA_ARGS__), print_error("\n"), _fail(__FILE__, __LINE__))
 
 // It would break every member of that name.
 #undef fail

@@ -101,14 +101,14 @@ void one_signal_is_lost_the_other_stays(void**) {
 // Dig is an excavator's: the frame is refused, and the controller hears of it.
 void another_kinds_task_is_out_of_range(void**) {
   DozerReceiver receiver;
-  const TimeUs now = synchronise<DozerCommand>(receiver);
+  const TimeUs now = synchronise<test::DozerCommand>(receiver);
   assert_int_equal(receiver.inputs().driver.task.value, Task::kGrade);
-  receiver.accept(frame_with<DozerCommand>(bus::OperatorCommand::kTask, 1, 3), now + 1);
+  receiver.accept(frame_with<test::DozerCommand>(bus::OperatorCommand::kTask, 1, 3), now + 1);
   assert_int_equal(receiver.inputs().driver.task.value, Task::kGrade);
   assert_int_equal(receiver.inputs().driver.enable.stamp_us, now);
   assert_int_equal(receiver.link(bus::OperatorCommand::kId).out_of_range, 1);
   assert_true(receiver.take_out_of_range());
-  receiver.accept(frame_with<DozerCommand>(bus::OperatorCommand::kTask, 0, 4), now + 20'000);
+  receiver.accept(frame_with<test::DozerCommand>(bus::OperatorCommand::kTask, 0, 4), now + 20'000);
   assert_int_equal(receiver.inputs().driver.task.value, Task::kNone);
 }
 
