@@ -16,6 +16,14 @@ inline E2ePayload frame(std::uint8_t counter) {
   return payload;
 }
 
+// Another frame than frame(counter), and its CRC another one.
+inline E2ePayload other_frame(std::uint8_t counter) {
+  E2ePayload payload{0, 0, 1};
+  e2e_protect(payload, kDataId, counter);
+  assert_int_not_equal(payload[0], frame(counter)[0]);
+  return payload;
+}
+
 // A receiver and its clock: each frame comes one cycle after the last.
 struct Link {
   E2eState state;
@@ -36,6 +44,24 @@ inline Link synchronised_at(std::uint8_t counter) {
   }
   assert_true(link.state.synchronised);
   return link;
+}
+
+inline constexpr int kFarTooMany = 15;
+
+// Takes frames at one moment until one is too early; returns how many were not.
+inline int frames_at_once(Link& link, std::uint8_t counter) {
+  for (int taken = 0; taken < kFarTooMany; ++taken) {
+    const E2eCheck check = e2e_check(kConfig, link.state, frame(counter), link.now);
+    if (check == E2eCheck::kTooMany) {
+      assert_false(e2e_accepted(check));
+      assert_true(link.state.synchronised);
+      assert_int_equal(link.state.last_counter, (counter + 14) % 15);
+      return taken;
+    }
+    assert_true(e2e_accepted(check));
+    counter = e2e_next_counter(counter);
+  }
+  return kFarTooMany;
 }
 
 }  // namespace graben::test

@@ -9,14 +9,6 @@ namespace {
 using namespace graben;
 using namespace graben::test;
 
-// Another frame than frame(counter), and its CRC another one.
-E2ePayload other_frame(std::uint8_t counter) {
-  E2ePayload payload{0, 0, 1};
-  e2e_protect(payload, kDataId, counter);
-  assert_int_not_equal(payload[0], frame(counter)[0]);
-  return payload;
-}
-
 void crc_check_values(void**) {
   const std::uint8_t digits[] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
   assert_int_equal(crc8(0xFF, digits, sizeof digits) ^ 0xFF, 0x4B);  // CRC-8 SAE J1850
@@ -216,24 +208,6 @@ void every_other_crc_is_a_conflict(void**) {
     e2e_protect(other, kDataId, 5);
     assert_int_equal(link.take(other), E2eCheck::kConflict);
   }
-}
-
-constexpr int kFarTooMany = 15;
-
-// Takes frames at one moment until one is too early; returns how many were not.
-int frames_at_once(Link& link, std::uint8_t counter) {
-  for (int taken = 0; taken < kFarTooMany; ++taken) {
-    const E2eCheck check = e2e_check(kConfig, link.state, frame(counter), link.now);
-    if (check == E2eCheck::kTooMany) {
-      assert_false(e2e_accepted(check));
-      assert_true(link.state.synchronised);
-      assert_int_equal(link.state.last_counter, (counter + 14) % 15);
-      return taken;
-    }
-    assert_true(e2e_accepted(check));
-    counter = e2e_next_counter(counter);
-  }
-  return kFarTooMany;
 }
 
 // Frames cannot come faster than they are sent, but together after a pause.
