@@ -13,7 +13,7 @@
 
 #include "app/ecu/kinds.hpp"
 #include "app/machines/any_machine.hpp"
-#include "app/machines/task_book.hpp"
+#include "app/machines/task_file.hpp"
 #include "platform/can_port_group.hpp"
 #include "platform/linux/allocation_counter.hpp"
 #include "platform/linux/cyclic_clock.hpp"

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <stdexcept>
 
 #include "app/machines/excavator_sections.hpp"
 #include "app/machines/profile_document.hpp"
@@ -179,6 +181,28 @@ TaskFile load_task(const std::filesystem::path& file, const ExcavatorProfile& pr
 std::filesystem::path find_task(const std::string& name,
                                 const std::vector<std::filesystem::path>& folders) {
   return find_file("task", name, folders);
+}
+
+TaskBook load_tasks(const std::vector<std::string>& names,
+                    const std::vector<std::filesystem::path>& folders,
+                    const ExcavatorProfile& profile) {
+  if (names.size() > kTaskMost) {
+    throw std::runtime_error(fmt::format("{} tasks; allowed: at most {}", names.size(), kTaskMost));
+  }
+  TaskBook book;
+  std::vector<std::string> errors;
+  for (const std::string& name : names) {
+    try {
+      TaskProgram& program = book.program[static_cast<unsigned>(book.count++)];
+      program = load_task(find_task(name, folders), profile).result.program;
+    } catch (const std::exception& error) {
+      errors.emplace_back(error.what());
+    }
+  }
+  if (!errors.empty()) {
+    throw std::runtime_error(fmt::format("{}", fmt::join(errors, "\n")));
+  }
+  return book;
 }
 
 }  // namespace graben::machines

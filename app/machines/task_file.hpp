@@ -30,4 +30,10 @@ struct TaskFile {
 /// The same among the tasks of this source tree.
 [[nodiscard]] std::filesystem::path find_task(const std::string& name);
 
+/// Tasks by file or by name in the folders, at most kTaskMost; the first has the number 0. Throws
+/// std::runtime_error with every error of every one of them.
+[[nodiscard]] TaskBook load_tasks(const std::vector<std::string>& names,
+                                  const std::vector<std::filesystem::path>& folders,
+                                  const ExcavatorProfile& profile);
+
 }  // namespace graben::machines

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/machines/axis_names.hpp"
-#include "app/machines/plan_text.hpp"
+#include "app/machines/task_text.hpp"
 #include "app/reports/page_setup.hpp"
 #include "app/reports/report_file.hpp"
 #include "app/reports/report_parts.hpp"

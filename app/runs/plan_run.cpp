@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "app/machines/axis_names.hpp"
-#include "app/machines/plan_text.hpp"
+#include "app/machines/task_text.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben::runs {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "app/machines/plan_text.hpp"
 #include "app/machines/task_text.hpp"
 #include "app/plant/random.hpp"
 #include "firmware/numeric/constants.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "app/machines/simulated/dozer_scenario.hpp"
-#include "app/machines/simulated/scenario.hpp"
+#include "app/machines/simulated/simulated_dozer.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/machines/task_file.hpp"
 #include "app/runs/autodig_run.hpp"
 #include "app/runs/dig_run.hpp"

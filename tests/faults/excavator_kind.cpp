@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/machines/simulated/scenario.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 #include "firmware/excavator/field/rounded_rectangle.hpp"
 #include "tests/unit/firmware/flip_bit.hpp"
 

@@ -8,7 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "app/machines/task_book.hpp"
 #include "app/machines/task_file.hpp"
 #include "app/runs/dozer_rig.hpp"
 #include "app/runs/excavator_rig.hpp"

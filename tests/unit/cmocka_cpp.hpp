@@ -17,6 +17,9 @@ extern "C" {
 #undef fail_msg
 #define fail_msg(...) (print_error(__VA_ARGS__), print_error("\n"), _fail(__FILE__, __LINE__))
 
+// It would break every member of that name.
+#undef fail
+
 namespace graben::test {
 
 inline void check_near(double actual, double expected, double tolerance, const char* expression,

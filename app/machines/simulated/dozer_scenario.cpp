@@ -1,4 +1,4 @@
-#include "app/machines/simulated/dozer_scenario.hpp"
+#include "app/machines/simulated/simulated_dozer.hpp"
 
 #include <fmt/format.h>
 

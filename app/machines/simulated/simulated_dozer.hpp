@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include "app/machines/dozer_file.hpp"
 #include "app/plant/dozer_plant_profile.hpp"
@@ -42,5 +43,18 @@ void read_simulated_sections(TomlReader& reader, SimulatedDozer& machine);
 /// profile is for the caller to leave as it is.
 [[nodiscard]] plant::DozerPlantProfile draw_dozer(const SimulatedDozer& machine,
                                                   std::uint64_t seed);
+
+struct DozerScenario {
+  SpeedPolicy policy = SpeedPolicy::kBounded;
+  std::optional<double> speed_mps;     ///< v_d; the profile's unless told.
+  std::optional<double> engine_radps;  ///< Where the throttle stands; the profile's unless told.
+  bool errors = false;                 ///< The machine is drawn: draw_dozer.
+  std::uint64_t seed = 0;              ///< Of everything that is drawn.
+};
+
+/// The machine with this scenario's plant, and a controller profile with its policy and speed. The
+/// engine's speed is the machine's alone: the controller has to take it from the bus. Throws
+/// std::runtime_error where it is out of the profile's range.
+[[nodiscard]] SimulatedDozer arranged(SimulatedDozer machine, const DozerScenario& scenario);
 
 }  // namespace graben::machines

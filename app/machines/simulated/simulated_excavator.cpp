@@ -5,8 +5,8 @@
 
 #include "app/machines/axis_names.hpp"
 #include "app/machines/excavator_sections.hpp"
-#include "app/machines/plan_text.hpp"
 #include "app/machines/simulated/simulated_sections.hpp"
+#include "app/machines/task_text.hpp"
 #include "firmware/excavator/field/rounded_rectangle.hpp"
 #include "firmware/excavator/tasks/line_plan.hpp"
 

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/machines/simulated/dozer_scenario.hpp"
-#include "app/machines/simulated/scenario.hpp"
+#include "app/machines/simulated/simulated_dozer.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/machines/task_file.hpp"
 #include "app/runs/dozer_rig.hpp"
 #include "app/runs/excavator_rig.hpp"

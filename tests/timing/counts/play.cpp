@@ -1,6 +1,5 @@
 #include "tests/timing/counts/play.hpp"
 
-#include "app/machines/simulated/scenario.hpp"
 #include "app/machines/simulated/simulated_dozer.hpp"
 #include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/plant/random.hpp"

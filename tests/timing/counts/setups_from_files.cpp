@@ -3,7 +3,6 @@
 
 #include "app/machines/dozer_file.hpp"
 #include "app/machines/excavator_file.hpp"
-#include "app/machines/task_book.hpp"
 #include "app/machines/task_file.hpp"
 #include "tests/timing/counts/setups.hpp"
 

@@ -1,6 +1,6 @@
 /// What a scenario changes of a dozer and of what its controller takes it for.
 
-#include "app/machines/simulated/dozer_scenario.hpp"
+#include "app/machines/simulated/simulated_dozer.hpp"
 
 #include <cstring>
 #include <stdexcept>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "app/machines/simulated/scenario.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 #include "firmware/mcv/mcv_machine.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 

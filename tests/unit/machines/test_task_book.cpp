@@ -1,9 +1,8 @@
 /// Several tasks for one machine: their numbers, and all that is wrong with them in one go.
 
-#include "app/machines/task_book.hpp"
+#include "app/machines/task_file.hpp"
 
 #include "app/machines/excavator_file.hpp"
-#include "app/machines/task_file.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace {

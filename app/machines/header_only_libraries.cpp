@@ -1,6 +1,8 @@
-// {fmt}'s own code, compiled once and linked in, as toml++'s: header-only, every source here would
-// compile it again.
+// toml++'s and {fmt}'s own code, compiled once and linked in: what is deployed needs no library
+// beyond the standard ones, and no source compiles it again.
+#define TOML_IMPLEMENTATION
 #include <fmt/format-inl.h>
+#include <toml++/toml.h>
 
 FMT_BEGIN_NAMESPACE
 namespace detail {

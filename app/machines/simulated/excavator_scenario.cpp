@@ -1,4 +1,4 @@
-#include "app/machines/simulated/scenario.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 
 #include <fmt/format.h>
 
