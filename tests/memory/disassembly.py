@@ -20,6 +20,7 @@ class Refusal(Exception):
 class Function:
     name: str
     frame: int = 0  # bytes, with what a call pushes
+    spilled: int = 0  # of these, for arguments that came in registers: not in the compiler's word
     dynamic: bool = False  # takes as much as it wants
     calls: set = dataclasses.field(default_factory=set)
     indirect: int = 0  # calls through pointers
@@ -39,6 +40,16 @@ class Arm:
     lowered = re.compile(r"^sub(?:\.w|w)?\s+sp, (?:sp, )?#(\d+)")
     stored = re.compile(r"^(?:str|strd|vstr)(?:\.w)?\s.*\[sp, #-(\d+)\]!")
     lowered_by_register = re.compile(r"^sub(?:\.w|s)?\s+sp, (?:sp, )?r|^mov\s+sp, r|^bic.*\bsp, ")
+
+    @classmethod
+    def saves(cls, code):
+        return cls.pushes.match(code) or cls.vector_pushes.match(code)
+
+    @classmethod
+    def spills(cls, before):
+        """An argument that is partly in registers is put beside its rest before anything is saved."""
+        lowering = [code for code in before if "sp" in code]
+        return len(lowering) == 1 and cls.lowered.match(lowering[0])
 
     @staticmethod
     def registers(text):
@@ -166,6 +177,8 @@ def functions_of(tools, file):
 
 def read(machine, function, code, before):
     lowering = machine.lowering(code, before)
+    if machine is Arm and 0 < function.frame <= 16 and Arm.saves(code) and Arm.spills(before):
+        function.spilled = function.frame
     function.frame += lowering
     if not lowering and machine.lowered_by_register.match(code):
         function.dynamic = True
@@ -195,7 +208,8 @@ def check_frames(tools, objects):
                 raise Refusal(f"{name}: {kind} stack: a variable array?")
         if not usage:
             continue
-        read_there = collections.Counter(at.frame for at in functions_of(tools, file).values())
+        read_there = collections.Counter(
+            at.frame - at.spilled for at in functions_of(tools, file).values())
         said = collections.Counter(size for _, size, kind in usage if kind == "static")
         # What a cold part has taken is its function's; it has no line of its own.
         if missing := said - read_there:
