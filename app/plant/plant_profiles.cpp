@@ -31,7 +31,7 @@ SwingMotorData ExcavatorPlantProfile::motor() const {
 
 SectionData ExcavatorPlantProfile::section(int drive) const {
   return {machine.valve.spool[static_cast<std::size_t>(drive)],
-          machine.valve,
+          static_cast<const SpoolMetering&>(machine.valve),
           spool_dynamics(),
           port_protection(drive),
           hose_linear_paspm3,

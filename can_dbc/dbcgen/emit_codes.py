@@ -40,7 +40,7 @@ def enums(codes: Codes) -> str:
         + _enum("ArmBlock", "Why the mode is neither Armed nor Active: bit numbers of "
                 "MachineStatus::why_not_armed.", codes.arm_blocks, none=False)
         + f"inline constexpr int kArmBlockCount = {len(codes.arm_blocks)};\n\n"
-        + _enum("LimitKind", "What holds lambda below 1.", codes.limits, none=True)
+        + _enum("LimitKind", "Limits that hold lambda below 1.", codes.limits, none=True)
         + f"inline constexpr int kLimitKindCount = {len(codes.limits) + 1};  ///< With kNone.\n\n"
         + "}  // namespace graben\n")
 

@@ -50,7 +50,7 @@ struct SpoolState {
 /// Commands of the last cycle, one a drive.
 struct SentCommand {
   bool enable = false;
-  Span<const double> duty_ratio;
+  Span<const double> duty_ratio{nullptr, 0};
 };
 
 /// Feedback of the valve since then.

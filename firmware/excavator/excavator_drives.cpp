@@ -46,7 +46,7 @@ DriveRow section_row(const ExcavatorProfile& profile, int drive) {
   const SafetyProfile& safety = profile.safety;
   DriveRow row;
   row.spool = profile.valve.spool[static_cast<unsigned>(drive)];
-  row.metering = profile.valve;
+  row.metering = static_cast<const SpoolMetering&>(profile.valve);
   row.spool_to_duty = profile.valve.spool_to_duty;
   row.control.spool_rate_ps = control.spool_rate_ps;
   row.control.spool_threshold = control.spool_threshold;

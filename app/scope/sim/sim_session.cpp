@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "can_dbc/generated/dozer_dbc.hpp"
@@ -12,11 +13,8 @@ namespace graben::scope {
 namespace {
 
 using nlohmann::json;
-// Mode has the same place on all machines' buses.
 using Status = dbc::excavator::EcuStatus;
-static_assert(Status::kId == dbc::dozer::EcuStatus::kId);
-static_assert(Status::kMode.start_bit == dbc::dozer::EcuStatus::kMode.start_bit &&
-              Status::kMode.width == dbc::dozer::EcuStatus::kMode.width);
+static_assert(std::is_same_v<Status, dbc::dozer::EcuStatus>, "all machines' buses have one status");
 
 auto members(const SimState& state) {
   return std::tie(state.running, state.pace, state.speed, state.soil, state.obstacle, state.faults);

@@ -78,7 +78,7 @@ enum class ArmBlock : std::uint8_t {
 };
 inline constexpr int kArmBlockCount = 23;
 
-/// What holds lambda below 1.
+/// Limits that hold lambda below 1.
 enum class LimitKind : std::uint8_t {
   kNone = 0,
   kPumpFlow = 1,  ///< (29), (30): a pump cannot feed the in-flow.

@@ -1,3 +1,4 @@
+#include <array>
 #include <limits>
 
 #include "firmware/drives/drive_gate.hpp"
@@ -35,6 +36,23 @@ void a_drive_that_is_not_there_stays_neutral(void**) {
   assert_true(result.enable);
   assert_near(result.duty_ratio[2], 1.0, 1e-12);
   assert_near(result.duty_ratio[3], 0.0, 0.0);
+}
+
+/// A bank may be shorter than what its drives are kept in: the rest is neither read nor written.
+void nothing_behind_the_last_drive_is_touched(void**) {
+  const ExcavatorBank bank = excavator_bank(profile());
+  const DriveRows two{bank.rows().begin(), 2};
+  const std::array<double, 3> spool_m = {travel(), travel(),
+                                         std::numeric_limits<double>::quiet_NaN()};
+  std::array<Guarded<double>, 3> opening;
+  test::flip_bit(opening[2], 0);
+  std::array<double, 3> duty_ratio = {0.0, 0.0, 7.0};
+  const GateResult result = gate_drives(two, true, spool_m, kLong_s, opening, duty_ratio);
+  assert_true(result.enable);
+  assert_int_equal(result.fault, Fault::kNone);
+  assert_near(duty_ratio[1], 1.0, 1e-12);
+  assert_near(duty_ratio[2], 7.0, 0.0);
+  assert_false(opening[2].intact());
 }
 
 void a_spool_hardly_open_stays_neutral(void**) {
@@ -189,6 +207,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(duty_follows_the_profiles_table),
       cmocka_unit_test(a_drive_that_is_not_there_stays_neutral),
+      cmocka_unit_test(nothing_behind_the_last_drive_is_touched),
       cmocka_unit_test(a_spool_hardly_open_stays_neutral),
       cmocka_unit_test(positions_beyond_the_travel_are_clamped),
       cmocka_unit_test(duties_beyond_the_range_are_clamped),
