@@ -17,16 +17,6 @@ extern "C" {
 #undef fail_msg
 #define fail_msg(...) (print_error(__VA_ARGS__), print_error("\n"), _fail(__FILE__, __LINE__))
 
-// They would break every member of that name.
-#undef fail
-#undef fail_msg
-#define fail_msg(...)                   \
-  do {                                  \
-    print_error("ERROR: " __VA_ARGS__); \
-    print_error("\n");                  \
-    _fail(__FILE__, __LINE__);          \
-  } while (false)
-
 namespace graben::test {
 
 inline void check_near(double actual, double expected, double tolerance, const char* expression,
