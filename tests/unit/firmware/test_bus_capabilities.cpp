@@ -204,6 +204,27 @@ void the_command_stands_in_for_the_swash(void**) {
   assert_true(valid.stand_in);
 }
 
+/// Nothing is held against a pump's command but what the bus carries.
+void a_swash_that_is_not_carried_is_not_judged(void**) {
+  for (const bool carried : {true, false}) {
+    const ExcavatorProfile profile =
+        carried ? test::plain_machine()
+                : with_bus(test::plain_machine(), &BusCapabilities::swash_feedback);
+    const ExcavatorBank bank = excavator_bank(profile);
+    ExcavatorWatchState state;
+    LastCommands<kDriveCount> cycle;
+    cycle.moving = cycle.enable = true;
+    bool judged = false;
+    for (int n = 0; n < 60; ++n) {
+      ExcavatorValid seen;  // its swash is 0, which no pump was told
+      seen.enable = seen.automatic = seen.valve_enabled = true;
+      watch(profile, bank.rows(), cycle, 0.01, state, seen);
+      judged = judged || seen.degraded.has(Fault::kSwashDisagrees);
+    }
+    assert_int_equal(judged, carried);
+  }
+}
+
 void a_dozer_without_them_is_not_asked_either(void**) {
   struct DozerCase {
     bool BusCapabilities::*lacks;
@@ -274,6 +295,7 @@ int main() {
       cmocka_unit_test(unseen_spools_count_as_centred),
       cmocka_unit_test(no_echo_no_fault_of_following),
       cmocka_unit_test(the_command_stands_in_for_the_swash),
+      cmocka_unit_test(a_swash_that_is_not_carried_is_not_judged),
       cmocka_unit_test(a_dozer_without_them_is_not_asked_either),
       cmocka_unit_test(the_blade_is_watched_by_its_command),
   };
