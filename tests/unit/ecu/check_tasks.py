@@ -44,6 +44,11 @@ def main() -> int:
         expect(FAILED, [], excavator, reaches_bus=True)
         expect(FAILED, [], excavator, flatten, reaches_bus=True)
         expect(FAILED, [], excavator, *[flatten, loading] * 2, reaches_bus=True)
+        # A real machine's file alone: nothing of a simulated one beside it.
+        for machine in (excavator, machines / "excavator_22t.toml", dozer):
+            alone = pathlib.Path(folder, f"alone_{machine.name}")
+            alone.write_text(machine.read_text())
+            expect(FAILED, [], alone, reaches_bus=True)
         expect(WRONG, ["--task"], excavator, *[flatten] * 5)
         expect(WRONG, ["dozer_9t.toml", "a dozer has no tasks"], dozer, flatten)
         expect(WRONG, ["'none' not found", "/etc/graben/tasks", "/usr/share/graben/tasks"], excavator, "none")
