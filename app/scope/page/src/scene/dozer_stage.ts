@@ -6,7 +6,7 @@ import {designHeight, wantedDozer} from '../model/wanted';
 import {DozerModel} from './dozer_model';
 import {blade_walk} from './edges';
 import {GroundLayer} from './ground_layer';
-import {dozer_key, type KeyEntry} from './key';
+import {dozer_key} from './key';
 import type {Labels} from './labels';
 import {dozer_state} from './machine_state';
 import type {SharedMaterials} from './materials';
@@ -16,7 +16,7 @@ import {dozer_grid} from './soil_shape';
 import type {Stage} from './types';
 import type {SceneColours} from './theme';
 import {TrailLayer} from './trail_layer';
-import type {SceneLayers, SceneUpdate} from './types';
+import type {KeyEntry, SceneLayers, SceneUpdate} from './types';
 
 /// How far around the machine the ground is seen, m.
 const kSeen_m = 55;

@@ -7,7 +7,7 @@ import {wantedExcavator} from '../model/wanted';
 import {teeth_walk} from './edges';
 import {ExcavatorModel} from './excavator_model';
 import {GroundLayer} from './ground_layer';
-import {excavator_key, type KeyEntry} from './key';
+import {excavator_key} from './key';
 import type {Labels} from './labels';
 import {excavator_state, planned_state} from './machine_state';
 import type {SharedMaterials} from './materials';
@@ -19,7 +19,7 @@ import {excavator_grid, excavator_start, reach_m} from './soil_shape';
 import type {Stage} from './types';
 import type {SceneColours} from './theme';
 import {TrailLayer} from './trail_layer';
-import type {SceneLayers, SceneUpdate} from './types';
+import type {KeyEntry, SceneLayers, SceneUpdate} from './types';
 
 export class ExcavatorStage implements Stage {
   readonly node = new Group();

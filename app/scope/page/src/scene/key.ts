@@ -4,12 +4,7 @@ import type {ExcavatorMachine} from '../model/api';
 import {fastest_mps, field_colour} from './path_layer';
 import type {ShownTask} from './shown_task';
 import type {SceneColours} from './theme';
-import type {SceneLayers} from './types';
-
-export interface KeyEntry {
-  mark: 'ghost' | 'path' | 'trail' | 'field' | 'design' | 'fence';
-  words: string;
-}
+import type {KeyEntry, SceneLayers} from './types';
 
 /// Without frames (`has_frames` false) nothing was measured or wanted at any time.
 export function excavator_key(

@@ -1,9 +1,8 @@
-/// What the page knows of the scene, and what a machine of either kind brings to it.
+/// Interfaces of the scene, and of a machine of either kind in it.
 
 import type {Group, Object3D, Sphere} from 'three';
 import type {FrameStore, Machine, Setup, Vector2, Vector3} from '../model/api';
 import type {GroundLayer} from './ground_layer';
-import type {KeyEntry} from './key';
 import type {SceneColours} from './theme';
 
 export interface SceneUpdate {
@@ -11,6 +10,12 @@ export interface SceneUpdate {
   now_s: number;
   live: boolean;
   drives?: readonly number[];  ///< Of a plan, which has no frames: strokes in m, swing in rad.
+}
+
+/// A line of the scene's legend.
+export interface KeyEntry {
+  mark: 'ghost' | 'path' | 'trail' | 'field' | 'design' | 'fence';
+  words: string;
 }
 
 export type SceneLayer = 'ghost' | 'path' | 'field' | 'design' | 'fences' | 'terrain';
