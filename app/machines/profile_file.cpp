@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <sstream>
+#include <iterator>
+#include <string>
 #include <string_view>
 
 namespace graben::machines {
@@ -17,11 +18,12 @@ constexpr std::string_view kSimulation = ".sim.toml";
 
 std::string read_file(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (!stream || !(text << stream.rdbuf())) {
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  // An empty file can be read; what it lacks is said later.
+  if (!stream.good() && !stream.eof()) {
     throw std::runtime_error(fmt::format("{}: can't be read", file.string()));
   }
-  return text.str();
+  return text;
 }
 
 MachineKind read_kind(const ProfileDocument& document, TomlReader& reader) {

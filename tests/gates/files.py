@@ -8,7 +8,7 @@ import re
 
 import tree
 
-SOURCES = (*tree.CXX, ".py", ".sh", ".cmake", ".js", ".mjs", ".css", ".html", "CMakeLists.txt")
+SOURCES = (*tree.CXX, ".py", ".sh", ".cmake", ".js", ".ts", ".mjs", ".css", ".html", "CMakeLists.txt")
 MAX_LINES = 400
 SHORT_LINES, SHORT_SHARE = 40, 0.20
 COUNTED = (".cpp", ".hpp", ".py", ".ts")

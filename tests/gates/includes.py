@@ -11,6 +11,8 @@ import tree
 COMMENT_OR_QUOTED = re.compile(r"""//[^\n]*|/\*.*?\*/|(?<!')"(?:\\.|[^"\\\n])*\"""", re.DOTALL)
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"]', re.MULTILINE)
 
+NAMELESS = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?![ \t<"])([^\n]*)$', re.MULTILINE)
+
 
 def blank(text: str) -> str:
     """As many lines, and nothing in them."""
@@ -39,6 +41,17 @@ class Includes:
                 beside = posixpath.normpath(posixpath.join(posixpath.dirname(name), header))
                 header = beside if beside in self.sources else posixpath.normpath(header)
             yield line, header, quoted
+
+    def hidden(self):
+        """(source, line, what) of each include that nobody looks into: named by a macro, or a file of
+        ours with another suffix."""
+        for name, text in self.sources.items():
+            code = without_comments(text)
+            for match in NAMELESS.finditer(code):
+                yield name, code.count("\n", 0, match.start(1)) + 1, match[1].strip()
+            for line, header, quoted in self.of[name]:
+                if quoted and not header.endswith(tree.CXX):
+                    yield name, line, header
 
     def reached_from(self, name: str) -> dict[str, str]:
         """Every header that name includes, directly or not, with the chain that leads there."""

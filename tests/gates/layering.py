@@ -79,6 +79,8 @@ for name, found in includes.of.items():
         problems += [f"{own or 'a common room'} must not see {header}: {chain}"
                      for header, chain in includes.reached_from(name).items()
                      if header.startswith(WINGS) and not (own and header.startswith(own))]
+problems += [f"{name}:{line}: nobody looks into {what}: include a header by its name"
+             for name, line, what in includes.hidden()]
 between = edges(includes)
 if around := circle({name: to for name, to in between.items() if not name.startswith("tests")}):
     problems.append(f"a circle of rooms: {' -> '.join(around)}: " + "; ".join(

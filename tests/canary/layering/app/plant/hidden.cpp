@@ -1,0 +1,3 @@
+#include "app/plant/model.inc"
+#define MODEL "firmware/drives/servo.hpp"
+#include MODEL
