@@ -41,7 +41,9 @@ DEPLOYED = ("app/ecu/", "app/machines/")
 SIMULATED = ("app/plant/", "app/machines/simulated/")
 # All that the plant may see of the core, through any number of headers in between: what a machine is, and
 # the codes and values that are on the bus. Of a kind's wing these two headers.
-PLANT_SEES = ("firmware/core/", "firmware/machine/", "firmware/numeric/", "firmware/signals/")
+# Of the mathematics what holds data: the linkages' triangle is a formula.
+PLANT_SEES = ("firmware/core/", "firmware/machine/", "firmware/numeric/constants.hpp",
+              "firmware/numeric/monotone_table.hpp", "firmware/signals/")
 PLANT_SEES_OF_A_WING = ("{0}/{0}_profile.hpp", "{0}/{0}_signals.hpp")
 
 root = tree.arguments(__doc__).parse_args().root.resolve()
