@@ -54,8 +54,8 @@ void run_task(const TaskCommand& options) {
   const fs::path report = out / (options.name + ".html");
   reports::write_autodig_report(
       {report, scope::scope_page()}, run.log_file, machine, task, result, summary,
-      fmt::format("{} | task {} | errors {} | speed {:.0f} %", machine.name, options.scenario.task,
-                  options.scenario.errors, run.speed_override_ratio * 100.0));
+      fmt::format("{} | task {} | {} | speed {:.0f} %", machine.name, options.scenario.task,
+                  runs::machine_text(options.scenario), run.speed_override_ratio * 100.0));
   if (!options.summary.empty()) {
     reports::write_autodig_summary(options.summary, summary);
   }
@@ -79,9 +79,11 @@ void add_autodig(CLI::App& app, int& status) {
   add_summary_option(*command, options->summary);
   command
       ->add_option("--errors", scenario.errors,
-                   "What the controller does not know: none, stroke-bias, sensors, parameters, all")
+                   "What the controller does not know: none, stroke-bias, sensors, parameters, kim "
+                   "(sensors and parameters), all (and the machine as it is found)")
       ->check(error_name())
       ->capture_default_str();
+  add_found_option(*command, scenario.found);
   command->add_option("--seed", scenario.seed, "Of --errors, a whole number from 0")
       ->check(whole_number())
       ->capture_default_str();

@@ -120,6 +120,7 @@ TaskCommand task_command(const DigCommand& options) {
   TaskCommand run;
   run.scenario.task = options.task.value_or(run.scenario.task);
   run.scenario.errors = options.scenario.errors;
+  run.scenario.found = options.scenario.scenario.found;
   run.scenario.seed = options.seed;
   run.scenario.speed_override_ratio = options.speed;
   run.profile = options.profile.value_or(run.profile);
@@ -135,7 +136,7 @@ void add_task(CLI::App& command, DigCommand& options) {
                                          "Run a task of straight lines instead, as `autodig` does: "
                                          "a file, or the name of one of ours");
   for (const char* of_the_path :
-       {"--soil", "--air", "--obstacle", "--stiff-oil", "--dead-time", "--fixed-lambda",
+       {"--soil", "--air", "--obstacle", "--stiff-oil", "--dead-time", "--fixed-lambda", "--law",
         "--start-strokes", "--start", "--random-start", "--loops"}) {
     task->excludes(command.get_option(of_the_path));
   }
@@ -154,6 +155,7 @@ void add_dig(CLI::App& app, int& status) {
       ->capture_default_str();
   add_summary_option(*command, options->summary);
   add_scenario_options(*command, options->scenario);
+  add_found_option(*command, options->scenario.scenario.found);
   command
       ->add_option("--seed", options->seed,
                    "Of --random-start, --errors and --soil, a whole number from 0")

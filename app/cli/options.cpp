@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "app/runs/found_text.hpp"
 
 namespace graben::cli {
 
@@ -24,13 +27,37 @@ void add_scenario_options(CLI::App& command, runs::DigScenario& scenario) {
                   "Of every spool, s, 0 .. 0.5; the profile's unless told")
       ->check(number_between(0.0, 0.5));
   command
-      .add_option("--errors", scenario.errors,
-                  "What the controller does not know, drawn from the seed: sensors' bias and "
-                  "noise, parameters")
+      .add_option(
+          "--errors", scenario.errors,
+          "What the controller does not know, drawn from the seed: sensors' bias and "
+          "noise, its parameters, kim (both of these), all (and the machine as it is found)")
       ->check(error_name())
       ->capture_default_str();
+  command
+      .add_option(
+          "--law", scenario.law,
+          "Feedback of the controller: servo, oil (where the profile has [oil]), kim (none); "
+          "the profile's unless told")
+      ->check(
+          CLI::IsMember(std::vector<std::string>(runs::kLawNames.begin(), runs::kLawNames.end())));
   command.add_flag("--fixed-lambda", scenario.fixed_lambda,
                    "For comparison: lambda stays 1, whatever the machine can do");
+}
+
+void add_found_option(CLI::App& command, machines::Found& found) {
+  command
+      .add_option_function<std::string>(
+          "--found",
+          [&found](const std::string& text) {
+            try {
+              found = runs::found_of(text);
+            } catch (const std::runtime_error& error) {
+              throw CLI::ValidationError("--found", error.what());
+            }
+          },
+          fmt::format("What the machine is, whatever is drawn; the controller is not told: {}",
+                      runs::found_keys()))
+      ->type_name("KEY=VALUE[,...]");
 }
 
 void add_speed_options(CLI::App& command, runs::GradeScenario& scenario) {

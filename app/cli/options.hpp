@@ -10,8 +10,11 @@ namespace graben::cli {
 
 // Of `dig`, `campaign dig` and `plant`.
 
-/// Adds --soil, --obstacle, --air, --stiff-oil, --dead-time, --errors, --fixed-lambda.
+/// Adds --soil, --obstacle, --air, --stiff-oil, --dead-time, --errors, --law, --fixed-lambda.
 void add_scenario_options(CLI::App& command, runs::DigScenario& scenario);
+
+/// Adds --found, of `dig`, `campaign dig` and `autodig`.
+void add_found_option(CLI::App& command, machines::Found& found);
 
 // Of `grade`, `campaign grade` and `plant`, for a dozer.
 

@@ -49,9 +49,10 @@ runs::Player player_of(const std::string& name, machines::MachineKind kind) {
   if (name == "grade" && kind != machines::MachineKind::kDozer) {
     refuse("--operator grade", "a dozer");
   }
-  return name == "none"     ? runs::Player::kNobody
-         : name == "shifts" ? runs::Player::kShifts
-                            : runs::Player::kTask;
+  return name == "none"      ? runs::Player::kNobody
+         : name == "shifts"  ? runs::Player::kShifts
+         : name == "changes" ? runs::Player::kChanges
+                             : runs::Player::kTask;
 }
 
 nlohmann::ordered_json run_program(const PlantCommand& options,
@@ -136,9 +137,10 @@ void add_plant(CLI::App& app, int& status) {
   command
       ->add_option("--operator", options->player,
                    "Who gives enable and task: none (another node does), dig or grade, as the "
-                   "machine can, shifts (does that for 5 s, lets go for 1 s, and so on), or "
-                   "program (a task of the controller's)")
-      ->check(CLI::IsMember({"none", "dig", "grade", "shifts", "program"}))
+                   "machine can, shifts (does that for 5 s, lets go for 1 s, and so on), "
+                   "changes (asks for no task every 2 s, for 50 ms), or program (a task of "
+                   "the controller's)")
+      ->check(CLI::IsMember({"none", "dig", "grade", "shifts", "changes", "program"}))
       ->capture_default_str();
   command->add_option("--task", options->task,
                       "Task file or shipped name that --operator program asks for, as the "
@@ -152,6 +154,11 @@ void add_plant(CLI::App& app, int& status) {
                    "When that operator enables, 0 .. 3600 s")
       ->check(number_between(0.0, 3600.0))
       ->capture_default_str();
+  command->add_option(
+      "--fault", options->run.faults,
+      "A fault of the machine, NAME@SECONDS or NAME=VALUE@SECONDS, as "
+      "boom-stroke:drift=0.01@5; more of them by naming it again. It stays, and an "
+      "11-bit frame 7F0 says when it begins. An unknown name lists those there are");
   add_summary_option(*command, options->summary);
   add_scenario_options(*command, options->scenario);
   add_engine_option(*command, options->grade);

@@ -6,9 +6,13 @@
 #include <cstdint>
 #include <limits>
 
+#include "app/ecu/last_frames.hpp"
+#include "can_dbc/generated/common_dbc.hpp"
 #include "firmware/core/time.hpp"
+#include "firmware/safety/mode.hpp"
 #include "firmware/signals/machine_signals.hpp"
 #include "hal/can_port.hpp"
+#include "hal/link/challenge.hpp"
 #include "hal/link/message_links.hpp"
 #include "hal/link/message_transmitter.hpp"
 
@@ -89,6 +93,10 @@ class EcuNode {
   /// For the status frames.
   void set_process_health(const ProcessHealth& health) { diagnosis_.process = health; }
 
+  /// Where each cycle leaves the neutral commands that would come after its own; the caller's, who
+  /// keeps it as long as the node.
+  void set_last_frames(LastFrames& last) { last_ = &last; }
+
   [[nodiscard]] const Outputs& outputs() const { return outputs_; }
   [[nodiscard]] const Inputs& inputs() const { return inputs_; }
   [[nodiscard]] const LinkCounters& link() const { return receiver_.total(); }
@@ -103,6 +111,7 @@ class EcuNode {
 
   void receive(TimeUs now_us, bool stale);
   void gather_inputs(TimeUs now_us, BusState bus);
+  void leave_last_frames(TimeUs now_us);
   void send(const typename Transmitter::Frames& frames, int count);
   void count_cycle(bool command_sent);
 
@@ -112,10 +121,12 @@ class EcuNode {
   Receiver receiver_;
   typename Kind::Controller controller_;
   Transmitter transmitter_;
+  Challenge challenge_;
   EcuDiagnosis diagnosis_;
   std::array<CanFrame, kFramesPerBatch> frames_{};  ///< Of one batch.
   Inputs inputs_;
   Outputs outputs_;
+  LastFrames* last_ = nullptr;
   int dropped_cycles_ = 0;
   bool stop_requested_ = false;
 };
@@ -140,9 +151,28 @@ void EcuNode<Kind>::gather_inputs(TimeUs now_us, BusState bus) {
   inputs_.same_machine = receiver_.same_machine(diagnosis_.profile_hash);
   inputs_.link.bus = bus;
   inputs_.link.message_faults = receiver_.message_faults(now_us);
+  challenge_.hear(receiver_.echoes(), now_us);
+  if (challenge_.is_late(in_motion(outputs_.status.mode))) {
+    inputs_.link.message_faults.add(Fault::kStreamLate);
+  }
+  inputs_.link.cannot_answer = challenge_.cannot_answer();
   inputs_.link.out_of_range = receiver_.take_out_of_range();
   inputs_.link.dropped_cycles = dropped_cycles_;
   inputs_.link.stop_requested = stop_requested_;
+}
+
+template <class Kind>
+void EcuNode<Kind>::leave_last_frames(TimeUs now_us) {
+  if (last_ == nullptr) {
+    return;
+  }
+  Outputs neutral;
+  // What holds the pilot pressure off must not be undone by the end of the process.
+  neutral.pilot_cut = outputs_.pilot_cut;
+  neutral.pilot_known = outputs_.pilot_known;
+  typename Transmitter::Frames frames;
+  const int count = transmitter_.next_frames(neutral, &Kind::is_command, now_us, frames);
+  last_->put(frames.data(), static_cast<std::size_t>(count));
 }
 
 template <class Kind>
@@ -153,6 +183,9 @@ void EcuNode<Kind>::send(const typename Transmitter::Frames& frames, int count) 
     const CanFrame& frame = frames[static_cast<unsigned>(i)];
     const bool taken = port_.send(frame);
     diagnosis_.dropped_frames += taken ? 0U : 1U;
+    if (taken && frame.id == dbc::common::EcuIdentity::kId) {
+      challenge_.sent(frame.stamp_us);
+    }
     if (Kind::is_command(frame.id)) {
       has_command = true;
       all_taken = all_taken && taken;
@@ -176,9 +209,11 @@ void EcuNode<Kind>::step(TimeUs now_us, TimeUs last_cycle_us) {
   gather_inputs(now_us, watch_.judge(now_us));
   outputs_ = controller_.step(inputs_, now_us);
   diagnosis_.cycle_time_us = last_cycle_us;
+  diagnosis_.stamp = challenge_.next_stamp();
   diagnosis_.rejected_frames = rejected(receiver_.total());
   typename Transmitter::Frames frames;
   const int count = transmitter_.frames(outputs_, diagnosis_, now_us, frames);
+  leave_last_frames(now_us);
   send(frames, count);
   watch_.end(now_us);
 }

@@ -11,11 +11,13 @@
 #include <type_traits>
 #include <variant>
 
+#include "app/ecu/end_signals.hpp"
 #include "app/ecu/kinds.hpp"
 #include "app/machines/any_machine.hpp"
 #include "app/machines/task_file.hpp"
 #include "platform/can_port_group.hpp"
 #include "platform/linux/allocation_counter.hpp"
+#include "platform/linux/bus_lock.hpp"
 #include "platform/linux/cyclic_clock.hpp"
 #include "platform/linux/process.hpp"
 #include "platform/linux/service_notify.hpp"
@@ -66,12 +68,15 @@ std::optional<TaskBook> read_tasks(const std::vector<std::string>& names,
 
 /// The interfaces by their names, opened.
 struct Buses {
+  std::deque<BusLock> locks;
   std::deque<SocketCanPort> ports;
   CanPortGroup group;
 
   /// Only frames with one of the `ids` are heard.
   Buses(const std::vector<std::string>& names, const std::vector<std::uint32_t>& ids) {
     for (const std::string& name : names) {
+      locks.emplace_back(name);
+      demand(locks.back().error(), "");
       ports.emplace_back(name, ids);
       SocketCanPort& port = ports.back();
       if (!port.open()) {
@@ -166,18 +171,30 @@ void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, Usage
   static_cast<void>(clock.wait());
 }
 
+/// What the controller takes, and its own ids: another one is to be heard.
+template <class Kind>
+std::vector<std::uint32_t> heard_ids() {
+  const auto taken = Kind::Receiver::ids();
+  const auto own = Kind::Transmitter::ids();
+  std::vector<std::uint32_t> ids(taken.begin(), taken.end());
+  ids.insert(ids.end(), own.begin(), own.end());
+  return ids;
+}
+
 /// From the interfaces to the statistics, with the controller of a machine kind.
 template <class Kind>
 int run_controller(const typename Kind::Setup& setup, std::uint32_t profile_hash,
                    const EcuOptions& options, TimeUs began_us) {
-  const auto ids = Kind::Receiver::ids();
-  Buses buses(options.interfaces, {ids.begin(), ids.end()});
+  Buses buses(options.interfaces, heard_ids<Kind>());
+  LastFrames last;
   EcuNode<Kind> ecu(setup, profile_hash, buses.group);
   CyclicClock clock(kPeriod_us);
   ServiceNotify manager(std::getenv("NOTIFY_SOCKET"));
   Watchdog watchdog(manager);
   UsageMark mark;
-  demand(catch_stop_signals(), "");
+  ecu.set_last_frames(last);
+  const EndSignals signals(last, buses.ports);
+  demand(signals.error(), "");
   if (options.cpu) {
     demand(pin_to_cpu(*options.cpu), "");
   }

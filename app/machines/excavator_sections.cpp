@@ -7,6 +7,7 @@
 #include "app/machines/axis_names.hpp"
 #include "app/machines/bus_key.hpp"
 #include "app/machines/excavator_sections.hpp"
+#include "app/machines/oil_section.hpp"
 #include "app/machines/shared_sections.hpp"
 
 namespace graben::machines {
@@ -233,6 +234,9 @@ ValveProfile read_valve(TomlReader& reader, int pump_count, int drive_count) {
 
 ControlProfile read_control(TomlReader& reader) {
   auto control = read_control_of_valve<ControlProfile>(reader, "valve");
+  control.law = static_cast<ControlLaw>(reader.choice(
+      "control.law", {"servo", "oil", "kim"},
+      "feedback: each drive's integrated error, the oil as a state (needs [oil]), or none (Kim)"));
   control.convergence_length_m =
       reader.number("control.convergence_length", {0.02, 5.0, "m"},
                     "distance from the path at which the field points at it by 45 degrees");
@@ -378,6 +382,8 @@ ExcavatorProfile read_excavator_sections(TomlReader& reader) {
   const double swash_ratio =
       reader.number("task.swash", {0.0, 1.0, ""}, "swash that the pumps are told, of full");
   std::fill_n(profile.dig_swash_ratio.begin(), pumps, swash_ratio);
+  profile.oil = read_oil(reader);
+  check_law(reader, profile);
   profile.safety = read_safety(reader);
   profile.bus = read_bus(reader, profile.control.dead_time_s);
   return profile;

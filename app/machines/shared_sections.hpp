@@ -57,6 +57,11 @@ template <class Safety>
                                        "motion of a cylinder against its spool");
   safety.stuck_m = reader.number("safety.stuck", {0.005, 0.5, "m"},
                                  "motion asked of a cylinder that does not come");
+  safety.tube_m = reader.number_or(
+      0.3, "safety.tube", {0.02, 5.0, "m"},
+      "distance of the tool from what it follows at which it stops; 0.3 m without");
+  safety.stall_s = reader.number_or(10.0, "safety.stall", {3.0, 600.0, "s"},
+                                    "time that it may hardly get on; 10 s without");
   return safety;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "app/plant/sender_watch.hpp"
 #include "can_dbc/codec.hpp"
 #include "firmware/core/time.hpp"
 #include "hal/can_port.hpp"
@@ -17,11 +18,12 @@ struct CommandCounters {
   std::uint64_t wrong_format = 0;  ///< 11 bit, remote, error, FD or wrong length.
   std::uint64_t rejected = 0;      ///< By CRC or counter, or while synchronising.
   std::uint64_t timeouts = 0;      ///< Times that it had to do without the command.
+  std::uint64_t conflicts = 0;     ///< Times that it did without, as there were two senders.
 };
 
 inline constexpr TimeUs kCommandTimeoutUs = 100 * kMillisecondUs;
 
-/// The way in of one command.
+/// The way in of one command. Two senders of it are as good as none.
 class CommandLink {
  public:
   template <class Message>
@@ -30,8 +32,14 @@ class CommandLink {
                     Message::kCycleTimeMs * kMillisecondUs},
                    frame, now);
   }
-  /// Whether the command has been missing for `kCommandTimeoutUs`, from just now on.
+  /// Whether the command has been missing for `kCommandTimeoutUs`, or has two senders, from just
+  /// now on.
   [[nodiscard]] bool dies(TimeUs now);
+  /// The frame that was refused last is a sender's all the same: only its counter does not fit.
+  [[nodiscard]] bool refused_authentic() const { return refused_authentic_; }
+  [[nodiscard]] bool has_two_senders(TimeUs now) const { return senders_.are_two(now); }
+  /// The caller knows a frame for another sender's.
+  void note_other_sender(TimeUs now) { senders_.note_other(now); }
 
   [[nodiscard]] const CommandCounters& counters() const { return counters_; }
 
@@ -39,6 +47,8 @@ class CommandLink {
   [[nodiscard]] bool accepts(const E2eConfig& config, const CanFrame& frame, TimeUs now);
 
   E2eState e2e_;
+  SenderWatch senders_;
+  bool refused_authentic_ = false;
   bool alive_ = false;
   TimeUs last_us_ = 0;
   CommandCounters counters_;
@@ -46,12 +56,18 @@ class CommandLink {
 
 inline bool CommandLink::accepts(const E2eConfig& config, const CanFrame& frame, TimeUs now) {
   constexpr std::uint8_t kLength = 8;
+  refused_authentic_ = false;
   if (!frame.extended || frame.remote || frame.error || frame.fd || frame.length != kLength) {
     ++counters_.wrong_format;
     return false;
   }
-  if (!e2e_accepted(e2e_check(config, e2e_, frame.data, now))) {
+  const E2eCheck check = e2e_check(config, e2e_, frame.data, now);
+  if (check != E2eCheck::kWrongCrc && check != E2eCheck::kRepeated) {
+    senders_.note(e2e_accepted(check) || check == E2eCheck::kSynchronising, now);
+  }
+  if (!e2e_accepted(check)) {
     ++counters_.rejected;
+    refused_authentic_ = check != E2eCheck::kWrongCrc && check != E2eCheck::kRepeated;
     return false;
   }
   ++counters_.accepted;
@@ -61,10 +77,11 @@ inline bool CommandLink::accepts(const E2eConfig& config, const CanFrame& frame,
 }
 
 inline bool CommandLink::dies(TimeUs now) {
-  if (!alive_ || now - last_us_ < kCommandTimeoutUs) {
+  const bool is_missing = now - last_us_ >= kCommandTimeoutUs;
+  if (!alive_ || !(is_missing || senders_.are_two(now))) {
     return false;
   }
-  ++counters_.timeouts;
+  ++(is_missing ? counters_.timeouts : counters_.conflicts);
   alive_ = false;
   return true;
 }

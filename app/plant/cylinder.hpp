@@ -36,8 +36,8 @@ struct CylinderData {
   double dead_volume_m3 = 0.0;  ///< Each chamber, with hose.
   double bulk_modulus_pa = 0.0;
   PistonFriction friction;
-  CushionData cushion;
-  HydraulicDetails details;
+  CushionData cushion = {};
+  HydraulicDetails details = {};
 };
 
 /// What the piston gives to the mechanism over one step; extension is positive. The force is

@@ -42,6 +42,8 @@ struct DozerFaults : NodeFaults {
   std::optional<double> spool_held_ratio;
   /// The spool opens that much beyond its command, neutral or not.
   double spool_offset_ratio = 0.0;
+  /// Hoses or valve are reversed: its oil goes the other way, its sensor shows what was commanded.
+  bool reversed = false;
   PoseFaults pose;
   std::array<PathFaults, kTrackCount> path;
   /// PumpDisplacementCommand and MotorDisplacementCommand do not reach the machine.

@@ -69,11 +69,13 @@ void DozerNode::watch_commands(TimeUs now) {
 
 void DozerNode::apply_faults() {
   plant_.set_pilot_fault(faults_.spool_held_ratio, faults_.spool_offset_ratio);
+  plant_.set_reversed(faults_.reversed);
   for (std::size_t i = 0; i < kTrackCount; ++i) {
     plant_.set_pump_fault(i, faults_.path[i].pump);
     plant_.set_motor_fault(i, faults_.path[i].motor);
   }
   plant_.set_displacements(pump_ratio_, motor_ratio_);
+  plant_.set_engine_ratio(faults_.engine_ratio);
 }
 
 void DozerNode::take_spool_command(const CanFrame& frame, TimeUs now) {
@@ -160,7 +162,8 @@ void DozerNode::send_transmission(TimeUs now) {
 
 void DozerNode::send_valve(TimeUs now) {
   bus::ValveState message = valve_state();
-  message.blade_spool_ratio = valid(plant_.spool_travel_ratio());
+  message.blade_spool_ratio =
+      valid(faults_.reversed ? -plant_.spool_travel_ratio() : plant_.spool_travel_ratio());
   send(message, now);
 }
 

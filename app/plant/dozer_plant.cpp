@@ -70,16 +70,16 @@ void DozerPlant::drive() {
   for (std::size_t i = 0; i < path_.size(); ++i) {
     const double force_n = traction_[i].step(path_[i].track_speed_mps(), body_.ground_speed_mps(),
                                              0.5 * body_.load_n(), step_s_);
-    path_[i].step(engine_radps_, force_n, brake_);
+    path_[i].step(engine_radps(), force_n, brake_);
     traction_n += force_n;
   }
   body_.step(terrain_, traction_n, step_s_);
 }
 
 void DozerPlant::move_blade() {
-  implement_.set_command(pilot_.step(duty_, pilot_cut_));
+  implement_.set_command(way_ * pilot_.step(duty_, pilot_cut_));
   const ImplementFlows& flows =
-      implement_.solve(engine_radps_, cylinder_.cap_port(), cylinder_.rod_port());
+      implement_.solve(engine_radps(), cylinder_.cap_port(), cylinder_.rod_port());
   const double velocity = blade_.accelerate(cylinder_.load(), body_.pitch_rad(), step_s_);
   blade_.move(step_s_);
   cylinder_.step(flows.cap_in, flows.rod_in, velocity);

@@ -46,12 +46,16 @@ class DozerPlant {
   void set_pilot_cut(bool cut) { pilot_cut_ = cut; }
   /// Not finite or negative counts as standing still.
   void set_engine_radps(double engine_radps);
+  /// Share of that speed that it runs at; 0: it stands.
+  void set_engine_ratio(double ratio) { engine_ratio_ = ratio; }
 
   /// A pilot valve that sends the spool to `held_ratio` whatever the duty, or `offset_ratio` beyond
   /// what the duty asks for.
   void set_pilot_fault(std::optional<double> held_ratio, double offset_ratio) {
     pilot_.set_fault(held_ratio, offset_ratio);
   }
+  /// The blade's hoses are reversed.
+  void set_reversed(bool reversed) { way_ = reversed ? -1.0 : 1.0; }
   void set_pump_fault(std::size_t track, const DisplacementFault& fault) {
     path_[track].pump().set_fault(fault);
   }
@@ -81,7 +85,7 @@ class DozerPlant {
   [[nodiscard]] TrackArray motor_ratios() const;
   [[nodiscard]] TrackArray track_speeds_mps() const;
   [[nodiscard]] TrackArray slips() const;
-  [[nodiscard]] double engine_radps() const { return engine_radps_; }
+  [[nodiscard]] double engine_radps() const { return engine_ratio_ * engine_radps_; }
 
   /// In the world.
   [[nodiscard]] Eigen::Vector2d cutting_edge_m() const;
@@ -104,6 +108,8 @@ class DozerPlant {
   double step_s_;
   TimeUs pending_us_ = 0;
   double engine_radps_;
+  double engine_ratio_ = 1.0;
+  double way_ = 1.0;  ///< -1: the blade is reversed.
   double duty_ = 0.0;
   bool brake_ = true;
   bool pilot_cut_ = false;

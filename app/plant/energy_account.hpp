@@ -30,6 +30,9 @@ struct EnergyAccount {
            friction_j + end_stop_j;
   }
 
+  /// Over bypass and reliefs.
+  [[nodiscard]] double spilled_j() const { return bypass_j + pump_relief_j + port_relief_j; }
+
   void add_pump(const Oil& oil, const PumpLine& pump, double step_s);
   void add_section(const Oil& oil, const SectionPorts& ports, const SectionFlows& flows,
                    double step_s);

@@ -12,6 +12,7 @@ namespace graben::plant {
 /// What a pressure sensor shows.
 struct PressureFault {
   bool stuck = false;             ///< What it showed when this began.
+  double scale = 1.0;             ///< So many times what it measures.
   std::optional<double> rail_pa;  ///< This.
 };
 
@@ -20,12 +21,15 @@ struct SpoolFaults {
   std::optional<double> spool_held_ratio;
   /// The spool opens that much beyond its command, neutral or not.
   double spool_offset_ratio = 0.0;
+  /// Hoses or valve are reversed: its oil goes the other way, its sensor shows what was commanded.
+  bool reversed = false;
 };
 
 struct AxisFaults : SpoolFaults {
   StrokeFault stroke;
   PressureFault cap;
   PressureFault rod;
+  bool pressures_swapped = false;  ///< Each is connected to the other's port.
 };
 
 /// Of no effect on a machine without a swing drive.
@@ -44,6 +48,8 @@ struct ExcavatorFaults : NodeFaults {
   std::array<AxisFaults, kAxisCount> axis;
   SwingFaults swing;
   std::array<PumpFaults, kPumpCount> pump;
+  /// Whose stroke each axis shows: its plug may be in another sensor.
+  std::array<std::size_t, kAxisCount> stroke_from = {0, 1, 2};
 
   void set_stroke_state(int axis_index, dbc::RawState state) {
     axis[static_cast<std::size_t>(axis_index)].stroke.state = state;

@@ -59,16 +59,19 @@ void ExcavatorNode::set_duties() {
 void ExcavatorNode::apply_faults() {
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     plant_.set_pilot_fault(i, faults_.axis[i].spool_held_ratio, faults_.axis[i].spool_offset_ratio);
+    plant_.set_reversed(i, faults_.axis[i].reversed);
   }
   if (has_swing()) {
     plant_.set_pilot_fault(kSwing, faults_.swing.spool_held_ratio,
                            faults_.swing.spool_offset_ratio);
+    plant_.set_reversed(kSwing, faults_.swing.reversed);
   }
   ExcavatorPlant::PumpArray swash = wanted_swash_;
   for (std::size_t i = 0; i < kPumpCount; ++i) {
     swash[i] = faults_.pump[i].actual_swash_ratio.value_or(swash[i]);
   }
   plant_.set_swash(swash);
+  plant_.set_engine_ratio(faults_.engine_ratio);
 }
 
 void ExcavatorNode::take(const CanFrame& frame, TimeUs now) {
@@ -121,7 +124,8 @@ void ExcavatorNode::take_pump_command(const CanFrame& frame, TimeUs now) {
 }
 
 Physical ExcavatorNode::stroke(std::size_t axis) {
-  return sensors_.stroke(axis, plant_.strokes_m()[axis], faults_.axis[axis].stroke);
+  return sensors_.stroke(axis, plant_.strokes_m()[faults_.stroke_from[axis]],
+                         faults_.axis[axis].stroke);
 }
 
 void ExcavatorNode::send_axes(TimeUs now) {
@@ -149,8 +153,9 @@ void ExcavatorNode::send_pressures(TimeUs now) {
   std::array<Physical, kAxisCount> cap_shown;
   std::array<Physical, kAxisCount> rod_shown;
   for (std::size_t i = 0; i < kAxisCount; ++i) {
-    cap_shown[i] = sensors_.cap_pressure(i, cap[i], faults_.axis[i].cap);
-    rod_shown[i] = sensors_.rod_pressure(i, rod[i], faults_.axis[i].rod);
+    const AxisFaults& faults = faults_.axis[i];
+    cap_shown[i] = sensors_.cap_pressure(i, faults.pressures_swapped ? rod[i] : cap[i], faults.cap);
+    rod_shown[i] = sensors_.rod_pressure(i, faults.pressures_swapped ? cap[i] : rod[i], faults.rod);
   }
   send(bus::BoomPressure{cap_shown[kBoom], rod_shown[kBoom]}, now);
   send(bus::ArmPressure{cap_shown[kArm], rod_shown[kArm]}, now);
@@ -164,19 +169,22 @@ void ExcavatorNode::send_pumps(TimeUs now) {
   }
   const bool second = plant_.profile().machine.pump_count > 1;
   send(bus::PumpState{valid(swash[0]), second ? valid(swash[1]) : Physical{}}, now);
-  // One engine drives both pumps at the same speed.
-  send(bus::EEC1{valid(plant_.profile().machine.pump[0].rated_speed_radps)}, now);
+  send(bus::EEC1{valid(plant_.engine_radps())}, now);
 }
 
 void ExcavatorNode::send_valve(TimeUs now) {
-  const auto spool = plant_.spool_travels_ratio();
+  auto spool = plant_.spool_travels_ratio();
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    spool[i] = faults_.axis[i].reversed ? -spool[i] : spool[i];
+  }
   bus::ValveState message = valve_state();
   message.boom_spool_ratio = valid(spool[kBoom]);
   message.arm_spool_ratio = valid(spool[kArm]);
   message.bucket_spool_ratio = valid(spool[kBucket]);
   send(message, now);
   if (has_swing()) {
-    send(bus::SwingValveState{valid(plant_.swing_spool_ratio())}, now);
+    const double swing = plant_.swing_spool_ratio();
+    send(bus::SwingValveState{valid(faults_.swing.reversed ? -swing : swing)}, now);
   }
 }
 

@@ -41,6 +41,7 @@ ExcavatorPlant::ExcavatorPlant(const ExcavatorPlantProfile& profile,
       pump_count_(static_cast<std::size_t>(profile.machine.pump_count)),
       pump_{PumpLine(profile.pump_line(0), sections_on(profile, 0)),
             PumpLine(profile.pump_line(1), sections_on(profile, 1))},
+      engine_(profile.engine, step_s_),
       section_(sections_of(profile)),
       cylinder_{Cylinder(profile.cylinder(kBoom), step_s_),
                 Cylinder(profile.cylinder(kArm), step_s_),
@@ -61,6 +62,7 @@ ExcavatorPlant::ExcavatorPlant(const ExcavatorPlantProfile& profile,
   for (std::size_t p = 0; p < pump_count_; ++p) {
     pump_[p].start();
   }
+  engine_.start(pump_power_share());
   links_.start(LinkageGeometry(profile.machine.geometry).angles_at(start_strokes_m), {});
   const JointArray holding = links_.holding_forces();
   for (std::size_t i = 0; i < kAxisCount; ++i) {
@@ -91,6 +93,35 @@ void ExcavatorPlant::set_obstacle(const std::optional<ObstacleProfile>& obstacle
   obstacle_.reset();
   if (obstacle) {
     obstacle_.emplace(*obstacle, step_s_);
+  }
+}
+
+void ExcavatorPlant::set_engine_ratio(double ratio) {
+  engine_.set_ratio(ratio);
+  drive_pumps();
+}
+
+void ExcavatorPlant::drive_pumps() {
+  for (PumpLine& pump : pump_) {
+    pump.set_speed_ratio(engine_.speed_ratio());
+    pump.set_swash(pump.swash_ratio());
+  }
+}
+
+double ExcavatorPlant::pump_power_share() const {
+  double power_w = 0.0;
+  double full_w = 0.0;
+  for (std::size_t p = 0; p < pump_count_; ++p) {
+    power_w += pump_[p].ideal_flow_m3ps() * pump_[p].flows().pump_port_pa;
+    full_w += pump_[p].rated_flow_m3ps() * profile_.machine.pump[p].relief_pa;
+  }
+  return power_w / full_w;
+}
+
+void ExcavatorPlant::load_engine() {
+  if (engine_.sags()) {
+    engine_.step(pump_power_share());
+    drive_pumps();
   }
 }
 
@@ -153,7 +184,7 @@ void ExcavatorPlant::move_swash() {
 
 void ExcavatorPlant::meter() {
   for (std::size_t i = 0; i < section_.size(); ++i) {
-    section_[i].set_command(pilot_[i].step(duty_[i], pilot_cut_));
+    section_[i].set_command(way_[i] * pilot_[i].step(duty_[i], pilot_cut_));
     const SectionPorts ports = ports_of(i);
     flows_[i] = section_[i].solve(ports);
     pump_[pump_of_[i]].set_section_flows(place_of_[i], flows_[i].supply_out_m3ps,
@@ -211,6 +242,7 @@ void ExcavatorPlant::turn_platform() {
 void ExcavatorPlant::step() {
   push_tip();
   move_swash();
+  load_engine();
   meter();
   move_links();
   if (swing_) {

@@ -9,6 +9,7 @@
 
 #include "app/plant/cylinder.hpp"
 #include "app/plant/energy_account.hpp"
+#include "app/plant/engine.hpp"
 #include "app/plant/excavator_plant_profile.hpp"
 #include "app/plant/linkage_dynamics.hpp"
 #include "app/plant/pump_line.hpp"
@@ -53,6 +54,8 @@ class ExcavatorPlant {
   void set_duty(const DriveArray& duty_ratio, bool enable);
   /// Wanted swash of each pump, followed with a first-order lag; at the start the profile's.
   void set_swash(const PumpArray& swash_ratio) { wanted_swash_ = swash_ratio; }
+  /// Share of its speed that the engine runs at before the pumps pull it down; 0: it stands.
+  void set_engine_ratio(double ratio);
   /// Without pilot pressure every spool centres by its springs, with no dead time, whatever its
   /// pilot valve does.
   void set_pilot_cut(bool cut) { pilot_cut_ = cut; }
@@ -61,6 +64,8 @@ class ExcavatorPlant {
   void set_pilot_fault(std::size_t drive, std::optional<double> held_ratio, double offset_ratio) {
     pilot_[drive].set_fault(held_ratio, offset_ratio);
   }
+  /// The drive's hoses are reversed.
+  void set_reversed(std::size_t drive, bool reversed) { way_[drive] = reversed ? -1.0 : 1.0; }
   /// Force on the bucket tip beside soil and obstacle, N, x forward and y up, until changed.
   void set_tip_force(const Eigen::Vector2d& force_n) { outer_force_n_ = force_n; }
 
@@ -98,6 +103,10 @@ class ExcavatorPlant {
   [[nodiscard]] TeethTruth teeth() const;
 
   [[nodiscard]] PumpArray swash_ratios() const;
+  /// One engine drives both pumps at the same speed.
+  [[nodiscard]] double engine_radps() const {
+    return engine_.speed_ratio() * profile_.machine.pump[0].rated_speed_radps;
+  }
   [[nodiscard]] PumpArray pump_pressures_pa() const;
   /// Delivery after leakage, before the relief valve.
   [[nodiscard]] PumpArray pump_flows_m3ps() const;
@@ -134,6 +143,9 @@ class ExcavatorPlant {
   void set_bypasses();
   void push_tip();
   void move_swash();
+  void load_engine();
+  void drive_pumps();
+  [[nodiscard]] double pump_power_share() const;
 
   ExcavatorPlantProfile profile_;
   double step_s_;
@@ -144,7 +156,9 @@ class ExcavatorPlant {
   std::array<std::size_t, kDriveCount> place_of_{};
 
   std::array<PumpLine, kPumpCount> pump_;
-  std::vector<ValveSection> section_;  ///< One a drive.
+  Engine engine_;
+  std::array<double, kDriveCount> way_{1.0, 1.0, 1.0, 1.0};  ///< -1 of a drive that is reversed.
+  std::vector<ValveSection> section_;                        ///< One a drive.
   std::array<Cylinder, kAxisCount> cylinder_;
   LinkageDynamics links_;
   std::optional<Swing> swing_;

@@ -1,8 +1,8 @@
 #pragma once
 /// What the simulated excavator is. The nominal data are those that its controller has too; the
-/// rest only a plant knows: masses, friction, compressibility, spool dynamics, deadband, leakage.
-/// SI units, pressures above ambient; axes in the order boom, arm, bucket, drives with the swing
-/// after them.
+/// rest only a plant knows: masses, friction, compressibility, each spool as it is made, leakage,
+/// how far its pumps and its engine are from their data. SI units, pressures above ambient; axes in
+/// the order boom, arm, bucket, drives with the swing after them.
 
 #include <Eigen/Core>
 #include <array>
@@ -11,6 +11,7 @@
 
 #include "app/plant/bucket_contact.hpp"
 #include "app/plant/cylinder.hpp"
+#include "app/plant/engine.hpp"
 #include "app/plant/hydraulics.hpp"
 #include "app/plant/pump_line.hpp"
 #include "app/plant/spool.hpp"
@@ -46,6 +47,9 @@ struct SwingMotorDetails {
   double port_relief_pa = 0.0;  ///< Brakes the platform when the spool closes.
 };
 
+/// Of a main spool, see SpoolDynamics. No source gives it; half of the usual deadband.
+inline constexpr double kBypassClosingTravel = 0.1;
+
 struct ExcavatorPlantProfile : HydraulicDetails {
   /// Geometry, valve areas, regeneration, pumps: the plant reads these numbers, and none of the
   /// functions that the controller has for them.
@@ -57,9 +61,11 @@ struct ExcavatorPlantProfile : HydraulicDetails {
   SwingMotorDetails swing_motor;
   double gravity_mps2 = 9.80665;
 
-  double spool_time_constant_s = 0.0;  ///< 1 / natural frequency of the second-order lag (Kim 5).
-  double spool_damping = 1.0;
-  double deadband_ratio = 0.0;  ///< Of the full travel, each side (Kim 5).
+  /// Each drive's: second-order lag, deadband (Kim 5), opening. Its exponent goes before the
+  /// nominal one of `machine`.
+  std::array<SpoolDynamics, kDriveCount> spool;
+  std::array<double, kPumpCount> pump_flow_ratio{1.0, 1.0};  ///< Of the nominal displacement.
+  EngineSag engine;
 
   double bulk_modulus_pa = 0.0;
   std::array<double, kAxisCount> dead_volume_m3{};  ///< Each of the axis' two chambers, with hose.
@@ -82,11 +88,6 @@ struct ExcavatorPlantProfile : HydraulicDetails {
   /// to 0.3 s over their whole range.
   double swash_time_constant_s = 0.1;
 
-  /// Travel, in units of the full travel, over which a spool's bypass goes from open to closed; it
-  /// ends at the deadband's edge, where the metering edges begin to open: so (20), with the
-  /// deadband collapsed, holds wherever the cylinder can move. (20) itself switches; a land edge
-  /// takes some way.
-  double bypass_closing_travel = 0.1;
   /// Hose between valve and cylinder, laminar and turbulent share of its pressure drop: 0.1 and 0.3
   /// MPa at 200 L/min. Chosen; some 3 m of 25 mm hose with its fittings.
   double hose_linear_paspm3 = 3e7;
@@ -105,10 +106,6 @@ struct ExcavatorPlantProfile : HydraulicDetails {
   TimeUs step_us = 200;
 
   [[nodiscard]] Oil oil() const { return {bulk_modulus_pa, boiling_pa}; }
-  [[nodiscard]] SpoolDynamics spool_dynamics() const {
-    return {spool_time_constant_s, spool_damping, deadband_ratio, machine.valve.opening_exponent,
-            bypass_closing_travel};
-  }
   [[nodiscard]] CylinderData cylinder(int axis) const;
   [[nodiscard]] SwingMotorData motor() const;
   [[nodiscard]] SectionData section(int drive) const;

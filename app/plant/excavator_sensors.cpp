@@ -75,7 +75,7 @@ dbc::Physical FaultySensors::swing(double true_swing_rad, const AngleFault& faul
 dbc::Physical FaultySensors::pressure(double reading_pa, const PressureFault& fault,
                                       double& shown_pa) {
   if (!fault.stuck) {
-    shown_pa = reading_pa;
+    shown_pa = fault.scale * reading_pa;
   }
   return {fault.rail_pa ? *fault.rail_pa : shown_pa, dbc::RawState::kValid};
 }

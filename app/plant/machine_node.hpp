@@ -9,6 +9,7 @@
 #include "app/plant/command_link.hpp"
 #include "app/plant/frame_sender.hpp"
 #include "app/plant/node_faults.hpp"
+#include "app/plant/stamp_echo.hpp"
 #include "can_dbc/codec.hpp"
 #include "firmware/core/time.hpp"
 #include "hal/can_port.hpp"
@@ -21,7 +22,7 @@ namespace graben::plant {
 }
 
 /// A plant on its bus, of which a machine kind's node is made. `Dbc` is the kind's, with
-/// SpoolCommand, ValveState and MachineIdentity; `Plant` has advance(duration_us) and
+/// SpoolCommand, ValveState, EEC1 and MachineIdentity; `Plant` has advance(duration_us) and
 /// set_pilot_cut(on); `Faults` are NodeFaults and the kind's own. The bus port belongs to the
 /// caller, who opens it.
 template <class Dbc, class Plant, class Faults>
@@ -59,6 +60,7 @@ class MachineNode {
   template <class Take>
   void receive(const Take& take) {
     receive_frames(port_, [&](const CanFrame& frame) {
+      echo_.hear(frame);
       if (frame.id != SpoolCommand::kId || !faults_.loses_spool_commands) {
         take(frame);
       }
@@ -66,20 +68,34 @@ class MachineNode {
   }
 
   /// Takes a frame of SpoolCommand, and does what its pilot cut says; an unusable one changes
-  /// nothing of that and lets no duty through. Nothing for a frame that is refused.
+  /// nothing of that and lets no duty through. Nothing for a frame that is refused; but of two
+  /// senders the safer one is obeyed, whose counter fits or not: a cut is a cut, Off is Off.
   [[nodiscard]] std::optional<SpoolRequest> take_spool_request(const CanFrame& frame, TimeUs now) {
-    if (!spool_link_.template accepts<SpoolCommand>(frame, now)) {
+    const bool accepted = spool_link_.template accepts<SpoolCommand>(frame, now);
+    if (!accepted && !spool_link_.refused_authentic()) {
       return std::nullopt;
     }
     SpoolRequest request{SpoolCommand::decode(frame.data)};
     const bool cut_known = request.command.pilot_cut.state == dbc::RawState::kValid;
-    if (cut_known) {
-      plant_.set_pilot_cut(request.command.pilot_cut.value == SpoolCommand::PilotCut::kOn);
+    const bool cuts = cut_known && request.command.pilot_cut.value == SpoolCommand::PilotCut::kOn;
+    const bool is_off = request.command.enable.state == dbc::RawState::kValid &&
+                        request.command.enable.value == SpoolCommand::Enable::kOff;
+    if (cuts) {
+      plant_.set_pilot_cut(true);
+    }
+    if (!accepted) {
+      if (enabled_ && (cuts || is_off)) {
+        spool_link_.note_other_sender(now);
+      }
+      return std::nullopt;
+    }
+    if (cut_known && !cuts && !spool_link_.has_two_senders(now)) {
+      plant_.set_pilot_cut(false);
     }
     request.enabled = lets_through(request.command, spool_silence_) && cut_known;
     return request;
   }
-  /// SpoolCommand has been missing for `kCommandTimeoutUs`, from just now on.
+  /// SpoolCommand has been missing for `kCommandTimeoutUs`, or has two senders, from just now on.
   [[nodiscard]] bool spool_command_dies(TimeUs now) {
     const bool dies = spool_link_.dies(now);
     if (dies) {
@@ -91,6 +107,9 @@ class MachineNode {
   /// Runs the plant on by a cycle; what has been delayed for long enough goes out.
   void advance(TimeUs now) {
     plant_.advance(kCycleUs);
+    if (faults_.engine_speed_turns_us > 0) {
+      faults_.set_silent(Dbc::EEC1::kId, (now / faults_.engine_speed_turns_us) % 2 == 1);
+    }
     sender_.send_late(faults_.frames, now);
   }
   /// A message is sent in every cycle that is so far from the first one, modulo its cycle time.
@@ -110,13 +129,16 @@ class MachineNode {
     message.enabled = {enabled_ ? Enabled::kOn : Enabled::kOff, dbc::RawState::kValid};
     return message;
   }
-  /// Last in a cycle.
+  /// Last in a cycle. The machine names itself every second, and when it is asked.
   void end_cycle(TimeUs now) {
-    if (is_due<typename Dbc::MachineIdentity>()) {
+    echo_.set_mute(faults_.cannot_answer);
+    const bool is_asked = echo_.take_new();
+    if (is_asked || is_due<typename Dbc::MachineIdentity>()) {
       typename Dbc::MachineIdentity message;
       message.profile_hash = {faults_.wrong_identity ? ~profile_hash_ : profile_hash_,
                               dbc::RawState::kValid};
       message.dbc_version = {Dbc::kDbcVersion, dbc::RawState::kValid};
+      message.echo = echo_.said();
       send(message, now);
     }
     ++cycle_;
@@ -130,6 +152,7 @@ class MachineNode {
   CanPort& port_;
   FrameSender sender_;
   std::uint32_t profile_hash_;
+  StampEcho<typename Dbc::EcuIdentity> echo_;
   CommandLink spool_link_;
   NeutralFirst spool_silence_;
   std::uint64_t cycle_ = 0;

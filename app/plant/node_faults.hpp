@@ -56,6 +56,7 @@ struct ReadingFault {
   double jump = 0.0;      ///< Added.
   double drift_ps = 0.0;  ///< Added, growing by that much a second from 0 on; 0 takes it back.
   dbc::RawState state{};  ///< kValid shows the reading; else 'error' or 'not available'.
+  std::optional<double> reads{};  ///< Shows this, whatever it measures.
 
   ReadingFault() = default;
   explicit ReadingFault(const StrokeFault& fault)
@@ -71,7 +72,7 @@ class FaultyReading {
     constexpr double kCycle_s = 0.01;
     drift_ = fault.drift_ps == 0.0 ? 0.0 : drift_ + kCycle_s * fault.drift_ps;
     if (!fault.stuck) {
-      shown_ = reading + fault.jump + drift_;
+      shown_ = fault.reads.value_or(reading + fault.jump + drift_);
     }
     return {fault.state == dbc::RawState::kValid ? shown_ : 0.0, fault.state};
   }
@@ -82,8 +83,12 @@ class FaultyReading {
 };
 
 struct NodeFaults {
-  bool wrong_identity = false;        ///< The machine names another profile.
+  bool wrong_identity = false;  ///< The machine names another profile.
+  double engine_ratio = 1.0;    ///< Of the engine's speed; 0: it stands.
+  /// EEC1 comes for so long, then not for so long, and so on; 0: all the time.
+  TimeUs engine_speed_turns_us = 0;
   bool loses_spool_commands = false;  ///< SpoolCommand does not reach the valve side.
+  bool cannot_answer = false;         ///< It knows nothing of the controller's stamps.
   FrameFaults frames;
 
   void set_silent(std::uint32_t id, bool silent) { frames.set_silent(id, silent); }

@@ -1,13 +1,14 @@
 #pragma once
 /// The simulated operator on the bus: deadman, mode, task, speed override.
 
-#include <array>
 #include <cstdint>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "app/plant/command_link.hpp"
 #include "app/plant/frame_sender.hpp"
+#include "app/plant/stamp_echo.hpp"
 #include "firmware/core/time.hpp"
 #include "firmware/signals/machine_signals.hpp"
 #include "hal/can_port.hpp"
@@ -44,10 +45,11 @@ struct OperatorPhase {
 
 /// OperatorCommand of a machine kind's DBC; with a task number where the kind reports on tasks.
 template <class Dbc>
-[[nodiscard]] typename Dbc::OperatorCommand operator_command(const OperatorRequest& request);
+[[nodiscard]] typename Dbc::OperatorCommand operator_command(const OperatorRequest& request,
+                                                             dbc::Count echo);
 
 /// Sends OperatorCommand of the machine kind's DBC every 20 ms. The bus port belongs to the caller,
-/// who opens it; what it receives is thrown away.
+/// who opens it; of what it receives only EcuIdentity counts, whose stamp is repeated.
 template <class Dbc>
 class OperatorNode {
  public:
@@ -58,19 +60,21 @@ class OperatorNode {
 
   /// To be called every 10 ms; sends in the first and every second call.
   void step(TimeUs now) {
-    constexpr int kFramesPerRead = 64;
     constexpr std::uint64_t kSendCycles = Command::kCycleTimeMs / 10;
-    std::array<CanFrame, kFramesPerRead> ignored;
-    static_cast<void>(port_.receive(ignored.data(), kFramesPerRead));
+    receive_frames(port_, [this](const CanFrame& frame) { echo_.hear(frame); });
     if (cycle_++ % kSendCycles == 0) {
-      sender_.send(operator_command<Dbc>(request_at(now)), faults_, now);
+      sender_.send(operator_command<Dbc>(request_at(now), echo_.said()), faults_, now);
     }
+    sender_.send_late(faults_, now);
   }
 
   [[nodiscard]] OperatorRequest request_at(TimeUs now) const {
     return plant::request_at(schedule_, now);
   }
   void set_silent(bool silent) { faults_.set_silent(Command::kId, silent); }
+  [[nodiscard]] FrameFaults& faults() { return faults_; }
+  /// An old station knows nothing of stamps.
+  void set_mute(bool mute) { echo_.set_mute(mute); }
 
  private:
   using Command = typename Dbc::OperatorCommand;
@@ -78,6 +82,7 @@ class OperatorNode {
   CanPort& port_;
   FrameSender sender_;
   FrameFaults faults_;
+  StampEcho<typename Dbc::EcuIdentity> echo_;
   std::vector<OperatorPhase> schedule_;
   std::uint64_t cycle_ = 0;
 };
@@ -92,7 +97,7 @@ inline constexpr bool kHasTasks<Dbc, std::void_t<typename Dbc::TaskStatus>> = tr
 }  // namespace detail
 
 template <class Dbc>
-typename Dbc::OperatorCommand operator_command(const OperatorRequest& request) {
+typename Dbc::OperatorCommand operator_command(const OperatorRequest& request, dbc::Count echo) {
   using Command = typename Dbc::OperatorCommand;
   constexpr auto kValid = dbc::RawState::kValid;
   using Enable = typename Command::Enable;
@@ -103,6 +108,7 @@ typename Dbc::OperatorCommand operator_command(const OperatorRequest& request) {
   command.speed_override_ratio = {request.speed_override_ratio, kValid};
   command.task_number = {request.task_number,
                          detail::kHasTasks<Dbc> ? kValid : dbc::RawState::kNotAvailable};
+  command.echo = echo;
   return command;
 }
 

@@ -32,7 +32,7 @@ SwingMotorData ExcavatorPlantProfile::motor() const {
 SectionData ExcavatorPlantProfile::section(int drive) const {
   return {machine.valve.spool[static_cast<std::size_t>(drive)],
           static_cast<const SpoolMetering&>(machine.valve),
-          spool_dynamics(),
+          spool[static_cast<std::size_t>(drive)],
           port_protection(drive),
           hose_linear_paspm3,
           hose_quadratic_pas2pm6};
@@ -40,7 +40,8 @@ SectionData ExcavatorPlantProfile::section(int drive) const {
 
 PumpLineData ExcavatorPlantProfile::pump_line(int pump) const {
   const auto index = static_cast<std::size_t>(pump);
-  const PumpProfile& data = machine.pump[index];
+  PumpProfile data = machine.pump[index];
+  data.displacement_m3prev *= pump_flow_ratio[index];
   return {data,    oil(), protection(data.relief_pa), line_volume_m3[index], swash_ratio[index],
           step_s()};
 }

@@ -30,8 +30,10 @@ PumpLine::PumpLine(const PumpLineData& data, std::size_t section_count)
 
 void PumpLine::set_swash(double swash_ratio) {
   swash_ = swash_ratio;
-  ideal_flow_ = displacement_m3prev_ * swash_ * speed_radps_ / kTwoPi;
+  ideal_flow_ = displacement_m3prev_ * swash_ * speed_ratio_ * speed_radps_ / kTwoPi;
 }
+
+double PumpLine::rated_flow_m3ps() const { return displacement_m3prev_ * speed_radps_ / kTwoPi; }
 
 void PumpLine::set_section_flows(std::size_t section, double supply_out_m3ps,
                                  double recycle_in_m3ps) {

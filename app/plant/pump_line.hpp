@@ -46,6 +46,8 @@ class PumpLine {
   void set_bypass(double inverse_square_of_sections);
   /// Of full swash.
   void set_swash(double swash_ratio);
+  /// Share of the rated speed that it is driven at; 0: the engine stands.
+  void set_speed_ratio(double speed_ratio) { speed_ratio_ = speed_ratio; }
   /// Solves pump and bypass and ends the step.
   void step();
   /// Starts in the standby that the bypass set before gives.
@@ -54,6 +56,8 @@ class PumpLine {
   [[nodiscard]] const WaveVolume& line() const { return line_; }
   [[nodiscard]] double pressure_pa() const { return line_.pressure_pa(); }
   [[nodiscard]] double ideal_flow_m3ps() const { return ideal_flow_; }
+  /// That at full swash and rated speed.
+  [[nodiscard]] double rated_flow_m3ps() const;
   [[nodiscard]] const PumpFlows& flows() const { return flows_; }
   [[nodiscard]] double swash_ratio() const { return swash_; }
 
@@ -65,6 +69,7 @@ class PumpLine {
   PortProtection protection_;
   double displacement_m3prev_ = 0.0;
   double speed_radps_ = 0.0;
+  double speed_ratio_ = 1.0;
   double ideal_flow_ = 0.0;
   double leak_linear_;
   double leak_quadratic_;

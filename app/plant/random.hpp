@@ -21,6 +21,7 @@ enum class Draw : std::uint32_t {
   kStart,
   kPoseNoise,
   kTrackNoise,
+  kAsFound,
 };
 
 class Random {

@@ -52,9 +52,14 @@ class PilotValve {
 struct SpoolDynamics {
   double time_constant_s = 0.0;  ///< 1 / natural frequency.
   double damping = 1.0;
-  double deadband_ratio = 0.0;  ///< Of the full travel, each side.
+  double extend_deadband_ratio = 0.0;  ///< Of the full travel, on the side that extends.
+  double retract_deadband_ratio = 0.0;
   double opening_exponent = 1.0;
-  double bypass_closing_travel = 1.0;  ///< See ExcavatorPlantProfile.
+  /// Travel, in units of the full travel, over which the bypass goes from open to closed; it ends
+  /// at that side's edge of the deadband, where the metering edges begin to open: so (20), with the
+  /// deadband collapsed, holds wherever the cylinder can move. (20) itself switches; a land edge
+  /// takes some way. Wider than a deadband, it would leave the bypass partly closed at neutral.
+  double bypass_closing_travel = 1.0;
 };
 
 /// Second-order lag from duty to travel with mechanical limits at full travel (Kim 5). Travel is in
@@ -79,7 +84,8 @@ class Spool {
 
   double natural_frequency_radps_;
   double damping_;
-  double deadband_;
+  double extend_deadband_;
+  double retract_deadband_;
   double exponent_;
   double bypass_closing_;
   double command_ = 0.0;

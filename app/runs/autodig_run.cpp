@@ -36,7 +36,10 @@ class AutodigRun {
         program_(program),
         options_(options),
         kinematics_(machine.profile.geometry),
-        rig_(machine, book_of(program), options.start, options.speed_override_ratio) {}
+        rig_(machine, book_of(program), options.start, options.speed_override_ratio) {
+    rig_.plant.plant().keep_account(&account_);
+    result_.spool_edges = spool_edges(machine.plant);
+  }
 
   AutodigResult run(const Progress& show) {
     const LoggedRun figures = run_logged(
@@ -115,6 +118,8 @@ class AutodigRun {
     sample.teeth_m = list_of(teeth.position_m);
     sample.attitude_rad = teeth.attitude_rad;
     sample.pump_real_pa = plant.pump_pressures_pa();
+    sample.swash_real = mean_swash(plant);
+    sample.energy = pump_energy(account_);
   }
 
   void read_controller(AutodigSample& sample) const {
@@ -194,6 +199,7 @@ class AutodigRun {
   const TaskProgram& program_;
   AutodigOptions options_;
   SwingKinematics kinematics_;
+  plant::EnergyAccount account_;
   AutodigRig rig_;
   int round_ = 0;
   AutodigResult result_;

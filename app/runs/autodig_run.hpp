@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/machines/simulated/simulated_excavator.hpp"
+#include "app/runs/excavator_calm.hpp"
 #include "app/runs/figures.hpp"
 #include "app/runs/logged_run.hpp"
 #include "firmware/excavator/tasks/task_program.hpp"
@@ -49,6 +50,8 @@ struct AutodigSample {
   std::array<double, kDriveCount> spool_real{};
   std::array<double, kPumpCount> pump_expected_pa{};
   std::array<double, kPumpCount> pump_real_pa{};
+  double swash_real = 0.0;  ///< Mean of the machine's pumps, of full swash.
+  PumpEnergy energy;
   double cycle_us = 0.0;  ///< Computing time of the controller's cycle.
 };
 
@@ -60,6 +63,7 @@ struct AutodigResult {
   std::vector<AutodigSample> samples;
   double wall_s = 0.0;
   std::uint32_t rejected_frames = 0;
+  RealSpoolEdges spool_edges{};
 };
 
 /// One step as it was done.
@@ -87,6 +91,8 @@ struct AutodigSummary {
   double lambda_mean = 0.0;
   double task_s = 0.0;     ///< From the first step's begin to the last one's end.
   double planned_s = 0.0;  ///< Of all these steps.
+  ExcavatorCalm calm;      ///< In steps; the teeth work.
+  double energy_per_round_j = kAbsent;
   RunPace pace;
   std::vector<StepFigures> steps;
   LimitShares limit_share;

@@ -73,6 +73,44 @@ class Steps {
   std::vector<StepFigures> steps_;
 };
 
+/// How often the task was gone through.
+double rounds(const TaskProgram& program, const AutodigResult& result,
+              const std::vector<StepFigures>& steps) {
+  if (steps.empty()) {
+    return 0.0;
+  }
+  const StepFigures& last = steps.back();
+  return result.end == AutodigEnd::kDone
+             ? last.round + 1.0
+             : last.round + static_cast<double>(last.step) / program.step_count;
+}
+
+/// Errors, lambda and times.
+FigureTable<AutodigSummary> task_figures() {
+  using S = AutodigSummary;
+  return {
+      {{"max_error_true_m", "true teeth from the lines, max", kMillimetres},
+       [](const S& s) { return s.max_error_true_m; }},
+      {{"rmse_error_true_m", "true teeth from the lines, RMSE", kMillimetres},
+       [](const S& s) { return s.rmse_error_true_m; }},
+      {{"max_error_measured_m", "measured teeth from the lines, max", kMillimetres},
+       [](const S& s) { return s.max_error_measured_m; }},
+      {{"rmse_error_measured_m", "measured teeth from the lines, RMSE", kMillimetres},
+       [](const S& s) { return s.rmse_error_measured_m; }},
+      {{"end_error_true_m", "true teeth from a line's end, max", kMillimetres},
+       [](const S& s) { return s.end_error_true_m; }},
+      {{"fence_left_m", "distance to the nearest fence, min", kMillimetres, nullptr, BadEnd::kLow},
+       [](const S& s) { return s.fence_left_m; }},
+      {{"lambda_min", "lambda, min", kRatio, nullptr, BadEnd::kLow},
+       [](const S& s) { return s.lambda_min; }},
+      {{"lambda_mean", "lambda, mean", kRatio, nullptr, BadEnd::kLow},
+       [](const S& s) { return s.lambda_mean; }},
+      {{"task_s", "time of the steps", kSeconds}, [](const S& s) { return s.task_s; }},
+      {{"planned_s", "time of the steps, planned", kSeconds},
+       [](const S& s) { return s.planned_s; }},
+  };
+}
+
 }  // namespace
 
 AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result) {
@@ -81,6 +119,7 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
   Spread error_measured;
   LimitCount limits(excavator_actuators());
   Steps steps(program);
+  ExcavatorCalmCount calm(result.spool_edges);
   double lambda_sum = 0.0;
   long in_steps = 0;
   summary.lambda_min = 1.0;
@@ -89,8 +128,10 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
     summary.fence_left_m = std::fmin(summary.fence_left_m, sample.fence_left_m);
     steps.add(sample);
     if (!in_step(sample)) {
+      calm.pause();
       continue;
     }
+    calm.add(sample, Eigen::Vector3d(sample.teeth_m.data()));
     ++in_steps;
     lambda_sum += sample.lambda;
     summary.lambda_min = std::min(summary.lambda_min, sample.lambda);
@@ -115,6 +156,8 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
   } else {
     summary.lambda_min = 0.0;
   }
+  summary.calm = calm.figures();
+  summary.energy_per_round_j = summary.calm.energy_per_j(rounds(program, result, summary.steps));
   summary.pace = pace_of(result.samples, result.wall_s);
   summary.limit_share = limits.shares();
   return summary;
@@ -122,27 +165,18 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
 
 const FigureTable<AutodigSummary>& autodig_figures() {
   using S = AutodigSummary;
-  static const FigureTable<S> all = with_pace<S>({
-      {{"max_error_true_m", "true teeth from the lines, max", kMillimetres},
-       [](const S& s) { return s.max_error_true_m; }},
-      {{"rmse_error_true_m", "true teeth from the lines, RMSE", kMillimetres},
-       [](const S& s) { return s.rmse_error_true_m; }},
-      {{"max_error_measured_m", "measured teeth from the lines, max", kMillimetres},
-       [](const S& s) { return s.max_error_measured_m; }},
-      {{"rmse_error_measured_m", "measured teeth from the lines, RMSE", kMillimetres},
-       [](const S& s) { return s.rmse_error_measured_m; }},
-      {{"end_error_true_m", "true teeth from a line's end, max", kMillimetres},
-       [](const S& s) { return s.end_error_true_m; }},
-      {{"fence_left_m", "distance to the nearest fence, min", kMillimetres, nullptr, BadEnd::kLow},
-       [](const S& s) { return s.fence_left_m; }},
-      {{"lambda_min", "lambda, min", kRatio, nullptr, BadEnd::kLow},
-       [](const S& s) { return s.lambda_min; }},
-      {{"lambda_mean", "lambda, mean", kRatio, nullptr, BadEnd::kLow},
-       [](const S& s) { return s.lambda_mean; }},
-      {{"task_s", "time of the steps", kSeconds}, [](const S& s) { return s.task_s; }},
-      {{"planned_s", "time of the steps, planned", kSeconds},
-       [](const S& s) { return s.planned_s; }},
-  });
+  static const FigureTable<S> all = with_pace(with_energy(joined<S>(
+      with_calm(task_figures()),
+      {
+          {{"spool_travel_ps.swing", "swing's spool, full travels a second", kPerSecond},
+           [](const S& s) { return s.calm.spool_travel_ps[kSwing]; }},
+          {{"spool_reversals_ps.swing", "swing's spool, changes of side a second", kPerSecond},
+           [](const S& s) { return s.calm.spool_reversals_ps[kSwing]; }},
+          {{"teeth_jerk_rms_mps3", "jerk of the true teeth below 10 Hz, RMS", kMetresPerSecond3},
+           [](const S& s) { return s.calm.jerk_rms_mps3; }},
+          {{"energy_per_round_j", "energy for one round", kKilowattHours},
+           [](const S& s) { return s.energy_per_round_j; }},
+      })));
   return all;
 }
 

@@ -5,6 +5,7 @@
 
 #include "app/plant/excavator_node.hpp"
 #include "app/runs/path_progress.hpp"
+#include "app/runs/plant_faults.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 
 namespace graben::runs {
@@ -45,12 +46,14 @@ class PathObserver {
 PlantRunResult run_plant(const machines::SimulatedExcavator& machine,
                          const PlantRunOptions& options, const plant::ExcavatorStart& start) {
   namespace ids = dbc::excavator;
-  PlantBus<ExcavatorSim> bus(
-      options, {ids::SpoolCommand::kId, ids::PumpCommand::kId, ids::SwingCommand::kId});
+  PlantFaultSchedule faults(excavator_plant_faults(), options.faults);
+  PlantBus<ExcavatorSim> bus(options, {ids::SpoolCommand::kId, ids::PumpCommand::kId,
+                                       ids::SwingCommand::kId, ids::EcuIdentity::kId});
   plant::ExcavatorNode node(machine.plant, start, bus.port(), machine.hash);
   PlantRunResult result;
   PathObserver observer(machine, result);
   result.bus = bus.run(Task::kDig, [&](TimeUs now_us) {
+    faults.apply(now_us, node.faults(), bus.mark_port());
     node.step(now_us);
     observer.see(node, now_us);
   });

@@ -23,7 +23,10 @@ class DigRun {
         kinematics_(machine.profile.geometry),
         field_(machine.profile, kinematics_),
         path_(machine.profile.dig_path),
-        progress_(path_, options.loops) {}
+        progress_(path_, options.loops) {
+    rig_.plant.plant().keep_account(&account_);
+    result_.spool_edges = spool_edges(machine.plant);
+  }
 
   DigResult run(const Progress& show) {
     const LoggedRun figures = run_logged(
@@ -34,6 +37,7 @@ class DigRun {
         });
     result_.wall_s = figures.wall_s;
     result_.rejected_frames = figures.rejected_frames;
+    result_.loops = progress_.share() * options_.loops;
     result_.peak_chamber_pressure_pa = rig_.plant.plant().peak_chamber_pressure_pa();
     return std::move(result_);
   }
@@ -99,10 +103,15 @@ class DigRun {
     if (const plant::Obstacle* obstacle = plant.obstacle(); obstacle && obstacle->touched()) {
       sample.obstruction = obstacle->gone() ? Obstruction::kReleased : Obstruction::kHolding;
     }
-    sample.error_true_m = error_m(sample.tip_true_m);
+    const PathPoint closest = path_.closest(sample.tip_true_m);
+    const Eigen::Vector2d off_m = sample.tip_true_m - closest.position_m;
+    sample.error_true_m = off_m.norm();
+    sample.cross_track_true_m = plant::cross(closest.tangent, off_m);
     sample.spool_real = plant.spool_travels_ratio();
     sample.velocity_real_mps = plant.stroke_velocities_mps();
     sample.pump_real_pa = plant.pump_pressures_pa();
+    sample.swash_real = mean_swash(plant);
+    sample.energy = pump_energy(account_);
   }
 
   [[nodiscard]] double off_field_rad(const Eigen::Vector2d& velocity_mps,
@@ -155,6 +164,7 @@ class DigRun {
 
   const machines::SimulatedExcavator& machine_;
   DigOptions options_;
+  plant::EnergyAccount account_;
   DigRig rig_;
   ExcavatorKinematics kinematics_;
   DigField field_;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/machines/simulated/simulated_excavator.hpp"
+#include "app/runs/excavator_calm.hpp"
 #include "app/runs/figures.hpp"
 #include "app/runs/logged_run.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
@@ -50,6 +51,7 @@ struct DigSample {
   bool regenerating = false;  ///< Any section's check is open.
   Obstruction obstruction = Obstruction::kNone;
   double error_true_m = 0.0;
+  double cross_track_true_m = 0.0;  ///< The same with its sign: left of the way is positive.
   double error_measured_m = std::nan("");
   double lambda = 0.0;
   Limit limit;
@@ -59,6 +61,8 @@ struct DigSample {
   std::array<double, kAxisCount> velocity_real_mps{};
   std::array<double, kPumpCount> pump_expected_pa{};
   std::array<double, kPumpCount> pump_real_pa{};
+  double swash_real = 0.0;  ///< Mean of the machine's pumps, of full swash.
+  PumpEnergy energy;
   double cycle_us = 0.0;  ///< Computing time of the controller's cycle.
 };
 
@@ -71,7 +75,12 @@ struct DigResult {
   double wall_s = 0.0;
   std::uint32_t rejected_frames = 0;
   double peak_chamber_pressure_pa = 0.0;
+  double loops = 0.0;  ///< Times round the path.
+  RealSpoolEdges spool_edges{};
 };
+
+/// What of the cross-track error is faster than this rings.
+inline constexpr double kRingingAbove_hz = 1.0;
 
 /// Effects of an obstacle.
 struct Recovery {
@@ -94,8 +103,11 @@ struct DigSummary {
   double peak_chamber_pressure_pa = 0.0;
   /// With something in the way; from 0.3 s after it let go, for 3 s.
   std::optional<Recovery> recovery;
-  double approach_s = 0.0;  ///< Until the path was reached.
-  double loop_s = 0.0;      ///< On the path.
+  double approach_s = 0.0;     ///< Until the path was reached.
+  double loop_s = 0.0;         ///< On the path.
+  ExcavatorCalm calm;          ///< The tip works.
+  double ringing_rms_m = 0.0;  ///< Of the true tip's cross-track error above kRingingAbove_hz.
+  double energy_per_loop_j = kAbsent;
   RunPace pace;
   /// Share of the time on the path for each limit that was active, by its name, "none" first.
   LimitShares limit_share;

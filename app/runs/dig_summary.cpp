@@ -37,57 +37,10 @@ std::optional<Recovery> recovery(const std::vector<DigSample>& samples) {
   return found;
 }
 
-}  // namespace
-
-DigSummary summarise(const DigResult& result) {
-  DigSummary summary;
-  Spread error_true;
-  Spread error_measured;
-  LimitCount limits(excavator_actuators());
-  double lambda_sum = 0.0;
-  long on_path = 0;
-  long below_1 = 0;
-  long regenerating = 0;
-  summary.lambda_min = 1.0;
-  for (const DigSample& sample : result.samples) {
-    if (!sample.on_path) {
-      continue;
-    }
-    if (on_path++ == 0) {
-      summary.approach_s = sample.time_s;
-    }
-    error_true.add(sample.error_true_m);
-    error_measured.add(sample.error_measured_m);
-    summary.lambda_min = std::min(summary.lambda_min, sample.lambda);
-    lambda_sum += sample.lambda;
-    below_1 += sample.lambda < 1.0 ? 1 : 0;
-    regenerating += sample.regenerating ? 1 : 0;
-    summary.loop_s = sample.time_s - summary.approach_s;
-    limits.add(sample.limit);
-  }
-  if (on_path == 0) {
-    summary.lambda_min = 0.0;
-  }
-  const auto share = [&](long count) {
-    return on_path > 0 ? static_cast<double>(count) / static_cast<double>(on_path) : 0.0;
-  };
-  summary.max_error_true_m = error_true.max();
-  summary.rmse_error_true_m = error_true.rms();
-  summary.max_error_measured_m = error_measured.max();
-  summary.rmse_error_measured_m = error_measured.rms();
-  summary.lambda_mean = on_path > 0 ? lambda_sum / static_cast<double>(on_path) : 0.0;
-  summary.lambda_below_1_share = share(below_1);
-  summary.regeneration_share = share(regenerating);
-  summary.peak_chamber_pressure_pa = result.peak_chamber_pressure_pa;
-  summary.recovery = recovery(result.samples);
-  summary.pace = pace_of(result.samples, result.wall_s);
-  summary.limit_share = limits.shares();
-  return summary;
-}
-
-const FigureTable<DigSummary>& dig_figures() {
+/// Errors, lambda, times and what an obstacle did.
+FigureTable<DigSummary> path_figures() {
   using S = DigSummary;
-  static const FigureTable<S> all = with_pace<S>({
+  return {
       {{"max_error_true_m", "path error of the true tip, max", kMillimetres, "max_error_true_m"},
        [](const S& s) { return s.max_error_true_m; }},
       {{"rmse_error_true_m", "path error of the true tip, RMSE", kMillimetres, "rmse_error_true_m"},
@@ -123,7 +76,78 @@ const FigureTable<DigSummary>& dig_figures() {
       {{"recovery.error_max_m", "path error of the true tip afterwards, max", kMillimetres,
         "recovery_error_max_m"},
        [](const S& s) { return s.recovery ? s.recovery->error_max_m : kAbsent; }},
-  });
+  };
+}
+
+}  // namespace
+
+DigSummary summarise(const DigResult& result) {
+  DigSummary summary;
+  Spread error_true;
+  Spread error_measured;
+  LimitCount limits(excavator_actuators());
+  ExcavatorCalmCount calm(result.spool_edges);
+  std::vector<double> cross_track_m;
+  double lambda_sum = 0.0;
+  long on_path = 0;
+  long below_1 = 0;
+  long regenerating = 0;
+  summary.lambda_min = 1.0;
+  for (const DigSample& sample : result.samples) {
+    if (!sample.on_path) {
+      continue;
+    }
+    if (on_path++ == 0) {
+      summary.approach_s = sample.time_s;
+    }
+    error_true.add(sample.error_true_m);
+    error_measured.add(sample.error_measured_m);
+    summary.lambda_min = std::min(summary.lambda_min, sample.lambda);
+    lambda_sum += sample.lambda;
+    below_1 += sample.lambda < 1.0 ? 1 : 0;
+    regenerating += sample.regenerating ? 1 : 0;
+    summary.loop_s = sample.time_s - summary.approach_s;
+    limits.add(sample.limit);
+    calm.add(sample, {sample.tip_true_m.x(), 0.0, sample.tip_true_m.y()});
+    cross_track_m.push_back(sample.cross_track_true_m);
+  }
+  if (on_path == 0) {
+    summary.lambda_min = 0.0;
+  }
+  const auto share = [&](long count) {
+    return on_path > 0 ? static_cast<double>(count) / static_cast<double>(on_path) : 0.0;
+  };
+  summary.max_error_true_m = error_true.max();
+  summary.rmse_error_true_m = error_true.rms();
+  summary.max_error_measured_m = error_measured.max();
+  summary.rmse_error_measured_m = error_measured.rms();
+  summary.lambda_mean = on_path > 0 ? lambda_sum / static_cast<double>(on_path) : 0.0;
+  summary.lambda_below_1_share = share(below_1);
+  summary.regeneration_share = share(regenerating);
+  summary.peak_chamber_pressure_pa = result.peak_chamber_pressure_pa;
+  summary.recovery = recovery(result.samples);
+  summary.calm = calm.figures();
+  summary.ringing_rms_m = ringing_rms(cross_track_m, kRingingAbove_hz);
+  summary.energy_per_loop_j = summary.calm.energy_per_j(result.loops);
+  summary.pace = pace_of(result.samples, result.wall_s);
+  summary.limit_share = limits.shares();
+  return summary;
+}
+
+const FigureTable<DigSummary>& dig_figures() {
+  using S = DigSummary;
+  static const FigureTable<S> all = with_pace(with_energy(joined<S>(
+      with_calm(path_figures()),
+      {
+          {{"tip_jerk_rms_mps3", "jerk of the true tip below 10 Hz, RMS", kMetresPerSecond3,
+            "tip_jerk_rms_mps3"},
+           [](const S& s) { return s.calm.jerk_rms_mps3; }},
+          {{"ringing_rms_m", "path error of the true tip above 1 Hz, RMS", kMillimetres,
+            "ringing_rms_m"},
+           [](const S& s) { return s.ringing_rms_m; }},
+          {{"energy_per_loop_j", "energy for one loop", kKilowattHours, "energy_per_loop_j"},
+           [](const S& s) { return s.energy_per_loop_j; }},
+      })));
   return all;
 }
 

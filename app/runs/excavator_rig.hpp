@@ -1,6 +1,9 @@
 #pragma once
 /// The excavator as a simulated machine kind, and the rigs of its runs.
 
+#include <cstddef>
+#include <numeric>
+
 #include "app/ecu/excavator_kind.hpp"
 #include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/plant/excavator_node.hpp"
@@ -20,6 +23,13 @@ struct ExcavatorSim : ecu::ExcavatorKind {
     return {machine.plant, start, port, machine.hash};
   }
 };
+
+/// Of the pumps that the machine has, of full swash.
+[[nodiscard]] inline double mean_swash(const plant::ExcavatorPlant& plant) {
+  const plant::ExcavatorPlant::PumpArray swash = plant.swash_ratios();
+  const auto pumps = static_cast<std::ptrdiff_t>(plant.profile().machine.pump_count);
+  return std::accumulate(swash.begin(), swash.begin() + pumps, 0.0) / static_cast<double>(pumps);
+}
 
 using ExcavatorRig = LoopbackRig<ExcavatorSim>;
 

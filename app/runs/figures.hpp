@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/runs/code_text.hpp"
@@ -31,6 +32,9 @@ inline constexpr ShownUnit kMegapascals = {"MPa", 1e-6, 1};
 inline constexpr ShownUnit kDegrees = {"deg", kDegreesPerRad, 1};
 inline constexpr ShownUnit kPercent = {"%", 100.0, 1};
 inline constexpr ShownUnit kRatio = {"", 1.0, 3};
+inline constexpr ShownUnit kPerSecond = {"/s", 1.0, 3};
+inline constexpr ShownUnit kMetresPerSecond3 = {"m/s3", 1.0, 2};
+inline constexpr ShownUnit kKilowattHours = {"kWh", 1.0 / 3.6e6, 3};
 inline constexpr ShownUnit kTimes = {"", 1.0, 0};
 inline constexpr ShownUnit kCount = {"", 1.0, 0, true};
 
@@ -46,6 +50,10 @@ struct FigureInfo {
 };
 inline constexpr int kFigureTextWidth = 50;
 
+/// Of every kind of run that has lambda: the sum of its changes from cycle to cycle.
+inline constexpr FigureInfo kLambdaVariation = {"lambda_variation_ps", "lambda, total variation",
+                                                kPerSecond, "lambda_variation_ps"};
+
 /// A figure and where a run's summary has it; not a number where it has none.
 template <class Summary>
 struct Figure {
@@ -54,6 +62,14 @@ struct Figure {
 };
 template <class Summary>
 using FigureTable = std::vector<Figure<Summary>>;
+
+/// One after the other.
+template <class Summary>
+[[nodiscard]] FigureTable<Summary> joined(FigureTable<Summary> table,
+                                          const FigureTable<Summary>& more) {
+  table.insert(table.end(), more.begin(), more.end());
+  return table;
+}
 
 inline constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
@@ -143,20 +159,19 @@ template <class Sample>
 template <class Summary>
 [[nodiscard]] FigureTable<Summary> with_pace(FigureTable<Summary> table) {
   using S = Summary;
-  const FigureTable<S> pace = {
-      {{"duration_s", "simulated time of the run", kSeconds},
-       [](const S& s) { return s.pace.duration_s; }},
-      {{"real_time_factor", "times faster than real", kTimes},
-       [](const S& s) { return s.pace.real_time_factor; }},
-      {{"cycles", "control cycles", kCount},
-       [](const S& s) { return static_cast<double>(s.pace.cycles); }},
-      {{"cycle_median_us", "controller's cycle, median", kMicroseconds},
-       [](const S& s) { return s.pace.cycle_median_us; }},
-      {{"cycle_max_us", "controller's cycle, max", kMicroseconds},
-       [](const S& s) { return s.pace.cycle_max_us; }},
-  };
-  table.insert(table.end(), pace.begin(), pace.end());
-  return table;
+  return joined<S>(std::move(table),
+                   {
+                       {{"duration_s", "simulated time of the run", kSeconds},
+                        [](const S& s) { return s.pace.duration_s; }},
+                       {{"real_time_factor", "times faster than real", kTimes},
+                        [](const S& s) { return s.pace.real_time_factor; }},
+                       {{"cycles", "control cycles", kCount},
+                        [](const S& s) { return static_cast<double>(s.pace.cycles); }},
+                       {{"cycle_median_us", "controller's cycle, median", kMicroseconds},
+                        [](const S& s) { return s.pace.cycle_median_us; }},
+                       {{"cycle_max_us", "controller's cycle, max", kMicroseconds},
+                        [](const S& s) { return s.pace.cycle_max_us; }},
+                   });
 }
 
 }  // namespace graben::runs

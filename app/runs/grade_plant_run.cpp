@@ -5,6 +5,7 @@
 #include "app/plant/dozer_node.hpp"
 #include "app/runs/figures.hpp"
 #include "app/runs/grade_truth.hpp"
+#include "app/runs/plant_faults.hpp"
 #include "can_dbc/generated/dozer_dbc.hpp"
 
 namespace graben::runs {
@@ -46,13 +47,15 @@ class GradeObserver {
 GradePlantResult run_plant(const machines::SimulatedDozer& machine,
                            const PlantRunOptions& options) {
   namespace ids = dbc::dozer;
+  PlantFaultSchedule faults(dozer_plant_faults(), options.faults);
   PlantBus<DozerSim> bus(options, {ids::SpoolCommand::kId, ids::PumpDisplacementCommand::kId,
-                                   ids::MotorDisplacementCommand::kId});
+                                   ids::MotorDisplacementCommand::kId, ids::EcuIdentity::kId});
   plant::DozerNode node(machine.plant, bus.port(), machine.hash);
   GradePlantResult result;
   GradeObserver observer(machine, result);
   bool has_let_go = false;
   result.bus = bus.run(Task::kGrade, [&](TimeUs now_us) {
+    faults.apply(now_us, node.faults(), bus.mark_port());
     node.step(now_us);
     observer.see(node);
     if (observer.through() && !has_let_go) {

@@ -81,6 +81,10 @@ struct GradeSummary {
   /// Of the slope of v_c; it counts as turned when v_c has gone kSpeedResolution_mps back.
   int sign_changes = 0;
   int corners = 0;  ///< Of the design between its ends.
+  double lambda_variation_ps = 0.0;
+  double spool_travel_ps = 0.0;  ///< Of the blade's real spool, like the next.
+  double spool_reversals_ps = 0.0;
+  double edge_jerk_rms_mps3 = 0.0;  ///< Of the true edge, see Jerk.
   RunPace pace;
   LimitShares limit_share;  ///< Of the time over the grade.
 };

@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 
+#include "app/runs/calm.hpp"
 #include "app/runs/grade_run.hpp"
 
 namespace graben::runs {
@@ -89,6 +90,29 @@ std::vector<GradeSample> samples_over_grade(const GradeResult& result) {
   return over;
 }
 
+/// Of the time over the grade.
+void add_calm(const machines::SimulatedDozer& machine, const GradeResult& result,
+              GradeSummary& summary) {
+  Variation lambda;
+  SpoolCalm spool({machine.plant.deadband_ratio, machine.plant.deadband_ratio});
+  Jerk jerk;
+  for (const GradeSample& sample : result.samples) {
+    if (sample.over_grade) {
+      lambda.add(sample.lambda);
+      spool.add(sample.spool_real);
+      jerk.add({sample.edge_m.x(), 0.0, sample.edge_m.y()});
+    } else {
+      lambda.pause();
+      spool.pause();
+      jerk.pause();
+    }
+  }
+  summary.lambda_variation_ps = lambda.per_s();
+  summary.spool_travel_ps = spool.travel_ps();
+  summary.spool_reversals_ps = spool.reversals_ps();
+  summary.edge_jerk_rms_mps3 = jerk.rms_mps3();
+}
+
 }  // namespace
 
 GradeSummary summarise(const machines::SimulatedDozer& machine, const GradeResult& result) {
@@ -130,6 +154,7 @@ GradeSummary summarise(const machines::SimulatedDozer& machine, const GradeResul
                         static_cast<std::size_t>(std::lround(kDeceleration_s * 100.0)));
   summary.sign_changes = turns.count();
   summary.corners = std::max(machine.profile.grade.count - 2, 0);
+  add_calm(machine, result, summary);
   summary.limit_share = limits.shares();
   summary.pace = pace_of(result.samples, result.wall_s);
   return summary;
@@ -168,6 +193,15 @@ const FigureTable<GradeSummary>& grade_figures() {
        [](const S& s) { return static_cast<double>(s.sign_changes); }},
       {{"corners", "corners of the design", kCount},
        [](const S& s) { return static_cast<double>(s.corners); }},
+      {kLambdaVariation, [](const S& s) { return s.lambda_variation_ps; }},
+      {{"spool_travel_ps", "blade's spool, full travels a second", kPerSecond, "spool_travel_ps"},
+       [](const S& s) { return s.spool_travel_ps; }},
+      {{"spool_reversals_ps", "blade's spool, changes of side a second", kPerSecond,
+        "spool_reversals_ps"},
+       [](const S& s) { return s.spool_reversals_ps; }},
+      {{"edge_jerk_rms_mps3", "jerk of the true edge below 10 Hz, RMS", kMetresPerSecond3,
+        "edge_jerk_rms_mps3"},
+       [](const S& s) { return s.edge_jerk_rms_mps3; }},
   });
   return all;
 }

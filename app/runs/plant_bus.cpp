@@ -15,8 +15,12 @@ constexpr TimeUs kTaskAfter_us = 100 * kMillisecondUs;
 constexpr TimeUs kRelease_us = 500 * kMillisecondUs;
 constexpr TimeUs kShift_us = 5 * kSecondUs;
 constexpr TimeUs kPause_us = kSecondUs;
+constexpr TimeUs kChange_us = 2 * kSecondUs;
+constexpr TimeUs kNoTask_us = 50 * kMillisecondUs;
 constexpr TimeUs kMostShifts = 10000;
 constexpr int kReopenCycles = 20;
+/// More than that is silence to whoever listens, and the machine may as well have stood still.
+constexpr std::uint64_t kMostMadeUp = 5;
 
 TimeUs microseconds(double time_s) { return static_cast<TimeUs>(std::llround(time_s * 1e6)); }
 
@@ -31,11 +35,12 @@ const plant::OperatorRequest kAtRest = {false, OperatorMode::kAutomatic, Task::k
 /// Everything that the operator does, in its order.
 std::vector<plant::OperatorPhase> schedule(const PlantRunOptions& options, Task task) {
   std::vector<plant::OperatorPhase> phases = {{0, kAtRest}};
+  const plant::OperatorRequest armed = {true, OperatorMode::kAutomatic, Task::kNone, 0.0};
+  const plant::OperatorRequest at_work = {true, OperatorMode::kAutomatic, task,
+                                          options.speed_override_ratio, options.task_number};
   const auto work_from = [&](TimeUs enable_us) {
-    phases.push_back({enable_us, {true, OperatorMode::kAutomatic, Task::kNone, 0.0}});
-    phases.push_back({enable_us + kTaskAfter_us,
-                      {true, OperatorMode::kAutomatic, task, options.speed_override_ratio,
-                       options.task_number}});
+    phases.push_back({enable_us, armed});
+    phases.push_back({enable_us + kTaskAfter_us, at_work});
   };
   const TimeUs begin_us = microseconds(options.enable_after_s);
   const TimeUs end_us = options.seconds > 0.0 ? microseconds(options.seconds) - kRelease_us
@@ -46,6 +51,13 @@ std::vector<plant::OperatorPhase> schedule(const PlantRunOptions& options, Task 
          pause_us += kPause_us + kShift_us) {
       phases.push_back({pause_us, kAtRest});
       work_from(pause_us + kPause_us);
+    }
+  }
+  if (options.player == Player::kChanges) {
+    for (TimeUs none_us = begin_us + kChange_us; none_us + kNoTask_us < end_us;
+         none_us += kChange_us) {
+      phases.push_back({none_us, armed});
+      phases.push_back({none_us + kNoTask_us, at_work});
     }
   }
   if (options.seconds > 0.0) {
@@ -74,14 +86,13 @@ class Reopener {
 
 }  // namespace
 
-// The operator reads nothing; its port lets through the least there is: the status, whose id all
-// kinds share.
+// All that the operator reads is the controller's stamp.
 template <class Kind>
 PlantBus<Kind>::PlantBus(const PlantRunOptions& options, const std::vector<std::uint32_t>& ids)
     : options_(options),
       port_(options.interface, ids),
-      operator_port_(options.interface, {Kind::Dbc::EcuStatus::kId}),
-      driver_(operator_port_) {
+      operator_port_(options.interface, {Kind::Dbc::EcuIdentity::kId}),
+      driver_(operator_way_) {
   open(port_, options.interface);
   open(operator_port_, options.interface);
   if (const ErrorText error = catch_stop_signals(); !error.empty()) {
@@ -97,21 +108,32 @@ void PlantBus<Kind>::let_go() {
 template <class Kind>
 PlantBusFigures PlantBus<Kind>::run(Task task, const std::function<void(TimeUs)>& machine) {
   driver_.set_schedule(schedule(options_, task));
-  // What has come in while the machine was made is not fresh any more.
-  open(port_, options_.interface);
-  open(operator_port_, options_.interface);
   CyclicClock clock(microseconds(static_cast<double>(kPlantPeriod_us) * 1e-6 / options_.speed));
   const TimeUs end_us = microseconds(options_.seconds);
   Reopener reopener(port_);
   Reopener operator_reopener(operator_port_);
   PlantBusFigures figures;
   int cycle = 0;
+  std::uint64_t made_up = 0;
   for (TimeUs now_us = 0; !stop_requested() && (end_us == 0 || now_us < end_us);
        now_us += kPlantPeriod_us) {
-    static_cast<void>(clock.wait());
-    reopener.look(cycle);
-    operator_reopener.look(cycle);
-    ++cycle;
+    if (made_up > 0) {
+      --made_up;
+    } else {
+      made_up = std::min(clock.wait().skipped, kMostMadeUp);
+      if (cycle == 0) {
+        // What has come in while the machine was made is not fresh any more: two frames of a sender
+        // at once look like two senders.
+        open(port_, options_.interface);
+        open(operator_port_, options_.interface);
+      }
+      reopener.look(cycle);
+      operator_reopener.look(cycle);
+      ++cycle;
+    }
+    // The last of them is the one that is due.
+    machine_way_.set_quiet(made_up > 0);
+    operator_way_.set_quiet(made_up > 0);
     machine(now_us);
     if (options_.player != Player::kNobody) {
       driver_.step(now_us);

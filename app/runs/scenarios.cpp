@@ -8,11 +8,13 @@
 
 #include "app/machines/task_text.hpp"
 #include "app/plant/random.hpp"
+#include "app/runs/found_text.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben::runs {
 namespace {
 
+/// Off the path; what is compared with then goes on.
 constexpr double kNeverSlow_m = 1e3;
 constexpr double kRadpsPerRpm = kTwoPi / 60.0;
 
@@ -24,6 +26,26 @@ machines::Errors errors_of(const std::string& name) {
   return static_cast<machines::Errors>(found - kErrorNames.begin());
 }
 
+void set_law(const std::string& name, ExcavatorProfile& profile) {
+  if (name.empty()) {
+    return;
+  }
+  const auto* found = std::find(kLawNames.begin(), kLawNames.end(), name);
+  if (found == kLawNames.end()) {
+    throw std::runtime_error(fmt::format("--law: '{}' is unknown", name));
+  }
+  profile.control.law = static_cast<ControlLaw>(found - kLawNames.begin());
+  if (profile.control.law == ControlLaw::kOil && !profile.oil.known()) {
+    throw std::runtime_error("--law oil: the profile has no section [oil]");
+  }
+}
+
+std::string errors_text(const std::string& errors, const machines::Found& found) {
+  const std::string told = found_text(found);
+  return told.empty() ? fmt::format("errors {}", errors)
+                      : fmt::format("errors {}, found {}", errors, told);
+}
+
 }  // namespace
 
 machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machine,
@@ -31,9 +53,13 @@ machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machin
   machines::Scenario tried = scenario.scenario;
   tried.errors = errors_of(scenario.errors);
   machines::SimulatedExcavator result = machines::arranged(machine, tried);
+  set_law(scenario.law, result.profile);
   if (scenario.fixed_lambda) {
     result.profile.control.lambda_policy = McvPolicy::kFixed;
-    // Nor does anything else slow it.
+    // Nor does anything else slow it, or stop it off its path. A boom that sinks against its open
+    // spool, since another drive takes the flow, is what lambda is for.
+    result.profile.bus.spool_feedback = false;
+    result.profile.safety.tube_m = kNeverSlow_m;
     result.profile.control.slow_error_m = kNeverSlow_m;
   }
   return result;
@@ -54,7 +80,10 @@ std::string scenario_text(const DigScenario& scenario) {
   if (scenario.scenario.dead_time_s) {
     parts.push_back(fmt::format("dead time {} s", *scenario.scenario.dead_time_s));
   }
-  parts.push_back(fmt::format("errors {}", scenario.errors));
+  if (!scenario.law.empty()) {
+    parts.push_back("law " + scenario.law);
+  }
+  parts.push_back(errors_text(scenario.errors, scenario.scenario.found));
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -89,7 +118,12 @@ machines::SimulatedDozer arranged(const machines::SimulatedDozer& machine,
   }
   tried.errors = scenario.errors == "all";
   tried.seed = seed;
-  return machines::arranged(machine, tried);
+  machines::SimulatedDozer result = machines::arranged(machine, tried);
+  if (tried.policy == SpeedPolicy::kConstant) {
+    // To be measured, not to be stopped.
+    result.profile.safety.tube_m = kNeverSlow_m;
+  }
+  return result;
 }
 
 std::string scenario_text(const machines::SimulatedDozer& nominal, const GradeScenario& scenario) {
@@ -103,6 +137,7 @@ machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machin
                                       const TaskScenario& scenario) {
   machines::Scenario tried;
   tried.errors = errors_of(scenario.errors);
+  tried.found = scenario.found;
   tried.seed = scenario.seed;
   machines::SimulatedExcavator result = machines::arranged(machine, tried);
   if (scenario.swash_ratio) {
@@ -111,6 +146,10 @@ machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machin
     result.plant.swash_ratio = result.profile.dig_swash_ratio;
   }
   return result;
+}
+
+std::string machine_text(const TaskScenario& scenario) {
+  return errors_text(scenario.errors, scenario.found);
 }
 
 machines::TaskFile planned_task(const TaskScenario& scenario, const ExcavatorProfile& profile) {

@@ -16,19 +16,25 @@
 namespace graben::runs {
 
 /// Errors that an excavator's controller does not know of, in the order of machines::Errors.
-inline constexpr std::array<const char*, 5> kErrorNames = {"none", "stroke-bias", "sensors",
-                                                           "parameters", "all"};
+inline constexpr std::array<const char*, 6> kErrorNames = {"none",       "stroke-bias", "sensors",
+                                                           "parameters", "kim",         "all"};
+
+/// Feedback of an excavator's controller, in the order of ControlLaw.
+inline constexpr std::array<const char*, 3> kLawNames = {"servo", "oil", "kim"};
 
 struct DigScenario {
   machines::Scenario scenario;  ///< Its errors come from the name below.
   bool fixed_lambda = false;    ///< Lambda stays 1, and nothing else slows the machine.
   std::string errors = "none";  ///< Of kErrorNames.
+  std::string law;              ///< Of kLawNames, instead of the profile's; empty: that.
 };
 
-/// The machine of this scenario. Throws std::runtime_error for errors that have no such name.
+/// The machine of this scenario. Throws std::runtime_error for a law that its profile has not the
+/// figures for, and for errors that have no such name.
 [[nodiscard]] machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machine,
                                                     const DigScenario& scenario);
-/// "soil, stiff oil, dead time 0.15 s, errors all"; the same text, the same scenario.
+/// "soil, dead time 0.15 s, errors kim, found oil 0.7 GPa, exponent 1.4"; the same text, the same
+/// scenario.
 [[nodiscard]] std::string scenario_text(const DigScenario& scenario);
 
 /// Start of the bucket and length of its way unless told: machines::dig_start(), once round; in
@@ -55,6 +61,7 @@ struct GradeScenario {
 struct TaskScenario {
   std::string task = "flatten";  ///< File or shipped name.
   std::string errors = "none";   ///< Of kErrorNames.
+  machines::Found found;         ///< What the machine is told to be.
   std::uint64_t seed = 1;
   std::vector<double> start;  ///< Teeth x, y, z in m and attitude in rad; where the task begins.
   double speed_override_ratio = 1.0;
@@ -66,6 +73,8 @@ struct TaskScenario {
 /// The machine of this scenario.
 [[nodiscard]] machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machine,
                                                     const TaskScenario& scenario);
+/// "errors kim, found oil 0.7 GPa": what the machine is, not what it is to do.
+[[nodiscard]] std::string machine_text(const TaskScenario& scenario);
 /// The task as its file has it, but for the pace of its first line where that is told. Throws
 /// std::runtime_error where it can't be planned on this machine.
 [[nodiscard]] machines::TaskFile planned_task(const TaskScenario& scenario,

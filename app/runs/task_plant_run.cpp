@@ -4,6 +4,7 @@
 
 #include "app/plant/excavator_node.hpp"
 #include "app/runs/figures.hpp"
+#include "app/runs/plant_faults.hpp"
 #include "app/runs/task_listener.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "firmware/excavator/tasks/line.hpp"
@@ -59,14 +60,17 @@ plant::ExcavatorStart start_of(const TaskProgram& program) {
 TaskPlantResult run_task_plant(const machines::SimulatedExcavator& machine,
                                const TaskProgram& program, const PlantRunOptions& options) {
   namespace ids = dbc::excavator;
-  PlantBus<ExcavatorSim> bus(options, {ids::SpoolCommand::kId, ids::PumpCommand::kId,
-                                       ids::SwingCommand::kId, ids::TaskStatus::kId});
+  PlantFaultSchedule faults(excavator_plant_faults(), options.faults);
+  PlantBus<ExcavatorSim> bus(options,
+                             {ids::SpoolCommand::kId, ids::PumpCommand::kId, ids::SwingCommand::kId,
+                              ids::TaskStatus::kId, ids::EcuIdentity::kId});
   TaskListener listener(bus.port(), options.task_number);
   plant::ExcavatorNode node(machine.plant, start_of(program), listener, machine.hash);
   TaskPlantResult result;
   TaskObserver observer(program, result);
   result.bus = bus.run(Task::kProgram, [&](TimeUs now_us) {
     listener.begin_cycle(now_us);
+    faults.apply(now_us, node.faults(), bus.mark_port());
     node.step(now_us);
     observer.see(node, listener);
   });

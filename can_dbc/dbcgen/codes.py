@@ -113,7 +113,7 @@ def _fault(where: str, name: str, values: dict, blocks: tuple[str, ...]) -> Faul
     if not kinds or any(kind not in KINDS for kind in kinds):
         raise row.error(f"kinds are some of {', '.join(KINDS)}")
     fault = Fault(name, row.take("code", int), row.text("doc"), row.text("text"), row.text("help"),
-                  does.take("reaction", str, ("stop", "degrade")), does.take("lamp", str, ("red", "amber")),
+                  does.take("reaction", str, ("stop", "degrade", "warn")), does.take("lamp", str, ("red", "amber")),
                   does.take("fmi", int, tuple(FMIS)), does.take("blocks", str, blocks),
                   does.take("cuts", str, ("pilot",), default="") == "pilot", tuple(kinds))
     row.end()

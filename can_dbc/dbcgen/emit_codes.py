@@ -46,9 +46,8 @@ def enums(codes: Codes) -> str:
 
 
 def _row(fault: Fault) -> str:
-    stop, red, cuts = (str(flag).lower() for flag in (fault.reaction == "stop", fault.lamp == "red", fault.cuts_pilot))
-    reaction = "kStop" if stop == "true" else "kDegrade"
-    return (f"    {{Fault::k{fault.name}, Reaction::{reaction}, {fault.fmi}, {red}, {cuts}, "
+    red, cuts = (str(flag).lower() for flag in (fault.lamp == "red", fault.cuts_pilot))
+    return (f"    {{Fault::k{fault.name}, Reaction::k{fault.reaction.capitalize()}, {fault.fmi}, {red}, {cuts}, "
             f"ArmBlock::k{fault.blocks}}},")
 
 

@@ -89,6 +89,9 @@ struct OperatorCommand {
   static constexpr Field kTaskNumber{
       "TaskNumber", "", 40, 8, 0U, 250U, 254, 255, 0U,
       0, 1.0, 1.0};
+  static constexpr Field kEcho{
+      "Echo", "", 48, 16, 0U, 64255U, 65279, 65535, 65535U,
+      0, 1.0, 1.0};
 
   /// Deadman: motion only while it is On.
   Coded<Enable> enable{Enable::kOff, RawState::kValid};
@@ -100,6 +103,9 @@ struct OperatorCommand {
   Physical speed_override_ratio{physical_of(kSpeedOverride, 0U), RawState::kValid};
   /// Which of the ECU's task files Program means, from 0. [0 .. 250 on the bus]
   Count task_number{0U, RawState::kValid};
+  /// The last EcuIdentity.Stamp that the station heard; 0 before the first. Not available: it
+  /// cannot tell. [0 .. 64255 on the bus]
+  Count echo{0U, RawState::kNotAvailable};
 
   /// Calls visitor(field, signal) for each signal.
   template <class Self, class Visitor>
@@ -109,6 +115,7 @@ struct OperatorCommand {
     visitor(kTask, self.task);
     visitor(kSpeedOverride, self.speed_override_ratio);
     visitor(kTaskNumber, self.task_number);
+    visitor(kEcho, self.echo);
   }
   static constexpr OperatorCommand decode(const Payload& payload) {
     return decode_message<OperatorCommand>(payload);
@@ -116,7 +123,8 @@ struct OperatorCommand {
   constexpr Payload encode() const { return encode_message(*this); }
 };
 
-/// What the machine is; arming is refused while it differs from the ECU.
+/// What the machine is; arming is refused while it differs from the ECU. Sent also in answer to
+/// each EcuIdentity, in the sender's next cycle.
 struct MachineIdentity {
   static constexpr const char* kName = "MachineIdentity";
   static constexpr const char* kSender = "Machine";
@@ -133,17 +141,24 @@ struct MachineIdentity {
   static constexpr Field kDbcVersion{
       "DbcVersion", "", 32, 8, 0U, 250U, 254, 255, 255U,
       0, 1.0, 1.0};
+  static constexpr Field kEcho{
+      "Echo", "", 40, 16, 0U, 64255U, 65279, 65535, 65535U,
+      0, 1.0, 1.0};
 
   /// Hash of the machine profile that the sender runs with. [0 .. 4294967295 on the bus]
   Count profile_hash{0U, RawState::kValid};
   /// DbcVersion of the sender. [0 .. 250 on the bus]
   Count dbc_version{0U, RawState::kNotAvailable};
+  /// The last EcuIdentity.Stamp that the machine heard; 0 before the first. Not available: it
+  /// cannot tell. [0 .. 64255 on the bus]
+  Count echo{0U, RawState::kNotAvailable};
 
   /// Calls visitor(field, signal) for each signal.
   template <class Self, class Visitor>
   static constexpr void visit(Self& self, Visitor&& visitor) {
     visitor(kProfileHash, self.profile_hash);
     visitor(kDbcVersion, self.dbc_version);
+    visitor(kEcho, self.echo);
   }
   static constexpr MachineIdentity decode(const Payload& payload) {
     return decode_message<MachineIdentity>(payload);
@@ -227,6 +242,15 @@ struct EcuStatus {
     kDisplacementRunaway = 35,
     kTrackSpeedDisagrees = 36,
     kTaskUnknown = 37,
+    kStreamLate = 38,
+    kSecondController = 39,
+    kEngineStopped = 40,
+    kWrongDirection = 41,
+    kMotionImplausible = 42,
+    kPathLeft = 43,
+    kPoseDisagrees = 44,
+    kStalling = 45,
+    kStalled = 46,
   };
 
   static constexpr Field kMode{
@@ -242,7 +266,7 @@ struct EcuStatus {
       "Lambda", "", 16, 16, 0U, 50000U, 65279, 65535, 0U,
       0, 1.0, 50000.0};
   static constexpr Field kFault{
-      "Fault", "", 32, 8, 0U, 37U, 254, 255, 0U,
+      "Fault", "", 32, 8, 0U, 46U, 254, 255, 0U,
       0, 1.0, 1.0};
   static constexpr Field kCycleTime{
       "CycleTime", "us", 40, 16, 0U, 64255U, 65279, 65535, 0U,
@@ -303,17 +327,24 @@ struct EcuIdentity {
   static constexpr Field kDbcVersion{
       "DbcVersion", "", 32, 8, 0U, 250U, 254, 255, 255U,
       0, 1.0, 1.0};
+  static constexpr Field kStamp{
+      "Stamp", "", 40, 16, 0U, 64255U, 65279, 65535, 65535U,
+      0, 1.0, 1.0};
 
   /// Hash of the machine profile that the sender runs with. [0 .. 4294967295 on the bus]
   Count profile_hash{0U, RawState::kValid};
   /// DbcVersion of the sender. [0 .. 250 on the bus]
   Count dbc_version{0U, RawState::kNotAvailable};
+  /// Another one in each frame. Operator and machine repeat it as Echo: one that comes late shows
+  /// how long frames are on their way. [0 .. 64255 on the bus]
+  Count stamp{0U, RawState::kNotAvailable};
 
   /// Calls visitor(field, signal) for each signal.
   template <class Self, class Visitor>
   static constexpr void visit(Self& self, Visitor&& visitor) {
     visitor(kProfileHash, self.profile_hash);
     visitor(kDbcVersion, self.dbc_version);
+    visitor(kStamp, self.stamp);
   }
   static constexpr EcuIdentity decode(const Payload& payload) {
     return decode_message<EcuIdentity>(payload);
@@ -366,8 +397,9 @@ struct EcuHealth {
 
   /// A bit for each reason, from bit 0: stroke, pressure, swash, engine speed, operator, spool,
   /// identity, bus, messages, unreachable, cycle, manual, task not at rest, enable not fresh, fault
-  /// latched, stopping, pose, transmission, not centred, valve, controller, sensor error, task. 0
-  /// when armed. [0 .. 4294967295 on the bus]
+  /// latched, stopping, pose, transmission, not centred, valve, controller, sensor error, task,
+  /// stream late, second controller, engine stopped, path. 0 when armed. [0 .. 4294967295 on the
+  /// bus]
   Count why_not_armed{0U, RawState::kValid};
   /// Heap allocations of the process since its first cycle; stays at 13 from there on. [0 .. 13 on
   /// the bus]

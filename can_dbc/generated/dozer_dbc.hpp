@@ -19,7 +19,7 @@
 
 namespace graben::dbc::dozer {
 
-inline constexpr std::uint8_t kDbcVersion = 3;
+inline constexpr std::uint8_t kDbcVersion = 4;
 
 using common::EEC1;
 using common::OperatorCommand;

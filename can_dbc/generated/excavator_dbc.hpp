@@ -17,7 +17,7 @@
 
 namespace graben::dbc::excavator {
 
-inline constexpr std::uint8_t kDbcVersion = 5;
+inline constexpr std::uint8_t kDbcVersion = 6;
 
 using common::EEC1;
 using common::OperatorCommand;

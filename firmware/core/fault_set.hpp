@@ -21,8 +21,10 @@ class FaultSet {
   [[nodiscard]] constexpr Fault first() const { return after(Fault::kNone); }
   /// The one with the next higher number than `fault`; kNone if there is none.
   [[nodiscard]] constexpr Fault after(Fault fault) const {
-    for (int code = static_cast<int>(fault) + 1; code < kFaultCount; ++code) {
-      if (has(static_cast<Fault>(code))) {
+    int code = static_cast<int>(fault) + 1;
+    // Nearly always there is none.
+    for (std::uint64_t rest = bits_ >> code; rest != 0 && code < kFaultCount; rest >>= 1U, ++code) {
+      if ((rest & 1U) != 0) {
         return static_cast<Fault>(code);
       }
     }

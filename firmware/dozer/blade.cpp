@@ -3,11 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/numeric/constants.hpp"
+
 namespace graben {
 namespace {
 
 /// Largest speed towards an end of the stroke, per metre left.
 constexpr double kEndGain_ps = 4.0;
+
+/// Of the stroke, against what the oil does; 50 to 80 mm of the cutting edge. No pressure tells a
+/// blade that the ground holds from a sensor that does not see it move.
+constexpr double kUnseen_m = 0.015;
+constexpr double kOff_m = 0.015;
 
 double direction_rad(const Eigen::Vector2d& vector) { return std::atan2(vector.y(), vector.x()); }
 
@@ -68,6 +75,8 @@ DozerBank dozer_bank(const DozerProfile& profile) {
   row.extend_area_m2 = profile.blade.cap_area_m2();
   row.retract_area_m2 = profile.blade.rod_area_m2();
   row.metering.spool_travel_m = 1.0;
+  row.supply = {profile.implement.valve_flow_max_m3ps,
+                profile.implement.displacement_m3prev * profile.implement.efficiency / kTwoPi};
   row.spool_to_duty = profile.implement.spool_to_duty;
   row.control.spool_rate_ps = control.spool_rate_ps;
   row.control.spool_threshold = control.spool_threshold;
@@ -83,6 +92,8 @@ DozerBank dozer_bank(const DozerProfile& profile) {
   row.watch.rest_s = rest_s(row);
   row.watch.uncommanded_m = profile.safety.uncommanded_m;
   row.watch.stuck_m = profile.safety.stuck_m;
+  row.watch.unseen_m = kUnseen_m;
+  row.watch.off_m = kOff_m;
   return bank;
 }
 

@@ -28,10 +28,10 @@ BladeSituation situation(const BladeKinematics& blade, const DozerValid& valid,
   return now;
 }
 
-/// A track's speed. Where one of them is not that of its displacements, none is believed: feedback
-/// of a wrong one would drive its track off.
+/// A track's speed. Where one of them is not that of its displacements, none is believed, and one
+/// that is outvoted never: feedback of a wrong one would drive its track off.
 double speed_of_track_mps(const HstProfile& hst, const DozerValid& valid, unsigned track) {
-  return valid.degraded.has(Fault::kTrackSpeedDisagrees)
+  return valid.degraded.has(Fault::kTrackSpeedDisagrees) || valid.track_outvoted[track]
              ? track_speed_mps(hst, valid.engine_radps, valid.pump_ratio[track],
                                valid.motor_ratio[track])
              : valid.track_speed_mps[track];
@@ -67,7 +67,7 @@ DozerOutputs DozerController::step(const DozerInputs& inputs, TimeUs now_us) {
   if (decision.active()) {
     describe_motion(motion, valid.degraded, outputs.status);
   }
-  remember(motion, decision, gated);
+  remember(valid, motion, decision, gated, cycle.period_s);
   return outputs;
 }
 
@@ -75,8 +75,20 @@ DozerValid DozerController::validate_and_watch(const DozerInputs& inputs, const 
                                                TimeUs now_us) {
   DozerValid valid =
       validate(profile_, drives(), inputs, memory_.last.drives.moving, now_us, memory_.validation);
-  watch(profile_, drives(), memory_.last, cycle.period_s, memory_.watch, valid);
+  watch(profile_, drives(), memory_.last, cycle.elapsed_s, memory_.watch, valid);
+  tell_stall(memory_.stall, profile_.safety.stall_s, valid);
+  tell_tube(memory_.tube, valid);
+  choose_task(valid, cycle.period_s);
   return valid;
+}
+
+void DozerController::choose_task(DozerValid& valid, double period_s) {
+  const bool at_rest = spools_centred(drives(), valid.drive) && tracks_at_rest(valid);
+  const double stroke_m = valid.blade().stroke_m;
+  const TaskChoice task =
+      task_after_change(memory_.change, {valid.task, valid.task_number}, memory_.last.drives.moving,
+                        at_rest, {&stroke_m, 1}, period_s);
+  valid.task = task.task;
 }
 
 void DozerController::estimate(const DozerValid& valid, double period_s) {
@@ -152,9 +164,15 @@ void DozerController::describe_motion(const Motion& motion, const FaultSet& degr
   status.available_flow_m3ps = motion.available_flow_m3ps;
 }
 
-void DozerController::remember(const Motion& motion, const ModeDecision& decision,
-                               const DozerGateResult& gated) {
+void DozerController::remember(const DozerValid& valid, const Motion& motion,
+                               const ModeDecision& decision, const DozerGateResult& gated,
+                               double period_s) {
   const bool active = decision.active();
+  next_tube_above(active, motion.blade.error_m, profile_.safety.tube_m, memory_.tube);
+  const double got_mps = std::min(motion.speed.state.speed_mps, valid.velocity_mps);
+  next_stall(active, valid.speed_override_ratio > 0.0,
+             got_mps / (profile_.travel.speed_desired_mps * valid.speed_override_ratio),
+             profile_.safety.stall_s, period_s, memory_.stall);
   memory_.blade = active ? motion.blade.state : BladeState{};
   memory_.speed = active ? motion.speed.state : SpeedState{};
   memory_.speed_mps = active ? motion.speed.state.speed_mps : 0.0;

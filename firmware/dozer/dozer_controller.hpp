@@ -8,6 +8,9 @@
 #include "firmware/dozer/travel/speed_limit.hpp"
 #include "firmware/dozer/travel/tracks.hpp"
 #include "firmware/safety/cycle.hpp"
+#include "firmware/safety/stall_watch.hpp"
+#include "firmware/safety/task_change.hpp"
+#include "firmware/safety/tube.hpp"
 
 namespace graben {
 
@@ -63,11 +66,16 @@ class DozerController {
     std::array<TrackState, kTrackCount> track{};
     PositionState position;
     BrakeState brake;
+    TaskChangeState change;
+    StallState stall;
+    TubeState tube;
   };
 
   [[nodiscard]] DriveRows drives() const { return setup_.bank.rows(); }
   [[nodiscard]] DozerValid validate_and_watch(const DozerInputs& inputs, const Cycle& cycle,
                                               TimeUs now_us);
+  /// The task as it may be followed: a change of it passes standstill.
+  void choose_task(DozerValid& valid, double period_s);
   /// Takes in where the machine is: what the blade has cut, what lies ahead.
   void estimate(const DozerValid& valid, double period_s);
   /// Blade and travel speed, and the displacements for it.
@@ -77,7 +85,8 @@ class DozerController {
                                          double period_s) const;
   void describe_motion(const Motion& motion, const FaultSet& degraded, DozerStatus& status) const;
   /// Keeps what the next cycle needs of this one.
-  void remember(const Motion& motion, const ModeDecision& decision, const DozerGateResult& gated);
+  void remember(const DozerValid& valid, const Motion& motion, const ModeDecision& decision,
+                const DozerGateResult& gated, double period_s);
 
   const DozerSetup& setup_;
   const DozerProfile& profile_;

@@ -123,6 +123,8 @@ struct DozerSafety {
   double spool_tolerance = 0.0;
   double uncommanded_m = 0.0;
   double stuck_m = 0.0;
+  double tube_m = 0.0;   ///< See leaves_tube(); of the cutting edge about the design.
+  double stall_s = 0.0;  ///< So long it may hardly get on, see stall_watch.hpp.
   double displacement_tolerance = 0.0;  ///< Of full displacement.
   double displacement_settle_s = 0.0;   ///< Within which a displacement reaches its command.
   double track_speed_tolerance_mps = 0.0;

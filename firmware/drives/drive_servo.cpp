@@ -61,6 +61,16 @@ void filter(const DriveFeedback& feedback, double period_s, ServoState& servo) {
   }
 }
 
+/// A correction never pushes a drive faster at its end than that allows.
+double within_ends(const DriveRow& drive, const ServoState& servo, double wanted_mps,
+                   double correction_mps) {
+  const double end_gain_ps = drive.control.stroke_end_gain_ps;
+  const double in_mps = -end_gain_ps * (servo.stroke_m - drive.least_travel_m);
+  const double out_mps = end_gain_ps * (drive.most_travel_m - servo.stroke_m);
+  return std::clamp(wanted_mps + correction_mps, std::min(in_mps, wanted_mps),
+                    std::max(out_mps, wanted_mps));
+}
+
 }  // namespace
 
 void servo_at_rest(double stroke_m, ServoState& servo) {
@@ -125,12 +135,14 @@ double corrected_mps(const DriveRow& drive, const ServoState& servo, double want
   }
   const double raised = std::max(last_lambda, drive.feedback.least_lambda);
   const double gain_ps = speed_override_ratio * drive.feedback.gain_ps / raised;
-  const double end_gain_ps = drive.control.stroke_end_gain_ps;
-  const double in_mps = -end_gain_ps * (servo.stroke_m - drive.least_travel_m);
-  const double out_mps = end_gain_ps * (drive.most_travel_m - servo.stroke_m);
-  return std::clamp(
-      wanted_mps + gain_ps * servo.correction_m + speed_override_ratio * servo.bias_mps,
-      std::min(in_mps, wanted_mps), std::max(out_mps, wanted_mps));
+  return within_ends(drive, servo, wanted_mps,
+                     gain_ps * servo.correction_m + speed_override_ratio * servo.bias_mps);
+}
+
+double corrected_by(const DriveRow& drive, const ServoState& servo, double wanted_mps,
+                    double correction_mps, double last_lambda) {
+  return within_ends(drive, servo, wanted_mps,
+                     correction_mps / std::max(last_lambda, drive.feedback.least_lambda));
 }
 
 void next_loads(double pressure_filter_s, Span<const ValidDrive> seen, double period_s,

@@ -73,6 +73,10 @@ void servo_after(const DriveRow& drive, EcuMode mode, double asked_mps, double s
                                    double wanted_mps, double last_lambda,
                                    double speed_override_ratio, bool hold);
 
+/// The wanted velocity with this correction, bounded and raised as in corrected_mps().
+[[nodiscard]] double corrected_by(const DriveRow& drive, const ServoState& servo, double wanted_mps,
+                                  double correction_mps, double last_lambda);
+
 /// A drive's load as the valve's model compensates it.
 struct LoadState {
   double cap_pa = 0.0;

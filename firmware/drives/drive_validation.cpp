@@ -19,6 +19,7 @@ void read_drive(const DriveWatch& bounds, const DriveInputs& inputs, const Fresh
   const BelievedResult stroke =
       believe(inputs.stroke_m, {bounds.fastest_mps, bounds.jump_margin_m, Fault::kStrokeJump},
               fresh, accepted);
+  valid.stroke_is_new = stroke.state.signal.stamp_us != accepted.signal.stamp_us;
   accepted = stroke.state;
   faults.add(stroke.faults);
   read_required({&accepted.signal, &valid.stroke_m, Fault::kStrokeMissing, Fault::kNone}, fresh,

@@ -14,7 +14,8 @@ struct ValidDrive {
   double cap_pressure_pa = 0.0;
   double rod_pressure_pa = 0.0;
   double spool_ratio = 0.0;
-  bool load_known = false;  ///< Both pressures may be used.
+  bool load_known = false;     ///< Both pressures may be used.
+  bool stroke_is_new = false;  ///< It came since the last cycle.
 };
 
 /// Reads stroke and, where they are sensed, spool and pressures of each row. kStrokeMissing,

@@ -26,11 +26,15 @@ FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus, const DriveC
   // Without their strokes and spools the drives cannot be checked, and the fault is there anyway.
   if (last.moving && valid.fault == Fault::kNone) {
     stops.add(watch_motion(drives, seen, last.asked_mps, period_s, state.motion));
+    stops.add(watch_direction(drives, seen, state.direction));
+    stops.add(watch_flow(drives, seen, valid.engine_radps, period_s, state.flow));
     if (watch_pressures(drives, seen, period_s, state.pressure)) {
       degrade(Fault::kPressureImplausible, valid);
     }
   } else {
     std::fill(state.motion.begin(), state.motion.end(), MotionState{});
+    std::fill(state.direction.begin(), state.direction.end(), DirectionState{});
+    std::fill(state.flow.begin(), state.flow.end(), FlowState{});
     std::fill(state.pressure.begin(), state.pressure.end(), PressurePair{});
   }
   return stops;

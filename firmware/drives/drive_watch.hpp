@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "firmware/drives/direction_watch.hpp"
+#include "firmware/drives/flow_watch.hpp"
 #include "firmware/drives/motion_watch.hpp"
 #include "firmware/drives/spool_watch.hpp"
 #include "firmware/safety/common_inputs.hpp"
@@ -37,6 +39,8 @@ template <int kMost>
 struct DriveWatchState {
   std::array<SpoolState, kMost> spool;
   std::array<MotionState, kMost> motion{};
+  std::array<DirectionState, kMost> direction{};
+  std::array<FlowState, kMost> flow{};
   std::array<PressurePair, kMost> pressure{};
   int echo_cycles = 0;   ///< In a row, that the echo has differed.
   bool closing = false;  ///< It was in motion, and some spool has not been in its middle since.
@@ -49,12 +53,16 @@ struct DriveWatchView {
   DriveWatchView(DriveWatchState<kMost>& state)
       : spool(state.spool),
         motion(state.motion),
+        direction(state.direction),
+        flow(state.flow),
         pressure(state.pressure),
         echo_cycles(state.echo_cycles),
         closing(state.closing) {}
 
   Span<SpoolState> spool;
   Span<MotionState> motion;
+  Span<DirectionState> direction;
+  Span<FlowState> flow;
   Span<PressurePair> pressure;
   int& echo_cycles;
   bool& closing;

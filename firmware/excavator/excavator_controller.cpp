@@ -33,7 +33,8 @@ ExcavatorSetup::ExcavatorSetup(const ExcavatorProfile& machine, const TaskBook& 
       bank(excavator_bank(profile)),
       kinematics(profile.geometry),
       field(profile, kinematics.planar()),
-      valve(mcv_machine(profile)) {}
+      valve(mcv_machine(profile)),
+      oil(profile.control.law == ControlLaw::kOil ? OilGains(OilDesign{}) : OilGains()) {}
 
 ExcavatorController::ExcavatorController(const ExcavatorSetup& setup)
     : setup_(setup), profile_(setup.profile) {}
@@ -45,7 +46,9 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   const TaskAim aim =
       program != nullptr ? task_aim(setup_.kinematics, *program, memory_.task.state) : TaskAim{};
   estimate(valid, aim, cycle);
-  const Motion motion = wanted_motion(valid, program, aim, cycle.period_s);
+  const KinematicState now = setup_.kinematics.planar().state(valid.strokes_m().head<kAxisCount>());
+  estimate_oil(valid, now, cycle.last_mode);
+  const Motion motion = wanted_motion(valid, now, program, aim, cycle.period_s);
   const McvSolution solution = flow_limited(valid, motion, cycle.period_s);
   ModeDecision decision =
       decide_mode(memory_.cycle, cycle, valid, first_of({motion.fault, solver_fault(solution)}),
@@ -61,6 +64,7 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
     describe_motion(motion, solution, valid.degraded, outputs.status);
   }
   remember(valid, motion, solution.point.lambda, decision, outputs, cycle.period_s);
+  lead_spools(outputs);
   return outputs;
 }
 
@@ -68,8 +72,16 @@ ExcavatorValid ExcavatorController::validate_and_watch(const ExcavatorInputs& in
                                                        const Cycle& cycle, TimeUs now_us) {
   ExcavatorValid valid =
       validate(profile_, drives(), inputs, memory_.last.moving, now_us, memory_.accepted);
-  watch(profile_, drives(), memory_.last, cycle.period_s, memory_.watch, valid);
+  watch(profile_, drives(), memory_.last, cycle.elapsed_s, memory_.watch, valid);
   stop(task_faults(valid, setup_.book.count), valid);
+  tell_stall(memory_.stall, profile_.safety.stall_s, valid);
+  tell_tube(memory_.tube, valid);
+  const DriveVector travel_m = valid.strokes_m();
+  const TaskChoice task = task_after_change(
+      memory_.change, {valid.task, valid.task_number}, memory_.last.moving,
+      spools_centred(drives(), valid.drive), {travel_m.data(), drives().count()}, cycle.period_s);
+  valid.task = task.task;
+  valid.task_number = task.number;
   return valid;
 }
 
@@ -104,10 +116,10 @@ const TaskProgram* ExcavatorController::running(const ExcavatorValid& valid) con
 }
 
 ExcavatorController::Motion ExcavatorController::wanted_motion(const ExcavatorValid& valid,
+                                                               const KinematicState& now,
                                                                const TaskProgram* program,
                                                                const TaskAim& aim,
                                                                double period_s) const {
-  const KinematicState now = setup_.kinematics.planar().state(valid.strokes_m().head<kAxisCount>());
   Motion motion;
   if (program != nullptr) {
     follow(*program, aim, valid.speed_override_ratio, period_s, motion);
@@ -130,8 +142,10 @@ void ExcavatorController::dig(const ExcavatorValid& valid, const KinematicState&
   }
   motion.corrected_mps = corrected_velocity(drives(), motion.wanted_mps, memory_.servo,
                                             memory_.lambda.value(), valid.speed_override_ratio);
+  correct_on_oil(valid, now, motion.wanted_mps, motion.corrected_mps);
   slow_at_ends(drives(), valid.drive, span_of(motion.corrected_mps), motion.cap);
   motion.path_error_m = path_error_m(setup_.field.path(), now.tip);
+  motion.off_m = motion.path_error_m;
 }
 
 void ExcavatorController::follow(const TaskProgram& program, const TaskAim& aim,
@@ -151,6 +165,7 @@ void ExcavatorController::follow(const TaskProgram& program, const TaskAim& aim,
   motion.cap = motion_cap(profile_, drives(), setup_.kinematics, program.fences,
                           strokes_then_m(drives(), memory_.servo), motion.corrected_mps);
   motion.path_error_m = motion.task.path_error_m;
+  motion.off_m = motion.task.off_m;
 }
 
 McvSolution ExcavatorController::flow_limited(const ExcavatorValid& valid, const Motion& motion,
@@ -189,6 +204,13 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
   std::copy_n(asked_mps.data(), kDriveCount, memory_.last.asked_mps.begin());
   memory_.expected_mps = followed * motion.cap.factor * motion.wanted_mps;
   memory_.swing_wanted_mps = swing_of(motion.task.wanted_mps);
+  next_tube(decision.active() && valid.task != Task::kNone, motion.off_m, profile_.safety.tube_m,
+            memory_.tube);
+  // A plan that waits for its drives asks for motion though it wants none now.
+  const bool plans = motion.task.holds && valid.speed_override_ratio > 0.0;
+  next_stall(decision.active(), plans || !motion.wanted_mps.isZero(),
+             followed * motion.cap.factor * motion.task.pace_ratio, profile_.safety.stall_s,
+             period_s, memory_.stall);
   if (!decision.active() || valid.task != Task::kProgram) {
     memory_.task = {};
     return;

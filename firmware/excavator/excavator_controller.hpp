@@ -2,13 +2,18 @@
 /// The excavator's controller: one step from signals to commands, 100 times a second.
 
 #include "firmware/drives/drive_gate.hpp"
+#include "firmware/drives/spool_lead.hpp"
 #include "firmware/drives/velocity_cap.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/excavator/field/dig_field.hpp"
+#include "firmware/excavator/oil/oil_law.hpp"
 #include "firmware/excavator/safety/excavator_validation.hpp"
 #include "firmware/excavator/tasks/task_follow.hpp"
 #include "firmware/mcv/optimiser.hpp"
 #include "firmware/safety/cycle.hpp"
+#include "firmware/safety/stall_watch.hpp"
+#include "firmware/safety/task_change.hpp"
+#include "firmware/safety/tube.hpp"
 
 namespace graben {
 
@@ -24,6 +29,7 @@ struct ExcavatorSetup {
   SwingKinematics kinematics;
   DigField field;
   McvMachine valve;
+  OilGains oil;  ///< All 0 unless control.law has the oil as a state.
 };
 
 /// Belongs to the tests; nothing of ours defines it.
@@ -51,7 +57,8 @@ class ExcavatorController {
     DriveVector corrected_mps = DriveVector::Zero();  ///< With the servos' corrections.
     VelocityCap cap;
     double path_error_m = 0.0;
-    TaskWant task;  ///< Of a program.
+    double off_m = 0.0;  ///< What the tube is laid around.
+    TaskWant task;       ///< Of a program.
     Fault fault = Fault::kNone;
   };
 
@@ -64,9 +71,15 @@ class ExcavatorController {
     LastCommands<kDriveCount> last;
     std::array<LoadState, kDriveCount> load{};
     ExcavatorServo servo;
+    OilState oil;
+    OilModes modes;
+    std::array<SpoolModel, kDriveCount> spool;
     /// lambda V_L^d, without corrections: what the servo expects of the drives.
     DriveVector expected_mps = DriveVector::Zero();
     TaskMemory task;
+    TaskChangeState change;
+    StallState stall;
+    TubeState tube;
     double swing_wanted_mps = 0.0;  ///< V_L^d of the last cycle's program.
   };
 
@@ -79,9 +92,18 @@ class ExcavatorController {
   void estimate(const ExcavatorValid& valid, const TaskAim& aim, const Cycle& cycle);
   /// The program that is being followed and goes on to be asked for; null without one.
   [[nodiscard]] const TaskProgram* running(const ExcavatorValid& valid) const;
-  [[nodiscard]] Motion wanted_motion(const ExcavatorValid& valid, const TaskProgram* program,
-                                     const TaskAim& aim, double period_s) const;
+  [[nodiscard]] Motion wanted_motion(const ExcavatorValid& valid, const KinematicState& now,
+                                     const TaskProgram* program, const TaskAim& aim,
+                                     double period_s) const;
   void dig(const ExcavatorValid& valid, const KinematicState& now, Motion& motion) const;
+  /// Boom and arm corrected by the oil's state instead of the servo, as far as it leads.
+  void correct_on_oil(const ExcavatorValid& valid, const KinematicState& now,
+                      const DriveVector& wanted_mps, DriveVector& corrected_mps) const;
+  /// Observer of the oil after the last cycle's command.
+  void estimate_oil(const ExcavatorValid& valid, const KinematicState& now, EcuMode mode);
+  /// Duties that lead through the spools' lag. The watches know of those without: that is where
+  /// the spools are to be.
+  void lead_spools(ExcavatorOutputs& outputs);
   void follow(const TaskProgram& program, const TaskAim& aim, double speed_override_ratio,
               double period_s, Motion& motion) const;
   [[nodiscard]] McvSolution flow_limited(const ExcavatorValid& valid, const Motion& motion,

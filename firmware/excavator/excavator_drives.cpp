@@ -1,5 +1,8 @@
 #include "firmware/excavator/excavator_drives.hpp"
 
+#include <algorithm>
+
+#include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 #include "firmware/excavator/swing.hpp"
 #include "firmware/hydraulics/flow.hpp"
 
@@ -9,11 +12,31 @@ namespace {
 /// Half of what a stroke sensor resolves.
 constexpr double kEndSlack_m = 0.05e-3;
 
+/// That the tip may be off before a stroke is taken for wrong, m, and what that makes of a stroke
+/// at least, which is what oil, bands and noise make of a healthy one, and at most.
+constexpr double kTipOff_m = 0.08;
+constexpr double kOffLeast_m = 0.008;
+constexpr double kOffMost_m = 0.010;
+/// Against its open spool; what the hoses' oil gives is less.
+constexpr double kWrong_m = 0.012;
+/// A stroke that stands still is told with so much of that.
+constexpr double kUnseenShare = 0.3;
+
+/// Way of the tip over each stroke in the middle of all, 1.
+Eigen::Vector3d leverage(const ExcavatorProfile& profile) {
+  Eigen::Vector3d strokes_m;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    strokes_m[axis] = 0.5 * profile.geometry.cylinder[static_cast<unsigned>(axis)].stroke_m;
+  }
+  const ExcavatorKinematics kinematics(profile.geometry);
+  return kinematics.state(strokes_m).jacobian.topRows<2>().colwise().norm();
+}
+
 const PumpProfile& pump_of(const ExcavatorProfile& profile, const SpoolProfile& spool) {
   return profile.pump[static_cast<unsigned>(spool.pump)];
 }
 
-DriveRow cylinder_row(const ExcavatorProfile& profile, int axis) {
+DriveRow cylinder_row(const ExcavatorProfile& profile, int axis, double leverage) {
   const CylinderGeometry& cylinder = profile.geometry.cylinder[static_cast<unsigned>(axis)];
   DriveRow row = section_row(profile, axis);
   set_cylinder_range(cylinder.stroke_m, row);
@@ -26,7 +49,10 @@ DriveRow cylinder_row(const ExcavatorProfile& profile, int axis) {
   row.control.at_end = {LimitKind::kStrokeEnd, static_cast<std::uint8_t>(axis)};
   row.watch.fastest_mps = fastest_mps(profile, row);
   row.watch.uncommanded_m = profile.safety.uncommanded_m;
+  row.watch.wrong_m = kWrong_m;
   row.watch.stuck_m = profile.safety.stuck_m;
+  row.watch.off_m = std::clamp(kTipOff_m / leverage, kOffLeast_m, kOffMost_m);
+  row.watch.unseen_m = kUnseenShare * row.watch.off_m;
   return row;
 }
 
@@ -56,6 +82,10 @@ DriveRow section_row(const ExcavatorProfile& profile, int drive) {
   row.feedback = {control.servo_gain_ps,      control.servo_most_m,       control.servo_most_m,
                   control.servo_least_lambda, control.servo_frequency_hz, control.servo_damping,
                   profile.line.trim_ps2,      profile.line.trim_most_mps};
+  if (control.law == ControlLaw::kKim) {
+    row.feedback.gain_ps = 0.0;
+    row.feedback.bias_ps2 = 0.0;
+  }
   row.watch.senses_spool = profile.bus.spool_feedback;
   row.watch.settle_s = safety.settle_s;
   row.watch.spool_tolerance = safety.spool_tolerance;
@@ -66,8 +96,9 @@ DriveRow section_row(const ExcavatorProfile& profile, int drive) {
 ExcavatorBank excavator_bank(const ExcavatorProfile& profile) {
   ExcavatorBank bank;
   bank.count = profile.drive_count;
+  const Eigen::Vector3d tip_over_stroke = leverage(profile);
   for (int axis = 0; axis < kAxisCount; ++axis) {
-    bank.row[static_cast<unsigned>(axis)] = cylinder_row(profile, axis);
+    bank.row[static_cast<unsigned>(axis)] = cylinder_row(profile, axis, tip_over_stroke[axis]);
   }
   if (profile.has_swing()) {
     bank.row.back() = swing_row(profile);

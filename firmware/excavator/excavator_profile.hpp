@@ -82,8 +82,34 @@ struct DigPath {
   double attitude_at_x_max_rad = 0.0;
 };
 
+/// One link as a rigid body, for how it swings on its oil.
+struct LinkMass {
+  double mass_kg = 0.0;
+  double inertia_kgm2 = 0.0;                           ///< About the mass centre, out of plane.
+  Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();  ///< Link frame.
+};
+
+/// Oil columns and what they carry, as the controller takes them. All of it may be off: too soft
+/// and too heavy does less harm than too stiff and too light.
+struct OilProfile {
+  double bulk_modulus_pa = 0.0;                     ///< 0: nothing is known of the oil.
+  std::array<double, kAxisCount> dead_volume_m3{};  ///< Each of an axis' two chambers, with hose.
+  std::array<LinkMass, kAxisCount> link;
+  double spool_time_constant_s = 0.0;  ///< 1 / natural frequency of a spool.
+
+  [[nodiscard]] bool known() const { return bulk_modulus_pa > 0.0; }
+};
+
+/// Feedback around the valve's model; the numbers have no meaning outside.
+enum class ControlLaw : std::uint8_t {
+  kServo = 0,  ///< Integrated error of each drive, see drive_servo.hpp.
+  kOil = 1,    ///< The oil as a state, see oil_law.hpp; the servo where it can't lead.
+  kKim = 2,    ///< None: the field alone leads back to the path.
+};
+
 /// Convergence of the field, changes of commands, feedback. Ranges are checked where it is read.
 struct ControlProfile {
+  ControlLaw law = ControlLaw::kServo;
   double convergence_length_m = 0.0;  ///< Distance at which the field points at 45 deg to the path.
   double attitude_gain_ps = 0.0;      ///< Attitude error to attitude rate.
   double attitude_rate_max_radps = 0.0;  ///< Of the field.
@@ -118,6 +144,8 @@ struct SafetyProfile {
   double spool_tolerance = 0.0;  ///< Of the spool's travel.
   double uncommanded_m = 0.0;    ///< A cylinder may go so far where its spool does not lead.
   double stuck_m = 0.0;          ///< Asked of a cylinder whose stroke stands still.
+  double tube_m = 0.0;           ///< See leaves_tube(); of the teeth about path and plan.
+  double stall_s = 0.0;          ///< So long it may hardly get on, see stall_watch.hpp.
   double swing_uncommanded_rad = 0.0;  ///< As uncommanded_m, of the swing.
   double swing_stuck_rad = 0.0;        ///< As stuck_m, of the swing.
   double swash_tolerance = 0.0;        ///< Of full swash.
@@ -167,6 +195,7 @@ struct ExcavatorProfile {
   double dig_speed_mps = 0.0;                        ///< Of the tip along the path.
   std::array<double, kPumpCount> dig_swash_ratio{};  ///< What the pumps are told to be at.
   ControlProfile control;
+  OilProfile oil;
   SafetyProfile safety;
 
   [[nodiscard]] bool has_swing() const { return drive_count == kDriveCount; }

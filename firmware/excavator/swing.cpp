@@ -11,6 +11,13 @@ namespace {
 constexpr double kSensedMost_rad = 3.2;
 /// Noise, and frames that were lost. 0.1 m at teeth 7 m away.
 constexpr double kJumpMargin_rad = 0.015;
+/// Against its open spool.
+constexpr double kWrong_rad = 0.003;
+/// Against what the oil does; 0.07 and 0.10 m at teeth 7 m away.
+constexpr double kUnseen_rad = 0.010;
+constexpr double kOff_rad = 0.015;
+/// Of its full speed a worn motor leaks so much at the sensors' largest pressure.
+constexpr double kLeakShare = 0.10;
 /// 0.2 mm of teeth 10 m away.
 constexpr double kEndSlack_rad = 0.02e-3;
 
@@ -38,7 +45,9 @@ DriveRow swing_row(const ExcavatorProfile& profile) {
   row.control.at_end = {LimitKind::kSwingEnd, 0};
   row.control.has_end_stops = false;
   row.control.holds_itself = true;
-  row.feedback.gain_ps = profile.control.swing_servo_gain_ps;
+  if (profile.control.law != ControlLaw::kKim) {
+    row.feedback.gain_ps = profile.control.swing_servo_gain_ps;
+  }
   row.feedback.plan_most_m =
       std::min(row.feedback.error_most_m, profile.control.swing_servo_most_rad * lever_m);
   row.watch.fastest_mps =
@@ -47,7 +56,11 @@ DriveRow swing_row(const ExcavatorProfile& profile) {
   row.watch.sensed_least_m = -(kSensedMost_rad * lever_m);
   row.watch.sensed_most_m = kSensedMost_rad * lever_m;
   row.watch.uncommanded_m = profile.safety.swing_uncommanded_rad * lever_m;
+  row.watch.wrong_m = kWrong_rad * lever_m;
   row.watch.stuck_m = profile.safety.swing_stuck_rad * lever_m;
+  row.watch.unseen_m = kUnseen_rad * lever_m;
+  row.watch.off_m = kOff_rad * lever_m;
+  row.watch.leak_mpspa = kLeakShare * swing.speed_max_radps * lever_m / row.watch.pressure_rail_pa;
   // A platform at full speed goes on turning against its reliefs when its spool closes at once.
   row.watch.rest_s = rest_s(row) + swing.speed_max_radps / swing.acceleration_max_radps2;
   return row;

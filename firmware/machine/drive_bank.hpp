@@ -46,15 +46,27 @@ struct DriveWatch {
   double jump_margin_m = 0.0;   ///< At once: noise, and frames that were lost.
   double sensed_least_m = 0.0;  ///< Range into which the stroke is taken ...
   double sensed_most_m = 0.0;
-  double sensed_margin_m = 0.0;   ///< ... and how far beyond it is implausible: bias, mounting.
-  bool senses_load = true;        ///< Pressures of both sides are measured.
-  bool senses_spool = true;       ///< Its position is; else it counts as where it was sent.
-  double settle_s = 0.0;          ///< A spool has reached its duty after this and the dead time.
-  double spool_tolerance = 0.0;   ///< Of the spool's travel.
-  double uncommanded_m = 0.0;     ///< Way that the drive may go where its spool does not lead.
-  double stuck_m = 0.0;           ///< Asked of a drive whose stroke stands still.
+  double sensed_margin_m = 0.0;  ///< ... and how far beyond it is implausible: bias, mounting.
+  bool senses_load = true;       ///< Pressures of both sides are measured.
+  bool senses_spool = true;      ///< Its position is; else it counts as where it was sent.
+  double settle_s = 0.0;         ///< A spool has reached its duty after this and the dead time.
+  double spool_tolerance = 0.0;  ///< Of the spool's travel.
+  double uncommanded_m = 0.0;    ///< Way that the drive may go where its spool does not lead.
+  double wrong_m = 0.0;          ///< Way against its spool, pushed by its oil; 0: not watched.
+  double stuck_m = 0.0;          ///< Asked of a drive whose stroke stands still.
+  // 0: its flow is not watched.
+  double unseen_m = 0.0;          ///< That its oil moves a drive whose stroke stands still.
+  double off_m = 0.0;             ///< Of a stroke from all that its oil can have done.
+  double leak_mpspa = 0.0;        ///< Speed that it may lose by its own leakage, per pressure.
   double rest_s = 0.0;            ///< Until it has come to rest after its spool has closed.
   double pressure_rail_pa = 0.0;  ///< Where the pressure sensors end.
+};
+
+/// Of a valve whose inlet meters the flow whatever the load, and its pump; without one the metering
+/// edges make the flow.
+struct DriveSupply {
+  double valve_flow_m3ps = 0.0;  ///< At full opening; 0: metering edges.
+  double pump_m3prad = 0.0;      ///< Per radian of the engine.
 };
 
 struct DriveRow {
@@ -64,6 +76,7 @@ struct DriveRow {
   double retract_area_m2 = 0.0;
   SpoolProfile spool;
   SpoolMetering metering;
+  DriveSupply supply;
   /// Opening (|x| / x_m, 0 .. 1) to duty (0 .. 1). Its first value is the duty at which the spool
   /// begins to open; neutral is duty 0 always.
   MonotoneTable spool_to_duty;

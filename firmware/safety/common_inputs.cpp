@@ -57,11 +57,14 @@ void read_machine(const BusCapabilities& bus, const MachineInputs& inputs,
   read_bus(inputs.link, valid);
   const Signal<double>& speed = inputs.engine_speed_radps;
   const bool known = fresh.number(speed) && speed.value <= kMostOverspeed * engine.rated_radps;
+  valid.idle_radps = engine.idle_radps;
   valid.engine_radps = known ? speed.value : engine.idle_radps;
   if (!known) {
     valid.faults.add(Fault::kEngineSpeedMissing);
+  } else if (speed.value < kRunningShare * engine.idle_radps) {
+    valid.faults.add(Fault::kEngineStopped);
   }
-  valid.stand_in = bus.lacks_any();
+  valid.stand_in = bus.lacks_any() || inputs.link.cannot_answer;
   const bool echoed = bus.valve_echo && fresh.holds(inputs.valve_enabled);
   valid.valve_enabled = echoed && inputs.valve_enabled.value;
   if (bus.valve_echo && !echoed) {
@@ -88,8 +91,21 @@ void sort_faults(bool moving, std::initializer_list<Bridge> bridges, CommonValid
 }
 
 namespace {
-constexpr double kSlowAfter_s = 0.5;
+constexpr double kSlowAfter_s = 1.0;
+constexpr double kOverrideAfter_s = 0.2;
+
+/// A lower speed counts at once, a higher one after the last lower one has been long ago.
+void hold_override(double asked_ratio, double period_s, SlowingState& state) {
+  state.override_for_s = std::max(0.0, state.override_for_s - period_s);
+  if (asked_ratio <= state.override_ratio) {
+    state.override_ratio = asked_ratio;
+    state.override_for_s = kOverrideAfter_s;
+  } else if (state.override_for_s <= 0.0) {
+    state.override_ratio = asked_ratio;
+  }
 }
+
+}  // namespace
 
 void stop(const FaultSet& faults, CommonValid& inputs) {
   inputs.faults.add(faults);
@@ -103,12 +119,21 @@ void degrade(Fault fault, CommonValid& inputs) {
   inputs.degraded.add(fault);
 }
 
+void warn(Fault fault, CommonValid& inputs) { inputs.warned.add(fault); }
+
 SlowingState slow_down(double speed_ratio, const SlowingState& last, bool moving, double period_s,
                        CommonValid& inputs) {
   if (!moving) {
     return {};
   }
   SlowingState state = last;
+  if (inputs.task == Task::kNone) {
+    state.override_ratio = 1.0;
+    state.override_for_s = 0.0;
+  } else {
+    hold_override(inputs.speed_override_ratio, period_s, state);
+    inputs.speed_override_ratio = state.override_ratio;
+  }
   if (!inputs.degraded.empty()) {
     state.faults.add(inputs.degraded);
     state.for_s = kSlowAfter_s;
@@ -119,6 +144,9 @@ SlowingState slow_down(double speed_ratio, const SlowingState& last, bool moving
     }
   }
   inputs.degraded = state.faults;
+  if (inputs.degraded.has(Fault::kEngineSpeedMissing)) {
+    inputs.engine_radps = std::min(inputs.engine_radps, inputs.idle_radps);
+  }
   if (!inputs.degraded.empty()) {
     inputs.speed_override_ratio *= speed_ratio;
   }

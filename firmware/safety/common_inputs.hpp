@@ -16,18 +16,23 @@ struct CommonValid {
   Fault fault = Fault::kNone;  ///< First thing that stops.
   FaultSet faults;             ///< All that is missing or implausible.
   FaultSet degraded;           ///< Those of them that slow and do not stop.
+  FaultSet warned;             ///< Said; nothing else comes of them.
   bool enable = false;         ///< Fresh, valid and given.
   bool automatic = false;
-  bool stand_in = false;  ///< The bus lacks something that the profile replaces.
+  bool stand_in = false;  ///< The bus, or a station, lacks something that is checked elsewhere.
   Task task = Task::kNone;
   int task_number = -1;  ///< Of Task::kProgram; below 0 none was given.
   double speed_override_ratio = 0.0;
   bool valve_enabled = false;
   double engine_radps = 0.0;  ///< The profile's idle where the measured one is lost.
+  double idle_radps = 0.0;    ///< The profile's.
 };
 
 /// The machine names itself every second; it may miss one time.
 inline constexpr double kIdentityTimeout_s = 2.5;
+
+/// Share of idle below which an engine does not run by itself.
+inline constexpr double kRunningShare = 0.8;
 
 /// Bounds of an engine's speed.
 struct EngineRange {
@@ -38,7 +43,8 @@ struct EngineRange {
 /// Operator, bus, identity, the valve's echo (missing: no feedback of the valve), as far as the bus
 /// carries them, and the engine's speed. That frame is the one without protection, and a flow that
 /// is not there would let the machine go faster: missing, or above the rated speed by more than any
-/// engine, it is idle's.
+/// engine, it is idle's. An engine that is measured below kRunningShare of idle does not run
+/// (kEngineStopped): it is cranked, or stalls.
 void read_machine(const BusCapabilities& bus, const MachineInputs& inputs,
                   const EngineRange& engine, const Freshness& fresh, TimeUs now_us,
                   CommonValid& valid);
@@ -58,6 +64,8 @@ void sort_faults(bool moving, std::initializer_list<Bridge> bridges, CommonValid
 struct SlowingState {
   FaultSet faults;
   double for_s = 0.0;
+  double override_ratio = 1.0;  ///< Least that the operator has allowed of late ...
+  double override_for_s = 0.0;  ///< ... and how long it still counts.
 };
 
 /// Adds faults that stop; what came in as the first stays it.
@@ -66,9 +74,13 @@ void stop(const FaultSet& faults, CommonValid& inputs);
 /// Adds one that only slows.
 void degrade(Fault fault, CommonValid& inputs);
 
-/// The operator's speed times `speed_ratio` while anything is degraded, and for 0.5 s after: a
-/// value that comes and goes must not make the machine jerk. Outside motion nothing is slowed or
-/// remembered.
+/// Adds one that is only said.
+void warn(Fault fault, CommonValid& inputs);
+
+/// The operator's speed times `speed_ratio` while anything is degraded, and for 1 s after: a value
+/// that comes and goes must not make the machine jerk. For the same reason the engine counts as
+/// idling for as long as its speed does, and the operator's speed is the least of
+/// the last 0.2 s. Outside motion nothing is slowed or remembered.
 [[nodiscard]] SlowingState slow_down(double speed_ratio, const SlowingState& last, bool moving,
                                      double period_s, CommonValid& inputs);
 

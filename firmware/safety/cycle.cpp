@@ -13,6 +13,18 @@ constexpr double kLongestPeriod_s = 0.02;
 constexpr TimeUs kStalled_us = 50 * kMillisecondUs;
 /// A cycle that comes later than this after the last one is an overrun.
 constexpr TimeUs kLate_us = 15 * kMillisecondUs;
+constexpr TimeUs kCycle_us = 10 * kMillisecondUs;
+/// The bucket of late cycles: what it holds, and which part of the time it loses.
+constexpr TimeUs kBucket_us = 60 * kMillisecondUs;
+constexpr TimeUs kLeak = 10;
+
+/// The bucket a cycle on.
+TimeUs bucket_after(TimeUs late_us, TimeUs elapsed_us) {
+  const TimeUs left_us = late_us - std::max<TimeUs>(elapsed_us, 0) / kLeak;
+  const TimeUs filled_us =
+      elapsed_us > kLate_us ? std::min(elapsed_us, kStalled_us) - kCycle_us : 0;
+  return std::max<TimeUs>(left_us, 0) + filled_us;
+}
 
 }  // namespace
 
@@ -27,10 +39,11 @@ TimeWatchResult watch_time(const TimeState& last, TimeUs now_us) {
   TimeWatchResult result;
   result.elapsed_s = static_cast<double>(std::clamp<TimeUs>(elapsed_us, 0, kStalled_us)) * 1e-6;
   result.period_s = std::min(result.elapsed_s, kLongestPeriod_s);
-  result.state = {now_us, elapsed_us > kLate_us ? std::min(last.late_cycles + 1, 2) : 0, true};
+  result.state = {now_us, elapsed_us > kLate_us ? std::min(last.late_cycles + 1, 2) : 0,
+                  bucket_after(last.late_us, elapsed_us), true};
   if (elapsed_us > kStalled_us) {
     result.fault = Fault::kCycleStalled;
-  } else if (result.state.late_cycles >= 2) {
+  } else if (result.state.late_cycles >= 2 || result.state.late_us > kBucket_us) {
     result.fault = Fault::kCycleOverrun;
   }
   return result;
@@ -87,7 +100,8 @@ void end_cycle(const ModeDecision& decision, const CommonValid& valid, CycleMemo
   status.faults.add(decision.request.fault);
   status.why_not_armed = why_not_armed(mode, decision.request, status.faults);
   status.faults.add(mode.fault);
-  status.fault = mode.fault != Fault::kNone ? mode.fault : valid.degraded.first();
+  status.faults.add(valid.warned);
+  status.fault = first_of({mode.fault, valid.degraded.first(), valid.warned.first()});
   memory.mode = mode;
   memory.pilot = pressure.state;
 }

@@ -17,19 +17,23 @@ namespace graben {
 struct TimeState {
   TimeUs last_us = 0;
   int late_cycles = 0;  ///< In a row.
+  TimeUs late_us = 0;   ///< What late cycles have filled into the bucket, see watch_time().
   bool has_stepped = false;
 };
 
 struct TimeWatchResult {
   /// kCycleStalled: so long without a cycle that it is not known what the machine did meanwhile.
-  /// kCycleOverrun: the second in a row that came late.
+  /// kCycleOverrun: the second in a row that came late, or late ones too often.
   Fault fault = Fault::kNone;
   double elapsed_s = 0.0;  ///< Since the last cycle, up to what is a stall; 0 in the first.
   double period_s = 0.0;   ///< The same for what may change by so much a second.
   TimeState state;
 };
 
-/// `now_us` must not fall from call to call.
+/// A cycle is late that comes more than 15 ms after the last one. Each late one fills what it is
+/// late by into a bucket, which loses a tenth of the time that passes; more than 60 ms in it is an
+/// overrun too. So one stall of up to 50 ms is let pass; three of 40 ms within 200 ms, or every
+/// other cycle 6 ms late, are not. `now_us` must not fall from call to call.
 [[nodiscard]] TimeWatchResult watch_time(const TimeState& last, TimeUs now_us);
 
 /// State of the pilot pressure from cycle to cycle.

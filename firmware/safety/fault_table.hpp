@@ -15,6 +15,8 @@ enum class Reaction : std::uint8_t {
   kDegrade = 1,
   /// Neutral in the same cycle, enable withdrawn; in motion it stays until the operator re-arms.
   kStop = 2,
+  /// Said and shown; the machine goes on as it is.
+  kWarn = 3,
 };
 
 struct FaultRow {

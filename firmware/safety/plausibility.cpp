@@ -5,6 +5,9 @@
 
 namespace graben {
 
+Freshness::Freshness(double timeout_s, TimeUs now_us)
+    : timeout_us_(static_cast<TimeUs>(timeout_s * kMicrosecondsPerSecond)), now_us_(now_us) {}
+
 void read_required(const Required& row, const Freshness& fresh, FaultSet& faults) {
   if (fresh.number(*row.from)) {
     *row.to = row.from->value;

@@ -12,8 +12,7 @@ inline constexpr double kMicrosecondsPerSecond = 1e6;
 
 class Freshness {
  public:
-  Freshness(double timeout_s, TimeUs now_us)
-      : timeout_us_(static_cast<TimeUs>(timeout_s * kMicrosecondsPerSecond)), now_us_(now_us) {}
+  Freshness(double timeout_s, TimeUs now_us);
 
   [[nodiscard]] bool in_time(TimeUs stamp_us) const {
     // A stamp from the future is as useless as an old one. No difference with a stamp: any number

@@ -29,10 +29,11 @@ enum class BusState : std::uint8_t { kActive = 0, kPassive = 1, kOff = 2, kDown 
 /// State of bus and process beside the signals.
 struct LinkInputs {
   BusState bus = BusState::kDown;
-  FaultSet message_faults;      ///< kMessageCorrupt, kMessageSequence, kMessageMasquerade.
+  FaultSet message_faults;      ///< Of messages and their senders, as the bus side finds them.
   bool out_of_range = false;    ///< A frame since the last cycle was refused for a value.
   int dropped_cycles = 0;       ///< In a row, whose command the bus did not take.
   bool stop_requested = false;  ///< The process was told to end.
+  bool cannot_answer = false;   ///< A station cannot say when it heard us: no kStreamLate of it.
 };
 
 /// Of a hydraulic drive. Of a motor the ports stand for the sides: extending first.
@@ -68,7 +69,7 @@ struct MachineStatus {
   FaultSet faults;                  ///< All that are there now, and the one that is latched.
   std::uint32_t why_not_armed = 0;  ///< Bits of ArmBlock; 0 when Armed or Active.
   Limit limit;
-  bool stand_in = false;  ///< The bus lacks something that the profile replaces.
+  bool stand_in = false;  ///< The bus, or a station, lacks something that is checked elsewhere.
   double lambda = 0.0;    ///< Share of the wanted speed that is followed, 0 .. 1.
 };
 

@@ -31,11 +31,13 @@ static_assert(same_code(bus::OperatorCommand::kTask.raw_max, Task::kProgram));
 static_assert(bus::EcuStatus::kFault.raw_max == kFaultCount - 1);
 static_assert(bus::EcuStatus::kLimitKind.raw_max == kLimitKindCount - 1);
 static_assert(bus::EcuHealth::kWhyNotArmed.raw_max == UINT32_MAX && kArmBlockCount <= 32);
-static_assert(same_code(bus::EcuStatus::Fault::kTaskUnknown, Fault::kTaskUnknown));
+static_assert(same_code(bus::EcuStatus::Fault::kStalled, Fault::kStalled));
 static_assert(same_code(bus::EcuStatus::LimitKind::kOffPath, LimitKind::kOffPath));
 // For LimitKind::kDegraded the index is a fault's number.
 static_assert(bus::EcuStatus::kLimitIndex.raw_max >= kFaultCount - 1);
 static_assert(kDm1FirstSpn + kFaultCount <= 524288U);
+
+static_assert((bus::EcuStatus::kId & 0xFFU) == kOwnAddress);
 
 constexpr std::uint32_t non_negative(TimeUs time_us) {
   const TimeUs low = time_us < 0 ? 0 : time_us;
@@ -86,6 +88,7 @@ bus::EcuIdentity ecu_identity(const EcuDiagnosis& diagnosis, std::uint8_t dbc_ve
   bus::EcuIdentity message;
   message.profile_hash = count(diagnosis.profile_hash);
   message.dbc_version = count(dbc_version);
+  message.stamp = count(diagnosis.stamp);
   return message;
 }
 

@@ -45,9 +45,11 @@ struct CommonStore {
   }
   static void store(const dbc::common::OperatorCommand& message, TimeUs now, To& to) {
     store_operator(message, now, to.inputs.driver);
+    put(to.echoes.driver, message.echo, now);
   }
   static void store(const dbc::common::MachineIdentity& message, TimeUs now, To& to) {
     store_identity(message, now, to.identity);
+    put(to.echoes.machine, message.echo, now);
   }
 };
 

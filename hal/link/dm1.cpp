@@ -59,20 +59,40 @@ Fault Dm1::first_new() const {
   return Fault::kNone;
 }
 
-bool Dm1::is_turn(const FaultSet& active, TimeUs now) const {
-  return !has_started_ || has_passed(turn_us_, period_us(active), now);
+Fault Dm1::overdue(TimeUs now) const {
+  Fault longest = Fault::kNone;
+  TimeUs said_us = now;
+  for (Fault fault = active_.first(); fault != Fault::kNone; fault = active_.after(fault)) {
+    const Entry& of = entries_[static_cast<std::size_t>(fault)];
+    if (has_passed(of.said_us, kRoundUs, now) &&
+        (longest == Fault::kNone || of.said_us < said_us)) {
+      longest = fault;
+      said_us = of.said_us;
+    }
+  }
+  return longest;
+}
+
+Fault Dm1::next_in_turn(TimeUs now) const {
+  const Fault late = overdue(now);
+  const Fault next = late != Fault::kNone ? late : active_.after(last_);
+  return next != Fault::kNone ? next : active_.first();
+}
+
+bool Dm1::is_turn(TimeUs now) const {
+  return !has_started_ || has_passed(turn_us_, period_us(active_), now) ||
+         (overdue(now) != Fault::kNone && has_passed(turn_us_, kShortestUs, now));
 }
 
 bool Dm1::due(const FaultSet& active, TimeUs now, Dm1Content& content) {
   note(active, now);
   Fault fault = first_new();
   const bool is_new = fault != Fault::kNone;
-  if (!is_new && !is_turn(active, now)) {
+  if (!is_new && !is_turn(now)) {
     return false;
   }
   if (!is_new) {
-    const Fault next = active.after(last_);
-    fault = next != Fault::kNone ? next : active.first();
+    fault = next_in_turn(now);
     last_ = fault;
   }
   // A new fault is said beside the turns and does not hold them up.

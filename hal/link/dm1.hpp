@@ -3,6 +3,7 @@
 ///
 /// Active faults take turns in the order of their numbers, with a period of 1 s over their number,
 /// in whole tens of milliseconds and 100 ms at least: up to ten are each on the bus within 1 s.
+/// So is one whose turn would come later because others have gone; the longest unsaid comes first.
 /// With none a frame says so once a second. A fault that appears is said in the same cycle, and of
 /// several one in each cycle; one that was on the bus less than 1 s ago waits for its turn, so that
 /// a fault that comes and goes does not flood the bus.
@@ -44,7 +45,9 @@ class Dm1 {
 
   void note(const FaultSet& active, TimeUs now);
   [[nodiscard]] Fault first_new() const;
-  [[nodiscard]] bool is_turn(const FaultSet& active, TimeUs now) const;
+  [[nodiscard]] Fault overdue(TimeUs now) const;
+  [[nodiscard]] Fault next_in_turn(TimeUs now) const;
+  [[nodiscard]] bool is_turn(TimeUs now) const;
   [[nodiscard]] Entry& entry(Fault fault) { return entries_[static_cast<std::size_t>(fault)]; }
 
   FaultSet active_;  ///< In the last call.

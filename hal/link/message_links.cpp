@@ -43,6 +43,9 @@ MessageLinks::MessageLinks(const MessageRules& rules, const BusParts& parts) : r
     }
   }
   for (std::size_t i = 0; i < rules_.all_count; ++i) {
+    if ((rules_.all[i].id & 0xFFU) == kOwnAddress) {
+      known_[place_of(rules_.all[i].id)] = {rules_.all[i].id, kOwnMessage};
+    }
     if (rules_.all[i].is_protected) {
       fits_a_message_[e2e_signature(rules_.all[i].data_id)] = true;
     }
@@ -109,7 +112,22 @@ void MessageLinks::count(std::size_t index, std::uint32_t LinkCounters::*counter
   increment(total_.*counter);
 }
 
+/// Of a frame that was accepted; `before` is what was known of its message before it.
+bool MessageLinks::is_fresh(std::size_t index, const E2eState& before, TimeUs now) {
+  MessageClock& clock = clock_[index];
+  if (!before.synchronised) {
+    clock = {};
+    return true;
+  }
+  const unsigned steps =
+      (static_cast<unsigned>(e2e_[index].last_counter) + kE2eCounterCount - before.last_counter) %
+      kE2eCounterCount;
+  advance(clock, now - before.last_good_us, steps * rules_.rule[index].e2e.cycle_us);
+  return !is_stale(clock);
+}
+
 bool MessageLinks::passes_e2e(std::size_t index, const CanFrame& frame, TimeUs now) {
+  const E2eState before = e2e_[index];
   const E2eCheck check = e2e_check(rules_.rule[index].e2e, e2e_[index], frame.data, now);
   if (check == E2eCheck::kWrongCrc && is_any_message(frame)) {
     e2e_note(window_[index], E2eMark::kMasquerade, now);
@@ -125,6 +143,10 @@ bool MessageLinks::passes_e2e(std::size_t index, const CanFrame& frame, TimeUs n
     count(index, counter_of(check));
     return false;
   }
+  if (!is_fresh(index, before, now)) {
+    count(index, &LinkCounters::wrong_counter);
+    return false;
+  }
   return true;
 }
 
@@ -136,6 +158,16 @@ int MessageLinks::admit(const CanFrame& frame, TimeUs now) {
   const int index = index_of(frame.id);
   if (index == kNoMessage) {
     increment(foreign_);
+    return kNoMessage;
+  }
+  if (index == kOwnMessage) {
+    if (!frame.extended || frame.remote || frame.fd) {
+      increment(total_.wrong_kind);
+      return kNoMessage;
+    }
+    increment(total_.own_id);
+    own_heard_ = true;
+    own_us_ = now;
     return kNoMessage;
   }
   const auto i = static_cast<std::size_t>(index);
@@ -166,6 +198,14 @@ FaultSet MessageLinks::message_faults(TimeUs now) const {
   FaultSet faults;
   for (std::size_t i = 0; i < rules_.count; ++i) {
     faults.add(e2e_faults(window_[i], now));
+    const bool is_heard =
+        e2e_[i].any_good && now - e2e_[i].last_good_us <= rules_.rule[i].e2e.max_silence_us;
+    if (is_stale(clock_[i]) && is_heard) {
+      faults.add(Fault::kStreamLate);
+    }
+  }
+  if (own_heard_ && now - own_us_ <= kOwnHeard_us) {
+    faults.add(Fault::kSecondController);
   }
   return faults;
 }
@@ -178,12 +218,12 @@ bool MessageLinks::take_out_of_range() {
 
 LinkCounters MessageLinks::link(std::uint32_t id) const {
   const int index = index_of(id);
-  return index == kNoMessage ? LinkCounters{} : link_[static_cast<std::size_t>(index)];
+  return index < 0 ? LinkCounters{} : link_[static_cast<std::size_t>(index)];
 }
 
 E2eCheck MessageLinks::link_check(std::uint32_t id, TimeUs now) const {
   const int index = index_of(id);
-  if (index == kNoMessage) {
+  if (index < 0) {
     return E2eCheck::kNoNewData;
   }
   const auto i = static_cast<std::size_t>(index);

@@ -10,6 +10,7 @@
 #include "firmware/core/time.hpp"
 #include "hal/can_frame.hpp"
 #include "hal/link/e2e_window.hpp"
+#include "hal/link/message_clock.hpp"
 #include "hal/link/message_rules.hpp"
 
 namespace graben {
@@ -22,16 +23,17 @@ struct LinkCounters {
   std::uint32_t wrong_length = 0;
   std::uint32_t wrong_crc = 0;
   std::uint32_t masquerade = 0;     ///< A wrong CRC that fits another message; not in wrong_crc.
-  std::uint32_t wrong_counter = 0;  ///< Repeated, invalid, late, early, or too many lost.
+  std::uint32_t wrong_counter = 0;  ///< Repeated, invalid, late, early, stale, or too many lost.
   std::uint32_t out_of_range = 0;   ///< A value outside its [min|max] behind a right CRC.
   std::uint32_t surplus = 0;        ///< More at once than are looked at (MessageLinks).
+  std::uint32_t own_id = 0;         ///< Under an id that we send; in the total only.
 };
 
 /// All that were refused. Frames of a start-up handshake are not: every start has some.
 constexpr std::uint32_t rejected(const LinkCounters& counters) {
   const std::uint64_t sum = std::uint64_t{counters.wrong_kind} + counters.wrong_length +
                             counters.wrong_crc + counters.masquerade + counters.wrong_counter +
-                            counters.out_of_range + counters.surplus;
+                            counters.out_of_range + counters.surplus + counters.own_id;
   return sum > UINT32_MAX ? UINT32_MAX : static_cast<std::uint32_t>(sum);
 }
 
@@ -44,10 +46,16 @@ constexpr std::uint32_t rejected(const LinkCounters& counters) {
 /// protected message the surplus is refused unseen, and its first three frames count as wrong in
 /// sequence, which is a fault. Of an unprotected one, where nothing tells right from wrong, the
 /// newest of them counts, as it does among fewer (take_newest).
+///
+/// A frame whose message's clock has fallen behind (hal/link/message_clock.hpp) is not used. A
+/// frame under any id with our own address is somebody else's, for no port hears what it sends.
 class MessageLinks {
  public:
   static constexpr std::size_t kMostMessages = 16;
   static constexpr int kNoMessage = -1;
+  /// So long after a frame under an id of ours its sender counts as there: a second is the longest
+  /// that a controller is silent.
+  static constexpr TimeUs kOwnHeard_us = 1200 * kMillisecondUs;
   static constexpr int kMostAtOnce = 7;
 
   /// At most kMostMessages rules.
@@ -65,6 +73,7 @@ class MessageLinks {
   [[nodiscard]] std::uint32_t foreign() const { return foreign_; }
   [[nodiscard]] LinkCounters link(std::uint32_t id) const;
   [[nodiscard]] E2eCheck link_check(std::uint32_t id, TimeUs now) const;
+  /// kMessageCorrupt, kMessageSequence, kMessageMasquerade; kStreamLate, kSecondController.
   [[nodiscard]] FaultSet message_faults(TimeUs now) const;
   [[nodiscard]] bool take_out_of_range();
 
@@ -75,6 +84,7 @@ class MessageLinks {
     int index = kNoMessage;
   };
   static constexpr std::size_t kPlaces = 4 * kMostMessages;
+  static constexpr int kOwnMessage = -2;  ///< Instead of an index.
   /// Frames of one message with one stamp.
   struct Batch {
     TimeUs now = 0;
@@ -86,6 +96,7 @@ class MessageLinks {
   [[nodiscard]] bool is_any_message(const CanFrame& frame) const;
   [[nodiscard]] int place_in_batch(std::size_t index, TimeUs now);
   void refuse_surplus(std::size_t index, int place, const CanFrame& frame, TimeUs now);
+  [[nodiscard]] bool is_fresh(std::size_t index, const E2eState& before, TimeUs now);
   [[nodiscard]] bool passes_e2e(std::size_t index, const CanFrame& frame, TimeUs now);
   void count(std::size_t index, std::uint32_t LinkCounters::*counter);
 
@@ -97,10 +108,13 @@ class MessageLinks {
   unsigned has_newest_ = 0;                           ///< A bit for each message.
   std::array<E2eState, kMostMessages> e2e_{};
   std::array<E2eWindow, kMostMessages> window_{};
+  std::array<MessageClock, kMostMessages> clock_{};
   std::array<LinkCounters, kMostMessages> link_{};
   LinkCounters total_;
   std::uint32_t foreign_ = 0;
   bool out_of_range_ = false;
+  bool own_heard_ = false;
+  TimeUs own_us_ = 0;  ///< When last.
 };
 
 }  // namespace graben

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "firmware/signals/signal.hpp"
+#include "hal/link/challenge.hpp"
 #include "hal/link/message_links.hpp"
 
 namespace graben {
@@ -23,6 +24,7 @@ template <class Inputs>
 struct Received {
   Inputs inputs;
   PartnerIdentity identity;
+  Echoes echoes;
 };
 
 /// Messages of a receiver; made by hal/link/message_decode.hpp.
@@ -99,6 +101,7 @@ class MessageReceiver {
 
   [[nodiscard]] const Inputs& inputs() const { return received_.inputs; }
   [[nodiscard]] const PartnerIdentity& identity() const { return received_.identity; }
+  [[nodiscard]] const Echoes& echoes() const { return received_.echoes; }
   /// True if the other end is what we are; as valid and as old as the worse of what it says.
   [[nodiscard]] Signal<bool> same_machine(std::uint32_t own_profile_hash) const {
     const auto& [hash, version] = received_.identity;
@@ -118,7 +121,7 @@ class MessageReceiver {
     return links_.link_check(id, now);
   }
 
-  /// Of all messages: kMessageCorrupt, kMessageSequence, kMessageMasquerade.
+  /// As MessageLinks has them.
   [[nodiscard]] FaultSet message_faults(TimeUs now) const { return links_.message_faults(now); }
   /// True if a value was out of range since the last call.
   [[nodiscard]] bool take_out_of_range() { return links_.take_out_of_range(); }

@@ -51,6 +51,10 @@ struct MessageRules {
   std::size_t all_count = 0;
 };
 
+/// The controller's source address: the low byte of the id of all that it sends. A frame of its own
+/// that it hears is another controller's.
+inline constexpr std::uint8_t kOwnAddress = 130;
+
 inline constexpr TimeUs kControlPeriod_us = 10 * kMillisecondUs;
 
 /// How a message is sent.

@@ -44,6 +44,7 @@ struct EcuDiagnosis {
   std::uint32_t rejected_frames = 0;  ///< Since the start; saturates at 250.
   std::uint32_t profile_hash = 0;
   std::uint32_t dropped_frames = 0;  ///< That the bus did not take, since the start.
+  std::uint16_t stamp = 0;           ///< Of the next EcuIdentity (hal/link/challenge.hpp).
   ProcessHealth process;
 };
 
@@ -90,10 +91,27 @@ class MessageTransmitter {
 
   explicit MessageTransmitter(const BusParts& parts = {}) : parts_(parts) {}
 
+  /// The 29-bit ids of all that is sent, those of all parts too.
+  [[nodiscard]] static std::array<std::uint32_t, kMessageCount> ids() {
+    const auto& table = Transmission::table();
+    std::array<std::uint32_t, kMessageCount> ids{};
+    for (std::size_t i = 0; i < table.rule.size(); ++i) {
+      ids[i] = table.rule[i].id;
+    }
+    ids[kPeriodicCount] = table.dm1_id;
+    return ids;
+  }
+
   /// Writes the frames due at `now` into `out`, most urgent first; returns how many. To be called
   /// every 10 ms.
   [[nodiscard]] int frames(const Outputs& outputs, const EcuDiagnosis& diagnosis, TimeUs now,
                            Frames& out);
+
+  /// Writes what would be the next frame of each message whose id `wanted` takes, due or not;
+  /// returns how many. Nothing is remembered of them: they are for another hand to send.
+  template <class Wanted>
+  [[nodiscard]] int next_frames(const Outputs& outputs, const Wanted& wanted, TimeUs now,
+                                Frames& out) const;
 
  private:
   void start(TimeUs now);
@@ -130,6 +148,21 @@ int MessageTransmitter<Transmission>::frames(const Outputs& outputs, const EcuDi
   Dm1Content content;
   if (dm1_.due(outputs.status.faults, now, content)) {
     out[written++] = frame_of(table.dm1_id, table.dm1(content), now);
+  }
+  return static_cast<int>(written);
+}
+
+template <class Transmission>
+template <class Wanted>
+int MessageTransmitter<Transmission>::next_frames(const Outputs& outputs, const Wanted& wanted,
+                                                  TimeUs now, Frames& out) const {
+  const auto& table = Transmission::table();
+  std::size_t written = 0;
+  for (std::size_t i = 0; i < state_.size(); ++i) {
+    if (wanted(table.rule[i].id) && has_part(parts_, table.rule[i].part)) {
+      SendState state = state_[i];
+      out[written++] = next_frame(table.rule[i], state, table.encode[i](outputs, {}), now);
+    }
   }
   return static_cast<int>(written);
 }

@@ -31,7 +31,7 @@ namespace {
 std::atomic<bool> g_stop{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "or a signal handler could not set it");
 
-void on_stop_signal(int /*signal*/) { g_stop.store(true, std::memory_order_relaxed); }
+void on_stop_signal(int /*signal*/) { request_stop(); }
 
 }  // namespace
 
@@ -45,6 +45,8 @@ ErrorText catch_stop_signals() {
   }
   return error;
 }
+
+void request_stop() { g_stop.store(true, std::memory_order_relaxed); }
 
 bool stop_requested() { return g_stop.load(std::memory_order_relaxed); }
 

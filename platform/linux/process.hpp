@@ -33,6 +33,8 @@ class ErrorText {
 [[nodiscard]] ErrorText catch_stop_signals();
 
 [[nodiscard]] bool stop_requested();
+/// From anywhere, a signal handler too.
+void request_stop();
 
 /// The heap keeps what it was given: memory once faulted in stays so, and nothing is mapped or
 /// unmapped behind our back. Before other allocations, best of all first in main().

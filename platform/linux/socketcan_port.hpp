@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -78,6 +79,8 @@ class SocketCanPort final : public CanPort {
   [[nodiscard]] CanPortState state() const override { return std::max(state_, worst_); }
 
   [[nodiscard]] const CanPortCounters& counters() const { return counters_; }
+  /// Of the socket, -1 without one: for a signal handler, which may not call send().
+  [[nodiscard]] int descriptor() const { return fd_.load(std::memory_order_relaxed); }
   /// Why the last open() failed, or what took the interface away after it; empty if nothing did.
   [[nodiscard]] const char* last_error() const { return error_.c_str(); }
 
@@ -100,7 +103,7 @@ class SocketCanPort final : public CanPort {
 
   CanSocketConfig config_;
   Opener opener_;
-  int fd_ = -1;
+  std::atomic<int> fd_{-1};  ///< A signal handler reads it too.
   bool was_open_ = false;
   CanPortState state_ = CanPortState::kClosed;
   CanPortState worst_ = CanPortState::kClosed;  ///< Since the last receive() began.

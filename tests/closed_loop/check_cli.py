@@ -74,6 +74,8 @@ def bad_usage(graben):
     refused(graben, "nan is not a number", "dig", "--loops", "nan", status=2)
     refused(graben, "nan is not a number", "dig", "--speed", "nan", status=2)
     refused(graben, "-1 is not a whole number", "dig", "--seed=-1", status=2)
+    refused(graben, "fuzzy not in {servo,oil,kim}", "dig", "--law", "fuzzy", status=2)
+    refused(graben, "the profile has no section [oil]", "dig", "--law", "oil", "--profile", "excavator_12t")
     refused(graben, "whole number", "dig", "--seed", "99999999999999999999", status=2)
     refused(graben, "outside the work space", "dig", "--start", "20,0,1.5")
     refused(graben, "--start-strokes: entry 2", "dig", "--start-strokes", "1.0,9.0,0.4")
@@ -83,7 +85,7 @@ def bad_usage(graben):
 def bad_tasks(graben):
     """What is of Kim's path alone goes with no task, and is not silently left out."""
     for option in (("--soil",), ("--air",), ("--obstacle",), ("--stiff-oil",),
-                   ("--dead-time", "0.1"), ("--fixed-lambda",), ("--start-strokes", "1,1,0.4"),
+                   ("--dead-time", "0.1"), ("--fixed-lambda",), ("--law", "kim"), ("--start-strokes", "1,1,0.4"),
                    ("--start", "5,0,1.5"), ("--random-start",), ("--loops", "1")):
         done = call(graben, "dig", "--task", "flatten", *option)
         assert done.returncode == 2 and not done.stdout, f"{option}: {done}"
@@ -92,7 +94,7 @@ def bad_tasks(graben):
     refused(graben, "task '' not found", "dig", "--task", "")
     refused(graben, "this machine's swing is held", "dig", "--task", "flatten", "--profile",
             "excavator_22t")
-    refused(graben, "none,stroke-bias,sensors,parameters,all", "autodig", "--errors", "some",
+    refused(graben, "none,stroke-bias,sensors,parameters,kim,all", "autodig", "--errors", "some",
             status=2)
     refused(graben, "0.01 is not a number from 0.05 to 1", "autodig", "--speed", "0.01", status=2)
     refused(graben, "1.1 is not a number from 0.05 to 1", "autodig", "--swash", "1.1", status=2)
@@ -127,6 +129,19 @@ def bad_grades(graben):
     refused(graben, "--engine-rpm: the profile is not one of a dozer", *plant, "--engine-rpm", "1000")
     for option in (("--soil",), ("--dead-time", "0.1"), ("--errors", "sensors"), ("--fixed-lambda",)):
         refused(graben, "the profile is not one of an excavator", *dozer, *option)
+
+
+def bad_finds(graben):
+    for command in (("dig",), ("autodig",), ("campaign", "dig", "--summary", "no_such.csv")):
+        refused(graben, "'colour' is unknown; allowed: oil (0.1 .. 100 GPa)", *command, "--found", "colour=1",
+                status=2)
+        refused(graben, "oil is there twice; allowed: once, 0.1 .. 100 GPa", *command, "--found", "oil=1,oil=2",
+                status=2)
+        refused(graben, "mass: a value is missing; allowed: 0.1 .. 10", *command, "--found", "mass=", status=2)
+        refused(graben, "exponent: 'nan'; allowed: 0.5 .. 4", *command, "--found", "exponent=nan", status=2)
+        refused(graben, "dead_time: '0.6'; allowed: 0 .. 0.5 s", *command, "--found", "dead_time=0.6", status=2)
+    refused(graben, "the oil is told to be stiff and of a found bulk modulus", "dig", "--stiff-oil", "--found",
+            "oil=1")
 
 
 def no_constant_speed(graben):
@@ -168,6 +183,7 @@ def main():
     bad_usage(graben)
     bad_tasks(graben)
     bad_grades(graben)
+    bad_finds(graben)
     no_constant_speed(graben)
     unwritable(graben)
     lost_output(graben)

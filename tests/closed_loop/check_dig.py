@@ -13,6 +13,14 @@ MAX_ERROR_M = 0.10
 LEAST_ERROR_M = 0.002
 
 
+# Least and most that a run may have, each drive's; a figure that is 0 was not counted.
+CALM = {
+    "lambda_variation_ps": (0.02, 3.0), "tip_jerk_rms_mps3": (1.0, 60.0),
+    "ringing_rms_m": (0.0001, 0.01), "energy_j": (5e5, 2e7), "energy_per_loop_j": (5e5, 2e7),
+    "energy_bypass_relief_share": (0.2, 0.99), "swash_mean": (0.2, 1.0)}
+SPOOLS = {"spool_travel_ps": (0.02, 3.0), "spool_reversals_ps": (0.01, 5.0)}
+
+
 def dig(graben, folder, *options):
     summary = os.path.join(folder, "summary.json")
     done = subprocess.run([graben, "dig", "--out", folder, "--summary", summary, *options],
@@ -40,11 +48,28 @@ def check_summary(what, figures):
     assert abs(sum(figures["limit_share"].values()) - 1.0) < 1e-9, f"{what}: {figures}"
 
 
+def check_calm(what, figures):
+    for key, (least, most) in CALM.items():
+        assert least < figures[key] < most, f"{what}: {key} is {figures[key]}"
+    for key, (least, most) in SPOOLS.items():
+        assert set(figures[key]) == {"boom", "arm", "bucket"}, f"{what}: {key}: {figures[key]}"
+        for drive, value in figures[key].items():
+            assert least < value < most, f"{what}: {key} of the {drive} is {value}"
+    # It ends in the cycle after the last one, a little beyond.
+    per_loop = figures["energy_per_loop_j"] / figures["energy_j"]
+    assert 0.99 < per_loop < 1.0 / 0.99, f"{what}: one loop took {per_loop:.3f} of the energy"
+
+
 def main():
     graben = sys.argv[1]
     with tempfile.TemporaryDirectory() as folder:
-        check_summary("usual start", dig(graben, folder))
+        usual = dig(graben, folder)
+        check_summary("usual start", usual)
+        check_calm("usual start", usual)
         first = log_bytes(folder)
+        twice = dig(graben, folder, "--loops", "2")
+        ratio = twice["energy_j"] / twice["energy_per_loop_j"]
+        assert abs(ratio - 2.0) < 0.01, f"two loops took the energy of {ratio:.3f}"
         dig(graben, folder)
         assert log_bytes(folder) == first, "two runs gave different logs"
         worst = 0.0

@@ -15,6 +15,7 @@ FIGURES = {
     "max_error_true_m", "rmse_error_true_m", "max_error_measured_m", "rmse_error_measured_m", "time_s",
     "mean_speed_mps", "flow_share_max", "flow_share_reported_max", "flow_above_share",
     "flow_occasions", "deceleration_wanted_mps2", "deceleration_true_mps2", "sign_changes", "corners",
+    "lambda_variation_ps", "spool_travel_ps", "spool_reversals_ps", "edge_jerk_rms_mps3",
     "duration_s", "real_time_factor", "cycles", "cycle_median_us", "cycle_max_us", "limit_share"}
 
 # What is run, and the least and the most of some figures. Far better than a machine with lag, a
@@ -22,7 +23,9 @@ FIGURES = {
 RUNS = (
     ("bounded", (), {"max_error_true_m": (1 * MM, 8 * MM), "flow_share_max": (0.7, 1.02),
                      "deceleration_wanted_mps2": (0.1, 1.5), "flow_occasions": (0, 0),
-                     "sign_changes": (1, 16), "time_s": (20, 34)}),
+                     "sign_changes": (1, 16), "time_s": (20, 34),
+                     "lambda_variation_ps": (0.02, 1.0), "spool_travel_ps": (0.1, 3.0),
+                     "spool_reversals_ps": (0.05, 3.0), "edge_jerk_rms_mps3": (1.0, 50.0)}),
     ("1000 rpm", ("--engine-rpm", "1000"),
      {"max_error_true_m": (1 * MM, 8 * MM), "flow_share_max": (0.7, 1.02), "time_s": (34, 46)}),
     ("constant", ("--speed-mode", "constant"),

@@ -1,6 +1,5 @@
 #pragma once
-/// The simulated loader: two cylinders, each with a mass of its own, on one pump with an open
-/// centre.
+/// The simulated loader: two cylinders, each with its own mass, on one open-centre pump.
 
 #include <algorithm>
 #include <array>
@@ -36,7 +35,8 @@ class LoaderPlant {
                    kStep_s),
           section({profile.spool[i],
                    profile.metering,
-                   {0.02, 1.0, profile.deadband_ratio, profile.metering.opening_exponent, 0.1},
+                   {0.02, 1.0, profile.deadband_ratio, profile.deadband_ratio,
+                    profile.metering.opening_exponent, 0.1},
                    HydraulicDetails{}.protection(25e6)}),
           pilot(0.0, kStep_s) {}
 

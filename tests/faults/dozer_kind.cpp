@@ -45,6 +45,14 @@ Dozer::Scenery Dozer::scenery_of(std::uint64_t seed) {
   return scenery;
 }
 
+Dozer::Scenery Dozer::stall_scenery_of(std::uint64_t seed) {
+  constexpr double kWeak_pa = 3e6;  // Less than what it takes to roll.
+  Scenery scenery = scenery_of(seed);
+  scenery.machine.plant.hst_relief_pa = kWeak_pa;
+  scenery.machine.plant.ground.rolling_resistance = 0.4;
+  return scenery;
+}
+
 plant::DozerNode Dozer::node(const Scenery& scenery, CanPort& port) {
   return {scenery.machine.plant, port, scenery.machine.hash};
 }

@@ -45,6 +45,9 @@ struct Dozer : runs::DozerSim {
   };
   /// Of a seed: sensors wrong in all, in every second also mass, ground and transmission.
   [[nodiscard]] static Scenery scenery_of(std::uint64_t seed);
+  /// The same, and it can hardly move: a rock in the way; a transmission too weak to roll.
+  [[nodiscard]] static Scenery stall_scenery_of(std::uint64_t seed);
+  [[nodiscard]] static Setup setup_of(const Machine& machine) { return machine.profile; }
   [[nodiscard]] static Node node(const Scenery& scenery, CanPort& port);
   [[nodiscard]] static std::vector<Defect> defects();
   /// Throws ProfileError as the loader does.
@@ -75,6 +78,9 @@ struct Dozer : runs::DozerSim {
   [[nodiscard]] static AxisArray spools(const Plant& plant) { return {plant.spool_travel_ratio()}; }
   [[nodiscard]] static double deadband(const Plant& plant) {
     return plant.profile().deadband_ratio;
+  }
+  [[nodiscard]] static double first_duty(const Machine& machine) {
+    return machine.profile.implement.spool_to_duty.y_first();
   }
   [[nodiscard]] static PlaceArray places_m(const Plant& plant) {
     return {plant.blade_stroke_m(), plant.position_m()};

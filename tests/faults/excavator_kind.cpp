@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/machines/simulated/simulated_excavator.hpp"
+#include "app/machines/task_file.hpp"
 #include "firmware/excavator/field/rounded_rectangle.hpp"
 #include "tests/unit/firmware/flip_bit.hpp"
 
@@ -71,17 +72,67 @@ Excavator::Scenery Excavator::scenery_of(std::uint64_t seed) {
   machines::Scenario scenario;
   scenario.seed = seed;
   scenario.soil = seed % 4 < 2;
-  scenario.errors = seed % 2 == 0 ? machines::Errors::kSensors : machines::Errors::kAll;
+  scenario.errors = seed % 2 == 0 ? machines::Errors::kSensors : machines::Errors::kKim;
   Scenery scenery;
   scenery.machine = machines::arranged(shipped(), scenario);
   scenery.start_strokes_m = start_of(scenery.machine, seed);
   return scenery;
 }
 
+Excavator::Scenery Excavator::stall_scenery_of(std::uint64_t seed) {
+  machines::Scenario scenario;
+  scenario.seed = seed;
+  scenario.obstacle = true;
+  scenario.errors = seed % 2 == 0 ? machines::Errors::kSensors : machines::Errors::kKim;
+  Scenery scenery;
+  scenery.machine = machines::arranged(shipped(), scenario);
+  scenery.machine.plant.obstacle->hold_s = 1e4;
+  scenery.start_strokes_m = machines::dig_start(scenery.machine.profile);
+  return scenery;
+}
+
+namespace {
+
+const machines::SimulatedExcavator& swinging() {
+  static const machines::SimulatedExcavator machine =
+      machines::load_simulated_excavator(machines::find_profile("excavator_12t"));
+  return machine;
+}
+
+/// A line of the teeth with 30 degrees of swing.
+const TaskProgram& line_with_swing() {
+  static const machines::TaskFile task =
+      machines::load_task(machines::find_task("flatten"), swinging().profile);
+  return task.result.program;
+}
+
+}  // namespace
+
+Excavator::Scenery Excavator::swinging_scenery_of(std::uint64_t seed) {
+  machines::Scenario scenario;
+  scenario.seed = seed;
+  scenario.errors = seed % 4 < 2 ? machines::Errors::kSensors : machines::Errors::kKim;
+  Scenery scenery;
+  scenery.machine = machines::arranged(swinging(), scenario);
+  scenery.start_strokes_m = line_with_swing().start.head<kAxisCount>();
+  scenery.start_swing_rad = line_with_swing().start[kSwing];
+  return scenery;
+}
+
+ExcavatorSetup Excavator::setup_of(const Machine& machine) {
+  TaskBook book;
+  if (machine.profile.has_swing()) {
+    book.program[0] = line_with_swing();
+    book.count = 1;
+  }
+  return {machine.profile, book};
+}
+
 plant::ExcavatorNode Excavator::node(const Scenery& scenery, CanPort& port) {
   const Eigen::Vector3d& start_m = scenery.start_strokes_m;
-  return {scenery.machine.plant, plant::ExcavatorStart({start_m[0], start_m[1], start_m[2]}), port,
-          scenery.machine.hash};
+  return {scenery.machine.plant,
+          plant::ExcavatorStart({start_m[0], start_m[1], start_m[2]}, scenery.start_swing_rad),
+          port, scenery.machine.hash};
 }
 
 std::vector<Defect> Excavator::defects() {
@@ -167,6 +218,14 @@ double Excavator::slowed_mps(const Machine& /*machine*/, double before_mps, Time
 
 bool Excavator::is_back(double slow_mps, double wanted_mps, Limit /*limit*/) {
   return wanted_mps > slow_mps / kSlower_share;
+}
+
+double Excavator::deadband(const Plant& plant) {
+  double least = 1.0;
+  for (const plant::SpoolDynamics& spool : plant.profile().spool) {
+    least = std::min({least, spool.extend_deadband_ratio, spool.retract_deadband_ratio});
+  }
+  return least;
 }
 
 Excavator::AxisArray Excavator::longest_m(const Plant& plant) {

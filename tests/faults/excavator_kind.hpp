@@ -36,17 +36,24 @@ struct Excavator : runs::ExcavatorSim {
   static constexpr TimeUs kOpensWithin_us = 6 * kSecondUs;
   /// After the detection of what only slows: until it is slower; and from its end until it is not.
   static constexpr TimeUs kSlows_us = 30 * kMillisecondUs;
-  static constexpr TimeUs kBack_us = 700 * kMillisecondUs;
+  static constexpr TimeUs kBack_us = 1300 * kMillisecondUs;
   static constexpr TimeUs kStuckStroke_us = 3 * kSecondUs;
   static constexpr unsigned kSetpoints = 2 + kAxisCount;
 
   struct Scenery {
     Machine machine;
     Eigen::Vector3d start_strokes_m = Eigen::Vector3d::Zero();
+    double start_swing_rad = 0.0;
   };
   /// Of a seed: sensors wrong in all, parameters too in every second, soil in half of them, a
   /// random pose near the path.
   [[nodiscard]] static Scenery scenery_of(std::uint64_t seed);
+  /// The same, and it can hardly move: a rock in the way; a transmission too weak to roll.
+  [[nodiscard]] static Scenery stall_scenery_of(std::uint64_t seed);
+  /// The 12 t machine, whose platform turns, where its program 0 begins.
+  [[nodiscard]] static Scenery swinging_scenery_of(std::uint64_t seed);
+  /// With program 0 where the platform turns.
+  [[nodiscard]] static Setup setup_of(const Machine& machine);
   [[nodiscard]] static Node node(const Scenery& scenery, CanPort& port);
   [[nodiscard]] static std::vector<Defect> defects();
   /// Throws ProfileError as the loader does.
@@ -79,8 +86,11 @@ struct Excavator : runs::ExcavatorSim {
   [[nodiscard]] static AxisArray strokes_m(const Plant& plant) { return plant.strokes_m(); }
   [[nodiscard]] static AxisArray longest_m(const Plant& plant);
   [[nodiscard]] static AxisArray spools(const Plant& plant) { return plant.spool_travels_ratio(); }
-  [[nodiscard]] static double deadband(const Plant& plant) {
-    return plant.profile().deadband_ratio;
+  /// Within which no spool opens, whichever way.
+  [[nodiscard]] static double deadband(const Plant& plant);
+  /// Duty at which the controller takes a spool to open.
+  [[nodiscard]] static double first_duty(const Machine& machine) {
+    return machine.profile.valve.spool_to_duty.y_first();
   }
   [[nodiscard]] static PlaceArray places_m(const Plant& plant) { return plant.strokes_m(); }
   [[nodiscard]] static std::optional<Rolling> rolling(const Plant&) { return std::nullopt; }

@@ -1,6 +1,6 @@
-// fault_cases [--machine excavator|dozer] [--seeds N] [--row R] [--first-seed S]: every row of the
-// faults that a controller survives, of one machine kind or of both, tried with N seeds in
-// simulated time; a table for each, and exit 1 with the reasons if any differs from what is
+// fault_cases [--machine excavator|dozer] [--seeds N] [--row R] [--first-seed S] | --list: every
+// row of the faults that a controller survives, of one machine kind or of both, tried with N seeds
+// in simulated time; a table for each, and exit 1 with the reasons if any differs from what is
 // expected.
 
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <map>
 #include <string>
 
 #include "tests/faults/results.hpp"
@@ -91,9 +92,27 @@ bool run(const Options& options) {
   return all_right;
 }
 
+/// Every row that any kind has, a line each.
+int list_rows() {
+  std::map<int, std::string> rows;
+  for (const RowText& row : all_rows<Excavator>()) {
+    rows.emplace(row.number, row.fault);
+  }
+  for (const RowText& row : all_rows<Dozer>()) {
+    rows.emplace(row.number, row.fault);
+  }
+  for (const auto& [number, fault] : rows) {
+    fmt::print("{} {}\n", number, fault);
+  }
+  return EXIT_SUCCESS;
+}
+
 }  // namespace
 
 int main(int count, char** words) {
+  if (count == 2 && std::strcmp(words[1], "--list") == 0) {
+    return list_rows();
+  }
   Options options;
   if (!read(count, words, options)) {
     fmt::print(stderr,

@@ -217,7 +217,9 @@ void Trial<Kind>::expect_stop(const Stop& stop) {
         break;
       }
       fault = outcome.codes.after(fault);
-      check(fault != Fault::kNone, "none of the fault's codes is in the status frame");
+      check(fault != Fault::kNone,
+            fmt::format("none of the fault's codes is in the status frame; it says '{}'",
+                        runs::fault_words(rig->outputs().status.fault)));
     }
   }
   check(!stop.pilot_cut || rig->record.any_pilot_cut(detected_us_), "no pilot cut asked for");

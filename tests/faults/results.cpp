@@ -63,6 +63,10 @@ void RowResult::add(std::uint64_t seed, Outcome outcome) {
   worst_.creep_share = std::max(worst_.creep_share, outcome.creep_share);
   worst_.rest_us = std::max(worst_.rest_us, outcome.rest_us);
   worst_.rolled_m = std::max(worst_.rolled_m, outcome.rolled_m);
+  if (outcome.harm > worst_.harm) {
+    worst_.harm = outcome.harm;
+    worst_.harm_unit = outcome.harm_unit;
+  }
   for (const std::string& failure : outcome.failures) {
     failures_.push_back(fmt::format("row {}, seed {}: {}", row_.number, seed, failure));
   }
@@ -88,14 +92,15 @@ std::vector<std::string> RowResult::cells() const {
           percent(worst_.beyond_share),
           percent(worst_.creep_share),
           milliseconds(worst_.rest_us),
-          worst_.rolled_m < 0.0 ? "-" : fmt::format("{:.2f}", worst_.rolled_m)};
+          worst_.rolled_m < 0.0 ? "-" : fmt::format("{:.2f}", worst_.rolled_m),
+          worst_.harm < 0.0 ? "-" : fmt::format("{:.3g} {}", worst_.harm, worst_.harm_unit)};
 }
 
 void print_table(const std::vector<RowResult>& results) {
   std::vector<std::vector<std::string>> lines = {
       {"#", "fault", "expected", "seen", "codes", "to detection", "to neutral", "in all", "beyond",
-       "creep", "to rest", "rolled"},
-      {"", "", "", "", "", "ms", "ms", "ms", "% stroke", "% stroke", "ms", "m"}};
+       "creep", "to rest", "rolled", "harm"},
+      {"", "", "", "", "", "ms", "ms", "ms", "% stroke", "% stroke", "ms", "m", ""}};
   for (const RowResult& result : results) {
     lines.push_back(result.cells());
   }
@@ -116,7 +121,10 @@ void print_table(const std::vector<RowResult>& results) {
       "neutral' from detection,\n'in all' from the first wrong thing (in silence from the last "
       "right frame); v: the bus carried no frame of the\ncontroller's, the valve side closed by "
       "its own 100 ms. 'beyond': what closing the spools allows, 'creep': after it.\n"
-      "'to rest', 'rolled': of a machine that drives, from neutral until its tracks stand.\n");
+      "'to rest', 'rolled': of a machine that drives, from neutral until its tracks stand. 'harm': "
+      "how far the "
+      "machine or its tool came,\ntruly, from where it should be until it was stopped or "
+      "slowed.\n");
 }
 
 }  // namespace graben::faults

@@ -39,9 +39,24 @@ template <class Kind>
 [[nodiscard]] Rows<Kind> machine_rows();  ///< 33 - 36
 template <class Kind>
 [[nodiscard]] Rows<Kind> process_rows();  ///< 41 - 48, 50
+template <class Kind>
+[[nodiscard]] Rows<Kind> motion_rows();  ///< 58, 59
+template <class Kind>
+[[nodiscard]] Rows<Kind> conduct_rows();  ///< 52, 61, 62, 64, 66
+template <class Kind>
+[[nodiscard]] Rows<Kind> guard_rows();  ///< 67 - 73
+template <class Kind>
+[[nodiscard]] Rows<Kind> link_rows();  ///< 53, 56
 /// Those that each kind has in its own way, or not at all: 5, 37 - 40, 49.
 [[nodiscard]] Rows<Excavator> excavator_rows();
+[[nodiscard]] Rows<Excavator> pressure_rows();                   ///< 65
+[[nodiscard]] Rows<Excavator> direction_rows(const Excavator&);  ///< 51
+[[nodiscard]] Rows<Dozer> direction_rows(const Dozer&);
+[[nodiscard]] Rows<Excavator> tube_rows(const Excavator&);  ///< 57
+[[nodiscard]] Rows<Dozer> tube_rows(const Dozer&);
 [[nodiscard]] Rows<Dozer> dozer_rows();
+[[nodiscard]] Rows<Dozer> pose_rows();      ///< 54, 60
+[[nodiscard]] Rows<Excavator> swap_rows();  ///< 55: a dozer has one stroke.
 /// All of a kind, by their numbers.
 template <class Kind>
 [[nodiscard]] Rows<Kind> all_rows();

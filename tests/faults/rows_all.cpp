@@ -5,8 +5,23 @@
 namespace graben::faults {
 namespace {
 
-Rows<Excavator> own_rows(const Excavator&) { return excavator_rows(); }
-Rows<Dozer> own_rows(const Dozer&) { return dozer_rows(); }
+Rows<Excavator> own_rows(const Excavator&) {
+  Rows<Excavator> rows = excavator_rows();
+  for (const Row<Excavator>& row : pressure_rows()) {
+    rows.push_back(row);
+  }
+  for (const Row<Excavator>& row : swap_rows()) {
+    rows.push_back(row);
+  }
+  return rows;
+}
+Rows<Dozer> own_rows(const Dozer&) {
+  Rows<Dozer> rows = dozer_rows();
+  for (const Row<Dozer>& row : pose_rows()) {
+    rows.push_back(row);
+  }
+  return rows;
+}
 
 }  // namespace
 
@@ -15,7 +30,9 @@ Rows<Kind> all_rows() {
   Rows<Kind> rows;
   for (const Rows<Kind>& some :
        {silence_rows<Kind>(), message_rows<Kind>(), format_rows<Kind>(), bus_rows<Kind>(),
-        machine_rows<Kind>(), process_rows<Kind>(), own_rows(Kind{})}) {
+        machine_rows<Kind>(), process_rows<Kind>(), conduct_rows<Kind>(), guard_rows<Kind>(),
+        link_rows<Kind>(), motion_rows<Kind>(), direction_rows(Kind{}), tube_rows(Kind{}),
+        own_rows(Kind{})}) {
     rows.insert(rows.end(), some.begin(), some.end());
   }
   std::sort(rows.begin(), rows.end(),

@@ -143,6 +143,8 @@ void receive_overrun(Trial<Kind>& trial) {
   stop.since_us = rig.at_us();
   stop.any = Kind::missing();
   stop.any.push_back(Fault::kOperatorMissing);
+  // Of a body of which some frames come and some do not.
+  stop.any.push_back(Fault::kPoseDisagrees);
   stop.detect_us = stop.neutral_us = 50 * kMillisecondUs;
   until_us = rig.now_us + trial.any_time(60'000, 300'000);
   trial.expect_stop(stop);

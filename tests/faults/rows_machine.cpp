@@ -81,10 +81,10 @@ void moves_uncommanded(Trial<Kind>& trial) {
   kind == 0 ? trial.work() : trial.arm();
   Stop stop;
   stop.since_us = rig.at_us();
-  stop.pilot_cut = true;
+  stop.pilot_cut = kind != 2;
   if (kind == 2) {
     faults.stroke.drift_mps = trial.any_of(2) == 0 ? 0.05 : -0.05;
-    stop.any = {Fault::kUncommandedMotion};
+    stop.any = {Fault::kMotionImplausible, Fault::kUncommandedMotion};
     stop.detect_us = 2 * kSecondUs;
     stop.cure = [&faults] { faults.stroke.drift_mps = 0.0; };
   } else {

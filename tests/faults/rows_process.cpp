@@ -167,15 +167,17 @@ void all_at_once(Trial<Kind>& trial) {
 
 template <class Kind>
 Rows<Kind> process_rows() {
-  return {{41, "one cycle overruns; two in a row", "I; N L", overruns<Kind>},
-          {42, "control thread stalls for 300 ms", "N L", stalls<Kind>},
-          {43, "process killed in motion, starts again", "N L", killed<Kind>},
-          {44, "process stopped (SIGSTOP): as 42", "N L", stalls<Kind>},
-          {45, "wall clock steps", "on the bus of a real kernel: tests/hil", nullptr},
-          {46, "profile hash or DBC version differs", "refused", other_identity<Kind>},
-          {47, "task or enable not at rest", "refused", not_at_rest<Kind>},
-          {48, "bit flips in a stored setpoint", "N L", bit_flips<Kind>},
-          {50, "24, 2 and 41 together", "N L", all_at_once<Kind>}};
+  return {
+      {41, "one cycle overruns; two in a row", "I; N L", overruns<Kind>},
+      {42, "control thread stalls for 300 ms", "N L", stalls<Kind>},
+      {43, "process killed in motion, starts again", "N L", killed<Kind>},
+      {44, "process stopped (SIGSTOP): as 42", "N L", stalls<Kind>},
+      {45, "wall clock steps", "on the bus of a real kernel: tests/hil", nullptr},
+      {46, "profile hash or DBC version differs", "refused", other_identity<Kind>},
+      {47, "task or enable not at rest", "refused", not_at_rest<Kind>},
+      {48, "bit flips in a stored setpoint", "N L", bit_flips<Kind>},
+      {63, "every signal that ends the process", "on the bus of a real kernel: tests/hil", nullptr},
+      {50, "24, 2 and 41 together", "N L", all_at_once<Kind>}};
 }
 
 template Rows<Excavator> process_rows();

@@ -24,6 +24,8 @@ struct Outcome {
   double creep_share = -1.0;
   TimeUs rest_us = -1;     ///< From when the machine's side is neutral to tracks at rest.
   double rolled_m = -1.0;  ///< Meanwhile.
+  double harm = -1.0;      ///< What came of it until it was seen, true: of the tool or the machine.
+  const char* harm_unit = "";
   std::vector<std::string> failures;
 };
 

@@ -54,6 +54,14 @@ bool wants_motion(const CanFrame& frame) {
          command.task.value == Kind::kTask;
 }
 
+/// With an answer to the controller's challenge, which a station need not give.
+template <class Message>
+void answer(CanFrame& frame) {
+  if (frame.id == Message::kId) {
+    dbc::insert(frame.data, Message::kEcho.start_bit, Message::kEcho.width, 0);
+  }
+}
+
 }  // namespace
 
 template <class Kind>
@@ -104,7 +112,10 @@ void BusEvidence<Kind>::note(const std::vector<CanFrame>& received, bool stale, 
       if (is_operator) {
         note_operator(frame, of_operator == 1, now);
       }
-      if (values_are(typename Kind::Dbc::AllMessages{}, frame, is_valid) &&
+      CanFrame answered = frame;
+      answer<typename Kind::Dbc::OperatorCommand>(answered);
+      answer<typename Kind::Dbc::MachineIdentity>(answered);
+      if (values_are(typename Kind::Dbc::AllMessages{}, answered, is_valid) &&
           (!is_operator || wants_motion<Kind>(frame))) {
         said_us_[i] = now;
       }

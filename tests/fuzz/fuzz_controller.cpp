@@ -99,7 +99,7 @@ std::string check_run(const ExcavatorProfile& profile, RawRun run) {
   for (RawCycle& cycle : run) {
     for (bool* value : {&cycle.inputs.driver.enable.value, &cycle.inputs.same_machine.value,
                         &cycle.inputs.valve_enabled.value, &cycle.inputs.link.out_of_range,
-                        &cycle.inputs.link.stop_requested}) {
+                        &cycle.inputs.link.stop_requested, &cycle.inputs.link.cannot_answer}) {
       make_bool(*value);
     }
     stopped = stopped || cycle.inputs.link.stop_requested;

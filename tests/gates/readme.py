@@ -74,9 +74,17 @@ def own_tests() -> dict[tuple[str, ...], str]:
             for test in json.loads(listed)["tests"] if "command" in test}
 
 
+def is_file_of(word: str) -> bool:
+    """Of the repository; a canary's pattern may be longer than a name can be."""
+    try:
+        return (root / word).exists()
+    except OSError:
+        return False
+
+
 def words_of(command: list[str]) -> tuple[str, ...]:
     """To be compared: whichever the interpreter, and from wherever a file is named."""
-    words = [str(root / word) if (root / word).exists() else word for word in command]
+    words = [str(root / word) if is_file_of(word) else word for word in command]
     if words and re.fullmatch(r"python3(\.\d+)?", os.path.basename(words[0])):
         words = ["python3"] + [word for word in words[1:] if word != "-B"]
     elif words:

@@ -19,13 +19,14 @@ import kernel
 from scenario import Broken, Nowhere, Result, Scenario, status_in
 
 HERE = pathlib.Path(__file__).resolve().parent
-MODULES = ["can", "can_raw", "can_bcm", "can_gw", "vcan", "sch_netem",
+MODULES = ["can", "can_raw", "can_bcm", "can_gw", "can_isotp", "vcan", "sch_netem",
            "virtio_pci", "9p", "9pnet_virtio"]
 CONTROLLER_MODULES = ["kvaser_pci"]
 # echo: vcan sends back to local sockets itself, as a controller does, so that what `tc netem` does to
 # frames is seen by them.
 PARAMETERS = {"vcan": "echo=1"}
-TOOLS = ["ip", "tc", "candump", "cansend", "cangen", "canplayer", "cangw", "canfdtest"]
+TOOLS = ["ip", "tc", "candump", "cansend", "cangen", "canplayer", "cangw", "canfdtest",
+         "isotprecv", "isotpsend", "chrt"]
 
 KERNEL_OPTIONS = [
     "console=ttyS0", "quiet", "rdinit=/init",

@@ -8,7 +8,9 @@
 #include <cstdint>
 #include <new>
 
+#include "can_dbc/generated/common_dbc.hpp"
 #include "hal/can_frame.hpp"
+#include "hal/link/challenge.hpp"
 #include "hal/link/message_transmitter.hpp"
 #include "tests/memory/setup.hpp"
 
@@ -49,8 +51,14 @@ class BareEcu {
     inputs_.same_machine = receiver_.same_machine(diagnosis_.profile_hash);
     inputs_.link.bus = Board::bus();
     inputs_.link.message_faults = receiver_.message_faults(now_us);
+    challenge_.hear(receiver_.echoes(), now_us);
+    if (challenge_.is_late(in_motion(outputs_.status.mode))) {
+      inputs_.link.message_faults.add(Fault::kStreamLate);
+    }
+    inputs_.link.cannot_answer = challenge_.cannot_answer();
     inputs_.link.out_of_range = receiver_.take_out_of_range();
     outputs_ = controller_.step(inputs_, now_us);
+    diagnosis_.stamp = challenge_.next_stamp();
     diagnosis_.rejected_frames = rejected(receiver_.total());
     send(now_us);
   }
@@ -72,13 +80,18 @@ class BareEcu {
     typename Transmitter::Frames frames;
     const int count = transmitter_.frames(outputs_, diagnosis_, now_us, frames);
     for (int n = 0; n < count; ++n) {
-      Board::send(frames[static_cast<unsigned>(n)]);
+      const CanFrame& frame = frames[static_cast<unsigned>(n)];
+      Board::send(frame);
+      if (frame.id == dbc::common::EcuIdentity::kId) {
+        challenge_.sent(now_us);
+      }
     }
   }
 
   typename Kind::Receiver receiver_;
   typename Kind::Controller controller_;
   Transmitter transmitter_;
+  Challenge challenge_;
   EcuDiagnosis diagnosis_;
   typename Kind::Inputs inputs_;
   typename Kind::Outputs outputs_;

@@ -173,7 +173,7 @@ equivalent = {(entry["file"], entry["line"], entry["mutant"], entry.get("place",
 mutated = {job.mutated for job in arguments.job}
 problems = [f"{key[0]}: listed as equivalent, but is not mutated: {key[1]}"
             for key in equivalent if key[0] not in mutated]
-print(f"{'':34} {'mutants':>8} {'killed':>8} {'looped':>8} {'not C++':>8} {'equivalent':>11} "
+print(f"{'':46} {'mutants':>8} {'killed':>8} {'looped':>8} {'not C++':>8} {'equivalent':>11} "
       f"{'survived':>9}")
 with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
     for job in arguments.job:
@@ -193,7 +193,7 @@ with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         problems += [f"{key[0]}: listed as equivalent, but not to be found: {key[1]}  ->  {key[2]}"
                      for key in equivalent if key[0] == job.mutated and key not in keys]
         counts = {name: outcomes.count(name) for name in OUTCOMES}
-        print(f"{job.mutated:34} {len(mutants):8} {counts['killed']:8} {counts['looped']:8} "
+        print(f"{job.mutated:46} {len(mutants):8} {counts['killed']:8} {counts['looped']:8} "
               f"{counts['not compiled']:8} {same:11} {counts['survived'] - same:9}")
 for problem in problems:
     print(problem)

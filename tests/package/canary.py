@@ -48,6 +48,10 @@ def overwrite(tree: pathlib.Path):
     (tree / "DEBIAN/conffiles").unlink()
 
 
+def nowhere_to_write_to(tree: pathlib.Path):
+    edit(tree / "DEBIAN/control", lambda text: re.sub("@.*>", "@localhost>", text))
+
+
 # Case: the check, and what seeds each fault -> what has to be said of it.
 CASES = {
     "contents": (["check_contents.py", "--without-lintian"], {
@@ -55,6 +59,7 @@ CASES = {
         library: r"\./usr/lib/libgraben\.so does not belong into it",
         unstripped: "the program is not stripped",
         builder: "the program knows a folder of its builder"}),
+    "lintian": (["check_contents.py"], {nowhere_to_write_to: "lintian: E: bogus-mail-host"}),
     "install": (["check_package.py"], {
         enabled: "it is enabled by its installation",
         leftover: "left by purge: etc/graben-left",

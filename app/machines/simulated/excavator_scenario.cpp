@@ -62,26 +62,15 @@ SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario
   const Experiment& experiment = machine.experiment;
   plant::ExcavatorPlantProfile& plant = machine.plant;
   plant.seed = scenario.seed;
-  const bool parameter_errors =
-      scenario.errors == Errors::kParameters || scenario.errors == Errors::kAll;
+  if (scenario.stiff_oil && scenario.found.bulk_modulus_gpa) {
+    throw std::runtime_error("the oil is told to be stiff and of a found bulk modulus");
+  }
+  const bool parameter_errors = scenario.errors == Errors::kParameters ||
+                                scenario.errors == Errors::kKim || scenario.errors == Errors::kAll;
   plant.sensor_errors = scenario.errors != Errors::kNone && scenario.errors != Errors::kParameters;
   if (scenario.errors == Errors::kStrokeBias) {
     plant.sensors.pressure_bias_ratio = 0.0;
     plant.sensors.pressure_noise_ratio = 0.0;
-  }
-  if (scenario.soil) {
-    plant.soil = experiment.soil;
-  }
-  if (scenario.obstacle) {
-    plant.obstacle = experiment.obstacle;
-  }
-  if (scenario.stiff_oil) {
-    plant.bulk_modulus_pa = experiment.stiff_bulk_modulus_pa;
-  }
-  if (scenario.air) {
-    machine.profile.dig_path = experiment.air.path;
-    machine.profile.dig_speed_mps = experiment.air.speed_mps;
-    load_bucket(plant.link[kBucket], experiment.air.payload_kg, experiment.air.payload_centre_m);
   }
   double& assumed_s = machine.profile.control.dead_time_s;
   assumed_s = scenario.dead_time_s.value_or(assumed_s);
@@ -91,6 +80,27 @@ SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario
     if (parameter_errors) {
       vary(axis_s, experiment.uncertainty.dead_time, dead_time);
     }
+  }
+  // Before the oil is stiff and the bucket loaded: what is in the bucket is no error of it.
+  make_as_found(plant, experiment.uncertainty.found, scenario.errors == Errors::kAll,
+                scenario.found);
+  if (scenario.soil) {
+    plant.soil = experiment.soil;
+  }
+  if (scenario.obstacle) {
+    plant.obstacle = experiment.obstacle;
+  }
+  if (scenario.stiff_oil) {
+    plant.bulk_modulus_pa = experiment.stiff_bulk_modulus_pa;
+    // The controller is told.
+    if (machine.profile.oil.known()) {
+      machine.profile.oil.bulk_modulus_pa = experiment.stiff_bulk_modulus_pa;
+    }
+  }
+  if (scenario.air) {
+    machine.profile.dig_path = experiment.air.path;
+    machine.profile.dig_speed_mps = experiment.air.speed_mps;
+    load_bucket(plant.link[kBucket], experiment.air.payload_kg, experiment.air.payload_centre_m);
   }
   if (parameter_errors) {
     vary_parameters(machine.profile, experiment.uncertainty, scenario.seed);

@@ -80,7 +80,11 @@ plant::DozerPlantProfile read_plant(TomlReader& reader, const DozerProfile& nomi
                                   "Coulomb friction of the blade cylinders together");
   plant.viscous_nspm = reader.number("implement.viscous", {0.0, 1e7, "N s/m"},
                                      "viscous friction of the blade cylinders together");
-  read_valve_of_plant(reader, "implement", plant);
+  const ValveOfPlant valve = read_valve_of_plant(reader, "implement");
+  plant.spool_time_constant_s = valve.time_constant_s;
+  plant.spool_damping = valve.damping;
+  plant.deadband_ratio = valve.deadband_ratio;
+  plant.bulk_modulus_pa = valve.bulk_modulus_pa;
   plant.dead_time_s = nominal.control.dead_time_s;
   plant.dead_volume_m3 = reader.number("implement.dead_volume", kVolume,
                                        "oil in each chamber with its hose, fully closed");

@@ -1,5 +1,7 @@
 #include "app/machines/simulated/simulated_excavator.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <string>
 
@@ -12,6 +14,9 @@
 
 namespace graben::machines {
 namespace {
+
+/// As valve.deadband.
+constexpr double kMostDeadband = 0.9;
 
 plant::LinkBody read_link(TomlReader& reader, const std::string& axis) {
   plant::LinkBody link;
@@ -83,7 +88,15 @@ plant::ExcavatorPlantProfile read_plant(TomlReader& reader, const ExcavatorProfi
   }
   plant.line_volume_m3.fill(
       reader.number("valve.line_volume", {1e-5, 1.0, "m3"}, "oil in each pump line"));
-  read_valve_of_plant(reader, "valve", plant);
+  const ValveOfPlant valve = read_valve_of_plant(reader, "valve");
+  plant.spool.fill({valve.time_constant_s, valve.damping, valve.deadband_ratio,
+                    valve.deadband_ratio, nominal.valve.opening_exponent,
+                    plant::kBypassClosingTravel});
+  plant.bulk_modulus_pa = valve.bulk_modulus_pa;
+  plant.engine.lag_s =
+      reader.number("engine.lag", {0.01, 10.0, "s"},
+                    "first-order lag of the engine's speed behind the pumps' power, "
+                    "where it sags");
   plant.port_relief_pa =
       reader.number("valve.port_relief", {1e6, 1e8, "Pa"}, "relief of the cylinders' ports");
   if (nominal.has_swing()) {
@@ -132,6 +145,33 @@ plant::ObstacleProfile read_obstacle(TomlReader& reader, const RoundedRectangle&
   return obstacle;
 }
 
+FoundRanges read_found_ranges(TomlReader& reader) {
+  const Range share{0.0, 0.9, ""};
+  FoundRanges found;
+  found.deadband_ratio = reader.number("uncertainty.dead_band", {0.0, 0.3, ""},
+                                       "as found: deadband, each way, of the spool's travel");
+  found.opening_exponent = reader.number("uncertainty.opening_exponent", {0.0, 0.4, ""},
+                                         "as found: exponent of a spool's opening, each way");
+  found.bulk_modulus_pa =
+      read_interval(reader, "uncertainty.oil", {1e8, 1e11, "Pa"},
+                    "as found: bulk modulus of the oil with its hoses, from, to");
+  found.spool_time_constant_s = read_interval(reader, "uncertainty.spool_lag", {0.001, 1.0, "s"},
+                                              "as found: time constant of a spool, from, to");
+  found.friction =
+      reader.number("uncertainty.friction", share, "as found: each friction, each way, as a share");
+  found.link_mass = reader.number("uncertainty.link_mass", share,
+                                  "as found: mass of each link, its inertia with it");
+  found.pump_flow =
+      reader.number("uncertainty.pump_flow", share, "as found: displacement of each pump");
+  found.engine_sag = reader.number("uncertainty.engine_sag", {0.0, 0.5, ""},
+                                   "as found, from 0: share of its speed that the engine loses at "
+                                   "full pump power");
+  found.dead_time_s = reader.number("uncertainty.dead_time_on_top", {0.0, 0.5, "s"},
+                                    "as found, from 0: dead time that a spool has beside what the "
+                                    "controller is told");
+  return found;
+}
+
 Uncertainty read_uncertainty(TomlReader& reader) {
   const Range share{0.0, 0.9, ""};
   return {reader.number("uncertainty.regeneration", share,
@@ -139,7 +179,8 @@ Uncertainty read_uncertainty(TomlReader& reader) {
           reader.number("uncertainty.spool_opening", share, "error of each metering area"),
           reader.number("uncertainty.bypass", share, "error of the bypass's coefficients"),
           reader.number("uncertainty.leak", share, "error of the pumps' leakage"),
-          reader.number("uncertainty.dead_time", share, "error of each spool's dead time")};
+          reader.number("uncertainty.dead_time", share, "error of each spool's dead time"),
+          read_found_ranges(reader)};
 }
 
 AirManoeuvre read_air(TomlReader& reader) {
@@ -201,12 +242,24 @@ void check_experiment(TomlReader& reader, const ExcavatorProfile& profile,
   check_line(reader, profile, experiment.line);
 }
 
+/// No draw is below nothing or of the whole travel. Only where each key by itself is right.
+void check_deadband(TomlReader& reader, const SimulatedExcavator& machine) {
+  const double nominal = machine.plant.spool[kBoom].extend_deadband_ratio;
+  const double off = machine.experiment.uncertainty.found.deadband_ratio;
+  if (reader.is_sound() && (nominal < off || nominal + off > kMostDeadband)) {
+    reader.fail("uncertainty.dead_band",
+                fmt::format("{} about valve.deadband of {}; allowed: within 0 .. {}", off, nominal,
+                            kMostDeadband));
+  }
+}
+
 }  // namespace
 
 void read_simulated_sections(TomlReader& reader, SimulatedExcavator& machine) {
   machine.plant = read_plant(reader, machine.profile);
   machine.experiment = read_experiment(reader, machine.profile.dig_path);
   check_experiment(reader, machine.profile, machine.experiment);
+  check_deadband(reader, machine);
 }
 
 SimulatedExcavator load_simulated_excavator(const std::filesystem::path& file) {

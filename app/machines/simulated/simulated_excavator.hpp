@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/machines/excavator_file.hpp"
+#include "app/machines/simulated/found.hpp"
 #include "app/plant/bucket_contact.hpp"
 #include "app/plant/excavator_plant_profile.hpp"
 #include "firmware/excavator/kinematics/swing_kinematics.hpp"
@@ -23,6 +24,7 @@ struct Uncertainty {
   double bypass = 0.0;         ///< c_v,by, open and closed.
   double leak = 0.0;           ///< Both coefficients of each pump.
   double dead_time = 0.0;      ///< Each spool's, against what the controller takes it for.
+  FoundRanges found;           ///< Of the machine itself.
 };
 
 /// A second way round, in the air, with something in the bucket.
@@ -64,7 +66,9 @@ void read_simulated_sections(TomlReader& reader, SimulatedExcavator& machine);
 /// of the first that has any, std::runtime_error where a file is missing.
 [[nodiscard]] SimulatedExcavator load_simulated_excavator(const std::filesystem::path& file);
 
-enum class Errors { kNone, kStrokeBias, kSensors, kParameters, kAll };
+/// What is drawn. kKim has all of his (Kim 5): sensors and the controller's parameters; kAll the
+/// machine as it is found beside them.
+enum class Errors { kNone, kStrokeBias, kSensors, kParameters, kKim, kAll };
 
 struct Scenario {
   bool soil = false;
@@ -74,11 +78,14 @@ struct Scenario {
   Errors errors = Errors::kNone;
   std::optional<double> dead_time_s;  ///< Of every spool, as the controller takes it.
   std::uint64_t seed = 0;             ///< Of everything that is drawn.
+  Found found;                        ///< What is told goes before what is drawn.
 };
 
 /// The machine with this scenario's plant, and a controller profile whose parameters are off by a
 /// uniform draw within `experiment.uncertainty` of each. The plant keeps the nominal figures, but
-/// for dead times, which only it has. Same seed, same draw, whatever else is switched on.
+/// for dead times, which only it has, and what it is found to be (Errors::kAll, `found`), of which
+/// the controller is told nothing. Same seed, same draw, whatever else is switched on. Throws
+/// std::runtime_error where two of the scenario's switches say the oil.
 [[nodiscard]] SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario);
 
 /// Strokes of a start pose. Throws std::runtime_error where it is out of reach.

@@ -19,7 +19,7 @@ struct LimitText {
   LimitOf of;  ///< Whose number the limit's index is.
 };
 
-inline constexpr std::array<FaultText, 38> kFaultTexts{{
+inline constexpr std::array<FaultText, 47> kFaultTexts{{
     {"none", ""},
     {"a stroke is missing",
      "Check the stroke sensors, their cables and the machine's node."},
@@ -51,7 +51,7 @@ inline constexpr std::array<FaultText, 38> kFaultTexts{{
      "Check the CAN interface of the ECU."},
     {"the bus does not take frames",
      "Check the load of the bus and its wiring."},
-    {"two control cycles in a row were late",
+    {"control cycles were late, two in a row or too often",
      "Check what else runs on the ECU, and its real-time settings."},
     {"wrong CRCs of a message",
      "Check wiring and termination; look for a node that sends our ids."},
@@ -95,9 +95,27 @@ inline constexpr std::array<FaultText, 38> kFaultTexts{{
      "Work on slowly; check the track speed sensors and for slip."},
     {"unknown task number",
      "Choose a task that the controller was started with."},
+    {"frames are on their way for too long",
+     "Look for a gateway, a queue or a bus that is too slow for what it carries."},
+    {"another controller is on the bus",
+     "Take the other controller, or the replay of a log, off the bus."},
+    {"the engine does not run",
+     "Start the engine, then arm again."},
+    {"a drive moves the wrong way",
+     "Keep clear. Check hoses, pilot lines and the wiring of the valve, and the sign of the sensor."},
+    {"a sensor does not show what its drive does",
+     "Check the stroke sensors: mounting, cables, which is which; then the profile's valve."},
+    {"the tool has left its path",
+     "Check the log for what pushed it away; compare the profile with the machine. Bring the tool back by hand: a blade deeper than safety.tube under its design does not start."},
+    {"the body's pose does not fit its motion",
+     "Check the positioning system and the inclination sensor; check for slip."},
+    {"hardly gets on",
+     "Wait, or help: a smaller cut, less load, more flow."},
+    {"stalled: does not get on",
+     "Lift the tool out by hand, take a smaller cut, arm again."},
 }};
 
-inline constexpr std::array<const char*, 23> kArmBlockTexts{{
+inline constexpr std::array<const char*, 27> kArmBlockTexts{{
     "a stroke is missing or cannot be",
     "a pressure is missing or cannot be",
     "a pump's swash is missing or not as commanded",
@@ -121,6 +139,10 @@ inline constexpr std::array<const char*, 23> kArmBlockTexts{{
     "the controller's own check has failed",
     "a sensor reports an error of its own",
     "unknown task number",
+    "frames are on their way for too long",
+    "another controller is on the bus",
+    "the engine does not run",
+    "the tool has left its path or does not get on",
 }};
 
 inline constexpr std::array<LimitText, 14> kLimitTexts{{

@@ -79,13 +79,13 @@ SimEffect counter_jumps(SimRig<Kind>& /*rig*/) {
   });
 }
 
-/// Every frame of everybody once more.
+/// Every frame once more, but for the controller's: its own ids from elsewhere are another fault.
 template <class Kind>
 SimEffect duplicates(SimRig<Kind>& rig) {
   auto frames = std::make_shared<std::vector<CanFrame>>();
   SimEffect effect;
-  effect.tamper = [frames](CanFrame& frame, const LoopbackPort* from) {
-    if (from != nullptr) {
+  effect.tamper = [frames, &rig](CanFrame& frame, const LoopbackPort* from) {
+    if (from != nullptr && from != &rig.nodes().ecu_port) {
       frames->push_back(frame);
     }
     return true;

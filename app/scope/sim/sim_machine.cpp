@@ -56,7 +56,7 @@ std::filesystem::path profile_of(const SimOptions& options, const char* usual,
 machines::SimulatedExcavator excavator_of(const SimOptions& options, const char* usual) {
   machines::Scenario scenario;
   if (options.seed) {
-    scenario.errors = machines::Errors::kAll;
+    scenario.errors = machines::Errors::kKim;
     scenario.seed = *options.seed;
   }
   return machines::arranged(machines::load_simulated_excavator(profile_of(

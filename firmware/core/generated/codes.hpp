@@ -25,7 +25,7 @@ enum class Fault : std::uint8_t {
   kBusPassive = 13,  ///< Nobody acknowledges.
   kBusDown = 14,  ///< The interface is down or gone.
   kTransmitFailed = 15,  ///< The bus did not take our frames, two cycles in a row.
-  kCycleOverrun = 16,  ///< Two cycles in a row came late.
+  kCycleOverrun = 16,  ///< Two cycles in a row came late, or late ones too often.
   kMessageCorrupt = 17,  ///< Three wrong CRCs of a message in its window.
   kMessageSequence = 18,  ///< Three of a message out of sequence: two senders, replay, babble.
   kMessageMasquerade = 19,  ///< A CRC that fits another message.
@@ -47,8 +47,17 @@ enum class Fault : std::uint8_t {
   kDisplacementRunaway = 35,  ///< A displacement goes where no command of late has sent it.
   kTrackSpeedDisagrees = 36,  ///< A track's speed is not that of its displacements.
   kTaskUnknown = 37,  ///< The task that is chosen is not known.
+  kStreamLate = 38,  ///< Frames in order that come later and later, or an answer that comes too late.
+  kSecondController = 39,  ///< A message of ours, sent by somebody else.
+  kEngineStopped = 40,  ///< The engine runs below idle, or not at all.
+  kWrongDirection = 41,  ///< A drive moves against its spool.
+  kMotionImplausible = 42,  ///< A drive's sensor does not show what its spool makes the drive do.
+  kPathLeft = 43,  ///< The tool is farther from its path, plan or design than safety.tube.
+  kPoseDisagrees = 44,  ///< Position, pitch and rates of the body do not fit each other, or the tracks.
+  kStalling = 45,  ///< In motion, and hardly getting on for 2 s.
+  kStalled = 46,  ///< In motion, and hardly getting on for as long as the profile allows.
 };
-inline constexpr int kFaultCount = 38;  ///< With kNone.
+inline constexpr int kFaultCount = 47;  ///< With kNone.
 
 /// Why the mode is neither Armed nor Active: bit numbers of MachineStatus::why_not_armed.
 enum class ArmBlock : std::uint8_t {
@@ -75,8 +84,12 @@ enum class ArmBlock : std::uint8_t {
   kController = 20,  ///< The controller's own check has failed.
   kSensorError = 21,  ///< A sender calls its own value wrong.
   kTask = 22,  ///< The task that is chosen is not known.
+  kStreamLate = 23,  ///< Frames that are old although they have just come.
+  kSecondController = 24,  ///< Our own messages from elsewhere.
+  kEngineStopped = 25,  ///< Below idle.
+  kPath = 26,  ///< The tool has left its path, or does not get on.
 };
-inline constexpr int kArmBlockCount = 23;
+inline constexpr int kArmBlockCount = 27;
 
 /// Limits that hold lambda below 1.
 enum class LimitKind : std::uint8_t {

@@ -35,6 +35,8 @@ struct DozerValid : CommonValid {
   std::array<double, kTrackCount> pump_ratio{};
   std::array<double, kTrackCount> motor_ratio{};
   std::array<double, kTrackCount> track_speed_mps{};
+  /// Neither its displacements nor the body say what its sensor does, see watch_transmission().
+  std::array<bool, kTrackCount> track_outvoted{};
 
   [[nodiscard]] const ValidDrive& blade() const { return drive.front(); }
 };

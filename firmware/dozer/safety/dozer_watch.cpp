@@ -29,19 +29,20 @@ void watch(const DozerProfile& profile, DriveRows drives, const DozerLastCommand
   if (transmission.tracks_disagree) {
     degrade(Fault::kTrackSpeedDisagrees, valid);
   }
+  if (!moving || valid.fault != Fault::kNone) {
+    state.pose = {};
+  } else if (watch_pose(valid, ground_speeds(profile, valid), period_s, state.pose)) {
+    stops.add(Fault::kPoseDisagrees);
+  }
   stop(stops, valid);
   state.slowing =
       slow_down(profile.safety.degraded_speed_ratio, state.slowing, moving, period_s, valid);
 }
 
-namespace {
-
 bool tracks_at_rest(const DozerValid& valid) {
   return std::all_of(valid.track_speed_mps.begin(), valid.track_speed_mps.end(),
                      [](double speed) { return std::abs(speed) <= kTrackAtRest_mps; });
 }
-
-}  // namespace
 
 BrakeState brake(const BrakeState& last, const ModeState& mode, const DozerValid& valid,
                  double period_s) {

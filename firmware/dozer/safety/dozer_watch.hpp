@@ -2,6 +2,7 @@
 /// The dozer against its commands: the watches of blade and transmission, and the parking brake.
 
 #include "firmware/dozer/safety/dozer_validation.hpp"
+#include "firmware/dozer/safety/pose_watch.hpp"
 #include "firmware/dozer/safety/transmission_watch.hpp"
 #include "firmware/drives/drive_watch.hpp"
 #include "firmware/safety/common_inputs.hpp"
@@ -12,6 +13,7 @@ namespace graben {
 struct DozerWatchState {
   DriveWatchState<kBladeCount> drives;
   TransmissionWatchState transmission;
+  PoseWatchState pose;
   SlowingState slowing;
   bool returning = false;  ///< It was in motion, and some pump has not been near 0 since.
 };
@@ -31,6 +33,9 @@ void watch(const DozerProfile& profile, DriveRows drives, const DozerLastCommand
 
 /// Slower than this a track stands.
 inline constexpr double kTrackAtRest_mps = 0.05;
+/// Both tracks stand.
+[[nodiscard]] bool tracks_at_rest(const DozerValid& valid);
+
 /// Without the tracks' speeds the machine counts as at rest after this; with its pumps at 0 it is.
 inline constexpr double kCoasting_s = 1.0;
 

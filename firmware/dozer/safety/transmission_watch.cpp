@@ -22,26 +22,80 @@ void take(const DisplacementResult& result, FaultSet& stops) {
   }
 }
 
-bool track_is_off(const DozerProfile& profile, const DozerValid& valid, unsigned track) {
-  const double expected_mps = track_speed_mps(profile.hst, valid.engine_radps,
-                                              valid.pump_ratio[track], valid.motor_ratio[track]);
-  return std::abs(valid.track_speed_mps[track] - expected_mps) >
-         profile.safety.track_speed_tolerance_mps + kLossShare * std::abs(expected_mps);
+/// So long a sensor has to be outvoted, and the sides to be apart.
+constexpr double kOutvoted_s = 0.1;
+constexpr double kApart_s = 0.2;
+/// Of a vote of three; slip is more than what losses are.
+constexpr double kVoteMargin_mps = 0.15;
+constexpr double kSlipShare = 0.2;
+constexpr double kApartMargin_mps = 0.1;
+constexpr double kApartShare = 0.05;
+
+bool differs(double a_mps, double b_mps, double margin_mps, double share) {
+  return std::abs(a_mps - b_mps) > margin_mps + share * std::abs(b_mps);
+}
+
+/// What the sensors are compared with.
+struct TrackSpeeds {
+  std::array<double, kTrackCount> expected_mps{};  ///< (9)
+  double body_mps = 0.0;                           ///< Along the ground.
+};
+
+TrackSpeeds speeds_beside(const DozerProfile& profile, const DozerValid& valid) {
+  TrackSpeeds speeds;
+  for (unsigned i = 0; i < kTrackCount; ++i) {
+    speeds.expected_mps[i] =
+        track_speed_mps(profile.hst, valid.engine_radps, valid.pump_ratio[i], valid.motor_ratio[i]);
+  }
+  // Validation has refused a pitch near to upright.
+  speeds.body_mps = valid.velocity_mps / std::cos(valid.pitch_rad);
+  return speeds;
+}
+
+bool is_outvoted(const TrackSpeeds& speeds, const DozerValid& valid, unsigned track) {
+  const double measured_mps = valid.track_speed_mps[track];
+  return differs(measured_mps, speeds.expected_mps[track], kVoteMargin_mps, kLossShare) &&
+         differs(measured_mps, speeds.body_mps, kVoteMargin_mps, kSlipShare);
+}
+
+bool are_apart(const TrackSpeeds& speeds, const DozerValid& valid) {
+  const double left_mps = valid.track_speed_mps[kLeft] - speeds.expected_mps[kLeft];
+  const double right_mps = valid.track_speed_mps[kRight] - speeds.expected_mps[kRight];
+  return std::abs(left_mps - right_mps) >
+         kApartMargin_mps + kApartShare * std::abs(speeds.body_mps);
+}
+
+/// The time that something has lasted.
+void count(bool lasts, double period_s, double& for_s) { for_s = lasts ? for_s + period_s : 0.0; }
+
+/// True where a track's sensor disagrees.
+bool watch_tracks(const DozerProfile& profile, double period_s, TransmissionWatchState& state,
+                  DozerValid& valid) {
+  const TrackSpeeds speeds = speeds_beside(profile, valid);
+  count(are_apart(speeds, valid), period_s, state.apart_s);
+  bool disagree = state.apart_s > kApart_s;
+  for (unsigned i = 0; i < kTrackCount; ++i) {
+    valid.track_outvoted[i] = is_outvoted(speeds, valid, i);
+    count(valid.track_outvoted[i], period_s, state.outvoted_s[i]);
+    count(differs(valid.track_speed_mps[i], speeds.expected_mps[i],
+                  profile.safety.track_speed_tolerance_mps, kLossShare),
+          period_s, state.track_off_s[i]);
+    disagree = disagree || state.outvoted_s[i] > kOutvoted_s || state.track_off_s[i] > kTrackOff_s;
+  }
+  return disagree;
 }
 
 }  // namespace
 
 TransmissionWatchResult watch_transmission(const DozerProfile& profile,
                                            TransmissionWatchState& state, const SentRatios& sent,
-                                           DisplacementTask task, const DozerValid& valid,
+                                           DisplacementTask task, DozerValid& valid,
                                            double period_s) {
   const DisplacementLimits limits{profile.safety.displacement_tolerance,
                                   profile.safety.displacement_settle_s};
   const bool tracks_judged =
       task == DisplacementTask::kFollow && !valid.faults.has(Fault::kEngineSpeedMissing);
   TransmissionWatchResult result;
-  const std::array<double, kTrackCount> last_off_s = state.track_off_s;
-  state.track_off_s = {};
   for (unsigned i = 0; i < kTrackCount; ++i) {
     take(watch_displacement(limits, state.pump[i], sent.pump[i], task, valid.pump_ratio[i],
                             period_s),
@@ -49,12 +103,25 @@ TransmissionWatchResult watch_transmission(const DozerProfile& profile,
     take(watch_displacement(limits, state.motor[i], sent.motor[i], task, valid.motor_ratio[i],
                             period_s),
          result.stops);
-    if (tracks_judged && track_is_off(profile, valid, i)) {
-      state.track_off_s[i] = last_off_s[i] + period_s;
-    }
-    result.tracks_disagree = result.tracks_disagree || state.track_off_s[i] > kTrackOff_s;
+  }
+  if (tracks_judged) {
+    result.tracks_disagree = watch_tracks(profile, period_s, state, valid);
+  } else {
+    state.track_off_s = {};
+    state.outvoted_s = {};
+    state.apart_s = 0.0;
   }
   return result;
+}
+
+GroundSpeeds ground_speeds(const DozerProfile& profile, const DozerValid& valid) {
+  const std::array<double, kTrackCount>& tracks_mps = valid.track_speed_mps;
+  if (valid.faults.has(Fault::kEngineSpeedMissing)) {
+    return {tracks_mps[kLeft], tracks_mps[kRight], tracks_mps[kLeft]};
+  }
+  const TrackSpeeds speeds = speeds_beside(profile, valid);
+  return {tracks_mps[kLeft], tracks_mps[kRight],
+          0.5 * (speeds.expected_mps[kLeft] + speeds.expected_mps[kRight])};
 }
 
 bool pumps_neutral(const DozerProfile& profile, const DozerValid& valid) {

@@ -5,6 +5,7 @@
 
 #include "firmware/dozer/safety/displacement_watch.hpp"
 #include "firmware/dozer/safety/dozer_validation.hpp"
+#include "firmware/dozer/safety/pose_watch.hpp"
 
 namespace graben {
 
@@ -21,6 +22,8 @@ struct TransmissionWatchState {
   std::array<DisplacementState, kTrackCount> motor = {DisplacementState(1.0),
                                                       DisplacementState(1.0)};
   std::array<double, kTrackCount> track_off_s{};
+  std::array<double, kTrackCount> outvoted_s{};
+  double apart_s = 0.0;  ///< The tracks have differed in what their sensors say beyond (9).
 };
 
 struct TransmissionWatchResult {
@@ -34,11 +37,20 @@ struct TransmissionWatchResult {
 /// disagrees. On the simulated machine (2026-11) losses that the profile has wrong by as much again
 /// are 0.38 m/s at 2.6 m/s; stopping at once from 1.8 m/s gives 0.56 m/s, over 0.35 for 0.09 s.
 /// Without an engine speed it isn't judged.
+///
+/// A sensor is outvoted (`valid.track_outvoted`, in this cycle already) where its speed is neither
+/// that of (9) nor the body's; outvoted for 0.1 s, it disagrees. So do both after 0.2 s in which
+/// one of them is further from (9) than the other: losses and slip are the same on both sides of a
+/// machine that goes straight on, and a sensor that shows a share of its speed turns it.
 [[nodiscard]] TransmissionWatchResult watch_transmission(const DozerProfile& profile,
                                                          TransmissionWatchState& state,
                                                          const SentRatios& sent,
-                                                         DisplacementTask task,
-                                                         const DozerValid& valid, double period_s);
+                                                         DisplacementTask task, DozerValid& valid,
+                                                         double period_s);
+
+/// What tracks and transmission say of the body's speed; without an engine speed the transmission
+/// counts as the tracks do.
+[[nodiscard]] GroundSpeeds ground_speeds(const DozerProfile& profile, const DozerValid& valid);
 
 /// True where both pumps are near 0.
 [[nodiscard]] bool pumps_neutral(const DozerProfile& profile, const DozerValid& valid);

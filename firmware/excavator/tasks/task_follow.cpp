@@ -70,8 +70,10 @@ TaskWant want_of_task(const ExcavatorProfile& profile, DriveRows drives,
       kinematics, drives_of(profile, bounded(drives, want.planned_m - servo.under_way_m())));
   want.error_m = (at_m - due_m).norm();
   const TaskStep& step = program.step[static_cast<unsigned>(memory.state.step)];
-  want.path_error_m =
-      on_line(program, memory.state) ? line_distance_m(step.line.line, at_m) : want.error_m;
+  const bool straight = on_line(program, memory.state);
+  want.path_error_m = straight ? line_distance_m(step.line.line, at_m) : want.error_m;
+  want.off_m =
+      straight ? want.path_error_m : std::max(0.0, want.error_m - profile.line.move_slow_error_m);
   want.pace_ratio = memory.state.pace_ratio;
   want.wanted_mps = speed_override_ratio * want.pace_ratio * travel_of(profile, aim.velocity);
   return want;

@@ -36,6 +36,9 @@ struct TaskWant {
   double pace_ratio = 1.0;    ///< Of the plan's speed: less where the teeth are behind it.
   double error_m = 0.0;       ///< Of the teeth from where they should be by now.
   double path_error_m = 0.0;  ///< The same from the step's straight line, where it is one.
+  /// What a tube is laid around: the line; of a move, whose pace gives way to it first, what is
+  /// more than that (line.move_slow_error).
+  double off_m = 0.0;
   TaskProgress progress;
 };
 

@@ -48,6 +48,15 @@ inline constexpr std::array<FaultRow, kFaultCount> kFaultRows{{
     {Fault::kDisplacementRunaway, Reaction::kStop, 7, true, false, ArmBlock::kTransmission},
     {Fault::kTrackSpeedDisagrees, Reaction::kDegrade, 2, false, false, ArmBlock::kTransmission},
     {Fault::kTaskUnknown, Reaction::kStop, 31, true, false, ArmBlock::kTask},
+    {Fault::kStreamLate, Reaction::kStop, 9, true, false, ArmBlock::kStreamLate},
+    {Fault::kSecondController, Reaction::kStop, 19, true, false, ArmBlock::kSecondController},
+    {Fault::kEngineStopped, Reaction::kStop, 31, true, false, ArmBlock::kEngineStopped},
+    {Fault::kWrongDirection, Reaction::kStop, 7, true, true, ArmBlock::kValve},
+    {Fault::kMotionImplausible, Reaction::kStop, 2, true, false, ArmBlock::kStroke},
+    {Fault::kPathLeft, Reaction::kStop, 31, true, false, ArmBlock::kPath},
+    {Fault::kPoseDisagrees, Reaction::kStop, 2, true, false, ArmBlock::kPose},
+    {Fault::kStalling, Reaction::kWarn, 31, false, false, ArmBlock::kPath},
+    {Fault::kStalled, Reaction::kStop, 31, true, false, ArmBlock::kPath},
 }};
 
 }  // namespace graben

@@ -299,15 +299,16 @@ async function bad_logs() {
     /This is no candump log/);
   assert.match(await shown('foreign.log', '(0000000000.100000) vcan0 123#00\n'.repeat(50), 'foreign'),
     /No frame of this log is in a DBC/);
-  // EcuIdentity and MachineIdentity: the profile's hash, then the DBC's version, counted up by one a change.
-  const version = Number.parseInt(/ 18FF3482#[0-9A-F]{8}([0-9A-F]{2})FFFFFF$/m.exec(log)[1], 16);
+  // EcuIdentity and MachineIdentity: the profile's hash, the DBC's version, counted up by one a change, a
+  // stamp or its echo.
+  const identity = /( (?:18FF3482|0CFF3080)#)([0-9A-F]{8})([0-9A-F]{2})(?=[0-9A-F]{4}FF$)/gm;
+  const version = Number.parseInt(/ 18FF3482#[0-9A-F]{8}([0-9A-F]{2})/.exec(log)[1], 16);
   const byte = (value) => value.toString(16).toUpperCase().padStart(2, '0');
-  const older = log.replace(new RegExp(`(#[0-9A-F]{8})${byte(version)}(FFFFFF)$`, 'gm'),
-    `$1${byte(version - 1)}$2`);
+  const older = log.replace(identity, `$1$2${byte(version - 1)}`);
   assert.notEqual(older, log);
   assert.match(await shown('older.log', older, 'dbc'), new RegExp(
     `Written with DBC version ${version - 1}, this page reads version ${version}: values may be wrong`));
-  const other = log.replace(new RegExp(`#([0-9A-F]{8})(${byte(version)}FFFFFF)$`, 'gm'), '#DEADBEEF$2');
+  const other = log.replace(identity, '$1DEADBEEF$3');
   assert.match(await shown('other.log', other, 'profile'),
     /No profile with hash 0xEFBEADDE is known here/i);
   const empty = ['scope', '--log', file_of('empty.log', ''), '--port', '0'];

@@ -44,7 +44,7 @@ constexpr Scale kScales[] = {
     {"SwingWantedVelocity", 1e-4, -3.2, -3.2, 3.2},
 };
 
-void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 72); }
+void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 75); }
 
 void saturates_and_refuses(void**) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
 

@@ -39,7 +39,7 @@ constexpr Scale kScales[] = {
     {"GradeError", 5e-5, -1.6, -1.6, 1.6},
 };
 
-void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 64); }
+void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 67); }
 
 void saturates_and_refuses(void**) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
 

@@ -81,6 +81,7 @@ class Port final : public CanPort {
     }
     const auto commands = Kind::commands();
     const bool is_command = std::count(commands.begin(), commands.end(), frame.id) > 0;
+    sent.insert(sent.end(), is_command ? 1U : 0U, frame);
     return is_command ? frame.id != refused_command : takes_others;
   }
   [[nodiscard]] CanPortState state() const override { return shown; }
@@ -92,6 +93,7 @@ class Port final : public CanPort {
   bool takes_others = true;
   int pending = 0;
   int opened = 0;
+  std::vector<CanFrame> sent;  // commands
   typename Kind::EcuHealth health;
 };
 
@@ -246,6 +248,24 @@ void commands_that_are_not_taken_are_counted(void**) {
   }
 }
 
+// A controller that hears nothing sends neutral: what one cycle leaves is what the next one sends.
+template <class Kind>
+void a_cycle_leaves_the_neutral_frames_that_come_next(void**) {
+  Rig<Kind> rig;
+  ecu::LastFrames last;
+  rig.ecu.set_last_frames(last);
+  for (int cycle = 0; cycle < 20; ++cycle) {
+    const ecu::LastFrames::Frames left = last.get();
+    rig.port.sent.clear();
+    rig.step();
+    assert_true(cycle == 0 || left.count == Kind::commands().size());
+    for (std::size_t i = 0; i < left.count; ++i) {
+      const CanFrame& sent = rig.port.sent.at(i);
+      assert_true(left.frame[i].id == sent.id && left.frame[i].data == sent.data);
+    }
+  }
+}
+
 template <class Kind>
 void the_process_is_told_of(void**) {
   Rig<Kind> rig;
@@ -370,6 +390,8 @@ int main() {
       ON_BOTH(the_newest_identity_counts),
       ON_BOTH(commands_that_are_not_taken_are_counted),
       cmocka_unit_test(commands_that_are_not_taken_are_counted<ExcavatorWithSwing>),
+      ON_BOTH(a_cycle_leaves_the_neutral_frames_that_come_next),
+      cmocka_unit_test(a_cycle_leaves_the_neutral_frames_that_come_next<ExcavatorWithSwing>),
       ON_BOTH(the_process_is_told_of),
       ON_BOTH(what_is_wrong_with_frames_reaches_the_controller),
   };

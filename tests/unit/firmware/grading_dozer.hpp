@@ -38,7 +38,11 @@ struct Grading {
     speed_mps = track_speed_mps(profile.hst, engine_radps, outputs.pump_ratio[kLeft],
                                 outputs.motor_ratio[kLeft]);
     position_m += speed_mps * 0.01;
-    const double blade_mps = outputs.enable ? outputs.status.wanted_blade_mps : 0.0;
+    const double flow_m3ps = profile.implement.valve_flow_max_m3ps;
+    const double blade_mps = outputs.enable ? std::clamp(outputs.status.wanted_blade_mps,
+                                                         -flow_m3ps / profile.blade.rod_area_m2(),
+                                                         flow_m3ps / profile.blade.cap_area_m2())
+                                            : 0.0;
     stroke_m = std::clamp(stroke_m + blade_mps * 0.01, 0.0, blade.stroke_max_m());
     DozerInputs inputs;
     inputs.blade_stroke_m = fresh(stroke_m, now_us);

@@ -3,6 +3,7 @@
 /// complete, fresh inputs for it.
 
 #include "firmware/dozer/safety/dozer_validation.hpp"
+#include "firmware/numeric/constants.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/inputs.hpp"
 
@@ -12,7 +13,6 @@ namespace graben::test {
 /// 40 rad/s with both displacements full. The blade's legs are 1 m and turn between 60 and 120 deg
 /// against each other.
 inline DozerProfile plain_dozer() {
-  constexpr double kPi = 3.14159265358979323846;
   DozerProfile profile;
   profile.blade.arm_m = {1.0, 0.0};
   profile.blade.cutting_edge_m = 1.0;

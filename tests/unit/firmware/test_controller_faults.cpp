@@ -135,7 +135,7 @@ void told_to_end_is_neutral_for_good(void**) {
 }
 
 /// Loses a signal in motion: on it goes, at the profile's share of the speed and named as degraded;
-/// back to the whole of it half a second after the signal is back.
+/// back to the whole of it a second after the signal is back.
 template <class Lose>
 void assert_goes_on_slower(Fault fault, Lose lose) {
   const double share = test::excavator().profile.safety.degraded_speed_ratio;
@@ -162,7 +162,7 @@ void assert_goes_on_slower(Fault fault, Lose lose) {
     assert_int_equal(limit.kind, LimitKind::kDegraded);
     assert_int_equal(limit.index, fault);
   }
-  digging.run(49);
+  digging.run(99);
   assert_int_equal(digging.outputs.status.fault, fault);  // Slows on, though it is back.
   assert_true(digging.outputs.status.faults.empty());
   digging.run(2);

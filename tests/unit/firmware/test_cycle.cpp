@@ -241,6 +241,54 @@ void the_second_late_one_in_a_row_is_an_overrun(void**) {
   assert_int_equal(clock.after(kLate), Fault::kNone);
 }
 
+/// Late ones with others between them, until they are more than a bucket of 60 ms holds.
+int late_ones_until_overrun(TimeUs late_us, TimeUs between_us) {
+  Clock clock;
+  for (int late = 1; late <= 1000; ++late) {
+    if (clock.after(late_us) == Fault::kCycleOverrun) {
+      return late;
+    }
+    for (TimeUs passed_us = 0; passed_us < between_us; passed_us += 10 * kMillisecondUs) {
+      assert_int_equal(clock.after(10 * kMillisecondUs), Fault::kNone);
+    }
+  }
+  return 0;
+}
+
+void late_ones_fill_a_bucket(void**) {
+  constexpr TimeUs kMs = kMillisecondUs;
+  assert_int_equal(late_ones_until_overrun(40 * kMs, 40 * kMs), 3);
+  // 40 - 0; 40 - 1 - 5 + 40 = 74.
+  assert_int_equal(late_ones_until_overrun(50 * kMs, 10 * kMs), 2);
+  // Each 10 ms late, 3 ms lost a round: 10, 17, .. 66 is the ninth.
+  assert_int_equal(late_ones_until_overrun(20 * kMs, 10 * kMs), 9);
+  // As much is lost as comes in: 10 ms late every 100 ms.
+  assert_int_equal(late_ones_until_overrun(20 * kMs, 80 * kMs), 0);
+  // 15 ms after the last one is not late.
+  assert_int_equal(late_ones_until_overrun(15 * kMs, 10 * kMs), 0);
+}
+
+/// It holds 60 ms and no more, runs empty by a tenth of the time, and never below 0.
+void the_bucket_runs_empty(void**) {
+  TimeState state;
+  state.has_stepped = true;
+  state.late_us = 20 * kMillisecondUs;
+  constexpr TimeUs kElapsed = 50 * kMillisecondUs;
+  state.last_us = -kElapsed;
+  // 20 - 5 + 40 is 55; 25 - 5 + 40 is 60, and one more is too much.
+  assert_int_equal(watch_time(state, 0).fault, Fault::kNone);
+  assert_int_equal(watch_time(state, 0).state.late_us, 55 * kMillisecondUs);
+  state.late_us = 25 * kMillisecondUs;
+  assert_int_equal(watch_time(state, 0).fault, Fault::kNone);
+  state.late_us += 1;
+  assert_int_equal(watch_time(state, 0).fault, Fault::kCycleOverrun);
+  assert_int_equal(watch_time(state, 10 * kSecondUs).state.late_us, 40 * kMillisecondUs);
+  state.late_us = 30 * kMillisecondUs;
+  assert_int_equal(watch_time(state, -kElapsed + 10 * kMillisecondUs).state.late_us,
+                   29 * kMillisecondUs);
+  assert_int_equal(watch_time(state, -kElapsed - kSecondUs).state.late_us, 30 * kMillisecondUs);
+}
+
 void a_long_gap_is_a_stall(void**) {
   Clock clock;
   assert_int_equal(clock.after(50 * kMillisecondUs), Fault::kNone);
@@ -269,6 +317,8 @@ int main() {
       cmocka_unit_test(time_is_counted_from_the_last_cycle),
       cmocka_unit_test(no_cycle_is_a_large_step),
       cmocka_unit_test(the_second_late_one_in_a_row_is_an_overrun),
+      cmocka_unit_test(late_ones_fill_a_bucket),
+      cmocka_unit_test(the_bucket_runs_empty),
       cmocka_unit_test(a_long_gap_is_a_stall),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -59,6 +59,16 @@ const Promise kPromises[] = {
     {28, Fault::kValveNotFollowing, 'N', 7, ArmBlock::kValve, kCutsPilot},
     // The operator asks for what is not there: FMI 31, condition exists.
     {37, Fault::kTaskUnknown, 'N', 31, ArmBlock::kTask},
+    // What looks healthy frame by frame.
+    {38, Fault::kStreamLate, 'N', 9, ArmBlock::kStreamLate},
+    {39, Fault::kSecondController, 'N', 19, ArmBlock::kSecondController},
+    {40, Fault::kEngineStopped, 'N', 31, ArmBlock::kEngineStopped},
+    {41, Fault::kWrongDirection, 'N', 7, ArmBlock::kValve, true},
+    {42, Fault::kMotionImplausible, 'N', 2, ArmBlock::kStroke},
+    {43, Fault::kPathLeft, 'N', 31, ArmBlock::kPath},
+    {44, Fault::kPoseDisagrees, 'N', 2, ArmBlock::kPose},
+    {45, Fault::kStalling, 'W', 31, ArmBlock::kPath},
+    {46, Fault::kStalled, 'N', 31, ArmBlock::kPath},
     // The dozer's own.
     {31, Fault::kPoseMissing, 'N', 9, ArmBlock::kPose},
     {32, Fault::kPoseImplausible, 'N', 2, ArmBlock::kPose},
@@ -75,7 +85,9 @@ void every_fault_keeps_its_promise(void**) {
     const bool stops = promise.reaction == 'N';
     assert_int_equal(promise.fault, promise.code);
     assert_int_equal(row.fault, promise.fault);
-    assert_int_equal(row.reaction, stops ? Reaction::kStop : Reaction::kDegrade);
+    assert_int_equal(row.reaction, stops                     ? Reaction::kStop
+                                   : promise.reaction == 'W' ? Reaction::kWarn
+                                                             : Reaction::kDegrade);
     assert_int_equal(row.fmi, promise.fmi);
     assert_int_equal(row.red_stop, stops);
     assert_int_equal(row.block, promise.block);

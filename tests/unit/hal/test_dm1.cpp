@@ -123,6 +123,45 @@ void each_has_its_turn(void**) {
   }
 }
 
+/// Whenever some of them go, each of the rest is said within a second of its last time.
+void faults_that_go_do_not_hold_up_the_rest(void**) {
+  for (int count = 2; count <= 10; ++count) {
+    for (int gone_at = 100; gone_at < 200; ++gone_at) {
+      Bus bus;
+      const FaultSet all = first_faults(count);
+      const FaultSet rest = first_faults(count / 2);
+      std::map<std::uint32_t, TimeUs> last_us;
+      for (int call = 0; call < 400; ++call) {
+        const TimeUs at = bus.now;
+        if (bus.call(call < gone_at ? all : rest)) {
+          const auto said = last_us.find(bus.content.spn);
+          assert_true(said == last_us.end() || at - said->second <= kSecondUs);
+          last_us[bus.content.spn] = at;
+        }
+      }
+      assert_int_equal(last_us.size(), count);
+    }
+  }
+}
+
+/// However many there are, none is left out.
+void more_than_ten_all_come_again(void**) {
+  for (const int count : {11, 12, 15, 20}) {
+    Bus bus;
+    const FaultSet active = first_faults(count);
+    std::map<std::uint32_t, int> said;
+    for (int call = 0; call < 1000; ++call) {
+      if (bus.call(active)) {
+        ++said[bus.content.spn];
+      }
+    }
+    assert_int_equal(said.size(), count);
+    for (const auto& [spn, times] : said) {
+      assert_in_range(times, 100 / count, 100 / count + 3);
+    }
+  }
+}
+
 void lamps_are_of_all_active(void**) {
   for (int code = 1; code < kFaultCount; ++code) {
     const auto fault = static_cast<Fault>(code);
@@ -208,6 +247,8 @@ int main() {
       cmocka_unit_test(a_fault_from_the_start_is_said_once),
       cmocka_unit_test(several_new_faults_come_one_in_each_call),
       cmocka_unit_test(each_has_its_turn),
+      cmocka_unit_test(faults_that_go_do_not_hold_up_the_rest),
+      cmocka_unit_test(more_than_ten_all_come_again),
       cmocka_unit_test(lamps_are_of_all_active),
       cmocka_unit_test(a_flickering_fault_does_not_flood),
       cmocka_unit_test(occurrences_are_counted_for_each),

@@ -176,7 +176,7 @@ void status(void**) {
   out.fault = Fault::kSolverFailed;
   out.limit = {LimitKind::kBackFlow, 2};
   out.lambda = 0.625;
-  sender.diagnosis = {1234, 17, 0xCAFEF00D, 0, {}};
+  sender.diagnosis = {1234, 17, 0xCAFEF00D, 0, 0, {}};
   sender.call(kStartUs);
   using EcuStatus = typename Kind::EcuStatus;
   const auto message = sender.template sent<EcuStatus>();
@@ -197,17 +197,17 @@ void status_saturates_or_says_error(void**) {
   SenderOf<Kind> sender;
   sender.outputs.status.lambda = kNan;
   sender.outputs.status.mode = static_cast<EcuMode>(9);
-  sender.diagnosis = {1'000'000, 100'000, 0, 0, {}};
+  sender.diagnosis = {1'000'000, 100'000, 0, 0, 0, {}};
   sender.call(kStartUs);
   auto message = sender.template sent<typename Kind::EcuStatus>();
   assert_int_equal(message.lambda.state, dbc::RawState::kError);
   assert_int_equal(message.mode.state, dbc::RawState::kError);
   assert_int_equal(message.cycle_time_us.value, 64255);
   assert_int_equal(message.rejected_frames.value, 250);
-  sender.diagnosis = {-1, 0, 0, 0, {}};
+  sender.diagnosis = {-1, 0, 0, 0, 0, {}};
   sender.call(kStartUs + 20'000);
   assert_int_equal(sender.template sent<typename Kind::EcuStatus>().cycle_time_us.value, 0);
-  sender.diagnosis = {TimeUs{1} << 40, 0, 0, 0, {}};
+  sender.diagnosis = {TimeUs{1} << 40, 0, 0, 0, 0, {}};
   sender.call(kStartUs + 40'000);
   assert_int_equal(sender.template sent<typename Kind::EcuStatus>().cycle_time_us.value, 64255);
 }

@@ -42,7 +42,7 @@ def candidates(value):
     if isinstance(value, int):
         return [value + 1, value - 1]
     if isinstance(value, str):
-        return [v for v in ("retract", "extend", "none", "global", "connected") if v != value]
+        return [v for v in ("retract", "extend", "none", "global", "connected", "servo", "kim") if v != value]
     step = 1e-6 * abs(value) or 1e-12
     return [value + step, value - step]
 

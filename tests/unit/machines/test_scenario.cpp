@@ -66,7 +66,7 @@ void draws_fill_their_ranges(void**) {
   std::vector<double> least(exact.size(), 1.0);
   std::vector<double> most(exact.size(), -1.0);
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
-    const SimulatedExcavator drawn = arranged(nominal(), with_errors(Errors::kAll, seed));
+    const SimulatedExcavator drawn = arranged(nominal(), with_errors(Errors::kKim, seed));
     const std::vector<double> values = parameters(drawn.profile);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double off = values[i] / exact[i] - 1.0;
@@ -92,7 +92,7 @@ void only_the_controller_errs(void**) {
   for (const Errors errors : {Errors::kNone, Errors::kStrokeBias, Errors::kSensors}) {
     assert_true(parameters(arranged(nominal(), with_errors(errors, 3)).profile) == exact);
   }
-  const SimulatedExcavator drawn = arranged(nominal(), with_errors(Errors::kAll, 3));
+  const SimulatedExcavator drawn = arranged(nominal(), with_errors(Errors::kKim, 3));
   assert_true(parameters(drawn.profile) != exact);
   assert_true(parameters(drawn.plant.machine) == exact);
   assert_true(drawn.hash == nominal().hash);
@@ -100,7 +100,7 @@ void only_the_controller_errs(void**) {
 
 /// The same seed draws the same, whatever else is switched on; another seed another.
 void what_is_switched_on_beside_it_changes_no_draw(void**) {
-  Scenario busy = with_errors(Errors::kAll, 9);
+  Scenario busy = with_errors(Errors::kKim, 9);
   busy.soil = true;
   busy.obstacle = true;
   busy.dead_time_s = 0.15;
@@ -108,9 +108,9 @@ void what_is_switched_on_beside_it_changes_no_draw(void**) {
   const auto of = [](const Scenario& scenario) {
     return parameters(arranged(nominal(), scenario).profile);
   };
-  assert_true(of(busy) == of(with_errors(Errors::kAll, 9)));
+  assert_true(of(busy) == of(with_errors(Errors::kKim, 9)));
   assert_true(of(busy) == of(with_errors(Errors::kParameters, 9)));
-  assert_true(of(busy) != of(with_errors(Errors::kAll, 10)));
+  assert_true(of(busy) != of(with_errors(Errors::kKim, 10)));
 }
 
 /// The swing's section is drawn where there is one, after the others; where there is none it takes
@@ -120,7 +120,7 @@ void swing_is_drawn_where_it_is_driven(void**) {
       machines::load_simulated_excavator(machines::find_profile("excavator_12t"));
   SimulatedExcavator held = driven;
   held.profile.drive_count = kAxisCount;
-  const Scenario scenario = with_errors(Errors::kAll, 4);
+  const Scenario scenario = with_errors(Errors::kKim, 4);
   const ExcavatorProfile of_driven = arranged(driven, scenario).profile;
   const ExcavatorProfile of_held = arranged(held, scenario).profile;
   const SpoolProfile& exact = driven.profile.valve.spool[kSwing];
@@ -137,7 +137,7 @@ void each_switch_does_its_part(void**) {
   const SimulatedExcavator plain = arranged(nominal(), {});
   assert_false(plain.plant.soil.has_value() || plain.plant.obstacle.has_value());
   assert_false(plain.plant.sensor_errors);
-  Scenario scenario = with_errors(Errors::kAll, 5);
+  Scenario scenario = with_errors(Errors::kKim, 5);
   scenario.soil = true;
   scenario.obstacle = true;
   scenario.stiff_oil = true;

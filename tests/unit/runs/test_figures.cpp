@@ -58,11 +58,16 @@ void a_campaigns_columns_stay_as_they_are(void**) {
                       "max_error_true_m,rmse_error_true_m,max_error_measured_m,"
                       "rmse_error_measured_m,lambda_min,lambda_mean,lambda_below_1,regeneration,"
                       "loop_s,approach_s,peak_chamber_pressure_pa,lambda_held,off_field_max_rad,"
-                      "ringing_max_rad,recovery_error_max_m");
+                      "ringing_max_rad,recovery_error_max_m,lambda_variation_ps,"
+                      "spool_travel_boom_ps,spool_travel_arm_ps,spool_travel_bucket_ps,"
+                      "spool_reversals_boom_ps,spool_reversals_arm_ps,spool_reversals_bucket_ps,"
+                      "tip_jerk_rms_mps3,ringing_rms_m,energy_per_loop_j,energy_j,"
+                      "energy_bypass_relief,swash_mean");
   assert_string_equal(header(columns_of(grade_figures())).c_str(),
                       "max_error_true_m,rmse_error_true_m,max_error_measured_m,time_s,"
                       "flow_share_max,flow_above,flow_occasions,deceleration_wanted_mps2,"
-                      "deceleration_true_mps2,sign_changes");
+                      "deceleration_true_mps2,sign_changes,lambda_variation_ps,spool_travel_ps,"
+                      "spool_reversals_ps,edge_jerk_rms_mps3");
 }
 
 struct Made {

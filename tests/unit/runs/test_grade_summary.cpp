@@ -135,6 +135,29 @@ void turns_of_the_wanted_speed(void**) {
   assert_int_equal(summary_of(result).sign_changes, 0);
 }
 
+/// Before the grade, and between its two stretches, blade and speed jump.
+void calm_is_of_the_time_over_the_grade(void**) {
+  GradeResult result = steady(402);
+  for (int i = 0; i < 402; ++i) {
+    GradeSample& one = result.samples[static_cast<std::size_t>(i)];
+    const double t = 0.01 * i;
+    one.over_grade = i != 0 && i != 201;
+    one.lambda = i % 2 == 0 ? 0.5 : 0.6;
+    one.spool_real = i % 100 < 50 ? 0.5 : -0.5;
+    one.edge_m = {t, t * t * t / 3.0};
+    if (!one.over_grade) {
+      one.lambda = 0.0;
+      one.spool_real = -1.0;
+      one.edge_m = {-3.0, 1.0};
+    }
+  }
+  const GradeSummary summary = summary_of(result);
+  assert_near(summary.lambda_variation_ps, 10.0, 1e-9);
+  assert_near(summary.spool_reversals_ps, 8.0 / 3.98, 1e-9);
+  assert_near(summary.spool_travel_ps, 8.0 / 3.98, 1e-9);
+  assert_near(summary.edge_jerk_rms_mps3, 2.0, 1e-5);
+}
+
 void shares_of_what_held_the_speed(void**) {
   GradeResult result = steady(4);
   result.samples[2].limit = {LimitKind::kImplementFlow, 0};
@@ -155,6 +178,7 @@ int main() {
       cmocka_unit_test(the_controllers_own_flow_beside_it),
       cmocka_unit_test(decelerations),
       cmocka_unit_test(turns_of_the_wanted_speed),
+      cmocka_unit_test(calm_is_of_the_time_over_the_grade),
       cmocka_unit_test(shares_of_what_held_the_speed),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -1,0 +1,72 @@
+#include "app/machines/simulated/found.hpp"
+
+#include "app/plant/random.hpp"
+
+namespace graben::machines {
+namespace {
+
+constexpr double kPaPerGpa = 1e9;
+
+/// Every figure takes its number from the stream, whatever then becomes of it: so none depends on
+/// what is told, and none on another.
+class Finding {
+ public:
+  Finding(std::uint64_t seed, bool is_drawn)
+      : random_(seed, plant::Draw::kAsFound), is_drawn_(is_drawn) {}
+
+  double around(const std::optional<double>& told, double nominal, double most) {
+    return chosen(told, nominal, nominal + random_.symmetric(most));
+  }
+  double within(const std::optional<double>& told, double nominal, const Interval& range) {
+    return chosen(told, nominal, range.least + random_.uniform() * (range.most - range.least));
+  }
+
+ private:
+  [[nodiscard]] double chosen(const std::optional<double>& told, double nominal,
+                              double drawn) const {
+    return told.value_or(is_drawn_ ? drawn : nominal);
+  }
+
+  plant::Random random_;
+  bool is_drawn_;
+};
+
+}  // namespace
+
+void make_as_found(plant::ExcavatorPlantProfile& plant, const FoundRanges& ranges, bool is_drawn,
+                   const Found& told) {
+  Finding finding(plant.seed, is_drawn);
+  // Of a swing that is not driven too: the others' numbers do not depend on it.
+  for (std::size_t i = 0; i < kDriveCount; ++i) {
+    plant::SpoolDynamics& spool = plant.spool[i];
+    for (double* side : {&spool.extend_deadband_ratio, &spool.retract_deadband_ratio}) {
+      *side = finding.around(told.deadband_ratio, *side, ranges.deadband_ratio);
+    }
+    spool.opening_exponent =
+        finding.around(told.opening_exponent, spool.opening_exponent, ranges.opening_exponent);
+    spool.time_constant_s = finding.within(told.spool_time_constant_s, spool.time_constant_s,
+                                           ranges.spool_time_constant_s);
+    plant.dead_time_s[i] += finding.within(told.dead_time_s, 0.0, {0.0, ranges.dead_time_s});
+  }
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    plant.friction[i].coulomb_n *= finding.around(told.friction_factor, 1.0, ranges.friction);
+    plant.friction[i].viscous_nspm *= finding.around(told.friction_factor, 1.0, ranges.friction);
+    const double mass = finding.around(told.mass_factor, 1.0, ranges.link_mass);
+    plant.link[i].mass_kg *= mass;
+    plant.link[i].inertia_kgm2 *= mass;
+  }
+  plant.platform.coulomb_nm *= finding.around(told.friction_factor, 1.0, ranges.friction);
+  plant.platform.viscous_nmsprad *= finding.around(told.friction_factor, 1.0, ranges.friction);
+  for (double& pump : plant.pump_flow_ratio) {
+    pump *= finding.around(told.pump_flow_factor, 1.0, ranges.pump_flow);
+  }
+  std::optional<double> told_pa;
+  if (told.bulk_modulus_gpa) {
+    told_pa = kPaPerGpa * *told.bulk_modulus_gpa;
+  }
+  plant.bulk_modulus_pa = finding.within(told_pa, plant.bulk_modulus_pa, ranges.bulk_modulus_pa);
+  plant.engine.share =
+      finding.within(told.engine_sag_ratio, plant.engine.share, {0.0, ranges.engine_sag});
+}
+
+}  // namespace graben::machines

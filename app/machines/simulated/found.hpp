@@ -1,0 +1,44 @@
+#pragma once
+/// An excavator as it is found, not as it was designed: what a simulation draws of it, and what its
+/// user says of it.
+
+#include <optional>
+
+#include "app/machines/simulated/simulated_sections.hpp"
+#include "app/plant/excavator_plant_profile.hpp"
+
+namespace graben::machines {
+
+/// Where what is found may lie; each spool (each side of it), axis and pump by itself.
+struct FoundRanges {
+  double deadband_ratio = 0.0;    ///< Each way, of the travel.
+  double opening_exponent = 0.0;  ///< Each way.
+  Interval bulk_modulus_pa;
+  Interval spool_time_constant_s;
+  double friction = 0.0;     ///< Each way, as a share: Coulomb and viscous, the platform's too.
+  double link_mass = 0.0;    ///< Each way, as a share; the inertia with it.
+  double pump_flow = 0.0;    ///< Each way, as a share.
+  double engine_sag = 0.0;   ///< From 0 on.
+  double dead_time_s = 0.0;  ///< From 0 on, beside what the controller is told.
+};
+
+/// What a machine is told to be, of all its spools, axes, pumps alike.
+struct Found {
+  std::optional<double>
+      bulk_modulus_gpa;  ///< As its user says it: the same figure again in a text.
+  std::optional<double> opening_exponent;
+  std::optional<double> deadband_ratio;
+  std::optional<double> spool_time_constant_s;
+  std::optional<double> friction_factor;  ///< On the nominal figures, like the next ones.
+  std::optional<double> mass_factor;
+  std::optional<double> pump_flow_factor;
+  std::optional<double> engine_sag_ratio;
+  std::optional<double> dead_time_s;  ///< Beside what the controller is told.
+};
+
+/// Draws what is found from the plant's seed if it `is_drawn`; what is told goes before that, and
+/// changes nothing else that is drawn.
+void make_as_found(plant::ExcavatorPlantProfile& plant, const FoundRanges& ranges, bool is_drawn,
+                   const Found& told);
+
+}  // namespace graben::machines

@@ -1,0 +1,64 @@
+#include "firmware/dozer/safety/pose_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben {
+namespace {
+
+/// A residual a cycle on.
+void next(double unexplained, double kept, double& residual) {
+  residual = kept * (residual + unexplained);
+}
+
+/// What of a difference an allowance does not explain.
+double beyond(double difference, double allowed) {
+  return difference - std::clamp(difference, -allowed, allowed);
+}
+
+/// What of the difference to a speed of the tracks is no slip, m/s.
+double beyond_slip(double tracks_mps, double ground_mps) {
+  return beyond(tracks_mps - ground_mps, kSlipMargin_mps + kMostSlip * std::abs(tracks_mps));
+}
+
+/// The least of them.
+double least_beyond_slip(const GroundSpeeds& speeds, double ground_mps) {
+  double least_mps = beyond_slip(speeds.transmission_mps, ground_mps);
+  for (const double tracks_mps : {speeds.left_mps, speeds.right_mps}) {
+    const double beyond_mps = beyond_slip(tracks_mps, ground_mps);
+    least_mps = std::abs(beyond_mps) < std::abs(least_mps) ? beyond_mps : least_mps;
+  }
+  return least_mps;
+}
+
+bool exceeds(double residual, double most) { return !(std::abs(residual) <= most); }
+
+}  // namespace
+
+bool watch_pose(const DozerValid& valid, const GroundSpeeds& speeds, double period_s,
+                PoseWatchState& state) {
+  if (!state.has_begun) {
+    state = {};
+    state.has_begun = true;
+  } else {
+    const double kept = std::max(0.0, 1.0 - period_s / kPoseForget_s);
+    const double tips_mps = kTippingArm_m * std::abs(valid.pitch_rate_radps);
+    const double uphill_mps =
+        beyond(valid.climb_mps - valid.velocity_mps * std::tan(valid.pitch_rad), tips_mps);
+    const double ground_mps = valid.velocity_mps / std::cos(valid.pitch_rad);
+    next(valid.position_m - state.position_m - valid.velocity_mps * period_s, kept, state.ahead_m);
+    next(valid.height_m - state.height_m - valid.climb_mps * period_s, kept, state.climbed_m);
+    next(valid.pitch_rad - state.pitch_rad - valid.pitch_rate_radps * period_s, kept,
+         state.turned_rad);
+    next(uphill_mps * period_s, std::max(0.0, 1.0 - period_s / kSlopeForget_s), state.uphill_m);
+    next(least_beyond_slip(speeds, ground_mps) * period_s, kept, state.slipped_m);
+  }
+  state.position_m = valid.position_m;
+  state.height_m = valid.height_m;
+  state.pitch_rad = valid.pitch_rad;
+  return exceeds(state.ahead_m, kMostAhead_m) || exceeds(state.climbed_m, kMostClimbed_m) ||
+         exceeds(state.turned_rad, kMostTurned_rad) || exceeds(state.uphill_m, kMostUphill_m) ||
+         exceeds(state.slipped_m, kMostSlipped_m);
+}
+
+}  // namespace graben

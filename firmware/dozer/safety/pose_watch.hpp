@@ -1,0 +1,56 @@
+#pragma once
+/// Checks that what is measured of the body's motion fits together: position and velocity, height
+/// and climb, pitch and its rate, the climb and the slope that it drives up, velocity and tracks. A
+/// sensor that is frozen with a live counter shows only here.
+
+#include "firmware/dozer/safety/dozer_validation.hpp"
+
+namespace graben {
+
+/// A quantity's change less what another one says that it should have changed by, of late.
+struct PoseResidual {
+  double value = 0.0;
+};
+
+/// State from cycle to cycle; as constructed it begins with the next one.
+struct PoseWatchState {
+  bool has_begun = false;
+  double position_m = 0.0;  ///< Of the last cycle ...
+  double height_m = 0.0;
+  double pitch_rad = 0.0;
+  double ahead_m = 0.0;     ///< Position against velocity.
+  double climbed_m = 0.0;   ///< Height against climb.
+  double turned_rad = 0.0;  ///< Pitch against its rate.
+  double uphill_m = 0.0;    ///< Climb against the slope that the pitch says.
+  double slipped_m = 0.0;   ///< Velocity against the tracks, slip taken off.
+};
+
+/// Speed along the ground that speaks best for the measured velocity: of a track's sensor or of
+/// what both transmissions give. One of them can be wrong without the velocity being so.
+struct GroundSpeeds {
+  double left_mps = 0.0;
+  double right_mps = 0.0;
+  double transmission_mps = 0.0;
+};
+
+/// Residuals forget with this time constant, s: noise and offsets of a rate do not add up.
+inline constexpr double kPoseForget_s = 1.0;
+/// The same of the slope: gentle ones take longer to tell.
+inline constexpr double kSlopeForget_s = 3.0;
+/// Largest residuals of a healthy body, with its noise and the ground's roughness.
+inline constexpr double kMostAhead_m = 0.05;
+inline constexpr double kMostClimbed_m = 0.02;
+inline constexpr double kMostTurned_rad = 0.012;
+inline constexpr double kMostUphill_m = 0.10;
+inline constexpr double kMostSlipped_m = 0.06;
+/// So much of the tracks' speed may be slip, and the rest of the measurement's error, m/s.
+inline constexpr double kMostSlip = 0.3;
+inline constexpr double kSlipMargin_mps = 0.1;
+/// The body turns about where it tips, up to so far from its origin, m: it rises by that, too.
+inline constexpr double kTippingArm_m = 1.0;
+
+/// True: they do not fit. `state` goes on by a cycle.
+[[nodiscard]] bool watch_pose(const DozerValid& valid, const GroundSpeeds& speeds, double period_s,
+                              PoseWatchState& state);
+
+}  // namespace graben

@@ -1,0 +1,41 @@
+#pragma once
+/// A drive's sensor against the oil that its spool lets through: the measured opening and the
+/// pressures, with what is not known of them, bound the travel of every moment.
+
+#include "firmware/core/fault_set.hpp"
+#include "firmware/drives/drive_validation.hpp"
+#include "firmware/drives/flow_speed.hpp"
+
+namespace graben {
+
+/// State of one drive from cycle to cycle.
+struct FlowState {
+  bool begun = false;
+  int same_cycles = 0;  ///< In a row that a side has shown the same pressure.
+  double cap_shown_pa = 0.0;
+  double rod_shown_pa = 0.0;
+  double stroke_m = 0.0;
+  double cap_pa = 0.0;  ///< Low-passed.
+  double rod_pa = 0.0;
+  SpeedRange last;         ///< Of the last cycle: a spool's frame comes every second one.
+  double least_m = 0.0;    ///< Least travel since the last stroke that was received ...
+  double most_m = 0.0;     ///< ... and most.
+  double behind_m = 0.0;   ///< That the stroke fell short of the least, so far.
+  double ahead_m = 0.0;    ///< That it went beyond the most.
+  double still_m = 0.0;    ///< Stroke at its last change.
+  double extend_m = 0.0;   ///< Least travel since then, one way ...
+  double retract_m = 0.0;  ///< ... and the other.
+};
+
+/// kStrokeStuck: the stroke stands still while its oil moves the drive by at least `unseen_m`.
+/// kMotionImplausible: it is off by `off_m` from all that its oil can have done: another drive's
+/// sensor, one that drifts, a valve that is not the profile's.
+///
+/// Travel that the oil's and the hoses' stiffness (0.6 to 2 GPa) gives or takes is counted in. What
+/// is within the bounds wears the difference off, and 10 s are its time constant: leakage is no
+/// drift. Neither a drive without measured spool nor one whose pressures are not known, stand still
+/// to the last bit, step or are near their rail is checked.
+[[nodiscard]] FaultSet watch_flow(DriveRows drives, Span<const ValidDrive> seen,
+                                  double engine_radps, double period_s, Span<FlowState> state);
+
+}  // namespace graben

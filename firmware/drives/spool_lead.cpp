@@ -1,0 +1,37 @@
+#include "firmware/drives/spool_lead.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben {
+namespace {
+
+constexpr double kCycle_s = 0.01;
+constexpr double kAhead_s = 0.02;
+
+/// The model after a time at a constant duty.
+SpoolModel after(const SpoolModel& spool, double time_constant_s, double duty_ratio,
+                 double time_s) {
+  const double omega_ps = 1.0 / time_constant_s;
+  const double missing = spool.travel_ratio - duty_ratio;
+  const double slope = spool.speed_ps + omega_ps * missing;
+  const double left = std::exp(-omega_ps * time_s);
+  return {duty_ratio + (missing + slope * time_s) * left,
+          (slope - omega_ps * (missing + slope * time_s)) * left};
+}
+
+}  // namespace
+
+double led_duty(double time_constant_s, double wanted_ratio, SpoolModel& spool) {
+  if (!(time_constant_s > 0.0)) {
+    spool = {wanted_ratio, 0.0};
+    return wanted_ratio;
+  }
+  const double by_itself = after(spool, time_constant_s, 0.0, kAhead_s).travel_ratio;
+  const double by_duty = after(spool, time_constant_s, 1.0, kAhead_s).travel_ratio - by_itself;
+  const double duty_ratio = std::clamp((wanted_ratio - by_itself) / by_duty, -1.0, 1.0);
+  spool = after(spool, time_constant_s, duty_ratio, kCycle_s);
+  return duty_ratio;
+}
+
+}  // namespace graben

@@ -1,0 +1,17 @@
+#pragma once
+/// Lead through a spool's own lag.
+
+namespace graben {
+
+/// A spool as it is modelled: critically damped, of the second order. At rest in the middle as
+/// constructed.
+struct SpoolModel {
+  double travel_ratio = 0.0;
+  double speed_ps = 0.0;
+};
+
+/// The duty, -1 .. 1, that takes the modelled spool to `wanted_ratio` within two cycles (20 ms) if
+/// it is kept up; the model goes on by one cycle with it. A time constant of 0 leads nothing.
+[[nodiscard]] double led_duty(double time_constant_s, double wanted_ratio, SpoolModel& spool);
+
+}  // namespace graben

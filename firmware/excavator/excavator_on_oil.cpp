@@ -1,0 +1,83 @@
+#include <algorithm>
+
+#include "firmware/excavator/excavator_controller.hpp"
+
+namespace graben {
+namespace {
+
+/// Later than this, what is fed back comes too late for the oil: the servo's expectation is better.
+constexpr double kDeadTimeMost_s = 0.05;
+/// Farther off the path the oil's law gives way to the field, which then leads back; of the
+/// attitude it takes no more than this.
+constexpr double kFarOff_m = 0.15;
+constexpr double kAttitudeMost_rad = 0.05;
+
+bool on_oil(const ExcavatorProfile& profile) {
+  return profile.control.law == ControlLaw::kOil && profile.oil.known();
+}
+
+/// Travels of boom and arm beyond those of the path's nearest point.
+Eigen::Vector2d off_path_m(const RoundedRectangle& path, const KinematicState& now) {
+  const PathPoint goal = path.closest({now.tip.x_m, now.tip.y_m});
+  Eigen::Vector3d off(now.tip.x_m - goal.position_m.x(), now.tip.y_m - goal.position_m.y(),
+                      wrap_near(now.tip.attitude_rad - goal.attitude_rad, 0.0));
+  off.head<2>() /= 1.0 + off.head<2>().squaredNorm() / (kFarOff_m * kFarOff_m);
+  off.z() = std::clamp(off.z(), -kAttitudeMost_rad, kAttitudeMost_rad);
+  return (now.jacobian_inverse * off).head<2>();
+}
+
+}  // namespace
+
+void ExcavatorController::estimate_oil(const ExcavatorValid& valid, const KinematicState& now,
+                                       EcuMode mode) {
+  if (!on_oil(profile_)) {
+    return;
+  }
+  OilSeen seen = oil_seen(drives(), valid.drive);
+  for (int axis = 0; axis < 2; ++axis) {
+    seen.asked_mps[axis] = memory_.last.asked_mps[static_cast<unsigned>(axis)];
+    seen.expected_mps[axis] = memory_.expected_mps[axis];
+  }
+  const bool reached = now.status == ReachStatus::kOk;
+  if (reached) {
+    memory_.modes = oil_modes(profile_.oil, profile_.geometry, now, memory_.load);
+  }
+  const bool leads = reached && seen.force_known && valid.task == Task::kDig &&
+                     profile_.control.dead_time_s <= kDeadTimeMost_s;
+  next_oil(setup_.oil, memory_.modes, seen, mode == EcuMode::kActive && reached, leads,
+           memory_.oil);
+}
+
+void ExcavatorController::correct_on_oil(const ExcavatorValid& valid, const KinematicState& now,
+                                         const DriveVector& wanted_mps,
+                                         DriveVector& corrected_mps) const {
+  const double weight = memory_.oil.weight;
+  if (!on_oil(profile_) || weight == 0.0 || now.status != ReachStatus::kOk ||
+      wanted_mps.isZero(0.0)) {
+    return;
+  }
+  const Eigen::Vector2d off_m =
+      off_path_m(setup_.field.path(), now) + memory_.oil.travel_m - now.strokes_m.head<2>();
+  const Eigen::Vector2d correction_mps =
+      oil_correction_mps(setup_.oil, memory_.modes, memory_.oil, off_m);
+  for (int axis = 0; axis < 2; ++axis) {
+    const double on_oil_mps = corrected_by(
+        drives()[axis], memory_.servo.drive[static_cast<unsigned>(axis)], wanted_mps[axis],
+        valid.speed_override_ratio * correction_mps[axis], memory_.lambda.value());
+    corrected_mps[axis] += weight * (on_oil_mps - corrected_mps[axis]);
+  }
+}
+
+void ExcavatorController::lead_spools(ExcavatorOutputs& outputs) {
+  if (!on_oil(profile_) || !outputs.enable) {
+    memory_.spool = {};
+    return;
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto k = static_cast<unsigned>(axis);
+    outputs.duty_ratio[k] =
+        led_duty(profile_.oil.spool_time_constant_s, outputs.duty_ratio[k], memory_.spool[k]);
+  }
+}
+
+}  // namespace graben

@@ -1,0 +1,121 @@
+#include "firmware/excavator/oil/oil_gains.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/excavator/oil/oil_cycle.hpp"
+
+namespace graben {
+namespace {
+
+constexpr int kSteps = 800;
+/// What rounding and friction make of a travel, a speed, a compression in a cycle: enough to keep
+/// the equations regular.
+constexpr double kLeastTravel_m2 = 1e-12;
+constexpr double kLeastSpeed_m2ps2 = 1e-10;
+
+using Vector5 = Eigen::Matrix<double, ModeGains::kStates, 1>;
+using Matrix5 = Eigen::Matrix<double, ModeGains::kStates, ModeGains::kStates>;
+
+/// Of travel, speed, balance, first and second lag.
+Vector5 feedback_of(const OilDesign& design, double omega_radps) {
+  const ModeTurn turn = mode_turn(omega_radps);
+  const double newest = newest_share(design.lag_s);
+  Vector5 flow = Vector5::Zero();  // Mean of the second lag in a cycle.
+  flow[3] = 0.5 * newest * (1.0 - newest);
+  flow[4] = 0.5 * (2.0 - newest);
+  const double flow_of_command = 0.5 * newest * newest;
+  Matrix5 step = Matrix5::Zero();
+  step.row(0) << 1.0, turn.travel_of_speed_s, turn.travel_of_balance, 0.0, 0.0;
+  step.row(1) << 0.0, turn.cosine, turn.speed_of_balance_ps, 0.0, 0.0;
+  step.row(2) << 0.0, -turn.travel_of_speed_s, turn.cosine, 0.0, 0.0;
+  Vector5 of_flow = Vector5::Zero();
+  of_flow.head<3>() << kOilCycle_s - turn.travel_of_speed_s, 1.0 - turn.cosine,
+      turn.travel_of_speed_s;
+  step += of_flow * flow.transpose();
+  step(3, 3) = 1.0 - newest;
+  step(4, 3) = newest * (1.0 - newest);
+  step(4, 4) = 1.0 - newest;
+  Vector5 of_command = flow_of_command * of_flow;
+  of_command[3] = newest;
+  of_command[4] = newest * newest;
+
+  Matrix5 weight = Matrix5::Zero();
+  weight(0, 0) = 1.0;
+  weight(1, 1) = design.speed_s * design.speed_s;
+  weight(2, 2) = design.balance * design.balance;
+  const double command_weight = 1.0 / (design.travel_ps * design.travel_ps);
+  Matrix5 cost = weight;
+  Vector5 gain = Vector5::Zero();
+  for (int n = 0; n < kSteps; ++n) {
+    const Vector5 priced = cost * of_command;
+    const double least = command_weight + of_command.dot(priced);
+    gain = step.transpose() * priced / least;
+    const Matrix5 next = weight + step.transpose() * cost * step - least * gain * gain.transpose();
+    cost = 0.5 * (next + next.transpose());
+  }
+  return gain;
+}
+
+Eigen::Matrix2d inverse_of(const Eigen::Matrix2d& m) {
+  Eigen::Matrix2d inverse;
+  inverse << m(1, 1), -m(0, 1), -m(1, 0), m(0, 0);
+  return inverse / (m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0));
+}
+
+/// Of travel, speed, compression, load, flow error.
+Eigen::Matrix<double, ModeGains::kStates, 2> observer_of(const OilDesign& design,
+                                                         double omega_radps) {
+  const ModeTurn turn = mode_turn(omega_radps);
+  const double late_s = turn.travel_of_speed_s;
+  Matrix5 step = Matrix5::Identity();
+  step.row(0) << 1.0, late_s, turn.travel_of_balance, turn.travel_of_balance, kOilCycle_s - late_s;
+  step.row(1) << 0.0, turn.cosine, turn.speed_of_balance_ps, turn.speed_of_balance_ps,
+      1.0 - turn.cosine;
+  step.row(2) << 0.0, -late_s, turn.cosine, turn.cosine - 1.0, late_s;
+  Vector5 drift;
+  drift << kLeastTravel_m2, kLeastSpeed_m2ps2, kLeastSpeed_m2ps2, kOilCycle_s * design.load_m2ps,
+      kOilCycle_s * design.flow_m2ps3;
+  Eigen::Matrix<double, 2, ModeGains::kStates> seen;
+  seen << 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0;
+  const Eigen::Matrix2d noise = Eigen::Vector2d(design.travel_noise_m * design.travel_noise_m,
+                                                design.pressure_noise_m * design.pressure_noise_m)
+                                    .asDiagonal();
+  Matrix5 spread = 1e-6 * Matrix5::Identity();
+  Eigen::Matrix<double, ModeGains::kStates, 2> gain;
+  gain.setZero();
+  for (int n = 0; n < kSteps; ++n) {
+    Matrix5 before = step * spread * step.transpose();
+    before.diagonal() += drift;
+    gain = before * seen.transpose() * inverse_of(seen * before * seen.transpose() + noise);
+    const Matrix5 after = before - gain * seen * before;
+    spread = 0.5 * (after + after.transpose());
+  }
+  return gain;
+}
+
+}  // namespace
+
+ModeGains mode_gains(const OilDesign& design, double omega_radps) {
+  return {feedback_of(design, omega_radps), observer_of(design, omega_radps)};
+}
+
+OilGains::OilGains(const OilDesign& design) : lag_s_(design.lag_s) {
+  for (int n = 0; n < kKnots; ++n) {
+    const double root = kLeastRoot + (kMostRoot - kLeastRoot) * n / (kKnots - 1);
+    knot_[static_cast<unsigned>(n)] = mode_gains(design, root * root);
+  }
+}
+
+ModeGains OilGains::at(double omega_radps) const {
+  const double root = std::clamp(std::sqrt(omega_radps), kLeastRoot, kMostRoot);
+  const double place = (kKnots - 1) * (root - kLeastRoot) / (kMostRoot - kLeastRoot);
+  const int low = std::clamp(static_cast<int>(place), 0, kKnots - 2);
+  const double share = place - low;
+  const ModeGains& below = knot_[static_cast<unsigned>(low)];
+  const ModeGains& above = knot_[static_cast<unsigned>(low + 1)];
+  return {(1.0 - share) * below.feedback + share * above.feedback,
+          (1.0 - share) * below.observer + share * above.observer};
+}
+
+}  // namespace graben

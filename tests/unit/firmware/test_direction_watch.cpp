@@ -1,0 +1,213 @@
+// A drive that its oil pushes against its open spool.
+
+#include "firmware/drives/direction_watch.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+using namespace graben::test;
+
+constexpr double kEdge = 0.2;
+constexpr double kStep_m = 1.0 / 1024.0;
+
+/// Equal sides.
+struct Bench {
+  DriveRow row;
+  ValidDrive seen;
+  DirectionState state;
+
+  Bench() {
+    row.extend_area_m2 = 0.25;
+    row.retract_area_m2 = 0.25;
+    const double opens[] = {0.0, 1.0};
+    const double duty[] = {kEdge, 1.0};
+    assert_int_equal(row.spool_to_duty.fill(opens, duty, 2), MonotoneTable::Fill::kOk);
+    row.watch.wrong_m = 3.5 * kStep_m;
+    seen.stroke_m = 0.5;
+    seen.load_known = true;
+    seen.stroke_is_new = true;
+    open(0.5);
+    push(-3e6);
+  }
+
+  void open(double spool_ratio) { seen.spool_ratio = spool_ratio; }
+  void push(double difference_pa) {
+    seen.cap_pressure_pa = 10e6 + difference_pa;
+    seen.rod_pressure_pa = 10e6;
+  }
+  FaultSet move(double by_m) {
+    seen.stroke_m += by_m;
+    return watch_direction({&row, 1}, {&seen, 1}, {&state, 1});
+  }
+  /// True: stopped by the last of `count` steps, by none before it.
+  bool stops_after(int count, double by_m) {
+    bool stopped = false;
+    for (int n = 0; n < count; ++n) {
+      assert_false(stopped);
+      const FaultSet faults = move(by_m);
+      stopped = faults.has(Fault::kWrongDirection);
+      assert_true(stopped || faults.empty());
+    }
+    return stopped;
+  }
+};
+
+void oil_that_pushes_against_the_spool_stops(void**) {
+  Bench bench;
+  bench.move(0.0);
+  bench.move(0.0);
+  assert_true(bench.stops_after(4, -kStep_m));
+}
+
+void the_other_way_is_as_wrong(void**) {
+  Bench bench;
+  bench.open(-0.5);
+  bench.push(3e6);
+  bench.move(0.0);
+  bench.move(0.0);
+  assert_true(bench.stops_after(4, kStep_m));
+}
+
+void what_goes_with_the_spool_makes_up_for_it(void**) {
+  Bench bench;
+  bench.move(0.0);
+  bench.move(0.0);
+  assert_false(bench.stops_after(3, -kStep_m));
+  assert_false(bench.stops_after(2, kStep_m));
+  assert_false(bench.stops_after(2, -kStep_m));
+  assert_true(bench.stops_after(1, -kStep_m));
+}
+
+/// A drive that shakes has gone with its spool before it swings back; up to four bounds count.
+void what_it_went_before_is_set_off(void**) {
+  Bench bench;
+  bench.move(0.0);
+  assert_false(bench.stops_after(7, kStep_m));
+  assert_true(bench.stops_after(11, -kStep_m));
+  Bench farther;
+  farther.move(0.0);
+  assert_false(farther.stops_after(50, kStep_m));
+  assert_true(farther.stops_after(18, -kStep_m));
+}
+
+void a_load_that_pushes_back_is_no_fault(void**) {
+  Bench bench;
+  bench.push(3e6);
+  bench.move(0.0);
+  bench.move(0.0);
+  assert_false(bench.stops_after(50, -kStep_m));
+}
+
+void pressures_within_their_zeros_push_nowhere(void**) {
+  Bench bench;
+  bench.push(-1.2e6);
+  bench.move(0.0);
+  bench.move(0.0);
+  assert_false(bench.stops_after(50, -kStep_m));
+  bench.push(-1.3e6);
+  assert_true(bench.stops_after(4, -kStep_m));
+}
+
+void a_drive_that_coasts_is_let_go_on_until_it_turns(void**) {
+  Bench bench;
+  assert_false(bench.stops_after(50, -kStep_m));
+  assert_false(bench.stops_after(1, kStep_m));
+  assert_true(bench.stops_after(5, -kStep_m));
+}
+
+void a_spool_within_its_dead_band_leads_nowhere(void**) {
+  Bench bench;
+  for (const double spool_ratio : {0.0, 0.1, -0.1, kEdge, -kEdge}) {
+    bench.open(spool_ratio);
+    for (const double push_pa : {-3e6, 3e6}) {
+      bench.push(push_pa);
+      bench.move(0.0);
+      assert_false(bench.stops_after(20, -kStep_m));
+      bench.move(0.0);
+      assert_false(bench.stops_after(20, kStep_m));
+    }
+  }
+  bench.push(-3e6);
+  bench.open(kEdge + 0.01);
+  bench.move(0.0);
+  bench.move(0.0);
+  assert_true(bench.stops_after(4, -kStep_m));
+}
+
+void another_side_begins_anew(void**) {
+  Bench bench;
+  bench.move(0.0);
+  bench.move(0.0);
+  assert_false(bench.stops_after(3, -kStep_m));
+  bench.open(-0.5);
+  assert_false(bench.stops_after(3, -kStep_m));
+  bench.open(0.5);
+  assert_false(bench.stops_after(50, -kStep_m));
+}
+
+void a_stroke_that_did_not_come_says_nothing(void**) {
+  Bench bench;
+  bench.move(0.0);
+  bench.move(0.0);
+  bench.seen.stroke_is_new = false;
+  assert_false(bench.stops_after(50, -kStep_m));
+}
+
+void without_its_pressures_a_drive_is_not_checked(void**) {
+  Bench bench;
+  bench.move(0.0);
+  bench.move(0.0);
+  assert_false(bench.stops_after(3, -kStep_m));
+  bench.seen.load_known = false;
+  assert_false(bench.stops_after(1, -kStep_m));
+  bench.seen.load_known = true;
+  assert_false(bench.stops_after(50, -kStep_m));
+}
+
+void at_its_bound_it_is_sound(void**) {
+  Bench bench;
+  bench.row.watch.wrong_m = 4.0 * kStep_m;
+  bench.move(0.0);
+  bench.move(0.0);
+  assert_true(bench.stops_after(5, -kStep_m));
+}
+
+void only_its_drives_are_watched(void**) {
+  const Bench bench;
+  const DriveRow rows[] = {bench.row, bench.row};
+  const ValidDrive seen[] = {bench.seen, bench.seen};
+  DirectionState states[2];
+  static_cast<void>(watch_direction({rows, 1}, {seen, 1}, {states, 1}));
+  assert_int_equal(states[0].side, 1);
+  assert_int_equal(states[1].side, 0);
+}
+
+void a_drive_without_a_bound_is_not_checked(void**) {
+  Bench bench;
+  bench.row.watch.wrong_m = 0.0;
+  bench.move(0.0);
+  assert_false(bench.stops_after(50, -kStep_m));
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(oil_that_pushes_against_the_spool_stops),
+      cmocka_unit_test(the_other_way_is_as_wrong),
+      cmocka_unit_test(what_goes_with_the_spool_makes_up_for_it),
+      cmocka_unit_test(what_it_went_before_is_set_off),
+      cmocka_unit_test(a_load_that_pushes_back_is_no_fault),
+      cmocka_unit_test(pressures_within_their_zeros_push_nowhere),
+      cmocka_unit_test(a_drive_that_coasts_is_let_go_on_until_it_turns),
+      cmocka_unit_test(a_spool_within_its_dead_band_leads_nowhere),
+      cmocka_unit_test(another_side_begins_anew),
+      cmocka_unit_test(a_stroke_that_did_not_come_says_nothing),
+      cmocka_unit_test(without_its_pressures_a_drive_is_not_checked),
+      cmocka_unit_test(at_its_bound_it_is_sound),
+      cmocka_unit_test(only_its_drives_are_watched),
+      cmocka_unit_test(a_drive_without_a_bound_is_not_checked),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

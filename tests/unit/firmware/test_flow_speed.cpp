@@ -1,0 +1,148 @@
+// What a drive can do at its measured pressures and opening.
+
+#include "tests/unit/firmware/flow_fixture.hpp"
+
+namespace {
+
+using namespace graben;
+using namespace graben::test::of_flow;
+
+/// What leaves the draining side, over its area; either way by its own edge.
+void the_draining_side_tells_the_speed(void**) {
+  const DriveRow row = plain();
+  const double least = 0.88 * opening(0.6, -0.025);
+  const double most = 1.12 * opening(0.6, 0.025);
+  assert_range(possible_speed(row, at(0.6, 9e6, 5e6), kEngine_radps),
+               least * 2e-6 * std::sqrt(5e6 - kLost_pa) / 0.01,
+               most * 2e-6 * std::sqrt(5e6 + kZero_pa) / 0.01);
+  assert_range(possible_speed(row, at(-0.6, 5e6, 9e6), kEngine_radps),
+               -most * 5e-6 * std::sqrt(5e6 + kZero_pa) / 0.02,
+               -least * 5e-6 * std::sqrt(5e6 - kLost_pa) / 0.02);
+}
+
+void a_spool_in_its_dead_band_moves_nothing(void**) {
+  for (const double spool : {0.0, 0.17, -0.17}) {
+    assert_range(possible_speed(plain(), at(spool, 5e6, 5e6), kEngine_radps), 0.0, 0.0);
+  }
+  // At its edge it may be open.
+  const SpeedRange edge = possible_speed(plain(), at(0.2, 5e6, 5e6), kEngine_radps);
+  assert_near(edge.least_mps, 0.0, 0.0);
+  assert_true(edge.most_mps > 0.0);
+}
+
+/// Held by a rock there is no pressure left; the fed side's may push it back.
+void an_empty_side_carries_nothing(void**) {
+  const double most = 1.12 * opening(0.6, 0.025);
+  assert_range(possible_speed(plain(), at(0.6, 15e6, 1e6), kEngine_radps),
+               -most * 4e-6 * std::sqrt(15e6 + kZero_pa) / 0.02,
+               most * 2e-6 * std::sqrt(1e6 + kZero_pa) / 0.01);
+  assert_range(possible_speed(plain(), at(-0.6, 1e6, 15e6), kEngine_radps),
+               -most * 5e-6 * std::sqrt(1e6 + kZero_pa) / 0.02,
+               most * 3e-6 * std::sqrt(15e6 + kZero_pa) / 0.01);
+  assert_true(possible_speed(plain(), at(0.6, 15e6, kLost_pa + 1e5), kEngine_radps).least_mps >
+              0.0);
+}
+
+/// Least: through the drain alone. Most: the check open to what the fed side has, or not at all.
+void a_regenerating_side_passes_drain_and_check(void**) {
+  DriveRow row = plain();
+  row.spool.regeneration = RegenerationSide::kExtend;
+  const double least_out = 0.88 * opening(0.6, -0.025) * 2e-6;
+  const double most_out = 1.12 * opening(0.6, 0.025) * 2e-6;
+  const double least_mps = series(least_out, 0.67e-6) * std::sqrt(16e6 - kLost_pa) / 0.01;
+  const double drained = std::sqrt(16e6 + kZero_pa);
+  assert_range(possible_speed(row, at(0.6, 1e6, 16e6), kEngine_radps), least_mps,
+               series(most_out, 3.99e-6) * drained / 0.01);
+  assert_range(possible_speed(row, at(0.6, 5e6, 16e6), kEngine_radps), least_mps,
+               most_out * std::sqrt(11e6 + 2.0 * kZero_pa) / 0.01);
+  assert_range(possible_speed(row, at(0.6, 30e6, 16e6), kEngine_radps), least_mps,
+               series(most_out, 1.33e-6) * drained / 0.01);
+  // The other way it does not regenerate.
+  assert_near(possible_speed(row, at(-0.6, 5e6, 9e6), kEngine_radps).least_mps,
+              -1.12 * opening(0.6, 0.025) * 5e-6 * std::sqrt(5e6 + kZero_pa) / 0.02, 1e-9);
+  row.spool.regeneration = RegenerationSide::kRetract;
+  assert_near(
+      possible_speed(row, at(-0.6, 16e6, 1e6), kEngine_radps).most_mps,
+      -series(0.88 * opening(0.6, -0.025) * 5e-6, 0.67e-6) * std::sqrt(16e6 - kLost_pa) / 0.02,
+      1e-9);
+  assert_near(possible_speed(row, at(0.6, 9e6, 5e6), kEngine_radps).most_mps,
+              1.12 * opening(0.6, 0.025) * 2e-6 * std::sqrt(5e6 + kZero_pa) / 0.01, 1e-9);
+}
+
+/// To the last bit at the end of what bias and return line may take.
+void no_less_than_nothing_is_left(void**) {
+  assert_true(possible_speed(plain(), at(0.6, 15e6, kLost_pa), kEngine_radps).least_mps < 0.0);
+}
+
+/// Where the dead band is smaller than the sensor's error, a closed spool may be open either way.
+void without_a_dead_band_it_may_go_either_way(void**) {
+  DriveRow row = plain();
+  const double opens[] = {0.0, 1.0};
+  const double duty[] = {0.0, 1.0};
+  assert_int_equal(row.spool_to_duty.fill(opens, duty, 2), MonotoneTable::Fill::kOk);
+  const double most = 1.12 * 2e-6 * std::sqrt(5e6 + kZero_pa) / 0.01;
+  assert_range(possible_speed(row, at(0.01, 9e6, 5e6), kEngine_radps), -0.035 * most, 0.035 * most);
+  const double closed_mps = 1.12 * 0.025 * 5e-6 * std::sqrt(9e6 + kZero_pa) / 0.02;
+  assert_range(possible_speed(row, at(0.0, 9e6, 5e6), kEngine_radps), -closed_mps, closed_mps);
+  assert_true(possible_speed(row, at(0.03, 9e6, 5e6), kEngine_radps).least_mps > 0.0);
+  assert_near(possible_speed(row, at(0.025, 9e6, 5e6), kEngine_radps).least_mps, -0.05 * most,
+              1e-9);
+}
+
+/// At 2 the bound is the power itself.
+void an_orifices_square_is_exact(void**) {
+  DriveRow row = plain();
+  row.metering.opening_exponent = 2.0;
+  const double least = 0.88 * opening(0.3, -0.025) * opening(0.3, -0.025);
+  assert_near(possible_speed(row, at(0.3, 9e6, 5e6), kEngine_radps).least_mps,
+              least * 2e-6 * std::sqrt(5e6 - kLost_pa) / 0.01, 1e-9);
+}
+
+/// From below, and near: openings that do not grow in proportion.
+void the_least_opening_is_a_lower_bound(void**) {
+  for (const double exponent : {0.7, 1.0, 1.3, 1.9, 2.5}) {
+    DriveRow row = plain();
+    row.metering.opening_exponent = exponent;
+    for (const double spool : {0.23, 0.3, 0.6, 1.0}) {
+      const SpeedRange range = possible_speed(row, at(spool, 9e6, 5e6), kEngine_radps);
+      const double per_opening_mps = 2e-6 * std::sqrt(5e6 - kLost_pa) / 0.01;
+      const double least_mps = 0.88 * std::pow(opening(spool, -0.025), exponent) * per_opening_mps;
+      assert_true(range.least_mps >= 0.0 && range.least_mps <= least_mps * (1.0 + 1e-9));
+      assert_true(exponent > 2.0 || range.least_mps > 0.0);
+      assert_true(spool < 0.6 || exponent < 1.0 || range.least_mps > 0.95 * least_mps);
+    }
+  }
+}
+
+void a_metered_inlet_gives_its_flow_or_the_pumps(void**) {
+  const DriveRow row = metered_inlet();
+  assert_range(possible_speed(row, at(0.36, 0.0, 0.0), 1000.0),
+               0.8 * opening(0.36, -0.025) * 2e-3 / 0.02, 1.2 * opening(0.36, 0.025) * 2e-3 / 0.02);
+  assert_range(possible_speed(row, at(-0.6, 0.0, 0.0), 10.0),
+               -1.2 * opening(0.6, 0.025) * 2e-3 / 0.01, -0.8 * 1e-4 / 0.01);
+}
+
+void leakage_takes_from_the_fed_side(void**) {
+  DriveRow row = plain();
+  row.watch.leak_mpspa = 1e-9;
+  assert_range(possible_speed(row, at(0.0, 9e6, 4e6), kEngine_radps), -0.005, 0.0);
+  assert_range(possible_speed(row, at(0.0, 4e6, 9e6), kEngine_radps), 0.0, 0.005);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(the_draining_side_tells_the_speed),
+      cmocka_unit_test(a_spool_in_its_dead_band_moves_nothing),
+      cmocka_unit_test(an_empty_side_carries_nothing),
+      cmocka_unit_test(a_regenerating_side_passes_drain_and_check),
+      cmocka_unit_test(no_less_than_nothing_is_left),
+      cmocka_unit_test(without_a_dead_band_it_may_go_either_way),
+      cmocka_unit_test(an_orifices_square_is_exact),
+      cmocka_unit_test(the_least_opening_is_a_lower_bound),
+      cmocka_unit_test(a_metered_inlet_gives_its_flow_or_the_pumps),
+      cmocka_unit_test(leakage_takes_from_the_fed_side),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

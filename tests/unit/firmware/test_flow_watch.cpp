@@ -1,0 +1,362 @@
+// A sensor against the oil that its spool lets through.
+
+#include "tests/unit/firmware/flow_fixture.hpp"
+
+namespace {
+
+using namespace graben;
+using namespace graben::test::of_flow;
+
+/// One drive and its watch, cycle by cycle; pressures live, without moving any oil.
+struct Watched {
+  DriveRow row = plain();
+  ValidDrive seen = at(0.6, 9e6, 5e6);
+  FlowState state;
+  int cycle = 0;
+
+  FaultSet step() {
+    ValidDrive now = seen;
+    const double alive_pa = ++cycle % 2 == 0 ? 1.0 : 0.0;
+    now.cap_pressure_pa += alive_pa;
+    now.rod_pressure_pa += alive_pa;
+    return step_as(now);
+  }
+  FaultSet step_as(const ValidDrive& now) {
+    return watch_flow({&row, 1}, {&now, 1}, kEngine_radps, kPeriod_s, {&state, 1});
+  }
+  /// Cycles until a fault, moving at this speed; 0: none within `most`.
+  int until(Fault fault, double speed_mps, int most = 400) {
+    for (int n = 1; n <= most; ++n) {
+      if (step().has(fault)) {
+        return n;
+      }
+      seen.stroke_m += speed_mps * kPeriod_s;
+    }
+    return 0;
+  }
+  double least_mps() { return possible_speed(row, seen, kEngine_radps).least_mps; }
+  double most_mps() { return possible_speed(row, seen, kEngine_radps).most_mps; }
+};
+
+void within_its_bounds_it_is_sound(void**) {
+  for (const double spool : {0.6, -0.6}) {
+    Watched low;
+    low.seen.spool_ratio = spool;
+    low.seen.stroke_m = 0.0;
+    Watched high = low;
+    for (int n = 0; n < 200; ++n) {
+      assert_true(low.step().empty());
+      assert_true(high.step().empty());
+      low.seen.stroke_m += kPeriod_s * low.least_mps();
+      high.seen.stroke_m += kPeriod_s * high.most_mps();
+    }
+    assert_near(low.state.ahead_m, 0.0, 1e-6);
+    assert_near(high.state.behind_m, 0.0, 1e-6);
+  }
+}
+
+/// The oil's least way since it stands, in whole cycles; the first begins and the second has no
+/// last one yet.
+void a_stroke_that_stands_still_is_stuck(void**) {
+  for (const double spool : {0.3, -0.3}) {
+    Watched watched;
+    watched.seen.spool_ratio = spool;
+    const double a_cycle_m =
+        kPeriod_s * std::min(std::abs(watched.least_mps()), std::abs(watched.most_mps()));
+    const int expected = static_cast<int>(std::ceil(0.003 / a_cycle_m)) + 2;
+    assert_near(watched.until(Fault::kStrokeStuck, 0.0), expected, 1.0);
+  }
+}
+
+/// Shaking by less than the band is standing still; by more it is not, but it falls behind.
+void a_stroke_that_shakes_is_not_stuck_but_wrong(void**) {
+  for (const double shake_m : {0.00025, 0.0004}) {
+    Watched watched;
+    int stuck = 0;
+    int wrong = 0;
+    for (int n = 0; n < 20 && wrong == 0; ++n) {
+      watched.seen.stroke_m = 0.5 + (n % 2 == 0 ? 0.0 : shake_m);
+      const FaultSet faults = watched.step();
+      stuck += faults.has(Fault::kStrokeStuck) ? 1 : 0;
+      wrong += faults.has(Fault::kMotionImplausible) ? 1 : 0;
+    }
+    assert_true((stuck > 0) == (shake_m < 0.0003));
+    assert_int_equal(wrong, 1);
+  }
+}
+
+/// To the last bit: what is at a bound is within it.
+void at_its_bound_it_is_sound(void**) {
+  constexpr double kMoved_m = 1.0 / 64.0;
+  for (const bool at_bound : {true, false}) {
+    Watched watched;
+    watched.row.watch.off_m = (1.0 - kPeriod_s / 10.0) * kMoved_m;
+    watched.row.watch.off_m *= at_bound ? 1.0 : 0.999;
+    watched.seen = at(0.0, 9e6, 9e6);
+    static_cast<void>(watched.step_as(watched.seen));
+    static_cast<void>(watched.step_as(watched.seen));
+    watched.seen.stroke_m += kMoved_m;
+    assert_true(watched.step_as(watched.seen).empty() == at_bound);
+  }
+  // So is a stroke that has moved by its noise one that stands.
+  Watched still;
+  still.seen.stroke_m = 0.0;
+  static_cast<void>(still.step());
+  static_cast<void>(still.step());
+  static_cast<void>(still.step());
+  still.seen.stroke_m = 0.0003;
+  static_cast<void>(still.step());
+  assert_near(still.state.still_m, 0.0, 0.0);
+}
+
+/// What is beside the drives that there are is not looked at.
+void only_its_drives_are_watched(void**) {
+  Watched watched;
+  const DriveRow rows[] = {watched.row, watched.row};
+  const ValidDrive seen[] = {watched.seen, watched.seen};
+  FlowState states[2];
+  states[1].stroke_m = 7.0;
+  assert_true(watch_flow({rows, 1}, {seen, 1}, kEngine_radps, kPeriod_s, {states, 1}).empty());
+  assert_near(states[1].stroke_m, 7.0, 0.0);
+  assert_near(states[1].cap_shown_pa, 0.0, 0.0);
+}
+
+void what_runs_ahead_of_its_oil_is_wrong(void**) {
+  for (const double way : {1.0, -1.0}) {
+    Watched watched;
+    watched.seen.spool_ratio = 0.0;
+    // 8 mm at 0.1 m/s, beyond nothing at all.
+    assert_near(watched.until(Fault::kMotionImplausible, way * 0.1), 10.0, 1.0);
+  }
+}
+
+/// Slower than what 10 s forget it never adds up.
+void leakage_is_forgotten(void**) {
+  Watched watched;
+  watched.seen.spool_ratio = 0.0;
+  assert_int_equal(watched.until(Fault::kMotionImplausible, -0.0007, 20000), 0);
+  Watched faster;
+  faster.seen.spool_ratio = 0.0;
+  assert_true(faster.until(Fault::kMotionImplausible, -0.0010, 20000) > 0);
+}
+
+/// Without a new stroke nothing is compared; with the next one all of it is.
+void lost_frames_are_waited_for(void**) {
+  Watched watched;
+  static_cast<void>(watched.step());
+  watched.seen.stroke_is_new = false;
+  for (int n = 0; n < 100; ++n) {
+    assert_true(watched.step().empty());
+  }
+  watched.seen.stroke_is_new = true;
+  assert_true(watched.step().has(Fault::kMotionImplausible));
+}
+
+/// A side that is squeezed lets the drive give way: the draining one always, the other while that
+/// is empty. 3 MPa of 0.65 m of oil are 3.25 mm at its softest.
+void oil_gives_way(void**) {
+  struct Case {
+    double spool;
+    double cap_pa;
+    double rod_pa;
+    double cap_change_pa;
+    double rod_change_pa;
+    double least_m;
+    double most_m;
+  };
+  const double soft_m = 0.3 * 3e6 * 0.65 / 0.6e9;
+  const double stiff_m = 0.3 * 3e6 * 0.65 / 2.0e9;
+  const Case cases[] = {
+      {0.1, 9e6, 5e6, 0.0, 3e6, stiff_m, soft_m},
+      {0.1, 9e6, 5e6, 0.0, -3e6, -soft_m, -stiff_m},
+      {0.1, 9e6, 5e6, 3e6, 0.0, 0.0, 0.0},
+      {0.1, 9e6, 1e6, 3e6, 0.0, -soft_m, 0.0},
+      {0.1, 9e6, 1e6, -3e6, 0.0, 0.0, soft_m},
+      {-0.1, 5e6, 9e6, 3e6, 0.0, -soft_m, -stiff_m},
+      {-0.1, 5e6, 9e6, -3e6, 0.0, stiff_m, soft_m},
+      {-0.1, 5e6, 9e6, 0.0, 3e6, 0.0, 0.0},
+      {-0.1, 1e6, 9e6, 0.0, 3e6, 0.0, soft_m},
+      {-0.1, 1e6, 9e6, 0.0, -3e6, -soft_m, 0.0},
+      // A spool in its middle counts as on its way in; 1.5 MPa are not empty.
+      {0.0, 5e6, 9e6, 3e6, 0.0, -soft_m, -stiff_m},
+      {0.0, 5e6, 9e6, 0.0, 3e6, 0.0, 0.0},
+      {0.1, 9e6, 1.5e6, 3e6, 0.0, 0.0, 0.0},
+      {-0.1, 1.5e6, 9e6, 0.0, 3e6, 0.0, 0.0},
+  };
+  for (const Case& each : cases) {
+    Watched watched;
+    ValidDrive seen = at(each.spool, each.cap_pa, each.rod_pa);
+    static_cast<void>(watched.step_as(seen));  // A first pressure is a step ...
+    static_cast<void>(watched.step_as(seen));
+    seen.cap_pressure_pa += each.cap_change_pa;
+    seen.rod_pressure_pa += each.rod_change_pa;
+    seen.stroke_is_new = false;
+    static_cast<void>(watched.step_as(seen));
+    assert_near(watched.state.least_m, each.least_m, 1e-9);
+    assert_near(watched.state.most_m, each.most_m, 1e-9);
+  }
+}
+
+/// Its sides are as large wherever it stands.
+void a_motors_oil_does_not_grow(void**) {
+  for (const double spool : {0.1, -0.1}) {
+    Watched watched;
+    watched.row.control.has_end_stops = false;
+    ValidDrive seen = at(spool, 9e6, 9e6);
+    static_cast<void>(watched.step_as(seen));
+    static_cast<void>(watched.step_as(seen));
+    (spool > 0.0 ? seen.rod_pressure_pa : seen.cap_pressure_pa) += 3e6;
+    seen.stroke_is_new = false;
+    static_cast<void>(watched.step_as(seen));
+    assert_near(std::max(watched.state.most_m, -watched.state.least_m), 0.3 * 3e6 * 0.15 / 0.6e9,
+                1e-9);
+  }
+}
+
+/// Neither pressure may stand still; an empty side's may.
+void dead_pressures_say_nothing(void**) {
+  for (const bool cap_lives : {false, true}) {
+    for (const bool rod_lives : {false, true}) {
+      Watched watched;
+      bool any = false;
+      for (int n = 0; n < 100; ++n) {
+        ValidDrive now = at(0.3, 9e6, 5e6);
+        now.cap_pressure_pa += cap_lives ? n % 2 : 0;
+        now.rod_pressure_pa += rod_lives ? n % 2 : 0;
+        any = any || !watched.step_as(now).empty();
+      }
+      assert_true(any == (cap_lives && rod_lives));
+    }
+  }
+  Watched empty;
+  for (int n = 0; n < 100; ++n) {
+    static_cast<void>(empty.step_as(at(0.3, n % 2 == 0 ? 9e6 : 9e6 + 1.0, 0.2e6)));
+    assert_true(empty.state.begun == (n > 0));
+  }
+  // Nor is one that sinks, or one below what an empty side shows, whatever it shows.
+  Watched sinks;
+  Watched low;
+  for (int n = 0; n < 20; ++n) {
+    static_cast<void>(sinks.step_as(at(0.3, 9e6 - n * 1e3, 5e6 - n * 1e3)));
+    static_cast<void>(low.step_as(at(0.3, 9e6 - n * 1e3, 0.1e6)));
+    assert_true(sinks.state.begun == (n > 0) && low.state.begun == (n > 0));
+  }
+  // Three times the same is not dead yet, the fourth is.
+  Watched same;
+  for (int n = 0; n < 5; ++n) {
+    static_cast<void>(same.step_as(at(0.3, 9e6, 5e6)));
+    assert_true(same.state.begun == (n > 0 && n < 4));
+  }
+}
+
+/// At the end of its range, or after a step, a sensor says nothing of the flow.
+void steps_and_rails_say_nothing(void**) {
+  for (const double spool : {0.6, -0.6}) {
+    Watched watched;
+    const bool extends = spool > 0.0;
+    watched.seen = at(spool, extends ? 9e6 : 32e6, extends ? 32e6 : 9e6);
+    for (int n = 0; n < 20; ++n) {
+      assert_true(watched.step().empty());
+      assert_false(watched.state.begun);
+    }
+    // Of the fed side it does not matter.
+    watched.seen = at(spool, extends ? 33e6 : 9e6, extends ? 9e6 : 33e6);
+    static_cast<void>(watched.step());
+    static_cast<void>(watched.step());
+    assert_true(watched.state.begun);
+  }
+  // In its middle the cap side counts as the one that drains.
+  Watched middle;
+  middle.seen = at(0.0, 9e6, 33e6);
+  static_cast<void>(middle.step());
+  static_cast<void>(middle.step());
+  assert_true(middle.state.begun);
+  for (const double step_pa : {4.1e6, -4.1e6, 4.0e6}) {
+    for (const bool cap : {false, true}) {
+      Watched watched;
+      ValidDrive seen = at(0.6, 9e6, 9e6);
+      static_cast<void>(watched.step_as(seen));
+      static_cast<void>(watched.step_as(seen));
+      assert_true(watched.state.begun);
+      (cap ? seen.cap_pressure_pa : seen.rod_pressure_pa) += step_pa;
+      static_cast<void>(watched.step_as(seen));
+      assert_true(watched.state.begun == (step_pa == 4.0e6));
+    }
+  }
+}
+
+/// What it was off before stays where one cycle says nothing; not where the load is lost.
+void a_gap_forgets_only_what_it_must(void**) {
+  Watched watched;
+  for (int n = 0; n < 4; ++n) {
+    static_cast<void>(watched.step());
+  }
+  const double behind_m = watched.state.behind_m;
+  assert_true(behind_m > 0.0 && watched.state.extend_m > 0.0);
+  watched.seen.rod_pressure_pa = 15e6;
+  static_cast<void>(watched.step());
+  static_cast<void>(watched.step());
+  assert_true(watched.state.begun);
+  assert_near(watched.state.behind_m, behind_m, 0.0);
+  assert_near(watched.state.extend_m, 0.0, 0.0);
+  watched.seen.load_known = false;
+  static_cast<void>(watched.step());
+  assert_near(watched.state.behind_m, 0.0, 0.0);
+  assert_false(watched.state.begun);
+}
+
+void without_spool_or_load_nothing_is_checked(void**) {
+  Watched no_spool;
+  no_spool.row.watch.senses_spool = false;
+  assert_int_equal(no_spool.until(Fault::kStrokeStuck, 0.0), 0);
+  Watched no_load;
+  no_load.seen.load_known = false;
+  assert_int_equal(no_load.until(Fault::kStrokeStuck, 0.0), 0);
+  Watched no_bound;
+  no_bound.row.watch.unseen_m = 0.0;
+  assert_int_equal(no_bound.until(Fault::kStrokeStuck, 0.0), 0);
+  // A metered inlet needs none, and its pressures are nothing.
+  Watched inlet;
+  inlet.row = metered_inlet();
+  inlet.seen.load_known = false;
+  assert_true(inlet.until(Fault::kStrokeStuck, 0.0) > 0);
+}
+
+/// The spool's frame comes every second cycle: the widest of two counts.
+void the_last_cycle_counts_too(void**) {
+  Watched watched;
+  for (int n = 0; n < 3; ++n) {
+    static_cast<void>(watched.step());
+  }
+  const double behind_m = watched.state.behind_m;
+  const double most_mps = watched.most_mps();
+  watched.seen.spool_ratio = 0.0;
+  watched.seen.stroke_is_new = false;
+  static_cast<void>(watched.step());
+  assert_near(watched.state.most_m, kPeriod_s * most_mps, 1e-6);
+  assert_near(watched.state.least_m, 0.0, 1e-6);
+  assert_near(watched.state.behind_m, behind_m, 0.0);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(within_its_bounds_it_is_sound),
+      cmocka_unit_test(a_stroke_that_stands_still_is_stuck),
+      cmocka_unit_test(a_stroke_that_shakes_is_not_stuck_but_wrong),
+      cmocka_unit_test(at_its_bound_it_is_sound),
+      cmocka_unit_test(only_its_drives_are_watched),
+      cmocka_unit_test(what_runs_ahead_of_its_oil_is_wrong),
+      cmocka_unit_test(leakage_is_forgotten),
+      cmocka_unit_test(lost_frames_are_waited_for),
+      cmocka_unit_test(oil_gives_way),
+      cmocka_unit_test(a_motors_oil_does_not_grow),
+      cmocka_unit_test(dead_pressures_say_nothing),
+      cmocka_unit_test(steps_and_rails_say_nothing),
+      cmocka_unit_test(a_gap_forgets_only_what_it_must),
+      cmocka_unit_test(without_spool_or_load_nothing_is_checked),
+      cmocka_unit_test(the_last_cycle_counts_too),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,263 @@
+// A body's pose against its own motion.
+
+#include "firmware/dozer/safety/pose_watch.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+
+constexpr double kPeriod_s = 0.01;
+
+/// A body that drives as it says.
+struct Body {
+  PoseWatchState state;
+  DozerValid valid;
+  GroundSpeeds speeds;
+
+  Body() {
+    valid.velocity_mps = 1.0;
+    speeds = {1.0, 1.0, 1.0};
+  }
+  /// All coordinates go on as their rates say; up a slope of `pitch_rad`.
+  void go_on() {
+    valid.position_m += kPeriod_s * valid.velocity_mps;
+    valid.height_m += kPeriod_s * valid.climb_mps;
+    valid.pitch_rad += kPeriod_s * valid.pitch_rate_radps;
+  }
+  bool step() { return watch_pose(valid, speeds, kPeriod_s, state); }
+  /// Cycles until it is seen; 0: not within 20 s. `change` makes each cycle's inputs wrong.
+  template <class Change>
+  int cycles_until_seen(Change change) {
+    for (int n = 1; n <= 2000; ++n) {
+      go_on();
+      change(valid);
+      if (step()) {
+        return n;
+      }
+    }
+    return 0;
+  }
+};
+
+/// Cycles until a residual that grows by `each` a cycle and forgets passes `most`.
+int cycles_to(double each, double most, double forget_s) {
+  double residual = 0.0;
+  for (int n = 1; n <= 2000; ++n) {
+    residual = (1.0 - kPeriod_s / forget_s) * (residual + each);
+    if (residual > most) {
+      return n;
+    }
+  }
+  return 0;
+}
+
+void what_fits_is_well(void**) {
+  Body body;
+  body.valid.climb_mps = std::tan(0.2);
+  body.valid.pitch_rad = 0.2;
+  body.speeds = {1.0 / std::cos(0.2), 1.0 / std::cos(0.2), 1.0 / std::cos(0.2)};
+  assert_int_equal(body.cycles_until_seen([](DozerValid&) {}), 0);
+}
+
+/// Nothing is known of what was before: a machine that stands anywhere begins well.
+void the_first_cycle_is_well(void**) {
+  Body body;
+  body.valid.position_m = 1000.0;
+  body.valid.height_m = -30.0;
+  body.valid.pitch_rad = 0.5;
+  body.valid.velocity_mps = 0.0;
+  assert_false(body.step());
+  assert_true(body.state.has_begun);
+  assert_false(body.step());
+}
+
+void a_frozen_position_is_seen(void**) {
+  for (const double way : {1.0, -1.0}) {
+    Body body;
+    body.valid.velocity_mps = way;
+    body.speeds = {way, way, way};
+    body.step();
+    const int seen = body.cycles_until_seen([](DozerValid& valid) { valid.position_m = 0.0; });
+    assert_int_equal(seen, cycles_to(0.01, kMostAhead_m, kPoseForget_s));
+  }
+}
+
+void a_frozen_height_is_seen(void**) {
+  for (const double way : {1.0, -1.0}) {
+    Body body;
+    body.valid.pitch_rad = way * 0.2;
+    body.valid.climb_mps = way * std::tan(0.2);
+    body.step();
+    const int seen = body.cycles_until_seen([](DozerValid& valid) { valid.height_m = 0.0; });
+    assert_int_equal(seen, cycles_to(0.01 * std::tan(0.2), kMostClimbed_m, kPoseForget_s));
+  }
+}
+
+void a_frozen_pitch_is_seen(void**) {
+  for (const double way : {1.0, -1.0}) {
+    Body body;
+    body.valid.pitch_rate_radps = way * 0.1;
+    body.step();
+    const int seen = body.cycles_until_seen([](DozerValid& valid) { valid.pitch_rad = 0.0; });
+    assert_int_equal(seen, cycles_to(0.001, kMostTurned_rad, kPoseForget_s));
+  }
+}
+
+/// Height and climb say another slope than the pitch; what turns may rise by its turn.
+void another_slope_is_seen(void**) {
+  for (const double rate_radps : {0.0, 0.1, -0.1}) {
+    for (const double climb_mps : {0.2, -0.2}) {
+      Body body;
+      body.valid.climb_mps = climb_mps;
+      body.valid.pitch_rate_radps = rate_radps;
+      body.valid.velocity_mps = 0.0;
+      body.speeds = {};
+      body.step();
+      const int seen = body.cycles_until_seen([](DozerValid&) {});
+      const double beyond_mps = 0.2 - kTippingArm_m * std::abs(rate_radps);
+      assert_int_equal(seen, cycles_to(0.01 * beyond_mps, kMostUphill_m, kSlopeForget_s));
+      assert_true(seen > 0);
+    }
+  }
+  // Turning as fast as it rises.
+  Body tips;
+  tips.valid.velocity_mps = 0.0;
+  tips.speeds = {};
+  tips.valid.climb_mps = 0.2;
+  tips.valid.pitch_rate_radps = 0.2 / kTippingArm_m;
+  tips.step();
+  assert_int_equal(tips.cycles_until_seen([](DozerValid& valid) {
+    valid.pitch_rate_radps = -valid.pitch_rate_radps;  // To and fro, or it would lie down.
+  }),
+                   0);
+}
+
+/// Slip is healthy up to its share; the source nearest to the velocity speaks for it.
+void tracks_that_run_on_are_seen(void**) {
+  for (const double tracks_mps : {2.0, -2.0}) {
+    const double slips_mps = (1.0 - kMostSlip) * 2.0 - kSlipMargin_mps;
+    const double way = tracks_mps > 0.0 ? 1.0 : -1.0;
+    Body standing;
+    standing.valid.velocity_mps = way * (slips_mps - 0.2);
+    standing.speeds = {tracks_mps, tracks_mps, tracks_mps};
+    standing.step();
+    assert_int_equal(standing.cycles_until_seen([](DozerValid&) {}),
+                     cycles_to(0.01 * 0.2, kMostSlipped_m, kPoseForget_s));
+    Body slipping;
+    slipping.valid.velocity_mps = way * (slips_mps + 0.001);
+    slipping.speeds = standing.speeds;
+    slipping.step();
+    assert_int_equal(slipping.cycles_until_seen([](DozerValid&) {}), 0);
+  }
+  // As much the other way: faster than its tracks.
+  Body sliding;
+  sliding.speeds = {0.5, 0.5, 0.5};
+  sliding.step();
+  assert_int_equal(sliding.cycles_until_seen([](DozerValid&) {}),
+                   cycles_to(0.01 * 0.25, kMostSlipped_m, kPoseForget_s));
+}
+
+void one_source_that_agrees_is_enough(void**) {
+  for (int agrees = 0; agrees < 3; ++agrees) {
+    Body body;
+    double* const speeds_mps[] = {&body.speeds.left_mps, &body.speeds.right_mps,
+                                  &body.speeds.transmission_mps};
+    for (int i = 0; i < 3; ++i) {
+      *speeds_mps[i] = i == agrees ? 1.0 : 3.0 - 5.0 * (i % 2);
+    }
+    body.step();
+    assert_int_equal(body.cycles_until_seen([](DozerValid&) {}), 0);
+  }
+}
+
+/// Tracks that run against each other, as far from the body as the transmission: always the same
+/// one speaks, or the residual would come and go.
+void of_sources_as_far_off_the_transmission_counts(void**) {
+  Body body;
+  body.valid.velocity_mps = 0.0;
+  body.speeds = {-1.0, -1.0, 1.0};
+  body.step();
+  body.step();
+  assert_true(body.state.slipped_m > 0.0);
+}
+
+/// A cycle of no length keeps a residual to the bit.
+void the_most_itself_is_well(void**) {
+  const struct {
+    double PoseWatchState::*residual;
+    double most;
+  } rows[] = {{&PoseWatchState::ahead_m, kMostAhead_m},
+              {&PoseWatchState::climbed_m, kMostClimbed_m},
+              {&PoseWatchState::turned_rad, kMostTurned_rad},
+              {&PoseWatchState::uphill_m, kMostUphill_m},
+              {&PoseWatchState::slipped_m, kMostSlipped_m}};
+  for (const auto& row : rows) {
+    for (const double sign : {1.0, -1.0}) {
+      Body body;
+      body.step();
+      body.state.*row.residual = sign * row.most;
+      assert_false(watch_pose(body.valid, body.speeds, 0.0, body.state));
+      body.state.*row.residual = sign * std::nextafter(row.most, 1.0);
+      assert_true(watch_pose(body.valid, body.speeds, 0.0, body.state));
+    }
+  }
+}
+
+/// Along a slope the tracks run faster than x grows.
+void speed_is_that_along_the_ground(void**) {
+  Body body;
+  body.valid.pitch_rad = 0.75;
+  body.valid.climb_mps = std::tan(0.75);
+  const double along_mps = 1.0 / std::cos(0.75);
+  body.speeds = {along_mps, along_mps, along_mps};
+  body.step();
+  assert_int_equal(body.cycles_until_seen([](DozerValid&) {}), 0);
+  // Without the slope it would be 0.27 m/s too slow.
+  body.speeds = {1.72, 1.72, 1.72};
+  assert_int_equal(body.cycles_until_seen([](DozerValid&) {}), 0);
+}
+
+void no_number_does_not_fit(void**) {
+  Body body;
+  body.step();
+  body.valid.velocity_mps = std::numeric_limits<double>::quiet_NaN();
+  assert_true(body.step());
+}
+
+/// A long cycle forgets all at most.
+void a_long_cycle_forgets(void**) {
+  Body body;
+  body.step();
+  body.state.ahead_m = body.state.climbed_m = body.state.turned_rad = body.state.uphill_m =
+      body.state.slipped_m = 1.0;
+  assert_false(watch_pose(body.valid, body.speeds, 4.0, body.state));
+  assert_near(body.state.ahead_m + body.state.climbed_m + body.state.turned_rad +
+                  body.state.uphill_m + body.state.slipped_m,
+              0.0, 0.0);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(what_fits_is_well),
+      cmocka_unit_test(the_first_cycle_is_well),
+      cmocka_unit_test(a_frozen_position_is_seen),
+      cmocka_unit_test(a_frozen_height_is_seen),
+      cmocka_unit_test(a_frozen_pitch_is_seen),
+      cmocka_unit_test(another_slope_is_seen),
+      cmocka_unit_test(tracks_that_run_on_are_seen),
+      cmocka_unit_test(one_source_that_agrees_is_enough),
+      cmocka_unit_test(of_sources_as_far_off_the_transmission_counts),
+      cmocka_unit_test(the_most_itself_is_well),
+      cmocka_unit_test(speed_is_that_along_the_ground),
+      cmocka_unit_test(no_number_does_not_fit),
+      cmocka_unit_test(a_long_cycle_forgets),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

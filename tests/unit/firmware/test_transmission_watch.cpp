@@ -1,0 +1,224 @@
+// The transmission against its commands, the tracks against the transmission, by the cycle. What
+// comes of it in a machine: test_dozer_watch.cpp, test_dozer_tracks.cpp.
+
+#include "firmware/dozer/safety/transmission_watch.hpp"
+
+#include <cmath>
+
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/plain_dozer.hpp"
+
+namespace {
+
+using namespace graben;
+
+constexpr double kPeriod_s = 0.0625;
+
+/// Both tracks at 1 m/s, as told and as (9) has it.
+struct Machine {
+  DozerProfile profile = test::plain_dozer();
+  TransmissionWatchState state;
+  SentRatios sent;
+  DozerValid valid;
+  DisplacementTask task = DisplacementTask::kFollow;
+
+  Machine() {
+    valid.engine_radps = 40.0;
+    valid.motor_ratio = {1.0, 1.0};
+    drive(0.5);
+  }
+  void drive(double pump_ratio) {
+    sent.pump = valid.pump_ratio = {pump_ratio, pump_ratio};
+    run_at(2.0 * pump_ratio);
+  }
+  /// The body and both tracks, whatever the displacements are.
+  void run_at(double speed_mps) {
+    valid.track_speed_mps = {speed_mps, speed_mps};
+    valid.velocity_mps = speed_mps;
+  }
+  TransmissionWatchResult step(double period_s = kPeriod_s) {
+    return watch_transmission(profile, state, sent, task, valid, period_s);
+  }
+  FaultSet run(int cycles) {
+    FaultSet stops;
+    for (int n = 0; n < cycles; ++n) {
+      const TransmissionWatchResult result = step();
+      stops = result.stops;
+    }
+    return stops;
+  }
+};
+
+void what_obeys_is_left_alone(void**) {
+  for (const double pump_ratio : {1.0, 0.5, 0.0, -0.5}) {
+    Machine machine;
+    machine.drive(pump_ratio);
+    for (int n = 0; n < 100; ++n) {
+      const TransmissionWatchResult result = machine.step();
+      assert_false(result.tracks_disagree);
+      assert_false(result.stops.has(Fault::kDisplacementDisagrees));
+      assert_false(machine.valid.track_outvoted[kLeft] || machine.valid.track_outvoted[kRight]);
+    }
+    assert_true(machine.run(1).empty());
+  }
+}
+
+/// Each of the four. Stays behind: 0.5 s are eight cycles.
+void each_displacement_is_watched(void**) {
+  for (unsigned track = 0; track < kTrackCount; ++track) {
+    for (const bool motor : {false, true}) {
+      Machine behind;
+      behind.run(20);
+      (motor ? behind.sent.motor : behind.sent.pump)[track] = 0.75;
+      assert_true(behind.run(8).empty());
+      const FaultSet disagrees = behind.run(1);
+      assert_true(disagrees.has(Fault::kDisplacementDisagrees));
+      assert_false(disagrees.has(Fault::kDisplacementRunaway));
+      Machine away;
+      away.run(20);
+      (motor ? away.valid.motor_ratio : away.valid.pump_ratio)[track] = 0.75;
+      assert_true(away.run(kRunawayCycles - 1).empty());
+      assert_true(away.run(1).has(Fault::kDisplacementRunaway));
+    }
+  }
+}
+
+/// For longer than 0.3 s, standing by more than the tolerance; a tenth of the speed more otherwise.
+void a_track_off_its_displacements_disagrees(void**) {
+  for (const double sign : {1.0, -1.0}) {
+    Machine machine;
+    machine.drive(0.0);
+    machine.run_at(sign * 0.375);
+    assert_false(machine.step(0.5).tracks_disagree);
+    machine.run_at(std::nextafter(sign * 0.375, sign));
+    assert_false(machine.step(0.3).tracks_disagree);
+    assert_true(machine.step(1e-9).tracks_disagree);
+    machine.run_at(0.0);
+    assert_false(machine.step().tracks_disagree);
+  }
+}
+
+/// In this cycle already; said after more than 0.1 s.
+void a_sensor_that_nothing_confirms_is_outvoted(void**) {
+  for (unsigned track = 0; track < kTrackCount; ++track) {
+    for (const double sign : {1.0, -1.0}) {
+      Machine machine;
+      machine.drive(0.0);
+      machine.valid.track_speed_mps[track] = sign * 0.15;
+      machine.step(1e-3);
+      assert_false(machine.valid.track_outvoted[track]);
+      machine.valid.track_speed_mps[track] = std::nextafter(sign * 0.15, sign);
+      assert_false(machine.step(0.1).tracks_disagree);
+      assert_true(machine.valid.track_outvoted[track]);
+      assert_false(machine.valid.track_outvoted[1 - track]);
+      assert_true(machine.step(1e-9).tracks_disagree);
+    }
+  }
+}
+
+void one_that_agrees_with_a_sensor_is_enough(void**) {
+  Machine like_body;
+  like_body.run_at(1.3);
+  static_cast<void>(like_body.step());
+  assert_false(like_body.valid.track_outvoted[kLeft]);
+  Machine like_transmission;
+  like_transmission.valid.velocity_mps = 3.0;
+  static_cast<void>(like_transmission.step());
+  assert_false(like_transmission.valid.track_outvoted[kLeft]);
+}
+
+/// The body's speed is that along the slope.
+void on_a_slope_the_body_is_faster_than_its_position(void**) {
+  Machine machine;
+  machine.valid.pitch_rad = 0.75;
+  machine.valid.velocity_mps = 1.5 * std::cos(0.75);
+  machine.valid.track_speed_mps = {1.9, 1.9};  // 0.45 m/s beside 1.5.
+  static_cast<void>(machine.step());
+  assert_false(machine.valid.track_outvoted[kLeft]);
+}
+
+/// For more than 0.2 s by more than 0.1 m/s, either side and way, and a twentieth of the speed.
+void sides_apart_disagree(void**) {
+  for (unsigned track = 0; track < kTrackCount; ++track) {
+    for (const double sign : {1.0, -1.0}) {
+      Machine machine;
+      machine.drive(0.0);
+      machine.valid.track_speed_mps[track] = sign * 0.1;
+      assert_false(machine.step(0.5).tracks_disagree);
+      machine.valid.track_speed_mps[track] = std::nextafter(sign * 0.1, sign);
+      assert_false(machine.step(0.2).tracks_disagree);
+      assert_true(machine.step(1e-9).tracks_disagree);
+      machine.valid.velocity_mps = -0.01;
+      assert_false(machine.step().tracks_disagree);
+    }
+  }
+}
+
+/// Neither after motion, nor without a task, nor without an engine speed; nothing is kept.
+void tracks_are_judged_where_they_can_be(void**) {
+  const auto off = [](Machine& machine) {
+    machine.valid.track_speed_mps = {3.0, 1.0};
+    static_cast<void>(machine.step(1.0));
+  };
+  for (const DisplacementTask task : {DisplacementTask::kNone, DisplacementTask::kReturn}) {
+    Machine machine;
+    off(machine);
+    machine.task = task;
+    assert_false(machine.step(1.0).tracks_disagree);
+    machine.task = DisplacementTask::kFollow;
+    assert_false(machine.step(0.01).tracks_disagree);
+    assert_true(machine.step(1.0).tracks_disagree);
+  }
+  Machine machine;
+  off(machine);
+  machine.valid.faults.add(Fault::kEngineSpeedMissing);
+  assert_false(machine.step(1.0).tracks_disagree);
+  machine.valid.faults = {};
+  assert_false(machine.step(0.01).tracks_disagree);
+}
+
+void the_transmission_speaks_for_both_tracks(void**) {
+  Machine machine;
+  machine.valid.pump_ratio = {0.5, 0.25};
+  machine.valid.track_speed_mps = {1.5, 0.75};
+  GroundSpeeds speeds = ground_speeds(machine.profile, machine.valid);
+  assert_near(speeds.left_mps, 1.5, 0.0);
+  assert_near(speeds.right_mps, 0.75, 0.0);
+  assert_near(speeds.transmission_mps, 0.75, 1e-15);
+  machine.valid.faults.add(Fault::kEngineSpeedMissing);
+  speeds = ground_speeds(machine.profile, machine.valid);
+  assert_near(speeds.right_mps, 0.75, 0.0);
+  assert_near(speeds.transmission_mps, 1.5, 0.0);
+}
+
+void both_pumps_have_to_be_neutral(void**) {
+  for (unsigned track = 0; track < kTrackCount; ++track) {
+    for (const double sign : {1.0, -1.0}) {
+      Machine machine;
+      machine.drive(0.0);
+      assert_true(pumps_neutral(machine.profile, machine.valid));
+      machine.valid.pump_ratio[track] = sign * 0.125;
+      assert_true(pumps_neutral(machine.profile, machine.valid));
+      machine.valid.pump_ratio[track] = std::nextafter(sign * 0.125, sign);
+      assert_false(pumps_neutral(machine.profile, machine.valid));
+    }
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(what_obeys_is_left_alone),
+      cmocka_unit_test(each_displacement_is_watched),
+      cmocka_unit_test(a_track_off_its_displacements_disagrees),
+      cmocka_unit_test(a_sensor_that_nothing_confirms_is_outvoted),
+      cmocka_unit_test(one_that_agrees_with_a_sensor_is_enough),
+      cmocka_unit_test(on_a_slope_the_body_is_faster_than_its_position),
+      cmocka_unit_test(sides_apart_disagree),
+      cmocka_unit_test(tracks_are_judged_where_they_can_be),
+      cmocka_unit_test(the_transmission_speaks_for_both_tracks),
+      cmocka_unit_test(both_pumps_have_to_be_neutral),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

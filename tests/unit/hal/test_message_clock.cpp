@@ -1,0 +1,44 @@
+// A message's clock against ours. What a receiver makes of it: test_stream_late.cpp.
+
+#include "hal/link/message_clock.hpp"
+
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+
+void what_passes_and_is_not_sent_is_lag(void**) {
+  MessageClock clock;
+  advance(clock, 10'000, 10'000);
+  assert_int_equal(clock.lag_us, 0);  // never below
+  advance(clock, 40'000, 10'000);
+  assert_int_equal(clock.lag_us, 29'960);  // 1 per mille of what passed is forgiven
+  advance(clock, 10'000, 30'000);
+  assert_int_equal(clock.lag_us, 9'950);
+  advance(clock, 10'000, 40'000);
+  assert_int_equal(clock.lag_us, 0);
+}
+
+void more_than_60_ms_is_stale(void**) {
+  assert_false(is_stale({}));
+  assert_false(is_stale({60'000}));
+  assert_true(is_stale({60'001}));
+}
+
+void the_lag_does_not_overflow(void**) {
+  MessageClock clock;
+  advance(clock, 2000 * kSecondUs, 0);
+  assert_int_equal(clock.lag_us, 1000 * kSecondUs);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(what_passes_and_is_not_sent_is_lag),
+      cmocka_unit_test(more_than_60_ms_is_stale),
+      cmocka_unit_test(the_lag_does_not_overflow),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

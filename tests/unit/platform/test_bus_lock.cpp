@@ -1,0 +1,43 @@
+/// Who comes second to a bus.
+
+#include "platform/linux/bus_lock.hpp"
+
+#include <unistd.h>
+
+#include <cstring>
+#include <optional>
+#include <string>
+
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+
+/// Tests run beside each other, in one network namespace.
+std::string own_name(const char* name) { return name + std::to_string(getpid()); }
+
+void the_second_is_refused_in_words(void**) {
+  std::optional<BusLock> first(own_name("a"));
+  assert_true(first->error().empty());
+  const BusLock second(own_name("a"));
+  assert_non_null(std::strstr(second.error().c_str(), "another graben-ecu controls this bus"));
+  const BusLock elsewhere(own_name("b"));
+  assert_true(elsewhere.error().empty());
+  first.reset();
+  const BusLock after(own_name("a"));
+  assert_true(after.error().empty());
+}
+
+void a_name_that_is_too_long_is_told(void**) {
+  const BusLock lock(std::string(200, 'x'));
+  assert_non_null(std::strstr(lock.error().c_str(), "too long"));
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(the_second_is_refused_in_words),
+                              cmocka_unit_test(a_name_that_is_too_long_is_told)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

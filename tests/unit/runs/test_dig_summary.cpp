@@ -1,0 +1,129 @@
+/// Calm and energy of digging and of a task, from samples made by hand.
+
+#include <cmath>
+#include <string>
+
+#include "app/runs/autodig_run.hpp"
+#include "app/runs/dig_run.hpp"
+#include "firmware/numeric/constants.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+using namespace graben::runs;
+
+/// 10 s on the path after 1 s of approach that shakes, wastes and must not count.
+DigResult made() {
+  DigResult result;
+  result.spool_edges.fill({0.1, 0.1});
+  result.loops = 0.5;
+  for (int n = 0; n < 1101; ++n) {
+    DigSample sample;
+    sample.time_s = 0.01 * n;
+    sample.on_path = n >= 100;
+    const bool odd = n % 2 == 1;
+    sample.lambda = sample.on_path ? 0.5 : (odd ? 0.2 : 0.8);
+    sample.energy = {1000.0 * n, sample.on_path ? 100.0 * n : 900.0 * n};
+    sample.swash_real = sample.on_path ? 0.6 : 0.1;
+    sample.spool_real = {odd && !sample.on_path ? -0.5 : 0.5, 0.05, 0.0};
+    if (sample.on_path) {
+      const double t = sample.time_s - 1.0;
+      sample.cross_track_true_m = 0.01 * std::sin(kTwoPi * 5.0 * t) + 0.03;
+      sample.spool_real[kBucket] = n % 100 < 50 ? 0.4 : -0.4;
+      sample.tip_true_m = {0.5 * t * t * t, 1.0};
+    }
+    result.samples.push_back(sample);
+  }
+  return result;
+}
+
+double figure(const RunFigures& figures, const std::string& name) {
+  for (const FigureValue& value : figures.values) {
+    if (value.info->name == name) {
+      return value.value;
+    }
+  }
+  fail_msg("no figure %s", name.c_str());
+  return kAbsent;
+}
+
+void figures_are_of_the_time_on_the_path(void**) {
+  const RunFigures figures = figures_of(summarise(made()));
+  assert_near(figure(figures, "lambda_variation_ps"), 0.0, 0.0);
+  assert_near(figure(figures, "spool_travel_ps.boom"), 0.0, 0.0);
+  assert_near(figure(figures, "spool_reversals_ps.boom"), 0.0, 0.0);
+  assert_near(figure(figures, "spool_reversals_ps.arm"), 0.0, 0.0);
+  // Every half second, for the 20th time in the last cycle.
+  assert_near(figure(figures, "spool_reversals_ps.bucket"), 2.0, 1e-9);
+  assert_near(figure(figures, "spool_travel_ps.bucket"), 1.6, 1e-9);
+  assert_near(figure(figures, "tip_jerk_rms_mps3"), 3.0, 1e-5);
+  assert_near(figure(figures, "ringing_rms_m"), 0.01 / std::sqrt(2.0), 1e-4);
+  assert_near(figure(figures, "energy_j"), 1e6, 1e-3);
+  assert_near(figure(figures, "energy_per_loop_j"), 2e6, 1e-3);
+  assert_near(figure(figures, "energy_bypass_relief_share"), 0.1, 1e-9);
+  assert_near(figure(figures, "swash_mean"), 0.6, 1e-9);
+}
+
+void a_run_that_never_came_to_its_path_has_no_energy_of_a_loop(void**) {
+  DigResult result = made();
+  for (DigSample& sample : result.samples) {
+    sample.on_path = false;
+  }
+  result.loops = 0.0;
+  const RunFigures figures = figures_of(summarise(result));
+  assert_true(std::isnan(figure(figures, "energy_per_loop_j")));
+  assert_true(std::isnan(figure(figures, "energy_bypass_relief_share")));
+  for (const char* name : {"lambda_variation_ps", "spool_travel_ps.boom", "tip_jerk_rms_mps3",
+                           "ringing_rms_m", "energy_j", "swash_mean"}) {
+    assert_near(figure(figures, name), 0.0, 0.0);
+  }
+}
+
+/// Two steps, left in the second one of the third round: the energy of 2.5 rounds,
+/// without that of the approach between.
+void a_tasks_energy_is_of_a_round(void**) {
+  TaskProgram program;
+  program.step_count = 2;
+  AutodigResult result;
+  result.end = AutodigEnd::kNotFinished;
+  result.spool_edges.fill({0.1, 0.1});
+  const auto add = [&](StepKind kind, int step) {
+    AutodigSample sample;
+    sample.progress.runs = true;
+    sample.progress.kind = kind;
+    sample.progress.step = static_cast<decltype(sample.progress.step)>(step);
+    const auto n = static_cast<double>(result.samples.size());
+    sample.energy = {1000.0 * n, 250.0 * n};
+    sample.spool_real[kSwing] = step == 0 ? 0.3 : -0.3;
+    result.samples.push_back(sample);
+  };
+  add(StepKind::kApproach, 1);
+  for (const int step : {0, 1}) {
+    add(StepKind::kSwing, step);
+  }
+  add(StepKind::kApproach, 1);
+  for (const int step : {0, 1, 0, 1}) {
+    add(StepKind::kSwing, step);
+  }
+  RunFigures figures = figures_of(summarise(program, result));
+  assert_near(figure(figures, "energy_j"), 4000.0, 1e-9);
+  assert_near(figure(figures, "energy_per_round_j"), 4000.0 / 2.5, 1e-9);
+  assert_near(figure(figures, "energy_bypass_relief_share"), 0.25, 1e-12);
+  assert_near(figure(figures, "spool_reversals_ps.swing"), 100.0, 1e-9);
+  assert_near(figure(figures, "spool_travel_ps.swing"), 60.0, 1e-9);
+  result.end = AutodigEnd::kDone;
+  figures = figures_of(summarise(program, result));
+  assert_near(figure(figures, "energy_per_round_j"), 4000.0 / 3.0, 1e-9);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(figures_are_of_the_time_on_the_path),
+      cmocka_unit_test(a_run_that_never_came_to_its_path_has_no_energy_of_a_loop),
+      cmocka_unit_test(a_tasks_energy_is_of_a_round),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

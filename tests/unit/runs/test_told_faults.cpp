@@ -1,0 +1,125 @@
+// Faults of the plant by name and time.
+
+#include <array>
+#include <cstring>
+#include <new>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "app/runs/plant_faults.hpp"
+#include "platform/loopback/loopback_bus.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+using namespace graben::runs;
+
+std::string refusal(const std::string& text) {
+  try {
+    const PlantFaultSchedule<plant::ExcavatorFaults> schedule(excavator_plant_faults(), {text});
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+void texts_are_read(void**) {
+  const ToldFault drift = told_fault("boom-stroke:drift=-0.01@2.5");
+  assert_string_equal(drift.name.c_str(), "boom-stroke:drift");
+  assert_true(drift.value == -0.01);
+  assert_int_equal(drift.at_us, 2500000);
+  assert_true(told_fault("swing-angle:frozen@0").value == 0.0);
+}
+
+void wrong_texts_are_refused(void**) {
+  const struct {
+    const char* text;
+    const char* says;
+  } cases[] = {{"boom-stroke:frozen", "no time"},
+               {"boom-stroke:frozen@", "no time in seconds"},
+               {"boom-stroke:frozen@-1", "a time from 0"},
+               {"boom-stroke:frozen@1e9", "a time from 0"},
+               {"boom-stroke:frozen@nan", "no time in seconds"},
+               {"boom-stroke:step=x@1", "'x' is no number"},
+               {"boom-stroke:step=@1", "'' is no number"},
+               {"boom-stroke:step=1mm@1", "'1mm' is no number"},
+               {"blade-stroke:frozen@1", "known: "}};
+  for (const auto& tried : cases) {
+    assert_non_null(std::strstr(refusal(tried.text).c_str(), tried.says));
+  }
+}
+
+/// Each comes at its time, whatever the order in which they were told, and its mark says which.
+void faults_come_in_time(void**) {
+  LoopbackBus bus;
+  LoopbackPort& machine = bus.attach();
+  LoopbackPort& other = bus.attach();
+  assert_true(machine.open() && other.open());
+  plant::ExcavatorFaults faults;
+  PlantFaultSchedule<plant::ExcavatorFaults> schedule(
+      excavator_plant_faults(), {"arm-stroke:step=0.012@0.02", "boom-stroke:frozen@0.01"});
+  std::array<CanFrame, 4> marks;
+  const int expected[] = {0, 2, 1};
+  for (int cycle = 0; cycle < 3; ++cycle) {
+    schedule.apply(cycle * 10000, faults, machine);
+    assert_int_equal(faults.axis[kBoom].stroke.stuck, cycle >= 1);
+    assert_true(faults.axis[kArm].stroke.jump_m == (cycle >= 2 ? 0.012 : 0.0));
+    const int count = other.receive(marks.data(), static_cast<int>(marks.size()));
+    assert_int_equal(count, expected[cycle] != 0);
+    if (count == 1) {
+      assert_int_equal(marks[0].id, 0x7F0);
+      assert_false(marks[0].extended);
+      assert_int_equal(marks[0].data[0], expected[cycle]);
+    }
+  }
+}
+
+/// The switches, made on zeros, so that two alike are the same bytes.
+template <class Faults>
+class Switches {
+ public:
+  Switches() : faults(*new (bytes_.data()) Faults) {}
+  ~Switches() { faults.~Faults(); }
+  Switches(const Switches&) = delete;
+  Switches& operator=(const Switches&) = delete;
+
+  [[nodiscard]] std::string bytes() const {
+    // But for the sets of frames, which point into themselves.
+    const auto* const frames = reinterpret_cast<const char*>(&faults.frames);
+    std::string bytes(bytes_.data(), frames);
+    return bytes.append(frames + sizeof(plant::FrameFaults), bytes_.data() + sizeof(Faults));
+  }
+
+ private:
+  alignas(Faults) std::array<char, sizeof(Faults)> bytes_{};
+
+ public:
+  Faults& faults;
+};
+
+/// Every one of a table sets something that no other one sets.
+template <class Faults>
+void each_acts(const PlantFaultTable<Faults>& table) {
+  std::set<std::string> seen = {Switches<Faults>().bytes()};
+  for (const auto& [name, set] : table) {
+    Switches<Faults> switches;
+    set(switches.faults, 0.5);
+    assert_true(seen.insert(switches.bytes()).second);
+  }
+}
+
+void every_name_acts(void**) {
+  each_acts(excavator_plant_faults());
+  each_acts(dozer_plant_faults());
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(texts_are_read), cmocka_unit_test(wrong_texts_are_refused),
+      cmocka_unit_test(faults_come_in_time), cmocka_unit_test(every_name_acts)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
