@@ -26,7 +26,8 @@ class Run:
     profile: str
     operator: str
     seconds: float
-    # Largest seen of all lengths and orders of the runs, ns; 2026-11-23, GCC 12.2, kernel 6.1.192.
+    # Largest seen of all lengths and orders of the runs, ns; 2026-11-23, GCC 12.2, kernel 6.1.192. Runs
+    # whose load the filters keep away do the same work: they have one figure, the largest of them.
     wake_up_ns: int
     cycle_ns: int
     # Of the frames that fill the bus, if the controller is to hear them.
@@ -41,16 +42,16 @@ EXCAVATOR, DOZER = ("excavator_22t.toml", "dig", 4.4), ("dozer_9t.toml", "grade"
 # EEC1: no counter, no checksum, so that a copy of the last one is as good as that.
 EEC1 = "0CF00400"
 RUNS = [
-    Run("full", 100, *EXCAVATOR, wake_up_ns=27_000, cycle_ns=397_000),
-    Run("own", 0, *EXCAVATOR, wake_up_ns=27_000, cycle_ns=352_000),
-    Run("half", 50, *EXCAVATOR, wake_up_ns=27_000, cycle_ns=365_000),
+    Run("full", 100, *EXCAVATOR, wake_up_ns=27_000, cycle_ns=405_000),
+    Run("own", 0, *EXCAVATOR, wake_up_ns=27_000, cycle_ns=405_000),
+    Run("half", 50, *EXCAVATOR, wake_up_ns=27_000, cycle_ns=405_000),
     Run("heard", 100, *EXCAVATOR, wake_up_ns=27_000, cycle_ns=613_000, identifier=EEC1),
-    Run("dozer", 100, *DOZER, wake_up_ns=27_000, cycle_ns=424_000),
+    Run("dozer", 100, *DOZER, wake_up_ns=27_000, cycle_ns=443_000),
 ]
 # The same programs on the same kernel give the same nanoseconds. Another compiler or kernel does not,
-# nor does another moment of the kernel's tick: by that alone, four orders and lengths of the runs and
-# a build in another folder, the largest wake-up differed by 5 us and the largest cycle by 10 %.
-WAKE_UP_MARGIN_NS, CYCLE_MARGIN = 10_000, 0.10
+# nor does another moment of the kernel's tick: by that alone, in four orders and lengths of the runs and
+# on four machines, the largest wake-up differed by 5 us and the largest cycle of one run by 15 %.
+WAKE_UP_MARGIN_NS, CYCLE_MARGIN = 10_000, 0.20
 SLOT_S = 320e-6
 SHARE_MARGIN = 0.03
 OWN_SHARE = (0.30, 0.45)
