@@ -94,10 +94,7 @@ void add_autodig(CLI::App& app, int& status) {
       ->delimiter(',')
       ->expected(4);
   add_override_option(*command, scenario.speed_override_ratio);
-  command
-      ->add_option("--swash", scenario.swash_ratio,
-                   "Swash of the pumps, 0.05 .. 1, not the profile's")
-      ->check(number_between(0.05, 1.0));
+  add_swash_option(*command, scenario.swash_ratio);
   command
       ->add_option("--duration", scenario.duration_s,
                    "Of the first straight step, s; longer where a drive's limit asks for it")

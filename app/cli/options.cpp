@@ -40,8 +40,16 @@ void add_scenario_options(CLI::App& command, runs::DigScenario& scenario) {
           "the profile's unless told")
       ->check(
           CLI::IsMember(std::vector<std::string>(runs::kLawNames.begin(), runs::kLawNames.end())));
+  add_swash_option(command, scenario.swash_ratio);
   command.add_flag("--fixed-lambda", scenario.fixed_lambda,
                    "For comparison: lambda stays 1, whatever the machine can do");
+}
+
+void add_swash_option(CLI::App& command, std::optional<double>& swash_ratio) {
+  command
+      .add_option("--swash", swash_ratio,
+                  "Constant swash of the pumps, 0.05 .. 1, instead of what the profile says")
+      ->check(number_between(0.05, 1.0));
 }
 
 void add_found_option(CLI::App& command, machines::Found& found) {

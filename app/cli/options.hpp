@@ -3,6 +3,7 @@
 /// values.
 
 #include <CLI/CLI.hpp>
+#include <optional>
 
 #include "app/runs/scenarios.hpp"
 
@@ -10,11 +11,15 @@ namespace graben::cli {
 
 // Of `dig`, `campaign dig` and `plant`.
 
-/// Adds --soil, --obstacle, --air, --stiff-oil, --dead-time, --errors, --law, --fixed-lambda.
+/// Adds --soil, --obstacle, --air, --stiff-oil, --dead-time, --errors, --law, --swash,
+/// --fixed-lambda.
 void add_scenario_options(CLI::App& command, runs::DigScenario& scenario);
 
 /// Adds --found, of `dig`, `campaign dig` and `autodig`.
 void add_found_option(CLI::App& command, machines::Found& found);
+
+/// Adds --swash, of `dig`, `campaign dig`, `plant` and `autodig`.
+void add_swash_option(CLI::App& command, std::optional<double>& swash_ratio);
 
 // Of `grade`, `campaign grade` and `plant`, for a dozer.
 

@@ -9,6 +9,7 @@
 #include "app/machines/excavator_sections.hpp"
 #include "app/machines/oil_section.hpp"
 #include "app/machines/shared_sections.hpp"
+#include "app/machines/swash_keys.hpp"
 
 namespace graben::machines {
 namespace {
@@ -379,9 +380,7 @@ ExcavatorProfile read_excavator_sections(TomlReader& reader) {
   profile.dig_path = read_path(reader, "task.path");
   profile.dig_speed_mps =
       reader.number("task.speed", {0.01, 3.0, "m/s"}, "speed of the teeth along the path");
-  const double swash_ratio =
-      reader.number("task.swash", {0.0, 1.0, ""}, "swash that the pumps are told, of full");
-  std::fill_n(profile.dig_swash_ratio.begin(), pumps, swash_ratio);
+  read_swash(reader, profile);
   profile.oil = read_oil(reader);
   check_law(reader, profile);
   profile.safety = read_safety(reader);

@@ -40,6 +40,17 @@ void set_law(const std::string& name, ExcavatorProfile& profile) {
   }
 }
 
+/// Constant, of every pump, from the machine's first moment on.
+void set_swash(std::optional<double> swash_ratio, machines::SimulatedExcavator& machine) {
+  if (!swash_ratio) {
+    return;
+  }
+  ExcavatorProfile& profile = machine.profile;
+  std::fill_n(profile.dig_swash_ratio.begin(), profile.pump_count, *swash_ratio);
+  profile.demand_swash = {};
+  machine.plant.swash_ratio = profile.dig_swash_ratio;
+}
+
 std::string errors_text(const std::string& errors, const machines::Found& found) {
   const std::string told = found_text(found);
   return told.empty() ? fmt::format("errors {}", errors)
@@ -54,6 +65,7 @@ machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machin
   tried.errors = errors_of(scenario.errors);
   machines::SimulatedExcavator result = machines::arranged(machine, tried);
   set_law(scenario.law, result.profile);
+  set_swash(scenario.swash_ratio, result);
   if (scenario.fixed_lambda) {
     result.profile.control.lambda_policy = McvPolicy::kFixed;
     // Nor does anything else slow it, or stop it off its path. A boom that sinks against its open
@@ -82,6 +94,9 @@ std::string scenario_text(const DigScenario& scenario) {
   }
   if (!scenario.law.empty()) {
     parts.push_back("law " + scenario.law);
+  }
+  if (scenario.swash_ratio) {
+    parts.push_back(fmt::format("swash {}", *scenario.swash_ratio));
   }
   parts.push_back(errors_text(scenario.errors, scenario.scenario.found));
   return fmt::format("{}", fmt::join(parts, ", "));
@@ -140,11 +155,7 @@ machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machin
   tried.found = scenario.found;
   tried.seed = scenario.seed;
   machines::SimulatedExcavator result = machines::arranged(machine, tried);
-  if (scenario.swash_ratio) {
-    std::fill_n(result.profile.dig_swash_ratio.begin(), result.profile.pump_count,
-                *scenario.swash_ratio);
-    result.plant.swash_ratio = result.profile.dig_swash_ratio;
-  }
+  set_swash(scenario.swash_ratio, result);
   return result;
 }
 

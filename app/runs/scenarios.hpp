@@ -23,10 +23,11 @@ inline constexpr std::array<const char*, 6> kErrorNames = {"none",       "stroke
 inline constexpr std::array<const char*, 3> kLawNames = {"servo", "oil", "kim"};
 
 struct DigScenario {
-  machines::Scenario scenario;  ///< Its errors come from the name below.
-  bool fixed_lambda = false;    ///< Lambda stays 1, and nothing else slows the machine.
-  std::string errors = "none";  ///< Of kErrorNames.
-  std::string law;              ///< Of kLawNames, instead of the profile's; empty: that.
+  machines::Scenario scenario;        ///< Its errors come from the name below.
+  bool fixed_lambda = false;          ///< Lambda stays 1, and nothing else slows the machine.
+  std::string errors = "none";        ///< Of kErrorNames.
+  std::string law;                    ///< Of kLawNames, instead of the profile's; empty: that.
+  std::optional<double> swash_ratio;  ///< Constant, of full, instead of what the profile says.
 };
 
 /// The machine of this scenario. Throws std::runtime_error for a law that its profile has not the

@@ -49,21 +49,22 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   const KinematicState now = setup_.kinematics.planar().state(valid.strokes_m().head<kAxisCount>());
   estimate_oil(valid, now, cycle.last_mode);
   const Motion motion = wanted_motion(valid, now, program, aim, cycle.period_s);
-  const McvSolution solution = flow_limited(valid, motion, cycle.period_s);
-  ModeDecision decision =
-      decide_mode(memory_.cycle, cycle, valid, first_of({motion.fault, solver_fault(solution)}),
-                  spools_centred(drives(), valid.drive), inputs.link.stop_requested);
+  const Followed followed = flow_limited(valid, motion, cycle.period_s);
+  ModeDecision decision = decide_mode(
+      memory_.cycle, cycle, valid, first_of({motion.fault, solver_fault(followed.solution)}),
+      spools_centred(drives(), valid.drive), inputs.link.stop_requested);
   ExcavatorOutputs outputs;
-  const GateResult gated = gate_drives(drives(), decision.active(), solution.point.spool_m,
+  const GateResult gated = gate_drives(drives(), decision.active(), followed.solution.point.spool_m,
                                        cycle.period_s, memory_.opening, outputs.duty_ratio);
   take_refusal(gated.fault, decision);
   outputs.enable = gated.enable;
-  outputs.swash_ratio = profile_.dig_swash_ratio;
+  demand_pumps(valid, motion, decision.active(), cycle.period_s);
+  outputs.swash_ratio = memory_.pumps.swash_ratio;
   end_cycle(decision, valid, memory_.cycle, outputs, outputs.status);
   if (decision.active()) {
-    describe_motion(motion, solution, valid.degraded, outputs.status);
+    describe_motion(motion, followed, valid.degraded, outputs.status);
   }
-  remember(valid, motion, solution.point.lambda, decision, outputs, cycle.period_s);
+  remember(valid, motion, followed, decision, outputs, cycle.period_s);
   lead_spools(outputs);
   return outputs;
 }
@@ -72,7 +73,8 @@ ExcavatorValid ExcavatorController::validate_and_watch(const ExcavatorInputs& in
                                                        const Cycle& cycle, TimeUs now_us) {
   ExcavatorValid valid =
       validate(profile_, drives(), inputs, memory_.last.moving, now_us, memory_.accepted);
-  watch(profile_, drives(), memory_.last, cycle.elapsed_s, memory_.watch, valid);
+  watch(profile_, drives(), memory_.last, memory_.pumps.swash_ratio, cycle.elapsed_s, memory_.watch,
+        valid);
   stop(task_faults(valid, setup_.book.count), valid);
   tell_stall(memory_.stall, profile_.safety.stall_s, valid);
   tell_tube(memory_.tube, valid);
@@ -168,20 +170,45 @@ void ExcavatorController::follow(const TaskProgram& program, const TaskAim& aim,
   motion.off_m = motion.task.off_m;
 }
 
-McvSolution ExcavatorController::flow_limited(const ExcavatorValid& valid, const Motion& motion,
-                                              double period_s) const {
-  const DriveVector velocity_mps = motion.cap.factor * motion.corrected_mps;
-  return steady_lambda(setup_.valve,
-                       mcv_input(span_of(velocity_mps), memory_.load, valid.pump_flow_m3ps),
-                       profile_.control.lambda_policy, profile_.control.lambda_rise,
-                       memory_.lambda.value(), period_s);
+ExcavatorController::Followed ExcavatorController::flow_limited(const ExcavatorValid& valid,
+                                                                const Motion& motion,
+                                                                double period_s) const {
+  const ControlProfile& control = profile_.control;
+  const auto input_of = [&](const DriveVector& velocity_mps) {
+    return mcv_input(span_of(velocity_mps), memory_.load, valid.pump_flow_m3ps);
+  };
+  Followed followed;
+  followed.solution =
+      steady_lambda(setup_.valve, input_of(motion.cap.factor * motion.wanted_mps),
+                    control.lambda_policy, control.lambda_rise, memory_.lambda.value(), period_s);
+  followed.lambda = followed.solution.point.lambda;
+  const double of_path = followed.lambda;
+  if (of_path > 0.0) {
+    const Limit path_limit = followed.solution.limit;
+    followed.solution =
+        solve_mcv(setup_.valve, input_of(of_path * motion.cap.factor * motion.corrected_mps),
+                  control.lambda_policy);
+    followed.of_corrected = followed.solution.point.lambda;
+    if (followed.of_corrected >= 1.0) {
+      followed.solution.limit = path_limit;
+    }
+  }
+  return followed;
 }
 
-void ExcavatorController::describe_motion(const Motion& motion, const McvSolution& solution,
+void ExcavatorController::demand_pumps(const ExcavatorValid& valid, const Motion& motion,
+                                       bool active, double period_s) {
+  next_pump_demand(profile_, setup_.valve,
+                   mcv_input(span_of(motion.wanted_mps), memory_.load, valid.pump_flow_m3ps),
+                   valid.engine_radps, active, period_s, memory_.pumps);
+}
+
+void ExcavatorController::describe_motion(const Motion& motion, const Followed& taken,
                                           const FaultSet& degraded, ExcavatorStatus& status) const {
+  const McvSolution& solution = taken.solution;
   const bool waits = motion.task.pace_ratio < kWaits;
-  const bool rises = solution.status == SolveStatus::kOk && solution.point.lambda < 1.0;
-  status.lambda = motion.cap.factor * solution.point.lambda;
+  const bool rises = solution.status == SolveStatus::kOk && taken.all() < 1.0;
+  status.lambda = motion.cap.factor * taken.all();
   status.limit = held_by({solution.limit,
                           motion.cap.limit,
                           {waits ? LimitKind::kOffPath : LimitKind::kNone, 0},
@@ -194,12 +221,12 @@ void ExcavatorController::describe_motion(const Motion& motion, const McvSolutio
   std::copy_n(solution.point.pump_pressure_pa.begin(), kPumpCount, status.pump_pressure_pa.begin());
 }
 
-void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& motion, double lambda,
-                                   const ModeDecision& decision, const ExcavatorOutputs& outputs,
-                                   double period_s) {
-  const double followed = decision.active() ? lambda : 0.0;
+void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& motion,
+                                   const Followed& taken, const ModeDecision& decision,
+                                   const ExcavatorOutputs& outputs, double period_s) {
+  const double followed = decision.active() ? taken.all() : 0.0;
   const DriveVector asked_mps = followed * motion.cap.factor * motion.corrected_mps;
-  memory_.lambda = followed;
+  memory_.lambda = decision.active() ? taken.lambda : 0.0;
   memory_.last = {in_motion(decision.mode.mode), outputs.enable, outputs.duty_ratio, {}};
   std::copy_n(asked_mps.data(), kDriveCount, memory_.last.asked_mps.begin());
   memory_.expected_mps = followed * motion.cap.factor * motion.wanted_mps;

@@ -7,6 +7,7 @@
 #include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/excavator/field/dig_field.hpp"
 #include "firmware/excavator/oil/oil_law.hpp"
+#include "firmware/excavator/pump_demand.hpp"
 #include "firmware/excavator/safety/excavator_validation.hpp"
 #include "firmware/excavator/tasks/task_follow.hpp"
 #include "firmware/mcv/optimiser.hpp"
@@ -62,9 +63,20 @@ class ExcavatorController {
     Fault fault = Fault::kNone;
   };
 
+  /// What the pumps' flow leaves of a motion. The path alone decides how fast it is followed, with
+  /// the reserve: corrections change sign from cycle to cycle. What they then ask for beyond the
+  /// flow slows both.
+  struct Followed {
+    McvSolution solution;       ///< Of the motion with its corrections.
+    double lambda = 0.0;        ///< Of the motion without them.
+    double of_corrected = 0.0;  ///< Share of that, with them.
+
+    [[nodiscard]] double all() const { return lambda * of_corrected; }
+  };
+
   struct Memory {
     CycleMemory cycle;
-    Guarded<double> lambda;  ///< Of the last cycle in motion.
+    Guarded<double> lambda;  ///< Of the last cycle in motion, without corrections.
     std::array<Guarded<double>, kDriveCount> opening;
     std::array<Believed, kDriveCount> accepted;
     ExcavatorWatchState watch;
@@ -74,6 +86,7 @@ class ExcavatorController {
     OilState oil;
     OilModes modes;
     std::array<SpoolModel, kDriveCount> spool;
+    PumpDemand pumps;
     /// lambda V_L^d, without corrections: what the servo expects of the drives.
     DriveVector expected_mps = DriveVector::Zero();
     TaskMemory task;
@@ -106,12 +119,15 @@ class ExcavatorController {
   void lead_spools(ExcavatorOutputs& outputs);
   void follow(const TaskProgram& program, const TaskAim& aim, double speed_override_ratio,
               double period_s, Motion& motion) const;
-  [[nodiscard]] McvSolution flow_limited(const ExcavatorValid& valid, const Motion& motion,
-                                         double period_s) const;
-  void describe_motion(const Motion& motion, const McvSolution& solution, const FaultSet& degraded,
+  [[nodiscard]] Followed flow_limited(const ExcavatorValid& valid, const Motion& motion,
+                                      double period_s) const;
+  /// Swash for what is wanted in this cycle.
+  void demand_pumps(const ExcavatorValid& valid, const Motion& motion, bool active,
+                    double period_s);
+  void describe_motion(const Motion& motion, const Followed& taken, const FaultSet& degraded,
                        ExcavatorStatus& status) const;
   /// Keeps what the next cycle needs of this one.
-  void remember(const ExcavatorValid& valid, const Motion& motion, double lambda,
+  void remember(const ExcavatorValid& valid, const Motion& motion, const Followed& taken,
                 const ModeDecision& decision, const ExcavatorOutputs& outputs, double period_s);
 
   const ExcavatorSetup& setup_;

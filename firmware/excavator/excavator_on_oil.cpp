@@ -7,23 +7,30 @@ namespace {
 
 /// Later than this, what is fed back comes too late for the oil: the servo's expectation is better.
 constexpr double kDeadTimeMost_s = 0.05;
-/// Farther off the path the oil's law gives way to the field, which then leads back; of the
-/// attitude it takes no more than this.
+/// Farther off the path the oil's law gives way to the field, which then leads back.
 constexpr double kFarOff_m = 0.15;
-constexpr double kAttitudeMost_rad = 0.05;
+/// Way of the teeth over a stroke below which a direction is left alone.
+constexpr double kInLine = 0.1;
 
 bool on_oil(const ExcavatorProfile& profile) {
   return profile.control.law == ControlLaw::kOil && profile.oil.known();
 }
 
-/// Travels of boom and arm beyond those of the path's nearest point.
+/// Travels of boom and arm that lead the teeth back to the path with the bucket as it is: what the
+/// bucket's cylinder gives way to its load is theirs too, it is slower. Damped least squares: where
+/// the teeth are in line with both pins, one direction is nobody's.
 Eigen::Vector2d off_path_m(const RoundedRectangle& path, const KinematicState& now) {
-  const PathPoint goal = path.closest({now.tip.x_m, now.tip.y_m});
-  Eigen::Vector3d off(now.tip.x_m - goal.position_m.x(), now.tip.y_m - goal.position_m.y(),
-                      wrap_near(now.tip.attitude_rad - goal.attitude_rad, 0.0));
-  off.head<2>() /= 1.0 + off.head<2>().squaredNorm() / (kFarOff_m * kFarOff_m);
-  off.z() = std::clamp(off.z(), -kAttitudeMost_rad, kAttitudeMost_rad);
-  return (now.jacobian_inverse * off).head<2>();
+  const Eigen::Vector2d tip_m(now.tip.x_m, now.tip.y_m);
+  Eigen::Vector2d off_m = tip_m - path.closest(tip_m).position_m;
+  off_m /= 1.0 + off_m.squaredNorm() / (kFarOff_m * kFarOff_m);
+  const Eigen::Matrix2d jacobian = now.jacobian.topLeftCorner<2, 2>();
+  const Eigen::Vector2d pull = jacobian.transpose() * off_m;
+  const Eigen::Matrix2d squared = jacobian.transpose() * jacobian;
+  const double boom = squared(0, 0) + kInLine * kInLine;
+  const double arm = squared(1, 1) + kInLine * kInLine;
+  const double both = squared(0, 1);
+  return Eigen::Vector2d(arm * pull.x() - both * pull.y(), boom * pull.y() - both * pull.x()) /
+         (boom * arm - both * both);
 }
 
 }  // namespace

@@ -182,6 +182,12 @@ struct LineProfile {
   double trim_most_mps = 0.0;  ///< No more than this.
 };
 
+/// Between these a pump's swash goes by what the motion needs.
+struct SwashRange {
+  double least_ratio = 0.0;
+  double most_ratio = 0.0;  ///< 0: it stays where it is.
+};
+
 struct ExcavatorProfile {
   BusCapabilities bus;
   int drive_count = kAxisCount;  ///< kDriveCount with a swing section of the valve.
@@ -193,7 +199,8 @@ struct ExcavatorProfile {
   std::array<PumpProfile, kPumpCount> pump;
   DigPath dig_path;
   double dig_speed_mps = 0.0;                        ///< Of the tip along the path.
-  std::array<double, kPumpCount> dig_swash_ratio{};  ///< What the pumps are told to be at.
+  std::array<double, kPumpCount> dig_swash_ratio{};  ///< What the pumps are told to be at,
+  SwashRange demand_swash;                           ///< unless it goes by what is needed.
   ControlProfile control;
   OilProfile oil;
   SafetyProfile safety;

@@ -42,13 +42,11 @@ bool solve_pumps(const McvCircuit& circuit, const McvPoint* near, McvPoint& poin
   return true;
 }
 
-/// Drive force that an axis needs: F_offset of (36), and what (42) asks for with its spool fully
-/// open, (13).
+}  // namespace
+
 double needed_force_n(const CircuitAxis& axis, double lambda) {
   return std::max(lambda * lambda * axis.full_opening_force_n, axis.force_offset_n);
 }
-
-}  // namespace
 
 DriveForce drive_force(const CircuitAxis& axis, double lambda, double sqrt_pressure) {
   DriveForce drive;

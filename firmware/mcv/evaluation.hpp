@@ -52,6 +52,10 @@ struct DriveForce {
 };
 [[nodiscard]] DriveForce drive_force(const CircuitAxis& axis, double lambda, double sqrt_pressure);
 
+/// Drive force that an axis needs: F_offset of (36), and what (42) asks for with its spool fully
+/// open, (13).
+[[nodiscard]] double needed_force_n(const CircuitAxis& axis, double lambda);
+
 /// c_L that the spool needs at `lambda` for the force it has, (42); infinite where the check valve
 /// of the in-flow line alone needs all of it.
 [[nodiscard]] double needed_coefficient(const CircuitAxis& axis, double lambda, double force_n);

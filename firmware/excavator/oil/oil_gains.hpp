@@ -22,7 +22,7 @@ struct ModeGains {
 /// What an observer or a feedback is computed for.
 struct OilDesign {
   double lag_s = 0.018;            ///< Each of the two lags from a command to its flow.
-  double travel_ps = 9.0;          ///< Speed asked for per travel that is missing, about.
+  double travel_ps = 5.0;          ///< Speed asked for per travel that is missing, about.
   double speed_s = 0.001;          ///< Weight of speed against travel.
   double balance = 0.01;           ///< Weight of the missing balance against travel.
   double load_m2ps = 1e-4;         ///< How fast the load may change, as compression squared.

@@ -32,8 +32,6 @@ ExcavatorValid validate(const ExcavatorProfile& profile, DriveRows drives,
       read_required({&inputs.swash_ratio[j], &valid.swash_ratio[j], Fault::kSwashMissing,
                      Fault::kSensorError},
                     fresh, valid.faults);
-    } else {
-      valid.swash_ratio[j] = profile.dig_swash_ratio[j];
     }
   }
   sort_faults(moving, {{Fault::kStrokeJump, Fault::kStrokeMissing}}, valid);
@@ -41,18 +39,31 @@ ExcavatorValid validate(const ExcavatorProfile& profile, DriveRows drives,
 }
 
 namespace {
-constexpr double kSwashServo_s = 0.5;
-}
 
-bool watch_swash(const ExcavatorProfile& profile, bool commanded, double period_s,
-                 std::array<double, kPumpCount>& swash_ratio, SwashState& state) {
+constexpr double kSwashServo_s = 0.5;
+/// Lag of a pump that takes its time.
+constexpr double kSwashLag_s = 0.25;
+
+}  // namespace
+
+bool watch_swash(const ExcavatorProfile& profile, bool commanded,
+                 const std::array<double, kPumpCount>& wanted_ratio, double period_s,
+                 std::array<double, kPumpCount>& swash_ratio, SwashStates& state) {
+  const double newest = std::min(period_s / kSwashLag_s, 1.0);
   bool disagrees = false;
   for (unsigned j = 0; j < kPumpCount; ++j) {
-    const double wanted = profile.dig_swash_ratio[j];
-    const bool off =
-        commanded && std::abs(swash_ratio[j] - wanted) > profile.safety.swash_tolerance;
-    state[j] = off ? state[j] + period_s : 0.0;
-    if (state[j] > kSwashServo_s) {
+    const double wanted = wanted_ratio[j];
+    double& slow = state[j].slow_ratio;
+    slow = commanded ? slow + newest * (wanted - slow) : wanted;
+    if (!profile.bus.swash_feedback) {
+      swash_ratio[j] = std::min(wanted, slow);
+      continue;
+    }
+    const double tolerance = profile.safety.swash_tolerance;
+    const bool off = commanded && (swash_ratio[j] < std::min(wanted, slow) - tolerance ||
+                                   swash_ratio[j] > std::max(wanted, slow) + tolerance);
+    state[j].off_s = off ? state[j].off_s + period_s : 0.0;
+    if (state[j].off_s > kSwashServo_s) {
       disagrees = true;
       swash_ratio[j] = std::min(swash_ratio[j], wanted);
     }
@@ -61,20 +72,21 @@ bool watch_swash(const ExcavatorProfile& profile, bool commanded, double period_
 }
 
 void watch(const ExcavatorProfile& profile, DriveRows drives, const LastCommands<kDriveCount>& last,
-           double period_s, ExcavatorWatchState& state, ExcavatorValid& valid) {
+           const std::array<double, kPumpCount>& swash_ratio, double period_s,
+           ExcavatorWatchState& state, ExcavatorValid& valid) {
   const bool checked = last.moving && valid.fault == Fault::kNone;
   const FaultSet stops =
       watch_drives(drives, profile.bus, last, valid.drive, period_s, state.drives, valid);
-  std::array<double, kPumpCount> swash_ratio = valid.swash_ratio;
-  if (watch_swash(profile, checked && last.enable && profile.bus.swash_feedback, period_s,
-                  swash_ratio, state.swash)) {
+  std::array<double, kPumpCount> flowing_ratio = valid.swash_ratio;
+  if (watch_swash(profile, checked && last.enable, swash_ratio, period_s, flowing_ratio,
+                  state.swash)) {
     degrade(Fault::kSwashDisagrees, valid);
   }
   stop(stops, valid);
   state.slowing =
       slow_down(profile.safety.degraded_speed_ratio, state.slowing, last.moving, period_s, valid);
   for (unsigned j = 0; j < kPumpCount; ++j) {
-    valid.pump_flow_m3ps[j] = pump_flow_m3ps(profile.pump[j], valid.engine_radps, swash_ratio[j]);
+    valid.pump_flow_m3ps[j] = pump_flow_m3ps(profile.pump[j], valid.engine_radps, flowing_ratio[j]);
   }
 }
 

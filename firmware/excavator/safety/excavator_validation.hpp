@@ -31,25 +31,32 @@ struct ExcavatorValid : CommonValid {
                                       const ExcavatorInputs& inputs, bool moving, TimeUs now_us,
                                       Span<Believed> accepted);
 
-/// Time that each pump's swash has differed from its command, s.
-using SwashState = std::array<double, kPumpCount>;
+/// Of each pump from cycle to cycle.
+struct SwashState {
+  double off_s = 0.0;       ///< Time that its swash has not been where its commands send it.
+  double slow_ratio = 0.0;  ///< Where a pump that takes its time would be.
+};
+using SwashStates = std::array<SwashState, kPumpCount>;
 
 /// True where a pump's swash has been off its command by more than `safety.swash_tolerance` for
 /// longer than 0.5 s, which its servo takes at most; then `swash_ratio`, with which the flow is
-/// reckoned, becomes the smaller of the two. Not `commanded`, nothing is asked of it.
-[[nodiscard]] bool watch_swash(const ExcavatorProfile& profile, bool commanded, double period_s,
-                               std::array<double, kPumpCount>& swash_ratio, SwashState& state);
+/// reckoned, becomes the smaller of the two. A command that moves is anything from `wanted_ratio`
+/// to where a pump would be that lags behind it by 0.25 s. Not `commanded`, nothing is asked of it.
+[[nodiscard]] bool watch_swash(const ExcavatorProfile& profile, bool commanded,
+                               const std::array<double, kPumpCount>& wanted_ratio, double period_s,
+                               std::array<double, kPumpCount>& swash_ratio, SwashStates& state);
 
 struct ExcavatorWatchState {
   DriveWatchState<kDriveCount> drives;
-  SwashState swash{};
+  SwashStates swash{};
   SlowingState slowing;
 };
 
 /// Adds the watches' faults to `valid`, and the pumps' flow; takes off the operator's speed
 /// (`safety.degraded_speed`) while anything is degraded, and for 0.5 s after. `state` goes on by a
-/// cycle. See watch_drives().
+/// cycle. `swash_ratio` is what the last cycle told the pumps. See watch_drives().
 void watch(const ExcavatorProfile& profile, DriveRows drives, const LastCommands<kDriveCount>& last,
-           double period_s, ExcavatorWatchState& state, ExcavatorValid& valid);
+           const std::array<double, kPumpCount>& swash_ratio, double period_s,
+           ExcavatorWatchState& state, ExcavatorValid& valid);
 
 }  // namespace graben

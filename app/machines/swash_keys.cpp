@@ -1,0 +1,34 @@
+#include "app/machines/swash_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace graben::machines {
+namespace {
+
+constexpr const char* kOnDemand = "task.swash_on_demand";
+
+}  // namespace
+
+void read_swash(TomlReader& reader, ExcavatorProfile& profile) {
+  const double swash_ratio =
+      reader.number("task.swash", {0.0, 1.0, ""}, "swash that the pumps are told, of full");
+  std::fill_n(profile.dig_swash_ratio.begin(), profile.pump_count, swash_ratio);
+  if (!reader.has(kOnDemand)) {
+    return;
+  }
+  const std::vector<double> range = reader.numbers(
+      kOnDemand, {0.05, 1.0, ""}, 2,
+      "least and most swash that the pumps are told in motion, where it goes by what the motion "
+      "needs; without it, it is task.swash always");
+  if (range[0] > range[1]) {
+    reader.fail(kOnDemand,
+                fmt::format("least {:g}, most {:g}; allowed: a least of at most the most", range[0],
+                            range[1]));
+  }
+  profile.demand_swash = {range[0], range[1]};
+}
+
+}  // namespace graben::machines
