@@ -8,6 +8,8 @@ namespace {
 
 constexpr double kCycle_s = 0.01;
 constexpr double kAhead_s = 0.02;
+/// Of the travel; far within any dead band.
+constexpr double kHome = 1e-3;
 
 /// The model after a time at a constant duty.
 SpoolModel after(const SpoolModel& spool, double time_constant_s, double duty_ratio,
@@ -29,7 +31,10 @@ double led_duty(double time_constant_s, double wanted_ratio, SpoolModel& spool) 
   }
   const double by_itself = after(spool, time_constant_s, 0.0, kAhead_s).travel_ratio;
   const double by_duty = after(spool, time_constant_s, 1.0, kAhead_s).travel_ratio - by_itself;
-  const double duty_ratio = std::clamp((wanted_ratio - by_itself) / by_duty, -1.0, 1.0);
+  const double leading = std::clamp((wanted_ratio - by_itself) / by_duty, -1.0, 1.0);
+  // To neutral it comes at last, not ever nearer.
+  const bool is_home = wanted_ratio == 0.0 && std::abs(leading) < kHome;
+  const double duty_ratio = is_home ? 0.0 : leading;
   spool = after(spool, time_constant_s, duty_ratio, kCycle_s);
   return duty_ratio;
 }

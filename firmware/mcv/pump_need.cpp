@@ -10,7 +10,7 @@ namespace {
 
 /// The return gallery's pressure falls with the line's: from the drain's alone, which is its most,
 /// each step comes nearer, from above.
-constexpr int kGallerySteps = 3;
+constexpr int kGallerySteps = 6;
 
 /// sqrt of the line's pressure at which the axis has the force that it needs and the reserve, in
 /// either direction: a correction may ask for the other one.

@@ -95,8 +95,8 @@ def goes_on(graben, folder, whole, kind):
 
 def failures_are_no_figures(graben, folder):
     file = os.path.join(folder, "failed.csv")
-    out, err = call(graben, "dig", "--draws", "1", "--air", "--fixed-lambda", "--summary", file,
-                    status=1)
+    out, err = call(graben, "dig", "--draws", "1", "--found", "pump_flow=0.1", "--summary",
+                    file, status=1)
     row = content(file).decode().splitlines()[2].split(",")
     assert row[1] != "done" and not any(row[2:]), row
     assert "0 of 1 draws done" in out and "did not come to their end" in err, (out, err)

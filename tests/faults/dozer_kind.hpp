@@ -90,6 +90,10 @@ struct Dozer : runs::DozerSim {
   [[nodiscard]] static AxisArray duties(const DozerOutputs& outputs) {
     return {outputs.blade_duty_ratio};
   }
+  /// Of its travel, dead band and all.
+  [[nodiscard]] static AxisArray real_spools(const Plant& plant) {
+    return {plant.spool_travel_ratio()};
+  }
   [[nodiscard]] static double heard_stroke_m(const DozerInputs& inputs, unsigned) {
     return inputs.blade_stroke_m.value;
   }

@@ -31,7 +31,7 @@ struct Excavator : runs::ExcavatorSim {
   /// A field that wants less says nothing of whether it is slower.
   static constexpr double kMoving_mps = 0.08;
   /// What one lost frame may move the machine by, against the undisturbed run.
-  static constexpr double kLittle_m = 0.004;
+  static constexpr double kLittle_m = 0.010;
   /// Within this a spool is opened wide.
   static constexpr TimeUs kOpensWithin_us = 6 * kSecondUs;
   /// After the detection of what only slows: until it is slower; and from its end until it is not.
@@ -98,6 +98,10 @@ struct Excavator : runs::ExcavatorSim {
   static void make_neutral_and_sound(Plant& plant);
   [[nodiscard]] static AxisArray duties(const ExcavatorOutputs& outputs) {
     return {outputs.duty_ratio[kBoom], outputs.duty_ratio[kArm], outputs.duty_ratio[kBucket]};
+  }
+  /// Of their travel, dead bands and all.
+  [[nodiscard]] static AxisArray real_spools(const Plant& plant) {
+    return plant.spool_travels_ratio();
   }
   [[nodiscard]] static double heard_stroke_m(const ExcavatorInputs& inputs, unsigned axis) {
     return inputs.axis[axis].stroke_m.value;

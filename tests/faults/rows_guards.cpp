@@ -175,20 +175,21 @@ void too_many_at_once(Trial<Kind>& trial) {
   trial.saw("rejected");
 }
 
-/// No spool opens faster than control.spool_rate, whatever is asked for.
+/// No real spool opens faster than control.spool_rate, whatever is asked for; twice as fast where it
+/// catches up with a duty.
 template <class Kind>
 void opens_slowly(Trial<Kind>& trial) {
   auto& rig = *trial.rig;
   const double first = Kind::first_duty(rig.machine);
-  const double most = 1.001 * (1.0 - first) * rig.machine.profile.control.spool_rate_ps * 0.01;
-  auto last = Kind::duties(rig.outputs());
+  const double most = 2.0 * (1.0 - first) * rig.machine.profile.control.spool_rate_ps * 0.01;
+  auto last = Kind::real_spools(rig.plant.plant());
   double fastest = 0.0;
   rig.before_all = [&] {
-    const auto now = Kind::duties(rig.outputs());
+    const auto now = Kind::real_spools(rig.plant.plant());
     for (unsigned i = 0; i < Kind::kAxes; ++i) {
       // From its middle it crosses the dead band in one step; a reversal begins there.
       const bool reverses = last[i] * now[i] <= 0.0;
-      const double from = reverses ? first : std::abs(last[i]);
+      const double from = reverses ? first : std::max(first, std::abs(last[i]));
       fastest = std::max(fastest, std::abs(now[i]) - from);
     }
     last = now;
@@ -196,9 +197,9 @@ void opens_slowly(Trial<Kind>& trial) {
   trial.work();
   rig.run(3 * kSecondUs);
   rig.before_all = nullptr;
-  trial.check(fastest <= most, "a duty rises by " + std::to_string(fastest) + " in a cycle, " +
+  trial.check(fastest <= most, "a spool opens by " + std::to_string(fastest) + " in a cycle, " +
                                    std::to_string(most) + " is the most");
-  trial.check(fastest > 0.5 * most, "nothing has asked for more");
+  trial.check(fastest > 0.25 * most, "nothing has asked for more");
   trial.saw("slow");
 }
 

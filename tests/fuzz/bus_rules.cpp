@@ -107,7 +107,8 @@ std::string BusRules<Kind>::may_not_move(const BusCycle<Kind>& cycle) const {
   return cycle.elapsed_us > kStalled_us || late_ >= 2 ? "in a late cycle" : "";
 }
 
-/// Opening a spool has a rate, closing none; the step across the deadband takes no time.
+/// Opening a spool has a rate, closing none; the step across the deadband takes no time. Of a spool
+/// that is led this holds for where its duty takes it; beyond full duty that comes later.
 template <class Kind>
 std::string BusRules<Kind>::check_opening(const typename Kind::Dbc::SpoolCommand& command,
                                           TimeUs now) {
@@ -115,12 +116,22 @@ std::string BusRules<Kind>::check_opening(const typename Kind::Dbc::SpoolCommand
   const double elapsed_s = static_cast<double>(now - command_us_) * 1e-6;
   const double most = any_command_ ? profile_.control.spool_rate_ps * elapsed_s : 0.0;
   const auto duty = Kind::duties(command);
+  const double time_constant_s = Kind::spool_time_constant_s(profile_);
   for (unsigned i = 0; i < Kind::kSpools; ++i) {
     if (std::abs(duty[i]) > 1.0) {
       return fmt::format("duty {}", duty[i]);
     }
-    const double size = std::max(0.0, (std::abs(duty[i]) - edge) / (1.0 - edge));
-    const double opening = std::copysign(size, duty[i]);
+    const bool is_led = i < Kind::kLed && time_constant_s > 0.0;
+    if (is_led && elapsed_s > 0.015) {
+      led_[i].miss();
+    }
+    const double goal = is_led ? led_[i].aim(duty[i], time_constant_s) : duty[i];
+    const double size = std::max(0.0, (std::abs(goal) - edge) / (1.0 - edge));
+    const double opening = std::copysign(size, goal);
+    if (is_led && (!led_[i].is_known() || std::abs(duty[i]) > 1.0 - kDutyStep)) {
+      opening_[i] = std::copysign(1.0, duty[i]);
+      continue;
+    }
     const double last = opening * opening_[i] > 0.0 ? std::abs(opening_[i]) : 0.0;
     const double slack = profile_.control.spool_threshold + 2.0 * kDutyStep / (1.0 - edge);
     if (size > last + most + slack) {
@@ -145,6 +156,9 @@ std::string BusRules<Kind>::check_command(const BusCycle<Kind>& cycle, const Can
     }
   } else if (Kind::duties(command) != std::array<double, Kind::kSpools>{}) {
     return "a spool open without enable";
+  }
+  if (!is_on(command)) {
+    led_ = {};
   }
   return check_opening(command, cycle.now);
 }

@@ -11,6 +11,7 @@
 #include "hal/can_frame.hpp"
 #include "tests/fuzz/bus_partner.hpp"
 #include "tests/fuzz/bus_port.hpp"
+#include "tests/fuzz/led_spool.hpp"
 
 namespace graben::test {
 
@@ -84,6 +85,7 @@ class BusRules {
   typename Kind::OtherCommands others_;
   std::map<std::uint32_t, int> counter_;  ///< Last, of each protected message.
   std::array<double, Kind::kSpools> opening_{};
+  std::array<LedSpool, Kind::kSpools> led_{};
   TimeUs command_us_ = 0;
   bool any_command_ = false;
   int refused_ = 0;  ///< Commands in a row that the bus did not take.

@@ -32,6 +32,8 @@ struct DozerBus : ecu::DozerKind {
   [[nodiscard]] static double duty_edge(const Profile& profile) {
     return profile.implement.spool_to_duty.y_first();
   }
+  [[nodiscard]] static double spool_time_constant_s(const Profile&) { return 0.0; }
+  static constexpr unsigned kLed = 0;
 
   /// Level on level ground; its tracks run as its displacements let them.
   class Body {

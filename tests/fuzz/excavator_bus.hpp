@@ -31,6 +31,11 @@ struct ExcavatorBus : ecu::ExcavatorKind {
   [[nodiscard]] static double duty_edge(const Profile& profile) {
     return profile.valve.spool_to_duty.y_first();
   }
+  /// Of the spools that are led, the first of all, through their lag; 0: none is.
+  [[nodiscard]] static double spool_time_constant_s(const Profile& profile) {
+    return profile.control.law == ControlLaw::kOil ? profile.oil.spool_time_constant_s : 0.0;
+  }
+  static constexpr unsigned kLed = 2;
 
   /// A machine that does what it is told.
   class Body {

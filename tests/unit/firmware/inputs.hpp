@@ -44,10 +44,13 @@ inline void make_12t(ExcavatorInputs& inputs) {
   inputs.engine_speed_radps.value = 151.8;
 }
 
-/// The same from a valve that has done what it was told.
+/// The same from valve and pumps that have done what they were told.
 inline ExcavatorInputs following_inputs(const ExcavatorOutputs& told, TimeUs now_us) {
   ExcavatorInputs inputs = complete_inputs(now_us);
   inputs.valve_enabled.value = told.enable;
+  for (unsigned j = 0; j < kPumpCount; ++j) {
+    inputs.swash_ratio[j].value = told.enable ? told.swash_ratio[j] : inputs.swash_ratio[j].value;
+  }
   for (unsigned i = 0; i < kAxisCount; ++i) {
     inputs.axis[i].spool_ratio.value = told.duty_ratio[i];
   }

@@ -1,5 +1,8 @@
 #include "firmware/excavator/safety/excavator_validation.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
@@ -12,12 +15,14 @@ constexpr double kTolerance = 0.125;
 
 struct Pumps {
   std::array<double, kPumpCount> swash = kWanted;
-  SwashState state{};
+  std::array<double, kPumpCount> wanted = kWanted;
+  SwashStates state = {{{0.0, kWanted[0]}, {0.0, kWanted[1]}}};
   std::array<double, kPumpCount> flow_with{};
+  ExcavatorProfile profile = test::plain_machine();
 
   bool disagree(double period_s, bool commanded = true) {
     flow_with = swash;
-    return watch_swash(test::plain_machine(), commanded, period_s, flow_with, state);
+    return watch_swash(profile, commanded, wanted, period_s, flow_with, state);
   }
   void assert_flow_with(double first, double second) const {
     assert_near(flow_with[0], first, 0.0);
@@ -78,6 +83,33 @@ void without_a_command_nothing_is_asked(void**) {
   assert_false(pumps.disagree(0.5));
 }
 
+/// Of a command that goes up and down by 0.4 within a second, a pump that lags 0.15 s behind is
+/// well, though it is off by more than the tolerance; one that stays where it was is not.
+void a_command_may_move(void**) {
+  for (const bool follows : {true, false}) {
+    Pumps pumps;
+    bool disagreed = false;
+    double farthest = 0.0;
+    for (int cycle = 0; cycle < 400; ++cycle) {
+      pumps.wanted[0] = 0.5 + (cycle % 200 < 100 ? 0.4 : 0.0);
+      pumps.swash[0] += follows ? 0.01 / 0.15 * (pumps.wanted[0] - pumps.swash[0]) : 0.0;
+      farthest = std::max(farthest, std::abs(pumps.swash[0] - pumps.wanted[0]));
+      disagreed = pumps.disagree(0.01) || disagreed;
+    }
+    assert_true(farthest > 2.0 * kTolerance);
+    assert_int_equal(disagreed, !follows);
+  }
+}
+
+/// Of a pump whose swash nobody measures the flow is reckoned with the least that it may have.
+void the_slower_of_both_stands_in(void**) {
+  Pumps pumps;
+  pumps.profile.bus.swash_feedback = false;
+  pumps.wanted = {0.25, 1.0};
+  assert_false(pumps.disagree(0.05));
+  pumps.assert_flow_with(0.25, kWanted[1] + 0.2 * (1.0 - kWanted[1]));
+}
+
 }  // namespace
 
 int main() {
@@ -86,6 +118,8 @@ int main() {
       cmocka_unit_test(the_servo_is_given_its_time),
       cmocka_unit_test(the_smaller_one_counts),
       cmocka_unit_test(without_a_command_nothing_is_asked),
+      cmocka_unit_test(a_command_may_move),
+      cmocka_unit_test(the_slower_of_both_stands_in),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -232,7 +232,7 @@ void its_pressures_are_watched(void**) {
         valid.drive[kSwing].rod_pressure_pa = right ? 5e6 : 5e6 + n;
         valid.drive[kSwing].stroke_m = 0.004 * n;
         valid.drive[kSwing].spool_ratio = 0.0;
-        watch(machine, bank.rows(), cycle, 0.01, state, valid);
+        watch(machine, bank.rows(), cycle, machine.dig_swash_ratio, 0.01, state, valid);
         wrong = wrong || valid.degraded.has(Fault::kPressureImplausible);
         assert_int_equal(valid.drive[kSwing].load_known, has_swing && !wrong);
       }

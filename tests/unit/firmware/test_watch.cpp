@@ -54,7 +54,7 @@ struct Machine {
       }
     }
     seen = inputs;
-    watch(profile, bank.rows(), cycle, period_s, state, seen);
+    watch(profile, bank.rows(), cycle, profile.dig_swash_ratio, period_s, state, seen);
     return seen;
   }
   void run(int count) {
@@ -250,11 +250,11 @@ void every_motion_begins_afresh(void**) {
   Machine machine;
   machine.inputs.swash_ratio[0] = 0.0;
   machine.run(7);
-  assert_true(machine.state.swash[0] > 0.0);
+  assert_true(machine.state.swash[0].off_s > 0.0);
   assert_true(machine.state.drives.motion[0].since_s > 0.0);
   machine.cycle.moving = false;
   machine.step();
-  assert_near(machine.state.swash[0], 0.0, 0.0);
+  assert_near(machine.state.swash[0].off_s, 0.0, 0.0);
   assert_near(machine.state.drives.motion[0].since_s, 0.0, 0.0);
   assert_near(machine.state.drives.pressure[0][0].last_pa, 0.0, 0.0);
   machine.cycle.moving = true;

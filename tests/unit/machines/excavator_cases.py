@@ -8,10 +8,10 @@ from profile_edit import replaced
 CASES = [
     ("the simulation's key", lambda t: replaced(t, "[boom]", "[boom]\nmass = 2130.0"),
      ["1 error", "boom.mass", "unknown key"]),
-    ("no such law", lambda t: replaced(t, 'law = "servo"', 'law = "fuzzy"'),
+    ("no such law", lambda t: replaced(t, 'law = "oil"', 'law = "fuzzy"'),
      ["1 error", "control.law", "fuzzy", "servo, oil, kim"]),
     ("a law without its figures",
-     lambda t: re.sub(r"\n\[oil\].*?\n(?=\[safety\])", "\n", replaced(t, 'law = "servo"', 'law = "oil"'), flags=re.S),
+     lambda t: re.sub(r"\n\[oil\].*?\n(?=\[safety\])", "\n", replaced(t, 'law = "oil"', 'law = "oil"'), flags=re.S),
      ["1 error", "control.law", "no section [oil]"]),
     ("soft oil", lambda t: replaced(t, "bulk_modulus = 1.0e9", "bulk_modulus = 1.0e7"),
      ["1 error", "oil.bulk_modulus", "100000000 .. 20000000000 Pa"]),

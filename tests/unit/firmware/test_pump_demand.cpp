@@ -1,0 +1,168 @@
+#include "firmware/excavator/pump_demand.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include "firmware/mcv/optimiser.hpp"
+#include "firmware/mcv/pump_need.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/fixture.hpp"
+#include "tests/unit/rounds.hpp"
+
+namespace {
+
+using namespace graben;
+
+constexpr double kPeriod_s = 0.01;
+constexpr double kReserve_n = 40e3;
+constexpr unsigned kDraws = test::rounds(2000, 100);
+
+const ExcavatorProfile& shipped() { return test::excavator().profile; }
+const McvMachine& valve() {
+  static const McvMachine machine = mcv_machine(shipped());
+  return machine;
+}
+
+McvInput any_input(std::mt19937& random) {
+  std::uniform_real_distribution<double> speed_mps(-0.3, 0.3);
+  std::uniform_real_distribution<double> pressure_pa(0.0, 12e6);
+  McvInput input;
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    input.velocity_mps[i] = speed_mps(random);
+    input.cap_pressure_pa[i] = pressure_pa(random);
+    input.rod_pressure_pa[i] = pressure_pa(random);
+  }
+  return input;
+}
+
+/// Force that the axis has left over besides its need and the reserve, as it moves and back.
+double spare_n(const McvInput& input, const McvSolution& solution, unsigned axis) {
+  const McvActuator& actuator = valve().actuator[axis];
+  const bool extends = input.velocity_mps[axis] > 0.0;
+  const double cap_n = actuator.area_cap_m2 * input.cap_pressure_pa[axis];
+  const double load_n = cap_n - actuator.area_rod_m2 * input.rod_pressure_pa[axis];
+  const double back_m2 = extends ? actuator.area_rod_m2 : actuator.area_cap_m2;
+  const double pump_pa = solution.point.pump_pressure_pa[static_cast<unsigned>(actuator.pump)];
+  const double back_n = back_m2 * pump_pa + (extends ? load_n : -load_n) - actuator.force_offset_n;
+  const double open =
+      input.velocity_mps[axis] / (extends ? actuator.extend : actuator.retract).y_last();
+  const double need_n = std::max(actuator.force_offset_n, open * open);
+  const double ahead_n = solution.margins.force_n[axis] + actuator.force_offset_n - need_n;
+  return std::min(ahead_n, back_n) - kReserve_n;
+}
+
+/// With the needed flow lambda is 1, and on each line the axis that lacks most has just its
+/// reserve.
+void the_needed_flow_is_enough_and_no_more(void**) {
+  McvMachine unrelieved = valve();
+  for (McvPump& pump : unrelieved.pump) {
+    pump.has_relief = false;
+  }
+  std::mt19937 random(5);
+  for (unsigned draw = 0; draw < kDraws; ++draw) {
+    McvInput input = any_input(random);
+    input.pump_flow_m3ps = needed_flow_m3ps(unrelieved, input, {1.0, kReserve_n, 0.0, 1e9});
+    const McvSolution enough = solve_mcv(unrelieved, input, McvPolicy::kGlobal);
+    assert_near(enough.point.lambda, 1.0, 1e-6);
+    const double boom_n = spare_n(input, enough, kBoom);
+    const double arm_n = spare_n(input, enough, kArm);
+    const double bucket_n = spare_n(input, enough, kBucket);
+    for (const double least_n : {arm_n, std::min(boom_n, bucket_n)}) {
+      assert_true(least_n > -1.0);
+      // The gallery's pressure is approached from above.
+      assert_true(least_n < 4e3);
+    }
+  }
+}
+
+/// Where nothing moves, nothing is needed but what the bypass takes without pressure.
+void at_rest_nothing_is_needed(void**) {
+  McvInput input;
+  input.cap_pressure_pa.fill(8e6);
+  for (const double flow_m3ps : needed_flow_m3ps(valve(), input, {1.0, kReserve_n, 0.6, 33e6})) {
+    assert_near(flow_m3ps, 0.0, 0.0);
+  }
+}
+
+/// What a line is asked for ends where its relief valve opens.
+void the_pressure_has_an_end(void**) {
+  McvInput input;
+  input.velocity_mps[kBoom] = 0.1;
+  input.cap_pressure_pa[kBoom] = 35e6;
+  const double most_m3ps = needed_flow_m3ps(valve(), input, {1.0, kReserve_n, 0.6, 33e6})[1];
+  input.cap_pressure_pa[kBoom] = 60e6;
+  const double more_m3ps = needed_flow_m3ps(valve(), input, {1.0, kReserve_n, 0.6, 33e6})[1];
+  assert_true(most_m3ps > 0.0);
+  assert_near(most_m3ps, more_m3ps, 1e-12);
+}
+
+struct Digging {
+  ExcavatorProfile profile = shipped();
+  McvInput input;
+  PumpDemand demand;
+  double engine_radps = profile.pump[0].rated_speed_radps;
+
+  Digging() {
+    input.velocity_mps = {0.05, 0.1, 0.02, 0.0};
+    input.cap_pressure_pa.fill(4e6);
+    step(false);
+  }
+  void step(bool active = true) {
+    next_pump_demand(profile, valve(), input, engine_radps, active, kPeriod_s, demand);
+  }
+  double settled(unsigned pump) {
+    for (int cycle = 0; cycle < 2000; ++cycle) {
+      step();
+    }
+    return demand.swash_ratio[pump];
+  }
+};
+
+/// More with the load, more with a slower engine, within the range, and the task's swash at rest or
+/// without a range.
+void the_swash_goes_by_what_is_needed(void**) {
+  const double light = Digging().settled(0);
+  Digging heavy;
+  heavy.input.cap_pressure_pa[kArm] = 8e6;
+  assert_true(heavy.settled(0) > light + 0.05);
+  Digging slow;
+  slow.engine_radps *= 0.9;
+  assert_near(slow.settled(0), light / 0.9, 1e-9);
+  Digging empty;
+  empty.input.velocity_mps = {};
+  assert_near(empty.settled(0), shipped().demand_swash.least_ratio, 0.0);
+  Digging rock;
+  rock.input.cap_pressure_pa.fill(34e6);
+  assert_near(rock.settled(1), shipped().demand_swash.most_ratio, 0.0);
+  rock.step(false);
+  assert_true(rock.demand.swash_ratio == shipped().dig_swash_ratio);
+  rock.profile.demand_swash = {};
+  rock.step();
+  assert_true(rock.demand.swash_ratio == shipped().dig_swash_ratio);
+}
+
+/// Up fast, down slowly.
+void it_changes_no_faster_than_it_should(void**) {
+  Digging digging;
+  digging.input.cap_pressure_pa.fill(34e6);
+  const double start = digging.demand.swash_ratio[0];
+  digging.step();
+  assert_near(digging.demand.swash_ratio[0], start + 0.03, 1e-12);
+  digging.settled(0);
+  digging.input.cap_pressure_pa.fill(0.0);
+  digging.step();
+  assert_near(digging.demand.swash_ratio[0], shipped().demand_swash.most_ratio - 0.001, 1e-12);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(the_needed_flow_is_enough_and_no_more),
+      cmocka_unit_test(at_rest_nothing_is_needed),
+      cmocka_unit_test(the_pressure_has_an_end),
+      cmocka_unit_test(the_swash_goes_by_what_is_needed),
+      cmocka_unit_test(it_changes_no_faster_than_it_should),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
