@@ -3,9 +3,13 @@
 import json
 import math
 import os
+import pathlib
+import re
 import subprocess
 import sys
 import tempfile
+
+MACHINES = pathlib.Path(__file__).resolve().parents[2] / "app" / "machines"
 
 
 def call(graben, *arguments):
@@ -75,7 +79,7 @@ def bad_usage(graben):
     refused(graben, "nan is not a number", "dig", "--speed", "nan", status=2)
     refused(graben, "-1 is not a whole number", "dig", "--seed=-1", status=2)
     refused(graben, "fuzzy not in {servo,oil,kim}", "dig", "--law", "fuzzy", status=2)
-    refused(graben, "the profile has no section [oil]", "dig", "--law", "oil", "--profile", "excavator_12t")
+    law_without_oil(graben)
     refused(graben, "whole number", "dig", "--seed", "99999999999999999999", status=2)
     refused(graben, "outside the work space", "dig", "--start", "20,0,1.5")
     refused(graben, "--start-strokes: entry 2", "dig", "--start-strokes", "1.0,9.0,0.4")
@@ -142,6 +146,18 @@ def bad_finds(graben):
         refused(graben, "dead_time: '0.6'; allowed: 0 .. 0.5 s", *command, "--found", "dead_time=0.6", status=2)
     refused(graben, "the oil is told to be stiff and of a found bulk modulus", "dig", "--stiff-oil", "--found",
             "oil=1")
+
+
+def law_without_oil(graben):
+    """A profile may have no [oil]; then it has not that law either."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name in ("excavator_12t.toml", "excavator_12t.sim.toml"):
+            with open(os.path.join(MACHINES, name), encoding="utf-8") as stream:
+                text = re.sub(r"^\[oil\].*?(?=^\[)", "", stream.read(), flags=re.MULTILINE | re.DOTALL)
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as stream:
+                stream.write(text.replace('law = "oil"', 'law = "servo"'))
+        refused(graben, "the profile has no section [oil]", "dig", "--law", "oil", "--profile",
+                os.path.join(folder, "excavator_12t.toml"))
 
 
 def no_constant_speed(graben):

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "hal/link/e2e.hpp"
 #include "tests/fuzz/dozer_bus.hpp"
@@ -107,6 +108,9 @@ std::string BusRules<Kind>::may_not_move(const BusCycle<Kind>& cycle) const {
   return cycle.elapsed_us > kStalled_us || late_ >= 2 ? "in a late cycle" : "";
 }
 
+/// What steps of the duty make of where a led spool is taken to be.
+constexpr double kLedSlack = 0.05;
+
 /// Opening a spool has a rate, closing none; the step across the deadband takes no time. Of a spool
 /// that is led this holds for where its duty takes it; beyond full duty that comes later.
 template <class Kind>
@@ -129,12 +133,15 @@ std::string BusRules<Kind>::check_opening(const typename Kind::Dbc::SpoolCommand
     const double size = std::max(0.0, (std::abs(goal) - edge) / (1.0 - edge));
     const double opening = std::copysign(size, goal);
     if (is_led && (!led_[i].is_known() || std::abs(duty[i]) > 1.0 - kDutyStep)) {
-      opening_[i] = std::copysign(1.0, duty[i]);
+      opening_[i] = std::numeric_limits<double>::quiet_NaN();
       continue;
+    }
+    if (std::isnan(opening_[i])) {
+      opening_[i] = opening;
     }
     const double last = opening * opening_[i] > 0.0 ? std::abs(opening_[i]) : 0.0;
     const double slack = profile_.control.spool_threshold + 2.0 * kDutyStep / (1.0 - edge);
-    if (size > last + most + slack) {
+    if (size > last + most + slack + (is_led ? kLedSlack : 0.0)) {
       return fmt::format("spool {} opens from {} to {} in {} s", i, opening_[i], opening,
                          elapsed_s);
     }

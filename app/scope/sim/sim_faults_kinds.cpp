@@ -5,7 +5,7 @@
 namespace graben::scope {
 namespace {
 
-constexpr double kShownSwash_ratio = 0.05;  // Less than any that is asked for.
+constexpr double kShownSwash_ratio = 1.0;  // More than digging asks for, but in heavy soil.
 constexpr double kTooFast_mps = 1.0;
 
 /// Beyond any range that these messages have, and no special value.

@@ -156,7 +156,7 @@ void assert_goes_on_slower(Fault fault, Lose lose) {
   }
   if (fault == Fault::kEngineSpeedMissing) {
     // At idle, which is assumed, a pump turns half as fast: its swash makes up for it.
-    assert_true(digging.outputs.swash_ratio[0] > 1.2 * swash_ratio);
+    assert_true(digging.outputs.swash_ratio[0] > 1.05 * swash_ratio);
   }
   assert_near(digging.outputs.status.lambda, 1.0, 0.0);
   assert_int_equal(digging.outputs.status.limit.kind, LimitKind::kDegraded);
