@@ -19,8 +19,8 @@ CommandHistory::Range widened(CommandHistory::Range range, const double* begin, 
 constexpr int kFrameCycles = 2;
 
 /// One lag of both bounds.
-CommandHistory::Range lagged(const CommandHistory::Range& last, const CommandHistory::Range& towards,
-                             double newest_share) {
+CommandHistory::Range lagged(const CommandHistory::Range& last,
+                             const CommandHistory::Range& towards, double newest_share) {
   return {std::min(towards.least, last.least + newest_share * (towards.least - last.least)),
           std::max(towards.most, last.most + newest_share * (towards.most - last.most))};
 }

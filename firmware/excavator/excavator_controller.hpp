@@ -106,12 +106,14 @@ class ExcavatorController {
   void lead_spools(ExcavatorOutputs& outputs);
   void follow(const TaskProgram& program, const TaskAim& aim, double speed_override_ratio,
               double period_s, Motion& motion) const;
+  /// Asks no more of a drive that its load holds than path or plan want.
+  void ease_blocked(Motion& motion) const;
   [[nodiscard]] McvSolution flow_limited(const ExcavatorValid& valid, const Motion& motion,
                                          double period_s) const;
   void describe_motion(const Motion& motion, const McvSolution& solution, const FaultSet& degraded,
                        ExcavatorStatus& status) const;
   /// Keeps what the next cycle needs of this one.
-  void remember(const ExcavatorValid& valid, const Motion& motion, double lambda,
+  void remember(const ExcavatorValid& valid, const Motion& motion, const McvPoint& point,
                 const ModeDecision& decision, const ExcavatorOutputs& outputs, double period_s);
 
   const ExcavatorSetup& setup_;

@@ -85,12 +85,13 @@ struct DriveRow {
   DriveWatch watch;
 };
 
-/// What `settle_s` stands for: a start that is late by three tenths of it, and then two lags of seven
-/// twentieths each. A steady rise the spool so follows by just that much later.
+/// What `settle_s` stands for: a start that is late by three tenths of it, and then two lags of
+/// seven twentieths each. A steady rise the spool so follows by just that much later.
 inline constexpr double kLateShare = 0.3;
 inline constexpr double kLagShare = 0.35;
 
-/// Until a sound spool starts after its command at the latest, s. Its dead time is known within 30 %.
+/// Until a sound spool starts after its command at the latest, s. Its dead time is known within 30
+/// %.
 [[nodiscard]] inline double spool_starts_s(const DriveRow& drive) {
   return 1.3 * drive.control.dead_time_s + kLateShare * drive.watch.settle_s;
 }
