@@ -21,7 +21,9 @@ struct LastCommands {
   /// What the spools were opened for: lambda times the wanted velocity with its corrections. A
   /// stroke that stands still puts its drive behind, and that alone can run it to its end.
   std::array<double, kMost> asked_mps{};
-  /// Pressure of the pump's line that the valve's model has for that; 0: not known.
+  /// Where the drives are to go, before that is slowed or eased (blocked.hpp).
+  std::array<double, kMost> towards_mps{};
+  /// Pressure of the pump's line that the valve's model had last; 0: not known.
   std::array<double, kMost> line_pa{};
 };
 
@@ -32,7 +34,7 @@ struct DriveCommands {
   DriveCommands(const LastCommands<kMost>& last)
       : moving(last.moving),
         sent{last.enable, last.duty_ratio},
-        ask{last.asked_mps, last.line_pa} {}
+        ask{last.towards_mps, last.asked_mps, last.line_pa} {}
 
   bool moving;
   SentCommand sent;

@@ -176,6 +176,7 @@ void ExcavatorController::follow(const TaskProgram& program, const TaskAim& aim,
 }
 
 void ExcavatorController::ease_blocked(Motion& motion) const {
+  motion.towards_mps = motion.corrected_mps;
   for (int i = 0; i < drives().count(); ++i) {
     motion.corrected_mps[i] = eased_mps(memory_.watch.drives.blocked[static_cast<unsigned>(i)],
                                         motion.wanted_mps[i], motion.corrected_mps[i]);
@@ -215,12 +216,17 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
   const double followed = decision.active() ? point.lambda : 0.0;
   const DriveVector asked_mps = followed * motion.cap.factor * motion.corrected_mps;
   memory_.lambda = followed;
-  memory_.last = {in_motion(decision.mode.mode), outputs.enable, outputs.duty_ratio, {}, {}};
+  memory_.last = {in_motion(decision.mode.mode), outputs.enable, outputs.duty_ratio, {}, {},
+                  memory_.last.line_pa};
   std::copy_n(asked_mps.data(), kDriveCount, memory_.last.asked_mps.begin());
   for (int i = 0; i < drives().count(); ++i) {
     const auto k = static_cast<unsigned>(i);
-    memory_.last.line_pa[k] =
+    const double line_pa =
         point.pump_pressure_pa[static_cast<unsigned>(setup_.valve.actuator[k].pump)];
+    memory_.last.towards_mps[k] = motion.towards_mps[i];
+    if (point.lambda > 0.0) {
+      memory_.last.line_pa[k] = line_pa;
+    }
   }
   memory_.expected_mps = followed * motion.cap.factor * motion.wanted_mps;
   memory_.swing_wanted_mps = swing_of(motion.task.wanted_mps);

@@ -55,6 +55,7 @@ class ExcavatorController {
   struct Motion {
     DriveVector wanted_mps = DriveVector::Zero();     ///< V_L^d, the swing's at its lever.
     DriveVector corrected_mps = DriveVector::Zero();  ///< With the servos' corrections.
+    DriveVector towards_mps = DriveVector::Zero();    ///< The same, not eased (blocked.hpp).
     VelocityCap cap;
     double path_error_m = 0.0;
     double off_m = 0.0;  ///< What the tube is laid around.

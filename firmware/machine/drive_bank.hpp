@@ -59,6 +59,7 @@ struct DriveWatch {
   double off_m = 0.0;             ///< Of a stroke from all that its oil can have done.
   double leak_mpspa = 0.0;        ///< Speed that it may lose by its own leakage, per pressure.
   double rest_s = 0.0;            ///< Until it has come to rest after its spool has closed.
+  double relief_pa = 0.0;         ///< Of the pump's line; 0: none, or not known.
   double pressure_rail_pa = 0.0;  ///< Where the pressure sensors end.
 };
 
