@@ -138,8 +138,7 @@ double eased_mps(const BlockedState& state, double wanted_mps, double corrected_
 }
 
 bool any_blocked(Span<const BlockedState> state) {
-  return std::any_of(state.begin(), state.end(),
-                     [](const BlockedState& drive) { return drive.side != 0; });
+  return blocked_limit(state).kind != LimitKind::kNone;
 }
 
 Limit blocked_limit(Span<const BlockedState> state) {
