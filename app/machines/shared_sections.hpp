@@ -50,7 +50,7 @@ template <class Safety>
                                     "engine speed assumed where it is lost: its slowest");
   safety.settle_s =
       reader.number("safety.settle", {0.01, 0.3, "s"},
-                    "time within which a spool reaches its duty, beside the dead time");
+                    "how far a sound spool lags a steady rise of its duty, beside the dead time");
   safety.spool_tolerance = reader.number("safety.spool_tolerance", {0.01, 0.5, ""},
                                          "allowed error of a spool's position, of its travel");
   safety.uncommanded_m = reader.number("safety.uncommanded", {0.005, 0.5, "m"},

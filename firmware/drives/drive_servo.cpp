@@ -8,6 +8,9 @@
 namespace graben {
 namespace {
 
+/// Of what a drive is behind that its load holds.
+constexpr double kForget_s = 0.3;
+
 int dead_cycles(double dead_time_s) {
   return static_cast<int>(
       std::clamp(dead_time_s / ServoState::kCycle_s + 0.5, 0.0, ServoState::kMostDelayed - 1.0));
@@ -49,6 +52,9 @@ void ask(const DriveControl& control, double asked_mps, double period_s, ServoSt
 
 double within(double value, double most) { return std::min(std::max(value, -most), most); }
 
+/// Most that a drive is behind which its load holds to that side.
+double unblocked_m(int side, double step_m) { return side * step_m > 0.0 ? 0.0 : step_m; }
+
 /// One step of y'' = w^2 (integral - y) - 2 zeta w y', implicit: stable at any period.
 void filter(const DriveFeedback& feedback, double period_s, ServoState& servo) {
   const double turn = kTwoPi * feedback.frequency_hz * period_s;
@@ -79,18 +85,21 @@ void servo_at_rest(double stroke_m, ServoState& servo) {
 }
 
 void next_servo(const DriveRow& drive, double asked_mps, double stroke_m, double period_s,
-                ServoState& servo) {
+                ServoState& servo, int blocked_side) {
   ask(drive.control, asked_mps, period_s, servo);
-  const double expected_m = period_s * servo.lag_mps[1];
-  servo.integral_m = within(servo.integral_m + (expected_m - (stroke_m - servo.stroke_m)),
-                            drive.feedback.error_most_m);
+  const double behind_m = period_s * servo.lag_mps[1] - (stroke_m - servo.stroke_m);
+  servo.integral_m =
+      within(servo.integral_m + unblocked_m(blocked_side, behind_m), drive.feedback.error_most_m);
+  if (blocked_side * servo.integral_m > 0.0) {
+    servo.integral_m *= 1.0 - std::min(1.0, period_s / kForget_s);
+  }
   servo.bias_mps = 0.0;
   servo.stroke_m = stroke_m;
   filter(drive.feedback, period_s, servo);
 }
 
 void next_servo_on_plan(const DriveRow& drive, double asked_mps, double stroke_m, double planned_m,
-                        bool new_plan, double period_s, ServoState& servo) {
+                        bool new_plan, double period_s, ServoState& servo, int blocked_side) {
   ask(drive.control, asked_mps, period_s, servo);
   if (new_plan) {
     servo.bias_mps = 0.0;
@@ -98,7 +107,8 @@ void next_servo_on_plan(const DriveRow& drive, double asked_mps, double stroke_m
   servo.integral_m = within(planned_m - servo.under_way_m - stroke_m, drive.feedback.plan_most_m);
   servo.stroke_m = stroke_m;
   filter(drive.feedback, period_s, servo);
-  servo.bias_mps = within(servo.bias_mps + period_s * drive.feedback.bias_ps2 * servo.integral_m,
+  const double lasting_m = unblocked_m(blocked_side, servo.integral_m);
+  servo.bias_mps = within(servo.bias_mps + period_s * drive.feedback.bias_ps2 * lasting_m,
                           drive.feedback.bias_most_mps);
 }
 
@@ -112,9 +122,9 @@ void release_servo(const DriveRow& drive, double stroke_m, double period_s, Serv
 }
 
 void servo_after(const DriveRow& drive, EcuMode mode, double asked_mps, double stroke_m,
-                 double period_s, ServoState& servo) {
+                 double period_s, ServoState& servo, int blocked_side) {
   if (mode == EcuMode::kActive) {
-    next_servo(drive, asked_mps, stroke_m, period_s, servo);
+    next_servo(drive, asked_mps, stroke_m, period_s, servo, blocked_side);
   } else if (mode == EcuMode::kFault) {
     servo_at_rest(stroke_m, servo);
   } else {

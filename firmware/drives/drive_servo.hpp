@@ -41,15 +41,18 @@ void servo_at_rest(double stroke_m, ServoState& servo);
 /// that arrives `response_s` late and feeds the motion. A low-pass just below the lowest mode turns
 /// it on by a quarter of a period and more: there it takes energy out, and what changes slowly
 /// passes as it is.
+///
+/// A drive that its load holds (`blocked_side`, +1 against extension) owes nothing to that side:
+/// what it is behind is not added, and what was is forgotten with a time constant of 0.3 s.
 void next_servo(const DriveRow& drive, double asked_mps, double stroke_m, double period_s,
-                ServoState& servo);
+                ServoState& servo, int blocked_side = 0);
 
 /// The same where a plan says how far the drive is behind: `planned_m` is the travel that it has
 /// asked for until now. No sum of errors, so nothing is forgotten and nothing adds up over a long
 /// task. A lag that lasts is learnt (`bias_ps2`) and asked for on top: a motor leaks, and a line in
 /// space is as straight as its slowest drive. A new plan has other lags, and learns them newly.
 void next_servo_on_plan(const DriveRow& drive, double asked_mps, double stroke_m, double planned_m,
-                        bool new_plan, double period_s, ServoState& servo);
+                        bool new_plan, double period_s, ServoState& servo, int blocked_side = 0);
 
 /// Nothing is asked for any more, but what is under way still arrives; nothing is behind.
 void release_servo(const DriveRow& drive, double stroke_m, double period_s, ServoState& servo);
@@ -57,7 +60,7 @@ void release_servo(const DriveRow& drive, double stroke_m, double period_s, Serv
 /// A cycle on after one in `mode`: next_servo() where it was Active, at rest after a fault, else
 /// released.
 void servo_after(const DriveRow& drive, EcuMode mode, double asked_mps, double stroke_m,
-                 double period_s, ServoState& servo);
+                 double period_s, ServoState& servo, int blocked_side = 0);
 
 /// Where the drive will be when what is under way has arrived, within its end stops: where a field
 /// has to be asked, so that neither lag nor dead time carries the machine past a bend. Where

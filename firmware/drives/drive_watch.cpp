@@ -5,6 +5,26 @@
 #include "firmware/safety/common_inputs.hpp"
 
 namespace graben {
+namespace {
+
+/// What is asked of drives whose load may hold them is no way that they must go; and one that was
+/// held is thrown by its own oil when the load gives way, wherever its spool is by then.
+FaultSet watch_moving(DriveRows drives, const DriveCommands& last, Span<const ValidDrive> seen,
+                      double period_s, DriveWatchView state) {
+  next_blocked(drives, seen, last.ask, period_s, state.blocked);
+  std::array<double, kMostDrives> must_mps{};
+  for (int i = 0; i < drives.count(); ++i) {
+    must_mps[static_cast<unsigned>(i)] = state.blocked[i].strains ? 0.0 : last.ask.asked_mps[i];
+    if (state.blocked[i].less > 0.0) {
+      state.direction[i] = {};
+    }
+  }
+  FaultSet stops = watch_motion(drives, seen, must_mps, period_s, state.motion);
+  stops.add(watch_direction(drives, seen, state.direction));
+  return stops;
+}
+
+}  // namespace
 
 FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus, const DriveCommands& last,
                       Span<ValidDrive> seen, double period_s, DriveWatchView state,
@@ -25,13 +45,13 @@ FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus, const DriveC
   }
   // Without their strokes and spools the drives cannot be checked, and the fault is there anyway.
   if (last.moving && valid.fault == Fault::kNone) {
-    stops.add(watch_motion(drives, seen, last.asked_mps, period_s, state.motion));
-    stops.add(watch_direction(drives, seen, state.direction));
+    stops.add(watch_moving(drives, last, seen, period_s, state));
     stops.add(watch_flow(drives, seen, valid.engine_radps, period_s, state.flow));
     if (watch_pressures(drives, seen, period_s, state.pressure)) {
       degrade(Fault::kPressureImplausible, valid);
     }
   } else {
+    std::fill(state.blocked.begin(), state.blocked.end(), BlockedState{});
     std::fill(state.motion.begin(), state.motion.end(), MotionState{});
     std::fill(state.direction.begin(), state.direction.end(), DirectionState{});
     std::fill(state.flow.begin(), state.flow.end(), FlowState{});

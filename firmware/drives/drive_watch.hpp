@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "firmware/drives/blocked.hpp"
 #include "firmware/drives/direction_watch.hpp"
 #include "firmware/drives/flow_watch.hpp"
 #include "firmware/drives/motion_watch.hpp"
@@ -20,6 +21,10 @@ struct LastCommands {
   /// What the spools were opened for: lambda times the wanted velocity with its corrections. A
   /// stroke that stands still puts its drive behind, and that alone can run it to its end.
   std::array<double, kMost> asked_mps{};
+  /// Where the drives are to go, before that is slowed or eased (blocked.hpp).
+  std::array<double, kMost> towards_mps{};
+  /// Pressure of the pump's line that the valve's model had last; 0: not known.
+  std::array<double, kMost> line_pa{};
 };
 
 /// The same of any bank.
@@ -27,17 +32,20 @@ struct DriveCommands {
   template <int kMost>
   // NOLINTNEXTLINE(google-explicit-constructor): a view of it.
   DriveCommands(const LastCommands<kMost>& last)
-      : moving(last.moving), sent{last.enable, last.duty_ratio}, asked_mps(last.asked_mps) {}
+      : moving(last.moving),
+        sent{last.enable, last.duty_ratio},
+        ask{last.towards_mps, last.asked_mps, last.line_pa} {}
 
   bool moving;
   SentCommand sent;
-  Span<const double> asked_mps;
+  BlockedAsk ask;
 };
 
 /// State of the watches of a bank from cycle to cycle.
 template <int kMost>
 struct DriveWatchState {
   std::array<SpoolState, kMost> spool;
+  std::array<BlockedState, kMost> blocked{};
   std::array<MotionState, kMost> motion{};
   std::array<DirectionState, kMost> direction{};
   std::array<FlowState, kMost> flow{};
@@ -52,6 +60,7 @@ struct DriveWatchView {
   // NOLINTNEXTLINE(google-explicit-constructor): a view of it.
   DriveWatchView(DriveWatchState<kMost>& state)
       : spool(state.spool),
+        blocked(state.blocked),
         motion(state.motion),
         direction(state.direction),
         flow(state.flow),
@@ -60,6 +69,7 @@ struct DriveWatchView {
         closing(state.closing) {}
 
   Span<SpoolState> spool;
+  Span<BlockedState> blocked;
   Span<MotionState> motion;
   Span<DirectionState> direction;
   Span<FlowState> flow;

@@ -7,7 +7,7 @@ namespace graben {
 namespace {
 
 /// Of the spool's travel: where its dead band ends, and its sensor.
-constexpr double kTravelBand = 0.025;
+constexpr double kTravelBand = 0.035;
 constexpr double kAreaBand = 0.12;
 constexpr double kGalleryBand = 0.33;
 /// Of a pressure's zero.

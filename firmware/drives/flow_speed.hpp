@@ -21,7 +21,7 @@ struct SpeedRange {
 ///
 /// Metered inlet (DriveSupply): the opening's flow, at least as far as the pump gives it.
 ///
-/// Openings are known within 12 % and 2.5 % of the spool's travel, drain and check within 33 %,
+/// Openings are known within 12 % and 3.5 % of the spool's travel, drain and check within 33 %,
 /// pressures within 1.2 MPa, a metered inlet within 20 %. The return line keeps up to 0.2 MPa. A
 /// motor may lose what it leaks (`leak_mpspa`) besides.
 [[nodiscard]] SpeedRange possible_speed(const DriveRow& drive, const ValidDrive& seen,

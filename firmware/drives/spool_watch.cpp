@@ -15,15 +15,28 @@ CommandHistory::Range widened(CommandHistory::Range range, const double* begin, 
   return range;
 }
 
+/// A spool's frame comes every second cycle: what it says is up to so many old.
+constexpr int kFrameCycles = 2;
+
+/// One lag of both bounds.
+CommandHistory::Range lagged(const CommandHistory::Range& last,
+                             const CommandHistory::Range& towards, double newest_share) {
+  return {std::min(towards.least, last.least + newest_share * (towards.least - last.least)),
+          std::max(towards.most, last.most + newest_share * (towards.most - last.most))};
+}
+
 /// Of one spool: it is stuck.
 bool follow(const DriveRow& drive, double duty_ratio, double spool_ratio, bool received,
             SpoolState& state) {
   state.sent.add(duty_ratio);
+  const int starting = cycles_under_way(spool_starts_s(drive) + kFrameCycles * kCycle_s);
+  // An implicit step: a little slower than the lag itself.
+  state.range.follow(state.sent.range(starting), kCycle_s / (kCycle_s + spool_lag_s(drive)));
   if (!received) {
     state.wrong_cycles = 0;
     return false;
   }
-  const CommandHistory::Range range = state.sent.range(cycles_under_way(spool_arrives_s(drive)));
+  const CommandHistory::Range range = state.range.now();
   const double tolerance = drive.watch.spool_tolerance;
   const bool wrong = spool_ratio < range.least - tolerance || spool_ratio > range.most + tolerance;
   state.wrong_cycles = wrong ? std::min(state.wrong_cycles + 1, kSpoolWrongCycles) : 0;
@@ -44,6 +57,11 @@ CommandHistory::Range CommandHistory::range(int cycles) const {
   const int first = newest_ + 1 - cycles;
   const Range range = widened({newest(), newest()}, ring + std::max(first, 0), ring + newest_);
   return widened(range, ring + kMostCycles + std::min(first, 0), ring + kMostCycles);
+}
+
+void SpoolRange::follow(const CommandHistory::Range& commands, double newest_share) {
+  lag_[0] = lagged(lag_[0], commands, newest_share);
+  lag_[1] = lagged(lag_[1], lag_[0], newest_share);
 }
 
 int cycles_under_way(double time_s) {

@@ -1,6 +1,6 @@
 #pragma once
-/// Checks that each spool is where the commands of late sent it, and that the valve side says what
-/// we say.
+/// Checks that each spool is where the commands of late can have sent it, and that the valve side
+/// says what we say.
 
 #include <array>
 
@@ -40,10 +40,25 @@ inline constexpr int kSpoolWrongCycles = 4;
 /// The valve side has this many cycles to say what we say.
 inline constexpr int kEchoCycles = 12;
 
+/// Where a sound spool can be, whichever it is of all that start late by up to their bound and
+/// follow with two lags of up to theirs: bounds that hold for lags that differ and change, too.
+/// They widen at once with a command; what a spool must have left they leave as the slowest one
+/// does.
+class SpoolRange {
+ public:
+  /// A cycle on: the commands that may just take effect, and the newest one's share in a lag.
+  void follow(const CommandHistory::Range& commands, double newest_share);
+  [[nodiscard]] CommandHistory::Range now() const { return lag_[1]; }
+
+ private:
+  std::array<CommandHistory::Range, 2> lag_;
+};
+
 /// Of one spool. A watch changes its state in place: copies of its histories were most of the
 /// stack.
 struct SpoolState {
   CommandHistory sent;
+  SpoolRange range;
   int wrong_cycles = 0;  ///< In a row.
 };
 
@@ -60,10 +75,11 @@ struct ValveFeedback {
   bool enabled = false;   ///< That echo.
 };
 
-/// kSpoolStuck, kValveNotFollowing; the states go on by a cycle. A spool answers within
-/// spool_arrives_s(): it must lie between the least and the largest duty of that time, within the
-/// tolerance. One that is not measured, and what was not received, is not checked. `echo_cycles`
-/// counts the cycles in a row, up to kEchoCycles, in which the echo differed from our enable.
+/// kSpoolStuck, kValveNotFollowing; the states go on by a cycle. A spool must lie in its
+/// SpoolRange, with the late start and the lag that `settle_s` stands for (drive_bank.hpp), within
+/// the tolerance. So one that stands is seen as soon as the slowest would have left it behind. One
+/// that is not measured, and what was not received, is not checked. `echo_cycles` counts the cycles
+/// in a row, up to kEchoCycles, in which the echo differed from our enable.
 [[nodiscard]] FaultSet watch_spools(DriveRows drives, const SentCommand& sent,
                                     Span<const ValidDrive> seen, const ValveFeedback& feedback,
                                     Span<SpoolState> spool, int& echo_cycles);

@@ -76,6 +76,9 @@ ExcavatorValid ExcavatorController::validate_and_watch(const ExcavatorInputs& in
   watch(profile_, drives(), memory_.last, memory_.pumps.swash_ratio, cycle.elapsed_s, memory_.watch,
         valid);
   stop(task_faults(valid, setup_.book.count), valid);
+  if (any_blocked(memory_.watch.drives.blocked)) {
+    warn(Fault::kBlocked, valid);
+  }
   tell_stall(memory_.stall, profile_.safety.stall_s, valid);
   tell_tube(memory_.tube, valid);
   const DriveVector travel_m = valid.strokes_m();
@@ -101,10 +104,12 @@ void ExcavatorController::estimate(const ExcavatorValid& valid, const TaskAim& a
     ServoState& servo = memory_.servo.drive[static_cast<unsigned>(i)];
     const double stroke_m = valid.drive[static_cast<unsigned>(i)].stroke_m;
     const double expected_mps = memory_.expected_mps[i];
+    const int blocked = memory_.watch.drives.blocked[static_cast<unsigned>(i)].side;
     if (mode == EcuMode::kActive && on_plan) {
-      next_servo_on_plan(drive, expected_mps, stroke_m, planned_m[i], new_plan, elapsed_s, servo);
+      next_servo_on_plan(drive, expected_mps, stroke_m, planned_m[i], new_plan, elapsed_s, servo,
+                         blocked);
     } else {
-      servo_after(drive, mode, expected_mps, stroke_m, elapsed_s, servo);
+      servo_after(drive, mode, expected_mps, stroke_m, elapsed_s, servo, blocked);
     }
   }
 }
@@ -145,6 +150,7 @@ void ExcavatorController::dig(const ExcavatorValid& valid, const KinematicState&
   motion.corrected_mps = corrected_velocity(drives(), motion.wanted_mps, memory_.servo,
                                             memory_.lambda.value(), valid.speed_override_ratio);
   correct_on_oil(valid, now, motion.wanted_mps, motion.corrected_mps);
+  ease_blocked(motion);
   slow_at_ends(drives(), valid.drive, span_of(motion.corrected_mps), motion.cap);
   motion.path_error_m = path_error_m(setup_.field.path(), now.tip);
   motion.off_m = motion.path_error_m;
@@ -164,10 +170,19 @@ void ExcavatorController::follow(const TaskProgram& program, const TaskAim& aim,
       with_swing(motion.corrected_mps,
                  swing_of(motion.corrected_mps) +
                      swing_lead_mps(profile_, swing_mps, memory_.swing_wanted_mps, period_s));
+  ease_blocked(motion);
   motion.cap = motion_cap(profile_, drives(), setup_.kinematics, program.fences,
                           strokes_then_m(drives(), memory_.servo), motion.corrected_mps);
   motion.path_error_m = motion.task.path_error_m;
   motion.off_m = motion.task.off_m;
+}
+
+void ExcavatorController::ease_blocked(Motion& motion) const {
+  motion.towards_mps = motion.corrected_mps;
+  for (int i = 0; i < drives().count(); ++i) {
+    motion.corrected_mps[i] = eased_mps(memory_.watch.drives.blocked[static_cast<unsigned>(i)],
+                                        motion.wanted_mps[i], motion.corrected_mps[i]);
+  }
 }
 
 ExcavatorController::Followed ExcavatorController::flow_limited(const ExcavatorValid& valid,
@@ -209,7 +224,8 @@ void ExcavatorController::describe_motion(const Motion& motion, const Followed& 
   const bool waits = motion.task.pace_ratio < kWaits;
   const bool rises = solution.status == SolveStatus::kOk && taken.all() < 1.0;
   status.lambda = motion.cap.factor * taken.all();
-  status.limit = held_by({solution.limit,
+  status.limit = held_by({blocked_limit(memory_.watch.drives.blocked),
+                          solution.limit,
                           motion.cap.limit,
                           {waits ? LimitKind::kOffPath : LimitKind::kNone, 0},
                           {rises ? LimitKind::kRise : LimitKind::kNone, 0},
@@ -224,20 +240,32 @@ void ExcavatorController::describe_motion(const Motion& motion, const Followed& 
 void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& motion,
                                    const Followed& taken, const ModeDecision& decision,
                                    const ExcavatorOutputs& outputs, double period_s) {
+  const McvPoint& point = taken.solution.point;
   const double followed = decision.active() ? taken.all() : 0.0;
   const DriveVector asked_mps = followed * motion.cap.factor * motion.corrected_mps;
   memory_.lambda = decision.active() ? taken.lambda : 0.0;
-  memory_.last = {in_motion(decision.mode.mode), outputs.enable, outputs.duty_ratio, {}};
+  memory_.last = {in_motion(decision.mode.mode), outputs.enable, outputs.duty_ratio, {}, {},
+                  memory_.last.line_pa};
   std::copy_n(asked_mps.data(), kDriveCount, memory_.last.asked_mps.begin());
+  for (int i = 0; i < drives().count(); ++i) {
+    const auto k = static_cast<unsigned>(i);
+    const double line_pa =
+        point.pump_pressure_pa[static_cast<unsigned>(setup_.valve.actuator[k].pump)];
+    memory_.last.towards_mps[k] = motion.towards_mps[i];
+    if (point.lambda > 0.0) {
+      memory_.last.line_pa[k] = line_pa;
+    }
+  }
   memory_.expected_mps = followed * motion.cap.factor * motion.wanted_mps;
   memory_.swing_wanted_mps = swing_of(motion.task.wanted_mps);
   next_tube(decision.active() && valid.task != Task::kNone, motion.off_m, profile_.safety.tube_m,
             memory_.tube);
   // A plan that waits for its drives asks for motion though it wants none now.
   const bool plans = motion.task.holds && valid.speed_override_ratio > 0.0;
+  const bool blocked = any_blocked(memory_.watch.drives.blocked);
   next_stall(decision.active(), plans || !motion.wanted_mps.isZero(),
-             followed * motion.cap.factor * motion.task.pace_ratio, profile_.safety.stall_s,
-             period_s, memory_.stall);
+             blocked ? 0.0 : followed * motion.cap.factor * motion.task.pace_ratio,
+             profile_.safety.stall_s, period_s, memory_.stall);
   if (!decision.active() || valid.task != Task::kProgram) {
     memory_.task = {};
     return;

@@ -56,6 +56,7 @@ class ExcavatorController {
   struct Motion {
     DriveVector wanted_mps = DriveVector::Zero();     ///< V_L^d, the swing's at its lever.
     DriveVector corrected_mps = DriveVector::Zero();  ///< With the servos' corrections.
+    DriveVector towards_mps = DriveVector::Zero();    ///< The same, not eased (blocked.hpp).
     VelocityCap cap;
     double path_error_m = 0.0;
     double off_m = 0.0;  ///< What the tube is laid around.
@@ -119,6 +120,8 @@ class ExcavatorController {
   void lead_spools(ExcavatorOutputs& outputs);
   void follow(const TaskProgram& program, const TaskAim& aim, double speed_override_ratio,
               double period_s, Motion& motion) const;
+  /// Asks no more of a drive that its load holds than path or plan want.
+  void ease_blocked(Motion& motion) const;
   [[nodiscard]] Followed flow_limited(const ExcavatorValid& valid, const Motion& motion,
                                       double period_s) const;
   /// Swash for what is wanted in this cycle.

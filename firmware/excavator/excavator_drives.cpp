@@ -89,6 +89,7 @@ DriveRow section_row(const ExcavatorProfile& profile, int drive) {
   row.watch.senses_spool = profile.bus.spool_feedback;
   row.watch.settle_s = safety.settle_s;
   row.watch.spool_tolerance = safety.spool_tolerance;
+  row.watch.relief_pa = pump_of(profile, row.spool).relief_pa;
   row.watch.pressure_rail_pa = safety.pressure_rail_pa;
   return row;
 }

@@ -49,7 +49,7 @@ struct DriveWatch {
   double sensed_margin_m = 0.0;  ///< ... and how far beyond it is implausible: bias, mounting.
   bool senses_load = true;       ///< Pressures of both sides are measured.
   bool senses_spool = true;      ///< Its position is; else it counts as where it was sent.
-  double settle_s = 0.0;         ///< A spool has reached its duty after this and the dead time.
+  double settle_s = 0.0;         ///< How far a sound spool may lag its duty beside the dead time.
   double spool_tolerance = 0.0;  ///< Of the spool's travel.
   double uncommanded_m = 0.0;    ///< Way that the drive may go where its spool does not lead.
   double wrong_m = 0.0;          ///< Way against its spool, pushed by its oil; 0: not watched.
@@ -59,6 +59,7 @@ struct DriveWatch {
   double off_m = 0.0;             ///< Of a stroke from all that its oil can have done.
   double leak_mpspa = 0.0;        ///< Speed that it may lose by its own leakage, per pressure.
   double rest_s = 0.0;            ///< Until it has come to rest after its spool has closed.
+  double relief_pa = 0.0;         ///< Of the pump's line; 0: none, or not known.
   double pressure_rail_pa = 0.0;  ///< Where the pressure sensors end.
 };
 
@@ -85,7 +86,23 @@ struct DriveRow {
   DriveWatch watch;
 };
 
-/// Time that a spool may take to where its command sends it, s. Its dead time is known within 30 %.
+/// What `settle_s` stands for: a start that is late by three tenths of it, and then two lags of
+/// seven twentieths each. A steady rise the spool so follows by just that much later.
+inline constexpr double kLateShare = 0.3;
+inline constexpr double kLagShare = 0.35;
+
+/// Until a sound spool starts after its command at the latest, s. Its dead time is known within 30
+/// %.
+[[nodiscard]] inline double spool_starts_s(const DriveRow& drive) {
+  return 1.3 * drive.control.dead_time_s + kLateShare * drive.watch.settle_s;
+}
+
+/// Longest of each of the two lags with which it then follows, s.
+[[nodiscard]] inline double spool_lag_s(const DriveRow& drive) {
+  return kLagShare * drive.watch.settle_s;
+}
+
+/// Time by which it may be behind its command, s.
 [[nodiscard]] inline double spool_arrives_s(const DriveRow& drive) {
   return 1.3 * drive.control.dead_time_s + drive.watch.settle_s;
 }

@@ -19,7 +19,7 @@ struct LimitText {
   LimitOf of;  ///< Whose number the limit's index is.
 };
 
-inline constexpr std::array<FaultText, 47> kFaultTexts{{
+inline constexpr std::array<FaultText, 48> kFaultTexts{{
     {"none", ""},
     {"a stroke is missing",
      "Check the stroke sensors, their cables and the machine's node."},
@@ -113,6 +113,8 @@ inline constexpr std::array<FaultText, 47> kFaultTexts{{
      "Wait, or help: a smaller cut, less load, more flow."},
     {"stalled: does not get on",
      "Lift the tool out by hand, take a smaller cut, arm again."},
+    {"blocked: a load that the pumps do not move",
+     "Wait, or help: go round what is in the way, or break it loose."},
 }};
 
 inline constexpr std::array<const char*, 27> kArmBlockTexts{{

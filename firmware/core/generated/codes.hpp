@@ -56,8 +56,9 @@ enum class Fault : std::uint8_t {
   kPoseDisagrees = 44,  ///< Position, pitch and rates of the body do not fit each other, or the tracks.
   kStalling = 45,  ///< In motion, and hardly getting on for 2 s.
   kStalled = 46,  ///< In motion, and hardly getting on for as long as the profile allows.
+  kBlocked = 47,  ///< A drive pushes with what its pump gives, and stands.
 };
-inline constexpr int kFaultCount = 47;  ///< With kNone.
+inline constexpr int kFaultCount = 48;  ///< With kNone.
 
 /// Why the mode is neither Armed nor Active: bit numbers of MachineStatus::why_not_armed.
 enum class ArmBlock : std::uint8_t {

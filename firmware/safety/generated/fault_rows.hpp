@@ -57,6 +57,7 @@ inline constexpr std::array<FaultRow, kFaultCount> kFaultRows{{
     {Fault::kPoseDisagrees, Reaction::kStop, 2, true, false, ArmBlock::kPose},
     {Fault::kStalling, Reaction::kWarn, 31, false, false, ArmBlock::kPath},
     {Fault::kStalled, Reaction::kStop, 31, true, false, ArmBlock::kPath},
+    {Fault::kBlocked, Reaction::kWarn, 31, false, false, ArmBlock::kPath},
 }};
 
 }  // namespace graben

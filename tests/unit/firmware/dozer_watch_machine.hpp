@@ -9,10 +9,11 @@
 namespace graben::test::of_dozer {
 
 inline constexpr double kPeriod_s = 0.0625;
-inline constexpr double kSlower = 0.25;    // safety.degraded_speed
-inline constexpr double kOpen = 0.75;      // Duty; the spool begins to open at 0.25.
-inline constexpr int kUnderWay = 50;       // 0.5 s for a displacement to settle, in cycles.
-inline constexpr int kSpoolUnderWay = 10;  // 0.1 s for the spool.
+inline constexpr double kSlower = 0.25;  // safety.degraded_speed
+inline constexpr double kOpen = 0.75;    // Duty; the spool begins to open at 0.25.
+inline constexpr int kUnderWay = 50;     // 0.5 s for a displacement to settle, in cycles.
+/// Cycles until a spool of 0.1 s would have gone beyond its tolerance: 5 to start, 2 on its way.
+inline constexpr int kSpoolUnderWay = 7;
 
 /// A dozer in motion that does what it is told, 1 m/s at half the operator's speed.
 struct Machine {

@@ -268,6 +268,44 @@ void what_stays_owed_is_asked_for_whole(void**) {
   assert_near(of(servo, &ServoState::correction_mps)[0], 0.1, 0.0);
 }
 
+/// A drive that its load holds owes nothing more to that side and forgets what it owed; to the
+/// other side it owes as ever, and learns no lag.
+void what_a_load_holds_is_not_owed(void**) {
+  const ExcavatorProfile profile = machine();
+  const ExcavatorBank bank = excavator_bank(profile);
+  const DriveRow& row = bank.rows()[0];
+  for (const int side : {1, -1}) {
+    ServoState servo;
+    graben::servo_at_rest(0.5, servo);
+    for (int n = 0; n < 100; ++n) {
+      graben::next_servo(row, side * 0.1, 0.5, kPeriod_s, servo);
+    }
+    assert_near(servo.integral_m, side * 0.02, 1e-12);
+    for (int n = 0; n < 30; ++n) {
+      graben::next_servo(row, side * 0.1, 0.5, kPeriod_s, servo, side);
+    }
+    assert_near(servo.integral_m, side * 0.02 * std::pow(1.0 - 0.01 / 0.3, 30), 1e-12);
+    ServoState back;
+    graben::servo_at_rest(0.5, back);
+    for (int n = 0; n < 100; ++n) {
+      graben::next_servo(row, -side * 0.1, 0.5, kPeriod_s, back, side);
+    }
+    assert_near(back.integral_m, -side * 0.02, 1e-12);
+  }
+  DriveRow learns = row;
+  learns.feedback.plan_most_m = 0.02;
+  learns.feedback.bias_ps2 = 1.0;
+  learns.feedback.bias_most_mps = 0.02;
+  for (const int blocked : {0, 1}) {
+    ServoState servo;
+    graben::servo_at_rest(0.5, servo);
+    for (int n = 0; n < 100; ++n) {
+      graben::next_servo_on_plan(learns, 0.0, 0.5, 0.51, n == 0, kPeriod_s, servo, blocked);
+    }
+    assert_near(servo.bias_mps, blocked == 1 ? 0.0 : 0.01, 1e-9);
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -284,6 +322,7 @@ int main() {
       cmocka_unit_test(a_prediction_stays_within_the_strokes),
       cmocka_unit_test(what_shakes_is_asked_for_a_quarter_of_a_period_later),
       cmocka_unit_test(what_stays_owed_is_asked_for_whole),
+      cmocka_unit_test(what_a_load_holds_is_not_owed),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

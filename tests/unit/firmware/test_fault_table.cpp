@@ -67,6 +67,7 @@ const Promise kPromises[] = {
     {42, Fault::kMotionImplausible, 'N', 2, ArmBlock::kStroke},
     {43, Fault::kPathLeft, 'N', 31, ArmBlock::kPath},
     {44, Fault::kPoseDisagrees, 'N', 2, ArmBlock::kPose},
+    {47, Fault::kBlocked, 'W', 31, ArmBlock::kPath},
     {45, Fault::kStalling, 'W', 31, ArmBlock::kPath},
     {46, Fault::kStalled, 'N', 31, ArmBlock::kPath},
     // The dozer's own.

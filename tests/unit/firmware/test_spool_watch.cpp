@@ -1,5 +1,8 @@
 #include "firmware/drives/spool_watch.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
@@ -10,8 +13,20 @@ using namespace graben;
 using test::spools_centred;
 
 constexpr double kTolerance = 0.125;
-/// 0.1 s to settle without a dead time, in cycles: a command still counts as under way in the last.
-constexpr int kUnderWay = 10;
+/// Of 0.1 s to settle three tenths until it starts, and 20 ms that its frame may be old, in cycles.
+constexpr int kStarts = 5;
+/// A cycle's share of a lag of 0.035 s.
+constexpr double kShare = 0.01 / 0.045;
+
+/// Cycles until a spool that stays where it is while its duty goes `way` off is found stuck. What
+/// two equal lags have left of a step after n of their cycles is (1 - k)^n (1 + n k).
+int cycles_to_find(int starts, double way, double share = kShare) {
+  int n = 1;
+  while (way * (1.0 - std::pow(1.0 - share, n) * (1.0 + n * share)) <= kTolerance) {
+    ++n;
+  }
+  return starts - 1 + n + kSpoolWrongCycles - 1;
+}
 
 void all_at(ExcavatorValid& valid, double spool_ratio) {
   for (unsigned i = 0; i < kAxisCount; ++i) {
@@ -62,9 +77,10 @@ void the_tolerance_is_a_sharp_edge(void**) {
     for (const double sign : {1.0, -1.0}) {
       Valve valve;
       valve.settle(0.5);
+      // The side that the duty came from is left as a lag leaves it.
       valve.valid.drive[axis].spool_ratio = 0.5 + sign * kTolerance;
       assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), -1);
-      valve.valid.drive[axis].spool_ratio = std::nextafter(0.5 + sign * kTolerance, sign * 9.0);
+      valve.valid.drive[axis].spool_ratio = 0.5 + sign * (kTolerance + 1e-9);
       assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), kSpoolWrongCycles);
     }
   }
@@ -103,39 +119,94 @@ void each_spool_is_counted_by_itself(void**) {
   }
 }
 
-/// A spool that stays open against a close: wrong from the first cycle in which no command of the
-/// time under way has it open.
+/// A spool that stays open against a close: wrong from the first cycle in which the slowest one
+/// that is sound has gone beyond the tolerance.
 void it_is_given_the_time_to_settle(void**) {
   for (const double open : {0.75, -0.75}) {
     Valve valve;
     valve.settle(open);
     valve.sent.duty_ratio = {0.0, 0.0, 0.0};
-    assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), kUnderWay - 1 + kSpoolWrongCycles);
+    assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), cycles_to_find(kStarts, 0.75));
   }
 }
 
-/// The dead time is known within 30 %: 1.3 * 0.15 s + 0.1 s are 29.5 cycles.
+/// The dead time is known within 30 %: 1.3 * 0.15 s + 0.03 s + 0.02 s are 24.5 cycles.
 void it_is_given_the_dead_time_too(void**) {
   Valve valve;
   valve.profile.control.dead_time_s = 0.15;
   valve.settle(0.75);
   valve.sent.duty_ratio = {0.0, 0.0, 0.0};
-  assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), 30 - 1 + kSpoolWrongCycles);
+  assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), cycles_to_find(25, 0.75));
 }
 
-/// More than the ring holds is cut to it; no time at all still leaves the newest command.
+/// More than the ring holds is cut to it; no time at all still leaves the age of a frame.
 void the_time_under_way_is_bounded(void**) {
   Valve slow;
   slow.profile.control.dead_time_s = 5.0;
   slow.settle(0.75);
   slow.sent.duty_ratio = {0.0, 0.0, 0.0};
   assert_int_equal(slow.cycles_until(Fault::kSpoolStuck),
-                   CommandHistory::kMostCycles - 1 + kSpoolWrongCycles);
+                   cycles_to_find(CommandHistory::kMostCycles, 0.75));
   Valve quick;
   quick.profile.safety.settle_s = 0.0;
   quick.settle(0.75);
   quick.sent.duty_ratio = {0.0, 0.0, 0.0};
-  assert_int_equal(quick.cycles_until(Fault::kSpoolStuck), kSpoolWrongCycles);
+  assert_int_equal(quick.cycles_until(Fault::kSpoolStuck), cycles_to_find(2, 0.75, 1.0));
+}
+
+/// Commands of every kind for a spool that starts late and follows with two lags.
+struct SoundSpool {
+  double lag_s = 0.0;
+  int late_cycles = 0;
+  std::array<double, 8> under_way{};
+  double first = 0.0;
+  double travel = 0.0;
+
+  double after(double duty) {
+    std::rotate(under_way.begin(), under_way.end() - 1, under_way.end());
+    under_way[0] = duty;
+    const double newest = lag_s > 0.0 ? 1.0 - std::exp(-0.01 / lag_s) : 1.0;
+    first += newest * (under_way[static_cast<unsigned>(late_cycles)] - first);
+    travel += newest * (first - travel);
+    return travel;
+  }
+};
+
+/// Steps across the dead band, ramps and jitter, 20 s of them.
+double duty_at(int cycle) {
+  const double step = (cycle / 17) % 3 == 0 ? 0.25 : -0.25;
+  const double ramp = 0.75 * std::sin(0.02 * cycle);
+  return std::clamp(ramp + step * ((cycle / 5) % 2 == 0 ? 1.0 : 0.2), -1.0, 1.0);
+}
+
+/// Whether the watch, with hardly a tolerance, ever takes that spool for a stuck one.
+bool is_found(double lag_s, int late_cycles, double last_lag_s) {
+  Valve valve;
+  valve.profile.safety.spool_tolerance = 1e-9;
+  SoundSpool spool{lag_s, late_cycles};
+  for (int n = 0; n < 2000; ++n) {
+    const double duty = duty_at(n);
+    valve.sent.duty_ratio = {duty, 0.0, 0.0};
+    spool.lag_s = n % 40 < 20 ? lag_s : last_lag_s;
+    valve.valid.drive[0].spool_ratio = spool.after(duty);
+    if (valve.stuck()) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Whatever its lag up to the bound, constant or not, and however late up to it: no command makes a
+/// sound spool look stuck. One that is slower, or later, is.
+void no_sound_spool_is_stuck(void**) {
+  for (const double lag_s : {0.0, 0.005, 0.015, 0.025, 0.035}) {
+    for (int late = 0; late < kStarts; ++late) {
+      assert_false(is_found(lag_s, late, lag_s));
+      assert_false(is_found(lag_s, late, 0.035 - lag_s));
+    }
+  }
+  assert_true(is_found(0.070, kStarts - 1, 0.070));
+  assert_true(is_found(0.035, kStarts + 2, 0.035));
 }
 
 /// From wherever the ring stands: a command counts for as long, across its end as well.
@@ -149,7 +220,7 @@ void the_ring_has_no_seam(void**) {
     assert_false(valve.stuck());
     valve.sent.duty_ratio = {0.0, 0.0, 0.0};
     all_at(valve.valid, 1.0);
-    assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), kUnderWay - 1 + kSpoolWrongCycles);
+    assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), cycles_to_find(kStarts, 1.0));
   }
 }
 
@@ -158,8 +229,8 @@ void between_old_and_new_is_well(void**) {
   Valve valve;
   valve.settle(-0.5);
   valve.sent.duty_ratio = {0.75, 0.75, 0.75};
-  for (int n = 0; n < kUnderWay - 1; ++n) {
-    valve.valid.drive[0].spool_ratio = -0.5 + 1.25 * n / kUnderWay;
+  for (int n = 0; n < kStarts + 2; ++n) {
+    valve.valid.drive[0].spool_ratio = -0.5 + 1.25 * n / 10;
     valve.valid.drive[1].spool_ratio = -0.5 - kTolerance;
     valve.valid.drive[2].spool_ratio = 0.75 + kTolerance;
     assert_false(valve.stuck());
@@ -211,7 +282,7 @@ void missing_feedback_is_not_judged(void**) {
   closing.settle(0.75);
   closing.sent.duty_ratio = {0.0, 0.0, 0.0};
   closing.valid.faults.add(Fault::kSpoolMissing);
-  for (int n = 0; n < kUnderWay - 1; ++n) {
+  for (int n = 0; n < cycles_to_find(kStarts, 0.75) - kSpoolWrongCycles; ++n) {
     assert_true(closing.step().empty());
   }
   closing.valid.faults = {};
@@ -244,6 +315,7 @@ int main() {
       cmocka_unit_test(it_is_given_the_time_to_settle),
       cmocka_unit_test(it_is_given_the_dead_time_too),
       cmocka_unit_test(the_time_under_way_is_bounded),
+      cmocka_unit_test(no_sound_spool_is_stuck),
       cmocka_unit_test(the_ring_has_no_seam),
       cmocka_unit_test(between_old_and_new_is_well),
       cmocka_unit_test(the_echo_is_compared_both_ways),

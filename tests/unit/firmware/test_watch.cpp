@@ -312,6 +312,64 @@ void the_end_of_motion_ends_it(void**) {
   assert_well(machine.step());
 }
 
+/// The arm pushes with this on its cap side, and is asked to go on.
+struct Pushing : Machine {
+  explicit Pushing(double cap_pa) {
+    DriveRow& row = bank.row[1];
+    row.watch.relief_pa = 32e6;
+    row.watch.pressure_rail_pa = 40e6;
+    row.watch.unseen_m = row.watch.off_m = 0.0;
+    cycle.duty_ratio[1] = 0.75;
+    cycle.asked_mps[1] = cycle.towards_mps[1] = 0.05;
+    cycle.line_pa[1] = 31e6;
+    inputs.drive[1].spool_ratio = 0.75;
+    inputs.drive[1].stroke_is_new = true;
+    inputs.drive[1].cap_pressure_pa = cap_pa;
+    frozen = true;
+  }
+  bool meets(Fault fault, int most) {
+    for (int n = 0; n < most; ++n) {
+      inputs.drive[1].cap_pressure_pa += n % 2 == 0 ? 1.0 : -1.0;
+      inputs.drive[1].rod_pressure_pa = n % 2;
+      if (step(0.01).faults.has(fault)) {
+        return true;
+      }
+    }
+    return false;
+  }
+};
+
+/// A rock is no stuck sensor: what strains need not move. At less pressure it must.
+void what_its_load_holds_is_not_stuck(void**) {
+  Pushing rock(28e6);
+  assert_false(rock.meets(Fault::kStrokeStuck, 1000));
+  assert_int_equal(rock.state.drives.blocked[1].side, 1);
+  Pushing stuck(20e6);
+  assert_true(stuck.meets(Fault::kStrokeStuck, 300));
+  assert_int_equal(stuck.state.drives.blocked[1].side, 0);
+}
+
+/// Thrown by its own oil against its spool, while it lets off; the same without a rock before it is
+/// a drive that goes the wrong way.
+void what_its_load_lets_go_is_not_the_wrong_way(void**) {
+  for (const double before_pa : {31e6, 10e6}) {
+    Pushing arm(before_pa);
+    arm.bank.row[1].watch.wrong_m = 0.010;
+    arm.meets(Fault::kNone, 100);
+    assert_int_equal(arm.state.drives.blocked[1].side, before_pa > 20e6 ? 1 : 0);
+    arm.cycle.duty_ratio[1] = -0.75;
+    arm.cycle.asked_mps[1] = -0.03;
+    arm.inputs.drive[1].spool_ratio = -0.75;
+    arm.meets(Fault::kNone, 20);
+    bool wrong = false;
+    for (int n = 0; n < 8; ++n) {
+      arm.inputs.drive[1].stroke_m += 0.005;
+      wrong = wrong || arm.meets(Fault::kWrongDirection, 1);
+    }
+    assert_int_equal(wrong, before_pa < 20e6);
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -329,6 +387,8 @@ int main() {
       cmocka_unit_test(what_degraded_goes_on_for_a_second),
       cmocka_unit_test(all_that_degraded_is_named),
       cmocka_unit_test(the_end_of_motion_ends_it),
+      cmocka_unit_test(what_its_load_holds_is_not_stuck),
+      cmocka_unit_test(what_its_load_lets_go_is_not_the_wrong_way),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -1,0 +1,153 @@
+#include "firmware/drives/blocked.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben {
+namespace {
+
+/// Of the line's pressure and of its relief's, on the side that is fed: straining from the one on,
+/// until under the other. Lifting and digging take less of the relief's.
+constexpr double kStrains = 0.8;
+constexpr double kStrainsYet = 0.7;
+constexpr double kOfRelief = 0.7;
+/// Of the speed that is asked for: standing under the one, moving over the other.
+constexpr double kStands = 0.2;
+constexpr double kMoves = 0.5;
+/// Where less is asked, lambda is as good as 0: then that little is standing.
+constexpr double kLeastAsked_mps = 0.002;
+constexpr double kStill_mps = 0.001;
+constexpr double kFilter_s = 0.1;
+constexpr double kKnown_s = 0.2;
+constexpr double kEase_s = 0.3;
+/// Of the relief's pressure.
+constexpr double kHard = 0.85;
+constexpr double kLetOff = 0.6;
+constexpr double kPushes_s = 0.5;
+constexpr double kLetsOff_s = 1.0;  ///< At most.
+constexpr double kRests_s = 1.5;
+constexpr double kLetsOff_mps = 0.03;
+constexpr double kGaveWay_m = 0.005;
+
+int sign_of(double value) { return value > 0.0 ? 1 : (value < 0.0 ? -1 : 0); }
+
+/// Low-passes, and what they say.
+bool strains_and_stands(double relief_pa, const ValidDrive& seen, double asked_mps, double line_pa,
+                        double period_s, BlockedState& state) {
+  const double newest = period_s / (period_s + kFilter_s);
+  const double inlet_pa = state.way > 0 ? seen.cap_pressure_pa : seen.rod_pressure_pa;
+  const double moved_m = state.way * (seen.stroke_m - state.stroke_m);
+  state.inlet_pa += newest * (inlet_pa - state.inlet_pa);
+  state.asked_mps += newest * (state.way * asked_mps - state.asked_mps);
+  state.speed_mps += newest * ((period_s > 0.0 ? moved_m / period_s : 0.0) - state.speed_mps);
+  const double line_share = state.strains ? kStrainsYet : kStrains;
+  state.strains = line_pa > 0.0 && relief_pa > 0.0 && state.inlet_pa >= line_share * line_pa &&
+                  state.inlet_pa >= kOfRelief * relief_pa;
+  const double share = state.side == 0 ? kStands : kMoves;
+  const bool stands = state.asked_mps > kLeastAsked_mps ? state.speed_mps < share * state.asked_mps
+                                                        : state.speed_mps < kStill_mps;
+  return state.strains && stands;
+}
+
+void begin(int way, BlockedState& state) {
+  BlockedState begun;
+  begun.way = way;
+  begun.stroke_m = state.stroke_m;
+  begun.less = state.less;
+  begun.last_side = state.last_side;
+  state = begun;
+}
+
+void go_on(Easing easing, BlockedState& state) {
+  state.easing = easing;
+  state.for_s = 0.0;
+}
+
+/// Of a blocked drive.
+void ease_pressure(double relief_pa, double period_s, BlockedState& state) {
+  state.for_s += period_s;
+  switch (state.easing) {
+    case Easing::kPushes:
+      if (state.for_s >= kPushes_s && state.inlet_pa >= kHard * relief_pa) {
+        go_on(Easing::kLetsOff, state);
+      }
+      return;
+    case Easing::kLetsOff:
+      if (state.inlet_pa <= kLetOff * relief_pa || state.for_s >= kLetsOff_s) {
+        go_on(Easing::kRests, state);
+      }
+      return;
+    case Easing::kRests:
+      if (state.for_s >= kRests_s) {
+        begin(state.way, state);
+      }
+      return;
+  }
+}
+
+void follow(const DriveRow& drive, const ValidDrive& seen, double asked_mps, double line_pa,
+            double period_s, BlockedState& state) {
+  const bool held =
+      strains_and_stands(drive.watch.relief_pa, seen, asked_mps, line_pa, period_s, state);
+  state.stood_s = held ? std::min(state.stood_s + period_s, kKnown_s) : 0.0;
+  if (state.side == 0 && state.stood_s >= kKnown_s) {
+    state.side = state.way;
+    state.last_side = state.way;
+    state.held_at_m = seen.stroke_m;
+    go_on(Easing::kPushes, state);
+  }
+  if (state.side == 0) {
+    return;
+  }
+  const bool gave_way = state.side * (seen.stroke_m - state.held_at_m) > kGaveWay_m;
+  if (gave_way || (state.easing == Easing::kPushes && !held)) {
+    begin(state.way, state);
+    return;
+  }
+  ease_pressure(drive.watch.relief_pa, period_s, state);
+}
+
+}  // namespace
+
+void next_blocked(DriveRows drives, Span<const ValidDrive> seen, const BlockedAsk& ask,
+                  double period_s, Span<BlockedState> state) {
+  for (int i = 0; i < drives.count(); ++i) {
+    BlockedState& drive = state[i];
+    const int way = seen[i].load_known ? sign_of(ask.towards_mps[i]) : 0;
+    if (way == 0 || way != drive.way) {
+      begin(way, drive);
+    } else {
+      follow(drives[i], seen[i], ask.asked_mps[i], ask.line_pa[i], period_s, drive);
+    }
+    drive.stroke_m = seen[i].stroke_m;
+    const double step = period_s / kEase_s;
+    drive.less = std::clamp(drive.less + (drive.side != 0 ? step : -step), 0.0, 1.0);
+  }
+}
+
+double eased_mps(const BlockedState& state, double wanted_mps, double corrected_mps) {
+  if (state.side != 0 && state.easing == Easing::kLetsOff) {
+    return -state.side * kLetsOff_mps;
+  }
+  const int side = state.last_side;
+  const bool rests = state.side != 0 && state.easing == Easing::kRests;
+  const double most_mps = rests ? 0.0 : side * std::max(0.0, side * wanted_mps);
+  const double over_mps = corrected_mps - most_mps;
+  return side * over_mps > 0.0 ? corrected_mps - (rests ? 1.0 : state.less) * over_mps
+                               : corrected_mps;
+}
+
+bool any_blocked(Span<const BlockedState> state) {
+  return blocked_limit(state).kind != LimitKind::kNone;
+}
+
+Limit blocked_limit(Span<const BlockedState> state) {
+  for (int i = 0; i < state.count(); ++i) {
+    if (state[i].side != 0) {
+      return {LimitKind::kBackFlow, static_cast<std::uint8_t>(i)};
+    }
+  }
+  return {};
+}
+
+}  // namespace graben
