@@ -189,20 +189,21 @@ ExcavatorController::Followed ExcavatorController::flow_limited(const ExcavatorV
                                                                 const Motion& motion,
                                                                 double period_s) const {
   const ControlProfile& control = profile_.control;
-  const auto input_of = [&](const DriveVector& velocity_mps) {
-    return mcv_input(span_of(velocity_mps), memory_.load, valid.pump_flow_m3ps);
+  McvInput input = mcv_input(span_of(motion.wanted_mps), memory_.load, valid.pump_flow_m3ps);
+  const auto scale_to = [&](double factor, const DriveVector& velocity_mps) {
+    for (unsigned i = 0; i < kDriveCount; ++i) {
+      input.velocity_mps[i] = factor * velocity_mps[i];
+    }
   };
-  Followed followed;
-  followed.solution =
-      steady_lambda(setup_.valve, input_of(motion.cap.factor * motion.wanted_mps),
-                    control.lambda_policy, control.lambda_rise, memory_.lambda.value(), period_s);
+  scale_to(motion.cap.factor, motion.wanted_mps);
+  Followed followed{steady_lambda(setup_.valve, input, control.lambda_policy, control.lambda_rise,
+                                  memory_.lambda.value(), period_s)};
   followed.lambda = followed.solution.point.lambda;
   const double of_path = followed.lambda;
   if (of_path > 0.0) {
     const Limit path_limit = followed.solution.limit;
-    followed.solution =
-        solve_mcv(setup_.valve, input_of(of_path * motion.cap.factor * motion.corrected_mps),
-                  control.lambda_policy);
+    scale_to(of_path * motion.cap.factor, motion.corrected_mps);
+    followed.solution = solve_mcv(setup_.valve, input, control.lambda_policy);
     followed.of_corrected = followed.solution.point.lambda;
     if (followed.of_corrected >= 1.0) {
       followed.solution.limit = path_limit;
