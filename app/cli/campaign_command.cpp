@@ -85,7 +85,7 @@ void add_campaign_dig(CLI::App& campaign, int& status) {
   options->campaign.draws = 200;
   add_campaign_options(*command, options->campaign);
   add_override_option(*command, options->speed_override_ratio);
-  options->scenario.errors = "kim";
+  options->scenario.errors = "all";
   add_scenario_options(*command, options->scenario);
   add_found_option(*command, options->scenario.scenario.found);
   command->callback(
