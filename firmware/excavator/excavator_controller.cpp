@@ -215,8 +215,9 @@ ExcavatorController::Followed ExcavatorController::flow_limited(const ExcavatorV
 void ExcavatorController::demand_pumps(const ExcavatorValid& valid, const Motion& motion,
                                        bool active, double period_s) {
   next_pump_demand(profile_, setup_.valve,
-                   mcv_input(span_of(motion.wanted_mps), memory_.load, valid.pump_flow_m3ps),
-                   valid.engine_radps, active, period_s, memory_.pumps);
+                   {mcv_input(span_of(motion.wanted_mps), memory_.load, valid.pump_flow_m3ps),
+                    valid.engine_radps, active, any_blocked(memory_.watch.drives.blocked)},
+                   period_s, memory_.pumps);
 }
 
 void ExcavatorController::describe_motion(const Motion& motion, const Followed& taken,

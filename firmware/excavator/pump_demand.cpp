@@ -13,15 +13,14 @@ constexpr double kLoadShare = 0.6;
 /// Of the relief's pressure: what is asked for beyond goes through it.
 constexpr double kMostOfRelief = 0.95;
 /// Of full swash per second: up as fast as a load grows, down slowly, as the load comes back.
-constexpr double kUp_ps = 3.0;
+constexpr double kUp_ps = 1.0;
 constexpr double kDown_ps = 0.1;
 
 }  // namespace
 
-void next_pump_demand(const ExcavatorProfile& profile, const McvMachine& valve,
-                      const McvInput& input, double engine_radps, bool active, double period_s,
-                      PumpDemand& demand) {
-  if (!active || !(profile.demand_swash.most_ratio > 0.0)) {
+void next_pump_demand(const ExcavatorProfile& profile, const McvMachine& valve, const PumpAsk& ask,
+                      double period_s, PumpDemand& demand) {
+  if (!ask.active || !(profile.demand_swash.most_ratio > 0.0)) {
     demand.swash_ratio = profile.dig_swash_ratio;
     return;
   }
@@ -30,15 +29,19 @@ void next_pump_demand(const ExcavatorProfile& profile, const McvMachine& valve,
     most_pa = std::min(most_pa, profile.pump[static_cast<unsigned>(j)].relief_pa);
   }
   const PerPump<double> flow_m3ps = needed_flow_m3ps(
-      valve, input,
+      valve, ask.input,
       {1.0, profile.control.lambda_rise.reserve_n, kLoadShare, kMostOfRelief * most_pa});
-  const double turning_radps = std::max(engine_radps, profile.safety.idle_radps);
+  const double turning_radps = std::max(ask.engine_radps, profile.safety.idle_radps);
+  const double down_ps = ask.blocked ? kUp_ps : kDown_ps;
   for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
     const double full_m3ps = pump_flow_m3ps(profile.pump[j], turning_radps, 1.0);
-    const double wanted = std::clamp(flow_m3ps[j] / full_m3ps, profile.demand_swash.least_ratio,
-                                     profile.demand_swash.most_ratio);
+    const double most_ratio =
+        ask.blocked ? std::min(profile.dig_swash_ratio[j], profile.demand_swash.most_ratio)
+                    : profile.demand_swash.most_ratio;
+    const double wanted =
+        std::min(std::max(flow_m3ps[j] / full_m3ps, profile.demand_swash.least_ratio), most_ratio);
     double& swash = demand.swash_ratio[j];
-    swash = std::clamp(wanted, swash - kDown_ps * period_s, swash + kUp_ps * period_s);
+    swash = std::clamp(wanted, swash - down_ps * period_s, swash + kUp_ps * period_s);
   }
 }
 

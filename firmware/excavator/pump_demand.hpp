@@ -12,10 +12,17 @@ struct PumpDemand {
   std::array<double, kPumpCount> swash_ratio{};  ///< Last commanded.
 };
 
-/// A cycle on. `input` has the wanted speeds without corrections, and filtered loads. Not `active`,
-/// and where the profile has no range for it, the swash is that of the task.
-void next_pump_demand(const ExcavatorProfile& profile, const McvMachine& valve,
-                      const McvInput& input, double engine_radps, bool active, double period_s,
-                      PumpDemand& demand);
+/// What the pumps are asked for.
+struct PumpAsk {
+  McvInput input;  ///< The wanted speeds without corrections, and filtered loads.
+  double engine_radps = 0.0;
+  bool active = false;
+  bool blocked = false;  ///< A load holds a drive: more flow would only squeeze more oil.
+};
+
+/// A cycle on. Not active, and where the profile has no range for it, the swash is that of the
+/// task; blocked, it is no more than that.
+void next_pump_demand(const ExcavatorProfile& profile, const McvMachine& valve, const PumpAsk& ask,
+                      double period_s, PumpDemand& demand);
 
 }  // namespace graben

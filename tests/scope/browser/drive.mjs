@@ -85,7 +85,7 @@ async function pose_on_screen() {
   const page = await open_page(browser, server.url);
   await loaded(page);
   let worst = 0;
-  for (const time_s of [0.5, 4.005, 9.999, 15.25, 21.0]) {
+  for (const time_s of [0.5, 4.005, 9.999, 15.25, 17.5]) {
     await seek(page, time_s);
     const {tip, screen} = await look(page);
     const off = distance(tip, teeth_at(time_s));
