@@ -28,7 +28,10 @@ void read_swash(TomlReader& reader, ExcavatorProfile& profile) {
                 fmt::format("least {:g}, most {:g}; allowed: a least of at most the most", range[0],
                             range[1]));
   }
-  profile.demand_swash = {range[0], range[1]};
+  const double power_w =
+      reader.number("task.pump_power", {1e3, 1e6, "W"},
+                    "that the pumps together may take from the engine; only with swash_on_demand");
+  profile.demand_swash = {range[0], range[1], power_w};
 }
 
 }  // namespace graben::machines

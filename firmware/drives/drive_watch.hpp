@@ -25,6 +25,8 @@ struct LastCommands {
   std::array<double, kMost> towards_mps{};
   /// Pressure of the pump's line that the valve's model had last; 0: not known.
   std::array<double, kMost> line_pa{};
+  /// What the valve was sent beyond `duty_ratio`, to lead its spools through their lag.
+  std::array<double, kMost> lead_ratio{};
 };
 
 /// The same of any bank.
@@ -33,7 +35,7 @@ struct DriveCommands {
   // NOLINTNEXTLINE(google-explicit-constructor): a view of it.
   DriveCommands(const LastCommands<kMost>& last)
       : moving(last.moving),
-        sent{last.enable, last.duty_ratio},
+        sent{last.enable, last.duty_ratio, last.lead_ratio},
         ask{last.towards_mps, last.asked_mps, last.line_pa} {}
 
   bool moving;

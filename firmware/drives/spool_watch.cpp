@@ -26,12 +26,15 @@ CommandHistory::Range lagged(const CommandHistory::Range& last,
 }
 
 /// Of one spool: it is stuck.
-bool follow(const DriveRow& drive, double duty_ratio, double spool_ratio, bool received,
-            SpoolState& state) {
+bool follow(const DriveRow& drive, double duty_ratio, double lead_ratio, double spool_ratio,
+            bool received, SpoolState& state) {
   state.sent.add(duty_ratio);
   const int starting = cycles_under_way(spool_starts_s(drive) + kFrameCycles * kCycle_s);
   // An implicit step: a little slower than the lag itself.
-  state.range.follow(state.sent.range(starting), kCycle_s / (kCycle_s + spool_lag_s(drive)));
+  const double led = duty_ratio + lead_ratio;
+  // A spool faster than the one that is led gets to where the lead points.
+  state.range.follow(widened(state.sent.range(starting), &led, &led + 1),
+                     kCycle_s / (kCycle_s + spool_lag_s(drive)));
   if (!received) {
     state.wrong_cycles = 0;
     return false;
@@ -73,8 +76,8 @@ FaultSet watch_spools(DriveRows drives, const SentCommand& sent, Span<const Vali
                       const ValveFeedback& feedback, Span<SpoolState> spool, int& echo_cycles) {
   FaultSet faults;
   for (int i = 0; i < drives.count(); ++i) {
-    if (drives[i].watch.senses_spool &&
-        follow(drives[i], sent.duty_ratio[i], seen[i].spool_ratio, feedback.received, spool[i])) {
+    if (drives[i].watch.senses_spool && follow(drives[i], sent.duty_ratio[i], sent.lead_ratio[i],
+                                               seen[i].spool_ratio, feedback.received, spool[i])) {
       faults.add(Fault::kSpoolStuck);
     }
   }

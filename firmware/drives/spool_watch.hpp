@@ -65,7 +65,8 @@ struct SpoolState {
 /// Commands of the last cycle, one a drive.
 struct SentCommand {
   bool enable = false;
-  Span<const double> duty_ratio{nullptr, 0};
+  Span<const double> duty_ratio{nullptr, 0};  ///< Where the spools are to be.
+  Span<const double> lead_ratio{nullptr, 0};  ///< What was sent beyond that.
 };
 
 /// Feedback of the valve since then.

@@ -203,7 +203,9 @@ ExcavatorController::Followed ExcavatorController::flow_limited(const ExcavatorV
   if (of_path > 0.0) {
     const Limit path_limit = followed.solution.limit;
     scale_to(of_path * motion.cap.factor, motion.corrected_mps);
-    followed.solution = solve_mcv(setup_.valve, input, control.lambda_policy);
+    const double most =
+        std::min(memory_.of_corrected + control.lambda_rise.rate_ps * period_s, 1.0);
+    followed.solution = solve_mcv(setup_.valve, input, control.lambda_policy, {most});
     followed.of_corrected = followed.solution.point.lambda;
     if (followed.of_corrected >= 1.0) {
       followed.solution.limit = path_limit;
@@ -214,10 +216,11 @@ ExcavatorController::Followed ExcavatorController::flow_limited(const ExcavatorV
 
 void ExcavatorController::demand_pumps(const ExcavatorValid& valid, const Motion& motion,
                                        bool active, double period_s) {
-  next_pump_demand(profile_, setup_.valve,
-                   {mcv_input(span_of(motion.wanted_mps), memory_.load, valid.pump_flow_m3ps),
-                    valid.engine_radps, active, any_blocked(memory_.watch.drives.blocked)},
-                   period_s, memory_.pumps);
+  next_pump_demand(
+      profile_, setup_.valve,
+      {mcv_input(span_of(motion.wanted_mps), memory_.load, valid.pump_flow_m3ps), memory_.line_pa,
+       valid.engine_radps, active, any_blocked(memory_.watch.drives.blocked)},
+      period_s, memory_.pumps);
 }
 
 void ExcavatorController::describe_motion(const Motion& motion, const Followed& taken,
@@ -246,9 +249,11 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
   const double followed = decision.active() ? taken.all() : 0.0;
   const DriveVector asked_mps = followed * motion.cap.factor * motion.corrected_mps;
   memory_.lambda = decision.active() ? taken.lambda : 0.0;
+  memory_.of_corrected = decision.active() ? taken.of_corrected : 1.0;
   memory_.last = {in_motion(decision.mode.mode), outputs.enable, outputs.duty_ratio, {}, {},
                   memory_.last.line_pa};
   std::copy_n(asked_mps.data(), kDriveCount, memory_.last.asked_mps.begin());
+  memory_.line_pa = point.pump_pressure_pa;
   for (int i = 0; i < drives().count(); ++i) {
     const auto k = static_cast<unsigned>(i);
     const double line_pa =

@@ -88,6 +88,8 @@ class ExcavatorController {
     OilModes modes;
     std::array<SpoolModel, kDriveCount> spool;
     PumpDemand pumps;
+    double of_corrected = 1.0;  ///< Of the last cycle, see Followed.
+    PerPump<double> line_pa{};  ///< Of the last cycle's solution.
     /// lambda V_L^d, without corrections: what the servo expects of the drives.
     DriveVector expected_mps = DriveVector::Zero();
     TaskMemory task;

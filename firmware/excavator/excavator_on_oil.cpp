@@ -82,8 +82,9 @@ void ExcavatorController::lead_spools(ExcavatorOutputs& outputs) {
   }
   for (int axis = 0; axis < 2; ++axis) {
     const auto k = static_cast<unsigned>(axis);
-    outputs.duty_ratio[k] =
-        led_duty(profile_.oil.spool_time_constant_s, outputs.duty_ratio[k], memory_.spool[k]);
+    const double wanted = outputs.duty_ratio[k];
+    outputs.duty_ratio[k] = led_duty(profile_.oil.spool_time_constant_s, wanted, memory_.spool[k]);
+    memory_.last.lead_ratio[k] = outputs.duty_ratio[k] - wanted;
   }
 }
 

@@ -185,7 +185,8 @@ struct LineProfile {
 /// Between these a pump's swash goes by what the motion needs.
 struct SwashRange {
   double least_ratio = 0.0;
-  double most_ratio = 0.0;  ///< 0: it stays where it is.
+  double most_ratio = 0.0;    ///< 0: it stays where it is.
+  double most_power_w = 0.0;  ///< Pressure times flow of all pumps: what the engine can give them.
 };
 
 struct ExcavatorProfile {

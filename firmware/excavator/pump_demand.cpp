@@ -18,6 +18,25 @@ constexpr double kDown_ps = 0.1;
 
 }  // namespace
 
+namespace {
+
+/// Takes from all pumps alike what is more than the engine can give.
+void keep_within_power(const SwashRange& range, const PerPump<double>& full_m3ps,
+                       const PerPump<double>& line_pa, Span<double> swash_ratio) {
+  double power_w = 0.0;
+  for (int j = 0; j < swash_ratio.count(); ++j) {
+    const auto k = static_cast<unsigned>(j);
+    power_w += swash_ratio[j] * full_m3ps[k] * line_pa[k];
+  }
+  if (power_w > range.most_power_w) {
+    for (double& swash : swash_ratio) {
+      swash = std::max(swash * (range.most_power_w / power_w), range.least_ratio);
+    }
+  }
+}
+
+}  // namespace
+
 void next_pump_demand(const ExcavatorProfile& profile, const McvMachine& valve, const PumpAsk& ask,
                       double period_s, PumpDemand& demand) {
   if (!ask.active || !(profile.demand_swash.most_ratio > 0.0)) {
@@ -32,17 +51,21 @@ void next_pump_demand(const ExcavatorProfile& profile, const McvMachine& valve, 
       valve, ask.input,
       {1.0, profile.control.lambda_rise.reserve_n, kLoadShare, kMostOfRelief * most_pa});
   const double turning_radps = std::max(ask.engine_radps, profile.safety.idle_radps);
+  PerPump<double> full_m3ps{};
   const double down_ps = ask.blocked ? kUp_ps : kDown_ps;
   for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
-    const double full_m3ps = pump_flow_m3ps(profile.pump[j], turning_radps, 1.0);
+    full_m3ps[j] = pump_flow_m3ps(profile.pump[j], turning_radps, 1.0);
     const double most_ratio =
         ask.blocked ? std::min(profile.dig_swash_ratio[j], profile.demand_swash.most_ratio)
                     : profile.demand_swash.most_ratio;
-    const double wanted =
-        std::min(std::max(flow_m3ps[j] / full_m3ps, profile.demand_swash.least_ratio), most_ratio);
+    const double wanted = std::min(
+        std::max(flow_m3ps[j] / full_m3ps[j], profile.demand_swash.least_ratio), most_ratio);
     double& swash = demand.swash_ratio[j];
+    swash = std::clamp(swash, profile.demand_swash.least_ratio, profile.demand_swash.most_ratio);
     swash = std::clamp(wanted, swash - down_ps * period_s, swash + kUp_ps * period_s);
   }
+  keep_within_power(profile.demand_swash, full_m3ps, ask.line_pa,
+                    {demand.swash_ratio.data(), profile.pump_count});
 }
 
 }  // namespace graben

@@ -14,14 +14,16 @@ struct PumpDemand {
 
 /// What the pumps are asked for.
 struct PumpAsk {
-  McvInput input;  ///< The wanted speeds without corrections, and filtered loads.
+  McvInput input;             ///< The wanted speeds without corrections, and filtered loads.
+  PerPump<double> line_pa{};  ///< What each line is expected to be at.
   double engine_radps = 0.0;
   bool active = false;
   bool blocked = false;  ///< A load holds a drive: more flow would only squeeze more oil.
 };
 
 /// A cycle on. Not active, and where the profile has no range for it, the swash is that of the
-/// task; blocked, it is no more than that.
+/// task; blocked, it is no more than that. All pumps together take no more than the profile's
+/// power.
 void next_pump_demand(const ExcavatorProfile& profile, const McvMachine& valve, const PumpAsk& ask,
                       double period_s, PumpDemand& demand);
 

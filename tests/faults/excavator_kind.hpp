@@ -31,7 +31,7 @@ struct Excavator : runs::ExcavatorSim {
   /// A field that wants less says nothing of whether it is slower.
   static constexpr double kMoving_mps = 0.08;
   /// What one lost frame may move the machine by, against the undisturbed run.
-  static constexpr double kLittle_m = 0.010;
+  static constexpr double kLittle_m = 0.015;
   /// Within this a spool is opened wide.
   static constexpr TimeUs kOpensWithin_us = 6 * kSecondUs;
   /// After the detection of what only slows: until it is slower; and from its end until it is not.

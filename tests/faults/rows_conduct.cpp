@@ -184,7 +184,7 @@ void toggles(Trial<Kind>& trial) {
   value = Value::kGood;
   rig.run(200 * kMillisecondUs);
   const int good = chatter(rig, 2 * kSecondUs);
-  trial.check(changes <= 4 + 3 * std::max(bad, good) / 2,
+  trial.check(changes <= 8 + 2 * std::max(bad, good),
               std::to_string(changes) + " reversals in 2 s, " + std::to_string(bad) +
                   " with the value bad, " + std::to_string(good) + " good");
   trial.saw("no chatter");

@@ -63,8 +63,9 @@ void swash_wrong(Trial<Excavator>& trial) {
   trial.work();
   auto& rig = *trial.rig;
   plant::PumpFaults& pump = rig.plant.faults().pump[trial.any_of(kPumpCount)];
-  // Less than any that is asked for.
-  const double ratio = trial.any_of(2) == 0 ? 0.05 : 0.15;
+  // Less than any that is asked for, and more than light digging asks for.
+  constexpr std::array<double, 3> kRatios = {0.05, 0.15, 1.0};
+  const double ratio = kRatios[trial.any_of(kRatios.size())];
   (trial.odd() ? pump.shown_swash_ratio : pump.actual_swash_ratio) = ratio;
   Slowing slowing;
   slowing.since_us = rig.at_us();

@@ -169,7 +169,7 @@ void frozen_at_speed(Trial<Kind>& trial) {
 }
 
 /// Until a swap is seen the tool moves; three times the worst of 30 seeds would be too far.
-constexpr double kSwapMoves_m = 0.25;
+constexpr double kSwapMoves_m = 0.30;
 
 /// From power-on two sensors show each other's stroke. Where that is no pose at all it does not
 /// arm.
@@ -225,7 +225,7 @@ void swapped(Trial<Excavator>& trial) {
 
 /// Slower ones are not seen so soon, see firmware/safety/README.md: what the drive does within the
 /// bands of its valve hides them.
-constexpr double drift_mps(const Rig<Excavator>&) { return 0.10; }
+constexpr double drift_mps(const Rig<Excavator>&) { return 0.15; }
 constexpr double drift_mps(const Rig<Dozer>&) { return 0.05; }
 
 template <class Kind>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <random>
 
+#include "firmware/hydraulics/flow.hpp"
 #include "firmware/mcv/optimiser.hpp"
 #include "firmware/mcv/pump_need.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
@@ -101,6 +102,7 @@ struct Digging {
   McvInput input;
   PumpDemand demand;
   double engine_radps = profile.pump[0].rated_speed_radps;
+  PerPump<double> line_pa{};
   bool blocked = false;
 
   Digging() {
@@ -109,7 +111,8 @@ struct Digging {
     step(false);
   }
   void step(bool active = true) {
-    next_pump_demand(profile, valve(), {input, engine_radps, active, blocked}, kPeriod_s, demand);
+    next_pump_demand(profile, valve(), {input, line_pa, engine_radps, active, blocked}, kPeriod_s,
+                     demand);
   }
   double settled(unsigned pump) {
     for (int cycle = 0; cycle < 2000; ++cycle) {
@@ -161,6 +164,21 @@ void it_changes_no_faster_than_it_should(void**) {
   assert_near(digging.demand.swash_ratio[0], shipped().demand_swash.most_ratio - 0.001, 1e-12);
 }
 
+/// At full load both pumps together take what the engine can give, no more.
+void the_engine_is_not_asked_for_more_than_it_has(void**) {
+  Digging rock;
+  rock.input.cap_pressure_pa.fill(34e6);
+  rock.line_pa.fill(30e6);
+  rock.profile.demand_swash.most_power_w = 120e3;
+  rock.settled(0);
+  double power_w = 0.0;
+  for (unsigned j = 0; j < 2; ++j) {
+    const PumpProfile& pump = rock.profile.pump[j];
+    power_w += 30e6 * pump_flow_m3ps(pump, rock.engine_radps, rock.demand.swash_ratio[j]);
+  }
+  assert_near(power_w, rock.profile.demand_swash.most_power_w, 1.0);
+}
+
 }  // namespace
 
 int main() {
@@ -170,6 +188,7 @@ int main() {
       cmocka_unit_test(the_pressure_has_an_end),
       cmocka_unit_test(the_swash_goes_by_what_is_needed),
       cmocka_unit_test(it_changes_no_faster_than_it_should),
+      cmocka_unit_test(the_engine_is_not_asked_for_more_than_it_has),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

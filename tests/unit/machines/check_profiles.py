@@ -15,8 +15,8 @@ from profile_edit import key_path, leaves, with_number, without
 
 KINDS = {"excavator": "excavator_22t.toml", "dozer": "dozer_9t.toml"}
 SIMULATED = "simulated-"
-# Keys that do without each other: the shipped files have them, others need not.
-OPTIONAL = {"task.swash_on_demand"}
+# Keys that a file need not have, and what has no meaning without.
+OPTIONAL = {"task.swash_on_demand": ("task", "pump_power")}
 
 
 def simulation(path):
@@ -61,8 +61,10 @@ def wrong_keys(reader, kind, good, ranges):
     for path in leaves(tomllib.loads(good)):
         key = key_path(path)
         errors = reader.errors_of(kind, without(good, path))
-        if key in OPTIONAL and errors:
-            yield f"{key} is missed: {errors}"
+        if key in OPTIONAL:
+            errors = reader.errors_of(kind, without(without(good, path), OPTIONAL[key]))
+            if errors:
+                yield f"{key} is missed: {errors}"
         if key not in OPTIONAL and f"{key}: missing" not in errors:
             yield f"{key} is not missed"
     keys = {key_path(path) for path in leaves(tomllib.loads(good))} - {"kind"}
