@@ -14,8 +14,8 @@ namespace graben {
 ///   spool_feedback  command    a spool counts as where it was sent: no kSpoolMissing, no
 ///                              kSpoolStuck, no arm condition of centred spools; the motion watch
 ///                              waits for dead time and lag after each command
-///   swash_feedback  command    a pump counts as where it was sent: no kSwashMissing, no
-///                              kSwashDisagrees
+///   swash_feedback  command    a pump counts as where it was sent, or on its way there: no
+///                              kSwashMissing, no kSwashDisagrees
 ///   protection      range      a frame without counter and CRC counts if it is fresh and in range:
 ///                              no kMessageCorrupt, kMessageSequence, kMessageMasquerade
 struct BusCapabilities {
