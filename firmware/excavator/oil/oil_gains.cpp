@@ -1,5 +1,7 @@
 #include "firmware/excavator/oil/oil_gains.hpp"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +10,8 @@
 namespace graben {
 namespace {
 
-constexpr int kSteps = 800;
+/// Each doubles the steps that the Riccati equation has been taken: 1024 of them, 10 s.
+constexpr int kDoublings = 10;
 /// What rounding and friction make of a travel, a speed, a compression in a cycle: enough to keep
 /// the equations regular.
 constexpr double kLeastTravel_m2 = 1e-12;
@@ -16,6 +19,20 @@ constexpr double kLeastSpeed_m2ps2 = 1e-10;
 
 using Vector5 = Eigen::Matrix<double, ModeGains::kStates, 1>;
 using Matrix5 = Eigen::Matrix<double, ModeGains::kStates, ModeGains::kStates>;
+
+/// X = A' X A - A' X B (R + B' X B)^-1 B' X A + Q, with G = B R^-1 B', by doubling.
+Matrix5 riccati(Matrix5 a, Matrix5 g, Matrix5 q) {
+  for (int n = 0; n < kDoublings; ++n) {
+    const Matrix5 turned = (Matrix5::Identity() + g * q).inverse();
+    const Matrix5 ahead = a * turned;
+    const Matrix5 next_q = q + a.transpose() * q * turned * a;
+    const Matrix5 next_g = g + ahead * g * a.transpose();
+    a = ahead * a;
+    q = 0.5 * (next_q + next_q.transpose());
+    g = 0.5 * (next_g + next_g.transpose());
+  }
+  return q;
+}
 
 /// Of travel, speed, balance, first and second lag.
 Vector5 feedback_of(const OilDesign& design, double omega_radps) {
@@ -45,16 +62,9 @@ Vector5 feedback_of(const OilDesign& design, double omega_radps) {
   weight(1, 1) = design.speed_s * design.speed_s;
   weight(2, 2) = design.balance * design.balance;
   const double command_weight = 1.0 / (design.travel_ps * design.travel_ps);
-  Matrix5 cost = weight;
-  Vector5 gain = Vector5::Zero();
-  for (int n = 0; n < kSteps; ++n) {
-    const Vector5 priced = cost * of_command;
-    const double least = command_weight + of_command.dot(priced);
-    gain = step.transpose() * priced / least;
-    const Matrix5 next = weight + step.transpose() * cost * step - least * gain * gain.transpose();
-    cost = 0.5 * (next + next.transpose());
-  }
-  return gain;
+  const Matrix5 cost = riccati(step, of_command * of_command.transpose() / command_weight, weight);
+  const Vector5 priced = cost * of_command;
+  return step.transpose() * priced / (command_weight + of_command.dot(priced));
 }
 
 Eigen::Matrix2d inverse_of(const Eigen::Matrix2d& m) {
@@ -81,17 +91,10 @@ Eigen::Matrix<double, ModeGains::kStates, 2> observer_of(const OilDesign& design
   const Eigen::Matrix2d noise = Eigen::Vector2d(design.travel_noise_m * design.travel_noise_m,
                                                 design.pressure_noise_m * design.pressure_noise_m)
                                     .asDiagonal();
-  Matrix5 spread = 1e-6 * Matrix5::Identity();
-  Eigen::Matrix<double, ModeGains::kStates, 2> gain;
-  gain.setZero();
-  for (int n = 0; n < kSteps; ++n) {
-    Matrix5 before = step * spread * step.transpose();
-    before.diagonal() += drift;
-    gain = before * seen.transpose() * inverse_of(seen * before * seen.transpose() + noise);
-    const Matrix5 after = before - gain * seen * before;
-    spread = 0.5 * (after + after.transpose());
-  }
-  return gain;
+  // Of what is expected before a measurement.
+  const Matrix5 spread =
+      riccati(step.transpose(), seen.transpose() * inverse_of(noise) * seen, drift.asDiagonal());
+  return spread * seen.transpose() * inverse_of(seen * spread * seen.transpose() + noise);
 }
 
 }  // namespace
