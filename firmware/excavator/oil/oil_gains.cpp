@@ -1,7 +1,5 @@
 #include "firmware/excavator/oil/oil_gains.hpp"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 
@@ -20,10 +18,32 @@ constexpr double kLeastSpeed_m2ps2 = 1e-10;
 using Vector5 = Eigen::Matrix<double, ModeGains::kStates, 1>;
 using Matrix5 = Eigen::Matrix<double, ModeGains::kStates, ModeGains::kStates>;
 
+/// Gauss-Jordan with the largest pivot of a column; Eigen's own for this size can use the heap.
+Matrix5 inverted(Matrix5 m) {
+  Matrix5 inverse = Matrix5::Identity();
+  for (int column = 0; column < ModeGains::kStates; ++column) {
+    int pivot = column;
+    for (int row = column + 1; row < ModeGains::kStates; ++row) {
+      pivot = std::abs(m(row, column)) > std::abs(m(pivot, column)) ? row : pivot;
+    }
+    m.row(column).swap(m.row(pivot));
+    inverse.row(column).swap(inverse.row(pivot));
+    const double by = m(column, column);
+    inverse.row(column) /= by;
+    m.row(column) /= by;
+    for (int row = 0; row < ModeGains::kStates; ++row) {
+      const double share = row == column ? 0.0 : m(row, column);
+      inverse.row(row) -= share * inverse.row(column);
+      m.row(row) -= share * m.row(column);
+    }
+  }
+  return inverse;
+}
+
 /// X = A' X A - A' X B (R + B' X B)^-1 B' X A + Q, with G = B R^-1 B', by doubling.
 Matrix5 riccati(Matrix5 a, Matrix5 g, Matrix5 q) {
   for (int n = 0; n < kDoublings; ++n) {
-    const Matrix5 turned = (Matrix5::Identity() + g * q).inverse();
+    const Matrix5 turned = inverted(Matrix5::Identity() + g * q);
     const Matrix5 ahead = a * turned;
     const Matrix5 next_q = q + a.transpose() * q * turned * a;
     const Matrix5 next_g = g + ahead * g * a.transpose();
