@@ -108,8 +108,8 @@ std::string BusRules<Kind>::may_not_move(const BusCycle<Kind>& cycle) const {
   return cycle.elapsed_us > kStalled_us || late_ >= 2 ? "in a late cycle" : "";
 }
 
-/// What steps of the duty make of where a led spool is taken to be.
-constexpr double kLedSlack = 0.05;
+/// A led spool is only about where the duties say: they come in steps, late, or not at all.
+constexpr double kLedSlack = 0.3;
 
 /// Opening a spool has a rate, closing none; the step across the deadband takes no time. Of a spool
 /// that is led this holds for where its duty takes it; beyond full duty that comes later.
@@ -126,7 +126,7 @@ std::string BusRules<Kind>::check_opening(const typename Kind::Dbc::SpoolCommand
       return fmt::format("duty {}", duty[i]);
     }
     const bool is_led = i < Kind::kLed && time_constant_s > 0.0;
-    if (is_led && elapsed_s > 0.015) {
+    if (is_led && std::abs(elapsed_s - 0.01) > 0.001) {
       led_[i].miss();
     }
     const double goal = is_led ? led_[i].aim(duty[i], time_constant_s) : duty[i];

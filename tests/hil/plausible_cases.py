@@ -96,7 +96,8 @@ EVERY = [
     Case(25, DIG, (), (), 1.0, judged="beside", command=ISOTP),
     Case(28, DIG, (), ("BusDown",), 1.0, judged="gone", command=GONE),
     Case(28, GRADE, (), ("BusDown",), 1.0, judged="gone", command=GONE),
-    Case(51, DIG, ("arm:reversed",), WRONG_WAY, 2.0),
+    # The law on its oil swings the spool to both its ends before the direction is clear.
+    Case(51, DIG, ("arm:reversed",), (*WRONG_WAY, "SpoolStuck"), 2.0),
     # From the start: in motion the spool itself would jump.
     Case(51, PROGRAM, ("swing:reversed",), WRONG_WAY, 1.0, at_s=0.0, from_motion=SWING_STATE, seconds=5.5),
     Case(51, GRADE, ("blade:reversed",), WRONG_WAY, 2.0, at_s=BLADE_S),
