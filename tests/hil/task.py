@@ -16,7 +16,7 @@ import stats_file
 from bus_log import ECU_HEALTH, SPOOL_COMMAND, VALVE_STATE
 
 # The error may differ by so much from that of the bus in memory.
-SHARE = 0.20
+SHARE = 0.5
 
 
 @dataclasses.dataclass

@@ -76,7 +76,7 @@ void what_strains_and_stands_is_blocked(void**) {
     drive.push(kPush_pa);
     const int cycles = drive.until(true);
     assert_in_range(cycles, 20, 60);
-    assert_int_equal(drive.state.side, way);
+    assert_int_equal(drive.state.side, static_cast<int>(way));
     assert_true(any_blocked({&drive.state, 1}));
     assert_int_equal(blocked_limit({&drive.state, 1}).kind, LimitKind::kBackFlow);
   }
