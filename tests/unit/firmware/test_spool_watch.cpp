@@ -304,6 +304,18 @@ void centred_is_within_the_tolerance(void**) {
   }
 }
 
+/// A fast spool goes where the lead points, beyond where it is to be; without the lead it is stuck
+/// there.
+void a_spool_may_follow_its_lead(void**) {
+  for (const bool leads : {true, false}) {
+    Valve valve;
+    valve.settle(0.25);
+    valve.sent.lead_ratio = {leads ? 0.5 : 0.0, 0.0, 0.0};
+    valve.valid.drive[kBoom].spool_ratio = 0.75;
+    assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), leads ? -1 : kSpoolWrongCycles);
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -316,6 +328,7 @@ int main() {
       cmocka_unit_test(it_is_given_the_dead_time_too),
       cmocka_unit_test(the_time_under_way_is_bounded),
       cmocka_unit_test(no_sound_spool_is_stuck),
+      cmocka_unit_test(a_spool_may_follow_its_lead),
       cmocka_unit_test(the_ring_has_no_seam),
       cmocka_unit_test(between_old_and_new_is_well),
       cmocka_unit_test(the_echo_is_compared_both_ways),
