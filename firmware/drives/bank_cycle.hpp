@@ -89,6 +89,7 @@ void remember(const ModeDecision& decision, const Outputs& outputs, const BankMo
   memory.last = {in_motion(decision.mode.mode), outputs.enable, outputs.duty_ratio, {}};
   for (unsigned k = 0; k < kMost; ++k) {
     memory.last.asked_mps[k] = followed * motion.corrected_mps[k];
+    memory.last.opening[k] = memory.opening[k].value();
     memory.expected_mps[k] = followed * motion.cap.factor * motion.wanted_mps[k];
   }
 }

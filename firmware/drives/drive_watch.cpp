@@ -24,6 +24,16 @@ FaultSet watch_moving(DriveRows drives, const DriveCommands& last, Span<const Va
   return stops;
 }
 
+void learn_valves(DriveRows drives, const DriveCommands& last, Span<const ValidDrive> seen,
+                  bool moving, double period_s, DriveWatchView state) {
+  for (int i = 0; i < drives.count(); ++i) {
+    const BlockedState& blocked = state.blocked[i];
+    const bool free = blocked.side == 0 && blocked.less == 0.0 && !blocked.strains;
+    next_learnt(drives[i], seen[i], {last.ask.asked_mps[i], last.opening[i]}, moving && free,
+                period_s, state.learnt[i]);
+  }
+}
+
 }  // namespace
 
 FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus, const DriveCommands& last,
@@ -44,9 +54,13 @@ FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus, const DriveC
     stops.remove(Fault::kSpoolStuck);
   }
   // Without their strokes and spools the drives cannot be checked, and the fault is there anyway.
-  if (last.moving && valid.fault == Fault::kNone) {
+  const bool moving = last.moving && valid.fault == Fault::kNone;
+  if (moving) {
     stops.add(watch_moving(drives, last, seen, period_s, state));
-    stops.add(watch_flow(drives, seen, valid.engine_radps, period_s, state.flow));
+  }
+  learn_valves(drives, last, seen, moving, period_s, state);
+  if (moving) {
+    stops.add(watch_flow(drives, seen, state.learnt, valid.engine_radps, period_s, state.flow));
     if (watch_pressures(drives, seen, period_s, state.pressure)) {
       degrade(Fault::kPressureImplausible, valid);
     }

@@ -6,6 +6,7 @@
 #include "firmware/drives/blocked.hpp"
 #include "firmware/drives/direction_watch.hpp"
 #include "firmware/drives/flow_watch.hpp"
+#include "firmware/drives/learnt_valve.hpp"
 #include "firmware/drives/motion_watch.hpp"
 #include "firmware/drives/spool_watch.hpp"
 #include "firmware/safety/common_inputs.hpp"
@@ -21,6 +22,8 @@ struct LastCommands {
   /// What the spools were opened for: lambda times the wanted velocity with its corrections. A
   /// stroke that stands still puts its drive behind, and that alone can run it to its end.
   std::array<double, kMost> asked_mps{};
+  /// Openings (x / x_m) that the valve's model had for that, as far as the gate let them through.
+  std::array<double, kMost> opening{};
   /// Where the drives are to go, before that is slowed or eased (blocked.hpp).
   std::array<double, kMost> towards_mps{};
   /// Pressure of the pump's line that the valve's model had last; 0: not known.
@@ -36,11 +39,13 @@ struct DriveCommands {
   DriveCommands(const LastCommands<kMost>& last)
       : moving(last.moving),
         sent{last.enable, last.duty_ratio, last.lead_ratio},
-        ask{last.towards_mps, last.asked_mps, last.line_pa} {}
+        ask{last.towards_mps, last.asked_mps, last.line_pa},
+        opening(last.opening) {}
 
   bool moving;
   SentCommand sent;
   BlockedAsk ask;
+  Span<const double> opening;
 };
 
 /// State of the watches of a bank from cycle to cycle.
@@ -51,6 +56,7 @@ struct DriveWatchState {
   std::array<MotionState, kMost> motion{};
   std::array<DirectionState, kMost> direction{};
   std::array<FlowState, kMost> flow{};
+  std::array<LearntValve, kMost> learnt;  ///< Kept when the machine stands.
   std::array<PressurePair, kMost> pressure{};
   int echo_cycles = 0;   ///< In a row, that the echo has differed.
   bool closing = false;  ///< It was in motion, and some spool has not been in its middle since.
@@ -66,6 +72,7 @@ struct DriveWatchView {
         motion(state.motion),
         direction(state.direction),
         flow(state.flow),
+        learnt(state.learnt),
         pressure(state.pressure),
         echo_cycles(state.echo_cycles),
         closing(state.closing) {}
@@ -75,6 +82,7 @@ struct DriveWatchView {
   Span<MotionState> motion;
   Span<DirectionState> direction;
   Span<FlowState> flow;
+  Span<LearntValve> learnt;
   Span<PressurePair> pressure;
   int& echo_cycles;
   bool& closing;

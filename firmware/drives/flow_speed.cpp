@@ -6,9 +6,11 @@
 namespace graben {
 namespace {
 
-/// Of the spool's travel: where its dead band ends, and its sensor.
+/// Of the spool's travel: where its dead band ends at best, and its sensor.
 constexpr double kTravelBand = 0.035;
 constexpr double kAreaBand = 0.12;
+/// Standard deviations of what is learnt.
+constexpr double kSpreads = 3.0;
 constexpr double kGalleryBand = 0.33;
 /// Of a pressure's zero.
 constexpr double kZero_pa = 1.2e6;
@@ -22,11 +24,16 @@ struct Opening {
   double most = 0.0;
 };
 
-Opening opening_of(const DriveRow& drive, double spool_ratio) {
+Opening opening_of(const DriveRow& drive, const LearntValve& learnt, double spool_ratio) {
   const double edge = drive.spool_to_duty.y_first();
-  const double travel = std::abs(spool_ratio);
-  return {std::max(0.0, travel - kTravelBand - edge) / (1.0 - edge),
-          std::max(0.0, travel + kTravelBand - edge) / (1.0 - edge)};
+  double opening = (std::abs(spool_ratio) - edge) / (1.0 - edge);
+  double band = kTravelBand / (1.0 - edge);
+  if (has_edges(drive)) {
+    const LearntSide& side = learnt.side(spool_ratio > 0.0);
+    opening = opening_by_profile(side, opening);
+    band = std::max(band, kSpreads * opening_spread(side, opening));
+  }
+  return {std::max(0.0, opening - band), std::max(0.0, opening + band)};
 }
 
 double in_series(double first, double second) {
@@ -120,8 +127,9 @@ SpeedRange metered_in(const DriveRow& drive, const Way& way, const Opening& open
           (1.0 + kSupplyBand) * most_m3ps / way.fed_area_m2};
 }
 
-SpeedRange through_valve(const DriveRow& drive, const ValidDrive& seen, double engine_radps) {
-  const Opening opening = opening_of(drive, seen.spool_ratio);
+SpeedRange through_valve(const DriveRow& drive, const LearntValve& learnt, const ValidDrive& seen,
+                         double engine_radps) {
+  const Opening opening = opening_of(drive, learnt, seen.spool_ratio);
   if (opening.most == 0.0) {
     return {};
   }
@@ -137,11 +145,10 @@ SpeedRange through_valve(const DriveRow& drive, const ValidDrive& seen, double e
 
 }  // namespace
 
-bool has_edges(const DriveRow& drive) { return drive.supply.valve_flow_m3ps == 0.0; }
-
-SpeedRange possible_speed(const DriveRow& drive, const ValidDrive& seen, double engine_radps) {
+SpeedRange possible_speed(const DriveRow& drive, const LearntValve& learnt, const ValidDrive& seen,
+                          double engine_radps) {
   const double leak_mps = drive.watch.leak_mpspa * (seen.cap_pressure_pa - seen.rod_pressure_pa);
-  const SpeedRange open = through_valve(drive, seen, engine_radps);
+  const SpeedRange open = through_valve(drive, learnt, seen, engine_radps);
   return {open.least_mps - std::max(0.0, leak_mps), open.most_mps - std::min(0.0, leak_mps)};
 }
 

@@ -2,6 +2,7 @@
 /// What a drive can do at its measured opening and pressures.
 
 #include "firmware/drives/drive_validation.hpp"
+#include "firmware/drives/learnt_valve.hpp"
 
 namespace graben {
 
@@ -21,13 +22,11 @@ struct SpeedRange {
 ///
 /// Metered inlet (DriveSupply): the opening's flow, at least as far as the pump gives it.
 ///
-/// Openings are known within 12 % and 3.5 % of the spool's travel, drain and check within 33 %,
+/// Openings are known within 12 %, and as far as they are learnt, but no nearer than 3.5 % of the
+/// spool's travel; drain and check within 33 %,
 /// pressures within 1.2 MPa, a metered inlet within 20 %. The return line keeps up to 0.2 MPa. A
 /// motor may lose what it leaks (`leak_mpspa`) besides.
-[[nodiscard]] SpeedRange possible_speed(const DriveRow& drive, const ValidDrive& seen,
-                                        double engine_radps);
-
-/// Its valve's edges meter the flow; else the valve's inlet does, whatever the load.
-[[nodiscard]] bool has_edges(const DriveRow& drive);
+[[nodiscard]] SpeedRange possible_speed(const DriveRow& drive, const LearntValve& learnt,
+                                        const ValidDrive& seen, double engine_radps);
 
 }  // namespace graben

@@ -108,15 +108,15 @@ void compare(const ValidDrive& seen, double period_s, FlowState& state) {
   state.most_m = 0.0;
 }
 
-void follow(const DriveRow& drive, const ValidDrive& seen, double engine_radps, double period_s,
-            FlowState& state) {
+void follow(const DriveRow& drive, const ValidDrive& seen, const LearntValve& learnt,
+            double engine_radps, double period_s, FlowState& state) {
   if (has_edges(drive)) {
     compress(drive, seen, state);
   }
   ValidDrive calm = seen;
   calm.cap_pressure_pa = state.cap_pa;
   calm.rod_pressure_pa = state.rod_pa;
-  const SpeedRange now = possible_speed(drive, calm, engine_radps);
+  const SpeedRange now = possible_speed(drive, learnt, calm, engine_radps);
   state.least_m += period_s * std::min(now.least_mps, state.last.least_mps);
   state.most_m += period_s * std::max(now.most_mps, state.last.most_mps);
   state.last = now;
@@ -127,8 +127,8 @@ void follow(const DriveRow& drive, const ValidDrive& seen, double engine_radps, 
 
 }  // namespace
 
-FaultSet watch_flow(DriveRows drives, Span<const ValidDrive> seen, double engine_radps,
-                    double period_s, Span<FlowState> state) {
+FaultSet watch_flow(DriveRows drives, Span<const ValidDrive> seen, Span<const LearntValve> learnt,
+                    double engine_radps, double period_s, Span<FlowState> state) {
   FaultSet faults;
   for (int i = 0; i < drives.count(); ++i) {
     const DriveWatch& bounds = drives[i].watch;
@@ -141,7 +141,7 @@ FaultSet watch_flow(DriveRows drives, Span<const ValidDrive> seen, double engine
     } else if (!state[i].begun) {
       begin(seen[i], state[i]);
     } else {
-      follow(drives[i], seen[i], engine_radps, period_s, state[i]);
+      follow(drives[i], seen[i], learnt[i], engine_radps, period_s, state[i]);
     }
     if (std::max(state[i].extend_m, state[i].retract_m) > bounds.unseen_m) {
       faults.add(Fault::kStrokeStuck);

@@ -5,6 +5,7 @@
 #include "firmware/core/fault_set.hpp"
 #include "firmware/drives/drive_validation.hpp"
 #include "firmware/drives/flow_speed.hpp"
+#include "firmware/drives/learnt_valve.hpp"
 
 namespace graben {
 
@@ -36,6 +37,7 @@ struct FlowState {
 /// drift. Neither a drive without measured spool nor one whose pressures are not known, stand still
 /// to the last bit, step or are near their rail is checked.
 [[nodiscard]] FaultSet watch_flow(DriveRows drives, Span<const ValidDrive> seen,
-                                  double engine_radps, double period_s, Span<FlowState> state);
+                                  Span<const LearntValve> learnt, double engine_radps,
+                                  double period_s, Span<FlowState> state);
 
 }  // namespace graben

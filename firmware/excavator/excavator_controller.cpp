@@ -57,6 +57,7 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   const GateResult gated = gate_drives(drives(), decision.active(), followed.solution.point.spool_m,
                                        cycle.period_s, memory_.opening, outputs.duty_ratio);
   take_refusal(gated.fault, decision);
+  open_as_learnt(outputs);
   outputs.enable = gated.enable;
   demand_pumps(valid, motion, decision.active(), cycle.period_s);
   outputs.swash_ratio = memory_.pumps.swash_ratio;
@@ -250,7 +251,7 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
   const DriveVector asked_mps = followed * motion.cap.factor * motion.corrected_mps;
   memory_.lambda = decision.active() ? taken.lambda : 0.0;
   memory_.of_corrected = decision.active() ? taken.of_corrected : 1.0;
-  memory_.last = {in_motion(decision.mode.mode), outputs.enable, outputs.duty_ratio, {}, {},
+  memory_.last = {in_motion(decision.mode.mode), outputs.enable, outputs.duty_ratio, {}, {}, {},
                   memory_.last.line_pa};
   std::copy_n(asked_mps.data(), kDriveCount, memory_.last.asked_mps.begin());
   memory_.line_pa = point.pump_pressure_pa;
@@ -259,6 +260,7 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
     const double line_pa =
         point.pump_pressure_pa[static_cast<unsigned>(setup_.valve.actuator[k].pump)];
     memory_.last.towards_mps[k] = motion.towards_mps[i];
+    memory_.last.opening[k] = memory_.opening[k].value();
     if (point.lambda > 0.0) {
       memory_.last.line_pa[k] = line_pa;
     }

@@ -117,6 +117,8 @@ class ExcavatorController {
                       const DriveVector& wanted_mps, DriveVector& corrected_mps) const;
   /// Observer of the oil after the last cycle's command.
   void estimate_oil(const ExcavatorValid& valid, const KinematicState& now, EcuMode mode);
+  /// Duties for the valves as they turned out to be.
+  void open_as_learnt(ExcavatorOutputs& outputs) const;
   /// Duties that lead through the spools' lag. The watches know of those without: that is where
   /// the spools are to be.
   void lead_spools(ExcavatorOutputs& outputs);

@@ -75,6 +75,19 @@ void ExcavatorController::correct_on_oil(const ExcavatorValid& valid, const Kine
   }
 }
 
+void ExcavatorController::open_as_learnt(ExcavatorOutputs& outputs) const {
+  if (!on_oil(profile_)) {
+    return;
+  }
+  for (int i = 0; i < drives().count(); ++i) {
+    const auto k = static_cast<unsigned>(i);
+    if (outputs.duty_ratio[k] != 0.0) {
+      outputs.duty_ratio[k] =
+          learnt_duty(drives()[i], memory_.watch.drives.learnt[k], memory_.opening[k].value());
+    }
+  }
+}
+
 void ExcavatorController::lead_spools(ExcavatorOutputs& outputs) {
   if (!on_oil(profile_) || !outputs.enable) {
     memory_.spool = {};

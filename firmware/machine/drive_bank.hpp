@@ -86,6 +86,11 @@ struct DriveRow {
   DriveWatch watch;
 };
 
+/// Its valve's edges meter the flow; else the valve's inlet does, whatever the load.
+[[nodiscard]] inline bool has_edges(const DriveRow& drive) {
+  return drive.supply.valve_flow_m3ps == 0.0;
+}
+
 /// What `settle_s` stands for: a start that is late by three tenths of it, and then two lags of
 /// seven twentieths each. A steady rise the spool so follows by just that much later.
 inline constexpr double kLateShare = 0.3;

@@ -1,0 +1,145 @@
+#include "firmware/drives/learnt_valve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben {
+namespace {
+
+/// Standard deviations before anything is learnt, and bounds of what is believed.
+constexpr double kEdgeSpread = 0.03;
+constexpr double kBendSpread = 0.12;
+constexpr double kEdgeMost = 0.07;
+constexpr double kBendMost = 0.3;
+/// Their variances grow again by so much a second.
+constexpr double kEdgeDrift_ps = 1e-6;
+constexpr double kBendDrift_ps = 1e-5;
+/// What is compared is low-passed: openings and speeds of 25 cycles say as much as one would.
+constexpr double kFilter_s = 0.15;
+constexpr double kOpeningNoise = 0.1;
+constexpr double kSpeedNoise_mps = 0.02;
+constexpr double kLeastSpeed_mps = 0.010;
+constexpr double kLeastOpening = 0.02;
+/// A drive so much faster or slower than asked is not its valve's doing.
+constexpr double kMostRatio = 4.0;
+/// An opening that is farther from its low-pass changes too fast to be compared.
+constexpr double kSteady = 0.08;
+/// Until an opening and what is learnt at it agree.
+constexpr int kSteps = 4;
+
+/// About -o ln(o), which is the change of the opening by the exponent.
+double curve(double opening) { return 1.48 * opening * (1.0 - opening) / (opening + 0.48); }
+
+double signed_opening(const DriveRow& drive, double spool_ratio) {
+  const double edge = drive.spool_to_duty.y_first();
+  return std::copysign((std::abs(spool_ratio) - edge) / (1.0 - edge), spool_ratio);
+}
+
+void lag(const LearntSeen& newest, double lag_s, double period_s, LearntSeen& state) {
+  const double share = period_s / (period_s + lag_s);
+  state.asked_mps += share * (newest.asked_mps - state.asked_mps);
+  state.asked_opening += share * (newest.asked_opening - state.asked_opening);
+  state.opening += share * (newest.opening - state.opening);
+  state.speed_mps += share * (newest.speed_mps - state.speed_mps);
+}
+
+/// Kalman's correction by an opening `beyond` the profile's.
+void learn(double beyond, double opening, double variance, LearntSide& side) {
+  const double by_bend = curve(opening);
+  const double by_edge = 1.0 - opening;
+  const double of_edge = side.edge_variance * by_edge + side.covariance * by_bend;
+  const double of_bend = side.covariance * by_edge + side.bend_variance * by_bend;
+  const double total = by_edge * of_edge + by_bend * of_bend + variance;
+  const double missed = beyond - opening_beyond(side, opening);
+  side.edge = std::clamp(side.edge + of_edge / total * missed, -kEdgeMost, kEdgeMost);
+  side.bend = std::clamp(side.bend + of_bend / total * missed, -kBendMost, kBendMost);
+  side.edge_variance -= of_edge * of_edge / total;
+  side.covariance -= of_edge * of_bend / total;
+  side.bend_variance -= of_bend * of_bend / total;
+}
+
+void forget(double period_s, LearntSide& side) {
+  side.edge_variance =
+      std::min(side.edge_variance + period_s * kEdgeDrift_ps, kEdgeSpread * kEdgeSpread);
+  side.bend_variance =
+      std::min(side.bend_variance + period_s * kBendDrift_ps, kBendSpread * kBendSpread);
+}
+
+/// The low-passes to the side that is asked for, positive.
+LearntSeen along(const LearntSeen& seen, double way) {
+  return {way * seen.asked_mps, way * seen.asked_opening, way * seen.opening, way * seen.speed_mps};
+}
+
+bool may_be_compared(const LearntSeen& seen) {
+  return seen.asked_mps >= kLeastSpeed_mps && seen.asked_opening >= kLeastOpening &&
+         seen.opening >= 0.0 && seen.speed_mps * kMostRatio >= seen.asked_mps &&
+         seen.speed_mps <= kMostRatio * seen.asked_mps;
+}
+
+}  // namespace
+
+LearntSide::LearntSide()
+    : edge_variance(kEdgeSpread * kEdgeSpread), bend_variance(kBendSpread * kBendSpread) {}
+
+void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk& ask, bool usable,
+                 double period_s, LearntValve& valve) {
+  const double way_m = seen.stroke_m - valve.stroke_m;
+  valve.stroke_m = seen.stroke_m;
+  if (!usable || !has_edges(drive) || !(period_s > 0.0)) {
+    valve.late = {};
+    valve.seen = {};
+    return;
+  }
+  const double half_s = 0.5 * drive.control.response_s;
+  lag({ask.speed_mps, ask.opening, 0.0, 0.0}, half_s, period_s, valve.late[0]);
+  lag(valve.late[0], half_s, period_s, valve.late[1]);
+  const LearntSeen now{valve.late[1].asked_mps, valve.late[1].asked_opening,
+                       signed_opening(drive, seen.spool_ratio), way_m / period_s};
+  lag(now, kFilter_s, period_s, valve.seen);
+  const bool extends = valve.seen.asked_mps > 0.0;
+  LearntSide& side = extends ? valve.extend : valve.retract;
+  forget(period_s, side);
+  const bool steady = std::abs(now.asked_opening - valve.seen.asked_opening) < kSteady &&
+                      std::abs(now.opening - valve.seen.opening) < kSteady;
+  const LearntSeen mean = along(valve.seen, extends ? 1.0 : -1.0);
+  if (!steady || !may_be_compared(mean)) {
+    return;
+  }
+  const double share =
+      std::pow(mean.speed_mps / mean.asked_mps, 1.0 / drive.metering.opening_exponent);
+  const double by_profile = std::min(share * mean.asked_opening, 1.0);
+  const double by_speed = by_profile * kSpeedNoise_mps / mean.speed_mps;
+  learn(mean.opening - by_profile, by_profile, kOpeningNoise * kOpeningNoise + by_speed * by_speed,
+        side);
+}
+
+double opening_beyond(const LearntSide& side, double opening) {
+  return side.edge * (1.0 - opening) + side.bend * curve(opening);
+}
+
+double opening_spread(const LearntSide& side, double opening) {
+  const double by_edge = 1.0 - opening;
+  const double by_bend = curve(opening);
+  return std::sqrt(std::max(0.0, by_edge * by_edge * side.edge_variance +
+                                     2.0 * by_edge * by_bend * side.covariance +
+                                     by_bend * by_bend * side.bend_variance));
+}
+
+double learnt_duty(const DriveRow& drive, const LearntValve& valve, double opening) {
+  const double wanted = std::abs(opening);
+  const double real = wanted + opening_beyond(valve.side(opening > 0.0), wanted);
+  const double edge = drive.spool_to_duty.y_first();
+  // Under the profile's edge its table ends; the dead band is in travel, as the duty is.
+  const double duty = real >= 0.0 ? drive.spool_to_duty.at(real) : edge + real * (1.0 - edge);
+  return std::copysign(std::clamp(duty, 0.0, 1.0), opening);
+}
+
+double opening_by_profile(const LearntSide& side, double opening) {
+  double by_profile = opening;
+  for (int n = 0; n < kSteps; ++n) {
+    by_profile = opening - opening_beyond(side, std::clamp(by_profile, 0.0, 1.0));
+  }
+  return by_profile;
+}
+
+}  // namespace graben

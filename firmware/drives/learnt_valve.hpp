@@ -1,0 +1,73 @@
+#pragma once
+/// What a drive's valve turns out to be: where its dead band ends on each side and how it opens,
+/// learnt from spool and stroke while the drive works, within bounds, and kept as long as the
+/// process runs.
+///
+/// Opening: |x| / x_m outside the dead band, 0 .. 1. The real valve needs an opening `beyond` the
+/// profile's for the same speed: edge * (1 - o) + bend * curve(o). The first is a dead band that
+/// ends elsewhere; the curve, about -o ln(o), is another exponent. What else the profile's flow is
+/// off (areas, pumps, pressures) is learnt with them, as an opening.
+
+#include <array>
+
+#include "firmware/drives/drive_validation.hpp"
+
+namespace graben {
+
+/// Of one side: edge and bend, and how far they may be off. As constructed only the profile is
+/// known: dead band within 2.4 % of the travel, exponent within 12 % (standard deviations).
+struct LearntSide {
+  double edge = 0.0;
+  double bend = 0.0;
+  double edge_variance;
+  double covariance = 0.0;
+  double bend_variance;
+
+  LearntSide();
+};
+
+/// What is compared; signed, extension is positive.
+struct LearntSeen {
+  double asked_mps = 0.0;
+  double asked_opening = 0.0;  ///< By the profile.
+  double opening = 0.0;        ///< Where the spool is.
+  double speed_mps = 0.0;
+};
+
+/// State of one drive from cycle to cycle.
+struct LearntValve {
+  LearntSide extend;
+  LearntSide retract;
+  std::array<LearntSeen, 2> late;  ///< A command on its way to the drive's speed.
+  LearntSeen seen;                 ///< Low-passed.
+  double stroke_m = 0.0;
+
+  [[nodiscard]] const LearntSide& side(bool extends) const { return extends ? extend : retract; }
+};
+
+/// Of the last cycle.
+struct LearntAsk {
+  double speed_mps = 0.0;  ///< For which the valve was opened ...
+  double opening = 0.0;    ///< ... so far, by the profile; signed.
+};
+
+/// A cycle on. Nothing is learnt unless `usable` (the drive is in motion and its load does not hold
+/// it), where the opening changes fast, is nearly closed, or the speed is not at least a quarter
+/// and at most four times what is asked; nor of a valve whose inlet meters the flow.
+void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk& ask, bool usable,
+                 double period_s, LearntValve& valve);
+
+/// What the real valve needs beyond the profile's opening.
+[[nodiscard]] double opening_beyond(const LearntSide& side, double opening);
+
+/// Standard deviation of that.
+[[nodiscard]] double opening_spread(const LearntSide& side, double opening);
+
+/// Signed duty, -1 .. 1, at which the real valve does what the profile's would at this opening.
+[[nodiscard]] double learnt_duty(const DriveRow& drive, const LearntValve& valve, double opening);
+
+/// The profile's opening at which its valve does what the real one does at this one; below 0 in the
+/// dead band.
+[[nodiscard]] double opening_by_profile(const LearntSide& side, double opening);
+
+}  // namespace graben
