@@ -10,7 +10,7 @@ namespace {
 constexpr double kTravelBand = 0.035;
 constexpr double kAreaBand = 0.12;
 /// Standard deviations of what is learnt.
-constexpr double kSpreads = 3.0;
+constexpr double kSpreads = 2.75;
 constexpr double kGalleryBand = 0.33;
 /// Of a pressure's zero.
 constexpr double kZero_pa = 1.2e6;
