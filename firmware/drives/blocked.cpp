@@ -22,11 +22,13 @@ constexpr double kKnown_s = 0.2;
 constexpr double kEase_s = 0.3;
 /// Of the relief's pressure.
 constexpr double kHard = 0.85;
-constexpr double kLetOff = 0.6;
-constexpr double kPushes_s = 0.5;
+constexpr double kLetOff = 0.75;
+constexpr double kPushes_s = 0.1;
 constexpr double kLetsOff_s = 1.0;  ///< At most.
 constexpr double kRests_s = 1.5;
 constexpr double kLetsOff_mps = 0.03;
+constexpr double kWary_s = 6.0;
+constexpr double kPast_m = 0.02;
 constexpr double kGaveWay_m = 0.005;
 
 int sign_of(double value) { return value > 0.0 ? 1 : (value < 0.0 ? -1 : 0); }
@@ -55,6 +57,8 @@ void begin(int way, BlockedState& state) {
   begun.stroke_m = state.stroke_m;
   begun.less = state.less;
   begun.last_side = state.last_side;
+  begun.wary_s = state.wary_s;
+  begun.held_at_m = state.held_at_m;
   state = begun;
 }
 
@@ -93,6 +97,7 @@ void follow(const DriveRow& drive, const ValidDrive& seen, double asked_mps, dou
   if (state.side == 0 && state.stood_s >= kKnown_s) {
     state.side = state.way;
     state.last_side = state.way;
+    state.wary_s = kWary_s;
     state.held_at_m = seen.stroke_m;
     go_on(Easing::kPushes, state);
   }
@@ -120,6 +125,9 @@ void next_blocked(DriveRows drives, Span<const ValidDrive> seen, const BlockedAs
       follow(drives[i], seen[i], ask.asked_mps[i], ask.line_pa[i], period_s, drive);
     }
     drive.stroke_m = seen[i].stroke_m;
+    const bool past = drive.last_side * (seen[i].stroke_m - drive.held_at_m) > kPast_m;
+    const double passed_s = drive.side == 0 ? period_s : 0.0;
+    drive.wary_s = past ? 0.0 : std::max(0.0, drive.wary_s - passed_s);
     const double step = period_s / kEase_s;
     drive.less = std::clamp(drive.less + (drive.side != 0 ? step : -step), 0.0, 1.0);
   }
@@ -135,6 +143,17 @@ double eased_mps(const BlockedState& state, double wanted_mps, double corrected_
   const double over_mps = corrected_mps - most_mps;
   return side * over_mps > 0.0 ? corrected_mps - (rests ? 1.0 : state.less) * over_mps
                                : corrected_mps;
+}
+
+bool any_eases(Span<const BlockedState> state) {
+  return std::any_of(state.begin(), state.end(), [](const BlockedState& drive) {
+    return drive.side != 0 && drive.easing != Easing::kPushes;
+  });
+}
+
+bool any_wary(Span<const BlockedState> state) {
+  return std::any_of(state.begin(), state.end(),
+                     [](const BlockedState& drive) { return drive.wary_s > 0.0; });
 }
 
 bool any_blocked(Span<const BlockedState> state) {

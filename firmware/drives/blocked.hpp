@@ -22,6 +22,7 @@ struct BlockedState {
   double less = 0.0;       ///< 0 .. 1: share of the feedback that is left away.
   int side = 0;            ///< To which it is blocked; 0: it is not.
   int last_side = 0;       ///< To which it is, or was last.
+  double wary_s = 0.0;     ///< That its load may yet give way.
   /// The fed side has most of what its pump can give, as it has where hardly any oil flows.
   bool strains = false;
   Easing easing = Easing::kPushes;
@@ -39,10 +40,10 @@ struct BlockedAsk {
 /// asked. No longer: half of that speed, less than 0.7 of these, or it is to go to the other side.
 /// A drive whose pressures or whose relief are not known is never blocked.
 ///
-/// Oil at a pump's relief is a spring that throws the tool when its load gives way. Blocked for
-/// half a second at 0.85 of the relief's pressure and more, a drive lets off to 0.6 of it, rests
-/// for 1.5 s, and pushes again. While it does so it is no longer blocked only when it has gone 5
-/// mm.
+/// Oil at a pump's relief is a spring that throws the tool when its load gives way. Blocked for a
+/// tenth of a second at 0.85 of the relief's pressure and more, a drive lets off to 0.75 of it,
+/// rests for 1.5 s, and pushes again. While it does so it is no longer blocked only when it has
+/// gone 5 mm.
 void next_blocked(DriveRows drives, Span<const ValidDrive> seen, const BlockedAsk& ask,
                   double period_s, Span<BlockedState> state);
 
@@ -50,6 +51,13 @@ void next_blocked(DriveRows drives, Span<const ValidDrive> seen, const BlockedAs
 /// more than is wanted without feedback, eased in within 0.3 s and out again after it; backwards
 /// slowly while it lets off; nothing while it rests.
 [[nodiscard]] double eased_mps(const BlockedState& state, double wanted_mps, double corrected_mps);
+
+/// Some drive lets its pressure off or rests: all others are to stand.
+[[nodiscard]] bool any_eases(Span<const BlockedState> state);
+
+/// Some drive is blocked, or was within the last 6 s and has not come 20 mm past the place: slower,
+/// so that the load's giving way throws little.
+[[nodiscard]] bool any_wary(Span<const BlockedState> state);
 
 [[nodiscard]] bool any_blocked(Span<const BlockedState> state);
 

@@ -17,6 +17,9 @@ FaultSet task_faults(const ExcavatorValid& valid, int program_count) {
   return faults;
 }
 
+/// Of the path's speed, where a load has held a drive of late.
+constexpr double kWary = 0.5;
+
 /// A plan that is followed at less than this share of its pace waits.
 constexpr double kWaits = 0.5;
 
@@ -148,6 +151,9 @@ void ExcavatorController::dig(const ExcavatorValid& valid, const KinematicState&
     motion.wanted_mps.head<kAxisCount>() = setup_.field.wanted(
         then.status == ReachStatus::kOk ? then : now, valid.speed_override_ratio);
   }
+  if (any_wary(memory_.watch.drives.blocked)) {
+    motion.wanted_mps *= kWary;
+  }
   motion.corrected_mps = corrected_velocity(drives(), motion.wanted_mps, memory_.servo,
                                             memory_.lambda.value(), valid.speed_override_ratio);
   correct_on_oil(valid, now, motion.wanted_mps, motion.corrected_mps);
@@ -180,6 +186,10 @@ void ExcavatorController::follow(const TaskProgram& program, const TaskAim& aim,
 
 void ExcavatorController::ease_blocked(Motion& motion) const {
   motion.towards_mps = motion.corrected_mps;
+  motion.eases = any_eases(memory_.watch.drives.blocked);
+  if (motion.eases) {
+    motion.corrected_mps.setZero();
+  }
   for (int i = 0; i < drives().count(); ++i) {
     motion.corrected_mps[i] = eased_mps(memory_.watch.drives.blocked[static_cast<unsigned>(i)],
                                         motion.wanted_mps[i], motion.corrected_mps[i]);
@@ -201,9 +211,10 @@ ExcavatorController::Followed ExcavatorController::flow_limited(const ExcavatorV
                                   memory_.lambda.value(), period_s)};
   followed.lambda = followed.solution.point.lambda;
   const double of_path = followed.lambda;
-  if (of_path > 0.0) {
+  followed.eases = motion.eases;
+  if (of_path > 0.0 || motion.eases) {
     const Limit path_limit = followed.solution.limit;
-    scale_to(of_path * motion.cap.factor, motion.corrected_mps);
+    scale_to((motion.eases ? 1.0 : of_path) * motion.cap.factor, motion.corrected_mps);
     const double most =
         std::min(memory_.of_corrected + control.lambda_rise.rate_ps * period_s, 1.0);
     followed.solution = solve_mcv(setup_.valve, input, control.lambda_policy, {most});
@@ -220,7 +231,7 @@ void ExcavatorController::demand_pumps(const ExcavatorValid& valid, const Motion
   next_pump_demand(
       profile_, setup_.valve,
       {mcv_input(span_of(motion.wanted_mps), memory_.load, valid.pump_flow_m3ps), memory_.line_pa,
-       valid.engine_radps, active, any_blocked(memory_.watch.drives.blocked)},
+       valid.engine_radps, active, any_wary(memory_.watch.drives.blocked)},
       period_s, memory_.pumps);
 }
 

@@ -62,6 +62,7 @@ class ExcavatorController {
     double off_m = 0.0;  ///< What the tube is laid around.
     TaskWant task;       ///< Of a program.
     Fault fault = Fault::kNone;
+    bool eases = false;  ///< A blocked drive's pressure is let off or rests; all others stand.
   };
 
   /// What the pumps' flow leaves of a motion. The path alone decides how fast it is followed, with
@@ -72,7 +73,9 @@ class ExcavatorController {
     double lambda = 0.0;        ///< Of the motion without them.
     double of_corrected = 0.0;  ///< Share of that, with them.
 
-    [[nodiscard]] double all() const { return lambda * of_corrected; }
+    bool eases = false;  ///< Of the motion; then the path has no share in it.
+
+    [[nodiscard]] double all() const { return (eases ? 1.0 : lambda) * of_corrected; }
   };
 
   struct Memory {
