@@ -9,6 +9,10 @@ namespace {
 /// Of both sides' zeros together.
 constexpr double kZero_pa = 1.2e6;
 
+/// Of the spool's travel: where its dead band ends is known no better. Nearer to its edge a spool
+/// may be closed, and what its drive does then is not its doing.
+constexpr double kEdgeBand = 0.03;
+
 /// A drive that shakes on soft oil has gone with its spool before it swings back: so many bounds.
 constexpr double kCredit = 4.0;
 
@@ -17,6 +21,12 @@ int side_of(const DriveRow& drive, double spool_ratio) {
     return 0;
   }
   return spool_ratio > 0.0 ? 1 : -1;
+}
+
+/// For certain; a motor's platform is at rest where its spool is closed, whatever holds it.
+bool is_open(const DriveRow& drive, double spool_ratio) {
+  const double band = drive.control.has_end_stops && !drive.control.holds_itself ? kEdgeBand : 0.0;
+  return std::abs(spool_ratio) > drive.spool_to_duty.y_first() + band;
 }
 
 /// Its own oil pushes it against its spool.
@@ -40,7 +50,7 @@ void follow(const DriveRow& drive, const ValidDrive& seen, DirectionState& state
   state.turned = state.turned || with_m >= 0.0;
   if (with_m > 0.0) {
     state.wrong_m = std::max(-kCredit * drive.watch.wrong_m, state.wrong_m - with_m);
-  } else if (state.turned && pushed_back(drive, seen, side)) {
+  } else if (state.turned && is_open(drive, seen.spool_ratio) && pushed_back(drive, seen, side)) {
     state.wrong_m -= with_m;
   }
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "firmware/excavator/excavator_controller.hpp"
 
@@ -67,10 +68,12 @@ void ExcavatorController::correct_on_oil(const ExcavatorValid& valid, const Kine
       off_path_m(setup_.field.path(), now) + memory_.oil.travel_m - now.strokes_m.head<2>();
   const Eigen::Vector2d correction_mps =
       oil_correction_mps(setup_.oil, memory_.modes, memory_.oil, off_m);
+  // The oil swings as fast on a slow path; the operator's word still bounds what is asked of it.
+  const double authority = std::sqrt(valid.speed_override_ratio);
   for (int axis = 0; axis < 2; ++axis) {
-    const double on_oil_mps = corrected_by(
-        drives()[axis], memory_.servo.drive[static_cast<unsigned>(axis)], wanted_mps[axis],
-        valid.speed_override_ratio * correction_mps[axis], memory_.lambda.value());
+    const double on_oil_mps =
+        corrected_by(drives()[axis], memory_.servo.drive[static_cast<unsigned>(axis)],
+                     wanted_mps[axis], authority * correction_mps[axis], memory_.lambda.value());
     corrected_mps[axis] += weight * (on_oil_mps - corrected_mps[axis]);
   }
 }
