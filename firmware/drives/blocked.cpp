@@ -74,6 +74,7 @@ void ease_pressure(double relief_pa, double period_s, BlockedState& state) {
     case Easing::kPushes:
       if (state.for_s >= kPushes_s && state.inlet_pa >= kHard * relief_pa) {
         go_on(Easing::kLetsOff, state);
+        state.wary_s = kWary_s;
       }
       return;
     case Easing::kLetsOff:
@@ -97,7 +98,6 @@ void follow(const DriveRow& drive, const ValidDrive& seen, double asked_mps, dou
   if (state.side == 0 && state.stood_s >= kKnown_s) {
     state.side = state.way;
     state.last_side = state.way;
-    state.wary_s = kWary_s;
     state.held_at_m = seen.stroke_m;
     go_on(Easing::kPushes, state);
   }

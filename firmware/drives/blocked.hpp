@@ -55,8 +55,8 @@ void next_blocked(DriveRows drives, Span<const ValidDrive> seen, const BlockedAs
 /// Some drive lets its pressure off or rests: all others are to stand.
 [[nodiscard]] bool any_eases(Span<const BlockedState> state);
 
-/// Some drive is blocked, or was within the last 6 s and has not come 20 mm past the place: slower,
-/// so that the load's giving way throws little.
+/// Some drive had to let its pressure off within the last 6 s and has not come 20 mm past the
+/// place: slower, so that the load's giving way throws little.
 [[nodiscard]] bool any_wary(Span<const BlockedState> state);
 
 [[nodiscard]] bool any_blocked(Span<const BlockedState> state);

@@ -23,9 +23,9 @@ int side_of(const DriveRow& drive, double spool_ratio) {
   return spool_ratio > 0.0 ? 1 : -1;
 }
 
-/// For certain; a motor's platform is at rest where its spool is closed, whatever holds it.
+/// For certain. A motor's load does not push through a closed spool.
 bool is_open(const DriveRow& drive, double spool_ratio) {
-  const double band = drive.control.has_end_stops && !drive.control.holds_itself ? kEdgeBand : 0.0;
+  const double band = drive.control.has_end_stops ? kEdgeBand : 0.0;
   return std::abs(spool_ratio) > drive.spool_to_duty.y_first() + band;
 }
 

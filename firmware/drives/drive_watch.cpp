@@ -26,7 +26,7 @@ FaultSet watch_moving(DriveRows drives, const DriveCommands& last, Span<const Va
 
 void learn_valves(DriveRows drives, const DriveCommands& last, Span<const ValidDrive> seen,
                   bool moving, double period_s, DriveWatchView state) {
-  for (int i = 0; i < drives.count(); ++i) {
+  for (int i = 0; i < std::min(drives.count(), state.learnt.count()); ++i) {
     const BlockedState& blocked = state.blocked[i];
     const bool free = blocked.side == 0 && blocked.less == 0.0 && !blocked.strains;
     next_learnt(drives[i], seen[i], {last.ask.asked_mps[i], last.opening[i]}, moving && free,

@@ -48,15 +48,15 @@ struct DriveCommands {
   Span<const double> opening;
 };
 
-/// State of the watches of a bank from cycle to cycle.
-template <int kMost>
+/// State of the watches of a bank from cycle to cycle; its valves are learnt, or none is.
+template <int kMost, int kLearnt = kMost>
 struct DriveWatchState {
   std::array<SpoolState, kMost> spool;
   std::array<BlockedState, kMost> blocked{};
   std::array<MotionState, kMost> motion{};
   std::array<DirectionState, kMost> direction{};
   std::array<FlowState, kMost> flow{};
-  std::array<LearntValve, kMost> learnt;  ///< Kept when the machine stands.
+  std::array<LearntValve, kLearnt> learnt;  ///< Kept when the machine stands.
   std::array<PressurePair, kMost> pressure{};
   int echo_cycles = 0;   ///< In a row, that the echo has differed.
   bool closing = false;  ///< It was in motion, and some spool has not been in its middle since.
@@ -64,9 +64,9 @@ struct DriveWatchState {
 
 /// The same of any bank.
 struct DriveWatchView {
-  template <int kMost>
+  template <int kMost, int kLearnt>
   // NOLINTNEXTLINE(google-explicit-constructor): a view of it.
-  DriveWatchView(DriveWatchState<kMost>& state)
+  DriveWatchView(DriveWatchState<kMost, kLearnt>& state)
       : spool(state.spool),
         blocked(state.blocked),
         motion(state.motion),

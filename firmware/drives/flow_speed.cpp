@@ -24,12 +24,12 @@ struct Opening {
   double most = 0.0;
 };
 
-Opening opening_of(const DriveRow& drive, const LearntValve& learnt, double spool_ratio) {
+Opening opening_of(const DriveRow& drive, const LearntValve* learnt, double spool_ratio) {
   const double edge = drive.spool_to_duty.y_first();
   double opening = (std::abs(spool_ratio) - edge) / (1.0 - edge);
   double band = kTravelBand / (1.0 - edge);
-  if (has_edges(drive)) {
-    const LearntSide& side = learnt.side(spool_ratio > 0.0);
+  if (has_edges(drive) && learnt != nullptr) {
+    const LearntSide& side = learnt->side(spool_ratio > 0.0);
     opening = opening_by_profile(side, opening);
     band = std::max(band, kSpreads * opening_spread(side, opening));
   }
@@ -127,7 +127,7 @@ SpeedRange metered_in(const DriveRow& drive, const Way& way, const Opening& open
           (1.0 + kSupplyBand) * most_m3ps / way.fed_area_m2};
 }
 
-SpeedRange through_valve(const DriveRow& drive, const LearntValve& learnt, const ValidDrive& seen,
+SpeedRange through_valve(const DriveRow& drive, const LearntValve* learnt, const ValidDrive& seen,
                          double engine_radps) {
   const Opening opening = opening_of(drive, learnt, seen.spool_ratio);
   if (opening.most == 0.0) {
@@ -145,7 +145,7 @@ SpeedRange through_valve(const DriveRow& drive, const LearntValve& learnt, const
 
 }  // namespace
 
-SpeedRange possible_speed(const DriveRow& drive, const LearntValve& learnt, const ValidDrive& seen,
+SpeedRange possible_speed(const DriveRow& drive, const LearntValve* learnt, const ValidDrive& seen,
                           double engine_radps) {
   const double leak_mps = drive.watch.leak_mpspa * (seen.cap_pressure_pa - seen.rod_pressure_pa);
   const SpeedRange open = through_valve(drive, learnt, seen, engine_radps);

@@ -26,7 +26,8 @@ struct SpeedRange {
 /// spool's travel; drain and check within 33 %,
 /// pressures within 1.2 MPa, a metered inlet within 20 %. The return line keeps up to 0.2 MPa. A
 /// motor may lose what it leaks (`leak_mpspa`) besides.
-[[nodiscard]] SpeedRange possible_speed(const DriveRow& drive, const LearntValve& learnt,
+/// `learnt`: null where the valve is not learnt; of a metered inlet it is not looked at.
+[[nodiscard]] SpeedRange possible_speed(const DriveRow& drive, const LearntValve* learnt,
                                         const ValidDrive& seen, double engine_radps);
 
 }  // namespace graben

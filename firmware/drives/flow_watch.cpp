@@ -108,7 +108,7 @@ void compare(const ValidDrive& seen, double period_s, FlowState& state) {
   state.most_m = 0.0;
 }
 
-void follow(const DriveRow& drive, const ValidDrive& seen, const LearntValve& learnt,
+void follow(const DriveRow& drive, const ValidDrive& seen, const LearntValve* learnt,
             double engine_radps, double period_s, FlowState& state) {
   if (has_edges(drive)) {
     compress(drive, seen, state);
@@ -141,7 +141,8 @@ FaultSet watch_flow(DriveRows drives, Span<const ValidDrive> seen, Span<const Le
     } else if (!state[i].begun) {
       begin(seen[i], state[i]);
     } else {
-      follow(drives[i], seen[i], learnt[i], engine_radps, period_s, state[i]);
+      follow(drives[i], seen[i], i < learnt.count() ? &learnt[i] : nullptr, engine_radps, period_s,
+             state[i]);
     }
     if (std::max(state[i].extend_m, state[i].retract_m) > bounds.unseen_m) {
       faults.add(Fault::kStrokeStuck);

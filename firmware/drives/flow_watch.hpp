@@ -35,7 +35,7 @@ struct FlowState {
 /// Travel that the oil's and the hoses' stiffness (0.6 to 2 GPa) gives or takes is counted in. What
 /// is within the bounds wears the difference off, and 10 s are its time constant: leakage is no
 /// drift. Neither a drive without measured spool nor one whose pressures are not known, stand still
-/// to the last bit, step or are near their rail is checked.
+/// to the last bit, step or are near their rail is checked. `learnt` is empty where no valve is.
 [[nodiscard]] FaultSet watch_flow(DriveRows drives, Span<const ValidDrive> seen,
                                   Span<const LearntValve> learnt, double engine_radps,
                                   double period_s, Span<FlowState> state);

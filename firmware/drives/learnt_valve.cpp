@@ -8,7 +8,7 @@ namespace {
 
 /// Standard deviations before anything is learnt, and bounds of what is believed.
 constexpr double kEdgeSpread = 0.03;
-constexpr double kBendSpread = 0.12;
+constexpr double kBendSpread = 0.09;
 constexpr double kEdgeMost = 0.07;
 constexpr double kBendMost = 0.3;
 /// Their variances grow again by so much a second.
@@ -35,10 +35,15 @@ double signed_opening(const DriveRow& drive, double spool_ratio) {
   return std::copysign((std::abs(spool_ratio) - edge) / (1.0 - edge), spool_ratio);
 }
 
-void lag(const LearntSeen& newest, double lag_s, double period_s, LearntSeen& state) {
-  const double share = period_s / (period_s + lag_s);
-  state.asked_mps += share * (newest.asked_mps - state.asked_mps);
-  state.asked_opening += share * (newest.asked_opening - state.asked_opening);
+double newest_share(double lag_s, double period_s) { return period_s / (period_s + lag_s); }
+
+void lag(const LearntAsk& newest, double share, LearntAsk& state) {
+  state.speed_mps += share * (newest.speed_mps - state.speed_mps);
+  state.opening += share * (newest.opening - state.opening);
+}
+
+void lag(const LearntSeen& newest, double share, LearntSeen& state) {
+  lag(newest.asked, share, state.asked);
   state.opening += share * (newest.opening - state.opening);
   state.speed_mps += share * (newest.speed_mps - state.speed_mps);
 }
@@ -67,13 +72,16 @@ void forget(double period_s, LearntSide& side) {
 
 /// The low-passes to the side that is asked for, positive.
 LearntSeen along(const LearntSeen& seen, double way) {
-  return {way * seen.asked_mps, way * seen.asked_opening, way * seen.opening, way * seen.speed_mps};
+  return {{way * seen.asked.speed_mps, way * seen.asked.opening},
+          way * seen.opening,
+          way * seen.speed_mps};
 }
 
 bool may_be_compared(const LearntSeen& seen) {
-  return seen.asked_mps >= kLeastSpeed_mps && seen.asked_opening >= kLeastOpening &&
-         seen.opening >= 0.0 && seen.speed_mps * kMostRatio >= seen.asked_mps &&
-         seen.speed_mps <= kMostRatio * seen.asked_mps;
+  const double asked_mps = seen.asked.speed_mps;
+  return asked_mps >= kLeastSpeed_mps && seen.asked.opening >= kLeastOpening &&
+         seen.opening >= 0.0 && seen.speed_mps * kMostRatio >= asked_mps &&
+         seen.speed_mps <= kMostRatio * asked_mps;
 }
 
 }  // namespace
@@ -90,24 +98,23 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
     valve.seen = {};
     return;
   }
-  const double half_s = 0.5 * drive.control.response_s;
-  lag({ask.speed_mps, ask.opening, 0.0, 0.0}, half_s, period_s, valve.late[0]);
-  lag(valve.late[0], half_s, period_s, valve.late[1]);
-  const LearntSeen now{valve.late[1].asked_mps, valve.late[1].asked_opening,
-                       signed_opening(drive, seen.spool_ratio), way_m / period_s};
-  lag(now, kFilter_s, period_s, valve.seen);
-  const bool extends = valve.seen.asked_mps > 0.0;
+  const double late = newest_share(0.5 * drive.control.response_s, period_s);
+  lag(ask, late, valve.late[0]);
+  lag(valve.late[0], late, valve.late[1]);
+  const LearntSeen now{valve.late[1], signed_opening(drive, seen.spool_ratio), way_m / period_s};
+  lag(now, newest_share(kFilter_s, period_s), valve.seen);
+  const bool extends = valve.seen.asked.speed_mps > 0.0;
   LearntSide& side = extends ? valve.extend : valve.retract;
   forget(period_s, side);
-  const bool steady = std::abs(now.asked_opening - valve.seen.asked_opening) < kSteady &&
+  const bool steady = std::abs(now.asked.opening - valve.seen.asked.opening) < kSteady &&
                       std::abs(now.opening - valve.seen.opening) < kSteady;
   const LearntSeen mean = along(valve.seen, extends ? 1.0 : -1.0);
   if (!steady || !may_be_compared(mean)) {
     return;
   }
   const double share =
-      std::pow(mean.speed_mps / mean.asked_mps, 1.0 / drive.metering.opening_exponent);
-  const double by_profile = std::min(share * mean.asked_opening, 1.0);
+      std::pow(mean.speed_mps / mean.asked.speed_mps, 1.0 / drive.metering.opening_exponent);
+  const double by_profile = std::min(share * mean.asked.opening, 1.0);
   const double by_speed = by_profile * kSpeedNoise_mps / mean.speed_mps;
   learn(mean.opening - by_profile, by_profile, kOpeningNoise * kOpeningNoise + by_speed * by_speed,
         side);

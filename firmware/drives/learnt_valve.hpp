@@ -15,7 +15,7 @@
 namespace graben {
 
 /// Of one side: edge and bend, and how far they may be off. As constructed only the profile is
-/// known: dead band within 2.4 % of the travel, exponent within 12 % (standard deviations).
+/// known: dead band within 2.4 % of the travel, exponent within 9 % (standard deviations).
 struct LearntSide {
   double edge = 0.0;
   double bend = 0.0;
@@ -26,11 +26,16 @@ struct LearntSide {
   LearntSide();
 };
 
-/// What is compared; signed, extension is positive.
+/// Of the last cycle; signed, extension is positive.
+struct LearntAsk {
+  double speed_mps = 0.0;  ///< For which the valve was opened ...
+  double opening = 0.0;    ///< ... so far, by the profile.
+};
+
+/// What is compared.
 struct LearntSeen {
-  double asked_mps = 0.0;
-  double asked_opening = 0.0;  ///< By the profile.
-  double opening = 0.0;        ///< Where the spool is.
+  LearntAsk asked;
+  double opening = 0.0;  ///< Where the spool is.
   double speed_mps = 0.0;
 };
 
@@ -38,17 +43,11 @@ struct LearntSeen {
 struct LearntValve {
   LearntSide extend;
   LearntSide retract;
-  std::array<LearntSeen, 2> late;  ///< A command on its way to the drive's speed.
-  LearntSeen seen;                 ///< Low-passed.
+  std::array<LearntAsk, 2> late;  ///< A command on its way to the drive's speed.
+  LearntSeen seen;                ///< Low-passed.
   double stroke_m = 0.0;
 
   [[nodiscard]] const LearntSide& side(bool extends) const { return extends ? extend : retract; }
-};
-
-/// Of the last cycle.
-struct LearntAsk {
-  double speed_mps = 0.0;  ///< For which the valve was opened ...
-  double opening = 0.0;    ///< ... so far, by the profile; signed.
 };
 
 /// A cycle on. Nothing is learnt unless `usable` (the drive is in motion and its load does not hold

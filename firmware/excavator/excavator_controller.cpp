@@ -51,7 +51,8 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   estimate(valid, aim, cycle);
   const KinematicState now = setup_.kinematics.planar().state(valid.strokes_m().head<kAxisCount>());
   estimate_oil(valid, now, cycle.last_mode);
-  const Motion motion = wanted_motion(valid, now, program, aim, cycle.period_s);
+  Motion motion = wanted_motion(valid, now, program, aim, cycle.period_s);
+  park_spools(valid, cycle.period_s, motion);
   const Followed followed = flow_limited(valid, motion, cycle.period_s);
   ModeDecision decision = decide_mode(
       memory_.cycle, cycle, valid, first_of({motion.fault, solver_fault(followed.solution)}),
@@ -60,8 +61,8 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   const GateResult gated = gate_drives(drives(), decision.active(), followed.solution.point.spool_m,
                                        cycle.period_s, memory_.opening, outputs.duty_ratio);
   take_refusal(gated.fault, decision);
-  open_as_learnt(outputs);
   outputs.enable = gated.enable;
+  open_as_learnt(outputs);
   demand_pumps(valid, motion, decision.active(), cycle.period_s);
   outputs.swash_ratio = memory_.pumps.swash_ratio;
   end_cycle(decision, valid, memory_.cycle, outputs, outputs.status);
@@ -231,7 +232,8 @@ void ExcavatorController::demand_pumps(const ExcavatorValid& valid, const Motion
   next_pump_demand(
       profile_, setup_.valve,
       {mcv_input(span_of(motion.wanted_mps), memory_.load, valid.pump_flow_m3ps), memory_.line_pa,
-       valid.engine_radps, active, any_wary(memory_.watch.drives.blocked)},
+       valid.engine_radps, active,
+       any_blocked(memory_.watch.drives.blocked) || any_wary(memory_.watch.drives.blocked)},
       period_s, memory_.pumps);
 }
 
@@ -239,8 +241,8 @@ void ExcavatorController::describe_motion(const Motion& motion, const Followed& 
                                           const FaultSet& degraded, ExcavatorStatus& status) const {
   const McvSolution& solution = taken.solution;
   const bool waits = motion.task.pace_ratio < kWaits;
-  const bool rises = solution.status == SolveStatus::kOk && taken.all() < 1.0;
-  status.lambda = motion.cap.factor * taken.all();
+  const bool rises = solution.status == SolveStatus::kOk && taken.of_way() < 1.0;
+  status.lambda = motion.cap.factor * taken.of_way();
   status.limit = held_by({blocked_limit(memory_.watch.drives.blocked),
                           solution.limit,
                           motion.cap.limit,
@@ -258,8 +260,9 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
                                    const Followed& taken, const ModeDecision& decision,
                                    const ExcavatorOutputs& outputs, double period_s) {
   const McvPoint& point = taken.solution.point;
-  const double followed = decision.active() ? taken.all() : 0.0;
-  const DriveVector asked_mps = followed * motion.cap.factor * motion.corrected_mps;
+  const double followed = decision.active() ? taken.of_way() : 0.0;
+  const double asked = decision.active() ? taken.all() : 0.0;
+  const DriveVector asked_mps = asked * motion.cap.factor * motion.corrected_mps;
   memory_.lambda = decision.active() ? taken.lambda : 0.0;
   memory_.of_corrected = decision.active() ? taken.of_corrected : 1.0;
   memory_.last = {in_motion(decision.mode.mode), outputs.enable, outputs.duty_ratio, {}, {}, {},

@@ -3,6 +3,7 @@
 
 #include "firmware/drives/drive_gate.hpp"
 #include "firmware/drives/spool_lead.hpp"
+#include "firmware/drives/spool_parking.hpp"
 #include "firmware/drives/velocity_cap.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/excavator/field/dig_field.hpp"
@@ -75,7 +76,10 @@ class ExcavatorController {
 
     bool eases = false;  ///< Of the motion; then the path has no share in it.
 
+    /// Of the corrected motion.
     [[nodiscard]] double all() const { return (eases ? 1.0 : lambda) * of_corrected; }
+    /// Of the path.
+    [[nodiscard]] double of_way() const { return eases ? 0.0 : lambda * of_corrected; }
   };
 
   struct Memory {
@@ -90,6 +94,7 @@ class ExcavatorController {
     OilState oil;
     OilModes modes;
     std::array<SpoolModel, kDriveCount> spool;
+    std::array<ParkingState, 2> parking;  ///< Of boom and arm.
     PumpDemand pumps;
     double of_corrected = 1.0;  ///< Of the last cycle, see Followed.
     PerPump<double> line_pa{};  ///< Of the last cycle's solution.
@@ -120,6 +125,8 @@ class ExcavatorController {
                       const DriveVector& wanted_mps, DriveVector& corrected_mps) const;
   /// Observer of the oil after the last cycle's command.
   void estimate_oil(const ExcavatorValid& valid, const KinematicState& now, EcuMode mode);
+  /// Boom and arm stand where their corrections would reverse them for little.
+  void park_spools(const ExcavatorValid& valid, double period_s, Motion& motion);
   /// Duties for the valves as they turned out to be.
   void open_as_learnt(ExcavatorOutputs& outputs) const;
   /// Duties that lead through the spools' lag. The watches know of those without: that is where

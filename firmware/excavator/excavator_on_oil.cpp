@@ -10,6 +10,8 @@ namespace {
 constexpr double kDeadTimeMost_s = 0.05;
 /// Farther off the path the oil's law gives way to the field, which then leads back.
 constexpr double kFarOff_m = 0.15;
+/// Of the weight, from which on the oil's law decides.
+constexpr double kLeads = 0.5;
 /// Way of the teeth over a stroke below which a direction is left alone.
 constexpr double kInLine = 0.1;
 
@@ -78,8 +80,23 @@ void ExcavatorController::correct_on_oil(const ExcavatorValid& valid, const Kine
   }
 }
 
+void ExcavatorController::park_spools(const ExcavatorValid& valid, double period_s,
+                                      Motion& motion) {
+  if (valid.task != Task::kDig || memory_.oil.weight < kLeads || motion.eases) {
+    memory_.parking = {};
+    return;
+  }
+  const double lambda = std::max(memory_.lambda.value(), profile_.control.servo_least_lambda);
+  for (int axis = 0; axis < 2; ++axis) {
+    if (park(motion.wanted_mps[axis], lambda * motion.corrected_mps[axis], period_s,
+             memory_.parking[static_cast<unsigned>(axis)])) {
+      motion.corrected_mps[axis] = 0.0;
+    }
+  }
+}
+
 void ExcavatorController::open_as_learnt(ExcavatorOutputs& outputs) const {
-  if (!on_oil(profile_)) {
+  if (!on_oil(profile_) || !outputs.enable) {
     return;
   }
   for (int i = 0; i < drives().count(); ++i) {
@@ -87,6 +104,9 @@ void ExcavatorController::open_as_learnt(ExcavatorOutputs& outputs) const {
     if (outputs.duty_ratio[k] != 0.0) {
       outputs.duty_ratio[k] =
           learnt_duty(drives()[i], memory_.watch.drives.learnt[k], memory_.opening[k].value());
+    } else if (i < 2 && memory_.parking[k].parked) {
+      outputs.duty_ratio[k] =
+          parked_duty(drives()[i], memory_.watch.drives.learnt[k], memory_.parking[k].side);
     }
   }
 }

@@ -11,7 +11,7 @@
 namespace graben {
 
 struct DozerWatchState {
-  DriveWatchState<kBladeCount> drives;
+  DriveWatchState<kBladeCount, 0> drives;  ///< Its inlets meter the flow.
   TransmissionWatchState transmission;
   PoseWatchState pose;
   SlowingState slowing;

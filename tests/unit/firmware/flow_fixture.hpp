@@ -48,6 +48,16 @@ inline ValidDrive at(double spool_ratio, double cap_pa, double rod_pa) {
   return seen;
 }
 
+/// A valve that is the profile's for certain.
+inline LearntValve as_profiled() {
+  LearntValve valve;
+  for (LearntSide* side : {&valve.extend, &valve.retract}) {
+    side->edge_variance = 0.0;
+    side->bend_variance = 0.0;
+  }
+  return valve;
+}
+
 inline double opening(double spool_ratio, double band) {
   return (spool_ratio + band - kEdge) / 0.8;
 }

@@ -129,10 +129,25 @@ void a_spool_within_its_dead_band_leads_nowhere(void**) {
     }
   }
   bench.push(-3e6);
-  bench.open(kEdge + 0.01);
+  bench.open(kEdge + 0.031);
   bench.move(0.0);
   bench.move(0.0);
   assert_true(bench.stops_after(4, -kStep_m));
+}
+
+/// Where a dead band ends is known within 3 % of the travel; a motor has none to speak of.
+void a_spool_near_its_edge_may_be_closed(void**) {
+  Bench bench;
+  bench.open(kEdge + 0.029);
+  bench.move(0.0);
+  bench.move(0.0);
+  assert_false(bench.stops_after(20, -kStep_m));
+  Bench motor;
+  motor.row.control.has_end_stops = false;
+  motor.open(kEdge + 0.01);
+  motor.move(0.0);
+  motor.move(0.0);
+  assert_true(motor.stops_after(4, -kStep_m));
 }
 
 void another_side_begins_anew(void**) {
@@ -202,6 +217,7 @@ int main() {
       cmocka_unit_test(pressures_within_their_zeros_push_nowhere),
       cmocka_unit_test(a_drive_that_coasts_is_let_go_on_until_it_turns),
       cmocka_unit_test(a_spool_within_its_dead_band_leads_nowhere),
+      cmocka_unit_test(a_spool_near_its_edge_may_be_closed),
       cmocka_unit_test(another_side_begins_anew),
       cmocka_unit_test(a_stroke_that_did_not_come_says_nothing),
       cmocka_unit_test(without_its_pressures_a_drive_is_not_checked),

@@ -12,20 +12,20 @@ void the_draining_side_tells_the_speed(void**) {
   const DriveRow row = plain();
   const double least = 0.88 * opening(0.6, -0.035);
   const double most = 1.12 * opening(0.6, 0.035);
-  assert_range(possible_speed(row, at(0.6, 9e6, 5e6), kEngine_radps),
+  assert_range(possible_speed(row, nullptr, at(0.6, 9e6, 5e6), kEngine_radps),
                least * 2e-6 * std::sqrt(5e6 - kLost_pa) / 0.01,
                most * 2e-6 * std::sqrt(5e6 + kZero_pa) / 0.01);
-  assert_range(possible_speed(row, at(-0.6, 5e6, 9e6), kEngine_radps),
+  assert_range(possible_speed(row, nullptr, at(-0.6, 5e6, 9e6), kEngine_radps),
                -most * 5e-6 * std::sqrt(5e6 + kZero_pa) / 0.02,
                -least * 5e-6 * std::sqrt(5e6 - kLost_pa) / 0.02);
 }
 
 void a_spool_in_its_dead_band_moves_nothing(void**) {
   for (const double spool : {0.0, 0.16, -0.16}) {
-    assert_range(possible_speed(plain(), at(spool, 5e6, 5e6), kEngine_radps), 0.0, 0.0);
+    assert_range(possible_speed(plain(), nullptr, at(spool, 5e6, 5e6), kEngine_radps), 0.0, 0.0);
   }
   // At its edge it may be open.
-  const SpeedRange edge = possible_speed(plain(), at(0.2, 5e6, 5e6), kEngine_radps);
+  const SpeedRange edge = possible_speed(plain(), nullptr, at(0.2, 5e6, 5e6), kEngine_radps);
   assert_near(edge.least_mps, 0.0, 0.0);
   assert_true(edge.most_mps > 0.0);
 }
@@ -33,14 +33,15 @@ void a_spool_in_its_dead_band_moves_nothing(void**) {
 /// Held by a rock there is no pressure left; the fed side's may push it back.
 void an_empty_side_carries_nothing(void**) {
   const double most = 1.12 * opening(0.6, 0.035);
-  assert_range(possible_speed(plain(), at(0.6, 15e6, 1e6), kEngine_radps),
+  assert_range(possible_speed(plain(), nullptr, at(0.6, 15e6, 1e6), kEngine_radps),
                -most * 4e-6 * std::sqrt(15e6 + kZero_pa) / 0.02,
                most * 2e-6 * std::sqrt(1e6 + kZero_pa) / 0.01);
-  assert_range(possible_speed(plain(), at(-0.6, 1e6, 15e6), kEngine_radps),
+  assert_range(possible_speed(plain(), nullptr, at(-0.6, 1e6, 15e6), kEngine_radps),
                -most * 5e-6 * std::sqrt(1e6 + kZero_pa) / 0.02,
                most * 3e-6 * std::sqrt(15e6 + kZero_pa) / 0.01);
-  assert_true(possible_speed(plain(), at(0.6, 15e6, kLost_pa + 1e5), kEngine_radps).least_mps >
-              0.0);
+  assert_true(
+      possible_speed(plain(), nullptr, at(0.6, 15e6, kLost_pa + 1e5), kEngine_radps).least_mps >
+      0.0);
 }
 
 /// Least: through the drain alone. Most: the check open to what the fed side has, or not at all.
@@ -51,27 +52,28 @@ void a_regenerating_side_passes_drain_and_check(void**) {
   const double most_out = 1.12 * opening(0.6, 0.035) * 2e-6;
   const double least_mps = series(least_out, 0.67e-6) * std::sqrt(16e6 - kLost_pa) / 0.01;
   const double drained = std::sqrt(16e6 + kZero_pa);
-  assert_range(possible_speed(row, at(0.6, 1e6, 16e6), kEngine_radps), least_mps,
+  assert_range(possible_speed(row, nullptr, at(0.6, 1e6, 16e6), kEngine_radps), least_mps,
                series(most_out, 3.99e-6) * drained / 0.01);
-  assert_range(possible_speed(row, at(0.6, 5e6, 16e6), kEngine_radps), least_mps,
+  assert_range(possible_speed(row, nullptr, at(0.6, 5e6, 16e6), kEngine_radps), least_mps,
                most_out * std::sqrt(11e6 + 2.0 * kZero_pa) / 0.01);
-  assert_range(possible_speed(row, at(0.6, 30e6, 16e6), kEngine_radps), least_mps,
+  assert_range(possible_speed(row, nullptr, at(0.6, 30e6, 16e6), kEngine_radps), least_mps,
                series(most_out, 1.33e-6) * drained / 0.01);
   // The other way it does not regenerate.
-  assert_near(possible_speed(row, at(-0.6, 5e6, 9e6), kEngine_radps).least_mps,
+  assert_near(possible_speed(row, nullptr, at(-0.6, 5e6, 9e6), kEngine_radps).least_mps,
               -1.12 * opening(0.6, 0.035) * 5e-6 * std::sqrt(5e6 + kZero_pa) / 0.02, 1e-9);
   row.spool.regeneration = RegenerationSide::kRetract;
   assert_near(
-      possible_speed(row, at(-0.6, 16e6, 1e6), kEngine_radps).most_mps,
+      possible_speed(row, nullptr, at(-0.6, 16e6, 1e6), kEngine_radps).most_mps,
       -series(0.88 * opening(0.6, -0.035) * 5e-6, 0.67e-6) * std::sqrt(16e6 - kLost_pa) / 0.02,
       1e-9);
-  assert_near(possible_speed(row, at(0.6, 9e6, 5e6), kEngine_radps).most_mps,
+  assert_near(possible_speed(row, nullptr, at(0.6, 9e6, 5e6), kEngine_radps).most_mps,
               1.12 * opening(0.6, 0.035) * 2e-6 * std::sqrt(5e6 + kZero_pa) / 0.01, 1e-9);
 }
 
 /// To the last bit at the end of what bias and return line may take.
 void no_less_than_nothing_is_left(void**) {
-  assert_true(possible_speed(plain(), at(0.6, 15e6, kLost_pa), kEngine_radps).least_mps < 0.0);
+  assert_true(possible_speed(plain(), nullptr, at(0.6, 15e6, kLost_pa), kEngine_radps).least_mps <
+              0.0);
 }
 
 /// Where the dead band is smaller than the sensor's error, a closed spool may be open either way.
@@ -81,12 +83,14 @@ void without_a_dead_band_it_may_go_either_way(void**) {
   const double duty[] = {0.0, 1.0};
   assert_int_equal(row.spool_to_duty.fill(opens, duty, 2), MonotoneTable::Fill::kOk);
   const double most = 1.12 * 2e-6 * std::sqrt(5e6 + kZero_pa) / 0.01;
-  assert_range(possible_speed(row, at(0.01, 9e6, 5e6), kEngine_radps), -0.045 * most, 0.045 * most);
+  assert_range(possible_speed(row, nullptr, at(0.01, 9e6, 5e6), kEngine_radps), -0.045 * most,
+               0.045 * most);
   const double closed_mps = 1.12 * 0.035 * 5e-6 * std::sqrt(9e6 + kZero_pa) / 0.02;
-  assert_range(possible_speed(row, at(0.0, 9e6, 5e6), kEngine_radps), -closed_mps, closed_mps);
-  assert_true(possible_speed(row, at(0.04, 9e6, 5e6), kEngine_radps).least_mps > 0.0);
-  assert_near(possible_speed(row, at(0.035, 9e6, 5e6), kEngine_radps).least_mps, -0.07 * most,
-              1e-9);
+  assert_range(possible_speed(row, nullptr, at(0.0, 9e6, 5e6), kEngine_radps), -closed_mps,
+               closed_mps);
+  assert_true(possible_speed(row, nullptr, at(0.04, 9e6, 5e6), kEngine_radps).least_mps > 0.0);
+  assert_near(possible_speed(row, nullptr, at(0.035, 9e6, 5e6), kEngine_radps).least_mps,
+              -0.07 * most, 1e-9);
 }
 
 /// At 2 the bound is the power itself.
@@ -94,7 +98,7 @@ void an_orifices_square_is_exact(void**) {
   DriveRow row = plain();
   row.metering.opening_exponent = 2.0;
   const double least = 0.88 * opening(0.3, -0.035) * opening(0.3, -0.035);
-  assert_near(possible_speed(row, at(0.3, 9e6, 5e6), kEngine_radps).least_mps,
+  assert_near(possible_speed(row, nullptr, at(0.3, 9e6, 5e6), kEngine_radps).least_mps,
               least * 2e-6 * std::sqrt(5e6 - kLost_pa) / 0.01, 1e-9);
 }
 
@@ -104,7 +108,7 @@ void the_least_opening_is_a_lower_bound(void**) {
     DriveRow row = plain();
     row.metering.opening_exponent = exponent;
     for (const double spool : {0.24, 0.3, 0.6, 1.0}) {
-      const SpeedRange range = possible_speed(row, at(spool, 9e6, 5e6), kEngine_radps);
+      const SpeedRange range = possible_speed(row, nullptr, at(spool, 9e6, 5e6), kEngine_radps);
       const double per_opening_mps = 2e-6 * std::sqrt(5e6 - kLost_pa) / 0.01;
       const double least_mps = 0.88 * std::pow(opening(spool, -0.035), exponent) * per_opening_mps;
       assert_true(range.least_mps >= 0.0 && range.least_mps <= least_mps * (1.0 + 1e-9));
@@ -116,17 +120,45 @@ void the_least_opening_is_a_lower_bound(void**) {
 
 void a_metered_inlet_gives_its_flow_or_the_pumps(void**) {
   const DriveRow row = metered_inlet();
-  assert_range(possible_speed(row, at(0.36, 0.0, 0.0), 1000.0),
+  assert_range(possible_speed(row, nullptr, at(0.36, 0.0, 0.0), 1000.0),
                0.8 * opening(0.36, -0.035) * 2e-3 / 0.02, 1.2 * opening(0.36, 0.035) * 2e-3 / 0.02);
-  assert_range(possible_speed(row, at(-0.6, 0.0, 0.0), 10.0),
+  assert_range(possible_speed(row, nullptr, at(-0.6, 0.0, 0.0), 10.0),
                -1.2 * opening(0.6, 0.035) * 2e-3 / 0.01, -0.8 * 1e-4 / 0.01);
 }
 
 void leakage_takes_from_the_fed_side(void**) {
   DriveRow row = plain();
   row.watch.leak_mpspa = 1e-9;
-  assert_range(possible_speed(row, at(0.0, 9e6, 4e6), kEngine_radps), -0.005, 0.0);
-  assert_range(possible_speed(row, at(0.0, 4e6, 9e6), kEngine_radps), 0.0, 0.005);
+  assert_range(possible_speed(row, nullptr, at(0.0, 9e6, 4e6), kEngine_radps), -0.005, 0.0);
+  assert_range(possible_speed(row, nullptr, at(0.0, 4e6, 9e6), kEngine_radps), 0.0, 0.005);
+}
+
+/// Not learnt yet, a valve may be open more or less; a learnt edge moves the bounds.
+void what_is_learnt_moves_the_bounds(void**) {
+  const ValidDrive seen = at(0.4, 9e6, 5e6);
+  const LearntValve fresh;
+  const SpeedRange profiled = possible_speed(plain(), nullptr, seen, kEngine_radps);
+  const SpeedRange unknown = possible_speed(plain(), &fresh, seen, kEngine_radps);
+  assert_true(unknown.least_mps < profiled.least_mps);
+  assert_true(unknown.most_mps > profiled.most_mps);
+  LearntValve later = as_profiled();
+  later.extend.edge = 0.05;
+  const SpeedRange less = possible_speed(plain(), &later, seen, kEngine_radps);
+  assert_true(less.most_mps < profiled.most_mps);
+  assert_true(less.least_mps < profiled.least_mps);
+  const ValidDrive back = at(-0.4, 9e6, 5e6);
+  assert_near(possible_speed(plain(), &later, back, kEngine_radps).least_mps,
+              possible_speed(plain(), nullptr, back, kEngine_radps).least_mps, 0.0);
+}
+
+/// A metered inlet's opening is the profile's: nothing is learnt of it.
+void a_metered_inlet_is_not_learnt(void**) {
+  DriveRow row = plain();
+  row.supply = {1e-3, 1e-3};
+  const LearntValve fresh;
+  const ValidDrive seen = at(0.4, 9e6, 5e6);
+  assert_near(possible_speed(row, &fresh, seen, kEngine_radps).most_mps,
+              possible_speed(row, nullptr, seen, kEngine_radps).most_mps, 0.0);
 }
 
 }  // namespace
@@ -143,6 +175,8 @@ int main() {
       cmocka_unit_test(the_least_opening_is_a_lower_bound),
       cmocka_unit_test(a_metered_inlet_gives_its_flow_or_the_pumps),
       cmocka_unit_test(leakage_takes_from_the_fed_side),
+      cmocka_unit_test(what_is_learnt_moves_the_bounds),
+      cmocka_unit_test(a_metered_inlet_is_not_learnt),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -12,6 +12,7 @@ struct Watched {
   DriveRow row = plain();
   ValidDrive seen = at(0.6, 9e6, 5e6);
   FlowState state;
+  LearntValve valve = as_profiled();
   int cycle = 0;
 
   FaultSet step() {
@@ -22,7 +23,7 @@ struct Watched {
     return step_as(now);
   }
   FaultSet step_as(const ValidDrive& now) {
-    return watch_flow({&row, 1}, {&now, 1}, kEngine_radps, kPeriod_s, {&state, 1});
+    return watch_flow({&row, 1}, {&now, 1}, {&valve, 1}, kEngine_radps, kPeriod_s, {&state, 1});
   }
   /// Cycles until a fault, moving at this speed; 0: none within `most`.
   int until(Fault fault, double speed_mps, int most = 400) {
@@ -34,8 +35,8 @@ struct Watched {
     }
     return 0;
   }
-  double least_mps() { return possible_speed(row, seen, kEngine_radps).least_mps; }
-  double most_mps() { return possible_speed(row, seen, kEngine_radps).most_mps; }
+  double least_mps() { return possible_speed(row, &valve, seen, kEngine_radps).least_mps; }
+  double most_mps() { return possible_speed(row, &valve, seen, kEngine_radps).most_mps; }
 };
 
 void within_its_bounds_it_is_sound(void**) {
@@ -116,7 +117,9 @@ void only_its_drives_are_watched(void**) {
   const ValidDrive seen[] = {watched.seen, watched.seen};
   FlowState states[2];
   states[1].stroke_m = 7.0;
-  assert_true(watch_flow({rows, 1}, {seen, 1}, kEngine_radps, kPeriod_s, {states, 1}).empty());
+  assert_true(
+      watch_flow({rows, 1}, {seen, 1}, {&watched.valve, 1}, kEngine_radps, kPeriod_s, {states, 1})
+          .empty());
   assert_near(states[1].stroke_m, 7.0, 0.0);
   assert_near(states[1].cap_shown_pa, 0.0, 0.0);
 }

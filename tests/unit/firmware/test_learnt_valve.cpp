@@ -1,0 +1,217 @@
+// Dead bands and openings that are learnt from spool and stroke.
+
+#include "firmware/drives/learnt_valve.hpp"
+
+#include <cmath>
+
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+
+constexpr double kPeriod_s = 0.01;
+constexpr double kEdge = 0.2;
+constexpr double kFull_mps = 0.5;
+
+/// A drive whose valve is what its sides say, moved as its profile thinks right.
+struct Bench {
+  struct Side {
+    double edge = kEdge;
+    double exponent = 1.6;
+  };
+
+  DriveRow row;
+  Side extend;
+  Side retract;
+  LearntValve valve;
+  double stroke_m = 0.5;
+  bool corrected = true;  ///< Its spool goes where the learnt valve has it.
+
+  Bench() {
+    const double opens[] = {0.0, 1.0};
+    const double duty[] = {kEdge, 1.0};
+    assert_int_equal(row.spool_to_duty.fill(opens, duty, 2), MonotoneTable::Fill::kOk);
+    row.metering.opening_exponent = 1.6;
+    row.control.response_s = 0.03;
+    step(0.0, false);  // Before the machine moves.
+  }
+
+  void step(double asked_mps, bool usable = true) {
+    const double way = std::copysign(1.0, asked_mps);
+    const double opening = way * std::pow(std::abs(asked_mps) / kFull_mps, 1.0 / 1.6);
+    const double duty = corrected ? learnt_duty(row, valve, opening)
+                                  : way * (kEdge + (1.0 - kEdge) * std::abs(opening));
+    const Side& real = asked_mps > 0.0 ? extend : retract;
+    const double share = std::max(0.0, std::abs(duty) - real.edge) / (1.0 - real.edge);
+    stroke_m += kPeriod_s * way * kFull_mps * std::pow(share, real.exponent);
+    ValidDrive seen;
+    seen.stroke_m = stroke_m;
+    seen.spool_ratio = duty;
+    next_learnt(row, seen, {asked_mps, opening}, usable, kPeriod_s, valve);
+  }
+  /// Slow and fast by turns, a second each.
+  void work(double seconds, double way, bool usable = true) {
+    for (int n = 0; n < static_cast<int>(100.0 * seconds); ++n) {
+      step(way * (n / 100 % 2 == 0 ? 0.05 : 0.15), usable);
+    }
+  }
+  /// Speed that it is then off at this one, of the asked speed.
+  double off(double asked_mps) {
+    for (int n = 0; n < 50; ++n) {
+      step(asked_mps);
+    }
+    const double from_m = stroke_m;
+    step(asked_mps);
+    return (stroke_m - from_m) / kPeriod_s / asked_mps - 1.0;
+  }
+};
+
+void a_dead_band_is_learnt_on_its_own_side(void**) {
+  for (const double edge : {0.17, 0.23}) {
+    Bench bench;
+    bench.extend.edge = edge;
+    Bench first = bench;
+    first.corrected = false;
+    assert_true(std::abs(first.off(0.05)) > 0.15);
+    bench.work(20.0, 1.0);
+    const double beyond = (edge - kEdge) / (1.0 - kEdge);
+    assert_near(opening_beyond(bench.valve.extend, 0.3), 0.7 * beyond, 0.25 * std::abs(beyond));
+    assert_near(bench.off(0.05), 0.0, 0.06);
+    assert_near(bench.valve.retract.edge, 0.0, 0.0);
+    assert_near(bench.valve.retract.bend, 0.0, 0.0);
+    bench.work(8.0, -1.0);
+    assert_near(bench.valve.retract.edge, 0.0, 0.004);
+  }
+}
+
+void an_exponent_is_learnt(void**) {
+  for (const double exponent : {1.4, 1.8}) {
+    Bench bench;
+    bench.retract.exponent = exponent;
+    Bench first = bench;
+    first.corrected = false;
+    assert_true(std::abs(first.off(-0.05)) > 0.15);
+    bench.work(10.0, -1.0);
+    assert_near(bench.off(-0.05), 0.0, 0.08);
+    assert_near(bench.off(-0.15), 0.0, 0.06);
+  }
+}
+
+/// It is learnt, too, where nothing is done with it.
+void what_is_not_used_is_learnt_as_well(void**) {
+  Bench bench;
+  bench.corrected = false;
+  bench.extend.edge = 0.23;
+  bench.work(20.0, 1.0);
+  assert_near(opening_beyond(bench.valve.extend, 0.3), 0.7 * 0.0375, 0.007);
+}
+
+void nothing_is_learnt_of_what_is_not_the_valves_doing(void**) {
+  const LearntValve fresh;
+  const auto assert_fresh = [&](const Bench& bench) {
+    assert_near(bench.valve.extend.edge, fresh.extend.edge, 0.0);
+    assert_near(bench.valve.extend.bend, fresh.extend.bend, 0.0);
+    assert_near(bench.valve.extend.edge_variance, fresh.extend.edge_variance, 0.0);
+  };
+  Bench held;
+  held.extend.edge = 0.23;
+  held.work(4.0, 1.0, false);
+  assert_fresh(held);
+  Bench closed;
+  closed.extend.edge = 0.9;
+  closed.work(4.0, 1.0);
+  assert_near(closed.valve.extend.edge, 0.0, 0.0);
+  Bench shakes;
+  shakes.extend.edge = 0.23;
+  for (int n = 0; n < 400; ++n) {
+    shakes.step(n / 5 % 2 == 0 ? 0.2 : -0.2);
+  }
+  assert_near(shakes.valve.extend.edge, 0.0, 0.01);
+  Bench metered;
+  metered.row.supply = {1e-3, 1e-3};
+  metered.extend.edge = 0.23;
+  metered.work(4.0, 1.0);
+  assert_fresh(metered);
+}
+
+/// However far off a valve is, and whatever the sensors say.
+void what_is_believed_stays_within_bounds(void**) {
+  for (const Bench::Side real : {Bench::Side{0.02, 1.0}, Bench::Side{0.33, 2.6}}) {
+    Bench bench;
+    bench.extend = real;
+    bench.retract = real;
+    for (int n = 0; n < 20; ++n) {
+      bench.work(4.0, n % 2 == 0 ? 1.0 : -1.0);
+      for (const LearntSide& side : {bench.valve.extend, bench.valve.retract}) {
+        assert_true(std::abs(side.edge) <= 0.07 && std::abs(side.bend) <= 0.3);
+        assert_true(side.edge_variance > 0.0 && side.edge_variance <= 0.03 * 0.03);
+        assert_true(side.bend_variance > 0.0 && side.bend_variance <= 0.09 * 0.09);
+        assert_true(std::isfinite(side.covariance));
+      }
+    }
+  }
+}
+
+void still_and_without_time_nothing_breaks(void**) {
+  Bench bench;
+  ValidDrive seen;
+  for (const double period_s : {0.0, 0.01}) {
+    for (const double spool : {0.0, kEdge, 1.0, -1.0}) {
+      seen.spool_ratio = spool;
+      next_learnt(bench.row, seen, {0.0, 0.0}, true, period_s, bench.valve);
+      next_learnt(bench.row, seen, {0.1, 1.0}, true, period_s, bench.valve);
+    }
+  }
+  assert_true(std::isfinite(bench.valve.extend.edge + bench.valve.seen.speed_mps));
+}
+
+/// Over all that is believed: more opening is more duty, and the way back meets.
+void duties_rise_and_turn_back(void**) {
+  const Bench bench;
+  for (const double edge : {-0.07, 0.0, 0.07}) {
+    for (const double bend : {-0.3, 0.0, 0.3}) {
+      LearntValve valve;
+      valve.extend.edge = edge;
+      valve.extend.bend = bend;
+      double last = 0.0;
+      for (int n = 1; n <= 100; ++n) {
+        const double opening = 0.01 * n;
+        const double duty = learnt_duty(bench.row, valve, opening);
+        assert_true(duty >= last - 1e-3 && duty <= 1.0);
+        last = duty;
+        const double real = opening + opening_beyond(valve.extend, opening);
+        if (opening >= 0.1) {
+          assert_near(opening_by_profile(valve.extend, real), opening, 0.03);
+        }
+      }
+      assert_near(learnt_duty(bench.row, valve, -0.5), -0.6, 1e-12);
+    }
+  }
+}
+
+/// Little is known of openings that were not used.
+void the_spread_is_less_where_it_worked(void**) {
+  Bench bench;
+  const double before = opening_spread(bench.valve.extend, 0.3);
+  bench.work(8.0, 1.0);
+  assert_true(opening_spread(bench.valve.extend, 0.3) < 0.4 * before);
+  assert_near(opening_spread(bench.valve.retract, 0.3), before, 0.0);
+  assert_near(opening_spread(bench.valve.extend, 1.0), 0.0, 1e-12);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_dead_band_is_learnt_on_its_own_side),
+      cmocka_unit_test(an_exponent_is_learnt),
+      cmocka_unit_test(what_is_not_used_is_learnt_as_well),
+      cmocka_unit_test(nothing_is_learnt_of_what_is_not_the_valves_doing),
+      cmocka_unit_test(what_is_believed_stays_within_bounds),
+      cmocka_unit_test(still_and_without_time_nothing_breaks),
+      cmocka_unit_test(duties_rise_and_turn_back),
+      cmocka_unit_test(the_spread_is_less_where_it_worked),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,94 @@
+// Spools that wait at the edge of their dead band instead of following every correction.
+
+#include "firmware/drives/spool_parking.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+
+constexpr double kPeriod_s = 0.01;
+
+DriveRow drive_row() {
+  DriveRow row;
+  const double opens[] = {0.0, 1.0};
+  const double duty[] = {0.2, 1.0};
+  assert_int_equal(row.spool_to_duty.fill(opens, duty, 2), MonotoneTable::Fill::kOk);
+  return row;
+}
+
+/// Reversals a second that a correction of this size comes through with, if it changes sign in
+/// every tenth of a second.
+double reversals_ps(double correction_mps, double wanted_mps = 0.0) {
+  constexpr int kSeconds = 30;
+  ParkingState state;
+  int reversals = 0;
+  int side = 0;
+  for (int n = 0; n < 100 * kSeconds; ++n) {
+    const double way = n / 10 % 2 == 0 ? 1.0 : -1.0;
+    if (!park(way * wanted_mps, way * correction_mps, kPeriod_s, state) && state.side != side) {
+      reversals += side != 0 ? 1 : 0;
+      side = state.side;
+    }
+  }
+  return static_cast<double>(reversals) / kSeconds;
+}
+
+void corrections_that_alternate_reverse_seldom(void**) {
+  assert_true(reversals_ps(0.010) < 0.6);
+  assert_true(reversals_ps(0.030) < 1.2);
+  assert_true(reversals_ps(0.010) > 0.0);
+}
+
+/// What is worth it goes through, and so does what the path wants.
+void large_corrections_and_the_path_pass(void**) {
+  assert_true(reversals_ps(0.041) > 9.0);
+  assert_true(reversals_ps(0.010, 0.005) > 9.0);
+}
+
+/// One reversal alone is not held up, and one that waits stands until its sign is back.
+void only_the_second_one_waits(void**) {
+  ParkingState state;
+  assert_false(park(0.0, 0.01, kPeriod_s, state));
+  assert_int_equal(state.side, 1);
+  assert_true(park(0.0, -0.01, kPeriod_s, state));
+  assert_true(state.parked);
+  assert_int_equal(state.side, 1);
+  assert_false(park(0.0, 0.002, kPeriod_s, state));
+  assert_false(state.parked);
+}
+
+/// What has not reversed for long does at once.
+void calm_forgets(void**) {
+  ParkingState state;
+  for (int n = 0; n < 2000; ++n) {
+    static_cast<void>(park(0.0, 0.01, kPeriod_s, state));
+  }
+  assert_false(park(0.0, -0.001, kPeriod_s, state));
+  assert_int_equal(state.side, -1);
+}
+
+void it_waits_within_the_dead_band_that_was_learnt(void**) {
+  const DriveRow row = drive_row();
+  LearntValve valve;
+  assert_near(parked_duty(row, valve, 1), 0.14, 1e-12);
+  assert_near(parked_duty(row, valve, -1), -0.14, 1e-12);
+  valve.retract.edge = 0.05;
+  assert_near(parked_duty(row, valve, -1), -0.168, 1e-12);
+  valve.extend.edge = -0.07;
+  assert_near(parked_duty(row, valve, 1), 0.7 * 0.144, 1e-12);
+  assert_near(parked_duty(row, valve, 0), 0.0, 0.0);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(corrections_that_alternate_reverse_seldom),
+      cmocka_unit_test(large_corrections_and_the_path_pass),
+      cmocka_unit_test(only_the_second_one_waits),
+      cmocka_unit_test(calm_forgets),
+      cmocka_unit_test(it_waits_within_the_dead_band_that_was_learnt),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
