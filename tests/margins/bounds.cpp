@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
 
 namespace graben::margins {
 namespace {
@@ -65,27 +67,28 @@ bool in_band(double oil_gpa, double lag_s) {
   return within({kSoftest_gpa, kStiffest_gpa}, oil_gpa) && within({kFastest_s, kSlowest_s}, lag_s);
 }
 
-OfBand of_band(const Table& table) {
-  OfBand all;
+OfCells of_cells(const Table& table, const std::function<bool(double, double)>& has) {
+  OfCells all;
   for (int oil = 0; oil < kOils; ++oil) {
     for (int lag = 0; lag < kLags; ++lag) {
-      if (!in_band(kOil_gpa[oil], kLag_s[lag])) {
+      if (!has(kOil_gpa[oil], kLag_s[lag])) {
         continue;
       }
       const Worst& cell = table.worst[oil][lag];
-      const Worst& before = table.worst[all.oil][all.lag];
+      const bool is_first = all.cells == 0;
       all.cells += cell.cells;
       all.unstable += cell.unstable;
-      const bool is_worse = cell.unstable > 0 ? cell.spectral_radius > before.spectral_radius
-                                              : cell.margin.alpha < before.margin.alpha;
-      if (is_worse) {
+      if (is_first || is_worse(cell, table.worst[all.oil][all.lag])) {
         all.oil = oil;
         all.lag = lag;
       }
     }
   }
+  all.alpha = table.worst[all.oil][all.lag].margin.alpha;
   return all;
 }
+
+OfCells of_band(const Table& table) { return of_cells(table, in_band); }
 
 std::vector<std::string> missed(const Table& table) {
   std::vector<std::string> lines;
@@ -114,6 +117,30 @@ std::vector<std::string> missed(const Table& table) {
     }
   }
   return lines;
+}
+
+void write_summary(const std::vector<Table>& tables, const std::string& file) {
+  nlohmann::json all;
+  for (const Table& table : tables) {
+    const auto add = [&](const std::string& name, const OfCells& cells) {
+      all[text(table.block)][name] = {{"gain_db", gain_db(cells.alpha)},
+                                      {"phase_deg", phase_deg(cells.alpha)},
+                                      {"unstable", cells.unstable},
+                                      {"cells", cells.cells}};
+    };
+    for (const double oil_gpa : kOil_gpa) {
+      add(fmt::format("{} GPa", oil_gpa), of_cells(table, [&](double oil, double lag_s) {
+            return oil == oil_gpa && within({kFastest_s, kSlowest_s}, lag_s);
+          }));
+    }
+    for (const double lag_s : kLag_s) {
+      add(fmt::format("{:.0f} ms", 1e3 * lag_s), of_cells(table, [&](double oil_gpa, double lag) {
+            return lag == lag_s && within({kSoftest_gpa, kStiffest_gpa}, oil_gpa);
+          }));
+    }
+    add("band", of_band(table));
+  }
+  std::ofstream(file) << all.dump(1) << '\n';
 }
 
 std::string text(const Block& block) {

@@ -52,6 +52,10 @@ void take(const LoopMargins& margins, const Place& place, double mass_ratio, Wor
 
 }  // namespace
 
+bool is_worse(const Worst& a, const Worst& b) {
+  return a.unstable > 0 ? a.spectral_radius > b.spectral_radius : a.margin.alpha < b.margin.alpha;
+}
+
 Grid::Grid(const Changed& changed) {
   const std::string names[] = {"22t", "12t"};
   for (const std::string& name : names) {

@@ -56,6 +56,9 @@ struct Worst {
   double phase_rad = 0.0;
 };
 
+/// Not stable goes before any margin.
+[[nodiscard]] bool is_worse(const Worst& a, const Worst& b);
+
 class Grid {
  public:
   explicit Grid(const Changed& changed);

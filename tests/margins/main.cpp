@@ -62,23 +62,20 @@ void print(const Table& table) {
   fmt::print("\n");
 }
 
-/// The worst of each oil within the band, then that of the whole band on a line of its own.
+/// The worst of each oil, of each lag within the band's oils, and of the whole band.
 void print_places(const Table& table) {
-  for (int oil = 0; oil < kOils; ++oil) {
-    int worst = 0;
-    for (int lag = 1; lag < kLags; ++lag) {
-      const Worst& before = table.worst[oil][worst];
-      const Worst& now = table.worst[oil][lag];
-      if (now.unstable > 0 ? now.spectral_radius > before.spectral_radius
-                           : now.margin.alpha < before.margin.alpha) {
-        worst = lag;
-      }
-    }
-    print_worst(table, oil, worst);
+  for (const double oil_gpa : kOil_gpa) {
+    const OfCells of = of_cells(table, [&](double oil, double) { return oil == oil_gpa; });
+    print_worst(table, of.oil, of.lag);
   }
-  const OfBand band = of_band(table);
-  fmt::print("band: {} of {} unstable, ", band.unstable, band.cells);
-  print_worst(table, band.oil, band.lag);
+  for (const double lag_s : kLag_s) {
+    const OfCells of = of_cells(table, [&](double oil_gpa, double lag) {
+      return lag == lag_s && oil_gpa <= kOil_gpa[kOils - 2];
+    });
+    print_worst(table, of.oil, of.lag);
+  }
+  const OfCells band = of_band(table);
+  fmt::print("band: {} of {} unstable, alpha {:.2f}\n", band.unstable, band.cells, band.alpha);
 }
 
 std::vector<Block> blocks(bool only_first) {
@@ -94,15 +91,19 @@ std::vector<Block> blocks(bool only_first) {
   return all;
 }
 
-int run(const Changed& changed, bool only_first) {
+int run(const Changed& changed, bool only_first, const std::string& summary) {
   const Grid grid(changed);
   std::vector<std::string> problems;
+  std::vector<Table> tables;
   for (const Block& block : blocks(only_first)) {
-    const Table table = table_of(grid, block);
-    print(table);
-    print_places(table);
-    const std::vector<std::string> lines = missed(table);
+    tables.push_back(table_of(grid, block));
+    print(tables.back());
+    print_places(tables.back());
+    const std::vector<std::string> lines = missed(tables.back());
     problems.insert(problems.end(), lines.begin(), lines.end());
+  }
+  if (!summary.empty()) {
+    write_summary(tables, summary);
   }
   fmt::print("\n");
   for (const std::string& line : problems) {
@@ -118,6 +119,7 @@ int main(int argc, char** argv) try {
   CLI::App app("Margins of the oil's law over pose and band");
   Changed changed;
   bool only_first = false;
+  std::string summary;
   app.add_option("--assumed", changed.assumed_gpa, "GPa, instead of what the profiles assume");
   app.add_option("--gain", changed.gain, "Factor on all that is asked for");
   app.add_option("--lag", changed.design.lag_s, "s, OilDesign::lag_s");
@@ -129,8 +131,9 @@ int main(int argc, char** argv) try {
   app.add_option("--travel-noise", changed.design.travel_noise_m, "m");
   app.add_option("--pressure-noise", changed.design.pressure_noise_m, "m");
   app.add_flag("--first", only_first, "Only the first table");
+  app.add_option("--summary", summary, "Write the worst of each oil and lag to this JSON file");
   CLI11_PARSE(app, argc, argv);
-  return run(changed, only_first);
+  return run(changed, only_first, summary);
 } catch (const std::exception& error) {
   fmt::print("margins: {}\n", error.what());
   return EXIT_FAILURE;
