@@ -61,9 +61,10 @@ Grid::Grid(const Changed& changed) {
   for (const std::string& name : names) {
     machines_.push_back(
         machines::load_simulated_excavator(machines::find_profile("excavator_" + name)));
-    if (changed.assumed_gpa > 0.0) {
-      machines_.back().profile.oil.bulk_modulus_pa = kPaPerGpa * changed.assumed_gpa;
-    }
+    OilProfile& oil = machines_.back().profile.oil;
+    oil.bulk_modulus_pa =
+        changed.assumed_gpa > 0.0 ? kPaPerGpa * changed.assumed_gpa : oil.bulk_modulus_pa;
+    oil.spool_time_constant_s = changed.lead_s >= 0.0 ? changed.lead_s : oil.spool_time_constant_s;
   }
   for (std::size_t n = 0; n < machines_.size(); ++n) {
     add(machines_[n], names[n], changed);

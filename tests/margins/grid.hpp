@@ -31,6 +31,7 @@ struct Block {
 struct Changed {
   double assumed_gpa = 0.0;  ///< Instead of the profiles' own, if above 0.
   double gain = 1.0;         ///< Of what is asked for.
+  double lead_s = -1.0;      ///< Instead of oil.spool_time_constant, if not below 0.
   OilDesign design;
 };
 

@@ -122,6 +122,8 @@ int main(int argc, char** argv) try {
   std::string summary;
   app.add_option("--assumed", changed.assumed_gpa, "GPa, instead of what the profiles assume");
   app.add_option("--gain", changed.gain, "Factor on all that is asked for");
+  app.add_option("--lead", changed.lead_s,
+                 "s, instead of the spools' lag that commands lead through");
   app.add_option("--lag", changed.design.lag_s, "s, OilDesign::lag_s");
   app.add_option("--travel", changed.design.travel_ps, "1/s, OilDesign::travel_ps");
   app.add_option("--speed", changed.design.speed_s, "s, OilDesign::speed_s");
