@@ -146,14 +146,19 @@ double eased_mps(const BlockedState& state, double wanted_mps, double corrected_
 }
 
 bool any_eases(Span<const BlockedState> state) {
-  return std::any_of(state.begin(), state.end(), [](const BlockedState& drive) {
-    return drive.side != 0 && drive.easing != Easing::kPushes;
-  });
+  bool any = false;
+  for (int i = 0; i < state.count(); ++i) {
+    any = any || (state[i].side != 0 && state[i].easing != Easing::kPushes);
+  }
+  return any;
 }
 
 bool any_wary(Span<const BlockedState> state) {
-  return std::any_of(state.begin(), state.end(),
-                     [](const BlockedState& drive) { return drive.wary_s > 0.0; });
+  bool any = false;
+  for (int i = 0; i < state.count(); ++i) {
+    any = any || state[i].wary_s > 0.0;
+  }
+  return any;
 }
 
 bool any_blocked(Span<const BlockedState> state) {

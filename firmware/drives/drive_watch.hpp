@@ -56,7 +56,7 @@ struct DriveWatchState {
   std::array<MotionState, kMost> motion{};
   std::array<DirectionState, kMost> direction{};
   std::array<FlowState, kMost> flow{};
-  std::array<LearntValve, kLearnt> learnt;  ///< Kept when the machine stands.
+  std::array<LearntValve, kLearnt> learnt{};  ///< Kept when the machine stands.
   std::array<PressurePair, kMost> pressure{};
   int echo_cycles = 0;   ///< In a row, that the echo has differed.
   bool closing = false;  ///< It was in motion, and some spool has not been in its middle since.

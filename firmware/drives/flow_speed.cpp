@@ -31,7 +31,9 @@ Opening opening_of(const DriveRow& drive, const LearntValve* learnt, double spoo
   if (has_edges(drive) && learnt != nullptr) {
     const LearntSide& side = learnt->side(spool_ratio > 0.0);
     opening = opening_by_profile(side, opening);
-    band = std::max(band, kSpreads * opening_spread(side, opening));
+    // At its edge a valve's exponent says nothing, a little further it does.
+    const double there = std::clamp(opening, 0.0, 1.0) + kSpreads * opening_spread(side, opening);
+    band = std::max(band, kSpreads * opening_spread(side, std::min(there, 1.0)));
   }
   return {std::max(0.0, opening - band), std::max(0.0, opening + band)};
 }

@@ -30,9 +30,10 @@ constexpr int kSteps = 4;
 /// About -o ln(o), which is the change of the opening by the exponent.
 double curve(double opening) { return 1.48 * opening * (1.0 - opening) / (opening + 0.48); }
 
+/// In the dead band of the other sign than the spool.
 double signed_opening(const DriveRow& drive, double spool_ratio) {
   const double edge = drive.spool_to_duty.y_first();
-  return std::copysign((std::abs(spool_ratio) - edge) / (1.0 - edge), spool_ratio);
+  return std::copysign(1.0, spool_ratio) * (std::abs(spool_ratio) - edge) / (1.0 - edge);
 }
 
 double newest_share(double lag_s, double period_s) { return period_s / (period_s + lag_s); }

@@ -122,6 +122,21 @@ void nothing_is_learnt_of_what_is_not_the_valves_doing(void**) {
   closed.extend.edge = 0.9;
   closed.work(4.0, 1.0);
   assert_near(closed.valve.extend.edge, 0.0, 0.0);
+  // The gate has not let it open yet, what is thrown is faster than any valve, a spool is closed.
+  struct Odd {
+    LearntAsk ask;
+    double spool_ratio;
+  };
+  for (const Odd& odd : {Odd{{0.05, 0.01}, 0.44}, Odd{{0.01, 0.3}, 0.44}, Odd{{0.05, 0.3}, 0.1}}) {
+    Bench bench;
+    ValidDrive seen;
+    seen.spool_ratio = odd.spool_ratio;
+    for (int n = 0; n < 200; ++n) {
+      seen.stroke_m += 0.05 * kPeriod_s;
+      next_learnt(bench.row, seen, odd.ask, n > 0, kPeriod_s, bench.valve);
+    }
+    assert_near(bench.valve.extend.edge, 0.0, 0.0);
+  }
   Bench shakes;
   shakes.extend.edge = 0.23;
   for (int n = 0; n < 400; ++n) {
