@@ -28,7 +28,7 @@ Opening opening_of(const DriveRow& drive, const LearntValve* learnt, double spoo
   const double edge = drive.spool_to_duty.y_first();
   double opening = (std::abs(spool_ratio) - edge) / (1.0 - edge);
   double band = kTravelBand / (1.0 - edge);
-  if (has_edges(drive) && learnt != nullptr) {
+  if (is_learnt(drive) && learnt != nullptr) {
     const LearntSide& side = learnt->side(spool_ratio > 0.0);
     opening = opening_by_profile(side, opening);
     // At its edge a valve's exponent says nothing, a little further it does.

@@ -87,6 +87,8 @@ bool may_be_compared(const LearntSeen& seen) {
 
 }  // namespace
 
+bool is_learnt(const DriveRow& drive) { return has_edges(drive) && drive.control.has_end_stops; }
+
 LearntSide::LearntSide()
     : edge_variance(kEdgeSpread * kEdgeSpread), bend_variance(kBendSpread * kBendSpread) {}
 
@@ -94,7 +96,7 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
                  double period_s, LearntValve& valve) {
   const double way_m = seen.stroke_m - valve.stroke_m;
   valve.stroke_m = seen.stroke_m;
-  if (!usable || !has_edges(drive) || !(period_s > 0.0)) {
+  if (!usable || !is_learnt(drive) || !(period_s > 0.0)) {
     valve.late = {};
     valve.seen = {};
     return;

@@ -50,6 +50,9 @@ struct LearntValve {
   [[nodiscard]] const LearntSide& side(bool extends) const { return extends ? extend : retract; }
 };
 
+/// Only a cylinder's, whose edges meter the flow: a motor's load takes seconds to get its speed.
+[[nodiscard]] bool is_learnt(const DriveRow& drive);
+
 /// A cycle on. Nothing is learnt unless `usable` (the drive is in motion and its load does not hold
 /// it), where the opening changes fast, is nearly closed, or the speed is not at least a quarter
 /// and at most four times what is asked; nor of a valve whose inlet meters the flow.

@@ -101,7 +101,7 @@ void ExcavatorController::open_as_learnt(ExcavatorOutputs& outputs) const {
   }
   for (int i = 0; i < drives().count(); ++i) {
     const auto k = static_cast<unsigned>(i);
-    if (outputs.duty_ratio[k] != 0.0) {
+    if (outputs.duty_ratio[k] != 0.0 && is_learnt(drives()[i])) {
       outputs.duty_ratio[k] =
           learnt_duty(drives()[i], memory_.watch.drives.learnt[k], memory_.opening[k].value());
     } else if (i < 2 && memory_.parking[k].parked) {
