@@ -7,15 +7,18 @@
 namespace graben {
 namespace {
 
-/// What is asked of drives whose load may hold them is no way that they must go; and one that was
-/// held is thrown by its own oil when the load gives way, wherever its spool is by then.
+/// What is asked of drives whose load may hold them is no way that they must go. One that is held
+/// lets its oil off without moving, and is thrown by it when the load gives way, wherever its spool
+/// is by then.
 FaultSet watch_moving(DriveRows drives, const DriveCommands& last, Span<const ValidDrive> seen,
                       double period_s, DriveWatchView state) {
   next_blocked(drives, seen, last.ask, period_s, state.blocked);
   std::array<double, kMostDrives> must_mps{};
   for (int i = 0; i < drives.count(); ++i) {
-    must_mps[static_cast<unsigned>(i)] = state.blocked[i].strains ? 0.0 : last.ask.asked_mps[i];
-    if (state.blocked[i].less > 0.0) {
+    const BlockedState& blocked = state.blocked[i];
+    const bool held = blocked.strains || blocked.side != 0;
+    must_mps[static_cast<unsigned>(i)] = held ? 0.0 : last.ask.asked_mps[i];
+    if (blocked.less > 0.0) {
       state.direction[i] = {};
     }
   }
@@ -59,6 +62,10 @@ FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus, const DriveC
     stops.add(watch_moving(drives, last, seen, period_s, state));
   }
   learn_valves(drives, last, seen, moving, period_s, state);
+  if (any_eases(state.blocked)) {
+    // Through the linkage the others' oil lets off as well.
+    std::fill(state.flow.begin(), state.flow.end(), FlowState{});
+  }
   if (moving) {
     stops.add(watch_flow(drives, seen, state.learnt, valid.engine_radps, period_s, state.flow));
     if (watch_pressures(drives, seen, period_s, state.pressure)) {
