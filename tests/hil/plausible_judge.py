@@ -199,7 +199,7 @@ def reversals(log: Log, begin: float, end: float) -> int:
 def judge_chatter(log: Log, since: float) -> Verdict:
     good, by_turns = reversals(log, since - 1.5, since), reversals(log, since, since + 1.5)
     verdict = Verdict(named=f"none, {by_turns} reversals, {good} before")
-    if by_turns > 3 * FEW_REVERSALS + 2 * good:
+    if by_turns > 6 * FEW_REVERSALS + 2 * good:
         verdict.problems.append("the machine moves by turns")
     engine = [frame.time for frame in log.all if frame.name == EEC1 and frame.time > since]
     if sum(after - before > TURN_S for before, after in zip(engine, engine[1:])) < FEW_REVERSALS:
