@@ -135,6 +135,22 @@ void a_spool_within_its_dead_band_leads_nowhere(void**) {
   assert_true(bench.stops_after(4, -kStep_m));
 }
 
+/// Closed in between, to its edge, it begins anew.
+void a_spool_that_closes_begins_anew(void**) {
+  for (const double closed : {0.1, kEdge}) {
+    Bench bench;
+    bench.move(0.0);
+    bench.move(0.0);
+    assert_false(bench.stops_after(3, -kStep_m));
+    bench.open(closed);
+    bench.move(0.0);
+    bench.open(0.5);
+    bench.move(0.0);
+    bench.move(0.0);
+    assert_false(bench.stops_after(3, -kStep_m));
+  }
+}
+
 /// Where a dead band ends is known within 3 % of the travel; a motor has none to speak of.
 void a_spool_near_its_edge_may_be_closed(void**) {
   Bench bench;
@@ -217,6 +233,7 @@ int main() {
       cmocka_unit_test(pressures_within_their_zeros_push_nowhere),
       cmocka_unit_test(a_drive_that_coasts_is_let_go_on_until_it_turns),
       cmocka_unit_test(a_spool_within_its_dead_band_leads_nowhere),
+      cmocka_unit_test(a_spool_that_closes_begins_anew),
       cmocka_unit_test(a_spool_near_its_edge_may_be_closed),
       cmocka_unit_test(another_side_begins_anew),
       cmocka_unit_test(a_stroke_that_did_not_come_says_nothing),

@@ -341,6 +341,17 @@ void the_last_cycle_counts_too(void**) {
   assert_near(watched.state.behind_m, behind_m, 0.0);
 }
 
+/// What is not learnt yet is left room for.
+void a_valve_that_is_not_learnt_is_given_more_time(void**) {
+  Watched known;
+  Watched fresh;
+  fresh.valve = LearntValve{};
+  const int sooner = known.until(Fault::kStrokeStuck, 0.0);
+  const int later = fresh.until(Fault::kStrokeStuck, 0.0);
+  assert_true(sooner > 0);
+  assert_true(later == 0 || later > sooner);
+}
+
 }  // namespace
 
 int main() {
@@ -360,6 +371,7 @@ int main() {
       cmocka_unit_test(a_gap_forgets_only_what_it_must),
       cmocka_unit_test(without_spool_or_load_nothing_is_checked),
       cmocka_unit_test(the_last_cycle_counts_too),
+      cmocka_unit_test(a_valve_that_is_not_learnt_is_given_more_time),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
