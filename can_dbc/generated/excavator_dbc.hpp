@@ -17,7 +17,7 @@
 
 namespace graben::dbc::excavator {
 
-inline constexpr std::uint8_t kDbcVersion = 6;
+inline constexpr std::uint8_t kDbcVersion = 7;
 
 using common::EEC1;
 using common::OperatorCommand;
@@ -683,6 +683,72 @@ struct TaskStatus {
   constexpr Payload encode() const { return encode_message(*this); }
 };
 
+/// Where the spools' dead bands end, as learnt while the cylinders move: how far from where the
+/// profile says, as a share of the spool's travel. Not available: not learnt yet on that side.
+struct EcuLearntValves {
+  static constexpr const char* kName = "EcuLearntValves";
+  static constexpr const char* kSender = "Graben";
+  static constexpr std::uint32_t kId = 0x18FF3982;
+  static constexpr std::uint8_t kLength = 8;
+  static constexpr std::uint16_t kCycleTimeMs = 100;
+  static constexpr bool kProtected = false;
+  static constexpr std::uint16_t kDataId = 0x0000;
+  static constexpr std::uint8_t kMaxDeltaCounter = 0;
+
+  static constexpr Field kBoomExtendEdge{
+      "BoomExtendEdge", "", 0, 8, 0U, 250U, 254, 255, 255U,
+      -125, 1.0, 1000.0};
+  static constexpr Field kBoomRetractEdge{
+      "BoomRetractEdge", "", 8, 8, 0U, 250U, 254, 255, 255U,
+      -125, 1.0, 1000.0};
+  static constexpr Field kArmExtendEdge{
+      "ArmExtendEdge", "", 16, 8, 0U, 250U, 254, 255, 255U,
+      -125, 1.0, 1000.0};
+  static constexpr Field kArmRetractEdge{
+      "ArmRetractEdge", "", 24, 8, 0U, 250U, 254, 255, 255U,
+      -125, 1.0, 1000.0};
+  static constexpr Field kBucketExtendEdge{
+      "BucketExtendEdge", "", 32, 8, 0U, 250U, 254, 255, 255U,
+      -125, 1.0, 1000.0};
+  static constexpr Field kBucketRetractEdge{
+      "BucketRetractEdge", "", 40, 8, 0U, 250U, 254, 255, 255U,
+      -125, 1.0, 1000.0};
+
+  /// Where the boom cylinder extends: positive opens later than the profile says. [-12.5 .. 12.5 %
+  /// on the bus]
+  Physical boom_extend_edge_ratio{0.0, RawState::kNotAvailable};
+  /// Where the boom cylinder retracts: positive opens later than the profile says. [-12.5 .. 12.5 %
+  /// on the bus]
+  Physical boom_retract_edge_ratio{0.0, RawState::kNotAvailable};
+  /// Where the arm cylinder extends: positive opens later than the profile says. [-12.5 .. 12.5 %
+  /// on the bus]
+  Physical arm_extend_edge_ratio{0.0, RawState::kNotAvailable};
+  /// Where the arm cylinder retracts: positive opens later than the profile says. [-12.5 .. 12.5 %
+  /// on the bus]
+  Physical arm_retract_edge_ratio{0.0, RawState::kNotAvailable};
+  /// Where the bucket cylinder extends: positive opens later than the profile says. [-12.5 .. 12.5
+  /// % on the bus]
+  Physical bucket_extend_edge_ratio{0.0, RawState::kNotAvailable};
+  /// Where the bucket cylinder retracts: positive opens later than the profile says. [-12.5 .. 12.5
+  /// % on the bus]
+  Physical bucket_retract_edge_ratio{0.0, RawState::kNotAvailable};
+
+  /// Calls visitor(field, signal) for each signal.
+  template <class Self, class Visitor>
+  static constexpr void visit(Self& self, Visitor&& visitor) {
+    visitor(kBoomExtendEdge, self.boom_extend_edge_ratio);
+    visitor(kBoomRetractEdge, self.boom_retract_edge_ratio);
+    visitor(kArmExtendEdge, self.arm_extend_edge_ratio);
+    visitor(kArmRetractEdge, self.arm_retract_edge_ratio);
+    visitor(kBucketExtendEdge, self.bucket_extend_edge_ratio);
+    visitor(kBucketRetractEdge, self.bucket_retract_edge_ratio);
+  }
+  static constexpr EcuLearntValves decode(const Payload& payload) {
+    return decode_message<EcuLearntValves>(payload);
+  }
+  constexpr Payload encode() const { return encode_message(*this); }
+};
+
 using AllMessages =
     MessageList<BoomStroke,
                 ArmStroke,
@@ -700,6 +766,7 @@ using AllMessages =
                 EcuMotion,
                 EcuHydraulics,
                 TaskStatus,
+                EcuLearntValves,
                 EEC1,
                 OperatorCommand,
                 MachineIdentity,
@@ -708,7 +775,7 @@ using AllMessages =
                 EcuHealth,
                 DM1>;
 
-inline constexpr std::array<MessageInfo, 23> kMessages{{
+inline constexpr std::array<MessageInfo, 24> kMessages{{
     message_info<BoomStroke>(),
     message_info<ArmStroke>(),
     message_info<BucketStroke>(),
@@ -725,6 +792,7 @@ inline constexpr std::array<MessageInfo, 23> kMessages{{
     message_info<EcuMotion>(),
     message_info<EcuHydraulics>(),
     message_info<TaskStatus>(),
+    message_info<EcuLearntValves>(),
     message_info<EEC1>(),
     message_info<OperatorCommand>(),
     message_info<MachineIdentity>(),
@@ -752,6 +820,7 @@ struct Dbc {
   using EcuMotion = excavator::EcuMotion;
   using EcuHydraulics = excavator::EcuHydraulics;
   using TaskStatus = excavator::TaskStatus;
+  using EcuLearntValves = excavator::EcuLearntValves;
   using EEC1 = excavator::EEC1;
   using OperatorCommand = excavator::OperatorCommand;
   using MachineIdentity = excavator::MachineIdentity;

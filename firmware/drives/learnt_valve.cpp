@@ -123,6 +123,14 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
         side);
 }
 
+double learnt_edge_ratio(const DriveRow& drive, const LearntSide& side) {
+  return side.edge * (1.0 - drive.spool_to_duty.y_first());
+}
+
+bool is_edge_known(const LearntSide& side) {
+  return side.edge_variance <= 0.5 * kEdgeSpread * kEdgeSpread;
+}
+
 double opening_beyond(const LearntSide& side, double opening) {
   return side.edge * (1.0 - opening) + side.bend * curve(opening);
 }

@@ -59,6 +59,12 @@ struct LearntValve {
 void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk& ask, bool usable,
                  double period_s, LearntValve& valve);
 
+/// The dead band's end on this side, from the profile's, as a share of the spool's travel.
+[[nodiscard]] double learnt_edge_ratio(const DriveRow& drive, const LearntSide& side);
+
+/// Its variance is at most half of that before anything was learnt.
+[[nodiscard]] bool is_edge_known(const LearntSide& side);
+
 /// What the real valve needs beyond the profile's opening.
 [[nodiscard]] double opening_beyond(const LearntSide& side, double opening);
 

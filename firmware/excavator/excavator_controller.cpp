@@ -69,6 +69,7 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   if (decision.active()) {
     describe_motion(motion, followed, valid.degraded, outputs.status);
   }
+  tell_learnt(outputs.status);
   remember(valid, motion, followed, decision, outputs, cycle.period_s);
   lead_spools(outputs);
   return outputs;

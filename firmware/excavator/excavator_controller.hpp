@@ -129,6 +129,7 @@ class ExcavatorController {
   void park_spools(const ExcavatorValid& valid, double period_s, Motion& motion);
   /// Duties for the valves as they turned out to be.
   void open_as_learnt(ExcavatorOutputs& outputs) const;
+  void tell_learnt(ExcavatorStatus& status) const;
   /// Duties that lead through the spools' lag. The watches know of those without: that is where
   /// the spools are to be.
   void lead_spools(ExcavatorOutputs& outputs);

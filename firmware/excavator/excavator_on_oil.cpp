@@ -111,6 +111,16 @@ void ExcavatorController::open_as_learnt(ExcavatorOutputs& outputs) const {
   }
 }
 
+void ExcavatorController::tell_learnt(ExcavatorStatus& status) const {
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const auto k = static_cast<unsigned>(axis);
+    const DriveRow& drive = drives()[axis];
+    const LearntValve& valve = memory_.watch.drives.learnt[k];
+    status.edges[k] = {{is_edge_known(valve.extend), learnt_edge_ratio(drive, valve.extend)},
+                       {is_edge_known(valve.retract), learnt_edge_ratio(drive, valve.retract)}};
+  }
+}
+
 void ExcavatorController::lead_spools(ExcavatorOutputs& outputs) {
   if (!on_oil(profile_) || !outputs.enable) {
     memory_.spool = {};

@@ -50,6 +50,19 @@ struct TaskProgress {
   double share = 0.0;  ///< Of the step, 0 .. 1.
 };
 
+/// Where a valve opens, on one side: learnt, as a share of the spool's travel from where the
+/// profile says; positive opens later.
+struct LearntEdge {
+  bool known = false;
+  double beyond_ratio = 0.0;
+};
+
+/// Of a cylinder's valve.
+struct LearntEdges {
+  LearntEdge extend;
+  LearntEdge retract;
+};
+
 /// Status of the excavator's controller.
 struct ExcavatorStatus : MachineStatus {
   /// V_L^d before scaling by lambda; the swing's at its lever, see SwingProfile.
@@ -58,6 +71,7 @@ struct ExcavatorStatus : MachineStatus {
   double path_error_m = 0.0;  ///< Distance of the measured tip from the path.
   double swing_wanted_radps = 0.0;
   TaskProgress progress;
+  std::array<LearntEdges, kAxisCount> edges{};
 };
 
 struct ExcavatorOutputs : MachineOutputs {

@@ -156,6 +156,24 @@ bus::TaskStatus task_status(const ExcavatorOutputs& outputs, const EcuDiagnosis&
   return message;
 }
 
+void put_edge(const LearntEdge& learnt, dbc::Physical& edge) {
+  if (learnt.known) {  // its start value is 'not available'
+    edge = physical(learnt.beyond_ratio);
+  }
+}
+
+bus::EcuLearntValves learnt_valves(const ExcavatorOutputs& outputs, const EcuDiagnosis&) {
+  const auto& edges = outputs.status.edges;
+  bus::EcuLearntValves message;
+  put_edge(edges[0].extend, message.boom_extend_edge_ratio);
+  put_edge(edges[0].retract, message.boom_retract_edge_ratio);
+  put_edge(edges[1].extend, message.arm_extend_edge_ratio);
+  put_edge(edges[1].retract, message.arm_retract_edge_ratio);
+  put_edge(edges[2].extend, message.bucket_extend_edge_ratio);
+  put_edge(edges[2].retract, message.bucket_retract_edge_ratio);
+  return message;
+}
+
 template <class Message, Message (*make)(const ExcavatorOutputs&, const EcuDiagnosis&)>
 constexpr auto row(TimeUs phase_us, BusPart part = nullptr) {
   return send_row<ExcavatorOutputs, Message, make>(phase_us, part);
@@ -168,6 +186,7 @@ constexpr auto kSendTable = bus_send_table(
     row<bus::EcuMotion, ecu_motion>(kControlPeriod_us),
     row<bus::EcuHydraulics, ecu_hydraulics>(kControlPeriod_us),
     row<bus::TaskStatus, task_status>(kControlPeriod_us, &BusParts::swing_drive),
+    row<bus::EcuLearntValves, learnt_valves>(5 * kControlPeriod_us),
     ecu_health_row<ExcavatorOutputs>(), ecu_identity_row<ExcavatorOutputs, bus::kDbcVersion>());
 
 }  // namespace

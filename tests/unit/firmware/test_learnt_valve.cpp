@@ -78,6 +78,9 @@ void a_dead_band_is_learnt_on_its_own_side(void**) {
     const double beyond = (edge - kEdge) / (1.0 - kEdge);
     assert_near(opening_beyond(bench.valve.extend, 0.3), 0.7 * beyond, 0.25 * std::abs(beyond));
     assert_near(bench.off(0.05), 0.0, 0.06);
+    assert_true(is_edge_known(bench.valve.extend));
+    assert_near(learnt_edge_ratio(bench.row, bench.valve.extend), edge - kEdge, 0.015);
+    assert_false(is_edge_known(bench.valve.retract));
     assert_near(bench.valve.retract.edge, 0.0, 0.0);
     assert_near(bench.valve.retract.bend, 0.0, 0.0);
     bench.work(8.0, -1.0);

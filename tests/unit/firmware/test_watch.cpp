@@ -344,6 +344,12 @@ void what_its_load_holds_is_not_stuck(void**) {
   Pushing rock(28e6);
   assert_false(rock.meets(Fault::kStrokeStuck, 1000));
   assert_int_equal(rock.state.drives.blocked[1].side, 1);
+  Pushing eased(30e6);
+  assert_false(eased.meets(Fault::kStrokeStuck, 40));
+  eased.inputs.drive[1].cap_pressure_pa = 20e6;  // Let off, and still held.
+  assert_false(eased.meets(Fault::kStrokeStuck, 100));
+  assert_int_equal(eased.state.drives.blocked[1].side, 1);
+  assert_false(eased.state.drives.blocked[1].strains);
   Pushing stuck(20e6);
   assert_true(stuck.meets(Fault::kStrokeStuck, 300));
   assert_int_equal(stuck.state.drives.blocked[1].side, 0);

@@ -18,10 +18,11 @@ using SwingSender = Sender<SwingTransmitter>;
 
 void periods(void**) {
   for (const TimeUs jitter_us : {0, 4000}) {
-    const auto tally = sent_in_10_s<ExcavatorTransmitter, bus::SpoolCommand, bus::PumpCommand,
-                                    bus::EcuStatus, bus::EcuMotion, bus::EcuHydraulics,
-                                    bus::EcuHealth, bus::EcuIdentity, bus::DM1>(jitter_us);
-    const std::array<int, 8> expected = {1000, 500, 500, 500, 500, 100, 10, 10};
+    const auto tally =
+        sent_in_10_s<ExcavatorTransmitter, bus::SpoolCommand, bus::PumpCommand, bus::EcuStatus,
+                     bus::EcuMotion, bus::EcuHydraulics, bus::EcuHealth, bus::EcuLearntValves,
+                     bus::EcuIdentity, bus::DM1>(jitter_us);
+    const std::array<int, 9> expected = {1000, 500, 500, 500, 500, 100, 100, 10, 10};
     assert_true(std::equal(expected.begin(), expected.end(), tally.begin()));
     assert_in_range(tally.back(), 4, 5);
   }
@@ -195,6 +196,24 @@ void swash(void**) {
   }
 }
 
+void learnt_valves(void**) {
+  ExcavatorSender sender;
+  auto& edges = sender.outputs.status.edges;
+  edges[0] = {{true, 0.031}, {false, 0.02}};
+  edges[1] = {{false, 0.0}, {true, -0.056}};
+  edges[2] = {{true, 0.0}, {true, 0.3}};
+  for (TimeUs n = 0; n <= 10; ++n) {
+    sender.call(kStartUs + n * kPeriodUs);
+  }
+  const auto sent = sender.sent<bus::EcuLearntValves>();
+  assert_near(sent.boom_extend_edge_ratio.value, 0.031, 1e-9);
+  assert_int_equal(sent.boom_retract_edge_ratio.state, RawState::kNotAvailable);
+  assert_int_equal(sent.arm_extend_edge_ratio.state, RawState::kNotAvailable);
+  assert_near(sent.arm_retract_edge_ratio.value, -0.056, 1e-9);
+  assert_near(sent.bucket_extend_edge_ratio.value, 0.0, 1e-9);
+  assert_near(sent.bucket_retract_edge_ratio.value, 0.125, 1e-9);  // what the frame can say
+}
+
 void motion_and_hydraulics(void**) {
   ExcavatorSender sender;
   ExcavatorStatus& out = sender.outputs.status;
@@ -217,11 +236,17 @@ void motion_and_hydraulics(void**) {
 
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(periods),    cmocka_unit_test(periods_of_the_swings_frames),
-      cmocka_unit_test(protection), cmocka_unit_test(pilot_cut),
-      cmocka_unit_test(duty),       cmocka_unit_test(a_duty_that_is_not_finite_stops_all),
-      cmocka_unit_test(swing_duty), cmocka_unit_test(task_status),
-      cmocka_unit_test(swash),      cmocka_unit_test(motion_and_hydraulics),
+      cmocka_unit_test(periods),
+      cmocka_unit_test(periods_of_the_swings_frames),
+      cmocka_unit_test(protection),
+      cmocka_unit_test(pilot_cut),
+      cmocka_unit_test(duty),
+      cmocka_unit_test(a_duty_that_is_not_finite_stops_all),
+      cmocka_unit_test(swing_duty),
+      cmocka_unit_test(task_status),
+      cmocka_unit_test(swash),
+      cmocka_unit_test(learnt_valves),
+      cmocka_unit_test(motion_and_hydraulics),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -110,6 +110,16 @@ function excavator_plots(count: number, came: ReadonlySet<string>): PlotSpec[] {
       real(`Pump ${pump}`, `pump${pump}`, `PumpState.Pump${pump}Swash`, 1),
     ]),
   });
+  if (came.has('EcuLearntValves')) {
+    plots.push({
+      name: 'learnt', title: 'Learnt dead bands', unit: '%', least: [-2, 2],
+      note: "From the profile's, of the spool's travel; extending strong, retracting thin",
+      lines: DRIVES.flatMap(({name, colour}) => [
+        real(`${name} extends`, colour, `EcuLearntValves.${name}ExtendEdge`, 1),
+        beside(`${name} retracts`, colour, `EcuLearntValves.${name}RetractEdge`, 1),
+      ]),
+    });
+  }
   return plots;
 }
 
