@@ -186,7 +186,7 @@ constexpr auto kSendTable = bus_send_table(
     row<bus::EcuMotion, ecu_motion>(kControlPeriod_us),
     row<bus::EcuHydraulics, ecu_hydraulics>(kControlPeriod_us),
     row<bus::TaskStatus, task_status>(kControlPeriod_us, &BusParts::swing_drive),
-    row<bus::EcuLearntValves, learnt_valves>(5 * kControlPeriod_us),
+    row<bus::EcuLearntValves, learnt_valves>(4 * kControlPeriod_us),
     ecu_health_row<ExcavatorOutputs>(), ecu_identity_row<ExcavatorOutputs, bus::kDbcVersion>());
 
 }  // namespace

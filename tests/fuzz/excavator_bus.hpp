@@ -25,7 +25,9 @@ struct ExcavatorBus : ecu::ExcavatorKind {
     return id == Dbc::SwingState::kId || id == Dbc::SwingValveState::kId;
   }
   /// Whether its values may be not available.
-  [[nodiscard]] static bool may_miss(std::uint32_t id) { return id == Dbc::PumpCommand::kId; }
+  [[nodiscard]] static bool may_miss(std::uint32_t id) {
+    return id == Dbc::PumpCommand::kId || id == Dbc::EcuLearntValves::kId;
+  }
   [[nodiscard]] static std::array<double, kSpools> duties(const Dbc::SpoolCommand& command);
   /// The duty at which a spool begins to open.
   [[nodiscard]] static double duty_edge(const Profile& profile) {

@@ -84,7 +84,7 @@ REPLAY = ("grep -F '0CFF3082#' $OUT/$INTERFACE.log | tail -n 20 | head -n 1 | cu
 GONE = ("ip link delete $INTERFACE; sleep 0.5; ip link add $INTERFACE type vcan; ip link set $INTERFACE up; "
         "candump -D -L $INTERFACE,0:0,#FFFFFFFF >>$OUT/$INTERFACE.log & # interface removed, made again")
 # 4000 bytes a time, in 572 frames that the receiver lets come as fast as the kernel makes them.
-ISOTP = ("isotprecv -l -s 700 -d 701 $INTERFACE >/dev/null & sleep 0.05; for n in 1 2 3; do "
+ISOTP = ("isotprecv -l -s 700 -d 701 $INTERFACE >/dev/null & sleep 0.05; for n in 1 2 3 4 5 6 7 8; do "
          "yes 5A | head -n 4000 | isotpsend -s 701 -d 700 $INTERFACE; sleep 0.1; done; kill $!; "
          "# diagnosis (ISO-TP) beside it")
 STALLS = ("for n in 1 2 3; do kill -STOP $ECU; sleep 0.035; kill -CONT $ECU; sleep 0.02; done; "

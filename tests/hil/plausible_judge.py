@@ -7,7 +7,7 @@ import sys
 
 import bus_log
 from bus_log import (ACTIVE, ARMED, ECU_STATUS, MARK, NEUTRAL_RAW, PUMP_COMMAND, SPOOL_COMMAND, SWING_COMMAND,
-                     SWING_STATE, Frame)
+                     SWING_STATE, VALVE_STATE, Frame)
 from plausible_cases import LETS_GO_S, STALL_S, Case
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -187,11 +187,12 @@ def judge_harmless(log: Log, since: float) -> Verdict:
 
 
 def reversals(log: Log, begin: float, end: float) -> int:
-    """Steps up after steps down of what moves the machine, and the other way round."""
-    name = PUMP_COMMAND if log.case.machine[0].startswith("dozer") else SPOOL_COMMAND
+    """Steps up after steps down of what moves the machine, and the other way round: of spools as they are measured,
+    because their commands lead them."""
+    name = PUMP_COMMAND if log.case.machine[0].startswith("dozer") else VALVE_STATE
     starts = (16,) if name == PUMP_COMMAND else (16, 32, 48)
     efforts = [max(abs(frame.bits(start, 16) - NEUTRAL_RAW) for start in starts)
-               for frame in log.commands if frame.name == name and begin < frame.time < end]
+               for frame in log.all if frame.name == name and begin < frame.time < end]
     steps = [1 if now > before else -1 for before, now in zip(efforts, efforts[1:]) if abs(now - before) > STEP_RAW]
     return sum(one != other for one, other in zip(steps, steps[1:]))
 
@@ -199,7 +200,7 @@ def reversals(log: Log, begin: float, end: float) -> int:
 def judge_chatter(log: Log, since: float) -> Verdict:
     good, by_turns = reversals(log, since - 1.5, since), reversals(log, since, since + 1.5)
     verdict = Verdict(named=f"none, {by_turns} reversals, {good} before")
-    if by_turns > 6 * FEW_REVERSALS + 2 * good:
+    if by_turns > 2 * FEW_REVERSALS + 2 * good:
         verdict.problems.append("the machine moves by turns")
     engine = [frame.time for frame in log.all if frame.name == EEC1 and frame.time > since]
     if sum(after - before > TURN_S for before, after in zip(engine, engine[1:])) < FEW_REVERSALS:

@@ -42,9 +42,15 @@ constexpr Scale kScales[] = {
     {"SwingDuty", 5e-5, -1.6, -1.0, 1.0},
     {"Progress", 2e-5, 0.0, 0.0, 1.0},
     {"SwingWantedVelocity", 1e-4, -3.2, -3.2, 3.2},
+    {"BoomExtendEdge", 1e-3, -0.125, -0.125, 0.125},
+    {"BoomRetractEdge", 1e-3, -0.125, -0.125, 0.125},
+    {"ArmExtendEdge", 1e-3, -0.125, -0.125, 0.125},
+    {"ArmRetractEdge", 1e-3, -0.125, -0.125, 0.125},
+    {"BucketExtendEdge", 1e-3, -0.125, -0.125, 0.125},
+    {"BucketRetractEdge", 1e-3, -0.125, -0.125, 0.125},
 };
 
-void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 75); }
+void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 81); }
 
 void saturates_and_refuses(void**) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
 

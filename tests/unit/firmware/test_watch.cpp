@@ -345,7 +345,7 @@ void what_its_load_holds_is_not_stuck(void**) {
   assert_false(rock.meets(Fault::kStrokeStuck, 1000));
   assert_int_equal(rock.state.drives.blocked[1].side, 1);
   Pushing eased(30e6);
-  assert_false(eased.meets(Fault::kStrokeStuck, 40));
+  assert_false(eased.meets(Fault::kStrokeStuck, 60));
   eased.inputs.drive[1].cap_pressure_pa = 20e6;  // Let off, and still held.
   assert_false(eased.meets(Fault::kStrokeStuck, 100));
   assert_int_equal(eased.state.drives.blocked[1].side, 1);

@@ -202,7 +202,7 @@ void learnt_valves(void**) {
   edges[0] = {{true, 0.031}, {false, 0.02}};
   edges[1] = {{false, 0.0}, {true, -0.056}};
   edges[2] = {{true, 0.0}, {true, 0.3}};
-  for (TimeUs n = 0; n <= 10; ++n) {
+  for (TimeUs n = 0; n <= 4; ++n) {
     sender.call(kStartUs + n * kPeriodUs);
   }
   const auto sent = sender.sent<bus::EcuLearntValves>();
