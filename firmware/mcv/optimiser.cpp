@@ -171,12 +171,12 @@ bool finite(const McvSolution& solution) {
   return std::isfinite(sum);
 }
 
-/// lambda 0 with nothing but how it came to it.
-McvSolution stopped(SolveStatus status, int iterations) {
-  McvSolution solution;
-  solution.status = status;
+/// lambda 0 with nothing but how it came to it. In place and not inlined: a second solution would
+/// stand in the caller's frame, under the deepest chain of calls.
+[[gnu::noinline]] void give_up(int iterations, McvSolution& solution) {
+  solution = McvSolution{};
+  solution.status = SolveStatus::kNotConverged;
   solution.iterations = iterations;
-  return solution;
 }
 
 }  // namespace
@@ -191,7 +191,7 @@ McvSolution solve_mcv(const McvMachine& machine, const McvInput& input, McvPolic
   McvCircuit circuit = make_circuit(machine, input);
   const PolicyResult chosen = choose_with_reserve(circuit, policy, range);
   if (!chosen.bounded) {
-    solution = stopped(SolveStatus::kNotConverged, chosen.iterations);
+    give_up(chosen.iterations, solution);
     return solution;
   }
   solution.status = SolveStatus::kOk;
@@ -208,7 +208,7 @@ McvSolution solve_mcv(const McvMachine& machine, const McvInput& input, McvPolic
   }
   // Numbers that no machine has, though each is in its range, can still end outside of all ranges.
   if (!finite(solution)) {
-    solution = stopped(SolveStatus::kNotConverged, chosen.iterations);
+    give_up(chosen.iterations, solution);
   }
   return solution;
 }

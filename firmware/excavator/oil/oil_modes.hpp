@@ -1,6 +1,6 @@
 #pragma once
 /// How boom and arm swing on the oil of their cylinders: inertia and stiffness in strokes, and the
-/// two modes that they make. The bucket, whose mode is ten times faster, counts as locked to the
+/// two modes that they make. The bucket, whose mode is faster than both, counts as locked to the
 /// arm.
 
 #include <Eigen/Core>
