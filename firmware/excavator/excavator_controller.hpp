@@ -93,6 +93,7 @@ class ExcavatorController {
     ExcavatorServo servo;
     OilState oil;
     OilModes modes;
+    double payload_kg = 0.0;  ///< As weighed at rest.
     std::array<SpoolModel, kDriveCount> spool;
     std::array<ParkingState, 2> parking;  ///< Of boom and arm.
     PumpDemand pumps;
@@ -124,6 +125,7 @@ class ExcavatorController {
   void correct_on_oil(const ExcavatorValid& valid, const KinematicState& now,
                       const DriveVector& wanted_mps, DriveVector& corrected_mps) const;
   /// Observer of the oil after the last cycle's command.
+  void weigh(const OilSeen& seen, const KinematicState& now, EcuMode mode);
   void estimate_oil(const ExcavatorValid& valid, const KinematicState& now, EcuMode mode);
   /// Boom and arm stand where their corrections would reverse them for little.
   void park_spools(const ExcavatorValid& valid, double period_s, Motion& motion);

@@ -12,6 +12,8 @@ constexpr double kDeadTimeMost_s = 0.05;
 constexpr double kFarOff_m = 0.15;
 /// Of the weight, from which on the oil's law decides.
 constexpr double kLeads = 0.5;
+/// Of what is measured in a cycle at rest.
+constexpr double kWeighs = 0.02;
 /// Way of the teeth over a stroke below which a direction is left alone.
 constexpr double kInLine = 0.1;
 
@@ -50,12 +52,22 @@ void ExcavatorController::estimate_oil(const ExcavatorValid& valid, const Kinema
   }
   const bool reached = now.status == ReachStatus::kOk;
   if (reached) {
-    memory_.modes = oil_modes(profile_.oil, profile_.geometry, now, memory_.load);
+    weigh(seen, now, mode);
+    memory_.modes =
+        oil_modes(profile_.oil, profile_.geometry, now, memory_.load, memory_.payload_kg);
   }
   const bool leads = reached && seen.force_known && valid.task == Task::kDig &&
                      profile_.control.dead_time_s <= kDeadTimeMost_s;
   next_oil(setup_.oil, memory_.modes, seen, mode == EcuMode::kActive && reached, leads,
            memory_.oil);
+}
+
+void ExcavatorController::weigh(const OilSeen& seen, const KinematicState& now, EcuMode mode) {
+  if (mode == EcuMode::kActive || !seen.force_known) {
+    return;
+  }
+  const double measured_kg = payload_kg(profile_.oil, profile_.geometry, now, seen.force_n[kBoom]);
+  memory_.payload_kg += kWeighs * (measured_kg - memory_.payload_kg);
 }
 
 void ExcavatorController::correct_on_oil(const ExcavatorValid& valid, const KinematicState& now,

@@ -11,6 +11,13 @@ namespace {
 constexpr double kEmpty_pa = 1.2e6;
 constexpr double kLeastShare = 0.2;
 
+constexpr double kGravity_mps2 = 9.81;
+/// From the boom's pin: nearer, its cylinder says little of what is carried.
+constexpr double kLeastReach_m = 2.0;
+constexpr double kMostPayload_kg = 2000.0;
+/// Modes that are too slow do less harm than modes that are too fast.
+constexpr double kHeavier = 1.6;
+
 double full_share(double pressure_pa) {
   return std::clamp(pressure_pa / kEmpty_pa, kLeastShare, 1.0);
 }
@@ -24,11 +31,34 @@ double cross(const Eigen::Vector2d& a, double angle_rad, const Eigen::Vector2d& 
 
 }  // namespace
 
+double payload_kg(const OilProfile& oil, const ExcavatorGeometry& geometry,
+                  const KinematicState& now, double boom_force_n) {
+  const Eigen::Vector2d along(1.0, 0.0);
+  const double boom_rad = now.joints_rad[kBoom];
+  const double arm_rad = boom_rad + now.joints_rad[kArm];
+  const double bucket_rad = arm_rad + now.joints_rad[kBucket];
+  const Eigen::Vector2d elbow_m(geometry.boom_length_m, 0.0);
+  const Eigen::Vector2d wrist_m(geometry.arm_length_m, 0.0);
+  const double arm_pin_m = cross(along, boom_rad, elbow_m);
+  const double bucket_pin_m = arm_pin_m + cross(along, arm_rad, wrist_m);
+  const double bucket_m = bucket_pin_m + cross(along, bucket_rad, oil.link[kBucket].centre_m);
+  const double moment_kgm =
+      oil.link[kBoom].mass_kg * cross(along, boom_rad, oil.link[kBoom].centre_m) +
+      oil.link[kArm].mass_kg * (arm_pin_m + cross(along, arm_rad, oil.link[kArm].centre_m)) +
+      oil.link[kBucket].mass_kg * bucket_m;
+  const double turn_radpm = now.jacobian(2, kBoom);
+  const double carried_kgm = boom_force_n / (kGravity_mps2 * turn_radpm) - moment_kgm;
+  return bucket_m > kLeastReach_m
+             ? std::clamp(kHeavier * carried_kgm / bucket_m, 0.0, kMostPayload_kg)
+             : 0.0;
+}
+
 Eigen::Matrix2d stroke_inertia_kg(const OilProfile& oil, const ExcavatorGeometry& geometry,
-                                  const KinematicState& now) {
+                                  const KinematicState& now, double payload_kg) {
   const LinkMass& boom = oil.link[kBoom];
   const LinkMass& arm = oil.link[kArm];
-  const LinkMass& bucket = oil.link[kBucket];
+  LinkMass bucket = oil.link[kBucket];
+  bucket.mass_kg += payload_kg;
   const double bucket_rad = now.joints_rad[kBucket];
   const double c = std::cos(bucket_rad);
   const double s = std::sin(bucket_rad);
@@ -66,7 +96,7 @@ double oil_column_npm(const OilProfile& oil, const CylinderGeometry& cylinder,
 }
 
 OilModes oil_modes(const OilProfile& oil, const ExcavatorGeometry& geometry,
-                   const KinematicState& now, Span<const LoadState> load) {
+                   const KinematicState& now, Span<const LoadState> load, double payload_kg) {
   OilModes modes;
   for (int axis = 0; axis < 2; ++axis) {
     const auto k = static_cast<unsigned>(axis);
@@ -75,7 +105,7 @@ OilModes oil_modes(const OilProfile& oil, const ExcavatorGeometry& geometry,
   }
   // With x = K^-1/2 y the pair is K^-1/2 M K^-1/2 y = y / omega^2, symmetric: one turn solves it.
   const Eigen::Vector2d root = modes.stiffness_npm.cwiseSqrt();
-  const Eigen::Matrix2d inertia_kg = stroke_inertia_kg(oil, geometry, now);
+  const Eigen::Matrix2d inertia_kg = stroke_inertia_kg(oil, geometry, now, payload_kg);
   const double boom = inertia_kg(0, 0) / (root[0] * root[0]);
   const double both = inertia_kg(0, 1) / (root[0] * root[1]);
   const double arm = inertia_kg(1, 1) / (root[1] * root[1]);

@@ -11,10 +11,17 @@
 
 namespace graben {
 
-/// M of M l'' = F + f: kg, by the strokes of boom and arm. `now` must be kOk.
+/// What the bucket carries, by the force of the boom's cylinder at rest: 1.6 times what the links
+/// do not weigh, since friction and transducers may hide a third of it; 0 .. 2000 kg, and 0 with
+/// the bucket nearer than 2 m. `now` must be kOk.
+[[nodiscard]] double payload_kg(const OilProfile& oil, const ExcavatorGeometry& geometry,
+                                const KinematicState& now, double boom_force_n);
+
+/// M of M l'' = F + f: kg, by the strokes of boom and arm; the payload lies in the bucket's centre.
+/// `now` must be kOk.
 [[nodiscard]] Eigen::Matrix2d stroke_inertia_kg(const OilProfile& oil,
                                                 const ExcavatorGeometry& geometry,
-                                                const KinematicState& now);
+                                                const KinematicState& now, double payload_kg);
 
 /// Stiffness of both oil columns of an axis, N/m: beta (A_A^2 / V_A + A_B^2 / V_B). A chamber that
 /// runs empty gives less and less of its share.
@@ -32,6 +39,7 @@ struct OilModes {
 
 /// K shape = M shape omega^2. `load` has the filtered pressures of boom and arm.
 [[nodiscard]] OilModes oil_modes(const OilProfile& oil, const ExcavatorGeometry& geometry,
-                                 const KinematicState& now, Span<const LoadState> load);
+                                 const KinematicState& now, Span<const LoadState> load,
+                                 double payload_kg);
 
 }  // namespace graben

@@ -25,39 +25,41 @@ std::array<LoadState, kDriveCount> pressed() {
   return load;
 }
 
-OilModes modes_at(const KinematicState& now) {
+OilModes modes_at(const KinematicState& now, double payload_kg = 0.0) {
   const std::array<LoadState, kDriveCount> load = pressed();
-  return oil_modes(machine().oil, machine().geometry, now, {load.data(), 2});
+  return oil_modes(machine().oil, machine().geometry, now, {load.data(), 2}, payload_kg);
+}
+
+/// x, y of the mass centre and angle of each link; the bucket is locked to the arm as it is at
+/// `locked_m`.
+std::array<Eigen::Vector3d, 3> bodies(const Eigen::Vector3d& strokes_m,
+                                      const Eigen::Vector3d& locked_m) {
+  const ExcavatorKinematics kinematics(machine().geometry);
+  Eigen::Vector3d joints = kinematics.joints_from_strokes(strokes_m).joints_rad;
+  joints[2] = kinematics.joints_from_strokes(locked_m).joints_rad[2];
+  std::array<Eigen::Vector3d, 3> body;
+  Eigen::Vector2d pin = Eigen::Vector2d::Zero();
+  double angle = 0.0;
+  const std::array<double, 3> length = {machine().geometry.boom_length_m,
+                                        machine().geometry.arm_length_m, 0.0};
+  for (unsigned i = 0; i < 3; ++i) {
+    angle += joints[static_cast<int>(i)];
+    const Eigen::Rotation2Dd turn(angle);
+    const Eigen::Vector2d centre = pin + turn * machine().oil.link[i].centre_m;
+    body[i] = {centre.x(), centre.y(), angle};
+    pin += turn * Eigen::Vector2d(length[i], 0.0);
+  }
+  return body;
 }
 
 /// Kinetic energy of three rigid bodies, from where their mass centres are at strokes a little
 /// further on.
 double kinetic_j(const Eigen::Vector3d& strokes_m, const Eigen::Vector2d& speed_mps) {
   constexpr double kStep_s = 1e-5;
-  const ExcavatorKinematics kinematics(machine().geometry);
-  const auto bodies = [&](double time_s) {
-    Eigen::Vector3d at = strokes_m;
-    at.head<2>() += time_s * speed_mps;
-    Eigen::Vector3d joints = kinematics.joints_from_strokes(at).joints_rad;
-    // The bucket is locked to the arm.
-    joints[2] = kinematics.joints_from_strokes(strokes_m).joints_rad[2];
-    std::array<Eigen::Vector3d, 3> body;  // x, y, angle
-    Eigen::Vector2d pin = Eigen::Vector2d::Zero();
-    double angle = 0.0;
-    const std::array<double, 2> length = {machine().geometry.boom_length_m,
-                                          machine().geometry.arm_length_m};
-    for (unsigned i = 0; i < 3; ++i) {
-      angle += joints[static_cast<int>(i)];
-      const Eigen::Rotation2Dd turn(angle);
-      const Eigen::Vector2d centre = pin + turn * machine().oil.link[i].centre_m;
-      body[i] = {centre.x(), centre.y(), angle};
-      pin += i < 2 ? Eigen::Vector2d(turn * Eigen::Vector2d(length[i], 0.0))
-                   : Eigen::Vector2d(Eigen::Vector2d::Zero());
-    }
-    return body;
-  };
-  const auto before = bodies(-kStep_s);
-  const auto after = bodies(kStep_s);
+  Eigen::Vector3d way_m = Eigen::Vector3d::Zero();
+  way_m.head<2>() = kStep_s * speed_mps;
+  const auto before = bodies(strokes_m - way_m, strokes_m);
+  const auto after = bodies(strokes_m + way_m, strokes_m);
   double energy_j = 0.0;
   for (unsigned i = 0; i < 3; ++i) {
     const Eigen::Vector3d rate = (after[i] - before[i]) / (2.0 * kStep_s);
@@ -68,11 +70,40 @@ double kinetic_j(const Eigen::Vector3d& strokes_m, const Eigen::Vector2d& speed_
   return energy_j;
 }
 
+/// Force of the boom's cylinder that holds the links and what lies in the bucket's mass centre.
+double holding_n(const Eigen::Vector3d& strokes_m, double carried_kg) {
+  constexpr double kStep_m = 1e-5;
+  const Eigen::Vector3d way_m(kStep_m, 0.0, 0.0);
+  const auto below = bodies(strokes_m - way_m, strokes_m);
+  const auto above = bodies(strokes_m + way_m, strokes_m);
+  double force_n = 0.0;
+  for (unsigned i = 0; i < 3; ++i) {
+    const double mass_kg = machine().oil.link[i].mass_kg + (i == kBucket ? carried_kg : 0.0);
+    force_n += 9.81 * mass_kg * (above[i].y() - below[i].y()) / (2.0 * kStep_m);
+  }
+  return force_n;
+}
+
+void what_is_carried_is_weighed(void**) {
+  for (const double arm_m : {0.3, 0.7, 1.0}) {
+    const Eigen::Vector3d strokes_m(0.6, arm_m, 0.5);
+    const KinematicState now = state_at(strokes_m[0], strokes_m[1], strokes_m[2]);
+    const auto weighed_kg = [&](double carried_kg) {
+      return payload_kg(machine().oil, machine().geometry, now, holding_n(strokes_m, carried_kg));
+    };
+    assert_near(weighed_kg(0.0), 0.0, 0.1);
+    assert_near(weighed_kg(500.0), 1.6 * 500.0, 0.5);
+    assert_near(weighed_kg(1000.0), 1.6 * 1000.0, 0.5);
+    assert_near(weighed_kg(3000.0), 2000.0, 0.0);
+    assert_near(weighed_kg(-3000.0), 0.0, 0.0);  // on the ground
+  }
+}
+
 void inertia_is_that_of_three_bodies(void**) {
   for (const double arm_m : {0.3, 0.7, 1.2}) {
     const Eigen::Vector3d strokes_m(0.6, arm_m, 0.5);
     const KinematicState now = state_at(strokes_m[0], strokes_m[1], strokes_m[2]);
-    const Eigen::Matrix2d inertia = stroke_inertia_kg(machine().oil, machine().geometry, now);
+    const Eigen::Matrix2d inertia = stroke_inertia_kg(machine().oil, machine().geometry, now, 0.0);
     for (const Eigen::Vector2d& speed :
          {Eigen::Vector2d(0.1, 0.0), Eigen::Vector2d(0.0, 0.1), Eigen::Vector2d(0.1, -0.2)}) {
       const double energy_j = kinetic_j(strokes_m, speed);
@@ -84,7 +115,7 @@ void inertia_is_that_of_three_bodies(void**) {
 void modes_solve_their_equation(void**) {
   const KinematicState now = state_at(0.6, 0.7, 0.5);
   const OilModes modes = modes_at(now);
-  const Eigen::Matrix2d inertia = stroke_inertia_kg(machine().oil, machine().geometry, now);
+  const Eigen::Matrix2d inertia = stroke_inertia_kg(machine().oil, machine().geometry, now, 0.0);
   assert_true(modes.omega_radps[0] > 0.0 && modes.omega_radps[0] < modes.omega_radps[1]);
   for (int j = 0; j < 2; ++j) {
     const Eigen::Vector2d shape = modes.shape.col(j);
@@ -94,6 +125,14 @@ void modes_solve_their_equation(void**) {
     assert_near(shape.norm(), 1.0, 1e-12);
   }
   assert_true((modes.shape * modes.inverse - Eigen::Matrix2d::Identity()).norm() < 1e-12);
+}
+
+void a_load_slows_both_modes(void**) {
+  const KinematicState now = state_at(0.6, 0.7, 0.5);
+  const OilModes empty = modes_at(now);
+  const OilModes loaded = modes_at(now, 1000.0);
+  assert_true(loaded.omega_radps[0] < 0.95 * empty.omega_radps[0]);
+  assert_true(loaded.omega_radps[1] < 0.999 * empty.omega_radps[1]);
 }
 
 void an_empty_chamber_is_softer(void**) {
@@ -257,7 +296,9 @@ void a_led_spool_arrives_in_two_cycles(void**) {
 
 int main() {
   const CMUnitTest tests[] = {
+      cmocka_unit_test(what_is_carried_is_weighed),
       cmocka_unit_test(inertia_is_that_of_three_bodies),
+      cmocka_unit_test(a_load_slows_both_modes),
       cmocka_unit_test(modes_solve_their_equation),
       cmocka_unit_test(an_empty_chamber_is_softer),
       cmocka_unit_test(a_push_is_undone_whatever_the_oil),
