@@ -88,6 +88,14 @@ void a_dead_band_is_learnt_on_its_own_side(void**) {
   }
 }
 
+/// An opening counts from the dead band's end, what is told is of the whole travel.
+void an_edge_is_told_in_travel(void**) {
+  Bench bench;
+  LearntSide side;
+  side.edge = -0.05;
+  assert_near(learnt_edge_ratio(bench.row, side), -0.05 * (1.0 - kEdge), 1e-12);
+}
+
 void an_exponent_is_learnt(void**) {
   for (const double exponent : {1.4, 1.8}) {
     Bench bench;
@@ -223,6 +231,7 @@ void the_spread_is_less_where_it_worked(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_dead_band_is_learnt_on_its_own_side),
+      cmocka_unit_test(an_edge_is_told_in_travel),
       cmocka_unit_test(an_exponent_is_learnt),
       cmocka_unit_test(what_is_not_used_is_learnt_as_well),
       cmocka_unit_test(nothing_is_learnt_of_what_is_not_the_valves_doing),
