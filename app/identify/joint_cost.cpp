@@ -19,13 +19,15 @@ T pressed(const T& error) {
 
 }  // namespace
 
-JointCost::JointCost(const JointRun& of, std::size_t joint, const Knots& knots, double sign, double scale_radps)
+JointCost::JointCost(const JointRun& of, std::size_t joint, const Knots& knots, double sign,
+                     double scale_radps)
     : of_(of), joint_(joint), knots_(knots), sign_(sign), scale_radps_(scale_radps) {
   set_num_residuals(static_cast<int>(of.run->size()));
   mutable_parameter_block_sizes()->push_back(static_cast<int>(kParameters));
 }
 
-bool JointCost::Evaluate(double const* const* parameters, double* residuals, double** jacobians) const {
+bool JointCost::Evaluate(double const* const* parameters, double* residuals,
+                         double** jacobians) const {
   const std::vector<double>& measured = of_.run->velocity_radps[joint_];
   if (jacobians == nullptr || jacobians[0] == nullptr) {
     const std::vector<double> velocity = velocities<double>(of_, joint_, parameters[0], knots_);

@@ -7,14 +7,16 @@
 
 namespace graben::identify {
 
-/// Residuals: measured less predicted velocity, in parts of the joint's usual velocity, pressed together
-/// beyond `kRobust` of it. One parameter block of kParameters.
+/// Residuals: measured less predicted velocity, in parts of the joint's usual velocity, pressed
+/// together beyond `kRobust` of it. One parameter block of kParameters.
 class JointCost : public ceres::CostFunction {
  public:
   /// `of` and `knots` must outlive it. `sign` and `scale_radps` are the joint's.
-  JointCost(const JointRun& of, std::size_t joint, const Knots& knots, double sign, double scale_radps);
+  JointCost(const JointRun& of, std::size_t joint, const Knots& knots, double sign,
+            double scale_radps);
 
-  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override;
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
 
  private:
   const JointRun& of_;

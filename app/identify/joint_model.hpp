@@ -2,10 +2,14 @@
 /// How a joint of a hydraulic machine answers its command, with the other joints on the same pumps.
 ///
 /// command -> dead time -> pilot lag -> opening (monotone curve, one per direction)
-///         -> flow (load by pose, shared with the other openings) -> oil and mass (one mode) -> velocity
+///         -> flow (load by pose, shared with the other openings) -> oil and mass (one mode) ->
+///         velocity
 ///
-/// It needs neither pressures nor a profile. Velocities are in rad/s, commands and openings are ratios.
-/// Everything is a template of the scalar, so that Ceres differentiates it.
+/// An angle measured against gravity also shows the machine rocking on its tracks, which the other
+/// joints set off.
+///
+/// It needs neither pressures nor a profile. Velocities are in rad/s, commands and openings are
+/// ratios. Everything is a template of the scalar, so that Ceres differentiates it.
 
 #include <algorithm>
 #include <array>
@@ -17,25 +21,28 @@
 
 namespace graben::identify {
 
-inline constexpr std::size_t kKnots = 8;             ///< Of a curve; the first has no opening.
-inline constexpr std::size_t kRises = kKnots - 1;    ///< From knot to knot.
+inline constexpr std::size_t kKnots = 8;           ///< Of a curve; the first has no opening.
+inline constexpr std::size_t kRises = kKnots - 1;  ///< From knot to knot.
 inline constexpr std::size_t kOthers = kJoints - 1;
 
-/// Where in the parameters of a joint which of them starts. 'Forward' is what a positive opening does.
+/// Where in the parameters of a joint which of them starts. 'Forward' is what a positive opening
+/// does.
 enum Parameter : std::size_t {
-  kDeadTime = 0,                          ///< s
-  kLagOpening,                            ///< s, of the pilot while the command grows
-  kLagClosing,                            ///< s
-  kForward,                               ///< rad/s, rises of the curve for commands > 0, each >= 0
-  kBackward = kForward + kRises,          ///< rad/s, for commands < 0
-  kModeRate = kBackward + kRises,         ///< rad/s, of oil and mass
-  kDampingDriving,                        ///< 1/s, while the oil drives
-  kDampingBraking,                        ///< 1/s, while the oil brakes
-  kLoadForward,                           ///< 1/rad, by how much the pose speeds it up: one per joint
+  kDeadTime = 0,                   ///< s
+  kLagOpening,                     ///< s, of the pilot while the command grows
+  kLagClosing,                     ///< s
+  kForward,                        ///< rad/s, rises of the curve for commands > 0, each >= 0
+  kBackward = kForward + kRises,   ///< rad/s, for commands < 0
+  kModeRate = kBackward + kRises,  ///< rad/s, of oil and mass
+  kDampingDriving,                 ///< 1/s, while the oil drives
+  kDampingBraking,                 ///< 1/s, while the oil brakes
+  kLoadForward,                    ///< 1/rad, by how much the pose speeds it up: one per joint
   kLoadBackward = kLoadForward + kJoints,
-  kShare = kLoadBackward + kJoints,       ///< Slower by: other, its direction within own direction
-  kReaction = kShare + 4 * kOthers,       ///< How much of another's change of velocity it takes over
-  kParameters = kReaction + kOthers,
+  kShare = kLoadBackward + kJoints,  ///< Slower by: other, its direction within own direction
+  kRockRate = kShare + 4 * kOthers,  ///< rad/s, of the machine on its tracks
+  kRockDamping,                      ///< Ratio
+  kRockForce,                        ///< How much of another's acceleration sets it off
+  kParameters = kRockForce + kOthers,
 };
 
 /// Commands at which the curves of a joint may bend, increasing.
@@ -51,9 +58,12 @@ struct JointRun {
 };
 
 /// Number `at` of the joints that are not `joint`.
-[[nodiscard]] inline std::size_t other_joint(std::size_t joint, std::size_t at) { return at < joint ? at : at + 1; }
+[[nodiscard]] inline std::size_t other_joint(std::size_t joint, std::size_t at) {
+  return at < joint ? at : at + 1;
+}
 
-/// Value at `u` >= 0 of a curve of straight pieces: 0 up to the first knot, up by `rises` from knot to knot.
+/// Value at `u` >= 0 of a curve of straight pieces: 0 up to the first knot, up by `rises` from knot
+/// to knot.
 template <class T>
 T curve_at(const T* rises, const Knots& knots, const T& u) {
   T value(0.0);
@@ -80,7 +90,8 @@ T commanded_until(const JointRun& of, std::size_t joint, const T& time_s, std::s
   return of.commanded_s[row] + of.run->command[joint][row] * (time_s - time[row]);
 }
 
-/// What opens after dead time and pilot lag, in rad/s of the unloaded joint; for each row of the run.
+/// What opens after dead time and pilot lag, in rad/s of the unloaded joint; for each row of the
+/// run.
 template <class T>
 std::vector<T> openings(const JointRun& of, std::size_t joint, const T* p, const Knots& knots) {
   using std::exp;
@@ -96,7 +107,8 @@ std::vector<T> openings(const JointRun& of, std::size_t joint, const T* p, const
     before = until;
     const bool opens = (held < 0.0 ? T(-held) : held) > (pilot < 0.0 ? T(-pilot) : pilot);
     pilot += (held - pilot) * (1.0 - exp(-step_s / p[opens ? kLagOpening : kLagClosing]));
-    open[at] = pilot > 0.0 ? curve_at(p + kForward, knots, pilot) : T(-curve_at(p + kBackward, knots, T(-pilot)));
+    open[at] = pilot > 0.0 ? curve_at(p + kForward, knots, pilot)
+                           : T(-curve_at(p + kBackward, knots, T(-pilot)));
   }
   return open;
 }
@@ -118,8 +130,8 @@ T flow_velocity(const JointRun& of, std::size_t row, const T* p, const T& openin
   return load > 0.0 ? T(opening * load / shared) : T(0.0);
 }
 
-/// Velocity of the joint at each row of the run, from the commands alone. In the direction of the command: the
-/// joint's sign is not in it.
+/// Velocity of the joint at each row of the run, from the commands alone. In the direction of the
+/// command: the joint's sign is not in it.
 template <class T>
 std::vector<T> velocities(const JointRun& of, std::size_t joint, const T* p, const Knots& knots) {
   constexpr int kSteps = 5;  // Of the mode, within one row.
@@ -128,19 +140,30 @@ std::vector<T> velocities(const JointRun& of, std::size_t joint, const T* p, con
   std::vector<T> velocity(time.size(), T(0.0));
   T v(0.0);
   T pushed(0.0);  // Acceleration by the oil, rad/s^2.
+  T tilt(0.0);    // Of the rocking machine, rad, and its rate.
+  T rocks(0.0);
   const T stiffness = p[kModeRate] * p[kModeRate];
+  const T rock_stiffness = p[kRockRate] * p[kRockRate];
+  const T rock_damping = 2.0 * p[kRockDamping] * p[kRockRate];
   for (std::size_t at = 1; at < time.size(); ++at) {
     const T flow = flow_velocity(of, at, p, open[at]);
     const double step_s = (time[at] - time[at - 1]) / kSteps;
+    T shoved(0.0);  // Change of the rocking rate within a step.
+    for (std::size_t other = 0; other < kOthers; ++other) {
+      shoved += p[kRockForce + other] *
+                (of.other_velocity_radps[other][at] - of.other_velocity_radps[other][at - 1]) /
+                double(kSteps);
+    }
     for (int step = 0; step < kSteps; ++step) {
       const T& damping = p[pushed * flow > 0.0 ? kDampingDriving : kDampingBraking];
-      pushed = (pushed + step_s * stiffness * (flow - v)) / (1.0 + step_s * (damping + step_s * stiffness));
+      pushed = (pushed + step_s * stiffness * (flow - v)) /
+               (1.0 + step_s * (damping + step_s * stiffness));
       v += step_s * pushed;
+      rocks = (rocks + shoved - step_s * rock_stiffness * tilt) /
+              (1.0 + step_s * (rock_damping + step_s * rock_stiffness));
+      tilt += step_s * rocks;
     }
-    for (std::size_t other = 0; other < kOthers; ++other) {
-      v += p[kReaction + other] * (of.other_velocity_radps[other][at] - of.other_velocity_radps[other][at - 1]);
-    }
-    velocity[at] = v;
+    velocity[at] = v + rocks;
   }
   return velocity;
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLongestStep_s = 0.5;
 constexpr double kShortestRun_s = 3.0;
-constexpr double kLargestAngle_rad = 100.0;    // Swing may count turns.
+constexpr double kLargestAngle_rad = 100.0;  // Swing may count turns.
 constexpr double kLargestVelocity_radps = 20.0;
 // An angle that is the integral of its velocity, noise and filter included.
 constexpr double kLeastAgreement = 0.5;
@@ -28,7 +28,8 @@ constexpr double kLeastAgreement = 0.5;
 /// Lines of a file, plain or gzip.
 class Lines {
  public:
-  explicit Lines(const std::string& path) : path_(path), file_(gzopen(path.c_str(), "rb"), gzclose) {
+  explicit Lines(const std::string& path)
+      : path_(path), file_(gzopen(path.c_str(), "rb"), gzclose) {
     if (!file_) {
       refuse(path, "cannot be read");
     }
@@ -115,8 +116,8 @@ class Columns {
 };
 
 /// A value of a row between `least` and `most`.
-double bounded(const std::vector<std::string_view>& row, const Columns& columns, const std::string& name,
-               double least, double most, const std::string& where) {
+double bounded(const std::vector<std::string_view>& row, const Columns& columns,
+               const std::string& name, double least, double most, const std::string& where) {
   const double value = number(row[columns[name]], where, name);
   if (value < least || value > most) {
     refuse(where, fmt::format("{} is {}; {} .. {} is possible", name, value, least, most));
@@ -124,14 +125,14 @@ double bounded(const std::vector<std::string_view>& row, const Columns& columns,
   return value;
 }
 
-void add_row(const std::vector<std::string_view>& row, const Columns& columns, const std::string& where,
-             MotionRun& run) {
+void add_row(const std::vector<std::string_view>& row, const Columns& columns,
+             const std::string& where, MotionRun& run) {
   const double time_s = number(row[columns["time_s"]], where, "time_s");
   if (!run.time_s.empty()) {
     const double step_s = time_s - run.time_s.back();
     if (step_s <= 0.0 || step_s > kLongestStep_s) {
-      refuse(where, fmt::format("time_s goes on by {:.3f} s within a run; up to {} s is possible", step_s,
-                                kLongestStep_s));
+      refuse(where, fmt::format("time_s goes on by {:.3f} s within a run; up to {} s is possible",
+                                step_s, kLongestStep_s));
     }
   }
   run.time_s.push_back(time_s);
@@ -142,7 +143,8 @@ void add_row(const std::vector<std::string_view>& row, const Columns& columns, c
     run.angle_rad[joint].push_back(
         bounded(row, columns, "angle_rad_" + name, -kLargestAngle_rad, kLargestAngle_rad, where));
     run.velocity_radps[joint].push_back(bounded(row, columns, "velocity_radps_" + name,
-                                                -kLargestVelocity_radps, kLargestVelocity_radps, where));
+                                                -kLargestVelocity_radps, kLargestVelocity_radps,
+                                                where));
   }
 }
 
@@ -167,9 +169,11 @@ void check_agreement(const std::vector<MotionRun>& runs, const std::string& path
       }
     }
     if (motion > 1e-6 && unexplained > (1.0 - kLeastAgreement) * motion) {
-      refuse(path, fmt::format("angle_rad_{0} does not go where velocity_radps_{0} leads: another unit, sign "
-                               "or joint?",
-                               kJointNames[joint]));
+      refuse(path,
+             fmt::format(
+                 "angle_rad_{0} does not go where velocity_radps_{0} leads: another unit, sign "
+                 "or joint?",
+                 kJointNames[joint]));
     }
   }
 }
@@ -189,12 +193,14 @@ std::vector<MotionRun> read_motion_csv(const std::string& path) {
   while (lines.next(line)) {
     const std::vector<std::string_view> row = split(line);
     if (row.size() != columns.size()) {
-      refuse(lines.where(), fmt::format("has {} cells, the header {}: is the file cut off?", row.size(), columns.size()));
+      refuse(lines.where(), fmt::format("has {} cells, the header {}: is the file cut off?",
+                                        row.size(), columns.size()));
     }
     const std::string run(row[columns["run"]]);
     if (runs.empty() || run != of_run) {
       if (std::find(seen.begin(), seen.end(), run) != seen.end()) {
-        refuse(lines.where(), fmt::format("run {} goes on after another: two recordings in one file?", run));
+        refuse(lines.where(),
+               fmt::format("run {} goes on after another: two recordings in one file?", run));
       }
       seen.push_back(run);
       of_run = run;
@@ -209,7 +215,8 @@ std::vector<MotionRun> read_motion_csv(const std::string& path) {
   for (const MotionRun& run : runs) {
     const double lasts_s = run.time_s.back() - run.time_s.front();
     if (lasts_s < kShortestRun_s) {
-      refuse(run.name, fmt::format("lasts {:.2f} s; at least {} s is needed", lasts_s, kShortestRun_s));
+      refuse(run.name,
+             fmt::format("lasts {:.2f} s; at least {} s is needed", lasts_s, kShortestRun_s));
     }
   }
   check_agreement(runs, path);

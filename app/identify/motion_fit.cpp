@@ -45,7 +45,13 @@ Range range(std::size_t parameter, double usual_radps) {
   if (parameter < kShare) {
     return {-5.0, 0.0, 5.0};
   }
-  return parameter < kReaction ? Range{0.0, 0.3, 8.0} : Range{-1.0, 0.0, 1.0};
+  if (parameter < kRockRate) {
+    return {0.0, 0.3, 8.0};
+  }
+  if (parameter == kRockRate) {
+    return {3.0, 8.0, 20.0};
+  }
+  return parameter == kRockDamping ? Range{0.02, 0.15, 1.0} : Range{-2.0, 0.02, 2.0};
 }
 
 double rms(const std::vector<MotionRun>& runs, std::size_t joint) {
@@ -103,13 +109,12 @@ Knots knots_of(const std::vector<MotionRun>& runs, std::size_t joint) {
 /// A joint's problem in Ceres.
 class JointFit {
  public:
-  JointFit(const std::vector<JointRun>& inputs, std::size_t joint, JointModel& model, double scale_radps)
+  JointFit(const std::vector<JointRun>& inputs, std::size_t joint, JointModel& model,
+           double scale_radps)
       : model_(model) {
-    ceres::Problem::Options own;
-    own.cost_function_ownership = ceres::TAKE_OWNERSHIP;
     for (const JointRun& of : inputs) {
-      problem_.AddResidualBlock(new JointCost(of, joint, model.knots, model.sign, scale_radps), nullptr,
-                                model.value.data());
+      problem_.AddResidualBlock(new JointCost(of, joint, model.knots, model.sign, scale_radps),
+                                nullptr, model.value.data());
     }
     for (std::size_t at = 0; at < kParameters; ++at) {
       const Range allowed = range(at, scale_radps);
@@ -130,8 +135,8 @@ class JointFit {
     return summary.final_cost;
   }
 
-  /// Standard deviations from the Jacobian. Errors within a run hang together, so whole runs are what is
-  /// counted: H^-1 (sum of g g^T over runs) H^-1, with g a run's gradient.
+  /// Standard deviations from the Jacobian. Errors within a run hang together, so whole runs are
+  /// what is counted: H^-1 (sum of g g^T over runs) H^-1, with g a run's gradient.
   void deviations(const std::vector<JointRun>& inputs, std::size_t joint, double scale_radps) {
     constexpr auto kSize = static_cast<Eigen::Index>(kParameters);
     using Square = Eigen::Matrix<double, kSize, kSize>;
@@ -151,13 +156,15 @@ class JointFit {
     }
     const double none = 1e-9 * curvature.trace() / static_cast<double>(kSize);
     for (Eigen::Index at = 0; at < kSize; ++at) {
-      model_.deviation[static_cast<std::size_t>(at)] = curvature(at, at) > none ? 0.0 : std::numeric_limits<double>::infinity();
+      model_.deviation[static_cast<std::size_t>(at)] =
+          curvature(at, at) > none ? 0.0 : std::numeric_limits<double>::infinity();
       curvature(at, at) += none;
     }
     const Square inverse = curvature.ldlt().solve(Square::Identity());
     const Square covariance = inverse * gradients * inverse;
     for (Eigen::Index at = 0; at < kSize; ++at) {
-      model_.deviation[static_cast<std::size_t>(at)] += std::sqrt(std::max(0.0, covariance(at, at)));
+      model_.deviation[static_cast<std::size_t>(at)] +=
+          std::sqrt(std::max(0.0, covariance(at, at)));
     }
   }
 
@@ -166,8 +173,8 @@ class JointFit {
   ceres::Problem problem_;
 };
 
-std::vector<JointRun> inputs_of(const MotionModel& model, std::size_t joint, const std::vector<MotionRun>& runs,
-                                bool first) {
+std::vector<JointRun> inputs_of(const MotionModel& model, std::size_t joint,
+                                const std::vector<MotionRun>& runs, bool first) {
   std::vector<JointRun> inputs;
   inputs.reserve(runs.size());
   for (const MotionRun& run : runs) {
@@ -182,8 +189,8 @@ std::vector<JointRun> inputs_of(const MotionModel& model, std::size_t joint, con
 }
 
 /// The first pass: the best of several dead times to start from.
-void search(const std::vector<JointRun>& inputs, std::size_t joint, JointModel& model, double scale_radps,
-            int threads) {
+void search(const std::vector<JointRun>& inputs, std::size_t joint, JointModel& model,
+            double scale_radps, int threads) {
   const JointModel start = model;
   double least = std::numeric_limits<double>::infinity();
   for (const double dead_time_s : kDeadTimeStarts_s) {
@@ -212,8 +219,9 @@ MotionModel fit_motion(const std::vector<MotionRun>& runs, const FitOptions& opt
   }
   const auto stands = [&](std::size_t joint) { return scale_radps[joint] < kStands_radps; };
   if (stands(0) && stands(1) && stands(2) && stands(3)) {
-    throw std::runtime_error(fmt::format("no joint moves: {} is the fastest rms velocity, rad/s",
-                                         *std::max_element(scale_radps.begin(), scale_radps.end())));
+    throw std::runtime_error(
+        fmt::format("no joint moves: {} is the fastest rms velocity, rad/s",
+                    *std::max_element(scale_radps.begin(), scale_radps.end())));
   }
   const double work = options.passes * static_cast<double>(kJoints);
   for (int pass = 0; pass < options.passes; ++pass) {

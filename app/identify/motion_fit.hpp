@@ -16,9 +16,9 @@ struct FitOptions {
   std::function<void(double, const std::string&)> progress = [](double, const std::string&) {};
 };
 
-/// Fits a model to runs: smallest robust error of the velocities. Dead times are searched from several starts;
-/// curves rise or stay, as no rise may be negative. A joint that stands throughout keeps no opening.
-/// Throws std::runtime_error where no joint moves.
+/// Fits a model to runs: smallest robust error of the velocities. Dead times are searched from
+/// several starts; curves rise or stay, as no rise may be negative. A joint that stands throughout
+/// keeps no opening. Throws std::runtime_error where no joint moves.
 [[nodiscard]] MotionModel fit_motion(const std::vector<MotionRun>& runs, const FitOptions& options);
 
 }  // namespace graben::identify

@@ -6,7 +6,8 @@
 namespace graben::identify {
 namespace {
 
-// The others' velocities come from the pass before; a third changes nothing that a sensor would show.
+// The others' velocities come from the pass before; a third changes nothing that a sensor would
+// show.
 constexpr int kPasses = 2;
 constexpr double kAhead_s = 1.0;
 
@@ -15,7 +16,8 @@ double full(const JointModel& joint, std::size_t first_rise) {
   return std::accumulate(from, from + kRises, 1e-9);
 }
 
-std::vector<double> integral(const std::vector<double>& time_s, const std::vector<double>& command) {
+std::vector<double> integral(const std::vector<double>& time_s,
+                             const std::vector<double>& command) {
   std::vector<double> sum(time_s.size(), 0.0);
   for (std::size_t row = 1; row < time_s.size(); ++row) {
     sum[row] = sum[row - 1] + command[row - 1] * (time_s[row] - time_s[row - 1]);
@@ -35,8 +37,8 @@ class Judge {
       sum_ += measured[row];
       squares_ += measured[row] * measured[row];
       if (row > 0) {
-        turned[row] =
-            turned[row - 1] + 0.5 * (predicted[row] + predicted[row - 1]) * (run.time_s[row] - run.time_s[row - 1]);
+        turned[row] = turned[row - 1] + 0.5 * (predicted[row] + predicted[row - 1]) *
+                                            (run.time_s[row] - run.time_s[row - 1]);
       }
     }
     rows_ += static_cast<double>(run.size());
@@ -76,7 +78,8 @@ class Judge {
 
 }  // namespace
 
-JointRun joint_run(const MotionModel& model, std::size_t joint, const MotionRun& run, const Velocities* rates) {
+JointRun joint_run(const MotionModel& model, std::size_t joint, const MotionRun& run,
+                   const Velocities* rates) {
   JointRun of;
   of.run = &run;
   of.commanded_s = integral(run.time_s, run.command[joint]);
@@ -90,7 +93,8 @@ JointRun joint_run(const MotionModel& model, std::size_t joint, const MotionRun&
     for (double& open : of.other_opening[at]) {
       open /= full(theirs, open > 0.0 ? kForward : kBackward);
     }
-    of.other_velocity_radps[at] = rates == nullptr ? std::vector<double>(run.size(), 0.0) : (*rates)[other];
+    of.other_velocity_radps[at] =
+        rates == nullptr ? std::vector<double>(run.size(), 0.0) : (*rates)[other];
   }
   return of;
 }

@@ -16,7 +16,8 @@ struct JointModel {
   double sign = 1.0;
   Knots knots{};
   std::array<double, kParameters> value{};
-  std::array<double, kParameters> deviation{};  ///< Standard deviation; infinite where the data says nothing.
+  std::array<double, kParameters>
+      deviation{};  ///< Standard deviation; infinite where the data says nothing.
 };
 
 using MotionModel = std::array<JointModel, kJoints>;
@@ -29,19 +30,22 @@ using Velocities = std::array<std::vector<double>, kJoints>;
 
 /// How good a prediction is, over all rows of all runs.
 struct Score {
-  double velocity_r2 = 0.0;           ///< Share of the velocity's variance that is explained.
-  double angle_1s_rms_rad = 0.0;      ///< Of the angle a second after a measured one, from the commands alone.
-  double velocity_rms_radps = 0.0;    ///< Unexplained.
-  bool moved = false;                 ///< False: the joint stood, and there is nothing to explain.
+  double velocity_r2 = 0.0;  ///< Share of the velocity's variance that is explained.
+  double angle_1s_rms_rad =
+      0.0;  ///< Of the angle a second after a measured one, from the commands alone.
+  double velocity_rms_radps = 0.0;  ///< Unexplained.
+  bool moved = false;               ///< False: the joint stood, and there is nothing to explain.
 };
 
 /// Below this rms velocity a joint stands, rad/s.
 inline constexpr double kStands_radps = 0.005;
 
 /// One score per joint.
-[[nodiscard]] std::array<Score, kJoints> judge(const MotionModel& model, const std::vector<MotionRun>& runs);
+[[nodiscard]] std::array<Score, kJoints> judge(const MotionModel& model,
+                                               const std::vector<MotionRun>& runs);
 
-/// Inputs of a joint's model for one run: the others' openings and, unless `rates` is null, their velocities.
+/// Inputs of a joint's model for one run: the others' openings and, unless `rates` is null, their
+/// velocities.
 [[nodiscard]] JointRun joint_run(const MotionModel& model, std::size_t joint, const MotionRun& run,
                                  const Velocities* rates);
 
