@@ -7,8 +7,8 @@
 
 namespace graben::identify {
 
-/// Residuals: measured less predicted velocity, in parts of the joint's usual velocity, pressed
-/// together beyond `kRobust` of it. One parameter block of kParameters.
+/// Residuals: predicted less measured velocity, in parts of the joint's usual velocity, pressed
+/// together beyond 0.3 of it. One parameter block of kParameters.
 class JointCost : public ceres::CostFunction {
  public:
   /// `of` and `knots` must outlive it. `sign` and `scale_radps` are the joint's.

@@ -38,10 +38,12 @@ enum Parameter : std::size_t {
   kDampingBraking,                 ///< 1/s, while the oil brakes
   kLoadForward,                    ///< 1/rad, by how much the pose speeds it up: one per joint
   kLoadBackward = kLoadForward + kJoints,
-  kShare = kLoadBackward + kJoints,  ///< Slower by: other, its direction within own direction
+  kShare =
+      kLoadBackward +
+      kJoints,  ///< By how much another's opening slows it: per other, own direction, its direction
   kRockRate = kShare + 4 * kOthers,  ///< rad/s, of the machine on its tracks
   kRockDamping,                      ///< Ratio
-  kRockForce,                        ///< How much of another's acceleration sets it off
+  kRockForce,                        ///< Ratio of the rocking's acceleration to another joint's
   kParameters = kRockForce + kOthers,
 };
 
@@ -62,8 +64,8 @@ struct JointRun {
   return at < joint ? at : at + 1;
 }
 
-/// Value at `u` >= 0 of a curve of straight pieces: 0 up to the first knot, up by `rises` from knot
-/// to knot.
+/// Value at `u` >= 0 of a curve of straight pieces: 0 up to the first knot, then higher by each of
+/// `rises` from knot to knot.
 template <class T>
 T curve_at(const T* rises, const Knots& knots, const T& u) {
   T value(0.0);
@@ -130,8 +132,8 @@ T flow_velocity(const JointRun& of, std::size_t row, const T* p, const T& openin
   return load > 0.0 ? T(opening * load / shared) : T(0.0);
 }
 
-/// Velocity of the joint at each row of the run, from the commands alone. In the direction of the
-/// command: the joint's sign is not in it.
+/// Velocity of the joint at each row of the run, rad/s, from the commands and the measured angles.
+/// Positive in the direction of a positive command: the joint's sign is not in it.
 template <class T>
 std::vector<T> velocities(const JointRun& of, std::size_t joint, const T* p, const Knots& knots) {
   constexpr int kSteps = 5;  // Of the mode, within one row.

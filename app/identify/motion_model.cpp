@@ -6,8 +6,7 @@
 namespace graben::identify {
 namespace {
 
-// The others' velocities come from the pass before; a third changes nothing that a sensor would
-// show.
+// The others' velocities come from the pass before.
 constexpr int kPasses = 2;
 constexpr double kAhead_s = 1.0;
 

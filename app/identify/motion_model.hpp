@@ -1,7 +1,6 @@
 #pragma once
 /// All joints of a machine: their models, what they predict and how well.
 
-#include <Eigen/Core>
 #include <array>
 #include <string>
 #include <vector>
@@ -16,8 +15,9 @@ struct JointModel {
   double sign = 1.0;
   Knots knots{};
   std::array<double, kParameters> value{};
-  std::array<double, kParameters>
-      deviation{};  ///< Standard deviation; infinite where the data says nothing.
+  /// Standard deviations; infinite where the data says nothing. Not
+  /// valid for a value at its bound.
+  std::array<double, kParameters> deviation{};
 };
 
 using MotionModel = std::array<JointModel, kJoints>;
@@ -31,8 +31,9 @@ using Velocities = std::array<std::vector<double>, kJoints>;
 /// How good a prediction is, over all rows of all runs.
 struct Score {
   double velocity_r2 = 0.0;  ///< Share of the velocity's variance that is explained.
-  double angle_1s_rms_rad =
-      0.0;  ///< Of the angle a second after a measured one, from the commands alone.
+  /// Of the angle a second after a measured one. The load still takes the angles measured in that
+  /// second, so it is not yet from the commands alone.
+  double angle_1s_rms_rad = 0.0;
   double velocity_rms_radps = 0.0;  ///< Unexplained.
   bool moved = false;               ///< False: the joint stood, and there is nothing to explain.
 };
