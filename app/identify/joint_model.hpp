@@ -5,8 +5,9 @@
 ///         -> flow (load by pose, shared with the other openings) -> oil and mass (one mode) ->
 ///         velocity
 ///
-/// An angle measured against gravity also shows the machine rocking on its tracks, which the other
-/// joints set off.
+/// An angle measured against gravity also shows what the other joints' accelerations do to its
+/// sensor: the machine rocks on its tracks (a slow mode), or the sensor itself takes acceleration
+/// for tilt (a fast one).
 ///
 /// It needs neither pressures nor a profile. Velocities are in rad/s, commands and openings are
 /// ratios. Everything is a template of the scalar, so that Ceres differentiates it.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -221,6 +222,15 @@ std::vector<MotionRun> read_motion_csv(const std::string& path) {
   }
   check_agreement(runs, path);
   return runs;
+}
+
+std::vector<MotionRun> read_motion_files(const std::vector<std::string>& paths) {
+  std::vector<MotionRun> all;
+  for (const std::string& path : paths) {
+    std::vector<MotionRun> runs = read_motion_csv(path);
+    std::move(runs.begin(), runs.end(), std::back_inserter(all));
+  }
+  return all;
 }
 
 }  // namespace graben::identify

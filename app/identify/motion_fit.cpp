@@ -49,9 +49,9 @@ Range range(std::size_t parameter, double usual_radps) {
     return {0.0, 0.3, 8.0};
   }
   if (parameter == kRockRate) {
-    return {3.0, 8.0, 20.0};
+    return {3.0, 12.0, 80.0};
   }
-  return parameter == kRockDamping ? Range{0.02, 0.15, 1.0} : Range{-2.0, 0.02, 2.0};
+  return parameter == kRockDamping ? Range{0.02, 0.15, 1.0} : Range{-20.0, 0.02, 20.0};
 }
 
 double rms(const std::vector<MotionRun>& runs, std::size_t joint) {

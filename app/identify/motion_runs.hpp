@@ -29,4 +29,7 @@ struct MotionRun {
 /// velocity leads.
 [[nodiscard]] std::vector<MotionRun> read_motion_csv(const std::string& path);
 
+/// The runs of all files. Throws as read_motion_csv does.
+[[nodiscard]] std::vector<MotionRun> read_motion_files(const std::vector<std::string>& paths);
+
 }  // namespace graben::identify
