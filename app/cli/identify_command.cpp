@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
@@ -20,15 +21,21 @@ struct IdentifyCommand {
   std::string summary;
 };
 
+/// Before a minute's work. Leaves what is there, and nothing where nothing was.
+void assert_writable(const std::string& file) {
+  const bool was_there = std::filesystem::exists(file);
+  if (!std::ofstream(file, std::ios::app)) {
+    throw std::runtime_error(fmt::format("{}: can't be written", file));
+  }
+  if (!was_there) {
+    std::filesystem::remove(file);
+  }
+}
+
 void identify_machine(const IdentifyCommand& options) {
   const identify::MotionSplit split = identify::split_motion(
       identify::read_motion_files(options.csv), identify::read_motion_files(options.judge));
-  // Before a minute's work: a file that nothing can be written to.
-  std::ofstream stream(options.summary, std::ios::app);
-  if (!stream) {
-    throw std::runtime_error(fmt::format("{}: can't be written", options.summary));
-  }
-  stream.close();
+  assert_writable(options.summary);
   identify::MotionResult result;
   {
     ProgressBar bar("identify");
@@ -36,7 +43,7 @@ void identify_machine(const IdentifyCommand& options) {
     fit.progress = bar.progress();
     result = identify::identify_motion(split, fit);
   }
-  stream.open(options.summary, std::ios::trunc);
+  std::ofstream stream(options.summary);
   stream << identify::motion_json(result);
   stream.close();
   if (!stream) {

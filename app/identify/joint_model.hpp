@@ -22,7 +22,7 @@
 
 namespace graben::identify {
 
-inline constexpr std::size_t kKnots = 8;           ///< Of a curve; the first has no opening.
+inline constexpr std::size_t kKnots = 9;           ///< Of a curve; the first has no opening.
 inline constexpr std::size_t kRises = kKnots - 1;  ///< From knot to knot.
 inline constexpr std::size_t kOthers = kJoints - 1;
 
@@ -48,8 +48,14 @@ enum Parameter : std::size_t {
   kParameters = kRockForce + kOthers,
 };
 
-/// Commands at which the curves of a joint may bend, increasing.
-using Knots = std::array<double, kKnots>;
+/// Commands at which a curve may bend, increasing.
+using Bends = std::array<double, kKnots>;
+
+/// Of both curves of a joint.
+struct Knots {
+  Bends forward{};
+  Bends backward{};
+};
 
 /// What one run says about a joint before its own parameters are known.
 struct JointRun {
@@ -68,7 +74,7 @@ struct JointRun {
 /// Value at `u` >= 0 of a curve of straight pieces: 0 up to the first knot, then higher by each of
 /// `rises` from knot to knot.
 template <class T>
-T curve_at(const T* rises, const Knots& knots, const T& u) {
+T curve_at(const T* rises, const Bends& knots, const T& u) {
   T value(0.0);
   for (std::size_t at = 0; at < kRises; ++at) {
     if (u >= knots[at + 1]) {
@@ -110,8 +116,8 @@ std::vector<T> openings(const JointRun& of, std::size_t joint, const T* p, const
     before = until;
     const bool opens = (held < 0.0 ? T(-held) : held) > (pilot < 0.0 ? T(-pilot) : pilot);
     pilot += (held - pilot) * (1.0 - exp(-step_s / p[opens ? kLagOpening : kLagClosing]));
-    open[at] = pilot > 0.0 ? curve_at(p + kForward, knots, pilot)
-                           : T(-curve_at(p + kBackward, knots, T(-pilot)));
+    open[at] = pilot > 0.0 ? curve_at(p + kForward, knots.forward, pilot)
+                           : T(-curve_at(p + kBackward, knots.backward, T(-pilot)));
   }
   return open;
 }
@@ -148,8 +154,9 @@ std::vector<T> velocities(const JointRun& of, std::size_t joint, const T* p, con
   const T stiffness = p[kModeRate] * p[kModeRate];
   const T rock_stiffness = p[kRockRate] * p[kRockRate];
   const T rock_damping = 2.0 * p[kRockDamping] * p[kRockRate];
+  T flow_before(0.0);
   for (std::size_t at = 1; at < time.size(); ++at) {
-    const T flow = flow_velocity(of, at, p, open[at]);
+    const T flow_after = flow_velocity(of, at, p, open[at]);
     const double step_s = (time[at] - time[at - 1]) / kSteps;
     T shoved(0.0);  // Change of the rocking rate within a step.
     for (std::size_t other = 0; other < kOthers; ++other) {
@@ -158,6 +165,7 @@ std::vector<T> velocities(const JointRun& of, std::size_t joint, const T* p, con
                 double(kSteps);
     }
     for (int step = 0; step < kSteps; ++step) {
+      const T flow = flow_before + (flow_after - flow_before) * ((step + 0.5) / kSteps);
       const T& damping = p[pushed * flow > 0.0 ? kDampingDriving : kDampingBraking];
       pushed = (pushed + step_s * stiffness * (flow - v)) /
                (1.0 + step_s * (damping + step_s * stiffness));
@@ -166,6 +174,7 @@ std::vector<T> velocities(const JointRun& of, std::size_t joint, const T* p, con
               (1.0 + step_s * (rock_damping + step_s * rock_stiffness));
       tilt += step_s * rocks;
     }
+    flow_before = flow_after;
     velocity[at] = v + rocks;
   }
   return velocity;

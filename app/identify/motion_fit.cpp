@@ -15,8 +15,9 @@
 namespace graben::identify {
 namespace {
 
-constexpr std::array<double, 3> kDeadTimeStarts_s = {0.05, 0.12, 0.22};
-constexpr int kSearchSteps = 8;
+constexpr std::array<double, 4> kDeadTimeStarts_s = {0.04, 0.10, 0.15, 0.21};
+constexpr int kSearchSteps = 20;
+constexpr std::size_t kSearched = 3;  // Every third run is enough to choose a start.
 constexpr int kSteps = 15;
 constexpr double kUsualDelay_s = 0.2;  // For the joint's sign alone.
 
@@ -31,13 +32,13 @@ Range range(std::size_t parameter, double usual_radps) {
     return {0.0, 0.12, 0.5};
   }
   if (parameter < kForward) {
-    return {0.005, 0.06, 0.6};
+    return {0.005, 0.04, 0.6};
   }
   if (parameter < kModeRate) {
     return {0.0, 0.5 * usual_radps, 50.0 * usual_radps};
   }
   if (parameter == kModeRate) {
-    return {1.0, 8.0, 40.0};
+    return {1.0, 12.0, 40.0};
   }
   if (parameter < kLoadForward) {
     return {0.1, 8.0, 100.0};
@@ -83,27 +84,73 @@ double sign_of(const std::vector<MotionRun>& runs, std::size_t joint) {
   return agrees < 0.0 ? -1.0 : 1.0;
 }
 
-/// Where the curves may bend: close together where the commands are.
-Knots knots_of(const std::vector<MotionRun>& runs, std::size_t joint) {
+/// Where a curve may bend before anything is known: even from the least opening that is likely.
+constexpr double kLeastEdge = 0.05;
+
+constexpr double kBeforeEdge = 0.03;  // Of the command, for an edge that was found too late.
+constexpr double kOpen = 0.03;        // Of full speed.
+
+Bends even_bends() {
+  Bends bends{};
+  for (std::size_t at = 0; at < kKnots; ++at) {
+    bends[at] = kLeastEdge + (1.0 - kLeastEdge) * static_cast<double>(at) / (kKnots - 1);
+  }
+  return bends;
+}
+
+/// Commands of one direction (`sign`) as positive numbers, in order.
+std::vector<double> sorted_commands(const std::vector<MotionRun>& runs, std::size_t joint,
+                                    double sign) {
   std::vector<double> commands;
   for (const MotionRun& run : runs) {
     for (const double command : run.command[joint]) {
-      commands.push_back(std::abs(command));
+      if (sign * command > 0.0) {
+        commands.push_back(sign * command);
+      }
     }
   }
   std::sort(commands.begin(), commands.end());
-  constexpr double kLeastApart = 0.04;
-  Knots knots{};
-  for (std::size_t at = 0; at < kKnots; ++at) {
-    const double share = static_cast<double>(at) / (kKnots - 1);
-    const double least = at == 0 ? 0.0 : knots[at - 1] + kLeastApart;
-    const double most = 1.0 - kLeastApart * static_cast<double>(kKnots - 1 - at);
-    const auto row = static_cast<std::size_t>(share * static_cast<double>(commands.size() - 1));
-    // Half by the data, half even: a curve must not be coarse where few commands are.
-    knots[at] = std::clamp(0.5 * (commands[row] + 0.25 + 0.75 * share), least, most);
+  return commands;
+}
+
+/// Where the curve from `rises` starts to open.
+double edge_of(const double* rises, const Bends& bends) {
+  constexpr double kFine = 0.005;
+  const double most = curve_at(rises, bends, 1.0);
+  double edge = bends[0];
+  while (curve_at(rises, bends, edge) < kOpen * most) {
+    edge += kFine;
   }
-  knots.back() = 1.0;
-  return knots;
+  return std::max(kLeastEdge, edge - kBeforeEdge);
+}
+
+/// Moves the bends of one curve to where it opens and where `commands` are, half and half: a curve
+/// must not be coarse where few commands are. Leaves the curve where it was.
+void spread(double* rises, Bends& bends, const std::vector<double>& commands) {
+  if (curve_at(rises, bends, 1.0) <= 0.0) {
+    return;
+  }
+  constexpr double kLeastApart = 0.02;
+  const double edge = edge_of(rises, bends);
+  const auto first = std::lower_bound(commands.begin(), commands.end(), edge);
+  const auto count = static_cast<double>(commands.end() - first);
+  Bends to{};
+  to[0] = edge;
+  for (std::size_t at = 1; at < kKnots; ++at) {
+    const double share = static_cast<double>(at) / (kKnots - 1);
+    const double even = edge + (1.0 - edge) * share;
+    const double driven =
+        count > 0.0 ? first[static_cast<std::ptrdiff_t>(share * (count - 1.0))] : even;
+    to[at] = std::clamp(0.5 * (even + driven), to[at - 1] + kLeastApart,
+                        1.0 - kLeastApart * static_cast<double>(kKnots - 1 - at));
+  }
+  to.back() = 1.0;
+  std::array<double, kRises> rise{};
+  for (std::size_t at = 0; at < kRises; ++at) {
+    rise[at] = curve_at(rises, bends, to[at + 1]) - curve_at(rises, bends, to[at]);
+  }
+  bends = to;
+  std::copy(rise.begin(), rise.end(), rises);
 }
 
 /// A joint's problem in Ceres.
@@ -189,9 +236,13 @@ std::vector<JointRun> inputs_of(const MotionModel& model, std::size_t joint,
 }
 
 /// The first pass: the best of several dead times to start from.
-void search(const std::vector<JointRun>& inputs, std::size_t joint, JointModel& model,
+void search(const std::vector<JointRun>& all, std::size_t joint, JointModel& model,
             double scale_radps, int threads) {
   const JointModel start = model;
+  std::vector<JointRun> inputs;
+  for (std::size_t at = 0; at < all.size(); at += kSearched) {
+    inputs.push_back(all[at]);
+  }
   double least = std::numeric_limits<double>::infinity();
   for (const double dead_time_s : kDeadTimeStarts_s) {
     JointModel tried = start;
@@ -212,7 +263,7 @@ MotionModel fit_motion(const std::vector<MotionRun>& runs, const FitOptions& opt
   for (std::size_t joint = 0; joint < kJoints; ++joint) {
     scale_radps[joint] = rms(runs, joint);
     model[joint].sign = sign_of(runs, joint);
-    model[joint].knots = knots_of(runs, joint);
+    model[joint].knots = {even_bends(), even_bends()};
     for (std::size_t at = 0; at < kParameters; ++at) {
       model[joint].value[at] = range(at, scale_radps[joint]).start;
     }
@@ -237,6 +288,8 @@ MotionModel fit_motion(const std::vector<MotionRun>& runs, const FitOptions& opt
       const std::vector<JointRun> inputs = inputs_of(model, joint, runs, pass == 0);
       if (pass == 0) {
         search(inputs, joint, of, scale_radps[joint], options.threads);
+        spread(of.value.data() + kForward, of.knots.forward, sorted_commands(runs, joint, 1.0));
+        spread(of.value.data() + kBackward, of.knots.backward, sorted_commands(runs, joint, -1.0));
       }
       JointFit fit(inputs, joint, of, scale_radps[joint]);
       fit.solve(kSteps, options.threads);

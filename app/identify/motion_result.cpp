@@ -20,7 +20,13 @@ constexpr double kBand = 1.96;   // Standard deviations on each side of a 95 % b
 constexpr double kPermille = 1e3;
 
 bool same_motion(const MotionRun& one, const MotionRun& other) {
-  return one.command == other.command && one.angle_rad == other.angle_rad;
+  // Two that stand are alike, and neither says anything.
+  return one.command == other.command && one.angle_rad == other.angle_rad &&
+         std::any_of(one.command.begin(), one.command.end(),
+                     [](const std::vector<double>& command) {
+                       return std::any_of(command.begin(), command.end(),
+                                          [](double at) { return at != 0.0; });
+                     });
 }
 
 double sum(const JointModel& joint, std::size_t first, std::size_t count) {
@@ -31,14 +37,19 @@ double sum(const JointModel& joint, std::size_t first, std::size_t count) {
   return all;
 }
 
+const Bends& bends(const JointModel& joint, std::size_t first) {
+  return first == kForward ? joint.knots.forward : joint.knots.backward;
+}
+
 /// Command at which the curve from `first` reaches kOpens of its highest value.
 double edge(const JointModel& joint, std::size_t first) {
+  const Bends& knots = bends(joint, first);
   const double wanted = kOpens * sum(joint, first, kRises);
   double reached = 0.0;
   for (std::size_t at = 0; at < kRises; ++at) {
     const double rise = joint.value[first + at];
     if (reached + rise >= wanted && rise > 0.0) {
-      return joint.knots[at] + (joint.knots[at + 1] - joint.knots[at]) * (wanted - reached) / rise;
+      return knots[at] + (knots[at + 1] - knots[at]) * (wanted - reached) / rise;
     }
     reached += rise;
   }
@@ -54,7 +65,7 @@ nlohmann::json curve_json(const JointModel& joint, std::size_t first) {
       variance += deviation * deviation;
     }
     const double deviation = std::sqrt(variance);
-    points.push_back({{"command_ratio", joint.knots[at]},
+    points.push_back({{"command_ratio", bends(joint, first)[at]},
                       {"velocity_radps", sum(joint, first, at)},
                       // JSON has no infinity; null is 'the data says nothing'.
                       {"deviation_radps", std::isfinite(deviation) ? nlohmann::json(deviation)
