@@ -68,7 +68,8 @@ class Case:
 
 WRONG_WAY = ("WrongDirection", "MotionImplausible", "UncommandedMotion")
 FROZEN = ("StrokeStuck", "MotionImplausible")
-SWAPPED = ("MotionImplausible", "StrokeStuck", "StrokeImplausible", "PoseUnreachable")
+# Which comes first hangs on the cycle in which the arm first answers the boom's spool.
+SWAPPED = ("MotionImplausible", "StrokeStuck", "StrokeImplausible", "PoseUnreachable", *WRONG_WAY)
 STOPPED = ("EngineStopped",)
 # Or missing: the emulated queue's timer may hand out nothing for 50 ms.
 LATE = ("StreamLate", "StrokeMissing", "SpoolMissing", "SwashMissing", "PoseMissing", "TransmissionMissing",
