@@ -72,6 +72,9 @@ struct OperatorCommand {
     kDig = 1,
     kGrade = 2,
     kProgram = 3,
+    kJog = 4,
+    kCoordinated = 5,
+    kCommission = 6,
   };
 
   static constexpr Field kEnable{
@@ -81,7 +84,7 @@ struct OperatorCommand {
       "OperatorMode", "", 16, 4, 0U, 1U, 14, 15, 0U,
       0, 1.0, 1.0};
   static constexpr Field kTask{
-      "Task", "", 24, 8, 0U, 3U, 254, 255, 0U,
+      "Task", "", 24, 8, 0U, 6U, 254, 255, 0U,
       0, 1.0, 1.0};
   static constexpr Field kSpeedOverride{
       "SpeedOverride", "", 32, 8, 0U, 200U, 254, 255, 0U,

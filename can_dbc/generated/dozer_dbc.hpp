@@ -19,7 +19,7 @@
 
 namespace graben::dbc::dozer {
 
-inline constexpr std::uint8_t kDbcVersion = 4;
+inline constexpr std::uint8_t kDbcVersion = 5;
 
 using common::EEC1;
 using common::OperatorCommand;

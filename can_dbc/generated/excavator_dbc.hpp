@@ -17,7 +17,7 @@
 
 namespace graben::dbc::excavator {
 
-inline constexpr std::uint8_t kDbcVersion = 7;
+inline constexpr std::uint8_t kDbcVersion = 8;
 
 using common::EEC1;
 using common::OperatorCommand;
@@ -383,6 +383,156 @@ struct SwingValveState {
   }
   static constexpr SwingValveState decode(const Payload& payload) {
     return decode_message<SwingValveState>(payload);
+  }
+  constexpr Payload encode() const { return encode_message(*this); }
+};
+
+/// Where the operator's levers are. Jog moves each drive by its own axis, Coordinated the teeth; no
+/// other task looks at it. Without it these two do not move.
+struct OperatorAxes {
+  static constexpr const char* kName = "OperatorAxes";
+  static constexpr const char* kSender = "Operator";
+  static constexpr std::uint32_t kId = 0x0CFF2C81;
+  static constexpr std::uint8_t kLength = 8;
+  static constexpr std::uint16_t kCycleTimeMs = 20;
+  static constexpr bool kProtected = true;
+  static constexpr std::uint16_t kDataId = 0xFF2C;
+  static constexpr std::uint8_t kMaxDeltaCounter = 2;
+
+  static constexpr Field kBoomOrUp{
+      "BoomOrUp", "", 16, 8, 0U, 250U, 254, 255, 255U,
+      -125, 1.0, 125.0};
+  static constexpr Field kArmOrForward{
+      "ArmOrForward", "", 24, 8, 0U, 250U, 254, 255, 255U,
+      -125, 1.0, 125.0};
+  static constexpr Field kBucketOrAttitude{
+      "BucketOrAttitude", "", 32, 8, 0U, 250U, 254, 255, 255U,
+      -125, 1.0, 125.0};
+  static constexpr Field kSwing{
+      "Swing", "", 40, 8, 0U, 250U, 254, 255, 255U,
+      -125, 1.0, 125.0};
+
+  /// Jog: speed of the boom, raising is positive. Coordinated: of the teeth, up is positive. [-100
+  /// .. 100 % on the bus]
+  Physical boom_or_up_ratio{0.0, RawState::kNotAvailable};
+  /// Jog: speed of the arm cylinder, extension is positive. Coordinated: of the teeth, away from
+  /// the machine is positive. [-100 .. 100 % on the bus]
+  Physical arm_or_forward_ratio{0.0, RawState::kNotAvailable};
+  /// Jog: speed of the bucket cylinder, extension is positive. Coordinated: of the bucket's
+  /// attitude, opening is positive. [-100 .. 100 % on the bus]
+  Physical bucket_or_attitude_ratio{0.0, RawState::kNotAvailable};
+  /// Speed of the swing, to the left is positive. Not available: the station has no such axis.
+  /// [-100 .. 100 % on the bus]
+  Physical swing_ratio{0.0, RawState::kNotAvailable};
+
+  /// Calls visitor(field, signal) for each signal.
+  template <class Self, class Visitor>
+  static constexpr void visit(Self& self, Visitor&& visitor) {
+    visitor(kBoomOrUp, self.boom_or_up_ratio);
+    visitor(kArmOrForward, self.arm_or_forward_ratio);
+    visitor(kBucketOrAttitude, self.bucket_or_attitude_ratio);
+    visitor(kSwing, self.swing_ratio);
+  }
+  static constexpr OperatorAxes decode(const Payload& payload) {
+    return decode_message<OperatorAxes>(payload);
+  }
+  constexpr Payload encode() const { return encode_message(*this); }
+};
+
+/// Duties that task Commission is to try, of two drives at most. No other task looks at it.
+struct CommissionDuty {
+  static constexpr const char* kName = "CommissionDuty";
+  static constexpr const char* kSender = "Operator";
+  static constexpr std::uint32_t kId = 0x0CFF2D81;
+  static constexpr std::uint8_t kLength = 8;
+  static constexpr std::uint16_t kCycleTimeMs = 20;
+  static constexpr bool kProtected = true;
+  static constexpr std::uint16_t kDataId = 0xFF2D;
+  static constexpr std::uint8_t kMaxDeltaCounter = 2;
+
+  static constexpr Field kBoomDuty{
+      "BoomDuty", "", 16, 16, 12000U, 52000U, 65279, 65535, 65535U,
+      -32000, 1.0, 20000.0};
+  static constexpr Field kArmDuty{
+      "ArmDuty", "", 32, 16, 12000U, 52000U, 65279, 65535, 65535U,
+      -32000, 1.0, 20000.0};
+  static constexpr Field kBucketDuty{
+      "BucketDuty", "", 48, 16, 12000U, 52000U, 65279, 65535, 65535U,
+      -32000, 1.0, 20000.0};
+
+  /// Duty of the boom spool; positive extends the cylinder, 0 is neutral. [-1000 .. 1000 per mille
+  /// on the bus]
+  Physical boom_duty_ratio{0.0, RawState::kNotAvailable};
+  /// Duty of the arm spool; positive extends the cylinder, 0 is neutral. [-1000 .. 1000 per mille
+  /// on the bus]
+  Physical arm_duty_ratio{0.0, RawState::kNotAvailable};
+  /// Duty of the bucket spool; positive extends the cylinder, 0 is neutral. [-1000 .. 1000 per
+  /// mille on the bus]
+  Physical bucket_duty_ratio{0.0, RawState::kNotAvailable};
+
+  /// Calls visitor(field, signal) for each signal.
+  template <class Self, class Visitor>
+  static constexpr void visit(Self& self, Visitor&& visitor) {
+    visitor(kBoomDuty, self.boom_duty_ratio);
+    visitor(kArmDuty, self.arm_duty_ratio);
+    visitor(kBucketDuty, self.bucket_duty_ratio);
+  }
+  static constexpr CommissionDuty decode(const Payload& payload) {
+    return decode_message<CommissionDuty>(payload);
+  }
+  constexpr Payload encode() const { return encode_message(*this); }
+};
+
+/// Window that the operator has confirmed for a drive in task Commission; the drives take turns. A
+/// drive without a window of the last second does not move.
+struct CommissionWindow {
+  static constexpr const char* kName = "CommissionWindow";
+  static constexpr const char* kSender = "Operator";
+  static constexpr std::uint32_t kId = 0x0CFF2E81;
+  static constexpr std::uint8_t kLength = 8;
+  static constexpr std::uint16_t kCycleTimeMs = 100;
+  static constexpr bool kProtected = true;
+  static constexpr std::uint16_t kDataId = 0xFF2E;
+  static constexpr std::uint8_t kMaxDeltaCounter = 2;
+
+  enum class Drive : std::uint8_t {
+    kBoom = 0,
+    kArm = 1,
+    kBucket = 2,
+  };
+
+  static constexpr Field kDrive{
+      "Drive", "", 12, 4, 0U, 2U, 14, 15, 0U,
+      0, 1.0, 1.0};
+  static constexpr Field kLeastStroke{
+      "LeastStroke", "m", 16, 16, 0U, 64000U, 65279, 65535, 65535U,
+      0, 1.0, 20000.0};
+  static constexpr Field kMostStroke{
+      "MostStroke", "m", 32, 16, 0U, 64000U, 65279, 65535, 65535U,
+      0, 1.0, 20000.0};
+  static constexpr Field kMostSpeed{
+      "MostSpeed", "m/s", 48, 16, 0U, 64000U, 65279, 65535, 65535U,
+      0, 1.0, 20000.0};
+
+  /// Whose window it is.
+  Coded<Drive> drive{Drive::kBoom, RawState::kValid};
+  /// The cylinder is stopped where it retracts beyond it. [0 .. 3200 mm on the bus]
+  Physical least_stroke_m{0.0, RawState::kNotAvailable};
+  /// The cylinder is stopped where it extends beyond it. [0 .. 3200 mm on the bus]
+  Physical most_stroke_m{0.0, RawState::kNotAvailable};
+  /// The cylinder is stopped where it moves faster. [0 .. 3200 mm/s on the bus]
+  Physical most_speed_mps{0.0, RawState::kNotAvailable};
+
+  /// Calls visitor(field, signal) for each signal.
+  template <class Self, class Visitor>
+  static constexpr void visit(Self& self, Visitor&& visitor) {
+    visitor(kDrive, self.drive);
+    visitor(kLeastStroke, self.least_stroke_m);
+    visitor(kMostStroke, self.most_stroke_m);
+    visitor(kMostSpeed, self.most_speed_mps);
+  }
+  static constexpr CommissionWindow decode(const Payload& payload) {
+    return decode_message<CommissionWindow>(payload);
   }
   constexpr Payload encode() const { return encode_message(*this); }
 };
@@ -760,6 +910,9 @@ using AllMessages =
                 SwingState,
                 ValveState,
                 SwingValveState,
+                OperatorAxes,
+                CommissionDuty,
+                CommissionWindow,
                 SpoolCommand,
                 PumpCommand,
                 SwingCommand,
@@ -775,7 +928,7 @@ using AllMessages =
                 EcuHealth,
                 DM1>;
 
-inline constexpr std::array<MessageInfo, 24> kMessages{{
+inline constexpr std::array<MessageInfo, 27> kMessages{{
     message_info<BoomStroke>(),
     message_info<ArmStroke>(),
     message_info<BucketStroke>(),
@@ -786,6 +939,9 @@ inline constexpr std::array<MessageInfo, 24> kMessages{{
     message_info<SwingState>(),
     message_info<ValveState>(),
     message_info<SwingValveState>(),
+    message_info<OperatorAxes>(),
+    message_info<CommissionDuty>(),
+    message_info<CommissionWindow>(),
     message_info<SpoolCommand>(),
     message_info<PumpCommand>(),
     message_info<SwingCommand>(),
@@ -814,6 +970,9 @@ struct Dbc {
   using SwingState = excavator::SwingState;
   using ValveState = excavator::ValveState;
   using SwingValveState = excavator::SwingValveState;
+  using OperatorAxes = excavator::OperatorAxes;
+  using CommissionDuty = excavator::CommissionDuty;
+  using CommissionWindow = excavator::CommissionWindow;
   using SpoolCommand = excavator::SpoolCommand;
   using PumpCommand = excavator::PumpCommand;
   using SwingCommand = excavator::SwingCommand;

@@ -12,8 +12,16 @@ namespace graben {
 /// The operator's choice of who drives.
 enum class OperatorMode : std::uint8_t { kManual = 0, kAutomatic = 1 };
 
-/// The controller's task.
-enum class Task : std::uint8_t { kNone = 0, kDig = 1, kGrade = 2, kProgram = 3 };
+/// The controller's task; the numbers are on the bus.
+enum class Task : std::uint8_t {
+  kNone = 0,
+  kDig = 1,
+  kGrade = 2,
+  kProgram = 3,
+  kJog = 4,          ///< Each drive by the operator's axis.
+  kCoordinated = 5,  ///< The teeth by the operator's axes.
+  kCommission = 6,   ///< Duties as the operator's station tries them, guarded.
+};
 
 struct OperatorInputs {
   Signal<bool> enable;  ///< Deadman: motion only while it is given.

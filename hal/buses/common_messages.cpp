@@ -25,7 +25,10 @@ static_assert(same_code(BusTask::kNone, Task::kNone));
 static_assert(same_code(BusTask::kDig, Task::kDig));
 static_assert(same_code(BusTask::kGrade, Task::kGrade));
 static_assert(same_code(BusTask::kProgram, Task::kProgram));
-static_assert(same_code(bus::OperatorCommand::kTask.raw_max, Task::kProgram));
+static_assert(same_code(BusTask::kJog, Task::kJog));
+static_assert(same_code(BusTask::kCoordinated, Task::kCoordinated));
+static_assert(same_code(BusTask::kCommission, Task::kCommission));
+static_assert(same_code(bus::OperatorCommand::kTask.raw_max, Task::kCommission));
 
 // faults.toml and limits.toml are behind both sides of these.
 static_assert(bus::EcuStatus::kFault.raw_max == kFaultCount - 1);
