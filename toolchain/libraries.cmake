@@ -10,6 +10,7 @@ if(NOT CMAKE_CROSSCOMPILING)
   find_package(tomlplusplus REQUIRED)
   find_package(cmocka REQUIRED)
   find_package(Ceres REQUIRED QUIET)
+  find_package(OpenSSL REQUIRED COMPONENTS Crypto)
   # Not by its own package file, which would link what the library has for itself: OpenSSL, zlib,
   # and the event libraries that it can be run on.
   find_path(libwebsockets_include libwebsockets.h REQUIRED)

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "app/identify/lines.hpp"
 #include "app/identify/motion_runs.hpp"
 
 namespace graben::identify {
@@ -25,48 +25,6 @@ constexpr double kLeastAgreement = 0.5;
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {
   throw std::runtime_error(fmt::format("{}: {}", where, what));
 }
-
-/// Lines of a file, plain or gzip.
-class Lines {
- public:
-  explicit Lines(const std::string& path)
-      : path_(path), file_(gzopen(path.c_str(), "rb"), gzclose) {
-    if (!file_) {
-      refuse(path, "cannot be read");
-    }
-  }
-
-  bool next(std::string& line) {
-    line.clear();
-    std::array<char, 4096> part{};
-    while (gzgets(file_.get(), part.data(), static_cast<int>(part.size())) != nullptr) {
-      line += part.data();
-      if (line.back() == '\n') {
-        break;
-      }
-    }
-    int error = Z_OK;
-    gzerror(file_.get(), &error);
-    if (error != Z_OK) {
-      refuse(path_, "is cut off or damaged (gzip)");
-    }
-    if (line.empty()) {
-      return false;
-    }
-    ++number_;
-    while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) {
-      line.pop_back();
-    }
-    return true;
-  }
-
-  [[nodiscard]] std::string where() const { return fmt::format("{}:{}", path_, number_); }
-
- private:
-  std::string path_;
-  std::unique_ptr<gzFile_s, int (*)(gzFile)> file_;
-  std::size_t number_ = 0;
-};
 
 std::vector<std::string_view> split(std::string_view line) {
   std::vector<std::string_view> cells;

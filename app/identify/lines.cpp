@@ -1,0 +1,43 @@
+#include "app/identify/lines.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <array>
+#include <stdexcept>
+
+namespace graben::identify {
+
+Lines::Lines(const std::string& path) : path_(path), file_(gzopen(path.c_str(), "rb"), gzclose) {
+  if (!file_) {
+    throw std::runtime_error(fmt::format("{}: cannot be read", path));
+  }
+}
+
+bool Lines::next(std::string& line) {
+  line.clear();
+  std::array<char, 4096> part{};
+  while (gzgets(file_.get(), part.data(), static_cast<int>(part.size())) != nullptr) {
+    line += part.data();
+    if (line.back() == '\n') {
+      break;
+    }
+  }
+  int error = Z_OK;
+  gzerror(file_.get(), &error);
+  if (error != Z_OK) {
+    throw std::runtime_error(fmt::format("{}: is cut off or damaged (gzip)", path_));
+  }
+  if (line.empty()) {
+    return false;
+  }
+  ++number_;
+  while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) {
+    line.pop_back();
+  }
+  return true;
+}
+
+std::string Lines::where() const { return fmt::format("{}:{}", path_, number_); }
+
+}  // namespace graben::identify

@@ -1,0 +1,30 @@
+#pragma once
+/// Lines of a text file, plain or gzip.
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+struct gzFile_s;
+
+namespace graben::identify {
+
+class Lines {
+ public:
+  /// Throws std::runtime_error where the file cannot be read.
+  explicit Lines(const std::string& path);
+
+  /// The next line without its end; false after the last. Throws where the file is cut off.
+  bool next(std::string& line);
+
+  [[nodiscard]] std::size_t number() const { return number_; }
+  /// "file:line" of the last one, for errors.
+  [[nodiscard]] std::string where() const;
+
+ private:
+  std::string path_;
+  std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
+  std::size_t number_ = 0;
+};
+
+}  // namespace graben::identify

@@ -1,0 +1,76 @@
+#pragma once
+/// What is found of a machine from its logs, each value with its standard deviation. SI units;
+/// ratios of duty and spool are of the full travel.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "firmware/excavator/excavator_signals.hpp"
+
+namespace graben::identify {
+
+/// A value that was found, or the one that was there before.
+struct Estimate {
+  double value = 0.0;
+  double deviation = 0.0;  ///< Standard deviation; of what is not known, that of not knowing.
+  bool known = false;      ///< The log says it; else the old value stays.
+};
+
+/// How one side of a valve opens: metering area over its full area at travel x is
+/// opening(x) ^ exponent, with opening(x) = w ln(1 + exp((x - edge) / w)), scaled to 1 at x = 1.
+struct OpeningCurve {
+  double edge = 0.0;
+  double softness = 0.0;  ///< w
+  double exponent = 1.0;
+
+  /// Share of the full area at a travel of 0 .. 1.
+  [[nodiscard]] double area_ratio(double travel) const;
+  /// Travel at which so much of the full area is open, 0 .. 1.
+  [[nodiscard]] double travel_at(double area_ratio) const;
+};
+
+/// Openings of the profile's model (its area ratio is opening ^ valve.opening_exponent) at which a
+/// duty table is made; the first stands for the edge.
+inline constexpr std::array<double, 10> kTableOpenings = {0.01, 0.03, 0.06, 0.12, 0.2,
+                                                          0.32, 0.46, 0.62, 0.8,  1.0};
+
+/// Of one drive and direction.
+struct SideEstimate {
+  Estimate edge;
+  Estimate softness;
+  Estimate exponent;
+  Estimate coefficient_factor;  ///< Of the profile's velocity coefficient c_L, (9) and (11).
+  Estimate out_area_factor;     ///< Of the profile's area on the draining side.
+  Estimate dead_time_s;
+  double driven_least = 0.0;  ///< Least and most duty that moved it; both 0: none did.
+  double driven_most = 0.0;
+  /// Of the travel at each of kTableOpenings, by the curve's covariance; empty: nothing is known.
+  std::vector<double> duty_deviation;
+
+  [[nodiscard]] OpeningCurve curve() const { return {edge.value, softness.value, exponent.value}; }
+};
+
+struct DriveEstimate {
+  SideEstimate extend;
+  SideEstimate retract;
+  Estimate pilot_lag_s;            ///< First-order lag before the spool.
+  Estimate spool_time_constant_s;  ///< Each of the spool's two equal lags.
+  Estimate stroke_zero_m;          ///< That the sensor shows too much.
+  Estimate cap_zero_pa;
+  Estimate rod_zero_pa;
+
+  [[nodiscard]] const SideEstimate& side(bool extends) const { return extends ? extend : retract; }
+  [[nodiscard]] SideEstimate& side(bool extends) { return extends ? extend : retract; }
+  [[nodiscard]] double lag_s() const {
+    return pilot_lag_s.value + 2.0 * spool_time_constant_s.value;
+  }
+};
+
+struct MachineEstimate {
+  std::array<DriveEstimate, kAxisCount> drive;
+  std::array<Estimate, kPumpCount> pump_flow_factor;  ///< Of the profile's displacement.
+  std::vector<std::string> missing;  ///< What the logs do not support, a sentence each.
+};
+
+}  // namespace graben::identify

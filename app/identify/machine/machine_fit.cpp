@@ -1,0 +1,117 @@
+#include "app/identify/machine/machine_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "app/identify/machine/spool_answer.hpp"
+#include "app/identify/machine/touches.hpp"
+#include "app/identify/machine/valve_fit.hpp"
+
+namespace graben::identify {
+namespace {
+
+constexpr std::array<const char*, kAxisCount> kNames = {"boom", "arm", "bucket"};
+/// A duty below which nearly nothing of the valve's range was tried.
+constexpr double kWholeRange = 0.9;
+
+SideEstimate side_of(const ExcavatorProfile& profile) {
+  SideEstimate side;
+  side.edge.value = profile.valve.spool_to_duty.y_first();
+  side.exponent.value = profile.valve.opening_exponent;
+  side.coefficient_factor.value = 1.0;
+  side.out_area_factor.value = 1.0;
+  side.dead_time_s.value = profile.control.dead_time_s;
+  return side;
+}
+
+void tell_side(const char* name, const char* direction, const SideEstimate& side,
+               std::vector<std::string>& missing) {
+  const std::string of = fmt::format("{}, {}", name, direction);
+  if (side.driven_most == 0.0) {
+    missing.push_back(of + ": was not driven");
+    return;
+  }
+  if (side.driven_most < kWholeRange) {
+    missing.push_back(
+        fmt::format("{}: nothing beyond {:.0f} % was driven", of, 100.0 * side.driven_most));
+  }
+  const auto keep = [&](const Estimate& estimate, const char* what) {
+    if (!estimate.known) {
+      missing.push_back(fmt::format("{}: {} keeps its old value", of, what));
+    }
+  };
+  keep(side.edge, "the edge");
+  keep(side.exponent, "how it opens");
+  keep(side.coefficient_factor, "how fast it is");
+  keep(side.out_area_factor, "the draining side's area");
+  keep(side.dead_time_s, "the dead time");
+}
+
+void tell_missing(const ExcavatorProfile& profile, MachineEstimate& machine) {
+  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+    const DriveEstimate& drive = machine.drive[axis];
+    tell_side(kNames[axis], "extend", drive.extend, machine.missing);
+    tell_side(kNames[axis], "retract", drive.retract, machine.missing);
+    const auto keep = [&](const Estimate& estimate, const char* what) {
+      if (!estimate.known) {
+        machine.missing.push_back(fmt::format("{}: {}", kNames[axis], what));
+      }
+    };
+    keep(drive.stroke_zero_m, "no end of its stroke was touched: the stroke's zero stays");
+    keep(drive.cap_zero_pa, "the zero of its cap pressure stays open");
+    keep(drive.rod_zero_pa, "the zero of its rod pressure stays open");
+    keep(drive.spool_time_constant_s, "no spool is measured: lags keep their old values");
+  }
+  for (int j = 0; j < profile.pump_count; ++j) {
+    if (!machine.pump_flow_factor[static_cast<std::size_t>(j)].known) {
+      machine.missing.push_back(fmt::format("pump {}: its flow keeps its old value", j + 1));
+    }
+  }
+}
+
+bool any_driven(const MachineEstimate& machine) {
+  bool any = false;
+  for (const DriveEstimate& drive : machine.drive) {
+    any = any || drive.extend.driven_most > 0.0 || drive.retract.driven_most > 0.0;
+  }
+  return any;
+}
+
+}  // namespace
+
+MachineEstimate estimate_of(const ExcavatorProfile& profile) {
+  MachineEstimate machine;
+  for (DriveEstimate& drive : machine.drive) {
+    drive.extend = side_of(profile);
+    drive.retract = side_of(profile);
+    drive.spool_time_constant_s.value = profile.oil.spool_time_constant_s;
+  }
+  for (Estimate& factor : machine.pump_flow_factor) {
+    factor.value = 1.0;
+  }
+  return machine;
+}
+
+MachineEstimate identify_machine(const ExcavatorProfile& profile,
+                                 const std::vector<MachineLog>& logs,
+                                 const MachineProgress& progress) {
+  MachineEstimate machine = estimate_of(profile);
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    progress(0.15 * axis,
+             fmt::format("{}: dead time and lags", kNames[static_cast<unsigned>(axis)]));
+    find_spool_answer(logs, axis, machine.drive[static_cast<unsigned>(axis)]);
+  }
+  progress(0.5, "zeros of sensors");
+  find_zeros(logs, profile, machine);
+  progress(0.55, "curves and pumps");
+  fit_valves(profile, steady_points(logs, profile), {}, machine);
+  if (!any_driven(machine)) {
+    throw std::runtime_error("no cylinder moves steadily anywhere in the logs");
+  }
+  tell_missing(profile, machine);
+  progress(1.0, "done");
+  return machine;
+}
+
+}  // namespace graben::identify

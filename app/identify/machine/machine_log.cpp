@@ -1,0 +1,290 @@
+#include "app/identify/machine/machine_log.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <unordered_map>
+
+#include "app/identify/machine/candump_reader.hpp"
+#include "can_dbc/generated/excavator_dbc.hpp"
+#include "hal/link/e2e.hpp"
+
+namespace graben::identify {
+namespace {
+
+namespace bus = dbc::excavator;
+
+constexpr double kShortest_s = 5.0;
+/// Strokes come every 10 ms: without them for longer nobody knows what the machine did.
+constexpr double kGap_s = 0.2;
+/// Kernel stamps of frames that came together may be this much out of order.
+constexpr double kBack_s = 0.002;
+
+using Readings = std::vector<Reading>;
+
+/// What comes off the bus, by its frames' times.
+struct Signals {
+  std::array<Readings, kAxisCount> duty;
+  std::array<Readings, kAxisCount> spool;
+  std::array<Readings, kAxisCount> stroke_m;
+  std::array<Readings, kAxisCount> cap_pa;
+  std::array<Readings, kAxisCount> rod_pa;
+  std::array<Readings, kPumpCount> swash;
+  Readings engine_radps;
+};
+
+void add(Readings& to, double time_s, const dbc::Physical& value) {
+  if (value.state == dbc::RawState::kValid) {
+    to.push_back({time_s, value.value});
+  }
+}
+
+/// Collects the frames of one log.
+class Collector {
+ public:
+  explicit Collector(std::string name) : name_(std::move(name)) {
+    for (const dbc::MessageInfo& message : bus::kMessages) {
+      known_.emplace(message.id, message);
+    }
+  }
+
+  void take(const LoggedFrame& frame) {
+    const auto known = known_.find(frame.id);
+    if (!frame.extended || known == known_.end()) {
+      ++log_.foreign;
+      return;
+    }
+    ++log_.frames;
+    const dbc::MessageInfo& message = known->second;
+    if (frame.length != message.length ||
+        (message.is_protected && !e2e_crc_fits(frame.data, message.data_id))) {
+      ++log_.refused;
+      return;
+    }
+    if (frame.time_s < last_s_ - kBack_s) {
+      fail(frame.line, fmt::format("its clock goes back by {:.3f} s", last_s_ - frame.time_s));
+    }
+    last_s_ = std::max(last_s_, frame.time_s);
+    decode(frame);
+  }
+
+  MachineLog log(int pump_count);
+
+ private:
+  [[noreturn]] void fail(std::size_t line, const std::string& what) const {
+    throw std::runtime_error(fmt::format("{}:{}: {}", name_, line, what));
+  }
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw std::runtime_error(fmt::format("{}: {}", name_, what));
+  }
+
+  void decode(const LoggedFrame& frame);
+  void identify(const LoggedFrame& frame);
+  void assert_whole() const;
+  [[nodiscard]] LogSegment segment(double begin_s, double end_s, int pump_count) const;
+
+  std::string name_;
+  std::unordered_map<std::uint32_t, dbc::MessageInfo> known_;
+  MachineLog log_;
+  Signals signals_;
+  double last_s_ = -1e300;
+};
+
+void Collector::decode(const LoggedFrame& frame) {
+  const double t = frame.time_s;
+  const auto pressures = [&](std::size_t i, const dbc::Physical& cap, const dbc::Physical& rod) {
+    add(signals_.cap_pa[i], t, cap);
+    add(signals_.rod_pa[i], t, rod);
+  };
+  switch (frame.id) {
+    case bus::BoomStroke::kId:
+      return add(signals_.stroke_m[0], t, bus::BoomStroke::decode(frame.data).boom_stroke_m);
+    case bus::ArmStroke::kId:
+      return add(signals_.stroke_m[1], t, bus::ArmStroke::decode(frame.data).arm_stroke_m);
+    case bus::BucketStroke::kId:
+      return add(signals_.stroke_m[2], t, bus::BucketStroke::decode(frame.data).bucket_stroke_m);
+    case bus::BoomPressure::kId: {
+      const auto message = bus::BoomPressure::decode(frame.data);
+      return pressures(0, message.boom_cap_pressure_pa, message.boom_rod_pressure_pa);
+    }
+    case bus::ArmPressure::kId: {
+      const auto message = bus::ArmPressure::decode(frame.data);
+      return pressures(1, message.arm_cap_pressure_pa, message.arm_rod_pressure_pa);
+    }
+    case bus::BucketPressure::kId: {
+      const auto message = bus::BucketPressure::decode(frame.data);
+      return pressures(2, message.bucket_cap_pressure_pa, message.bucket_rod_pressure_pa);
+    }
+    case bus::PumpState::kId: {
+      const auto message = bus::PumpState::decode(frame.data);
+      add(signals_.swash[0], t, message.pump1_swash_ratio);
+      return add(signals_.swash[1], t, message.pump2_swash_ratio);
+    }
+    case bus::EEC1::kId:
+      return add(signals_.engine_radps, t, bus::EEC1::decode(frame.data).engine_speed_radps);
+    case bus::ValveState::kId: {
+      const auto message = bus::ValveState::decode(frame.data);
+      add(signals_.spool[0], t, message.boom_spool_ratio);
+      add(signals_.spool[1], t, message.arm_spool_ratio);
+      return add(signals_.spool[2], t, message.bucket_spool_ratio);
+    }
+    case bus::SpoolCommand::kId: {
+      const auto message = bus::SpoolCommand::decode(frame.data);
+      const bool on = message.enable.state == dbc::RawState::kValid &&
+                      message.enable.value == bus::SpoolCommand::Enable::kOn;
+      const std::array<dbc::Physical, kAxisCount> duty = {
+          message.boom_duty_ratio, message.arm_duty_ratio, message.bucket_duty_ratio};
+      for (std::size_t i = 0; i < kAxisCount; ++i) {
+        const bool opens = on && duty[i].state == dbc::RawState::kValid;
+        signals_.duty[i].push_back({t, opens ? duty[i].value : 0.0});
+      }
+      return;
+    }
+    case bus::MachineIdentity::kId:
+      return identify(frame);
+    default:
+      return;
+  }
+}
+
+void Collector::identify(const LoggedFrame& frame) {
+  const auto message = bus::MachineIdentity::decode(frame.data);
+  if (message.dbc_version.state == dbc::RawState::kValid &&
+      message.dbc_version.value != bus::kDbcVersion) {
+    fail(frame.line, fmt::format("the machine speaks version {} of the DBC, this tool version {}",
+                                 message.dbc_version.value, bus::kDbcVersion));
+  }
+  const std::uint32_t hash = message.profile_hash.value;
+  if (log_.profile_hash != 0 && hash != log_.profile_hash) {
+    fail(frame.line, fmt::format("two machines in one log: profile {:08x}, before {:08x}", hash,
+                                 log_.profile_hash));
+  }
+  log_.profile_hash = hash;
+}
+
+/// The last reading at or before each grid point; before the first, the first.
+std::vector<double> sampled(const Readings& readings, double begin_s, std::size_t count,
+                            double otherwise) {
+  std::vector<double> values(count, otherwise);
+  if (readings.empty()) {
+    return values;
+  }
+  auto next = readings.begin();
+  double held = next->value;
+  for (std::size_t at = 0; at < count; ++at) {
+    // Half a microsecond: a stamp that lies on the grid counts there, however it was rounded.
+    const double now_s = begin_s + kGrid_s * static_cast<double>(at) + 5e-7;
+    while (next != readings.end() && next->time_s <= now_s) {
+      held = (next++)->value;
+    }
+    values[at] = held;
+  }
+  return values;
+}
+
+Readings within(const Readings& readings, double begin_s, double end_s) {
+  const auto later = [](const Reading& reading, double time_s) { return reading.time_s < time_s; };
+  const auto from = std::lower_bound(readings.begin(), readings.end(), begin_s, later);
+  const auto until = std::lower_bound(from, readings.end(), end_s, later);
+  Readings part(from, until);
+  for (Reading& reading : part) {
+    reading.time_s -= begin_s;
+  }
+  return part;
+}
+
+LogSegment Collector::segment(double begin_s, double end_s, int pump_count) const {
+  LogSegment part;
+  part.begin_s = begin_s;
+  const auto count = static_cast<std::size_t>((end_s - begin_s) / kGrid_s);
+  part.senses_spools = true;
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    CylinderSeries& axis = part.axis[i];
+    axis.duty = sampled(signals_.duty[i], begin_s, count, 0.0);
+    axis.stroke_m = sampled(signals_.stroke_m[i], begin_s, count, 0.0);
+    axis.cap_pa = sampled(signals_.cap_pa[i], begin_s, count, 0.0);
+    axis.rod_pa = sampled(signals_.rod_pa[i], begin_s, count, 0.0);
+    axis.duties = within(signals_.duty[i], begin_s, end_s);
+    axis.spools = within(signals_.spool[i], begin_s, end_s);
+    part.senses_spools = part.senses_spools && !axis.spools.empty();
+    axis.spool = axis.spools.empty() ? axis.duty : sampled(signals_.spool[i], begin_s, count, 0.0);
+  }
+  for (std::size_t j = 0; j < kPumpCount; ++j) {
+    const bool there = static_cast<int>(j) < pump_count;
+    part.swash[j] = sampled(there ? signals_.swash[j] : Readings{}, begin_s, count, 0.0);
+  }
+  part.engine_radps = sampled(signals_.engine_radps, begin_s, count, 0.0);
+  return part;
+}
+
+void Collector::assert_whole() const {
+  const std::array<const char*, kAxisCount> names = {"boom", "arm", "bucket"};
+  if (log_.frames == 0) {
+    refuse(fmt::format("no frame of an excavator on our bus ({} frames of others)", log_.foreign));
+  }
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    if (signals_.stroke_m[i].empty()) {
+      refuse(fmt::format("no stroke of the {} is in it", names[i]));
+    }
+    if (signals_.duty[i].empty()) {
+      refuse("no SpoolCommand is in it: nothing says what the valves were sent");
+    }
+    if (signals_.cap_pa[i].empty() || signals_.rod_pa[i].empty()) {
+      refuse(fmt::format("no pressures of the {} are in it", names[i]));
+    }
+  }
+  if (signals_.engine_radps.empty() || signals_.swash[0].empty()) {
+    refuse("neither engine speed nor swash: nothing says what the pumps gave");
+  }
+}
+
+MachineLog Collector::log(int pump_count) {
+  assert_whole();
+  const Readings& strokes = signals_.stroke_m[0];
+  double begin_s = strokes.front().time_s;
+  double last_s = begin_s;
+  const auto end = [&](double end_s) {
+    if (end_s - begin_s >= kShortest_s) {
+      log_.segments.push_back(segment(begin_s, end_s, pump_count));
+    }
+  };
+  for (const Reading& reading : strokes) {
+    if (reading.time_s - last_s > kGap_s) {
+      end(last_s);
+      begin_s = reading.time_s;
+    }
+    last_s = reading.time_s;
+  }
+  end(last_s);
+  if (log_.segments.empty()) {
+    refuse(fmt::format("no {} s in one piece are in it ({:.1f} s in all)", kShortest_s,
+                       strokes.back().time_s - strokes.front().time_s));
+  }
+  log_.name = name_;
+  return std::move(log_);
+}
+
+}  // namespace
+
+double MachineLog::length_s() const {
+  double sum_s = 0.0;
+  for (const LogSegment& part : segments) {
+    sum_s += part.length_s();
+  }
+  return sum_s;
+}
+
+MachineLog read_machine_log(const std::filesystem::path& file, int pump_count) {
+  Collector collector(file.filename().string());
+  const std::string sha256 =
+      read_candump(file, [&](const LoggedFrame& frame) { collector.take(frame); });
+  MachineLog log = collector.log(pump_count);
+  log.sha256 = sha256;
+  return log;
+}
+
+}  // namespace graben::identify

@@ -1,0 +1,67 @@
+#pragma once
+/// A candump log of an excavator on our bus as series of what identification needs: duties that the
+/// valves were sent, spools, strokes, chamber pressures, swash, engine speed. SI units; extension
+/// is positive.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "firmware/excavator/excavator_signals.hpp"
+
+namespace graben::identify {
+
+/// Period of the grid on which a log is sampled, s: that of the strokes.
+inline constexpr double kGrid_s = 0.01;
+
+/// A value and when its frame was on the bus.
+struct Reading {
+  double time_s = 0.0;
+  double value = 0.0;
+};
+
+/// Of one cylinder, a value each grid point; what has not been received yet repeats the first.
+struct CylinderSeries {
+  std::vector<double> duty;   ///< -1 .. 1; 0 while the valves are not enabled.
+  std::vector<double> spool;  ///< Measured, of the travel.
+  std::vector<double> stroke_m;
+  std::vector<double> cap_pa;
+  std::vector<double> rod_pa;
+  /// The frames' own times, for what is found more finely than the grid.
+  std::vector<Reading> duties;
+  std::vector<Reading> spools;
+};
+
+/// A stretch of a log without a gap.
+struct LogSegment {
+  double begin_s = 0.0;  ///< The log's own time of the first grid point.
+  std::array<CylinderSeries, kAxisCount> axis;
+  std::array<std::vector<double>, kPumpCount> swash;  ///< Of full swash.
+  std::vector<double> engine_radps;
+  bool senses_spools = false;  ///< Else `spool` is the duty.
+
+  [[nodiscard]] std::size_t size() const { return engine_radps.size(); }
+  [[nodiscard]] double length_s() const { return kGrid_s * static_cast<double>(size()); }
+};
+
+struct MachineLog {
+  std::string name;                ///< Of the file.
+  std::string sha256;              ///< Of its bytes, hexadecimal.
+  std::uint32_t profile_hash = 0;  ///< That the machine said; 0: it said none.
+  std::vector<LogSegment> segments;
+  std::size_t frames = 0;   ///< Of our bus.
+  std::size_t refused = 0;  ///< With a wrong length or checksum.
+  std::size_t foreign = 0;  ///< Frames of other buses.
+
+  [[nodiscard]] double length_s() const;
+};
+
+/// Reads a log, plain or gzip; `pump_count` of the machine. Throws std::runtime_error that names
+/// file, line and reason: unreadable, cut off, not candump, no frame of an excavator, another DBC
+/// version, two machines on one bus, a clock that goes back, no strokes, no duties, less than 5 s
+/// in one piece.
+[[nodiscard]] MachineLog read_machine_log(const std::filesystem::path& file, int pump_count);
+
+}  // namespace graben::identify

@@ -1,0 +1,33 @@
+#pragma once
+/// Moments of a log in which a cylinder moves steadily, or its spool stands steadily: what a
+/// valve's curve is found from.
+
+#include <array>
+#include <vector>
+
+#include "app/identify/machine/machine_log.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
+
+namespace graben::identify {
+
+/// Means over a short window; in SI units, extension is positive.
+struct SteadyPoint {
+  int axis = 0;
+  double spool = 0.0;  ///< Of the travel; its sign is the side.
+  double speed_mps = 0.0;
+  double speed_spread_mps = 0.0;  ///< What speed and sensor leave open.
+  std::array<double, kAxisCount> all_spool{};
+  std::array<double, kAxisCount> all_speed_mps{};
+  std::array<double, kAxisCount> cap_pa{};
+  std::array<double, kAxisCount> rod_pa{};
+  std::array<double, kPumpCount> swash{};
+  double engine_radps = 0.0;
+  double stroke_m = 0.0;
+  std::size_t block = 0;  ///< Stretch of the logs whose errors hang together.
+};
+
+/// All of them, of every axis. Not near the ends of a stroke, where cushions and stops are.
+[[nodiscard]] std::vector<SteadyPoint> steady_points(const std::vector<MachineLog>& logs,
+                                                     const ExcavatorProfile& profile);
+
+}  // namespace graben::identify

@@ -1,0 +1,20 @@
+#pragma once
+/// Zeros of sensors from touches of the stroke's ends: a piston that is pressed against its end
+/// stands at a length that the drawing says, and its draining side, where nothing flows, has the
+/// tank's pressure.
+
+#include <vector>
+
+#include "app/identify/machine/estimate.hpp"
+#include "app/identify/machine/machine_log.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
+
+namespace graben::identify {
+
+/// Zeros of each axis whose end was touched, into `machine`: the stroke's by the extended end, or
+/// by the other where only that was touched; the pressures' by the draining side. A sensor that
+/// reads nothing there is at or below zero, by no one knows how much.
+void find_zeros(const std::vector<MachineLog>& logs, const ExcavatorProfile& profile,
+                MachineEstimate& machine);
+
+}  // namespace graben::identify

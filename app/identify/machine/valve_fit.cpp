@@ -1,0 +1,420 @@
+#include "app/identify/machine/valve_fit.hpp"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "app/identify/machine/valve_model.hpp"
+#include "firmware/excavator/excavator_drives.hpp"
+
+namespace graben::identify {
+namespace {
+
+// A side's block, a drive's and a pump's; sizes are the cost function's.
+enum SideParameter : std::size_t {
+  kEdge,
+  kLogSoftness,
+  kExponent,
+  kLogCoefficient,
+  kLogOutArea,
+  kSideSize
+};
+constexpr std::size_t kZeroSize = 2;  ///< Cap, rod, MPa.
+constexpr std::size_t kSides = 2 * kAxisCount;
+constexpr double kPaPerMpa = 1e6;
+// Among all values: sides one after the other, then zeros, then pumps.
+constexpr std::size_t kZerosAt = kSides * kSideSize;
+constexpr std::size_t kPumpsAt = kZerosAt + kAxisCount * kZeroSize;
+constexpr std::size_t kAll = kPumpsAt + kPumpCount;
+using Square = Eigen::Matrix<double, kAll, kAll>;
+using Row = Eigen::Matrix<double, kAll, 1>;
+
+constexpr double kSpeedShare = 0.02;  ///< Of a speed, that the model is off.
+constexpr double kOutShare = 0.06;    ///< The same by the draining side.
+/// Of the line's pressure, which nothing measures: hoses, what a pump is off at a pressure.
+constexpr double kLine_pa = 0.25e6;
+/// The weights depend on where the curves are, so they are made anew so often.
+constexpr int kPasses = 3;
+constexpr double kLeastSoftness = 0.001;
+constexpr double kMostSoftness = 0.15;
+constexpr double kUsualSoftness = 0.008;
+constexpr int kSteps = 60;
+/// A side is driven where a steady point of it was at least so fast.
+constexpr double kMoves_mps = 0.01;
+/// A value is known where what is left open is less than this share of what was open before.
+constexpr double kLearnt = 0.5;
+
+std::size_t side_of(int axis, bool extends) {
+  return 2 * static_cast<std::size_t>(axis) + (extends ? 0 : 1);
+}
+
+struct Blocks {
+  std::array<std::array<double, kSideSize>, kSides> side{};
+  std::array<std::array<double, kZeroSize>, kAxisCount> zero{};
+  std::array<std::array<double, 1>, kPumpCount> pump{};
+};
+
+ValveTry try_of(const double* side, const double* zero, const double* pump) {
+  ValveTry tried;
+  tried.curve = {side[kEdge], std::exp(side[kLogSoftness]), side[kExponent]};
+  tried.coefficient_factor = std::exp(side[kLogCoefficient]);
+  tried.out_area_factor = std::exp(side[kLogOutArea]);
+  tried.cap_zero_pa = kPaPerMpa * zero[0];
+  tried.rod_zero_pa = kPaPerMpa * zero[1];
+  tried.pump_flow_factor = pump[0];
+  return tried;
+}
+
+/// What is left open of a point's speed, by each equation, m/s.
+struct PointSpread {
+  double speed_mps = 1.0;
+  double out_mps = 1.0;
+};
+
+struct PointCost {
+  const PreparedPoint* of;
+  const PointSpread* spread;
+
+  bool operator()(const double* side, const double* zero, const double* pump,
+                  double* residuals) const {
+    const ValveTry tried = try_of(side, zero, pump);
+    residuals[0] = of->is_fed() ? of->speed_error(tried).error_mps / spread->speed_mps : 0.0;
+    residuals[1] = of->drains() ? of->out_error_mps(tried) / spread->out_mps : 0.0;
+    return true;
+  }
+};
+
+/// One value about its mean.
+struct PriorCost {
+  std::size_t at;
+  double mean;
+  double deviation;
+
+  bool operator()(const double* block, double* residual) const {
+    residual[0] = (block[at] - mean) / deviation;
+    return true;
+  }
+};
+
+class Fit {
+ public:
+  Fit(const std::vector<PreparedPoint>& points, const ValvePriors& priors,
+      const MachineEstimate& machine)
+      : points_(points), priors_(priors) {
+    start(machine);
+    spread_.resize(points.size());
+    for (std::size_t n = 0; n < points.size(); ++n) {
+      const PreparedPoint& of = points[n];
+      const int axis = of.point().axis;
+      problem_.AddResidualBlock(
+          new ceres::NumericDiffCostFunction<PointCost, ceres::CENTRAL, 2, kSideSize, kZeroSize, 1>(
+              new PointCost{&of, &spread_[n]}, ceres::TAKE_OWNERSHIP, 2, steps()),
+          new ceres::CauchyLoss(2.0), blocks_.side[side_of(axis, of.extends())].data(),
+          blocks_.zero[static_cast<std::size_t>(axis)].data(),
+          blocks_.pump[static_cast<std::size_t>(of.pump())].data());
+    }
+    add_priors(machine);
+  }
+
+  void solve() {
+    for (auto& side : blocks_.side) {
+      bound(side.data(), kEdge, 0.02, 0.85);
+      bound(side.data(), kLogSoftness, std::log(kLeastSoftness), std::log(kMostSoftness));
+      bound(side.data(), kExponent, 0.6, 3.0);
+    }
+    for (auto& pump : blocks_.pump) {
+      bound(pump.data(), 0, 0.6, 1.4);
+    }
+    ceres::Solver::Options options;
+    options.max_num_iterations = kSteps;
+    options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+    options.logging_type = ceres::SILENT;
+    options.num_threads = 1;
+    for (int pass = 0; pass < kPasses; ++pass) {
+      weigh();
+      ceres::Solver::Summary summary;
+      ceres::Solve(options, &problem_, &summary);
+    }
+    find_covariance();
+  }
+
+  /// What was found, into `machine`.
+  void tell(const ExcavatorProfile& profile, MachineEstimate& machine) const;
+
+ private:
+  static ceres::NumericDiffOptions steps() {
+    ceres::NumericDiffOptions options;
+    options.relative_step_size = 1e-5;
+    return options;
+  }
+  void bound(double* block, std::size_t at, double least, double most) {
+    if (problem_.HasParameterBlock(block)) {
+      problem_.SetParameterLowerBound(block, static_cast<int>(at), least);
+      problem_.SetParameterUpperBound(block, static_cast<int>(at), most);
+    }
+  }
+  template <std::size_t size>
+  void prior(std::array<double, size>& block, std::size_t at, double mean, double deviation) {
+    constexpr int kSize = static_cast<int>(size);
+    problem_.AddResidualBlock(
+        new ceres::NumericDiffCostFunction<PriorCost, ceres::CENTRAL, 1, kSize>(
+            new PriorCost{at, mean, deviation}),
+        nullptr, block.data());
+  }
+  void start(const MachineEstimate& machine);
+  void start_at_edges();
+  void add_priors(const MachineEstimate& machine);
+  void find_covariance();
+  void weigh();
+  [[nodiscard]] double deviation(std::size_t at) const {
+    return std::sqrt(
+        std::max(0.0, covariance_(static_cast<Eigen::Index>(at), static_cast<Eigen::Index>(at))));
+  }
+  [[nodiscard]] Estimate found(double value, std::size_t at, double before) const {
+    const double left = deviation(at);
+    return {value, left, left < kLearnt * before};
+  }
+  void tell_side(const ExcavatorProfile& profile, std::size_t side, SideEstimate& to) const;
+
+  const std::vector<PreparedPoint>& points_;
+  ValvePriors priors_;
+  Blocks blocks_;
+  std::vector<PointSpread> spread_;
+  ceres::Problem problem_;
+  Square covariance_ = Square::Zero();
+};
+
+void Fit::start(const MachineEstimate& machine) {
+  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+    const DriveEstimate& drive = machine.drive[axis];
+    for (const bool extends : {true, false}) {
+      const SideEstimate& side = drive.side(extends);
+      blocks_.side[side_of(static_cast<int>(axis), extends)] = {
+          side.edge.value, std::log(std::max(side.softness.value, kUsualSoftness)),
+          side.exponent.value, std::log(side.coefficient_factor.value),
+          std::log(side.out_area_factor.value)};
+    }
+    blocks_.zero[axis] = {drive.cap_zero_pa.value / kPaPerMpa, drive.rod_zero_pa.value / kPaPerMpa};
+  }
+  for (std::size_t j = 0; j < kPumpCount; ++j) {
+    blocks_.pump[j] = {machine.pump_flow_factor[j].value};
+  }
+  start_at_edges();
+}
+
+/// Between the farthest spool that moves nothing and the nearest that moves its drive: from there
+/// the fit need not look for an edge through flat ground.
+void Fit::start_at_edges() {
+  std::array<double, kSides> nearest{};
+  nearest.fill(1.0);
+  for (const PreparedPoint& of : points_) {
+    const SteadyPoint& point = of.point();
+    const double along_mps = of.extends() ? point.speed_mps : -point.speed_mps;
+    if (along_mps > 0.6 * kMoves_mps) {
+      double& at = nearest[side_of(point.axis, of.extends())];
+      at = std::min(at, std::abs(point.spool));
+    }
+  }
+  for (std::size_t side = 0; side < kSides; ++side) {
+    if (nearest[side] < 1.0) {
+      blocks_.side[side][kEdge] = std::clamp(nearest[side] - 0.02, 0.03, 0.8);
+    }
+  }
+}
+
+/// Where the load takes nearly all that the line has, a small error of the line's pressure is a large
+/// one of the speed: such points say less.
+void Fit::weigh() {
+  for (std::size_t n = 0; n < points_.size(); ++n) {
+    const PreparedPoint& of = points_[n];
+    const SteadyPoint& point = of.point();
+    const auto axis = static_cast<std::size_t>(point.axis);
+    const ValveTry tried = try_of(blocks_.side[side_of(point.axis, of.extends())].data(),
+                                  blocks_.zero[axis].data(),
+                                  blocks_.pump[static_cast<std::size_t>(of.pump())].data());
+    const double speed_mps = std::abs(point.speed_mps);
+    const double by_line_mps =
+        of.speed_error(tried).per_force_mpspn * kLine_pa * of.fed_area_m2();
+    spread_[n].speed_mps =
+        std::hypot(point.speed_spread_mps + kSpeedShare * speed_mps, by_line_mps);
+    spread_[n].out_mps = 2.0 * point.speed_spread_mps + kOutShare * speed_mps;
+  }
+}
+
+void Fit::add_priors(const MachineEstimate& machine) {
+  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+    const DriveEstimate& drive = machine.drive[axis];
+    for (const bool extends : {true, false}) {
+      const SideEstimate& from = drive.side(extends);
+      auto& block = blocks_.side[side_of(static_cast<int>(axis), extends)];
+      prior(block, kEdge, from.edge.value, priors_.edge);
+      prior(block, kLogSoftness, std::log(std::max(from.softness.value, kUsualSoftness)),
+            priors_.log_softness);
+      prior(block, kExponent, from.exponent.value, priors_.exponent);
+      prior(block, kLogCoefficient, std::log(from.coefficient_factor.value),
+            priors_.log_coefficient);
+      prior(block, kLogOutArea, std::log(from.out_area_factor.value), priors_.log_out_area);
+    }
+    const auto zero = [&](std::size_t at, const Estimate& from) {
+      prior(blocks_.zero[axis], at, from.value / kPaPerMpa,
+            (from.deviation > 0.0 ? from.deviation : priors_.zero_pa) / kPaPerMpa);
+    };
+    zero(0, drive.cap_zero_pa);
+    zero(1, drive.rod_zero_pa);
+  }
+  for (std::size_t j = 0; j < kPumpCount; ++j) {
+    prior(blocks_.pump[j], 0, machine.pump_flow_factor[j].value, priors_.pump_flow);
+  }
+}
+
+/// Where a block's values stand among all.
+std::map<const double*, std::size_t> places_of(const Blocks& blocks) {
+  std::map<const double*, std::size_t> places;
+  for (std::size_t side = 0; side < kSides; ++side) {
+    places[blocks.side[side].data()] = side * kSideSize;
+  }
+  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+    places[blocks.zero[axis].data()] = kZerosAt + axis * kZeroSize;
+  }
+  for (std::size_t j = 0; j < kPumpCount; ++j) {
+    places[blocks.pump[j].data()] = kPumpsAt + j;
+  }
+  return places;
+}
+
+/// What the points leave open as they are weighed, H^-1, and what shows that they hang together or
+/// that the model is not the machine: H^-1 (sum of g g^T over blocks of time) H^-1. Added up, the
+/// second is never taken for less than the first.
+void Fit::find_covariance() {
+  const auto places = places_of(blocks_);
+  Square curvature = Square::Zero();
+  std::map<std::size_t, Row> gradient;
+  std::vector<ceres::ResidualBlockId> ids;
+  problem_.GetResidualBlocks(&ids);
+  for (std::size_t n = 0; n < ids.size(); ++n) {
+    std::vector<double*> blocks;
+    problem_.GetParameterBlocksForResidualBlock(ids[n], &blocks);
+    const int rows = problem_.GetCostFunctionForResidualBlock(ids[n])->num_residuals();
+    std::array<std::array<double, 2 * kSideSize>, 3> jacobian{};  // The largest that there are.
+    std::array<double*, 3> to = {jacobian[0].data(), jacobian[1].data(), jacobian[2].data()};
+    std::array<double, 2> residual{};
+    double cost = 0.0;
+    problem_.EvaluateResidualBlock(ids[n], true, &cost, residual.data(), to.data());
+    for (int r = 0; r < rows; ++r) {
+      Row row = Row::Zero();
+      for (std::size_t b = 0; b < blocks.size(); ++b) {
+        const int size = problem_.ParameterBlockSize(blocks[b]);
+        for (int k = 0; k < size; ++k) {
+          row[static_cast<Eigen::Index>(places.at(blocks[b])) + k] =
+              jacobian[b][static_cast<std::size_t>(r * size + k)];
+        }
+      }
+      curvature += row * row.transpose();
+      if (n < points_.size()) {
+        auto [at, is_new] = gradient.try_emplace(points_[n].point().block, Row::Zero());
+        at->second += residual[static_cast<std::size_t>(r)] * row;
+      }
+    }
+  }
+  Square gradients = Square::Zero();
+  for (const auto& [block, each] : gradient) {
+    gradients += each * each.transpose();
+  }
+  const Square inverse = curvature.ldlt().solve(Square::Identity());
+  covariance_ = inverse + inverse * gradients * inverse;
+}
+
+void Fit::tell_side(const ExcavatorProfile& profile, std::size_t side, SideEstimate& to) const {
+  const auto& block = blocks_.side[side];
+  const std::size_t first = side * kSideSize;
+  to.edge = found(block[kEdge], first + kEdge, priors_.edge);
+  const double softness = std::exp(block[kLogSoftness]);
+  to.softness = found(softness, first + kLogSoftness, priors_.log_softness);
+  to.softness.deviation *= softness;
+  to.exponent = found(block[kExponent], first + kExponent, priors_.exponent);
+  to.coefficient_factor =
+      found(std::exp(block[kLogCoefficient]), first + kLogCoefficient, priors_.log_coefficient);
+  to.coefficient_factor.deviation *= to.coefficient_factor.value;
+  to.out_area_factor =
+      found(std::exp(block[kLogOutArea]), first + kLogOutArea, priors_.log_out_area);
+  to.out_area_factor.deviation *= to.out_area_factor.value;
+  // Of the travel at each opening, by the curve's three values.
+  constexpr double kStep = 1e-4;
+  const Eigen::Matrix3d covariance =
+      covariance_.block<3, 3>(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(first));
+  to.duty_deviation.clear();
+  for (const double opening : kTableOpenings) {
+    const double area = std::pow(opening, profile.valve.opening_exponent);
+    Eigen::Vector3d slope;
+    for (std::size_t at = 0; at <= kExponent; ++at) {
+      auto moved = block;
+      moved[at] += kStep;
+      const auto travel = [area](const auto& of) {
+        return OpeningCurve{of[kEdge], std::exp(of[kLogSoftness]), of[kExponent]}.travel_at(area);
+      };
+      slope[static_cast<Eigen::Index>(at)] = (travel(moved) - travel(block)) / kStep;
+    }
+    to.duty_deviation.push_back(std::sqrt(std::max(0.0, slope.dot(covariance * slope))));
+  }
+}
+
+void Fit::tell(const ExcavatorProfile& profile, MachineEstimate& machine) const {
+  std::array<double, kSides> least{};
+  std::array<double, kSides> most{};
+  for (const PreparedPoint& of : points_) {
+    const SteadyPoint& point = of.point();
+    const double along_mps = of.extends() ? point.speed_mps : -point.speed_mps;
+    if (along_mps > kMoves_mps) {
+      const std::size_t side = side_of(point.axis, of.extends());
+      const double travel = std::abs(point.spool);
+      least[side] = least[side] == 0.0 ? travel : std::min(least[side], travel);
+      most[side] = std::max(most[side], travel);
+    }
+  }
+  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+    DriveEstimate& drive = machine.drive[axis];
+    for (const bool extends : {true, false}) {
+      const std::size_t side = side_of(static_cast<int>(axis), extends);
+      drive.side(extends).driven_least = least[side];
+      drive.side(extends).driven_most = most[side];
+      if (most[side] > 0.0) {
+        tell_side(profile, side, drive.side(extends));
+      }
+    }
+    const std::size_t zero = kZerosAt + axis * kZeroSize;
+    const auto in_pa = [&](std::size_t at) {
+      Estimate estimate = found(blocks_.zero[axis][at], zero + at, priors_.zero_pa / kPaPerMpa);
+      estimate.value *= kPaPerMpa;
+      estimate.deviation *= kPaPerMpa;
+      return estimate;
+    };
+    drive.cap_zero_pa = in_pa(0);
+    drive.rod_zero_pa = in_pa(1);
+  }
+  for (std::size_t j = 0; j < kPumpCount; ++j) {
+    machine.pump_flow_factor[j] = found(blocks_.pump[j][0], kPumpsAt + j, priors_.pump_flow);
+  }
+}
+
+}  // namespace
+
+void fit_valves(const ExcavatorProfile& profile, const std::vector<SteadyPoint>& points,
+                const ValvePriors& priors, MachineEstimate& machine) {
+  const McvMachine valve = mcv_machine(profile);
+  std::vector<PreparedPoint> prepared;
+  prepared.reserve(points.size());
+  for (const SteadyPoint& point : points) {
+    prepared.emplace_back(profile, valve, point,
+                          machine.drive[static_cast<std::size_t>(point.axis)]);
+  }
+  Fit fit(prepared, priors, machine);
+  fit.solve();
+  fit.tell(profile, machine);
+}
+
+}  // namespace graben::identify

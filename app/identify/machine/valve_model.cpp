@@ -1,0 +1,135 @@
+#include "app/identify/machine/valve_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/hydraulics/flow.hpp"
+#include "firmware/mcv/evaluation.hpp"
+
+namespace graben::identify {
+namespace {
+
+/// Slower than this a drive stands: what its sensor drifts moves no oil.
+constexpr double kStands_mps = 0.002;
+/// Less on the draining side is more zero and return line than pressure.
+constexpr double kDrained_pa = 1.5e6;
+constexpr double kStep_mps = 1e-4;
+/// With less on the fed side make-up from the tank may be open.
+constexpr double kFed_pa = 0.8e6;
+/// Beyond this share of the drain's coefficient the gallery decides as much as the edge.
+constexpr double kEdgeDecides = 0.6;
+
+/// The speeds as the valve's model takes them: along their spools, or none.
+McvInput input_at(const ExcavatorProfile& profile, const SteadyPoint& point, double own_mps) {
+  McvInput input;
+  for (std::size_t k = 0; k < kAxisCount; ++k) {
+    const bool own = static_cast<int>(k) == point.axis;
+    const double speed_mps = own ? own_mps : point.all_speed_mps[k];
+    const bool with_spool = own || speed_mps * point.all_spool[k] > 0.0;
+    input.velocity_mps[k] = with_spool && std::abs(speed_mps) > kStands_mps ? speed_mps : 0.0;
+    input.cap_pressure_pa[k] = point.cap_pa[k];
+    input.rod_pressure_pa[k] = point.rod_pa[k];
+  }
+  for (int j = 0; j < profile.pump_count; ++j) {
+    const auto k = static_cast<std::size_t>(j);
+    input.pump_flow_m3ps[k] = pump_flow_m3ps(profile.pump[k], point.engine_radps, point.swash[k]);
+  }
+  return input;
+}
+
+}  // namespace
+
+PreparedPoint::PreparedPoint(const ExcavatorProfile& profile, const McvMachine& machine,
+                             const SteadyPoint& point, const DriveEstimate& drive)
+    : point_(point) {
+  const auto axis = static_cast<std::size_t>(point.axis);
+  // At 1 m/s all that grows with its speed is its coefficient.
+  const McvCircuit circuit =
+      make_circuit(machine, input_at(profile, point, extends() ? 1.0 : -1.0));
+  axis_ = circuit.axis[axis];
+  pump_ = machine.actuator[axis].pump;
+  others_ = circuit.line[static_cast<std::size_t>(pump_)];
+  others_.in_flow_m3ps -= axis_.q_in_m3ps - (axis_.regeneration ? axis_.q_out_m3ps : 0.0);
+  for (int n = 0; n < others_.regeneration_count; ++n) {
+    RegenerationDemand& demand = others_.regeneration[static_cast<std::size_t>(n)];
+    if (axis_.regeneration && demand.q_out_m3ps == axis_.q_out_m3ps) {
+      demand = others_.regeneration[static_cast<std::size_t>(--others_.regeneration_count)];
+      break;
+    }
+  }
+  full_mps_ = axis_.spool->y_last();
+  const SpoolProfile& spool = profile.valve.spool[axis];
+  out_m3ps_ = profile.valve.discharge * std::sqrt(2.0 / profile.valve.density_kgpm3) *
+              (extends() ? spool.extend_out_m2 : spool.retract_out_m2);
+  cap_m2_ = machine.actuator[axis].area_cap_m2;
+  rod_m2_ = machine.actuator[axis].area_rod_m2;
+  const double cap_pa = point.cap_pa[axis] - drive.cap_zero_pa.value;
+  const double rod_pa = point.rod_pa[axis] - drive.rod_zero_pa.value;
+  const double drained_pa = extends() ? rod_pa : cap_pa;
+  fed_ = (extends() ? cap_pa : rod_pa) > kFed_pa;
+  drains_ = drained_pa > kDrained_pa && std::abs(point.speed_mps) > kStands_mps;
+}
+
+double PreparedPoint::sqrt_line(double flow_factor, double speed_mps) const {
+  FlowBalance line = others_;
+  line.flow_m3ps *= flow_factor;
+  const double in_m3ps = speed_mps * axis_.q_in_m3ps;
+  const double out_m3ps = speed_mps * axis_.q_out_m3ps;
+  line.in_flow_m3ps += in_m3ps;
+  line.least_flow_m3ps = line.in_flow_m3ps;
+  if (axis_.regeneration) {
+    line.in_flow_m3ps -= out_m3ps;
+    line.least_flow_m3ps =
+        line.in_flow_m3ps + out_m3ps * axis_.c_drain / (axis_.c_check + axis_.c_drain);
+    line.regeneration[static_cast<std::size_t>(line.regeneration_count++)] = {
+        out_m3ps, axis_.c_drain, axis_.c_check, out_m3ps / axis_.c_drain};
+  }
+  const PumpPressure solved = solve_pump_pressure(line, 1.0);
+  return solved.fed ? solved.sqrt_pressure : 0.0;
+}
+
+double PreparedPoint::force_n(const ValveTry& tried, double speed_mps) const {
+  const auto axis = static_cast<std::size_t>(point_.axis);
+  const double load_n = cap_m2_ * (point_.cap_pa[axis] - tried.cap_zero_pa) -
+                        rod_m2_ * (point_.rod_pa[axis] - tried.rod_zero_pa);
+  CircuitAxis now = axis_;
+  now.load_force_n = extends() ? load_n : -load_n;
+  now.q_out_m3ps = speed_mps * axis_.q_out_m3ps;
+  return drive_force(now, 1.0, sqrt_line(tried.pump_flow_factor, speed_mps)).force_n;
+}
+
+SpeedError PreparedPoint::speed_error(const ValveTry& tried) const {
+  const double seen_mps = extends() ? point_.speed_mps : -point_.speed_mps;
+  const double speed_mps = std::max(0.0, seen_mps);
+  const double coefficient =
+      tried.coefficient_factor * full_mps_ * tried.curve.area_ratio(std::abs(point_.spool));
+  const double force = force_n(tried, speed_mps);
+  const double faster = force_n(tried, speed_mps + kStep_mps);
+  const double closing = std::max(0.0, (force - faster) / kStep_mps);
+  if (force <= 0.0) {
+    // Even without a valve it would have to be slower by this.
+    const double slower_mps = closing > 0.0 ? force / closing : -speed_mps;
+    return {std::max(-speed_mps, slower_mps), closing > 0.0 ? 1.0 / closing : 0.0};
+  }
+  const double root = std::sqrt(force);
+  const double slope = coefficient / (2.0 * root);
+  const double own = 1.0 + slope * closing;
+  return {(coefficient * root - seen_mps) / own, slope / own};
+}
+
+double PreparedPoint::out_error_mps(const ValveTry& tried) const {
+  const auto axis = static_cast<std::size_t>(point_.axis);
+  const double drained_pa =
+      extends() ? point_.rod_pa[axis] - tried.rod_zero_pa : point_.cap_pa[axis] - tried.cap_zero_pa;
+  const double seen_mps = extends() ? point_.speed_mps : -point_.speed_mps;
+  double out = tried.out_area_factor * out_m3ps_ * tried.curve.area_ratio(std::abs(point_.spool));
+  if (axis_.regeneration) {
+    if (out > kEdgeDecides * axis_.c_drain) {
+      return 0.0;
+    }
+    out = out * axis_.c_drain / std::hypot(out, axis_.c_drain);
+  }
+  return out * std::sqrt(std::max(0.0, drained_pa)) / axis_.q_out_m3ps - seen_mps;
+}
+
+}  // namespace graben::identify
