@@ -28,7 +28,7 @@ DozerPlant::DozerPlant(const DozerPlantProfile& profile)
       body_(profile),
       path_{HstPath(profile), HstPath(profile)},
       traction_{Traction(profile), Traction(profile)},
-      pilot_(profile.dead_time_s, step_s_),
+      pilot_(profile.dead_time_s, 0.0, step_s_),
       implement_(profile),
       blade_(profile),
       cylinder_(profile.blade_cylinder(blade_.linkage().full_stroke_m()), step_s_) {

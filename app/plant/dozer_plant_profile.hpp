@@ -101,7 +101,8 @@ struct DozerPlantProfile : HydraulicDetails {
   TimeUs step_us = 500;
 
   [[nodiscard]] SpoolDynamics spool_dynamics() const {
-    return {spool_time_constant_s, spool_damping, deadband_ratio, deadband_ratio, 1.0, 1.0};
+    const SpoolSide side{deadband_ratio, 0.0, 1.0};
+    return {spool_time_constant_s, spool_damping, side, side, 1.0};
   }
   /// Both cylinders together; the stroke comes from the blade's reach.
   [[nodiscard]] CylinderData blade_cylinder(double stroke_m) const;

@@ -27,7 +27,7 @@ std::vector<PilotValve> pilots_of(const ExcavatorPlantProfile& profile) {
   std::vector<PilotValve> pilots;
   pilots.reserve(profile.drive_count());
   for (std::size_t i = 0; i < profile.drive_count(); ++i) {
-    pilots.emplace_back(profile.dead_time_s[i], profile.step_s());
+    pilots.emplace_back(profile.dead_time[i], profile.pilot_lag_s[i], profile.step_s());
   }
   return pilots;
 }

@@ -29,7 +29,8 @@ struct LinkBody {
   Eigen::Vector2d mass_centre_m = Eigen::Vector2d::Zero();  ///< Link frame, x from pin to pin.
 };
 
-/// Kim 5. Ratios are of `pressure_range_pa`.
+/// Kim 5. Ratios are of `pressure_range_pa`. A zero is what a sensor shows where the truth is 0,
+/// always; a bias is drawn beside it.
 struct SensorErrors {
   double stroke_resolution_m = 0.0;
   double stroke_bias_m = 0.0;
@@ -38,6 +39,10 @@ struct SensorErrors {
   double pressure_range_pa = 0.0;
   double pressure_bias_ratio = 0.0;
   double pressure_noise_ratio = 0.0;
+  std::array<double, kAxisCount> stroke_zero_m{};
+  /// Of each drive's two chambers; of the swing cap is the left port, rod the right one.
+  std::array<double, kDriveCount> cap_zero_pa{};
+  std::array<double, kDriveCount> rod_zero_pa{};
 };
 
 /// The swing motor as the simulated machine has it; its displacement is the nominal one.
@@ -45,6 +50,14 @@ struct SwingMotorDetails {
   double dead_volume_m3 = 0.0;  ///< Each of its two chambers, with hose.
   double leak_m3pspa = 0.0;     ///< From port to port, laminar.
   double port_relief_pa = 0.0;  ///< Brakes the platform when the spool closes.
+};
+
+/// Of a spool's four full metering areas, on the nominal ones.
+struct AreaFactors {
+  double extend_in = 1.0;
+  double extend_out = 1.0;
+  double retract_in = 1.0;
+  double retract_out = 1.0;
 };
 
 /// Of a main spool, see SpoolDynamics. No source gives it; half of the usual deadband.
@@ -61,9 +74,10 @@ struct ExcavatorPlantProfile : HydraulicDetails {
   SwingMotorDetails swing_motor;
   double gravity_mps2 = 9.80665;
 
-  /// Each drive's: second-order lag, deadband (Kim 5), opening. Its exponent goes before the
+  /// Each drive's: second-order lag, deadband (Kim 5), opening. Its exponents go before the
   /// nominal one of `machine`.
   std::array<SpoolDynamics, kDriveCount> spool;
+  std::array<AreaFactors, kDriveCount> area_factors;
   std::array<double, kPumpCount> pump_flow_ratio{1.0, 1.0};  ///< Of the nominal displacement.
   EngineSag engine;
 
@@ -77,8 +91,9 @@ struct ExcavatorPlantProfile : HydraulicDetails {
   /// Seed of the sensors' bias and noise and of the soil's random part.
   std::uint64_t seed = 0;
   bool sensor_errors = false;  ///< Without: strokes to the resolution, pressures exact.
-  /// From a duty to the spool's first movement.
-  std::array<double, kDriveCount> dead_time_s{};
+  std::array<SideDelay, kDriveCount> dead_time;
+  /// First-order lag of the pilot pressure that sends the spool, behind the dead time.
+  std::array<double, kDriveCount> pilot_lag_s{};
   std::optional<SoilProfile> soil;
   std::optional<ObstacleProfile> obstacle;
 

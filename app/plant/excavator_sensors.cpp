@@ -15,7 +15,10 @@ double in_steps(double shown, double resolution) {
 }  // namespace
 
 SensorModel::SensorModel(const SensorErrors& errors, std::optional<std::uint64_t> seed)
-    : errors_(errors) {
+    : errors_(errors),
+      stroke_bias_m_(errors.stroke_zero_m),
+      cap_bias_pa_(errors.cap_zero_pa),
+      rod_bias_pa_(errors.rod_zero_pa) {
   if (!seed) {
     return;
   }
@@ -23,13 +26,13 @@ SensorModel::SensorModel(const SensorErrors& errors, std::optional<std::uint64_t
   Random bias(*seed, Draw::kSensorBias);
   const double pressure_bias_pa = errors.pressure_bias_ratio * errors.pressure_range_pa;
   for (std::size_t i = 0; i < kAxisCount; ++i) {
-    stroke_bias_m_[i] = bias.symmetric(errors.stroke_bias_m);
-    cap_bias_pa_[i] = bias.symmetric(pressure_bias_pa);
-    rod_bias_pa_[i] = bias.symmetric(pressure_bias_pa);
+    stroke_bias_m_[i] += bias.symmetric(errors.stroke_bias_m);
+    cap_bias_pa_[i] += bias.symmetric(pressure_bias_pa);
+    rod_bias_pa_[i] += bias.symmetric(pressure_bias_pa);
   }
   swing_bias_rad_ = bias.symmetric(errors.swing_bias_rad);
-  cap_bias_pa_[kSwing] = bias.symmetric(pressure_bias_pa);
-  rod_bias_pa_[kSwing] = bias.symmetric(pressure_bias_pa);
+  cap_bias_pa_[kSwing] += bias.symmetric(pressure_bias_pa);
+  rod_bias_pa_[kSwing] += bias.symmetric(pressure_bias_pa);
 }
 
 double SensorModel::stroke_m(std::size_t axis, double true_stroke_m) const {

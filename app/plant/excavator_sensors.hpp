@@ -13,7 +13,7 @@
 namespace graben::plant {
 
 /// Strokes and the swing in steps of the encoder's resolution, pressures within the transducer's
-/// range. With a seed each stroke, the swing and each pressure also has a constant bias, uniform
+/// range, strokes and pressures off by their zeros. With a seed each stroke, the swing and each pressure also has a constant bias, uniform
 /// within the profile's bounds, and each pressure reading white noise of the profile's standard
 /// deviation (Kim 5). The CAN codec quantises and saturates by itself.
 class SensorModel {
@@ -32,6 +32,7 @@ class SensorModel {
 
   SensorErrors errors_;
   std::optional<Random> noise_;
+  // With the zeros.
   std::array<double, kAxisCount> stroke_bias_m_{};
   double swing_bias_rad_ = 0.0;
   std::array<double, kDriveCount> cap_bias_pa_{};

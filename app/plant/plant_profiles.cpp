@@ -30,9 +30,16 @@ SwingMotorData ExcavatorPlantProfile::motor() const {
 }
 
 SectionData ExcavatorPlantProfile::section(int drive) const {
-  return {machine.valve.spool[static_cast<std::size_t>(drive)],
+  const auto index = static_cast<std::size_t>(drive);
+  const AreaFactors& factors = area_factors[index];
+  SpoolProfile edges = machine.valve.spool[index];
+  edges.extend_in_m2 *= factors.extend_in;
+  edges.extend_out_m2 *= factors.extend_out;
+  edges.retract_in_m2 *= factors.retract_in;
+  edges.retract_out_m2 *= factors.retract_out;
+  return {edges,
           static_cast<const SpoolMetering&>(machine.valve),
-          spool[static_cast<std::size_t>(drive)],
+          spool[index],
           port_protection(drive),
           hose_linear_paspm3,
           hose_quadratic_pas2pm6};

@@ -29,9 +29,8 @@ constexpr double kArrivedSpeedPs = 1e-7;
 Spool::Spool(const SpoolDynamics& dynamics)
     : natural_frequency_radps_(1.0 / dynamics.time_constant_s),
       damping_(dynamics.damping),
-      extend_deadband_(dynamics.extend_deadband_ratio),
-      retract_deadband_(dynamics.retract_deadband_ratio),
-      exponent_(dynamics.opening_exponent),
+      extend_(dynamics.extend),
+      retract_(dynamics.retract),
       bypass_closing_(dynamics.bypass_closing_travel) {}
 
 void Spool::set_command(double travel_ratio) { command_ = std::clamp(travel_ratio, -1.0, 1.0); }
@@ -59,12 +58,11 @@ bool Spool::step(double step_s) {
 }
 
 void Spool::update_openings() {
-  const double deadband = travel_ < 0.0 ? retract_deadband_ : extend_deadband_;
-  const double opening = std::max(0.0, (std::abs(travel_) - deadband) / (1.0 - deadband));
-  area_ratio_ = opening > 0.0 ? std::pow(opening, exponent_) : 0.0;
-  // Closed from the deadband's edge on, as (20) has it with the deadband collapsed.
-  const double to_edge = std::max(0.0, deadband - std::abs(travel_));
-  bypass_closed_ = opening > 0.0 ? 1.0 : std::max(0.0, 1.0 - to_edge / bypass_closing_);
+  const SpoolSide& side = travel_ < 0.0 ? retract_ : extend_;
+  area_ratio_ = side.area_ratio(std::abs(travel_));
+  // Closed from where the edges open on, as (20) has it with the deadband collapsed.
+  const double to_opening = std::max(0.0, side.start_ratio() - std::abs(travel_));
+  bypass_closed_ = area_ratio_ > 0.0 ? 1.0 : std::max(0.0, 1.0 - to_opening / bypass_closing_);
 }
 
 }  // namespace graben::plant

@@ -5,7 +5,7 @@ namespace graben::runs {
 RealSpoolEdges spool_edges(const plant::ExcavatorPlantProfile& plant) {
   RealSpoolEdges edges;
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    edges[i] = {plant.spool[i].extend_deadband_ratio, plant.spool[i].retract_deadband_ratio};
+    edges[i] = {plant.spool[i].extend.deadband_ratio, plant.spool[i].retract.deadband_ratio};
   }
   return edges;
 }

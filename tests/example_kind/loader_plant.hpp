@@ -25,6 +25,10 @@ class LoaderPlant {
   static constexpr Pair kMass_kg = {5000.0, 2000.0};
   static constexpr Pair kLoad_n = {42e3, 9e3};
 
+  static SpoolSide edges_of(const LoaderProfile& profile) {
+    return {profile.deadband_ratio, 0.0, profile.metering.opening_exponent};
+  }
+
   struct Side {
     Side(const LoaderProfile& profile, unsigned i)
         : cylinder({{profile.cap_m2[i], profile.rod_m2[i]},
@@ -35,10 +39,9 @@ class LoaderPlant {
                    kStep_s),
           section({profile.spool[i],
                    profile.metering,
-                   {0.02, 1.0, profile.deadband_ratio, profile.deadband_ratio,
-                    profile.metering.opening_exponent, 0.1},
+                   {0.02, 1.0, edges_of(profile), edges_of(profile), 0.1},
                    HydraulicDetails{}.protection(25e6)}),
-          pilot(0.0, kStep_s) {}
+          pilot(0.0, 0.0, kStep_s) {}
 
     Cylinder cylinder;
     ValveSection section;

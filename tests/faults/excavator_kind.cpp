@@ -223,7 +223,7 @@ bool Excavator::is_back(double slow_mps, double wanted_mps, Limit /*limit*/) {
 double Excavator::deadband(const Plant& plant) {
   double least = 1.0;
   for (const plant::SpoolDynamics& spool : plant.profile().spool) {
-    least = std::min({least, spool.extend_deadband_ratio, spool.retract_deadband_ratio});
+    least = std::min({least, spool.extend.start_ratio(), spool.retract.start_ratio()});
   }
   return least;
 }

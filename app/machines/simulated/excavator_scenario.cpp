@@ -75,10 +75,14 @@ SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario
   double& assumed_s = machine.profile.control.dead_time_s;
   assumed_s = scenario.dead_time_s.value_or(assumed_s);
   Random dead_time(scenario.seed, Draw::kDeadTime);
-  for (double& axis_s : plant.dead_time_s) {
-    axis_s = assumed_s;
+  for (plant::SideDelay& delay : plant.dead_time) {
+    if (!machine.has_dead_time) {
+      delay = assumed_s;
+    }
     if (parameter_errors) {
-      vary(axis_s, experiment.uncertainty.dead_time, dead_time);
+      const double factor = 1.0 + dead_time.symmetric(experiment.uncertainty.dead_time);
+      delay.extend_s *= factor;
+      delay.retract_s *= factor;
     }
   }
   // Before the oil is stiff and the bucket loaded: what is in the bucket is no error of it.

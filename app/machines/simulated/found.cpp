@@ -39,14 +39,19 @@ void make_as_found(plant::ExcavatorPlantProfile& plant, const FoundRanges& range
   // Of a swing that is not driven too: the others' numbers do not depend on it.
   for (std::size_t i = 0; i < kDriveCount; ++i) {
     plant::SpoolDynamics& spool = plant.spool[i];
-    for (double* side : {&spool.extend_deadband_ratio, &spool.retract_deadband_ratio}) {
+    for (double* side : {&spool.extend.deadband_ratio, &spool.retract.deadband_ratio}) {
       *side = finding.around(told.deadband_ratio, *side, ranges.deadband_ratio);
     }
-    spool.opening_exponent =
-        finding.around(told.opening_exponent, spool.opening_exponent, ranges.opening_exponent);
+    // One draw for both sides: their exponents go up and down together.
+    const double exponent_off = finding.around(std::nullopt, 0.0, ranges.opening_exponent);
+    for (double* side : {&spool.extend.opening_exponent, &spool.retract.opening_exponent}) {
+      *side = told.opening_exponent.value_or(*side + exponent_off);
+    }
     spool.time_constant_s = finding.within(told.spool_time_constant_s, spool.time_constant_s,
                                            ranges.spool_time_constant_s);
-    plant.dead_time_s[i] += finding.within(told.dead_time_s, 0.0, {0.0, ranges.dead_time_s});
+    const double later_s = finding.within(told.dead_time_s, 0.0, {0.0, ranges.dead_time_s});
+    plant.dead_time[i].extend_s += later_s;
+    plant.dead_time[i].retract_s += later_s;
   }
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     plant.friction[i].coulomb_n *= finding.around(told.friction_factor, 1.0, ranges.friction);

@@ -89,9 +89,9 @@ plant::ExcavatorPlantProfile read_plant(TomlReader& reader, const ExcavatorProfi
   plant.line_volume_m3.fill(
       reader.number("valve.line_volume", {1e-5, 1.0, "m3"}, "oil in each pump line"));
   const ValveOfPlant valve = read_valve_of_plant(reader, "valve");
-  plant.spool.fill({valve.time_constant_s, valve.damping, valve.deadband_ratio,
-                    valve.deadband_ratio, nominal.valve.opening_exponent,
-                    plant::kBypassClosingTravel});
+  const plant::SpoolSide side{valve.deadband_ratio, 0.0, nominal.valve.opening_exponent};
+  plant.spool.fill(
+      {valve.time_constant_s, valve.damping, side, side, plant::kBypassClosingTravel});
   plant.bulk_modulus_pa = valve.bulk_modulus_pa;
   plant.engine.lag_s =
       reader.number("engine.lag", {0.01, 10.0, "s"},
@@ -103,7 +103,7 @@ plant::ExcavatorPlantProfile read_plant(TomlReader& reader, const ExcavatorProfi
     read_swing(reader, plant);
   }
   plant.swash_ratio = nominal.dig_swash_ratio;
-  plant.dead_time_s.fill(nominal.control.dead_time_s);
+  plant.dead_time.fill(nominal.control.dead_time_s);
   plant.sensors = read_sensors(reader, nominal);
   return plant;
 }
@@ -244,7 +244,7 @@ void check_experiment(TomlReader& reader, const ExcavatorProfile& profile,
 
 /// No draw is below nothing or of the whole travel. Only where each key by itself is right.
 void check_deadband(TomlReader& reader, const SimulatedExcavator& machine) {
-  const double nominal = machine.plant.spool[kBoom].extend_deadband_ratio;
+  const double nominal = machine.plant.spool[kBoom].extend.deadband_ratio;
   const double off = machine.experiment.uncertainty.found.deadband_ratio;
   if (reader.is_sound() && (nominal < off || nominal + off > kMostDeadband)) {
     reader.fail("uncertainty.dead_band",

@@ -56,6 +56,7 @@ struct Experiment {
 /// What the controller knows, and the machine that a simulation puts in its place.
 struct SimulatedExcavator : ExcavatorMachine {
   plant::ExcavatorPlantProfile plant;
+  bool has_dead_time = false;  ///< The plant's are its own; else they are the controller's.
   Experiment experiment;
 };
 
@@ -84,7 +85,7 @@ struct Scenario {
 /// The machine with this scenario's plant, and a controller profile whose parameters are off by a
 /// uniform draw within `experiment.uncertainty` of each. The plant keeps the nominal figures, but
 /// for dead times, which only it has, and what it is found to be (Errors::kAll, `found`), of which
-/// the controller is told nothing. Same seed, same draw, whatever else is switched on. Throws
+/// the controller is told nothing. All of that is drawn about what the plant is. Same seed, same draw, whatever else is switched on. Throws
 /// std::runtime_error where two of the scenario's switches say the oil.
 [[nodiscard]] SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario);
 

@@ -168,11 +168,11 @@ void expect_friction(Warnings& warnings, const machines::SimulatedExcavator& mac
 void expect_plant(Warnings& warnings, const machines::SimulatedExcavator& machine) {
   const ExcavatorProfile& profile = machine.profile;
   const plant::ExcavatorPlantProfile& plant = machine.plant;
-  const plant::SpoolDynamics& spool = plant.spool[kBoom];  // By their file all are alike.
   expect_links(warnings, machine);
   expect_friction(warnings, machine);
   expect_oil(warnings, "valve", plant.bulk_modulus_pa);
-  expect_deadband(warnings, "valve", spool.extend_deadband_ratio, profile.valve.spool_to_duty);
+  const plant::SpoolDynamics& spool = plant.spool[kBoom];
+  expect_deadband(warnings, "valve", spool.extend.deadband_ratio, profile.valve.spool_to_duty);
   expect_spool(warnings, "valve", spool.time_constant_s, spool.damping, profile.safety.settle_s,
                profile.control.response_s);
   for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {

@@ -48,9 +48,9 @@ struct Figure {
   double most;
 };
 
-/// Every figure that a machine is found by. `dead_time_s` is what the spools have without.
+/// Every figure that a machine is found by. `dead_time` is what the spools have without.
 std::vector<Figure> figures(const plant::ExcavatorPlantProfile& plant,
-                            const std::array<double, kDriveCount>& dead_time_s = {}) {
+                            const std::array<plant::SideDelay, kDriveCount>& dead_time = {}) {
   const plant::ExcavatorPlantProfile& exact = nominal().plant;
   std::vector<Figure> all;
   const auto add = [&all](const std::string& name, double value, double least, double most) {
@@ -62,12 +62,12 @@ std::vector<Figure> figures(const plant::ExcavatorPlantProfile& plant,
   for (std::size_t i = 0; i < kDriveCount; ++i) {
     const std::string of = " of drive " + std::to_string(i);
     const plant::SpoolDynamics& spool = plant.spool[i];
-    add("extend deadband" + of, spool.extend_deadband_ratio, 0.17, 0.23);
-    add("retract deadband" + of, spool.retract_deadband_ratio, 0.17, 0.23);
+    add("extend deadband" + of, spool.extend.deadband_ratio, 0.17, 0.23);
+    add("retract deadband" + of, spool.retract.deadband_ratio, 0.17, 0.23);
     const double exponent = nominal().profile.valve.opening_exponent;
-    add("exponent" + of, spool.opening_exponent, exponent - 0.2, exponent + 0.2);
+    add("exponent" + of, spool.extend.opening_exponent, exponent - 0.2, exponent + 0.2);
     add("time constant" + of, spool.time_constant_s, 0.015, 0.040);
-    add("dead time" + of, plant.dead_time_s[i] - dead_time_s[i], 0.0, 0.030);
+    add("dead time" + of, plant.dead_time[i].extend_s - dead_time[i].extend_s, 0.0, 0.030);
   }
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     const std::string of = " of axis " + std::to_string(i);
@@ -103,7 +103,7 @@ void each_figure_is_drawn_by_itself_within_its_range(void**) {
   std::vector<std::vector<double>> share;  // Of its range, by figure and seed.
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const std::vector<Figure> found =
-        figures(plant_of(Errors::kAll, seed), plant_of(Errors::kKim, seed).dead_time_s);
+        figures(plant_of(Errors::kAll, seed), plant_of(Errors::kKim, seed).dead_time);
     share.resize(found.size());
     for (std::size_t k = 0; k < found.size(); ++k) {
       const Figure& figure = found[k];
@@ -156,7 +156,7 @@ void kims_errors_are_the_former_ones(void**) {
   assert_near(drawn.profile.valve.spool[kBoom].extend_in_m2, 0.0001459758647787628, 0.0);
   assert_near(drawn.profile.valve.spool[kBucket].c_drain, 1.1484807488485694e-06, 0.0);
   assert_near(drawn.profile.pump[1].leak_linear, 4.3800246840989835e-12, 0.0);
-  assert_near(drawn.plant.dead_time_s[kArm], 0.11002017947171526, 0.0);
+  assert_near(drawn.plant.dead_time[kArm].extend_s, 0.11002017947171526, 0.0);
 }
 
 void only_all_finds_a_machine(void**) {
@@ -215,7 +215,7 @@ void what_is_switched_on_beside_it_changes_no_draw(void**) {
     const plant::ExcavatorPlantProfile plant = arranged(nominal(), scenario).plant;
     scenario.errors = Errors::kKim;
     std::vector<double> all =
-        values(figures(plant, arranged(nominal(), scenario).plant.dead_time_s));
+        values(figures(plant, arranged(nominal(), scenario).plant.dead_time));
     return all;
   };
   const std::vector<double> once = of(busy);
@@ -240,7 +240,8 @@ void a_swing_that_is_held_takes_no_draw_from_the_others(void**) {
 void sides_of_a_spool_differ(void**) {
   const plant::ExcavatorPlantProfile plant = plant_of(Errors::kAll, 5);
   for (const plant::SpoolDynamics& spool : plant.spool) {
-    assert_true(std::abs(spool.extend_deadband_ratio - spool.retract_deadband_ratio) > 1e-6);
+    assert_true(std::abs(spool.extend.deadband_ratio - spool.retract.deadband_ratio) > 1e-6);
+    assert_near(spool.extend.opening_exponent, spool.retract.opening_exponent, 0.0);
   }
 }
 

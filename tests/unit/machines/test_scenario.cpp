@@ -147,12 +147,14 @@ void each_switch_does_its_part(void**) {
   assert_true(all.plant.sensor_errors && all.plant.seed == 5);
   assert_near(all.plant.bulk_modulus_pa, 1e10, 0.0);
   assert_near(all.profile.control.dead_time_s, 0.15, 0.0);
-  for (const double axis_s : all.plant.dead_time_s) {
-    assert_true(axis_s != 0.15 && axis_s >= 0.105 && axis_s <= 0.195);
+  for (const plant::SideDelay& axis : all.plant.dead_time) {
+    assert_true(axis.extend_s != 0.15 && axis.extend_s >= 0.105 && axis.extend_s <= 0.195);
+    assert_near(axis.retract_s, axis.extend_s, 0.0);
   }
   scenario.errors = Errors::kSensors;
-  for (const double axis_s : arranged(nominal(), scenario).plant.dead_time_s) {
-    assert_near(axis_s, 0.15, 0.0);
+  for (const plant::SideDelay& axis : arranged(nominal(), scenario).plant.dead_time) {
+    assert_near(axis.extend_s, 0.15, 0.0);
+    assert_near(axis.retract_s, 0.15, 0.0);
   }
   scenario.errors = Errors::kStrokeBias;
   const plant::SensorErrors biased = arranged(nominal(), scenario).plant.sensors;

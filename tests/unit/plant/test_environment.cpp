@@ -149,7 +149,7 @@ void dead_time_is_a_pure_delay(void**) {
 void a_spool_waits_its_dead_time(void**) {
   ExcavatorPlantProfile profile = machine_22t();
   ExcavatorPlant prompt(profile, {0.6, 0.7, 0.5});
-  profile.dead_time_s = {0.15, 0.0, 0.0};
+  profile.dead_time = {0.15, 0.0, 0.0};
   ExcavatorPlant late(profile, {0.6, 0.7, 0.5});
   prompt.set_duty({0.4, 0.0, 0.0}, true);
   late.set_duty({0.4, 0.4, 0.0}, true);

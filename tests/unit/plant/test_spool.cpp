@@ -13,8 +13,13 @@ using namespace graben::plant;
 constexpr double kStep = 1e-4;
 
 void set_deadband(ExcavatorPlantProfile& profile, double extend_ratio, double retract_ratio) {
-  profile.spool[kBoom].extend_deadband_ratio = extend_ratio;
-  profile.spool[kBoom].retract_deadband_ratio = retract_ratio;
+  profile.spool[kBoom].extend.deadband_ratio = extend_ratio;
+  profile.spool[kBoom].retract.deadband_ratio = retract_ratio;
+}
+
+void set_exponent(ExcavatorPlantProfile& profile, double exponent) {
+  profile.spool[kBoom].extend.opening_exponent = exponent;
+  profile.spool[kBoom].retract.opening_exponent = exponent;
 }
 
 Spool settled_at(const ExcavatorPlantProfile& profile, double travel_ratio) {
@@ -72,7 +77,7 @@ void deadband_is_shut(void**) {
 void opening_follows_the_travel_outside_it(void**) {
   ExcavatorPlantProfile profile = machine_22t();
   set_deadband(profile, 0.2, 0.2);
-  profile.spool[kBoom].opening_exponent = 1.6;
+  set_exponent(profile, 1.6);
   for (const double sign : {-1.0, 1.0}) {
     assert_near(settled_at(profile, sign).area_ratio(), 1.0, 1e-9);
     assert_near(settled_at(profile, sign * 0.6).area_ratio(), std::pow(0.5, 1.6), 1e-7);
@@ -95,7 +100,7 @@ void bypass_closes_continuously(void**) {
 void each_side_has_its_own_deadband(void**) {
   ExcavatorPlantProfile profile = machine_22t();
   set_deadband(profile, 0.17, 0.23);
-  profile.spool[kBoom].opening_exponent = 1.0;
+  set_exponent(profile, 1.0);
   profile.spool[kBoom].bypass_closing_travel = 0.1;
   assert_near(settled_at(profile, 0.17).area_ratio(), 0.0, 1e-9);
   assert_near(settled_at(profile, 0.20).area_ratio(), 0.03 / 0.83, 1e-6);
@@ -115,12 +120,12 @@ void each_side_has_its_own_deadband(void**) {
 /// The plant's figure is the one that counts, not the design's.
 void the_plants_exponent_goes_before_the_designs(void**) {
   ExcavatorPlantProfile profile = machine_22t();
-  assert_near(profile.section(kArm).spool.opening_exponent, profile.machine.valve.opening_exponent,
-              0.0);
+  assert_near(profile.section(kArm).spool.extend.opening_exponent,
+              profile.machine.valve.opening_exponent, 0.0);
   profile.machine.valve.opening_exponent = 3.0;
-  profile.spool[kArm].opening_exponent = 1.2;
-  assert_near(profile.section(kArm).spool.opening_exponent, 1.2, 0.0);
-  assert_true(profile.section(kBoom).spool.opening_exponent < 3.0);
+  profile.spool[kArm].retract.opening_exponent = 1.2;
+  assert_near(profile.section(kArm).spool.retract.opening_exponent, 1.2, 0.0);
+  assert_true(profile.section(kArm).spool.extend.opening_exponent < 3.0);
 }
 
 }  // namespace

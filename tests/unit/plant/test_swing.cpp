@@ -268,7 +268,7 @@ void energy_is_accounted_for(void**) {
 
 void pilot_of_the_swing_is_as_the_others(void**) {
   ExcavatorPlantProfile profile = machine_12t();
-  profile.dead_time_s = {0.0, 0.0, 0.0, 0.1};
+  profile.dead_time = {0.0, 0.0, 0.0, 0.1};
   ExcavatorPlant plant(profile, kStart);
   run(plant, {0.1, 0.0, 0.0, 0.1}, 90 * kMillisecondUs);
   assert_near(plant.swing_spool_ratio(), 0.0, 0.0);

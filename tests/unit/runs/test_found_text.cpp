@@ -96,12 +96,12 @@ void a_task_runs_on_what_is_told(void**) {
       machines::load_simulated_excavator(machines::find_profile("excavator_12t"));
   TaskScenario task;
   task.found = found_of("exponent=1.4");
-  assert_near(arranged(nominal, task).plant.spool[kSwing].opening_exponent, 1.4, 0.0);
+  assert_near(arranged(nominal, task).plant.spool[kSwing].extend.opening_exponent, 1.4, 0.0);
   DigScenario dig;
   dig.scenario.found = task.found;
   dig.errors = "all";
   const machines::SimulatedExcavator drawn = arranged(nominal, dig);
-  assert_near(drawn.plant.spool[kBoom].opening_exponent, 1.4, 0.0);
+  assert_near(drawn.plant.spool[kBoom].retract.opening_exponent, 1.4, 0.0);
   assert_true(drawn.plant.bulk_modulus_pa != nominal.plant.bulk_modulus_pa);
   dig.errors = "kim";
   assert_near(arranged(nominal, dig).plant.bulk_modulus_pa, nominal.plant.bulk_modulus_pa, 0.0);
