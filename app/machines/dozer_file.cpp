@@ -10,6 +10,7 @@ DozerMachine load_dozer(const ProfileDocument& document) {
   machine.name = document.file.stem().string();
   machine.hash = read_as(document, MachineKind::kDozer, [&](TomlReader& reader) {
     machine.profile = read_dozer_sections(reader);
+    machine.provenance = reader.provenance();
     check_dozer_across_keys(reader, machine.profile);
   });
   return machine;

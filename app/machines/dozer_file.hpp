@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/machines/profile_file.hpp"
+#include "app/machines/provenance.hpp"
 #include "firmware/dozer/dozer_profile.hpp"
 
 namespace graben::machines {
@@ -15,6 +16,7 @@ struct DozerMachine {
   std::string name;        ///< File name without its ending.
   std::uint32_t hash = 0;  ///< Of the checked values (TomlReader::hash); on the bus as ProfileHash.
   DozerProfile profile;
+  std::vector<Provenance> provenance;  ///< Where its values are from, as far as said.
 };
 
 /// Reads and checks a dozer's profile. Throws ProfileError with every error found.

@@ -10,6 +10,8 @@ ExcavatorMachine load_excavator(const ProfileDocument& document) {
   machine.name = document.file.stem().string();
   machine.hash = read_as(document, MachineKind::kExcavator, [&](TomlReader& reader) {
     machine.profile = read_excavator_sections(reader);
+    machine.driven = read_driven(reader, machine.profile.drive_count);
+    machine.provenance = reader.provenance();
     check_excavator_across_keys(reader, machine.profile);
   });
   return machine;

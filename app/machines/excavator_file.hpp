@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "app/machines/answer_section.hpp"
 #include "app/machines/profile_file.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
 
@@ -15,6 +16,8 @@ struct ExcavatorMachine {
   std::string name;        ///< File name without its ending.
   std::uint32_t hash = 0;  ///< Of the checked values (TomlReader::hash); on the bus as ProfileHash.
   ExcavatorProfile profile;
+  std::array<DrivenRanges, kDriveCount> driven;  ///< How far the spools' answers are known.
+  std::vector<Provenance> provenance;            ///< Where its values are from, as far as said.
 };
 
 /// Reads and checks an excavator's profile. Throws ProfileError with every error found.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "app/machines/answer_section.hpp"
 #include "app/machines/axis_names.hpp"
 #include "app/machines/bus_key.hpp"
 #include "app/machines/excavator_sections.hpp"
@@ -230,6 +231,7 @@ ValveProfile read_valve(TomlReader& reader, int pump_count, int drive_count) {
     valve.spool[i] = read_spool(reader, kDriveNames[i], pump_count);
   }
   valve.spool_to_duty = read_spool_to_duty(reader, "valve.spool_to_duty");
+  read_answers(reader, drive_count, valve);
   return valve;
 }
 
@@ -384,7 +386,7 @@ ExcavatorProfile read_excavator_sections(TomlReader& reader) {
   profile.oil = read_oil(reader);
   check_law(reader, profile);
   profile.safety = read_safety(reader);
-  profile.bus = read_bus(reader, profile.control.dead_time_s);
+  profile.bus = read_bus(reader, shortest_dead_time_s(profile));
   return profile;
 }
 

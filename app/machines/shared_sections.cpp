@@ -18,9 +18,9 @@ CylinderSize read_cylinder_size(TomlReader& reader, const std::string& at) {
   return size;
 }
 
-MonotoneTable read_spool_to_duty(TomlReader& reader, const std::string& key) {
+DutyTable read_spool_to_duty(TomlReader& reader, const std::string& key) {
   const auto pairs =
-      reader.pairs(key, {0.0, 1.0, ""}, {0.0, 1000.0, "per mille"}, 2, MonotoneTable::kCapacity,
+      reader.pairs(key, {0.0, 1.0, ""}, {0.0, 1000.0, "per mille"}, 2, DutyTable::kCapacity,
                    "opening to duty; rising in both, from opening 0, where the spool begins to "
                    "open, to opening 1");
   std::vector<double> opening;
@@ -29,9 +29,9 @@ MonotoneTable read_spool_to_duty(TomlReader& reader, const std::string& key) {
     opening.push_back(x);
     duty.push_back(y * 1e-3);
   }
-  MonotoneTable table;
+  DutyTable table;
   if (!pairs.empty() && table.fill(opening.data(), duty.data(), static_cast<int>(opening.size())) !=
-                            MonotoneTable::Fill::kOk) {
+                            DutyTable::Fill::kOk) {
     reader.fail(key, "must be strictly increasing in both columns");
   } else if (!pairs.empty() && (opening.front() != 0.0 || opening.back() != 1.0)) {
     reader.fail(key, "must run from opening 0 to opening 1");

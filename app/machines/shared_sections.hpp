@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/machines/toml_reader.hpp"
-#include "firmware/numeric/monotone_table.hpp"
+#include "firmware/machine/spool_answer.hpp"
 
 namespace graben::machines {
 
@@ -20,7 +20,7 @@ struct CylinderSize {
 
 /// Opening in shares of the travel to duty, per mille in the file and a share in the table; both
 /// strictly increasing, from opening 0 to opening 1.
-[[nodiscard]] MonotoneTable read_spool_to_duty(TomlReader& reader, const std::string& key);
+[[nodiscard]] DutyTable read_spool_to_duty(TomlReader& reader, const std::string& key);
 
 /// How a valve is driven: keys that each kind's control struct has. The dead time stands with the
 /// valve, in section `valve`.

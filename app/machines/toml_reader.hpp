@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/machines/provenance.hpp"
+
 namespace graben::machines {
 
 /// Allowed values of a number, ends included, and its unit for messages.
@@ -62,6 +64,10 @@ class TomlReader {
   /// `most`.
   int table_count(const std::string& key, int least, int most, const char* help);
 
+  /// What section [provenance] says of the other keys, in the order of the file; an error for a
+  /// path that leads to no value. Texts are in the hash as well.
+  std::vector<Provenance> provenance();
+
   /// Records an error that concerns a key as a whole.
   void fail(const std::string& key, const std::string& what);
   /// FNV-1a of every key that was asked for and its value, in the keys' order: the same for each
@@ -80,6 +86,7 @@ class TomlReader {
   const toml::node* find(KeyEntry entry);
   void note(const std::string& key, std::vector<double> values);
   double checked(const toml::node& node, const std::string& key, const Range& range);
+  Provenance provenance_of(const std::string& key, const toml::node& told);
   void refuse_unknown_in(const toml::node& node, const std::string& path);
 
   const toml::table& root_;

@@ -77,11 +77,11 @@ DozerBank dozer_bank(const DozerProfile& profile) {
   row.metering.spool_travel_m = 1.0;
   row.supply = {profile.implement.valve_flow_max_m3ps,
                 profile.implement.displacement_m3prev * profile.implement.efficiency / kTwoPi};
-  row.spool_to_duty = profile.implement.spool_to_duty;
+  row.answer.extend = {profile.implement.spool_to_duty, control.dead_time_s, control.response_s,
+                       0.0};
+  row.answer.retract = row.answer.extend;
   row.control.spool_rate_ps = control.spool_rate_ps;
   row.control.spool_threshold = control.spool_threshold;
-  row.control.dead_time_s = control.dead_time_s;
-  row.control.response_s = control.response_s;
   row.control.stroke_end_gain_ps = kEndGain_ps;
   row.watch.fastest_mps =
       kFasterThanPumps * profile.implement.valve_flow_max_m3ps / profile.blade.rod_area_m2();

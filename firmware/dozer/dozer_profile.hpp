@@ -7,8 +7,8 @@
 #include <array>
 
 #include "firmware/dozer/dozer_signals.hpp"
+#include "firmware/machine/spool_answer.hpp"
 #include "firmware/machine/valve.hpp"
-#include "firmware/numeric/monotone_table.hpp"
 #include "firmware/signals/bus_capabilities.hpp"
 
 namespace graben {
@@ -52,7 +52,7 @@ struct ImplementProfile {
   double valve_flow_max_m3ps =
       0.0;  ///< Q_max,valve of (11); what the spool lets through fully open.
   /// Opening (0 .. 1 of valve_flow_max) to duty (0 .. 1), as ValveProfile::spool_to_duty.
-  MonotoneTable spool_to_duty;
+  DutyTable spool_to_duty;
 };
 
 /// Dual-path transmission (9); both paths alike.

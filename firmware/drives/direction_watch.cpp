@@ -17,7 +17,7 @@ constexpr double kEdgeBand = 0.03;
 constexpr double kCredit = 4.0;
 
 int side_of(const DriveRow& drive, double spool_ratio) {
-  if (std::abs(spool_ratio) <= drive.spool_to_duty.y_first()) {
+  if (std::abs(spool_ratio) <= drive.answer.towards(spool_ratio).edge()) {
     return 0;
   }
   return spool_ratio > 0.0 ? 1 : -1;
@@ -26,7 +26,7 @@ int side_of(const DriveRow& drive, double spool_ratio) {
 /// For certain. A motor's load does not push through a closed spool.
 bool is_open(const DriveRow& drive, double spool_ratio) {
   const double band = drive.control.has_end_stops ? kEdgeBand : 0.0;
-  return std::abs(spool_ratio) > drive.spool_to_duty.y_first() + band;
+  return std::abs(spool_ratio) > drive.answer.towards(spool_ratio).edge() + band;
 }
 
 /// Its own oil pushes it against its spool.

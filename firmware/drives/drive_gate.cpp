@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/drives/spool_opening.hpp"
+
 namespace graben {
 namespace {
 
@@ -28,7 +30,8 @@ bool is_intact(DriveRows drives, Span<Guarded<double>> opening) {
 
 double duty_of(const DriveRow& drive, double opening) {
   if (opening != 0.0 && std::abs(opening) >= drive.control.spool_threshold) {
-    return std::copysign(std::clamp(drive.spool_to_duty.at(std::abs(opening)), 0.0, 1.0), opening);
+    return std::copysign(
+        std::clamp(duty_at(drive.answer.towards(opening), std::abs(opening)), 0.0, 1.0), opening);
   }
   return 0.0;
 }

@@ -21,8 +21,9 @@ struct GateResult {
 /// through from cycle to cycle. Not active, or any position not finite, or a stored opening that
 /// differs from its complement: neutral in this cycle, enable withdrawn. Otherwise x / x_m is
 /// clamped to +-1, opens by at most spool_rate_ps (closing is never delayed), and is kept at
-/// neutral below spool_threshold; the duty then follows spool_to_duty. `period_s` is the time since
-/// the last cycle. What lies in `opening` and `duty_ratio` beyond the rows is set to neutral too.
+/// neutral below spool_threshold; the duty then follows the spool_to_duty of its side. `period_s`
+/// is the time since the last cycle. What lies in `opening` and `duty_ratio` beyond the rows is set
+/// to neutral too.
 [[nodiscard]] GateResult gate_drives(DriveRows drives, bool active, Span<const double> spool_m,
                                      double period_s, Span<Guarded<double>> opening,
                                      Span<double> duty_ratio);

@@ -17,8 +17,8 @@ int dead_cycles(double dead_time_s) {
 }
 
 /// Weight of the newest value in one of the two lags.
-double newest_share(double response_s, double period_s) {
-  return 1.0 - std::exp(-period_s / (0.5 * response_s));
+double newest_share(double lag_s, double period_s) {
+  return 1.0 - std::exp(-period_s / (0.5 * lag_s));
 }
 
 /// What was asked for so many cycles ago.
@@ -28,27 +28,51 @@ double asked_before(const ServoState& servo, int cycles) {
       .asked_mps[static_cast<unsigned>(place < 0 ? place + ServoState::kMostDelayed : place)];
 }
 
-/// The ring's places that are not due yet, and what two equal lags, left alone, still give.
-double under_way_m(const DriveControl& control, const ServoState& servo) {
-  const double newest = newest_share(control.response_s, ServoState::kCycle_s);
-  double sum_mps = (1.0 - newest) / newest * (servo.lag_mps[0] + servo.lag_mps[1]);
-  const int dead = dead_cycles(control.dead_time_s);
-  for (int n = 0; n < dead; ++n) {
-    sum_mps += asked_before(servo, n);
+/// What two equal lags, left alone, still give.
+double left_mps(double lag_s, const std::array<double, 2>& lag_mps) {
+  const double newest = newest_share(lag_s, ServoState::kCycle_s);
+  return (1.0 - newest) / newest * (lag_mps[0] + lag_mps[1]);
+}
+
+/// That, and the ring's places that are not due yet.
+double under_way_m(const SpoolAnswers& answer, const ServoState& servo) {
+  double sum_mps = left_mps(answer.extend.lag_s, servo.lag_mps[0]);
+  if (!answer.same_times()) {
+    sum_mps += left_mps(answer.retract.lag_s, servo.lag_mps[1]);
+  }
+  const int extending = dead_cycles(answer.extend.dead_time_s);
+  const int retracting = dead_cycles(answer.retract.dead_time_s);
+  for (int n = 0; n < std::max(extending, retracting); ++n) {
+    const double asked_mps = asked_before(servo, n);
+    sum_mps += n < (asked_mps > 0.0 ? extending : retracting) ? asked_mps : 0.0;
   }
   return ServoState::kCycle_s * sum_mps;
 }
 
+void lag(double due_mps, double newest, std::array<double, 2>& lag_mps) {
+  lag_mps[0] += newest * (due_mps - lag_mps[0]);
+  lag_mps[1] += newest * (lag_mps[0] - lag_mps[1]);
+}
+
 /// What was asked for goes on its way; the error is as it was.
-void ask(const DriveControl& control, double asked_mps, double period_s, ServoState& servo) {
+void ask(const SpoolAnswers& answer, double asked_mps, double period_s, ServoState& servo) {
   servo.newest = (servo.newest + 1) % ServoState::kMostDelayed;
   servo.asked_mps[static_cast<unsigned>(servo.newest)] = asked_mps;
-  const double newest = newest_share(control.response_s, period_s);
-  const double due_mps = asked_before(servo, dead_cycles(control.dead_time_s));
-  servo.lag_mps[0] += newest * (due_mps - servo.lag_mps[0]);
-  servo.lag_mps[1] += newest * (servo.lag_mps[0] - servo.lag_mps[1]);
-  servo.under_way_m = under_way_m(control, servo);
+  const double due_mps = asked_before(servo, dead_cycles(answer.extend.dead_time_s));
+  const double newest = newest_share(answer.extend.lag_s, period_s);
+  if (answer.same_times()) {
+    lag(due_mps, newest, servo.lag_mps[0]);
+  } else {
+    // Each side by itself, or an order to turn round would be lost or doubled between the two.
+    const double back_mps = asked_before(servo, dead_cycles(answer.retract.dead_time_s));
+    lag(std::max(0.0, due_mps), newest, servo.lag_mps[0]);
+    lag(std::min(0.0, back_mps), newest_share(answer.retract.lag_s, period_s), servo.lag_mps[1]);
+  }
+  servo.under_way_m = under_way_m(answer, servo);
 }
+
+/// What the drive should do now.
+double due_mps(const ServoState& servo) { return servo.lag_mps[0][1] + servo.lag_mps[1][1]; }
 
 double within(double value, double most) { return std::min(std::max(value, -most), most); }
 
@@ -86,8 +110,8 @@ void servo_at_rest(double stroke_m, ServoState& servo) {
 
 void next_servo(const DriveRow& drive, double asked_mps, double stroke_m, double period_s,
                 ServoState& servo, int blocked_side) {
-  ask(drive.control, asked_mps, period_s, servo);
-  const double behind_m = period_s * servo.lag_mps[1] - (stroke_m - servo.stroke_m);
+  ask(drive.answer, asked_mps, period_s, servo);
+  const double behind_m = period_s * due_mps(servo) - (stroke_m - servo.stroke_m);
   servo.integral_m =
       within(servo.integral_m + unblocked_m(blocked_side, behind_m), drive.feedback.error_most_m);
   if (blocked_side * servo.integral_m > 0.0) {
@@ -100,7 +124,7 @@ void next_servo(const DriveRow& drive, double asked_mps, double stroke_m, double
 
 void next_servo_on_plan(const DriveRow& drive, double asked_mps, double stroke_m, double planned_m,
                         bool new_plan, double period_s, ServoState& servo, int blocked_side) {
-  ask(drive.control, asked_mps, period_s, servo);
+  ask(drive.answer, asked_mps, period_s, servo);
   if (new_plan) {
     servo.bias_mps = 0.0;
   }
@@ -113,7 +137,7 @@ void next_servo_on_plan(const DriveRow& drive, double asked_mps, double stroke_m
 }
 
 void release_servo(const DriveRow& drive, double stroke_m, double period_s, ServoState& servo) {
-  ask(drive.control, 0.0, period_s, servo);
+  ask(drive.answer, 0.0, period_s, servo);
   servo.stroke_m = stroke_m;
   servo.integral_m = 0.0;
   servo.correction_m = 0.0;

@@ -15,7 +15,8 @@ struct ServoState {
 
   std::array<double, kMostDelayed> asked_mps{};  ///< Ring of the last commands.
   int newest = 0;
-  std::array<double, 2> lag_mps{};
+  /// Two lags of each side; where both have the same times, the first pair is that of both.
+  std::array<std::array<double, 2>, 2> lag_mps{};
   /// Asked for, not yet due: what the ring and the lags still hold, so that nothing adds up.
   double under_way_m = 0.0;
   double integral_m = 0.0;      ///< Due, not yet seen: the integrated error of the speed.
@@ -31,14 +32,14 @@ void servo_at_rest(double stroke_m, ServoState& servo);
 /// A cycle on, after one that asked for `asked_mps` (lambda V_L^d, without corrections), seen from
 /// the next one, `period_s` later, with this stroke.
 ///
-/// A drive is expected to answer after `dead_time_s` with two lags of half `response_s` each. What
-/// it should have moved by then and has not is integrated, where lambda has already slowed what is
-/// expected, so that nothing winds up while a limit holds. Bounded by `error_most_m`, for a drive
-/// that something else holds.
+/// A drive is expected to answer after the dead time with two lags of half its lag each, to either
+/// side with that side's (SpoolAnswer). What it should have moved by then and has not is
+/// integrated, where lambda has already slowed what is expected, so that nothing winds up while a
+/// limit holds. Bounded by `error_most_m`, for a drive that something else holds.
 ///
 /// The integral is asked for behind a second-order low-pass (`frequency_hz`, `damping`). A load
 /// that shakes the linkage on its oil puts every drive behind and ahead by turns; answered at once,
-/// that arrives `response_s` late and feeds the motion. A low-pass just below the lowest mode turns
+/// that arrives late and feeds the motion. A low-pass just below the lowest mode turns
 /// it on by a quarter of a period and more: there it takes energy out, and what changes slowly
 /// passes as it is.
 ///

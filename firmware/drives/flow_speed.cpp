@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/drives/spool_opening.hpp"
+
 namespace graben {
 namespace {
 
@@ -25,9 +27,11 @@ struct Opening {
 };
 
 Opening opening_of(const DriveRow& drive, const LearntValve* learnt, double spool_ratio) {
-  const double edge = drive.spool_to_duty.y_first();
-  double opening = (std::abs(spool_ratio) - edge) / (1.0 - edge);
-  double band = kTravelBand / (1.0 - edge);
+  const SpoolAnswer& answer = drive.answer.towards(spool_ratio);
+  const double travel_ratio = std::abs(spool_ratio);
+  double opening = opening_at(answer, travel_ratio);
+  double band = kTravelBand / least_travel_per_opening(answer, travel_ratio - kTravelBand,
+                                                       travel_ratio + kTravelBand);
   if (is_learnt(drive) && learnt != nullptr) {
     const LearntSide& side = learnt->side(spool_ratio > 0.0);
     opening = opening_by_profile(side, opening);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/drives/spool_opening.hpp"
+
 namespace graben {
 namespace {
 
@@ -32,8 +34,8 @@ double curve(double opening) { return 1.48 * opening * (1.0 - opening) / (openin
 
 /// In the dead band of the other sign than the spool.
 double signed_opening(const DriveRow& drive, double spool_ratio) {
-  const double edge = drive.spool_to_duty.y_first();
-  return std::copysign(1.0, spool_ratio) * (std::abs(spool_ratio) - edge) / (1.0 - edge);
+  return std::copysign(1.0, spool_ratio) *
+         opening_at(drive.answer.towards(spool_ratio), std::abs(spool_ratio));
 }
 
 double newest_share(double lag_s, double period_s) { return period_s / (period_s + lag_s); }
@@ -101,7 +103,7 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
     valve.seen = {};
     return;
   }
-  const double late = newest_share(0.5 * drive.control.response_s, period_s);
+  const double late = newest_share(0.5 * drive.answer.towards(ask.speed_mps).lag_s, period_s);
   lag(ask, late, valve.late[0]);
   lag(valve.late[0], late, valve.late[1]);
   const LearntSeen now{valve.late[1], signed_opening(drive, seen.spool_ratio), way_m / period_s};
@@ -123,8 +125,9 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
         side);
 }
 
-double learnt_edge_ratio(const DriveRow& drive, const LearntSide& side) {
-  return side.edge * (1.0 - drive.spool_to_duty.y_first());
+double learnt_edge_ratio(const DriveRow& drive, const LearntValve& valve, bool extends) {
+  const SpoolAnswer& answer = drive.answer.side(extends);
+  return duty_at(answer, valve.side(extends).edge) - answer.edge();
 }
 
 bool is_edge_known(const LearntSide& side) {
@@ -146,9 +149,7 @@ double opening_spread(const LearntSide& side, double opening) {
 double learnt_duty(const DriveRow& drive, const LearntValve& valve, double opening) {
   const double wanted = std::abs(opening);
   const double real = wanted + opening_beyond(valve.side(opening > 0.0), wanted);
-  const double edge = drive.spool_to_duty.y_first();
-  // Under the profile's edge its table ends; the dead band is in travel, as the duty is.
-  const double duty = real >= 0.0 ? drive.spool_to_duty.at(real) : edge + real * (1.0 - edge);
+  const double duty = duty_at(drive.answer.towards(opening), real);
   return std::copysign(std::clamp(duty, 0.0, 1.0), opening);
 }
 

@@ -3,10 +3,10 @@
 /// learnt from spool and stroke while the drive works, within bounds, and kept as long as the
 /// process runs.
 ///
-/// Opening: |x| / x_m outside the dead band, 0 .. 1. The real valve needs an opening `beyond` the
-/// profile's for the same speed: edge * (1 - o) + bend * curve(o). The first is a dead band that
-/// ends elsewhere; the curve, about -o ln(o), is another exponent. What else the profile's flow is
-/// off (areas, pumps, pressures) is learnt with them, as an opening.
+/// Opening: as the profile's table has it of its side, 0 .. 1. The real valve needs an opening
+/// `beyond` the profile's for the same speed: edge * (1 - o) + bend * curve(o). The first is a dead
+/// band that ends elsewhere; the curve, about -o ln(o), is another exponent. What else the
+/// profile's flow is off (areas, pumps, pressures) is learnt with them, as an opening.
 
 #include <array>
 
@@ -59,8 +59,9 @@ struct LearntValve {
 void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk& ask, bool usable,
                  double period_s, LearntValve& valve);
 
-/// The dead band's end on this side, from the profile's, as a share of the spool's travel.
-[[nodiscard]] double learnt_edge_ratio(const DriveRow& drive, const LearntSide& side);
+/// The dead band's end on a side, from the profile's, as a share of the spool's travel.
+[[nodiscard]] double learnt_edge_ratio(const DriveRow& drive, const LearntValve& valve,
+                                       bool extends);
 
 /// Its variance is at most half of that before anything was learnt.
 [[nodiscard]] bool is_edge_known(const LearntSide& side);

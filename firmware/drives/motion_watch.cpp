@@ -21,7 +21,7 @@ constexpr double kEmpty_pa = 0.2e6;
 
 /// The duty up to which a spool is closed is where its table begins.
 int direction_of(const DriveRow& drive, double spool_ratio) {
-  if (std::abs(spool_ratio) <= drive.spool_to_duty.y_first()) {
+  if (std::abs(spool_ratio) <= drive.answer.towards(spool_ratio).edge()) {
     return 0;
   }
   return spool_ratio > 0.0 ? 1 : -1;

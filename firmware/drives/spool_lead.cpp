@@ -29,8 +29,10 @@ double led_duty(double time_constant_s, double wanted_ratio, SpoolModel& spool) 
     spool = {wanted_ratio, 0.0};
     return wanted_ratio;
   }
-  const double by_itself = after(spool, time_constant_s, 0.0, kAhead_s).travel_ratio;
-  const double by_duty = after(spool, time_constant_s, 1.0, kAhead_s).travel_ratio - by_itself;
+  // Sooner than within its time constant a spool takes many times the way that it is to go.
+  const double ahead_s = std::max(kAhead_s, time_constant_s);
+  const double by_itself = after(spool, time_constant_s, 0.0, ahead_s).travel_ratio;
+  const double by_duty = after(spool, time_constant_s, 1.0, ahead_s).travel_ratio - by_itself;
   const double leading = std::clamp((wanted_ratio - by_itself) / by_duty, -1.0, 1.0);
   // To neutral it comes at last, not ever nearer.
   const bool is_home = wanted_ratio == 0.0 && std::abs(leading) < kHome;

@@ -10,8 +10,9 @@ struct SpoolModel {
   double speed_ps = 0.0;
 };
 
-/// The duty, -1 .. 1, that takes the modelled spool to `wanted_ratio` within two cycles (20 ms) if
-/// it is kept up; the model goes on by one cycle with it. A time constant of 0 leads nothing.
+/// The duty, -1 .. 1, that takes the modelled spool to `wanted_ratio` within two cycles (20 ms), or
+/// within its time constant if that is longer, if it is kept up; the model goes on by one cycle
+/// with it. A time constant of 0 leads nothing.
 [[nodiscard]] double led_duty(double time_constant_s, double wanted_ratio, SpoolModel& spool);
 
 }  // namespace graben

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/drives/spool_opening.hpp"
+
 namespace graben {
 namespace {
 
@@ -31,8 +33,8 @@ bool park(double wanted_mps, double corrected_mps, double period_s, ParkingState
 }
 
 double parked_duty(const DriveRow& drive, const LearntValve& valve, int side) {
-  const double edge = drive.spool_to_duty.y_first();
-  return side * kWithin * std::max(0.0, edge + (1.0 - edge) * valve.side(side > 0).edge);
+  const double edge = duty_at(drive.answer.towards(side), valve.side(side > 0).edge);
+  return side * kWithin * std::max(0.0, edge);
 }
 
 }  // namespace graben

@@ -32,6 +32,22 @@ Eigen::Vector3d leverage(const ExcavatorProfile& profile) {
   return kinematics.state(strokes_m).jacobian.topRows<2>().colwise().norm();
 }
 
+double said_or(double said_s, double whole_s) { return said_s == kUnsaid_s ? whole_s : said_s; }
+
+/// Longest of each of the two lags of a spool's side that says it, else 0, s. What a drive's speed
+/// lags its spool is within its oil and load as well, the spool's share is no more than that.
+double slowest_lag_s(const SaidAnswer& said) {
+  return said.spool_time_constant_s == kUnsaid_s ? 0.5 * std::max(0.0, said.lag_s)
+                                                 : kTimeBand * said.spool_time_constant_s;
+}
+
+/// Enough for a side that is slower than the profile's slowest spool.
+double settle_s(const ExcavatorProfile& profile, int drive) {
+  const SaidAnswers& said = profile.valve.answer[static_cast<unsigned>(drive)];
+  const double slowest_s = std::max(slowest_lag_s(said.extend), slowest_lag_s(said.retract));
+  return std::max(profile.safety.settle_s, slowest_s / kLagShare);
+}
+
 const PumpProfile& pump_of(const ExcavatorProfile& profile, const SpoolProfile& spool) {
   return profile.pump[static_cast<unsigned>(spool.pump)];
 }
@@ -58,6 +74,15 @@ DriveRow cylinder_row(const ExcavatorProfile& profile, int axis, double leverage
 
 }  // namespace
 
+SpoolAnswer answer_of(const ExcavatorProfile& profile, int drive, bool extends) {
+  const ValveProfile& valve = profile.valve;
+  const SaidAnswer& said = valve.answer[static_cast<unsigned>(drive)].side(extends);
+  return {said.spool_to_duty.size() == 0 ? valve.spool_to_duty : said.spool_to_duty,
+          said_or(said.dead_time_s, profile.control.dead_time_s),
+          said_or(said.lag_s, profile.control.response_s),
+          said_or(said.spool_time_constant_s, profile.oil.spool_time_constant_s)};
+}
+
 double fastest_mps(const ExcavatorProfile& profile, const DriveRow& row) {
   return kFasterThanPumps * rated_flow_m3ps(pump_of(profile, row.spool)) / row.retract_area_m2;
 }
@@ -73,11 +98,10 @@ DriveRow section_row(const ExcavatorProfile& profile, int drive) {
   DriveRow row;
   row.spool = profile.valve.spool[static_cast<unsigned>(drive)];
   row.metering = static_cast<const SpoolMetering&>(profile.valve);
-  row.spool_to_duty = profile.valve.spool_to_duty;
+  row.answer.extend = answer_of(profile, drive, true);
+  row.answer.retract = answer_of(profile, drive, false);
   row.control.spool_rate_ps = control.spool_rate_ps;
   row.control.spool_threshold = control.spool_threshold;
-  row.control.dead_time_s = control.dead_time_s;
-  row.control.response_s = control.response_s;
   row.control.stroke_end_gain_ps = control.stroke_end_gain_ps;
   row.feedback = {control.servo_gain_ps,      control.servo_most_m,       control.servo_most_m,
                   control.servo_least_lambda, control.servo_frequency_hz, control.servo_damping,
@@ -87,7 +111,7 @@ DriveRow section_row(const ExcavatorProfile& profile, int drive) {
     row.feedback.bias_ps2 = 0.0;
   }
   row.watch.senses_spool = profile.bus.spool_feedback;
-  row.watch.settle_s = safety.settle_s;
+  row.watch.settle_s = settle_s(profile, drive);
   row.watch.spool_tolerance = safety.spool_tolerance;
   row.watch.relief_pa = pump_of(profile, row.spool).relief_pa;
   row.watch.pressure_rail_pa = safety.pressure_rail_pa;

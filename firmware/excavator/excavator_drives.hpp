@@ -18,6 +18,10 @@ using ExcavatorBank = DriveBank<kDriveCount>;
 /// The valve as the optimiser's table, actuators in the order of the drives.
 [[nodiscard]] McvMachine mcv_machine(const ExcavatorProfile& profile);
 
+/// How a side of a drive's spool answers: what the profile says of it, else what it says of the
+/// whole valve.
+[[nodiscard]] SpoolAnswer answer_of(const ExcavatorProfile& profile, int drive, bool extends);
+
 /// The row's share of valve section, control and watches, alike for every drive.
 [[nodiscard]] DriveRow section_row(const ExcavatorProfile& profile, int drive);
 

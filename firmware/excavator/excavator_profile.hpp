@@ -10,8 +10,8 @@
 
 #include "firmware/core/codes.hpp"
 #include "firmware/excavator/excavator_signals.hpp"
+#include "firmware/machine/spool_answer.hpp"
 #include "firmware/machine/valve.hpp"
-#include "firmware/numeric/monotone_table.hpp"
 #include "firmware/signals/bus_capabilities.hpp"
 
 namespace graben {
@@ -61,13 +61,32 @@ struct ExcavatorGeometry {
   Eigen::Vector2d boom_foot_m = Eigen::Vector2d::Zero();
 };
 
+/// A time that a side of a spool does not say by itself.
+inline constexpr double kUnsaid_s = -1.0;
+
+/// A SpoolAnswer as far as it is known of one side by itself.
+struct SaidAnswer {
+  DutyTable spool_to_duty;  ///< Empty: not said.
+  double dead_time_s = kUnsaid_s;
+  double lag_s = kUnsaid_s;
+  double spool_time_constant_s = kUnsaid_s;
+};
+
+struct SaidAnswers {
+  SaidAnswer extend;
+  SaidAnswer retract;
+
+  [[nodiscard]] const SaidAnswer& side(bool extends) const { return extends ? extend : retract; }
+  [[nodiscard]] SaidAnswer& side(bool extends) { return extends ? extend : retract; }
+};
+
 /// The main control valve; metering is the same of every section.
 struct ValveProfile : SpoolMetering {
   double section_flow_m3ps = 0.0;  ///< Rated, of one spool's section.
   std::array<SpoolProfile, kDriveCount> spool;
-  /// Opening (|x| / x_m, 0 .. 1) to duty (0 .. 1). Its first value is the duty at which the spool
-  /// begins to open, so that the deadband is crossed in one step; neutral is duty 0 always.
-  MonotoneTable spool_to_duty;
+  DutyTable spool_to_duty;  ///< See SpoolAnswer; of every side that does not say its own.
+  /// What is known of each side of each drive; the rest is the whole valve's, see `answer_of`.
+  std::array<SaidAnswers, kDriveCount> answer;
 };
 
 /// Closed rounded rectangle that the bucket tip follows in the digging direction: down at the far

@@ -3,23 +3,22 @@
 /// kind makes its rows once, at start, from its profile. What is said of a cylinder holds for a
 /// motor too, as travel, area and speed at a lever. SI units; extension is positive.
 
+#include <algorithm>
 #include <array>
 
 #include "firmware/core/codes.hpp"
 #include "firmware/core/span.hpp"
+#include "firmware/machine/spool_answer.hpp"
 #include "firmware/machine/valve.hpp"
-#include "firmware/numeric/monotone_table.hpp"
 
 namespace graben {
 
 inline constexpr int kMostDrives = 6;
 
-/// The drive's answer to its commands, and how these may change.
+/// How a drive's commands may change.
 struct DriveControl {
   double spool_rate_ps = 0.0;       ///< Largest change of |x| / x_m per second.
   double spool_threshold = 0.0;     ///< |x| / x_m under which the spool is kept at neutral.
-  double dead_time_s = 0.0;         ///< From a duty to the spool's first movement.
-  double response_s = 0.0;          ///< Lag of the drive's speed behind its spool command.
   double stroke_end_gain_ps = 0.0;  ///< Largest speed towards an end of the travel, per metre left.
   double end_slack_m = 0.0;         ///< See approach_ends().
   double deceleration_mps2 = 0.0;   ///< That the drive is stopped with before an end.
@@ -78,9 +77,7 @@ struct DriveRow {
   SpoolProfile spool;
   SpoolMetering metering;
   DriveSupply supply;
-  /// Opening (|x| / x_m, 0 .. 1) to duty (0 .. 1). Its first value is the duty at which the spool
-  /// begins to open; neutral is duty 0 always.
-  MonotoneTable spool_to_duty;
+  SpoolAnswers answer;
   DriveControl control;
   DriveFeedback feedback;
   DriveWatch watch;
@@ -96,10 +93,17 @@ struct DriveRow {
 inline constexpr double kLateShare = 0.3;
 inline constexpr double kLagShare = 0.35;
 
-/// Until a sound spool starts after its command at the latest, s. Its dead time is known within 30
-/// %.
+/// Times of a valve are known within 30 %.
+inline constexpr double kTimeBand = 1.3;
+
+/// Longest time from a duty to the spool's first movement, of both sides, s.
+[[nodiscard]] inline double longest_dead_time_s(const DriveRow& drive) {
+  return kTimeBand * std::max(drive.answer.extend.dead_time_s, drive.answer.retract.dead_time_s);
+}
+
+/// Until a sound spool starts after its command at the latest, s.
 [[nodiscard]] inline double spool_starts_s(const DriveRow& drive) {
-  return 1.3 * drive.control.dead_time_s + kLateShare * drive.watch.settle_s;
+  return longest_dead_time_s(drive) + kLateShare * drive.watch.settle_s;
 }
 
 /// Longest of each of the two lags with which it then follows, s.
@@ -109,7 +113,7 @@ inline constexpr double kLagShare = 0.35;
 
 /// Time by which it may be behind its command, s.
 [[nodiscard]] inline double spool_arrives_s(const DriveRow& drive) {
-  return 1.3 * drive.control.dead_time_s + drive.watch.settle_s;
+  return longest_dead_time_s(drive) + drive.watch.settle_s;
 }
 
 using DriveRows = Span<const DriveRow>;

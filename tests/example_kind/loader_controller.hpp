@@ -32,8 +32,11 @@ inline DriveRow loader_drive(const LoaderProfile& profile, unsigned i) {
   row.retract_area_m2 = profile.rod_m2[i];
   row.spool = profile.spool[i];
   row.metering = profile.metering;
-  static_cast<void>(row.spool_to_duty.fill(opening.data(), duty.data(), 2));
-  row.control = {3.0, 0.001, 0.0, 0.053, 2.0, 0.05e-3, 0.5};
+  SpoolAnswer& answer = row.answer.extend;
+  static_cast<void>(answer.spool_to_duty.fill(opening.data(), duty.data(), 2));
+  answer.lag_s = 0.053;
+  row.answer.retract = answer;
+  row.control = {3.0, 0.001, 2.0, 0.05e-3, 0.5};
   row.control.at_end = {LimitKind::kStrokeEnd, static_cast<std::uint8_t>(i)};
   row.feedback = {2.0, 0.025, 0.025, 0.2, 2.4, 0.4};
   row.watch.fastest_mps = kFasterThanPumps * rated_flow_m3ps(profile.pump) / profile.rod_m2[i];

@@ -43,22 +43,24 @@ inline constexpr std::array<std::size_t, 2 * sizeof...(Parts)> kLayoutOf = {size
 template <class Setup>
 inline constexpr int kLayout = 0;
 template <>
-inline constexpr auto kLayout<ExcavatorSetup> = kLayoutOf<
-    bool, std::uint8_t, int, double, StepKind, FenceGuard, McvPolicy, RegenerationSide, ReachStatus,
-    Eigen::Vector2d, Eigen::Vector3d, DriveVector, MonotoneTable, CylinderGeometry, BucketLinkage,
-    ExcavatorGeometry, SwingProfile, LineProfile, SpoolMetering, SpoolProfile, ValveProfile,
-    PumpProfile, Limit, DriveControl, DriveFeedback, DriveWatch, DriveRow, ExcavatorBank, DigPath,
-    LambdaRise, ControlProfile, SafetyProfile, ExcavatorProfile, TeethPose, TeethLine, SineRamp,
-    LinePlan, DrivePlan, TaskStep, Fence, FenceSet, TaskProgram, TaskBook, CylinderTriangle,
-    BucketLinkageSolver, ExcavatorKinematics, SwingKinematics, RoundedRectangle, TipPose, DigField,
-    McvActuator, McvPump, McvMachine, ExcavatorSetup>;
+inline constexpr auto kLayout<ExcavatorSetup> =
+    kLayoutOf<bool, std::uint8_t, int, double, StepKind, FenceGuard, McvPolicy, RegenerationSide,
+              ReachStatus, Eigen::Vector2d, Eigen::Vector3d, DriveVector, MonotoneTable, DutyTable,
+              CylinderGeometry, BucketLinkage, ExcavatorGeometry, SwingProfile, LineProfile,
+              SpoolMetering, SpoolProfile, SaidAnswer, SaidAnswers, ValveProfile, PumpProfile,
+              Limit, DriveControl, DriveFeedback, DriveWatch, SpoolAnswer, SpoolAnswers, DriveRow,
+              ExcavatorBank, DigPath, LambdaRise, ControlProfile, SafetyProfile, ExcavatorProfile,
+              TeethPose, TeethLine, SineRamp, LinePlan, DrivePlan, TaskStep, Fence, FenceSet,
+              TaskProgram, TaskBook, CylinderTriangle, BucketLinkageSolver, ExcavatorKinematics,
+              SwingKinematics, RoundedRectangle, TipPose, DigField, McvActuator, McvPump,
+              McvMachine, ExcavatorSetup>;
 template <>
 inline constexpr auto kLayout<DozerSetup> =
-    kLayoutOf<bool, int, double, SpeedPolicy, Eigen::Vector2d, MonotoneTable, DozerBody,
-              BladeGeometry, ImplementProfile, HstProfile, TravelProfile, GradePoint, GradeDesign,
-              DozerControl, DozerSafety, DozerProfile, SpoolProfile, SpoolMetering, Limit,
-              DriveControl, DriveFeedback, DriveWatch, DriveRow, DozerBank, BladeKinematics,
-              GradeProfile, DozerSetup>;
+    kLayoutOf<bool, int, double, SpeedPolicy, Eigen::Vector2d, DutyTable, DozerBody, BladeGeometry,
+              ImplementProfile, HstProfile, TravelProfile, GradePoint, GradeDesign, DozerControl,
+              DozerSafety, DozerProfile, SpoolProfile, SpoolMetering, Limit, DriveControl,
+              DriveFeedback, DriveWatch, SpoolAnswer, SpoolAnswers, DriveRow, DozerBank,
+              BladeKinematics, GradeProfile, DozerSetup>;
 
 template <std::size_t count>
 constexpr bool same(const std::array<std::size_t, count>& one,

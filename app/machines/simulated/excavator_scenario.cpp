@@ -73,7 +73,13 @@ SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario
     plant.sensors.pressure_noise_ratio = 0.0;
   }
   double& assumed_s = machine.profile.control.dead_time_s;
-  assumed_s = scenario.dead_time_s.value_or(assumed_s);
+  if (scenario.dead_time_s) {
+    assumed_s = *scenario.dead_time_s;
+    for (SaidAnswers& said : machine.profile.valve.answer) {
+      said.extend.dead_time_s = kUnsaid_s;
+      said.retract.dead_time_s = kUnsaid_s;
+    }
+  }
   Random dead_time(scenario.seed, Draw::kDeadTime);
   for (plant::SideDelay& delay : plant.dead_time) {
     if (!machine.has_dead_time) {

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "app/machines/answer_section.hpp"
 #include "app/machines/axis_names.hpp"
 #include "app/machines/dozer_sections.hpp"
 #include "app/machines/excavator_sections.hpp"
@@ -164,7 +165,10 @@ std::string key_reference() {
       "with others or instead of them, as its meaning says.\n";
   add_file(text, "An excavator: NAME.toml", [](TomlReader& reader) {
     read_kind(reader);
-    check_excavator_across_keys(reader, read_excavator_sections(reader));
+    const ExcavatorProfile profile = read_excavator_sections(reader);
+    static_cast<void>(read_driven(reader, kDriveCount));
+    static_cast<void>(reader.provenance());
+    check_excavator_across_keys(reader, profile);
   });
   add_file(text, "An excavator's simulation: NAME.sim.toml", [](TomlReader& reader) {
     read_kind(reader);
@@ -173,7 +177,9 @@ std::string key_reference() {
   });
   add_file(text, "A dozer: NAME.toml", [](TomlReader& reader) {
     read_kind(reader);
-    check_dozer_across_keys(reader, read_dozer_sections(reader));
+    const DozerProfile profile = read_dozer_sections(reader);
+    static_cast<void>(reader.provenance());
+    check_dozer_across_keys(reader, profile);
   });
   add_file(text, "A dozer's simulation: NAME.sim.toml", [](TomlReader& reader) {
     read_kind(reader);

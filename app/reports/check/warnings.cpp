@@ -61,7 +61,7 @@ void expect_spool(Warnings& warnings, const std::string& valve, double time_cons
 }
 
 void expect_deadband(Warnings& warnings, const std::string& valve, double deadband_ratio,
-                     const MonotoneTable& spool_to_duty) {
+                     const DutyTable& spool_to_duty) {
   const double first = spool_to_duty.y_first();
   warnings.add_if(
       std::abs(first - deadband_ratio) > 0.1, valve + ".spool_to_duty",

@@ -43,7 +43,7 @@ void expect_times(Warnings& warnings, double settle_s, double sensor_timeout_s, 
 void expect_spool(Warnings& warnings, const std::string& valve, double time_constant_s,
                   double damping, double settle_s, double response_s);
 void expect_deadband(Warnings& warnings, const std::string& valve, double deadband_ratio,
-                     const MonotoneTable& spool_to_duty);
+                     const DutyTable& spool_to_duty);
 void expect_oil(Warnings& warnings, const std::string& valve, double bulk_modulus_pa);
 
 }  // namespace graben::reports

@@ -30,7 +30,8 @@ inline DriveRow plain() {
   row.metering.density_kgpm3 = 2.0;
   const double opens[] = {0.0, 1.0};
   const double duty[] = {kEdge, 1.0};
-  assert_int_equal(row.spool_to_duty.fill(opens, duty, 2), MonotoneTable::Fill::kOk);
+  assert_int_equal(row.answer.extend.spool_to_duty.fill(opens, duty, 2), MonotoneTable::Fill::kOk);
+  row.answer.retract = row.answer.extend;
   row.watch.pressure_rail_pa = 40e6;
   row.watch.off_m = 0.008;
   row.watch.unseen_m = 0.003;

@@ -2,6 +2,7 @@
 
 #include "firmware/drives/direction_watch.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/two_sides.hpp"
 
 namespace {
 
@@ -22,7 +23,9 @@ struct Bench {
     row.retract_area_m2 = 0.25;
     const double opens[] = {0.0, 1.0};
     const double duty[] = {kEdge, 1.0};
-    assert_int_equal(row.spool_to_duty.fill(opens, duty, 2), MonotoneTable::Fill::kOk);
+    assert_int_equal(row.answer.extend.spool_to_duty.fill(opens, duty, 2),
+                     MonotoneTable::Fill::kOk);
+    row.answer.retract = row.answer.extend;
     row.watch.wrong_m = 3.5 * kStep_m;
     seen.stroke_m = 0.5;
     seen.load_known = true;
@@ -221,6 +224,22 @@ void a_drive_without_a_bound_is_not_checked(void**) {
   assert_false(bench.stops_after(50, -kStep_m));
 }
 
+/// Open for certain is another travel on each side.
+void each_side_has_its_own_dead_band(void**) {
+  for (const double way : {1.0, -1.0}) {
+    Bench bench;
+    bench.row.answer = two_sides();
+    bench.push(-3e6 * way);
+    for (const bool opens : {false, true}) {
+      const double edge = (way > 0.0 ? 0.4 : 0.25) + 0.03;
+      bench.open(way * (opens ? edge + 0.001 : edge - 0.001));
+      bench.move(0.0);
+      bench.move(0.0);
+      assert_true(bench.stops_after(4, -way * kStep_m) == opens);
+    }
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -241,6 +260,7 @@ int main() {
       cmocka_unit_test(at_its_bound_it_is_sound),
       cmocka_unit_test(only_its_drives_are_watched),
       cmocka_unit_test(a_drive_without_a_bound_is_not_checked),
+      cmocka_unit_test(each_side_has_its_own_dead_band),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -1,6 +1,7 @@
 // What a drive can do at its measured pressures and opening.
 
 #include "tests/unit/firmware/flow_fixture.hpp"
+#include "tests/unit/firmware/two_sides.hpp"
 
 namespace {
 
@@ -81,7 +82,8 @@ void without_a_dead_band_it_may_go_either_way(void**) {
   DriveRow row = plain();
   const double opens[] = {0.0, 1.0};
   const double duty[] = {0.0, 1.0};
-  assert_int_equal(row.spool_to_duty.fill(opens, duty, 2), MonotoneTable::Fill::kOk);
+  assert_int_equal(row.answer.extend.spool_to_duty.fill(opens, duty, 2), MonotoneTable::Fill::kOk);
+  row.answer.retract = row.answer.extend;
   const double most = 1.12 * 2e-6 * std::sqrt(5e6 + kZero_pa) / 0.01;
   assert_range(possible_speed(row, nullptr, at(0.01, 9e6, 5e6), kEngine_radps), -0.045 * most,
                0.045 * most);
@@ -161,6 +163,28 @@ void a_metered_inlet_is_not_learnt(void**) {
               possible_speed(row, nullptr, seen, kEngine_radps).most_mps, 0.0);
 }
 
+/// Openings of a side are those of its table, and as uncertain as it is steep there.
+void each_side_has_its_own_curve(void**) {
+  DriveRow row = plain();
+  row.answer = test::two_sides();
+  const auto most = [&](double spool_ratio) {
+    const SpeedRange range = possible_speed(row, nullptr, at(spool_ratio, 9e6, 9e6), kEngine_radps);
+    return std::max(range.most_mps, -range.least_mps);
+  };
+  const double out_mps = 1.12 * 2e-6 * std::sqrt(9e6 + kZero_pa) / 0.01;
+  const double back_mps = 1.12 * 5e-6 * std::sqrt(9e6 + kZero_pa) / 0.02;
+  // 0.1 of the travel is a quarter of the opening, then 0.5 of it three quarters.
+  assert_near(most(0.45), (0.125 + 0.035 / 0.4) * out_mps, 1e-9);
+  assert_near(most(0.75), (0.625 + 0.035 / (2.0 / 3.0)) * out_mps, 1e-9);
+  // The bend is within what the travel is known to: by the steeper part.
+  assert_near(most(0.52), (0.28 + 0.035 / 0.4) * out_mps, 1e-9);
+  assert_near(most(-0.4), (0.2 + 0.035 / 0.75) * back_mps, 1e-9);
+  assert_near(most(-0.3), (0.05 / 0.75 + 0.035 / 0.75) * back_mps, 1e-9);
+  // In the dead band of that side, and beyond what the other's is.
+  assert_near(most(0.3), 0.0, 0.0);
+  assert_near(most(-0.2), 0.0, 0.0);
+}
+
 }  // namespace
 
 int main() {
@@ -177,6 +201,7 @@ int main() {
       cmocka_unit_test(leakage_takes_from_the_fed_side),
       cmocka_unit_test(what_is_learnt_moves_the_bounds),
       cmocka_unit_test(a_metered_inlet_is_not_learnt),
+      cmocka_unit_test(each_side_has_its_own_curve),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

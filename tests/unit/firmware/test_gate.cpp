@@ -6,6 +6,7 @@
 #include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/flip_bit.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
+#include "tests/unit/firmware/two_sides.hpp"
 
 namespace {
 
@@ -201,6 +202,25 @@ void a_flipped_bit_does_not_matter_at_rest(void**) {
   assert_true(result.state.opening[1].intact());
 }
 
+/// Duties of one drive by its two tables; the others keep to the whole valve's.
+void each_side_has_its_own_table(void**) {
+  ExcavatorProfile two = profile();
+  const SpoolAnswers answer = test::two_sides();
+  two.valve.answer[kBoom].extend.spool_to_duty = answer.extend.spool_to_duty;
+  two.valve.answer[kArm].retract.spool_to_duty = answer.extend.spool_to_duty;
+  const auto duty = [&](double share, unsigned drive) {
+    std::array<double, kDriveCount> spool_m{};
+    spool_m[drive] = share * travel();
+    return gate(two, {}, true, spool_m, kLong_s).duty_ratio[drive];
+  };
+  assert_near(duty(0.25, 0), 0.5, 1e-12);
+  assert_near(duty(-0.25, 0), -0.4375, 1e-12);
+  assert_near(duty(0.25, 1), 0.4375, 1e-12);
+  assert_near(duty(-0.25, 1), -0.5, 1e-12);
+  assert_near(duty(0.625, 0), 0.75, 1e-12);
+  assert_near(duty(0.25, 2), 0.4375, 1e-12);
+}
+
 }  // namespace
 
 int main() {
@@ -219,6 +239,7 @@ int main() {
       cmocka_unit_test(what_is_no_number_is_refused),
       cmocka_unit_test(a_flipped_bit_is_refused),
       cmocka_unit_test(a_flipped_bit_does_not_matter_at_rest),
+      cmocka_unit_test(each_side_has_its_own_table),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/two_sides.hpp"
 
 namespace {
 
@@ -31,9 +32,12 @@ struct Bench {
   Bench() {
     const double opens[] = {0.0, 1.0};
     const double duty[] = {kEdge, 1.0};
-    assert_int_equal(row.spool_to_duty.fill(opens, duty, 2), MonotoneTable::Fill::kOk);
+    assert_int_equal(row.answer.extend.spool_to_duty.fill(opens, duty, 2),
+                     MonotoneTable::Fill::kOk);
+    row.answer.retract = row.answer.extend;
     row.metering.opening_exponent = 1.6;
-    row.control.response_s = 0.03;
+    row.answer.extend.lag_s = 0.03;
+    row.answer.retract.lag_s = 0.03;
     step(0.0, false);  // Before the machine moves.
   }
 
@@ -79,7 +83,7 @@ void a_dead_band_is_learnt_on_its_own_side(void**) {
     assert_near(opening_beyond(bench.valve.extend, 0.3), 0.7 * beyond, 0.25 * std::abs(beyond));
     assert_near(bench.off(0.05), 0.0, 0.06);
     assert_true(is_edge_known(bench.valve.extend));
-    assert_near(learnt_edge_ratio(bench.row, bench.valve.extend), edge - kEdge, 0.015);
+    assert_near(learnt_edge_ratio(bench.row, bench.valve, true), edge - kEdge, 0.015);
     assert_false(is_edge_known(bench.valve.retract));
     assert_near(bench.valve.retract.edge, 0.0, 0.0);
     assert_near(bench.valve.retract.bend, 0.0, 0.0);
@@ -91,9 +95,8 @@ void a_dead_band_is_learnt_on_its_own_side(void**) {
 /// An opening counts from the dead band's end, what is told is of the whole travel.
 void an_edge_is_told_in_travel(void**) {
   Bench bench;
-  LearntSide side;
-  side.edge = -0.05;
-  assert_near(learnt_edge_ratio(bench.row, side), -0.05 * (1.0 - kEdge), 1e-12);
+  bench.valve.extend.edge = -0.05;
+  assert_near(learnt_edge_ratio(bench.row, bench.valve, true), -0.05 * (1.0 - kEdge), 1e-12);
 }
 
 void an_exponent_is_learnt(void**) {
@@ -226,6 +229,36 @@ void the_spread_is_less_where_it_worked(void**) {
   assert_near(opening_spread(bench.valve.extend, 1.0), 0.0, 1e-12);
 }
 
+/// A valve that is as its two tables say is nothing to learn, one that is not is off on its side.
+void what_is_learnt_is_beyond_its_sides_table(void**) {
+  DriveRow row;
+  row.answer = test::two_sides();
+  LearntValve valve;
+  assert_near(learnt_duty(row, valve, 0.25), 0.5, 1e-12);
+  assert_near(learnt_duty(row, valve, -0.25), -0.4375, 1e-12);
+  valve.extend.edge = 0.05;
+  valve.retract.edge = -0.05;
+  // By its soft start, and below the table by the share outside of the dead band.
+  assert_near(learnt_edge_ratio(row, valve, true), 0.05 * 0.4, 1e-12);
+  assert_near(learnt_edge_ratio(row, valve, false), -0.05 * 0.75, 1e-12);
+  assert_near(learnt_duty(row, valve, -0.01), -(0.25 - 0.75 * (0.0495 - 0.01)), 1e-12);
+}
+
+/// A command is compared when its side has answered it, spool by the table of its side.
+void each_side_has_its_own_lag(void**) {
+  DriveRow row;
+  row.answer = test::two_sides();
+  for (const double way : {1.0, -1.0}) {
+    LearntValve valve;
+    ValidDrive seen;
+    seen.spool_ratio = way * 0.625;
+    next_learnt(row, seen, {way * 0.1, way * 0.5}, true, kPeriod_s, valve);
+    const double share = way > 0.0 ? 0.01 / 0.06 : 0.01 / 0.03;
+    assert_near(valve.late[0].speed_mps, way * 0.1 * share, 1e-12);
+    assert_near(valve.seen.opening, way * (way > 0.0 ? 0.4375 : 0.5) * 0.01 / 0.16, 1e-12);
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -239,6 +272,8 @@ int main() {
       cmocka_unit_test(still_and_without_time_nothing_breaks),
       cmocka_unit_test(duties_rise_and_turn_back),
       cmocka_unit_test(the_spread_is_less_where_it_worked),
+      cmocka_unit_test(what_is_learnt_is_beyond_its_sides_table),
+      cmocka_unit_test(each_side_has_its_own_lag),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

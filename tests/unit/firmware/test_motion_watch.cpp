@@ -4,6 +4,7 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
+#include "tests/unit/firmware/two_sides.hpp"
 
 namespace {
 
@@ -228,7 +229,8 @@ void what_was_asked_adds_up(void**) {
 double stuck_after_s(double asked_mps) {
   DriveRow row;
   const double ends[] = {0.2, 1.0};
-  assert_int_equal(row.spool_to_duty.fill(ends, ends, 2), MonotoneTable::Fill::kOk);
+  assert_int_equal(row.answer.extend.spool_to_duty.fill(ends, ends, 2), MonotoneTable::Fill::kOk);
+  row.answer.retract = row.answer.extend;
   row.watch.uncommanded_m = 0.02;
   row.watch.stuck_m = 0.03;
   row.watch.rest_s = kCylinderRest_s;
@@ -256,6 +258,26 @@ void held_against_leakage_it_is_not_stuck(void**) {
   assert_near(stuck_after_s(-0.0025), 600.0, 0.0);
 }
 
+/// A stroke that stands still is stuck where its side is open.
+void each_side_has_its_own_dead_band(void**) {
+  for (const double spool_ratio : {0.35, -0.35}) {
+    DriveRow row;
+    row.answer = test::two_sides();
+    row.watch.uncommanded_m = 0.02;
+    row.watch.stuck_m = 0.03;
+    ValidDrive seen;
+    seen.spool_ratio = spool_ratio;
+    const double asked_mps = 0.1 * spool_ratio;
+    MotionState state;
+    bool stuck = false;
+    for (int n = 0; n < 200; ++n) {
+      stuck = stuck || watch_motion({&row, 1}, {&seen, 1}, {&asked_mps, 1}, 0.01, {&state, 1})
+                           .has(Fault::kStrokeStuck);
+    }
+    assert_true(stuck == (spool_ratio < 0.0));
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -273,6 +295,7 @@ int main() {
       cmocka_unit_test(what_was_asked_adds_up),
       cmocka_unit_test(what_is_asked_for_and_does_not_come_is_stuck),
       cmocka_unit_test(held_against_leakage_it_is_not_stuck),
+      cmocka_unit_test(each_side_has_its_own_dead_band),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

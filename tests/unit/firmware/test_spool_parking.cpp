@@ -2,6 +2,7 @@
 
 #include "firmware/drives/spool_parking.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/two_sides.hpp"
 
 namespace {
 
@@ -13,7 +14,8 @@ DriveRow drive_row() {
   DriveRow row;
   const double opens[] = {0.0, 1.0};
   const double duty[] = {0.2, 1.0};
-  assert_int_equal(row.spool_to_duty.fill(opens, duty, 2), MonotoneTable::Fill::kOk);
+  assert_int_equal(row.answer.extend.spool_to_duty.fill(opens, duty, 2), MonotoneTable::Fill::kOk);
+  row.answer.retract = row.answer.extend;
   return row;
 }
 
@@ -80,6 +82,16 @@ void it_waits_within_the_dead_band_that_was_learnt(void**) {
   assert_near(parked_duty(row, valve, 0), 0.0, 0.0);
 }
 
+void each_side_has_its_own_edge(void**) {
+  DriveRow row;
+  row.answer = test::two_sides();
+  LearntValve valve;
+  assert_near(parked_duty(row, valve, 1), 0.7 * 0.4, 1e-12);
+  assert_near(parked_duty(row, valve, -1), -0.7 * 0.25, 1e-12);
+  valve.extend.edge = 0.05;
+  assert_near(parked_duty(row, valve, 1), 0.7 * 0.42, 1e-12);
+}
+
 }  // namespace
 
 int main() {
@@ -89,6 +101,7 @@ int main() {
       cmocka_unit_test(only_the_second_one_waits),
       cmocka_unit_test(calm_forgets),
       cmocka_unit_test(it_waits_within_the_dead_band_that_was_learnt),
+      cmocka_unit_test(each_side_has_its_own_edge),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

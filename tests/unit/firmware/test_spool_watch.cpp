@@ -139,6 +139,33 @@ void it_is_given_the_dead_time_too(void**) {
   assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), cycles_to_find(25, 0.75));
 }
 
+/// Of two sides the later one counts, and one that says that it is slow has the time it needs: two
+/// lags of 1.3 * 0.07 s, or of half of what its drive lags.
+void it_is_given_what_its_slower_side_needs(void**) {
+  for (const bool extends : {true, false}) {
+    Valve valve;
+    for (SaidAnswers& answer : valve.profile.valve.answer) {
+      answer.side(extends).dead_time_s = 0.15;
+    }
+    valve.settle(0.75);
+    valve.sent.duty_ratio = {0.0, 0.0, 0.0};
+    assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), cycles_to_find(25, 0.75));
+    const auto settle_s = [&](double SaidAnswer::*time, double time_s) {
+      ExcavatorProfile profile = valve.profile;
+      profile.valve.answer[kBoom].side(extends).*time = time_s;
+      const ExcavatorBank bank = excavator_bank(profile);
+      assert_near(bank.row[kArm].watch.settle_s, profile.safety.settle_s, 0.0);
+      return bank.row[kBoom].watch.settle_s;
+    };
+    assert_near(settle_s(&SaidAnswer::spool_time_constant_s, 0.07), 1.3 * 0.07 / 0.35, 1e-12);
+    assert_near(settle_s(&SaidAnswer::lag_s, 0.2), 0.1 / 0.35, 1e-12);
+    // Quicker than the profile's slowest spool it is not taken for.
+    assert_near(settle_s(&SaidAnswer::lag_s, 0.01), valve.profile.safety.settle_s, 0.0);
+    assert_near(settle_s(&SaidAnswer::spool_time_constant_s, 0.0), valve.profile.safety.settle_s,
+                0.0);
+  }
+}
+
 /// More than the ring holds is cut to it; no time at all still leaves the age of a frame.
 void the_time_under_way_is_bounded(void**) {
   Valve slow;
@@ -326,6 +353,7 @@ int main() {
       cmocka_unit_test(each_spool_is_counted_by_itself),
       cmocka_unit_test(it_is_given_the_time_to_settle),
       cmocka_unit_test(it_is_given_the_dead_time_too),
+      cmocka_unit_test(it_is_given_what_its_slower_side_needs),
       cmocka_unit_test(the_time_under_way_is_bounded),
       cmocka_unit_test(no_sound_spool_is_stuck),
       cmocka_unit_test(a_spool_may_follow_its_lead),

@@ -4,6 +4,21 @@ import re
 
 from profile_edit import replaced
 
+
+
+def answered(line, side="boom.extend"):
+    """With this line about a side's answer; else it is a good one."""
+    good = {"spool_to_duty": "[[0.0, 412.0], [0.1, 455.0], [1.0, 1000.0]]", "dead_time": "0.18",
+            "lag": "0.07", "spool_time_constant": "0.03", "driven": "[0.42, 0.90]"}
+    lines = {**{key: f"{key} = {value}" for key, value in good.items()}, line.split(" ")[0]: line}
+    return lambda t: "\n".join([t, f"[valve.answer.{side}]", *lines.values(), ""])
+
+
+def told(line):
+    """With this line in the section of provenance."""
+    return lambda t: f"{t}\n[provenance]\n{line}\n"
+
+
 # (what is wrong, change, what the message must contain: key path, value, unit, allowed range)
 CASES = [
     ("the simulation's key", lambda t: replaced(t, "[boom]", "[boom]\nmass = 2130.0"),
@@ -87,6 +102,55 @@ CASES = [
      ["boom.cylinder.rod", "less than the bore"]),
     ("wrong kind", lambda t: replaced(t, 'kind = "excavator"', 'kind = "crane"'),
      ["kind", "crane", "allowed: excavator, dozer"]),
+    ("answer's dead time", answered("dead_time = 0.6"),
+     ["1 error", "valve.answer.boom.extend.dead_time", "0.6", "0 .. 0.5 s"]),
+    ("answer's lag", answered("lag = 0.0", "arm.retract"),
+     ["1 error", "valve.answer.arm.retract.lag", "0.001 .. 1 s"]),
+    ("answer's time constant", answered("spool_time_constant = -0.1", "bucket.extend"),
+     ["1 error", "valve.answer.bucket.extend.spool_time_constant", "0 .. 0.2 s"]),
+    ("answer's table falls", answered("spool_to_duty = [[0.0, 412.0], [0.1, 412.0], [1.0, 1000.0]]"),
+     ["1 error", "valve.answer.boom.extend.spool_to_duty", "strictly increasing"]),
+    ("answer's table beyond the duty", answered("spool_to_duty = [[0.0, 412.0], [1.0, 1001.0]]"),
+     ["1 error", "valve.answer.boom.extend.spool_to_duty[1][1]", "0 .. 1000 per mille"]),
+    ("answer's table not whole", answered("spool_to_duty = [[0.1, 412.0], [1.0, 1000.0]]"),
+     ["1 error", "valve.answer.boom.extend.spool_to_duty", "opening 0"]),
+    ("answer's table too long", answered("spool_to_duty = " + str([[i / 16, 400 + i] for i in range(17)])),
+     ["1 error", "valve.answer.boom.extend.spool_to_duty", "2 to 16 pairs"]),
+    ("driven backwards", answered("driven = [0.9, 0.42]"),
+     ["1 error", "valve.answer.boom.extend.driven", "first the least duty"]),
+    ("driven by one number", answered("driven = [0.9]"),
+     ["1 error", "valve.answer.boom.extend.driven", "2 numbers"]),
+    ("answer's unknown key", answered("deadtime = 0.1"),
+     ["1 error", "valve.answer.boom.extend.deadtime", "unknown key"]),
+    ("no such side", answered("lag = 0.1", "boom.up"), ["valve.answer.boom.up.lag", "unknown key"]),
+    ("no swing to answer", answered("lag = 0.1", "swing.extend"),
+     ["valve.answer.swing.extend.lag", "unknown key"]),
+    ("provenance of nothing", told('"valve.answer.boom.extend.lag" = { deviation = 0.1 }'),
+     ["1 error", 'provenance."valve.answer.boom.extend.lag"', "line ", "no such key"]),
+    ("provenance of a section", told('"valve.bypass" = { from = "a log" }'),
+     ["1 error", 'provenance."valve.bypass"', "is a section"]),
+    ("provenance of tables", told('pump = { from = "a log" }'),
+     ["1 error", 'provenance."pump"', "is a section"]),
+    ("provenance not quoted", told('valve.density = { from = "a log" }'),
+     ["1 error", 'provenance."valve"', "is a section"]),
+    ("negative deviation", told('"valve.density" = { deviation = -1.0 }'),
+     ["1 error", 'provenance."valve.density"', "deviation = 0 or more"]),
+    ("deviation in words", told('"valve.density" = { deviation = "much" }'),
+     ["1 error", 'provenance."valve.density"', "deviation = 0 or more"]),
+    ("deviation not finite", told('"valve.density" = { deviation = inf }'),
+     ["1 error", 'provenance."valve.density"', "deviation = 0 or more"]),
+    ("deviation of a word", told('"control.law" = { deviation = 1.0 }'),
+     ["1 error", 'provenance."control.law"', "is no number"]),
+    ("from a number", told('"valve.density" = { from = 1.0 }'),
+     ["1 error", 'provenance."valve.density"', 'from = "text"']),
+    ("provenance says nothing", told('"valve.density" = {}'),
+     ["1 error", 'provenance."valve.density"', "says nothing"]),
+    ("provenance is a number", told('"valve.density" = 1.0'),
+     ["1 error", 'provenance."valve.density"', "says nothing"]),
+    ("provenance of another word", told('"valve.density" = { form = "a log" }'),
+     ["1 error", 'provenance."valve.density"', "form", "deviation = 0 or more"]),
+    ("no section of provenance", lambda t: t.replace('kind = "excavator"', 'kind = "excavator"\nprovenance = 1'),
+     ["1 error", "provenance", "must be a section"]),
     ("broken TOML", lambda t: replaced(t, "[arm]", "[arm"), ["line "]),
     ("two at once", lambda t: replaced(replaced(t, "discharge = 0.62", "discharge = 62"),
                                        "spool_travel = 0.010", "spool_travel = 10"),

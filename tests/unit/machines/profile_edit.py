@@ -2,6 +2,7 @@
 
 import copy
 import json
+import re
 import tomllib
 
 
@@ -27,16 +28,21 @@ def key_path(path):
     return text
 
 
+def key_text(key):
+    """As a file has it: quoted where it is a path of its own."""
+    return key if re.fullmatch(r"[\w-]+", key) else json.dumps(key)
+
+
 def value_text(value):
     if isinstance(value, dict):
-        return "{ " + ", ".join(f"{key} = {value_text(v)}" for key, v in value.items()) + " }"
+        return "{ " + ", ".join(f"{key_text(k)} = {value_text(v)}" for k, v in value.items()) + " }"
     if isinstance(value, list):
         return "[" + ", ".join(value_text(v) for v in value) + "]"
     return json.dumps(value)
 
 
 def toml_text(document):
-    return "".join(f"{key} = {value_text(value)}\n" for key, value in document.items())
+    return "".join(f"{key_text(key)} = {value_text(value)}\n" for key, value in document.items())
 
 
 def at(document, path):

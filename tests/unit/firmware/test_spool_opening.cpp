@@ -1,0 +1,49 @@
+// From a spool's travel to its opening and back.
+
+#include "firmware/drives/spool_opening.hpp"
+
+#include "tests/unit/firmware/two_sides.hpp"
+
+namespace {
+
+using namespace graben;
+
+/// In the dead band, along the table, and a little beyond its end.
+void opening_and_travel_turn_into_each_other(void**) {
+  const SpoolAnswers answer = test::two_sides();
+  for (const SpoolAnswer* side : {&answer.extend, &answer.retract}) {
+    double last = -1.0;
+    for (int n = 0; n <= 100; ++n) {
+      const double opening = opening_at(*side, 0.01 * n);
+      assert_true(opening > last);
+      assert_near(duty_at(*side, opening), 0.01 * n, 1e-12);
+      last = opening;
+    }
+    assert_near(last, 1.0, 1e-12);
+    assert_near(opening_at(*side, side->edge()), 0.0, 0.0);
+    assert_near(opening_at(*side, 0.0), -side->edge() / (1.0 - side->edge()), 1e-12);
+  }
+  assert_near(opening_at(answer.extend, 0.75), 0.625, 1e-12);
+  assert_near(opening_at(answer.extend, 1.02), 1.03, 1e-12);
+  assert_near(duty_at(answer.extend, 1.03), 1.0, 0.0);
+}
+
+/// The steeper of two parts where both are within the range.
+void the_steepest_part_within_the_range_counts(void**) {
+  const SpoolAnswer side = test::two_sides().extend;
+  assert_near(least_travel_per_opening(side, 0.41, 0.49), 0.4, 1e-12);
+  assert_near(least_travel_per_opening(side, 0.51, 0.6), 2.0 / 3.0, 1e-12);
+  assert_near(least_travel_per_opening(side, 0.49, 0.6), 0.4, 1e-12);
+  assert_near(least_travel_per_opening(side, 0.1, 0.2), 0.4, 1e-12);
+  assert_near(least_travel_per_opening(side, 0.98, 1.1), 2.0 / 3.0, 1e-12);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(opening_and_travel_turn_into_each_other),
+      cmocka_unit_test(the_steepest_part_within_the_range_counts),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
