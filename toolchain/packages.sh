@@ -26,6 +26,7 @@ graben_missing() {
   has_header zlib.h || echo zlib1g-dev
   has_header ceres/ceres.h || echo libceres-dev
   has_header openssl/evp.h || echo libssl-dev
+  has_header libevdev-1.0/libevdev/libevdev.h || echo libevdev-dev
   # Debian's npm conflicts with a Node.js from elsewhere, which brings its own.
   has_command node || echo nodejs
   has_command npm || echo npm

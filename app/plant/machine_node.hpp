@@ -9,10 +9,10 @@
 #include "app/plant/command_link.hpp"
 #include "app/plant/frame_sender.hpp"
 #include "app/plant/node_faults.hpp"
-#include "app/plant/stamp_echo.hpp"
 #include "can_dbc/codec.hpp"
 #include "firmware/core/time.hpp"
 #include "hal/can_port.hpp"
+#include "hal/link/stamp_echo.hpp"
 
 namespace graben::plant {
 

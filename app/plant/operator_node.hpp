@@ -8,10 +8,10 @@
 
 #include "app/plant/command_link.hpp"
 #include "app/plant/frame_sender.hpp"
-#include "app/plant/stamp_echo.hpp"
 #include "firmware/core/time.hpp"
 #include "firmware/signals/machine_signals.hpp"
 #include "hal/can_port.hpp"
+#include "hal/link/stamp_echo.hpp"
 
 namespace graben::plant {
 

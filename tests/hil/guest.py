@@ -46,6 +46,8 @@ def choose(scenario: Scenario, where: str, cache: pathlib.Path):
         try:
             if scenario.controllers:
                 raise Nowhere("it has not the controllers that this test needs")
+            if scenario.modules:
+                raise Nowhere("this test loads modules of its own")
             if scenario.root:
                 raise Nowhere("a Debian of its own needs a virtual machine")
             host.prepare()

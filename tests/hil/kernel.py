@@ -13,12 +13,15 @@ import shutil
 import struct
 import subprocess
 import tempfile
+import zlib
 
 METAPACKAGE = "linux-image-rt-amd64"
-# The kernel, and the folders of the wanted modules and all they depend on: 12 of 390 MB.
-WANTED = ["./boot/vmlinuz-*", *(f"./lib/modules/*/kernel/{folder}/*" for folder in (
-    "net/can", "drivers/net/can", "net/9p", "fs/9p", "fs/netfs", "fs/fscache", "drivers/virtio",
-    "net/sched"))]
+# The kernel, and the wanted modules, most by folder, with all they depend on: 12 of 390 MB.
+WANTED = ["./boot/vmlinuz-*", *(f"./lib/modules/*/kernel/{part}" for part in (
+    "net/can/*", "drivers/net/can/*", "net/9p/*", "fs/9p/*", "fs/netfs/*", "fs/fscache/*",
+    "drivers/virtio/*", "net/sched/*", "drivers/input/evdev.ko", "drivers/input/misc/uinput.ko"))]
+# In the name of a kernel's folder: one that was unpacked for fewer modules is not taken.
+UNPACKED = f"{zlib.crc32(' '.join(WANTED).encode()):08x}"
 VERSIONED = re.compile(r"^[ |]*Depends: (linux-image-\d\S*)$", re.MULTILINE)
 DEPENDS = re.compile(rb"\0depends=([^\0]*)\0")
 
@@ -139,7 +142,7 @@ class Kernel:
 
 def cached(cache: pathlib.Path) -> Kernel | None:
     """The kernel fetched last, if there is one."""
-    folders = sorted(cache.glob("kernel-*/"), key=lambda folder: folder.stat().st_mtime)
+    folders = sorted(cache.glob(f"kernel-*-{UNPACKED}/"), key=lambda folder: folder.stat().st_mtime)
     return Kernel(folders[-1]) if folders else None
 
 
@@ -156,5 +159,5 @@ def fetch(cache: pathlib.Path) -> Kernel:
             folder.mkdir()
             unpack(package, folder)
             # Last, and at once: what has this name is whole.
-            folder.rename(cache / f"kernel-{package.name.split('_')[1]}")
+            folder.rename(cache / f"kernel-{package.name.split('_')[1]}-{UNPACKED}")
         return cached(cache)

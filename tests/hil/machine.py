@@ -97,7 +97,7 @@ def beside_a_root() -> initramfs.Tree:
 
 def guest_tree(guest_kernel: kernel.Kernel, scenario: Scenario) -> initramfs.Tree:
     tree = beside_a_root() if scenario.root else own_programs(scenario)
-    wanted = MODULES + (CONTROLLER_MODULES if scenario.controllers else [])
+    wanted = [*MODULES, *(CONTROLLER_MODULES if scenario.controllers else []), *scenario.modules]
     order = guest_kernel.load_order(wanted)
     for name in order:
         tree.add(f"modules/{name}.ko", guest_kernel.modules[name].read_bytes())

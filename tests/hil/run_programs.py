@@ -15,8 +15,8 @@ PROFILES = HERE.parents[1] / "app" / "machines"
 
 def run(script: str, out: pathlib.Path, programs: list[pathlib.Path],
         check: Callable[[pathlib.Path], list[str]], timeout_s: float, controllers: int = 0,
-        extra: dict[str, pathlib.Path] | None = None) -> int:
-    scenario = Scenario(script=HERE / script, programs=programs, controllers=controllers,
+        extra: dict[str, pathlib.Path] | None = None, modules: tuple[str, ...] = ()) -> int:
+    scenario = Scenario(script=HERE / script, programs=programs, controllers=controllers, modules=modules,
                         timeout_s=timeout_s, patience_s=max(600.0, 4.0 * timeout_s),
                         files={"ecu.sh": HERE / "ecu.sh", **(extra or {}),
                                **{file.name: file for pattern in ("*.toml", "tasks/*.toml")
@@ -38,6 +38,7 @@ def run(script: str, out: pathlib.Path, programs: list[pathlib.Path],
 
 
 def main(script: str, check: Callable[[pathlib.Path], list[str]], timeout_s: float,
-         controllers: int = 0, extra: dict[str, pathlib.Path] | None = None) -> int:
+         controllers: int = 0, extra: dict[str, pathlib.Path] | None = None,
+         modules: tuple[str, ...] = ()) -> int:
     out, *programs = map(pathlib.Path, sys.argv[1:])
-    return run(script, out, programs, check, timeout_s, controllers, extra)
+    return run(script, out, programs, check, timeout_s, controllers, extra, modules)

@@ -26,6 +26,8 @@ class Scenario:
     files: dict[str, pathlib.Path] = dataclasses.field(default_factory=dict)
     # SJA1000 controllers on one bus, can0 and on; only in a virtual machine.
     controllers: int = 0
+    # Modules of the kernel that only this scenario loads; only in a virtual machine.
+    modules: tuple[str, ...] = ()
     # A whole Debian, as cpio, that is the guest then: its own systemd runs the script as a service,
     # with its own programs. Only in a virtual machine.
     root: pathlib.Path | None = None

@@ -1,12 +1,13 @@
 #pragma once
-/// A station's answer to the controller's stamps.
+/// A station's answer to the controller's stamps (hal/link/challenge.hpp), for whatever plays one:
+/// the operator's, and those of a simulated machine.
 
 #include <cstdint>
 
 #include "can_dbc/codec.hpp"
 #include "hal/can_frame.hpp"
 
-namespace graben::plant {
+namespace graben {
 
 /// What a station says as its Echo: the last stamp that it heard, 0 before the first.
 template <class EcuIdentity>
@@ -41,4 +42,4 @@ class StampEcho {
   bool mute_ = false;
 };
 
-}  // namespace graben::plant
+}  // namespace graben

@@ -1,0 +1,48 @@
+#include "app/operate/command_frames.hpp"
+
+#include "can_dbc/generated/excavator_dbc.hpp"
+#include "hal/link/message_rules.hpp"
+
+namespace graben::operate {
+namespace {
+
+using Dbc = dbc::excavator::Dbc;
+using Command = Dbc::OperatorCommand;
+constexpr auto kValid = dbc::RawState::kValid;
+static_assert(CommandFrames::kPeriod_us == Command::kCycleTimeMs * kMillisecondUs &&
+              CommandFrames::kPeriod_us == Dbc::OperatorAxes::kCycleTimeMs * kMillisecondUs);
+
+constexpr SendRule kCommandRule = send_rule<Command>(0, nullptr);
+constexpr SendRule kAxesRule = send_rule<Dbc::OperatorAxes>(0, nullptr);
+
+dbc::Payload command_payload(const Request& request, dbc::Count echo) {
+  Command command;
+  command.enable = {request.enable ? Command::Enable::kOn : Command::Enable::kOff, kValid};
+  command.operator_mode = {static_cast<Command::OperatorMode>(request.mode), kValid};
+  command.task = {static_cast<Command::Task>(request.task), kValid};
+  command.speed_override_ratio = {request.speed_override_ratio, kValid};
+  command.echo = echo;
+  return command.encode();
+}
+
+dbc::Payload axes_payload(const Axes& axes) {
+  Dbc::OperatorAxes message;
+  message.boom_or_up_ratio = {axes.boom_or_up_ratio, kValid};
+  message.arm_or_forward_ratio = {axes.arm_or_forward_ratio, kValid};
+  message.bucket_or_attitude_ratio = {axes.bucket_or_attitude_ratio, kValid};
+  message.swing_ratio = {axes.swing_ratio, kValid};
+  return message.encode();
+}
+
+}  // namespace
+
+CommandPair CommandFrames::next(const Request& request, dbc::Count echo, TimeUs now) {
+  return {next_frame(kCommandRule, command_, command_payload(request, echo), now),
+          next_frame(kAxesRule, axes_, axes_payload(request.axes), now)};
+}
+
+CommandPair CommandFrames::last_words(TimeUs now) const {
+  return CommandFrames(*this).next({}, {0, dbc::RawState::kNotAvailable}, now);
+}
+
+}  // namespace graben::operate

@@ -1,0 +1,110 @@
+#include "app/operate/ecu_listener.hpp"
+
+#include "can_dbc/codec.hpp"
+#include "hal/link/dm1.hpp"
+
+namespace graben::operate {
+namespace {
+
+using Dbc = EcuListener::Dbc;
+
+/// Three frames of a stroke in a row, and one more.
+constexpr TimeUs kStrokeTimeout_us = 50 * kMillisecondUs;
+constexpr std::uint32_t kAddressMask = 0xFF;
+
+bool is_data(const CanFrame& frame) {
+  constexpr std::uint8_t kLength = 8;
+  return frame.extended && !frame.remote && !frame.error && !frame.fd && frame.length == kLength;
+}
+
+/// The same message by whatever source.
+bool is_operator_command(std::uint32_t id) {
+  constexpr std::uint32_t kPgnMask = 0x03FFFF00;
+  return ((id ^ Dbc::OperatorCommand::kId) & kPgnMask) == 0;
+}
+
+}  // namespace
+
+template <class Message>
+void EcuListener::take(const CanFrame& frame, TimeUs now, Heard<Message>& to) {
+  if (frame.id == Message::kId) {
+    to.said = Message::decode(frame.data);
+    to.at_us = now;
+  }
+}
+
+template <class Message>
+void EcuListener::take_stroke(const CanFrame& frame, dbc::Physical Message::*signal, TimeUs now,
+                              Stroke& to) {
+  if (frame.id == Message::kId) {
+    to = {Message::decode(frame.data).*signal, now};
+  }
+}
+
+void EcuListener::take_trouble(const CanFrame& frame, TimeUs now) {
+  if (frame.id != Dbc::DM1::kId) {
+    return;
+  }
+  const auto trouble = Dbc::DM1::decode(frame.data);
+  const std::uint32_t spn = trouble.spn_low.value | trouble.spn_high.value << 16U;
+  if (spn > kDm1FirstSpn && spn < kDm1FirstSpn + kFaultCount) {
+    trouble_us_[spn] = now;
+  }
+}
+
+void EcuListener::hear(const CanFrame& frame, TimeUs now) {
+  if (!is_data(frame)) {
+    return;
+  }
+  if (is_operator_command(frame.id)) {
+    other_station_ = static_cast<std::uint8_t>(frame.id & kAddressMask);
+  }
+  echo_.hear(frame);
+  take(frame, now, status_);
+  take(frame, now, health_);
+  take(frame, now, identity_);
+  take(frame, now, task_);
+  take_stroke(frame, &Dbc::BoomStroke::boom_stroke_m, now, strokes_[0]);
+  take_stroke(frame, &Dbc::ArmStroke::arm_stroke_m, now, strokes_[1]);
+  take_stroke(frame, &Dbc::BucketStroke::bucket_stroke_m, now, strokes_[2]);
+  take_trouble(frame, now);
+}
+
+std::array<std::optional<double>, 3> EcuListener::strokes_m(TimeUs now) const {
+  std::array<std::optional<double>, 3> strokes_m;
+  for (std::size_t i = 0; i < strokes_.size(); ++i) {
+    const Stroke& stroke = strokes_[i];
+    if (stroke.value.state == dbc::RawState::kValid && now - stroke.at_us < kStrokeTimeout_us) {
+      strokes_m[i] = stroke.value.value;
+    }
+  }
+  return strokes_m;
+}
+
+std::vector<Fault> EcuListener::faults(TimeUs now) const {
+  std::vector<Fault> faults;
+  for (const auto& [spn, at_us] : trouble_us_) {
+    if (now - at_us < kTroubleFor_us) {
+      faults.push_back(static_cast<Fault>(spn - kDm1FirstSpn));
+    }
+  }
+  return faults;
+}
+
+std::optional<EcuMode> EcuListener::mode(TimeUs now) const {
+  if (!hears_ecu(now) || status_.said->mode.state != dbc::RawState::kValid) {
+    return std::nullopt;
+  }
+  return static_cast<EcuMode>(status_.said->mode.value);
+}
+
+std::optional<std::uint32_t> EcuListener::other_version() const {
+  if (!identity_.said) {
+    return std::nullopt;
+  }
+  const dbc::Count& version = identity_.said->dbc_version;
+  const bool is_ours = version.state == dbc::RawState::kValid && version.value == Dbc::kDbcVersion;
+  return is_ours ? std::nullopt : std::optional<std::uint32_t>(version.value);
+}
+
+}  // namespace graben::operate

@@ -1,0 +1,93 @@
+/// When enable is given, and when not again.
+
+#include "app/operate/deadman.hpp"
+
+#include <array>
+
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+using operate::Deadman;
+using operate::Trouble;
+using operate::trouble_words;
+
+constexpr std::array<Trouble, 7> kTroubles = {
+    Trouble::kDeviceGone, Trouble::kEventsLost, Trouble::kDeviceSilent, Trouble::kStationLate,
+    Trouble::kBus,        Trouble::kEcuSilent,  Trouble::kOtherDbc};
+
+bool press(Deadman& deadman) { return deadman.step(true, true, Trouble::kNone); }
+bool release(Deadman& deadman) { return deadman.step(false, true, Trouble::kNone); }
+
+void it_is_on_from_press_to_release(void**) {
+  Deadman deadman;
+  assert_false(release(deadman));
+  assert_true(press(deadman));
+  assert_true(press(deadman));
+  // Levers may move now.
+  assert_true(deadman.step(true, false, Trouble::kNone));
+  assert_false(release(deadman));
+  assert_true(press(deadman));
+}
+
+void held_from_the_start_it_does_not_count(void**) {
+  Deadman deadman;
+  assert_false(press(deadman));
+  assert_true(deadman.trouble() == Trouble::kStart);
+  assert_false(press(deadman));
+  assert_false(release(deadman));
+  assert_true(deadman.trouble() == Trouble::kNone);
+  assert_true(press(deadman));
+}
+
+void pressed_with_a_lever_off_its_middle_it_does_not_count(void**) {
+  Deadman deadman;
+  assert_false(release(deadman));
+  assert_false(deadman.step(true, false, Trouble::kNone));
+  assert_true(deadman.trouble() == Trouble::kNotAtRest);
+  // Not even once the lever is back.
+  assert_false(press(deadman));
+  assert_false(release(deadman));
+  assert_true(press(deadman));
+}
+
+void trouble_ends_it_in_the_same_cycle(void**) {
+  for (const Trouble trouble : kTroubles) {
+    Deadman deadman;
+    assert_false(release(deadman));
+    assert_true(press(deadman));
+    assert_false(deadman.step(true, true, trouble));
+    assert_true(deadman.trouble() == trouble);
+    assert_true(trouble_words(trouble)[0] != '\0');
+    // Over, and still held: no.
+    assert_false(press(deadman));
+    assert_false(release(deadman));
+    assert_true(press(deadman));
+  }
+}
+
+/// What is held while the device comes back was not seen to be pressed.
+void a_release_during_trouble_is_none(void**) {
+  for (const Trouble trouble : kTroubles) {
+    Deadman deadman;
+    assert_false(release(deadman));
+    assert_false(deadman.step(false, true, trouble));
+    assert_false(press(deadman));
+    assert_false(release(deadman));
+    assert_true(press(deadman));
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(it_is_on_from_press_to_release),
+      cmocka_unit_test(held_from_the_start_it_does_not_count),
+      cmocka_unit_test(pressed_with_a_lever_off_its_middle_it_does_not_count),
+      cmocka_unit_test(trouble_ends_it_in_the_same_cycle),
+      cmocka_unit_test(a_release_during_trouble_is_none),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

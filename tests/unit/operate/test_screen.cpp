@@ -1,0 +1,158 @@
+/// What the operator reads.
+
+#include "app/operate/screen.hpp"
+
+#include <string>
+#include <vector>
+
+#include "app/operate/keyboard.hpp"
+#include "app/runs/code_text.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+using dbc::RawState;
+using operate::EcuListener;
+using operate::Trouble;
+using operate::View;
+using Dbc = EcuListener::Dbc;
+
+template <class Message>
+void say(EcuListener& ecu, const Message& message) {
+  CanFrame frame;
+  frame.id = Message::kId;
+  frame.length = Message::kLength;
+  frame.data = message.encode();
+  ecu.hear(frame, 0);
+}
+
+void say_status(EcuListener& ecu, EcuMode mode, Fault fault = Fault::kNone) {
+  Dbc::EcuStatus status;
+  status.mode = {static_cast<Dbc::EcuStatus::Mode>(mode), RawState::kValid};
+  status.fault = {static_cast<Dbc::EcuStatus::Fault>(fault), RawState::kValid};
+  status.lambda = {0.693, RawState::kValid};
+  status.limit_kind = {Dbc::EcuStatus::LimitKind::kBackFlow, RawState::kValid};
+  status.limit_index = {0, RawState::kValid};
+  say(ecu, status);
+}
+
+View view_of(const EcuListener& ecu) {
+  View view;
+  view.interface = "can0";
+  view.bus = CanPortState::kActive;
+  view.hands = "Some Pad";
+  view.help = operate::keyboard_help();
+  view.ecu = &ecu;
+  return view;
+}
+
+std::string text_of(const View& view) {
+  std::string text;
+  for (const std::string& line : operate::screen_lines(view)) {
+    assert_true(line.size() <= operate::kColumns);
+    text += line + "\n";
+  }
+  return text;
+}
+
+void check_has(const std::string& text, const std::string& part) {
+  if (text.find(part) == std::string::npos) {
+    fail_msg("'%s' is not in:\n%s", part.c_str(), text.c_str());
+  }
+}
+
+void without_a_controller_it_says_so(void**) {
+  const EcuListener ecu;
+  View view = view_of(ecu);
+  view.trouble = Trouble::kEcuSilent;
+  check_has(text_of(view), "not heard; status never, health never");
+  check_has(text_of(view), "released; the controller is not heard");
+  check_has(text_of(view), "boom not heard");
+  check_has(operate::state_line(view), "can0 active; controller not heard; Jog, Manual, speed 0 %");
+}
+
+void lambda_is_a_bar_with_what_holds_it(void**) {
+  assert_string_equal(operate::bar(0.0).c_str(), "[....................]");
+  assert_string_equal(operate::bar(0.5).c_str(), "[##########..........]");
+  assert_string_equal(operate::bar(1.0).c_str(), "[####################]");
+  assert_string_equal(operate::bar(7.0).c_str(), "[####################]");
+  EcuListener ecu;
+  say_status(ecu, EcuMode::kActive);
+  View view = view_of(ecu);
+  view.request.enable = true;
+  view.deadman_held = true;
+  check_has(text_of(view), "[##############......] 0.693, held by back flow: boom");
+  check_has(text_of(view), "Active");
+  check_has(text_of(view), "HELD: enable is given");
+  assert_true(text_of(view).find("Not armed") == std::string::npos);
+}
+
+void each_reason_for_not_arming_is_in_words(void**) {
+  EcuListener ecu;
+  say_status(ecu, EcuMode::kReady);
+  Dbc::EcuHealth health;
+  health.why_not_armed = {(1U << 0U) | (1U << 11U), RawState::kValid};
+  say(ecu, health);
+  const View view = view_of(ecu);
+  check_has(text_of(view), "Ready");
+  check_has(operate::state_line(view), runs::arm_block_words(ArmBlock::kStroke));
+  check_has(operate::state_line(view), runs::arm_block_words(ArmBlock::kManual));
+  // All of them at once still fit.
+  health.why_not_armed = {0xFFFFFFFFU, RawState::kValid};
+  say(ecu, health);
+  check_has(text_of(view), "Not armed");
+}
+
+void every_fault_fits_with_what_to_do(void**) {
+  for (int number = 1; number < kFaultCount; ++number) {
+    EcuListener ecu;
+    const auto fault = static_cast<Fault>(number);
+    say_status(ecu, EcuMode::kFault, fault);
+    const std::string text = text_of(view_of(ecu));
+    check_has(text, std::string(runs::fault_help(fault)).substr(0, 8));
+    check_has(operate::state_line(view_of(ecu)), runs::fault_words(fault));
+  }
+}
+
+void a_deadman_that_does_not_count_says_why(void**) {
+  const EcuListener ecu;
+  View view = view_of(ecu);
+  view.deadman_held = true;
+  view.trouble = Trouble::kDeviceSilent;
+  check_has(operate::state_line(view),
+            "held, and does not count: the gamepad has been silent for too long; release it");
+}
+
+void another_version_is_said(void**) {
+  EcuListener ecu;
+  Dbc::EcuIdentity identity;
+  identity.dbc_version = {3, RawState::kValid};
+  say(ecu, identity);
+  check_has(text_of(view_of(ecu)), "the controller's frames are version 3, this station's ");
+  check_has(operate::state_line(view_of(ecu)), "version 3");
+}
+
+void axes_have_the_tasks_names(void**) {
+  const EcuListener ecu;
+  View view = view_of(ecu);
+  view.request.axes = {0.5, -0.25, 0.0, 1.0};
+  check_has(text_of(view), "boom +50 %, arm -25 %, bucket +0 %, swing +100 %");
+  view.chosen_task = Task::kCoordinated;
+  check_has(text_of(view), "up +50 %, forward -25 %, attitude +0 %, swing +100 %");
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(without_a_controller_it_says_so),
+      cmocka_unit_test(lambda_is_a_bar_with_what_holds_it),
+      cmocka_unit_test(each_reason_for_not_arming_is_in_words),
+      cmocka_unit_test(every_fault_fits_with_what_to_do),
+      cmocka_unit_test(a_deadman_that_does_not_count_says_why),
+      cmocka_unit_test(another_version_is_said),
+      cmocka_unit_test(axes_have_the_tasks_names),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
