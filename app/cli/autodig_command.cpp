@@ -37,7 +37,8 @@ void throw_unless_done(const runs::AutodigResult& result) {
 
 void run_task(const TaskCommand& options) {
   const machines::SimulatedExcavator machine =
-      runs::arranged(machines::load_simulated_excavator(machines::find_profile(options.profile)),
+      runs::arranged(machines::load_simulated_excavator(machines::find_profile(options.profile),
+                                                        options.simulated),
                      options.scenario);
   const machines::TaskFile task = runs::planned_task(options.scenario, machine.profile);
   runs::AutodigOptions run =
@@ -54,8 +55,9 @@ void run_task(const TaskCommand& options) {
   const fs::path report = out / (options.name + ".html");
   reports::write_autodig_report(
       {report, scope::scope_page()}, run.log_file, machine, task, result, summary,
-      fmt::format("{} | task {} | {} | speed {:.0f} %", machine.name, options.scenario.task,
-                  runs::machine_text(options.scenario), run.speed_override_ratio * 100.0));
+      fmt::format("{} | task {} | {} | speed {:.0f} %", runs::machine_text(machine),
+                  options.scenario.task, runs::machine_text(options.scenario),
+                  run.speed_override_ratio * 100.0));
   if (!options.summary.empty()) {
     reports::write_autodig_summary(options.summary, summary);
   }
@@ -83,6 +85,7 @@ void add_autodig(CLI::App& app, int& status) {
                    "(sensors and parameters), all (and the machine as it is found)")
       ->check(error_name())
       ->capture_default_str();
+  add_simulated_options(*command, options->simulated);
   add_found_option(*command, scenario.found);
   command->add_option("--seed", scenario.seed, "Of --errors, a whole number from 0")
       ->check(whole_number())

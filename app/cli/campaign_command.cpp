@@ -17,6 +17,7 @@ namespace {
 struct DigCampaign {
   runs::CampaignOptions campaign;
   runs::DigScenario scenario;
+  machines::SimulatedChoice simulated;
   std::string profile = "excavator_22t";
   double speed_override_ratio = 1.0;
 };
@@ -61,8 +62,8 @@ void print_outcome(Run run) {
 }
 
 void campaign_dig(const DigCampaign& options) {
-  const machines::SimulatedExcavator nominal =
-      machines::load_simulated_excavator(machines::find_profile(options.profile));
+  const machines::SimulatedExcavator nominal = machines::load_simulated_excavator(
+      machines::find_profile(options.profile), options.simulated);
   print_outcome([&](const runs::Progress& progress) {
     return runs::campaign_dig(options.campaign, nominal, options.scenario,
                               options.speed_override_ratio, progress);
@@ -86,6 +87,7 @@ void add_campaign_dig(CLI::App& campaign, int& status) {
   add_campaign_options(*command, options->campaign);
   add_override_option(*command, options->speed_override_ratio);
   options->scenario.errors = "all";
+  add_simulated_options(*command, options->simulated);
   add_scenario_options(*command, options->scenario);
   add_found_option(*command, options->scenario.scenario.found);
   command->callback(

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "app/machines/simulated/simulation_file.hpp"
 #include "app/runs/scenarios.hpp"
 
 namespace CLI {
@@ -30,6 +31,7 @@ void add_scope(CLI::App& app, int& status);
 struct TaskCommand {
   runs::TaskScenario scenario;
   std::string profile = "excavator_12t";
+  machines::SimulatedChoice simulated;
   std::string out = "out";
   std::string name = "autodig";  ///< Of the files in `out`.
   std::string summary;

@@ -20,6 +20,7 @@ namespace {
 
 struct DigCommand {
   runs::DigScenario scenario;
+  machines::SimulatedChoice simulated;
   std::optional<std::string> profile;
   std::optional<std::string> task;
   std::string out = "out";
@@ -74,10 +75,10 @@ const char* end_text(runs::DigEnd end) {
 void dig(const DigCommand& options) {
   runs::DigScenario scenario = options.scenario;
   scenario.scenario.seed = options.seed;
-  const machines::SimulatedExcavator machine =
-      runs::arranged(machines::load_simulated_excavator(
-                         machines::find_profile(options.profile.value_or("excavator_22t"))),
-                     scenario);
+  const machines::SimulatedExcavator machine = runs::arranged(
+      machines::load_simulated_excavator(
+          machines::find_profile(options.profile.value_or("excavator_22t")), options.simulated),
+      scenario);
   runs::DigOptions run_options = runs::usual_run(machine, scenario);
   run_options.start_strokes_m =
       start_strokes(options, machine.profile).value_or(run_options.start_strokes_m);
@@ -97,10 +98,10 @@ void dig(const DigCommand& options) {
   const std::filesystem::path report = out / "dig.html";
   reports::write_dig_report(
       {report, scope::scope_page()}, run_options.log_file, machine, result, summary,
-      fmt::format("{} | {} | start strokes {:.3f}, {:.3f}, {:.3f} m | speed {:.0f} %", machine.name,
-                  runs::scenario_text(scenario), run_options.start_strokes_m[0],
-                  run_options.start_strokes_m[1], run_options.start_strokes_m[2],
-                  options.speed * 100.0));
+      fmt::format("{} | {} | start strokes {:.3f}, {:.3f}, {:.3f} m | speed {:.0f} %",
+                  runs::machine_text(machine), runs::scenario_text(scenario),
+                  run_options.start_strokes_m[0], run_options.start_strokes_m[1],
+                  run_options.start_strokes_m[2], options.speed * 100.0));
   if (!options.summary.empty()) {
     reports::write_summary(options.summary, figures);
   }
@@ -124,6 +125,7 @@ TaskCommand task_command(const DigCommand& options) {
   run.scenario.seed = options.seed;
   run.scenario.speed_override_ratio = options.speed;
   run.profile = options.profile.value_or(run.profile);
+  run.simulated = options.simulated;
   run.out = options.out;
   run.name = "dig";
   run.summary = options.summary;
@@ -154,6 +156,7 @@ void add_dig(CLI::App& app, int& status) {
   command->add_option("--out", options->out, "Folder for dig.log and dig.html")
       ->capture_default_str();
   add_summary_option(*command, options->summary);
+  add_simulated_options(*command, options->simulated);
   add_scenario_options(*command, options->scenario);
   add_found_option(*command, options->scenario.scenario.found);
   command

@@ -45,6 +45,17 @@ void add_scenario_options(CLI::App& command, runs::DigScenario& scenario) {
                    "For comparison: lambda stays 1, whatever the machine can do");
 }
 
+void add_simulated_options(CLI::App& command, machines::SimulatedChoice& choice) {
+  command.add_option("--simulated", choice.name,
+                     "Simulated excavator in the place of the profile's own: NAME.sim.toml, or "
+                     "the NAME of a shipped one");
+  command
+      .add_option("--hidden", choice.hidden,
+                  "Seed of a machine that nobody has described, a whole number from 0: the "
+                  "simulated one with edges, lags, areas, oil, masses and zeros of its own")
+      ->check(whole_number());
+}
+
 void add_swash_option(CLI::App& command, std::optional<double>& swash_ratio) {
   command
       .add_option("--swash", swash_ratio,

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 
+#include "app/machines/simulated/simulation_file.hpp"
 #include "app/runs/scenarios.hpp"
 
 namespace graben::cli {
@@ -17,6 +18,9 @@ void add_scenario_options(CLI::App& command, runs::DigScenario& scenario);
 
 /// Adds --found, of `dig`, `campaign dig` and `autodig`.
 void add_found_option(CLI::App& command, machines::Found& found);
+
+/// Adds --simulated and --hidden, of every command that simulates an excavator.
+void add_simulated_options(CLI::App& command, machines::SimulatedChoice& choice);
 
 /// Adds --swash, of `dig`, `campaign dig`, `plant` and `autodig`.
 void add_swash_option(CLI::App& command, std::optional<double>& swash_ratio);

@@ -21,6 +21,7 @@ namespace {
 
 struct PlantCommand {
   runs::DigScenario scenario;
+  machines::SimulatedChoice simulated;
   runs::GradeScenario grade;
   runs::PlantRunOptions run;
   std::string profile = "excavator_22t";
@@ -79,10 +80,11 @@ nlohmann::ordered_json run_excavator(const PlantCommand& options,
     refuse("--engine-rpm", "a dozer");
   }
   if (options.player == "program") {
-    return run_program(options, machines::load_simulated_excavator(profile), run);
+    return run_program(options, machines::load_simulated_excavator(profile, options.simulated),
+                       run);
   }
-  const machines::SimulatedExcavator machine =
-      runs::arranged(machines::load_simulated_excavator(profile), options.scenario);
+  const machines::SimulatedExcavator machine = runs::arranged(
+      machines::load_simulated_excavator(profile, options.simulated), options.scenario);
   const Eigen::Vector3d strokes_m = runs::usual_run(machine, options.scenario).start_strokes_m;
   return reports::plant_json(runs::run_plant(machine, run, runs::start_at(strokes_m)));
 }
@@ -93,6 +95,9 @@ nlohmann::ordered_json run_dozer(const PlantCommand& options, const std::filesys
   const bool is_known = errors == "none" || errors == "all";
   if (!is_known || !has_errors_alone(options.scenario)) {
     refuse(runs::scenario_text(options.scenario), "an excavator");
+  }
+  if (!options.simulated.is_own()) {
+    refuse("--simulated, --hidden", "an excavator");
   }
   runs::GradeScenario grade = options.grade;
   grade.errors = errors;
@@ -160,6 +165,7 @@ void add_plant(CLI::App& app, int& status) {
       "boom-stroke:drift=0.01@5; more of them by naming it again. It stays, and an "
       "11-bit frame 7F0 says when it begins. An unknown name lists those there are");
   add_summary_option(*command, options->summary);
+  add_simulated_options(*command, options->simulated);
   add_scenario_options(*command, options->scenario);
   add_engine_option(*command, options->grade);
   command->add_option("--seed", options->scenario.scenario.seed, "Of --errors and --soil")

@@ -26,6 +26,7 @@ struct ScopeCommand {
   std::optional<std::string> log;
   std::optional<std::string> sim;
   std::optional<std::uint64_t> seed;
+  machines::SimulatedChoice simulated;
   std::optional<int> bitrate_bps;
   scope::ServerOptions server;
   reports::SetupOptions setup;
@@ -46,6 +47,7 @@ scope::SimOptions simulation(const ScopeCommand& options) {
   result.task = *options.sim;
   result.profile = options.setup.profile;
   result.seed = options.seed;
+  result.simulated = options.simulated;
   if (!options.setup.tasks.empty()) {
     result.task_file = options.setup.tasks.front();
   }
@@ -64,6 +66,9 @@ reports::SetupOptions setup_of(const ScopeCommand& options) {
 void show(const ScopeCommand& options) {
   if (options.seed && !options.sim) {
     throw std::runtime_error("--seed: only with --sim");
+  }
+  if (!options.simulated.is_own() && !options.sim) {
+    throw std::runtime_error("--simulated, --hidden: only with --sim");
   }
   const std::string_view page = scope::scope_page();
   const int bitrate_bps = options.bitrate_bps.value_or(kUsualBitrate_bps);
@@ -121,6 +126,7 @@ void add_scope(CLI::App& app, int& status) {
                    "Of the simulated sensors' errors and of what the controller does not know; "
                    "exact without it")
       ->check(whole_number());
+  add_simulated_options(*command, options->simulated);
   command->callback([options, &status] { status = guarded("scope", [&] { show(*options); }); });
 }
 

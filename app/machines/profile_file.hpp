@@ -29,6 +29,11 @@ class ProfileError : public std::runtime_error {
                                                  const std::vector<std::filesystem::path>& folders);
 /// The same among the profiles of this source tree: for the tool and the tests, which stay in it.
 [[nodiscard]] std::filesystem::path find_profile(const std::string& name);
+/// The same in the folder `beside`, then there.
+[[nodiscard]] std::filesystem::path find_machine(const std::string& name,
+                                                 const std::filesystem::path& beside);
+/// NAME.sim.toml there. Throws std::runtime_error where there is none.
+[[nodiscard]] std::filesystem::path find_shipped_simulation(const std::string& name);
 
 /// NAME.sim.toml beside this machine's NAME.toml, be it there or not.
 [[nodiscard]] std::filesystem::path simulation_file(const std::filesystem::path& file);

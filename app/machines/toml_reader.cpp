@@ -167,6 +167,20 @@ bool TomlReader::boolean_or(bool fallback, const std::string& key, const char* h
   return value;
 }
 
+std::string TomlReader::text(const std::string& key, const char* help) {
+  const toml::node* node = find({key, "text", "", "", "", help});
+  if (node == nullptr) {
+    return "";
+  }
+  if (!node->is_string()) {
+    fail(key, fmt::format("{} is not a text", value_text(*node)));
+    return "";
+  }
+  const std::string value = node->value<std::string>().value_or("");
+  note(key, {value.begin(), value.end()});
+  return value;
+}
+
 int TomlReader::choice(const std::string& key, const std::vector<std::string>& allowed_values,
                        const char* help) {
   const toml::node* node =

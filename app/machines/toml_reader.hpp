@@ -50,6 +50,7 @@ class TomlReader {
   double number_or(double fallback, const std::string& key, const Range& range, const char* help);
   int integer(const std::string& key, int least, int most, const char* help);
   bool boolean_or(bool fallback, const std::string& key, const char* help);
+  std::string text(const std::string& key, const char* help);
   /// One of `allowed`, by its index.
   int choice(const std::string& key, const std::vector<std::string>& allowed, const char* help);
   /// Exactly `count` numbers.

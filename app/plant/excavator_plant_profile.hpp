@@ -5,6 +5,7 @@
 /// the order boom, arm, bucket, drives with the swing after them.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -62,6 +63,12 @@ struct AreaFactors {
 
 /// Of a main spool, see SpoolDynamics. No source gives it; half of the usual deadband.
 inline constexpr double kBypassClosingTravel = 0.1;
+
+/// The same where an edge opens earlier: open at neutral it has to be.
+inline void fit_bypass(SpoolDynamics& spool) {
+  spool.bypass_closing_travel =
+      std::min({kBypassClosingTravel, spool.extend.start_ratio(), spool.retract.start_ratio()});
+}
 
 struct ExcavatorPlantProfile : HydraulicDetails {
   /// Geometry, valve areas, regeneration, pumps: the plant reads these numbers, and none of the

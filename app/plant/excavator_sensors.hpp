@@ -13,9 +13,10 @@
 namespace graben::plant {
 
 /// Strokes and the swing in steps of the encoder's resolution, pressures within the transducer's
-/// range, strokes and pressures off by their zeros. With a seed each stroke, the swing and each pressure also has a constant bias, uniform
-/// within the profile's bounds, and each pressure reading white noise of the profile's standard
-/// deviation (Kim 5). The CAN codec quantises and saturates by itself.
+/// range, strokes and pressures off by their zeros. With a seed each stroke, the swing and each
+/// pressure also has a constant bias, uniform within the profile's bounds, and each pressure
+/// reading white noise of the profile's standard deviation (Kim 5). The CAN codec quantises and
+/// saturates by itself.
 class SensorModel {
  public:
   SensorModel(const SensorErrors& errors, std::optional<std::uint64_t> seed);

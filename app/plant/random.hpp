@@ -22,11 +22,15 @@ enum class Draw : std::uint32_t {
   kPoseNoise,
   kTrackNoise,
   kAsFound,
+  kHidden,
 };
 
 class Random {
  public:
   Random(std::uint64_t seed, Draw stream) : engine_(seeded(seed, stream)) {}
+  /// One of many streams of the same name.
+  Random(std::uint64_t seed, Draw stream, std::uint32_t place)
+      : engine_(seeded(seed, stream, place)) {}
 
   /// [0, 1).
   double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
@@ -39,9 +43,10 @@ class Random {
   }
 
  private:
-  static std::mt19937_64 seeded(std::uint64_t seed, Draw stream) {
+  template <class... Place>
+  static std::mt19937_64 seeded(std::uint64_t seed, Draw stream, Place... place) {
     std::seed_seq sequence{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
-                           static_cast<std::uint32_t>(stream)};
+                           static_cast<std::uint32_t>(stream), place...};
     return std::mt19937_64(sequence);
   }
 

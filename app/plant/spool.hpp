@@ -54,8 +54,8 @@ class PilotValve {
   /// (`cut`) the spool centres by its springs, with neither dead time nor lag, whatever the pilot
   /// valves do.
   double step(double duty_ratio, bool cut) {
-    const double wanted = extend_.step(std::max(0.0, duty_ratio)) +
-                          retract_.step(std::min(0.0, duty_ratio));
+    const double wanted =
+        extend_.step(std::max(0.0, duty_ratio)) + retract_.step(std::min(0.0, duty_ratio));
     if (cut) {
       pressure_ratio_ = 0.0;
       return 0.0;

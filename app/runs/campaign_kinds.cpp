@@ -52,7 +52,8 @@ CampaignOutcome campaign_dig(const CampaignOptions& options,
     return campaign_row(static_cast<std::size_t>(result.end), figures_of(summarise(result)));
   };
   return run_campaign(options, dig_kind(),
-                      fmt::format("dig {} {:08x}, speed {}, {}", nominal.name, nominal.hash,
+                      fmt::format("dig {} {:08x}{}, speed {}, {}", nominal.name, nominal.hash,
+                                  nominal.simulated.empty() ? "" : " as " + nominal.simulated,
                                   speed_override_ratio, scenario_text(scenario)),
                       draw, progress);
 }

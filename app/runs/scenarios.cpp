@@ -102,6 +102,11 @@ std::string scenario_text(const DigScenario& scenario) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+std::string machine_text(const machines::SimulatedExcavator& machine) {
+  return machine.simulated.empty() ? machine.name
+                                   : fmt::format("{} as {}", machine.name, machine.simulated);
+}
+
 DigOptions usual_run(const machines::SimulatedExcavator& machine, const DigScenario& scenario) {
   DigOptions run;
   if (scenario.scenario.air) {

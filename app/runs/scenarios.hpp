@@ -45,6 +45,10 @@ struct DigScenario {
 /// Any strokes within the cylinders, drawn from the seed.
 [[nodiscard]] Eigen::Vector3d random_strokes(const ExcavatorGeometry& geometry, std::uint64_t seed);
 
+/// "excavator_22t", or "excavator_22t as excavator_22t_found hidden 7" where another machine stands
+/// in the place of the profile's own.
+[[nodiscard]] std::string machine_text(const machines::SimulatedExcavator& machine);
+
 struct GradeScenario {
   std::string speed_mode = "bounded";  ///< Or "constant": the wanted speed, whatever it takes.
   std::optional<double> speed_mps;

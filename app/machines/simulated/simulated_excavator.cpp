@@ -7,6 +7,7 @@
 
 #include "app/machines/axis_names.hpp"
 #include "app/machines/excavator_sections.hpp"
+#include "app/machines/simulated/drive_sections.hpp"
 #include "app/machines/simulated/simulated_sections.hpp"
 #include "app/machines/task_text.hpp"
 #include "firmware/excavator/field/rounded_rectangle.hpp"
@@ -15,7 +16,7 @@
 namespace graben::machines {
 namespace {
 
-/// As valve.deadband.
+/// As valve.deadband and valve.edge.
 constexpr double kMostDeadband = 0.9;
 
 plant::LinkBody read_link(TomlReader& reader, const std::string& axis) {
@@ -90,8 +91,7 @@ plant::ExcavatorPlantProfile read_plant(TomlReader& reader, const ExcavatorProfi
       reader.number("valve.line_volume", {1e-5, 1.0, "m3"}, "oil in each pump line"));
   const ValveOfPlant valve = read_valve_of_plant(reader, "valve");
   const plant::SpoolSide side{valve.deadband_ratio, 0.0, nominal.valve.opening_exponent};
-  plant.spool.fill(
-      {valve.time_constant_s, valve.damping, side, side, plant::kBypassClosingTravel});
+  plant.spool.fill({valve.time_constant_s, valve.damping, side, side, plant::kBypassClosingTravel});
   plant.bulk_modulus_pa = valve.bulk_modulus_pa;
   plant.engine.lag_s =
       reader.number("engine.lag", {0.01, 10.0, "s"},
@@ -244,30 +244,37 @@ void check_experiment(TomlReader& reader, const ExcavatorProfile& profile,
 
 /// No draw is below nothing or of the whole travel. Only where each key by itself is right.
 void check_deadband(TomlReader& reader, const SimulatedExcavator& machine) {
-  const double nominal = machine.plant.spool[kBoom].extend.deadband_ratio;
+  if (!reader.is_sound()) {
+    return;
+  }
   const double off = machine.experiment.uncertainty.found.deadband_ratio;
-  if (reader.is_sound() && (nominal < off || nominal + off > kMostDeadband)) {
-    reader.fail("uncertainty.dead_band",
-                fmt::format("{} about valve.deadband of {}; allowed: within 0 .. {}", off, nominal,
-                            kMostDeadband));
+  for (const plant::SpoolDynamics& spool : machine.plant.spool) {
+    for (const plant::SpoolSide* side : {&spool.extend, &spool.retract}) {
+      const double nominal = side->deadband_ratio;
+      if (nominal < off || nominal + off > kMostDeadband) {
+        reader.fail("uncertainty.dead_band",
+                    fmt::format("{} about valve.deadband of {}; allowed: within 0 .. {}", off,
+                                nominal, kMostDeadband));
+        return;
+      }
+    }
   }
 }
 
 }  // namespace
 
 void read_simulated_sections(TomlReader& reader, SimulatedExcavator& machine) {
+  if (reader.has("machine")) {
+    static_cast<void>(
+        reader.text("machine",
+                    "profile of the machine that this one is but for what this file says, by name "
+                    "or by its file; NAME.toml, and all keys here, without"));
+  }
   machine.plant = read_plant(reader, machine.profile);
+  read_each_drive(reader, machine);
   machine.experiment = read_experiment(reader, machine.profile.dig_path);
   check_experiment(reader, machine.profile, machine.experiment);
   check_deadband(reader, machine);
-}
-
-SimulatedExcavator load_simulated_excavator(const std::filesystem::path& file) {
-  SimulatedExcavator machine;
-  static_cast<ExcavatorMachine&>(machine) = load_excavator(file);
-  read_as(read_simulation(file), MachineKind::kExcavator,
-          [&](TomlReader& reader) { read_simulated_sections(reader, machine); });
-  return machine;
 }
 
 }  // namespace graben::machines

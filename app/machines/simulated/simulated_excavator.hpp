@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "app/machines/excavator_file.hpp"
 #include "app/machines/simulated/found.hpp"
@@ -56,6 +57,9 @@ struct Experiment {
 /// What the controller knows, and the machine that a simulation puts in its place.
 struct SimulatedExcavator : ExcavatorMachine {
   plant::ExcavatorPlantProfile plant;
+  /// What stands in the place of the profile's own machine, as "excavator_22t_found hidden 7";
+  /// empty: nothing does.
+  std::string simulated;
   bool has_dead_time = false;  ///< The plant's are its own; else they are the controller's.
   Experiment experiment;
 };
@@ -63,7 +67,8 @@ struct SimulatedExcavator : ExcavatorMachine {
 /// Reads and checks the sections of NAME.sim.toml, for the machine whose NAME.toml has been read.
 void read_simulated_sections(TomlReader& reader, SimulatedExcavator& machine);
 
-/// Reads and checks NAME.toml, then NAME.sim.toml beside it. Throws ProfileError with every error
+/// Reads and checks NAME.toml, then NAME.sim.toml beside it; where that names another machine, the
+/// plant is that machine's. Throws ProfileError with every error
 /// of the first that has any, std::runtime_error where a file is missing.
 [[nodiscard]] SimulatedExcavator load_simulated_excavator(const std::filesystem::path& file);
 
@@ -85,8 +90,9 @@ struct Scenario {
 /// The machine with this scenario's plant, and a controller profile whose parameters are off by a
 /// uniform draw within `experiment.uncertainty` of each. The plant keeps the nominal figures, but
 /// for dead times, which only it has, and what it is found to be (Errors::kAll, `found`), of which
-/// the controller is told nothing. All of that is drawn about what the plant is. Same seed, same draw, whatever else is switched on. Throws
-/// std::runtime_error where two of the scenario's switches say the oil.
+/// the controller is told nothing. All of that is drawn about what the plant is. Same seed, same
+/// draw, whatever else is switched on. Throws std::runtime_error where two of the scenario's
+/// switches say the oil.
 [[nodiscard]] SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario);
 
 /// Strokes of a start pose. Throws std::runtime_error where it is out of reach.

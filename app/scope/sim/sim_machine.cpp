@@ -59,9 +59,11 @@ machines::SimulatedExcavator excavator_of(const SimOptions& options, const char*
     scenario.errors = machines::Errors::kKim;
     scenario.seed = *options.seed;
   }
-  return machines::arranged(machines::load_simulated_excavator(profile_of(
-                                options, usual, machines::MachineKind::kExcavator, "an excavator")),
-                            scenario);
+  return machines::arranged(
+      machines::load_simulated_excavator(
+          profile_of(options, usual, machines::MachineKind::kExcavator, "an excavator"),
+          options.simulated),
+      scenario);
 }
 
 SimSite<SimExcavator> dig_site(const SimOptions& options) {
@@ -134,6 +136,9 @@ std::unique_ptr<SimMachine> make_sim_machine(const SimOptions& options, FrameTap
     return rig_of(dig_site(options), std::move(tap));
   }
   if (options.task == "grade") {
+    if (!options.simulated.is_own()) {
+      throw std::runtime_error("--simulated, --hidden: of an excavator alone");
+    }
     return rig_of(grade_site(options), std::move(tap));
   }
   if (options.task == "autodig") {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/machines/simulated/simulation_file.hpp"
 #include "app/plant/excavator_plant.hpp"
 #include "app/plant/operator_node.hpp"
 #include "app/scope/sim/sim_fault.hpp"
@@ -44,6 +45,7 @@ class SimGround {
 struct SimOptions {
   std::string task = "dig";              ///< dig, grade or autodig.
   std::optional<std::string> profile;    ///< File or shipped name; the task's own unless told.
+  machines::SimulatedChoice simulated;   ///< Of an excavator.
   std::optional<std::string> task_file;  ///< Of autodig: file or shipped name; else flatten.
   /// What the controller does not know is drawn from it: errors of sensors and parameters. Exact
   /// without it.

@@ -214,8 +214,7 @@ void what_is_switched_on_beside_it_changes_no_draw(void**) {
   const auto of = [](Scenario scenario) {
     const plant::ExcavatorPlantProfile plant = arranged(nominal(), scenario).plant;
     scenario.errors = Errors::kKim;
-    std::vector<double> all =
-        values(figures(plant, arranged(nominal(), scenario).plant.dead_time));
+    std::vector<double> all = values(figures(plant, arranged(nominal(), scenario).plant.dead_time));
     return all;
   };
   const std::vector<double> once = of(busy);

@@ -117,6 +117,87 @@ void each_side_has_its_own_deadband(void**) {
   assert_near(settled_at(profile, 0.0).bypass_closed_ratio(), 0.0, 0.0);
 }
 
+/// The opening begins half a softness before the edge, has a parabola's start there, and is as of a
+/// sharp edge from half a softness behind it on; the bypass is closed where it begins.
+void a_soft_edge_opens_by_a_parabola(void**) {
+  ExcavatorPlantProfile profile = machine_22t();
+  set_deadband(profile, 0.4, 0.5);
+  set_exponent(profile, 1.0);
+  profile.spool[kBoom].extend.softness_ratio = 0.2;
+  profile.spool[kBoom].bypass_closing_travel = 0.1;
+  assert_near(settled_at(profile, 0.30).area_ratio(), 0.0, 1e-9);
+  assert_near(settled_at(profile, 0.40).area_ratio(), 0.1 * 0.1 / 0.4 / 0.6, 1e-6);
+  assert_near(settled_at(profile, 0.50).area_ratio(), 0.1 / 0.6, 1e-6);
+  assert_near(settled_at(profile, 0.70).area_ratio(), 0.3 / 0.6, 1e-6);
+  assert_near(settled_at(profile, 1.0).area_ratio(), 1.0, 1e-9);
+  assert_near(settled_at(profile, 0.25).bypass_closed_ratio(), 0.5, 1e-6);
+  assert_near(settled_at(profile, 0.35).bypass_closed_ratio(), 1.0, 0.0);
+  // The other side stays sharp.
+  assert_near(settled_at(profile, -0.48).area_ratio(), 0.0, 0.0);
+  assert_near(settled_at(profile, -0.6).area_ratio(), 0.1 / 0.5, 1e-6);
+  // No corner, where it begins and where it ends.
+  const SpoolSide& side = profile.spool[kBoom].extend;
+  for (const double at : {0.3, 0.5}) {
+    const double before = (side.area_ratio(at) - side.area_ratio(at - 1e-5)) / 1e-5;
+    const double behind = (side.area_ratio(at + 1e-5) - side.area_ratio(at)) / 1e-5;
+    assert_near(before, behind, 1e-3);
+  }
+}
+
+/// What a bypass needs to close must fit before the side that opens first.
+void a_bypass_is_open_at_neutral(void**) {
+  SpoolDynamics spool{0.02, 1.0, {0.3, 0.1, 1.0}, {0.1, 0.06, 1.0}, 0.1};
+  fit_bypass(spool);
+  assert_near(spool.bypass_closing_travel, 0.07, 1e-12);
+  spool.retract = {0.5, 0.1, 1.0};
+  fit_bypass(spool);
+  assert_near(spool.bypass_closing_travel, kBypassClosingTravel, 0.0);
+}
+
+/// Each side's duty is as late as its own pilot; where both press, the spool goes by the
+/// difference.
+void each_side_has_its_own_dead_time(void**) {
+  PilotValve pilot({0.003, 0.001}, 0.0, 1e-3);
+  const double duty[] = {0.5, 0.5, 0.5, -0.4, -0.4, -0.4, -0.4, -0.4, -0.4};
+  const double sent[] = {0.0, 0.0, 0.0, 0.5, 0.1, 0.1, -0.4, -0.4, -0.4};
+  for (int i = 0; i < 9; ++i) {
+    assert_near(pilot.step(duty[i], false), sent[i], 1e-12);
+  }
+}
+
+/// First order, behind the dead time; without pilot pressure nothing is left of it.
+void pilot_pressure_lags(void**) {
+  constexpr double kLag_s = 0.05;
+  PilotValve pilot(0.01, kLag_s, kStep);
+  for (int i = 0; i < 100; ++i) {
+    assert_near(pilot.step(0.8, false), 0.0, 0.0);
+  }
+  for (int i = 1; i <= 2000; ++i) {
+    assert_near(pilot.step(0.8, false), 0.8 * (1.0 - std::exp(-i * kStep / kLag_s)), 1e-9);
+  }
+  for (int i = 0; i < 20000; ++i) {
+    static_cast<void>(pilot.step(0.8, false));
+  }
+  assert_near(pilot.step(0.8, false), 0.8, 0.0);
+  assert_near(pilot.step(0.8, true), 0.0, 0.0);
+  assert_true(pilot.step(0.8, false) < 0.01);
+  pilot.set_fault(-0.3, 0.0);
+  assert_near(pilot.step(0.8, false), -0.3, 0.0);
+}
+
+void area_factors_are_the_plants(void**) {
+  ExcavatorPlantProfile profile = machine_22t();
+  const SpoolProfile nominal = profile.section(kArm).edges;
+  profile.area_factors[kArm] = {0.7, 0.8, 1.1, 1.3};
+  const SpoolProfile found = profile.section(kArm).edges;
+  assert_near(found.extend_in_m2, 0.7 * nominal.extend_in_m2, 1e-18);
+  assert_near(found.extend_out_m2, 0.8 * nominal.extend_out_m2, 1e-18);
+  assert_near(found.retract_in_m2, 1.1 * nominal.retract_in_m2, 1e-18);
+  assert_near(found.retract_out_m2, 1.3 * nominal.retract_out_m2, 1e-18);
+  assert_near(profile.section(kBoom).edges.extend_in_m2,
+              profile.machine.valve.spool[kBoom].extend_in_m2, 0.0);
+}
+
 /// The plant's figure is the one that counts, not the design's.
 void the_plants_exponent_goes_before_the_designs(void**) {
   ExcavatorPlantProfile profile = machine_22t();
@@ -138,6 +219,11 @@ int main() {
       cmocka_unit_test(opening_follows_the_travel_outside_it),
       cmocka_unit_test(bypass_closes_continuously),
       cmocka_unit_test(each_side_has_its_own_deadband),
+      cmocka_unit_test(a_soft_edge_opens_by_a_parabola),
+      cmocka_unit_test(a_bypass_is_open_at_neutral),
+      cmocka_unit_test(each_side_has_its_own_dead_time),
+      cmocka_unit_test(pilot_pressure_lags),
+      cmocka_unit_test(area_factors_are_the_plants),
       cmocka_unit_test(the_plants_exponent_goes_before_the_designs),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
