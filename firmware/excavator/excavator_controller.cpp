@@ -9,13 +9,18 @@ namespace {
 
 /// kTaskUnknown unless the task that the operator asks for is there.
 FaultSet task_faults(const ExcavatorValid& valid, int program_count) {
+  const bool by_hand = valid.task == Task::kJog || valid.task == Task::kCoordinated ||
+                       valid.task == Task::kCommission;
   const bool known =
-      valid.task == Task::kNone || valid.task == Task::kDig ||
+      valid.task == Task::kNone || valid.task == Task::kDig || by_hand ||
       (valid.task == Task::kProgram && valid.task_number >= 0 && valid.task_number < program_count);
   FaultSet faults;
   faults.add(known ? Fault::kNone : Fault::kTaskUnknown);
   return faults;
 }
+
+/// It is laid around a path or a plan.
+bool has_tube(Task task) { return task == Task::kDig || task == Task::kProgram; }
 
 /// Of the path's speed, where a load has held a drive of late.
 constexpr double kWary = 0.5;
@@ -56,13 +61,15 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   const Followed followed = flow_limited(valid, motion, cycle.period_s);
   ModeDecision decision = decide_mode(
       memory_.cycle, cycle, valid, first_of({motion.fault, solver_fault(followed.solution)}),
-      spools_centred(drives(), valid.drive), inputs.link.stop_requested);
+      spools_centred(drives(), valid.drive) && valid.hands_rest(), inputs.link.stop_requested);
   ExcavatorOutputs outputs;
-  const GateResult gated = gate_drives(drives(), decision.active(), followed.solution.point.spool_m,
-                                       cycle.period_s, memory_.opening, outputs.duty_ratio);
+  const GateResult gated =
+      gate(motion, decision.active(), followed.solution.point, cycle.period_s, outputs);
   take_refusal(gated.fault, decision);
   outputs.enable = gated.enable;
-  open_as_learnt(outputs);
+  if (!motion.tries) {
+    open_as_learnt(outputs);
+  }
   demand_pumps(valid, motion, decision.active(), cycle.period_s);
   outputs.swash_ratio = memory_.pumps.swash_ratio;
   end_cycle(decision, valid, memory_.cycle, outputs, outputs.status);
@@ -93,6 +100,7 @@ ExcavatorValid ExcavatorController::validate_and_watch(const ExcavatorInputs& in
       spools_centred(drives(), valid.drive), {travel_m.data(), drives().count()}, cycle.period_s);
   valid.task = task.task;
   valid.task_number = task.number;
+  guard_commission(cycle, valid);
   return valid;
 }
 
@@ -139,6 +147,7 @@ ExcavatorController::Motion ExcavatorController::wanted_motion(const ExcavatorVa
   } else {
     dig(valid, now, motion);
   }
+  motion.tries = valid.task == Task::kCommission;
   const bool known = now.status == ReachStatus::kOk && motion.task.known;
   motion.fault = known ? Fault::kNone : Fault::kPoseUnreachable;
   return motion;
@@ -233,7 +242,7 @@ void ExcavatorController::demand_pumps(const ExcavatorValid& valid, const Motion
   next_pump_demand(
       profile_, setup_.valve,
       {mcv_input(span_of(motion.wanted_mps), memory_.load, valid.pump_flow_m3ps), memory_.line_pa,
-       valid.engine_radps, active,
+       valid.engine_radps, active && !motion.tries,
        any_blocked(memory_.watch.drives.blocked) || any_wary(memory_.watch.drives.blocked)},
       period_s, memory_.pumps);
 }
@@ -242,11 +251,11 @@ void ExcavatorController::describe_motion(const Motion& motion, const Followed& 
                                           const FaultSet& degraded, ExcavatorStatus& status) const {
   const McvSolution& solution = taken.solution;
   const bool waits = motion.task.pace_ratio < kWaits;
-  const bool rises = solution.status == SolveStatus::kOk && taken.of_way() < 1.0;
-  status.lambda = motion.cap.factor * taken.of_way();
+  const bool rises = !motion.tries && solution.status == SolveStatus::kOk && taken.of_way() < 1.0;
+  status.lambda = motion.tries ? 1.0 : motion.cap.factor * taken.of_way();
   status.limit = held_by({blocked_limit(memory_.watch.drives.blocked),
                           solution.limit,
-                          motion.cap.limit,
+                          motion.tries ? commission_limit() : motion.cap.limit,
                           {waits ? LimitKind::kOffPath : LimitKind::kNone, 0},
                           {rises ? LimitKind::kRise : LimitKind::kNone, 0},
                           degraded_limit(degraded)});
@@ -268,6 +277,7 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
   memory_.of_corrected = decision.active() ? taken.of_corrected : 1.0;
   memory_.last = {in_motion(decision.mode.mode), outputs.enable, outputs.duty_ratio, {}, {}, {},
                   memory_.last.line_pa};
+  memory_.last.tried = decision.active() && motion.tries;
   std::copy_n(asked_mps.data(), kDriveCount, memory_.last.asked_mps.begin());
   memory_.line_pa = point.pump_pressure_pa;
   for (int i = 0; i < drives().count(); ++i) {
@@ -282,7 +292,7 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
   }
   memory_.expected_mps = followed * motion.cap.factor * motion.wanted_mps;
   memory_.swing_wanted_mps = swing_of(motion.task.wanted_mps);
-  next_tube(decision.active() && valid.task != Task::kNone, motion.off_m, profile_.safety.tube_m,
+  next_tube(decision.active() && has_tube(valid.task), motion.off_m, profile_.safety.tube_m,
             memory_.tube);
   // A plan that waits for its drives asks for motion though it wants none now.
   const bool plans = motion.task.holds && valid.speed_override_ratio > 0.0;

@@ -1,6 +1,7 @@
 #pragma once
 /// The excavator's controller: one step from signals to commands, 100 times a second.
 
+#include "firmware/drives/commission_guard.hpp"
 #include "firmware/drives/drive_gate.hpp"
 #include "firmware/drives/spool_lead.hpp"
 #include "firmware/drives/spool_parking.hpp"
@@ -64,6 +65,7 @@ class ExcavatorController {
     TaskWant task;       ///< Of a program.
     Fault fault = Fault::kNone;
     bool eases = false;  ///< A blocked drive's pressure is let off or rests; all others stand.
+    bool tries = false;  ///< Task::kCommission: no motion is wanted, the duties are given.
   };
 
   /// What the pumps' flow leaves of a motion. The path alone decides how fast it is followed, with
@@ -96,6 +98,8 @@ class ExcavatorController {
     double payload_kg = 0.0;  ///< As weighed at rest.
     std::array<SpoolModel, kDriveCount> spool;
     std::array<ParkingState, 2> parking;  ///< Of boom and arm.
+    std::array<CommissionState, kDriveCount> commission;
+    std::array<double, kDriveCount> tried_ratio{};  ///< Duties of this cycle that may be sent.
     PumpDemand pumps;
     double of_corrected = 1.0;  ///< Of the last cycle, see Followed.
     PerPump<double> line_pa{};  ///< Of the last cycle's solution.
@@ -112,6 +116,12 @@ class ExcavatorController {
   [[nodiscard]] bool intact() const { return memory_.lambda.intact() && memory_.task.intact(); }
   [[nodiscard]] ExcavatorValid validate_and_watch(const ExcavatorInputs& inputs, const Cycle& cycle,
                                                   TimeUs now_us);
+  /// Guards duties that are tried, and gives those that may be sent with what holds them back.
+  void guard_commission(const Cycle& cycle, ExcavatorValid& valid);
+  [[nodiscard]] Limit commission_limit() const;
+  /// The last gate before the bus.
+  [[nodiscard]] GateResult gate(const Motion& motion, bool active, const McvPoint& point,
+                                double period_s, ExcavatorOutputs& outputs);
   /// Loads and servos after the last cycle's command; `aim` is where the program that runs has come
   /// to.
   void estimate(const ExcavatorValid& valid, const TaskAim& aim, const Cycle& cycle);
