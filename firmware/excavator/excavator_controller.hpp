@@ -11,6 +11,7 @@
 #include "firmware/excavator/oil/oil_law.hpp"
 #include "firmware/excavator/pump_demand.hpp"
 #include "firmware/excavator/safety/excavator_validation.hpp"
+#include "firmware/excavator/tasks/hand_motion.hpp"
 #include "firmware/excavator/tasks/task_follow.hpp"
 #include "firmware/mcv/optimiser.hpp"
 #include "firmware/safety/cycle.hpp"
@@ -63,6 +64,7 @@ class ExcavatorController {
     double path_error_m = 0.0;
     double off_m = 0.0;  ///< What the tube is laid around.
     TaskWant task;       ///< Of a program.
+    HandWant hand;       ///< By the levers.
     Fault fault = Fault::kNone;
     bool eases = false;  ///< A blocked drive's pressure is let off or rests; all others stand.
     bool tries = false;  ///< Task::kCommission: no motion is wanted, the duties are given.
@@ -98,6 +100,8 @@ class ExcavatorController {
     double payload_kg = 0.0;  ///< As weighed at rest.
     std::array<SpoolModel, kDriveCount> spool;
     std::array<ParkingState, 2> parking;  ///< Of boom and arm.
+    HandState hand;
+    bool jogs = false;  ///< Last: drives that are not told to move are nobody's.
     std::array<CommissionState, kDriveCount> commission;
     std::array<double, kDriveCount> tried_ratio{};  ///< Duties of this cycle that may be sent.
     PumpDemand pumps;
@@ -145,6 +149,9 @@ class ExcavatorController {
   /// Duties that lead through the spools' lag. The watches know of those without: that is where
   /// the spools are to be.
   void lead_spools(ExcavatorOutputs& outputs);
+  /// By the levers.
+  void steer(const ExcavatorValid& valid, const KinematicState& now, double period_s,
+             Motion& motion) const;
   void follow(const TaskProgram& program, const TaskAim& aim, double speed_override_ratio,
               double period_s, Motion& motion) const;
   /// Asks no more of a drive that its load holds than path or plan want.
