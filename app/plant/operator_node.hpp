@@ -1,7 +1,9 @@
 #pragma once
-/// The simulated operator on the bus: deadman, mode, task, speed override.
+/// The simulated operator on the bus: deadman, mode, task, speed override; levers, duties to try.
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "app/plant/command_link.hpp"
 #include "app/plant/frame_sender.hpp"
 #include "firmware/core/time.hpp"
+#include "firmware/excavator/excavator_signals.hpp"
 #include "firmware/signals/machine_signals.hpp"
 #include "hal/can_port.hpp"
 #include "hal/link/stamp_echo.hpp"
@@ -22,6 +25,14 @@ struct OperatorRequest {
   double speed_override_ratio = 0.0;
   /// Of the task file that Task::kProgram means, where the machine kind has tasks.
   std::uint8_t task_number = 0;
+};
+
+/// What the operator's hands do in the tasks that go by them: Jog, Coordinated, Commission.
+struct OperatorHands {
+  std::array<double, kDriveCount> lever_ratio{};  ///< -1 .. 1.
+  std::array<double, kAxisCount> tried_ratio{};   ///< Duties of Commission, -1 .. 1.
+  /// Windows of Commission; without one no frame says anything of the drive.
+  std::array<std::optional<StrokeWindow>, kAxisCount> window;
 };
 
 /// From `from_us` on the operator asks for this.
@@ -48,7 +59,54 @@ template <class Dbc>
 [[nodiscard]] typename Dbc::OperatorCommand operator_command(const OperatorRequest& request,
                                                              dbc::Count echo);
 
-/// Sends OperatorCommand of the machine kind's DBC every 20 ms. The bus port belongs to the caller,
+namespace detail {
+
+template <class Dbc, class = void>
+inline constexpr bool kHasTasks = false;
+template <class Dbc>
+inline constexpr bool kHasTasks<Dbc, std::void_t<typename Dbc::TaskStatus>> = true;
+
+template <class Dbc, class = void>
+inline constexpr bool kHasHands = false;
+template <class Dbc>
+inline constexpr bool kHasHands<Dbc, std::void_t<typename Dbc::OperatorAxes>> = true;
+
+constexpr dbc::Physical said(double value) { return {value, dbc::RawState::kValid}; }
+
+template <class Dbc>
+auto operator_axes(const OperatorHands& hands) {
+  typename Dbc::OperatorAxes axes;
+  axes.boom_or_up_ratio = said(hands.lever_ratio[0]);
+  axes.arm_or_forward_ratio = said(hands.lever_ratio[1]);
+  axes.bucket_or_attitude_ratio = said(hands.lever_ratio[2]);
+  axes.swing_ratio = said(hands.lever_ratio[3]);
+  return axes;
+}
+
+template <class Dbc>
+auto commission_duty(const OperatorHands& hands) {
+  typename Dbc::CommissionDuty duty;
+  duty.boom_duty_ratio = said(hands.tried_ratio[0]);
+  duty.arm_duty_ratio = said(hands.tried_ratio[1]);
+  duty.bucket_duty_ratio = said(hands.tried_ratio[2]);
+  return duty;
+}
+
+template <class Dbc>
+auto commission_window(std::size_t axis, const StrokeWindow& window) {
+  typename Dbc::CommissionWindow message;
+  message.drive = {static_cast<typename Dbc::CommissionWindow::Drive>(axis), dbc::RawState::kValid};
+  message.least_stroke_m = said(window.least_m);
+  message.most_stroke_m = said(window.most_m);
+  message.most_speed_mps = said(window.most_mps);
+  return message;
+}
+
+}  // namespace detail
+
+/// Sends OperatorCommand of the machine kind's DBC every 20 ms; where the kind has them and
+/// set_hands() was called, OperatorAxes and CommissionDuty as often, and CommissionWindow every 100
+/// ms, of all drives that have one by turns. The bus port belongs to the caller,
 /// who opens it; of what it receives only EcuIdentity counts, whose stamp is repeated.
 template <class Dbc>
 class OperatorNode {
@@ -58,13 +116,20 @@ class OperatorNode {
   /// Phases in the order of their times.
   void set_schedule(std::vector<OperatorPhase> schedule) { schedule_ = std::move(schedule); }
 
+  /// From now on, until it is called again; may be called every cycle.
+  void set_hands(const OperatorHands& hands) { hands_ = hands; }
+
   /// To be called every 10 ms; sends in the first and every second call.
   void step(TimeUs now) {
     constexpr std::uint64_t kSendCycles = Command::kCycleTimeMs / 10;
     receive_frames(port_, [this](const CanFrame& frame) { echo_.hear(frame); });
-    if (cycle_++ % kSendCycles == 0) {
+    if (cycle_ % kSendCycles == 0) {
       sender_.send(operator_command<Dbc>(request_at(now), echo_.said()), faults_, now);
     }
+    if constexpr (detail::kHasHands<Dbc>) {
+      send_hands(now);
+    }
+    ++cycle_;
     sender_.send_late(faults_, now);
   }
 
@@ -79,22 +144,38 @@ class OperatorNode {
  private:
   using Command = typename Dbc::OperatorCommand;
 
+  void send_hands(TimeUs now) {
+    if (!hands_) {
+      return;
+    }
+    if (cycle_ % (Dbc::OperatorAxes::kCycleTimeMs / 10) == 0) {
+      sender_.send(detail::operator_axes<Dbc>(*hands_), faults_, now);
+      sender_.send(detail::commission_duty<Dbc>(*hands_), faults_, now);
+    }
+    if (cycle_ % (Dbc::CommissionWindow::kCycleTimeMs / 10) == 0) {
+      send_next_window(now);
+    }
+  }
+
+  void send_next_window(TimeUs now) {
+    for (std::size_t n = 0; n < kAxisCount; ++n) {
+      turn_ = (turn_ + 1) % kAxisCount;
+      if (hands_->window[turn_]) {
+        sender_.send(detail::commission_window<Dbc>(turn_, *hands_->window[turn_]), faults_, now);
+        return;
+      }
+    }
+  }
+
   CanPort& port_;
   FrameSender sender_;
   FrameFaults faults_;
   StampEcho<typename Dbc::EcuIdentity> echo_;
   std::vector<OperatorPhase> schedule_;
+  std::optional<OperatorHands> hands_;
+  std::size_t turn_ = kAxisCount - 1;  ///< Whose window was sent last.
   std::uint64_t cycle_ = 0;
 };
-
-namespace detail {
-
-template <class Dbc, class = void>
-inline constexpr bool kHasTasks = false;
-template <class Dbc>
-inline constexpr bool kHasTasks<Dbc, std::void_t<typename Dbc::TaskStatus>> = true;
-
-}  // namespace detail
 
 template <class Dbc>
 typename Dbc::OperatorCommand operator_command(const OperatorRequest& request, dbc::Count echo) {

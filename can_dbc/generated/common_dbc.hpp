@@ -255,6 +255,7 @@ struct EcuStatus {
     kStalling = 45,
     kStalled = 46,
     kBlocked = 47,
+    kCommissionBound = 48,
   };
 
   static constexpr Field kMode{
@@ -270,7 +271,7 @@ struct EcuStatus {
       "Lambda", "", 16, 16, 0U, 50000U, 65279, 65535, 0U,
       0, 1.0, 50000.0};
   static constexpr Field kFault{
-      "Fault", "", 32, 8, 0U, 47U, 254, 255, 0U,
+      "Fault", "", 32, 8, 0U, 48U, 254, 255, 0U,
       0, 1.0, 1.0};
   static constexpr Field kCycleTime{
       "CycleTime", "us", 40, 16, 0U, 64255U, 65279, 65535, 0U,

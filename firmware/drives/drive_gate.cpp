@@ -42,6 +42,15 @@ GateResult neutral(Fault fault, Span<Guarded<double>> opening, Span<double> duty
   return {false, fault};
 }
 
+/// kNone: the command may go on.
+Fault refusal(DriveRows drives, Span<const double> command, double period_s,
+              Span<Guarded<double>> kept) {
+  if (!is_finite(drives, command, period_s)) {
+    return Fault::kCommandNotFinite;
+  }
+  return is_intact(drives, kept) ? Fault::kNone : Fault::kMemoryCorrupt;
+}
+
 }  // namespace
 
 double slew_limited(double wanted, double last, double change_max) {
@@ -52,20 +61,30 @@ double slew_limited(double wanted, double last, double change_max) {
 
 GateResult gate_drives(DriveRows drives, bool active, Span<const double> spool_m, double period_s,
                        Span<Guarded<double>> opening, Span<double> duty_ratio) {
-  if (!active) {
-    return neutral(Fault::kNone, opening, duty_ratio);
-  }
-  if (!is_finite(drives, spool_m, period_s)) {
-    return neutral(Fault::kCommandNotFinite, opening, duty_ratio);
-  }
-  if (!is_intact(drives, opening)) {
-    return neutral(Fault::kMemoryCorrupt, opening, duty_ratio);
+  const Fault refused = active ? refusal(drives, spool_m, period_s, opening) : Fault::kNone;
+  if (!active || refused != Fault::kNone) {
+    return neutral(refused, opening, duty_ratio);
   }
   for (int i = 0; i < drives.count(); ++i) {
     const double wanted = std::clamp(spool_m[i] / drives[i].metering.spool_travel_m, -1.0, 1.0);
     const double next = slew_limited(wanted, opening[i].value(), change_max(drives[i], period_s));
     opening[i] = next;
     duty_ratio[i] = duty_of(drives[i], next);
+  }
+  return {true, Fault::kNone};
+}
+
+GateResult gate_duties(DriveRows drives, bool active, Span<const double> wanted_ratio,
+                       double period_s, Span<Guarded<double>> sent, Span<double> duty_ratio) {
+  const Fault refused = active ? refusal(drives, wanted_ratio, period_s, sent) : Fault::kNone;
+  if (!active || refused != Fault::kNone) {
+    return neutral(refused, sent, duty_ratio);
+  }
+  for (int i = 0; i < drives.count(); ++i) {
+    const double wanted = std::clamp(wanted_ratio[i], -1.0, 1.0);
+    duty_ratio[i] =
+        slew_limited(wanted, sent[i].value(), kTriedDutyRate_ps * std::max(0.0, period_s));
+    sent[i] = duty_ratio[i];
   }
   return {true, Fault::kNone};
 }

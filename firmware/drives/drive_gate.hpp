@@ -28,4 +28,14 @@ struct GateResult {
                                      double period_s, Span<Guarded<double>> opening,
                                      Span<double> duty_ratio);
 
+/// Largest rise of a duty that is tried, of its whole range per second: full within 40 ms, a step
+/// to whoever looks at a drive's answer.
+inline constexpr double kTriedDutyRate_ps = 25.0;
+
+/// The same of duties that are tried as they are, on valves of which nothing is known: `sent` keeps
+/// what was let through.
+[[nodiscard]] GateResult gate_duties(DriveRows drives, bool active, Span<const double> wanted_ratio,
+                                     double period_s, Span<Guarded<double>> sent,
+                                     Span<double> duty_ratio);
+
 }  // namespace graben

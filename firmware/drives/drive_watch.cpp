@@ -7,6 +7,9 @@
 namespace graben {
 namespace {
 
+/// Duties that are tried may be under way for so long.
+constexpr double kTriedFor_s = 1.0;
+
 /// What is asked of drives whose load may hold them is no way that they must go. One that is held
 /// lets its oil off without moving, and is thrown by it when the load gives way, wherever its spool
 /// is by then.
@@ -43,9 +46,11 @@ FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus, const DriveC
                       Span<ValidDrive> seen, double period_s, DriveWatchView state,
                       CommonValid& valid) {
   const bool received = !valid.faults.has(Fault::kSpoolMissing);
-  FaultSet stops =
-      watch_spools(drives, last.sent, seen, {received, bus.valve_echo, valid.valve_enabled},
-                   state.spool, state.echo_cycles);
+  state.tried_s = last.sent.tried ? kTriedFor_s : std::max(0.0, state.tried_s - period_s);
+  SentCommand sent = last.sent;
+  sent.tried = state.tried_s > 0.0;
+  FaultSet stops = watch_spools(drives, sent, seen, {received, bus.valve_echo, valid.valve_enabled},
+                                state.spool, state.echo_cycles);
   for (int i = 0; i < drives.count(); ++i) {
     if (!drives[i].watch.senses_spool) {
       seen[i].spool_ratio = last.sent.duty_ratio[i];
@@ -58,25 +63,27 @@ FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus, const DriveC
   }
   // Without their strokes and spools the drives cannot be checked, and the fault is there anyway.
   const bool moving = last.moving && valid.fault == Fault::kNone;
-  if (moving) {
+  const bool by_model = moving && !sent.tried;
+  if (by_model) {
     stops.add(watch_moving(drives, last, seen, period_s, state));
   }
-  learn_valves(drives, last, seen, moving, period_s, state);
+  learn_valves(drives, last, seen, by_model, period_s, state);
   if (any_eases(state.blocked)) {
     // Through the linkage the others' oil lets off as well.
     std::fill(state.flow.begin(), state.flow.end(), FlowState{});
   }
-  if (moving) {
+  if (by_model) {
     stops.add(watch_flow(drives, seen, state.learnt, valid.engine_radps, period_s, state.flow));
-    if (watch_pressures(drives, seen, period_s, state.pressure)) {
-      degrade(Fault::kPressureImplausible, valid);
-    }
   } else {
     std::fill(state.blocked.begin(), state.blocked.end(), BlockedState{});
     std::fill(state.motion.begin(), state.motion.end(), MotionState{});
     std::fill(state.direction.begin(), state.direction.end(), DirectionState{});
     std::fill(state.flow.begin(), state.flow.end(), FlowState{});
+  }
+  if (!moving) {
     std::fill(state.pressure.begin(), state.pressure.end(), PressurePair{});
+  } else if (watch_pressures(drives, seen, period_s, state.pressure)) {
+    degrade(Fault::kPressureImplausible, valid);
   }
   return stops;
 }

@@ -30,6 +30,7 @@ struct LastCommands {
   std::array<double, kMost> line_pa{};
   /// What the valve was sent beyond `duty_ratio`, to lead its spools through their lag.
   std::array<double, kMost> lead_ratio{};
+  bool tried = false;  ///< The duties were tried, on valves of which nothing is known.
 };
 
 /// The same of any bank.
@@ -38,7 +39,7 @@ struct DriveCommands {
   // NOLINTNEXTLINE(google-explicit-constructor): a view of it.
   DriveCommands(const LastCommands<kMost>& last)
       : moving(last.moving),
-        sent{last.enable, last.duty_ratio, last.lead_ratio},
+        sent{last.enable, last.duty_ratio, last.lead_ratio, last.tried},
         ask{last.towards_mps, last.asked_mps, last.line_pa},
         opening(last.opening) {}
 
@@ -59,6 +60,7 @@ struct DriveWatchState {
   std::array<LearntValve, kLearnt> learnt{};  ///< Kept when the machine stands.
   std::array<PressurePair, kMost> pressure{};
   int echo_cycles = 0;   ///< In a row, that the echo has differed.
+  double tried_s = 0.0;  ///< For which duties that were tried may still be under way.
   bool closing = false;  ///< It was in motion, and some spool has not been in its middle since.
 };
 
@@ -75,6 +77,7 @@ struct DriveWatchView {
         learnt(state.learnt),
         pressure(state.pressure),
         echo_cycles(state.echo_cycles),
+        tried_s(state.tried_s),
         closing(state.closing) {}
 
   Span<SpoolState> spool;
@@ -85,6 +88,7 @@ struct DriveWatchView {
   Span<LearntValve> learnt;
   Span<PressurePair> pressure;
   int& echo_cycles;
+  double& tried_s;
   bool& closing;
 };
 
@@ -96,6 +100,10 @@ struct DriveWatchView {
 /// checked, and every watch begins newly. Only spools are, until all have been in their middle once
 /// or the operator has taken over in manual mode: one that stays open when the deadman is let go is
 /// stuck.
+///
+/// While duties are tried, and for 1 s after, what rests on the valve's model is not looked at:
+/// only spools, for as long as the slowest takes, and pressures (commission_guard.hpp has the
+/// rest).
 [[nodiscard]] FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus,
                                     const DriveCommands& last, Span<ValidDrive> seen,
                                     double period_s, DriveWatchView state, CommonValid& valid);

@@ -25,16 +25,23 @@ CommandHistory::Range lagged(const CommandHistory::Range& last,
           std::max(towards.most, last.most + newest_share * (towards.most - last.most))};
 }
 
+/// Of the slowest spool of a valve that is not known.
+constexpr double kUnknownStarts_s = 0.45;
+constexpr double kUnknownLag_s = 0.16;
+
 /// Of one spool: it is stuck.
-bool follow(const DriveRow& drive, double duty_ratio, double lead_ratio, double spool_ratio,
+bool follow(const DriveRow& drive, const SentCommand& command, int i, double spool_ratio,
             bool received, SpoolState& state) {
+  const double duty_ratio = command.duty_ratio[i];
   state.sent.add(duty_ratio);
-  const int starting = cycles_under_way(spool_starts_s(drive) + kFrameCycles * kCycle_s);
+  const double starts_s = std::max(spool_starts_s(drive), command.tried ? kUnknownStarts_s : 0.0);
+  const double lag_s = std::max(spool_lag_s(drive), command.tried ? kUnknownLag_s : 0.0);
+  const int starting = cycles_under_way(starts_s + kFrameCycles * kCycle_s);
   // An implicit step: a little slower than the lag itself.
-  const double led = duty_ratio + lead_ratio;
+  const double led = duty_ratio + command.lead_ratio[i];
   // A spool faster than the one that is led gets to where the lead points.
   state.range.follow(widened(state.sent.range(starting), &led, &led + 1),
-                     kCycle_s / (kCycle_s + spool_lag_s(drive)));
+                     kCycle_s / (kCycle_s + lag_s));
   if (!received) {
     state.wrong_cycles = 0;
     return false;
@@ -76,8 +83,8 @@ FaultSet watch_spools(DriveRows drives, const SentCommand& sent, Span<const Vali
                       const ValveFeedback& feedback, Span<SpoolState> spool, int& echo_cycles) {
   FaultSet faults;
   for (int i = 0; i < drives.count(); ++i) {
-    if (drives[i].watch.senses_spool && follow(drives[i], sent.duty_ratio[i], sent.lead_ratio[i],
-                                               seen[i].spool_ratio, feedback.received, spool[i])) {
+    if (drives[i].watch.senses_spool &&
+        follow(drives[i], sent, i, seen[i].spool_ratio, feedback.received, spool[i])) {
       faults.add(Fault::kSpoolStuck);
     }
   }

@@ -67,6 +67,7 @@ struct SentCommand {
   bool enable = false;
   Span<const double> duty_ratio{nullptr, 0};  ///< Where the spools are to be.
   Span<const double> lead_ratio{nullptr, 0};  ///< What was sent beyond that.
+  bool tried = false;  ///< On valves whose dead time and lag are not known, or it has just been so.
 };
 
 /// Feedback of the valve since then.
@@ -79,7 +80,8 @@ struct ValveFeedback {
 /// kSpoolStuck, kValveNotFollowing; the states go on by a cycle. A spool must lie in its
 /// SpoolRange, with the late start and the lag that `settle_s` stands for (drive_bank.hpp), within
 /// the tolerance. So one that stands is seen as soon as the slowest would have left it behind. One
-/// that is not measured, and what was not received, is not checked. `echo_cycles` counts the cycles
+/// that is not measured, and what was not received, is not checked. Where duties are tried, a spool
+/// may start within 0.45 s, with lags of 0.16 s each. `echo_cycles` counts the cycles
 /// in a row, up to kEchoCycles, in which the echo differed from our enable.
 [[nodiscard]] FaultSet watch_spools(DriveRows drives, const SentCommand& sent,
                                     Span<const ValidDrive> seen, const ValveFeedback& feedback,

@@ -7,10 +7,22 @@
 namespace graben {
 namespace {
 
+/// It is laid around a path or a plan.
+bool has_tube(Task task) {
+  return task == Task::kDig || task == Task::kProgram || task == Task::kCoordinated;
+}
+
+bool is_by_lever(Task task) { return task == Task::kJog || task == Task::kCoordinated; }
+
+HandAsk hand_ask(const ExcavatorValid& valid) {
+  return {valid.task, valid.lever_ratio, valid.speed_override_ratio};
+}
+
 /// kTaskUnknown unless the task that the operator asks for is there.
 FaultSet task_faults(const ExcavatorValid& valid, int program_count) {
   const bool known =
-      valid.task == Task::kNone || valid.task == Task::kDig ||
+      valid.task == Task::kNone || valid.task == Task::kDig || is_by_lever(valid.task) ||
+      valid.task == Task::kCommission ||
       (valid.task == Task::kProgram && valid.task_number >= 0 && valid.task_number < program_count);
   FaultSet faults;
   faults.add(known ? Fault::kNone : Fault::kTaskUnknown);
@@ -56,13 +68,15 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   const Followed followed = flow_limited(valid, motion, cycle.period_s);
   ModeDecision decision = decide_mode(
       memory_.cycle, cycle, valid, first_of({motion.fault, solver_fault(followed.solution)}),
-      spools_centred(drives(), valid.drive), inputs.link.stop_requested);
+      spools_centred(drives(), valid.drive) && valid.hands_rest(), inputs.link.stop_requested);
   ExcavatorOutputs outputs;
-  const GateResult gated = gate_drives(drives(), decision.active(), followed.solution.point.spool_m,
-                                       cycle.period_s, memory_.opening, outputs.duty_ratio);
+  const GateResult gated =
+      gate(motion, decision.active(), followed.solution.point, cycle.period_s, outputs);
   take_refusal(gated.fault, decision);
   outputs.enable = gated.enable;
-  open_as_learnt(outputs);
+  if (!motion.tries) {
+    open_as_learnt(outputs);
+  }
   demand_pumps(valid, motion, decision.active(), cycle.period_s);
   outputs.swash_ratio = memory_.pumps.swash_ratio;
   end_cycle(decision, valid, memory_.cycle, outputs, outputs.status);
@@ -93,6 +107,7 @@ ExcavatorValid ExcavatorController::validate_and_watch(const ExcavatorInputs& in
       spools_centred(drives(), valid.drive), {travel_m.data(), drives().count()}, cycle.period_s);
   valid.task = task.task;
   valid.task_number = task.number;
+  guard_commission(cycle, valid);
   return valid;
 }
 
@@ -102,9 +117,10 @@ void ExcavatorController::estimate(const ExcavatorValid& valid, const TaskAim& a
   const double elapsed_s = cycle.elapsed_s;
   next_loads(profile_.control.pressure_filter_s, valid.drive, elapsed_s, mode != EcuMode::kActive,
              memory_.load);
-  const bool on_plan = aim.kind != StepKind::kNone;
-  const bool new_plan = memory_.task.state.time_s == 0.0;
-  const DriveVector planned_m = travel_of(profile_, aim.value);
+  const HandState& hand = memory_.hand;
+  const bool on_plan = aim.kind != StepKind::kNone || hand.plans;
+  const bool new_plan = hand.plans ? hand.is_new : memory_.task.state.time_s == 0.0;
+  const DriveVector planned_m = hand.plans ? hand.planned_m : travel_of(profile_, aim.value);
   for (int i = 0; i < drives().count(); ++i) {
     const DriveRow& drive = drives()[i];
     ServoState& servo = memory_.servo.drive[static_cast<unsigned>(i)];
@@ -114,6 +130,8 @@ void ExcavatorController::estimate(const ExcavatorValid& valid, const TaskAim& a
     if (mode == EcuMode::kActive && on_plan) {
       next_servo_on_plan(drive, expected_mps, stroke_m, planned_m[i], new_plan, elapsed_s, servo,
                          blocked);
+    } else if (mode == EcuMode::kActive && memory_.jogs && expected_mps == 0.0) {
+      release_servo(drive, stroke_m, elapsed_s, servo);
     } else {
       servo_after(drive, mode, expected_mps, stroke_m, elapsed_s, servo, blocked);
     }
@@ -136,9 +154,12 @@ ExcavatorController::Motion ExcavatorController::wanted_motion(const ExcavatorVa
   Motion motion;
   if (program != nullptr) {
     follow(*program, aim, valid.speed_override_ratio, period_s, motion);
+  } else if (is_by_lever(valid.task)) {
+    steer(valid, now, period_s, motion);
   } else {
     dig(valid, now, motion);
   }
+  motion.tries = valid.task == Task::kCommission;
   const bool known = now.status == ReachStatus::kOk && motion.task.known;
   motion.fault = known ? Fault::kNone : Fault::kPoseUnreachable;
   return motion;
@@ -163,6 +184,33 @@ void ExcavatorController::dig(const ExcavatorValid& valid, const KinematicState&
   slow_at_ends(drives(), valid.drive, span_of(motion.corrected_mps), motion.cap);
   motion.path_error_m = path_error_m(setup_.field.path(), now.tip);
   motion.off_m = motion.path_error_m;
+}
+
+void ExcavatorController::steer(const ExcavatorValid& valid, const KinematicState& now,
+                                double period_s, Motion& motion) const {
+  const bool jogs = valid.task == Task::kJog;
+  motion.hand = want_by_hand(profile_, drives(), setup_.kinematics.planar(), now, memory_.servo,
+                             hand_ask(valid), memory_.hand, period_s);
+  motion.wanted_mps = motion.hand.wanted_mps;
+  motion.task.pace_ratio = jogs ? 1.0 : memory_.hand.pace_ratio;
+  motion.corrected_mps =
+      corrected_velocity(drives(), motion.wanted_mps, memory_.servo, memory_.lambda.value(),
+                         valid.speed_override_ratio, !jogs && motion.hand.moves);
+  for (int i = 0; jogs && i < kDriveCount; ++i) {
+    motion.corrected_mps[i] = motion.wanted_mps[i] == 0.0 ? 0.0 : motion.corrected_mps[i];
+  }
+  ease_blocked(motion);
+  // Fences are those of the task that is chosen, or of the first.
+  const bool chosen = valid.task_number >= 0 && valid.task_number < setup_.book.count;
+  const FenceSet& fences =
+      setup_.book.program[chosen ? static_cast<unsigned>(valid.task_number) : 0U].fences;
+  motion.cap = motion_cap(profile_, drives(), setup_.kinematics, fences,
+                          strokes_then_m(drives(), memory_.servo), motion.corrected_mps);
+  if (motion.hand.limit.kind != LimitKind::kNone && motion.cap.limit.kind == LimitKind::kNone) {
+    motion.cap.limit = motion.hand.limit;
+  }
+  motion.path_error_m = motion.hand.error_m;
+  motion.off_m = motion.hand.error_m;
 }
 
 void ExcavatorController::follow(const TaskProgram& program, const TaskAim& aim,
@@ -233,7 +281,7 @@ void ExcavatorController::demand_pumps(const ExcavatorValid& valid, const Motion
   next_pump_demand(
       profile_, setup_.valve,
       {mcv_input(span_of(motion.wanted_mps), memory_.load, valid.pump_flow_m3ps), memory_.line_pa,
-       valid.engine_radps, active,
+       valid.engine_radps, active && !motion.tries,
        any_blocked(memory_.watch.drives.blocked) || any_wary(memory_.watch.drives.blocked)},
       period_s, memory_.pumps);
 }
@@ -242,11 +290,11 @@ void ExcavatorController::describe_motion(const Motion& motion, const Followed& 
                                           const FaultSet& degraded, ExcavatorStatus& status) const {
   const McvSolution& solution = taken.solution;
   const bool waits = motion.task.pace_ratio < kWaits;
-  const bool rises = solution.status == SolveStatus::kOk && taken.of_way() < 1.0;
-  status.lambda = motion.cap.factor * taken.of_way();
+  const bool rises = !motion.tries && solution.status == SolveStatus::kOk && taken.of_way() < 1.0;
+  status.lambda = motion.tries ? 1.0 : motion.cap.factor * taken.of_way();
   status.limit = held_by({blocked_limit(memory_.watch.drives.blocked),
                           solution.limit,
-                          motion.cap.limit,
+                          motion.tries ? commission_limit() : motion.cap.limit,
                           {waits ? LimitKind::kOffPath : LimitKind::kNone, 0},
                           {rises ? LimitKind::kRise : LimitKind::kNone, 0},
                           degraded_limit(degraded)});
@@ -268,6 +316,7 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
   memory_.of_corrected = decision.active() ? taken.of_corrected : 1.0;
   memory_.last = {in_motion(decision.mode.mode), outputs.enable, outputs.duty_ratio, {}, {}, {},
                   memory_.last.line_pa};
+  memory_.last.tried = decision.active() && motion.tries;
   std::copy_n(asked_mps.data(), kDriveCount, memory_.last.asked_mps.begin());
   memory_.line_pa = point.pump_pressure_pa;
   for (int i = 0; i < drives().count(); ++i) {
@@ -282,14 +331,21 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
   }
   memory_.expected_mps = followed * motion.cap.factor * motion.wanted_mps;
   memory_.swing_wanted_mps = swing_of(motion.task.wanted_mps);
-  next_tube(decision.active() && valid.task != Task::kNone, motion.off_m, profile_.safety.tube_m,
+  const bool by_lever = decision.active() && is_by_lever(valid.task);
+  memory_.jogs = by_lever && valid.task == Task::kJog;
+  memory_.hand = by_lever ? next_by_hand(profile_.line, motion.hand, hand_ask(valid), memory_.hand,
+                                         followed * motion.cap.factor, period_s)
+                          : HandState{};
+  next_tube(decision.active() && has_tube(valid.task), motion.off_m, profile_.safety.tube_m,
             memory_.tube);
   // A plan that waits for its drives asks for motion though it wants none now.
   const bool plans = motion.task.holds && valid.speed_override_ratio > 0.0;
   const bool blocked = any_blocked(memory_.watch.drives.blocked);
+  // A lever that is held against an end or a fence is no stall.
+  const double allowed = by_lever ? 1.0 : motion.cap.factor;
   next_stall(decision.active(), plans || !motion.wanted_mps.isZero(),
-             blocked ? 0.0 : followed * motion.cap.factor * motion.task.pace_ratio,
-             profile_.safety.stall_s, period_s, memory_.stall);
+             blocked ? 0.0 : followed * allowed * motion.task.pace_ratio, profile_.safety.stall_s,
+             period_s, memory_.stall);
   if (!decision.active() || valid.task != Task::kProgram) {
     memory_.task = {};
     return;

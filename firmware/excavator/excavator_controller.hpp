@@ -1,6 +1,7 @@
 #pragma once
 /// The excavator's controller: one step from signals to commands, 100 times a second.
 
+#include "firmware/drives/commission_guard.hpp"
 #include "firmware/drives/drive_gate.hpp"
 #include "firmware/drives/spool_lead.hpp"
 #include "firmware/drives/spool_parking.hpp"
@@ -10,6 +11,7 @@
 #include "firmware/excavator/oil/oil_law.hpp"
 #include "firmware/excavator/pump_demand.hpp"
 #include "firmware/excavator/safety/excavator_validation.hpp"
+#include "firmware/excavator/tasks/hand_motion.hpp"
 #include "firmware/excavator/tasks/task_follow.hpp"
 #include "firmware/mcv/optimiser.hpp"
 #include "firmware/safety/cycle.hpp"
@@ -62,8 +64,10 @@ class ExcavatorController {
     double path_error_m = 0.0;
     double off_m = 0.0;  ///< What the tube is laid around.
     TaskWant task;       ///< Of a program.
+    HandWant hand;       ///< By the levers.
     Fault fault = Fault::kNone;
     bool eases = false;  ///< A blocked drive's pressure is let off or rests; all others stand.
+    bool tries = false;  ///< Task::kCommission: no motion is wanted, the duties are given.
   };
 
   /// What the pumps' flow leaves of a motion. The path alone decides how fast it is followed, with
@@ -96,6 +100,10 @@ class ExcavatorController {
     double payload_kg = 0.0;  ///< As weighed at rest.
     std::array<SpoolModel, kDriveCount> spool;
     std::array<ParkingState, 2> parking;  ///< Of boom and arm.
+    HandState hand;
+    bool jogs = false;  ///< Last: drives that are not told to move are nobody's.
+    std::array<CommissionState, kDriveCount> commission;
+    std::array<double, kDriveCount> tried_ratio{};  ///< Duties of this cycle that may be sent.
     PumpDemand pumps;
     double of_corrected = 1.0;  ///< Of the last cycle, see Followed.
     PerPump<double> line_pa{};  ///< Of the last cycle's solution.
@@ -112,6 +120,12 @@ class ExcavatorController {
   [[nodiscard]] bool intact() const { return memory_.lambda.intact() && memory_.task.intact(); }
   [[nodiscard]] ExcavatorValid validate_and_watch(const ExcavatorInputs& inputs, const Cycle& cycle,
                                                   TimeUs now_us);
+  /// Guards duties that are tried, and gives those that may be sent with what holds them back.
+  void guard_commission(const Cycle& cycle, ExcavatorValid& valid);
+  [[nodiscard]] Limit commission_limit() const;
+  /// The last gate before the bus.
+  [[nodiscard]] GateResult gate(const Motion& motion, bool active, const McvPoint& point,
+                                double period_s, ExcavatorOutputs& outputs);
   /// Loads and servos after the last cycle's command; `aim` is where the program that runs has come
   /// to.
   void estimate(const ExcavatorValid& valid, const TaskAim& aim, const Cycle& cycle);
@@ -135,6 +149,9 @@ class ExcavatorController {
   /// Duties that lead through the spools' lag. The watches know of those without: that is where
   /// the spools are to be.
   void lead_spools(ExcavatorOutputs& outputs);
+  /// By the levers.
+  void steer(const ExcavatorValid& valid, const KinematicState& now, double period_s,
+             Motion& motion) const;
   void follow(const TaskProgram& program, const TaskAim& aim, double speed_override_ratio,
               double period_s, Motion& motion) const;
   /// Asks no more of a drive that its load holds than path or plan want.

@@ -159,7 +159,7 @@ void ExcavatorController::tell_learnt(ExcavatorStatus& status) const {
 }
 
 void ExcavatorController::lead_spools(ExcavatorOutputs& outputs) {
-  if (!on_oil(profile_) || !outputs.enable) {
+  if (!on_oil(profile_) || !outputs.enable || memory_.last.tried) {
     memory_.spool = {};
     return;
   }

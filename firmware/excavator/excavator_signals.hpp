@@ -27,6 +27,10 @@ struct ExcavatorInputs : MachineInputs {
   std::array<AxisInputs, kAxisCount> axis;
   SwingInputs swing;  ///< Looked at only where the profile has a swing drive.
   std::array<Signal<double>, kPumpCount> swash_ratio;  ///< tan(alpha) / tan(alpha at full swash).
+  /// The operator's levers, -1 .. 1; one that the station does not have is 0.
+  Signal<std::array<double, kDriveCount>> lever_ratio;
+  Signal<std::array<double, kAxisCount>> tried_ratio;  ///< Duties of Task::kCommission, -1 .. 1.
+  std::array<Signal<StrokeWindow>, kAxisCount> window;
 };
 
 /// Purpose of a task's step; the numbers are on the bus.

@@ -31,6 +31,13 @@ struct OperatorInputs {
   Signal<std::uint8_t> task_number;     ///< Which of the task files kProgram means.
 };
 
+/// What the operator has confirmed for a drive in Task::kCommission.
+struct StrokeWindow {
+  double least_m = 0.0;  ///< Strokes that it is to stay within.
+  double most_m = 0.0;
+  double most_mps = 0.0;
+};
+
 /// State of the bus.
 enum class BusState : std::uint8_t { kActive = 0, kPassive = 1, kOff = 2, kDown = 3 };
 

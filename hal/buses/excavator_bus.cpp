@@ -28,7 +28,27 @@ void put_pressures(AxisInputs& axis, const dbc::Physical& cap, const dbc::Physic
   put(axis.rod_pressure_pa, rod, now);
 }
 
-struct Store : CommonStore<ExcavatorInputs, Task::kDig, Task::kProgram> {
+/// Values that are used together: one sensor's error is all of them's. What is not there is 0.
+template <class... Raw>
+void put_all(Signal<std::array<double, sizeof...(Raw)>>& to, TimeUs now, const Raw&... raw) {
+  const bool wrong = (... || (raw.state == dbc::RawState::kError));
+  to = {{raw.value...}, wrong ? Validity::kError : Validity::kValid, now};
+}
+
+void put_window(const bus::CommissionWindow& message, TimeUs now, ExcavatorInputs& to) {
+  const auto drive = static_cast<unsigned>(message.drive.value);
+  const bool valid = message.drive.state == dbc::RawState::kValid &&
+                     message.least_stroke_m.state == dbc::RawState::kValid &&
+                     message.most_stroke_m.state == dbc::RawState::kValid &&
+                     message.most_speed_mps.state == dbc::RawState::kValid;
+  to.window[drive] = {
+      {message.least_stroke_m.value, message.most_stroke_m.value, message.most_speed_mps.value},
+      valid ? Validity::kValid : Validity::kNotAvailable,
+      now};
+}
+
+struct Store : CommonStore<ExcavatorInputs, Task::kDig, Task::kProgram, Task::kJog,
+                           Task::kCoordinated, Task::kCommission> {
   using CommonStore::part;
   using CommonStore::store;
 
@@ -73,12 +93,24 @@ struct Store : CommonStore<ExcavatorInputs, Task::kDig, Task::kProgram> {
   static void store(const bus::SwingValveState& message, TimeUs now, To& to) {
     put(to.inputs.swing.spool_ratio, message.swing_spool_ratio, now);
   }
+  static void store(const bus::OperatorAxes& message, TimeUs now, To& to) {
+    put_all(to.inputs.lever_ratio, now, message.boom_or_up_ratio, message.arm_or_forward_ratio,
+            message.bucket_or_attitude_ratio, message.swing_ratio);
+  }
+  static void store(const bus::CommissionDuty& message, TimeUs now, To& to) {
+    put_all(to.inputs.tried_ratio, now, message.boom_duty_ratio, message.arm_duty_ratio,
+            message.bucket_duty_ratio);
+  }
+  static void store(const bus::CommissionWindow& message, TimeUs now, To& to) {
+    put_window(message, now, to.inputs);
+  }
 };
 
 using OwnReceived =
     dbc::MessageList<bus::BoomStroke, bus::ArmStroke, bus::BucketStroke, bus::BoomPressure,
                      bus::ArmPressure, bus::BucketPressure, bus::PumpState, bus::ValveState,
-                     bus::SwingState, bus::SwingValveState>;
+                     bus::SwingState, bus::SwingValveState, bus::OperatorAxes, bus::CommissionDuty,
+                     bus::CommissionWindow>;
 constexpr auto kReceiveTable = receive_table<ExcavatorInputs, Store>(
     OwnReceived{}, CommonReceived{}, bus::kMessages, bus::kDbcVersion);
 

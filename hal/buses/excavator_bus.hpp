@@ -11,7 +11,7 @@ namespace graben {
 /// operator's frame whose task is a dozer's is refused like one whose value is out of range.
 struct ExcavatorReception {
   using Inputs = ExcavatorInputs;
-  static constexpr int kMessageCount = 13;
+  static constexpr int kMessageCount = 16;
   [[nodiscard]] static const ReceiveTable<Inputs, kMessageCount>& table();
 };
 

@@ -100,6 +100,12 @@ dbc::Payload ExcavatorBus::Body::payload_of(std::uint32_t id) const {
       return bus::PumpState{physical(kSwash), physical(kSwash)}.encode();
     case bus::EEC1::kId:
       return bus::EEC1{physical(kEngine_radps)}.encode();
+    case bus::OperatorAxes::kId:
+      return bus::OperatorAxes{physical(0.0), physical(0.0), physical(0.0), physical(0.0)}.encode();
+    case bus::CommissionDuty::kId:
+      return bus::CommissionDuty{physical(0.0), physical(0.0), physical(0.0)}.encode();
+    case bus::CommissionWindow::kId:
+      return bus::CommissionWindow{}.encode();
     default:
       break;
   }

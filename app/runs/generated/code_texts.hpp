@@ -19,7 +19,7 @@ struct LimitText {
   LimitOf of;  ///< Whose number the limit's index is.
 };
 
-inline constexpr std::array<FaultText, 48> kFaultTexts{{
+inline constexpr std::array<FaultText, 49> kFaultTexts{{
     {"none", ""},
     {"a stroke is missing",
      "Check the stroke sensors, their cables and the machine's node."},
@@ -115,6 +115,8 @@ inline constexpr std::array<FaultText, 48> kFaultTexts{{
      "Lift the tool out by hand, take a smaller cut, arm again."},
     {"blocked: a load that the pumps do not move",
      "Wait, or help: go round what is in the way, or break it loose."},
+    {"commissioning: outside the window, or too fast",
+     "Move the drive by hand into its window; confirm a window and a speed that the machine can keep to."},
 }};
 
 inline constexpr std::array<const char*, 27> kArmBlockTexts{{

@@ -16,7 +16,54 @@ std::array<DriveInputs, kDriveCount> drive_inputs(const ExcavatorInputs& inputs,
           swing_inputs(inputs.swing, swing)};
 }
 
+/// A window counts for so long; those of all drives come by turns.
+constexpr double kWindowHolds_s = 1.0;
+/// Drives that duties are tried on at once.
+constexpr int kMostTried = 2;
+
+/// False: not all of them may be used, and they stay as they were.
+template <std::size_t count>
+bool read_all(const Signal<std::array<double, count>>& from, const Freshness& fresh,
+              std::array<double, count>& to) {
+  bool usable = fresh.holds(from);
+  for (const double each : from.value) {
+    usable = usable && std::isfinite(each);
+  }
+  if (usable) {
+    to = from.value;
+  }
+  return usable;
+}
+
+/// What the operator's hands do, as far as the task goes by it.
+void read_hands(const ExcavatorInputs& inputs, const Freshness& fresh, TimeUs now_us,
+                ExcavatorValid& valid) {
+  const bool has_levers = read_all(inputs.lever_ratio, fresh, valid.lever_ratio);
+  const bool has_duties = read_all(inputs.tried_ratio, fresh, valid.tried_ratio);
+  const bool by_lever = valid.task == Task::kJog || valid.task == Task::kCoordinated;
+  const bool tries = valid.task == Task::kCommission;
+  if ((by_lever && !has_levers) || (tries && !has_duties)) {
+    valid.faults.add(Fault::kOperatorMissing);
+  }
+  const auto at_rest = std::count(valid.tried_ratio.begin(), valid.tried_ratio.end(), 0.0);
+  if (tries && kAxisCount - at_rest > kMostTried) {
+    valid.faults.add(Fault::kCommissionBound);
+  }
+  const Freshness lately(kWindowHolds_s, now_us);
+  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    if (lately.holds(inputs.window[axis])) {
+      valid.window[axis] = inputs.window[axis].value;
+    }
+  }
+}
+
 }  // namespace
+
+bool ExcavatorValid::hands_rest() const {
+  const auto rests = [](double ratio) { return ratio == 0.0; };
+  return std::all_of(lever_ratio.begin(), lever_ratio.end(), rests) &&
+         std::all_of(tried_ratio.begin(), tried_ratio.end(), rests);
+}
 
 ExcavatorValid validate(const ExcavatorProfile& profile, DriveRows drives,
                         const ExcavatorInputs& inputs, bool moving, TimeUs now_us,
@@ -25,6 +72,7 @@ ExcavatorValid validate(const ExcavatorProfile& profile, DriveRows drives,
   const Freshness fresh(profile.control.sensor_timeout_s, now_us);
   read_machine(profile.bus, inputs, {profile.pump[0].rated_speed_radps, profile.safety.idle_radps},
                fresh, now_us, valid);
+  read_hands(inputs, fresh, now_us, valid);
   read_drives(drives, drive_inputs(inputs, profile.swing), moving, fresh, accepted, valid.drive,
               valid.faults);
   for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {

@@ -16,17 +16,23 @@ struct ExcavatorValid : CommonValid {
   std::array<ValidDrive, kDriveCount> drive{};
   std::array<double, kPumpCount> swash_ratio{};
   std::array<double, kPumpCount> pump_flow_m3ps{};  ///< v omega tan(alpha) of (25).
+  std::array<double, kDriveCount> lever_ratio{};    ///< 0 where they are not known.
+  std::array<double, kAxisCount> tried_ratio{};     ///< The same of duties.
+  std::array<StrokeWindow, kAxisCount> window{};    ///< As constructed where none is confirmed.
 
   [[nodiscard]] DriveVector strokes_m() const {
     return {drive[0].stroke_m, drive[1].stroke_m, drive[2].stroke_m, drive[3].stroke_m};
   }
+  /// Nothing that moves by hand is asked for: every lever, every duty to try.
+  [[nodiscard]] bool hands_rest() const;
 };
 
 /// A signal is missing when it was never valid or is older than control.sensor_timeout_s. `moving`:
 /// the mode of the last cycle was Armed or Active; then what only degrades does not stop, and a
 /// stroke that changed faster than its drive can is rejected: the last one ages until it is
-/// missing, or the strokes come back to it. `accepted` keeps that from cycle to cycle. Another
-/// machine's swing signals are not looked at.
+/// missing, or the strokes come back to it. Levers and duties are the operator's: a task that goes
+/// by them needs them as fresh. `accepted` keeps that from cycle to cycle. Another machine's swing
+/// signals are not looked at.
 [[nodiscard]] ExcavatorValid validate(const ExcavatorProfile& profile, DriveRows drives,
                                       const ExcavatorInputs& inputs, bool moving, TimeUs now_us,
                                       Span<Believed> accepted);

@@ -68,7 +68,8 @@ struct ExcavatorBus {
            dbc::excavator::BoomPressure, dbc::excavator::ArmPressure,
            dbc::excavator::BucketPressure, dbc::excavator::PumpState,
            dbc::excavator::OperatorCommand, dbc::excavator::ValveState, dbc::excavator::SwingState,
-           dbc::excavator::SwingValveState>;
+           dbc::excavator::SwingValveState, dbc::excavator::OperatorAxes,
+           dbc::excavator::CommissionDuty, dbc::excavator::CommissionWindow>;
   using Unprotected = List<dbc::excavator::EEC1, dbc::excavator::MachineIdentity>;
   using Other = List<dbc::excavator::ArmStroke, dbc::excavator::ValveState,
                      dbc::excavator::SpoolCommand, dbc::excavator::PumpCommand>;

@@ -16,6 +16,13 @@ void see(Seen& seen, const Signals&... signals) {
   (seen.emplace_back(static_cast<double>(signals.value), signals.validity, signals.stamp_us), ...);
 }
 
+template <std::size_t count>
+void see_all(Seen& seen, const Signal<std::array<double, count>>& signal) {
+  for (const double each : signal.value) {
+    seen.emplace_back(each, signal.validity, signal.stamp_us);
+  }
+}
+
 inline void see_driver(Seen& seen, const OperatorInputs& driver) {
   see(seen, driver.enable, driver.mode, driver.task, driver.speed_override_ratio,
       driver.task_number);
@@ -29,6 +36,13 @@ inline Seen seen_in(const ExcavatorInputs& in) {
       in.swing.spool_ratio);
   for (const AxisInputs& axis : in.axis) {
     see(seen, axis.stroke_m, axis.cap_pressure_pa, axis.rod_pressure_pa, axis.spool_ratio);
+  }
+  see_all(seen, in.lever_ratio);
+  see_all(seen, in.tried_ratio);
+  for (const Signal<StrokeWindow>& window : in.window) {
+    for (const double each : {window.value.least_m, window.value.most_m, window.value.most_mps}) {
+      seen.emplace_back(each, window.validity, window.stamp_us);
+    }
   }
   return seen;
 }

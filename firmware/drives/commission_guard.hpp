@@ -1,0 +1,90 @@
+#pragma once
+/// Guards a drive whose valve is not known: duties are tried on it, open loop, and nothing that is
+/// said of its spool but the dead time's and the lag's longest is relied on.
+
+#include "firmware/core/fault_set.hpp"
+#include "firmware/drives/drive_validation.hpp"
+
+namespace graben {
+
+/// From a duty to the last of what it does, of the slowest machine: 0.25 s of dead time, two lags
+/// of 0.15 s, and its frames.
+inline constexpr double kUnderWay_s = 0.6;
+/// Least time to stop a drive in: dead time, lags, and what its speed is measured late by.
+inline constexpr double kStops_s = 0.5;
+/// How far a drive may come out of its window before that is a fault, m.
+inline constexpr double kOutside_m = 0.05;
+/// Slower than this, m/s, an end of the cylinder may be met that the window reaches.
+inline constexpr double kTouch_mps = 0.03;
+/// For so long a drive may be pushed against it.
+inline constexpr double kTouch_s = 1.0;
+/// So near to an end a drive that stands is at it, whatever its zero is off, m.
+inline constexpr double kEndZone_m = 0.015;
+
+/// State of one drive from cycle to cycle.
+struct CommissionState {
+  bool begun = false;
+  double stroke_m = 0.0;
+  double slow_m = 0.0;                   ///< Stroke, low-passed.
+  double speed_mps = 0.0;                ///< Late by the same.
+  double since_extend_s = kUnderWay_s;   ///< Since the last duty that extends ...
+  double since_retract_s = kUnderWay_s;  ///< ... and that retracts; as long as it matters.
+  double still_for_s = 0.0;              ///< Since both, beyond kUnderWay_s.
+  double wrong_m = 0.0;                  ///< Gone against the duty.
+  double free_m = 0.0;                   ///< Gone without any.
+  double cap_pa = 0.0;                   ///< Low-passed ...
+  double rod_pa = 0.0;
+  double rest_cap_pa = 0.0;  ///< ... and before any duty.
+  double rest_rod_pa = 0.0;
+  double still_m = 0.0;     ///< Stroke at its last change.
+  double strained_s = 0.0;  ///< That it should have moved since then.
+  double spent_s = 0.0;     ///< Duty times time since then.
+  double touches_s = 0.0;   ///< That it is pushed against an end.
+  double duty_ratio = 0.0;  ///< Last one sent.
+  double steady_s = 0.0;    ///< Since it last fell or changed sides.
+  int held_side = 0;        ///< To which the window holds the drive back.
+  /// Least duties that have moved it; kept for as long as the process runs.
+  double moves_extend = 1.0;
+  double moves_retract = 1.0;
+};
+
+/// What is tried in this cycle.
+struct CommissionAsk {
+  double sent_ratio = 0.0;    ///< Duty of the last cycle.
+  double wanted_ratio = 0.0;  ///< Duty that is asked for now.
+  StrokeWindow window;        ///< As constructed: none is confirmed.
+  bool alone = true;          ///< No other drive is told to move.
+};
+
+struct CommissionResult {
+  Fault fault = Fault::kNone;
+  double duty_ratio = 0.0;  ///< What may be sent.
+  bool held = false;        ///< Less than what is asked for, because of the window.
+};
+
+/// The window is one that the cylinder has, and allows motion.
+[[nodiscard]] bool is_window(const DriveRow& drive, const StrokeWindow& window);
+
+/// A cycle on.
+///
+/// Without a window the duty is 0. Where the drive is outside, or will be before it can be stopped,
+/// it is 0 towards there until that is no longer asked for; the other way is free. An end of the
+/// cylinder that the window reaches may be met slowly, and pushed against for kTouch_s.
+///
+/// kCommissionBound: further outside than kOutside_m, or faster than the window allows.
+/// kWrongDirection: gone against its duty by 30 mm, since none of the other sign can be under way.
+/// kUncommandedMotion: gone by 30 mm although nothing is under way and it has had time to come to
+/// rest. What creeps at less than 6 mm/s is neither: a load that sinks while its spool is at its
+/// edge, leakage.
+/// kStrokeStuck: stands still though it should move, for 0.4 s longer than that may take. It should
+/// at a duty that opens any spool or has moved it before; with what its pump gives on the side that
+/// is fed; alone, where its pressures have changed by 2 MPa together. A smaller duty may be tried
+/// for 2 s over what it is above a tenth. The sensor hangs, or the cylinder.
+[[nodiscard]] CommissionResult next_commission(const DriveRow& drive, const CommissionAsk& ask,
+                                               const ValidDrive& seen, double period_s,
+                                               CommissionState& state);
+
+/// The same outside of motion: all but the least duties begins newly.
+void rest_commission(CommissionState& state);
+
+}  // namespace graben

@@ -1,0 +1,60 @@
+#pragma once
+/// Motion by the operator's levers: each drive by its own (Task::kJog), or the teeth in the plane
+/// of the boom, with their attitude and the swing (Task::kCoordinated). Travels and velocities of
+/// the swing are those at its lever (SwingProfile).
+
+#include "firmware/excavator/excavator_drives.hpp"
+#include "firmware/excavator/kinematics/excavator_kinematics.hpp"
+
+namespace graben {
+
+/// What the levers ask for, softly started and stopped. Jog: speeds of the drives, m/s.
+/// Coordinated: of the teeth up and forward, m/s, of the attitude, rad/s, of the swing, m/s.
+using HandSpeed = DriveVector;
+
+/// State from cycle to cycle.
+struct HandState {
+  bool released = false;  ///< The levers have been at rest since the task began.
+  bool plans = false;     ///< Coordinated: there is a place to be held to, as below.
+  bool is_new = false;    ///< It is that of the teeth when they began to move.
+  HandSpeed speed = HandSpeed::Zero();
+  TipPose tip;  ///< Where the teeth should be once all that was asked for has arrived.
+  DriveVector planned_m = DriveVector::Zero();  ///< The same of the drives.
+  double pace_ratio = 1.0;                      ///< See TaskState.
+};
+
+/// What it is reckoned from.
+struct HandAsk {
+  Task task = Task::kNone;
+  std::array<double, kDriveCount> lever_ratio{};
+  double speed_override_ratio = 0.0;
+};
+
+/// Wanted motion of the drives now.
+struct HandWant {
+  HandSpeed speed = HandSpeed::Zero();
+  TipPose tip;
+  DriveVector planned_m = DriveVector::Zero();
+  DriveVector wanted_mps = DriveVector::Zero();  ///< V_L^d.
+  bool moves = false;                            ///< Something is asked for, or was until now.
+  double error_m = 0.0;  ///< Coordinated: of the teeth from where they should be by now.
+  Limit limit;           ///< What lets the levers have less; kNone: nothing.
+};
+
+/// Full lever is the fastest speed that the pump gives a drive, in Coordinated the speed of the
+/// task along its path, of the attitude the field's fastest rate.
+///
+/// Jog: each drive slows before its own end, and no other with it. Coordinated: where no pose is to
+/// be had further on, all stand, and other ways are free. `servo` has this cycle's strokes.
+[[nodiscard]] HandWant want_by_hand(const ExcavatorProfile& profile, DriveRows drives,
+                                    const ExcavatorKinematics& kinematics,
+                                    const KinematicState& now, const ExcavatorServo& servo,
+                                    const HandAsk& ask, const HandState& state, double period_s);
+
+/// The state after a cycle in which that was followed at `followed_ratio`: lambda and the factor of
+/// ends and fences.
+[[nodiscard]] HandState next_by_hand(const LineProfile& line, const HandWant& want,
+                                     const HandAsk& ask, const HandState& last,
+                                     double followed_ratio, double period_s);
+
+}  // namespace graben
