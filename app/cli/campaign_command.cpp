@@ -28,6 +28,12 @@ struct GradeCampaign {
   std::string profile = "dozer_9t";
 };
 
+struct IdentifyCampaign {
+  runs::CampaignOptions campaign;
+  std::string profile = "excavator_22t";
+  double speed_override_ratio = 1.0;
+};
+
 struct MergeOptions {
   std::vector<std::string> from;
   std::string summary;
@@ -78,6 +84,15 @@ void campaign_grade(const GradeCampaign& options) {
   });
 }
 
+void campaign_identify(const IdentifyCampaign& options) {
+  const machines::SimulatedExcavator nominal =
+      machines::load_simulated_excavator(machines::find_profile(options.profile));
+  print_outcome([&](const runs::Progress& progress) {
+    return runs::campaign_identify(options.campaign, nominal, options.speed_override_ratio,
+                                   progress);
+  });
+}
+
 void add_campaign_dig(CLI::App& campaign, int& status) {
   auto options = std::make_shared<DigCampaign>();
   CLI::App* command = campaign.add_subcommand(
@@ -111,6 +126,22 @@ void add_campaign_grade(CLI::App& campaign, int& status) {
   });
 }
 
+void add_campaign_identify(CLI::App& campaign, int& status) {
+  auto options = std::make_shared<IdentifyCampaign>();
+  CLI::App* command = campaign.add_subcommand(
+      "identify",
+      "Machines that no file describes, one a seed: commissioned over their bus, identified, then "
+      "digging with the profile as shipped, as identified and as their truth; half as fast where a "
+      "dead time passes 100 ms");
+  add_profile_option(*command, options->profile);
+  options->campaign.draws = 200;
+  add_campaign_options(*command, options->campaign);
+  add_override_option(*command, options->speed_override_ratio);
+  command->callback([options, &status] {
+    status = guarded("campaign identify", [&] { campaign_identify(*options); });
+  });
+}
+
 void add_campaign_merge(CLI::App& campaign, int& status) {
   auto options = std::make_shared<MergeOptions>();
   CLI::App* command = campaign.add_subcommand("merge", "Shards of one campaign into one file");
@@ -130,6 +161,7 @@ void add_campaign(CLI::App& app, int& status) {
   campaign->require_subcommand(1);
   add_campaign_dig(*campaign, status);
   add_campaign_grade(*campaign, status);
+  add_campaign_identify(*campaign, status);
   add_campaign_merge(*campaign, status);
 }
 

@@ -9,6 +9,7 @@ namespace graben::commission {
 namespace {
 
 constexpr double kPeriod_s = 0.01;
+constexpr double kUsualMost_mps = 0.5;
 /// Of a ramp. Slow: what a late machine is ahead of itself by then is a tenth of its edge.
 constexpr double kRampFrom = 0.04;
 constexpr double kRampSteep = 0.20;  ///< 1/s, up to the least edge that is likely.
@@ -59,6 +60,16 @@ const char* axis_name(int axis) {
 }
 
 }  // namespace
+
+SequenceOptions whole_sequence(const ExcavatorProfile& profile) {
+  SequenceOptions options;
+  for (unsigned k = 0; k < kAxisCount; ++k) {
+    options.stroke_m[k] = profile.geometry.cylinder[k].stroke_m;
+    options.window[k] = {0.0, options.stroke_m[k], kUsualMost_mps};
+    options.pump[k] = profile.valve.spool[k].pump;
+  }
+  return options;
+}
 
 std::string step_text(const SequenceStep& step) {
   const std::string where =

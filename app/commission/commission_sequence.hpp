@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/excavator/excavator_signals.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
 
 namespace graben::commission {
 
@@ -31,6 +31,10 @@ struct SequenceOptions {
   bool bursts = true;
   bool pairs = true;  ///< Two drives of one pump at once.
 };
+
+/// Everything that there is, over the whole strokes; what is too near to an end for the machine's
+/// surroundings is for the operator to take out.
+[[nodiscard]] SequenceOptions whole_sequence(const ExcavatorProfile& profile);
 
 enum class StepKind { kRamp, kStep, kBurst, kTouch, kPair, kReturn };
 

@@ -9,6 +9,7 @@
 #include "app/machines/bus_key.hpp"
 #include "app/machines/excavator_sections.hpp"
 #include "app/machines/oil_section.hpp"
+#include "app/machines/sensor_section.hpp"
 #include "app/machines/shared_sections.hpp"
 #include "app/machines/swash_keys.hpp"
 
@@ -384,6 +385,7 @@ ExcavatorProfile read_excavator_sections(TomlReader& reader) {
       reader.number("task.speed", {0.01, 3.0, "m/s"}, "speed of the teeth along the path");
   read_swash(reader, profile);
   profile.oil = read_oil(reader);
+  profile.sensor_zero = read_sensor_zeros(reader);
   check_law(reader, profile);
   profile.safety = read_safety(reader);
   profile.bus = read_bus(reader, shortest_dead_time_s(profile));

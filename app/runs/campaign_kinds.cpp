@@ -2,9 +2,11 @@
 
 #include <stdexcept>
 
+#include "app/machines/simulated/hidden.hpp"
 #include "app/runs/campaign_run.hpp"
 #include "app/runs/dig_run.hpp"
 #include "app/runs/grade_run.hpp"
+#include "app/runs/identify_run.hpp"
 
 namespace graben::runs {
 namespace {
@@ -25,9 +27,18 @@ const CampaignKind& grade_kind() {
   return kind;
 }
 
+const CampaignKind& identify_kind() {
+  // In the order of IdentifyEnd.
+  static const CampaignKind kind = {
+      "identify",
+      {"done", "commissioning-stopped", "not-identified", "identified-stopped"},
+      columns_of(identify_figures())};
+  return kind;
+}
+
 const CampaignKind& kind_of(const std::string& file) {
   const std::string name = campaign_name(file);
-  for (const CampaignKind* kind : {&dig_kind(), &grade_kind()}) {
+  for (const CampaignKind* kind : {&dig_kind(), &grade_kind(), &identify_kind()}) {
     if (name == kind->name) {
       return *kind;
     }
@@ -71,6 +82,22 @@ CampaignOutcome campaign_grade(const CampaignOptions& options,
                       fmt::format("grade {} {:08x}, {}", nominal.name, nominal.hash,
                                   scenario_text(nominal, scenario)),
                       draw, progress);
+}
+
+CampaignOutcome campaign_identify(const CampaignOptions& options,
+                                  const machines::SimulatedExcavator& nominal,
+                                  double speed_override_ratio, const Progress& progress) {
+  const auto draw = [&](std::uint64_t seed) {
+    const machines::SimulatedExcavator hidden = hidden_with_noise(nominal, seed);
+    const IdentifyResult result =
+        run_identification(hidden, {speed_override_ratio, {}}, show_nothing);
+    return campaign_row(static_cast<std::size_t>(result.end),
+                        figures_of(identify_figures(), result.summary, ""));
+  };
+  return run_campaign(
+      options, identify_kind(),
+      fmt::format("identify {} {:08x}, speed {}", nominal.name, nominal.hash, speed_override_ratio),
+      draw, progress);
 }
 
 std::string merge_campaigns(const std::vector<std::string>& files, const std::string& summary) {

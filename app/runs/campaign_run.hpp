@@ -37,6 +37,13 @@ struct CampaignOutcome {
                                              const GradeScenario& scenario,
                                              const Progress& progress);
 
+/// Hidden machines of `nominal`: commissioned, identified, and put to the dig, see
+/// identify_run.hpp.
+[[nodiscard]] CampaignOutcome campaign_identify(const CampaignOptions& options,
+                                                const machines::SimulatedExcavator& nominal,
+                                                double speed_override_ratio,
+                                                const Progress& progress);
+
 /// Shards of one campaign of any kind into one file; returns the table. Throws std::runtime_error
 /// where they do not belong together.
 [[nodiscard]] std::string merge_campaigns(const std::vector<std::string>& files,

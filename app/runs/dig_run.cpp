@@ -147,7 +147,8 @@ class DigRun {
     for (unsigned i = 0; i < kAxisCount; ++i) {
       const double most_m = machine_.profile.geometry.cylinder[i].stroke_m;
       measured = measured && inputs.axis[i].stroke_m.validity == Validity::kValid;
-      strokes_m[i] = std::clamp(inputs.axis[i].stroke_m.value, 0.0, most_m);
+      strokes_m[i] = std::clamp(
+          inputs.axis[i].stroke_m.value - machine_.profile.sensor_zero.stroke_m[i], 0.0, most_m);
       sample.velocity_wanted_mps[i] = outputs.status.lambda * outputs.status.wanted_velocity_mps[i];
       sample.spool_command[i] = outputs.duty_ratio[i];
     }

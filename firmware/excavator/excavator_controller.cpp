@@ -284,6 +284,10 @@ void ExcavatorController::demand_pumps(const ExcavatorValid& valid, const Motion
        valid.engine_radps, active && !motion.tries,
        any_blocked(memory_.watch.drives.blocked) || any_wary(memory_.watch.drives.blocked)},
       period_s, memory_.pumps);
+  if (active && motion.tries && profile_.demand_swash.most_ratio > 0.0) {
+    // With less, a load that takes all that a line has hides how its valve opens.
+    memory_.pumps.swash_ratio.fill(profile_.demand_swash.most_ratio);
+  }
 }
 
 void ExcavatorController::describe_motion(const Motion& motion, const Followed& taken,

@@ -119,6 +119,13 @@ struct OilProfile {
   [[nodiscard]] bool known() const { return bulk_modulus_pa > 0.0; }
 };
 
+/// What each sensor shows where the truth is 0; taken off before anything else is made of it.
+struct SensorZeros {
+  std::array<double, kAxisCount> stroke_m{};
+  std::array<double, kAxisCount> cap_pa{};
+  std::array<double, kAxisCount> rod_pa{};
+};
+
 /// Feedback around the valve's model; the numbers have no meaning outside.
 enum class ControlLaw : std::uint8_t {
   kServo = 0,  ///< Integrated error of each drive, see drive_servo.hpp.
@@ -223,6 +230,7 @@ struct ExcavatorProfile {
   SwashRange demand_swash;                           ///< unless it goes by what is needed.
   ControlProfile control;
   OilProfile oil;
+  SensorZeros sensor_zero;
   SafetyProfile safety;
 
   [[nodiscard]] bool has_swing() const { return drive_count == kDriveCount; }

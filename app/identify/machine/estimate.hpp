@@ -45,7 +45,9 @@ struct SideEstimate {
   Estimate dead_time_s;
   double driven_least = 0.0;  ///< Least and most duty that moved it; both 0: none did.
   double driven_most = 0.0;
-  /// Of the travel at each of kTableOpenings, by the curve's covariance; empty: nothing is known.
+  /// Travel at each of kTableOpenings and its deviation, by the curve's covariance; empty: not
+  /// known.
+  std::vector<double> duty;
   std::vector<double> duty_deviation;
 
   [[nodiscard]] OpeningCurve curve() const { return {edge.value, softness.value, exponent.value}; }

@@ -43,10 +43,12 @@ void add(Readings& to, double time_s, const dbc::Physical& value) {
   }
 }
 
+}  // namespace
+
 /// Collects the frames of one log.
-class Collector {
+class LogCollector::Frames {
  public:
-  explicit Collector(std::string name) : name_(std::move(name)) {
+  explicit Frames(std::string name) : name_(std::move(name)) {
     for (const dbc::MessageInfo& message : bus::kMessages) {
       known_.emplace(message.id, message);
     }
@@ -94,7 +96,7 @@ class Collector {
   double last_s_ = -1e300;
 };
 
-void Collector::decode(const LoggedFrame& frame) {
+void LogCollector::Frames::decode(const LoggedFrame& frame) {
   const double t = frame.time_s;
   const auto pressures = [&](std::size_t i, const dbc::Physical& cap, const dbc::Physical& rod) {
     add(signals_.cap_pa[i], t, cap);
@@ -151,7 +153,7 @@ void Collector::decode(const LoggedFrame& frame) {
   }
 }
 
-void Collector::identify(const LoggedFrame& frame) {
+void LogCollector::Frames::identify(const LoggedFrame& frame) {
   const auto message = bus::MachineIdentity::decode(frame.data);
   if (message.dbc_version.state == dbc::RawState::kValid &&
       message.dbc_version.value != bus::kDbcVersion) {
@@ -165,6 +167,8 @@ void Collector::identify(const LoggedFrame& frame) {
   }
   log_.profile_hash = hash;
 }
+
+namespace {
 
 /// The last reading at or before each grid point; before the first, the first.
 std::vector<double> sampled(const Readings& readings, double begin_s, std::size_t count,
@@ -197,7 +201,9 @@ Readings within(const Readings& readings, double begin_s, double end_s) {
   return part;
 }
 
-LogSegment Collector::segment(double begin_s, double end_s, int pump_count) const {
+}  // namespace
+
+LogSegment LogCollector::Frames::segment(double begin_s, double end_s, int pump_count) const {
   LogSegment part;
   part.begin_s = begin_s;
   const auto count = static_cast<std::size_t>((end_s - begin_s) / kGrid_s);
@@ -221,7 +227,7 @@ LogSegment Collector::segment(double begin_s, double end_s, int pump_count) cons
   return part;
 }
 
-void Collector::assert_whole() const {
+void LogCollector::Frames::assert_whole() const {
   const std::array<const char*, kAxisCount> names = {"boom", "arm", "bucket"};
   if (log_.frames == 0) {
     refuse(fmt::format("no frame of an excavator on our bus ({} frames of others)", log_.foreign));
@@ -242,7 +248,7 @@ void Collector::assert_whole() const {
   }
 }
 
-MachineLog Collector::log(int pump_count) {
+MachineLog LogCollector::Frames::log(int pump_count) {
   assert_whole();
   const Readings& strokes = signals_.stroke_m[0];
   double begin_s = strokes.front().time_s;
@@ -268,7 +274,10 @@ MachineLog Collector::log(int pump_count) {
   return std::move(log_);
 }
 
-}  // namespace
+LogCollector::LogCollector(std::string name) : frames_(new Frames(std::move(name))) {}
+LogCollector::~LogCollector() = default;
+void LogCollector::take(const LoggedFrame& frame) { frames_->take(frame); }
+MachineLog LogCollector::log(int pump_count) { return frames_->log(pump_count); }
 
 double MachineLog::length_s() const {
   double sum_s = 0.0;
@@ -279,7 +288,7 @@ double MachineLog::length_s() const {
 }
 
 MachineLog read_machine_log(const std::filesystem::path& file, int pump_count) {
-  Collector collector(file.filename().string());
+  LogCollector collector(file.filename().string());
   const std::string sha256 =
       read_candump(file, [&](const LoggedFrame& frame) { collector.take(frame); });
   MachineLog log = collector.log(pump_count);

@@ -6,9 +6,11 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "app/identify/machine/candump_reader.hpp"
 #include "firmware/excavator/excavator_signals.hpp"
 
 namespace graben::identify {
@@ -56,6 +58,25 @@ struct MachineLog {
   std::size_t foreign = 0;  ///< Frames of other buses.
 
   [[nodiscard]] double length_s() const;
+};
+
+/// Makes a log of frames as they come.
+class LogCollector {
+ public:
+  /// `name` is for errors.
+  explicit LogCollector(std::string name);
+  ~LogCollector();
+  LogCollector(const LogCollector&) = delete;
+  LogCollector& operator=(const LogCollector&) = delete;
+
+  /// Frames of other buses are counted, those with a wrong length or checksum refused. Throws as
+  /// read_machine_log().
+  void take(const LoggedFrame& frame);
+  [[nodiscard]] MachineLog log(int pump_count);
+
+ private:
+  class Frames;
+  std::unique_ptr<Frames> frames_;
 };
 
 /// Reads a log, plain or gzip; `pump_count` of the machine. Throws std::runtime_error that names

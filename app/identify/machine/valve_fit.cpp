@@ -227,19 +227,18 @@ void Fit::start_at_edges() {
   }
 }
 
-/// Where the load takes nearly all that the line has, a small error of the line's pressure is a large
-/// one of the speed: such points say less.
+/// Where the load takes nearly all that the line has, a small error of the line's pressure is a
+/// large one of the speed: such points say less.
 void Fit::weigh() {
   for (std::size_t n = 0; n < points_.size(); ++n) {
     const PreparedPoint& of = points_[n];
     const SteadyPoint& point = of.point();
     const auto axis = static_cast<std::size_t>(point.axis);
-    const ValveTry tried = try_of(blocks_.side[side_of(point.axis, of.extends())].data(),
-                                  blocks_.zero[axis].data(),
-                                  blocks_.pump[static_cast<std::size_t>(of.pump())].data());
+    const ValveTry tried =
+        try_of(blocks_.side[side_of(point.axis, of.extends())].data(), blocks_.zero[axis].data(),
+               blocks_.pump[static_cast<std::size_t>(of.pump())].data());
     const double speed_mps = std::abs(point.speed_mps);
-    const double by_line_mps =
-        of.speed_error(tried).per_force_mpspn * kLine_pa * of.fed_area_m2();
+    const double by_line_mps = of.speed_error(tried).per_force_mpspn * kLine_pa * of.fed_area_m2();
     spread_[n].speed_mps =
         std::hypot(point.speed_spread_mps + kSpeedShare * speed_mps, by_line_mps);
     spread_[n].out_mps = 2.0 * point.speed_spread_mps + kOutShare * speed_mps;
@@ -347,9 +346,11 @@ void Fit::tell_side(const ExcavatorProfile& profile, std::size_t side, SideEstim
   constexpr double kStep = 1e-4;
   const Eigen::Matrix3d covariance =
       covariance_.block<3, 3>(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(first));
+  to.duty.clear();
   to.duty_deviation.clear();
   for (const double opening : kTableOpenings) {
     const double area = std::pow(opening, profile.valve.opening_exponent);
+    to.duty.push_back(to.curve().travel_at(area));
     Eigen::Vector3d slope;
     for (std::size_t at = 0; at <= kExponent; ++at) {
       auto moved = block;

@@ -9,11 +9,27 @@
 namespace graben {
 namespace {
 
-/// All drives' signals alike: the swing as the travel at its lever, extending to the left.
+/// No pressure is below nothing because of its zero.
+double above_zero(double shown, double zero) {
+  const double value = shown - zero;
+  return zero > 0.0 && value < 0.0 ? 0.0 : value;
+}
+
+/// All drives' signals alike: the swing as the travel at its lever, extending to the left; each
+/// sensor's zero taken off.
 std::array<DriveInputs, kDriveCount> drive_inputs(const ExcavatorInputs& inputs,
-                                                  const SwingProfile& swing) {
-  return {inputs.axis[kBoom], inputs.axis[kArm], inputs.axis[kBucket],
-          swing_inputs(inputs.swing, swing)};
+                                                  const ExcavatorProfile& profile) {
+  std::array<DriveInputs, kDriveCount> drives = {inputs.axis[kBoom], inputs.axis[kArm],
+                                                 inputs.axis[kBucket],
+                                                 swing_inputs(inputs.swing, profile.swing)};
+  const SensorZeros& zero = profile.sensor_zero;
+  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    DriveInputs& drive = drives[axis];
+    drive.stroke_m.value -= zero.stroke_m[axis];
+    drive.cap_pressure_pa.value = above_zero(drive.cap_pressure_pa.value, zero.cap_pa[axis]);
+    drive.rod_pressure_pa.value = above_zero(drive.rod_pressure_pa.value, zero.rod_pa[axis]);
+  }
+  return drives;
 }
 
 /// A window counts for so long; those of all drives come by turns.
@@ -73,7 +89,7 @@ ExcavatorValid validate(const ExcavatorProfile& profile, DriveRows drives,
   read_machine(profile.bus, inputs, {profile.pump[0].rated_speed_radps, profile.safety.idle_radps},
                fresh, now_us, valid);
   read_hands(inputs, fresh, now_us, valid);
-  read_drives(drives, drive_inputs(inputs, profile.swing), moving, fresh, accepted, valid.drive,
+  read_drives(drives, drive_inputs(inputs, profile), moving, fresh, accepted, valid.drive,
               valid.faults);
   for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
     if (profile.bus.swash_feedback) {

@@ -1,0 +1,111 @@
+#include "app/identify/machine/identified_profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben::identify {
+namespace {
+
+/// Of what resists, that either edge has at least.
+constexpr double kLeastShare = 0.1;
+/// See kLagShare of drive_bank.hpp: two equal lags, and what they are off.
+constexpr double kSettlePerLag = 1.75;
+/// Two points of a table are at least so far apart.
+constexpr double kApart = 1e-4;
+
+double cube(double value) { return value * value * value; }
+
+/// A table with rising duties that ends within the full travel.
+DutyTable table_of(const std::vector<double>& duty) {
+  std::array<double, kTableOpenings.size()> opening = kTableOpenings;
+  opening.front() = 0.0;
+  std::array<double, kTableOpenings.size()> rising{};
+  double least = 0.0;
+  for (std::size_t at = 0; at < rising.size(); ++at) {
+    const double most = 1.0 - kApart * static_cast<double>(rising.size() - 1 - at);
+    rising[at] = std::clamp(duty[at], least, most);
+    least = rising[at] + kApart;
+  }
+  DutyTable table;
+  static_cast<void>(
+      table.fill(opening.data(), rising.data(), static_cast<int>(kTableOpenings.size())));
+  return table;
+}
+
+void set_side(const DriveEstimate& drive, bool extends, SaidAnswer& answer) {
+  const SideEstimate& side = drive.side(extends);
+  if (side.edge.known && !side.duty.empty()) {
+    answer.spool_to_duty = table_of(side.duty);
+  }
+  if (side.dead_time_s.known) {
+    answer.dead_time_s = side.dead_time_s.value;
+  }
+  if (drive.spool_time_constant_s.known) {
+    answer.lag_s = drive.lag_s() + kOilLag_s;
+    answer.spool_time_constant_s = 0.5 * drive.lag_s();
+  }
+}
+
+void set_areas(int axis, const DriveEstimate& drive, ExcavatorProfile& profile) {
+  SpoolProfile& spool = profile.valve.spool[static_cast<unsigned>(axis)];
+  for (const bool extends : {true, false}) {
+    const SideEstimate& side = drive.side(extends);
+    if (!side.coefficient_factor.known) {
+      continue;
+    }
+    const SideAreas areas = areas_of(profile, axis, extends, side);
+    (extends ? spool.extend_in_m2 : spool.retract_in_m2) = areas.in_m2;
+    (extends ? spool.extend_out_m2 : spool.retract_out_m2) = areas.out_m2;
+  }
+}
+
+}  // namespace
+
+SideAreas areas_of(const ExcavatorProfile& profile, int axis, bool extends,
+                   const SideEstimate& side) {
+  const auto k = static_cast<unsigned>(axis);
+  const CylinderGeometry& cylinder = profile.geometry.cylinder[k];
+  const SpoolProfile& spool = profile.valve.spool[k];
+  const double fed3 = cube(extends ? cylinder.cap_area_m2() : cylinder.rod_area_m2());
+  const double drained3 = cube(extends ? cylinder.rod_area_m2() : cylinder.cap_area_m2());
+  const double in_m2 = extends ? spool.extend_in_m2 : spool.retract_in_m2;
+  const double out_m2 = extends ? spool.extend_out_m2 : spool.retract_out_m2;
+  const double factor = side.coefficient_factor.value;
+  const double resistance =
+      (fed3 / (in_m2 * in_m2) + drained3 / (out_m2 * out_m2)) / (factor * factor);
+  const double wanted_out_m2 = side.out_area_factor.value * out_m2;
+  const double drains = std::clamp(drained3 / (wanted_out_m2 * wanted_out_m2),
+                                   kLeastShare * resistance, (1.0 - kLeastShare) * resistance);
+  return {std::sqrt(fed3 / (resistance - drains)), std::sqrt(drained3 / drains)};
+}
+
+ExcavatorProfile identified(const ExcavatorProfile& profile, const MachineEstimate& machine) {
+  ExcavatorProfile result = profile;
+  double longest_lag_s = 0.0;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const auto k = static_cast<unsigned>(axis);
+    const DriveEstimate& drive = machine.drive[k];
+    set_side(drive, true, result.valve.answer[k].extend);
+    set_side(drive, false, result.valve.answer[k].retract);
+    set_areas(axis, drive, result);
+    longest_lag_s = std::max(longest_lag_s, drive.lag_s());
+    if (drive.stroke_zero_m.known) {
+      result.sensor_zero.stroke_m[k] = drive.stroke_zero_m.value;
+    }
+    if (drive.cap_zero_pa.known) {
+      result.sensor_zero.cap_pa[k] = drive.cap_zero_pa.value;
+    }
+    if (drive.rod_zero_pa.known) {
+      result.sensor_zero.rod_pa[k] = drive.rod_zero_pa.value;
+    }
+  }
+  for (unsigned j = 0; j < static_cast<unsigned>(result.pump_count); ++j) {
+    if (machine.pump_flow_factor[j].known) {
+      result.pump[j].displacement_m3prev *= machine.pump_flow_factor[j].value;
+    }
+  }
+  result.safety.settle_s = std::max(result.safety.settle_s, kSettlePerLag * longest_lag_s);
+  return result;
+}
+
+}  // namespace graben::identify

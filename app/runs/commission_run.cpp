@@ -1,0 +1,130 @@
+#include "app/runs/commission_run.hpp"
+
+#include <optional>
+
+#include "app/runs/excavator_rig.hpp"
+#include "can_dbc/generated/excavator_dbc.hpp"
+
+namespace graben::runs {
+namespace {
+
+namespace bus = dbc::excavator;
+
+/// What the station hears of machine and controller.
+class Ear {
+ public:
+  explicit Ear(LoopbackPort& port) : port_(port) {}
+
+  void listen() {
+    plant::receive_frames(port_, [this](const CanFrame& frame) {
+      const auto take = [this](std::size_t axis, const dbc::Physical& stroke) {
+        if (stroke.state == dbc::RawState::kValid) {
+          strokes_m[axis] = stroke.value;
+        }
+      };
+      if (frame.id == bus::BoomStroke::kId) {
+        take(0, bus::BoomStroke::decode(frame.data).boom_stroke_m);
+      } else if (frame.id == bus::ArmStroke::kId) {
+        take(1, bus::ArmStroke::decode(frame.data).arm_stroke_m);
+      } else if (frame.id == bus::BucketStroke::kId) {
+        take(2, bus::BucketStroke::decode(frame.data).bucket_stroke_m);
+      } else if (frame.id == bus::EcuStatus::kId) {
+        mode = bus::EcuStatus::decode(frame.data).mode.value;
+      }
+    });
+  }
+
+  std::array<double, kAxisCount> strokes_m{};
+  bus::EcuStatus::Mode mode = bus::EcuStatus::Mode::kSilent;
+
+ private:
+  LoopbackPort& port_;
+};
+
+identify::LoggedFrame logged(const CanFrame& frame) {
+  identify::LoggedFrame line;
+  line.time_s = seconds(frame.stamp_us);
+  line.id = frame.id;
+  line.extended = frame.extended;
+  line.length = frame.length;
+  line.data = frame.data;
+  return line;
+}
+
+}  // namespace
+
+CommissionOptions usual_commission(const machines::SimulatedExcavator& machine) {
+  CommissionOptions options;
+  options.sequence = commission::whole_sequence(machine.profile);
+  for (unsigned k = 0; k < kAxisCount; ++k) {
+    options.start_strokes_m[k] = 0.5 * machine.profile.geometry.cylinder[k].stroke_m;
+  }
+  return options;
+}
+
+CommissionResult run_commission(const machines::SimulatedExcavator& machine,
+                                const CommissionOptions& options,
+                                const std::function<void(const identify::LoggedFrame&)>& take,
+                                const Progress& progress) {
+  ExcavatorRig rig(machine, machine.profile, start_at(options.start_strokes_m), Task::kCommission,
+                   1.0);
+  LoopbackPort& port = rig.bus.attach();
+  static_cast<void>(port.open());
+  Ear ear(port);
+  std::optional<CandumpLog> log;
+  if (!options.log_file.empty()) {
+    log.emplace(options.log_file, "vcan0");
+  }
+  rig.bus.set_tap([&](const CanFrame& frame) {
+    if (log) {
+      log->write(frame, frame.stamp_us);
+    }
+    if (take) {
+      take(logged(frame));
+    }
+  });
+  commission::CommissionSequence sequence(options.sequence);
+  plant::OperatorHands hands;
+  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+    const commission::Window& window = options.sequence.window[axis];
+    hands.window[axis] = StrokeWindow{window.least_m, window.most_m, window.most_mps};
+  }
+  CommissionResult result;
+  TimeUs now_us = 0;
+  for (; !sequence.is_done(); now_us += ExcavatorRig::kPeriod_us) {
+    ear.listen();
+    sequence.step(seconds(now_us), ear.strokes_m, ear.mode == bus::EcuStatus::Mode::kActive);
+    hands.tried_ratio = sequence.duty();
+    rig.driver.set_hands(hands);
+    static_cast<void>(rig.step(now_us));
+    const ExcavatorStatus& status = rig.ecu->outputs().status;
+    if (status.mode == EcuMode::kFault) {
+      result.end = CommissionEnd::kFault;
+      result.fault = status.fault;
+      break;
+    }
+    if (seconds(now_us) > kCommissionMost_s) {
+      result.end = CommissionEnd::kTooLong;
+      break;
+    }
+    if (!sequence.is_done()) {
+      progress(static_cast<double>(sequence.at()) / static_cast<double>(sequence.steps().size()),
+               step_text(sequence.steps()[sequence.at()]));
+    }
+  }
+  rig.release();
+  for (const TimeUs end_us = now_us + 500 * kMillisecondUs; now_us < end_us;
+       now_us += ExcavatorRig::kPeriod_us) {
+    static_cast<void>(rig.step(now_us));
+  }
+  rig.bus.set_tap(nullptr);
+  if (log) {
+    log->close();
+  }
+  result.step = sequence.at();
+  result.machine_s = sequence.active_s();
+  result.steps = sequence.results();
+  return result;
+}
+
+}  // namespace graben::runs
