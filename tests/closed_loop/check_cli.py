@@ -148,6 +148,20 @@ def bad_finds(graben):
             "oil=1")
 
 
+def bad_machines(graben):
+    """A simulated machine that is not there, is of other drives, or is asked for where none runs."""
+    for command in (("dig",), ("autodig",), ("campaign", "dig", "--summary", "no_such.csv"),
+                    ("plant", "--can", "no_such0"), ("scope", "--sim", "dig", "--port", "0")):
+        refused(graben, "simulated machine 'no_such' not found", *command, "--simulated", "no_such")
+        refused(graben, "-1 is not a whole number", *command, "--hidden=-1", status=2)
+    refused(graben, "the simulated machine, excavator_22t, has 3 and 2", "dig", "--profile", "excavator_12t",
+            "--simulated", "excavator_22t_found")
+    refused(graben, "of an excavator alone", "scope", "--sim", "grade", "--port", "0", "--hidden", "1")
+    refused(graben, "only with --sim", "scope", "--can", "no_such0", "--hidden", "1")
+    refused(graben, "the profile is not one of an excavator", "plant", "--can", "no_such0", "--profile",
+            "dozer_9t", "--hidden", "1")
+
+
 def law_without_oil(graben):
     """A profile may have no [oil]; then it has not that law either."""
     with tempfile.TemporaryDirectory() as folder:
@@ -200,6 +214,7 @@ def main():
     bad_tasks(graben)
     bad_grades(graben)
     bad_finds(graben)
+    bad_machines(graben)
     no_constant_speed(graben)
     unwritable(graben)
     lost_output(graben)

@@ -24,10 +24,7 @@ class LoaderPlant {
   static constexpr Oil kOil = {1.4e9, -0.1e6};
   static constexpr Pair kMass_kg = {5000.0, 2000.0};
   static constexpr Pair kLoad_n = {42e3, 9e3};
-
-  static SpoolSide edges_of(const LoaderProfile& profile) {
-    return {profile.deadband_ratio, 0.0, profile.metering.opening_exponent};
-  }
+  static constexpr SpoolSide kEdge = {0.2, 0.0, 1.5};  ///< Deadband and opening as of the profile.
 
   struct Side {
     Side(const LoaderProfile& profile, unsigned i)
@@ -39,7 +36,7 @@ class LoaderPlant {
                    kStep_s),
           section({profile.spool[i],
                    profile.metering,
-                   {0.02, 1.0, edges_of(profile), edges_of(profile), 0.1},
+                   {0.02, 1.0, kEdge, kEdge, 0.1},
                    HydraulicDetails{}.protection(25e6)}),
           pilot(0.0, 0.0, kStep_s) {}
 

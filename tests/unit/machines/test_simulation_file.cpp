@@ -183,13 +183,13 @@ void a_profile_does_not_change_the_machine_that_it_is_put_in(void**) {
   assert_true(machine.hash != nominal().hash);
   assert_int_equal(machine.hash, machines::load_excavator(profile).hash);
   assert_near(machine.profile.valve.spool[kBoom].extend_in_m2, 1.20e-4, 0.0);
-  assert_near(machine.plant.section(kBoom).edges.extend_in_m2, 1.50e-4, 0.0);
+  assert_near(machine.plant.machine.valve.spool[kBoom].extend_in_m2, 1.50e-4, 0.0);
   // The same by a file beside the profile that names the machine.
   static_cast<void>(folder.write("better.sim.toml", "machine = \"excavator_22t\""));
   const SimulatedExcavator beside = machines::load_simulated_excavator(profile, SimulatedChoice());
   assert_true(beside.simulated.empty() && beside.hash == machine.hash);
   assert_near(beside.profile.valve.spool[kBoom].extend_in_m2, 1.20e-4, 0.0);
-  assert_near(beside.plant.section(kBoom).edges.extend_in_m2, 1.50e-4, 0.0);
+  assert_near(beside.plant.machine.valve.spool[kBoom].extend_in_m2, 1.50e-4, 0.0);
 }
 
 void a_hidden_machine_is_put_in_by_its_seed(void**) {

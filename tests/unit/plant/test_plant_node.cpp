@@ -43,6 +43,27 @@ void frames_are_protected(void**) {
   check_protection<bus::OperatorCommand>(rig);
 }
 
+/// Off by their zeros always, and by what a seed draws beside them.
+void sensors_are_off_by_their_zeros(void**) {
+  SensorErrors errors;
+  errors.stroke_bias_m = 2e-3;
+  errors.pressure_range_pa = 40e6;
+  errors.pressure_bias_ratio = 0.01;
+  const SensorModel plain(errors, 3);
+  errors.stroke_zero_m[kArm] = -0.01;
+  errors.cap_zero_pa[kBoom] = 1e6;
+  errors.rod_zero_pa[kSwing] = -1e6;
+  SensorModel exact(errors, std::nullopt);
+  assert_near(exact.stroke_m(kArm, 0.5), 0.49, 1e-12);
+  assert_near(exact.stroke_m(kBoom, 0.5), 0.5, 0.0);
+  assert_near(exact.cap_pressure_pa(kBoom, 5e6), 6e6, 1e-6);
+  assert_near(exact.rod_pressure_pa(kBoom, 5e6), 5e6, 0.0);
+  assert_near(exact.rod_pressure_pa(kSwing, 5e6), 4e6, 1e-6);
+  assert_near(exact.rod_pressure_pa(kSwing, 0.5e6), 0.0, 0.0);
+  const SensorModel biased(errors, 3);
+  assert_near(biased.stroke_m(kArm, 0.5), plain.stroke_m(kArm, 0.5) - 0.01, 1e-12);
+}
+
 void values_are_the_plants(void**) {
   Rig rig;
   rig.cycles(3);
@@ -277,6 +298,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(messages_come_at_their_rates),
       cmocka_unit_test(frames_are_protected),
+      cmocka_unit_test(sensors_are_off_by_their_zeros),
       cmocka_unit_test(values_are_the_plants),
       cmocka_unit_test(sensors_show_what_they_can),
       cmocka_unit_test(commands_move_the_spool),
