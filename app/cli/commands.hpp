@@ -24,6 +24,7 @@ void add_autodig(CLI::App& app, int& status);
 void add_plan(CLI::App& app, int& status);
 void add_plant(CLI::App& app, int& status);
 void add_operate(CLI::App& app, int& status);
+void add_commission(CLI::App& app, int& status);
 void add_identify(CLI::App& app, int& status);
 void add_scope(CLI::App& app, int& status);
 

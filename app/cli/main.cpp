@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   graben::cli::add_plan(app, status);
   graben::cli::add_plant(app, status);
   graben::cli::add_operate(app, status);
+  graben::cli::add_commission(app, status);
   graben::cli::add_identify(app, status);
   graben::cli::add_scope(app, status);
   try {

@@ -178,8 +178,8 @@ CommissionResult next_commission(const DriveRow& drive, const CommissionAsk& ask
   }
   const double step_m = seen.stroke_m - state.stroke_m;
   state.stroke_m = seen.stroke_m;
-  state.slow_m += (seen.stroke_m - state.slow_m) * std::min(1.0, period_s / kSpeed_s);
   state.speed_mps = (seen.stroke_m - state.slow_m) / kSpeed_s;
+  state.slow_m += (seen.stroke_m - state.slow_m) * std::min(1.0, period_s / kSpeed_s);
   follow_duty(ask.sent_ratio, period_s, state);
   follow_pressures(seen, begins, period_s, state);
   follow_way(step_m, period_s, state);

@@ -206,8 +206,8 @@ void ExcavatorController::steer(const ExcavatorValid& valid, const KinematicStat
       setup_.book.program[chosen ? static_cast<unsigned>(valid.task_number) : 0U].fences;
   motion.cap = motion_cap(profile_, drives(), setup_.kinematics, fences,
                           strokes_then_m(drives(), memory_.servo), motion.corrected_mps);
-  if (motion.hand.limit.kind != LimitKind::kNone && motion.cap.limit.kind == LimitKind::kNone) {
-    motion.cap.limit = motion.hand.limit;
+  if (motion.cap.limit.kind == LimitKind::kNone) {
+    motion.cap.limit = motion.hand.cap.limit;
   }
   motion.path_error_m = motion.hand.error_m;
   motion.off_m = motion.hand.error_m;
@@ -295,7 +295,7 @@ void ExcavatorController::describe_motion(const Motion& motion, const Followed& 
   const McvSolution& solution = taken.solution;
   const bool waits = motion.task.pace_ratio < kWaits;
   const bool rises = !motion.tries && solution.status == SolveStatus::kOk && taken.of_way() < 1.0;
-  status.lambda = motion.tries ? 1.0 : motion.cap.factor * taken.of_way();
+  status.lambda = motion.tries ? 1.0 : motion.cap.factor * motion.hand.cap.factor * taken.of_way();
   status.limit = held_by({blocked_limit(memory_.watch.drives.blocked),
                           solution.limit,
                           motion.tries ? commission_limit() : motion.cap.limit,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/drives/velocity_cap.hpp"
 #include "firmware/excavator/swing.hpp"
 #include "firmware/excavator/tasks/drive_plan.hpp"
 
@@ -71,19 +70,23 @@ HandSpeed target_of(const HandRange& range, const HandAsk& ask, bool released) {
   return ask.speed_override_ratio * range.most.cwiseProduct(levers);
 }
 
-/// Of a drive by itself; what it may have less is its end's.
+/// Before the end of a drive, or so far from it.
+void slow_at_end(const DriveRow& drive, double then_m, double speed_mps, double margin_m,
+                 VelocityCap& cap) {
+  const double left_m =
+      speed_mps > 0.0 ? drive.most_travel_m - then_m : then_m - drive.least_travel_m;
+  approach(drive.control.stroke_end_gain_ps, drive.control.deceleration_mps2, left_m - margin_m,
+           std::abs(speed_mps), drive.control.at_end, cap);
+}
+
+/// Each drive by itself; what it may have less is its end's.
 void slow_each(DriveRows drives, const DriveVector& then_m, HandWant& want) {
   want.wanted_mps.setZero();
   for (int i = 0; i < drives.count(); ++i) {
-    const DriveRow& drive = drives[i];
-    const double speed_mps = want.speed[i];
-    const double left_m =
-        speed_mps > 0.0 ? drive.most_travel_m - then_m[i] : then_m[i] - drive.least_travel_m;
     VelocityCap cap;
-    approach(drive.control.stroke_end_gain_ps, drive.control.deceleration_mps2, left_m,
-             std::abs(speed_mps), drive.control.at_end, cap);
-    want.wanted_mps[i] = cap.factor * speed_mps;
-    want.limit = cap.limit.kind == LimitKind::kNone ? want.limit : cap.limit;
+    slow_at_end(drives[i], then_m[i], want.speed[i], 0.0, cap);
+    want.wanted_mps[i] = cap.factor * want.speed[i];
+    want.cap.limit = cap.limit.kind == LimitKind::kNone ? want.cap.limit : cap.limit;
   }
   want.speed = want.wanted_mps;
 }
@@ -138,7 +141,7 @@ void lead_teeth(DriveRows drives, const ExcavatorKinematics& kinematics, const K
       kinematics.motion_from_pose(moved(want.tip, want.speed, kAhead_s), rate, {});
   const PathMotion& blind = here.status == ReachStatus::kOk ? ahead : here;
   if (blind.status != ReachStatus::kOk) {
-    want.limit = drives[axis_of(blind)].control.at_end;
+    want.cap.limit = drives[axis_of(blind)].control.at_end;
     want.speed.setZero();
     return;
   }
@@ -146,6 +149,11 @@ void lead_teeth(DriveRows drives, const ExcavatorKinematics& kinematics, const K
   want.wanted_mps = with_swing(want.wanted_mps, want.speed[kSwing]);
   want.wanted_mps.head<kAxisCount>() = here.strokes_rate;
   want.wanted_mps *= state.pace_ratio;
+  for (int i = 0; i < kAxisCount; ++i) {
+    slow_at_end(drives[i], want.planned_m[i], want.wanted_mps[i], kLineEnds_m, want.cap);
+  }
+  // Corrections stay whole: they keep the line straight while it ends.
+  want.wanted_mps *= want.cap.factor;
 }
 
 }  // namespace
@@ -182,7 +190,7 @@ HandState next_by_hand(const LineProfile& line, const HandWant& want, const Hand
   }
   next.plans = true;
   next.is_new = !last.plans;
-  const double by_s = last.pace_ratio * followed_ratio * period_s;
+  const double by_s = last.pace_ratio * want.cap.factor * followed_ratio * period_s;
   next.tip = moved(want.tip, want.speed, by_s);
   next.planned_m = want.planned_m + followed_ratio * period_s * want.wanted_mps;
   const double slow_m = line.slow_error_m + line.slow_error_s * want.speed.head<2>().norm();

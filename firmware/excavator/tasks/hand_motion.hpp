@@ -3,6 +3,7 @@
 /// of the boom, with their attitude and the swing (Task::kCoordinated). Travels and velocities of
 /// the swing are those at its lever (SwingProfile).
 
+#include "firmware/drives/velocity_cap.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 
@@ -23,6 +24,8 @@ struct HandState {
   double pace_ratio = 1.0;                      ///< See TaskState.
 };
 
+inline constexpr double kLineEnds_m = 0.05;
+
 /// What it is reckoned from.
 struct HandAsk {
   Task task = Task::kNone;
@@ -38,21 +41,23 @@ struct HandWant {
   DriveVector wanted_mps = DriveVector::Zero();  ///< V_L^d.
   bool moves = false;                            ///< Something is asked for, or was until now.
   double error_m = 0.0;  ///< Coordinated: of the teeth from where they should be by now.
-  Limit limit;           ///< What lets the levers have less; kNone: nothing.
+  /// By what that is already slowed; of Jog only the limit, of one drive.
+  VelocityCap cap;
 };
 
 /// Full lever is the fastest speed that the pump gives a drive, in Coordinated the speed of the
 /// task along its path, of the attitude the field's fastest rate.
 ///
-/// Jog: each drive slows before its own end, and no other with it. Coordinated: where no pose is to
-/// be had further on, all stand, and other ways are free. `servo` has this cycle's strokes.
+/// Jog: each drive slows before its own end, and no other with it. Coordinated: all slow before an
+/// end, kLineEnds_m from it, for there cylinders are cushioned and a line would bend; where no pose
+/// is to be had further on, all stand. Other ways are free. `servo` has this cycle's strokes.
 [[nodiscard]] HandWant want_by_hand(const ExcavatorProfile& profile, DriveRows drives,
                                     const ExcavatorKinematics& kinematics,
                                     const KinematicState& now, const ExcavatorServo& servo,
                                     const HandAsk& ask, const HandState& state, double period_s);
 
-/// The state after a cycle in which that was followed at `followed_ratio`: lambda and the factor of
-/// ends and fences.
+/// The state after a cycle in which that was followed at `followed_ratio`: lambda and what slows
+/// beside it.
 [[nodiscard]] HandState next_by_hand(const LineProfile& line, const HandWant& want,
                                      const HandAsk& ask, const HandState& last,
                                      double followed_ratio, double period_s);

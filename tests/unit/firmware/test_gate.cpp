@@ -193,6 +193,64 @@ void a_flipped_bit_is_refused(void**) {
   }
 }
 
+struct Tried {
+  ExcavatorBank bank = excavator_bank(profile());
+  GateState state;
+  std::array<double, kDriveCount> duty_ratio{};
+
+  GateResult step(const std::array<double, kDriveCount>& wanted, double period_s = kLong_s,
+                  bool active = true) {
+    return gate_duties(bank.rows(), active, wanted, period_s, state.opening, duty_ratio);
+  }
+};
+
+/// No table, no threshold: nothing is known of the valve.
+void duties_that_are_tried_pass_as_they_are(void**) {
+  Tried tried;
+  const GateResult result = tried.step({0.001, -0.1, 0.9});
+  assert_true(result.enable);
+  assert_int_equal(result.fault, Fault::kNone);
+  assert_near(tried.duty_ratio[0], 0.001, 0.0);
+  assert_near(tried.duty_ratio[1], -0.1, 0.0);
+  assert_near(tried.duty_ratio[2], 0.9, 0.0);
+  assert_near(tried.state.opening[2].value(), 0.9, 0.0);
+  assert_true(tried.step({2.0, -2.0, 0.0}).enable);
+  assert_near(tried.duty_ratio[0], 1.0, 0.0);
+  assert_near(tried.duty_ratio[1], -1.0, 0.0);
+  assert_near(tried.duty_ratio[2], 0.0, 0.0);
+}
+
+/// A quarter a cycle, so that a step is one; down at once, through zero as from zero.
+void duties_that_are_tried_may_step(void**) {
+  Tried tried;
+  static_cast<void>(tried.step({0.6, -0.6, 0.2}, 0.01));
+  assert_near(tried.duty_ratio[0], 0.25, 1e-12);
+  assert_near(tried.duty_ratio[1], -0.25, 1e-12);
+  assert_near(tried.duty_ratio[2], 0.2, 0.0);
+  static_cast<void>(tried.step({0.6, -0.6, -0.9}, 0.01));
+  assert_near(tried.duty_ratio[0], 0.5, 1e-12);
+  assert_near(tried.duty_ratio[2], -0.25, 1e-12);
+  static_cast<void>(tried.step({0.0, -0.6, 0.0}, -1.0));
+  assert_near(tried.duty_ratio[0], 0.0, 0.0);
+  assert_near(tried.duty_ratio[1], -0.5, 1e-12);
+}
+
+void duties_that_are_tried_are_refused_as_others(void**) {
+  Tried passive;
+  passive.duty_ratio.fill(0.5);
+  assert_false(passive.step({0.5, 0.5, 0.5}, kLong_s, false).enable);
+  assert_near(passive.duty_ratio[0], 0.0, 0.0);
+  Tried wrong;
+  const GateResult refused = wrong.step({0.5, std::numeric_limits<double>::quiet_NaN(), 0.0});
+  assert_false(refused.enable);
+  assert_int_equal(refused.fault, Fault::kCommandNotFinite);
+  assert_near(wrong.duty_ratio[0], 0.0, 0.0);
+  Tried flipped;
+  test::flip_bit(flipped.state.opening[1], 3);
+  assert_int_equal(flipped.step({0.5, 0.5, 0.5}).fault, Fault::kMemoryCorrupt);
+  assert_near(flipped.duty_ratio[1], 0.0, 0.0);
+}
+
 /// Neutral needs nothing of what is stored.
 void a_flipped_bit_does_not_matter_at_rest(void**) {
   GateState open;
@@ -240,6 +298,9 @@ int main() {
       cmocka_unit_test(a_flipped_bit_is_refused),
       cmocka_unit_test(a_flipped_bit_does_not_matter_at_rest),
       cmocka_unit_test(each_side_has_its_own_table),
+      cmocka_unit_test(duties_that_are_tried_pass_as_they_are),
+      cmocka_unit_test(duties_that_are_tried_may_step),
+      cmocka_unit_test(duties_that_are_tried_are_refused_as_others),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

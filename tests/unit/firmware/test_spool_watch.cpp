@@ -343,6 +343,42 @@ void a_spool_may_follow_its_lead(void**) {
   }
 }
 
+/// One that starts 0.25 s late, with two lags of 0.15 s, is sound where duties are tried, and only
+/// there; one that stands is not.
+void the_slowest_spool_may_be_tried(void**) {
+  for (const bool tried : {true, false}) {
+    Valve slow;
+    slow.settle(0.0);
+    slow.sent.tried = tried;
+    slow.sent.duty_ratio = {0.8, 0.0, 0.0};
+    std::array<double, 2> lag{};
+    bool stuck = false;
+    for (int n = 0; n < 200; ++n) {
+      lag[0] += (n < 25 ? 0.0 : 0.8 - lag[0]) / 16.0;
+      lag[1] += (lag[0] - lag[1]) / 16.0;
+      slow.valid.drive[kBoom].spool_ratio = lag[1];
+      stuck = slow.stuck() || stuck;
+    }
+    assert_true(stuck != tried);
+  }
+  Valve stands;
+  stands.settle(0.0);
+  stands.sent.tried = true;
+  stands.sent.duty_ratio = {0.8, 0.0, 0.0};
+  const int cycles = stands.cycles_until(Fault::kSpoolStuck);
+  assert_true(cycles > 45 && cycles < 90);
+}
+
+/// A valve that is known to be slower still is given its own time.
+void a_slower_spool_has_its_own_time(void**) {
+  Valve valve;
+  valve.profile.control.dead_time_s = 0.5;
+  valve.settle(0.0);
+  valve.sent.tried = true;
+  valve.sent.duty_ratio = {0.8, 0.0, 0.0};
+  assert_true(valve.cycles_until(Fault::kSpoolStuck) > 65);
+}
+
 }  // namespace
 
 int main() {
@@ -362,6 +398,8 @@ int main() {
       cmocka_unit_test(the_echo_is_compared_both_ways),
       cmocka_unit_test(missing_feedback_is_not_judged),
       cmocka_unit_test(centred_is_within_the_tolerance),
+      cmocka_unit_test(the_slowest_spool_may_be_tried),
+      cmocka_unit_test(a_slower_spool_has_its_own_time),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -208,6 +208,85 @@ void strokes_outside_their_cylinder_are_implausible(void**) {
   assert_near(validate(inputs, profile(), {}, false, kNow).drive[kBucket].stroke_m, 0.0, 0.0);
 }
 
+/// Levers and duties, all in their places, and at rest where they are.
+void what_the_hands_do_is_read(void**) {
+  ExcavatorInputs inputs = complete_inputs(kNow);
+  test::Validated valid = validate(inputs, profile(), {}, false, kNow);
+  assert_true(valid.hands_rest());
+  inputs.lever_ratio = test::fresh(std::array<double, 4>{0.1, -0.2, 0.3, -0.4}, kNow);
+  valid = validate(inputs, profile(), {}, false, kNow);
+  assert_false(valid.hands_rest());
+  for (const double lever : {valid.lever_ratio[0], -0.5 * valid.lever_ratio[1],
+                             valid.lever_ratio[2] / 3.0, -0.25 * valid.lever_ratio[3]}) {
+    assert_near(lever, 0.1, 1e-15);
+  }
+  inputs.lever_ratio = {};
+  inputs.tried_ratio = test::fresh(std::array<double, 3>{0.0, 0.0, -0.3}, kNow);
+  valid = validate(inputs, profile(), {}, false, kNow);
+  assert_false(valid.hands_rest());
+  assert_near(valid.tried_ratio[2], -0.3, 0.0);
+}
+
+/// Only the task that goes by them needs them, as fresh as all that the operator gives.
+void a_task_by_hand_needs_its_hands(void**) {
+  for (const Task task : {Task::kDig, Task::kJog, Task::kCoordinated, Task::kCommission}) {
+    const bool by_lever = task == Task::kJog || task == Task::kCoordinated;
+    ExcavatorInputs inputs = complete_inputs(kNow);
+    inputs.driver.task.value = task;
+    assert_int_equal(fault_of(inputs), task == Task::kDig ? Fault::kNone : Fault::kOperatorMissing);
+    inputs.lever_ratio = test::fresh(std::array<double, 4>{}, kNow);
+    assert_int_equal(fault_of(inputs),
+                     task == Task::kCommission ? Fault::kOperatorMissing : Fault::kNone);
+    inputs.tried_ratio = test::fresh(std::array<double, 3>{}, kNow);
+    assert_int_equal(fault_of(inputs), Fault::kNone);
+    if (task == Task::kDig) {
+      continue;
+    }
+    ExcavatorInputs old = inputs;
+    TimeUs& stamp_us = by_lever ? old.lever_ratio.stamp_us : old.tried_ratio.stamp_us;
+    stamp_us = kNow - 45 * kMillisecondUs;
+    assert_int_equal(fault_of(old), Fault::kNone);
+    stamp_us -= 1;
+    assert_int_equal(fault_of(old), Fault::kOperatorMissing);
+    ExcavatorInputs wrong = inputs;
+    (by_lever ? wrong.lever_ratio.value[1] : wrong.tried_ratio.value[1]) =
+        std::numeric_limits<double>::quiet_NaN();
+    assert_int_equal(fault_of(wrong), Fault::kOperatorMissing);
+    (by_lever ? wrong.lever_ratio.validity : wrong.tried_ratio.validity) = Validity::kError;
+    assert_int_equal(fault_of(wrong), Fault::kOperatorMissing);
+  }
+}
+
+void no_three_duties_are_tried(void**) {
+  ExcavatorInputs inputs = complete_inputs(kNow);
+  inputs.driver.task.value = Task::kCommission;
+  inputs.tried_ratio = test::fresh(std::array<double, 3>{0.1, 0.0, -0.1}, kNow);
+  assert_int_equal(fault_of(inputs), Fault::kNone);
+  inputs.tried_ratio.value[1] = 0.1;
+  assert_int_equal(fault_of(inputs), Fault::kCommissionBound);
+  inputs.driver.task.value = Task::kDig;
+  assert_int_equal(fault_of(inputs), Fault::kNone);
+}
+
+/// Windows come by turns: each counts for a second.
+void windows_hold_for_a_second(void**) {
+  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    ExcavatorInputs inputs = complete_inputs(kNow);
+    inputs.window[axis] = test::fresh(StrokeWindow{0.1, 0.2, 0.3}, kNow - kSecondUs);
+    test::Validated valid = validate(inputs, profile(), {}, false, kNow);
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+      assert_near(valid.window[i].least_m, i == axis ? 0.1 : 0.0, 0.0);
+      assert_near(valid.window[i].most_m, i == axis ? 0.2 : 0.0, 0.0);
+      assert_near(valid.window[i].most_mps, i == axis ? 0.3 : 0.0, 0.0);
+    }
+    inputs.window[axis].stamp_us -= 1;
+    assert_near(validate(inputs, profile(), {}, false, kNow).window[axis].most_mps, 0.0, 0.0);
+    inputs.window[axis].stamp_us = kNow;
+    inputs.window[axis].validity = Validity::kNotAvailable;
+    assert_near(validate(inputs, profile(), {}, false, kNow).window[axis].most_mps, 0.0, 0.0);
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -223,6 +302,10 @@ int main() {
       cmocka_unit_test(the_valves_echo_is_required),
       cmocka_unit_test(another_machine_is_refused),
       cmocka_unit_test(strokes_outside_their_cylinder_are_implausible),
+      cmocka_unit_test(what_the_hands_do_is_read),
+      cmocka_unit_test(a_task_by_hand_needs_its_hands),
+      cmocka_unit_test(no_three_duties_are_tried),
+      cmocka_unit_test(windows_hold_for_a_second),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -86,6 +86,72 @@ void another_machines_swing_is_foreign(void**) {
   assert_int_equal(in.spool_ratio.validity, Validity::kNotReceived);
 }
 
+template <std::size_t count>
+void assert_all(const Signal<std::array<double, count>>& signal,
+                const std::array<double, count>& values, TimeUs stamp_us) {
+  assert_int_equal(signal.validity, Validity::kValid);
+  assert_int_equal(signal.stamp_us, stamp_us);
+  for (std::size_t i = 0; i < count; ++i) {
+    assert_near(signal.value[i], values[i], 1e-12);
+  }
+}
+
+/// A lever that the station does not have is at rest; one that is broken breaks all.
+void levers(void**) {
+  ExcavatorFeed feed;
+  bus::OperatorAxes axes{{0.2, RawState::kValid},
+                         {-0.4, RawState::kValid},
+                         {1.0, RawState::kValid},
+                         {-1.0, RawState::kValid}};
+  TimeUs now = feed.send(axes);
+  const auto& lever = feed.receiver.inputs().lever_ratio;
+  assert_all<4>(lever, {0.2, -0.4, 1.0, -1.0}, now);
+  axes.swing_ratio = {0.0, RawState::kNotAvailable};
+  now += 20'000;
+  feed.receiver.accept(frame_of(axes, 3), now);
+  assert_all<4>(lever, {0.2, -0.4, 1.0, 0.0}, now);
+  axes.arm_or_forward_ratio = {0.0, RawState::kError};
+  now += 20'000;
+  feed.receiver.accept(frame_of(axes, 4), now);
+  assert_int_equal(lever.validity, Validity::kError);
+}
+
+void duties_to_try_and_their_windows(void**) {
+  ExcavatorFeed feed;
+  const TimeUs duty_us = feed.send(bus::CommissionDuty{
+      {0.25, RawState::kValid}, {0.0, RawState::kNotAvailable}, {-1.0, RawState::kValid}});
+  assert_all<3>(feed.receiver.inputs().tried_ratio, {0.25, 0.0, -1.0}, duty_us);
+  bus::CommissionWindow window;
+  window.drive = {bus::CommissionWindow::Drive::kArm, RawState::kValid};
+  window.least_stroke_m = {0.25, RawState::kValid};
+  window.most_stroke_m = {0.75, RawState::kValid};
+  window.most_speed_mps = {0.5, RawState::kValid};
+  TimeUs now = feed.send(window);
+  const auto& windows = feed.receiver.inputs().window;
+  assert_int_equal(windows[0].validity, Validity::kNotReceived);
+  assert_int_equal(windows[2].validity, Validity::kNotReceived);
+  assert_int_equal(windows[1].validity, Validity::kValid);
+  assert_int_equal(windows[1].stamp_us, now);
+  assert_near(windows[1].value.least_m, 0.25, 1e-12);
+  assert_near(windows[1].value.most_m, 0.75, 1e-12);
+  assert_near(windows[1].value.most_mps, 0.5, 1e-12);
+  window.most_stroke_m = {0.0, RawState::kNotAvailable};
+  now += 100'000;
+  feed.receiver.accept(frame_of(window, 3), now);
+  assert_int_equal(windows[1].validity, Validity::kNotAvailable);
+}
+
+/// Nobody knows whose window it is.
+void a_window_of_no_drive_is_nobodys(void**) {
+  ExcavatorFeed feed;
+  bus::CommissionWindow window;
+  window.drive = {bus::CommissionWindow::Drive::kBoom, RawState::kNotAvailable};
+  static_cast<void>(feed.send(window));
+  for (const auto& each : feed.receiver.inputs().window) {
+    assert_true(each.validity != Validity::kValid);
+  }
+}
+
 void operator_and_identity(void**) {
   ExcavatorFeed feed;
   bus::OperatorCommand command;
@@ -132,7 +198,7 @@ void another_kinds_task_is_out_of_range(void**) {
   ExcavatorReceiver receiver;
   const TimeUs now = synchronise<bus::OperatorCommand>(receiver);
   receiver.accept(frame_with<bus::OperatorCommand>(bus::OperatorCommand::kTask, 2, 3), now);
-  assert_int_equal(receiver.inputs().driver.task.value, Task::kProgram);
+  assert_int_equal(receiver.inputs().driver.task.value, Task::kCommission);
   assert_int_equal(receiver.link(bus::OperatorCommand::kId).out_of_range, 1);
 }
 
@@ -144,6 +210,9 @@ int main() {
       cmocka_unit_test(pumps_engine_and_valve),
       cmocka_unit_test(swing),
       cmocka_unit_test(another_machines_swing_is_foreign),
+      cmocka_unit_test(levers),
+      cmocka_unit_test(duties_to_try_and_their_windows),
+      cmocka_unit_test(a_window_of_no_drive_is_nobodys),
       cmocka_unit_test(operator_and_identity),
       cmocka_unit_test(one_signal_is_lost_the_other_stays),
       cmocka_unit_test(another_kinds_task_is_out_of_range),

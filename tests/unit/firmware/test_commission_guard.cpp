@@ -1,0 +1,336 @@
+#include "firmware/drives/commission_guard.hpp"
+
+#include <initializer_list>
+
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/excavator_steps.hpp"
+#include "tests/unit/firmware/plain_machine.hpp"
+
+namespace {
+
+using namespace graben;
+
+constexpr double kPeriod_s = 0.01;
+constexpr double kStroke_m = 1.0;  // Of the plain machine's bucket.
+constexpr double kRelief_pa = 30e6;
+constexpr StrokeWindow kWhole = {0.0, kStroke_m, 0.5};
+
+/// A cylinder that goes as a test says; what may be sent is sent.
+struct Cylinder {
+  DriveRow row = excavator_bank(test::plain_machine()).row[2];
+  CommissionState state;
+  CommissionAsk ask;
+  ValidDrive seen;
+  CommissionResult result;
+  double moved_m = 0.0;  ///< Since a test has set it to 0.
+
+  explicit Cylinder(double stroke_m = 0.5, const StrokeWindow& window = {0.2, 0.8, 0.5}) {
+    row.watch.relief_pa = kRelief_pa;
+    ask.window = window;
+    seen.stroke_m = stroke_m;
+    seen.load_known = true;
+    seen.cap_pressure_pa = 5e6;
+    seen.rod_pressure_pa = 2e6;
+    run(1.0, 0.0, 0.0);
+    assert_int_equal(result.fault, Fault::kNone);
+    moved_m = 0.0;
+  }
+
+  Fault step(double duty, double speed_mps) {
+    seen.stroke_m += speed_mps * kPeriod_s;
+    moved_m += speed_mps * kPeriod_s;
+    ask.sent_ratio = result.duty_ratio;
+    ask.wanted_ratio = duty;
+    result = next_commission(row, ask, seen, kPeriod_s, state);
+    return result.fault;
+  }
+  /// Ends with a fault.
+  Fault run(double time_s, double duty, double speed_mps) {
+    Fault fault = Fault::kNone;
+    for (double at_s = 0.0; at_s < time_s && fault == Fault::kNone; at_s += kPeriod_s) {
+      fault = step(duty, speed_mps);
+    }
+    return fault;
+  }
+};
+
+void a_duty_in_its_window_is_sent(void**) {
+  for (const double duty : {0.3, -0.3, 1.0, -1.0}) {
+    Cylinder cylinder;
+    cylinder.step(duty, 0.0);
+    assert_near(cylinder.result.duty_ratio, duty, 0.0);
+    assert_false(cylinder.result.held);
+  }
+}
+
+/// One that the cylinder does not have is none.
+void without_a_window_nothing_is_sent(void**) {
+  constexpr double beyond = 0.002;
+  for (const StrokeWindow& window :
+       {StrokeWindow{}, StrokeWindow{0.2, 0.8, 0.0}, StrokeWindow{0.5, 0.5, 0.5},
+        StrokeWindow{-beyond, 0.8, 0.5}, StrokeWindow{0.2, kStroke_m + beyond, 0.5}}) {
+    Cylinder cylinder;
+    cylinder.ask.window = window;
+    for (const double duty : {0.3, -0.3}) {
+      assert_int_equal(cylinder.step(duty, 0.0), Fault::kNone);
+      assert_near(cylinder.result.duty_ratio, 0.0, 0.0);
+      assert_true(cylinder.result.held);
+    }
+  }
+  Cylinder whole(0.5, kWhole);
+  whole.step(0.3, 0.0);
+  assert_near(whole.result.duty_ratio, 0.3, 0.0);
+}
+
+/// It is held back where its speed will have taken it out before it can be stopped, and no sooner;
+/// and stays so until something else is asked for. Back it may go at once.
+void it_is_stopped_before_the_edge(void**) {
+  for (const int side : {1, -1}) {
+    Cylinder cylinder;
+    constexpr double speed_mps = 0.2;
+    while (!cylinder.result.held) {
+      assert_int_equal(cylinder.step(0.4 * side, speed_mps * side), Fault::kNone);
+      assert_true(cylinder.moved_m * side < 0.3);
+    }
+    const double left_m = 0.3 - cylinder.moved_m * side;
+    assert_true(left_m <= speed_mps * kStops_s + 1e-9);
+    assert_true(left_m > speed_mps * kStops_s - 0.01);
+    for (int n = 0; n < 30; ++n) {
+      assert_int_equal(cylinder.step(0.4 * side, 0.0), Fault::kNone);
+      assert_near(cylinder.result.duty_ratio, 0.0, 0.0);
+    }
+    cylinder.step(-0.4 * side, 0.0);
+    assert_near(cylinder.result.duty_ratio, -0.4 * side, 0.0);
+    cylinder.step(0.4 * side, 0.0);
+    assert_near(cylinder.result.duty_ratio, 0.4 * side, 0.0);
+  }
+}
+
+/// At rest at the edge, and beyond it: back only.
+void outside_only_back_is_free(void**) {
+  for (const double stroke_m : {0.8, 0.83}) {
+    Cylinder cylinder(stroke_m);
+    cylinder.step(0.4, 0.0);
+    assert_near(cylinder.result.duty_ratio, 0.0, 0.0);
+    cylinder.step(-0.4, 0.0);
+    assert_near(cylinder.result.duty_ratio, -0.4, 0.0);
+  }
+}
+
+void farther_outside_is_a_fault(void**) {
+  for (const int side : {1, -1}) {
+    Cylinder cylinder(0.5 + side * (0.3 + kOutside_m - 0.001));
+    assert_int_equal(cylinder.step(0.0, 0.0), Fault::kNone);
+    assert_int_equal(cylinder.step(0.0, side * 0.2), Fault::kCommissionBound);
+    // Where none is confirmed, it is none of the window's business.
+    cylinder.ask.window = {};
+    assert_int_equal(cylinder.step(0.0, 0.0), Fault::kNone);
+  }
+}
+
+void faster_than_confirmed_is_a_fault(void**) {
+  for (const int side : {1, -1}) {
+    Cylinder slower;
+    assert_int_equal(slower.run(0.5, 0.4 * side, 0.49 * side), Fault::kNone);
+    Cylinder faster;
+    assert_int_equal(faster.run(0.5, 0.4 * side, 0.55 * side), Fault::kCommissionBound);
+  }
+}
+
+/// From rest every step against the duty counts, whatever the machine's dead time.
+void a_reversed_valve_is_stopped_within_50_mm(void**) {
+  for (const int side : {1, -1}) {
+    for (const double speed_mps : {0.015, 0.05, 0.3}) {
+      Cylinder cylinder;
+      assert_int_equal(cylinder.run(6.0, 0.4 * side, -speed_mps * side), Fault::kWrongDirection);
+      assert_true(std::abs(cylinder.moved_m) > 0.03);
+      assert_true(std::abs(cylinder.moved_m) < 0.05);
+    }
+  }
+}
+
+/// A load that sinks while the spool is at its edge.
+void what_creeps_is_no_wrong_direction(void**) {
+  Cylinder cylinder;
+  assert_int_equal(cylinder.run(2.0, 0.15, -0.0055), Fault::kNone);
+  Cylinder still;
+  assert_int_equal(still.run(10.0, 0.0, -0.0055), Fault::kNone);
+}
+
+/// After a reversal a slow machine goes on for as long as its dead time and lags.
+void a_drive_may_coast_against_a_new_duty(void**) {
+  Cylinder cylinder(0.3);
+  assert_int_equal(cylinder.run(0.8, 0.4, 0.2), Fault::kNone);
+  assert_int_equal(cylinder.run(0.55, -0.4, 0.2), Fault::kNone);
+  cylinder.moved_m = 0.0;
+  assert_int_equal(cylinder.run(1.0, -0.4, 0.2), Fault::kWrongDirection);
+  assert_true(cylinder.moved_m < 0.05);
+}
+
+/// Also while it comes to rest; then it has to stand.
+void a_drive_may_coast_without_a_duty(void**) {
+  Cylinder cylinder(0.3);
+  assert_int_equal(cylinder.run(0.8, 0.4, 0.1), Fault::kNone);
+  assert_int_equal(cylinder.run(0.95, 0.0, 0.1), Fault::kNone);
+  cylinder.moved_m = 0.0;
+  assert_int_equal(cylinder.run(1.0, 0.0, 0.1), Fault::kUncommandedMotion);
+  assert_true(cylinder.moved_m < 0.05);
+}
+
+void a_drive_that_is_not_driven_stands(void**) {
+  for (const int side : {1, -1}) {
+    Cylinder cylinder;
+    assert_int_equal(cylinder.run(1.0, 0.0, 0.1 * side), Fault::kUncommandedMotion);
+    assert_true(std::abs(cylinder.moved_m) < 0.04);
+  }
+}
+
+/// Any edge is open at seven tenths.
+void a_stroke_that_stands_at_a_large_duty_is_stuck(void**) {
+  for (const int side : {1, -1}) {
+    Cylinder cylinder;
+    assert_int_equal(cylinder.run(0.98, 0.7 * side, 0.0), Fault::kNone);
+    assert_int_equal(cylinder.run(0.06, 0.7 * side, 0.0), Fault::kStrokeStuck);
+    Cylinder slow;
+    assert_int_equal(slow.run(2.0, 0.7 * side, 0.002 * side), Fault::kNone);
+  }
+}
+
+/// A ramp to the last edge there is must be possible, as must a small duty for a while.
+void below_an_edge_it_may_stand_for_a_while(void**) {
+  Cylinder ramp;
+  for (double duty = 0.0; duty < 0.65; duty += 0.08 * kPeriod_s) {
+    assert_int_equal(ramp.step(duty, 0.0), Fault::kNone);
+  }
+  Cylinder small;
+  assert_int_equal(small.run(20.0, 0.1, 0.0), Fault::kNone);
+  Cylinder longer;
+  assert_int_equal(longer.run(9.9, 0.3, 0.0), Fault::kNone);
+  assert_int_equal(longer.run(0.3, 0.3, 0.0), Fault::kStrokeStuck);
+}
+
+/// Where it once moved with less, it has to again; each side has its own.
+void a_duty_that_has_moved_it_has_to_move_it_again(void**) {
+  for (const int side : {1, -1}) {
+    Cylinder cylinder;
+    assert_int_equal(cylinder.run(1.5, 0.3 * side, 0.05 * side), Fault::kNone);
+    cylinder.run(2.0, 0.0, 0.0);
+    Cylinder other = cylinder;
+    rest_commission(cylinder.state);
+    assert_int_equal(cylinder.run(0.99, 0.42 * side, 0.0), Fault::kNone);
+    assert_int_equal(cylinder.run(0.06, 0.42 * side, 0.0), Fault::kStrokeStuck);
+    assert_int_equal(other.run(2.0, -0.42 * side, 0.0), Fault::kNone);
+    // One that falls has been larger.
+    Cylinder falling;
+    for (double duty = 0.6; duty > 0.2; duty -= 0.2 * kPeriod_s) {
+      assert_int_equal(falling.step(duty * side, 0.05 * side), Fault::kNone);
+    }
+    falling.run(2.0, 0.0, 0.0);
+    assert_int_equal(falling.run(2.0, 0.42 * side, 0.0), Fault::kNone);
+    // What moves it so soon after a reversal may be what came before it.
+    Cylinder reversed;
+    reversed.run(0.3, -0.3 * side, -0.05 * side);
+    assert_int_equal(reversed.run(0.5, 0.3 * side, 0.05 * side), Fault::kNone);
+    reversed.run(2.0, 0.0, 0.0);
+    assert_int_equal(reversed.run(2.0, 0.42 * side, 0.0), Fault::kNone);
+  }
+}
+
+/// Against a rock, at any duty.
+void a_cylinder_that_strains_is_stuck(void**) {
+  for (const int side : {1, -1}) {
+    Cylinder cylinder;
+    cylinder.ask.alone = false;
+    double& fed_pa = side > 0 ? cylinder.seen.cap_pressure_pa : cylinder.seen.rod_pressure_pa;
+    fed_pa = 0.79 * kRelief_pa;
+    assert_int_equal(cylinder.run(2.0, 0.3 * side, 0.0), Fault::kNone);
+    fed_pa = 0.81 * kRelief_pa;
+    cylinder.row.watch.relief_pa = 0.0;
+    assert_int_equal(cylinder.run(2.0, 0.3 * side, 0.0), Fault::kNone);
+    cylinder.row.watch.relief_pa = kRelief_pa;
+    assert_int_equal(cylinder.run(0.98, 0.3 * side, 0.0), Fault::kNone);
+    assert_int_equal(cylinder.run(0.06, 0.3 * side, 0.0), Fault::kStrokeStuck);
+    // Not known, nothing is said by it.
+    Cylinder blind;
+    blind.seen.load_known = false;
+    fed_pa = 0.81 * kRelief_pa;
+    assert_int_equal(blind.run(2.0, 0.3 * side, 0.0), Fault::kNone);
+  }
+}
+
+/// Its sensor hangs, its oil flows.
+void pressures_that_have_changed_say_that_it_moves(void**) {
+  for (const bool alone : {true, false}) {
+    Cylinder cylinder;
+    cylinder.ask.alone = alone;
+    cylinder.run(0.2, 0.3, 0.0);
+    cylinder.seen.cap_pressure_pa += 1.4e6;
+    cylinder.seen.rod_pressure_pa -= 1.4e6;
+    const Fault expected = alone ? Fault::kStrokeStuck : Fault::kNone;
+    assert_int_equal(cylinder.run(1.3, 0.3, 0.0), expected);
+    Cylinder little;
+    little.run(0.2, 0.3, 0.0);
+    little.seen.cap_pressure_pa += 0.9e6;
+    little.seen.rod_pressure_pa += 0.9e6;
+    assert_int_equal(little.run(2.0, 0.3, 0.0), Fault::kNone);
+  }
+}
+
+/// An end that the window reaches may be met slowly, and pushed against for a second.
+void an_end_may_be_touched(void**) {
+  for (const int side : {1, -1}) {
+    Cylinder cylinder(side > 0 ? 0.95 : 0.05, kWhole);
+    assert_int_equal(cylinder.run(2.0, 0.3 * side, 0.022 * side), Fault::kNone);
+    assert_false(cylinder.result.held);
+    cylinder.seen.cap_pressure_pa = kRelief_pa;
+    cylinder.seen.rod_pressure_pa = kRelief_pa;
+    assert_int_equal(cylinder.run(0.9, 0.7 * side, 0.0), Fault::kNone);
+    assert_near(cylinder.result.duty_ratio, 0.7 * side, 0.0);
+    assert_int_equal(cylinder.run(0.2, 0.7 * side, 0.0), Fault::kNone);
+    assert_near(cylinder.result.duty_ratio, 0.0, 0.0);
+    assert_int_equal(cylinder.run(2.0, 0.7 * side, 0.0), Fault::kNone);
+    assert_near(cylinder.result.duty_ratio, 0.0, 0.0);
+    // Shown farther than it is, it goes beyond.
+    Cylinder beyond(side > 0 ? kStroke_m - 0.002 : 0.002, kWhole);
+    beyond.run(0.3, 0.3 * side, 0.01 * side);
+    assert_near(beyond.result.duty_ratio, 0.3 * side, 0.0);
+  }
+}
+
+void an_end_is_not_met_fast(void**) {
+  for (const int side : {1, -1}) {
+    Cylinder cylinder(0.5, kWhole);
+    while (!cylinder.result.held) {
+      assert_int_equal(cylinder.step(0.5 * side, 0.2 * side), Fault::kNone);
+      assert_true(std::abs(cylinder.moved_m) < 0.5);
+    }
+    const double left_m = 0.5 - std::abs(cylinder.moved_m);
+    assert_near(left_m, (0.2 - kTouch_mps) * kStops_s, 0.005);
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_duty_in_its_window_is_sent),
+      cmocka_unit_test(without_a_window_nothing_is_sent),
+      cmocka_unit_test(it_is_stopped_before_the_edge),
+      cmocka_unit_test(outside_only_back_is_free),
+      cmocka_unit_test(farther_outside_is_a_fault),
+      cmocka_unit_test(faster_than_confirmed_is_a_fault),
+      cmocka_unit_test(a_reversed_valve_is_stopped_within_50_mm),
+      cmocka_unit_test(what_creeps_is_no_wrong_direction),
+      cmocka_unit_test(a_drive_may_coast_against_a_new_duty),
+      cmocka_unit_test(a_drive_may_coast_without_a_duty),
+      cmocka_unit_test(a_drive_that_is_not_driven_stands),
+      cmocka_unit_test(a_stroke_that_stands_at_a_large_duty_is_stuck),
+      cmocka_unit_test(below_an_edge_it_may_stand_for_a_while),
+      cmocka_unit_test(a_duty_that_has_moved_it_has_to_move_it_again),
+      cmocka_unit_test(a_cylinder_that_strains_is_stuck),
+      cmocka_unit_test(pressures_that_have_changed_say_that_it_moves),
+      cmocka_unit_test(an_end_may_be_touched),
+      cmocka_unit_test(an_end_is_not_met_fast),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
