@@ -181,13 +181,16 @@ Hands Gamepad::read(TimeUs now) {
     has_begun_ = true;
     last_sign_us_ = now;
   }
-  if (!device_) {
+  if (is_gone_) {
+    is_gone_ = false;
+    device_.reset();
+  } else if (!device_) {
     reopen(now);
   }
   Hands presses;
   bool held = false;
   if (!device_ || !take_events(presses, now) || !asks_deadman(held)) {
-    device_.reset();
+    is_gone_ = device_ != nullptr;
     Hands gone;
     gone.is_there = false;
     return gone;

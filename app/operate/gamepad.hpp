@@ -66,6 +66,9 @@ class Gamepad final : public HandSource {
   std::string name_;
   TimeUs last_sign_us_ = 0;
   bool has_begun_ = false;
+  /// Closed in the next cycle: that takes the kernel longer than a cycle, and enable has to go
+  /// first.
+  bool is_gone_ = false;
   TimeUs next_try_us_ = 0;
 };
 

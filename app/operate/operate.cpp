@@ -48,7 +48,7 @@ class Link {
   explicit Link(const std::string& interface) {
     ports_.emplace_back(interface, std::vector<std::uint32_t>{});
     if (!port().open()) {
-      throw std::runtime_error(interface + ": " + port().last_error());
+      throw std::runtime_error(port().last_error());
     }
   }
 

@@ -28,6 +28,8 @@ FORBIDDEN = {
     "app/plant/": ("app/machines/", "app/ecu/", "app/runs/", "app/reports/", "app/scope/", "app/cli/"),
     "app/machines/": ("app/ecu/", "app/runs/", "app/reports/", "app/scope/", "app/cli/"),
     "app/runs/": ("app/reports/", "app/scope/", "app/cli/"),
+    # A station on a bus is no part of a simulation.
+    "app/operate/": ("app/plant/", "app/reports/", "app/scope/", "app/cli/"),
     # A report is the scope's page with a log inside.
     "app/reports/": ("app/scope/server/", "app/scope/sim/", "app/cli/"),
     "app/scope/": ("app/cli/",),

@@ -120,10 +120,11 @@ void mode_and_task_change_at_a_press(void**) {
   press.changes_task = true;
   static_cast<void>(station.step(press, kReady));
   assert_true(station.chosen_task() == Task::kCoordinated);
-  static_cast<void>(station.step(held(), kReady));
-  // Not while it is held.
+  // Not while it is held, and not with the press itself.
   Hands held_press = held();
   held_press.changes_task = true;
+  assert_true(station.step(held_press, kReady).enable);
+  assert_true(station.chosen_task() == Task::kCoordinated);
   assert_true(station.step(held_press, kArmed).task == Task::kCoordinated);
   assert_true(station.chosen_task() == Task::kCoordinated);
   static_cast<void>(station.step({}, kReady));
