@@ -2,15 +2,16 @@
 /// How a joint of a hydraulic machine answers its command, with the other joints on the same pumps.
 ///
 /// command -> dead time -> pilot lag -> opening (monotone curve, one per direction)
-///         -> flow (load by pose, shared with the other openings) -> oil and mass (one mode) ->
-///         velocity
+///         -> flow (load by gravity, linkage, shared with the other openings) -> pump lag
+///         -> oil and mass (one mode) -> motion -> sensor lag -> measured velocity
 ///
 /// An angle measured against gravity also shows what the other joints' accelerations do to its
 /// sensor: the machine rocks on its tracks (a slow mode), or the sensor itself takes acceleration
-/// for tilt (a fast one).
+/// for tilt (a fast one). The angle is what is measured at once, the velocity comes late.
 ///
 /// It needs neither pressures nor a profile. Velocities are in rad/s, commands and openings are
-/// ratios. Everything is a template of the scalar, so that Ceres differentiates it.
+/// ratios. Everything is a template of the scalar, so that Ceres differentiates it. The motion
+/// that a flow makes: joint_motion.hpp.
 
 #include <algorithm>
 #include <array>
@@ -25,42 +26,58 @@ namespace graben::identify {
 inline constexpr std::size_t kKnots = 9;           ///< Of a curve; the first has no opening.
 inline constexpr std::size_t kRises = kKnots - 1;  ///< From knot to knot.
 inline constexpr std::size_t kOthers = kJoints - 1;
+inline constexpr std::size_t kWays = 2;     ///< Positive and negative opening.
+inline constexpr std::size_t kLinkage = 7;  ///< Places of the linkage's curve, even.
+inline constexpr std::size_t kMiddle = kLinkage / 2;
+/// Sine and cosine of boom, arm and bucket against the horizon, and the swing.
+inline constexpr std::size_t kPose = 7;
 
 /// Where in the parameters of a joint which of them starts. 'Forward' is what a positive opening
-/// does.
+/// does. A pair of lags is for growing and for falling.
 enum Parameter : std::size_t {
-  kDeadTime = 0,                   ///< s
-  kLagOpening,                     ///< s, of the pilot while the command grows
-  kLagClosing,                     ///< s
-  kForward,                        ///< rad/s, rises of the curve for commands > 0, each >= 0
-  kBackward = kForward + kRises,   ///< rad/s, for commands < 0
-  kModeRate = kBackward + kRises,  ///< rad/s, of oil and mass
-  kDampingDriving,                 ///< 1/s, while the oil drives
-  kDampingBraking,                 ///< 1/s, while the oil brakes
-  kLoadForward,                    ///< 1/rad, by how much the pose speeds it up: one per joint
-  kLoadBackward = kLoadForward + kJoints,
-  kShare =
-      kLoadBackward +
-      kJoints,  ///< By how much another's opening slows it: per other, own direction, its direction
-  kRockRate = kShare + 4 * kOthers,  ///< rad/s, of the machine on its tracks
-  kRockDamping,                      ///< Ratio
-  kRockForce,                        ///< Ratio of the rocking's acceleration to another joint's
-  kParameters = kRockForce + kOthers,
+  kDeadTime = 0,                  ///< s
+  kPilotLag,                      ///< s, a pair for forward, a pair for backward
+  kForward = kPilotLag + 4,       ///< rad/s, rises of the curve for commands > 0, each >= 0
+  kBackward = kForward + kRises,  ///< rad/s, for commands < 0
+  kFlowLag = kBackward + kRises,  ///< s, of the pump's flow, as kPilotLag
+  kModeRate = kFlowLag + 4,       ///< rad/s, of oil and mass
+  kDampingDriving,                ///< 1/s, while the oil drives
+  kDampingBraking,                ///< 1/s, while the oil brakes
+  kLoadForward,                   ///< By how much the pose speeds it up, ratio per part of it
+  kLoadBackward = kLoadForward + kPose,
+  /// Velocity per flow along the joint's own travel, ratio to that at kMiddle, which is left out
+  kLinkageRatio = kLoadBackward + kPose,
+  /// By how much another's opening slows it: per other, own direction, its direction
+  kShare = kLinkageRatio + kLinkage - 1,
+  kRockRate = kShare + 4 * kOthers,   ///< rad/s, of the machine on its tracks
+  kRockDamping,                       ///< Ratio
+  kRockForce,                         ///< Ratio of the rocking's acceleration to another joint's
+  kSensorLag = kRockForce + kOthers,  ///< s, of the measured velocity behind the angle
+  kParameters,
 };
 
 /// Commands at which a curve may bend, increasing.
 using Bends = std::array<double, kKnots>;
 
-/// Of both curves of a joint.
-struct Knots {
+using Pose = std::array<double, kPose>;
+
+/// Angles of all joints at one time, rad.
+using Angles = std::array<double, kJoints>;
+
+/// To what a joint's parameters refer: not fitted, set from the recording.
+struct Grid {
   Bends forward{};
   Bends backward{};
+  double least_rad = 0.0;  ///< Of the joint's own travel.
+  double most_rad = 1.0;
+  Pose usual{};  ///< At which the load is 1.
 };
 
 /// What one run says about a joint before its own parameters are known.
 struct JointRun {
   const MotionRun* run = nullptr;
   std::vector<double> commanded_s;  ///< Integral of the command.
+  std::vector<Pose> pose;           ///< As measured.
   /// Of the other joints in turn, from the last pass: opening (-1 .. 1) and velocity.
   std::array<std::vector<double>, kOthers> other_opening;
   std::array<std::vector<double>, kOthers> other_velocity_radps;
@@ -69,6 +86,20 @@ struct JointRun {
 /// Number `at` of the joints that are not `joint`.
 [[nodiscard]] inline std::size_t other_joint(std::size_t joint, std::size_t at) {
   return at < joint ? at : at + 1;
+}
+
+[[nodiscard]] inline Angles angles_at(const MotionRun& run, std::size_t row) {
+  return {run.angle_rad[0][row], run.angle_rad[1][row], run.angle_rad[2][row],
+          run.angle_rad[3][row]};
+}
+
+/// How gravity pulls at the links: an arm's angle counts from its boom, a bucket's from its arm.
+[[nodiscard]] inline Pose pose_of(const Angles& angles) {
+  const double boom = angles[0];
+  const double arm = boom + angles[1];
+  const double bucket = arm + angles[2];
+  return {std::sin(boom),   std::cos(boom),   std::sin(arm), std::cos(arm),
+          std::sin(bucket), std::cos(bucket), angles[3]};
 }
 
 /// Value at `u` >= 0 of a curve of straight pieces: 0 up to the first knot, then higher by each of
@@ -89,6 +120,14 @@ T curve_at(const T* rises, const Bends& knots, const T& u) {
   return value;
 }
 
+/// The lag of a pair that applies to what is `from` and shall be `to`.
+template <class T>
+const T& lag_of(const T* lags, const T& from, const T& to) {
+  const bool forward = from == 0.0 ? to > 0.0 : from > 0.0;
+  const bool grows = forward ? to > from : to < from;
+  return lags[(forward ? 0 : 2) + (grows ? 0 : 1)];
+}
+
 /// The command's integral at `time_s`, which may lie before the run.
 template <class T>
 T commanded_until(const JointRun& of, std::size_t joint, const T& time_s, std::size_t& row) {
@@ -102,7 +141,7 @@ T commanded_until(const JointRun& of, std::size_t joint, const T& time_s, std::s
 /// What opens after dead time and pilot lag, in rad/s of the unloaded joint; for each row of the
 /// run.
 template <class T>
-std::vector<T> openings(const JointRun& of, std::size_t joint, const T* p, const Knots& knots) {
+std::vector<T> openings(const JointRun& of, std::size_t joint, const T* p, const Grid& grid) {
   using std::exp;
   const std::vector<double>& time = of.run->time_s;
   std::vector<T> open(time.size(), T(0.0));
@@ -114,70 +153,50 @@ std::vector<T> openings(const JointRun& of, std::size_t joint, const T* p, const
     const T until = commanded_until(of, joint, T(time[at] - p[kDeadTime]), row);
     const T held = (until - before) / step_s;
     before = until;
-    const bool opens = (held < 0.0 ? T(-held) : held) > (pilot < 0.0 ? T(-pilot) : pilot);
-    pilot += (held - pilot) * (1.0 - exp(-step_s / p[opens ? kLagOpening : kLagClosing]));
-    open[at] = pilot > 0.0 ? curve_at(p + kForward, knots.forward, pilot)
-                           : T(-curve_at(p + kBackward, knots.backward, T(-pilot)));
+    pilot += (held - pilot) * (1.0 - exp(-step_s / lag_of(p + kPilotLag, pilot, held)));
+    open[at] = pilot > 0.0 ? curve_at(p + kForward, grid.forward, pilot)
+                           : T(-curve_at(p + kBackward, grid.backward, T(-pilot)));
   }
   return open;
 }
 
-/// Velocity that the flow through `opening` would hold, with the pose's load and the others' share.
+/// Velocity per flow at one of the linkage's places.
 template <class T>
-T flow_velocity(const JointRun& of, std::size_t row, const T* p, const T& opening) {
+T ratio_at(const T* ratios, std::size_t place) {
+  return place == kMiddle ? T(1.0) : ratios[place < kMiddle ? place : place - 1];
+}
+
+/// Velocity per flow at `angle_rad` of the joint's travel: straight from place to place.
+template <class T>
+T linkage_at(const T* ratios, const Grid& grid, double angle_rad) {
+  const double share = (angle_rad - grid.least_rad) / (grid.most_rad - grid.least_rad);
+  const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(kLinkage - 1);
+  const std::size_t before = std::min(static_cast<std::size_t>(place), kLinkage - 2);
+  const double part = place - static_cast<double>(before);
+  return ratio_at(ratios, before) * (1.0 - part) + ratio_at(ratios, before + 1) * part;
+}
+
+/// Velocity that the flow through `opening` would hold, with the load of `pose`, the linkage at
+/// `angle_rad` and the others' share.
+template <class T>
+T flow_velocity(const JointRun& of, std::size_t row, const T* p, const Grid& grid, const Pose& pose,
+                double angle_rad, const T& opening) {
   const bool forward = opening > 0.0;
+  const T* loads = p + (forward ? kLoadForward : kLoadBackward);
   T load(1.0);
-  for (std::size_t joint = 0; joint < kJoints; ++joint) {
-    load += p[(forward ? kLoadForward : kLoadBackward) + joint] * of.run->angle_rad[joint][row];
+  for (std::size_t part = 0; part < kPose; ++part) {
+    load += loads[part] * (pose[part] - grid.usual[part]);
+  }
+  // A load beyond what the pump lifts stops the joint; it does not turn it round.
+  if (!(load > 0.0)) {
+    return T(0.0);
   }
   T shared(1.0);
   for (std::size_t at = 0; at < kOthers; ++at) {
     const double other = of.other_opening[at][row];
     shared += p[kShare + 4 * at + (forward ? 0 : 2) + (other > 0.0 ? 0 : 1)] * std::abs(other);
   }
-  // A load beyond what the pump lifts stops the joint; it does not turn it round.
-  return load > 0.0 ? T(opening * load / shared) : T(0.0);
-}
-
-/// Velocity of the joint at each row of the run, rad/s, from the commands and the measured angles.
-/// Positive in the direction of a positive command: the joint's sign is not in it.
-template <class T>
-std::vector<T> velocities(const JointRun& of, std::size_t joint, const T* p, const Knots& knots) {
-  constexpr int kSteps = 5;  // Of the mode, within one row.
-  const std::vector<double>& time = of.run->time_s;
-  const std::vector<T> open = openings(of, joint, p, knots);
-  std::vector<T> velocity(time.size(), T(0.0));
-  T v(0.0);
-  T pushed(0.0);  // Acceleration by the oil, rad/s^2.
-  T tilt(0.0);    // Of the rocking machine, rad, and its rate.
-  T rocks(0.0);
-  const T stiffness = p[kModeRate] * p[kModeRate];
-  const T rock_stiffness = p[kRockRate] * p[kRockRate];
-  const T rock_damping = 2.0 * p[kRockDamping] * p[kRockRate];
-  T flow_before(0.0);
-  for (std::size_t at = 1; at < time.size(); ++at) {
-    const T flow_after = flow_velocity(of, at, p, open[at]);
-    const double step_s = (time[at] - time[at - 1]) / kSteps;
-    T shoved(0.0);  // Change of the rocking rate within a step.
-    for (std::size_t other = 0; other < kOthers; ++other) {
-      shoved += p[kRockForce + other] *
-                (of.other_velocity_radps[other][at] - of.other_velocity_radps[other][at - 1]) /
-                double(kSteps);
-    }
-    for (int step = 0; step < kSteps; ++step) {
-      const T flow = flow_before + (flow_after - flow_before) * ((step + 0.5) / kSteps);
-      const T& damping = p[pushed * flow > 0.0 ? kDampingDriving : kDampingBraking];
-      pushed = (pushed + step_s * stiffness * (flow - v)) /
-               (1.0 + step_s * (damping + step_s * stiffness));
-      v += step_s * pushed;
-      rocks = (rocks + shoved - step_s * rock_stiffness * tilt) /
-              (1.0 + step_s * (rock_damping + step_s * rock_stiffness));
-      tilt += step_s * rocks;
-    }
-    flow_before = flow_after;
-    velocity[at] = v + rocks;
-  }
-  return velocity;
+  return opening * load * linkage_at(p + kLinkageRatio, grid, angle_rad) / shared;
 }
 
 }  // namespace graben::identify

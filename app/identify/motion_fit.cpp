@@ -1,6 +1,7 @@
 #include "app/identify/motion_fit.hpp"
 
 #include <ceres/ceres.h>
+#include <ceres/normal_prior.h>
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
@@ -11,147 +12,16 @@
 #include <stdexcept>
 
 #include "app/identify/joint_cost.hpp"
+#include "app/identify/motion_start.hpp"
 
 namespace graben::identify {
 namespace {
 
 constexpr std::array<double, 4> kDeadTimeStarts_s = {0.04, 0.10, 0.15, 0.21};
 constexpr int kSearchSteps = 20;
-constexpr std::size_t kSearched = 3;  // Every third run is enough to choose a start.
+constexpr std::size_t kSearched = 14;  // So many runs are enough to choose a start,
+constexpr std::size_t kSome = 42;      // and so many for all passes but the last.
 constexpr int kSteps = 15;
-constexpr double kUsualDelay_s = 0.2;  // For the joint's sign alone.
-
-struct Range {
-  double least;
-  double start;
-  double most;
-};
-
-Range range(std::size_t parameter, double usual_radps) {
-  if (parameter == kDeadTime) {
-    return {0.0, 0.12, 0.5};
-  }
-  if (parameter < kForward) {
-    return {0.005, 0.04, 0.6};
-  }
-  if (parameter < kModeRate) {
-    return {0.0, 0.5 * usual_radps, 50.0 * usual_radps};
-  }
-  if (parameter == kModeRate) {
-    return {1.0, 12.0, 40.0};
-  }
-  if (parameter < kLoadForward) {
-    return {0.1, 8.0, 100.0};
-  }
-  if (parameter < kShare) {
-    return {-5.0, 0.0, 5.0};
-  }
-  if (parameter < kRockRate) {
-    return {0.0, 0.3, 8.0};
-  }
-  if (parameter == kRockRate) {
-    return {3.0, 12.0, 80.0};
-  }
-  return parameter == kRockDamping ? Range{0.02, 0.15, 1.0} : Range{-20.0, 0.02, 20.0};
-}
-
-double rms(const std::vector<MotionRun>& runs, std::size_t joint) {
-  double squares = 0.0;
-  double rows = 0.0;
-  for (const MotionRun& run : runs) {
-    for (const double velocity : run.velocity_radps[joint]) {
-      squares += velocity * velocity;
-    }
-    rows += static_cast<double>(run.size());
-  }
-  return std::sqrt(squares / rows);
-}
-
-/// +1 where a positive command makes the velocity positive.
-double sign_of(const std::vector<MotionRun>& runs, std::size_t joint) {
-  double agrees = 0.0;
-  for (const MotionRun& run : runs) {
-    std::size_t late = 0;
-    for (std::size_t row = 0; row < run.size(); ++row) {
-      while (run.time_s[late] < run.time_s[row] - kUsualDelay_s) {
-        ++late;
-      }
-      // Beyond half of the command: nobody knows the edges yet.
-      const double command = run.command[joint][late];
-      agrees += (std::abs(command) > 0.5 ? command : 0.0) * run.velocity_radps[joint][row];
-    }
-  }
-  return agrees < 0.0 ? -1.0 : 1.0;
-}
-
-/// Where a curve may bend before anything is known: even from the least opening that is likely.
-constexpr double kLeastEdge = 0.05;
-
-constexpr double kBeforeEdge = 0.03;  // Of the command, for an edge that was found too late.
-constexpr double kOpen = 0.03;        // Of full speed.
-
-Bends even_bends() {
-  Bends bends{};
-  for (std::size_t at = 0; at < kKnots; ++at) {
-    bends[at] = kLeastEdge + (1.0 - kLeastEdge) * static_cast<double>(at) / (kKnots - 1);
-  }
-  return bends;
-}
-
-/// Commands of one direction (`sign`) as positive numbers, in order.
-std::vector<double> sorted_commands(const std::vector<MotionRun>& runs, std::size_t joint,
-                                    double sign) {
-  std::vector<double> commands;
-  for (const MotionRun& run : runs) {
-    for (const double command : run.command[joint]) {
-      if (sign * command > 0.0) {
-        commands.push_back(sign * command);
-      }
-    }
-  }
-  std::sort(commands.begin(), commands.end());
-  return commands;
-}
-
-/// Where the curve from `rises` starts to open.
-double edge_of(const double* rises, const Bends& bends) {
-  constexpr double kFine = 0.005;
-  const double most = curve_at(rises, bends, 1.0);
-  double edge = bends[0];
-  while (curve_at(rises, bends, edge) < kOpen * most) {
-    edge += kFine;
-  }
-  return std::max(kLeastEdge, edge - kBeforeEdge);
-}
-
-/// Moves the bends of one curve to where it opens and where `commands` are, half and half: a curve
-/// must not be coarse where few commands are. Leaves the curve where it was.
-void spread(double* rises, Bends& bends, const std::vector<double>& commands) {
-  if (curve_at(rises, bends, 1.0) <= 0.0) {
-    return;
-  }
-  constexpr double kLeastApart = 0.02;
-  const double edge = edge_of(rises, bends);
-  const auto first = std::lower_bound(commands.begin(), commands.end(), edge);
-  const auto count = static_cast<double>(commands.end() - first);
-  Bends to{};
-  to[0] = edge;
-  for (std::size_t at = 1; at < kKnots; ++at) {
-    const double share = static_cast<double>(at) / (kKnots - 1);
-    const double even = edge + (1.0 - edge) * share;
-    const double driven =
-        count > 0.0 ? first[static_cast<std::ptrdiff_t>(share * (count - 1.0))] : even;
-    to[at] = std::clamp(0.5 * (even + driven), to[at - 1] + kLeastApart,
-                        1.0 - kLeastApart * static_cast<double>(kKnots - 1 - at));
-  }
-  to.back() = 1.0;
-  std::array<double, kRises> rise{};
-  for (std::size_t at = 0; at < kRises; ++at) {
-    rise[at] = curve_at(rises, bends, to[at + 1]) - curve_at(rises, bends, to[at]);
-  }
-  bends = to;
-  std::copy(rise.begin(), rise.end(), rises);
-}
 
 /// A joint's problem in Ceres.
 class JointFit {
@@ -160,14 +30,19 @@ class JointFit {
            double scale_radps)
       : model_(model) {
     for (const JointRun& of : inputs) {
-      problem_.AddResidualBlock(new JointCost(of, joint, model.knots, model.sign, scale_radps),
+      problem_.AddResidualBlock(new JointCost(of, joint, model.grid, model.sign, scale_radps),
                                 nullptr, model.value.data());
     }
+    ceres::Matrix narrow = ceres::Matrix::Zero(kParameters, kParameters);
+    ceres::Vector start = ceres::Vector::Zero(kParameters);
     for (std::size_t at = 0; at < kParameters; ++at) {
       const Range allowed = range(at, scale_radps);
+      start[static_cast<Eigen::Index>(at)] = allowed.start;
+      narrow(static_cast<Eigen::Index>(at), static_cast<Eigen::Index>(at)) = 1.0 / allowed.wide;
       problem_.SetParameterLowerBound(model.value.data(), static_cast<int>(at), allowed.least);
       problem_.SetParameterUpperBound(model.value.data(), static_cast<int>(at), allowed.most);
     }
+    problem_.AddResidualBlock(new ceres::NormalPrior(narrow, start), nullptr, model.value.data());
   }
 
   /// Cost after up to `steps` steps.
@@ -189,9 +64,14 @@ class JointFit {
     using Square = Eigen::Matrix<double, kSize, kSize>;
     Square curvature = Square::Zero();
     Square gradients = Square::Zero();
+    Eigen::Matrix<double, kSize, 1> held;
+    for (Eigen::Index at = 0; at < kSize; ++at) {
+      const double wide = range(static_cast<std::size_t>(at), scale_radps).wide;
+      held[at] = 1.0 / (wide * wide);
+    }
     for (const JointRun& of : inputs) {
-      const JointCost cost(of, joint, model_.knots, model_.sign, scale_radps);
-      const auto rows = static_cast<Eigen::Index>(of.run->size());
+      const JointCost cost(of, joint, model_.grid, model_.sign, scale_radps);
+      const auto rows = static_cast<Eigen::Index>(cost.num_residuals());
       Eigen::VectorXd residuals(rows);
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian(rows, kSize);
       const double* parameters = model_.value.data();
@@ -205,7 +85,7 @@ class JointFit {
     for (Eigen::Index at = 0; at < kSize; ++at) {
       model_.deviation[static_cast<std::size_t>(at)] =
           curvature(at, at) > none ? 0.0 : std::numeric_limits<double>::infinity();
-      curvature(at, at) += none;
+      curvature(at, at) += none + held[at];
     }
     const Square inverse = curvature.ldlt().solve(Square::Identity());
     const Square covariance = inverse * gradients * inverse;
@@ -235,14 +115,22 @@ std::vector<JointRun> inputs_of(const MotionModel& model, std::size_t joint,
   return inputs;
 }
 
+/// About `count` of all, evenly.
+template <class T>
+std::vector<T> some(const std::vector<T>& all, std::size_t count) {
+  const std::size_t every = std::max<std::size_t>(1, all.size() / count);
+  std::vector<T> chosen;
+  for (std::size_t at = 0; at < all.size(); at += every) {
+    chosen.push_back(all[at]);
+  }
+  return chosen;
+}
+
 /// The first pass: the best of several dead times to start from.
 void search(const std::vector<JointRun>& all, std::size_t joint, JointModel& model,
             double scale_radps, int threads) {
   const JointModel start = model;
-  std::vector<JointRun> inputs;
-  for (std::size_t at = 0; at < all.size(); at += kSearched) {
-    inputs.push_back(all[at]);
-  }
+  const std::vector<JointRun> inputs = some(all, kSearched);
   double least = std::numeric_limits<double>::infinity();
   for (const double dead_time_s : kDeadTimeStarts_s) {
     JointModel tried = start;
@@ -261,12 +149,8 @@ MotionModel fit_motion(const std::vector<MotionRun>& runs, const FitOptions& opt
   MotionModel model;
   std::array<double, kJoints> scale_radps{};
   for (std::size_t joint = 0; joint < kJoints; ++joint) {
-    scale_radps[joint] = rms(runs, joint);
-    model[joint].sign = sign_of(runs, joint);
-    model[joint].knots = {even_bends(), even_bends()};
-    for (std::size_t at = 0; at < kParameters; ++at) {
-      model[joint].value[at] = range(at, scale_radps[joint]).start;
-    }
+    scale_radps[joint] = usual_velocity(runs, joint);
+    model[joint] = start_model(runs, joint);
   }
   const auto stands = [&](std::size_t joint) { return scale_radps[joint] < kStands_radps; };
   if (stands(0) && stands(1) && stands(2) && stands(3)) {
@@ -274,8 +158,10 @@ MotionModel fit_motion(const std::vector<MotionRun>& runs, const FitOptions& opt
         fmt::format("no joint moves: {} is the fastest rms velocity, rad/s",
                     *std::max_element(scale_radps.begin(), scale_radps.end())));
   }
+  const std::vector<MotionRun> fewer = some(runs, kSome);
   const double work = options.passes * static_cast<double>(kJoints);
   for (int pass = 0; pass < options.passes; ++pass) {
+    const bool last = pass + 1 == options.passes;
     for (std::size_t joint = 0; joint < kJoints; ++joint) {
       options.progress((pass * static_cast<double>(kJoints) + static_cast<double>(joint)) / work,
                        fmt::format("pass {}, {}", pass + 1, kJointNames[joint]));
@@ -285,15 +171,14 @@ MotionModel fit_motion(const std::vector<MotionRun>& runs, const FitOptions& opt
         of.deviation.fill(std::numeric_limits<double>::infinity());
         continue;
       }
-      const std::vector<JointRun> inputs = inputs_of(model, joint, runs, pass == 0);
+      const std::vector<JointRun> inputs = inputs_of(model, joint, last ? runs : fewer, pass == 0);
       if (pass == 0) {
         search(inputs, joint, of, scale_radps[joint], options.threads);
-        spread(of.value.data() + kForward, of.knots.forward, sorted_commands(runs, joint, 1.0));
-        spread(of.value.data() + kBackward, of.knots.backward, sorted_commands(runs, joint, -1.0));
+        spread_bends(runs, joint, of);
       }
       JointFit fit(inputs, joint, of, scale_radps[joint]);
       fit.solve(kSteps, options.threads);
-      if (pass + 1 == options.passes) {
+      if (last) {
         fit.deviations(inputs, joint, scale_radps[joint]);
       }
     }

@@ -3,11 +3,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "app/identify/joint_cost.hpp"
+#include "app/identify/joint_motion.hpp"
+
 namespace graben::identify {
 namespace {
 
-// The others' velocities come from the pass before.
-constexpr int kPasses = 2;
 constexpr double kAhead_s = 1.0;
 
 double full(const JointModel& joint, std::size_t first_rise) {
@@ -24,36 +25,101 @@ std::vector<double> integral(const std::vector<double>& time_s,
   return sum;
 }
 
+using States = std::array<JointState<double>, kJoints>;
+
+/// All joints together over one run.
+class Machine {
+ public:
+  Machine(const MotionModel& model, const MotionRun& run) : model_(model), run_(run) {
+    for (std::size_t joint = 0; joint < kJoints; ++joint) {
+      inputs_[joint] = joint_run(model, joint, run, nullptr);
+      open_[joint] =
+          openings<double>(inputs_[joint], joint, model[joint].value.data(), model[joint].grid);
+    }
+  }
+
+  /// From the row before to `row`, where the joints are at `angles`.
+  void step(States& states, std::size_t row, const Angles& angles) const {
+    const double row_s = run_.time_s[row] - run_.time_s[row - 1];
+    const Pose pose = pose_of(angles);
+    const States before = states;
+    Angles wanted{};
+    Angles faster{};  // Of each joint, as if none shook another.
+    for (std::size_t joint = 0; joint < kJoints; ++joint) {
+      const JointModel& of = model_[joint];
+      wanted[joint] = flow_velocity(inputs_[joint], row, of.value.data(), of.grid, pose,
+                                    angles[joint], open_[joint][row]);
+      move(states[joint], of.value.data(), row_s, wanted[joint], 0.0);
+      faster[joint] = of.sign * (states[joint].seen_radps - before[joint].seen_radps);
+    }
+    states = before;
+    for (std::size_t joint = 0; joint < kJoints; ++joint) {
+      const double* p = model_[joint].value.data();
+      double shoved = 0.0;
+      for (std::size_t at = 0; at < kOthers; ++at) {
+        shoved += p[kRockForce + at] * faster[other_joint(joint, at)];
+      }
+      move(states[joint], p, row_s, wanted[joint], shoved);
+    }
+  }
+
+  /// One for each row, in the measured pose.
+  [[nodiscard]] std::vector<States> run() const {
+    std::vector<States> all(run_.size());
+    for (std::size_t row = 1; row < run_.size(); ++row) {
+      all[row] = all[row - 1];
+      step(all[row], row, angles_at(run_, row));
+    }
+    return all;
+  }
+
+  /// How far each joint turns from a row to a later one; `states` are those of the first.
+  [[nodiscard]] Angles turns(States states, const Ahead& rows) const {
+    const States first = states;
+    const Angles measured = angles_at(run_, rows.from);
+    Angles turned{};
+    for (std::size_t row = rows.from + 1; row <= rows.to; ++row) {
+      const double row_s = run_.time_s[row] - run_.time_s[row - 1];
+      Angles angles{};
+      for (std::size_t joint = 0; joint < kJoints; ++joint) {
+        angles[joint] = measured[joint] + turned[joint] +
+                        row_s * model_[joint].sign * states[joint].velocity_radps;
+      }
+      step(states, row, angles);
+      for (std::size_t joint = 0; joint < kJoints; ++joint) {
+        turned[joint] = model_[joint].sign * (states[joint].turned_rad - first[joint].turned_rad);
+      }
+    }
+    return turned;
+  }
+
+ private:
+  const MotionModel& model_;
+  const MotionRun& run_;
+  std::array<JointRun, kJoints> inputs_;
+  std::array<std::vector<double>, kJoints> open_;
+};
+
 /// Sums for one joint, run after run.
 class Judge {
  public:
-  void add(const MotionRun& run, std::size_t joint, const std::vector<double>& predicted) {
+  void add(const MotionRun& run, std::size_t joint, const std::vector<double>& velocity_radps,
+           const std::vector<double>& turns_rad) {
     const std::vector<double>& measured = run.velocity_radps[joint];
-    std::vector<double> turned(run.size(), 0.0);
     for (std::size_t row = 0; row < run.size(); ++row) {
-      const double error = measured[row] - predicted[row];
+      const double error = measured[row] - velocity_radps[row];
       unexplained_ += error * error;
       sum_ += measured[row];
       squares_ += measured[row] * measured[row];
-      if (row > 0) {
-        turned[row] = turned[row - 1] + 0.5 * (predicted[row] + predicted[row - 1]) *
-                                            (run.time_s[row] - run.time_s[row - 1]);
-      }
     }
     rows_ += static_cast<double>(run.size());
-    std::size_t until = 0;
-    for (std::size_t from = 0; from < run.size(); ++from) {
-      while (until < run.size() && run.time_s[until] < run.time_s[from] + kAhead_s) {
-        ++until;
-      }
-      if (until == run.size()) {
-        break;
-      }
-      const double went = run.angle_rad[joint][until] - run.angle_rad[joint][from];
-      const double error = went - (turned[until] - turned[from]);
+    const std::vector<Ahead> aheads = rows_ahead(run, kAhead_s, 1);
+    for (std::size_t at = 0; at < aheads.size(); ++at) {
+      const std::vector<double>& angle = run.angle_rad[joint];
+      const double error = angle[aheads[at].to] - angle[aheads[at].from] - turns_rad[at];
       ahead_ += error * error;
-      aheads_ += 1.0;
     }
+    aheads_ += static_cast<double>(aheads.size());
   }
 
   [[nodiscard]] Score score() const {
@@ -82,13 +148,17 @@ JointRun joint_run(const MotionModel& model, std::size_t joint, const MotionRun&
   JointRun of;
   of.run = &run;
   of.commanded_s = integral(run.time_s, run.command[joint]);
+  of.pose.reserve(run.size());
+  for (std::size_t row = 0; row < run.size(); ++row) {
+    of.pose.push_back(pose_of(angles_at(run, row)));
+  }
   for (std::size_t at = 0; at < kOthers; ++at) {
     const std::size_t other = other_joint(joint, at);
     const JointModel& theirs = model[other];
     JointRun alone;
     alone.run = &run;
     alone.commanded_s = integral(run.time_s, run.command[other]);
-    of.other_opening[at] = openings<double>(alone, other, theirs.value.data(), theirs.knots);
+    of.other_opening[at] = openings<double>(alone, other, theirs.value.data(), theirs.grid);
     for (double& open : of.other_opening[at]) {
       open /= full(theirs, open > 0.0 ? kForward : kBackward);
     }
@@ -99,27 +169,35 @@ JointRun joint_run(const MotionModel& model, std::size_t joint, const MotionRun&
 }
 
 Velocities predict(const MotionModel& model, const MotionRun& run) {
-  Velocities before;
-  for (int pass = 0; pass < kPasses; ++pass) {
-    Velocities now;
+  Velocities velocities;
+  for (const States& states : Machine(model, run).run()) {
     for (std::size_t joint = 0; joint < kJoints; ++joint) {
-      const JointRun of = joint_run(model, joint, run, pass == 0 ? nullptr : &before);
-      now[joint] = velocities<double>(of, joint, model[joint].value.data(), model[joint].knots);
-      for (double& velocity : now[joint]) {
-        velocity *= model[joint].sign;
-      }
+      velocities[joint].push_back(model[joint].sign * states[joint].seen_radps);
     }
-    before = std::move(now);
   }
-  return before;
+  return velocities;
+}
+
+Velocities turns_ahead(const MotionModel& model, const MotionRun& run) {
+  const Machine machine(model, run);
+  const std::vector<States> states = machine.run();
+  Velocities turns;
+  for (const Ahead& rows : rows_ahead(run, kAhead_s, 1)) {
+    const Angles turned = machine.turns(states[rows.from], rows);
+    for (std::size_t joint = 0; joint < kJoints; ++joint) {
+      turns[joint].push_back(turned[joint]);
+    }
+  }
+  return turns;
 }
 
 std::array<Score, kJoints> judge(const MotionModel& model, const std::vector<MotionRun>& runs) {
   std::array<Judge, kJoints> judges;
   for (const MotionRun& run : runs) {
-    const Velocities predicted = predict(model, run);
+    const Velocities velocities = predict(model, run);
+    const Velocities turns = turns_ahead(model, run);
     for (std::size_t joint = 0; joint < kJoints; ++joint) {
-      judges[joint].add(run, joint, predicted[joint]);
+      judges[joint].add(run, joint, velocities[joint], turns[joint]);
     }
   }
   std::array<Score, kJoints> scores;

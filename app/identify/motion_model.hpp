@@ -13,7 +13,7 @@ namespace graben::identify {
 /// One joint. `sign` is the velocity's for a positive command.
 struct JointModel {
   double sign = 1.0;
-  Knots knots{};
+  Grid grid{};
   std::array<double, kParameters> value{};
   /// Standard deviations; infinite where the data says nothing. Not
   /// valid for a value at its bound.
@@ -25,15 +25,17 @@ using MotionModel = std::array<JointModel, kJoints>;
 /// Per joint and row of a run, rad/s.
 using Velocities = std::array<std::vector<double>, kJoints>;
 
-/// Velocities of a run from its commands and pose.
+/// Velocities of a run from its commands and its measured pose.
 [[nodiscard]] Velocities predict(const MotionModel& model, const MotionRun& run);
+
+/// How far each joint turns within the second after each row, rad, from the commands and the pose
+/// at that row alone: shorter than the run by that second.
+[[nodiscard]] Velocities turns_ahead(const MotionModel& model, const MotionRun& run);
 
 /// How good a prediction is, over all rows of all runs.
 struct Score {
-  double velocity_r2 = 0.0;  ///< Share of the velocity's variance that is explained.
-  /// Of the angle a second after a measured one. The load still takes the angles measured in that
-  /// second, so it is not yet from the commands alone.
-  double angle_1s_rms_rad = 0.0;
+  double velocity_r2 = 0.0;         ///< Share of the velocity's variance that is explained.
+  double angle_1s_rms_rad = 0.0;    ///< Of turns_ahead().
   double velocity_rms_radps = 0.0;  ///< Unexplained.
   bool moved = false;               ///< False: the joint stood, and there is nothing to explain.
 };
@@ -45,8 +47,8 @@ inline constexpr double kStands_radps = 0.005;
 [[nodiscard]] std::array<Score, kJoints> judge(const MotionModel& model,
                                                const std::vector<MotionRun>& runs);
 
-/// Inputs of a joint's model for one run: the others' openings and, unless `rates` is null, their
-/// velocities.
+/// Inputs of a joint's model for one run: pose, the others' openings and their velocities, which
+/// are zero where `rates` is null.
 [[nodiscard]] JointRun joint_run(const MotionModel& model, std::size_t joint, const MotionRun& run,
                                  const Velocities* rates);
 

@@ -37,8 +37,15 @@ double sum(const JointModel& joint, std::size_t first, std::size_t count) {
   return all;
 }
 
+/// Of both directions: pilot and pump, while the opening grows (`way` 0) or falls (1).
+double mean_lag(const JointModel& joint, std::size_t way) {
+  const std::array<double, kParameters>& value = joint.value;
+  return 0.5 * (value[kPilotLag + way] + value[kPilotLag + 2 + way] + value[kFlowLag + way] +
+                value[kFlowLag + 2 + way]);
+}
+
 const Bends& bends(const JointModel& joint, std::size_t first) {
-  return first == kForward ? joint.knots.forward : joint.knots.backward;
+  return first == kForward ? joint.grid.forward : joint.grid.backward;
 }
 
 /// Command at which the curve from `first` reaches kOpens of its highest value.
@@ -152,8 +159,8 @@ std::string motion_json(const MotionResult& result) {
     axis["velocity_rms_unexplained_radps"] = score.velocity_rms_radps;
     axis["positive_command_turns"] = model.sign;
     axis["dead_time_s"] = model.value[kDeadTime];
-    axis["lag_opening_s"] = model.value[kLagOpening];
-    axis["lag_closing_s"] = model.value[kLagClosing];
+    axis["lag_opening_s"] = mean_lag(model, 0);
+    axis["lag_closing_s"] = mean_lag(model, 1);
     axis["positive"] = curve_json(model, kForward);
     axis["negative"] = curve_json(model, kBackward);
   }
@@ -175,8 +182,8 @@ std::string motion_text(const MotionResult& result) {
           "{:.0f}, {:.0f} of 1000\n",
           kJointNames[joint], score.moved ? fmt::format("{:.3f}", score.velocity_r2) : "stood",
           kDegrees * score.angle_1s_rms_rad, 1e3 * model.value[kDeadTime],
-          kBand * 1e3 * model.deviation[kDeadTime], 1e3 * model.value[kLagOpening],
-          1e3 * model.value[kLagClosing], kPermille * edge(model, kForward),
+          kBand * 1e3 * model.deviation[kDeadTime], 1e3 * mean_lag(model, 0),
+          1e3 * mean_lag(model, 1), kPermille * edge(model, kForward),
           kPermille * edge(model, kBackward));
       missing += unsupported(result, joint);
     } else {

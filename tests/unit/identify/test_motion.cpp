@@ -1,5 +1,6 @@
 /// A joint's model and its cost; that both find a machine: tests/closed_loop/check_identify.py.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -18,25 +19,31 @@ constexpr double kRow_s = 0.05;
 constexpr std::size_t kRows = 120;
 constexpr std::size_t kBoom = 0;
 
-Knots bends() {
-  return {{0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0},
-          {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 0.9, 1.0}};
+Grid grid() {
+  Grid grid;
+  grid.forward = {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0};
+  grid.backward = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 0.9, 1.0};
+  grid.least_rad = -0.3;
+  grid.most_rad = 0.3;
+  return grid;
 }
 
 /// A joint that opens evenly to 0.7 rad/s, loaded, shared and shaken a little.
 JointModel joint() {
   JointModel model;
-  model.knots = bends();
-  for (std::size_t at = kForward; at < kModeRate; ++at) {
-    model.value[at] = 0.7 / kRises;
-  }
+  model.grid = grid();
+  std::fill_n(model.value.begin() + kForward, 2 * kRises, 0.7 / kRises);
+  std::fill_n(model.value.begin() + kLinkageRatio, kLinkage - 1, 0.9);
   model.value[kDeadTime] = 0.12;
-  model.value[kLagOpening] = 0.05;
-  model.value[kLagClosing] = 0.08;
+  const std::array<double, 4> lags = {0.05, 0.08, 0.06, 0.09};
+  std::copy(lags.begin(), lags.end(), model.value.begin() + kPilotLag);
+  std::copy(lags.begin(), lags.end(), model.value.begin() + kFlowLag);
+  model.value[kSensorLag] = 0.03;
   model.value[kModeRate] = 12.0;
   model.value[kDampingDriving] = 20.0;
   model.value[kDampingBraking] = 14.0;
   model.value[kLoadForward + 1] = 0.1;
+  model.value[kLoadBackward + 1] = 0.2;
   model.value[kShare + 1] = 0.3;
   model.value[kRockRate] = 20.0;
   model.value[kRockDamping] = 0.3;
@@ -63,10 +70,16 @@ MotionRun run(double seed) {
 
 MotionModel machine() { return {joint(), joint(), joint(), joint()}; }
 
-/// A run in which the machine does what the model says.
+/// A run in which the machine does what the model says, its sensor of velocity as late as it is.
 MotionRun obedient(double seed) {
   MotionRun of = run(seed);
-  of.velocity_radps = predict(machine(), of);
+  for (std::size_t row = 1; row < kRows; ++row) {  // The pose of a row moves those after it.
+    const Velocities velocity = predict(machine(), of);
+    for (std::size_t joint = 0; joint < kJoints; ++joint) {
+      of.velocity_radps[joint] = velocity[joint];
+      of.angle_rad[joint][row] = of.angle_rad[joint][row - 1] + kRow_s * velocity[joint][row];
+    }
+  }
   return of;
 }
 
@@ -75,25 +88,27 @@ void derivatives_are_those_of_the_error(void** /*state*/) {
   const MotionRun of = run(0.3);
   const Velocities rates = predict(model, of);
   const JointRun input = joint_run(model, kBoom, of, &rates);
-  const JointCost cost(input, kBoom, model[kBoom].knots, -1.0, 0.2);
+  const JointCost cost(input, kBoom, model[kBoom].grid, -1.0, 0.2);
   std::array<double, kParameters> value = model[kBoom].value;
   const double* parameters = value.data();
-  std::vector<double> residuals(kRows);
-  std::vector<double> jacobian(kRows * kParameters);
+  const auto count = static_cast<std::size_t>(cost.num_residuals());
+  assert_int_equal(count, kRows + rows_ahead(of, 1.0, 4).size());
+  std::vector<double> residuals(count);
+  std::vector<double> jacobian(count * kParameters);
   double* to = jacobian.data();
   assert_true(cost.Evaluate(&parameters, residuals.data(), &to));
-  std::vector<double> plain(kRows);
+  std::vector<double> plain(count);
   assert_true(cost.Evaluate(&parameters, plain.data(), nullptr));
   for (std::size_t at = 0; at < kParameters; ++at) {
     constexpr double kStep = 1e-6;
-    std::vector<double> above(kRows);
-    std::vector<double> below(kRows);
+    std::vector<double> above(count);
+    std::vector<double> below(count);
     value[at] += kStep;
     cost.Evaluate(&parameters, above.data(), nullptr);
     value[at] -= 2.0 * kStep;
     cost.Evaluate(&parameters, below.data(), nullptr);
     value[at] += kStep;
-    for (std::size_t row = 0; row < kRows; ++row) {
+    for (std::size_t row = 0; row < count; ++row) {
       assert_near(residuals[row], plain[row], 1e-12);
       const double slope = (above[row] - below[row]) / (2.0 * kStep);
       assert_near(jacobian[row * kParameters + at], slope, 2e-3 * (1.0 + std::abs(slope)));
@@ -108,7 +123,7 @@ void nothing_moves_before_dead_time_and_edge(void** /*state*/) {
     command = 0.19;  // Below the first bend of positive commands.
   }
   JointRun input = joint_run(model, kBoom, of, nullptr);
-  for (const double open : openings<double>(input, kBoom, model[kBoom].value.data(), bends())) {
+  for (const double open : openings<double>(input, kBoom, model[kBoom].value.data(), grid())) {
     assert_near(open, 0.0, 0.0);
   }
   for (std::size_t row = 0; row < kRows; ++row) {
@@ -116,7 +131,7 @@ void nothing_moves_before_dead_time_and_edge(void** /*state*/) {
   }
   input = joint_run(model, kBoom, of, nullptr);
   const std::vector<double> open =
-      openings<double>(input, kBoom, model[kBoom].value.data(), bends());
+      openings<double>(input, kBoom, model[kBoom].value.data(), grid());
   // 0.12 s are two rows and a part.
   assert_near(open[22], 0.0, 0.0);
   assert_true(open[23] < 0.0);
@@ -128,8 +143,30 @@ void a_model_explains_its_own_motion(void** /*state*/) {
   const std::array<Score, kJoints> other = judge(machine(), {run(0.1), run(1.7)});
   for (std::size_t of = 0; of < kJoints; ++of) {
     assert_true(own[of].moved);
-    assert_near(own[of].velocity_r2, 1.0, 1e-12);
+    assert_near(own[of].velocity_r2, 1.0, 1e-6);
+    assert_true(own[of].angle_1s_rms_rad < 0.02 && other[of].angle_1s_rms_rad > 0.1);
     assert_true(other[of].velocity_r2 < 0.5);
+  }
+}
+
+void a_second_ahead_knows_nothing_of_that_second(void** /*state*/) {
+  const MotionRun of = obedient(0.4);
+  constexpr std::size_t kFrom = 40;
+  const Velocities turns = turns_ahead(machine(), of);
+  MotionRun other = of;
+  for (std::size_t row = kFrom + 1; row < kRows; ++row) {
+    for (std::size_t joint = 0; joint < kJoints; ++joint) {
+      other.angle_rad[joint][row] += 0.2;
+      other.velocity_radps[joint][row] = -0.3;
+    }
+  }
+  const Velocities same = turns_ahead(machine(), other);
+  assert_int_equal(turns[kBoom].size(), kRows - 20);
+  for (std::size_t joint = 0; joint < kJoints; ++joint) {
+    assert_near(same[joint][kFrom], turns[joint][kFrom], 1e-12);
+    assert_true(std::abs(same[joint][kFrom + 1] - turns[joint][kFrom + 1]) > 1e-6);
+    assert_near(of.angle_rad[joint][kFrom + 20] - of.angle_rad[joint][kFrom], turns[joint][kFrom],
+                0.03);
   }
 }
 
@@ -175,6 +212,7 @@ int main() {
       cmocka_unit_test(derivatives_are_those_of_the_error),
       cmocka_unit_test(nothing_moves_before_dead_time_and_edge),
       cmocka_unit_test(a_model_explains_its_own_motion),
+      cmocka_unit_test(a_second_ahead_knows_nothing_of_that_second),
       cmocka_unit_test(judged_runs_are_others),
       cmocka_unit_test(deviations_that_nothing_gives_are_null),
   };
