@@ -13,7 +13,7 @@ constexpr double kUsualMost_mps = 0.5;
 /// Of a ramp. Slow: what a late machine is ahead of itself by then is a tenth of its edge.
 constexpr double kRampFrom = 0.04;
 constexpr double kRampSteep = 0.20;  ///< 1/s, up to the least edge that is likely.
-constexpr double kRampSlow = 0.06;   ///< 1/s
+constexpr double kRampSlow = 0.08;   ///< 1/s
 constexpr double kRampTo = 0.80;
 constexpr double kLeastEdge = 0.08;
 /// It moves.
@@ -35,11 +35,13 @@ constexpr double kNear_m = 0.10;
 /// A step lasts so long after its drive has begun to move.
 constexpr double kHold_s = 0.75;
 constexpr double kNoMotion_s = 1.4;
+/// A drive that its load pushes back so far is let go.
+constexpr double kBack_m = 0.006;
 /// What a machine may need to stop: dead time and lags.
 constexpr double kStops_s = 0.50;
 constexpr double kMargin_m = 0.03;
 /// Between two steps: standing, and everything under way has come.
-constexpr double kRest_s = 0.35;
+constexpr double kRest_s = 0.50;
 constexpr double kRestMost_s = 2.0;
 constexpr double kStands_mps = 0.003;
 /// Speed grows with the level no faster than with this power.
@@ -125,7 +127,7 @@ CommissionSequence::CommissionSequence(const SequenceOptions& options) : options
       const auto k = static_cast<unsigned>(axis);
       const auto n = static_cast<unsigned>(other);
       if (options.drives[k] && options.drives[n] && options.pump[k] == options.pump[n]) {
-        steps_.push_back({StepKind::kPair, axis, 1, 0, other});
+        // A line that feeds a light drive lets a heavy one's load in: not against both loads.
         steps_.push_back({StepKind::kPair, axis, -1, 0, other});
       }
     }
@@ -260,7 +262,7 @@ void CommissionSequence::step(double time_s, const std::array<double, kAxisCount
     case Phase::kRun:
       return run();
     case Phase::kRest: {
-      if ((elapsed_s() > kStops_s + kRest_s && all_stand()) || elapsed_s() > kRestMost_s) {
+      if ((elapsed_s() > kRest_s && all_stand()) || elapsed_s() > kRestMost_s) {
         keep_result();
         ++at_;
         now_ = {};
@@ -395,6 +397,11 @@ void CommissionSequence::run_step() {
   const double v_mps = step.sign * speed_mps(step.axis);
   if (room_m(step.axis, step.sign) < kMargin_m + std::max(0.0, v_mps) * kStops_s) {
     return finish(StepEnd::kAtWindow);
+  }
+  // A line of less pressure lets the load in.
+  const double back_m = step.sign * (from_m_ - stroke_m_[static_cast<unsigned>(step.axis)]);
+  if (back_m > kBack_m) {
+    return finish(StepEnd::kNoMotion);
   }
   if (v_mps > 0.5 * kMoves_mps && mark_s_ == 0.0) {
     mark_s_ = time_s_;

@@ -22,8 +22,9 @@ constexpr double kSurelyOpen = 0.65;
 constexpr double kMoreThanMoved = 0.1;
 constexpr double kMoves_mps = 0.01;
 constexpr double kStrained_s = 0.4;
-/// Both pressures together, for certain by the valve.
-constexpr double kChanged_pa = 2e6;
+/// Both pressures together, for certain by the valve. What friction holds lets off some MPa through
+/// the first leak of an edge without moving.
+constexpr double kChanged_pa = 6e6;
 constexpr double kPressure_s = 0.1;
 /// Duty beyond this, times time, is bounded where nothing moves.
 constexpr double kSurelyClosed = 0.1;
