@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/machines/tuned_control.hpp"
+
 namespace graben::identify {
 namespace {
 
@@ -104,6 +106,15 @@ ExcavatorProfile identified(const ExcavatorProfile& profile, const MachineEstima
       result.pump[j].displacement_m3prev *= machine.pump_flow_factor[j].value;
     }
   }
+  // The mode that the profile's own low-pass is made for.
+  const machines::TunedControl tuned =
+      machines::tuned_control(machines::latest_answer_s(result),
+                              profile.control.servo_frequency_hz / machines::kBelowMode,
+                              profile.dig_speed_mps);
+  result.control.convergence_length_m = tuned.convergence_length_m;
+  result.control.servo_gain_ps = tuned.servo_gain_ps;
+  result.control.servo_damping = tuned.servo_damping;
+  result.control.pressure_filter_s = tuned.pressure_filter_s;
   result.safety.settle_s = std::max(result.safety.settle_s, kSettlePerLag * longest_lag_s);
   return result;
 }

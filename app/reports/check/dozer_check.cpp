@@ -118,7 +118,8 @@ void expect_plant(Warnings& warnings, const machines::SimulatedDozer& machine) {
   const DozerProfile& profile = machine.profile;
   const plant::DozerPlantProfile& plant = machine.plant;
   expect_oil(warnings, "implement", plant.bulk_modulus_pa);
-  expect_deadband(warnings, "implement", plant.deadband_ratio, profile.implement.spool_to_duty);
+  expect_deadband(warnings, "implement.spool_to_duty", plant.deadband_ratio,
+                  profile.implement.spool_to_duty);
   expect_spool(warnings, "implement", plant.spool_time_constant_s, plant.spool_damping,
                profile.safety.settle_s, profile.control.response_s);
   warnings.expect(
@@ -200,7 +201,8 @@ MachineCheck check_machine(const machines::DozerMachine& machine,
   check.kind = "dozer";
   check.hash = machine.hash;
   check.tables = {blade_table(machine.profile), drive_table(machine.profile, simulated),
-                  travel_table(machine.profile), mode_table(machine.profile, simulated)};
+                  travel_table(machine.profile), mode_table(machine.profile, simulated),
+                  provenance_table(machine.provenance)};
   check.warnings = dozer_warnings(machine, simulated);
   check.drawing = dozer_drawing(machine.profile);
   return check;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/machines/answer_section.hpp"
 #include "app/machines/axis_names.hpp"
 #include "app/reports/check/warnings.hpp"
 
@@ -165,6 +166,29 @@ void expect_friction(Warnings& warnings, const machines::SimulatedExcavator& mac
   }
 }
 
+/// Of each side that says where it opens, and of the whole valve for the first that does not.
+void expect_deadbands(Warnings& warnings, const machines::SimulatedExcavator& machine) {
+  const ExcavatorProfile& profile = machine.profile;
+  bool is_told = false;
+  for (int drive = 0; drive < profile.drive_count; ++drive) {
+    const auto k = static_cast<unsigned>(drive);
+    for (const bool extends : {true, false}) {
+      const plant::SpoolDynamics& spool = machine.plant.spool[k];
+      const double deadband_ratio =
+          extends ? spool.extend_deadband_ratio : spool.retract_deadband_ratio;
+      const DutyTable& said = profile.valve.answer[k].side(extends).spool_to_duty;
+      if (said.size() > 0) {
+        expect_deadband(warnings, machines::answer_key(drive, extends) + "spool_to_duty",
+                        deadband_ratio, said);
+      } else if (!is_told) {
+        expect_deadband(warnings, "valve.spool_to_duty", deadband_ratio,
+                        profile.valve.spool_to_duty);
+        is_told = true;
+      }
+    }
+  }
+}
+
 void expect_plant(Warnings& warnings, const machines::SimulatedExcavator& machine) {
   const ExcavatorProfile& profile = machine.profile;
   const plant::ExcavatorPlantProfile& plant = machine.plant;
@@ -172,7 +196,7 @@ void expect_plant(Warnings& warnings, const machines::SimulatedExcavator& machin
   expect_friction(warnings, machine);
   expect_oil(warnings, "valve", plant.bulk_modulus_pa);
   const plant::SpoolDynamics& spool = plant.spool[kBoom];
-  expect_deadband(warnings, "valve", spool.extend.deadband_ratio, profile.valve.spool_to_duty);
+  expect_deadbands(warnings, machine);
   expect_spool(warnings, "valve", spool.time_constant_s, spool.damping, profile.safety.settle_s,
                profile.control.response_s);
   for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {

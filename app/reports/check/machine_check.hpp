@@ -41,6 +41,10 @@ struct MachineCheck {
 [[nodiscard]] MachineCheck check_machine(const machines::DozerMachine& machine,
                                          const machines::SimulatedDozer* simulated);
 
+/// Each side of each spool.
+[[nodiscard]] FactTable answer_table(const machines::ExcavatorMachine& machine);
+[[nodiscard]] FactTable provenance_table(const std::vector<machines::Provenance>& provenance);
+
 /// Where the teeth can be, over the ground.
 struct Reach {
   Eigen::Vector2d foot_m = Eigen::Vector2d::Zero();

@@ -60,14 +60,14 @@ void expect_spool(Warnings& warnings, const std::string& valve, double time_cons
                               time_constant_s, valve));
 }
 
-void expect_deadband(Warnings& warnings, const std::string& valve, double deadband_ratio,
+void expect_deadband(Warnings& warnings, const std::string& key, double deadband_ratio,
                      const DutyTable& spool_to_duty) {
   const double first = spool_to_duty.y_first();
   warnings.add_if(
-      std::abs(first - deadband_ratio) > 0.1, valve + ".spool_to_duty",
+      std::abs(first - deadband_ratio) > 0.1, key,
       fmt::format("opens from a duty of {:.2f} on, where the simulated spool's deadband "
-                  "ends at {:.2f} of its travel ({}.deadband)",
-                  first, deadband_ratio, valve));
+                  "ends at {:.2f} of its travel",
+                  first, deadband_ratio));
 }
 
 void expect_oil(Warnings& warnings, const std::string& valve, double bulk_modulus_pa) {

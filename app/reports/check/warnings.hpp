@@ -42,7 +42,8 @@ void expect_rod(Warnings& warnings, const std::string& key, double bore_m, doubl
 void expect_times(Warnings& warnings, double settle_s, double sensor_timeout_s, double response_s);
 void expect_spool(Warnings& warnings, const std::string& valve, double time_constant_s,
                   double damping, double settle_s, double response_s);
-void expect_deadband(Warnings& warnings, const std::string& valve, double deadband_ratio,
+/// `key` is the table's.
+void expect_deadband(Warnings& warnings, const std::string& key, double deadband_ratio,
                      const DutyTable& spool_to_duty);
 void expect_oil(Warnings& warnings, const std::string& valve, double bulk_modulus_pa);
 

@@ -91,6 +91,33 @@ def shipped(graben, folder, scratch, name):
         yield f"{name} alone: status {done.returncode}: {done.stdout}{done.stderr}"
 
 
+ANSWER = """
+[valve.answer.boom.retract]
+spool_to_duty = [[0.0, 212.0], [0.5, 500.0], [1.0, 950.0]]
+dead_time = 0.18
+lag = 0.07
+spool_time_constant = 0.09
+driven = [0.42, 0.90]
+[provenance]
+"valve.answer.boom.retract.lag" = { deviation = 0.004, from = "drive.log, 2026-11-24" }
+"control.law" = { from = "tried" }
+"""
+
+
+def answers(graben, folder, scratch):
+    """What a side says and what it does not, and where that is from."""
+    for file in ("", SIM):
+        text = (folder / f"{EXCAVATOR}{file}.toml").read_text(encoding="utf-8")
+        (scratch / f"told{file}.toml").write_text(text if file else text + ANSWER, encoding="utf-8")
+    done = check(graben, scratch / "told.toml", scratch, "--strict")
+    for row in ("boom, extend 20.0 60.0 100.0 2 0 53 20 334 0 .. 100",
+                "boom, retract 21.2 50.0 95.0 3 180 70 90 334 42 .. 90",
+                "arm, extend 20.0 60.0 100.0 2 0 53 20 100 0 .. 100",
+                "valve.answer.boom.retract.lag 0.004 drive.log, 2026-11-24", "control.law - tried"):
+        if done.returncode != 0 or row not in re.sub(r" +", " ", done.stdout):
+            yield f"without '{row}': status {done.returncode}: {done.stdout}{done.stderr}"
+
+
 def main():
     graben, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     wrong = []
@@ -98,6 +125,7 @@ def main():
         scratch = pathlib.Path(scratch)
         for name in (EXCAVATOR, SMALL, DOZER):
             wrong += shipped(graben, folder, scratch, name)
+        wrong += answers(graben, folder, scratch)
         for row in SLIPS:
             wrong += slip(graben, folder, scratch, row)
         (scratch / "wrong.toml").write_text('kind = "dozer"\n', encoding="utf-8")
