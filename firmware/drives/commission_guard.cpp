@@ -144,7 +144,12 @@ bool leaves(const DriveRow& drive, const CommissionAsk& ask, const CommissionSta
   return state.touches_s >= kTouch_s || std::max(0.0, room_m) < (speed_mps - kTouch_mps) * kStops_s;
 }
 
-Fault fault_of(const CommissionAsk& ask, bool has_window, const CommissionState& state) {
+/// Farther than a drive that is stopped in time ever is.
+bool is_outside(const StrokeWindow& window, double stroke_m) {
+  return stroke_m > window.most_m + kOutside_m || stroke_m < window.least_m - kOutside_m;
+}
+
+Fault fault_of(const CommissionAsk& ask, bool has_window, CommissionState& state) {
   if (state.wrong_m > kWrong_m) {
     return Fault::kWrongDirection;
   }
@@ -154,10 +159,11 @@ Fault fault_of(const CommissionAsk& ask, bool has_window, const CommissionState&
   if (state.strained_s > kUnderWay_s + kStrained_s || state.spent_s > kSpent_s) {
     return Fault::kStrokeStuck;
   }
-  const bool outside = state.stroke_m > ask.window.most_m + kOutside_m ||
-                       state.stroke_m < ask.window.least_m - kOutside_m;
+  const bool outside = is_outside(ask.window, state.stroke_m);
+  state.was_inside = state.was_inside || (has_window && !outside);
   const bool fast = std::abs(state.speed_mps) > ask.window.most_mps;
-  return has_window && (outside || fast) ? Fault::kCommissionBound : Fault::kNone;
+  return has_window && ((outside && state.was_inside) || fast) ? Fault::kCommissionBound
+                                                               : Fault::kNone;
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ struct CommissionState {
   double duty_ratio = 0.0;  ///< Last one sent.
   double steady_s = 0.0;    ///< Since it last fell or changed sides.
   int held_side = 0;        ///< To which the window holds the drive back.
+  bool was_inside = false;  ///< Its window, or near it, since it may move.
   /// Least duties that have moved it; kept for as long as the process runs.
   double moves_extend = 1.0;
   double moves_retract = 1.0;
@@ -71,7 +72,7 @@ struct CommissionResult {
 /// it is 0 towards there until that is no longer asked for; the other way is free. An end of the
 /// cylinder that the window reaches may be met slowly, and pushed against for kTouch_s.
 ///
-/// kCommissionBound: further outside than kOutside_m, or faster than the window allows.
+/// kCommissionBound: gone further outside than kOutside_m, or faster than the window allows.
 /// kWrongDirection: gone against its duty by 30 mm, since none of the other sign can be under way.
 /// kUncommandedMotion: gone by 30 mm although nothing is under way and it has had time to come to
 /// rest. What creeps at less than 6 mm/s is neither: a load that sinks while its spool is at its

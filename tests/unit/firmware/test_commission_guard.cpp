@@ -77,6 +77,9 @@ void without_a_window_nothing_is_sent(void**) {
       assert_true(cylinder.result.held);
     }
   }
+  Cylinder none(0.5, StrokeWindow{});
+  assert_int_equal(none.step(0.3, 0.0), Fault::kNone);
+  assert_true(none.result.held);
   Cylinder whole(0.5, kWhole);
   whole.step(0.3, 0.0);
   assert_near(whole.result.duty_ratio, 0.3, 0.0);
@@ -125,6 +128,18 @@ void farther_outside_is_a_fault(void**) {
     // Where none is confirmed, it is none of the window's business.
     cylinder.ask.window = {};
     assert_int_equal(cylinder.step(0.0, 0.0), Fault::kNone);
+  }
+}
+
+/// One that begins there may come back, and then has to stay.
+void who_begins_outside_may_come_in(void**) {
+  for (const int side : {1, -1}) {
+    Cylinder cylinder(0.5 + side * 0.45);
+    assert_int_equal(cylinder.step(0.4 * side, 0.0), Fault::kNone);
+    assert_near(cylinder.result.duty_ratio, 0.0, 0.0);
+    assert_int_equal(cylinder.run(1.1, -0.4 * side, -0.1 * side), Fault::kNone);
+    cylinder.run(2.0, 0.0, 0.0);
+    assert_int_equal(cylinder.run(2.0, 0.2 * side, 0.1 * side), Fault::kCommissionBound);
   }
 }
 
@@ -318,6 +333,7 @@ int main() {
       cmocka_unit_test(it_is_stopped_before_the_edge),
       cmocka_unit_test(outside_only_back_is_free),
       cmocka_unit_test(farther_outside_is_a_fault),
+      cmocka_unit_test(who_begins_outside_may_come_in),
       cmocka_unit_test(faster_than_confirmed_is_a_fault),
       cmocka_unit_test(a_reversed_valve_is_stopped_within_50_mm),
       cmocka_unit_test(what_creeps_is_no_wrong_direction),
