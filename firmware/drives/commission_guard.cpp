@@ -26,6 +26,8 @@ constexpr double kStrained_s = 0.4;
 /// the first leak of an edge without moving.
 constexpr double kChanged_pa = 6e6;
 constexpr double kPressure_s = 0.1;
+/// What pressures alone say counts for less: they come through an edge that lets hardly any oil.
+constexpr double kByPressure = 0.3;
 /// Duty beyond this, times time, is bounded where nothing moves.
 constexpr double kSurelyClosed = 0.1;
 constexpr double kSpent_s = 2.0;
@@ -125,9 +127,10 @@ void look_for_stillness(const DriveRow& drive, const CommissionAsk& ask, const V
     state.touches_s = std::min(state.touches_s + period_s, kTouch_s);
   } else {
     const double duty = std::abs(state.duty_ratio);
-    const bool should = duty > std::min(kSurelyOpen, moves + kMoreThanMoved) ||
-                        strains(drive, seen, side) || have_pressures_changed(ask, seen, state);
-    state.strained_s = should ? state.strained_s + period_s : 0.0;
+    const bool open = duty > std::min(kSurelyOpen, moves + kMoreThanMoved);
+    const bool pushed = strains(drive, seen, side) || have_pressures_changed(ask, seen, state);
+    state.strained_s =
+        open || pushed ? state.strained_s + (open ? 1.0 : kByPressure) * period_s : 0.0;
     state.spent_s += std::max(0.0, duty - kSurelyClosed) * period_s;
   }
 }

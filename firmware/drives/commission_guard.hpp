@@ -78,7 +78,7 @@ struct CommissionResult {
 /// rest. What creeps at less than 6 mm/s is neither: a load that sinks while its spool is at its
 /// edge, leakage.
 /// kStrokeStuck: stands still though it should move, for 0.4 s longer than that may take. It should
-/// at a duty that opens any spool or has moved it before; with what its pump gives on the side that
+/// at a duty that opens any spool or has moved it before; and, for three times as long, with what its pump gives on the side that
 /// is fed; alone, where its pressures have changed by 6 MPa together. A smaller duty may be tried
 /// for 2 s over what it is above a tenth. The sensor hangs, or the cylinder.
 [[nodiscard]] CommissionResult next_commission(const DriveRow& drive, const CommissionAsk& ask,

@@ -175,7 +175,7 @@ void expect_deadbands(Warnings& warnings, const machines::SimulatedExcavator& ma
     for (const bool extends : {true, false}) {
       const plant::SpoolDynamics& spool = machine.plant.spool[k];
       const double deadband_ratio =
-          extends ? spool.extend_deadband_ratio : spool.retract_deadband_ratio;
+          extends ? spool.extend.deadband_ratio : spool.retract.deadband_ratio;
       const DutyTable& said = profile.valve.answer[k].side(extends).spool_to_duty;
       if (said.size() > 0) {
         expect_deadband(warnings, machines::answer_key(drive, extends) + "spool_to_duty",
