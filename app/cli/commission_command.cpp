@@ -26,9 +26,9 @@ const char* end_text(commission::StepEnd end) {
     case commission::StepEnd::kDone:
       return "done";
     case commission::StepEnd::kAtWindow:
-      return "ended at its window";
+      return "at window";
     case commission::StepEnd::kNoMotion:
-      return "did not move";
+      return "no motion";
   }
   return "";
 }
@@ -46,8 +46,8 @@ void commission_in_memory(const CommissionCommand& options) {
   const auto steps = commission::CommissionSequence(run.sequence).steps();
   for (std::size_t at = 0; at < result.steps.size(); ++at) {
     const commission::StepResult& step = result.steps[at];
-    fmt::print("{:<56} {:<20} duty {:>5.1f} %, {:>4.0f} mm/s\n", step_text(steps[at]),
-               end_text(step.end), 100.0 * step.duty, 1e3 * step.speed_mps);
+    fmt::print("{:<49} {:<11} {:>4.1f} s {:>4.0f} % {:>4.0f} mm/s\n", step_text(steps[at]),
+               end_text(step.end), step.took_s, 100.0 * step.duty, 1e3 * step.speed_mps);
   }
   fmt::print("machine time {:.0f} s\nlog {}\n", result.machine_s, options.log);
   if (result.end == runs::CommissionEnd::kFault) {

@@ -19,11 +19,14 @@ constexpr double kLeastEdge = 0.08;
 /// It moves.
 constexpr double kMoves_mps = 0.010;
 /// And has moved: a linkage that rocks comes back.
-constexpr double kMoved_m = 0.004;
+constexpr double kMoved_m = 0.006;
+constexpr double kMovesFor_s = 0.25;
 /// A ramp goes on a little beyond: the curve's foot.
-constexpr double kFoot_s = 0.6;
+constexpr double kFoot_s = 0.45;
 /// Of what is left of the duty beyond the edge.
 constexpr std::array<double, 5> kLevels = {0.08, 0.18, 0.35, 0.62, 1.0};
+/// While the drive is still near the middle.
+constexpr int kBurstAfter = 2;
 constexpr double kPairLevel = 0.55;
 constexpr double kBurstLevel = 0.30;
 /// Untried, no more of it than this.
@@ -41,9 +44,10 @@ constexpr double kBack_m = 0.006;
 constexpr double kStops_s = 0.50;
 constexpr double kMargin_m = 0.03;
 /// Between two steps: standing, and everything under way has come.
-constexpr double kRest_s = 0.50;
+constexpr double kRest_s = 0.45;
 constexpr double kRestMost_s = 2.0;
 constexpr double kStands_mps = 0.003;
+constexpr double kStandsFor_s = 0.25;
 /// Speed grows with the level no faster than with this power.
 constexpr double kSteepest = 2.0;
 constexpr double kOfMost = 0.75;
@@ -88,8 +92,6 @@ std::string step_text(const SequenceStep& step) {
     case StepKind::kPair:
       return fmt::format("{} and {}, {}: together on one pump", axis_name(step.axis),
                          axis_name(step.other), step.sign > 0 ? "extending" : "retracting");
-    case StepKind::kReturn:
-      return fmt::format("{}: back to the middle of its window", axis_name(step.axis));
   }
   return where;
 }
@@ -110,9 +112,9 @@ CommissionSequence::CommissionSequence(const SequenceOptions& options) : options
     for (int level = 0; options.steps && level < static_cast<int>(kLevels.size()); ++level) {
       steps_.push_back({StepKind::kStep, axis, 1, level});
       steps_.push_back({StepKind::kStep, axis, -1, level});
-    }
-    if (options.bursts) {
-      steps_.push_back({StepKind::kBurst, axis, 1});
+      if (options.bursts && level == kBurstAfter) {
+        steps_.push_back({StepKind::kBurst, axis, 1});
+      }
     }
     if (options.touch_retracted[k] && reaches(axis, -1)) {
       steps_.push_back({StepKind::kTouch, axis, -1});
@@ -120,7 +122,6 @@ CommissionSequence::CommissionSequence(const SequenceOptions& options) : options
     if (options.touch_extended[k] && reaches(axis, 1)) {
       steps_.push_back({StepKind::kTouch, axis, 1});
     }
-    steps_.push_back({StepKind::kReturn, axis, -1});
   }
   for (int axis = 0; options.pairs && axis < kAxisCount; ++axis) {
     for (int other = axis + 1; other < kAxisCount; ++other) {
@@ -180,10 +181,7 @@ double CommissionSequence::level_for(int axis, int sign, double wanted_mps) cons
   return std::max(kFirstLevel, below.level) * std::min(2.0, wanted_mps / least_mps);
 }
 
-bool CommissionSequence::all_stand() const {
-  return std::abs(speed_mps(0)) < kStands_mps && std::abs(speed_mps(1)) < kStands_mps &&
-         std::abs(speed_mps(2)) < kStands_mps;
-}
+bool CommissionSequence::all_stand() const { return stands_s_ > kStandsFor_s; }
 
 void CommissionSequence::observe(double time_s, const std::array<double, kAxisCount>& strokes_m) {
   time_s_ = time_s;
@@ -195,6 +193,9 @@ void CommissionSequence::observe(double time_s, const std::array<double, kAxisCo
     history_m_[k][seen_ % kHistory] = strokes_m[k];
   }
   ++seen_;
+  const bool stand = std::abs(speed_mps(0)) < kStands_mps && std::abs(speed_mps(1)) < kStands_mps &&
+                     std::abs(speed_mps(2)) < kStands_mps;
+  stands_s_ = stand ? stands_s_ + kPeriod_s : 0.0;
 }
 
 double CommissionSequence::speed_mps(int axis) const {
@@ -256,6 +257,7 @@ void CommissionSequence::step(double time_s, const std::array<double, kAxisCount
     begin(Phase::kPrepare);
   }
   active_s_ += kPeriod_s;
+  now_.took_s += kPeriod_s;
   switch (phase_) {
     case Phase::kPrepare:
       return prepare();
@@ -282,7 +284,7 @@ double CommissionSequence::start_m(const SequenceStep& step) const {
   double share = here;
   if (step.kind == StepKind::kStep || step.kind == StepKind::kPair) {
     // Fast steps want room, slow ones are content where they are.
-    const double room = std::min(0.25 + 0.12 * step.level, 0.7);
+    const double room = std::min(0.20 + 0.08 * step.level, 0.5);
     share = step.sign > 0 ? std::min(here, 1.0 - room) : std::max(here, room);
   } else if (step.kind == StepKind::kRamp || step.kind == StepKind::kBurst) {
     share = std::clamp(here, 0.25, 0.75);
@@ -310,7 +312,7 @@ void CommissionSequence::prepare() {
   constexpr double kLongest_s = 15.0;
   const SequenceStep& step = steps_[at_];
   bool ready = all_stand();
-  if (step.kind != StepKind::kReturn && step.kind != StepKind::kTouch) {
+  if (step.kind != StepKind::kTouch) {
     ready = approach(step.axis, start_m(step)) && ready;
   }
   if (step.kind == StepKind::kPair) {
@@ -322,6 +324,7 @@ void CommissionSequence::prepare() {
     begin(Phase::kRun);
     ramp_ = kRampFrom;
     from_m_ = stroke_m_[static_cast<unsigned>(step.axis)];
+    moves_s_ = 0.0;
   }
 }
 
@@ -338,13 +341,6 @@ void CommissionSequence::run() {
       return run_burst();
     case StepKind::kTouch:
       return run_touch();
-    case StepKind::kReturn: {
-      const Window& window = options_.window[static_cast<unsigned>(step.axis)];
-      if (approach(step.axis, 0.5 * (window.least_m + window.most_m)) || elapsed_s() > 15.0) {
-        finish(StepEnd::kDone);
-      }
-      return;
-    }
   }
 }
 
@@ -358,7 +354,7 @@ void CommissionSequence::keep_result() {
   const SequenceStep& step = steps_[at_];
   if (step.kind == StepKind::kRamp && now_.end != StepEnd::kNoMotion) {
     // Without the foot, and what was under way when it was seen to move.
-    edge(step.axis, step.sign) = std::max(kLeastEdge, now_.duty - kRampSlow * (kFoot_s + kStops_s));
+    edge(step.axis, step.sign) = std::max(kLeastEdge, now_.duty - kRampSlow * (kFoot_s + kMovesFor_s + kStops_s));
   }
   const bool tells = step.kind == StepKind::kRamp || step.kind == StepKind::kStep;
   if (tells && edge(step.axis, step.sign) > 0.0 && now_.speed_mps > kMoves_mps) {
@@ -373,8 +369,8 @@ void CommissionSequence::run_ramp() {
     return finish(StepEnd::kAtWindow);
   }
   const double moved_m = step.sign * (stroke_m_[static_cast<unsigned>(step.axis)] - from_m_);
-  const bool moves = step.sign * speed_mps(step.axis) > kMoves_mps && moved_m > kMoved_m;
-  if (moves && mark_s_ == 0.0) {
+  moves_s_ = step.sign * speed_mps(step.axis) > kMoves_mps ? moves_s_ + kPeriod_s : 0.0;
+  if (moves_s_ > kMovesFor_s && moved_m > kMoved_m && mark_s_ == 0.0) {
     mark_s_ = time_s_;
   }
   if (mark_s_ > 0.0 && time_s_ - mark_s_ > kFoot_s) {

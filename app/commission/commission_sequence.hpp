@@ -36,11 +36,11 @@ struct SequenceOptions {
 /// surroundings is for the operator to take out.
 [[nodiscard]] SequenceOptions whole_sequence(const ExcavatorProfile& profile);
 
-enum class StepKind { kRamp, kStep, kBurst, kTouch, kPair, kReturn };
+enum class StepKind { kRamp, kStep, kBurst, kTouch, kPair };
 
 /// One thing that is tried.
 struct SequenceStep {
-  StepKind kind = StepKind::kReturn;
+  StepKind kind = StepKind::kRamp;
   int axis = 0;
   int sign = 0;    ///< +1 extends.
   int level = 0;   ///< Of kStep and kPair: which of the five.
@@ -55,6 +55,7 @@ struct StepResult {
   StepEnd end = StepEnd::kDone;
   double duty = 0.0;       ///< Largest magnitude that was tried.
   double speed_mps = 0.0;  ///< Largest that came of it.
+  double took_s = 0.0;     ///< With the way to where it began, and until all stood again.
 };
 
 /// "boom, extending: ramp to its edge".
@@ -132,6 +133,8 @@ class CommissionSequence {
   double mark_s_ = 0.0;  ///< Of a step: when it moved, or stood at its end.
   double ramp_ = 0.0;
   double from_m_ = 0.0;  ///< Stroke at which a ramp began.
+  double moves_s_ = 0.0;   ///< For so long in a row a ramp's drive has moved.
+  double stands_s_ = 0.0;  ///< For so long all have stood: where a linkage rocks, it turns.
 };
 
 }  // namespace graben::commission

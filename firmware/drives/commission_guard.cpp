@@ -21,6 +21,8 @@ constexpr double kSurelyOpen = 0.65;
 /// Beyond a duty that has moved the drive, for another load.
 constexpr double kMoreThanMoved = 0.1;
 constexpr double kMoves_mps = 0.01;
+/// And farther than a linkage rocks on its oil.
+constexpr double kMoved_m = 0.015;
 constexpr double kStrained_s = 0.4;
 /// Both pressures together, for certain by the valve. What friction holds lets off some MPa through
 /// the first leak of an edge without moving.
@@ -70,6 +72,9 @@ void follow_duty(double sent_ratio, double period_s, CommissionState& state) {
   const bool steady =
       sent_ratio * state.duty_ratio > 0.0 && std::abs(sent_ratio) >= std::abs(state.duty_ratio);
   state.steady_s = steady ? std::min(state.steady_s + period_s, kUnderWay_s) : 0.0;
+  if (!steady) {
+    state.from_m = state.stroke_m;
+  }
   state.duty_ratio = sent_ratio;
 }
 
@@ -87,7 +92,7 @@ void follow_pressures(const ValidDrive& seen, bool begins, double period_s,
   const double newest = begins ? 1.0 : std::min(1.0, period_s / kPressure_s);
   state.cap_pa += newest * (seen.cap_pressure_pa - state.cap_pa);
   state.rod_pa += newest * (seen.rod_pressure_pa - state.rod_pa);
-  if (state.since_extend_s >= kUnderWay_s && state.since_retract_s >= kUnderWay_s) {
+  if (state.duty_ratio == 0.0) {
     state.rest_cap_pa = state.cap_pa;
     state.rest_rod_pa = state.rod_pa;
   }
@@ -112,7 +117,8 @@ void look_for_stillness(const DriveRow& drive, const CommissionAsk& ask, const V
                         double period_s, CommissionState& state) {
   const int side = sign_of(state.duty_ratio);
   double& moves = side > 0 ? state.moves_extend : state.moves_retract;
-  const bool goes = side * state.speed_mps > kMoves_mps;
+  const bool goes =
+      side * state.speed_mps > kMoves_mps && side * (state.stroke_m - state.from_m) > kMoved_m;
   if (goes && way_of(state) == side && state.steady_s >= kUnderWay_s) {
     moves = std::min(moves, std::abs(state.duty_ratio));
   }

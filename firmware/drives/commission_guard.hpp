@@ -34,7 +34,7 @@ struct CommissionState {
   double free_m = 0.0;                   ///< Gone without any.
   double cap_pa = 0.0;                   ///< Low-passed ...
   double rod_pa = 0.0;
-  double rest_cap_pa = 0.0;  ///< ... and before any duty.
+  double rest_cap_pa = 0.0;  ///< ... and before the duty began.
   double rest_rod_pa = 0.0;
   double still_m = 0.0;     ///< Stroke at its last change.
   double strained_s = 0.0;  ///< That it should have moved since then.
@@ -42,6 +42,7 @@ struct CommissionState {
   double touches_s = 0.0;   ///< That it is pushed against an end.
   double duty_ratio = 0.0;  ///< Last one sent.
   double steady_s = 0.0;    ///< Since it last fell or changed sides.
+  double from_m = 0.0;      ///< Stroke then.
   int held_side = 0;        ///< To which the window holds the drive back.
   bool was_inside = false;  ///< Its window, or near it, since it may move.
   /// Least duties that have moved it; kept for as long as the process runs.
