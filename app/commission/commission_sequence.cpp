@@ -53,7 +53,8 @@ constexpr double kSteepest = 2.0;
 constexpr double kOfMost = 0.75;
 /// The end of a stroke is nearer than that to where the sensor says that it is.
 constexpr double kEnd_m = 0.030;
-constexpr double kPress_s = 0.70;
+constexpr double kPress_s = 0.80;
+constexpr double kSame_m = 0.00015;
 constexpr double kPulse_s = 0.15;
 constexpr int kPulses = 4;
 constexpr double kThere_m = 0.03;
@@ -441,14 +442,12 @@ void CommissionSequence::run_touch() {
   }
   const double left_m = step.sign > 0 ? options_.stroke_m[k] - stroke_m_[k] : stroke_m_[k];
   const double v_mps = std::max(0.0, step.sign * speed_mps(step.axis));
-  const bool stands = std::abs(speed_mps(step.axis)) < kStands_mps;
-  if (left_m < kEnd_m && stands && mark_s_ == 0.0) {
+  // A cushion lets a piston creep: it is at its end where its stroke does not change at all.
+  if (std::abs(stroke_m_[k] - from_m_) > kSame_m) {
+    from_m_ = stroke_m_[k];
     mark_s_ = time_s_;
   }
-  if (mark_s_ > 0.0 && !stands) {
-    mark_s_ = 0.0;
-  }
-  if (mark_s_ > 0.0 && time_s_ - mark_s_ > kPress_s) {
+  if (left_m < kEnd_m && elapsed_s() > kPress_s && time_s_ - mark_s_ > kPress_s) {
     return finish(StepEnd::kDone);
   }
   const bool far = left_m > kNear_m + v_mps * kStops_s;

@@ -13,7 +13,7 @@ constexpr std::size_t kEvery = 4;
 /// A spool has stood so long before: the oil has found its pressures.
 constexpr std::size_t kSettles = 30;
 /// Of the travel, within a window.
-constexpr double kSpoolSteady = 0.03;
+constexpr double kSpoolSteady = 0.04;
 constexpr double kSpeedSteady_mps = 0.006;
 constexpr double kSpeedSteady = 0.08;
 /// Cushions begin here.

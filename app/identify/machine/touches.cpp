@@ -16,6 +16,8 @@ constexpr double kNear_m = 0.035;
 constexpr double kOpen = 0.08;
 /// It came this far on its way to the end.
 constexpr double kCame_m = 0.01;
+/// ... within so many grid points, cushion and all.
+constexpr std::size_t kCame = 300;
 /// The pushing side has at least that more than the other.
 constexpr double kPushes_pa = 3.0e6;
 constexpr double kStrokeDeviation_m = 0.0003;
@@ -59,7 +61,7 @@ std::vector<Touch> touches(const std::vector<MachineLog>& logs, std::size_t axis
         while (length < at && is_pressed(at - length)) {
           ++length;
         }
-        const std::size_t before = at - std::min(at, length + 50);
+        const std::size_t before = at - std::min(at, length + kCame);
         if (length < kTouch || sign * (series.stroke_m[at] - series.stroke_m[before]) < kCame_m) {
           continue;
         }
