@@ -35,6 +35,11 @@ constexpr double kFirstLevel = 0.15;
 constexpr double kTravel_mps = 0.14;
 constexpr double kNear_mps = 0.05;
 constexpr double kNear_m = 0.10;
+constexpr double kLast_mps = 0.025;
+constexpr double kLast_m = 0.03;
+constexpr double kLetGo_s = 0.2;
+/// A piston that has stood for so long is pushed a little more.
+constexpr double kPresses_s = 0.2;
 /// A step lasts so long after its drive has begun to move.
 constexpr double kHold_s = 0.75;
 constexpr double kNoMotion_s = 1.4;
@@ -326,6 +331,8 @@ void CommissionSequence::prepare() {
     ramp_ = kRampFrom;
     from_m_ = stroke_m_[static_cast<unsigned>(step.axis)];
     moves_s_ = 0.0;
+    presses_ = 0;
+    let_go_s_ = 0.0;
   }
 }
 
@@ -355,7 +362,8 @@ void CommissionSequence::keep_result() {
   const SequenceStep& step = steps_[at_];
   if (step.kind == StepKind::kRamp && now_.end != StepEnd::kNoMotion) {
     // Without the foot, and what was under way when it was seen to move.
-    edge(step.axis, step.sign) = std::max(kLeastEdge, now_.duty - kRampSlow * (kFoot_s + kMovesFor_s + kStops_s));
+    edge(step.axis, step.sign) =
+        std::max(kLeastEdge, now_.duty - kRampSlow * (kFoot_s + kMovesFor_s + kStops_s));
   }
   const bool tells = step.kind == StepKind::kRamp || step.kind == StepKind::kStep;
   if (tells && edge(step.axis, step.sign) > 0.0 && now_.speed_mps > kMoves_mps) {
@@ -447,11 +455,25 @@ void CommissionSequence::run_touch() {
     from_m_ = stroke_m_[k];
     mark_s_ = time_s_;
   }
-  if (left_m < kEnd_m && elapsed_s() > kPress_s && time_s_ - mark_s_ > kPress_s) {
+  const bool stands = left_m < kEnd_m && time_s_ - mark_s_ > kPress_s;
+  if (stands && presses_ > 0) {
     return finish(StepEnd::kDone);
   }
-  const bool far = left_m > kNear_m + v_mps * kStops_s;
-  const double level = level_for(step.axis, step.sign, far ? kTravel_mps : kNear_mps);
+  // The guard may have held it just before; let go and asked again, it comes to the very end.
+  if (stands || let_go_s_ > 0.0) {
+    let_go_s_ += kPeriod_s;
+    mark_s_ = time_s_;
+    if (let_go_s_ > kStops_s + kLetGo_s) {
+      let_go_s_ = 0.0;
+      ++presses_;
+    }
+    return;
+  }
+  const bool presses = time_s_ - mark_s_ > kPresses_s;
+  const double speed_mps = left_m > kNear_m + v_mps * kStops_s              ? kTravel_mps
+                           : presses || left_m > kLast_m + v_mps * kStops_s ? kNear_mps
+                                                                            : kLast_mps;
+  const double level = level_for(step.axis, step.sign, speed_mps);
   drive(step.axis, level_duty(step.axis, step.sign, safe_level(step.axis, step.sign, level)));
 }
 

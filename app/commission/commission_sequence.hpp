@@ -132,7 +132,9 @@ class CommissionSequence {
   StepResult now_;
   double mark_s_ = 0.0;  ///< Of a step: when it moved, or stood at its end.
   double ramp_ = 0.0;
-  double from_m_ = 0.0;  ///< Stroke at which a ramp began.
+  double from_m_ = 0.0;    ///< Stroke at which a ramp began.
+  int presses_ = 0;        ///< Of a touch, so far.
+  double let_go_s_ = 0.0;  ///< For so long a touch has been let go.
   double moves_s_ = 0.0;   ///< For so long in a row a ramp's drive has moved.
   double stands_s_ = 0.0;  ///< For so long all have stood: where a linkage rocks, it turns.
 };

@@ -107,10 +107,9 @@ ExcavatorProfile identified(const ExcavatorProfile& profile, const MachineEstima
     }
   }
   // The mode that the profile's own low-pass is made for.
-  const machines::TunedControl tuned =
-      machines::tuned_control(machines::latest_answer_s(result),
-                              profile.control.servo_frequency_hz / machines::kBelowMode,
-                              profile.dig_speed_mps);
+  const machines::TunedControl tuned = machines::tuned_control(
+      machines::latest_answer_s(result), profile.control.servo_frequency_hz / machines::kBelowMode,
+      profile.dig_speed_mps);
   result.control.convergence_length_m = tuned.convergence_length_m;
   result.control.servo_gain_ps = tuned.servo_gain_ps;
   result.control.servo_damping = tuned.servo_damping;

@@ -103,9 +103,10 @@ MachineEstimate identify_machine(const ExcavatorProfile& profile,
     find_spool_answer(logs, axis, machine.drive[static_cast<unsigned>(axis)]);
   }
   progress(0.5, "zeros of sensors");
-  find_zeros(logs, profile, machine);
+  const std::vector<SteadyPoint> points = steady_points(logs, profile);
+  find_zeros(logs, profile, points, machine);
   progress(0.55, "curves and pumps");
-  fit_valves(profile, steady_points(logs, profile), {}, machine);
+  fit_valves(profile, points, {}, machine);
   if (!any_driven(machine)) {
     throw std::runtime_error("no cylinder moves steadily anywhere in the logs");
   }

@@ -12,8 +12,10 @@ constexpr std::size_t kSettled = 20;
 constexpr double kStill_m = 0.0004;
 /// Farther from its end no sensor's zero is.
 constexpr double kNear_m = 0.035;
-/// Of the travel: then the valve is open, whatever its edge is, as the cylinder moved before.
-constexpr double kOpen = 0.08;
+/// It moves.
+constexpr double kMoves_mps = 0.008;
+/// Of the travel, beyond the least that moved it.
+constexpr double kBeyond = 0.01;
 /// It came this far on its way to the end.
 constexpr double kCame_m = 0.01;
 /// ... within so many grid points, cushion and all.
@@ -43,7 +45,7 @@ struct Touch {
 
 /// Readings of the touches of one end.
 std::vector<Touch> touches(const std::vector<MachineLog>& logs, std::size_t axis, bool extends,
-                           double end_m) {
+                           double end_m, double open) {
   std::vector<Touch> found;
   for (const MachineLog& log : logs) {
     for (const LogSegment& segment : log.segments) {
@@ -51,7 +53,7 @@ std::vector<Touch> touches(const std::vector<MachineLog>& logs, std::size_t axis
       for (std::size_t at = kTouch; at + 1 < segment.size(); ++at) {
         const double sign = extends ? 1.0 : -1.0;
         const auto is_pressed = [&](std::size_t k) {
-          return sign * series.spool[k] > kOpen &&
+          return sign * series.spool[k] > open &&
                  std::abs(series.stroke_m[k] - series.stroke_m[at]) < kStill_m;
         };
         if (std::abs(series.stroke_m[at] - end_m) > kNear_m || is_pressed(at + 1)) {
@@ -80,6 +82,18 @@ std::vector<Touch> touches(const std::vector<MachineLog>& logs, std::size_t axis
   return found;
 }
 
+/// Least travel at which a steady point of this side moved.
+double least_open(const std::vector<SteadyPoint>& points, std::size_t axis, bool extends) {
+  double least = 1.0;
+  for (const SteadyPoint& point : points) {
+    const bool is_side = point.axis == static_cast<int>(axis) && (point.spool > 0.0) == extends;
+    if (is_side && (extends ? point.speed_mps : -point.speed_mps) > kMoves_mps) {
+      least = std::min(least, std::abs(point.spool));
+    }
+  }
+  return least + kBeyond;
+}
+
 Estimate zero_of(const std::vector<Touch>& found, const Estimate& before) {
   if (found.empty()) {
     return before;
@@ -96,12 +110,13 @@ Estimate zero_of(const std::vector<Touch>& found, const Estimate& before) {
 }  // namespace
 
 void find_zeros(const std::vector<MachineLog>& logs, const ExcavatorProfile& profile,
-                MachineEstimate& machine) {
+                const std::vector<SteadyPoint>& points, MachineEstimate& machine) {
   for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
     DriveEstimate& drive = machine.drive[axis];
     const double most_m = profile.geometry.cylinder[axis].stroke_m;
-    const std::vector<Touch> out = touches(logs, axis, true, most_m);
-    const std::vector<Touch> in = touches(logs, axis, false, 0.0);
+    const std::vector<Touch> out =
+        touches(logs, axis, true, most_m, least_open(points, axis, true));
+    const std::vector<Touch> in = touches(logs, axis, false, 0.0, least_open(points, axis, false));
     drive.rod_zero_pa = zero_of(out, drive.rod_zero_pa);
     drive.cap_zero_pa = zero_of(in, drive.cap_zero_pa);
     if (!out.empty()) {

@@ -7,14 +7,16 @@
 
 #include "app/identify/machine/estimate.hpp"
 #include "app/identify/machine/machine_log.hpp"
+#include "app/identify/machine/steady_points.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
 
 namespace graben::identify {
 
 /// Zeros of each axis whose end was touched, into `machine`: the stroke's by the extended end, or
 /// by the other where only that was touched; the pressures' by the draining side. A sensor that
-/// reads nothing there is at or below zero, by no one knows how much.
+/// reads nothing there is at or below zero, by no one knows how much. `points`: a valve that is not
+/// open as far as it was where its drive moved, presses nothing.
 void find_zeros(const std::vector<MachineLog>& logs, const ExcavatorProfile& profile,
-                MachineEstimate& machine);
+                const std::vector<SteadyPoint>& points, MachineEstimate& machine);
 
 }  // namespace graben::identify

@@ -48,6 +48,10 @@ constexpr int kSteps = 60;
 constexpr double kMoves_mps = 0.01;
 /// A value is known where what is left open is less than this share of what was open before.
 constexpr double kLearnt = 0.5;
+/// The model is not the machine (hoses, a soft edge of another shape): what is left open is so much
+/// more than the points say, and no travel is known better than that. By hidden machines.
+constexpr double kModel = 1.5;
+constexpr double kTravelOff = 0.002;
 
 std::size_t side_of(int axis, bool extends) {
   return 2 * static_cast<std::size_t>(axis) + (extends ? 0 : 1);
@@ -177,7 +181,7 @@ class Fit {
   }
   [[nodiscard]] Estimate found(double value, std::size_t at, double before) const {
     const double left = deviation(at);
-    return {value, left, left < kLearnt * before};
+    return {value, kModel * left, left < kLearnt * before};
   }
   void tell_side(const ExcavatorProfile& profile, std::size_t side, SideEstimate& to) const;
 
@@ -360,7 +364,8 @@ void Fit::tell_side(const ExcavatorProfile& profile, std::size_t side, SideEstim
       };
       slope[static_cast<Eigen::Index>(at)] = (travel(moved) - travel(block)) / kStep;
     }
-    to.duty_deviation.push_back(std::sqrt(std::max(0.0, slope.dot(covariance * slope))));
+    to.duty_deviation.push_back(kModel * std::sqrt(std::max(0.0, slope.dot(covariance * slope))) +
+                                kTravelOff);
   }
 }
 
