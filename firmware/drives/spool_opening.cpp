@@ -11,6 +11,14 @@ double rise(const DutyTable& table, int segment) {
 
 }  // namespace
 
+SpoolAnswers straight_answers(double edge, double dead_time_s, double lag_s) {
+  const double opening[] = {0.0, 1.0};
+  const double duty[] = {edge, 1.0};
+  SpoolAnswer answer{{}, dead_time_s, lag_s, 0.0};
+  static_cast<void>(answer.spool_to_duty.fill(opening, duty, 2));
+  return {answer, answer};
+}
+
 double opening_at(const SpoolAnswer& answer, double travel_ratio) {
   const DutyTable& table = answer.spool_to_duty;
   if (travel_ratio < answer.edge()) {

@@ -5,6 +5,9 @@
 
 namespace graben {
 
+/// Both sides alike and straight: open from a duty of `edge` (less than 1) to the whole of it.
+[[nodiscard]] SpoolAnswers straight_answers(double edge, double dead_time_s, double lag_s);
+
 /// Opening of a spool that is `travel_ratio` (0 .. 1) from its middle. Below 0 in the dead band, by
 /// shares of the travel outside of it.
 [[nodiscard]] double opening_at(const SpoolAnswer& answer, double travel_ratio);

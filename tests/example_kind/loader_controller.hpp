@@ -7,6 +7,7 @@
 
 #include "firmware/drives/bank_cycle.hpp"
 #include "firmware/drives/drive_gate.hpp"
+#include "firmware/drives/spool_opening.hpp"
 #include "firmware/hydraulics/flow.hpp"
 #include "firmware/mcv/optimiser.hpp"
 #include "firmware/numeric/triangle.hpp"
@@ -24,18 +25,13 @@ struct LoaderOutputs : MachineOutputs {
 };
 
 inline DriveRow loader_drive(const LoaderProfile& profile, unsigned i) {
-  const std::array<double, 2> opening = {0.0, 1.0};
-  const std::array<double, 2> duty = {profile.deadband_ratio, 1.0};
   DriveRow row;
   set_cylinder_range(profile.stroke_m[i], row);
   row.extend_area_m2 = profile.cap_m2[i];
   row.retract_area_m2 = profile.rod_m2[i];
   row.spool = profile.spool[i];
   row.metering = profile.metering;
-  SpoolAnswer& answer = row.answer.extend;
-  static_cast<void>(answer.spool_to_duty.fill(opening.data(), duty.data(), 2));
-  answer.lag_s = 0.053;
-  row.answer.retract = answer;
+  row.answer = straight_answers(profile.deadband_ratio, 0.0, 0.053);
   row.control = {3.0, 0.001, 2.0, 0.05e-3, 0.5};
   row.control.at_end = {LimitKind::kStrokeEnd, static_cast<std::uint8_t>(i)};
   row.feedback = {2.0, 0.025, 0.025, 0.2, 2.4, 0.4};

@@ -28,6 +28,18 @@ void opening_and_travel_turn_into_each_other(void**) {
   assert_near(duty_at(answer.extend, 1.03), 1.0, 0.0);
 }
 
+void straight_is_straight_to_both_sides(void**) {
+  const SpoolAnswers answer = straight_answers(0.25, 0.1, 0.05);
+  assert_true(answer.same_times());
+  for (const SpoolAnswer* side : {&answer.extend, &answer.retract}) {
+    assert_near(side->edge(), 0.25, 0.0);
+    assert_near(duty_at(*side, 0.5), 0.625, 1e-12);
+    assert_near(duty_at(*side, 1.0), 1.0, 0.0);
+    assert_near(side->dead_time_s, 0.1, 0.0);
+    assert_near(side->lag_s, 0.05, 0.0);
+  }
+}
+
 /// The steeper of two parts where both are within the range.
 void the_steepest_part_within_the_range_counts(void**) {
   const SpoolAnswer side = test::two_sides().extend;
@@ -43,6 +55,7 @@ void the_steepest_part_within_the_range_counts(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(opening_and_travel_turn_into_each_other),
+      cmocka_unit_test(straight_is_straight_to_both_sides),
       cmocka_unit_test(the_steepest_part_within_the_range_counts),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
