@@ -54,6 +54,8 @@ template <class Kind>
 [[nodiscard]] Rows<Dozer> direction_rows(const Dozer&);
 [[nodiscard]] Rows<Excavator> tube_rows(const Excavator&);  ///< 57
 [[nodiscard]] Rows<Dozer> tube_rows(const Dozer&);
+[[nodiscard]] Rows<Excavator> hand_rows(const Excavator&);  ///< 74, 75
+[[nodiscard]] Rows<Dozer> hand_rows(const Dozer&);
 [[nodiscard]] Rows<Dozer> dozer_rows();
 [[nodiscard]] Rows<Dozer> pose_rows();      ///< 54, 60
 [[nodiscard]] Rows<Excavator> swap_rows();  ///< 55: a dozer has one stroke.

@@ -138,7 +138,7 @@ inline constexpr std::array<const char*, 27> kArmBlockTexts{{
     "the controller was told to end",
     "the body's pose is missing or cannot be",
     "the transmission's feedback is missing or not as commanded",
-    "a spool is not in its middle: release the levers",
+    "a spool, or a lever of the operator, is not in its middle: release the levers",
     "the valve does not do as it is told",
     "the controller's own check has failed",
     "a sensor reports an error of its own",

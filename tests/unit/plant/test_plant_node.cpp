@@ -292,6 +292,46 @@ void operator_follows_the_schedule(void**) {
   assert_near(message.speed_override_ratio.value, 1.0, 1e-9);
 }
 
+/// A station without levers sends none; windows come by turns, of the drives that have one.
+void hands_are_sent_where_they_are(void**) {
+  Rig rig;
+  rig.cycles(20);
+  assert_int_equal(rig.seen.count(bus::OperatorAxes::kId), 0);
+  assert_int_equal(rig.seen.count(bus::CommissionDuty::kId), 0);
+  assert_int_equal(rig.seen.count(bus::CommissionWindow::kId), 0);
+  OperatorHands hands;
+  hands.lever_ratio = {0.2, -0.4, 0.6, -0.8};
+  hands.tried_ratio = {0.1, 0.0, -0.3};
+  hands.window[0] = StrokeWindow{0.1, 0.2, 0.3};
+  hands.window[2] = StrokeWindow{0.4, 0.5, 0.6};
+  rig.driver.set_hands(hands);
+  rig.cycles(20);
+  assert_int_equal(rig.seen[bus::OperatorAxes::kId].size(), 10);
+  assert_int_equal(rig.seen[bus::CommissionDuty::kId].size(), 10);
+  const auto axes = last<bus::OperatorAxes>(rig);
+  assert_near(axes.boom_or_up_ratio.value, 0.2, 1e-9);
+  assert_near(axes.arm_or_forward_ratio.value, -0.4, 1e-9);
+  assert_near(axes.bucket_or_attitude_ratio.value, 0.6, 1e-9);
+  assert_near(axes.swing_ratio.value, -0.8, 1e-9);
+  const auto duty = last<bus::CommissionDuty>(rig);
+  assert_near(duty.boom_duty_ratio.value, 0.1, 1e-9);
+  assert_near(duty.arm_duty_ratio.value, 0.0, 1e-9);
+  assert_near(duty.bucket_duty_ratio.value, -0.3, 1e-9);
+  rig.cycles(20);
+  const auto& windows = rig.seen[bus::CommissionWindow::kId];
+  assert_int_equal(windows.size(), 4);
+  for (std::size_t n = 0; n < windows.size(); ++n) {
+    const auto window = bus::CommissionWindow::decode(windows[n].data);
+    const bool boom = n % 2 == 0;
+    assert_true(window.drive.value == (boom ? bus::CommissionWindow::Drive::kBoom
+                                            : bus::CommissionWindow::Drive::kBucket));
+    assert_near(window.least_stroke_m.value, boom ? 0.1 : 0.4, 1e-9);
+    assert_near(window.most_stroke_m.value, boom ? 0.2 : 0.5, 1e-9);
+    assert_near(window.most_speed_mps.value, boom ? 0.3 : 0.6, 1e-9);
+  }
+  check_protection<bus::CommissionWindow>(rig);
+}
+
 }  // namespace
 
 int main() {
@@ -314,6 +354,7 @@ int main() {
       cmocka_unit_test(silenced_messages_stop),
       cmocka_unit_test(strokes_can_fail),
       cmocka_unit_test(operator_follows_the_schedule),
+      cmocka_unit_test(hands_are_sent_where_they_are),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
