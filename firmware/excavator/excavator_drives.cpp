@@ -22,6 +22,15 @@ constexpr double kWrong_m = 0.012;
 /// A stroke that stands still is told with so much of that.
 constexpr double kUnseenShare = 0.3;
 
+/// What the oil's law can use.
+constexpr double kDeadTimeMost_s = 0.05;
+constexpr double kLagMost_s = 0.1;
+
+bool is_quick(const SpoolAnswer& answer) {
+  return answer.dead_time_s <= kDeadTimeMost_s && answer.lag_s <= kLagMost_s &&
+         answer.spool_time_constant_s <= kLedSpoolMost_s;
+}
+
 /// Way of the tip over each stroke in the middle of all, 1.
 Eigen::Vector3d leverage(const ExcavatorProfile& profile) {
   Eigen::Vector3d strokes_m;
@@ -129,6 +138,15 @@ ExcavatorBank excavator_bank(const ExcavatorProfile& profile) {
     bank.row.back() = swing_row(profile);
   }
   return bank;
+}
+
+bool are_quick(DriveRows drives) {
+  bool quick = true;
+  for (int axis = 0; axis < 2; ++axis) {
+    const SpoolAnswers& answer = drives[axis].answer;
+    quick = quick && is_quick(answer.extend) && is_quick(answer.retract);
+  }
+  return quick;
 }
 
 McvMachine mcv_machine(const ExcavatorProfile& profile) {

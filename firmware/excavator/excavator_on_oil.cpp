@@ -6,11 +6,6 @@
 namespace graben {
 namespace {
 
-/// Later than this, what is fed back comes too late for the oil: the servo's expectation is better.
-constexpr double kDeadTimeMost_s = 0.05;
-/// The same of a spool that follows slower, and of a drive that lags it more.
-constexpr double kSpoolMost_s = 0.045;
-constexpr double kLagMost_s = 0.1;
 /// Farther off the path the oil's law gives way to the field, which then leads back.
 constexpr double kFarOff_m = 0.15;
 /// Of the weight, from which on the oil's law decides.
@@ -24,27 +19,12 @@ bool on_oil(const ExcavatorProfile& profile) {
   return profile.control.law == ControlLaw::kOil && profile.oil.known();
 }
 
-bool is_quick(const SpoolAnswer& answer) {
-  return answer.dead_time_s <= kDeadTimeMost_s && answer.lag_s <= kLagMost_s &&
-         answer.spool_time_constant_s <= kSpoolMost_s;
-}
-
-/// Boom and arm answer in time for a feedback of the oil's state.
-bool are_quick(DriveRows drives) {
-  bool quick = true;
-  for (int axis = 0; axis < 2; ++axis) {
-    const SpoolAnswers& answer = drives[axis].answer;
-    quick = quick && is_quick(answer.extend) && is_quick(answer.retract);
-  }
-  return quick;
-}
-
 /// Time constant of the side to which a spool is to go, that is led through; 0 of one that is too
 /// slow for it.
 double led_through_s(const SpoolAnswers& answer, double wanted_ratio, double travel_ratio) {
   const bool extends = wanted_ratio != 0.0 ? wanted_ratio > 0.0 : travel_ratio > 0.0;
   const double constant_s = answer.side(extends).spool_time_constant_s;
-  return constant_s <= kSpoolMost_s ? constant_s : 0.0;
+  return constant_s <= kLedSpoolMost_s ? constant_s : 0.0;
 }
 
 /// Travels of boom and arm that lead the teeth back to the path with the bucket as it is: what the

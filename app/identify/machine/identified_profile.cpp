@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/machines/tuned_control.hpp"
+#include "firmware/excavator/excavator_drives.hpp"
 
 namespace graben::identify {
 namespace {
@@ -110,6 +111,9 @@ ExcavatorProfile identified(const ExcavatorProfile& profile, const MachineEstima
   const machines::TunedControl tuned = machines::tuned_control(
       machines::latest_answer_s(result), profile.control.servo_frequency_hz / machines::kBelowMode,
       profile.dig_speed_mps);
+  if (!are_quick(excavator_bank(result).rows())) {
+    result.control.law = ControlLaw::kServo;
+  }
   result.control.convergence_length_m = tuned.convergence_length_m;
   result.control.servo_gain_ps = tuned.servo_gain_ps;
   result.control.servo_damping = tuned.servo_damping;

@@ -24,6 +24,7 @@ constexpr std::size_t kCame = 300;
 constexpr double kPushes_pa = 3.0e6;
 constexpr double kStrokeDeviation_m = 0.0003;
 constexpr double kPressureDeviation_pa = 0.1e6;
+constexpr double kMostZero_pa = 2.0e6;
 /// A reading of less is the transducer's end.
 constexpr double kNothing_pa = 0.03e6;
 /// Where the zero is below what the sensor shows: half of the usual bound, and what is open then.
@@ -103,6 +104,9 @@ Estimate zero_of(const std::vector<Touch>& found, const Estimate& before) {
     values.push_back(touch.drained_pa);
   }
   const double zero_pa = median(values);
+  if (zero_pa > kMostZero_pa) {
+    return before;  // Its draining side was not open.
+  }
   return zero_pa > kNothing_pa ? Estimate{zero_pa, kPressureDeviation_pa, true}
                                : Estimate{kBelow_pa, kBelowDeviation_pa, false};
 }
