@@ -31,6 +31,7 @@ struct GradeCampaign {
 struct IdentifyCampaign {
   runs::CampaignOptions campaign;
   std::string profile = "excavator_22t";
+  bool as_designed = false;
   double speed_override_ratio = 1.0;
 };
 
@@ -88,8 +89,8 @@ void campaign_identify(const IdentifyCampaign& options) {
   const machines::SimulatedExcavator nominal =
       machines::load_simulated_excavator(machines::find_profile(options.profile));
   print_outcome([&](const runs::Progress& progress) {
-    return runs::campaign_identify(options.campaign, nominal, options.speed_override_ratio,
-                                   progress);
+    return runs::campaign_identify(options.campaign, nominal, options.as_designed,
+                                   options.speed_override_ratio, progress);
   });
 }
 
@@ -136,6 +137,9 @@ void add_campaign_identify(CLI::App& campaign, int& status) {
   add_profile_option(*command, options->profile);
   options->campaign.draws = 200;
   add_campaign_options(*command, options->campaign);
+  command->add_flag(
+      "--as-designed", options->as_designed,
+      "The profile's own simulated machine with Kim's errors, instead of hidden ones");
   add_override_option(*command, options->speed_override_ratio);
   command->callback([options, &status] {
     status = guarded("campaign identify", [&] { campaign_identify(*options); });

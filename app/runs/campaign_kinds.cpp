@@ -85,12 +85,13 @@ CampaignOutcome campaign_grade(const CampaignOptions& options,
 }
 
 CampaignOutcome campaign_identify(const CampaignOptions& options,
-                                  const machines::SimulatedExcavator& nominal,
+                                  const machines::SimulatedExcavator& nominal, bool as_designed,
                                   double speed_override_ratio, const Progress& progress) {
   const auto draw = [&](std::uint64_t seed) {
-    const machines::SimulatedExcavator hidden = hidden_with_noise(nominal, seed);
+    const machines::SimulatedExcavator machine =
+        as_designed ? nominal_with_errors(nominal, seed) : hidden_with_noise(nominal, seed);
     const IdentifyResult result =
-        run_identification(hidden, {speed_override_ratio, {}}, show_nothing);
+        run_identification(machine, {!as_designed, speed_override_ratio, {}}, show_nothing);
     return campaign_row(static_cast<std::size_t>(result.end),
                         figures_of(identify_figures(), result.summary, ""));
   };

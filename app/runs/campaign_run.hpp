@@ -41,7 +41,7 @@ struct CampaignOutcome {
 /// identify_run.hpp.
 [[nodiscard]] CampaignOutcome campaign_identify(const CampaignOptions& options,
                                                 const machines::SimulatedExcavator& nominal,
-                                                double speed_override_ratio,
+                                                bool as_designed, double speed_override_ratio,
                                                 const Progress& progress);
 
 /// Shards of one campaign of any kind into one file; returns the table. Throws std::runtime_error

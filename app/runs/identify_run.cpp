@@ -75,6 +75,14 @@ machines::SimulatedExcavator hidden_with_noise(const machines::SimulatedExcavato
   return hidden;
 }
 
+machines::SimulatedExcavator nominal_with_errors(const machines::SimulatedExcavator& nominal,
+                                                 std::uint64_t seed) {
+  DigScenario scenario;
+  scenario.errors = "kim";
+  scenario.scenario.seed = seed;
+  return arranged(nominal, scenario);
+}
+
 IdentifyResult run_identification(const machines::SimulatedExcavator& hidden,
                                   const IdentifyRunOptions& options, const Progress& progress) {
   IdentifyResult result;
@@ -102,16 +110,22 @@ IdentifyResult run_identification(const machines::SimulatedExcavator& hidden,
     result.end = IdentifyEnd::kNotIdentified;
     return result;
   }
-  take_errors(errors_of(hidden.profile, found, truth), summary);
+  if (options.truth_is_known) {
+    take_errors(errors_of(hidden.profile, found, truth), summary);
+  }
   const double override_ratio =
       options.speed_override_ratio * (summary.longest_dead_time_s > kLateHydraulics_s ? 0.5 : 1.0);
   progress(0.7, "digs as identified");
   const Dig identified =
       dig_with(hidden, identify::identified(hidden.profile, found), override_ratio);
   progress(0.8, "digs as exact");
-  const Dig exact =
-      dig_with(hidden, identify::identified(hidden.profile, known_machine(hidden.profile, truth)),
-               override_ratio);
+  Dig exact;
+  if (options.truth_is_known) {
+    exact =
+        dig_with(hidden, identify::identified(hidden.profile, known_machine(hidden.profile, truth)),
+                 override_ratio);
+    summary.exact_fault = static_cast<double>(exact.fault);
+  }
   progress(0.9, "digs as shipped");
   const Dig shipped = dig_with(hidden, hidden.profile, override_ratio);
   summary.max_error_as_shipped_m = shipped.max_error_m;
@@ -123,7 +137,6 @@ IdentifyResult run_identification(const machines::SimulatedExcavator& hidden,
   summary.max_error_exact_m = exact.max_error_m;
   summary.ringing_exact_m = exact.ringing_m;
   summary.loop_exact_s = exact.loop_s;
-  summary.exact_fault = static_cast<double>(exact.fault);
   summary.error_ratio = identified.max_error_m / exact.max_error_m;
   if (identified.end != DigEnd::kDone) {
     result.end = IdentifyEnd::kIdentifiedStopped;

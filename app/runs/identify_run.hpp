@@ -12,6 +12,9 @@
 namespace graben::runs {
 
 struct IdentifyRunOptions {
+  /// Its plant says all that is true of it; else a seed has drawn zeros beside it, and what was
+  /// found is compared with nothing, nor is an exact profile tried.
+  bool truth_is_known = true;
   double speed_override_ratio = 1.0;  ///< Halved where a dead time passes kLateHydraulics_s.
   std::filesystem::path log_file;     ///< candump log of the commissioning; none if empty.
 };
@@ -56,6 +59,10 @@ struct IdentifyResult {
 /// Hidden machine of a seed, whose sensors also have the noise of the nominal one's. Their zeros
 /// are the hidden machine's own.
 [[nodiscard]] machines::SimulatedExcavator hidden_with_noise(
+    const machines::SimulatedExcavator& nominal, std::uint64_t seed);
+
+/// The nominal machine with what Kim's errors draw of sensors and of the controller's parameters.
+[[nodiscard]] machines::SimulatedExcavator nominal_with_errors(
     const machines::SimulatedExcavator& nominal, std::uint64_t seed);
 
 /// `hidden` with its own controller profile as the shipped one.

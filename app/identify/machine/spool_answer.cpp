@@ -15,13 +15,15 @@ namespace {
 enum Parameter : std::size_t { kExtendDead, kRetractDead, kPilot, kSpool, kParameters };
 using Parameters = std::array<double, kParameters>;
 
-constexpr Parameters kLeast = {0.0, 0.0, 0.0005, 0.001};
+constexpr Parameters kLeast = {0.0002, 0.0002, 0.0005, 0.001};
 constexpr Parameters kMost = {0.6, 0.6, 0.4, 0.2};
 constexpr std::array<double, 6> kStarts_s = {0.01, 0.05, 0.10, 0.16, 0.22, 0.30};
 /// Pilot and spool may share their lag in many ways that are nearly as good.
 constexpr std::array<std::pair<double, double>, 2> kLagStarts_s = {{{0.004, 0.04}, {0.05, 0.01}}};
-constexpr int kSearchSteps = 8;
-constexpr int kSteps = 200;
+constexpr std::size_t kSearched = 3;
+constexpr int kSearchSteps = 20;
+constexpr std::size_t kFinalists = 3;
+constexpr int kSteps = 100;
 constexpr double kStep_s = 0.002;
 /// After a change of duty its spool is followed for so long.
 constexpr double kFollow_s = 1.2;
@@ -102,8 +104,18 @@ void follow(const Stretch& of, const Parameters& p, double* spool) {
   }
 }
 
-/// Residuals of a stretch and their slopes. Written out: the core's headers forbid Eigen the heap,
-/// which Ceres' own numeric differences of so many residuals would take.
+/// Times by their logarithms, in which the search has no bounds to get stuck at.
+Parameters times_of(const Parameters& logs) {
+  Parameters times{};
+  for (std::size_t at = 0; at < kParameters; ++at) {
+    times[at] = std::clamp(std::exp(logs[at]), kLeast[at], kMost[at]);
+  }
+  return times;
+}
+
+/// Residuals of a stretch and their slopes, over the logarithms of the times. Written out: the
+/// core's headers forbid Eigen the heap, which Ceres' own numeric differences of so many residuals
+/// would take.
 class StretchCost : public ceres::CostFunction {
  public:
   explicit StretchCost(const Stretch& of) : of_(of) {
@@ -113,11 +125,15 @@ class StretchCost : public ceres::CostFunction {
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
-    Parameters p{};
-    std::copy_n(parameters[0], kParameters, p.begin());
+    Parameters logs{};
+    std::copy_n(parameters[0], kParameters, logs.begin());
+    const Parameters p = times_of(logs);
     errors(p, residuals);
     if (jacobians != nullptr && jacobians[0] != nullptr) {
       slopes(p, jacobians[0]);
+      for (std::size_t at = 0; at < of_.seen.size() * kParameters; ++at) {
+        jacobians[0][at] *= p[at % kParameters];
+      }
     }
     return true;
   }
@@ -180,16 +196,16 @@ void add_stretches(const CylinderSeries& axis, const Duty& duty, std::vector<Str
   }
 }
 
-double solve(const std::vector<Stretch>& stretches, int steps, Parameters& p) {
+double solve(const std::vector<Stretch>& stretches, int steps, Parameters& times) {
+  Parameters p{};
+  for (std::size_t at = 0; at < kParameters; ++at) {
+    p[at] = std::log(std::max(times[at], kLeast[at]));
+  }
   ceres::Problem problem;
   for (const Stretch& of : stretches) {
     const auto rows = static_cast<double>(of.seen.size());
     problem.AddResidualBlock(new StretchCost(of), new ceres::HuberLoss(3.0 * std::sqrt(rows)),
                              p.data());
-  }
-  for (std::size_t at = 0; at < kParameters; ++at) {
-    problem.SetParameterLowerBound(p.data(), static_cast<int>(at), kLeast[at]);
-    problem.SetParameterUpperBound(p.data(), static_cast<int>(at), kMost[at]);
   }
   ceres::Solver::Options options;
   options.max_num_iterations = steps;
@@ -198,6 +214,7 @@ double solve(const std::vector<Stretch>& stretches, int steps, Parameters& p) {
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
+  times = times_of(p);
   return summary.final_cost;
 }
 
@@ -273,19 +290,30 @@ void find_spool_answer(const std::vector<MachineLog>& logs, int axis, DriveEstim
   if (readings < kLeastReadings) {
     return;
   }
-  Parameters best{};
-  double least = std::numeric_limits<double>::infinity();
+  // From each start on a share of the stretches; from the best of them on all.
+  std::vector<Stretch> some;
+  for (std::size_t at = 0; at < stretches.size(); at += kSearched) {
+    some.push_back(stretches[at]);
+  }
+  std::vector<std::pair<double, Parameters>> tried;
   for (const double start_s : kStarts_s) {
     for (const auto& [pilot_s, spool_s] : kLagStarts_s) {
       Parameters p = {start_s, start_s, pilot_s, spool_s};
-      const double cost = solve(stretches, kSearchSteps, p);
-      if (cost < least) {
-        least = cost;
-        best = p;
-      }
+      const double cost = solve(some, kSearchSteps, p);
+      tried.emplace_back(cost, p);
     }
   }
-  solve(stretches, kSteps, best);
+  std::sort(tried.begin(), tried.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  Parameters best{};
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t at = 0; at < kFinalists; ++at) {
+    const double cost = solve(stretches, kSteps, tried[at].second);
+    if (cost < least) {
+      least = cost;
+      best = tried[at].second;
+    }
+  }
   const Parameters sigma = deviations(stretches, best);
   if (extends) {
     drive.extend.dead_time_s = estimate(best[kExtendDead], sigma[kExtendDead]);
