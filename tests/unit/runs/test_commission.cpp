@@ -107,6 +107,12 @@ void a_sound_machine_nobody_knows_is_not_stopped(void**) {
       }
       rig.try_duty(axis, 0.0, 2.0);
       assert_int_equal(rig.status().fault, Fault::kNone);
+      // Let go of in motion, its spool closes late and is not stuck.
+      rig.try_duty(axis, -0.75, 0.8);
+      rig.release();
+      rig.run(2.0);
+      assert_int_equal(rig.status().fault, Fault::kNone);
+      assert_int_equal(rig.status().mode, EcuMode::kReady);
     }
   }
 }
