@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "app/identify/machine/candump_reader.hpp"
+#include "can_dbc/generated/dozer_dbc.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "hal/link/e2e.hpp"
 
@@ -37,10 +38,16 @@ struct Signals {
   Readings engine_radps;
 };
 
-void add(Readings& to, double time_s, const dbc::Physical& value) {
-  if (value.state == dbc::RawState::kValid) {
-    to.push_back({time_s, value.value});
-  }
+constexpr std::array<const char*, kAxisCount> kNames = {"boom", "arm", "bucket"};
+/// A signal may so often have no value: the last one holds meanwhile.
+constexpr double kMostInvalid = 0.05;
+/// Frames may so often be damaged.
+constexpr double kMostRefused = 0.05;
+
+/// A frame of a dozer that an excavator has not.
+bool is_of_dozer(const LoggedFrame& frame) {
+  return std::any_of(dbc::dozer::kMessages.begin(), dbc::dozer::kMessages.end(),
+                     [&](const dbc::MessageInfo& message) { return message.id == frame.id; });
 }
 
 }  // namespace
@@ -58,6 +65,7 @@ class LogCollector::Frames {
     const auto known = known_.find(frame.id);
     if (!frame.extended || known == known_.end()) {
       ++log_.foreign;
+      dozer_ += frame.extended && is_of_dozer(frame) ? 1 : 0;
       return;
     }
     ++log_.frames;
@@ -84,6 +92,16 @@ class LogCollector::Frames {
     throw std::runtime_error(fmt::format("{}: {}", name_, what));
   }
 
+  void add(Readings& to, double time_s, const dbc::Physical& value) {
+    if (value.state == dbc::RawState::kValid) {
+      to.push_back({time_s, value.value});
+    } else {
+      ++invalid_[&to];
+    }
+  }
+  /// Refuses a signal that is missing, or has no value too often.
+  void assert_heard(const Readings& readings, const std::string& what) const;
+
   void decode(const LoggedFrame& frame);
   void identify(const LoggedFrame& frame);
   void assert_whole() const;
@@ -93,6 +111,9 @@ class LogCollector::Frames {
   std::unordered_map<std::uint32_t, dbc::MessageInfo> known_;
   MachineLog log_;
   Signals signals_;
+  std::map<const Readings*, std::size_t> invalid_;
+  std::string other_version_;
+  std::size_t dozer_ = 0;  ///< Frames that only a dozer's bus has.
   double last_s_ = -1e300;
 };
 
@@ -156,9 +177,11 @@ void LogCollector::Frames::decode(const LoggedFrame& frame) {
 void LogCollector::Frames::identify(const LoggedFrame& frame) {
   const auto message = bus::MachineIdentity::decode(frame.data);
   if (message.dbc_version.state == dbc::RawState::kValid &&
-      message.dbc_version.value != bus::kDbcVersion) {
-    fail(frame.line, fmt::format("the machine speaks version {} of the DBC, this tool version {}",
-                                 message.dbc_version.value, bus::kDbcVersion));
+      message.dbc_version.value != bus::kDbcVersion && other_version_.empty()) {
+    // A dozer's DBC has a version of its own: what the bus is comes first.
+    other_version_ =
+        fmt::format("{}:{}: the machine speaks version {} of the DBC, this tool version {}", name_,
+                    frame.line, message.dbc_version.value, bus::kDbcVersion);
   }
   const std::uint32_t hash = message.profile_hash.value;
   if (log_.profile_hash != 0 && hash != log_.profile_hash) {
@@ -227,25 +250,50 @@ LogSegment LogCollector::Frames::segment(double begin_s, double end_s, int pump_
   return part;
 }
 
+void LogCollector::Frames::assert_heard(const Readings& readings, const std::string& what) const {
+  const auto found = invalid_.find(&readings);
+  const std::size_t invalid = found == invalid_.end() ? 0 : found->second;
+  const double share = static_cast<double>(invalid) /
+                       static_cast<double>(std::max<std::size_t>(1, readings.size() + invalid));
+  if (share > kMostInvalid) {
+    refuse(fmt::format("{}: {:.0f} % of its frames have no value in range; at most {:.0f} % may",
+                       what, 100.0 * share, 100.0 * kMostInvalid));
+  }
+  if (readings.empty()) {
+    refuse(fmt::format("{} is not in it", what));
+  }
+}
+
 void LogCollector::Frames::assert_whole() const {
-  const std::array<const char*, kAxisCount> names = {"boom", "arm", "bucket"};
+  if (dozer_ > 0) {
+    refuse("is the log of a dozer's bus; only excavators are identified");
+  }
+  if (!other_version_.empty()) {
+    throw std::runtime_error(other_version_);
+  }
   if (log_.frames == 0) {
-    refuse(fmt::format("no frame of an excavator on our bus ({} frames of others)", log_.foreign));
+    refuse(log_.foreign == 0 ? std::string("is empty: no frame is in it")
+                             : fmt::format("no frame of an excavator on our bus ({} frames of "
+                                           "others)",
+                                           log_.foreign));
+  }
+  const double refused = static_cast<double>(log_.refused) / static_cast<double>(log_.frames);
+  if (refused > kMostRefused) {
+    refuse(
+        fmt::format("{:.0f} % of its frames have a wrong checksum or length; at most {:.0f} % "
+                    "may",
+                    100.0 * refused, 100.0 * kMostRefused));
   }
   for (std::size_t i = 0; i < kAxisCount; ++i) {
-    if (signals_.stroke_m[i].empty()) {
-      refuse(fmt::format("no stroke of the {} is in it", names[i]));
-    }
+    assert_heard(signals_.stroke_m[i], fmt::format("the stroke of the {}", kNames[i]));
     if (signals_.duty[i].empty()) {
       refuse("no SpoolCommand is in it: nothing says what the valves were sent");
     }
-    if (signals_.cap_pa[i].empty() || signals_.rod_pa[i].empty()) {
-      refuse(fmt::format("no pressures of the {} are in it", names[i]));
-    }
+    assert_heard(signals_.cap_pa[i], fmt::format("the cap pressure of the {}", kNames[i]));
+    assert_heard(signals_.rod_pa[i], fmt::format("the rod pressure of the {}", kNames[i]));
   }
-  if (signals_.engine_radps.empty() || signals_.swash[0].empty()) {
-    refuse("neither engine speed nor swash: nothing says what the pumps gave");
-  }
+  assert_heard(signals_.engine_radps, "the engine's speed");
+  assert_heard(signals_.swash[0], "the swash of pump 1");
 }
 
 MachineLog LogCollector::Frames::log(int pump_count) {

@@ -81,8 +81,8 @@ class LogCollector {
 
 /// Reads a log, plain or gzip; `pump_count` of the machine. Throws std::runtime_error that names
 /// file, line and reason: unreadable, cut off, not candump, no frame of an excavator, another DBC
-/// version, two machines on one bus, a clock that goes back, no strokes, no duties, less than 5 s
-/// in one piece.
+/// version, a dozer's bus, two machines on one bus, a clock that goes back, too many damaged
+/// frames, a signal that is missing or often has no value, less than 5 s in one piece.
 [[nodiscard]] MachineLog read_machine_log(const std::filesystem::path& file, int pump_count);
 
 }  // namespace graben::identify

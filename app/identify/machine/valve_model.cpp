@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/hydraulics/flow.hpp"
 #include "firmware/mcv/evaluation.hpp"
 
@@ -18,6 +19,8 @@ constexpr double kStep_mps = 1e-4;
 constexpr double kFed_pa = 0.8e6;
 /// Beyond this share of the drain's coefficient the gallery decides as much as the edge.
 constexpr double kEdgeDecides = 0.6;
+/// Less pressure left for an edge is more the line's error than the edge's.
+constexpr double kSays_pa = 1.0e6;
 
 /// The speeds as the valve's model takes them: along their spools, or none.
 McvInput input_at(const ExcavatorProfile& profile, const SteadyPoint& point, double own_mps) {
@@ -130,6 +133,34 @@ double PreparedPoint::out_error_mps(const ValveTry& tried) const {
     out = out * axis_.c_drain / std::hypot(out, axis_.c_drain);
   }
   return out * std::sqrt(std::max(0.0, drained_pa)) / axis_.q_out_m3ps - seen_mps;
+}
+
+double PreparedPoint::coefficient_share(const ValveTry& tried) const {
+  const double speed_mps = std::max(0.0, extends() ? point_.speed_mps : -point_.speed_mps);
+  const double left_n = force_n(tried, speed_mps);
+  const bool says = fed_ && speed_mps > kStands_mps && left_n > kSays_pa * axis_.inlet_area_m2;
+  return says ? speed_mps / (full_mps_ * std::sqrt(left_n)) : -1.0;
+}
+
+std::vector<CurvePoint> curve_points(const ExcavatorProfile& profile,
+                                     const std::vector<MachineLog>& logs,
+                                     const MachineEstimate& found) {
+  const McvMachine valve = mcv_machine(profile);
+  std::vector<CurvePoint> all;
+  for (const SteadyPoint& point : steady_points(logs, profile)) {
+    const DriveEstimate& drive = found.drive[static_cast<std::size_t>(point.axis)];
+    const PreparedPoint prepared(profile, valve, point, drive);
+    ValveTry tried;
+    tried.cap_zero_pa = drive.cap_zero_pa.value;
+    tried.rod_zero_pa = drive.rod_zero_pa.value;
+    tried.pump_flow_factor =
+        found.pump_flow_factor[static_cast<std::size_t>(prepared.pump())].value;
+    const double share = prepared.coefficient_share(tried);
+    if (share >= 0.0) {
+      all.push_back({point.axis, prepared.extends(), std::abs(point.spool), share});
+    }
+  }
+  return all;
 }
 
 }  // namespace graben::identify

@@ -38,6 +38,9 @@ class PreparedPoint {
   [[nodiscard]] SpeedError speed_error(const ValveTry& tried) const;
   /// The same by the draining side.
   [[nodiscard]] double out_error_mps(const ValveTry& tried) const;
+  /// What its speed says its velocity coefficient is, of the profile's at full opening; below 0
+  /// where nothing feeds it or too little force is left to say so.
+  [[nodiscard]] double coefficient_share(const ValveTry& tried) const;
   /// The pump feeds it: without pressure there its load drives it, and oil comes from the tank.
   [[nodiscard]] bool is_fed() const { return fed_; }
   /// The draining side says something: it has pressure, and no gallery decides.
@@ -58,5 +61,18 @@ class PreparedPoint {
   bool fed_ = false;
   bool drains_ = false;
 };
+
+/// A steady point as one of its side's curve.
+struct CurvePoint {
+  int axis = 0;
+  bool extends = false;
+  double travel = 0.0;  ///< Of the spool, 0 .. 1.
+  double share = 0.0;   ///< Velocity coefficient, of the profile's at full opening.
+};
+
+/// All that say something, with what was found of pumps and zeros.
+[[nodiscard]] std::vector<CurvePoint> curve_points(const ExcavatorProfile& profile,
+                                                   const std::vector<MachineLog>& logs,
+                                                   const MachineEstimate& found);
 
 }  // namespace graben::identify

@@ -1,0 +1,36 @@
+#pragma once
+/// What a profile alone predicts of the cylinders' speeds in a log: from the duties that the valves
+/// were sent, the chambers' pressures, swash and engine speed. No measured stroke, spool or speed
+/// is in it.
+///
+/// duty -> dead time of its side -> the spool's two equal lags -> that side's table -> opening ->
+/// SpeedModel -> the rest of that side's lag (oil, hoses).
+
+#include <functional>
+#include <vector>
+
+#include "app/identify/machine/machine_log.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
+
+namespace graben::identify {
+
+/// Of one cylinder, a value each grid point.
+struct PredictedAxis {
+  std::vector<double> predicted_mps;
+  /// Of the measured stroke: slope of the straight line through a window of kSpeedWindow_s;
+  /// predicted speeds are averaged in the same way.
+  std::vector<double> measured_mps;
+  std::vector<bool> free;  ///< Away from the stroke's ends, and the window lies within the log.
+};
+
+struct PredictedSegment {
+  std::array<PredictedAxis, kAxisCount> axis;
+};
+
+inline constexpr double kSpeedWindow_s = 0.10;
+
+/// Of each segment of a log.
+[[nodiscard]] std::vector<PredictedSegment> predict_log(const ExcavatorProfile& profile,
+                                                        const MachineLog& log);
+
+}  // namespace graben::identify

@@ -1,0 +1,146 @@
+#include "app/identify/machine/speed_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "firmware/excavator/excavator_drives.hpp"
+#include "firmware/hydraulics/flow.hpp"
+#include "firmware/mcv/evaluation.hpp"
+
+namespace graben::identify {
+namespace {
+
+/// With less on the fed side, oil comes from the tank as well: the load drives it.
+constexpr double kFed_pa = 0.8e6;
+constexpr int kHalvings = 40;
+/// Of a line without a relief valve, Pa.
+constexpr double kMost_pa = 60e6;
+
+/// Root of a falling function in [low, high]; an end where there is none.
+template <class Falling>
+double root(double low, double high, const Falling& falling) {
+  for (int halving = 0; halving < kHalvings; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (falling(middle) > 0.0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+double force_n(const CircuitAxis& at_1_mps, double speed_mps, double sqrt_line) {
+  CircuitAxis now = at_1_mps;
+  now.q_out_m3ps = speed_mps * at_1_mps.q_out_m3ps;
+  return drive_force(now, 1.0, sqrt_line).force_n -
+         speed_mps * speed_mps * at_1_mps.inflow_check_force_n;
+}
+
+/// v = c sqrt(F(v)) at this pressure of the line.
+double speed_at(const CircuitAxis& at_1_mps, double coefficient, double sqrt_line) {
+  const double most_n = force_n(at_1_mps, 0.0, sqrt_line);
+  if (most_n <= 0.0) {
+    return 0.0;
+  }
+  const double most_mps = coefficient * std::sqrt(most_n);
+  if (!at_1_mps.regeneration && at_1_mps.inflow_check_force_n == 0.0) {
+    return most_mps;
+  }
+  return root(0.0, most_mps, [&](double speed_mps) {
+    const double left_n = force_n(at_1_mps, speed_mps, sqrt_line);
+    return coefficient * std::sqrt(std::max(0.0, left_n)) - speed_mps;
+  });
+}
+
+/// Adds what an axis takes and gives at this speed.
+void take_flow(const CircuitAxis& at_1_mps, double speed_mps, FlowBalance& line) {
+  const double in_m3ps = speed_mps * at_1_mps.q_in_m3ps;
+  const double out_m3ps = speed_mps * at_1_mps.q_out_m3ps;
+  line.in_flow_m3ps += in_m3ps;
+  if (at_1_mps.regeneration && out_m3ps > 0.0) {
+    line.in_flow_m3ps -= out_m3ps;
+    line.regeneration[static_cast<std::size_t>(line.regeneration_count++)] = {
+        out_m3ps, at_1_mps.c_drain, at_1_mps.c_check, out_m3ps / at_1_mps.c_drain};
+  }
+}
+
+}  // namespace
+
+SpeedModel::SpeedModel(const ExcavatorProfile& profile)
+    : profile_(profile), machine_(mcv_machine(profile)) {}
+
+double SpeedModel::drained_mps(const CircuitAxis& at_1_mps, const ValveMoment& moment, int axis,
+                               double area_ratio) const {
+  const auto k = static_cast<std::size_t>(axis);
+  const double fed_pa = at_1_mps.extends ? moment.cap_pa[k] : moment.rod_pa[k];
+  const double drained_pa = at_1_mps.extends ? moment.rod_pa[k] : moment.cap_pa[k];
+  if (fed_pa > kFed_pa || drained_pa <= fed_pa) {
+    return -1.0;
+  }
+  const SpoolProfile& spool = profile_.valve.spool[k];
+  double out = profile_.valve.discharge * std::sqrt(2.0 / profile_.valve.density_kgpm3) *
+               area_ratio * (at_1_mps.extends ? spool.extend_out_m2 : spool.retract_out_m2);
+  if (at_1_mps.regeneration) {
+    out = out * at_1_mps.c_drain / std::hypot(out, at_1_mps.c_drain);
+  }
+  return out * std::sqrt(drained_pa) / at_1_mps.q_out_m3ps;
+}
+
+SpeedModel::Open SpeedModel::open_axis(const McvCircuit& circuit, const ValveMoment& moment,
+                                       int axis) const {
+  const auto k = static_cast<std::size_t>(axis);
+  Open open;
+  open.axis = axis;
+  open.at_1_mps = circuit.axis[k];
+  const double area_ratio = std::pow(std::abs(moment.opening[k]), profile_.valve.opening_exponent);
+  open.coefficient = area_ratio * open.at_1_mps.spool->y_last();
+  open.drained_mps = drained_mps(open.at_1_mps, moment, axis, area_ratio);
+  return open;
+}
+
+std::array<double, kAxisCount> SpeedModel::speeds_mps(const ValveMoment& moment) const {
+  std::array<double, kAxisCount> speeds{};
+  McvInput input;
+  for (std::size_t k = 0; k < kAxisCount; ++k) {
+    input.velocity_mps[k] = moment.opening[k] == 0.0 ? 0.0 : std::copysign(1.0, moment.opening[k]);
+    input.cap_pressure_pa[k] = std::max(0.0, moment.cap_pa[k]);
+    input.rod_pressure_pa[k] = std::max(0.0, moment.rod_pa[k]);
+  }
+  for (std::size_t j = 0; j < static_cast<std::size_t>(profile_.pump_count); ++j) {
+    input.pump_flow_m3ps[j] =
+        pump_flow_m3ps(profile_.pump[j], moment.engine_radps, moment.swash[j]);
+  }
+  const McvCircuit circuit = make_circuit(machine_, input);
+  for (unsigned j = 0; j < static_cast<unsigned>(profile_.pump_count); ++j) {
+    std::vector<Open> opens;
+    for (int axis = 0; axis < kAxisCount; ++axis) {
+      const CircuitAxis& of = circuit.axis[static_cast<std::size_t>(axis)];
+      if (of.moves && of.pump == j) {
+        opens.push_back(open_axis(circuit, moment, axis));
+      }
+    }
+    if (opens.empty()) {
+      continue;
+    }
+    FlowBalance idle = circuit.line[j];
+    idle.in_flow_m3ps = 0.0;
+    idle.regeneration_count = 0;
+    const auto speed = [](const Open& open, double sqrt_line) {
+      return open.drained_mps >= 0.0 ? open.drained_mps
+                                     : speed_at(open.at_1_mps, open.coefficient, sqrt_line);
+    };
+    const double most = idle.has_relief ? idle.sqrt_relief : std::sqrt(kMost_pa);
+    const double sqrt_line = root(0.0, most, [&](double tried) {
+      FlowBalance line = idle;
+      for (const Open& open : opens) {
+        take_flow(open.at_1_mps, speed(open, tried), line);
+      }
+      return flow_left(line, 1.0, tried);
+    });
+    for (const Open& open : opens) {
+      const double along_mps = speed(open, sqrt_line);
+      speeds[static_cast<std::size_t>(open.axis)] = open.at_1_mps.extends ? along_mps : -along_mps;
+    }
+  }
+  return speeds;
+}
+
+}  // namespace graben::identify
