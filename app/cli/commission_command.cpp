@@ -4,31 +4,52 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/commission_on_bus.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/options.hpp"
+#include "app/commission/commission_windows.hpp"
 #include "app/runs/code_text.hpp"
 #include "app/runs/commission_run.hpp"
 
 namespace graben::cli {
 namespace {
 
-struct CommissionCommand {
+struct CommissionCommand : BusCommission {
   machines::SimulatedChoice simulated;
-  std::string profile = "excavator_22t";
-  std::string log = "out/commission.log";
-  bool verbose = false;
 };
 
-const char* end_text(commission::StepEnd end) {
-  switch (end) {
-    case commission::StepEnd::kDone:
-      return "done";
-    case commission::StepEnd::kAtWindow:
-      return "at window";
-    case commission::StepEnd::kNoMotion:
-      return "no motion";
+/// "boom-extended" and its like.
+std::vector<std::string> end_names() {
+  std::vector<std::string> names;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    for (const char* const end : {"retracted", "extended"}) {
+      names.push_back(fmt::format("{}-{}", commission::axis_name(axis), end));
+    }
+  }
+  return names;
+}
+
+std::vector<std::string> drive_names() {
+  std::vector<std::string> names;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    names.emplace_back(commission::axis_name(axis));
+  }
+  return names;
+}
+
+std::string stop_text(const runs::CommissionResult& result) {
+  switch (result.end) {
+    case runs::CommissionEnd::kDone:
+      return "";
+    case runs::CommissionEnd::kFault:
+      return runs::fault_words(result.fault);
+    case runs::CommissionEnd::kWrongWay:
+      return wrong_text(*result.wrong);
+    case runs::CommissionEnd::kTooLong:
+      return fmt::format("not done after {} s", runs::kCommissionMost_s);
   }
   return "";
 }
@@ -37,26 +58,75 @@ void commission_in_memory(const CommissionCommand& options) {
   const machines::SimulatedExcavator machine = machines::load_simulated_excavator(
       machines::find_profile(options.profile), options.simulated);
   runs::CommissionOptions run = runs::usual_commission(machine);
+  choose(options.choice, run.sequence);
+  if (!options.windows.empty()) {
+    commission::read_windows(options.windows, run.sequence);
+    leave_touches(options.choice, run.sequence);
+  }
   run.log_file = options.log;
   runs::CommissionResult result;
   {
     ProgressBar bar("commission");
     result = runs::run_commission(machine, run, nullptr, bar.progress());
   }
-  const auto steps = commission::CommissionSequence(run.sequence).steps();
+  const auto steps = planned_steps(run.sequence);
   for (std::size_t at = 0; at < result.steps.size(); ++at) {
     const commission::StepResult& step = result.steps[at];
     fmt::print("{:<49} {:<11} {:>4.1f} s {:>4.0f} % {:>4.0f} mm/s\n", step_text(steps[at]),
                end_text(step.end), step.took_s, 100.0 * step.duty, 1e3 * step.speed_mps);
   }
   fmt::print("machine time {:.0f} s\nlog {}\n", result.machine_s, options.log);
-  if (result.end == runs::CommissionEnd::kFault) {
-    throw std::runtime_error(fmt::format("stopped at \"{}\": {}", step_text(steps[result.step]),
-                                         runs::fault_words(result.fault)));
+  if (result.end != runs::CommissionEnd::kDone) {
+    throw std::runtime_error(
+        fmt::format("stopped at \"{}\": {}", step_text(steps[result.step]), stop_text(result)));
   }
-  if (result.end == runs::CommissionEnd::kTooLong) {
-    throw std::runtime_error(fmt::format("not done after {} s, at \"{}\"", runs::kCommissionMost_s,
-                                         step_text(steps[result.step])));
+}
+
+/// What is tried, of both kinds of run.
+void add_choice(CLI::App& command, CommissionCommand& options, std::vector<CLI::Option*>& added) {
+  SequenceChoice& choice = options.choice;
+  added.push_back(command.add_option("--only", choice.only, "Drives to try, instead of all")
+                      ->check(CLI::IsMember(drive_names()))
+                      ->delimiter(','));
+  added.push_back(
+      command.add_option("--no-touch", choice.no_touch, "Ends of strokes that are not touched")
+          ->check(CLI::IsMember(end_names()))
+          ->delimiter(','));
+  added.push_back(command.add_flag("--no-steps", choice.no_steps, "No steps at five speeds"));
+  added.push_back(
+      command.add_flag("--no-bursts", choice.no_bursts, "No pulses for the lowest mode"));
+  added.push_back(command.add_flag("--no-pairs", choice.no_pairs, "No two drives at once"));
+}
+
+/// What only a bus has.
+void add_bus_options(CLI::App& command, CommissionCommand& options, CLI::Option& can,
+                     const std::vector<CLI::Option*>& choices) {
+  CLI::Option* const gamepad =
+      command
+          .add_option("--gamepad", options.gamepad,
+                      "Input device; the only gamepad there is unless told. Its left shoulder "
+                      "button is the deadman")
+          ->needs(&can);
+  command
+      .add_flag("--keyboard", options.keyboard,
+                "The terminal's keyboard, space held, in place of a gamepad. FOR SIMULATION AND "
+                "TESTS ONLY")
+      ->needs(&can)
+      ->excludes(gamepad);
+  command
+      .add_option("--silent-after", options.silent_after_s,
+                  "A gamepad that has sent nothing for so long while its button is held has let "
+                  "go, 0.5 .. 60 s: move a stick a little now and then")
+      ->check(number_between(0.5, 60.0))
+      ->capture_default_str();
+  CLI::Option* const resume =
+      command
+          .add_flag("--resume", options.resume,
+                    "Goes on with what LOG.progress.json beside the log says is not done yet, with "
+                    "the same drives, parts and windows")
+          ->needs(&can);
+  for (CLI::Option* const choice : choices) {
+    resume->excludes(choice);
   }
 }
 
@@ -68,12 +138,27 @@ void add_commission(CLI::App& app, int& status) {
       "commission",
       "Leads a machine through what identify needs, one drive and direction at a time, guarded by "
       "its ECU: edges, steps at five speeds, pulses, touches of the stroke's ends, two drives of "
-      "one pump. Writes a log; changes nothing");
+      "one pump. With --can a real one, while the operator holds the deadman; without it a "
+      "simulated one in memory. Writes a log; changes nothing in the profile");
+  CLI::Option* const can =
+      command->add_option("--can", options->interface, "CAN interface, such as can0");
   add_profile_option(*command, options->profile);
   add_simulated_options(*command, options->simulated);
+  for (const char* const simulated : {"--simulated", "--hidden"}) {
+    command->get_option(simulated)->excludes(can);
+  }
   command->add_option("--log", options->log, "candump log to write")->capture_default_str();
+  command->add_option("--windows", options->windows,
+                      "TOML file with a table for each drive: least, most (m), speed (m/s), "
+                      "retracted_end_free, extended_end_free. Without it: asked for on a terminal, "
+                      "the whole strokes in a simulation");
+  std::vector<CLI::Option*> choices;
+  add_choice(*command, *options, choices);
+  add_bus_options(*command, *options, *can, choices);
   command->callback([options, &status] {
-    status = guarded("commission", [&] { commission_in_memory(*options); });
+    status = guarded("commission", [&] {
+      options->interface.empty() ? commission_in_memory(*options) : commission_on_bus(*options);
+    });
   });
 }
 

@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 namespace graben::commission {
 namespace {
 
 constexpr double kPeriod_s = 0.01;
-constexpr double kUsualMost_mps = 0.5;
 /// Of a ramp. Slow: what a late machine is ahead of itself by then is a tenth of its edge.
 constexpr double kRampFrom = 0.04;
 constexpr double kRampSteep = 0.20;  ///< 1/s, up to the least edge that is likely.
@@ -24,9 +21,7 @@ constexpr double kMovesFor_s = 0.25;
 /// A ramp goes on a little beyond: the curve's foot.
 constexpr double kFoot_s = 0.45;
 /// Of what is left of the duty beyond the edge.
-constexpr std::array<double, 5> kLevels = {0.08, 0.18, 0.35, 0.62, 1.0};
-/// While the drive is still near the middle.
-constexpr int kBurstAfter = 2;
+constexpr std::array<double, kLevelCount> kLevels = {0.08, 0.18, 0.35, 0.62, 1.0};
 constexpr double kPairLevel = 0.55;
 constexpr double kBurstLevel = 0.30;
 /// Untried, no more of it than this.
@@ -56,8 +51,6 @@ constexpr double kStandsFor_s = 0.25;
 /// Speed grows with the level no faster than with this power.
 constexpr double kSteepest = 2.0;
 constexpr double kOfMost = 0.75;
-/// The end of a stroke is nearer than that to where the sensor says that it is.
-constexpr double kEnd_m = 0.030;
 constexpr double kPress_s = 0.80;
 constexpr double kSame_m = 0.00015;
 constexpr double kPulse_s = 0.15;
@@ -66,80 +59,10 @@ constexpr double kThere_m = 0.03;
 
 unsigned side(int sign) { return sign > 0 ? 0U : 1U; }
 
-const char* axis_name(int axis) {
-  constexpr std::array<const char*, kAxisCount> kNames = {"boom", "arm", "bucket"};
-  return kNames[static_cast<unsigned>(axis)];
-}
-
 }  // namespace
 
-SequenceOptions whole_sequence(const ExcavatorProfile& profile) {
-  SequenceOptions options;
-  for (unsigned k = 0; k < kAxisCount; ++k) {
-    options.stroke_m[k] = profile.geometry.cylinder[k].stroke_m;
-    options.window[k] = {0.0, options.stroke_m[k], kUsualMost_mps};
-    options.pump[k] = profile.valve.spool[k].pump;
-  }
-  return options;
-}
-
-std::string step_text(const SequenceStep& step) {
-  const std::string where =
-      fmt::format("{}, {}", axis_name(step.axis), step.sign > 0 ? "extending" : "retracting");
-  switch (step.kind) {
-    case StepKind::kRamp:
-      return where + ": ramp to its edge";
-    case StepKind::kStep:
-      return fmt::format("{}: step {} of {}", where, step.level + 1, kLevels.size());
-    case StepKind::kBurst:
-      return fmt::format("{}: pulses for the lowest mode", axis_name(step.axis));
-    case StepKind::kTouch:
-      return where + ": gentle touch of the stroke's end";
-    case StepKind::kPair:
-      return fmt::format("{} and {}, {}: together on one pump", axis_name(step.axis),
-                         axis_name(step.other), step.sign > 0 ? "extending" : "retracting");
-  }
-  return where;
-}
-
-CommissionSequence::CommissionSequence(const SequenceOptions& options) : options_(options) {
-  const auto reaches = [&](int axis, int sign) {
-    const auto k = static_cast<unsigned>(axis);
-    return sign > 0 ? options.window[k].most_m >= options.stroke_m[k] - kEnd_m
-                    : options.window[k].least_m <= kEnd_m;
-  };
-  for (int axis = 0; axis < kAxisCount; ++axis) {
-    const auto k = static_cast<unsigned>(axis);
-    if (!options.drives[k]) {
-      continue;
-    }
-    steps_.push_back({StepKind::kRamp, axis, 1});
-    steps_.push_back({StepKind::kRamp, axis, -1});
-    for (int level = 0; options.steps && level < static_cast<int>(kLevels.size()); ++level) {
-      steps_.push_back({StepKind::kStep, axis, 1, level});
-      steps_.push_back({StepKind::kStep, axis, -1, level});
-      if (options.bursts && level == kBurstAfter) {
-        steps_.push_back({StepKind::kBurst, axis, 1});
-      }
-    }
-    if (options.touch_retracted[k] && reaches(axis, -1)) {
-      steps_.push_back({StepKind::kTouch, axis, -1});
-    }
-    if (options.touch_extended[k] && reaches(axis, 1)) {
-      steps_.push_back({StepKind::kTouch, axis, 1});
-    }
-  }
-  for (int axis = 0; options.pairs && axis < kAxisCount; ++axis) {
-    for (int other = axis + 1; other < kAxisCount; ++other) {
-      const auto k = static_cast<unsigned>(axis);
-      const auto n = static_cast<unsigned>(other);
-      if (options.drives[k] && options.drives[n] && options.pump[k] == options.pump[n]) {
-        // A line that feeds a light drive lets a heavy one's load in: not against both loads.
-        steps_.push_back({StepKind::kPair, axis, -1, 0, other});
-      }
-    }
-  }
-}
+CommissionSequence::CommissionSequence(const SequenceOptions& options)
+    : options_(options), steps_(planned_steps(options)) {}
 
 void CommissionSequence::resume(const std::vector<StepResult>& results) {
   for (const StepResult& result : results) {
@@ -250,7 +173,7 @@ void CommissionSequence::step(double time_s, const std::array<double, kAxisCount
                               bool active) {
   observe(time_s, strokes_m);
   duty_.fill(0.0);
-  if (is_done()) {
+  if (is_done() || wrong_) {
     return;
   }
   if (!active) {
@@ -330,6 +253,7 @@ void CommissionSequence::prepare() {
     begin(Phase::kRun);
     ramp_ = kRampFrom;
     from_m_ = stroke_m_[static_cast<unsigned>(step.axis)];
+    begin_m_ = stroke_m_;
     moves_s_ = 0.0;
     presses_ = 0;
     let_go_s_ = 0.0;
@@ -374,6 +298,11 @@ void CommissionSequence::keep_result() {
 
 void CommissionSequence::run_ramp() {
   const SequenceStep& step = steps_[at_];
+  wrong_ = look_for_wrong_way(step, begin_m_, stroke_m_,
+                              {speed_mps(kBoom), speed_mps(kArm), speed_mps(kBucket)});
+  if (wrong_) {
+    return;
+  }
   if (room_m(step.axis, step.sign) < kMargin_m + now_.speed_mps * kStops_s) {
     return finish(StepEnd::kAtWindow);
   }

@@ -4,62 +4,13 @@
 /// out; who sends them, and who guards them (the ECU does), is not its business.
 
 #include <array>
-#include <string>
+#include <optional>
 #include <vector>
 
-#include "firmware/excavator/excavator_profile.hpp"
+#include "app/commission/commission_plan.hpp"
+#include "app/commission/wrong_way.hpp"
 
 namespace graben::commission {
-
-/// Where a cylinder may be and how fast, as the operator has confirmed it.
-struct Window {
-  double least_m = 0.0;
-  double most_m = 0.0;
-  double most_mps = 0.0;
-};
-
-/// What is to be done; each part can be left out.
-struct SequenceOptions {
-  std::array<Window, kAxisCount> window{};
-  std::array<double, kAxisCount> stroke_m{};  ///< Of the cylinders.
-  std::array<int, kAxisCount> pump{};         ///< Which feeds each.
-  std::array<bool, kAxisCount> drives = {true, true, true};
-  std::array<bool, kAxisCount> touch_extended = {true, true,
-                                                 true};  ///< Only where its window reaches there.
-  std::array<bool, kAxisCount> touch_retracted = {true, true, true};
-  bool steps = true;
-  bool bursts = true;
-  bool pairs = true;  ///< Two drives of one pump at once.
-};
-
-/// Everything that there is, over the whole strokes; what is too near to an end for the machine's
-/// surroundings is for the operator to take out.
-[[nodiscard]] SequenceOptions whole_sequence(const ExcavatorProfile& profile);
-
-enum class StepKind { kRamp, kStep, kBurst, kTouch, kPair };
-
-/// One thing that is tried.
-struct SequenceStep {
-  StepKind kind = StepKind::kRamp;
-  int axis = 0;
-  int sign = 0;    ///< +1 extends.
-  int level = 0;   ///< Of kStep and kPair: which of the five.
-  int other = -1;  ///< Of kPair: the second drive.
-};
-
-/// How a step ended.
-enum class StepEnd { kDone, kAtWindow, kNoMotion };
-
-/// What became of a step; with the plan's order all that is needed to go on after a break.
-struct StepResult {
-  StepEnd end = StepEnd::kDone;
-  double duty = 0.0;       ///< Largest magnitude that was tried.
-  double speed_mps = 0.0;  ///< Largest that came of it.
-  double took_s = 0.0;     ///< With the way to where it began, and until all stood again.
-};
-
-/// "boom, extending: ramp to its edge".
-[[nodiscard]] std::string step_text(const SequenceStep& step);
 
 class CommissionSequence {
  public:
@@ -74,6 +25,8 @@ class CommissionSequence {
 
   [[nodiscard]] const std::array<double, kAxisCount>& duty() const { return duty_; }
   [[nodiscard]] bool is_done() const { return at_ >= steps_.size(); }
+  /// Set once a ramp has moved something the wrong way: duties are 0 from then on.
+  [[nodiscard]] const std::optional<WrongWay>& wrong() const { return wrong_; }
   [[nodiscard]] std::size_t at() const { return at_; }
   [[nodiscard]] const std::vector<SequenceStep>& steps() const { return steps_; }
   [[nodiscard]] const std::vector<StepResult>& results() const { return results_; }
@@ -132,7 +85,9 @@ class CommissionSequence {
   StepResult now_;
   double mark_s_ = 0.0;  ///< Of a step: when it moved, or stood at its end.
   double ramp_ = 0.0;
-  double from_m_ = 0.0;    ///< Stroke at which a ramp began.
+  double from_m_ = 0.0;                       ///< Stroke at which a ramp began.
+  std::array<double, kAxisCount> begin_m_{};  ///< All strokes then.
+  std::optional<WrongWay> wrong_;
   int presses_ = 0;        ///< Of a touch, so far.
   double let_go_s_ = 0.0;  ///< For so long a touch has been let go.
   double moves_s_ = 0.0;   ///< For so long in a row a ramp's drive has moved.

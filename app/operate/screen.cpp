@@ -51,18 +51,6 @@ const char* bus_words(CanPortState state) {
   return "";
 }
 
-std::string why_text(const EcuListener& ecu) {
-  const std::uint32_t bits = ecu.health().said ? ecu.health().said->why_not_armed.value : 0;
-  std::string text;
-  for (int bit = 0; bit < kArmBlockCount; ++bit) {
-    if ((bits >> static_cast<unsigned>(bit) & 1U) != 0) {
-      text += (text.empty() ? "" : "; ") +
-              std::string(runs::arm_block_words(static_cast<ArmBlock>(bit)));
-    }
-  }
-  return text;
-}
-
 Fault fault_of(const EcuListener& ecu) {
   return ecu.status().said ? static_cast<Fault>(ecu.status().said->fault.value) : Fault::kNone;
 }
@@ -144,7 +132,7 @@ void put_controller(std::vector<std::string>& lines, const View& view) {
     return;
   }
   if (*mode != EcuMode::kArmed && *mode != EcuMode::kActive) {
-    put(lines, "Not armed", why_text(ecu));
+    put(lines, "Not armed", not_armed_words(ecu));
   }
   const Fault fault = fault_of(ecu);
   put(lines, "Fault", runs::fault_words(fault));
@@ -158,6 +146,18 @@ void put_controller(std::vector<std::string>& lines, const View& view) {
 }
 
 }  // namespace
+
+std::string not_armed_words(const EcuListener& ecu) {
+  const std::uint32_t bits = ecu.health().said ? ecu.health().said->why_not_armed.value : 0;
+  std::string text;
+  for (int bit = 0; bit < kArmBlockCount; ++bit) {
+    if ((bits >> static_cast<unsigned>(bit) & 1U) != 0) {
+      text += (text.empty() ? "" : "; ") +
+              std::string(runs::arm_block_words(static_cast<ArmBlock>(bit)));
+    }
+  }
+  return text;
+}
 
 const char* mode_words(std::optional<EcuMode> mode) {
   if (!mode) {
@@ -226,7 +226,7 @@ std::string state_line(const View& view) {
   if (mode && fault_of(ecu) != Fault::kNone) {
     line += fmt::format(" ({})", runs::fault_words(fault_of(ecu)));
   } else if (mode && *mode != EcuMode::kArmed && *mode != EcuMode::kActive) {
-    line += fmt::format(" ({})", why_text(ecu));
+    line += fmt::format(" ({})", not_armed_words(ecu));
   }
   if (const std::string version = version_text(ecu); !version.empty()) {
     line += "; " + version;

@@ -32,6 +32,8 @@ struct View {
 /// "Silent", "Ready", ...; "not heard" for none.
 [[nodiscard]] const char* mode_words(std::optional<EcuMode> mode);
 [[nodiscard]] const char* task_words(Task task);
+/// Why the controller has not armed, as it says; empty if nothing keeps it.
+[[nodiscard]] std::string not_armed_words(const EcuListener& ecu);
 
 /// Share 0 .. 1 as a bar: "[#####...............]".
 [[nodiscard]] std::string bar(double share);

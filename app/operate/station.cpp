@@ -6,10 +6,6 @@
 namespace graben::operate {
 namespace {
 
-bool is_armed(const std::optional<EcuMode>& mode) {
-  return mode == EcuMode::kArmed || mode == EcuMode::kActive;
-}
-
 double stepped(double ratio, int steps) {
   // In whole steps, or tenths would add up to something else than 1.
   const double count = std::round(ratio / Station::kSpeedStep) + steps;
@@ -18,26 +14,30 @@ double stepped(double ratio, int steps) {
 
 }  // namespace
 
+bool is_armed(const std::optional<EcuMode>& mode) {
+  return mode == EcuMode::kArmed || mode == EcuMode::kActive;
+}
+
 Station::Station(const StationOptions& options)
     : options_(options), speed_ratio_(options.speed_override_ratio) {}
 
-Trouble Station::trouble_of(const Hands& hands, const Surroundings& around) const {
+Trouble trouble_with(const Hands& hands, Trouble around, TimeUs silent_after_us) {
   if (!hands.is_there) {
     return Trouble::kDeviceGone;
   }
   if (hands.lost_events) {
     return Trouble::kEventsLost;
   }
-  if (hands.deadman && hands.quiet_us > options_.silent_after_us) {
+  if (hands.deadman && hands.quiet_us > silent_after_us) {
     return Trouble::kDeviceSilent;
   }
-  return around.trouble;
+  return around;
 }
 
 Request Station::step(const Hands& hands, const Surroundings& around) {
   const bool was_on = deadman_.is_on();
-  const bool on =
-      deadman_.step(hands.deadman, hands.levers.are_at_rest(), trouble_of(hands, around));
+  const bool on = deadman_.step(hands.deadman, hands.levers.are_at_rest(),
+                                trouble_with(hands, around.trouble, options_.silent_after_us));
   if (hands.changes_mode) {
     mode_ = mode_ == OperatorMode::kManual ? OperatorMode::kAutomatic : OperatorMode::kManual;
   }

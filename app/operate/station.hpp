@@ -33,6 +33,12 @@ struct Surroundings {
   std::optional<EcuMode> ecu_mode;   ///< As heard last.
 };
 
+/// Armed, or active.
+[[nodiscard]] bool is_armed(const std::optional<EcuMode>& mode);
+
+/// What the hands' device adds to it: that comes first.
+[[nodiscard]] Trouble trouble_with(const Hands& hands, Trouble around, TimeUs silent_after_us);
+
 /// Begins in Manual, with Jog chosen. A task is asked for only once the controller says that it is
 /// armed: it arms with none. Another one is chosen only with the deadman released. Levers count
 /// only with enable.
@@ -49,8 +55,6 @@ class Station {
   [[nodiscard]] const Deadman& deadman() const { return deadman_; }
 
  private:
-  [[nodiscard]] Trouble trouble_of(const Hands& hands, const Surroundings& around) const;
-
   StationOptions options_;
   Deadman deadman_;
   OperatorMode mode_ = OperatorMode::kManual;

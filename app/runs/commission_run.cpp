@@ -87,7 +87,9 @@ CommissionResult run_commission(const machines::SimulatedExcavator& machine,
   plant::OperatorHands hands;
   for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
     const commission::Window& window = options.sequence.window[axis];
-    hands.window[axis] = StrokeWindow{window.least_m, window.most_m, window.most_mps};
+    if (options.sequence.drives[axis]) {
+      hands.window[axis] = StrokeWindow{window.least_m, window.most_m, window.most_mps};
+    }
   }
   CommissionResult result;
   TimeUs now_us = 0;
@@ -101,6 +103,11 @@ CommissionResult run_commission(const machines::SimulatedExcavator& machine,
     if (status.mode == EcuMode::kFault) {
       result.end = CommissionEnd::kFault;
       result.fault = status.fault;
+      break;
+    }
+    if (sequence.wrong()) {
+      result.end = CommissionEnd::kWrongWay;
+      result.wrong = sequence.wrong();
       break;
     }
     if (seconds(now_us) > kCommissionMost_s) {

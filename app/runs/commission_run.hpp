@@ -3,6 +3,7 @@
 /// the operator's station, the controller's guard, the plant. Nothing but frames between them.
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "app/commission/commission_sequence.hpp"
@@ -18,13 +19,14 @@ struct CommissionOptions {
   std::filesystem::path log_file;  ///< candump log; none if empty.
 };
 
-enum class CommissionEnd { kDone, kFault, kTooLong };
+enum class CommissionEnd { kDone, kFault, kWrongWay, kTooLong };
 
 struct CommissionResult {
   CommissionEnd end = CommissionEnd::kDone;
-  Fault fault = Fault::kNone;  ///< With kFault.
-  std::size_t step = 0;        ///< It came to.
-  double machine_s = 0.0;      ///< In which the machine moved or waited for the next step.
+  Fault fault = Fault::kNone;                 ///< With kFault.
+  std::optional<commission::WrongWay> wrong;  ///< With kWrongWay.
+  std::size_t step = 0;                       ///< It came to.
+  double machine_s = 0.0;  ///< In which the machine moved or waited for the next step.
   std::vector<commission::StepResult> steps;
 };
 

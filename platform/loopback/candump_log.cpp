@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 #include <utility>
 
@@ -25,6 +26,30 @@ std::filesystem::path part_of(const std::filesystem::path& file) {
   const bool replaceable =
       !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
   return replaceable ? std::filesystem::path(file.string() + ".part") : file;
+}
+
+/// Takes away what follows the last whole line.
+void end_with_a_line(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::uintmax_t whole = 0;
+  std::uintmax_t size = 0;
+  for (std::string line; std::getline(stream, line);) {
+    size += line.size() + (stream.eof() ? 0 : 1);
+    whole = stream.eof() ? whole : size;
+  }
+  if (size > whole) {
+    std::filesystem::resize_file(file, whole);
+  }
+}
+
+std::FILE* open_stream(const std::filesystem::path& file, CandumpLog::Form form) {
+  if (form == CandumpLog::Form::kWhole) {
+    return std::fopen(file.c_str(), "w");
+  }
+  if (std::filesystem::is_regular_file(file)) {
+    end_with_a_line(file);
+  }
+  return std::fopen(file.c_str(), "a");
 }
 }  // namespace
 
@@ -47,11 +72,11 @@ std::string candump_line(const CanFrame& frame, TimeUs now_us, const std::string
   return line;
 }
 
-CandumpLog::CandumpLog(const std::filesystem::path& file, std::string interface_name)
+CandumpLog::CandumpLog(const std::filesystem::path& file, std::string interface_name, Form form)
     : file_(file),
-      part_(part_of(file)),
+      part_(form == Form::kGrows ? file : part_of(file)),
       interface_name_(std::move(interface_name)),
-      stream_(std::fopen(part_.c_str(), "w")) {
+      stream_(open_stream(part_, form)) {
   if (stream_ == nullptr) {
     fail(file_, errno);
   }
@@ -70,6 +95,12 @@ CandumpLog::~CandumpLog() {
 void CandumpLog::write(const CanFrame& frame, TimeUs now_us) {
   const std::string line = candump_line(frame, now_us, interface_name_) + "\n";
   if (std::fwrite(line.data(), 1, line.size(), stream_) != line.size()) {
+    fail(file_, errno);
+  }
+}
+
+void CandumpLog::flush() {
+  if (std::fflush(stream_) != 0) {
     fail(file_, errno);
   }
 }

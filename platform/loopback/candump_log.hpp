@@ -10,16 +10,25 @@
 
 namespace graben {
 
-/// Writes a log beside its final name and renames it when closed, so that an interrupted run leaves
-/// no half log behind. Errors throw std::runtime_error that names the file.
+/// Writes a log; unless it grows, beside its final name, renamed when closed, so that an
+/// interrupted run leaves no half log behind. Errors throw std::runtime_error that names the file.
 class CandumpLog {
  public:
-  CandumpLog(const std::filesystem::path& file, std::string interface_name);
+  /// How the file comes about.
+  enum class Form {
+    kWhole,  ///< Beside its name until it is closed.
+    kGrows,  ///< In place, after what is there; a last line that is cut off is taken away.
+  };
+
+  CandumpLog(const std::filesystem::path& file, std::string interface_name,
+             Form form = Form::kWhole);
   CandumpLog(const CandumpLog&) = delete;
   CandumpLog& operator=(const CandumpLog&) = delete;
   ~CandumpLog();
 
   void write(const CanFrame& frame, TimeUs now_us);
+  /// What is written so far is in the file, whatever becomes of this process.
+  void flush();
   void close();
 
  private:

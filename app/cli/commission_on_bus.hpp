@@ -1,0 +1,40 @@
+#pragma once
+/// `graben commission --can`, and what it shares with the simulated one.
+
+#include <string>
+#include <vector>
+
+#include "app/commission/commission_plan.hpp"
+
+namespace graben::cli {
+
+/// What is to be left out.
+struct SequenceChoice {
+  std::vector<std::string> only;      ///< Drives; all if empty.
+  std::vector<std::string> no_touch;  ///< "boom-extended" ...
+  bool no_steps = false;
+  bool no_bursts = false;
+  bool no_pairs = false;
+};
+
+struct BusCommission {
+  std::string interface;
+  std::string profile = "excavator_22t";
+  std::string log = "out/commission.log";
+  std::string windows;
+  SequenceChoice choice;
+  std::string gamepad;
+  bool keyboard = false;
+  double silent_after_s = 20.0;
+  bool resume = false;
+};
+
+void choose(const SequenceChoice& choice, commission::SequenceOptions& options);
+/// The part of it that goes before what windows say.
+void leave_touches(const SequenceChoice& choice, commission::SequenceOptions& options);
+
+/// Listens, has the windows confirmed, leads through the sequence. Throws std::runtime_error, with
+/// the reason and what to do next, unless all is done in the end.
+void commission_on_bus(const BusCommission& options);
+
+}  // namespace graben::cli

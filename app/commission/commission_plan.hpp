@@ -1,0 +1,74 @@
+#pragma once
+/// What is done to identify an excavator, step by step, and how each step may end.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "firmware/excavator/excavator_profile.hpp"
+
+namespace graben::commission {
+
+/// Steps of each direction, from slow to fast.
+inline constexpr int kLevelCount = 5;
+/// The end of a stroke is nearer than that to where the sensor says that it is.
+inline constexpr double kEnd_m = 0.030;
+
+/// Where a cylinder may be and how fast, as the operator has confirmed it.
+struct Window {
+  double least_m = 0.0;
+  double most_m = 0.0;
+  double most_mps = 0.0;
+};
+
+/// What is to be done; each part can be left out.
+struct SequenceOptions {
+  std::array<Window, kAxisCount> window{};
+  std::array<double, kAxisCount> stroke_m{};  ///< Of the cylinders.
+  std::array<int, kAxisCount> pump{};         ///< Which feeds each.
+  std::array<bool, kAxisCount> drives = {true, true, true};
+  std::array<bool, kAxisCount> touch_extended = {true, true,
+                                                 true};  ///< Only where its window reaches there.
+  std::array<bool, kAxisCount> touch_retracted = {true, true, true};
+  bool steps = true;
+  bool bursts = true;
+  bool pairs = true;  ///< Two drives of one pump at once.
+};
+
+/// Everything that there is, over the whole strokes; what is too near to an end for the machine's
+/// surroundings is for the operator to take out.
+[[nodiscard]] SequenceOptions whole_sequence(const ExcavatorProfile& profile);
+
+enum class StepKind { kRamp, kStep, kBurst, kTouch, kPair };
+
+/// One thing that is tried.
+struct SequenceStep {
+  StepKind kind = StepKind::kRamp;
+  int axis = 0;
+  int sign = 0;    ///< +1 extends.
+  int level = 0;   ///< Of kStep and kPair: which of the five.
+  int other = -1;  ///< Of kPair: the second drive.
+};
+
+/// How a step ended.
+enum class StepEnd { kDone, kAtWindow, kNoMotion };
+
+/// What became of a step; with the plan's order all that is needed to go on after a break.
+struct StepResult {
+  StepEnd end = StepEnd::kDone;
+  double duty = 0.0;       ///< Largest magnitude that was tried.
+  double speed_mps = 0.0;  ///< Largest that came of it.
+  double took_s = 0.0;     ///< With the way to where it began, and until all stood again.
+};
+
+/// All steps of it in their order.
+[[nodiscard]] std::vector<SequenceStep> planned_steps(const SequenceOptions& options);
+
+/// "boom", "arm", "bucket".
+[[nodiscard]] const char* axis_name(int axis);
+/// "boom, extending: ramp to its edge".
+[[nodiscard]] std::string step_text(const SequenceStep& step);
+/// "done", "at window", "no motion".
+[[nodiscard]] const char* end_text(StepEnd end);
+
+}  // namespace graben::commission

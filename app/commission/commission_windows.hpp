@@ -1,0 +1,40 @@
+#pragma once
+/// What the operator confirms before anything moves: of each drive the window, the speed, and which
+/// ends of its stroke are free to be touched.
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "app/commission/commission_plan.hpp"
+
+namespace graben::commission {
+
+/// As it is proposed, and as it is confirmed. An end that is free is in the window.
+struct DriveAnswer {
+  Window window;
+  bool retracted_end_free = false;
+  bool extended_end_free = false;
+};
+
+/// From 5 % to 95 % of the stroke, no end free.
+[[nodiscard]] DriveAnswer proposed_answer(double stroke_m);
+
+/// Reads and checks windows of the drives that `options` has: a table for each, [boom], [arm],
+/// [bucket], with `least`, `most` (m; left out where that end is free), `speed` (m/s), and, false
+/// unless told, `retracted_end_free`, `extended_end_free`. Sets them in `options`. Throws
+/// machines::ProfileError with every error found.
+void read_windows(const std::filesystem::path& file, SequenceOptions& options);
+
+/// Asks for a line with these words; nothing at the end of the answers.
+using Ask = std::function<std::optional<std::string>(const std::string&)>;
+
+/// The same by questions, a drive after the other; an empty answer takes what is proposed, one that
+/// cannot be is asked again. False if the answers end before.
+[[nodiscard]] bool ask_windows(const Ask& ask, SequenceOptions& options);
+
+/// "boom: 0.070 to 1.330 of 1.400 m, at most 0.50 m/s, its ends are not touched".
+[[nodiscard]] std::string window_text(const SequenceOptions& options, int axis);
+
+}  // namespace graben::commission

@@ -1,0 +1,293 @@
+// Commissioning over the bus, by the station: what stops it, how far a cylinder goes wrong by then,
+// and that it goes on and ends as if nothing had been.
+
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/runs/frame_edit.hpp"
+#include "tests/unit/firmware/fixture.hpp"
+#include "tests/unit/operate/commission_bench.hpp"
+
+namespace {
+
+using namespace graben;
+using commission::SequenceOptions;
+using commission::StepKind;
+using operate::CommissionEnd;
+using test::CommissionBench;
+using Dbc = dbc::excavator::Dbc;
+using Results = std::vector<commission::StepResult>;
+
+constexpr double kWrong_m = 0.050;
+/// To neutral, once the controller has said its fault or enable is gone.
+constexpr double kNeutral_s = 0.02;
+
+using Change = std::function<void(CommissionBench&)>;
+
+struct Row {
+  const char* name;
+  bool from_the_start;  ///< Else it comes while a drive is told to move.
+  Change begin;
+  Change cure;
+  std::vector<Fault> faults;  ///< Any of these; kNone: the station itself stops, or pauses.
+};
+
+std::vector<machines::SimulatedExcavator> machines_to_try() {
+  machines::SimulatedChoice hidden;
+  hidden.hidden = 3;
+  return {test::excavator(),
+          machines::load_simulated_excavator(machines::find_profile("excavator_22t"), hidden)};
+}
+
+/// What a sound machine gives.
+Results sound_results(const machines::SimulatedExcavator& machine, const SequenceOptions& options) {
+  CommissionBench bench(machine, options);
+  bench.hands.deadman = true;
+  assert_true(bench.run_to_end());
+  assert_int_equal(bench.station->end(), CommissionEnd::kDone);
+  return bench.station->sequence().results();
+}
+
+void expect_same(const Results& results, const Results& sound) {
+  assert_int_equal(results.size(), sound.size());
+  for (std::size_t at = 0; at < results.size(); ++at) {
+    assert_int_equal(results[at].end, sound[at].end);
+    assert_near(results[at].duty, sound[at].duty, 0.06);
+  }
+}
+
+bool is_one_of(Fault fault, const std::vector<Fault>& any) {
+  return std::count(any.begin(), any.end(), fault) > 0;
+}
+
+/// Stopped, the station's words are there, and it goes on with the step that was interrupted.
+void try_row(const Row& row, const machines::SimulatedExcavator& machine, int axis) {
+  const SequenceOptions options = test::one_drive(machine, axis);
+  const Results sound = sound_results(machine, options);
+  CommissionBench bench(machine, options);
+  if (row.from_the_start) {
+    row.begin(bench);
+    bench.run(0.5);
+  }
+  bench.begin_watch();
+  bench.hands.deadman = true;
+  if (!row.from_the_start) {
+    assert_true(bench.run_until([&] { return bench.duty() > 0.2; }, 20.0));
+    row.begin(bench);
+  }
+  assert_true(bench.run_to_end(20.0));
+  bench.run(kNeutral_s);
+  std::printf("%s, %s: %s; %.1f mm wrong, %.1f mm unseen\n", row.name, commission::axis_name(axis),
+              bench.station->end_words().c_str(), 1e3 * bench.strayed_m,
+              1e3 * bench.unseen_m(axis));
+  assert_true(bench.neutral());
+  bench.run(1.0);
+  assert_true(bench.strayed_m < kWrong_m);
+  assert_true(bench.station->end() == CommissionEnd::kWrongWay ||
+              is_one_of(bench.fault(), row.faults));
+  assert_false(bench.station->end_words().empty());
+  row.cure(bench);
+  bench.restart_station();
+  assert_true(bench.run_to_end());
+  assert_int_equal(bench.station->end(), CommissionEnd::kDone);
+  expect_same(bench.station->sequence().results(), sound);
+}
+
+void try_rows(const std::vector<Row>& rows) {
+  for (const machines::SimulatedExcavator& machine : machines_to_try()) {
+    for (const Row& row : rows) {
+      try_row(row, machine, kArm);
+    }
+  }
+}
+
+void valves_and_sensors_the_wrong_way(void**) {
+  const std::vector<Row> rows = {
+      {"reversed valve",
+       true,
+       [](CommissionBench& bench) { bench.plant.faults().axis[kArm].reversed = true; },
+       [](CommissionBench& bench) { bench.plant.faults().axis[kArm].reversed = false; },
+       {Fault::kWrongDirection}},
+      {"swapped stroke sensors",
+       true,
+       [](CommissionBench& bench) {
+         bench.plant.faults().stroke_from = {1, 0, 2};
+       },
+       [](CommissionBench& bench) {
+         bench.plant.faults().stroke_from = {0, 1, 2};
+       },
+       {Fault::kUncommandedMotion}},
+  };
+  try_rows(rows);
+}
+
+void sensors_and_spools_that_hang(void**) {
+  const std::vector<Row> rows = {
+      {"spool held open",
+       false,
+       [](CommissionBench& bench) { bench.plant.faults().axis[kArm].spool_held_ratio = -0.5; },
+       [](CommissionBench& bench) { bench.plant.faults().axis[kArm].spool_held_ratio.reset(); },
+       {Fault::kSpoolStuck, Fault::kWrongDirection, Fault::kUncommandedMotion}},
+      {"stuck stroke sensor",
+       false,
+       [](CommissionBench& bench) { bench.plant.faults().axis[kArm].stroke.stuck = true; },
+       [](CommissionBench& bench) { bench.plant.faults().axis[kArm].stroke = {}; },
+       {Fault::kStrokeStuck}},
+  };
+  try_rows(rows);
+}
+
+void engine_and_bus_that_go(void**) {
+  const std::vector<Row> rows = {
+      {"engine stops",
+       false,
+       [](CommissionBench& bench) { bench.plant.faults().engine_ratio = 0.0; },
+       [](CommissionBench& bench) { bench.plant.faults().engine_ratio = 1.0; },
+       {Fault::kEngineStopped}},
+      {"station's frames stop",
+       false,
+       [](CommissionBench& bench) { bench.sends = false; },
+       [](CommissionBench& bench) { bench.sends = true; },
+       {Fault::kOperatorMissing}},
+      {"machine's frames stop",
+       false,
+       [](CommissionBench& bench) { bench.plant.faults().set_silent(Dbc::ArmStroke::kId, true); },
+       [](CommissionBench& bench) { bench.plant.faults().set_silent(Dbc::ArmStroke::kId, false); },
+       {Fault::kStrokeMissing}},
+      {"CRC of CommissionDuty",
+       false,
+       [](CommissionBench& bench) {
+         bench.bus.set_fault_hook([](CanFrame& frame, const LoopbackPort*) {
+           if (frame.id == Dbc::CommissionDuty::kId) {
+             runs::corrupt(frame);
+           }
+           return true;
+         });
+       },
+       [](CommissionBench& bench) { bench.bus.set_fault_hook(nullptr); },
+       {Fault::kOperatorMissing}},
+      {"controller's bus is gone",
+       false,
+       [](CommissionBench& bench) {
+         bench.ecu_port.set_state(CanPortState::kDown);
+         bench.run(0.3);
+         bench.ecu_port.set_state(CanPortState::kClosed);
+       },
+       [](CommissionBench&) {},
+       {Fault::kBusDown}},
+  };
+  try_rows(rows);
+}
+
+/// Two of one address: no frame of either can be told from the other's.
+void a_second_station(void**) {
+  const machines::SimulatedExcavator& machine = test::excavator();
+  CommissionBench bench(machine, test::one_drive(machine, kArm));
+  bench.begin_watch();
+  bench.hands.deadman = true;
+  assert_true(bench.run_until([&] { return bench.duty() > 0.2; }, 20.0));
+  assert_false(bench.heard.other_station().has_value());
+  operate::CommandFrames others;
+  for (int n = 0; n < 30; ++n) {
+    bench.bus.inject(others.next({}, {0, dbc::RawState::kValid}, bench.now_us)[0]);
+    bench.cycle();
+  }
+  assert_true(bench.heard.other_station().has_value());
+  assert_true(bench.neutral());
+  assert_true(bench.strayed_m < kWrong_m);
+}
+
+/// A controller without a window holds the drive: no step is taken for one that did not move.
+void windows_that_do_not_arrive(void**) {
+  const machines::SimulatedExcavator& machine = test::excavator();
+  const SequenceOptions options = test::one_drive(machine, kArm);
+  CommissionBench bench(machine, options);
+  bench.hands.deadman = true;
+  assert_true(bench.run_until([&] { return bench.duty() > 0.2; }, 20.0));
+  bench.bus.set_fault_hook(
+      [](CanFrame& frame, const LoopbackPort*) { return frame.id != Dbc::CommissionWindow::kId; });
+  const std::size_t at = bench.station->sequence().at();
+  bench.run(1.2);
+  const Eigen::Vector3d from_m = bench.strokes_m();
+  bench.run(12.0);
+  assert_true((bench.strokes_m() - from_m).norm() < 0.03);
+  assert_int_equal(bench.fault(), Fault::kNone);
+  assert_int_equal(bench.station->sequence().at(), at);
+  bench.bus.set_fault_hook(nullptr);
+  assert_true(bench.run_to_end());
+  assert_int_equal(bench.station->end(), CommissionEnd::kDone);
+  expect_same(bench.station->sequence().results(), sound_results(machine, options));
+}
+
+/// A speed that the machine does not keep: the ramp's own is more.
+void over_speed(void**) {
+  const machines::SimulatedExcavator& machine = test::excavator();
+  SequenceOptions options = test::one_drive(machine, kArm);
+  options.window[kArm].most_mps = 0.015;
+  CommissionBench bench(machine, options);
+  bench.begin_watch();
+  bench.hands.deadman = true;
+  assert_true(bench.run_to_end(40.0));
+  assert_int_equal(bench.station->end(), CommissionEnd::kFault);
+  assert_int_equal(bench.fault(), Fault::kCommissionBound);
+  bench.run(kNeutral_s);
+  assert_true(bench.neutral());
+  assert_true(bench.strayed_m < kWrong_m);
+}
+
+void let_go_for_a_second(CommissionBench& bench) {
+  const std::size_t done = bench.station->sequence().results().size();
+  bench.hands.deadman = false;
+  bench.run(0.03);
+  assert_true(bench.neutral());
+  assert_int_equal(bench.fault(), Fault::kNone);
+  bench.run(1.0);
+  assert_int_equal(bench.station->sequence().results().size(), done);
+  bench.hands.deadman = true;
+}
+
+/// In every kind of step: neutral at once, nothing is lost, and the step begins again.
+void the_operator_lets_go_in_every_step(void**) {
+  const machines::SimulatedExcavator& machine = test::excavator();
+  SequenceOptions options = test::one_drive(machine, kBucket);
+  options.steps = true;
+  options.bursts = true;
+  options.window[kBucket].least_m = 0.0;
+  options.touch_retracted[kBucket] = true;
+  CommissionBench bench(machine, options);
+  bench.hands.deadman = true;
+  const auto& sequence = bench.station->sequence();
+  for (std::size_t at = 0; at < sequence.steps().size(); ++at) {
+    const auto has_passed = [&] { return sequence.at() > at; };
+    assert_true(bench.run_until([&] { return bench.duty() > 0.1 || has_passed(); }, 60.0));
+    if (!has_passed()) {
+      bench.run(0.1);
+      let_go_for_a_second(bench);
+    }
+    assert_true(bench.run_until(has_passed, 60.0));
+  }
+  bench.run_to_end();
+  assert_int_equal(bench.station->end(), CommissionEnd::kDone);
+  const Results& results = bench.station->sequence().results();
+  assert_int_equal(results.size(), bench.station->sequence().steps().size());
+  const Results sound = sound_results(machine, options);
+  assert_near(results[0].duty, sound[0].duty, 0.06);
+  assert_near(results[1].duty, sound[1].duty, 0.06);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(valves_and_sensors_the_wrong_way),
+      cmocka_unit_test(sensors_and_spools_that_hang),
+      cmocka_unit_test(engine_and_bus_that_go),
+      cmocka_unit_test(a_second_station),
+      cmocka_unit_test(windows_that_do_not_arrive),
+      cmocka_unit_test(over_speed),
+      cmocka_unit_test(the_operator_lets_go_in_every_step),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

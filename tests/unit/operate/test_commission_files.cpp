@@ -1,0 +1,174 @@
+// What the operator confirms, and what is kept to go on after a break.
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "app/commission/commission_progress.hpp"
+#include "app/commission/commission_windows.hpp"
+#include "app/commission/wrong_way.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/fixture.hpp"
+
+namespace {
+
+using namespace graben;
+using namespace graben::commission;
+namespace fs = std::filesystem;
+
+SequenceOptions whole() { return whole_sequence(test::excavator().profile); }
+
+/// A folder of its own, gone with it.
+struct Folder {
+  Folder() : path(fs::temp_directory_path() / fs::path("graben_commission_XXXXXX")) {
+    std::string name = path.string();
+    assert_non_null(mkdtemp(name.data()));
+    path = name;
+  }
+  ~Folder() { fs::remove_all(path); }
+  [[nodiscard]] fs::path file(const std::string& text) const {
+    const fs::path file = path / "file";
+    std::ofstream(file) << text;
+    return file;
+  }
+  fs::path path;
+};
+
+template <class Work>
+std::string refusal(const Work& work) {
+  try {
+    work();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool says(const std::string& text, const char* words) {
+  return text.find(words) != std::string::npos;
+}
+
+void windows_of_a_file(void**) {
+  const Folder folder;
+  SequenceOptions options = whole();
+  options.drives = {true, false, false};
+  const fs::path good = folder.file("[boom]\nleast = 0.1\nspeed = 0.3\nextended_end_free = true\n");
+  read_windows(good, options);
+  assert_near(options.window[kBoom].least_m, 0.1, 1e-12);
+  assert_near(options.window[kBoom].most_m, options.stroke_m[kBoom], 1e-12);
+  assert_near(options.window[kBoom].most_mps, 0.3, 1e-12);
+  assert_true(options.touch_extended[kBoom] && !options.touch_retracted[kBoom]);
+  const auto bad = [&](const char* text) {
+    return refusal([&] { read_windows(folder.file(text), options); });
+  };
+  assert_true(says(bad("[boom]\nleast = 0.1\nmost = 1.0\n"), "boom.speed"));
+  assert_true(says(bad("[boom]\nleast = 0.5\nmost = 0.6\nspeed = 0.3\n"), "at least 0.20 m"));
+  assert_true(says(bad("[boom]\nleast = 0.1\nmost = 9.0\nspeed = 0.3\n"), "boom.most"));
+  assert_true(says(bad("[boom]\nleast = 0.1\nmost = 1.0\nspeed = 0.3\nfast = 1\n"), "boom.fast"));
+  options.drives[kArm] = true;
+  assert_true(says(bad("[boom]\nleast = 0.1\nmost = 1.0\nspeed = 0.3\n"), "arm.least"));
+}
+
+void windows_by_questions(void**) {
+  SequenceOptions options = whole();
+  options.drives = {true, false, true};
+  // Both ends of the boom are refused, its first window is none; the bucket as it is proposed.
+  const std::vector<std::string> answers = {"perhaps", "n", "no", "0.5 0.4", "", "0.2 0.9",
+                                            "0.25",    "y", "",   "",        ""};
+  std::size_t at = 0;
+  const Ask ask = [&](const std::string&) {
+    return at < answers.size() ? std::optional<std::string>(answers[at++]) : std::nullopt;
+  };
+  assert_true(ask_windows(ask, options));
+  assert_int_equal(at, answers.size());
+  assert_near(options.window[kBoom].least_m, 0.2, 1e-12);
+  assert_near(options.window[kBoom].most_m, 0.9, 1e-12);
+  assert_near(options.window[kBoom].most_mps, 0.25, 1e-12);
+  assert_false(options.touch_retracted[kBoom] || options.touch_extended[kBoom]);
+  assert_near(options.window[kBucket].least_m, 0.0, 1e-12);
+  assert_near(options.window[kBucket].most_m, 0.95 * options.stroke_m[kBucket], 1e-12);
+  assert_true(options.touch_retracted[kBucket] && !options.touch_extended[kBucket]);
+  at = answers.size();
+  assert_false(ask_windows(ask, options));
+}
+
+Progress some() {
+  Progress progress;
+  progress.profile_hash = 0x1234;
+  progress.options = whole();
+  progress.options.drives = {false, true, false};
+  progress.options.bursts = false;
+  progress.options.window[kArm] = {0.1, 1.2, 0.4};
+  progress.options.touch_extended[kArm] = false;
+  progress.results = {{StepEnd::kDone, 0.41, 0.06, 7.0}, {StepEnd::kAtWindow, 0.5, 0.2, 3.0}};
+  return progress;
+}
+
+void progress_comes_back(void**) {
+  const Folder folder;
+  const fs::path file = progress_file(folder.path / "drive.log");
+  assert_string_equal(file.filename().c_str(), "drive.log.progress.json");
+  const Progress before = some();
+  write_progress(file, before);
+  const Progress after = read_progress(file, 0x1234, whole());
+  assert_int_equal(planned_steps(after.options).size(), planned_steps(before.options).size());
+  assert_int_equal(after.results.size(), 2);
+  assert_int_equal(after.results[1].end, StepEnd::kAtWindow);
+  assert_near(after.results[0].duty, 0.41, 0.0);
+  assert_near(after.results[1].speed_mps, 0.2, 0.0);
+  require_same_windows(before.options, after.options);
+}
+
+void progress_of_something_else_is_refused(void**) {
+  const Folder folder;
+  const fs::path file = folder.path / "progress";
+  const auto read = [&] {
+    return refusal([&] { static_cast<void>(read_progress(file, 0x1234, whole())); });
+  };
+  assert_true(says(read(), "nothing to go on with"));
+  write_progress(file, some());
+  assert_true(read().empty());
+  Progress other = some();
+  other.profile_hash = 0x99;
+  write_progress(file, other);
+  assert_true(says(read(), "another profile"));
+  std::ofstream(file) << "{\"profile_hash\": 1";
+  assert_false(read().empty());
+  SequenceOptions moved = some().options;
+  moved.window[kArm].most_m = 1.3;
+  const auto same = [&] { require_same_windows(some().options, moved); };
+  assert_true(says(refusal(same), "another window"));
+  moved.window[kArm].most_m = 1.2;
+  moved.window[kBoom].most_m = 0.5;  // Not tried.
+  assert_true(refusal(same).empty());
+}
+
+void what_goes_wrong_has_a_word(void**) {
+  const SequenceStep ramp = {StepKind::kRamp, kBoom, 1};
+  const std::array<double, kAxisCount> begin = {0.7, 0.7, 0.5};
+  assert_false(look_for_wrong_way(ramp, begin, {0.75, 0.705, 0.5}, {0.1, 0.02, 0.0}));
+  // It creeps, or has rocked.
+  assert_false(look_for_wrong_way(ramp, begin, {0.68, 0.7, 0.5}, {-0.004, 0.0, 0.0}));
+  assert_false(look_for_wrong_way(ramp, begin, {0.695, 0.7, 0.5}, {-0.05, 0.0, 0.0}));
+  const auto falls = look_for_wrong_way(ramp, begin, {0.688, 0.7, 0.5}, {-0.05, 0.0, 0.0});
+  assert_true(falls.has_value());
+  assert_string_equal(
+      wrong_text(*falls).c_str(),
+      "the boom's stroke falls while it is told to extend: sensor or valve reversed");
+  const auto other = look_for_wrong_way(ramp, begin, {0.7, 0.68, 0.5}, {0.0, -0.05, 0.0});
+  assert_true(other && other->seen == kArm);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(windows_of_a_file),
+      cmocka_unit_test(windows_by_questions),
+      cmocka_unit_test(progress_comes_back),
+      cmocka_unit_test(progress_of_something_else_is_refused),
+      cmocka_unit_test(what_goes_wrong_has_a_word),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
