@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/machines/simulated/simulation_file.hpp"
 #include "app/runs/frame_edit.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 #include "tests/unit/operate/commission_bench.hpp"

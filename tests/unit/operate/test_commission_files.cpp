@@ -93,8 +93,8 @@ void windows_by_questions(void**) {
   assert_false(ask_windows(ask, options));
 }
 
-Progress some() {
-  Progress progress;
+commission::Progress some() {
+  commission::Progress progress;
   progress.profile_hash = 0x1234;
   progress.options = whole();
   progress.options.drives = {false, true, false};
@@ -109,9 +109,9 @@ void progress_comes_back(void**) {
   const Folder folder;
   const fs::path file = progress_file(folder.path / "drive.log");
   assert_string_equal(file.filename().c_str(), "drive.log.progress.json");
-  const Progress before = some();
+  const commission::Progress before = some();
   write_progress(file, before);
-  const Progress after = read_progress(file, 0x1234, whole());
+  const commission::Progress after = read_progress(file, 0x1234, whole());
   assert_int_equal(planned_steps(after.options).size(), planned_steps(before.options).size());
   assert_int_equal(after.results.size(), 2);
   assert_int_equal(after.results[1].end, StepEnd::kAtWindow);
@@ -129,7 +129,7 @@ void progress_of_something_else_is_refused(void**) {
   assert_true(says(read(), "nothing to go on with"));
   write_progress(file, some());
   assert_true(read().empty());
-  Progress other = some();
+  commission::Progress other = some();
   other.profile_hash = 0x99;
   write_progress(file, other);
   assert_true(says(read(), "another profile"));

@@ -91,11 +91,10 @@ void a_sound_machine_nobody_knows_is_not_stopped(void**) {
                              Found{0.55, 1.3, 0.25, 0.15}, Found{0.55, 1.9, 0.10, 0.05}}) {
     machines::SimulatedExcavator machine = test::excavator();
     for (unsigned i = 0; i < kAxisCount; ++i) {
-      machine.plant.spool[i].extend_deadband_ratio = found.edge;
-      machine.plant.spool[i].retract_deadband_ratio = found.edge;
-      machine.plant.spool[i].opening_exponent = found.exponent;
+      machine.plant.spool[i].extend = {found.edge, 0.0, found.exponent};
+      machine.plant.spool[i].retract = {found.edge, 0.0, found.exponent};
       machine.plant.spool[i].time_constant_s = found.lag_s;
-      machine.plant.dead_time_s[i] = found.dead_s;
+      machine.plant.dead_time[i] = {found.dead_s, found.dead_s};
     }
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
       Station rig(machine);
