@@ -1,15 +1,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
-#include <fstream>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
+#include "app/cli/identify_log.hpp"
+#include "app/cli/options.hpp"
+#include "app/cli/output_file.hpp"
 #include "app/identify/motion_result.hpp"
 
 namespace graben::cli {
@@ -18,24 +18,13 @@ namespace {
 struct IdentifyCommand {
   std::vector<std::string> csv;
   std::vector<std::string> judge;
-  std::string summary;
+  IdentifyLogCommand log;
 };
 
-/// Before a minute's work. Leaves what is there, and nothing where nothing was.
-void assert_writable(const std::string& file) {
-  const bool was_there = std::filesystem::exists(file);
-  if (!std::ofstream(file, std::ios::app)) {
-    throw std::runtime_error(fmt::format("{}: can't be written", file));
-  }
-  if (!was_there) {
-    std::filesystem::remove(file);
-  }
-}
-
-void identify_machine(const IdentifyCommand& options) {
+void identify_motion(const IdentifyCommand& options) {
   const identify::MotionSplit split = identify::split_motion(
       identify::read_motion_files(options.csv), identify::read_motion_files(options.judge));
-  assert_writable(options.summary);
+  assert_writable(options.log.summary);
   identify::MotionResult result;
   {
     ProgressBar bar("identify");
@@ -43,13 +32,79 @@ void identify_machine(const IdentifyCommand& options) {
     fit.progress = bar.progress();
     result = identify::identify_motion(split, fit);
   }
-  std::ofstream stream(options.summary);
-  stream << identify::motion_json(result);
-  stream.close();
-  if (!stream) {
-    throw std::runtime_error(fmt::format("{}: can't be written", options.summary));
-  }
+  write_whole(options.log.summary, identify::motion_json(result));
   fmt::print("{}", identify::motion_text(result));
+}
+
+void need(bool given, const char* name) {
+  if (!given) {
+    throw CLI::RequiredError(name);
+  }
+}
+
+/// Which of the three it is, with what each needs.
+void check_usage(const IdentifyCommand& options) {
+  if (!options.csv.empty()) {
+    need(!options.log.summary.empty(), "--summary");
+    return;
+  }
+  need(!options.log.logs.empty(), "--csv or --log");
+  need(!options.log.profile.empty(), "--profile");
+  need(options.log.check || !options.log.out.empty(), "--out, or --check,");
+}
+
+void run(const IdentifyCommand& options) {
+  if (!options.csv.empty()) {
+    identify_motion(options);
+  } else if (options.log.check) {
+    check_logs(options.log);
+  } else {
+    identify_logs(options.log);
+  }
+}
+
+void add_csv_options(CLI::App& command, IdentifyCommand& options) {
+  CLI::Option* csv = command.add_option(
+      "--csv", options.csv,
+      "Recorded motion, CSV, plain or gzip: columns run, time_s and for boom, arm, bucket and "
+      "swing command_permille_AXIS, angle_rad_AXIS, velocity_radps_AXIS; needs --summary");
+  command
+      .add_option("--judge", options.judge,
+                  "The same, of runs to judge by; unless told, every fifth run of --csv is left "
+                  "out")
+      ->needs(csv);
+}
+
+void add_log_options(CLI::App& command, IdentifyLogCommand& options) {
+  CLI::Option* log = command.add_option(
+      "--log", options.logs,
+      "Logs of our bus (candump -L, plain or gzip) with motion in them; of several the last one "
+      "judges");
+  log->excludes(command.get_option("--csv"));
+  command.add_option("--profile", options.profile, "Of the machine: file or shipped name")
+      ->needs(log);
+  CLI::Option* out = command.add_option(
+      "--out", options.out, "New profile: the old one's text with what was found in it");
+  out->needs(log);
+  CLI::Option* report =
+      command.add_option("--report", options.report, "What was found, as one HTML page");
+  report->needs(out);
+  command.add_flag("--force", options.force, "--out may be there already")->needs(out);
+  command
+      .add_flag("--any-machine", options.any_machine,
+                "The logs may be of a machine with another profile")
+      ->needs(log);
+  CLI::Option* check = command.add_flag(
+      "--check", options.check,
+      "Only compare: how far is what the profile predicts from what the logs show?");
+  check->needs(log)->excludes(out);
+  command.add_option("--before", options.before, "An older profile to stand beside --profile")
+      ->needs(check);
+  command
+      .add_option("--limit", options.limit_percent,
+                  "Exit status 1 where a speed is farther off than this, %, 0.1 .. 1000")
+      ->check(number_between(0.1, 1000.0))
+      ->needs(check);
 }
 
 }  // namespace
@@ -59,18 +114,15 @@ void add_identify(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand(
       "identify",
       "How a machine answers its commands, found from recorded motion: dead time, lags, curves of "
-      "each direction, how its axes share their pumps. Judged by whole runs that were left out");
-  command
-      ->add_option("--csv", options->csv,
-                   "Recorded motion, CSV, plain or gzip: columns run, time_s and for boom, arm, "
-                   "bucket and swing command_permille_AXIS, angle_rad_AXIS, velocity_radps_AXIS")
-      ->required();
-  command->add_option("--judge", options->judge,
-                      "The same, of runs to judge by; unless told, every fifth run of --csv is "
-                      "left out");
-  command->add_option("--summary", options->summary, "JSON to write")->required();
-  command->callback(
-      [options, &status] { status = guarded("identify", [&] { identify_machine(*options); }); });
+      "each direction, pumps, zeros of sensors; judged by motion that was left out. From logs "
+      "into a better profile, or of foreign recordings into figures");
+  add_csv_options(*command, *options);
+  add_log_options(*command, options->log);
+  command->add_option("--summary", options->log.summary, "Figures as JSON");
+  command->callback([options, &status] {
+    check_usage(*options);
+    status = guarded("identify", [&] { run(*options); });
+  });
 }
 
 }  // namespace graben::cli

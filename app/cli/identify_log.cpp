@@ -1,0 +1,196 @@
+#include "app/cli/identify_log.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "app/cli/console.hpp"
+#include "app/cli/output_file.hpp"
+#include "app/identify/file/identified_file.hpp"
+#include "app/identify/machine/log_checks.hpp"
+#include "app/machines/excavator_file.hpp"
+#include "app/reports/identify/identify_report.hpp"
+
+namespace graben::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kShortHash = 12;
+
+machines::ExcavatorMachine load_profile(const std::string& name) {
+  return machines::load_excavator(machines::find_profile(name));
+}
+
+/// Logs that fit the profile, or one of `hashes`; what is worth knowing of each is printed.
+std::vector<identify::MachineLog> read_logs(const IdentifyLogCommand& options,
+                                            const ExcavatorProfile& profile,
+                                            const std::vector<std::uint32_t>& hashes) {
+  std::vector<identify::MachineLog> logs;
+  for (const std::string& file : options.logs) {
+    if (fs::is_directory(file)) {
+      throw std::runtime_error(fmt::format("{}: is a folder; a log of candump -L is wanted", file));
+    }
+    logs.push_back(identify::read_machine_log(file, profile.pump_count));
+    const identify::MachineLog& log = logs.back();
+    for (std::size_t n = 0; n + 1 < logs.size(); ++n) {
+      if (logs[n].sha256 == log.sha256) {
+        throw std::runtime_error(fmt::format("{}: is the same log as {}", file, options.logs[n]));
+      }
+    }
+    if (!options.any_machine) {
+      identify::assert_same_machine(log, hashes);
+    }
+    identify::assert_plausible(log, profile);
+  }
+  for (const identify::MachineLog& log : logs) {
+    fmt::print("{}: {}\n", log.name, fmt::join(identify::log_notes(log), "; "));
+  }
+  return logs;
+}
+
+std::string today() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(now));
+}
+
+/// "drive.log sha256 12ab34cd56ef, 2026-11-24".
+std::string source_of(const std::vector<identify::MachineLog>& logs) {
+  std::string text;
+  for (const identify::MachineLog& log : logs) {
+    text += fmt::format("{}{} sha256 {}", text.empty() ? "" : " and ", log.name,
+                        log.sha256.substr(0, kShortHash));
+  }
+  return fmt::format("{}, {}", text, today());
+}
+
+bool is_same_file(const std::string& one, const std::string& other) {
+  std::error_code error;
+  return !one.empty() && !other.empty() &&
+         (fs::equivalent(one, other, error) ||
+          fs::absolute(one).lexically_normal() == fs::absolute(other).lexically_normal());
+}
+
+/// Before any work: nothing that is read, and no other file, is lost.
+void assert_outputs(const IdentifyLogCommand& options, const fs::path& profile) {
+  const std::vector<std::string> written = {options.out, options.report, options.summary};
+  for (std::size_t n = 0; n < written.size(); ++n) {
+    if (written[n].empty()) {
+      continue;
+    }
+    std::vector<std::string> others = options.logs;
+    others.push_back(profile.string());
+    others.insert(others.end(), written.begin(), written.begin() + static_cast<std::ptrdiff_t>(n));
+    for (const std::string& other : others) {
+      if (is_same_file(written[n], other)) {
+        throw std::runtime_error(
+            fmt::format("{}: would overwrite {}; name another file", written[n], other));
+      }
+    }
+  }
+  if (fs::exists(options.out) && !options.force) {
+    throw std::runtime_error(
+        fmt::format("{}: is there already; --force overwrites it", options.out));
+  }
+  for (const std::string& file : written) {
+    if (!file.empty()) {
+      assert_writable(file);
+    }
+  }
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+void assert_better(const identify::JudgedFit& fit) {
+  if (fit.is_better()) {
+    return;
+  }
+  std::string text = fmt::format(
+      "nothing was written: the new profile predicts what was left out ({:.0f} s) worse than the "
+      "old one; error of the speed, old and new, RMS:",
+      fit.judged_s);
+  for (std::size_t k = 0; k < kAxisCount; ++k) {
+    text += fmt::format(" {} {:.1f} and {:.1f} %{}", identify::kAxisTexts[k],
+                        100.0 * fit.before.axis[k].share(), 100.0 * fit.left_out.axis[k].share(),
+                        k + 1 < kAxisCount ? "," : "");
+  }
+  throw std::runtime_error(text);
+}
+
+}  // namespace
+
+void identify_logs(const IdentifyLogCommand& options) {
+  const fs::path file = machines::find_profile(options.profile);
+  const machines::ExcavatorMachine machine = machines::load_excavator(file);
+  assert_outputs(options, file);
+  const std::vector<identify::MachineLog> logs =
+      read_logs(options, machine.profile, {machine.hash});
+  identify::JudgedFit fit;
+  {
+    ProgressBar bar("identify");
+    fit = identify::fit_and_judge(machine.profile, logs, bar.progress());
+  }
+  fmt::print("{}", reports::prediction_table({{"old", &fit.before}, {"new", &fit.left_out}}));
+  for (const std::string& missing : fit.machine.missing) {
+    fmt::print("{}\n", missing);
+  }
+  assert_better(fit);
+  const std::string from = source_of(logs);
+  const std::string text = identify::identified_text(text_of(file), machine, fit, from);
+  identify::assert_reads_back(text, options.out, fit.profile);
+  const reports::IdentifyReport report = {machine, fit, logs, from};
+  if (!options.report.empty()) {
+    write_whole(options.report, reports::identify_page(report));
+  }
+  if (!options.summary.empty()) {
+    write_whole(options.summary, reports::identify_json(report));
+  }
+  write_whole(options.out, text);
+  fmt::print("profile  {}\n", options.out);
+  if (!options.report.empty()) {
+    fmt::print("report   {}\n", options.report);
+  }
+}
+
+void check_logs(const IdentifyLogCommand& options) {
+  const machines::ExcavatorMachine machine = load_profile(options.profile);
+  std::vector<std::uint32_t> hashes = {machine.hash};
+  std::vector<reports::ScoreColumn> columns;
+  identify::PredictionScore before;
+  machines::ExcavatorMachine old;
+  if (!options.before.empty()) {
+    old = load_profile(options.before);
+    hashes.push_back(old.hash);
+  }
+  const std::vector<identify::MachineLog> logs = read_logs(options, machine.profile, hashes);
+  const auto stretches = identify::moving_stretches(logs);
+  if (!options.before.empty()) {
+    before = identify::score_of(old.profile, logs, stretches);
+    columns.push_back({"before", &before});
+  }
+  const identify::PredictionScore now = identify::score_of(machine.profile, logs, stretches);
+  columns.push_back({"now", &now});
+  fmt::print("{}", reports::prediction_table(columns));
+  for (const std::string& sentence : identify::score_sentences(now)) {
+    fmt::print("{}\n", sentence);
+  }
+  if (!options.summary.empty()) {
+    assert_writable(options.summary);
+    write_whole(options.summary, reports::prediction_json(columns));
+  }
+  const double off_percent = 100.0 * identify::most_off(now);
+  if (options.limit_percent > 0.0 && off_percent > options.limit_percent) {
+    throw std::runtime_error(fmt::format("a speed is {:.1f} % off; --limit allows {} %",
+                                         off_percent, options.limit_percent));
+  }
+}
+
+}  // namespace graben::cli

@@ -1,0 +1,112 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/identify/file/identified_file.hpp"
+#include "app/machines/answer_section.hpp"
+#include "app/reports/identify/identify_report.hpp"
+
+namespace graben::reports {
+namespace {
+
+using identify::kAxisTexts;
+using identify::PredictionScore;
+using identify::SideScore;
+using nlohmann::ordered_json;
+
+constexpr double kPercent = 100.0;
+
+std::string side_row(const std::vector<ScoreColumn>& columns, std::size_t k, bool extends) {
+  std::string row = fmt::format(
+      "{:<16}", fmt::format("{}, {}", kAxisTexts[k], machines::kSideNames[extends ? 0 : 1]));
+  for (const ScoreColumn& column : columns) {
+    const SideScore& side = column.score->axis[k].side(extends);
+    row += fmt::format("  {:>8.1f} {:>7.3f}", 1e3 * side.rms_mps, side.r2);
+    row += side.has_ratio ? fmt::format(" {:>+7.1f}", kPercent * (side.speed_ratio - 1.0))
+                          : fmt::format(" {:>7}", "-");
+    row +=
+        side.has_delay ? fmt::format(" {:>+6.0f}", 1e3 * side.late_s) : fmt::format(" {:>6}", "-");
+  }
+  return row + "\n";
+}
+
+ordered_json side_json(const SideScore& side) {
+  ordered_json json = {{"moving_s", side.moving_s}, {"rms_mps", side.rms_mps}, {"r2", side.r2}};
+  json["speed_ratio"] = side.has_ratio ? ordered_json(side.speed_ratio) : ordered_json();
+  json["late_s"] = side.has_delay ? ordered_json(side.late_s) : ordered_json();
+  return json;
+}
+
+ordered_json score_json(const PredictionScore& score) {
+  ordered_json axes;
+  for (std::size_t k = 0; k < kAxisCount; ++k) {
+    axes[kAxisTexts[k]]["error_share"] = score.axis[k].share();
+    for (const bool extends : {true, false}) {
+      const SideScore& side = score.axis[k].side(extends);
+      axes[kAxisTexts[k]][machines::kSideNames[extends ? 0 : 1]] =
+          side.moving_s > 0.0 ? side_json(side) : ordered_json();
+    }
+  }
+  return {{"error_share", score.share()}, {"axes", axes}};
+}
+
+}  // namespace
+
+std::string prediction_table(const std::vector<ScoreColumn>& columns) {
+  std::string text = fmt::format("{:<16}", "speed");
+  for (const ScoreColumn& column : columns) {
+    text += fmt::format("  {:-^31}", " " + column.title + " ");
+  }
+  text += fmt::format("\n{:<16}", "");
+  for (std::size_t n = 0; n < columns.size(); ++n) {
+    text += fmt::format("  {:>8} {:>7} {:>7} {:>6}", "RMS mm/s", "R2", "speed %", "ms");
+  }
+  text += "\n";
+  for (std::size_t k = 0; k < kAxisCount; ++k) {
+    for (const bool extends : {true, false}) {
+      if (columns.front().score->axis[k].side(extends).moving_s > 0.0) {
+        text += side_row(columns, k, extends);
+      }
+    }
+  }
+  return text + "(speed: measured over predicted, less 1; ms: later than predicted)\n";
+}
+
+std::string prediction_json(const std::vector<ScoreColumn>& columns) {
+  ordered_json json;
+  for (const ScoreColumn& column : columns) {
+    json[column.title] = score_json(*column.score);
+  }
+  return json.dump(2) + "\n";
+}
+
+std::string identify_json(const IdentifyReport& report) {
+  ordered_json json;
+  json["profile"] = report.machine.name;
+  json["from"] = report.from;
+  for (const identify::MachineLog& log : report.logs) {
+    json["logs"].push_back({{"name", log.name},
+                            {"sha256", log.sha256},
+                            {"length_s", log.length_s()},
+                            {"pieces", log.segments.size()},
+                            {"frames", log.frames},
+                            {"refused", log.refused}});
+  }
+  json["fitted_s"] = report.fit.fitted_s;
+  json["judged_s"] = report.fit.judged_s;
+  json["old"] = score_json(report.fit.before);
+  json["new"] = score_json(report.fit.left_out);
+  json["all"] = score_json(report.fit.after);
+  json["values"] = ordered_json::array();
+  for (const identify::ValueChange& change : identify::value_changes(report.machine, report.fit)) {
+    json["values"].push_back({{"key", change.key},
+                              {"before", change.before},
+                              {"after", change.after},
+                              {"deviation", change.deviation}});
+  }
+  json["missing"] = report.fit.machine.missing;
+  // A byte of a file's name that is no UTF-8 must not cost the figures.
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace graben::reports
