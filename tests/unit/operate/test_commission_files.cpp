@@ -145,12 +145,12 @@ void progress_of_something_else_is_refused(void**) {
 }
 
 void what_goes_wrong_has_a_word(void**) {
-  const SequenceStep ramp = {StepKind::kRamp, kBoom, 1};
+  const SequenceStep ramp = {commission::StepKind::kRamp, kBoom, 1};
   const std::array<double, kAxisCount> begin = {0.7, 0.7, 0.5};
-  assert_false(look_for_wrong_way(ramp, begin, {0.75, 0.705, 0.5}, {0.1, 0.02, 0.0}));
+  assert_false(look_for_wrong_way(ramp, begin, {0.75, 0.705, 0.5}, {0.1, 0.02, 0.0}).has_value());
   // It creeps, or has rocked.
-  assert_false(look_for_wrong_way(ramp, begin, {0.68, 0.7, 0.5}, {-0.004, 0.0, 0.0}));
-  assert_false(look_for_wrong_way(ramp, begin, {0.695, 0.7, 0.5}, {-0.05, 0.0, 0.0}));
+  assert_false(look_for_wrong_way(ramp, begin, {0.68, 0.7, 0.5}, {-0.004, 0.0, 0.0}).has_value());
+  assert_false(look_for_wrong_way(ramp, begin, {0.695, 0.7, 0.5}, {-0.05, 0.0, 0.0}).has_value());
   const auto falls = look_for_wrong_way(ramp, begin, {0.688, 0.7, 0.5}, {-0.05, 0.0, 0.0});
   assert_true(falls.has_value());
   assert_string_equal(
