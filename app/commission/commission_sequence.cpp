@@ -57,8 +57,6 @@ constexpr double kPulse_s = 0.15;
 constexpr int kPulses = 4;
 constexpr double kThere_m = 0.03;
 
-unsigned side(int sign) { return sign > 0 ? 0U : 1U; }
-
 }  // namespace
 
 CommissionSequence::CommissionSequence(const SequenceOptions& options)
@@ -74,17 +72,6 @@ void CommissionSequence::resume(const std::vector<StepResult>& results) {
     ++at_;
   }
   begin(Phase::kPrepare);
-}
-
-double& CommissionSequence::edge(int axis, int sign) {
-  return edge_[static_cast<unsigned>(axis)][side(sign)];
-}
-double CommissionSequence::edge(int axis, int sign) const {
-  return edge_[static_cast<unsigned>(axis)][side(sign)];
-}
-const std::vector<CommissionSequence::Driven>& CommissionSequence::driven(int axis,
-                                                                          int sign) const {
-  return driven_[static_cast<unsigned>(axis)][side(sign)];
 }
 
 void CommissionSequence::remember(int axis, int sign, double duty, double speed_mps) {

@@ -55,13 +55,18 @@ class CommissionSequence {
   void drive(int axis, double duty);
   [[nodiscard]] double elapsed_s() const { return time_s_ - phase_begin_s_; }
   [[nodiscard]] double speed_mps(int axis) const;
-  double& edge(int axis, int sign);
-  [[nodiscard]] double edge(int axis, int sign) const;
+  static unsigned side(int sign) { return sign > 0 ? 0U : 1U; }
+  double& edge(int axis, int sign) { return edge_[static_cast<unsigned>(axis)][side(sign)]; }
+  [[nodiscard]] double edge(int axis, int sign) const {
+    return edge_[static_cast<unsigned>(axis)][side(sign)];
+  }
   struct Driven {
     double level = 0.0;
     double speed_mps = 0.0;
   };
-  [[nodiscard]] const std::vector<Driven>& driven(int axis, int sign) const;
+  [[nodiscard]] const std::vector<Driven>& driven(int axis, int sign) const {
+    return driven_[static_cast<unsigned>(axis)][side(sign)];
+  }
   void remember(int axis, int sign, double duty, double speed_mps);
   [[nodiscard]] double level_for(int axis, int sign, double speed_mps) const;
   [[nodiscard]] bool all_stand() const;

@@ -13,7 +13,7 @@
 namespace graben::operate {
 namespace {
 
-constexpr TimeUs kReopen_us = 500 * kMillisecondUs;
+constexpr TimeUs kReopenBus_us = 500 * kMillisecondUs;
 /// Of one cycle; what a bus can carry in a second.
 constexpr int kMostReads = 128;
 
@@ -71,7 +71,7 @@ void BusLink::send_one(const CanFrame& frame) {
 
 void BusLink::mend(TimeUs now) {
   if (now >= next_try_us_ && state() != CanPortState::kActive) {
-    next_try_us_ = now + kReopen_us;
+    next_try_us_ = now + kReopenBus_us;
     // Still away: tried again in a moment.
     static_cast<void>(port().open());
   }
