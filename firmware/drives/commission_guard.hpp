@@ -79,9 +79,10 @@ struct CommissionResult {
 /// rest. What creeps at less than 6 mm/s is neither: a load that sinks while its spool is at its
 /// edge, leakage.
 /// kStrokeStuck: stands still though it should move, for 0.4 s longer than that may take. It should
-/// at a duty that opens any spool or has moved it before; and, for three times as long, with what its pump gives on the side that
-/// is fed; alone, where its pressures have changed by 6 MPa together. A smaller duty may be tried
-/// for 2 s over what it is above a tenth. The sensor hangs, or the cylinder.
+/// at a duty that opens any spool or has moved it before. What pressures alone say takes three
+/// times as long: with what its pump gives on the side that is fed; while no other drive is told to
+/// move, where both together have changed by 6 MPa. A smaller duty may be tried for 2 s over what
+/// it is above a tenth. The sensor hangs, or the cylinder.
 [[nodiscard]] CommissionResult next_commission(const DriveRow& drive, const CommissionAsk& ask,
                                                const ValidDrive& seen, double period_s,
                                                CommissionState& state);

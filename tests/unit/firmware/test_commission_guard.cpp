@@ -235,6 +235,14 @@ void a_duty_that_has_moved_it_has_to_move_it_again(void**) {
     assert_int_equal(cylinder.run(0.99, 0.42 * side, 0.0), Fault::kNone);
     assert_int_equal(cylinder.run(0.06, 0.42 * side, 0.0), Fault::kStrokeStuck);
     assert_int_equal(other.run(2.0, -0.42 * side, 0.0), Fault::kNone);
+    // What rocks on its oil has not been moved.
+    Cylinder rocks;
+    for (int n = 0; n < 20; ++n) {
+      rocks.run(0.1, 0.3 * side, 0.1 * side);
+      assert_int_equal(rocks.run(0.1, 0.3 * side, -0.1 * side), Fault::kNone);
+    }
+    rocks.run(2.0, 0.0, 0.0);
+    assert_int_equal(rocks.run(2.0, 0.42 * side, 0.0), Fault::kNone);
     // One that falls has been larger.
     Cylinder falling;
     for (double duty = 0.6; duty > 0.2; duty -= 0.2 * kPeriod_s) {
@@ -263,8 +271,8 @@ void a_cylinder_that_strains_is_stuck(void**) {
     cylinder.row.watch.relief_pa = 0.0;
     assert_int_equal(cylinder.run(2.0, 0.3 * side, 0.0), Fault::kNone);
     cylinder.row.watch.relief_pa = kRelief_pa;
-    assert_int_equal(cylinder.run(0.98, 0.3 * side, 0.0), Fault::kNone);
-    assert_int_equal(cylinder.run(0.06, 0.3 * side, 0.0), Fault::kStrokeStuck);
+    assert_int_equal(cylinder.run(3.2, 0.3 * side, 0.0), Fault::kNone);
+    assert_int_equal(cylinder.run(0.3, 0.3 * side, 0.0), Fault::kStrokeStuck);
     // Not known, nothing is said by it.
     Cylinder blind;
     blind.seen.load_known = false;
@@ -278,16 +286,24 @@ void pressures_that_have_changed_say_that_it_moves(void**) {
   for (const bool alone : {true, false}) {
     Cylinder cylinder;
     cylinder.ask.alone = alone;
-    cylinder.run(0.2, 0.3, 0.0);
-    cylinder.seen.cap_pressure_pa += 1.4e6;
-    cylinder.seen.rod_pressure_pa -= 1.4e6;
+    cylinder.run(0.2, 0.2, 0.0);
+    cylinder.seen.cap_pressure_pa += 8e6;
+    cylinder.seen.rod_pressure_pa -= 1e6;
+    assert_int_equal(cylinder.run(3.2, 0.2, 0.0), Fault::kNone);
     const Fault expected = alone ? Fault::kStrokeStuck : Fault::kNone;
-    assert_int_equal(cylinder.run(1.3, 0.3, 0.0), expected);
+    assert_int_equal(cylinder.run(0.5, 0.2, 0.0), expected);
     Cylinder little;
-    little.run(0.2, 0.3, 0.0);
-    little.seen.cap_pressure_pa += 0.9e6;
-    little.seen.rod_pressure_pa += 0.9e6;
-    assert_int_equal(little.run(2.0, 0.3, 0.0), Fault::kNone);
+    little.run(0.2, 0.2, 0.0);
+    little.seen.cap_pressure_pa += 2.9e6;
+    little.seen.rod_pressure_pa += 2.9e6;
+    assert_int_equal(little.run(5.0, 0.2, 0.0), Fault::kNone);
+    // Between duties it may have any.
+    Cylinder between;
+    between.run(0.2, 0.2, 0.0);
+    between.run(0.1, 0.0, 0.0);
+    between.seen.cap_pressure_pa += 8e6;
+    between.run(0.5, 0.0, 0.0);
+    assert_int_equal(between.run(5.0, 0.2, 0.0), Fault::kNone);
   }
 }
 

@@ -207,13 +207,14 @@ struct Tried {
 /// No table, no threshold: nothing is known of the valve.
 void duties_that_are_tried_pass_as_they_are(void**) {
   Tried tried;
-  const GateResult result = tried.step({0.001, -0.1, 0.9});
+  const GateResult result = tried.step({0.001, -0.1, 0.9, 0.9});
   assert_true(result.enable);
   assert_int_equal(result.fault, Fault::kNone);
   assert_near(tried.duty_ratio[0], 0.001, 0.0);
   assert_near(tried.duty_ratio[1], -0.1, 0.0);
   assert_near(tried.duty_ratio[2], 0.9, 0.0);
   assert_near(tried.state.opening[2].value(), 0.9, 0.0);
+  assert_near(tried.duty_ratio[3], 0.0, 0.0);
   assert_true(tried.step({2.0, -2.0, 0.0}).enable);
   assert_near(tried.duty_ratio[0], 1.0, 0.0);
   assert_near(tried.duty_ratio[1], -1.0, 0.0);
