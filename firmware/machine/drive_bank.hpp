@@ -131,8 +131,8 @@ struct DriveBank {
 
 /// A cylinder's oil has rung down by then after its spool has closed, s.
 inline constexpr double kCylinderRest_s = 0.5;
-/// How far a measured stroke may lie outside its cylinder's range: a zero that nobody has found yet,
-/// and what an end gives way to a piston.
+/// How far a measured stroke may lie outside its cylinder's range: a zero that nobody has found
+/// yet, and what an end gives way to a piston.
 inline constexpr double kStrokeMargin_m = 0.015;
 /// How far a stroke may change at once beyond what the cylinder can: noise, frames that were lost.
 inline constexpr double kJumpMargin_m = 0.020;

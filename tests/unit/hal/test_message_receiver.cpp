@@ -223,7 +223,7 @@ void out_of_range_is_refused_as_a_whole(void**) {
   };
   for_each(typename Bus::Protected{}, test);
   for_each(typename Bus::Unprotected{}, test);
-  assert_in_range(fields, 15, 27);
+  assert_in_range(fields, 15, 40);
 }
 
 template <class Bus>

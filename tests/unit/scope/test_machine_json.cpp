@@ -228,8 +228,8 @@ void every_number_has_words_of_its_own(void**) {
   for (int i = 0; i < kFaultCount; ++i) {
     faults.insert(words["fault"].at(std::to_string(i)).get<std::string>());
   }
-  assert_int_equal(words["fault"].size(), 48);
-  assert_int_equal(faults.size(), 48);
+  assert_int_equal(words["fault"].size(), kFaultCount);
+  assert_int_equal(faults.size(), kFaultCount);
   assert_int_equal(faults.count("unknown"), 0);
   const auto list = words["why_not_armed"].get<std::vector<std::string>>();
   const std::set<std::string> blocks(list.begin(), list.end());
