@@ -133,7 +133,7 @@ Range range(std::size_t parameter, double usual_radps) {
     return {0.0, 0.5 * usual_radps, 50.0 * usual_radps, kFree};
   }
   if (parameter < kModeRate) {
-    return {0.001, 0.005, 1.5, 0.02};
+    return {0.001, 0.005, 1.5, 0.1};
   }
   if (parameter == kModeRate) {
     return {1.0, 12.0, 40.0, kFree};
