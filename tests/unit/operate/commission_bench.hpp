@@ -92,9 +92,9 @@ struct CommissionBench {
     strayed_m = 0.0;
     told = {};
   }
-  /// Another station goes on where this one was.
-  void restart_station() {
-    setup.done = station->sequence().results();
+  /// Another station goes on after what is done.
+  void restart_station(const std::vector<commission::StepResult>& done) {
+    setup.done = done;
     station = std::make_unique<operate::CommissionStation>(setup);
     hands = {};
     run(1.0);

@@ -25,7 +25,8 @@ constexpr double kWrong_m = 0.050;
 /// To neutral, once the controller has said its fault or enable is gone.
 constexpr double kNeutral_s = 0.02;
 
-using Change = std::function<void(CommissionBench&)>;
+/// With the axis that is tried.
+using Change = std::function<void(CommissionBench&, unsigned)>;
 
 struct Row {
   const char* name;
@@ -69,16 +70,17 @@ void try_row(const Row& row, const machines::SimulatedExcavator& machine, int ax
   const Results sound = sound_results(machine, options);
   CommissionBench bench(machine, options);
   if (row.from_the_start) {
-    row.begin(bench);
+    row.begin(bench, static_cast<unsigned>(axis));
     bench.run(0.5);
   }
   bench.begin_watch();
   bench.hands.deadman = true;
   if (!row.from_the_start) {
     assert_true(bench.run_until([&] { return bench.duty() > 0.2; }, 20.0));
-    row.begin(bench);
+    row.begin(bench, static_cast<unsigned>(axis));
   }
   assert_true(bench.run_to_end(20.0));
+  const Fault fault = bench.fault();
   bench.run(kNeutral_s);
   std::printf("%s, %s: %s; %.1f mm wrong, %.1f mm unseen\n", row.name, commission::axis_name(axis),
               bench.station->end_words().c_str(), 1e3 * bench.strayed_m,
@@ -86,20 +88,21 @@ void try_row(const Row& row, const machines::SimulatedExcavator& machine, int ax
   assert_true(bench.neutral());
   bench.run(1.0);
   assert_true(bench.strayed_m < kWrong_m);
-  assert_true(bench.station->end() == CommissionEnd::kWrongWay ||
-              is_one_of(bench.fault(), row.faults));
+  assert_true(bench.station->end() == CommissionEnd::kWrongWay || is_one_of(fault, row.faults));
   assert_false(bench.station->end_words().empty());
-  row.cure(bench);
-  bench.restart_station();
+  row.cure(bench, static_cast<unsigned>(axis));
+  bench.restart_station(bench.station->sequence().results());
   assert_true(bench.run_to_end());
   assert_int_equal(bench.station->end(), CommissionEnd::kDone);
   expect_same(bench.station->sequence().results(), sound);
 }
 
-void try_rows(const std::vector<Row>& rows) {
+void try_rows(const std::vector<Row>& rows, const std::vector<int>& axes) {
   for (const machines::SimulatedExcavator& machine : machines_to_try()) {
     for (const Row& row : rows) {
-      try_row(row, machine, kArm);
+      for (const int axis : axes) {
+        try_row(row, machine, axis);
+      }
     }
   }
 }
@@ -108,58 +111,73 @@ void valves_and_sensors_the_wrong_way(void**) {
   const std::vector<Row> rows = {
       {"reversed valve",
        true,
-       [](CommissionBench& bench) { bench.plant.faults().axis[kArm].reversed = true; },
-       [](CommissionBench& bench) { bench.plant.faults().axis[kArm].reversed = false; },
+       [](CommissionBench& bench, unsigned axis) {
+         bench.plant.faults().axis[axis].reversed = true;
+       },
+       [](CommissionBench& bench, unsigned axis) {
+         bench.plant.faults().axis[axis].reversed = false;
+       },
        {Fault::kWrongDirection}},
       {"swapped stroke sensors",
        true,
-       [](CommissionBench& bench) {
+       [](CommissionBench& bench, unsigned) {
          bench.plant.faults().stroke_from = {1, 0, 2};
        },
-       [](CommissionBench& bench) {
+       [](CommissionBench& bench, unsigned) {
          bench.plant.faults().stroke_from = {0, 1, 2};
        },
        {Fault::kUncommandedMotion}},
   };
-  try_rows(rows);
+  try_rows({rows[0]}, {kBoom, kArm, kBucket});
+  try_rows({rows[1]}, {kBoom, kArm});
 }
 
 void sensors_and_spools_that_hang(void**) {
   const std::vector<Row> rows = {
       {"spool held open",
        false,
-       [](CommissionBench& bench) { bench.plant.faults().axis[kArm].spool_held_ratio = -0.5; },
-       [](CommissionBench& bench) { bench.plant.faults().axis[kArm].spool_held_ratio.reset(); },
+       [](CommissionBench& bench, unsigned axis) {
+         bench.plant.faults().axis[axis].spool_held_ratio = -0.5;
+       },
+       [](CommissionBench& bench, unsigned axis) {
+         bench.plant.faults().axis[axis].spool_held_ratio.reset();
+       },
        {Fault::kSpoolStuck, Fault::kWrongDirection, Fault::kUncommandedMotion}},
       {"stuck stroke sensor",
        false,
-       [](CommissionBench& bench) { bench.plant.faults().axis[kArm].stroke.stuck = true; },
-       [](CommissionBench& bench) { bench.plant.faults().axis[kArm].stroke = {}; },
+       [](CommissionBench& bench, unsigned axis) {
+         bench.plant.faults().axis[axis].stroke.stuck = true;
+       },
+       [](CommissionBench& bench, unsigned axis) { bench.plant.faults().axis[axis].stroke = {}; },
        {Fault::kStrokeStuck}},
   };
-  try_rows(rows);
+  try_rows(rows, {kBoom, kArm, kBucket});
 }
 
 void engine_and_bus_that_go(void**) {
   const std::vector<Row> rows = {
       {"engine stops",
        false,
-       [](CommissionBench& bench) { bench.plant.faults().engine_ratio = 0.0; },
-       [](CommissionBench& bench) { bench.plant.faults().engine_ratio = 1.0; },
+       [](CommissionBench& bench, unsigned) { bench.plant.faults().engine_ratio = 0.0; },
+       [](CommissionBench& bench, unsigned) { bench.plant.faults().engine_ratio = 1.0; },
        {Fault::kEngineStopped}},
       {"station's frames stop",
        false,
-       [](CommissionBench& bench) { bench.sends = false; },
-       [](CommissionBench& bench) { bench.sends = true; },
+       [](CommissionBench& bench, unsigned) { bench.sends = false; },
+       [](CommissionBench& bench, unsigned) { bench.sends = true; },
        {Fault::kOperatorMissing}},
       {"machine's frames stop",
        false,
-       [](CommissionBench& bench) { bench.plant.faults().set_silent(Dbc::ArmStroke::kId, true); },
-       [](CommissionBench& bench) { bench.plant.faults().set_silent(Dbc::ArmStroke::kId, false); },
+       [](CommissionBench& bench, unsigned) {
+         bench.plant.faults().set_silent(Dbc::ArmStroke::kId, true);
+       },
+       [](CommissionBench& bench, unsigned) {
+         bench.plant.faults().set_silent(Dbc::ArmStroke::kId, false);
+       },
        {Fault::kStrokeMissing}},
       {"CRC of CommissionDuty",
        false,
-       [](CommissionBench& bench) {
+       [](CommissionBench& bench, unsigned) {
          bench.bus.set_fault_hook([](CanFrame& frame, const LoopbackPort*) {
            if (frame.id == Dbc::CommissionDuty::kId) {
              runs::corrupt(frame);
@@ -167,19 +185,78 @@ void engine_and_bus_that_go(void**) {
            return true;
          });
        },
-       [](CommissionBench& bench) { bench.bus.set_fault_hook(nullptr); },
+       [](CommissionBench& bench, unsigned) { bench.bus.set_fault_hook(nullptr); },
        {Fault::kOperatorMissing}},
       {"controller's bus is gone",
        false,
-       [](CommissionBench& bench) {
+       [](CommissionBench& bench, unsigned) {
          bench.ecu_port.set_state(CanPortState::kDown);
          bench.run(0.3);
          bench.ecu_port.set_state(CanPortState::kClosed);
        },
-       [](CommissionBench&) {},
+       [](CommissionBench&, unsigned) {},
        {Fault::kBusDown}},
   };
-  try_rows(rows);
+  try_rows(rows, {kArm});
+}
+
+/// Nothing of what is tried goes by which is which: it ends well, or stops.
+void swapped_pressures(void**) {
+  for (const machines::SimulatedExcavator& machine : machines_to_try()) {
+    for (const int axis : {kBoom, kArm, kBucket}) {
+      const SequenceOptions options = test::one_drive(machine, axis);
+      CommissionBench bench(machine, options);
+      bench.plant.faults().axis[static_cast<unsigned>(axis)].pressures_swapped = true;
+      bench.run(0.5);
+      bench.begin_watch();
+      bench.hands.deadman = true;
+      assert_true(bench.run_to_end());
+      const bool done = bench.station->end() == CommissionEnd::kDone;
+      std::printf("swapped pressures, %s: %s\n", commission::axis_name(axis),
+                  done ? "done" : bench.station->end_words().c_str());
+      assert_true(bench.strayed_m < kWrong_m);
+      bench.run(kNeutral_s);
+      assert_true(bench.neutral());
+      bench.plant.faults().axis[static_cast<unsigned>(axis)].pressures_swapped = false;
+      if (!done) {
+        bench.restart_station(bench.station->sequence().results());
+        assert_true(bench.run_to_end());
+      }
+      assert_int_equal(bench.station->end(), CommissionEnd::kDone);
+      expect_same(bench.station->sequence().results(), sound_results(machine, options));
+    }
+  }
+}
+
+/// With a rock behind the teeth; without it the rest is done.
+void a_blocked_cylinder(void**) {
+  const machines::SimulatedExcavator& free = test::excavator();
+  const SequenceOptions options = test::one_drive(free, kArm);
+  machines::Scenario scenario;
+  scenario.obstacle = true;
+  machines::SimulatedExcavator machine = machines::arranged(free, scenario);
+  const TipPose tip =
+      ExcavatorKinematics(machine.profile.geometry).state(CommissionBench::middle(machine)).tip;
+  plant::ObstacleProfile& rock = *machine.plant.obstacle;
+  rock.hold_s = 1e4;
+  rock.point_m = {tip.x_m - 0.01, tip.y_m};
+  rock.normal = Eigen::Vector2d::UnitX();
+  rock.size_m = 3.0;
+  CommissionBench bench(machine, options);
+  bench.begin_watch();
+  const Eigen::Vector3d from_m = bench.strokes_m();
+  bench.hands.deadman = true;
+  assert_true(bench.run_to_end(60.0));
+  assert_int_equal(bench.station->end(), CommissionEnd::kFault);
+  assert_int_equal(bench.fault(), Fault::kStrokeStuck);
+  bench.run(kNeutral_s);
+  assert_true(bench.neutral());
+  assert_true((bench.strokes_m() - from_m).norm() < kWrong_m);
+  CommissionBench after(free, options);
+  after.restart_station(bench.station->sequence().results());
+  assert_true(after.run_to_end());
+  assert_int_equal(after.station->end(), CommissionEnd::kDone);
+  expect_same(after.station->sequence().results(), sound_results(free, options));
 }
 
 /// Two of one address: no frame of either can be told from the other's.
@@ -285,6 +362,8 @@ int main() {
       cmocka_unit_test(valves_and_sensors_the_wrong_way),
       cmocka_unit_test(sensors_and_spools_that_hang),
       cmocka_unit_test(engine_and_bus_that_go),
+      cmocka_unit_test(swapped_pressures),
+      cmocka_unit_test(a_blocked_cylinder),
       cmocka_unit_test(a_second_station),
       cmocka_unit_test(windows_that_do_not_arrive),
       cmocka_unit_test(over_speed),
