@@ -57,7 +57,7 @@ constexpr Scale kScales[] = {
     {"BucketRetractEdge", 1e-3, -0.125, -0.125, 0.125},
 };
 
-void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 81); }
+void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 92); }
 
 void saturates_and_refuses(void**) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
 

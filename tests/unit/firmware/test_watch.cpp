@@ -2,90 +2,12 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/excavator_steps.hpp"
-#include "tests/unit/firmware/plain_machine.hpp"
+#include "tests/unit/firmware/watched_machine.hpp"
 
 namespace {
 
 using namespace graben;
-
-constexpr double kPeriod_s = 0.0625;
-constexpr double kSlower = 0.25;  // safety.degraded_speed
-
-void set_spools(ExcavatorValid& inputs, const std::array<double, kAxisCount>& spool_ratio) {
-  for (unsigned i = 0; i < kAxisCount; ++i) {
-    inputs.drive[i].spool_ratio = spool_ratio[i];
-  }
-}
-void set_strokes(ExcavatorValid& inputs, const std::array<double, kDriveCount>& stroke_m) {
-  for (unsigned i = 0; i < kDriveCount; ++i) {
-    inputs.drive[i].stroke_m = stroke_m[i];
-  }
-}
-
-/// A machine in motion that does what it is told, at half the operator's speed.
-struct Machine {
-  ExcavatorProfile profile = test::plain_machine();
-  ExcavatorBank bank = excavator_bank(profile);
-  ExcavatorWatchState state;
-  LastCommands<kDriveCount> cycle;
-  ExcavatorValid inputs;
-  ExcavatorValid seen;
-  int cycles = 0;
-
-  Machine() {
-    cycle.moving = true;
-    cycle.enable = true;
-    inputs.enable = inputs.automatic = inputs.valve_enabled = true;
-    inputs.task = Task::kDig;
-    inputs.speed_override_ratio = 0.5;
-    for (unsigned i = 0; i < kAxisCount; ++i) {
-      inputs.drive[i].stroke_m = 0.5;
-      inputs.drive[i].load_known = true;
-    }
-    inputs.swash_ratio = profile.dig_swash_ratio;
-    inputs.engine_radps = 200.0;
-  }
-  const ExcavatorValid& step(double period_s = kPeriod_s) {
-    ++cycles;
-    if (!frozen) {
-      for (unsigned i = 0; i < kAxisCount; ++i) {
-        inputs.drive[i].cap_pressure_pa = 4e6 + cycles;
-        inputs.drive[i].rod_pressure_pa = 3e6 + cycles;
-      }
-    }
-    seen = inputs;
-    watch(profile, bank.rows(), cycle, profile.dig_swash_ratio, period_s, state, seen);
-    return seen;
-  }
-  void run(int count) {
-    for (int n = 0; n < count; ++n) {
-      step();
-    }
-  }
-  bool frozen = false;
-};
-
-void assert_well(const ExcavatorValid& inputs) {
-  assert_int_equal(inputs.fault, Fault::kNone);
-  assert_true(inputs.faults.empty());
-  assert_true(inputs.degraded.empty());
-  assert_near(inputs.speed_override_ratio, 0.5, 0.0);
-  for (unsigned i = 0; i < kAxisCount; ++i) {
-    assert_true(inputs.drive[i].load_known);
-  }
-}
-
-void assert_stopped_by(Fault fault, const ExcavatorValid& inputs) {
-  assert_int_equal(inputs.fault, fault);
-  assert_true(inputs.faults.has(fault));
-  assert_true(inputs.degraded.empty());
-}
-
-void assert_slowed_by(Fault fault, const ExcavatorValid& inputs) {
-  assert_int_equal(inputs.fault, Fault::kNone);
-  assert_true(inputs.degraded.has(fault));
-  assert_near(inputs.speed_override_ratio, 0.5 * kSlower, 0.0);
-}
+using namespace graben::test;
 
 void a_machine_that_obeys_is_left_alone(void**) {
   Machine machine;
@@ -94,53 +16,6 @@ void a_machine_that_obeys_is_left_alone(void**) {
     // 2 pi 1e-5 and 4 pi 1e-5 m3/rev at 200 rad/s, swash 0.5 and 0.75.
     assert_near(machine.seen.pump_flow_m3ps[0], 1e-3, 1e-15);
     assert_near(machine.seen.pump_flow_m3ps[1], 3e-3, 1e-15);
-  }
-}
-
-/// What the valve's model says of a machine that nobody knows counts for nothing: neither while
-/// duties are tried nor until they have arrived; and pressures still do.
-void duties_that_are_tried_are_not_judged_by_the_model(void**) {
-  for (const bool tried : {true, false}) {
-    Machine machine;
-    machine.run(20);
-    machine.cycle.tried = tried;
-    machine.run(1);
-    machine.cycle.tried = false;
-    machine.inputs.drive[kBoom].stroke_m = 0.25;
-    machine.run(15);
-    if (tried) {
-      assert_well(machine.seen);
-      machine.run(10);
-      assert_well(machine.seen);
-      machine.inputs.drive[kBoom].stroke_m = 0.5;
-      machine.run(20);
-    }
-    assert_stopped_by(Fault::kUncommandedMotion, machine.seen);
-  }
-  Machine blind;
-  blind.cycle.tried = true;
-  blind.inputs.drive[kArm].cap_pressure_pa = blind.profile.safety.pressure_rail_pa;
-  blind.frozen = true;
-  blind.run(10);
-  assert_slowed_by(Fault::kPressureImplausible, blind.seen);
-}
-
-/// Its drives move for another reason than what was asked: nothing is learnt of the valve.
-void nothing_is_learnt_of_duties_that_are_tried(void**) {
-  for (const bool tried : {true, false}) {
-    Machine machine;
-    machine.cycle.tried = tried;
-    machine.cycle.asked_mps[kBoom] = 0.1;
-    machine.cycle.opening[kBoom] = 0.5;
-    machine.cycle.duty_ratio[kBoom] = 0.75;
-    machine.inputs.drive[kBoom].spool_ratio = 0.75;
-    for (int n = 0; n < 60; ++n) {
-      machine.inputs.drive[kBoom].stroke_m += 0.12 * 0.01;
-      machine.inputs.drive[kBoom].stroke_is_new = true;
-      machine.step(0.01);
-    }
-    const bool learnt = machine.state.drives.learnt[kBoom].extend.edge != 0.0;
-    assert_true(learnt != tried);
   }
 }
 
@@ -428,8 +303,6 @@ void what_its_load_lets_go_is_not_the_wrong_way(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_machine_that_obeys_is_left_alone),
-      cmocka_unit_test(duties_that_are_tried_are_not_judged_by_the_model),
-      cmocka_unit_test(nothing_is_learnt_of_duties_that_are_tried),
       cmocka_unit_test(spools_and_cylinders_stop),
       cmocka_unit_test(pressures_and_swash_slow),
       cmocka_unit_test(the_first_fault_stays_the_first),

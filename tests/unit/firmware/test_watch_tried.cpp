@@ -1,0 +1,67 @@
+// Watches while duties are tried on valves that nobody knows.
+
+#include "firmware/excavator/safety/excavator_validation.hpp"
+
+#include "tests/unit/firmware/watched_machine.hpp"
+
+namespace {
+
+using namespace graben;
+using namespace graben::test;
+
+/// What the valve's model says of a machine that nobody knows counts for nothing: neither while
+/// duties are tried nor until they have arrived; and pressures still do.
+void duties_that_are_tried_are_not_judged_by_the_model(void**) {
+  for (const bool tried : {true, false}) {
+    Machine machine;
+    machine.run(20);
+    machine.cycle.tried = tried;
+    machine.run(1);
+    machine.cycle.tried = false;
+    machine.inputs.drive[kBoom].stroke_m = 0.25;
+    machine.run(15);
+    if (tried) {
+      assert_well(machine.seen);
+      machine.run(10);
+      assert_well(machine.seen);
+      machine.inputs.drive[kBoom].stroke_m = 0.5;
+      machine.run(20);
+    }
+    assert_stopped_by(Fault::kUncommandedMotion, machine.seen);
+  }
+  Machine blind;
+  blind.cycle.tried = true;
+  blind.inputs.drive[kArm].cap_pressure_pa = blind.profile.safety.pressure_rail_pa;
+  blind.frozen = true;
+  blind.run(10);
+  assert_slowed_by(Fault::kPressureImplausible, blind.seen);
+}
+
+/// Its drives move for another reason than what was asked: nothing is learnt of the valve.
+void nothing_is_learnt_of_duties_that_are_tried(void**) {
+  for (const bool tried : {true, false}) {
+    Machine machine;
+    machine.cycle.tried = tried;
+    machine.cycle.asked_mps[kBoom] = 0.1;
+    machine.cycle.opening[kBoom] = 0.5;
+    machine.cycle.duty_ratio[kBoom] = 0.75;
+    machine.inputs.drive[kBoom].spool_ratio = 0.75;
+    for (int n = 0; n < 60; ++n) {
+      machine.inputs.drive[kBoom].stroke_m += 0.12 * 0.01;
+      machine.inputs.drive[kBoom].stroke_is_new = true;
+      machine.step(0.01);
+    }
+    const bool learnt = machine.state.drives.learnt[kBoom].extend.edge != 0.0;
+    assert_true(learnt != tried);
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(duties_that_are_tried_are_not_judged_by_the_model),
+      cmocka_unit_test(nothing_is_learnt_of_duties_that_are_tried),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
