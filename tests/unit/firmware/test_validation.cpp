@@ -208,6 +208,27 @@ void strokes_outside_their_cylinder_are_implausible(void**) {
   assert_near(validate(inputs, profile(), {}, false, kNow).drive[kBucket].stroke_m, 0.0, 0.0);
 }
 
+/// Each of its own; no pressure is below nothing because of it, and one that is stays so.
+void zeros_are_taken_off(void**) {
+  ExcavatorProfile machine = profile();
+  machine.sensor_zero.stroke_m = {0.01, -0.02, 0.03};
+  machine.sensor_zero.cap_pa = {1e6, -0.5e6, 5e6};
+  machine.sensor_zero.rod_pa = {0.25e6, 4e6, -1e6};
+  const ExcavatorInputs inputs = complete_inputs(kNow);
+  const test::Validated valid = validate(inputs, machine, {}, false, kNow);
+  assert_int_equal(valid.fault, Fault::kNone);
+  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    const double shown_m = inputs.axis[axis].stroke_m.value;
+    assert_near(valid.drive[axis].stroke_m, shown_m - machine.sensor_zero.stroke_m[axis], 1e-12);
+  }
+  assert_near(valid.drive[kBoom].cap_pressure_pa, 3e6, 1e-3);
+  assert_near(valid.drive[kArm].cap_pressure_pa, 4.5e6, 1e-3);
+  assert_near(valid.drive[kBucket].cap_pressure_pa, 0.0, 0.0);
+  assert_near(valid.drive[kBoom].rod_pressure_pa, 2.75e6, 1e-3);
+  assert_near(valid.drive[kArm].rod_pressure_pa, 0.0, 0.0);
+  assert_near(valid.drive[kBucket].rod_pressure_pa, 4e6, 1e-3);
+}
+
 /// Levers and duties, all in their places, and at rest where they are.
 void what_the_hands_do_is_read(void**) {
   ExcavatorInputs inputs = complete_inputs(kNow);
@@ -302,6 +323,7 @@ int main() {
       cmocka_unit_test(the_valves_echo_is_required),
       cmocka_unit_test(another_machine_is_refused),
       cmocka_unit_test(strokes_outside_their_cylinder_are_implausible),
+      cmocka_unit_test(zeros_are_taken_off),
       cmocka_unit_test(what_the_hands_do_is_read),
       cmocka_unit_test(a_task_by_hand_needs_its_hands),
       cmocka_unit_test(no_three_duties_are_tried),

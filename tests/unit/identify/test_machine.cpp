@@ -1,0 +1,125 @@
+// What is found of a machine from its log: curves, dead times, lags, zeros.
+
+#include <stdexcept>
+#include <string>
+
+#include "app/identify/machine/identified_profile.hpp"
+#include "app/identify/machine/machine_fit.hpp"
+#include "app/machines/simulated/hidden.hpp"
+#include "app/runs/commission_run.hpp"
+#include "app/runs/identify_run.hpp"
+#include "app/runs/known_machine.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/fixture.hpp"
+
+namespace {
+
+using namespace graben;
+using namespace graben::identify;
+
+void nothing(double, const std::string&) {}
+
+/// A hidden machine's log, and what is made of it.
+struct Commissioned {
+  explicit Commissioned(std::uint64_t seed)
+      : machine(runs::hidden_with_noise(test::excavator(), seed)),
+        truth(machines::truth_of(machine.plant)) {
+    LogCollector frames("bus");
+    const runs::CommissionResult run = runs::run_commission(
+        machine, runs::usual_commission(machine),
+        [&](const LoggedFrame& frame) { frames.take(frame); }, nothing);
+    assert_int_equal(run.end, runs::CommissionEnd::kDone);
+    assert_true(run.machine_s < 300.0);
+    logs.push_back(frames.log(machine.profile.pump_count));
+    found = identify_machine(machine.profile, logs, nothing);
+  }
+
+  machines::SimulatedExcavator machine;
+  machines::MachineTruth truth;
+  std::vector<MachineLog> logs;
+  MachineEstimate found;
+};
+
+void a_hidden_machine_is_found(void**) {
+  const Commissioned commissioned(11);
+  const runs::IdentificationErrors errors =
+      runs::errors_of(commissioned.machine.profile, commissioned.found, commissioned.truth);
+  assert_true(errors.edge_ratio < 0.013);
+  assert_true(errors.dead_time_s < 0.010);
+  assert_true(errors.lag_s < 0.010);
+  assert_true(errors.stroke_zero_m < 0.001);
+  assert_true(errors.pump_flow < 0.06);
+  assert_true(errors.within_share() > 0.8);
+}
+
+/// Its truth as an estimate has no error, and gives back what it is made of.
+void what_is_known_is_without_error(void**) {
+  const machines::SimulatedExcavator machine = machines::hidden_machine(test::excavator(), 5);
+  const machines::MachineTruth truth = machines::truth_of(machine.plant);
+  const MachineEstimate known = runs::known_machine(machine.profile, truth);
+  const ExcavatorProfile exact = identified(machine.profile, known);
+  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    const auto& side = truth.drive[axis].extend;
+    assert_near(exact.valve.spool[axis].extend_in_m2, side.in_m2, 1e-3 * side.in_m2);
+    assert_near(exact.valve.spool[axis].extend_out_m2, side.out_m2, 1e-3 * side.out_m2);
+    assert_near(exact.valve.answer[axis].extend.dead_time_s, side.dead_time_s, 1e-12);
+    assert_near(exact.sensor_zero.stroke_m[axis], truth.drive[axis].stroke_zero_m, 1e-12);
+  }
+}
+
+void a_curve_and_its_inverse(void**) {
+  const OpeningCurve curve = {0.3, 0.02, 1.6};
+  for (const double travel : {0.25, 0.3, 0.35, 0.6, 1.0}) {
+    assert_near(curve.travel_at(curve.area_ratio(travel)), travel, 1e-9);
+  }
+  assert_near(curve.area_ratio(1.0), 1.0, 1e-12);
+  assert_true(curve.area_ratio(0.2) < curve.area_ratio(0.3));
+}
+
+/// A log in which a drive is not moved says so, and its values stay.
+void what_is_not_driven_is_said(void**) {
+  machines::SimulatedExcavator machine = test::excavator();
+  runs::CommissionOptions options = runs::usual_commission(machine);
+  options.sequence.drives = {false, true, false};
+  LogCollector frames("bus");
+  const auto run = runs::run_commission(
+      machine, options, [&](const LoggedFrame& frame) { frames.take(frame); }, nothing);
+  assert_int_equal(run.end, runs::CommissionEnd::kDone);
+  const MachineEstimate found =
+      identify_machine(machine.profile, {frames.log(machine.profile.pump_count)}, nothing);
+  assert_false(found.drive[kBucket].extend.edge.known);
+  assert_true(found.drive[kArm].extend.edge.known);
+  bool said = false;
+  for (const std::string& each : found.missing) {
+    said = said || each.find("bucket, extend: was not driven") != std::string::npos;
+  }
+  assert_true(said);
+  const ExcavatorProfile better = identified(machine.profile, found);
+  assert_int_equal(better.valve.answer[kBucket].extend.spool_to_duty.size(), 0);
+  assert_near(better.valve.spool[kBucket].extend_in_m2,
+              machine.profile.valve.spool[kBucket].extend_in_m2, 0.0);
+}
+
+void a_log_that_says_nothing_is_refused(void**) {
+  LogCollector empty("empty.log");
+  bool refused = false;
+  try {
+    static_cast<void>(empty.log(2));
+  } catch (const std::runtime_error& error) {
+    refused = std::string(error.what()).find("no frame of an excavator") != std::string::npos;
+  }
+  assert_true(refused);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_hidden_machine_is_found),
+      cmocka_unit_test(what_is_known_is_without_error),
+      cmocka_unit_test(a_curve_and_its_inverse),
+      cmocka_unit_test(what_is_not_driven_is_said),
+      cmocka_unit_test(a_log_that_says_nothing_is_refused),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
