@@ -292,6 +292,40 @@ void a_led_spool_arrives_in_two_cycles(void**) {
   assert_near(led_duty(0.0, -0.3, none), -0.3, 0.0);
 }
 
+/// From rest no duty is more than four times what is wanted, however slow the spool is; where it is
+/// to be, it is after its time constant.
+void a_slow_spool_is_not_driven_to_its_ends(void**) {
+  for (const double time_s : {0.02, 0.03, 0.045, 0.1}) {
+    SpoolModel model;
+    const int within = static_cast<int>(std::lround(2.0 * time_s / 0.01));
+    for (int cycle = 0; cycle < 60; ++cycle) {
+      assert_true(std::abs(led_duty(time_s, 0.2, model)) < 0.8);
+      assert_true(cycle < within || std::abs(model.travel_ratio - 0.2) < 0.02);
+    }
+  }
+}
+
+/// One side of boom or arm that is late or slow is enough to leave the oil to the servo; the
+/// bucket, which has the servo always, does not count.
+void one_late_side_leaves_it_to_the_servo(void**) {
+  const auto quick = [](int drive, bool extends, double SaidAnswer::*time, double time_s) {
+    ExcavatorProfile profile = machine();
+    profile.valve.answer[static_cast<unsigned>(drive)].side(extends).*time = time_s;
+    return are_quick(excavator_bank(profile).rows());
+  };
+  for (const bool extends : {true, false}) {
+    for (const int drive : {kBoom, kArm}) {
+      assert_true(quick(drive, extends, &SaidAnswer::dead_time_s, 0.05));
+      assert_false(quick(drive, extends, &SaidAnswer::dead_time_s, 0.051));
+      assert_true(quick(drive, extends, &SaidAnswer::lag_s, 0.1));
+      assert_false(quick(drive, extends, &SaidAnswer::lag_s, 0.101));
+      assert_true(quick(drive, extends, &SaidAnswer::spool_time_constant_s, 0.045));
+      assert_false(quick(drive, extends, &SaidAnswer::spool_time_constant_s, 0.046));
+    }
+    assert_true(quick(kBucket, extends, &SaidAnswer::dead_time_s, 0.2));
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -307,6 +341,8 @@ int main() {
       cmocka_unit_test(the_weight_moves_slowly_and_ends_with_a_fault),
       cmocka_unit_test(pressures_that_are_not_known_correct_nothing),
       cmocka_unit_test(a_led_spool_arrives_in_two_cycles),
+      cmocka_unit_test(a_slow_spool_is_not_driven_to_its_ends),
+      cmocka_unit_test(one_late_side_leaves_it_to_the_servo),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
