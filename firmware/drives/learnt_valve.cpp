@@ -38,7 +38,7 @@ double signed_opening(const DriveRow& drive, double spool_ratio) {
          opening_at(drive.answer.towards(spool_ratio), std::abs(spool_ratio));
 }
 
-double newest_share(double lag_s, double period_s) { return period_s / (period_s + lag_s); }
+double share_of_newest(double lag_s, double period_s) { return period_s / (period_s + lag_s); }
 
 void lag(const LearntAsk& newest, double share, LearntAsk& state) {
   state.speed_mps += share * (newest.speed_mps - state.speed_mps);
@@ -103,11 +103,11 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
     valve.seen = {};
     return;
   }
-  const double late = newest_share(0.5 * drive.answer.towards(ask.speed_mps).lag_s, period_s);
+  const double late = share_of_newest(0.5 * drive.answer.towards(ask.speed_mps).lag_s, period_s);
   lag(ask, late, valve.late[0]);
   lag(valve.late[0], late, valve.late[1]);
   const LearntSeen now{valve.late[1], signed_opening(drive, seen.spool_ratio), way_m / period_s};
-  lag(now, newest_share(kFilter_s, period_s), valve.seen);
+  lag(now, share_of_newest(kFilter_s, period_s), valve.seen);
   const bool extends = valve.seen.asked.speed_mps > 0.0;
   LearntSide& side = extends ? valve.extend : valve.retract;
   forget(period_s, side);

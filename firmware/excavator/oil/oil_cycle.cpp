@@ -4,7 +4,7 @@
 
 namespace graben {
 
-double newest_share(double lag_s) { return 1.0 - std::exp(-kOilCycle_s / lag_s); }
+double newest_of_lag(double lag_s) { return 1.0 - std::exp(-kOilCycle_s / lag_s); }
 
 ModeTurn mode_turn(double omega_radps) {
   const double turn = omega_radps * kOilCycle_s;

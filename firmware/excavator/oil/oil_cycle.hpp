@@ -16,6 +16,6 @@ struct ModeTurn {
 [[nodiscard]] ModeTurn mode_turn(double omega_radps);
 
 /// Weight of the newest value in a first-order lag.
-[[nodiscard]] double newest_share(double lag_s);
+[[nodiscard]] double newest_of_lag(double lag_s);
 
 }  // namespace graben

@@ -57,7 +57,7 @@ Matrix5 riccati(Matrix5 a, Matrix5 g, Matrix5 q) {
 /// Of travel, speed, balance, first and second lag.
 Vector5 feedback_of(const OilDesign& design, double omega_radps) {
   const ModeTurn turn = mode_turn(omega_radps);
-  const double newest = newest_part(design.lag_s);
+  const double newest = newest_of_lag(design.lag_s);
   Vector5 flow = Vector5::Zero();  // Mean of the second lag in a cycle.
   flow[3] = 0.5 * newest * (1.0 - newest);
   flow[4] = 0.5 * (2.0 - newest);

@@ -31,7 +31,7 @@ void begin(const OilSeen& seen, OilState& state) {
 
 /// Mean flow of the cycle that ends now.
 Eigen::Vector2d next_flow_mps(double lag_s, const OilSeen& seen, OilState& state) {
-  const double newest = newest_share(lag_s);
+  const double newest = newest_of_lag(lag_s);
   const Eigen::Vector2d before_mps = seconds(state.asked);
   for (unsigned axis = 0; axis < 2; ++axis) {
     advance(newest, seen.asked_mps[axis], state.asked[axis]);
