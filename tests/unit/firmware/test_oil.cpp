@@ -156,7 +156,7 @@ struct OneMode {
 
   void step(double command_mps, double load_m) {
     sent = {command_mps, sent[0], sent[1], sent[2]};
-    const double newest = newest_share(lag_s);
+    const double newest = newest_of_lag(lag_s);
     const double before = lags[1];
     lags[0] += newest * (sent[static_cast<unsigned>(late_cycles)] - lags[0]);
     lags[1] += newest * (lags[0] - lags[1]);
