@@ -43,13 +43,17 @@ std::optional<std::string> ask_on_terminal(const std::string& question) {
   return std::getline(std::cin, answer) ? std::optional<std::string>(answer) : std::nullopt;
 }
 
+void require_somebody_confirms(const BusCommission& options) {
+  if (!options.resume && options.windows.empty() && ::isatty(STDIN_FILENO) == 0) {
+    throw std::runtime_error(
+        "nobody can confirm windows: standard input is no terminal, and there is no --windows");
+  }
+}
+
 /// From the file, or from the operator.
 void confirm_windows(const BusCommission& options, commission::SequenceOptions& sequence) {
   if (!options.windows.empty()) {
     commission::read_windows(options.windows, sequence);
-  } else if (::isatty(STDIN_FILENO) == 0) {
-    throw std::runtime_error(
-        "nobody can confirm windows: standard input is no terminal, and there is no --windows");
   } else if (!commission::ask_windows(&ask_on_terminal, sequence)) {
     throw std::runtime_error("the windows were not confirmed");
   }
@@ -124,6 +128,7 @@ void commission_on_bus(const BusCommission& options) {
   const machines::ExcavatorMachine machine =
       machines::load_excavator(machines::find_profile(options.profile));
   commission::Progress progress = begun(options, machine);
+  require_somebody_confirms(options);
   look_at_bus(options, machine);
   if (!options.resume) {
     confirm_windows(options, progress.options);

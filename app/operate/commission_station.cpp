@@ -14,6 +14,23 @@ Fault stopping_fault(const EcuListener& ecu) {
   return ecu.status().said ? static_cast<Fault>(ecu.status().said->fault.value) : Fault::kNone;
 }
 
+/// The controller is ready once it has seen enable released, and nothing else is missing.
+std::string waiting_text(const Deadman& deadman, const EcuListener& ecu, TimeUs now) {
+  const auto mode = ecu.mode(now);
+  const bool is_ready = mode == EcuMode::kReady || is_armed(mode);
+  std::string controller = fmt::format("the controller is {}", mode_words(mode));
+  if (const std::string reason = not_armed_words(ecu); !reason.empty()) {
+    controller += ": " + reason;
+  }
+  if (deadman.is_on()) {
+    return is_ready ? "the controller arms" : controller + "; release the deadman";
+  }
+  if (deadman.trouble() != Trouble::kNone) {
+    return fmt::format("{}; release the deadman", trouble_words(deadman.trouble()));
+  }
+  return is_ready ? "press and hold the deadman" : controller;
+}
+
 }  // namespace
 
 CommissionStation::CommissionStation(const CommissionSetup& setup)
@@ -111,17 +128,7 @@ std::string commission_line(const CommissionStation& station, const EcuListener&
   if (station.is_moving()) {
     return step;
   }
-  const Deadman& deadman = station.deadman();
-  std::string why = "press and hold the deadman";
-  if (deadman.is_on()) {
-    why = fmt::format("the controller is {}", mode_words(ecu.mode(now)));
-    if (const std::string reason = not_armed_words(ecu); !reason.empty()) {
-      why += ": " + reason;
-    }
-  } else if (deadman.trouble() != Trouble::kNone) {
-    why = fmt::format("{}; release the deadman", trouble_words(deadman.trouble()));
-  }
-  return fmt::format("waiting, {}; then {}", why, step);
+  return fmt::format("waiting, {}; then {}", waiting_text(station.deadman(), ecu, now), step);
 }
 
 std::string result_line(const commission::CommissionSequence& sequence, std::size_t at) {
