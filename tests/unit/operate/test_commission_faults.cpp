@@ -58,7 +58,7 @@ void expect_same(const Results& results, const Results& sound) {
     // One that began again elsewhere may end at its window.
     assert_int_equal(results[at].end == commission::StepEnd::kNoMotion,
                      sound[at].end == commission::StepEnd::kNoMotion);
-    assert_near(results[at].duty, sound[at].duty, 0.35);
+    assert_near(results[at].duty, sound[at].duty, 0.06);
   }
 }
 
