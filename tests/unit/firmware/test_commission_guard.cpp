@@ -85,6 +85,36 @@ void without_a_window_nothing_is_sent(void**) {
   assert_near(whole.result.duty_ratio, 0.3, 0.0);
 }
 
+void a_window_has_its_bounds(void**) {
+  const DriveRow row = excavator_bank(test::plain_machine()).row[2];
+  assert_true(is_window(row, kWhole));
+  assert_true(is_window(row, {-0.0009, kStroke_m + 0.0009, 0.5}));
+  assert_true(is_window(row, {0.5, 0.5001, 1e-6}));
+  for (const StrokeWindow& window :
+       {StrokeWindow{-0.0011, kStroke_m, 0.5}, StrokeWindow{0.0, kStroke_m + 0.0011, 0.5},
+        StrokeWindow{0.5, 0.5, 0.5}, StrokeWindow{0.6, 0.5, 0.5}, StrokeWindow{0.0, 1.0, -0.5},
+        StrokeWindow{0.0, 1.0, 0.0}}) {
+    assert_false(is_window(row, window));
+  }
+}
+
+/// One of its ends is the cylinder's, the other one's own.
+void each_end_of_a_window_is_its_own(void**) {
+  for (const int side : {1, -1}) {
+    const StrokeWindow window =
+        side > 0 ? StrokeWindow{0.2, kStroke_m, 0.5} : StrokeWindow{0.0, 0.8, 0.5};
+    Cylinder touches(side > 0 ? kStroke_m - 0.005 : 0.005, window);
+    touches.step(0.4 * side, 0.0);
+    assert_near(touches.result.duty_ratio, 0.4 * side, 0.0);
+    Cylinder ends(side > 0 ? 0.2 : 0.8, window);
+    ends.step(-0.4 * side, 0.0);
+    assert_near(ends.result.duty_ratio, 0.0, 0.0);
+    // Far from the end that it may touch it has to move.
+    Cylinder middle(0.5, window);
+    assert_int_equal(middle.run(1.1, 0.7 * side, 0.0), Fault::kStrokeStuck);
+  }
+}
+
 /// It is held back where its speed will have taken it out before it can be stopped, and no sooner;
 /// and stays so until something else is asked for. Back it may go at once.
 void it_is_stopped_before_the_edge(void**) {
@@ -235,6 +265,13 @@ void a_duty_that_has_moved_it_has_to_move_it_again(void**) {
     assert_int_equal(cylinder.run(0.99, 0.42 * side, 0.0), Fault::kNone);
     assert_int_equal(cylinder.run(0.06, 0.42 * side, 0.0), Fault::kStrokeStuck);
     assert_int_equal(other.run(2.0, -0.42 * side, 0.0), Fault::kNone);
+    // A ramp that rises is steady too.
+    Cylinder ramp;
+    for (double duty = 0.3; duty < 0.4; duty += 0.08 * kPeriod_s) {
+      assert_int_equal(ramp.step(duty * side, 0.05 * side), Fault::kNone);
+    }
+    ramp.run(2.0, 0.0, 0.0);
+    assert_int_equal(ramp.run(1.1, 0.55 * side, 0.0), Fault::kStrokeStuck);
     // What rocks on its oil has not been moved.
     Cylinder rocks;
     for (int n = 0; n < 20; ++n) {
@@ -346,6 +383,8 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_duty_in_its_window_is_sent),
       cmocka_unit_test(without_a_window_nothing_is_sent),
+      cmocka_unit_test(a_window_has_its_bounds),
+      cmocka_unit_test(each_end_of_a_window_is_its_own),
       cmocka_unit_test(it_is_stopped_before_the_edge),
       cmocka_unit_test(outside_only_back_is_free),
       cmocka_unit_test(farther_outside_is_a_fault),
