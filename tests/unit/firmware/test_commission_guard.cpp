@@ -185,9 +185,9 @@ void faster_than_confirmed_is_a_fault(void**) {
 /// From rest every step against the duty counts, whatever the machine's dead time.
 void a_reversed_valve_is_stopped_within_50_mm(void**) {
   for (const int side : {1, -1}) {
-    for (const double speed_mps : {0.015, 0.05, 0.3}) {
+    for (const double speed_mps : {0.003, 0.008, 0.015, 0.05, 0.3}) {
       Cylinder cylinder;
-      assert_int_equal(cylinder.run(6.0, 0.4 * side, -speed_mps * side), Fault::kWrongDirection);
+      assert_int_equal(cylinder.run(20.0, 0.15 * side, -speed_mps * side), Fault::kWrongDirection);
       assert_true(std::abs(cylinder.moved_m) > 0.03);
       assert_true(std::abs(cylinder.moved_m) < 0.05);
     }
@@ -220,6 +220,22 @@ void a_drive_may_coast_without_a_duty(void**) {
   cylinder.moved_m = 0.0;
   assert_int_equal(cylinder.run(1.0, 0.0, 0.1), Fault::kUncommandedMotion);
   assert_true(cylinder.moved_m < 0.05);
+}
+
+/// While another is: however slowly, its sensor may be that one's.
+void a_drive_beside_a_driven_one_stands(void**) {
+  for (const int side : {1, -1}) {
+    Cylinder cylinder;
+    cylinder.ask.alone = false;
+    assert_int_equal(cylinder.run(20.0, 0.0, 0.005 * side), Fault::kUncommandedMotion);
+    assert_true(std::abs(cylinder.moved_m) < 0.05);
+    // Between duties it is forgotten.
+    Cylinder by_turns;
+    for (int n = 0; n < 4; ++n) {
+      by_turns.ask.alone = n % 2 == 0;
+      assert_int_equal(by_turns.run(5.0, 0.0, 0.005 * side), Fault::kNone);
+    }
+  }
 }
 
 void a_drive_that_is_not_driven_stands(void**) {
@@ -394,6 +410,7 @@ int main() {
       cmocka_unit_test(what_creeps_is_no_wrong_direction),
       cmocka_unit_test(a_drive_may_coast_against_a_new_duty),
       cmocka_unit_test(a_drive_may_coast_without_a_duty),
+      cmocka_unit_test(a_drive_beside_a_driven_one_stands),
       cmocka_unit_test(a_drive_that_is_not_driven_stands),
       cmocka_unit_test(a_stroke_that_stands_at_a_large_duty_is_stuck),
       cmocka_unit_test(below_an_edge_it_may_stand_for_a_while),
