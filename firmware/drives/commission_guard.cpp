@@ -14,8 +14,6 @@ constexpr double kWrong_m = 0.03;
 constexpr double kWhole_m = 0.045;
 /// What creeps is forgotten: slower than kWrong_m in this time it may go on for ever.
 constexpr double kForget_s = 5.0;
-/// Until a drive has come to rest on its oil.
-constexpr double kComesToRest_s = 0.4;
 /// Noise, and what the oil gives.
 constexpr double kStill_m = 0.0005;
 /// No edge is later than this.

@@ -12,6 +12,8 @@ namespace graben {
 inline constexpr double kUnderWay_s = 0.6;
 /// Least time to stop a drive in: dead time, lags, and what its speed is measured late by.
 inline constexpr double kStops_s = 0.5;
+/// Until a drive has come to rest on its oil, s.
+inline constexpr double kComesToRest_s = 0.4;
 /// How far a drive may come out of its window before that is a fault, m.
 inline constexpr double kOutside_m = 0.05;
 /// Slower than this, m/s, an end of the cylinder may be met that the window reaches.
@@ -29,7 +31,7 @@ struct CommissionState {
   double speed_mps = 0.0;                ///< Late by the same.
   double since_extend_s = kUnderWay_s;   ///< Since the last duty that extends ...
   double since_retract_s = kUnderWay_s;  ///< ... and that retracts; as long as it matters.
-  double still_for_s = 0.0;              ///< Since both, beyond kUnderWay_s.
+  double still_for_s = kComesToRest_s;   ///< Since both, beyond kUnderWay_s; as long as it matters.
   double wrong_m = 0.0;                  ///< Gone against the duty.
   double free_m = 0.0;                   ///< Gone without any.
   double whole_m = 0.0;                  ///< The same as either, however slowly, since it counts.
