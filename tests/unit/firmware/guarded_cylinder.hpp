@@ -8,7 +8,7 @@
 #include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
-namespace graben::test {
+namespace graben::test::guarded {
 
 inline constexpr double kPeriod_s = 0.01;
 inline constexpr double kStroke_m = 1.0;  // Of the plain machine's bucket.
@@ -54,4 +54,4 @@ struct Cylinder {
   }
 };
 
-}  // namespace graben::test
+}  // namespace graben::test::guarded

@@ -3,7 +3,7 @@
 namespace {
 
 using namespace graben;
-using namespace graben::test;
+using namespace graben::test::guarded;
 
 void a_duty_in_its_window_is_sent(void**) {
   for (const double duty : {0.3, -0.3, 1.0, -1.0}) {

@@ -3,7 +3,7 @@
 namespace {
 
 using namespace graben;
-using namespace graben::test;
+using namespace graben::test::guarded;
 
 /// Any edge is open at seven tenths.
 void a_stroke_that_stands_at_a_large_duty_is_stuck(void**) {
