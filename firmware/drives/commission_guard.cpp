@@ -10,10 +10,10 @@ namespace {
 constexpr double kSpeed_s = 0.08;
 /// How far the drive may go wrong. With what it then still goes it is within 50 mm.
 constexpr double kWrong_m = 0.03;
+/// The same for as long as the duties go on, however slowly.
+constexpr double kWhole_m = 0.045;
 /// What creeps is forgotten: slower than kWrong_m in this time it may go on for ever.
 constexpr double kForget_s = 5.0;
-/// Until a drive has come to rest on its oil.
-constexpr double kComesToRest_s = 0.4;
 /// Noise, and what the oil gives.
 constexpr double kStill_m = 0.0005;
 /// No edge is later than this.
@@ -79,12 +79,17 @@ void follow_duty(double sent_ratio, double period_s, CommissionState& state) {
 }
 
 /// Ways that it must not go.
-void follow_way(double step_m, double period_s, CommissionState& state) {
+void follow_way(double step_m, bool alone, double period_s, CommissionState& state) {
   const int way = way_of(state);
   state.wrong_m = way == 0 ? 0.0 : std::max(0.0, forget(state.wrong_m, period_s) - way * step_m);
   const bool nothing = state.since_extend_s >= kUnderWay_s && state.since_retract_s >= kUnderWay_s;
   state.still_for_s = nothing ? std::min(state.still_for_s + period_s, kComesToRest_s) : 0.0;
   state.free_m = state.still_for_s < kComesToRest_s ? 0.0 : forget(state.free_m, period_s) + step_m;
+  if (way != 0) {
+    state.whole_m = std::max(0.0, state.whole_m - way * step_m);
+  } else {
+    state.whole_m = alone || state.still_for_s < kComesToRest_s ? 0.0 : state.whole_m + step_m;
+  }
 }
 
 void follow_pressures(const ValidDrive& seen, bool begins, double period_s,
@@ -159,10 +164,11 @@ bool is_outside(const StrokeWindow& window, double stroke_m) {
 }
 
 Fault fault_of(const CommissionAsk& ask, bool has_window, CommissionState& state) {
-  if (state.wrong_m > kWrong_m) {
+  const bool far = std::abs(state.whole_m) > kWhole_m;
+  if (state.wrong_m > kWrong_m || (far && way_of(state) != 0)) {
     return Fault::kWrongDirection;
   }
-  if (std::abs(state.free_m) > kWrong_m) {
+  if (std::abs(state.free_m) > kWrong_m || far) {
     return Fault::kUncommandedMotion;
   }
   if (state.strained_s > kUnderWay_s + kStrained_s || state.spent_s > kSpent_s) {
@@ -198,7 +204,7 @@ CommissionResult next_commission(const DriveRow& drive, const CommissionAsk& ask
   state.slow_m += (seen.stroke_m - state.slow_m) * std::min(1.0, period_s / kSpeed_s);
   follow_duty(ask.sent_ratio, period_s, state);
   follow_pressures(seen, begins, period_s, state);
-  follow_way(step_m, period_s, state);
+  follow_way(step_m, ask.alone, period_s, state);
   look_for_stillness(drive, ask, seen, period_s, state);
 
   const bool has_window = is_window(drive, ask.window);

@@ -12,6 +12,8 @@ namespace graben {
 inline constexpr double kUnderWay_s = 0.6;
 /// Least time to stop a drive in: dead time, lags, and what its speed is measured late by.
 inline constexpr double kStops_s = 0.5;
+/// Until a drive has come to rest on its oil, s.
+inline constexpr double kComesToRest_s = 0.4;
 /// How far a drive may come out of its window before that is a fault, m.
 inline constexpr double kOutside_m = 0.05;
 /// Slower than this, m/s, an end of the cylinder may be met that the window reaches.
@@ -29,9 +31,10 @@ struct CommissionState {
   double speed_mps = 0.0;                ///< Late by the same.
   double since_extend_s = kUnderWay_s;   ///< Since the last duty that extends ...
   double since_retract_s = kUnderWay_s;  ///< ... and that retracts; as long as it matters.
-  double still_for_s = 0.0;              ///< Since both, beyond kUnderWay_s.
+  double still_for_s = kComesToRest_s;   ///< Since both, beyond kUnderWay_s; as long as it matters.
   double wrong_m = 0.0;                  ///< Gone against the duty.
   double free_m = 0.0;                   ///< Gone without any.
+  double whole_m = 0.0;                  ///< The same as either, however slowly, since it counts.
   double cap_pa = 0.0;                   ///< Low-passed ...
   double rod_pa = 0.0;
   double rest_cap_pa = 0.0;  ///< ... and before the duty began.
@@ -76,8 +79,8 @@ struct CommissionResult {
 /// kCommissionBound: gone further outside than kOutside_m, or faster than the window allows.
 /// kWrongDirection: gone against its duty by 30 mm, since none of the other sign can be under way.
 /// kUncommandedMotion: gone by 30 mm although nothing is under way and it has had time to come to
-/// rest. What creeps at less than 6 mm/s is neither: a load that sinks while its spool is at its
-/// edge, leakage.
+/// rest. What creeps at less than 6 mm/s is forgotten, a load that sinks while its spool is at its
+/// edge, leakage; up to 45 mm for as long as this drive, or another, is told to move.
 /// kStrokeStuck: stands still though it should move, for 0.4 s longer than that may take. It should
 /// at a duty that opens any spool or has moved it before. What pressures alone say takes three
 /// times as long: with what its pump gives on the side that is fed; while no other drive is told to

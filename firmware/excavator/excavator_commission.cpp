@@ -23,7 +23,7 @@ void ExcavatorController::guard_commission(const Cycle& cycle, ExcavatorValid& v
     const auto k = static_cast<unsigned>(i);
     CommissionAsk ask;
     ask.sent_ratio = sent[k];
-    ask.alone = driven <= 1;
+    ask.alone = driven == (sent[k] == 0.0 ? 0 : 1);
     if (tries && i < kAxisCount) {
       ask.wanted_ratio = may ? valid.tried_ratio[k] : 0.0;
       ask.window = valid.window[k];
