@@ -21,6 +21,9 @@ constexpr int kMostDelay = 30;
 /// A delay is told where the error at it is at most this share of that at a delay of 100 ms more or
 /// less: where nothing starts or stops all are alike.
 constexpr double kDecides = 0.9;
+/// It must leave no more than this of the measured motion open: what swings on its oil has a phase
+/// of its own.
+constexpr double kOpen = 0.25;
 constexpr int kAside = 10;
 constexpr std::size_t kLeastMoving = 100;
 
@@ -46,7 +49,8 @@ void take(const PredictedAxis& axis, const LogStretch& stretch, Samples& extend,
   for (std::size_t at = stretch.begin; at < stretch.end; ++at) {
     const double measured_mps = axis.measured_mps[at];
     const double predicted_mps = axis.predicted_mps[at];
-    if (!axis.free[at] || std::max(std::abs(measured_mps), std::abs(predicted_mps)) < kMoves_mps) {
+    if (!axis.judged[at] ||
+        std::max(std::abs(measured_mps), std::abs(predicted_mps)) < kMoves_mps) {
       continue;
     }
     const double way = std::abs(measured_mps) >= kMoves_mps ? measured_mps : predicted_mps;
@@ -134,7 +138,7 @@ void find_delay(const Samples& samples, SideScore& side) {
       best = delay;
     }
   }
-  if (best == kLeastDelay || best == kMostDelay ||
+  if (best == kLeastDelay || best == kMostDelay || least > kOpen ||
       least > kDecides * left_at(samples, best - kAside) ||
       least > kDecides * left_at(samples, best + kAside)) {
     return;
