@@ -167,6 +167,20 @@ void slower_and_later_are_told_apart(void** /*state*/) {
   assert_true(said[1].find(" ms later than the profile says") != std::string::npos);
 }
 
+void a_measured_spool_tells_how_late_it_is(void** /*state*/) {
+  PredictionScore off = score(pulses(1.0, 4), {{0, 0, 0, 2000}});
+  std::array<DriveEstimate, kAxisCount> found;
+  judge_spools(machine(), found, off);
+  assert_near(off.axis[kArm].extend.late_s, 0.04, 0.004);
+  // The shipped machine has no dead time and twice 20 ms.
+  found[kArm].extend.dead_time_s = {0.100, 0.002, true};
+  found[kArm].pilot_lag_s.value = 0.010;
+  found[kArm].spool_time_constant_s.value = 0.025;
+  judge_spools(machine(), found, off);
+  assert_near(off.axis[kArm].extend.late_s, 0.120, 1e-12);
+  assert_true(!off.axis[kArm].retract.has_delay);
+}
+
 /// 60 s in which the boom goes out and in every 5 s, or stands.
 MachineLog log_of(bool moves) {
   std::vector<double> duty(6000, 0.0);
@@ -221,6 +235,7 @@ int main() {
       cmocka_unit_test(dead_time_and_edge_are_in_it),
       cmocka_unit_test(a_shut_valve_is_not_judged),
       cmocka_unit_test(slower_and_later_are_told_apart),
+      cmocka_unit_test(a_measured_spool_tells_how_late_it_is),
       cmocka_unit_test(what_judges_is_not_fitted),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
