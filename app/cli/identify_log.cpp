@@ -172,11 +172,14 @@ void check_logs(const IdentifyLogCommand& options) {
   }
   const std::vector<identify::MachineLog> logs = read_logs(options, machine.profile, hashes);
   const auto stretches = identify::moving_stretches(logs);
+  const auto spools = identify::spool_answers(machine.profile, logs);
   if (!options.before.empty()) {
     before = identify::score_of(old.profile, logs, stretches);
+    identify::judge_spools(old.profile, spools, before);
     columns.push_back({"before", &before});
   }
-  const identify::PredictionScore now = identify::score_of(machine.profile, logs, stretches);
+  identify::PredictionScore now = identify::score_of(machine.profile, logs, stretches);
+  identify::judge_spools(machine.profile, spools, now);
   columns.push_back({"now", &now});
   fmt::print("{}", reports::prediction_table(columns));
   for (const std::string& sentence : identify::score_sentences(now)) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <stdexcept>
+#include <string_view>
 
 namespace graben::identify {
 
@@ -18,8 +19,13 @@ bool Lines::next(std::string& line) {
   line.clear();
   std::array<char, 4096> part{};
   while (gzgets(file_.get(), part.data(), static_cast<int>(part.size())) != nullptr) {
-    line += part.data();
-    if (line.back() == '\n') {
+    const std::string_view text(part.data());
+    const bool ends = !text.empty() && text.back() == '\n';
+    if (text.empty() || (!ends && text.size() + 1 < part.size() && gzeof(file_.get()) == 0)) {
+      throw std::runtime_error(fmt::format("{}:{}: is no text", path_, number_ + 1));
+    }
+    line += text;
+    if (ends) {
       break;
     }
   }

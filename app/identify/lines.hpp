@@ -14,7 +14,8 @@ class Lines {
   /// Throws std::runtime_error where the file cannot be read.
   explicit Lines(const std::string& path);
 
-  /// The next line without its end; false after the last. Throws where the file is cut off.
+  /// The next line without its end; false after the last. Throws where the file is cut off or no
+  /// text.
   bool next(std::string& line);
 
   [[nodiscard]] std::size_t number() const { return number_; }

@@ -88,16 +88,23 @@ double slope(const std::vector<double>& position_m, std::size_t at) {
   return sum / square / kGrid_s;
 }
 
-void compare(const std::vector<double>& stroke_m, const std::vector<double>& way_m, double most_m,
+void compare(const CylinderSeries& series, const std::vector<double>& way_m, double most_m,
              PredictedAxis& axis) {
+  const std::vector<double>& stroke_m = series.stroke_m;
   const std::size_t size = stroke_m.size();
   axis.predicted_mps.assign(size, 0.0);
   axis.measured_mps.assign(size, 0.0);
-  axis.free.assign(size, false);
-  for (std::size_t at = kHalf; at + kHalf < size; ++at) {
+  axis.judged.assign(size, false);
+  double neutral_s = kSwings_s;
+  for (std::size_t at = 0; at < size; ++at) {
+    neutral_s = series.duty[at] != 0.0 ? 0.0 : neutral_s + kGrid_s;
+    if (at < kHalf || at + kHalf >= size) {
+      continue;
+    }
     axis.predicted_mps[at] = slope(way_m, at);
     axis.measured_mps[at] = slope(stroke_m, at);
-    axis.free[at] = stroke_m[at] > kEnds_m && stroke_m[at] < most_m - kEnds_m;
+    axis.judged[at] =
+        neutral_s < kSwings_s && stroke_m[at] > kEnds_m && stroke_m[at] < most_m - kEnds_m;
   }
 }
 
@@ -124,8 +131,7 @@ PredictedSegment predict(const ExcavatorProfile& profile, const SpeedModel& mode
   }
   PredictedSegment predicted;
   for (std::size_t k = 0; k < kAxisCount; ++k) {
-    compare(segment.axis[k].stroke_m, way_m[k], profile.geometry.cylinder[k].stroke_m,
-            predicted.axis[k]);
+    compare(segment.axis[k], way_m[k], profile.geometry.cylinder[k].stroke_m, predicted.axis[k]);
   }
   return predicted;
 }

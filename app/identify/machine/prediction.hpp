@@ -20,7 +20,10 @@ struct PredictedAxis {
   /// Of the measured stroke: slope of the straight line through a window of kSpeedWindow_s;
   /// predicted speeds are averaged in the same way.
   std::vector<double> measured_mps;
-  std::vector<bool> free;  ///< Away from the stroke's ends, and the window lies within the log.
+  /// Judged: its duty has not been neutral for longer than kSwings_s, away from the stroke's ends,
+  /// and the window lies within the log. How it swings on its oil with its valve shut, no valve
+  /// says.
+  std::vector<bool> judged;
 };
 
 struct PredictedSegment {
@@ -28,6 +31,8 @@ struct PredictedSegment {
 };
 
 inline constexpr double kSpeedWindow_s = 0.10;
+/// Longer than any dead time and lag.
+inline constexpr double kSwings_s = 0.6;
 
 /// Of each segment of a log.
 [[nodiscard]] std::vector<PredictedSegment> predict_log(const ExcavatorProfile& profile,

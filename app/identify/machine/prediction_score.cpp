@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/identify/machine/machine_fit.hpp"
+#include "app/identify/machine/spool_answer.hpp"
+#include "firmware/excavator/excavator_drives.hpp"
+
 namespace graben::identify {
 namespace {
 
@@ -21,6 +25,9 @@ constexpr int kMostDelay = 30;
 /// A delay is told where the error at it is at most this share of that at a delay of 100 ms more or
 /// less: where nothing starts or stops all are alike.
 constexpr double kDecides = 0.9;
+/// It must leave no more than this of the measured motion open: what swings on its oil has a phase
+/// of its own.
+constexpr double kOpen = 0.25;
 constexpr int kAside = 10;
 constexpr std::size_t kLeastMoving = 100;
 
@@ -46,7 +53,8 @@ void take(const PredictedAxis& axis, const LogStretch& stretch, Samples& extend,
   for (std::size_t at = stretch.begin; at < stretch.end; ++at) {
     const double measured_mps = axis.measured_mps[at];
     const double predicted_mps = axis.predicted_mps[at];
-    if (!axis.free[at] || std::max(std::abs(measured_mps), std::abs(predicted_mps)) < kMoves_mps) {
+    if (!axis.judged[at] ||
+        std::max(std::abs(measured_mps), std::abs(predicted_mps)) < kMoves_mps) {
       continue;
     }
     const double way = std::abs(measured_mps) >= kMoves_mps ? measured_mps : predicted_mps;
@@ -134,7 +142,7 @@ void find_delay(const Samples& samples, SideScore& side) {
       best = delay;
     }
   }
-  if (best == kLeastDelay || best == kMostDelay ||
+  if (best == kLeastDelay || best == kMostDelay || least > kOpen ||
       least > kDecides * left_at(samples, best - kAside) ||
       least > kDecides * left_at(samples, best + kAside)) {
     return;
@@ -212,6 +220,32 @@ PredictionScore score_of(const ExcavatorProfile& profile, const std::vector<Mach
     predicted.push_back(predict_log(profile, log));
   }
   return score(predicted, stretches);
+}
+
+std::array<DriveEstimate, kAxisCount> spool_answers(const ExcavatorProfile& profile,
+                                                    const std::vector<MachineLog>& logs) {
+  std::array<DriveEstimate, kAxisCount> found = estimate_of(profile).drive;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    find_spool_answer(logs, axis, found[static_cast<std::size_t>(axis)]);
+  }
+  return found;
+}
+
+void judge_spools(const ExcavatorProfile& profile,
+                  const std::array<DriveEstimate, kAxisCount>& found, PredictionScore& score) {
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const auto k = static_cast<std::size_t>(axis);
+    for (const bool extends : {true, false}) {
+      const Estimate& dead_time_s = found[k].side(extends).dead_time_s;
+      SideScore& side = score.axis[k].side(extends);
+      if (dead_time_s.known && side.moving_s > 0.0) {
+        const SpoolAnswer said = answer_of(profile, axis, extends);
+        side.has_delay = true;
+        side.late_s = dead_time_s.value + found[k].lag_s() - said.dead_time_s -
+                      2.0 * said.spool_time_constant_s;
+      }
+    }
+  }
 }
 
 std::vector<std::string> score_sentences(const PredictionScore& score) {

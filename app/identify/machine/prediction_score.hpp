@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/identify/machine/estimate.hpp"
 #include "app/identify/machine/log_split.hpp"
 #include "app/identify/machine/prediction.hpp"
 
@@ -17,7 +18,7 @@ struct SideScore {
   bool has_ratio = false;
   double speed_ratio = 1.0;  ///< Measured over predicted speed, where both last.
   bool has_delay = false;
-  double late_s = 0.0;  ///< So much later than predicted it answers.
+  double late_s = 0.0;  ///< So much later than predicted it answers; see judge_spools().
 };
 
 struct AxisScore {
@@ -47,6 +48,15 @@ struct PredictionScore {
 [[nodiscard]] PredictionScore score_of(const ExcavatorProfile& profile,
                                        const std::vector<MachineLog>& logs,
                                        const std::vector<LogStretch>& stretches);
+
+/// Times of the spools in these logs, where they are measured; else nothing is known.
+[[nodiscard]] std::array<DriveEstimate, kAxisCount> spool_answers(
+    const ExcavatorProfile& profile, const std::vector<MachineLog>& logs);
+
+/// How late a side answers, by its spool where that is known: a cylinder that swings on its oil has
+/// a delay that is no valve's.
+void judge_spools(const ExcavatorProfile& profile,
+                  const std::array<DriveEstimate, kAxisCount>& found, PredictionScore& score);
 
 /// From here on a sentence is worth reading.
 inline constexpr double kRatioWorth = 0.03;

@@ -1,0 +1,194 @@
+/// What was identified, in the text of a profile: written and read back, and all else as it was.
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "app/identify/file/identified_file.hpp"
+#include "app/identify/file/profile_text.hpp"
+#include "app/identify/machine/identified_profile.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+using namespace graben::identify;
+
+constexpr const char* kFrom = "drive.log sha256 12ab34cd56ef, 2026-11-24";
+
+std::string shipped_text() {
+  std::ifstream stream(machines::find_profile("excavator_22t"));
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+machines::ExcavatorMachine load(const std::string& text) {
+  const auto file = std::filesystem::temp_directory_path() / "graben_identified_file.toml";
+  std::ofstream(file) << text;
+  const machines::ExcavatorMachine machine = machines::load_excavator(file);
+  std::filesystem::remove(file);
+  return machine;
+}
+
+/// Boom's extending side, its zeros and pump 2 were found, nothing else.
+JudgedFit fit_of(const ExcavatorProfile& profile) {
+  JudgedFit fit;
+  fit.machine = estimate_of(profile);
+  DriveEstimate& boom = fit.machine.drive[kBoom];
+  boom.extend.edge = {0.3, 0.002, true};
+  boom.extend.coefficient_factor = {0.9, 0.01, true};
+  boom.extend.out_area_factor = {1.1, 0.05, true};
+  boom.extend.dead_time_s = {0.12345678, 0.004, true};
+  boom.extend.driven_least = 0.33;
+  boom.extend.driven_most = 0.95;
+  for (std::size_t at = 0; at < kTableOpenings.size(); ++at) {
+    boom.extend.duty.push_back(0.3 + 0.7 * kTableOpenings[at] / 1.03);
+    boom.extend.duty_deviation.push_back(0.003);
+  }
+  boom.stroke_zero_m = {0.0071, 0.0003, true};
+  boom.cap_zero_pa = {-0.4e6, 0.1e6, true};
+  fit.machine.pump_flow_factor[1] = {1.05, 0.01, true};
+  fit.profile = identified(profile, fit.machine);
+  return fit;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) {
+    ++found;
+  }
+  return found;
+}
+
+bool has(const std::string& text, const std::string& what) { return count(text, what) > 0; }
+
+void what_is_written_reads_back(void** /*state*/) {
+  const std::string old_text = shipped_text();
+  const machines::ExcavatorMachine old = load(old_text);
+  const JudgedFit fit = fit_of(old.profile);
+  const machines::ExcavatorMachine read = load(identified_text(old_text, old, fit, kFrom));
+  assert_string_equal(first_difference(read.profile, fit.profile).c_str(), "");
+  assert_true(!first_difference(old.profile, fit.profile).empty());
+  assert_near(read.profile.valve.answer[kBoom].extend.dead_time_s, 0.123457, 1e-9);
+  assert_near(read.driven[kBoom].extend.most, 0.95, 1e-9);
+  // Not known: as it was.
+  assert_int_equal(read.profile.valve.answer[kBoom].retract.spool_to_duty.size(), 0);
+  assert_true(read.profile.valve.answer[kBoom].retract.dead_time_s == kUnsaid_s);
+  assert_true(read.profile.valve.answer[kBoom].extend.lag_s == kUnsaid_s);
+  assert_true(read.profile.pump[0].displacement_m3prev == old.profile.pump[0].displacement_m3prev);
+  assert_true(read.profile.valve.spool[kArm].extend_in_m2 ==
+              old.profile.valve.spool[kArm].extend_in_m2);
+  assert_true(read.profile.valve.spool[kBoom].retract_in_m2 ==
+              old.profile.valve.spool[kBoom].retract_in_m2);
+}
+
+void where_it_is_from_is_told(void** /*state*/) {
+  const std::string old_text = shipped_text();
+  const machines::ExcavatorMachine old = load(old_text);
+  const std::string text = identified_text(old_text, old, fit_of(old.profile), kFrom);
+  assert_true(has(text, "# identified: 119e-6 before; deviation 1.2e-06; drive.log sha256"));
+  const machines::ExcavatorMachine read = load(text);
+  const auto entry = [&](const std::string& key) {
+    const auto found = std::find_if(read.provenance.begin(), read.provenance.end(),
+                                    [&](const machines::Provenance& of) { return of.key == key; });
+    assert_true(found != read.provenance.end());
+    return *found;
+  };
+  assert_near(entry("valve.answer.boom.extend.dead_time").deviation.value_or(-1.0), 0.004, 1e-12);
+  assert_near(entry("sensors.cap_zero").deviation.value_or(-1.0), 0.1e6, 1e-6);
+  assert_string_equal(entry("pump[1].displacement").from.c_str(), kFrom);
+}
+
+void all_else_stays_as_it_was_written(void** /*state*/) {
+  const std::string old_text = shipped_text();
+  const machines::ExcavatorMachine old = load(old_text);
+  const std::vector<std::string> before = lines_of(old_text);
+  const std::vector<std::string> after =
+      lines_of(identified_text(old_text, old, fit_of(old.profile), kFrom));
+  std::size_t at = 0;
+  std::size_t changed = 0;
+  for (const std::string& line : before) {
+    const auto found =
+        std::find(after.begin() + static_cast<std::ptrdiff_t>(at), after.end(), line);
+    changed += found == after.end() ? 1 : 0;
+    at = found == after.end() ? at : static_cast<std::size_t>(found - after.begin()) + 1;
+  }
+  assert_int_equal(changed, 2);  // Displacement of pump 2, areas of the boom.
+}
+
+void a_second_time_replaces_the_first(void** /*state*/) {
+  const std::string old_text = shipped_text();
+  const machines::ExcavatorMachine old = load(old_text);
+  const std::string once = identified_text(old_text, old, fit_of(old.profile), kFrom);
+  const machines::ExcavatorMachine first = load(once);
+  const JudgedFit again = fit_of(first.profile);
+  const std::string twice = identified_text(once, first, again, "later.log");
+  assert_string_equal(first_difference(load(twice).profile, again.profile).c_str(), "");
+  assert_true(count(twice, "# identified:") <= count(once, "# identified:"));
+  assert_int_equal(count(twice, "[provenance]"), 1);
+  assert_true(has(twice, "later.log"));
+}
+
+std::string set(const std::string& text, const std::string& section, const std::string& key,
+                const std::string& value) {
+  ProfileText profile(text);
+  profile.set(section, key, value, "why");
+  return profile.text();
+}
+
+void values_are_found_however_they_are_written(void** /*state*/) {
+  assert_string_equal(set("[a]\nx = 1 # kept\ny = 2\n", "a", "x", "7").c_str(),
+                      "[a]\n# identified: 1 before; why\nx = 7 # kept\ny = 2\n");
+  assert_string_equal(set("[a]\nx = 1\n\n[b]\ny = 2\n", "a", "z", "7").c_str(),
+                      "[a]\n# identified: why\nz = 7\nx = 1\n\n[b]\ny = 2\n");
+  assert_string_equal(set("a = { x = 1 } # é\n", "a", "z", "7").c_str(),
+                      "a = { x = 1 , z = 7 } # é\n");
+  assert_string_equal(set("t = \"é\"\na = { s = \"éé\", x = [1, 2] }", "a", "x", "7").c_str(),
+                      "t = \"é\"\n# identified: [1, 2] before; why\na = { s = \"éé\", x = 7 }");
+  assert_string_equal(set("[a]\nb.x = 1", "a.b", "z", "7").c_str(),
+                      "[a]\n# identified: why\nb.z = 7\nb.x = 1");
+  assert_string_equal(set("[[p]]\nx = 1\n[[p]]\nx = 2", "p[1]", "x", "7").c_str(),
+                      "[[p]]\nx = 1\n[[p]]\n# identified: 2 before; why\nx = 7");
+  assert_string_equal(set("x = 1", "a.b", "c.d", "7").c_str(),
+                      "x = 1\n\n[a.b]\n# identified: why\n\"c.d\" = 7\n");
+  assert_string_equal(set("[a]\nx = [\n  1, # one\n  2,\n]\n", "a", "x", "7").c_str(),
+                      "[a]\n# identified: why\nx = 7\n");
+  assert_string_equal(toml_quoted("a\"b\\c\n").c_str(), "\"a\\\"b\\\\c\\u000A\"");
+}
+
+void what_is_no_toml_is_refused(void** /*state*/) {
+  bool refused = false;
+  try {
+    ProfileText("[a\n");
+  } catch (const std::runtime_error&) {
+    refused = true;
+  }
+  assert_true(refused);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(what_is_written_reads_back),
+      cmocka_unit_test(where_it_is_from_is_told),
+      cmocka_unit_test(all_else_stays_as_it_was_written),
+      cmocka_unit_test(a_second_time_replaces_the_first),
+      cmocka_unit_test(values_are_found_however_they_are_written),
+      cmocka_unit_test(what_is_no_toml_is_refused),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
