@@ -26,10 +26,10 @@ constexpr double kMoved_m = 0.015;
 constexpr double kStrained_s = 0.4;
 /// Both pressures together, for certain by the valve. What friction holds lets off some MPa through
 /// the first leak of an edge without moving.
-constexpr double kChanged_pa = 6e6;
+constexpr double kChanged_pa = 3e6;
 constexpr double kPressure_s = 0.1;
 /// What pressures alone say counts for less: they come through an edge that lets hardly any oil.
-constexpr double kByPressure = 0.3;
+constexpr double kByPressure = 0.5;
 /// Meanwhile the duty is held for so long, then rises slowly: friction wants more than an edge.
 constexpr double kHolds_s = 1.0;
 constexpr double kRises_ratio_ps = 0.03;
