@@ -12,6 +12,8 @@ constexpr double kRampFrom = 0.04;
 constexpr double kRampSteep = 0.20;  ///< 1/s, up to the least edge that is likely.
 constexpr double kRampSlow = 0.08;   ///< 1/s
 constexpr double kRampTo = 0.80;
+/// By which it may be before what was sent: some cycles of it.
+constexpr double kAhead = 0.02;
 constexpr double kLeastEdge = 0.08;
 /// It moves.
 constexpr double kMoves_mps = 0.010;
@@ -156,14 +158,14 @@ void CommissionSequence::begin(Phase phase) {
   duty_.fill(0.0);
 }
 
-void CommissionSequence::step(double time_s, const std::array<double, kAxisCount>& strokes_m,
-                              bool active) {
-  observe(time_s, strokes_m);
+void CommissionSequence::step(double time_s, const SequenceInput& seen) {
+  observe(time_s, seen.stroke_m);
+  sent_ = seen.sent_ratio;
   duty_.fill(0.0);
   if (is_done() || wrong_) {
     return;
   }
-  if (!active) {
+  if (!seen.active) {
     was_active_ = false;
     return;
   }
@@ -304,7 +306,11 @@ void CommissionSequence::run_ramp() {
   if (ramp_ > kRampTo) {
     return finish(StepEnd::kNoMotion);
   }
-  ramp_ += kPeriod_s * (ramp_ < kLeastEdge ? kRampSteep : kRampSlow);
+  // The controller holds it back while pressures change and nothing moves.
+  const double sent = step.sign * sent_[static_cast<unsigned>(step.axis)];
+  if (ramp_ < sent + kAhead) {
+    ramp_ += kPeriod_s * (ramp_ < kLeastEdge ? kRampSteep : kRampSlow);
+  }
   drive(step.axis, step.sign * ramp_);
 }
 

@@ -26,10 +26,13 @@ constexpr double kMoved_m = 0.015;
 constexpr double kStrained_s = 0.4;
 /// Both pressures together, for certain by the valve. What friction holds lets off some MPa through
 /// the first leak of an edge without moving.
-constexpr double kChanged_pa = 6e6;
+constexpr double kChanged_pa = 3e6;
 constexpr double kPressure_s = 0.1;
 /// What pressures alone say counts for less: they come through an edge that lets hardly any oil.
-constexpr double kByPressure = 0.3;
+constexpr double kByPressure = 0.5;
+/// Meanwhile the duty is held for so long, then rises slowly: friction wants more than an edge.
+constexpr double kHolds_s = 1.0;
+constexpr double kRises_ratio_ps = 0.03;
 /// Duty beyond this, times time, is bounded where nothing moves.
 constexpr double kSurelyClosed = 0.1;
 constexpr double kSpent_s = 2.0;
@@ -118,6 +121,17 @@ bool strains(const DriveRow& drive, const ValidDrive& seen, int side) {
          fed_pa > kStrains * drive.watch.relief_pa;
 }
 
+void hold_back(bool pushed, double period_s, CommissionState& state) {
+  if (!pushed) {
+    state.pushed_s = 0.0;
+    state.most_ratio = 1.0;
+    return;
+  }
+  const double rise_ratio = state.pushed_s > kHolds_s ? kRises_ratio_ps * period_s : 0.0;
+  state.most_ratio = std::min(state.most_ratio, std::abs(state.duty_ratio)) + rise_ratio;
+  state.pushed_s += period_s;
+}
+
 void look_for_stillness(const DriveRow& drive, const CommissionAsk& ask, const ValidDrive& seen,
                         double period_s, CommissionState& state) {
   const int side = sign_of(state.duty_ratio);
@@ -133,8 +147,10 @@ void look_for_stillness(const DriveRow& drive, const CommissionAsk& ask, const V
     state.strained_s = 0.0;
     state.spent_s = 0.0;
     state.touches_s = 0.0;
+    hold_back(false, period_s, state);
   } else if (at_end) {
     state.strained_s = 0.0;
+    hold_back(false, period_s, state);
     state.touches_s = std::min(state.touches_s + period_s, kTouch_s);
   } else {
     const double duty = std::abs(state.duty_ratio);
@@ -143,6 +159,7 @@ void look_for_stillness(const DriveRow& drive, const CommissionAsk& ask, const V
     state.strained_s =
         open || pushed ? state.strained_s + (open ? 1.0 : kByPressure) * period_s : 0.0;
     state.spent_s += std::max(0.0, duty - kSurelyClosed) * period_s;
+    hold_back(pushed, period_s, state);
   }
 }
 
@@ -216,7 +233,9 @@ CommissionResult next_commission(const DriveRow& drive, const CommissionAsk& ask
     state.held_side = side;
   }
   const bool held = state.held_side != 0;
-  return {fault_of(ask, has_window, state), held ? 0.0 : ask.wanted_ratio, held};
+  const double most_ratio = held ? 0.0 : state.most_ratio;
+  return {fault_of(ask, has_window, state),
+          std::clamp(ask.wanted_ratio, -most_ratio, most_ratio), held};
 }
 
 void rest_commission(CommissionState& state) {
