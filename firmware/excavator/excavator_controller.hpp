@@ -90,7 +90,7 @@ class ExcavatorController {
     CycleMemory cycle;
     Guarded<double> lambda;  ///< Of the last cycle in motion, without corrections.
     std::array<Guarded<double>, kDriveCount> opening;
-    std::array<Believed, kDriveCount> accepted;
+    std::array<AcceptedStroke, kDriveCount> accepted;
     ExcavatorWatchState watch;
     LastCommands<kDriveCount> last;
     std::array<LoadState, kDriveCount> load{};
