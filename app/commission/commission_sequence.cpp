@@ -15,9 +15,8 @@ constexpr double kRampTo = 0.80;
 /// By which it may be before what was sent: some cycles of it.
 constexpr double kAhead = 0.02;
 constexpr double kLeastEdge = 0.08;
-/// It moves.
+/// It moves, and has moved: a linkage that rocks comes back.
 constexpr double kMoves_mps = 0.010;
-/// And has moved: a linkage that rocks comes back.
 constexpr double kMoved_m = 0.006;
 constexpr double kMovesFor_s = 0.25;
 /// A ramp goes on a little beyond: the curve's foot.
@@ -307,10 +306,9 @@ void CommissionSequence::run_ramp() {
     return finish(StepEnd::kNoMotion);
   }
   // The controller holds it back while pressures change and nothing moves.
-  const double sent = step.sign * sent_[static_cast<unsigned>(step.axis)];
-  if (ramp_ < sent + kAhead) {
-    ramp_ += kPeriod_s * (ramp_ < kLeastEdge ? kRampSteep : kRampSlow);
-  }
+  const double most = step.sign * sent_[static_cast<unsigned>(step.axis)] + kAhead;
+  ramp_ = std::min(ramp_ + kPeriod_s * (ramp_ < kLeastEdge ? kRampSteep : kRampSlow),
+                   std::max(ramp_, most));
   drive(step.axis, step.sign * ramp_);
 }
 

@@ -95,7 +95,7 @@ class CommissionSequence {
   /// What was tried, by rising level.
   std::array<std::array<std::vector<Driven>, 2>, kAxisCount> driven_{};
   StepResult now_;
-  double mark_s_ = 0.0;  ///< Of a step: when it moved, or stood at its end.
+  double mark_s_ = 0.0;                    ///< Of a step: when it moved, or stood at its end.
   std::array<double, kAxisCount> sent_{};  ///< By the controller.
   double ramp_ = 0.0;
   double from_m_ = 0.0;                       ///< Stroke at which a ramp began.

@@ -100,8 +100,8 @@ CommissionResult run_commission(const machines::SimulatedExcavator& machine,
   TimeUs now_us = 0;
   for (; !sequence.is_done(); now_us += ExcavatorRig::kPeriod_us) {
     ear.listen();
-    sequence.step(seconds(now_us), {ear.strokes_m, ear.sent_ratio,
-                                    ear.mode == bus::EcuStatus::Mode::kActive});
+    sequence.step(seconds(now_us),
+                  {ear.strokes_m, ear.sent_ratio, ear.mode == bus::EcuStatus::Mode::kActive});
     hands.tried_ratio = sequence.duty();
     rig.driver.set_hands(hands);
     static_cast<void>(rig.step(now_us));

@@ -234,8 +234,8 @@ CommissionResult next_commission(const DriveRow& drive, const CommissionAsk& ask
   }
   const bool held = state.held_side != 0;
   const double most_ratio = held ? 0.0 : state.most_ratio;
-  return {fault_of(ask, has_window, state),
-          std::clamp(ask.wanted_ratio, -most_ratio, most_ratio), held};
+  return {fault_of(ask, has_window, state), std::clamp(ask.wanted_ratio, -most_ratio, most_ratio),
+          held};
 }
 
 void rest_commission(CommissionState& state) {

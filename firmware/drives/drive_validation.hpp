@@ -31,8 +31,8 @@ struct AcceptedStroke {
 /// plausibility.hpp; `accepted` keeps the last one of each drive. Not `moving`, it is begun newly:
 /// the machine may be moved by hand.
 ///
-/// A stroke whose frame came before this cycle is carried on to now by its own speed, by a period of
-/// its frames at most: where one drive's frame has just missed the cycle and another's has not,
+/// A stroke whose frame came before this cycle is carried on to now by its own speed, by a period
+/// of its frames at most: where one drive's frame has just missed the cycle and another's has not,
 /// strokes of two times would be a place where the tool has never been.
 void read_drives(DriveRows drives, Span<const DriveInputs> inputs, bool moving,
                  const Freshness& fresh, Span<AcceptedStroke> accepted, Span<ValidDrive> valid,
