@@ -84,10 +84,11 @@ struct CommissionResult {
 /// rest. What creeps at less than 6 mm/s is forgotten, a load that sinks while its spool is at its
 /// edge, leakage; up to 45 mm for as long as this drive, or another, is told to move.
 /// kStrokeStuck: stands still though it should move, for 0.4 s longer than that may take. It should
-/// at a duty that opens any spool or has moved it before. What pressures alone say takes twice as
-/// long: with what its pump gives on the side that is fed; while no other drive is told to move,
-/// where both together have changed by 3 MPa. Meanwhile the duty is held where it is, and may rise
-/// by 3 % a second after 1 s: with a sensor that hangs the drive goes on unseen. A smaller duty may
+/// at a duty that opens any spool or has moved it before. What pressures alone say takes three
+/// times as long: with what its pump gives on the side that is fed; while no other drive is told to
+/// move, where both together have changed by 6 MPa. A side that has never moved may have a sensor
+/// that hangs, and then goes on unseen: of it 3 MPa say so, it takes twice as long only, and
+/// meanwhile the duty is held where it is, after 1 s it may rise by 3 % a second. A smaller duty may
 /// be tried for 2 s over what it is above a tenth. The sensor hangs, or the cylinder.
 [[nodiscard]] CommissionResult next_commission(const DriveRow& drive, const CommissionAsk& ask,
                                                const ValidDrive& seen, double period_s,

@@ -121,6 +121,25 @@ void pressures_that_have_changed_say_that_it_moves(void**) {
   }
 }
 
+/// Where it has moved before, it takes more to say so, and nothing is held: a step goes at once.
+void pressures_of_a_side_that_has_moved(void**) {
+  for (const int side : {1, -1}) {
+    Cylinder moved;
+    assert_int_equal(moved.run(1.5, 0.3 * side, 0.05 * side), Fault::kNone);
+    moved.run(2.0, 0.0, 0.0);
+    Cylinder little = moved;
+    little.run(0.2, 0.35 * side, 0.0);
+    little.seen.cap_pressure_pa += 5e6;
+    assert_int_equal(little.run(5.0, 0.35 * side, 0.0), Fault::kNone);
+    moved.run(0.2, 0.2 * side, 0.0);
+    moved.seen.cap_pressure_pa += 8e6;
+    assert_int_equal(moved.run(0.3, 0.2 * side, 0.0), Fault::kNone);
+    assert_int_equal(moved.run(2.7, 0.35 * side, 0.0), Fault::kNone);
+    assert_near(moved.result.duty_ratio, 0.35 * side, 0.0);
+    assert_int_equal(moved.run(0.8, 0.35 * side, 0.0), Fault::kStrokeStuck);
+  }
+}
+
 /// Pressures that change tell of an edge that opens: no more is tried before something moves, then
 /// little by little.
 void what_may_move_unseen_is_held_back(void**) {
@@ -160,6 +179,7 @@ int main() {
       cmocka_unit_test(a_duty_that_has_moved_it_has_to_move_it_again),
       cmocka_unit_test(a_cylinder_that_strains_is_stuck),
       cmocka_unit_test(pressures_that_have_changed_say_that_it_moves),
+      cmocka_unit_test(pressures_of_a_side_that_has_moved),
       cmocka_unit_test(what_may_move_unseen_is_held_back),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
