@@ -272,7 +272,9 @@ void CommissionSequence::finish(StepEnd end) {
 /// Edges and speeds of a step are what later ones are made of.
 void CommissionSequence::keep_result() {
   const SequenceStep& step = steps_[at_];
-  if (step.kind == StepKind::kRamp && now_.end != StepEnd::kNoMotion) {
+  // One that came to its window's end before it moved has no edge.
+  if (step.kind == StepKind::kRamp && now_.end != StepEnd::kNoMotion &&
+      now_.speed_mps > kMoves_mps) {
     // Without the foot, and what was under way when it was seen to move.
     edge(step.axis, step.sign) =
         std::max(kLeastEdge, now_.duty - kRampSlow * (kFoot_s + kMovesFor_s + kStops_s));

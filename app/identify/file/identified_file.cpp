@@ -113,7 +113,7 @@ double area_deviation_m2(const DriveEstimate& drive, const SpoolProfile& was) {
   double most_m2 = 0.0;
   for (const bool extends : {true, false}) {
     const SideEstimate& side = drive.side(extends);
-    if (side.coefficient_factor.known) {
+    if (side.edge.known) {
       const double in_m2 = extends ? was.extend_in_m2 : was.retract_in_m2;
       const double out_m2 = extends ? was.extend_out_m2 : was.retract_out_m2;
       most_m2 = std::max({most_m2, in_m2 * side.coefficient_factor.deviation,

@@ -11,7 +11,7 @@ ProfileDocument read_simulation(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(simulation)) {
     throw std::runtime_error(
         fmt::format("{}: not found; whatever simulates the machine of {} needs its masses, oil, "
-                    "friction, soil and experiments from there",
+                    "friction, soil and experiments from there; --simulated NAME takes another machine's",
                     simulation.string(), file.string()));
   }
   return read_document(simulation);
