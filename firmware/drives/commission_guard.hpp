@@ -88,8 +88,8 @@ struct CommissionResult {
 /// times as long: with what its pump gives on the side that is fed; while no other drive is told to
 /// move, where both together have changed by 6 MPa. A side that has never moved may have a sensor
 /// that hangs, and then goes on unseen: of it 3 MPa say so, it takes twice as long only, and
-/// meanwhile the duty is held where it is, after 1 s it may rise by 3 % a second. A smaller duty may
-/// be tried for 2 s over what it is above a tenth. The sensor hangs, or the cylinder.
+/// meanwhile the duty is held where it is, after 1 s it may rise by 3 % a second. A smaller duty
+/// may be tried for 2 s over what it is above a tenth. The sensor hangs, or the cylinder.
 [[nodiscard]] CommissionResult next_commission(const DriveRow& drive, const CommissionAsk& ask,
                                                const ValidDrive& seen, double period_s,
                                                CommissionState& state);
