@@ -25,8 +25,7 @@ constexpr double kFoot_s = 0.45;
 constexpr std::array<double, kLevelCount> kLevels = {0.08, 0.18, 0.35, 0.62, 1.0};
 constexpr double kPairLevel = 0.55;
 constexpr double kBurstLevel = 0.30;
-/// Untried, no more of it than this.
-constexpr double kFirstLevel = 0.15;
+constexpr double kFirstLevel = 0.15;  ///< Untried, no more of it than this.
 /// From place to place, near to it, and onto an end.
 constexpr double kTravel_mps = 0.14;
 constexpr double kNear_mps = 0.05;
@@ -272,9 +271,8 @@ void CommissionSequence::finish(StepEnd end) {
 /// Edges and speeds of a step are what later ones are made of.
 void CommissionSequence::keep_result() {
   const SequenceStep& step = steps_[at_];
-  // One that came to its window's end before it moved has no edge.
-  if (step.kind == StepKind::kRamp && now_.end != StepEnd::kNoMotion &&
-      now_.speed_mps > kMoves_mps) {
+  const bool moved = now_.end != StepEnd::kNoMotion && now_.speed_mps > kMoves_mps;
+  if (moved && step.kind == StepKind::kRamp) {
     // Without the foot, and what was under way when it was seen to move.
     edge(step.axis, step.sign) =
         std::max(kLeastEdge, now_.duty - kRampSlow * (kFoot_s + kMovesFor_s + kStops_s));
