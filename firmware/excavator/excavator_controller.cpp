@@ -57,14 +57,7 @@ ExcavatorController::ExcavatorController(const ExcavatorSetup& setup)
 ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs now_us) {
   const Cycle cycle = begin_cycle(memory_.cycle, intact(), now_us);
   const ExcavatorValid valid = validate_and_watch(inputs, cycle, now_us);
-  const TaskProgram* program = running(valid);
-  const TaskAim aim =
-      program != nullptr ? task_aim(setup_.kinematics, *program, memory_.task.state) : TaskAim{};
-  estimate(valid, aim, cycle);
-  const KinematicState now = setup_.kinematics.planar().state(valid.strokes_m().head<kAxisCount>());
-  estimate_oil(valid, now, cycle.last_mode);
-  Motion motion = wanted_motion(valid, now, program, aim, cycle.period_s);
-  park_spools(valid, cycle.period_s, motion);
+  const Motion motion = next_motion(valid, cycle);
   const Followed followed = flow_limited(valid, motion, cycle.period_s);
   ModeDecision decision = decide_mode(
       memory_.cycle, cycle, valid, first_of({motion.fault, solver_fault(followed.solution)}),
@@ -87,6 +80,19 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   remember(valid, motion, followed, decision, outputs, cycle.period_s);
   lead_spools(outputs);
   return outputs;
+}
+
+ExcavatorController::Motion ExcavatorController::next_motion(const ExcavatorValid& valid,
+                                                             const Cycle& cycle) {
+  const TaskProgram* program = running(valid);
+  const TaskAim aim =
+      program != nullptr ? task_aim(setup_.kinematics, *program, memory_.task.state) : TaskAim{};
+  estimate(valid, aim, cycle);
+  const KinematicState now = setup_.kinematics.planar().state(valid.strokes_m().head<kAxisCount>());
+  estimate_oil(valid, now, cycle.last_mode);
+  Motion motion = wanted_motion(valid, now, program, aim, cycle.period_s);
+  park_spools(valid, cycle.period_s, motion);
+  return motion;
 }
 
 ExcavatorValid ExcavatorController::validate_and_watch(const ExcavatorInputs& inputs,
