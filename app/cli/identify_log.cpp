@@ -99,9 +99,11 @@ void assert_better(const identify::JudgedFit& fit) {
     return;
   }
   std::string text = fmt::format(
-      "nothing was written: the new profile predicts what was left out ({:.0f} s) worse than the "
-      "old one; error of the speed, old and new, RMS:",
-      fit.judged_s);
+      "nothing was written: the new profile predicts what was left out ({:.0f} s) worse than {}; "
+      "error of the speed, old and new, RMS:",
+      fit.judged_s,
+      fit.predicts() ? "the old one"
+                     : "one of a machine that stands: are the logs of one machine?");
   for (std::size_t k = 0; k < kAxisCount; ++k) {
     text += fmt::format(" {} {:.1f} and {:.1f} %{}", identify::kAxisTexts[k],
                         100.0 * fit.before.axis[k].share(), 100.0 * fit.left_out.axis[k].share(),
