@@ -51,8 +51,9 @@ RUNS = [
 ]
 # The same programs on the same kernel give the same nanoseconds. Another compiler or kernel does not,
 # nor does another moment of the kernel's tick: by that alone, in four orders and lengths of the runs and
-# on four machines, the largest wake-up differed by 5 us and the largest cycle of one run by 15 %.
-WAKE_UP_MARGIN_NS, CYCLE_MARGIN = 10_000, 0.20
+# on four machines, the largest wake-up differed by 5 us and the largest cycle of one run by 15 %; on a
+# host with other work a wake-up of 42 us was seen once (2026-11-25).
+WAKE_UP_MARGIN_NS, CYCLE_MARGIN = 20_000, 0.20
 SLOT_S = 320e-6
 SHARE_MARGIN = 0.03
 OWN_SHARE = (0.30, 0.45)
