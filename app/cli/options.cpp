@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/machines/simulated/soil_kinds.hpp"
 #include "app/runs/found_text.hpp"
 
 namespace graben::cli {
@@ -126,6 +127,11 @@ void add_override_option(CLI::App& command, double& speed_override_ratio) {
 CLI::Validator error_name() {
   return CLI::IsMember(
       std::vector<std::string>(runs::kErrorNames.begin(), runs::kErrorNames.end()));
+}
+
+CLI::Validator soil_name() {
+  return CLI::IsMember(
+      std::vector<std::string>(machines::kSoilNames.begin(), machines::kSoilNames.end()));
 }
 
 CLI::Validator number_between(double least, double most) {

@@ -44,6 +44,7 @@ void add_summary_option(CLI::App& command, std::string& summary);
 void add_override_option(CLI::App& command, double& speed_override_ratio);
 /// Names of all errors that an excavator's controller can have.
 [[nodiscard]] CLI::Validator error_name();
+[[nodiscard]] CLI::Validator soil_name();
 
 // Checks of options that CLI11's own let too much through.
 

@@ -58,6 +58,9 @@ ExcavatorPlant::ExcavatorPlant(const ExcavatorPlantProfile& profile,
   }
   set_soil(profile.soil);
   set_obstacle(profile.obstacle);
+  if (profile.digging) {
+    digging_.emplace(*profile.digging, profile.seed, step_s_);
+  }
   set_bypasses();
   for (std::size_t p = 0; p < pump_count_; ++p) {
     pump_[p].start();
@@ -154,7 +157,15 @@ void ExcavatorPlant::push_tip() {
       tip_force_n_ += obstacle_->step(tip_m);
     }
   }
-  links_.set_tip_force(tip_force_n_);
+  double moment_nm = 0.0;
+  if (digging_) {
+    const TipPose tip = links_.tip();
+    const Eigen::Vector2d at_m = profile_.machine.geometry.boom_foot_m + tip.position_m;
+    const BucketForce soil = digging_->step({at_m.x(), at_m.y(), tip.attitude_rad, swing_rad()});
+    tip_force_n_ += soil.force_n;
+    moment_nm = soil.moment_nm;
+  }
+  links_.set_tip_force(tip_force_n_, moment_nm);
 }
 
 SectionPorts ExcavatorPlant::ports_of(std::size_t drive) const {

@@ -13,6 +13,7 @@
 #include "app/plant/excavator_plant_profile.hpp"
 #include "app/plant/linkage_dynamics.hpp"
 #include "app/plant/pump_line.hpp"
+#include "app/plant/soil/bucket_soil.hpp"
 #include "app/plant/spool.hpp"
 #include "app/plant/swing_drive.hpp"
 #include "app/plant/valve_section.hpp"
@@ -122,6 +123,8 @@ class ExcavatorPlant {
   [[nodiscard]] double peak_chamber_pressure_pa() const { return peak_chamber_pressure_pa_; }
   /// Whole force on the bucket tip over the last step, N.
   [[nodiscard]] const Eigen::Vector2d& tip_force_n() const { return tip_force_n_; }
+  /// Ground and bucket; null where the ground is not one that is cut.
+  [[nodiscard]] const BucketSoil* digging() const { return digging_ ? &*digging_ : nullptr; }
   /// Null without one.
   [[nodiscard]] const Obstacle* obstacle() const { return obstacle_ ? &*obstacle_ : nullptr; }
   [[nodiscard]] const ExcavatorPlantProfile& profile() const { return profile_; }
@@ -170,6 +173,7 @@ class ExcavatorPlant {
   double swash_share_;  ///< Of the way to the wanted swash, in a step.
   std::optional<Soil> soil_;
   std::optional<Obstacle> obstacle_;
+  std::optional<BucketSoil> digging_;
   Eigen::Vector2d outer_force_n_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d tip_force_n_ = Eigen::Vector2d::Zero();
   std::array<SectionFlows, kDriveCount> flows_{};

@@ -15,6 +15,7 @@
 #include "app/plant/engine.hpp"
 #include "app/plant/hydraulics.hpp"
 #include "app/plant/pump_line.hpp"
+#include "app/plant/soil/digging_profile.hpp"
 #include "app/plant/spool.hpp"
 #include "app/plant/swing_drive.hpp"
 #include "app/plant/valve_section.hpp"
@@ -102,6 +103,8 @@ struct ExcavatorPlantProfile : HydraulicDetails {
   /// First-order lag of the pilot pressure that sends the spool, behind the dead time.
   std::array<double, kDriveCount> pilot_lag_s{};
   std::optional<SoilProfile> soil;
+  BucketShape bucket;                     ///< As soil sees it.
+  std::optional<DiggingProfile> digging;  ///< Ground that is cut.
   std::optional<ObstacleProfile> obstacle;
 
   // No source gives the figures below; each default says why it is what it is.

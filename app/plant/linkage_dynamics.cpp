@@ -134,6 +134,7 @@ JointArray LinkageDynamics::generalised_force(const JointArray& rate_radps) cons
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     force[i] = -gravity_ * bodies_.first_moment[i].x() + cross(bodies_.link[i], tip_force_);
   }
+  force[kBucket] += bucket_moment_nm_;
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     for (std::size_t j = i + 1; j < kAxisCount; ++j) {
       const double arm = cross(bodies_.link[i], bodies_.first_moment[j]);
@@ -240,7 +241,7 @@ double LinkageDynamics::tip_power_w() const {
   const JointArray mean =
       link_rates({rate_[0] - half * acceleration_[0], rate_[1] - half * acceleration_[1],
                   rate_[2] - half * acceleration_[2]});
-  double power = 0.0;
+  double power = mean[kBucket] * bucket_moment_nm_;
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     power += mean[i] * turned(bodies_.link[i]).dot(tip_force_);
   }

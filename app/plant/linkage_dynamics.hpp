@@ -53,8 +53,12 @@ class LinkageDynamics {
 
   void start(const JointArray& angle_rad, const JointArray& rate_radps);
 
-  /// Force on the bucket tip in the plane's axes, N, constant until changed.
-  void set_tip_force(const Eigen::Vector2d& force_n) { tip_force_ = force_n; }
+  /// Force on the bucket tip in the plane's axes, N, and moment about it, N m, constant until
+  /// changed.
+  void set_tip_force(const Eigen::Vector2d& force_n, double moment_nm) {
+    tip_force_ = force_n;
+    bucket_moment_nm_ = moment_nm;
+  }
   /// At the instant of the angles; without a swing drive of no effect.
   void set_swing_rate(double rate_radps) { swing_rate_ = rate_radps; }
 
@@ -77,7 +81,8 @@ class LinkageDynamics {
   [[nodiscard]] double energy_j() const;
   /// Coulomb friction that acted in the last step, N, positive in extension.
   [[nodiscard]] const JointArray& friction_n() const { return friction_n_; }
-  /// Of the tip force over the step, between `accelerate` and `move`.
+  /// Of the force on the tip and the moment about it over the step, between `accelerate` and
+  /// `move`.
   [[nodiscard]] double tip_power_w() const;
   [[nodiscard]] TipPose tip() const { return geometry_.tip(angle_); }
 
@@ -102,6 +107,7 @@ class LinkageDynamics {
   JointArray pivot_inertia_{};  ///< Of each link about its pin, what it carries as a point mass.
   double gravity_;
   Eigen::Vector2d tip_force_ = Eigen::Vector2d::Zero();
+  double bucket_moment_nm_ = 0.0;
 
   JointArray angle_{};
   JointRotations joint_;       ///< Of the angles, turned on with them.

@@ -23,6 +23,7 @@ enum class Draw : std::uint32_t {
   kTrackNoise,
   kAsFound,
   kHidden,
+  kSoilKind,
 };
 
 class Random {

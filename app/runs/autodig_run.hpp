@@ -39,6 +39,9 @@ struct AutodigSample {
   double error_true_m = kUnknown;      ///< Of the teeth from the step's straight line.
   double error_measured_m = kUnknown;  ///< By what the controller was told.
   double fence_left_m = kUnknown;      ///< Least of all points to all fences; below 0 beyond one.
+  double over_cut_m = kUnknown;        ///< Of the edge's lower corner under the design; 0: none.
+  double fill_m3 = kUnknown;           ///< Of the bucket, loose.
+  double cut_m3 = kUnknown;            ///< Undisturbed soil that was cut, so far.
   double lambda = 0.0;
   Limit limit;
   /// Strokes in m, swing in rad; velocities m/s and rad/s, the wanted ones after lambda.
@@ -87,7 +90,13 @@ struct AutodigSummary {
   double rmse_error_measured_m = 0.0;
   double end_error_true_m = 0.0;  ///< Largest.
   double fence_left_m = 0.0;      ///< Least; not a number without fences.
-  double lambda_min = 0.0;        ///< From the first step on.
+  /// Deepest that a corner of the true edge was under the design; not a number without a design.
+  double over_cut_max_m = kAbsent;
+  // Of a ground that is cut, else not a number.
+  double cut_m3 = kAbsent;       ///< Undisturbed.
+  double cut_m3ph = kAbsent;     ///< The same, of the time of the steps.
+  double fill_max_m3 = kAbsent;  ///< Loose, in the bucket.
+  double lambda_min = 0.0;       ///< From the first step on.
   double lambda_mean = 0.0;
   double task_s = 0.0;     ///< From the first step's begin to the last one's end.
   double planned_s = 0.0;  ///< Of all these steps.

@@ -9,6 +9,8 @@
 namespace graben::runs {
 namespace {
 
+constexpr double kSecondsPerHour = 3600.0;
+
 bool in_step(const AutodigSample& sample) {
   return sample.progress.runs && sample.progress.kind != StepKind::kApproach &&
          sample.progress.kind != StepKind::kDone;
@@ -101,6 +103,14 @@ FigureTable<AutodigSummary> task_figures() {
        [](const S& s) { return s.end_error_true_m; }},
       {{"fence_left_m", "distance to the nearest fence, min", kMillimetres, nullptr, BadEnd::kLow},
        [](const S& s) { return s.fence_left_m; }},
+      {{"over_cut_max_m", "true edge under the design, max", kMillimetres},
+       [](const S& s) { return s.over_cut_max_m; }},
+      {{"cut_m3", "soil that was cut", kCubicMetres, nullptr, BadEnd::kLow},
+       [](const S& s) { return s.cut_m3; }},
+      {{"cut_m3ph", "soil that was cut in an hour of steps", kCubicMetres, nullptr, BadEnd::kLow},
+       [](const S& s) { return s.cut_m3ph; }},
+      {{"fill_max_m3", "loose soil in the bucket, max", kCubicMetres, nullptr, BadEnd::kLow},
+       [](const S& s) { return s.fill_max_m3; }},
       {{"lambda_min", "lambda, min", kRatio, nullptr, BadEnd::kLow},
        [](const S& s) { return s.lambda_min; }},
       {{"lambda_mean", "lambda, mean", kRatio, nullptr, BadEnd::kLow},
@@ -126,6 +136,9 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
   summary.fence_left_m = AutodigSample::kUnknown;
   for (const AutodigSample& sample : result.samples) {
     summary.fence_left_m = std::fmin(summary.fence_left_m, sample.fence_left_m);
+    summary.over_cut_max_m = std::fmax(summary.over_cut_max_m, sample.over_cut_m);
+    summary.fill_max_m3 = std::fmax(summary.fill_max_m3, sample.fill_m3);
+    summary.cut_m3 = std::fmax(summary.cut_m3, sample.cut_m3);
     steps.add(sample);
     if (!in_step(sample)) {
       calm.pause();
@@ -153,6 +166,7 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
   if (in_steps > 0) {
     summary.lambda_mean = lambda_sum / static_cast<double>(in_steps);
     summary.task_s = summary.steps.back().until_s - summary.steps.front().from_s;
+    summary.cut_m3ph = summary.cut_m3 * kSecondsPerHour / summary.task_s;
   } else {
     summary.lambda_min = 0.0;
   }

@@ -158,6 +158,7 @@ machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machin
   machines::Scenario tried;
   tried.errors = errors_of(scenario.errors);
   tried.found = scenario.found;
+  tried.ground = scenario.soil;
   tried.seed = scenario.seed;
   machines::SimulatedExcavator result = machines::arranged(machine, tried);
   set_swash(scenario.swash_ratio, result);
@@ -165,7 +166,8 @@ machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machin
 }
 
 std::string machine_text(const TaskScenario& scenario) {
-  return errors_text(scenario.errors, scenario.found);
+  const std::string errors = errors_text(scenario.errors, scenario.found);
+  return scenario.soil.empty() ? errors : fmt::format("{}, {}", scenario.soil, errors);
 }
 
 machines::TaskFile planned_task(const TaskScenario& scenario, const ExcavatorProfile& profile) {

@@ -64,6 +64,7 @@ struct GradeScenario {
 struct TaskScenario {
   std::string task = "flatten";  ///< File or shipped name.
   std::string errors = "none";   ///< Of kErrorNames.
+  std::string soil;              ///< Of machines::kSoilNames; empty: no ground in the way.
   machines::Found found;         ///< What the machine is told to be.
   std::uint64_t seed = 1;
   std::vector<double> start;  ///< Teeth x, y, z in m and attitude in rad; where the task begins.

@@ -23,7 +23,7 @@ FIGURES = {
     "duration_s", "real_time_factor", "cycles", "cycle_median_us", "cycle_max_us", "steps",
     "limit_share", "lambda_variation_ps", "spool_travel_ps", "spool_reversals_ps",
     "teeth_jerk_rms_mps3", "energy_per_round_j", "energy_j", "energy_bypass_relief_share",
-    "swash_mean"}
+    "swash_mean", "over_cut_max_m", "cut_m3", "cut_m3ph", "fill_max_m3"}
 DRIVES = {"boom", "arm", "bucket", "swing"}
 
 # A move of the drives alone, past nothing.
@@ -163,6 +163,30 @@ def truck(digger):
     return figures
 
 
+def soil_is_cut(digger, loaded):
+    """Ground that gives way to the bucket: it takes time and error, fills the bucket, and is another one by name and
+    seed. A cut as shallow as the design's clearance goes through loam without a word."""
+    assert loaded["cut_m3"] is None and loaded["over_cut_max_m"] == 0.0, loaded
+    soils = {name: digger.figures("--task", "truck_loading", "--soil", name) for name in ("sand", "clay")}
+    for name, figures in soils.items():
+        # Two metres of way, 0.45 m deep, 1 m wide; the bucket holds half of it.
+        assert 0.3 < figures["cut_m3"] < 1.5, f"{name}: {figures['cut_m3']}"
+        assert 0.3 < figures["fill_max_m3"] < 0.6, f"{name}: {figures['fill_max_m3']}"
+        assert figures["max_error_true_m"] > 2.0 * loaded["max_error_true_m"], name
+        assert figures["task_s"] > loaded["task_s"], name
+        assert 0.0 <= figures["over_cut_max_m"] < 100 * MM, f"{name}: {figures['over_cut_max_m']}"
+    assert soils["clay"]["max_error_true_m"] > soils["sand"]["max_error_true_m"], soils
+    log = digger.content("autodig.log")
+    again = digger.figures("--task", "truck_loading", "--soil", "clay")
+    assert digger.content("autodig.log") == log, "the same soil gave different logs"
+    flat, drawn = (digger.figures("--soil", "sand", "--errors", errors, "--seed", "5")["cut_m3"]
+                   for errors in ("kim", "all"))
+    assert flat != drawn, "no soil drawn"
+    assert again["cut_m3ph"] > 10.0, again["cut_m3ph"]
+    done = digger.call("autodig", "--soil", "mud")
+    assert done.returncode == 2 and "sand" in done.stderr and "stones" in done.stderr, done.stderr
+
+
 def report_is_whole(digger):
     digger.figures("--task", "truck_loading")
     setup = report_page.setup_of(digger.content("autodig.html"))
@@ -244,6 +268,7 @@ def main():
         exact, unsure = paper_line(digger)
         fed, hasty, growth = twice_as_fast(digger)
         loaded = truck(digger)
+        soil_is_cut(digger, digger.figures("--task", "truck_loading"))
         report_is_whole(digger)
         repeats(digger)
         tasks_that_cannot_be_had(digger)

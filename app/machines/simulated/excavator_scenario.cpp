@@ -1,10 +1,12 @@
 #include "app/machines/simulated/simulated_excavator.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <stdexcept>
 
+#include "app/machines/simulated/soil_kinds.hpp"
 #include "app/plant/random.hpp"
 #include "firmware/excavator/field/rounded_rectangle.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
@@ -46,6 +48,35 @@ void vary_parameters(ExcavatorProfile& profile, const Uncertainty& uncertainty,
       vary(orifice, uncertainty.regeneration, random);
     }
   }
+}
+
+/// Where nobody has measured it, soil is this far from its kind's values, each way.
+constexpr double kSoilOff = 0.4;
+constexpr double kDensityOff = 0.15;
+
+/// Level where Kim's ground is on his path; else the ground that the machine stands on.
+void lay_ground(const Scenario& scenario, double level_m, const ExcavatorGeometry& geometry,
+                plant::ExcavatorPlantProfile& plant) {
+  const auto kind = soil_kind(scenario.ground);
+  if (!kind) {
+    throw std::runtime_error(fmt::format("--soil: '{}' is unknown; there are {}, and kim",
+                                         scenario.ground, fmt::join(kSoilNames, ", ")));
+  }
+  SoilFactors factors;
+  if (scenario.errors == Errors::kAll) {
+    Random random(scenario.seed, Draw::kSoilKind);
+    vary(factors.density, kDensityOff, random);
+    for (double* of :
+         {&factors.cohesion, &factors.adhesion, &factors.friction, &factors.wall_friction}) {
+      vary(*of, kSoilOff, random);
+    }
+  }
+  plant.digging.emplace();
+  plant.digging->soil = scaled(*kind, factors);
+  plant.digging->bucket = plant.bucket;
+  plant.digging->pin_m = geometry.bucket_length_m;
+  plant.digging->level_m = level_m;
+  plant.digging->gravity_mps2 = plant.gravity_mps2;
 }
 
 void load_bucket(plant::LinkBody& bucket, double mass_kg, const Eigen::Vector2d& centre_m) {
@@ -96,6 +127,11 @@ SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario
                 scenario.found);
   if (scenario.soil) {
     plant.soil = experiment.soil;
+  }
+  if (!scenario.ground.empty()) {
+    const double foot_m = machine.profile.geometry.boom_foot_m.y();
+    lay_ground(scenario, scenario.at_ground_line ? experiment.soil.ground_y_m + foot_m : 0.0,
+               machine.profile.geometry, plant);
   }
   if (scenario.obstacle) {
     plant.obstacle = experiment.obstacle;

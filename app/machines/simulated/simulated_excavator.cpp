@@ -30,6 +30,24 @@ plant::LinkBody read_link(TomlReader& reader, const std::string& axis) {
   return link;
 }
 
+/// What is not said is as buckets of this length have it.
+plant::BucketShape read_bucket(TomlReader& reader, double length_m) {
+  plant::BucketShape bucket;
+  bucket.width_m = reader.number_or(0.8 * length_m, "bucket.width", {0.1, 5.0, "m"},
+                                    "of the edge; 0.8 of the bucket's length unless told");
+  bucket.floor_m =
+      reader.number_or(0.45 * length_m, "bucket.floor", {0.1, 3.0, "m"},
+                       "from the teeth to the heel; 0.45 of the bucket's length unless told");
+  bucket.floor_rad = reader.number_or(0.65, "bucket.floor_angle", {0.1, 1.4, "rad"},
+                                      "from the line teeth to bucket pin down to the floor");
+  bucket.edge_m = reader.number_or(bucket.edge_m, "bucket.edge", {0.002, 0.1, "m"},
+                                   "thickness of the edge, which goes into the ground");
+  bucket.capacity_m3 = reader.number_or(
+      0.3 * bucket.width_m * length_m * length_m, "bucket.capacity", {0.005, 30.0, "m3"},
+      "loose soil that the bucket holds, heaped; 0.3 of width and length squared unless told");
+  return bucket;
+}
+
 void read_swing(TomlReader& reader, plant::ExcavatorPlantProfile& plant) {
   plant.platform.inertia_kgm2 =
       reader.number("swing.inertia", {100.0, 1e6, "kg m2"},
@@ -87,6 +105,7 @@ plant::ExcavatorPlantProfile read_plant(TomlReader& reader, const ExcavatorProfi
     plant.friction[i] = {coulomb[i], viscous[i]};
     plant.dead_volume_m3[i] = dead_volume[i];
   }
+  plant.bucket = read_bucket(reader, nominal.geometry.bucket_length_m);
   plant.line_volume_m3.fill(
       reader.number("valve.line_volume", {1e-5, 1.0, "m3"}, "oil in each pump line"));
   const ValveOfPlant valve = read_valve_of_plant(reader, "valve");

@@ -77,7 +77,10 @@ void read_simulated_sections(TomlReader& reader, SimulatedExcavator& machine);
 enum class Errors { kNone, kStrokeBias, kSensors, kParameters, kKim, kAll };
 
 struct Scenario {
-  bool soil = false;
+  bool soil = false;   ///< Kim's field of force below the ground.
+  std::string ground;  ///< Soil that is cut, of kSoilNames; empty: none.
+  bool at_ground_line =
+      false;  ///< It begins where Kim's ground does, not where the machine stands.
   bool obstacle = false;
   bool air = false;        ///< The manoeuvre in the air instead of the digging path.
   bool stiff_oil = false;  ///< The paper's, for comparison with its figures.
@@ -92,7 +95,7 @@ struct Scenario {
 /// for dead times, which only it has, and what it is found to be (Errors::kAll, `found`), of which
 /// the controller is told nothing. All of that is drawn about what the plant is. Same seed, same
 /// draw, whatever else is switched on. Throws std::runtime_error where two of the scenario's
-/// switches say the oil.
+/// switches say the oil, or for a soil that has no such name.
 [[nodiscard]] SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario);
 
 /// Strokes of a start pose. Throws std::runtime_error where it is out of reach.

@@ -15,8 +15,9 @@ from profile_edit import key_path, leaves, with_number, without
 
 KINDS = {"excavator": "excavator_22t.toml", "dozer": "dozer_9t.toml"}
 SIMULATED = "simulated-"
-# Keys that a file need not have, and what has no meaning without.
-OPTIONAL = {"task.swash_on_demand": ("task", "pump_power")}
+# Keys that a file need not have, and what can go with each.
+OPTIONAL = {"task.swash_on_demand": ("task", "pump_power"), "bucket.width": ("bucket", "capacity"),
+            "bucket.capacity": ("bucket", "width")}
 
 
 def simulation(path):

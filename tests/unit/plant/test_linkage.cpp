@@ -137,7 +137,7 @@ void tip_force_works_through_the_tip(void**) {
   profile.gravity_mps2 = 0.0;
   LinkageDynamics links(profile);
   const LinkageGeometry geometry(profile.machine.geometry);
-  links.set_tip_force({30e3, -20e3});
+  links.set_tip_force({30e3, -20e3}, 4e3);
   links.start(kPose, {});
   for (std::size_t i = 0; i < 3; ++i) {
     JointArray more = kPose;
@@ -147,7 +147,8 @@ void tip_force_works_through_the_tip(void**) {
     const Eigen::Vector2d move =
         (geometry.tip(more).position_m - geometry.tip(less).position_m) / 2e-6;
     const double moment = links.holding_forces()[i] * links.levers()[i].stroke_per_angle_m;
-    assert_near(moment, -(30e3 * move.x() - 20e3 * move.y()), 0.5);
+    // A moment on the bucket turns with every joint that carries it.
+    assert_near(moment, -(30e3 * move.x() - 20e3 * move.y() + 4e3), 0.5);
   }
 }
 

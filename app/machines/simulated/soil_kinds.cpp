@@ -1,0 +1,60 @@
+#include "app/machines/simulated/soil_kinds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/numeric/constants.hpp"
+
+namespace graben::machines {
+namespace {
+
+using plant::SoilKind;
+
+constexpr double kDegree = kPi / 180.0;
+
+// Sand: c and phi as J. Y. Wong, Theory of Ground Vehicles, table 2.3, dry sand; delta 0.7 phi, as
+// E. McKyes, Soil Cutting and Tillage (1985), gives it for polished steel; density and swell as in
+// handbooks of earthmoving (1.5 to 1.7 t/m3, 10 to 15 %).
+constexpr SoilKind kSand = {1600.0, 1.04e3, 0.0, 28.0 * kDegree, 20.0 * kDegree, 32.0 * kDegree,
+                            1.12,   0.0,    0.0};
+// Loam: usual values for sandy loam in tillage: cohesion 5 to 15 kPa, phi 30 to 35 and delta 20 to
+// 22 degrees; density of moist ground, swell 20 to 25 %.
+constexpr SoilKind kLoam = {1750.0, 10.0e3, 0.5e3, 30.0 * kDegree, 21.0 * kDegree, 37.0 * kDegree,
+                            1.22,   0.0,    0.0};
+// Clay: usual values for clay loam: cohesion 30 kPa (10 to 40 for moist plastic clay), phi 10 and
+// delta 6 degrees; Wong's heavy clay of 40 % moisture has 20.7 kPa and 6 degrees. Swell 30 to 35 %.
+constexpr SoilKind kClay = {1850.0, 30.0e3, 3.0e3, 10.0 * kDegree, 6.0 * kDegree, 42.0 * kDegree,
+                            1.32,   0.0,    0.0};
+// Loam with stones: friction of a gravelly soil, loam's cohesion; the force's deviation and the way
+// between stones are chosen, for stones of a fist's size to a head's.
+constexpr SoilKind kStones = {1900.0, 10.0e3, 0.0, 38.0 * kDegree, 25.0 * kDegree, 40.0 * kDegree,
+                              1.18,   0.35,   0.15};
+
+double angle_times(double angle_rad, double factor) {
+  return std::atan(factor * std::tan(angle_rad));
+}
+
+}  // namespace
+
+std::optional<SoilKind> soil_kind(std::string_view name) {
+  constexpr std::array<const SoilKind*, kSoilNames.size()> kKinds = {&kSand, &kLoam, &kClay,
+                                                                     &kStones};
+  const auto* const at = std::find(kSoilNames.begin(), kSoilNames.end(), name);
+  if (at == kSoilNames.end()) {
+    return std::nullopt;
+  }
+  return *kKinds[static_cast<std::size_t>(at - kSoilNames.begin())];
+}
+
+SoilKind scaled(const SoilKind& soil, const SoilFactors& factors) {
+  SoilKind other = soil;
+  other.density_kgpm3 *= factors.density;
+  other.cohesion_pa *= factors.cohesion;
+  other.adhesion_pa *= factors.adhesion;
+  other.friction_rad = angle_times(soil.friction_rad, factors.friction);
+  other.wall_friction_rad =
+      std::min(other.friction_rad, angle_times(soil.wall_friction_rad, factors.wall_friction));
+  return other;
+}
+
+}  // namespace graben::machines
