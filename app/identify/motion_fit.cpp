@@ -134,7 +134,7 @@ void search(const std::vector<JointRun>& all, std::size_t joint, JointModel& mod
   double least = std::numeric_limits<double>::infinity();
   for (const double dead_time_s : kDeadTimeStarts_s) {
     JointModel tried = start;
-    tried.value[kDeadTime] = dead_time_s;
+    std::fill_n(tried.value.begin() + kDeadTime, kWays, dead_time_s);
     const double cost = JointFit(inputs, joint, tried, scale_radps).solve(kSearchSteps, threads);
     if (cost < least) {
       least = cost;

@@ -1,5 +1,6 @@
 #include "app/identify/motion_model.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -16,13 +17,17 @@ double full(const JointModel& joint, std::size_t first_rise) {
   return std::accumulate(from, from + kRises, 1e-9);
 }
 
-std::vector<double> integral(const std::vector<double>& time_s,
-                             const std::vector<double>& command) {
-  std::vector<double> sum(time_s.size(), 0.0);
-  for (std::size_t row = 1; row < time_s.size(); ++row) {
-    sum[row] = sum[row - 1] + command[row - 1] * (time_s[row] - time_s[row - 1]);
+std::array<std::vector<double>, kWays> integrals(const MotionRun& run, std::size_t joint) {
+  const std::size_t rows = run.size();
+  std::array<std::vector<double>, kWays> sums = {std::vector<double>(rows),
+                                                 std::vector<double>(rows)};
+  for (std::size_t row = 1; row < rows; ++row) {
+    const double step_s = run.time_s[row] - run.time_s[row - 1];
+    const double command = run.command[joint][row - 1];
+    sums[0][row] = sums[0][row - 1] + step_s * std::max(0.0, command);
+    sums[1][row] = sums[1][row - 1] + step_s * std::min(0.0, command);
   }
-  return sum;
+  return sums;
 }
 
 using States = std::array<JointState<double>, kJoints>;
@@ -49,7 +54,8 @@ class Machine {
       const JointModel& of = model_[joint];
       wanted[joint] = flow_velocity(inputs_[joint], row, of.value.data(), of.grid, pose,
                                     angles[joint], open_[joint][row]);
-      move(states[joint], of.value.data(), row_s, wanted[joint], 0.0);
+      move(states[joint], of.value.data(), row_s, wanted[joint], 0.0,
+           inertia_of(of.value.data(), of.grid, pose));
       faster[joint] = of.sign * (states[joint].seen_radps - before[joint].seen_radps);
     }
     states = before;
@@ -59,7 +65,7 @@ class Machine {
       for (std::size_t at = 0; at < kOthers; ++at) {
         shoved += p[kRockForce + at] * faster[other_joint(joint, at)];
       }
-      move(states[joint], p, row_s, wanted[joint], shoved);
+      move(states[joint], p, row_s, wanted[joint], shoved, inertia_of(p, model_[joint].grid, pose));
     }
   }
 
@@ -147,7 +153,7 @@ JointRun joint_run(const MotionModel& model, std::size_t joint, const MotionRun&
                    const Velocities* rates) {
   JointRun of;
   of.run = &run;
-  of.commanded_s = integral(run.time_s, run.command[joint]);
+  of.commanded_s = integrals(run, joint);
   of.pose.reserve(run.size());
   for (std::size_t row = 0; row < run.size(); ++row) {
     of.pose.push_back(pose_of(angles_at(run, row)));
@@ -157,7 +163,7 @@ JointRun joint_run(const MotionModel& model, std::size_t joint, const MotionRun&
     const JointModel& theirs = model[other];
     JointRun alone;
     alone.run = &run;
-    alone.commanded_s = integral(run.time_s, run.command[other]);
+    alone.commanded_s = integrals(run, other);
     of.other_opening[at] = openings<double>(alone, other, theirs.value.data(), theirs.grid);
     for (double& open : of.other_opening[at]) {
       open /= full(theirs, open > 0.0 ? kForward : kBackward);

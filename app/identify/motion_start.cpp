@@ -123,14 +123,17 @@ void spread(double* rises, Bends& bends, const std::vector<double>& commands) {
 
 Range range(std::size_t parameter, double usual_radps) {
   constexpr double kFree = 1e6;
-  if (parameter == kDeadTime) {
-    return {0.0, 0.12, 0.5, kFree};
+  if (parameter < kPilotLag) {
+    return {0.0, 0.12, 0.5, 0.1};
   }
   if (parameter < kForward) {
     return {0.005, 0.04, 0.6, kFree};
   }
-  if (parameter < kFlowLag) {
+  if (parameter < kPlay) {
     return {0.0, 0.5 * usual_radps, 50.0 * usual_radps, kFree};
+  }
+  if (parameter == kPlay) {
+    return {0.0, 0.01, 0.2, 0.05};
   }
   if (parameter < kModeRate) {
     return {0.001, 0.005, 1.5, 0.1};
@@ -138,8 +141,14 @@ Range range(std::size_t parameter, double usual_radps) {
   if (parameter == kModeRate) {
     return {1.0, 12.0, 40.0, kFree};
   }
-  if (parameter < kLoadForward) {
+  if (parameter < kReliefDriving) {
     return {0.1, 8.0, 100.0, kFree};
+  }
+  if (parameter < kInertia) {
+    return {0.5 * usual_radps, 8.0 * usual_radps, 100.0 * usual_radps, 20.0 * usual_radps};
+  }
+  if (parameter < kLoadForward) {
+    return {-3.0, 0.0, 3.0, 0.3};
   }
   if (parameter < kLinkageRatio) {
     return {-5.0, 0.0, 5.0, 0.5};
@@ -151,10 +160,10 @@ Range range(std::size_t parameter, double usual_radps) {
     return {0.0, 0.3, 8.0, 2.0};
   }
   if (parameter == kRockRate) {
-    return {3.0, 12.0, 80.0, 40.0};
+    return {3.0, 20.0, 80.0, 40.0};
   }
   if (parameter == kRockDamping) {
-    return {0.02, 0.15, 1.0, 1.0};
+    return {0.01, 0.15, 1.0, 1.0};
   }
   return parameter == kSensorLag ? Range{0.001, 0.01, 0.15, 0.02} : Range{-20.0, 0.02, 20.0, 2.0};
 }

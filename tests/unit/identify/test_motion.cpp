@@ -38,6 +38,8 @@ JointModel joint() {
   std::fill_n(model.value.begin() + kForward, 2 * kRises, 0.7 / kRises);
   std::fill_n(model.value.begin() + kLinkageRatio, kLinkage - 1, 0.9);
   model.value[kDeadTime] = 0.12;
+  model.value[kDeadTime + 1] = 0.13;
+  model.value[kPlay] = 0.01;
   const std::array<double, 4> lags = {0.05, 0.08, 0.06, 0.09};
   std::copy(lags.begin(), lags.end(), model.value.begin() + kPilotLag);
   std::copy(lags.begin(), lags.end(), model.value.begin() + kFlowLag);
@@ -45,12 +47,16 @@ JointModel joint() {
   model.value[kModeRate] = 12.0;
   model.value[kDampingDriving] = 20.0;
   model.value[kDampingBraking] = 14.0;
+  model.value[kReliefDriving] = 2.5;
+  model.value[kReliefBraking] = 1.5;
+  model.value[kInertia + 1] = 0.3;
   model.value[kLoadForward + 1] = 0.1;
   model.value[kLoadBackward + 1] = 0.2;
   model.value[kShare + 1] = 0.3;
   model.value[kRockRate] = 20.0;
   model.value[kRockDamping] = 0.3;
   model.value[kRockForce + 2] = 0.1;
+  model.value[kRockOwn] = -0.2;
   return model;
 }
 
@@ -135,10 +141,86 @@ void nothing_moves_before_dead_time_and_edge(void** /*state*/) {
   input = joint_run(model, kBoom, of, nullptr);
   const std::vector<double> open =
       openings<double>(input, kBoom, model[kBoom].value.data(), grid());
-  // 0.12 s are two rows and a part.
+  // 0.13 s are two rows and a part.
   assert_near(open[22], 0.0, 0.0);
   assert_true(open[23] < 0.0);
-  assert_near(open[kRows - 1], -0.7, 1e-9);
+  // The spool hangs behind by its play.
+  const double short_of = model[kBoom].value[kPlay] * 0.7 / kRises / 0.1;
+  assert_near(open[kRows - 1], short_of - 0.7, 1e-9);
+}
+
+/// What `model`'s boom does at rest when its command becomes `first`, and `then` after three
+/// seconds; nothing else moves.
+std::vector<JointState<double>> stepped(const JointModel& model, double first, double then) {
+  MotionRun of = run(0.0);
+  for (std::size_t row = 0; row < kRows; ++row) {
+    for (std::size_t joint = 0; joint < kJoints; ++joint) {
+      of.command[joint][row] = joint == kBoom ? (row < 5 ? 0.0 : row < 65 ? first : then) : 0.0;
+      of.angle_rad[joint][row] = 0.0;
+    }
+  }
+  const MotionModel all = {model, joint(), joint(), joint()};
+  const JointRun input = joint_run(all, kBoom, of, nullptr);
+  return motion<double>(input, kBoom, model.value.data(), model.grid);
+}
+
+void each_direction_has_its_dead_time(void** /*state*/) {
+  JointModel model = joint();
+  model.value[kDeadTime] = 0.05;
+  model.value[kDeadTime + 1] = 0.25;
+  const auto starts = [&](double command) {
+    const std::vector<JointState<double>> states = stepped(model, command, command);
+    return std::find_if(states.begin(), states.end(),
+                        [](const JointState<double>& at) { return at.flow_radps != 0.0; }) -
+           states.begin();
+  };
+  assert_int_equal(starts(-1.0) - starts(1.0), 4);
+}
+
+void a_spool_stays_within_its_play(void** /*state*/) {
+  JointModel model = joint();
+  model.value[kPlay] = 0.05;
+  const auto last = [&](double then) { return stepped(model, 0.7, then).back().flow_radps; };
+  const double held = last(0.7);
+  assert_near(last(0.62), held, 1e-6);
+  assert_true(last(0.55) < held - 0.01);
+  assert_true(last(0.75) > held + 0.01);
+}
+
+void reliefs_bound_the_acceleration(void** /*state*/) {
+  JointModel model = joint();
+  model.value[kReliefDriving] = 0.8;
+  model.value[kReliefBraking] = 0.4;
+  // All poses are alike here: how heavy it is in this one.
+  const double inertia =
+      inertia_of(model.value.data(), model.grid, pose_of(Angles{0.0, 0.0, 0.0, 0.0}));
+  assert_true(inertia > 1.1);
+  double fastest = 0.0;
+  double slowest = 0.0;
+  const std::vector<JointState<double>> states = stepped(model, 1.0, 0.0);
+  for (const JointState<double>& state : states) {
+    fastest = std::max(fastest, state.pushed_radps2);
+    slowest = std::min(slowest, state.pushed_radps2);
+  }
+  assert_near(fastest, 0.8 / inertia, 1e-9);
+  assert_near(slowest, -0.4 / inertia, 1e-9);
+}
+
+void a_joint_rocks_the_machine_that_carries_it(void** /*state*/) {
+  JointModel model = joint();
+  const auto turned = [&] { return stepped(model, 1.0, 1.0); };
+  model.value[kRockOwn] = 0.0;
+  const std::vector<JointState<double>> firm = turned();
+  model.value[kRockOwn] = -0.5;
+  const std::vector<JointState<double>> rocking = turned();
+  double least = 0.0;
+  for (std::size_t row = 0; row < kRows; ++row) {
+    assert_near(firm[row].tilt_rad, 0.0, 0.0);
+    least = std::min(least, rocking[row].tilt_rad);
+  }
+  assert_true(least < -1e-3);
+  // It comes to rest where it was.
+  assert_near(rocking.back().turned_rad, firm.back().turned_rad, 1e-4);
 }
 
 void a_model_explains_its_own_motion(void** /*state*/) {
@@ -287,6 +369,10 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(derivatives_are_those_of_the_error),
       cmocka_unit_test(nothing_moves_before_dead_time_and_edge),
+      cmocka_unit_test(each_direction_has_its_dead_time),
+      cmocka_unit_test(a_spool_stays_within_its_play),
+      cmocka_unit_test(reliefs_bound_the_acceleration),
+      cmocka_unit_test(a_joint_rocks_the_machine_that_carries_it),
       cmocka_unit_test(a_model_explains_its_own_motion),
       cmocka_unit_test(a_second_ahead_knows_nothing_of_that_second),
       cmocka_unit_test(linkage_and_slow_pump_are_found),
