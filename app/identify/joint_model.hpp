@@ -3,7 +3,7 @@
 ///
 /// command -> dead time -> pilot lag -> play of the spool -> opening (monotone curve, one per
 ///            direction) -> flow (load by gravity, linkage, shared with the other openings)
-///         -> pump lag -> oil and mass (one mode, inertia by pose, reliefs) -> motion
+///         -> pump lag -> oil and mass (one mode, inertia by pose) -> motion
 ///         -> sensor lag -> measured velocity
 ///
 /// A measured angle also shows what accelerations, its joint's own and the others', do to what
@@ -47,8 +47,6 @@ enum Parameter : std::size_t {
   kModeRate = kFlowLag + 4,       ///< rad/s, of oil and mass
   kDampingDriving,                ///< 1/s, while the oil drives
   kDampingBraking,                ///< 1/s, while the oil brakes
-  kReliefDriving,                 ///< rad/s^2 that the oil accelerates at most
-  kReliefBraking,                 ///< rad/s^2 that it brakes at most
   kInertia,                       ///< By how much the pose makes it heavier, ratio per cosine
   kLoadForward = kInertia + kCosines,  ///< By how much the pose speeds it up, ratio per part of it
   kLoadBackward = kLoadForward + kPose,

@@ -27,17 +27,12 @@ struct JointState {
 /// at any step.
 template <class T>
 void oscillate(T& at, T& speed, double step_s, const T& stiffness, const T& damping, const T& rest,
-               const T& shoved, const T& most) {
+               const T& shoved) {
   const double half_s = 0.5 * step_s;
   const T before = speed;
   speed = (speed * (1.0 - half_s * damping - half_s * half_s * stiffness) + shoved +
            step_s * stiffness * (rest - at)) /
           (1.0 + half_s * damping + half_s * half_s * stiffness);
-  if (speed > most) {
-    speed = most;
-  } else if (speed < -most) {
-    speed = -most;
-  }
   at += half_s * (before + speed);
 }
 
@@ -57,16 +52,12 @@ void move(JointState<T>& state, const T* p, double row_s, const T& wanted_radps,
   for (int step = 0; step < kSteps; ++step) {
     const T flow = before + (state.flow_radps - before) * ((step + 0.5) / kSteps);
     const T& damping = p[state.pushed_radps2 * flow > 0.0 ? kDampingDriving : kDampingBraking];
-    const T most =
-        p[state.pushed_radps2 * state.velocity_radps > 0.0 ? kReliefDriving : kReliefBraking] /
-        inertia;
     const T slower_radps = state.velocity_radps;
-    oscillate(state.velocity_radps, state.pushed_radps2, step_s, stiffness, damping, flow, T(0.0),
-              most);
+    oscillate(state.velocity_radps, state.pushed_radps2, step_s, stiffness, damping, flow, T(0.0));
     const T shoved =
         shoved_radps / double(kSteps) + p[kRockOwn] * (state.velocity_radps - slower_radps);
     oscillate(state.tilt_rad, state.rocks_radps, step_s, rock_stiffness, rock_damping, T(0.0),
-              shoved, T(1e9));
+              shoved);
     const T true_radps = state.velocity_radps + state.rocks_radps;
     state.turned_rad += step_s * true_radps;
     state.seen_radps += (true_radps - state.seen_radps) * (step_s / (step_s + p[kSensorLag]));

@@ -141,11 +141,8 @@ Range range(std::size_t parameter, double usual_radps) {
   if (parameter == kModeRate) {
     return {1.0, 12.0, 40.0, kFree};
   }
-  if (parameter < kReliefDriving) {
-    return {0.1, 8.0, 100.0, kFree};
-  }
   if (parameter < kInertia) {
-    return {0.5 * usual_radps, 8.0 * usual_radps, 100.0 * usual_radps, 20.0 * usual_radps};
+    return {0.1, 8.0, 100.0, kFree};
   }
   if (parameter < kLoadForward) {
     return {-3.0, 0.0, 3.0, 0.3};
