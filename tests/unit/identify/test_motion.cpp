@@ -289,6 +289,11 @@ void linkage_and_slow_pump_are_found(void** /*state*/) {
   for (const std::size_t plain : {kLoadForward, kLoadBackward}) {
     std::fill_n(boom.value.begin() + static_cast<std::ptrdiff_t>(plain), kPose, 0.0);
   }
+  for (const std::size_t plain : {kPlay, kRockOwn}) {
+    boom.value[plain] = 0.0;
+  }
+  std::fill_n(boom.value.begin() + kInertia, kCosines, 0.0);
+  boom.value[kDeadTime + 1] = boom.value[kDeadTime];
   const std::array<double, kLinkage - 1> ratios = {0.55, 0.75, 0.92, 0.92, 0.75, 0.55};
   std::copy(ratios.begin(), ratios.end(), boom.value.begin() + kLinkageRatio);
   const std::array<double, 4> slow = {0.25, 0.01, 0.02, 0.01};
