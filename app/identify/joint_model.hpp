@@ -1,10 +1,9 @@
 #pragma once
 /// How a joint of a hydraulic machine answers its command, with the other joints on the same pumps.
 ///
-/// command -> dead time -> pilot lag -> play of the spool -> opening (monotone curve, one per
-///            direction) -> flow (load by gravity, linkage, shared with the other openings)
-///         -> pump lag -> oil and mass (one mode, inertia by pose) -> motion
-///         -> sensor lag -> measured velocity
+/// command -> dead time -> pilot lag -> opening (monotone curve, one per direction)
+///         -> flow (load by gravity, linkage, shared with the other openings) -> pump lag
+///         -> oil and mass (one mode, inertia by pose) -> motion -> sensor lag -> measured velocity
 ///
 /// A measured angle also shows what accelerations, its joint's own and the others', do to what
 /// carries it: the machine rocks and twists on its tracks (a slow mode), or the sensor itself takes
@@ -38,16 +37,15 @@ inline constexpr std::size_t kCosines = 3;  ///< Of the pose: boom, arm, bucket.
 /// Where in the parameters of a joint which of them starts. 'Forward' is what a positive opening
 /// does. A pair of lags is for growing and for falling.
 enum Parameter : std::size_t {
-  kDeadTime = 0,                  ///< s, of commands > 0, and of commands < 0
-  kPilotLag = kDeadTime + kWays,  ///< s, a pair for forward, a pair for backward
-  kForward = kPilotLag + 4,       ///< rad/s, rises of the curve for commands > 0, each >= 0
-  kBackward = kForward + kRises,  ///< rad/s, for commands < 0
-  kPlay = kBackward + kRises,     ///< By how much the spool hangs behind either way, of the command
-  kFlowLag,                       ///< s, of the pump's flow, as kPilotLag
-  kModeRate = kFlowLag + 4,       ///< rad/s, of oil and mass
-  kDampingDriving,                ///< 1/s, while the oil drives
-  kDampingBraking,                ///< 1/s, while the oil brakes
-  kInertia,                       ///< By how much the pose makes it heavier, ratio per cosine
+  kDeadTime = 0,                       ///< s
+  kPilotLag,                           ///< s, a pair for forward, a pair for backward
+  kForward = kPilotLag + 4,            ///< rad/s, rises of the curve for commands > 0, each >= 0
+  kBackward = kForward + kRises,       ///< rad/s, for commands < 0
+  kFlowLag = kBackward + kRises,       ///< s, of the pump's flow, as kPilotLag
+  kModeRate = kFlowLag + 4,            ///< rad/s, of oil and mass
+  kDampingDriving,                     ///< 1/s, while the oil drives
+  kDampingBraking,                     ///< 1/s, while the oil brakes
+  kInertia,                            ///< By how much the pose makes it heavier, ratio per cosine
   kLoadForward = kInertia + kCosines,  ///< By how much the pose speeds it up, ratio per part of it
   kLoadBackward = kLoadForward + kPose,
   /// Velocity per flow along the joint's own travel, ratio to that at kMiddle, which is left out
@@ -82,8 +80,8 @@ struct Grid {
 /// What one run says about a joint before its own parameters are known.
 struct JointRun {
   const MotionRun* run = nullptr;
-  std::array<std::vector<double>, kWays> commanded_s;  ///< Integrals of commands > 0 and < 0.
-  std::vector<Pose> pose;                              ///< As measured.
+  std::vector<double> commanded_s;  ///< Integral of the command.
+  std::vector<Pose> pose;           ///< As measured.
   /// Of the other joints in turn, from the last pass: opening (-1 .. 1) and velocity.
   std::array<std::vector<double>, kOthers> other_opening;
   std::array<std::vector<double>, kOthers> other_velocity_radps;
@@ -134,17 +132,14 @@ const T& lag_of(const T* lags, const T& from, const T& to) {
   return lags[(forward ? 0 : 2) + (grows ? 0 : 1)];
 }
 
-/// The integral at `time_s`, which may lie before the run, of what is commanded in one way.
+/// The command's integral at `time_s`, which may lie before the run.
 template <class T>
-T commanded_until(const JointRun& of, std::size_t joint, std::size_t way, const T& time_s,
-                  std::size_t& row) {
+T commanded_until(const JointRun& of, std::size_t joint, const T& time_s, std::size_t& row) {
   const std::vector<double>& time = of.run->time_s;
   while (row + 1 < time.size() && time[row + 1] <= time_s) {
     ++row;
   }
-  const double command = of.run->command[joint][row];
-  const double held = way == 0 ? std::max(0.0, command) : std::min(0.0, command);
-  return of.commanded_s[way][row] + held * (time_s - time[row]);
+  return of.commanded_s[row] + of.run->command[joint][row] * (time_s - time[row]);
 }
 
 /// What opens after dead time and pilot lag, in rad/s of the unloaded joint; for each row of the
@@ -154,26 +149,17 @@ std::vector<T> openings(const JointRun& of, std::size_t joint, const T* p, const
   using std::exp;
   const std::vector<double>& time = of.run->time_s;
   std::vector<T> open(time.size(), T(0.0));
-  std::array<std::size_t, kWays> row{};
+  std::size_t row = 0;
   T pilot(of.run->command[joint][0]);
-  T spool = pilot;
-  const auto until = [&](std::size_t way, std::size_t at) {
-    return commanded_until(of, joint, way, T(time[at] - p[kDeadTime + way]), row[way]);
-  };
-  std::array<T, kWays> before = {until(0, 0), until(1, 0)};
+  T before = commanded_until(of, joint, T(time[0] - p[kDeadTime]), row);
   for (std::size_t at = 1; at < time.size(); ++at) {
     const double step_s = time[at] - time[at - 1];
-    const std::array<T, kWays> now = {until(0, at), until(1, at)};
-    const T held = (now[0] - before[0] + now[1] - before[1]) / step_s;
-    before = now;
+    const T until = commanded_until(of, joint, T(time[at] - p[kDeadTime]), row);
+    const T held = (until - before) / step_s;
+    before = until;
     pilot += (held - pilot) * (1.0 - exp(-step_s / lag_of(p + kPilotLag, pilot, held)));
-    if (pilot > spool + p[kPlay]) {
-      spool = pilot - p[kPlay];
-    } else if (pilot < spool - p[kPlay]) {
-      spool = pilot + p[kPlay];
-    }
-    open[at] = spool > 0.0 ? curve_at(p + kForward, grid.forward, spool)
-                           : T(-curve_at(p + kBackward, grid.backward, T(-spool)));
+    open[at] = pilot > 0.0 ? curve_at(p + kForward, grid.forward, pilot)
+                           : T(-curve_at(p + kBackward, grid.backward, T(-pilot)));
   }
   return open;
 }

@@ -23,11 +23,29 @@ constexpr std::size_t kSearched = 14;  // So many runs are enough to choose a st
 constexpr std::size_t kSome = 42;      // and so many for all passes but the last.
 constexpr int kSteps = 15;
 
+/// How a parameter is held before any motion says something. A slow mode that the joint rocks by
+/// itself can stand in for dead time: the first pass finds dead time without, the others keep near.
+struct Held {
+  bool first = true;
+  double dead_time_s = 0.0;  ///< Found by the first pass.
+
+  [[nodiscard]] double start(std::size_t at, const Range& range) const {
+    return at == kDeadTime && !first ? dead_time_s : range.start;
+  }
+  [[nodiscard]] double wide(std::size_t at, const Range& range) const {
+    constexpr double kFree = 1e6;
+    constexpr double kFixed = 1e-4;
+    return !first || (at != kDeadTime && at != kRockOwn) ? range.wide
+           : at == kDeadTime                             ? kFree
+                                                         : kFixed;
+  }
+};
+
 /// A joint's problem in Ceres.
 class JointFit {
  public:
   JointFit(const std::vector<JointRun>& inputs, std::size_t joint, JointModel& model,
-           double scale_radps)
+           double scale_radps, const Held& held)
       : model_(model) {
     for (const JointRun& of : inputs) {
       problem_.AddResidualBlock(new JointCost(of, joint, model.grid, model.sign, scale_radps),
@@ -37,8 +55,9 @@ class JointFit {
     ceres::Vector start = ceres::Vector::Zero(kParameters);
     for (std::size_t at = 0; at < kParameters; ++at) {
       const Range allowed = range(at, scale_radps);
-      start[static_cast<Eigen::Index>(at)] = allowed.start;
-      narrow(static_cast<Eigen::Index>(at), static_cast<Eigen::Index>(at)) = 1.0 / allowed.wide;
+      start[static_cast<Eigen::Index>(at)] = held.start(at, allowed);
+      narrow(static_cast<Eigen::Index>(at), static_cast<Eigen::Index>(at)) =
+          1.0 / held.wide(at, allowed);
       problem_.SetParameterLowerBound(model.value.data(), static_cast<int>(at), allowed.least);
       problem_.SetParameterUpperBound(model.value.data(), static_cast<int>(at), allowed.most);
     }
@@ -134,8 +153,9 @@ void search(const std::vector<JointRun>& all, std::size_t joint, JointModel& mod
   double least = std::numeric_limits<double>::infinity();
   for (const double dead_time_s : kDeadTimeStarts_s) {
     JointModel tried = start;
-    std::fill_n(tried.value.begin() + kDeadTime, kWays, dead_time_s);
-    const double cost = JointFit(inputs, joint, tried, scale_radps).solve(kSearchSteps, threads);
+    tried.value[kDeadTime] = dead_time_s;
+    const double cost =
+        JointFit(inputs, joint, tried, scale_radps, Held{}).solve(kSearchSteps, threads);
     if (cost < least) {
       least = cost;
       model = tried;
@@ -148,6 +168,7 @@ void search(const std::vector<JointRun>& all, std::size_t joint, JointModel& mod
 MotionModel fit_motion(const std::vector<MotionRun>& runs, const FitOptions& options) {
   MotionModel model;
   std::array<double, kJoints> scale_radps{};
+  std::array<double, kJoints> dead_time_s{};  // Found by the first pass.
   for (std::size_t joint = 0; joint < kJoints; ++joint) {
     scale_radps[joint] = usual_velocity(runs, joint);
     model[joint] = start_model(runs, joint);
@@ -176,8 +197,11 @@ MotionModel fit_motion(const std::vector<MotionRun>& runs, const FitOptions& opt
         search(inputs, joint, of, scale_radps[joint], options.threads);
         spread_bends(runs, joint, of);
       }
-      JointFit fit(inputs, joint, of, scale_radps[joint]);
+      JointFit fit(inputs, joint, of, scale_radps[joint], {pass == 0, dead_time_s[joint]});
       fit.solve(kSteps, options.threads);
+      if (pass == 0) {
+        dead_time_s[joint] = of.value[kDeadTime];
+      }
       if (last) {
         fit.deviations(inputs, joint, scale_radps[joint]);
       }

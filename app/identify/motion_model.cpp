@@ -1,6 +1,5 @@
 #include "app/identify/motion_model.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -17,17 +16,13 @@ double full(const JointModel& joint, std::size_t first_rise) {
   return std::accumulate(from, from + kRises, 1e-9);
 }
 
-std::array<std::vector<double>, kWays> integrals(const MotionRun& run, std::size_t joint) {
-  const std::size_t rows = run.size();
-  std::array<std::vector<double>, kWays> sums = {std::vector<double>(rows),
-                                                 std::vector<double>(rows)};
-  for (std::size_t row = 1; row < rows; ++row) {
-    const double step_s = run.time_s[row] - run.time_s[row - 1];
-    const double command = run.command[joint][row - 1];
-    sums[0][row] = sums[0][row - 1] + step_s * std::max(0.0, command);
-    sums[1][row] = sums[1][row - 1] + step_s * std::min(0.0, command);
+std::vector<double> integral(const std::vector<double>& time_s,
+                             const std::vector<double>& command) {
+  std::vector<double> sum(time_s.size(), 0.0);
+  for (std::size_t row = 1; row < time_s.size(); ++row) {
+    sum[row] = sum[row - 1] + command[row - 1] * (time_s[row] - time_s[row - 1]);
   }
-  return sums;
+  return sum;
 }
 
 using States = std::array<JointState<double>, kJoints>;
@@ -153,7 +148,7 @@ JointRun joint_run(const MotionModel& model, std::size_t joint, const MotionRun&
                    const Velocities* rates) {
   JointRun of;
   of.run = &run;
-  of.commanded_s = integrals(run, joint);
+  of.commanded_s = integral(run.time_s, run.command[joint]);
   of.pose.reserve(run.size());
   for (std::size_t row = 0; row < run.size(); ++row) {
     of.pose.push_back(pose_of(angles_at(run, row)));
@@ -163,7 +158,7 @@ JointRun joint_run(const MotionModel& model, std::size_t joint, const MotionRun&
     const JointModel& theirs = model[other];
     JointRun alone;
     alone.run = &run;
-    alone.commanded_s = integrals(run, other);
+    alone.commanded_s = integral(run.time_s, run.command[other]);
     of.other_opening[at] = openings<double>(alone, other, theirs.value.data(), theirs.grid);
     for (double& open : of.other_opening[at]) {
       open /= full(theirs, open > 0.0 ? kForward : kBackward);

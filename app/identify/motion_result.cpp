@@ -44,15 +44,6 @@ double mean_lag(const JointModel& joint, std::size_t way) {
                 value[kFlowLag + 2 + way]);
 }
 
-double mean_dead_time(const JointModel& joint) {
-  return 0.5 * (joint.value[kDeadTime] + joint.value[kDeadTime + 1]);
-}
-
-/// At most that of mean_dead_time(): of the two that hang together wholly.
-double dead_time_deviation(const JointModel& joint) {
-  return 0.5 * (joint.deviation[kDeadTime] + joint.deviation[kDeadTime + 1]);
-}
-
 const Bends& bends(const JointModel& joint, std::size_t first) {
   return first == kForward ? joint.grid.forward : joint.grid.backward;
 }
@@ -167,10 +158,7 @@ std::string motion_json(const MotionResult& result) {
     axis["angle_1s_rms_rad"] = score.angle_1s_rms_rad;
     axis["velocity_rms_unexplained_radps"] = score.velocity_rms_radps;
     axis["positive_command_turns"] = model.sign;
-    axis["dead_time_s"] = mean_dead_time(model);
-    axis["dead_time_positive_s"] = model.value[kDeadTime];
-    axis["dead_time_negative_s"] = model.value[kDeadTime + 1];
-    axis["spool_play_ratio"] = model.value[kPlay];
+    axis["dead_time_s"] = model.value[kDeadTime];
     axis["lag_opening_s"] = mean_lag(model, 0);
     axis["lag_closing_s"] = mean_lag(model, 1);
     axis["positive"] = curve_json(model, kForward);
@@ -193,8 +181,8 @@ std::string motion_text(const MotionResult& result) {
           "{:<8} {:>11}  {:>11.2f} deg  {:>3.0f} +- {:<3.0f} ms  {:>9.0f}, {:<3.0f} ms  "
           "{:.0f}, {:.0f} of 1000\n",
           kJointNames[joint], score.moved ? fmt::format("{:.3f}", score.velocity_r2) : "stood",
-          kDegrees * score.angle_1s_rms_rad, 1e3 * mean_dead_time(model),
-          kBand * 1e3 * dead_time_deviation(model), 1e3 * mean_lag(model, 0),
+          kDegrees * score.angle_1s_rms_rad, 1e3 * model.value[kDeadTime],
+          kBand * 1e3 * model.deviation[kDeadTime], 1e3 * mean_lag(model, 0),
           1e3 * mean_lag(model, 1), kPermille * edge(model, kForward),
           kPermille * edge(model, kBackward));
       missing += unsupported(result, joint);

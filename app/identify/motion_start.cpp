@@ -123,17 +123,14 @@ void spread(double* rises, Bends& bends, const std::vector<double>& commands) {
 
 Range range(std::size_t parameter, double usual_radps) {
   constexpr double kFree = 1e6;
-  if (parameter < kPilotLag) {
-    return {0.0, 0.12, 0.5, 0.1};
+  if (parameter == kDeadTime) {
+    return {0.0, 0.12, 0.5, 0.03};
   }
   if (parameter < kForward) {
     return {0.005, 0.04, 0.6, kFree};
   }
-  if (parameter < kPlay) {
+  if (parameter < kFlowLag) {
     return {0.0, 0.5 * usual_radps, 50.0 * usual_radps, kFree};
-  }
-  if (parameter == kPlay) {
-    return {0.0, 0.01, 0.2, 0.05};
   }
   if (parameter < kModeRate) {
     return {0.001, 0.005, 1.5, 0.1};
@@ -161,6 +158,9 @@ Range range(std::size_t parameter, double usual_radps) {
   }
   if (parameter == kRockDamping) {
     return {0.01, 0.15, 1.0, 1.0};
+  }
+  if (parameter == kRockOwn) {
+    return {-20.0, 0.0, 20.0, 0.2};
   }
   return parameter == kSensorLag ? Range{0.001, 0.01, 0.15, 0.02} : Range{-20.0, 0.02, 20.0, 2.0};
 }
