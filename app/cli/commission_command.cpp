@@ -10,6 +10,7 @@
 #include "app/cli/commission_on_bus.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/options.hpp"
+#include "app/cli/output_file.hpp"
 #include "app/commission/commission_windows.hpp"
 #include "app/runs/code_text.hpp"
 #include "app/runs/commission_run.hpp"
@@ -45,7 +46,8 @@ std::string stop_text(const runs::CommissionResult& result) {
     case runs::CommissionEnd::kDone:
       return "";
     case runs::CommissionEnd::kFault:
-      return runs::fault_words(result.fault);
+      return fmt::format("{} (fault {}). {}", runs::fault_words(result.fault),
+                         static_cast<int>(result.fault), runs::fault_help(result.fault));
     case runs::CommissionEnd::kWrongWay:
       return wrong_text(*result.wrong);
     case runs::CommissionEnd::kTooLong:
@@ -63,6 +65,9 @@ void commission_in_memory(const CommissionCommand& options) {
     commission::read_windows(options.windows, run.sequence);
     leave_touches(options.choice, run.sequence);
   }
+  assert_apart({machines::find_profile(options.profile).string(), options.windows,
+                options.simulated.name.value_or("")},
+               {options.log});
   run.log_file = options.log;
   runs::CommissionResult result;
   {

@@ -22,6 +22,9 @@ struct IdentifyCommand {
 };
 
 void identify_motion(const IdentifyCommand& options) {
+  std::vector<std::string> inputs = options.csv;
+  inputs.insert(inputs.end(), options.judge.begin(), options.judge.end());
+  assert_apart(inputs, {options.log.summary});
   const identify::MotionSplit split = identify::split_motion(
       identify::read_motion_files(options.csv), identify::read_motion_files(options.judge));
   assert_writable(options.log.summary);

@@ -69,30 +69,15 @@ std::string source_of(const std::vector<identify::MachineLog>& logs) {
   return fmt::format("{}, {}", text, today());
 }
 
-bool is_same_file(const std::string& one, const std::string& other) {
-  std::error_code error;
-  return !one.empty() && !other.empty() &&
-         (fs::equivalent(one, other, error) ||
-          fs::absolute(one).lexically_normal() == fs::absolute(other).lexically_normal());
-}
-
 /// Before any work: nothing that is read, and no other file, is lost.
 void assert_outputs(const IdentifyLogCommand& options, const fs::path& profile) {
   const std::vector<std::string> written = {options.out, options.report, options.summary};
-  for (std::size_t n = 0; n < written.size(); ++n) {
-    if (written[n].empty()) {
-      continue;
-    }
-    std::vector<std::string> others = options.logs;
-    others.push_back(profile.string());
-    others.insert(others.end(), written.begin(), written.begin() + static_cast<std::ptrdiff_t>(n));
-    for (const std::string& other : others) {
-      if (is_same_file(written[n], other)) {
-        throw std::runtime_error(
-            fmt::format("{}: would overwrite {}; name another file", written[n], other));
-      }
-    }
+  std::vector<std::string> inputs = options.logs;
+  inputs.push_back(profile.string());
+  if (!options.before.empty()) {
+    inputs.push_back(machines::find_profile(options.before).string());
   }
+  assert_apart(inputs, written);
   if (fs::exists(options.out) && !options.force) {
     throw std::runtime_error(
         fmt::format("{}: is there already; --force overwrites it", options.out));
@@ -114,9 +99,11 @@ void assert_better(const identify::JudgedFit& fit) {
     return;
   }
   std::string text = fmt::format(
-      "nothing was written: the new profile predicts what was left out ({:.0f} s) worse than the "
-      "old one; error of the speed, old and new, RMS:",
-      fit.judged_s);
+      "nothing was written: the new profile predicts what was left out ({:.0f} s) worse than {}; "
+      "error of the speed, old and new, RMS:",
+      fit.judged_s,
+      fit.predicts() ? "the old one"
+                     : "one of a machine that stands: are the logs of one machine?");
   for (std::size_t k = 0; k < kAxisCount; ++k) {
     text += fmt::format(" {} {:.1f} and {:.1f} %{}", identify::kAxisTexts[k],
                         100.0 * fit.before.axis[k].share(), 100.0 * fit.left_out.axis[k].share(),
@@ -161,6 +148,7 @@ void identify_logs(const IdentifyLogCommand& options) {
 }
 
 void check_logs(const IdentifyLogCommand& options) {
+  assert_outputs(options, machines::find_profile(options.profile));
   const machines::ExcavatorMachine machine = load_profile(options.profile);
   std::vector<std::uint32_t> hashes = {machine.hash};
   std::vector<reports::ScoreColumn> columns;
@@ -186,7 +174,6 @@ void check_logs(const IdentifyLogCommand& options) {
     fmt::print("{}\n", sentence);
   }
   if (!options.summary.empty()) {
-    assert_writable(options.summary);
     write_whole(options.summary, reports::prediction_json(columns));
   }
   const double off_percent = 100.0 * identify::most_off(now);

@@ -93,7 +93,7 @@ struct Node {
 MonotoneTable read_table(const Node& node) {
   std::vector<double> travel;
   std::vector<double> coefficient;
-  for (const Node& point : node.items(2, MonotoneTable::kCapacity)) {
+  for (const Node& point : node.items(2, MonotoneTable::capacity())) {
     const std::vector<Node> pair = point.items(2, 2);
     travel.push_back(pair[0].number());
     coefficient.push_back(pair[1].number());

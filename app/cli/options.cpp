@@ -38,8 +38,8 @@ void add_scenario_options(CLI::App& command, runs::DigScenario& scenario) {
           "--law", scenario.law,
           "Feedback of the controller: servo, oil (where the profile has [oil]), kim (none); "
           "the profile's unless told")
-      ->check(
-          CLI::IsMember(std::vector<std::string>(runs::kLawNames.begin(), runs::kLawNames.end())));
+      ->check(CLI::IsMember(
+          std::vector<std::string>(machines::kLawNames.begin(), machines::kLawNames.end())));
   add_swash_option(command, scenario.swash_ratio);
   command.add_flag("--fixed-lambda", scenario.fixed_lambda,
                    "For comparison: lambda stays 1, whatever the machine can do");

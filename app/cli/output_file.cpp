@@ -12,6 +12,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool is_same_file(const std::string& one, const std::string& other) {
+  std::error_code error;
+  return !one.empty() && !other.empty() &&
+         (fs::equivalent(one, other, error) ||
+          fs::absolute(one).lexically_normal() == fs::absolute(other).lexically_normal());
+}
+
 [[noreturn]] void refuse(const fs::path& file) {
   throw std::runtime_error(fmt::format("{}: can't be written", file.string()));
 }
@@ -25,6 +32,19 @@ void assert_writable(const fs::path& file) {
       access(folder.c_str(), W_OK | X_OK) != 0 ||
       (fs::exists(file, error) && access(file.c_str(), W_OK) != 0)) {
     refuse(file);
+  }
+}
+
+void assert_apart(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
+  std::vector<std::string> others = inputs;
+  for (const std::string& file : outputs) {
+    for (const std::string& other : others) {
+      if (is_same_file(file, other)) {
+        throw std::runtime_error(
+            fmt::format("{}: would overwrite {}; name another file", file, other));
+      }
+    }
+    others.push_back(file);
   }
 }
 

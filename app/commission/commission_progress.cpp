@@ -32,6 +32,9 @@ void read_drive(const json& drive, unsigned k, SequenceOptions& options) {
   options.window[k] = {drive.at("least_m"), drive.at("most_m"), drive.at("most_mps")};
   options.touch_retracted[k] = drive.at("touches_retracted_end");
   options.touch_extended[k] = drive.at("touches_extended_end");
+  if (options.drives[k]) {
+    require_possible(options.window[k], options.stroke_m[k], axis_name(static_cast<int>(k)));
+  }
 }
 
 json steps_json(const Progress& progress) {
@@ -122,6 +125,10 @@ Progress read_progress(const fs::path& file, std::uint32_t profile_hash,
                  progress.options);
     }
     read_steps(root.at("steps"), progress);
+  } catch (const json::exception& error) {
+    throw std::runtime_error(fmt::format(
+        "{}: damaged, so that nothing can be gone on with; begin newly with another --log ({})",
+        file.string(), error.what()));
   } catch (const std::exception& error) {
     throw std::runtime_error(file.string() + ": " + error.what());
   }

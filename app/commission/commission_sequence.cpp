@@ -12,10 +12,11 @@ constexpr double kRampFrom = 0.04;
 constexpr double kRampSteep = 0.20;  ///< 1/s, up to the least edge that is likely.
 constexpr double kRampSlow = 0.08;   ///< 1/s
 constexpr double kRampTo = 0.80;
+/// By which it may be before what was sent: some cycles of it.
+constexpr double kAhead = 0.02;
 constexpr double kLeastEdge = 0.08;
-/// It moves.
+/// It moves, and has moved: a linkage that rocks comes back.
 constexpr double kMoves_mps = 0.010;
-/// And has moved: a linkage that rocks comes back.
 constexpr double kMoved_m = 0.006;
 constexpr double kMovesFor_s = 0.25;
 /// A ramp goes on a little beyond: the curve's foot.
@@ -24,8 +25,7 @@ constexpr double kFoot_s = 0.45;
 constexpr std::array<double, kLevelCount> kLevels = {0.08, 0.18, 0.35, 0.62, 1.0};
 constexpr double kPairLevel = 0.55;
 constexpr double kBurstLevel = 0.30;
-/// Untried, no more of it than this.
-constexpr double kFirstLevel = 0.15;
+constexpr double kFirstLevel = 0.15;  ///< Untried, no more of it than this.
 /// From place to place, near to it, and onto an end.
 constexpr double kTravel_mps = 0.14;
 constexpr double kNear_mps = 0.05;
@@ -156,14 +156,14 @@ void CommissionSequence::begin(Phase phase) {
   duty_.fill(0.0);
 }
 
-void CommissionSequence::step(double time_s, const std::array<double, kAxisCount>& strokes_m,
-                              bool active) {
-  observe(time_s, strokes_m);
+void CommissionSequence::step(double time_s, const SequenceInput& seen) {
+  observe(time_s, seen.stroke_m);
+  sent_ = seen.sent_ratio;
   duty_.fill(0.0);
   if (is_done() || wrong_) {
     return;
   }
-  if (!active) {
+  if (!seen.active) {
     was_active_ = false;
     return;
   }
@@ -271,7 +271,8 @@ void CommissionSequence::finish(StepEnd end) {
 /// Edges and speeds of a step are what later ones are made of.
 void CommissionSequence::keep_result() {
   const SequenceStep& step = steps_[at_];
-  if (step.kind == StepKind::kRamp && now_.end != StepEnd::kNoMotion) {
+  const bool moved = now_.end != StepEnd::kNoMotion && now_.speed_mps > kMoves_mps;
+  if (moved && step.kind == StepKind::kRamp) {
     // Without the foot, and what was under way when it was seen to move.
     edge(step.axis, step.sign) =
         std::max(kLeastEdge, now_.duty - kRampSlow * (kFoot_s + kMovesFor_s + kStops_s));
@@ -304,7 +305,10 @@ void CommissionSequence::run_ramp() {
   if (ramp_ > kRampTo) {
     return finish(StepEnd::kNoMotion);
   }
-  ramp_ += kPeriod_s * (ramp_ < kLeastEdge ? kRampSteep : kRampSlow);
+  // The controller holds it back while pressures change and nothing moves.
+  const double most = step.sign * sent_[static_cast<unsigned>(step.axis)] + kAhead;
+  ramp_ = std::min(ramp_ + kPeriod_s * (ramp_ < kLeastEdge ? kRampSteep : kRampSlow),
+                   std::max(ramp_, most));
   drive(step.axis, step.sign * ramp_);
 }
 

@@ -12,6 +12,13 @@
 
 namespace graben::commission {
 
+/// What the bus says in this cycle.
+struct SequenceInput {
+  std::array<double, kAxisCount> stroke_m{};    ///< Measured.
+  std::array<double, kAxisCount> sent_ratio{};  ///< Duties as the controller sent them last.
+  bool active = false;  ///< The controller moves the machine, and the operator has not let go.
+};
+
 class CommissionSequence {
  public:
   explicit CommissionSequence(const SequenceOptions& options);
@@ -19,9 +26,9 @@ class CommissionSequence {
   /// Goes on after steps that an earlier run has done; their results in order.
   void resume(const std::vector<StepResult>& results);
 
-  /// To be called every 10 ms with the measured strokes. While not `active` (the ECU does not move,
-  /// the operator has let go) duties are 0 and the step that was interrupted begins again after.
-  void step(double time_s, const std::array<double, kAxisCount>& strokes_m, bool active);
+  /// To be called every 10 ms. While not `active` duties are 0 and the step that was interrupted
+  /// begins again after.
+  void step(double time_s, const SequenceInput& seen);
 
   [[nodiscard]] const std::array<double, kAxisCount>& duty() const { return duty_; }
   [[nodiscard]] bool is_done() const { return at_ >= steps_.size(); }
@@ -88,7 +95,8 @@ class CommissionSequence {
   /// What was tried, by rising level.
   std::array<std::array<std::vector<Driven>, 2>, kAxisCount> driven_{};
   StepResult now_;
-  double mark_s_ = 0.0;  ///< Of a step: when it moved, or stood at its end.
+  double mark_s_ = 0.0;                    ///< Of a step: when it moved, or stood at its end.
+  std::array<double, kAxisCount> sent_{};  ///< By the controller.
   double ramp_ = 0.0;
   double from_m_ = 0.0;                       ///< Stroke at which a ramp began.
   std::array<double, kAxisCount> begin_m_{};  ///< All strokes then.

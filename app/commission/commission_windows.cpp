@@ -130,6 +130,14 @@ bool ask_drive(const Ask& ask, int axis, double stroke_m, DriveAnswer& answer) {
 
 }  // namespace
 
+void require_possible(const Window& window, double stroke_m, const std::string& name) {
+  if (!is_possible(window, stroke_m)) {
+    throw std::runtime_error(fmt::format("{}: from {:g} to {:g} m at {:g} m/s; {}, {} .. {} m/s",
+                                         name, window.least_m, window.most_m, window.most_mps,
+                                         possible_text(stroke_m), kLeast_mps, kMost_mps));
+  }
+}
+
 DriveAnswer proposed_answer(double stroke_m) {
   return {{kNearEnd * stroke_m, (1.0 - kNearEnd) * stroke_m, kUsual_mps}, false, false};
 }

@@ -34,6 +34,9 @@ using Ask = std::function<std::optional<std::string>(const std::string&)>;
 /// cannot be is asked again. False if the answers end before.
 [[nodiscard]] bool ask_windows(const Ask& ask, SequenceOptions& options);
 
+/// Throws std::runtime_error unless the window is one that may be confirmed for this stroke.
+void require_possible(const Window& window, double stroke_m, const std::string& name);
+
 /// "boom: 0.070 to 1.330 of 1.400 m, at most 0.50 m/s, its ends are not touched".
 [[nodiscard]] std::string window_text(const SequenceOptions& options, int axis);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The axes' names, in their order: as keys of a profile and in what a user reads.
+/// Names of axes, drives and control laws, in their order: in a profile and in what a user reads.
 
 #include <array>
 
@@ -11,5 +11,7 @@ inline constexpr std::array<const char*, kAxisCount> kAxisNames = {"boom", "arm"
 /// With the swing, in the order of DriveVector.
 inline constexpr std::array<const char*, kDriveCount> kDriveNames = {"boom", "arm", "bucket",
                                                                      "swing"};
+/// In the order of ControlLaw.
+inline constexpr std::array<const char*, 3> kLawNames = {"servo", "oil", "kim"};
 
 }  // namespace graben::machines

@@ -239,7 +239,7 @@ ValveProfile read_valve(TomlReader& reader, int pump_count, int drive_count) {
 ControlProfile read_control(TomlReader& reader) {
   auto control = read_control_of_valve<ControlProfile>(reader, "valve");
   control.law = static_cast<ControlLaw>(reader.choice(
-      "control.law", {"servo", "oil", "kim"},
+      "control.law", {kLawNames.begin(), kLawNames.end()},
       "feedback: each drive's integrated error, the oil as a state (needs [oil]), or none (Kim)"));
   control.convergence_length_m =
       reader.number("control.convergence_length", {0.02, 5.0, "m"},

@@ -20,7 +20,7 @@ CylinderSize read_cylinder_size(TomlReader& reader, const std::string& at) {
 
 DutyTable read_spool_to_duty(TomlReader& reader, const std::string& key) {
   const auto pairs =
-      reader.pairs(key, {0.0, 1.0, ""}, {0.0, 1000.0, "per mille"}, 2, DutyTable::kCapacity,
+      reader.pairs(key, {0.0, 1.0, ""}, {0.0, 1000.0, "per mille"}, 2, DutyTable::capacity(),
                    "opening to duty; rising in both, from opening 0, where the spool begins to "
                    "open, to opening 1");
   std::vector<double> opening;

@@ -86,7 +86,7 @@ void CommissionStation::step(const Hands& hands, Trouble around, const EcuListen
   const auto mode = ecu.mode(now);
   const bool heard = hears_strokes(ecu, now) && !is_held(ecu);
   moving_ = on && end_ == CommissionEnd::kNone && mode == EcuMode::kActive && heard;
-  sequence_.step(static_cast<double>(now) * 1e-6, stroke_m_, moving_);
+  sequence_.step(static_cast<double>(now) * 1e-6, {stroke_m_, ecu.sent_ratio(), moving_});
   if (end_ == CommissionEnd::kNone) {
     look_for_end(ecu, now);
   }

@@ -64,6 +64,7 @@ void EcuListener::hear(const CanFrame& frame, TimeUs now) {
   take(frame, now, health_);
   take(frame, now, identity_);
   take(frame, now, task_);
+  take(frame, now, spools_);
   take_stroke(frame, &Dbc::BoomStroke::boom_stroke_m, now, strokes_[0]);
   take_stroke(frame, &Dbc::ArmStroke::arm_stroke_m, now, strokes_[1]);
   take_stroke(frame, &Dbc::BucketStroke::bucket_stroke_m, now, strokes_[2]);
@@ -79,6 +80,17 @@ std::array<std::optional<double>, 3> EcuListener::strokes_m(TimeUs now) const {
     }
   }
   return strokes_m;
+}
+
+std::array<double, 3> EcuListener::sent_ratio() const {
+  if (!spools_.said) {
+    return {};
+  }
+  const auto ratio = [](const dbc::Physical& duty) {
+    return duty.state == dbc::RawState::kValid ? duty.value : 0.0;
+  };
+  return {ratio(spools_.said->boom_duty_ratio), ratio(spools_.said->arm_duty_ratio),
+          ratio(spools_.said->bucket_duty_ratio)};
 }
 
 std::vector<Fault> EcuListener::faults(TimeUs now) const {

@@ -42,6 +42,8 @@ class EcuListener {
   [[nodiscard]] const Heard<Dbc::TaskStatus>& task() const { return task_; }
   /// Of boom, arm, bucket; empty where none came of late, or none that is valid.
   [[nodiscard]] std::array<std::optional<double>, 3> strokes_m(TimeUs now) const;
+  /// Duties of boom, arm and bucket as the controller sent them last; 0 before.
+  [[nodiscard]] std::array<double, 3> sent_ratio() const;
   /// What DM1 says besides.
   [[nodiscard]] std::vector<Fault> faults(TimeUs now) const;
 
@@ -73,6 +75,7 @@ class EcuListener {
   Heard<Dbc::EcuHealth> health_;
   Heard<Dbc::EcuIdentity> identity_;
   Heard<Dbc::TaskStatus> task_;
+  Heard<Dbc::SpoolCommand> spools_;
   std::array<Stroke, 3> strokes_;
   std::map<std::uint32_t, TimeUs> trouble_us_;  ///< SPN -> when it was said last.
   std::optional<std::uint8_t> other_station_;

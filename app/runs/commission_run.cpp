@@ -28,6 +28,10 @@ class Ear {
         take(1, bus::ArmStroke::decode(frame.data).arm_stroke_m);
       } else if (frame.id == bus::BucketStroke::kId) {
         take(2, bus::BucketStroke::decode(frame.data).bucket_stroke_m);
+      } else if (frame.id == bus::SpoolCommand::kId) {
+        const auto spools = bus::SpoolCommand::decode(frame.data);
+        sent_ratio = {spools.boom_duty_ratio.value, spools.arm_duty_ratio.value,
+                      spools.bucket_duty_ratio.value};
       } else if (frame.id == bus::EcuStatus::kId) {
         mode = bus::EcuStatus::decode(frame.data).mode.value;
       }
@@ -35,6 +39,7 @@ class Ear {
   }
 
   std::array<double, kAxisCount> strokes_m{};
+  std::array<double, kAxisCount> sent_ratio{};
   bus::EcuStatus::Mode mode = bus::EcuStatus::Mode::kSilent;
 
  private:
@@ -95,7 +100,8 @@ CommissionResult run_commission(const machines::SimulatedExcavator& machine,
   TimeUs now_us = 0;
   for (; !sequence.is_done(); now_us += ExcavatorRig::kPeriod_us) {
     ear.listen();
-    sequence.step(seconds(now_us), ear.strokes_m, ear.mode == bus::EcuStatus::Mode::kActive);
+    sequence.step(seconds(now_us),
+                  {ear.strokes_m, ear.sent_ratio, ear.mode == bus::EcuStatus::Mode::kActive});
     hands.tried_ratio = sequence.duty();
     rig.driver.set_hands(hands);
     static_cast<void>(rig.step(now_us));

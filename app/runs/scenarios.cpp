@@ -30,11 +30,11 @@ void set_law(const std::string& name, ExcavatorProfile& profile) {
   if (name.empty()) {
     return;
   }
-  const auto* found = std::find(kLawNames.begin(), kLawNames.end(), name);
-  if (found == kLawNames.end()) {
+  const auto* found = std::find(machines::kLawNames.begin(), machines::kLawNames.end(), name);
+  if (found == machines::kLawNames.end()) {
     throw std::runtime_error(fmt::format("--law: '{}' is unknown", name));
   }
-  profile.control.law = static_cast<ControlLaw>(found - kLawNames.begin());
+  profile.control.law = static_cast<ControlLaw>(found - machines::kLawNames.begin());
   if (profile.control.law == ControlLaw::kOil && !profile.oil.known()) {
     throw std::runtime_error("--law oil: the profile has no section [oil]");
   }

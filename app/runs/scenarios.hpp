@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/machines/axis_names.hpp"
 #include "app/machines/simulated/simulated_dozer.hpp"
 #include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/machines/task_file.hpp"
@@ -19,14 +20,11 @@ namespace graben::runs {
 inline constexpr std::array<const char*, 6> kErrorNames = {"none",       "stroke-bias", "sensors",
                                                            "parameters", "kim",         "all"};
 
-/// Feedback of an excavator's controller, in the order of ControlLaw.
-inline constexpr std::array<const char*, 3> kLawNames = {"servo", "oil", "kim"};
-
 struct DigScenario {
-  machines::Scenario scenario;        ///< Its errors come from the name below.
-  bool fixed_lambda = false;          ///< Lambda stays 1, and nothing else slows the machine.
-  std::string errors = "none";        ///< Of kErrorNames.
-  std::string law;                    ///< Of kLawNames, instead of the profile's; empty: that.
+  machines::Scenario scenario;  ///< Its errors come from the name below.
+  bool fixed_lambda = false;    ///< Lambda stays 1, and nothing else slows the machine.
+  std::string errors = "none";  ///< Of kErrorNames.
+  std::string law;              ///< Of machines::kLawNames, instead of the profile's; empty: that.
   std::optional<double> swash_ratio;  ///< Constant, of full, instead of what the profile says.
 };
 

@@ -29,7 +29,7 @@ struct BankMemory {
   CycleMemory cycle;
   Guarded<double> lambda;  ///< Of the last cycle; 0 unless it was Active.
   std::array<Guarded<double>, kMost> opening;
-  std::array<Believed, kMost> accepted;
+  std::array<AcceptedStroke, kMost> accepted;
   DriveWatchState<kMost> watch;
   SlowingState slowing;
   LastCommands<kMost> last;

@@ -24,12 +24,20 @@ constexpr double kMoves_mps = 0.01;
 /// And farther than a linkage rocks on its oil.
 constexpr double kMoved_m = 0.015;
 constexpr double kStrained_s = 0.4;
-/// Both pressures together, for certain by the valve. What friction holds lets off some MPa through
-/// the first leak of an edge without moving.
-constexpr double kChanged_pa = 6e6;
 constexpr double kPressure_s = 0.1;
-/// What pressures alone say counts for less: they come through an edge that lets hardly any oil.
-constexpr double kByPressure = 0.3;
+/// Both pressures together, for certain by the valve: what friction holds lets off some MPa through
+/// the first leak of an edge without moving. It counts for less than a duty: it comes through an
+/// edge that lets hardly any oil.
+struct ByPressure {
+  double changed_pa;
+  double weight;
+};
+constexpr ByPressure kByPressure = {6e6, 0.3};
+/// Of a side that has never moved: its duties rise slowly, from rest.
+constexpr ByPressure kByFirstPressure = {3e6, 0.5};
+/// Meanwhile the duty is held for so long, then rises slowly: friction wants more than an edge.
+constexpr double kHolds_s = 1.0;
+constexpr double kRises_ratio_ps = 0.03;
 /// Duty beyond this, times time, is bounded where nothing moves.
 constexpr double kSurelyClosed = 0.1;
 constexpr double kSpent_s = 2.0;
@@ -104,11 +112,11 @@ void follow_pressures(const ValidDrive& seen, bool begins, double period_s,
 }
 
 /// Its valve has opened: so much the pressures do not change by themselves.
-bool have_pressures_changed(const CommissionAsk& ask, const ValidDrive& seen,
+bool have_pressures_changed(const CommissionAsk& ask, const ValidDrive& seen, double by_pa,
                             const CommissionState& state) {
   return ask.alone && seen.load_known &&
          std::abs(state.cap_pa - state.rest_cap_pa) + std::abs(state.rod_pa - state.rest_rod_pa) >
-             kChanged_pa;
+             by_pa;
 }
 
 /// The side that is fed has most of what its pump can give.
@@ -116,6 +124,17 @@ bool strains(const DriveRow& drive, const ValidDrive& seen, int side) {
   const double fed_pa = side > 0 ? seen.cap_pressure_pa : seen.rod_pressure_pa;
   return seen.load_known && drive.watch.relief_pa > 0.0 &&
          fed_pa > kStrains * drive.watch.relief_pa;
+}
+
+void hold_back(bool pushed, double period_s, CommissionState& state) {
+  if (!pushed) {
+    state.pushed_s = 0.0;
+    state.most_ratio = 1.0;
+    return;
+  }
+  const double rise_ratio = state.pushed_s > kHolds_s ? kRises_ratio_ps * period_s : 0.0;
+  state.most_ratio = std::min(state.most_ratio, std::abs(state.duty_ratio)) + rise_ratio;
+  state.pushed_s += period_s;
 }
 
 void look_for_stillness(const DriveRow& drive, const CommissionAsk& ask, const ValidDrive& seen,
@@ -133,16 +152,22 @@ void look_for_stillness(const DriveRow& drive, const CommissionAsk& ask, const V
     state.strained_s = 0.0;
     state.spent_s = 0.0;
     state.touches_s = 0.0;
+    hold_back(false, period_s, state);
   } else if (at_end) {
     state.strained_s = 0.0;
+    hold_back(false, period_s, state);
     state.touches_s = std::min(state.touches_s + period_s, kTouch_s);
   } else {
     const double duty = std::abs(state.duty_ratio);
     const bool open = duty > std::min(kSurelyOpen, moves + kMoreThanMoved);
-    const bool pushed = strains(drive, seen, side) || have_pressures_changed(ask, seen, state);
+    const bool is_first = moves >= 1.0;
+    const ByPressure& by = is_first ? kByFirstPressure : kByPressure;
+    const bool pushed =
+        strains(drive, seen, side) || have_pressures_changed(ask, seen, by.changed_pa, state);
     state.strained_s =
-        open || pushed ? state.strained_s + (open ? 1.0 : kByPressure) * period_s : 0.0;
+        open || pushed ? state.strained_s + (open ? 1.0 : by.weight) * period_s : 0.0;
     state.spent_s += std::max(0.0, duty - kSurelyClosed) * period_s;
+    hold_back(pushed && is_first, period_s, state);
   }
 }
 
@@ -216,7 +241,9 @@ CommissionResult next_commission(const DriveRow& drive, const CommissionAsk& ask
     state.held_side = side;
   }
   const bool held = state.held_side != 0;
-  return {fault_of(ask, has_window, state), held ? 0.0 : ask.wanted_ratio, held};
+  const double most_ratio = held ? 0.0 : state.most_ratio;
+  return {fault_of(ask, has_window, state), std::clamp(ask.wanted_ratio, -most_ratio, most_ratio),
+          held};
 }
 
 void rest_commission(CommissionState& state) {

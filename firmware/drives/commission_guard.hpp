@@ -42,6 +42,8 @@ struct CommissionState {
   double still_m = 0.0;     ///< Stroke at its last change.
   double strained_s = 0.0;  ///< That it should have moved since then.
   double spent_s = 0.0;     ///< Duty times time since then.
+  double pushed_s = 0.0;    ///< That pressures alone have said so, without a break.
+  double most_ratio = 1.0;  ///< Of a duty while they do.
   double touches_s = 0.0;   ///< That it is pushed against an end.
   double duty_ratio = 0.0;  ///< Last one sent.
   double steady_s = 0.0;    ///< Since it last fell or changed sides.
@@ -84,8 +86,10 @@ struct CommissionResult {
 /// kStrokeStuck: stands still though it should move, for 0.4 s longer than that may take. It should
 /// at a duty that opens any spool or has moved it before. What pressures alone say takes three
 /// times as long: with what its pump gives on the side that is fed; while no other drive is told to
-/// move, where both together have changed by 6 MPa. A smaller duty may be tried for 2 s over what
-/// it is above a tenth. The sensor hangs, or the cylinder.
+/// move, where both together have changed by 6 MPa. A side that has never moved may have a sensor
+/// that hangs, and then goes on unseen: of it 3 MPa say so, it takes twice as long only, and
+/// meanwhile the duty is held where it is, after 1 s it may rise by 3 % a second. A smaller duty
+/// may be tried for 2 s over what it is above a tenth. The sensor hangs, or the cylinder.
 [[nodiscard]] CommissionResult next_commission(const DriveRow& drive, const CommissionAsk& ask,
                                                const ValidDrive& seen, double period_s,
                                                CommissionState& state);

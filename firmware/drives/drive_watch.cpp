@@ -82,7 +82,8 @@ FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus, const DriveC
   }
   if (!moving) {
     std::fill(state.pressure.begin(), state.pressure.end(), PressurePair{});
-  } else if (watch_pressures(drives, seen, period_s, state.pressure)) {
+  } else if (watch_pressures(drives, sent.tried ? kEmptyUnknown_pa : kEmpty_pa, seen, period_s,
+                             state.pressure)) {
     degrade(Fault::kPressureImplausible, valid);
   }
   return stops;

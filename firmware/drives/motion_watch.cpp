@@ -16,8 +16,6 @@ constexpr double kRail_s = 0.3;
 constexpr double kMoved_m = 0.06;
 /// Way is counted in steps of more than a stroke sensor's noise.
 constexpr double kStep_m = 0.002;
-/// A chamber that cavitates stays at one pressure for long.
-constexpr double kEmpty_pa = 0.2e6;
 
 /// The duty up to which a spool is closed is where its table begins.
 int direction_of(const DriveRow& drive, double spool_ratio) {
@@ -50,10 +48,10 @@ void look_for_stillness(double stroke_m, double asked_mps, double period_s, Moti
 }
 
 /// True: the sensor is wrong.
-bool follow_pressure(double rail_pa, double pressure_pa, double stroke_m, double period_s,
-                     PressureState& sensor) {
+bool follow_pressure(const PressureBounds& bounds, double pressure_pa, double stroke_m,
+                     double period_s, PressureState& sensor) {
   const double step_m = std::abs(stroke_m - sensor.stroke_m);
-  if (pressure_pa != sensor.last_pa || pressure_pa <= kEmpty_pa) {
+  if (pressure_pa != sensor.last_pa || pressure_pa <= bounds.empty_pa) {
     sensor.last_pa = pressure_pa;
     sensor.stroke_m = stroke_m;
     sensor.way_m = 0.0;
@@ -61,7 +59,7 @@ bool follow_pressure(double rail_pa, double pressure_pa, double stroke_m, double
     sensor.stroke_m = stroke_m;
     sensor.way_m += step_m;
   }
-  sensor.at_rail_s = pressure_pa >= rail_pa ? sensor.at_rail_s + period_s : 0.0;
+  sensor.at_rail_s = pressure_pa >= bounds.rail_pa ? sensor.at_rail_s + period_s : 0.0;
   return sensor.at_rail_s > kRail_s || sensor.way_m > kMoved_m;
 }
 
@@ -87,7 +85,7 @@ FaultSet watch_motion(DriveRows drives, Span<const ValidDrive> seen, Span<const 
   return faults;
 }
 
-bool watch_pressures(DriveRows drives, Span<ValidDrive> seen, double period_s,
+bool watch_pressures(DriveRows drives, double empty_pa, Span<ValidDrive> seen, double period_s,
                      Span<PressurePair> state) {
   bool any_wrong = false;
   for (int i = 0; i < drives.count(); ++i) {
@@ -95,11 +93,11 @@ bool watch_pressures(DriveRows drives, Span<ValidDrive> seen, double period_s,
     if (!drive.load_known) {
       continue;
     }
-    const double rail_pa = drives[i].watch.pressure_rail_pa;
+    const PressureBounds bounds = {empty_pa, drives[i].watch.pressure_rail_pa};
     const bool cap =
-        follow_pressure(rail_pa, drive.cap_pressure_pa, drive.stroke_m, period_s, state[i][0]);
+        follow_pressure(bounds, drive.cap_pressure_pa, drive.stroke_m, period_s, state[i][0]);
     const bool rod =
-        follow_pressure(rail_pa, drive.rod_pressure_pa, drive.stroke_m, period_s, state[i][1]);
+        follow_pressure(bounds, drive.rod_pressure_pa, drive.stroke_m, period_s, state[i][1]);
     drive.load_known = !cap && !rod;
     any_wrong = any_wrong || cap || rod;
   }

@@ -42,11 +42,21 @@ struct PressureState {
 /// Of one drive: cap and rod side.
 using PressurePair = std::array<PressureState, 2>;
 
+/// A chamber that cavitates shows one pressure for long, this at most; and where nobody knows the
+/// sensors' zeros yet.
+inline constexpr double kEmpty_pa = 0.2e6;
+inline constexpr double kEmptyUnknown_pa = 1.5e6;
+
+struct PressureBounds {
+  double empty_pa = kEmpty_pa;
+  double rail_pa = 0.0;  ///< From there on it is at its end.
+};
+
 /// True where a pressure is wrong; its drive's load then is not known any more. At its rail: at or
 /// above `pressure_rail_pa` for 0.3 s, longer than any peak that a port relief lets stand. Stuck:
-/// the same number, to the last bit and above what a chamber without oil has, while its drive moves
+/// the same number, to the last bit and above what an empty chamber shows, while its drive moves
 /// by 0.06 m, to and fro. Wrong until it changes. A drive whose load is not known is not looked at.
-[[nodiscard]] bool watch_pressures(DriveRows drives, Span<ValidDrive> seen, double period_s,
-                                   Span<PressurePair> state);
+[[nodiscard]] bool watch_pressures(DriveRows drives, double empty_pa, Span<ValidDrive> seen,
+                                   double period_s, Span<PressurePair> state);
 
 }  // namespace graben

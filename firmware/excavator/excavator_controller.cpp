@@ -57,14 +57,7 @@ ExcavatorController::ExcavatorController(const ExcavatorSetup& setup)
 ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs now_us) {
   const Cycle cycle = begin_cycle(memory_.cycle, intact(), now_us);
   const ExcavatorValid valid = validate_and_watch(inputs, cycle, now_us);
-  const TaskProgram* program = running(valid);
-  const TaskAim aim =
-      program != nullptr ? task_aim(setup_.kinematics, *program, memory_.task.state) : TaskAim{};
-  estimate(valid, aim, cycle);
-  const KinematicState now = setup_.kinematics.planar().state(valid.strokes_m().head<kAxisCount>());
-  estimate_oil(valid, now, cycle.last_mode);
-  Motion motion = wanted_motion(valid, now, program, aim, cycle.period_s);
-  park_spools(valid, cycle.period_s, motion);
+  const Motion motion = next_motion(valid, cycle);
   const Followed followed = flow_limited(valid, motion, cycle.period_s);
   ModeDecision decision = decide_mode(
       memory_.cycle, cycle, valid, first_of({motion.fault, solver_fault(followed.solution)}),
@@ -87,6 +80,19 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   remember(valid, motion, followed, decision, outputs, cycle.period_s);
   lead_spools(outputs);
   return outputs;
+}
+
+ExcavatorController::Motion ExcavatorController::next_motion(const ExcavatorValid& valid,
+                                                             const Cycle& cycle) {
+  const TaskProgram* program = running(valid);
+  const TaskAim aim =
+      program != nullptr ? task_aim(setup_.kinematics, *program, memory_.task.state) : TaskAim{};
+  estimate(valid, aim, cycle);
+  const KinematicState now = setup_.kinematics.planar().state(valid.strokes_m().head<kAxisCount>());
+  estimate_oil(valid, now, cycle.last_mode);
+  Motion motion = wanted_motion(valid, now, program, aim, cycle.period_s);
+  park_spools(valid, cycle.period_s, motion);
+  return motion;
 }
 
 ExcavatorValid ExcavatorController::validate_and_watch(const ExcavatorInputs& inputs,
@@ -165,14 +171,29 @@ ExcavatorController::Motion ExcavatorController::wanted_motion(const ExcavatorVa
   return motion;
 }
 
+DriveVector ExcavatorController::by_field(const KinematicState& now,
+                                          double speed_override_ratio) const {
+  DriveVector wanted_mps = DriveVector::Zero();
+  DriveVector asked_m = DriveVector::Zero();
+  Eigen::Vector3d field_mps = Eigen::Vector3d::Zero();
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    // Where the cylinders will be when a command of now to this one takes effect.
+    const DriveVector when_m = strokes_when_m(drives(), memory_.servo, memory_.expected_mps, axis);
+    if (axis == 0 || when_m != asked_m) {
+      const KinematicState then = setup_.kinematics.planar().state(when_m.head<kAxisCount>());
+      field_mps =
+          setup_.field.wanted(then.status == ReachStatus::kOk ? then : now, speed_override_ratio);
+      asked_m = when_m;
+    }
+    wanted_mps[axis] = field_mps[axis];
+  }
+  return wanted_mps;
+}
+
 void ExcavatorController::dig(const ExcavatorValid& valid, const KinematicState& now,
                               Motion& motion) const {
   if (valid.task == Task::kDig && now.status == ReachStatus::kOk) {
-    // Where the cylinders will be when a command of now takes effect.
-    const DriveVector then_m = strokes_then_m(drives(), memory_.servo);
-    const KinematicState then = setup_.kinematics.planar().state(then_m.head<kAxisCount>());
-    motion.wanted_mps.head<kAxisCount>() = setup_.field.wanted(
-        then.status == ReachStatus::kOk ? then : now, valid.speed_override_ratio);
+    motion.wanted_mps = by_field(now, valid.speed_override_ratio);
   }
   if (any_wary(memory_.watch.drives.blocked)) {
     motion.wanted_mps *= kWary;

@@ -90,7 +90,7 @@ class ExcavatorController {
     CycleMemory cycle;
     Guarded<double> lambda;  ///< Of the last cycle in motion, without corrections.
     std::array<Guarded<double>, kDriveCount> opening;
-    std::array<Believed, kDriveCount> accepted;
+    std::array<AcceptedStroke, kDriveCount> accepted;
     ExcavatorWatchState watch;
     LastCommands<kDriveCount> last;
     std::array<LoadState, kDriveCount> load{};
@@ -128,12 +128,17 @@ class ExcavatorController {
                                 double period_s, ExcavatorOutputs& outputs);
   /// Loads and servos after the last cycle's command; `aim` is where the program that runs has come
   /// to.
+  /// What is wanted, with its corrections. Not inlined: aim and pose would lie on the stack below
+  /// the solver, which is the deepest there is.
+  [[nodiscard, gnu::noinline]] Motion next_motion(const ExcavatorValid& valid, const Cycle& cycle);
   void estimate(const ExcavatorValid& valid, const TaskAim& aim, const Cycle& cycle);
   /// The program that is being followed and goes on to be asked for; null without one.
   [[nodiscard]] const TaskProgram* running(const ExcavatorValid& valid) const;
   [[nodiscard]] Motion wanted_motion(const ExcavatorValid& valid, const KinematicState& now,
                                      const TaskProgram* program, const TaskAim& aim,
                                      double period_s) const;
+  /// What the field wants of each cylinder at the place where its command of now takes effect.
+  [[nodiscard]] DriveVector by_field(const KinematicState& now, double speed_override_ratio) const;
   void dig(const ExcavatorValid& valid, const KinematicState& now, Motion& motion) const;
   /// Boom and arm corrected by the oil's state instead of the servo, as far as it leads.
   void correct_on_oil(const ExcavatorValid& valid, const KinematicState& now,

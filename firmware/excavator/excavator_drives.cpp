@@ -31,6 +31,12 @@ bool is_quick(const SpoolAnswer& answer) {
          answer.spool_time_constant_s <= kLedSpoolMost_s;
 }
 
+/// From a command to this side until the drive goes by it.
+double answer_s(const DriveRow& row, double way) {
+  const SpoolAnswer& answer = row.answer.towards(way);
+  return answer.dead_time_s + answer.lag_s;
+}
+
 /// Way of the tip over each stroke in the middle of all, 1.
 Eigen::Vector3d leverage(const ExcavatorProfile& profile) {
   Eigen::Vector3d strokes_m;
@@ -168,6 +174,20 @@ DriveVector strokes_then_m(DriveRows drives, const ExcavatorServo& servo) {
     then_m[i] = stroke_then_m(drives[i], servo.drive[static_cast<unsigned>(i)]);
   }
   return then_m;
+}
+
+DriveVector strokes_when_m(DriveRows drives, const ExcavatorServo& servo,
+                           const DriveVector& asked_mps, int drive) {
+  const double when_s = answer_s(drives[drive], asked_mps[drive]);
+  DriveVector when_m = strokes_then_m(drives, servo);
+  for (int i = 0; i < drives.count(); ++i) {
+    const DriveRow& row = drives[i];
+    when_m[i] += (when_s - answer_s(row, asked_mps[i])) * asked_mps[i];
+    if (row.control.has_end_stops) {
+      when_m[i] = std::clamp(when_m[i], row.least_travel_m, row.most_travel_m);
+    }
+  }
+  return when_m;
 }
 
 DriveVector corrected_velocity(DriveRows drives, const DriveVector& wanted_mps,

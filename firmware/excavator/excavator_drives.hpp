@@ -51,6 +51,13 @@ struct ExcavatorServo {
 /// See stroke_then_m().
 [[nodiscard]] DriveVector strokes_then_m(DriveRows drives, const ExcavatorServo& servo);
 
+/// Where all drives will be when a command of now to one of them (`drive`) takes effect, by its
+/// dead time and lag. What the others are asked for by then is not known yet: taken for
+/// `asked_mps`, that of now. x_j = x_j,then + (T_drive - T_j) asked_j. Where all answer alike it is
+/// strokes_then_m(); where not, that is a pose that no drive ever sees: one early, another late.
+[[nodiscard]] DriveVector strokes_when_m(DriveRows drives, const ExcavatorServo& servo,
+                                         const DriveVector& asked_mps, int drive);
+
 /// V_L^d with the corrections of all drives, see corrected_mps(); at rest where none is wanted to
 /// move. Where `hold`, drives that are wanted to stand are corrected too.
 [[nodiscard]] DriveVector corrected_velocity(DriveRows drives, const DriveVector& wanted_mps,

@@ -113,7 +113,7 @@ void ExcavatorController::park_spools(const ExcavatorValid& valid, double period
 }
 
 void ExcavatorController::open_as_learnt(ExcavatorOutputs& outputs) const {
-  if (!on_oil(profile_) || !outputs.enable) {
+  if (profile_.control.law == ControlLaw::kKim || !outputs.enable) {
     return;
   }
   for (int i = 0; i < drives().count(); ++i) {

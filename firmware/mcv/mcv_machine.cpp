@@ -19,7 +19,7 @@ double full_opening_velocity_coefficient(const SpoolMetering& metering, double s
 }
 
 MonotoneTable velocity_coefficient_table(const SpoolMetering& metering, double coefficient_full) {
-  constexpr int kPoints = MonotoneTable::kCapacity;
+  constexpr int kPoints = MonotoneTable::capacity();
   std::array<double, kPoints> travel{};
   std::array<double, kPoints> coefficient{};
   for (int i = 0; i < kPoints; ++i) {

@@ -25,15 +25,19 @@ class MonotoneTableOf {
   static_assert(kMost >= 2 && kMost <= 32);
 
  public:
-  static constexpr int kCapacity = kMost;
+  [[nodiscard]] static constexpr int capacity() { return kMost; }
 
   using Fill = TableFill;
 
   /// Replaces the contents. On any result but kOk the table is empty.
   [[nodiscard]] Fill fill(const double* x, const double* y, int count) {
-    const Fill result = check_points(x, y, count, kCapacity);
-    count_ = result == Fill::kOk ? count : 0;
-    for (int i = 0; i < count_; ++i) {
+    const Fill result = check_points(x, y, count, kMost);
+    if (result != Fill::kOk) {
+      count_ = 0;
+      return result;
+    }
+    count_ = count;
+    for (int i = 0; i < count; ++i) {
       x_[static_cast<unsigned>(i)] = x[i];
       y_[static_cast<unsigned>(i)] = y[i];
     }
@@ -62,8 +66,8 @@ class MonotoneTableOf {
   }
 
  private:
-  std::array<double, kCapacity> x_{};
-  std::array<double, kCapacity> y_{};
+  std::array<double, kMost> x_{};
+  std::array<double, kMost> y_{};
   int count_ = 0;
 };
 

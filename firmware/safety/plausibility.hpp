@@ -19,6 +19,10 @@ class Freshness {
     // can stand there.
     return stamp_us <= now_us_ && stamp_us >= now_us_ - timeout_us_;
   }
+  /// Since then, s.
+  [[nodiscard]] double age_s(TimeUs stamp_us) const {
+    return static_cast<double>(now_us_ - stamp_us) / kMicrosecondsPerSecond;
+  }
   template <class T>
   [[nodiscard]] bool holds(const Signal<T>& signal) const {
     return signal.validity == Validity::kValid && in_time(signal.stamp_us);

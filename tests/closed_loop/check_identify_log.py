@@ -137,7 +137,12 @@ def finds(tool, log_file):
         old["valve"].pop(axis), new["valve"].pop(axis)
     for pumps in (old["pump"], new["pump"]):
         [pump.pop("displacement") for pump in pumps]
-    assert {**old, "valve": 0, "sensors": 0, "safety": 0} == {**new, "valve": 0, "sensors": 0, "safety": 0}
+    found = {"valve": 0, "sensors": 0, "safety": 0, "control": 0}
+    assert {**old, **found} == {**new, **found}
+    # A late machine is led more slowly, by a law that bears it.
+    late = ("law", "convergence_length", "servo_gain", "servo_damping", "pressure_filter")
+    assert new["control"]["law"] == "servo"
+    assert {**old["control"], **dict.fromkeys(late)} == {**new["control"], **dict.fromkeys(late)}
     assert old["valve"] == new["valve"]
     kept = [line for line in tool.profile.read_text().splitlines() if line.startswith("#")]
     assert [line for line in out.read_text().splitlines() if line in kept] == kept

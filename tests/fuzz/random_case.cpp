@@ -28,9 +28,9 @@ class Draw {
 };
 
 MonotoneTable random_table(Draw& draw) {
-  const int count = draw.whole(2, MonotoneTable::kCapacity);
-  std::array<double, MonotoneTable::kCapacity> travel{};
-  std::array<double, MonotoneTable::kCapacity> coefficient{};
+  const int count = draw.whole(2, MonotoneTable::capacity());
+  std::array<double, MonotoneTable::capacity()> travel{};
+  std::array<double, MonotoneTable::capacity()> coefficient{};
   for (int i = 1; i < count; ++i) {
     const auto k = static_cast<unsigned>(i);
     travel[k] = travel[k - 1] + draw.uniform(0.02, 1.0);

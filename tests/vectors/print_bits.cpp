@@ -65,9 +65,9 @@ class Words {
 };
 
 MonotoneTable read_table(Words& words) {
-  double travel[MonotoneTable::kCapacity];
-  double coefficient[MonotoneTable::kCapacity];
-  const int count = words.integer(2, MonotoneTable::kCapacity);
+  double travel[MonotoneTable::capacity()];
+  double coefficient[MonotoneTable::capacity()];
+  const int count = words.integer(2, MonotoneTable::capacity());
   for (int i = 0; i < count; ++i) {
     travel[i] = words.number();
     coefficient[i] = words.number();

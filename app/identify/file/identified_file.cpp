@@ -33,6 +33,17 @@ struct Change {
 
 using Changes = std::vector<Change>;
 
+struct ControlValue {
+  const char* key;
+  double ControlProfile::*value;
+};
+constexpr ControlValue kControlValues[] = {
+    {"convergence_length", &ControlProfile::convergence_length_m},
+    {"servo_gain", &ControlProfile::servo_gain_ps},
+    {"servo_damping", &ControlProfile::servo_damping},
+    {"pressure_filter", &ControlProfile::pressure_filter_s},
+};
+
 /// TOML takes a number without a point for a whole one.
 std::string number(double value) {
   std::string text = fmt::format("{:.6g}", value);
@@ -102,7 +113,7 @@ double area_deviation_m2(const DriveEstimate& drive, const SpoolProfile& was) {
   double most_m2 = 0.0;
   for (const bool extends : {true, false}) {
     const SideEstimate& side = drive.side(extends);
-    if (side.coefficient_factor.known) {
+    if (side.edge.known) {
       const double in_m2 = extends ? was.extend_in_m2 : was.retract_in_m2;
       const double out_m2 = extends ? was.extend_out_m2 : was.retract_out_m2;
       most_m2 = std::max({most_m2, in_m2 * side.coefficient_factor.deviation,
@@ -110,6 +121,22 @@ double area_deviation_m2(const DriveEstimate& drive, const SpoolProfile& was) {
     }
   }
   return most_m2;
+}
+
+/// What of section [control] follows from what was found.
+void change_control(const ControlProfile& was, const ControlProfile& is, Changes& changes) {
+  const auto change = [&](const char* key, const std::string& before, const std::string& value) {
+    if (value != before) {
+      changes.push_back({"control", key, value, before, std::nullopt});
+    }
+  };
+  const auto law = [](ControlLaw of) {
+    return toml_quoted(machines::kLawNames[static_cast<std::size_t>(of)]);
+  };
+  change("law", law(was.law), law(is.law));
+  for (const ControlValue& each : kControlValues) {
+    change(each.key, number(was.*each.value), number(is.*each.value));
+  }
 }
 
 using Zeros = std::array<double, kAxisCount>;
@@ -155,6 +182,7 @@ Changes changes_of(const ExcavatorProfile& was, const JudgedFit& fit) {
                   is.valve.answer[k].side(extends), fit.machine.drive[k], changes);
     }
   }
+  change_control(was.control, is.control, changes);
   if (is.safety.settle_s != was.safety.settle_s) {
     changes.push_back({"safety", "settle", number(is.safety.settle_s), number(was.safety.settle_s),
                        std::nullopt});
@@ -243,6 +271,14 @@ std::string first_difference(const ExcavatorProfile& one, const ExcavatorProfile
         return machines::answer_key(axis, extends) + "*";
       }
     }
+  }
+  for (const ControlValue& each : kControlValues) {
+    if (!close(one.control.*each.value, other.control.*each.value)) {
+      return fmt::format("control.{}", each.key);
+    }
+  }
+  if (one.control.law != other.control.law) {
+    return "control.law";
   }
   const SensorZeros& a = one.sensor_zero;
   const SensorZeros& b = other.sensor_zero;

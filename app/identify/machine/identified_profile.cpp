@@ -35,9 +35,12 @@ DutyTable table_of(const std::vector<double>& duty) {
   return table;
 }
 
+/// Curve and areas are of one fit: one without the other would be another machine.
+bool has_curve(const SideEstimate& side) { return side.edge.known && !side.duty.empty(); }
+
 void set_side(const DriveEstimate& drive, bool extends, SaidAnswer& answer) {
   const SideEstimate& side = drive.side(extends);
-  if (side.edge.known && !side.duty.empty()) {
+  if (has_curve(side)) {
     answer.spool_to_duty = table_of(side.duty);
   }
   if (side.dead_time_s.known) {
@@ -53,7 +56,7 @@ void set_areas(int axis, const DriveEstimate& drive, ExcavatorProfile& profile) 
   SpoolProfile& spool = profile.valve.spool[static_cast<unsigned>(axis)];
   for (const bool extends : {true, false}) {
     const SideEstimate& side = drive.side(extends);
-    if (!side.coefficient_factor.known) {
+    if (!has_curve(side)) {
       continue;
     }
     const SideAreas areas = areas_of(profile, axis, extends, side);

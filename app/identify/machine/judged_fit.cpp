@@ -23,7 +23,7 @@ MachineProgress part(const MachineProgress& progress, double from, double until)
 }  // namespace
 
 bool JudgedFit::is_better() const {
-  return is_no_worse(left_out, before) && is_no_worse(after, before);
+  return predicts() && is_no_worse(left_out, before) && is_no_worse(after, before);
 }
 
 JudgedFit fit_and_judge(const ExcavatorProfile& profile, const std::vector<MachineLog>& logs,

@@ -22,6 +22,8 @@ struct JudgedFit {
   /// On what was left out both predict better than the old profile, all axes together, and neither
   /// makes any axis worse by more than kWorse.
   [[nodiscard]] bool is_better() const;
+  /// It predicts motion at all: better than a machine that stands.
+  [[nodiscard]] bool predicts() const { return left_out.share() < 1.0 && after.share() < 1.0; }
 };
 
 /// A share of an axis' measured speed: more of it an axis must not lose for the others' gain.

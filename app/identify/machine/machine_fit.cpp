@@ -41,10 +41,19 @@ void tell_side(const char* name, const char* direction, const SideEstimate& side
       missing.push_back(fmt::format("{}: {} keeps its old value", of, what));
     }
   };
+  // What belongs to the curve is written with it.
+  const auto doubt = [&](const Estimate& estimate, const char* what) {
+    if (!side.edge.known) {
+      keep(estimate, what);
+    } else if (!estimate.known) {
+      missing.push_back(fmt::format("{}: {} is known within {:.0f} % only", of, what,
+                                    100.0 * estimate.deviation / estimate.value));
+    }
+  };
   keep(side.edge, "the edge");
-  keep(side.exponent, "how it opens");
-  keep(side.coefficient_factor, "how fast it is");
-  keep(side.out_area_factor, "the draining side's area");
+  doubt(side.exponent, "how it opens");
+  doubt(side.coefficient_factor, "how fast it is");
+  doubt(side.out_area_factor, "the area of its draining side");
   keep(side.dead_time_s, "the dead time");
 }
 

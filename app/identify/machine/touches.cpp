@@ -14,8 +14,6 @@ constexpr double kStill_m = 0.0004;
 constexpr double kNear_m = 0.035;
 /// It moves.
 constexpr double kMoves_mps = 0.008;
-/// Of the travel, beyond the least that moved it.
-constexpr double kBeyond = 0.01;
 /// It came this far on its way to the end.
 constexpr double kCame_m = 0.01;
 /// ... within so many grid points, cushion and all.
@@ -92,7 +90,7 @@ double least_open(const std::vector<SteadyPoint>& points, std::size_t axis, bool
       least = std::min(least, std::abs(point.spool));
     }
   }
-  return least + kBeyond;
+  return least;
 }
 
 Estimate zero_of(const std::vector<Touch>& found, const Estimate& before) {

@@ -17,7 +17,7 @@ struct BelievedCoordinate {
 
 /// State of the validation from cycle to cycle.
 struct DozerValidationState {
-  std::array<Believed, kBladeCount> stroke_m;
+  std::array<AcceptedStroke, kBladeCount> stroke_m;
   BelievedCoordinate position_m;
   BelievedCoordinate height_m;
   BelievedCoordinate pitch_rad;

@@ -83,7 +83,7 @@ bool ExcavatorValid::hands_rest() const {
 
 ExcavatorValid validate(const ExcavatorProfile& profile, DriveRows drives,
                         const ExcavatorInputs& inputs, bool moving, TimeUs now_us,
-                        Span<Believed> accepted) {
+                        Span<AcceptedStroke> accepted) {
   ExcavatorValid valid;
   const Freshness fresh(profile.control.sensor_timeout_s, now_us);
   read_machine(profile.bus, inputs, {profile.pump[0].rated_speed_radps, profile.safety.idle_radps},

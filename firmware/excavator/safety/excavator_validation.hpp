@@ -35,7 +35,7 @@ struct ExcavatorValid : CommonValid {
 /// signals are not looked at.
 [[nodiscard]] ExcavatorValid validate(const ExcavatorProfile& profile, DriveRows drives,
                                       const ExcavatorInputs& inputs, bool moving, TimeUs now_us,
-                                      Span<Believed> accepted);
+                                      Span<AcceptedStroke> accepted);
 
 /// Of each pump from cycle to cycle.
 struct SwashState {

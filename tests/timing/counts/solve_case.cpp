@@ -43,11 +43,11 @@ class Reader {
     value = static_cast<Whole>(read);
   }
   void table(MonotoneTable& table) {
-    std::array<double, MonotoneTable::kCapacity> x{};
-    std::array<double, MonotoneTable::kCapacity> y{};
+    std::array<double, MonotoneTable::capacity()> x{};
+    std::array<double, MonotoneTable::capacity()> y{};
     int count = 0;
     whole(count);
-    right_ = right_ && count <= MonotoneTable::kCapacity;
+    right_ = right_ && count <= MonotoneTable::capacity();
     for (unsigned i = 0; right_ && i < static_cast<unsigned>(count); ++i) {
       number(x[i]);
       number(y[i]);

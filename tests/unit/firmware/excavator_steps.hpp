@@ -34,7 +34,7 @@ inline Gated gate(const ExcavatorProfile& profile, const GateState& last, bool a
   return gated;
 }
 
-using StrokesAccepted = std::array<Believed, kDriveCount>;
+using StrokesAccepted = std::array<AcceptedStroke, kDriveCount>;
 
 struct Validated : ExcavatorValid {
   StrokesAccepted state;

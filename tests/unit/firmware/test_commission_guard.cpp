@@ -180,6 +180,11 @@ void a_drive_beside_a_driven_one_stands(void**) {
     cylinder.ask.alone = false;
     assert_int_equal(cylinder.run(20.0, 0.0, 0.005 * side), Fault::kUncommandedMotion);
     assert_true(std::abs(cylinder.moved_m) < 0.05);
+    // One that was driven itself may come to rest first.
+    Cylinder coasts(side > 0 ? 0.3 : 0.7);
+    coasts.ask.alone = false;
+    assert_int_equal(coasts.run(0.8, 0.4 * side, 0.1 * side), Fault::kNone);
+    assert_int_equal(coasts.run(0.95, 0.0, 0.1 * side), Fault::kNone);
     // Between duties it is forgotten.
     Cylinder by_turns;
     for (int n = 0; n < 4; ++n) {

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "tests/unit/firmware/guarded_cylinder.hpp"
 
 namespace {
@@ -83,7 +85,7 @@ void a_cylinder_that_strains_is_stuck(void**) {
     cylinder.row.watch.relief_pa = 0.0;
     assert_int_equal(cylinder.run(2.0, 0.3 * side, 0.0), Fault::kNone);
     cylinder.row.watch.relief_pa = kRelief_pa;
-    assert_int_equal(cylinder.run(3.2, 0.3 * side, 0.0), Fault::kNone);
+    assert_int_equal(cylinder.run(1.9, 0.3 * side, 0.0), Fault::kNone);
     assert_int_equal(cylinder.run(0.3, 0.3 * side, 0.0), Fault::kStrokeStuck);
     // Not known, nothing is said by it.
     Cylinder blind;
@@ -101,13 +103,13 @@ void pressures_that_have_changed_say_that_it_moves(void**) {
     cylinder.run(0.2, 0.2, 0.0);
     cylinder.seen.cap_pressure_pa += 8e6;
     cylinder.seen.rod_pressure_pa -= 1e6;
-    assert_int_equal(cylinder.run(3.2, 0.2, 0.0), Fault::kNone);
+    assert_int_equal(cylinder.run(1.9, 0.2, 0.0), Fault::kNone);
     const Fault expected = alone ? Fault::kStrokeStuck : Fault::kNone;
     assert_int_equal(cylinder.run(0.5, 0.2, 0.0), expected);
     Cylinder little;
     little.run(0.2, 0.2, 0.0);
-    little.seen.cap_pressure_pa += 2.9e6;
-    little.seen.rod_pressure_pa += 2.9e6;
+    little.seen.cap_pressure_pa += 1.45e6;
+    little.seen.rod_pressure_pa += 1.45e6;
     assert_int_equal(little.run(5.0, 0.2, 0.0), Fault::kNone);
     // Between duties it may have any.
     Cylinder between;
@@ -116,6 +118,55 @@ void pressures_that_have_changed_say_that_it_moves(void**) {
     between.seen.cap_pressure_pa += 8e6;
     between.run(0.5, 0.0, 0.0);
     assert_int_equal(between.run(5.0, 0.2, 0.0), Fault::kNone);
+  }
+}
+
+/// Where it has moved before, it takes more to say so, and nothing is held: a step goes at once.
+void pressures_of_a_side_that_has_moved(void**) {
+  for (const int side : {1, -1}) {
+    Cylinder moved;
+    assert_int_equal(moved.run(1.5, 0.3 * side, 0.05 * side), Fault::kNone);
+    moved.run(2.0, 0.0, 0.0);
+    Cylinder little = moved;
+    little.run(0.2, 0.35 * side, 0.0);
+    little.seen.cap_pressure_pa += 5e6;
+    assert_int_equal(little.run(5.0, 0.35 * side, 0.0), Fault::kNone);
+    moved.run(0.2, 0.2 * side, 0.0);
+    moved.seen.cap_pressure_pa += 8e6;
+    assert_int_equal(moved.run(0.3, 0.2 * side, 0.0), Fault::kNone);
+    assert_int_equal(moved.run(2.7, 0.35 * side, 0.0), Fault::kNone);
+    assert_near(moved.result.duty_ratio, 0.35 * side, 0.0);
+    assert_int_equal(moved.run(0.8, 0.35 * side, 0.0), Fault::kStrokeStuck);
+  }
+}
+
+/// Pressures that change tell of an edge that opens: no more is tried before something moves, then
+/// little by little.
+void what_may_move_unseen_is_held_back(void**) {
+  for (const int side : {1, -1}) {
+    Cylinder cylinder;
+    cylinder.run(0.2, 0.2 * side, 0.0);
+    cylinder.seen.cap_pressure_pa += 8e6 * side;
+    cylinder.run(0.2, 0.2 * side, 0.0);
+    cylinder.run(0.5, 0.4 * side, 0.0);
+    assert_near(cylinder.result.duty_ratio, 0.2 * side, 0.0);
+    assert_false(cylinder.result.held);
+    cylinder.run(0.9, 0.4 * side, 0.0);
+    assert_in_range(std::lround(1e3 * side * cylinder.result.duty_ratio), 205, 225);
+    // Less may be asked for at any time, and the other side too.
+    Cylinder other = cylinder;
+    other.step(0.1 * side, 0.0);
+    assert_near(other.result.duty_ratio, 0.1 * side, 0.0);
+    other.step(0.0, 0.0);
+    other.step(-0.4 * side, 0.0);
+    assert_near(other.result.duty_ratio, -0.4 * side, 0.0);
+    // Once it moves, or its pressures are as they were, it is free.
+    Cylinder calm = cylinder;
+    calm.seen.cap_pressure_pa -= 8e6 * side;
+    calm.run(0.3, 0.4 * side, 0.0);
+    assert_near(calm.result.duty_ratio, 0.4 * side, 0.0);
+    cylinder.step(0.4 * side, 0.1 * side);
+    assert_near(cylinder.result.duty_ratio, 0.4 * side, 0.0);
   }
 }
 
@@ -128,6 +179,8 @@ int main() {
       cmocka_unit_test(a_duty_that_has_moved_it_has_to_move_it_again),
       cmocka_unit_test(a_cylinder_that_strains_is_stuck),
       cmocka_unit_test(pressures_that_have_changed_say_that_it_moves),
+      cmocka_unit_test(pressures_of_a_side_that_has_moved),
+      cmocka_unit_test(what_may_move_unseen_is_held_back),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -210,6 +210,49 @@ void a_prediction_stays_within_the_strokes(void**) {
   assert_near(then[2], profile.geometry.cylinder[kBucket].stroke_m, 0.0);
 }
 
+/// Where all drives answer alike, each command takes effect at the same place, to the bit.
+void drives_alike_have_one_place(void**) {
+  const ExcavatorBank bank = excavator_bank(test::excavator().profile);
+  ExcavatorServo servo = servo_at_rest({0.3, 0.7, 0.5, 0.0});
+  set(servo, &ServoState::under_way_m, {-0.05, 0.01, 0.05, 0.0});
+  const DriveVector then_m = strokes_then_m(bank.rows(), servo);
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    assert_true(strokes_when_m(bank.rows(), servo, {0.1, -0.2, 0.3, 0.0}, axis) == then_m);
+  }
+}
+
+/// A boom that is 0.25 s later than the others, and 0.05 s more when it retracts: when it answers,
+/// they will be farther; when they answer, it will not be there yet.
+void drives_apart_have_a_place_each(void**) {
+  ExcavatorBank bank = excavator_bank(test::excavator().profile);
+  SpoolAnswers& boom = bank.row[kBoom].answer;
+  boom.extend.dead_time_s += 0.25;
+  boom.retract.dead_time_s += 0.20;
+  boom.retract.lag_s += 0.10;
+  ExcavatorServo servo = servo_at_rest({0.3, 0.7, 0.5, 0.0});
+  set(servo, &ServoState::under_way_m, {0.02, 0.01, -0.03, 0.0});
+  const DriveVector extends_mps(0.1, -0.04, 0.2, 0.0);
+  const auto when_m = [&](const DriveVector& asked_mps, int axis) {
+    return strokes_when_m(bank.rows(), servo, asked_mps, axis);
+  };
+  assert_near((when_m(extends_mps, kBoom) - DriveVector(0.32, 0.70, 0.52, 0.0)).norm(), 0.0, 1e-12);
+  for (const int axis : {static_cast<int>(kArm), static_cast<int>(kBucket)}) {
+    assert_near((when_m(extends_mps, axis) - DriveVector(0.295, 0.71, 0.47, 0.0)).norm(), 0.0,
+                1e-12);
+  }
+  const DriveVector retracts_mps(-0.1, 0.0, 0.0, 0.0);
+  assert_near((when_m(retracts_mps, kArm) - DriveVector(0.35, 0.71, 0.47, 0.0)).norm(), 0.0, 1e-12);
+}
+
+/// What is taken for granted of a drive ends where the drive does.
+void a_place_stays_within_the_strokes(void**) {
+  ExcavatorBank bank = excavator_bank(test::excavator().profile);
+  bank.row[kBoom].answer.extend.dead_time_s += 0.25;
+  const ExcavatorServo servo = servo_at_rest({0.3, 0.7, 0.01, 0.0});
+  const DriveVector when_m = strokes_when_m(bank.rows(), servo, {0.1, 0.0, -0.2, 0.0}, kBoom);
+  assert_near(when_m[kBucket], 0.0, 0.0);
+}
+
 /// A cylinder that is shaken by 1 mm at this frequency around where it should be: what is asked
 /// for, as a phasor of what it owes.
 std::complex<double> shaken(double frequency_hz, double period_s) {
@@ -320,6 +363,9 @@ int main() {
       cmocka_unit_test(an_uneven_period_leaves_nothing_behind),
       cmocka_unit_test(nothing_wanted_is_nothing_asked),
       cmocka_unit_test(a_prediction_stays_within_the_strokes),
+      cmocka_unit_test(drives_alike_have_one_place),
+      cmocka_unit_test(drives_apart_have_a_place_each),
+      cmocka_unit_test(a_place_stays_within_the_strokes),
       cmocka_unit_test(what_shakes_is_asked_for_a_quarter_of_a_period_later),
       cmocka_unit_test(what_stays_owed_is_asked_for_whole),
       cmocka_unit_test(what_a_load_holds_is_not_owed),

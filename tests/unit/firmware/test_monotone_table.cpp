@@ -25,13 +25,13 @@ void reads_both_ways(void**) {
 
 /// A full table: the bounded search must find every segment.
 void a_full_table_finds_every_segment(void**) {
-  double x[MonotoneTable::kCapacity];
-  double y[MonotoneTable::kCapacity];
-  for (int i = 0; i < MonotoneTable::kCapacity; ++i) {
+  double x[MonotoneTable::capacity()];
+  double y[MonotoneTable::capacity()];
+  for (int i = 0; i < MonotoneTable::capacity(); ++i) {
     x[i] = i;
     y[i] = std::pow(static_cast<double>(i), 1.6);
   }
-  for (int count = 2; count <= MonotoneTable::kCapacity; ++count) {
+  for (int count = 2; count <= MonotoneTable::capacity(); ++count) {
     MonotoneTable table;
     assert_int_equal(table.fill(x, y, count), Fill::kOk);
     for (int i = 0; i + 1 < count; ++i) {
@@ -48,7 +48,7 @@ void refuses_what_is_no_table(void**) {
   const double holed[] = {0.0, nan, 2.0};
   MonotoneTable table;
   assert_int_equal(table.fill(x, x, 1), Fill::kTooFew);
-  assert_int_equal(table.fill(x, x, MonotoneTable::kCapacity + 1), Fill::kTooMany);
+  assert_int_equal(table.fill(x, x, MonotoneTable::capacity() + 1), Fill::kTooMany);
   assert_int_equal(table.fill(x, flat, 3), Fill::kNotIncreasing);
   assert_int_equal(table.fill(flat, x, 3), Fill::kNotIncreasing);
   assert_int_equal(table.fill(x, holed, 3), Fill::kNotFinite);

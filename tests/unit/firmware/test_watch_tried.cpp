@@ -37,6 +37,28 @@ void duties_that_are_tried_are_not_judged_by_the_model(void**) {
   assert_slowed_by(Fault::kPressureImplausible, blind.seen);
 }
 
+/// What a sensor of unknown zero shows of an empty chamber is not stuck while duties are tried.
+void an_empty_chamber_slows_nobody_who_tries(void**) {
+  Machine machine;
+  machine.frozen = true;
+  machine.cycle.tried = true;
+  for (int n = 0; n < 40; ++n) {
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+      machine.inputs.drive[axis].cap_pressure_pa = 8e6 + n;
+      machine.inputs.drive[axis].rod_pressure_pa = 8e6 + n;
+    }
+    machine.inputs.drive[kArm].rod_pressure_pa = 0.47e6;
+    machine.inputs.drive[kArm].stroke_m += 0.004;
+    machine.step(0.01);
+  }
+  assert_well(machine.seen);
+  machine.inputs.drive[kArm].rod_pressure_pa = 1.6e6;
+  machine.step(0.01);
+  machine.inputs.drive[kArm].stroke_m += 0.1;
+  machine.step(0.01);
+  assert_slowed_by(Fault::kPressureImplausible, machine.seen);
+}
+
 /// Its drives move for another reason than what was asked: nothing is learnt of the valve.
 void nothing_is_learnt_of_duties_that_are_tried(void**) {
   for (const bool tried : {true, false}) {
@@ -61,6 +83,7 @@ void nothing_is_learnt_of_duties_that_are_tried(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(duties_that_are_tried_are_not_judged_by_the_model),
+      cmocka_unit_test(an_empty_chamber_slows_nobody_who_tries),
       cmocka_unit_test(nothing_is_learnt_of_duties_that_are_tried),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

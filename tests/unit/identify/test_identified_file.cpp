@@ -84,6 +84,10 @@ void what_is_written_reads_back(void** /*state*/) {
   assert_true(!first_difference(old.profile, fit.profile).empty());
   assert_near(read.profile.valve.answer[kBoom].extend.dead_time_s, 0.123457, 1e-9);
   assert_near(read.driven[kBoom].extend.most, 0.95, 1e-9);
+  // A boom as late as that is not led by the oil.
+  assert_int_equal(old.profile.control.law, ControlLaw::kOil);
+  assert_int_equal(read.profile.control.law, ControlLaw::kServo);
+  assert_true(read.profile.control.servo_gain_ps < old.profile.control.servo_gain_ps);
   // Not known: as it was.
   assert_int_equal(read.profile.valve.answer[kBoom].retract.spool_to_duty.size(), 0);
   assert_true(read.profile.valve.answer[kBoom].retract.dead_time_s == kUnsaid_s);
@@ -126,7 +130,8 @@ void all_else_stays_as_it_was_written(void** /*state*/) {
     changed += found == after.end() ? 1 : 0;
     at = found == after.end() ? at : static_cast<std::size_t>(found - after.begin()) + 1;
   }
-  assert_int_equal(changed, 2);  // Displacement of pump 2, areas of the boom.
+  // Displacement of pump 2, areas of the boom, law and four values of [control].
+  assert_int_equal(changed, 7);
 }
 
 void a_second_time_replaces_the_first(void** /*state*/) {

@@ -81,7 +81,8 @@ def shipped(graben, folder, scratch, name):
     if done.returncode != 0 or "no warnings" not in done.stdout:
         yield f"{name}: status {done.returncode}: {done.stdout}{done.stderr}"
     page = (scratch / "check.html").read_text(encoding="utf-8")
-    if re.search(r"(src|href)=|url\(|https?://", page) or "<svg" not in page or "nan" in page:
+    if re.search(r"(src|href)=|url\(|https?://", page) or "<svg" not in page \
+            or re.search(r"\bnan\b", page):
         yield f"{name}: the page needs a network or has no drawing"
     # The same without its simulation: what lacks is said.
     (scratch / "alone.toml").write_text((folder / f"{name}.toml").read_text(encoding="utf-8"),

@@ -32,7 +32,8 @@ test('a log of the controller is right in every frame of every message', () => {
   }
   assert.ok(guarded > 3000);
   for (const state of messageStates(store, store.until_s)) {
-    const expected = state.message.name.startsWith('Swing') || state.message.name === 'TaskStatus'
+    const of_other_tasks = /^(Swing|TaskStatus|OperatorAxes|Commission)/;
+    const expected = of_other_tasks.test(state.message.name)
       ? 'silent' : state.message.data_id > 0 ? 'ok' : 'unprotected';
     assert.equal(state.integrity, expected, state.message.name);
     assert.equal(state.wrong, 0);
