@@ -80,6 +80,7 @@ struct Grid {
 /// What one run says about a joint before its own parameters are known.
 struct JointRun {
   const MotionRun* run = nullptr;
+  double command_before = 0.0;      ///< What held until the first row.
   std::vector<double> commanded_s;  ///< Integral of the command.
   std::vector<Pose> pose;           ///< As measured.
   /// Of the other joints in turn, from the last pass: opening (-1 .. 1) and velocity.
@@ -139,6 +140,9 @@ T commanded_until(const JointRun& of, std::size_t joint, const T& time_s, std::s
   while (row + 1 < time.size() && time[row + 1] <= time_s) {
     ++row;
   }
+  if (time_s < time[0]) {
+    return of.command_before * (time_s - time[0]);
+  }
   return of.commanded_s[row] + of.run->command[joint][row] * (time_s - time[row]);
 }
 
@@ -150,7 +154,7 @@ std::vector<T> openings(const JointRun& of, std::size_t joint, const T* p, const
   const std::vector<double>& time = of.run->time_s;
   std::vector<T> open(time.size(), T(0.0));
   std::size_t row = 0;
-  T pilot(of.run->command[joint][0]);
+  T pilot(of.command_before);
   T before = commanded_until(of, joint, T(time[0] - p[kDeadTime]), row);
   for (std::size_t at = 1; at < time.size(); ++at) {
     const double step_s = time[at] - time[at - 1];

@@ -143,6 +143,29 @@ void nothing_moves_before_dead_time_and_edge(void** /*state*/) {
   assert_near(open[kRows - 1], -0.7, 1e-9);
 }
 
+void a_first_command_is_new_to_a_joint_that_stands(void** /*state*/) {
+  const MotionModel model = machine();
+  const auto opened = [&](double velocity_radps) {
+    MotionRun of = run(0.0);
+    std::fill(of.command[kBoom].begin(), of.command[kBoom].end(), 1.0);
+    of.velocity_radps[kBoom][0] = velocity_radps;
+    const JointRun input = joint_run(model, kBoom, of, nullptr);
+    return openings<double>(input, kBoom, model[kBoom].value.data(), grid());
+  };
+  const std::vector<double> stood = opened(0.01);
+  assert_near(stood[2], 0.0, 0.0);  // 0.12 s of dead time are two rows and a part.
+  assert_true(stood[3] > 0.0 && stood[3] < 0.6);
+  assert_near(stood[kRows - 1], 0.7, 1e-9);
+  assert_near(opened(0.2)[1], 0.7, 1e-9);
+  // Nor does another joint take its share sooner.
+  MotionRun of = run(0.0);
+  std::fill(of.command[kBoom].begin(), of.command[kBoom].end(), 1.0);
+  of.velocity_radps[kBoom][0] = 0.0;
+  const JointRun arm = joint_run(model, kBoom + 1, of, nullptr);
+  assert_near(arm.other_opening[0][2], 0.0, 0.0);
+  assert_near(arm.other_opening[0][kRows - 1], 1.0, 1e-6);
+}
+
 /// What `model`'s boom does at rest under a full command; nothing else moves.
 std::vector<JointState<double>> stepped(const JointModel& model) {
   MotionRun of = run(0.0);
@@ -337,6 +360,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(derivatives_are_those_of_the_error),
       cmocka_unit_test(nothing_moves_before_dead_time_and_edge),
+      cmocka_unit_test(a_first_command_is_new_to_a_joint_that_stands),
       cmocka_unit_test(a_heavy_pose_answers_later),
       cmocka_unit_test(a_joint_rocks_the_machine_that_carries_it),
       cmocka_unit_test(a_model_explains_its_own_motion),
