@@ -124,7 +124,7 @@ void spread(double* rises, Bends& bends, const std::vector<double>& commands) {
 Range range(std::size_t parameter, double usual_radps) {
   constexpr double kFree = 1e6;
   if (parameter == kDeadTime) {
-    return {0.0, 0.12, 0.5, 0.03};
+    return {0.0, 0.12, 0.5, kFree};
   }
   if (parameter < kForward) {
     return {0.005, 0.04, 0.6, kFree};
