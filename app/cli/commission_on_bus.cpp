@@ -96,11 +96,15 @@ void say_result(const BusCommission& options, const operate::LiveResult& result)
     throw std::runtime_error(fmt::format(
         "{}. Go on with: {}", result.words.empty() ? "told to end" : result.words, resume));
   }
-  fmt::print("next: graben identify --log {} --profile {} --out better.toml\n", options.log,
-             options.profile);
+  fmt::print("{}", next_text(options));
 }
 
 }  // namespace
+
+std::string next_text(const BusCommission& options) {
+  return fmt::format("next: graben identify --log {} --profile {} --out better.toml\n", options.log,
+                     options.profile);
+}
 
 void leave_touches(const SequenceChoice& choice, commission::SequenceOptions& options) {
   for (int axis = 0; axis < kAxisCount; ++axis) {

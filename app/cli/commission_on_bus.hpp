@@ -33,6 +33,9 @@ void choose(const SequenceChoice& choice, commission::SequenceOptions& options);
 /// The part of it that goes before what windows say.
 void leave_touches(const SequenceChoice& choice, commission::SequenceOptions& options);
 
+/// The command that makes a profile of the log, as a line.
+[[nodiscard]] std::string next_text(const BusCommission& options);
+
 /// Listens, has the windows confirmed, leads through the sequence. Throws std::runtime_error, with
 /// the reason and what to do next, unless all is done in the end.
 void commission_on_bus(const BusCommission& options);

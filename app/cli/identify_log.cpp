@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -27,10 +28,19 @@ machines::ExcavatorMachine load_profile(const std::string& name) {
   return machines::load_excavator(machines::find_profile(name));
 }
 
-/// Logs that fit the profile, or one of `hashes`; what is worth knowing of each is printed.
+/// The profile says that values of it are from this log; see source_of().
+bool is_from(const machines::ExcavatorMachine& machine, const identify::MachineLog& log) {
+  return std::any_of(machine.provenance.begin(), machine.provenance.end(), [&](const auto& value) {
+    return value.from.find(log.sha256.substr(0, kShortHash)) != std::string::npos;
+  });
+}
+
+/// Logs that fit the machine's profile, or one of `hashes`, or that it was found from; what is
+/// worth knowing of each is printed.
 std::vector<identify::MachineLog> read_logs(const IdentifyLogCommand& options,
-                                            const ExcavatorProfile& profile,
+                                            const machines::ExcavatorMachine& machine,
                                             const std::vector<std::uint32_t>& hashes) {
+  const ExcavatorProfile& profile = machine.profile;
   std::vector<identify::MachineLog> logs;
   for (const std::string& file : options.logs) {
     if (fs::is_directory(file)) {
@@ -43,7 +53,7 @@ std::vector<identify::MachineLog> read_logs(const IdentifyLogCommand& options,
         throw std::runtime_error(fmt::format("{}: is the same log as {}", file, options.logs[n]));
       }
     }
-    if (!options.any_machine) {
+    if (!options.any_machine && !is_from(machine, log)) {
       identify::assert_same_machine(log, hashes);
     }
     identify::assert_plausible(log, profile);
@@ -94,6 +104,25 @@ std::string text_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
+/// Sides without a steady speed have no place under a limit: they are named rather than passed.
+void assert_within(const identify::PredictionScore& score, double limit_percent) {
+  if (limit_percent <= 0.0) {
+    return;
+  }
+  const std::vector<std::string> open = identify::unjudged_sides(score);
+  if (open.size() == 2 * kAxisCount) {
+    throw std::runtime_error("--limit: no drive kept a steady speed that could be judged");
+  }
+  if (!open.empty()) {
+    fmt::print("no steady speed to judge: {}\n", fmt::join(open, "; "));
+  }
+  const double off_percent = 100.0 * identify::most_off(score);
+  if (off_percent > limit_percent) {
+    throw std::runtime_error(
+        fmt::format("a speed is {:.1f} % off; --limit allows {} %", off_percent, limit_percent));
+  }
+}
+
 void assert_better(const identify::JudgedFit& fit) {
   if (fit.is_better()) {
     return;
@@ -118,8 +147,7 @@ void identify_logs(const IdentifyLogCommand& options) {
   const fs::path file = machines::find_profile(options.profile);
   const machines::ExcavatorMachine machine = machines::load_excavator(file);
   assert_outputs(options, file);
-  const std::vector<identify::MachineLog> logs =
-      read_logs(options, machine.profile, {machine.hash});
+  const std::vector<identify::MachineLog> logs = read_logs(options, machine, {machine.hash});
   identify::JudgedFit fit;
   {
     ProgressBar bar("identify");
@@ -158,7 +186,7 @@ void check_logs(const IdentifyLogCommand& options) {
     old = load_profile(options.before);
     hashes.push_back(old.hash);
   }
-  const std::vector<identify::MachineLog> logs = read_logs(options, machine.profile, hashes);
+  const std::vector<identify::MachineLog> logs = read_logs(options, machine, hashes);
   const auto stretches = identify::moving_stretches(logs);
   const auto spools = identify::spool_answers(machine.profile, logs);
   if (!options.before.empty()) {
@@ -176,11 +204,7 @@ void check_logs(const IdentifyLogCommand& options) {
   if (!options.summary.empty()) {
     write_whole(options.summary, reports::prediction_json(columns));
   }
-  const double off_percent = 100.0 * identify::most_off(now);
-  if (options.limit_percent > 0.0 && off_percent > options.limit_percent) {
-    throw std::runtime_error(fmt::format("a speed is {:.1f} % off; --limit allows {} %",
-                                         off_percent, options.limit_percent));
-  }
+  assert_within(now, options.limit_percent);
 }
 
 }  // namespace graben::cli

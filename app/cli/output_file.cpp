@@ -19,6 +19,13 @@ bool is_same_file(const std::string& one, const std::string& other) {
           fs::absolute(one).lexically_normal() == fs::absolute(other).lexically_normal());
 }
 
+/// Written beside the file, and renamed once it is whole.
+fs::path partial_file(const fs::path& file) {
+  fs::path partial = file;
+  partial += fmt::format(".part-{}", getpid());
+  return partial;
+}
+
 [[noreturn]] void refuse(const fs::path& file) {
   throw std::runtime_error(fmt::format("{}: can't be written", file.string()));
 }
@@ -27,10 +34,15 @@ bool is_same_file(const std::string& one, const std::string& other) {
 
 void assert_writable(const fs::path& file) {
   std::error_code error;
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  if (fs::is_directory(file, error) || !fs::is_directory(folder, error) ||
-      access(folder.c_str(), W_OK | X_OK) != 0 ||
+  if (fs::is_directory(file, error) ||
       (fs::exists(file, error) && access(file.c_str(), W_OK) != 0)) {
+    refuse(file);
+  }
+  // Permissions don't tell: a file system may be read-only, or take no files.
+  const fs::path partial = partial_file(file);
+  const bool opened = std::ofstream(partial, std::ios::binary).is_open();
+  fs::remove(partial, error);
+  if (!opened) {
     refuse(file);
   }
 }
@@ -49,8 +61,7 @@ void assert_apart(const std::vector<std::string>& inputs, const std::vector<std:
 }
 
 void write_whole(const fs::path& file, std::string_view text) {
-  fs::path partial = file;
-  partial += fmt::format(".part-{}", getpid());
+  const fs::path partial = partial_file(file);
   std::ofstream stream(partial, std::ios::binary);
   stream.write(text.data(), static_cast<std::streamsize>(text.size()));
   stream.close();

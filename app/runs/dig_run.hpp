@@ -90,23 +90,23 @@ struct Recovery {
   double error_max_m = 0.0;        ///< Of the true tip, afterwards.
 };
 
-/// Figures of the time on the path.
+/// Figures of the time on the path; absent where it was not reached.
 struct DigSummary {
-  double max_error_true_m = 0.0;
-  double rmse_error_true_m = 0.0;
-  double max_error_measured_m = 0.0;
-  double rmse_error_measured_m = 0.0;
-  double lambda_min = 0.0;
-  double lambda_mean = 0.0;
-  double lambda_below_1_share = 0.0;  ///< Of the time on the path.
-  double regeneration_share = 0.0;    ///< Of the time on the path: any check valve open.
+  double max_error_true_m = kAbsent;
+  double rmse_error_true_m = kAbsent;
+  double max_error_measured_m = kAbsent;
+  double rmse_error_measured_m = kAbsent;
+  double lambda_min = kAbsent;
+  double lambda_mean = kAbsent;
+  double lambda_below_1_share = kAbsent;  ///< Of the time on the path.
+  double regeneration_share = kAbsent;    ///< Of the time on the path: any check valve open.
   double peak_chamber_pressure_pa = 0.0;
   /// With something in the way; from 0.3 s after it let go, for 3 s.
   std::optional<Recovery> recovery;
-  double approach_s = 0.0;     ///< Until the path was reached.
-  double loop_s = 0.0;         ///< On the path.
-  ExcavatorCalm calm;          ///< The tip works.
-  double ringing_rms_m = 0.0;  ///< Of the true tip's cross-track error above kRingingAbove_hz.
+  double approach_s = kAbsent;     ///< Until the path was reached.
+  double loop_s = kAbsent;         ///< On the path.
+  ExcavatorCalm calm;              ///< The tip works.
+  double ringing_rms_m = kAbsent;  ///< Of the true tip's cross-track error above kRingingAbove_hz.
   double energy_per_loop_j = kAbsent;
   RunPace pace;
   /// Share of the time on the path for each limit that was active, by its name, "none" first.

@@ -92,7 +92,7 @@ DigSummary summarise(const DigResult& result) {
   long on_path = 0;
   long below_1 = 0;
   long regenerating = 0;
-  summary.lambda_min = 1.0;
+  double lambda_min = 1.0;
   for (const DigSample& sample : result.samples) {
     if (!sample.on_path) {
       continue;
@@ -102,7 +102,7 @@ DigSummary summarise(const DigResult& result) {
     }
     error_true.add(sample.error_true_m);
     error_measured.add(sample.error_measured_m);
-    summary.lambda_min = std::min(summary.lambda_min, sample.lambda);
+    lambda_min = std::min(lambda_min, sample.lambda);
     lambda_sum += sample.lambda;
     below_1 += sample.lambda < 1.0 ? 1 : 0;
     regenerating += sample.regenerating ? 1 : 0;
@@ -111,23 +111,21 @@ DigSummary summarise(const DigResult& result) {
     calm.add(sample, {sample.tip_true_m.x(), 0.0, sample.tip_true_m.y()});
     cross_track_m.push_back(sample.cross_track_true_m);
   }
-  if (on_path == 0) {
-    summary.lambda_min = 0.0;
+  if (on_path > 0) {
+    const auto count = static_cast<double>(on_path);
+    summary.max_error_true_m = error_true.max();
+    summary.rmse_error_true_m = error_true.rms();
+    summary.max_error_measured_m = error_measured.max();
+    summary.rmse_error_measured_m = error_measured.rms();
+    summary.lambda_min = lambda_min;
+    summary.lambda_mean = lambda_sum / count;
+    summary.lambda_below_1_share = static_cast<double>(below_1) / count;
+    summary.regeneration_share = static_cast<double>(regenerating) / count;
+    summary.ringing_rms_m = ringing_rms(cross_track_m, kRingingAbove_hz);
   }
-  const auto share = [&](long count) {
-    return on_path > 0 ? static_cast<double>(count) / static_cast<double>(on_path) : 0.0;
-  };
-  summary.max_error_true_m = error_true.max();
-  summary.rmse_error_true_m = error_true.rms();
-  summary.max_error_measured_m = error_measured.max();
-  summary.rmse_error_measured_m = error_measured.rms();
-  summary.lambda_mean = on_path > 0 ? lambda_sum / static_cast<double>(on_path) : 0.0;
-  summary.lambda_below_1_share = share(below_1);
-  summary.regeneration_share = share(regenerating);
   summary.peak_chamber_pressure_pa = result.peak_chamber_pressure_pa;
   summary.recovery = recovery(result.samples);
   summary.calm = calm.figures();
-  summary.ringing_rms_m = ringing_rms(cross_track_m, kRingingAbove_hz);
   summary.energy_per_loop_j = summary.calm.energy_per_j(result.loops);
   summary.pace = pace_of(result.samples, result.wall_s);
   summary.limit_share = limits.shares();

@@ -190,7 +190,7 @@ const FigureTable<IdentifySummary>& identify_figures() {
        [](const S& s) { return s.pressure_zero_error_pa; }},
       {{"pump_flow_error_ratio", "pump's flow, largest error", kPercent, "pump_flow_error_ratio"},
        [](const S& s) { return s.pump_flow_error_ratio; }},
-      {{"speed_error_ratio", "speed coefficient, largest error, of full", kPercent,
+      {{"speed_error_ratio", "speed of one drive, largest error, of full", kPercent,
         "speed_error_ratio"},
        [](const S& s) { return s.speed_error_ratio; }},
       {{"within_band_share", "truth within the stated 95 % band", kPercent, "within_band_share",

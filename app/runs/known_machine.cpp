@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/identify/machine/identified_profile.hpp"
+#include "app/runs/drive_speeds.hpp"
 #include "firmware/mcv/mcv_machine.hpp"
 
 namespace graben::runs {
@@ -34,19 +35,6 @@ double travel_at(const SideTruth& side, double area_ratio) {
     }
   }
   return 1.0;
-}
-
-double area_at(const SideTruth& side, double travel) {
-  if (travel <= side.opening.front().first) {
-    return 0.0;
-  }
-  double low = 0.0;
-  double high = 1.0;
-  for (int halving = 0; halving < 40; ++halving) {
-    const double middle = 0.5 * (low + high);
-    (travel_at(side, middle) < travel ? low : high) = middle;
-  }
-  return low;
 }
 
 /// Speed coefficient at full opening over the profile's.
@@ -101,27 +89,13 @@ class Count {
   IdentificationErrors& errors_;
 };
 
-/// Of full speed: the pump and the load being the same, speed goes with the coefficient.
-double speed_error(double factor, const identify::SideEstimate& found, const SideTruth& truth) {
-  double most = 0.0;
-  const identify::OpeningCurve curve = found.curve();
-  for (double travel = found.driven_least; travel <= found.driven_most; travel += 0.01) {
-    const double is = found.coefficient_factor.value * curve.area_ratio(travel);
-    most = std::max(most, std::abs(is - factor * area_at(truth, travel)));
-  }
-  return most / factor;
-}
-
-void compare_side(const ExcavatorProfile& profile, int axis, bool extends,
-                  const identify::SideEstimate& found, const SideTruth& truth,
-                  IdentificationErrors& errors) {
+void compare_side(const ExcavatorProfile& profile, const identify::SideEstimate& found,
+                  const SideTruth& truth, IdentificationErrors& errors) {
   Count count(errors);
   const double is = found.curve().travel_at(kEdgeArea);
   count.add({is, found.edge.deviation, found.edge.known}, travel_at(truth, kEdgeArea),
             errors.edge_ratio);
   count.add(found.dead_time_s, truth.dead_time_s, errors.dead_time_s);
-  const double factor = coefficient_factor(profile, axis, extends, truth);
-  errors.speed_ratio = std::max(errors.speed_ratio, speed_error(factor, found, truth));
   double ignored = 0.0;
   for (std::size_t at = 1; at < found.duty.size(); ++at) {
     const double truly =
@@ -164,13 +138,14 @@ IdentificationErrors errors_of(const ExcavatorProfile& profile,
     const auto k = static_cast<unsigned>(axis);
     const identify::DriveEstimate& drive = found.drive[k];
     const DriveTruth& truly = truth.drive[k];
-    compare_side(profile, axis, true, drive.extend, truly.extend, errors);
-    compare_side(profile, axis, false, drive.retract, truly.retract, errors);
+    compare_side(profile, drive.extend, truly.extend, errors);
+    compare_side(profile, drive.retract, truly.retract, errors);
     errors.lag_s = std::max(errors.lag_s, std::abs(drive.lag_s() - truly.extend.lag_s));
     count.add(drive.stroke_zero_m, truly.stroke_zero_m, errors.stroke_zero_m);
     count.add(drive.cap_zero_pa, truly.cap_zero_pa, errors.pressure_zero_pa);
     count.add(drive.rod_zero_pa, truly.rod_zero_pa, errors.pressure_zero_pa);
   }
+  errors.speed_ratio = largest_speed_error(profile, found, known_machine(profile, truth));
   for (int j = 0; j < profile.pump_count; ++j) {
     const auto k = static_cast<unsigned>(j);
     count.add(found.pump_flow_factor[k], truth.pump_flow_factor[k], errors.pump_flow);

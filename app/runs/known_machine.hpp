@@ -19,7 +19,7 @@ struct IdentificationErrors {
   double stroke_zero_m = 0.0;
   double pressure_zero_pa = 0.0;
   double pump_flow = 0.0;    ///< As a share.
-  double speed_ratio = 0.0;  ///< Of full speed, at any duty that was driven.
+  double speed_ratio = 0.0;  ///< Of full speed; see largest_speed_error().
   int values = 0;            ///< With a stated deviation ...
   int within = 0;            ///< ... and the truth within 1.96 of them.
 

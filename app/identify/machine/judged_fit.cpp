@@ -39,6 +39,10 @@ JudgedFit fit_and_judge(const ExcavatorProfile& profile, const std::vector<Machi
   fit.before = score_of(profile, logs, split.judged);
   fit.left_out = score_of(identified(profile, without), logs, split.judged);
   fit.after = score_of(fit.profile, logs, split.judged);
+  const auto spools = spool_answers(profile, logs);
+  judge_spools(profile, spools, fit.before);
+  judge_spools(identified(profile, without), spools, fit.left_out);
+  judge_spools(fit.profile, spools, fit.after);
   progress(1.0, "done");
   return fit;
 }

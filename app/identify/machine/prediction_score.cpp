@@ -171,6 +171,10 @@ SideScore score_side(const Samples& samples) {
   return side;
 }
 
+std::string side_text(std::size_t k, bool extends) {
+  return fmt::format("the {}, {}", kAxisTexts[k], extends ? "extending" : "retracting");
+}
+
 template <class Each>
 void for_each_side(const PredictionScore& score, const Each& each) {
   for (std::size_t k = 0; k < kAxisCount; ++k) {
@@ -251,8 +255,7 @@ void judge_spools(const ExcavatorProfile& profile,
 std::vector<std::string> score_sentences(const PredictionScore& score) {
   std::vector<std::string> all;
   for_each_side(score, [&](std::size_t k, bool extends, const SideScore& side) {
-    const std::string of =
-        fmt::format("the {}, {}", kAxisTexts[k], extends ? "extending" : "retracting");
+    const std::string of = side_text(k, extends);
     const double off = side.speed_ratio - 1.0;
     if (side.has_ratio && std::abs(off) > kRatioWorth) {
       all.push_back(fmt::format("{}, is {:.0f} % {} than the profile says", of,
@@ -262,6 +265,16 @@ std::vector<std::string> score_sentences(const PredictionScore& score) {
       all.push_back(fmt::format("{}, answers {:.0f} ms {} than the profile says", of,
                                 1e3 * std::abs(side.late_s),
                                 side.late_s > 0.0 ? "later" : "sooner"));
+    }
+  });
+  return all;
+}
+
+std::vector<std::string> unjudged_sides(const PredictionScore& score) {
+  std::vector<std::string> all;
+  for_each_side(score, [&](std::size_t k, bool extends, const SideScore& side) {
+    if (!side.has_ratio) {
+      all.push_back(side_text(k, extends));
     }
   });
   return all;

@@ -66,6 +66,9 @@ inline constexpr double kLateWorth_s = 0.020;
 /// 8 % slower than the profile says".
 [[nodiscard]] std::vector<std::string> score_sentences(const PredictionScore& score);
 
+/// "the arm, extending": sides that have no ratio.
+[[nodiscard]] std::vector<std::string> unjudged_sides(const PredictionScore& score);
+
 /// Largest difference of a speed from its prediction, as a share of it; of sides that have a ratio.
 [[nodiscard]] double most_off(const PredictionScore& score);
 

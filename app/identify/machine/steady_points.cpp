@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/identify/machine/clipped_pressure.hpp"
+
 namespace graben::identify {
 namespace {
 
@@ -75,15 +77,16 @@ bool is_steady(const LogSegment& segment, std::size_t axis, std::size_t at, doub
   return std::abs(bend(series.stroke_m, at)) < kSpeedSteady_mps + kSpeedSteady * speed_mps;
 }
 
-SteadyPoint point_of(const LogSegment& segment, std::size_t axis, std::size_t at) {
+SteadyPoint point_of(const LogSegment& segment, const std::array<double, kAxisCount>& noise_pa,
+                     std::size_t axis, std::size_t at) {
   SteadyPoint point;
   point.axis = static_cast<int>(axis);
   for (std::size_t k = 0; k < kAxisCount; ++k) {
     const CylinderSeries& series = segment.axis[k];
     point.all_spool[k] = mean(series.spool, at);
     point.all_speed_mps[k] = slope(series.stroke_m, at);
-    point.cap_pa[k] = mean(series.cap_pa, at);
-    point.rod_pa[k] = mean(series.rod_pa, at);
+    point.cap_pa[k] = unclipped_mean(mean(series.cap_pa, at), noise_pa[k]);
+    point.rod_pa[k] = unclipped_mean(mean(series.rod_pa, at), noise_pa[k]);
   }
   for (std::size_t j = 0; j < kPumpCount; ++j) {
     point.swash[j] = mean(segment.swash[j], at);
@@ -101,13 +104,17 @@ SteadyPoint point_of(const LogSegment& segment, std::size_t axis, std::size_t at
 std::vector<SteadyPoint> steady_points(const std::vector<MachineLog>& logs,
                                        const ExcavatorProfile& profile) {
   std::vector<SteadyPoint> points;
+  std::array<double, kAxisCount> noise_pa{};
+  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+    noise_pa[axis] = pressure_noise_pa(logs, axis);
+  }
   std::size_t block = 0;
   for (const MachineLog& log : logs) {
     for (const LogSegment& segment : log.segments) {
       for (std::size_t at = kSettles; at + kHalf < segment.size(); at += kEvery) {
         for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
           if (is_steady(segment, axis, at, profile.geometry.cylinder[axis].stroke_m)) {
-            points.push_back(point_of(segment, axis, at));
+            points.push_back(point_of(segment, noise_pa, axis, at));
             points.back().block = block + at / kBlock;
           }
         }

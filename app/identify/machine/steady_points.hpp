@@ -10,7 +10,8 @@
 
 namespace graben::identify {
 
-/// Means over a short window; in SI units, extension is positive.
+/// Means over a short window; in SI units, extension is positive. Pressures as a sensor would show
+/// them whose range does not end at 0.
 struct SteadyPoint {
   int axis = 0;
   double spool = 0.0;  ///< Of the travel; its sign is the side.

@@ -2,29 +2,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
+
+#include "app/identify/machine/clipped_pressure.hpp"
 
 namespace graben::identify {
 namespace {
 
-/// A touch lasts so long, in grid points; its first part is the oil's way to rest.
+/// A touch lasts so long, in grid points. Its last part counts: before that oil still drains.
 constexpr std::size_t kTouch = 40;
-constexpr std::size_t kSettled = 20;
+constexpr std::size_t kLast = 24;
 constexpr double kStill_m = 0.0004;
 /// Farther from its end no sensor's zero is.
 constexpr double kNear_m = 0.035;
 /// It moves.
 constexpr double kMoves_mps = 0.008;
 /// It came this far on its way to the end.
-constexpr double kCame_m = 0.01;
+constexpr double kCame_m = 0.003;
 /// ... within so many grid points, cushion and all.
-constexpr std::size_t kCame = 300;
+constexpr std::size_t kCame = 600;
 /// The pushing side has at least that more than the other.
 constexpr double kPushes_pa = 3.0e6;
 constexpr double kStrokeDeviation_m = 0.0003;
+/// An empty chamber is not quite at the tank's pressure.
 constexpr double kPressureDeviation_pa = 0.1e6;
 constexpr double kMostZero_pa = 2.0e6;
-/// A reading of less is the transducer's end.
-constexpr double kNothing_pa = 0.03e6;
+/// A transducer's resolution, where its noise is less.
+constexpr double kLeastNoise_pa = 0.02e6;
+/// A touch whose mean is so much above the lowest was not empty yet.
+constexpr double kEmptier_pa = 0.3e6;
 /// Where the zero is below what the sensor shows: half of the usual bound, and what is open then.
 constexpr double kBelow_pa = -0.6e6;
 constexpr double kBelowDeviation_pa = 0.4e6;
@@ -37,9 +44,34 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+double mean(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) {
+    sum += value;
+  }
+  return sum / static_cast<double>(values.size());
+}
+
+std::vector<double> part(const std::vector<double>& of, std::size_t from, std::size_t until) {
+  return {of.begin() + static_cast<std::ptrdiff_t>(from),
+          of.begin() + static_cast<std::ptrdiff_t>(until)};
+}
+
+/// For so many grid points before `at`, of a touch of this length, the drained side is as empty as
+/// in the end.
+std::size_t empty_for(const std::vector<double>& drained_pa, std::size_t at, std::size_t length) {
+  const double last_pa = mean(part(drained_pa, at - kLast, at));
+  std::size_t back = kLast;
+  while (back + kLast / 2 <= length &&
+         mean(part(drained_pa, at - back - kLast / 2, at - back)) < last_pa + kEmptier_pa) {
+    back += kLast / 2;
+  }
+  return back;
+}
+
 struct Touch {
   double stroke_m = 0.0;
-  double drained_pa = 0.0;
+  std::vector<double> drained_pa;
 };
 
 /// Readings of the touches of one end.
@@ -68,12 +100,10 @@ std::vector<Touch> touches(const std::vector<MachineLog>& logs, std::size_t axis
         }
         const std::vector<double>& fed = extends ? series.cap_pa : series.rod_pa;
         const std::vector<double>& drained = extends ? series.rod_pa : series.cap_pa;
-        const auto from = static_cast<std::ptrdiff_t>(at - length + kSettled);
-        const auto until = static_cast<std::ptrdiff_t>(at);
-        const double fed_pa = median({fed.begin() + from, fed.begin() + until});
-        const double drained_pa = median({drained.begin() + from, drained.begin() + until});
-        if (fed_pa - drained_pa > kPushes_pa) {
-          found.push_back({series.stroke_m[at], drained_pa});
+        const std::size_t from = at - empty_for(drained, at, length);
+        Touch touch = {series.stroke_m[at], part(drained, from, at)};
+        if (median(part(fed, from, at)) - median(touch.drained_pa) > kPushes_pa) {
+          found.push_back(std::move(touch));
         }
       }
     }
@@ -93,20 +123,28 @@ double least_open(const std::vector<SteadyPoint>& points, std::size_t axis, bool
   return least;
 }
 
-Estimate zero_of(const std::vector<Touch>& found, const Estimate& before) {
+Estimate zero_of(const std::vector<Touch>& found, double noise_pa, const Estimate& before) {
   if (found.empty()) {
     return before;
   }
-  std::vector<double> values;
+  double lowest_pa = mean(found.front().drained_pa);
   for (const Touch& touch : found) {
-    values.push_back(touch.drained_pa);
+    lowest_pa = std::min(lowest_pa, mean(touch.drained_pa));
   }
-  const double zero_pa = median(values);
-  if (zero_pa > kMostZero_pa) {
+  std::vector<double> readings_pa;
+  for (const Touch& touch : found) {
+    if (mean(touch.drained_pa) <= lowest_pa + kEmptier_pa) {
+      readings_pa.insert(readings_pa.end(), touch.drained_pa.begin(), touch.drained_pa.end());
+    }
+  }
+  const std::optional<ClippedZero> zero = clipped_zero(readings_pa, noise_pa);
+  if (!zero) {
+    return {kBelow_pa, kBelowDeviation_pa, false};
+  }
+  if (zero->value_pa > kMostZero_pa) {
     return before;  // Its draining side was not open.
   }
-  return zero_pa > kNothing_pa ? Estimate{zero_pa, kPressureDeviation_pa, true}
-                               : Estimate{kBelow_pa, kBelowDeviation_pa, false};
+  return {zero->value_pa, std::hypot(kPressureDeviation_pa, zero->deviation_pa), true};
 }
 
 }  // namespace
@@ -119,8 +157,9 @@ void find_zeros(const std::vector<MachineLog>& logs, const ExcavatorProfile& pro
     const std::vector<Touch> out =
         touches(logs, axis, true, most_m, least_open(points, axis, true));
     const std::vector<Touch> in = touches(logs, axis, false, 0.0, least_open(points, axis, false));
-    drive.rod_zero_pa = zero_of(out, drive.rod_zero_pa);
-    drive.cap_zero_pa = zero_of(in, drive.cap_zero_pa);
+    const double noise_pa = std::max(kLeastNoise_pa, pressure_noise_pa(logs, axis));
+    drive.rod_zero_pa = zero_of(out, noise_pa, drive.rod_zero_pa);
+    drive.cap_zero_pa = zero_of(in, noise_pa, drive.cap_zero_pa);
     if (!out.empty()) {
       drive.stroke_zero_m = {out.back().stroke_m - most_m, kStrokeDeviation_m, true};
     } else if (!in.empty() && in.back().stroke_m > kNoStroke_m) {

@@ -7,6 +7,7 @@
 #include "app/identify/machine/machine_fit.hpp"
 #include "app/machines/simulated/hidden.hpp"
 #include "app/runs/commission_run.hpp"
+#include "app/runs/drive_speeds.hpp"
 #include "app/runs/identify_run.hpp"
 #include "app/runs/known_machine.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
@@ -48,7 +49,9 @@ void a_hidden_machine_is_found(void**) {
   assert_true(errors.dead_time_s < 0.010);
   assert_true(errors.lag_s < 0.010);
   assert_true(errors.stroke_zero_m < 0.001);
-  assert_true(errors.pump_flow < 0.06);
+  assert_true(errors.pressure_zero_pa < 0.6e6);
+  assert_true(errors.pump_flow < 0.04);
+  assert_true(errors.speed_ratio < 0.06);
   assert_true(errors.within_share() > 0.8);
 }
 
@@ -58,6 +61,13 @@ void what_is_known_is_without_error(void**) {
   const machines::MachineTruth truth = machines::truth_of(machine.plant);
   const MachineEstimate known = runs::known_machine(machine.profile, truth);
   const ExcavatorProfile exact = identified(machine.profile, known);
+  assert_near(runs::largest_speed_error(machine.profile, known, known), 0.0, 0.0);
+  MachineEstimate weaker = known;
+  weaker.pump_flow_factor = {};
+  for (Estimate& factor : weaker.pump_flow_factor) {
+    factor.value = 0.9;
+  }
+  assert_true(runs::largest_speed_error(machine.profile, weaker, known) > 0.05);
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     const auto& side = truth.drive[axis].extend;
     assert_near(exact.valve.spool[axis].extend_in_m2, side.in_m2, 1e-3 * side.in_m2);

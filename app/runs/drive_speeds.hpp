@@ -1,0 +1,17 @@
+#pragma once
+/// Speeds of the drives, each alone, by what is known of a machine.
+
+#include "app/identify/machine/estimate.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
+
+namespace graben::runs {
+
+/// Largest difference of a cylinder's steady speed between two estimates of one machine, as a share
+/// of `truth`'s speed at full duty: over all drives and directions, at each duty that `found` has
+/// seen driven. Each drive is alone, at rated engine speed and the swash of a dig, with 5 MPa in
+/// the chamber that is fed and nothing in the other.
+[[nodiscard]] double largest_speed_error(const ExcavatorProfile& profile,
+                                         const identify::MachineEstimate& found,
+                                         const identify::MachineEstimate& truth);
+
+}  // namespace graben::runs
