@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kAhead_s = 1.0;
 constexpr std::size_t kEvery = 4;  // Neighbouring seconds say the same.
-constexpr double kTurn_s = 0.5;    // That a turn is worth as much as the velocity.
+constexpr double kTurn_s = 0.3;    // That a turn is worth as much as the velocity.
 
 /// Its square is the soft L1 loss of `error`: quadratic when small, linear when large.
 template <class T>

@@ -21,7 +21,7 @@ struct Ahead {
 
 /// Residuals: predicted less measured velocity, in parts of the joint's usual velocity, then
 /// predicted less measured turn within a second, in the part of it that the same velocity would
-/// turn in half a second; both pressed together beyond one. One parameter block of kParameters.
+/// turn in kTurn_s; both pressed together beyond one. One parameter block of kParameters.
 class JointCost : public ceres::CostFunction {
  public:
   /// `of` and `grid` must outlive it. `sign` and `scale_radps` are the joint's.

@@ -3,11 +3,12 @@
 ///
 /// command -> dead time -> pilot lag -> opening (monotone curve, one per direction)
 ///         -> flow (load by gravity, linkage, shared with the other openings) -> pump lag
-///         -> oil and mass (one mode) -> motion -> sensor lag -> measured velocity
+///         -> oil and mass (one mode, inertia by pose) -> motion -> sensor lag -> measured velocity
 ///
-/// An angle measured against gravity also shows what the other joints' accelerations do to its
-/// sensor: the machine rocks on its tracks (a slow mode), or the sensor itself takes acceleration
-/// for tilt (a fast one). The angle is what is measured at once, the velocity comes late.
+/// A measured angle also shows what accelerations, its joint's own and the others', do to what
+/// carries it: the machine rocks and twists on its tracks (a slow mode), or the sensor itself takes
+/// acceleration for tilt (a fast one). The angle is what is measured at once, the velocity comes
+/// late.
 ///
 /// It needs neither pressures nor a profile. Velocities are in rad/s, commands and openings are
 /// ratios. Everything is a template of the scalar, so that Ceres differentiates it. The motion
@@ -31,28 +32,31 @@ inline constexpr std::size_t kLinkage = 7;  ///< Places of the linkage's curve, 
 inline constexpr std::size_t kMiddle = kLinkage / 2;
 /// Sine and cosine of boom, arm and bucket against the horizon, and the swing.
 inline constexpr std::size_t kPose = 7;
+inline constexpr std::size_t kCosines = 3;  ///< Of the pose: boom, arm, bucket.
 
 /// Where in the parameters of a joint which of them starts. 'Forward' is what a positive opening
 /// does. A pair of lags is for growing and for falling.
 enum Parameter : std::size_t {
-  kDeadTime = 0,                  ///< s
-  kPilotLag,                      ///< s, a pair for forward, a pair for backward
-  kForward = kPilotLag + 4,       ///< rad/s, rises of the curve for commands > 0, each >= 0
-  kBackward = kForward + kRises,  ///< rad/s, for commands < 0
-  kFlowLag = kBackward + kRises,  ///< s, of the pump's flow, as kPilotLag
-  kModeRate = kFlowLag + 4,       ///< rad/s, of oil and mass
-  kDampingDriving,                ///< 1/s, while the oil drives
-  kDampingBraking,                ///< 1/s, while the oil brakes
-  kLoadForward,                   ///< By how much the pose speeds it up, ratio per part of it
+  kDeadTime = 0,                       ///< s
+  kPilotLag,                           ///< s, a pair for forward, a pair for backward
+  kForward = kPilotLag + 4,            ///< rad/s, rises of the curve for commands > 0, each >= 0
+  kBackward = kForward + kRises,       ///< rad/s, for commands < 0
+  kFlowLag = kBackward + kRises,       ///< s, of the pump's flow, as kPilotLag
+  kModeRate = kFlowLag + 4,            ///< rad/s, of oil and mass
+  kDampingDriving,                     ///< 1/s, while the oil drives
+  kDampingBraking,                     ///< 1/s, while the oil brakes
+  kInertia,                            ///< By how much the pose makes it heavier, ratio per cosine
+  kLoadForward = kInertia + kCosines,  ///< By how much the pose speeds it up, ratio per part of it
   kLoadBackward = kLoadForward + kPose,
   /// Velocity per flow along the joint's own travel, ratio to that at kMiddle, which is left out
   kLinkageRatio = kLoadBackward + kPose,
   /// By how much another's opening slows it: per other, own direction, its direction
   kShare = kLinkageRatio + kLinkage - 1,
-  kRockRate = kShare + 4 * kOthers,   ///< rad/s, of the machine on its tracks
-  kRockDamping,                       ///< Ratio
-  kRockForce,                         ///< Ratio of the rocking's acceleration to another joint's
-  kSensorLag = kRockForce + kOthers,  ///< s, of the measured velocity behind the angle
+  kRockRate = kShare + 4 * kOthers,  ///< rad/s, of the machine on its tracks
+  kRockDamping,                      ///< Ratio
+  kRockForce,                        ///< Ratio of the rocking's acceleration to another joint's
+  kRockOwn = kRockForce + kOthers,   ///< The same of its own
+  kSensorLag,                        ///< s, of the measured velocity behind the angle
   kParameters,
 };
 
@@ -76,6 +80,7 @@ struct Grid {
 /// What one run says about a joint before its own parameters are known.
 struct JointRun {
   const MotionRun* run = nullptr;
+  double command_before = 0.0;      ///< What held until the first row.
   std::vector<double> commanded_s;  ///< Integral of the command.
   std::vector<Pose> pose;           ///< As measured.
   /// Of the other joints in turn, from the last pass: opening (-1 .. 1) and velocity.
@@ -135,6 +140,9 @@ T commanded_until(const JointRun& of, std::size_t joint, const T& time_s, std::s
   while (row + 1 < time.size() && time[row + 1] <= time_s) {
     ++row;
   }
+  if (time_s < time[0]) {
+    return of.command_before * (time_s - time[0]);
+  }
   return of.commanded_s[row] + of.run->command[joint][row] * (time_s - time[row]);
 }
 
@@ -146,7 +154,7 @@ std::vector<T> openings(const JointRun& of, std::size_t joint, const T* p, const
   const std::vector<double>& time = of.run->time_s;
   std::vector<T> open(time.size(), T(0.0));
   std::size_t row = 0;
-  T pilot(of.run->command[joint][0]);
+  T pilot(of.command_before);
   T before = commanded_until(of, joint, T(time[0] - p[kDeadTime]), row);
   for (std::size_t at = 1; at < time.size(); ++at) {
     const double step_s = time[at] - time[at - 1];
@@ -197,6 +205,19 @@ T flow_velocity(const JointRun& of, std::size_t row, const T* p, const Grid& gri
     shared += p[kShare + 4 * at + (forward ? 0 : 2) + (other > 0.0 ? 0 : 1)] * std::abs(other);
   }
   return opening * load * linkage_at(p + kLinkageRatio, grid, angle_rad) / shared;
+}
+
+/// Mass that the oil moves in a pose, ratio to that in the usual one.
+template <class T>
+T inertia_of(const T* p, const Grid& grid, const Pose& pose) {
+  T inertia(1.0);
+  for (std::size_t at = 0; at < kCosines; ++at) {
+    inertia += p[kInertia + at] * (pose[2 * at + 1] - grid.usual[2 * at + 1]);
+  }
+  if (!(inertia > 0.2)) {
+    return T(0.2);
+  }
+  return inertia;
 }
 
 }  // namespace graben::identify

@@ -22,14 +22,28 @@ struct JointState {
   T turned_rad{0.0};      ///< Since the run's first row, rocking included.
 };
 
+/// One step of what oscillates about `rest` at a `stiffness` of its rate squared, `at` with its
+/// `speed`, to which `shoved` adds. The trapezoidal rule: it damps nothing by itself, and is stable
+/// at any step.
+template <class T>
+void oscillate(T& at, T& speed, double step_s, const T& stiffness, const T& damping, const T& rest,
+               const T& shoved) {
+  const double half_s = 0.5 * step_s;
+  const T before = speed;
+  speed = (speed * (1.0 - half_s * damping - half_s * half_s * stiffness) + shoved +
+           step_s * stiffness * (rest - at)) /
+          (1.0 + half_s * damping + half_s * half_s * stiffness);
+  at += half_s * (before + speed);
+}
+
 /// One row further: `wanted_radps` is what flow_velocity() says at the new row, `shoved_radps` by
-/// how much the other joints' accelerations change the rocking's rate.
+/// how much the other joints' accelerations change the rocking's rate, `inertia` inertia_of().
 template <class T>
 void move(JointState<T>& state, const T* p, double row_s, const T& wanted_radps,
-          const T& shoved_radps) {
-  constexpr int kSteps = 3;
+          const T& shoved_radps, const T& inertia) {
+  constexpr int kSteps = 2;
   const double step_s = row_s / kSteps;
-  const T stiffness = p[kModeRate] * p[kModeRate];
+  const T stiffness = p[kModeRate] * p[kModeRate] / inertia;
   const T rock_stiffness = p[kRockRate] * p[kRockRate];
   const T rock_damping = 2.0 * p[kRockDamping] * p[kRockRate];
   const T before = state.flow_radps;
@@ -38,14 +52,12 @@ void move(JointState<T>& state, const T* p, double row_s, const T& wanted_radps,
   for (int step = 0; step < kSteps; ++step) {
     const T flow = before + (state.flow_radps - before) * ((step + 0.5) / kSteps);
     const T& damping = p[state.pushed_radps2 * flow > 0.0 ? kDampingDriving : kDampingBraking];
-    state.pushed_radps2 =
-        (state.pushed_radps2 + step_s * stiffness * (flow - state.velocity_radps)) /
-        (1.0 + step_s * (damping + step_s * stiffness));
-    state.velocity_radps += step_s * state.pushed_radps2;
-    state.rocks_radps = (state.rocks_radps + shoved_radps / double(kSteps) -
-                         step_s * rock_stiffness * state.tilt_rad) /
-                        (1.0 + step_s * (rock_damping + step_s * rock_stiffness));
-    state.tilt_rad += step_s * state.rocks_radps;
+    const T slower_radps = state.velocity_radps;
+    oscillate(state.velocity_radps, state.pushed_radps2, step_s, stiffness, damping, flow, T(0.0));
+    const T shoved =
+        shoved_radps / double(kSteps) + p[kRockOwn] * (state.velocity_radps - slower_radps);
+    oscillate(state.tilt_rad, state.rocks_radps, step_s, rock_stiffness, rock_damping, T(0.0),
+              shoved);
     const T true_radps = state.velocity_radps + state.rocks_radps;
     state.turned_rad += step_s * true_radps;
     state.seen_radps += (true_radps - state.seen_radps) * (step_s / (step_s + p[kSensorLag]));
@@ -74,7 +86,8 @@ std::vector<JointState<T>> motion(const JointRun& of, std::size_t joint, const T
     states[row] = states[row - 1];
     const T wanted =
         flow_velocity(of, row, p, grid, of.pose[row], of.run->angle_rad[joint][row], open[row]);
-    move(states[row], p, time[row] - time[row - 1], wanted, shove(of, row, p));
+    move(states[row], p, time[row] - time[row - 1], wanted, shove(of, row, p),
+         inertia_of(p, grid, of.pose[row]));
   }
   return states;
 }

@@ -18,16 +18,24 @@ namespace graben::identify {
 namespace {
 
 constexpr std::array<double, 4> kDeadTimeStarts_s = {0.04, 0.10, 0.15, 0.21};
+constexpr double kAlike_s = 0.03;  // Starts closer than that end alike.
 constexpr int kSearchSteps = 20;
 constexpr std::size_t kSearched = 14;  // So many runs are enough to choose a start,
 constexpr std::size_t kSome = 42;      // and so many for all passes but the last.
 constexpr int kSteps = 15;
 
+/// Once a dead time is found: near it. Lags and the rocking stand in for dead time, and slowly so.
+Range near(double dead_time_s) {
+  constexpr double kNear_s = 0.03;
+  const Range any = range(kDeadTime, 0.0);
+  return {any.least, dead_time_s, any.most, kNear_s};
+}
+
 /// A joint's problem in Ceres.
 class JointFit {
  public:
   JointFit(const std::vector<JointRun>& inputs, std::size_t joint, JointModel& model,
-           double scale_radps)
+           double scale_radps, const Range& dead_time)
       : model_(model) {
     for (const JointRun& of : inputs) {
       problem_.AddResidualBlock(new JointCost(of, joint, model.grid, model.sign, scale_radps),
@@ -36,7 +44,7 @@ class JointFit {
     ceres::Matrix narrow = ceres::Matrix::Zero(kParameters, kParameters);
     ceres::Vector start = ceres::Vector::Zero(kParameters);
     for (std::size_t at = 0; at < kParameters; ++at) {
-      const Range allowed = range(at, scale_radps);
+      const Range allowed = at == kDeadTime ? dead_time : range(at, scale_radps);
       start[static_cast<Eigen::Index>(at)] = allowed.start;
       narrow(static_cast<Eigen::Index>(at), static_cast<Eigen::Index>(at)) = 1.0 / allowed.wide;
       problem_.SetParameterLowerBound(model.value.data(), static_cast<int>(at), allowed.least);
@@ -126,16 +134,37 @@ std::vector<T> some(const std::vector<T>& all, std::size_t count) {
   return chosen;
 }
 
-/// The first pass: the best of several dead times to start from.
+/// `model` with another dead time, and the lags that stand in for it as at first.
+JointModel other_start(const JointModel& model, double dead_time_s, double scale_radps) {
+  JointModel other = model;
+  other.value[kDeadTime] = dead_time_s;
+  for (const std::size_t lags : {kPilotLag, kFlowLag}) {
+    std::fill_n(other.value.begin() + static_cast<std::ptrdiff_t>(lags), 4,
+                range(lags, scale_radps).start);
+  }
+  return other;
+}
+
+/// The best of several dead times to start from. Each row's length there is a best one of its own,
+/// and which of them is the best of all may change once the others' motion is known: then `model`
+/// as it is counts too.
 void search(const std::vector<JointRun>& all, std::size_t joint, JointModel& model,
-            double scale_radps, int threads) {
-  const JointModel start = model;
+            double scale_radps, bool first, int threads) {
+  std::vector<JointModel> starts;
+  if (!first) {
+    starts.push_back(model);
+  }
+  for (const double dead_time_s : kDeadTimeStarts_s) {
+    if (first || std::abs(dead_time_s - model.value[kDeadTime]) > kAlike_s) {
+      starts.push_back(other_start(model, dead_time_s, scale_radps));
+    }
+  }
   const std::vector<JointRun> inputs = some(all, kSearched);
   double least = std::numeric_limits<double>::infinity();
-  for (const double dead_time_s : kDeadTimeStarts_s) {
-    JointModel tried = start;
-    tried.value[kDeadTime] = dead_time_s;
-    const double cost = JointFit(inputs, joint, tried, scale_radps).solve(kSearchSteps, threads);
+  for (JointModel& tried : starts) {
+    const Range dead_time = first ? range(kDeadTime, 0.0) : near(tried.value[kDeadTime]);
+    const double cost =
+        JointFit(inputs, joint, tried, scale_radps, dead_time).solve(kSearchSteps, threads);
     if (cost < least) {
       least = cost;
       model = tried;
@@ -148,6 +177,7 @@ void search(const std::vector<JointRun>& all, std::size_t joint, JointModel& mod
 MotionModel fit_motion(const std::vector<MotionRun>& runs, const FitOptions& options) {
   MotionModel model;
   std::array<double, kJoints> scale_radps{};
+  std::array<double, kJoints> dead_time_s{};  // As searched.
   for (std::size_t joint = 0; joint < kJoints; ++joint) {
     scale_radps[joint] = usual_velocity(runs, joint);
     model[joint] = start_model(runs, joint);
@@ -172,11 +202,15 @@ MotionModel fit_motion(const std::vector<MotionRun>& runs, const FitOptions& opt
         continue;
       }
       const std::vector<JointRun> inputs = inputs_of(model, joint, last ? runs : fewer, pass == 0);
+      if (pass <= 1) {
+        search(inputs, joint, of, scale_radps[joint], pass == 0, options.threads);
+        dead_time_s[joint] = of.value[kDeadTime];
+      }
       if (pass == 0) {
-        search(inputs, joint, of, scale_radps[joint], options.threads);
         spread_bends(runs, joint, of);
       }
-      JointFit fit(inputs, joint, of, scale_radps[joint]);
+      JointFit fit(inputs, joint, of, scale_radps[joint],
+                   pass == 0 ? range(kDeadTime, 0.0) : near(dead_time_s[joint]));
       fit.solve(kSteps, options.threads);
       if (last) {
         fit.deviations(inputs, joint, scale_radps[joint]);

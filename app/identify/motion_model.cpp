@@ -10,6 +10,7 @@ namespace graben::identify {
 namespace {
 
 constexpr double kAhead_s = 1.0;
+constexpr double kStood_radps = 0.03;  // In one row: more than noise, less than a motion.
 
 double full(const JointModel& joint, std::size_t first_rise) {
   const auto* from = joint.value.begin() + static_cast<std::ptrdiff_t>(first_rise);
@@ -23,6 +24,16 @@ std::vector<double> integral(const std::vector<double>& time_s,
     sum[row] = sum[row - 1] + command[row - 1] * (time_s[row] - time_s[row - 1]);
   }
   return sum;
+}
+
+/// Fills in what is known of a joint's command.
+void know_command(JointRun& of, const MotionRun& run, std::size_t joint) {
+  of.run = &run;
+  of.commanded_s = integral(run.time_s, run.command[joint]);
+  // What the first row commands a joint that stands has only just come: had it held before, the
+  // joint would move. Taken for an old command, it passes for a machine that answers sooner.
+  const bool stood = std::abs(run.velocity_radps[joint][0]) < kStood_radps;
+  of.command_before = stood ? 0.0 : run.command[joint][0];
 }
 
 using States = std::array<JointState<double>, kJoints>;
@@ -49,7 +60,8 @@ class Machine {
       const JointModel& of = model_[joint];
       wanted[joint] = flow_velocity(inputs_[joint], row, of.value.data(), of.grid, pose,
                                     angles[joint], open_[joint][row]);
-      move(states[joint], of.value.data(), row_s, wanted[joint], 0.0);
+      move(states[joint], of.value.data(), row_s, wanted[joint], 0.0,
+           inertia_of(of.value.data(), of.grid, pose));
       faster[joint] = of.sign * (states[joint].seen_radps - before[joint].seen_radps);
     }
     states = before;
@@ -59,7 +71,7 @@ class Machine {
       for (std::size_t at = 0; at < kOthers; ++at) {
         shoved += p[kRockForce + at] * faster[other_joint(joint, at)];
       }
-      move(states[joint], p, row_s, wanted[joint], shoved);
+      move(states[joint], p, row_s, wanted[joint], shoved, inertia_of(p, model_[joint].grid, pose));
     }
   }
 
@@ -146,8 +158,7 @@ class Judge {
 JointRun joint_run(const MotionModel& model, std::size_t joint, const MotionRun& run,
                    const Velocities* rates) {
   JointRun of;
-  of.run = &run;
-  of.commanded_s = integral(run.time_s, run.command[joint]);
+  know_command(of, run, joint);
   of.pose.reserve(run.size());
   for (std::size_t row = 0; row < run.size(); ++row) {
     of.pose.push_back(pose_of(angles_at(run, row)));
@@ -156,8 +167,7 @@ JointRun joint_run(const MotionModel& model, std::size_t joint, const MotionRun&
     const std::size_t other = other_joint(joint, at);
     const JointModel& theirs = model[other];
     JointRun alone;
-    alone.run = &run;
-    alone.commanded_s = integral(run.time_s, run.command[other]);
+    know_command(alone, run, other);
     of.other_opening[at] = openings<double>(alone, other, theirs.value.data(), theirs.grid);
     for (double& open : of.other_opening[at]) {
       open /= full(theirs, open > 0.0 ? kForward : kBackward);

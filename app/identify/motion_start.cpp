@@ -138,8 +138,11 @@ Range range(std::size_t parameter, double usual_radps) {
   if (parameter == kModeRate) {
     return {1.0, 12.0, 40.0, kFree};
   }
-  if (parameter < kLoadForward) {
+  if (parameter < kInertia) {
     return {0.1, 8.0, 100.0, kFree};
+  }
+  if (parameter < kLoadForward) {
+    return {-3.0, 0.0, 3.0, 0.3};
   }
   if (parameter < kLinkageRatio) {
     return {-5.0, 0.0, 5.0, 0.5};
@@ -151,10 +154,13 @@ Range range(std::size_t parameter, double usual_radps) {
     return {0.0, 0.3, 8.0, 2.0};
   }
   if (parameter == kRockRate) {
-    return {3.0, 12.0, 80.0, 40.0};
+    return {3.0, 20.0, 80.0, 40.0};
   }
   if (parameter == kRockDamping) {
-    return {0.02, 0.15, 1.0, 1.0};
+    return {0.01, 0.15, 1.0, 1.0};
+  }
+  if (parameter == kRockOwn) {
+    return {-20.0, 0.0, 20.0, 0.2};
   }
   return parameter == kSensorLag ? Range{0.001, 0.01, 0.15, 0.02} : Range{-20.0, 0.02, 20.0, 2.0};
 }

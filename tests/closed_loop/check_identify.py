@@ -115,9 +115,9 @@ def finds(graben, folder):
         print(f"{axis}: R2 {found['velocity_r2']:.4f}, {1e3 * found['angle_1s_rms_rad']:.1f} mrad a second ahead, "
               f"dead time {1e3 * found['dead_time_s']:.0f} of {1e3 * of.dead_time_s:.0f} ms, "
               f"lag {1e3 * found['lag_opening_s']:.0f} of {1e3 * of.lag_s:.0f} ms")
-        assert found["velocity_r2"] > 0.97 and found["angle_1s_rms_rad"] < 0.015, found
+        assert found["velocity_r2"] > 0.995 and found["angle_1s_rms_rad"] < 0.015, found
         # Pilot, pump and dead time stand in for each other: their sum is what the motion says.
-        assert abs(found["dead_time_s"] - of.dead_time_s) < 0.035, found["dead_time_s"]
+        assert abs(found["dead_time_s"] - of.dead_time_s) < 0.025, found["dead_time_s"]
         assert found["positive_command_turns"] == of.sign
         for direction, edge in zip(("positive", "negative"), of.edges):
             wanted = edge + (1 - edge) * 0.05 ** (1 / 1.4)

@@ -45,12 +45,14 @@ JointModel joint() {
   model.value[kModeRate] = 12.0;
   model.value[kDampingDriving] = 20.0;
   model.value[kDampingBraking] = 14.0;
+  model.value[kInertia + 1] = 0.3;
   model.value[kLoadForward + 1] = 0.1;
   model.value[kLoadBackward + 1] = 0.2;
   model.value[kShare + 1] = 0.3;
   model.value[kRockRate] = 20.0;
   model.value[kRockDamping] = 0.3;
   model.value[kRockForce + 2] = 0.1;
+  model.value[kRockOwn] = -0.2;
   return model;
 }
 
@@ -141,6 +143,75 @@ void nothing_moves_before_dead_time_and_edge(void** /*state*/) {
   assert_near(open[kRows - 1], -0.7, 1e-9);
 }
 
+void a_first_command_is_new_to_a_joint_that_stands(void** /*state*/) {
+  const MotionModel model = machine();
+  const auto opened = [&](double velocity_radps) {
+    MotionRun of = run(0.0);
+    std::fill(of.command[kBoom].begin(), of.command[kBoom].end(), 1.0);
+    of.velocity_radps[kBoom][0] = velocity_radps;
+    const JointRun input = joint_run(model, kBoom, of, nullptr);
+    return openings<double>(input, kBoom, model[kBoom].value.data(), grid());
+  };
+  const std::vector<double> stood = opened(0.01);
+  assert_near(stood[2], 0.0, 0.0);  // 0.12 s of dead time are two rows and a part.
+  assert_true(stood[3] > 0.0 && stood[3] < 0.6);
+  assert_near(stood[kRows - 1], 0.7, 1e-9);
+  assert_near(opened(0.2)[1], 0.7, 1e-9);
+  // Nor does another joint take its share sooner.
+  MotionRun of = run(0.0);
+  std::fill(of.command[kBoom].begin(), of.command[kBoom].end(), 1.0);
+  of.velocity_radps[kBoom][0] = 0.0;
+  const JointRun arm = joint_run(model, kBoom + 1, of, nullptr);
+  assert_near(arm.other_opening[0][2], 0.0, 0.0);
+  assert_near(arm.other_opening[0][kRows - 1], 1.0, 1e-6);
+}
+
+/// What `model`'s boom does at rest under a full command; nothing else moves.
+std::vector<JointState<double>> stepped(const JointModel& model) {
+  MotionRun of = run(0.0);
+  for (std::size_t row = 0; row < kRows; ++row) {
+    for (std::size_t joint = 0; joint < kJoints; ++joint) {
+      of.command[joint][row] = joint == kBoom && row >= 5 ? 1.0 : 0.0;
+      of.angle_rad[joint][row] = 0.0;
+    }
+  }
+  const MotionModel all = {model, joint(), joint(), joint()};
+  const JointRun input = joint_run(all, kBoom, of, nullptr);
+  return motion<double>(input, kBoom, model.value.data(), model.grid);
+}
+
+void a_heavy_pose_answers_later(void** /*state*/) {
+  const auto velocity_radps = [](double heavier) {
+    JointModel model = joint();
+    model.grid.usual[1] = 0.5;  // Cosine of the boom; it is level here.
+    model.value[kInertia] = heavier;
+    assert_near(inertia_of(model.value.data(), model.grid, pose_of(Angles{})),
+                1.0 + 0.5 * heavier + 0.3, 1e-12);
+    return stepped(model)[12].velocity_radps;
+  };
+  assert_true(velocity_radps(0.0) > velocity_radps(1.0) + 0.01);
+  JointModel model = joint();
+  model.value[kInertia] = -5.0;  // Nothing weighs less than that.
+  assert_near(inertia_of(model.value.data(), model.grid, pose_of(Angles{})), 0.2, 0.0);
+}
+
+void a_joint_rocks_the_machine_that_carries_it(void** /*state*/) {
+  JointModel model = joint();
+  const auto turned = [&] { return stepped(model); };
+  model.value[kRockOwn] = 0.0;
+  const std::vector<JointState<double>> firm = turned();
+  model.value[kRockOwn] = -0.5;
+  const std::vector<JointState<double>> rocking = turned();
+  double least = 0.0;
+  for (std::size_t row = 0; row < kRows; ++row) {
+    assert_near(firm[row].tilt_rad, 0.0, 0.0);
+    least = std::min(least, rocking[row].tilt_rad);
+  }
+  assert_true(least < -1e-3);
+  // It comes to rest where it was.
+  assert_near(rocking.back().turned_rad, firm.back().turned_rad, 1e-4);
+}
+
 void a_model_explains_its_own_motion(void** /*state*/) {
   const std::array<Score, kJoints> own = judge(machine(), {obedient(0.1), obedient(1.7)});
   const std::array<Score, kJoints> other = judge(machine(), {run(0.1), run(1.7)});
@@ -213,6 +284,8 @@ void linkage_and_slow_pump_are_found(void** /*state*/) {
   for (const std::size_t plain : {kLoadForward, kLoadBackward}) {
     std::fill_n(boom.value.begin() + static_cast<std::ptrdiff_t>(plain), kPose, 0.0);
   }
+  boom.value[kRockOwn] = 0.0;
+  std::fill_n(boom.value.begin() + kInertia, kCosines, 0.0);
   const std::array<double, kLinkage - 1> ratios = {0.55, 0.75, 0.92, 0.92, 0.75, 0.55};
   std::copy(ratios.begin(), ratios.end(), boom.value.begin() + kLinkageRatio);
   const std::array<double, 4> slow = {0.25, 0.01, 0.02, 0.01};
@@ -287,6 +360,9 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(derivatives_are_those_of_the_error),
       cmocka_unit_test(nothing_moves_before_dead_time_and_edge),
+      cmocka_unit_test(a_first_command_is_new_to_a_joint_that_stands),
+      cmocka_unit_test(a_heavy_pose_answers_later),
+      cmocka_unit_test(a_joint_rocks_the_machine_that_carries_it),
       cmocka_unit_test(a_model_explains_its_own_motion),
       cmocka_unit_test(a_second_ahead_knows_nothing_of_that_second),
       cmocka_unit_test(linkage_and_slow_pump_are_found),
