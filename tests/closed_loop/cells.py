@@ -11,6 +11,7 @@ import argparse
 import concurrent.futures
 import itertools
 import json
+import math
 import os
 import pathlib
 import re
@@ -45,8 +46,15 @@ def run(graben, cell, law, folder):
     figures = json.loads(summary.read_text(encoding="utf-8"))
     truth = 100 * (cell[2] - PROFILE_DEAD_BAND)
     off = max((abs(edge - truth) for edge in edges_percent(name / "dig.log")), default=0.0)
-    return (done.returncode == 0, 1e3 * figures["max_error_true_m"], 1e3 * figures["ringing_rms_m"], off,
-            done.stderr.strip())
+    # A run that never came to its path has neither.
+    error, ringing = (math.inf if figures[key] is None else 1e3 * figures[key]
+                      for key in ("max_error_true_m", "ringing_rms_m"))
+    return (done.returncode == 0, error, ringing, off, done.stderr.strip())
+
+
+def worst(rows, column):
+    """Of the runs that have such a figure."""
+    return max((row[column] for row in rows if math.isfinite(row[column])), default=0.0)
 
 
 def main():
@@ -76,10 +84,10 @@ def main():
         missed += miss
         print(f"{cell[0]:8}  {cell[1]:8}  {cell[2]:9}  {error:12.1f}  {ringing:11.2f}  {off:12.1f}"
               f"{'  missed ' if miss else ''}{why}")
-    print(f"cells: {len(cells)}  done: {sum(row[0] for row in rows)}  worst tip: {max(row[1] for row in rows):.1f} mm  "
-          f"worst ringing: {max(row[2] for row in rows):.2f} mm  "
+    print(f"cells: {len(cells)}  done: {sum(row[0] for row in rows)}  worst tip: {worst(rows, 1):.1f} mm  "
+          f"worst ringing: {worst(rows, 2):.2f} mm  "
           f"ringing over {options.most_ringing:g} mm: {sum(row[2] > options.most_ringing for row in rows)}  "
-          f"worst edge: {max(row[3] for row in rows):.1f} %  missed: {missed}")
+          f"worst edge: {worst(rows, 3):.1f} %  missed: {missed}")
     sys.exit(1 if missed > options.may_miss else 0)
 
 
