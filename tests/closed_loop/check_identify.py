@@ -81,7 +81,7 @@ def write(path, rows, columns=None):
 
 
 def call(graben, *arguments):
-    return subprocess.run([graben, "identify", *map(str, arguments)], capture_output=True, text=True, timeout=250)
+    return subprocess.run([graben, "identify", *map(str, arguments)], capture_output=True, text=True, timeout=600)
 
 
 def refused(graben, needle, *arguments, status=1):
