@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/identify/file/identified_file.hpp"
@@ -16,16 +17,22 @@ using nlohmann::ordered_json;
 
 constexpr double kPercent = 100.0;
 
+/// To whole steps; what is shown as 0 is not shown as -0.
+double without_sign_of_0(double value, double step) {
+  return std::round(value / step) * step + 0.0;
+}
+
 std::string side_row(const std::vector<ScoreColumn>& columns, std::size_t k, bool extends) {
   std::string row = fmt::format(
       "{:<16}", fmt::format("{}, {}", kAxisTexts[k], machines::kSideNames[extends ? 0 : 1]));
   for (const ScoreColumn& column : columns) {
     const SideScore& side = column.score->axis[k].side(extends);
     row += fmt::format("  {:>8.1f} {:>7.3f}", 1e3 * side.rms_mps, side.r2);
-    row += side.has_ratio ? fmt::format(" {:>+7.1f}", kPercent * (side.speed_ratio - 1.0))
+    row += side.has_ratio ? fmt::format(" {:>+7.1f}",
+                                        without_sign_of_0(kPercent * (side.speed_ratio - 1.0), 0.1))
                           : fmt::format(" {:>7}", "-");
-    row +=
-        side.has_delay ? fmt::format(" {:>+6.0f}", 1e3 * side.late_s) : fmt::format(" {:>6}", "-");
+    row += side.has_delay ? fmt::format(" {:>+6.0f}", without_sign_of_0(1e3 * side.late_s, 1.0))
+                          : fmt::format(" {:>6}", "-");
   }
   return row + "\n";
 }

@@ -83,7 +83,7 @@ void Plot::axes() {
     text_ += fmt::format(
         "<path class=\"grid\" d=\"M{0:.1f} {1:.1f}V{2:.1f}\"/><text class=\"tick\" x=\"{0:.1f}\" "
         "y=\"{3:.1f}\" text-anchor=\"middle\">{4:.6g}</text>\n",
-        x_px(at), kTop_px, height_px_ - kBottom_px, height_px_ - kBottom_px + 14.0, at);
+        x_px(at), kTop_px, height_px_ - kBottom_px, height_px_ - kBottom_px + 14.0, at + 0.0);
   }
   for (const double at : ticks(y_)) {
     text_ += fmt::format(
