@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "app/identify/machine/median.hpp"
 
 namespace graben::identify {
 namespace {
@@ -85,10 +88,7 @@ double pressure_noise_pa(const std::vector<MachineLog>& logs, std::size_t axis) 
   if (differences_pa.empty()) {
     return 0.0;
   }
-  const auto middle =
-      differences_pa.begin() + static_cast<std::ptrdiff_t>(differences_pa.size() / 2);
-  std::nth_element(differences_pa.begin(), middle, differences_pa.end());
-  return *middle / kMedianDifference;
+  return median(std::move(differences_pa)) / kMedianDifference;
 }
 
 }  // namespace graben::identify

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/identify/machine/machine_fit.hpp"
+#include "app/identify/machine/median.hpp"
 #include "app/identify/machine/spool_answer.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
 
@@ -109,10 +111,8 @@ void find_ratio(const Samples& samples, SideScore& side) {
   if (ratios.size() < kLeastSteady) {
     return;
   }
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
   side.has_ratio = true;
-  side.speed_ratio = *middle;
+  side.speed_ratio = median(std::move(ratios));
 }
 
 /// Share of the measured speeds that this delay leaves open, whatever the ratio of speeds is.

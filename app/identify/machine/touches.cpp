@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/identify/machine/clipped_pressure.hpp"
+#include "app/identify/machine/median.hpp"
 
 namespace graben::identify {
 namespace {
@@ -37,12 +38,6 @@ constexpr double kBelow_pa = -0.6e6;
 constexpr double kBelowDeviation_pa = 0.4e6;
 /// A stroke that is shown as 0 may be less.
 constexpr double kNoStroke_m = 0.0002;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double mean(const std::vector<double>& values) {
   double sum = 0.0;

@@ -54,8 +54,8 @@ void vary_parameters(ExcavatorProfile& profile, const Uncertainty& uncertainty,
 constexpr double kSoilOff = 0.4;
 constexpr double kDensityOff = 0.15;
 
-/// Level where Kim's ground is on his path; else the ground that the machine stands on.
-void lay_ground(const Scenario& scenario, double level_m, const ExcavatorGeometry& geometry,
+/// At the height of the tracks.
+void lay_ground(const Scenario& scenario, const ExcavatorGeometry& geometry,
                 plant::ExcavatorPlantProfile& plant) {
   const auto kind = soil_kind(scenario.ground);
   if (!kind) {
@@ -75,7 +75,6 @@ void lay_ground(const Scenario& scenario, double level_m, const ExcavatorGeometr
   plant.digging->soil = scaled(*kind, factors);
   plant.digging->bucket = plant.bucket;
   plant.digging->pin_m = geometry.bucket_length_m;
-  plant.digging->level_m = level_m;
   plant.digging->gravity_mps2 = plant.gravity_mps2;
 }
 
@@ -129,9 +128,7 @@ SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario
     plant.soil = experiment.soil;
   }
   if (!scenario.ground.empty()) {
-    const double foot_m = machine.profile.geometry.boom_foot_m.y();
-    lay_ground(scenario, scenario.at_ground_line ? experiment.soil.ground_y_m + foot_m : 0.0,
-               machine.profile.geometry, plant);
+    lay_ground(scenario, machine.profile.geometry, plant);
   }
   if (scenario.obstacle) {
     plant.obstacle = experiment.obstacle;

@@ -79,8 +79,6 @@ enum class Errors { kNone, kStrokeBias, kSensors, kParameters, kKim, kAll };
 struct Scenario {
   bool soil = false;   ///< Kim's field of force below the ground.
   std::string ground;  ///< Soil that is cut, of kSoilNames; empty: none.
-  bool at_ground_line =
-      false;  ///< It begins where Kim's ground does, not where the machine stands.
   bool obstacle = false;
   bool air = false;        ///< The manoeuvre in the air instead of the digging path.
   bool stiff_oil = false;  ///< The paper's, for comparison with its figures.

@@ -12,21 +12,20 @@ using plant::SoilKind;
 
 constexpr double kDegree = kPi / 180.0;
 
-// Sand: c and phi as J. Y. Wong, Theory of Ground Vehicles, table 2.3, dry sand; delta 0.7 phi, as
-// E. McKyes, Soil Cutting and Tillage (1985), gives it for polished steel; density and swell as in
-// handbooks of earthmoving (1.5 to 1.7 t/m3, 10 to 15 %).
+// Sand: c and phi of dry sand (Land Locomotion Laboratory) in J. Y. Wong, Theory of Ground
+// Vehicles. delta: 0.5 to 0.7 of phi is usual on polished steel. Density, swell and repose here and
+// below: chosen within what earthmoving reckons with.
 constexpr SoilKind kSand = {1600.0, 1.04e3, 0.0, 28.0 * kDegree, 20.0 * kDegree, 32.0 * kDegree,
                             1.12,   0.0,    0.0};
-// Loam: usual values for sandy loam in tillage: cohesion 5 to 15 kPa, phi 30 to 35 and delta 20 to
-// 22 degrees; density of moist ground, swell 20 to 25 %.
+// Loam: values usual in tillage for sandy loam, c 5 to 15 kPa, phi 35 and delta 20 to 22 degrees,
+// and for loam, 20 kPa, 20 and 10 degrees; between the two.
 constexpr SoilKind kLoam = {1750.0, 10.0e3, 0.5e3, 30.0 * kDegree, 21.0 * kDegree, 37.0 * kDegree,
                             1.22,   0.0,    0.0};
-// Clay: usual values for clay loam: cohesion 30 kPa (10 to 40 for moist plastic clay), phi 10 and
-// delta 6 degrees; Wong's heavy clay of 40 % moisture has 20.7 kPa and 6 degrees. Swell 30 to 35 %.
+// Clay: values usual in tillage for clay loam, c 30 kPa (moist plastic clay: 10 to 40), phi 10 and
+// delta 6 degrees.
 constexpr SoilKind kClay = {1850.0, 30.0e3, 3.0e3, 10.0 * kDegree, 6.0 * kDegree, 42.0 * kDegree,
                             1.32,   0.0,    0.0};
-// Loam with stones: friction of a gravelly soil, loam's cohesion; the force's deviation and the way
-// between stones are chosen, for stones of a fist's size to a head's.
+// Loam with stones: loam's cohesion; all else chosen, for stones of a fist's size to a head's.
 constexpr SoilKind kStones = {1900.0, 10.0e3, 0.0, 38.0 * kDegree, 25.0 * kDegree, 40.0 * kDegree,
                               1.18,   0.35,   0.15};
 

@@ -11,7 +11,7 @@ namespace graben::machines {
 
 inline constexpr std::array<std::string_view, 4> kSoilNames = {"sand", "loam", "clay", "stones"};
 
-/// One of kSoilNames; nothing for another name. Each value's source is beside it.
+/// One of kSoilNames; nothing for another name. Beside each stands where its values are from.
 [[nodiscard]] std::optional<plant::SoilKind> soil_kind(std::string_view name);
 
 /// The same soil with strength, friction and density each times its own factor.

@@ -33,7 +33,8 @@ constexpr double kKeeps_m = 0.10;
 /// The middle of the fill, of the line edge to pin: along it, and below it.
 constexpr double kMiddleAlong = 0.45;
 constexpr double kMiddleBelow = 0.20;
-constexpr int kWidthPoints = 20;
+/// Over the width no cell is stepped over, whichever way the bucket stands to the cells.
+constexpr double kAcross_m = 0.5 * HeightField::kCell_m;
 
 SoilKind loosened(SoilKind soil) {
   soil.cohesion_pa = 0.0;
@@ -55,6 +56,7 @@ BucketSoil::BucketSoil(const DiggingProfile& profile, std::uint64_t seed, double
       loose_(loosened(profile.soil)),
       firm_table_(profile.soil),
       loose_table_(loose_),
+      width_points_(static_cast<int>(std::ceil(profile.bucket.width_m / kAcross_m))),
       bears_pa_(bearing_pa(profile.soil, profile.bucket.floor_m / kFloorPoints, 0.0,
                            profile.gravity_mps2)),
       look_steps_(std::max(1L, std::lround(kLook_s / step_s))),
@@ -70,17 +72,13 @@ Eigen::Vector2d BucketSoil::across(double along_m, double level_m) const {
   return along_m * plane_ + level_m * turned(plane_);
 }
 
-namespace {
-
 /// Offsets over the bucket's width.
 template <class Each>
-void over_width(double width_m, const Each& each) {
-  for (int n = 0; n < kWidthPoints; ++n) {
-    each(width_m * ((n + 0.5) / kWidthPoints - 0.5));
+void BucketSoil::over_width(const Each& each) const {
+  for (int n = 0; n < width_points_; ++n) {
+    each(profile_.bucket.width_m * ((n + 0.5) / width_points_ - 0.5));
   }
 }
-
-}  // namespace
 
 void BucketSoil::make_room() {
   const Eigen::Vector2d& way = floor_;
@@ -91,7 +89,7 @@ void BucketSoil::make_room() {
     const double floor_share = std::min(1.0, along_m / profile_.bucket.floor_m);
     const double radius_m = edge_m_.x() + along_m * way.x();
     const double height_m = edge_m_.y() + floor_share * profile_.bucket.floor_m * way.y();
-    over_width(profile_.bucket.width_m, [&](double level_m) {
+    over_width([&](double level_m) {
       const Eigen::Vector2d at_m = across(radius_m, level_m);
       static_cast<void>(ground_.cut(at_m.x(), at_m.y(), height_m));
     });
@@ -119,19 +117,19 @@ void BucketSoil::drop() {
     return;
   }
   fill_m3_ -= out_m3;
-  dropped_m3_ += out_m3;
   const double before = -std::copysign(1.0, floor_.x());
   for (const double before_m : kSpilled_m) {
-    over_width(profile_.bucket.width_m, [&](double level_m) {
+    over_width([&](double level_m) {
       const Eigen::Vector2d at_m = across(edge_m_.x() + before * before_m, level_m);
-      ground_.heap(at_m.x(), at_m.y(), out_m3 / (kWidthPoints * kSpilled_m.size()));
+      ground_.heap(at_m.x(), at_m.y(),
+                   out_m3 / (width_points_ * static_cast<double>(kSpilled_m.size())));
     });
   }
 }
 
 void BucketSoil::cut() {
   const double height_m = edge_m_.y();
-  over_width(profile_.bucket.width_m, [&](double level_m) {
+  over_width([&](double level_m) {
     const Eigen::Vector2d at_m = across(edge_m_.x(), level_m);
     take(ground_.cut(at_m.x(), at_m.y(), height_m));
   });
@@ -140,23 +138,24 @@ void BucketSoil::cut() {
 /// `way`: +1 outwards, -1 towards the machine.
 BucketSoil::Front BucketSoil::front(double way) const {
   Front front;
-  constexpr double kShare = 1.0 / (kWidthPoints * kAhead_m.size());
+  const double share = 1.0 / (width_points_ * static_cast<double>(kAhead_m.size()));
   for (const double ahead_m : kAhead_m) {
-    over_width(profile_.bucket.width_m, [&](double level_m) {
+    over_width([&](double level_m) {
       const Eigen::Vector2d at_m = across(edge_m_.x() + way * ahead_m, level_m);
       const double firm_m = ground_.firm_m(at_m.x(), at_m.y()) - edge_m_.y();
       const double loose_m = ground_.loose_m(at_m.x(), at_m.y());
       const double top_m = std::max(0.0, firm_m + loose_m);
-      front.firm_m += kShare * std::max(0.0, firm_m);
-      (firm_m > 0.0 ? front.surcharge_m : front.loose_m) += kShare * std::min(loose_m, top_m);
-      front.top_m += kShare * top_m;
+      front.firm_m += share * std::max(0.0, firm_m);
+      (firm_m > 0.0 ? front.surcharge_m : front.loose_m) += share * std::min(loose_m, top_m);
+      front.top_m += share * top_m;
     });
   }
   return front;
 }
 
 /// Force that it takes to go on this way.
-void BucketSoil::find_yield(const Eigen::Vector2d& way) {
+void BucketSoil::find_yield() {
+  const Eigen::Vector2d& way = way_;
   const BucketShape& bucket = profile_.bucket;
   const double gravity = profile_.gravity_mps2;
   const Front before = front(way.x() > 0.0 ? 1.0 : -1.0);
@@ -197,8 +196,9 @@ void BucketSoil::look() {
   }
   const Eigen::Vector2d away_m = edge_m_ - anchor_m_;
   if (away_m.norm() > kNoWay_m) {
-    find_yield(away_m.normalized());
+    way_ = away_m.normalized();
   }
+  find_yield();
   if (steps_ / look_steps_ % kLooksToSettle == 0) {
     const Eigen::Vector2d at_m = across(edge_m_.x(), 0.0);
     ground_.settle(at_m.x(), at_m.y(), kSettle_m);
@@ -227,7 +227,7 @@ BucketForce BucketSoil::bear() {
     if (pressure_pa > bears_pa_) {
       ground_m -= sunk_m - bears_pa_ / kSubgrade_papm;
       pressure_pa = bears_pa_;
-      over_width(profile_.bucket.width_m, [&](double level_m) {
+      over_width([&](double level_m) {
         const Eigen::Vector2d at_m = across(edge_m_.x() + arm_m.x(), level_m);
         ground_.press(at_m.x(), at_m.y(), ground_m);
       });
@@ -244,7 +244,7 @@ BucketForce BucketSoil::step(const BucketPlace& place) {
   place_ = place;
   plane_ = direction(place.swing_rad);
   floor_ = direction(place.attitude_rad - profile_.bucket.floor_rad);
-  const Eigen::Vector2d edge_m(place.radius_m, place.height_m - profile_.level_m);
+  const Eigen::Vector2d edge_m(place.radius_m, place.height_m);
   if (steps_ == 0) {
     edge_m_ = edge_m;
     anchor_m_ = edge_m;

@@ -43,9 +43,7 @@ class BucketSoil {
   [[nodiscard]] const HeightField& ground() const { return ground_; }
   [[nodiscard]] double fill_m3() const { return fill_m3_; }  ///< Loose.
   [[nodiscard]] double fill_kg() const;
-  /// Of undisturbed soil that was cut, and of loose soil that fell out of the bucket, so far.
-  [[nodiscard]] double cut_m3() const { return cut_m3_; }
-  [[nodiscard]] double dropped_m3() const { return dropped_m3_; }
+  [[nodiscard]] double cut_m3() const { return cut_m3_; }  ///< Of undisturbed soil, so far.
   [[nodiscard]] const DiggingProfile& profile() const { return profile_; }
 
  private:
@@ -58,6 +56,8 @@ class BucketSoil {
   };
   static constexpr int kFloorPoints = 5;
 
+  template <class Each>
+  void over_width(const Each& each) const;
   [[nodiscard]] Eigen::Vector2d across(double along_m, double level_m) const;
   void make_room();
   void look();
@@ -65,7 +65,7 @@ class BucketSoil {
   void take(const TakenSoil& taken);
   void drop();
   [[nodiscard]] Front front(double way) const;
-  void find_yield(const Eigen::Vector2d& way);
+  void find_yield();
   [[nodiscard]] BucketForce bear();
   [[nodiscard]] double holds_m3() const;
 
@@ -73,6 +73,7 @@ class BucketSoil {
   SoilKind loose_;
   CuttingTable firm_table_;
   CuttingTable loose_table_;
+  int width_points_;
   double bears_pa_;  ///< The ground, under a piece of the floor.
   long look_steps_;
   HeightField ground_;
@@ -83,6 +84,7 @@ class BucketSoil {
   Eigen::Vector2d floor_ = Eigen::Vector2d::UnitX();    ///< From the edge to the heel.
   Eigen::Vector2d edge_m_ = Eigen::Vector2d::Zero();    ///< Radius, height.
   Eigen::Vector2d anchor_m_ = Eigen::Vector2d::Zero();  ///< Where the edge's soil is relaxed.
+  Eigen::Vector2d way_ = -Eigen::Vector2d::UnitX();     ///< That the edge presses.
   Eigen::Vector2d yield_n_ = Eigen::Vector2d::Zero();   ///< Against the motion, down across it.
   std::array<double, kFloorPoints> ground_m_{};         ///< Under the floor's points.
   double rubs_n_ = 0.0;                                 ///< Friction that the floor can have.
@@ -91,7 +93,6 @@ class BucketSoil {
   double gone_m_ = 0.0;  ///< Way of the edge since the last stone.
   double fill_m3_ = 0.0;
   double cut_m3_ = 0.0;
-  double dropped_m3_ = 0.0;
 };
 
 }  // namespace graben::plant

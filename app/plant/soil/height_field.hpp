@@ -46,8 +46,6 @@ class HeightField {
   /// Whole volume over (above 0) and below the level ground, m^3 of loose and of firm soil.
   [[nodiscard]] double loose_m3() const;
   [[nodiscard]] double firm_change_m3() const;
-  [[nodiscard]] double half_side_m() const { return 0.5 * kCell_m * side_; }
-  [[nodiscard]] const SoilKind& soil() const { return soil_; }
 
  private:
   struct Cell {

@@ -103,6 +103,25 @@ void volume_is_kept(void**) {
   assert_true(soil.fill_m3() > 0.1);
 }
 
+/// Whatever its width and wherever it stands to the cells, the edge leaves no ridge behind it.
+void no_ridge_stays_behind_the_edge(void**) {
+  DiggingProfile profile = digging("loam");
+  profile.bucket.width_m = 1.37;
+  for (const double swing_rad : {0.0, 0.4, 0.785, 2.0}) {
+    BucketSoil soil(profile, 1, kStep_s);
+    for (int n = 0; n <= 4000; ++n) {
+      static_cast<void>(soil.step({7.0 - 2.5e-4 * n, -0.2, 1.4, swing_rad}));
+    }
+    for (double radius_m = 6.1; radius_m < 6.9; radius_m += 0.02) {
+      for (double level_m = -0.6; level_m <= 0.6; level_m += 0.02) {
+        const double x_m = radius_m * std::cos(swing_rad) - level_m * std::sin(swing_rad);
+        const double y_m = radius_m * std::sin(swing_rad) + level_m * std::cos(swing_rad);
+        assert_true(soil.ground().firm_m(x_m, y_m) < -0.19);
+      }
+    }
+  }
+}
+
 /// Forces as the equation says, against the motion; none in the air, none of them with power over a
 /// bucket that stands.
 void it_resists_motion_only(void**) {
@@ -206,6 +225,7 @@ int main() {
       cmocka_unit_test(rake_and_roughness_tell),
       cmocka_unit_test(ground_bears_as_tables_say),
       cmocka_unit_test(volume_is_kept),
+      cmocka_unit_test(no_ridge_stays_behind_the_edge),
       cmocka_unit_test(it_resists_motion_only),
       cmocka_unit_test(depth_and_soil_tell),
       cmocka_unit_test(it_fills_and_dumps),
