@@ -197,6 +197,9 @@ def works_on_less(tool, log):
     new = tomllib.loads(out.read_text())
     assert set(new["valve"]["answer"]) == {"boom"}, new["valve"]["answer"].keys()
     out.unlink()
+    # What no limit can judge is named, not passed in silence.
+    done = tool.call("--check", "--log", path, "--profile", tool.profile, "--limit", "99")
+    assert done.returncode == 0 and "no steady speed to judge: the arm, extending; " in done.stdout, done.stdout
     path.write_text(log.shifted(150.0, 30.0).text())
     done = tool.call("--log", path, "--profile", tool.profile, "--out", out)
     assert done.returncode == 0 and "a gap of 30.0 s at " in done.stdout, done.stdout + done.stderr
@@ -284,6 +287,8 @@ def bad_files(tool, log_file, better):
     tool.refused("would overwrite", *usual, "--out", out, "--report", out)
     tool.refused("is there already", *usual, "--out", better)
     tool.refused("can't be written", *usual, "--out", tool.folder / "no" / "folder.toml")
+    # A place that takes no file is known before the fit.
+    tool.refused("can't be written", *usual, "--out", "/proc/better.toml")
     tool.refused("can't be written", *usual, "--out", out, "--report", tool.folder / "no" / "folder.html")
     tool.refused("can't be written", *usual, "--out", out, "--summary", tool.folder)
     foreign = tool.folder / "foreign.toml"
