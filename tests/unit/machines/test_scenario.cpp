@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <stdexcept>
 #include <vector>
 
 #include "app/machines/simulated/simulated_excavator.hpp"
+#include "app/machines/simulated/soil_kinds.hpp"
 #include "firmware/mcv/mcv_machine.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
@@ -185,6 +188,43 @@ void a_payload_adds_to_the_bucket(void**) {
               1e-6);
 }
 
+/// Ground to dig in: its kind as it is, or drawn about it where nothing is known for sure.
+void soil_is_laid_and_drawn(void**) {
+  assert_false(arranged(nominal(), {}).plant.digging.has_value());
+  Scenario scenario;
+  scenario.ground = "loam";
+  const plant::SoilKind kind = *machines::soil_kind("loam");
+  const auto dug = [&](Errors errors, std::uint64_t seed) {
+    scenario.errors = errors;
+    scenario.seed = seed;
+    return *arranged(nominal(), scenario).plant.digging;
+  };
+  const plant::DiggingProfile plain = dug(Errors::kKim, 1);
+  assert_near(plain.soil.cohesion_pa, kind.cohesion_pa, 0.0);
+  assert_near(plain.soil.friction_rad, kind.friction_rad, 1e-12);
+  assert_near(plain.bucket.width_m, nominal().plant.bucket.width_m, 0.0);
+  assert_near(plain.pin_m, nominal().profile.geometry.bucket_length_m, 0.0);
+  double least = 2.0;
+  double most = 0.0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const plant::SoilKind drawn = dug(Errors::kAll, seed).soil;
+    const double factor = drawn.cohesion_pa / kind.cohesion_pa;
+    least = std::min(least, factor);
+    most = std::max(most, factor);
+    const double friction = std::tan(drawn.friction_rad) / std::tan(kind.friction_rad);
+    assert_true(friction > 0.6 && friction < 1.4);
+    assert_true(drawn.wall_friction_rad <= drawn.friction_rad);
+  }
+  assert_true(least > 0.6 && least < 0.65 && most > 1.35 && most < 1.4);
+  scenario.ground = "mud";
+  try {
+    static_cast<void>(arranged(nominal(), scenario));
+    fail_msg("mud is no soil");
+  } catch (const std::runtime_error& error) {
+    assert_non_null(std::strstr(error.what(), "sand, loam, clay, stones"));
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -195,6 +235,7 @@ int main() {
       cmocka_unit_test(swing_is_drawn_where_it_is_driven),
       cmocka_unit_test(each_switch_does_its_part),
       cmocka_unit_test(a_payload_adds_to_the_bucket),
+      cmocka_unit_test(soil_is_laid_and_drawn),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
