@@ -74,48 +74,18 @@ void run_task(const TaskCommand& options) {
 
 void add_autodig(CLI::App& app, int& status) {
   auto options = std::make_shared<TaskCommand>();
-  runs::TaskScenario& scenario = options->scenario;
   CLI::App* command = app.add_subcommand(
       "autodig",
       "Run a task of straight lines, with swing, on the simulated machine, over a CAN bus in "
       "memory. The task is planned first; one that can't be had ends with status 1 and says where");
   add_profile_option(*command, options->profile);
-  command->add_option("--task", scenario.task, "Task file, or the name of one of ours")
-      ->capture_default_str();
   command->add_option("--out", options->out, "Folder for autodig.log and autodig.html")
       ->capture_default_str();
   add_summary_option(*command, options->summary);
-  command
-      ->add_option("--errors", scenario.errors,
-                   "What the controller does not know: none, stroke-bias, sensors, parameters, kim "
-                   "(sensors and parameters), all (and the machine as it is found)")
-      ->check(error_name())
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--soil", scenario.soil,
-          "Ground at the height of the tracks that the bucket cuts: sand, loam, clay, "
-          "stones; with --errors all of a strength drawn within 40 %. No ground unless told")
-      ->check(soil_name());
   add_simulated_options(*command, options->simulated);
-  add_found_option(*command, scenario.found);
-  command->add_option("--seed", scenario.seed, "Of --errors, a whole number from 0")
+  add_task_options(*command, options->scenario);
+  command->add_option("--seed", options->scenario.seed, "Of --errors, a whole number from 0")
       ->check(whole_number())
-      ->capture_default_str();
-  command
-      ->add_option("--start", scenario.start,
-                   "Teeth x,y,z in m and attitude in rad that the machine stands at; where the "
-                   "task begins unless told")
-      ->delimiter(',')
-      ->expected(4);
-  add_override_option(*command, scenario.speed_override_ratio);
-  add_swash_option(*command, scenario.swash_ratio);
-  command
-      ->add_option("--duration", scenario.duration_s,
-                   "Of the first straight step, s; longer where a drive's limit asks for it")
-      ->check(number_between(0.1, 3600.0));
-  command->add_option("--rounds", scenario.rounds, "Of a task that repeats, 1 .. 1000")
-      ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->callback(
       [options, &status] { status = guarded("autodig", [&] { run_task(*options); }); });

@@ -35,6 +35,13 @@ struct IdentifyCampaign {
   double speed_override_ratio = 1.0;
 };
 
+struct AutodigCampaign {
+  runs::CampaignOptions campaign;
+  runs::TaskScenario scenario;
+  machines::SimulatedChoice simulated;
+  std::string profile = "excavator_12t";
+};
+
 struct MergeOptions {
   std::vector<std::string> from;
   std::string summary;
@@ -94,6 +101,14 @@ void campaign_identify(const IdentifyCampaign& options) {
   });
 }
 
+void campaign_autodig(const AutodigCampaign& options) {
+  const machines::SimulatedExcavator nominal = machines::load_simulated_excavator(
+      machines::find_profile(options.profile), options.simulated);
+  print_outcome([&](const runs::Progress& progress) {
+    return runs::campaign_autodig(options.campaign, nominal, options.scenario, progress);
+  });
+}
+
 void add_campaign_dig(CLI::App& campaign, int& status) {
   auto options = std::make_shared<DigCampaign>();
   CLI::App* command = campaign.add_subcommand(
@@ -146,6 +161,21 @@ void add_campaign_identify(CLI::App& campaign, int& status) {
   });
 }
 
+void add_campaign_autodig(CLI::App& campaign, int& status) {
+  auto options = std::make_shared<AutodigCampaign>();
+  CLI::App* command = campaign.add_subcommand(
+      "autodig", "Many draws of a task, also in soil; goes on where it was interrupted");
+  add_profile_option(*command, options->profile);
+  options->campaign.draws = 40;
+  add_campaign_options(*command, options->campaign);
+  options->scenario.errors = "all";
+  add_simulated_options(*command, options->simulated);
+  add_task_options(*command, options->scenario);
+  command->callback([options, &status] {
+    status = guarded("campaign autodig", [&] { campaign_autodig(*options); });
+  });
+}
+
 void add_campaign_merge(CLI::App& campaign, int& status) {
   auto options = std::make_shared<MergeOptions>();
   CLI::App* command = campaign.add_subcommand("merge", "Shards of one campaign into one file");
@@ -166,6 +196,7 @@ void add_campaign(CLI::App& app, int& status) {
   add_campaign_dig(*campaign, status);
   add_campaign_grade(*campaign, status);
   add_campaign_identify(*campaign, status);
+  add_campaign_autodig(*campaign, status);
   add_campaign_merge(*campaign, status);
 }
 

@@ -109,6 +109,39 @@ void add_error_option(CLI::App& command, runs::GradeScenario& scenario) {
       ->capture_default_str();
 }
 
+void add_task_options(CLI::App& command, runs::TaskScenario& scenario) {
+  command.add_option("--task", scenario.task, "Task file, or the name of one of ours")
+      ->capture_default_str();
+  command
+      .add_option("--errors", scenario.errors,
+                  "What the controller does not know: none, stroke-bias, sensors, parameters, kim "
+                  "(sensors and parameters), all (and the machine as it is found)")
+      ->check(error_name())
+      ->capture_default_str();
+  command
+      .add_option("--soil", scenario.soil,
+                  "Ground at the height of the tracks that the bucket cuts: sand, loam, clay, "
+                  "stones; with --errors all of a strength drawn within 40 %. No ground unless "
+                  "told")
+      ->check(soil_name());
+  add_found_option(command, scenario.found);
+  command
+      .add_option("--start", scenario.start,
+                  "Teeth x,y,z in m and attitude in rad that the machine stands at; where the "
+                  "task begins unless told")
+      ->delimiter(',')
+      ->expected(4);
+  add_override_option(command, scenario.speed_override_ratio);
+  add_swash_option(command, scenario.swash_ratio);
+  command
+      .add_option("--duration", scenario.duration_s,
+                  "Of the first straight step, s; longer where a drive's limit asks for it")
+      ->check(number_between(0.1, 3600.0));
+  command.add_option("--rounds", scenario.rounds, "Of a task that repeats, 1 .. 1000")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+}
+
 void add_profile_option(CLI::App& command, std::string& profile) {
   command.add_option("--profile", profile, "Machine profile: file or shipped name")
       ->capture_default_str();

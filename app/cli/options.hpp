@@ -16,14 +16,19 @@ namespace graben::cli {
 /// --fixed-lambda.
 void add_scenario_options(CLI::App& command, runs::DigScenario& scenario);
 
-/// Adds --found, of `dig`, `campaign dig` and `autodig`.
+/// Adds --found, of `dig`, `campaign dig`, `autodig` and `campaign autodig`.
 void add_found_option(CLI::App& command, machines::Found& found);
 
 /// Adds --simulated and --hidden, of every command that simulates an excavator.
 void add_simulated_options(CLI::App& command, machines::SimulatedChoice& choice);
 
-/// Adds --swash, of `dig`, `campaign dig`, `plant` and `autodig`.
+/// Adds --swash, of `dig`, `campaign dig`, `plant`, `autodig` and `campaign autodig`.
 void add_swash_option(CLI::App& command, std::optional<double>& swash_ratio);
+
+// Of `autodig` and `campaign autodig`.
+
+/// Adds --task, --errors, --soil, --found, --start, --speed, --swash, --duration, --rounds.
+void add_task_options(CLI::App& command, runs::TaskScenario& scenario);
 
 // Of `grade`, `campaign grade` and `plant`, for a dozer.
 

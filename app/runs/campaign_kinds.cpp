@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "app/machines/simulated/hidden.hpp"
+#include "app/runs/autodig_run.hpp"
 #include "app/runs/campaign_run.hpp"
 #include "app/runs/dig_run.hpp"
 #include "app/runs/grade_run.hpp"
@@ -36,9 +37,16 @@ const CampaignKind& identify_kind() {
   return kind;
 }
 
+const CampaignKind& autodig_kind() {
+  // In the order of AutodigEnd.
+  static const CampaignKind kind = {
+      "autodig", {"done", "not-finished", "fault"}, columns_of(autodig_figures())};
+  return kind;
+}
+
 const CampaignKind& kind_of(const std::string& file) {
   const std::string name = campaign_name(file);
-  for (const CampaignKind* kind : {&dig_kind(), &grade_kind(), &identify_kind()}) {
+  for (const CampaignKind* kind : {&dig_kind(), &grade_kind(), &identify_kind(), &autodig_kind()}) {
     if (name == kind->name) {
       return *kind;
     }
@@ -98,6 +106,29 @@ CampaignOutcome campaign_identify(const CampaignOptions& options,
   return run_campaign(
       options, identify_kind(),
       fmt::format("identify {} {:08x}, speed {}", nominal.name, nominal.hash, speed_override_ratio),
+      draw, progress);
+}
+
+CampaignOutcome campaign_autodig(const CampaignOptions& options,
+                                 const machines::SimulatedExcavator& nominal,
+                                 const TaskScenario& scenario, const Progress& progress) {
+  // A task that this machine can't do is refused before the first draw.
+  const machines::TaskFile file = planned_task(scenario, nominal.profile);
+  const auto draw = [&](std::uint64_t seed) {
+    TaskScenario drawn = scenario;
+    drawn.seed = seed;
+    const machines::SimulatedExcavator machine = arranged(nominal, drawn);
+    const TaskProgram program = planned_task(drawn, machine.profile).result.program;
+    const AutodigResult result =
+        run_autodig(machine, program, usual_run(drawn, machine.profile, program), show_nothing);
+    return campaign_row(static_cast<std::size_t>(result.end),
+                        figures_of(summarise(program, result)));
+  };
+  return run_campaign(
+      options, autodig_kind(),
+      fmt::format("autodig {} {:08x}, task {} {:08x}, rounds {}, speed {}, {}",
+                  machine_text(nominal), nominal.hash, file.name, file.hash, scenario.rounds,
+                  scenario.speed_override_ratio, machine_text(scenario)),
       draw, progress);
 }
 

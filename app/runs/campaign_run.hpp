@@ -44,6 +44,12 @@ struct CampaignOutcome {
                                                 bool as_designed, double speed_override_ratio,
                                                 const Progress& progress);
 
+/// A task, once for each draw. Its seed is the campaign's.
+[[nodiscard]] CampaignOutcome campaign_autodig(const CampaignOptions& options,
+                                               const machines::SimulatedExcavator& nominal,
+                                               const TaskScenario& scenario,
+                                               const Progress& progress);
+
 /// Shards of one campaign of any kind into one file; returns the table. Throws std::runtime_error
 /// where they do not belong together.
 [[nodiscard]] std::string merge_campaigns(const std::vector<std::string>& files,

@@ -26,6 +26,10 @@ constexpr double kLeastOpening = 0.02;
 constexpr double kMostRatio = 4.0;
 /// An opening that is farther from its low-pass changes too fast to be compared.
 constexpr double kSteady = 0.08;
+/// A motor's edge is moved so fast, of the travel outside the dead band, once it has stood so long.
+constexpr double kFeels_ps = 0.15;
+constexpr double kUnmoved_s = 0.1;
+constexpr double kSetsOff_s = 0.5;
 /// Until an opening and what is learnt at it agree.
 constexpr int kSteps = 4;
 
@@ -87,9 +91,30 @@ bool may_be_compared(const LearntSeen& seen) {
          seen.speed_mps <= kMostRatio * asked_mps;
 }
 
+/// A motor that stands under a spool that should be open: its dead band ends farther out. One that
+/// sets off much faster than it is asked to: it ends farther in. Later its load may drive it.
+void feel_edge(const DriveRow& drive, const LearntSeen& now, double period_s, LearntValve& valve) {
+  const double way = now.asked.speed_mps > 0.0 ? 1.0 : -1.0;
+  LearntSide& side = way > 0.0 ? valve.extend : valve.retract;
+  const double asked_mps = way * now.asked.speed_mps;
+  const double speed_mps = way * valve.seen.speed_mps;
+  const double still_mps = drive.watch.still_mps;
+  const bool is_open = way * now.opening > opening_beyond(side, 0.0);
+  const bool stands = is_open && asked_mps > 0.0 && std::abs(speed_mps) < still_mps;
+  valve.unmoved_s = stands ? valve.unmoved_s + period_s : 0.0;
+  valve.turning_s = std::abs(speed_mps) < still_mps ? 0.0 : valve.turning_s + period_s;
+  const double step = kFeels_ps * period_s;
+  if (valve.unmoved_s > kUnmoved_s) {
+    side.edge = std::min(side.edge + step, kEdgeMost);
+  } else if (valve.turning_s < kSetsOff_s && asked_mps > 0.0 &&
+             speed_mps > kMostRatio * asked_mps + still_mps) {
+    side.edge = std::max(side.edge - step, -kEdgeMost);
+  }
+}
+
 }  // namespace
 
-bool is_learnt(const DriveRow& drive) { return has_edges(drive) && drive.control.has_end_stops; }
+bool is_learnt(const DriveRow& drive) { return has_edges(drive); }
 
 LearntSide::LearntSide()
     : edge_variance(kEdgeSpread * kEdgeSpread), bend_variance(kBendSpread * kBendSpread) {}
@@ -101,6 +126,8 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
   if (!usable || !is_learnt(drive) || !(period_s > 0.0)) {
     valve.late = {};
     valve.seen = {};
+    valve.unmoved_s = 0.0;
+    valve.turning_s = kSetsOff_s;
     return;
   }
   const double late = share_of_newest(0.5 * drive.answer.towards(ask.speed_mps).lag_s, period_s);
@@ -108,6 +135,10 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
   lag(valve.late[0], late, valve.late[1]);
   const LearntSeen now{valve.late[1], signed_opening(drive, seen.spool_ratio), way_m / period_s};
   lag(now, share_of_newest(kFilter_s, period_s), valve.seen);
+  if (!drive.control.has_end_stops) {
+    feel_edge(drive, now, period_s, valve);
+    return;
+  }
   const bool extends = valve.seen.asked.speed_mps > 0.0;
   LearntSide& side = extends ? valve.extend : valve.retract;
   forget(period_s, side);

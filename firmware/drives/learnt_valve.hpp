@@ -46,11 +46,14 @@ struct LearntValve {
   std::array<LearntAsk, 2> late;  ///< A command on its way to the drive's speed.
   LearntSeen seen;                ///< Low-passed.
   double stroke_m = 0.0;
+  double unmoved_s = 0.0;  ///< That a motor has stood under an open spool.
+  double turning_s = 0.0;  ///< Since a motor last stood.
 
   [[nodiscard]] const LearntSide& side(bool extends) const { return extends ? extend : retract; }
 };
 
-/// Only a cylinder's, whose edges meter the flow: a motor's load takes seconds to get its speed.
+/// Of a valve whose edges meter the flow. Of a motor only where its dead band ends, from whether it
+/// moves at all: its load takes seconds to get its speed.
 [[nodiscard]] bool is_learnt(const DriveRow& drive);
 
 /// A cycle on. Nothing is learnt unless `usable` (the drive is in motion and its load does not hold

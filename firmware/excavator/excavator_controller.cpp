@@ -123,6 +123,7 @@ void ExcavatorController::estimate(const ExcavatorValid& valid, const TaskAim& a
   const double elapsed_s = cycle.elapsed_s;
   next_loads(profile_.control.pressure_filter_s, valid.drive, elapsed_s, mode != EcuMode::kActive,
              memory_.load);
+  next_swing_push(valid.drive[kSwing], elapsed_s, memory_.swing_push);
   const HandState& hand = memory_.hand;
   const bool on_plan = aim.kind != StepKind::kNone || hand.plans;
   const bool new_plan = hand.plans ? hand.is_new : memory_.task.state.time_s == 0.0;
@@ -247,7 +248,8 @@ void ExcavatorController::follow(const TaskProgram& program, const TaskAim& aim,
   motion.corrected_mps =
       with_swing(motion.corrected_mps,
                  swing_of(motion.corrected_mps) +
-                     swing_lead_mps(profile_, swing_mps, memory_.swing_wanted_mps, period_s));
+                     swing_lead_mps(profile_, swing_mps, memory_.swing_wanted_mps, period_s) +
+                     swing_damping_mps(profile_, memory_.swing_push));
   ease_blocked(motion);
   motion.cap = motion_cap(profile_, drives(), setup_.kinematics, program.fences,
                           strokes_then_m(drives(), memory_.servo), motion.corrected_mps);
@@ -378,7 +380,7 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
   const auto number = static_cast<std::uint8_t>(valid.task_number);
   memory_.task = next_task(
       profile_, setup_.book.program[number], memory_.task, number, valid.strokes_m(),
-      followed * motion.cap.factor * valid.speed_override_ratio, motion.task.error_m, period_s);
+      followed * motion.cap.factor * valid.speed_override_ratio, motion.task.behind_m, period_s);
 }
 
 ProfileCheck profile_check(const ExcavatorProfile& profile) {

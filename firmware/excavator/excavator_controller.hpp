@@ -11,6 +11,7 @@
 #include "firmware/excavator/oil/oil_law.hpp"
 #include "firmware/excavator/pump_demand.hpp"
 #include "firmware/excavator/safety/excavator_validation.hpp"
+#include "firmware/excavator/swing.hpp"
 #include "firmware/excavator/tasks/hand_motion.hpp"
 #include "firmware/excavator/tasks/task_follow.hpp"
 #include "firmware/mcv/optimiser.hpp"
@@ -113,6 +114,7 @@ class ExcavatorController {
     TaskChangeState change;
     StallState stall;
     TubeState tube;
+    SwingPush swing_push;
     double swing_wanted_mps = 0.0;  ///< V_L^d of the last cycle's program.
   };
 

@@ -185,6 +185,9 @@ struct SwingProfile {
   double speed_max_radps = 0.0;
   double acceleration_max_radps2 = 0.0;
   double displacement_m3prad = 0.0;  ///< Of the motor with its reduction, per radian of swing.
+  /// Of all that turns, links half out, about the swing axis; 0: not known, and its oil is not
+  /// damped.
+  double inertia_kgm2 = 0.0;
   double lever_m = 0.0;              ///< Chosen, so that its area is like a cylinder's.
   double right_end_rad = 0.0;        ///< Ends of the range that the controller keeps to.
   double left_end_rad = 0.0;

@@ -16,8 +16,15 @@ constexpr double kWrong_rad = 0.003;
 /// Against what the oil does; 0.07 and 0.10 m at teeth 7 m away.
 constexpr double kUnseen_rad = 0.010;
 constexpr double kOff_rad = 0.015;
+/// 10 mm/s at teeth 7 m away.
+constexpr double kStill_radps = 0.0015;
 /// Of its full speed a worn motor leaks so much at the sensors' largest pressure.
 constexpr double kLeakShare = 0.10;
+/// Low-passes of what pushes the platform: less than its oil's period, and more.
+constexpr double kPushFast_s = 0.02;
+constexpr double kPushSlow_s = 2.0;
+/// Of the plan's acceleration, no more is taken back.
+constexpr double kDampsMost = 2.0;
 /// 0.2 mm of teeth 10 m away.
 constexpr double kEndSlack_rad = 0.02e-3;
 
@@ -60,6 +67,7 @@ DriveRow swing_row(const ExcavatorProfile& profile) {
   row.watch.stuck_m = profile.safety.swing_stuck_rad * lever_m;
   row.watch.unseen_m = kUnseen_rad * lever_m;
   row.watch.off_m = kOff_rad * lever_m;
+  row.watch.still_mps = kStill_radps * lever_m;
   row.watch.leak_mpspa = kLeakShare * swing.speed_max_radps * lever_m / row.watch.pressure_rail_pa;
   // A platform at full speed goes on turning against its reliefs when its spool closes at once.
   row.watch.rest_s = rest_s(row) + swing.speed_max_radps / swing.acceleration_max_radps2;
@@ -81,6 +89,31 @@ double swing_lead_mps(const ExcavatorProfile& profile, double wanted_mps, double
   const double most_mps2 = profile.swing.acceleration_max_radps2 * profile.swing.lever_m;
   const double change_mps2 = (wanted_mps - last_wanted_mps) / period_s;
   return profile.control.swing_lead_s * std::clamp(change_mps2, -most_mps2, most_mps2);
+}
+
+void next_swing_push(const ValidDrive& swing, double period_s, SwingPush& push) {
+  if (!swing.load_known) {
+    push = {};
+    return;
+  }
+  const double now_pa = swing.cap_pressure_pa - swing.rod_pressure_pa;
+  if (!push.known) {
+    push = {true, now_pa, now_pa};
+  }
+  push.fast_pa += period_s / (period_s + kPushFast_s) * (now_pa - push.fast_pa);
+  push.slow_pa += period_s / (period_s + kPushSlow_s) * (now_pa - push.slow_pa);
+}
+
+double swing_damping_mps(const ExcavatorProfile& profile, const SwingPush& push) {
+  const SwingProfile& swing = profile.swing;
+  if (!profile.has_swing() || !push.known || !(swing.inertia_kgm2 > 0.0)) {
+    return 0.0;
+  }
+  const double most_radps2 = kDampsMost * swing.acceleration_max_radps2;
+  const double pushed_radps2 =
+      swing.displacement_m3prad * (push.fast_pa - push.slow_pa) / swing.inertia_kgm2;
+  return -profile.control.swing_lead_s * swing.lever_m *
+         std::clamp(pushed_radps2, -most_radps2, most_radps2);
 }
 
 double swing_speed_max_radps(const ExcavatorProfile& profile) {

@@ -3,6 +3,7 @@
 /// platform, it is one more row. Angles in rad, to the left positive; travels are those at
 /// SwingProfile::lever_m.
 
+#include "firmware/drives/drive_validation.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
 #include "firmware/machine/drive_bank.hpp"
 
@@ -31,6 +32,20 @@ namespace graben {
 /// follow that at all.
 [[nodiscard]] double swing_lead_mps(const ExcavatorProfile& profile, double wanted_mps,
                                     double last_wanted_mps, double period_s);
+
+/// What the swing's two sides push the platform with, left less right, low-passed; as constructed
+/// nothing is known.
+struct SwingPush {
+  bool known = false;
+  double fast_pa = 0.0;
+  double slow_pa = 0.0;  ///< With friction, slope and the sensors' zeros.
+};
+void next_swing_push(const ValidDrive& swing, double period_s, SwingPush& push);
+
+/// Speed that damps the platform on its oil: as it is pushed it is accelerated, and what that is
+/// more than the plan's acceleration is taken back over swing_lead_s. 0 where the platform's
+/// inertia or its pressures are not known.
+[[nodiscard]] double swing_damping_mps(const ExcavatorProfile& profile, const SwingPush& push);
 
 /// Largest speed of the swing, rad/s: its own limit, or what the flow that reaches it gives its
 /// motor.

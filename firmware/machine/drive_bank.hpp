@@ -56,6 +56,7 @@ struct DriveWatch {
   // 0: its flow is not watched.
   double unseen_m = 0.0;          ///< That its oil moves a drive whose stroke stands still.
   double off_m = 0.0;             ///< Of a stroke from all that its oil can have done.
+  double still_mps = 0.0;         ///< Below it a motor stands; of a motor only.
   double leak_mpspa = 0.0;        ///< Speed that it may lose by its own leakage, per pressure.
   double rest_s = 0.0;            ///< Until it has come to rest after its spool has closed.
   double relief_pa = 0.0;         ///< Of the pump's line; 0: none, or not known.

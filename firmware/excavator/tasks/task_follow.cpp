@@ -1,6 +1,7 @@
 #include "firmware/excavator/tasks/task_follow.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "firmware/excavator/swing.hpp"
 
@@ -23,6 +24,23 @@ DriveVector bounded(DriveRows drives, DriveVector travel_m) {
     travel_m[i] = std::clamp(travel_m[i], drives[i].least_travel_m, drives[i].most_travel_m);
   }
   return travel_m;
+}
+
+constexpr double kStands_mps = 0.02;
+
+/// Of an error, what is not ahead along the planned motion of the teeth.
+double behind_m(const SwingKinematics& kinematics, const TaskAim& aim,
+                const Eigen::Vector3d& due_less_at_m) {
+  const MachineMotion planned = machine_motion(kinematics, aim.value, aim.velocity);
+  const Eigen::Vector3d& velocity_mps =
+      planned.point[static_cast<unsigned>(MachinePoint::kTeeth)].velocity_mps;
+  const double speed_mps = velocity_mps.norm();
+  if (planned.status != ReachStatus::kOk || speed_mps < kStands_mps) {
+    return due_less_at_m.norm();
+  }
+  const double along_m = due_less_at_m.dot(velocity_mps) / speed_mps;
+  const double across_m2 = due_less_at_m.squaredNorm() - along_m * along_m;
+  return std::sqrt(std::max(0.0, across_m2) + std::pow(std::max(0.0, along_m), 2));
 }
 
 TaskProgress progress_of(const TaskMemory& memory, const TaskAim& aim) {
@@ -74,6 +92,7 @@ TaskWant want_of_task(const ExcavatorProfile& profile, DriveRows drives,
   want.path_error_m = straight ? line_distance_m(step.line.line, at_m) : want.error_m;
   want.off_m =
       straight ? want.path_error_m : std::max(0.0, want.error_m - profile.line.move_slow_error_m);
+  want.behind_m = straight ? want.error_m : behind_m(kinematics, aim, due_m - at_m);
   want.pace_ratio = memory.state.pace_ratio;
   want.wanted_mps = speed_override_ratio * want.pace_ratio * travel_of(profile, aim.velocity);
   return want;

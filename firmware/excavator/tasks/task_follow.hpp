@@ -35,6 +35,9 @@ struct TaskWant {
   DriveVector wanted_mps = DriveVector::Zero();  ///< V_L^d.
   double pace_ratio = 1.0;    ///< Of the plan's speed: less where the teeth are behind it.
   double error_m = 0.0;       ///< Of the teeth from where they should be by now.
+  /// What the pace gives way to: the same, less what the teeth of a move are ahead. A plan that
+  /// slowed down before a platform that runs ahead of it would make it run ahead farther.
+  double behind_m = 0.0;
   double path_error_m = 0.0;  ///< The same from the step's straight line, where it is one.
   /// What a tube is laid around: the line; of a move, whose pace gives way to it first, what is
   /// more than that (line.move_slow_error).
