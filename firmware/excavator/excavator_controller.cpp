@@ -77,6 +77,7 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
     describe_motion(motion, followed, valid.degraded, outputs.status);
   }
   tell_learnt(outputs.status);
+  outputs.status.tip_load = memory_.tip_load;
   remember(valid, motion, followed, decision, outputs, cycle.period_s);
   lead_spools(outputs);
   return outputs;
@@ -90,6 +91,7 @@ ExcavatorController::Motion ExcavatorController::next_motion(const ExcavatorVali
   estimate(valid, aim, cycle);
   const KinematicState now = setup_.kinematics.planar().state(valid.strokes_m().head<kAxisCount>());
   estimate_oil(valid, now, cycle.last_mode);
+  estimate_load(valid, aim, now, cycle);
   Motion motion = wanted_motion(valid, now, program, aim, cycle.period_s);
   park_spools(valid, cycle.period_s, motion);
   return motion;

@@ -8,6 +8,7 @@
 #include "firmware/drives/velocity_cap.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/excavator/field/dig_field.hpp"
+#include "firmware/excavator/load/load_observer.hpp"
 #include "firmware/excavator/oil/oil_law.hpp"
 #include "firmware/excavator/pump_demand.hpp"
 #include "firmware/excavator/safety/excavator_validation.hpp"
@@ -99,6 +100,8 @@ class ExcavatorController {
     OilState oil;
     OilModes modes;
     double payload_kg = 0.0;  ///< As weighed at rest.
+    LoadObserver load_observer;
+    TipLoad tip_load;
     std::array<SpoolModel, kDriveCount> spool;
     std::array<ParkingState, 2> parking;  ///< Of boom and arm.
     HandState hand;
@@ -148,6 +151,9 @@ class ExcavatorController {
   /// Observer of the oil after the last cycle's command.
   void weigh(const OilSeen& seen, const KinematicState& now, EcuMode mode);
   void estimate_oil(const ExcavatorValid& valid, const KinematicState& now, EcuMode mode);
+  /// Tip force and payload, of `memory_.tip_load`.
+  void estimate_load(const ExcavatorValid& valid, const TaskAim& aim, const KinematicState& now,
+                     const Cycle& cycle);
   /// Boom and arm stand where their corrections would reverse them for little.
   void park_spools(const ExcavatorValid& valid, double period_s, Motion& motion);
   /// Duties for the valves as they turned out to be.

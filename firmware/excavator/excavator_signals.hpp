@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "firmware/excavator/load/tip_load.hpp"
 #include "firmware/signals/machine_signals.hpp"
 
 namespace graben {
@@ -76,6 +77,7 @@ struct ExcavatorStatus : MachineStatus {
   double swing_wanted_radps = 0.0;
   TaskProgress progress;
   std::array<LearntEdges, kAxisCount> edges{};
+  TipLoad tip_load;  ///< Told in every mode.
 };
 
 struct ExcavatorOutputs : MachineOutputs {

@@ -1,0 +1,180 @@
+#include "firmware/excavator/load/load_observer.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+namespace graben {
+namespace {
+
+/// Noise of a transducer, of its range, and what levers and sensed strokes put a force off, of it.
+constexpr double kNoise = 0.02;
+constexpr double kLeverOff = 0.01;
+/// Blocks follow each other with what is not noise in them; each tells so much less than it seems.
+constexpr double kAlike = 4.0;
+/// Farther from what is expected, something touches the bucket.
+constexpr double kGate = 4.0;
+/// What the ground may do, N.
+constexpr double kForce_n = 60e3;
+/// What a bucket may carry, kg, by the cube of its length; and the deviation.
+constexpr double kFill_kgpm3 = 120.0;
+constexpr double kEmptySd_kg = 3.0;
+constexpr double kOutwardSd_m = 0.05;
+/// Blocks until a payload is told.
+constexpr int kWeighed = 5;
+/// More than this is left aside: an axis that stands has friction of any sign.
+constexpr double kSteady = 0.99;
+
+double fill_kg(const ExcavatorGeometry& geometry) {
+  const double length_m = geometry.bucket_length_m;
+  return kFill_kgpm3 * length_m * length_m * length_m;
+}
+
+/// Deviation of one reading's noise, N.
+double noise_n(const ExcavatorProfile& profile, int axis) {
+  const CylinderGeometry& cylinder = profile.geometry.cylinder[static_cast<unsigned>(axis)];
+  return kNoise * profile.safety.pressure_rail_pa *
+         std::hypot(cylinder.cap_area_m2(), cylinder.rod_area_m2());
+}
+
+void enter(LoadPhase phase, const ExcavatorGeometry& geometry, LoadObserver& observer) {
+  const double most_kg = fill_kg(geometry);
+  LoadTerms& terms = observer.terms;
+  switch (phase) {
+    case LoadPhase::kEmpty:
+      set_term(kLoadTerm, 0.0, kEmptySd_kg, terms);
+      set_term(kOutwardTerm, 0.0, kEmptySd_kg, terms);
+      break;
+    case LoadPhase::kDigs:
+      set_term(kLoadTerm, most_kg, most_kg, terms);
+      set_term(kOutwardTerm, 0.0, kOutwardSd_m * most_kg, terms);
+      break;
+    case LoadPhase::kCarries:
+      set_term(kLoadTerm, most_kg, 4.0 * most_kg, terms);
+      set_term(kOutwardTerm, 0.0, 2.0 * kOutwardSd_m * most_kg, terms);
+      break;
+    case LoadPhase::kPours:
+    case LoadPhase::kUnsaid:
+      break;
+  }
+  observer.weighed = 0;
+  observer.cycle = 0;
+  observer.filling = {};
+  observer.full_phase = LoadPhase::kUnsaid;
+}
+
+void add(const LoadBalance& balance, BalanceBlock& block) {
+  constexpr double kShare = 1.0 / kLoadBlock;
+  block.force_n += kShare * balance.force_n;
+  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (unsigned place = 0; place < TermRow::kCount; ++place) {
+      block.row[axis].share[place] += kShare * balance.row[axis].share[place];
+    }
+    block.steady[axis] = std::abs(block.row[axis].share[1]) > kSteady;
+  }
+}
+
+bool learns(LoadPhase phase) { return phase == LoadPhase::kEmpty || phase == LoadPhase::kCarries; }
+
+void learn_axis(const ExcavatorProfile& profile, int axis, LoadObserver& observer) {
+  const auto k = static_cast<unsigned>(axis);
+  const BalanceBlock& block = observer.full;
+  if (!block.steady[k]) {
+    return;
+  }
+  const double noise = noise_n(profile, axis);
+  const double off_n = kLeverOff * block.force_n[axis];
+  const double variance_n2 = kAlike * (noise * noise / kLoadBlock + off_n * off_n);
+  const bool learnt =
+      learn(axis, block.row[k], block.force_n[axis], variance_n2, kGate, observer.terms);
+  observer.weighed += learnt && axis == kBoom ? 1 : 0;
+}
+
+/// Least squares of the force over what the terms leave open.
+void find_gains(const ExcavatorProfile& profile, const LoadBalance& balance,
+                LoadObserver& observer) {
+  Eigen::Matrix3d open_n2 = force_covariance_n2(balance.row, observer.terms);
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const double side = balance.row[static_cast<unsigned>(axis)].share[1];
+    const double coulomb_n = observer.terms.value[static_cast<unsigned>(kCoulombTerm + axis)];
+    const double noise = kPairedNoise * noise_n(profile, axis);
+    const double off_n = kLeverOff * balance.force_n[axis];
+    open_n2(axis, axis) +=
+        (1.0 - side * side) * coulomb_n * coulomb_n + noise * noise + off_n * off_n;
+  }
+  const Eigen::Matrix<double, 2, kAxisCount> weighted =
+      balance.teeth.transpose() * open_n2.inverse();
+  Eigen::Matrix2d told = weighted * balance.teeth;
+  told.diagonal().array() += 1.0 / (kForce_n * kForce_n);
+  const Eigen::Matrix2d left_n2 = told.inverse();
+  observer.gains.force = -left_n2 * weighted;
+  observer.gains.force_sd_n = std::sqrt(0.5 * left_n2.trace());
+}
+
+/// The cycles' work on what the last block has told, a piece in each.
+void work(const ExcavatorProfile& profile, const LoadBalance& balance, LoadObserver& observer) {
+  if (observer.cycle < kAxisCount) {
+    if (learns(observer.full_phase)) {
+      learn_axis(profile, observer.cycle, observer);
+    }
+  } else if (observer.cycle == kAxisCount) {
+    find_gains(profile, balance, observer);
+  }
+}
+
+void tell(const LoadBalance& balance, LoadObserver& observer) {
+  Eigen::Vector3d left_n = balance.force_n;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    left_n[axis] -= force_of(axis, balance.row[static_cast<unsigned>(axis)], observer.terms);
+  }
+  TipLoad& told = observer.told;
+  told.known = observer.gains.force_sd_n > 0.0;
+  told.force_n = observer.gains.force * left_n;
+  told.force_sd_n = observer.gains.force_sd_n;
+  const LoadPhase phase = observer.phase.phase;
+  told.payload_known =
+      phase == LoadPhase::kEmpty || (phase == LoadPhase::kCarries && observer.weighed >= kWeighed);
+  told.payload_kg = told.payload_known ? observer.terms.value[kLoadTerm] : 0.0;
+  told.payload_sd_kg = told.payload_known ? std::sqrt(observer.terms.variance(kLoadTerm)) : 0.0;
+}
+
+}  // namespace
+
+void next_load(const ExcavatorProfile& profile, const LoadSeen& seen, StepKind kind, double share,
+               const TipPose& tip, double period_s, bool active, LoadObserver& observer) {
+  if (!seen.known) {
+    observer.told = {};
+    observer.gains = {};
+    observer.filter = {};
+    observer.cycle = 0;
+    observer.filling = {};
+    observer.full_phase = LoadPhase::kUnsaid;
+    observer.phase = {};
+    observer.begun = false;
+    return;
+  }
+  if (observer.terms.variance(kOffsetTerm) == 0.0) {
+    observer.terms = terms_unseen(profile);
+    const double most_kg = fill_kg(profile.geometry);
+    set_term(kLoadTerm, 0.0, most_kg, observer.terms);
+    set_term(kOutwardTerm, 0.0, kOutwardSd_m * most_kg, observer.terms);
+  }
+  const LoadPhase before = observer.phase.phase;
+  next_phase(active ? kind : StepKind::kNone, share, tip, period_s, observer.phase);
+  if (observer.phase.phase != before) {
+    enter(observer.phase.phase, profile.geometry, observer);
+  }
+  LoadBalance balance;
+  next_balance(profile, seen, period_s, !observer.begun, observer.filter, balance);
+  observer.begun = true;
+  work(profile, balance, observer);
+  add(balance, observer.filling);
+  if (++observer.cycle == kLoadBlock) {
+    observer.full = observer.filling;
+    observer.full_phase = active ? observer.phase.phase : LoadPhase::kUnsaid;
+    observer.filling = {};
+    observer.cycle = 0;
+  }
+  tell(balance, observer);
+}
+
+}  // namespace graben

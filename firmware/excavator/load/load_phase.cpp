@@ -1,0 +1,62 @@
+#include "firmware/excavator/load/load_phase.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/numeric/constants.hpp"
+
+namespace graben {
+namespace {
+
+constexpr double kFreeAbove_m = 0.5;
+/// Attitude beyond which the opening looks down; and that from which on soil may fall out.
+constexpr double kOpen_rad = 1.75;
+constexpr double kSpills_rad = 0.8;
+constexpr double kPoured_s = 1.5;
+/// Of a move that ends at the ground.
+constexpr double kNearGround = 0.85;
+
+LoadPhase phase_of(StepKind kind, double share, const TipPose& tip, const PhaseState& state) {
+  switch (kind) {
+    case StepKind::kDig:
+      return LoadPhase::kDigs;
+    case StepKind::kLift:
+      return state.phase == LoadPhase::kCarries || tip.y_m > state.lifted_from_m + kFreeAbove_m
+                 ? LoadPhase::kCarries
+                 : LoadPhase::kDigs;
+    case StepKind::kSwing:
+      return LoadPhase::kCarries;
+    case StepKind::kDump:
+      if (state.open_s > kPoured_s) {
+        return LoadPhase::kEmpty;
+      }
+      return state.phase == LoadPhase::kCarries && tip.attitude_rad < kSpills_rad
+                 ? LoadPhase::kCarries
+                 : LoadPhase::kPours;
+    case StepKind::kApproach:
+    case StepKind::kReturnToDig:
+      if (share > kNearGround) {
+        return LoadPhase::kUnsaid;
+      }
+      return state.open_s > kPoured_s ? LoadPhase::kEmpty : LoadPhase::kPours;
+    case StepKind::kNone:
+    case StepKind::kDone:
+      break;
+  }
+  return LoadPhase::kUnsaid;
+}
+
+}  // namespace
+
+void next_phase(StepKind kind, double share, const TipPose& tip, double period_s,
+                PhaseState& state) {
+  const bool open = std::abs(std::remainder(tip.attitude_rad, kTwoPi)) > kOpen_rad;
+  state.open_s = open ? std::min(state.open_s + period_s, 2.0 * kPoured_s) : 0.0;
+  if (kind != state.kind) {
+    state.kind = kind;
+    state.lifted_from_m = tip.y_m;
+  }
+  state.phase = phase_of(kind, share, tip, state);
+}
+
+}  // namespace graben

@@ -1,0 +1,115 @@
+#include "firmware/excavator/load/load_terms.hpp"
+
+#include <cmath>
+
+namespace graben {
+namespace {
+
+/// Deviation of a transducer's offset, of its range.
+constexpr double kOffset = 0.0175;
+/// Seals of cylinders: force over cap area. Hardly any machine's is known; it is learnt.
+constexpr double kCoulomb_pa = 0.2e6;
+constexpr double kViscous_paspm = 0.9e6;
+constexpr double kFrictionOff = 0.35;
+constexpr double kMassOff = 0.1;
+
+int term_of(int axis, int place) {
+  switch (place) {
+    case 0:
+      return kOffsetTerm + axis;
+    case 1:
+      return kCoulombTerm + axis;
+    case 2:
+      return kViscousTerm + axis;
+    default:
+      return kMassTerm + place - 3;
+  }
+}
+
+using Column = std::array<double, kTermCount>;
+
+/// Covariance of every term with the row's force.
+Column column_of(int axis, const TermRow& row, const LoadTerms& terms) {
+  Column column{};
+  for (int place = 0; place < TermRow::kCount; ++place) {
+    const double share = row.share[static_cast<unsigned>(place)];
+    const int term = term_of(axis, place);
+    for (int i = 0; i < kTermCount; ++i) {
+      column[static_cast<unsigned>(i)] += share * terms.covariance[LoadTerms::at(i, term)];
+    }
+  }
+  return column;
+}
+
+double along(int axis, const TermRow& row, const Column& column) {
+  double sum = 0.0;
+  for (int place = 0; place < TermRow::kCount; ++place) {
+    sum += row.share[static_cast<unsigned>(place)] *
+           column[static_cast<unsigned>(term_of(axis, place))];
+  }
+  return sum;
+}
+
+}  // namespace
+
+LoadTerms terms_unseen(const ExcavatorProfile& profile) {
+  LoadTerms terms;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const CylinderGeometry& cylinder = profile.geometry.cylinder[static_cast<unsigned>(axis)];
+    const double cap_m2 = cylinder.cap_area_m2();
+    const double offset_n =
+        kOffset * profile.safety.pressure_rail_pa * std::hypot(cap_m2, cylinder.rod_area_m2());
+    const double coulomb_n = kCoulomb_pa * cap_m2;
+    const double viscous_nspm = kViscous_paspm * cap_m2;
+    set_term(kOffsetTerm + axis, 0.0, offset_n, terms);
+    set_term(kCoulombTerm + axis, coulomb_n, kFrictionOff * coulomb_n, terms);
+    set_term(kViscousTerm + axis, viscous_nspm, kFrictionOff * viscous_nspm, terms);
+    set_term(kMassTerm + axis, 0.0, kMassOff, terms);
+  }
+  return terms;
+}
+
+void set_term(int term, double value, double sd, LoadTerms& terms) {
+  terms.value[static_cast<unsigned>(term)] = value;
+  for (int i = 0; i < kTermCount; ++i) {
+    terms.covariance[LoadTerms::at(i, term)] = 0.0;
+  }
+  terms.covariance[LoadTerms::at(term, term)] = sd * sd;
+}
+
+double force_of(int axis, const TermRow& row, const LoadTerms& terms) {
+  return along(axis, row, terms.value);
+}
+
+bool learn(int axis, const TermRow& row, double force_n, double variance_n2, double most_deviations,
+           LoadTerms& terms) {
+  const Column column = column_of(axis, row, terms);
+  const double whole_n2 = along(axis, row, column) + variance_n2;
+  const double missed_n = force_n - force_of(axis, row, terms);
+  // Positive too where something is not a number.
+  if (!(missed_n * missed_n <= most_deviations * most_deviations * whole_n2)) {
+    return false;
+  }
+  for (int i = 0; i < kTermCount; ++i) {
+    const double gain = column[static_cast<unsigned>(i)] / whole_n2;
+    terms.value[static_cast<unsigned>(i)] += gain * missed_n;
+    for (int j = 0; j <= i; ++j) {
+      terms.covariance[LoadTerms::at(i, j)] -= gain * column[static_cast<unsigned>(j)];
+    }
+  }
+  return true;
+}
+
+Eigen::Matrix3d force_covariance_n2(const std::array<TermRow, kAxisCount>& row,
+                                    const LoadTerms& terms) {
+  Eigen::Matrix3d covariance;
+  for (int i = 0; i < kAxisCount; ++i) {
+    const Column column = column_of(i, row[static_cast<unsigned>(i)], terms);
+    for (int j = 0; j < kAxisCount; ++j) {
+      covariance(i, j) = along(j, row[static_cast<unsigned>(j)], column);
+    }
+  }
+  return covariance;
+}
+
+}  // namespace graben
