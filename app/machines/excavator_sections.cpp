@@ -6,6 +6,7 @@
 
 #include "app/machines/answer_section.hpp"
 #include "app/machines/axis_names.hpp"
+#include "app/machines/body_section.hpp"
 #include "app/machines/bus_key.hpp"
 #include "app/machines/excavator_sections.hpp"
 #include "app/machines/oil_section.hpp"
@@ -373,6 +374,8 @@ ExcavatorProfile read_excavator_sections(TomlReader& reader) {
   profile.geometry = read_geometry(reader);
   profile.geometry.boom_foot_m = reader.point(
       "body.boom_foot", kPin, "boom foot pin: forward of the swing axis, above the ground");
+  profile.geometry.body = read_body(reader, profile.geometry);
+  profile.fence = read_fence_margins(reader);
   profile.drive_count = has_swing_drive(reader) ? kDriveCount : kAxisCount;
   profile.swing = read_swing(reader);
   profile.line = read_line(reader);

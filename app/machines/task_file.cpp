@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "app/machines/excavator_sections.hpp"
+#include "app/machines/fence_tables.hpp"
 #include "app/machines/profile_document.hpp"
 #include "app/machines/task_text.hpp"
 
@@ -24,20 +25,6 @@ Eigen::Vector3d read_vector(TomlReader& reader, const std::string& key, const Ra
                             const char* help) {
   const std::vector<double> values = reader.numbers(key, range, 3, help);
   return {values[0], values[1], values[2]};
-}
-
-/// A direction of any length but none.
-Eigen::Vector3d read_direction(TomlReader& reader, const std::string& key, std::size_t count,
-                               const char* help) {
-  constexpr double kLeast = 1e-3;
-  std::vector<double> values = reader.numbers(key, {-1e3, 1e3, ""}, count, help);
-  values.resize(3, 0.0);
-  const Eigen::Vector3d direction(values[0], values[1], values[2]);
-  if (direction.norm() < kLeast) {
-    reader.fail(key, "has no direction");
-    return Eigen::Vector3d::UnitZ();
-  }
-  return direction.normalized();
 }
 
 enum class PathForm { kLine = 0, kDrives = 1 };
@@ -94,26 +81,6 @@ StepRequest read_step(TomlReader& reader, const std::string& at, const Excavator
     read_drive_pace(reader, at, step);
   }
   return step;
-}
-
-enum class FenceKind { kCeiling = 0, kFloor = 1, kWall = 2 };
-
-Fence read_fence(TomlReader& reader, const std::string& at) {
-  const auto kind = static_cast<FenceKind>(
-      reader.choice(at + ".kind", {"ceiling", "floor", "wall"}, "kind of fence"));
-  Fence fence;
-  if (kind == FenceKind::kWall) {
-    const Eigen::Vector2d through_m =
-        reader.point(at + ".through", kPlace, "a point of the wall: x, y");
-    fence.normal =
-        read_direction(reader, at + ".normal", 2, "towards the side that is forbidden: x, y");
-    fence.offset_m = fence.normal.head<2>().dot(through_m);
-    return fence;
-  }
-  const double up = kind == FenceKind::kCeiling ? 1.0 : -1.0;
-  fence.normal = up * Eigen::Vector3d::UnitZ();
-  fence.offset_m = up * reader.number(at + ".height", kPlace, "height of ceiling or floor");
-  return fence;
 }
 
 DesignPlane read_design(TomlReader& reader) {

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/machines/axis_names.hpp"
+#include "app/machines/fence_tables.hpp"
 
 namespace graben::machines {
 namespace {
@@ -95,7 +97,7 @@ std::string plan_limit_words(const PlanResult& result) {
 
 namespace {
 
-const char* point_name(MachinePoint point) {
+const char* point_name(const ExcavatorBody& body, MachinePoint point) {
   switch (point) {
     case MachinePoint::kTeeth:
       return "the teeth";
@@ -103,14 +105,45 @@ const char* point_name(MachinePoint point) {
       return "the bucket's pin";
     case MachinePoint::kArmPin:
       return "the arm's pin";
+    case MachinePoint::kEdgeLeft:
+      return body.known() ? "the edge's left corner" : "the teeth";
+    case MachinePoint::kEdgeRight:
+      return body.known() ? "the edge's right corner" : "the teeth";
+    case MachinePoint::kHeelLeft:
+      return body.known() ? "the heel's left corner" : "the teeth";
+    case MachinePoint::kHeelRight:
+      return body.known() ? "the heel's right corner" : "the teeth";
+    case MachinePoint::kBoomBend:
+      return "the boom";
+    case MachinePoint::kBoomFoot:
+      return "the boom's foot";
+    case MachinePoint::kTailLeft:
+      return "the counterweight's left corner";
+    case MachinePoint::kTailRight:
+      return "the counterweight's right corner";
   }
   return "a point";
 }
 
-std::string fence_words(const ProgramRequest& request, const ProgramResult& result) {
-  const bool design = request.has_design && result.fence == request.fences.count;
-  const std::string which = design ? "the design surface" : fmt::format("fence[{}]", result.fence);
-  return fmt::format("{} would pass {}", point_name(result.point), which);
+/// "the edge's left corner would come near fence[2], the wall, to 31 mm at 63.28 % of the step, where the
+/// margin is 55 mm", or pass it by so much.
+std::string fence_words(const ExcavatorBody& body, const ProgramRequest& request,
+                        const ProgramResult& result) {
+  constexpr double kMillimetres = 1e3;
+  const BarredBy& by = result.by;
+  const bool design = request.has_design && by.fence == request.fences.count;
+  const std::string which =
+      design ? "the design surface"
+             : fmt::format("fence[{}], the {},", by.fence,
+                           fence_text(request.fences.fence[static_cast<unsigned>(by.fence)]));
+  const bool passes = by.least_m < 0.0;
+  const std::string margin =
+      by.margin_m > 0.0 ? fmt::format(", where the margin is {:.0f} mm", kMillimetres * by.margin_m)
+                        : "";
+  return fmt::format("{} would {} {} {} {:.0f} mm at {:.2f} % of the step{}",
+                     point_name(body, by.point), passes ? "pass" : "come near", which,
+                     passes ? "by" : "to", kMillimetres * std::abs(by.least_m),
+                     100.0 * by.least_share, margin);
 }
 
 std::string swing_words(const SwingProfile& swing) {
@@ -130,7 +163,7 @@ std::string cause_words(const ExcavatorProfile& profile, const ProgramRequest& r
     case ProgramRefusal::kBlindSpot:
       return blind_words(profile.geometry, result.place.blind);
     case ProgramRefusal::kFence:
-      return fence_words(request, result);
+      return fence_words(profile.geometry.body, request, result);
     case ProgramRefusal::kSwingEnd:
       return swing_words(profile.swing);
     case ProgramRefusal::kNoSwing:
@@ -173,7 +206,8 @@ std::string program_refusal_words(const ExcavatorProfile& profile, const Program
                                   const ProgramResult& result) {
   std::string words = cause_words(profile, request, result);
   if (has_place(result.refusal)) {
-    words += "; " + place_words(result.place, "step");
+    words += (result.refusal == ProgramRefusal::kFence ? "; beginning " : "; ") +
+             place_words(result.place, "step");
   }
   const auto step = static_cast<std::size_t>(result.step);
   return fmt::format("step {} ({}): {}", result.step, step_name(request.step.at(step).kind), words);

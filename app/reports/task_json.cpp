@@ -1,5 +1,6 @@
-#include <fmt/format.h>
+#include <cmath>
 
+#include "app/machines/fence_tables.hpp"
 #include "app/machines/task_text.hpp"
 #include "app/reports/page_setup.hpp"
 #include "firmware/excavator/kinematics/swing_kinematics.hpp"
@@ -47,28 +48,22 @@ json step_json(const SwingKinematics& kinematics, const TaskStep& step) {
           {"duration_s", rounded(step.duration_s())}};
 }
 
-std::string fence_text(const Fence& fence, bool is_design) {
-  const double up = fence.normal.z();
-  if (is_design) {
-    return "design surface";
-  }
-  if (up > 0.999) {
-    return fmt::format("ceiling at {:.2f} m", fence.offset_m);
-  }
-  if (up < -0.999) {
-    return fmt::format("floor at {:.2f} m", -fence.offset_m);
-  }
-  return "wall";
-}
-
 json fences_json(const FenceSet& fences, bool has_design) {
   json result = json::array();
   for (int i = 0; i < fences.count; ++i) {
     const Fence& fence = fences.fence[static_cast<unsigned>(i)];
     const bool is_design = has_design && i + 1 == fences.count;
-    result.push_back({{"words", fence_text(fence, is_design)},
-                      {"normal", vector(fence.normal)},
-                      {"offset_m", rounded(fence.offset_m)}});
+    json told = {{"words", is_design ? "design surface" : machines::fence_text(fence)}};
+    if (fence.is_plane()) {
+      told["normal"] = vector(fence.normal);
+      told["offset_m"] = rounded(fence.offset_m);
+    } else {
+      told["round"] = fence.shape == FenceShape::kCylinder;
+      told["centre_m"] = vector(fence.centre_m);
+      told["half_m"] = vector(fence.half_m);
+      told["turn_rad"] = rounded(std::atan2(fence.normal.y(), fence.normal.x()));
+    }
+    result.push_back(told);
   }
   return result;
 }

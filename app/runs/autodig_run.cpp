@@ -6,6 +6,7 @@
 
 #include "app/machines/task_text.hpp"
 #include "app/runs/excavator_rig.hpp"
+#include "app/runs/fence_truth.hpp"
 #include "firmware/excavator/tasks/task_run.hpp"
 
 namespace graben::runs {
@@ -186,31 +187,16 @@ class AutodigRun {
     sample.planned_attitude_rad = teeth.attitude_rad;
   }
 
-  /// Corners of the edge, which is as wide as the simulated bucket, under the design.
-  void look_at_design(const Fence& fence, AutodigSample& sample) const {
-    const double swing_rad = sample.real[kSwing];
-    const double half_m = 0.5 * rig_.plant.plant().profile().bucket.width_m;
-    const Eigen::Vector3d left(-std::sin(swing_rad), std::cos(swing_rad), 0.0);
-    const Eigen::Vector3d teeth_m(sample.teeth_m.data());
-    for (const double side_m : {-half_m, half_m}) {
-      const double under_m = fence.normal.dot(teeth_m + side_m * left) - fence.offset_m;
-      sample.over_cut_m = std::fmax(sample.over_cut_m, std::max(0.0, under_m));
-    }
-  }
-
+  /// By the machine's true outline; of a design the edge's corners under it too.
   void look_at_fences(AutodigSample& sample) const {
-    const DriveVector drives(sample.real.data());
-    const MachineMotion machine = machine_motion(kinematics_, drives, DriveVector::Zero());
+    const FenceTruth truth(rig_.plant.plant());
     for (int i = 0; i < program_.fences.count; ++i) {
       const Fence& fence = program_.fences.fence[static_cast<unsigned>(i)];
+      const double left_m = truth.left_m(fence);
       if (fence.guard == FenceGuard::kTeeth) {
-        look_at_design(fence, sample);
+        sample.over_cut_m = std::fmax(sample.over_cut_m, std::max(0.0, -left_m));
       }
-      for (int point = 0; point < fence.guarded(); ++point) {
-        const double left_m =
-            fence_gap(fence, machine.point[static_cast<unsigned>(point)]).distance_m;
-        sample.fence_left_m = std::fmin(sample.fence_left_m, left_m);
-      }
+      sample.fence_left_m = std::fmin(sample.fence_left_m, left_m);
     }
   }
 

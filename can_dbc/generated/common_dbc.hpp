@@ -256,6 +256,7 @@ struct EcuStatus {
     kStalled = 46,
     kBlocked = 47,
     kCommissionBound = 48,
+    kNoWay = 49,
   };
 
   static constexpr Field kMode{
@@ -271,7 +272,7 @@ struct EcuStatus {
       "Lambda", "", 16, 16, 0U, 50000U, 65279, 65535, 0U,
       0, 1.0, 50000.0};
   static constexpr Field kFault{
-      "Fault", "", 32, 8, 0U, 48U, 254, 255, 0U,
+      "Fault", "", 32, 8, 0U, 49U, 254, 255, 0U,
       0, 1.0, 1.0};
   static constexpr Field kCycleTime{
       "CycleTime", "us", 40, 16, 0U, 64255U, 65279, 65535, 0U,

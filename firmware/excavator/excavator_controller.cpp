@@ -171,6 +171,9 @@ ExcavatorController::Motion ExcavatorController::wanted_motion(const ExcavatorVa
   motion.tries = valid.task == Task::kCommission;
   const bool known = now.status == ReachStatus::kOk && motion.task.known;
   motion.fault = known ? Fault::kNone : Fault::kPoseUnreachable;
+  if (known && memory_.task.search.failed) {
+    motion.fault = Fault::kNoWay;
+  }
   return motion;
 }
 
@@ -207,7 +210,8 @@ void ExcavatorController::dig(const ExcavatorValid& valid, const KinematicState&
   ease_blocked(motion);
   slow_at_ends(drives(), valid.drive, span_of(motion.corrected_mps), motion.cap);
   motion.path_error_m = path_error_m(setup_.field.path(), now.tip);
-  motion.off_m = motion.path_error_m;
+  // A task that looks for its way is on no path.
+  motion.off_m = valid.task == Task::kDig ? motion.path_error_m : 0.0;
 }
 
 void ExcavatorController::steer(const ExcavatorValid& valid, const KinematicState& now,
@@ -228,8 +232,7 @@ void ExcavatorController::steer(const ExcavatorValid& valid, const KinematicStat
   const bool chosen = valid.task_number >= 0 && valid.task_number < setup_.book.count;
   const FenceSet& fences =
       setup_.book.program[chosen ? static_cast<unsigned>(valid.task_number) : 0U].fences;
-  motion.cap = motion_cap(profile_, drives(), setup_.kinematics, fences,
-                          strokes_then_m(drives(), memory_.servo), motion.corrected_mps);
+  hold_at_fences(fences, motion);
   if (motion.cap.limit.kind == LimitKind::kNone) {
     motion.cap.limit = motion.hand.cap.limit;
   }
@@ -253,10 +256,18 @@ void ExcavatorController::follow(const TaskProgram& program, const TaskAim& aim,
                      swing_lead_mps(profile_, swing_mps, memory_.swing_wanted_mps, period_s) +
                      swing_damping_mps(profile_, memory_.swing_push));
   ease_blocked(motion);
-  motion.cap = motion_cap(profile_, drives(), setup_.kinematics, program.fences,
-                          strokes_then_m(drives(), memory_.servo), motion.corrected_mps);
+  hold_at_fences(program.fences, motion);
   motion.path_error_m = motion.task.path_error_m;
   motion.off_m = motion.task.off_m;
+}
+
+void ExcavatorController::hold_at_fences(const FenceSet& fences, Motion& motion) const {
+  const MotionCap cap =
+      motion_cap(profile_, drives(), setup_.kinematics, fences,
+                 strokes_then_m(drives(), memory_.servo), motion.corrected_mps);
+  motion.cap = cap;
+  motion.wanted_mps = motion.wanted_mps.cwiseProduct(cap.share);
+  motion.corrected_mps = motion.corrected_mps.cwiseProduct(cap.share);
 }
 
 void ExcavatorController::ease_blocked(Motion& motion) const {

@@ -14,6 +14,7 @@
 #include "firmware/excavator/safety/excavator_validation.hpp"
 #include "firmware/excavator/swing.hpp"
 #include "firmware/excavator/tasks/hand_motion.hpp"
+#include "firmware/excavator/tasks/motion_cap.hpp"
 #include "firmware/excavator/tasks/task_follow.hpp"
 #include "firmware/mcv/optimiser.hpp"
 #include "firmware/safety/cycle.hpp"
@@ -167,6 +168,8 @@ class ExcavatorController {
              Motion& motion) const;
   void follow(const TaskProgram& program, const TaskAim& aim, double speed_override_ratio,
               double period_s, Motion& motion) const;
+  /// Slows before ends and fences; beyond a fence only what leads back moves.
+  void hold_at_fences(const FenceSet& fences, Motion& motion) const;
   /// Asks no more of a drive that its load holds than path or plan want.
   void ease_blocked(Motion& motion) const;
   [[nodiscard]] Followed flow_limited(const ExcavatorValid& valid, const Motion& motion,

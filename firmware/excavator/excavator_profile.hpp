@@ -9,6 +9,7 @@
 #include <array>
 
 #include "firmware/core/codes.hpp"
+#include "firmware/excavator/excavator_body.hpp"
 #include "firmware/excavator/excavator_signals.hpp"
 #include "firmware/machine/spool_answer.hpp"
 #include "firmware/machine/valve.hpp"
@@ -59,6 +60,7 @@ struct ExcavatorGeometry {
   BucketLinkage linkage;
   /// Boom foot pin: a_1 forward of the swing axis and d_0 above the ground, (2) of Zhang et al.
   Eigen::Vector2d boom_foot_m = Eigen::Vector2d::Zero();
+  ExcavatorBody body;
 };
 
 /// A time that a side of a spool does not say by itself.
@@ -224,6 +226,7 @@ struct ExcavatorProfile {
   ExcavatorGeometry geometry;
   SwingProfile swing;
   LineProfile line;
+  FenceProfile fence;
   ValveProfile valve;
   int pump_count = kPumpCount;  ///< How many there are of them; the others stay at nothing.
   std::array<PumpProfile, kPumpCount> pump;

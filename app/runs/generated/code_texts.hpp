@@ -19,7 +19,7 @@ struct LimitText {
   LimitOf of;  ///< Whose number the limit's index is.
 };
 
-inline constexpr std::array<FaultText, 49> kFaultTexts{{
+inline constexpr std::array<FaultText, 50> kFaultTexts{{
     {"none", ""},
     {"a stroke is missing",
      "Check the stroke sensors, their cables and the machine's node."},
@@ -117,6 +117,8 @@ inline constexpr std::array<FaultText, 49> kFaultTexts{{
      "Wait, or help: go round what is in the way, or break it loose."},
     {"commissioning: outside the window, or too fast",
      "Move the drive by hand into its window; confirm a window and a speed that the machine can keep to."},
+    {"no way to the task's start that its fences leave",
+     "Move the machine by hand, away from fences and nearer to the start, and arm again; or move the fences."},
 }};
 
 inline constexpr std::array<const char*, 27> kArmBlockTexts{{

@@ -58,8 +58,9 @@ enum class Fault : std::uint8_t {
   kStalled = 46,  ///< In motion, and hardly getting on for as long as the profile allows.
   kBlocked = 47,  ///< A drive pushes with what its pump gives, and stands.
   kCommissionBound = 48,  ///< In commissioning a drive is outside its window, faster than confirmed, or one of three at once.
+  kNoWay = 49,  ///< No way that is tried leads to a task's start and keeps clear of its fences.
 };
-inline constexpr int kFaultCount = 49;  ///< With kNone.
+inline constexpr int kFaultCount = 50;  ///< With kNone.
 
 /// Why the mode is neither Armed nor Active: bit numbers of MachineStatus::why_not_armed.
 enum class ArmBlock : std::uint8_t {

@@ -31,6 +31,11 @@ Progress rising(const SineRamp& ramp, double time_s) {
 
 }  // namespace
 
+double SineRamp::most_rate_ps(double share) const {
+  const double from_end = std::max(0.0, std::min(share, 1.0 - share));
+  return std::min(peak_rate_ps(), std::sqrt(2.0 * peak_rate_change_ps2() * from_end));
+}
+
 double SineRamp::peak_rate_change_ps2() const { return 0.5 * kPi * peak_rate_ps() / ramp_s; }
 
 Progress SineRamp::at(double time_s) const {

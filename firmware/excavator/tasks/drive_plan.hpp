@@ -25,6 +25,8 @@ struct SineRamp {
   [[nodiscard]] Progress at(double time_s) const;
   /// Of the uniform speed, or the highest; 2 a / w of (7), in shares a second.
   [[nodiscard]] double peak_rate_ps() const { return 1.0 / (duration_s - ramp_s); }
+  /// At this share of the way at most: what the peak's acceleration can have made of it by there.
+  [[nodiscard]] double most_rate_ps(double share) const;
   /// a of (7), in shares.
   [[nodiscard]] double peak_rate_change_ps2() const;
   /// The same in `factor` times the time: rates fall by it, their changes by its square.

@@ -5,7 +5,6 @@
 
 #include "firmware/core/guarded.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
-#include "firmware/excavator/tasks/fence.hpp"
 #include "firmware/excavator/tasks/task_run.hpp"
 
 namespace graben {
@@ -15,6 +14,7 @@ struct TaskMemory {
   bool runs = false;
   std::uint8_t number = 0;
   TaskState state;
+  ApproachSearch search;  ///< Until it runs.
   Guarded<double> time_s = 0.0;  ///< Of the state, like its pace: kept twice.
   Guarded<double> pace_ratio = 1.0;
   /// All else that says where it is, in one number; as constructed it does not run.
@@ -55,7 +55,8 @@ struct TaskWant {
 
 /// The memory after a cycle in which the task was followed at `followed_ratio` of the plan's
 /// velocity, but for its own pace: lambda, the cap's factor and the operator's override. A
-/// task that does not run yet, or another number, starts from `travel_m`.
+/// task that does not run yet, or another number, first looks for its way from `travel_m`, see
+/// search_approach(), and starts from there.
 [[nodiscard]] TaskMemory next_task(const ExcavatorProfile& profile, const TaskProgram& program,
                                    const TaskMemory& last, std::uint8_t number,
                                    const DriveVector& travel_m, double followed_ratio,

@@ -20,12 +20,21 @@ bool unit(const Eigen::Vector3d& normal) {
 
 bool not_negative(double value) { return std::isfinite(value) && value >= 0.0; }
 
+bool usable(const Fence& fence) {
+  if (!unit(fence.normal) || !std::isfinite(fence.offset_m)) {
+    return false;
+  }
+  return fence.is_plane() || (fence.guard == FenceGuard::kMachine && fence.centre_m.allFinite() &&
+                              fence.half_m.allFinite() && fence.half_m.minCoeff() > 0.0 &&
+                              (fence.shape == FenceShape::kCylinder || fence.normal.z() == 0.0));
+}
+
 bool usable(const FenceSet& fences, int most) {
   if (fences.count < 0 || fences.count > most) {
     return false;
   }
   return std::all_of(fences.fence.begin(), fences.fence.begin() + fences.count,
-                     [](const Fence& f) { return unit(f.normal) && std::isfinite(f.offset_m); });
+                     [](const Fence& f) { return usable(f); });
 }
 
 bool usable(const DesignPlane& design) {
@@ -162,8 +171,7 @@ bool Planning::plan_move(const StepRequest& asked, TaskStep& step, int number) {
 bool Planning::keeps_free(const TaskStep& step, int number) {
   const BarredPlace barred =
       first_barred_place(profile_, kinematics_, result_.program.fences, step);
-  result_.fence = barred.fence;
-  result_.point = barred.point;
+  result_.by = barred;
   return barred.why == ProgramRefusal::kNone || refuse(barred.why, number, barred.place);
 }
 

@@ -66,7 +66,7 @@ enum class ProgramRefusal : std::uint8_t {
   kBadRequest = 1,  ///< A number is not finite, out of its range, or not one of the two paces.
   kNoWay = 2,       ///< The step ends where it begins.
   kBlindSpot = 3,   ///< The machine can't be at `place`, or can't move from there.
-  kFence = 4,       ///< `point` of the machine passes `fence` at `place`.
+  kFence = 4,       ///< `point` of the machine comes too near to `fence` from `place` on.
   kSwingEnd = 5,    ///< The swing leaves its range at `place`.
   kNoSwing = 6,     ///< It would have to turn, and no drive of this machine does.
   kOpenEnd = 7,     ///< It repeats, but its end is not its start.
@@ -80,12 +80,20 @@ struct StepNote {
   double slowed_ratio = 1.0;
 };
 
+/// What comes too near to which fence: where it is nearest.
+struct BarredBy {
+  int fence = 0;
+  MachinePoint point = MachinePoint::kTeeth;
+  double least_share = 0.0;  ///< Of the step; to a step of the walk.
+  double least_m = 0.0;      ///< Its distance there; negative: beyond the fence.
+  double margin_m = 0.0;     ///< What it should be, planned_margin_m().
+};
+
 struct ProgramResult {
   ProgramRefusal refusal = ProgramRefusal::kBadRequest;
   int step = 0;      ///< Which, from 0; the start belongs to the first.
   BlindPlace place;  ///< Share of the step and teeth there; `blind` only where it is one.
-  int fence = 0;
-  MachinePoint point = MachinePoint::kTeeth;
+  BarredBy by;       ///< Of kFence.
   std::array<StepNote, kStepMost> note;
   TaskProgram program;  ///< Valid only if nothing is refused.
 };
@@ -98,15 +106,13 @@ struct ProgramResult {
 ///
 /// The approach from wherever the machine stands is no part of it: see task_start.
 ///
-/// Not for a control cycle: some 500 poses a step, at most 21000 and 10000 a fence.
+/// Not for a control cycle: some 500 poses a step, at most 21000 and 40000 a fence.
 [[nodiscard]] ProgramResult plan_program(const ExcavatorProfile& profile,
                                          const ProgramRequest& request);
 
 /// The first place that is not left to the machine.
-struct BarredPlace {
+struct BarredPlace : BarredBy {
   ProgramRefusal why = ProgramRefusal::kNone;  ///< kNone: there is none.
-  int fence = 0;
-  MachinePoint point = MachinePoint::kTeeth;
   BlindPlace place;  ///< Its share to 1e-12; `blind` only where the points are not known.
 };
 
@@ -118,7 +124,7 @@ inline constexpr double kBarTolerance = 1e-6;
                                       double share);
 
 /// Walks a step that meets no blind spot in kWalkSteps steps, and looks between them wherever a
-/// distance has its least there.
+/// distance has its least there. From fences it has to keep planned_margin_m().
 [[nodiscard]] BarredPlace first_barred_place(const ExcavatorProfile& profile,
                                              const SwingKinematics& kinematics,
                                              const FenceSet& fences, const TaskStep& step);

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "firmware/excavator/swing.hpp"
-
 namespace graben {
 namespace {
 
@@ -11,13 +9,10 @@ const TaskStep& step_of(const TaskProgram& program, const TaskState& state) {
   return program.step[static_cast<unsigned>(std::clamp(state.step, 0, kStepMost - 1))];
 }
 
-const DrivePlan& approach_of(const TaskState& state) {
-  return state.step == 0 ? state.approach : state.descent;
-}
-
 double duration_s(const TaskProgram& program, const TaskState& state) {
-  return state.phase == TaskPhase::kApproach ? approach_of(state).ramp.duration_s
-                                             : step_of(program, state).duration_s();
+  return state.phase == TaskPhase::kApproach
+             ? approach_leg(state.approach, program, state.step).ramp.duration_s
+             : step_of(program, state).duration_s();
 }
 
 /// Where the drives are decides where the teeth are.
@@ -53,14 +48,19 @@ TaskAim aim_of_line(const SwingKinematics& kinematics, StepKind kind, const Line
   return aim;
 }
 
+/// The leg is not the last.
+bool approaches_further(const TaskState& state) {
+  return state.phase == TaskPhase::kApproach && state.step + 1 < state.approach.legs;
+}
+
 /// After an end that has been reached.
 TaskState next_part(const TaskProgram& program, const TaskState& state) {
   TaskState next = state;
   next.time_s = 0.0;
   next.settle_s = 0.0;
   next.calm_s = 0.0;
-  if (state.phase == TaskPhase::kApproach && state.step == 0) {
-    next.step = 1;
+  if (approaches_further(state)) {
+    ++next.step;
     return next;
   }
   next.step = state.phase == TaskPhase::kApproach ? 0 : state.step + 1;
@@ -82,65 +82,21 @@ double slow_error_m(const LineProfile& line, const TaskProgram& program, const T
   return line.slow_error_m + line.slow_error_s * speed_mps;
 }
 
-bool inside(const SwingKinematics& kinematics, const FenceSet& fences, const DriveVector& drives) {
-  const MachineMotion machine = machine_motion(kinematics, drives, DriveVector::Zero());
-  bool all = machine.status == ReachStatus::kOk;
-  for (int i = 0; i < fences.count; ++i) {
-    const Fence& fence = fences.fence[static_cast<unsigned>(i)];
-    for (int point = 0; point < fence.guarded(); ++point) {
-      all = all && fence_gap(fence, machine.point[static_cast<unsigned>(point)]).distance_m > 0.0;
-    }
-  }
-  return all;
-}
-
-/// Where an approach comes to before it goes down to the start.
-DriveVector above_start(const ExcavatorProfile& profile, const TaskProgram& program,
-                        const DriveVector& from) {
-  const SwingKinematics kinematics(profile.geometry);
-  const auto teeth = [&](const DriveVector& drives) {
-    return kinematics.teeth_from_joints(kinematics.joints_from_drive(drives).value);
-  };
-  const TeethPose start = teeth(program.start);
-  if ((teeth(from).position_m - start.position_m).norm() < kNear_m) {
-    return program.start;
-  }
-  for (const double lift_m : {kLift_m, 0.5 * kLift_m}) {
-    TeethPose lifted = start;
-    lifted.position_m.z() += lift_m;
-    DriveResult above = kinematics.drive_from_teeth(lifted);
-    above.value = with_swing(above.value, swing_of(program.start));
-    if (above.blind.kind == BlindKind::kNone && inside(kinematics, program.fences, above.value)) {
-      return above.value;
-    }
-  }
-  return program.start;
-}
-
 }  // namespace
 
 TaskState task_start(const ExcavatorProfile& profile, const TaskProgram& program,
-                     const DriveVector& drives_now) {
-  DriveVector from = drives_now;
-  for (unsigned i = 0; i < kAxisCount; ++i) {
-    from[i] = std::clamp(from[i], 0.0, profile.geometry.cylinder[i].stroke_m);
-  }
-  if (!profile.has_swing()) {
-    from = with_swing(from, swing_of(program.start));
-  }
+                     const DriveVector& drives_now, ApproachWay way) {
   TaskState state;
   state.phase = TaskPhase::kApproach;
-  const DriveLimits limits = drive_limits(profile);
-  const DriveVector above = above_start(profile, program, from);
-  state.approach = plan_drives(limits, from, above, {kApproachPace, 0.0});
-  state.descent = plan_drives(limits, above, program.start, {kApproachPace, 0.0});
+  state.approach = approach_path(profile, program, drives_now, way);
   return state;
 }
 
 TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
                  const TaskState& state) {
   if (state.phase == TaskPhase::kApproach) {
-    return aim_of_plan(kinematics, StepKind::kApproach, approach_of(state), state.time_s);
+    return aim_of_plan(kinematics, StepKind::kApproach,
+                       approach_leg(state.approach, program, state.step), state.time_s);
   }
   if (state.phase == TaskPhase::kDone) {
     DriveState stands;
@@ -179,7 +135,7 @@ TaskState task_advance(const LineProfile& line, const TaskProgram& program, cons
   if (next.time_s < end_s) {
     return next;
   }
-  if (state.phase == TaskPhase::kApproach && state.step == 0) {
+  if (approaches_further(state)) {
     return next_part(program, next);
   }
   next.time_s = end_s;

@@ -2,6 +2,7 @@
 /// Executes a program: where on its plan a task is, what is wanted there, and how it goes on.
 
 #include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/excavator/tasks/approach.hpp"
 #include "firmware/excavator/tasks/task_program.hpp"
 
 namespace graben {
@@ -24,8 +25,7 @@ struct TaskState {
   /// added, and task_advance goes on by it. Drives that went on at full speed would run ahead of a
   /// plan that waits for them, and make the error that it waits for.
   double pace_ratio = 1.0;
-  DrivePlan approach;  ///< Step 0 of the approach: to above the first pose.
-  DrivePlan descent;   ///< Step 1: down to it.
+  ApproachPath approach;  ///< `step` is the leg.
 };
 
 /// Aim of the plan at one moment.
@@ -46,21 +46,11 @@ inline constexpr double kSettled_m = 5e-3;
 inline constexpr double kCalm_s = 0.2;
 /// ... or after so long: what is left then is the next step's to correct.
 inline constexpr double kSettleMost_s = 2.0;
-/// How far above the first pose an approach comes to, or half of it; teeth nearer than kNear_m to
-/// that pose need none of it.
-inline constexpr double kLift_m = 0.8;
-inline constexpr double kNear_m = 0.3;
-/// Share of the drives' limits that the approach keeps to.
-inline constexpr double kApproachPace = 0.3;
-
-/// From where the machine stands, its drives taken into their ranges: a move straight in drive
-/// space to above the first pose, and one down to it, so that a bucket that stands in a cut comes
-/// out of it before it goes back; at once down where it is near, or where nothing above can be had.
-/// It can't meet a blind spot. It is not checked against fences, as a
-/// machine may have to come from anywhere, even from beyond one: there the soft limit holds it,
-/// and a machine that stands beyond a fence is free to leave.
+/// At the beginning of the approach that search_approach() has found, planned from where the
+/// machine stands now. It can't meet a blind spot. In motion the soft limit holds it before fences.
 [[nodiscard]] TaskState task_start(const ExcavatorProfile& profile, const TaskProgram& program,
-                                   const DriveVector& drives_now);
+                                   const DriveVector& drives_now,
+                                   ApproachWay way = ApproachWay::kDirect);
 
 [[nodiscard]] TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
                                const TaskState& state);

@@ -59,6 +59,7 @@ inline constexpr std::array<FaultRow, kFaultCount> kFaultRows{{
     {Fault::kStalled, Reaction::kStop, 31, true, false, ArmBlock::kPath},
     {Fault::kBlocked, Reaction::kWarn, 31, false, false, ArmBlock::kPath},
     {Fault::kCommissionBound, Reaction::kStop, 31, true, false, ArmBlock::kPath},
+    {Fault::kNoWay, Reaction::kStop, 31, true, false, ArmBlock::kPath},
 }};
 
 }  // namespace graben

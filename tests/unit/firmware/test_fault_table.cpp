@@ -71,6 +71,7 @@ const Promise kPromises[] = {
     {45, Fault::kStalling, 'W', 31, ArmBlock::kPath},
     {46, Fault::kStalled, 'N', 31, ArmBlock::kPath},
     {48, Fault::kCommissionBound, 'N', 31, ArmBlock::kPath},
+    {49, Fault::kNoWay, 'N', 31, ArmBlock::kPath},
     // The dozer's own.
     {31, Fault::kPoseMissing, 'N', 9, ArmBlock::kPose},
     {32, Fault::kPoseImplausible, 'N', 2, ArmBlock::kPose},

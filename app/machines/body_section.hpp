@@ -1,0 +1,16 @@
+#pragma once
+/// An excavator's outline and what fences allow for, as its profile says them.
+
+#include "firmware/excavator/excavator_profile.hpp"
+
+namespace graben::machines {
+
+class TomlReader;
+
+/// As points where bucket.width is not told; `geometry` has the links' lengths.
+[[nodiscard]] ExcavatorBody read_body(TomlReader& reader, const ExcavatorGeometry& geometry);
+
+/// What is not told is of sensors as Kim et al. have them.
+[[nodiscard]] FenceProfile read_fence_margins(TomlReader& reader);
+
+}  // namespace graben::machines

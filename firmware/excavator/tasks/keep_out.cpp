@@ -1,0 +1,223 @@
+#include "firmware/excavator/tasks/keep_out.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben {
+namespace {
+
+/// A corner of a part.
+struct Corner {
+  Eigen::Vector3d at_m = Eigen::Vector3d::Zero();  ///< From the keep-out's centre.
+  Eigen::Vector3d moves_mps = Eigen::Vector3d::Zero();
+  MachinePoint point = MachinePoint::kTeeth;
+};
+
+Eigen::Vector3d across(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
+          a.x() * b.y() - a.y() * b.x()};
+}
+
+constexpr int kCornerMost = 6;
+constexpr int kSideMost = 3;
+
+/// A convex part: corners, and the directions of those edges that lie in the links' plane; the
+/// others go across the machine.
+struct Hull {
+  std::array<Corner, kCornerMost> corner;
+  int corner_count = 0;
+  std::array<Eigen::Vector3d, kSideMost> side;
+  int side_count = 0;
+  double radius_m = 0.0;
+
+  void add(const Fence& keep_out, const PointMotion& at, MachinePoint point,
+           const Eigen::Vector3d& off_m, const Eigen::Vector3d& off_mps) {
+    corner[static_cast<unsigned>(corner_count++)] = {
+        at.position_m + off_m - keep_out.centre_m, at.velocity_mps + off_mps, point};
+  }
+  void add(const Fence& keep_out, const MachineMotion& motion, MachinePoint point) {
+    add(keep_out, motion.at(point), point, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+  }
+  void add_side(unsigned from, unsigned to) {
+    side[static_cast<unsigned>(side_count++)] = corner[to].at_m - corner[from].at_m;
+  }
+};
+
+void add_bucket(const Fence& keep_out, const MachineMotion& motion, Hull& hull) {
+  const PointMotion& teeth = motion.at(MachinePoint::kTeeth);
+  const PointMotion& pin = motion.at(MachinePoint::kBucketPin);
+  for (const MachinePoint edge : {MachinePoint::kEdgeLeft, MachinePoint::kEdgeRight}) {
+    hull.add(keep_out, motion, edge);
+    const PointMotion& corner = motion.at(edge);
+    hull.add(keep_out, pin, MachinePoint::kBucketPin, corner.position_m - teeth.position_m,
+             corner.velocity_mps - teeth.velocity_mps);
+    hull.add(keep_out, motion,
+             edge == MachinePoint::kEdgeLeft ? MachinePoint::kHeelLeft : MachinePoint::kHeelRight);
+  }
+  hull.add_side(0, 1);
+  hull.add_side(1, 2);
+  hull.add_side(2, 0);
+}
+
+void add_counterweight(const Fence& keep_out, const Counterweight& weight,
+                       const MachineMotion& motion, Hull& hull) {
+  const Eigen::Vector3d high_m(0.0, 0.0, weight.high_m - weight.low_m);
+  for (const MachinePoint tail : {MachinePoint::kTailLeft, MachinePoint::kTailRight}) {
+    hull.add(keep_out, motion, tail);
+    hull.add(keep_out, motion.at(tail), tail, high_m, Eigen::Vector3d::Zero());
+  }
+  hull.add_side(0, 1);
+  hull.radius_m = weight.corner_m;
+}
+
+Hull hull_of(const Fence& keep_out, const ExcavatorBody& body, const MachineMotion& motion,
+             MachinePart part) {
+  Hull hull;
+  switch (part) {
+    case MachinePart::kBucketPart:
+      add_bucket(keep_out, motion, hull);
+      break;
+    case MachinePart::kArmPart:
+      hull.add(keep_out, motion, MachinePoint::kArmPin);
+      hull.add(keep_out, motion, MachinePoint::kBucketPin);
+      hull.add_side(0, 1);
+      hull.radius_m = body.arm_radius_m;
+      break;
+    case MachinePart::kBoomPart:
+      hull.add(keep_out, motion, MachinePoint::kBoomFoot);
+      hull.add(keep_out, motion, MachinePoint::kBoomBend);
+      hull.add(keep_out, motion, MachinePoint::kArmPin);
+      hull.add_side(0, 1);
+      hull.add_side(1, 2);
+      hull.add_side(2, 0);
+      hull.radius_m = body.boom_radius_m;
+      break;
+    case MachinePart::kTailPart:
+      add_counterweight(keep_out, body.counterweight, motion, hull);
+      break;
+  }
+  return hull;
+}
+
+/// Tries planes between a part and a keep-out, and keeps that which leaves most.
+class Separation {
+ public:
+  Separation(const Fence& keep_out, const Hull& hull) : keep_out_(keep_out), hull_(hull) {}
+
+  /// Planes across `axis`, of any length; one of none says nothing.
+  void try_axis(const Eigen::Vector3d& axis) {
+    constexpr double kNone = 1e-12;
+    const double square = axis.squaredNorm();
+    if (square < kNone) {
+      return;
+    }
+    const Eigen::Vector3d unit = axis / std::sqrt(square);
+    const double out_m = reach_m(unit) + hull_.radius_m;
+    double low_m = 0.0;
+    double high_m = 0.0;
+    int lowest = -1;
+    int highest = -1;
+    for (int i = 0; i < hull_.corner_count; ++i) {
+      const double at_m = unit.dot(corner(i).at_m);
+      if (lowest < 0 || at_m < low_m) {
+        low_m = at_m;
+        lowest = i;
+      }
+      if (highest < 0 || at_m > high_m) {
+        high_m = at_m;
+        highest = i;
+      }
+    }
+    take(low_m - out_m, unit, lowest);
+    take(-high_m - out_m, -unit, highest);
+  }
+
+  void try_faces(const std::array<Eigen::Vector3d, 3>& frame, const Eigen::Vector3d& left) {
+    for (const Eigen::Vector3d& axis : frame) {
+      try_axis(axis);
+    }
+    try_axis(left);
+  }
+
+  void try_edges(const std::array<Eigen::Vector3d, 3>& frame, const Eigen::Vector3d& left) {
+    for (const Eigen::Vector3d& axis : frame) {
+      try_axis(across(left, axis));
+    }
+    for (int i = 0; i < hull_.side_count; ++i) {
+      const Eigen::Vector3d& side = hull_.side[static_cast<unsigned>(i)];
+      try_axis(across(left, side));
+      for (const Eigen::Vector3d& axis : frame) {
+        try_axis(across(side, axis));
+      }
+    }
+  }
+
+  /// From a cylinder's axis to the part's corners.
+  void try_spokes() {
+    for (int i = 0; i < hull_.corner_count; ++i) {
+      try_axis({corner(i).at_m.x(), corner(i).at_m.y(), 0.0});
+    }
+  }
+
+  [[nodiscard]] double distance_m() const { return best_m_; }
+  [[nodiscard]] FenceGap gap() const {
+    const Corner& nearest = corner(nearest_);
+    return {best_m_, -away_.dot(nearest.moves_mps), nearest.point};
+  }
+
+ private:
+  [[nodiscard]] const Corner& corner(int i) const {
+    return hull_.corner[static_cast<unsigned>(i)];
+  }
+
+  /// Of the keep-out, from its centre along a direction of length 1.
+  [[nodiscard]] double reach_m(const Eigen::Vector3d& unit) const {
+    const Eigen::Vector3d& half_m = keep_out_.half_m;
+    const double up_m = half_m.z() * std::abs(unit.z());
+    if (keep_out_.shape == FenceShape::kCylinder) {
+      return up_m + half_m.x() * unit.head<2>().norm();
+    }
+    const Eigen::Vector3d& along = keep_out_.normal;
+    return up_m + half_m.x() * std::abs(along.x() * unit.x() + along.y() * unit.y()) +
+           half_m.y() * std::abs(along.x() * unit.y() - along.y() * unit.x());
+  }
+
+  void take(double distance_m, const Eigen::Vector3d& away, int nearest) {
+    if (is_new_ || distance_m > best_m_) {
+      is_new_ = false;
+      best_m_ = distance_m;
+      away_ = away;
+      nearest_ = nearest;
+    }
+  }
+
+  const Fence& keep_out_;
+  const Hull& hull_;
+  bool is_new_ = true;
+  double best_m_ = 0.0;
+  Eigen::Vector3d away_ = Eigen::Vector3d::UnitZ();
+  int nearest_ = 0;
+};
+
+}  // namespace
+
+FenceGap keep_out_gap(const Fence& keep_out, const ExcavatorBody& body, const MachineMotion& motion,
+                      MachinePart part, double far_m) {
+  const Hull hull = hull_of(keep_out, body, motion, part);
+  // A cylinder has no sides of its own: those that the machine would meet it with.
+  const bool round = keep_out.shape == FenceShape::kCylinder;
+  const Eigen::Vector3d first = round ? motion.left : keep_out.normal;
+  const std::array<Eigen::Vector3d, 3> frame = {
+      first, {-first.y(), first.x(), 0.0}, Eigen::Vector3d::UnitZ()};
+  Separation separation(keep_out, hull);
+  separation.try_faces(frame, motion.left);
+  if (separation.distance_m() < far_m) {
+    separation.try_edges(frame, motion.left);
+    if (round) {
+      separation.try_spokes();
+    }
+  }
+  return separation.gap();
+}
+
+}  // namespace graben

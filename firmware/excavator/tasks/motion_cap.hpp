@@ -1,0 +1,30 @@
+#pragma once
+/// What ends of drives and fences leave of a motion, in every cycle.
+
+#include "firmware/drives/velocity_cap.hpp"
+#include "firmware/excavator/excavator_drives.hpp"
+#include "firmware/excavator/tasks/fence_margin.hpp"
+
+namespace graben {
+
+/// A fence stands so far behind what it guards. At the place itself the machine may still close at
+/// stroke_end_gain times it, which is what makes sliding along a fence possible, see
+/// approach_ends(). A feedback weaker than stroke_end_gain towards a plan that is not beyond the
+/// fence is never slowed at all. It is a part of the millimetre by which a limit may be overrun.
+inline constexpr double kFenceSlack_m = 0.2e-3;
+
+/// A cap, and which drives it is for: 0 for one that has to stand, else 1.
+struct MotionCap : VelocityCap {
+  DriveVector share = DriveVector::Ones();
+};
+
+/// One factor on the whole velocity before the ends of the drives (approach_ends) and before the
+/// fences, which what is nearest to them is stopped at, held_margin_m() before it, with
+/// line.acceleration_mps2. Beyond a fence whatever leads no further is free: the motion as a whole,
+/// or else those drives of it that by themselves do not lead further. `then_m` and `velocity_mps`
+/// are travels. What is not finite or can't be is 0, and no limit named.
+[[nodiscard]] MotionCap motion_cap(const ExcavatorProfile& profile, DriveRows drives,
+                                   const SwingKinematics& kinematics, const FenceSet& fences,
+                                   const DriveVector& then_m, const DriveVector& velocity_mps);
+
+}  // namespace graben
