@@ -24,9 +24,8 @@ Counterweight read_counterweight(TomlReader& reader) {
   const double width_m =
       reader.number(at + "width", {0.5, 10.0, "m"}, "of the counterweight, less than its diameter");
   weight.half_width_m = 0.5 * width_m;
-  weight.corner_m =
-      reader.number(at + "corner", {0.0, 3.0, "m"},
-                    "radius of its corners, seen from above; at most half the width");
+  weight.corner_m = reader.number(at + "corner", {0.0, 3.0, "m"},
+                                  "radius of its corners, seen from above; at most half the width");
   const std::vector<double> height = reader.numbers(at + "height", {0.0, 10.0, "m"}, 2,
                                                     "from the one to the other, above the ground");
   weight.low_m = height[0];
@@ -63,6 +62,9 @@ ExcavatorBody read_body(TomlReader& reader, const ExcavatorGeometry& geometry) {
   body.floor_rad =
       reader.number_or(kFloorAngle_rad, "bucket.floor_angle", {0.1, 1.4, "rad"},
                        "from the line teeth to bucket pin down to the floor; with bucket.width");
+  body.capacity_m3 =
+      reader.number_or(0.0, "bucket.capacity", {0.005, 30.0, "m3"},
+                       "of loose soil, heaped: what a dig in layers fills; with bucket.width");
   body.boom_radius_m =
       reader.number_or(0.0, "boom.radius", radius,
                        "of what is round the line of boom foot, bend and arm pin, cylinders and "

@@ -7,6 +7,7 @@
 #include <exception>
 #include <stdexcept>
 
+#include "app/machines/area_task.hpp"
 #include "app/machines/excavator_sections.hpp"
 #include "app/machines/fence_tables.hpp"
 #include "app/machines/profile_document.hpp"
@@ -100,8 +101,25 @@ DesignPlane read_design(TomlReader& reader) {
   return design;
 }
 
+void read_fences(TomlReader& reader, ProgramRequest& request) {
+  if (reader.has("fence")) {
+    const int most = request.has_design ? kFenceMost - 1 : kFenceMost;
+    request.fences.count =
+        reader.table_count("fence", 1, most, "fences, a table each; one less with a design");
+  }
+  for (int i = 0; i < request.fences.count; ++i) {
+    request.fences.fence[static_cast<unsigned>(i)] =
+        read_fence(reader, fmt::format("fence[{}]", i));
+  }
+}
+
 ProgramRequest read_request(TomlReader& reader, const ExcavatorProfile& profile) {
   ProgramRequest request;
+  if (reader.has("area")) {
+    request = read_area(reader, profile);
+    read_fences(reader, request);
+    return request;
+  }
   request.start = read_teeth(reader, "start");
   request.repeats =
       reader.boolean_or(false, "repeat", "starts again at its end, which has to be its start");
@@ -113,15 +131,7 @@ ProgramRequest read_request(TomlReader& reader, const ExcavatorProfile& profile)
   if (request.has_design) {
     request.design = read_design(reader);
   }
-  if (reader.has("fence")) {
-    const int most = request.has_design ? kFenceMost - 1 : kFenceMost;
-    request.fences.count =
-        reader.table_count("fence", 1, most, "fences, a table each; one less with a design");
-  }
-  for (int i = 0; i < request.fences.count; ++i) {
-    request.fences.fence[static_cast<unsigned>(i)] =
-        read_fence(reader, fmt::format("fence[{}]", i));
-  }
+  read_fences(reader, request);
   return request;
 }
 

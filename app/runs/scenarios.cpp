@@ -16,6 +16,8 @@ namespace {
 
 /// Off the path; what is compared with then goes on.
 constexpr double kNeverSlow_m = 1e3;
+/// What is dug in layers ends when its design is met.
+constexpr int kRoundsOfLayers = 200;
 constexpr double kRadpsPerRpm = kTwoPi / 60.0;
 
 machines::Errors errors_of(const std::string& name) {
@@ -196,6 +198,9 @@ AutodigOptions usual_run(const TaskScenario& scenario, const ExcavatorProfile& p
   run.start = program.start;
   run.speed_override_ratio = scenario.speed_override_ratio;
   run.rounds = program.repeats ? scenario.rounds : 1;
+  if (program.layers.step >= 0) {
+    run.rounds = kRoundsOfLayers;
+  }
   if (scenario.start.empty()) {
     return run;
   }

@@ -20,10 +20,11 @@ struct Counterweight {
 /// All 0: teeth and pins are all that is known, as points.
 struct ExcavatorBody {
   double bucket_width_m = 0.0;
-  double floor_m = 0.0;       ///< Of the bucket, edge to heel.
-  double floor_rad = 0.0;     ///< From the line edge to bucket pin down to the floor.
-  double boom_radius_m = 0.0; ///< Round its pins' line and the bend, cylinders and hoses in it.
-  double arm_radius_m = 0.0;  ///< Round its pins' line.
+  double floor_m = 0.0;        ///< Of the bucket, edge to heel.
+  double floor_rad = 0.0;      ///< From the line edge to bucket pin down to the floor.
+  double capacity_m3 = 0.0;    ///< Of loose soil, heaped.
+  double boom_radius_m = 0.0;  ///< Round its pins' line and the bend, cylinders and hoses in it.
+  double arm_radius_m = 0.0;   ///< Round its pins' line.
   Eigen::Vector2d boom_bend_m = Eigen::Vector2d::Zero();  ///< Boom frame; at its foot: straight.
   Counterweight counterweight;
 

@@ -262,9 +262,8 @@ void ExcavatorController::follow(const TaskProgram& program, const TaskAim& aim,
 }
 
 void ExcavatorController::hold_at_fences(const FenceSet& fences, Motion& motion) const {
-  const MotionCap cap =
-      motion_cap(profile_, drives(), setup_.kinematics, fences,
-                 strokes_then_m(drives(), memory_.servo), motion.corrected_mps);
+  const MotionCap cap = motion_cap(profile_, drives(), setup_.kinematics, fences,
+                                   strokes_then_m(drives(), memory_.servo), motion.corrected_mps);
   motion.cap = cap;
   motion.wanted_mps = motion.wanted_mps.cwiseProduct(cap.share);
   motion.corrected_mps = motion.corrected_mps.cwiseProduct(cap.share);
@@ -387,13 +386,16 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
              blocked ? 0.0 : followed * allowed * motion.task.pace_ratio, profile_.safety.stall_s,
              period_s, memory_.stall);
   if (!decision.active() || valid.task != Task::kProgram) {
-    memory_.task = {};
+    memory_.task = stopped(memory_.task);
     return;
   }
   const auto number = static_cast<std::uint8_t>(valid.task_number);
-  memory_.task = next_task(
-      profile_, setup_.book.program[number], memory_.task, number, valid.strokes_m(),
-      followed * motion.cap.factor * valid.speed_override_ratio, motion.task.behind_m, period_s);
+  memory_.task =
+      next_task(profile_, setup_.book.program[number], memory_.task, number, valid.strokes_m(),
+                followed * motion.cap.factor * valid.speed_override_ratio,
+                {motion.task.teeth_m, motion.task.behind_m, followed, memory_.tip_load.known,
+                 memory_.tip_load.force_n},
+                period_s);
 }
 
 ProfileCheck profile_check(const ExcavatorProfile& profile) {

@@ -32,8 +32,8 @@ struct Hull {
 
   void add(const Fence& keep_out, const PointMotion& at, MachinePoint point,
            const Eigen::Vector3d& off_m, const Eigen::Vector3d& off_mps) {
-    corner[static_cast<unsigned>(corner_count++)] = {
-        at.position_m + off_m - keep_out.centre_m, at.velocity_mps + off_mps, point};
+    corner[static_cast<unsigned>(corner_count++)] = {at.position_m + off_m - keep_out.centre_m,
+                                                     at.velocity_mps + off_mps, point};
   }
   void add(const Fence& keep_out, const MachineMotion& motion, MachinePoint point) {
     add(keep_out, motion.at(point), point, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
@@ -166,9 +166,7 @@ class Separation {
   }
 
  private:
-  [[nodiscard]] const Corner& corner(int i) const {
-    return hull_.corner[static_cast<unsigned>(i)];
-  }
+  [[nodiscard]] const Corner& corner(int i) const { return hull_.corner[static_cast<unsigned>(i)]; }
 
   /// Of the keep-out, from its centre along a direction of length 1.
   [[nodiscard]] double reach_m(const Eigen::Vector3d& unit) const {

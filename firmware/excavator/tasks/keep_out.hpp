@@ -10,7 +10,7 @@ enum class MachinePart : std::uint8_t {
   kBucketPart = 0,  ///< Prism over edge, heel and pin, as wide as the edge.
   kArmPart = 1,     ///< Line of its pins, with its radius.
   kBoomPart = 2,    ///< Triangle of its pins and its bend, with its radius.
-  kTailPart = 3,      ///< The counterweight.
+  kTailPart = 3,    ///< The counterweight.
 };
 
 inline constexpr int kMachinePartCount = 4;

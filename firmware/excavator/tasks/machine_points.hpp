@@ -35,7 +35,7 @@ struct PointMotion {
 
 /// All points that are looked at, by MachinePoint.
 struct MachineMotion {
-  ReachStatus status = ReachStatus::kNotFinite;  ///< Anything but kOk: nothing else is set.
+  ReachStatus status = ReachStatus::kNotFinite;     ///< Anything but kOk: nothing else is set.
   Eigen::Vector3d left = Eigen::Vector3d::UnitY();  ///< Across the machine, of length 1.
   std::array<PointMotion, kMachinePointCount> point;
 

@@ -65,9 +65,15 @@ TaskMemory searched(const ExcavatorProfile& profile, const TaskProgram& program,
   next.search.runs = true;
   next.search.number = number;
   search_approach(profile, program, drives_now, next.search, next.state.approach);
-  return next.search.found ? remembered(number, task_start(profile, program, drives_now,
-                                                           ApproachWay{next.search.way}))
-                           : next;
+  if (next.search.found) {
+    next.state = task_start(profile, program, drives_now, ApproachWay{next.search.way});
+  }
+  next.number = number;
+  if (last.number == number) {
+    next.state.layers = last.state.layers;
+  }
+  next.place = place_of(false, number, next.state);
+  return next.search.found ? remembered(number, next.state) : next;
 }
 
 }  // namespace
@@ -103,25 +109,45 @@ TaskWant want_of_task(const ExcavatorProfile& profile, DriveRows drives,
   const Eigen::Vector3d due_m = teeth_m(
       kinematics, drives_of(profile, bounded(drives, want.planned_m - servo.under_way_m())));
   want.error_m = (at_m - due_m).norm();
+  want.teeth_m = at_m;
+  const bool cut = cuts(program, memory.state);
+  const bool straight = cut || on_line(program, memory.state);
   const TaskStep& step = program.step[static_cast<unsigned>(memory.state.step)];
-  const bool straight = on_line(program, memory.state);
-  want.path_error_m = straight ? line_distance_m(step.line.line, at_m) : want.error_m;
+  want.path_error_m = cut        ? line_distance_m(cut_line(program, memory.state), at_m)
+                      : straight ? line_distance_m(step.line.line, at_m)
+                                 : want.error_m;
   want.off_m =
       straight ? want.path_error_m : std::max(0.0, want.error_m - profile.line.move_slow_error_m);
   want.behind_m = straight ? want.error_m : behind_m(kinematics, aim, due_m - at_m);
   want.pace_ratio = memory.state.pace_ratio;
-  want.wanted_mps = speed_override_ratio * want.pace_ratio * travel_of(profile, aim.velocity);
+  want.wanted_mps =
+      speed_override_ratio * travel_of(profile, want.pace_ratio * aim.velocity + aim.at_once);
   return want;
+}
+
+TaskMemory stopped(const TaskMemory& last) {
+  TaskMemory memory;
+  if (last.state.phase != TaskPhase::kDone) {
+    memory.number = last.number;
+    memory.state.layers.begun = last.state.layers.begun;
+    memory.state.layers.cuts = last.state.layers.cuts;
+  }
+  memory.place = place_of(false, memory.number, memory.state);
+  return memory;
 }
 
 TaskMemory next_task(const ExcavatorProfile& profile, const TaskProgram& program,
                      const TaskMemory& last, std::uint8_t number, const DriveVector& travel_m,
-                     double followed_ratio, double error_m, double period_s) {
+                     double followed_ratio, const CutSeen& seen, double period_s) {
   if (!last.runs || last.number != number) {
     return searched(profile, program, last, number, drives_of(profile, travel_m));
   }
-  return remembered(number, task_advance(profile.line, program, last.state,
-                                         followed_ratio * period_s, period_s, error_m));
+  const double advance_s = followed_ratio * period_s;
+  return remembered(number, in_layers(program)
+                                ? layer_advance(profile, SwingKinematics(profile.geometry), program,
+                                                last.state, advance_s, period_s, seen)
+                                : task_advance(profile.line, program, last.state, advance_s,
+                                               period_s, seen.behind_m));
 }
 
 }  // namespace graben

@@ -5,6 +5,7 @@
 
 #include "firmware/core/guarded.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
+#include "firmware/excavator/tasks/layer_run.hpp"
 #include "firmware/excavator/tasks/task_run.hpp"
 
 namespace graben {
@@ -14,7 +15,7 @@ struct TaskMemory {
   bool runs = false;
   std::uint8_t number = 0;
   TaskState state;
-  ApproachSearch search;  ///< Until it runs.
+  ApproachSearch search;         ///< Until it runs.
   Guarded<double> time_s = 0.0;  ///< Of the state, like its pace: kept twice.
   Guarded<double> pace_ratio = 1.0;
   /// All else that says where it is, in one number; as constructed it does not run.
@@ -33,8 +34,8 @@ struct TaskWant {
   bool known = true;   ///< False: the plan is not one of this machine.
   DriveVector planned_m = DriveVector::Zero();   ///< Travel that was asked for until now.
   DriveVector wanted_mps = DriveVector::Zero();  ///< V_L^d.
-  double pace_ratio = 1.0;    ///< Of the plan's speed: less where the teeth are behind it.
-  double error_m = 0.0;       ///< Of the teeth from where they should be by now.
+  double pace_ratio = 1.0;  ///< Of the plan's speed: less where the teeth are behind it.
+  double error_m = 0.0;     ///< Of the teeth from where they should be by now.
   /// What the pace gives way to: the same, less what the teeth of a move are ahead. A plan that
   /// slowed down before a platform that runs ahead of it would make it run ahead farther.
   double behind_m = 0.0;
@@ -42,8 +43,12 @@ struct TaskWant {
   /// What a tube is laid around: the line; of a move, whose pace gives way to it first, what is
   /// more than that (line.move_slow_error).
   double off_m = 0.0;
+  Eigen::Vector3d teeth_m = Eigen::Vector3d::Zero();  ///< Where they are.
   TaskProgress progress;
 };
+
+/// A task that stops: it does not run, but what it has dug is known when it is asked for again.
+[[nodiscard]] TaskMemory stopped(const TaskMemory& last);
 
 /// `aim` is task_aim of the memory's state; `servo` has this cycle's strokes. Speed is that of the
 /// plan times `speed_override_ratio`. The place where the teeth should be is the plan's less what
@@ -60,6 +65,6 @@ struct TaskWant {
 [[nodiscard]] TaskMemory next_task(const ExcavatorProfile& profile, const TaskProgram& program,
                                    const TaskMemory& last, std::uint8_t number,
                                    const DriveVector& travel_m, double followed_ratio,
-                                   double error_m, double period_s);
+                                   const CutSeen& seen, double period_s);
 
 }  // namespace graben

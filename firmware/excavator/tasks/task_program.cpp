@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "firmware/excavator/swing.hpp"
+#include "firmware/excavator/tasks/layer_plan.hpp"
+#include "firmware/excavator/tasks/layer_run.hpp"
 
 namespace graben {
 namespace {
@@ -54,6 +56,18 @@ bool same(const TeethPose& a, const TeethPose& b) {
          std::abs(a.attitude_rad - b.attitude_rad) < kSame_rad;
 }
 
+bool usable_layers(const ExcavatorProfile& profile, const ProgramRequest& request) {
+  const auto* const first = request.step.begin();
+  const auto* const end = first + request.step_count;
+  const bool moves = std::none_of(
+      first + 1, end, [](const StepRequest& step) { return step.straight || step.in_layers; });
+  const ExcavatorBody& body = profile.geometry.body;
+  return moves && request.step_count > 1 && first->straight && first->kind == StepKind::kDig &&
+         request.repeats && request.has_design && body.known() && body.capacity_m3 > 0.0 &&
+         std::isfinite(first->ground_m) && first->strips >= 1 && first->strips <= kStripMost &&
+         std::isfinite(first->strip_rad);
+}
+
 /// Plans one program.
 class Planning {
  public:
@@ -73,6 +87,8 @@ class Planning {
                                    int number);
   [[nodiscard]] bool plan_move(const StepRequest& asked, TaskStep& step, int number);
   [[nodiscard]] bool keeps_free(const TaskStep& step, int number);
+  [[nodiscard]] bool plan_in_layers();
+  [[nodiscard]] bool strips_in_range();
   /// Always false.
   bool refuse(ProgramRefusal why, int step, const BlindPlace& place = {});
 
@@ -160,6 +176,8 @@ bool Planning::plan_move(const StepRequest& asked, TaskStep& step, int number) {
   if (to.blind.kind != BlindKind::kNone) {
     return refuse(ProgramRefusal::kBlindSpot, number, {to.blind, 1.0, pose(number + 1)});
   }
+  step.pace_ratio = asked.pace_ratio;
+  step.least_s = asked.duration_s;
   step.drives = plan_drives(limits_, drives_, to.value, {asked.pace_ratio, asked.duration_s});
   if (!(step.drives.ramp.duration_s > 0.0)) {
     return refuse(ProgramRefusal::kNoWay, number);
@@ -192,6 +210,44 @@ bool Planning::plan_step(int number) {
   return keeps_free(step, number);
 }
 
+bool Planning::strips_in_range() {
+  const LayerPlan& plan = result_.program.layers;
+  for (const int strip : {0, plan.strips - 1}) {
+    const double swing_rad = swing_of(drives_) + plan.first_rad + strip * plan.strip_rad;
+    const bool inside = profile_.has_swing() ? swing_rad <= profile_.swing.left_end_rad &&
+                                                   swing_rad >= profile_.swing.right_end_rad
+                                             : std::abs(swing_rad) <= kSame_rad;
+    if (!inside) {
+      return refuse(profile_.has_swing() ? ProgramRefusal::kSwingEnd : ProgramRefusal::kNoSwing, 0,
+                    {{}, 1.0, pose(1)});
+    }
+  }
+  return true;
+}
+
+/// The first step's line is planned. Where a cut may begin and end is looked at as a whole; the
+/// moves are planned from where the last one lifts out.
+bool Planning::plan_in_layers() {
+  TaskProgram& program = result_.program;
+  const LayerPlanResult layers = plan_layers(profile_, kinematics_, request_, program);
+  if (layers.place.blind.kind != BlindKind::kNone) {
+    return refuse(ProgramRefusal::kBlindSpot, 0, layers.place);
+  }
+  program.layers = layers.plan;
+  if (!strips_in_range()) {
+    return false;
+  }
+  const DriveResult start = kinematics_.drive_from_teeth(first_cut_pose(program));
+  if (start.blind.kind != BlindKind::kNone) {
+    return refuse(ProgramRefusal::kBlindSpot, 0, {start.blind, 0.0, first_cut_pose(program)});
+  }
+  program.start = start.value;
+  const LinePlan lift =
+      lift_line(profile_, kinematics_, program.layers, program.step[0].line.line.at(1.0));
+  drives_ = line_motion(kinematics_, lift.line, 1.0).value;
+  return true;
+}
+
 ProgramResult Planning::run() {
   if (!usable_request()) {
     return result_;
@@ -217,8 +273,12 @@ ProgramResult Planning::run() {
     return result_;
   }
   program.start = drives_ = start.value;
+  if (request_.step[0].in_layers && !usable_layers(profile_, request_)) {
+    refuse(ProgramRefusal::kLayers, 0, {{}, 0.0, pose(0)});
+    return result_;
+  }
   for (int i = 0; i < request_.step_count; ++i) {
-    if (!plan_step(i)) {
+    if (!plan_step(i) || (i == 0 && request_.step[0].in_layers && !plan_in_layers())) {
       return result_;
     }
   }

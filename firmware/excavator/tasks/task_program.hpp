@@ -3,13 +3,14 @@
 /// moves.
 
 #include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/excavator/tasks/dig_layers.hpp"
 #include "firmware/excavator/tasks/drive_plan.hpp"
 #include "firmware/excavator/tasks/fence.hpp"
 #include "firmware/excavator/tasks/line_plan.hpp"
 
 namespace graben {
 
-inline constexpr int kStepMost = 12;
+inline constexpr int kStepMost = 24;
 inline constexpr int kTaskMost = 4;
 
 /// A step as it is asked for: from where the one before ends.
@@ -20,6 +21,11 @@ struct StepRequest {
   double speed_mps = 0.0;  ///< Of a line, as in LineRequest: either this or the duration.
   double duration_s = 0.0;
   double pace_ratio = 1.0;  ///< Of a drive move, see DrivePace.
+  // Of a straight dig, the program's first step, that is done in layers until its design is met.
+  bool in_layers = false;
+  double ground_m = 0.0;   ///< Height of the ground as it is before, over the ground frame.
+  int strips = 1;          ///< Side by side, about the swing axis, the line in their middle.
+  double strip_rad = 0.0;  ///< From one to the next.
 };
 
 struct ProgramRequest {
@@ -35,8 +41,10 @@ struct ProgramRequest {
 struct TaskStep {
   StepKind kind = StepKind::kNone;
   bool straight = true;
-  LinePlan line;     ///< Where it is straight.
-  DrivePlan drives;  ///< Where it is not.
+  LinePlan line;            ///< Where it is straight.
+  DrivePlan drives;         ///< Where it is not.
+  double pace_ratio = 1.0;  ///< Of a move that is planned again on the way, see DrivePace,
+  double least_s = 0.0;     ///< and its duration at least.
 
   [[nodiscard]] double duration_s() const {
     return straight ? line.ramp.duration_s : drives.ramp.duration_s;
@@ -51,6 +59,7 @@ struct TaskProgram {
   DriveVector start = DriveVector::Zero();  ///< Drives at the first pose.
   DriveVector end = DriveVector::Zero();    ///< Drives at the last.
   FenceSet fences;                          ///< The design surface is the last of them.
+  LayerPlan layers;                         ///< Of the step that is dug in layers, if one is.
 };
 
 /// Programs that can be chosen over the bus, by task number from 0.
@@ -58,7 +67,7 @@ struct TaskBook {
   std::array<TaskProgram, kTaskMost> program;
   int count = 0;
 };
-static_assert(sizeof(TaskBook) < 12 * 1024, "a controller's memory holds it beside all else");
+static_assert(sizeof(TaskBook) < 32 * 1024, "a controller's memory holds it beside all else");
 
 /// Why there is no program.
 enum class ProgramRefusal : std::uint8_t {
@@ -70,6 +79,7 @@ enum class ProgramRefusal : std::uint8_t {
   kSwingEnd = 5,    ///< The swing leaves its range at `place`.
   kNoSwing = 6,     ///< It would have to turn, and no drive of this machine does.
   kOpenEnd = 7,     ///< It repeats, but its end is not its start.
+  kLayers = 8,      ///< Digs in layers, but not first, without design, moves or a known bucket.
 };
 
 /// Changes that planning made to a step.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "firmware/excavator/tasks/layer_run.hpp"
+
 namespace graben {
 namespace {
 
@@ -27,11 +29,6 @@ TaskAim aim_of_drives(const SwingKinematics& kinematics, StepKind kind, const Dr
   aim.blind = joints.blind;
   aim.teeth = kinematics.teeth_from_joints(joints.value);
   return aim;
-}
-
-TaskAim aim_of_plan(const SwingKinematics& kinematics, StepKind kind, const DrivePlan& plan,
-                    double time_s) {
-  return aim_of_drives(kinematics, kind, drive_state(plan, time_s), plan.ramp.duration_s > 0.0);
 }
 
 TaskAim aim_of_line(const SwingKinematics& kinematics, StepKind kind, const LinePlan& plan,
@@ -92,6 +89,11 @@ TaskState task_start(const ExcavatorProfile& profile, const TaskProgram& program
   return state;
 }
 
+TaskAim aim_of_plan(const SwingKinematics& kinematics, StepKind kind, const DrivePlan& plan,
+                    double time_s) {
+  return aim_of_drives(kinematics, kind, drive_state(plan, time_s), plan.ramp.duration_s > 0.0);
+}
+
 TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
                  const TaskState& state) {
   if (state.phase == TaskPhase::kApproach) {
@@ -100,8 +102,11 @@ TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
   }
   if (state.phase == TaskPhase::kDone) {
     DriveState stands;
-    stands.value = program.end;
+    stands.value = in_layers(program) ? state.layers.stands : program.end;
     return aim_of_drives(kinematics, StepKind::kDone, stands, false);
+  }
+  if (in_layers(program)) {
+    return layer_aim(kinematics, program, state);
   }
   const TaskStep& step = step_of(program, state);
   return step.straight ? aim_of_line(kinematics, step.kind, step.line, state.time_s)
@@ -109,7 +114,8 @@ TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
 }
 
 bool on_line(const TaskProgram& program, const TaskState& state) {
-  return state.phase == TaskPhase::kSteps && step_of(program, state).straight;
+  return state.phase == TaskPhase::kSteps && !in_layers(program) &&
+         step_of(program, state).straight;
 }
 
 double wanted_pace(const LineProfile& line, const TaskProgram& program, const TaskState& state,

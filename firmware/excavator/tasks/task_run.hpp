@@ -13,6 +13,32 @@ enum class TaskPhase : std::uint8_t {
   kDone = 2,  ///< Stands at the last pose.
 };
 
+enum class CutPhase : std::uint8_t {
+  kNone = 0,    ///< A move.
+  kEnters = 1,  ///< Down to the layer.
+  kCuts = 2,
+  kLifts = 3,  ///< Out of the ground, with the bucket folded in.
+};
+
+/// Where a program in layers is, see layer_run.hpp.
+struct LayerState {
+  bool begun = false;  ///< `cuts` is of this program.
+  CutPhase phase = CutPhase::kNone;
+  CutState cuts;
+  double share = 0.0;       ///< Of the line.
+  double rate_ps = 0.0;     ///< By the plan's time.
+  double height_m = 0.0;    ///< Over the line.
+  double height_mps = 0.0;  ///< By the plan's time.
+  double give_m = 0.0;      ///< Of that, for what was too heavy.
+  double seen_share = 0.0;  ///< That the edge has passed.
+  double filled_m3 = 0.0;   ///< Of the ground, in this cut.
+  double heaviest = 0.0;    ///< Of this cut; 1: as heavy as it may be.
+  double held_s = 0.0;      ///< How long it does not get on.
+  LinePlan lift;
+  DrivePlan move;                            ///< Of the step that runs.
+  DriveVector stands = DriveVector::Zero();  ///< Where it was when all was dug.
+};
+
 /// State from cycle to cycle. The place on the plan is a time of the plan, not of a clock:
 /// nothing is ever behind, and nothing has to be caught up.
 struct TaskState {
@@ -26,6 +52,7 @@ struct TaskState {
   /// plan that waits for them, and make the error that it waits for.
   double pace_ratio = 1.0;
   ApproachPath approach;  ///< `step` is the leg.
+  LayerState layers;
 };
 
 /// Aim of the plan at one moment.
@@ -37,7 +64,9 @@ struct TaskAim {
   DriveVector value = DriveVector::Zero();
   DriveVector velocity =
       DriveVector::Zero();  ///< By the plan's time, at lambda 1; see task_slowing.
-  TeethPose teeth;          ///< Where they are planned to be.
+  /// What is asked for beside it whatever the pace: a heavy cut gives way at once.
+  DriveVector at_once = DriveVector::Zero();
+  TeethPose teeth;  ///< Where they are planned to be.
 };
 
 /// An end is reached with the teeth so near to it for so long: a platform that swings through its
@@ -46,6 +75,9 @@ inline constexpr double kSettled_m = 5e-3;
 inline constexpr double kCalm_s = 0.2;
 /// ... or after so long: what is left then is the next step's to correct.
 inline constexpr double kSettleMost_s = 2.0;
+/// The same of a move of a program in layers, which leads on from wherever it ends.
+inline constexpr double kMoveSettled_m = 0.03;
+
 /// At the beginning of the approach that search_approach() has found, planned from where the
 /// machine stands now. It can't meet a blind spot. In motion the soft limit holds it before fences.
 [[nodiscard]] TaskState task_start(const ExcavatorProfile& profile, const TaskProgram& program,
@@ -54,6 +86,10 @@ inline constexpr double kSettleMost_s = 2.0;
 
 [[nodiscard]] TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
                                const TaskState& state);
+
+/// Of a move of the drives at its time.
+[[nodiscard]] TaskAim aim_of_plan(const SwingKinematics& kinematics, StepKind kind,
+                                  const DrivePlan& plan, double time_s);
 
 /// True while a straight line of the teeth is being followed; else a move of the drives, or none.
 [[nodiscard]] bool on_line(const TaskProgram& program, const TaskState& state);

@@ -1,0 +1,171 @@
+#include "app/machines/area_task.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "firmware/excavator/kinematics/swing_kinematics.hpp"
+
+namespace graben::machines {
+namespace {
+
+constexpr Range kRadius{0.5, 20.0, "m"};
+constexpr Range kDepth{0.02, 8.0, "m"};
+constexpr Range kPlace{-30.0, 30.0, "m"};
+
+/// Between the bucket's floor and what it leaves behind.
+constexpr double kReliefAngle_rad = 0.30;
+/// Steeper or flatter only where the machine can't be otherwise.
+constexpr double kAttitudeStep_rad = 0.05;
+constexpr int kAttitudeSteps = 24;
+/// Of the line over the design: what sensors and a light cut are off by.
+constexpr double kClearance_m = 0.012;
+constexpr double kCutSpeed_mps = 0.6;
+constexpr double kPace = 0.7;
+constexpr double kCarried_rad = 0.3;
+constexpr double kEmptied_rad = 2.0;
+/// Over the ground, that a cut comes down from.
+constexpr double kOver_m = 0.35;
+/// To the left, where nothing is said of where to dump.
+constexpr double kAside_rad = 1.2;
+constexpr double kAsideHeight_m = 1.6;
+/// Strips overlap by this share of the bucket's width.
+constexpr double kOverlap = 0.15;
+
+enum class AreaKind { kTrench = 0, kBench = 1, kLevel = 2, kSlope = 3, kTruck = 4 };
+
+Eigen::Vector3d at(double radius_m, double height_m, double swing_rad) {
+  return {radius_m * std::cos(swing_rad), radius_m * std::sin(swing_rad), height_m};
+}
+
+struct Area {
+  AreaKind kind = AreaKind::kTrench;
+  double far_m = 0.0;
+  double near_m = 0.0;
+  double ground_m = 0.0;
+  double depth_far_m = 0.0;
+  double depth_near_m = 0.0;
+  double turn_rad = 0.0;
+  double speed_mps = kCutSpeed_mps;
+  int strips = 1;
+  Eigen::Vector3d dump_m = Eigen::Vector3d::Zero();
+
+  [[nodiscard]] double run_m() const { return far_m - near_m; }
+  [[nodiscard]] double fall_m() const { return depth_near_m - depth_far_m; }
+};
+
+/// Of the attitudes at which the machine reaches from the design to over the ground, the one next
+/// to that which keeps the floor clear; first steeper ones. As wanted where there is none.
+double reachable_attitude(const SwingKinematics& kinematics, const Eigen::Vector3d& design_m,
+                          double ground_m, double wanted_rad) {
+  const auto reaches = [&](double attitude_rad) {
+    for (const double height_m : {design_m.z() + kClearance_m, ground_m + kOver_m}) {
+      TeethPose pose{{design_m.x(), design_m.y(), height_m}, attitude_rad};
+      if (kinematics.drive_from_teeth(pose).blind.kind != BlindKind::kNone) {
+        return false;
+      }
+    }
+    return true;
+  };
+  for (int n = 0; n <= kAttitudeSteps; ++n) {
+    for (const double off_rad : {n * kAttitudeStep_rad, -n * kAttitudeStep_rad}) {
+      if (reaches(wanted_rad + off_rad)) {
+        return wanted_rad + off_rad;
+      }
+    }
+  }
+  return wanted_rad;
+}
+
+Area read_table(TomlReader& reader, const ExcavatorProfile& profile) {
+  Area area;
+  area.kind = static_cast<AreaKind>(
+      reader.choice("area.kind", {"trench", "bench", "level", "slope", "truck"}, "what is made"));
+  area.far_m = reader.number("area.far", kRadius, "from the swing axis, where a cut begins");
+  area.near_m = reader.number("area.near", kRadius, "the same where it ends, less than far");
+  area.ground_m = reader.number_or(0.0, "area.ground", kPlace,
+                                   "height of the ground as it is, over that of the tracks");
+  area.depth_far_m = reader.number("area.depth", kDepth, "of the design under the ground");
+  area.depth_near_m = area.depth_far_m;
+  if (area.kind == AreaKind::kSlope) {
+    area.depth_near_m =
+        reader.number("area.depth_near", kDepth, "the same at the near end; of a slope only");
+  }
+  area.turn_rad =
+      reader.number_or(0.0, "area.turn", {-3.1, 3.1, "rad"}, "of its middle, to the left");
+  area.speed_mps =
+      reader.number_or(kCutSpeed_mps, "area.speed", {0.05, 2.0, "m/s"}, "along a cut at most");
+  const bool wide = area.kind == AreaKind::kBench || area.kind == AreaKind::kLevel;
+  if (wide) {
+    area.strips = static_cast<int>(std::lround(reader.number_or(
+        3.0, "area.strips", {1.0, static_cast<double>(kStripMost), ""}, "side by side")));
+  }
+  area.dump_m = at(0.5 * (area.far_m + area.near_m), area.ground_m + kAsideHeight_m,
+                   area.turn_rad + kAside_rad);
+  if (reader.has("area.dump")) {
+    const std::vector<double> dump =
+        reader.numbers("area.dump", kPlace, 3, "teeth as the bucket is emptied: x, y, z");
+    area.dump_m = {dump[0], dump[1], dump[2]};
+  }
+  if (area.near_m >= area.far_m) {
+    reader.fail("area.near",
+                fmt::format("{} m; allowed: less than far, {} m", area.near_m, area.far_m));
+  }
+  const ExcavatorBody& body = profile.geometry.body;
+  if (!body.known() || !(body.capacity_m3 > 0.0)) {
+    reader.fail("area", "needs bucket.width and bucket.capacity in the machine's profile");
+  }
+  return area;
+}
+
+/// Teeth at the dump, about the bucket pin as it is emptied.
+TeethPose dump_pose(const Area& area, double bucket_m, double attitude_rad) {
+  const double swing_rad = std::atan2(area.dump_m.y(), area.dump_m.x());
+  const double out_m = bucket_m * (std::cos(kEmptied_rad) - std::cos(attitude_rad));
+  const double up_m = bucket_m * (std::sin(kEmptied_rad) - std::sin(attitude_rad));
+  return {at(area.dump_m.head<2>().norm() + out_m, area.dump_m.z() + up_m, swing_rad),
+          attitude_rad};
+}
+
+StepRequest move_to(StepKind kind, const TeethPose& to) {
+  StepRequest step;
+  step.kind = kind;
+  step.to = to;
+  step.straight = false;
+  step.pace_ratio = kPace;
+  return step;
+}
+
+}  // namespace
+
+ProgramRequest read_area(TomlReader& reader, const ExcavatorProfile& profile) {
+  const Area area = read_table(reader, profile);
+  const SwingKinematics kinematics(profile.geometry);
+  const double incline_rad = std::atan2(area.fall_m(), area.run_m());
+  const double clear_rad = profile.geometry.body.floor_rad + kReliefAngle_rad + incline_rad;
+  const Eigen::Vector3d far_m = at(area.far_m, area.ground_m - area.depth_far_m, area.turn_rad);
+  const Eigen::Vector3d near_m = at(area.near_m, area.ground_m - area.depth_near_m, area.turn_rad);
+  ProgramRequest request;
+  request.repeats = true;
+  request.start = {far_m, reachable_attitude(kinematics, far_m, area.ground_m, clear_rad)};
+  StepRequest& dig = request.step[0];
+  dig.kind = StepKind::kDig;
+  dig.in_layers = true;
+  dig.to = {near_m, reachable_attitude(kinematics, near_m, area.ground_m, clear_rad)};
+  dig.speed_mps = area.speed_mps;
+  dig.ground_m = area.ground_m;
+  dig.strips = area.strips;
+  dig.strip_rad = (1.0 - kOverlap) * profile.geometry.body.bucket_width_m / area.far_m;
+  const double bucket_m = profile.geometry.bucket_length_m;
+  request.step[1] = move_to(StepKind::kSwing, dump_pose(area, bucket_m, kCarried_rad));
+  request.step[2] = move_to(StepKind::kDump, dump_pose(area, bucket_m, kEmptied_rad));
+  request.step[3] = move_to(StepKind::kReturnToDig, request.start);
+  request.step_count = 4;
+  request.has_design = true;
+  request.design.through_m = far_m;
+  request.design.up = at(-area.fall_m(), area.run_m(), area.turn_rad).normalized();
+  request.design.clearance_m = kClearance_m;
+  return request;
+}
+
+}  // namespace graben::machines

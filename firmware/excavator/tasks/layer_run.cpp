@@ -1,0 +1,507 @@
+#include "firmware/excavator/tasks/layer_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/excavator/swing.hpp"
+
+namespace graben {
+namespace {
+
+/// Down to a layer, and up where a cut gives way.
+constexpr double kEnters_mps = 0.3;
+constexpr double kGives_mps = 0.15;
+/// Back down to the layer where it is light again.
+constexpr double kReturns_mps = 0.05;
+constexpr double kHeightChange_mps2 = 0.6;
+/// The layer is reached this near to it.
+constexpr double kAtLayer_m = 2e-3;
+/// With the teeth so far behind their plan a cut is as heavy as it may be, and so it is at this
+/// lambda.
+constexpr double kBehind_m = 0.08;
+constexpr double kStandsAt = 0.1;
+constexpr double kEasy = 0.7;
+/// From here on a cut slows down, and stands at the second one.
+constexpr double kSlowsAt = 0.9;
+constexpr double kHoldsAt = 1.4;
+/// A heavy cut that gets on by less, for so long, is ended.
+constexpr double kGetsOn_mps = 0.01;
+constexpr double kHeld_s = 1.0;
+/// The bucket comes from steep to its attitude on this way.
+constexpr double kTurns_m = 0.5;
+/// At a cut's end the teeth are waited for.
+constexpr double kEndWait_s = 0.6;
+constexpr double kEndNear_m = 0.02;
+/// A bucket takes a little more than what fills it: some is lost on the way.
+constexpr double kHeaped = 1.05;
+constexpr double kLiftSpeed_mps = 0.5;
+constexpr double kLiftNear_m = 0.10;
+/// Of the clearance that the line has over the design, for what springs.
+constexpr double kSpringFree_m = 0.010;
+
+const LinePlan& line_of(const TaskProgram& program) {
+  return program.step[static_cast<unsigned>(program.layers.step)].line;
+}
+
+bool at_cut(const TaskProgram& program, const TaskState& state) {
+  return state.phase == TaskPhase::kSteps && state.step == program.layers.step;
+}
+
+double strip_rad(const LayerPlan& plan, int strip) {
+  return plan.first_rad + strip * plan.strip_rad;
+}
+
+Eigen::Vector3d turned(const Eigen::Vector3d& at, double angle_rad) {
+  const double c = std::cos(angle_rad);
+  const double s = std::sin(angle_rad);
+  return {c * at.x() - s * at.y(), s * at.x() + c * at.y(), at.z()};
+}
+
+double near_rad(const TeethPose& pose) {
+  return std::atan2(pose.position_m.y(), pose.position_m.x());
+}
+
+DriveVector drives_now(const SwingKinematics& kinematics, const TaskProgram& program,
+                       const TaskState& state) {
+  return task_aim(kinematics, program, state).value;
+}
+
+/// Against the edge's motion, of what is given way to.
+double force_share(const LayerPlan& plan, const TeethLine& line, const CutSeen& seen, bool enters) {
+  if (!seen.force_known || !(plan.force_n > 0.0)) {
+    return 0.0;
+  }
+  const Eigen::Vector3d& change_m = line.change.position_m;
+  const double level_m = change_m.head<2>().norm();
+  // The line leads to the machine: inwards in the plane of the links.
+  const Eigen::Vector2d inwards = Eigen::Vector2d(-level_m, change_m.z()).normalized();
+  const double against_n = enters ? seen.force_n.y() : -seen.force_n.dot(inwards);
+  return std::max(0.0, against_n) / plan.force_n;
+}
+
+double heaviness(double force, const CutSeen& seen) {
+  const double held = seen.lambda < kStandsAt ? kHoldsAt : 0.0;
+  return std::max({force, seen.behind_m / kBehind_m, held});
+}
+
+/// Speed towards a height, with bounded acceleration, that comes to rest there.
+double speed_towards(double from_m, double to_m, double speed_mps, double most_up_mps,
+                     double most_down_mps, double period_s) {
+  const double off_m = to_m - from_m;
+  const double brakes_mps = std::sqrt(2.0 * kHeightChange_mps2 * std::abs(off_m));
+  const double most_mps = off_m > 0.0 ? most_up_mps : most_down_mps;
+  const double wanted_mps = std::copysign(std::min(most_mps, brakes_mps), off_m);
+  const double change_mps = kHeightChange_mps2 * period_s;
+  return std::clamp(wanted_mps, speed_mps - change_mps, speed_mps + change_mps);
+}
+
+void follow_pace(const LineProfile& line, double slow_m, double behind_m, double period_s,
+                 TaskState& state) {
+  const double off = behind_m / slow_m;
+  const double slowed = 1.0 / (1.0 + off * off);
+  const double change = line.pace_rate_ps * period_s;
+  state.pace_ratio =
+      std::clamp(slowed > 0.0 ? slowed : 0.0, state.pace_ratio - change, state.pace_ratio + change);
+}
+
+/// How much steeper than the line's attitude a cut begins.
+double steep_rad(const TaskProgram& program, const Cut& cut) {
+  return cut.uncut
+             ? program.layers.enter_rad - line_of(program).line.at(cut.from_share).attitude_rad
+             : 0.0;
+}
+
+/// Share of that which is left at this place, and its change by the line's share.
+Progress steepness(const TaskProgram& program, const Cut& cut, double share) {
+  const double turns = kTurns_m / program.layers.way_m;
+  const double done = std::clamp((share - cut.from_share) / turns, 0.0, 1.0);
+  return {1.0 - done * done * (3.0 - 2.0 * done), -6.0 * done * (1.0 - done) / turns, 0.0};
+}
+
+/// Steps of one program.
+class LayerRun {
+ public:
+  LayerRun(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+           const TaskProgram& program, double advance_s, double period_s, const CutSeen& seen)
+      : profile_(profile),
+        kinematics_(kinematics),
+        program_(program),
+        plan_(program.layers),
+        advance_s_(advance_s > 0.0 ? advance_s : 0.0),
+        period_s_(period_s),
+        seen_(seen) {}
+
+  void begin(int step, TaskState& state) const;
+  void go_on(TaskState& state) const;
+
+ private:
+  void begin_cut(TaskState& state) const;
+  void begin_move(int step, TaskState& state) const;
+  void begin_lift(TaskState& state) const;
+  void enter(TaskState& state) const;
+  void cut(TaskState& state) const;
+  void lift(TaskState& state) const;
+  void move(TaskState& state) const;
+  void rise(double target_m, double most_down_mps, TaskState& state) const;
+  void take(TaskState& state) const;
+  [[nodiscard]] bool cut_ends(double heavy, TaskState& state) const;
+  void next_step(TaskState& state) const;
+
+  const ExcavatorProfile& profile_;
+  const SwingKinematics& kinematics_;
+  const TaskProgram& program_;
+  const LayerPlan& plan_;
+  double advance_s_;
+  double period_s_;
+  CutSeen seen_;
+};
+
+void LayerRun::begin(int step, TaskState& state) const {
+  if (step == plan_.step) {
+    begin_cut(state);
+  } else {
+    begin_move(step, state);
+    if (state.phase == TaskPhase::kSteps && (step + 1) % program_.step_count == plan_.step &&
+        !(state.layers.move.ramp.duration_s > 0.0)) {
+      step = (step + 1) % program_.step_count;
+      begin_cut(state);
+    }
+  }
+  state.step = step;
+  state.time_s = 0.0;
+  state.settle_s = 0.0;
+  state.calm_s = 0.0;
+}
+
+void LayerRun::begin_cut(TaskState& state) const {
+  LayerState& layers = state.layers;
+  const Cut& cut = layers.cuts.cut;
+  layers.phase = CutPhase::kEnters;
+  layers.share = cut.from_share;
+  layers.seen_share = cut.from_share;
+  layers.height_m = cut.enters_m;
+  layers.height_mps = 0.0;
+  layers.rate_ps = 0.0;
+  layers.give_m = 0.0;
+  layers.filled_m3 = 0.0;
+  layers.heaviest = 0.0;
+  layers.held_s = 0.0;
+}
+
+/// To where the step leads; the last before the cut, to where the next cut begins.
+void LayerRun::begin_move(int step, TaskState& state) const {
+  const TaskStep& asked = program_.step[static_cast<unsigned>(step)];
+  const DriveVector from = drives_now(kinematics_, program_, state);
+  DriveVector to = asked.drives.from + asked.drives.change;
+  if ((step + 1) % program_.step_count == plan_.step) {
+    if (!state.layers.begun) {
+      state.layers.cuts = undug(plan_);
+      state.layers.begun = true;
+    } else {
+      next_cut(plan_, state.layers.cuts);
+    }
+    if (state.layers.cuts.met) {
+      state.phase = TaskPhase::kDone;
+      state.layers.stands = from;
+      return;
+    }
+    const Cut& cut = state.layers.cuts.cut;
+    const TeethPose enters = cut_pose(program_, cut, cut.from_share, cut.enters_m);
+    const DriveResult drives = kinematics_.drive_from_teeth(enters);
+    if (drives.blind.kind == BlindKind::kNone) {
+      to = drives.value;
+    }
+  }
+  state.layers.phase = CutPhase::kNone;
+  state.layers.move =
+      plan_drives(drive_limits(profile_), from, to, {asked.pace_ratio, asked.least_s});
+}
+
+void LayerRun::begin_lift(TaskState& state) const {
+  LayerState& layers = state.layers;
+  after_cut(plan_, layers.heaviest, layers.cuts);
+  const TeethPose from = task_aim(kinematics_, program_, state).teeth;
+  layers.lift = lift_line(profile_, kinematics_, plan_, from);
+  layers.phase = CutPhase::kLifts;
+  state.time_s = 0.0;
+  state.settle_s = 0.0;
+}
+
+/// Up or down to a height. Where the machine can't be it stays as high as it is.
+void LayerRun::rise(double target_m, double most_down_mps, TaskState& state) const {
+  LayerState& layers = state.layers;
+  layers.height_mps = speed_towards(layers.height_m, target_m, layers.height_mps, kGives_mps,
+                                    most_down_mps, period_s_);
+  const double by_s = layers.height_mps > 0.0 ? advance_s_ : state.pace_ratio * advance_s_;
+  const double height_m = layers.height_m + by_s * layers.height_mps;
+  const TeethPose there = cut_pose(program_, layers.cuts.cut, layers.share, height_m);
+  if (kinematics_.drive_from_teeth(there).blind.kind == BlindKind::kNone) {
+    layers.height_m = height_m;
+  } else {
+    layers.height_mps = 0.0;
+  }
+}
+
+void LayerRun::take(TaskState& state) const {
+  LayerState& layers = state.layers;
+  const TeethLine line = line_over(program_, layers.cuts.cut.strip, 0.0);
+  const Eigen::Vector3d off_m = seen_.teeth_m - line.from.position_m;
+  const double share = off_m.dot(line.change.position_m) / line.change.position_m.squaredNorm();
+  const double height_m = turned(plan_.up, strip_rad(plan_, layers.cuts.cut.strip))
+                              .dot(seen_.teeth_m - line.at(share).position_m);
+  if (share > layers.seen_share) {
+    layers.filled_m3 += pass(plan_, share, layers.seen_share, height_m, layers.cuts);
+    layers.seen_share = share;
+  }
+}
+
+void LayerRun::enter(TaskState& state) const {
+  LayerState& layers = state.layers;
+  const double heavy = heaviness(force_share(plan_, cut_line(program_, state), seen_, true), seen_);
+  rise(layers.cuts.cut.height_m, kEnters_mps, state);
+  const bool arrived = layers.height_m - layers.cuts.cut.height_m < kAtLayer_m;
+  layers.held_s = heavy > 1.0 || arrived ? layers.held_s + period_s_ : 0.0;
+  if ((arrived && seen_.behind_m < kEndNear_m) || layers.held_s > kHeld_s) {
+    // What it can't be pressed down to is come down to on the way.
+    layers.give_m = std::max(0.0, layers.height_m - layers.cuts.cut.height_m);
+    layers.phase = CutPhase::kCuts;
+    layers.held_s = 0.0;
+  }
+}
+
+bool LayerRun::cut_ends(double heavy, TaskState& state) const {
+  LayerState& layers = state.layers;
+  const double speed_mps = plan_.way_m * layers.rate_ps * state.pace_ratio;
+  const bool held = heavy > 1.0 && speed_mps < kGetsOn_mps;
+  const bool at_end = layers.share >= 1.0;
+  layers.held_s = held || at_end ? layers.held_s + period_s_ : 0.0;
+  const bool reached = at_end && (seen_.behind_m < kEndNear_m || layers.held_s > kEndWait_s);
+  return reached || layers.held_s > kHeld_s || layers.filled_m3 >= kHeaped * plan_.full_m3;
+}
+
+void LayerRun::cut(TaskState& state) const {
+  LayerState& layers = state.layers;
+  const double force = force_share(plan_, cut_line(program_, state), seen_, false);
+  const double heavy = heaviness(force, seen_);
+  layers.heaviest = std::max(layers.heaviest, heavy);
+  const double change_m = heavy > 1.0     ? kGives_mps * std::min(1.0, 2.0 * (heavy - 1.0))
+                          : heavy < kEasy ? -kReturns_mps
+                                          : 0.0;
+  const Cut& at = layers.cuts.cut;
+  layers.give_m = std::clamp(layers.give_m + period_s_ * change_m, 0.0, at.enters_m - at.height_m);
+  // What the oil gives back when the force goes must not lead through the design.
+  const double springs_m = plan_.give_mpn * force * plan_.force_n - kSpringFree_m - at.height_m;
+  rise(at.height_m + std::max(layers.give_m, springs_m), kReturns_mps, state);
+  const double most_ps = plan_.speed_mps / plan_.way_m *
+                         std::clamp((kHoldsAt - heavy) / (kHoldsAt - kSlowsAt), 0.0, 1.0);
+  const double acceleration_ps2 = profile_.line.acceleration_mps2 / plan_.way_m;
+  const double brakes_ps = std::sqrt(2.0 * acceleration_ps2 * std::max(0.0, 1.0 - layers.share));
+  const double by_ps = acceleration_ps2 * period_s_;
+  layers.rate_ps = std::clamp(std::min(most_ps, brakes_ps), layers.rate_ps - 4.0 * by_ps,
+                              layers.rate_ps + by_ps);
+  layers.share =
+      std::min(1.0, layers.share + std::max(0.0, layers.rate_ps) * state.pace_ratio * advance_s_);
+  if (1.0 - layers.share < 1e-4) {
+    layers.share = 1.0;
+    layers.rate_ps = 0.0;
+  }
+  take(state);
+  if (cut_ends(heavy, state)) {
+    begin_lift(state);
+  }
+}
+
+void LayerRun::lift(TaskState& state) const {
+  state.time_s += state.pace_ratio * advance_s_;
+  const double end_s = state.layers.lift.ramp.duration_s;
+  if (state.time_s < end_s) {
+    return;
+  }
+  state.time_s = end_s;
+  state.settle_s += period_s_;
+  if (seen_.behind_m < kLiftNear_m || state.settle_s > kEndWait_s) {
+    next_step(state);
+  }
+}
+
+void LayerRun::move(TaskState& state) const {
+  state.time_s += state.pace_ratio * advance_s_;
+  const double end_s = state.layers.move.ramp.duration_s;
+  if (state.time_s < end_s) {
+    return;
+  }
+  state.time_s = end_s;
+  state.settle_s += period_s_;
+  state.calm_s = seen_.behind_m < kMoveSettled_m ? state.calm_s + period_s_ : 0.0;
+  if (state.calm_s >= kCalm_s || state.settle_s >= kSettleMost_s) {
+    next_step(state);
+  }
+}
+
+void LayerRun::next_step(TaskState& state) const {
+  begin((state.step + 1) % program_.step_count, state);
+}
+
+void LayerRun::go_on(TaskState& state) const {
+  const LineProfile& line = profile_.line;
+  const bool moves = state.layers.phase == CutPhase::kNone;
+  follow_pace(
+      line,
+      moves ? line.move_slow_error_m : line.slow_error_m + line.slow_error_s * plan_.speed_mps,
+      seen_.behind_m, period_s_, state);
+  switch (state.layers.phase) {
+    case CutPhase::kEnters:
+      enter(state);
+      break;
+    case CutPhase::kCuts:
+      cut(state);
+      break;
+    case CutPhase::kLifts:
+      lift(state);
+      break;
+    default:
+      move(state);
+      break;
+  }
+}
+
+TaskAim aim_of_cut(const SwingKinematics& kinematics, const TaskProgram& program,
+                   const TaskState& state) {
+  const LayerState& layers = state.layers;
+  const TeethLine line = cut_line(program, state);
+  TaskAim aim;
+  aim.kind = StepKind::kDig;
+  aim.share = layers.share;
+  const Cut& cut = layers.cuts.cut;
+  aim.teeth = cut_pose(program, cut, layers.share, layers.height_m);
+  const double rate_ps = std::max(0.0, layers.rate_ps);
+  TeethPose along = line.change;
+  along.position_m *= rate_ps;
+  along.attitude_rad =
+      rate_ps * (line.change.attitude_rad +
+                 steep_rad(program, cut) * steepness(program, cut, layers.share).rate_ps);
+  const TeethPose rises = {
+      layers.height_mps *
+          turned(program.layers.up, strip_rad(program.layers, layers.cuts.cut.strip)),
+      0.0};
+  if (layers.height_mps < 0.0) {
+    along.position_m += rises.position_m;
+  }
+  const DriveMotion motion =
+      kinematics.motion_from_teeth(aim.teeth, along, {}, near_rad(aim.teeth));
+  aim.blind = motion.blind;
+  aim.value = motion.value;
+  aim.velocity = motion.rate;
+  if (layers.height_mps > 0.0) {
+    aim.at_once = kinematics.motion_from_teeth(aim.teeth, rises, {}, near_rad(aim.teeth)).rate;
+  }
+  return aim;
+}
+
+TaskAim aim_of_lift(const SwingKinematics& kinematics, const TaskState& state) {
+  const LinePlan& plan = state.layers.lift;
+  const Progress progress = plan.ramp.at(state.time_s);
+  const DriveMotion drives = line_motion(kinematics, plan.line, progress.share);
+  TaskAim aim;
+  aim.kind = StepKind::kDig;
+  aim.blind = drives.blind;
+  aim.share = 1.0;
+  aim.value = drives.value;
+  aim.velocity = progress.rate_ps * drives.rate;
+  aim.teeth = plan.line.at(progress.share);
+  return aim;
+}
+
+}  // namespace
+
+bool cuts(const TaskProgram& program, const TaskState& state) {
+  return at_cut(program, state) &&
+         (state.layers.phase == CutPhase::kEnters || state.layers.phase == CutPhase::kCuts);
+}
+
+TeethLine line_over(const TaskProgram& program, int strip, double height_m) {
+  const TeethLine& line = line_of(program).line;
+  const LayerPlan& plan = program.layers;
+  const double angle_rad = strip_rad(plan, strip);
+  TeethLine over = line;
+  over.from.position_m = turned(line.from.position_m + height_m * plan.up, angle_rad);
+  over.change.position_m = turned(line.change.position_m, angle_rad);
+  return over;
+}
+
+TeethPose cut_pose(const TaskProgram& program, const Cut& cut, double share, double height_m) {
+  TeethPose pose = line_over(program, std::max(0, cut.strip), height_m).at(share);
+  pose.attitude_rad += steep_rad(program, cut) * steepness(program, cut, share).share;
+  return pose;
+}
+
+TeethLine cut_line(const TaskProgram& program, const TaskState& state) {
+  return line_over(program, std::max(0, state.layers.cuts.cut.strip), state.layers.height_m);
+}
+
+LinePlan lift_line(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                   const LayerPlan& plan, const TeethPose& from) {
+  struct Way {
+    double up_m;
+    double turn;
+  };
+  constexpr std::array<Way, 5> kWays = {
+      {{0.6, 1.0}, {0.6, 0.5}, {0.4, 0.5}, {0.4, 0.0}, {0.2, 0.0}}};
+  constexpr int kLooks = 4;
+  LinePlan lift;
+  for (const Way& way : kWays) {
+    TeethPose to = from;
+    to.position_m.z() += way.up_m;
+    to.attitude_rad += way.turn * (plan.carry_rad - from.attitude_rad);
+    lift.line = line_between(kinematics, from, to);
+    lift.way_m = way_m(kinematics, lift.line);
+    lift.ramp = ramp_for_speed(lift.way_m, kLiftSpeed_mps, profile.line.acceleration_mps2);
+    bool free = true;
+    for (int n = 1; n <= kLooks; ++n) {
+      const TeethPose at = lift.line.at(static_cast<double>(n) / kLooks);
+      free = free && kinematics.drive_from_teeth(at).blind.kind == BlindKind::kNone;
+    }
+    if (free) {
+      return lift;
+    }
+  }
+  lift.line.change = {};
+  return lift;
+}
+
+TeethPose first_cut_pose(const TaskProgram& program) {
+  const Cut cut = undug(program.layers).cut;
+  return cut_pose(program, cut, cut.from_share, cut.enters_m);
+}
+
+TaskAim layer_aim(const SwingKinematics& kinematics, const TaskProgram& program,
+                  const TaskState& state) {
+  if (at_cut(program, state)) {
+    return state.layers.phase == CutPhase::kLifts ? aim_of_lift(kinematics, state)
+                                                  : aim_of_cut(kinematics, program, state);
+  }
+  const TaskStep& step =
+      program.step[static_cast<unsigned>(std::clamp(state.step, 0, kStepMost - 1))];
+  return aim_of_plan(kinematics, step.kind, state.layers.move, state.time_s);
+}
+
+TaskState layer_advance(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                        const TaskProgram& program, const TaskState& state, double advance_s,
+                        double period_s, const CutSeen& seen) {
+  const LayerRun run(profile, kinematics, program, advance_s, period_s, seen);
+  TaskState next = state;
+  if (state.phase == TaskPhase::kApproach) {
+    next = task_advance(profile.line, program, state, advance_s, period_s, seen.behind_m);
+    if (next.phase != TaskPhase::kApproach) {
+      // By the move that leads to the cut: it may not be the first.
+      next.phase = TaskPhase::kApproach;
+      run.begin((program.layers.step + program.step_count - 1) % program.step_count, next);
+      next.phase = next.layers.cuts.met ? TaskPhase::kDone : TaskPhase::kSteps;
+    }
+  } else if (state.phase == TaskPhase::kSteps) {
+    run.go_on(next);
+  }
+  return next;
+}
+
+}  // namespace graben
