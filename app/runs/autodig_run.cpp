@@ -50,6 +50,9 @@ class AutodigRun {
           const TaskProgress& at = rig_.ecu->outputs().status.progress;
           show(share_done(at), machines::step_name(at.kind));
         });
+    if (const plant::BucketSoil* soil = rig_.plant.plant().digging(); soil != nullptr) {
+      result_.built = as_built(program_, soil->ground());
+    }
     result_.wall_s = figures.wall_s;
     result_.rejected_frames = figures.rejected_frames;
     return std::move(result_);

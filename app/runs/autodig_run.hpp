@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/machines/simulated/simulated_excavator.hpp"
+#include "app/runs/as_built.hpp"
 #include "app/runs/excavator_calm.hpp"
 #include "app/runs/figures.hpp"
 #include "app/runs/logged_run.hpp"
@@ -67,6 +68,7 @@ struct AutodigResult {
   double wall_s = 0.0;
   std::uint32_t rejected_frames = 0;
   RealSpoolEdges spool_edges{};
+  AsBuilt built;  ///< Of a task in layers, in ground that is cut.
 };
 
 /// One step as it was done.
@@ -93,10 +95,14 @@ struct AutodigSummary {
   /// Deepest that a corner of the true edge was under the design; not a number without a design.
   double over_cut_max_m = kAbsent;
   // Of a ground that is cut, else not a number.
-  double cut_m3 = kAbsent;       ///< Undisturbed.
-  double cut_m3ph = kAbsent;     ///< The same, of the time of the steps.
-  double fill_max_m3 = kAbsent;  ///< Loose, in the bucket.
-  double lambda_min = 0.0;       ///< From the first step on.
+  double cut_m3 = kAbsent;        ///< Undisturbed.
+  double cut_m3ph = kAbsent;      ///< The same, of the time of the steps.
+  double fill_max_m3 = kAbsent;   ///< Loose, in the bucket.
+  double filled_ratio = kAbsent;  ///< Of the bucket, as a round lifts it: the median of all rounds
+  double filled_low_ratio = kAbsent;  ///< but the last few; 90 % of them lift no less.
+  double energy_per_m3_j = kAbsent;
+  AsBuilt built;
+  double lambda_min = 0.0;  ///< From the first step on.
   double lambda_mean = 0.0;
   double task_s = 0.0;     ///< From the first step's begin to the last one's end.
   double planned_s = 0.0;  ///< Of all these steps.

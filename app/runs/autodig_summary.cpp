@@ -114,6 +114,19 @@ FigureTable<AutodigSummary> task_figures() {
        [](const S& s) { return s.cut_m3ph; }},
       {{"fill_max_m3", "loose soil in the bucket, max", kCubicMetres, "fill_max_m3", BadEnd::kLow},
        [](const S& s) { return s.fill_max_m3; }},
+      {{"built_within_ratio", "area within 30 mm of its design", kPercent, "built_within_ratio",
+        BadEnd::kLow},
+       [](const S& s) { return s.built.within_ratio; }},
+      {{"built_high_m", "95 % of the area no higher over it than", kMillimetres, "built_high_m"},
+       [](const S& s) { return s.built.high_m; }},
+      {{"built_low_m", "95 % of it no lower than", kMillimetres, "built_low_m", BadEnd::kLow},
+       [](const S& s) { return s.built.low_m; }},
+      {{"built_left_m3", "left over the design", kCubicMetres, "built_left_m3"},
+       [](const S& s) { return s.built.left_m3; }},
+      {{"built_over_cut_m3", "cut under the design", kCubicMetres, "built_over_cut_m3"},
+       [](const S& s) { return s.built.over_cut_m3; }},
+      {{"energy_per_m3_j", "energy for a cubic metre", kKilowattHours, "energy_per_m3_j"},
+       [](const S& s) { return s.energy_per_m3_j; }},
       {{"lambda_min", "lambda, min", kRatio, nullptr, BadEnd::kLow},
        [](const S& s) { return s.lambda_min; }},
       {{"lambda_mean", "lambda, mean", kRatio, "lambda_mean", BadEnd::kLow},
@@ -175,6 +188,8 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
   }
   summary.calm = calm.figures();
   summary.energy_per_round_j = summary.calm.energy_per_j(rounds(program, result, summary.steps));
+  summary.built = result.built;
+  summary.energy_per_m3_j = summary.calm.energy_per_j(summary.cut_m3);
   summary.pace = pace_of(result.samples, result.wall_s);
   summary.limit_share = limits.shares();
   return summary;

@@ -393,7 +393,7 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
   memory_.task =
       next_task(profile_, setup_.book.program[number], memory_.task, number, valid.strokes_m(),
                 followed * motion.cap.factor * valid.speed_override_ratio,
-                {motion.task.teeth_m, motion.task.behind_m, followed, memory_.tip_load.known,
+                {motion.task.teeth, motion.task.behind_m, followed, memory_.tip_load.known,
                  memory_.tip_load.force_n},
                 period_s);
 }

@@ -31,7 +31,9 @@ int first_over(const CutState& state, int strip, double height_m) {
   return bin;
 }
 
-double over_layer_m(double layer_m) { return layer_m > 0.0 ? kRough_m : kFinish_m; }
+double over_layer_m(const CutState& state) {
+  return state.layer_m > 0.0 ? std::max(kRough_m, kRoughShare * state.depth_m) : kFinish_m;
+}
 
 double highest_m(const LayerPlan& plan, const CutState& state) {
   float highest = 0.0F;
@@ -61,7 +63,7 @@ void give_up(CutState& state) {
 
 bool take(const LayerPlan& plan, CutState& state) {
   for (int strip = 0; strip < plan.strips; ++strip) {
-    const int bin = first_over(state, strip, state.layer_m + over_layer_m(state.layer_m));
+    const int bin = first_over(state, strip, state.layer_m + over_layer_m(state));
     if (bin == kStripBins) {
       continue;
     }
@@ -75,7 +77,7 @@ bool take(const LayerPlan& plan, CutState& state) {
     const bool again = strip == state.cut.strip && state.layer_m == state.cut.height_m &&
                        std::abs(from - state.cut.from_share) < 1.0 / kStripBins;
     state.tries = again ? static_cast<std::uint8_t>(state.tries + 1) : std::uint8_t{0};
-    state.cut = {strip, from, state.layer_m, std::max(top, state.layer_m) + kOver_m, bin == 0};
+    state.cut = {strip, from, state.layer_m, std::max(top, state.layer_m) + kOver_m};
     return true;
   }
   return false;

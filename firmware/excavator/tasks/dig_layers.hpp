@@ -19,6 +19,7 @@ struct LayerPlan {
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   double ground_from_m = 0.0;  ///< Of the ground at the line's beginning, as it is before the task,
   double ground_to_m = 0.0;    ///< and at its end; straight between.
+  double ground_z_m = 0.0;     ///< Height of that ground over the ground frame.
   double way_m = 0.0;          ///< Length of the line.
   double width_m = 0.0;        ///< Of the bucket.
   double full_m3 = 0.0;        ///< Of the ground, that fills the bucket.
@@ -26,7 +27,7 @@ struct LayerPlan {
   double force_n = 0.0;        ///< On the teeth, that a cut gives way to.
   double give_mpn = 0.0;       ///< The teeth may spring by that when the force goes.
   double speed_mps = 0.0;      ///< Along a cut.
-  double enter_rad = 0.0;      ///< Attitude that the edge goes into uncut ground with.
+  double enter_rad = 0.0;      ///< Attitude that the edge goes down with.
   double carry_rad = 0.0;      ///< Attitude that a full bucket is lifted at.
   int strips = 1;              ///< Side by side, about the swing axis.
   double strip_rad = 0.0;      ///< From one to the next, to the left.
@@ -39,7 +40,6 @@ struct Cut {
   double from_share = 0.0;  ///< Of the line.
   double height_m = 0.0;    ///< Of its layer.
   double enters_m = 0.0;    ///< Height from where the edge goes down to it.
-  bool uncut = false;       ///< The edge goes down into the ground, not beside it.
 };
 
 /// What is left to be dug, by what the edge has passed. As constructed all is done.
@@ -70,8 +70,10 @@ void next_cut(const LayerPlan& plan, CutState& state);
 /// was easy. `heaviest`: the most of its force over that which is given way to.
 void after_cut(const LayerPlan& plan, double heaviest, CutState& state);
 
-/// Over the layer soil counts as left if it stands higher by so much; over the design itself.
+/// Over a layer soil counts as left if it stands higher by so much, or by this share of a cut's
+/// depth; over the design itself.
 inline constexpr double kRough_m = 0.03;
+inline constexpr double kRoughShare = 0.45;
 inline constexpr double kFinish_m = 0.012;
 /// The last layer's thickness: its force is small, and so is what the teeth spring by.
 inline constexpr double kLastLayer_m = 0.06;

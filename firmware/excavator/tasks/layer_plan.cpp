@@ -58,7 +58,7 @@ BlindPlace first_unreached(const ExcavatorProfile& profile, const SwingKinematic
       if (drives.blind.kind != BlindKind::kNone) {
         return {drives.blind, share, pose};
       }
-      if (lift_line(profile, kinematics, plan, pose).way_m <= 0.0) {
+      if (lift_line(profile, kinematics, plan, pose, false).way_m <= 0.0) {
         return {{BlindKind::kOutOfReach, kBoom}, share, pose};
       }
     }
@@ -123,6 +123,7 @@ LayerPlanResult plan_layers(const ExcavatorProfile& profile, const SwingKinemati
   };
   plan.ground_from_m = height_m(0.0);
   plan.ground_to_m = height_m(1.0);
+  plan.ground_z_m = asked.ground_m;
   plan.way_m = line.line.change.position_m.norm();
   plan.width_m = body.bucket_width_m;
   plan.full_m3 = body.capacity_m3 / kSwell;

@@ -27,15 +27,27 @@ constexpr double kHoldsAt = 1.4;
 /// A heavy cut that gets on by less, for so long, is ended.
 constexpr double kGetsOn_mps = 0.01;
 constexpr double kHeld_s = 1.0;
-/// The bucket comes from steep to its attitude on this way.
-constexpr double kTurns_m = 0.5;
+/// The bucket comes from steep to its attitude on this way: its heel stays where the edge went in.
+constexpr double kTurns_m = 0.45;
+constexpr double kTurn_radps = 0.5;
+constexpr double kFinish_mps = 0.4;
 /// At a cut's end the teeth are waited for.
 constexpr double kEndWait_s = 0.6;
 constexpr double kEndNear_m = 0.02;
 /// A bucket takes a little more than what fills it: some is lost on the way.
 constexpr double kHeaped = 1.05;
-constexpr double kLiftSpeed_mps = 0.5;
+constexpr double kLiftSpeed_mps = 0.6;
+constexpr double kLiftShare = 3.0;  ///< Of the acceleration of lines.
+/// Folded in so far and lifted by so much the bucket holds what it has.
+constexpr double kFolded_rad = 0.4;
+constexpr double kFoldUp_m = 0.16;
+constexpr double kLiftLeast_m = 0.4;
+constexpr double kOutOfGround_m = 0.4;
 constexpr double kLiftNear_m = 0.10;
+/// A platform that swings about its place is waited for before it digs.
+constexpr double kCutWaits_s = 10.0;
+/// Of a move that leads to the next one.
+constexpr double kPassed_m = 0.20;
 /// Of the clearance that the line has over the design, for what springs.
 constexpr double kSpringFree_m = 0.010;
 
@@ -106,16 +118,30 @@ void follow_pace(const LineProfile& line, double slow_m, double behind_m, double
 
 /// How much steeper than the line's attitude a cut begins.
 double steep_rad(const TaskProgram& program, const Cut& cut) {
-  return cut.uncut
-             ? program.layers.enter_rad - line_of(program).line.at(cut.from_share).attitude_rad
-             : 0.0;
+  return program.layers.enter_rad - line_of(program).line.at(cut.from_share).attitude_rad;
 }
 
 /// Share of that which is left at this place, and its change by the line's share.
 Progress steepness(const TaskProgram& program, const Cut& cut, double share) {
   const double turns = kTurns_m / program.layers.way_m;
   const double done = std::clamp((share - cut.from_share) / turns, 0.0, 1.0);
-  return {1.0 - done * done * (3.0 - 2.0 * done), -6.0 * done * (1.0 - done) / turns, 0.0};
+  return {1.0 - done, done < 1.0 ? -1.0 / turns : 0.0, 0.0};
+}
+
+/// A cut's speed: that of the plan, less while the bucket turns, and on the design itself, where
+/// its force is to be small.
+double most_rate_ps(const TaskProgram& program, const LayerState& layers) {
+  const LayerPlan& plan = program.layers;
+  const Cut& cut = layers.cuts.cut;
+  double most_mps = plan.speed_mps;
+  if (cut.height_m <= 0.0) {
+    most_mps = std::min(most_mps, kFinish_mps);
+  }
+  const double steep = std::abs(steep_rad(program, cut));
+  if (steep > 0.0 && steepness(program, cut, layers.share).rate_ps < 0.0) {
+    most_mps = std::min(most_mps, kTurn_radps * kTurns_m / steep);
+  }
+  return most_mps / plan.way_m;
 }
 
 /// Steps of one program.
@@ -144,6 +170,8 @@ class LayerRun {
   void move(TaskState& state) const;
   void rise(double target_m, double most_down_mps, TaskState& state) const;
   void take(TaskState& state) const;
+  /// Of the teeth over the design's line.
+  [[nodiscard]] double height_m(const TaskState& state) const;
   [[nodiscard]] bool cut_ends(double heavy, TaskState& state) const;
   void next_step(TaskState& state) const;
 
@@ -219,9 +247,10 @@ void LayerRun::begin_move(int step, TaskState& state) const {
 
 void LayerRun::begin_lift(TaskState& state) const {
   LayerState& layers = state.layers;
-  after_cut(plan_, layers.heaviest, layers.cuts);
-  const TeethPose from = task_aim(kinematics_, program_, state).teeth;
-  layers.lift = lift_line(profile_, kinematics_, plan_, from);
+  layers.folds = layers.phase == CutPhase::kCuts;
+  // From where the teeth are: a plan that the soil has held off would first have to come back.
+  const TeethPose from = layers.folds ? seen_.teeth : task_aim(kinematics_, program_, state).teeth;
+  layers.lift = lift_line(profile_, kinematics_, plan_, from, layers.folds);
   layers.phase = CutPhase::kLifts;
   state.time_s = 0.0;
   state.settle_s = 0.0;
@@ -242,15 +271,20 @@ void LayerRun::rise(double target_m, double most_down_mps, TaskState& state) con
   }
 }
 
+double LayerRun::height_m(const TaskState& state) const {
+  const int strip = state.layers.cuts.cut.strip;
+  const TeethLine line = line_over(program_, strip, 0.0);
+  return turned(plan_.up, strip_rad(plan_, strip))
+      .dot(seen_.teeth.position_m - line.from.position_m);
+}
+
 void LayerRun::take(TaskState& state) const {
   LayerState& layers = state.layers;
   const TeethLine line = line_over(program_, layers.cuts.cut.strip, 0.0);
-  const Eigen::Vector3d off_m = seen_.teeth_m - line.from.position_m;
+  const Eigen::Vector3d off_m = seen_.teeth.position_m - line.from.position_m;
   const double share = off_m.dot(line.change.position_m) / line.change.position_m.squaredNorm();
-  const double height_m = turned(plan_.up, strip_rad(plan_, layers.cuts.cut.strip))
-                              .dot(seen_.teeth_m - line.at(share).position_m);
   if (share > layers.seen_share) {
-    layers.filled_m3 += pass(plan_, share, layers.seen_share, height_m, layers.cuts);
+    layers.filled_m3 += pass(plan_, share, layers.seen_share, height_m(state), layers.cuts);
     layers.seen_share = share;
   }
 }
@@ -258,9 +292,12 @@ void LayerRun::take(TaskState& state) const {
 void LayerRun::enter(TaskState& state) const {
   LayerState& layers = state.layers;
   const double heavy = heaviness(force_share(plan_, cut_line(program_, state), seen_, true), seen_);
-  rise(layers.cuts.cut.height_m, kEnters_mps, state);
+  const double target_m = layers.cuts.cut.height_m;
+  rise(heavy > 1.0 ? std::max(target_m, height_m(state)) : target_m, kEnters_mps, state);
   const bool arrived = layers.height_m - layers.cuts.cut.height_m < kAtLayer_m;
-  layers.held_s = heavy > 1.0 || arrived ? layers.held_s + period_s_ : 0.0;
+  if (heavy > 1.0 || arrived) {
+    layers.held_s += period_s_;
+  }
   if ((arrived && seen_.behind_m < kEndNear_m) || layers.held_s > kHeld_s) {
     // What it can't be pressed down to is come down to on the way.
     layers.give_m = std::max(0.0, layers.height_m - layers.cuts.cut.height_m);
@@ -291,8 +328,10 @@ void LayerRun::cut(TaskState& state) const {
   layers.give_m = std::clamp(layers.give_m + period_s_ * change_m, 0.0, at.enters_m - at.height_m);
   // What the oil gives back when the force goes must not lead through the design.
   const double springs_m = plan_.give_mpn * force * plan_.force_n - kSpringFree_m - at.height_m;
-  rise(at.height_m + std::max(layers.give_m, springs_m), kReturns_mps, state);
-  const double most_ps = plan_.speed_mps / plan_.way_m *
+  // Nor is soil that holds the teeth up pressed on by a plan that is farther below than this.
+  const double held_up_m = height_m(state) - kBehind_m - at.height_m;
+  rise(at.height_m + std::max({layers.give_m, springs_m, held_up_m}), kReturns_mps, state);
+  const double most_ps = most_rate_ps(program_, layers) *
                          std::clamp((kHoldsAt - heavy) / (kHoldsAt - kSlowsAt), 0.0, 1.0);
   const double acceleration_ps2 = profile_.line.acceleration_mps2 / plan_.way_m;
   const double brakes_ps = std::sqrt(2.0 * acceleration_ps2 * std::max(0.0, 1.0 - layers.share));
@@ -307,6 +346,7 @@ void LayerRun::cut(TaskState& state) const {
   }
   take(state);
   if (cut_ends(heavy, state)) {
+    after_cut(plan_, layers.heaviest, layers.cuts);
     begin_lift(state);
   }
 }
@@ -320,7 +360,11 @@ void LayerRun::lift(TaskState& state) const {
   state.time_s = end_s;
   state.settle_s += period_s_;
   if (seen_.behind_m < kLiftNear_m || state.settle_s > kEndWait_s) {
-    next_step(state);
+    if (state.layers.folds) {
+      begin_lift(state);
+    } else {
+      next_step(state);
+    }
   }
 }
 
@@ -332,8 +376,10 @@ void LayerRun::move(TaskState& state) const {
   }
   state.time_s = end_s;
   state.settle_s += period_s_;
+  const bool digs_next = (state.step + 1) % program_.step_count == plan_.step;
   state.calm_s = seen_.behind_m < kMoveSettled_m ? state.calm_s + period_s_ : 0.0;
-  if (state.calm_s >= kCalm_s || state.settle_s >= kSettleMost_s) {
+  const bool arrived = digs_next ? state.calm_s >= kCalm_s : seen_.behind_m < kPassed_m;
+  if (arrived || state.settle_s >= (digs_next ? kCutWaits_s : kSettleMost_s)) {
     next_step(state);
   }
 }
@@ -412,6 +458,16 @@ TaskAim aim_of_lift(const SwingKinematics& kinematics, const TaskState& state) {
   return aim;
 }
 
+bool is_reached(const SwingKinematics& kinematics, const TeethLine& line) {
+  constexpr int kLooks = 4;
+  bool reached = true;
+  for (int n = 1; n <= kLooks; ++n) {
+    const TeethPose at = line.at(static_cast<double>(n) / kLooks);
+    reached = reached && kinematics.drive_from_teeth(at).blind.kind == BlindKind::kNone;
+  }
+  return reached;
+}
+
 }  // namespace
 
 bool cuts(const TaskProgram& program, const TaskState& state) {
@@ -440,32 +496,29 @@ TeethLine cut_line(const TaskProgram& program, const TaskState& state) {
 }
 
 LinePlan lift_line(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                   const LayerPlan& plan, const TeethPose& from) {
-  struct Way {
-    double up_m;
-    double turn;
-  };
-  constexpr std::array<Way, 5> kWays = {
-      {{0.6, 1.0}, {0.6, 0.5}, {0.4, 0.5}, {0.4, 0.0}, {0.2, 0.0}}};
-  constexpr int kLooks = 4;
+                   const LayerPlan& plan, const TeethPose& from, bool folds) {
+  const double out_m = plan.ground_z_m + kOutOfGround_m - from.position_m.z();
+  const double up_m = folds ? kFoldUp_m : std::max(kLiftLeast_m, out_m);
+  const double turn_rad =
+      (folds ? std::max(kFolded_rad, plan.carry_rad) : plan.carry_rad) - from.attitude_rad;
+  constexpr std::array<double, 4> kTurns = {1.0, 0.6, 0.3, 0.0};
+  constexpr std::array<double, 3> kUps = {1.0, 0.7, 0.4};
   LinePlan lift;
-  for (const Way& way : kWays) {
-    TeethPose to = from;
-    to.position_m.z() += way.up_m;
-    to.attitude_rad += way.turn * (plan.carry_rad - from.attitude_rad);
-    lift.line = line_between(kinematics, from, to);
-    lift.way_m = way_m(kinematics, lift.line);
-    lift.ramp = ramp_for_speed(lift.way_m, kLiftSpeed_mps, profile.line.acceleration_mps2);
-    bool free = true;
-    for (int n = 1; n <= kLooks; ++n) {
-      const TeethPose at = lift.line.at(static_cast<double>(n) / kLooks);
-      free = free && kinematics.drive_from_teeth(at).blind.kind == BlindKind::kNone;
-    }
-    if (free) {
-      return lift;
+  for (const double up : kUps) {
+    for (const double turn : kTurns) {
+      TeethPose to = from;
+      to.position_m.z() += up * up_m;
+      to.attitude_rad += turn * std::min(0.0, turn_rad);
+      lift.line = line_between(kinematics, from, to);
+      if (is_reached(kinematics, lift.line)) {
+        lift.way_m = way_m(kinematics, lift.line);
+        lift.ramp =
+            ramp_for_speed(lift.way_m, kLiftSpeed_mps, kLiftShare * profile.line.acceleration_mps2);
+        return lift;
+      }
     }
   }
-  lift.line.change = {};
+  lift.line = {from, {}};
   return lift;
 }
 

@@ -10,9 +10,9 @@ namespace graben {
 
 /// What a cut goes by.
 struct CutSeen {
-  Eigen::Vector3d teeth_m = Eigen::Vector3d::Zero();  ///< Where they are.
-  double behind_m = 0.0;                              ///< See TaskWant.
-  double lambda = 1.0;                                ///< Of the last cycle.
+  TeethPose teeth;        ///< Where they are.
+  double behind_m = 0.0;  ///< See TaskWant.
+  double lambda = 1.0;    ///< Of the last cycle.
   bool force_known = false;
   Eigen::Vector2d force_n = Eigen::Vector2d::Zero();  ///< See TipLoad.
 };
@@ -36,9 +36,11 @@ struct CutSeen {
 /// Where the first cut begins.
 [[nodiscard]] TeethPose first_cut_pose(const TaskProgram& program);
 
-/// From which pose on a cut that ends here is lifted, and to which.
+/// The way of teeth that have ended a cut here: first the bucket is folded in while its edge still
+/// stands before soil, which keeps the fill in; then it is lifted out of the ground. Without a way
+/// where the machine can't lift it.
 [[nodiscard]] LinePlan lift_line(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                                 const LayerPlan& plan, const TeethPose& from);
+                                 const LayerPlan& plan, const TeethPose& from, bool folds);
 
 /// Teeth on a cut, so high over the line; the bucket stands steep as it goes into uncut ground,
 /// its floor along its way, and is turned to the line's attitude on the first half metre.

@@ -14,8 +14,8 @@ std::int64_t place_of(bool runs, std::uint8_t number, const TaskState& state) {
   return ((step * 256 + number) * 4 + static_cast<int>(state.phase)) * 2 + (runs ? 1 : 0);
 }
 
-Eigen::Vector3d teeth_m(const SwingKinematics& kinematics, const DriveVector& drives) {
-  return kinematics.teeth_from_joints(kinematics.joints_from_drive(drives).value).position_m;
+TeethPose teeth_of(const SwingKinematics& kinematics, const DriveVector& drives) {
+  return kinematics.teeth_from_joints(kinematics.joints_from_drive(drives).value);
 }
 
 /// Into the drives' ranges: what is under way may be what a correction has asked for.
@@ -105,11 +105,13 @@ TaskWant want_of_task(const ExcavatorProfile& profile, DriveRows drives,
   want.progress = progress_of(memory, aim);
   want.holds = memory.state.phase != TaskPhase::kDone;
   want.planned_m = travel_of(profile, aim.value);
-  const Eigen::Vector3d at_m = teeth_m(kinematics, drives_of(profile, servo.strokes_m()));
-  const Eigen::Vector3d due_m = teeth_m(
-      kinematics, drives_of(profile, bounded(drives, want.planned_m - servo.under_way_m())));
+  want.teeth = teeth_of(kinematics, drives_of(profile, servo.strokes_m()));
+  const Eigen::Vector3d& at_m = want.teeth.position_m;
+  const Eigen::Vector3d due_m =
+      teeth_of(kinematics,
+               drives_of(profile, bounded(drives, want.planned_m - servo.under_way_m())))
+          .position_m;
   want.error_m = (at_m - due_m).norm();
-  want.teeth_m = at_m;
   const bool cut = cuts(program, memory.state);
   const bool straight = cut || on_line(program, memory.state);
   const TaskStep& step = program.step[static_cast<unsigned>(memory.state.step)];

@@ -43,7 +43,7 @@ struct TaskWant {
   /// What a tube is laid around: the line; of a move, whose pace gives way to it first, what is
   /// more than that (line.move_slow_error).
   double off_m = 0.0;
-  Eigen::Vector3d teeth_m = Eigen::Vector3d::Zero();  ///< Where they are.
+  TeethPose teeth;  ///< Where they are.
   TaskProgress progress;
 };
 

@@ -243,7 +243,7 @@ bool Planning::plan_in_layers() {
   }
   program.start = start.value;
   const LinePlan lift =
-      lift_line(profile_, kinematics_, program.layers, program.step[0].line.line.at(1.0));
+      lift_line(profile_, kinematics_, program.layers, program.step[0].line.line.at(1.0), false);
   drives_ = line_motion(kinematics_, lift.line, 1.0).value;
   return true;
 }

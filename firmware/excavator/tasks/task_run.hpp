@@ -34,6 +34,7 @@ struct LayerState {
   double filled_m3 = 0.0;   ///< Of the ground, in this cut.
   double heaviest = 0.0;    ///< Of this cut; 1: as heavy as it may be.
   double held_s = 0.0;      ///< How long it does not get on.
+  bool folds = false;       ///< The first part of a lift.
   LinePlan lift;
   DrivePlan move;                            ///< Of the step that runs.
   DriveVector stands = DriveVector::Zero();  ///< Where it was when all was dug.
@@ -76,7 +77,7 @@ inline constexpr double kCalm_s = 0.2;
 /// ... or after so long: what is left then is the next step's to correct.
 inline constexpr double kSettleMost_s = 2.0;
 /// The same of a move of a program in layers, which leads on from wherever it ends.
-inline constexpr double kMoveSettled_m = 0.03;
+inline constexpr double kMoveSettled_m = 0.05;
 
 /// At the beginning of the approach that search_approach() has found, planned from where the
 /// machine stands now. It can't meet a blind spot. In motion the soft limit holds it before fences.
