@@ -7,12 +7,15 @@
 #include "app/machines/task_text.hpp"
 #include "app/runs/excavator_rig.hpp"
 #include "app/runs/fence_truth.hpp"
+#include "firmware/excavator/tasks/layer_run.hpp"
 #include "firmware/excavator/tasks/task_run.hpp"
 
 namespace graben::runs {
 namespace {
 
 constexpr double kLongerThanPlanned = 10.0;
+/// Most rounds of these are not needed.
+constexpr double kLongerInLayers = 1.0;
 constexpr double kApproach_s = 60.0;
 
 std::array<double, 3> list_of(const Eigen::Vector3d& at) { return {at.x(), at.y(), at.z()}; }
@@ -84,8 +87,9 @@ class AutodigRun {
       return true;
     }
     result_.end = AutodigEnd::kNotFinished;
-    return seconds(now_us) > kApproach_s + kLongerThanPlanned * options_.rounds *
-                                               planned_s(program_) / options_.speed_override_ratio;
+    const double longer = in_layers(program_) ? kLongerInLayers : kLongerThanPlanned;
+    return seconds(now_us) > kApproach_s + longer * options_.rounds * planned_s(program_) /
+                                               options_.speed_override_ratio;
   }
 
   void look(TimeUs now_us, double cycle_us) {

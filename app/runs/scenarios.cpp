@@ -17,7 +17,7 @@ namespace {
 /// Off the path; what is compared with then goes on.
 constexpr double kNeverSlow_m = 1e3;
 /// What is dug in layers ends when its design is met.
-constexpr int kRoundsOfLayers = 200;
+constexpr int kRoundsOfLayers = 60;
 constexpr double kRadpsPerRpm = kTwoPi / 60.0;
 
 machines::Errors errors_of(const std::string& name) {

@@ -29,6 +29,9 @@ FaultSet task_faults(const ExcavatorValid& valid, int program_count) {
   return faults;
 }
 
+/// Of the swing's correction, while it is to stand.
+constexpr double kStandsShare = 0.5;
+
 /// Of the path's speed, where a load has held a drive of late.
 constexpr double kWary = 0.5;
 
@@ -250,6 +253,11 @@ void ExcavatorController::follow(const TaskProgram& program, const TaskAim& aim,
       corrected_velocity(drives(), motion.wanted_mps, memory_.servo, memory_.lambda.value(),
                          speed_override_ratio, motion.task.holds);
   const double swing_mps = swing_of(motion.wanted_mps);
+  if (swing_mps == 0.0) {
+    // A platform that is to stand rings less on weaker corrections.
+    motion.corrected_mps =
+        with_swing(motion.corrected_mps, kStandsShare * swing_of(motion.corrected_mps));
+  }
   motion.corrected_mps =
       with_swing(motion.corrected_mps,
                  swing_of(motion.corrected_mps) +

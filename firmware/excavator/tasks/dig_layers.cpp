@@ -13,7 +13,6 @@ constexpr double kFullAt = 0.8;
 constexpr double kOver_m = 0.25;
 /// Before the soil that is to be cut, where there is room.
 constexpr double kRunUp_m = 0.25;
-constexpr int kRunUpBins = 4;
 /// Of what is given way to: lighter cuts become deeper.
 constexpr double kLight = 0.6;
 constexpr double kDeeper = 1.15;
@@ -67,17 +66,14 @@ bool take(const LayerPlan& plan, CutState& state) {
     if (bin == kStripBins) {
       continue;
     }
-    const auto& bins = state.height_m[static_cast<unsigned>(strip)];
     const double run_up = bin > 0 ? kRunUp_m / plan.way_m : 0.0;
     const double from =
         bin > 0 ? std::max(0.0, static_cast<double>(bin) / kStripBins - run_up) : 0.0;
-    const int first = std::max(0, bin - kRunUpBins);
-    const auto top =
-        static_cast<double>(*std::max_element(bins.begin() + first, bins.begin() + bin + 1));
     const bool again = strip == state.cut.strip && state.layer_m == state.cut.height_m &&
                        std::abs(from - state.cut.from_share) < 1.0 / kStripBins;
     state.tries = again ? static_cast<std::uint8_t>(state.tries + 1) : std::uint8_t{0};
-    state.cut = {strip, from, state.layer_m, std::max(top, state.layer_m) + kOver_m};
+    state.cut = {strip, from, state.layer_m,
+                 std::max(ground_m(plan, from), state.layer_m) + kOver_m};
     return true;
   }
   return false;
@@ -126,6 +122,11 @@ double pass(const LayerPlan& plan, double share, double last_share, double heigh
 void next_cut(const LayerPlan& plan, CutState& state) {
   // Every layer is at least half of the last one lower, or the last; each may have to be left.
   constexpr int kMost = 64;
+  if (state.cuts >= kCutsMost) {
+    state.met = true;
+    return;
+  }
+  ++state.cuts;
   for (int n = 0; n < kMost; ++n) {
     if (take(plan, state)) {
       if (state.tries < kTriesMost) {

@@ -39,7 +39,8 @@ struct Cut {
   int strip = 0;
   double from_share = 0.0;  ///< Of the line.
   double height_m = 0.0;    ///< Of its layer.
-  double enters_m = 0.0;    ///< Height from where the edge goes down to it.
+  double enters_m = 0.0;    ///< Height from where the edge goes down to it, over all ground.
+  double steep = 1.0;       ///< Share of the steep attitude that the machine can have there.
 };
 
 /// What is left to be dug, by what the edge has passed. As constructed all is done.
@@ -49,6 +50,7 @@ struct CutState {
   double depth_m = 0.0;    ///< Of cuts, as the force lets them be.
   double layer_m = 0.0;    ///< Height of the layer that is being cut.
   std::uint8_t tries = 0;  ///< At this place, in a row.
+  std::uint8_t cuts = 0;   ///< So far, of all.
   bool met = true;         ///< Nothing is left that stands too high.
 };
 
@@ -78,5 +80,7 @@ inline constexpr double kFinish_m = 0.012;
 /// The last layer's thickness: its force is small, and so is what the teeth spring by.
 inline constexpr double kLastLayer_m = 0.06;
 inline constexpr int kTriesMost = 3;
+/// With so many cuts a task ends, whatever is left.
+inline constexpr int kCutsMost = 250;
 
 }  // namespace graben

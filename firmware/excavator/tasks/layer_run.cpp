@@ -44,6 +44,7 @@ constexpr double kFoldUp_m = 0.16;
 constexpr double kLiftLeast_m = 0.4;
 constexpr double kOutOfGround_m = 0.4;
 constexpr double kLiftNear_m = 0.10;
+constexpr double kLiftHeld_s = 0.5;
 /// A platform that swings about its place is waited for before it digs.
 constexpr double kCutWaits_s = 10.0;
 /// Of a move that leads to the next one.
@@ -118,7 +119,8 @@ void follow_pace(const LineProfile& line, double slow_m, double behind_m, double
 
 /// How much steeper than the line's attitude a cut begins.
 double steep_rad(const TaskProgram& program, const Cut& cut) {
-  return program.layers.enter_rad - line_of(program).line.at(cut.from_share).attitude_rad;
+  return cut.steep *
+         (program.layers.enter_rad - line_of(program).line.at(cut.from_share).attitude_rad);
 }
 
 /// Share of that which is left at this place, and its change by the line's share.
@@ -233,7 +235,8 @@ void LayerRun::begin_move(int step, TaskState& state) const {
       state.layers.stands = from;
       return;
     }
-    const Cut& cut = state.layers.cuts.cut;
+    Cut& cut = state.layers.cuts.cut;
+    cut.steep = steepest(kinematics_, program_, cut);
     const TeethPose enters = cut_pose(program_, cut, cut.from_share, cut.enters_m);
     const DriveResult drives = kinematics_.drive_from_teeth(enters);
     if (drives.blind.kind == BlindKind::kNone) {
@@ -252,6 +255,7 @@ void LayerRun::begin_lift(TaskState& state) const {
   const TeethPose from = layers.folds ? seen_.teeth : task_aim(kinematics_, program_, state).teeth;
   layers.lift = lift_line(profile_, kinematics_, plan_, from, layers.folds);
   layers.phase = CutPhase::kLifts;
+  layers.held_s = 0.0;
   state.time_s = 0.0;
   state.settle_s = 0.0;
 }
@@ -352,6 +356,17 @@ void LayerRun::cut(TaskState& state) const {
 }
 
 void LayerRun::lift(TaskState& state) const {
+  LayerState& layers = state.layers;
+  layers.held_s = heaviness(0.0, seen_) > 1.0 ? layers.held_s + period_s_ : 0.0;
+  if (layers.held_s > kLiftHeld_s) {
+    // The heel stands on something: up from where it is.
+    layers.lift = lift_line(profile_, kinematics_, plan_, seen_.teeth, false);
+    layers.folds = false;
+    layers.held_s = 0.0;
+    state.time_s = 0.0;
+    state.settle_s = 0.0;
+    return;
+  }
   state.time_s += state.pace_ratio * advance_s_;
   const double end_s = state.layers.lift.ramp.duration_s;
   if (state.time_s < end_s) {
@@ -458,12 +473,15 @@ TaskAim aim_of_lift(const SwingKinematics& kinematics, const TaskState& state) {
   return aim;
 }
 
+bool is_reached(const SwingKinematics& kinematics, const TeethPose& pose) {
+  return kinematics.drive_from_teeth(pose).blind.kind == BlindKind::kNone;
+}
+
 bool is_reached(const SwingKinematics& kinematics, const TeethLine& line) {
   constexpr int kLooks = 4;
   bool reached = true;
   for (int n = 1; n <= kLooks; ++n) {
-    const TeethPose at = line.at(static_cast<double>(n) / kLooks);
-    reached = reached && kinematics.drive_from_teeth(at).blind.kind == BlindKind::kNone;
+    reached = reached && is_reached(kinematics, line.at(static_cast<double>(n) / kLooks));
   }
   return reached;
 }
@@ -520,6 +538,19 @@ LinePlan lift_line(const ExcavatorProfile& profile, const SwingKinematics& kinem
   }
   lift.line = {from, {}};
   return lift;
+}
+
+double steepest(const SwingKinematics& kinematics, const TaskProgram& program, Cut cut) {
+  for (const double steep : {1.0, 0.75, 0.5, 0.25}) {
+    cut.steep = steep;
+    const bool reached =
+        is_reached(kinematics, cut_pose(program, cut, cut.from_share, cut.enters_m)) &&
+        is_reached(kinematics, cut_pose(program, cut, cut.from_share, cut.height_m));
+    if (reached) {
+      return steep;
+    }
+  }
+  return 0.0;
 }
 
 TeethPose first_cut_pose(const TaskProgram& program) {

@@ -47,6 +47,10 @@ struct CutSeen {
 [[nodiscard]] TeethPose cut_pose(const TaskProgram& program, const Cut& cut, double share,
                                  double height_m);
 
+/// Share of the steep attitude that the machine can have where a cut begins.
+[[nodiscard]] double steepest(const SwingKinematics& kinematics, const TaskProgram& program,
+                              Cut cut);
+
 /// The step's line at a strip, so high over itself.
 [[nodiscard]] TeethLine line_over(const TaskProgram& program, int strip, double height_m);
 
