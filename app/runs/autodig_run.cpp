@@ -123,6 +123,9 @@ class AutodigRun {
     if (const plant::BucketSoil* soil = plant.digging(); soil != nullptr) {
       sample.fill_m3 = soil->fill_m3();
       sample.cut_m3 = soil->cut_m3();
+      sample.fill_kg = soil->fill_kg();
+      const Eigen::Vector2d force_n = plant.ground_force_n();
+      sample.tip_force_n = {force_n.x(), force_n.y()};
     }
   }
 
@@ -131,6 +134,7 @@ class AutodigRun {
     const ExcavatorStatus& status = outputs.status;
     sample.progress = status.progress;
     sample.progress_share = status.progress.share;
+    sample.told = status.tip_load;
     sample.lambda = status.lambda;
     sample.limit = status.limit;
     for (unsigned i = 0; i < kDriveCount; ++i) {

@@ -42,6 +42,10 @@ struct AutodigSample {
   double over_cut_m = kUnknown;        ///< Of the edge's lower corner under the design; 0: none.
   double fill_m3 = kUnknown;           ///< Of the bucket, loose.
   double cut_m3 = kUnknown;            ///< Undisturbed soil that was cut, so far.
+  double fill_kg = kUnknown;           ///< Of the bucket.
+  /// Of the ground on the bucket, x outwards, z up, true; without the fill's weight.
+  std::array<double, 2> tip_force_n{kUnknown, kUnknown};
+  TipLoad told;  ///< By the controller, of both.
   double lambda = 0.0;
   Limit limit;
   /// Strokes in m, swing in rad; velocities m/s and rad/s, the wanted ones after lambda.
