@@ -39,6 +39,10 @@ class AutodigRun {
         rig_(machine, book_of(program), options.start, options.speed_override_ratio) {
     rig_.plant.plant().keep_account(&account_);
     result_.spool_edges = spool_edges(machine.plant);
+    if (const auto& digging = machine.plant.digging; digging) {
+      result_.capacity_kg =
+          digging->bucket.capacity_m3 * digging->soil.density_kgpm3 / digging->soil.swell;
+    }
   }
 
   AutodigResult run(const Progress& show) {

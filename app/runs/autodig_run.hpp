@@ -71,6 +71,7 @@ struct AutodigResult {
   double wall_s = 0.0;
   std::uint32_t rejected_frames = 0;
   RealSpoolEdges spool_edges{};
+  double capacity_kg = AutodigSample::kUnknown;  ///< Of the bucket, of the ground's soil, loose.
 };
 
 /// One step as it was done.
@@ -100,7 +101,18 @@ struct AutodigSummary {
   double cut_m3 = kAbsent;       ///< Undisturbed.
   double cut_m3ph = kAbsent;     ///< The same, of the time of the steps.
   double fill_max_m3 = kAbsent;  ///< Loose, in the bucket.
-  double lambda_min = 0.0;       ///< From the first step on.
+  /// Of the tip force that the controller tells, while it digs: share of the time in which it is
+  /// within a tenth of the largest true one; its error, RMS of both components together; and that
+  /// over the deviation it tells.
+  double tip_force_within_ratio = kAbsent;
+  double tip_force_error_n = kAbsent;
+  double tip_force_spread = kAbsent;
+  /// Of the payload as it was told last before each dump, from the second one on, when the empty
+  /// bucket has been back once: largest error, of the bucket's heaped capacity of this soil
+  /// loose, and RMS of error over deviation.
+  double payload_error_ratio = kAbsent;
+  double payload_spread = kAbsent;
+  double lambda_min = 0.0;  ///< From the first step on.
   double lambda_mean = 0.0;
   double task_s = 0.0;     ///< From the first step's begin to the last one's end.
   double planned_s = 0.0;  ///< Of all these steps.
