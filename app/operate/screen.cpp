@@ -102,6 +102,23 @@ std::string asked_text(const View& view) {
                      100.0 * view.request.speed_override_ratio);
 }
 
+/// Empty while the controller tells neither force nor payload.
+std::string load_text(const EcuListener& ecu) {
+  std::string text;
+  if (const auto& force = ecu.tip_force().said;
+      force && force->tip_force_outwards_n.state == dbc::RawState::kValid) {
+    text = fmt::format("{:+.1f} kN outwards, {:+.1f} kN up, each +-{:.1f} kN",
+                       1e-3 * force->tip_force_outwards_n.value, 1e-3 * force->tip_force_up_n.value,
+                       1e-3 * force->tip_force_deviation_n.value);
+  }
+  if (const auto& payload = ecu.payload().said;
+      payload && payload->payload_mass_kg.state == dbc::RawState::kValid) {
+    text += fmt::format("{}payload {:.0f} +-{:.0f} kg", text.empty() ? "" : "; ",
+                        payload->payload_mass_kg.value, payload->payload_deviation_kg.value);
+  }
+  return text;
+}
+
 std::string also_text(const EcuListener& ecu, TimeUs now) {
   std::string text;
   for (const Fault fault : ecu.faults(now)) {
@@ -143,6 +160,9 @@ void put_controller(std::vector<std::string>& lines, const View& view) {
     put(lines, "Also", also);
   }
   put(lines, "Lambda", lambda_text(*ecu.status().said));
+  if (const std::string load = load_text(ecu); !load.empty()) {
+    put(lines, "Tip force", load);
+  }
 }
 
 }  // namespace

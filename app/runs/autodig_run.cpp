@@ -43,6 +43,10 @@ class AutodigRun {
         rig_(machine, book_of(program), options.start, options.speed_override_ratio) {
     rig_.plant.plant().keep_account(&account_);
     result_.spool_edges = spool_edges(machine.plant);
+    if (const auto& digging = machine.plant.digging; digging) {
+      result_.capacity_kg =
+          digging->bucket.capacity_m3 * digging->soil.density_kgpm3 / digging->soil.swell;
+    }
   }
 
   AutodigResult run(const Progress& show) {
@@ -131,6 +135,9 @@ class AutodigRun {
     if (const plant::BucketSoil* soil = plant.digging(); soil != nullptr) {
       sample.fill_m3 = soil->fill_m3();
       sample.cut_m3 = soil->cut_m3();
+      sample.fill_kg = soil->fill_kg();
+      const Eigen::Vector2d force_n = plant.ground_force_n();
+      sample.tip_force_n = {force_n.x(), force_n.y()};
     }
   }
 
@@ -139,6 +146,7 @@ class AutodigRun {
     const ExcavatorStatus& status = outputs.status;
     sample.progress = status.progress;
     sample.progress_share = status.progress.share;
+    sample.told = status.tip_load;
     sample.lambda = status.lambda;
     sample.limit = status.limit;
     for (unsigned i = 0; i < kDriveCount; ++i) {

@@ -43,6 +43,10 @@ struct AutodigSample {
   double over_cut_m = kUnknown;        ///< Of the edge's lower corner under the design; 0: none.
   double fill_m3 = kUnknown;           ///< Of the bucket, loose.
   double cut_m3 = kUnknown;            ///< Undisturbed soil that was cut, so far.
+  double fill_kg = kUnknown;           ///< Of the bucket.
+  /// Of the ground on the bucket, x outwards, z up, true; without the fill's weight.
+  std::array<double, 2> tip_force_n{kUnknown, kUnknown};
+  TipLoad told;  ///< By the controller, of both.
   double lambda = 0.0;
   Limit limit;
   /// Strokes in m, swing in rad; velocities m/s and rad/s, the wanted ones after lambda.
@@ -68,7 +72,8 @@ struct AutodigResult {
   double wall_s = 0.0;
   std::uint32_t rejected_frames = 0;
   RealSpoolEdges spool_edges{};
-  AsBuilt built;  ///< Of a task in layers, in ground that is cut.
+  AsBuilt built;                                 ///< Of a task in layers, in ground that is cut.
+  double capacity_kg = AutodigSample::kUnknown;  ///< Of the bucket, of the ground's soil, loose.
 };
 
 /// One step as it was done.
@@ -95,13 +100,22 @@ struct AutodigSummary {
   /// Deepest that a corner of the true edge was under the design; not a number without a design.
   double over_cut_max_m = kAbsent;
   // Of a ground that is cut, else not a number.
-  double cut_m3 = kAbsent;        ///< Undisturbed.
-  double cut_m3ph = kAbsent;      ///< The same, of the time of the steps.
-  double fill_max_m3 = kAbsent;   ///< Loose, in the bucket.
-  double filled_ratio = kAbsent;  ///< Of the bucket, as a round lifts it: the median of all rounds
-  double filled_low_ratio = kAbsent;  ///< but the last few; 90 % of them lift no less.
   double energy_per_m3_j = kAbsent;
   AsBuilt built;
+  double cut_m3 = kAbsent;       ///< Undisturbed.
+  double cut_m3ph = kAbsent;     ///< The same, of the time of the steps.
+  double fill_max_m3 = kAbsent;  ///< Loose, in the bucket.
+  /// Of the tip force that the controller tells, while it digs: share of the time in which it is
+  /// within a tenth of the largest true one; its error, RMS of both components together; and that
+  /// over the deviation it tells.
+  double tip_force_within_ratio = kAbsent;
+  double tip_force_error_n = kAbsent;
+  double tip_force_spread = kAbsent;
+  /// Of the payload as it was told last before each dump, from the second one on, when the empty
+  /// bucket has been back once: largest error, of the bucket's heaped capacity of this soil
+  /// loose, and RMS of error over deviation.
+  double payload_error_ratio = kAbsent;
+  double payload_spread = kAbsent;
   double lambda_min = 0.0;  ///< From the first step on.
   double lambda_mean = 0.0;
   double task_s = 0.0;     ///< From the first step's begin to the last one's end.

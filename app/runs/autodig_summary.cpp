@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/machines/task_text.hpp"
-#include "app/runs/autodig_run.hpp"
+#include "app/runs/load_figures.hpp"
 
 namespace graben::runs {
 namespace {
@@ -127,6 +127,19 @@ FigureTable<AutodigSummary> task_figures() {
        [](const S& s) { return s.built.over_cut_m3; }},
       {{"energy_per_m3_j", "energy for a cubic metre", kKilowattHours, "energy_per_m3_j"},
        [](const S& s) { return s.energy_per_m3_j; }},
+      {{"tip_force_within_ratio", "tip force told within a tenth of the largest", kPercent,
+        "tip_force_within_ratio", BadEnd::kLow},
+       [](const S& s) { return s.tip_force_within_ratio; }},
+      {{"tip_force_error_n", "tip force told from the true one, RMS", kNewtons,
+        "tip_force_error_n"},
+       [](const S& s) { return s.tip_force_error_n; }},
+      {{"tip_force_spread", "the same over the deviation told", kRatio},
+       [](const S& s) { return s.tip_force_spread; }},
+      {{"payload_error_ratio", "payload told, error of the capacity, max", kPercent,
+        "payload_error_ratio"},
+       [](const S& s) { return s.payload_error_ratio; }},
+      {{"payload_spread", "the same over the deviation told, RMS", kRatio},
+       [](const S& s) { return s.payload_spread; }},
       {{"lambda_min", "lambda, min", kRatio, nullptr, BadEnd::kLow},
        [](const S& s) { return s.lambda_min; }},
       {{"lambda_mean", "lambda, mean", kRatio, "lambda_mean", BadEnd::kLow},
@@ -146,6 +159,7 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
   LimitCount limits(excavator_actuators());
   Steps steps(program);
   ExcavatorCalmCount calm(result.spool_edges);
+  LoadFigures load(result.capacity_kg);
   double lambda_sum = 0.0;
   long in_steps = 0;
   summary.lambda_min = 1.0;
@@ -156,6 +170,7 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
     summary.fill_max_m3 = std::fmax(summary.fill_max_m3, sample.fill_m3);
     summary.cut_m3 = std::fmax(summary.cut_m3, sample.cut_m3);
     steps.add(sample);
+    load.add(sample);
     if (!in_step(sample)) {
       calm.pause();
       continue;
@@ -170,6 +185,7 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
       error_measured.add(sample.error_measured_m);
     }
   }
+  load.tell(summary);
   summary.max_error_true_m = error_true.max();
   summary.rmse_error_true_m = error_true.rms();
   summary.max_error_measured_m = error_measured.max();

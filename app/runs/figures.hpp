@@ -36,6 +36,7 @@ inline constexpr ShownUnit kPerSecond = {"/s", 1.0, 3};
 inline constexpr ShownUnit kMetresPerSecond3 = {"m/s3", 1.0, 2};
 inline constexpr ShownUnit kKilowattHours = {"kWh", 1.0 / 3.6e6, 3};
 inline constexpr ShownUnit kCubicMetres = {"m3", 1.0, 3};
+inline constexpr ShownUnit kNewtons = {"N", 1.0, 0};
 inline constexpr ShownUnit kTimes = {"", 1.0, 0};
 inline constexpr ShownUnit kCount = {"", 1.0, 0, true};
 

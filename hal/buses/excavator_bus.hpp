@@ -23,7 +23,8 @@ using ExcavatorReceiver = MessageReceiver<ExcavatorReception>;
 ///   SwingCommand, with a swing drive                    10 ms
 ///   PumpCommand, EcuStatus, EcuMotion, EcuHydraulics    20 ms
 ///   TaskStatus, with a swing drive                      20 ms
-///   EcuHealth, EcuLearntValves                         100 ms
+///   EcuTipForce                                         20 ms
+///   EcuHealth, EcuLearntValves, EcuPayload             100 ms
 ///   EcuIdentity                                          1 s
 ///   DM1                                                as hal/link/dm1.hpp says
 ///
@@ -32,7 +33,7 @@ using ExcavatorReceiver = MessageReceiver<ExcavatorReception>;
 /// finite or not above 0. PilotCut is sent whatever else is.
 struct ExcavatorTransmission {
   using Outputs = ExcavatorOutputs;
-  static constexpr int kPeriodicCount = 10;
+  static constexpr int kPeriodicCount = 12;
   [[nodiscard]] static const SendTable<Outputs, kPeriodicCount>& table();
 };
 

@@ -280,6 +280,7 @@ BucketForce BucketSoil::step(const BucketPlace& place) {
       profile_.pin_m * (kMiddleAlong * along - kMiddleBelow * turned(along));
   const Eigen::Vector2d weight_n(0.0, -fill_kg() * profile_.gravity_mps2);
   sum.force_n += weight_n;
+  sum.fill_n = weight_n;
   sum.moment_nm += cross(middle_m, weight_n);
   return sum;
 }

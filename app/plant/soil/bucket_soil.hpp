@@ -25,6 +25,7 @@ struct BucketPlace {
 struct BucketForce {
   Eigen::Vector2d force_n = Eigen::Vector2d::Zero();
   double moment_nm = 0.0;
+  Eigen::Vector2d fill_n = Eigen::Vector2d::Zero();  ///< What of the force is the fill's weight.
 };
 
 /// The force on the edge is that of an elastic soil that yields: towards any side it holds the edge

@@ -1,6 +1,7 @@
 #include "firmware/excavator/load/load_observer.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace graben {
@@ -11,14 +12,22 @@ constexpr double kNoise = 0.02;
 constexpr double kLeverOff = 0.01;
 /// Blocks follow each other with what is not noise in them; each tells so much less than it seems.
 constexpr double kAlike = 4.0;
+/// An axis that stands tells the less: its friction is the same all the time.
+constexpr double kStands = 4.0;
 /// Farther from what is expected, something touches the bucket.
 constexpr double kGate = 4.0;
 /// What the ground may do, N.
 constexpr double kForce_n = 60e3;
 /// What a bucket may carry, kg, by the cube of its length; and the deviation.
-constexpr double kFill_kgpm3 = 120.0;
+constexpr double kFill_kgpm3 = 450.0;
 constexpr double kEmptySd_kg = 3.0;
+constexpr double kHangs = 0.05;  ///< In a bucket that stands steeply, of what it may carry.
 constexpr double kOutwardSd_m = 0.05;
+/// Deviation of what is in the bucket while it fills: of a full one, and of what is expected; and
+/// of where it lies, m.
+constexpr double kFillOff = 0.25;
+constexpr double kFullOff = 0.3;
+constexpr double kFillOff_m = 0.1;
 /// Blocks until a payload is told.
 constexpr int kWeighed = 5;
 /// More than this is left aside: an axis that stands has friction of any sign.
@@ -44,17 +53,26 @@ void enter(LoadPhase phase, const ExcavatorGeometry& geometry, LoadObserver& obs
       set_term(kLoadTerm, 0.0, kEmptySd_kg, terms);
       set_term(kOutwardTerm, 0.0, kEmptySd_kg, terms);
       break;
-    case LoadPhase::kDigs:
-      set_term(kLoadTerm, most_kg, most_kg, terms);
-      set_term(kOutwardTerm, 0.0, kOutwardSd_m * most_kg, terms);
-      break;
     case LoadPhase::kCarries:
       set_term(kLoadTerm, most_kg, 4.0 * most_kg, terms);
       set_term(kOutwardTerm, 0.0, 2.0 * kOutwardSd_m * most_kg, terms);
       break;
-    case LoadPhase::kPours:
-    case LoadPhase::kUnsaid:
+    case LoadPhase::kHangs:
+      set_term(kLoadTerm, 0.0, kHangs * most_kg, terms);
+      set_term(kOutwardTerm, 0.0, kOutwardSd_m * most_kg, terms);
       break;
+    case LoadPhase::kUnsaid:
+      if (observer.phase.kind == StepKind::kNone) {
+        set_term(kLoadTerm, 0.0, most_kg, terms);
+        set_term(kOutwardTerm, 0.0, kOutwardSd_m * most_kg, terms);
+      }
+      break;
+    case LoadPhase::kDigs:  // See expect_fill().
+    case LoadPhase::kPours:
+      break;
+  }
+  if (observer.weighed >= kWeighed && phase == LoadPhase::kPours) {
+    observer.last_fill_kg = std::max(0.0, terms.value[kLoadTerm]);
   }
   observer.weighed = 0;
   observer.cycle = 0;
@@ -73,17 +91,25 @@ void add(const LoadBalance& balance, BalanceBlock& block) {
   }
 }
 
-bool learns(LoadPhase phase) { return phase == LoadPhase::kEmpty || phase == LoadPhase::kCarries; }
+bool learns(LoadPhase phase) {
+  return phase == LoadPhase::kEmpty || phase == LoadPhase::kCarries || phase == LoadPhase::kHangs;
+}
 
 void learn_axis(const ExcavatorProfile& profile, int axis, LoadObserver& observer) {
   const auto k = static_cast<unsigned>(axis);
   const BalanceBlock& block = observer.full;
+  double held_n2 = 0.0;
   if (!block.steady[k]) {
-    return;
+    // Friction of either sign: it tells no more of an offset than that.
+    const double coulomb_n = observer.terms.value[static_cast<unsigned>(kCoulombTerm + axis)];
+    held_n2 = kStands * coulomb_n * coulomb_n;
+    if (observer.terms.variance(kOffsetTerm + axis) < held_n2) {
+      return;
+    }
   }
   const double noise = noise_n(profile, axis);
   const double off_n = kLeverOff * block.force_n[axis];
-  const double variance_n2 = kAlike * (noise * noise / kLoadBlock + off_n * off_n);
+  const double variance_n2 = kAlike * (noise * noise / kLoadBlock + off_n * off_n) + held_n2;
   const bool learnt =
       learn(axis, block.row[k], block.force_n[axis], variance_n2, kGate, observer.terms);
   observer.weighed += learnt && axis == kBoom ? 1 : 0;
@@ -110,13 +136,27 @@ void find_gains(const ExcavatorProfile& profile, const LoadBalance& balance,
   observer.gains.force_sd_n = std::sqrt(0.5 * left_n2.trace());
 }
 
+/// While it digs the bucket fills, to what was carried away last time.
+void expect_fill(const ExcavatorProfile& profile, double share, LoadObserver& observer) {
+  const double guess_kg = fill_kg(profile.geometry);
+  const double full_kg = observer.last_fill_kg > 0.0 ? observer.last_fill_kg : guess_kg;
+  const double done = observer.phase.kind == StepKind::kDig ? share : 1.0;
+  set_term(kLoadTerm, done * full_kg, kFillOff * guess_kg + kFullOff * done * full_kg,
+           observer.terms);
+  set_term(kOutwardTerm, 0.0, kFillOff_m * guess_kg, observer.terms);
+}
+
 /// The cycles' work on what the last block has told, a piece in each.
-void work(const ExcavatorProfile& profile, const LoadBalance& balance, LoadObserver& observer) {
+void work(const ExcavatorProfile& profile, const LoadBalance& balance, double share,
+          LoadObserver& observer) {
   if (observer.cycle < kAxisCount) {
     if (learns(observer.full_phase)) {
       learn_axis(profile, observer.cycle, observer);
     }
   } else if (observer.cycle == kAxisCount) {
+    if (observer.phase.phase == LoadPhase::kDigs) {
+      expect_fill(profile, share, observer);
+    }
     find_gains(profile, balance, observer);
   }
 }
@@ -141,32 +181,28 @@ void tell(const LoadBalance& balance, LoadObserver& observer) {
 
 void next_load(const ExcavatorProfile& profile, const LoadSeen& seen, StepKind kind, double share,
                const TipPose& tip, double period_s, bool active, LoadObserver& observer) {
-  if (!seen.known) {
-    observer.told = {};
-    observer.gains = {};
-    observer.filter = {};
-    observer.cycle = 0;
-    observer.filling = {};
-    observer.full_phase = LoadPhase::kUnsaid;
-    observer.phase = {};
-    observer.begun = false;
+  if (!seen.known || !seen.force_n.allFinite()) {
+    const LoadTerms terms = observer.terms;
+    observer = {};
+    observer.terms = terms;
     return;
   }
   if (observer.terms.variance(kOffsetTerm) == 0.0) {
     observer.terms = terms_unseen(profile);
-    const double most_kg = fill_kg(profile.geometry);
-    set_term(kLoadTerm, 0.0, most_kg, observer.terms);
-    set_term(kOutwardTerm, 0.0, kOutwardSd_m * most_kg, observer.terms);
+  }
+  if (!observer.begun) {
+    enter(LoadPhase::kUnsaid, profile.geometry, observer);
   }
   const LoadPhase before = observer.phase.phase;
-  next_phase(active ? kind : StepKind::kNone, share, tip, period_s, observer.phase);
+  next_phase(active ? kind : StepKind::kNone, share, tip, -profile.geometry.boom_foot_m.y(),
+             period_s, observer.phase);
   if (observer.phase.phase != before) {
     enter(observer.phase.phase, profile.geometry, observer);
   }
   LoadBalance balance;
   next_balance(profile, seen, period_s, !observer.begun, observer.filter, balance);
   observer.begun = true;
-  work(profile, balance, observer);
+  work(profile, balance, share, observer);
   add(balance, observer.filling);
   if (++observer.cycle == kLoadBlock) {
     observer.full = observer.filling;

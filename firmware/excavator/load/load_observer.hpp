@@ -41,7 +41,8 @@ struct LoadObserver {
   BalanceBlock full;
   LoadPhase full_phase = LoadPhase::kUnsaid;  ///< Of the last block; kUnsaid: nothing to learn.
   LoadGains gains;
-  int weighed = 0;  ///< Blocks that the payload was in.
+  int weighed = 0;            ///< Blocks that the payload was in.
+  double last_fill_kg = 0.0;  ///< Carried away from the last dig; 0: none was.
   TipLoad told;
 };
 

@@ -9,21 +9,24 @@ namespace graben {
 namespace {
 
 constexpr double kFreeAbove_m = 0.5;
+/// Over the ground that the machine stands on: heaps and slopes are lower.
+constexpr double kClear_m = 0.4;
 /// Attitude beyond which the opening looks down; and that from which on soil may fall out.
 constexpr double kOpen_rad = 1.75;
 constexpr double kSpills_rad = 0.8;
+/// Beyond this little stays in.
+constexpr double kSteep_rad = 1.2;
 constexpr double kPoured_s = 1.5;
 /// Of a move that ends at the ground.
 constexpr double kNearGround = 0.85;
 
-LoadPhase phase_of(StepKind kind, double share, const TipPose& tip, const PhaseState& state) {
+LoadPhase phase_of(StepKind kind, double share, const TipPose& tip, double height_m,
+                   const PhaseState& state) {
   switch (kind) {
     case StepKind::kDig:
       return LoadPhase::kDigs;
     case StepKind::kLift:
-      return state.phase == LoadPhase::kCarries || tip.y_m > state.lifted_from_m + kFreeAbove_m
-                 ? LoadPhase::kCarries
-                 : LoadPhase::kDigs;
+      return state.free_s > kPoured_s ? LoadPhase::kCarries : LoadPhase::kDigs;
     case StepKind::kSwing:
       return LoadPhase::kCarries;
     case StepKind::kDump:
@@ -35,10 +38,15 @@ LoadPhase phase_of(StepKind kind, double share, const TipPose& tip, const PhaseS
                  : LoadPhase::kPours;
     case StepKind::kApproach:
     case StepKind::kReturnToDig:
-      if (share > kNearGround) {
+      if (share > kNearGround || height_m < kClear_m) {
         return LoadPhase::kUnsaid;
       }
-      return state.open_s > kPoured_s ? LoadPhase::kEmpty : LoadPhase::kPours;
+      if (state.open_s > kPoured_s) {
+        return LoadPhase::kEmpty;
+      }
+      return kind == StepKind::kApproach && state.open_s == 0.0 && tip.attitude_rad > kSteep_rad
+                 ? LoadPhase::kHangs
+                 : LoadPhase::kPours;
     case StepKind::kNone:
     case StepKind::kDone:
       break;
@@ -48,15 +56,20 @@ LoadPhase phase_of(StepKind kind, double share, const TipPose& tip, const PhaseS
 
 }  // namespace
 
-void next_phase(StepKind kind, double share, const TipPose& tip, double period_s,
+void next_phase(StepKind kind, double share, const TipPose& tip, double ground_m, double period_s,
                 PhaseState& state) {
+  const double height_m = tip.y_m - ground_m;
   const bool open = std::abs(std::remainder(tip.attitude_rad, kTwoPi)) > kOpen_rad;
   state.open_s = open ? std::min(state.open_s + period_s, 2.0 * kPoured_s) : 0.0;
   if (kind != state.kind) {
     state.kind = kind;
     state.lifted_from_m = tip.y_m;
+    state.free_s = 0.0;
   }
-  state.phase = phase_of(kind, share, tip, state);
+  if (height_m > kClear_m && tip.y_m > state.lifted_from_m + kFreeAbove_m) {
+    state.free_s += period_s;
+  }
+  state.phase = phase_of(kind, share, tip, height_m, state);
 }
 
 }  // namespace graben

@@ -14,6 +14,7 @@ enum class LoadPhase : std::uint8_t {
   kDigs = 2,     ///< It is in the ground, or comes out of it; it fills.
   kCarries = 3,  ///< It touches nothing; what it carries stays the same.
   kPours = 4,    ///< It touches nothing; what it carries gets less.
+  kHangs = 5,    ///< It touches nothing; little can be in it, and stays.
 };
 
 /// State from cycle to cycle.
@@ -22,13 +23,15 @@ struct PhaseState {
   StepKind kind = StepKind::kNone;
   double open_s = 0.0;         ///< So long the bucket's opening has looked down.
   double lifted_from_m = 0.0;  ///< Height of the teeth where the lift began.
+  double free_s = 0.0;         ///< So long a lift has been above the ground.
 };
 
 /// What the step that runs (kNone without one), its share that is done and the bucket's pose say.
-/// A lift is free half a metre above where it began. A bucket is empty in a move that no soil is
+/// A lift is free half a metre above where it began, and has lost what it can't keep a second and a
+/// half later. A bucket is empty in a move that no soil is
 /// meant for, its opening down for a second and a half; the last part of such a move may touch the
 /// ground.
-void next_phase(StepKind kind, double share, const TipPose& tip, double period_s,
+void next_phase(StepKind kind, double share, const TipPose& tip, double ground_m, double period_s,
                 PhaseState& state);
 
 }  // namespace graben

@@ -21,8 +21,8 @@ void periods(void**) {
     const auto tally =
         sent_in_10_s<ExcavatorTransmitter, bus::SpoolCommand, bus::PumpCommand, bus::EcuStatus,
                      bus::EcuMotion, bus::EcuHydraulics, bus::EcuHealth, bus::EcuLearntValves,
-                     bus::EcuIdentity, bus::DM1>(jitter_us);
-    const std::array<int, 9> expected = {1000, 500, 500, 500, 500, 100, 100, 10, 10};
+                     bus::EcuTipForce, bus::EcuPayload, bus::EcuIdentity, bus::DM1>(jitter_us);
+    const std::array<int, 11> expected = {1000, 500, 500, 500, 500, 100, 100, 500, 100, 10, 10};
     assert_true(std::equal(expected.begin(), expected.end(), tally.begin()));
     assert_in_range(tally.back(), 4, 5);
   }
@@ -214,6 +214,29 @@ void learnt_valves(void**) {
   assert_near(sent.bucket_retract_edge_ratio.value, 0.125, 1e-9);  // what the frame can say
 }
 
+void tip_load(void**) {
+  ExcavatorSender sender;
+  for (const bool known : {false, true}) {
+    sender.outputs.status.tip_load = {known, {-31'230.0, 4'560.0}, 780.0, known, 512.5, 12.25};
+    for (TimeUs n = 0; n <= 10; ++n) {
+      sender.call(kStartUs + (known ? 11 : 0) * kPeriodUs + n * kPeriodUs);
+    }
+    const RawState state = known ? RawState::kValid : RawState::kNotAvailable;
+    const auto force = sender.sent<bus::EcuTipForce>();
+    const auto payload = sender.sent<bus::EcuPayload>();
+    assert_int_equal(force.tip_force_outwards_n.state, state);
+    assert_int_equal(force.tip_force_deviation_n.state, state);
+    assert_int_equal(payload.payload_mass_kg.state, state);
+    if (known) {
+      assert_near(force.tip_force_outwards_n.value, -31'230.0, 1e-9);
+      assert_near(force.tip_force_up_n.value, 4'560.0, 1e-9);
+      assert_near(force.tip_force_deviation_n.value, 780.0, 1e-9);
+      assert_near(payload.payload_mass_kg.value, 512.5, 1e-9);
+      assert_near(payload.payload_deviation_kg.value, 12.25, 1e-9);
+    }
+  }
+}
+
 void motion_and_hydraulics(void**) {
   ExcavatorSender sender;
   ExcavatorStatus& out = sender.outputs.status;
@@ -236,17 +259,12 @@ void motion_and_hydraulics(void**) {
 
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(periods),
-      cmocka_unit_test(periods_of_the_swings_frames),
-      cmocka_unit_test(protection),
-      cmocka_unit_test(pilot_cut),
-      cmocka_unit_test(duty),
-      cmocka_unit_test(a_duty_that_is_not_finite_stops_all),
-      cmocka_unit_test(swing_duty),
-      cmocka_unit_test(task_status),
-      cmocka_unit_test(swash),
-      cmocka_unit_test(learnt_valves),
-      cmocka_unit_test(motion_and_hydraulics),
+      cmocka_unit_test(periods),    cmocka_unit_test(periods_of_the_swings_frames),
+      cmocka_unit_test(protection), cmocka_unit_test(pilot_cut),
+      cmocka_unit_test(duty),       cmocka_unit_test(a_duty_that_is_not_finite_stops_all),
+      cmocka_unit_test(swing_duty), cmocka_unit_test(task_status),
+      cmocka_unit_test(swash),      cmocka_unit_test(learnt_valves),
+      cmocka_unit_test(tip_load),   cmocka_unit_test(motion_and_hydraulics),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -1,0 +1,206 @@
+// Tip force and payload by pressures: a machine on paper, whose forces come from its potential
+// energy.
+
+#include <cmath>
+#include <limits>
+
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/load_world.hpp"
+
+namespace {
+
+using namespace graben;
+using test::LoadWorld;
+
+constexpr TipPose kHigh = {6.3, 2.2, 2.0};
+constexpr TipPose kOut = {7.2, -0.4, 2.2};
+constexpr TipPose kLow = {5.2, -0.9, 0.4};
+constexpr TipPose kLifted = {5.6, 2.0, 0.3};
+
+/// There and back, the opening down: both signs of friction are seen.
+void wave_empty(LoadWorld& world) {
+  for (int n = 0; n < 3; ++n) {
+    world.move(StepKind::kReturnToDig, kHigh, kOut, 6.0);
+    world.move(StepKind::kReturnToDig, kOut, kHigh, 6.0);
+  }
+}
+
+void lift(LoadWorld& world, double load_kg) {
+  world.load_kg = load_kg;
+  world.move(StepKind::kLift, kLow, kLifted, 8.0);
+}
+
+void force_at_rest(void**) {
+  for (const Eigen::Vector2d force_n :
+       {Eigen::Vector2d(30e3, 0.0), Eigen::Vector2d(0.0, 20e3), Eigen::Vector2d(25e3, -15e3)}) {
+    LoadWorld world;
+    wave_empty(world);
+    world.teeth_n = force_n;
+    // At a dig's begin the bucket is empty.
+    const Eigen::Vector3d strokes_m = world.strokes_at(kLow);
+    for (int n = 0; n < 100; ++n) {
+      world.cycle(StepKind::kDig, 0.0, strokes_m, Eigen::Vector3d::Zero());
+    }
+    const TipLoad& told = world.told();
+    assert_true(told.known);
+    assert_false(told.payload_known);
+    assert_true((told.force_n - force_n).norm() < 0.03 * force_n.norm());
+    assert_true(told.force_sd_n > 200.0 && told.force_sd_n < 4e3);
+  }
+}
+
+// What is off is learnt in the air; the load is then known through it all.
+void payload_with_all_that_is_off(void**) {
+  LoadWorld world;
+  world.offset_n = {15e3, -6e3, 4e3};
+  world.coulomb_n = {5e3, 2.5e3, 3e3};
+  world.mass_factor = {1.1, 0.92, 1.08};
+  wave_empty(world);
+  assert_true(world.told().payload_known);
+  assert_near(world.told().payload_kg, 0.0, 10.0);
+  for (const double load_kg : {1200.0, 300.0}) {
+    lift(world, load_kg);
+    const TipLoad& told = world.told();
+    assert_true(told.payload_known);
+    assert_true(told.payload_sd_kg > 2.0 && told.payload_sd_kg < 60.0);
+    assert_true(std::abs(told.payload_kg - load_kg) < 2.0 * told.payload_sd_kg);
+    assert_near(told.payload_kg, load_kg, 35.0);
+    world.load_kg = 0.0;
+    wave_empty(world);
+  }
+}
+
+// Without a move in the air the deviation says how little is known, and holds.
+void nothing_learnt_yet(void**) {
+  LoadWorld world;
+  world.offset_n = {9e3, -4e3, 3e3};
+  lift(world, 1000.0);
+  const TipLoad& told = world.told();
+  assert_true(told.payload_known);
+  assert_true(told.payload_sd_kg > 80.0);
+  assert_true(std::abs(told.payload_kg - 1000.0) < 3.0 * told.payload_sd_kg);
+}
+
+void friction_is_learnt(void**) {
+  LoadWorld world;
+  world.coulomb_n = {7e3, 1e3, 2e3};
+  wave_empty(world);
+  const LoadTerms& terms = world.observer.terms;
+  assert_near(terms.value[kCoulombTerm + kBoom], 7e3, 700.0);
+  assert_near(terms.value[kCoulombTerm + kArm], 1e3, 700.0);
+  assert_near(terms.value[kOffsetTerm + kBoom], 0.0, 2.5e3);
+}
+
+void same_terms(const LoadTerms& a, const LoadTerms& b) {
+  for (unsigned i = 0; i < kLoadTerm; ++i) {
+    assert_true(a.value[i] == b.value[i]);
+    assert_true(a.variance(static_cast<int>(i)) == b.variance(static_cast<int>(i)));
+  }
+}
+
+// In the ground, standing on it, by hand, held by something: no offset is learnt.
+void held_is_not_learnt(void**) {
+  constexpr TipPose kOnGround = {6.5, -1.74, 2.0};
+  for (const StepKind kind : {StepKind::kApproach, StepKind::kReturnToDig, StepKind::kDig,
+                              StepKind::kNone, StepKind::kDone}) {
+    LoadWorld world;
+    wave_empty(world);
+    const LoadTerms before = world.observer.terms;
+    world.teeth_n = {4e3, 12e3};
+    world.stand(kind, kOnGround, 4.0);
+    same_terms(before, world.observer.terms);
+  }
+  LoadWorld world;
+  wave_empty(world);
+  const LoadTerms before = world.observer.terms;
+  world.teeth_n = {15e3, 40e3};  // far beyond what may be off
+  world.move(StepKind::kReturnToDig, kHigh, kOut, 6.0);
+  same_terms(before, world.observer.terms);
+  world.teeth_n.setZero();
+  world.active = false;
+  world.move(StepKind::kReturnToDig, kOut, kHigh, 6.0);
+  same_terms(before, world.observer.terms);
+}
+
+void not_known(void**) {
+  LoadWorld world;
+  wave_empty(world);
+  assert_true(world.told().known);
+  const LoadTerms before = world.observer.terms;
+  LoadSeen seen;
+  next_load(LoadWorld::machine(), seen, StepKind::kReturnToDig, 0.5, kHigh, 0.01, true,
+            world.observer);
+  assert_false(world.told().known);
+  assert_false(world.told().payload_known);
+  seen.known = true;
+  seen.force_n[kArm] = std::numeric_limits<double>::quiet_NaN();
+  for (int n = 0; n < 30; ++n) {
+    next_load(LoadWorld::machine(), seen, StepKind::kReturnToDig, 0.5, kHigh, 0.01, true,
+              world.observer);
+    assert_false(world.told().known);
+  }
+  same_terms(before, world.observer.terms);
+  world.move(StepKind::kReturnToDig, kOut, kHigh, 6.0);
+  assert_true(world.told().known);
+  assert_true(world.told().force_n.norm() < 1500.0);
+}
+
+// In motion the cylinders' power is what kinetic and potential energy gain.
+void power(void**) {
+  const ExcavatorProfile& machine = LoadWorld::machine();
+  const Eigen::Vector3d at(0.7, -1.2, -0.9);
+  const Eigen::Vector3d rates(0.4, -0.6, 0.9);
+  const Eigen::Vector3d turns(0.8, 1.1, -1.5);
+  const auto places = [&](double time_s) {
+    return link_places(machine.oil, machine.geometry,
+                       at + time_s * rates + 0.5 * time_s * time_s * turns);
+  };
+  const auto kinetic_j = [&](double time_s) {
+    constexpr double kStep_s = 1e-5;
+    const LinkPlaces before = places(time_s - kStep_s);
+    const LinkPlaces after = places(time_s + kStep_s);
+    double sum_j = 0.0;
+    double rate_radps = 0.0;
+    for (unsigned i = 0; i < 3; ++i) {
+      rate_radps += rates[i] + time_s * turns[i];
+      const Eigen::Vector2d speed = (after.centre_m[i] - before.centre_m[i]) / (2 * kStep_s);
+      sum_j += 0.5 * machine.oil.link[i].mass_kg * speed.squaredNorm() +
+               0.5 * machine.oil.link[i].inertia_kgm2 * rate_radps * rate_radps;
+    }
+    return sum_j;
+  };
+  constexpr double kStep_s = 1e-3;
+  const double gained_w = (kinetic_j(kStep_s) - kinetic_j(-kStep_s)) / (2 * kStep_s);
+  const LinkMoments moving = moving_moments(machine.oil, places(0.0), rates, turns, 0.0, 0.0);
+  const Eigen::Vector3d moment_nm = moving.of_link.rowwise().sum();
+  assert_near(moment_nm.dot(rates), gained_w, 1e-3 * std::abs(gained_w));
+}
+
+// A platform that turns throws what is out outwards: less boom is needed, as if it were lighter.
+void swing(void**) {
+  const ExcavatorProfile& machine = LoadWorld::machine();
+  const LinkPlaces at = link_places(machine.oil, machine.geometry, {0.7, -1.2, -0.9});
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  const LinkMoments turning = moving_moments(machine.oil, at, none, none, 0.8, 0.5);
+  for (unsigned i = 0; i < 3; ++i) {
+    const Eigen::Vector2d arm_m = at.centre_m[i] - at.pin_m[0];
+    const double outwards_n = machine.oil.link[i].mass_kg * 0.64 * (0.5 + at.centre_m[i].x());
+    assert_near(turning.of_link(0, i), arm_m.y() * outwards_n, 1e-9);
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(force_at_rest),
+      cmocka_unit_test(payload_with_all_that_is_off),
+      cmocka_unit_test(nothing_learnt_yet),
+      cmocka_unit_test(friction_is_learnt),
+      cmocka_unit_test(held_is_not_learnt),
+      cmocka_unit_test(not_known),
+      cmocka_unit_test(power),
+      cmocka_unit_test(swing),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
