@@ -35,6 +35,13 @@ struct IdentifyCampaign {
   double speed_override_ratio = 1.0;
 };
 
+struct FenceCampaign {
+  runs::CampaignOptions campaign;
+  machines::SimulatedChoice simulated;
+  std::string profile = "excavator_12t";
+  std::string errors = "all";
+};
+
 struct MergeOptions {
   std::vector<std::string> from;
   std::string summary;
@@ -94,6 +101,14 @@ void campaign_identify(const IdentifyCampaign& options) {
   });
 }
 
+void campaign_fences(const FenceCampaign& options) {
+  const machines::SimulatedExcavator nominal = machines::load_simulated_excavator(
+      machines::find_profile(options.profile), options.simulated);
+  print_outcome([&](const runs::Progress& progress) {
+    return runs::campaign_fences(options.campaign, nominal, options.errors, progress);
+  });
+}
+
 void add_campaign_dig(CLI::App& campaign, int& status) {
   auto options = std::make_shared<DigCampaign>();
   CLI::App* command = campaign.add_subcommand(
@@ -146,6 +161,26 @@ void add_campaign_identify(CLI::App& campaign, int& status) {
   });
 }
 
+void add_campaign_fences(CLI::App& campaign, int& status) {
+  auto options = std::make_shared<FenceCampaign>();
+  CLI::App* command = campaign.add_subcommand(
+      "fences",
+      "Random tasks past random walls, floors, ceilings, boxes and cylinders, from random starts: "
+      "how far any true point of the machine was beyond one");
+  add_profile_option(*command, options->profile);
+  options->campaign.draws = 1000;
+  add_campaign_options(*command, options->campaign);
+  command
+      ->add_option("--errors", options->errors,
+                   "What the controller does not know, as in campaign dig")
+      ->check(error_name())
+      ->capture_default_str();
+  add_simulated_options(*command, options->simulated);
+  command->callback([options, &status] {
+    status = guarded("campaign fences", [&] { campaign_fences(*options); });
+  });
+}
+
 void add_campaign_merge(CLI::App& campaign, int& status) {
   auto options = std::make_shared<MergeOptions>();
   CLI::App* command = campaign.add_subcommand("merge", "Shards of one campaign into one file");
@@ -166,6 +201,7 @@ void add_campaign(CLI::App& app, int& status) {
   add_campaign_dig(*campaign, status);
   add_campaign_grade(*campaign, status);
   add_campaign_identify(*campaign, status);
+  add_campaign_fences(*campaign, status);
   add_campaign_merge(*campaign, status);
 }
 

@@ -44,6 +44,11 @@ struct CampaignOutcome {
                                                 bool as_designed, double speed_override_ratio,
                                                 const Progress& progress);
 
+/// Random tasks before random fences, see fence_campaign.hpp.
+[[nodiscard]] CampaignOutcome campaign_fences(const CampaignOptions& options,
+                                              const machines::SimulatedExcavator& nominal,
+                                              const std::string& errors, const Progress& progress);
+
 /// Shards of one campaign of any kind into one file; returns the table. Throws std::runtime_error
 /// where they do not belong together.
 [[nodiscard]] std::string merge_campaigns(const std::vector<std::string>& files,

@@ -68,8 +68,9 @@ void the_design_is_a_fence_for_the_teeth_from_above(void**) {
   const FenceGap gap = fence_gap(design.fence(), {above_m, -design.up});
   assert_near(gap.distance_m, 0.3, 1e-12);
   assert_near(gap.closing_mps, 1.0, 1e-12);
-  assert_int_equal(design.fence().guarded(), 1);
-  assert_int_equal(Fence{}.guarded(), 3);
+  // Both corners of the edge; of a level plane all but the counterweight.
+  assert_int_equal(gap_count(design.fence(), {}), 2);
+  assert_int_equal(gap_count(Fence{}, {}), 8);
 }
 
 void strokes_that_can_t_be_have_no_points(void**) {

@@ -183,7 +183,7 @@ void it_goes_on_or_starts_afresh(void**) {
     assert_int_equal(afresh.number, 1);
     assert_int_equal(afresh.state.phase, TaskPhase::kApproach);
     assert_near(afresh.state.time_s, 0.0, 0.0);
-    assert_true((afresh.state.approach.from - dig().end).norm() < 1e-9);
+    assert_true((afresh.state.approach.from[0] - dig().end).norm() < 1e-9);
   }
 }
 

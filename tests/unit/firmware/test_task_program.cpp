@@ -251,9 +251,14 @@ double passed_m(const ProgramResult& result, double share) {
   if (result.refusal == ProgramRefusal::kSwingEnd) {
     return std::abs(motion.value[kSwing]) - machine().profile.swing.left_end_rad;
   }
-  const Fence& fence = result.program.fences.fence[static_cast<unsigned>(result.fence)];
+  const Fence& fence = result.program.fences.fence[static_cast<unsigned>(result.by.fence)];
   const MachineMotion at = machine().points(motion.value);
-  return -fence_gap(fence, at.point[static_cast<unsigned>(result.point)]).distance_m;
+  double passed_m = -1e3;
+  for (int k = 0; k < gap_count(fence, machine().profile.geometry.body); ++k) {
+    passed_m = std::max(
+        passed_m, -fence_gap(fence, machine().profile.geometry.body, at, k, 1e3).distance_m);
+  }
+  return passed_m;
 }
 
 /// What is named is passed there, and nothing is before.
