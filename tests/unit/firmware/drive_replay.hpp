@@ -153,12 +153,13 @@ inline Fence random_fence(const ReplayMachine& machine, plant::Random& random,
   }
   fence.guard = random.uniform() < 0.5 ? FenceGuard::kTeeth : FenceGuard::kMachine;
   const MachineMotion motion = machine.points(drive);
-  fence.offset_m = -1e3;
+  const double out_m = most_m * random.uniform();
+  double most_out_m = -1e3;
   for (int k = 0; k < gap_count(fence, machine.profile.geometry.body); ++k) {
     const FenceGap gap = fence_gap(fence, machine.profile.geometry.body, motion, k, 1e3);
-    fence.offset_m = std::max(fence.offset_m, -1e3 - gap.distance_m);
+    most_out_m = std::max(most_out_m, -gap.distance_m);
   }
-  fence.offset_m += most_m * random.uniform();
+  fence.offset_m = most_out_m + out_m;
   return fence;
 }
 
