@@ -24,9 +24,8 @@ Counterweight read_counterweight(TomlReader& reader) {
   const double width_m =
       reader.number(at + "width", {0.5, 10.0, "m"}, "of the counterweight, less than its diameter");
   weight.half_width_m = 0.5 * width_m;
-  weight.corner_m =
-      reader.number(at + "corner", {0.0, 3.0, "m"},
-                    "radius of its corners, seen from above; at most half the width");
+  weight.corner_m = reader.number(at + "corner", {0.0, 3.0, "m"},
+                                  "radius of its corners, seen from above; at most half the width");
   const std::vector<double> height = reader.numbers(at + "height", {0.0, 10.0, "m"}, 2,
                                                     "from the one to the other, above the ground");
   weight.low_m = height[0];
@@ -82,8 +81,9 @@ FenceProfile read_fence_margins(TomlReader& reader) {
   fence.stroke_error_m = reader.number_or(
       2.1e-3, "fence.stroke_error", {0.0, 0.1, "m"},
       "a stroke may be so far from what is measured; its bias and half its resolution");
-  fence.swing_error_rad = reader.number_or(1.1e-3, "fence.swing_error", {0.0, 0.1, "rad"},
-                                           "the same of the swing's angle");
+  fence.swing_error_rad = reader.number_or(
+      3.1e-3, "fence.swing_error", {0.0, 0.1, "rad"},
+      "the same of the swing's angle, and what the platform swings about its place");
   fence.give_m = reader.number_or(
       0.02, "fence.give", {0.0, 1.0, "m"},
       "so far a point goes on, on its oil and by its lag, where its drives are stopped");

@@ -125,11 +125,11 @@ CampaignOutcome campaign_fences(const CampaignOptions& options,
     }
     return row;
   };
-  return run_campaign(options, fence_kind(),
-                      fmt::format("fences {} {:08x}{}, errors {}", nominal.name, nominal.hash,
-                                  nominal.simulated.empty() ? "" : " as " + nominal.simulated,
-                                  errors),
-                      draw, progress);
+  return run_campaign(
+      options, fence_kind(),
+      fmt::format("fences {} {:08x}{}, errors {}", nominal.name, nominal.hash,
+                  nominal.simulated.empty() ? "" : " as " + nominal.simulated, errors),
+      draw, progress);
 }
 
 std::string merge_campaigns(const std::vector<std::string>& files, const std::string& summary) {

@@ -24,9 +24,9 @@ struct FencedTask {
                                           std::uint64_t seed);
 
 struct FenceSummary {
-  double beyond_m = 0.0;  ///< Farthest that any true point was beyond a fence; 0: none ever was.
-  double left_m = 0.0;    ///< Nearest that any was.
-  double refused = 0.0;   ///< See FencedTask.
+  double beyond_m = 0.0;    ///< Farthest that any true point was beyond a fence; 0: none ever was.
+  double left_m = 0.0;      ///< Nearest that any was.
+  double refused = 0.0;     ///< See FencedTask.
   double task_s = kAbsent;  ///< Of the steps.
   double fault = 0.0;       ///< Code of that which stopped it; 0: none.
 };

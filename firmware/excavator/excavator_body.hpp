@@ -20,10 +20,10 @@ struct Counterweight {
 /// All 0: teeth and pins are all that is known, as points.
 struct ExcavatorBody {
   double bucket_width_m = 0.0;
-  double floor_m = 0.0;       ///< Of the bucket, edge to heel.
-  double floor_rad = 0.0;     ///< From the line edge to bucket pin down to the floor.
-  double boom_radius_m = 0.0; ///< Round its pins' line and the bend, cylinders and hoses in it.
-  double arm_radius_m = 0.0;  ///< Round its pins' line.
+  double floor_m = 0.0;        ///< Of the bucket, edge to heel.
+  double floor_rad = 0.0;      ///< From the line edge to bucket pin down to the floor.
+  double boom_radius_m = 0.0;  ///< Round its pins' line and the bend, cylinders and hoses in it.
+  double arm_radius_m = 0.0;   ///< Round its pins' line.
   Eigen::Vector2d boom_bend_m = Eigen::Vector2d::Zero();  ///< Boom frame; at its foot: straight.
   Counterweight counterweight;
 
@@ -33,7 +33,7 @@ struct ExcavatorBody {
 /// What fences allow for, see fence_margin.hpp. All 0: the machine is where it is measured.
 struct FenceProfile {
   double stroke_error_m = 0.0;   ///< Of a stroke as it is measured, at most.
-  double swing_error_rad = 0.0;  ///< The same of the swing.
+  double swing_error_rad = 0.0;  ///< The same of the swing, and what it swings about its place.
   double give_m = 0.0;           ///< So far a point goes on where its drives are to stop.
   double room_m = 0.0;           ///< So much more is left to a planned way, beside
   double room_s = 0.0;           ///< this for each m/s of a point's planned speed.

@@ -258,10 +258,9 @@ void ExcavatorController::follow(const TaskProgram& program, const TaskAim& aim,
 }
 
 void ExcavatorController::hold_at_fences(const FenceSet& fences, Motion& motion) const {
-  const double coast_m =
-      profile_.has_swing()
-          ? swing_coast_m(memory_.accepted[kSwing].speed_mps, memory_.last.asked_mps[kSwing])
-          : 0.0;
+  const double coast_m = profile_.has_swing() ? swing_coast_m(memory_.accepted[kSwing].speed_mps,
+                                                              memory_.last.asked_mps[kSwing])
+                                              : 0.0;
   const MotionCap cap =
       motion_cap(profile_, drives(), setup_.kinematics, fences,
                  strokes_then_m(drives(), memory_.servo), motion.corrected_mps, coast_m);

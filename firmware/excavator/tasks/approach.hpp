@@ -49,8 +49,8 @@ inline constexpr int kApproachWays = 7;
 /// State from cycle to cycle. As constructed nothing is searched.
 struct ApproachSearch {
   bool runs = false;
-  bool found = false;   ///< `way` is free.
-  bool failed = false;  ///< None is.
+  bool found = false;       ///< `way` is free.
+  bool failed = false;      ///< None is.
   std::uint8_t number = 0;  ///< Of the task.
   std::uint8_t way = 0;
   std::uint8_t leg = 0;

@@ -31,7 +31,8 @@ struct Fence {
   FenceGuard guard = FenceGuard::kMachine;
   FenceShape shape = FenceShape::kPlane;
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< Of a box or cylinder.
-  /// Half of a box's sides, the last its height; the radius of a cylinder (both) and half its height.
+  /// Half of a box's sides, the last its height; the radius of a cylinder (both) and half its
+  /// height.
   Eigen::Vector3d half_m = Eigen::Vector3d::Zero();
 
   [[nodiscard]] bool is_plane() const { return shape == FenceShape::kPlane; }

@@ -10,8 +10,7 @@ DriveVector unsure_drives(const ExcavatorProfile& profile) {
 
 double held_margin_m(const FenceProfile& profile, const Fence& fence, const MachineMotion& motion,
                      const FenceGap& gap) {
-  return fence.guard == FenceGuard::kTeeth ? 0.0
-                                           : motion.at(gap.point).unsure_m + profile.give_m;
+  return fence.guard == FenceGuard::kTeeth ? 0.0 : motion.at(gap.point).unsure_m + profile.give_m;
 }
 
 double planned_margin_m(const FenceProfile& profile, const Fence& fence,

@@ -42,13 +42,12 @@ struct Hull {
   int edge_count = 0;
   double radius_m = 0.0;
 
-  void add(const Fence& keep_out, const PointMotion& at, MachinePoint point,
-           const Eigen::Vector3d& off_m, const Eigen::Vector3d& off_mps) {
+  void add(const Fence& keep_out, const MachineMotion& motion, MachinePoint point,
+           double above_m = 0.0) {
+    const PointMotion& at = motion.at(point);
     corner[static_cast<unsigned>(corner_count++)] = {
-        at.position_m + off_m - keep_out.centre_m, at.velocity_mps + off_mps, point};
-  }
-  void add(const Fence& keep_out, const MachineMotion& motion, MachinePoint point) {
-    add(keep_out, motion.at(point), point, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+        at.position_m - keep_out.centre_m + above_m * Eigen::Vector3d::UnitZ(), at.velocity_mps,
+        point};
   }
   void add_edge(unsigned from, unsigned to) {
     edge[static_cast<unsigned>(edge_count++)] = {static_cast<std::uint8_t>(from),
@@ -61,15 +60,10 @@ struct Hull {
 };
 
 void add_bucket(const Fence& keep_out, const MachineMotion& motion, Hull& hull) {
-  const PointMotion& teeth = motion.at(MachinePoint::kTeeth);
-  const PointMotion& pin = motion.at(MachinePoint::kBucketPin);
-  for (const MachinePoint edge : {MachinePoint::kEdgeLeft, MachinePoint::kEdgeRight}) {
-    hull.add(keep_out, motion, edge);
-    const PointMotion& corner = motion.at(edge);
-    hull.add(keep_out, pin, MachinePoint::kBucketPin, corner.position_m - teeth.position_m,
-             corner.velocity_mps - teeth.velocity_mps);
-    hull.add(keep_out, motion,
-             edge == MachinePoint::kEdgeLeft ? MachinePoint::kHeelLeft : MachinePoint::kHeelRight);
+  for (const MachinePoint point :
+       {MachinePoint::kEdgeLeft, MachinePoint::kPinLeft, MachinePoint::kHeelLeft,
+        MachinePoint::kEdgeRight, MachinePoint::kPinRight, MachinePoint::kHeelRight}) {
+    hull.add(keep_out, motion, point);
   }
   constexpr unsigned kCorners = 3;
   for (unsigned i = 0; i < kCorners; ++i) {
@@ -82,10 +76,9 @@ void add_bucket(const Fence& keep_out, const MachineMotion& motion, Hull& hull) 
 
 void add_counterweight(const Fence& keep_out, const Counterweight& weight,
                        const MachineMotion& motion, Hull& hull) {
-  const Eigen::Vector3d high_m(0.0, 0.0, weight.high_m - weight.low_m);
   for (const MachinePoint tail : {MachinePoint::kTailLeft, MachinePoint::kTailRight}) {
     hull.add(keep_out, motion, tail);
-    hull.add(keep_out, motion.at(tail), tail, high_m, Eigen::Vector3d::Zero());
+    hull.add(keep_out, motion, tail, weight.high_m - weight.low_m);
   }
   hull.add_side(0, 1);
   hull.add_edge(2, 3);
@@ -110,16 +103,16 @@ Hull hull_of(const Fence& keep_out, const ExcavatorBody& body, const MachineMoti
       add_bucket(keep_out, motion, hull);
       break;
     case MachinePart::kArmPart:
-      add_link(keep_out, motion, MachinePoint::kArmPin, MachinePoint::kBucketPin,
-               body.arm_radius_m, hull);
+      add_link(keep_out, motion, MachinePoint::kArmPin, MachinePoint::kBucketPin, body.arm_radius_m,
+               hull);
       break;
     case MachinePart::kBoomFootPart:
       add_link(keep_out, motion, MachinePoint::kBoomFoot, MachinePoint::kBoomBend,
                body.boom_radius_m, hull);
       break;
     case MachinePart::kBoomEndPart:
-      add_link(keep_out, motion, MachinePoint::kBoomBend, MachinePoint::kArmPin,
-               body.boom_radius_m, hull);
+      add_link(keep_out, motion, MachinePoint::kBoomBend, MachinePoint::kArmPin, body.boom_radius_m,
+               hull);
       break;
     case MachinePart::kTailPart:
       add_counterweight(keep_out, body.counterweight, motion, hull);
@@ -190,19 +183,30 @@ class Separation {
   }
 
   [[nodiscard]] double distance_m() const { return best_m_; }
+  /// Of corners that are as near, an edge's or a face's, the one that closes fastest.
   [[nodiscard]] FenceGap gap() const {
-    const Corner& nearest = corner(nearest_);
-    return {best_m_, -away_.dot(nearest.moves_mps), nearest.point};
+    constexpr double kAsNear_m = 1e-3;
+    FenceGap gap{best_m_, 0.0, corner(nearest_).point};
+    const double nearest_m = away_.dot(corner(nearest_).at_m);
+    bool is_first = true;
+    for (int i = 0; i < hull_.corner_count; ++i) {
+      const double closing_mps = -away_.dot(corner(i).moves_mps);
+      if (away_.dot(corner(i).at_m) < nearest_m + kAsNear_m &&
+          (is_first || closing_mps > gap.closing_mps)) {
+        is_first = false;
+        gap.closing_mps = closing_mps;
+        gap.point = corner(i).point;
+      }
+    }
+    return gap;
   }
 
  private:
-  [[nodiscard]] const Corner& corner(int i) const {
-    return hull_.corner[static_cast<unsigned>(i)];
-  }
+  [[nodiscard]] const Corner& corner(int i) const { return hull_.corner[static_cast<unsigned>(i)]; }
 
   /// A point before the keep-out.
   struct Before {
-    double distance_m = 0.0;  ///< Below 0 inside.
+    double distance_m = 0.0;                         ///< Below 0 inside.
     Eigen::Vector3d away = Eigen::Vector3d::Zero();  ///< Direction in which it grows, of length 1.
   };
 
@@ -259,8 +263,8 @@ class Separation {
     for (int i = 0; i < kNearestSteps; ++i) {
       const double falls = -at_low.away.dot(way_m);
       const double rises = at_high.away.dot(way_m);
-      const double meet = (at_low.distance_m - at_high.distance_m + falls * low + rises * high) /
-                          (falls + rises);
+      const double meet =
+          (at_low.distance_m - at_high.distance_m + falls * low + rises * high) / (falls + rises);
       const double share = std::clamp(meet, low, high);
       const Before at_share = before(from_m + share * way_m);
       const bool rising = at_share.away.dot(way_m) > 0.0;

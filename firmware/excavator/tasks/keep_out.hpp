@@ -7,8 +7,8 @@ namespace graben {
 
 /// Parts of the machine, each convex. The counterweight comes last: not every profile has one.
 enum class MachinePart : std::uint8_t {
-  kBucketPart = 0,  ///< Prism over edge, heel and pin, as wide as the edge.
-  kArmPart = 1,     ///< Line of its pins, with its radius.
+  kBucketPart = 0,    ///< Prism over edge, heel and pin, as wide as the edge.
+  kArmPart = 1,       ///< Line of its pins, with its radius.
   kBoomFootPart = 2,  ///< Line from the boom's foot to its bend, with its radius,
   kBoomEndPart = 3,   ///< and from there to the arm's pin.
   kTailPart = 4,      ///< The counterweight.

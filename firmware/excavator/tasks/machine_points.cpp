@@ -65,9 +65,8 @@ class Outline {
   [[nodiscard]] Eigen::Vector3d left() const { return {-ahead_.y(), ahead_.x(), 0.0}; }
 
  private:
-  [[nodiscard]] PointMotion in_ground(const Eigen::Vector2d& at_m,
-                                      const Eigen::Vector2d& moves_mps, double left_m,
-                                      double unsure_m) const {
+  [[nodiscard]] PointMotion in_ground(const Eigen::Vector2d& at_m, const Eigen::Vector2d& moves_mps,
+                                      double left_m, double unsure_m) const {
     const Eigen::Vector2d level_m = at_m.x() * ahead_ + left_m * turned(ahead_);
     const Eigen::Vector2d level_mps = moves_mps.x() * ahead_ + swing_radps_ * turned(level_m);
     return {{level_m.x(), level_m.y(), at_m.y()},
@@ -116,6 +115,8 @@ MachineMotion machine_motion(const SwingKinematics& kinematics, const DriveVecto
   set(MachinePoint::kTeeth, outline.on(kBucket, teeth_m, 0.0));
   set(MachinePoint::kEdgeLeft, outline.on(kBucket, teeth_m, half_m));
   set(MachinePoint::kEdgeRight, outline.on(kBucket, teeth_m, -half_m));
+  set(MachinePoint::kPinLeft, outline.on(kBucket, Eigen::Vector2d::Zero(), half_m));
+  set(MachinePoint::kPinRight, outline.on(kBucket, Eigen::Vector2d::Zero(), -half_m));
   set(MachinePoint::kHeelLeft, outline.on(kBucket, heel_m, half_m));
   set(MachinePoint::kHeelRight, outline.on(kBucket, heel_m, -half_m));
   const Eigen::Vector2d corner = corner_m(body.counterweight);

@@ -32,9 +32,10 @@ struct MotionCap : VelocityCap {
                                    double coast_m = 0.0);
 
 /// The platform is heavy and its oil soft: it lags 0.15 to 0.4 s behind its spool, and swings about
-/// its place. What it turns faster than it was asked to (m/s at the lever) takes it so much further.
+/// its place. What it turns faster than it was asked to (m/s at the lever) takes it so much
+/// further.
 [[nodiscard]] inline double swing_coast_m(double measured_mps, double asked_mps) {
-  constexpr double kLag_s = 0.3;
+  constexpr double kLag_s = 0.4;
   return kLag_s * (measured_mps - asked_mps);
 }
 

@@ -14,7 +14,7 @@ struct TaskMemory {
   bool runs = false;
   std::uint8_t number = 0;
   TaskState state;
-  ApproachSearch search;  ///< Until it runs.
+  ApproachSearch search;         ///< Until it runs.
   Guarded<double> time_s = 0.0;  ///< Of the state, like its pace: kept twice.
   Guarded<double> pace_ratio = 1.0;
   /// All else that says where it is, in one number; as constructed it does not run.

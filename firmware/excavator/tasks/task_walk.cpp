@@ -77,8 +77,7 @@ BarWalk::BarWalk(const ExcavatorProfile& profile, const SwingKinematics& kinemat
     add({false});
   }
   for (int fence = 0; fence < fences.count; ++fence) {
-    const int count =
-        gap_count(fences.fence[static_cast<unsigned>(fence)], profile.geometry.body);
+    const int count = gap_count(fences.fence[static_cast<unsigned>(fence)], profile.geometry.body);
     for (int gap = 0; gap < count; ++gap) {
       add({false, fence, gap});
     }

@@ -255,8 +255,8 @@ double passed_m(const ProgramResult& result, double share) {
   const MachineMotion at = machine().points(motion.value);
   double passed_m = -1e3;
   for (int k = 0; k < gap_count(fence, machine().profile.geometry.body); ++k) {
-    passed_m = std::max(
-        passed_m, -fence_gap(fence, machine().profile.geometry.body, at, k, 1e3).distance_m);
+    passed_m = std::max(passed_m,
+                        -fence_gap(fence, machine().profile.geometry.body, at, k, 1e3).distance_m);
   }
   return passed_m;
 }
