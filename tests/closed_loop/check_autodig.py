@@ -236,7 +236,7 @@ speed = -0.4
     digger.refused(["step 0 (dig)", "the arm cylinder", *place],
                    *digger.task(line.format(x=9.0, y=0.0)))
     # On the way, neither begin nor end.
-    digger.refused(["step 0 (swing)", "teeth would pass fence[1]", *place],
+    digger.refused(["step 0 (swing)", "the heel's left corner would pass fence[1], the wall, by 12", "the margin is ", *place],
                    *digger.task(MOVE.format(x=-6.0, y=3.0) + WALL.format(through=7.5)
                                 + WALL.format(through=-5.0).replace("[1.0", "[-1.0")))
     digger.refused(["a machine of kind dozer"], "--profile", "dozer_9t")

@@ -95,8 +95,9 @@ void add_link(const Fence& keep_out, const MachineMotion& motion, MachinePoint f
   hull.radius_m = radius_m;
 }
 
-Hull hull_of(const Fence& keep_out, const ExcavatorBody& body, const MachineMotion& motion,
-             MachinePart part) {
+/// Not inlined: one body of code, once for every part.
+[[gnu::noinline]] Hull hull_of(const Fence& keep_out, const ExcavatorBody& body,
+                               const MachineMotion& motion, MachinePart part) {
   Hull hull;
   switch (part) {
     case MachinePart::kBucketPart:

@@ -1,5 +1,6 @@
 #include "firmware/excavator/tasks/machine_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "firmware/excavator/swing.hpp"
@@ -84,7 +85,7 @@ class Outline {
 Eigen::Vector2d corner_m(const Counterweight& weight) {
   const double left_m = weight.half_width_m - weight.corner_m;
   const double from_axis_m = weight.radius_m - weight.corner_m;
-  return {-std::sqrt(std::fmax(0.0, from_axis_m * from_axis_m - left_m * left_m)), left_m};
+  return {-std::sqrt(std::max(0.0, from_axis_m * from_axis_m - left_m * left_m)), left_m};
 }
 
 }  // namespace
