@@ -378,9 +378,10 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
     return;
   }
   const auto number = static_cast<std::uint8_t>(valid.task_number);
-  memory_.task = next_task(
-      profile_, setup_.book.program[number], memory_.task, number, valid.strokes_m(),
-      followed * motion.cap.factor * valid.speed_override_ratio, motion.task.error_m, period_s);
+  memory_.task =
+      next_task(profile_, setup_.kinematics, setup_.book.program[number], memory_.task, number,
+                valid.strokes_m(), followed * motion.cap.factor * valid.speed_override_ratio,
+                motion.task.error_m, period_s);
 }
 
 ProfileCheck profile_check(const ExcavatorProfile& profile) {

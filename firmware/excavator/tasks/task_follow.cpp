@@ -37,8 +37,9 @@ TaskProgress progress_of(const TaskMemory& memory, const TaskAim& aim) {
 }
 
 /// Looks for the way on; runs once it is found.
-TaskMemory searched(const ExcavatorProfile& profile, const TaskProgram& program,
-                    const TaskMemory& last, std::uint8_t number, const DriveVector& drives_now) {
+TaskMemory searched(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                    const TaskProgram& program, const TaskMemory& last, std::uint8_t number,
+                    const DriveVector& drives_now) {
   TaskMemory next;
   if (last.search.runs && last.search.number == number) {
     next.search = last.search;
@@ -46,8 +47,8 @@ TaskMemory searched(const ExcavatorProfile& profile, const TaskProgram& program,
   }
   next.search.runs = true;
   next.search.number = number;
-  search_approach(profile, program, drives_now, next.search, next.state.approach);
-  return next.search.found ? remembered(number, task_start(profile, program, drives_now,
+  search_approach(profile, kinematics, program, drives_now, next.search, next.state.approach);
+  return next.search.found ? remembered(number, task_start(profile, kinematics, program, drives_now,
                                                            ApproachWay{next.search.way}))
                            : next;
 }
@@ -95,11 +96,12 @@ TaskWant want_of_task(const ExcavatorProfile& profile, DriveRows drives,
   return want;
 }
 
-TaskMemory next_task(const ExcavatorProfile& profile, const TaskProgram& program,
-                     const TaskMemory& last, std::uint8_t number, const DriveVector& travel_m,
-                     double followed_ratio, double error_m, double period_s) {
+TaskMemory next_task(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                     const TaskProgram& program, const TaskMemory& last, std::uint8_t number,
+                     const DriveVector& travel_m, double followed_ratio, double error_m,
+                     double period_s) {
   if (!last.runs || last.number != number) {
-    return searched(profile, program, last, number, drives_of(profile, travel_m));
+    return searched(profile, kinematics, program, last, number, drives_of(profile, travel_m));
   }
   return remembered(number, task_advance(profile.line, program, last.state,
                                          followed_ratio * period_s, period_s, error_m));

@@ -44,10 +44,12 @@ struct Found {
 Found search(const TaskProgram& task, const DriveVector& from) {
   Found found;
   while (!found.search.found && !found.search.failed) {
-    search_approach(machine().profile, task, from, found.search, found.path);
-    // Each way has at most kApproachLegs legs of kApproachSamples + 1 poses.
+    search_approach(machine().profile, machine().kinematics, task, from, found.search, found.path);
+    // Each way is planned in a cycle, and has at most kApproachLegs legs of kApproachSamples + 1
+    // poses.
     assert_true(++found.cycles <=
-                kApproachWays * kApproachLegs * (kApproachSamples + 2) / kSamplesPerCycle + 1);
+                kApproachWays *
+                    (1 + kApproachLegs * (kApproachSamples + kSamplesPerCycle) / kSamplesPerCycle));
   }
   return found;
 }
@@ -94,9 +96,9 @@ void what_is_far_away_changes_nothing(void**) {
   const Found found = search(task, beside(task));
   assert_true(found.search.found);
   assert_int_equal(found.search.way, ApproachWay::kDirect);
-  // Two legs.
+  // Its planning, and two legs.
   assert_int_equal(found.cycles,
-                   (2 * (kApproachSamples + 1) + kSamplesPerCycle - 1) / kSamplesPerCycle);
+                   1 + (2 * (kApproachSamples + 1) + kSamplesPerCycle - 1) / kSamplesPerCycle);
 }
 
 /// Between the machine and its task: lower than the raised bucket, or near enough to be passed with
@@ -112,8 +114,8 @@ void it_goes_over_or_round_what_is_between(void**) {
     const double least_m = left_m(task, found.path);
     print_message("way %d, %.0f mm to spare\n", found.search.way, 1e3 * least_m);
     assert_true(least_m > 0.0);
-    const ApproachPath direct =
-        approach_path(machine().profile, task, beside(task), ApproachWay::kDirect);
+    const ApproachPath direct = approach_path(machine().profile, machine().kinematics, task,
+                                              beside(task), ApproachWay::kDirect);
     assert_true(left_m(task, direct) < 0.0);
   }
 }

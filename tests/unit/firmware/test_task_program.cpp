@@ -225,7 +225,7 @@ ProgramRequest random_request(plant::Random& random, const DriveVector& start) {
 
 /// Through the executor, all limits in the loop: inside and on the plan to the end.
 void assert_replays_inside(const TaskProgram& program, bool late) {
-  TaskState state = task_start(machine().profile, program, program.start);
+  TaskState state = task_start(machine().profile, machine().kinematics, program, program.start);
   test::ReplayedDrives drives(program.start, late);
   for (int i = 0; i < 20000 && state.phase != TaskPhase::kDone; ++i) {
     const TaskAim aim = task_aim(machine().kinematics, program, state);
