@@ -35,6 +35,13 @@ struct IdentifyCampaign {
   double speed_override_ratio = 1.0;
 };
 
+struct FenceCampaign {
+  runs::CampaignOptions campaign;
+  machines::SimulatedChoice simulated;
+  std::string profile = "excavator_12t";
+  std::string errors = "all";
+};
+
 struct AutodigCampaign {
   runs::CampaignOptions campaign;
   runs::TaskScenario scenario;
@@ -101,6 +108,14 @@ void campaign_identify(const IdentifyCampaign& options) {
   });
 }
 
+void campaign_fences(const FenceCampaign& options) {
+  const machines::SimulatedExcavator nominal = machines::load_simulated_excavator(
+      machines::find_profile(options.profile), options.simulated);
+  print_outcome([&](const runs::Progress& progress) {
+    return runs::campaign_fences(options.campaign, nominal, options.errors, progress);
+  });
+}
+
 void campaign_autodig(const AutodigCampaign& options) {
   const machines::SimulatedExcavator nominal = machines::load_simulated_excavator(
       machines::find_profile(options.profile), options.simulated);
@@ -161,6 +176,26 @@ void add_campaign_identify(CLI::App& campaign, int& status) {
   });
 }
 
+void add_campaign_fences(CLI::App& campaign, int& status) {
+  auto options = std::make_shared<FenceCampaign>();
+  CLI::App* command = campaign.add_subcommand(
+      "fences",
+      "Random tasks past random walls, floors, ceilings, boxes and cylinders, from random starts: "
+      "how far any true point of the machine was beyond one");
+  add_profile_option(*command, options->profile);
+  options->campaign.draws = 1000;
+  add_campaign_options(*command, options->campaign);
+  command
+      ->add_option("--errors", options->errors,
+                   "What the controller does not know, as in campaign dig")
+      ->check(error_name())
+      ->capture_default_str();
+  add_simulated_options(*command, options->simulated);
+  command->callback([options, &status] {
+    status = guarded("campaign fences", [&] { campaign_fences(*options); });
+  });
+}
+
 void add_campaign_autodig(CLI::App& campaign, int& status) {
   auto options = std::make_shared<AutodigCampaign>();
   CLI::App* command = campaign.add_subcommand(
@@ -197,6 +232,7 @@ void add_campaign(CLI::App& app, int& status) {
   add_campaign_grade(*campaign, status);
   add_campaign_identify(*campaign, status);
   add_campaign_autodig(*campaign, status);
+  add_campaign_fences(*campaign, status);
   add_campaign_merge(*campaign, status);
 }
 

@@ -16,6 +16,7 @@
 #include "app/reports/run_reports.hpp"
 #include "app/runs/plan_run.hpp"
 #include "app/scope/page/scope_page.hpp"
+#include "firmware/excavator/tasks/task_program.hpp"
 
 namespace graben::cli {
 namespace {
@@ -69,6 +70,18 @@ void write_text(const fs::path& file, const std::string& text) {
   }
 }
 
+/// As a task of this line is refused: a machine does not follow it to the end.
+void refuse_swing_end(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                      const LinePlan& plan) {
+  TaskStep step;
+  step.line = plan;
+  const BarredPlace barred = first_barred_place(profile, kinematics, {}, step);
+  if (barred.why != ProgramRefusal::kNone) {
+    throw std::runtime_error(fmt::format("{}; {}", machines::swing_end_words(profile.swing),
+                                         machines::place_words(barred.place, "line")));
+  }
+}
+
 void plan(const PlanCommand& options) {
   const fs::path file = machines::find_profile(options.profile);
   const machines::ExcavatorMachine machine = machines::load_excavator(file);
@@ -79,6 +92,7 @@ void plan(const PlanCommand& options) {
   if (result.refusal != PlanRefusal::kNone) {
     throw std::runtime_error(machines::refusal_words(profile.geometry, result));
   }
+  refuse_swing_end(profile, kinematics, result.plan);
   const std::vector<runs::PlanSample> samples =
       runs::sample_plan(profile, kinematics, result.plan, options.step_s);
   const fs::path out(options.out);

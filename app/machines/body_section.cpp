@@ -56,9 +56,12 @@ ExcavatorBody read_body(TomlReader& reader, const ExcavatorGeometry& geometry) {
   body.bucket_width_m = reader.number("bucket.width", {0.1, 5.0, "m"},
                                       "of the edge, for fences; without it they guard the edge's "
                                       "middle and the pins as points");
-  body.floor_m = reader.number_or(
-      kFloorPerLength * geometry.bucket_length_m, "bucket.floor", {0.1, 3.0, "m"},
-      "from the teeth to the heel; 0.45 of the bucket's length unless told; with bucket.width");
+  body.floor_m = kFloorPerLength * geometry.bucket_length_m;
+  if (reader.has("bucket.floor")) {
+    body.floor_m = reader.number("bucket.floor", {0.1, 3.0, "m"},
+                                 "from the teeth to the heel; 0.45 of the bucket's length unless "
+                                 "told; with bucket.width");
+  }
   body.floor_rad =
       reader.number_or(kFloorAngle_rad, "bucket.floor_angle", {0.1, 1.4, "rad"},
                        "from the line teeth to bucket pin down to the floor; with bucket.width");
@@ -84,8 +87,9 @@ FenceProfile read_fence_margins(TomlReader& reader) {
   fence.stroke_error_m = reader.number_or(
       2.1e-3, "fence.stroke_error", {0.0, 0.1, "m"},
       "a stroke may be so far from what is measured; its bias and half its resolution");
-  fence.swing_error_rad = reader.number_or(1.1e-3, "fence.swing_error", {0.0, 0.1, "rad"},
-                                           "the same of the swing's angle");
+  fence.swing_error_rad = reader.number_or(
+      3.1e-3, "fence.swing_error", {0.0, 0.1, "rad"},
+      "the same of the swing's angle, and what the platform swings about its place");
   fence.give_m = reader.number_or(
       0.02, "fence.give", {0.0, 1.0, "m"},
       "so far a point goes on, on its oil and by its lag, where its drives are stopped");

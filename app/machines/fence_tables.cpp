@@ -37,8 +37,9 @@ Fence read_level(TomlReader& reader, const std::string& at, double up) {
 }
 
 void read_heights(TomlReader& reader, const std::string& at, Fence& fence) {
-  const std::vector<double> height = reader.numbers(
-      at + ".heights", kFencePlace, 2, "lower and upper end of a box or cylinder, above the ground");
+  const std::vector<double> height =
+      reader.numbers(at + ".heights", kFencePlace, 2,
+                     "lower and upper end of a box or cylinder, above the ground");
   if (height[1] - height[0] < kSize.least) {
     reader.fail(at + ".heights",
                 fmt::format("[{}, {}] m; allowed: lower, then upper end, at least {} m higher",
@@ -51,13 +52,13 @@ void read_heights(TomlReader& reader, const std::string& at, Fence& fence) {
 Fence read_box(TomlReader& reader, const std::string& at) {
   Fence fence;
   fence.shape = FenceShape::kBox;
-  fence.centre_m.head<2>() =
-      reader.point(at + ".centre", kFencePlace, "middle of a box or cylinder, seen from above: x, y");
+  fence.centre_m.head<2>() = reader.point(at + ".centre", kFencePlace,
+                                          "middle of a box or cylinder, seen from above: x, y");
   const std::vector<double> size =
       reader.numbers(at + ".size", kSize, 2, "sides of a box, seen from above");
   fence.half_m.head<2>() << 0.5 * size[0], 0.5 * size[1];
-  const double turn_rad = reader.number_or(
-      0.0, at + ".turn", {-3.2, 3.2, "rad"}, "of a box's first side against x, to the left");
+  const double turn_rad = reader.number_or(0.0, at + ".turn", {-3.2, 3.2, "rad"},
+                                           "of a box's first side against x, to the left");
   fence.normal = {std::cos(turn_rad), std::sin(turn_rad), 0.0};
   read_heights(reader, at, fence);
   return fence;
@@ -66,8 +67,8 @@ Fence read_box(TomlReader& reader, const std::string& at) {
 Fence read_cylinder(TomlReader& reader, const std::string& at) {
   Fence fence;
   fence.shape = FenceShape::kCylinder;
-  fence.centre_m.head<2>() =
-      reader.point(at + ".centre", kFencePlace, "middle of a box or cylinder, seen from above: x, y");
+  fence.centre_m.head<2>() = reader.point(at + ".centre", kFencePlace,
+                                          "middle of a box or cylinder, seen from above: x, y");
   const double radius_m =
       reader.number(at + ".radius", {0.05, 30.0, "m"}, "of an upright cylinder");
   fence.half_m.head<2>().setConstant(radius_m);

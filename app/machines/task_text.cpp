@@ -95,6 +95,11 @@ std::string plan_limit_words(const PlanResult& result) {
   return "unknown";
 }
 
+std::string swing_end_words(const SwingProfile& swing) {
+  return fmt::format("the swing would leave its range, {} .. {} rad", swing.right_end_rad,
+                     swing.left_end_rad);
+}
+
 namespace {
 
 const char* point_name(const ExcavatorBody& body, MachinePoint point) {
@@ -113,6 +118,10 @@ const char* point_name(const ExcavatorBody& body, MachinePoint point) {
       return body.known() ? "the heel's left corner" : "the teeth";
     case MachinePoint::kHeelRight:
       return body.known() ? "the heel's right corner" : "the teeth";
+    case MachinePoint::kPinLeft:
+      return body.known() ? "the bucket's left side" : "the bucket's pin";
+    case MachinePoint::kPinRight:
+      return body.known() ? "the bucket's right side" : "the bucket's pin";
     case MachinePoint::kBoomBend:
       return "the boom";
     case MachinePoint::kBoomFoot:
@@ -125,8 +134,8 @@ const char* point_name(const ExcavatorBody& body, MachinePoint point) {
   return "a point";
 }
 
-/// "the edge's left corner would come near fence[2], the wall, to 31 mm at 63.28 % of the step, where the
-/// margin is 55 mm", or pass it by so much.
+/// "the edge's left corner would come near fence[2], the wall, to 31 mm at 63.28 % of the step,
+/// where the margin is 55 mm", or pass it by so much.
 std::string fence_words(const ExcavatorBody& body, const ProgramRequest& request,
                         const ProgramResult& result) {
   constexpr double kMillimetres = 1e3;
@@ -146,11 +155,6 @@ std::string fence_words(const ExcavatorBody& body, const ProgramRequest& request
                      100.0 * by.least_share, margin);
 }
 
-std::string swing_words(const SwingProfile& swing) {
-  return fmt::format("the swing would leave its range, {} .. {} rad", swing.right_end_rad,
-                     swing.left_end_rad);
-}
-
 std::string cause_words(const ExcavatorProfile& profile, const ProgramRequest& request,
                         const ProgramResult& result) {
   switch (result.refusal) {
@@ -165,7 +169,7 @@ std::string cause_words(const ExcavatorProfile& profile, const ProgramRequest& r
     case ProgramRefusal::kFence:
       return fence_words(profile.geometry.body, request, result);
     case ProgramRefusal::kSwingEnd:
-      return swing_words(profile.swing);
+      return swing_end_words(profile.swing);
     case ProgramRefusal::kNoSwing:
       return "it would have to swing, and this machine's swing is held";
     case ProgramRefusal::kLayers:

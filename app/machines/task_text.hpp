@@ -21,6 +21,9 @@ namespace graben::machines {
 /// What made the plan slower than it was asked for; "none" if nothing did.
 [[nodiscard]] std::string plan_limit_words(const PlanResult& result);
 
+/// "the swing would leave its range, -3 .. 3 rad", as a task's refusal has it.
+[[nodiscard]] std::string swing_end_words(const SwingProfile& swing);
+
 /// As in a task file: "dig", "lift", ...
 [[nodiscard]] const char* step_name(StepKind kind);
 

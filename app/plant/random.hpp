@@ -24,6 +24,7 @@ enum class Draw : std::uint32_t {
   kAsFound,
   kHidden,
   kSoilKind,
+  kFencedTask,
 };
 
 class Random {

@@ -6,6 +6,7 @@
 #include "app/runs/autodig_run.hpp"
 #include "app/runs/campaign_run.hpp"
 #include "app/runs/dig_run.hpp"
+#include "app/runs/fence_campaign.hpp"
 #include "app/runs/grade_run.hpp"
 #include "app/runs/identify_run.hpp"
 
@@ -37,6 +38,13 @@ const CampaignKind& identify_kind() {
   return kind;
 }
 
+const CampaignKind& fence_kind() {
+  // In the order of FenceEnd.
+  static const CampaignKind kind = {
+      "fences", {"done", "not-finished", "no-way", "fault"}, columns_of(fence_figures())};
+  return kind;
+}
+
 const CampaignKind& autodig_kind() {
   // In the order of AutodigEnd.
   static const CampaignKind kind = {
@@ -46,7 +54,8 @@ const CampaignKind& autodig_kind() {
 
 const CampaignKind& kind_of(const std::string& file) {
   const std::string name = campaign_name(file);
-  for (const CampaignKind* kind : {&dig_kind(), &grade_kind(), &identify_kind(), &autodig_kind()}) {
+  for (const CampaignKind* kind :
+       {&dig_kind(), &grade_kind(), &identify_kind(), &autodig_kind(), &fence_kind()}) {
     if (name == kind->name) {
       return *kind;
     }
@@ -106,6 +115,29 @@ CampaignOutcome campaign_identify(const CampaignOptions& options,
   return run_campaign(
       options, identify_kind(),
       fmt::format("identify {} {:08x}, speed {}", nominal.name, nominal.hash, speed_override_ratio),
+      draw, progress);
+}
+
+CampaignOutcome campaign_fences(const CampaignOptions& options,
+                                const machines::SimulatedExcavator& nominal,
+                                const std::string& errors, const Progress& progress) {
+  const auto draw = [&](std::uint64_t seed) {
+    TaskScenario scenario;
+    scenario.errors = errors;
+    scenario.seed = seed;
+    const FenceResult result = run_fenced_task(arranged(nominal, scenario), seed);
+    // Whatever the end: nothing may be beyond a fence on the way to a stop either.
+    CampaignRow row;
+    row.end = static_cast<std::size_t>(result.end);
+    for (const Figure<FenceSummary>& figure : fence_figures()) {
+      row.figure.push_back(figure.of(result.summary));
+    }
+    return row;
+  };
+  return run_campaign(
+      options, fence_kind(),
+      fmt::format("fences {} {:08x}{}, errors {}", nominal.name, nominal.hash,
+                  nominal.simulated.empty() ? "" : " as " + nominal.simulated, errors),
       draw, progress);
 }
 

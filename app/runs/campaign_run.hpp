@@ -44,6 +44,11 @@ struct CampaignOutcome {
                                                 bool as_designed, double speed_override_ratio,
                                                 const Progress& progress);
 
+/// Random tasks before random fences, see fence_campaign.hpp.
+[[nodiscard]] CampaignOutcome campaign_fences(const CampaignOptions& options,
+                                              const machines::SimulatedExcavator& nominal,
+                                              const std::string& errors, const Progress& progress);
+
 /// A task, once for each draw. Its seed is the campaign's.
 [[nodiscard]] CampaignOutcome campaign_autodig(const CampaignOptions& options,
                                                const machines::SimulatedExcavator& nominal,

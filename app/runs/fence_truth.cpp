@@ -68,8 +68,7 @@ FenceTruth::FenceTruth(const plant::ExcavatorPlant& plant) : swing_rad_(plant.sw
   const double arm_rad = boom_rad + joint[kArm];
   const double bucket_rad = arm_rad + joint[kBucket];
   const Eigen::Vector2d foot_m = geometry.boom_foot_m;
-  const Eigen::Vector2d bend_m =
-      foot_m + plant::Rotation::by(boom_rad).apply(body.boom_bend_m);
+  const Eigen::Vector2d bend_m = foot_m + plant::Rotation::by(boom_rad).apply(body.boom_bend_m);
   const Eigen::Vector2d arm_pin_m = foot_m + geometry.boom_length_m * heading(boom_rad);
   const Eigen::Vector2d bucket_pin_m = arm_pin_m + geometry.arm_length_m * heading(arm_rad);
   const Eigen::Vector2d edge_m = bucket_pin_m + geometry.bucket_length_m * heading(bucket_rad);
@@ -116,8 +115,7 @@ void FenceTruth::add_link(const Eigen::Vector2d& from_m, const Eigen::Vector2d& 
 
 void FenceTruth::add_bucket(const plant::BucketShape& bucket, const Eigen::Vector2d& pin_m,
                             const Eigen::Vector2d& edge_m, double attitude_rad) {
-  const Eigen::Vector2d heel_m =
-      edge_m + bucket.floor_m * heading(attitude_rad - bucket.floor_rad);
+  const Eigen::Vector2d heel_m = edge_m + bucket.floor_m * heading(attitude_rad - bucket.floor_rad);
   for (int across = 0; across <= kAcross; ++across) {
     const double left_m = bucket.width_m * (share(across, kAcross) - 0.5);
     edge_.push_back({in_ground(edge_m, left_m), 0.0});
@@ -125,9 +123,7 @@ void FenceTruth::add_bucket(const plant::BucketShape& bucket, const Eigen::Vecto
       for (int k = 0; k + i <= kTriangle; ++k) {
         const Eigen::Vector2d at_m = edge_m + share(i, kTriangle) * (heel_m - edge_m) +
                                      share(k, kTriangle) * (pin_m - edge_m);
-        // Where its linkage is, the bucket is as wide as the arm.
-        const bool at_pin = k == kTriangle;
-        links_.push_back({in_ground(at_m, at_pin ? 0.0 : left_m), 0.0});
+        links_.push_back({in_ground(at_m, left_m), 0.0});
       }
     }
   }

@@ -269,14 +269,6 @@ void ExcavatorController::follow(const TaskProgram& program, const TaskAim& aim,
   motion.off_m = motion.task.off_m;
 }
 
-void ExcavatorController::hold_at_fences(const FenceSet& fences, Motion& motion) const {
-  const MotionCap cap = motion_cap(profile_, drives(), setup_.kinematics, fences,
-                                   strokes_then_m(drives(), memory_.servo), motion.corrected_mps);
-  motion.cap = cap;
-  motion.wanted_mps = motion.wanted_mps.cwiseProduct(cap.share);
-  motion.corrected_mps = motion.corrected_mps.cwiseProduct(cap.share);
-}
-
 void ExcavatorController::ease_blocked(Motion& motion) const {
   motion.towards_mps = motion.corrected_mps;
   motion.eases = any_eases(memory_.watch.drives.blocked);
@@ -399,8 +391,8 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
   }
   const auto number = static_cast<std::uint8_t>(valid.task_number);
   memory_.task =
-      next_task(profile_, setup_.book.program[number], memory_.task, number, valid.strokes_m(),
-                followed * motion.cap.factor * valid.speed_override_ratio,
+      next_task(profile_, setup_.kinematics, setup_.book.program[number], memory_.task, number,
+                valid.strokes_m(), followed * motion.cap.factor * valid.speed_override_ratio,
                 {motion.task.teeth, motion.task.behind_m, followed, memory_.tip_load.known,
                  memory_.tip_load.force_n},
                 period_s);

@@ -9,7 +9,6 @@
 #include <array>
 
 #include "firmware/core/codes.hpp"
-#include "firmware/excavator/excavator_body.hpp"
 #include "firmware/excavator/excavator_signals.hpp"
 #include "firmware/machine/spool_answer.hpp"
 #include "firmware/machine/valve.hpp"
@@ -48,6 +47,31 @@ struct BucketLinkage {
   double rocker_m = 0.0;
   double coupler_m = 0.0;
   Eigen::Vector2d lug_m = Eigen::Vector2d::Zero();  ///< Bucket frame, x from pin to tip.
+};
+
+/// A level bar across the machine's rear, its ends rounded, as high as it is.
+struct Counterweight {
+  double radius_m = 0.0;      ///< Swing axis to its farthest point; 0: none is known.
+  double half_width_m = 0.0;  ///< To either side of the machine's plane.
+  double corner_m = 0.0;      ///< Radius of its corners, seen from above.
+  double low_m = 0.0;         ///< From here over the ground
+  double high_m = 0.0;        ///< to here.
+
+  [[nodiscard]] bool known() const { return radius_m > 0.0; }
+};
+
+/// All 0: teeth and pins are all that is known, as points.
+struct ExcavatorBody {
+  double bucket_width_m = 0.0;
+  double floor_m = 0.0;        ///< Of the bucket, edge to heel.
+  double floor_rad = 0.0;      ///< From the line edge to bucket pin down to the floor.
+  double capacity_m3 = 0.0;    ///< Of loose soil, heaped.
+  double boom_radius_m = 0.0;  ///< Round its pins' line and the bend, cylinders and hoses in it.
+  double arm_radius_m = 0.0;   ///< Round its pins' line.
+  Eigen::Vector2d boom_bend_m = Eigen::Vector2d::Zero();  ///< Boom frame; at its foot: straight.
+  Counterweight counterweight;
+
+  [[nodiscard]] bool known() const { return bucket_width_m > 0.0; }
 };
 
 struct ExcavatorGeometry {
@@ -190,8 +214,8 @@ struct SwingProfile {
   /// Of all that turns, links half out, about the swing axis; 0: not known, and its oil is not
   /// damped.
   double inertia_kgm2 = 0.0;
-  double lever_m = 0.0;              ///< Chosen, so that its area is like a cylinder's.
-  double right_end_rad = 0.0;        ///< Ends of the range that the controller keeps to.
+  double lever_m = 0.0;        ///< Chosen, so that its area is like a cylinder's.
+  double right_end_rad = 0.0;  ///< Ends of the range that the controller keeps to.
   double left_end_rad = 0.0;
 
   [[nodiscard]] double area_m2() const { return displacement_m3prad / lever_m; }
@@ -211,6 +235,15 @@ struct LineProfile {
   /// second: leakage of the swing's motor, deadbands.
   double trim_ps2 = 0.0;
   double trim_most_mps = 0.0;  ///< No more than this.
+};
+
+/// What fences allow for, see fence_margin.hpp. All 0: the machine is where it is measured.
+struct FenceProfile {
+  double stroke_error_m = 0.0;   ///< Of a stroke as it is measured, at most.
+  double swing_error_rad = 0.0;  ///< The same of the swing, and what it swings about its place.
+  double give_m = 0.0;           ///< So far a point goes on where its drives are to stop.
+  double room_m = 0.0;           ///< So much more is left to a planned way, beside
+  double room_s = 0.0;           ///< this for each m/s of a point's planned speed.
 };
 
 /// Between these a pump's swash goes by what the motion needs.

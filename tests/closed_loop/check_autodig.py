@@ -236,7 +236,7 @@ speed = -0.4
     digger.refused(["step 0 (dig)", "the arm cylinder", *place],
                    *digger.task(line.format(x=9.0, y=0.0)))
     # On the way, neither begin nor end.
-    digger.refused(["step 0 (swing)", "teeth would pass fence[1]", *place],
+    digger.refused(["step 0 (swing)", "the heel's left corner would pass fence[1], the wall, by 12", "the margin is ", *place],
                    *digger.task(MOVE.format(x=-6.0, y=3.0) + WALL.format(through=7.5)
                                 + WALL.format(through=-5.0).replace("[1.0", "[-1.0")))
     digger.refused(["a machine of kind dozer"], "--profile", "dozer_9t")
@@ -252,8 +252,8 @@ def from_elsewhere(digger):
     assert_straight("from beside", beside, LINE_MM, END_MM)
     cut = digger.figures("--task", "truck_loading", "--start", "5.0,0.0,-0.45,1.0")
     assert len(cut["steps"]) == 5 and cut["fence_left_m"] > -1 * MM, cut["fence_left_m"]
-    beyond = digger.figures(*digger.task(MOVE.format(x=0.0, y=7.0) + WALL.format(through=7.1)),
-                            "--start", "7.3,0,0.5,2.2")
+    beyond = digger.figures(*digger.task(MOVE.format(x=0.0, y=7.0) + WALL.format(through=7.25)),
+                            "--start", "7.45,0,0.5,2.2")
     assert -220 * MM < beyond["fence_left_m"] < -180 * MM, beyond["fence_left_m"]
     assert [step["kind"] for step in beyond["steps"]] == ["swing"], beyond["steps"]
 

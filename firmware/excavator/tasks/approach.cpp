@@ -1,7 +1,6 @@
 #include "firmware/excavator/tasks/approach.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "firmware/excavator/swing.hpp"
 #include "firmware/excavator/tasks/fence_margin.hpp"
@@ -12,6 +11,9 @@ namespace {
 /// Of a cylinder's stroke, in from its end.
 constexpr double kNearlyOut = 0.92;
 constexpr double kHalfOut = 0.5;
+/// More than any margin, and what a point goes between two poses: here a distance need not be
+/// exact.
+constexpr double kFar_m = 0.6;
 
 bool inside(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
             const FenceSet& fences, const DriveVector& drives) {
@@ -22,8 +24,7 @@ bool inside(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
     const Fence& fence = fences.fence[static_cast<unsigned>(i)];
     const int count = gap_count(fence, profile.geometry.body);
     for (int k = 0; k < count; ++k) {
-      const FenceGap gap = fence_gap(fence, profile.geometry.body, machine, k,
-                                     std::numeric_limits<double>::infinity());
+      const FenceGap gap = fence_gap(fence, profile.geometry.body, machine, k, kFar_m);
       all = all && gap.distance_m > planned_margin_m(profile.fence, fence, machine, gap, 0.0);
     }
   }
@@ -31,9 +32,8 @@ bool inside(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
 }
 
 /// Where an approach comes to before it goes down to the start.
-DriveVector above_start(const ExcavatorProfile& profile, const TaskProgram& program,
-                        const DriveVector& from) {
-  const SwingKinematics kinematics(profile.geometry);
+DriveVector above_start(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                        const TaskProgram& program, const DriveVector& from) {
   const auto teeth = [&](const DriveVector& drives) {
     return kinematics.teeth_from_joints(kinematics.joints_from_drive(drives).value);
   };
@@ -67,9 +67,10 @@ DriveVector posed(const ExcavatorProfile& profile, DriveVector drives, double bo
 
 class ApproachWalk {
  public:
-  ApproachWalk(const ExcavatorProfile& profile, const FenceSet& fences, const DrivePlan& leg)
+  ApproachWalk(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+               const FenceSet& fences, const DrivePlan& leg)
       : profile_(profile),
-        kinematics_(profile.geometry),
+        kinematics_(kinematics),
         fences_(fences),
         leg_(leg),
         unsure_(unsure_drives(profile)) {}
@@ -98,8 +99,7 @@ class ApproachWalk {
     bool free = true;
     for (int i = 0; i < count; ++i) {
       const auto bit = static_cast<std::uint16_t>(1U << static_cast<unsigned>(i));
-      const FenceGap gap =
-          fence_gap(fence, body, motion, i, std::numeric_limits<double>::infinity());
+      const FenceGap gap = fence_gap(fence, body, motion, i, kFar_m);
       double left_m =
           gap.distance_m - planned_margin_m(profile_.fence, fence, motion, gap, rate_ps);
       if (search.sample == 0) {
@@ -127,7 +127,7 @@ class ApproachWalk {
   }
 
   const ExcavatorProfile& profile_;
-  SwingKinematics kinematics_;
+  const SwingKinematics& kinematics_;
   const FenceSet& fences_;
   const DrivePlan& leg_;
   DriveVector unsure_;
@@ -140,15 +140,12 @@ void end_leg(ApproachSearch& search, const ApproachPath& path) {
   search.found = search.leg >= path.legs;
 }
 
-void next_way(const ExcavatorProfile& profile, const TaskProgram& program,
-              const DriveVector& drives_now, ApproachSearch& search, ApproachPath& path) {
+void next_way(ApproachSearch& search) {
   search.sample = 0;
   search.leg = 0;
+  search.planned = false;
   ++search.way;
   search.failed = search.way >= kApproachWays;
-  if (!search.failed) {
-    path = approach_path(profile, program, drives_now, static_cast<ApproachWay>(search.way));
-  }
 }
 
 }  // namespace
@@ -160,8 +157,9 @@ DrivePlan approach_leg(const ApproachPath& path, const TaskProgram& program, int
   return {path.from[i], to - path.from[i], path.ramp[i]};
 }
 
-ApproachPath approach_path(const ExcavatorProfile& profile, const TaskProgram& program,
-                           const DriveVector& drives_now, ApproachWay way) {
+ApproachPath approach_path(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                           const TaskProgram& program, const DriveVector& drives_now,
+                           ApproachWay way) {
   DriveVector own = drives_now;
   for (unsigned i = 0; i < kAxisCount; ++i) {
     own[i] = std::clamp(own[i], 0.0, profile.geometry.cylinder[i].stroke_m);
@@ -170,7 +168,7 @@ ApproachPath approach_path(const ExcavatorProfile& profile, const TaskProgram& p
   if (!profile.has_swing()) {
     own = with_swing(own, start_swing);
   }
-  const DriveVector above = above_start(profile, program, own);
+  const DriveVector above = above_start(profile, kinematics, program, own);
   ApproachPath path;
   const auto go_by = [&path](const DriveVector& via) {
     path.from[static_cast<unsigned>(path.legs++)] = via;
@@ -212,18 +210,25 @@ ApproachPath approach_path(const ExcavatorProfile& profile, const TaskProgram& p
   return path;
 }
 
-void search_approach(const ExcavatorProfile& profile, const TaskProgram& program,
-                     const DriveVector& drives_now, ApproachSearch& search, ApproachPath& path) {
-  if (search.way == 0 && search.leg == 0 && search.sample == 0) {
-    path = approach_path(profile, program, drives_now, ApproachWay::kDirect);
-    search.found = program.fences.count == 0;
+void search_approach(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                     const TaskProgram& program, const DriveVector& drives_now,
+                     ApproachSearch& search, ApproachPath& path) {
+  search.found = search.found || program.fences.count == 0;
+  if (search.found || search.failed) {
+    return;
   }
-  for (int i = 0; i < kSamplesPerCycle && !search.found && !search.failed; ++i) {
+  if (!search.planned) {
+    path = approach_path(profile, kinematics, program, drives_now,
+                         static_cast<ApproachWay>(search.way));
+    search.planned = true;
+    return;
+  }
+  for (int i = 0; i < kSamplesPerCycle && search.planned && !search.found; ++i) {
     const DrivePlan leg = approach_leg(path, program, search.leg);
     if (!(leg.ramp.duration_s > 0.0)) {
       end_leg(search, path);
-    } else if (!ApproachWalk(profile, program.fences, leg).is_free(search)) {
-      next_way(profile, program, drives_now, search, path);
+    } else if (!ApproachWalk(profile, kinematics, program.fences, leg).is_free(search)) {
+      next_way(search);
     } else if (++search.sample > kApproachSamples) {
       end_leg(search, path);
     }

@@ -43,12 +43,14 @@ inline constexpr int kApproachWays = 7;
 
 /// `drives_now` are taken into their ranges.
 [[nodiscard]] ApproachPath approach_path(const ExcavatorProfile& profile,
+                                         const SwingKinematics& kinematics,
                                          const TaskProgram& program, const DriveVector& drives_now,
                                          ApproachWay way);
 
 /// State from cycle to cycle. As constructed nothing is searched.
 struct ApproachSearch {
   bool runs = false;
+  bool planned = false;     ///< There is a path of `way`.
   bool found = false;       ///< `way` is free.
   bool failed = false;      ///< None is.
   std::uint8_t number = 0;  ///< Of the task.
@@ -64,12 +66,14 @@ struct ApproachSearch {
 /// from a plane has its least within a millimetre of what it is at one of them; before a keep-out
 /// it is bounded by its slope, as the distance from what is convex.
 inline constexpr int kApproachSamples = 64;
-inline constexpr int kSamplesPerCycle = 3;
+inline constexpr int kSamplesPerCycle = 2;
 
-/// A cycle on; `path` is that of the way that is looked at, from `drives_now` on. Each leg has to
-/// keep planned_margin_m() from every fence; what the machine is nearer to, or beyond, where a leg
-/// begins it may only lead away from. A program without fences is found at once.
-void search_approach(const ExcavatorProfile& profile, const TaskProgram& program,
-                     const DriveVector& drives_now, ApproachSearch& search, ApproachPath& path);
+/// A cycle on; `path` is that of the way that is looked at, from `drives_now` on. One cycle plans a
+/// way, the next ones look at it. Each leg has to keep planned_margin_m() from every fence; what
+/// the machine is nearer to, or beyond, where a leg begins it may only lead away from. A program
+/// without fences is found at once.
+void search_approach(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                     const TaskProgram& program, const DriveVector& drives_now,
+                     ApproachSearch& search, ApproachPath& path);
 
 }  // namespace graben

@@ -11,9 +11,9 @@ namespace {
 /// Those of the edge first, those of the counterweight last.
 constexpr std::array<MachinePoint, kGapMost> kGuarded = {
     MachinePoint::kEdgeLeft,  MachinePoint::kEdgeRight, MachinePoint::kHeelLeft,
-    MachinePoint::kHeelRight, MachinePoint::kBucketPin, MachinePoint::kArmPin,
-    MachinePoint::kBoomBend,  MachinePoint::kBoomFoot,  MachinePoint::kTailLeft,
-    MachinePoint::kTailRight};
+    MachinePoint::kHeelRight, MachinePoint::kPinLeft,   MachinePoint::kPinRight,
+    MachinePoint::kBucketPin, MachinePoint::kArmPin,    MachinePoint::kBoomBend,
+    MachinePoint::kBoomFoot,  MachinePoint::kTailLeft,  MachinePoint::kTailRight};
 constexpr int kEdgeCorners = 2;
 constexpr int kTailCorners = 2;
 

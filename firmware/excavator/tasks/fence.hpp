@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "firmware/excavator/excavator_body.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
 #include "firmware/excavator/tasks/machine_points.hpp"
 
 namespace graben {

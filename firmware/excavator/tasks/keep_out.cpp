@@ -20,77 +20,100 @@ Eigen::Vector3d across(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 constexpr int kCornerMost = 6;
 constexpr int kSideMost = 3;
+constexpr int kEdgeMost = 9;
 
-/// A convex part: corners, and the directions of those edges that lie in the links' plane; the
-/// others go across the machine.
+/// Halvings or better where an edge is nearest: to some 1e-3 of its length.
+constexpr int kNearestSteps = 8;
+
+/// From corner to corner.
+struct Edge {
+  std::uint8_t from = 0;
+  std::uint8_t to = 0;
+};
+
+/// A convex part: corners, edges, and the directions of those edges that lie in the links' plane;
+/// the others go across the machine.
 struct Hull {
   std::array<Corner, kCornerMost> corner;
   int corner_count = 0;
   std::array<Eigen::Vector3d, kSideMost> side;
   int side_count = 0;
+  std::array<Edge, kEdgeMost> edge;
+  int edge_count = 0;
   double radius_m = 0.0;
 
-  void add(const Fence& keep_out, const PointMotion& at, MachinePoint point,
-           const Eigen::Vector3d& off_m, const Eigen::Vector3d& off_mps) {
-    corner[static_cast<unsigned>(corner_count++)] = {at.position_m + off_m - keep_out.centre_m,
-                                                     at.velocity_mps + off_mps, point};
+  void add(const Fence& keep_out, const MachineMotion& motion, MachinePoint point,
+           double above_m = 0.0) {
+    const PointMotion& at = motion.at(point);
+    corner[static_cast<unsigned>(corner_count++)] = {
+        at.position_m - keep_out.centre_m + above_m * Eigen::Vector3d::UnitZ(), at.velocity_mps,
+        point};
   }
-  void add(const Fence& keep_out, const MachineMotion& motion, MachinePoint point) {
-    add(keep_out, motion.at(point), point, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+  void add_edge(unsigned from, unsigned to) {
+    edge[static_cast<unsigned>(edge_count++)] = {static_cast<std::uint8_t>(from),
+                                                 static_cast<std::uint8_t>(to)};
   }
   void add_side(unsigned from, unsigned to) {
     side[static_cast<unsigned>(side_count++)] = corner[to].at_m - corner[from].at_m;
+    add_edge(from, to);
   }
 };
 
 void add_bucket(const Fence& keep_out, const MachineMotion& motion, Hull& hull) {
-  const PointMotion& teeth = motion.at(MachinePoint::kTeeth);
-  const PointMotion& pin = motion.at(MachinePoint::kBucketPin);
-  for (const MachinePoint edge : {MachinePoint::kEdgeLeft, MachinePoint::kEdgeRight}) {
-    hull.add(keep_out, motion, edge);
-    const PointMotion& corner = motion.at(edge);
-    hull.add(keep_out, pin, MachinePoint::kBucketPin, corner.position_m - teeth.position_m,
-             corner.velocity_mps - teeth.velocity_mps);
-    hull.add(keep_out, motion,
-             edge == MachinePoint::kEdgeLeft ? MachinePoint::kHeelLeft : MachinePoint::kHeelRight);
+  for (const MachinePoint point :
+       {MachinePoint::kEdgeLeft, MachinePoint::kPinLeft, MachinePoint::kHeelLeft,
+        MachinePoint::kEdgeRight, MachinePoint::kPinRight, MachinePoint::kHeelRight}) {
+    hull.add(keep_out, motion, point);
   }
-  hull.add_side(0, 1);
-  hull.add_side(1, 2);
-  hull.add_side(2, 0);
+  constexpr unsigned kCorners = 3;
+  for (unsigned i = 0; i < kCorners; ++i) {
+    const unsigned next = (i + 1) % kCorners;
+    hull.add_side(i, next);
+    hull.add_edge(kCorners + i, kCorners + next);
+    hull.add_edge(i, kCorners + i);
+  }
 }
 
 void add_counterweight(const Fence& keep_out, const Counterweight& weight,
                        const MachineMotion& motion, Hull& hull) {
-  const Eigen::Vector3d high_m(0.0, 0.0, weight.high_m - weight.low_m);
   for (const MachinePoint tail : {MachinePoint::kTailLeft, MachinePoint::kTailRight}) {
     hull.add(keep_out, motion, tail);
-    hull.add(keep_out, motion.at(tail), tail, high_m, Eigen::Vector3d::Zero());
+    hull.add(keep_out, motion, tail, weight.high_m - weight.low_m);
   }
   hull.add_side(0, 1);
+  hull.add_edge(2, 3);
+  hull.add_edge(0, 2);
+  hull.add_edge(1, 3);
   hull.radius_m = weight.corner_m;
 }
 
-Hull hull_of(const Fence& keep_out, const ExcavatorBody& body, const MachineMotion& motion,
-             MachinePart part) {
+void add_link(const Fence& keep_out, const MachineMotion& motion, MachinePoint from,
+              MachinePoint to, double radius_m, Hull& hull) {
+  hull.add(keep_out, motion, from);
+  hull.add(keep_out, motion, to);
+  hull.add_side(0, 1);
+  hull.radius_m = radius_m;
+}
+
+/// Not inlined: one body of code, once for every part.
+[[gnu::noinline]] Hull hull_of(const Fence& keep_out, const ExcavatorBody& body,
+                               const MachineMotion& motion, MachinePart part) {
   Hull hull;
   switch (part) {
     case MachinePart::kBucketPart:
       add_bucket(keep_out, motion, hull);
       break;
     case MachinePart::kArmPart:
-      hull.add(keep_out, motion, MachinePoint::kArmPin);
-      hull.add(keep_out, motion, MachinePoint::kBucketPin);
-      hull.add_side(0, 1);
-      hull.radius_m = body.arm_radius_m;
+      add_link(keep_out, motion, MachinePoint::kArmPin, MachinePoint::kBucketPin, body.arm_radius_m,
+               hull);
       break;
-    case MachinePart::kBoomPart:
-      hull.add(keep_out, motion, MachinePoint::kBoomFoot);
-      hull.add(keep_out, motion, MachinePoint::kBoomBend);
-      hull.add(keep_out, motion, MachinePoint::kArmPin);
-      hull.add_side(0, 1);
-      hull.add_side(1, 2);
-      hull.add_side(2, 0);
-      hull.radius_m = body.boom_radius_m;
+    case MachinePart::kBoomFootPart:
+      add_link(keep_out, motion, MachinePoint::kBoomFoot, MachinePoint::kBoomBend,
+               body.boom_radius_m, hull);
+      break;
+    case MachinePart::kBoomEndPart:
+      add_link(keep_out, motion, MachinePoint::kBoomBend, MachinePoint::kArmPin, body.boom_radius_m,
+               hull);
       break;
     case MachinePart::kTailPart:
       add_counterweight(keep_out, body.counterweight, motion, hull);
@@ -152,21 +175,106 @@ class Separation {
     }
   }
 
-  /// From a cylinder's axis to the part's corners.
-  void try_spokes() {
-    for (int i = 0; i < hull_.corner_count; ++i) {
-      try_axis({corner(i).at_m.x(), corner(i).at_m.y(), 0.0});
+  /// From the keep-out to where the part's edges are nearest to it.
+  void try_nearest() {
+    for (int i = 0; i < hull_.edge_count; ++i) {
+      const Edge& edge = hull_.edge[static_cast<unsigned>(i)];
+      try_axis(away_from_nearest(corner(edge.from).at_m, corner(edge.to).at_m));
     }
   }
 
   [[nodiscard]] double distance_m() const { return best_m_; }
+  /// Of corners that are as near, an edge's or a face's, the one that closes fastest.
   [[nodiscard]] FenceGap gap() const {
-    const Corner& nearest = corner(nearest_);
-    return {best_m_, -away_.dot(nearest.moves_mps), nearest.point};
+    constexpr double kAsNear_m = 1e-3;
+    FenceGap gap{best_m_, 0.0, corner(nearest_).point};
+    const double nearest_m = away_.dot(corner(nearest_).at_m);
+    bool is_first = true;
+    for (int i = 0; i < hull_.corner_count; ++i) {
+      const double closing_mps = -away_.dot(corner(i).moves_mps);
+      if (away_.dot(corner(i).at_m) < nearest_m + kAsNear_m &&
+          (is_first || closing_mps > gap.closing_mps)) {
+        is_first = false;
+        gap.closing_mps = closing_mps;
+        gap.point = corner(i).point;
+      }
+    }
+    return gap;
   }
 
  private:
   [[nodiscard]] const Corner& corner(int i) const { return hull_.corner[static_cast<unsigned>(i)]; }
+
+  /// A point before the keep-out.
+  struct Before {
+    double distance_m = 0.0;                         ///< Below 0 inside.
+    Eigen::Vector3d away = Eigen::Vector3d::Zero();  ///< Direction in which it grows, of length 1.
+  };
+
+  /// Of the keep-out's own frame: beyond its sides, which side that is, and out of it.
+  [[nodiscard]] Before before(const Eigen::Vector3d& at_m) const {
+    const Eigen::Vector3d& half_m = keep_out_.half_m;
+    std::array<Eigen::Vector3d, 3> out = {keep_out_.normal,
+                                          {-keep_out_.normal.y(), keep_out_.normal.x(), 0.0},
+                                          Eigen::Vector3d::UnitZ()};
+    int sides = 3;
+    std::array<double, 3> beyond_m{};
+    if (keep_out_.shape == FenceShape::kCylinder) {
+      const double from_axis_m = at_m.head<2>().norm();
+      out[0] = Eigen::Vector3d::UnitX();
+      if (from_axis_m > 0.0) {
+        out[0] = {at_m.x() / from_axis_m, at_m.y() / from_axis_m, 0.0};
+      }
+      out[1] = out[2];
+      sides = 2;
+      beyond_m[0] = from_axis_m - half_m.x();
+      beyond_m[1] = std::abs(at_m.z()) - half_m.z();
+    } else {
+      for (unsigned i = 0; i < 3; ++i) {
+        beyond_m[i] = std::abs(out[i].dot(at_m)) - half_m[i];
+      }
+    }
+    unsigned deepest = 0;
+    Eigen::Vector3d off_m = Eigen::Vector3d::Zero();
+    for (unsigned i = 0; i < static_cast<unsigned>(sides); ++i) {
+      out[i] = out[i].dot(at_m) < 0.0 ? Eigen::Vector3d(-out[i]) : out[i];
+      off_m += std::max(0.0, beyond_m[i]) * out[i];
+      deepest = beyond_m[i] > beyond_m[deepest] ? i : deepest;
+    }
+    const double apart_m = off_m.norm();
+    return apart_m > 0.0 ? Before{apart_m, off_m / apart_m}
+                         : Before{beyond_m[deepest], out[deepest]};
+  }
+
+  /// The distance along an edge is convex: where its tangents from both sides meet comes near to
+  /// where it is least.
+  [[nodiscard]] Eigen::Vector3d away_from_nearest(const Eigen::Vector3d& from_m,
+                                                  const Eigen::Vector3d& to_m) const {
+    const Eigen::Vector3d way_m = to_m - from_m;
+    double low = 0.0;
+    double high = 1.0;
+    Before at_low = before(from_m);
+    Before at_high = before(to_m);
+    if (at_low.away.dot(way_m) >= 0.0) {
+      return at_low.away;
+    }
+    if (at_high.away.dot(way_m) <= 0.0) {
+      return at_high.away;
+    }
+    for (int i = 0; i < kNearestSteps; ++i) {
+      const double falls = -at_low.away.dot(way_m);
+      const double rises = at_high.away.dot(way_m);
+      const double meet =
+          (at_low.distance_m - at_high.distance_m + falls * low + rises * high) / (falls + rises);
+      const double share = std::clamp(meet, low, high);
+      const Before at_share = before(from_m + share * way_m);
+      const bool rising = at_share.away.dot(way_m) > 0.0;
+      (rising ? high : low) = share;
+      (rising ? at_high : at_low) = at_share;
+    }
+    // Across the edge, as the direction to the nearest point is.
+    return at_high.away.dot(way_m) * at_low.away - at_low.away.dot(way_m) * at_high.away;
+  }
 
   /// Of the keep-out, from its centre along a direction of length 1.
   [[nodiscard]] double reach_m(const Eigen::Vector3d& unit) const {
@@ -211,9 +319,7 @@ FenceGap keep_out_gap(const Fence& keep_out, const ExcavatorBody& body, const Ma
   separation.try_faces(frame, motion.left);
   if (separation.distance_m() < far_m) {
     separation.try_edges(frame, motion.left);
-    if (round) {
-      separation.try_spokes();
-    }
+    separation.try_nearest();
   }
   return separation.gap();
 }

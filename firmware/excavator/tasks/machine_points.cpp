@@ -1,5 +1,6 @@
 #include "firmware/excavator/tasks/machine_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "firmware/excavator/swing.hpp"
@@ -84,7 +85,7 @@ class Outline {
 Eigen::Vector2d corner_m(const Counterweight& weight) {
   const double left_m = weight.half_width_m - weight.corner_m;
   const double from_axis_m = weight.radius_m - weight.corner_m;
-  return {-std::sqrt(std::fmax(0.0, from_axis_m * from_axis_m - left_m * left_m)), left_m};
+  return {-std::sqrt(std::max(0.0, from_axis_m * from_axis_m - left_m * left_m)), left_m};
 }
 
 }  // namespace
@@ -115,6 +116,8 @@ MachineMotion machine_motion(const SwingKinematics& kinematics, const DriveVecto
   set(MachinePoint::kTeeth, outline.on(kBucket, teeth_m, 0.0));
   set(MachinePoint::kEdgeLeft, outline.on(kBucket, teeth_m, half_m));
   set(MachinePoint::kEdgeRight, outline.on(kBucket, teeth_m, -half_m));
+  set(MachinePoint::kPinLeft, outline.on(kBucket, Eigen::Vector2d::Zero(), half_m));
+  set(MachinePoint::kPinRight, outline.on(kBucket, Eigen::Vector2d::Zero(), -half_m));
   set(MachinePoint::kHeelLeft, outline.on(kBucket, heel_m, half_m));
   set(MachinePoint::kHeelRight, outline.on(kBucket, heel_m, -half_m));
   const Eigen::Vector2d corner = corner_m(body.counterweight);

@@ -21,11 +21,13 @@ enum class MachinePoint : std::uint8_t {
   kHeelRight = 6,
   kBoomBend = 7,
   kBoomFoot = 8,
-  kTailLeft = 9,  ///< Centres of the counterweight's corners, at their lower end.
-  kTailRight = 10,
+  kPinLeft = 9,  ///< Where the bucket's sides end at its pin.
+  kPinRight = 10,
+  kTailLeft = 11,  ///< Centres of the counterweight's corners, at their lower end.
+  kTailRight = 12,
 };
 
-inline constexpr int kMachinePointCount = 11;
+inline constexpr int kMachinePointCount = 13;
 
 struct PointMotion {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();

@@ -121,13 +121,13 @@ class FencedMachine {
 
 MotionCap motion_cap(const ExcavatorProfile& profile, DriveRows drives,
                      const SwingKinematics& kinematics, const FenceSet& fences,
-                     const DriveVector& then_m, const DriveVector& velocity_mps) {
+                     const DriveVector& then_m, const DriveVector& velocity_mps, double coast_m) {
   const auto held = [] {
     MotionCap cap;
     cap.factor = 0.0;
     return cap;
   };
-  if (!then_m.allFinite() || !velocity_mps.allFinite()) {
+  if (!then_m.allFinite() || !velocity_mps.allFinite() || !std::isfinite(coast_m)) {
     return held();
   }
   MotionCap cap;
@@ -135,8 +135,9 @@ MotionCap motion_cap(const ExcavatorProfile& profile, DriveRows drives,
   if (fences.count == 0) {
     return cap;
   }
+  const DriveVector comes_to_m = with_swing(then_m, swing_of(then_m) + coast_m);
   FencedMachine machine(profile, kinematics, fences,
-                        drives_of(profile, inside_stops(drives, then_m)));
+                        drives_of(profile, inside_stops(drives, comes_to_m)));
   const DriveVector velocity = drives_of(profile, velocity_mps);
   if (!machine.slow(velocity, cap)) {
     return held();

@@ -23,8 +23,20 @@ struct MotionCap : VelocityCap {
 /// line.acceleration_mps2. Beyond a fence whatever leads no further is free: the motion as a whole,
 /// or else those drives of it that by themselves do not lead further. `then_m` and `velocity_mps`
 /// are travels. What is not finite or can't be is 0, and no limit named.
+///
+/// `coast_m` is what the swing turns on by its own momentum, as swing_coast_m() has it: before
+/// fences it is taken to be there already.
 [[nodiscard]] MotionCap motion_cap(const ExcavatorProfile& profile, DriveRows drives,
                                    const SwingKinematics& kinematics, const FenceSet& fences,
-                                   const DriveVector& then_m, const DriveVector& velocity_mps);
+                                   const DriveVector& then_m, const DriveVector& velocity_mps,
+                                   double coast_m = 0.0);
+
+/// The platform is heavy and its oil soft: it lags 0.15 to 0.4 s behind its spool, and swings about
+/// its place. What it turns faster than it was asked to (m/s at the lever) takes it so much
+/// further.
+[[nodiscard]] inline double swing_coast_m(double measured_mps, double asked_mps) {
+  constexpr double kLag_s = 0.4;
+  return kLag_s * (measured_mps - asked_mps);
+}
 
 }  // namespace graben

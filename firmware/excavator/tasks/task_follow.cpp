@@ -55,8 +55,9 @@ TaskProgress progress_of(const TaskMemory& memory, const TaskAim& aim) {
 }
 
 /// Looks for the way on; runs once it is found.
-TaskMemory searched(const ExcavatorProfile& profile, const TaskProgram& program,
-                    const TaskMemory& last, std::uint8_t number, const DriveVector& drives_now) {
+TaskMemory searched(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                    const TaskProgram& program, const TaskMemory& last, std::uint8_t number,
+                    const DriveVector& drives_now) {
   TaskMemory next;
   if (last.search.runs && last.search.number == number) {
     next.search = last.search;
@@ -64,9 +65,9 @@ TaskMemory searched(const ExcavatorProfile& profile, const TaskProgram& program,
   }
   next.search.runs = true;
   next.search.number = number;
-  search_approach(profile, program, drives_now, next.search, next.state.approach);
+  search_approach(profile, kinematics, program, drives_now, next.search, next.state.approach);
   if (next.search.found) {
-    next.state = task_start(profile, program, drives_now, ApproachWay{next.search.way});
+    next.state = task_start(profile, kinematics, program, drives_now, ApproachWay{next.search.way});
   }
   next.number = number;
   if (last.number == number) {
@@ -138,18 +139,19 @@ TaskMemory stopped(const TaskMemory& last) {
   return memory;
 }
 
-TaskMemory next_task(const ExcavatorProfile& profile, const TaskProgram& program,
-                     const TaskMemory& last, std::uint8_t number, const DriveVector& travel_m,
-                     double followed_ratio, const CutSeen& seen, double period_s) {
+TaskMemory next_task(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                     const TaskProgram& program, const TaskMemory& last, std::uint8_t number,
+                     const DriveVector& travel_m, double followed_ratio, const CutSeen& seen,
+                     double period_s) {
   if (!last.runs || last.number != number) {
-    return searched(profile, program, last, number, drives_of(profile, travel_m));
+    return searched(profile, kinematics, program, last, number, drives_of(profile, travel_m));
   }
   const double advance_s = followed_ratio * period_s;
-  return remembered(number, in_layers(program)
-                                ? layer_advance(profile, SwingKinematics(profile.geometry), program,
-                                                last.state, advance_s, period_s, seen)
-                                : task_advance(profile.line, program, last.state, advance_s,
-                                               period_s, seen.behind_m));
+  return remembered(
+      number,
+      in_layers(program)
+          ? layer_advance(profile, kinematics, program, last.state, advance_s, period_s, seen)
+          : task_advance(profile.line, program, last.state, advance_s, period_s, seen.behind_m));
 }
 
 }  // namespace graben

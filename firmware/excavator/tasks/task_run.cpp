@@ -81,11 +81,11 @@ double slow_error_m(const LineProfile& line, const TaskProgram& program, const T
 
 }  // namespace
 
-TaskState task_start(const ExcavatorProfile& profile, const TaskProgram& program,
-                     const DriveVector& drives_now, ApproachWay way) {
+TaskState task_start(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                     const TaskProgram& program, const DriveVector& drives_now, ApproachWay way) {
   TaskState state;
   state.phase = TaskPhase::kApproach;
-  state.approach = approach_path(profile, program, drives_now, way);
+  state.approach = approach_path(profile, kinematics, program, drives_now, way);
   return state;
 }
 

@@ -81,7 +81,8 @@ inline constexpr double kMoveSettled_m = 0.05;
 
 /// At the beginning of the approach that search_approach() has found, planned from where the
 /// machine stands now. It can't meet a blind spot. In motion the soft limit holds it before fences.
-[[nodiscard]] TaskState task_start(const ExcavatorProfile& profile, const TaskProgram& program,
+[[nodiscard]] TaskState task_start(const ExcavatorProfile& profile,
+                                   const SwingKinematics& kinematics, const TaskProgram& program,
                                    const DriveVector& drives_now,
                                    ApproachWay way = ApproachWay::kDirect);
 

@@ -10,7 +10,7 @@
 #include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/excavator/swing.hpp"
 #include "firmware/excavator/tasks/drive_plan.hpp"
-#include "firmware/excavator/tasks/fence.hpp"
+#include "firmware/excavator/tasks/motion_cap.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
 namespace graben::test {
@@ -58,12 +58,19 @@ class ReplayedDrives {
   std::array<DriveVector, 2> lag_{DriveVector::Zero(), DriveVector::Zero()};
 };
 
-/// An excavator with all that a replay asks of it.
+/// Exact sensors, stiff oil, and an outline of points: fences hold it at their place.
+inline ExcavatorProfile without_body(ExcavatorProfile profile) {
+  profile.geometry.body = {};
+  profile.fence = {};
+  return profile;
+}
+
+/// An excavator with all that a replay asks of it, without body unless told.
 struct ReplayMachine {
   explicit ReplayMachine(const machines::SimulatedExcavator& machine)
-      : profile(machine.profile),
-        kinematics(machine.profile.geometry),
-        limits(drive_limits(machine.profile)) {}
+      : ReplayMachine(without_body(machine.profile)) {}
+  explicit ReplayMachine(const ExcavatorProfile& of)
+      : profile(of), kinematics(of.geometry), limits(drive_limits(of)) {}
 
   [[nodiscard]] DriveVector inside(DriveVector drive) const {
     for (unsigned i = 0; i < kAxisCount; ++i) {
@@ -97,9 +104,9 @@ struct ReplayMachine {
 };
 
 /// The cap for strokes m and swing rad, and their velocities.
-inline VelocityCap motion_cap(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                              const FenceSet& fences, const DriveVector& then,
-                              const DriveVector& velocity) {
+inline MotionCap motion_cap(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                            const FenceSet& fences, const DriveVector& then,
+                            const DriveVector& velocity) {
   const ExcavatorBank bank = excavator_bank(profile);
   return graben::motion_cap(profile, bank.rows(), kinematics, fences, travel_of(profile, then),
                             travel_of(profile, velocity));
@@ -121,8 +128,8 @@ inline double overrun_m(const ReplayMachine& machine, const FenceSet& fences,
   }
   for (int i = 0; i < fences.count; ++i) {
     const Fence& fence = fences.fence[static_cast<unsigned>(i)];
-    for (int p = 0; p < fence.guarded(); ++p) {
-      const FenceGap gap = fence_gap(fence, motion.point[static_cast<unsigned>(p)]);
+    for (int k = 0; k < gap_count(fence, machine.profile.geometry.body); ++k) {
+      const FenceGap gap = fence_gap(fence, machine.profile.geometry.body, motion, k, 1e3);
       most_m = std::max(most_m, -gap.distance_m);
     }
   }
@@ -146,12 +153,13 @@ inline Fence random_fence(const ReplayMachine& machine, plant::Random& random,
   }
   fence.guard = random.uniform() < 0.5 ? FenceGuard::kTeeth : FenceGuard::kMachine;
   const MachineMotion motion = machine.points(drive);
-  fence.offset_m = -1e3;
-  for (int p = 0; p < fence.guarded(); ++p) {
-    fence.offset_m = std::max(fence.offset_m,
-                              fence.normal.dot(motion.point[static_cast<unsigned>(p)].position_m));
+  const double out_m = most_m * random.uniform();
+  double most_out_m = -1e3;
+  for (int k = 0; k < gap_count(fence, machine.profile.geometry.body); ++k) {
+    const FenceGap gap = fence_gap(fence, machine.profile.geometry.body, motion, k, 1e3);
+    most_out_m = std::max(most_out_m, -gap.distance_m);
   }
-  fence.offset_m += most_m * random.uniform();
+  fence.offset_m = most_out_m + out_m;
   return fence;
 }
 

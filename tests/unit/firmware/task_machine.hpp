@@ -14,7 +14,7 @@ namespace graben::test {
 
 /// As it answers in the loop: dead time and lags of ReplayedDrives, a platform no softer than that.
 inline ExcavatorProfile answering_12t() {
-  ExcavatorProfile profile = excavator_12t().profile;
+  ExcavatorProfile profile = without_body(excavator_12t().profile);
   profile.control.dead_time_s = 0.05;
   profile.control.response_s = 0.052;
   profile.control.swing_lead_s = 0.0;

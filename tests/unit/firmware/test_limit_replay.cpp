@@ -109,8 +109,8 @@ void assert_holds(const test::ReplayMachine& machine, const FenceSet& fences,
   const Fence& fence = fences.fence[limit.index];
   const MachineMotion motion = machine_motion(machine.kinematics, at, velocity);
   bool near = false;
-  for (int p = 0; p < fence.guarded(); ++p) {
-    const FenceGap gap = fence_gap(fence, motion.point[static_cast<unsigned>(p)]);
+  for (int k = 0; k < gap_count(fence, machine.profile.geometry.body); ++k) {
+    const FenceGap gap = fence_gap(fence, machine.profile.geometry.body, motion, k, 1e3);
     near = near || (gap.distance_m < kNear && gap.closing_mps > 0.0);
   }
   assert_true(near);

@@ -112,6 +112,80 @@ void rounding_is_free_and_nan_is_not(void**) {
   assert_cap(cap({0.5, nan, 0.5, 0.0}, {0.1, 0.0, 0.0, 0.0}), 0.0, LimitKind::kNone, 0);
 }
 
+/// Twice as far as the sensors may be off: with its margin it stops before the fence.
+void it_stops_at_the_margin(void**) {
+  const test::ReplayMachine whole(test::excavator_12t().profile);
+  const DriveVector then(0.8, 0.565, 0.4375, 0.3);
+  const DriveVector up(0.1, 0.0, 0.0, 0.0);
+  const MachineMotion motion =
+      machine_motion(whole.kinematics, then, up, unsure_drives(whole.profile));
+  const PointMotion& pin = motion.at(MachinePoint::kArmPin);
+  const double margin_m = pin.unsure_m + whole.profile.fence.give_m;
+  // 2.1 mm at the boom's cylinder, 3.1 mrad of swing at the arm's pin, and 20 mm.
+  print_message("margin %.1f mm\n", 1e3 * margin_m);
+  assert_true(margin_m > 0.045 && margin_m < 0.075);
+  FenceSet fences;
+  fences.count = 1;
+  const double thick_m = whole.profile.geometry.body.boom_radius_m;
+  const auto factor = [&](double left_m) {
+    fences.fence[0] = {Eigen::Vector3d::UnitZ(), pin.position_m.z() + thick_m + left_m,
+                       FenceGuard::kMachine};
+    return test::motion_cap(whole.profile, whole.kinematics, fences, then, up).factor;
+  };
+  assert_near(factor(margin_m - 0.001), 0.0, 0.0);
+  assert_near(factor(margin_m + 0.01), 2.0 * 0.0102 / pin.velocity_mps.z(), 1e-9);
+}
+
+/// Beyond a ceiling the boom leads further and is held, the swing is free: it alone goes on. With
+/// the boom alone nothing does.
+void beyond_a_fence_only_what_leads_back_moves(void**) {
+  const DriveVector then(0.475, 0.565, 0.4375, 0.3);
+  const double pin_m = machine().points(then).at(MachinePoint::kArmPin).position_m.z();
+  FenceSet fences;
+  fences.count = 1;
+  fences.fence[0] = {Eigen::Vector3d::UnitZ(), pin_m - 0.5, FenceGuard::kMachine};
+  const auto held = [&](const DriveVector& velocity) {
+    return test::motion_cap(machine().profile, machine().kinematics, fences, then, velocity);
+  };
+  const MotionCap both = held({0.1, 0.0, 0.0, 0.2});
+  assert_cap(both, 1.0, LimitKind::kFence, 0);
+  assert_true((both.share - DriveVector(0.0, 1.0, 1.0, 1.0)).norm() == 0.0);
+  const MotionCap boom = held({0.1, 0.0, 0.0, 0.0});
+  assert_cap(boom, 0.0, LimitKind::kFence, 0);
+  const MotionCap down = held({-0.1, 0.0, 0.0, 0.2});
+  assert_cap(down, 1.0, LimitKind::kNone, 0);
+  assert_true(down.share == DriveVector::Ones());
+  // What is free is slowed before another fence as anything is.
+  const Eigen::Vector3d teeth_m = machine().teeth(then).position_m;
+  fences.count = 2;
+  fences.fence[1] = {Eigen::Vector3d::UnitY(), teeth_m.y() + 0.05, FenceGuard::kTeeth};
+  const MotionCap swing = held({0.1, 0.0, 0.0, 0.4});
+  assert_cap(swing, std::min(2.0 * 0.0502, std::sqrt(2.0 * 0.25 * 0.0502)) / (0.4 * teeth_m.x()),
+             LimitKind::kFence, 1);
+  assert_near(swing.share[kBoom], 0.0, 0.0);
+}
+
+/// A platform that turns by itself is taken to be where it will come to.
+void its_own_momentum_counts(void**) {
+  const DriveVector then(0.475, 0.565, 0.4375, 0.3);
+  const Eigen::Vector3d teeth_m = machine().teeth(then).position_m;
+  FenceSet fences;
+  fences.count = 1;
+  fences.fence[0] = {Eigen::Vector3d::UnitY(), teeth_m.y() + 0.5, FenceGuard::kTeeth};
+  const double lever_m = machine().profile.swing.lever_m;
+  const ExcavatorBank bank = excavator_bank(machine().profile);
+  const auto factor = [&](double radps) {
+    return motion_cap(machine().profile, bank.rows(), machine().kinematics, fences,
+                      travel_of(machine().profile, then), DriveVector(0.0, 0.0, 0.0, 0.1 * lever_m),
+                      swing_coast_m(radps * lever_m, 0.0))
+        .factor;
+  };
+  assert_near(factor(0.0), 1.0, 0.0);
+  assert_near(factor(-0.4), 1.0, 0.0);
+  assert_near(factor(0.4), 0.0, 0.0);
+  assert_near(swing_coast_m(0.2, 0.1), 0.04, 1e-15);
+}
+
 struct Slide {
   double time_ratio = 0.0;  ///< Taken over planned.
   double deepest_m = 0.0;
@@ -171,6 +245,9 @@ int main() {
       cmocka_unit_test(fences_hold_the_point_that_is_nearest),
       cmocka_unit_test(a_wall_holds_the_swing),
       cmocka_unit_test(rounding_is_free_and_nan_is_not),
+      cmocka_unit_test(it_stops_at_the_margin),
+      cmocka_unit_test(beyond_a_fence_only_what_leads_back_moves),
+      cmocka_unit_test(its_own_momentum_counts),
       cmocka_unit_test(sliding_along_a_plane_does_not_chatter),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

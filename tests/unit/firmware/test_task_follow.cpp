@@ -171,7 +171,8 @@ void it_goes_on_or_starts_afresh(void**) {
   const TaskMemory memory = half_way(1);
   const DriveVector travel_m = travel_of(profile(), dig().end);
   const auto next = [&](const TaskMemory& last, std::uint8_t number, double followed) {
-    return next_task(profile(), dig(), last, number, travel_m, followed, 0.0, kCycle_s);
+    return next_task(profile(), kinematics(), dig(), last, number, travel_m, followed, 0.0,
+                     kCycle_s);
   };
   const TaskMemory on = next(memory, 0, 0.25);
   assert_true(on.runs && on.intact());
@@ -183,7 +184,7 @@ void it_goes_on_or_starts_afresh(void**) {
     assert_int_equal(afresh.number, 1);
     assert_int_equal(afresh.state.phase, TaskPhase::kApproach);
     assert_near(afresh.state.time_s, 0.0, 0.0);
-    assert_true((afresh.state.approach.from - dig().end).norm() < 1e-9);
+    assert_true((afresh.state.approach.from[0] - dig().end).norm() < 1e-9);
   }
 }
 

@@ -225,7 +225,7 @@ ProgramRequest random_request(plant::Random& random, const DriveVector& start) {
 
 /// Through the executor, all limits in the loop: inside and on the plan to the end.
 void assert_replays_inside(const TaskProgram& program, bool late) {
-  TaskState state = task_start(machine().profile, program, program.start);
+  TaskState state = task_start(machine().profile, machine().kinematics, program, program.start);
   test::ReplayedDrives drives(program.start, late);
   for (int i = 0; i < 20000 && state.phase != TaskPhase::kDone; ++i) {
     const TaskAim aim = task_aim(machine().kinematics, program, state);
@@ -251,9 +251,14 @@ double passed_m(const ProgramResult& result, double share) {
   if (result.refusal == ProgramRefusal::kSwingEnd) {
     return std::abs(motion.value[kSwing]) - machine().profile.swing.left_end_rad;
   }
-  const Fence& fence = result.program.fences.fence[static_cast<unsigned>(result.fence)];
+  const Fence& fence = result.program.fences.fence[static_cast<unsigned>(result.by.fence)];
   const MachineMotion at = machine().points(motion.value);
-  return -fence_gap(fence, at.point[static_cast<unsigned>(result.point)]).distance_m;
+  double passed_m = -1e3;
+  for (int k = 0; k < gap_count(fence, machine().profile.geometry.body); ++k) {
+    passed_m = std::max(passed_m,
+                        -fence_gap(fence, machine().profile.geometry.body, at, k, 1e3).distance_m);
+  }
+  return passed_m;
 }
 
 /// What is named is passed there, and nothing is before.

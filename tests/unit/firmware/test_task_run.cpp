@@ -134,7 +134,7 @@ void an_error_asks_for_less_pace_and_nan_for_none(void**) {
   // Drives that are only moved have to arrive, no more: steps without a line, and the approach.
   state.step = 1;
   assert_near(wanted_pace(line, task, state, line.move_slow_error_m), 0.5, 1e-12);
-  const TaskState approach = task_start(machine().profile, task, task.end);
+  const TaskState approach = task_start(machine().profile, machine().kinematics, task, task.end);
   assert_near(wanted_pace(line, task, approach, line.move_slow_error_m), 0.5, 1e-12);
 }
 
@@ -227,7 +227,7 @@ void the_approach_leads_to_the_start(void**) {
   // Quick enough to reach its uniform speed on the way.
   ExcavatorProfile quick = machine().profile;
   quick.swing.acceleration_max_radps2 = 0.7;
-  TaskState state = task_start(quick, task, now);
+  TaskState state = task_start(quick, machine().kinematics, task, now);
   assert_int_equal(state.phase, TaskPhase::kApproach);
   const TaskAim first = aim_of(task, state);
   assert_int_equal(first.kind, StepKind::kApproach);
@@ -248,11 +248,12 @@ void the_approach_leads_to_the_start(void**) {
   DriveVector outside = now;
   outside[kBoom] = -0.001;
   outside[kArm] = 1.131;
-  const DriveVector taken_in = aim_of(task, task_start(machine().profile, task, outside)).value;
+  const DriveVector taken_in =
+      aim_of(task, task_start(machine().profile, machine().kinematics, task, outside)).value;
   assert_near(taken_in[kBoom], 0.0, 0.0);
   assert_near(taken_in[kArm], 1.130, 0.0);
   // Where it stands already nothing is waited for.
-  TaskState there = task_start(machine().profile, task, task.start);
+  TaskState there = task_start(machine().profile, machine().kinematics, task, task.start);
   assert_near(aim_of(task, there).share, 1.0, 0.0);
   there = advance(task, there, 1.0);
   assert_int_equal(there.phase, TaskPhase::kApproach);

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -152,6 +153,49 @@ void every_error_is_listed(void**) {
   assert_says(errors, "design.clearance (line 21): -1.0 is out of range; allowed: 0.03 .. 1 m");
 }
 
+const char* const kKeepOuts =
+    "start = { position = [7.0, 0.0, -0.4], attitude = 2.2 }\n"
+    "[[step]]\n"
+    "do = \"dig\"\n"
+    "to = { position = [4.8, 0.0, -0.4], attitude = 0.9 }\n"
+    "[[fence]]\n"
+    "kind = \"box\"\n"
+    "centre = [2.0, 5.0]\n"
+    "size = [1.0, 3.0]\n"
+    "turn = 0.5\n"
+    "heights = [-1.0, 2.0]\n"
+    "[[fence]]\n"
+    "kind = \"cylinder\"\n"
+    "centre = [0.0, -6.0]\n"
+    "radius = 0.3\n"
+    "heights = [0.0, 4.0]\n";
+
+void boxes_and_cylinders_are_kept_out_of(void**) {
+  const Written file(kKeepOuts);
+  const FenceSet fences = machines::load_task(file.path(), profile("excavator_12t")).request.fences;
+  assert_int_equal(fences.count, 2);
+  const Fence& box = fences.fence[0];
+  assert_int_equal(box.shape, FenceShape::kBox);
+  assert_true((box.centre_m - Eigen::Vector3d(2.0, 5.0, 0.5)).norm() < 1e-12);
+  assert_true((box.half_m - Eigen::Vector3d(0.5, 1.5, 1.5)).norm() < 1e-12);
+  assert_true((box.normal - Eigen::Vector3d(std::cos(0.5), std::sin(0.5), 0.0)).norm() < 1e-12);
+  const Fence& cylinder = fences.fence[1];
+  assert_int_equal(cylinder.shape, FenceShape::kCylinder);
+  assert_true((cylinder.half_m - Eigen::Vector3d(0.3, 0.3, 2.0)).norm() < 1e-12);
+  const auto wrong = [](const std::string& from, const std::string& to) {
+    std::string text = kKeepOuts;
+    return errors_of(text.replace(text.find(from), from.size(), to));
+  };
+  assert_says(wrong("[-1.0, 2.0]", "[2.0, -1.0]"),
+              "fence[0].heights (line 10): [2, -1] m; allowed: lower, then upper end");
+  assert_says(wrong("radius = 0.3", "radius = 0.01"),
+              "fence[1].radius (line 14): 0.01 is out of range; allowed: 0.05 .. 30 m");
+  assert_says(wrong("kind = \"box\"", "kind = \"ball\""),
+              "'ball'; allowed: ceiling, floor, wall, box, cylinder");
+  assert_says(wrong("centre = [2.0, 5.0]", "centre = [5.0, 0.5]"),
+              "would pass fence[0], the box at 5.00, 0.50 m, by ");
+}
+
 /// A pace on a line, a speed on a move of the drives: keys that nothing asks for.
 void a_pace_of_the_other_form_is_unknown(void**) {
   assert_says(errors_of(edited("flatten", "duration = 18.4", "pace = 0.5")),
@@ -173,9 +217,15 @@ void refusals_name_step_joint_and_place(void**) {
   assert_says(reach, "step 1 (lift): ");
   assert_says(reach, "% of the step, teeth x ");
   const std::string ceiling = errors_of(edited("truck_loading", "height = 6.5", "height = 4.0"));
-  assert_says(ceiling, "(lift): the arm's pin would pass fence[0]; at ");
-  const std::string wall = errors_of(edited("truck_loading", "[0.0, 7.5]", "[0.0, 5.8]"));
-  assert_says(wall, "(dump): the teeth would pass fence[2]; at ");
+  assert_says(ceiling, "(lift): the arm's pin would pass fence[0], the ceiling at 4.00 m, by ");
+  assert_says(ceiling, " mm at 100.00 % of the step, where the margin is ");
+  assert_says(ceiling, " mm; beginning at ");
+  const std::string wall = errors_of(edited("truck_loading", "[0.0, 7.5]", "[0.0, 6.35]"));
+  assert_says(wall, "(return): the heel's left corner would come near fence[2], the wall, to ");
+  const std::string floor = errors_of(edited("truck_loading", "height = -0.8", "height = -0.5"));
+  assert_says(floor,
+              "step 0 (dig): the edge's left corner would come near fence[1], the floor at "
+              "-0.50 m, to 50 mm at ");
   const std::string design =
       errors_of(edited("truck_loading", "through = [0.0, 0.0, -0.5]", "through = [0.0, 0.0, 2.5]"));
   assert_says(design, "the design surface");
@@ -205,6 +255,7 @@ int main() {
       cmocka_unit_test(the_paper_s_line),
       cmocka_unit_test(loading_a_truck),
       cmocka_unit_test(every_error_is_listed),
+      cmocka_unit_test(boxes_and_cylinders_are_kept_out_of),
       cmocka_unit_test(a_pace_of_the_other_form_is_unknown),
       cmocka_unit_test(refusals_name_step_joint_and_place),
       cmocka_unit_test(a_missing_task_says_where_it_looked),

@@ -1,0 +1,41 @@
+"""Random tasks past random fences: no point of the true machine is beyond one, whatever the end; most tasks
+are done; what is held away too far would be no work."""
+
+import csv
+import os
+import subprocess
+import sys
+import tempfile
+
+# A draw of a machine with all errors is stopped by a fault that has nothing to do with fences now and then.
+DRAWS = 20
+DONE = {"excavator_12t": 6, "excavator_22t": 13}
+
+
+def rows_of(graben, profile, folder):
+    file = os.path.join(folder, f"{profile}.csv")
+    subprocess.run([graben, "campaign", "fences", "--profile", profile, "--draws", str(DRAWS), "--summary", file,
+                    "--jobs", "1"], capture_output=True, timeout=300, check=False)
+    with open(file, newline="", encoding="utf-8") as stream:
+        assert stream.readline().startswith(f"# fences {profile} ")
+        return list(csv.DictReader(stream))
+
+
+def main():
+    graben = sys.argv[1]
+    with tempfile.TemporaryDirectory() as folder:
+        for profile, done in DONE.items():
+            rows = rows_of(graben, profile, folder)
+            assert len(rows) == DRAWS, len(rows)
+            beyond = [row for row in rows if float(row["beyond_m"]) > 0.0]
+            assert not beyond, beyond
+            ended = [row for row in rows if row["end"] == "done"]
+            assert len(ended) >= done, [row["end"] for row in rows]
+            # They do work near fences.
+            left = sorted(float(row["fence_left_m"]) for row in ended)
+            assert left[0] < 0.15, left
+            print(f"{profile}: {len(ended)} of {DRAWS} done, nearest {1e3 * left[0]:.0f} mm")
+
+
+if __name__ == "__main__":
+    main()
