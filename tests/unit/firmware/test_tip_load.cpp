@@ -31,7 +31,7 @@ void lift(LoadWorld& world, double load_kg) {
 }
 
 void force_at_rest(void**) {
-  for (const Eigen::Vector2d force_n :
+  for (const Eigen::Vector2d& force_n :
        {Eigen::Vector2d(30e3, 0.0), Eigen::Vector2d(0.0, 20e3), Eigen::Vector2d(25e3, -15e3)}) {
     LoadWorld world;
     wave_empty(world);
