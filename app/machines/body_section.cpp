@@ -42,7 +42,7 @@ Counterweight read_counterweight(TomlReader& reader) {
 
 }  // namespace
 
-ExcavatorBody read_body(TomlReader& reader) {
+ExcavatorBody read_outline(TomlReader& reader) {
   ExcavatorBody body;
   const Range radius{0.0, 2.0, "m"};
   body.counterweight = read_counterweight(reader);
