@@ -9,10 +9,6 @@
 namespace graben::machines {
 namespace {
 
-// Of a usual bucket, as in NAME.sim.toml.
-constexpr double kFloorPerLength = 0.45;
-constexpr double kFloorAngle_rad = 0.65;
-
 Counterweight read_counterweight(TomlReader& reader) {
   Counterweight weight;
   const std::string at = "body.counterweight.";
@@ -46,7 +42,7 @@ Counterweight read_counterweight(TomlReader& reader) {
 
 }  // namespace
 
-ExcavatorBody read_body(TomlReader& reader, const ExcavatorGeometry& geometry) {
+ExcavatorBody read_outline(TomlReader& reader) {
   ExcavatorBody body;
   const Range radius{0.0, 2.0, "m"};
   body.counterweight = read_counterweight(reader);
@@ -56,48 +52,44 @@ ExcavatorBody read_body(TomlReader& reader, const ExcavatorGeometry& geometry) {
   body.bucket_width_m = reader.number("bucket.width", {0.1, 5.0, "m"},
                                       "of the edge, for fences; without it they guard the edge's "
                                       "middle and the pins as points");
-  body.floor_m = kFloorPerLength * geometry.bucket_length_m;
-  if (reader.has("bucket.floor")) {
-    body.floor_m = reader.number("bucket.floor", {0.1, 3.0, "m"},
-                                 "from the teeth to the heel; 0.45 of the bucket's length unless "
-                                 "told; with bucket.width");
-  }
+  body.floor_m = reader.number("bucket.floor", {0.1, 3.0, "m"},
+                               "from the teeth to the heel; with bucket.width");
   body.floor_rad =
-      reader.number_or(kFloorAngle_rad, "bucket.floor_angle", {0.1, 1.4, "rad"},
-                       "from the line teeth to bucket pin down to the floor; with bucket.width");
+      reader.number("bucket.floor_angle", {0.1, 1.4, "rad"},
+                    "from the line teeth to bucket pin down to the floor; with bucket.width");
+  body.boom_bend_m = reader.point("boom.bend", {-10.0, 10.0, "m"},
+                                  "where the boom's line bends, boom frame; with bucket.width");
   body.capacity_m3 =
       reader.number_or(0.0, "bucket.capacity", {0.005, 30.0, "m3"},
                        "of loose soil, heaped: what a dig in layers fills; with bucket.width");
-  body.boom_radius_m =
-      reader.number_or(0.0, "boom.radius", radius,
-                       "of what is round the line of boom foot, bend and arm pin, cylinders and "
-                       "hoses with it; with bucket.width");
-  body.arm_radius_m = reader.number_or(
-      0.0, "arm.radius", radius, "the same round the line of the arm's pins; with bucket.width");
-  if (reader.has("boom.bend")) {
-    body.boom_bend_m = reader.point("boom.bend", {-10.0, 10.0, "m"},
-                                    "where the boom's line bends, boom frame; straight without; "
-                                    "with bucket.width");
-  }
+  body.boom_radius_m = reader.number("boom.radius", radius,
+                                     "of what is round the line of boom foot, bend and arm pin, "
+                                     "cylinders and hoses with it; with bucket.width");
+  body.arm_radius_m = reader.number("arm.radius", radius,
+                                    "the same round the line of the arm's pins; with bucket.width");
   return body;
 }
 
 FenceProfile read_fence_margins(TomlReader& reader) {
-  FenceProfile fence;
-  fence.stroke_error_m = reader.number_or(
-      2.1e-3, "fence.stroke_error", {0.0, 0.1, "m"},
-      "a stroke may be so far from what is measured; its bias and half its resolution");
-  fence.swing_error_rad = reader.number_or(
-      3.1e-3, "fence.swing_error", {0.0, 0.1, "rad"},
-      "the same of the swing's angle, and what the platform swings about its place");
-  fence.give_m = reader.number_or(
-      0.02, "fence.give", {0.0, 1.0, "m"},
+  FenceProfile fence{2.1e-3, 3.1e-3, 0.02, 0.01, 0.03};
+  if (!reader.has("fence")) {
+    return fence;
+  }
+  fence.stroke_error_m =
+      reader.number("fence.stroke_error", {0.0, 0.1, "m"},
+                    "a stroke may be so far from what is measured: bias and resolution; without "
+                    "[fence] 2.1e-3, the others 3.1e-3, 0.02, 0.01 and 0.03");
+  fence.swing_error_rad =
+      reader.number("fence.swing_error", {0.0, 0.1, "rad"},
+                    "the same of the swing's angle, and what the platform swings about its place");
+  fence.give_m = reader.number(
+      "fence.give", {0.0, 1.0, "m"},
       "so far a point goes on, on its oil and by its lag, where its drives are stopped");
-  fence.room_m = reader.number_or(0.01, "fence.room", {0.0, 1.0, "m"},
-                                  "so much more a planned way keeps from a fence than the machine "
-                                  "is held at");
-  fence.room_s = reader.number_or(0.03, "fence.room_per_speed", {0.0, 1.0, "s"},
-                                  "and so much more for each m/s of a point's planned speed");
+  fence.room_m = reader.number("fence.room", {0.0, 1.0, "m"},
+                               "so much more a planned way keeps from a fence than the machine is "
+                               "held at");
+  fence.room_s = reader.number("fence.room_per_speed", {0.0, 1.0, "s"},
+                               "and so much more for each m/s of a point's planned speed");
   return fence;
 }
 

@@ -7,8 +7,8 @@ namespace graben::machines {
 
 class TomlReader;
 
-/// As points where bucket.width is not told; `geometry` has the links' lengths.
-[[nodiscard]] ExcavatorBody read_body(TomlReader& reader, const ExcavatorGeometry& geometry);
+/// As points where bucket.width is not told, with it all of the outline has to be.
+[[nodiscard]] ExcavatorBody read_outline(TomlReader& reader);
 
 /// What is not told is of sensors as Kim et al. have them.
 [[nodiscard]] FenceProfile read_fence_margins(TomlReader& reader);

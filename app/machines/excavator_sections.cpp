@@ -374,7 +374,7 @@ ExcavatorProfile read_excavator_sections(TomlReader& reader) {
   profile.geometry = read_geometry(reader);
   profile.geometry.boom_foot_m = reader.point(
       "body.boom_foot", kPin, "boom foot pin: forward of the swing axis, above the ground");
-  profile.geometry.body = read_body(reader, profile.geometry);
+  profile.geometry.body = read_outline(reader);
   profile.fence = read_fence_margins(reader);
   profile.drive_count = has_swing_drive(reader) ? kDriveCount : kAxisCount;
   profile.swing = read_swing(reader);

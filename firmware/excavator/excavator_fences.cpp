@@ -12,7 +12,7 @@ void ExcavatorController::hold_at_fences(const FenceSet& fences, Motion& motion)
   const MotionCap cap =
       motion_cap(profile_, drives(), setup_.kinematics, fences,
                  strokes_then_m(drives(), memory_.servo), motion.corrected_mps, coast_m);
-  motion.cap = cap;
+  motion.cap = static_cast<const VelocityCap&>(cap);
   motion.wanted_mps = motion.wanted_mps.cwiseProduct(cap.share);
   motion.corrected_mps = motion.corrected_mps.cwiseProduct(cap.share);
 }

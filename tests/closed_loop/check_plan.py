@@ -96,6 +96,9 @@ def impossible(planner):
     planner.refused(["the boom cylinder", *where], "--to", "1,2,5,1.2")
     planner.refused(["the bucket cylinder", *where], "--to", "2.244,3.886,0,-1.0")
     planner.refused(["out of the reach", "0.00 % of the line"], "--from", "19,0,0,1.2")
+    # Behind the machine the swing's range ends; a task is refused with the same words.
+    planner.refused(["the swing would leave its range, -3 .. 3 rad; at 35.", *where],
+                    "--from=-6,3,0.5,2.0", "--to=-6,-3,0.5,2.0", "--speed", "0.3")
     planner.refused(["both ends"], "--from", "5,0,0,1.2", "--to", "5,0,0,1.2")
     planner.refused(["not found"], "--profile", "no_such_machine")
     planner.refused(["must be excavator"], "--profile", "dozer_9t")

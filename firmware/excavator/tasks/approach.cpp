@@ -225,11 +225,10 @@ void search_approach(const ExcavatorProfile& profile, const SwingKinematics& kin
   }
   for (int i = 0; i < kSamplesPerCycle && search.planned && !search.found; ++i) {
     const DrivePlan leg = approach_leg(path, program, search.leg);
-    if (!(leg.ramp.duration_s > 0.0)) {
-      end_leg(search, path);
-    } else if (!ApproachWalk(profile, kinematics, program.fences, leg).is_free(search)) {
+    const bool goes = leg.ramp.duration_s > 0.0;
+    if (goes && !ApproachWalk(profile, kinematics, program.fences, leg).is_free(search)) {
       next_way(search);
-    } else if (++search.sample > kApproachSamples) {
+    } else if (!goes || ++search.sample > kApproachSamples) {
       end_leg(search, path);
     }
   }

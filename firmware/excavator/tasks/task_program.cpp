@@ -189,7 +189,7 @@ bool Planning::plan_move(const StepRequest& asked, TaskStep& step, int number) {
 bool Planning::keeps_free(const TaskStep& step, int number) {
   const BarredPlace barred =
       first_barred_place(profile_, kinematics_, result_.program.fences, step);
-  result_.by = barred;
+  result_.by = static_cast<const BarredBy&>(barred);
   return barred.why == ProgramRefusal::kNone || refuse(barred.why, number, barred.place);
 }
 

@@ -101,10 +101,24 @@ void slower_in_proportion(void**) {
   assert_near(slow.at(4.5).share, ramp.at(3.0).share, 1e-15);
 }
 
+/// By the share alone: never less than by the time, and the peak where that is.
+void the_rate_at_a_share_is_bounded(void**) {
+  for (const SineRamp& ramp : {SineRamp{4.0, 1.0}, SineRamp{4.0, 2.0}}) {
+    for (int i = 0; i <= 400; ++i) {
+      const Progress at = ramp.at(0.01 * i);
+      assert_true(ramp.most_rate_ps(at.share) >= at.rate_ps - 1e-12);
+    }
+    assert_near(ramp.most_rate_ps(0.5), ramp.peak_rate_ps(), 1e-12);
+    assert_near(ramp.most_rate_ps(0.0), 0.0, 0.0);
+    assert_near(ramp.most_rate_ps(1.0), 0.0, 0.0);
+  }
+}
+
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {
+      cmocka_unit_test(the_rate_at_a_share_is_bounded),
       cmocka_unit_test(share_is_the_paper_s),
       cmocka_unit_test(rates_are_its_derivatives),
       cmocka_unit_test(at_rest_at_both_ends_and_beyond),

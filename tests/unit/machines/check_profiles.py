@@ -15,9 +15,10 @@ from profile_edit import key_path, leaves, with_number, without
 
 KINDS = {"excavator": "excavator_22t.toml", "dozer": "dozer_9t.toml"}
 SIMULATED = "simulated-"
-# Keys that a file need not have, and what can go with each.
-OPTIONAL = {"task.swash_on_demand": ("task", "pump_power"), "bucket.width": ("bucket", "capacity"),
-            "bucket.capacity": ("bucket", "width")}
+# Keys that a file need not have, and what can go with each, where the file has it.
+OUTLINE = (("bucket", "floor"), ("bucket", "floor_angle"), ("boom", "bend"), ("boom", "radius"), ("arm", "radius"))
+OPTIONAL = {"task.swash_on_demand": (("task", "pump_power"),), "bucket.width": (("bucket", "capacity"), *OUTLINE),
+            "bucket.capacity": (("bucket", "width"),)}
 
 
 def simulation(path):
@@ -63,7 +64,11 @@ def wrong_keys(reader, kind, good, ranges):
         key = key_path(path)
         errors = reader.errors_of(kind, without(good, path))
         if key in OPTIONAL:
-            errors = reader.errors_of(kind, without(without(good, path), OPTIONAL[key]))
+            less = without(good, path)
+            for other in OPTIONAL[key]:
+                if other[1] in tomllib.loads(less)[other[0]]:
+                    less = without(less, other)
+            errors = reader.errors_of(kind, less)
             if errors:
                 yield f"{key} is missed: {errors}"
         if key not in OPTIONAL and f"{key}: missing" not in errors:

@@ -103,11 +103,15 @@ export interface Task {
   design: {through_m: Vector3; up: Vector3} | null;
 }
 
-/// What is left to the machine is normal . p <= offset_m.
+/// A plane: what is left to the machine is normal . p <= offset_m. Else an upright box or cylinder.
 export interface Fence {
   words: string;
-  normal: Vector3;
-  offset_m: number;
+  normal?: Vector3;
+  offset_m?: number;
+  round?: boolean;
+  centre_m?: Vector3;
+  half_m?: Vector3;  ///< Half of the sides, the last upwards; of a cylinder the radius.
+  turn_rad?: number;
 }
 
 export interface DozerMachine extends AnyMachine {

@@ -126,8 +126,15 @@ export class ExcavatorStage implements Stage {
     // The last fence is the design's own.
     const fences = task.design ? task.fences.slice(0, -1) : task.fences;
     fences.forEach((fence, i) => {
-      const through = fence.normal.map((part) => part * fence.offset_m) as unknown as Vector3;
-      this.add_plane('fence', `fence${i}`, fence.words, through, fence.normal, reach);
+      const {normal, offset_m, centre_m, half_m} = fence;
+      if (normal && offset_m !== undefined) {
+        const through = normal.map((part) => part * offset_m) as unknown as Vector3;
+        this.add_plane('fence', `fence${i}`, fence.words, through, normal, reach);
+      } else if (centre_m && half_m) {
+        // Told where its top is; its sides are not drawn.
+        const top_m: Vector3 = [centre_m[0], centre_m[1], centre_m[2] + half_m[2]];
+        this.labels.put(`fence${i}`, 'fences', fence.words, top_m);
+      }
     });
     if (task.design) {
       this.add_plane(
