@@ -78,7 +78,7 @@ void nothing_learnt_yet(void**) {
   lift(world, 1000.0);
   const TipLoad& told = world.told();
   assert_true(told.payload_known);
-  assert_true(told.payload_sd_kg > 80.0);
+  assert_true(told.payload_sd_kg > 150.0);
   assert_true(std::abs(told.payload_kg - 1000.0) < 3.0 * told.payload_sd_kg);
 }
 
@@ -115,6 +115,11 @@ void held_is_not_learnt(void**) {
     world.stand(kind, kOnGround, 4.0);
     same_terms(before, world.observer.terms);
   }
+  // Drawn over the ground before anything is learnt, when any force could be an offset.
+  LoadWorld fresh;
+  fresh.teeth_n = {-3e3, 6e3};
+  fresh.move(StepKind::kApproach, {7.0, -1.6, 1.9}, {7.8, -1.6, 2.1}, 6.0);
+  same_terms(terms_unseen(LoadWorld::machine()), fresh.observer.terms);
   LoadWorld world;
   wave_empty(world);
   const LoadTerms before = world.observer.terms;
