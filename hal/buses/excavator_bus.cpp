@@ -240,8 +240,9 @@ constexpr auto kSendTable = bus_send_table(
     row<bus::EcuHydraulics, ecu_hydraulics>(kControlPeriod_us),
     row<bus::TaskStatus, task_status>(kControlPeriod_us, &BusParts::swing_drive),
     row<bus::EcuLearntValves, learnt_valves>(4 * kControlPeriod_us),
-    row<bus::EcuTipForce, tip_force>(0), row<bus::EcuPayload, payload>(6 * kControlPeriod_us),
-    ecu_health_row<ExcavatorOutputs>(), ecu_identity_row<ExcavatorOutputs, bus::kDbcVersion>());
+    row<bus::EcuTipForce, tip_force>(8 * kControlPeriod_us),
+    row<bus::EcuPayload, payload>(6 * kControlPeriod_us), ecu_health_row<ExcavatorOutputs>(),
+    ecu_identity_row<ExcavatorOutputs, bus::kDbcVersion>());
 
 }  // namespace
 

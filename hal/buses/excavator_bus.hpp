@@ -23,8 +23,8 @@ using ExcavatorReceiver = MessageReceiver<ExcavatorReception>;
 ///   SwingCommand, with a swing drive                    10 ms
 ///   PumpCommand, EcuStatus, EcuMotion, EcuHydraulics    20 ms
 ///   TaskStatus, with a swing drive                      20 ms
-///   EcuTipForce                                         20 ms
-///   EcuHealth, EcuLearntValves, EcuPayload             100 ms
+///   EcuHealth, EcuLearntValves, EcuTipForce, EcuPayload
+///                                                      100 ms
 ///   EcuIdentity                                          1 s
 ///   DM1                                                as hal/link/dm1.hpp says
 ///

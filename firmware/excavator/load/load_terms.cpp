@@ -81,15 +81,17 @@ double force_of(int axis, const TermRow& row, const LoadTerms& terms) {
   return along(axis, row, terms.value);
 }
 
-bool learn(int axis, const TermRow& row, double force_n, double variance_n2, double most_deviations,
-           LoadTerms& terms) {
-  const Column column = column_of(axis, row, terms);
-  const double whole_n2 = along(axis, row, column) + variance_n2;
-  const double missed_n = force_n - force_of(axis, row, terms);
-  // Positive too where something is not a number.
-  if (!(missed_n * missed_n <= most_deviations * most_deviations * whole_n2)) {
-    return false;
-  }
+bool is_likely(int axis, const SeenForce& seen, double deviations, const LoadTerms& terms) {
+  const double whole_n2 =
+      along(axis, seen.row, column_of(axis, seen.row, terms)) + seen.variance_n2;
+  const double missed_n = seen.force_n - force_of(axis, seen.row, terms);
+  return missed_n * missed_n <= deviations * deviations * whole_n2;
+}
+
+void learn(int axis, const SeenForce& seen, LoadTerms& terms) {
+  const Column column = column_of(axis, seen.row, terms);
+  const double whole_n2 = along(axis, seen.row, column) + seen.variance_n2;
+  const double missed_n = seen.force_n - force_of(axis, seen.row, terms);
   for (int i = 0; i < kTermCount; ++i) {
     const double gain = column[static_cast<unsigned>(i)] / whole_n2;
     terms.value[static_cast<unsigned>(i)] += gain * missed_n;
@@ -97,7 +99,6 @@ bool learn(int axis, const TermRow& row, double force_n, double variance_n2, dou
       terms.covariance[LoadTerms::at(i, j)] -= gain * column[static_cast<unsigned>(j)];
     }
   }
-  return true;
 }
 
 Eigen::Matrix3d force_covariance_n2(const std::array<TermRow, kAxisCount>& row,

@@ -47,10 +47,19 @@ void set_term(int term, double value, double sd, LoadTerms& terms);
 /// Force that an axis is expected to have beyond what its links need, N.
 [[nodiscard]] double force_of(int axis, const TermRow& row, const LoadTerms& terms);
 
-/// One axis' force is seen: `variance_n2` is that of its noise. What is farther than
-/// `most_deviations` from what can be is left aside, and false.
-[[nodiscard]] bool learn(int axis, const TermRow& row, double force_n, double variance_n2,
-                         double most_deviations, LoadTerms& terms);
+/// One axis' force as it is seen, with the variance of its noise.
+struct SeenForce {
+  TermRow row;
+  double force_n = 0.0;
+  double variance_n2 = 0.0;
+};
+
+/// The force is within so many deviations of what the terms allow; false for NaN.
+[[nodiscard]] bool is_likely(int axis, const SeenForce& seen, double deviations,
+                             const LoadTerms& terms);
+
+/// A step of the Kalman filter.
+void learn(int axis, const SeenForce& seen, LoadTerms& terms);
 
 /// Covariance of force_of() between the axes, N^2.
 [[nodiscard]] Eigen::Matrix3d force_covariance_n2(const std::array<TermRow, kAxisCount>& row,

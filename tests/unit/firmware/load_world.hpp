@@ -23,7 +23,9 @@ class LoadWorld {
   [[nodiscard]] const TipLoad& told() const { return observer.told; }
 
   [[nodiscard]] Eigen::Vector3d strokes_at(const TipPose& pose) const {
-    return kinematics_.strokes_from_pose(pose).strokes_m;
+    const StrokeResult strokes = kinematics_.strokes_from_pose(pose);
+    assert_int_equal(strokes.status, ReachStatus::kOk);
+    return strokes.strokes_m;
   }
 
   /// Of all that weighs and pushes.

@@ -12,8 +12,8 @@ namespace {
 using namespace graben;
 using test::LoadWorld;
 
-constexpr TipPose kHigh = {6.3, 2.2, 2.0};
-constexpr TipPose kOut = {7.2, -0.4, 2.2};
+constexpr TipPose kHigh = {7.0, 0.7, 1.9};
+constexpr TipPose kOut = {7.8, -0.6, 2.1};
 constexpr TipPose kLow = {5.2, -0.9, 0.4};
 constexpr TipPose kLifted = {5.6, 2.0, 0.3};
 
@@ -23,6 +23,7 @@ void wave_empty(LoadWorld& world) {
     world.move(StepKind::kReturnToDig, kHigh, kOut, 6.0);
     world.move(StepKind::kReturnToDig, kOut, kHigh, 6.0);
   }
+  world.stand(StepKind::kReturnToDig, kHigh, 0.5);
 }
 
 void lift(LoadWorld& world, double load_kg) {
@@ -45,7 +46,7 @@ void force_at_rest(void**) {
     assert_true(told.known);
     assert_false(told.payload_known);
     assert_true((told.force_n - force_n).norm() < 0.03 * force_n.norm());
-    assert_true(told.force_sd_n > 200.0 && told.force_sd_n < 4e3);
+    assert_true(told.force_sd_n > 200.0 && told.force_sd_n < 2e3 + 0.3 * force_n.norm());
   }
 }
 
@@ -77,7 +78,7 @@ void nothing_learnt_yet(void**) {
   lift(world, 1000.0);
   const TipLoad& told = world.told();
   assert_true(told.payload_known);
-  assert_true(told.payload_sd_kg > 80.0);
+  assert_true(told.payload_sd_kg > 150.0);
   assert_true(std::abs(told.payload_kg - 1000.0) < 3.0 * told.payload_sd_kg);
 }
 
@@ -86,8 +87,12 @@ void friction_is_learnt(void**) {
   world.coulomb_n = {7e3, 1e3, 2e3};
   wave_empty(world);
   const LoadTerms& terms = world.observer.terms;
-  assert_near(terms.value[kCoulombTerm + kBoom], 7e3, 700.0);
-  assert_near(terms.value[kCoulombTerm + kArm], 1e3, 700.0);
+  for (const int axis : {kBoom, kArm}) {
+    const int term = kCoulombTerm + axis;
+    const double off_n = terms.value[static_cast<unsigned>(term)] - world.coulomb_n[axis];
+    assert_true(std::abs(off_n) < 1500.0);
+    assert_true(std::abs(off_n) < 2.0 * std::sqrt(terms.variance(term)));
+  }
   assert_near(terms.value[kOffsetTerm + kBoom], 0.0, 2.5e3);
 }
 
@@ -110,6 +115,11 @@ void held_is_not_learnt(void**) {
     world.stand(kind, kOnGround, 4.0);
     same_terms(before, world.observer.terms);
   }
+  // Drawn over the ground before anything is learnt, when any force could be an offset.
+  LoadWorld fresh;
+  fresh.teeth_n = {-3e3, 6e3};
+  fresh.move(StepKind::kApproach, {7.0, -1.6, 1.9}, {7.8, -1.6, 2.1}, 6.0);
+  same_terms(terms_unseen(LoadWorld::machine()), fresh.observer.terms);
   LoadWorld world;
   wave_empty(world);
   const LoadTerms before = world.observer.terms;

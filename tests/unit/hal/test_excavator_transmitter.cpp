@@ -22,7 +22,7 @@ void periods(void**) {
         sent_in_10_s<ExcavatorTransmitter, bus::SpoolCommand, bus::PumpCommand, bus::EcuStatus,
                      bus::EcuMotion, bus::EcuHydraulics, bus::EcuHealth, bus::EcuLearntValves,
                      bus::EcuTipForce, bus::EcuPayload, bus::EcuIdentity, bus::DM1>(jitter_us);
-    const std::array<int, 11> expected = {1000, 500, 500, 500, 500, 100, 100, 500, 100, 10, 10};
+    const std::array<int, 11> expected = {1000, 500, 500, 500, 500, 100, 100, 100, 100, 10, 10};
     assert_true(std::equal(expected.begin(), expected.end(), tally.begin()));
     assert_in_range(tally.back(), 4, 5);
   }
@@ -215,18 +215,22 @@ void learnt_valves(void**) {
 }
 
 void tip_load(void**) {
-  ExcavatorSender sender;
   for (const bool known : {false, true}) {
+    ExcavatorSender sender;
     sender.outputs.status.tip_load = {known, {-31'230.0, 4'560.0}, 780.0, known, 512.5, 12.25};
-    for (TimeUs n = 0; n <= 10; ++n) {
-      sender.call(kStartUs + (known ? 11 : 0) * kPeriodUs + n * kPeriodUs);
+    for (TimeUs n = 0; n <= 6; ++n) {
+      sender.call(kStartUs + n * kPeriodUs);
     }
     const RawState state = known ? RawState::kValid : RawState::kNotAvailable;
-    const auto force = sender.sent<bus::EcuTipForce>();
     const auto payload = sender.sent<bus::EcuPayload>();
+    sender.call(kStartUs + 7 * kPeriodUs);
+    sender.call(kStartUs + 8 * kPeriodUs);
+    const auto force = sender.sent<bus::EcuTipForce>();
     assert_int_equal(force.tip_force_outwards_n.state, state);
+    assert_int_equal(force.tip_force_up_n.state, state);
     assert_int_equal(force.tip_force_deviation_n.state, state);
     assert_int_equal(payload.payload_mass_kg.state, state);
+    assert_int_equal(payload.payload_deviation_kg.state, state);
     if (known) {
       assert_near(force.tip_force_outwards_n.value, -31'230.0, 1e-9);
       assert_near(force.tip_force_up_n.value, 4'560.0, 1e-9);
