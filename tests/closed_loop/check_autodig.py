@@ -23,7 +23,8 @@ FIGURES = {
     "duration_s", "real_time_factor", "cycles", "cycle_median_us", "cycle_max_us", "steps",
     "limit_share", "lambda_variation_ps", "spool_travel_ps", "spool_reversals_ps",
     "teeth_jerk_rms_mps3", "energy_per_round_j", "energy_j", "energy_bypass_relief_share",
-    "swash_mean", "over_cut_max_m", "cut_m3", "cut_m3ph", "fill_max_m3"}
+    "swash_mean", "over_cut_max_m", "cut_m3", "cut_m3ph", "fill_max_m3", "tip_force_within_ratio",
+    "tip_force_error_n", "tip_force_spread", "payload_error_ratio", "payload_spread"}
 DRIVES = {"boom", "arm", "bucket", "swing"}
 
 # A move of the drives alone, past nothing.

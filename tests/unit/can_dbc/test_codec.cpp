@@ -55,9 +55,14 @@ constexpr Scale kScales[] = {
     {"ArmRetractEdge", 1e-3, -0.125, -0.125, 0.125},
     {"BucketExtendEdge", 1e-3, -0.125, -0.125, 0.125},
     {"BucketRetractEdge", 1e-3, -0.125, -0.125, 0.125},
+    {"TipForceOutwards", 10.0, -320e3, -320e3, 320e3},
+    {"TipForceUp", 10.0, -320e3, -320e3, 320e3},
+    {"TipForceDeviation", 10.0, 0.0, 0.0, 640e3},
+    {"PayloadMass", 0.25, -1000.0, -1000.0, 15e3},
+    {"PayloadDeviation", 0.25, 0.0, 0.0, 16e3},
 };
 
-void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 92); }
+void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 97); }
 
 void saturates_and_refuses(void**) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
 

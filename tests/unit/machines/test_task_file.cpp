@@ -204,7 +204,7 @@ void a_pace_of_the_other_form_is_unknown(void**) {
               "step[0].speed (line 10): unknown key");
   assert_true(errors_of(edited("flatten", "duration = 18.4", "")).empty());
   assert_says(errors_of("start = { position = [7.0, 0.0, 0.0], attitude = 2.0 }\n"),
-              "step: must be 1 to 12 tables; there are 0");
+              "step: must be 1 to 24 tables; there are 0");
 }
 
 /// What can't be planned says which step, what is in the way and where.
