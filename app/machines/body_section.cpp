@@ -60,8 +60,8 @@ ExcavatorBody read_outline(TomlReader& reader) {
   body.boom_bend_m = reader.point("boom.bend", {-10.0, 10.0, "m"},
                                   "where the boom's line bends, boom frame; with bucket.width");
   body.capacity_m3 =
-      reader.number_or(0.0, "bucket.capacity", {0.005, 30.0, "m3"},
-                       "of loose soil, heaped: what a dig in layers fills; with bucket.width");
+      reader.number("bucket.capacity", {0.005, 30.0, "m3"},
+                    "of loose soil, heaped: what a dig in layers fills; with bucket.width");
   body.boom_radius_m = reader.number("boom.radius", radius,
                                      "of what is round the line of boom foot, bend and arm pin, "
                                      "cylinders and hoses with it; with bucket.width");

@@ -111,9 +111,8 @@ SwingProfile read_swing(TomlReader& reader) {
     swing.displacement_m3prad =
         reader.number("swing.displacement", {1e-5, 1e-1, "m3/rad"},
                       "motor with its reduction, per radian of swing; only with valve.swing");
-    swing.inertia_kgm2 = reader.number_or(
-        0.0, "swing.inertia", {1e2, 1e7, "kg m2"},
-        "all that turns, links half out, about the swing axis; its oil is damped by it");
+    swing.inertia_kgm2 = reader.number_or(0.0, "swing.inertia", {1e2, 1e7, "kg m2"},
+                                          "of all that turns, links half out; damps its oil");
     swing.lever_m = reader.number(
         "swing.lever", {0.05, 2.0, "m"},
         "where the motor stands as a cylinder in the valve's equations; only with valve.swing");

@@ -173,7 +173,8 @@ std::string cause_words(const ExcavatorProfile& profile, const ProgramRequest& r
     case ProgramRefusal::kNoSwing:
       return "it would have to swing, and this machine's swing is held";
     case ProgramRefusal::kLayers:
-      return "digs in layers: it has to be the first step, a line, with a design, followed by moves, "
+      return "digs in layers: it has to be the first step, a line, with a design, followed by "
+             "moves, "
              "repeated, of a machine whose bucket is known (bucket.width, bucket.capacity)";
     case ProgramRefusal::kOpenEnd:
       return "the task repeats, but does not end where it starts";

@@ -14,10 +14,6 @@ bool has_tube(Task task) {
 
 bool is_by_lever(Task task) { return task == Task::kJog || task == Task::kCoordinated; }
 
-HandAsk hand_ask(const ExcavatorValid& valid) {
-  return {valid.task, valid.lever_ratio, valid.speed_override_ratio};
-}
-
 /// kTaskUnknown unless the task that the operator asks for is there.
 FaultSet task_faults(const ExcavatorValid& valid, int program_count) {
   const bool known =
@@ -215,32 +211,6 @@ void ExcavatorController::dig(const ExcavatorValid& valid, const KinematicState&
   motion.path_error_m = path_error_m(setup_.field.path(), now.tip);
   // A task that looks for its way is on no path.
   motion.off_m = valid.task == Task::kDig ? motion.path_error_m : 0.0;
-}
-
-void ExcavatorController::steer(const ExcavatorValid& valid, const KinematicState& now,
-                                double period_s, Motion& motion) const {
-  const bool jogs = valid.task == Task::kJog;
-  motion.hand = want_by_hand(profile_, drives(), setup_.kinematics.planar(), now, memory_.servo,
-                             hand_ask(valid), memory_.hand, period_s);
-  motion.wanted_mps = motion.hand.wanted_mps;
-  motion.task.pace_ratio = jogs ? 1.0 : memory_.hand.pace_ratio;
-  motion.corrected_mps =
-      corrected_velocity(drives(), motion.wanted_mps, memory_.servo, memory_.lambda.value(),
-                         valid.speed_override_ratio, !jogs && motion.hand.moves);
-  for (int i = 0; jogs && i < kDriveCount; ++i) {
-    motion.corrected_mps[i] = motion.wanted_mps[i] == 0.0 ? 0.0 : motion.corrected_mps[i];
-  }
-  ease_blocked(motion);
-  // Fences are those of the task that is chosen, or of the first.
-  const bool chosen = valid.task_number >= 0 && valid.task_number < setup_.book.count;
-  const FenceSet& fences =
-      setup_.book.program[chosen ? static_cast<unsigned>(valid.task_number) : 0U].fences;
-  hold_at_fences(fences, motion);
-  if (motion.cap.limit.kind == LimitKind::kNone) {
-    motion.cap.limit = motion.hand.cap.limit;
-  }
-  motion.path_error_m = motion.hand.error_m;
-  motion.off_m = motion.hand.error_m;
 }
 
 void ExcavatorController::follow(const TaskProgram& program, const TaskAim& aim,

@@ -163,6 +163,7 @@ class ExcavatorController {
   /// Duties that lead through the spools' lag. The watches know of those without: that is where
   /// the spools are to be.
   void lead_spools(ExcavatorOutputs& outputs);
+  [[nodiscard]] static HandAsk hand_ask(const ExcavatorValid& valid);
   /// By the levers.
   void steer(const ExcavatorValid& valid, const KinematicState& now, double period_s,
              Motion& motion) const;

@@ -5,8 +5,8 @@
 
 #include <array>
 
-#include "firmware/excavator/load/tip_load.hpp"
 #include "firmware/signals/machine_signals.hpp"
+#include "firmware/signals/tip_load.hpp"
 
 namespace graben {
 

@@ -9,7 +9,7 @@
 
 #include "firmware/excavator/load/load_balance.hpp"
 #include "firmware/excavator/load/load_phase.hpp"
-#include "firmware/excavator/load/tip_load.hpp"
+#include "firmware/signals/tip_load.hpp"
 
 namespace graben {
 

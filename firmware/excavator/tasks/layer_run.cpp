@@ -27,22 +27,11 @@ constexpr double kHoldsAt = 1.4;
 /// A heavy cut that gets on by less, for so long, is ended.
 constexpr double kGetsOn_mps = 0.01;
 constexpr double kHeld_s = 1.0;
-/// The bucket comes from steep to its attitude on this way: its heel stays where the edge went in.
-constexpr double kTurns_m = 0.45;
-constexpr double kTurn_radps = 0.5;
-constexpr double kFinish_mps = 0.4;
 /// At a cut's end the teeth are waited for.
 constexpr double kEndWait_s = 0.6;
 constexpr double kEndNear_m = 0.02;
 /// A bucket takes a little more than what fills it: some is lost on the way.
 constexpr double kHeaped = 1.05;
-constexpr double kLiftSpeed_mps = 0.6;
-constexpr double kLiftShare = 3.0;  ///< Of the acceleration of lines.
-/// Folded in so far and lifted by so much the bucket holds what it has.
-constexpr double kFolded_rad = 0.4;
-constexpr double kFoldUp_m = 0.16;
-constexpr double kLiftLeast_m = 0.4;
-constexpr double kOutOfGround_m = 0.4;
 constexpr double kLiftNear_m = 0.10;
 constexpr double kLiftHeld_s = 0.5;
 /// A platform that swings about its place is waited for before it digs.
@@ -51,28 +40,6 @@ constexpr double kCutWaits_s = 10.0;
 constexpr double kPassed_m = 0.20;
 /// Of the clearance that the line has over the design, for what springs.
 constexpr double kSpringFree_m = 0.010;
-
-const LinePlan& line_of(const TaskProgram& program) {
-  return program.step[static_cast<unsigned>(program.layers.step)].line;
-}
-
-bool at_cut(const TaskProgram& program, const TaskState& state) {
-  return state.phase == TaskPhase::kSteps && state.step == program.layers.step;
-}
-
-double strip_rad(const LayerPlan& plan, int strip) {
-  return plan.first_rad + strip * plan.strip_rad;
-}
-
-Eigen::Vector3d turned(const Eigen::Vector3d& at, double angle_rad) {
-  const double c = std::cos(angle_rad);
-  const double s = std::sin(angle_rad);
-  return {c * at.x() - s * at.y(), s * at.x() + c * at.y(), at.z()};
-}
-
-double near_rad(const TeethPose& pose) {
-  return std::atan2(pose.position_m.y(), pose.position_m.x());
-}
 
 DriveVector drives_now(const SwingKinematics& kinematics, const TaskProgram& program,
                        const TaskState& state) {
@@ -115,35 +82,6 @@ void follow_pace(const LineProfile& line, double slow_m, double behind_m, double
   const double change = line.pace_rate_ps * period_s;
   state.pace_ratio =
       std::clamp(slowed > 0.0 ? slowed : 0.0, state.pace_ratio - change, state.pace_ratio + change);
-}
-
-/// How much steeper than the line's attitude a cut begins.
-double steep_rad(const TaskProgram& program, const Cut& cut) {
-  return cut.steep *
-         (program.layers.enter_rad - line_of(program).line.at(cut.from_share).attitude_rad);
-}
-
-/// Share of that which is left at this place, and its change by the line's share.
-Progress steepness(const TaskProgram& program, const Cut& cut, double share) {
-  const double turns = kTurns_m / program.layers.way_m;
-  const double done = std::clamp((share - cut.from_share) / turns, 0.0, 1.0);
-  return {1.0 - done, done < 1.0 ? -1.0 / turns : 0.0, 0.0};
-}
-
-/// A cut's speed: that of the plan, less while the bucket turns, and on the design itself, where
-/// its force is to be small.
-double most_rate_ps(const TaskProgram& program, const LayerState& layers) {
-  const LayerPlan& plan = program.layers;
-  const Cut& cut = layers.cuts.cut;
-  double most_mps = plan.speed_mps;
-  if (cut.height_m <= 0.0) {
-    most_mps = std::min(most_mps, kFinish_mps);
-  }
-  const double steep = std::abs(steep_rad(program, cut));
-  if (steep > 0.0 && steepness(program, cut, layers.share).rate_ps < 0.0) {
-    most_mps = std::min(most_mps, kTurn_radps * kTurns_m / steep);
-  }
-  return most_mps / plan.way_m;
 }
 
 /// Steps of one program.
@@ -426,148 +364,7 @@ void LayerRun::go_on(TaskState& state) const {
   }
 }
 
-TaskAim aim_of_cut(const SwingKinematics& kinematics, const TaskProgram& program,
-                   const TaskState& state) {
-  const LayerState& layers = state.layers;
-  const TeethLine line = cut_line(program, state);
-  TaskAim aim;
-  aim.kind = StepKind::kDig;
-  aim.share = layers.share;
-  const Cut& cut = layers.cuts.cut;
-  aim.teeth = cut_pose(program, cut, layers.share, layers.height_m);
-  const double rate_ps = std::max(0.0, layers.rate_ps);
-  TeethPose along = line.change;
-  along.position_m *= rate_ps;
-  along.attitude_rad =
-      rate_ps * (line.change.attitude_rad +
-                 steep_rad(program, cut) * steepness(program, cut, layers.share).rate_ps);
-  const TeethPose rises = {
-      layers.height_mps *
-          turned(program.layers.up, strip_rad(program.layers, layers.cuts.cut.strip)),
-      0.0};
-  if (layers.height_mps < 0.0) {
-    along.position_m += rises.position_m;
-  }
-  const DriveMotion motion =
-      kinematics.motion_from_teeth(aim.teeth, along, {}, near_rad(aim.teeth));
-  aim.blind = motion.blind;
-  aim.value = motion.value;
-  aim.velocity = motion.rate;
-  if (layers.height_mps > 0.0) {
-    aim.at_once = kinematics.motion_from_teeth(aim.teeth, rises, {}, near_rad(aim.teeth)).rate;
-  }
-  return aim;
-}
-
-TaskAim aim_of_lift(const SwingKinematics& kinematics, const TaskState& state) {
-  const LinePlan& plan = state.layers.lift;
-  const Progress progress = plan.ramp.at(state.time_s);
-  const DriveMotion drives = line_motion(kinematics, plan.line, progress.share);
-  TaskAim aim;
-  aim.kind = StepKind::kDig;
-  aim.blind = drives.blind;
-  aim.share = 1.0;
-  aim.value = drives.value;
-  aim.velocity = progress.rate_ps * drives.rate;
-  aim.teeth = plan.line.at(progress.share);
-  return aim;
-}
-
-bool is_reached(const SwingKinematics& kinematics, const TeethPose& pose) {
-  return kinematics.drive_from_teeth(pose).blind.kind == BlindKind::kNone;
-}
-
-bool is_reached(const SwingKinematics& kinematics, const TeethLine& line) {
-  constexpr int kLooks = 4;
-  bool reached = true;
-  for (int n = 1; n <= kLooks; ++n) {
-    reached = reached && is_reached(kinematics, line.at(static_cast<double>(n) / kLooks));
-  }
-  return reached;
-}
-
 }  // namespace
-
-bool cuts(const TaskProgram& program, const TaskState& state) {
-  return at_cut(program, state) &&
-         (state.layers.phase == CutPhase::kEnters || state.layers.phase == CutPhase::kCuts);
-}
-
-TeethLine line_over(const TaskProgram& program, int strip, double height_m) {
-  const TeethLine& line = line_of(program).line;
-  const LayerPlan& plan = program.layers;
-  const double angle_rad = strip_rad(plan, strip);
-  TeethLine over = line;
-  over.from.position_m = turned(line.from.position_m + height_m * plan.up, angle_rad);
-  over.change.position_m = turned(line.change.position_m, angle_rad);
-  return over;
-}
-
-TeethPose cut_pose(const TaskProgram& program, const Cut& cut, double share, double height_m) {
-  TeethPose pose = line_over(program, std::max(0, cut.strip), height_m).at(share);
-  pose.attitude_rad += steep_rad(program, cut) * steepness(program, cut, share).share;
-  return pose;
-}
-
-TeethLine cut_line(const TaskProgram& program, const TaskState& state) {
-  return line_over(program, std::max(0, state.layers.cuts.cut.strip), state.layers.height_m);
-}
-
-LinePlan lift_line(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                   const LayerPlan& plan, const TeethPose& from, bool folds) {
-  const double out_m = plan.ground_z_m + kOutOfGround_m - from.position_m.z();
-  const double up_m = folds ? kFoldUp_m : std::max(kLiftLeast_m, out_m);
-  const double turn_rad =
-      (folds ? std::max(kFolded_rad, plan.carry_rad) : plan.carry_rad) - from.attitude_rad;
-  constexpr std::array<double, 4> kTurns = {1.0, 0.6, 0.3, 0.0};
-  constexpr std::array<double, 3> kUps = {1.0, 0.7, 0.4};
-  LinePlan lift;
-  for (const double up : kUps) {
-    for (const double turn : kTurns) {
-      TeethPose to = from;
-      to.position_m.z() += up * up_m;
-      to.attitude_rad += turn * std::min(0.0, turn_rad);
-      lift.line = line_between(kinematics, from, to);
-      if (is_reached(kinematics, lift.line)) {
-        lift.way_m = way_m(kinematics, lift.line);
-        lift.ramp =
-            ramp_for_speed(lift.way_m, kLiftSpeed_mps, kLiftShare * profile.line.acceleration_mps2);
-        return lift;
-      }
-    }
-  }
-  lift.line = {from, {}};
-  return lift;
-}
-
-double steepest(const SwingKinematics& kinematics, const TaskProgram& program, Cut cut) {
-  for (const double steep : {1.0, 0.75, 0.5, 0.25}) {
-    cut.steep = steep;
-    const bool reached =
-        is_reached(kinematics, cut_pose(program, cut, cut.from_share, cut.enters_m)) &&
-        is_reached(kinematics, cut_pose(program, cut, cut.from_share, cut.height_m));
-    if (reached) {
-      return steep;
-    }
-  }
-  return 0.0;
-}
-
-TeethPose first_cut_pose(const TaskProgram& program) {
-  const Cut cut = undug(program.layers).cut;
-  return cut_pose(program, cut, cut.from_share, cut.enters_m);
-}
-
-TaskAim layer_aim(const SwingKinematics& kinematics, const TaskProgram& program,
-                  const TaskState& state) {
-  if (at_cut(program, state)) {
-    return state.layers.phase == CutPhase::kLifts ? aim_of_lift(kinematics, state)
-                                                  : aim_of_cut(kinematics, program, state);
-  }
-  const TaskStep& step =
-      program.step[static_cast<unsigned>(std::clamp(state.step, 0, kStepMost - 1))];
-  return aim_of_plan(kinematics, step.kind, state.layers.move, state.time_s);
-}
 
 TaskState layer_advance(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
                         const TaskProgram& program, const TaskState& state, double advance_s,
