@@ -164,8 +164,10 @@ void work(const ExcavatorProfile& profile, const LoadBalance& balance, double sh
           LoadObserver& observer) {
   const int piece = observer.cycle;
   if (piece < 2 * kAxisCount) {
-    if (learns(observer.full_phase)) {
-      (piece < kAxisCount ? judge_axis : learn_axis)(profile, piece % kAxisCount, observer);
+    if (learns(observer.full_phase) && piece < kAxisCount) {
+      judge_axis(profile, piece, observer);
+    } else if (learns(observer.full_phase)) {
+      learn_axis(profile, piece - kAxisCount, observer);
     }
   } else if (piece == 2 * kAxisCount) {
     if (observer.phase.phase == LoadPhase::kDigs) {
