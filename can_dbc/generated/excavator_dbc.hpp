@@ -950,7 +950,7 @@ struct EcuPayload {
   static constexpr const char* kSender = "Graben";
   static constexpr std::uint32_t kId = 0x18FF3B82;
   static constexpr std::uint8_t kLength = 8;
-  static constexpr std::uint16_t kCycleTimeMs = 200;
+  static constexpr std::uint16_t kCycleTimeMs = 500;
   static constexpr bool kProtected = false;
   static constexpr std::uint16_t kDataId = 0x0000;
   static constexpr std::uint8_t kMaxDeltaCounter = 0;

@@ -22,7 +22,7 @@ void periods(void**) {
         sent_in_10_s<ExcavatorTransmitter, bus::SpoolCommand, bus::PumpCommand, bus::EcuStatus,
                      bus::EcuMotion, bus::EcuHydraulics, bus::EcuHealth, bus::EcuLearntValves,
                      bus::EcuTipForce, bus::EcuPayload, bus::EcuIdentity, bus::DM1>(jitter_us);
-    const std::array<int, 11> expected = {1000, 500, 500, 500, 500, 100, 100, 100, 100, 10, 10};
+    const std::array<int, 11> expected = {1000, 500, 500, 500, 500, 100, 100, 50, 20, 10, 10};
     assert_true(std::equal(expected.begin(), expected.end(), tally.begin()));
     assert_in_range(tally.back(), 4, 5);
   }
