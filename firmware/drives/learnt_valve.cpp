@@ -27,9 +27,11 @@ constexpr double kMostRatio = 4.0;
 /// An opening that is farther from its low-pass changes too fast to be compared.
 constexpr double kSteady = 0.08;
 /// A motor's edge is moved so fast, of the travel outside the dead band, once it has stood so long.
-constexpr double kFeels_ps = 0.15;
-constexpr double kUnmoved_s = 0.1;
+constexpr double kFeels_ps = 0.10;
+constexpr double kUnmoved_s = 0.4;
 constexpr double kSetsOff_s = 0.5;
+/// Less is asked of what is to stand.
+constexpr double kAskedLeast = 5.0;
 /// Until an opening and what is learnt at it agree.
 constexpr int kSteps = 4;
 
@@ -100,7 +102,8 @@ void feel_edge(const DriveRow& drive, const LearntSeen& now, double period_s, Le
   const double speed_mps = way * valve.seen.speed_mps;
   const double still_mps = drive.watch.still_mps;
   const bool is_open = way * now.opening > opening_beyond(side, 0.0);
-  const bool stands = is_open && asked_mps > 0.0 && std::abs(speed_mps) < still_mps;
+  const bool stands =
+      is_open && asked_mps > kAskedLeast * still_mps && std::abs(speed_mps) < still_mps;
   valve.unmoved_s = stands ? valve.unmoved_s + period_s : 0.0;
   valve.turning_s = std::abs(speed_mps) < still_mps ? 0.0 : valve.turning_s + period_s;
   const double step = kFeels_ps * period_s;
