@@ -1,0 +1,141 @@
+#include "firmware/excavator/tasks/dig_layers.hpp"
+
+#include <algorithm>
+
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+
+/// 2 m of ground that stands 0.5 m over its design, for a bucket of 1 m.
+LayerPlan plan() {
+  LayerPlan plan;
+  plan.step = 0;
+  plan.ground_from_m = 0.5;
+  plan.ground_to_m = 0.5;
+  plan.way_m = 2.0;
+  plan.width_m = 1.0;
+  plan.full_m3 = 0.4;
+  plan.depth_most_m = 0.35;
+  return plan;
+}
+
+/// The edge along the whole line at a height.
+double cut_through(const LayerPlan& plan, double height_m, CutState& state) {
+  return pass(plan, 1.0, 0.0, height_m, state);
+}
+
+void depth_is_what_fills_the_bucket(void**) {
+  const CutState state = undug(plan());
+  assert_near(state.depth_m, 0.4 / (0.8 * 2.0 * 1.0), 1e-12);
+  assert_near(state.cut.height_m, 0.5 - state.depth_m, 1e-6);
+  assert_near(state.cut.from_share, 0.0, 0.0);
+  assert_true(state.cut.enters_m > 0.5);
+  assert_false(state.met);
+  LayerPlan small = plan();
+  small.full_m3 = 4.0;
+  assert_near(undug(small).depth_m, 0.35, 0.0);
+}
+
+/// Each layer is lower, the last is thin, and then all is met.
+void goes_down_layer_by_layer(void**) {
+  const LayerPlan whole = plan();
+  CutState state = undug(whole);
+  double last_m = 0.5;
+  double cut_m3 = 0.0;
+  int cuts = 0;
+  while (!state.met) {
+    assert_true(state.cut.height_m < last_m);
+    assert_true(state.cut.height_m >= 0.0);
+    if (state.cut.height_m == 0.0) {
+      assert_true(last_m <= kLastLayer_m + kRough_m + 1e-6);
+    }
+    last_m = state.cut.height_m;
+    cut_m3 += cut_through(whole, last_m, state);
+    next_cut(whole, state);
+    assert_true(++cuts < 20);
+  }
+  assert_near(last_m, 0.0, 0.0);
+  assert_near(cut_m3, 0.5 * 2.0 * 1.0, 1e-5);
+}
+
+void only_what_was_passed_is_gone(void**) {
+  const LayerPlan whole = plan();
+  CutState state = undug(whole);
+  const double height_m = state.cut.height_m;
+  const double half_m3 = pass(whole, 0.5, 0.0, height_m, state);
+  assert_near(half_m3, (0.5 - height_m) * 1.0 * 1.0, 1e-5);
+  assert_near(pass(whole, 0.5, 0.0, height_m, state), 0.0, 0.0);
+  assert_near(pass(whole, 0.5, 0.0, height_m + 0.1, state), 0.0, 0.0);
+  next_cut(whole, state);
+  assert_near(state.cut.height_m, height_m, 0.0);
+  assert_true(state.cut.from_share > 0.3 && state.cut.from_share < 0.5);
+}
+
+void strips_one_after_the_other(void**) {
+  LayerPlan wide = plan();
+  wide.strips = 3;
+  CutState state = undug(wide);
+  for (int strip = 0; strip < 3; ++strip) {
+    assert_int_equal(state.cut.strip, strip);
+    const double height_m = state.cut.height_m;
+    static_cast<void>(cut_through(wide, height_m, state));
+    next_cut(wide, state);
+    assert_true(strip == 2 || state.cut.height_m == height_m);
+  }
+  assert_int_equal(state.cut.strip, 0);
+}
+
+/// Soil that does not go is left, and the task comes to its end.
+void what_stays_up_is_left(void**) {
+  const LayerPlan whole = plan();
+  CutState state = undug(whole);
+  int cuts = 0;
+  for (; !state.met; ++cuts) {
+    assert_true(cuts < kCutsMost);
+    next_cut(whole, state);
+  }
+  assert_true(cuts >= kTriesMost);
+}
+
+void depth_follows_the_force(void**) {
+  const LayerPlan whole = plan();
+  CutState state = undug(whole);
+  const double first_m = state.depth_m;
+  after_cut(whole, 1.2, state);
+  assert_true(state.depth_m < first_m);
+  after_cut(whole, 0.8, state);
+  assert_true(state.depth_m < first_m);
+  for (int n = 0; n < 20; ++n) {
+    after_cut(whole, 0.2, state);
+  }
+  assert_near(state.depth_m, whole.depth_most_m, 0.0);
+  for (int n = 0; n < 20; ++n) {
+    after_cut(whole, 2.0, state);
+  }
+  assert_true(state.depth_m > 0.0);
+}
+
+/// Ground under the design is none to dig.
+void ground_below_its_design_is_met(void**) {
+  LayerPlan low = plan();
+  low.ground_from_m = -0.2;
+  low.ground_to_m = -0.1;
+  assert_true(undug(low).met);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(depth_is_what_fills_the_bucket),
+      cmocka_unit_test(goes_down_layer_by_layer),
+      cmocka_unit_test(only_what_was_passed_is_gone),
+      cmocka_unit_test(strips_one_after_the_other),
+      cmocka_unit_test(what_stays_up_is_left),
+      cmocka_unit_test(depth_follows_the_force),
+      cmocka_unit_test(ground_below_its_design_is_met),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,247 @@
+#include "firmware/excavator/tasks/layer_run.hpp"
+
+#include <algorithm>
+
+#include "firmware/excavator/swing.hpp"
+#include "firmware/excavator/tasks/task_follow.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/drive_replay.hpp"
+
+namespace {
+
+using namespace graben;
+using test::kCycle_s;
+
+const test::ReplayMachine& machine() {
+  static const test::ReplayMachine loaded(test::excavator_12t());
+  return loaded;
+}
+
+constexpr double kDesign_m = -0.5;
+
+ProgramRequest request() {
+  ProgramRequest request;
+  request.start = {{6.6, 0.0, kDesign_m}, 1.3};
+  StepRequest& dig = request.step[0];
+  dig.kind = StepKind::kDig;
+  dig.to = {{4.4, 0.0, kDesign_m}, 0.95};
+  dig.speed_mps = 0.6;
+  dig.in_layers = true;
+  request.step[1] = {StepKind::kSwing, {{2.0, 3.5, 2.3}, 0.3}, false, 0.0, 0.0, 0.7};
+  request.step[2] = {StepKind::kReturnToDig, request.start, false, 0.0, 0.0, 0.7};
+  request.step_count = 3;
+  request.repeats = true;
+  request.has_design = true;
+  request.design = {{6.6, 0.0, kDesign_m}, Eigen::Vector3d::UnitZ(), 0.012};
+  return request;
+}
+
+TaskProgram planned() {
+  const ProgramResult result = plan_program(machine().profile, request());
+  assert_int_equal(result.refusal, ProgramRefusal::kNone);
+  return result.program;
+}
+
+/// Teeth that are where they are to be, but for what soil does to them.
+CutSeen follows(const TaskProgram& program, const TaskState& state) {
+  CutSeen seen;
+  seen.teeth = task_aim(machine().kinematics, program, state).teeth;
+  seen.force_known = true;
+  return seen;
+}
+
+TaskState advance(const TaskProgram& program, const TaskState& state, const CutSeen& seen) {
+  return layer_advance(machine().profile, machine().kinematics, program, state, kCycle_s, kCycle_s,
+                       seen);
+}
+
+TaskState begun(const TaskProgram& program) {
+  return task_start(machine().profile, machine().kinematics, program, program.start);
+}
+
+/// Until something holds, or never.
+template <class Until>
+TaskState run_until(const TaskProgram& program, TaskState state, const Until& until) {
+  constexpr int kMost = 200000;
+  for (int n = 0; n < kMost && !until(state); ++n) {
+    state = advance(program, state, follows(program, state));
+  }
+  assert_true(until(state));
+  return state;
+}
+
+bool in_cut(const TaskState& state) { return state.layers.phase == CutPhase::kCuts; }
+
+/// No jump of the aim, no place that the machine can't have, nothing below the line.
+void digs_down_to_its_design(void**) {
+  const TaskProgram program = planned();
+  TaskState state = begun(program);
+  const double speed_most_mps = 3.0;
+  DriveVector last = task_aim(machine().kinematics, program, state).value;
+  double lowest_m = 1.0;
+  for (int n = 0; state.phase != TaskPhase::kDone; ++n) {
+    assert_true(n < 200000);
+    state = advance(program, state, follows(program, state));
+    const TaskAim aim = task_aim(machine().kinematics, program, state);
+    assert_int_equal(aim.blind.kind, BlindKind::kNone);
+    assert_true((aim.value - last).cwiseAbs().maxCoeff() < speed_most_mps * kCycle_s);
+    last = aim.value;
+    lowest_m = std::min(lowest_m, aim.teeth.position_m.z());
+  }
+  assert_true(state.layers.cuts.met);
+  assert_near(lowest_m, kDesign_m + 0.012, 2e-3);
+}
+
+/// The aim's velocity is what its place changes by.
+void aims_move_as_they_say(void**) {
+  const TaskProgram program = planned();
+  TaskState state = begun(program);
+  int looked = 0;
+  for (int n = 0; n < 6000; ++n) {
+    const TaskState next = advance(program, state, follows(program, state));
+    if (in_cut(state) && in_cut(next) && state.layers.share > 0.3 && next.layers.share < 0.6) {
+      const TaskAim now = task_aim(machine().kinematics, program, next);
+      const DriveVector before = task_aim(machine().kinematics, program, state).value;
+      const DriveVector said = next.pace_ratio * now.velocity + now.at_once;
+      assert_true(((now.value - before) / kCycle_s - said).norm() < 0.02);
+      ++looked;
+    }
+    state = next;
+  }
+  assert_true(looked > 50);
+}
+
+void a_heavy_cut_gives_way_upwards(void**) {
+  const TaskProgram program = planned();
+  const TaskState state = run_until(program, begun(program), [](const TaskState& at) {
+    return in_cut(at) && at.layers.share > 0.3;
+  });
+  const double depth_m = state.layers.cuts.depth_m;
+  TaskState heavy = state;
+  for (int n = 0; n < 50; ++n) {
+    CutSeen seen = follows(program, heavy);
+    seen.force_n = {1.3 * program.layers.force_n, 0.0};
+    heavy = advance(program, heavy, seen);
+  }
+  assert_true(heavy.layers.height_m > state.layers.height_m + 0.02);
+  assert_true(heavy.layers.heaviest > 1.2);
+  // Held for a second it ends, is lifted, and the next cuts are less deep.
+  for (int n = 0; n < 200 && in_cut(heavy); ++n) {
+    CutSeen seen = follows(program, heavy);
+    seen.force_n = {1.6 * program.layers.force_n, 0.0};
+    heavy = advance(program, heavy, seen);
+  }
+  assert_int_equal(heavy.layers.phase, CutPhase::kLifts);
+  assert_true(heavy.layers.cuts.depth_m < depth_m);
+}
+
+void a_force_along_the_way_holds_nothing_up(void**) {
+  const TaskProgram program = planned();
+  TaskState state = run_until(program, begun(program), [](const TaskState& at) {
+    return in_cut(at) && at.layers.share > 0.3;
+  });
+  const double height_m = state.layers.height_m;
+  for (int n = 0; n < 50; ++n) {
+    CutSeen seen = follows(program, state);
+    seen.force_n = {-2.0 * program.layers.force_n, 0.0};
+    state = advance(program, state, seen);
+  }
+  assert_near(state.layers.height_m, height_m, 5e-3);
+}
+
+/// Teeth that do not come down are not pressed on by a plan far below them.
+void soil_that_holds_the_edge_up_is_cut_from_there(void**) {
+  const TaskProgram program = planned();
+  TaskState state = run_until(program, begun(program), [](const TaskState& at) {
+    return at.layers.phase == CutPhase::kEnters && at.layers.height_m < 0.55;
+  });
+  const TeethPose held = task_aim(machine().kinematics, program, state).teeth;
+  for (int n = 0; n < 300 && !in_cut(state); ++n) {
+    CutSeen seen;
+    seen.teeth = held;
+    const TeethPose aim = task_aim(machine().kinematics, program, state).teeth;
+    seen.behind_m = (held.position_m - aim.position_m).norm();
+    state = advance(program, state, seen);
+    assert_true(seen.behind_m < 0.13);
+  }
+  assert_true(in_cut(state));
+  assert_true(state.layers.give_m > 0.0);
+}
+
+void a_full_bucket_ends_the_cut(void**) {
+  const TaskProgram program = planned();
+  const TaskState state = run_until(program, begun(program), [](const TaskState& at) {
+    return at.layers.phase == CutPhase::kLifts;
+  });
+  const double full_m3 = program.layers.full_m3;
+  assert_true(state.layers.filled_m3 > 0.95 * full_m3);
+  assert_true(state.layers.filled_m3 < 1.2 * full_m3);
+}
+
+/// The bucket comes out of the ground folded in, before it swings.
+void lifts_out_before_it_swings(void**) {
+  const TaskProgram program = planned();
+  TaskState state = run_until(program, begun(program), [](const TaskState& at) {
+    return at.step == 1 && at.layers.phase == CutPhase::kNone;
+  });
+  const TaskAim aim = task_aim(machine().kinematics, program, state);
+  assert_true(aim.teeth.position_m.z() > 0.3);
+  assert_true(aim.teeth.attitude_rad < 0.45);
+  state = run_until(program, state, [](const TaskState& at) { return at.step == 2; });
+  assert_true(swing_of(task_aim(machine().kinematics, program, state).value) > 0.5);
+}
+
+/// What was dug is known when the task goes on, and forgotten when it has come to its end.
+void goes_on_where_it_was(void**) {
+  const TaskProgram program = planned();
+  const TaskState state = run_until(program, begun(program), [](const TaskState& at) {
+    return at.step == 1 && at.layers.phase == CutPhase::kNone;
+  });
+  const TaskMemory rests = stopped(remembered(0, state));
+  assert_false(rests.runs);
+  assert_true(rests.intact());
+  assert_true(rests.state.layers.begun);
+  assert_true(rests.state.layers.cuts.height_m == state.layers.cuts.height_m);
+  TaskState done = state;
+  done.phase = TaskPhase::kDone;
+  assert_false(stopped(remembered(0, done)).state.layers.begun);
+}
+
+void what_can_t_be_dug_in_layers_is_refused(void**) {
+  const auto refusal = [](const ProgramRequest& asked) {
+    return plan_program(machine().profile, asked).refusal;
+  };
+  ProgramRequest no_design = request();
+  no_design.has_design = false;
+  assert_int_equal(refusal(no_design), ProgramRefusal::kLayers);
+  ProgramRequest once = request();
+  once.repeats = false;
+  assert_int_equal(refusal(once), ProgramRefusal::kLayers);
+  ProgramRequest wide = request();
+  wide.step[0].strips = 3;
+  wide.step[0].strip_rad = 2.0;
+  assert_int_equal(refusal(wide), ProgramRefusal::kSwingEnd);
+  ProgramRequest many = request();
+  many.step[0].strips = kStripMost + 1;
+  assert_int_equal(refusal(many), ProgramRefusal::kLayers);
+  ProgramRequest high = request();
+  high.step[0].ground_m = 9.0;
+  assert_int_equal(refusal(high), ProgramRefusal::kBlindSpot);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(digs_down_to_its_design),
+      cmocka_unit_test(aims_move_as_they_say),
+      cmocka_unit_test(a_heavy_cut_gives_way_upwards),
+      cmocka_unit_test(a_force_along_the_way_holds_nothing_up),
+      cmocka_unit_test(soil_that_holds_the_edge_up_is_cut_from_there),
+      cmocka_unit_test(a_full_bucket_ends_the_cut),
+      cmocka_unit_test(lifts_out_before_it_swings),
+      cmocka_unit_test(goes_on_where_it_was),
+      cmocka_unit_test(what_can_t_be_dug_in_layers_is_refused),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
