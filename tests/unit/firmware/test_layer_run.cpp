@@ -13,7 +13,7 @@ using namespace graben;
 using test::kCycle_s;
 
 const test::ReplayMachine& machine() {
-  static const test::ReplayMachine loaded(test::excavator_12t());
+  static const test::ReplayMachine loaded(test::excavator_12t().profile);
   return loaded;
 }
 
@@ -182,12 +182,14 @@ void a_full_bucket_ends_the_cut(void**) {
 void lifts_out_before_it_swings(void**) {
   const TaskProgram program = planned();
   TaskState state = run_until(program, begun(program), [](const TaskState& at) {
-    return at.step == 1 && at.layers.phase == CutPhase::kNone;
+    return at.phase == TaskPhase::kSteps && at.step == 1 && at.layers.phase == CutPhase::kNone;
   });
   const TaskAim aim = task_aim(machine().kinematics, program, state);
   assert_true(aim.teeth.position_m.z() > 0.3);
   assert_true(aim.teeth.attitude_rad < 0.45);
-  state = run_until(program, state, [](const TaskState& at) { return at.step == 2; });
+  state = run_until(program, state, [](const TaskState& at) {
+    return at.phase == TaskPhase::kSteps && at.step == 2;
+  });
   assert_true(swing_of(task_aim(machine().kinematics, program, state).value) > 0.5);
 }
 
@@ -195,7 +197,7 @@ void lifts_out_before_it_swings(void**) {
 void goes_on_where_it_was(void**) {
   const TaskProgram program = planned();
   const TaskState state = run_until(program, begun(program), [](const TaskState& at) {
-    return at.step == 1 && at.layers.phase == CutPhase::kNone;
+    return at.phase == TaskPhase::kSteps && at.step == 1 && at.layers.phase == CutPhase::kNone;
   });
   const TaskMemory rests = stopped(remembered(0, state));
   assert_false(rests.runs);
@@ -219,7 +221,7 @@ void what_can_t_be_dug_in_layers_is_refused(void**) {
   assert_int_equal(refusal(once), ProgramRefusal::kLayers);
   ProgramRequest wide = request();
   wide.step[0].strips = 3;
-  wide.step[0].strip_rad = 2.0;
+  wide.step[0].strip_rad = 3.5;
   assert_int_equal(refusal(wide), ProgramRefusal::kSwingEnd);
   ProgramRequest many = request();
   many.step[0].strips = kStripMost + 1;
