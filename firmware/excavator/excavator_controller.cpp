@@ -356,17 +356,18 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
              blocked ? 0.0 : followed * allowed * motion.task.pace_ratio, profile_.safety.stall_s,
              period_s, memory_.stall);
   if (!decision.active() || valid.task != Task::kProgram) {
-    memory_.task = stopped(memory_.task);
+    stop_task();
     return;
   }
   const auto number = static_cast<std::uint8_t>(valid.task_number);
-  memory_.task =
-      next_task(profile_, setup_.kinematics, setup_.book.program[number], memory_.task, number,
-                valid.strokes_m(), followed * motion.cap.factor * valid.speed_override_ratio,
-                {motion.task.teeth, motion.task.behind_m, followed, memory_.tip_load.known,
-                 memory_.tip_load.force_n},
-                period_s);
+  next_task(profile_, setup_.kinematics, setup_.book.program[number], number, valid.strokes_m(),
+            followed * motion.cap.factor * valid.speed_override_ratio,
+            {motion.task.teeth, motion.task.behind_m, followed, memory_.tip_load.known,
+             memory_.tip_load.force_n},
+            period_s, memory_.task);
 }
+
+void ExcavatorController::stop_task() { memory_.task = stopped(memory_.task); }
 
 ProfileCheck profile_check(const ExcavatorProfile& profile) {
   const ExcavatorKinematics kinematics(profile.geometry);

@@ -180,6 +180,8 @@ class ExcavatorController {
                     double period_s);
   void describe_motion(const Motion& motion, const Followed& taken, const FaultSet& degraded,
                        ExcavatorStatus& status) const;
+  /// Not inlined, for the stack below it.
+  [[gnu::noinline]] void stop_task();
   /// Keeps what the next cycle needs of this one.
   void remember(const ExcavatorValid& valid, const Motion& motion, const Followed& taken,
                 const ModeDecision& decision, const ExcavatorOutputs& outputs, double period_s);

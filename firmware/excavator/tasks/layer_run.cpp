@@ -366,23 +366,21 @@ void LayerRun::go_on(TaskState& state) const {
 
 }  // namespace
 
-TaskState layer_advance(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                        const TaskProgram& program, const TaskState& state, double advance_s,
-                        double period_s, const CutSeen& seen) {
+void layer_advance(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                   const TaskProgram& program, double advance_s, double period_s,
+                   const CutSeen& seen, TaskState& state) {
   const LayerRun run(profile, kinematics, program, advance_s, period_s, seen);
-  TaskState next = state;
   if (state.phase == TaskPhase::kApproach) {
-    next = task_advance(profile.line, program, state, advance_s, period_s, seen.behind_m);
-    if (next.phase != TaskPhase::kApproach) {
+    state = task_advance(profile.line, program, state, advance_s, period_s, seen.behind_m);
+    if (state.phase != TaskPhase::kApproach) {
       // By the move that leads to the cut: it may not be the first.
-      next.phase = TaskPhase::kApproach;
-      run.begin((program.layers.step + program.step_count - 1) % program.step_count, next);
-      next.phase = next.layers.cuts.met ? TaskPhase::kDone : TaskPhase::kSteps;
+      state.phase = TaskPhase::kApproach;
+      run.begin((program.layers.step + program.step_count - 1) % program.step_count, state);
+      state.phase = state.layers.cuts.met ? TaskPhase::kDone : TaskPhase::kSteps;
     }
   } else if (state.phase == TaskPhase::kSteps) {
-    run.go_on(next);
+    run.go_on(state);
   }
-  return next;
 }
 
 }  // namespace graben

@@ -16,9 +16,8 @@ struct CutSeen {
 };
 
 /// As task_advance() has it, of a program in layers. Ends where no soil is left over the design.
-[[nodiscard]] TaskState layer_advance(const ExcavatorProfile& profile,
-                                      const SwingKinematics& kinematics, const TaskProgram& program,
-                                      const TaskState& state, double advance_s, double period_s,
-                                      const CutSeen& seen);
+void layer_advance(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                   const TaskProgram& program, double advance_s, double period_s,
+                   const CutSeen& seen, TaskState& state);
 
 }  // namespace graben

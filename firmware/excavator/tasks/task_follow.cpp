@@ -54,27 +54,41 @@ TaskProgress progress_of(const TaskMemory& memory, const TaskAim& aim) {
   return progress;
 }
 
-/// Looks for the way on; runs once it is found.
-TaskMemory searched(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                    const TaskProgram& program, const TaskMemory& last, std::uint8_t number,
-                    const DriveVector& drives_now) {
-  TaskMemory next;
-  if (last.search.runs && last.search.number == number) {
-    next.search = last.search;
-    next.state.approach = last.state.approach;
+/// Stores twice what tells where the state is.
+void keep(TaskMemory& memory) {
+  memory.time_s = memory.state.time_s;
+  memory.pace_ratio = memory.state.pace_ratio;
+  memory.place = place_of(memory.runs, memory.number, memory.state);
+}
+
+/// Looks for the way on; runs once it is found. Not inlined: its states would lie on the stack
+/// below a cut's, which is the deepest there is.
+[[gnu::noinline]] void search(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                              const TaskProgram& program, std::uint8_t number,
+                              const DriveVector& drives_now, TaskMemory& memory) {
+  if (!memory.search.runs || memory.search.number != number) {
+    memory.search = {};
+    memory.state.approach = {};
   }
-  next.search.runs = true;
-  next.search.number = number;
-  search_approach(profile, kinematics, program, drives_now, next.search, next.state.approach);
-  if (next.search.found) {
-    next.state = task_start(profile, kinematics, program, drives_now, ApproachWay{next.search.way});
+  if (memory.number != number) {
+    memory.state.layers = {};
   }
-  next.number = number;
-  if (last.number == number) {
-    next.state.layers = last.state.layers;
+  memory.runs = false;
+  memory.number = number;
+  memory.search.runs = true;
+  memory.search.number = number;
+  const LayerState layers = memory.state.layers;
+  search_approach(profile, kinematics, program, drives_now, memory.search, memory.state.approach);
+  if (memory.search.found) {
+    memory.state =
+        task_start(profile, kinematics, program, drives_now, ApproachWay{memory.search.way});
+    memory.search = {};
+    memory.runs = true;
+  } else {
+    memory.state.phase = TaskPhase::kDone;
   }
-  next.place = place_of(false, number, next.state);
-  return next.search.found ? remembered(number, next.state) : next;
+  memory.state.layers = layers;
+  keep(memory);
 }
 
 }  // namespace
@@ -90,9 +104,7 @@ TaskMemory remembered(std::uint8_t number, const TaskState& state) {
   memory.runs = true;
   memory.number = number;
   memory.state = state;
-  memory.time_s = state.time_s;
-  memory.pace_ratio = state.pace_ratio;
-  memory.place = place_of(true, number, state);
+  keep(memory);
   return memory;
 }
 
@@ -139,19 +151,21 @@ TaskMemory stopped(const TaskMemory& last) {
   return memory;
 }
 
-TaskMemory next_task(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                     const TaskProgram& program, const TaskMemory& last, std::uint8_t number,
-                     const DriveVector& travel_m, double followed_ratio, const CutSeen& seen,
-                     double period_s) {
-  if (!last.runs || last.number != number) {
-    return searched(profile, kinematics, program, last, number, drives_of(profile, travel_m));
+void next_task(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+               const TaskProgram& program, std::uint8_t number, const DriveVector& travel_m,
+               double followed_ratio, const CutSeen& seen, double period_s, TaskMemory& memory) {
+  if (!memory.runs || memory.number != number) {
+    search(profile, kinematics, program, number, drives_of(profile, travel_m), memory);
+    return;
   }
   const double advance_s = followed_ratio * period_s;
-  return remembered(
-      number,
-      in_layers(program)
-          ? layer_advance(profile, kinematics, program, last.state, advance_s, period_s, seen)
-          : task_advance(profile.line, program, last.state, advance_s, period_s, seen.behind_m));
+  if (in_layers(program)) {
+    layer_advance(profile, kinematics, program, advance_s, period_s, seen, memory.state);
+  } else {
+    memory.state =
+        task_advance(profile.line, program, memory.state, advance_s, period_s, seen.behind_m);
+  }
+  keep(memory);
 }
 
 }  // namespace graben

@@ -62,10 +62,8 @@ struct TaskWant {
 /// velocity, but for its own pace: lambda, the cap's factor and the operator's override. A
 /// task that does not run yet, or another number, first looks for its way from `travel_m`, see
 /// search_approach(), and starts from there.
-[[nodiscard]] TaskMemory next_task(const ExcavatorProfile& profile,
-                                   const SwingKinematics& kinematics, const TaskProgram& program,
-                                   const TaskMemory& last, std::uint8_t number,
-                                   const DriveVector& travel_m, double followed_ratio,
-                                   const CutSeen& seen, double period_s);
+void next_task(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+               const TaskProgram& program, std::uint8_t number, const DriveVector& travel_m,
+               double followed_ratio, const CutSeen& seen, double period_s, TaskMemory& memory);
 
 }  // namespace graben

@@ -50,9 +50,9 @@ CutSeen follows(const TaskProgram& program, const TaskState& state) {
   return seen;
 }
 
-TaskState advance(const TaskProgram& program, const TaskState& state, const CutSeen& seen) {
-  return layer_advance(machine().profile, machine().kinematics, program, state, kCycle_s, kCycle_s,
-                       seen);
+TaskState advance(const TaskProgram& program, TaskState state, const CutSeen& seen) {
+  layer_advance(machine().profile, machine().kinematics, program, kCycle_s, kCycle_s, seen, state);
+  return state;
 }
 
 TaskState begun(const TaskProgram& program) {
