@@ -171,9 +171,9 @@ void it_goes_on_or_starts_afresh(void**) {
   const TaskMemory memory = half_way(1);
   const DriveVector travel_m = travel_of(profile(), dig().end);
   const auto next = [&](const TaskMemory& last, std::uint8_t number, double followed) {
-    TaskMemory memory = last;
-    next_task(profile(), kinematics(), dig(), number, travel_m, followed, {}, kCycle_s, memory);
-    return memory;
+    TaskMemory after = last;
+    next_task(profile(), kinematics(), dig(), number, travel_m, followed, {}, kCycle_s, after);
+    return after;
   };
   const TaskMemory on = next(memory, 0, 0.25);
   assert_true(on.runs && on.intact());
