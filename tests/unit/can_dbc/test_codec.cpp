@@ -55,6 +55,11 @@ constexpr Scale kScales[] = {
     {"ArmRetractEdge", 1e-3, -0.125, -0.125, 0.125},
     {"BucketExtendEdge", 1e-3, -0.125, -0.125, 0.125},
     {"BucketRetractEdge", 1e-3, -0.125, -0.125, 0.125},
+    {"TipForceOutwards", 10.0, -320e3, -320e3, 320e3},
+    {"TipForceUp", 10.0, -320e3, -320e3, 320e3},
+    {"PayloadMass", 0.25, -1000.0, -1000.0, 15000.0},
+    {"TipForceDeviation", 250.0, 0.0, 0.0, 62.5e3},
+    {"PayloadDeviation", 2.0, 0.0, 0.0, 500.0},
 };
 
 void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 92); }
