@@ -62,7 +62,7 @@ constexpr Scale kScales[] = {
     {"PayloadDeviation", 2.0, 0.0, 0.0, 500.0},
 };
 
-void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 92); }
+void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 97); }
 
 void saturates_and_refuses(void**) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
 
