@@ -164,8 +164,13 @@ void work(const ExcavatorProfile& profile, const LoadBalance& balance, double sh
           LoadObserver& observer) {
   const int piece = observer.cycle;
   if (piece < 2 * kAxisCount) {
-    if (learns(observer.full_phase)) {
-      (piece < kAxisCount ? judge_axis : learn_axis)(profile, piece % kAxisCount, observer);
+    if (!learns(observer.full_phase)) {
+      return;
+    }
+    if (piece < kAxisCount) {
+      judge_axis(profile, piece, observer);
+    } else {
+      learn_axis(profile, piece - kAxisCount, observer);
     }
   } else if (piece == 2 * kAxisCount) {
     if (observer.phase.phase == LoadPhase::kDigs) {
