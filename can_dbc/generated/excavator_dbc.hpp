@@ -927,21 +927,21 @@ struct EcuTipLoad {
       0, 250.0, 1.0};
   static constexpr Field kPayloadDeviation{
       "PayloadDeviation", "kg", 56, 8, 0U, 250U, 254, 255, 255U,
-      0, 2.0, 1.0};
+      0, 1.0, 1.0};
 
   /// Of the ground on the teeth, in the plane of the links, level, away from the machine; of the
-  /// fill's weight it has none. [-320000 .. 320000 N on the bus]
+  /// fill's weight it has none. [-320 .. 320 kN on the bus]
   Physical tip_force_outwards_n{0.0, RawState::kNotAvailable};
   /// Of the ground on the teeth, in the plane of the links, upwards; of the fill's weight it has
-  /// none. [-320000 .. 320000 N on the bus]
+  /// none. [-320 .. 320 kN on the bus]
   Physical tip_force_up_n{0.0, RawState::kNotAvailable};
   /// Of what the bucket carries; it may be below 0 by what it is off. [-1000 .. 15000 kg on the
   /// bus]
   Physical payload_mass_kg{0.0, RawState::kNotAvailable};
   /// Standard deviation of each component of the force; the largest value stands for more too. [0
-  /// .. 62500 N on the bus]
+  /// .. 62.5 kN on the bus]
   Physical tip_force_deviation_n{0.0, RawState::kNotAvailable};
-  /// Standard deviation of the payload; the largest value stands for more too. [0 .. 500 kg on the
+  /// Standard deviation of the payload; the largest value stands for more too. [0 .. 250 kg on the
   /// bus]
   Physical payload_deviation_kg{0.0, RawState::kNotAvailable};
 

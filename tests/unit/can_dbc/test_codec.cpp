@@ -59,7 +59,7 @@ constexpr Scale kScales[] = {
     {"TipForceUp", 10.0, -320e3, -320e3, 320e3},
     {"PayloadMass", 0.25, -1000.0, -1000.0, 15000.0},
     {"TipForceDeviation", 250.0, 0.0, 0.0, 62.5e3},
-    {"PayloadDeviation", 2.0, 0.0, 0.0, 500.0},
+    {"PayloadDeviation", 1.0, 0.0, 0.0, 250.0},
 };
 
 void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 97); }

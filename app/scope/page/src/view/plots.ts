@@ -112,12 +112,12 @@ function excavator_plots(count: number, came: ReadonlySet<string>): PlotSpec[] {
   });
   if (came.has('EcuTipLoad')) {
     plots.push({
-      name: 'tip_force', title: 'Tip force', unit: 'N', least: [-1000, 1000],
+      name: 'tip_force', title: 'Tip force', unit: 'kN', least: [-1, 1],
       note: "Of the ground on the teeth, by the cylinders' pressures; thin its standard deviation",
       lines: [
-        real('Outwards', 'boom', 'EcuTipLoad.TipForceOutwards', 0),
-        real('Up', 'arm', 'EcuTipLoad.TipForceUp', 0),
-        beside('Deviation', 'bucket', 'EcuTipLoad.TipForceDeviation', 0),
+        real('Outwards', 'boom', 'EcuTipLoad.TipForceOutwards', 1),
+        real('Up', 'arm', 'EcuTipLoad.TipForceUp', 1),
+        beside('Deviation', 'bucket', 'EcuTipLoad.TipForceDeviation', 1),
       ],
     }, {
       name: 'payload', title: 'Payload', unit: 'kg', least: [0, 100],
