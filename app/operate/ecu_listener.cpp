@@ -64,8 +64,7 @@ void EcuListener::hear(const CanFrame& frame, TimeUs now) {
   take(frame, now, health_);
   take(frame, now, identity_);
   take(frame, now, task_);
-  take(frame, now, tip_force_);
-  take(frame, now, payload_);
+  take(frame, now, tip_load_);
   take(frame, now, spools_);
   take_stroke(frame, &Dbc::BoomStroke::boom_stroke_m, now, strokes_[0]);
   take_stroke(frame, &Dbc::ArmStroke::arm_stroke_m, now, strokes_[1]);

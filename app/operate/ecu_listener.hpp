@@ -40,8 +40,7 @@ class EcuListener {
   [[nodiscard]] const Heard<Dbc::EcuHealth>& health() const { return health_; }
   [[nodiscard]] const Heard<Dbc::EcuIdentity>& identity() const { return identity_; }
   [[nodiscard]] const Heard<Dbc::TaskStatus>& task() const { return task_; }
-  [[nodiscard]] const Heard<Dbc::EcuTipForce>& tip_force() const { return tip_force_; }
-  [[nodiscard]] const Heard<Dbc::EcuPayload>& payload() const { return payload_; }
+  [[nodiscard]] const Heard<Dbc::EcuTipLoad>& tip_load() const { return tip_load_; }
   /// Of boom, arm, bucket; empty where none came of late, or none that is valid.
   [[nodiscard]] std::array<std::optional<double>, 3> strokes_m(TimeUs now) const;
   /// Duties of boom, arm and bucket as the controller sent them last; 0 before.
@@ -77,8 +76,7 @@ class EcuListener {
   Heard<Dbc::EcuHealth> health_;
   Heard<Dbc::EcuIdentity> identity_;
   Heard<Dbc::TaskStatus> task_;
-  Heard<Dbc::EcuTipForce> tip_force_;
-  Heard<Dbc::EcuPayload> payload_;
+  Heard<Dbc::EcuTipLoad> tip_load_;
   Heard<Dbc::SpoolCommand> spools_;
   std::array<Stroke, 3> strokes_;
   std::map<std::uint32_t, TimeUs> trouble_us_;  ///< SPN -> when it was said last.

@@ -103,18 +103,22 @@ std::string asked_text(const View& view) {
 }
 
 /// Empty while the controller tells neither force nor payload.
-std::string load_text(const EcuListener& ecu) {
-  std::string text;
-  if (const auto& force = ecu.tip_force().said;
-      force && force->tip_force_outwards_n.state == dbc::RawState::kValid) {
-    text = fmt::format("{:+.1f} kN outwards, {:+.1f} kN up, each +-{:.1f} kN",
-                       1e-3 * force->tip_force_outwards_n.value, 1e-3 * force->tip_force_up_n.value,
-                       1e-3 * force->tip_force_deviation_n.value);
+std::string load_text(const EcuListener& ecu, TimeUs now) {
+  constexpr TimeUs kOld_us = 500 * kMillisecondUs;
+  const auto& heard = ecu.tip_load();
+  if (!heard.said || now - heard.at_us > kOld_us) {
+    return "";
   }
-  if (const auto& payload = ecu.payload().said;
-      payload && payload->payload_mass_kg.state == dbc::RawState::kValid) {
+  const Dbc::EcuTipLoad& load = *heard.said;
+  std::string text;
+  if (load.tip_force_outwards_n.state == dbc::RawState::kValid) {
+    text = fmt::format("{:+.1f} kN outwards, {:+.1f} kN up, each +-{:.1f} kN",
+                       1e-3 * load.tip_force_outwards_n.value, 1e-3 * load.tip_force_up_n.value,
+                       1e-3 * load.tip_force_deviation_n.value);
+  }
+  if (load.payload_mass_kg.state == dbc::RawState::kValid) {
     text += fmt::format("{}payload {:.0f} +-{:.0f} kg", text.empty() ? "" : "; ",
-                        payload->payload_mass_kg.value, payload->payload_deviation_kg.value);
+                        load.payload_mass_kg.value, load.payload_deviation_kg.value);
   }
   return text;
 }
@@ -160,7 +164,7 @@ void put_controller(std::vector<std::string>& lines, const View& view) {
     put(lines, "Also", also);
   }
   put(lines, "Lambda", lambda_text(*ecu.status().said));
-  if (const std::string load = load_text(ecu); !load.empty()) {
+  if (const std::string load = load_text(ecu, view.now_us); !load.empty()) {
     put(lines, "Tip force", load);
   }
 }

@@ -26,7 +26,7 @@ UNITS = {
     "mm/s": Unit("_mps", "m/s", Fraction(1, 1000)),
     "mrad": Unit("_rad", "rad", Fraction(1, 1000)),
     "mrad/s": Unit("_radps", "rad/s", Fraction(1, 1000)),
-    "N": Unit("_n", "N", Fraction(1)),
+    "kN": Unit("_n", "N", Fraction(1000)),
     "kg": Unit("_kg", "kg", Fraction(1)),
     "MPa": Unit("_pa", "Pa", Fraction(1_000_000)),
     "L/min": Unit("_m3ps", "m^3/s", Fraction(1, 60_000)),

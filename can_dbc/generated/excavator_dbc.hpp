@@ -899,14 +899,16 @@ struct EcuLearntValves {
   constexpr Payload encode() const { return encode_message(*this); }
 };
 
-/// What the ground does to the bucket's teeth, by the pressures of the cylinders, pose and motion.
-/// Not available: pressures, pose or the links' masses are not known.
-struct EcuTipForce {
-  static constexpr const char* kName = "EcuTipForce";
+/// What the ground does to the bucket's teeth and what the bucket carries, by the pressures of the
+/// cylinders, pose and motion. Not available: pressures, pose or the links' masses are not known;
+/// of the payload also while the bucket may touch the ground, fills or pours, or has not been
+/// lifted long enough.
+struct EcuTipLoad {
+  static constexpr const char* kName = "EcuTipLoad";
   static constexpr const char* kSender = "Graben";
   static constexpr std::uint32_t kId = 0x18FF3A82;
   static constexpr std::uint8_t kLength = 8;
-  static constexpr std::uint16_t kCycleTimeMs = 200;
+  static constexpr std::uint16_t kCycleTimeMs = 100;
   static constexpr bool kProtected = false;
   static constexpr std::uint16_t kDataId = 0x0000;
   static constexpr std::uint8_t kMaxDeltaCounter = 0;
@@ -917,64 +919,43 @@ struct EcuTipForce {
   static constexpr Field kTipForceUp{
       "TipForceUp", "N", 16, 16, 0U, 64000U, 65279, 65535, 65535U,
       -32000, 10.0, 1.0};
+  static constexpr Field kPayloadMass{
+      "PayloadMass", "kg", 32, 16, 0U, 64000U, 65279, 65535, 65535U,
+      -4000, 1.0, 4.0};
   static constexpr Field kTipForceDeviation{
-      "TipForceDeviation", "N", 32, 16, 0U, 64000U, 65279, 65535, 65535U,
-      0, 10.0, 1.0};
+      "TipForceDeviation", "N", 48, 8, 0U, 250U, 254, 255, 255U,
+      0, 250.0, 1.0};
+  static constexpr Field kPayloadDeviation{
+      "PayloadDeviation", "kg", 56, 8, 0U, 250U, 254, 255, 255U,
+      0, 1.0, 1.0};
 
-  /// In the plane of the links, level, away from the machine; of the fill's weight it has none.
-  /// [-320000 .. 320000 N on the bus]
+  /// Of the ground on the teeth, in the plane of the links, level, away from the machine; of the
+  /// fill's weight it has none. [-320 .. 320 kN on the bus]
   Physical tip_force_outwards_n{0.0, RawState::kNotAvailable};
-  /// In the plane of the links, upwards; of the fill's weight it has none. [-320000 .. 320000 N on
-  /// the bus]
+  /// Of the ground on the teeth, in the plane of the links, upwards; of the fill's weight it has
+  /// none. [-320 .. 320 kN on the bus]
   Physical tip_force_up_n{0.0, RawState::kNotAvailable};
-  /// Standard deviation of each of the two. [0 .. 640000 N on the bus]
+  /// Of what the bucket carries; it may be below 0 by what it is off. [-1000 .. 15000 kg on the
+  /// bus]
+  Physical payload_mass_kg{0.0, RawState::kNotAvailable};
+  /// Standard deviation of each component of the force; the largest value stands for more too. [0
+  /// .. 62.5 kN on the bus]
   Physical tip_force_deviation_n{0.0, RawState::kNotAvailable};
+  /// Standard deviation of the payload; the largest value stands for more too. [0 .. 250 kg on the
+  /// bus]
+  Physical payload_deviation_kg{0.0, RawState::kNotAvailable};
 
   /// Calls visitor(field, signal) for each signal.
   template <class Self, class Visitor>
   static constexpr void visit(Self& self, Visitor&& visitor) {
     visitor(kTipForceOutwards, self.tip_force_outwards_n);
     visitor(kTipForceUp, self.tip_force_up_n);
-    visitor(kTipForceDeviation, self.tip_force_deviation_n);
-  }
-  static constexpr EcuTipForce decode(const Payload& payload) {
-    return decode_message<EcuTipForce>(payload);
-  }
-  constexpr Payload encode() const { return encode_message(*this); }
-};
-
-/// What the bucket carries, by the same. Not available: the bucket may touch the ground, fills or
-/// pours, or it has not been lifted long enough.
-struct EcuPayload {
-  static constexpr const char* kName = "EcuPayload";
-  static constexpr const char* kSender = "Graben";
-  static constexpr std::uint32_t kId = 0x18FF3B82;
-  static constexpr std::uint8_t kLength = 8;
-  static constexpr std::uint16_t kCycleTimeMs = 500;
-  static constexpr bool kProtected = false;
-  static constexpr std::uint16_t kDataId = 0x0000;
-  static constexpr std::uint8_t kMaxDeltaCounter = 0;
-
-  static constexpr Field kPayloadMass{
-      "PayloadMass", "kg", 0, 16, 0U, 64000U, 65279, 65535, 65535U,
-      -4000, 1.0, 4.0};
-  static constexpr Field kPayloadDeviation{
-      "PayloadDeviation", "kg", 16, 16, 0U, 64000U, 65279, 65535, 65535U,
-      0, 1.0, 4.0};
-
-  /// Mass; it may be below 0 by what it is off. [-1000 .. 15000 kg on the bus]
-  Physical payload_mass_kg{0.0, RawState::kNotAvailable};
-  /// Standard deviation of it. [0 .. 16000 kg on the bus]
-  Physical payload_deviation_kg{0.0, RawState::kNotAvailable};
-
-  /// Calls visitor(field, signal) for each signal.
-  template <class Self, class Visitor>
-  static constexpr void visit(Self& self, Visitor&& visitor) {
     visitor(kPayloadMass, self.payload_mass_kg);
+    visitor(kTipForceDeviation, self.tip_force_deviation_n);
     visitor(kPayloadDeviation, self.payload_deviation_kg);
   }
-  static constexpr EcuPayload decode(const Payload& payload) {
-    return decode_message<EcuPayload>(payload);
+  static constexpr EcuTipLoad decode(const Payload& payload) {
+    return decode_message<EcuTipLoad>(payload);
   }
   constexpr Payload encode() const { return encode_message(*this); }
 };
@@ -1000,8 +981,7 @@ using AllMessages =
                 EcuHydraulics,
                 TaskStatus,
                 EcuLearntValves,
-                EcuTipForce,
-                EcuPayload,
+                EcuTipLoad,
                 EEC1,
                 OperatorCommand,
                 MachineIdentity,
@@ -1010,7 +990,7 @@ using AllMessages =
                 EcuHealth,
                 DM1>;
 
-inline constexpr std::array<MessageInfo, 29> kMessages{{
+inline constexpr std::array<MessageInfo, 28> kMessages{{
     message_info<BoomStroke>(),
     message_info<ArmStroke>(),
     message_info<BucketStroke>(),
@@ -1031,8 +1011,7 @@ inline constexpr std::array<MessageInfo, 29> kMessages{{
     message_info<EcuHydraulics>(),
     message_info<TaskStatus>(),
     message_info<EcuLearntValves>(),
-    message_info<EcuTipForce>(),
-    message_info<EcuPayload>(),
+    message_info<EcuTipLoad>(),
     message_info<EEC1>(),
     message_info<OperatorCommand>(),
     message_info<MachineIdentity>(),
@@ -1064,8 +1043,7 @@ struct Dbc {
   using EcuHydraulics = excavator::EcuHydraulics;
   using TaskStatus = excavator::TaskStatus;
   using EcuLearntValves = excavator::EcuLearntValves;
-  using EcuTipForce = excavator::EcuTipForce;
-  using EcuPayload = excavator::EcuPayload;
+  using EcuTipLoad = excavator::EcuTipLoad;
   using EEC1 = excavator::EEC1;
   using OperatorCommand = excavator::OperatorCommand;
   using MachineIdentity = excavator::MachineIdentity;

@@ -3,10 +3,10 @@
 /// arm, bucket, drives with the swing after them. Extension is positive for strokes, velocities,
 /// spools and duties, and so is the swing to the left; a stroke counts from the closed cylinder.
 
+#include <Eigen/Core>
 #include <array>
 
 #include "firmware/signals/machine_signals.hpp"
-#include "firmware/signals/tip_load.hpp"
 
 namespace graben {
 
@@ -66,6 +66,18 @@ struct LearntEdge {
 struct LearntEdges {
   LearntEdge extend;
   LearntEdge retract;
+};
+
+/// What the bucket is held by and what it carries, by chamber pressures, pose and motion; see
+/// load_observer.hpp. A standard deviation is that of the error; of the force, of each component.
+struct TipLoad {
+  bool known = false;  ///< Of the force: pressures, pose and the links' masses are known.
+  /// Of the ground on the teeth, in the plane of the links: x outwards, y up.
+  Eigen::Vector2d force_n = Eigen::Vector2d::Zero();
+  double force_sd_n = 0.0;
+  bool payload_known = false;  ///< It was lifted free and lies in the bucket since, or it is empty.
+  double payload_kg = 0.0;
+  double payload_sd_kg = 0.0;
 };
 
 /// Status of the excavator's controller.

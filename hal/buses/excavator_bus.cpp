@@ -206,20 +206,14 @@ bus::EcuLearntValves learnt_valves(const ExcavatorOutputs& outputs, const EcuDia
   return message;
 }
 
-bus::EcuTipForce tip_force(const ExcavatorOutputs& outputs, const EcuDiagnosis&) {
+bus::EcuTipLoad tip_load(const ExcavatorOutputs& outputs, const EcuDiagnosis&) {
   const TipLoad& load = outputs.status.tip_load;
-  bus::EcuTipForce message;  // its start values are 'not available'
+  bus::EcuTipLoad message;  // its start values are 'not available'
   if (load.known) {
     message.tip_force_outwards_n = physical(load.force_n.x());
     message.tip_force_up_n = physical(load.force_n.y());
     message.tip_force_deviation_n = physical(load.force_sd_n);
   }
-  return message;
-}
-
-bus::EcuPayload payload(const ExcavatorOutputs& outputs, const EcuDiagnosis&) {
-  const TipLoad& load = outputs.status.tip_load;
-  bus::EcuPayload message;
   if (load.payload_known) {
     message.payload_mass_kg = physical(load.payload_kg);
     message.payload_deviation_kg = physical(load.payload_sd_kg);
@@ -240,8 +234,7 @@ constexpr auto kSendTable = bus_send_table(
     row<bus::EcuHydraulics, ecu_hydraulics>(kControlPeriod_us),
     row<bus::TaskStatus, task_status>(kControlPeriod_us, &BusParts::swing_drive),
     row<bus::EcuLearntValves, learnt_valves>(4 * kControlPeriod_us),
-    row<bus::EcuTipForce, tip_force>(8 * kControlPeriod_us),
-    row<bus::EcuPayload, payload>(6 * kControlPeriod_us), ecu_health_row<ExcavatorOutputs>(),
+    row<bus::EcuTipLoad, tip_load>(6 * kControlPeriod_us), ecu_health_row<ExcavatorOutputs>(),
     ecu_identity_row<ExcavatorOutputs, bus::kDbcVersion>());
 
 }  // namespace

@@ -23,8 +23,7 @@ using ExcavatorReceiver = MessageReceiver<ExcavatorReception>;
 ///   SwingCommand, with a swing drive                    10 ms
 ///   PumpCommand, EcuStatus, EcuMotion, EcuHydraulics    20 ms
 ///   TaskStatus, with a swing drive                      20 ms
-///   EcuHealth, EcuLearntValves, EcuTipForce, EcuPayload
-///                                                      100 ms
+///   EcuHealth, EcuLearntValves, EcuTipLoad             100 ms
 ///   EcuIdentity                                          1 s
 ///   DM1                                                as hal/link/dm1.hpp says
 ///
@@ -33,7 +32,7 @@ using ExcavatorReceiver = MessageReceiver<ExcavatorReception>;
 /// finite or not above 0. PilotCut is sent whatever else is.
 struct ExcavatorTransmission {
   using Outputs = ExcavatorOutputs;
-  static constexpr int kPeriodicCount = 12;
+  static constexpr int kPeriodicCount = 11;
   [[nodiscard]] static const SendTable<Outputs, kPeriodicCount>& table();
 };
 

@@ -35,6 +35,7 @@ constexpr double kFillOff_m = 0.1;
 constexpr int kWeighed = 5;
 /// More than this is left aside: an axis that stands has friction of any sign.
 constexpr double kSteady = 0.99;
+static_assert(kLoadBlock == 3 * kAxisCount + 1, "a piece of the work for each cycle");
 
 double fill_kg(const ExcavatorGeometry& geometry) {
   const double length_m = geometry.bucket_length_m;
@@ -128,25 +129,29 @@ void learn_axis(const ExcavatorProfile& profile, int axis, LoadObserver& observe
   observer.weighed += axis == kBoom ? 1 : 0;
 }
 
-/// Least squares of the force over what the terms leave open.
-void find_gains(const ExcavatorProfile& profile, const LoadBalance& balance,
-                LoadObserver& observer) {
-  Eigen::Matrix3d open_n2 = force_covariance_n2(balance.row, observer.terms);
-  for (int axis = 0; axis < kAxisCount; ++axis) {
-    const double side = balance.row[static_cast<unsigned>(axis)].share[1];
-    const double coulomb_n = observer.terms.value[static_cast<unsigned>(kCoulombTerm + axis)];
-    const double noise = kPairedNoise * noise_n(profile, axis);
-    const double off_n = kLeverOff * balance.force_n[axis];
-    open_n2(axis, axis) +=
-        (1.0 - side * side) * coulomb_n * coulomb_n + noise * noise + off_n * off_n;
-  }
+/// One axis' row of what is open in the balances.
+void find_open(const ExcavatorProfile& profile, int axis, const LoadBalance& balance,
+               LoadObserver& observer) {
+  Eigen::Matrix3d& open_n2 = observer.gains.open_n2;
+  open_n2.row(axis) = force_covariance_n2(axis, balance.row, observer.terms).transpose();
+  const double side = balance.row[static_cast<unsigned>(axis)].share[1];
+  const double coulomb_n = observer.terms.value[static_cast<unsigned>(kCoulombTerm + axis)];
+  const double noise = kPairedNoise * noise_n(profile, axis);
+  const double off_n = kLeverOff * balance.force_n[axis];
+  open_n2(axis, axis) +=
+      (1.0 - side * side) * coulomb_n * coulomb_n + noise * noise + off_n * off_n;
+}
+
+/// Least squares of the force over all of it. The rows are of three cycles.
+void find_gains(const LoadBalance& balance, LoadGains& gains) {
+  const Eigen::Matrix3d open_n2 = 0.5 * (gains.open_n2 + gains.open_n2.transpose());
   const Eigen::Matrix<double, 2, kAxisCount> weighted =
       balance.teeth.transpose() * open_n2.inverse();
   Eigen::Matrix2d told = weighted * balance.teeth;
   told.diagonal().array() += 1.0 / (kForce_n * kForce_n);
   const Eigen::Matrix2d left_n2 = told.inverse();
-  observer.gains.force = -left_n2 * weighted;
-  observer.gains.force_sd_n = std::sqrt(0.5 * left_n2.trace());
+  gains.force = -left_n2 * weighted;
+  gains.force_sd_n = std::sqrt(0.5 * left_n2.trace());
 }
 
 /// While it digs the bucket fills, to what was carried away last time.
@@ -159,21 +164,32 @@ void expect_fill(const ExcavatorProfile& profile, double share, LoadObserver& ob
   set_term(kOutwardTerm, 0.0, kFillOff_m * guess_kg, observer.terms);
 }
 
-/// The cycles' work on what the last block has told, a piece in each.
+/// What one axis tells of the last block: first each is judged, then each is learnt.
+void work_on_block(const ExcavatorProfile& profile, int piece, LoadObserver& observer) {
+  if (!learns(observer.full_phase)) {
+    return;
+  }
+  if (piece < kAxisCount) {
+    judge_axis(profile, piece, observer);
+  } else {
+    learn_axis(profile, piece - kAxisCount, observer);
+  }
+}
+
+/// A piece in each cycle of a block: what is learnt, then the gains that follow from it.
 void work(const ExcavatorProfile& profile, const LoadBalance& balance, double share,
           LoadObserver& observer) {
+  constexpr int kOpen = 2 * kAxisCount;
   const int piece = observer.cycle;
-  if (piece < 2 * kAxisCount) {
-    if (learns(observer.full_phase) && piece < kAxisCount) {
-      judge_axis(profile, piece, observer);
-    } else if (learns(observer.full_phase)) {
-      learn_axis(profile, piece - kAxisCount, observer);
-    }
-  } else if (piece == 2 * kAxisCount) {
-    if (observer.phase.phase == LoadPhase::kDigs) {
-      expect_fill(profile, share, observer);
-    }
-    find_gains(profile, balance, observer);
+  if (piece == kOpen && observer.phase.phase == LoadPhase::kDigs) {
+    expect_fill(profile, share, observer);
+  }
+  if (piece < kOpen) {
+    work_on_block(profile, piece, observer);
+  } else if (piece < kOpen + kAxisCount) {
+    find_open(profile, piece - kOpen, balance, observer);
+  } else {
+    find_gains(balance, observer.gains);
   }
 }
 

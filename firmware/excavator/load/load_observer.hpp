@@ -9,7 +9,7 @@
 
 #include "firmware/excavator/load/load_balance.hpp"
 #include "firmware/excavator/load/load_phase.hpp"
-#include "firmware/signals/tip_load.hpp"
+#include "firmware/excavator/excavator_signals.hpp"
 
 namespace graben {
 
@@ -26,6 +26,7 @@ struct BalanceBlock {
 
 /// How balances become force and payload, until the next block.
 struct LoadGains {
+  Eigen::Matrix3d open_n2 = Eigen::Matrix3d::Zero();  ///< What the terms leave open, as it grows.
   Eigen::Matrix<double, 2, kAxisCount> force = Eigen::Matrix<double, 2, kAxisCount>::Zero();
   double force_sd_n = 0.0;
 };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/numeric/constants.hpp"
+#include "firmware/numeric/triangle.hpp"
 
 namespace graben {
 namespace {
@@ -59,7 +59,7 @@ LoadPhase phase_of(StepKind kind, double share, const TipPose& tip, double heigh
 void next_phase(StepKind kind, double share, const TipPose& tip, double ground_m, double period_s,
                 PhaseState& state) {
   const double height_m = tip.y_m - ground_m;
-  const bool open = std::abs(std::remainder(tip.attitude_rad, kTwoPi)) > kOpen_rad;
+  const bool open = std::abs(wrap_near(tip.attitude_rad, 0.0)) > kOpen_rad;
   state.open_s = open ? std::min(state.open_s + period_s, 2.0 * kPoured_s) : 0.0;
   if (kind != state.kind) {
     state.kind = kind;

@@ -34,8 +34,14 @@ Column column_of(int axis, const TermRow& row, const LoadTerms& terms) {
   for (int place = 0; place < TermRow::kCount; ++place) {
     const double share = row.share[static_cast<unsigned>(place)];
     const int term = term_of(axis, place);
-    for (int i = 0; i < kTermCount; ++i) {
-      column[static_cast<unsigned>(i)] += share * terms.covariance[LoadTerms::at(i, term)];
+    const double* of_term = terms.covariance.data() + LoadTerms::at(term, 0);
+    for (int i = 0; i <= term; ++i) {
+      column[static_cast<unsigned>(i)] += share * of_term[i];
+    }
+    unsigned below = LoadTerms::at(term, term);
+    for (int i = term + 1; i < kTermCount; ++i) {
+      below += static_cast<unsigned>(i);  // from the row before to the same place of this one
+      column[static_cast<unsigned>(i)] += share * terms.covariance[below];
     }
   }
   return column;
@@ -101,14 +107,12 @@ void learn(int axis, const SeenForce& seen, LoadTerms& terms) {
   }
 }
 
-Eigen::Matrix3d force_covariance_n2(const std::array<TermRow, kAxisCount>& row,
+Eigen::Vector3d force_covariance_n2(int axis, const std::array<TermRow, kAxisCount>& row,
                                     const LoadTerms& terms) {
-  Eigen::Matrix3d covariance;
-  for (int i = 0; i < kAxisCount; ++i) {
-    const Column column = column_of(i, row[static_cast<unsigned>(i)], terms);
-    for (int j = 0; j < kAxisCount; ++j) {
-      covariance(i, j) = along(j, row[static_cast<unsigned>(j)], column);
-    }
+  const Column column = column_of(axis, row[static_cast<unsigned>(axis)], terms);
+  Eigen::Vector3d covariance;
+  for (int other = 0; other < kAxisCount; ++other) {
+    covariance[other] = along(other, row[static_cast<unsigned>(other)], column);
   }
   return covariance;
 }

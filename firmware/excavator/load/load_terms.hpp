@@ -61,8 +61,9 @@ struct SeenForce {
 /// A step of the Kalman filter.
 void learn(int axis, const SeenForce& seen, LoadTerms& terms);
 
-/// Covariance of force_of() between the axes, N^2.
-[[nodiscard]] Eigen::Matrix3d force_covariance_n2(const std::array<TermRow, kAxisCount>& row,
+/// Covariance of an axis' force_of() with that of each axis, N^2.
+[[nodiscard]] Eigen::Vector3d force_covariance_n2(int axis,
+                                                  const std::array<TermRow, kAxisCount>& row,
                                                   const LoadTerms& terms);
 
 }  // namespace graben

@@ -11,8 +11,8 @@ import {look, open_browser, open_page, rest, serve, until} from './harness.mjs';
 
 const [out, graben, minutes = '60'] = process.argv.slice(2);
 const MESSAGES = 20;
-/// DM1, EcuHealth, EcuLearntValves and SwingValveState of the 24 that an excavator with swing has.
-const LEFT_OUT = new Set(['18FECA82', '18FF3682', '18FF3982', '0CFF2B83']);
+/// DM1, EcuHealth, EcuLearntValves, EcuTipLoad and SwingValveState of the 25 that an excavator with swing has.
+const LEFT_OUT = new Set(['18FECA82', '18FF3682', '18FF3982', '18FF3A82', '0CFF2B83']);
 const CYCLES = Math.round(Number(minutes) * 6000);
 
 /// The last payload of each message, cycle by cycle, of a task that is played again and again; one that

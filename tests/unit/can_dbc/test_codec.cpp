@@ -57,9 +57,9 @@ constexpr Scale kScales[] = {
     {"BucketRetractEdge", 1e-3, -0.125, -0.125, 0.125},
     {"TipForceOutwards", 10.0, -320e3, -320e3, 320e3},
     {"TipForceUp", 10.0, -320e3, -320e3, 320e3},
-    {"TipForceDeviation", 10.0, 0.0, 0.0, 640e3},
-    {"PayloadMass", 0.25, -1000.0, -1000.0, 15e3},
-    {"PayloadDeviation", 0.25, 0.0, 0.0, 16e3},
+    {"PayloadMass", 0.25, -1000.0, -1000.0, 15000.0},
+    {"TipForceDeviation", 250.0, 0.0, 0.0, 62.5e3},
+    {"PayloadDeviation", 1.0, 0.0, 0.0, 250.0},
 };
 
 void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 97); }

@@ -21,7 +21,7 @@ struct Plan {
 };
 // With the swing's messages, and as a machine without a swing drive has it.
 constexpr Plan kExcavator{0.40, 0.50, 17};
-constexpr Plan kWithoutSwing{0.25, 0.40, 14};
+constexpr Plan kWithoutSwing{0.25, 0.41, 14};
 constexpr Plan kDozer{0.30, 0.45, 12};
 
 // An 8-byte frame with a 29-bit id, stuffed as badly as can be, with its inter-frame space.

@@ -110,24 +110,21 @@ function excavator_plots(count: number, came: ReadonlySet<string>): PlotSpec[] {
       real(`Pump ${pump}`, `pump${pump}`, `PumpState.Pump${pump}Swash`, 1),
     ]),
   });
-  if (came.has('EcuTipForce')) {
+  if (came.has('EcuTipLoad')) {
     plots.push({
-      name: 'tip_force', title: 'Tip force', unit: 'N', least: [-1000, 1000],
+      name: 'tip_force', title: 'Tip force', unit: 'kN', least: [-1, 1],
       note: "Of the ground on the teeth, by the cylinders' pressures; thin its standard deviation",
       lines: [
-        real('Outwards', 'boom', 'EcuTipForce.TipForceOutwards', 0),
-        real('Up', 'arm', 'EcuTipForce.TipForceUp', 0),
-        beside('Deviation', 'bucket', 'EcuTipForce.TipForceDeviation', 0),
+        real('Outwards', 'boom', 'EcuTipLoad.TipForceOutwards', 1),
+        real('Up', 'arm', 'EcuTipLoad.TipForceUp', 1),
+        beside('Deviation', 'bucket', 'EcuTipLoad.TipForceDeviation', 1),
       ],
-    });
-  }
-  if (came.has('EcuPayload')) {
-    plots.push({
+    }, {
       name: 'payload', title: 'Payload', unit: 'kg', least: [0, 100],
       note: 'Of the bucket while it is lifted free; thin its standard deviation',
       lines: [
-        real('Payload', 'bucket', 'EcuPayload.PayloadMass', 0),
-        beside('Deviation', 'bucket', 'EcuPayload.PayloadDeviation', 0),
+        real('Payload', 'bucket', 'EcuTipLoad.PayloadMass', 0),
+        beside('Deviation', 'bucket', 'EcuTipLoad.PayloadDeviation', 0),
       ],
     });
   }
