@@ -259,6 +259,83 @@ void each_side_has_its_own_lag(void**) {
   }
 }
 
+constexpr double kStill_mps = 2e-4;
+
+Bench motor() {
+  Bench bench;
+  bench.row.control.has_end_stops = false;
+  bench.row.watch.still_mps = kStill_mps;
+  return bench;
+}
+
+/// Speed of a motor that was asked for this one for so long.
+double speed_after_mps(Bench& bench, double asked_mps, double seconds) {
+  for (int n = 0; n < static_cast<int>(100.0 * seconds); ++n) {
+    bench.step(asked_mps);
+  }
+  const double from_m = bench.stroke_m;
+  bench.step(asked_mps);
+  return (bench.stroke_m - from_m) / kPeriod_s;
+}
+
+/// It stands under a spool that should be open, until what is felt opens it.
+void a_motor_that_stands_has_a_later_edge(void**) {
+  for (const double way : {1.0, -1.0}) {
+    Bench bench = motor();
+    (way > 0.0 ? bench.extend : bench.retract).edge = 0.25;
+    const double asked_mps = way * 0.003;
+    assert_near(speed_after_mps(bench, asked_mps, 0.3), 0.0, 0.0);
+    assert_near(bench.valve.side(way > 0.0).edge, 0.0, 0.0);
+    assert_true(way * speed_after_mps(bench, asked_mps, 3.0) > kStill_mps);
+    const double edge = bench.valve.side(way > 0.0).edge;
+    assert_true(edge > 0.01 && edge <= 0.07);
+    assert_near(bench.valve.side(way < 0.0).edge, 0.0, 0.0);
+    // Once it moves nothing more is felt.
+    static_cast<void>(speed_after_mps(bench, asked_mps, 3.0));
+    assert_near(bench.valve.side(way > 0.0).edge, edge, 0.0);
+  }
+}
+
+/// Corrections of a motor that is to stand are no word of it, nor is a spool that is not open.
+void little_is_not_felt(void**) {
+  Bench bench = motor();
+  bench.extend.edge = 0.25;
+  static_cast<void>(speed_after_mps(bench, 4.0 * kStill_mps, 3.0));
+  assert_near(bench.valve.extend.edge, 0.0, 0.0);
+  ValidDrive closed;
+  closed.stroke_m = bench.stroke_m;
+  for (int n = 0; n < 300; ++n) {
+    next_learnt(bench.row, closed, {0.05, 0.3}, true, kPeriod_s, bench.valve);
+    next_learnt(bench.row, closed, {0.0, 0.0}, true, kPeriod_s, bench.valve);
+  }
+  assert_near(bench.valve.extend.edge, 0.0, 0.0);
+}
+
+/// Far too fast as it sets off, it has an earlier edge; later its load may drive it.
+void a_motor_that_jumps_off_has_an_earlier_edge(void**) {
+  Bench bench = motor();
+  bench.extend.edge = 0.15;
+  static_cast<void>(speed_after_mps(bench, 0.0012, 0.6));
+  const double edge = bench.valve.extend.edge;
+  assert_true(edge < -0.005 && edge >= -0.07);
+  Bench driven = motor();
+  driven.extend.edge = 0.15;
+  for (int n = 0; n < 200; ++n) {
+    driven.step(0.1);
+  }
+  const double before = driven.valve.extend.edge;
+  static_cast<void>(speed_after_mps(driven, 0.0012, 1.0));
+  assert_near(driven.valve.extend.edge, before, 0.0);
+}
+
+/// However wrong it seems, the edge stays within its bounds.
+void what_is_felt_stays_within_bounds(void**) {
+  Bench bench = motor();
+  bench.extend.edge = 0.9;
+  static_cast<void>(speed_after_mps(bench, 0.003, 10.0));
+  assert_near(bench.valve.extend.edge, 0.07, 1e-12);
+}
+
 }  // namespace
 
 int main() {
@@ -274,6 +351,10 @@ int main() {
       cmocka_unit_test(the_spread_is_less_where_it_worked),
       cmocka_unit_test(what_is_learnt_is_beyond_its_sides_table),
       cmocka_unit_test(each_side_has_its_own_lag),
+      cmocka_unit_test(a_motor_that_stands_has_a_later_edge),
+      cmocka_unit_test(little_is_not_felt),
+      cmocka_unit_test(a_motor_that_jumps_off_has_an_earlier_edge),
+      cmocka_unit_test(what_is_felt_stays_within_bounds),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
