@@ -1,6 +1,7 @@
 #include "firmware/excavator/swing.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "firmware/excavator/excavator_drives.hpp"
 
@@ -23,6 +24,8 @@ constexpr double kLeakShare = 0.10;
 /// Low-passes of what pushes the platform: less than its oil's period, and more.
 constexpr double kPushFast_s = 0.02;
 constexpr double kPushSlow_s = 2.0;
+/// Friction takes so much, whichever way the platform turns.
+constexpr double kFriction_pa = 1.0e6;
 /// Of the plan's acceleration, no more is taken back.
 constexpr double kDampsMost = 2.0;
 /// 0.2 mm of teeth 10 m away.
@@ -110,8 +113,9 @@ double swing_damping_mps(const ExcavatorProfile& profile, const SwingPush& push)
     return 0.0;
   }
   const double most_radps2 = kDampsMost * swing.acceleration_max_radps2;
-  const double pushed_radps2 =
-      swing.displacement_m3prad * (push.fast_pa - push.slow_pa) / swing.inertia_kgm2;
+  const double push_pa = push.fast_pa - push.slow_pa;
+  const double beyond_pa = std::copysign(std::max(0.0, std::abs(push_pa) - kFriction_pa), push_pa);
+  const double pushed_radps2 = swing.displacement_m3prad * beyond_pa / swing.inertia_kgm2;
   return -profile.control.swing_lead_s * swing.lever_m *
          std::clamp(pushed_radps2, -most_radps2, most_radps2);
 }
