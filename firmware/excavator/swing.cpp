@@ -25,7 +25,7 @@ constexpr double kLeakShare = 0.10;
 constexpr double kPushFast_s = 0.02;
 constexpr double kPushSlow_s = 2.0;
 /// Friction takes so much, whichever way the platform turns.
-constexpr double kFriction_pa = 1.0e6;
+constexpr double kFriction_pa = 1.4e6;
 /// Of the plan's acceleration, no more is taken back.
 constexpr double kDampsMost = 2.0;
 /// 0.2 mm of teeth 10 m away.
