@@ -184,6 +184,9 @@ class AutodigRun {
       return;
     }
     const TaskStep& step = program_.step[at.step];
+    if (in_layers(program_)) {
+      return;  // Where the steps lead is decided on the way.
+    }
     if (!step.straight) {
       const DriveVector value = step.drives.from + at.share * step.drives.change;
       plan_at(value, sample);

@@ -52,7 +52,7 @@ class Steps {
     figures.step = step;
     figures.round = round_;
     figures.kind = planned.kind;
-    figures.straight = planned.straight;
+    figures.straight = planned.straight && !in_layers(program_);
     figures.from_s = sample.time_s;
     figures.planned_s = planned.duration_s();
     steps_.push_back(figures);
@@ -61,7 +61,7 @@ class Steps {
   /// As far as it has come: the last sample of a step is the one that counts.
   void end_of(StepFigures& figures) const {
     const TaskStep& planned = program_.step[static_cast<unsigned>(figures.step)];
-    if (!planned.straight) {
+    if (!figures.straight) {
       return;
     }
     const Eigen::Vector3d end_m = planned.line.line.at(1.0).position_m;
@@ -186,10 +186,13 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
     }
   }
   load.tell(summary);
-  summary.max_error_true_m = error_true.max();
-  summary.rmse_error_true_m = error_true.rms();
-  summary.max_error_measured_m = error_measured.max();
-  summary.rmse_error_measured_m = error_measured.rms();
+  // What is dug in layers has no lines of its own.
+  const bool has_lines = !in_layers(program);
+  summary.max_error_true_m = has_lines ? error_true.max() : kAbsent;
+  summary.rmse_error_true_m = has_lines ? error_true.rms() : kAbsent;
+  summary.max_error_measured_m = has_lines ? error_measured.max() : kAbsent;
+  summary.rmse_error_measured_m = has_lines ? error_measured.rms() : kAbsent;
+  summary.end_error_true_m = has_lines ? 0.0 : kAbsent;
   summary.steps = steps.take();
   for (const StepFigures& step : summary.steps) {
     summary.planned_s += step.planned_s;

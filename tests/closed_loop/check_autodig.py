@@ -14,6 +14,7 @@ import report_page
 
 MM = 1e-3
 LINE_MM, END_MM, UNSURE_MM = 15.0, 10.0, 46.0
+OVER_CUT_MM, BUILT = 30.0, 0.85
 J, K = (0.0, 6.866, 0.0), (2.244, 3.886, 0.0)
 # With the pumps so small the line is fed down to some 70 s.
 SWASH, FED_S = "0.2", 72.0
@@ -261,6 +262,30 @@ def from_elsewhere(digger):
     assert [step["kind"] for step in beyond["steps"]] == ["swing"], beyond["steps"]
 
 
+def areas(digger):
+    """Dug to their design in soil that nobody has told of, on a machine as found; never through it."""
+    for task, soil, seed in (("trench", "loam", 1), ("slope", "clay", 2), ("level", "loam", 3)):
+        dug = digger.figures("--task", task, "--soil", soil, "--errors", "all", "--seed", str(seed))
+        what = f"{task} in {soil}"
+        assert 0.0 <= dug["over_cut_max_m"] <= OVER_CUT_MM * MM, f"{what}: {dug['over_cut_max_m']}"
+        assert dug["built_within_ratio"] >= BUILT, f"{what}: {dug['built_within_ratio']}"
+        assert dug["max_error_true_m"] is None, dug["max_error_true_m"]
+        rounds = 1 + max(step["round"] for step in dug["steps"])
+        assert 3 <= rounds <= 40, f"{what}: {rounds} rounds"
+    shallow = digger.task('area = { kind = "trench", far = 6.6, near = 4.4, depth = 0.8, ground = -0.5 }\n')
+    air = digger.figures(*shallow)
+    assert air["cut_m3"] is None and air["over_cut_max_m"] < 10 * MM, air["over_cut_max_m"]
+    for line, needle in (
+            ('kind = "pit", far = 6.6, near = 4.4, depth = 0.8', "area.kind"),
+            ('kind = "trench", far = 4.4, near = 6.6, depth = 0.8', "area.near (line 1): 6.6 m; allowed: less"),
+            ('kind = "trench", far = 6.6, near = 4.4, depth = 9.0', "area.depth"),
+            ('kind = "trench", far = 6.6, near = 4.4, depth = 0.8, width = 1.0', "area.width"),
+            ('kind = "slope", far = 6.6, near = 4.4, depth = 0.8', "area.depth_near"),
+            ('kind = "trench", far = 12.0, near = 4.4, depth = 0.8', "out of the reach"),
+            ('kind = "level", far = 6.6, near = 4.4, depth = 0.2, turn = 2.9', "swing")):
+        digger.refused([needle], *digger.task(f"area = {{ {line} }}\n"))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("graben")
@@ -278,6 +303,7 @@ def main():
         repeats(digger)
         tasks_that_cannot_be_had(digger)
         from_elsewhere(digger)
+        areas(digger)
     measured = {
         "planned_off_line_m": off_m, "exact": exact, "errors_all": unsure, "fed": fed,
         "twice_as_fast": hasty, "twice_as_fast_growth": growth, "truck_loading": loaded}
