@@ -117,6 +117,8 @@ void feel_edge(const DriveRow& drive, const LearntSeen& now, double period_s, Le
 
 }  // namespace
 
+const LearntSide& LearntValve::side(bool extends) const { return extends ? extend : retract; }
+
 bool is_learnt(const DriveRow& drive) { return has_edges(drive); }
 
 LearntSide::LearntSide()

@@ -49,7 +49,7 @@ struct LearntValve {
   double unmoved_s = 0.0;  ///< That a motor has stood under an open spool.
   double turning_s = 0.0;  ///< Since a motor last stood.
 
-  [[nodiscard]] const LearntSide& side(bool extends) const { return extends ? extend : retract; }
+  [[nodiscard]] const LearntSide& side(bool extends) const;
 };
 
 /// Of a valve whose edges meter the flow. Of a motor only where its dead band ends, from whether it
