@@ -29,6 +29,9 @@ constexpr double kOver_m = 0.35;
 /// To the left, where nothing is said of where to dump.
 constexpr double kAside_rad = 1.2;
 constexpr double kAsideHeight_m = 1.6;
+/// Beyond the far end, of a machine that can't swing: the heap's foot stays out of the cut.
+constexpr double kBeyond_m = 2.0;
+constexpr double kStripsUsual = 3.0;
 /// Strips overlap by this share of the bucket's width.
 constexpr double kOverlap = 0.15;
 
@@ -77,6 +80,12 @@ double reachable_attitude(const SwingKinematics& kinematics, const Eigen::Vector
   return wanted_rad;
 }
 
+Eigen::Vector3d usual_dump(const Area& area, bool swings) {
+  const double height_m = area.ground_m + kAsideHeight_m;
+  return swings ? at(0.5 * (area.far_m + area.near_m), height_m, area.turn_rad + kAside_rad)
+                : at(area.far_m + kBeyond_m, height_m, area.turn_rad);
+}
+
 Area read_table(TomlReader& reader, const ExcavatorProfile& profile) {
   Area area;
   area.kind = static_cast<AreaKind>(
@@ -98,10 +107,9 @@ Area read_table(TomlReader& reader, const ExcavatorProfile& profile) {
   const bool wide = area.kind == AreaKind::kBench || area.kind == AreaKind::kLevel;
   if (wide) {
     area.strips = static_cast<int>(std::lround(reader.number_or(
-        3.0, "area.strips", {1.0, static_cast<double>(kStripMost), ""}, "side by side")));
+        profile.has_swing() ? kStripsUsual : 1.0, "area.strips", {1.0, static_cast<double>(kStripMost), ""}, "side by side")));
   }
-  area.dump_m = at(0.5 * (area.far_m + area.near_m), area.ground_m + kAsideHeight_m,
-                   area.turn_rad + kAside_rad);
+  area.dump_m = usual_dump(area, profile.has_swing());
   if (reader.has("area.dump")) {
     const std::vector<double> dump =
         reader.numbers("area.dump", kPlace, 3, "teeth as the bucket is emptied: x, y, z");

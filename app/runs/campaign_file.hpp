@@ -18,6 +18,7 @@ struct CampaignKind {
   const char* name;                        ///< "dig": the first word of what was tried.
   std::vector<const char*> ends;           ///< How a draw can end; the first one is "done".
   std::vector<const FigureInfo*> columns;  ///< Each has a name of its own for the file.
+  std::size_t failures_from = 1;  ///< The first end that is a failure; those before it are answers.
 };
 
 /// Those of a table that have a column.

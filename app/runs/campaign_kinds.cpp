@@ -41,7 +41,7 @@ const CampaignKind& identify_kind() {
 const CampaignKind& fence_kind() {
   // In the order of FenceEnd.
   static const CampaignKind kind = {
-      "fences", {"done", "not-finished", "no-way", "fault"}, columns_of(fence_figures())};
+      "fences", {"done", "no-way", "not-finished", "fault"}, columns_of(fence_figures()), 2};
   return kind;
 }
 

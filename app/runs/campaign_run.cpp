@@ -135,8 +135,9 @@ CampaignOutcome run_campaign(const CampaignOptions& options, const CampaignKind&
   write_campaign(options.summary, kind, log.data());
   CampaignOutcome outcome;
   outcome.table = campaign_table(kind, log.data());
-  const auto failed = std::count_if(log.data().rows.begin(), log.data().rows.end(),
-                                    [](const auto& row) { return !row.second.done(); });
+  const auto failed =
+      std::count_if(log.data().rows.begin(), log.data().rows.end(),
+                    [&](const auto& row) { return row.second.end >= kind.failures_from; });
   if (failed > 0) {
     outcome.error = fmt::format("{} draws did not come to their end", failed);
   } else if (interrupted) {

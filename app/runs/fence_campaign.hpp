@@ -31,7 +31,8 @@ struct FenceSummary {
   double fault = 0.0;       ///< Code of that which stopped it; 0: none.
 };
 
-enum class FenceEnd { kDone = 0, kNotFinished = 1, kNoWay = 2, kFault = 3 };
+/// No way is an answer: it is refused, and nothing moves.
+enum class FenceEnd { kDone = 0, kNoWay = 1, kNotFinished = 2, kFault = 3 };
 
 struct FenceResult {
   FenceEnd end = FenceEnd::kDone;

@@ -13,70 +13,119 @@ constexpr double kFullAt = 0.8;
 constexpr double kOver_m = 0.25;
 /// Before the soil that is to be cut, where there is room.
 constexpr double kRunUp_m = 0.25;
+/// What stands out of a strip is cut this much deeper than the rest of it.
+constexpr double kBump = 1.5;
 /// Of what is given way to: lighter cuts become deeper.
 constexpr double kLight = 0.6;
 constexpr double kDeeper = 1.15;
 constexpr double kShallower = 0.75;
+/// Of a full bucket: what a cut gets at least, and what may fall out where the next one begins.
+constexpr double kLittle = 0.1;
+constexpr double kCarried = 0.12;
 
 double share_of(int bin) { return (bin + 0.5) / kStripBins; }
 
-/// First bin of a strip in which soil stands over the height by more; kStripBins: none.
-int first_over(const CutState& state, int strip, double height_m) {
-  const auto& bins = state.height_m[static_cast<unsigned>(strip)];
+double bin_m2(const LayerPlan& plan) { return plan.way_m / kStripBins * plan.width_m; }
+
+using Strip = std::array<float, kStripBins>;
+
+const Strip& strip_of(const CutState& state, int strip) {
+  return state.height_m[static_cast<unsigned>(strip)];
+}
+
+double highest_m(const Strip& strip) {
+  return static_cast<double>(*std::max_element(strip.begin(), strip.end()));
+}
+
+/// What stands over a height, m3.
+double volume_m3(const LayerPlan& plan, const Strip& strip, double height_m) {
+  double sum_m = 0.0;
+  for (const float top : strip) {
+    sum_m += std::max(0.0, static_cast<double>(top) - height_m);
+  }
+  return sum_m * bin_m2(plan);
+}
+
+/// Over the design, on average.
+double mean_m(const LayerPlan& plan, const Strip& strip) {
+  return volume_m3(plan, strip, 0.0) / (plan.way_m * plan.width_m);
+}
+
+bool is_done(const Strip& strip) {
+  const auto rough = std::count_if(strip.begin(), strip.end(),
+                                   [](float top) { return static_cast<double>(top) > kFinish_m; });
+  return rough == 0 || (rough == 1 && highest_m(strip) <= kLeft_m);
+}
+
+/// The strip that stands highest of those that are not done; -1: all are.
+int next_strip(const LayerPlan& plan, const CutState& state) {
+  int next = -1;
+  for (int strip = 0; strip < plan.strips; ++strip) {
+    const bool higher = next < 0 || mean_m(plan, strip_of(state, strip)) >
+                                        mean_m(plan, strip_of(state, next)) + 0.5 * kRough_m;
+    if (!is_done(strip_of(state, strip)) && higher) {
+      next = strip;
+    }
+  }
+  return next;
+}
+
+/// The lowest height that no more soil stands over than there is room for.
+double filling_height_m(const LayerPlan& plan, const Strip& strip, double room_m3) {
+  constexpr int kHalvings = 20;
+  double low_m = 0.0;
+  double high_m = highest_m(strip);
+  if (volume_m3(plan, strip, low_m) <= room_m3) {
+    return low_m;
+  }
+  for (int n = 0; n < kHalvings; ++n) {
+    const double middle_m = 0.5 * (low_m + high_m);
+    (volume_m3(plan, strip, middle_m) > room_m3 ? low_m : high_m) = middle_m;
+  }
+  return high_m;
+}
+
+Cut cut_of(const LayerPlan& plan, const CutState& state, int strip) {
+  const Strip& tops = strip_of(state, strip);
+  const double highest = highest_m(tops);
+  Cut cut;
+  cut.strip = strip;
+  cut.thin = highest <= kLastLayer_m + kRough_m;
+  if (!cut.thin) {
+    const double room_m3 =
+        kHeaped * plan.full_m3 - std::min(state.loaded_m3, kCarried * plan.full_m3);
+    cut.height_m = std::max({kLastLayer_m, filling_height_m(plan, tops, room_m3),
+                             mean_m(plan, tops) - state.depth_m, highest - kBump * state.depth_m});
+  }
+  const double over_m = cut.height_m + (cut.thin ? kFinish_m : kRough_m);
   int bin = 0;
-  while (bin < kStripBins && static_cast<double>(bins[static_cast<unsigned>(bin)]) <= height_m) {
+  while (bin < kStripBins - 1 && static_cast<double>(tops[static_cast<unsigned>(bin)]) <= over_m) {
     ++bin;
   }
-  return bin;
-}
-
-double over_layer_m(const CutState& state) {
-  return state.layer_m > 0.0 ? std::max(kRough_m, kRoughShare * state.depth_m) : kFinish_m;
-}
-
-double highest_m(const LayerPlan& plan, const CutState& state) {
-  float highest = 0.0F;
-  for (int strip = 0; strip < plan.strips; ++strip) {
-    const auto& bins = state.height_m[static_cast<unsigned>(strip)];
-    highest = std::max(highest, *std::max_element(bins.begin(), bins.end()));
+  if (bin > 0) {
+    cut.from_share = std::max(0.0, static_cast<double>(bin) / kStripBins - kRunUp_m / plan.way_m);
   }
-  return static_cast<double>(highest);
-}
-
-/// Below what stands highest, but for the last layer, which is thin.
-double next_layer_m(double highest, double depth_m) {
-  if (highest <= kLastLayer_m + kRough_m) {
-    return 0.0;
-  }
-  return std::max(kLastLayer_m, highest - depth_m);
+  cut.stands_m = highest;
+  cut.enters_m = std::max(ground_m(plan, cut.from_share), cut.height_m) + kOver_m;
+  cut.volume_m3 = volume_m3(plan, tops, cut.height_m);
+  return cut;
 }
 
 /// What stays up is taken for gone.
 void give_up(CutState& state) {
-  auto& bins = state.height_m[static_cast<unsigned>(state.cut.strip)];
-  const auto left = static_cast<float>(state.layer_m);
-  for (float& height : bins) {
+  const auto left = static_cast<float>(state.cut.height_m);
+  for (float& height : state.height_m[static_cast<unsigned>(state.cut.strip)]) {
     height = std::min(height, left);
   }
 }
 
-bool take(const LayerPlan& plan, CutState& state) {
-  for (int strip = 0; strip < plan.strips; ++strip) {
-    const int bin = first_over(state, strip, state.layer_m + over_layer_m(state));
-    if (bin == kStripBins) {
-      continue;
-    }
-    const double run_up = bin > 0 ? kRunUp_m / plan.way_m : 0.0;
-    const double from =
-        bin > 0 ? std::max(0.0, static_cast<double>(bin) / kStripBins - run_up) : 0.0;
-    const bool again = strip == state.cut.strip && state.layer_m == state.cut.height_m &&
-                       std::abs(from - state.cut.from_share) < 1.0 / kStripBins;
-    state.tries = again ? static_cast<std::uint8_t>(state.tries + 1) : std::uint8_t{0};
-    state.cut = {strip, from, state.layer_m,
-                 std::max(ground_m(plan, from), state.layer_m) + kOver_m};
-    return true;
+void choose(const LayerPlan& plan, CutState& state) {
+  const int strip = next_strip(plan, state);
+  state.met = strip < 0 || state.cuts >= kCutsMost;
+  if (!state.met) {
+    ++state.cuts;
+    state.cut = cut_of(plan, state, strip);
   }
-  return false;
 }
 
 }  // namespace
@@ -95,57 +144,45 @@ CutState undug(const LayerPlan& plan) {
   }
   state.depth_m = std::clamp(plan.full_m3 / (kFullAt * plan.way_m * plan.width_m), kDepthLeast_m,
                              plan.depth_most_m);
-  state.layer_m = next_layer_m(highest_m(plan, state), state.depth_m);
-  state.cut.strip = -1;
-  state.met = false;
-  next_cut(plan, state);
+  choose(plan, state);
   return state;
 }
 
 double pass(const LayerPlan& plan, double share, double last_share, double height_m,
             CutState& state) {
   auto& bins = state.height_m[static_cast<unsigned>(state.cut.strip)];
-  const double bin_m2 = plan.way_m / kStripBins * plan.width_m;
   const int first = static_cast<int>(std::ceil(last_share * kStripBins - 0.5));
   double cut_m3 = 0.0;
   for (int bin = std::max(0, first); bin < kStripBins && share_of(bin) <= share; ++bin) {
     float& left = bins[static_cast<unsigned>(bin)];
     const auto gone_m = static_cast<double>(left) - height_m;
     if (gone_m > 0.0) {
-      cut_m3 += gone_m * bin_m2;
+      cut_m3 += gone_m * bin_m2(plan);
       left = static_cast<float>(height_m);
     }
   }
   return cut_m3;
 }
 
-void next_cut(const LayerPlan& plan, CutState& state) {
-  // Every layer is at least half of the last one lower, or the last; each may have to be left.
-  constexpr int kMost = 64;
-  if (state.cuts >= kCutsMost) {
-    state.met = true;
-    return;
+void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state) {
+  const double factor = end.heaviest > 1.0 ? kShallower : end.heaviest < kLight ? kDeeper : 1.0;
+  state.depth_m = std::clamp(factor * state.depth_m, kDepthLeast_m, plan.depth_most_m);
+  state.loaded_m3 += end.filled_m3;
+  const int strip = state.cut.strip;
+  const bool little = end.filled_m3 < kLittle * plan.full_m3;
+  state.tries = little ? static_cast<std::uint8_t>(state.tries + 1) : std::uint8_t{0};
+  if (state.tries >= kTriesMost) {
+    give_up(state);
+    state.tries = 0;
   }
-  ++state.cuts;
-  for (int n = 0; n < kMost; ++n) {
-    if (take(plan, state)) {
-      if (state.tries < kTriesMost) {
-        return;
-      }
-      give_up(state);
-      state.tries = 0;
-    } else if (state.layer_m <= 0.0) {
-      break;
-    } else {
-      state.layer_m = next_layer_m(state.layer_m, state.depth_m);
-    }
+  choose(plan, state);
+  if (state.cut.strip != strip) {
+    state.tries = 0;
   }
-  state.met = true;
 }
 
-void after_cut(const LayerPlan& plan, double heaviest, CutState& state) {
-  const double factor = heaviest > 1.0 ? kShallower : heaviest < kLight ? kDeeper : 1.0;
-  state.depth_m = std::clamp(factor * state.depth_m, kDepthLeast_m, plan.depth_most_m);
+bool keeps_load(const LayerPlan& plan, const CutState& state) {
+  return !state.met && state.loaded_m3 < kCarried * plan.full_m3;
 }
 
 }  // namespace graben

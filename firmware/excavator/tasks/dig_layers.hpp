@@ -38,9 +38,12 @@ struct LayerPlan {
 struct Cut {
   int strip = 0;
   double from_share = 0.0;  ///< Of the line.
-  double height_m = 0.0;    ///< Of its layer.
-  double enters_m = 0.0;    ///< Height from where the edge goes down to it, over all ground.
-  double steep = 1.0;       ///< Share of the steep attitude that the machine can have there.
+  double height_m = 0.0;
+  double enters_m = 0.0;   ///< Height from where the edge goes down to it, over all ground.
+  double stands_m = 0.0;   ///< Height of the soil there.
+  double volume_m3 = 0.0;  ///< Of the ground, that stands over it.
+  bool thin = false;       ///< The last one down to the design.
+  double steep = 1.0;      ///< Share of the steep attitude that the machine can have there.
 };
 
 /// What is left to be dug, by what the edge has passed. As constructed all is done.
@@ -48,8 +51,8 @@ struct CutState {
   std::array<std::array<float, kStripBins>, kStripMost> height_m{};
   Cut cut;
   double depth_m = 0.0;    ///< Of cuts, as the force lets them be.
-  double layer_m = 0.0;    ///< Height of the layer that is being cut.
-  std::uint8_t tries = 0;  ///< At this place, in a row.
+  double loaded_m3 = 0.0;  ///< Of the ground, in the bucket by what the edge has passed.
+  std::uint8_t tries = 0;  ///< Cuts of a strip in a row that got next to nothing.
   std::uint8_t cuts = 0;   ///< So far, of all.
   bool met = true;         ///< Nothing is left that stands too high.
 };
@@ -64,21 +67,30 @@ struct CutState {
 double pass(const LayerPlan& plan, double share, double last_share, double height_m,
             CutState& state);
 
-/// The next cut, layer by layer, from strip to strip; `met` where there is none. Soil that stays up
-/// though it was cut kTriesMost times in a row is left.
-void next_cut(const LayerPlan& plan, CutState& state);
+/// How a cut has gone.
+struct CutEnd {
+  double heaviest = 0.0;   ///< The most of its force over that which is given way to.
+  double filled_m3 = 0.0;  ///< Of the ground, by what the edge has passed.
+};
 
-/// Of the cut that has ended: the next ones are less deep where it was too heavy, deeper where it
-/// was easy. `heaviest`: the most of its force over that which is given way to.
-void after_cut(const LayerPlan& plan, double heaviest, CutState& state);
+/// The cut has ended; the next one, or `met` where there is none. Of the strip that stands highest,
+/// as low as fills the bucket, no deeper than the force lets it be, and never through the last thin
+/// layer with the ones above it. Soil that stays up though it was cut kTriesMost times in a row is
+/// left. Cuts after one that was too heavy are less deep, after an easy one deeper.
+void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state);
 
-/// Over a layer soil counts as left if it stands higher by so much, or by this share of a cut's
-/// depth; over the design itself.
+/// The bucket is not emptied before the next cut: there is next to nothing in it.
+[[nodiscard]] bool keeps_load(const LayerPlan& plan, const CutState& state);
+
+/// Soil counts as left if it stands higher by so much over a cut; over the design itself, in more
+/// places than one of a strip; and there by this much in any.
 inline constexpr double kRough_m = 0.03;
-inline constexpr double kRoughShare = 0.45;
 inline constexpr double kFinish_m = 0.012;
+inline constexpr double kLeft_m = 0.02;
 /// The last layer's thickness: its force is small, and so is what the teeth spring by.
 inline constexpr double kLastLayer_m = 0.06;
+/// A bucket takes a little more than what fills it: some is lost on the way.
+inline constexpr double kHeaped = 1.05;
 inline constexpr int kTriesMost = 3;
 /// With so many cuts a task ends, whatever is left.
 inline constexpr int kCutsMost = 250;

@@ -192,8 +192,9 @@ double steepest(const SwingKinematics& kinematics, const TaskProgram& program, C
   return 0.0;
 }
 
-TeethPose first_cut_pose(const TaskProgram& program) {
-  const Cut cut = undug(program.layers).cut;
+TeethPose first_cut_pose(const SwingKinematics& kinematics, const TaskProgram& program) {
+  Cut cut = undug(program.layers).cut;
+  cut.steep = steepest(kinematics, program, cut);
   return cut_pose(program, cut, cut.from_share, cut.enters_m);
 }
 

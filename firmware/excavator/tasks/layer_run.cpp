@@ -8,14 +8,18 @@
 namespace graben {
 namespace {
 
-/// Down to a layer, and up where a cut gives way.
+/// Down through the air, from so far over the soil on down into it, and up where a cut gives way.
+constexpr double kFalls_mps = 0.8;
+constexpr double kNear_m = 0.05;
 constexpr double kEnters_mps = 0.3;
 constexpr double kGives_mps = 0.15;
 /// Back down to the layer where it is light again.
 constexpr double kReturns_mps = 0.05;
-constexpr double kHeightChange_mps2 = 0.6;
-/// The layer is reached this near to it.
+constexpr double kHeightChange_mps2 = 1.0;
+/// A cut's height is reached this near to it, by the plan and by the teeth: of the last cut, and of
+/// others.
 constexpr double kAtLayer_m = 2e-3;
+constexpr double kDown_m = 0.008;
 /// With the teeth so far behind their plan a cut is as heavy as it may be, and so it is at this
 /// lambda.
 constexpr double kBehind_m = 0.08;
@@ -30,8 +34,6 @@ constexpr double kHeld_s = 1.0;
 /// At a cut's end the teeth are waited for.
 constexpr double kEndWait_s = 0.6;
 constexpr double kEndNear_m = 0.02;
-/// A bucket takes a little more than what fills it: some is lost on the way.
-constexpr double kHeaped = 1.05;
 constexpr double kLiftNear_m = 0.10;
 constexpr double kLiftHeld_s = 0.5;
 /// A platform that swings about its place is waited for before it digs.
@@ -165,8 +167,6 @@ void LayerRun::begin_move(int step, TaskState& state) const {
     if (!state.layers.begun) {
       state.layers.cuts = undug(plan_);
       state.layers.begun = true;
-    } else {
-      next_cut(plan_, state.layers.cuts);
     }
     if (state.layers.cuts.met) {
       state.phase = TaskPhase::kDone;
@@ -234,13 +234,18 @@ void LayerRun::take(TaskState& state) const {
 void LayerRun::enter(TaskState& state) const {
   LayerState& layers = state.layers;
   const double heavy = heaviness(force_share(plan_, cut_line(program_, state), seen_, true), seen_);
-  const double target_m = layers.cuts.cut.height_m;
-  rise(heavy > 1.0 ? std::max(target_m, height_m(state)) : target_m, kEnters_mps, state);
-  const bool arrived = layers.height_m - layers.cuts.cut.height_m < kAtLayer_m;
+  const Cut& cut = layers.cuts.cut;
+  const double target_m = cut.height_m;
+  const double over_m = std::max(0.0, layers.height_m - cut.stands_m - kNear_m);
+  const double down_mps = std::min(
+      kFalls_mps, std::sqrt(kEnters_mps * kEnters_mps + 2.0 * kHeightChange_mps2 * over_m));
+  rise(heavy > 1.0 ? std::max(target_m, height_m(state)) : target_m, down_mps, state);
+  const bool arrived = layers.height_m - target_m < kAtLayer_m;
   if (heavy > 1.0 || arrived) {
     layers.held_s += period_s_;
   }
-  if ((arrived && seen_.behind_m < kEndNear_m) || layers.held_s > kHeld_s) {
+  const bool down = height_m(state) - target_m < (cut.thin ? kDown_m : kEndNear_m);
+  if ((arrived && down) || layers.held_s > kHeld_s) {
     // What it can't be pressed down to is come down to on the way.
     layers.give_m = std::max(0.0, layers.height_m - layers.cuts.cut.height_m);
     layers.phase = CutPhase::kCuts;
@@ -255,7 +260,8 @@ bool LayerRun::cut_ends(double heavy, TaskState& state) const {
   const bool at_end = layers.share >= 1.0;
   layers.held_s = held || at_end ? layers.held_s + period_s_ : 0.0;
   const bool reached = at_end && (seen_.behind_m < kEndNear_m || layers.held_s > kEndWait_s);
-  return reached || layers.held_s > kHeld_s || layers.filled_m3 >= kHeaped * plan_.full_m3;
+  return reached || layers.held_s > kHeld_s ||
+         layers.cuts.loaded_m3 + layers.filled_m3 >= kHeaped * plan_.full_m3;
 }
 
 void LayerRun::cut(TaskState& state) const {
@@ -288,8 +294,8 @@ void LayerRun::cut(TaskState& state) const {
   }
   take(state);
   if (cut_ends(heavy, state)) {
-    after_cut(plan_, layers.heaviest, layers.cuts);
     begin_lift(state);
+    next_cut(plan_, {layers.heaviest, layers.filled_m3}, layers.cuts);
   }
 }
 
@@ -337,8 +343,18 @@ void LayerRun::move(TaskState& state) const {
   }
 }
 
+/// With room left in the bucket the way to the next cut is the shortest.
 void LayerRun::next_step(TaskState& state) const {
-  begin((state.step + 1) % program_.step_count, state);
+  const int count = program_.step_count;
+  int step = (state.step + 1) % count;
+  if (state.step == plan_.step) {
+    if (keeps_load(plan_, state.layers.cuts)) {
+      step = (plan_.step + count - 1) % count;
+    } else {
+      state.layers.cuts.loaded_m3 = 0.0;
+    }
+  }
+  begin(step, state);
 }
 
 void LayerRun::go_on(TaskState& state) const {

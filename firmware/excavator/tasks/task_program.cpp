@@ -237,9 +237,10 @@ bool Planning::plan_in_layers() {
   if (!strips_in_range()) {
     return false;
   }
-  const DriveResult start = kinematics_.drive_from_teeth(first_cut_pose(program));
+  const TeethPose first = first_cut_pose(kinematics_, program);
+  const DriveResult start = kinematics_.drive_from_teeth(first);
   if (start.blind.kind != BlindKind::kNone) {
-    return refuse(ProgramRefusal::kBlindSpot, 0, {start.blind, 0.0, first_cut_pose(program)});
+    return refuse(ProgramRefusal::kBlindSpot, 0, {start.blind, 0.0, first});
   }
   program.start = start.value;
   const LinePlan lift =
