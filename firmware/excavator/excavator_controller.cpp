@@ -362,8 +362,8 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
   const auto number = static_cast<std::uint8_t>(valid.task_number);
   next_task(profile_, setup_.kinematics, setup_.book.program[number], number, valid.strokes_m(),
             followed * motion.cap.factor * valid.speed_override_ratio,
-            {motion.task.teeth, motion.task.behind_m, followed, memory_.tip_load.known,
-             memory_.tip_load.force_n},
+            {motion.task.teeth, motion.task.behind_m, followed * motion.cap.factor,
+             memory_.tip_load.known, memory_.tip_load.force_n},
             period_s, memory_.task);
 }
 

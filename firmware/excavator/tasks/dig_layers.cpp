@@ -15,8 +15,9 @@ constexpr double kOver_m = 0.25;
 constexpr double kRunUp_m = 0.25;
 /// What stands out of a strip is cut this much deeper than the rest of it.
 constexpr double kBump = 1.5;
-/// Of what is given way to: lighter cuts become deeper.
-constexpr double kLight = 0.6;
+/// Of what is given way to: cuts that are heavier become less deep, lighter ones deeper.
+constexpr double kHeavy = 0.9;
+constexpr double kLight = 0.5;
 constexpr double kDeeper = 1.15;
 constexpr double kShallower = 0.75;
 /// Of a full bucket: what a cut gets at least, and what may fall out where the next one begins.
@@ -165,7 +166,7 @@ double pass(const LayerPlan& plan, double share, double last_share, double heigh
 }
 
 void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state) {
-  const double factor = end.heaviest > 1.0 ? kShallower : end.heaviest < kLight ? kDeeper : 1.0;
+  const double factor = end.heavy > kHeavy ? kShallower : end.heavy < kLight ? kDeeper : 1.0;
   state.depth_m = std::clamp(factor * state.depth_m, kDepthLeast_m, plan.depth_most_m);
   state.loaded_m3 += end.filled_m3;
   const int strip = state.cut.strip;
@@ -182,7 +183,7 @@ void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state) {
 }
 
 bool keeps_load(const LayerPlan& plan, const CutState& state) {
-  return !state.met && state.loaded_m3 < kCarried * plan.full_m3;
+  return state.loaded_m3 < kCarried * plan.full_m3;
 }
 
 }  // namespace graben

@@ -69,7 +69,7 @@ double pass(const LayerPlan& plan, double share, double last_share, double heigh
 
 /// How a cut has gone.
 struct CutEnd {
-  double heaviest = 0.0;   ///< The most of its force over that which is given way to.
+  double heavy = 0.0;      ///< How heavy on average; 1: as heavy as it may be.
   double filled_m3 = 0.0;  ///< Of the ground, by what the edge has passed.
 };
 

@@ -9,9 +9,12 @@ namespace graben {
 namespace {
 
 constexpr double kTurn_radps = 0.5;
+/// The last share of that way, on which it comes to rest.
+constexpr double kFades = 0.3;
+constexpr double kTurnsMean = 1.0 - 0.5 * kFades;
 constexpr double kFinish_mps = 0.4;
-constexpr double kLiftSpeed_mps = 0.6;
-constexpr double kLiftShare = 3.0;  ///< Of the acceleration of lines.
+constexpr double kLiftSpeed_mps = 0.9;
+constexpr double kLiftShare = 4.0;  ///< Of the acceleration of lines.
 /// Folded in so far and lifted by so much the bucket holds what it has.
 constexpr double kFolded_rad = 0.4;
 constexpr double kFoldUp_m = 0.16;
@@ -110,7 +113,16 @@ double steep_rad(const TaskProgram& program, const Cut& cut) {
 Progress steepness(const TaskProgram& program, const Cut& cut, double share) {
   const double turns = kTurns_m / program.layers.way_m;
   const double done = std::clamp((share - cut.from_share) / turns, 0.0, 1.0);
-  return {1.0 - done, done < 1.0 ? -1.0 / turns : 0.0, 0.0};
+  const double left = 1.0 - done;
+  if (left > kFades) {
+    return {1.0 - done / kTurnsMean, -1.0 / (kTurnsMean * turns), 0.0};
+  }
+  // A jump of the bucket's speed would be a dip of the edge.
+  return {left * left / (2.0 * kFades * kTurnsMean), -left / (kFades * kTurnsMean * turns), 0.0};
+}
+
+bool turns(const TaskProgram& program, const LayerState& layers) {
+  return (layers.share - layers.cuts.cut.from_share) * program.layers.way_m < kTurns_m;
 }
 
 double most_rate_ps(const TaskProgram& program, const LayerState& layers) {
@@ -121,8 +133,9 @@ double most_rate_ps(const TaskProgram& program, const LayerState& layers) {
     most_mps = std::min(most_mps, kFinish_mps);
   }
   const double steep = std::abs(steep_rad(program, cut));
-  if (steep > 0.0 && steepness(program, cut, layers.share).rate_ps < 0.0) {
-    most_mps = std::min(most_mps, kTurn_radps * kTurns_m / steep);
+  const double turn_rad = steep * std::abs(steepness(program, cut, layers.share).rate_ps);
+  if (turn_rad * most_mps > kTurn_radps * plan.way_m) {
+    most_mps = kTurn_radps * plan.way_m / turn_rad;
   }
   return most_mps / plan.way_m;
 }

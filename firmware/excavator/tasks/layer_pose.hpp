@@ -54,11 +54,14 @@ namespace graben {
 /// Share of that which is left at this place of the line, and its change by the line's share.
 [[nodiscard]] Progress steepness(const TaskProgram& program, const Cut& cut, double share);
 
+/// On the first part of a cut the bucket is coming to its attitude.
+[[nodiscard]] bool turns(const TaskProgram& program, const LayerState& layers);
+
 /// A cut's speed: that of the plan, less while the bucket turns, and on the design itself, where
 /// its force is to be small.
 [[nodiscard]] double most_rate_ps(const TaskProgram& program, const LayerState& layers);
 
 /// The bucket comes from steep to its attitude on this way: its heel stays where the edge went in.
-inline constexpr double kTurns_m = 0.45;
+inline constexpr double kTurns_m = 0.75;
 
 }  // namespace graben

@@ -13,6 +13,7 @@ constexpr double kFalls_mps = 0.8;
 constexpr double kNear_m = 0.05;
 constexpr double kEnters_mps = 0.3;
 constexpr double kGives_mps = 0.15;
+constexpr double kRisesAtLeast = 0.25;
 /// Back down to the layer where it is light again.
 constexpr double kReturns_mps = 0.05;
 constexpr double kHeightChange_mps2 = 1.0;
@@ -154,7 +155,8 @@ void LayerRun::begin_cut(TaskState& state) const {
   layers.rate_ps = 0.0;
   layers.give_m = 0.0;
   layers.filled_m3 = 0.0;
-  layers.heaviest = 0.0;
+  layers.cut_s = 0.0;
+  layers.heavy_s = 0.0;
   layers.held_s = 0.0;
 }
 
@@ -203,7 +205,9 @@ void LayerRun::rise(double target_m, double most_down_mps, TaskState& state) con
   LayerState& layers = state.layers;
   layers.height_mps = speed_towards(layers.height_m, target_m, layers.height_mps, kGives_mps,
                                     most_down_mps, period_s_);
-  const double by_s = layers.height_mps > 0.0 ? advance_s_ : state.pace_ratio * advance_s_;
+  // The way up is free where the way down is barred.
+  const double by_s = layers.height_mps > 0.0 ? std::max(advance_s_, kRisesAtLeast * period_s_)
+                                              : state.pace_ratio * advance_s_;
   const double height_m = layers.height_m + by_s * layers.height_mps;
   const TeethPose there = cut_pose(program_, layers.cuts.cut, layers.share, height_m);
   if (kinematics_.drive_from_teeth(there).blind.kind == BlindKind::kNone) {
@@ -268,7 +272,10 @@ void LayerRun::cut(TaskState& state) const {
   LayerState& layers = state.layers;
   const double force = force_share(plan_, cut_line(program_, state), seen_, false);
   const double heavy = heaviness(force, seen_);
-  layers.heaviest = std::max(layers.heaviest, heavy);
+  if (!turns(program_, layers)) {
+    layers.cut_s += period_s_;
+    layers.heavy_s += heavy * period_s_;
+  }
   const double change_m = heavy > 1.0     ? kGives_mps * std::min(1.0, 2.0 * (heavy - 1.0))
                           : heavy < kEasy ? -kReturns_mps
                                           : 0.0;
@@ -295,7 +302,9 @@ void LayerRun::cut(TaskState& state) const {
   take(state);
   if (cut_ends(heavy, state)) {
     begin_lift(state);
-    next_cut(plan_, {layers.heaviest, layers.filled_m3}, layers.cuts);
+    next_cut(plan_,
+             {layers.cut_s > 0.0 ? layers.heavy_s / layers.cut_s : kHoldsAt, layers.filled_m3},
+             layers.cuts);
   }
 }
 
@@ -349,6 +358,7 @@ void LayerRun::next_step(TaskState& state) const {
   int step = (state.step + 1) % count;
   if (state.step == plan_.step) {
     if (keeps_load(plan_, state.layers.cuts)) {
+      // Where all is dug, it ends there.
       step = (plan_.step + count - 1) % count;
     } else {
       state.layers.cuts.loaded_m3 = 0.0;

@@ -10,7 +10,7 @@ namespace graben {
 struct CutSeen {
   TeethPose teeth;        ///< Where they are.
   double behind_m = 0.0;  ///< See TaskWant.
-  double lambda = 1.0;    ///< Of the last cycle.
+  double lambda = 1.0;    ///< What fences and the machine left of the last cycle's way.
   bool force_known = false;
   Eigen::Vector2d force_n = Eigen::Vector2d::Zero();  ///< See TipLoad.
 };

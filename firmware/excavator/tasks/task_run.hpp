@@ -32,7 +32,8 @@ struct LayerState {
   double give_m = 0.0;      ///< Of that, for what was too heavy.
   double seen_share = 0.0;  ///< That the edge has passed.
   double filled_m3 = 0.0;   ///< Of the ground, in this cut.
-  double heaviest = 0.0;    ///< Of this cut; 1: as heavy as it may be.
+  double cut_s = 0.0;       ///< Of this cut, once the bucket is at its attitude,
+  double heavy_s = 0.0;     ///< and the sum of how heavy it was in it; 1: as heavy as it may be.
   double held_s = 0.0;      ///< How long it does not get on.
   bool folds = false;       ///< The first part of a lift.
   LinePlan lift;
