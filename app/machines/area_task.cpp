@@ -104,7 +104,8 @@ Area read_table(TomlReader& reader, const ExcavatorProfile& profile) {
       reader.number_or(0.0, "area.turn", {-3.1, 3.1, "rad"}, "of its middle, to the left");
   area.speed_mps =
       reader.number_or(kCutSpeed_mps, "area.speed", {0.05, 2.0, "m/s"}, "along a cut at most");
-  const bool wide = area.kind == AreaKind::kBench || area.kind == AreaKind::kLevel;
+  const bool wide = area.kind == AreaKind::kBench || area.kind == AreaKind::kLevel ||
+                    area.kind == AreaKind::kTruck;
   if (wide) {
     area.strips = static_cast<int>(std::lround(reader.number_or(
         profile.has_swing() ? kStripsUsual : 1.0, "area.strips", {1.0, static_cast<double>(kStripMost), ""}, "side by side")));
@@ -165,10 +166,20 @@ ProgramRequest read_area(TomlReader& reader, const ExcavatorProfile& profile) {
   dig.strips = area.strips;
   dig.strip_rad = (1.0 - kOverlap) * profile.geometry.body.bucket_width_m / area.far_m;
   const double bucket_m = profile.geometry.bucket_length_m;
-  request.step[1] = move_to(StepKind::kSwing, dump_pose(area, bucket_m, kCarried_rad));
-  request.step[2] = move_to(StepKind::kDump, dump_pose(area, bucket_m, kEmptied_rad));
-  request.step[3] = move_to(StepKind::kReturnToDig, request.start);
-  request.step_count = 4;
+  const TeethPose carried = dump_pose(area, bucket_m, kCarried_rad);
+  int next = 1;
+  const auto add = [&](const StepRequest& step) {
+    request.step[static_cast<unsigned>(next++)] = step;
+  };
+  if (area.kind == AreaKind::kTruck) {
+    // Over the truck's side before it swings there.
+    const TeethPose over{at(area.near_m, carried.position_m.z(), area.turn_rad), kCarried_rad};
+    add(move_to(StepKind::kLift, over));
+  }
+  add(move_to(StepKind::kSwing, carried));
+  add(move_to(StepKind::kDump, dump_pose(area, bucket_m, kEmptied_rad)));
+  add(move_to(StepKind::kReturnToDig, request.start));
+  request.step_count = next;
   request.has_design = true;
   request.design.through_m = far_m;
   request.design.up = at(-area.fall_m(), area.run_m(), area.turn_rad).normalized();

@@ -156,7 +156,7 @@ def calm(figures):
 
 
 def truck(digger):
-    figures = digger.figures("--task", "truck_loading", "--rounds", "2")
+    figures = digger.figures("--task", "truck_by_steps", "--rounds", "2")
     kinds = [(step["round"], step["step"], step["kind"]) for step in figures["steps"]]
     words = ("dig", "lift", "swing", "dump", "return")
     assert kinds == [(r, s, kind) for r in range(2) for s, kind in enumerate(words)], kinds
@@ -171,7 +171,7 @@ def soil_is_cut(digger, loaded):
     """Ground that gives way to the bucket: it takes time and error, fills the bucket, and is another one by name and
     seed. What is under the design is told."""
     assert loaded["cut_m3"] is None and loaded["over_cut_max_m"] == 0.0, loaded
-    soils = {name: digger.figures("--task", "truck_loading", "--soil", name) for name in ("sand", "clay")}
+    soils = {name: digger.figures("--task", "truck_by_steps", "--soil", name) for name in ("sand", "clay")}
     for name, figures in soils.items():
         # Two metres of way, 0.45 m deep, 1 m wide; the bucket holds half of it.
         assert 0.3 < figures["cut_m3"] < 1.5, f"{name}: {figures['cut_m3']}"
@@ -183,10 +183,10 @@ def soil_is_cut(digger, loaded):
         assert abs(figures["over_cut_max_m"] - beyond) < 1e-9, f"{name}: {figures['over_cut_max_m']}, {beyond}"
     assert soils["clay"]["max_error_true_m"] > soils["sand"]["max_error_true_m"], soils
     log = digger.content("autodig.log")
-    again = digger.figures("--task", "truck_loading", "--soil", "clay")
+    again = digger.figures("--task", "truck_by_steps", "--soil", "clay")
     assert digger.content("autodig.log") == log, "the same soil gave different logs"
     assert abs(again["cut_m3ph"] * again["task_s"] / 3600.0 - again["cut_m3"]) < 1e-6, again
-    done = digger.call("autodig", "--task", "truck_loading", "--soil", "clay")
+    done = digger.call("autodig", "--task", "truck_by_steps", "--soil", "clay")
     told = f"up to {again['over_cut_max_m'] / MM:.0f} mm under the design"
     assert again["over_cut_max_m"] > 1 * MM and told in done.stdout, (told, done.stdout)
     done = digger.call("autodig", "--soil", "mud")
@@ -194,15 +194,15 @@ def soil_is_cut(digger, loaded):
 
 
 def report_is_whole(digger):
-    digger.figures("--task", "truck_loading")
+    digger.figures("--task", "truck_by_steps")
     setup = report_page.setup_of(digger.content("autodig.html"))
     report_page.assert_of_run(
-        setup, ["truck_loading", "errors none"],
+        setup, ["truck_by_steps", "errors none"],
         {"error", "velocities", "swing", "pumps", "fence", "cycle_time",
          *(f"drive_{i}" for i in range(4))}, least=3000)
     assert report_page.log_of(setup) == digger.content("autodig.log")
     task, = setup["machines"][0]["tasks"]
-    assert task["name"] == "truck_loading" and len(task["steps"]) == 5, task["name"]
+    assert task["name"] == "truck_by_steps" and len(task["steps"]) == 5, task["name"]
 
 
 def repeats(digger):
@@ -254,7 +254,7 @@ def from_elsewhere(digger):
     machine is free to leave."""
     beside = digger.figures("--start", "1.0,6.0,0.8,2.0")
     assert_straight("from beside", beside, LINE_MM, END_MM)
-    cut = digger.figures("--task", "truck_loading", "--start", "5.0,0.0,-0.45,1.0")
+    cut = digger.figures("--task", "truck_by_steps", "--start", "5.0,0.0,-0.45,1.0")
     assert len(cut["steps"]) == 5 and cut["fence_left_m"] > -1 * MM, cut["fence_left_m"]
     beyond = digger.figures(*digger.task(MOVE.format(x=0.0, y=7.0) + WALL.format(through=7.25)),
                             "--start", "7.45,0,0.5,2.2")
@@ -298,7 +298,7 @@ def main():
         exact, unsure = paper_line(digger)
         fed, hasty, growth = twice_as_fast(digger)
         loaded = truck(digger)
-        soil_is_cut(digger, digger.figures("--task", "truck_loading"))
+        soil_is_cut(digger, digger.figures("--task", "truck_by_steps"))
         report_is_whole(digger)
         repeats(digger)
         tasks_that_cannot_be_had(digger)
@@ -306,7 +306,7 @@ def main():
         areas(digger)
     measured = {
         "planned_off_line_m": off_m, "exact": exact, "errors_all": unsure, "fed": fed,
-        "twice_as_fast": hasty, "twice_as_fast_growth": growth, "truck_loading": loaded}
+        "twice_as_fast": hasty, "twice_as_fast_growth": growth, "truck_by_steps": loaded}
     if arguments.summary:
         with open(arguments.summary, "w", encoding="utf-8") as stream:
             json.dump(measured, stream, indent=2)

@@ -30,7 +30,7 @@ KINDS = (
     ("dig, 12 t, soil", 5, "excavator_12t", ("campaign", "dig", "--soil")),
     ("grade", 15, "dozer_9t", ("campaign", "grade")),
     ("flatten", 10, "excavator_12t", ("autodig", "--task", "flatten")),
-    ("truck loading", 10, "excavator_12t", ("autodig", "--task", "truck_loading")),
+    ("truck loading", 10, "excavator_12t", ("autodig", "--task", "truck_by_steps")),
 )
 
 # As found: key of NAME.sim.toml, and by what it is multiplied. The bands are those of machines that were

@@ -67,7 +67,7 @@ void write_replay(Bench& bench) {
 void write_excavator(bool with_replay) {
   const auto machine = machines::load_simulated_excavator(machines::find_profile("excavator_12t"));
   const TaskBook book = machines::load_tasks(
-      {machines::find_task("truck_loading").string(), machines::find_task("flatten").string()}, {},
+      {machines::find_task("truck_by_steps").string(), machines::find_task("flatten").string()}, {},
       machine.profile);
   if (with_replay) {
     runs::AutodigRig bench(machine, book, book.program[0].start, 1.0);

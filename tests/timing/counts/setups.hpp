@@ -7,7 +7,7 @@
 
 namespace graben::timing {
 
-/// Of an excavator; the 12 t one has two tasks, truck_loading and flatten.
+/// Of an excavator; the 12 t one has two tasks, truck_by_steps and flatten.
 [[nodiscard]] const ExcavatorSetup& excavator_setup(Setup setup);
 [[nodiscard]] const DozerProfile& dozer_setup(Setup setup);
 

@@ -22,7 +22,7 @@ def main() -> int:
                 if "[[step]]" in block]
     excavator, dozer = (machines / name for name in ("excavator_12t.toml", "dozer_9t.toml"))
     flatten, loading = (machines / "tasks" / name
-                        for name in ("flatten.toml", "truck_loading.toml"))
+                        for name in ("flatten.toml", "truck_by_steps.toml"))
     problems = []
 
     def expect(status, words, profile, *tasks, reaches_bus=False):

@@ -43,7 +43,7 @@ void assert_says(const std::string& errors, const std::string& what) {
 void none_is_a_book_too(void**) { assert_int_equal(book({}).count, 0); }
 
 void numbered_as_they_are_told(void**) {
-  const TaskBook both = book({"truck_loading", "flatten.toml"});
+  const TaskBook both = book({"truck_by_steps", "flatten.toml"});
   assert_int_equal(both.count, 2);
   assert_int_equal(both.program[0].step_count, 5);
   assert_int_equal(both.program[1].step_count, 1);

@@ -89,7 +89,7 @@ void the_paper_s_line(void**) {
 
 void loading_a_truck(void**) {
   const machines::TaskFile task =
-      machines::load_task(machines::find_task("truck_loading"), profile("excavator_12t"));
+      machines::load_task(machines::find_task("truck_by_steps"), profile("excavator_12t"));
   const TaskProgram& program = task.result.program;
   assert_int_equal(program.step_count, 5);
   assert_true(program.repeats);
@@ -213,24 +213,24 @@ void refusals_name_step_joint_and_place(void**) {
       errors_of(edited("flatten", "[2.244, 3.886, 0.0]", "[9.0, 3.886, 0.0]")),
       "step[0] (line 6): step 0 (dig): the arm cylinder would have to go beyond its closed end");
   const std::string reach =
-      errors_of(edited("truck_loading", "[4.9, 0.0, 2.4]", "[9.9, 0.0, 2.4]"));
+      errors_of(edited("truck_by_steps", "[4.9, 0.0, 2.4]", "[9.9, 0.0, 2.4]"));
   assert_says(reach, "step 1 (lift): ");
   assert_says(reach, "% of the step, teeth x ");
-  const std::string ceiling = errors_of(edited("truck_loading", "height = 6.5", "height = 4.0"));
+  const std::string ceiling = errors_of(edited("truck_by_steps", "height = 6.5", "height = 4.0"));
   assert_says(ceiling, "(lift): the arm's pin would pass fence[0], the ceiling at 4.00 m, by ");
   assert_says(ceiling, " mm at 100.00 % of the step, where the margin is ");
   assert_says(ceiling, " mm; beginning at ");
-  const std::string wall = errors_of(edited("truck_loading", "[0.0, 7.5]", "[0.0, 6.35]"));
+  const std::string wall = errors_of(edited("truck_by_steps", "[0.0, 7.5]", "[0.0, 6.35]"));
   assert_says(wall, "(return): the heel's left corner would come near fence[2], the wall, to ");
-  const std::string floor = errors_of(edited("truck_loading", "height = -0.8", "height = -0.5"));
+  const std::string floor = errors_of(edited("truck_by_steps", "height = -0.8", "height = -0.5"));
   assert_says(floor,
               "step 0 (dig): the edge's left corner would come near fence[1], the floor at "
               "-0.50 m, to 50 mm at ");
   const std::string design =
-      errors_of(edited("truck_loading", "through = [0.0, 0.0, -0.5]", "through = [0.0, 0.0, 2.5]"));
+      errors_of(edited("truck_by_steps", "through = [0.0, 0.0, -0.5]", "through = [0.0, 0.0, 2.5]"));
   assert_says(design, "the design surface");
   const std::string open =
-      errors_of(edited("truck_loading", "[7.0, 0.0, -0.45], attitude = 2.2 }\n\n[[step]]",
+      errors_of(edited("truck_by_steps", "[7.0, 0.0, -0.45], attitude = 2.2 }\n\n[[step]]",
                        "[6.9, 0.0, -0.45], attitude = 2.2 }\n\n[[step]]"));
   assert_says(open, "step 4 (return): the task repeats, but does not end where it starts");
   assert_says(errors_of(shipped("flatten"), "excavator_22t"), "this machine's swing is held");

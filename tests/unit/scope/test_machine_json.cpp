@@ -140,7 +140,7 @@ void steps_join_and_their_drives_fit(void**) {
   const machines::SimulatedExcavator machine = excavator("excavator_12t");
   const SwingKinematics kinematics(machine.profile.geometry);
   const machines::TaskFile task =
-      machines::load_task(machines::find_task("truck_loading"), machine.profile);
+      machines::load_task(machines::find_task("truck_by_steps"), machine.profile);
   const json told = reports::task_json(task, machine.profile);
   const json& steps = told["steps"];
   assert_int_equal(steps.size(), 5);
@@ -167,7 +167,7 @@ void steps_join_and_their_drives_fit(void**) {
 void fences_have_words_and_the_design_is_the_last(void**) {
   const machines::SimulatedExcavator machine = excavator("excavator_12t");
   const json told = reports::task_json(
-      machines::load_task(machines::find_task("truck_loading"), machine.profile), machine.profile);
+      machines::load_task(machines::find_task("truck_by_steps"), machine.profile), machine.profile);
   const char* words[] = {"ceiling at 6.50 m", "floor at -0.80 m", "wall", "design surface"};
   assert_int_equal(told["fences"].size(), 4);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -248,10 +248,10 @@ std::vector<std::string> tasks_of(const json& setup, const std::string& machine)
 }
 
 void tasks_are_numbered_as_told(void**) {
-  const std::vector<std::string> shipped = {"flatten", "level", "slope", "trench", "truck_loading"};
+  const std::vector<std::string> shipped = {"flatten", "level", "slope", "trench", "truck_by_steps"};
   assert_true(tasks_of(reports::shared_setup({}), "excavator_12t") == shipped);
   assert_true(tasks_of(reports::shared_setup({}), "excavator_22t").empty());
-  const std::vector<std::string> told = {"truck_loading", "flatten", "flatten"};
+  const std::vector<std::string> told = {"truck_by_steps", "flatten", "flatten"};
   assert_true(tasks_of(reports::shared_setup({std::nullopt, told}), "excavator_12t") == told);
 }
 
