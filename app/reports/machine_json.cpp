@@ -138,7 +138,9 @@ json machine_json(const machines::SimulatedExcavator& machine,
                   const std::vector<machines::TaskFile>& tasks) {
   json result = machine_json(static_cast<const machines::ExcavatorMachine&>(machine), tasks);
   result["dig"]["ground_z_m"] =
-      machine.experiment.soil.ground_y_m + machine.profile.geometry.boom_foot_m.y();
+      machine.plant.digging
+          ? machine.plant.digging->level_m
+          : machine.experiment.soil.ground_y_m + machine.profile.geometry.boom_foot_m.y();
   return result;
 }
 
