@@ -59,6 +59,8 @@ export interface ExcavatorMachine extends AnyMachine {
   boom_m: number;    ///< Pin to pin.
   arm_m: number;
   bucket_m: number;  ///< Pin to teeth.
+  bucket_width_m?: number;      ///< Of the edge; like the next one where the profile says it.
+  bucket_capacity_m3?: number;  ///< Loose soil, heaped.
   boom_foot_m: Vector2;  ///< Boom foot pin: forward of the swing axis, above the ground.
   cylinders: {boom: Cylinder; arm: Cylinder; bucket: Cylinder};
   linkage: {
