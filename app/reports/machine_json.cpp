@@ -119,6 +119,10 @@ json machine_json(const machines::ExcavatorMachine& machine,
                  {"has_swing", profile.has_swing()},
                  {"pumps", profile.pump_count},
                  {"relief_pa", profile.pump[0].relief_pa}};
+  if (profile.geometry.body.known()) {
+    result["bucket_width_m"] = profile.geometry.body.bucket_width_m;
+    result["bucket_capacity_m3"] = profile.geometry.body.capacity_m3;
+  }
   result["cylinders"] = {{"boom", cylinder_json(geometry.cylinder[kBoom])},
                          {"arm", cylinder_json(geometry.cylinder[kArm])},
                          {"bucket", cylinder_json(geometry.cylinder[kBucket])}};

@@ -154,7 +154,18 @@ export interface Run {
   pose?: {drives: readonly (readonly number[])[]};
   /// Way that the true teeth or edge took, ground frame, over truth.time_s.
   way?: readonly Vector3[];
+  built?: Built;
   log?: string;  ///< candump text, gzip, base64.
+}
+
+/// An area as it was built: places of a grid, ground frame, and heights over the design along its
+/// normal.
+export interface Built {
+  cell_m: number;               ///< Of the grid.
+  x_m: readonly number[];
+  y_m: readonly number[];
+  off_mm: readonly number[];    ///< The surface, loose soil and all.
+  firm_mm: readonly number[];   ///< Ground that nobody has cut.
 }
 
 export interface SimSetup {
