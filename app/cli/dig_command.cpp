@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/options.hpp"
+#include "app/machines/simulated/soil_kinds.hpp"
 #include "app/reports/run_reports.hpp"
 #include "app/runs/code_text.hpp"
 #include "app/runs/dig_run.hpp"
@@ -120,6 +122,11 @@ void dig(const DigCommand& options) {
 TaskCommand task_command(const DigCommand& options) {
   TaskCommand run;
   run.scenario.task = options.task.value_or(run.scenario.task);
+  if (options.scenario.scenario.soil) {
+    throw std::runtime_error(fmt::format("--soil {}: not with --task; there are {}", kKimSoil,
+                                         fmt::join(machines::kSoilNames, ", ")));
+  }
+  run.scenario.soil = options.scenario.scenario.ground;
   run.scenario.errors = options.scenario.errors;
   run.scenario.found = options.scenario.scenario.found;
   run.scenario.seed = options.seed;
@@ -138,7 +145,7 @@ void add_task(CLI::App& command, DigCommand& options) {
                                          "Run a task of straight lines instead, as `autodig` does: "
                                          "a file, or the name of one of ours");
   for (const char* of_the_path :
-       {"--soil", "--air", "--obstacle", "--stiff-oil", "--dead-time", "--fixed-lambda", "--law",
+       {"--air", "--obstacle", "--stiff-oil", "--dead-time", "--fixed-lambda", "--law",
         "--start-strokes", "--start", "--random-start", "--loops"}) {
     task->excludes(command.get_option(of_the_path));
   }

@@ -14,7 +14,14 @@ namespace graben::cli {
 void add_scenario_options(CLI::App& command, runs::DigScenario& scenario) {
   machines::Scenario& tried = scenario.scenario;
   auto* in_the_way = command.add_option_group("in the way", "What the bucket meets");
-  in_the_way->add_flag("--soil", tried.soil, "Soil below the profile's ground line");
+  add_soil_option(
+      *in_the_way,
+      [&tried](const std::string& name) {
+        tried.soil = name == kKimSoil;
+        tried.ground = tried.soil ? std::string() : name;
+      },
+      "Soil below the profile's ground line: kim, the paper's field of force, which --soil alone "
+      "is, or ground that the bucket cuts, with --errors all of a strength drawn within 40 %");
   CLI::Option* air = in_the_way->add_flag(
       "--air", tried.air, "The profile's manoeuvre in the air, with a loaded bucket, instead");
   in_the_way->require_option(0, 1);
@@ -44,6 +51,16 @@ void add_scenario_options(CLI::App& command, runs::DigScenario& scenario) {
   add_swash_option(command, scenario.swash_ratio);
   command.add_flag("--fixed-lambda", scenario.fixed_lambda,
                    "For comparison: lambda stays 1, whatever the machine can do");
+}
+
+CLI::Option& add_soil_option(CLI::App& command, const std::function<void(const std::string&)>& take,
+                             const std::string& help) {
+  std::vector<std::string> names = {kKimSoil};
+  names.insert(names.end(), machines::kSoilNames.begin(), machines::kSoilNames.end());
+  return *command.add_option_function<std::string>("--soil", take, help)
+              ->expected(0, 1)
+              ->default_str(kKimSoil)
+              ->check(CLI::IsMember(names));
 }
 
 void add_simulated_options(CLI::App& command, machines::SimulatedChoice& choice) {

@@ -3,7 +3,9 @@
 /// values.
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <optional>
+#include <string>
 
 #include "app/machines/simulated/simulation_file.hpp"
 #include "app/runs/scenarios.hpp"
@@ -39,6 +41,12 @@ void add_engine_option(CLI::App& command, runs::GradeScenario& scenario);
 /// Adds --errors.
 void add_error_option(CLI::App& command, runs::GradeScenario& scenario);
 
+// Of `dig`, `campaign dig`, `plant` and `scope`.
+
+/// Adds --soil with a name that may be left out: kim, or one of machines::kSoilNames.
+CLI::Option& add_soil_option(CLI::App& command, const std::function<void(const std::string&)>& take,
+                             const std::string& help);
+
 // Of commands that run anything.
 
 /// Adds --profile, whose default is the value that it has.
@@ -50,6 +58,8 @@ void add_override_option(CLI::App& command, double& speed_override_ratio);
 /// Names of all errors that an excavator's controller can have.
 [[nodiscard]] CLI::Validator error_name();
 [[nodiscard]] CLI::Validator soil_name();
+/// The digging path's soil unless another one is named: a field of force.
+inline constexpr const char* kKimSoil = "kim";
 
 // Checks of options that CLI11's own let too much through.
 

@@ -27,6 +27,7 @@ struct ScopeCommand {
   std::optional<std::string> sim;
   std::optional<std::uint64_t> seed;
   machines::SimulatedChoice simulated;
+  std::optional<std::string> soil;
   std::optional<int> bitrate_bps;
   scope::ServerOptions server;
   reports::SetupOptions setup;
@@ -48,6 +49,7 @@ scope::SimOptions simulation(const ScopeCommand& options) {
   result.profile = options.setup.profile;
   result.seed = options.seed;
   result.simulated = options.simulated;
+  result.soil = options.soil.value_or("");
   if (!options.setup.tasks.empty()) {
     result.task_file = options.setup.tasks.front();
   }
@@ -69,6 +71,9 @@ void show(const ScopeCommand& options) {
   }
   if (!options.simulated.is_own() && !options.sim) {
     throw std::runtime_error("--simulated, --hidden: only with --sim");
+  }
+  if (options.soil && !options.sim) {
+    throw std::runtime_error("--soil: only with --sim");
   }
   const std::string_view page = scope::scope_page();
   const int bitrate_bps = options.bitrate_bps.value_or(kUsualBitrate_bps);
@@ -127,6 +132,10 @@ void add_scope(CLI::App& app, int& status) {
                    "exact without it")
       ->check(whole_number());
   add_simulated_options(*command, options->simulated);
+  add_soil_option(
+      *command, [options](const std::string& name) { options->soil = name; },
+      "Of --sim dig and autodig: ground that the bucket cuts, or with dig kim, the paper's field "
+      "of force, which --soil alone is");
   command->callback([options, &status] { status = guarded("scope", [&] { show(*options); }); });
 }
 

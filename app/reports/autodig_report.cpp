@@ -50,6 +50,18 @@ json way(const std::vector<runs::AutodigSample>& samples) {
       [](const runs::AutodigSample& s) { return s.teeth_m[2]; });
 }
 
+/// `Built` of the page: by the millimetre, and heights by a tenth of one.
+json built_json(const runs::AsBuilt& built) {
+  json result = {{"cell_m", runs::kBuiltGrid_m}};
+  for (const runs::BuiltPlace& place : built.map) {
+    result["x_m"].push_back(plotted(place.at_m[0], 3));
+    result["y_m"].push_back(plotted(place.at_m[1], 3));
+    result["off_mm"].push_back(plotted(place.off_m * kThousandths, 1));
+    result["firm_mm"].push_back(plotted(place.firm_m * kThousandths, 1));
+  }
+  return result;
+}
+
 }  // namespace
 
 void write_autodig_report(const ReportTarget& target, const std::filesystem::path& log_file,
@@ -59,6 +71,9 @@ void write_autodig_report(const ReportTarget& target, const std::filesystem::pat
   const RunText text = run_text("A task's run", subtitle, runs::figures_of(summary));
   json run = run_json(text, truth(machine.profile, result.samples));
   run["way"] = way(result.samples);
+  if (!result.built.map.empty()) {
+    run["built"] = built_json(result.built);
+  }
   add_log(run, log_file);
   write_report(target.file, target.page,
                report_setup(log_file, machine_json(machine, {task}), std::move(run)));

@@ -32,6 +32,10 @@ json truth(const machines::SimulatedExcavator& machine,
             [](const runs::DigSample& s) { return s.tip_force_n.x() * 1e-3; });
   lines.add("force", forces, "up", "kN", 2,
             [](const runs::DigSample& s) { return s.tip_force_n.y() * 1e-3; });
+  if (machine.plant.digging) {
+    lines.add("fill", "Loose soil in the bucket", "true", "m3", 3,
+              [](const runs::DigSample& s) { return s.fill_m3; });
+  }
   if (machine.plant.obstacle) {
     lines.add("obstacle", "Obstacle", "holds the tip", "", 0, [](const runs::DigSample& s) {
       return s.obstruction == runs::Obstruction::kHolding ? 1.0 : 0.0;

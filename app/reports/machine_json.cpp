@@ -119,6 +119,10 @@ json machine_json(const machines::ExcavatorMachine& machine,
                  {"has_swing", profile.has_swing()},
                  {"pumps", profile.pump_count},
                  {"relief_pa", profile.pump[0].relief_pa}};
+  if (profile.geometry.body.known()) {
+    result["bucket_width_m"] = profile.geometry.body.bucket_width_m;
+    result["bucket_capacity_m3"] = profile.geometry.body.capacity_m3;
+  }
   result["cylinders"] = {{"boom", cylinder_json(geometry.cylinder[kBoom])},
                          {"arm", cylinder_json(geometry.cylinder[kArm])},
                          {"bucket", cylinder_json(geometry.cylinder[kBucket])}};
@@ -138,7 +142,9 @@ json machine_json(const machines::SimulatedExcavator& machine,
                   const std::vector<machines::TaskFile>& tasks) {
   json result = machine_json(static_cast<const machines::ExcavatorMachine&>(machine), tasks);
   result["dig"]["ground_z_m"] =
-      machine.experiment.soil.ground_y_m + machine.profile.geometry.boom_foot_m.y();
+      machine.plant.digging
+          ? machine.plant.digging->level_m
+          : machine.experiment.soil.ground_y_m + machine.profile.geometry.boom_foot_m.y();
   return result;
 }
 

@@ -31,7 +31,8 @@ struct SetupOptions {
 [[nodiscard]] nlohmann::json text_json();
 
 /// `tasks` by the number that they have on the bus, read for this machine. The ground is where the
-/// tracks stand; a simulated machine's where its soil is.
+/// tracks stand; a simulated machine's where its soil is: ground that is cut, or else that of its
+/// experiment.
 [[nodiscard]] nlohmann::json machine_json(const machines::ExcavatorMachine& machine,
                                           const std::vector<machines::TaskFile>& tasks);
 [[nodiscard]] nlohmann::json machine_json(const machines::SimulatedExcavator& machine,

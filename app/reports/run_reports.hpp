@@ -38,7 +38,8 @@ void write_plan_report(const ReportTarget& target, const machines::ExcavatorMach
 
 /// Figures by their names, in SI units.
 void write_summary(const std::filesystem::path& file, const runs::RunFigures& figures);
-/// The same, with a list of the steps as they were done.
+/// The same, with a list of the steps as they were done, and the places of an area as it was built
+/// (`built_map`, see runs::BuiltPlace; empty without one).
 void write_autodig_summary(const std::filesystem::path& file, const runs::AutodigSummary& summary);
 void write_plan_json(const std::filesystem::path& file, const ExcavatorProfile& profile,
                      const PlanResult& result, const std::vector<runs::PlanSample>& samples);

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "app/machines/task_text.hpp"
+#include "app/reports/page_setup.hpp"
 #include "app/reports/report_file.hpp"
 #include "app/reports/run_reports.hpp"
 
@@ -55,6 +56,13 @@ void write_autodig_summary(const std::filesystem::path& file, const runs::Autodi
                                 {"max_error_true_m", step.max_error_true_m},
                                 {"max_error_measured_m", step.max_error_measured_m},
                                 {"end_error_true_m", step.end_error_true_m}});
+  }
+  figures["built_map"] = ordered_json::array();
+  for (const runs::BuiltPlace& place : summary.built.map) {
+    figures["built_map"].push_back({{"x_m", rounded(place.at_m[0])},
+                                    {"y_m", rounded(place.at_m[1])},
+                                    {"off_m", rounded(place.off_m)},
+                                    {"firm_m", rounded(place.firm_m)}});
   }
   write_json(file, figures);
 }

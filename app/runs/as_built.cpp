@@ -8,7 +8,6 @@
 namespace graben::runs {
 namespace {
 
-constexpr double kGrid_m = 0.05;
 /// On each side of a strip that has no neighbour there.
 constexpr double kRim_m = 0.05;
 constexpr double kQuantile = 0.95;
@@ -31,9 +30,9 @@ AsBuilt as_built(const TaskProgram& program, const plant::HeightField& ground) {
   const LayerPlan& plan = program.layers;
   const Fence& design = program.fences.fence[static_cast<unsigned>(program.fences.count - 1)];
   const Eigen::Vector3d up = -design.normal;
-  const auto along = static_cast<int>(std::ceil(plan.way_m / kGrid_m));
+  const auto along = static_cast<int>(std::ceil(plan.way_m / kBuiltGrid_m));
   const double half_m = 0.5 * plan.width_m - kRim_m;
-  const auto across = static_cast<int>(std::ceil(half_m / kGrid_m));
+  const auto across = static_cast<int>(std::ceil(half_m / kBuiltGrid_m));
   std::vector<double> off_m;
   built.left_m3 = 0.0;
   built.over_cut_m3 = 0.0;
@@ -65,6 +64,7 @@ AsBuilt as_built(const TaskProgram& program, const plant::HeightField& ground) {
   built.within_ratio = static_cast<double>(within) / static_cast<double>(off_m.size());
   built.high_m = quantile(off_m, kQuantile);
   built.low_m = quantile(off_m, 1.0 - kQuantile);
+  built.median_m = quantile(off_m, 0.5);
   return built;
 }
 

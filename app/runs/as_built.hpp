@@ -23,12 +23,15 @@ struct AsBuilt {
   double within_ratio = kAbsent;  ///< Share of the area that is within kBuilt_m of the design.
   double high_m = kAbsent;        ///< 95 % of the area is no higher than this,
   double low_m = kAbsent;         ///< and no lower than this.
-  double left_m3 = kAbsent;       ///< Over the design.
-  double over_cut_m3 = kAbsent;   ///< Under it.
-  std::vector<BuiltPlace> map;
+  double median_m = kAbsent;
+  double left_m3 = kAbsent;      ///< Over the design.
+  double over_cut_m3 = kAbsent;  ///< Under it.
+  std::vector<BuiltPlace> map;   ///< Places of a grid along the cuts.
 };
 
 inline constexpr double kBuilt_m = 0.03;
+/// From place to place, at most.
+inline constexpr double kBuiltGrid_m = 0.05;
 
 /// Of the area under the cuts of a program in layers: every strip as wide as the bucket, but for
 /// its rims, where the walls fall in.

@@ -121,6 +121,8 @@ FigureTable<AutodigSummary> task_figures() {
        [](const S& s) { return s.built.high_m; }},
       {{"built_low_m", "95 % of it no lower than", kMillimetres, "built_low_m", BadEnd::kLow},
        [](const S& s) { return s.built.low_m; }},
+      {{"built_median_m", "half of it no higher over it than", kMillimetres},
+       [](const S& s) { return s.built.median_m; }},
       {{"built_left_m3", "left over the design", kCubicMetres, "built_left_m3"},
        [](const S& s) { return s.built.left_m3; }},
       {{"built_over_cut_m3", "cut under the design", kCubicMetres, "built_over_cut_m3"},

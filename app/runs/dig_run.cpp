@@ -39,6 +39,9 @@ class DigRun {
     result_.rejected_frames = figures.rejected_frames;
     result_.loops = progress_.share() * options_.loops;
     result_.peak_chamber_pressure_pa = rig_.plant.plant().peak_chamber_pressure_pa();
+    if (const plant::BucketSoil* soil = rig_.plant.plant().digging(); soil != nullptr) {
+      result_.cut_m3 = soil->cut_m3();
+    }
     return std::move(result_);
   }
 
@@ -97,6 +100,9 @@ class DigRun {
         off_field_rad(sample.velocity_true_mps, sample.tip_true_m, sample.attitude_true_rad);
     sample.mean_off_field_rad = mean_off_field_rad(sample);
     sample.tip_force_n = plant.tip_force_n();
+    if (const plant::BucketSoil* soil = plant.digging(); soil != nullptr) {
+      sample.fill_m3 = soil->fill_m3();
+    }
     for (const plant::SectionFlows& flows : plant.section_flows()) {
       sample.regenerating = sample.regenerating || flows.recycle_in_m3ps > 0.0;
     }

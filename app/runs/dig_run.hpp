@@ -48,6 +48,7 @@ struct DigSample {
   /// without how the oil rings.
   double mean_off_field_rad = 0.0;
   Eigen::Vector2d tip_force_n = Eigen::Vector2d::Zero();
+  double fill_m3 = kAbsent;   ///< Of the bucket, loose, where the ground is cut.
   bool regenerating = false;  ///< Any section's check is open.
   Obstruction obstruction = Obstruction::kNone;
   double error_true_m = 0.0;
@@ -75,7 +76,8 @@ struct DigResult {
   double wall_s = 0.0;
   std::uint32_t rejected_frames = 0;
   double peak_chamber_pressure_pa = 0.0;
-  double loops = 0.0;  ///< Times round the path.
+  double loops = 0.0;       ///< Times round the path.
+  double cut_m3 = kAbsent;  ///< Undisturbed soil, where it is cut.
   RealSpoolEdges spool_edges{};
 };
 
@@ -101,6 +103,9 @@ struct DigSummary {
   double lambda_below_1_share = kAbsent;  ///< Of the time on the path.
   double regeneration_share = kAbsent;    ///< Of the time on the path: any check valve open.
   double peak_chamber_pressure_pa = 0.0;
+  // Of a ground that is cut, on the way to the path too.
+  double cut_m3 = kAbsent;       ///< Undisturbed.
+  double fill_max_m3 = kAbsent;  ///< Loose, in the bucket.
   /// With something in the way; from 0.3 s after it let go, for 3 s.
   std::optional<Recovery> recovery;
   double approach_s = kAbsent;     ///< Until the path was reached.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "app/runs/dig_run.hpp"
 
@@ -65,6 +66,10 @@ FigureTable<DigSummary> path_figures() {
       {{"peak_chamber_pressure_pa", "highest chamber pressure", kMegapascals,
         "peak_chamber_pressure_pa"},
        [](const S& s) { return s.peak_chamber_pressure_pa; }},
+      // No columns: a campaign that was begun goes on.
+      {{"cut_m3", "soil that was cut", kCubicMetres}, [](const S& s) { return s.cut_m3; }},
+      {{"fill_max_m3", "loose soil in the bucket, max", kCubicMetres},
+       [](const S& s) { return s.fill_max_m3; }},
       {{"recovery.lambda_held", "lambda while the obstacle holds, min", kRatio, "lambda_held",
         BadEnd::kLow},
        [](const S& s) { return s.recovery ? s.recovery->lambda_held : kAbsent; }},
@@ -94,6 +99,7 @@ DigSummary summarise(const DigResult& result) {
   long regenerating = 0;
   double lambda_min = 1.0;
   for (const DigSample& sample : result.samples) {
+    summary.fill_max_m3 = std::fmax(summary.fill_max_m3, sample.fill_m3);
     if (!sample.on_path) {
       continue;
     }
@@ -124,6 +130,7 @@ DigSummary summarise(const DigResult& result) {
     summary.ringing_rms_m = ringing_rms(cross_track_m, kRingingAbove_hz);
   }
   summary.peak_chamber_pressure_pa = result.peak_chamber_pressure_pa;
+  summary.cut_m3 = result.cut_m3;
   summary.recovery = recovery(result.samples);
   summary.calm = calm.figures();
   summary.energy_per_loop_j = summary.calm.energy_per_j(result.loops);

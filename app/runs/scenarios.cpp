@@ -65,6 +65,7 @@ machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machin
                                       const DigScenario& scenario) {
   machines::Scenario tried = scenario.scenario;
   tried.errors = errors_of(scenario.errors);
+  tried.ground_at_line = true;
   machines::SimulatedExcavator result = machines::arranged(machine, tried);
   set_law(scenario.law, result.profile);
   set_swash(scenario.swash_ratio, result);
@@ -87,6 +88,7 @@ std::string scenario_text(const DigScenario& scenario) {
     }
   };
   add(scenario.scenario.soil, "soil");
+  add(!scenario.scenario.ground.empty(), scenario.scenario.ground.c_str());
   add(scenario.scenario.air, "air");
   add(scenario.scenario.obstacle, "obstacle");
   add(scenario.scenario.stiff_oil, "stiff oil");

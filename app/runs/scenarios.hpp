@@ -32,8 +32,8 @@ struct DigScenario {
 /// figures for, and for errors that have no such name.
 [[nodiscard]] machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machine,
                                                     const DigScenario& scenario);
-/// "soil, dead time 0.15 s, errors kim, found oil 0.7 GPa, exponent 1.4"; the same text, the same
-/// scenario.
+/// "soil, dead time 0.15 s, errors kim, found oil 0.7 GPa, exponent 1.4"; soil that is cut by its
+/// name. The same text, the same scenario.
 [[nodiscard]] std::string scenario_text(const DigScenario& scenario);
 
 /// Start of the bucket and length of its way unless told: machines::dig_start(), once round; in

@@ -34,7 +34,7 @@ class Kind:
                     *options, status=status)
 
 
-DIG = Kind("dig", "excavator_22t", "path error of the true tip, max", (("--soil",), ("--speed", "0.5")))
+DIG = Kind("dig", "excavator_22t", "path error of the true tip, max", (("--soil",), ("--soil", "sand"), ("--speed", "0.5")))
 GRADE = Kind("grade", "dozer_9t", "true edge over the grade, max",
              (("--speed-mode", "constant"), ("--speed", "0.5"), ("--engine-rpm", "1400")))
 

@@ -88,7 +88,7 @@ def bad_usage(graben):
 
 def bad_tasks(graben):
     """What is of Kim's path alone goes with no task, and is not silently left out."""
-    for option in (("--soil",), ("--air",), ("--obstacle",), ("--stiff-oil",),
+    for option in (("--air",), ("--obstacle",), ("--stiff-oil",),
                    ("--dead-time", "0.1"), ("--fixed-lambda",), ("--law", "kim"), ("--start-strokes", "1,1,0.4"),
                    ("--start", "5,0,1.5"), ("--random-start",), ("--loops", "1")):
         done = call(graben, "dig", "--task", "flatten", *option)
@@ -96,6 +96,10 @@ def bad_tasks(graben):
         assert "excludes" in done.stderr and option[0] in done.stderr and "--task" in done.stderr, \
             f"{option}: {done.stderr}"
     refused(graben, "task '' not found", "dig", "--task", "")
+    refused(graben, "--soil kim: not with --task; there are sand", "dig", "--task", "flatten", "--soil")
+    refused(graben, "mud not in {kim,sand,loam,clay,stones}", "dig", "--soil", "mud", status=2)
+    refused(graben, "--soil: only with --sim", "scope", "--log", "no_such", "--soil")
+    refused(graben, "of an excavator alone", "scope", "--sim", "grade", "--port", "0", "--soil", "sand")
     refused(graben, "this machine's swing is held", "dig", "--task", "flatten", "--profile",
             "excavator_22t")
     refused(graben, "none,stroke-bias,sensors,parameters,kim,all", "autodig", "--errors", "some",

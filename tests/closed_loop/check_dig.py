@@ -60,9 +60,33 @@ def check_calm(what, figures):
     assert 0.99 < per_loop < 1.0 / 0.99, f"{what}: one loop took {per_loop:.3f} of the energy"
 
 
+def soil_is_cut(graben, folder):
+    """The paper's field of force by its name or without one; sand, which the path goes through, is cut once and has
+    slid into the way by the second round. With all errors it is another sand each seed."""
+    field = dig(graben, folder, "--soil")
+    first = log_bytes(folder)
+    assert dig(graben, folder, "--soil", "kim")["cut_m3"] is None is field["cut_m3"], field
+    assert log_bytes(folder) == first, "--soil is not --soil kim"
+    sand = dig(graben, folder, "--soil", "sand")
+    once = log_bytes(folder)
+    assert once != first, "sand is Kim's field"
+    dig(graben, folder, "--soil", "sand")
+    assert log_bytes(folder) == once, "the same sand gave different logs"
+    # 1.2 m deep and as wide, where the bucket goes along the bottom; it holds 1.1 m3.
+    assert 0.8 < sand["cut_m3"] < 4.0 and 0.8 < sand["fill_max_m3"] < 1.2, sand
+    assert LEAST_ERROR_M < sand["max_error_true_m"] < MAX_ERROR_M, sand
+    twice = dig(graben, folder, "--soil", "sand", "--loops", "2")
+    assert sand["cut_m3"] - 1e-6 <= twice["cut_m3"] < 1.2 * sand["cut_m3"], (sand, twice)
+    drawn = {dig(graben, folder, "--soil", "sand", "--errors", "all", "--seed", seed)["cut_m3"] for seed in "34"}
+    assert len(drawn) == 2, drawn
+    task = dig(graben, folder, "--task", "trench", "--soil", "loam")
+    assert 1.0 < task["cut_m3"] < 4.0, task["cut_m3"]
+
+
 def main():
     graben = sys.argv[1]
     with tempfile.TemporaryDirectory() as folder:
+        soil_is_cut(graben, folder)
         usual = dig(graben, folder)
         check_summary("usual start", usual)
         check_calm("usual start", usual)

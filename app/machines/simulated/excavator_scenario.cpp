@@ -54,8 +54,7 @@ void vary_parameters(ExcavatorProfile& profile, const Uncertainty& uncertainty,
 constexpr double kSoilOff = 0.4;
 constexpr double kDensityOff = 0.15;
 
-/// At the height of the tracks.
-void lay_ground(const Scenario& scenario, const ExcavatorGeometry& geometry,
+void lay_ground(const Scenario& scenario, const ExcavatorGeometry& geometry, double line_m,
                 plant::ExcavatorPlantProfile& plant) {
   const auto kind = soil_kind(scenario.ground);
   if (!kind) {
@@ -75,6 +74,8 @@ void lay_ground(const Scenario& scenario, const ExcavatorGeometry& geometry,
   plant.digging->soil = scaled(*kind, factors);
   plant.digging->bucket = plant.bucket;
   plant.digging->pin_m = geometry.bucket_length_m;
+  // Else at the height of the tracks.
+  plant.digging->level_m = scenario.ground_at_line ? geometry.boom_foot_m.y() + line_m : 0.0;
   plant.digging->gravity_mps2 = plant.gravity_mps2;
 }
 
@@ -128,7 +129,7 @@ SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario
     plant.soil = experiment.soil;
   }
   if (!scenario.ground.empty()) {
-    lay_ground(scenario, machine.profile.geometry, plant);
+    lay_ground(scenario, machine.profile.geometry, experiment.soil.ground_y_m, plant);
   }
   if (scenario.obstacle) {
     plant.obstacle = experiment.obstacle;

@@ -79,6 +79,8 @@ enum class Errors { kNone, kStrokeBias, kSensors, kParameters, kKim, kAll };
 struct Scenario {
   bool soil = false;   ///< Kim's field of force below the ground.
   std::string ground;  ///< Soil that is cut, of kSoilNames; empty: none.
+  /// It lies at the profile's ground line, as Kim's field, instead of where the tracks stand.
+  bool ground_at_line = false;
   bool obstacle = false;
   bool air = false;        ///< The manoeuvre in the air instead of the digging path.
   bool stiff_oil = false;  ///< The paper's, for comparison with its figures.

@@ -244,7 +244,7 @@ BucketForce BucketSoil::step(const BucketPlace& place) {
   place_ = place;
   plane_ = direction(place.swing_rad);
   floor_ = direction(place.attitude_rad - profile_.bucket.floor_rad);
-  const Eigen::Vector2d edge_m(place.radius_m, place.height_m);
+  const Eigen::Vector2d edge_m(place.radius_m, place.height_m - profile_.level_m);
   if (steps_ == 0) {
     edge_m_ = edge_m;
     anchor_m_ = edge_m;

@@ -41,6 +41,7 @@ class BucketSoil {
   /// ground makes room for it.
   BucketForce step(const BucketPlace& place);
 
+  /// Heights over `profile().level_m`.
   [[nodiscard]] const HeightField& ground() const { return ground_; }
   [[nodiscard]] double fill_m3() const { return fill_m3_; }  ///< Loose.
   [[nodiscard]] double fill_kg() const;

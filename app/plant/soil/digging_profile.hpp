@@ -19,6 +19,7 @@ struct DiggingProfile {
   SoilKind soil;
   BucketShape bucket;
   double pin_m = 0.0;         ///< Edge to bucket pin.
+  double level_m = 0.0;       ///< Of the ground before it is cut, over the ground frame.
   double half_side_m = 12.0;  ///< Of the ground that can be cut.
   double gravity_mps2 = 9.80665;
 };

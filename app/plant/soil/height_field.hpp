@@ -18,7 +18,7 @@ struct TakenSoil {
 };
 
 /// A square of cells about the swing axis, level at height 0 in the beginning; beyond it the ground
-/// is level and hard. Heights in m over the ground frame, x forward, y left.
+/// is level and hard. Heights in m over that level, x forward, y left.
 class HeightField {
  public:
   static constexpr double kCell_m = 0.05;

@@ -40,6 +40,8 @@ void SimGround::step(plant::ExcavatorPlant& plant) {
 
 namespace {
 
+constexpr const char* kFieldOfForce = "kim";
+
 /// The nodes take the operator's share of the speed from SimOperator.
 constexpr double kFullSpeed = 1.0;
 
@@ -59,6 +61,10 @@ machines::SimulatedExcavator excavator_of(const SimOptions& options, const char*
     scenario.errors = machines::Errors::kKim;
     scenario.seed = *options.seed;
   }
+  if (options.soil != kFieldOfForce) {
+    scenario.ground = options.soil;
+    scenario.ground_at_line = options.task == "dig";
+  }
   return machines::arranged(
       machines::load_simulated_excavator(
           profile_of(options, usual, machines::MachineKind::kExcavator, "an excavator"),
@@ -75,7 +81,11 @@ SimSite<SimExcavator> dig_site(const SimOptions& options) {
     return std::make_unique<runs::DigRig>(*machine, start_m, kFullSpeed);
   };
   site.is_done = [](const SimExcavator::Rig&) { return false; };
+  if (machine->plant.digging) {
+    return site;  // No other ground beside it.
+  }
   site.ground = std::make_shared<SimGround>(machine->experiment.soil, machine->experiment.obstacle);
+  site.ground->want_soil(!options.soil.empty());
   site.before_cycle = [ground = site.ground](SimExcavator::Rig& nodes) {
     ground->step(nodes.plant.plant());
   };
@@ -83,6 +93,9 @@ SimSite<SimExcavator> dig_site(const SimOptions& options) {
 }
 
 SimSite<SimExcavator> autodig_site(const SimOptions& options) {
+  if (options.soil == kFieldOfForce) {
+    throw std::runtime_error("--soil kim: of the task dig alone");
+  }
   auto machine =
       std::make_shared<const machines::SimulatedExcavator>(excavator_of(options, "excavator_12t"));
   if (!machine->profile.has_swing()) {
@@ -136,8 +149,8 @@ std::unique_ptr<SimMachine> make_sim_machine(const SimOptions& options, FrameTap
     return rig_of(dig_site(options), std::move(tap));
   }
   if (options.task == "grade") {
-    if (!options.simulated.is_own()) {
-      throw std::runtime_error("--simulated, --hidden: of an excavator alone");
+    if (!options.simulated.is_own() || !options.soil.empty()) {
+      throw std::runtime_error("--simulated, --hidden, --soil: of an excavator alone");
     }
     return rig_of(grade_site(options), std::move(tap));
   }

@@ -47,6 +47,9 @@ struct SimOptions {
   std::optional<std::string> profile;    ///< File or shipped name; the task's own unless told.
   machines::SimulatedChoice simulated;   ///< Of an excavator.
   std::optional<std::string> task_file;  ///< Of autodig: file or shipped name; else flatten.
+  /// That an excavator digs in: of machines::kSoilNames, or of dig kim, a field of force that the
+  /// page can switch off. Empty: none from the start.
+  std::string soil;
   /// What the controller does not know is drawn from it: errors of sensors and parameters. Exact
   /// without it.
   std::optional<std::uint64_t> seed;

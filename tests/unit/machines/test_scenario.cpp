@@ -216,6 +216,9 @@ void soil_is_laid_and_drawn(void**) {
     assert_true(drawn.wall_friction_rad <= drawn.friction_rad);
   }
   assert_true(least > 0.6 && least < 0.65 && most > 1.35 && most < 1.4);
+  assert_near(plain.level_m, 0.0, 0.0);
+  scenario.ground_at_line = true;
+  assert_near(dug(Errors::kNone, 1).level_m, 1.75 - 1.0, 1e-12);
   scenario.ground = "mud";
   try {
     static_cast<void>(arranged(nominal(), scenario));

@@ -107,6 +107,19 @@ Eigen::Vector2d drag(BucketSoil& soil, double from_m, double to_m, double height
   return sum_n;
 }
 
+/// A bank of soil is the same soil, higher up.
+void soil_lies_at_its_level(void**) {
+  DiggingProfile profile = digging("loam");
+  BucketSoil low(profile, 1, kStep_s);
+  profile.level_m = 0.75;
+  BucketSoil high(profile, 1, kStep_s);
+  const Eigen::Vector2d low_n = drag(low, 7.0, 6.5, -0.2, 1.4);
+  const Eigen::Vector2d high_n = drag(high, 7.0, 6.5, 0.55, 1.4);
+  assert_true(low_n.norm() > 1e3);
+  assert_near((high_n - low_n).norm(), 0.0, 1e-6 * low_n.norm());
+  assert_near(high.cut_m3(), low.cut_m3(), 1e-6);
+}
+
 /// What is cut is in the bucket, in the ground it is missing, and nothing is lost.
 void volume_is_kept(void**) {
   BucketSoil soil(digging("loam"), 1, kStep_s);
@@ -246,6 +259,7 @@ int main() {
       cmocka_unit_test(a_rough_blade_meets_coulombs_pressure),
       cmocka_unit_test(rake_and_roughness_tell),
       cmocka_unit_test(ground_bears_as_tables_say),
+      cmocka_unit_test(soil_lies_at_its_level),
       cmocka_unit_test(volume_is_kept),
       cmocka_unit_test(no_ridge_stays_behind_the_edge),
       cmocka_unit_test(it_resists_motion_only),

@@ -83,6 +83,18 @@ void a_run_that_never_came_to_its_path_has_no_figures_of_it(void**) {
   }
 }
 
+/// On the way to the path too; without such ground there is no figure.
+void what_was_cut_is_told(void**) {
+  DigResult result = made();
+  assert_true(std::isnan(figure(figures_of(summarise(result)), "cut_m3")));
+  assert_true(std::isnan(figure(figures_of(summarise(result)), "fill_max_m3")));
+  result.cut_m3 = 2.5;
+  result.samples[50].fill_m3 = 0.8;
+  result.samples[500].fill_m3 = 0.6;
+  assert_near(figure(figures_of(summarise(result)), "cut_m3"), 2.5, 0.0);
+  assert_near(figure(figures_of(summarise(result)), "fill_max_m3"), 0.8, 0.0);
+}
+
 /// Two steps, left in the second one of the third round: the energy of 2.5 rounds,
 /// without that of the approach between.
 void a_tasks_energy_is_of_a_round(void**) {
@@ -126,6 +138,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(figures_are_of_the_time_on_the_path),
       cmocka_unit_test(a_run_that_never_came_to_its_path_has_no_figures_of_it),
+      cmocka_unit_test(what_was_cut_is_told),
       cmocka_unit_test(a_tasks_energy_is_of_a_round),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

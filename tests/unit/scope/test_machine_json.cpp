@@ -104,6 +104,22 @@ void the_path_is_the_task_s(void**) {
   }
 }
 
+void the_bucket_is_as_wide_as_the_profile_says(void**) {
+  machines::SimulatedExcavator machine = excavator("excavator_22t");
+  const json told = reports::machine_json(machine, {});
+  assert_near(told["bucket_width_m"].get<double>(), 1.2, 0.0);
+  assert_near(told["bucket_capacity_m3"].get<double>(), 1.1, 0.0);
+  machine.profile.geometry.body = {};
+  assert_false(reports::machine_json(machine, {}).contains("bucket_width_m"));
+}
+
+void ground_that_is_cut_lies_at_its_level(void**) {
+  machines::Scenario scenario;
+  scenario.ground = "loam";
+  machines::SimulatedExcavator machine = machines::arranged(excavator("excavator_22t"), scenario);
+  assert_near(reports::machine_json(machine, {})["dig"]["ground_z_m"].get<double>(), 0.0, 0.0);
+}
+
 void the_field_is_the_controller_s(void**) {
   const machines::SimulatedExcavator machine = excavator("excavator_22t");
   const Eigen::Vector2d foot_m = machine.profile.geometry.boom_foot_m;
@@ -304,6 +320,8 @@ int main() {
       cmocka_unit_test(every_shipped_machine_is_there),
       cmocka_unit_test(geometry_is_the_profile_s),
       cmocka_unit_test(the_path_is_the_task_s),
+      cmocka_unit_test(the_bucket_is_as_wide_as_the_profile_says),
+      cmocka_unit_test(ground_that_is_cut_lies_at_its_level),
       cmocka_unit_test(the_field_is_the_controller_s),
       cmocka_unit_test(steps_join_and_their_drives_fit),
       cmocka_unit_test(fences_have_words_and_the_design_is_the_last),

@@ -100,6 +100,14 @@ void options_that_do_not_fit(void**) {
   options = options_of("dig");
   options.task_file = "flatten";
   assert_true(throws(options, "of the task autodig alone"));
+  options = options_of("grade");
+  options.soil = "loam";
+  assert_true(throws(options, "of an excavator alone"));
+  options = options_of("autodig");
+  options.soil = "kim";
+  assert_true(throws(options, "of the task dig alone"));
+  options.soil = "mud";
+  assert_true(throws(options, "sand, loam, clay, stones"));
 }
 
 void only_the_digging_machine_has_ground(void**) {
@@ -111,6 +119,14 @@ void only_the_digging_machine_has_ground(void**) {
     refused(sim, {{"do", "soil"}, {"value", true}}, "soil: not of this simulation");
     refused(sim, {{"do", "obstacle"}, {"value", false}}, "obstacle: not of this simulation");
   }
+  scope::SimOptions options = options_of("dig");
+  options.soil = "kim";
+  SimWatch field(options);
+  field.run(0.1);
+  assert_true(field.state()["soil"] == true);
+  options.soil = "loam";
+  assert_true(SimWatch(options).session.setup()["can"] ==
+              json::parse(R"({"soil": false, "obstacle": false})"));
 }
 
 void setup_names_its_faults(void**) {

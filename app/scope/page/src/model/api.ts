@@ -59,6 +59,8 @@ export interface ExcavatorMachine extends AnyMachine {
   boom_m: number;    ///< Pin to pin.
   arm_m: number;
   bucket_m: number;  ///< Pin to teeth.
+  bucket_width_m?: number;      ///< Of the edge; like the next one where the profile says it.
+  bucket_capacity_m3?: number;  ///< Loose soil, heaped.
   boom_foot_m: Vector2;  ///< Boom foot pin: forward of the swing axis, above the ground.
   cylinders: {boom: Cylinder; arm: Cylinder; bucket: Cylinder};
   linkage: {
@@ -152,7 +154,18 @@ export interface Run {
   pose?: {drives: readonly (readonly number[])[]};
   /// Way that the true teeth or edge took, ground frame, over truth.time_s.
   way?: readonly Vector3[];
+  built?: Built;
   log?: string;  ///< candump text, gzip, base64.
+}
+
+/// An area as it was built: places of a grid, ground frame, and heights over the design along its
+/// normal.
+export interface Built {
+  cell_m: number;               ///< Of the grid.
+  x_m: readonly number[];
+  y_m: readonly number[];
+  off_mm: readonly number[];    ///< The surface, loose soil and all.
+  firm_mm: readonly number[];   ///< Ground that nobody has cut.
 }
 
 export interface SimSetup {

@@ -34,8 +34,31 @@ export const teeth_walk = (machine: ExcavatorMachine) =>
       const pose = excavatorPose(machine, [boom!, arm!, bucket!], swing);
       return pose && {
         x_m: pose.position_m[0], y_m: pose.position_m[1], z_m: pose.position_m[2],
-        heading_rad: swing, drives: [boom!, arm!, bucket!, swing]};
+        heading_rad: swing, drives: [boom!, arm!, bucket!, swing], tilt_rad: pose.attitude_rad};
     });
+  };
+
+/// What a bucket in the ground has to overcome at least, N; the empty one's error is less.
+const kResists_n = 4e3;
+const kTipLoad = ['TipForceOutwards', 'TipForceUp', 'TipForceDeviation', 'PayloadMass',
+  'PayloadDeviation'].map((name) => `EcuTipLoad.${name}`);
+
+/// The same with what the controller tells of the bucket's load.
+export const bucket_walk = (machine: ExcavatorMachine) =>
+  (store: FrameStore, after_s: number): EdgeWalk => {
+    const teeth = teeth_walk(machine)(store, after_s);
+    const loads = kTipLoad.map((signal) => new SignalWalk(store, signal, after_s));
+    let time_s = NaN;
+    return {
+      next: () => (time_s = teeth.next()),
+      edge: () => {
+        const edge = teeth.edge();
+        const [out, up, force, payload, deviation] = loads.map((walk) => walk.at(time_s));
+        return edge && {...edge, bucket: {
+          payload_kg: payload!, deviation_kg: deviation!,
+          resists: Math.hypot(out!, up!) > Math.max(kResists_n, 3 * force!)}};
+      },
+    };
   };
 
 export const blade_walk = (machine: DozerMachine) =>

@@ -4,8 +4,9 @@ import {Group, Matrix4, type Object3D, Object3D as Node, Vector3} from 'three';
 import type {Cylinder as CylinderData, ExcavatorMachine, Vector2} from '../model/api';
 import {direction, minus, rotated} from '../model/geometry';
 import type {ExcavatorPose} from '../model/excavator';
+import {BucketFill} from './bucket_fill';
 import {Cylinder} from './cylinder';
-import {excavator_shape, type ExcavatorShape} from './excavator_shape';
+import {bucket_shell, excavator_shape, type ExcavatorShape} from './excavator_shape';
 import type {ExcavatorState} from './machine_state';
 import type {SharedMaterials} from './materials';
 import {GhostPart, Part, part_geometry, type PartGeometry} from './part';
@@ -55,6 +56,8 @@ export class ExcavatorModel {
   readonly ghost = new Group();
   readonly shape: ExcavatorShape;
   readonly teeth = new Node();
+  private readonly fill: BucketFill;
+  private bucket_rad = 0;  ///< Direction against the level.
   private readonly geometries: Geometries;
   private readonly parts: Record<LinkName | 'undercarriage', Part>;
   private readonly links: Links;
@@ -81,7 +84,9 @@ export class ExcavatorModel {
     this.node.add(this.parts.undercarriage.node, this.links.platform);
     this.ghost.add(this.ghosts.platform);
     this.teeth.position.set(machine.bucket_m, 0, 0);
-    this.links.bucket.add(this.teeth);
+    this.fill = new BucketFill(
+      bucket_shell(machine), 0.5 * this.shape.widths.bucket_m - 0.02 * machine.bucket_m, shared);
+    this.links.bucket.add(this.teeth, this.fill.node);
     this.add_cylinders();
   }
 
@@ -100,12 +105,18 @@ export class ExcavatorModel {
 
   pose(pose: ExcavatorPose): void {
     pose_links(this.links, this.machine, pose);
+    this.bucket_rad = pose.directions_rad[2];
     for (const {axis, y_m, part} of this.cylinders) {
       const {base_m, eye_m} = pose.cylinders[axis];
       const [base, eye] =
         [in_plane(base_m, pose.swing_rad), in_plane(eye_m, pose.swing_rad)];
       part.place(new Vector3(base[0], y_m, base[1]), new Vector3(eye[0], y_m, eye[1]));
     }
+  }
+
+  /// What the bucket holds, as a share of its capacity.
+  show_fill(share: number): void {
+    this.fill.show(share, this.bucket_rad);
   }
 
   /// Where the drawn cylinders begin and end, in the frame of this model's parent.
@@ -138,11 +149,13 @@ export class ExcavatorModel {
   set_theme(colours: SceneColours): void {
     Object.values(this.parts).forEach((part) => part.set_theme(colours));
     this.cylinders.forEach(({part}) => part.set_theme(colours));
+    this.fill.set_theme(colours);
   }
 
   dispose(): void {
     Object.values(this.parts).forEach((part) => part.dispose());
     this.cylinders.forEach(({part}) => part.dispose());
+    this.fill.dispose();
   }
 }
 

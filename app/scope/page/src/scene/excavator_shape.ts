@@ -35,7 +35,7 @@ export function excavator_widths(machine: ExcavatorMachine): ExcavatorWidths {
   return {
     boom_m: boom,
     arm_m: 0.068 * machine.boom_m,
-    bucket_m: 0.8 * machine.bucket_m,
+    bucket_m: machine.bucket_width_m ?? 0.8 * machine.bucket_m,
     boom_cylinder_y_m: 0.5 * boom + barrel_radius(machine.cylinders.boom.bore_m) + 0.03,
   };
 }
@@ -186,11 +186,19 @@ const kShell: readonly Vector2[] = [
   [0.13, -0.03], [0.115, 0.15], [0.12, 0.33], [0.17, 0.45], [0.27, 0.53], [0.4, 0.555],
   [0.54, 0.515], [0.67, 0.41], [0.8, 0.25], [0.93, 0.045]];
 
+/// In the bucket's frame.
+export const bucket_shell = (machine: ExcavatorMachine): Vector2[] =>
+  sized(kShell, machine.bucket_m, [0, 0]);
+
+/// Loose soil that it holds, heaped; what buckets of its size do unless the profile says.
+export const bucket_capacity_m3 = (machine: ExcavatorMachine, widths: ExcavatorWidths): number =>
+  machine.bucket_capacity_m3 ?? 0.3 * widths.bucket_m * machine.bucket_m ** 2;
+
 function bucket(machine: ExcavatorMachine, widths: ExcavatorWidths): Piece[] {
   const size = machine.bucket_m;
   const {lug_m} = machine.linkage;
   const half = 0.5 * widths.bucket_m;
-  const shell = sized(kShell, size, [0, 0]);
+  const shell = bucket_shell(machine);
   const ear = hull_of_discs([
     {at_m: [0, 0], radius_m: 0.06 * size}, {at_m: lug_m, radius_m: 0.055 * size},
     {at_m: [0.13 * size, 0.04 * size], radius_m: 0.03 * size},

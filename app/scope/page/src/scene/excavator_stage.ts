@@ -4,9 +4,11 @@ import {Box3, Group, Object3D, Sphere, Vector3 as Point} from 'three';
 import type {ExcavatorMachine, FrameStore, Setup, Task, Vector3} from '../model/api';
 import {excavatorPose} from '../model/excavator';
 import {wantedExcavator} from '../model/wanted';
-import {teeth_walk} from './edges';
+import {bucket_walk, teeth_walk} from './edges';
 import {ExcavatorModel} from './excavator_model';
+import {bucket_capacity_m3} from './excavator_shape';
 import {GroundLayer} from './ground_layer';
+import {KeepOutBody} from './keep_out';
 import {excavator_key} from './key';
 import type {Labels} from './labels';
 import {excavator_state, planned_state} from './machine_state';
@@ -37,7 +39,7 @@ export class ExcavatorStage implements Stage {
   private readonly task_node = new Group();
   private readonly fences = new Group();
   private readonly design = new Group();
-  private task_parts: (TaskLayer | Pane)[] = [];
+  private task_parts: (TaskLayer | Pane | KeepOutBody)[] = [];
   private shown: ShownTask = 'none';
   private layers: SceneLayers | null = null;
   private colours: SceneColours | null = null;
@@ -52,7 +54,10 @@ export class ExcavatorStage implements Stage {
     this.trail = new TrailLayer(teeth_walk(machine));
     this.ground = new GroundLayer({
       grid: excavator_grid(machine), start: excavator_start(machine),
-      width_m: this.model.shape.widths.bucket_m, walk: teeth_walk(machine)}, shared.light);
+      width_m: this.model.shape.widths.bucket_m, walk: bucket_walk(machine),
+      load: {
+        capacity_m3: bucket_capacity_m3(machine, this.model.shape.widths),
+        show: (share) => this.model.show_fill(share)}}, shared.light);
     const far = Math.ceil(reach_m(machine));
     this.ground.set_centre(0, 0, 5 * far);
     this.ruler = new Ruler({
@@ -126,14 +131,15 @@ export class ExcavatorStage implements Stage {
     // The last fence is the design's own.
     const fences = task.design ? task.fences.slice(0, -1) : task.fences;
     fences.forEach((fence, i) => {
-      const {normal, offset_m, centre_m, half_m} = fence;
+      const {normal, offset_m, centre_m, half_m, round, turn_rad} = fence;
       if (normal && offset_m !== undefined) {
         const through = normal.map((part) => part * offset_m) as unknown as Vector3;
         this.add_plane('fence', `fence${i}`, fence.words, through, normal, reach);
       } else if (centre_m && half_m) {
-        // Told where its top is; its sides are not drawn.
-        const top_m: Vector3 = [centre_m[0], centre_m[1], centre_m[2] + half_m[2]];
-        this.labels.put(`fence${i}`, 'fences', fence.words, top_m);
+        const body = new KeepOutBody({centre_m, half_m, round, turn_rad});
+        this.task_parts.push(body);
+        this.fences.add(body.node);
+        this.labels.put(`fence${i}`, 'fences', fence.words, body.label_m);
       }
     });
     if (task.design) {

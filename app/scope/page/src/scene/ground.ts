@@ -17,7 +17,9 @@ void main() {
   // Soil that lies otherwise than the land is what is to be dug.
   vec3 uncut = mix(landColour, soilColour, step(0.001, abs(position.z + cutDepth)));
   float deep = smoothstep(0.0, 0.04, cutDepth) * (0.7 + 0.3 * clamp(cutDepth, 0.0, 1.0));
-  vColour = lit(mix(uncut, cutColour, deep), normal);
+  // Heaped up, it is as loose as what was cut, and lighter.
+  float piled = smoothstep(0.0, 0.06, -cutDepth);
+  vColour = lit(mix(mix(uncut, cutColour, deep), mix(soilColour, cutColour, 0.55), piled), normal);
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }`;
 

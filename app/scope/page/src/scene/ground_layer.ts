@@ -4,6 +4,7 @@ import {
   BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments, Mesh,
 } from 'three';
 import type {FrameStore} from '../model/api';
+import {BucketLoad} from './bucket_load';
 import {GroundMaterial} from './ground';
 import {GroundSurface} from './ground_surface';
 import {type Grid, HeightField} from './height_field';
@@ -17,6 +18,13 @@ export interface Soil {
   width_m: number;  ///< Of what cuts.
   start: (x_m: number, y_m: number) => number;
   walk: (store: FrameStore, after_s: number) => EdgeWalk;
+  load?: Load;
+}
+
+/// Of what cuts and carries: how much it holds, and who shows what is in it, as a share of that.
+export interface Load {
+  capacity_m3: number;
+  show: (share: number) => void;
 }
 
 /// Of a picture's time, for frames that the soil has not seen yet.
@@ -49,8 +57,9 @@ export class GroundLayer {
   }
 
   private begin(): TerrainHistory {
-    const {grid, start, width_m, walk} = this.soil;
-    return new TerrainHistory(new HeightField(grid, start), width_m, walk);
+    const {grid, start, width_m, walk, load} = this.soil;
+    return new TerrainHistory(new HeightField(grid, start), width_m, walk,
+      load ? new BucketLoad(load.capacity_m3) : null);
   }
 
   /// Works frames in for a while and shows the soil of `now_s`, or of as far as it knows.
@@ -64,8 +73,16 @@ export class GroundLayer {
     }
     const done = this.history.advance(store, now_s, kBudget_ms);
     this.history.field.show(now_s, this.surface.changed);
+    this.show_load(now_s);
     const known = Math.max(this.history.known_until_s, store.from_s);
     return {changed: this.surface.update(), behind_s: done ? 0 : Math.max(now_s - known, 0)};
+  }
+
+  private show_load(now_s: number): void {
+    const {load} = this.history;
+    if (load !== null) {
+      this.soil.load?.show(load.at(now_s) / load.capacity_m3);
+    }
   }
 
   private renew(): void {
@@ -78,6 +95,9 @@ export class GroundLayer {
   /// Without soil only lines of its metres are left, through which everything is seen.
   show(visible: boolean): void {
     this.visible = visible;
+    if (!visible) {
+      this.soil.load?.show(0);
+    }
     this.soil_mesh.visible = visible;
     this.flat.visible = !visible;
   }

@@ -1,4 +1,4 @@
-/// The ground as heights over a grid, lowered in the order of time and shown as it was at any time.
+/// The ground as heights over a grid, changed in the order of time and shown as it was at any time.
 
 export interface Grid {
   x_m: number;  ///< Of the first node.
@@ -13,8 +13,7 @@ export interface Grid {
 const kLeastCut_m = 0.002;
 
 /// Every change is kept with its time, the height before and after it: so any time between the
-/// first and the last is shown by undoing or redoing what lies between. Soil only goes down until it
-/// is laid anew, which bounds the entries by the soil that is there.
+/// first and the last is shown by undoing or redoing what lies between.
 export class HeightField {
   readonly grid: Grid;
   readonly heights: Float32Array;  ///< As shown; row by row from the first.
@@ -50,10 +49,34 @@ export class HeightField {
     return this.count;
   }
 
-  /// Takes the node down to a height, if it is above. Times must not fall.
-  lower(time_s: number, node: number, height_m: number): void {
+  /// After all changes.
+  latest_m(node: number): number {
+    return this.latest[node];
+  }
+
+  /// Of the node that is nearest; NaN beyond the grid.
+  latest_at(x_m: number, y_m: number): number {
+    const {cell_m, columns, rows} = this.grid;
+    const column = Math.round((x_m - this.grid.x_m) / cell_m);
+    const row = Math.round((y_m - this.grid.y_m) / cell_m);
+    const is_inside = column >= 0 && row >= 0 && column < columns && row < rows;
+    return is_inside ? this.latest[row * columns + column] : NaN;
+  }
+
+  /// Takes the node down to a height, if it is above; returns by how much. Times must not fall.
+  lower(time_s: number, node: number, height_m: number): number {
     const was = this.latest[node];
-    if (height_m <= was - kLeastCut_m) {
+    if (height_m > was - kLeastCut_m) {
+      return 0;
+    }
+    this.enter(time_s, node, was, height_m);
+    return was - height_m;
+  }
+
+  /// Brings the node up to a height, if it is below. Times must not fall.
+  raise(time_s: number, node: number, height_m: number): void {
+    const was = this.latest[node];
+    if (height_m >= was + kLeastCut_m) {
       this.enter(time_s, node, was, height_m);
     }
   }
@@ -139,6 +162,13 @@ function grown<List extends Float64Array | Float32Array | Int32Array>(from: List
   return to;
 }
 
+/// What the frames say of the bucket's load, beside where its edge is; NaN: not known.
+export interface BucketSigns {
+  payload_kg: number;
+  deviation_kg: number;  ///< Of the payload.
+  resists: boolean;      ///< The ground holds against the teeth.
+}
+
 /// An edge that cuts: as wide as the bucket or the blade, level, square to where it looks.
 export interface Edge {
   x_m: number;
@@ -146,27 +176,32 @@ export interface Edge {
   z_m: number;
   heading_rad: number;
   drives?: readonly number[];  ///< That hold it, m and rad, where each has a sensor of its own.
+  tilt_rad?: number;           ///< Of a bucket's mouth against level.
+  bucket?: BucketSigns;
 }
 
-/// Lowers the nodes that an edge of this width passes over between two of its places.
+/// Lowers the nodes that an edge of this width passes over between two of its places; returns the
+/// volume that they had, m3.
 export function cut(
-  field: HeightField, time_s: number, from: Edge, to: Edge, width_m: number): void {
+  field: HeightField, time_s: number, from: Edge, to: Edge, width_m: number): number {
   const {cell_m} = field.grid;
   const way = Math.hypot(to.x_m - from.x_m, to.y_m - from.y_m);
   const steps = Math.max(1, Math.ceil(way / (0.5 * cell_m)));
+  let lowered_m = 0;
   for (let i = 1; i <= steps; ++i) {
     const share = i / steps;
-    stamp(field, time_s, width_m, {
+    lowered_m += stamp(field, time_s, width_m, {
       x_m: from.x_m + share * (to.x_m - from.x_m),
       y_m: from.y_m + share * (to.y_m - from.y_m),
       z_m: from.z_m + share * (to.z_m - from.z_m),
       heading_rad: from.heading_rad + share * (to.heading_rad - from.heading_rad),
     });
   }
+  return lowered_m * cell_m ** 2;
 }
 
 /// Nodes under the edge: half a cell before and behind it, or it would slip between them.
-function stamp(field: HeightField, time_s: number, width_m: number, edge: Edge): void {
+function stamp(field: HeightField, time_s: number, width_m: number, edge: Edge): number {
   const {x_m, y_m, cell_m, columns, rows} = field.grid;
   const [cos, sin] = [Math.cos(edge.heading_rad), Math.sin(edge.heading_rad)];
   const half = Math.max(0.5 * width_m, 0.5 * cell_m) + 1e-6;
@@ -177,13 +212,15 @@ function stamp(field: HeightField, time_s: number, width_m: number, edge: Edge):
   const last = Math.min(columns - 1, Math.floor((edge.x_m + reach_x - x_m) / cell_m));
   const bottom = Math.max(0, Math.ceil((edge.y_m - reach_y - y_m) / cell_m));
   const top = Math.min(rows - 1, Math.floor((edge.y_m + reach_y - y_m) / cell_m));
+  let lowered_m = 0;
   for (let row = bottom; row <= top; ++row) {
     const dy = y_m + row * cell_m - edge.y_m;
     for (let column = first; column <= last; ++column) {
       const dx = x_m + column * cell_m - edge.x_m;
       if (Math.abs(dx * cos + dy * sin) <= thick && Math.abs(dy * cos - dx * sin) <= half) {
-        field.lower(time_s, row * columns + column, edge.z_m);
+        lowered_m += field.lower(time_s, row * columns + column, edge.z_m);
       }
     }
   }
+  return lowered_m;
 }

@@ -19,6 +19,7 @@ export function si_factor(unit: string): number {
   switch (unit) {
     case 'mm': case 'mm/s': case 'mrad': case 'mrad/s': return 1e-3;
     case 'MPa': return 1e6;
+    case 'kN': return 1e3;
     case '%': return 1e-2;
     default: return 1;
   }

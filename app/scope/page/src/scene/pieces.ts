@@ -5,7 +5,7 @@ import type {Vector2} from '../model/api';
 import {add} from '../model/geometry';
 import {type Disc, hull_of_discs} from './outline';
 
-export type Paint = 'body' | 'frame' | 'steel' | 'glass' | 'belt' | 'weight';
+export type Paint = 'body' | 'frame' | 'steel' | 'glass' | 'belt' | 'weight' | 'soil';
 
 /// 'side': outline over x and z, reaching from `from_m` to `to_m` along y. 'top': outline over x
 /// and y, reaching so along z. Frame of the part.

@@ -16,6 +16,7 @@ const kPaints: Readonly<Record<Paint, string>> = {
   glass: '#3c4a55',
   belt: '#4d5257',
   weight: '#73787d',
+  soil: '#8f6d45',
 };
 
 export function solid(pieces: readonly Piece[]): BufferGeometry {

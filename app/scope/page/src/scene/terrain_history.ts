@@ -1,7 +1,9 @@
-/// The soil as the received frames have it cut: every frame's edge in the order of time, a little
-/// at a time, so that an hour of log does not hold the page up.
+/// The soil as the received frames have it cut and heaped up: every frame's edge in the order of
+/// time, a little at a time, so that an hour of log does not hold the page up.
 
 import type {FrameStore, Vector3} from '../model/api';
+import {type BucketLoad} from './bucket_load';
+import {heap} from './heap';
 import {cut, type Edge, type HeightField} from './height_field';
 import {is_jump, is_one_sensor} from './jump';
 
@@ -20,6 +22,10 @@ const kGap_s = 0.3;
 const kArrive_s = 0.03;
 /// Frames between two looks at the clock.
 const kFramesAtOnce = 32;
+/// What falls is heaped up by so much at a time.
+const kHeaped_m3 = 0.03;
+/// An edge so far over the soil is clear of it.
+const kClear_m = 0.1;
 
 export class TerrainHistory {
   private known_s = -Infinity;
@@ -27,11 +33,16 @@ export class TerrainHistory {
   /// Newest place, kept where nothing is known for a while.
   private seen: {edge: Edge; time_s: number} | null = null;
   private arriving_s = -Infinity;
+  private falling_m3 = 0;
+  /// Where the bucket was opened widest since it was weighed.
+  private opened: {edge: Edge; open_rad: number} | null = null;
 
   /// `walk` begins with the first frame after a time. The field has to be as it was at the start.
+  /// `load`: of what carries soil away.
   constructor(
     readonly field: HeightField, private readonly width_m: number,
-    private readonly walk: (store: FrameStore, after_s: number) => EdgeWalk) {}
+    private readonly walk: (store: FrameStore, after_s: number) => EdgeWalk,
+    readonly load: BucketLoad | null = null) {}
 
   /// All frames until then are in the field.
   get known_until_s(): number {
@@ -85,10 +96,36 @@ export class TerrainHistory {
     const sunk = before.edge.z_m - edge.z_m;
     if (moved < 0.1 * this.field.grid.cell_m && sunk < 0.002 &&
         time_s - before.time_s < 0.5 * kGap_s) {
+      this.carry(time_s, edge, 0);
       return;
     }
-    cut(this.field, time_s, before.edge, edge, this.width_m);
+    this.carry(time_s, edge, cut(this.field, time_s, before.edge, edge, this.width_m));
     this.last = {edge, time_s};
+  }
+
+  private carry(time_s: number, edge: Edge, cut_m3: number): void {
+    const {load} = this;
+    const {bucket, tilt_rad = NaN} = edge;
+    if (load === null || bucket === undefined) {
+      return;
+    }
+    const open_rad = Math.abs(tilt_rad);
+    if (this.opened === null || open_rad > this.opened.open_rad) {
+      this.opened = {edge, open_rad};
+    }
+    const free = edge.z_m > this.field.latest_at(edge.x_m, edge.y_m) + kClear_m;
+    const {poured_m3, missed_m3} = load.step(time_s, {...bucket, tilt_rad, free}, cut_m3);
+    this.falling_m3 += poured_m3;
+    if (this.falling_m3 > (load.now_m3 > 0 ? kHeaped_m3 : 0)) {
+      heap(this.field, time_s, edge, this.width_m, this.falling_m3);
+      this.falling_m3 = 0;
+    }
+    if (missed_m3 > 0) {
+      heap(this.field, time_s, this.opened.edge, this.width_m, missed_m3);
+    }
+    if (Number.isFinite(bucket.payload_kg)) {
+      this.opened = null;
+    }
   }
 
   /// No machine cuts on such a way. Who is at once elsewhere has begun anew, on soil as it was.
@@ -101,6 +138,9 @@ export class TerrainHistory {
     this.arriving_s = time_s + kArrive_s;
     if (!is_one_sensor(seen.edge.drives ?? [], edge.drives ?? [], since_s)) {
       this.field.lay_anew(time_s);
+      this.load?.empty(time_s);
+      this.falling_m3 = 0;
+      this.opened = null;
     }
   }
 }

@@ -1,6 +1,7 @@
 /// Of a run that is over: its figures, and what held lambda for how long.
 
 import type {Run} from '../model/api';
+import {built_map} from './built_map';
 import {el, section, set_shown} from './dom';
 import {fixed} from './format';
 import type {PageState, View} from './page_state';
@@ -19,12 +20,15 @@ export class RunPanel implements View {
     const heading = this.node.querySelector('h2')!;
     heading.textContent = run.title === '' ? 'Run' : run.title;
     this.node.replaceChildren(heading, el('p', {class: 'subtitle'}, run.subtitle),
-      figures(run), ...(run.limits_share.length > 0 ? [el('h3', {}, 'What held lambda'),
+      ...listed('As built', built_map(run.built)), figures(run), ...(run.limits_share.length > 0 ? [el('h3', {}, 'What held lambda'),
         shares(run)] : []),
       ...(setup?.version === undefined ? [] :
         [el('p', {class: 'subtitle'}, `Graben ${setup.version}`)]));
   }
 }
+
+const listed = (title: string, node: HTMLElement | null): HTMLElement[] =>
+  node === null ? [] : [el('h3', {}, title), node];
 
 function figures(run: Run): HTMLElement {
   return el('table', {class: 'summary'},
