@@ -19,9 +19,9 @@ constexpr double kReliefAngle_rad = 0.30;
 constexpr double kAttitudeStep_rad = 0.05;
 constexpr int kAttitudeSteps = 24;
 /// Of the line over the design: what sensors and a light cut are off by.
-constexpr double kClearance_m = 0.009;
+constexpr double kClearance_m = 0.006;
 constexpr double kCutSpeed_mps = 0.6;
-constexpr double kPace = 1.0;
+constexpr double kPace = 0.7;
 constexpr double kCarried_rad = 0.3;
 constexpr double kEmptied_rad = 2.0;
 /// Over the ground, that a cut comes down from.
@@ -107,8 +107,9 @@ Area read_table(TomlReader& reader, const ExcavatorProfile& profile) {
   const bool wide = area.kind == AreaKind::kBench || area.kind == AreaKind::kLevel ||
                     area.kind == AreaKind::kTruck;
   if (wide) {
-    area.strips = static_cast<int>(std::lround(reader.number_or(
-        profile.has_swing() ? kStripsUsual : 1.0, "area.strips", {1.0, static_cast<double>(kStripMost), ""}, "side by side")));
+    area.strips = static_cast<int>(
+        std::lround(reader.number_or(profile.has_swing() ? kStripsUsual : 1.0, "area.strips",
+                                     {1.0, static_cast<double>(kStripMost), ""}, "side by side")));
   }
   area.dump_m = usual_dump(area, profile.has_swing());
   if (reader.has("area.dump")) {

@@ -23,10 +23,9 @@ int side_of(const DriveRow& drive, double spool_ratio) {
   return spool_ratio > 0.0 ? 1 : -1;
 }
 
-/// For certain. A motor's load does not push through a closed spool.
+/// For certain. A platform swings back on the oil that a closed spool has shut in.
 bool is_open(const DriveRow& drive, double spool_ratio) {
-  const double band = drive.control.has_end_stops ? kEdgeBand : 0.0;
-  return std::abs(spool_ratio) > drive.answer.towards(spool_ratio).edge() + band;
+  return std::abs(spool_ratio) > drive.answer.towards(spool_ratio).edge() + kEdgeBand;
 }
 
 /// Its own oil pushes it against its spool.

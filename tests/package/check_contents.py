@@ -27,6 +27,7 @@ FILES = {
     "./usr/share/graben/excavator_22t.toml": 0o644,
     "./usr/share/graben/tasks/flatten.toml": 0o644,
     "./usr/share/graben/tasks/truck_by_steps.toml": 0o644,
+    "./usr/share/graben/tasks/truck_loading.toml": 0o644,
     "./usr/share/man/man8/graben-ecu.8.gz": 0o644,
     **{f"{DOCUMENTS}/{name}": 0o644 for name in ("README", "changelog.gz", "copyright")},
 }

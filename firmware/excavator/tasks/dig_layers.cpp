@@ -20,9 +20,8 @@ constexpr double kHeavy = 0.9;
 constexpr double kLight = 0.5;
 constexpr double kDeeper = 1.15;
 constexpr double kShallower = 0.75;
-/// Of a full bucket: what a cut gets at least, and what may fall out where the next one begins.
+/// Of a full bucket: less is next to nothing.
 constexpr double kLittle = 0.1;
-constexpr double kCarried = 0.12;
 
 double share_of(int bin) { return (bin + 0.5) / kStripBins; }
 
@@ -93,8 +92,7 @@ Cut cut_of(const LayerPlan& plan, const CutState& state, int strip) {
   cut.strip = strip;
   cut.thin = highest <= kLastLayer_m + kRough_m;
   if (!cut.thin) {
-    const double room_m3 =
-        kHeaped * plan.full_m3 - std::min(state.loaded_m3, kCarried * plan.full_m3);
+    const double room_m3 = kHeaped * plan.full_m3;
     cut.height_m = std::max({kLastLayer_m, filling_height_m(plan, tops, room_m3),
                              mean_m(plan, tops) - state.depth_m, highest - kBump * state.depth_m});
   }
@@ -183,7 +181,7 @@ void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state) {
 }
 
 bool keeps_load(const LayerPlan& plan, const CutState& state) {
-  return state.loaded_m3 < kCarried * plan.full_m3;
+  return state.met && state.loaded_m3 < kLittle * plan.full_m3;
 }
 
 }  // namespace graben

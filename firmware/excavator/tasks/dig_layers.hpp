@@ -79,7 +79,7 @@ struct CutEnd {
 /// left. Cuts after one that was too heavy are less deep, after an easy one deeper.
 void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state);
 
-/// The bucket is not emptied before the next cut: there is next to nothing in it.
+/// All is dug and next to nothing is in the bucket: it is not emptied any more.
 [[nodiscard]] bool keeps_load(const LayerPlan& plan, const CutState& state);
 
 /// Soil counts as left if it stands higher by so much over a cut; over the design itself, in more

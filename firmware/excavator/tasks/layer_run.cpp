@@ -352,13 +352,12 @@ void LayerRun::move(TaskState& state) const {
   }
 }
 
-/// With room left in the bucket the way to the next cut is the shortest.
 void LayerRun::next_step(TaskState& state) const {
   const int count = program_.step_count;
   int step = (state.step + 1) % count;
   if (state.step == plan_.step) {
     if (keeps_load(plan_, state.layers.cuts)) {
-      // Where all is dug, it ends there.
+      // The step before the cut finds nothing left and ends the task.
       step = (plan_.step + count - 1) % count;
     } else {
       state.layers.cuts.loaded_m3 = 0.0;

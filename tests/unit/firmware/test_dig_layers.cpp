@@ -26,20 +26,36 @@ double cut_through(const LayerPlan& plan, double height_m, CutState& state) {
   return pass(plan, 1.0, 0.0, height_m, state);
 }
 
-void depth_is_what_fills_the_bucket(void**) {
-  const CutState state = undug(plan());
-  assert_near(state.depth_m, 0.4 / (0.8 * 2.0 * 1.0), 1e-12);
-  assert_near(state.cut.height_m, 0.5 - state.depth_m, 1e-6);
+constexpr CutEnd kEven{0.7, 0.4};
+constexpr CutEnd kNothing{0.7, 0.0};
+
+void a_cut_fills_the_bucket(void**) {
+  const LayerPlan whole = plan();
+  const CutState state = undug(whole);
+  assert_near(state.cut.volume_m3, kHeaped * whole.full_m3, 1e-4);
+  assert_near(state.cut.height_m, 0.5 - kHeaped * 0.4 / 2.0, 1e-4);
   assert_near(state.cut.from_share, 0.0, 0.0);
   assert_true(state.cut.enters_m > 0.5);
-  assert_false(state.met);
-  LayerPlan small = plan();
-  small.full_m3 = 4.0;
-  assert_near(undug(small).depth_m, 0.35, 0.0);
+  assert_false(state.met || state.cut.thin);
+  LayerPlan large = plan();
+  large.full_m3 = 4.0;
+  assert_near(undug(large).cut.height_m, 0.5 - 0.35, 1e-6);
 }
 
-/// Each layer is lower, the last is thin, and then all is met.
-void goes_down_layer_by_layer(void**) {
+/// A wall that was left at one end is taken with the rest, and no deeper than a cut may be.
+void what_stands_out_is_part_of_the_next_cut(void**) {
+  const LayerPlan whole = plan();
+  CutState state = undug(whole);
+  static_cast<void>(pass(whole, 0.75, 0.0, state.cut.height_m, state));
+  const double floor_m = state.cut.height_m;
+  next_cut(whole, kEven, state);
+  assert_true(state.cut.height_m < floor_m);
+  assert_near(state.cut.from_share, 0.0, 0.0);
+  assert_true(0.5 - state.cut.height_m <= 1.5 * state.depth_m + 1e-6);
+}
+
+/// Each cut is lower, the last is thin, and then all is met.
+void goes_down_cut_by_cut(void**) {
   const LayerPlan whole = plan();
   CutState state = undug(whole);
   double last_m = 0.5;
@@ -48,12 +64,15 @@ void goes_down_layer_by_layer(void**) {
   while (!state.met) {
     assert_true(state.cut.height_m < last_m);
     assert_true(state.cut.height_m >= 0.0);
-    if (state.cut.height_m == 0.0) {
+    assert_true(state.cut.thin == (state.cut.height_m == 0.0));
+    if (state.cut.thin) {
       assert_true(last_m <= kLastLayer_m + kRough_m + 1e-6);
     }
     last_m = state.cut.height_m;
-    cut_m3 += cut_through(whole, last_m, state);
-    next_cut(whole, state);
+    const double got_m3 = cut_through(whole, last_m, state);
+    cut_m3 += got_m3;
+    next_cut(whole, {0.7, got_m3}, state);
+    state.loaded_m3 = 0.0;
     assert_true(++cuts < 20);
   }
   assert_near(last_m, 0.0, 0.0);
@@ -68,9 +87,25 @@ void only_what_was_passed_is_gone(void**) {
   assert_near(half_m3, (0.5 - height_m) * 1.0 * 1.0, 1e-5);
   assert_near(pass(whole, 0.5, 0.0, height_m, state), 0.0, 0.0);
   assert_near(pass(whole, 0.5, 0.0, height_m + 0.1, state), 0.0, 0.0);
-  next_cut(whole, state);
-  assert_near(state.cut.height_m, height_m, 0.0);
-  assert_true(state.cut.from_share > 0.3 && state.cut.from_share < 0.5);
+}
+
+/// One place that is a little rough is left, two are not; what is low already is passed over.
+void ends_where_next_to_nothing_is_left(void**) {
+  const LayerPlan whole = plan();
+  CutState state = undug(whole);
+  static_cast<void>(cut_through(whole, 0.0, state));
+  auto& bins = state.height_m[0];
+  bins[12] = 0.018F;
+  next_cut(whole, kEven, state);
+  assert_true(state.met);
+  bins[12] = 0.025F;
+  next_cut(whole, kEven, state);
+  assert_false(state.met);
+  assert_true(state.cut.thin && state.cut.from_share > 0.3 && state.cut.from_share < 0.5);
+  bins[12] = 0.018F;
+  bins[13] = 0.018F;
+  next_cut(whole, kEven, state);
+  assert_false(state.met);
 }
 
 void strips_one_after_the_other(void**) {
@@ -81,8 +116,9 @@ void strips_one_after_the_other(void**) {
     assert_int_equal(state.cut.strip, strip);
     const double height_m = state.cut.height_m;
     static_cast<void>(cut_through(wide, height_m, state));
-    next_cut(wide, state);
+    next_cut(wide, kEven, state);
     assert_true(strip == 2 || state.cut.height_m == height_m);
+    state.loaded_m3 = 0.0;
   }
   assert_int_equal(state.cut.strip, 0);
 }
@@ -94,27 +130,41 @@ void what_stays_up_is_left(void**) {
   int cuts = 0;
   for (; !state.met; ++cuts) {
     assert_true(cuts < kCutsMost);
-    next_cut(whole, state);
+    next_cut(whole, kNothing, state);
   }
-  assert_true(cuts >= kTriesMost);
+  assert_true(cuts >= kTriesMost && cuts < 40);
 }
 
 void depth_follows_the_force(void**) {
   const LayerPlan whole = plan();
   CutState state = undug(whole);
   const double first_m = state.depth_m;
-  after_cut(whole, 1.2, state);
+  next_cut(whole, {1.2, 0.4}, state);
   assert_true(state.depth_m < first_m);
-  after_cut(whole, 0.8, state);
+  next_cut(whole, {0.7, 0.4}, state);
   assert_true(state.depth_m < first_m);
   for (int n = 0; n < 20; ++n) {
-    after_cut(whole, 0.2, state);
+    next_cut(whole, {0.2, 0.4}, state);
   }
   assert_near(state.depth_m, whole.depth_most_m, 0.0);
   for (int n = 0; n < 20; ++n) {
-    after_cut(whole, 2.0, state);
+    next_cut(whole, {2.0, 0.4}, state);
   }
   assert_true(state.depth_m > 0.0);
+}
+
+void a_bucket_with_next_to_nothing_is_not_emptied_at_the_end(void**) {
+  const LayerPlan whole = plan();
+  CutState state = undug(whole);
+  next_cut(whole, {0.7, 0.02}, state);
+  assert_false(keeps_load(whole, state));
+  static_cast<void>(cut_through(whole, 0.0, state));
+  state.loaded_m3 = 0.0;
+  next_cut(whole, {0.7, 0.02}, state);
+  assert_true(state.met);
+  assert_true(keeps_load(whole, state));
+  next_cut(whole, {0.7, 0.2}, state);
+  assert_false(keeps_load(whole, state));
 }
 
 /// Ground under the design is none to dig.
@@ -129,12 +179,15 @@ void ground_below_its_design_is_met(void**) {
 
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(depth_is_what_fills_the_bucket),
-      cmocka_unit_test(goes_down_layer_by_layer),
+      cmocka_unit_test(a_cut_fills_the_bucket),
+      cmocka_unit_test(what_stands_out_is_part_of_the_next_cut),
+      cmocka_unit_test(goes_down_cut_by_cut),
       cmocka_unit_test(only_what_was_passed_is_gone),
+      cmocka_unit_test(ends_where_next_to_nothing_is_left),
       cmocka_unit_test(strips_one_after_the_other),
       cmocka_unit_test(what_stays_up_is_left),
       cmocka_unit_test(depth_follows_the_force),
+      cmocka_unit_test(a_bucket_with_next_to_nothing_is_not_emptied_at_the_end),
       cmocka_unit_test(ground_below_its_design_is_met),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

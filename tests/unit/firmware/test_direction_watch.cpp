@@ -154,7 +154,7 @@ void a_spool_that_closes_begins_anew(void**) {
   }
 }
 
-/// Where a dead band ends is known within 3 % of the travel; a motor has none to speak of.
+/// Where a dead band ends is known within 3 % of the travel, a motor's too.
 void a_spool_near_its_edge_may_be_closed(void**) {
   Bench bench;
   bench.open(kEdge + 0.029);
@@ -163,7 +163,11 @@ void a_spool_near_its_edge_may_be_closed(void**) {
   assert_false(bench.stops_after(20, -kStep_m));
   Bench motor;
   motor.row.control.has_end_stops = false;
-  motor.open(kEdge + 0.01);
+  motor.open(kEdge + 0.029);
+  motor.move(0.0);
+  motor.move(0.0);
+  assert_false(motor.stops_after(4, -kStep_m));
+  motor.open(kEdge + 0.031);
   motor.move(0.0);
   motor.move(0.0);
   assert_true(motor.stops_after(4, -kStep_m));

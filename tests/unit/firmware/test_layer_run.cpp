@@ -114,7 +114,7 @@ void aims_move_as_they_say(void**) {
 void a_heavy_cut_gives_way_upwards(void**) {
   const TaskProgram program = planned();
   const TaskState state = run_until(program, begun(program), [](const TaskState& at) {
-    return in_cut(at) && at.layers.share > 0.3;
+    return in_cut(at) && at.layers.share > 0.4;
   });
   const double depth_m = state.layers.cuts.depth_m;
   TaskState heavy = state;
@@ -124,7 +124,7 @@ void a_heavy_cut_gives_way_upwards(void**) {
     heavy = advance(program, heavy, seen);
   }
   assert_true(heavy.layers.height_m > state.layers.height_m + 0.02);
-  assert_true(heavy.layers.heaviest > 1.2);
+  assert_true(heavy.layers.heavy_s > 0.5);
   // Held for a second it ends, is lifted, and the next cuts are less deep.
   for (int n = 0; n < 200 && in_cut(heavy); ++n) {
     CutSeen seen = follows(program, heavy);

@@ -226,8 +226,8 @@ void refusals_name_step_joint_and_place(void**) {
   assert_says(floor,
               "step 0 (dig): the edge's left corner would come near fence[1], the floor at "
               "-0.50 m, to 50 mm at ");
-  const std::string design =
-      errors_of(edited("truck_by_steps", "through = [0.0, 0.0, -0.5]", "through = [0.0, 0.0, 2.5]"));
+  const std::string design = errors_of(
+      edited("truck_by_steps", "through = [0.0, 0.0, -0.5]", "through = [0.0, 0.0, 2.5]"));
   assert_says(design, "the design surface");
   const std::string open =
       errors_of(edited("truck_by_steps", "[7.0, 0.0, -0.45], attitude = 2.2 }\n\n[[step]]",
