@@ -52,8 +52,10 @@ double mean_m(const LayerPlan& plan, const Strip& strip) {
 }
 
 bool is_done(const Strip& strip) {
-  const auto rough = std::count_if(strip.begin(), strip.end(),
-                                   [](float top) { return static_cast<double>(top) > kFinish_m; });
+  int rough = 0;
+  for (const float top : strip) {
+    rough += static_cast<double>(top) > kFinish_m ? 1 : 0;
+  }
   return rough == 0 || (rough == 1 && highest_m(strip) <= kLeft_m);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "firmware/excavator/swing.hpp"
+#include "firmware/excavator/tasks/cut_force.hpp"
 
 namespace graben {
 namespace {
@@ -21,14 +22,9 @@ constexpr double kHeightChange_mps2 = 1.0;
 /// others.
 constexpr double kAtLayer_m = 2e-3;
 constexpr double kDown_m = 0.008;
-/// With the teeth so far behind their plan a cut is as heavy as it may be, and so it is at this
-/// lambda.
-constexpr double kBehind_m = 0.08;
-constexpr double kStandsAt = 0.1;
 constexpr double kEasy = 0.7;
-/// From here on a cut slows down, and stands at the second one.
+/// From here on a cut slows down, until it stands at kHoldsAt.
 constexpr double kSlowsAt = 0.9;
-constexpr double kHoldsAt = 1.4;
 /// A heavy cut that gets on by less, for so long, is ended.
 constexpr double kGetsOn_mps = 0.01;
 constexpr double kHeld_s = 1.0;
@@ -41,30 +37,12 @@ constexpr double kLiftHeld_s = 0.5;
 constexpr double kCutWaits_s = 10.0;
 /// Of a move that leads to the next one.
 constexpr double kPassed_m = 0.20;
-/// Of the clearance that the line has over the design, for what springs.
+/// What springs by less is let be.
 constexpr double kSpringFree_m = 0.010;
 
 DriveVector drives_now(const SwingKinematics& kinematics, const TaskProgram& program,
                        const TaskState& state) {
   return task_aim(kinematics, program, state).value;
-}
-
-/// Against the edge's motion, of what is given way to.
-double force_share(const LayerPlan& plan, const TeethLine& line, const CutSeen& seen, bool enters) {
-  if (!seen.force_known || !(plan.force_n > 0.0)) {
-    return 0.0;
-  }
-  const Eigen::Vector3d& change_m = line.change.position_m;
-  const double level_m = change_m.head<2>().norm();
-  // The line leads to the machine: inwards in the plane of the links.
-  const Eigen::Vector2d inwards = Eigen::Vector2d(-level_m, change_m.z()).normalized();
-  const double against_n = enters ? seen.force_n.y() : -seen.force_n.dot(inwards);
-  return std::max(0.0, against_n) / plan.force_n;
-}
-
-double heaviness(double force, const CutSeen& seen) {
-  const double held = seen.lambda < kStandsAt ? kHoldsAt : 0.0;
-  return std::max({force, seen.behind_m / kBehind_m, held});
 }
 
 /// Speed towards a height, with bounded acceleration, that comes to rest there.

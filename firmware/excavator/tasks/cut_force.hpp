@@ -1,0 +1,21 @@
+#pragma once
+/// How heavy a cut is, by the tip's force, by how far the teeth are behind and by lambda.
+
+#include "firmware/excavator/tasks/layer_run.hpp"
+
+namespace graben {
+
+/// The force on the teeth against the edge's motion, of that which a cut gives way to: along the
+/// line, or upwards while the edge `enters`. 0 where no force is known.
+[[nodiscard]] double force_share(const LayerPlan& plan, const TeethLine& line, const CutSeen& seen,
+                                 bool enters);
+
+/// 1: as heavy as a cut may be. `force`: by force_share().
+[[nodiscard]] double heaviness(double force, const CutSeen& seen);
+
+/// With the teeth so far behind their plan a cut is as heavy as it may be.
+inline constexpr double kBehind_m = 0.08;
+/// A cut that is so heavy stands.
+inline constexpr double kHoldsAt = 1.4;
+
+}  // namespace graben
