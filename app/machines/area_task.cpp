@@ -51,6 +51,7 @@ struct Area {
   double turn_rad = 0.0;
   double speed_mps = kCutSpeed_mps;
   int strips = 1;
+  bool touches = true;
   Eigen::Vector3d dump_m = Eigen::Vector3d::Zero();
 
   [[nodiscard]] double run_m() const { return far_m - near_m; }
@@ -86,6 +87,12 @@ Eigen::Vector3d usual_dump(const Area& area, bool swings) {
                 : at(area.far_m + kBeyond_m, height_m, area.turn_rad);
 }
 
+/// A slope's plane rises beyond its far end: from a heap there the teeth come back over it.
+TeethPose over_far_end(const Area& area, double attitude_rad) {
+  const double rises_m = kBeyond_m * std::max(0.0, area.fall_m() / area.run_m());
+  return {at(area.far_m, area.ground_m + kOver_m + rises_m, area.turn_rad), attitude_rad};
+}
+
 Area read_table(TomlReader& reader, const ExcavatorProfile& profile) {
   Area area;
   area.kind = static_cast<AreaKind>(
@@ -100,6 +107,8 @@ Area read_table(TomlReader& reader, const ExcavatorProfile& profile) {
     area.depth_near_m =
         reader.number("area.depth_near", kDepth, "the same at the near end; of a slope only");
   }
+  area.touches = reader.boolean_or(true, "area.touch",
+                                   "the ground is first felt for, and heights counted from it");
   area.turn_rad =
       reader.number_or(0.0, "area.turn", {-3.1, 3.1, "rad"}, "of its middle, to the left");
   area.speed_mps =
@@ -164,6 +173,7 @@ ProgramRequest read_area(TomlReader& reader, const ExcavatorProfile& profile) {
   dig.to = {near_m, reachable_attitude(kinematics, near_m, area.ground_m, clear_rad)};
   dig.speed_mps = area.speed_mps;
   dig.ground_m = area.ground_m;
+  dig.touches = area.touches;
   dig.strips = area.strips;
   dig.strip_rad = (1.0 - kOverlap) * profile.geometry.body.bucket_width_m / area.far_m;
   const double bucket_m = profile.geometry.bucket_length_m;
@@ -179,6 +189,9 @@ ProgramRequest read_area(TomlReader& reader, const ExcavatorProfile& profile) {
   }
   add(move_to(StepKind::kSwing, carried));
   add(move_to(StepKind::kDump, dump_pose(area, bucket_m, kEmptied_rad)));
+  if (!profile.has_swing() && area.fall_m() > 0.0) {
+    add(move_to(StepKind::kReturnToDig, over_far_end(area, request.start.attitude_rad)));
+  }
   add(move_to(StepKind::kReturnToDig, request.start));
   request.step_count = next;
   request.has_design = true;

@@ -234,7 +234,7 @@ void ExcavatorController::follow(const TaskProgram& program, const TaskAim& aim,
                      swing_lead_mps(profile_, swing_mps, memory_.swing_wanted_mps, period_s) +
                      swing_damping_mps(profile_, memory_.swing_push));
   ease_blocked(motion);
-  hold_at_fences(program.fences, motion);
+  hold_at_fences(program.fences, memory_.task.state.layers.zero_m, motion);
   motion.path_error_m = motion.task.path_error_m;
   motion.off_m = motion.task.off_m;
 }

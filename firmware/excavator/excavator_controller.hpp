@@ -170,7 +170,7 @@ class ExcavatorController {
   void follow(const TaskProgram& program, const TaskAim& aim, double speed_override_ratio,
               double period_s, Motion& motion) const;
   /// Slows before ends and fences; beyond a fence only what leads back moves.
-  void hold_at_fences(const FenceSet& fences, Motion& motion) const;
+  void hold_at_fences(const FenceSet& fences, double zero_m, Motion& motion) const;
   /// Asks no more of a drive that its load holds than path or plan want.
   void ease_blocked(Motion& motion) const;
   [[nodiscard]] Followed flow_limited(const ExcavatorValid& valid, const Motion& motion,

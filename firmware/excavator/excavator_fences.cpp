@@ -5,13 +5,14 @@
 
 namespace graben {
 
-void ExcavatorController::hold_at_fences(const FenceSet& fences, Motion& motion) const {
+void ExcavatorController::hold_at_fences(const FenceSet& fences, double zero_m,
+                                         Motion& motion) const {
   const double coast_m = profile_.has_swing() ? swing_coast_m(memory_.accepted[kSwing].speed_mps,
                                                               memory_.last.asked_mps[kSwing])
                                               : 0.0;
   const MotionCap cap =
       motion_cap(profile_, drives(), setup_.kinematics, fences,
-                 strokes_then_m(drives(), memory_.servo), motion.corrected_mps, coast_m);
+                 strokes_then_m(drives(), memory_.servo), motion.corrected_mps, coast_m, zero_m);
   motion.cap = static_cast<const VelocityCap&>(cap);
   motion.wanted_mps = motion.wanted_mps.cwiseProduct(cap.share);
   motion.corrected_mps = motion.corrected_mps.cwiseProduct(cap.share);
@@ -39,7 +40,7 @@ void ExcavatorController::steer(const ExcavatorValid& valid, const KinematicStat
   const bool chosen = valid.task_number >= 0 && valid.task_number < setup_.book.count;
   const FenceSet& fences =
       setup_.book.program[chosen ? static_cast<unsigned>(valid.task_number) : 0U].fences;
-  hold_at_fences(fences, motion);
+  hold_at_fences(fences, 0.0, motion);
   if (motion.cap.limit.kind == LimitKind::kNone) {
     motion.cap.limit = motion.hand.cap.limit;
   }

@@ -26,12 +26,15 @@ struct LayerPlan {
   double depth_most_m = 0.0;   ///< Of a cut.
   double force_n = 0.0;        ///< On the teeth, that a cut gives way to.
   double give_mpn = 0.0;       ///< The teeth may spring by that when the force goes.
+  double give_down_mpn = 0.0;  ///< The same straight down, of what the ground bears.
   double speed_mps = 0.0;      ///< Along a cut.
   double enter_rad = 0.0;      ///< Attitude that the edge goes down with.
-  double carry_rad = 0.0;      ///< Attitude that a full bucket is lifted at.
-  int strips = 1;              ///< Side by side, about the swing axis.
-  double strip_rad = 0.0;      ///< From one to the next, to the left.
-  double first_rad = 0.0;      ///< Of the first, from the line's own swing.
+  double touch_share =
+      -1.0;                ///< Of the line, where the ground is first felt for; below 0: nowhere.
+  double carry_rad = 0.0;  ///< Attitude that a full bucket is lifted at.
+  int strips = 1;          ///< Side by side, about the swing axis.
+  double strip_rad = 0.0;  ///< From one to the next, to the left.
+  double first_rad = 0.0;  ///< Of the first, from the line's own swing.
 };
 
 /// One cut.
@@ -85,8 +88,8 @@ void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state);
 /// Soil counts as left if it stands higher by so much over a cut; over the design itself, in more
 /// places than one of a strip; and there by this much in any.
 inline constexpr double kRough_m = 0.03;
-inline constexpr double kFinish_m = 0.012;
-inline constexpr double kLeft_m = 0.02;
+inline constexpr double kFinish_m = 0.018;
+inline constexpr double kLeft_m = 0.024;
 /// The last layer's thickness: its force is small, and so is what the teeth spring by.
 inline constexpr double kLastLayer_m = 0.06;
 /// A bucket takes a little more than what fills it: some is lost on the way.

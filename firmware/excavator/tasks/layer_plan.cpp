@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/excavator/tasks/layer_run.hpp"
+#include "firmware/excavator/tasks/layer_touch.hpp"
 
 namespace graben {
 namespace {
@@ -145,9 +145,12 @@ LayerPlanResult plan_layers(const ExcavatorProfile& profile, const SwingKinemati
     if (at.status == ReachStatus::kOk) {
       plan.force_n = std::min(plan.force_n, kUsed * holding_force_n(profile, at, inwards));
       plan.give_mpn = std::max(plan.give_mpn, give_mpn(profile, at, inwards, up));
+      const Eigen::Vector2d down = -Eigen::Vector2d::UnitY();
+      plan.give_down_mpn = std::max(plan.give_down_mpn, give_mpn(profile, at, down, down));
     }
   }
   plan.enter_rad = enter_rad(profile, kinematics, with);
+  plan.touch_share = asked.touches ? touch_share(profile, kinematics, with) : -1.0;
   result.place = first_unreached(profile, kinematics, with);
   result.plan = plan;
   return result;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/excavator/tasks/layer_run.hpp"
+#include "firmware/excavator/tasks/layer_touch.hpp"
 
 namespace graben {
 namespace {
@@ -50,7 +50,7 @@ TaskAim aim_of_cut(const SwingKinematics& kinematics, const TaskProgram& program
   aim.kind = StepKind::kDig;
   aim.share = layers.share;
   const Cut& cut = layers.cuts.cut;
-  aim.teeth = cut_pose(program, cut, layers.share, layers.height_m);
+  aim.teeth = cut_pose(program, cut, layers.share, layers.height_m + layers.zero_m);
   const double rate_ps = std::max(0.0, layers.rate_ps);
   TeethPose along = line.change;
   along.position_m *= rate_ps;
@@ -162,7 +162,8 @@ TeethPose cut_pose(const TaskProgram& program, const Cut& cut, double share, dou
 }
 
 TeethLine cut_line(const TaskProgram& program, const TaskState& state) {
-  return line_over(program, std::max(0, state.layers.cuts.cut.strip), state.layers.height_m);
+  const LayerState& layers = state.layers;
+  return line_over(program, std::max(0, layers.cuts.cut.strip), layers.height_m + layers.zero_m);
 }
 
 LinePlan lift_line(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
@@ -214,8 +215,14 @@ TeethPose first_cut_pose(const SwingKinematics& kinematics, const TaskProgram& p
 TaskAim layer_aim(const SwingKinematics& kinematics, const TaskProgram& program,
                   const TaskState& state) {
   if (at_cut(program, state)) {
-    return state.layers.phase == CutPhase::kLifts ? aim_of_lift(kinematics, state)
-                                                  : aim_of_cut(kinematics, program, state);
+    switch (state.layers.phase) {
+      case CutPhase::kLifts:
+        return aim_of_lift(kinematics, state);
+      case CutPhase::kTouches:
+        return aim_of_touch(kinematics, program, state);
+      default:
+        return aim_of_cut(kinematics, program, state);
+    }
   }
   const TaskStep& step =
       program.step[static_cast<unsigned>(std::clamp(state.step, 0, kStepMost - 1))];

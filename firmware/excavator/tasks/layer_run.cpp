@@ -5,23 +5,15 @@
 
 #include "firmware/excavator/swing.hpp"
 #include "firmware/excavator/tasks/cut_force.hpp"
+#include "firmware/excavator/tasks/layer_enter.hpp"
+#include "firmware/excavator/tasks/layer_height.hpp"
+#include "firmware/excavator/tasks/layer_touch.hpp"
 
 namespace graben {
 namespace {
 
-/// Down through the air, from so far over the soil on down into it, and up where a cut gives way.
-constexpr double kFalls_mps = 0.8;
-constexpr double kNear_m = 0.05;
-constexpr double kEnters_mps = 0.3;
-constexpr double kGives_mps = 0.15;
-constexpr double kRisesAtLeast = 0.25;
 /// Back down to the layer where it is light again.
 constexpr double kReturns_mps = 0.05;
-constexpr double kHeightChange_mps2 = 1.0;
-/// A cut's height is reached this near to it, by the plan and by the teeth: of the last cut, and of
-/// others.
-constexpr double kAtLayer_m = 2e-3;
-constexpr double kDown_m = 0.008;
 constexpr double kEasy = 0.7;
 /// From here on a cut slows down, until it stands at kHoldsAt.
 constexpr double kSlowsAt = 0.9;
@@ -43,17 +35,6 @@ constexpr double kSpringFree_m = 0.010;
 DriveVector drives_now(const SwingKinematics& kinematics, const TaskProgram& program,
                        const TaskState& state) {
   return task_aim(kinematics, program, state).value;
-}
-
-/// Speed towards a height, with bounded acceleration, that comes to rest there.
-double speed_towards(double from_m, double to_m, double speed_mps, double most_up_mps,
-                     double most_down_mps, double period_s) {
-  const double off_m = to_m - from_m;
-  const double brakes_mps = std::sqrt(2.0 * kHeightChange_mps2 * std::abs(off_m));
-  const double most_mps = off_m > 0.0 ? most_up_mps : most_down_mps;
-  const double wanted_mps = std::copysign(std::min(most_mps, brakes_mps), off_m);
-  const double change_mps = kHeightChange_mps2 * period_s;
-  return std::clamp(wanted_mps, speed_mps - change_mps, speed_mps + change_mps);
 }
 
 void follow_pace(const LineProfile& line, double slow_m, double behind_m, double period_s,
@@ -85,14 +66,10 @@ class LayerRun {
   void begin_cut(TaskState& state) const;
   void begin_move(int step, TaskState& state) const;
   void begin_lift(TaskState& state) const;
-  void enter(TaskState& state) const;
   void cut(TaskState& state) const;
   void lift(TaskState& state) const;
   void move(TaskState& state) const;
-  void rise(double target_m, double most_down_mps, TaskState& state) const;
   void take(TaskState& state) const;
-  /// Of the teeth over the design's line.
-  [[nodiscard]] double height_m(const TaskState& state) const;
   [[nodiscard]] bool cut_ends(double heavy, TaskState& state) const;
   void next_step(TaskState& state) const;
 
@@ -106,7 +83,9 @@ class LayerRun {
 };
 
 void LayerRun::begin(int step, TaskState& state) const {
-  if (step == plan_.step) {
+  if (step == plan_.step && touches_next(program_, state)) {
+    begin_touch(state);
+  } else if (step == plan_.step) {
     begin_cut(state);
   } else {
     begin_move(step, state);
@@ -136,6 +115,7 @@ void LayerRun::begin_cut(TaskState& state) const {
   layers.cut_s = 0.0;
   layers.heavy_s = 0.0;
   layers.held_s = 0.0;
+  layers.eases = false;
 }
 
 /// To where the step leads; the last before the cut, to where the next cut begins.
@@ -155,7 +135,10 @@ void LayerRun::begin_move(int step, TaskState& state) const {
     }
     Cut& cut = state.layers.cuts.cut;
     cut.steep = steepest(kinematics_, program_, cut);
-    const TeethPose enters = cut_pose(program_, cut, cut.from_share, cut.enters_m);
+    const TeethPose enters =
+        touches_next(program_, state)
+            ? first_touch_pose(kinematics_, program_, state)
+            : cut_pose(program_, cut, cut.from_share, cut.enters_m + state.layers.zero_m);
     const DriveResult drives = kinematics_.drive_from_teeth(enters);
     if (drives.blind.kind == BlindKind::kNone) {
       to = drives.value;
@@ -178,60 +161,15 @@ void LayerRun::begin_lift(TaskState& state) const {
   state.settle_s = 0.0;
 }
 
-/// Up or down to a height. Where the machine can't be it stays as high as it is.
-void LayerRun::rise(double target_m, double most_down_mps, TaskState& state) const {
-  LayerState& layers = state.layers;
-  layers.height_mps = speed_towards(layers.height_m, target_m, layers.height_mps, kGives_mps,
-                                    most_down_mps, period_s_);
-  // The way up is free where the way down is barred.
-  const double by_s = layers.height_mps > 0.0 ? std::max(advance_s_, kRisesAtLeast * period_s_)
-                                              : state.pace_ratio * advance_s_;
-  const double height_m = layers.height_m + by_s * layers.height_mps;
-  const TeethPose there = cut_pose(program_, layers.cuts.cut, layers.share, height_m);
-  if (kinematics_.drive_from_teeth(there).blind.kind == BlindKind::kNone) {
-    layers.height_m = height_m;
-  } else {
-    layers.height_mps = 0.0;
-  }
-}
-
-double LayerRun::height_m(const TaskState& state) const {
-  const int strip = state.layers.cuts.cut.strip;
-  const TeethLine line = line_over(program_, strip, 0.0);
-  return turned(plan_.up, strip_rad(plan_, strip))
-      .dot(seen_.teeth.position_m - line.from.position_m);
-}
-
 void LayerRun::take(TaskState& state) const {
   LayerState& layers = state.layers;
   const TeethLine line = line_over(program_, layers.cuts.cut.strip, 0.0);
   const Eigen::Vector3d off_m = seen_.teeth.position_m - line.from.position_m;
   const double share = off_m.dot(line.change.position_m) / line.change.position_m.squaredNorm();
   if (share > layers.seen_share) {
-    layers.filled_m3 += pass(plan_, share, layers.seen_share, height_m(state), layers.cuts);
+    layers.filled_m3 +=
+        pass(plan_, share, layers.seen_share, seen_height_m(program_, seen_, state), layers.cuts);
     layers.seen_share = share;
-  }
-}
-
-void LayerRun::enter(TaskState& state) const {
-  LayerState& layers = state.layers;
-  const double heavy = heaviness(force_share(plan_, cut_line(program_, state), seen_, true), seen_);
-  const Cut& cut = layers.cuts.cut;
-  const double target_m = cut.height_m;
-  const double over_m = std::max(0.0, layers.height_m - cut.stands_m - kNear_m);
-  const double down_mps = std::min(
-      kFalls_mps, std::sqrt(kEnters_mps * kEnters_mps + 2.0 * kHeightChange_mps2 * over_m));
-  rise(heavy > 1.0 ? std::max(target_m, height_m(state)) : target_m, down_mps, state);
-  const bool arrived = layers.height_m - target_m < kAtLayer_m;
-  if (heavy > 1.0 || arrived) {
-    layers.held_s += period_s_;
-  }
-  const bool down = height_m(state) - target_m < (cut.thin ? kDown_m : kEndNear_m);
-  if ((arrived && down) || layers.held_s > kHeld_s) {
-    // What it can't be pressed down to is come down to on the way.
-    layers.give_m = std::max(0.0, layers.height_m - layers.cuts.cut.height_m);
-    layers.phase = CutPhase::kCuts;
-    layers.held_s = 0.0;
   }
 }
 
@@ -262,8 +200,11 @@ void LayerRun::cut(TaskState& state) const {
   // What the oil gives back when the force goes must not lead through the design.
   const double springs_m = plan_.give_mpn * force * plan_.force_n - kSpringFree_m - at.height_m;
   // Nor is soil that holds the teeth up pressed on by a plan that is farther below than this.
-  const double held_up_m = height_m(state) - kBehind_m - at.height_m;
-  rise(at.height_m + std::max({layers.give_m, springs_m, held_up_m}), kReturns_mps, state);
+  const double held_up_m = seen_height_m(program_, seen_, state) - kBehind_m - at.height_m;
+  rise({program_, kinematics_, advance_s_, period_s_},
+       std::max(at.height_m + std::max({layers.give_m, springs_m, held_up_m}),
+                wanted_height_m(program_, layers)),
+       kReturns_mps, state);
   const double most_ps = most_rate_ps(program_, layers) *
                          std::clamp((kHoldsAt - heavy) / (kHoldsAt - kSlowsAt), 0.0, 1.0);
   const double acceleration_ps2 = profile_.line.acceleration_mps2 / plan_.way_m;
@@ -353,13 +294,18 @@ void LayerRun::go_on(TaskState& state) const {
       seen_.behind_m, period_s_, state);
   switch (state.layers.phase) {
     case CutPhase::kEnters:
-      enter(state);
+      enter_on({program_, kinematics_, advance_s_, period_s_}, seen_, state);
       break;
     case CutPhase::kCuts:
       cut(state);
       break;
     case CutPhase::kLifts:
       lift(state);
+      break;
+    case CutPhase::kTouches:
+      if (touch_on(program_, seen_, advance_s_, period_s_, state)) {
+        begin((plan_.step + program_.step_count - 1) % program_.step_count, state);
+      }
       break;
     default:
       move(state);

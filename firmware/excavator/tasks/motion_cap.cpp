@@ -28,8 +28,8 @@ struct Beyond {
 class FencedMachine {
  public:
   FencedMachine(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                const FenceSet& fences, const DriveVector& at)
-      : profile_(profile), kinematics_(kinematics), fences_(fences), at_(at) {}
+                const FenceSet& fences, const DriveVector& at, double zero_m)
+      : profile_(profile), kinematics_(kinematics), fences_(fences), at_(at), zero_m_(zero_m) {}
 
   /// False: it can't be there.
   [[nodiscard]] bool slow(const DriveVector& velocity, VelocityCap& cap) {
@@ -69,8 +69,9 @@ class FencedMachine {
     const int count = gap_count(fence, body());
     for (int i = 0; i < count; ++i) {
       const FenceGap gap = fence_gap(fence, body(), motion, i, far_m);
-      const double left_m =
-          gap.distance_m - held_margin_m(profile_.fence, fence, motion, gap) + kFenceSlack_m;
+      const double zero_m = fence.guard == FenceGuard::kTeeth ? zero_m_ : 0.0;
+      const double left_m = gap.distance_m - zero_m -
+                            held_margin_m(profile_.fence, fence, motion, gap) + kFenceSlack_m;
       approach(profile_.control.stroke_end_gain_ps, profile_.line.acceleration_mps2, left_m,
                gap.closing_mps, limit, cap);
       if (left_m <= 0.0 && gap.closing_mps > kStandsStill && beyond_count_++ < kBeyondMost) {
@@ -113,6 +114,7 @@ class FencedMachine {
   const SwingKinematics& kinematics_;
   const FenceSet& fences_;
   DriveVector at_;
+  double zero_m_;
   std::array<Beyond, kBeyondMost> beyond_;
   int beyond_count_ = 0;
 };
@@ -121,7 +123,8 @@ class FencedMachine {
 
 MotionCap motion_cap(const ExcavatorProfile& profile, DriveRows drives,
                      const SwingKinematics& kinematics, const FenceSet& fences,
-                     const DriveVector& then_m, const DriveVector& velocity_mps, double coast_m) {
+                     const DriveVector& then_m, const DriveVector& velocity_mps, double coast_m,
+                     double zero_m) {
   const auto held = [] {
     MotionCap cap;
     cap.factor = 0.0;
@@ -137,7 +140,7 @@ MotionCap motion_cap(const ExcavatorProfile& profile, DriveRows drives,
   }
   const DriveVector comes_to_m = with_swing(then_m, swing_of(then_m) + coast_m);
   FencedMachine machine(profile, kinematics, fences,
-                        drives_of(profile, inside_stops(drives, comes_to_m)));
+                        drives_of(profile, inside_stops(drives, comes_to_m)), zero_m);
   const DriveVector velocity = drives_of(profile, velocity_mps);
   if (!machine.slow(velocity, cap)) {
     return held();

@@ -25,11 +25,12 @@ struct MotionCap : VelocityCap {
 /// are travels. What is not finite or can't be is 0, and no limit named.
 ///
 /// `coast_m` is what the swing turns on by its own momentum, as swing_coast_m() has it: before
-/// fences it is taken to be there already.
+/// fences it is taken to be there already. `zero_m`: heights over a design are seen too high by so
+/// much.
 [[nodiscard]] MotionCap motion_cap(const ExcavatorProfile& profile, DriveRows drives,
                                    const SwingKinematics& kinematics, const FenceSet& fences,
                                    const DriveVector& then_m, const DriveVector& velocity_mps,
-                                   double coast_m = 0.0);
+                                   double coast_m = 0.0, double zero_m = 0.0);
 
 /// The platform is heavy and its oil soft: it lags 0.15 to 0.4 s behind its spool, and swings about
 /// its place. What it turns faster than it was asked to (m/s at the lever) takes it so much

@@ -146,6 +146,8 @@ TaskMemory stopped(const TaskMemory& last) {
     memory.number = last.number;
     memory.state.layers.begun = last.state.layers.begun;
     memory.state.layers.cuts = last.state.layers.cuts;
+    memory.state.layers.touched = last.state.layers.touched;
+    memory.state.layers.zero_m = last.state.layers.zero_m;
   }
   memory.place = place_of(false, memory.number, memory.state);
   return memory;

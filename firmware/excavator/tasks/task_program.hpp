@@ -24,6 +24,7 @@ struct StepRequest {
   // Of a straight dig, the program's first step, that is done in layers until its design is met.
   bool in_layers = false;
   double ground_m = 0.0;   ///< Height of the ground as it is before, over the ground frame.
+  bool touches = false;    ///< That ground is felt for first, and heights are counted from it.
   int strips = 1;          ///< Side by side, about the swing axis, the line in their middle.
   double strip_rad = 0.0;  ///< From one to the next.
 };

@@ -17,7 +17,8 @@ enum class CutPhase : std::uint8_t {
   kNone = 0,    ///< A move.
   kEnters = 1,  ///< Down to the layer.
   kCuts = 2,
-  kLifts = 3,  ///< Out of the ground, with the bucket folded in.
+  kLifts = 3,    ///< Out of the ground, with the bucket folded in.
+  kTouches = 4,  ///< Down onto the ground before the first cut, to find its height.
 };
 
 /// Where a program in layers is, see layer_run.hpp.
@@ -25,6 +26,9 @@ struct LayerState {
   bool begun = false;  ///< `cuts` is of this program.
   CutPhase phase = CutPhase::kNone;
   CutState cuts;
+  bool touched = false;     ///< The ground has been looked for,
+  double zero_m = 0.0;      ///< and heights as the sensors see them are too high by so much.
+  double air_n = 0.0;       ///< Upward force that is told before the ground bears anything.
   double share = 0.0;       ///< Of the line.
   double rate_ps = 0.0;     ///< By the plan's time.
   double height_m = 0.0;    ///< Over the line.
@@ -35,6 +39,8 @@ struct LayerState {
   double cut_s = 0.0;       ///< Of this cut, once the bucket is at its attitude,
   double heavy_s = 0.0;     ///< and the sum of how heavy it was in it; 1: as heavy as it may be.
   double held_s = 0.0;      ///< How long it does not get on.
+  bool eases = false;       ///< On its way down it lets its oil off,
+  double stood_m = 0.0;     ///< which began with the teeth at this height.
   bool folds = false;       ///< The first part of a lift.
   LinePlan lift;
   DrivePlan move;                            ///< Of the step that runs.
