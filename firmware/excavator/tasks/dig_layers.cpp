@@ -51,10 +51,12 @@ double mean_m(const LayerPlan& plan, const Strip& strip) {
   return volume_m3(plan, strip, 0.0) / (plan.way_m * plan.width_m);
 }
 
-bool is_done(const Strip& strip) {
+bool is_done(const LayerPlan& plan, const Strip& strip) {
   int rough = 0;
-  for (const float top : strip) {
-    rough += static_cast<double>(top) > kFinish_m ? 1 : 0;
+  for (int bin = 0; bin < kStripBins; ++bin) {
+    const double steep = std::max(0.0, 1.0 - share_of(bin) * plan.way_m / kTurns_m);
+    const auto top = static_cast<double>(strip[static_cast<unsigned>(bin)]);
+    rough += top > kFinish_m + kSteepHigher_m * steep ? 1 : 0;
   }
   return rough == 0 || (rough == 1 && highest_m(strip) <= kLeft_m);
 }
@@ -65,7 +67,7 @@ int next_strip(const LayerPlan& plan, const CutState& state) {
   for (int strip = 0; strip < plan.strips; ++strip) {
     const bool higher = next < 0 || mean_m(plan, strip_of(state, strip)) >
                                         mean_m(plan, strip_of(state, next)) + 0.5 * kRough_m;
-    if (!is_done(strip_of(state, strip)) && higher) {
+    if (!is_done(plan, strip_of(state, strip)) && higher) {
       next = strip;
     }
   }

@@ -88,8 +88,12 @@ void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state);
 /// Soil counts as left if it stands higher by so much over a cut; over the design itself, in more
 /// places than one of a strip; and there by this much in any.
 inline constexpr double kRough_m = 0.03;
-inline constexpr double kFinish_m = 0.018;
-inline constexpr double kLeft_m = 0.024;
+inline constexpr double kFinish_m = 0.014;
+inline constexpr double kLeft_m = 0.022;
+/// The last cut keeps so much more where its bucket is still steep, which it is no more after
+/// kTurns_m.
+inline constexpr double kSteepHigher_m = 0.016;
+inline constexpr double kTurns_m = 0.75;
 /// The last layer's thickness: its force is small, and so is what the teeth spring by.
 inline constexpr double kLastLayer_m = 0.06;
 /// A bucket takes a little more than what fills it: some is lost on the way.

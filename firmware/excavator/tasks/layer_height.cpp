@@ -7,7 +7,6 @@ namespace graben {
 namespace {
 
 constexpr double kRisesAtLeast = 0.25;
-constexpr double kSteepHigher_m = 0.008;
 
 /// Speed towards a height that comes to rest there.
 double speed_towards(double from_m, double to_m, double speed_mps, double most_down_mps,

@@ -61,7 +61,4 @@ namespace graben {
 /// its force is to be small.
 [[nodiscard]] double most_rate_ps(const TaskProgram& program, const LayerState& layers);
 
-/// The bucket comes from steep to its attitude on this way: its heel stays where the edge went in.
-inline constexpr double kTurns_m = 0.75;
-
 }  // namespace graben

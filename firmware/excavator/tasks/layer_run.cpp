@@ -30,7 +30,7 @@ constexpr double kCutWaits_s = 10.0;
 /// Of a move that leads to the next one.
 constexpr double kPassed_m = 0.20;
 /// What springs by less is let be.
-constexpr double kSpringFree_m = 0.010;
+constexpr double kSpringFree_m = 0.018;
 
 DriveVector drives_now(const SwingKinematics& kinematics, const TaskProgram& program,
                        const TaskState& state) {
