@@ -363,7 +363,8 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
   next_task(profile_, setup_.kinematics, setup_.book.program[number], number, valid.strokes_m(),
             followed * motion.cap.factor * valid.speed_override_ratio,
             {motion.task.teeth, motion.task.behind_m, followed * motion.cap.factor,
-             memory_.tip_load.known, memory_.tip_load.force_n},
+             memory_.tip_load.known, memory_.tip_load.force_n, memory_.tip_load.payload_known,
+             memory_.tip_load.payload_kg},
             period_s, memory_.task);
 }
 

@@ -22,6 +22,8 @@ constexpr double kDeeper = 1.15;
 constexpr double kShallower = 0.75;
 /// Of a full bucket: less is next to nothing.
 constexpr double kLittle = 0.1;
+/// The same of what a cut brings beside what its edge has passed, payload's error and all.
+constexpr double kFallen = 0.15;
 
 double share_of(int bin) { return (bin + 0.5) / kStripBins; }
 
@@ -178,14 +180,26 @@ void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state) {
     give_up(state);
     state.tries = 0;
   }
+  state.last_strip = static_cast<std::int8_t>(strip);
+  state.last_m3 = state.loaded_m3;
   choose(plan, state);
   if (state.cut.strip != strip) {
     state.tries = 0;
   }
 }
 
-bool keeps_load(const LayerPlan& plan, const CutState& state) {
-  return state.met && state.loaded_m3 < kLittle * plan.full_m3;
+void weigh_cut(const LayerPlan& plan, double weighed_m3, CutState& state) {
+  const int strip = state.last_strip;
+  state.last_strip = -1;
+  if (!state.met || strip < 0 || state.sweeps >= kSweepsMost || state.cuts >= kCutsMost ||
+      weighed_m3 - state.last_m3 < kFallen * plan.full_m3) {
+    return;
+  }
+  ++state.sweeps;
+  for (float& height : state.height_m[static_cast<unsigned>(strip)]) {
+    height = std::max(height, static_cast<float>(kRough_m));
+  }
+  choose(plan, state);
 }
 
 }  // namespace graben

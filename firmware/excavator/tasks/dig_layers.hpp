@@ -53,11 +53,14 @@ struct Cut {
 struct CutState {
   std::array<std::array<float, kStripBins>, kStripMost> height_m{};
   Cut cut;
-  double depth_m = 0.0;    ///< Of cuts, as the force lets them be.
-  double loaded_m3 = 0.0;  ///< Of the ground, in the bucket by what the edge has passed.
-  std::uint8_t tries = 0;  ///< Cuts of a strip in a row that got next to nothing.
-  std::uint8_t cuts = 0;   ///< So far, of all.
-  bool met = true;         ///< Nothing is left that stands too high.
+  double depth_m = 0.0;         ///< Of cuts, as the force lets them be.
+  double loaded_m3 = 0.0;       ///< Of the ground, in the bucket by what the edge has passed.
+  std::uint8_t tries = 0;       ///< Cuts of a strip in a row that got next to nothing.
+  std::uint8_t cuts = 0;        ///< So far, of all.
+  std::uint8_t sweeps = 0;      ///< Of them, for what has fallen in.
+  std::int8_t last_strip = -1;  ///< Of the cut before; -1: there was none, or it was weighed.
+  double last_m3 = 0.0;         ///< Of the ground, that its edge has passed.
+  bool met = true;              ///< Nothing is left that stands too high.
 };
 
 /// Nothing is dug yet. `plan` has to have a step.
@@ -82,8 +85,9 @@ struct CutEnd {
 /// left. Cuts after one that was too heavy are less deep, after an easy one deeper.
 void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state);
 
-/// All is dug and next to nothing is in the bucket: it is not emptied any more.
-[[nodiscard]] bool keeps_load(const LayerPlan& plan, const CutState& state);
+/// What the last cut has brought was weighed: more than its edge has passed. Soil has fallen in
+/// from beside it; its strip is cut once more, kSweepsMost times in all.
+void weigh_cut(const LayerPlan& plan, double weighed_m3, CutState& state);
 
 /// Soil counts as left if it stands higher by so much over a cut; over the design itself, in more
 /// places than one of a strip; and there by this much in any.
@@ -99,6 +103,7 @@ inline constexpr double kLastLayer_m = 0.06;
 /// A bucket takes a little more than what fills it: some is lost on the way.
 inline constexpr double kHeaped = 1.05;
 inline constexpr int kTriesMost = 3;
+inline constexpr int kSweepsMost = 12;
 /// With so many cuts a task ends, whatever is left.
 inline constexpr int kCutsMost = 250;
 

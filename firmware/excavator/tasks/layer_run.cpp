@@ -29,6 +29,8 @@ constexpr double kLiftHeld_s = 0.5;
 constexpr double kCutWaits_s = 10.0;
 /// Of a move that leads to the next one.
 constexpr double kPassed_m = 0.20;
+/// Of ground as it mostly is.
+constexpr double kGround_kgpm3 = 1750.0;
 /// What springs by less is let be.
 constexpr double kSpringFree_m = 0.018;
 
@@ -116,6 +118,7 @@ void LayerRun::begin_cut(TaskState& state) const {
   layers.heavy_s = 0.0;
   layers.held_s = 0.0;
   layers.eases = false;
+  layers.weighed_kg = 0.0;
 }
 
 /// To where the step leads; the last before the cut, to where the next cut begins.
@@ -128,6 +131,7 @@ void LayerRun::begin_move(int step, TaskState& state) const {
       state.layers.cuts = undug(plan_);
       state.layers.begun = true;
     }
+    weigh_cut(plan_, state.layers.weighed_kg / kGround_kgpm3, state.layers.cuts);
     if (state.layers.cuts.met) {
       state.phase = TaskPhase::kDone;
       state.layers.stands = from;
@@ -256,6 +260,10 @@ void LayerRun::lift(TaskState& state) const {
 }
 
 void LayerRun::move(TaskState& state) const {
+  if (program_.step[static_cast<unsigned>(state.step)].kind == StepKind::kSwing &&
+      seen_.payload_known) {
+    state.layers.weighed_kg = seen_.payload_kg;
+  }
   state.time_s += state.pace_ratio * advance_s_;
   const double end_s = state.layers.move.ramp.duration_s;
   if (state.time_s < end_s) {
@@ -272,17 +280,10 @@ void LayerRun::move(TaskState& state) const {
 }
 
 void LayerRun::next_step(TaskState& state) const {
-  const int count = program_.step_count;
-  int step = (state.step + 1) % count;
   if (state.step == plan_.step) {
-    if (keeps_load(plan_, state.layers.cuts)) {
-      // The step before the cut finds nothing left and ends the task.
-      step = (plan_.step + count - 1) % count;
-    } else {
-      state.layers.cuts.loaded_m3 = 0.0;
-    }
+    state.layers.cuts.loaded_m3 = 0.0;
   }
-  begin(step, state);
+  begin((state.step + 1) % program_.step_count, state);
 }
 
 void LayerRun::go_on(TaskState& state) const {

@@ -13,6 +13,8 @@ struct CutSeen {
   double lambda = 1.0;    ///< What fences and the machine left of the last cycle's way.
   bool force_known = false;
   Eigen::Vector2d force_n = Eigen::Vector2d::Zero();  ///< See TipLoad.
+  bool payload_known = false;
+  double payload_kg = 0.0;
 };
 
 /// As task_advance() has it, of a program in layers. Ends where no soil is left over the design.

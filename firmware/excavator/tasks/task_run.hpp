@@ -42,6 +42,7 @@ struct LayerState {
   bool eases = false;       ///< On its way down it lets its oil off,
   double stood_m = 0.0;     ///< which began with the teeth at this height.
   bool folds = false;       ///< The first part of a lift.
+  double weighed_kg = 0.0;  ///< What the cut has brought; 0: not known.
   LinePlan lift;
   DrivePlan move;                            ///< Of the step that runs.
   DriveVector stands = DriveVector::Zero();  ///< Where it was when all was dug.
