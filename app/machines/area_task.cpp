@@ -19,7 +19,7 @@ constexpr double kReliefAngle_rad = 0.30;
 constexpr double kAttitudeStep_rad = 0.05;
 constexpr int kAttitudeSteps = 24;
 /// Of the line over the design: what sensors and a light cut are off by.
-constexpr double kClearance_m = 0.003;
+constexpr double kClearance_m = 0.001;
 constexpr double kCutSpeed_mps = 0.6;
 constexpr double kPace = 0.7;
 constexpr double kCarried_rad = 0.3;

@@ -20,7 +20,9 @@ constexpr double kRoughDown_m = 0.02;
 constexpr double kHeld_s = 1.0;
 /// What springs by less is let be; and what would spring by more through the design is not pressed.
 constexpr double kSpringFree_m = 0.010;
-constexpr double kSpringMost_m = 0.030;
+constexpr double kSpringMost_m = 0.020;
+/// Oil that is let go throws its load twice as far as it gives under it.
+constexpr double kThrows = 2.0;
 /// The plan goes so far up over the teeth to let off.
 constexpr double kLetsOff_m = 0.10;
 constexpr double kLetsOff_s = 0.8;
@@ -71,7 +73,7 @@ void enter_on(const LayerCycle& cycle, const CutSeen& seen, TaskState& state) {
   const double target_m = wanted_height_m(cycle.program, layers);
   const double seen_m = seen_height_m(cycle.program, seen, state);
   const double springs = springs_m(plan, seen);
-  const bool stops = heavy > 1.0 || springs > seen_m + kSpringMost_m;
+  const bool stops = heavy > 1.0 || kThrows * springs > seen_m + kSpringMost_m;
   const double over_m = std::max(0.0, layers.height_m - cut.stands_m - kSlowsFrom_m);
   const double down_mps = std::min(
       kFalls_mps, std::sqrt(kEnters_mps * kEnters_mps + 2.0 * kHeightChange_mps2 * over_m));

@@ -15,8 +15,10 @@ constexpr double kTurnsMean = 1.0 - 0.5 * kFades;
 constexpr double kFinish_mps = 0.4;
 constexpr double kLiftSpeed_mps = 0.9;
 constexpr double kLiftShare = 4.0;  ///< Of the acceleration of lines.
-/// Folded in so far and lifted by so much the bucket holds what it has.
+/// Folded in so far and lifted by so much the bucket holds what it has; or less far, where its heel
+/// would come down on the design that it stands over.
 constexpr double kFolded_rad = 0.4;
+constexpr double kHeelFree_rad = 0.25;
 constexpr double kFoldUp_m = 0.16;
 constexpr double kLiftLeast_m = 0.4;
 constexpr double kOutOfGround_m = 0.4;
@@ -40,6 +42,12 @@ bool is_reached(const SwingKinematics& kinematics, const TeethLine& line) {
     reached = reached && is_reached(kinematics, line.at(static_cast<double>(n) / kLooks));
   }
   return reached;
+}
+
+/// Of the design in the plane of the links: it rises outwards.
+double incline_rad(const LayerPlan& plan, const TeethPose& at) {
+  const Eigen::Vector2d outwards = at.position_m.head<2>().normalized();
+  return std::atan2(-plan.up.head<2>().dot(outwards), plan.up.z());
 }
 
 TaskAim aim_of_cut(const SwingKinematics& kinematics, const TaskProgram& program,
@@ -170,8 +178,11 @@ LinePlan lift_line(const ExcavatorProfile& profile, const SwingKinematics& kinem
                    const LayerPlan& plan, const TeethPose& from, bool folds) {
   const double out_m = plan.ground_z_m + kOutOfGround_m - from.position_m.z();
   const double up_m = folds ? kFoldUp_m : std::max(kLiftLeast_m, out_m);
+  const double heel_free_rad =
+      profile.geometry.body.floor_rad + incline_rad(plan, from) - kHeelFree_rad;
   const double turn_rad =
-      (folds ? std::max(kFolded_rad, plan.carry_rad) : plan.carry_rad) - from.attitude_rad;
+      (folds ? std::max({kFolded_rad, heel_free_rad, plan.carry_rad}) : plan.carry_rad) -
+      from.attitude_rad;
   constexpr std::array<double, 4> kTurns = {1.0, 0.6, 0.3, 0.0};
   constexpr std::array<double, 3> kUps = {1.0, 0.7, 0.4};
   LinePlan lift;
@@ -206,8 +217,11 @@ double steepest(const SwingKinematics& kinematics, const TaskProgram& program, C
   return 0.0;
 }
 
-TeethPose first_cut_pose(const SwingKinematics& kinematics, const TaskProgram& program) {
+TeethPose first_dig_pose(const SwingKinematics& kinematics, const TaskProgram& program) {
   Cut cut = undug(program.layers).cut;
+  if (program.layers.touch_share >= 0.0) {
+    return first_touch_pose(kinematics, program, cut.strip);
+  }
   cut.steep = steepest(kinematics, program, cut);
   return cut_pose(program, cut, cut.from_share, cut.enters_m);
 }

@@ -17,8 +17,9 @@ namespace graben {
 [[nodiscard]] TaskAim layer_aim(const SwingKinematics& kinematics, const TaskProgram& program,
                                 const TaskState& state);
 
-/// Where the first cut begins, as steep as the machine can be there.
-[[nodiscard]] TeethPose first_cut_pose(const SwingKinematics& kinematics,
+/// Where a dig begins: over the ground that is felt for, or else where the first cut begins, as
+/// steep as the machine can be there.
+[[nodiscard]] TeethPose first_dig_pose(const SwingKinematics& kinematics,
                                        const TaskProgram& program);
 
 /// The way of teeth that have ended a cut here: first the bucket is folded in while its edge still

@@ -65,6 +65,7 @@ class LayerRun {
   void go_on(TaskState& state) const;
 
  private:
+  void begin_dig(TaskState& state) const;
   void begin_cut(TaskState& state) const;
   void begin_move(int step, TaskState& state) const;
   void begin_lift(TaskState& state) const;
@@ -85,22 +86,28 @@ class LayerRun {
 };
 
 void LayerRun::begin(int step, TaskState& state) const {
-  if (step == plan_.step && touches_next(program_, state)) {
-    begin_touch(state);
-  } else if (step == plan_.step) {
-    begin_cut(state);
+  if (step == plan_.step) {
+    begin_dig(state);
   } else {
     begin_move(step, state);
     if (state.phase == TaskPhase::kSteps && (step + 1) % program_.step_count == plan_.step &&
         !(state.layers.move.ramp.duration_s > 0.0)) {
       step = (step + 1) % program_.step_count;
-      begin_cut(state);
+      begin_dig(state);
     }
   }
   state.step = step;
   state.time_s = 0.0;
   state.settle_s = 0.0;
   state.calm_s = 0.0;
+}
+
+void LayerRun::begin_dig(TaskState& state) const {
+  if (touches_next(program_, state)) {
+    begin_touch(state);
+  } else {
+    begin_cut(state);
+  }
 }
 
 void LayerRun::begin_cut(TaskState& state) const {
@@ -141,7 +148,7 @@ void LayerRun::begin_move(int step, TaskState& state) const {
     cut.steep = steepest(kinematics_, program_, cut);
     const TeethPose enters =
         touches_next(program_, state)
-            ? first_touch_pose(kinematics_, program_, state)
+            ? first_touch_pose(kinematics_, program_, cut.strip)
             : cut_pose(program_, cut, cut.from_share, cut.enters_m + state.layers.zero_m);
     const DriveResult drives = kinematics_.drive_from_teeth(enters);
     if (drives.blind.kind == BlindKind::kNone) {

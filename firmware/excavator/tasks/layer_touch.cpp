@@ -6,17 +6,18 @@
 namespace graben {
 namespace {
 
-/// Over the ground, from where it comes down and to where it goes up again.
-constexpr double kLookOver_m = 0.25;
+/// Over the ground, from where it comes down and to where it goes up again: from there the bucket
+/// can be turned as a cut begins.
+constexpr double kOverGround_m = 0.9;
 /// From here on it comes down slowly, and knows what it weighs in the air.
 constexpr double kSlowFrom_m = 0.07;
 constexpr double kWeighed_m = 0.045;
 /// The ground is not looked for deeper, and not taken for what the task means beyond kZeroMost_m.
 constexpr double kDeepest_m = 0.06;
 constexpr double kZeroMost_m = 0.05;
-constexpr double kFalls_mps = 0.4;
+constexpr double kFalls_mps = 0.8;
 constexpr double kSlow_mps = 0.04;
-constexpr double kRises_mps = 0.4;
+constexpr double kRises_mps = 0.8;
 constexpr double kChange_mps2 = 1.0;
 constexpr double kWeighs_s = 0.15;
 /// The ground bears this much of the force that a cut gives way to; or it holds the teeth so far
@@ -26,7 +27,7 @@ constexpr double kHeldUp_m = 0.015;
 
 bool reaches(const SwingKinematics& kinematics, TeethPose pose, double ground_z_m) {
   bool reached = true;
-  for (const double height_m : {kLookOver_m, 0.0, -kDeepest_m}) {
+  for (const double height_m : {kOverGround_m, 0.5 * kOverGround_m, 0.0, -kDeepest_m}) {
     pose.position_m.z() = ground_z_m + height_m;
     reached = reached && kinematics.drive_from_teeth(pose).blind.kind == BlindKind::kNone;
   }
@@ -66,23 +67,22 @@ bool touches_next(const TaskProgram& program, const TaskState& state) {
   return program.layers.touch_share >= 0.0 && !state.layers.touched;
 }
 
-TeethPose touch_pose(const SwingKinematics& kinematics, const TaskProgram& program,
-                     const TaskState& state, double height_m) {
-  TeethPose pose = flat_pose(kinematics, program, std::max(0, state.layers.cuts.cut.strip),
-                             program.layers.touch_share);
+TeethPose touch_pose(const SwingKinematics& kinematics, const TaskProgram& program, int strip,
+                     double height_m) {
+  TeethPose pose = flat_pose(kinematics, program, std::max(0, strip), program.layers.touch_share);
   pose.position_m.z() = program.layers.ground_z_m + height_m;
   return pose;
 }
 
 TeethPose first_touch_pose(const SwingKinematics& kinematics, const TaskProgram& program,
-                           const TaskState& state) {
-  return touch_pose(kinematics, program, state, kLookOver_m);
+                           int strip) {
+  return touch_pose(kinematics, program, strip, kOverGround_m);
 }
 
 void begin_touch(TaskState& state) {
   LayerState& layers = state.layers;
   layers.phase = CutPhase::kTouches;
-  layers.height_m = kLookOver_m;
+  layers.height_m = kOverGround_m;
   layers.height_mps = 0.0;
   layers.give_m = 0.0;
   layers.air_n = 0.0;
@@ -94,10 +94,10 @@ bool touch_on(const TaskProgram& program, const CutSeen& seen, double advance_s,
   const LayerPlan& plan = program.layers;
   const double seen_m = seen.teeth.position_m.z() - plan.ground_z_m;
   if (layers.touched) {
-    const double left_m = std::max(0.0, kLookOver_m - layers.height_m);
+    const double left_m = std::max(0.0, kOverGround_m - layers.height_m);
     change_speed(std::min(kRises_mps, std::sqrt(2.0 * kChange_mps2 * left_m)), period_s, layers);
     layers.height_m += std::max(0.0, layers.height_mps) * advance_s;
-    return layers.height_m > kLookOver_m - 0.01;
+    return layers.height_m > kOverGround_m - 0.01;
   }
   const double over_m = std::max(0.0, layers.height_m - kSlowFrom_m);
   change_speed(
@@ -125,7 +125,7 @@ TaskAim aim_of_touch(const SwingKinematics& kinematics, const TaskProgram& progr
                      const TaskState& state) {
   TaskAim aim;
   aim.kind = StepKind::kDig;
-  aim.teeth = touch_pose(kinematics, program, state, state.layers.height_m);
+  aim.teeth = touch_pose(kinematics, program, state.layers.cuts.cut.strip, state.layers.height_m);
   const TeethPose along{{0.0, 0.0, state.layers.height_mps}, 0.0};
   const double near_rad = std::atan2(aim.teeth.position_m.y(), aim.teeth.position_m.x());
   const DriveMotion motion = kinematics.motion_from_teeth(aim.teeth, along, {}, near_rad);

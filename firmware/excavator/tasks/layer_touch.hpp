@@ -16,10 +16,10 @@ namespace graben {
 
 /// The bucket with its floor level, so high over the ground as the task says it is.
 [[nodiscard]] TeethPose touch_pose(const SwingKinematics& kinematics, const TaskProgram& program,
-                                   const TaskState& state, double height_m);
-/// The same as it begins.
+                                   int strip, double height_m);
+/// The same as it begins, at a strip.
 [[nodiscard]] TeethPose first_touch_pose(const SwingKinematics& kinematics,
-                                         const TaskProgram& program, const TaskState& state);
+                                         const TaskProgram& program, int strip);
 
 void begin_touch(TaskState& state);
 

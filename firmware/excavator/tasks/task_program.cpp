@@ -237,7 +237,7 @@ bool Planning::plan_in_layers() {
   if (!strips_in_range()) {
     return false;
   }
-  const TeethPose first = first_cut_pose(kinematics_, program);
+  const TeethPose first = first_dig_pose(kinematics_, program);
   const DriveResult start = kinematics_.drive_from_teeth(first);
   if (start.blind.kind != BlindKind::kNone) {
     return refuse(ProgramRefusal::kBlindSpot, 0, {start.blind, 0.0, first});
