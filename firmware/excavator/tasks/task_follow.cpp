@@ -28,6 +28,13 @@ DriveVector bounded(DriveRows drives, DriveVector travel_m) {
 
 constexpr double kStands_mps = 0.02;
 
+/// A drive that a plan leaves where it is moves by its rounding: no spool opens for that, but its
+/// load would hold up all the others.
+DriveVector without_rounding(const DriveVector& velocity_mps) {
+  constexpr double kRounding_mps = 1e-5;
+  return (velocity_mps.array().abs() < kRounding_mps).select(0.0, velocity_mps);
+}
+
 /// Of an error, what is not ahead along the planned motion of the teeth.
 double behind_m(const SwingKinematics& kinematics, const TaskAim& aim,
                 const Eigen::Vector3d& due_less_at_m) {
@@ -135,8 +142,8 @@ TaskWant want_of_task(const ExcavatorProfile& profile, DriveRows drives,
       straight ? want.path_error_m : std::max(0.0, want.error_m - profile.line.move_slow_error_m);
   want.behind_m = straight ? want.error_m : behind_m(kinematics, aim, due_m - at_m);
   want.pace_ratio = memory.state.pace_ratio;
-  want.wanted_mps =
-      speed_override_ratio * travel_of(profile, want.pace_ratio * aim.velocity + aim.at_once);
+  want.wanted_mps = without_rounding(
+      speed_override_ratio * travel_of(profile, want.pace_ratio * aim.velocity + aim.at_once));
   return want;
 }
 
