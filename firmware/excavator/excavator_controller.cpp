@@ -31,6 +31,10 @@ constexpr double kStandsShare = 0.5;
 /// Of the path's speed, where a load has held a drive of late.
 constexpr double kWary = 0.5;
 
+/// A move goes on without corrections that leave less than this share of it: no line is off then,
+/// and where a small correction needs more pressure than its pump has they never would be made.
+constexpr double kHeldUp = 0.3;
+
 /// A plan that is followed at less than this share of its pace waits.
 constexpr double kWaits = 0.5;
 
@@ -268,13 +272,18 @@ ExcavatorController::Followed ExcavatorController::flow_limited(const ExcavatorV
   const double of_path = followed.lambda;
   followed.eases = motion.eases;
   if (of_path > 0.0 || motion.eases) {
-    const Limit path_limit = followed.solution.limit;
+    const McvSolution of_wanted = followed.solution;
+    const Limit path_limit = of_wanted.limit;
     scale_to((motion.eases ? 1.0 : of_path) * motion.cap.factor, motion.corrected_mps);
     const double most =
         std::min(memory_.of_corrected + control.lambda_rise.rate_ps * period_s, 1.0);
     followed.solution = solve_mcv(setup_.valve, input, control.lambda_policy, {most});
     followed.of_corrected = followed.solution.point.lambda;
-    if (followed.of_corrected >= 1.0) {
+    if (motion.task.moves && !motion.eases && followed.of_corrected < kHeldUp) {
+      followed.solution = of_wanted;
+      followed.of_corrected = 1.0;
+      followed.as_wanted = true;
+    } else if (followed.of_corrected >= 1.0) {
       followed.solution.limit = path_limit;
     }
   }
@@ -320,7 +329,8 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
   const McvPoint& point = taken.solution.point;
   const double followed = decision.active() ? taken.of_way() : 0.0;
   const double asked = decision.active() ? taken.all() : 0.0;
-  const DriveVector asked_mps = asked * motion.cap.factor * motion.corrected_mps;
+  const DriveVector asked_mps =
+      asked * motion.cap.factor * (taken.as_wanted ? motion.wanted_mps : motion.corrected_mps);
   memory_.lambda = decision.active() ? taken.lambda : 0.0;
   memory_.of_corrected = decision.active() ? taken.of_corrected : 1.0;
   memory_.last = {in_motion(decision.mode.mode), outputs.enable, outputs.duty_ratio, {}, {}, {},

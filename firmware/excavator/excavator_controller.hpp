@@ -81,7 +81,8 @@ class ExcavatorController {
     double lambda = 0.0;        ///< Of the motion without them.
     double of_corrected = 0.0;  ///< Share of that, with them.
 
-    bool eases = false;  ///< Of the motion; then the path has no share in it.
+    bool as_wanted = false;  ///< Without corrections: they would have held up a move.
+    bool eases = false;      ///< Of the motion; then the path has no share in it.
 
     /// Of the corrected motion.
     [[nodiscard]] double all() const { return (eases ? 1.0 : lambda) * of_corrected; }

@@ -58,7 +58,7 @@ BlindPlace first_unreached(const ExcavatorProfile& profile, const SwingKinematic
       if (drives.blind.kind != BlindKind::kNone) {
         return {drives.blind, share, pose};
       }
-      if (lift_line(profile, kinematics, plan, pose, false).way_m <= 0.0) {
+      if (lift_line(profile, kinematics, plan, pose, LiftPart::kOut).way_m <= 0.0) {
         return {{BlindKind::kOutOfReach, kBoom}, share, pose};
       }
     }

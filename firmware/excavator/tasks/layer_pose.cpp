@@ -175,14 +175,16 @@ TeethLine cut_line(const TaskProgram& program, const TaskState& state) {
 }
 
 LinePlan lift_line(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                   const LayerPlan& plan, const TeethPose& from, bool folds) {
+                   const LayerPlan& plan, const TeethPose& from, LiftPart part) {
   const double out_m = plan.ground_z_m + kOutOfGround_m - from.position_m.z();
+  const bool folds = part == LiftPart::kFolds;
   const double up_m = folds ? kFoldUp_m : std::max(kLiftLeast_m, out_m);
   const double heel_free_rad =
       profile.geometry.body.floor_rad + incline_rad(plan, from) - kHeelFree_rad;
-  const double turn_rad =
-      (folds ? std::max({kFolded_rad, heel_free_rad, plan.carry_rad}) : plan.carry_rad) -
-      from.attitude_rad;
+  const double to_rad = part == LiftPart::kFrees ? from.attitude_rad
+                        : folds ? std::max({kFolded_rad, heel_free_rad, plan.carry_rad})
+                                : plan.carry_rad;
+  const double turn_rad = to_rad - from.attitude_rad;
   constexpr std::array<double, 4> kTurns = {1.0, 0.6, 0.3, 0.0};
   constexpr std::array<double, 3> kUps = {1.0, 0.7, 0.4};
   LinePlan lift;

@@ -22,11 +22,17 @@ namespace graben {
 [[nodiscard]] TeethPose first_dig_pose(const SwingKinematics& kinematics,
                                        const TaskProgram& program);
 
+enum class LiftPart : std::uint8_t {
+  kFolds,  ///< The bucket is folded in,
+  kOut,    ///< and lifted out of the ground;
+  kFrees,  ///< or straight up first, where its heel stands on something.
+};
+
 /// The way of teeth that have ended a cut here: first the bucket is folded in while its edge still
 /// stands before soil, which keeps the fill in; then it is lifted out of the ground. Without a way
 /// where the machine can't lift it.
 [[nodiscard]] LinePlan lift_line(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                                 const LayerPlan& plan, const TeethPose& from, bool folds);
+                                 const LayerPlan& plan, const TeethPose& from, LiftPart part);
 
 /// Teeth on a cut, so high over the line; the bucket stands steep as it goes into uncut ground,
 /// its floor along its way, and is turned to the line's attitude on the first half metre.

@@ -165,7 +165,8 @@ void LayerRun::begin_lift(TaskState& state) const {
   layers.folds = layers.phase == CutPhase::kCuts;
   // From where the teeth are: a plan that the soil has held off would first have to come back.
   const TeethPose from = layers.folds ? seen_.teeth : task_aim(kinematics_, program_, state).teeth;
-  layers.lift = lift_line(profile_, kinematics_, plan_, from, layers.folds);
+  layers.lift = lift_line(profile_, kinematics_, plan_, from,
+                          layers.folds ? LiftPart::kFolds : LiftPart::kOut);
   layers.phase = CutPhase::kLifts;
   layers.held_s = 0.0;
   state.time_s = 0.0;
@@ -242,9 +243,8 @@ void LayerRun::lift(TaskState& state) const {
   LayerState& layers = state.layers;
   layers.held_s = heaviness(0.0, seen_) > 1.0 ? layers.held_s + period_s_ : 0.0;
   if (layers.held_s > kLiftHeld_s) {
-    // The heel stands on something: up from where it is.
-    layers.lift = lift_line(profile_, kinematics_, plan_, seen_.teeth, false);
-    layers.folds = false;
+    layers.lift = lift_line(profile_, kinematics_, plan_, seen_.teeth, LiftPart::kFrees);
+    layers.folds = true;
     layers.held_s = 0.0;
     state.time_s = 0.0;
     state.settle_s = 0.0;

@@ -134,6 +134,7 @@ TaskWant want_of_task(const ExcavatorProfile& profile, DriveRows drives,
   want.error_m = (at_m - due_m).norm();
   const bool cut = cuts(program, memory.state);
   const bool straight = cut || on_line(program, memory.state);
+  want.moves = want.holds && !straight;
   const TaskStep& step = program.step[static_cast<unsigned>(memory.state.step)];
   want.path_error_m = cut        ? line_distance_m(cut_line(program, memory.state), at_m)
                       : straight ? line_distance_m(step.line.line, at_m)

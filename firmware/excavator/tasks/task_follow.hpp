@@ -43,7 +43,8 @@ struct TaskWant {
   /// What a tube is laid around: the line; of a move, whose pace gives way to it first, what is
   /// more than that (line.move_slow_error).
   double off_m = 0.0;
-  TeethPose teeth;  ///< Where they are.
+  bool moves = false;  ///< On no line: its drives only have to arrive.
+  TeethPose teeth;     ///< Where they are.
   TaskProgress progress;
 };
 

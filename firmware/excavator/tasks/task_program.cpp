@@ -243,8 +243,8 @@ bool Planning::plan_in_layers() {
     return refuse(ProgramRefusal::kBlindSpot, 0, {start.blind, 0.0, first});
   }
   program.start = start.value;
-  const LinePlan lift =
-      lift_line(profile_, kinematics_, program.layers, program.step[0].line.line.at(1.0), false);
+  const LinePlan lift = lift_line(profile_, kinematics_, program.layers,
+                                  program.step[0].line.line.at(1.0), LiftPart::kOut);
   drives_ = line_motion(kinematics_, lift.line, 1.0).value;
   return true;
 }
