@@ -56,7 +56,7 @@ double mean_m(const LayerPlan& plan, const Strip& strip) {
 bool is_done(const LayerPlan& plan, const Strip& strip) {
   int rough = 0;
   for (int bin = 0; bin < kStripBins; ++bin) {
-    const double steep = std::max(0.0, 1.0 - share_of(bin) * plan.way_m / kTurns_m);
+    const double steep = std::max(0.0, 1.0 - share_of(bin) * plan.way_m / plan.turns_m);
     const auto top = static_cast<double>(strip[static_cast<unsigned>(bin)]);
     rough += top > kFinish_m + kSteepHigher_m * steep ? 1 : 0;
   }

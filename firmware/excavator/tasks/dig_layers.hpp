@@ -29,6 +29,7 @@ struct LayerPlan {
   double give_down_mpn = 0.0;  ///< The same straight down, of what the ground bears.
   double speed_mps = 0.0;      ///< Along a cut.
   double enter_rad = 0.0;      ///< Attitude that the edge goes down with.
+  double turns_m = 0.75;       ///< Way on which the bucket comes from that to its attitude.
   double touch_share =
       -1.0;                ///< Of the line, where the ground is first felt for; below 0: nowhere.
   double carry_rad = 0.0;  ///< Attitude that a full bucket is lifted at.
@@ -94,10 +95,8 @@ void weigh_cut(const LayerPlan& plan, double weighed_m3, CutState& state);
 inline constexpr double kRough_m = 0.03;
 inline constexpr double kFinish_m = 0.014;
 inline constexpr double kLeft_m = 0.022;
-/// The last cut keeps so much more where its bucket is still steep, which it is no more after
-/// kTurns_m.
+/// The last cut keeps so much more where its bucket is still steep.
 inline constexpr double kSteepHigher_m = 0.016;
-inline constexpr double kTurns_m = 0.75;
 /// The last layer's thickness: its force is small, and so is what the teeth spring by.
 inline constexpr double kLastLayer_m = 0.06;
 /// A bucket takes a little more than what fills it: some is lost on the way.

@@ -13,6 +13,8 @@ constexpr double kUsed = 0.45;
 /// Deeper cuts are not made, whatever the force.
 constexpr double kDepthMost_m = 0.35;
 constexpr double kCarry_rad = 0.15;
+/// Of the floor: on that way its heel stays where the edge went in.
+constexpr double kTurns = 1.4;
 /// Of the bucket's floor as it goes straight down into the ground.
 constexpr double kSteep_rad = 1.5;
 constexpr int kSteepLooks = 16;
@@ -130,6 +132,7 @@ LayerPlanResult plan_layers(const ExcavatorProfile& profile, const SwingKinemati
   plan.depth_most_m = kDepthMost_m;
   plan.speed_mps = line.way_m * line.ramp.peak_rate_ps();
   plan.carry_rad = kCarry_rad;
+  plan.turns_m = kTurns * body.floor_m;
   plan.strips = asked.strips;
   plan.strip_rad = asked.strip_rad;
   plan.first_rad = -0.5 * (asked.strips - 1) * asked.strip_rad;

@@ -119,7 +119,7 @@ double steep_rad(const TaskProgram& program, const Cut& cut) {
 }
 
 Progress steepness(const TaskProgram& program, const Cut& cut, double share) {
-  const double turns = kTurns_m / program.layers.way_m;
+  const double turns = program.layers.turns_m / program.layers.way_m;
   const double done = std::clamp((share - cut.from_share) / turns, 0.0, 1.0);
   const double left = 1.0 - done;
   if (left > kFades) {
@@ -130,7 +130,8 @@ Progress steepness(const TaskProgram& program, const Cut& cut, double share) {
 }
 
 bool turns(const TaskProgram& program, const LayerState& layers) {
-  return (layers.share - layers.cuts.cut.from_share) * program.layers.way_m < kTurns_m;
+  return (layers.share - layers.cuts.cut.from_share) * program.layers.way_m <
+         program.layers.turns_m;
 }
 
 double most_rate_ps(const TaskProgram& program, const LayerState& layers) {
