@@ -153,18 +153,37 @@ void depth_follows_the_force(void**) {
   assert_true(state.depth_m > 0.0);
 }
 
-void a_bucket_with_next_to_nothing_is_not_emptied_at_the_end(void**) {
+/// A cut that brings more than its edge has passed is made again, so often and no more.
+void soil_that_falls_in_is_swept_out(void**) {
   const LayerPlan whole = plan();
   CutState state = undug(whole);
-  next_cut(whole, {0.7, 0.02}, state);
-  assert_false(keeps_load(whole, state));
-  static_cast<void>(cut_through(whole, 0.0, state));
-  state.loaded_m3 = 0.0;
-  next_cut(whole, {0.7, 0.02}, state);
-  assert_true(state.met);
-  assert_true(keeps_load(whole, state));
-  next_cut(whole, {0.7, 0.2}, state);
-  assert_false(keeps_load(whole, state));
+  weigh_cut(whole, whole.full_m3, state);
+  assert_int_equal(state.sweeps, 0);
+  while (!state.met) {
+    static_cast<void>(cut_through(whole, state.cut.height_m, state));
+    state.loaded_m3 = 0.0;
+    next_cut(whole, {0.7, 0.2 * whole.full_m3}, state);
+  }
+  CutState light = state;
+  weigh_cut(whole, 0.3 * whole.full_m3, light);
+  assert_true(light.met);
+  int sweeps = 0;
+  for (; sweeps < 100; ++sweeps) {
+    weigh_cut(whole, whole.full_m3, state);
+    if (state.met) {
+      break;
+    }
+    assert_true(state.cut.thin);
+    // Not weighed it is no reason for another.
+    CutState once = state;
+    once.met = true;
+    weigh_cut(whole, whole.full_m3, once);
+    assert_true(once.met);
+    static_cast<void>(cut_through(whole, state.cut.height_m, state));
+    state.loaded_m3 = 0.0;
+    next_cut(whole, {0.7, 0.2 * whole.full_m3}, state);
+  }
+  assert_int_equal(sweeps, kSweepsMost);
 }
 
 /// Ground under the design is none to dig.
@@ -187,7 +206,7 @@ int main() {
       cmocka_unit_test(strips_one_after_the_other),
       cmocka_unit_test(what_stays_up_is_left),
       cmocka_unit_test(depth_follows_the_force),
-      cmocka_unit_test(a_bucket_with_next_to_nothing_is_not_emptied_at_the_end),
+      cmocka_unit_test(soil_that_falls_in_is_swept_out),
       cmocka_unit_test(ground_below_its_design_is_met),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -168,6 +168,56 @@ void soil_that_holds_the_edge_up_is_cut_from_there(void**) {
   assert_true(state.layers.give_m > 0.0);
 }
 
+/// Oil that is pressed lets off before the edge goes along: it would throw it down.
+void pressed_oil_lets_off_before_a_cut(void**) {
+  const TaskProgram program = planned();
+  TaskState state = run_until(program, begun(program), [](const TaskState& at) {
+    return at.layers.phase == CutPhase::kEnters && at.layers.height_m < 0.6;
+  });
+  const double presses_n = 0.03 / program.layers.give_down_mpn;
+  bool eased = false;
+  for (int n = 0; n < 400 && !in_cut(state); ++n) {
+    CutSeen seen = follows(program, state);
+    const TeethPose stands = seen.teeth;
+    seen.force_n = {0.0, eased && n % 400 > 0 && state.layers.height_m > state.layers.stood_m + 0.03
+                             ? 0.0
+                             : presses_n};
+    if (state.layers.eases) {
+      // The ground does not push: the teeth stay while their oil lets off.
+      seen.teeth.position_m.z() =
+          std::min(stands.position_m.z(), kDesign_m + 0.012 + state.layers.stood_m);
+    }
+    eased = eased || state.layers.eases;
+    state = advance(program, state, seen);
+  }
+  assert_true(eased);
+  assert_true(in_cut(state));
+  assert_false(state.layers.eases);
+  // The plan goes on from where the teeth are.
+  assert_near(state.layers.height_m, state.layers.stood_m, 0.012);
+}
+
+/// A heel on uncut ground holds a bucket that is to be folded: it is lifted straight up first.
+void a_held_heel_is_lifted_straight_up(void**) {
+  const TaskProgram program = planned();
+  TaskState state = run_until(program, begun(program), [](const TaskState& at) {
+    return at.layers.phase == CutPhase::kLifts && at.layers.folds && at.time_s > 0.2;
+  });
+  const TeethPose held = task_aim(machine().kinematics, program, state).teeth;
+  for (int n = 0; n < 60; ++n) {
+    CutSeen seen = follows(program, state);
+    seen.teeth = held;
+    seen.lambda = 0.0;
+    state = advance(program, state, seen);
+  }
+  assert_int_equal(state.layers.phase, CutPhase::kLifts);
+  const TeethPose& change = state.layers.lift.line.change;
+  assert_near(change.attitude_rad, 0.0, 1e-9);
+  assert_true(change.position_m.z() > 0.2);
+  state = run_until(program, state, [](const TaskState& at) { return at.step == 1; });
+  assert_true(task_aim(machine().kinematics, program, state).teeth.attitude_rad < 0.45);
+}
+
 void a_full_bucket_ends_the_cut(void**) {
   const TaskProgram program = planned();
   const TaskState state = run_until(program, begun(program), [](const TaskState& at) {
@@ -240,6 +290,8 @@ int main() {
       cmocka_unit_test(a_heavy_cut_gives_way_upwards),
       cmocka_unit_test(a_force_along_the_way_holds_nothing_up),
       cmocka_unit_test(soil_that_holds_the_edge_up_is_cut_from_there),
+      cmocka_unit_test(pressed_oil_lets_off_before_a_cut),
+      cmocka_unit_test(a_held_heel_is_lifted_straight_up),
       cmocka_unit_test(a_full_bucket_ends_the_cut),
       cmocka_unit_test(lifts_out_before_it_swings),
       cmocka_unit_test(goes_on_where_it_was),

@@ -235,6 +235,31 @@ void sliding_along_a_plane_does_not_chatter(void**) {
   }
 }
 
+/// Heights that are seen too high let a design seem as much farther off than it is.
+void a_design_lies_where_the_ground_was_felt(void**) {
+  FenceSet fences;
+  const DriveVector at(0.475, 0.565, 0.4375, 0.0);
+  const double teeth_z_m =
+      machine()
+          .kinematics.teeth_from_joints(machine().kinematics.joints_from_drive(at).value)
+          .position_m.z();
+  Fence& design = fences.fence[0];
+  design.normal = -Eigen::Vector3d::UnitZ();
+  design.offset_m = -(teeth_z_m - 0.03);
+  design.guard = FenceGuard::kTeeth;
+  fences.count = 1;
+  const ExcavatorBank bank = excavator_bank(machine().profile);
+  const auto factor = [&](double zero_m) {
+    return graben::motion_cap(machine().profile, bank.rows(), machine().kinematics, fences,
+                              travel_of(machine().profile, at),
+                              travel_of(machine().profile, {-0.1, 0.0, 0.0, 0.0}), 0.0, zero_m)
+        .factor;
+  };
+  assert_true(factor(0.0) > 0.0);
+  assert_near(factor(0.01) / factor(0.0), (0.02 + 5e-5) / (0.03 + 5e-5), 1e-3);
+  assert_true(factor(-0.01) > factor(0.0));
+}
+
 }  // namespace
 
 int main() {
@@ -249,6 +274,7 @@ int main() {
       cmocka_unit_test(beyond_a_fence_only_what_leads_back_moves),
       cmocka_unit_test(its_own_momentum_counts),
       cmocka_unit_test(sliding_along_a_plane_does_not_chatter),
+      cmocka_unit_test(a_design_lies_where_the_ground_was_felt),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
