@@ -103,6 +103,7 @@ class AutodigRun {
     read_controller(sample);
     read_truth(sample);
     count_rounds(sample.progress);
+    result_.missed = std::max<int>(result_.missed, sample.progress.missed);
     if (round_ < options_.rounds) {
       compare(sample);
       result_.samples.push_back(sample);
@@ -187,20 +188,24 @@ class AutodigRun {
     if (in_layers(program_)) {
       return;  // Where the steps lead is decided on the way.
     }
-    if (!step.straight) {
-      const DriveVector value = step.drives.from + at.share * step.drives.change;
-      plan_at(value, sample);
-      return;
+    const Eigen::Vector3d measured_m = measured_teeth_m();
+    const Eigen::Vector3d end_m = teeth_at(step_motion(kinematics_, step, 1.0).value).position_m;
+    sample.end_off_true_m = (teeth_m - end_m).norm();
+    sample.end_off_measured_m = (measured_m - end_m).norm();
+    plan_at(step_motion(kinematics_, step, at.share).value, sample);
+    if (step.straight) {
+      sample.error_true_m = line_distance_m(step.line.line, teeth_m);
+      sample.error_measured_m = line_distance_m(step.line.line, measured_m);
     }
-    plan_at(line_motion(kinematics_, step.line.line, at.share).value, sample);
-    sample.error_true_m = line_distance_m(step.line.line, teeth_m);
-    sample.error_measured_m = line_distance_m(step.line.line, measured_teeth_m());
+  }
+
+  [[nodiscard]] TeethPose teeth_at(const DriveVector& drives) const {
+    return kinematics_.teeth_from_joints(kinematics_.joints_from_drive(drives).value);
   }
 
   void plan_at(const DriveVector& value, AutodigSample& sample) const {
     sample.planned = list_of(value);
-    const DriveResult joints = kinematics_.joints_from_drive(value);
-    const TeethPose teeth = kinematics_.teeth_from_joints(joints.value);
+    const TeethPose teeth = teeth_at(value);
     sample.planned_m = list_of(teeth.position_m);
     sample.planned_attitude_rad = teeth.attitude_rad;
   }

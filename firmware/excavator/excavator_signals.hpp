@@ -53,6 +53,8 @@ struct TaskProgress {
   std::uint8_t step = 0;
   StepKind kind = StepKind::kNone;
   double share = 0.0;  ///< Of the step, 0 .. 1.
+  /// Steps that went on though they had not arrived, since the task began; 255: or more.
+  std::uint8_t missed = 0;
 };
 
 /// Where a valve opens, on one side: learnt, as a share of the spool's travel from where the

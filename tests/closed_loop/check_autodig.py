@@ -20,7 +20,7 @@ J, K = (0.0, 6.866, 0.0), (2.244, 3.886, 0.0)
 SWASH, FED_S = "0.2", 72.0
 FIGURES = {
     "max_error_true_m", "rmse_error_true_m", "max_error_measured_m", "rmse_error_measured_m",
-    "end_error_true_m", "fence_left_m", "lambda_min", "lambda_mean", "task_s", "planned_s",
+    "end_error_true_m", "move_end_error_true_m", "steps_not_arrived", "raised_max_m", "fence_left_m", "lambda_min", "lambda_mean", "task_s", "planned_s",
     "duration_s", "real_time_factor", "cycles", "cycle_median_us", "cycle_max_us", "steps",
     "limit_share", "lambda_variation_ps", "spool_travel_ps", "spool_reversals_ps",
     "teeth_jerk_rms_mps3", "energy_per_round_j", "energy_j", "energy_bypass_relief_share",

@@ -51,6 +51,7 @@ TaskProgress progress_of(const TaskMemory& memory, const TaskAim& aim) {
   progress.step = approaches ? std::uint8_t{0} : static_cast<std::uint8_t>(memory.state.step);
   progress.kind = aim.kind;
   progress.share = aim.share;
+  progress.missed = memory.state.missed;
   return progress;
 }
 
@@ -134,6 +135,7 @@ TaskWant want_of_task(const ExcavatorProfile& profile, DriveRows drives,
   want.off_m =
       straight ? want.path_error_m : std::max(0.0, want.error_m - profile.line.move_slow_error_m);
   want.behind_m = straight ? want.error_m : behind_m(kinematics, aim, due_m - at_m);
+  want.astray = !in_layers(program) && is_astray(memory.state, want.behind_m);
   want.pace_ratio = memory.state.pace_ratio;
   want.wanted_mps =
       speed_override_ratio * travel_of(profile, want.pace_ratio * aim.velocity + aim.at_once);

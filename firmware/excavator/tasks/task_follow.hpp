@@ -44,6 +44,8 @@ struct TaskWant {
   /// more than that (line.move_slow_error).
   double off_m = 0.0;
   TeethPose teeth;  ///< Where they are.
+  /// See is_astray(); a program in layers leads on from wherever it ends.
+  bool astray = false;
   TaskProgress progress;
 };
 

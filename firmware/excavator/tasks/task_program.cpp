@@ -144,7 +144,8 @@ void Planning::raise_digging(bool closed) {
     raised_m[0] = raised_m[last] = std::max(raised_m[0], raised_m[last]);
   }
   for (unsigned i = 0; i < last; ++i) {
-    result_.note[i].raised_m = std::max(raised_m[i], raised_m[i + 1]);
+    result_.note[i].raised_from_m = raised_m[i];
+    result_.note[i].raised_to_m = raised_m[i + 1];
   }
 }
 

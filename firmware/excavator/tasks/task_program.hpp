@@ -84,7 +84,8 @@ enum class ProgramRefusal : std::uint8_t {
 
 /// Changes that planning made to a step.
 struct StepNote {
-  double raised_m = 0.0;  ///< The higher of its ends, to keep the clearance above the design.
+  double raised_from_m = 0.0;  ///< Its beginning, straight up, to keep the design's clearance,
+  double raised_to_m = 0.0;    ///< and its end.
   PlanLimit slowed_by = PlanLimit::kNone;  ///< As in PlanResult; of a line.
   int drive = 0;
   double slowed_ratio = 1.0;

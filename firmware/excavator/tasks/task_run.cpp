@@ -1,6 +1,7 @@
 #include "firmware/excavator/tasks/task_run.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "firmware/excavator/tasks/layer_run.hpp"
 
@@ -70,6 +71,21 @@ TaskState next_part(const TaskProgram& program, const TaskState& state) {
   return next;
 }
 
+/// At its end, with the teeth so far from it: it goes on.
+bool leaves(const TaskProgram& program, double error_m, TaskState& state) {
+  if (state.calm_s >= kCalm_s) {
+    return true;
+  }
+  if (in_layers(program)) {
+    return state.settle_s >= kSettleMost_s;
+  }
+  const bool late = state.settle_s >= kArriveMost_s && error_m <= kMissedMost_m;
+  if (late && state.missed < std::numeric_limits<std::uint8_t>::max()) {
+    ++state.missed;
+  }
+  return late;
+}
+
 double slow_error_m(const LineProfile& line, const TaskProgram& program, const TaskState& state) {
   if (!on_line(program, state)) {
     return line.move_slow_error_m;
@@ -118,6 +134,24 @@ bool on_line(const TaskProgram& program, const TaskState& state) {
          step_of(program, state).straight;
 }
 
+double arrival_m(const TaskProgram& program, const TaskState& state) {
+  if (in_layers(program) || on_line(program, state)) {
+    return kSettled_m;
+  }
+  int next = state.phase == TaskPhase::kApproach ? 0 : state.step + 1;
+  if (next >= program.step_count && program.repeats) {
+    next = 0;
+  }
+  const bool before_line =
+      next < program.step_count && program.step[static_cast<unsigned>(next)].straight;
+  return before_line ? kLineBegins_m : kMoveArrived_m;
+}
+
+bool is_astray(const TaskState& state, double error_m) {
+  // Written so that NaN is.
+  return state.settle_s > 0.0 && state.phase != TaskPhase::kDone && !(error_m <= kMissedMost_m);
+}
+
 double wanted_pace(const LineProfile& line, const TaskProgram& program, const TaskState& state,
                    double error_m) {
   const double off = error_m / slow_error_m(line, program, state);
@@ -145,10 +179,10 @@ TaskState task_advance(const LineProfile& line, const TaskProgram& program, cons
     return next_part(program, next);
   }
   next.time_s = end_s;
-  next.settle_s += period_s;
-  next.calm_s = error_m < kSettled_m ? state.calm_s + period_s : 0.0;
-  const bool there = next.calm_s >= kCalm_s || next.settle_s >= kSettleMost_s;
-  return there ? next_part(program, next) : next;
+  // Held at override 0 it can't arrive.
+  next.settle_s += advance_s > 0.0 || in_layers(program) ? period_s : 0.0;
+  next.calm_s = error_m < arrival_m(program, state) ? state.calm_s + period_s : 0.0;
+  return leaves(program, error_m, next) ? next_part(program, next) : next;
 }
 
 }  // namespace graben

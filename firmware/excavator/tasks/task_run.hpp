@@ -49,6 +49,8 @@ struct TaskState {
   double time_s = 0.0;    ///< tau: of the plan of approach or step.
   double settle_s = 0.0;  ///< How long it has waited at its end.
   double calm_s = 0.0;    ///< How long of that the teeth have been there without a break.
+  /// Steps that went on though they had not arrived, since the task began; 255: or more.
+  std::uint8_t missed = 0;
   /// Of the plan's speed, 0 .. 1: the aim's velocity has to be scaled by it before what is owed is
   /// added, and task_advance goes on by it. Drives that went on at full speed would run ahead of a
   /// plan that waits for them, and make the error that it waits for.
@@ -71,14 +73,23 @@ struct TaskAim {
   TeethPose teeth;  ///< Where they are planned to be.
 };
 
-/// An end is reached with the teeth so near to it for so long: a platform that swings through its
-/// place is not there yet ...
+/// A step has arrived with the teeth so near to its end for so long, a platform that swings through
+/// its place is not there yet: a line; a move (or the approach) that a line follows, whose
+/// beginning is the move's end; any other move.
 inline constexpr double kSettled_m = 5e-3;
+inline constexpr double kLineBegins_m = 0.01;
+inline constexpr double kMoveArrived_m = 0.02;
 inline constexpr double kCalm_s = 0.2;
-/// ... or after so long: what is left then is the next step's to correct.
-inline constexpr double kSettleMost_s = 2.0;
-/// The same of a move of a program in layers, which leads on from wherever it ends.
+/// So long it is waited for. Then a step that is this near goes on, and is counted as missed: what
+/// is left is for the next step to correct, whose way was looked at from that end and whose fences
+/// hold in motion. One that is farther off does not go on at all: the next step may rely on it, as
+/// a swing does on the lift before it. It waits until the stall watch stops the machine.
+inline constexpr double kArriveMost_s = 10.0;
+inline constexpr double kMissedMost_m = 0.03;
+/// A move of a program in layers has arrived so near, or after so long: it leads on from wherever
+/// it ends.
 inline constexpr double kMoveSettled_m = 0.05;
+inline constexpr double kSettleMost_s = 2.0;
 
 /// At the beginning of the approach that search_approach() has found, planned from where the
 /// machine stands now. It can't meet a blind spot. In motion the soft limit holds it before fences.
@@ -97,6 +108,12 @@ inline constexpr double kMoveSettled_m = 0.05;
 /// True while a straight line of the teeth is being followed; else a move of the drives, or none.
 [[nodiscard]] bool on_line(const TaskProgram& program, const TaskState& state);
 
+/// Of the part that runs, see kSettled_m.
+[[nodiscard]] double arrival_m(const TaskProgram& program, const TaskState& state);
+
+/// True at the end of an approach or a step with the teeth so far from it that it will not go on.
+[[nodiscard]] bool is_astray(const TaskState& state, double error_m);
+
 /// The pace that an error of the teeth asks for: half where they are line.slow_error_m off their
 /// planned place and line.slow_error_s times the line's planned speed there, as the digging field
 /// does along its path; or line.move_slow_error_m where the drives are only moved; 0 for NaN. From
@@ -107,8 +124,8 @@ inline constexpr double kMoveSettled_m = 0.05;
 /// One cycle on. `advance_s` is what the plan may go on by: lambda and every other factor on the
 /// velocity but its own pace, times the period. The pace follows wanted_pace no faster than
 /// line.pace_rate_ps: a platform can't be slowed at once, and a plan that tries makes it swing
-/// about its place. At the end of a step it waits until the teeth have been within
-/// kSettled_m for kCalm_s, or for kSettleMost_s.
+/// about its place. At the end of approach or step it waits until it has arrived, see kSettled_m
+/// and kArriveMost_s.
 [[nodiscard]] TaskState task_advance(const LineProfile& line, const TaskProgram& program,
                                      const TaskState& state, double advance_s, double period_s,
                                      double error_m);

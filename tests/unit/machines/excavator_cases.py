@@ -185,11 +185,13 @@ SIMULATION_CASES = [
      ["experiment.obstacle.stiffness", "N/m"]),
     ("air path out of reach", lambda t: replaced(t, "y = [-1.1, 2.0]", "y = [1.1, 5.0]"),
      ["experiment.air.path", "leaves the work space"]),
-    ("line out of reach", lambda t: replaced(t, "[2.6, 4.6, 0.0]", "[2.6, 4.6, 9.0]"),
+    ("line out of reach", lambda t: replaced(t, "[5.3, 0.0, 0.0]", "[5.3, 0.0, 9.0]"),
      ["experiment.line", "the boom cylinder", "% of the line"]),
-    ("line without a way", lambda t: replaced(replaced(t, "[2.6, 4.6, 0.0]", "[0.0, 8.0, 0.0]"),
+    ("line that has to swing", lambda t: replaced(t, "[5.3, 0.0, 0.0]", "[2.6, 4.6, 0.0]"),
+     ["experiment.line", "this machine's swing is held"]),
+    ("line without a way", lambda t: replaced(replaced(t, "[5.3, 0.0, 0.0]", "[8.0, 0.0, 0.0]"),
                                               "attitude = 1.221730", "attitude = 2.268928"),
-     ["experiment.line", "both ends of the line are the same"]),
+     ["experiment.line", "it ends where it begins"]),
 ]
 
 # The dozer's ranges are listed key by key; these are read by the same code.
