@@ -7,6 +7,7 @@
 
 #include "app/machines/axis_names.hpp"
 #include "app/machines/fence_tables.hpp"
+#include "firmware/excavator/tasks/step_round.hpp"
 
 namespace graben::machines {
 namespace {
@@ -135,6 +136,19 @@ std::string fence_words(const char* of_what, const ExcavatorBody& body,
                      100.0 * by.least_share, of_what, margin);
 }
 
+std::string rounds_words(const ProgramRequest& request) {
+  const RoundsPlan& rounds = request.rounds;
+  if (!rounds.to_design) {
+    return fmt::format("{} rounds; allowed: 1 .. {}", rounds.count, kRoundsMost);
+  }
+  return request.has_design
+             ? fmt::format(
+                   "rounds until the design is met: each has to lead nearer to it, and at "
+                   "most {} have to do; they lead {:.0f} mm nearer",
+                   kRoundsMost, -1e3 * request.design.up.dot(rounds.offset_m))
+             : "rounds until the design is met, but there is no design";
+}
+
 std::string cause_words(const char* of_what, const ExcavatorProfile& profile,
                         const ProgramRequest& request, const ProgramResult& result) {
   switch (result.refusal) {
@@ -157,6 +171,8 @@ std::string cause_words(const char* of_what, const ExcavatorProfile& profile,
       return "digs in layers: it has to be the first step, a line, with a design, followed by "
              "moves, "
              "repeated, of a machine whose bucket is known (bucket.width, bucket.capacity)";
+    case ProgramRefusal::kRounds:
+      return rounds_words(request);
     case ProgramRefusal::kOpenEnd:
       return "the task repeats, but does not end where it starts";
   }
@@ -184,7 +200,8 @@ std::string raised_words(double raised_m, const TeethPose& to) {
 }
 
 bool has_place(ProgramRefusal refusal) {
-  return refusal != ProgramRefusal::kBadRequest && refusal != ProgramRefusal::kNoWay;
+  return refusal != ProgramRefusal::kBadRequest && refusal != ProgramRefusal::kNoWay &&
+         refusal != ProgramRefusal::kRounds;
 }
 
 }  // namespace
@@ -207,6 +224,8 @@ const char* step_name(StepKind kind) {
       return "return";
     case StepKind::kDone:
       return "done";
+    case StepKind::kWait:
+      return "wait";
   }
   return "unknown";
 }
@@ -217,6 +236,13 @@ std::string refusal_words_of(const char* of_what, const ExcavatorProfile& profil
   if (has_place(result.refusal)) {
     words += (result.refusal == ProgramRefusal::kFence ? "; beginning " : "; ") +
              place_words(result.place, of_what);
+  }
+  if (result.early_share >= 0.0) {
+    words += fmt::format("; after a step that ended at {:.0f} % of its line",
+                         100.0 * result.early_share);
+  }
+  if (result.round > 0) {
+    words += fmt::format("; in round {}", result.round + 1);
   }
   return words;
 }

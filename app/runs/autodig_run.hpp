@@ -23,6 +23,7 @@ struct AutodigOptions {
   DriveVector start = DriveVector::Zero();  ///< Strokes in m and swing in rad.
   double speed_override_ratio = 1.0;
   int rounds = 1;                  ///< Of a task that repeats.
+  double word_after_s = 3.0;       ///< At a wait the operator asks for the task anew after so long.
   std::filesystem::path log_file;  ///< candump log; none if empty.
 };
 
@@ -95,6 +96,7 @@ struct StepFigures {
   double end_error_measured_m = kAbsent;  ///< By what the controller was told.
   /// False: the controller went on though the teeth had not come to stand at its end.
   bool arrived = true;
+  UntilKind ended_by = UntilKind::kEnd;  ///< Other than kEnd: it has no end to be off.
 };
 
 struct AutodigSummary {
@@ -148,6 +150,9 @@ struct AutodigSummary {
 [[nodiscard]] inline RunFigures figures_of(const AutodigSummary& summary) {
   return figures_of(autodig_figures(), summary, "share of time per limit of lambda");
 }
+
+/// "end", "full", "force", "plane".
+[[nodiscard]] const char* until_name(UntilKind kind);
 
 /// A line for each step as it was done.
 [[nodiscard]] std::string steps_text(const AutodigSummary& summary);

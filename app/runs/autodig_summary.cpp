@@ -24,11 +24,16 @@ class Steps {
 
   void add(const AutodigSample& sample) {
     count(sample.progress.missed);
+    const int step = sample.progress.step;
+    const bool begins = steps_.empty() || steps_.back().step != step;
+    if (!steps_.empty() && sample.progress.runs &&
+        (begins || sample.progress.kind == StepKind::kDone)) {
+      end_last(sample.progress.last_end);
+    }
     if (!in_step(sample)) {
       return;
     }
-    const int step = sample.progress.step;
-    if (steps_.empty() || steps_.back().step != step) {
+    if (begins) {
       begin(sample);
     }
     StepFigures& figures = steps_.back();
@@ -58,6 +63,14 @@ class Steps {
     missed_ = missed;
   }
 
+  void end_last(UntilKind by) {
+    StepFigures& last = steps_.back();
+    last.ended_by = by;
+    if (by != UntilKind::kEnd) {
+      last.end_error_true_m = last.end_error_measured_m = kAbsent;
+    }
+  }
+
   void begin(const AutodigSample& sample) {
     const int step = sample.progress.step;
     const TaskStep& planned = program_.step[static_cast<unsigned>(step)];
@@ -67,7 +80,7 @@ class Steps {
     figures.step = step;
     figures.round = round_;
     figures.kind = planned.kind;
-    figures.straight = planned.straight && !in_layers(program_);
+    figures.straight = planned.straight && !in_layers(program_) && !sample.progress.off_plan;
     figures.from_s = sample.time_s;
     figures.planned_s = planned.duration_s();
     steps_.push_back(figures);
@@ -246,6 +259,30 @@ const FigureTable<AutodigSummary>& autodig_figures() {
   return all;
 }
 
+const char* until_name(UntilKind kind) {
+  switch (kind) {
+    case UntilKind::kEnd:
+      return "end";
+    case UntilKind::kFull:
+      return "full";
+    case UntilKind::kForce:
+      return "force";
+    case UntilKind::kPlane:
+      return "plane";
+  }
+  return "unknown";
+}
+
+namespace {
+
+std::string end_words(const StepFigures& step) {
+  return step.ended_by != UntilKind::kEnd ? fmt::format("  ended by {}", until_name(step.ended_by))
+         : step.arrived                   ? ""
+                                          : "  not arrived";
+}
+
+}  // namespace
+
 std::string steps_text(const AutodigSummary& summary) {
   const auto millimetres = [](double error_m) {
     return std::isfinite(error_m) ? fmt::format("{:.1f}", error_m * kMillimetres.per_si) : "-";
@@ -256,7 +293,7 @@ std::string steps_text(const AutodigSummary& summary) {
     text += fmt::format("{:<10}{:>8.2f} {:>8.2f} {:>10.2f} {:>18} {:>12}{}\n",
                         machines::step_name(step.kind), step.from_s, step.until_s, step.planned_s,
                         millimetres(step.straight ? step.max_error_true_m : kAbsent),
-                        millimetres(step.end_error_true_m), step.arrived ? "" : "  not arrived");
+                        millimetres(step.end_error_true_m), end_words(step));
     if (!step.arrived) {
       notes += fmt::format(
           "step {} ({}) of round {} had not arrived: its end was still {} mm away, as measured, "

@@ -49,7 +49,8 @@ struct TaskWant {
   TaskProgress progress;
 };
 
-/// A task that stops: it does not run, but what it has dug is known when it is asked for again.
+/// A task that stops: it does not run, but what it has dug is known when it is asked for again. One
+/// that stood at a wait goes on from there when it is: that is the operator's word.
 [[nodiscard]] TaskMemory stopped(const TaskMemory& last);
 
 /// `aim` is task_aim of the memory's state; `servo` has this cycle's strokes. Speed is that of the

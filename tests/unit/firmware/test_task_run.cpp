@@ -249,10 +249,10 @@ void what_is_astray_does_not_go_on(void**) {
   }
   assert_false(is_astray(TaskState{}, 1.0));
   TaskState many = at_first_step();
-  many.missed = 255;
+  many.missed = kMissedCount;
   many.time_s = task.step[0].duration_s();
   many.settle_s = kArriveMost_s;
-  assert_int_equal(advance(task, many, 1.0, kMissedMost_m).missed, 255);
+  assert_int_equal(advance(task, many, 1.0, kMissedMost_m).missed, kMissedCount);
 }
 
 /// A line ends to the millimetres, and so does what leads to one; a move between moves need not.
