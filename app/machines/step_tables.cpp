@@ -36,18 +36,23 @@ bool is_straight(TomlReader& reader, const std::string& at, StepKind kind) {
 
 void read_line_pace(TomlReader& reader, const std::string& at, double usual_mps,
                     StepRequest& step) {
-  if (reader.has(at + ".duration")) {
+  const bool timed = reader.has(at + ".duration");
+  const bool paced = reader.has(at + ".speed");
+  if (timed) {
     step.duration_s = reader.number(at + ".duration", {0.1, 600.0, "s"},
                                     "duration of the step; on a line instead of speed");
-    if (reader.has(at + ".speed")) {
-      static_cast<void>(
-          reader.number(at + ".speed", {0.01, 3.0, "m/s"}, "speed of the teeth on a line at most"));
-      reader.fail(at, "has a speed and a duration; allowed: one of them");
-    }
-    return;
   }
-  step.speed_mps = reader.number_or(usual_mps, at + ".speed", {0.01, 3.0, "m/s"},
-                                    "speed of the teeth on a line at most");
+  if (paced) {
+    step.speed_mps = reader.number(at + ".speed", {0.01, 3.0, "m/s"},
+                                   "speed of the teeth on a line at most; else task.speed of the "
+                                   "machine's profile");
+  }
+  if (timed && paced) {
+    reader.fail(at, "has a speed and a duration; allowed: one of them");
+    step.speed_mps = 0.0;
+  } else if (!timed && !paced) {
+    step.speed_mps = usual_mps;
+  }
 }
 
 void read_drive_pace(TomlReader& reader, const std::string& at, StepRequest& step) {

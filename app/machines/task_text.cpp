@@ -241,7 +241,7 @@ std::string refusal_words_of(const char* of_what, const ExcavatorProfile& profil
     words += fmt::format("; after a step that ended at {:.0f} % of its line",
                          100.0 * result.early_share);
   }
-  if (result.round > 0) {
+  if (request.rounds.is_bounded() && result.round >= 0) {
     words += fmt::format("; in round {}", result.round + 1);
   }
   return words;

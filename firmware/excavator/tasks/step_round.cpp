@@ -235,7 +235,8 @@ bool plan_rounds(const ExcavatorProfile& profile, const SwingKinematics& kinemat
   if (rounds.to_design) {
     rounds.count = rounds_to_design(kinematics, program);
   }
-  if (rounds.count < 1 || rounds.count > kRoundsMost || (rounds.to_design && !rounds.has_design)) {
+  if (rounds.count < 1 || rounds.count > kRoundsMost || !request.repeats ||
+      (rounds.to_design && !rounds.has_design)) {
     return refuse(ProgramRefusal::kRounds, 0, 0, {}, result);
   }
   std::array<double, kStepMost> slower;

@@ -44,7 +44,7 @@ struct StepRequest {
   double speed_mps = 0.0;  ///< Of a line, as in LineRequest: either this or the duration.
   double duration_s = 0.0;
   double pace_ratio = 1.0;  ///< Of a drive move, see DrivePace.
-  StepUntil until;
+  StepUntil until{};
   // Of a straight dig, the program's first step, that is done in layers until its design is met.
   bool in_layers = false;
   double ground_m = 0.0;   ///< Height of the ground as it is before, over the ground frame.
@@ -57,7 +57,7 @@ struct ProgramRequest {
   std::array<StepRequest, kStepMost> step;
   int step_count = 0;
   bool repeats = false;   ///< Its last step has to end where it starts.
-  RoundsPlan rounds;      ///< Of one that repeats; has_design and design are set by planning.
+  RoundsPlan rounds{};    ///< Of one that repeats; has_design and design are set by planning.
   double ground_m = 0.0;  ///< Of the ground as it is before, for StepUntil: kFull.
   FenceSet fences;        ///< With a design plane one less than there is room for.
   bool has_design = false;
@@ -71,7 +71,7 @@ struct TaskStep {
   DrivePlan drives;         ///< Where it is not.
   double pace_ratio = 1.0;  ///< Of a move that is planned again on the way, see DrivePace,
   double least_s = 0.0;     ///< and its duration at least.
-  StepUntil until;
+  StepUntil until{};
   bool from_moves = false;  ///< By RoundsPlan::offset_m, where it begins,
   bool to_moves = false;    ///< and where it ends.
 
@@ -85,7 +85,7 @@ struct TaskProgram {
   std::array<TaskStep, kStepMost> step;
   int step_count = 0;
   bool repeats = false;
-  RoundsPlan rounds;
+  RoundsPlan rounds{};
   bool ends_early = false;  ///< A step has an `until`.
   double ground_m = 0.0;
   DriveVector start = DriveVector::Zero();  ///< Drives at the first pose.
@@ -138,7 +138,7 @@ struct ProgramResult {
   int step = 0;      ///< Which, from 0; the start belongs to the first.
   BlindPlace place;  ///< Share of the step and teeth there; `blind` only where it is one.
   BarredBy by;       ///< Of kFence.
-  int round = 0;     ///< In which, from 0.
+  int round = -1;    ///< In which, from 0; below: in any.
   /// At 0 or above: the step is that after one which its `until` has ended at this share.
   double early_share = -1.0;
   std::array<StepNote, kStepMost> note;

@@ -61,7 +61,7 @@ CASES = [
     ("no rise", lambda t: replaced(t, "lambda_rise = 6.0", "lambda_rise = 0.0"),
      ["control.lambda_rise", "0.1 .. 100 1/s"]),
     ("reserve below 0", lambda t: replaced(t, "lambda_rise_reserve = 4", "lambda_rise_reserve = -4"),
-     ["control.lambda_rise_reserve", "-48000", "0 .. 100000 N"]),
+     ["control.lambda_rise_reserve", "-48000", "0 .. 1000000 N"]),
     ("all of the reserve and more", lambda t: replaced(t, "hold_share = 0.75", "hold_share = 1.75"),
      ["control.lambda_hold_share", "1.75", "0 .. 1"]),
     ("servo", lambda t: replaced(replaced(t, "servo_gain = 2.0", "servo_gain = -2.0"),
