@@ -230,6 +230,20 @@ const char* step_name(StepKind kind) {
   return "unknown";
 }
 
+const char* until_name(UntilKind kind) {
+  switch (kind) {
+    case UntilKind::kEnd:
+      return "end";
+    case UntilKind::kFull:
+      return "full";
+    case UntilKind::kForce:
+      return "force";
+    case UntilKind::kPlane:
+      return "plane";
+  }
+  return "unknown";
+}
+
 std::string refusal_words_of(const char* of_what, const ExcavatorProfile& profile,
                              const ProgramRequest& request, const ProgramResult& result) {
   std::string words = cause_words(of_what, profile, request, result);

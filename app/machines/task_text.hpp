@@ -20,6 +20,9 @@ namespace graben::machines {
 /// As in a task file: "dig", "lift", ...
 [[nodiscard]] const char* step_name(StepKind kind);
 
+/// What ends a step: "end", "full", "force", "plane".
+[[nodiscard]] const char* until_name(UntilKind kind);
+
 /// Why there is no program: whose joint or which fence, and where on the step, which is called
 /// `of_what` ("step" or "line"). Without a full stop.
 [[nodiscard]] std::string refusal_words_of(const char* of_what, const ExcavatorProfile& profile,

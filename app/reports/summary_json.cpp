@@ -62,7 +62,7 @@ void write_autodig_summary(const std::filesystem::path& file, const runs::Autodi
                                 {"end_error_true_m", known(step.end_error_true_m)},
                                 {"end_error_measured_m", known(step.end_error_measured_m)},
                                 {"arrived", step.arrived},
-                                {"ended_by", runs::until_name(step.ended_by)}});
+                                {"ended_by", machines::until_name(step.ended_by)}});
   }
   figures["built_map"] = ordered_json::array();
   for (const runs::BuiltPlace& place : summary.built.map) {

@@ -151,9 +151,6 @@ struct AutodigSummary {
   return figures_of(autodig_figures(), summary, "share of time per limit of lambda");
 }
 
-/// "end", "full", "force", "plane".
-[[nodiscard]] const char* until_name(UntilKind kind);
-
 /// A line for each step as it was done.
 [[nodiscard]] std::string steps_text(const AutodigSummary& summary);
 

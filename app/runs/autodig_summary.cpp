@@ -23,7 +23,9 @@ class Steps {
   explicit Steps(const TaskProgram& program) : program_(program) {}
 
   void add(const AutodigSample& sample) {
-    count(sample.progress.missed);
+    if (sample.progress.runs) {
+      count(sample.progress.missed);
+    }
     const int step = sample.progress.step;
     const bool begins = steps_.empty() || steps_.back().step != step;
     if (!steps_.empty() && sample.progress.runs &&
@@ -259,26 +261,13 @@ const FigureTable<AutodigSummary>& autodig_figures() {
   return all;
 }
 
-const char* until_name(UntilKind kind) {
-  switch (kind) {
-    case UntilKind::kEnd:
-      return "end";
-    case UntilKind::kFull:
-      return "full";
-    case UntilKind::kForce:
-      return "force";
-    case UntilKind::kPlane:
-      return "plane";
-  }
-  return "unknown";
-}
-
 namespace {
 
 std::string end_words(const StepFigures& step) {
-  return step.ended_by != UntilKind::kEnd ? fmt::format("  ended by {}", until_name(step.ended_by))
-         : step.arrived                   ? ""
-                                          : "  not arrived";
+  return step.ended_by != UntilKind::kEnd
+             ? fmt::format("  ended by {}", machines::until_name(step.ended_by))
+         : step.arrived ? ""
+                        : "  not arrived";
 }
 
 }  // namespace

@@ -236,9 +236,17 @@ std::string task_summary(const machines::TaskFile& task) {
                         note.slowed_ratio > 1.0
                             ? fmt::format(", to {:.3f} times the time", note.slowed_ratio)
                             : "");
+    if (step.until.kind != UntilKind::kEnd) {
+      text += fmt::format("{:12}at most: until {}\n", "", machines::until_name(step.until.kind));
+    }
     whole_s += step.duration_s();
   }
   text += fmt::format("{:<12}{:<17}{:>9.2f}\n", "all", "", whole_s);
+  if (const RoundsPlan& rounds = program.rounds; rounds.is_bounded()) {
+    const Eigen::Vector3d& by_m = rounds.offset_m;
+    text += fmt::format("{} rounds, each digs {:.3f}, {:.3f}, {:.3f} m farther\n", rounds.count,
+                        by_m.x(), by_m.y(), by_m.z());
+  }
   return text + machines::raised_text(task.request, task.result);
 }
 

@@ -353,7 +353,7 @@ def steps_that_end_early(digger):
 
     whole = run("")
     assert [step["ended_by"] for step in whole["steps"]] == ["end"] * 5, whole["steps"]
-    for until, by in (("depth = 0.3", "plane"), ("force = 8e3", "force"), ("full = 0.4", "full"),
+    for until, by in (("depth = 0.3", "plane"), ("force = 4e3", "force"), ("full = 0.6", "full"),
                       ("plane = { through = [5.5, 0.0, 0.0], normal = [-1.0, 0.0, 0.0] }", "plane")):
         early = run(until)
         dig, lift = early["steps"][:2]

@@ -13,8 +13,9 @@ import scaled_machine
 MM = 1e-3
 TONNES = (2, 6, 12, 30, 60)
 BASE_T = 12
-# What errors of sensors, valve and masses leave: the 12 t machine's own is 46 mm off its lines.
-LINE_MM, END_MM, MISSED = 60.0, 35.0, 2
+# What errors of sensors, valve and masses leave: the 12 t machine's own is 46 mm off its lines. A move has arrived
+# within 20 mm, as measured.
+LINE_MM, END_MM, MOVE_MM, MISSED = 60.0, 40.0, 55.0, 2
 CASES = {"as designed": [], "as found 1": ["--errors", "all", "--seed", "1"],
          "as found 2": ["--errors", "all", "--seed", "2"], "in sand": ["--soil", "sand"]}
 # An edge below the design by more is worth a word.
@@ -43,7 +44,7 @@ def run(graben, folder, profile, task, name, options):
                                                            "move_end_error_true_m", "over_cut_max_m"))
     wrong = [text for text, bad in (
         (f"{len(figures['steps'])} steps", len(figures["steps"]) != 5), (f"{line:.0f} mm off a line", line > LINE_MM),
-        (f"{end:.0f} mm off a line's end", end > END_MM), (f"{move:.0f} mm off a move's end", move > END_MM),
+        (f"{end:.0f} mm off a line's end", end > END_MM), (f"{move:.0f} mm off a move's end", move > MOVE_MM),
         (f"{over:.0f} mm under the design", over > OVER_CUT_MM),
         (f"{figures['steps_not_arrived']} steps not arrived", figures["steps_not_arrived"] > MISSED)) if bad]
     figures_text = (f"line {line:.0f} mm, ends {max(end, move):.0f} mm, {figures['steps_not_arrived']} not arrived, "

@@ -4,7 +4,8 @@ another mass would have, to a tenth or two of what is on the market.
 With r the ratio of the masses: lengths r^(1/3), as bodies of one shape; cylinder areas r, since all
 work at the same pressures and have to carry a weight of r on arms of one shape; flows r^0.85, as the
 classes from 2 to 60 t have them. The rest follows: volumes of oil are areas times lengths, inertias
-masses times lengths squared. What is of the electronics, the oil or the controller stays."""
+masses times lengths squared; a link on its oil then swings r^(1/6) more slowly, and with it stands what the controller
+has to know of that. What is of the electronics, the oil or the rest of the controller stays."""
 
 import tomllib
 
@@ -12,6 +13,7 @@ LENGTH, AREA, FLOW, MASS = 1 / 3, 1.0, 0.85, 1.0
 DIAMETER, VOLUME, INERTIA = AREA / 2, AREA + LENGTH, MASS + 2 * LENGTH
 # A larger platform turns and starts more slowly, a smaller one no faster.
 CALM, STARTS = -0.25, -LENGTH
+PERIOD = (MASS - AREA + LENGTH) / 2
 
 # The last parts of a key's path, the longest that fits; numbers below it are scaled by the power.
 RULES = {
@@ -28,7 +30,8 @@ RULES = {
     "valve.section_flow": FLOW, "valve.boom": FLOW, "valve.arm": FLOW, "valve.bucket": FLOW,
     "valve.swing": FLOW, "bypass.open": FLOW, "bypass.closed": FLOW, "c_drain": FLOW, "c_check": FLOW,
     "valve.force_offset": AREA, "valve.dead_volume": VOLUME, "valve.line_volume": VOLUME,
-    "control.convergence_length": LENGTH, "control.lambda_rise_reserve": AREA,
+    "control.convergence_length": LENGTH, "control.swing_lead": PERIOD, "control.swing_servo_gain": -PERIOD,
+    "control.servo_frequency": -PERIOD, "line.move_slow_error": LENGTH, "control.lambda_rise_reserve": AREA,
     "oil.dead_volume": VOLUME, "mass": MASS, "inertia": INERTIA, "mass_centre": LENGTH,
     "friction.coulomb": AREA, "friction.viscous": AREA + LENGTH,
     "path.x": LENGTH, "path.y": LENGTH, "path.corner_radius": LENGTH, "task.pump_power": FLOW,
