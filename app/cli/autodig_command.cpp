@@ -54,7 +54,8 @@ void run_task(const TaskCommand& options) {
     ProgressBar bar(options.name);
     result = runs::run_autodig(machine, task.result.program, run, bar.progress());
   }
-  const runs::AutodigSummary summary = runs::summarise(task.result.program, result);
+  runs::AutodigSummary summary = runs::summarise(task.result.program, result);
+  summary.raised_max_m = machines::most_raised_m(task.request, task.result);
   const fs::path report = out / (options.name + ".html");
   reports::write_autodig_report(
       {report, scope::scope_page()}, run.log_file, machine, task, result, summary,
@@ -64,7 +65,8 @@ void run_task(const TaskCommand& options) {
   if (!options.summary.empty()) {
     reports::write_autodig_summary(options.summary, summary);
   }
-  fmt::print("{}{}log     {}\nreport  {}\n", runs::steps_text(summary),
+  fmt::print("{}{}{}log     {}\nreport  {}\n", runs::steps_text(summary),
+             machines::raised_text(task.request, task.result),
              runs::figures_text(runs::figures_of(summary)), run.log_file.string(), report.string());
   if (summary.over_cut_max_m > kOverCut_m) {
     fmt::print("the edge was up to {:.0f} mm under the design\n", 1e3 * summary.over_cut_max_m);

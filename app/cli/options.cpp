@@ -154,8 +154,15 @@ void add_task_options(CLI::App& command, runs::TaskScenario& scenario) {
       .add_option("--duration", scenario.duration_s,
                   "Of the first straight step, s; longer where a drive's limit asks for it")
       ->check(number_between(0.1, 3600.0));
-  command.add_option("--rounds", scenario.rounds, "Of a task that repeats, 1 .. 1000")
+  command
+      .add_option("--rounds", scenario.rounds,
+                  "Of a task that repeats and does not say itself how often, 1 .. 1000")
       ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      .add_option("--word-after", scenario.word_after_s,
+                  "At a wait the operator asks for the task anew after so long, s")
+      ->check(number_between(0.0, 3600.0))
       ->capture_default_str();
 }
 

@@ -11,12 +11,13 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/options.hpp"
+#include "app/machines/planned_line.hpp"
 #include "app/machines/simulated/simulated_excavator.hpp"
-#include "app/machines/task_text.hpp"
+#include "app/machines/task_file.hpp"
 #include "app/reports/run_reports.hpp"
 #include "app/runs/plan_run.hpp"
 #include "app/scope/page/scope_page.hpp"
-#include "firmware/excavator/tasks/task_program.hpp"
+#include "firmware/excavator/tasks/line_plan.hpp"
 
 namespace graben::cli {
 namespace {
@@ -25,6 +26,7 @@ namespace fs = std::filesystem;
 
 struct PlanCommand {
   std::string profile = "excavator_12t";
+  std::string task;
   std::vector<double> from;
   std::vector<double> to;
   std::optional<double> duration_s;
@@ -70,29 +72,46 @@ void write_text(const fs::path& file, const std::string& text) {
   }
 }
 
-/// As a task of this line is refused: a machine does not follow it to the end.
-void refuse_swing_end(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                      const LinePlan& plan) {
-  TaskStep step;
-  step.line = plan;
-  const BarredPlace barred = first_barred_place(profile, kinematics, {}, step);
-  if (barred.why != ProgramRefusal::kNone) {
-    throw std::runtime_error(fmt::format("{}; {}", machines::swing_end_words(profile.swing),
-                                         machines::place_words(barred.place, "line")));
-  }
+void tell(const PlanCommand& options, const std::vector<runs::PlanSample>& samples,
+          const std::string& summary) {
+  const fs::path out(options.out);
+  write_text(out / "plan.csv", runs::plan_csv(samples));
+  fmt::print("{}{}report  {}\n", options.table ? runs::plan_table(samples) + "\n" : "", summary,
+             (out / "plan.html").string());
+}
+
+/// As `autodig` reads it, and refuses it.
+void plan_task(const PlanCommand& options) {
+  const machines::ExcavatorMachine machine =
+      machines::load_excavator(machines::find_profile(options.profile));
+  const machines::TaskFile task =
+      machines::load_task(machines::find_task(options.task), machine.profile);
+  const SwingKinematics kinematics(machine.profile.geometry);
+  const std::vector<runs::PlanSample> samples =
+      runs::sample_task(machine.profile, kinematics, task.result.program, options.step_s);
+  const fs::path out(options.out);
+  fs::create_directories(out);
+  reports::write_task_plan_report({out / "plan.html", scope::scope_page()}, machine, task, samples,
+                                  fmt::format("{} | task {}", machine.name, task.name));
+  reports::write_task_plan_json(out / "plan.json", task, machine.profile);
+  tell(options, samples, runs::task_summary(task));
 }
 
 void plan(const PlanCommand& options) {
+  if (!options.task.empty()) {
+    plan_task(options);
+    return;
+  }
   const fs::path file = machines::find_profile(options.profile);
   const machines::ExcavatorMachine machine = machines::load_excavator(file);
   const ExcavatorProfile& profile = machine.profile;
   const SwingKinematics kinematics(profile.geometry);
   const LineRequest request = request_of(options, machine, task_of(options, file));
-  const PlanResult result = plan_line(kinematics, drive_limits(profile), request);
-  if (result.refusal != PlanRefusal::kNone) {
-    throw std::runtime_error(machines::refusal_words(profile.geometry, result));
+  const std::string refusal = machines::line_refusal(profile, request);
+  if (!refusal.empty()) {
+    throw std::runtime_error(refusal);
   }
-  refuse_swing_end(profile, kinematics, result.plan);
+  const PlanResult result = plan_line(kinematics, drive_limits(profile), request);
   const std::vector<runs::PlanSample> samples =
       runs::sample_plan(profile, kinematics, result.plan, options.step_s);
   const fs::path out(options.out);
@@ -101,9 +120,7 @@ void plan(const PlanCommand& options) {
                              fmt::format("{} | from {} | to {}", machine.name,
                                          pose_text(request.from), pose_text(request.to)));
   reports::write_plan_json(out / "plan.json", profile, result, samples);
-  write_text(out / "plan.csv", runs::plan_csv(samples));
-  fmt::print("{}{}report  {}\n", options.table ? runs::plan_table(samples) + "\n" : "",
-             runs::plan_summary(profile, request, result, samples), (out / "plan.html").string());
+  tell(options, samples, runs::plan_summary(profile, request, result, samples));
 }
 
 }  // namespace
@@ -112,29 +129,36 @@ void add_plan(CLI::App& app, int& status) {
   auto options = std::make_shared<PlanCommand>();
   CLI::App* command = app.add_subcommand(
       "plan",
-      "Plan a straight line of the bucket's teeth, with swing; nothing moves. Without --from, --to "
-      "and a pace: the line of NAME.sim.toml. A line that can't be had ends with status 1 and says "
-      "where");
+      "Plan a straight line of the bucket's teeth, with swing, or a task; nothing moves. Without "
+      "--task, --from, --to and a pace: the line of NAME.sim.toml. What can't be had ends with "
+      "status 1 and says where, as autodig does");
   add_profile_option(*command, options->profile);
+  CLI::Option* const task =
+      command->add_option("--task", options->task, "A task by file or name, instead of a line");
   command
       ->add_option("--from", options->from,
                    "Teeth x,y,z in m (x, y level, z up, from the swing axis on the ground), "
                    "attitude in rad (from the teeth to the bucket pin)")
       ->delimiter(',')
-      ->expected(4);
+      ->expected(4)
+      ->excludes(task);
   command->add_option("--to", options->to, "The same at the line's end")
       ->delimiter(',')
-      ->expected(4);
+      ->expected(4)
+      ->excludes(task);
   auto* pace = command->add_option_group("pace", "One of the two; the other is found");
   pace->add_option("--duration", options->duration_s, "s, longer where a limit asks for it")
-      ->check(number_between(0.1, 3600.0));
+      ->check(number_between(0.1, 600.0))
+      ->excludes(task);
   pace->add_option("--speed", options->speed_mps, "Of the teeth, m/s at most")
-      ->check(number_between(0.001, 10.0));
+      ->check(number_between(0.01, 3.0))
+      ->excludes(task);
   pace->require_option(0, 1);
   command
       ->add_option("--acceleration", options->acceleration_mps2,
                    "Of the teeth, m/s2 at most; the profile's unless told")
-      ->check(number_between(0.001, 100.0));
+      ->check(number_between(0.001, 100.0))
+      ->excludes(task);
   command->add_option("--step", options->step_s, "Of table, CSV and report, s")
       ->check(number_between(0.01, 60.0))
       ->capture_default_str();

@@ -103,7 +103,8 @@ Area read_table(TomlReader& reader, const ExcavatorProfile& profile) {
                                    "height of the ground as it is, over that of the tracks");
   area.depth_far_m = reader.number("area.depth", kDepth, "of the design under the ground");
   area.depth_near_m = area.depth_far_m;
-  if (area.kind == AreaKind::kSlope) {
+  const auto lists = [&](const char* key) { return reader.lists() && reader.has(key); };
+  if (area.kind == AreaKind::kSlope || lists("area.depth_near")) {
     area.depth_near_m =
         reader.number("area.depth_near", kDepth, "the same at the near end; of a slope only");
   }
@@ -114,7 +115,7 @@ Area read_table(TomlReader& reader, const ExcavatorProfile& profile) {
   area.speed_mps =
       reader.number_or(kCutSpeed_mps, "area.speed", {0.05, 2.0, "m/s"}, "along a cut at most");
   const bool wide = area.kind == AreaKind::kBench || area.kind == AreaKind::kLevel ||
-                    area.kind == AreaKind::kTruck;
+                    area.kind == AreaKind::kTruck || lists("area.strips");
   if (wide) {
     area.strips = static_cast<int>(
         std::lround(reader.number_or(profile.has_swing() ? kStripsUsual : 1.0, "area.strips",

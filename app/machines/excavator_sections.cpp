@@ -269,7 +269,7 @@ ControlProfile read_control(TomlReader& reader) {
   control.lambda_rise.rate_ps = reader.number("control.lambda_rise", {0.1, 100.0, "1/s"},
                                               "fastest rise of lambda; it falls at once");
   control.lambda_rise.reserve_n =
-      reader.number("control.lambda_rise_reserve", {0.0, 1e5, "N"},
+      reader.number("control.lambda_rise_reserve", {0.0, 1e6, "N"},
                     "drive force beyond the need that a rise of lambda takes");
   control.lambda_rise.hold_share = reader.number("control.lambda_hold_share", {0.0, 1.0, ""},
                                                  "share of that reserve with which lambda stays");

@@ -92,6 +92,11 @@ Eigen::Vector3d read_direction(TomlReader& reader, const std::string& key, std::
 }
 
 Fence read_fence(TomlReader& reader, const std::string& at) {
+  if (reader.lists() && reader.has(at)) {
+    static_cast<void>(read_wall(reader, at));
+    static_cast<void>(read_box(reader, at));
+    static_cast<void>(read_cylinder(reader, at));
+  }
   switch (static_cast<FenceKind>(reader.choice(
       at + ".kind", {"ceiling", "floor", "wall", "box", "cylinder"}, "kind of fence"))) {
     case FenceKind::kCeiling:

@@ -11,6 +11,8 @@
 
 namespace graben::machines {
 
+class TomlReader;
+
 /// A task as its file describes it, and what became of it on the machine that it was read for.
 struct TaskFile {
   std::string name;        ///< File name without its ending.
@@ -23,6 +25,10 @@ struct TaskFile {
 /// planned on this machine is one, and says which step, what is in the way and where.
 [[nodiscard]] TaskFile load_task(const std::filesystem::path& file,
                                  const ExcavatorProfile& profile);
+
+/// All that a task file of each kind has to say; errors are with the reader.
+[[nodiscard]] ProgramRequest read_step_task(TomlReader& reader, const ExcavatorProfile& profile);
+[[nodiscard]] ProgramRequest read_area_task(TomlReader& reader, const ExcavatorProfile& profile);
 
 /// Finds `name` as a path, or as NAME or NAME.toml in one of the folders, like find_profile.
 [[nodiscard]] std::filesystem::path find_task(const std::string& name,

@@ -14,22 +14,31 @@ namespace graben::machines {
 /// Where it is of what, a "line" or a "step".
 [[nodiscard]] std::string place_words(const BlindPlace& place, const char* of_what);
 
-/// Why there is no plan, and for a blind spot where on the line it begins. Without a full stop.
-[[nodiscard]] std::string refusal_words(const ExcavatorGeometry& geometry,
-                                        const PlanResult& result);
-
 /// What made the plan slower than it was asked for; "none" if nothing did.
 [[nodiscard]] std::string plan_limit_words(const PlanResult& result);
-
-/// "the swing would leave its range, -3 .. 3 rad", as a task's refusal has it.
-[[nodiscard]] std::string swing_end_words(const SwingProfile& swing);
 
 /// As in a task file: "dig", "lift", ...
 [[nodiscard]] const char* step_name(StepKind kind);
 
-/// Why there is no program: which step, whose joint or which fence, and where. Without a full stop.
+/// What ends a step: "end", "full", "force", "plane".
+[[nodiscard]] const char* until_name(UntilKind kind);
+
+/// Why there is no program: whose joint or which fence, and where on the step, which is called
+/// `of_what` ("step" or "line"). Without a full stop.
+[[nodiscard]] std::string refusal_words_of(const char* of_what, const ExcavatorProfile& profile,
+                                           const ProgramRequest& request,
+                                           const ProgramResult& result);
+
+/// The same, after which step it is.
 [[nodiscard]] std::string program_refusal_words(const ExcavatorProfile& profile,
                                                 const ProgramRequest& request,
                                                 const ProgramResult& result);
+
+/// What planning has raised to keep the design's clearance, a line each with how far and where;
+/// empty without any. Not of a dig in layers, whose line nobody has written.
+[[nodiscard]] std::string raised_text(const ProgramRequest& request, const ProgramResult& result);
+
+/// The most that a dig of steps was raised by, m.
+[[nodiscard]] double most_raised_m(const ProgramRequest& request, const ProgramResult& result);
 
 }  // namespace graben::machines

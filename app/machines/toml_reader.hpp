@@ -43,6 +43,8 @@ class TomlReader {
   /// it asks for. `has` is the answer for each optional key.
   [[nodiscard]] static TomlReader listing(bool has);
 
+  [[nodiscard]] bool lists() const { return listed_has_.has_value(); }
+
   /// True if an optional key is there.
   [[nodiscard]] bool has(const std::string& key) const;
   double number(const std::string& key, const Range& range, const char* help);

@@ -56,6 +56,18 @@ json drives(const std::vector<runs::PlanSample>& samples) {
   return all;
 }
 
+void add_flows(const ExcavatorProfile& profile, const std::vector<runs::PlanSample>& samples,
+               json& figures) {
+  const auto flow = runs::greatest_flow_m3ps(samples);
+  for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
+    figures.push_back({{"label", fmt::format("Flow of Pump {}, max", j + 1)},
+                       {"value", fmt::format("{:.0f}", 6e4 * flow[j])},
+                       {"unit", "L/min"},
+                       {"note", fmt::format("of {:.0f}; cylinders alone",
+                                            6e4 * runs::full_flow_m3ps(profile.pump[j]))}});
+  }
+}
+
 json key_figures(const ExcavatorProfile& profile, const PlanResult& result,
                  const std::vector<runs::PlanSample>& samples) {
   const LinePlan& plan = result.plan;
@@ -74,15 +86,17 @@ json key_figures(const ExcavatorProfile& profile, const PlanResult& result,
                        {"unit", "%"},
                        {"note", "of its limit"}});
   }
-  const auto flow = runs::greatest_flow_m3ps(samples);
-  for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
-    figures.push_back({{"label", fmt::format("Flow of Pump {}, max", j + 1)},
-                       {"value", fmt::format("{:.0f}", 6e4 * flow[j])},
-                       {"unit", "L/min"},
-                       {"note", fmt::format("of {:.0f}; cylinders alone",
-                                            6e4 * runs::full_flow_m3ps(profile.pump[j]))}});
-  }
+  add_flows(profile, samples, figures);
   return figures;
+}
+
+/// The way and the drives' displacements on it.
+void add_samples(const std::vector<runs::PlanSample>& samples, json& run) {
+  run["pose"]["drives"] = drives(samples);
+  run["way"] =
+      Truth<runs::PlanSample>(samples).way([](const runs::PlanSample& s) { return s.teeth_m[0]; },
+                                           [](const runs::PlanSample& s) { return s.teeth_m[1]; },
+                                           [](const runs::PlanSample& s) { return s.teeth_m[2]; });
 }
 
 ordered_json pose(const TeethPose& teeth) {
@@ -97,12 +111,27 @@ void write_plan_report(const ReportTarget& target, const machines::ExcavatorMach
                        const std::string& subtitle) {
   json run = run_json({"Planned line", subtitle, key_figures(machine.profile, result, samples), {}},
                       truth(samples));
-  run["pose"]["drives"] = drives(samples);
-  run["way"] =
-      Truth<runs::PlanSample>(samples).way([](const runs::PlanSample& s) { return s.teeth_m[0]; },
-                                           [](const runs::PlanSample& s) { return s.teeth_m[1]; },
-                                           [](const runs::PlanSample& s) { return s.teeth_m[2]; });
+  add_samples(samples, run);
   json setup = report_setup(target.file, machine_json(machine, {}), std::move(run));
+  setup["source"]["mode"] = "plan";
+  write_report(target.file, target.page, setup);
+}
+
+void write_task_plan_report(const ReportTarget& target, const machines::ExcavatorMachine& machine,
+                            const machines::TaskFile& task,
+                            const std::vector<runs::PlanSample>& samples,
+                            const std::string& subtitle) {
+  json figures = {key_figure("Steps", fmt::format("{}", task.result.program.step_count), "", ""),
+                  key_figure("Duration", fmt::format("{:.2f}", samples.back().time_s), "s",
+                             "of all steps, as planned"),
+                  key_figure("Raised by the design, max",
+                             fmt::format("{:.0f}", kThousandths * machines::most_raised_m(
+                                                                      task.request, task.result)),
+                             "mm", "of the ends of its digs")};
+  add_flows(machine.profile, samples, figures);
+  json run = run_json({"Planned task", subtitle, std::move(figures), {}}, truth(samples));
+  add_samples(samples, run);
+  json setup = report_setup(target.file, machine_json(machine, {task}), std::move(run));
   setup["source"]["mode"] = "plan";
   write_report(target.file, target.page, setup);
 }
@@ -133,6 +162,11 @@ void write_plan_json(const std::filesystem::path& file, const ExcavatorProfile& 
   const auto flow = runs::greatest_flow_m3ps(samples);
   figures["pump_flow_m3ps"] = std::vector<double>(flow.begin(), flow.begin() + profile.pump_count);
   write_json(file, figures);
+}
+
+void write_task_plan_json(const std::filesystem::path& file, const machines::TaskFile& task,
+                          const ExcavatorProfile& profile) {
+  write_json(file, task_json(task, profile));
 }
 
 }  // namespace graben::reports

@@ -35,6 +35,11 @@ void write_autodig_report(const ReportTarget& target, const std::filesystem::pat
 void write_plan_report(const ReportTarget& target, const machines::ExcavatorMachine& machine,
                        const PlanResult& result, const std::vector<runs::PlanSample>& samples,
                        const std::string& subtitle);
+/// Of a whole task.
+void write_task_plan_report(const ReportTarget& target, const machines::ExcavatorMachine& machine,
+                            const machines::TaskFile& task,
+                            const std::vector<runs::PlanSample>& samples,
+                            const std::string& subtitle);
 
 /// Figures by their names, in SI units.
 void write_summary(const std::filesystem::path& file, const runs::RunFigures& figures);
@@ -43,5 +48,8 @@ void write_summary(const std::filesystem::path& file, const runs::RunFigures& fi
 void write_autodig_summary(const std::filesystem::path& file, const runs::AutodigSummary& summary);
 void write_plan_json(const std::filesystem::path& file, const ExcavatorProfile& profile,
                      const PlanResult& result, const std::vector<runs::PlanSample>& samples);
+/// `Task` of the page, as it is planned.
+void write_task_plan_json(const std::filesystem::path& file, const machines::TaskFile& task,
+                          const ExcavatorProfile& profile);
 
 }  // namespace graben::reports

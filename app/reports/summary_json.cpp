@@ -18,6 +18,10 @@ ordered_json value_json(const runs::FigureValue& figure) {
                                     : ordered_json(figure.value);
 }
 
+ordered_json known(double value) {
+  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+}
+
 /// A figure that the run does not have is null; one of a group is left out.
 ordered_json figures_json(const runs::RunFigures& figures) {
   ordered_json all;
@@ -55,7 +59,10 @@ void write_autodig_summary(const std::filesystem::path& file, const runs::Autodi
                                 {"planned_s", step.planned_s},
                                 {"max_error_true_m", step.max_error_true_m},
                                 {"max_error_measured_m", step.max_error_measured_m},
-                                {"end_error_true_m", step.end_error_true_m}});
+                                {"end_error_true_m", known(step.end_error_true_m)},
+                                {"end_error_measured_m", known(step.end_error_measured_m)},
+                                {"arrived", step.arrived},
+                                {"ended_by", machines::until_name(step.ended_by)}});
   }
   figures["built_map"] = ordered_json::array();
   for (const runs::BuiltPlace& place : summary.built.map) {

@@ -39,13 +39,18 @@ End end_of(const SwingKinematics& kinematics, const TaskStep& step, double time_
   return {kinematics.teeth_from_joints(kinematics.joints_from_drive(drives).value), drives};
 }
 
-json step_json(const SwingKinematics& kinematics, const TaskStep& step) {
+json step_json(const SwingKinematics& kinematics, const TaskStep& step, const StepNote& note) {
   const End from = end_of(kinematics, step, 0.0);
   const End to = end_of(kinematics, step, step.duration_s());
-  return {{"kind", machines::step_name(step.kind)},  {"straight", step.straight},
-          {"from", pose_json(from.teeth)},           {"to", pose_json(to.teeth)},
-          {"from_drives", drives_json(from.drives)}, {"to_drives", drives_json(to.drives)},
-          {"duration_s", rounded(step.duration_s())}};
+  return {{"kind", machines::step_name(step.kind)},
+          {"straight", step.straight},
+          {"from", pose_json(from.teeth)},
+          {"to", pose_json(to.teeth)},
+          {"from_drives", drives_json(from.drives)},
+          {"to_drives", drives_json(to.drives)},
+          {"duration_s", rounded(step.duration_s())},
+          {"raised_from_m", rounded(note.raised_from_m)},
+          {"raised_to_m", rounded(note.raised_to_m)}};
 }
 
 json fences_json(const FenceSet& fences, bool has_design) {
@@ -75,7 +80,8 @@ json task_json(const machines::TaskFile& task, const ExcavatorProfile& profile) 
   const TaskProgram& program = task.result.program;
   json result = {{"name", task.name}, {"steps", json::array()}, {"design", nullptr}};
   for (int i = 0; i < program.step_count; ++i) {
-    result["steps"].push_back(step_json(kinematics, program.step[static_cast<unsigned>(i)]));
+    const auto k = static_cast<unsigned>(i);
+    result["steps"].push_back(step_json(kinematics, program.step[k], task.result.note[k]));
   }
   result["fences"] = fences_json(program.fences, task.request.has_design);
   if (task.request.has_design) {

@@ -8,6 +8,7 @@
 #include "app/runs/excavator_rig.hpp"
 #include "app/runs/fence_truth.hpp"
 #include "firmware/excavator/tasks/layer_run.hpp"
+#include "firmware/excavator/tasks/step_round.hpp"
 #include "firmware/excavator/tasks/task_run.hpp"
 
 namespace graben::runs {
@@ -75,8 +76,10 @@ class AutodigRun {
 
   [[nodiscard]] double share_done(const TaskProgress& at) const {
     const bool in_step = at.runs && at.kind != StepKind::kApproach;
-    return (round_ + (in_step ? (at.step + at.share) / program_.step_count : 0.0)) /
-           options_.rounds;
+    const bool bounded = program_.rounds.is_bounded();
+    const double step = in_step ? (at.step + at.share) / program_.step_count : 0.0;
+    return ((bounded ? at.round : round_) + step) /
+           (bounded ? program_.rounds.count : options_.rounds);
   }
 
   bool ended(TimeUs now_us) {
@@ -96,13 +99,31 @@ class AutodigRun {
                                                options_.speed_override_ratio;
   }
 
+  /// The operator lets go of the task, and half a second later asks for it anew.
+  void give_word(TimeUs now_us) {
+    constexpr TimeUs kPause_us = 500 * kMillisecondUs;
+    const TaskProgress& at = rig_.ecu->outputs().status.progress;
+    const bool stands = at.runs && at.kind == StepKind::kWait && at.share >= 1.0;
+    if (!stands) {
+      waits_since_us_ = now_us;
+    } else if (seconds(now_us - waits_since_us_) >= options_.word_after_s) {
+      const OperatorMode automatic = OperatorMode::kAutomatic;
+      rig_.driver.set_schedule(
+          {{0, {true, automatic, Task::kNone, 0.0}},
+           {now_us + kPause_us, {true, automatic, rig_.task, rig_.speed_override_ratio}}});
+      waits_since_us_ = now_us;
+    }
+  }
+
   void look(TimeUs now_us, double cycle_us) {
+    give_word(now_us);
     AutodigSample sample;
     sample.time_s = seconds(now_us);
     sample.cycle_us = cycle_us;
     read_controller(sample);
     read_truth(sample);
     count_rounds(sample.progress);
+    result_.missed = std::max<int>(result_.missed, sample.progress.missed);
     if (round_ < options_.rounds) {
       compare(sample);
       result_.samples.push_back(sample);
@@ -183,24 +204,33 @@ class AutodigRun {
     if (!at.runs || at.kind == StepKind::kApproach || at.kind == StepKind::kDone) {
       return;
     }
-    const TaskStep& step = program_.step[at.step];
     if (in_layers(program_)) {
       return;  // Where the steps lead is decided on the way.
     }
-    if (!step.straight) {
-      const DriveVector value = step.drives.from + at.share * step.drives.change;
-      plan_at(value, sample);
-      return;
+    const TaskStep step =
+        step_in_round(machine_.profile, kinematics_, program_, at.step, at.round, at.next_round)
+            .step;
+    const Eigen::Vector3d measured_m = measured_teeth_m();
+    const Eigen::Vector3d end_m = teeth_at(step_motion(kinematics_, step, 1.0).value).position_m;
+    sample.end_off_true_m = (teeth_m - end_m).norm();
+    sample.end_off_measured_m = (measured_m - end_m).norm();
+    if (at.off_plan) {
+      return;  // Where it began was decided on the way.
     }
-    plan_at(line_motion(kinematics_, step.line.line, at.share).value, sample);
-    sample.error_true_m = line_distance_m(step.line.line, teeth_m);
-    sample.error_measured_m = line_distance_m(step.line.line, measured_teeth_m());
+    plan_at(step_motion(kinematics_, step, at.share).value, sample);
+    if (step.straight) {
+      sample.error_true_m = line_distance_m(step.line.line, teeth_m);
+      sample.error_measured_m = line_distance_m(step.line.line, measured_m);
+    }
+  }
+
+  [[nodiscard]] TeethPose teeth_at(const DriveVector& drives) const {
+    return kinematics_.teeth_from_joints(kinematics_.joints_from_drive(drives).value);
   }
 
   void plan_at(const DriveVector& value, AutodigSample& sample) const {
     sample.planned = list_of(value);
-    const DriveResult joints = kinematics_.joints_from_drive(value);
-    const TeethPose teeth = kinematics_.teeth_from_joints(joints.value);
+    const TeethPose teeth = teeth_at(value);
     sample.planned_m = list_of(teeth.position_m);
     sample.planned_attitude_rad = teeth.attitude_rad;
   }
@@ -225,6 +255,7 @@ class AutodigRun {
   plant::EnergyAccount account_;
   AutodigRig rig_;
   int round_ = 0;
+  TimeUs waits_since_us_ = 0;
   AutodigResult result_;
 };
 

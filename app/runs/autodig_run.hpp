@@ -23,6 +23,7 @@ struct AutodigOptions {
   DriveVector start = DriveVector::Zero();  ///< Strokes in m and swing in rad.
   double speed_override_ratio = 1.0;
   int rounds = 1;                  ///< Of a task that repeats.
+  double word_after_s = 3.0;       ///< At a wait the operator asks for the task anew after so long.
   std::filesystem::path log_file;  ///< candump log; none if empty.
 };
 
@@ -39,11 +40,13 @@ struct AutodigSample {
   double planned_attitude_rad = kUnknown;
   double error_true_m = kUnknown;      ///< Of the teeth from the step's straight line.
   double error_measured_m = kUnknown;  ///< By what the controller was told.
-  double fence_left_m = kUnknown;      ///< Least of all points to all fences; below 0 beyond one.
-  double over_cut_m = kUnknown;        ///< Of the edge's lower corner under the design; 0: none.
-  double fill_m3 = kUnknown;           ///< Of the bucket, loose.
-  double cut_m3 = kUnknown;            ///< Undisturbed soil that was cut, so far.
-  double fill_kg = kUnknown;           ///< Of the bucket.
+  double end_off_true_m = kUnknown;    ///< Of the teeth from the step's end.
+  double end_off_measured_m = kUnknown;
+  double fence_left_m = kUnknown;  ///< Least of all points to all fences; below 0 beyond one.
+  double over_cut_m = kUnknown;    ///< Of the edge's lower corner under the design; 0: none.
+  double fill_m3 = kUnknown;       ///< Of the bucket, loose.
+  double cut_m3 = kUnknown;        ///< Undisturbed soil that was cut, so far.
+  double fill_kg = kUnknown;       ///< Of the bucket.
   /// Of the ground on the bucket, x outwards, z up, true; without the fill's weight.
   std::array<double, 2> tip_force_n{kUnknown, kUnknown};
   TipLoad told;  ///< By the controller, of both.
@@ -68,6 +71,7 @@ enum class AutodigEnd { kDone, kNotFinished, kFault };
 struct AutodigResult {
   AutodigEnd end = AutodigEnd::kDone;
   Fault fault = Fault::kNone;  ///< With kFault.
+  int missed = 0;              ///< See TaskProgress, at the run's end.
   std::vector<AutodigSample> samples;
   double wall_s = 0.0;
   std::uint32_t rejected_frames = 0;
@@ -87,7 +91,12 @@ struct StepFigures {
   double planned_s = 0.0;
   double max_error_true_m = 0.0;  ///< From its line, where it is one.
   double max_error_measured_m = 0.0;
-  double end_error_true_m = 0.0;  ///< From its end, when it was left; the teeth of a line.
+  // Of the teeth from its end, when it was left; not a number of a step that is dug in layers.
+  double end_error_true_m = kAbsent;
+  double end_error_measured_m = kAbsent;  ///< By what the controller was told.
+  /// False: the controller went on though the teeth had not come to stand at its end.
+  bool arrived = true;
+  UntilKind ended_by = UntilKind::kEnd;  ///< Other than kEnd: it has no end to be off.
 };
 
 struct AutodigSummary {
@@ -95,8 +104,11 @@ struct AutodigSummary {
   double rmse_error_true_m = 0.0;
   double max_error_measured_m = 0.0;
   double rmse_error_measured_m = 0.0;
-  double end_error_true_m = 0.0;  ///< Largest.
-  double fence_left_m = 0.0;      ///< Least; not a number without fences.
+  double end_error_true_m = 0.0;  ///< Of a straight step, largest.
+  double raised_max_m = kAbsent;  ///< Of the ends of digs, by the design, as planning tells it.
+  double move_end_error_true_m = kAbsent;  ///< The same of the moves of the drives.
+  int not_arrived = 0;        ///< Steps, and the approach, that went on without having arrived.
+  double fence_left_m = 0.0;  ///< Least; not a number without fences.
   /// Deepest that a corner of the true edge was under the design; not a number without a design.
   double over_cut_max_m = kAbsent;
   // Of a ground that is cut, else not a number.

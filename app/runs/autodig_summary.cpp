@@ -5,6 +5,7 @@
 
 #include "app/machines/task_text.hpp"
 #include "app/runs/load_figures.hpp"
+#include "firmware/excavator/tasks/task_run.hpp"
 
 namespace graben::runs {
 namespace {
@@ -22,11 +23,19 @@ class Steps {
   explicit Steps(const TaskProgram& program) : program_(program) {}
 
   void add(const AutodigSample& sample) {
+    if (sample.progress.runs) {
+      count(sample.progress.missed);
+    }
+    const int step = sample.progress.step;
+    const bool begins = steps_.empty() || steps_.back().step != step;
+    if (!steps_.empty() && sample.progress.runs &&
+        (begins || sample.progress.kind == StepKind::kDone)) {
+      end_last(sample.progress.last_end);
+    }
     if (!in_step(sample)) {
       return;
     }
-    const int step = sample.progress.step;
-    if (steps_.empty() || steps_.back().step != step) {
+    if (begins) {
       begin(sample);
     }
     StepFigures& figures = steps_.back();
@@ -36,13 +45,34 @@ class Steps {
       figures.max_error_measured_m =
           std::max(figures.max_error_measured_m, sample.error_measured_m);
     }
-    last_ = &sample;
-    end_of(figures);
+    // As far as it has come: the last sample of a step is the one that counts.
+    figures.end_error_true_m = sample.end_off_true_m;
+    figures.end_error_measured_m = sample.end_off_measured_m;
   }
 
-  [[nodiscard]] std::vector<StepFigures> take() { return std::move(steps_); }
+  /// `missed` of the run's end.
+  [[nodiscard]] std::vector<StepFigures> take(int missed) {
+    count(missed);
+    return std::move(steps_);
+  }
 
  private:
+  /// A step is counted in the cycle after its last one.
+  void count(int missed) {
+    if (missed > missed_ && !steps_.empty()) {
+      steps_.back().arrived = false;
+    }
+    missed_ = missed;
+  }
+
+  void end_last(UntilKind by) {
+    StepFigures& last = steps_.back();
+    last.ended_by = by;
+    if (by != UntilKind::kEnd) {
+      last.end_error_true_m = last.end_error_measured_m = kAbsent;
+    }
+  }
+
   void begin(const AutodigSample& sample) {
     const int step = sample.progress.step;
     const TaskStep& planned = program_.step[static_cast<unsigned>(step)];
@@ -52,25 +82,14 @@ class Steps {
     figures.step = step;
     figures.round = round_;
     figures.kind = planned.kind;
-    figures.straight = planned.straight && !in_layers(program_);
+    figures.straight = planned.straight && !in_layers(program_) && !sample.progress.off_plan;
     figures.from_s = sample.time_s;
     figures.planned_s = planned.duration_s();
     steps_.push_back(figures);
   }
 
-  /// As far as it has come: the last sample of a step is the one that counts.
-  void end_of(StepFigures& figures) const {
-    const TaskStep& planned = program_.step[static_cast<unsigned>(figures.step)];
-    if (!figures.straight) {
-      return;
-    }
-    const Eigen::Vector3d end_m = planned.line.line.at(1.0).position_m;
-    const Eigen::Vector3d teeth_m(last_->teeth_m[0], last_->teeth_m[1], last_->teeth_m[2]);
-    figures.end_error_true_m = (teeth_m - end_m).norm();
-  }
-
   const TaskProgram& program_;
-  const AutodigSample* last_ = nullptr;
+  int missed_ = 0;
   int round_ = 0;
   std::vector<StepFigures> steps_;
 };
@@ -102,6 +121,13 @@ FigureTable<AutodigSummary> task_figures() {
        [](const S& s) { return s.rmse_error_measured_m; }},
       {{"end_error_true_m", "true teeth from a line's end, max", kMillimetres, "end_error_true_m"},
        [](const S& s) { return s.end_error_true_m; }},
+      {{"move_end_error_true_m", "true teeth from a move's end, max", kMillimetres,
+        "move_end_error_true_m"},
+       [](const S& s) { return s.move_end_error_true_m; }},
+      {{"steps_not_arrived", "steps that went on without arriving", kCount, "steps_not_arrived"},
+       [](const S& s) { return static_cast<double>(s.not_arrived); }},
+      {{"raised_max_m", "digs raised by the design, max", kMillimetres},
+       [](const S& s) { return s.raised_max_m; }},
       {{"fence_left_m", "distance to the nearest fence, min", kMillimetres, "fence_left_m",
         BadEnd::kLow},
        [](const S& s) { return s.fence_left_m; }},
@@ -195,10 +221,12 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
   summary.max_error_measured_m = has_lines ? error_measured.max() : kAbsent;
   summary.rmse_error_measured_m = has_lines ? error_measured.rms() : kAbsent;
   summary.end_error_true_m = has_lines ? 0.0 : kAbsent;
-  summary.steps = steps.take();
+  summary.steps = steps.take(result.missed);
+  summary.not_arrived = result.missed;
   for (const StepFigures& step : summary.steps) {
     summary.planned_s += step.planned_s;
-    summary.end_error_true_m = std::max(summary.end_error_true_m, step.end_error_true_m);
+    double& largest_m = step.straight ? summary.end_error_true_m : summary.move_end_error_true_m;
+    largest_m = std::fmax(largest_m, step.end_error_true_m);
   }
   if (in_steps > 0) {
     summary.lambda_mean = lambda_sum / static_cast<double>(in_steps);
@@ -233,17 +261,37 @@ const FigureTable<AutodigSummary>& autodig_figures() {
   return all;
 }
 
+namespace {
+
+std::string end_words(const StepFigures& step) {
+  return step.ended_by != UntilKind::kEnd
+             ? fmt::format("  ended by {}", machines::until_name(step.ended_by))
+         : step.arrived ? ""
+                        : "  not arrived";
+}
+
+}  // namespace
+
 std::string steps_text(const AutodigSummary& summary) {
+  const auto millimetres = [](double error_m) {
+    return std::isfinite(error_m) ? fmt::format("{:.1f}", error_m * kMillimetres.per_si) : "-";
+  };
   std::string text = "step        from s  until s  planned s  from line, max mm  from end mm\n";
+  std::string notes;
   for (const StepFigures& step : summary.steps) {
-    const auto of_line = [&](double error_m) {
-      return step.straight ? fmt::format("{:.1f}", error_m * kMillimetres.per_si) : "-";
-    };
-    text += fmt::format("{:<10}{:>8.2f} {:>8.2f} {:>10.2f} {:>18} {:>12}\n",
+    text += fmt::format("{:<10}{:>8.2f} {:>8.2f} {:>10.2f} {:>18} {:>12}{}\n",
                         machines::step_name(step.kind), step.from_s, step.until_s, step.planned_s,
-                        of_line(step.max_error_true_m), of_line(step.end_error_true_m));
+                        millimetres(step.straight ? step.max_error_true_m : kAbsent),
+                        millimetres(step.end_error_true_m), end_words(step));
+    if (!step.arrived) {
+      notes += fmt::format(
+          "step {} ({}) of round {} had not arrived: its end was still {} mm away, as measured, "
+          "after {:.0f} s; the next step began from there\n",
+          step.step, machines::step_name(step.kind), step.round + 1,
+          millimetres(step.end_error_measured_m), kArriveMost_s);
+    }
   }
-  return text;
+  return text + notes;
 }
 
 }  // namespace graben::runs

@@ -7,6 +7,7 @@
 
 #include "app/machines/axis_names.hpp"
 #include "app/machines/task_text.hpp"
+#include "firmware/excavator/tasks/machine_points.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben::runs {
@@ -15,6 +16,29 @@ namespace {
 using machines::kDriveNames;
 
 constexpr double kLpm = 6e4;
+
+/// Of all that a sample tells but its time and way, from the drives' motion.
+void tell_drives(const ExcavatorProfile& profile, const DriveState& drives, PlanSample& sample) {
+  for (unsigned i = 0; i < kDriveCount; ++i) {
+    sample.displacement[i] = drives.value[i];
+    sample.velocity[i] = drives.velocity[i];
+    sample.acceleration[i] = drives.acceleration[i];
+  }
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    const CylinderGeometry& cylinder = profile.geometry.cylinder[i];
+    const double area_m2 =
+        sample.velocity[i] > 0.0 ? cylinder.cap_area_m2() : cylinder.rod_area_m2();
+    sample.flow_m3ps[static_cast<unsigned>(profile.valve.spool[i].pump)] +=
+        area_m2 * std::abs(sample.velocity[i]);
+  }
+}
+
+void tell_teeth(const TeethPose& teeth, PlanSample& sample) {
+  sample.attitude_rad = teeth.attitude_rad;
+  for (unsigned i = 0; i < 3; ++i) {
+    sample.teeth_m[i] = teeth.position_m[i];
+  }
+}
 
 /// mm of a stroke, degrees of the swing; no negative zero.
 double shown(unsigned drive, double value) {
@@ -29,23 +53,34 @@ PlanSample sample_at(const ExcavatorProfile& profile, const SwingKinematics& kin
   sample.time_s = time_s;
   sample.way_m = state.progress.share * plan.line.change.position_m.norm();
   sample.speed_mps = state.teeth_velocity_mps.norm();
-  sample.attitude_rad = state.teeth.attitude_rad;
-  for (unsigned i = 0; i < 3; ++i) {
-    sample.teeth_m[i] = state.teeth.position_m[i];
-  }
-  for (unsigned i = 0; i < kDriveCount; ++i) {
-    sample.displacement[i] = state.by_share.value[i];
-    sample.velocity[i] = state.velocity[i];
-    sample.acceleration[i] = state.acceleration[i];
-  }
-  for (unsigned i = 0; i < kAxisCount; ++i) {
-    const CylinderGeometry& cylinder = profile.geometry.cylinder[i];
-    const double area_m2 =
-        sample.velocity[i] > 0.0 ? cylinder.cap_area_m2() : cylinder.rod_area_m2();
-    sample.flow_m3ps[static_cast<unsigned>(profile.valve.spool[i].pump)] +=
-        area_m2 * std::abs(sample.velocity[i]);
-  }
+  tell_teeth(state.teeth, sample);
+  tell_drives(profile, {state.progress, state.by_share.value, state.velocity, state.acceleration},
+              sample);
   return sample;
+}
+
+/// Of a move of the drives; its way is the next one's to tell.
+PlanSample sample_at(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                     const DrivePlan& plan, double time_s) {
+  const DriveState state = drive_state(plan, time_s);
+  PlanSample sample;
+  sample.time_s = time_s;
+  tell_teeth(kinematics.teeth_from_joints(kinematics.joints_from_drive(state.value).value), sample);
+  const MachineMotion motion = machine_motion(kinematics, state.value, state.velocity);
+  sample.speed_mps = motion.point[static_cast<unsigned>(MachinePoint::kTeeth)].velocity_mps.norm();
+  tell_drives(profile, state, sample);
+  return sample;
+}
+
+/// Times of samples: from 0 to the plan's end, which is the last one whatever the step.
+std::vector<double> times_s(double duration_s, double step_s) {
+  // A step that ends within rounding of the plan's end is its end.
+  const auto whole = static_cast<long>(std::ceil(duration_s / step_s - 1e-9));
+  std::vector<double> times;
+  for (long i = 0; i <= whole; ++i) {
+    times.push_back(i < whole ? static_cast<double>(i) * step_s : duration_s);
+  }
+  return times;
 }
 
 std::string drive_lines(const PlanResult& result, const std::vector<PlanSample>& samples) {
@@ -67,13 +102,34 @@ std::string drive_lines(const PlanResult& result, const std::vector<PlanSample>&
 std::vector<PlanSample> sample_plan(const ExcavatorProfile& profile,
                                     const SwingKinematics& kinematics, const LinePlan& plan,
                                     double step_s) {
-  const double duration_s = plan.ramp.duration_s;
-  // A step that ends within rounding of the plan's end is its end.
-  const auto whole = static_cast<long>(std::ceil(duration_s / step_s - 1e-9));
   std::vector<PlanSample> samples;
-  for (long i = 0; i <= whole; ++i) {
-    const double time_s = i < whole ? static_cast<double>(i) * step_s : duration_s;
+  for (const double time_s : times_s(plan.ramp.duration_s, step_s)) {
     samples.push_back(sample_at(profile, kinematics, plan, time_s));
+  }
+  return samples;
+}
+
+std::vector<PlanSample> sample_task(const ExcavatorProfile& profile,
+                                    const SwingKinematics& kinematics, const TaskProgram& program,
+                                    double step_s) {
+  std::vector<PlanSample> samples;
+  double began_s = 0.0;
+  double way_m = 0.0;
+  for (int i = 0; i < program.step_count; ++i) {
+    const TaskStep& step = program.step[static_cast<unsigned>(i)];
+    for (const double time_s : times_s(step.duration_s(), step_s)) {
+      PlanSample sample = step.straight ? sample_at(profile, kinematics, step.line, time_s)
+                                        : sample_at(profile, kinematics, step.drives, time_s);
+      if (!samples.empty()) {
+        way_m += (Eigen::Vector3d(sample.teeth_m.data()) -
+                  Eigen::Vector3d(samples.back().teeth_m.data()))
+                     .norm();
+      }
+      sample.time_s += began_s;
+      sample.way_m = way_m;
+      samples.push_back(sample);
+    }
+    began_s += step.duration_s();
   }
   return samples;
 }
@@ -159,6 +215,39 @@ std::string plan_summary(const ExcavatorProfile& profile, const LineRequest& req
                         kLpm * flow[j], kLpm * full_flow_m3ps(profile.pump[j]));
   }
   return text;
+}
+
+std::string task_summary(const machines::TaskFile& task) {
+  const TaskProgram& program = task.result.program;
+  std::string text = "step        way              planned s  slowed by\n";
+  double whole_s = 0.0;
+  for (int i = 0; i < program.step_count; ++i) {
+    const auto k = static_cast<unsigned>(i);
+    const TaskStep& step = program.step[k];
+    const StepNote& note = task.result.note[k];
+    PlanResult slowed;
+    slowed.slowed_by = note.slowed_by;
+    slowed.drive = note.drive;
+    const std::string way =
+        step.straight ? fmt::format("line {:.3f} m", step.line.line.change.position_m.norm())
+                      : "drives";
+    text += fmt::format("{:<12}{:<17}{:>9.2f}  {}{}\n", machines::step_name(step.kind), way,
+                        step.duration_s(), machines::plan_limit_words(slowed),
+                        note.slowed_ratio > 1.0
+                            ? fmt::format(", to {:.3f} times the time", note.slowed_ratio)
+                            : "");
+    if (step.until.kind != UntilKind::kEnd) {
+      text += fmt::format("{:12}at most: until {}\n", "", machines::until_name(step.until.kind));
+    }
+    whole_s += step.duration_s();
+  }
+  text += fmt::format("{:<12}{:<17}{:>9.2f}\n", "all", "", whole_s);
+  if (const RoundsPlan& rounds = program.rounds; rounds.is_bounded()) {
+    const Eigen::Vector3d& by_m = rounds.offset_m;
+    text += fmt::format("{} rounds, each digs {:.3f}, {:.3f}, {:.3f} m farther\n", rounds.count,
+                        by_m.x(), by_m.y(), by_m.z());
+  }
+  return text + machines::raised_text(task.request, task.result);
 }
 
 }  // namespace graben::runs

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/machines/excavator_file.hpp"
+#include "app/machines/task_file.hpp"
 #include "firmware/excavator/tasks/line_plan.hpp"
 
 namespace graben::runs {
@@ -28,6 +29,11 @@ struct PlanSample {
                                                   const SwingKinematics& kinematics,
                                                   const LinePlan& plan, double step_s);
 
+/// The same of each step of a planned task, one after the other; `way_m` counts on.
+[[nodiscard]] std::vector<PlanSample> sample_task(const ExcavatorProfile& profile,
+                                                  const SwingKinematics& kinematics,
+                                                  const TaskProgram& program, double step_s);
+
 /// The greatest flow that the samples ask of each pump, m^3/s.
 [[nodiscard]] std::array<double, kPumpCount> greatest_flow_m3ps(
     const std::vector<PlanSample>& samples);
@@ -45,5 +51,8 @@ struct PlanSample {
 [[nodiscard]] std::string plan_summary(const ExcavatorProfile& profile, const LineRequest& request,
                                        const PlanResult& result,
                                        const std::vector<PlanSample>& samples);
+
+/// A line for each step of a planned task, and what planning has changed of it.
+[[nodiscard]] std::string task_summary(const machines::TaskFile& task);
 
 }  // namespace graben::runs

@@ -9,6 +9,7 @@
 #include "app/machines/task_text.hpp"
 #include "app/plant/random.hpp"
 #include "app/runs/found_text.hpp"
+#include "firmware/excavator/tasks/task_run.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben::runs {
@@ -203,6 +204,10 @@ AutodigOptions usual_run(const TaskScenario& scenario, const ExcavatorProfile& p
   if (program.layers.step >= 0) {
     run.rounds = kRoundsOfLayers;
   }
+  if (program.rounds.is_bounded()) {
+    run.rounds = program.rounds.count * (1 + kAgainMost);
+  }
+  run.word_after_s = scenario.word_after_s;
   if (scenario.start.empty()) {
     return run;
   }

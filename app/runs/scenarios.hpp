@@ -72,6 +72,7 @@ struct TaskScenario {
   std::optional<double> swash_ratio;  ///< Of the pumps, instead of the profile's.
   std::optional<double> duration_s;   ///< Of the first straight step.
   int rounds = 1;                     ///< Of a task that repeats.
+  double word_after_s = 3.0;          ///< Of the operator at a wait.
 };
 
 /// The machine of this scenario.

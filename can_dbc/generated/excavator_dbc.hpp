@@ -17,7 +17,7 @@
 
 namespace graben::dbc::excavator {
 
-inline constexpr std::uint8_t kDbcVersion = 9;
+inline constexpr std::uint8_t kDbcVersion = 10;
 
 using common::EEC1;
 using common::OperatorCommand;
@@ -788,6 +788,7 @@ struct TaskStatus {
     kDump = 5,
     kReturnToDig = 6,
     kDone = 7,
+    kWait = 8,
   };
 
   static constexpr Field kTaskNumber{
@@ -797,7 +798,7 @@ struct TaskStatus {
       "Step", "", 8, 8, 0U, 250U, 254, 255, 0U,
       0, 1.0, 1.0};
   static constexpr Field kStepKind{
-      "StepKind", "", 16, 4, 0U, 7U, 14, 15, 0U,
+      "StepKind", "", 16, 4, 0U, 8U, 14, 15, 0U,
       0, 1.0, 1.0};
   static constexpr Field kProgress{
       "Progress", "", 24, 16, 0U, 50000U, 65279, 65535, 0U,
@@ -805,6 +806,9 @@ struct TaskStatus {
   static constexpr Field kSwingWantedVelocity{
       "SwingWantedVelocity", "rad/s", 40, 16, 0U, 64000U, 65279, 65535, 32000U,
       -32000, 1.0, 10000.0};
+  static constexpr Field kNotArrived{
+      "NotArrived", "", 56, 8, 0U, 250U, 254, 255, 255U,
+      0, 1.0, 1.0};
 
   /// Which of the ECU's task files, from 0; not available while none runs. [0 .. 250 on the bus]
   Count task_number{0U, RawState::kNotAvailable};
@@ -817,6 +821,9 @@ struct TaskStatus {
   /// Wanted swing rate before it is scaled by Lambda; to the left is positive. [-3200 .. 3200
   /// mrad/s on the bus]
   Physical swing_wanted_velocity_radps{physical_of(kSwingWantedVelocity, 32000U), RawState::kValid};
+  /// Steps that went on though the teeth had not come to stand at their end, since the task began.
+  /// [0 .. 250 on the bus]
+  Count not_arrived{0U, RawState::kNotAvailable};
 
   /// Calls visitor(field, signal) for each signal.
   template <class Self, class Visitor>
@@ -826,6 +833,7 @@ struct TaskStatus {
     visitor(kStepKind, self.step_kind);
     visitor(kProgress, self.progress);
     visitor(kSwingWantedVelocity, self.swing_wanted_velocity_radps);
+    visitor(kNotArrived, self.not_arrived);
   }
   static constexpr TaskStatus decode(const Payload& payload) {
     return decode_message<TaskStatus>(payload);

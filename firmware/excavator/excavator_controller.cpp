@@ -363,8 +363,8 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
   // A lever that is held against an end or a fence is no stall.
   const double allowed = by_lever ? 1.0 : motion.cap.factor;
   next_stall(decision.active(), plans || !motion.wanted_mps.isZero(),
-             blocked ? 0.0 : followed * allowed * motion.task.pace_ratio, profile_.safety.stall_s,
-             period_s, memory_.stall);
+             blocked || motion.task.astray ? 0.0 : followed * allowed * motion.task.pace_ratio,
+             profile_.safety.stall_s, period_s, memory_.stall);
   if (!decision.active() || valid.task != Task::kProgram) {
     stop_task();
     return;

@@ -44,6 +44,15 @@ enum class StepKind : std::uint8_t {
   kDump = 5,
   kReturnToDig = 6,
   kDone = 7,  ///< The task is at its end; the machine stands.
+  kWait = 8,  ///< It stands until the operator asks for the task anew.
+};
+
+/// What ends a step.
+enum class UntilKind : std::uint8_t {
+  kEnd = 0,    ///< It has come to its planned end.
+  kFull = 1,   ///< The bucket is full, by what the edge has passed.
+  kForce = 2,  ///< The ground holds the teeth with a force.
+  kPlane = 3,  ///< The teeth have come to a plane.
 };
 
 /// Progress of a task.
@@ -53,6 +62,12 @@ struct TaskProgress {
   std::uint8_t step = 0;
   StepKind kind = StepKind::kNone;
   double share = 0.0;  ///< Of the step, 0 .. 1.
+  /// Steps that went on though they had not arrived, since the task began; 250: or more.
+  std::uint8_t missed = 0;
+  std::uint8_t round = 0;       ///< Of a program whose rounds lay their digs farther and farther,
+  std::uint8_t next_round = 0;  ///< and that which this one leads to.
+  UntilKind last_end = UntilKind::kEnd;  ///< What the step before this one was ended by.
+  bool off_plan = false;                 ///< The step has begun elsewhere than the program has it.
 };
 
 /// Where a valve opens, on one side: learnt, as a share of the spool's travel from where the

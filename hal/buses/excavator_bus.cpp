@@ -20,7 +20,8 @@ static_assert(same_code(BusStep::kSwing, StepKind::kSwing));
 static_assert(same_code(BusStep::kDump, StepKind::kDump));
 static_assert(same_code(BusStep::kReturnToDig, StepKind::kReturnToDig));
 static_assert(same_code(BusStep::kDone, StepKind::kDone));
-static_assert(same_code(bus::TaskStatus::kStepKind.raw_max, StepKind::kDone));
+static_assert(same_code(BusStep::kWait, StepKind::kWait));
+static_assert(same_code(bus::TaskStatus::kStepKind.raw_max, StepKind::kWait));
 
 void put_pressures(AxisInputs& axis, const dbc::Physical& cap, const dbc::Physical& rod,
                    TimeUs now) {
@@ -183,6 +184,7 @@ bus::TaskStatus task_status(const ExcavatorOutputs& outputs, const EcuDiagnosis&
     message.step = count(progress.step);
     message.step_kind = coded<bus::TaskStatus::StepKind>(progress.kind);
     message.progress = physical(progress.share);
+    message.not_arrived = count(progress.missed);
   }
   message.swing_wanted_velocity_radps = physical(outputs.status.swing_wanted_radps);
   return message;

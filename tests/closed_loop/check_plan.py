@@ -90,6 +90,76 @@ def other_paces(planner):
     assert big["duration_s"] == 18.4 and len(rows) == 38
 
 
+RAISED = """start = { position = [7.0, 0.0, -0.42], attitude = 2.2 }
+[[step]]
+do = "dig"
+to = { position = [4.8, 0.0, -0.48], attitude = 0.9 }
+[[step]]
+do = "swing"
+to = { position = [0.0, 4.6, 3.4], attitude = 0.3 }
+[design]
+through = [0.0, 0.0, -0.5]
+normal = [0.0, 0.0, 1.0]
+clearance = 0.05
+"""
+
+
+def tasks(planner):
+    """Step by step, with what the design has raised and where."""
+    output, figures, rows = planner.plan("--task", "truck_by_steps", "--step", "0.1")
+    assert [step["kind"] for step in figures["steps"]] == ["dig", "lift", "swing", "dump", "return"], figures
+    whole = sum(step["duration_s"] for step in figures["steps"])
+    assert abs(rows[-1]["time_s"] - whole) < 1e-4, (rows[-1], whole)
+    assert all(b["time_s"] >= a["time_s"] and b["way_m"] >= a["way_m"] for a, b in zip(rows, rows[1:]))
+    # The teeth are where the last step has them, and their speed is the way's.
+    assert math.dist((rows[-1]["x_m"], rows[-1]["y_m"], rows[-1]["z_m"]), (7.0, 0.0, -0.45)) < 1e-5, rows[-1]
+    swing = [row for row in rows if 20.0 < row["time_s"] < 22.0]
+    for a, b in zip(swing, swing[1:]):
+        assert abs((b["way_m"] - a["way_m"]) / (b["time_s"] - a["time_s"])
+                   - 0.5 * (a["speed_mps"] + b["speed_mps"])) < 5e-3, (a, b)
+    assert "raises" not in output and output.count("\n") == 8, output
+    with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:
+        file.write(RAISED)
+        file.flush()
+        output, figures, _ = planner.plan("--task", file.name)
+        told = ("the design raises step 0 (dig): its beginning by 0 mm to teeth x 7.000 m, y 0.000 m, z -0.420 m, "
+                "its end by 30 mm to teeth x 4.800 m, y 0.000 m, z -0.450 m\n")
+        assert told in output, output
+        assert [(step["raised_from_m"], step["raised_to_m"]) for step in figures["steps"]] == [(0.0, 0.03), (0.03, 0.0)]
+        with open(os.path.join(planner._folder, "plan.html"), "rb") as stream:
+            setup = report_page.setup_of(stream.read())
+        assert setup["machines"][0]["tasks"][0]["steps"][0]["raised_to_m"] == 0.03, setup["machines"][0]["tasks"]
+        done = subprocess.run([planner._graben, "autodig", "--task", file.name, "--out", planner._folder],
+                              capture_output=True, text=True, timeout=120)
+        assert done.returncode == 0 and told in done.stdout, done
+
+
+def as_autodig(planner):
+    """What autodig refuses plan refuses with the same status and words; a line says line for step."""
+    line = """start = {{ position = [{}], attitude = {} }}
+[[step]]
+do = "dig"
+to = {{ position = [{}], attitude = {} }}
+speed = 0.3
+"""
+    for profile, begins, ends in (
+            ("excavator_12t", "-6,3,0.5,2.0", "-6,-3,0.5,2.0"), ("excavator_22t", "0,8,0,2.2", "2.6,4.6,0,1.2"),
+            ("excavator_12t", "7,0,0,2.2", "9.5,0,0,1.2"), ("excavator_12t", "7,0,0,2.2", "7,0,0,2.2"),
+            ("excavator_12t", "19,0,0,1.2", "7,0,0,2.2")):
+        with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:
+            file.write(line.format(*begins.rsplit(",", 1), *ends.rsplit(",", 1)))
+            file.flush()
+            planned, tasked, dug = (subprocess.run(
+                [planner._graben, *arguments, "--profile", profile, "--out", planner._folder],
+                capture_output=True, text=True, timeout=120)
+                for arguments in (("plan", f"--from={begins}", f"--to={ends}", "--speed", "0.3"),
+                                  ("plan", "--task", file.name), ("autodig", "--task", file.name)))
+        assert (planned.returncode, tasked.returncode, dug.returncode) == (1, 1, 1), (planned, tasked, dug)
+        assert tasked.stderr.replace("graben plan", "graben autodig") == dug.stderr, (tasked, dug)
+        words = planned.stderr.split("graben plan: ", 1)[1].strip()
+        assert words.replace(" of the line", " of the step") in dug.stderr, (planned.stderr, dug.stderr)
+
+
 def impossible(planner):
     where = ["% of the line", "teeth x", "attitude"]
     planner.refused(["the arm cylinder", *where], "--to", "9.5,0,0,1.2")
@@ -99,11 +169,12 @@ def impossible(planner):
     # Behind the machine the swing's range ends; a task is refused with the same words.
     planner.refused(["the swing would leave its range, -3 .. 3 rad; at 35.", *where],
                     "--from=-6,3,0.5,2.0", "--to=-6,-3,0.5,2.0", "--speed", "0.3")
-    planner.refused(["both ends"], "--from", "5,0,0,1.2", "--to", "5,0,0,1.2")
+    planner.refused(["it ends where it begins"], "--from", "5,0,0,1.2", "--to", "5,0,0,1.2")
     planner.refused(["not found"], "--profile", "no_such_machine")
     planner.refused(["must be excavator"], "--profile", "dozer_9t")
     for usage in (["--to", "1,2,3"], ["--duration", "0"], ["--speed", "nan"],
-                  ["--duration", "10", "--speed", "1"], ["--step", "-1"]):
+                  ["--duration", "10", "--speed", "1"], ["--step", "-1"], ["--speed", "3.5"],
+                  ["--task", "flatten", "--speed", "1"]):
         planner.refused([""], *usage, status=2)
 
 
@@ -113,6 +184,8 @@ def main():
         planner = Planner(graben, folder)
         paper_line(graben, planner)
         other_paces(planner)
+        tasks(planner)
+        as_autodig(planner)
         impossible(planner)
     print("lines are planned or told why not")
 

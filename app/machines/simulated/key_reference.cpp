@@ -14,6 +14,7 @@
 #include "app/machines/profile_document.hpp"
 #include "app/machines/simulated/simulated_dozer.hpp"
 #include "app/machines/simulated/simulated_excavator.hpp"
+#include "app/machines/task_file.hpp"
 
 namespace graben::machines {
 namespace {
@@ -159,7 +160,8 @@ void read_kind(TomlReader& reader) {
 
 std::string key_reference() {
   std::string text =
-      "# Keys of the profiles\n\nMade by `graben check --keys` of what the readers ask for. All "
+      "# Keys of profiles and tasks\n\nMade by `graben check --keys` of what the readers ask for. "
+      "All "
       "values are in SI units; a wrong or unknown key is an\nerror. A key that is *optional* "
       "stands "
       "with others or instead of them, as its meaning says.\n";
@@ -186,6 +188,11 @@ std::string key_reference() {
     SimulatedDozer machine;
     read_simulated_sections(reader, machine);
   });
+  const ExcavatorProfile machine = with_path().profile;
+  add_file(text, "A task in steps, of an excavator",
+           [&](TomlReader& reader) { static_cast<void>(read_step_task(reader, machine)); });
+  add_file(text, "A task that is an area",
+           [&](TomlReader& reader) { static_cast<void>(read_area_task(reader, machine)); });
   return text;
 }
 

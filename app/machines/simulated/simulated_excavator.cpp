@@ -7,9 +7,9 @@
 
 #include "app/machines/axis_names.hpp"
 #include "app/machines/excavator_sections.hpp"
+#include "app/machines/planned_line.hpp"
 #include "app/machines/simulated/drive_sections.hpp"
 #include "app/machines/simulated/simulated_sections.hpp"
-#include "app/machines/task_text.hpp"
 #include "firmware/excavator/field/rounded_rectangle.hpp"
 #include "firmware/excavator/tasks/line_plan.hpp"
 
@@ -241,10 +241,9 @@ Experiment read_experiment(TomlReader& reader, const DigPath& path) {
 void check_line(TomlReader& reader, const ExcavatorProfile& profile, const LineTask& task) {
   LineRequest request{task.from, task.to, profile.line.acceleration_mps2};
   request.duration_s = task.duration_s;
-  const SwingKinematics kinematics(profile.geometry);
-  const PlanResult result = plan_line(kinematics, drive_limits(profile), request);
-  if (result.refusal != PlanRefusal::kNone) {
-    reader.fail("experiment.line", refusal_words(profile.geometry, result));
+  const std::string refusal = line_refusal(profile, request);
+  if (!refusal.empty()) {
+    reader.fail("experiment.line", refusal);
   }
 }
 

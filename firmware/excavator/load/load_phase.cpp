@@ -47,6 +47,8 @@ LoadPhase phase_of(StepKind kind, double share, const TipPose& tip, double heigh
       return kind == StepKind::kApproach && state.open_s == 0.0 && tip.attitude_rad > kSteep_rad
                  ? LoadPhase::kHangs
                  : LoadPhase::kPours;
+    case StepKind::kWait:
+      return state.phase;
     case StepKind::kNone:
     case StepKind::kDone:
       break;

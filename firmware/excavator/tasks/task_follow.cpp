@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "firmware/excavator/swing.hpp"
+#include "firmware/excavator/tasks/step_run.hpp"
 
 namespace graben {
 namespace {
@@ -11,7 +12,8 @@ namespace {
 /// Wide enough for whatever a bit may make of the step.
 std::int64_t place_of(bool runs, std::uint8_t number, const TaskState& state) {
   const std::int64_t step = state.step;
-  return ((step * 256 + number) * 4 + static_cast<int>(state.phase)) * 2 + (runs ? 1 : 0);
+  const std::int64_t where = (step * 256 + state.round) * 256 + number;
+  return (where * 4 + static_cast<int>(state.phase)) * 2 + (runs ? 1 : 0);
 }
 
 TeethPose teeth_of(const SwingKinematics& kinematics, const DriveVector& drives) {
@@ -50,7 +52,7 @@ double behind_m(const SwingKinematics& kinematics, const TaskAim& aim,
   return std::sqrt(std::max(0.0, across_m2) + std::pow(std::max(0.0, along_m), 2));
 }
 
-TaskProgress progress_of(const TaskMemory& memory, const TaskAim& aim) {
+TaskProgress progress_of(const TaskProgram& program, const TaskMemory& memory, const TaskAim& aim) {
   TaskProgress progress;
   progress.runs = true;
   progress.number = memory.number;
@@ -58,6 +60,11 @@ TaskProgress progress_of(const TaskMemory& memory, const TaskAim& aim) {
   progress.step = approaches ? std::uint8_t{0} : static_cast<std::uint8_t>(memory.state.step);
   progress.kind = aim.kind;
   progress.share = aim.share;
+  progress.missed = memory.state.missed;
+  progress.round = memory.state.round;
+  progress.next_round = static_cast<std::uint8_t>(next_round(program, memory.state));
+  progress.last_end = memory.state.last_end;
+  progress.off_plan = memory.state.off_plan;
   return progress;
 }
 
@@ -98,6 +105,18 @@ void keep(TaskMemory& memory) {
   keep(memory);
 }
 
+/// The operator may have moved it a little meanwhile; from elsewhere the task begins anew.
+constexpr double kStillThere_m = 0.1;
+
+bool goes_on_from_wait(const SwingKinematics& kinematics, const TaskProgram& program,
+                       std::uint8_t number, const DriveVector& drives, const TaskMemory& memory) {
+  if (memory.runs || !memory.state.word || memory.number != number) {
+    return false;
+  }
+  const TeethPose waits = teeth_of(kinematics, current_step(program, memory.state).drives.from);
+  return (teeth_of(kinematics, drives).position_m - waits.position_m).norm() < kStillThere_m;
+}
+
 }  // namespace
 
 bool TaskMemory::intact() const {
@@ -122,7 +141,7 @@ TaskWant want_of_task(const ExcavatorProfile& profile, DriveRows drives,
   TaskWant want;
   want.runs = true;
   want.known = aim.blind.kind == BlindKind::kNone;
-  want.progress = progress_of(memory, aim);
+  want.progress = progress_of(program, memory, aim);
   want.holds = memory.state.phase != TaskPhase::kDone;
   want.planned_m = travel_of(profile, aim.value);
   want.teeth = teeth_of(kinematics, drives_of(profile, servo.strokes_m()));
@@ -135,13 +154,14 @@ TaskWant want_of_task(const ExcavatorProfile& profile, DriveRows drives,
   const bool cut = cuts(program, memory.state);
   const bool straight = cut || on_line(program, memory.state);
   want.moves = want.holds && !straight;
-  const TaskStep& step = program.step[static_cast<unsigned>(memory.state.step)];
+  const TaskStep& step = current_step(program, memory.state);
   want.path_error_m = cut        ? line_distance_m(cut_line(program, memory.state), at_m)
                       : straight ? line_distance_m(step.line.line, at_m)
                                  : want.error_m;
   want.off_m =
       straight ? want.path_error_m : std::max(0.0, want.error_m - profile.line.move_slow_error_m);
   want.behind_m = straight ? want.error_m : behind_m(kinematics, aim, due_m - at_m);
+  want.astray = !in_layers(program) && is_astray(memory.state, want.behind_m);
   want.pace_ratio = memory.state.pace_ratio;
   want.wanted_mps = without_rounding(
       speed_override_ratio * travel_of(profile, want.pace_ratio * aim.velocity + aim.at_once));
@@ -150,7 +170,12 @@ TaskWant want_of_task(const ExcavatorProfile& profile, DriveRows drives,
 
 TaskMemory stopped(const TaskMemory& last) {
   TaskMemory memory;
-  if (last.state.phase != TaskPhase::kDone) {
+  if (last.state.waits) {
+    memory = last;
+    memory.runs = false;
+    memory.search = {};
+    memory.state.word = true;
+  } else if (last.state.phase != TaskPhase::kDone) {
     memory.number = last.number;
     memory.state.layers.begun = last.state.layers.begun;
     memory.state.layers.cuts = last.state.layers.cuts;
@@ -164,7 +189,14 @@ TaskMemory stopped(const TaskMemory& last) {
 void next_task(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
                const TaskProgram& program, std::uint8_t number, const DriveVector& travel_m,
                double followed_ratio, const CutSeen& seen, double period_s, TaskMemory& memory) {
+  if (goes_on_from_wait(kinematics, program, number, drives_of(profile, travel_m), memory)) {
+    memory.runs = true;
+    memory.state.settle_s = 0.0;
+    memory.state.calm_s = 0.0;
+  }
   if (!memory.runs || memory.number != number) {
+    memory.state.waits = false;
+    memory.state.word = false;
     search(profile, kinematics, program, number, drives_of(profile, travel_m), memory);
     return;
   }
@@ -172,8 +204,7 @@ void next_task(const ExcavatorProfile& profile, const SwingKinematics& kinematic
   if (in_layers(program)) {
     layer_advance(profile, kinematics, program, advance_s, period_s, seen, memory.state);
   } else {
-    memory.state =
-        task_advance(profile.line, program, memory.state, advance_s, period_s, seen.behind_m);
+    steps_advance(profile, kinematics, program, advance_s, period_s, seen, memory.state);
   }
   keep(memory);
 }

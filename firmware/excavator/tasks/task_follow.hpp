@@ -45,10 +45,13 @@ struct TaskWant {
   double off_m = 0.0;
   bool moves = false;  ///< On no line: its drives only have to arrive.
   TeethPose teeth;     ///< Where they are.
+  /// See is_astray(); a program in layers leads on from wherever it ends.
+  bool astray = false;
   TaskProgress progress;
 };
 
-/// A task that stops: it does not run, but what it has dug is known when it is asked for again.
+/// A task that stops: it does not run, but what it has dug is known when it is asked for again. One
+/// that stood at a wait goes on from there when it is: that is the operator's word.
 [[nodiscard]] TaskMemory stopped(const TaskMemory& last);
 
 /// `aim` is task_aim of the memory's state; `servo` has this cycle's strokes. Speed is that of the

@@ -6,6 +6,7 @@
 #include "firmware/excavator/swing.hpp"
 #include "firmware/excavator/tasks/layer_plan.hpp"
 #include "firmware/excavator/tasks/layer_run.hpp"
+#include "firmware/excavator/tasks/step_round.hpp"
 
 namespace graben {
 namespace {
@@ -44,12 +45,52 @@ bool usable(const DesignPlane& design) {
          not_negative(design.clearance_m);
 }
 
+bool usable(const StepUntil& until) {
+  switch (until.kind) {
+    case UntilKind::kEnd:
+      return true;
+    case UntilKind::kFull:
+    case UntilKind::kForce:
+      return std::isfinite(until.most) && until.most > 0.0;
+    case UntilKind::kPlane:
+      return unit(until.normal) && std::isfinite(until.offset_m);
+  }
+  return false;
+}
+
 /// A line's pace and poses are plan_line's to judge.
 bool usable(const StepRequest& step) {
+  if (step.kind == StepKind::kWait) {
+    return !step.straight && step.until.kind == UntilKind::kEnd;
+  }
   const bool kind = step.kind >= StepKind::kDig && step.kind <= StepKind::kReturnToDig;
-  return kind && (step.straight || (step.pace_ratio > 0.0 && step.pace_ratio <= 1.0 &&
-                                    not_negative(step.duration_s)));
+  return kind && (step.straight ? usable(step.until)
+                                : step.until.kind == UntilKind::kEnd && step.pace_ratio > 0.0 &&
+                                      step.pace_ratio <= 1.0 && not_negative(step.duration_s));
 }
+
+/// A full bucket is known by what it holds and by what the edge has passed on its way.
+bool can_fill(const ExcavatorProfile& profile, const ProgramRequest& request) {
+  constexpr double kLevel_m = 0.3;
+  const ExcavatorBody& body = profile.geometry.body;
+  TeethPose from = request.start;
+  int fills = 0;
+  bool can = true;
+  for (int i = 0; i < request.step_count; ++i) {
+    const StepRequest& step = request.step[static_cast<unsigned>(i)];
+    if (step.until.kind == UntilKind::kFull) {
+      const Eigen::Vector3d way_m = step.to.position_m - from.position_m;
+      can = can && way_m.head<2>().norm() >= kLevel_m && step.kind == StepKind::kDig &&
+            body.known() && body.capacity_m3 > 0.0;
+      ++fills;
+    }
+    from = step.kind == StepKind::kWait ? from : step.to;
+  }
+  return can && fills <= 1;
+}
+
+/// A wait's second, in which it is seen to stand.
+constexpr SineRamp kWaitRamp{1.0, 0.5};
 
 bool same(const TeethPose& a, const TeethPose& b) {
   return (a.position_m - b.position_m).norm() < kSame_m &&
@@ -92,14 +133,16 @@ class Planning {
   /// Always false.
   bool refuse(ProgramRefusal why, int step, const BlindPlace& place = {});
 
-  /// Of the pose that step `number` begins at; of its end with number + 1.
-  [[nodiscard]] TeethPose& pose(int number) { return pose_[static_cast<unsigned>(number)]; }
+  /// Of the pose that step `number` begins at; of its end with number + 1. A wait's are one.
+  [[nodiscard]] TeethPose& pose(int number) { return pose_[at(number)]; }
+  [[nodiscard]] unsigned at(int number) const { return at_[static_cast<unsigned>(number)]; }
 
   const ExcavatorProfile& profile_;
   const ProgramRequest& request_;
   SwingKinematics kinematics_;
   DriveLimits limits_;
   std::array<TeethPose, kStepMost + 1> pose_;
+  std::array<std::uint8_t, kStepMost + 1> at_{};
   DriveVector drives_ = DriveVector::Zero();  ///< Where the steps planned so far end.
   ProgramResult result_;
 };
@@ -114,7 +157,9 @@ bool Planning::refuse(ProgramRefusal why, int step, const BlindPlace& place) {
 bool Planning::usable_request() const {
   const int fence_most = request_.has_design ? kFenceMost - 1 : kFenceMost;
   return request_.step_count > 0 && request_.step_count <= kStepMost &&
-         usable(request_.fences, fence_most) && (!request_.has_design || usable(request_.design)) &&
+         std::isfinite(request_.ground_m) && request_.rounds.offset_m.allFinite() &&
+         can_fill(profile_, request_) && usable(request_.fences, fence_most) &&
+         (!request_.has_design || usable(request_.design)) &&
          std::all_of(request_.step.begin(), request_.step.begin() + request_.step_count,
                      [](const StepRequest& step) { return usable(step); });
 }
@@ -133,18 +178,20 @@ void Planning::raise_digging(bool closed) {
           request_.design.clearance_m - request_.design.height_m(pose(end).position_m);
       const double up_m = std::max(0.0, missing_m / request_.design.up.z());
       pose(end).position_m.z() += up_m;
-      raised_m[static_cast<unsigned>(end)] += up_m;
+      raised_m[at(end)] += up_m;
     }
   }
-  const auto last = static_cast<unsigned>(request_.step_count);
+  const int count = request_.step_count;
   if (closed) {
-    TeethPose& end = pose_[last];
+    TeethPose& end = pose(count);
     end.position_m.z() = std::max(end.position_m.z(), pose_[0].position_m.z());
     pose_[0] = end;
-    raised_m[0] = raised_m[last] = std::max(raised_m[0], raised_m[last]);
+    raised_m[0] = raised_m[at(count)] = std::max(raised_m[0], raised_m[at(count)]);
   }
-  for (unsigned i = 0; i < last; ++i) {
-    result_.note[i].raised_m = std::max(raised_m[i], raised_m[i + 1]);
+  for (int i = 0; i < count; ++i) {
+    StepNote& note = result_.note[static_cast<unsigned>(i)];
+    note.raised_from_m = raised_m[at(i)];
+    note.raised_to_m = raised_m[at(i + 1)];
   }
 }
 
@@ -172,6 +219,10 @@ bool Planning::plan_straight(const StepRequest& asked, TaskStep& step, StepNote&
 }
 
 bool Planning::plan_move(const StepRequest& asked, TaskStep& step, int number) {
+  if (asked.kind == StepKind::kWait) {
+    step.drives = {drives_, DriveVector::Zero(), kWaitRamp};
+    return true;
+  }
   const DriveResult to = kinematics_.drive_from_teeth(pose(number + 1));
   if (to.blind.kind != BlindKind::kNone) {
     return refuse(ProgramRefusal::kBlindSpot, number, {to.blind, 1.0, pose(number + 1)});
@@ -199,6 +250,8 @@ bool Planning::plan_step(int number) {
   TaskStep& step = result_.program.step[i];
   step.kind = asked.kind;
   step.straight = asked.straight;
+  step.until = asked.until;
+  result_.program.ends_early = result_.program.ends_early || asked.until.kind != UntilKind::kEnd;
   const bool planned = asked.straight ? plan_straight(asked, step, result_.note[i], number)
                                       : plan_move(asked, step, number);
   if (!planned) {
@@ -255,7 +308,11 @@ ProgramResult Planning::run() {
   }
   pose(0) = request_.start;
   for (int i = 0; i < request_.step_count; ++i) {
-    pose(i + 1) = request_.step[static_cast<unsigned>(i)].to;
+    const StepRequest& step = request_.step[static_cast<unsigned>(i)];
+    const bool waits = step.kind == StepKind::kWait;
+    at_[static_cast<unsigned>(i + 1)] =
+        waits ? at_[static_cast<unsigned>(i)] : static_cast<std::uint8_t>(i + 1);
+    pose(i + 1) = waits ? pose(i) : step.to;
   }
   const bool closed = same(pose(request_.step_count), pose(0));
   TaskProgram& program = result_.program;
@@ -289,8 +346,12 @@ ProgramResult Planning::run() {
   }
   program.step_count = request_.step_count;
   program.repeats = request_.repeats;
+  program.ground_m = request_.ground_m;
   program.end = drives_;
-  result_.refusal = ProgramRefusal::kNone;
+  if (plan_rounds(profile_, kinematics_, request_, result_) &&
+      plan_early_ends(profile_, kinematics_, result_)) {
+    result_.refusal = ProgramRefusal::kNone;
+  }
   return result_;
 }
 

@@ -13,7 +13,30 @@ namespace graben {
 inline constexpr int kStepMost = 24;
 inline constexpr int kTaskMost = 4;
 
-/// A step as it is asked for: from where the one before ends.
+/// What ends a straight step before its planned end; kEnd: nothing does.
+struct StepUntil {
+  UntilKind kind = UntilKind::kEnd;
+  /// kFull: so much of the bucket's capacity; kForce: so much on the teeth, N.
+  double most = 0.0;
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< kPlane: the teeth have come to it where
+  double offset_m = 0.0;                              ///< normal . position >= offset.
+};
+
+/// How often a program is done, and how much farther each round digs.
+struct RoundsPlan {
+  int count = 0;           ///< 0: once, or for ever if it repeats.
+  bool to_design = false;  ///< As often as brings every dig down to the design; `count` is found.
+  /// From round to round, of all that straight digs begin and end at. The design's clearance is
+  /// kept, see plan_program().
+  Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();
+  bool has_design = false;  ///< The program's.
+  DesignPlane design;
+
+  [[nodiscard]] bool is_bounded() const { return count > 0 || to_design; }
+};
+
+/// A step as it is asked for: from where the one before ends. A wait ends there, whatever `to`
+/// says.
 struct StepRequest {
   StepKind kind = StepKind::kNone;
   TeethPose to;
@@ -21,6 +44,7 @@ struct StepRequest {
   double speed_mps = 0.0;  ///< Of a line, as in LineRequest: either this or the duration.
   double duration_s = 0.0;
   double pace_ratio = 1.0;  ///< Of a drive move, see DrivePace.
+  StepUntil until{};
   // Of a straight dig, the program's first step, that is done in layers until its design is met.
   bool in_layers = false;
   double ground_m = 0.0;   ///< Height of the ground as it is before, over the ground frame.
@@ -33,8 +57,10 @@ struct ProgramRequest {
   TeethPose start;
   std::array<StepRequest, kStepMost> step;
   int step_count = 0;
-  bool repeats = false;  ///< Its last step has to end where it starts.
-  FenceSet fences;       ///< With a design plane one less than there is room for.
+  bool repeats = false;   ///< Its last step has to end where it starts.
+  RoundsPlan rounds{};    ///< Of one that repeats; has_design and design are set by planning.
+  double ground_m = 0.0;  ///< Of the ground as it is before, for StepUntil: kFull.
+  FenceSet fences;        ///< With a design plane one less than there is room for.
   bool has_design = false;
   DesignPlane design;
 };
@@ -46,6 +72,9 @@ struct TaskStep {
   DrivePlan drives;         ///< Where it is not.
   double pace_ratio = 1.0;  ///< Of a move that is planned again on the way, see DrivePace,
   double least_s = 0.0;     ///< and its duration at least.
+  StepUntil until{};
+  bool from_moves = false;  ///< By RoundsPlan::offset_m, where it begins,
+  bool to_moves = false;    ///< and where it ends.
 
   [[nodiscard]] double duration_s() const {
     return straight ? line.ramp.duration_s : drives.ramp.duration_s;
@@ -57,6 +86,9 @@ struct TaskProgram {
   std::array<TaskStep, kStepMost> step;
   int step_count = 0;
   bool repeats = false;
+  RoundsPlan rounds{};
+  bool ends_early = false;  ///< A step has an `until`.
+  double ground_m = 0.0;
   DriveVector start = DriveVector::Zero();  ///< Drives at the first pose.
   DriveVector end = DriveVector::Zero();    ///< Drives at the last.
   FenceSet fences;                          ///< The design surface is the last of them.
@@ -81,11 +113,13 @@ enum class ProgramRefusal : std::uint8_t {
   kNoSwing = 6,     ///< It would have to turn, and no drive of this machine does.
   kOpenEnd = 7,     ///< It repeats, but its end is not its start.
   kLayers = 8,      ///< Digs in layers, but not first, without design, moves or a known bucket.
+  kRounds = 9,      ///< None, too many, not closed, or to a design that they do not lead to.
 };
 
 /// Changes that planning made to a step.
 struct StepNote {
-  double raised_m = 0.0;  ///< The higher of its ends, to keep the clearance above the design.
+  double raised_from_m = 0.0;  ///< Its beginning, straight up, to keep the design's clearance,
+  double raised_to_m = 0.0;    ///< and its end.
   PlanLimit slowed_by = PlanLimit::kNone;  ///< As in PlanResult; of a line.
   int drive = 0;
   double slowed_ratio = 1.0;
@@ -105,6 +139,9 @@ struct ProgramResult {
   int step = 0;      ///< Which, from 0; the start belongs to the first.
   BlindPlace place;  ///< Share of the step and teeth there; `blind` only where it is one.
   BarredBy by;       ///< Of kFence.
+  int round = -1;    ///< In which, from 0; below: in any.
+  /// At 0 or above: the step is that after one which its `until` has ended at this share.
+  double early_share = -1.0;
   std::array<StepNote, kStepMost> note;
   TaskProgram program;  ///< Valid only if nothing is refused.
 };

@@ -48,6 +48,17 @@ struct LayerState {
   DriveVector stands = DriveVector::Zero();  ///< Where it was when all was dug.
 };
 
+inline constexpr int kFillBins = 24;
+
+/// What a dig has taken, by where its edge has passed.
+struct StepFill {
+  bool begun = false;  ///< `top_m` says where the ground is by now,
+  std::array<float, kFillBins>
+      top_m{};              ///< along the level part of the line, over the ground frame.
+  double seen_share = 0.0;  ///< Of that, which the edge has passed in this step.
+  double filled_m3 = 0.0;   ///< Of the ground, in this step.
+};
+
 /// State from cycle to cycle. The place on the plan is a time of the plan, not of a clock:
 /// nothing is ever behind, and nothing has to be caught up.
 struct TaskState {
@@ -56,10 +67,25 @@ struct TaskState {
   double time_s = 0.0;    ///< tau: of the plan of approach or step.
   double settle_s = 0.0;  ///< How long it has waited at its end.
   double calm_s = 0.0;    ///< How long of that the teeth have been there without a break.
+  /// Steps that went on though they had not arrived, since the task began, up to kMissedCount.
+  std::uint8_t missed = 0;
   /// Of the plan's speed, 0 .. 1: the aim's velocity has to be scaled by it before what is owed is
   /// added, and task_advance goes on by it. Drives that went on at full speed would run ahead of a
   /// plan that waits for them, and make the error that it waits for.
   double pace_ratio = 1.0;
+  std::uint8_t round = 0;  ///< Of a program that has rounds.
+  std::uint8_t again = 0;  ///< Rounds before this one that were no deeper than the one before.
+  bool cut_short = false;  ///< A dig of this round was ended by its force or its fill.
+  UntilKind ends = UntilKind::kEnd;      ///< What has come about: the step comes to rest.
+  UntilKind last_end = UntilKind::kEnd;  ///< Of the step before.
+  double force_s = 0.0;                  ///< How long the force that ends the step has been there.
+  StepFill fill;
+  /// The step is `here` and not the program's; once it is done, it stands at layers.stands.
+  bool own = false;
+  bool off_plan = false;  ///< And begins elsewhere than planned.
+  TaskStep here;
+  bool waits = false;     ///< It stands at a wait,
+  bool word = false;      ///< and the operator has asked for the task anew.
   ApproachPath approach;  ///< `step` is the leg.
   LayerState layers;
 };
@@ -78,14 +104,24 @@ struct TaskAim {
   TeethPose teeth;  ///< Where they are planned to be.
 };
 
-/// An end is reached with the teeth so near to it for so long: a platform that swings through its
-/// place is not there yet ...
+/// A step has arrived with the teeth so near to its end for so long, a platform that swings through
+/// its place is not there yet: a line; a move (or the approach) that a line follows, whose
+/// beginning is the move's end; any other move.
 inline constexpr double kSettled_m = 5e-3;
+inline constexpr double kLineBegins_m = 0.01;
+inline constexpr double kMoveArrived_m = 0.02;
 inline constexpr double kCalm_s = 0.2;
-/// ... or after so long: what is left then is the next step's to correct.
-inline constexpr double kSettleMost_s = 2.0;
-/// The same of a move of a program in layers, which leads on from wherever it ends.
+/// So long it is waited for. Then a step that is this near goes on, and is counted as missed: what
+/// is left is for the next step to correct, whose way was looked at from that end and whose fences
+/// hold in motion. One that is farther off does not go on at all: the next step may rely on it, as
+/// a swing does on the lift before it. It waits until the stall watch stops the machine.
+inline constexpr double kArriveMost_s = 10.0;
+inline constexpr double kMissedMost_m = 0.03;
+inline constexpr int kMissedCount = 250;  ///< More are not counted.
+/// A move of a program in layers has arrived so near, or after so long: it leads on from wherever
+/// it ends.
 inline constexpr double kMoveSettled_m = 0.05;
+inline constexpr double kSettleMost_s = 2.0;
 
 /// At the beginning of the approach that search_approach() has found, planned from where the
 /// machine stands now. It can't meet a blind spot. In motion the soft limit holds it before fences.
@@ -101,8 +137,28 @@ inline constexpr double kMoveSettled_m = 0.05;
 [[nodiscard]] TaskAim aim_of_plan(const SwingKinematics& kinematics, StepKind kind,
                                   const DrivePlan& plan, double time_s);
 
+/// The step that runs, as it is in this round and from where it began.
+[[nodiscard]] const TaskStep& current_step(const TaskProgram& program, const TaskState& state);
+
+/// After a part that has ended: the next leg, step or round, or the task is done. A round whose dig
+/// was cut short is done again, see kAgainMost.
+[[nodiscard]] TaskState next_part(const TaskProgram& program, const TaskState& state);
+
+/// The round that a step which ends where the next one begins leads to.
+[[nodiscard]] int next_round(const TaskProgram& program, const TaskState& state);
+
+/// A round whose dig was ended by what it met, its force or a full bucket, is done again no deeper:
+/// so often in a row, then what is left stays up.
+inline constexpr int kAgainMost = 8;
+
 /// True while a straight line of the teeth is being followed; else a move of the drives, or none.
 [[nodiscard]] bool on_line(const TaskProgram& program, const TaskState& state);
+
+/// Of the part that runs, see kSettled_m.
+[[nodiscard]] double arrival_m(const TaskProgram& program, const TaskState& state);
+
+/// True at the end of an approach or a step with the teeth so far from it that it will not go on.
+[[nodiscard]] bool is_astray(const TaskState& state, double error_m);
 
 /// The pace that an error of the teeth asks for: half where they are line.slow_error_m off their
 /// planned place and line.slow_error_s times the line's planned speed there, as the digging field
@@ -114,8 +170,8 @@ inline constexpr double kMoveSettled_m = 0.05;
 /// One cycle on. `advance_s` is what the plan may go on by: lambda and every other factor on the
 /// velocity but its own pace, times the period. The pace follows wanted_pace no faster than
 /// line.pace_rate_ps: a platform can't be slowed at once, and a plan that tries makes it swing
-/// about its place. At the end of a step it waits until the teeth have been within
-/// kSettled_m for kCalm_s, or for kSettleMost_s.
+/// about its place. At the end of approach or step it waits until it has arrived, see kSettled_m
+/// and kArriveMost_s.
 [[nodiscard]] TaskState task_advance(const LineProfile& line, const TaskProgram& program,
                                      const TaskState& state, double advance_s, double period_s,
                                      double error_m);

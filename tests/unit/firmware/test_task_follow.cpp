@@ -94,6 +94,26 @@ void where_it_should_be_it_goes_on(void**) {
   assert_int_equal(want(half_way(1), servo).progress.step, 1);
 }
 
+/// A step that stands at its end too far from it does not go on, which the stall watch is told;
+/// what was missed is told on.
+void far_from_its_end_it_is_astray(void**) {
+  for (const int step : {0, 1}) {
+    TaskMemory memory = half_way(step);
+    memory.state.time_s = dig().step[static_cast<unsigned>(step)].duration_s();
+    const auto astray = [&](double off_m) {
+      return want(memory,
+                  servo_at_rest(travel_of(profile(), drives_off(memory, {0.0, 0.0, off_m}))))
+          .astray;
+    };
+    assert_false(astray(1.1 * kMissedMost_m));
+    memory.state.settle_s = kCycle_s;
+    assert_true(astray(1.1 * kMissedMost_m));
+    assert_false(astray(0.9 * kMissedMost_m));
+    memory.state.missed = 3;
+    assert_int_equal(want(memory, servo_at_rest(DriveVector::Zero())).progress.missed, 3);
+  }
+}
+
 /// Off along the line is an error of the place alone; off across it is one of the path too, on a
 /// line. On a move there is no line to be off.
 void off_its_place_is_told_from_off_its_path(void**) {
@@ -226,6 +246,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(the_swing_s_travel_is_at_its_lever),
       cmocka_unit_test(where_it_should_be_it_goes_on),
+      cmocka_unit_test(far_from_its_end_it_is_astray),
       cmocka_unit_test(off_its_place_is_told_from_off_its_path),
       cmocka_unit_test(what_is_under_way_is_not_missed),
       cmocka_unit_test(a_plan_of_another_machine_is_unknown),

@@ -151,10 +151,14 @@ void digging_is_raised_above_the_design(void**) {
   assert_true((program.end - program.start).norm() < 1e-9);
   // By hand: 0.05 and 0.27 m too low, and the clearance over the cosine of the slope.
   const double clear_m = 0.02 * std::sqrt(1.01);
-  assert_near(result.note[0].raised_m, 0.27 + clear_m, 1e-9);
-  assert_near(result.note[1].raised_m, 0.27 + clear_m, 1e-9);
-  assert_near(result.note[2].raised_m, 0.0, 0.0);
-  assert_near(result.note[3].raised_m, 0.05 + clear_m, 1e-9);
+  const auto assert_raised = [&](unsigned step, double from_m, double to_m) {
+    assert_near(result.note[step].raised_from_m, from_m, 1e-9);
+    assert_near(result.note[step].raised_to_m, to_m, 1e-9);
+  };
+  assert_raised(0, 0.05 + clear_m, 0.27 + clear_m);
+  assert_raised(1, 0.27 + clear_m, 0.0);
+  assert_raised(2, 0.0, 0.0);
+  assert_raised(3, 0.0, 0.05 + clear_m);
   assert_int_equal(program.fences.count, 1);
   assert_int_equal(program.fences.fence[0].guard, FenceGuard::kTeeth);
 }
@@ -175,7 +179,8 @@ void what_repeats_is_raised_as_one_pose(void**) {
   assert_int_equal(result.refusal, ProgramRefusal::kNone);
   assert_near(machine().teeth(result.program.start).position_m.z(), -0.3, 1e-9);
   assert_true((result.program.start - result.program.end).norm() < 1e-9);
-  assert_near(result.note[0].raised_m, 0.1, 1e-9);
+  assert_near(result.note[0].raised_from_m, 0.1, 1e-9);
+  assert_near(result.note[0].raised_to_m, 0.0, 0.0);
 }
 
 /// A swing past a wall that the teeth pass by 20 um for less than a step of the walk.

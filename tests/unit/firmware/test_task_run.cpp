@@ -169,14 +169,20 @@ void the_pace_changes_at_its_rate(void**) {
   assert_near(advance(task, state, 1.0).time_s, 1.0, 0.0);
 }
 
-/// Cycles until a step that has come to its end is left, with the error that `error_m(cycle)` says.
+/// How a step that has come to its end is left.
+struct Left {
+  int cycles = 0;
+  int missed = 0;
+};
+
+/// With the error that `error_m(cycle)` says.
 template <class Error>
-int cycles_at_the_end(Error&& error_m) {
+Left left_at_the_end(Error&& error_m) {
   const TaskProgram task = program(false);
   TaskState state = at_first_step();
   state.time_s = task.step[0].duration_s() - 0.5 * kCycle_s;
   int cycle = 0;
-  for (; state.step == 0 && cycle < 1000; ++cycle) {
+  for (; state.step == 0 && cycle < 2000; ++cycle) {
     assert_true(aim_of(task, state).share > 0.999);
     state = advance(task, state, 1.0, error_m(cycle));
   }
@@ -184,27 +190,91 @@ int cycles_at_the_end(Error&& error_m) {
   assert_near(state.settle_s, 0.0, 0.0);
   assert_near(state.calm_s, 0.0, 0.0);
   assert_near(state.time_s, 0.0, 0.0);
-  return cycle;
+  return {cycle, state.missed};
 }
 
 int cycles_of(double time_s) { return static_cast<int>(std::lround(time_s / kCycle_s)); }
 
-/// At the end it waits for the teeth to stand there, but not for ever.
-void a_step_ends_settled_or_late(void**) {
+/// At the end it waits for the teeth to stand there; what has been near for long goes on, and is
+/// counted.
+void a_step_ends_when_it_has_arrived(void**) {
   const int calm = cycles_of(kCalm_s);
-  const int most = cycles_of(kSettleMost_s);
+  const int most = cycles_of(kArriveMost_s);
   const auto near_m = [](int) { return 0.9 * kSettled_m; };
   const auto far_m = [](int) { return 1.1 * kSettled_m; };
   // A cycle more where the sum of periods rounds to just below.
-  assert_in_range(cycles_at_the_end(near_m), calm, calm + 1);
-  assert_in_range(cycles_at_the_end(far_m), most, most + 1);
+  const Left there = left_at_the_end(near_m);
+  assert_in_range(there.cycles, calm, calm + 1);
+  assert_int_equal(there.missed, 0);
+  const Left late = left_at_the_end(far_m);
+  assert_in_range(late.cycles, most, most + 1);
+  assert_int_equal(late.missed, 1);
   // What swings through its place is not there yet: the count begins anew.
-  const int swung =
-      cycles_at_the_end([calm](int cycle) { return (cycle == calm - 2 ? 1.1 : 0.9) * kSettled_m; });
-  assert_in_range(swung, 2 * calm - 1, 2 * calm);
-  assert_in_range(
-      cycles_at_the_end([](int cycle) { return (cycle % 9 == 0 ? 1.1 : 0.9) * kSettled_m; }), most,
-      most + 1);
+  const Left swung =
+      left_at_the_end([calm](int cycle) { return (cycle == calm - 2 ? 1.1 : 0.9) * kSettled_m; });
+  assert_in_range(swung.cycles, 2 * calm - 1, 2 * calm);
+  assert_int_equal(swung.missed, 0);
+  const Left rings =
+      left_at_the_end([](int cycle) { return (cycle % 9 == 0 ? 1.1 : 0.9) * kSettled_m; });
+  assert_in_range(rings.cycles, most, most + 1);
+  assert_int_equal(rings.missed, 1);
+  // One that arrives in time is not missed.
+  const Left slow =
+      left_at_the_end([](int cycle) { return (cycle < 800 ? 4.0 : 0.9) * kSettled_m; });
+  assert_in_range(slow.cycles, 800 + calm, 801 + calm);
+  assert_int_equal(slow.missed, 0);
+}
+
+/// The next step may rely on the last one: far from its end, or nobody knows where, none goes on.
+void what_is_astray_does_not_go_on(void**) {
+  const TaskProgram task = program(false);
+  for (const double error_m : {1.1 * kMissedMost_m, std::numeric_limits<double>::quiet_NaN()}) {
+    for (const int step : {0, 1}) {
+      TaskState state = at_first_step();
+      state.step = step;
+      state.time_s = task.step[static_cast<unsigned>(step)].duration_s();
+      assert_false(is_astray(state, error_m));
+      for (int cycle = 0; cycle < cycles_of(3.0 * kArriveMost_s); ++cycle) {
+        state = advance(task, state, 1.0, error_m);
+        assert_true(is_astray(state, error_m));
+      }
+      assert_int_equal(state.step, step);
+      assert_int_equal(state.missed, 0);
+      assert_false(is_astray(state, 0.9 * kMissedMost_m));
+      // Once it is near it goes on, late as it is.
+      state = advance(task, state, 1.0, 0.9 * kMissedMost_m);
+      assert_int_equal(state.step, step + 1);
+      assert_int_equal(state.missed, 1);
+    }
+  }
+  assert_false(is_astray(TaskState{}, 1.0));
+  TaskState many = at_first_step();
+  many.missed = kMissedCount;
+  many.time_s = task.step[0].duration_s();
+  many.settle_s = kArriveMost_s;
+  assert_int_equal(advance(task, many, 1.0, kMissedMost_m).missed, kMissedCount);
+}
+
+/// A line ends to the millimetres, and so does what leads to one; a move between moves need not.
+void how_near_depends_on_what_follows(void**) {
+  const TaskProgram once = program(false);
+  const TaskProgram again = program(true);
+  TaskState state = at_first_step();
+  assert_near(arrival_m(once, state), kSettled_m, 0.0);
+  state.step = 1;
+  assert_near(arrival_m(once, state), kMoveArrived_m, 0.0);
+  state.step = 2;
+  assert_near(arrival_m(once, state), kMoveArrived_m, 0.0);
+  assert_near(arrival_m(again, state), kLineBegins_m, 0.0);
+  assert_near(arrival_m(once, task_start(machine().profile, machine().kinematics, once, once.end)),
+              kLineBegins_m, 0.0);
+  state.step = 1;
+  state.time_s = once.step[1].duration_s();
+  for (int cycle = 0; cycle <= cycles_of(kCalm_s); ++cycle) {
+    state = advance(once, state, 1.0, 0.9 * kMoveArrived_m);
+  }
+  assert_int_equal(state.step, 2);
+  assert_int_equal(state.missed, 0);
 }
 
 void it_begins_again_if_it_repeats(void**) {
@@ -279,7 +349,9 @@ int main() {
       cmocka_unit_test(velocity_is_the_value_s_difference),
       cmocka_unit_test(an_error_asks_for_less_pace_and_nan_for_none),
       cmocka_unit_test(the_pace_changes_at_its_rate),
-      cmocka_unit_test(a_step_ends_settled_or_late),
+      cmocka_unit_test(a_step_ends_when_it_has_arrived),
+      cmocka_unit_test(what_is_astray_does_not_go_on),
+      cmocka_unit_test(how_near_depends_on_what_follows),
       cmocka_unit_test(it_begins_again_if_it_repeats),
       cmocka_unit_test(the_approach_leads_to_the_start),
       cmocka_unit_test(no_program_is_done),

@@ -141,7 +141,8 @@ void every_error_is_listed(void**) {
   assert_says(errors, "start.attitude (line 1): 9.0 is out of range; allowed: -7 .. 7 rad");
   assert_says(errors, "repeat (line 2): 1; allowed: true, false");
   assert_says(errors, "colour (line 3): unknown key");
-  assert_says(errors, "step[0].do (line 5): 'dance'; allowed: dig, lift, swing, dump, return");
+  assert_says(errors,
+              "step[0].do (line 5): 'dance'; allowed: dig, lift, swing, dump, return, wait");
   assert_says(errors,
               "step[0].to.position[2] (line 6): 99.0 is out of range; allowed: -30 .. 30 m");
   assert_says(errors, "step[0].to.attitude: missing");
@@ -239,6 +240,113 @@ void refusals_name_step_joint_and_place(void**) {
               "the swing would leave its range, -3 .. 3 rad; at ");
 }
 
+const char* const kRounds =
+    "repeat = true\n"
+    "start = { position = [7.0, 0.0, -0.1], attitude = 2.2 }\n"
+    "ground = -0.05\n"
+    "rounds = { count = 3, offset = [0.0, 0.0, -0.1] }\n"
+    "[[step]]\n"
+    "do = \"dig\"\n"
+    "to = { position = [4.8, 0.0, -0.3], attitude = 0.9 }\n"
+    "until = { depth = 0.1 }\n"
+    "[[step]]\n"
+    "do = \"wait\"\n"
+    "[[step]]\n"
+    "do = \"lift\"\n"
+    "to = { position = [4.9, 0.0, 1.4], attitude = 0.3 }\n"
+    "[[step]]\n"
+    "do = \"return\"\n"
+    "path = \"line\"\n"
+    "to = { position = [7.0, 0.0, -0.1], attitude = 2.2 }\n"
+    "[design]\n"
+    "through = [0.0, 0.0, -0.7]\n"
+    "normal = [0.0, 0.0, 1.0]\n"
+    "clearance = 0.05\n";
+
+std::string rounds_text(const std::string& from, const std::string& to) {
+  std::string text = kRounds;
+  assert_true(text.find(from) != std::string::npos);
+  return text.replace(text.find(from), from.size(), to);
+}
+
+std::string rounds_with(const std::string& from, const std::string& to) {
+  return errors_of(rounds_text(from, to));
+}
+
+void steps_end_early_and_rounds_repeat(void**) {
+  const Written file(kRounds);
+  const TaskProgram program =
+      machines::load_task(file.path(), profile("excavator_12t")).result.program;
+  assert_int_equal(program.rounds.count, 3);
+  assert_near(program.rounds.offset_m.z(), -0.1, 0.0);
+  assert_near(program.ground_m, -0.05, 0.0);
+  const StepUntil& until = program.step[0].until;
+  assert_int_equal(until.kind, UntilKind::kPlane);
+  assert_near(until.normal.z(), -1.0, 0.0);
+  assert_near(until.offset_m, 0.15, 1e-12);
+  assert_int_equal(program.step[1].kind, StepKind::kWait);
+  assert_int_equal(program.step[1].until.kind, UntilKind::kEnd);
+  const Written to_design(
+      rounds_text("count = 3, offset = [0.0, 0.0, -0.1]", "until_design = true, deeper = 0.12"));
+  const TaskProgram deeper =
+      machines::load_task(to_design.path(), profile("excavator_12t")).result.program;
+  // The far end is 0.55 m over the clearance.
+  assert_int_equal(deeper.rounds.count, 1 + 5);
+  assert_near(deeper.rounds.offset_m.z(), -0.12, 1e-12);
+}
+
+/// Each with its place and what is allowed.
+void what_ends_a_step_or_a_round_is_checked(void**) {
+  const std::string depth = "depth = 0.1";
+  assert_says(rounds_with(depth, "depth = 0.01"),
+              "step[0].until.depth (line 8): 0.01 is out of range; allowed: 0.02 .. 8 m");
+  assert_says(rounds_with(depth, "force = 10.0"),
+              "step[0].until.force (line 8): 10.0 is out of range; allowed: 1000 .. 1000000 N");
+  assert_says(rounds_with(depth, "full = 2.0"),
+              "step[0].until.full (line 8): 2.0 is out of range; allowed: 0.2 .. 1.2");
+  assert_says(rounds_with(depth, "full = 0.9, force = 2e4"),
+              "step[0].until (line 8): 2 of its keys; allowed: one of full, force, depth, plane");
+  assert_says(rounds_with(depth, "heavy = true"), "0 of its keys");
+  assert_says(rounds_with(depth, "heavy = true"), "step[0].until.heavy (line 8): unknown key");
+  assert_says(rounds_with(depth, "depth = 0.04"),
+              "step[0].until (line 8): the step begins 10 mm beyond the plane");
+  assert_says(rounds_with(depth, "depth = 0.7"), "the step's end is still 250 mm before the plane");
+  assert_says(rounds_with("do = \"dig\"\n", "do = \"dig\"\npath = \"drives\"\n"),
+              "step[0].until (line 9): ends a line of the teeth; this step is a move");
+  assert_says(rounds_with("until = { depth = 0.1 }\n[[step]]\ndo = \"wait\"",
+                          "[[step]]\ndo = \"wait\"\nto = 3"),
+              "step[1].to (line 10): unknown key");
+  assert_says(rounds_with("count = 3, ", ""), "rounds (line 4): needs one of count and");
+  assert_says(rounds_with("count = 3", "count = 3, until_design = true"), "needs one of count and");
+  assert_says(rounds_with("count = 3", "count = 51"), "allowed: 1 .. 50");
+  assert_says(rounds_with("count = 3", "count = 3, deeper = 0.1"), "allowed: one of them");
+  assert_says(rounds_with("repeat = true\n", ""), "allowed: with repeat = true");
+  assert_says(rounds_with("count = 3, offset = [0.0, 0.0, -0.1]", "until_design = true"),
+              "each has to lead nearer to it");
+  const std::string deep =
+      rounds_with("count = 3, offset = [0.0, 0.0, -0.1]", "count = 3, offset = [1.5, 0.0, 0.0]");
+  // The first round's return already leads to where the second one begins.
+  assert_says(deep, "step 3 (return): ");
+  assert_says(deep, "; in round 1");
+  assert_says(rounds_with("do = \"wait\"",
+                          "do = \"dig\"\nto = { position = [5.8, 0.0, -0.3], attitude = 1.2 }\n"
+                          "until = { full = 0.5 }\n[[step]]\ndo = \"dig\"\nuntil = { full = 0.5 }\n"
+                          "to = { position = [4.8, 0.0, -0.3], attitude = 0.9 }"),
+              "step[2].until.full (line 15): is the second one");
+  ExcavatorProfile dry = profile("excavator_12t");
+  dry.oil = {};
+  dry.geometry.body = {};
+  for (const char* what : {"force = 2e4", "full = 0.5"}) {
+    const Written file(rounds_text(depth, what));
+    try {
+      static_cast<void>(machines::load_task(file.path(), dry));
+      fail_msg("a machine that does not know %s", what);
+    } catch (const machines::ProfileError& error) {
+      assert_says(error.errors().front(), "in the machine's profile");
+    }
+  }
+}
+
 void a_missing_task_says_where_it_looked(void**) {
   try {
     static_cast<void>(machines::find_task("no_such_task"));
@@ -258,6 +366,8 @@ int main() {
       cmocka_unit_test(boxes_and_cylinders_are_kept_out_of),
       cmocka_unit_test(a_pace_of_the_other_form_is_unknown),
       cmocka_unit_test(refusals_name_step_joint_and_place),
+      cmocka_unit_test(steps_end_early_and_rounds_repeat),
+      cmocka_unit_test(what_ends_a_step_or_a_round_is_checked),
       cmocka_unit_test(a_missing_task_says_where_it_looked),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -1,6 +1,7 @@
 /// Calm and energy of digging and of a task, from samples made by hand.
 
 #include <cmath>
+#include <cstring>
 #include <string>
 
 #include "app/runs/autodig_run.hpp"
@@ -132,6 +133,49 @@ void a_tasks_energy_is_of_a_round(void**) {
   assert_near(figure(figures, "energy_per_round_j"), 4000.0 / 3.0, 1e-9);
 }
 
+/// A step whose end was not reached is told with how far it was from it, measured and true; one
+/// that is the run's last as well, since the controller counts it in the cycle after.
+void what_has_not_arrived_is_told(void**) {
+  TaskProgram program;
+  program.step_count = 2;
+  program.step[0].kind = StepKind::kDig;
+  program.step[1].kind = StepKind::kSwing;
+  program.step[1].straight = false;
+  AutodigResult result;
+  result.spool_edges.fill({0.1, 0.1});
+  const auto add = [&](int step, double off_m, std::uint8_t missed) {
+    AutodigSample sample;
+    sample.progress.runs = true;
+    sample.progress.kind = program.step[static_cast<unsigned>(step)].kind;
+    sample.progress.step = static_cast<std::uint8_t>(step);
+    sample.progress.missed = missed;
+    sample.end_off_true_m = off_m;
+    sample.end_off_measured_m = 0.5 * off_m;
+    result.samples.push_back(sample);
+  };
+  add(0, 0.100, 0);
+  add(0, 0.004, 0);
+  add(1, 0.900, 0);
+  add(1, 0.020, 0);
+  AutodigSummary summary = summarise(program, result);
+  assert_true(summary.steps[0].arrived && summary.steps[1].arrived);
+  assert_near(summary.end_error_true_m, 0.004, 1e-12);
+  assert_near(summary.move_end_error_true_m, 0.020, 1e-12);
+  assert_near(figure(figures_of(summary), "steps_not_arrived"), 0.0, 0.0);
+  assert_null(std::strstr(steps_text(summary).c_str(), "not arrived"));
+  result.missed = 1;
+  summary = summarise(program, result);
+  assert_true(summary.steps[0].arrived && !summary.steps[1].arrived);
+  assert_near(figure(figures_of(summary), "steps_not_arrived"), 1.0, 0.0);
+  assert_non_null(std::strstr(
+      steps_text(summary).c_str(),
+      "step 1 (swing) of round 1 had not arrived: its end was still 10.0 mm away, as measured, "
+      "after 10 s"));
+  result.samples[2].progress.missed = result.samples[3].progress.missed = 1;
+  summary = summarise(program, result);
+  assert_true(!summary.steps[0].arrived && summary.steps[1].arrived);
+}
+
 }  // namespace
 
 int main() {
@@ -140,6 +184,7 @@ int main() {
       cmocka_unit_test(a_run_that_never_came_to_its_path_has_no_figures_of_it),
       cmocka_unit_test(what_was_cut_is_told),
       cmocka_unit_test(a_tasks_energy_is_of_a_round),
+      cmocka_unit_test(what_has_not_arrived_is_told),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -99,6 +99,8 @@ export interface Task {
     from_drives: readonly number[];  ///< boom, arm, bucket strokes in m, swing in rad.
     to_drives: readonly number[];
     duration_s: number;
+    raised_from_m: number;  ///< By the design, of its beginning and its end.
+    raised_to_m: number;
   }[];
   fences: readonly Fence[];
   /// The surface to dig to, where the task has one; its fence is the last of `fences`.
