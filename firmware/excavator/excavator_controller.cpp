@@ -358,7 +358,7 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
   next_tube(decision.active() && has_tube(valid.task), motion.off_m, profile_.safety.tube_m,
             memory_.tube);
   // A plan that waits for its drives asks for motion though it wants none now.
-  const bool plans = motion.task.holds && valid.speed_override_ratio > 0.0;
+  const bool plans = motion.task.holds && !motion.task.bides && valid.speed_override_ratio > 0.0;
   const bool blocked = any_blocked(memory_.watch.drives.blocked);
   // A lever that is held against an end or a fence is no stall.
   const double allowed = by_lever ? 1.0 : motion.cap.factor;

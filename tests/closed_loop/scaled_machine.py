@@ -38,7 +38,9 @@ RULES = {
     "position": LENGTH, "soil.ground": LENGTH, "soil.bias": 2 * LENGTH, "obstacle.stiffness": AREA,
     "obstacle.size": LENGTH, "air.payload": MASS, "air.payload_centre": LENGTH,
 }
-NOT_LARGER = {"swing.speed_max", "swing.acceleration_max"}
+# A smaller machine has the valve and the lags of the larger one, and is led no faster.
+OF_LARGER_ONES = {"swing.speed_max", "swing.acceleration_max", "control.swing_lead", "control.swing_servo_gain",
+                  "control.servo_frequency"}
 
 
 def power_of(path):
@@ -62,8 +64,7 @@ def scaled(value, ratio, path=()):
     power = next((power for end in range(len(path), 0, -1) if (power := power_of(path[:end])) is not None), None)
     if power is None or isinstance(value, (str, bool)):
         return value
-    factor = ratio ** power
-    return value * (min(factor, 1.0) if ".".join(path[-2:]) in NOT_LARGER else factor)
+    return value if ratio < 1.0 and ".".join(path[-2:]) in OF_LARGER_ONES else value * ratio ** power
 
 
 def toml(value):

@@ -162,6 +162,7 @@ TaskWant want_of_task(const ExcavatorProfile& profile, DriveRows drives,
       straight ? want.path_error_m : std::max(0.0, want.error_m - profile.line.move_slow_error_m);
   want.behind_m = straight ? want.error_m : behind_m(kinematics, aim, due_m - at_m);
   want.astray = !in_layers(program) && is_astray(memory.state, want.behind_m);
+  want.bides = !in_layers(program) && memory.state.settle_s > 0.0 && !want.astray;
   want.pace_ratio = memory.state.pace_ratio;
   want.wanted_mps = without_rounding(
       speed_override_ratio * travel_of(profile, want.pace_ratio * aim.velocity + aim.at_once));

@@ -47,6 +47,8 @@ struct TaskWant {
   TeethPose teeth;     ///< Where they are.
   /// See is_astray(); a program in layers leads on from wherever it ends.
   bool astray = false;
+  /// It stands near its end, or at a wait, and is not asked to get on.
+  bool bides = false;
   TaskProgress progress;
 };
 

@@ -62,7 +62,7 @@ constexpr Scale kScales[] = {
     {"PayloadDeviation", 1.0, 0.0, 0.0, 250.0},
 };
 
-void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 97); }
+void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 98); }
 
 void saturates_and_refuses(void**) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
 

@@ -145,11 +145,13 @@ void task_status(void**) {
   ExcavatorStatus& out = sender.outputs.status;
   out.swing_wanted_radps = -0.5;
   out.progress = {false, 3, 2, StepKind::kDump, 0.25};
+  out.progress.missed = 4;
   sender.call(kStartUs);
   sender.call(kStartUs + kPeriodUs);
   auto sent = sender.sent<bus::TaskStatus>();
   assert_int_equal(sent.task_number.state, RawState::kNotAvailable);
   assert_int_equal(sent.step_kind.value, bus::TaskStatus::StepKind::kNone);
+  assert_int_equal(sent.not_arrived.state, RawState::kNotAvailable);
   assert_near(sent.swing_wanted_velocity_radps.value, -0.5, 1e-12);
   out.progress.runs = true;
   sender.call(kStartUs + 2 * kPeriodUs);
@@ -160,6 +162,12 @@ void task_status(void**) {
   assert_int_equal(sent.step.value, 2);
   assert_int_equal(sent.step_kind.value, bus::TaskStatus::StepKind::kDump);
   assert_near(sent.progress.value, 0.25, 1e-12);
+  assert_int_equal(sent.not_arrived.value, 4);
+  out.progress.kind = StepKind::kWait;
+  sender.call(kStartUs + 4 * kPeriodUs);
+  sender.call(kStartUs + 5 * kPeriodUs);
+  assert_int_equal(sender.sent<bus::TaskStatus>().step_kind.value,
+                   bus::TaskStatus::StepKind::kWait);
 }
 
 // A value or, for NaN, 'not available'.

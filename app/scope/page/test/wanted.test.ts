@@ -75,7 +75,7 @@ function with_task(straight: boolean): ExcavatorMachine {
   const to: Pose = {position_m: [2.244, 3.886, 0], attitude_rad: 1.22173};
   const task: Task = {
     name: 'flatten', fences: [], design: null,
-    steps: [{kind: 'dig', straight, from, to, duration_s: 18.4,
+    steps: [{kind: 'dig', straight, from, to, duration_s: 18.4, raised_from_m: 0, raised_to_m: 0,
       from_drives: drivesFromPose(EXCAVATOR_12T, from)!,
       to_drives: drivesFromPose(EXCAVATOR_12T, to)!}],
   };
