@@ -30,11 +30,11 @@ DriveVector bounded(DriveRows drives, DriveVector travel_m) {
 
 constexpr double kStands_mps = 0.02;
 
-/// A drive that a plan leaves where it is moves by its rounding: no spool opens for that, but its
-/// load would hold up all the others.
-DriveVector without_rounding(const DriveVector& velocity_mps) {
-  constexpr double kRounding_mps = 1e-5;
-  return (velocity_mps.array().abs() < kRounding_mps).select(0.0, velocity_mps);
+/// A drive that a move hardly moves is left to its corrections: its load would hold up all others.
+DriveVector without_trifles(const DriveVector& velocity_mps) {
+  constexpr double kTrifle = 1e-3;
+  const double least_mps = kTrifle * velocity_mps.cwiseAbs().maxCoeff();
+  return (velocity_mps.array().abs() < least_mps).select(0.0, velocity_mps);
 }
 
 /// Of an error, what is not ahead along the planned motion of the teeth.
@@ -164,8 +164,9 @@ TaskWant want_of_task(const ExcavatorProfile& profile, DriveRows drives,
   want.astray = !in_layers(program) && is_astray(memory.state, want.behind_m);
   want.bides = !in_layers(program) && memory.state.settle_s > 0.0 && !want.astray;
   want.pace_ratio = memory.state.pace_ratio;
-  want.wanted_mps = without_rounding(
-      speed_override_ratio * travel_of(profile, want.pace_ratio * aim.velocity + aim.at_once));
+  const DriveVector planned_mps = travel_of(profile, want.pace_ratio * aim.velocity + aim.at_once);
+  want.wanted_mps =
+      speed_override_ratio * (want.moves ? without_trifles(planned_mps) : planned_mps);
   return want;
 }
 
