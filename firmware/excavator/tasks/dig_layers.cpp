@@ -55,12 +55,15 @@ double mean_m(const LayerPlan& plan, const Strip& strip) {
 
 bool is_done(const LayerPlan& plan, const Strip& strip) {
   int rough = 0;
+  double most_m = 0.0;
   for (int bin = 0; bin < kStripBins; ++bin) {
     const double steep = std::max(0.0, 1.0 - share_of(bin) * plan.way_m / plan.turns_m);
-    const auto top = static_cast<double>(strip[static_cast<unsigned>(bin)]);
-    rough += top > kFinish_m + kSteepHigher_m * steep ? 1 : 0;
+    const double allowed_m = bin == kStripBins - 1 ? kEnd_m : kFinish_m + kSteepHigher_m * steep;
+    const double over_m = static_cast<double>(strip[static_cast<unsigned>(bin)]) - allowed_m;
+    rough += over_m > 0.0 ? 1 : 0;
+    most_m = std::max(most_m, over_m);
   }
-  return rough == 0 || (rough == 1 && highest_m(strip) <= kLeft_m);
+  return rough == 0 || (rough == 1 && most_m <= kOnePlace_m);
 }
 
 /// The strip that stands highest of those that are not done; -1: all are.
@@ -176,7 +179,7 @@ void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state) {
   const int strip = state.cut.strip;
   const bool little = end.filled_m3 < kLittle * plan.full_m3;
   state.tries = little ? static_cast<std::uint8_t>(state.tries + 1) : std::uint8_t{0};
-  if (state.tries >= kTriesMost) {
+  if (state.tries >= (state.cut.thin ? kThinTriesMost : kTriesMost)) {
     give_up(state);
     state.tries = 0;
   }

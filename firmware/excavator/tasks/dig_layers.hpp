@@ -90,11 +90,12 @@ void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state);
 /// from beside it; its strip is cut once more, kSweepsMost times in all.
 void weigh_cut(const LayerPlan& plan, double weighed_m3, CutState& state);
 
-/// Soil counts as left if it stands higher by so much over a cut; over the design itself, in more
-/// places than one of a strip; and there by this much in any.
+/// Soil counts as left if it stands higher by so much over a cut; over the design itself; at its end,
+/// where soil piles up before the wall that stays; and in one place of a strip by this much more.
 inline constexpr double kRough_m = 0.03;
 inline constexpr double kFinish_m = 0.014;
-inline constexpr double kLeft_m = 0.022;
+inline constexpr double kEnd_m = 0.035;
+inline constexpr double kOnePlace_m = 0.008;
 /// The last cut keeps so much more where its bucket is still steep.
 inline constexpr double kSteepHigher_m = 0.016;
 /// The last layer's thickness: its force is small, and so is what the teeth spring by.
@@ -102,6 +103,8 @@ inline constexpr double kLastLayer_m = 0.06;
 /// A bucket takes a little more than what fills it: some is lost on the way.
 inline constexpr double kHeaped = 1.05;
 inline constexpr int kTriesMost = 3;
+/// The same of the last layer, where a cut that got little has left what more of them would leave.
+inline constexpr int kThinTriesMost = 1;
 inline constexpr int kSweepsMost = 12;
 /// With so many cuts a task ends, whatever is left.
 inline constexpr int kCutsMost = 250;
