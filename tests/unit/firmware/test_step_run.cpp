@@ -1,105 +1,15 @@
-/// Rounds, steps that end early, waits: from state to state.
+/// Rounds and steps that end early: from state to state.
 
-#include "firmware/excavator/tasks/step_run.hpp"
-
-#include <cmath>
 #include <limits>
 
 #include "firmware/excavator/tasks/layer_plan.hpp"
 #include "firmware/excavator/tasks/step_round.hpp"
-#include "firmware/excavator/tasks/task_follow.hpp"
-#include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/firmware/drive_replay.hpp"
+#include "tests/unit/firmware/step_task.hpp"
 
 namespace {
 
 using namespace graben;
-using test::kCycle_s;
-
-constexpr double kTop_m = -0.10;
-
-const test::ReplayMachine& machine() {
-  static const test::ReplayMachine loaded(test::excavator_12t());
-  return loaded;
-}
-
-/// With its body: a bucket that fills.
-const ExcavatorProfile& profile() { return test::excavator_12t().profile; }
-
-/// A level dig, a lift that is a line, a move back.
-ProgramRequest dig_and_lift() {
-  ProgramRequest request;
-  request.start = {{7.0, 0.0, kTop_m}, 2.2};
-  request.step[0] = {StepKind::kDig, {{4.8, 0.0, kTop_m}, 0.9}, true, 0.4, 0.0, 1.0};
-  request.step[1] = {StepKind::kLift, {{4.9, 0.0, 1.4}, 0.3}, true, 0.6, 0.0, 1.0};
-  request.step[2] = {StepKind::kReturnToDig, request.start, false, 0.0, 0.0, 0.6};
-  request.step_count = 3;
-  request.repeats = true;
-  return request;
-}
-
-ProgramRequest in_rounds(int count) {
-  ProgramRequest request = dig_and_lift();
-  request.rounds.count = count;
-  request.rounds.offset_m = {0.0, 0.0, -0.1};
-  return request;
-}
-
-void with_design(double z_m, ProgramRequest& request) {
-  request.has_design = true;
-  request.design.through_m = {0.0, 0.0, z_m};
-  request.design.clearance_m = 0.05;
-}
-
-ProgramResult plan(const ProgramRequest& request) { return plan_program(profile(), request); }
-
-TaskProgram planned(const ProgramRequest& request) {
-  const ProgramResult result = plan(request);
-  assert_int_equal(result.refusal, ProgramRefusal::kNone);
-  return result.program;
-}
-
-TaskAim aim_of(const TaskProgram& program, const TaskState& state) {
-  return task_aim(machine().kinematics, program, state);
-}
-
-/// A machine whose teeth are where they are planned to be.
-struct Exact {
-  TaskProgram program;
-  TaskState state;
-  Eigen::Vector2d force_n = Eigen::Vector2d::Zero();
-  bool force_known = true;
-
-  explicit Exact(const ProgramRequest& request) : program(planned(request)) {
-    state.phase = TaskPhase::kSteps;
-  }
-  void step() {
-    CutSeen seen;
-    seen.teeth = aim_of(program, state).teeth;
-    seen.force_known = force_known;
-    seen.force_n = force_n;
-    steps_advance(profile(), machine().kinematics, program, kCycle_s, kCycle_s, seen, state);
-  }
-  /// `each(teeth)` in every cycle of this step, until it is left.
-  template <class Each>
-  void run_step(Each&& each) {
-    const int step = state.step;
-    const int round = state.round;
-    for (int n = 0; state.phase == TaskPhase::kSteps && state.step == step && state.round == round;
-         ++n) {
-      assert_true(n < 6000);
-      const DriveVector before = aim_of(program, state).value;
-      each(aim_of(program, state).teeth);
-      this->step();
-      // The plan never jumps, from step to step neither.
-      const DriveVector by = aim_of(program, state).value - before;
-      assert_true(by.norm() < 0.05);
-    }
-  }
-  void run_step() {
-    run_step([](const TeethPose&) {});
-  }
-};
+using namespace graben::test;
 
 /// Each round digs the offset deeper; what the digs do not meet stays; then it is done, and stands
 /// where the last round began.
@@ -286,7 +196,7 @@ void what_follows_an_early_end_is_refused_at_planning(void**) {
   plain.step[0].until = {};
   // Guarded as lines: a bucket with its width and floor takes the way that is left.
   const auto of_points = [](const ProgramRequest& asked) {
-    return plan_program(machine().profile, asked);
+    return plan_program(steps_machine().profile, asked);
   };
   assert_int_equal(of_points(plain).refusal, ProgramRefusal::kNone);
   const ProgramResult with = of_points(request);
@@ -317,85 +227,6 @@ void numbers_that_say_nothing_are_refused(void**) {
   assert_true(bad(offset));
 }
 
-ProgramRequest with_wait() {
-  ProgramRequest request = dig_and_lift();
-  request.step[3] = request.step[2];
-  request.step[2] = {};
-  request.step[2].kind = StepKind::kWait;
-  request.step[2].straight = false;
-  request.step_count = 4;
-  return request;
-}
-
-/// It stands at the end of the step before until the task is asked for anew, and goes on from
-/// there; from elsewhere, or as another task, it begins anew.
-void a_wait_ends_by_the_operator_s_word(void**) {
-  Exact run(with_wait());
-  run.run_step();
-  run.run_step();
-  assert_int_equal(run.state.step, 2);
-  const DriveVector stood = aim_of(run.program, run.state).value;
-  for (int n = 0; n < 3000; ++n) {
-    run.step();
-    assert_int_equal(run.state.step, 2);
-    assert_int_equal(aim_of(run.program, run.state).kind, StepKind::kWait);
-    assert_true((aim_of(run.program, run.state).value - stood).norm() < 1e-9);
-  }
-  assert_true(run.state.waits && !run.state.word);
-  assert_int_equal(run.state.missed, 0);
-  const TaskMemory let_go = stopped(stopped(remembered(2, run.state)));
-  assert_false(let_go.runs);
-  assert_true(let_go.intact());
-  const auto asked = [&](std::uint8_t number, const DriveVector& drives) {
-    TaskMemory memory = let_go;
-    next_task(profile(), machine().kinematics, run.program, number, travel_of(profile(), drives),
-              1.0, {}, kCycle_s, memory);
-    assert_true(memory.intact());
-    return memory;
-  };
-  TaskMemory goes_on = asked(2, stood);
-  assert_true(goes_on.runs && goes_on.state.phase == TaskPhase::kSteps);
-  run.state = goes_on.state;
-  run.run_step();
-  assert_int_equal(run.state.step, 3);
-  assert_false(run.state.word || run.state.waits);
-  run.run_step();
-  assert_int_equal(run.state.step, 0);
-  assert_int_equal(asked(1, stood).state.phase, TaskPhase::kApproach);
-  DriveVector moved = stood;
-  moved[kSwing] += 0.1;
-  TaskMemory elsewhere = asked(2, moved);
-  assert_int_equal(elsewhere.state.phase, TaskPhase::kApproach);
-  assert_false(elsewhere.state.word || elsewhere.state.waits);
-}
-
-/// Not before it has arrived is a wait one: a task that stops before that begins anew.
-void on_its_way_to_a_wait_there_is_no_word(void**) {
-  Exact run(with_wait());
-  run.run_step();
-  run.run_step();
-  run.step();
-  assert_int_equal(run.state.step, 2);
-  assert_false(stopped(remembered(0, run.state)).state.word);
-}
-
-/// A wait stands on a pose that rounds move as well.
-void a_wait_in_the_ground_moves_with_it(void**) {
-  ProgramRequest request = in_rounds(2);
-  request.step[3] = request.step[2];
-  request.step[2] = request.step[1];
-  request.step[1] = {};
-  request.step[1].kind = StepKind::kWait;
-  request.step[1].straight = false;
-  request.step_count = 4;
-  const TaskProgram program = planned(request);
-  assert_true(program.step[1].from_moves && program.step[1].to_moves && program.step[2].from_moves);
-  const RoundStep wait = step_in_round(profile(), machine().kinematics, program, 1, 1, 1);
-  const TeethPose teeth = machine().teeth(wait.step.drives.from);
-  assert_near(teeth.position_m.z(), kTop_m - 0.1, 1e-9);
-  assert_near(teeth.position_m.x(), 4.8, 1e-9);
-}
-
 }  // namespace
 
 int main() {
@@ -409,9 +240,6 @@ int main() {
       cmocka_unit_test(a_round_is_not_done_again_for_ever),
       cmocka_unit_test(what_follows_an_early_end_is_refused_at_planning),
       cmocka_unit_test(numbers_that_say_nothing_are_refused),
-      cmocka_unit_test(a_wait_ends_by_the_operator_s_word),
-      cmocka_unit_test(on_its_way_to_a_wait_there_is_no_word),
-      cmocka_unit_test(a_wait_in_the_ground_moves_with_it),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
