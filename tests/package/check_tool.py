@@ -95,8 +95,8 @@ def check_lintian(package: str) -> list[str]:
 
 
 def check_install(package: str) -> list[str]:
-    import check_package
     import debian_root
+    import check_package
     with debian_root.unpacked(debian_root.fetch() / "bare.tar") as path:
         root = check_package.Root(path)
         shutil.copy("/etc/resolv.conf", path / "etc/resolv.conf")
@@ -117,6 +117,7 @@ def main() -> int:
     import tempfile
     *options, package = sys.argv[1:]
     if "--install" in options:
+        import debian_root  # First: it knows where the other two are.
         import guest
         from scenario import Nowhere
         try:
