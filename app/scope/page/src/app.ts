@@ -12,6 +12,7 @@ import {HealthPanel} from './view/health_panel';
 import {help_dialog} from './view/help';
 import {Histogram} from './view/histogram';
 import {listen_to_keys} from './view/keys';
+import {LimitShares} from './view/limit_shares';
 import {lay_out} from './view/layout';
 import {MessageTable} from './view/message_table';
 import type {View} from './view/page_state';
@@ -46,7 +47,8 @@ export function start(root: HTMLElement): void {
   const help = help_dialog();
 
   const scene = new SceneFrame(theme);
-  const plots = new PlotBoard(state, theme, words.limit);
+  const shares = new LimitShares();
+  const plots = new PlotBoard(state, theme, words.limit, shares);
   const histogram = new Histogram(theme);
   const replay = new ReplayBar(state, faults, theme);
   const header = new Header(theme, () => help.showModal());
@@ -58,7 +60,7 @@ export function start(root: HTMLElement): void {
   header.node.lastElementChild?.prepend(files.node);
 
   const panel: View[] = [
-    new StatePanel(words), new RunPanel(), new SimPanel((message) => state.send(message)),
+    new StatePanel(words), new RunPanel(theme, words, shares), new SimPanel((message) => state.send(message)),
     new FaultList(faults, words, (time_s) => state.playhead.seek(time_s)), new MessageTable(),
     new HealthPanel(),
   ];
@@ -83,6 +85,7 @@ export function start(root: HTMLElement): void {
     // for, and without a graphics card a picture takes as long as ten thousand frames.
     if (state.drawn) {
       scene.frame(state);
+      shares.update(state, now_ms);
       plots.frame(now_ms);
       histogram.frame(now_ms, state);
     }

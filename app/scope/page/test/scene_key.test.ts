@@ -88,7 +88,7 @@ function corner_words(relief_pa: number | null | undefined): string {
 test('the corner says why no cylinder has a colour, or what the colours are', () => {
   assert.match(corner_words(null), /no cylinder pressures on this bus/);
   assert.doesNotMatch(corner_words(null), /MPa/);
-  assert.match(corner_words(34e6), /Cylinder pressure, MPa.*17\|34 \(relief\)/);
+  assert.match(corner_words(34e6), /Cylinder pressure, MPa.*17 \(170\)\|34 \(340\) relief/);
   assert.doesNotMatch(corner_words(34e6), /no cylinder/);
   assert.match(corner_words(null), /old or not available.*wanted blade.*way of the edge.*design/);
   assert.equal(corner_words(undefined).replaceAll('|', ''), '');

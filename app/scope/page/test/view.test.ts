@@ -11,8 +11,10 @@ import {link_words} from '../src/view/header';
 import {FaultLog} from '../src/view/fault_log';
 import {digits_of, fixed, time_words} from '../src/view/format';
 import {stable_range} from '../src/view/plot_range';
+import {snapshot} from '../src/view/snapshot';
 import {empty_words, plots_of, plotted} from '../src/view/plots';
-import {unit_factor} from '../src/view/traces';
+import {in_unit, signal_trace, unit_factor} from '../src/view/traces';
+import theme from '../src/view/styles/theme.css?raw';
 import {page_words} from '../src/view/words';
 import {CandumpParser} from '../src/model/candump';
 import {bytes_of, line, store_of} from './make';
@@ -144,16 +146,82 @@ test('each fault is listed once, whether EcuStatus or DM1 tells it', () => {
   assert.equal(log.next(9), undefined);
 });
 
-test('the list of faults is bounded', () => {
+/// Lines of all plots of a kind, with every message there.
+function all_lines(kind: 'excavator' | 'dozer') {
+  const came = new Set(loadDatabase(kind).messages.keys());
+  return plots_of({kind, pumps: 2}, undefined, came).flatMap(({lines}) => lines);
+}
+
+test('a drive has one colour in all plots, and nothing else has it', () => {
+  const hex = (name: string, part: string) => new RegExp(`--${name}: (#[0-9a-f]{6})`).exec(part)?.[1];
+  const [light, night] = theme.split("[data-theme='dark']");
+  for (const kind of ['excavator', 'dozer'] as const) {
+    const owners = new Map<string, Set<string>>();
+    for (const {label, colour} of all_lines(kind)) {
+      const owner = /^(boom|arm|bucket|swing|blade|left|right|pump [12])\b/.exec(label.toLowerCase())?.[1]
+        ?? 'no drive';
+      for (const part of [light!, night!]) {
+        const shown = hex(colour, part) ?? hex(colour, light!)!;
+        owners.set(shown, (owners.get(shown) ?? new Set()).add(owner));
+      }
+    }
+    for (const [shown, who] of owners) {
+      assert.equal(who.size, 1, `${kind}: ${shown} is of ${[...who].join(' and ')}`);
+    }
+    const own = all_lines(kind).filter(({label}) => /^(Boom|Arm|Bucket|Swing|Blade)/.test(label));
+    for (const {label, colour} of own) {
+      assert.equal(colour.replace('-soft', ''), label.split(' ')[0]!.toLowerCase(), label);
+    }
+  }
+});
+
+test('an operator reads km/h and deg/s', () => {
+  const units = new Map(['excavator', 'dozer'].flatMap((kind) =>
+    plots_of({kind: kind as 'excavator', pumps: 2}, undefined,
+      new Set(loadDatabase(kind as 'excavator').messages.keys())).map(({name, unit}) => [name, unit])));
+  assert.equal(units.get('speeds'), 'km/h');
+  assert.equal(units.get('swing'), 'deg/s');
+  assert.equal(unit_factor('m/s', 'km/h'), 3.6);
+  assert.ok(Math.abs(unit_factor('rad/s', 'deg/s')! - 57.29578) < 1e-5);
+  const speed = in_unit(signal_trace('EcuStatus.Lambda'), 2);
+  const {store} = page(stroke(0) + status(0, 3, 0, 0, 0.25) + status(1, 3, 0, 0, 0.5));
+  assert.ok(Math.abs(speed.reading(store, 1).value - 1) < 1e-4);
+  const most = Math.max(...speed.curve(store, 0, 2, 10).value.filter(Number.isFinite));
+  assert.ok(Math.abs(most - 1) < 1e-4);
+});
+
+test('in an hour with a fault every second the button leads back to the first', () => {
   let text = stroke(0);
-  for (let k = 1; k <= 300; ++k) {
+  for (let k = 1; k <= 3600; ++k) {
     text += status(k, 5, 21) + status(k + 0.5, 3, 0);
   }
   const log = new FaultLog();
   log.update(page(text).store);
-  assert.equal(log.events.length, 200);
-  assert.equal(log.total, 300);
-  assert.equal(log.events.at(-1)?.time_s, 300);
+  assert.equal(log.events.length, 3600);
+  let steps = 0;
+  for (let at = log.last(Infinity); at !== undefined; at = log.last(at.time_s - 1e-6)) {
+    assert.equal(at.time_s, 3600 - steps++);
+  }
+  assert.equal(steps, 3600);
+  assert.equal(log.next(0)?.time_s, 1);
+});
+
+test('what a controller still waits for before it is ready is no fault', () => {
+  const text = stroke(0) + status(0, 0, 1) + trouble(0.01, 1) + status(0.5, 0, 2) + status(1, 1, 0)
+    + status(2, 3, 0, 0, 1) + status(3, 5, 21) + status(4, 0, 1);
+  const state = page(text);
+  const log = new FaultLog();
+  log.update(state.store);
+  assert.deepEqual(log.events.map(({time_s, code}) => [time_s, code]), [[3, 21], [4, 1]]);
+  state.playhead.seek(0.2);
+  assert.ok(!('fault' in alarms(state)) && !('dm1' in alarms(state)));
+  const {fault, waits_for} = snapshot(state.store, 0.2);
+  assert.deepEqual([fault, waits_for], [0, 1]);
+  state.playhead.seek(3.5);
+  assert.match(alarms(state).fault!, /fault 21/);
+  // One that begins in a fault has one.
+  const broken = page(stroke(0) + status(0, 5, 21));
+  assert.match(alarms(broken).fault!, /fault 21/);
 });
 
 test('a stopped machine and a plan that cannot work are alarms', () => {
@@ -265,18 +333,20 @@ function live_page(mode: 'can' | 'sim'): State {
   return state;
 }
 
-test('what a lost server said becomes old', () => {
+test('without its server the clock stands and everything is old', () => {
   for (const mode of ['can', 'sim'] as const) {
     const state = live_page(mode);
     state.onClosed('the server does not answer', 1);
     state.playhead.tick(2);
-    assert.equal(state.playhead.now_s, 2, mode);
+    state.playhead.tick(2);
+    assert.equal(state.playhead.now_s, 0, mode);
     assert.ok(state.messages().every(({stale, message}) => stale || message.cycle_ms === 0));
     state.onOpened();
     state.onMessage({kind: 'sim', running: false, pace: 1, speed: 1, soil: false, obstacle: false,
       faults: []});
     state.playhead.tick(2);
-    assert.equal(state.playhead.now_s, mode === 'sim' ? 0 : 4, mode);
+    state.playhead.tick(2);
+    assert.equal(state.playhead.now_s, mode === 'sim' ? 0 : 2, mode);
   }
 });
 

@@ -25,11 +25,6 @@ export class Batches {
     this.restart = true;
   }
 
-  /// The same source again, from the beginning of a line.
-  resume(): void {
-    this.parser.forget_rest();
-  }
-
   feed(text: Uint8Array): void {
     this.parser.feed(text);
     this.text_bytes += text.length;

@@ -280,6 +280,9 @@ export interface FrameStore {
   bus_load(time_s: number, bitrate: number): number;
   /// Times at which a fault begins, as EcuStatus has it, with its number.
   faults(): readonly {time_s: number; code: number}[];
+  /// When the controller was first anything but Silent; Infinity: not yet. What it reports before
+  /// is what it waits for, and no fault.
+  readonly ready_s: number;
   readonly health: LogHealth;
 }
 

@@ -1,6 +1,7 @@
 /// The keys, and what the picture means.
 
 import {button, el} from './dom';
+import {notices} from './notices';
 
 export const KEYS: readonly (readonly [string, string])[] = [
   ['Space', 'play or pause'],
@@ -29,7 +30,7 @@ export function help_dialog(): HTMLDialogElement {
     el('h2', {id: 'help-title'}, 'Help'),
     el('dl', {}, ...KEYS.flatMap(([keys, words]) => [
       el('dt', {}, ...keys.split(' ').map((key) => el('kbd', {}, key))), el('dd', {}, words)])),
-    ...MORE.map((words) => el('p', {}, words)));
+    ...MORE.map((words) => el('p', {}, words)), notices());
   dialog.append(button('Close', () => dialog.close(), {class: 'primary'}));
   document.body.append(dialog);
   return dialog;

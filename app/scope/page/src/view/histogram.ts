@@ -9,7 +9,7 @@ import type {PageState} from './page_state';
 import type {ThemeSwitch} from './theme';
 
 const EVERY_MS = 500;
-const HEIGHT_PX = 130;
+const HEIGHT_PX = 144;
 
 export class Histogram {
   readonly node: HTMLElement;
@@ -97,12 +97,15 @@ export class Histogram {
         }},
         y: {range: (_plot, _min, max) => [0, Math.max(1, max * 1.05)]},
       },
-      axes: [{...axis, size: 26, space: 60}, {
+      axes: [{
+        ...axis, size: 24, space: 60, label: 'cycle time, µs', labelSize: 16, labelGap: 0,
+        labelFont: '12px system-ui, sans-serif',
+      }, {
         ...axis, size: 48, space: 28, label: 'cycles', labelSize: 16, labelGap: 2,
         labelFont: '12px system-ui, sans-serif',
       }],
       series: [{}, {
-        stroke: () => theme.colour('boom'), fill: () => theme.colour('boom-soft'), width: 1,
+        stroke: () => theme.colour('first'), fill: () => theme.colour('available-soft'), width: 1,
         points: {show: false}, paths: uPlot.paths.bars!({size: [1, Infinity], gap: 1}),
       }],
     };

@@ -19,6 +19,7 @@ export interface PageState {
   readonly extent: {readonly from_s: number; readonly until_s: number};
   machine: Machine | null;
   link: Link;
+  readonly is_gone: boolean;  ///< The newest is shown, and nothing newer can come.
   dropped: number;          ///< Frames that the server left out for this page.
   bus: {up: boolean; words: string} | null;
   sim: SimState | null;
