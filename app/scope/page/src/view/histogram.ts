@@ -23,7 +23,7 @@ export class Histogram {
 
   constructor(private readonly theme: ThemeSwitch) {
     this.node = el('figure', {class: 'plot', 'data-name': 'cycle'},
-      el('figcaption', {}, el('h3', {}, 'Cycle time', el('span', {class: 'unit'}, ', µs'))),
+      el('figcaption', {}, el('h3', {}, 'Cycle times, how often', el('span', {class: 'unit'}, ', µs'))),
       this.words, this.canvas);
     new IntersectionObserver(([entry]) => {
       this.visible = entry?.isIntersecting ?? false;
