@@ -25,7 +25,7 @@ test('the key has what is drawn: of the dig, of a task, of a plan, of a dozer', 
   assert.equal(of({}), 'ghost path trail');
   assert.equal(of({design, fences: [fence]}), 'ghost path trail design');
   assert.equal(of({design, fences: [fence, fence]}), 'ghost path trail design fence');
-  assert.equal(of({fences: [fence]}, false), 'path fence');
+  assert.equal(of({fences: [fence]}, false), 'path ghost fence');
   assert.equal(marks(excavator_key(EXCAVATOR_22T, ALL, 'none', true)), 'ghost trail');
   assert.equal(marks(dozer_key(ALL)), 'ghost trail design');
 });

@@ -278,7 +278,8 @@ function with_truth(plots: PlotSpec[], run: Run): PlotSpec[] {
     }
     const factor = unit_factor(line.unit, plot.unit) ?? 1;
     plot.lines.push({
-      label: line.label, style: all.indexOf(plot) < plots.length ? 'truth' : 'real',
+      label: line.label,
+      style: all.indexOf(plot) < plots.length || line.label.endsWith(', limit') ? 'truth' : 'real',
       colour: colour_of(line.label, plot.lines.length),
       digits: plot.lines[0]?.digits ?? digits_for(line.values),
       trace: truth_trace(run, line, factor),
