@@ -15,8 +15,8 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-/// Zhang's figures 5 to 10: displacement, velocity and acceleration of each drive, the last two with
-/// the limit that the plan keeps in that direction.
+/// Zhang's figures 5 to 10: displacement, velocity and acceleration of each drive, the last two
+/// with the limit that the plan keeps in that direction.
 json truth(const std::vector<runs::PlanSample>& samples, const DriveLimits& limits) {
   Truth<runs::PlanSample> lines(samples);
   lines.add("way", "Teeth along the line", "way", "m", 4,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The scope as a user has it: drive.mjs OUT RUN GRABEN [--blind]. RUN is the script `run`, GRABEN the
 /// tool; what is left of a failure is in OUT. With --blind the page gets a log without the boom's
 /// strokes from 1 s on, whose machine must be found to stand elsewhere.

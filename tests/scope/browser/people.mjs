@@ -1,4 +1,5 @@
-/// The page as people have it on three screens and a phone's two sides: people.mjs OUT GRABEN. What is
+// SPDX-License-Identifier: Apache-2.0
+/// The page as people have it on three screens and a phone's two sides: people.mjs OUT GRABEN [SCENARIO]. What is
 /// pressed most is in reach, words stand on a ground of their own, what is shown is true, nothing
 /// that axe-core knows of is violated, in both themes.
 
@@ -8,10 +9,11 @@ import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {join} from 'node:path';
 import {pathToFileURL} from 'node:url';
-import {look, more_frames, open_browser, open_page, rest, run_scenarios, serve, until} from './harness.mjs';
+import {
+  look, more_frames, open_browser, open_page, pressable, rest, run_scenarios, serve, SIZES, until,
+} from './harness.mjs';
 
-const [out, graben] = process.argv.slice(2);
-const SIZES = [[1400, 900], [1024, 768], [844, 390], [390, 844]];
+const [out, graben, only] = process.argv.slice(2);
 const AXE = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const REPORTS = ['dig', 'grade', 'autodig', 'plan', 'check'];
 
@@ -24,6 +26,10 @@ for (const command of [['dig'], ['grade'], ['autodig'], ['plan'], ['check', 'exc
 const scope = (...options) => serve(graben, ['scope', '--port', '0', ...options]);
 const clean = (page) => assert.deepEqual(page.problems, []);
 const url_of = (name) => pathToFileURL(join(out, `${name}.html`)).href;
+const whole = (page) => until('the log is whole', async () => {
+  const seen = await look(page);
+  return seen.frames > 1000 && seen.loaded === 1;
+});
 const active = (page) => page.waitForFunction(() => window.grabenScope?.mode() === 'Active');
 
 async function at_each_size(url, ready, judge) {
@@ -35,13 +41,6 @@ async function at_each_size(url, ready, judge) {
     await page.context().close();
   }
 }
-
-/// Whether what is in the middle of a node can be pressed there, without scrolling.
-const pressable = (page, name) => page.getByRole('button', {name, exact: true}).first().evaluate((node) => {
-  const box = node.getBoundingClientRect();
-  const at = document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2);
-  return box.width >= 40 && box.height >= 28 && (at === node || node.contains(at));
-});
 
 /// Play and Stop, not under the toolbar, and not a long way down.
 async function in_reach() {
@@ -67,7 +66,7 @@ async function in_reach() {
 
 async function scene_is_large_enough() {
   const heights = [];
-  await at_each_size(url_of('dig'), (page) => until('loaded', async () => (await look(page)).loaded === 1),
+  await at_each_size(url_of('dig'), whole,
     async (page, size, {height}) => {
       const box = await page.locator('.scene-host').boundingBox();
       heights.push(`${size}: ${Math.round(box.height)}`);
@@ -78,7 +77,7 @@ async function scene_is_large_enough() {
 
 /// Key and scale have a ground that keeps 4.5 to 1 whatever the machine is behind them.
 async function legend_has_a_ground() {
-  await at_each_size(url_of('dig'), (page) => until('loaded', async () => (await look(page)).loaded === 1),
+  await at_each_size(url_of('dig'), whole,
     async (page, size) => {
       const alphas = await page.locator('.scene-corner > *').evaluateAll((nodes) => nodes.map((node) => {
         const found = /\/ ([0-9.]+)\)|rgba\(.*, ([0-9.]+)\)/.exec(getComputedStyle(node).backgroundColor);
@@ -104,7 +103,7 @@ async function names_are_told_apart() {
 /// The strip's key and the run's table say the same, in the same colours.
 async function shares_of_one_window() {
   const page = await open_page(browser, url_of('dig'));
-  await until('loaded', async () => (await look(page)).loaded === 1);
+  await whole(page);
   const read = () => page.evaluate(() => {
     const rgb = (node, what) => getComputedStyle(node)[what];
     return {
@@ -200,7 +199,7 @@ async function own_lateness() {
 
 /// The first Tab, and Enter: the panel is in sight and has the focus.
 async function skip_link() {
-  await at_each_size(url_of('dig'), (page) => until('loaded', async () => (await look(page)).loaded === 1),
+  await at_each_size(url_of('dig'), whole,
     async (page, size) => {
       await page.keyboard.press('Tab');
       const link = page.locator('.skip');
@@ -223,7 +222,7 @@ async function skip_link() {
 /// Paper has the scene, the figures and every plot, and no button.
 async function print() {
   const page = await open_page(browser, url_of('dig'));
-  await until('loaded', async () => (await look(page)).loaded === 1);
+  await whole(page);
   await page.emulateMedia({media: 'print'});
   const shown = await page.evaluate(() => {
     const seen = (node) => node.getClientRects().length > 0;
@@ -258,7 +257,7 @@ async function fault_before() {
   writeFileSync(join(out, 'many.log'), [...log, ...lines, ''].join('\n'));
   const server = await scope('--log', join(out, 'many.log'));
   const page = await open_page(browser, server.url);
-  await until('loaded', async () => (await look(page)).loaded === 1);
+  await whole(page);
   await page.keyboard.press('End');
   const {now: end} = await look(page);
   for (let k = 0; k < 400; ++k) await page.keyboard.press('p');
@@ -321,7 +320,6 @@ async function axe_clean() {
   return `${looks} looks`;
 }
 
-const only = process.argv[4];
 const scenarios = {in_reach, scene_is_large_enough, legend_has_a_ground, names_are_told_apart, shares_of_one_window,
   history_is_kept, server_gone, own_lateness, skip_link, print, fault_before, notices, axe_clean};
 const failed = await run_scenarios(join(out, 'failed'), browser, only === undefined ? scenarios

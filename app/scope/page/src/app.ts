@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The page put together: what shows what is known, and the loop that keeps it in step.
 
 import {createFeed, embedded_setup} from './feed/feed';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the page knows, and how what the feed says changes it.
 
 import type {FeedEvents} from './feed/feed';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import type {Run, Setup} from '../src/model/api';
@@ -11,55 +12,13 @@ import {link_words} from '../src/view/header';
 import {FaultLog} from '../src/view/fault_log';
 import {digits_of, fixed, time_words} from '../src/view/format';
 import {stable_range} from '../src/view/plot_range';
-import {snapshot} from '../src/view/snapshot';
 import {empty_words, plots_of, plotted} from '../src/view/plots';
-import {in_unit, signal_trace, unit_factor} from '../src/view/traces';
-import theme from '../src/view/styles/theme.css?raw';
+import {unit_factor} from '../src/view/traces';
 import {page_words} from '../src/view/words';
 import {CandumpParser} from '../src/model/candump';
 import {bytes_of, line, store_of} from './make';
+import {SETUP, EXCAVATOR, id, stroke, status, trouble, identity, page} from './status';
 import {DOZER_9T, EXCAVATOR_12T, EXCAVATOR_22T} from './machines';
-
-const SETUP: Setup = {
-  source: {mode: 'log', name: 'a.log', bytes: 1, bitrate: 500000}, machines: [],
-  words: {fault: {0: 'none', 21: 'a spool does not obey', 37: 'no such task'}, why_not_armed: []},
-};
-const EXCAVATOR = loadDatabase('excavator');
-
-const id = (message: string): number => EXCAVATOR.messages.get(message)!.id;
-const stroke = (time_s: number): string => line(time_s, id('BoomStroke'), new Uint8Array(8));
-
-function status(time_s: number, mode: number, fault: number, limit = 0, lambda = 0): string {
-  const raw = Math.round(lambda / 0.00002);
-  return line(time_s, id('EcuStatus'),
-    [mode | (limit << 4), 0, raw & 0xff, raw >> 8, fault, 0, 0, 0]);
-}
-
-function trouble(time_s: number, fault: number): string {
-  const spn = fault === 0 ? 0 : 520192 + fault;
-  return line(time_s, id('DM1'),
-    [0, 0xff, spn & 0xff, (spn >> 8) & 0xff, (spn >> 16) << 5, 1, 0xff, 0xff]);
-}
-
-function identity(time_s: number, hash: number, version: number): string {
-  return line(time_s, id('EcuIdentity'), [hash & 0xff, (hash >> 8) & 0xff, (hash >> 16) & 0xff,
-    hash >>> 24, version, 0xff, 0xff, 0xff]);
-}
-
-/// The page after a log that ended, at its last moment.
-function page(text: string, setup = SETUP): State {
-  const state = new State(false);
-  const parser = new CandumpParser();
-  parser.feed(bytes_of(text));
-  parser.end();
-  state.onOpened();
-  state.onSetup(setup);
-  state.onFrames({...parser.take(), restart: true}, text.length);
-  state.onMessage({kind: 'end'});
-  state.know_machine();
-  state.playhead.seek(state.extent.until_s);
-  return state;
-}
 
 const alarms = (state: State): Record<string, string> => Object.fromEntries(
   alarms_of(state, page_words(state))
@@ -144,84 +103,6 @@ test('each fault is listed once, whether EcuStatus or DM1 tells it', () => {
   assert.equal(log.last(8)?.code, 17);
   assert.equal(log.next(1.11)?.time_s, 9);
   assert.equal(log.next(9), undefined);
-});
-
-/// Lines of all plots of a kind, with every message there.
-function all_lines(kind: 'excavator' | 'dozer') {
-  const came = new Set(loadDatabase(kind).messages.keys());
-  return plots_of({kind, pumps: 2}, undefined, came).flatMap(({lines}) => lines);
-}
-
-test('a drive has one colour in all plots, and nothing else has it', () => {
-  const hex = (name: string, part: string) => new RegExp(`--${name}: (#[0-9a-f]{6})`).exec(part)?.[1];
-  const [light, night] = theme.split("[data-theme='dark']");
-  for (const kind of ['excavator', 'dozer'] as const) {
-    const owners = new Map<string, Set<string>>();
-    for (const {label, colour} of all_lines(kind)) {
-      const owner = /^(boom|arm|bucket|swing|blade|left|right|pump [12])\b/.exec(label.toLowerCase())?.[1]
-        ?? 'no drive';
-      for (const part of [light!, night!]) {
-        const shown = hex(colour, part) ?? hex(colour, light!)!;
-        owners.set(shown, (owners.get(shown) ?? new Set()).add(owner));
-      }
-    }
-    for (const [shown, who] of owners) {
-      assert.equal(who.size, 1, `${kind}: ${shown} is of ${[...who].join(' and ')}`);
-    }
-    const own = all_lines(kind).filter(({label}) => /^(Boom|Arm|Bucket|Swing|Blade)/.test(label));
-    for (const {label, colour} of own) {
-      assert.equal(colour.replace('-soft', ''), label.split(' ')[0]!.toLowerCase(), label);
-    }
-  }
-});
-
-test('an operator reads km/h and deg/s', () => {
-  const units = new Map(['excavator', 'dozer'].flatMap((kind) =>
-    plots_of({kind: kind as 'excavator', pumps: 2}, undefined,
-      new Set(loadDatabase(kind as 'excavator').messages.keys())).map(({name, unit}) => [name, unit])));
-  assert.equal(units.get('speeds'), 'km/h');
-  assert.equal(units.get('swing'), 'deg/s');
-  assert.equal(unit_factor('m/s', 'km/h'), 3.6);
-  assert.ok(Math.abs(unit_factor('rad/s', 'deg/s')! - 57.29578) < 1e-5);
-  const speed = in_unit(signal_trace('EcuStatus.Lambda'), 2);
-  const {store} = page(stroke(0) + status(0, 3, 0, 0, 0.25) + status(1, 3, 0, 0, 0.5));
-  assert.ok(Math.abs(speed.reading(store, 1).value - 1) < 1e-4);
-  const most = Math.max(...speed.curve(store, 0, 2, 10).value.filter(Number.isFinite));
-  assert.ok(Math.abs(most - 1) < 1e-4);
-});
-
-test('in an hour with a fault every second the button leads back to the first', () => {
-  let text = stroke(0);
-  for (let k = 1; k <= 3600; ++k) {
-    text += status(k, 5, 21) + status(k + 0.5, 3, 0);
-  }
-  const log = new FaultLog();
-  log.update(page(text).store);
-  assert.equal(log.events.length, 3600);
-  let steps = 0;
-  for (let at = log.last(Infinity); at !== undefined; at = log.last(at.time_s - 1e-6)) {
-    assert.equal(at.time_s, 3600 - steps++);
-  }
-  assert.equal(steps, 3600);
-  assert.equal(log.next(0)?.time_s, 1);
-});
-
-test('what a controller still waits for before it is ready is no fault', () => {
-  const text = stroke(0) + status(0, 0, 1) + trouble(0.01, 1) + status(0.5, 0, 2) + status(1, 1, 0)
-    + status(2, 3, 0, 0, 1) + status(3, 5, 21) + status(4, 0, 1);
-  const state = page(text);
-  const log = new FaultLog();
-  log.update(state.store);
-  assert.deepEqual(log.events.map(({time_s, code}) => [time_s, code]), [[3, 21], [4, 1]]);
-  state.playhead.seek(0.2);
-  assert.ok(!('fault' in alarms(state)) && !('dm1' in alarms(state)));
-  const {fault, waits_for} = snapshot(state.store, 0.2);
-  assert.deepEqual([fault, waits_for], [0, 1]);
-  state.playhead.seek(3.5);
-  assert.match(alarms(state).fault!, /fault 21/);
-  // One that begins in a fault has one.
-  const broken = page(stroke(0) + status(0, 5, 21));
-  assert.match(alarms(broken).fault!, /fault 21/);
 });
 
 test('a stopped machine and a plan that cannot work are alarms', () => {

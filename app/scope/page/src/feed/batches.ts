@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Text in, blocks of frames out: at once where there are many, else in batches.
 
 import {CandumpParser} from '../model/candump';

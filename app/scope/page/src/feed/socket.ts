@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The WebSocket to the server, for as long as the page lives: lost, it is tried again.
 
 import type {FromServer, Setup} from '../model/api';

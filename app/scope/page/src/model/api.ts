@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the parts of the page know of each other. SI units unless the name says otherwise; times in
 /// seconds as the log has them (candump's stamps, which may be seconds since 1970).
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The moment that the whole page shows, and the stretch of time that its plots show.
 
 import type {Playhead} from './api';

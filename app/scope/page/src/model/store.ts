@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The frames that the page has, by message: everything that it shows is asked of here.
 
 import type {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The scene's lower left corner: the scale of pressures and the key of the layers, side by side
 /// where there is room.
 

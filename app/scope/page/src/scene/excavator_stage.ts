@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The excavator with its path, its soil and what bounds it.
 
 import {Box3, Group, Object3D, Sphere, Vector3 as Point} from 'three';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the colours of the scene mean: a mark and words for each layer that is on, in its corner.
 
 import type {ExcavatorMachine} from '../model/api';

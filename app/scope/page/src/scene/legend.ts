@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The scale of the cylinders' colours, in a corner of the scene.
 
 import {pressure_gradient} from './theme';

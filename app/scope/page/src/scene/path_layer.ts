@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What an excavator's teeth are meant to do: the digging path with the field around it, or the
 /// steps of a task.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The faults as a list; a click shows the moment at which one began.
 
 import {button, el, Rows, section, set_attribute, set_shown, set_text} from './dom';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Every fault that began, by EcuStatus and by DM1, in the order of time.
 
 import type {FrameStore} from '../model/api';

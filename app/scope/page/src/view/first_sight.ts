@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Where a run that is over is first looked at: what it has to tell, in motion.
 
 import type {FrameStore} from '../model/api';

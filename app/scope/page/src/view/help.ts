@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The keys, and what the picture means.
 
 import {button, el, set_shown} from './dom';

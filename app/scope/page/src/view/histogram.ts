@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// How long the control cycles took, over the window of the plots.
 
 import uPlot from 'uplot';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Where everything stands: landmarks in reading order, which is also the order of the Tab key.
 
 import {el} from './dom';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// One colour per limit, wherever it is shown: by its kind, a shade of it by whose it is. So boom and
 /// arm stay apart, and the same limit looks the same in every strip, table and page.
 

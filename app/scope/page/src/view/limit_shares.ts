@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// How long what held lambda, over the window of the plots: counted once, for the strip's key and the
 /// run's table alike.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What holds lambda, as a strip of colours below its curve, with a key of names and shares.
 
 import type uPlot from 'uplot';

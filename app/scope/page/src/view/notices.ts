@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Whose work is in this page beside ours, with the licences that have to come with it.
 
 import candied from '../../node_modules/candied/LICENSE?raw';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What every part of the page is shown, and what it may ask for.
 
 import type {

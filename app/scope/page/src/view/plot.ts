@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// One plot: uPlot with the page's theme, the playhead's line, a legend with values.
 
 import uPlot from 'uplot';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// All plots of a machine: one window, one cursor. Curves are fetched only for plots in sight, at
 /// most fifteen times a second, and a few at a time, so that the scene keeps its frames.
 

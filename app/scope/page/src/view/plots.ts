@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Which plots there are, by machine. Their names are those that Run.truth.lines[].plot may name;
 /// such a line is added, dashed, converted to the plot's unit.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The moment that is shown: play, pause, speed, scrub, step, jump from fault to fault.
 
 import {button, el, set_attribute, set_shown, set_text} from './dom';

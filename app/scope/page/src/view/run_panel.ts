@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Of a run that is over: its figures, and what held lambda for how long in the plots' window.
 
 import type {Run} from '../model/api';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Controls of a simulation: its pace, the operator's speed, the ground, and faults by button.
 /// What is shown as on is what the server says is on, not what was clicked.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the controller says of itself at one moment, read once for all parts of the panel.
 
 import type {FrameStore, Reading} from '../model/api';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Mode, lambda with its reason, and why the controller is not armed, in words.
 
 import {is_stale} from '../model/integrity';

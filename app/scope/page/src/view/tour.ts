@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Twenty seconds that show what there is to see, on the first simulation that a browser opens: they
 /// end in a fault, and in what the controller did of it. Whoever has asked for less motion is not
 /// shown them unless asked for in the help.
@@ -120,7 +121,7 @@ export class Tour implements View {
   private look_at(node: Element | null): void {
     document.querySelectorAll('.toured').forEach((one) => one.classList.remove('toured'));
     node?.classList.add('toured');
-    node?.scrollIntoView({block: 'nearest'});
+    node?.scrollIntoView({block: 'center'});
   }
 
   private finish(): void {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Where the curves of the plots come from: a signal of a frame, what the model makes of signals,
 /// or what only the simulation of a finished run knew.
 
