@@ -148,6 +148,7 @@ export interface Run {
   /// of that name (see view/plots.ts), or on a plot of its own by a name that is not there.
   truth: {
     time_s: readonly number[];
+    note?: string;  ///< What these lines are, where they are no simulation's.
     lines: readonly {plot: string; title?: string; label: string; unit: string;
       values: readonly (number | null)[]}[];
   };

@@ -268,7 +268,8 @@ function digits_for(values: readonly (number | null)[]): number {
 
 function with_truth(plots: PlotSpec[], run: Run): PlotSpec[] {
   const all = plots.map((plot) => ({...plot, lines: [...plot.lines]}));
-  const planned = run.pose === undefined ? 'Known to the simulation' : 'As planned';
+  const planned = run.truth.note
+    ?? (run.pose === undefined ? 'Known to the simulation' : 'As planned');
   for (const line of run.truth.lines) {
     let plot = all.find(({name, unit}) =>
       name === line.plot && unit_factor(line.unit, unit) !== null);
@@ -280,7 +281,7 @@ function with_truth(plots: PlotSpec[], run: Run): PlotSpec[] {
     const factor = unit_factor(line.unit, plot.unit) ?? 1;
     plot.lines.push({
       label: line.label,
-      style: all.indexOf(plot) < plots.length || line.label.endsWith(', limit') ? 'truth' : 'real',
+      style: all.indexOf(plot) < plots.length || /, (limit|second)$/.test(line.label) ? 'truth' : 'real',
       colour: colour_of(line.label, plot.lines.length),
       digits: plot.lines[0]?.digits ?? digits_for(line.values),
       trace: truth_trace(run, line, factor),
