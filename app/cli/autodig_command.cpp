@@ -6,7 +6,9 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
+#include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
+#include "app/cli/output_file.hpp"
 #include "app/machines/task_text.hpp"
 #include "app/reports/run_reports.hpp"
 #include "app/runs/autodig_run.hpp"
@@ -39,6 +41,9 @@ void throw_unless_done(const runs::AutodigResult& result) {
 }  // namespace
 
 void run_task(const TaskCommand& options) {
+  if (!options.scenario.start.empty()) {
+    assert_radians("--start: attitude", options.scenario.start.back());
+  }
   const machines::SimulatedExcavator machine =
       runs::arranged(machines::load_simulated_excavator(machines::find_profile(options.profile),
                                                         options.simulated),
@@ -47,8 +52,10 @@ void run_task(const TaskCommand& options) {
   runs::AutodigOptions run =
       runs::usual_run(options.scenario, machine.profile, task.result.program);
   const fs::path out(options.out);
-  fs::create_directories(out);
+  const fs::path report = out / (options.name + ".html");
   run.log_file = out / (options.name + ".log");
+  assert_apart({}, {run.log_file.string(), report.string(), options.summary});
+  fs::create_directories(out);
   runs::AutodigResult result;
   {
     ProgressBar bar(options.name);
@@ -56,7 +63,6 @@ void run_task(const TaskCommand& options) {
   }
   runs::AutodigSummary summary = runs::summarise(task.result.program, result);
   summary.raised_max_m = machines::most_raised_m(task.request, task.result);
-  const fs::path report = out / (options.name + ".html");
   reports::write_autodig_report(
       {report, scope::scope_page()}, run.log_file, machine, task, result, summary,
       fmt::format("{} | task {} | {} | speed {:.0f} %", runs::machine_text(machine),
@@ -89,6 +95,8 @@ void add_autodig(CLI::App& app, int& status) {
   command->add_option("--seed", options->scenario.seed, "Of --errors, a whole number from 0")
       ->check(whole_number())
       ->capture_default_str();
+  add_examples(*command, {"autodig --task trench --soil loam --errors all",
+                          "autodig --task flatten --out out/flat --summary out/flat.json"});
   command->callback(
       [options, &status] { status = guarded("autodig", [&] { run_task(*options); }); });
 }

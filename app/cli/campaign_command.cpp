@@ -8,6 +8,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
+#include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
 #include "app/runs/campaign_run.hpp"
 
@@ -56,7 +57,7 @@ struct MergeOptions {
 
 void add_campaign_options(CLI::App& command, runs::CampaignOptions& options) {
   command.add_option("--draws", options.draws, "How many, 1 .. 1000000")
-      ->check(whole_number() & CLI::Range(1, 1000000))
+      ->check(whole_number_between(1, 1000000))
       ->capture_default_str();
   command.add_option("--seed", options.seed, "Of the first draw; each next has the next")
       ->check(whole_number())
@@ -65,7 +66,7 @@ void add_campaign_options(CLI::App& command, runs::CampaignOptions& options) {
       ->capture_default_str();
   command.add_option("--summary", options.summary, "CSV, a row for each draw")->required();
   command.add_option("--jobs", options.jobs, "Threads, 1 .. 256; all cores unless told")
-      ->check(whole_number() & CLI::Range(1, 256));
+      ->check(whole_number_between(1, 256));
 }
 
 /// Runs one with a progress bar and prints what came of it.
@@ -136,6 +137,8 @@ void add_campaign_dig(CLI::App& campaign, int& status) {
   add_simulated_options(*command, options->simulated);
   add_scenario_options(*command, options->scenario);
   add_found_option(*command, options->scenario.scenario.found);
+  add_examples(*command, {"campaign dig --draws 40 --errors kim --summary out/draws.csv",
+                          "campaign dig --shard 2/8 --summary out/shard2.csv"});
   command->callback(
       [options, &status] { status = guarded("campaign dig", [&] { campaign_dig(*options); }); });
 }
@@ -152,6 +155,7 @@ void add_campaign_grade(CLI::App& campaign, int& status) {
   add_speed_options(*command, options->scenario);
   add_engine_option(*command, options->scenario);
   add_error_option(*command, options->scenario);
+  add_examples(*command, {"campaign grade --draws 40 --summary out/grades.csv"});
   command->callback([options, &status] {
     status = guarded("campaign grade", [&] { campaign_grade(*options); });
   });
@@ -171,6 +175,7 @@ void add_campaign_identify(CLI::App& campaign, int& status) {
       "--as-designed", options->as_designed,
       "The profile's own simulated machine with Kim's errors, instead of hidden ones");
   add_override_option(*command, options->speed_override_ratio);
+  add_examples(*command, {"campaign identify --draws 4 --summary out/hidden.csv"});
   command->callback([options, &status] {
     status = guarded("campaign identify", [&] { campaign_identify(*options); });
   });
@@ -191,6 +196,7 @@ void add_campaign_fences(CLI::App& campaign, int& status) {
       ->check(error_name())
       ->capture_default_str();
   add_simulated_options(*command, options->simulated);
+  add_examples(*command, {"campaign fences --draws 100 --summary out/fences.csv"});
   command->callback([options, &status] {
     status = guarded("campaign fences", [&] { campaign_fences(*options); });
   });
@@ -206,6 +212,7 @@ void add_campaign_autodig(CLI::App& campaign, int& status) {
   options->scenario.errors = "all";
   add_simulated_options(*command, options->simulated);
   add_task_options(*command, options->scenario);
+  add_examples(*command, {"campaign autodig --task trench --draws 20 --summary out/trench.csv"});
   command->callback([options, &status] {
     status = guarded("campaign autodig", [&] { campaign_autodig(*options); });
   });
@@ -216,6 +223,7 @@ void add_campaign_merge(CLI::App& campaign, int& status) {
   CLI::App* command = campaign.add_subcommand("merge", "Shards of one campaign into one file");
   command->add_option("files", options->from, "CSV files of the shards")->required();
   command->add_option("--summary", options->summary, "CSV to write")->required();
+  add_examples(*command, {"campaign merge shard1.csv shard2.csv --summary all.csv"});
   command->callback([options, &status] {
     status = guarded("campaign merge", [&] {
       fmt::print("{}", runs::merge_campaigns(options->from, options->summary));
@@ -228,6 +236,7 @@ void add_campaign_merge(CLI::App& campaign, int& status) {
 void add_campaign(CLI::App& app, int& status) {
   CLI::App* campaign = app.add_subcommand("campaign", "Many runs and their distribution");
   campaign->require_subcommand(1);
+  add_examples(*campaign, {"campaign dig --draws 40 --summary out/draws.csv"});
   add_campaign_dig(*campaign, status);
   add_campaign_grade(*campaign, status);
   add_campaign_identify(*campaign, status);

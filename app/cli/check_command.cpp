@@ -8,6 +8,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
+#include "app/cli/help.hpp"
 #include "app/machines/simulated/key_reference.hpp"
 #include "app/reports/check/machine_check.hpp"
 
@@ -76,6 +77,7 @@ void add_check(CLI::App& app, int& status) {
   command->add_flag("--strict", options->strict, "Warnings end with status 1 too");
   command->add_flag("--keys", options->keys,
                     "Print the reference of all keys of all profiles, in markdown, instead");
+  add_examples(*command, {"check excavator_22t", "check mine.toml --strict"});
   command->callback([options, &status] { status = guarded("check", [&] { check(*options); }); });
 }
 

@@ -9,6 +9,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/commission_on_bus.hpp"
 #include "app/cli/console.hpp"
+#include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
 #include "app/cli/output_file.hpp"
 #include "app/commission/commission_windows.hpp"
@@ -92,11 +93,11 @@ void commission_in_memory(const CommissionCommand& options) {
 void add_choice(CLI::App& command, CommissionCommand& options, std::vector<CLI::Option*>& added) {
   SequenceChoice& choice = options.choice;
   added.push_back(command.add_option("--only", choice.only, "Drives to try, instead of all")
-                      ->check(CLI::IsMember(drive_names()))
+                      ->check(one_of(drive_names()))
                       ->delimiter(','));
   added.push_back(
       command.add_option("--no-touch", choice.no_touch, "Ends of strokes that are not touched")
-          ->check(CLI::IsMember(end_names()))
+          ->check(one_of(end_names()))
           ->delimiter(','));
   added.push_back(command.add_flag("--no-steps", choice.no_steps, "No steps at five speeds"));
   added.push_back(
@@ -161,6 +162,8 @@ void add_commission(CLI::App& app, int& status) {
   std::vector<CLI::Option*> choices;
   add_choice(*command, *options, choices);
   add_bus_options(*command, *options, *can, choices);
+  add_examples(*command, {"commission --simulated excavator_22t_found --log out/machine.log",
+                          "commission --can can0 --profile mine.toml --gamepad /dev/input/event5"});
   command->callback([options, &status] {
     status = guarded("commission", [&] {
       options->interface.empty() ? commission_in_memory(*options) : commission_on_bus(*options);

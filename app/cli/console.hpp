@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <exception>
+#include <filesystem>
 #include <string>
 
 #include "app/runs/logged_run.hpp"
@@ -17,6 +18,11 @@ int guarded(const char* command, Work work) {
   try {
     work();
     return 0;
+  } catch (const std::filesystem::filesystem_error& error) {
+    // Its own text is the library's, with the call that failed.
+    fmt::print(stderr, "graben {}: {}: {}\n", command, error.path1().string(),
+               error.code().message());
+    return 1;
   } catch (const std::exception& error) {
     fmt::print(stderr, "graben {}: {}\n", command, error.what());
     return 1;

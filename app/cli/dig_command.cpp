@@ -10,7 +10,9 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
+#include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
+#include "app/cli/output_file.hpp"
 #include "app/machines/simulated/soil_kinds.hpp"
 #include "app/reports/run_reports.hpp"
 #include "app/runs/code_text.hpp"
@@ -54,6 +56,7 @@ std::optional<Eigen::Vector3d> start_strokes(const DigCommand& options,
     return strokes_m;
   }
   if (!options.start_pose.empty()) {
+    assert_radians("--start: attitude", options.start_pose[2]);
     return machines::strokes_at(
         profile, {options.start_pose[0], options.start_pose[1], options.start_pose[2]});
   }
@@ -87,8 +90,10 @@ void dig(const DigCommand& options) {
   run_options.speed_override_ratio = options.speed;
   run_options.loops = options.loops.value_or(run_options.loops);
   const std::filesystem::path out(options.out);
-  std::filesystem::create_directories(out);
+  const std::filesystem::path report = out / "dig.html";
   run_options.log_file = out / "dig.log";
+  assert_apart({}, {run_options.log_file.string(), report.string(), options.summary});
+  std::filesystem::create_directories(out);
 
   runs::DigResult result;
   {
@@ -97,7 +102,6 @@ void dig(const DigCommand& options) {
   }
   const runs::DigSummary summary = runs::summarise(result);
   const runs::RunFigures figures = runs::figures_of(summary);
-  const std::filesystem::path report = out / "dig.html";
   reports::write_dig_report(
       {report, scope::scope_page()}, run_options.log_file, machine, result, summary,
       fmt::format("{} | {} | start strokes {:.3f}, {:.3f}, {:.3f} m | speed {:.0f} %",
@@ -186,6 +190,8 @@ void add_dig(CLI::App& app, int& status) {
       ->add_option("--loops", options->loops, "Times round the path, 0.1 .. 100; once unless told")
       ->check(number_between(0.1, 100.0));
   add_task(*command, *options);
+  add_examples(*command, {"dig", "dig --soil sand --loops 3 --out out/sand",
+                          "dig --random-start --seed 7 --summary out/seven.json"});
   command->callback([options, &status] {
     status = guarded("dig", [&] {
       if (options->task) {

@@ -9,7 +9,9 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
+#include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
+#include "app/cli/output_file.hpp"
 #include "app/reports/run_reports.hpp"
 #include "app/runs/fastest_speed.hpp"
 #include "app/runs/grade_run.hpp"
@@ -52,14 +54,11 @@ std::string subtitle_of(const GradeCommand& options, const machines::SimulatedDo
 void grade(const GradeCommand& options) {
   const machines::SimulatedDozer machine = machine_of(options);
   const std::filesystem::path out(options.out);
-  std::filesystem::create_directories(out);
   runs::GradeOptions run;
   const std::filesystem::path report = out / "grade.html";
   run.log_file = options.log.empty() ? out / "grade.log" : std::filesystem::path(options.log);
-  if (std::filesystem::weakly_canonical(run.log_file) ==
-      std::filesystem::weakly_canonical(report)) {
-    throw std::runtime_error("--log: that is where the report goes");
-  }
+  assert_apart({}, {report.string(), run.log_file.string(), options.summary});
+  std::filesystem::create_directories(out);
 
   runs::GradeResult result;
   {
@@ -125,6 +124,7 @@ void add_grade(CLI::App& app, int& status) {
                    "Instead of one run: the fastest constant speed up to the wanted one whose "
                    "true edge stays this near to the grade, m, 0.001 .. 1")
       ->check(number_between(0.001, 1.0));
+  add_examples(*command, {"grade", "grade --speed-mode constant --within 0.02"});
   command->callback([options, &status] {
     status = guarded("grade", [&] { options->within_m ? search(*options) : grade(*options); });
   });

@@ -7,6 +7,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
+#include "app/cli/help.hpp"
 #include "app/cli/identify_log.hpp"
 #include "app/cli/options.hpp"
 #include "app/cli/output_file.hpp"
@@ -122,6 +123,8 @@ void add_identify(CLI::App& app, int& status) {
   add_csv_options(*command, *options);
   add_log_options(*command, options->log);
   command->add_option("--summary", options->log.summary, "Figures as JSON");
+  add_examples(*command, {"identify --log out/machine.log --profile mine.toml --out better.toml",
+                          "identify --log out/machine.log --profile better.toml --check"});
   command->callback([options, &status] {
     check_usage(*options);
     status = guarded("identify", [&] { run(*options); });

@@ -3,6 +3,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
+#include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
 #include "app/operate/operate.hpp"
 
@@ -45,6 +46,7 @@ void add_operate(CLI::App& app, int& status) {
       ->add_option("--seconds", options->run.seconds, "Ends after so long, 0 .. 86400 s; 0: never")
       ->check(number_between(0.0, 86400.0))
       ->capture_default_str();
+  add_examples(*command, {"operate --can can0 --gamepad /dev/input/event5"});
   command->callback([options, &status] {
     constexpr double kUsPerS = 1e6;
     options->run.station.silent_after_us = static_cast<TimeUs>(options->silent_after_s * kUsPerS);

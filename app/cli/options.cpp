@@ -1,11 +1,15 @@
 #include "app/cli/options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "app/machines/near_word.hpp"
 #include "app/machines/simulated/soil_kinds.hpp"
 #include "app/runs/found_text.hpp"
 
@@ -46,8 +50,7 @@ void add_scenario_options(CLI::App& command, runs::DigScenario& scenario) {
           "--law", scenario.law,
           "Feedback of the controller: servo, oil (where the profile has [oil]), kim (none); "
           "the profile's unless told")
-      ->check(CLI::IsMember(
-          std::vector<std::string>(machines::kLawNames.begin(), machines::kLawNames.end())));
+      ->check(one_of({machines::kLawNames.begin(), machines::kLawNames.end()}));
   add_swash_option(command, scenario.swash_ratio);
   command.add_flag("--fixed-lambda", scenario.fixed_lambda,
                    "For comparison: lambda stays 1, whatever the machine can do");
@@ -60,7 +63,7 @@ CLI::Option& add_soil_option(CLI::App& command, const std::function<void(const s
   return *command.add_option_function<std::string>("--soil", take, help)
               ->expected(0, 1)
               ->default_str(kKimSoil)
-              ->check(CLI::IsMember(names));
+              ->check(one_of(names));
 }
 
 void add_simulated_options(CLI::App& command, machines::SimulatedChoice& choice) {
@@ -102,7 +105,7 @@ void add_speed_options(CLI::App& command, runs::GradeScenario& scenario) {
       .add_option("--speed-mode", scenario.speed_mode,
                   "bounded by what the blade's flow allows, or, for comparison, constant: the "
                   "wanted speed, whatever the blade needs")
-      ->check(CLI::IsMember({"bounded", "constant"}))
+      ->check(one_of({"bounded", "constant"}))
       ->capture_default_str();
   command
       .add_option("--speed", scenario.speed_mps,
@@ -122,7 +125,7 @@ void add_error_option(CLI::App& command, runs::GradeScenario& scenario) {
       .add_option("--errors", scenario.errors,
                   "What the controller does not know, drawn from the seed: all (mass, ground, "
                   "efficiencies, sensors' bias and noise) or none")
-      ->check(CLI::IsMember({"none", "all"}))
+      ->check(one_of({"none", "all"}))
       ->capture_default_str();
 }
 
@@ -157,7 +160,7 @@ void add_task_options(CLI::App& command, runs::TaskScenario& scenario) {
   command
       .add_option("--rounds", scenario.rounds,
                   "Of a task that repeats and does not say itself how often, 1 .. 1000")
-      ->check(CLI::Range(1, 1000))
+      ->check(whole_number_between(1, 1000))
       ->capture_default_str();
   command
       .add_option("--word-after", scenario.word_after_s,
@@ -181,14 +184,10 @@ void add_override_option(CLI::App& command, double& speed_override_ratio) {
       ->capture_default_str();
 }
 
-CLI::Validator error_name() {
-  return CLI::IsMember(
-      std::vector<std::string>(runs::kErrorNames.begin(), runs::kErrorNames.end()));
-}
+CLI::Validator error_name() { return one_of({runs::kErrorNames.begin(), runs::kErrorNames.end()}); }
 
 CLI::Validator soil_name() {
-  return CLI::IsMember(
-      std::vector<std::string>(machines::kSoilNames.begin(), machines::kSoilNames.end()));
+  return one_of({machines::kSoilNames.begin(), machines::kSoilNames.end()});
 }
 
 CLI::Validator number_between(double least, double most) {
@@ -210,7 +209,41 @@ CLI::Validator whole_number() {
                             text.find_first_not_of("0123456789") == std::string::npos;
         return digits ? std::string() : fmt::format("{} is not a whole number from 0", text);
       },
-      "0 ..");
+      "");
+}
+
+CLI::Validator whole_number_between(int least, int most) {
+  return CLI::Validator(
+      [least, most](const std::string& text) {
+        int value = 0;
+        const bool inside =
+            CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+        return inside ? std::string()
+                      : fmt::format("{} is not a whole number from {} to {}", text, least, most);
+      },
+      fmt::format("{} .. {}", least, most));
+}
+
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  return CLI::Validator(
+      [words](const std::string& text) {
+        return std::find(words.begin(), words.end(), text) != words.end()
+                   ? std::string()
+                   : fmt::format("'{}' is none of {}{}", text, fmt::join(words, ", "),
+                                 machines::near_word_hint(text, words));
+      },
+      fmt::format("{}", fmt::join(words, ", ")));
+}
+
+void assert_radians(const std::string& what, double angle_rad) {
+  constexpr double kTurn_rad = 6.283185307179587;
+  if (!(std::abs(angle_rad) <= kTurn_rad)) {
+    throw std::runtime_error(
+        std::isfinite(angle_rad)
+            ? fmt::format("{}: {} rad is more than a turn; in degrees? then it is {:.4g} rad", what,
+                          angle_rad, angle_rad * kTurn_rad / 360.0)
+            : fmt::format("{} must be finite", what));
+  }
 }
 
 }  // namespace graben::cli

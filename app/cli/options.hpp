@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/machines/simulated/simulation_file.hpp"
 #include "app/runs/scenarios.hpp"
@@ -67,5 +68,11 @@ inline constexpr const char* kKimSoil = "kim";
 [[nodiscard]] CLI::Validator number_between(double least, double most);
 /// An unsigned option takes "-1" for its largest value.
 [[nodiscard]] CLI::Validator whole_number();
+[[nodiscard]] CLI::Validator whole_number_between(int least, int most);
+/// One of these words; says which is near to a wrong one.
+[[nodiscard]] CLI::Validator one_of(const std::vector<std::string>& words);
+
+/// Throws std::runtime_error for an angle of more than a full turn, which is one in degrees.
+void assert_radians(const std::string& what, double angle_rad);
 
 }  // namespace graben::cli

@@ -10,6 +10,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
+#include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
 #include "app/machines/planned_line.hpp"
 #include "app/machines/simulated/simulated_excavator.hpp"
@@ -102,6 +103,11 @@ void plan(const PlanCommand& options) {
     plan_task(options);
     return;
   }
+  for (const auto* pose : {&options.from, &options.to}) {
+    if (!pose->empty()) {
+      assert_radians(pose == &options.from ? "--from: attitude" : "--to: attitude", pose->back());
+    }
+  }
   const fs::path file = machines::find_profile(options.profile);
   const machines::ExcavatorMachine machine = machines::load_excavator(file);
   const ExcavatorProfile& profile = machine.profile;
@@ -166,6 +172,8 @@ void add_plan(CLI::App& app, int& status) {
       ->capture_default_str();
   command->add_flag("--table", options->table,
                     "Print displacement, velocity and acceleration of each drive over time");
+  add_examples(*command,
+               {"plan --from 5,0,0,1.2 --to 7,0,0,1.2 --speed 0.5", "plan --table --out out/line"});
   command->callback([options, &status] { status = guarded("plan", [&] { plan(*options); }); });
 }
 

@@ -10,6 +10,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
+#include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
 #include "app/machines/task_file.hpp"
 #include "app/reports/plant_json.hpp"
@@ -145,7 +146,7 @@ void add_plant(CLI::App& app, int& status) {
                    "machine can, shifts (does that for 5 s, lets go for 1 s, and so on), "
                    "changes (asks for no task every 2 s, for 50 ms), or program (a task of "
                    "the controller's)")
-      ->check(CLI::IsMember({"none", "dig", "grade", "shifts", "changes", "program"}))
+      ->check(one_of({"none", "dig", "grade", "shifts", "changes", "program"}))
       ->capture_default_str();
   command->add_option("--task", options->task,
                       "Task file or shipped name that --operator program asks for, as the "
@@ -153,7 +154,7 @@ void add_plant(CLI::App& app, int& status) {
   command
       ->add_option("--task-number", options->task_number,
                    "The controller's number of it, 0 .. 3; 0 unless told")
-      ->check(CLI::Range(0, kTaskMost - 1));
+      ->check(whole_number_between(0, kTaskMost - 1));
   command
       ->add_option("--enable-after", options->run.enable_after_s,
                    "When that operator enables, 0 .. 3600 s")
@@ -171,6 +172,8 @@ void add_plant(CLI::App& app, int& status) {
   command->add_option("--seed", options->scenario.scenario.seed, "Of --errors and --soil")
       ->check(whole_number())
       ->capture_default_str();
+  add_examples(*command,
+               {"plant --can vcan0", "plant --can vcan0 --profile dozer_9t --operator grade"});
   command->callback(
       [options, &status] { status = guarded("plant", [&] { plant_on_bus(*options); }); });
 }

@@ -9,6 +9,8 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
+#include "app/cli/help.hpp"
+#include "app/cli/options.hpp"
 #include "app/machines/axis_names.hpp"
 #include "app/machines/excavator_file.hpp"
 #include "firmware/excavator/kinematics/swing_kinematics.hpp"
@@ -123,11 +125,10 @@ void add_pose(CLI::App& app, int& status) {
   CLI::Option* swing = command->add_option(
       "--swing", options->swing_rad,
       "Swing in rad, left positive: adds the teeth's position in the ground frame, as in plan");
+  add_examples(*command, {"pose --profile excavator_22t --strokes 1.0,1.1,0.4"});
   command->callback([options, swing, &status] {
     status = guarded("pose", [&] {
-      if (!std::isfinite(options->swing_rad)) {
-        throw std::runtime_error("--swing must be finite");
-      }
+      assert_radians("--swing", options->swing_rad);
       print_pose(options->profile, options->strokes_m,
                  swing->count() > 0 ? &options->swing_rad : nullptr);
     });
@@ -151,8 +152,12 @@ void add_strokes(CLI::App& app, int& status) {
       ->add_option("--attitude", options->pose.attitude_rad,
                    "Direction from the tip to the bucket pin, rad")
       ->required();
+  add_examples(*command, {"strokes --profile excavator_22t --x 6 --y -1 --attitude 1.5"});
   command->callback([options, &status] {
-    status = guarded("strokes", [&] { print_strokes(options->profile, options->pose); });
+    status = guarded("strokes", [&] {
+      assert_radians("--attitude", options->pose.attitude_rad);
+      print_strokes(options->profile, options->pose);
+    });
   });
 }
 

@@ -10,6 +10,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
+#include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
 #include "app/reports/page_setup.hpp"
 #include "app/scope/page/scope_page.hpp"
@@ -97,17 +98,17 @@ void add_scope(CLI::App& app, int& status) {
       "scope",
       "The machine in a browser: posed, with plots and faults, from what is on the bus. Serves a "
       "page until SIGINT or SIGTERM; a bus is only heard. Needs no privilege");
-  auto* source = command->add_option_group("source", "What is shown; one of them");
+  auto* source = command->add_option_group("source", "What is shown");
   source->add_option("--can", options->can, "CAN interfaces, such as can0 or can0,can1")
       ->delimiter(',')
       ->allow_extra_args(false);
   source->add_option("--log", options->log, "Log of candump -l, from its start to its end");
   source->add_option("--sim", options->sim, "Simulation in real time: dig, grade or autodig")
-      ->check(CLI::IsMember({"dig", "grade", "autodig"}));
+      ->check(one_of({"dig", "grade", "autodig"}));
   source->require_option(1);
   command
       ->add_option("--port", options->server.port, "Of the page, 0 .. 65535; 0: any that is free")
-      ->check(CLI::Range(0, 65535))
+      ->check(whole_number_between(0, 65535))
       ->capture_default_str();
   command
       ->add_option("--host", options->server.host,
@@ -125,7 +126,7 @@ void add_scope(CLI::App& app, int& status) {
   command
       ->add_option("--bitrate", options->bitrate_bps,
                    "Of the bus, bit/s, 10000 .. 1000000, for its load; 500000 unless told")
-      ->check(CLI::Range(10000, 1000000));
+      ->check(whole_number_between(10000, 1000000));
   command
       ->add_option("--seed", options->seed,
                    "Of the simulated sensors' errors and of what the controller does not know; "
@@ -136,6 +137,8 @@ void add_scope(CLI::App& app, int& status) {
       *command, [options](const std::string& name) { options->soil = name; },
       "Of --sim dig and autodig: ground that the bucket cuts, or with dig kim, the paper's field "
       "of force, which --soil alone is");
+  add_examples(*command, {"scope --sim dig", "scope --log out/dig.log",
+                          "scope --can can0 --profile mine.toml"});
   command->callback([options, &status] { status = guarded("scope", [&] { show(*options); }); });
 }
 

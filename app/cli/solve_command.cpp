@@ -7,7 +7,9 @@
 #include <string>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/help.hpp"
 #include "app/cli/mcv_json.hpp"
+#include "app/cli/options.hpp"
 
 namespace graben::cli {
 namespace {
@@ -42,6 +44,14 @@ int solve_lines(std::istream& cases, McvPolicy policy) {
   return status;
 }
 
+std::vector<std::string> policy_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, policy] : policies()) {
+    names.push_back(name);
+  }
+  return names;
+}
+
 }  // namespace
 
 void add_solve(CLI::App& app, int& status) {
@@ -54,8 +64,9 @@ void add_solve(CLI::App& app, int& status) {
       ->add_option("--policy", *policy,
                    "How lambda is chosen: algorithm1, as in Kim et al.; connected, the end of the "
                    "feasible interval that contains 0; global, the largest feasible")
-      ->check(CLI::IsMember(policies()))
+      ->check(one_of(policy_names()))
       ->capture_default_str();
+  add_examples(*command, {"solve --policy algorithm1 < cases.jsonl"});
   command->callback([policy, &status] { status = solve_lines(std::cin, policies().at(*policy)); });
 }
 

@@ -125,10 +125,10 @@ Progress read_progress(const fs::path& file, std::uint32_t profile_hash,
                  progress.options);
     }
     read_steps(root.at("steps"), progress);
-  } catch (const json::exception& error) {
+  } catch (const json::exception&) {
     throw std::runtime_error(fmt::format(
-        "{}: damaged, so that nothing can be gone on with; begin newly with another --log ({})",
-        file.string(), error.what()));
+        "{}: damaged, so that nothing can be gone on with; begin newly with another --log",
+        file.string()));
   } catch (const std::exception& error) {
     throw std::runtime_error(file.string() + ": " + error.what());
   }

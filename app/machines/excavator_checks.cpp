@@ -34,17 +34,14 @@ constexpr double kAngleTolerance_rad = 0.15;
 
 void check_angles(TomlReader& reader, const ExcavatorProfile& profile,
                   const std::array<std::vector<double>, kAxisCount>& range) {
-  const ExcavatorKinematics kinematics(profile.geometry);
-  const auto stroke = [&](unsigned i) { return profile.geometry.cylinder[i].stroke_m; };
-  const JointResult closed = kinematics.joints_from_strokes(Eigen::Vector3d::Zero());
-  const JointResult open = kinematics.joints_from_strokes({stroke(0), stroke(1), stroke(2)});
+  const auto given = joint_ranges(profile.geometry);
+  if (!given) {
+    reader.fail("bucket.linkage", "can't close over the whole stroke of the bucket cylinder");
+    return;
+  }
   for (unsigned i = 0; i < kAxisCount; ++i) {
     const std::string key = angle_key(i);
-    if (closed.status != ReachStatus::kOk || open.status != ReachStatus::kOk) {
-      reader.fail("bucket.linkage", "can't close over the whole stroke of the bucket cylinder");
-      return;
-    }
-    const auto [least, most] = std::minmax(closed.joints_rad[i], open.joints_rad[i]);
+    const auto [least, most] = (*given)[i];
     if (std::abs(least - range[i][0]) > kAngleTolerance_rad ||
         std::abs(most - range[i][1]) > kAngleTolerance_rad) {
       reader.fail(key, fmt::format("[{}, {}] rad; the pins and stroke ends give [{:.3f}, {:.3f}] "
@@ -55,6 +52,23 @@ void check_angles(TomlReader& reader, const ExcavatorProfile& profile,
 }
 
 }  // namespace
+
+std::optional<std::array<std::array<double, 2>, kAxisCount>> joint_ranges(
+    const ExcavatorGeometry& geometry) {
+  const ExcavatorKinematics kinematics(geometry);
+  const auto stroke = [&](unsigned i) { return geometry.cylinder[i].stroke_m; };
+  const JointResult closed = kinematics.joints_from_strokes(Eigen::Vector3d::Zero());
+  const JointResult open = kinematics.joints_from_strokes({stroke(0), stroke(1), stroke(2)});
+  if (closed.status != ReachStatus::kOk || open.status != ReachStatus::kOk) {
+    return std::nullopt;
+  }
+  std::array<std::array<double, 2>, kAxisCount> ranges{};
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    const auto [least, most] = std::minmax(closed.joints_rad[i], open.joints_rad[i]);
+    ranges[i] = {least, most};
+  }
+  return ranges;
+}
 
 void check_path(TomlReader& reader, const char* key, const ProfileCheck& check) {
   if (check.path != ReachStatus::kOk) {

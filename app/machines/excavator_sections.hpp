@@ -1,6 +1,8 @@
 #pragma once
 /// The sections of an excavator's TOML files, and keys that several of them have.
 
+#include <array>
+#include <optional>
 #include <string>
 
 #include "app/machines/toml_reader.hpp"
@@ -16,6 +18,11 @@ namespace graben::machines {
 /// Checks that need more than one key: the path lies in the work space, angle ranges fit the stroke
 /// ends, orifices and tables fit each other. They are made only where each key by itself is right.
 void check_excavator_across_keys(TomlReader& reader, const ExcavatorProfile& profile);
+
+/// Least and most joint angle of boom, arm and bucket, rad, that the pins and the ends of the
+/// strokes give; none where a linkage does not close there.
+[[nodiscard]] std::optional<std::array<std::array<double, 2>, kAxisCount>> joint_ranges(
+    const ExcavatorGeometry& geometry);
 
 /// A path at this key.
 [[nodiscard]] DigPath read_path(TomlReader& reader, const std::string& at);

@@ -23,6 +23,9 @@ inline constexpr const char* kKindHelp = "which controller; the same in both fil
 /// Throws std::runtime_error if the file can't be read, ProfileError if it is not TOML.
 [[nodiscard]] ProfileDocument read_document(const std::filesystem::path& file);
 
+/// Why a text is not TOML, with its place and the line that is meant.
+[[nodiscard]] std::string syntax_words(const std::string& text, const toml::parse_error& error);
+
 /// As of a file.
 [[nodiscard]] MachineKind profile_kind(const ProfileDocument& document);
 

@@ -4,8 +4,13 @@
 
 #include <fstream>
 #include <iterator>
+#include <set>
+#include <sstream>
 #include <string>
 #include <string_view>
+#include <system_error>
+
+#include "app/machines/near_word.hpp"
 
 namespace graben::machines {
 namespace {
@@ -58,8 +63,24 @@ std::filesystem::path find_file(const char* what, const std::string& name,
     }
     looked_in += (looked_in.empty() ? "" : ", ") + folder.string();
   }
+  const std::vector<std::string> there = file_names(folders);
   throw std::runtime_error(
-      fmt::format("{} '{}' not found, neither as a file nor in {}", what, name, looked_in));
+      fmt::format("{} '{}' not found, neither as a file nor in {}{}{}", what, name, looked_in,
+                  there.empty() ? "" : fmt::format("; there: {}", fmt::join(there, ", ")),
+                  near_word_hint(name, there)));
+}
+
+std::vector<std::string> file_names(const std::vector<std::filesystem::path>& folders) {
+  std::set<std::string> names;
+  for (const std::filesystem::path& folder : folders) {
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+      if (entry.path().extension() == ".toml" && !is_simulation_file(entry.path())) {
+        names.insert(entry.path().stem().string());
+      }
+    }
+  }
+  return {names.begin(), names.end()};
 }
 
 std::filesystem::path find_profile(const std::string& name,
@@ -89,10 +110,22 @@ ProfileDocument read_document(const std::filesystem::path& file) {
   try {
     return {file, toml::parse(text, file.string())};
   } catch (const toml::parse_error& error) {
-    throw ProfileError(file.string(),
-                       {fmt::format("line {}, column {}: {}", error.source().begin.line,
-                                    error.source().begin.column, error.description())});
+    throw ProfileError(file.string(), {syntax_words(text, error)});
   }
+}
+
+std::string syntax_words(const std::string& text, const toml::parse_error& error) {
+  const toml::source_position at = error.source().begin;
+  std::istringstream lines(text);
+  std::string line;
+  for (toml::source_index number = 0; number < at.line; ++number) {
+    std::getline(lines, line);
+  }
+  constexpr std::size_t kShown = 60;
+  line = line.size() > kShown ? line.substr(0, kShown) + " ..." : line;
+  const bool is_twice = error.description().find("redefine") != std::string_view::npos;
+  return fmt::format("line {}, column {}: {}: {}", at.line, at.column,
+                     is_twice ? "is there for the second time" : "can't be read as TOML", line);
 }
 
 void require_kind(const ProfileDocument& document, TomlReader& reader, MachineKind kind) {

@@ -21,14 +21,23 @@ class ProfileError : public std::runtime_error {
 };
 
 /// Finds `name` as a path, or as NAME or NAME.toml in one of the folders, in their order. Throws
-/// std::runtime_error that lists where it looked, and calls it `what`.
+/// std::runtime_error that lists where it looked, what is there and what may have been meant, and
+/// calls it `what`.
 [[nodiscard]] std::filesystem::path find_file(const char* what, const std::string& name,
                                               const std::vector<std::filesystem::path>& folders);
 /// A profile. Throws the same, and where the file is a simulated machine's.
 [[nodiscard]] std::filesystem::path find_profile(const std::string& name,
                                                  const std::vector<std::filesystem::path>& folders);
-/// The same among the profiles of this source tree: for the tool and the tests, which stay in it.
+/// The same among the profiles that the tool brings: /usr/share/graben/machines where it is
+/// installed in /usr/bin, those of the sources in a build folder.
 [[nodiscard]] std::filesystem::path find_profile(const std::string& name);
+/// What find_profile(name) and find_task(name) know, in order; none where nothing is shipped.
+[[nodiscard]] std::vector<std::string> shipped_profile_names();
+[[nodiscard]] std::vector<std::string> shipped_task_names();
+/// Names of the profiles or tasks in these folders: each NAME.toml that is no simulated machine's,
+/// once, in order.
+[[nodiscard]] std::vector<std::string> file_names(
+    const std::vector<std::filesystem::path>& folders);
 /// The same in the folder `beside`, then there.
 [[nodiscard]] std::filesystem::path find_machine(const std::string& name,
                                                  const std::filesystem::path& beside);

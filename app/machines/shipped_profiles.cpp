@@ -1,32 +1,65 @@
 #include <fmt/format.h>
+#include <sys/auxv.h>
 
 #include <stdexcept>
+#include <system_error>
 
 #include "app/machines/profile_file.hpp"
 #include "app/machines/task_file.hpp"
 
 namespace graben::machines {
+namespace {
 
-std::filesystem::path find_profile(const std::string& name) {
-  return find_profile(name, {GRABEN_MACHINES_DIR});
+namespace fs = std::filesystem;
+
+/// share/graben/machines beside a folder that the program is in: of /usr/bin it is in /usr; the
+/// build folder has one as well, a link to the sources'. So the program knows no path of its own.
+fs::path find_shipped_folder() {
+  std::error_code error;
+  fs::path folder = fs::read_symlink("/proc/self/exe", error);
+  if (error) {
+    // No /proc, as in a bare chroot: the name that it was called by.
+    folder = fs::canonical(reinterpret_cast<const char*>(getauxval(AT_EXECFN)), error);
+  }
+  while (!error && folder.has_relative_path()) {
+    folder = folder.parent_path();
+    const fs::path shipped = folder / "share" / "graben" / "machines";
+    if (fs::is_directory(shipped, error)) {
+      return shipped;
+    }
+    error.clear();
+  }
+  return fs::path("share") / "graben" / "machines";
 }
 
-std::filesystem::path find_machine(const std::string& name, const std::filesystem::path& beside) {
-  return find_profile(name, {beside, GRABEN_MACHINES_DIR});
+const fs::path& shipped_folder() {
+  static const fs::path folder = find_shipped_folder();
+  return folder;
 }
 
-std::filesystem::path find_shipped_simulation(const std::string& name) {
-  const std::filesystem::path file =
-      simulation_file(std::filesystem::path(GRABEN_MACHINES_DIR) / (name + ".toml"));
-  if (!std::filesystem::is_regular_file(file)) {
+}  // namespace
+
+std::vector<std::string> shipped_profile_names() { return file_names({shipped_folder()}); }
+
+std::vector<std::string> shipped_task_names() { return file_names({shipped_folder() / "tasks"}); }
+
+fs::path find_profile(const std::string& name) { return find_profile(name, {shipped_folder()}); }
+
+fs::path find_machine(const std::string& name, const fs::path& beside) {
+  return find_profile(name, {beside, shipped_folder()});
+}
+
+fs::path find_shipped_simulation(const std::string& name) {
+  fs::path file = simulation_file(shipped_folder() / (name + ".toml"));
+  if (!fs::is_regular_file(file)) {
     throw std::runtime_error(fmt::format(
         "simulated machine '{}' not found, neither as a file nor as {}", name, file.string()));
   }
   return file;
 }
 
-std::filesystem::path find_task(const std::string& name) {
-  return find_task(name, {GRABEN_MACHINES_DIR "/tasks"});
+fs::path find_task(const std::string& name) {
+  return find_task(name, {shipped_folder() / "tasks"});
 }
 
 }  // namespace graben::machines

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <cstring>
 #include <sstream>
+#include <string_view>
+
+#include "app/machines/near_word.hpp"
 
 namespace graben::machines {
 namespace {
@@ -17,10 +20,25 @@ std::string allowed(const Range& range) {
   return fmt::format("allowed: {}{}", ends(range), unit);
 }
 
+/// As it was written: 6.2, not 6.2000000000000002.
 std::string value_text(const toml::node& node) {
+  if (const toml::value<double>* number = node.as_floating_point()) {
+    const std::string digits = fmt::format("{}", number->get());
+    return digits.find_first_not_of("-0123456789") == std::string::npos ? digits + ".0" : digits;
+  }
   std::ostringstream text;
   node.visit([&](const auto& value) { text << value; });
   return text.str();
+}
+
+/// An angle in degrees is the likeliest slip of all.
+std::string degrees_hint(double value, const Range& range) {
+  constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
+  const double as_rad = value * kRadPerDeg;
+  const bool is_angle = std::string_view(range.unit).substr(0, 3) == "rad";
+  return is_angle && as_rad >= range.least && as_rad <= range.most
+             ? fmt::format("; in degrees? then it is {:.4g} {}", as_rad, range.unit)
+             : "";
 }
 
 /// FNV-1a, a byte after the other.
@@ -117,7 +135,9 @@ double TomlReader::checked(const toml::node& node, const std::string& key, const
     return refuse("is not finite");
   }
   if (value < range.least || value > range.most) {
-    return refuse("is out of range");
+    refuse("is out of range");
+    errors_.back() += degrees_hint(value, range);
+    return std::clamp(0.0, range.least, range.most);
   }
   return value;
 }
@@ -292,7 +312,9 @@ void TomlReader::refuse_unknown_in(const toml::node& node, const std::string& pa
     }
     return;
   }
-  errors_.push_back(fmt::format("{} (line {}): unknown key", path, node.source().begin.line));
+  const std::vector<std::string> known(known_.begin(), known_.end());
+  errors_.push_back(fmt::format("{} (line {}): unknown key{}", path, node.source().begin.line,
+                                near_word_hint(path, known)));
 }
 
 }  // namespace graben::machines

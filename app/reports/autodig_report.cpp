@@ -25,12 +25,12 @@ json truth(const ExcavatorProfile& profile, const std::vector<runs::AutodigSampl
     const char* name = machines::kDriveNames[i];
     const std::string title = fmt::format("{}, planned and true", name);
     lines.add(fmt::format("drive_{}", i), title, "planned", drive_unit(i), 2,
-              [i](const runs::AutodigSample& s) { return s.planned[i] * kThousandths; });
+              [i](const runs::AutodigSample& s) { return s.planned[i] * drive_per_si(i); });
     lines.add(fmt::format("drive_{}", i), title, "true", drive_unit(i), 2,
-              [i](const runs::AutodigSample& s) { return s.real[i] * kThousandths; });
+              [i](const runs::AutodigSample& s) { return s.real[i] * drive_per_si(i); });
     lines.add(i == kSwing ? "swing" : "velocities", "", fmt::format("{}, true", name),
-              i == kSwing ? "mrad/s" : "mm/s", 2,
-              [i](const runs::AutodigSample& s) { return s.velocity_real[i] * kThousandths; });
+              fmt::format("{}/s", drive_unit(i)), 2,
+              [i](const runs::AutodigSample& s) { return s.velocity_real[i] * drive_per_si(i); });
   }
   for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
     lines.add("pumps", "", fmt::format("Pump {}, true", j + 1), "MPa", 3,

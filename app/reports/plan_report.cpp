@@ -15,8 +15,9 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-/// Zhang's figures 5 to 10: displacement, velocity and acceleration of each drive.
-json truth(const std::vector<runs::PlanSample>& samples) {
+/// Zhang's figures 5 to 10: displacement, velocity and acceleration of each drive, the last two
+/// with the limit that the plan keeps in that direction.
+json truth(const std::vector<runs::PlanSample>& samples, const DriveLimits& limits) {
   Truth<runs::PlanSample> lines(samples);
   lines.add("way", "Teeth along the line", "way", "m", 4,
             [](const runs::PlanSample& s) { return s.way_m; });
@@ -29,16 +30,29 @@ json truth(const std::vector<runs::PlanSample>& samples) {
     lines.add(fmt::format("{}{}", plot, is_swing ? "_swing" : ""),
               fmt::format("{} of the {}", title, is_swing ? "swing" : "cylinders"),
               machines::kDriveNames[drive], fmt::format("{}{}", drive_unit(drive), per), 3,
-              [=](const runs::PlanSample& s) { return (s.*member)[drive] * kThousandths; });
+              [=](const runs::PlanSample& s) { return (s.*member)[drive] * drive_per_si(drive); });
+  };
+  const auto add_limit = [&](const char* plot, const char* per, unsigned drive,
+                             const std::function<double(const runs::PlanSample&)>& of) {
+    lines.add(fmt::format("{}{}", plot, drive == kSwing ? "_swing" : ""), "",
+              fmt::format("{}, limit", machines::kDriveNames[drive]),
+              fmt::format("{}{}", drive_unit(drive), per), 3,
+              [=](const runs::PlanSample& s) { return of(s) * drive_per_si(drive); });
   };
   for (unsigned i = 0; i < kDriveCount; ++i) {
     add("displacement", "Displacement", "", i, &runs::PlanSample::displacement);
   }
   for (unsigned i = 0; i < kDriveCount; ++i) {
     add("velocity", "Velocity", "/s", i, &runs::PlanSample::velocity);
+    add_limit("velocity", "/s", i, [i, &limits](const runs::PlanSample& s) {
+      return s.velocity[i] < 0.0 ? -limits.speed_in[i] : limits.speed_out[i];
+    });
   }
   for (unsigned i = 0; i < kDriveCount; ++i) {
     add("acceleration", "Acceleration", "/s²", i, &runs::PlanSample::acceleration);
+    add_limit("acceleration", "/s²", i, [i, &limits](const runs::PlanSample& s) {
+      return s.acceleration[i] < 0.0 ? -limits.acceleration[i] : limits.acceleration[i];
+    });
   }
   return lines.json();
 }
@@ -104,15 +118,28 @@ ordered_json pose(const TeethPose& teeth) {
   return {{"position_m", {at.x(), at.y(), at.z()}}, {"attitude_rad", teeth.attitude_rad}};
 }
 
+/// The line as the only task of its machine: the page draws that, and no path that it has besides.
+json planned_line(const machines::ExcavatorMachine& machine, const LinePlan& plan) {
+  machines::TaskFile task;
+  task.name = "planned line";
+  task.result.program.step[0].line = plan;
+  task.result.program.step_count = 1;
+  json told = task_json(task, machine.profile);
+  told["steps"][0]["kind"] = task.name;
+  return told;
+}
+
 }  // namespace
 
 void write_plan_report(const ReportTarget& target, const machines::ExcavatorMachine& machine,
                        const PlanResult& result, const std::vector<runs::PlanSample>& samples,
                        const std::string& subtitle) {
   json run = run_json({"Planned line", subtitle, key_figures(machine.profile, result, samples), {}},
-                      truth(samples));
+                      truth(samples, drive_limits(machine.profile)));
   add_samples(samples, run);
-  json setup = report_setup(target.file, machine_json(machine, {}), std::move(run));
+  json shown = machine_json(machine, {});
+  shown["tasks"] = json::array({planned_line(machine, result.plan)});
+  json setup = report_setup(target.file, std::move(shown), std::move(run));
   setup["source"]["mode"] = "plan";
   write_report(target.file, target.page, setup);
 }
@@ -129,7 +156,8 @@ void write_task_plan_report(const ReportTarget& target, const machines::Excavato
                                                                       task.request, task.result)),
                              "mm", "of the ends of its digs")};
   add_flows(machine.profile, samples, figures);
-  json run = run_json({"Planned task", subtitle, std::move(figures), {}}, truth(samples));
+  json run = run_json({"Planned task", subtitle, std::move(figures), {}},
+                      truth(samples, drive_limits(machine.profile)));
   add_samples(samples, run);
   json setup = report_setup(target.file, machine_json(machine, {task}), std::move(run));
   setup["source"]["mode"] = "plan";

@@ -10,6 +10,7 @@
 
 #include "app/runs/figures.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/numeric/constants.hpp"
 
 namespace graben::reports {
 
@@ -28,10 +29,13 @@ struct RunText {
 [[nodiscard]] RunText run_text(const std::string& title, const std::string& subtitle,
                                const runs::RunFigures& figures);
 
-/// Unit of a drive's plots: mm, and mrad of the swing, both a thousandth of the SI unit.
 inline constexpr double kThousandths = 1e3;
+/// Unit of a drive's plots: mm, and degrees of the swing; so many of them are one SI unit.
 [[nodiscard]] inline const char* drive_unit(unsigned drive) {
-  return drive == kSwing ? "mrad" : "mm";
+  return drive == kSwing ? "deg" : "mm";
+}
+[[nodiscard]] inline double drive_per_si(unsigned drive) {
+  return drive == kSwing ? kDegreesPerRad : kThousandths;
 }
 
 /// Rounded to as many decimals as anybody reads off a plot; null where it is not finite.

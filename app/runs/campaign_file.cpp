@@ -95,6 +95,9 @@ double rank(const std::vector<double>& sorted, double share) {
 
 /// What the first line says was tried.
 std::string tried_line(std::ifstream& stream, const std::filesystem::path& file) {
+  if (!stream.is_open()) {
+    refuse(file, std::filesystem::exists(file) ? "can't be read" : "there is no such file");
+  }
   std::string line;
   if (!std::getline(stream, line) || line.rfind("# ", 0) != 0) {
     refuse(file, "is no campaign: its first line does not say what was tried");

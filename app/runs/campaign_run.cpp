@@ -115,6 +115,12 @@ std::vector<std::uint64_t> seeds_left(const CampaignOptions& options, const Camp
   return seeds;
 }
 
+/// How many draws the options ask for, done or not.
+std::size_t shard_size(const CampaignOptions& options) {
+  const Shard shard = shard_of(options.shard);
+  return shard.index > options.draws ? 0 : 1 + (options.draws - shard.index) / shard.count;
+}
+
 }  // namespace
 
 CampaignOutcome run_campaign(const CampaignOptions& options, const CampaignKind& kind,
@@ -126,6 +132,7 @@ CampaignOutcome run_campaign(const CampaignOptions& options, const CampaignKind&
         fmt::format("--seed and --draws: the last seed is more than {}", kMostSeed));
   }
   CampaignLog log(options.summary, kind, tried);
+  const std::size_t asked = shard_size(options);
   std::vector<std::uint64_t> seeds = seeds_left(options, log);
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
@@ -140,9 +147,12 @@ CampaignOutcome run_campaign(const CampaignOptions& options, const CampaignKind&
                     [&](const auto& row) { return row.second.end >= kind.failures_from; });
   if (failed > 0) {
     outcome.error = fmt::format("{} draws did not come to their end", failed);
-  } else if (interrupted) {
-    outcome.error =
-        fmt::format("interrupted; the same command goes on with what {} lacks", options.summary);
+  }
+  if (interrupted) {
+    const std::size_t left = seeds_left(options, log).size();
+    outcome.error += fmt::format(
+        "{}interrupted with {} of {} draws done; the same command goes on with what {} lacks",
+        outcome.error.empty() ? "" : "; ", asked - left, asked, options.summary);
   }
   return outcome;
 }

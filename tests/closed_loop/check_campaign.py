@@ -81,6 +81,7 @@ def goes_on(graben, folder, whole, kind):
     rows = content(file).splitlines()[2:]
     assert process.returncode == 1 and "goes on" in err, (process.returncode, err)
     assert 1 < len(rows) < DRAWS, f"{len(rows)} rows after the interruption"
+    assert f"interrupted with {len(rows)} of {DRAWS} draws done" in err, err
     # What a crash in the middle of a line leaves.
     with open(file, "ab") as stream:
         stream.write(content(whole).splitlines()[-1][:20])

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "app/machines/profile_document.hpp"
+
 namespace graben::identify {
 namespace {
 
@@ -18,8 +20,7 @@ toml::table parsed(const std::string& text) {
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
-    throw std::runtime_error(
-        fmt::format("line {}: {}", error.source().begin.line, error.description()));
+    throw std::runtime_error(machines::syntax_words(text, error));
   }
 }
 

@@ -57,7 +57,8 @@ std::string table_html(const FactTable& table) {
   if (!table.rows.empty()) {
     html += "<table>\n<tr>";
     for (const std::string& column : table.columns) {
-      html += "<th>" + escaped(column) + "</th>";
+      // A cell that heads nothing is none of a header's.
+      html += column.empty() ? "<td></td>" : "<th scope=\"col\">" + escaped(column) + "</th>";
     }
     html += "</tr>\n";
     for (const auto& row : table.rows) {

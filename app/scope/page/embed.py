@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes the built page as a C++ source: scope_page().
 
 Nothing of it is compiled but one directive: the bytes are taken in by the assembler, since a

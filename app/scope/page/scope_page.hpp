@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The page of the scope and of every report: one HTML file that needs nothing beside it. Built
 /// from app/scope/page.

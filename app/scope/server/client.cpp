@@ -74,9 +74,10 @@ std::optional<std::string> Client::obey(const std::string& text) {
   }
   try {
     return show_.control(wish);
-  } catch (const json::exception& error) {
-    // A value of another type than it has to be.
-    return error.what();
+  } catch (const json::out_of_range&) {
+    return "a value is missing";
+  } catch (const json::exception&) {
+    return "a value is of another kind than it has to be";
   }
 }
 

@@ -1,12 +1,13 @@
 #include "app/scope/server/frame_feed.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "platform/loopback/candump_log.hpp"
 
 namespace graben::scope {
 
-FrameFeed::FrameFeed(std::size_t blocks_most) : ring_(blocks_most) {}
+FrameFeed::FrameFeed(const Bounds& bounds) : bounds_(bounds) {}
 
 void FrameFeed::append(const CanFrame& frame, TimeUs stamp_us, const std::string& interface_name) {
   open_.text += candump_line(frame, stamp_us, interface_name);
@@ -22,16 +23,23 @@ void FrameFeed::flush() {
     return;
   }
   const std::size_t size = open_.text.size();
-  // Taken out of the ring under the lock, given back to the heap after it.
-  std::shared_ptr<const FrameBlock> oldest;
+  auto block = std::make_shared<FrameBlock>(std::move(open_));
+  // Taken out under the lock, given back to the heap after it.
+  std::deque<std::shared_ptr<const FrameBlock>> gone;
   {
     const std::lock_guard lock(mutex_);
-    open_.sequence = blocks_;
-    open_.frames_before = frames_;
-    frames_ += open_.frames;
-    oldest = std::exchange(ring_[blocks_ % ring_.size()],
-                           std::make_shared<const FrameBlock>(std::move(open_)));
+    block->sequence = blocks_;
+    block->frames_before = frames_;
+    frames_ += block->frames;
+    kept_bytes_ += size;
+    kept_.push_back(std::move(block));
     ++blocks_;
+    while (kept_.size() > 1 &&
+           (kept_.size() > bounds_.kept_blocks || kept_bytes_ > bounds_.kept_bytes)) {
+      kept_bytes_ -= kept_.front()->text.size();
+      gone.push_back(std::move(kept_.front()));
+      kept_.pop_front();
+    }
   }
   open_ = FrameBlock{};
   // The next one will be about as long.
@@ -47,8 +55,9 @@ void FrameFeed::wake() const {
 
 FrameReader::FrameReader(const FrameFeed& feed) : feed_(&feed) {
   const std::lock_guard lock(feed.mutex_);
-  sequence_ = feed.blocks_;
-  frames_seen_ = feed.frames_;
+  began_ = feed.blocks_;
+  sequence_ = began_ - feed.kept_.size();
+  frames_seen_ = feed.kept_.empty() ? feed.frames_ : feed.kept_.front()->frames_before;
 }
 
 std::shared_ptr<const FrameBlock> FrameReader::next() {
@@ -56,10 +65,13 @@ std::shared_ptr<const FrameBlock> FrameReader::next() {
   if (sequence_ == feed_->blocks_) {
     return nullptr;
   }
-  if (feed_->blocks_ - sequence_ > feed_->ring_.size()) {
+  // What was there when it began may wait; what comes since then may do so for some seconds.
+  const bool is_too_slow = feed_->blocks_ - std::max(sequence_, began_) > feed_->bounds_.lag_blocks;
+  if (is_too_slow || feed_->blocks_ - sequence_ > feed_->kept_.size()) {
     sequence_ = feed_->blocks_ - 1;
   }
-  std::shared_ptr<const FrameBlock> block = feed_->ring_[sequence_ % feed_->ring_.size()];
+  std::shared_ptr<const FrameBlock> block =
+      feed_->kept_[feed_->kept_.size() - (feed_->blocks_ - sequence_)];
   lost_ += block->frames_before - frames_seen_;
   frames_seen_ = block->frames_before + block->frames;
   ++sequence_;

@@ -1,17 +1,18 @@
 #pragma once
-/// What a source hears or makes, on its way to the pages: candump lines in blocks, in a ring of
-/// fixed size. One producer, which never waits for a reader; any number of readers, each with a
-/// place of its own. A reader that the ring has overtaken goes on with the newest block, and what
-/// it missed is counted.
+/// What a source hears or makes, on its way to the pages: candump lines in blocks, the newest ten
+/// minutes of them within a bound. One producer, which never waits for a reader; any number of
+/// readers, each with a place of its own. A reader begins with the oldest block that is kept, so
+/// that who comes late, or again, sees what was. One that falls behind what comes by more than some
+/// seconds goes on with the newest, and what it missed is counted.
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "firmware/core/time.hpp"
 #include "hal/can_frame.hpp"
@@ -31,8 +32,16 @@ inline constexpr TimeUs kFlushPeriodUs = 40 * kMillisecondUs;
 
 class FrameFeed {
  public:
-  /// A quarter of a thousand blocks are ten seconds of flushes.
-  explicit FrameFeed(std::size_t blocks_most = 250);
+  /// How far a reader may fall behind, in blocks (250 are ten seconds of flushes); how much is kept
+  /// for those who come, in blocks (ten minutes of flushes) and bytes of text.
+  struct Bounds {
+    std::size_t lag_blocks = 250;
+    std::size_t kept_blocks = 15000;
+    std::size_t kept_bytes = std::size_t{48} * 1024 * 1024;
+  };
+
+  FrameFeed() : FrameFeed(Bounds{}) {}
+  explicit FrameFeed(const Bounds& bounds);
 
   // ---- For the producer, from one thread.
 
@@ -51,7 +60,7 @@ class FrameFeed {
   /// Who is told, from the thread that calls flush() or wake(). To be set before there is one.
   void on_change(std::function<void()> listener) { listener_ = std::move(listener); }
 
-  /// Of this many bytes a block is handed over unasked, which bounds the ring's memory.
+  /// Of this many bytes a block is handed over unasked, which bounds what is sent at once.
   static constexpr std::size_t kLargestBlockBytes = 64 * 1024;
 
  private:
@@ -61,13 +70,15 @@ class FrameFeed {
   FrameBlock open_;  ///< The producer's alone.
 
   mutable std::mutex mutex_;
-  std::vector<std::shared_ptr<const FrameBlock>> ring_;
+  Bounds bounds_;
+  std::deque<std::shared_ptr<const FrameBlock>> kept_;  ///< Oldest first.
+  std::size_t kept_bytes_ = 0;
   std::uint64_t blocks_ = 0;  ///< Handed over in all.
   std::uint64_t frames_ = 0;  ///< The same, in frames.
 };
 
-/// One reader's place. Begins behind what is there: with what comes next. For one thread; must not
-/// outlive the feed.
+/// One reader's place. Begins with the oldest that is kept. For one thread; must not outlive the
+/// feed.
 class FrameReader {
  public:
   explicit FrameReader(const FrameFeed& feed);
@@ -80,6 +91,7 @@ class FrameReader {
  private:
   const FrameFeed* feed_;
   std::uint64_t sequence_;     ///< Of the block that is next.
+  std::uint64_t began_;        ///< Of the first that came after it began.
   std::uint64_t frames_seen_;  ///< Or lost, or before it began.
   std::uint64_t lost_ = 0;
 };

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// A browser, servers of the scope, and how a test reads the page. Everything that is started here
 /// ends with the test.
 
@@ -77,6 +78,16 @@ export async function open_page(browser, url, size = {width: 1400, height: 900})
   await page.goto(url);
   return page;
 }
+
+/// A desk, a tablet, a phone's two sides.
+export const SIZES = [[1400, 900], [1024, 768], [844, 390], [390, 844]];
+
+/// Whether what is in the middle of a node can be pressed there, without scrolling.
+export const pressable = (page, name) => page.getByRole('button', {name, exact: true}).first().evaluate((node) => {
+  const box = node.getBoundingClientRect();
+  const at = document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2);
+  return box.width >= 40 && box.height >= 28 && (at === node || node.contains(at));
+});
 
 /// What window.grabenScope says, all of one moment.
 export function look(page) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What an hour of log costs the page: hour.mjs OUT GRABEN [MINUTES]. 20 messages at 100 Hz, whose
 /// signals move as in a simulated task. Prints how long it takes until all of it is shown, from the
 /// server's start and from the page's, the frames a second while it is scrubbed, and the memory.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The README's picture: picture.mjs GRABEN OUT.png. A simulated dig, some seconds after its start.
 
 import {rename} from 'node:fs/promises';

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The teeth of the 22 t excavator at a time of a log, ground frame, JSON: teeth_at.py GRABEN LOG TIME.
 The strokes by the DBC, read with the tests' own code, the rest as `graben pose` has it."""
 

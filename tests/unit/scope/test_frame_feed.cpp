@@ -1,4 +1,4 @@
-/// The ring between the source and the pages: what a reader gets, and what it is told it missed.
+/// What lies between the source and the pages: what a reader gets, and what it is told it missed.
 
 #include "app/scope/server/frame_feed.hpp"
 
@@ -15,6 +15,8 @@ using scope::FrameFeed;
 using scope::FrameReader;
 
 constexpr std::size_t kBlocks = 4;
+constexpr std::size_t kKept = 6;
+constexpr FrameFeed::Bounds kBounds{kBlocks, kKept, 1 << 20};
 
 CanFrame frame(std::uint8_t byte = 0) {
   CanFrame result;
@@ -65,21 +67,50 @@ void nothing_comes_before_the_flush(void**) {
   assert_null(reader.next().get());
 }
 
-void a_reader_begins_with_what_comes_next(void**) {
-  FrameFeed feed(kBlocks);
+void who_comes_late_sees_what_is_kept(void**) {
+  FrameFeed feed(kBounds);
   feed_blocks(feed, 3, 5);
-  FrameReader reader(feed);
-  assert_null(reader.next().get());
-  feed_blocks(feed, 1, 7);
-  const auto block = reader.next();
-  assert_int_equal(block->frames, 7);
-  assert_int_equal(block->sequence, 3);
-  assert_int_equal(block->frames_before, 15);
-  assert_int_equal(reader.lost(), 0);
+  FrameReader early(feed);
+  for (std::uint64_t i = 0; i < 3; ++i) {
+    assert_int_equal(early.next()->sequence, i);
+  }
+  assert_null(early.next().get());
+  feed_blocks(feed, static_cast<int>(kKept), 7);
+  FrameReader late(feed);
+  for (std::uint64_t i = 3; i < 3 + kKept; ++i) {
+    const auto block = late.next();
+    assert_int_equal(block->sequence, i);
+    assert_int_equal(block->frames_before, 15 + 7 * (i - 3));
+  }
+  assert_null(late.next().get());
+  assert_int_equal(late.lost(), 0);
+}
+
+void who_comes_and_is_too_slow_loses_what_goes(void**) {
+  FrameFeed feed(kBounds);
+  feed_blocks(feed, static_cast<int>(kKept), 1);
+  FrameReader late(feed);
+  assert_int_equal(late.next()->sequence, 0);
+  feed_blocks(feed, 2, 1);
+  assert_int_equal(late.next()->sequence, kKept + 1);
+  assert_int_equal(late.lost(), kKept);
+}
+
+void what_is_kept_is_bounded_in_bytes_too(void**) {
+  FrameFeed feed(FrameFeed::Bounds{kBlocks, 1000, 10 * 38});
+  feed_blocks(feed, 50, 1);
+  FrameReader late(feed);
+  std::size_t bytes = 0;
+  int blocks = 0;
+  for (auto block = late.next(); block; block = late.next(), ++blocks) {
+    bytes += block->text.size();
+  }
+  assert_in_range(blocks, 2, 49);
+  assert_in_range(bytes, 1, 10 * 38);
 }
 
 void a_full_ring_loses_nothing(void**) {
-  FrameFeed feed(kBlocks);
+  FrameFeed feed(kBounds);
   FrameReader reader(feed);
   feed_blocks(feed, kBlocks, 3);
   for (std::size_t i = 0; i < kBlocks; ++i) {
@@ -89,7 +120,7 @@ void a_full_ring_loses_nothing(void**) {
 }
 
 void an_overtaken_reader_gets_the_newest_and_the_count(void**) {
-  FrameFeed feed(kBlocks);
+  FrameFeed feed(kBounds);
   FrameReader slow(feed);
   FrameReader quick(feed);
   for (std::size_t i = 0; i < kBlocks + 1; ++i) {
@@ -132,7 +163,7 @@ void the_listener_hears_of_each_flush_and_wake(void**) {
 
 /// What is read and what is missed is all there was, whatever the threads' pace.
 void every_frame_is_read_or_counted(void**) {
-  FrameFeed feed(8);
+  FrameFeed feed(FrameFeed::Bounds{8, 8, 1 << 20});
   FrameReader reader(feed);
   constexpr int kRounds = 20000;
   std::atomic<bool> done{false};
@@ -157,7 +188,9 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(lines_are_candump),
       cmocka_unit_test(nothing_comes_before_the_flush),
-      cmocka_unit_test(a_reader_begins_with_what_comes_next),
+      cmocka_unit_test(who_comes_late_sees_what_is_kept),
+      cmocka_unit_test(who_comes_and_is_too_slow_loses_what_goes),
+      cmocka_unit_test(what_is_kept_is_bounded_in_bytes_too),
       cmocka_unit_test(a_full_ring_loses_nothing),
       cmocka_unit_test(an_overtaken_reader_gets_the_newest_and_the_count),
       cmocka_unit_test(a_large_block_goes_by_itself),

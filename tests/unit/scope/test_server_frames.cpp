@@ -152,8 +152,10 @@ void one_that_does_not_read_loses_frames_and_is_told(void**) {
   read_lines(good, Milliseconds(3000), read);
   assert_int_equal(left_out(read.text), 0);
   assert_int_equal(read.dropped, 0);
-  // What this test has read itself is in it; what would have waited would be, too.
-  const long grown_bytes = resident_bytes() - before_bytes - static_cast<long>(read.text.size());
+  // What this test has read itself is in it, and the same once more for pages that come later; what
+  // would have waited would be, too.
+  const long grown_bytes =
+      resident_bytes() - before_bytes - 2 * static_cast<long>(read.text.size());
   assert_true(!kMemoryIsCounted || grown_bytes < kServerMost_bytes);
   rig.source().set_frames_per_block(1);
   Lines late;
@@ -178,7 +180,7 @@ void wishes_are_done_or_refused(void**) {
        {std::pair<const char*, const char*>{R"({"do":"fly"})", "only stop is known"},
         {"{", "this is not JSON"},
         {R"({"do":[1]})", "only stop is known"},
-        {"{}", "[json.exception.out_of_range.403] key 'do' not found"}}) {
+        {"{}", "a value is missing"}}) {
     assert_true(asks.send(Opcode::kText, wish));
     assert_string_equal(read_kind(asks, "refused")["why"].get<std::string>().c_str(), why);
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The page put together: what shows what is known, and the loop that keeps it in step.
 
 import {createFeed, embedded_setup} from './feed/feed';
@@ -6,12 +7,14 @@ import {Alarms} from './view/alarms';
 import {FaultList} from './view/fault_list';
 import {FaultLog} from './view/fault_log';
 import {FileOpener} from './view/files';
+import {FirstSight, has_motion} from './view/first_sight';
 import {FrameRate} from './view/frame_rate';
 import {Header} from './view/header';
 import {HealthPanel} from './view/health_panel';
 import {help_dialog} from './view/help';
 import {Histogram} from './view/histogram';
 import {listen_to_keys} from './view/keys';
+import {LimitShares} from './view/limit_shares';
 import {lay_out} from './view/layout';
 import {MessageTable} from './view/message_table';
 import type {View} from './view/page_state';
@@ -23,6 +26,7 @@ import {SimPanel} from './view/sim_panel';
 import {StatePanel} from './view/state_panel';
 import {tell_tests} from './view/tests_window';
 import {create_theme} from './view/theme';
+import {Tour} from './view/tour';
 import {page_words} from './view/words';
 
 /// Ten times a second is as often as words can be read.
@@ -43,13 +47,16 @@ export function start(root: HTMLElement): void {
   const theme = create_theme();
   const words = page_words(state);
   const faults = new FaultLog();
-  const help = help_dialog();
+  const tour = new Tour();
+  const first_sight = new FirstSight();
+  const help = help_dialog(() => tour.start());
 
   const scene = new SceneFrame(theme);
-  const plots = new PlotBoard(state, theme, words.limit);
+  const shares = new LimitShares();
+  const plots = new PlotBoard(state, theme, words.limit, shares);
   const histogram = new Histogram(theme);
   const replay = new ReplayBar(state, faults, theme);
-  const header = new Header(theme, () => help.showModal());
+  const header = new Header(theme, () => help.node.showModal());
   const alarms = new Alarms(words, () => replay.jump_to_current());
   const files = new FileOpener((file) => {
     state.file_opened();
@@ -58,17 +65,18 @@ export function start(root: HTMLElement): void {
   header.node.lastElementChild?.prepend(files.node);
 
   const panel: View[] = [
-    new StatePanel(words), new RunPanel(), new SimPanel((message) => state.send(message)),
+    new StatePanel(words), new RunPanel(theme, words, shares), new SimPanel((message) => state.send(message)),
     new FaultList(faults, words, (time_s) => state.playhead.seek(time_s)), new MessageTable(),
     new HealthPanel(),
   ];
-  const views: View[] = [header, alarms, ...panel, replay, files];
+  const views: View[] = [header, alarms, ...panel, replay, files, tour];
   lay_out(root, {
     header: header.node, alarms: alarms.node, scene: scene.node, layers: scene.layers.node,
     plots: [plots.node, histogram.node], panel: panel.map(({node}) => node), replay: replay.node,
   });
+  root.append(tour.node);
   listen_to_keys({
-    state, replay, theme: () => theme.toggle(), help: () => help.showModal(),
+    state, replay, theme: () => theme.toggle(), help: () => help.node.showModal(),
   });
 
   const rate = new FrameRate();
@@ -79,10 +87,12 @@ export function start(root: HTMLElement): void {
     state.playhead.tick(last_ms === null ? 0 : (now_ms - last_ms) / 1000);
     last_ms = now_ms;
     state.know_machine();
+    first_sight.update(state, has_motion());
     // What a log shows while it is read is passed over at once; reading it is what the processor is
     // for, and without a graphics card a picture takes as long as ten thousand frames.
     if (state.drawn) {
       scene.frame(state);
+      shares.update(state, now_ms);
       plots.frame(now_ms);
       histogram.frame(now_ms, state);
     }
@@ -91,6 +101,7 @@ export function start(root: HTMLElement): void {
       for (const view of views) {
         view.update(state);
       }
+      help.offer_tour(state.setup?.source.mode === 'sim');
     }
     rate.count(now_ms);
   };

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the page knows, and how what the feed says changes it.
 
 import type {FeedEvents} from './feed/feed';
@@ -66,7 +67,13 @@ export class State implements PageState, FeedEvents {
   }
 
   messages(): readonly MessageState[] {
-    return messageStates(this.store, this.playhead.now_s);
+    const states = messageStates(this.store, this.playhead.now_s);
+    return this.is_gone ? states.map((one) => ({...one, stale: true,
+      integrity: 'silent' as const})) : states;
+  }
+
+  get is_gone(): boolean {
+    return this.link.state === 'lost' && this.playhead.follow;
   }
 
   /// The machine is the one that the frames name; of a plan, which has none, the one that is given.
@@ -173,16 +180,17 @@ export class State implements PageState, FeedEvents {
     return this.loaded_share === 1 || this.link.state === 'lost' || this.trouble !== '';
   }
 
-  /// How fast time goes on where no frames come. It goes on without the server too, so that what
-  /// came before becomes old.
+  /// How fast time goes on where no frames come. Without the server it stands with the last of them,
+  /// and everything is old at once.
   private follow_clock(): void {
     const {link, sim, playhead} = this;
     const mode = this.setup?.source.mode;
     const live = (mode === 'can' || mode === 'sim') && link.state !== 'file';
+    const gone = link.state === 'connecting' || link.state === 'lost';
     const before = playhead.clock_rate;
-    playhead.clock_rate = !live || link.state === 'connecting' ? 0
+    playhead.clock_rate = !live || gone ? 0
       : mode === 'sim' && sim?.running === true ? sim.pace
-        : mode === 'can' || link.state === 'lost' ? 1 : 0;
+        : mode === 'can' ? 1 : 0;
     if (live && playhead.clock_rate === 0 && before > 0) {
       playhead.frames_came();  // where time stands, the newest frame is now
     }

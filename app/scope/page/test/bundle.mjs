@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What vite does for the page, as far as the model needs it: TypeScript into one module a file, and
 // DBC files and styles as text.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// As much of a document as the panels' small parts need; text nodes are real enough for set_text.
 
 class FakeText {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How long an hour of log takes: node test/hour.mjs. Figures, no test: they depend on the machine.
 
 import {mkdtempSync, rmSync} from 'node:fs';

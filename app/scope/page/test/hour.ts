@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// 20 messages at 100 Hz for an hour: 7.2 million lines through parser and store, then what the
 /// page asks for while it scrubs.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The shipped machines as the setup would have them, from app/machines/*.toml. What matters of
 /// them is compared with the program that reads those files.
 

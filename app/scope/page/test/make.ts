@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Frames and random numbers for tests.
 
 import {CandumpParser} from '../src/model/candump';

@@ -1,10 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {loadDatabase} from '../src/model/dbc';
 import type {SimState} from '../src/model/api';
 import type {Alarm} from '../src/view/alarm_rules';
 import {AlarmList} from '../src/view/alarms';
-import {LimitStrip} from '../src/view/limit_strip';
+import {limit_colour, limit_key} from '../src/view/limit_colours';
+import {limit_shares} from '../src/view/limit_shares';
 import {integrity_words} from '../src/view/message_table';
 import {SimPanel} from '../src/view/sim_panel';
 import {snapshot} from '../src/view/snapshot';
@@ -36,15 +38,39 @@ test('an alarm keeps its place in the page while others come, change and go', ()
   assert.equal(shown().length, 0);
 });
 
-test('no two limits have one colour, and those beyond all colours have one of none', () => {
-  const strip = new LimitStrip({} as never, String);
-  const colours = Array.from({length: 30}, (_, key) => strip.colour(key + 1));
-  const own = colours.filter((colour) => colour !== 'limit-more');
-  assert.equal(new Set(own).size, own.length);
-  assert.ok(own.length >= 12);
-  for (const colour of new Set(colours)) {
-    assert.equal(theme.split(`--${colour}:`).length, 3, `${colour} in both themes`);
+/// The custom properties of a theme, as written.
+function theme_of(dark: boolean): {colour(name: string): string} {
+  const [light, night] = theme.split("[data-theme='dark']");
+  const of = (text: string, name: string) => new RegExp(`--${name}: (#[0-9a-f]{6})`).exec(text)?.[1];
+  return {colour: (name) => (dark ? of(night!, name) : undefined) ?? of(light!, name)!};
+}
+
+test('a limit has one colour of its own, whatever was seen before it, in both themes', () => {
+  const drives = [0, 1, 2, 3];
+  const keys = [0, ...[2, 3, 4].flatMap((kind) => drives.map((drive) => limit_key(kind, drive))),
+    limit_key(1, 0), limit_key(1, 1), limit_key(8, 0), limit_key(8, 1),
+    ...[5, 6, 7, 9, 10, 11, 12, 13].map((kind) => limit_key(kind, 0))];
+  for (const dark of [false, true]) {
+    const colours = keys.map((key) => limit_colour(theme_of(dark), key));
+    assert.equal(new Set(colours).size, keys.length, colours.join());
+    assert.ok(colours.every((colour) => /^#[0-9a-f]{6}$/.test(colour)), colours.join());
+    assert.ok(!colours.includes(limit_colour(theme_of(dark), limit_key(14, 0))));
   }
+});
+
+const status_bytes = (kind: number, index: number) => [3 | (kind << 4), index, 0, 0, 0, 0, 0, 0];
+
+test('shares are counted by frames, in the window that is told', () => {
+  const status = (time_s: number, kind: number, index: number) =>
+    line(time_s, id('EcuStatus'), status_bytes(kind, index));
+  const store = store_of(line(0, id('BoomStroke'), new Uint8Array(8))
+    + status(0, 0, 0) + status(0.01, 3, 0) + status(0.02, 3, 0) + status(0.03, 3, 1)
+    + status(0.04, 0, 0));
+  const words = (from_s: number, until_s: number) => limit_shares(store, from_s, until_s)
+    .map(({key, share}) => [key, Math.round(share * 100)]);
+  assert.deepEqual(words(-1, 1), [[0, 40], [limit_key(3, 0), 40], [limit_key(3, 1), 20]]);
+  assert.deepEqual(words(0.005, 0.025), [[limit_key(3, 0), 100]]);
+  assert.deepEqual(words(2, 3), []);
 });
 
 test('a message is stale after three of its cycles, whoever shows it', () => {
@@ -87,7 +113,7 @@ test('what was wanted can be seen in both themes', () => {
   for (const part of theme.split(":root[data-theme='dark']")) {
     const sheet = /--sheet: (#\w+)/.exec(part)![1];
     const soft = [...part.matchAll(/--(\w+)-soft: (#\w+)/g)];
-    assert.equal(soft.length, 9);
+    assert.equal(soft.length, 11);
     for (const [, name, colour] of soft) {
       assert.ok(contrast(colour, sheet) >= 3, `${name} ${colour} on ${sheet}`);
     }

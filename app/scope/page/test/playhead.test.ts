@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {PagePlayhead} from '../src/model/playhead';
@@ -33,16 +34,33 @@ test('on a silent bus time goes on, where it is told to', () => {
   head.clock_rate = 1;
   head.tick(0.2);
   assert.equal(head.now_s, 100);  // frames come in batches
+  head.tick(0);
   head.follow = false;
   head.follow = true;
   assert.equal(head.now_s, 100);
   for (let i = 0; i < 40; ++i) {
     head.tick(0.02);
   }
+  head.tick(0);
   assert.ok(Math.abs(head.now_s - 101) < 1e-9);
   extent.until_s = 100.5;
   head.frames_came();
   assert.equal(head.now_s, 100.5);
+});
+
+test("the page's own lateness is no silence of the bus", () => {
+  const {extent, head} = live();
+  head.clock_rate = 1;
+  head.tick(5);  // hidden, or drawing: what came meanwhile is looked at after this
+  assert.equal(head.now_s, 100);
+  extent.until_s = 105;
+  head.frames_came();
+  head.tick(0.02);
+  assert.equal(head.now_s, 105);
+  // Nothing came for two of its frames: that is silence, however slow the page is.
+  head.tick(1);
+  head.tick(1);
+  assert.ok(head.now_s > 105.9);
 });
 
 test('to seek is to stop following; the window stays while it holds the time', () => {

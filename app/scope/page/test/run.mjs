@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bundles every *.test.ts beside this file and runs them with node's own test runner.
 //   node test/run.mjs OUTPUT_FOLDER
 // GRABEN_DBC: folder of the DBC files, unless it is the tree's. GRABEN_TOOL: the program `graben`,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import type {ExcavatorMachine, Task} from '../src/model/api';
@@ -25,7 +26,7 @@ test('the key has what is drawn: of the dig, of a task, of a plan, of a dozer', 
   assert.equal(of({}), 'ghost path trail');
   assert.equal(of({design, fences: [fence]}), 'ghost path trail design');
   assert.equal(of({design, fences: [fence, fence]}), 'ghost path trail design fence');
-  assert.equal(of({fences: [fence]}, false), 'path fence');
+  assert.equal(of({fences: [fence]}, false), 'path ghost fence');
   assert.equal(marks(excavator_key(EXCAVATOR_22T, ALL, 'none', true)), 'ghost trail');
   assert.equal(marks(dozer_key(ALL)), 'ghost trail design');
 });
@@ -88,7 +89,7 @@ function corner_words(relief_pa: number | null | undefined): string {
 test('the corner says why no cylinder has a colour, or what the colours are', () => {
   assert.match(corner_words(null), /no cylinder pressures on this bus/);
   assert.doesNotMatch(corner_words(null), /MPa/);
-  assert.match(corner_words(34e6), /Cylinder pressure, MPa.*17\|34 \(relief\)/);
+  assert.match(corner_words(34e6), /Cylinder pressure, MPa.*17 \(170\)\|34 \(340\) relief/);
   assert.doesNotMatch(corner_words(34e6), /no cylinder/);
   assert.match(corner_words(null), /old or not available.*wanted blade.*way of the edge.*design/);
   assert.equal(corner_words(undefined).replaceAll('|', ''), '');

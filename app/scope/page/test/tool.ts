@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The program `graben`, which the page's mathematics and its reading of logs are compared with.
 
 import {execFileSync} from 'node:child_process';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Text in, blocks of frames out: at once where there are many, else in batches.
 
 import {CandumpParser} from '../model/candump';
@@ -23,11 +24,6 @@ export class Batches {
     this.parser = new CandumpParser();
     this.text_bytes = 0;
     this.restart = true;
-  }
-
-  /// The same source again, from the beginning of a line.
-  resume(): void {
-    this.parser.forget_rest();
   }
 
   feed(text: Uint8Array): void {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Where the frames come from: the server that the page is from, the log inside it, or a file that
 /// is opened. All of it is read and parsed beside the page (worker.ts).
 

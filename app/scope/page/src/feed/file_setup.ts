@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What a setup is of a file that is opened in the page.
 
 import type {Setup} from '../model/api';

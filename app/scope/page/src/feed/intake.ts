@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Reads what the page shows, wherever it comes from: the same code in a worker and, where there
 /// can be none, on the page's own thread.
 

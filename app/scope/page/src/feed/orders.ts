@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the page and the worker that reads for it say to each other.
 
 import type {FromServer, Setup} from '../model/api';

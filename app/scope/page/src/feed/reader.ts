@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// An intake in a worker; on the page's own thread where the browser makes none, as some do for a
 /// page from a file.
 

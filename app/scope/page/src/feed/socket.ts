@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The WebSocket to the server, for as long as the page lives: lost, it is tried again.
 
 import type {FromServer, Setup} from '../model/api';
@@ -76,8 +77,8 @@ export class ServerSocket {
     }
   }
 
-  /// The first message of every connection. Live frames of the same server go on; a log is sent
-  /// from its beginning again.
+  /// The first message of every connection. A log is sent from its beginning again, a live run from
+  /// the oldest that the server has kept of it.
   private begin(text: string, setup: Setup & {kind: 'setup'}): void {
     this.fetching?.abort();
     this.mode = setup.source.mode;
@@ -85,10 +86,6 @@ export class ServerSocket {
     this.batches.loading = this.mode === 'log';
     const same = text === this.setup_text;
     this.setup_text = text;
-    if (same && this.mode !== 'log') {
-      this.batches.resume();
-      return;
-    }
     this.batches.begin();
     if (!same) {
       const {kind: _, ...said} = setup;

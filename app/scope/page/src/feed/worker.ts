@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The worker's end: an intake that speaks by messages.
 
 import {Intake} from './intake';

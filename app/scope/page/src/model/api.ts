@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the parts of the page know of each other. SI units unless the name says otherwise; times in
 /// seconds as the log has them (candump's stamps, which may be seconds since 1970).
 ///
@@ -149,6 +150,7 @@ export interface Run {
   /// of that name (see view/plots.ts), or on a plot of its own by a name that is not there.
   truth: {
     time_s: readonly number[];
+    note?: string;  ///< What these lines are, where they are no simulation's.
     lines: readonly {plot: string; title?: string; label: string; unit: string;
       values: readonly (number | null)[]}[];
   };
@@ -282,6 +284,9 @@ export interface FrameStore {
   bus_load(time_s: number, bitrate: number): number;
   /// Times at which a fault begins, as EcuStatus has it, with its number.
   faults(): readonly {time_s: number; code: number}[];
+  /// When the controller was first anything but Silent; Infinity: not yet. What it reports before
+  /// is what it waits for, and no fault.
+  readonly ready_s: number;
   readonly health: LogHealth;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// How full the bus is: every bit that a frame takes on the wire, from start of frame to the space
 /// between frames, and the stuff bits that its very content asks for, CRC included. Frames that no
 /// log has are not counted: error frames, repetitions, and those of receivers that filter.

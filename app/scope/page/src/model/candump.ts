@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// candump's log format, byte by byte: `(seconds.micros) interface ID#DATA`, as can-utils and this
 /// project write it. No line becomes a string or an object: an hour of 20 messages at 100 Hz is
 /// seven million lines, to be read in about a second.

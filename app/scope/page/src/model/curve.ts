@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Curves for the screen straight from the frames: an hour of a 100 Hz signal is 360,000 of them,
 /// read in some milliseconds, so that nothing has to be kept beside the frames.
 

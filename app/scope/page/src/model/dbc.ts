@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The DBC files as a database of messages and signals. Parsed by the library; what it leaves as
 /// text, attributes above all, is turned into numbers here.
 

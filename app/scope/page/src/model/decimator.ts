@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Makes a curve of a stream of samples: all of them, or the least and the greatest of each bucket
 /// of time, in their order.
 

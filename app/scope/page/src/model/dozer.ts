@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Where body, blade and cylinders of a dozer are, from its measured pose and blade stroke. Ground
 /// frame of api.ts; the machine drives in the plane y = 0.
 

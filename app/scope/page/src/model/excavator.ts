@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Where every pin of an excavator is, from its strokes and swing, and the way back. The ground
 /// frame of api.ts: x forward, y to the left, z up, origin where the swing axis meets the ground.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Raw values out of a frame's bytes. What a signal's place asks for is decided once, so that a
 /// curve over an hour of frames costs a shift and an or a frame.
 

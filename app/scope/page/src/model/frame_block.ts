@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Frames on their way from the parser to the store: columns of times and bytes, an id each, so
 /// that no frame is ever an object.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Plane geometry that both machines' kinematics share.
 
 import type {Vector2} from './api';

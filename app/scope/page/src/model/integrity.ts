@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// End-to-end protection as a receiver sees it (hal/link/e2e.hpp): the CRC of the data id and bytes 1 to
 /// 7, and the counter. Looked at over one second, whenever and wherever it is asked for; what a
 /// receiver remembers for longer (its synchronisation, frames too early for their sender) is left

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What a cylinder's length makes of a joint, and back: a triangle of two fixed sides and the
 /// cylinder for boom and arm, the four-bar linkage for the bucket. Closed forms, as the
 /// controller's own (firmware/kinematics).

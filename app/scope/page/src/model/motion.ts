@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Velocities as they are, beside those that are wanted: the slope of a measured stroke or angle
 /// over a short stretch of time, long enough that the steps of its raw value do not show.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Where the parser puts frames: a growing column for each id and length.
 
 import type {Column} from './frame_block';

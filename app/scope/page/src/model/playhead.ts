@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The moment that the whole page shows, and the stretch of time that its plots show.
 
 import type {Playhead} from './api';
@@ -28,6 +29,9 @@ export class PagePlayhead implements Playhead {
   private shown: readonly [number, number] = [0, 1];
   private span_s: number | null;  ///< Null: the whole log.
   private silent_s = 0;
+  /// Of the page's own last frame: what came while it drew is looked at only afterwards, and a page
+  /// that is late must not take that for silence of the bus.
+  private owed_s = 0;
   private readonly listeners = new Set<() => void>();
 
   constructor(private readonly extent: Extent, live: boolean) {
@@ -99,6 +103,7 @@ export class PagePlayhead implements Playhead {
   /// To be called after frames were added to the store, or it began anew.
   frames_came(): void {
     this.silent_s = 0;
+    this.owed_s = 0;
     this.update(this.following ? this.extent.until_s : this.now);
   }
 
@@ -109,7 +114,8 @@ export class PagePlayhead implements Playhead {
       this.moving = next < this.extent.until_s;
       this.update(next);
     } else if (this.following && this.clock_rate > 0) {
-      this.silent_s += real_s;
+      this.silent_s += this.owed_s;
+      this.owed_s = real_s;
       if (this.silent_s > SILENCE_S) {
         this.update(this.newest_s());
       }

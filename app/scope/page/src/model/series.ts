@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// All frames of one id, oldest first, in pieces: what has come is never copied again, but for the
 /// small pieces of a live bus, which are gathered.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Puts stamps into an order in which time never goes back, as every search relies on.
 
 /// A step back of less than this is two senders' frames out of order; of more another clock.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The frames that the page has, by message: everything that it shows is asked of here.
 
 import type {
@@ -16,7 +17,8 @@ const OWN_MESSAGE: readonly (readonly [Kind, string])[] =
 export const LIVE_KEEP_S = 600;
 /// Trimmed so rarely that it costs nothing.
 const TRIM_EVERY_S = 5;
-const MOST_FAULTS = 1000;
+/// An hour of a fault that comes and goes ten times a second.
+const MOST_FAULTS = 40_000;
 const MOST_CURVES = 256;
 
 const NOTHING: ParseCount =
@@ -36,6 +38,7 @@ export class PageStore implements FrameStore {
   private found_faults: {time_s: number; code: number}[] = [];
   private faults_read = 0;  ///< Of the frames ever seen of EcuStatus.
   private last_fault = 0;
+  private first_ready_s = Infinity;
   private known: Database | null = null;
   private count: ParseCount = NOTHING;
   private oldest_s = Infinity;
@@ -83,6 +86,7 @@ export class PageStore implements FrameStore {
     this.found_faults = [];
     this.faults_read = 0;
     this.last_fault = 0;
+    this.first_ready_s = Infinity;
     this.known = null;
     this.oldest_s = Infinity;
     this.newest_s = -Infinity;
@@ -145,6 +149,8 @@ export class PageStore implements FrameStore {
   }
 
   faults(): readonly {time_s: number; code: number}[] { return this.found_faults; }
+
+  get ready_s(): number { return this.first_ready_s; }
 
   get health(): LogHealth {
     let foreign = this.count.unheard;
@@ -225,10 +231,12 @@ export class PageStore implements FrameStore {
     return machine === undefined ? null : loadDatabase(machine.kind);
   }
 
-  /// From the frames that came since the last time: a fault begins where the number changes.
+  /// From the frames that came since the last time: a fault begins where the number changes. What a
+  /// controller that has never been ready still waits for, is none.
   private read_faults(): void {
     const found = this.signal('EcuStatus.Fault');
-    if (found === null || found.series === null) {
+    const mode = this.signal('EcuStatus.Mode');
+    if (found === null || found.series === null || mode === null) {
       return;
     }
     const {def, series} = found;
@@ -236,6 +244,13 @@ export class PageStore implements FrameStore {
     for (let row = Math.max(0, this.faults_read - dropped); row < series.count; ++row) {
       const {buffer, at} = series.bytes(row);
       const code = def.raw(buffer, at);
+      if (this.first_ready_s === Infinity) {
+        const raw = mode.def.raw(buffer, at);
+        if (raw === 0 || mode.def.state(raw) !== 'valid') {
+          continue;
+        }
+        this.first_ready_s = series.time(row);
+      }
       if (def.state(code) !== 'valid' || code === this.last_fault) {
         continue;
       }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Where the controller wants the machine to be, as far as the bus and the setup tell: the ghost
 /// beside the machine.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Numbers on the bus in text. Faults and reasons for not arming come with the setup, the limits from
 /// the table that the tool's reports use (firmware/safety/limits.toml).
 

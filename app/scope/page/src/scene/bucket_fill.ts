@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The soil in the bucket, drawn as a mass as large as it is.
 
 import {BufferGeometry, Mesh} from 'three';

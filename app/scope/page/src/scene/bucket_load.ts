@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What an excavator's bucket carries, frame by frame: what its edge has cut while the ground held
 /// against it, corrected by the payload as soon as the controller tells that, and poured where the
 /// bucket is opened. Loose soil, m3. Without EcuTipLoad nothing is known to be in it; what was never

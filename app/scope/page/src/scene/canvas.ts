@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The drawing itself: how many points, and how smooth. A graphics unit smooths every picture.
 /// Where the processor has to draw, that costs twice the picture itself: then pictures in motion
 /// are drawn plainly, and one that stands is drawn again with four points for each.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The scene's lower left corner: the scale of pressures and the key of the layers, side by side
 /// where there is room.
 
@@ -13,10 +14,14 @@ export class Corner {
 
   constructor() {
     Object.assign(this.node.style, {
-      position: 'absolute', left: '12px', right: '12px', bottom: '10px', display: 'flex',
+      position: 'absolute', left: '8px', right: '8px', bottom: '8px', display: 'flex',
       flexWrap: 'wrap-reverse', alignItems: 'flex-end', gap: '4px 18px', pointerEvents: 'none',
       font: '12px/1.35 system-ui, sans-serif'});
-    Object.assign(this.key.node.style, {flex: '1 1 200px'});
+    this.node.className = 'scene-corner';
+    this.key.node.className = 'scene-key';
+    for (const {style} of [this.legend.node, this.key.node]) {
+      Object.assign(style, {padding: '3px 8px', borderRadius: '6px'});
+    }
     this.node.append(this.legend.node, this.key.node);
   }
 
@@ -37,7 +42,10 @@ export class Corner {
 
   set_theme(colours: SceneColours): void {
     this.node.style.color = colours.text;
-    this.node.style.textShadow = `0 0 3px ${colours.halo}`;
+    // Words stay legible over the machine, the grid and the soil.
+    for (const {style} of [this.legend.node, this.key.node]) {
+      style.background = `color-mix(in srgb, ${colours.background} 88%, transparent)`;
+    }
     this.legend.set_theme(colours);
     this.key.set_theme(colours);
   }

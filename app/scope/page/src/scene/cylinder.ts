@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// A hydraulic cylinder between its two pins: barrel with the cap chamber up to the piston and the
 /// rod chamber from there on, and the rod.
 

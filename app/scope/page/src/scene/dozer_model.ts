@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The dozer as nodes: body, blade on its pivot, cylinders between both.
 
 import {Group, Object3D, Vector3} from 'three';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The shapes of a dozer's parts, all from the numbers of its profile; what it does not tell as
 /// shares of gauge, contact and cutting edge that a small dozer has in its maker's sheet.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The dozer with its grade and the ground that its blade cuts.
 
 import {Group, Object3D, Sphere, Vector3 as Point} from 'three';

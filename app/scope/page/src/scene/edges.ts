@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The bucket's teeth or the blade's edge, frame by frame.
 
 import type {DozerMachine, ExcavatorMachine, FrameStore} from '../model/api';

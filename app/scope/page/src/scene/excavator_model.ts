@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The excavator as nodes: each link hangs on the one before it, as the pins have it.
 
 import {Group, Matrix4, type Object3D, Object3D as Node, Vector3} from 'three';

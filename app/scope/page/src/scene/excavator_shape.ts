@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The shapes of an excavator's parts, all from the numbers of its profile. What a profile does not
 /// tell (widths, tracks, platform) is taken as the share of the boom's length or of the boom foot's
 /// height that machines of 12 and 22 t have in their makers' sheets.

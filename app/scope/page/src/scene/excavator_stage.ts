@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The excavator with its path, its soil and what bounds it.
 
 import {Box3, Group, Object3D, Sphere, Vector3 as Point} from 'three';
@@ -91,15 +92,20 @@ export class ExcavatorStage implements Stage {
     }
   }
 
+  private get is_plan(): boolean {
+    return this.setup.source.mode === 'plan';
+  }
+
   face(eye_y_m: number): void {
     this.ruler.face(eye_y_m);
   }
 
   private pose_ghost(store: FrameStore, now_s: number): void {
-    const drives = this.layers?.ghost && store.database !== null ?
-      wantedExcavator(store, this.machine, now_s)?.drives : null;
+    const drives = !this.layers?.ghost ? null :
+      store.database !== null ? wantedExcavator(store, this.machine, now_s)?.drives :
+      this.is_plan ? this.machine.tasks[0]?.steps.at(-1)?.to_drives : null;
     this.model.pose_ghost(drives ?
-      excavatorPose(this.machine, [drives[0], drives[1], drives[2]], drives[3]) : null);
+      excavatorPose(this.machine, [drives[0]!, drives[1]!, drives[2]!], drives[3]!) : null);
   }
 
   private choose(task: ShownTask): void {
@@ -123,7 +129,7 @@ export class ExcavatorStage implements Stage {
   }
 
   private add_task(task: Task): void {
-    const layer = new TaskLayer(this.machine, task);
+    const layer = new TaskLayer(this.machine, task, this.is_plan);
     layer.label(this.labels);
     this.task_node.add(layer.node);
     this.task_parts.push(layer);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the soil in a bucket looks like from the side: its bucket's shell up to a level surface,
 /// which goes along with the bucket where it is tilted further than loose soil lies.
 

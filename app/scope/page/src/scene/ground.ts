@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the ground looks like wherever it is: matt, with lines each metre, lost in the background
 /// far away. Lines are drawn by the surface itself, so that they follow what is cut.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The ground around the machine: soil that is cut, and flat land to all sides.
 
 import {

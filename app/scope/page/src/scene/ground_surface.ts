@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// A height field as triangles: coarse where it is flat and nothing was cut, fine where it is not.
 
 import {BufferAttribute, BufferGeometry} from 'three';

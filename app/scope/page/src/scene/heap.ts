@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Loose soil on the ground: a ridge as long as the bucket is wide, with slopes at the angle of
 /// repose, on whatever lies there.
 

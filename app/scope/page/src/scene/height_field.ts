@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The ground as heights over a grid, changed in the order of time and shown as it was at any time.
 
 export interface Grid {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Steps that no machine makes: a simulation that began anew, another log after the first, or a
 /// sensor that tells wrong.
 

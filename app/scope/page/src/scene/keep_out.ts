@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Boxes and upright cylinders that a task keeps the machine out of.
 
 import {BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial} from 'three';

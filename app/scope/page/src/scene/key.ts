@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the colours of the scene mean: a mark and words for each layer that is on, in its corner.
 
 import type {ExcavatorMachine} from '../model/api';
@@ -17,7 +18,9 @@ export function excavator_key(
     layers.ghost && has_frames && {mark: 'ghost', words: 'wanted pose'},
     layers.path && shown === 'dig' && {mark: 'path', words: 'wanted path'},
     layers.path && task !== undefined &&
-      {mark: 'path', words: 'steps of the task (moves dashed)'},
+      {mark: 'path', words: has_frames ? 'steps of the task (moves dashed)'
+        : 'planned line, poses of the bucket along it'},
+    layers.ghost && !has_frames && task !== undefined && {mark: 'ghost', words: 'pose at its end'},
     layers.path && has_frames && {mark: 'trail', words: 'way of the teeth'},
     layers.field && shown === 'dig' && fastest > 0 &&
       {mark: 'field', words: `field, longest arrow ${fastest.toPrecision(2)} m/s`},

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Words at places of the scene, as text over the canvas: sharp, and the reader's own size.
 
 import {type Camera, Vector3 as Point} from 'three';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The scale of the cylinders' colours, in a corner of the scene.
 
 import {pressure_gradient} from './theme';
@@ -13,7 +14,7 @@ export class Legend {
   constructor() {
     Object.assign(this.node.style, {minWidth: '190px'});
     const title = document.createElement('div');
-    title.textContent = 'Cylinder pressure, MPa';
+    title.textContent = 'Cylinder pressure, MPa (bar)';
     const bar = document.createElement('div');
     Object.assign(bar.style, {
       height: '9px', background: pressure_gradient(), border: '1px solid currentColor',
@@ -49,8 +50,9 @@ export class Legend {
       span.textContent = words;
       return span;
     };
+    const both = (mpa: number): string => `${+mpa.toFixed(1)} (${Math.round(10 * mpa)})`;
     this.numbers.replaceChildren(
-      number('0'), number(`${+(relief / 2).toFixed(1)}`), number(`${+relief.toFixed(1)} (relief)`));
+      number('0'), number(both(relief / 2)), number(`${both(relief)} relief`));
   }
 
   set_theme(colours: SceneColours): void {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Soft light from the sky and a sun, worked out at the corners of the triangles: that is all that
 /// a matt surface needs, and a computer without a graphics unit still draws it fast enough.
 

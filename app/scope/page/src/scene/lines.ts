@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Lines that are some pixels wide, with a thin copy where soil hides them.
 
 import {Color, GreaterDepth, Group} from 'three';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Where the machine stands at a time, with what of it is still known.
 
 import type {DozerMachine, ExcavatorMachine, FrameStore} from '../model/api';

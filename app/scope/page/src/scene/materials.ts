@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Materials that all parts share, and the order in which things are drawn.
 
 import {GreaterDepth, LineBasicMaterial, MeshBasicMaterial} from 'three';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the frames say of the machine at a time, and whether that still holds.
 
 import type {FrameStore, SignalDef} from '../model/api';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What stands in the scene's place where the browser has no WebGL.
 
 import type {SceneView} from './types';

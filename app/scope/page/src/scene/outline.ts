@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Closed outlines of plates and boxes in the plane of a link, before they get a thickness. They
 /// run counter-clockwise; metres throughout.
 

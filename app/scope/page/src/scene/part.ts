@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// One rigid part of a machine: its solid, its outline, and its outline behind soil.
 
 import {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What an excavator's teeth are meant to do: the digging path with the field around it, or the
 /// steps of a task.
 
@@ -109,8 +110,10 @@ export class TaskLayer {
   private readonly straight: Lines;
   private readonly moves: Lines;
   private readonly ends: Lines;
+  private readonly poses: Lines;
 
-  constructor(machine: ExcavatorMachine, private readonly task: Task) {
+  /// With `has_poses` the bucket is drawn along straight steps, as a line from the teeth to its pin.
+  constructor(machine: ExcavatorMachine, private readonly task: Task, has_poses = false) {
     const {steps} = task;
     this.straight = new Lines({width_px: 3.5, seen_through: true}, steps
       .filter((step) => step.straight)
@@ -120,7 +123,10 @@ export class TaskLayer {
       .flatMap((step) => chained(simplified(way_of(machine, step), 0.005))));
     this.ends = new Lines({width_px: 2.5, seen_through: true}, steps.flatMap((step) =>
       [...cross(step.from.position_m), ...cross(step.to.position_m)]));
-    this.node.add(this.straight.node, this.moves.node, this.ends.node);
+    this.poses = new Lines({width_px: 2, seen_through: true}, !has_poses ? [] : steps
+      .filter((step) => step.straight)
+      .flatMap((step) => buckets_along(machine, step)));
+    this.node.add(this.straight.node, this.moves.node, this.ends.node, this.poses.node);
   }
 
   label(labels: Labels): void {
@@ -132,14 +138,34 @@ export class TaskLayer {
   }
 
   set_theme(colours: SceneColours): void {
-    for (const lines of [this.straight, this.moves, this.ends]) {
+    for (const lines of [this.straight, this.moves, this.ends, this.poses]) {
       lines.set_colour(colours.path, colours.cut);
     }
   }
 
   dispose(): void {
-    [this.straight, this.moves, this.ends].forEach((lines) => lines.dispose());
+    [this.straight, this.moves, this.ends, this.poses].forEach((lines) => lines.dispose());
   }
+}
+
+/// So many poses of the bucket, the ends with them.
+const kPoses = 7;
+
+function buckets_along(machine: ExcavatorMachine, step: Task['steps'][number]): Vector3[] {
+  const points: Vector3[] = [];
+  for (let i = 0; i < kPoses; ++i) {
+    const share = i / (kPoses - 1);
+    const mixed = (from: number, to: number): number => from + share * (to - from);
+    const [x, y, z] = step.from.position_m.map((from, axis) =>
+      mixed(from, step.to.position_m[axis]!)) as unknown as Vector3;
+    const attitude = mixed(step.from.attitude_rad, step.to.attitude_rad);
+    // The bucket stands in the plane that the swing faces.
+    const swing = Math.atan2(y, x);
+    const out = machine.bucket_m * Math.cos(attitude);
+    points.push([x, y, z], [x + out * Math.cos(swing), y + out * Math.sin(swing),
+      z + machine.bucket_m * Math.sin(attitude)]);
+  }
+  return points;
 }
 
 function way_of(machine: ExcavatorMachine, step: Task['steps'][number]): Vector3[] {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What a machine's parts are made of: outlines with a thickness. Nothing here knows how it is
 /// drawn.
 

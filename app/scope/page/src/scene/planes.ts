@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Surfaces that a machine must not pass or has to make: fences, a task's design, a dozer's grade.
 
 import {BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial} from 'three';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// A scale on the ground with a tick each metre, and a staff for heights where it ends.
 
 import {Group} from 'three';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The machine in three dimensions, as its frames have it.
 
 import {Color, type PerspectiveCamera, Scene, Vector3 as Point} from 'three';

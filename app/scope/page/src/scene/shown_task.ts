@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Which of its tasks an excavator is at, so that no other's path is in the picture.
 
 import type {ExcavatorMachine, FrameStore, Setup} from '../model/api';

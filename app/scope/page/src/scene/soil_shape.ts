@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Where the soil is that a machine cuts, and how it lies before the first cut.
 
 import type {DozerMachine, ExcavatorMachine} from '../model/api';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Pieces become one mesh: triangles with a normal and a colour at each corner.
 
 import {BufferAttribute, BufferGeometry, Color, ShapeUtils, Vector2 as Point} from 'three';

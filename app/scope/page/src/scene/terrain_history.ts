@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The soil as the received frames have it cut and heaped up: every frame's edge in the order of
 /// time, a little at a time, so that an hour of log does not hold the page up.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Colours of the scene in the light and the dark theme, and of pressures. The machine's own are in solid.ts.
 
 export interface SceneColours {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Tracks of both machines: a belt of shoes around wheels.
 
 import type {Vector2} from '../model/api';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The way that the teeth or the blade's edge took lately.
 
 import type {FrameStore, Vector3} from '../model/api';

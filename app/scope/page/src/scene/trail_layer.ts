@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The trail as a line that fades with age.
 
 import {Color, type Group} from 'three';

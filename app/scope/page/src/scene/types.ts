@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Interfaces of the scene, and of a machine of either kind in it.
 
 import type {Group, Object3D, Sphere} from 'three';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The reader's eye: turned by mouse, touch and keys about what is looked at.
 
 import {MOUSE, PerspectiveCamera, Sphere, TOUCH, Vector3 as Point} from 'three';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What is wrong, as sentences: with the machine, with its plan, with the bus, with the file.
 
 import {count, hash_words} from './format';

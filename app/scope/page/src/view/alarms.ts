@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The banner of alarms below the header. Each keeps its place in the page for as long as it lasts:
 /// a screen reader hears it once, and a number that changes in one disturbs no other.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// How an area was built, seen from above: a cell for each place, coloured by how far the ground is
 /// from its design, with what the colours mean.
 

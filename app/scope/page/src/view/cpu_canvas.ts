@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Canvases that the processor draws.
 
 type GetContext = typeof HTMLCanvasElement.prototype.getContext;

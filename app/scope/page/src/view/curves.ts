@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// From curves with times of their own to the columns that uPlot draws: one ascending time, a
 /// value of each line, `undefined` where a line has no point then and null where it has a gap.
 

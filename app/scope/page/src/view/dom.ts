@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Small helpers for building and changing the page. Texts are set as text, never as markup: names
 /// and words come from files and frames.
 

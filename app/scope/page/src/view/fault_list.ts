@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The faults as a list; a click shows the moment at which one began.
 
 import {button, el, Rows, section, set_attribute, set_shown, set_text} from './dom';
@@ -6,6 +7,9 @@ import {date_words, time_words} from './format';
 import type {PageState, View} from './page_state';
 import {snapshot} from './snapshot';
 import type {PageWords} from './words';
+
+/// So many can be scrolled through; the buttons go from each to the next beyond them too.
+const LISTED = 200;
 
 interface Row {
   node: HTMLElement;
@@ -28,7 +32,7 @@ export class FaultList implements View {
     private readonly log: FaultLog, private readonly words: PageWords,
     seek: (time_s: number) => void,
   ) {
-    this.node = section('faults', 'Faults', this.none, this.list, this.more);
+    this.node = section('faults', 'Faults so far', this.none, this.list, this.more);
     this.rows = new Rows(this.list, () => {
       const [time, number, words] = [el('span', {class: 'time'}), el('span', {class: 'code'}),
         el('span', {class: 'words'})];
@@ -42,17 +46,18 @@ export class FaultList implements View {
   update(state: PageState): void {
     set_shown(this.node, state.setup?.source.mode !== 'plan');
     this.log.update(state.store);
-    const {events, total} = this.log;
+    const {events} = this.log;
+    const listed = Math.min(events.length, LISTED);
     if (this.known !== events) {
       this.known = events;
       this.write(state);
     }
     set_shown(this.none, events.length === 0);
-    set_shown(this.more, total > events.length);
-    set_text(this.more, `${total - events.length} older ones are not listed.`);
+    set_shown(this.more, events.length > listed);
+    set_text(this.more, `${events.length - listed} older ones are not listed.`);
     const {fault} = snapshot(state.store, state.playhead.now_s);
     const now = fault === 0 ? undefined : this.log.last(state.playhead.now_s, fault);
-    for (const row of this.rows.take(events.length)) {
+    for (const row of this.rows.take(listed)) {
       set_attribute(row.press, 'aria-current', row.time_s === now?.time_s ? 'true' : null);
     }
   }
@@ -60,7 +65,7 @@ export class FaultList implements View {
   /// Newest first.
   private write(state: PageState): void {
     const {events} = this.log;
-    const rows = this.rows.take(events.length);
+    const rows = this.rows.take(Math.min(events.length, LISTED));
     rows.forEach((row, k) => {
       const event = events[events.length - 1 - k]!;
       row.time_s = event.time_s;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Where in the log faults began, above the slider.
 
 import {el} from './dom';

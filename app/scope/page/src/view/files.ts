@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// A log from this computer: dropped on the page or chosen. Nothing is sent anywhere.
 
 import {button, el, set_shown} from './dom';

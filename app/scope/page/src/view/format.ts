@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Numbers and times in words.
 
 const SINCE1970_S = 1e8;  ///< Stamps from 1973 on are taken for seconds since 1970.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Frames of the screen that were drawn in the last second.
 
 const SECOND_MS = 1000;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Name, source in words, machine, connection.
 
 import type {Machine} from '../model/api';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// How the controller's process fares, and what it says that it is.
 
 import type {Reading} from '../model/api';

@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The keys, and what the picture means.
 
-import {button, el} from './dom';
+import {button, el, set_shown} from './dom';
+import {notices} from './notices';
 
 export const KEYS: readonly (readonly [string, string])[] = [
   ['Space', 'play or pause'],
@@ -24,13 +26,23 @@ const MORE: readonly string[] = [
   'This page only listens. On a real bus it sends nothing; in a simulation it asks the server.',
 ];
 
-export function help_dialog(): HTMLDialogElement {
+export interface Help {
+  node: HTMLDialogElement;
+  offer_tour(offered: boolean): void;
+}
+
+export function help_dialog(tour: () => void): Help {
+  const show_tour = button('Show the tour', () => {
+    dialog.close();
+    tour();
+  });
   const dialog = el('dialog', {class: 'help', 'aria-labelledby': 'help-title'},
     el('h2', {id: 'help-title'}, 'Help'),
     el('dl', {}, ...KEYS.flatMap(([keys, words]) => [
       el('dt', {}, ...keys.split(' ').map((key) => el('kbd', {}, key))), el('dd', {}, words)])),
-    ...MORE.map((words) => el('p', {}, words)));
-  dialog.append(button('Close', () => dialog.close(), {class: 'primary'}));
+    ...MORE.map((words) => el('p', {}, words)), notices());
+  dialog.append(el('div', {class: 'row'},
+    button('Close', () => dialog.close(), {class: 'primary'}), show_tour));
   document.body.append(dialog);
-  return dialog;
+  return {node: dialog, offer_tour: (offered) => set_shown(show_tour, offered)};
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// How long the control cycles took, over the window of the plots.
 
 import uPlot from 'uplot';
@@ -9,7 +10,7 @@ import type {PageState} from './page_state';
 import type {ThemeSwitch} from './theme';
 
 const EVERY_MS = 500;
-const HEIGHT_PX = 130;
+const HEIGHT_PX = 144;
 
 export class Histogram {
   readonly node: HTMLElement;
@@ -23,7 +24,7 @@ export class Histogram {
 
   constructor(private readonly theme: ThemeSwitch) {
     this.node = el('figure', {class: 'plot', 'data-name': 'cycle'},
-      el('figcaption', {}, el('h3', {}, 'Cycle time', el('span', {class: 'unit'}, ', µs'))),
+      el('figcaption', {}, el('h3', {}, 'Cycle times, how often', el('span', {class: 'unit'}, ', µs'))),
       this.words, this.canvas);
     new IntersectionObserver(([entry]) => {
       this.visible = entry?.isIntersecting ?? false;
@@ -97,12 +98,15 @@ export class Histogram {
         }},
         y: {range: (_plot, _min, max) => [0, Math.max(1, max * 1.05)]},
       },
-      axes: [{...axis, size: 26, space: 60}, {
+      axes: [{
+        ...axis, size: 24, space: 60, label: 'cycle time, µs', labelSize: 16, labelGap: 0,
+        labelFont: '12px system-ui, sans-serif',
+      }, {
         ...axis, size: 48, space: 28, label: 'cycles', labelSize: 16, labelGap: 2,
         labelFont: '12px system-ui, sans-serif',
       }],
       series: [{}, {
-        stroke: () => theme.colour('boom'), fill: () => theme.colour('boom-soft'), width: 1,
+        stroke: () => theme.colour('first'), fill: () => theme.colour('available-soft'), width: 1,
         points: {show: false}, paths: uPlot.paths.bars!({size: [1, Infinity], gap: 1}),
       }],
     };

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Keys for the whole page; what is being typed into or adjusted keeps its own.
 
 import {is_live, type PageState} from './page_state';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the scene shows, as toggles; and its camera's way home.
 
 import type {Machine} from '../model/api';

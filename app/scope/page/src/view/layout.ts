@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Where everything stands: landmarks in reading order, which is also the order of the Tab key.
 
 import {el} from './dom';
@@ -19,7 +20,8 @@ export function lay_out(root: HTMLElement, parts: Parts): void {
     el('main', {}, parts.alarms,
       el('section', {class: 'scene', 'aria-label': 'Scene: the machine in space'},
         parts.scene, parts.layers),
-      el('section', {class: 'plot-column', 'aria-label': 'Plots'}, ...parts.plots),
+      el('section', {class: 'plot-column', 'aria-labelledby': 'plots-title'},
+        el('h2', {class: 'hidden', id: 'plots-title'}, 'Plots'), ...parts.plots),
       el('section', {class: 'panel', id: 'panel', tabindex: -1, 'aria-label': 'Panel'},
         ...parts.panel)),
     parts.replay);

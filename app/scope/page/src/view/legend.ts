@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The lines of a plot by name, colour and value at the cursor; each can be put out of the picture.
 
 import type {FrameStore, Reading} from '../model/api';

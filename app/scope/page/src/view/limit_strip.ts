@@ -1,15 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What holds lambda, as a strip of colours below its curve, with a key of names and shares.
 
 import type uPlot from 'uplot';
 import type {FrameStore} from '../model/api';
 import {el, Rows, set_text} from './dom';
 import {fixed} from './format';
+import {index_of, kind_of, limit_colour, limit_key} from './limit_colours';
+import type {LimitShares} from './limit_shares';
 import type {ThemeSwitch} from './theme';
 
 /// By the numbers that EcuStatus has.
 export type LimitWords = (kind: number, index: number) => string;
 
-const COLOURS = 13;
 const TOP = -0.04;
 const BOTTOM = -0.17;
 
@@ -28,14 +30,16 @@ interface KeyRow {
 export class LimitStrip {
   readonly key = el('ul', {class: 'strip-key', 'aria-label': 'What holds lambda, in this window'});
   private spans: Span[] = [];
-  private readonly colours = new Map<number, string>();
   private readonly rows = new Rows<KeyRow>(this.key, () => {
     const swatch = el('span', {class: 'swatch block'});
     const words = el('span');
     return {node: el('li', {}, swatch, words), swatch, words};
   });
 
-  constructor(private readonly theme: ThemeSwitch, private readonly words: LimitWords) {}
+  constructor(
+    private readonly theme: ThemeSwitch, private readonly words: LimitWords,
+    private readonly shares: LimitShares,
+  ) {}
 
   /// One look a pixel: what stands there is the limit of the last frame before it.
   sample(store: FrameStore, from_s: number, until_s: number, pixels: number): void {
@@ -45,11 +49,10 @@ export class LimitStrip {
     const kind = definition?.signals.get('LimitKind');
     const index = definition?.signals.get('LimitIndex');
     if (kind === undefined || index === undefined || pixels < 1) {
-      this.write_key(0);
+      this.write_key();
       return;
     }
     let last: Span | null = null;
-    let seen_s = 0;
     for (let x = 0; x < pixels; ++x) {
       const time_s = from_s + ((x + 0.5) / pixels) * (until_s - from_s);
       const at = frames.at(time_s);
@@ -59,9 +62,8 @@ export class LimitStrip {
       }
       const {buffer, at: byte} = frames.bytes(at);
       const raw_kind = kind.raw(buffer, byte);
-      const key = raw_kind === 0 ? 0 : raw_kind * 256 + index.raw(buffer, byte);
+      const key = limit_key(raw_kind, index.raw(buffer, byte));
       const width_s = (until_s - from_s) / pixels;
-      seen_s += width_s;
       if (last !== null && last.key === key) {
         last.until_s += width_s;
       } else {
@@ -69,7 +71,7 @@ export class LimitStrip {
         this.spans.push(last);
       }
     }
-    this.write_key(seen_s);
+    this.write_key();
   }
 
   draw(plot: uPlot, origin_s: number): void {
@@ -83,38 +85,21 @@ export class LimitStrip {
     for (const {from_s, until_s, key} of this.spans) {
       const left = plot.valToPos(from_s - origin_s, 'x', true);
       const right = plot.valToPos(until_s - origin_s, 'x', true);
-      ctx.fillStyle = this.theme.colour(this.colour(key));
+      ctx.fillStyle = limit_colour(this.theme, key);
       ctx.fillRect(left, top, Math.max(1, right - left), height);
     }
     ctx.restore();
   }
 
-  /// Colours are given in the order in which limits appear, and kept.
-  colour(key: number): string {
-    if (key === 0) {
-      return 'limit0';
-    }
-    let colour = this.colours.get(key);
-    if (colour === undefined) {
-      // More than there are colours share one that none else has.
-      colour = this.colours.size < COLOURS ? `limit${this.colours.size + 1}` : 'limit-more';
-      this.colours.set(key, colour);
-    }
-    return colour;
-  }
-
-  private write_key(seen_s: number): void {
-    const shares = new Map<number, number>();
-    for (const {from_s, until_s, key} of this.spans) {
-      shares.set(key, (shares.get(key) ?? 0) + until_s - from_s);
-    }
-    const sorted = [...shares].sort((a, b) => b[1] - a[1]);
-    const rows = this.rows.take(sorted.length);
-    sorted.forEach(([key, share_s], k) => {
+  private write_key(): void {
+    const rows = this.rows.take(this.shares.rows.length);
+    this.shares.rows.forEach(({key, share}, k) => {
       const row = rows[k]!;
-      row.swatch.style.setProperty('--line', `var(--${this.colour(key)})`);
-      const name = key === 0 ? 'nothing' : this.words(key >> 8, key & 0xff);
-      set_text(row.words, `${name} ${fixed((share_s / seen_s) * 100, 1)} %`);
+      row.swatch.style.setProperty('--line', limit_colour(this.theme, key));
+      set_text(row.words, `${limit_name(key, this.words)} ${fixed(share * 100, 1)} %`);
     });
   }
 }
+
+export const limit_name = (key: number, words: LimitWords): string =>
+  key === 0 ? 'nothing' : words(kind_of(key), index_of(key));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Every message of the bus: age, rate, counter, whether it is whole; its values on demand.
 
 import type {Integrity, MessageDef, MessageState} from '../model/api';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// All values of one message, decoded, with units.
 
 import type {MessageDef, Reading, SignalDef} from '../model/api';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Velocities of a drive: as it moves, and as lambda leaves them of what was wanted. Lambda times
 /// wanted is what the real one should be.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What every part of the page is shown, and what it may ask for.
 
 import type {
@@ -19,6 +20,7 @@ export interface PageState {
   readonly extent: {readonly from_s: number; readonly until_s: number};
   machine: Machine | null;
   link: Link;
+  readonly is_gone: boolean;  ///< The newest is shown, and nothing newer can come.
   dropped: number;          ///< Frames that the server left out for this page.
   bus: {up: boolean; words: string} | null;
   sim: SimState | null;

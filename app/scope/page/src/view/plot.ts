@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// One plot: uPlot with the page's theme, the playhead's line, a legend with values.
 
 import uPlot from 'uplot';
@@ -26,6 +27,7 @@ const FONT = '12px system-ui, sans-serif';
 const WIDTHS = {wanted: 3, real: 1.8, beside: 1, truth: 1.8};
 const DASHES: Partial<Record<Line['style'], number[]>> = {wanted: [2, 3], truth: [8, 4]};
 const PIXELS_PER_BUCKET = 2;
+const BAR = 10;  ///< Of one MPa.
 const TIME_STEPS_S = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30,
   60, 120, 300, 600, 900, 1800, 3600, 7200, 14400, 28800, 86400];
 
@@ -147,8 +149,10 @@ export class Plot {
         },
       },
       axes: [
-        {...axis, size: 26, space: 70, incrs: TIME_STEPS_S, values: (_u, splits, _a, _s, step) =>
-          time_ticks(splits, step)},
+        {
+          ...axis, size: 24, space: 70, incrs: TIME_STEPS_S, label: 'time, min:s', labelSize: 16,
+          labelGap: 0, values: (_u, splits, _a, _s, step) => time_ticks(splits, step),
+        },
         {
           ...axis, size: 48, space: 28, values: (_u, splits) => numbers(splits),
           ...(this.strip === null ? {} : {splits: () => [0, 0.25, 0.5, 0.75, 1]}),
@@ -156,6 +160,12 @@ export class Plot {
             splits: bent_splits, filter: (_u: uPlot, splits: number[]) => splits,
           }),
         },
+        // A hydraulics engineer reads MPa, an operator bar.
+        ...(this.spec.unit !== 'MPa' ? [] : [{
+          ...axis, scale: 'y', side: 1 as const, size: 40, space: 28, grid: {show: false},
+          label: 'bar', labelSize: 16, labelGap: 0,
+          values: (_u: uPlot, splits: number[]) => numbers(splits.map((value) => value * BAR)),
+        }]),
       ],
       series: [{}, ...this.spec.lines.map((line): uPlot.Series => ({
         stroke: () => theme.colour(line.colour), points: {show: false},

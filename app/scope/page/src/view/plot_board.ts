@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 /// All plots of a machine: one window, one cursor. Curves are fetched only for plots in sight, at
 /// most fifteen times a second, and a few at a time, so that the scene keeps its frames.
 
 import type {Run} from '../model/api';
 import {el, set_shown, set_text} from './dom';
+import type {LimitShares} from './limit_shares';
 import {LimitStrip, type LimitWords} from './limit_strip';
 import type {PageState} from './page_state';
 import {Plot, type PlotHost} from './plot';
@@ -13,9 +15,9 @@ import type {ThemeSwitch} from './theme';
 const REFRESH_MS = 66;
 const BUDGET_MS = 7;
 const SLOW_MS = 40;
-const HEIGHT_PX = 150;
+const HEIGHT_PX = 164;
 const PRINT_WIDTH_PX = 310;  ///< Two beside each other on A4.
-const STRIP_HEIGHT_PX = 176;
+const STRIP_HEIGHT_PX = 190;
 
 export class PlotBoard {
   readonly node = el('div', {class: 'plots'});
@@ -47,7 +49,7 @@ export class PlotBoard {
 
   constructor(
     private readonly state: PageState, private readonly theme: ThemeSwitch,
-    private readonly words: LimitWords,
+    private readonly words: LimitWords, private readonly shares: LimitShares,
   ) {
     this.node.append(this.empty);
     this.size.observe(this.node);
@@ -138,7 +140,7 @@ export class PlotBoard {
     const host = this.host();
     const before = this.plots;
     this.plots = specs.map((spec) => kept.get(plot_key(spec)) ?? new Plot(spec, host,
-      spec.strip === true ? new LimitStrip(this.theme, this.words) : null));
+      spec.strip === true ? new LimitStrip(this.theme, this.words, this.shares) : null));
     for (const plot of before.filter((one) => !this.plots.includes(one))) {
       this.sight.unobserve(plot.node);
       plot.destroy();

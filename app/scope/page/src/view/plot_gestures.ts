@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Zoom and cursor without dragging: keys on a plot, the wheel with Ctrl (and so the pinch of a
 /// trackpad), two fingers on a screen.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Ranges and bars of plots.
 
 import type uPlot from 'uplot';

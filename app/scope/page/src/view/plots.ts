@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Which plots there are, by machine. Their names are those that Run.truth.lines[].plot may name;
 /// such a line is added, dashed, converted to the plot's unit.
 
 import type {FrameStore, Kind, Machine, Run} from '../model/api';
 import {followed_trace, moved_trace} from './motion_trace';
-import {signal_trace, truth_trace, unit_factor, type Trace} from './traces';
+import {in_unit, signal_trace, truth_trace, unit_factor, type Trace} from './traces';
 
 export interface Line {
   label: string;
@@ -43,6 +44,12 @@ function real(label: string, colour: string, signal: string, digits: number): Li
 
 function beside(label: string, colour: string, signal: string, digits: number): Line {
   return {label, colour, style: 'beside', digits, trace: signal_trace(signal)};
+}
+
+/// The same lines, whose frames have another unit than the plot.
+function told_in(from: string, to: string, digits: number, lines: readonly Line[]): Line[] {
+  const factor = unit_factor(from, to) ?? NaN;
+  return lines.map((line) => ({...line, digits, trace: in_unit(line.trace, factor)}));
 }
 
 /// What lambda leaves of the wanted velocity, and what becomes of it.
@@ -89,9 +96,9 @@ function excavator_plots(count: number, came: ReadonlySet<string>): PlotSpec[] {
   }];
   if (has_swing) {
     plots.push({
-      name: 'swing', title: 'Swing rate', unit: 'mrad/s', least: [-20, 20],
+      name: 'swing', title: 'Swing rate', unit: 'deg/s', least: [-2, 2],
       note: 'Lambda times wanted dotted, real whole; to the left is positive',
-      lines: velocities('excavator', 'Swing', 'swing'),
+      lines: told_in('mrad/s', 'deg/s', 1, velocities('excavator', 'Swing', 'swing')),
     });
   }
   plots.push({
@@ -115,16 +122,16 @@ function excavator_plots(count: number, came: ReadonlySet<string>): PlotSpec[] {
       name: 'tip_force', title: 'Tip force', unit: 'kN', least: [-1, 1],
       note: "Of the ground on the teeth, by the cylinders' pressures; thin its standard deviation",
       lines: [
-        real('Outwards', 'boom', 'EcuTipLoad.TipForceOutwards', 1),
-        real('Up', 'arm', 'EcuTipLoad.TipForceUp', 1),
-        beside('Deviation', 'bucket', 'EcuTipLoad.TipForceDeviation', 1),
+        real('Outwards', 'first', 'EcuTipLoad.TipForceOutwards', 1),
+        real('Up', 'second', 'EcuTipLoad.TipForceUp', 1),
+        beside('Deviation', 'error', 'EcuTipLoad.TipForceDeviation', 1),
       ],
     }, {
       name: 'payload', title: 'Payload', unit: 'kg', least: [0, 100],
       note: 'Of the bucket while it is lifted free; thin its standard deviation',
       lines: [
-        real('Payload', 'bucket', 'EcuTipLoad.PayloadMass', 0),
-        beside('Deviation', 'bucket', 'EcuTipLoad.PayloadDeviation', 0),
+        real('Payload', 'first', 'EcuTipLoad.PayloadMass', 0),
+        beside('Deviation', 'error', 'EcuTipLoad.PayloadDeviation', 0),
       ],
     });
   }
@@ -159,15 +166,15 @@ function dozer_plots(): PlotSpec[] {
     note: 'Edge against the grade, above is positive; axis straight to 10 mm',
     lines: [real('Grade error', 'error', 'EcuGrade.GradeError', 1)],
   }, {
-    name: 'speeds', title: 'Travel speed', unit: 'mm/s', least: [0, 500],
+    name: 'speeds', title: 'Travel speed', unit: 'km/h', least: [0, 2],
     note: 'Wanted dotted, real whole, limit of flow and transmission thin',
-    lines: [
-      wanted('Wanted', 'boom', 'EcuMotion.WantedSpeed', 0),
+    lines: told_in('mm/s', 'km/h', 2, [
+      wanted('Wanted', 'travel', 'EcuMotion.WantedSpeed', 0),
       beside('Limit', 'error', 'EcuMotion.SpeedLimit', 0),
-      real('Real', 'boom', 'BodyVelocity.Forward', 0),
+      real('Real', 'travel', 'BodyVelocity.Forward', 0),
       beside('Left track', 'left', 'TrackSpeed.LeftTrack', 0),
       beside('Right track', 'right', 'TrackSpeed.RightTrack', 0),
-    ],
+    ]),
   }, {
     name: 'flow', title: 'Implement flow', unit: 'L/min', least: [0, 100],
     note: 'That the grade requires of what there is',
@@ -176,12 +183,12 @@ function dozer_plots(): PlotSpec[] {
   }, {
     name: 'spools', title: 'Blade spool', unit: 'per mille', least: [-100, 100],
     note: 'Command dotted, feedback whole; positive lowers',
-    lines: [wanted('Blade command', 'boom', 'SpoolCommand.BladeDuty', 0),
-      real('Blade', 'boom', 'ValveState.BladeSpool', 0)],
+    lines: [wanted('Blade command', 'blade', 'SpoolCommand.BladeDuty', 0),
+      real('Blade', 'blade', 'ValveState.BladeSpool', 0)],
   }, {
     name: 'velocities', title: 'Blade cylinder velocity', unit: 'mm/s', least: [-20, 20],
     note: 'Wanted dotted, real whole; positive lowers',
-    lines: velocities('dozer', 'Blade', 'boom'),
+    lines: velocities('dozer', 'Blade', 'blade'),
   }, {
     name: 'displacements', title: 'Pump displacements', unit: 'per mille', least: [0, 100],
     note: 'Command dotted, measured whole; forward is positive',
@@ -243,13 +250,13 @@ export function plots_of(
   return run === undefined ? plots : with_truth(plots, run);
 }
 
-const TRUTH_COLOURS = ['true', 'boom', 'arm', 'swing', 'right', 'error'];
+const TRUTH_COLOURS = ['true', 'first', 'second', 'error', 'lambda'];
 
-const DRIVE_NAMES = ['boom', 'arm', 'bucket', 'swing', 'left', 'right'];
+const DRIVE_NAMES = ['boom', 'arm', 'bucket', 'swing', 'blade', 'left', 'right', 'pump1', 'pump2'];
 
 /// A line named after a drive has its colour.
 function colour_of(label: string, line: number): string {
-  const first = label.toLowerCase().split(/[^a-z]/)[0]!;
+  const first = label.toLowerCase().replace(/^pump ([12])/, 'pump$1').split(/[^a-z0-9]/)[0]!;
   return DRIVE_NAMES.includes(first) ? first : TRUTH_COLOURS[line % TRUTH_COLOURS.length]!;
 }
 
@@ -261,7 +268,8 @@ function digits_for(values: readonly (number | null)[]): number {
 
 function with_truth(plots: PlotSpec[], run: Run): PlotSpec[] {
   const all = plots.map((plot) => ({...plot, lines: [...plot.lines]}));
-  const planned = run.pose === undefined ? 'Known to the simulation' : 'As planned';
+  const planned = run.truth.note
+    ?? (run.pose === undefined ? 'Known to the simulation' : 'As planned');
   for (const line of run.truth.lines) {
     let plot = all.find(({name, unit}) =>
       name === line.plot && unit_factor(line.unit, unit) !== null);
@@ -272,7 +280,8 @@ function with_truth(plots: PlotSpec[], run: Run): PlotSpec[] {
     }
     const factor = unit_factor(line.unit, plot.unit) ?? 1;
     plot.lines.push({
-      label: line.label, style: all.indexOf(plot) < plots.length ? 'truth' : 'real',
+      label: line.label,
+      style: all.indexOf(plot) < plots.length || /, (limit|second)$/.test(line.label) ? 'truth' : 'real',
       colour: colour_of(line.label, plot.lines.length),
       digits: plot.lines[0]?.digits ?? digits_for(line.values),
       trace: truth_trace(run, line, factor),

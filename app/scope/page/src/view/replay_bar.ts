@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The moment that is shown: play, pause, speed, scrub, step, jump from fault to fault.
 
 import {button, el, set_attribute, set_shown, set_text} from './dom';
@@ -16,6 +17,10 @@ const JUST_BEFORE_S = 1e-6;
 export class ReplayBar implements View {
   readonly node: HTMLElement;
   private readonly play = button('Play', () => this.toggle(), {class: 'primary play'});
+  /// Always in reach, on a phone as well: the panel's is a long way down there.
+  private readonly stop = button('Stop', () => this.state.send({
+    do: this.stop.dataset.running === 'true' ? 'stop' : 'run',
+  }), {class: 'stop', title: 'Stop or start the simulation'});
   private readonly live = button('Back to live', () => {
     this.state.playhead.follow = true;
   }, {class: 'live'});
@@ -52,8 +57,7 @@ export class ReplayBar implements View {
     this.slider.addEventListener('input', () =>
       state.playhead.seek(Number(this.slider.value) + state.origin_s));
     this.node = el('footer', {class: 'replay', 'aria-label': 'Replay'},
-      el('div', {class: 'replay-buttons'}, this.play, ...this.steps, ...this.jumps, this.rate,
-        this.live),
+      el('div', {class: 'replay-buttons'}, this.play, this.stop, this.live, ...this.steps, ...this.jumps, this.rate),
       el('div', {class: 'scrubber'}, this.marks.node, this.slider),
       el('p', {class: 'times'}, this.now, this.until, this.date));
     state.playhead.on_change(() => this.show_now());
@@ -101,6 +105,11 @@ export class ReplayBar implements View {
   update(state: PageState): void {
     const {playhead, store, extent} = state;
     set_shown(this.live, is_live(state) && !playhead.follow);
+    const {sim} = state;
+    set_shown(this.stop, state.setup?.source.mode === 'sim');
+    set_attribute(this.stop, 'data-running', String(sim?.running === true));
+    set_text(this.stop, sim?.running === true ? 'Stop machine' : 'Start machine');
+    this.stop.disabled = sim === null || state.link.state !== 'open';
     const moving = playhead.follow || playhead.playing;
     set_text(this.play, moving ? 'Pause' : 'Play');
     set_attribute(this.play, 'title', `${moving ? 'Pause' : 'Play'} (space)`);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The scene and its layers. Without WebGL it says so itself, and the rest goes on.
 
 import {createScene} from '../scene/scene';

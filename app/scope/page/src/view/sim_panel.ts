@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Controls of a simulation: its pace, the operator's speed, the ground, and faults by button.
 /// What is shown as on is what the server says is on, not what was clicked.
 
@@ -61,7 +62,7 @@ export class SimPanel implements View {
       el('div', {class: 'field'}, el('label', {for: 'sim-pace'}, 'Pace'), pace),
       speed.node,
       el('div', {class: 'row'}, sim.can.soil ? soil : null, sim.can.obstacle ? obstacle : null),
-      el('h3', {}, 'Faults'),
+      el('h3', {}, 'Faults to inject'),
       button('Take all faults back and re-arm', () => this.send({do: 'clear'}), {class: 'wide'}),
       el('ul', {class: 'fault-buttons'}, ...faults.map(({node}) => node)));
     this.refresh = (state, said) => {

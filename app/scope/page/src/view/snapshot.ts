@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the controller says of itself at one moment, read once for all parts of the panel.
 
 import type {FrameStore, Reading} from '../model/api';
@@ -13,6 +14,7 @@ export interface Snapshot {
   limit_kind: number | null;
   limit_index: number;
   fault: number;         ///< 0: none.
+  waits_for: number;     ///< The same of a controller that has not been ready yet, which is no fault.
   why_not_armed: Reading;
   stale: boolean;        ///< EcuStatus does not come any more.
 }
@@ -26,13 +28,15 @@ export function snapshot(store: FrameStore, time_s: number): Snapshot {
   const mode = read('EcuStatus.Mode');
   const kind = read('EcuStatus.LimitKind');
   const fault = read('EcuStatus.Fault');
+  const code = fault.state === 'valid' && fault.raw <= VALID_FAULTS ? fault.raw : 0;
   return {
     mode: mode.state === 'valid' ? MODES[mode.raw] ?? null : null,
     mode_age_s: mode.age_s,
     lambda: read('EcuStatus.Lambda'),
     limit_kind: kind.state === 'valid' ? kind.raw : null,
     limit_index: read('EcuStatus.LimitIndex').raw,
-    fault: fault.state === 'valid' && fault.raw <= VALID_FAULTS ? fault.raw : 0,
+    fault: time_s >= store.ready_s ? code : 0,
+    waits_for: time_s >= store.ready_s ? 0 : code,
     why_not_armed: read('EcuHealth.WhyNotArmed'),
     stale: is_stale(store, 'EcuStatus', mode.age_s),
   };

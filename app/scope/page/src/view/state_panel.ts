@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Mode, lambda with its reason, and why the controller is not armed, in words.
 
 import {is_stale} from '../model/integrity';
@@ -21,6 +22,7 @@ export class StatePanel implements View {
   private readonly mode = el('p', {class: 'mode'});
   private readonly mode_words = el('p', {class: 'mode-words'});
   private readonly age = el('p', {class: 'quiet'});
+  private readonly waits = el('p', {class: 'waits'});
   private readonly lambda = el('span', {class: 'figure'});
   private readonly bar = el('div', {class: 'lambda-bar', 'aria-hidden': 'true'});
   private readonly reason = el('p', {class: 'reason'});
@@ -35,7 +37,7 @@ export class StatePanel implements View {
     this.bar.append(el('div'));
     this.node = section('state', 'Controller',
       el('div', {class: 'mode-line', role: 'status'}, this.mode, this.mode_words),
-      this.age, this.why,
+      this.age, this.waits, this.why,
       el('div', {class: 'lambda'},
         el('p', {class: 'figure-line'}, el('span', {class: 'label'}, 'lambda'), this.lambda),
         this.bar, this.reason),
@@ -45,15 +47,17 @@ export class StatePanel implements View {
   update(state: PageState): void {
     set_shown(this.node, state.setup?.source.mode !== 'plan');
     const now = snapshot(state.store, state.playhead.now_s);
-    this.node.classList.toggle('stale', now.stale);
+    this.node.classList.toggle('stale', now.stale || state.is_gone);
     set_text(this.mode, now.mode ?? 'Unknown');
     set_attribute(this.mode, 'data-mode', now.mode ?? 'none');
     set_text(this.mode_words, now.mode === null ? 'No word from the controller'
       : MODE_WORDS[now.mode].replace(/^\w+: /, ''));
-    set_shown(this.age, now.stale && now.mode !== null);
-    set_text(this.age, `Stale: EcuStatus is ${time_words(now.mode_age_s)} old`
+    set_shown(this.age, (now.stale || state.is_gone) && now.mode !== null);
+    set_text(this.age, state.is_gone ? 'The last that came before the server was gone.' : `Stale: EcuStatus is ${time_words(now.mode_age_s)} old`
       + `${is_live(state) ? '' : ' here'}.`);
     this.write_lambda(now);
+    set_shown(this.waits, now.waits_for !== 0);
+    set_text(this.waits, `Not ready yet: ${this.words.fault(now.waits_for)}`);
     this.write_task(state);
     this.write_why(now, state.store);
   }

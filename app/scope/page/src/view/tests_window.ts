@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// `window.grabenScope`: what a test, or an engineer at the browser's console, may read. It steers
 /// nothing.
 

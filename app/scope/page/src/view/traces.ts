@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Where the curves of the plots come from: a signal of a frame, what the model makes of signals,
 /// or what only the simulation of a finished run knew.
 
@@ -21,6 +22,21 @@ export function signal_trace(signal: string): Trace {
   };
 }
 
+/// The same in another unit.
+export function in_unit(trace: Trace, factor: number): Trace {
+  return {
+    ...trace,
+    curve(store, from_s, until_s, buckets) {
+      const {time_s, value} = trace.curve(store, from_s, until_s, buckets);
+      return {time_s, value: value.map((one) => one * factor)};
+    },
+    reading(store, time_s) {
+      const reading = trace.reading(store, time_s);
+      return {...reading, value: reading.value * factor};
+    },
+  };
+}
+
 type TruthLine = Run['truth']['lines'][number];
 
 export function truth_trace(run: Run, line: TruthLine, scale: number): Trace {
@@ -41,11 +57,16 @@ export function truth_trace(run: Run, line: TruthLine, scale: number): Trace {
   };
 }
 
+const DEG = 180 / Math.PI;
+
 /// Factors into the units that the plots have.
 const FACTORS: Readonly<Record<string, number>> = {
   'm>mm': 1e3,
   'm/s>mm/s': 1e3,
-  'rad/s>mrad/s': 1e3,
+  'rad/s>deg/s': DEG,
+  'mrad/s>deg/s': 1e-3 * DEG,
+  'm/s>km/h': 3.6,
+  'mm/s>km/h': 3.6e-3,
   'Pa>MPa': 1e-6,
   'm3/s>L/min': 6e4,
   '>per mille': 1e3,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The words of numbers that frames carry, as the page knows them just then.
 
 import {fault_words, limit_words, why_not_armed} from '../model/words';

@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "app/cli/commands.hpp"
+#include "app/cli/console.hpp"
+#include "app/cli/help.hpp"
+#include "app/cli/output_file.hpp"
+#include "app/reports/compare/compare_report.hpp"
+#include "app/scope/page/scope_page.hpp"
+
+namespace graben::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CompareCommand {
+  std::string first;
+  std::string second;
+  std::string profile;
+  std::string out = "out";
+};
+
+/// The page unpacks once what the report packs.
+void assert_plain(const fs::path& file) {
+  std::array<char, 2> begin{};
+  std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
+  if (begin[0] == '\x1f' && begin[1] == '\x8b') {
+    throw std::runtime_error(fmt::format("{}: is packed; unpack it first (gunzip)", file.string()));
+  }
+}
+
+void compare(const CompareCommand& options) {
+  const fs::path out(options.out);
+  const fs::path report = out / "compare.html";
+  assert_apart({options.first, options.second}, {report.string()});
+  assert_plain(options.first);
+  const runs::RunLog first = runs::read_run_log(options.first);
+  const runs::RunLog second = runs::read_run_log(options.second);
+  const std::vector<runs::ComparedFigure> figures = runs::compared_figures(first, second);
+  reports::SetupOptions setup;
+  if (!options.profile.empty()) {
+    setup.profile = options.profile;
+  }
+  fs::create_directories(out);
+  reports::write_compare_report({report, scope::scope_page()}, options.first, first, second,
+                                figures, setup);
+  fmt::print("{}", runs::compared_table(first, second, figures));
+  for (const runs::RunLog* run : {&first, &second}) {
+    if (run->first_fault_s) {
+      fmt::print("{}: fault {}, {}\n", run->name, static_cast<int>(run->first_fault),
+                 runs::fault_words(run->first_fault));
+    }
+  }
+  fmt::print("report  {}\n", report.string());
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, int& status) {
+  auto options = std::make_shared<CompareCommand>();
+  CLI::App* command = app.add_subcommand(
+      "compare",
+      "Two runs over each other, from their logs (candump -L): figures beside each other, and one "
+      "page with the first run's frames, the second's curves dashed, and the differences. Both are "
+      "counted from where their controllers became active");
+  command->add_option("first", options->first, "candump log, plain")->required();
+  command->add_option("second", options->second, "candump log")->required();
+  command->add_option("--profile", options->profile,
+                      "Machine profile beside the shipped ones: file or shipped name");
+  command->add_option("--out", options->out, "Folder for compare.html")->capture_default_str();
+  add_examples(*command, {"compare out/dig.log out/soil/dig.log"});
+  command->callback(
+      [options, &status] { status = guarded("compare", [&] { compare(*options); }); });
+}
+
+}  // namespace graben::cli

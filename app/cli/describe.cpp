@@ -1,0 +1,55 @@
+/// The commands as data: what man pages and the shell's completion are made of.
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/cli/help.hpp"
+
+namespace graben::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+void add_options(const CLI::App& app, ordered_json& options) {
+  for (const CLI::Option* option : app.get_options()) {
+    if (app.get_name().empty() && option == app.get_help_ptr()) {
+      continue;
+    }
+    const bool is_named = option->nonpositional();
+    ordered_json one;
+    one["names"] = option->get_name(!is_named, is_named);
+    one["argument"] = argument_text(*option);
+    one["help"] = option_help(*option);
+    one["words"] = option_words(*option);
+    options.push_back(one);
+  }
+  for (const CLI::App* group : app.get_subcommands({})) {
+    if (group->get_name().empty()) {
+      add_options(*group, options);
+    }
+  }
+}
+
+ordered_json described(const CLI::App& app) {
+  ordered_json command;
+  command["name"] = app.get_name();
+  command["help"] = app.get_description();
+  command["options"] = ordered_json::array();
+  add_options(app, command["options"]);
+  command["footer"] = app.get_footer();
+  command["commands"] = ordered_json::array();
+  for (const CLI::App* below : app.get_subcommands({})) {
+    if (!below->get_name().empty()) {
+      command["commands"].push_back(described(*below));
+    }
+  }
+  return command;
+}
+
+}  // namespace
+
+std::string description_json(const CLI::App& app) { return described(app).dump(1) + "\n"; }
+
+}  // namespace graben::cli

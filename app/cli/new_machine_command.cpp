@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "app/cli/commands.hpp"
+#include "app/cli/console.hpp"
+#include "app/cli/help.hpp"
+#include "app/cli/output_file.hpp"
+#include "app/machines/any_machine.hpp"
+#include "app/machines/new/new_profile.hpp"
+
+namespace graben::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NewMachine {
+  std::string like = "excavator_12t";
+  std::string out;
+  bool force = false;
+};
+
+std::string numbers_text(const std::vector<double>& numbers) {
+  std::vector<std::string> texts;
+  for (const double number : numbers) {
+    texts.push_back(fmt::format("{:.6g}", number));
+  }
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+/// Numbers with commas or blanks between them. Throws std::runtime_error that says what is wrong.
+std::vector<double> numbers_of(const machines::ProfileQuestion& question, std::string line) {
+  for (char& c : line) {
+    c = c == ',' ? ' ' : c;
+  }
+  std::istringstream words(line);
+  std::vector<double> numbers;
+  for (std::string word; words >> word;) {
+    double number = 0.0;
+    if (!CLI::detail::lexical_cast(word, number) || !std::isfinite(number)) {
+      throw std::runtime_error(fmt::format("'{}' is not a number", word));
+    }
+    if (number < question.least || number > question.most) {
+      throw std::runtime_error(fmt::format("{} is out of range; allowed: {:.6g} .. {:.6g} {}", word,
+                                           question.least, question.most, question.unit.name));
+    }
+    numbers.push_back(number);
+  }
+  if (numbers.size() != question.before.size()) {
+    throw std::runtime_error(fmt::format("{} numbers are wanted", question.before.size()));
+  }
+  return numbers;
+}
+
+/// None where the line is empty: what was before stays. A person is asked again, a file is not: its
+/// next line is another answer.
+std::optional<std::vector<double>> ask(const machines::ProfileQuestion& question) {
+  while (true) {
+    fmt::print("{}: {}, {} [{}]: ", question.key, question.text, question.unit.name,
+               numbers_text(question.before));
+    std::fflush(stdout);
+    std::string line;
+    if (!std::getline(std::cin, line) || line.find_first_not_of(" \t\r") == std::string::npos) {
+      if (isatty(STDIN_FILENO) == 0 || std::cin.eof()) {
+        fmt::print("\n");
+      }
+      return std::nullopt;
+    }
+    try {
+      return numbers_of(question, line);
+    } catch (const std::runtime_error& error) {
+      if (isatty(STDIN_FILENO) == 0) {
+        throw std::runtime_error(fmt::format("{}: {}", question.key, error.what()));
+      }
+      fmt::print("  {}\n", error.what());
+    }
+  }
+}
+
+void new_machine(const NewMachine& options) {
+  const fs::path file(options.out);
+  if (fs::exists(file) && !options.force) {
+    throw std::runtime_error(fmt::format("{}: is there already; --force replaces it", options.out));
+  }
+  assert_writable(file);
+  const machines::ProfileDocument like =
+      machines::read_document(machines::find_profile(options.like));
+  fmt::print("Empty lines keep the value in brackets, {}'s.\n", like.file.stem().string());
+  machines::ProfileAnswers answers;
+  for (const machines::ProfileQuestion& question : machines::profile_questions(like)) {
+    if (const auto answer = ask(question)) {
+      answers[question.key] = *answer;
+    }
+  }
+  write_whole(file, machines::new_profile_text(like, file.stem().string(), answers));
+  fmt::print("profile {}\n", options.out);
+  // What does not fit together is said now, with its line; the file is there to be corrected.
+  static_cast<void>(machines::load_any(file));
+  fmt::print("next    graben check {}\n", options.out);
+}
+
+}  // namespace
+
+void add_new_machine(CLI::App& app, int& status) {
+  auto options = std::make_shared<NewMachine>();
+  CLI::App* command = app.add_subcommand(
+      "new-machine",
+      "Asks for a machine's measures in mm, degrees, bar, rpm and L/min, a line each on standard "
+      "input, and writes its profile with a comment on every key. What is not told stays as it is "
+      "in another profile and is marked so");
+  command->add_option("--like", options->like, "Profile that it begins with: file or shipped name")
+      ->capture_default_str();
+  command->add_option("--out", options->out, "Profile to write, such as mine.toml")->required();
+  command->add_flag("--force", options->force, "--out may be there already");
+  add_examples(*command, {"new-machine --out mine.toml",
+                          "new-machine --like dozer_9t --out mine.toml < answers.txt"});
+  command->callback(
+      [options, &status] { status = guarded("new-machine", [&] { new_machine(*options); }); });
+}
+
+}  // namespace graben::cli

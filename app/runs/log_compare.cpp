@@ -1,0 +1,136 @@
+/// Figures of two logged runs beside each other.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "app/runs/run_log.hpp"
+
+namespace graben::runs {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+struct ErrorFigures {
+  double most_m = kNone;
+  double most_s = kNone;  ///< Since the run's start.
+  double rms_m = kNone;
+};
+
+ErrorFigures error_figures(const RunLog& run) {
+  const Channel& error = run.channel[1];
+  ErrorFigures figures;
+  double squares_m2 = 0.0;
+  int count = 0;
+  double before_m = 0.0;
+  for (std::size_t i = 0; i < error.value.size(); ++i) {
+    const double off_m = std::abs(error.value[i]);
+    // On the way to the path it falls all the time.
+    const bool has_arrived =
+        error.time_s[i] >= run.start_s && off_m < kArrived_m && off_m >= before_m;
+    before_m = off_m;
+    if (count == 0 && !has_arrived) {
+      continue;
+    }
+    squares_m2 += off_m * off_m;
+    ++count;
+    if (!(off_m <= figures.most_m)) {
+      figures.most_m = off_m;
+      figures.most_s = error.time_s[i] - run.start_s;
+    }
+  }
+  if (count > 0) {
+    figures.rms_m = std::sqrt(squares_m2 / count);
+  }
+  return figures;
+}
+
+struct LambdaFigures {
+  double least = kNone;
+  double mean = kNone;
+};
+
+/// While something was followed: a controller at rest has lambda 0.
+LambdaFigures lambda_figures(const RunLog& run) {
+  LambdaFigures figures;
+  double sum = 0.0;
+  int count = 0;
+  for (const double lambda : run.channel[0].value) {
+    if (lambda > 0.0) {
+      figures.least = lambda >= figures.least ? figures.least : lambda;
+      sum += lambda;
+      ++count;
+    }
+  }
+  if (count > 0) {
+    figures.mean = sum / count;
+  }
+  return figures;
+}
+
+double shared(const RunLog& run, const std::string& limit) {
+  for (const auto& [name, share] : run.limit_share) {
+    if (name == limit) {
+      return share;
+    }
+  }
+  return 0.0;
+}
+
+std::string cell(double value, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
+}
+
+}  // namespace
+
+std::vector<ComparedFigure> compared_figures(const RunLog& first, const RunLog& second) {
+  const ErrorFigures a = error_figures(first);
+  const ErrorFigures b = error_figures(second);
+  const LambdaFigures lambda_a = lambda_figures(first);
+  const LambdaFigures lambda_b = lambda_figures(second);
+  const std::string error = first.is_dozer ? "grade error" : "path error";
+  const auto fault = [](const RunLog& run) {
+    return run.first_fault_s ? *run.first_fault_s - run.start_s : kNone;
+  };
+  std::vector<ComparedFigure> figures = {
+      {"time active", "s", first.active_s, second.active_s, 2},
+      {error + ", largest", "mm", 1e3 * a.most_m, 1e3 * b.most_m, 1},
+      {"  at, since the start", "s", a.most_s, b.most_s, 2},
+      {error + ", RMS", "mm", 1e3 * a.rms_m, 1e3 * b.rms_m, 1},
+      {"lambda, least in motion", "", lambda_a.least, lambda_b.least, 3},
+      {"lambda, mean in motion", "", lambda_a.mean, lambda_b.mean, 3},
+      {"first fault at, since the start", "s", fault(first), fault(second), 2}};
+  std::map<std::string, bool> limits;
+  for (const RunLog* run : {&first, &second}) {
+    for (const auto& [name, share] : run->limit_share) {
+      limits[name] = true;
+    }
+  }
+  for (const auto& [name, is_there] : limits) {
+    figures.push_back({"held by " + (name == "none" ? "nothing" : name), "%",
+                       100.0 * shared(first, name), 100.0 * shared(second, name), 1});
+  }
+  return figures;
+}
+
+std::string compared_table(const RunLog& first, const RunLog& second,
+                           const std::vector<ComparedFigure>& figures) {
+  const auto shortened = [](const std::string& name) {
+    constexpr std::size_t kMost = 14;
+    return name.size() > kMost ? ".." + name.substr(name.size() - kMost + 2) : name;
+  };
+  std::string table = fmt::format("{:<34}{:>15}{:>15}{:>12}\n", "", shortened(first.name),
+                                  shortened(second.name), "difference");
+  for (const ComparedFigure& figure : figures) {
+    table += fmt::format("{:<34}{:>15}{:>15}{:>12}{}{}\n", figure.text,
+                         cell(figure.first, figure.decimals), cell(figure.second, figure.decimals),
+                         cell(figure.second - figure.first, figure.decimals),
+                         figure.unit.empty() ? "" : " ", figure.unit);
+  }
+  return table;
+}
+
+}  // namespace graben::runs

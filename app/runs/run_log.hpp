@@ -1,0 +1,77 @@
+#pragma once
+/// A run as its log tells it, whoever wrote the log: what the controller said of itself and how the
+/// machine moved. Logs of two runs are compared by it.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/runs/code_text.hpp"
+
+namespace graben::runs {
+
+/// A signal over time, at the times of its frames; only what is valid.
+struct Channel {
+  std::vector<double> time_s;
+  std::vector<double> value;  ///< SI.
+
+  /// The last value at or before this time; not a number where it is older than 0.2 s.
+  [[nodiscard]] double at(double time_s) const;
+};
+
+/// What of a channel is known beforehand.
+struct ChannelInfo {
+  const char* plot;   ///< Of the page (view/plots.ts), or one of its own.
+  const char* title;  ///< Of that plot.
+  const char* label;
+  const char* unit;  ///< Shown in, and how many of them are one SI unit.
+  double per_si;
+  int decimals;
+  bool is_on_page;  ///< The page plots it by itself, of the log that it has.
+};
+
+/// Lambda, then the error against path or grade, then spools and strokes of the drives.
+[[nodiscard]] const std::vector<ChannelInfo>& channel_table(bool is_dozer);
+
+struct RunLog {
+  std::string name;  ///< Of the file, as it was told.
+  bool is_dozer = false;
+  std::uint32_t profile_hash = 0;  ///< 0: not said.
+  std::vector<Channel> channel;    ///< In the order of channel_table().
+  double from_s = 0.0;
+  double until_s = 0.0;
+  double start_s = 0.0;          ///< When the controller was first Active; else the first frame.
+  double active_s = 0.0;         ///< How long it was Active, all together.
+  LimitShares limit_share;       ///< While it was Active.
+  std::vector<double> status_s;  ///< Times of EcuStatus.
+  std::optional<double> first_fault_s;  ///< After it was ready.
+  Fault first_fault = Fault::kNone;
+};
+
+/// Reads a candump log, plain or gzip. Throws std::runtime_error that names it where it cannot be
+/// read, has no candump lines, or no EcuStatus.
+[[nodiscard]] RunLog read_run_log(const std::filesystem::path& file);
+
+/// A figure of both runs; not a number where a run has none.
+struct ComparedFigure {
+  std::string text;
+  std::string unit;
+  double first = 0.0;
+  double second = 0.0;
+  int decimals = 1;
+};
+
+/// Both runs in figures: times, errors with their moments, lambda, each limit's share. Of the error
+/// counts what comes after it has first stopped falling below kArrived_m: a way to the path is no
+/// error.
+[[nodiscard]] std::vector<ComparedFigure> compared_figures(const RunLog& first,
+                                                           const RunLog& second);
+inline constexpr double kArrived_m = 0.02;
+
+/// A row for each figure: both and the difference.
+[[nodiscard]] std::string compared_table(const RunLog& first, const RunLog& second,
+                                         const std::vector<ComparedFigure>& figures);
+
+}  // namespace graben::runs

@@ -1,0 +1,174 @@
+"""What `graben` says of itself and of what is wrongly typed, as a new user meets it.
+
+check_help.py GRABEN
+"""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+MACHINES = ROOT / "app" / "machines"
+WIDTH = 80
+# Of CLI11, the standard library, nlohmann-json and toml++.
+LIBRARIES = re.compile(r"Could not convert|not expected|Run with --help|REQUIRED|Value .* not in range|not in \{|"
+                       r"filesystem error|json\.exception|stod|Error while parsing|basic_string|what\(\)|[Ee]xcludes|"
+                       r"Exactly 1 option|terminate called")
+
+
+def call(graben, *arguments, text="", folder=None):
+    return subprocess.run([graben, *arguments], input=text, capture_output=True, text=True, timeout=120, cwd=folder)
+
+
+def refused(graben, needle, *arguments, status=1, text="", folder=None):
+    done = call(graben, *arguments, text=text, folder=folder)
+    assert done.returncode == status, f"{arguments}: status {done.returncode}: {done.stderr}"
+    assert needle in done.stderr, f"{arguments}: {done.stderr}"
+    assert not LIBRARIES.search(done.stderr), f"{arguments}: a library speaks: {done.stderr}"
+
+
+def commands(graben, *path):
+    """Every command that some help lists, with its help."""
+    said = call(graben, *path, "--help").stdout
+    yield path, said
+    listed = re.search(r"^Commands:\n((?: .*\n)+)", said, re.MULTILINE)
+    for name in re.findall(r"^  (\S+)", listed[1], re.MULTILINE) if listed else []:
+        yield from commands(graben, *path, name)
+
+
+def helps(graben):
+    """80 columns, an example whose options are real and whose values pass, what is shipped."""
+    all_commands = list(commands(graben))
+    options = {path: set(re.findall(r"--[a-z][a-z-]*", said.split("\nExample")[0])) for path, said in all_commands}
+    for path, said in all_commands:
+        wide = [line for line in said.splitlines() if len(line) > WIDTH]
+        assert not wide, f"{path}: wider than {WIDTH}: {wide}"
+        assert not LIBRARIES.search(said), f"{path}: a library speaks: {said}"
+        examples = re.findall(r"^  graben (.*)$", said, re.MULTILINE)
+        assert examples, f"{path}: no example"
+        for example in examples:
+            typed = example.split(" < ")[0].split()
+            of = max((known for known in options if tuple(typed[:len(known)]) == known), key=len)
+            unknown = {word for word in typed if word.startswith("--")} - options[of]
+            done = call(graben, *typed, "--help")
+            assert not unknown and done.returncode == 0, f"{example}: {unknown} {done.stderr}"
+        if "--profile" in options[path] or not path:
+            assert "Shipped profiles: dozer_9t, excavator_12t, excavator_22t" in said, path
+        if "--task" in options[path] or not path:
+            assert re.search(r"Shipped tasks: .*flatten.*trench", said), path
+    assert len(all_commands) >= 22, len(all_commands)
+    print(f"{len(all_commands)} helps within {WIDTH} columns, each with an example")
+
+
+def slips(graben):
+    refused(graben, "'dgi' is no command; did you mean 'dig'?", "dgi", status=2)
+    refused(graben, "'autodgi' is no command; did you mean 'autodig'?", "autodgi", "--task", "flatten", status=2)
+    refused(graben, "'mrege' is no command; did you mean 'merge'?", "campaign", "mrege", status=2)
+    refused(graben, "--sped is no option; did you mean '--speed'?", "dig", "--sped", "0.5", status=2)
+    refused(graben, "did you mean '--strokes'?", "pose", "--profile", "excavator_22t", "--stroks", "1,1,1", status=2)
+    refused(graben, "did you mean 'excavator_22t'?", "dig", "--profile", "excavater_22t")
+    refused(graben, "did you mean 'flatten'?", "autodig", "--task", "flaten")
+    refused(graben, "did you mean 'trench'?", "autodig", "--task", "trnch")
+    done = call(graben, "xyzzyplugh")
+    assert done.returncode == 2 and "did you mean" not in done.stderr, done.stderr
+
+
+def own_words(graben, folder):
+    """Kinds of bad input; refused() also holds each to words of our own."""
+    refused(graben, "which command? check, dig,", status=2)
+    refused(graben, "--x: five is not a number", "strokes", "--profile", "excavator_22t", "--x", "five", "--y", "0",
+            "--attitude", "1", status=2)
+    refused(graben, "3 values are wanted", "pose", "--profile", "excavator_22t", "--strokes", "1,2", status=2)
+    refused(graben, "one value is wanted", "plan", "--speed", status=2)
+    refused(graben, "'fuzzy' is none of servo, oil, kim", "dig", "--law", "fuzzy", status=2)
+    refused(graben, "--task: not with --air", "dig", "--air", "--task", "flatten", status=2)
+    refused(graben, "only with --can", "commission", "--keyboard", status=2)
+    refused(graben, "only one of these: --soil, --air", "dig", "--soil", "--air", status=2)
+    refused(graben, "0 is not a whole number from 1 to 1000", "autodig", "--rounds", "0", status=2)
+    refused(graben, "at byte 2", "solve", text="{oops\n")
+    (folder / "no.toml").write_text('kind = "excavator"\n[boom\n', encoding="ascii")
+    refused(graben, "no.toml: 1 error:\n  line 2, column", "check", "no.toml", folder=folder)
+    refused(graben, "can't be read as TOML: [boom", "check", "no.toml", folder=folder)
+    (folder / "twice.toml").write_text('kind = "excavator"\nkind = "dozer"\n', encoding="ascii")
+    refused(graben, 'is there for the second time: kind = "dozer"', "check", "twice.toml", folder=folder)
+    (folder / "a_file").write_text("kept", encoding="ascii")
+    for command in (["dig"], ["grade"], ["autodig"], ["plan"], ["check", "excavator_22t"]):
+        refused(graben, "a_file", *command, "--out", "a_file/under", folder=folder)
+    refused(graben, "there is no such file", "campaign", "merge", "none.csv", "--summary", "all.csv", folder=folder)
+    (folder / "a.csv").write_text("a,b\n", encoding="ascii")
+    refused(graben, "is no campaign", "campaign", "merge", "a.csv", "--summary", "all.csv", folder=folder)
+
+
+def never_overwritten(graben, folder):
+    """Neither log nor report is where the figures go, whatever the name is written like."""
+    for command, name in (("dig", "dig"), ("autodig", "autodig"), ("grade", "grade")):
+        for end in ("log", "html"):
+            path = folder / "kept" / f"{name}.{end}"
+            path.parent.mkdir(exist_ok=True)
+            path.write_text("kept", encoding="ascii")
+            refused(graben, "would overwrite", command, "--out", "kept", "--summary", f"./kept/../kept/{name}.{end}",
+                    folder=folder)
+            assert path.read_text(encoding="ascii") == "kept", path
+    refused(graben, "would overwrite", "grade", "--out", "new", "--log", "new/grade.html", folder=folder)
+    assert not (folder / "new").exists(), "a refused command has made a folder"
+
+
+def profile_slips(graben, folder):
+    """Numbers as they were written, a degree given as radian, a key that is nearly one."""
+    text = (MACHINES / "excavator_22t.toml").read_text(encoding="utf-8")
+
+    def slip(pattern, to, needle):
+        changed, count = re.subn(pattern, to, text, count=1, flags=re.MULTILINE)
+        assert count == 1, pattern
+        (folder / "slip.toml").write_text(changed, encoding="utf-8")
+        refused(graben, needle, "check", "slip.toml", folder=folder)
+
+    slip(r"^attitude_gain = .*", "attitude_gain = 1006.2", "1006.2 is out of range")
+    slip(r"^angle = .*", "angle = [-45.0, 71.6]", "in degrees? then it is -0.7854 rad")
+    slip(r"^attitude_gain", "atitude_gain", "unknown key; did you mean 'control.attitude_gain'?")
+    machine = ("--profile", "excavator_22t")
+    refused(graben, "in degrees? then it is 1.571 rad", "strokes", *machine, "--x", "5", "--y", "0", "--attitude", "90")
+    refused(graben, "in degrees? then it is 0.7854 rad", "pose", *machine, "--strokes", "1,1,0.4", "--swing", "45")
+    refused(graben, "in degrees? then it is 1.047 rad", "dig", "--start", "5,0,60", folder=folder)
+    refused(graben, "in degrees? then it is 1.047 rad", "autodig", "--start", "5,0,0,60", folder=folder)
+    refused(graben, "--to: attitude: 60 rad", "plan", "--to", "5,0,0,60", folder=folder)
+
+
+def installed(graben, folder):
+    """As in /usr: it finds what lies beside it, and knows nothing of where it was built."""
+    root = folder / "installed"
+    (root / "usr/bin").mkdir(parents=True)
+    moved = root / "usr/bin/graben"
+    shutil.copy(graben, moved)
+    pose = ("pose", "--profile", "excavator_22t", "--strokes", "1.0,1.1,0.4")
+    refused(moved, "not found", *pose, folder=folder)
+    shutil.copytree(MACHINES, root / "usr/share/graben/machines")
+    done = call(moved, *pose, folder=folder)
+    assert done.returncode == 0 and '"x_m"' in done.stdout, done.stderr
+    assert "Shipped profiles: dozer_9t, excavator_12t, excavator_22t" in call(moved, "--help", folder=folder).stdout
+    for place in (str(ROOT), os.path.expanduser("~")):
+        if place != "/":
+            program = moved.read_bytes()
+            at = program.find(place.encode())
+            assert at < 0, f"the program knows a folder of its builder: {program[at:at + 80]!r}"
+
+
+def main():
+    graben = pathlib.Path(sys.argv[1]).resolve()
+    helps(graben)
+    slips(graben)
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        own_words(graben, folder)
+        never_overwritten(graben, folder)
+        profile_slips(graben, folder)
+        installed(graben, folder)
+    print("help and slips are answered as they should")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,128 @@
+"""`graben new-machine`: from answers in workshop units to a profile that `graben check` takes.
+
+check_new_machine.py GRABEN
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import tomllib
+
+MACHINES = pathlib.Path(__file__).resolve().parents[2] / "app" / "machines"
+
+
+def make(graben, folder, like, answers, *options):
+    return subprocess.run([graben, "new-machine", "--like", like, "--out", "mine.toml", *options], cwd=folder,
+                          input="\n".join([*answers, ""]), capture_output=True, text=True, timeout=60)
+
+
+def asked(said):
+    """Key, unit and value in brackets of each question."""
+    return re.findall(r"^(\S+): [^\n]*?, (\S+) \[([^\]]*)\]: ", said, re.MULTILINE)
+
+
+def value(profile, key):
+    for part in re.findall(r"[^.\[\]]+", key):
+        profile = profile[int(part)] if part.isdigit() else profile[part]
+    return profile
+
+
+def flat(number_or_list):
+    return number_or_list if isinstance(number_or_list, list) else [number_or_list]
+
+
+def check(graben, folder):
+    return subprocess.run([graben, "check", "mine.toml", "--out", "."], cwd=folder, capture_output=True, text=True,
+                          timeout=60)
+
+
+def unchanged(graben, folder, like):
+    """Empty lines keep everything, in the same sense, and every value has a comment."""
+    done = make(graben, folder, like, [], "--force")
+    assert done.returncode == 0, done.stderr
+    questions = asked(done.stdout)
+    assert len(questions) >= 20, done.stdout
+    assert {"mm", "bar" if like.startswith("exc") else "mm", "rpm"} <= {unit for _, unit, _ in questions}, questions
+    before = tomllib.loads((MACHINES / f"{like}.toml").read_text(encoding="utf-8"))
+    text = (folder / "mine.toml").read_text(encoding="utf-8")
+    after = tomllib.loads(text)
+    for section, content in before.items():
+        for key, old in content.items() if isinstance(content, dict) else []:
+            if key != "angle":
+                assert after[section][key] == old, f"{section}.{key}: {after[section][key]} instead of {old}"
+    values = re.findall(r"^\S+ = .*$", text, re.MULTILINE)
+    bare = [line for line in values if "  # " not in line]
+    assert len(values) > 50 and not bare, bare
+    assert check(graben, folder).returncode == 0
+    return questions
+
+
+def scaled(graben, folder, like, questions, ratio, most=None):
+    """Every length times the ratio: another machine, told in mm, of the same angles; its path goes with it."""
+    answers = []
+    for _, unit, old in questions:
+        numbers = [float(number) for number in old.split(", ")]
+        answers.append(", ".join(f"{number * ratio:.4f}" for number in numbers) if unit == "mm" else "")
+    done = make(graben, folder, like, answers, "--force")
+    assert done.returncode == 0, done.stdout + done.stderr
+    profile = tomllib.loads((folder / "mine.toml").read_text(encoding="utf-8"))
+    for (key, unit, old), answer in zip(questions, answers):
+        wanted = [float(number) / 1e3 for number in answer.split(", ")] if unit == "mm" else None
+        found = flat(value(profile, key))
+        assert wanted is None or max(abs(a - b) for a, b in zip(found, wanted)) < 1e-6, (key, found, wanted)
+    said = check(graben, folder)
+    assert said.returncode == 0, said.stderr
+    return said.stdout
+
+
+def units(graben, folder, questions):
+    """A relief of 300 bar, 2000 rpm, 30 degrees."""
+    told = {"pump[0].relief": ("300", 300e5), "pump[0].speed": ("2000", 209.4395), "pump[0].displacement":
+            ("150", 150e-6), "swing.range": ("-90, 90", 1.570796), "sensors.pressure_range": ("500", 500e5),
+            "valve.section_flow": ("180", 3e-3)}
+    done = make(graben, folder, "excavator_12t", [told[key][0] if key in told else "" for key, _, _ in questions],
+                "--force")
+    assert done.returncode == 0, done.stderr
+    profile = tomllib.loads((folder / "mine.toml").read_text(encoding="utf-8"))
+    for key, (_, wanted) in told.items():
+        found = flat(value(profile, key))[-1]
+        assert abs(found - wanted) <= 1e-6 * wanted, (key, found, wanted)
+    assert "# told: 300 bar" in (folder / "mine.toml").read_text(encoding="utf-8")
+    assert check(graben, folder).returncode == 0
+
+
+def refusals(graben, folder):
+    kept = (folder / "mine.toml").read_bytes()
+    for answers, needle, options in (([], "is there already", []),
+                                     (["1,2,3"], "body.boom_foot: 2 numbers are wanted", ["--force"]),
+                                     (["140, five"], "'five' is not a number", ["--force"]),
+                                     (["", "4.6"], "allowed: 100 .. 30000 mm", ["--force"])):
+        done = make(graben, folder, "excavator_12t", answers, *options)
+        assert done.returncode == 1 and needle in done.stderr, (answers, done.stderr)
+        assert (folder / "mine.toml").read_bytes() == kept, answers
+    # What does not fit together is told with its line, and the file is there to be corrected.
+    done = make(graben, folder, "excavator_12t", ["", "", "", "110"], "--force")
+    assert done.returncode == 1 and "boom.cylinder.rod (line " in done.stderr, done.stderr
+    assert (folder / "mine.toml").read_bytes() != kept
+
+
+def main():
+    graben = str(pathlib.Path(sys.argv[1]).resolve())
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for like in ("excavator_12t", "excavator_22t", "dozer_9t"):
+            questions = unchanged(graben, folder, like)
+            print(f"{like}: {len(questions)} questions")
+            if like != "dozer_9t":
+                small = scaled(graben, folder, like, questions, 0.9)
+                reach = float(re.search(r"farthest +([0-9.]+)", small)[1])
+                print(f"{like} times 0.9 reaches {reach} m")
+        units(graben, folder, unchanged(graben, folder, "excavator_12t"))
+        refusals(graben, folder)
+    print("a new machine is asked for and written")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What a person sees first, of a report, a plan, a simulation: first_sight.mjs OUT GRABEN [SCENARIO].
+
+import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
+import {mkdirSync, readFileSync} from 'node:fs';
+import {join} from 'node:path';
+import {pathToFileURL} from 'node:url';
+import {look, open_browser, open_page, pressable, rest, run_scenarios, serve, SIZES, until} from './harness.mjs';
+
+const [out, graben, only] = process.argv.slice(2);
+const browser = await open_browser();
+mkdirSync(out, {recursive: true});
+for (const command of ['dig', 'grade', 'autodig', 'plan']) {
+  execFileSync(graben, [command, '--out', out], {stdio: 'ignore'});
+}
+
+const scope = (...options) => serve(graben, ['scope', '--port', '0', ...options]);
+const clean = (page) => assert.deepEqual(page.problems, []);
+const url_of = (name) => pathToFileURL(join(out, `${name}.html`)).href;
+const active = (page) => page.waitForFunction(() => window.grabenScope?.mode() === 'Active');
+
+/// Opened as by somebody who has not asked for less motion.
+async function open_moving(url, size = {width: 1400, height: 900}) {
+  const context = await browser.newContext({viewport: size, reducedMotion: 'no-preference'});
+  const page = await context.newPage();
+  page.problems = [];
+  page.on('pageerror', (error) => page.problems.push(`error: ${error.message}`));
+  page.on('console', (words) => {
+    if (words.type() === 'error') page.problems.push(`console: ${words.text()}`);
+  });
+  await page.goto(url);
+  return page;
+}
+
+/// A healthy run: no fault anywhere, at what it has to tell, in motion.
+async function first_sight() {
+  const said = [];
+  for (const name of ['dig', 'grade', 'autodig']) {
+    const page = await open_moving(url_of(name));
+    const seen = await until('it plays', async () => {
+      const now = await look(page).catch(() => null);
+      return now !== null && now.loaded === 1 && now.mode === 'Active' && now.now > 1 && now;
+    });
+    await until('it goes on', async () => (await look(page)).now > seen.now + 0.3);
+    assert.equal(await page.locator('[data-alarm]').count(), 0, `${name}: an alarm`);
+    assert.match(await page.locator('#faults').innerText(), /No fault so far/, name);
+    // Within some seconds of where it opened a limit of the machine holds lambda.
+    await page.waitForFunction(() => /^Held by /.test(document.querySelector('.reason').textContent));
+    said.push(`${name} at ${seen.now.toFixed(1)} s`);
+    clean(page);
+    await page.context().close();
+  }
+  // Whoever wants no motion gets the moment, at rest.
+  const still = await open_page(browser, url_of('dig'));
+  const {now} = await until('the moment is shown', async () => {
+    const seen = await look(still);
+    return seen.loaded === 1 && seen.now > 1 && seen;
+  });
+  await rest(600);
+  assert.equal((await look(still)).now, now);
+  assert.ok(await pressable(still, 'Play'));
+  return said.join(', ');
+}
+
+/// The plan's page draws the plan: its line, its poses, its limits.
+async function plan_draws_itself() {
+  const page = await open_moving(url_of('plan'));
+  await until('the plan moves', async () => (await look(page).catch(() => ({now: 0}))).now > 0.5);
+  const setup = JSON.parse(/id="graben-setup">(.*?)<\/script/s.exec(readFileSync(join(out, 'plan.html'), 'utf8'))[1]);
+  const [task] = setup.machines[0].tasks;
+  const [{from, to}] = task.steps;
+  assert.deepEqual(task.steps.length, 1);
+  assert.deepEqual(setup.run.way[0].map((v) => v.toFixed(3)), from.position_m.map((v) => v.toFixed(3)));
+  assert.deepEqual(setup.run.way.at(-1).map((v) => v.toFixed(3)), to.position_m.map((v) => v.toFixed(3)));
+  const key = await page.locator('.scene-key').innerText();
+  assert.match(key, /planned line, poses of the bucket along it/);
+  assert.match(key, /pose at its end/);
+  assert.doesNotMatch(key, /wanted path|field/);
+  // The teeth are on the line that is drawn.
+  const {tip} = await look(page);
+  const along = to.position_m.map((v, i) => v - from.position_m[i]);
+  const off = tip.map((v, i) => v - from.position_m[i]);
+  const share = along.reduce((sum, v, i) => sum + v * off[i], 0) / along.reduce((sum, v) => sum + v * v, 0);
+  const beside = Math.hypot(...off.map((v, i) => v - share * along[i]));
+  assert.ok(beside < 0.01 && share >= 0 && share <= 1, `${beside} m beside the line`);
+  const legends = await page.locator('.plot').evaluateAll((plots) => plots.map((plot) => plot.innerText));
+  for (const what of ['Velocity of the cylinders', 'Velocity of the swing', 'Acceleration of the cylinders']) {
+    assert.ok(legends.some((words) => words.includes(what) && words.includes(', limit')), what);
+  }
+  assert.ok(legends.some((words) => words.includes('deg/s')), 'the swing is not in degrees');
+  clean(page);
+  return `teeth ${(beside * 1000).toFixed(1)} mm beside the line`;
+}
+
+/// Once, some twenty seconds, to a fault and what became of it.
+async function tour() {
+  const server = await scope('--sim', 'dig');
+  const page = await open_moving(server.url);
+  await page.locator('.tour').waitFor();
+  const began = Date.now();
+  await page.waitForFunction(() => window.grabenScope.mode() === 'Fault', null, {timeout: 40_000});
+  await page.getByText(/The controller stopped by itself: fault 1/).waitFor();
+  const took_s = (Date.now() - began) / 1000;
+  assert.ok(took_s > 8 && took_s < 25, `the fault comes after ${took_s} s`);
+  for (const [width, height] of SIZES) {
+    await page.setViewportSize({width, height});
+    await rest(200);
+    assert.ok(await pressable(page, 'Take the fault back'), `${width} x ${height}`);
+    assert.ok(await pressable(page, 'Stop machine'), `${width} x ${height}: the tour is over Stop`);
+  }
+  await page.getByRole('button', {name: 'Take the fault back'}).click();
+  await active(page);
+  assert.equal(await page.locator('.tour').isVisible(), false);
+  await page.reload();
+  await active(page);
+  await rest(1500);
+  assert.equal(await page.locator('.tour').isVisible(), false, 'it comes a second time');
+  clean(page);
+  await server.stop();
+  return `fault after ${took_s.toFixed(1)} s`;
+}
+
+const scenarios = {first_sight, plan_draws_itself, tour};
+const failed = await run_scenarios(join(out, 'failed'), browser, only === undefined ? scenarios
+  : {[only]: scenarios[only]});
+await browser.close();
+console.log(`scope: ${failed} scenarios failed`);
+process.exit(failed > 0 ? 1 : 0);

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The page as people have it on three screens and a phone's two sides: people.mjs OUT GRABEN [SCENARIO]. What is
+/// pressed most is in reach, words stand on a ground of their own, what is shown is true, nothing
+/// that axe-core knows of is violated, in both themes.
+
+import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
+import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
+import {createRequire} from 'node:module';
+import {join} from 'node:path';
+import {pathToFileURL} from 'node:url';
+import {
+  look, more_frames, open_browser, open_page, pressable, rest, run_scenarios, serve, SIZES, until,
+} from './harness.mjs';
+
+const [out, graben, only] = process.argv.slice(2);
+const AXE = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+const REPORTS = ['dig', 'grade', 'autodig', 'plan', 'check'];
+
+const browser = await open_browser();
+mkdirSync(out, {recursive: true});
+for (const command of [['dig'], ['grade'], ['autodig'], ['plan'], ['check', 'excavator_22t']]) {
+  execFileSync(graben, [...command, '--out', out], {stdio: 'ignore'});
+}
+
+const scope = (...options) => serve(graben, ['scope', '--port', '0', ...options]);
+const clean = (page) => assert.deepEqual(page.problems, []);
+const url_of = (name) => pathToFileURL(join(out, `${name}.html`)).href;
+const all_there = (page) => until('the log is whole', async () => {
+  const seen = await look(page);
+  return seen.frames > 1000 && seen.loaded === 1;
+});
+const active = (page) => page.waitForFunction(() => window.grabenScope?.mode() === 'Active');
+
+async function at_each_size(url, ready, judge) {
+  for (const [width, height] of SIZES) {
+    const page = await open_page(browser, url, {width, height});
+    await ready(page);
+    await judge(page, `${width} x ${height}`, {width, height});
+    clean(page);
+    await page.context().close();
+  }
+}
+
+/// Play and Stop, not under the toolbar, and not a long way down.
+async function in_reach() {
+  const server = await scope('--sim', 'dig');
+  await at_each_size(server.url, active, async (page, size) => {
+    assert.ok(await pressable(page, 'Pause'), `${size}: Pause cannot be pressed`);
+    assert.ok(await pressable(page, 'Stop machine'), `${size}: Stop cannot be pressed`);
+    const over = await page.evaluate(() => {
+      const bar = document.querySelector('.layers').getBoundingClientRect();
+      const replay = document.querySelector('.replay').getBoundingClientRect();
+      const across = document.documentElement.scrollWidth - innerWidth;
+      return {layers: bar.bottom - replay.top, across};
+    });
+    assert.ok(over.layers <= 0 || size.startsWith('390'), `${size}: the layers are over the replay bar`);
+    assert.ok(over.across <= 0, `${size}: the page is ${over.across} px too wide`);
+    await page.getByRole('button', {name: 'Stop machine'}).click();
+    await page.getByRole('button', {name: 'Start machine'}).click();
+    await page.getByRole('button', {name: 'Stop machine'}).waitFor();
+  });
+  await server.stop();
+  return SIZES.map((size) => size.join(' x ')).join(', ');
+}
+
+async function scene_is_large_enough() {
+  const heights = [];
+  await at_each_size(url_of('dig'), all_there,
+    async (page, size, {height}) => {
+      const box = await page.locator('.scene-host').boundingBox();
+      heights.push(`${size}: ${Math.round(box.height)}`);
+      assert.ok(box.height >= Math.min(300, 0.5 * height), `${size}: the scene is ${box.height} px high`);
+    });
+  return heights.join(', ');
+}
+
+/// Key and scale have a ground that keeps 4.5 to 1 whatever the machine is behind them.
+async function legend_has_a_ground() {
+  await at_each_size(url_of('dig'), all_there,
+    async (page, size) => {
+      const alphas = await page.locator('.scene-corner > *').evaluateAll((nodes) => nodes.map((node) => {
+        const found = /\/ ([0-9.]+)\)|rgba\(.*, ([0-9.]+)\)/.exec(getComputedStyle(node).backgroundColor);
+        return Number(found?.[1] ?? found?.[2] ?? 1);
+      }));
+      assert.equal(alphas.length, 2, size);
+      assert.ok(alphas.every((alpha) => alpha >= 0.8), `${size}: ${alphas}`);
+    });
+}
+
+/// Two lists of one name would be taken for one.
+async function names_are_told_apart() {
+  const server = await scope('--sim', 'dig');
+  const page = await open_page(browser, server.url);
+  await active(page);
+  const names = await page.locator('h2, h3').allInnerTexts();
+  assert.equal(new Set(names).size, names.length, names.join(', '));
+  assert.ok(names.includes('Faults so far') && names.includes('Faults to inject'), names.join(', '));
+  clean(page);
+  await server.stop();
+}
+
+/// The strip's key and the run's table say the same, in the same colours.
+async function shares_of_one_window() {
+  const page = await open_page(browser, url_of('dig'));
+  await all_there(page);
+  const read = () => page.evaluate(() => {
+    const rgb = (node, what) => getComputedStyle(node)[what];
+    return {
+      strip: [...document.querySelectorAll('.strip-key li')].map((node) =>
+        [node.innerText.trim(), rgb(node.firstChild, 'backgroundColor')].join(' ')),
+      table: [...document.querySelectorAll('.shares tr')].map((row) =>
+        [`${row.children[0].innerText} ${row.children[1].innerText}`,
+          rgb(row.querySelector('.bar'), 'backgroundColor')].join(' ')),
+    };
+  });
+  const whole = await until('shares are shown', async () => {
+    const found = await read();
+    return found.strip.length > 2 && found.table.length > 2 && found;
+  });
+  assert.deepEqual(whole.strip, whole.table);
+  const plot = page.locator('[data-plot="lambda"]');
+  await plot.focus();
+  for (let k = 0; k < 4; ++k) await page.keyboard.press('+');
+  const zoomed = await until('the window is another', async () => {
+    const found = await read();
+    return found.table.join() !== whole.table.join() && found.strip.join() === found.table.join() && found;
+  });
+  clean(page);
+  return `${whole.table.length} limits, zoomed ${zoomed.table.length}`;
+}
+
+/// Loaded again, or opened later, a live page has what was.
+async function history_is_kept() {
+  const server = await scope('--sim', 'dig');
+  const page = await open_page(browser, server.url);
+  await active(page);
+  await more_frames(page, 8000);
+  const before = await look(page);
+  await page.reload();
+  const from = await until('all is there again', async () => {
+    const seen = await look(page).catch(() => null);
+    return seen !== null && seen.frames >= before.frames && seen;
+  });
+  const late = await open_page(browser, server.url);
+  await until('so has one that comes late', async () => (await look(late)).frames >= before.frames);
+  await late.getByRole('button', {name: 'Pause', exact: true}).click();
+  await late.keyboard.press('Home');
+  const {now, tip} = await until('its beginning is shown', async () => {
+    const seen = await look(late);
+    return seen.now < 1 && seen;
+  });
+  assert.ok(tip !== null);
+  clean(late);
+  await server.stop();
+  return `${before.frames} frames before, ${from.frames} after, from ${now} s on`;
+}
+
+/// Without its server the clock stands, and what is shown is called old.
+async function server_gone() {
+  const server = await scope('--sim', 'dig');
+  const page = await open_page(browser, server.url);
+  await active(page);
+  await more_frames(page, 2000);
+  await server.stop();
+  await page.locator('[data-alarm="link"]').waitFor();
+  const {now} = await look(page);
+  await rest(1500);
+  assert.equal((await look(page)).now, now, 'the clock goes on without a server');
+  assert.ok(await page.locator('#state').evaluate((node) => node.classList.contains('stale')));
+  const fresh = await page.locator('tr.message:not(.stale)').count();
+  assert.equal(fresh, 0, `${fresh} messages are shown as if they came`);
+  assert.equal(await page.locator('[data-alarm="quiet"]').count(), 0);
+}
+
+/// A page that is held up does not call the bus silent.
+async function own_lateness() {
+  const server = await scope('--sim', 'dig');
+  const page = await open_page(browser, server.url);
+  await active(page);
+  await more_frames(page, 1000);
+  await page.evaluate(() => {
+    window.saidSilent = 0;
+    new MutationObserver(() => {
+      window.saidSilent += document.querySelectorAll(
+        '[data-alarm="quiet"], #state.stale').length;
+    }).observe(document.body, {subtree: true, childList: true, attributes: true});
+  });
+  for (let k = 0; k < 3; ++k) {
+    await page.evaluate(() => {
+      for (const end = performance.now() + 2500; performance.now() < end;);
+    });
+    await rest(300);
+  }
+  assert.equal(await page.evaluate(() => window.saidSilent), 0, 'its own lateness is called silence');
+  clean(page);
+  await server.stop();
+}
+
+/// The first Tab, and Enter: the panel is in sight and has the focus.
+async function skip_link() {
+  await at_each_size(url_of('dig'), all_there,
+    async (page, size) => {
+      await page.keyboard.press('Tab');
+      const link = page.locator('.skip');
+      const seen = await link.evaluate((node) => {
+        const box = node.getBoundingClientRect();
+        return document.activeElement === node && box.left >= 0 && box.top >= 0
+          && document.elementFromPoint(box.x + 5, box.y + 5) === node;
+      });
+      assert.ok(seen, `${size}: the skip link is not seen`);
+      await page.keyboard.press('Enter');
+      const there = await page.evaluate(() => {
+        const panel = document.getElementById('panel');
+        const box = panel.getBoundingClientRect();
+        return {focus: document.activeElement === panel, top: box.top, height: innerHeight};
+      });
+      assert.ok(there.focus && there.top >= -2 && there.top < 0.8 * there.height, `${size}: ${JSON.stringify(there)}`);
+    });
+}
+
+/// Paper has the scene, the figures and every plot, and no button.
+async function print() {
+  const page = await open_page(browser, url_of('dig'));
+  await all_there(page);
+  await page.emulateMedia({media: 'print'});
+  const shown = await page.evaluate(() => {
+    const seen = (node) => node.getClientRects().length > 0;
+    return {
+      buttons: [...document.querySelectorAll('button')].filter((node) => seen(node)
+        && !node.closest('.legend, .fault-row, table, .faults')).map((node) => node.textContent),
+      plots: [...document.querySelectorAll('.plot')].filter(seen).length,
+      scene: document.querySelector('.scene').getBoundingClientRect().height,
+      wide: document.documentElement.scrollWidth - innerWidth,
+    };
+  });
+  assert.deepEqual(shown.buttons, []);
+  assert.ok(shown.plots >= 8 && shown.scene > 250 && shown.wide <= 0, JSON.stringify(shown));
+  const pdf = await page.pdf({format: 'A4', path: join(out, 'dig.pdf')});
+  const pages = pdf.toString('latin1').match(/\/Type\s*\/Page\b/g)?.length ?? 0;
+  assert.ok(pages >= 2 && pages <= 6, `${pages} sheets`);
+  clean(page);
+  return `${pages} sheets, ${shown.plots} plots`;
+}
+
+/// A log with more faults than a list can have: the button leads back to the first.
+async function fault_before() {
+  const log = readFileSync(join(out, 'dig.log'), 'utf8').split('\n').filter((line) => line !== '');
+  const lines = [];
+  const id = '18FF3182';  // EcuStatus
+  assert.ok(log.some((line) => line.includes(` ${id}#`)));
+  // An hour in little: a fault comes and goes four times a second.
+  for (let k = 0; k < 1500; ++k) {
+    const at = (time) => `(${(30 + time).toFixed(6).padStart(17, '0')}) vcan0 ${id}#`;
+    lines.push(`${at(k / 4)}0500000015000000`, `${at(k / 4 + 0.1)}0300000000000000`);
+  }
+  writeFileSync(join(out, 'many.log'), [...log, ...lines, ''].join('\n'));
+  const server = await scope('--log', join(out, 'many.log'));
+  const page = await open_page(browser, server.url);
+  await all_there(page);
+  await page.keyboard.press('End');
+  const {now: end} = await look(page);
+  for (let k = 0; k < 400; ++k) await page.keyboard.press('p');
+  const {now} = await look(page);
+  assert.ok(Math.abs(end - now - 100) < 1, `400 faults before ${end} s is ${now} s`);
+  await server.stop();
+  return `from ${end.toFixed(1)} to ${now.toFixed(1)} s`;
+}
+
+async function notices() {
+  for (const name of ['dig', 'plan']) {
+    const page = await open_page(browser, url_of(name));
+    await page.getByRole('button', {name: /^Help/}).click();
+    await page.locator('.notices summary').click();
+    const words = await page.locator('.notices').innerText();
+    for (const owner of ['three.js authors', 'Leon Sorokin', 'bit-dream', 'Permission is hereby granted',
+      'Apache-2.0']) {
+      assert.ok(words.includes(owner), `${name}: ${owner}`);
+    }
+    clean(page);
+    await page.context().close();
+  }
+}
+
+async function axe(page) {
+  await page.evaluate(AXE);
+  const {violations} = await page.evaluate(() => window.axe.run(document, {resultTypes: ['violations']}));
+  return violations.map(({id, nodes}) => `${id}: ${nodes.slice(0, 3).map(({target, failureSummary}) =>
+    `${target} ${failureSummary.split('\n')[1] ?? ''}`).join(' | ')}`);
+}
+
+/// Every kind of page, every size, both themes, and the help that is over it.
+async function axe_clean() {
+  const server = await scope('--sim', 'dig');
+  const found = [];
+  let looks = 0;
+  const pages = [['sim', server.url], ...REPORTS.map((name) => [name, url_of(name)])];
+  for (const [name, url] of pages) {
+    for (const [width, height] of SIZES) {
+      for (const colorScheme of ['light', 'dark']) {
+        const context = await browser.newContext({viewport: {width, height}, reducedMotion: 'reduce', colorScheme,
+          bypassCSP: true});
+        const page = await context.newPage();
+        await page.goto(url);
+        if (name !== 'check') await page.waitForFunction(() => window.grabenScope?.tip() != null);
+        await rest(300);
+        const states = [''];
+        if (name === 'sim' && width === 1400) states.push('help');
+        for (const state of states) {
+          if (state === 'help') await page.keyboard.press('?');
+          found.push(...(await axe(page)).map((words) => `${name} ${state} ${width} ${colorScheme}: ${words}`));
+          ++looks;
+        }
+        await context.close();
+      }
+    }
+  }
+  assert.deepEqual(found, [], found.join('\n'));
+  await server.stop();
+  return `${looks} looks`;
+}
+
+const scenarios = {in_reach, scene_is_large_enough, legend_has_a_ground, names_are_told_apart, shares_of_one_window,
+  history_is_kept, server_gone, own_lateness, skip_link, print, fault_before, notices, axe_clean};
+const failed = await run_scenarios(join(out, 'failed'), browser, only === undefined ? scenarios
+  : {[only]: scenarios[only]});
+await browser.close();
+console.log(`scope: ${failed} scenarios failed`);
+process.exit(failed > 0 ? 1 : 0);
