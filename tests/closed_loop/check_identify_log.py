@@ -299,8 +299,8 @@ def bad_files(tool, log_file, better):
             ("--csv or --log is required", ("--summary", out)),
             ("--profile is required", ("--log", log_file, "--out", out)),
             ("--out, or --check, is required", usual),
-            ("excludes", (*usual, "--out", out, "--check")),
-            ("excludes", (*usual, "--out", out, "--csv", log_file)),
+            ("not with", (*usual, "--out", out, "--check")),
+            ("not with", (*usual, "--out", out, "--csv", log_file)),
             ("requires", (*usual, "--before", tool.profile, "--out", out)),
             ("is not a number", (*usual, "--check", "--limit", "nan"))):
         tool.refused(needle, *arguments, status=2)

@@ -90,8 +90,9 @@ void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state);
 /// from beside it; its strip is cut once more, kSweepsMost times in all.
 void weigh_cut(const LayerPlan& plan, double weighed_m3, CutState& state);
 
-/// Soil counts as left if it stands higher by so much over a cut; over the design itself; at its end,
-/// where soil piles up before the wall that stays; and in one place of a strip by this much more.
+/// Soil counts as left if it stands higher by so much over a cut; over the design itself; at its
+/// end, where soil piles up before the wall that stays; and in one place of a strip by this much
+/// more.
 inline constexpr double kRough_m = 0.03;
 inline constexpr double kFinish_m = 0.014;
 inline constexpr double kEnd_m = 0.035;
