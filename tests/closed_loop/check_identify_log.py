@@ -301,7 +301,7 @@ def bad_files(tool, log_file, better):
             ("--out, or --check, is required", usual),
             ("not with", (*usual, "--out", out, "--check")),
             ("not with", (*usual, "--out", out, "--csv", log_file)),
-            ("requires", (*usual, "--before", tool.profile, "--out", out)),
+            ("only with", (*usual, "--before", tool.profile, "--out", out)),
             ("is not a number", (*usual, "--check", "--limit", "nan"))):
         tool.refused(needle, *arguments, status=2)
 

@@ -118,7 +118,7 @@ def without_simulation(graben, scratch, good):
     line = ("plan", "--profile", path, "--out", scratch)
     for command in (("pose", "--profile", path, "--strokes=1.0,1.1,0.4"),
                     ("strokes", "--profile", path, "--x=5.5", "--y=-0.5", "--attitude=1.5"),
-                    (*line, "--from=0.0,8.0,0.0,2.27", "--to=5.0,0.0,0.0,1.22", "--speed=0.3")):
+                    (*line, "--from=8.0,0.0,0.0,2.27", "--to=5.0,0.0,0.0,1.22", "--speed=0.3")):
         done = run(graben, *command)
         if done.returncode != 0 or not done.stdout or done.stderr:
             yield f"{command}: status {done.returncode}: {done.stdout}{done.stderr}"
