@@ -92,6 +92,9 @@ void new_machine(const NewMachine& options) {
   if (fs::exists(file) && !options.force) {
     throw std::runtime_error(fmt::format("{}: is there already; --force replaces it", options.out));
   }
+  if (file.has_parent_path()) {
+    fs::create_directories(file.parent_path());
+  }
   assert_writable(file);
   const machines::ProfileDocument like =
       machines::read_document(machines::find_profile(options.like));

@@ -14,7 +14,8 @@ MACHINES = pathlib.Path(__file__).resolve().parents[2] / "app" / "machines"
 
 
 def make(graben, folder, like, answers, *options):
-    return subprocess.run([graben, "new-machine", "--like", like, "--out", "mine.toml", *options], cwd=folder,
+    out = [] if "--out" in options else ["--out", "mine.toml"]
+    return subprocess.run([graben, "new-machine", "--like", like, *out, *options], cwd=folder,
                           input="\n".join([*answers, ""]), capture_output=True, text=True, timeout=60)
 
 
@@ -93,6 +94,11 @@ def units(graben, folder, questions):
     assert check(graben, folder).returncode == 0
 
 
+def new_folder(graben, folder):
+    done = make(graben, folder, "excavator_22t", [], "--out", "a/new/other.toml")
+    assert done.returncode == 0 and (folder / "a/new/other.toml").exists(), done.stderr
+
+
 def refusals(graben, folder):
     kept = (folder / "mine.toml").read_bytes()
     for answers, needle, options in (([], "is there already", []),
@@ -120,6 +126,7 @@ def main():
                 reach = float(re.search(r"farthest +([0-9.]+)", small)[1])
                 print(f"{like} times 0.9 reaches {reach} m")
         units(graben, folder, unchanged(graben, folder, "excavator_12t"))
+        new_folder(graben, folder)
         refusals(graben, folder)
     print("a new machine is asked for and written")
 
