@@ -33,6 +33,8 @@ DozerBody read_body(TomlReader& reader) {
   body.mass_kg = reader.number("body.mass", {500.0, 1e5, "kg"}, "mass of the whole machine");
   body.mass_centre_height_m = reader.number("body.mass_centre_height", {0.1, 3.0, "m"},
                                             "mass centre above the tracks' ground line");
+  body.pitch_inertia_kgm2 = reader.number("body.pitch_inertia", {10.0, 1e6, "kg m2"},
+                                          "moment of inertia in pitch, blade included");
   body.wheels =
       reader.integer("body.wheels", 2, kMostWheels, "wheels per track of the half-vehicle model");
   body.track_contact_m =
@@ -150,6 +152,9 @@ GradeDesign read_grade(TomlReader& reader) {
   grade.plane_height_m = reader.number("grade.plane_height", kHeight, "design plane at x = 0");
   grade.plane_slope =
       reader.number("grade.plane_slope", {-0.3, 0.3, ""}, "slope dz/dx of the design plane");
+  grade.tolerance_m =
+      reader.number("grade.tolerance", {0.005, 0.1, "m"},
+                    "how far off the design the ground may come out; the speed is what keeps it");
   return grade;
 }
 

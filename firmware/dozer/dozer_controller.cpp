@@ -13,19 +13,33 @@ namespace {
 /// From a lower wanted speed to a slower machine: displacements, drive line, PI.
 constexpr double kTravelLead_s = 0.2;
 
+/// Of the error that the task allows, what the blade may leave standing on purpose: the rest is for
+/// what nobody foresees.
+constexpr double kLiftShare = 0.4;
+
 /// Straight ahead: the grade is followed along x.
 constexpr double kHeading_radps = 0.0;
 
-BladeSituation situation(const BladeKinematics& blade, const DozerValid& valid,
-                         double available_flow_m3ps) {
-  BladeSituation now;
-  now.body.position_m = {valid.position_m, 0.0, valid.height_m};
-  now.body.rotation = rotation_from_pitch(valid.pitch_rad);
+BladeSituation situation(double position_m, const Stand& stand, double velocity_mps,
+                         double climb_mps, double pitch_rate_radps, double blade_angle_rad) {
+  BladeSituation at;
+  at.body.position_m = {position_m, 0.0, stand.height_m};
+  at.body.rotation = rotation_from_pitch(stand.pitch_rad);
   // Pitch is positive nose up, which is a turn about -y.
-  now.body_velocity << valid.velocity_mps, 0.0, valid.climb_mps, 0.0, -valid.pitch_rate_radps, 0.0;
-  now.angle_rad = blade.angle_rad(valid.blade().stroke_m);
-  now.available_flow_m3ps = available_flow_m3ps;
-  return now;
+  at.body_velocity << velocity_mps, 0.0, climb_mps, 0.0, -pitch_rate_radps, 0.0;
+  at.angle_rad = blade_angle_rad;
+  return at;
+}
+
+BladeSituation measured(const BladeKinematics& blade, const DozerValid& valid) {
+  return situation(valid.position_m, {valid.height_m, valid.pitch_rad}, valid.velocity_mps,
+                   valid.climb_mps, valid.pitch_rate_radps, blade.angle_rad(valid.blade().stroke_m));
+}
+
+/// What comes of it while the pump can give no more.
+double fed_mps(const BladeGeometry& blade, double velocity_mps, double available_flow_m3ps) {
+  return std::clamp(velocity_mps, -available_flow_m3ps / blade.rod_area_m2(),
+                    available_flow_m3ps / blade.cap_area_m2());
 }
 
 /// A track's speed. Where one of them is not that of its displacements, none is believed, and one
@@ -49,6 +63,8 @@ DozerOutputs DozerController::step(const DozerInputs& inputs, TimeUs now_us) {
   const Cycle cycle = begin_cycle(memory_.cycle, memory_.speed_mps.intact(), now_us);
   const DozerValid valid = validate_and_watch(inputs, cycle, now_us);
   estimate(valid, cycle.period_s);
+  servo_after(drives()[0], cycle.last_mode, memory_.asked_mps, valid.blade().stroke_m,
+              cycle.elapsed_s, memory_.servo);
   const Motion motion = flow_limited(valid, cycle.period_s);
   ModeDecision decision =
       decide_mode(memory_.cycle, cycle, valid, Fault::kNone, spools_centred(drives(), valid.drive),
@@ -99,21 +115,48 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
   }
   memory_.position =
       next_position(memory_.position, valid.position_m, valid.velocity_mps, period_s);
-  const BladeSituation now = situation(setup_.blade, valid, 0.0);
+  const BladeSituation now = measured(setup_.blade, valid);
   const Eigen::Vector3d edge_m = edge_in_world_m(setup_.blade, now.body, now.angle_rad);
   ground_.pass(edge_m.x(), edge_m.z(), setup_.design, valid.position_m, valid.height_m,
                std::tan(valid.pitch_rad));
   preview_.look(ground_, setup_.design, memory_.position.position_m,
-                {valid.height_m, valid.pitch_rad});
+                {valid.height_m, valid.pitch_rad},
+                profile_.travel.flow_share *
+                    available_flow_m3ps(profile_.implement, valid.engine_radps));
+}
+
+BladeSituation DozerController::foretold(const DozerValid& valid) const {
+  const DozerBody& body = profile_.body;
+  const double lead_s = profile_.control.dead_time_s + profile_.control.response_s;
+  const int steps =
+      std::clamp(static_cast<int>(std::ceil(lead_s / kMotionStep_s)), 1, kMostMotionSteps);
+  const double step_s = lead_s / steps;
+  BodyMotion motion = motion_of(body, {valid.height_m, valid.pitch_rad}, valid.climb_mps,
+                                valid.pitch_rate_radps);
+  double x_m = valid.position_m;
+  double speed_mps = valid.velocity_mps;
+  const double gaining_mps = memory_.speed_mps.value() - valid.velocity_mps;
+  for (int n = 0; n < steps; ++n) {
+    speed_mps += gaining_mps * step_s / kTravelLead_s;
+    motion = next_motion(body, ground_, setup_.design, x_m, speed_mps, motion, step_s);
+    x_m += speed_mps * step_s;
+  }
+  BladeSituation then =
+      situation(x_m, stand_of(body, motion), speed_mps, origin_climb_mps(body, motion),
+                motion.pitch_rate_radps,
+                setup_.blade.angle_rad(stroke_then_m(drives()[0], memory_.servo)));
+  then.lift = preview_.lift(x_m, speed_mps);
+  return then;
 }
 
 DozerController::Motion DozerController::flow_limited(const DozerValid& valid,
                                                       double period_s) const {
   Motion motion;
   motion.available_flow_m3ps = available_flow_m3ps(profile_.implement, valid.engine_radps);
-  motion.blade =
-      control_blade(profile_, drives()[0], setup_.blade, setup_.design, memory_.blade,
-                    situation(setup_.blade, valid, motion.available_flow_m3ps), period_s);
+  BladeSituation now = measured(setup_.blade, valid);
+  now.lift = preview_.lift(valid.position_m, valid.velocity_mps);
+  motion.blade = control_blade(profile_, drives()[0], setup_.blade, setup_.design, memory_.blade,
+                               now, foretold(valid), motion.available_flow_m3ps, period_s);
   motion.required_flow_m3ps = inflow_m3ps(profile_.blade, motion.blade.feed_forward_mps);
   motion.speed = choose_speed(valid, motion, period_s);
   motion.command.opening = {opening_for(profile_, motion.blade.velocity_mps)};
@@ -134,7 +177,7 @@ SpeedChoice DozerController::choose_speed(const DozerValid& valid, const Motion&
                                           double period_s) const {
   SpeedDemand demand;
   demand.desired_mps = profile_.travel.speed_desired_mps * valid.speed_override_ratio;
-  demand.grade_error_m = motion.blade.error_m;
+  demand.grade_error_m = motion.blade.off_m;
   demand.measured_mps = valid.velocity_mps;
   demand.required_flow_m3ps = motion.required_flow_m3ps;
   demand.available_flow_m3ps = motion.available_flow_m3ps;
@@ -143,7 +186,7 @@ SpeedChoice DozerController::choose_speed(const DozerValid& valid, const Motion&
   demand.blade_angle_rad = setup_.blade.angle_rad(valid.blade().stroke_m);
   demand.ahead =
       preview_.limit(memory_.position.position_m, memory_.speed_mps.value(),
-                     profile_.travel.flow_share * motion.available_flow_m3ps, kTravelLead_s);
+                     kLiftShare * profile_.grade.tolerance_m, kTravelLead_s);
   // The speed itself from where it has a complement.
   SpeedState last = memory_.speed;
   last.speed_mps = memory_.speed_mps.value();
@@ -174,6 +217,7 @@ void DozerController::remember(const DozerValid& valid, const Motion& motion,
              got_mps / (profile_.travel.speed_desired_mps * valid.speed_override_ratio),
              profile_.safety.stall_s, period_s, memory_.stall);
   memory_.blade = active ? motion.blade.state : BladeState{};
+  memory_.asked_mps = fed_mps(profile_.blade, motion.blade.velocity_mps, motion.available_flow_m3ps);
   memory_.speed = active ? motion.speed.state : SpeedState{};
   memory_.speed_mps = active ? motion.speed.state.speed_mps : 0.0;
   memory_.track = active ? motion.track : std::array<TrackState, kTrackCount>{};

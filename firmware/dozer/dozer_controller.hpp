@@ -4,9 +4,11 @@
 #include "firmware/dozer/blade_control.hpp"
 #include "firmware/dozer/safety/dozer_gate.hpp"
 #include "firmware/dozer/safety/dozer_watch.hpp"
+#include "firmware/dozer/travel/body_motion.hpp"
 #include "firmware/dozer/travel/preview.hpp"
 #include "firmware/dozer/travel/speed_limit.hpp"
 #include "firmware/dozer/travel/tracks.hpp"
+#include "firmware/drives/drive_servo.hpp"
 #include "firmware/safety/cycle.hpp"
 #include "firmware/safety/stall_watch.hpp"
 #include "firmware/safety/task_change.hpp"
@@ -63,6 +65,8 @@ class DozerController {
     DozerLastCommands last;
     SpeedState speed;
     BladeState blade;
+    ServoState servo;        ///< What is under way to the blade.
+    double asked_mps = 0.0;  ///< Of the blade, in the last cycle, as far as its flow goes.
     std::array<TrackState, kTrackCount> track{};
     PositionState position;
     BrakeState brake;
@@ -78,6 +82,8 @@ class DozerController {
   void choose_task(DozerValid& valid, double period_s);
   /// Takes in where the machine is: what the blade has cut, what lies ahead.
   void estimate(const DozerValid& valid, double period_s);
+  /// Body and blade when the cylinders answer what is asked of them now.
+  [[nodiscard]] BladeSituation foretold(const DozerValid& valid) const;
   /// Blade and travel speed, and the displacements for it.
   [[nodiscard]] Motion flow_limited(const DozerValid& valid, double period_s) const;
   /// v_c of this cycle and what it is chosen from.

@@ -17,6 +17,7 @@ namespace graben {
 struct DozerBody {
   double mass_kg = 0.0;
   double mass_centre_height_m = 0.0;  ///< Above the body frame's origin.
+  double pitch_inertia_kgm2 = 0.0;    ///< J_c of (15), blade included.
   int wheels = 0;                     ///< 2 .. kMostWheels.
   double track_contact_m = 0.0;       ///< First to last wheel, centred below the mass centre.
   double half_gauge_m = 0.0;          ///< d of (8).
@@ -102,6 +103,7 @@ struct GradeDesign {
   double rounding_m = 0.0;      ///< From each corner to where its curve begins, either side.
   double plane_height_m = 0.0;  ///< Of the plane at x = 0.
   double plane_slope = 0.0;     ///< dz/dx of the plane.
+  double tolerance_m = 0.0;     ///< How far off the design the ground may come out.
 };
 
 struct DozerControl {

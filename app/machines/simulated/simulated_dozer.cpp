@@ -71,8 +71,7 @@ void read_transmission(TomlReader& reader, plant::DozerPlantProfile& plant) {
 plant::DozerPlantProfile read_plant(TomlReader& reader, const DozerProfile& nominal) {
   plant::DozerPlantProfile plant;
   plant.machine = nominal;
-  plant.pitch_inertia_kgm2 = reader.number("body.pitch_inertia", {10.0, 1e6, "kg m2"},
-                                           "moment of inertia in pitch, blade included");
+  plant.pitch_inertia_kgm2 = nominal.body.pitch_inertia_kgm2;
   plant.blade_mass_kg = reader.number("blade.mass", {10.0, 1e5, "kg"}, "blade with its frame");
   plant.blade_reach_m =
       reader.number("blade.reach", {0.1, 5.0, "m"}, "pivot to the mass centre of blade and frame");
