@@ -117,6 +117,17 @@ void add_engine_option(CLI::App& command, runs::GradeScenario& scenario) {
       ->check(number_between(900.0, 2200.0));
 }
 
+void add_lateness_options(CLI::App& command, runs::GradeScenario& scenario) {
+  command
+      .add_option("--dead-time", scenario.dead_time_s,
+                  "From a duty to the blade's first movement, s, 0 .. 0.3; the controller knows it")
+      ->check(number_between(0.0, 0.3));
+  command
+      .add_option("--pose-latency", scenario.pose_latency_s,
+                  "Age of a pose when it comes in, s, 0 .. 0.2; the controller knows it")
+      ->check(number_between(0.0, 0.2));
+}
+
 void add_error_option(CLI::App& command, runs::GradeScenario& scenario) {
   command
       .add_option("--errors", scenario.errors,

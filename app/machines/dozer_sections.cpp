@@ -160,6 +160,8 @@ GradeDesign read_grade(TomlReader& reader) {
 
 DozerControl read_control(TomlReader& reader) {
   auto control = read_control_of_valve<DozerControl>(reader, "implement");
+  control.pose_latency_s = reader.number("control.pose_latency", {0.0, 0.2, "s"},
+                                         "age of a measured pose when it comes in");
   control.blade_gain_ps = reader.number("control.blade_gain", {0.0, 50.0, "1/s"},
                                         "height error of the cutting edge to its velocity");
   control.blade_integral_ps2 = reader.number("control.blade_integral", {0.0, 100.0, "1/s2"},

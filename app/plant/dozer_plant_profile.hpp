@@ -23,6 +23,7 @@ struct DozerSensorErrors {
   double pitch_rate_noise_radps = 0.0;
   double track_speed_noise_mps = 0.0;
   double height_bias_m = 0.0;
+  double pose_latency_s = 0.0;  ///< Between a pose and its message.
 };
 
 /// Firmness of the ground (Wong, Janosi and Hanamoto).

@@ -51,7 +51,9 @@ struct GradeScenario {
   std::string speed_mode = "bounded";  ///< Or "constant": the wanted speed, whatever it takes.
   std::optional<double> speed_mps;
   std::optional<double> engine_rpm;
-  std::string errors = "none";  ///< Or "all".
+  std::string errors = "none";           ///< Or "all".
+  std::optional<double> dead_time_s;     ///< Of the blade's valve; both know it.
+  std::optional<double> pose_latency_s;  ///< Of the pose sensor; both know it.
 };
 
 /// The machine of this scenario. Throws std::runtime_error where its engine can't run so.

@@ -47,10 +47,10 @@ BladeCommand control_blade(const DozerProfile& profile, const DriveRow& drive,
   const double then_m = error_of(blade, design, then, then_x_m);
   command.off_m = command.error_m - now.lift.height_m;
   command.feed_forward_mps = cylinder_mps(blade, design, now, now_x_m, lifting_mps(now));
-  const double free_mps = cylinder_mps(
-      blade, design, then, then_x_m,
-      lifting_mps(then) - control.blade_gain_ps * (then_m - then.lift.height_m) -
-          last.integral_mps);
+  const double free_mps =
+      cylinder_mps(blade, design, then, then_x_m,
+                   lifting_mps(then) - control.blade_gain_ps * (then_m - then.lift.height_m) -
+                       last.integral_mps);
   const double most_mps = end_speed_mps(drive, blade.stroke_m(now.angle_rad), free_mps);
   command.at_end = std::abs(free_mps) > most_mps;
   command.velocity_mps = std::clamp(free_mps, -most_mps, most_mps);

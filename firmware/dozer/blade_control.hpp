@@ -20,6 +20,7 @@ struct BladeLift {
 /// Where the machine is, measured or foretold.
 struct BladeSituation {
   BodyPose body;
+  double pitch_rad = 0.0;
   Vector6d body_velocity = Vector6d::Zero();  ///< x_V-dot.
   double angle_rad = 0.0;                     ///< theta_1
   BladeLift lift;

@@ -13,28 +13,8 @@ namespace {
 /// From a lower wanted speed to a slower machine: displacements, drive line, PI.
 constexpr double kTravelLead_s = 0.2;
 
-/// Of the error that the task allows, what the blade may leave standing on purpose: the rest is for
-/// what nobody foresees.
-constexpr double kLiftShare = 0.4;
-
 /// Straight ahead: the grade is followed along x.
 constexpr double kHeading_radps = 0.0;
-
-BladeSituation situation(double position_m, const Stand& stand, double velocity_mps,
-                         double climb_mps, double pitch_rate_radps, double blade_angle_rad) {
-  BladeSituation at;
-  at.body.position_m = {position_m, 0.0, stand.height_m};
-  at.body.rotation = rotation_from_pitch(stand.pitch_rad);
-  // Pitch is positive nose up, which is a turn about -y.
-  at.body_velocity << velocity_mps, 0.0, climb_mps, 0.0, -pitch_rate_radps, 0.0;
-  at.angle_rad = blade_angle_rad;
-  return at;
-}
-
-BladeSituation measured(const BladeKinematics& blade, const DozerValid& valid) {
-  return situation(valid.position_m, {valid.height_m, valid.pitch_rad}, valid.velocity_mps,
-                   valid.climb_mps, valid.pitch_rate_radps, blade.angle_rad(valid.blade().stroke_m));
-}
 
 /// What comes of it while the pump can give no more.
 double fed_mps(const BladeGeometry& blade, double velocity_mps, double available_flow_m3ps) {
@@ -115,48 +95,54 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
   }
   memory_.position =
       next_position(memory_.position, valid.position_m, valid.velocity_mps, period_s);
-  const BladeSituation now = measured(setup_.blade, valid);
+  const BodyMotion seen = motion_of(profile_.body, {valid.height_m, valid.pitch_rad},
+                                    valid.climb_mps, valid.pitch_rate_radps);
+  next_foretelling(profile_.body, ground_, setup_.design,
+                   {seen, valid.position_m, valid.velocity_mps}, period_s, memory_.foretelling);
+  const double latency_s = profile_.control.pose_latency_s;
+  const BladeSituation now = foretold(valid, latency_s, valid.blade().stroke_m);
   const Eigen::Vector3d edge_m = edge_in_world_m(setup_.blade, now.body, now.angle_rad);
-  ground_.pass(edge_m.x(), edge_m.z(), setup_.design, valid.position_m, valid.height_m,
-               std::tan(valid.pitch_rad));
-  preview_.look(ground_, setup_.design, memory_.position.position_m,
-                {valid.height_m, valid.pitch_rad},
-                profile_.travel.flow_share *
-                    available_flow_m3ps(profile_.implement, valid.engine_radps));
+  const Stand stand{now.body.position_m.z(), now.pitch_rad};
+  ground_.pass(edge_m.x(), edge_m.z(), setup_.design, now.body.position_m.x(), stand.height_m,
+               std::tan(stand.pitch_rad));
+  preview_.look(
+      ground_, setup_.design, memory_.position.position_m + latency_s * valid.velocity_mps, stand,
+      profile_.travel.flow_share * available_flow_m3ps(profile_.implement, valid.engine_radps));
 }
 
-BladeSituation DozerController::foretold(const DozerValid& valid) const {
+BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,
+                                         double stroke_m) const {
   const DozerBody& body = profile_.body;
-  const double lead_s = profile_.control.dead_time_s + profile_.control.response_s;
-  const int steps =
-      std::clamp(static_cast<int>(std::ceil(lead_s / kMotionStep_s)), 1, kMostMotionSteps);
-  const double step_s = lead_s / steps;
-  BodyMotion motion = motion_of(body, {valid.height_m, valid.pitch_rad}, valid.climb_mps,
-                                valid.pitch_rate_radps);
-  double x_m = valid.position_m;
-  double speed_mps = valid.velocity_mps;
-  const double gaining_mps = memory_.speed_mps.value() - valid.velocity_mps;
-  for (int n = 0; n < steps; ++n) {
-    speed_mps += gaining_mps * step_s / kTravelLead_s;
-    motion = next_motion(body, ground_, setup_.design, x_m, speed_mps, motion, step_s);
-    x_m += speed_mps * step_s;
-  }
-  BladeSituation then =
-      situation(x_m, stand_of(body, motion), speed_mps, origin_climb_mps(body, motion),
-                motion.pitch_rate_radps,
-                setup_.blade.angle_rad(stroke_then_m(drives()[0], memory_.servo)));
-  then.lift = preview_.lift(x_m, speed_mps);
-  return then;
+  Driving driving;
+  driving.motion =
+      motion_of(body, {valid.height_m, valid.pitch_rad}, valid.climb_mps, valid.pitch_rate_radps);
+  driving.x_m = valid.position_m;
+  driving.speed_mps = valid.velocity_mps;
+  driving = drive_on(body, ground_, setup_.design, driving,
+                     {memory_.speed_mps.value(), kTravelLead_s}, lead_s, memory_.foretelling.bias);
+  const Stand stand = stand_of(body, driving.motion);
+  BladeSituation at;
+  at.body.position_m = {driving.x_m, 0.0, stand.height_m};
+  at.body.rotation = rotation_from_pitch(stand.pitch_rad);
+  at.pitch_rad = stand.pitch_rad;
+  // Pitch is positive nose up, which is a turn about -y.
+  at.body_velocity << driving.speed_mps, 0.0, origin_climb_mps(body, driving.motion), 0.0,
+      -driving.motion.pitch_rate_radps, 0.0;
+  at.angle_rad = setup_.blade.angle_rad(stroke_m);
+  at.lift = preview_.lift(driving.x_m, driving.speed_mps, lift_most_m());
+  return at;
 }
 
 DozerController::Motion DozerController::flow_limited(const DozerValid& valid,
                                                       double period_s) const {
   Motion motion;
   motion.available_flow_m3ps = available_flow_m3ps(profile_.implement, valid.engine_radps);
-  BladeSituation now = measured(setup_.blade, valid);
-  now.lift = preview_.lift(valid.position_m, valid.velocity_mps);
+  const double latency_s = profile_.control.pose_latency_s;
+  const double lead_s = latency_s + profile_.control.dead_time_s + profile_.control.response_s;
   motion.blade = control_blade(profile_, drives()[0], setup_.blade, setup_.design, memory_.blade,
-                               now, foretold(valid), motion.available_flow_m3ps, period_s);
+                               foretold(valid, latency_s, valid.blade().stroke_m),
+                               foretold(valid, lead_s, stroke_then_m(drives()[0], memory_.servo)),
+                               motion.available_flow_m3ps, period_s);
   motion.required_flow_m3ps = inflow_m3ps(profile_.blade, motion.blade.feed_forward_mps);
   motion.speed = choose_speed(valid, motion, period_s);
   motion.command.opening = {opening_for(profile_, motion.blade.velocity_mps)};
@@ -177,16 +163,16 @@ SpeedChoice DozerController::choose_speed(const DozerValid& valid, const Motion&
                                           double period_s) const {
   SpeedDemand demand;
   demand.desired_mps = profile_.travel.speed_desired_mps * valid.speed_override_ratio;
-  demand.grade_error_m = motion.blade.off_m;
+  demand.off_m = motion.blade.off_m;
   demand.measured_mps = valid.velocity_mps;
   demand.required_flow_m3ps = motion.required_flow_m3ps;
   demand.available_flow_m3ps = motion.available_flow_m3ps;
   demand.engine_radps = valid.engine_radps;
   demand.heading_radps = kHeading_radps;
   demand.blade_angle_rad = setup_.blade.angle_rad(valid.blade().stroke_m);
-  demand.ahead =
-      preview_.limit(memory_.position.position_m, memory_.speed_mps.value(),
-                     kLiftShare * profile_.grade.tolerance_m, kTravelLead_s);
+  demand.ahead = preview_.limit(
+      memory_.position.position_m + profile_.control.pose_latency_s * valid.velocity_mps,
+      memory_.speed_mps.value(), lift_most_m(), kTravelLead_s);
   // The speed itself from where it has a complement.
   SpeedState last = memory_.speed;
   last.speed_mps = memory_.speed_mps.value();
@@ -217,7 +203,8 @@ void DozerController::remember(const DozerValid& valid, const Motion& motion,
              got_mps / (profile_.travel.speed_desired_mps * valid.speed_override_ratio),
              profile_.safety.stall_s, period_s, memory_.stall);
   memory_.blade = active ? motion.blade.state : BladeState{};
-  memory_.asked_mps = fed_mps(profile_.blade, motion.blade.velocity_mps, motion.available_flow_m3ps);
+  memory_.asked_mps =
+      fed_mps(profile_.blade, motion.blade.velocity_mps, motion.available_flow_m3ps);
   memory_.speed = active ? motion.speed.state : SpeedState{};
   memory_.speed_mps = active ? motion.speed.state.speed_mps : 0.0;
   memory_.track = active ? motion.track : std::array<TrackState, kTrackCount>{};

@@ -68,6 +68,7 @@ class DozerController {
     ServoState servo;        ///< What is under way to the blade.
     double asked_mps = 0.0;  ///< Of the blade, in the last cycle, as far as its flow goes.
     std::array<TrackState, kTrackCount> track{};
+    Foretelling foretelling;
     PositionState position;
     BrakeState brake;
     TaskChangeState change;
@@ -82,8 +83,14 @@ class DozerController {
   void choose_task(DozerValid& valid, double period_s);
   /// Takes in where the machine is: what the blade has cut, what lies ahead.
   void estimate(const DozerValid& valid, double period_s);
-  /// Body and blade when the cylinders answer what is asked of them now.
-  [[nodiscard]] BladeSituation foretold(const DozerValid& valid) const;
+  /// Body and blade so much after the moment that the measured pose is of, with this stroke.
+  [[nodiscard]] BladeSituation foretold(const DozerValid& valid, double lead_s,
+                                        double stroke_m) const;
+  /// Of the error that the task allows, what the blade may leave standing on purpose: the rest is
+  /// for what nobody foresees.
+  [[nodiscard]] double lift_most_m() const { return kLiftShare * profile_.grade.tolerance_m; }
+  static constexpr double kLiftShare = 0.33;
+
   /// Blade and travel speed, and the displacements for it.
   [[nodiscard]] Motion flow_limited(const DozerValid& valid, double period_s) const;
   /// v_c of this cycle and what it is chosen from.

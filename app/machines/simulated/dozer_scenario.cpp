@@ -48,6 +48,14 @@ SimulatedDozer arranged(SimulatedDozer machine, const DozerScenario& scenario) {
     }
     hst.engine_radps = *scenario.engine_radps;
   }
+  if (scenario.dead_time_s) {
+    machine.profile.control.dead_time_s = *scenario.dead_time_s;
+    machine.plant.dead_time_s = *scenario.dead_time_s;
+  }
+  if (scenario.pose_latency_s) {
+    machine.profile.control.pose_latency_s = *scenario.pose_latency_s;
+    machine.plant.sensors.pose_latency_s = *scenario.pose_latency_s;
+  }
   TravelProfile& travel = machine.profile.travel;
   travel.policy = scenario.policy;
   travel.speed_desired_mps = scenario.speed_mps.value_or(travel.speed_desired_mps);

@@ -92,6 +92,7 @@ plant::DozerPlantProfile read_plant(TomlReader& reader, const DozerProfile& nomi
   read_transmission(reader, plant);
   plant.ground = read_ground(reader);
   plant.sensors = read_sensors(reader);
+  plant.sensors.pose_latency_s = nominal.control.pose_latency_s;
   plant.start_position_m = reader.number("experiment.start", {-1000.0, 0.0, "m"},
                                          "position of the body at the start, on flat ground");
   return plant;

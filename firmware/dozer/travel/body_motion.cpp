@@ -7,13 +7,18 @@ namespace graben {
 namespace {
 
 constexpr double kGravity_mps2 = 9.80665;
-/// A wheel presses on 0.1 m of track before and behind it: the mean of what lies there is that of its
-/// two points of Gauss.
+/// A wheel presses on 0.1 m of track before and behind it: the mean of what lies there is that of
+/// its two points of Gauss.
 constexpr double kHalfWheel_m = 0.0577;
 /// What no machine does: the model must not run away where there is no ground as it expects it.
 constexpr double kMostPitch_rad = 0.8;
 constexpr double kMostClimb_mps = 3.0;
 constexpr double kMostRate_radps = 3.0;
+
+/// Long enough for the noise of rates, short enough for the ground that passes below.
+constexpr double kBias_s = 0.08;
+constexpr double kMostBias_mps2 = 5.0;
+constexpr double kMostBias_radps2 = 5.0;
 
 struct Load {
   double force_n = 0.0;
@@ -76,7 +81,8 @@ double origin_climb_mps(const DozerBody& body, const BodyMotion& motion) {
 }
 
 BodyMotion next_motion(const DozerBody& body, const GroundMap& ground, const GradeProfile& design,
-                       double x_m, double speed_mps, const BodyMotion& motion, double step_s) {
+                       double x_m, double speed_mps, const BodyMotion& motion, double step_s,
+                       const BodyBias& bias) {
   // Half the way, the forces there, the other half with what they made of the velocity: second
   // order for one look at the ground. Damping counts with the mean of old and new velocity.
   const double half_s = 0.5 * step_s;
@@ -84,18 +90,55 @@ BodyMotion next_motion(const DozerBody& body, const GroundMap& ground, const Gra
   next.centre_m += half_s * motion.climb_mps;
   next.pitch_rad += half_s * motion.pitch_rate_radps;
   const Load load = load_of(body, ground, design, x_m + half_s * speed_mps, speed_mps, next);
-  const double climbing_mps2 = (load.force_n - body.mass_kg * kGravity_mps2) /
-                               (body.mass_kg + half_s * load.damping_nspm);
+  const double climbing_mps2 =
+      (load.force_n - body.mass_kg * kGravity_mps2) / (body.mass_kg + half_s * load.damping_nspm);
   const double pitching_radps2 =
       load.moment_nm / (body.pitch_inertia_kgm2 + half_s * load.damping_nmsprad);
-  next.climb_mps =
-      std::clamp(motion.climb_mps + step_s * climbing_mps2, -kMostClimb_mps, kMostClimb_mps);
-  next.pitch_rate_radps = std::clamp(motion.pitch_rate_radps + step_s * pitching_radps2,
-                                     -kMostRate_radps, kMostRate_radps);
+  next.climb_mps = std::clamp(motion.climb_mps + step_s * (climbing_mps2 + bias.climb_mps2),
+                              -kMostClimb_mps, kMostClimb_mps);
+  next.pitch_rate_radps =
+      std::clamp(motion.pitch_rate_radps + step_s * (pitching_radps2 + bias.pitch_radps2),
+                 -kMostRate_radps, kMostRate_radps);
   next.centre_m += half_s * next.climb_mps;
-  next.pitch_rad = std::clamp(next.pitch_rad + half_s * next.pitch_rate_radps, -kMostPitch_rad,
-                              kMostPitch_rad);
+  next.pitch_rad =
+      std::clamp(next.pitch_rad + half_s * next.pitch_rate_radps, -kMostPitch_rad, kMostPitch_rad);
   return next;
+}
+
+Driving drive_on(const DozerBody& body, const GroundMap& ground, const GradeProfile& design,
+                 const Driving& from, const WantedSpeed& wanted, double lead_s,
+                 const BodyBias& bias) {
+  const int steps =
+      std::clamp(static_cast<int>(std::ceil(lead_s / kMotionStep_s)), 0, kMostMotionSteps);
+  const double step_s = steps > 0 ? lead_s / steps : 0.0;
+  const double gaining_mps2 = (wanted.speed_mps - from.speed_mps) / wanted.within_s;
+  Driving driving = from;
+  for (int n = 0; n < steps; ++n) {
+    driving.speed_mps += gaining_mps2 * step_s;
+    driving.motion = next_motion(body, ground, design, driving.x_m, driving.speed_mps,
+                                 driving.motion, step_s, bias);
+    driving.x_m += driving.speed_mps * step_s;
+  }
+  return driving;
+}
+
+void next_foretelling(const DozerBody& body, const GroundMap& ground, const GradeProfile& design,
+                      const Driving& measured, double period_s, Foretelling& state) {
+  BodyBias& bias = state.bias;
+  if (!state.has_expected) {
+    bias = {};
+  } else if (period_s > 0.0) {
+    const double newest_ps = 1.0 / (period_s + kBias_s);
+    const double climb_mps = measured.motion.climb_mps - state.expected.climb_mps;
+    const double pitch_radps = measured.motion.pitch_rate_radps - state.expected.pitch_rate_radps;
+    bias.climb_mps2 =
+        std::clamp(bias.climb_mps2 + newest_ps * climb_mps, -kMostBias_mps2, kMostBias_mps2);
+    bias.pitch_radps2 = std::clamp(bias.pitch_radps2 + newest_ps * pitch_radps, -kMostBias_radps2,
+                                   kMostBias_radps2);
+  }
+  state.expected = next_motion(body, ground, design, measured.x_m, measured.speed_mps,
+                               measured.motion, period_s, bias);
+  state.has_expected = true;
 }
 
 }  // namespace graben

@@ -9,7 +9,7 @@ namespace graben {
 namespace {
 
 /// Speeds of the probes, of the wanted one.
-constexpr std::array<double, Preview::kProbes> kShare = {1.0, 0.62, 0.39, 0.24, 0.15};
+constexpr std::array<double, Preview::kProbes> kShare = {1.0, 0.62, 0.39, 0.24, 0.15, 0.09};
 constexpr int kEdgeSteps = 4;
 /// No machine of this kind is faster.
 constexpr double kAnySpeed_mps = 10.0;
@@ -131,45 +131,39 @@ void Preview::look(const GroundMap& ground, const GradeProfile& design, double x
                    const Stand& measured, double flow_m3ps) {
   follow(x_m, measured);
   for (int left = kStepsPerCycle; left > 0; --left) {
-    int least = 0;
-    for (int number = 1; number < kProbes; ++number) {
-      least = probe_[static_cast<unsigned>(number)].end < probe_[static_cast<unsigned>(least)].end
-                  ? number
-                  : least;
+    int number = 0;
+    while (number < kProbes && probe_[static_cast<unsigned>(number)].end > last()) {
+      ++number;
     }
-    if (probe_[static_cast<unsigned>(least)].end > last()) {
+    if (number == kProbes) {
       break;
     }
-    step(ground, design, least);
+    step(ground, design, number);
   }
   turn_ = (turn_ + 1) % kProbes;
   cost(turn_, flow_m3ps);
 }
 
-/// From the slowest probe on, up to where it costs too much.
+/// From the slowest probe on that has been there, up to where it costs too much.
 double Preview::limit_of(int index, double allowed_m) const {
-  double limit_mps = profile_.travel.speed_min_mps;
-  double last_m = 0.0;
+  const double least_mps = profile_.travel.speed_min_mps;
+  double kept_mps = 0.0;
+  double kept_m = 0.0;
   for (int number = kProbes - 1; number >= 0; --number) {
     const Probe& probe = probe_[static_cast<unsigned>(number)];
-    if (index < probe.begin) {
+    if (index < probe.begin || index >= probe.end) {
       continue;
-    }
-    if (index >= probe.end) {
-      return limit_mps;
     }
     const double cost_m = need(number, index).cost_m;
     const double speed_mps = probe_mps(number);
     if (cost_m > allowed_m) {
-      const double slower_mps = number + 1 < kProbes ? probe_mps(number + 1) : 0.0;
-      return std::max(profile_.travel.speed_min_mps,
-                      slower_mps +
-                          (allowed_m - last_m) / (cost_m - last_m) * (speed_mps - slower_mps));
+      const double share = (allowed_m - kept_m) / (cost_m - kept_m);
+      return std::max(least_mps, kept_mps + share * (speed_mps - kept_mps));
     }
-    limit_mps = std::max(limit_mps, speed_mps);
-    last_m = cost_m;
+    kept_mps = number > 0 ? speed_mps : kAnySpeed_mps;
+    kept_m = cost_m;
   }
-  return kAnySpeed_mps;
+  return std::max(least_mps, index <= first_ + kBehind ? kAnySpeed_mps : kept_mps);
 }
 
 AheadLimit Preview::limit(double x_m, double speed_mps, double allowed_m, double lead_s) const {
@@ -198,29 +192,31 @@ AheadLimit Preview::limit(double x_m, double speed_mps, double allowed_m, double
   return ahead;
 }
 
-/// Of the two probes that the speed is between.
-double Preview::lift_of(int index, double speed_mps) const {
+/// Of the two probes that the speed is between. Where the limit is lower, so will the machine be by
+/// then.
+double Preview::lift_of(int index, double speed_mps, double allowed_m) const {
+  const double held_mps = std::min(std::max(0.0, speed_mps), limit_of(index, allowed_m));
   double faster_m = 0.0;
   double faster_mps = 0.0;
   for (int number = 0; number < kProbes; ++number) {
     const Probe& probe = probe_[static_cast<unsigned>(number)];
     if (index < probe.begin || index >= probe.end) {
-      return 0.0;
+      continue;
     }
     const double lift_m = need(number, index).lift_m;
     const double probe_speed_mps = probe_mps(number);
-    if (probe_speed_mps <= speed_mps) {
+    if (probe_speed_mps <= held_mps) {
       const double share =
-          number > 0 ? (speed_mps - probe_speed_mps) / (faster_mps - probe_speed_mps) : 0.0;
+          faster_mps > 0.0 ? (held_mps - probe_speed_mps) / (faster_mps - probe_speed_mps) : 0.0;
       return lift_m + share * (faster_m - lift_m);
     }
     faster_m = lift_m;
     faster_mps = probe_speed_mps;
   }
-  return faster_m * std::max(0.0, speed_mps) / faster_mps;
+  return faster_mps > 0.0 ? faster_m * held_mps / faster_mps : 0.0;
 }
 
-BladeLift Preview::lift(double x_m, double speed_mps) const {
+BladeLift Preview::lift(double x_m, double speed_mps, double allowed_m) const {
   if (!std::isfinite(x_m) || !std::isfinite(speed_mps)) {
     return {};
   }
@@ -228,8 +224,8 @@ BladeLift Preview::lift(double x_m, double speed_mps) const {
   if (before < first_ || before + 1 > last()) {
     return {};
   }
-  const double here_m = lift_of(before, speed_mps);
-  const double rise = (lift_of(before + 1, speed_mps) - here_m) / kStep_m;
+  const double here_m = lift_of(before, speed_mps, allowed_m);
+  const double rise = (lift_of(before + 1, speed_mps, allowed_m) - here_m) / kStep_m;
   return {here_m + rise * (x_m - before * kStep_m), rise};
 }
 

@@ -31,7 +31,7 @@ class Preview {
  public:
   static constexpr double kStep_m = 0.05;
   static constexpr int kMostStations = 80;
-  static constexpr int kProbes = 5;
+  static constexpr int kProbes = 6;
   static constexpr int kStepsPerCycle = 8;
   static constexpr double kHold_s = 0.6;
 
@@ -48,7 +48,7 @@ class Preview {
   [[nodiscard]] AheadLimit limit(double x_m, double speed_mps, double allowed_m,
                                  double lead_s) const;
   /// What the blade is to leave standing with the origin at `x_m`, driving so fast.
-  [[nodiscard]] BladeLift lift(double x_m, double speed_mps) const;
+  [[nodiscard]] BladeLift lift(double x_m, double speed_mps, double allowed_m) const;
 
  private:
   /// On its way over the ground.
@@ -91,15 +91,15 @@ class Preview {
   [[nodiscard]] double angle_on(const GradeProfile& design, double x_m, const Stand& stand,
                                 double guess_rad) const;
   [[nodiscard]] double limit_of(int index, double allowed_m) const;
-  [[nodiscard]] double lift_of(int index, double speed_mps) const;
+  [[nodiscard]] double lift_of(int index, double speed_mps, double allowed_m) const;
 
   /// Stations passed that still count.
   static constexpr int kBehind = 2;
 
   const DozerProfile& profile_;
   const BladeKinematics& blade_;
-  double edge_per_stroke_;  ///< At home, both without their sign.
-  int count_;               ///< Of stations ahead.
+  double edge_per_stroke_;              ///< At home, both without their sign.
+  int count_;                           ///< Of stations ahead.
   std::array<Probe, kProbes> probe_{};  ///< The fastest first.
   std::array<Needs, kProbes> need_{};
   int first_ = 0;  ///< The first station that counts.

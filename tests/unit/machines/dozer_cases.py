@@ -6,6 +6,7 @@ from profile_edit import replaced
 RANGES = {
     "body.mass": "500 .. 100000 kg",
     "body.mass_centre_height": "0.1 .. 3 m",
+    "body.pitch_inertia": "10 .. 1000000 kg m2",
     "body.wheels": "2 .. 16",
     "body.track_contact": "0.5 .. 6 m",
     "body.half_gauge": "0.3 .. 3 m",
@@ -48,9 +49,11 @@ RANGES = {
     "travel.track_integral": "0 .. 50 1/s",
     "grade.plane_height": "-100 .. 100 m",
     "grade.plane_slope": "-0.3 .. 0.3",
+    "grade.tolerance": "0.005 .. 0.1 m",
     "control.spool_rate": "0.1 .. 1000 1/s",
     "control.spool_threshold": "0 .. 0.1",
     "control.response": "0.001 .. 1 s",
+    "control.pose_latency": "0 .. 0.2 s",
     "control.blade_gain": "0 .. 50 1/s",
     "control.blade_integral": "0 .. 100 1/s2",
     "control.blade_integral_most": "0 .. 1 m/s",
@@ -69,7 +72,6 @@ RANGES = {
 }
 # The same of NAME.sim.toml.
 SIMULATION_RANGES = {
-    "body.pitch_inertia": "10 .. 1000000 kg m2",
     "blade.mass": "10 .. 100000 kg",
     "blade.reach": "0.1 .. 5 m",
     "implement.relief": "1000000 .. 100000000 Pa",

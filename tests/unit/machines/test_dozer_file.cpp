@@ -31,6 +31,7 @@ void assert_all(const std::vector<std::pair<double, double>>& figures) {
 void the_sources_figures_arrive(void**) {
   const DozerProfile& p = machine().profile;
   assert_all({{p.body.mass_kg, 8900.0},
+              {p.body.pitch_inertia_kgm2, 12000.0},
               {machine().plant.pitch_inertia_kgm2, 12000.0},
               {p.body.mass_centre_height_m, 0.85},
               {p.body.wheels, 10},
@@ -95,19 +96,21 @@ void chosen_figures_arrive_in_the_structs(void**) {
   assert_all({{p.hst.pump_rate_ps, 4.0},
               {p.hst.motor_rate_ps, 2.0},
               {p.hst.response_s, 0.08},
-              {p.travel.deceleration_max_mps2, 1.2},
-              {p.travel.flow_share, 0.92},
+              {p.travel.deceleration_max_mps2, 1.0},
+              {p.travel.flow_share, 0.95},
               {p.travel.preview_m, 2.5},
               {p.travel.track_gain, 0.6},
               {p.travel.track_integral_ps, 2.0},
               {p.grade.plane_height_m, 0.0},
-              {p.grade.plane_slope, 0.0}});
+              {p.grade.plane_slope, 0.0},
+              {p.grade.tolerance_m, 0.02}});
   assert_all({{p.control.sensor_timeout_s, 0.045},
               {p.control.spool_rate_ps, 20.0},
               {p.control.spool_threshold, 0.01},
               {p.control.dead_time_s, 0.0},
-              {p.control.response_s, 0.035},
-              {p.control.blade_gain_ps, 6.0},
+              {p.control.response_s, 0.03},
+              {p.control.pose_latency_s, 0.0},
+              {p.control.blade_gain_ps, 9.0},
               {p.control.blade_integral_ps2, 4.0},
               {p.control.blade_integral_most_mps, 0.10}});
   assert_all({{p.safety.degraded_speed_ratio, 0.4},
