@@ -1,4 +1,5 @@
 #include "app/machines/simulated/simulated_dozer.hpp"
+#include "app/machines/simulated/soil_kinds.hpp"
 
 #include <fmt/format.h>
 
@@ -47,6 +48,9 @@ SimulatedDozer arranged(SimulatedDozer machine, const DozerScenario& scenario) {
                       *scenario.engine_radps, hst.engine_least_radps, hst.engine_most_radps));
     }
     hst.engine_radps = *scenario.engine_radps;
+  }
+  if (!scenario.soil.empty()) {
+    machine.plant.soil = ground_of(scenario.soil, scenario.errors, scenario.seed);
   }
   if (scenario.dead_time_s) {
     machine.profile.control.dead_time_s = *scenario.dead_time_s;
