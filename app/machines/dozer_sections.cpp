@@ -129,6 +129,9 @@ TravelProfile read_travel(TomlReader& reader) {
                                     "share of the available implement flow that is planned with");
   travel.preview_m =
       reader.number("travel.preview", {1.5, 3.5, "m"}, "how far ahead the ground is looked at");
+  travel.push_max_n = reader.number("travel.push_max", {1e3, 1e6, "N"},
+                                    "most that the tracks push with against the blade's load, "
+                                    "above which the blade rises");
   travel.track_gain = reader.number("travel.track_gain", {0.0, 10.0, ""},
                                     "proportional part of a track's speed controller, m/s to m/s");
   travel.track_integral_ps = reader.number("travel.track_integral", {0.0, 50.0, "1/s"},

@@ -22,7 +22,9 @@ double cylinder_mps(const BladeKinematics& blade, const GradeProfile& design,
 }
 
 /// What the lift asks of the edge's velocity.
-double lifting_mps(const BladeSituation& at) { return at.lift.slope * at.body_velocity[0]; }
+double lifting_mps(const BladeSituation& at) {
+  return at.lift.slope * at.body_velocity[0] + at.lift.rate_mps;
+}
 
 double error_of(const BladeKinematics& blade, const GradeProfile& design, const BladeSituation& at,
                 double& edge_x_m) {

@@ -15,6 +15,7 @@ struct BladeState {
 struct BladeLift {
   double height_m = 0.0;
   double slope = 0.0;
+  double rate_mps = 0.0;  ///< And in time.
 };
 
 /// Where the machine is, measured or foretold.

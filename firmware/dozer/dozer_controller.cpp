@@ -97,6 +97,7 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
       next_position(memory_.position, valid.position_m, valid.velocity_mps, period_s);
   const BodyMotion seen = motion_of(profile_.body, {valid.height_m, valid.pitch_rad},
                                     valid.climb_mps, valid.pitch_rate_radps);
+  memory_.load = next_load(profile_, memory_.load, valid, period_s);
   next_foretelling(profile_.body, ground_, setup_.design,
                    {seen, valid.position_m, valid.velocity_mps}, period_s, memory_.foretelling);
   const double latency_s = profile_.control.pose_latency_s;
@@ -130,6 +131,8 @@ BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,
       -driving.motion.pitch_rate_radps, 0.0;
   at.angle_rad = setup_.blade.angle_rad(stroke_m);
   at.lift = preview_.lift(driving.x_m, driving.speed_mps, lift_most_m());
+  at.lift.height_m += memory_.load.lift_m;
+  at.lift.rate_mps = memory_.load.rate_mps;
   return at;
 }
 
@@ -197,12 +200,13 @@ void DozerController::remember(const DozerValid& valid, const Motion& motion,
                                const ModeDecision& decision, const DozerGateResult& gated,
                                double period_s) {
   const bool active = decision.active();
-  next_tube_above(active, motion.blade.error_m, profile_.safety.tube_m, memory_.tube);
+  next_tube_above(active, motion.blade.off_m, profile_.safety.tube_m, memory_.tube);
   const double got_mps = std::min(motion.speed.state.speed_mps, valid.velocity_mps);
   next_stall(active, valid.speed_override_ratio > 0.0,
              got_mps / (profile_.travel.speed_desired_mps * valid.speed_override_ratio),
              profile_.safety.stall_s, period_s, memory_.stall);
   memory_.blade = active ? motion.blade.state : BladeState{};
+  memory_.load = active ? memory_.load : PushState{};
   memory_.asked_mps =
       fed_mps(profile_.blade, motion.blade.velocity_mps, motion.available_flow_m3ps);
   memory_.speed = active ? motion.speed.state : SpeedState{};

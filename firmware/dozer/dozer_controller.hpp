@@ -4,6 +4,7 @@
 #include "firmware/dozer/blade_control.hpp"
 #include "firmware/dozer/safety/dozer_gate.hpp"
 #include "firmware/dozer/safety/dozer_watch.hpp"
+#include "firmware/dozer/travel/blade_load.hpp"
 #include "firmware/dozer/travel/body_motion.hpp"
 #include "firmware/dozer/travel/preview.hpp"
 #include "firmware/dozer/travel/speed_limit.hpp"
@@ -69,6 +70,7 @@ class DozerController {
     double asked_mps = 0.0;  ///< Of the blade, in the last cycle, as far as its flow goes.
     std::array<TrackState, kTrackCount> track{};
     Foretelling foretelling;
+    PushState load;
     PositionState position;
     BrakeState brake;
     TaskChangeState change;

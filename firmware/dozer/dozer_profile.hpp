@@ -82,6 +82,7 @@ struct TravelProfile {
   double threshold_rad = 0.0;          ///< theta_threshold of Algorithm 1.
   double deceleration_max_mps2 = 0.0;  ///< What the speed ahead is planned with.
   double flow_share = 0.0;             ///< Of the available flow, that is planned with.
+  double push_max_n = 0.0;             ///< Of both tracks, against the load on the blade.
   double preview_m = 0.0;              ///< How far ahead the ground is looked at.
   double track_gain = 0.0;             ///< PI of a track's speed: m/s to m/s.
   double track_integral_ps = 0.0;

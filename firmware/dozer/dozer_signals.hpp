@@ -18,7 +18,8 @@ inline constexpr unsigned kRight = 1;
 struct TrackInputs {
   Signal<double> pump_ratio;   ///< Measured displacement over the largest, -1 .. 1; forward is +.
   Signal<double> motor_ratio;  ///< The same of the motor, 0 .. 1.
-  Signal<double> speed_mps;    ///< Of the track: sprocket's speed times its radius; forward is +.
+  Signal<double> line_pressure_pa;  ///< The higher of its two lines'.
+  Signal<double> speed_mps;  ///< Of the track: sprocket's speed times its radius; forward is +.
 };
 
 /// The body's pose and its rates, all of the body frame's origin in the world.

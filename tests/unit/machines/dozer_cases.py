@@ -45,6 +45,7 @@ RANGES = {
     "travel.deceleration_max": "0.1 .. 1.2 m/s2",
     "travel.flow_share": "0.1 .. 1",
     "travel.preview": "1.5 .. 3.5 m",
+    "travel.push_max": "1000 .. 1000000 N",
     "travel.track_gain": "0 .. 10",
     "travel.track_integral": "0 .. 50 1/s",
     "grade.plane_height": "-100 .. 100 m",
