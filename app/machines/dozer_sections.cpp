@@ -155,6 +155,8 @@ GradeDesign read_grade(TomlReader& reader) {
   grade.plane_height_m = reader.number("grade.plane_height", kHeight, "design plane at x = 0");
   grade.plane_slope =
       reader.number("grade.plane_slope", {-0.3, 0.3, ""}, "slope dz/dx of the design plane");
+  grade.passes_most = reader.integer("grade.passes", 1, 50,
+                                     "most passes: what a pass has to leave is gone back for");
   grade.tolerance_m =
       reader.number("grade.tolerance", {0.005, 0.1, "m"},
                     "how far off the design the ground may come out; the speed is what keeps it");

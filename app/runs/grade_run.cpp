@@ -43,14 +43,14 @@ class GradeRun {
       result_.fault = status.fault;
       return true;
     }
-    if (edge_x_m() >= machine_.experiment.length_m) {
+    if (status.graded || (edge_x_m() >= machine_.experiment.length_m && !status.ground_left)) {
       result_.end = GradeEnd::kDone;
       return true;
     }
     result_.end = GradeEnd::kNotFinished;
     const double speed_mps =
         options_.speed_override_ratio * machine_.profile.travel.speed_desired_mps;
-    return seconds(now_us) > kStart_s + kLongerThanWanted * way_m() / speed_mps;
+    return seconds(now_us) > status.pass * (kStart_s + kLongerThanWanted * way_m() / speed_mps);
   }
 
   void look(TimeUs now_us, double cycle_us) {

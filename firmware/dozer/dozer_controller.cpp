@@ -97,13 +97,22 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
       next_position(memory_.position, valid.position_m, valid.velocity_mps, period_s);
   const BodyMotion seen = motion_of(profile_.body, {valid.height_m, valid.pitch_rad},
                                     valid.climb_mps, valid.pitch_rate_radps);
-  memory_.load = next_load(profile_, memory_.load, valid, period_s);
+  memory_.load = memory_.pass.phase == PassPhase::kCut
+                     ? next_load(profile_, memory_.load, valid, period_s)
+                     : PushState{};
   next_foretelling(profile_.body, ground_, setup_.design,
                    {seen, valid.position_m, valid.velocity_mps}, period_s, memory_.foretelling);
   const double latency_s = profile_.control.pose_latency_s;
   const BladeSituation now = foretold(valid, latency_s, valid.blade().stroke_m);
   const Eigen::Vector3d edge_m = edge_in_world_m(setup_.blade, now.body, now.angle_rad);
   const Stand stand{now.body.position_m.z(), now.pitch_rad};
+  memory_.in_pass = {edge_m.x(), grade_error_m(setup_.design, edge_m.x(), edge_m.z()),
+                     valid.velocity_mps};
+  const PassState pass = next_pass(profile_.grade, memory_.pass, memory_.in_pass, period_s);
+  if (pass.pass != memory_.pass.pass) {
+    ground_ = GroundMap();  // From here on it has to be cut again.
+  }
+  memory_.pass = pass;
   ground_.pass(edge_m.x(), edge_m.z(), setup_.design, now.body.position_m.x(), stand.height_m,
                std::tan(stand.pitch_rad));
   preview_.look(
@@ -131,8 +140,11 @@ BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,
       -driving.motion.pitch_rate_radps, 0.0;
   at.angle_rad = setup_.blade.angle_rad(stroke_m);
   at.lift = preview_.lift(driving.x_m, driving.speed_mps, lift_most_m());
-  at.lift.height_m += memory_.load.lift_m;
-  at.lift.rate_mps = memory_.load.rate_mps;
+  if (memory_.pass.phase != PassPhase::kCut) {
+    at.lift = {};
+  }
+  at.lift.height_m += memory_.load.lift_m + memory_.pass.clear_m;
+  at.lift.rate_mps = memory_.load.rate_mps + memory_.pass.clear_mps;
   return at;
 }
 
@@ -162,8 +174,25 @@ DozerController::Motion DozerController::flow_limited(const DozerValid& valid,
   return motion;
 }
 
+SpeedChoice DozerController::return_speed(double desired_mps, double period_s) const {
+  const TravelProfile& travel = profile_.travel;
+  const double wanted_mps = pass_speed_mps(memory_.pass, memory_.in_pass, desired_mps,
+                                           0.5 * travel.deceleration_max_mps2);
+  SpeedChoice choice;
+  const double last_mps = memory_.speed_mps.value();
+  const bool slower = std::abs(wanted_mps) < std::abs(last_mps);
+  const double step_mps =
+      (slower ? travel.deceleration_max_mps2 : travel.acceleration_max_mps2) * period_s;
+  choice.state.speed_mps = last_mps + std::clamp(wanted_mps - last_mps, -step_mps, step_mps);
+  choice.allowed_mps = std::abs(wanted_mps);
+  return choice;
+}
+
 SpeedChoice DozerController::choose_speed(const DozerValid& valid, const Motion& motion,
                                           double period_s) const {
+  if (memory_.pass.phase != PassPhase::kCut) {
+    return return_speed(profile_.travel.speed_desired_mps * valid.speed_override_ratio, period_s);
+  }
   SpeedDemand demand;
   demand.desired_mps = profile_.travel.speed_desired_mps * valid.speed_override_ratio;
   demand.off_m = motion.blade.off_m;
@@ -192,6 +221,9 @@ void DozerController::describe_motion(const Motion& motion, const FaultSet& degr
   status.speed_limit_mps = speed.allowed_mps;
   status.wanted_blade_mps = motion.blade.velocity_mps;
   status.grade_error_m = motion.blade.error_m;
+  status.pass = memory_.pass.pass;
+  status.ground_left = memory_.pass.left;
+  status.graded = memory_.pass.finished;
   status.required_flow_m3ps = motion.required_flow_m3ps;
   status.available_flow_m3ps = motion.available_flow_m3ps;
 }
@@ -201,12 +233,16 @@ void DozerController::remember(const DozerValid& valid, const Motion& motion,
                                double period_s) {
   const bool active = decision.active();
   next_tube_above(active, motion.blade.off_m, profile_.safety.tube_m, memory_.tube);
-  const double got_mps = std::min(motion.speed.state.speed_mps, valid.velocity_mps);
-  next_stall(active, valid.speed_override_ratio > 0.0,
+  const double got_mps =
+      std::min(std::abs(motion.speed.state.speed_mps), std::abs(valid.velocity_mps));
+  const bool turning =
+      memory_.pass.phase == PassPhase::kStop || memory_.pass.phase == PassPhase::kTurn;
+  next_stall(active, valid.speed_override_ratio > 0.0 && !turning,
              got_mps / (profile_.travel.speed_desired_mps * valid.speed_override_ratio),
              profile_.safety.stall_s, period_s, memory_.stall);
   memory_.blade = active ? motion.blade.state : BladeState{};
   memory_.load = active ? memory_.load : PushState{};
+  memory_.pass = active ? memory_.pass : PassState{};
   memory_.asked_mps =
       fed_mps(profile_.blade, motion.blade.velocity_mps, motion.available_flow_m3ps);
   memory_.speed = active ? motion.speed.state : SpeedState{};

@@ -6,6 +6,7 @@
 #include "firmware/dozer/safety/dozer_watch.hpp"
 #include "firmware/dozer/travel/blade_load.hpp"
 #include "firmware/dozer/travel/body_motion.hpp"
+#include "firmware/dozer/travel/passes.hpp"
 #include "firmware/dozer/travel/preview.hpp"
 #include "firmware/dozer/travel/speed_limit.hpp"
 #include "firmware/dozer/travel/tracks.hpp"
@@ -71,6 +72,8 @@ class DozerController {
     std::array<TrackState, kTrackCount> track{};
     Foretelling foretelling;
     PushState load;
+    PassState pass;
+    PassSituation in_pass;
     PositionState position;
     BrakeState brake;
     TaskChangeState change;
@@ -95,6 +98,8 @@ class DozerController {
 
   /// Blade and travel speed, and the displacements for it.
   [[nodiscard]] Motion flow_limited(const DozerValid& valid, double period_s) const;
+  /// v_c on the way back from a pass.
+  [[nodiscard]] SpeedChoice return_speed(double desired_mps, double period_s) const;
   /// v_c of this cycle and what it is chosen from.
   [[nodiscard]] SpeedChoice choose_speed(const DozerValid& valid, const Motion& motion,
                                          double period_s) const;

@@ -47,6 +47,9 @@ struct DozerStatus : MachineStatus {
   double required_flow_m3ps = 0.0;   ///< Q_in of (7), of the measured motion.
   double available_flow_m3ps = 0.0;  ///< min of (12) and the valve's.
   double grade_error_m = 0.0;        ///< Measured cutting edge above the grade.
+  int pass = 1;                      ///< Over the design.
+  bool ground_left = false;          ///< This pass has left what another one has to take.
+  bool graded = false;               ///< The last pass is done.
 };
 
 struct DozerOutputs : MachineOutputs {

@@ -7,11 +7,11 @@ namespace graben {
 
 /// State from cycle to cycle.
 struct PushState {
-  double push_n = 0.0;    ///< Of the tracks against what holds the blade, low-passed.
+  double push_n = 0.0;      ///< Of the tracks against what holds the blade, low-passed.
   double rising_nps = 0.0;  ///< As far as it rises, low-passed.
-  double slip = 0.0;      ///< Of the tracks, low-passed.
-  double lift_m = 0.0;    ///< Of the edge over the design.
-  double rate_mps = 0.0;  ///< How that changes.
+  double slip = 0.0;        ///< Of the tracks, low-passed.
+  double lift_m = 0.0;      ///< Of the edge over the design.
+  double rate_mps = 0.0;    ///< How that changes.
 };
 
 /// What both tracks drive the body with, N, by the pressures of their lines, less what the slope

@@ -50,6 +50,7 @@ RANGES = {
     "travel.track_integral": "0 .. 50 1/s",
     "grade.plane_height": "-100 .. 100 m",
     "grade.plane_slope": "-0.3 .. 0.3",
+    "grade.passes": "1 .. 50",
     "grade.tolerance": "0.005 .. 0.1 m",
     "control.spool_rate": "0.1 .. 1000 1/s",
     "control.spool_threshold": "0 .. 0.1",

@@ -1,0 +1,48 @@
+#pragma once
+/// Passes: what the blade had to leave above the design is gone back for, until the design is met.
+
+#include <cstdint>
+
+#include "firmware/dozer/grade_profile.hpp"
+
+namespace graben {
+
+enum class PassPhase : std::uint8_t {
+  kCut,     ///< Forward, on the design.
+  kStop,    ///< At the pass's end: to a halt, the blade rising.
+  kReturn,  ///< Backward, the blade clear of the ground.
+  kTurn,    ///< To a halt before what is left, the blade coming down as it goes on.
+};
+
+/// State from cycle to cycle.
+struct PassState {
+  PassPhase phase = PassPhase::kCut;
+  int pass = 1;
+  bool left = false;  ///< Something was left in this pass, from and to these places of the edge.
+  double from_m = 0.0;
+  double to_m = 0.0;
+  double end_m = 0.0;    ///< Where a pass that goes back for something ends.
+  double clear_m = 0.0;  ///< The blade over the design.
+  double clear_mps = 0.0;
+  bool finished = false;  ///< The last pass has left nothing, or there may be no more.
+};
+
+/// Where the machine is in it.
+struct PassSituation {
+  double edge_x_m = 0.0;
+  double error_m = 0.0;  ///< Of the edge over the design.
+  double velocity_mps = 0.0;
+};
+
+/// A cycle on. In a pass, what the edge leaves more than the tolerance above the design is noted
+/// with its place. Where the pass ends, at the design's last point or behind what the one before
+/// had left, the machine stops and goes back with the blade clear of the ground, to a run-up before
+/// the first of it; and cuts again, up to `passes_most` times.
+[[nodiscard]] PassState next_pass(const GradeDesign& design, const PassState& last,
+                                  const PassSituation& now, double period_s);
+
+/// Speed that a phase other than kCut drives with: backward, slower near where it turns; or none.
+[[nodiscard]] double pass_speed_mps(const PassState& state, const PassSituation& now,
+                                    double desired_mps, double deceleration_mps2);
+
+}  // namespace graben
