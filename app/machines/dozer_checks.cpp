@@ -162,16 +162,6 @@ void check_corners(TomlReader& reader, const GradeDesign& grade) {
   }
 }
 
-void check_depth(TomlReader& reader, const DozerProfile& profile) {
-  const double lowest_m = lowest_point_m(profile.grade);
-  if (lowest_m < profile.blade.edge_min_m) {
-    reader.fail("grade.profile",
-                fmt::format("its lowest point is at {} m; allowed: down to what the blade reaches "
-                            "below the tracks, {} m",
-                            lowest_m, profile.blade.edge_min_m));
-  }
-}
-
 void check_reach(TomlReader& reader, const DozerProfile& profile) {
   const GradeDesign& grade = profile.grade;
   const GradePoint& last = grade.point[static_cast<unsigned>(grade.count - 1)];
@@ -206,7 +196,6 @@ void check_dozer_across_keys(TomlReader& reader, const DozerProfile& profile) {
   check_blade(reader, profile.blade, l11_m);
   check_engine(reader, profile);
   check_corners(reader, profile.grade);
-  check_depth(reader, profile);
   if (reader.errors().empty()) {
     check_reach(reader, profile);
   }

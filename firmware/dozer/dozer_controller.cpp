@@ -37,7 +37,12 @@ DozerSetup::DozerSetup(const DozerProfile& machine)
     : profile(machine), bank(dozer_bank(profile)), blade(profile.blade), design(profile.grade) {}
 
 DozerController::DozerController(const DozerSetup& setup)
-    : setup_(setup), profile_(setup.profile), preview_(profile_, setup.blade) {}
+    : setup_(setup),
+      profile_(setup.profile),
+      design_(setup.design),
+      preview_(profile_, setup.blade) {
+  design_.set_floor(pass_floor_m(profile_.grade, memory_.pass));
+}
 
 DozerOutputs DozerController::step(const DozerInputs& inputs, TimeUs now_us) {
   const Cycle cycle = begin_cycle(memory_.cycle, memory_.speed_mps.intact(), now_us);
@@ -100,23 +105,24 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
   memory_.load = memory_.pass.phase == PassPhase::kCut
                      ? next_load(profile_, memory_.load, valid, period_s)
                      : PushState{};
-  next_foretelling(profile_.body, ground_, setup_.design,
-                   {seen, valid.position_m, valid.velocity_mps}, period_s, memory_.foretelling);
+  next_foretelling(profile_.body, ground_, design_, {seen, valid.position_m, valid.velocity_mps},
+                   period_s, memory_.foretelling);
   const double latency_s = profile_.control.pose_latency_s;
   const BladeSituation now = foretold(valid, latency_s, valid.blade().stroke_m);
   const Eigen::Vector3d edge_m = edge_in_world_m(setup_.blade, now.body, now.angle_rad);
   const Stand stand{now.body.position_m.z(), now.pitch_rad};
   memory_.in_pass = {edge_m.x(), grade_error_m(setup_.design, edge_m.x(), edge_m.z()),
-                     valid.velocity_mps};
+                     grade_error_m(design_, edge_m.x(), edge_m.z()), valid.velocity_mps};
   const PassState pass = next_pass(profile_.grade, memory_.pass, memory_.in_pass, period_s);
   if (pass.pass != memory_.pass.pass) {
-    ground_ = GroundMap();  // From here on it has to be cut again.
+    ground_.turn_back(edge_m.x());
+    design_.set_floor(pass_floor_m(profile_.grade, pass));
   }
   memory_.pass = pass;
-  ground_.pass(edge_m.x(), edge_m.z(), setup_.design, now.body.position_m.x(), stand.height_m,
+  ground_.pass(edge_m.x(), edge_m.z(), design_, now.body.position_m.x(), stand.height_m,
                std::tan(stand.pitch_rad));
   preview_.look(
-      ground_, setup_.design, memory_.position.position_m + latency_s * valid.velocity_mps, stand,
+      ground_, design_, memory_.position.position_m + latency_s * valid.velocity_mps, stand,
       profile_.travel.flow_share * available_flow_m3ps(profile_.implement, valid.engine_radps));
 }
 
@@ -128,8 +134,8 @@ BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,
       motion_of(body, {valid.height_m, valid.pitch_rad}, valid.climb_mps, valid.pitch_rate_radps);
   driving.x_m = valid.position_m;
   driving.speed_mps = valid.velocity_mps;
-  driving = drive_on(body, ground_, setup_.design, driving,
-                     {memory_.speed_mps.value(), kTravelLead_s}, lead_s, memory_.foretelling.bias);
+  driving = drive_on(body, ground_, design_, driving, {memory_.speed_mps.value(), kTravelLead_s},
+                     lead_s, memory_.foretelling.bias);
   const Stand stand = stand_of(body, driving.motion);
   BladeSituation at;
   at.body.position_m = {driving.x_m, 0.0, stand.height_m};
@@ -154,7 +160,7 @@ DozerController::Motion DozerController::flow_limited(const DozerValid& valid,
   motion.available_flow_m3ps = available_flow_m3ps(profile_.implement, valid.engine_radps);
   const double latency_s = profile_.control.pose_latency_s;
   const double lead_s = latency_s + profile_.control.dead_time_s + profile_.control.response_s;
-  motion.blade = control_blade(profile_, drives()[0], setup_.blade, setup_.design, memory_.blade,
+  motion.blade = control_blade(profile_, drives()[0], setup_.blade, design_, memory_.blade,
                                foretold(valid, latency_s, valid.blade().stroke_m),
                                foretold(valid, lead_s, stroke_then_m(drives()[0], memory_.servo)),
                                motion.available_flow_m3ps, period_s);
@@ -232,7 +238,11 @@ void DozerController::remember(const DozerValid& valid, const Motion& motion,
                                const ModeDecision& decision, const DozerGateResult& gated,
                                double period_s) {
   const bool active = decision.active();
-  next_tube_above(active, motion.blade.off_m, profile_.safety.tube_m, memory_.tube);
+  // Above the ground it is where it is meant to be if it is on its lift; below it nothing excuses.
+  const double error_m = motion.blade.error_m;
+  next_tube_above(active && memory_.pass.phase == PassPhase::kCut,
+                  error_m > 0.0 ? std::max(0.0, motion.blade.off_m) : error_m,
+                  profile_.safety.tube_m, memory_.tube);
   const double got_mps =
       std::min(std::abs(motion.speed.state.speed_mps), std::abs(valid.velocity_mps));
   const bool turning =
@@ -242,6 +252,9 @@ void DozerController::remember(const DozerValid& valid, const Motion& motion,
              profile_.safety.stall_s, period_s, memory_.stall);
   memory_.blade = active ? motion.blade.state : BladeState{};
   memory_.load = active ? memory_.load : PushState{};
+  if (!active && memory_.pass.pass > 1) {
+    design_.set_floor(pass_floor_m(profile_.grade, PassState{}));
+  }
   memory_.pass = active ? memory_.pass : PassState{};
   memory_.asked_mps =
       fed_mps(profile_.blade, motion.blade.velocity_mps, motion.available_flow_m3ps);

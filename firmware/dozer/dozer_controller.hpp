@@ -110,6 +110,7 @@ class DozerController {
 
   const DozerSetup& setup_;
   const DozerProfile& profile_;
+  GradeProfile design_;  ///< Of this pass.
   GroundMap ground_;
   Preview preview_;
   Memory memory_;

@@ -22,7 +22,7 @@ constexpr double kRise_mps = 0.3;
 constexpr double kMostRise_mps = 0.25;
 /// Its way down, of the way up.
 constexpr double kDown = 0.6;
-constexpr double kMostLift_m = 0.6;
+constexpr double kMostLift_m = 0.2;
 
 double low_passed(double last, double now, double period_s) {
   return last + (now - last) * period_s / (kFilter_s + period_s);

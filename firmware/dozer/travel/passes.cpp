@@ -6,35 +6,38 @@
 namespace graben {
 namespace {
 
-/// Before what is left, to get under way and bring the blade down; and behind it.
+/// Before what is left, to get under way and bring the blade down.
 constexpr double kRunUp_m = 1.2;
-constexpr double kRunOut_m = 0.5;
+constexpr double kLessDeep = 0.5;
 constexpr double kClear_m = 0.25;
 constexpr double kClear_mps = 0.2;
 constexpr double kStands_mps = 0.05;
 constexpr double kFastestBack_mps = 1.0;
 
+/// Every pass goes on to the design's end: what the blade carries is dumped behind it.
+double end_m(const GradeDesign& design) {
+  return design.point[static_cast<unsigned>(std::max(design.count, 1) - 1)].x_m;
+}
+
 void note(const GradeDesign& design, const PassSituation& now, PassState& state) {
   const double first_m = design.point[0].x_m;
-  const double last_m = design.point[static_cast<unsigned>(std::max(design.count, 1) - 1)].x_m;
-  if (now.edge_x_m < first_m || now.edge_x_m > last_m || now.error_m <= design.tolerance_m) {
+  if (now.edge_x_m < first_m || now.edge_x_m > end_m(design) || now.error_m <= design.tolerance_m) {
     return;
   }
   state.from_m = state.left ? std::min(state.from_m, now.edge_x_m) : now.edge_x_m;
-  state.to_m = state.left ? std::max(state.to_m, now.edge_x_m) : now.edge_x_m;
   state.left = true;
-}
-
-double end_of(const GradeDesign& design, const PassState& state) {
-  return state.pass > 1 ? state.end_m
-                        : design.point[static_cast<unsigned>(std::max(design.count, 1) - 1)].x_m;
+  state.not_deep = state.not_deep || now.pass_error_m > design.tolerance_m;
 }
 
 /// The next pass begins as the machine stands before what is left.
-void begin_pass(PassState& state) {
+void begin_pass(const GradeDesign& design, PassState& state) {
   state.phase = PassPhase::kCut;
+  const double step_m = state.step_m > 0.0 ? state.step_m : design.pass_depth_m;
+  // What it could not cut in one pass, it takes in smaller ones.
+  state.deep_m += state.not_deep ? kLessDeep * step_m : step_m;
+  state.step_m = state.not_deep ? kLessDeep * step_m : step_m;
+  state.not_deep = false;
   ++state.pass;
-  state.end_m = state.to_m + kRunOut_m;
   state.left = false;
 }
 
@@ -56,7 +59,7 @@ PassState next_pass(const GradeDesign& design, const PassState& last, const Pass
     if (state.clear_m <= 0.0) {
       note(design, now, state);
     }
-    if (now.edge_x_m >= end_of(design, state) && !state.finished) {
+    if (now.edge_x_m >= end_m(design) && !state.finished) {
       const bool again = state.left && state.pass < design.passes_most;
       state.finished = !again;
       state.phase = again ? PassPhase::kStop : PassPhase::kCut;
@@ -66,10 +69,14 @@ PassState next_pass(const GradeDesign& design, const PassState& last, const Pass
   } else if (state.phase == PassPhase::kReturn && now.edge_x_m <= state.from_m - kRunUp_m) {
     state.phase = PassPhase::kTurn;
   } else if (state.phase == PassPhase::kTurn && stands) {
-    begin_pass(state);
+    begin_pass(design, state);
   }
   clear_blade(state.phase == PassPhase::kCut ? 0.0 : kClear_m, period_s, state);
   return state;
+}
+
+double pass_floor_m(const GradeDesign& design, const PassState& state) {
+  return design.ground_m - state.deep_m - (state.step_m > 0.0 ? state.step_m : design.pass_depth_m);
 }
 
 double pass_speed_mps(const PassState& state, const PassSituation& now, double desired_mps,

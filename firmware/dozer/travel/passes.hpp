@@ -18,10 +18,11 @@ enum class PassPhase : std::uint8_t {
 struct PassState {
   PassPhase phase = PassPhase::kCut;
   int pass = 1;
-  bool left = false;  ///< Something was left in this pass, from and to these places of the edge.
+  double deep_m = 0.0;    ///< What the passes before this one were to cut.
+  double step_m = 0.0;    ///< What this one is to cut on top; 0 before the first.
+  bool not_deep = false;  ///< This one could not.
+  bool left = false;      ///< Something was left in this pass, from this place of the edge on.
   double from_m = 0.0;
-  double to_m = 0.0;
-  double end_m = 0.0;    ///< Where a pass that goes back for something ends.
   double clear_m = 0.0;  ///< The blade over the design.
   double clear_mps = 0.0;
   bool finished = false;  ///< The last pass has left nothing, or there may be no more.
@@ -30,16 +31,20 @@ struct PassState {
 /// Where the machine is in it.
 struct PassSituation {
   double edge_x_m = 0.0;
-  double error_m = 0.0;  ///< Of the edge over the design.
+  double error_m = 0.0;       ///< Of the edge over the design.
+  double pass_error_m = 0.0;  ///< Over what this pass is to cut.
   double velocity_mps = 0.0;
 };
 
 /// A cycle on. In a pass, what the edge leaves more than the tolerance above the design is noted
-/// with its place. Where the pass ends, at the design's last point or behind what the one before
-/// had left, the machine stops and goes back with the blade clear of the ground, to a run-up before
+/// with its place. At the design's last point, behind which what it carries is dumped, the machine
+/// stops and goes back with the blade clear of the ground, to a run-up before
 /// the first of it; and cuts again, up to `passes_most` times.
 [[nodiscard]] PassState next_pass(const GradeDesign& design, const PassState& last,
                                   const PassSituation& now, double period_s);
+
+/// Lowest that this pass may cut, over the design's plane.
+[[nodiscard]] double pass_floor_m(const GradeDesign& design, const PassState& state);
 
 /// Speed that a phase other than kCut drives with: backward, slower near where it turns; or none.
 [[nodiscard]] double pass_speed_mps(const PassState& state, const PassSituation& now,
