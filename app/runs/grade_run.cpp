@@ -67,8 +67,10 @@ class GradeRun {
     const plant::DozerPlant& plant = rig_.plant.plant();
     sample.body = {plant.position_m(), plant.height_m(), plant.pitch_rad()};
     sample.edge_m = plant.cutting_edge_m();
-    sample.over_grade =
-        sample.edge_m.x() >= 0.0 && sample.edge_m.x() <= machine_.experiment.length_m;
+    const DozerStatus& status = rig_.ecu->outputs().status;
+    sample.pass = status.pass;
+    sample.over_grade = status.cutting && sample.edge_m.x() >= 0.0 &&
+                        sample.edge_m.x() <= machine_.experiment.length_m;
     sample.design_m = truth_.design_m(sample.edge_m.x());
     sample.error_true_m = truth_.error_m(sample.edge_m);
     sample.speed_true_mps = plant.velocity_mps();

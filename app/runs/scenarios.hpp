@@ -51,7 +51,9 @@ struct GradeScenario {
   std::string speed_mode = "bounded";  ///< Or "constant": the wanted speed, whatever it takes.
   std::optional<double> speed_mps;
   std::optional<double> engine_rpm;
-  std::string errors = "none";           ///< Or "all".
+  std::string errors = "none";  ///< Or "all".
+  std::string soil;  ///< Of machines::kSoilNames: the ground resists; empty: it does not.
+  std::optional<double> pass_depth_m;    ///< What a pass cuts at most; see usual_depth_m().
   std::optional<double> dead_time_s;     ///< Of the blade's valve; both know it.
   std::optional<double> pose_latency_s;  ///< Of the pose sensor; both know it.
 };

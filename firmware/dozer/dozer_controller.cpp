@@ -228,6 +228,7 @@ void DozerController::describe_motion(const Motion& motion, const FaultSet& degr
   status.wanted_blade_mps = motion.blade.velocity_mps;
   status.grade_error_m = motion.blade.error_m;
   status.pass = memory_.pass.pass;
+  status.cutting = memory_.pass.phase == PassPhase::kCut;
   status.ground_left = memory_.pass.left;
   status.graded = memory_.pass.finished;
   status.required_flow_m3ps = motion.required_flow_m3ps;

@@ -48,6 +48,7 @@ struct DozerStatus : MachineStatus {
   double available_flow_m3ps = 0.0;  ///< min of (12) and the valve's.
   double grade_error_m = 0.0;        ///< Measured cutting edge above the grade.
   int pass = 1;                      ///< Over the design.
+  bool cutting = true;               ///< In it; else on the way back to the next one.
   bool ground_left = false;          ///< This pass has left what another one has to take.
   bool graded = false;               ///< The last pass is done.
 };

@@ -51,7 +51,11 @@ SimulatedDozer arranged(SimulatedDozer machine, const DozerScenario& scenario) {
   }
   if (!scenario.soil.empty()) {
     machine.plant.soil = ground_of(scenario.soil, scenario.errors, scenario.seed);
+    GradeDesign& grade = machine.profile.grade;
+    grade.pass_depth_m = std::min(grade.pass_depth_m, usual_depth_m(scenario.soil));
   }
+  machine.profile.grade.pass_depth_m =
+      scenario.pass_depth_m.value_or(machine.profile.grade.pass_depth_m);
   if (scenario.dead_time_s) {
     machine.profile.control.dead_time_s = *scenario.dead_time_s;
     machine.plant.dead_time_s = *scenario.dead_time_s;
