@@ -5,6 +5,7 @@
 
 #include "app/machines/dozer_sections.hpp"
 
+#include "firmware/dozer/travel/preview.hpp"
 #include "firmware/dozer/travel/support.hpp"
 #include "firmware/numeric/constants.hpp"
 
@@ -176,6 +177,20 @@ void check_reach(TomlReader& reader, const DozerProfile& profile) {
   }
 }
 
+/// Over some crests the body tips faster than the blade's flow follows, however slow it drives.
+void check_kept(TomlReader& reader, const DozerProfile& profile) {
+  const GradeDesign& grade = profile.grade;
+  const GradePoint& last = grade.point[static_cast<unsigned>(grade.count - 1)];
+  const GradeKept kept = grade_kept(profile, grade.point[0].x_m, last.x_m);
+  if (!kept.kept) {
+    reader.fail("grade.profile",
+                fmt::format("with the body at x = {:.2f} m, where it tips, the ground would come "
+                            "out {:.3f} m off the design at any speed; allowed: grade.tolerance, "
+                            "{} m",
+                            kept.position_m, kept.off_m, grade.tolerance_m));
+  }
+}
+
 }  // namespace
 
 double lowest_point_m(const GradeDesign& grade) {
@@ -198,6 +213,9 @@ void check_dozer_across_keys(TomlReader& reader, const DozerProfile& profile) {
   check_corners(reader, profile.grade);
   if (reader.errors().empty()) {
     check_reach(reader, profile);
+  }
+  if (reader.errors().empty()) {
+    check_kept(reader, profile);
   }
 }
 

@@ -64,6 +64,9 @@ SimulatedDozer arranged(SimulatedDozer machine, const DozerScenario& scenario) {
     machine.profile.control.pose_latency_s = *scenario.pose_latency_s;
     machine.plant.sensors.pose_latency_s = *scenario.pose_latency_s;
   }
+  if (scenario.policy == SpeedPolicy::kConstant) {
+    machine.profile.grade.passes_most = 1;  // What it leaves is what is compared.
+  }
   TravelProfile& travel = machine.profile.travel;
   travel.policy = scenario.policy;
   travel.speed_desired_mps = scenario.speed_mps.value_or(travel.speed_desired_mps);

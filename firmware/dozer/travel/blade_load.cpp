@@ -16,7 +16,8 @@ constexpr double kFilter_s = 0.1;
 constexpr double kMostSlip = 0.15;
 /// A load that rises counts as what it will be when the blade has answered.
 constexpr double kSoon_s = 0.3;
-constexpr double kSlowest_mps = 0.05;
+/// Slower than this, noise and a pose's latency would pass for slip.
+constexpr double kSlowest_mps = 0.5;
 /// The blade rises so fast for a load that is twice what it may be, and no faster.
 constexpr double kRise_mps = 0.3;
 constexpr double kMostRise_mps = 0.25;
@@ -43,9 +44,7 @@ double push_n(const DozerProfile& profile, const DozerValid& valid) {
 
 double slip_of(const DozerValid& valid) {
   const double track_mps = std::max(valid.track_speed_mps[kLeft], valid.track_speed_mps[kRight]);
-  return track_mps > kSlowest_mps
-             ? std::clamp((track_mps - valid.velocity_mps) / track_mps, 0.0, 1.0)
-             : 0.0;
+  return std::clamp((track_mps - valid.velocity_mps) / std::max(track_mps, kSlowest_mps), 0.0, 1.0);
 }
 
 PushState next_load(const DozerProfile& profile, const PushState& last, const DozerValid& valid,

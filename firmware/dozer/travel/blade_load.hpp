@@ -18,7 +18,7 @@ struct PushState {
 /// takes. Lines whose pressure nobody knows push with nothing.
 [[nodiscard]] double push_n(const DozerProfile& profile, const DozerValid& valid);
 
-/// (v_t - v) / v_t of the faster track going forward; 0 at rest.
+/// (v_t - v) / v_t of the faster track going forward; less where it hardly moves.
 [[nodiscard]] double slip_of(const DozerValid& valid);
 
 /// A cycle on. Above `push_max_n`, or a slip with which the tracks dig themselves in, the blade

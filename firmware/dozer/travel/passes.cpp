@@ -8,6 +8,8 @@ namespace {
 
 /// Before what is left, to get under way and bring the blade down.
 constexpr double kRunUp_m = 1.2;
+/// More than what is allowed, for the noise of what is measured.
+constexpr double kWorthIt_m = 0.005;
 constexpr double kLessDeep = 0.5;
 constexpr double kClear_m = 0.25;
 constexpr double kClear_mps = 0.2;
@@ -21,12 +23,13 @@ double end_m(const GradeDesign& design) {
 
 void note(const GradeDesign& design, const PassSituation& now, PassState& state) {
   const double first_m = design.point[0].x_m;
-  if (now.edge_x_m < first_m || now.edge_x_m > end_m(design) || now.error_m <= design.tolerance_m) {
+  if (now.edge_x_m < first_m || now.edge_x_m > end_m(design) ||
+      now.error_m <= design.tolerance_m + kWorthIt_m) {
     return;
   }
   state.from_m = state.left ? std::min(state.from_m, now.edge_x_m) : now.edge_x_m;
   state.left = true;
-  state.not_deep = state.not_deep || now.pass_error_m > design.tolerance_m;
+  state.not_deep = state.not_deep || now.pass_error_m > design.tolerance_m + kWorthIt_m;
 }
 
 /// The next pass begins as the machine stands before what is left.

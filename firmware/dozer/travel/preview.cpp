@@ -229,4 +229,47 @@ BladeLift Preview::lift(double x_m, double speed_mps, double allowed_m) const {
   return {here_m + rise * (x_m - before * kStep_m), rise};
 }
 
+double Preview::least_cost_m(double x_m) const {
+  const int index = station_of(x_m);
+  double least_m = 0.0;
+  bool known = false;
+  for (int number = 0; number < kProbes; ++number) {
+    const Probe& probe = probe_[static_cast<unsigned>(number)];
+    if (index >= probe.begin && index < probe.end) {
+      const double cost_m = need(number, index).cost_m;
+      least_m = known ? std::min(least_m, cost_m) : cost_m;
+      known = true;
+    }
+  }
+  return least_m;
+}
+
+GradeKept grade_kept(const DozerProfile& profile, double from_m, double to_m) {
+  /// So that the slowest probe keeps ahead.
+  constexpr int kLooks = 3 * Preview::kProbes;
+  constexpr int kMostSteps = 100'000;
+  const BladeKinematics blade(profile.blade);
+  const GradeProfile design(profile.grade);
+  const double start_m = design.at(from_m).height_m;
+  const double flow_m3ps =
+      profile.travel.flow_share * available_flow_m3ps(profile.implement, profile.hst.engine_radps);
+  GroundMap ground;
+  ground.pass(from_m, start_m, design, from_m, start_m, 0.0);
+  Preview preview(profile, blade);
+  const double begin_m = from_m - blade.edge_m(0.0).x();
+  const int steps =
+      std::clamp(static_cast<int>((to_m - begin_m) / Preview::kStep_m), 0, kMostSteps);
+  for (int step = 0; step <= steps; ++step) {
+    const double x_m = begin_m + step * Preview::kStep_m;
+    for (int n = 0; n < kLooks; ++n) {
+      preview.look(ground, design, x_m, {start_m, 0.0}, flow_m3ps);
+    }
+    const double cost_m = preview.least_cost_m(x_m);
+    if (cost_m > profile.grade.tolerance_m) {
+      return {false, x_m, cost_m};
+    }
+  }
+  return {};
+}
+
 }  // namespace graben

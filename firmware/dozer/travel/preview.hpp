@@ -47,6 +47,8 @@ class Preview {
   /// left off for what the transmission takes to answer.
   [[nodiscard]] AheadLimit limit(double x_m, double speed_mps, double allowed_m,
                                  double lead_s) const;
+  /// Least that the station before `x_m` costs, at whatever speed; 0 where no probe has been.
+  [[nodiscard]] double least_cost_m(double x_m) const;
   /// What the blade is to leave standing with the origin at `x_m`, driving so fast.
   [[nodiscard]] BladeLift lift(double x_m, double speed_mps, double allowed_m) const;
 
@@ -105,6 +107,17 @@ class Preview {
   int first_ = 0;  ///< The first station that counts.
   int turn_ = 0;   ///< Whose cost is worked out.
 };
+
+/// Where the ground would come out more than the tolerance off the design at whatever speed.
+struct GradeKept {
+  bool kept = true;
+  double position_m = 0.0;  ///< Of the body.
+  double off_m = 0.0;       ///< What it costs there, m.
+};
+
+/// Walks the probes over the design as already cut, with the flow of the profile's engine speed. No
+/// part of a cycle: it takes the time that the way does.
+[[nodiscard]] GradeKept grade_kept(const DozerProfile& profile, double from_m, double to_m);
 
 struct PositionState {
   double position_m = 0.0;
