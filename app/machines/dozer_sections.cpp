@@ -155,7 +155,8 @@ GradeDesign read_grade(TomlReader& reader) {
   grade.plane_height_m = reader.number("grade.plane_height", kHeight, "design plane at x = 0");
   grade.plane_slope =
       reader.number("grade.plane_slope", {-0.3, 0.3, ""}, "slope dz/dx of the design plane");
-  grade.ground_m = reader.number("grade.ground", kHeight, "the ground that is there, over the plane");
+  grade.ground_m =
+      reader.number("grade.ground", kHeight, "the ground that is there, over the plane");
   grade.pass_depth_m =
       reader.number("grade.pass_depth", {0.02, 10.0, "m"},
                     "no pass goes deeper than this below what the one before has left");

@@ -36,10 +36,10 @@ struct PassSituation {
   double velocity_mps = 0.0;
 };
 
-/// A cycle on. In a pass, what the edge leaves clearly more than the tolerance above the design is noted
-/// with its place. At the design's last point, behind which what it carries is dumped, the machine
-/// stops and goes back with the blade clear of the ground, to a run-up before
-/// the first of it; and cuts again, up to `passes_most` times.
+/// A cycle on. In a pass, what the edge leaves clearly more than the tolerance above the design is
+/// noted with its place. At the design's last point, behind which what it carries is dumped, the
+/// machine stops and goes back with the blade clear of the ground, to a run-up before the first of
+/// it; and cuts again, up to `passes_most` times.
 [[nodiscard]] PassState next_pass(const GradeDesign& design, const PassState& last,
                                   const PassSituation& now, double period_s);
 
