@@ -154,6 +154,8 @@ void add_campaign_grade(CLI::App& campaign, int& status) {
   options->scenario.errors = "all";
   add_speed_options(*command, options->scenario);
   add_engine_option(*command, options->scenario);
+  add_ground_options(*command, options->scenario);
+  add_lateness_options(*command, options->scenario);
   add_error_option(*command, options->scenario);
   add_examples(*command, {"campaign grade --draws 40 --summary out/grades.csv"});
   command->callback([options, &status] {

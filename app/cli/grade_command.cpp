@@ -116,6 +116,8 @@ void add_grade(CLI::App& app, int& status) {
   add_summary_option(*command, options->summary);
   add_speed_options(*command, options->scenario);
   add_engine_option(*command, options->scenario);
+  add_ground_options(*command, options->scenario);
+  add_lateness_options(*command, options->scenario);
   add_error_option(*command, options->scenario);
   command->add_option("--seed", options->seed, "Of --errors, a whole number from 0")
       ->check(whole_number());

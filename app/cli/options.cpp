@@ -120,6 +120,31 @@ void add_engine_option(CLI::App& command, runs::GradeScenario& scenario) {
       ->check(number_between(900.0, 2200.0));
 }
 
+void add_ground_options(CLI::App& command, runs::GradeScenario& scenario) {
+  command
+      .add_option("--soil", scenario.soil,
+                  "Ground that resists the blade, with --errors all of a strength drawn within 40 "
+                  "%; without, nothing does, as in the paper")
+      ->check(CLI::IsMember(
+          std::vector<std::string>(machines::kSoilNames.begin(), machines::kSoilNames.end())));
+  command
+      .add_option("--pass-depth", scenario.pass_depth_m,
+                  "What one pass cuts at most, m, 0.02 .. 10; the profile's unless told, in a soil "
+                  "no more than is usual there")
+      ->check(number_between(0.02, 10.0));
+}
+
+void add_lateness_options(CLI::App& command, runs::GradeScenario& scenario) {
+  command
+      .add_option("--dead-time", scenario.dead_time_s,
+                  "From a duty to the blade's first movement, s, 0 .. 0.3; the controller knows it")
+      ->check(number_between(0.0, 0.3));
+  command
+      .add_option("--pose-latency", scenario.pose_latency_s,
+                  "Age of a pose when it comes in, s, 0 .. 0.2; the controller knows it")
+      ->check(number_between(0.0, 0.2));
+}
+
 void add_error_option(CLI::App& command, runs::GradeScenario& scenario) {
   command
       .add_option("--errors", scenario.errors,

@@ -39,6 +39,10 @@ void add_task_options(CLI::App& command, runs::TaskScenario& scenario);
 void add_speed_options(CLI::App& command, runs::GradeScenario& scenario);
 /// Adds --engine-rpm.
 void add_engine_option(CLI::App& command, runs::GradeScenario& scenario);
+/// Adds --soil, --pass-depth.
+void add_ground_options(CLI::App& command, runs::GradeScenario& scenario);
+/// Adds --dead-time, --pose-latency.
+void add_lateness_options(CLI::App& command, runs::GradeScenario& scenario);
 /// Adds --errors.
 void add_error_option(CLI::App& command, runs::GradeScenario& scenario);
 

@@ -5,6 +5,7 @@
 
 #include "app/machines/dozer_sections.hpp"
 
+#include "firmware/dozer/travel/preview.hpp"
 #include "firmware/dozer/travel/support.hpp"
 #include "firmware/numeric/constants.hpp"
 
@@ -162,16 +163,6 @@ void check_corners(TomlReader& reader, const GradeDesign& grade) {
   }
 }
 
-void check_depth(TomlReader& reader, const DozerProfile& profile) {
-  const double lowest_m = lowest_point_m(profile.grade);
-  if (lowest_m < profile.blade.edge_min_m) {
-    reader.fail("grade.profile",
-                fmt::format("its lowest point is at {} m; allowed: down to what the blade reaches "
-                            "below the tracks, {} m",
-                            lowest_m, profile.blade.edge_min_m));
-  }
-}
-
 void check_reach(TomlReader& reader, const DozerProfile& profile) {
   const GradeDesign& grade = profile.grade;
   const GradePoint& last = grade.point[static_cast<unsigned>(grade.count - 1)];
@@ -183,6 +174,20 @@ void check_reach(TomlReader& reader, const DozerProfile& profile) {
                             "{} .. {} m",
                             reach.position_m, reach.edge_m, profile.blade.edge_min_m,
                             profile.blade.edge_max_m));
+  }
+}
+
+/// Over some crests the body tips faster than the blade's flow follows, however slow it drives.
+void check_kept(TomlReader& reader, const DozerProfile& profile) {
+  const GradeDesign& grade = profile.grade;
+  const GradePoint& last = grade.point[static_cast<unsigned>(grade.count - 1)];
+  const GradeKept kept = grade_kept(profile, grade.point[0].x_m, last.x_m);
+  if (!kept.kept) {
+    reader.fail("grade.profile",
+                fmt::format("with the body at x = {:.2f} m, where it tips, the ground would come "
+                            "out {:.3f} m off the design at any speed; allowed: grade.tolerance, "
+                            "{} m",
+                            kept.position_m, kept.off_m, grade.tolerance_m));
   }
 }
 
@@ -206,9 +211,11 @@ void check_dozer_across_keys(TomlReader& reader, const DozerProfile& profile) {
   check_blade(reader, profile.blade, l11_m);
   check_engine(reader, profile);
   check_corners(reader, profile.grade);
-  check_depth(reader, profile);
   if (reader.errors().empty()) {
     check_reach(reader, profile);
+  }
+  if (reader.errors().empty()) {
+    check_kept(reader, profile);
   }
 }
 

@@ -33,6 +33,8 @@ DozerBody read_body(TomlReader& reader) {
   body.mass_kg = reader.number("body.mass", {500.0, 1e5, "kg"}, "mass of the whole machine");
   body.mass_centre_height_m = reader.number("body.mass_centre_height", {0.1, 3.0, "m"},
                                             "mass centre above the tracks' ground line");
+  body.pitch_inertia_kgm2 = reader.number("body.pitch_inertia", {10.0, 1e6, "kg m2"},
+                                          "moment of inertia in pitch, blade included");
   body.wheels =
       reader.integer("body.wheels", 2, kMostWheels, "wheels per track of the half-vehicle model");
   body.track_contact_m =
@@ -127,6 +129,9 @@ TravelProfile read_travel(TomlReader& reader) {
                                     "share of the available implement flow that is planned with");
   travel.preview_m =
       reader.number("travel.preview", {1.5, 3.5, "m"}, "how far ahead the ground is looked at");
+  travel.push_max_n = reader.number("travel.push_max", {1e3, 1e6, "N"},
+                                    "most that the tracks push with against the blade's load, "
+                                    "above which the blade rises");
   travel.track_gain = reader.number("travel.track_gain", {0.0, 10.0, ""},
                                     "proportional part of a track's speed controller, m/s to m/s");
   travel.track_integral_ps = reader.number("travel.track_integral", {0.0, 50.0, "1/s"},
@@ -150,11 +155,23 @@ GradeDesign read_grade(TomlReader& reader) {
   grade.plane_height_m = reader.number("grade.plane_height", kHeight, "design plane at x = 0");
   grade.plane_slope =
       reader.number("grade.plane_slope", {-0.3, 0.3, ""}, "slope dz/dx of the design plane");
+  grade.ground_m =
+      reader.number("grade.ground", kHeight, "the ground that is there, over the plane");
+  grade.pass_depth_m =
+      reader.number("grade.pass_depth", {0.02, 10.0, "m"},
+                    "no pass goes deeper than this below what the one before has left");
+  grade.passes_most = reader.integer("grade.passes", 1, 50,
+                                     "most passes: what a pass has to leave is gone back for");
+  grade.tolerance_m =
+      reader.number("grade.tolerance", {0.005, 0.1, "m"},
+                    "how far off the design the ground may come out; the speed is what keeps it");
   return grade;
 }
 
 DozerControl read_control(TomlReader& reader) {
   auto control = read_control_of_valve<DozerControl>(reader, "implement");
+  control.pose_latency_s = reader.number("control.pose_latency", {0.0, 0.2, "s"},
+                                         "age of a measured pose when it comes in");
   control.blade_gain_ps = reader.number("control.blade_gain", {0.0, 50.0, "1/s"},
                                         "height error of the cutting edge to its velocity");
   control.blade_integral_ps2 = reader.number("control.blade_integral", {0.0, 100.0, "1/s2"},

@@ -53,12 +53,13 @@ double BladeJoint::holding_force_n(double body_pitch_rad) const {
   return -gravity_moment_nm(body_pitch_rad) / lever_;
 }
 
-double BladeJoint::accelerate(const PistonLoad& load, double body_pitch_rad, double step_s) {
+double BladeJoint::accelerate(const PistonLoad& load, double body_pitch_rad, double step_s,
+                              double moment_nm) {
   // J dw = h (M + G f - G^2 d w), with the damping on the mean of old and new.
   const double damping = lever_ * lever_ * load.damping_nspm;
   const double mobility = step_s / (inertia_ + 0.5 * step_s * damping);
   const double before = rate_;
-  const double free = before + mobility * (gravity_moment_nm(body_pitch_rad) +
+  const double free = before + mobility * (gravity_moment_nm(body_pitch_rad) + moment_nm +
                                            lever_ * load.force_n - damping * before);
   const double friction = mobility * std::abs(lever_) * load.coulomb_n;
   rate_ = free - std::clamp(free, -friction, friction);

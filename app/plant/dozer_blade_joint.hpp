@@ -49,7 +49,9 @@ class BladeJoint {
   /// Cylinder force that holds the blade at rest, N, extension positive.
   [[nodiscard]] double holding_force_n(double body_pitch_rad) const;
   /// Returns the cylinders' mean velocity over the step, m/s.
-  double accelerate(const PistonLoad& load, double body_pitch_rad, double step_s);
+  /// `moment_nm` is what acts on the blade beside its weight; raising it is positive.
+  double accelerate(const PistonLoad& load, double body_pitch_rad, double step_s,
+                    double moment_nm = 0.0);
   void move(double step_s);
 
   [[nodiscard]] const BladeLinkage& linkage() const { return linkage_; }

@@ -62,6 +62,15 @@ void Terrain::cut(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) {
   }
 }
 
+void Terrain::fill(double from_m, double to_m, double height_m) {
+  const long last =
+      std::min(static_cast<long>(std::floor(place(to_m))), static_cast<long>(height_.size()) - 1);
+  for (long i = std::max(static_cast<long>(std::floor(place(from_m))) + 1, 0L); i <= last; ++i) {
+    double& height = height_[static_cast<std::size_t>(i)];
+    height = std::max(height, height_m);
+  }
+}
+
 namespace {
 
 /// 1 - (1 - exp(-u)) / u for u >= 0.

@@ -24,8 +24,11 @@ class Terrain {
 
   /// The cutting edge has gone straight from one place to the other. Each node that it passed on
   /// the way forward is lowered to it; where it was pressed in rather than driven (steeper than 45
-  /// degrees), so is the node next to it. Nothing is ever raised.
+  /// degrees), so is the node next to it.
   void cut(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m);
+
+  /// Raises each node between the two places, the first not among them, to this height at least.
+  void fill(double from_m, double to_m, double height_m);
 
   [[nodiscard]] double cell_m() const { return cell_; }
   [[nodiscard]] double begin_m() const { return from_; }

@@ -59,22 +59,27 @@ double HalfVehicle::rolling_resistance_n() const {
   return rolling_resistance_ * whole_load_ * std::tanh(ground_speed_mps() / rolling_onset_);
 }
 
-void HalfVehicle::step(const Terrain& terrain, double traction_n, double step_s) {
+void HalfVehicle::step(const Terrain& terrain, double traction_n, double step_s,
+                       const BodyLoad& load) {
   const double cosine = std::cos(pitch_);
   const double sine = std::sin(pitch_);
   whole_load_ = 0.0;
   double moment = 0.0;
   for (int i = 0; i < body_.wheels; ++i) {
     const double along = wheel_place_m(i);
-    const double load = wheel_load(terrain, along, cosine, sine);
-    load_[static_cast<std::size_t>(i)] = load;
-    whole_load_ += load;
-    moment += load * (along * cosine + wheel_depth_ * sine);
+    const double pressed = wheel_load(terrain, along, cosine, sine);
+    load_[static_cast<std::size_t>(i)] = pressed;
+    whole_load_ += pressed;
+    moment += pressed * (along * cosine + wheel_depth_ * sine);
   }
   const double mass = body_.mass_kg;
   const double along_body = traction_n - mass * gravity_ * sine - rolling_resistance_n();
-  velocity_ += step_s * cosine * along_body / mass;
-  mass_centre_climb_ += step_s * (whole_load_ / mass - gravity_);
+  moment += load.moment_nm;
+  if (load.tracks_turn) {
+    moment += (traction_n - rolling_resistance_n()) * body_.mass_centre_height_m;
+  }
+  velocity_ += step_s * (cosine * along_body + load.force_n.x()) / mass;
+  mass_centre_climb_ += step_s * ((whole_load_ + load.force_n.y()) / mass - gravity_);
   pitch_rate_ += step_s * moment / pitch_inertia_;
   position_ += step_s * velocity_;
   mass_centre_ += step_s * mass_centre_climb_;

@@ -1,6 +1,7 @@
 #pragma once
 /// The dozer's body on its tracks, after Mononen and Mattila (15) - (17).
 
+#include <Eigen/Core>
 #include <array>
 
 #include "app/plant/dozer_ground.hpp"
@@ -8,20 +9,28 @@
 
 namespace graben::plant {
 
+/// What acts on the body beside the ground below its tracks.
+struct BodyLoad {
+  Eigen::Vector2d force_n = Eigen::Vector2d::Zero();  ///< World.
+  double moment_nm = 0.0;    ///< About the mass centre; nose up is positive.
+  bool tracks_turn = false;  ///< Traction and rolling resistance turn the body about it too.
+};
+
 /// Wheels on springs and dampers that push only, evenly spaced over the contact. World frame, x
 /// along the grade, z up; pitch is positive nose up. At rest on level ground the body frame's
 /// origin is at the ground: unloaded, the wheels reach below it by the static sag.
 ///
-/// Left out as in the paper: the traction's moment on the pitch and, which belongs to it, the mass
-/// centre's sway over the tracks. So (17) is of the origin, where the tracks grip. What the blade's
-/// motion does to the body is left out too; its mass is part of the body's.
+/// Left out as in the paper, unless a load has it: the traction's moment on the pitch and, which
+/// belongs to it, the mass centre's sway over the tracks. So (17) is of the origin, where the
+/// tracks grip. What the blade's motion does to the body is left out too; its mass is part of the
+/// body's.
 class HalfVehicle {
  public:
   /// At rest on flat ground at z = 0.
   explicit HalfVehicle(const DozerPlantProfile& profile);
 
   /// Goes on by a step with the whole traction of both tracks, N along the body.
-  void step(const Terrain& terrain, double traction_n, double step_s);
+  void step(const Terrain& terrain, double traction_n, double step_s, const BodyLoad& load = {});
 
   /// Of the body frame's origin.
   [[nodiscard]] double position_m() const { return position_; }
@@ -36,6 +45,8 @@ class HalfVehicle {
   /// What each wheel pressed with in the last step; 0 in the air.
   [[nodiscard]] const std::array<double, kMostWheels>& wheel_loads_n() const { return load_; }
   [[nodiscard]] double load_n() const { return whole_load_; }
+  /// Of the mass centre, in the world.
+  [[nodiscard]] double mass_centre_m() const { return mass_centre_; }
   [[nodiscard]] double wheel_place_m(int wheel) const;
 
  private:

@@ -24,10 +24,11 @@ void DozerNode::step(TimeUs now) {
   brake_when_stopped(now);
   apply_faults();
   advance(now);
+  readings_.sense(plant_);
   send(readings_.stroke(plant_, faults_), now);
-  send(readings_.position(plant_, faults_.pose), now);
-  send(readings_.pitch(plant_, faults_.pose), now);
-  send(readings_.velocity(plant_, faults_.pose), now);
+  send(readings_.position(faults_.pose), now);
+  send(readings_.pitch(faults_.pose), now);
+  send(readings_.velocity(faults_.pose), now);
   send_transmission(now);
   send(readings_.tracks(plant_, faults_), now);
   if (is_due<bus::EEC1>()) {

@@ -7,6 +7,7 @@
 
 #include "app/plant/cylinder.hpp"
 #include "app/plant/dozer_blade_joint.hpp"
+#include "app/plant/dozer_blade_soil.hpp"
 #include "app/plant/dozer_ground.hpp"
 #include "app/plant/dozer_half_vehicle.hpp"
 #include "app/plant/dozer_hst_path.hpp"
@@ -20,8 +21,9 @@ namespace graben::plant {
 
 /// Mononen and Mattila's dozer (15) - (17) with what their detailed model adds: soil shear under
 /// the tracks, compressible lines and chambers, displacement and spool dynamics, deadband, leakage,
-/// friction. The ground's resistance to the blade is left out as in the paper (a finishing cut).
-/// The engine holds its speed. Deterministic: the same calls give the same numbers.
+/// friction. The ground's resistance to the blade is left out as in the paper (a finishing cut)
+/// and the engine holds its speed, unless the profile has a soil. Deterministic: the same calls
+/// give the same numbers.
 ///
 /// One step, from the state at t to that at t + h: tracks against the ground, transmission, body;
 /// implement valve between the chambers' waves, blade against their impedance, their waves; then
@@ -47,7 +49,7 @@ class DozerPlant {
   /// Not finite or negative counts as standing still.
   void set_engine_radps(double engine_radps);
   /// Share of that speed that it runs at; 0: it stands.
-  void set_engine_ratio(double ratio) { engine_ratio_ = ratio; }
+  void set_engine_ratio(double ratio) { engine_.set_ratio(ratio); }
 
   /// A pilot valve that sends the spool to `held_ratio` whatever the duty, or `offset_ratio` beyond
   /// what the duty asks for.
@@ -85,11 +87,15 @@ class DozerPlant {
   [[nodiscard]] TrackArray motor_ratios() const;
   [[nodiscard]] TrackArray track_speeds_mps() const;
   [[nodiscard]] TrackArray slips() const;
-  [[nodiscard]] double engine_radps() const { return engine_ratio_ * engine_radps_; }
+  [[nodiscard]] double engine_radps() const { return engine_.speed_ratio() * engine_radps_; }
 
   /// In the world.
   [[nodiscard]] Eigen::Vector2d cutting_edge_m() const;
   [[nodiscard]] const Terrain& terrain() const { return terrain_; }
+  /// What the soil does to the blade, in the world, N; nothing without a soil.
+  [[nodiscard]] const Eigen::Vector2d& soil_force_n() const { return soil_force_n_; }
+  /// Of what is before the blade, loose, m^3.
+  [[nodiscard]] double carried_m3() const { return soil_ ? soil_->carried_m3() : 0.0; }
 
   [[nodiscard]] const HalfVehicle& body() const { return body_; }
   [[nodiscard]] const HstPath& path(std::size_t track) const { return path_[track]; }
@@ -101,14 +107,18 @@ class DozerPlant {
 
  private:
   void step();
+  void resist();
+  /// About the blade's pivot; raising it is positive.
+  [[nodiscard]] double soil_moment_nm() const;
   void drive();
+  void load_engine();
   void move_blade();
 
   DozerPlantProfile profile_;
   double step_s_;
   TimeUs pending_us_ = 0;
   double engine_radps_;
-  double engine_ratio_ = 1.0;
+  Engine engine_;
   double way_ = 1.0;  ///< -1: the blade is reversed.
   double duty_ = 0.0;
   bool brake_ = true;
@@ -122,6 +132,9 @@ class DozerPlant {
   ImplementCircuit implement_;
   BladeJoint blade_;
   Cylinder cylinder_;
+  std::optional<BladeSoil> soil_;
+  Eigen::Vector2d soil_force_n_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d edge_mps_ = Eigen::Vector2d::Zero();
 };
 
 }  // namespace graben::plant

@@ -3,9 +3,12 @@
 /// knows. SI units.
 
 #include <cstdint>
+#include <optional>
 
 #include "app/plant/cylinder.hpp"
+#include "app/plant/engine.hpp"
 #include "app/plant/hydraulics.hpp"
+#include "app/plant/soil/soil_kind.hpp"
 #include "app/plant/spool.hpp"
 #include "firmware/core/time.hpp"
 #include "firmware/dozer/dozer_profile.hpp"
@@ -23,6 +26,7 @@ struct DozerSensorErrors {
   double pitch_rate_noise_radps = 0.0;
   double track_speed_noise_mps = 0.0;
   double height_bias_m = 0.0;
+  double pose_latency_s = 0.0;  ///< Between a pose and its message.
 };
 
 /// Firmness of the ground (Wong, Janosi and Hanamoto).
@@ -30,6 +34,14 @@ struct GroundProfile {
   double friction = 0.0;            ///< Largest traction over the load.
   double slip_modulus_m = 0.0;      ///< Shear deformation modulus K.
   double rolling_resistance = 0.0;  ///< Of the load.
+};
+
+/// The blade by what soil sees of it.
+struct BladeShape {
+  double width_m = 0.0;
+  double height_m = 0.0;
+  double rake_rad = 0.0;  ///< From the direction of motion to its face, edge on the ground.
+  double edge_m = 0.0;    ///< Thickness of its edge, worn.
 };
 
 struct DozerPlantProfile : HydraulicDetails {
@@ -61,6 +73,12 @@ struct DozerPlantProfile : HydraulicDetails {
   double mechanical_efficiency = 0.0;
 
   GroundProfile ground;
+  BladeShape blade_shape;
+  /// What resists the blade. Without, nothing does, traction doesn't turn the body, and the engine
+  /// holds its speed: the paper's finishing cut.
+  std::optional<SoilKind> soil;
+  double engine_power_w = 0.0;  ///< Full.
+  EngineSag engine_sag;
   DozerSensorErrors sensors;
   std::uint64_t seed = 0;
   bool sensor_errors = false;  ///< Without: resolution only.

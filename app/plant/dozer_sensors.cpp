@@ -5,6 +5,9 @@
 namespace graben::plant {
 namespace {
 
+/// Between two messages.
+constexpr double kCycle_s = 0.01;
+
 double noisy(double value, double deviation, std::optional<Random>& noise) {
   return noise ? value + deviation * noise->normal() : value;
 }
@@ -55,28 +58,39 @@ double DozerSensorModel::track_speed_mps(double true_track_speed_mps) {
 }
 
 DozerReadings::DozerReadings(const DozerPlantProfile& profile)
-    : sensors_(profile.sensors,
-               profile.sensor_errors ? std::optional(profile.seed) : std::nullopt) {}
+    : sensors_(profile.sensors, profile.sensor_errors ? std::optional(profile.seed) : std::nullopt),
+      late_cycles_(
+          static_cast<std::size_t>(std::lround(profile.sensors.pose_latency_s / kCycle_s))),
+      pose_(1) {}
+
+void DozerReadings::sense(const DozerPlant& plant) {
+  pose_.push_back({plant.position_m(), plant.height_m(), plant.pitch_rad(), plant.velocity_mps(),
+                   plant.climb_mps(), plant.pitch_rate_radps()});
+  // At first it tells of where the body has stood.
+  while (pose_.size() > late_cycles_ + 1 || (pose_.size() > 1 && !started_)) {
+    pose_.pop_front();
+  }
+  started_ = true;
+}
 
 dbc::dozer::BladeStroke DozerReadings::stroke(const DozerPlant& plant, const DozerFaults& faults) {
   return {stroke_.show(sensors_.stroke_m(plant.blade_stroke_m()), ReadingFault(faults.stroke))};
 }
 
-dbc::dozer::BodyPosition DozerReadings::position(const DozerPlant& plant,
-                                                 const PoseFaults& faults) {
-  return {position_.show(sensors_.position_m(plant.position_m()), faults.position),
-          height_.show(sensors_.height_m(plant.height_m()), faults.height)};
+dbc::dozer::BodyPosition DozerReadings::position(const PoseFaults& faults) {
+  return {position_.show(sensors_.position_m(pose_.front().position_m), faults.position),
+          height_.show(sensors_.height_m(pose_.front().height_m), faults.height)};
 }
 
-dbc::dozer::BodyPitch DozerReadings::pitch(const DozerPlant& plant, const PoseFaults& faults) {
-  return {pitch_.show(sensors_.pitch_rad(plant.pitch_rad()), faults.pitch),
-          pitch_rate_.show(sensors_.pitch_rate_radps(plant.pitch_rate_radps()), faults.pitch_rate)};
+dbc::dozer::BodyPitch DozerReadings::pitch(const PoseFaults& faults) {
+  return {pitch_.show(sensors_.pitch_rad(pose_.front().pitch_rad), faults.pitch),
+          pitch_rate_.show(sensors_.pitch_rate_radps(pose_.front().pitch_rate_radps),
+                           faults.pitch_rate)};
 }
 
-dbc::dozer::BodyVelocity DozerReadings::velocity(const DozerPlant& plant,
-                                                 const PoseFaults& faults) {
-  return {velocity_.show(sensors_.velocity_mps(plant.velocity_mps()), faults.velocity),
-          climb_.show(sensors_.climb_mps(plant.climb_mps()), faults.climb)};
+dbc::dozer::BodyVelocity DozerReadings::velocity(const PoseFaults& faults) {
+  return {velocity_.show(sensors_.velocity_mps(pose_.front().velocity_mps), faults.velocity),
+          climb_.show(sensors_.climb_mps(pose_.front().climb_mps), faults.climb)};
 }
 
 dbc::dozer::TrackSpeed DozerReadings::tracks(const DozerPlant& plant, const DozerFaults& faults) {

@@ -2,7 +2,9 @@
 /// The dozer's sensors: readings of the true state, faults included.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 
 #include "app/plant/dozer_faults.hpp"
@@ -37,21 +39,35 @@ class DozerSensorModel {
   double height_bias_m_ = 0.0;
 };
 
+/// The body as a pose sensor sees it.
+struct SensedPose {
+  double position_m = 0.0;
+  double height_m = 0.0;
+  double pitch_rad = 0.0;
+  double velocity_mps = 0.0;
+  double climb_mps = 0.0;
+  double pitch_rate_radps = 0.0;
+};
+
 /// What the bus is told of stroke, body and tracks. Each is read once a cycle.
 class DozerReadings {
  public:
   explicit DozerReadings(const DozerPlantProfile& profile);
 
+  /// A cycle on: the pose sensor takes in where the body is, and tells of where it was.
+  void sense(const DozerPlant& plant);
+
   [[nodiscard]] dbc::dozer::BladeStroke stroke(const DozerPlant& plant, const DozerFaults& faults);
-  [[nodiscard]] dbc::dozer::BodyPosition position(const DozerPlant& plant,
-                                                  const PoseFaults& faults);
-  [[nodiscard]] dbc::dozer::BodyPitch pitch(const DozerPlant& plant, const PoseFaults& faults);
-  [[nodiscard]] dbc::dozer::BodyVelocity velocity(const DozerPlant& plant,
-                                                  const PoseFaults& faults);
+  [[nodiscard]] dbc::dozer::BodyPosition position(const PoseFaults& faults);
+  [[nodiscard]] dbc::dozer::BodyPitch pitch(const PoseFaults& faults);
+  [[nodiscard]] dbc::dozer::BodyVelocity velocity(const PoseFaults& faults);
   [[nodiscard]] dbc::dozer::TrackSpeed tracks(const DozerPlant& plant, const DozerFaults& faults);
 
  private:
   DozerSensorModel sensors_;
+  std::size_t late_cycles_;
+  bool started_ = false;
+  std::deque<SensedPose> pose_;  ///< The oldest first, which is told.
   FaultyReading stroke_;
   FaultyReading position_;
   FaultyReading height_;

@@ -43,14 +43,14 @@ class GradeRun {
       result_.fault = status.fault;
       return true;
     }
-    if (edge_x_m() >= machine_.experiment.length_m) {
+    if (status.graded || (edge_x_m() >= machine_.experiment.length_m && !status.ground_left)) {
       result_.end = GradeEnd::kDone;
       return true;
     }
     result_.end = GradeEnd::kNotFinished;
     const double speed_mps =
         options_.speed_override_ratio * machine_.profile.travel.speed_desired_mps;
-    return seconds(now_us) > kStart_s + kLongerThanWanted * way_m() / speed_mps;
+    return seconds(now_us) > status.pass * (kStart_s + kLongerThanWanted * way_m() / speed_mps);
   }
 
   void look(TimeUs now_us, double cycle_us) {
@@ -67,8 +67,10 @@ class GradeRun {
     const plant::DozerPlant& plant = rig_.plant.plant();
     sample.body = {plant.position_m(), plant.height_m(), plant.pitch_rad()};
     sample.edge_m = plant.cutting_edge_m();
-    sample.over_grade =
-        sample.edge_m.x() >= 0.0 && sample.edge_m.x() <= machine_.experiment.length_m;
+    const DozerStatus& status = rig_.ecu->outputs().status;
+    sample.pass = status.pass;
+    sample.over_grade = status.cutting && sample.edge_m.x() >= 0.0 &&
+                        sample.edge_m.x() <= machine_.experiment.length_m;
     sample.design_m = truth_.design_m(sample.edge_m.x());
     sample.error_true_m = truth_.error_m(sample.edge_m);
     sample.speed_true_mps = plant.velocity_mps();

@@ -24,7 +24,9 @@ struct GradeOptions {
 /// until it was received; flows are magnitudes.
 struct GradeSample {
   double time_s = 0.0;
-  bool over_grade = false;  ///< The cutting edge is over the grade, from x = 0 to its length.
+  int pass = 1;  ///< Over the grade.
+  /// The cutting edge is over the grade, from x = 0 to its length, and not on its way back.
+  bool over_grade = false;
   BodyPose body;
   Eigen::Vector2d edge_m = Eigen::Vector2d::Zero();  ///< True, world.
   double design_m = 0.0;                             ///< The design's height at the edge.
@@ -69,7 +71,11 @@ struct GradeSummary {
   double rmse_error_true_m = 0.0;
   double max_error_measured_m = 0.0;
   double rmse_error_measured_m = 0.0;
-  double time_s = 0.0;  ///< The edge's from x = 0 to the grade's length.
+  double time_s = 0.0;  ///< The edge's from x = 0 to the grade's length, all passes.
+  int passes = 1;
+  double ground_left_m = 0.0;  ///< Most that the ground stands above the design in the end.
+  double over_cut_m = 0.0;     ///< And below it.
+  double halt_s = 0.0;         ///< Longest time that it did not get on in a pass.
   double mean_speed_mps = 0.0;
   double flow_share_max = 0.0;  ///< Largest of required over available, of the true motion.
   double flow_share_reported_max = 0.0;  ///< The same as the controller had it.

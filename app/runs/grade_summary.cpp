@@ -9,6 +9,9 @@
 namespace graben::runs {
 namespace {
 
+/// Slower than this it does not get on.
+constexpr double kHalt_mps = 0.03;
+
 /// Share by which the required flow may exceed the available one and still count as kept.
 constexpr double kFlowTolerance = 0.02;
 
@@ -113,6 +116,28 @@ void add_calm(const machines::SimulatedDozer& machine, const GradeResult& result
   summary.edge_jerk_rms_mps3 = jerk.rms_mps3();
 }
 
+/// What is left of the ground, and what it has cost.
+void add_ground(const machines::SimulatedDozer& machine, const GradeResult& result,
+                GradeSummary& summary) {
+  const GradeTruth truth(machine.profile);
+  for (const Eigen::Vector2d& at_m : result.terrain_m) {
+    if (at_m.x() >= 0.0 && at_m.x() <= machine.experiment.length_m) {
+      const double above_m = truth.error_m(at_m);
+      summary.ground_left_m = std::max(summary.ground_left_m, above_m);
+      summary.over_cut_m = std::max(summary.over_cut_m, -above_m);
+    }
+  }
+  double since_s = 0.0;
+  double last_s = 0.0;
+  for (const GradeSample& sample : result.samples) {
+    summary.passes = std::max(summary.passes, sample.pass);
+    const bool halts = sample.over_grade && std::abs(sample.speed_true_mps) < kHalt_mps;
+    since_s = halts ? since_s + sample.time_s - last_s : 0.0;
+    last_s = sample.time_s;
+    summary.halt_s = std::max(summary.halt_s, since_s);
+  }
+}
+
 }  // namespace
 
 GradeSummary summarise(const machines::SimulatedDozer& machine, const GradeResult& result) {
@@ -155,6 +180,7 @@ GradeSummary summarise(const machines::SimulatedDozer& machine, const GradeResul
   summary.sign_changes = turns.count();
   summary.corners = std::max(machine.profile.grade.count - 2, 0);
   add_calm(machine, result, summary);
+  add_ground(machine, result, summary);
   summary.limit_share = limits.shares();
   summary.pace = pace_of(result.samples, result.wall_s);
   return summary;
@@ -202,6 +228,14 @@ const FigureTable<GradeSummary>& grade_figures() {
       {{"edge_jerk_rms_mps3", "jerk of the true edge below 10 Hz, RMS", kMetresPerSecond3,
         "edge_jerk_rms_mps3"},
        [](const S& s) { return s.edge_jerk_rms_mps3; }},
+      {{"passes", "passes", kCount, "passes"},
+       [](const S& s) { return static_cast<double>(s.passes); }},
+      {{"ground_left_m", "ground left above the design, max", kMillimetres, "ground_left_m"},
+       [](const S& s) { return s.ground_left_m; }},
+      {{"over_cut_m", "ground cut below the design, max", kMillimetres, "over_cut_m"},
+       [](const S& s) { return s.over_cut_m; }},
+      {{"halt_s", "longest halt in a pass", kSeconds, "halt_s"},
+       [](const S& s) { return s.halt_s; }},
   });
   return all;
 }

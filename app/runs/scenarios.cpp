@@ -141,6 +141,10 @@ machines::SimulatedDozer arranged(const machines::SimulatedDozer& machine,
   if (scenario.engine_rpm) {
     tried.engine_radps = *scenario.engine_rpm * kRadpsPerRpm;
   }
+  tried.soil = scenario.soil;
+  tried.pass_depth_m = scenario.pass_depth_m;
+  tried.dead_time_s = scenario.dead_time_s;
+  tried.pose_latency_s = scenario.pose_latency_s;
   tried.errors = scenario.errors == "all";
   tried.seed = seed;
   machines::SimulatedDozer result = machines::arranged(machine, tried);
@@ -153,9 +157,22 @@ machines::SimulatedDozer arranged(const machines::SimulatedDozer& machine,
 
 std::string scenario_text(const machines::SimulatedDozer& nominal, const GradeScenario& scenario) {
   const double rpm = scenario.engine_rpm.value_or(nominal.profile.hst.engine_radps / kRadpsPerRpm);
-  return fmt::format("{}, wanted {} m/s, {:.0f} rpm, errors {}", scenario.speed_mode,
-                     scenario.speed_mps.value_or(nominal.profile.travel.speed_desired_mps), rpm,
-                     scenario.errors);
+  std::string text = fmt::format(
+      "{}, wanted {} m/s, {:.0f} rpm, errors {}", scenario.speed_mode,
+      scenario.speed_mps.value_or(nominal.profile.travel.speed_desired_mps), rpm, scenario.errors);
+  if (!scenario.soil.empty()) {
+    text += ", " + scenario.soil;
+  }
+  if (scenario.pass_depth_m) {
+    text += fmt::format(", passes of {} m", *scenario.pass_depth_m);
+  }
+  if (scenario.dead_time_s) {
+    text += fmt::format(", dead time {} s", *scenario.dead_time_s);
+  }
+  if (scenario.pose_latency_s) {
+    text += fmt::format(", pose latency {} s", *scenario.pose_latency_s);
+  }
+  return text;
 }
 
 machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machine,

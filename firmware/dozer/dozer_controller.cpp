@@ -16,16 +16,10 @@ constexpr double kTravelLead_s = 0.2;
 /// Straight ahead: the grade is followed along x.
 constexpr double kHeading_radps = 0.0;
 
-BladeSituation situation(const BladeKinematics& blade, const DozerValid& valid,
-                         double available_flow_m3ps) {
-  BladeSituation now;
-  now.body.position_m = {valid.position_m, 0.0, valid.height_m};
-  now.body.rotation = rotation_from_pitch(valid.pitch_rad);
-  // Pitch is positive nose up, which is a turn about -y.
-  now.body_velocity << valid.velocity_mps, 0.0, valid.climb_mps, 0.0, -valid.pitch_rate_radps, 0.0;
-  now.angle_rad = blade.angle_rad(valid.blade().stroke_m);
-  now.available_flow_m3ps = available_flow_m3ps;
-  return now;
+/// What comes of it while the pump can give no more.
+double fed_mps(const BladeGeometry& blade, double velocity_mps, double available_flow_m3ps) {
+  return std::clamp(velocity_mps, -available_flow_m3ps / blade.rod_area_m2(),
+                    available_flow_m3ps / blade.cap_area_m2());
 }
 
 /// A track's speed. Where one of them is not that of its displacements, none is believed, and one
@@ -43,12 +37,19 @@ DozerSetup::DozerSetup(const DozerProfile& machine)
     : profile(machine), bank(dozer_bank(profile)), blade(profile.blade), design(profile.grade) {}
 
 DozerController::DozerController(const DozerSetup& setup)
-    : setup_(setup), profile_(setup.profile), preview_(profile_, setup.blade) {}
+    : setup_(setup),
+      profile_(setup.profile),
+      design_(setup.design),
+      preview_(profile_, setup.blade) {
+  design_.set_floor(pass_floor_m(profile_.grade, memory_.pass));
+}
 
 DozerOutputs DozerController::step(const DozerInputs& inputs, TimeUs now_us) {
   const Cycle cycle = begin_cycle(memory_.cycle, memory_.speed_mps.intact(), now_us);
   const DozerValid valid = validate_and_watch(inputs, cycle, now_us);
   estimate(valid, cycle.period_s);
+  servo_after(drives()[0], cycle.last_mode, memory_.asked_mps, valid.blade().stroke_m,
+              cycle.elapsed_s, memory_.servo);
   const Motion motion = flow_limited(valid, cycle.period_s);
   ModeDecision decision =
       decide_mode(memory_.cycle, cycle, valid, Fault::kNone, spools_centred(drives(), valid.drive),
@@ -99,21 +100,70 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
   }
   memory_.position =
       next_position(memory_.position, valid.position_m, valid.velocity_mps, period_s);
-  const BladeSituation now = situation(setup_.blade, valid, 0.0);
+  const BodyMotion seen = motion_of(profile_.body, {valid.height_m, valid.pitch_rad},
+                                    valid.climb_mps, valid.pitch_rate_radps);
+  memory_.load = memory_.pass.phase == PassPhase::kCut
+                     ? next_load(profile_, memory_.load, valid, period_s)
+                     : PushState{};
+  next_foretelling(profile_.body, ground_, design_, {seen, valid.position_m, valid.velocity_mps},
+                   period_s, memory_.foretelling);
+  const double latency_s = profile_.control.pose_latency_s;
+  const BladeSituation now = foretold(valid, latency_s, valid.blade().stroke_m);
   const Eigen::Vector3d edge_m = edge_in_world_m(setup_.blade, now.body, now.angle_rad);
-  ground_.pass(edge_m.x(), edge_m.z(), setup_.design, valid.position_m, valid.height_m,
-               std::tan(valid.pitch_rad));
-  preview_.look(ground_, setup_.design, memory_.position.position_m,
-                {valid.height_m, valid.pitch_rad});
+  const Stand stand{now.body.position_m.z(), now.pitch_rad};
+  memory_.in_pass = {edge_m.x(), grade_error_m(setup_.design, edge_m.x(), edge_m.z()),
+                     grade_error_m(design_, edge_m.x(), edge_m.z()), valid.velocity_mps};
+  const PassState pass = next_pass(profile_.grade, memory_.pass, memory_.in_pass, period_s);
+  if (pass.pass != memory_.pass.pass) {
+    ground_.turn_back(edge_m.x());
+    design_.set_floor(pass_floor_m(profile_.grade, pass));
+  }
+  memory_.pass = pass;
+  ground_.pass(edge_m.x(), edge_m.z(), design_, now.body.position_m.x(), stand.height_m,
+               std::tan(stand.pitch_rad));
+  preview_.look(
+      ground_, design_, memory_.position.position_m + latency_s * valid.velocity_mps, stand,
+      profile_.travel.flow_share * available_flow_m3ps(profile_.implement, valid.engine_radps));
+}
+
+BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,
+                                         double stroke_m) const {
+  const DozerBody& body = profile_.body;
+  Driving driving;
+  driving.motion =
+      motion_of(body, {valid.height_m, valid.pitch_rad}, valid.climb_mps, valid.pitch_rate_radps);
+  driving.x_m = valid.position_m;
+  driving.speed_mps = valid.velocity_mps;
+  driving = drive_on(body, ground_, design_, driving, {memory_.speed_mps.value(), kTravelLead_s},
+                     lead_s, memory_.foretelling.bias);
+  const Stand stand = stand_of(body, driving.motion);
+  BladeSituation at;
+  at.body.position_m = {driving.x_m, 0.0, stand.height_m};
+  at.body.rotation = rotation_from_pitch(stand.pitch_rad);
+  at.pitch_rad = stand.pitch_rad;
+  // Pitch is positive nose up, which is a turn about -y.
+  at.body_velocity << driving.speed_mps, 0.0, origin_climb_mps(body, driving.motion), 0.0,
+      -driving.motion.pitch_rate_radps, 0.0;
+  at.angle_rad = setup_.blade.angle_rad(stroke_m);
+  at.lift = preview_.lift(driving.x_m, driving.speed_mps, lift_most_m());
+  if (memory_.pass.phase != PassPhase::kCut) {
+    at.lift = {};
+  }
+  at.lift.height_m += memory_.load.lift_m + memory_.pass.clear_m;
+  at.lift.rate_mps = memory_.load.rate_mps + memory_.pass.clear_mps;
+  return at;
 }
 
 DozerController::Motion DozerController::flow_limited(const DozerValid& valid,
                                                       double period_s) const {
   Motion motion;
   motion.available_flow_m3ps = available_flow_m3ps(profile_.implement, valid.engine_radps);
-  motion.blade =
-      control_blade(profile_, drives()[0], setup_.blade, setup_.design, memory_.blade,
-                    situation(setup_.blade, valid, motion.available_flow_m3ps), period_s);
+  const double latency_s = profile_.control.pose_latency_s;
+  const double lead_s = latency_s + profile_.control.dead_time_s + profile_.control.response_s;
+  motion.blade = control_blade(profile_, drives()[0], setup_.blade, design_, memory_.blade,
+                               foretold(valid, latency_s, valid.blade().stroke_m),
+                               foretold(valid, lead_s, stroke_then_m(drives()[0], memory_.servo)),
+                               motion.available_flow_m3ps, period_s);
   motion.required_flow_m3ps = inflow_m3ps(profile_.blade, motion.blade.feed_forward_mps);
   motion.speed = choose_speed(valid, motion, period_s);
   motion.command.opening = {opening_for(profile_, motion.blade.velocity_mps)};
@@ -130,20 +180,37 @@ DozerController::Motion DozerController::flow_limited(const DozerValid& valid,
   return motion;
 }
 
+SpeedChoice DozerController::return_speed(double desired_mps, double period_s) const {
+  const TravelProfile& travel = profile_.travel;
+  const double wanted_mps = pass_speed_mps(memory_.pass, memory_.in_pass, desired_mps,
+                                           0.5 * travel.deceleration_max_mps2);
+  SpeedChoice choice;
+  const double last_mps = memory_.speed_mps.value();
+  const bool slower = std::abs(wanted_mps) < std::abs(last_mps);
+  const double step_mps =
+      (slower ? travel.deceleration_max_mps2 : travel.acceleration_max_mps2) * period_s;
+  choice.state.speed_mps = last_mps + std::clamp(wanted_mps - last_mps, -step_mps, step_mps);
+  choice.allowed_mps = std::abs(wanted_mps);
+  return choice;
+}
+
 SpeedChoice DozerController::choose_speed(const DozerValid& valid, const Motion& motion,
                                           double period_s) const {
+  if (memory_.pass.phase != PassPhase::kCut) {
+    return return_speed(profile_.travel.speed_desired_mps * valid.speed_override_ratio, period_s);
+  }
   SpeedDemand demand;
   demand.desired_mps = profile_.travel.speed_desired_mps * valid.speed_override_ratio;
-  demand.grade_error_m = motion.blade.error_m;
+  demand.off_m = motion.blade.off_m;
   demand.measured_mps = valid.velocity_mps;
   demand.required_flow_m3ps = motion.required_flow_m3ps;
   demand.available_flow_m3ps = motion.available_flow_m3ps;
   demand.engine_radps = valid.engine_radps;
   demand.heading_radps = kHeading_radps;
   demand.blade_angle_rad = setup_.blade.angle_rad(valid.blade().stroke_m);
-  demand.ahead =
-      preview_.limit(memory_.position.position_m, memory_.speed_mps.value(),
-                     profile_.travel.flow_share * motion.available_flow_m3ps, kTravelLead_s);
+  demand.ahead = preview_.limit(
+      memory_.position.position_m + profile_.control.pose_latency_s * valid.velocity_mps,
+      memory_.speed_mps.value(), lift_most_m(), kTravelLead_s);
   // The speed itself from where it has a complement.
   SpeedState last = memory_.speed;
   last.speed_mps = memory_.speed_mps.value();
@@ -160,6 +227,10 @@ void DozerController::describe_motion(const Motion& motion, const FaultSet& degr
   status.speed_limit_mps = speed.allowed_mps;
   status.wanted_blade_mps = motion.blade.velocity_mps;
   status.grade_error_m = motion.blade.error_m;
+  status.pass = memory_.pass.pass;
+  status.cutting = memory_.pass.phase == PassPhase::kCut;
+  status.ground_left = memory_.pass.left;
+  status.graded = memory_.pass.finished;
   status.required_flow_m3ps = motion.required_flow_m3ps;
   status.available_flow_m3ps = motion.available_flow_m3ps;
 }
@@ -168,12 +239,26 @@ void DozerController::remember(const DozerValid& valid, const Motion& motion,
                                const ModeDecision& decision, const DozerGateResult& gated,
                                double period_s) {
   const bool active = decision.active();
-  next_tube_above(active, motion.blade.error_m, profile_.safety.tube_m, memory_.tube);
-  const double got_mps = std::min(motion.speed.state.speed_mps, valid.velocity_mps);
-  next_stall(active, valid.speed_override_ratio > 0.0,
+  // Above the ground it is where it is meant to be if it is on its lift; below it nothing excuses.
+  const double error_m = motion.blade.error_m;
+  next_tube_above(active && memory_.pass.phase == PassPhase::kCut,
+                  error_m > 0.0 ? std::max(0.0, motion.blade.off_m) : error_m,
+                  profile_.safety.tube_m, memory_.tube);
+  const double got_mps =
+      std::min(std::abs(motion.speed.state.speed_mps), std::abs(valid.velocity_mps));
+  const bool turning =
+      memory_.pass.phase == PassPhase::kStop || memory_.pass.phase == PassPhase::kTurn;
+  next_stall(active, valid.speed_override_ratio > 0.0 && !turning,
              got_mps / (profile_.travel.speed_desired_mps * valid.speed_override_ratio),
              profile_.safety.stall_s, period_s, memory_.stall);
   memory_.blade = active ? motion.blade.state : BladeState{};
+  memory_.load = active ? memory_.load : PushState{};
+  if (!active && memory_.pass.pass > 1) {
+    design_.set_floor(pass_floor_m(profile_.grade, PassState{}));
+  }
+  memory_.pass = active ? memory_.pass : PassState{};
+  memory_.asked_mps =
+      fed_mps(profile_.blade, motion.blade.velocity_mps, motion.available_flow_m3ps);
   memory_.speed = active ? motion.speed.state : SpeedState{};
   memory_.speed_mps = active ? motion.speed.state.speed_mps : 0.0;
   memory_.track = active ? motion.track : std::array<TrackState, kTrackCount>{};

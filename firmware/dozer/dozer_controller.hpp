@@ -4,9 +4,13 @@
 #include "firmware/dozer/blade_control.hpp"
 #include "firmware/dozer/safety/dozer_gate.hpp"
 #include "firmware/dozer/safety/dozer_watch.hpp"
+#include "firmware/dozer/travel/blade_load.hpp"
+#include "firmware/dozer/travel/body_motion.hpp"
+#include "firmware/dozer/travel/passes.hpp"
 #include "firmware/dozer/travel/preview.hpp"
 #include "firmware/dozer/travel/speed_limit.hpp"
 #include "firmware/dozer/travel/tracks.hpp"
+#include "firmware/drives/drive_servo.hpp"
 #include "firmware/safety/cycle.hpp"
 #include "firmware/safety/stall_watch.hpp"
 #include "firmware/safety/task_change.hpp"
@@ -63,7 +67,13 @@ class DozerController {
     DozerLastCommands last;
     SpeedState speed;
     BladeState blade;
+    ServoState servo;        ///< What is under way to the blade.
+    double asked_mps = 0.0;  ///< Of the blade, in the last cycle, as far as its flow goes.
     std::array<TrackState, kTrackCount> track{};
+    Foretelling foretelling;
+    PushState load;
+    PassState pass;
+    PassSituation in_pass;
     PositionState position;
     BrakeState brake;
     TaskChangeState change;
@@ -78,8 +88,18 @@ class DozerController {
   void choose_task(DozerValid& valid, double period_s);
   /// Takes in where the machine is: what the blade has cut, what lies ahead.
   void estimate(const DozerValid& valid, double period_s);
+  /// Body and blade so much after the moment that the measured pose is of, with this stroke.
+  [[nodiscard]] BladeSituation foretold(const DozerValid& valid, double lead_s,
+                                        double stroke_m) const;
+  /// Of the error that the task allows, what the blade may leave standing on purpose: the rest is
+  /// for what nobody foresees.
+  [[nodiscard]] double lift_most_m() const { return kLiftShare * profile_.grade.tolerance_m; }
+  static constexpr double kLiftShare = 0.33;
+
   /// Blade and travel speed, and the displacements for it.
   [[nodiscard]] Motion flow_limited(const DozerValid& valid, double period_s) const;
+  /// v_c on the way back from a pass.
+  [[nodiscard]] SpeedChoice return_speed(double desired_mps, double period_s) const;
   /// v_c of this cycle and what it is chosen from.
   [[nodiscard]] SpeedChoice choose_speed(const DozerValid& valid, const Motion& motion,
                                          double period_s) const;
@@ -90,6 +110,7 @@ class DozerController {
 
   const DozerSetup& setup_;
   const DozerProfile& profile_;
+  GradeProfile design_;  ///< Of this pass.
   GroundMap ground_;
   Preview preview_;
   Memory memory_;

@@ -17,6 +17,7 @@ namespace graben {
 struct DozerBody {
   double mass_kg = 0.0;
   double mass_centre_height_m = 0.0;  ///< Above the body frame's origin.
+  double pitch_inertia_kgm2 = 0.0;    ///< J_c of (15), blade included.
   int wheels = 0;                     ///< 2 .. kMostWheels.
   double track_contact_m = 0.0;       ///< First to last wheel, centred below the mass centre.
   double half_gauge_m = 0.0;          ///< d of (8).
@@ -81,6 +82,7 @@ struct TravelProfile {
   double threshold_rad = 0.0;          ///< theta_threshold of Algorithm 1.
   double deceleration_max_mps2 = 0.0;  ///< What the speed ahead is planned with.
   double flow_share = 0.0;             ///< Of the available flow, that is planned with.
+  double push_max_n = 0.0;             ///< Of both tracks, against the load on the blade.
   double preview_m = 0.0;              ///< How far ahead the ground is looked at.
   double track_gain = 0.0;             ///< PI of a track's speed: m/s to m/s.
   double track_integral_ps = 0.0;
@@ -102,6 +104,10 @@ struct GradeDesign {
   double rounding_m = 0.0;      ///< From each corner to where its curve begins, either side.
   double plane_height_m = 0.0;  ///< Of the plane at x = 0.
   double plane_slope = 0.0;     ///< dz/dx of the plane.
+  double ground_m = 0.0;        ///< Of the ground that is there, over the plane.
+  double pass_depth_m = 10.0;   ///< No pass goes deeper below what the one before has left.
+  int passes_most = 1;          ///< So often the machine may go over it.
+  double tolerance_m = 0.02;    ///< How far off the design the ground may come out.
 };
 
 struct DozerControl {
@@ -110,6 +116,7 @@ struct DozerControl {
   double spool_threshold = 0.0;  ///< Opening under which the spool is kept at neutral.
   double dead_time_s = 0.0;      ///< From a duty to the spool's first movement.
   double response_s = 0.0;       ///< Lag of the blade cylinders' speed behind their command.
+  double pose_latency_s = 0.0;   ///< Age of a measured pose when it comes in.
   double blade_gain_ps = 0.0;    ///< Height error to velocity.
   double blade_integral_ps2 = 0.0;
   double blade_integral_most_mps = 0.0;

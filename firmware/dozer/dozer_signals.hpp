@@ -18,7 +18,8 @@ inline constexpr unsigned kRight = 1;
 struct TrackInputs {
   Signal<double> pump_ratio;   ///< Measured displacement over the largest, -1 .. 1; forward is +.
   Signal<double> motor_ratio;  ///< The same of the motor, 0 .. 1.
-  Signal<double> speed_mps;    ///< Of the track: sprocket's speed times its radius; forward is +.
+  Signal<double> line_pressure_pa;  ///< The higher of its two lines'.
+  Signal<double> speed_mps;  ///< Of the track: sprocket's speed times its radius; forward is +.
 };
 
 /// The body's pose and its rates, all of the body frame's origin in the world.
@@ -46,6 +47,10 @@ struct DozerStatus : MachineStatus {
   double required_flow_m3ps = 0.0;   ///< Q_in of (7), of the measured motion.
   double available_flow_m3ps = 0.0;  ///< min of (12) and the valve's.
   double grade_error_m = 0.0;        ///< Measured cutting edge above the grade.
+  int pass = 1;                      ///< Over the design.
+  bool cutting = true;               ///< In it; else on the way back to the next one.
+  bool ground_left = false;          ///< This pass has left what another one has to take.
+  bool graded = false;               ///< The last pass is done.
 };
 
 struct DozerOutputs : MachineOutputs {

@@ -48,7 +48,8 @@ GradeSample GradeProfile::at(double x_m) const {
       sample.slope += kink * along_m / (2.0 * half_m);
     }
   }
-  return sample;
+  const double floor_m = plane_height_m_ + plane_slope_ * x_m + floor_m_;
+  return sample.height_m < floor_m ? GradeSample{floor_m, plane_slope_} : sample;
 }
 
 double grade_error_m(const GradeProfile& profile, double x_m, double z_m) {

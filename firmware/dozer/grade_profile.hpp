@@ -1,6 +1,8 @@
 #pragma once
 /// The design surface: a plane, and over it heights through points with rounded corners.
 
+#include <limits>
+
 #include "firmware/dozer/dozer_profile.hpp"
 
 namespace graben {
@@ -18,6 +20,9 @@ class GradeProfile {
  public:
   explicit GradeProfile(const GradeDesign& design);
 
+  /// No lower than this over the plane, from now on: what a pass may cut.
+  void set_floor(double height_m) { floor_m_ = height_m; }
+
   /// At x along the grade, m.
   [[nodiscard]] GradeSample at(double x_m) const;
 
@@ -31,6 +36,7 @@ class GradeProfile {
 
   double plane_height_m_;
   double plane_slope_;
+  double floor_m_ = -std::numeric_limits<double>::infinity();
   int count_;
   std::array<double, GradeDesign::kMostPoints> corner_m_{};
   std::array<double, GradeDesign::kMostPoints> curve_end_m_{};  ///< Of each corner.

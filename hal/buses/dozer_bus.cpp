@@ -15,6 +15,7 @@ template <class Transmission>
 void put_transmission(TrackInputs& track, const Transmission& message, TimeUs now) {
   put(track.pump_ratio, message.pump_ratio, now);
   put(track.motor_ratio, message.motor_ratio, now);
+  put(track.line_pressure_pa, message.line_pressure_pa, now);
 }
 
 struct Store : CommonStore<DozerInputs, Task::kGrade> {

@@ -13,7 +13,7 @@ import report_page
 MM = 1e-3
 FIGURES = {
     "max_error_true_m", "rmse_error_true_m", "max_error_measured_m", "rmse_error_measured_m", "time_s",
-    "mean_speed_mps", "flow_share_max", "flow_share_reported_max", "flow_above_share",
+    "passes", "ground_left_m", "over_cut_m", "halt_s", "mean_speed_mps", "flow_share_max", "flow_share_reported_max", "flow_above_share",
     "flow_occasions", "deceleration_wanted_mps2", "deceleration_true_mps2", "sign_changes", "corners",
     "lambda_variation_ps", "spool_travel_ps", "spool_reversals_ps", "edge_jerk_rms_mps3",
     "duration_s", "real_time_factor", "cycles", "cycle_median_us", "cycle_max_us", "limit_share"}
@@ -21,13 +21,21 @@ FIGURES = {
 # What is run, and the least and the most of some figures. Far better than a machine with lag, a
 # compliant body and wrong sensors can be is a fault of the simulation or of the figures.
 RUNS = (
-    ("bounded", (), {"max_error_true_m": (1 * MM, 8 * MM), "flow_share_max": (0.7, 1.02),
-                     "deceleration_wanted_mps2": (0.1, 1.5), "flow_occasions": (0, 0),
-                     "sign_changes": (1, 16), "time_s": (20, 34),
+    ("bounded", (), {"max_error_true_m": (1 * MM, 10 * MM), "over_cut_m": (0.5 * MM, 8 * MM),
+                     "passes": (1, 1), "flow_share_max": (0.7, 1.3),
+                     "deceleration_wanted_mps2": (0.1, 1.5), "deceleration_true_mps2": (0.1, 1.5),
+                     "flow_occasions": (0, 5), "sign_changes": (1, 16), "time_s": (20, 32),
                      "lambda_variation_ps": (0.02, 1.0), "spool_travel_ps": (0.1, 3.0),
                      "spool_reversals_ps": (0.05, 3.0), "edge_jerk_rms_mps3": (1.0, 50.0)}),
     ("1000 rpm", ("--engine-rpm", "1000"),
-     {"max_error_true_m": (1 * MM, 8 * MM), "flow_share_max": (0.7, 1.02), "time_s": (34, 46)}),
+     {"max_error_true_m": (1 * MM, 10 * MM), "flow_share_max": (0.7, 1.3), "time_s": (34, 46)}),
+    # Late hydraulics and sensors, that the controller knows of.
+    ("late", ("--dead-time", "0.15", "--pose-latency", "0.05"),
+     {"max_error_true_m": (2 * MM, 20 * MM), "time_s": (20, 34)}),
+    # Ground that resists: met in passes.
+    ("loam", ("--soil", "loam", "--errors", "all", "--seed", "2"),
+     {"passes": (2, 8), "ground_left_m": (1 * MM, 30 * MM), "over_cut_m": (1 * MM, 40 * MM),
+      "halt_s": (0, 1)}),
     ("constant", ("--speed-mode", "constant"),
      {"max_error_true_m": (100 * MM, 600 * MM), "flow_share_max": (1.5, 10.0),
       "flow_occasions": (4, 20), "sign_changes": (0, 0), "deceleration_wanted_mps2": (0, 0),
@@ -61,7 +69,7 @@ def outside(what, figures, bounds):
         yield f"{what}: {sorted(set(figures) ^ FIGURES)} not in both"
     if abs(sum(figures["limit_share"].values()) - 1.0) > 1e-9:
         yield f"{what}: shares of the limits are not the whole: {figures['limit_share']}"
-    if abs(figures["mean_speed_mps"] * figures["time_s"] - 27.0) > 0.1:
+    if figures["passes"] == 1 and abs(figures["mean_speed_mps"] * figures["time_s"] - 27.0) > 0.1:
         yield f"{what}: {figures['mean_speed_mps']} m/s for {figures['time_s']} s is not 27 m"
 
 

@@ -1,4 +1,5 @@
 #include "app/machines/simulated/simulated_dozer.hpp"
+#include "app/machines/simulated/soil_kinds.hpp"
 
 #include <fmt/format.h>
 
@@ -47,6 +48,24 @@ SimulatedDozer arranged(SimulatedDozer machine, const DozerScenario& scenario) {
                       *scenario.engine_radps, hst.engine_least_radps, hst.engine_most_radps));
     }
     hst.engine_radps = *scenario.engine_radps;
+  }
+  if (!scenario.soil.empty()) {
+    machine.plant.soil = ground_of(scenario.soil, scenario.errors, scenario.seed);
+    GradeDesign& grade = machine.profile.grade;
+    grade.pass_depth_m = std::min(grade.pass_depth_m, usual_depth_m(scenario.soil));
+  }
+  machine.profile.grade.pass_depth_m =
+      scenario.pass_depth_m.value_or(machine.profile.grade.pass_depth_m);
+  if (scenario.dead_time_s) {
+    machine.profile.control.dead_time_s = *scenario.dead_time_s;
+    machine.plant.dead_time_s = *scenario.dead_time_s;
+  }
+  if (scenario.pose_latency_s) {
+    machine.profile.control.pose_latency_s = *scenario.pose_latency_s;
+    machine.plant.sensors.pose_latency_s = *scenario.pose_latency_s;
+  }
+  if (scenario.policy == SpeedPolicy::kConstant) {
+    machine.profile.grade.passes_most = 1;  // What it leaves is what is compared.
   }
   TravelProfile& travel = machine.profile.travel;
   travel.policy = scenario.policy;

@@ -50,28 +50,10 @@ void vary_parameters(ExcavatorProfile& profile, const Uncertainty& uncertainty,
   }
 }
 
-/// Where nobody has measured it, soil is this far from its kind's values, each way.
-constexpr double kSoilOff = 0.4;
-constexpr double kDensityOff = 0.15;
-
 void lay_ground(const Scenario& scenario, const ExcavatorGeometry& geometry, double line_m,
                 plant::ExcavatorPlantProfile& plant) {
-  const auto kind = soil_kind(scenario.ground);
-  if (!kind) {
-    throw std::runtime_error(fmt::format("--soil: '{}' is unknown; there are {}, and kim",
-                                         scenario.ground, fmt::join(kSoilNames, ", ")));
-  }
-  SoilFactors factors;
-  if (scenario.errors == Errors::kAll) {
-    Random random(scenario.seed, Draw::kSoilKind);
-    vary(factors.density, kDensityOff, random);
-    for (double* of :
-         {&factors.cohesion, &factors.adhesion, &factors.friction, &factors.wall_friction}) {
-      vary(*of, kSoilOff, random);
-    }
-  }
   plant.digging.emplace();
-  plant.digging->soil = scaled(*kind, factors);
+  plant.digging->soil = ground_of(scenario.ground, scenario.errors == Errors::kAll, scenario.seed);
   plant.digging->bucket = plant.bucket;
   plant.digging->pin_m = geometry.bucket_length_m;
   // Else at the height of the tracks.

@@ -68,14 +68,29 @@ void read_transmission(TomlReader& reader, plant::DozerPlantProfile& plant) {
       reader.number("hst.mechanical_efficiency", {0.3, 1.0, ""}, "of motor, gear and track");
 }
 
+plant::BladeShape read_blade_shape(TomlReader& reader) {
+  plant::BladeShape blade;
+  blade.width_m = reader.number("blade.width", {0.5, 10.0, "m"}, "of the blade");
+  blade.height_m = reader.number("blade.height", {0.2, 3.0, "m"}, "of the blade");
+  blade.rake_rad = reader.number("blade.rake", {0.5, 1.8, "rad"},
+                                 "from the direction of motion to the blade's face");
+  blade.edge_m = reader.number("blade.edge", {0.001, 0.1, "m"}, "thickness of the worn edge");
+  return blade;
+}
+
 plant::DozerPlantProfile read_plant(TomlReader& reader, const DozerProfile& nominal) {
   plant::DozerPlantProfile plant;
   plant.machine = nominal;
-  plant.pitch_inertia_kgm2 = reader.number("body.pitch_inertia", {10.0, 1e6, "kg m2"},
-                                           "moment of inertia in pitch, blade included");
+  plant.pitch_inertia_kgm2 = nominal.body.pitch_inertia_kgm2;
   plant.blade_mass_kg = reader.number("blade.mass", {10.0, 1e5, "kg"}, "blade with its frame");
   plant.blade_reach_m =
       reader.number("blade.reach", {0.1, 5.0, "m"}, "pivot to the mass centre of blade and frame");
+  plant.blade_shape = read_blade_shape(reader);
+  plant.engine_power_w =
+      reader.number("engine.power", {1e3, 1e7, "W"}, "full power, with ground that resists");
+  plant.engine_sag = {reader.number("engine.sag", {0.0, 0.5, ""},
+                                    "share of its speed that the engine loses at full power"),
+                      reader.number("engine.lag", {0.01, 10.0, "s"}, "from power to speed")};
   plant.coulomb_n = reader.number("implement.coulomb", {0.0, 1e6, "N"},
                                   "Coulomb friction of the blade cylinders together");
   plant.viscous_nspm = reader.number("implement.viscous", {0.0, 1e7, "N s/m"},
@@ -93,6 +108,7 @@ plant::DozerPlantProfile read_plant(TomlReader& reader, const DozerProfile& nomi
   read_transmission(reader, plant);
   plant.ground = read_ground(reader);
   plant.sensors = read_sensors(reader);
+  plant.sensors.pose_latency_s = nominal.control.pose_latency_s;
   plant.start_position_m = reader.number("experiment.start", {-1000.0, 0.0, "m"},
                                          "position of the body at the start, on flat ground");
   return plant;

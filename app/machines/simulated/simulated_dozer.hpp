@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "app/machines/dozer_file.hpp"
 #include "app/plant/dozer_plant_profile.hpp"
@@ -46,10 +47,14 @@ void read_simulated_sections(TomlReader& reader, SimulatedDozer& machine);
 
 struct DozerScenario {
   SpeedPolicy policy = SpeedPolicy::kBounded;
-  std::optional<double> speed_mps;     ///< v_d; the profile's unless told.
-  std::optional<double> engine_radps;  ///< Where the throttle stands; the profile's unless told.
-  bool errors = false;                 ///< The machine is drawn: draw_dozer.
-  std::uint64_t seed = 0;              ///< Of everything that is drawn.
+  std::optional<double> speed_mps;       ///< v_d; the profile's unless told.
+  std::optional<double> engine_radps;    ///< Where the throttle stands; the profile's unless told.
+  std::optional<double> dead_time_s;     ///< Of the blade's valve, in controller and plant.
+  std::optional<double> pose_latency_s;  ///< Of the pose sensor, in controller and plant.
+  std::optional<double> pass_depth_m;    ///< The task's, else the profile's, less in a soil.
+  std::string soil;                      ///< Of kSoilNames: the ground resists; empty: it does not.
+  bool errors = false;                   ///< The machine is drawn: draw_dozer.
+  std::uint64_t seed = 0;                ///< Of everything that is drawn.
 };
 
 /// The machine with this scenario's plant, and a controller profile with its policy and speed. The

@@ -1,7 +1,13 @@
 #include "app/machines/simulated/soil_kinds.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+
+#include "app/plant/random.hpp"
 
 #include "firmware/numeric/constants.hpp"
 
@@ -29,6 +35,10 @@ constexpr SoilKind kClay = {1850.0, 30.0e3, 3.0e3, 10.0 * kDegree, 6.0 * kDegree
 constexpr SoilKind kStones = {1900.0, 10.0e3, 0.0, 38.0 * kDegree, 25.0 * kDegree, 40.0 * kDegree,
                               1.18,   0.35,   0.15};
 
+/// Where nobody has measured it, soil is this far from its kind's values, each way.
+constexpr double kSoilOff = 0.4;
+constexpr double kDensityOff = 0.15;
+
 double angle_times(double angle_rad, double factor) {
   return std::atan(factor * std::tan(angle_rad));
 }
@@ -54,6 +64,31 @@ SoilKind scaled(const SoilKind& soil, const SoilFactors& factors) {
   other.wall_friction_rad =
       std::min(other.friction_rad, angle_times(soil.wall_friction_rad, factors.wall_friction));
   return other;
+}
+
+double usual_depth_m(const std::string& name) {
+  constexpr std::array<double, kSoilNames.size()> kDepth_m = {0.20, 0.15, 0.12, 0.10};
+  const auto* const at = std::find(kSoilNames.begin(), kSoilNames.end(), name);
+  return at == kSoilNames.end() ? kDepth_m.front()
+                                : kDepth_m[static_cast<std::size_t>(at - kSoilNames.begin())];
+}
+
+plant::SoilKind ground_of(const std::string& name, bool drawn, std::uint64_t seed) {
+  const auto kind = soil_kind(name);
+  if (!kind) {
+    throw std::runtime_error(fmt::format("--soil: '{}' is unknown; there are {}, and kim", name,
+                                         fmt::join(kSoilNames, ", ")));
+  }
+  SoilFactors factors;
+  if (drawn) {
+    plant::Random random(seed, plant::Draw::kSoilKind);
+    factors.density *= 1.0 + random.symmetric(kDensityOff);
+    for (double* of :
+         {&factors.cohesion, &factors.adhesion, &factors.friction, &factors.wall_friction}) {
+      *of *= 1.0 + random.symmetric(kSoilOff);
+    }
+  }
+  return scaled(*kind, factors);
 }
 
 }  // namespace graben::machines

@@ -75,6 +75,10 @@ DozerValid validate(const DozerProfile& profile, DriveRows drives, const DozerIn
   for (const Required& row : required_signals(inputs, state, valid)) {
     read_required(row, fresh, valid.faults);
   }
+  for (unsigned i = 0; i < kTrackCount; ++i) {
+    const Signal<double>& pressure_pa = inputs.track[i].line_pressure_pa;
+    valid.line_pressure_pa[i] = fresh.number(pressure_pa) ? pressure_pa.value : 0.0;
+  }
   // What cannot be is no jump to be bridged.
   const bool lies = std::abs(valid.pitch_rad) > kMostPitch_rad;
   if (lies) {

@@ -35,6 +35,7 @@ struct DozerValid : CommonValid {
   std::array<double, kTrackCount> pump_ratio{};
   std::array<double, kTrackCount> motor_ratio{};
   std::array<double, kTrackCount> track_speed_mps{};
+  std::array<double, kTrackCount> line_pressure_pa{};  ///< 0 where nobody tells it.
   /// Neither its displacements nor the body say what its sensor does, see watch_transmission().
   std::array<bool, kTrackCount> track_outvoted{};
 

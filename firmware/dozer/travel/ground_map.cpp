@@ -10,6 +10,7 @@ constexpr double kInAir_m = 0.08;
 
 void GroundMap::start(double edge_x_m, double stand_x_m, double stand_z_m, double slope) {
   front_ = cell_of(edge_x_m);
+  oldest_ = front_ - kCells + 1;
   for (int i = 0; i < kCells; ++i) {
     const int index = front_ - i;
     set(index, stand_z_m + slope * ((index + 0.5) * kCell_m - stand_x_m));
@@ -39,9 +40,14 @@ void GroundMap::pass(double edge_x_m, double edge_z_m, const GradeProfile& desig
       }
     }
     front_ = std::max(front_, reached);
+    oldest_ = std::max(oldest_, front_ - kCells + 1);
   }
   edge_x_m_ = edge_x_m;
   edge_z_m_ = ground_z_m;
+}
+
+void GroundMap::turn_back(double edge_x_m) {
+  front_ = std::clamp(cell_of(edge_x_m), oldest_, front_);
 }
 
 double GroundMap::height_m(double x_m, const GradeProfile& design) const {
@@ -49,9 +55,8 @@ double GroundMap::height_m(double x_m, const GradeProfile& design) const {
   if (before + 1 > front_) {
     return design.at(x_m).height_m;
   }
-  const int oldest = front_ - kCells + 1;
-  if (before < oldest) {
-    return cell(oldest);
+  if (before < oldest_) {
+    return cell(oldest_);
   }
   const double share = x_m / kCell_m - 0.5 - before;
   return cell(before) + share * (cell(before + 1) - cell(before));

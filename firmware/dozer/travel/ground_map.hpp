@@ -27,7 +27,7 @@ inline constexpr double kFurthest_m = 1e6;
 class GroundMap {
  public:
   static constexpr double kCell_m = 0.05;
-  static constexpr int kCells = 160;
+  static constexpr int kCells = 640;
   static constexpr double kLength_m = kCells * kCell_m;
 
   /// The machine stands with its origin at `stand_x_m`, its tracks on a line of this height there
@@ -39,6 +39,10 @@ class GroundMap {
   void pass(double edge_x_m, double edge_z_m, const GradeProfile& design, double stand_x_m,
             double stand_z_m, double slope);
 
+  /// The edge stands here, and what lies before it is to be cut again: the design from there on.
+  /// What lies behind it stays as it was left.
+  void turn_back(double edge_x_m);
+
   /// Ground at x: remembered behind the edge, `design` before it. Further back than it remembers,
   /// the last that it does.
   [[nodiscard]] double height_m(double x_m, const GradeProfile& design) const;
@@ -49,7 +53,7 @@ class GroundMap {
   /// The last one whose middle is not beyond x.
   [[nodiscard]] static int cell_of(double x_m) { return grid_index(x_m, kCell_m, 0.5 * kCell_m); }
   /// Whole turns of the ring, more than kFurthest_m has.
-  static constexpr int kTurns = 200'000 * kCells;
+  static constexpr int kTurns = 50'000 * kCells;
   static_assert(kTurns * kCell_m > kFurthest_m + kLength_m);
   [[nodiscard]] static unsigned slot(int index) {
     return static_cast<unsigned>(index + kTurns) % kCells;
@@ -58,7 +62,8 @@ class GroundMap {
   void set(int index, double height_m) { height_m_[slot(index)] = height_m; }
 
   std::array<double, kCells> height_m_{};
-  int front_ = 0;  ///< Last cell whose middle the edge has passed.
+  int oldest_ = 0;  ///< First cell that is remembered.
+  int front_ = 0;   ///< Last cell whose middle the edge has passed.
   double edge_x_m_ = 0.0;
   double edge_z_m_ = 0.0;
   bool started_ = false;

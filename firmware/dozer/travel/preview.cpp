@@ -8,32 +8,28 @@
 namespace graben {
 namespace {
 
+/// Speeds of the probes, of the wanted one.
+constexpr std::array<double, Preview::kProbes> kShare = {1.0, 0.62, 0.39, 0.24, 0.15, 0.09};
 constexpr int kEdgeSteps = 4;
-/// How much faster than from rest to rest the body swings from stand to stand.
-constexpr double kSwing = 1.4;
-/// Flow over less than this per metre is none.
-constexpr double kNoFlow_m3pm = 1e-7;
 /// No machine of this kind is faster.
 constexpr double kAnySpeed_mps = 10.0;
-/// Stations passed that still count: the body comes to rest behind where its springs at rest would
-/// have it, most of all when it tips over a ledge.
-constexpr int kBehind = 2;
-/// Stations before the first and after the last one that the central difference needs.
-constexpr int kMargin = 2;
-constexpr int kBefore = kBehind + kMargin;
-
 /// Nearer than this the next step of Newton's method finds the same.
 constexpr double kOnDesign_rad = 1e-4;
+/// Less is no stretch of its own.
+constexpr double kNoLift_m = 1e-4;
 
 }  // namespace
 
 Preview::Preview(const DozerProfile& profile, const BladeKinematics& blade)
     : profile_(profile),
       blade_(blade),
+      edge_per_stroke_(blade.edge_rate_mprad(0.0).y() / -blade.stroke_rate_mprad(0.0)),
       count_(std::clamp(static_cast<int>(profile.travel.preview_m / kStep_m), 1,
-                        kMostStations - kBefore - kMargin)) {}
+                        kMostStations - kBehind - 1)) {}
 
-int Preview::total() const { return kBefore + count_ + kMargin; }
+double Preview::probe_mps(int probe) const {
+  return kShare[static_cast<unsigned>(probe)] * profile_.travel.speed_desired_mps;
+}
 
 /// theta_1 with the edge on the design.
 double Preview::angle_on(const GradeProfile& design, double x_m, const Stand& stand,
@@ -57,134 +53,223 @@ double Preview::angle_on(const GradeProfile& design, double x_m, const Stand& st
   return angle_rad;
 }
 
-void Preview::forget(int index) {
-  station(index) = {};
-  station(index - 1).flow_m3pm = kNotKnown;
-  station(index + 1).flow_m3pm = kNotKnown;
-  known_before_ = std::min(known_before_, index);
+void Preview::start(Probe& probe, double x_m, const Stand& measured) {
+  probe = {};
+  probe.motion = motion_of(profile_.body, measured, 0.0, 0.0);
+  probe.x_m = x_m;
+  probe.begin = station_of(x_m) + 1;
+  probe.end = probe.begin;
+  probe.started = true;
 }
 
-/// Makes `first` the first station.
-void Preview::follow(int first) {
-  if (!started_ || std::abs(first - first_) >= total()) {
-    station_ = {};
-    first_ = first;
-    next_ = first;
-    known_before_ = first;
-    work_ = {};
-    started_ = true;
-  }
-  for (int left = kMostStations; first_ < first && left > 0; --left) {
-    forget(first_ + total());
-    ++first_;
-  }
-  for (int left = kMostStations; first_ > first && left > 0; --left) {
-    --first_;
-    forget(first_);
-  }
-  known_before_ = std::max(known_before_, first_);
-  work_.begun = work_.begun && work_.index >= first_ && work_.index < first_ + total();
-}
-
-/// From its neighbour's stand, not from its own: on a ledge it must not stay where it once stood.
-void Preview::begin(const Stand& measured) {
-  while (known_before_ < first_ + total() && station(known_before_).known) {
-    ++known_before_;
-  }
-  int index = known_before_;
-  if (index == first_ + total()) {
-    next_ = next_ < first_ || next_ + 1 >= first_ + total() ? first_ : next_ + 1;
-    index = next_;
-  }
-  work_ = {true, index, 0, measured};
-  const Station& from = station(index > first_ ? index - 1 : index);
-  if (from.known) {
-    work_.stand = from.stand;
+/// Makes the place of the machine that of the first stations; a probe that has not been there, or
+/// that the machine has overtaken, starts from it.
+void Preview::follow(double x_m, const Stand& measured) {
+  const int here = station_of(x_m);
+  first_ = here - kBehind;
+  for (Probe& probe : probe_) {
+    if (!probe.started || here + 1 < probe.begin || here + 1 > probe.end ||
+        probe.end > last() + 1) {
+      start(probe, std::isfinite(x_m) ? std::clamp(x_m, -kFurthest_m, kFurthest_m) : 0.0, measured);
+    }
+    probe.begin = std::max(probe.begin, first_);
   }
 }
 
-void Preview::finish(const GradeProfile& design) {
-  const int index = work_.index;
-  const double x_m = index * kStep_m;
-  Station& at = station(index);
-  const Station& before = station(index - 1);
-  at.stand = work_.stand;
-  at.angle_rad =
-      angle_on(design, x_m, at.stand, index > first_ && before.known ? before.angle_rad : 0.0);
-  at.stroke_m = blade_.stroke_m(at.angle_rad);
-  at.by_design_m =
-      blade_.stroke_m(angle_on(design, x_m + kStep_m, at.stand, at.angle_rad)) - at.stroke_m;
-  at.known = true;
-  for (int changed = index - 1; changed <= index + 1; ++changed) {
-    station(changed).flow_m3pm = flow_between(changed);
+void Preview::step(const GroundMap& ground, const GradeProfile& design, int number) {
+  Probe& probe = probe_[static_cast<unsigned>(number)];
+  const double speed_mps = probe_mps(number);
+  const double step_s = std::min(kMotionStep_s, kStep_m / speed_mps);
+  const Stand before = stand_of(profile_.body, probe.motion);
+  probe.motion =
+      next_motion(profile_.body, ground, design, probe.x_m, speed_mps, probe.motion, step_s);
+  const double from_m = probe.x_m;
+  probe.x_m += speed_mps * step_s;
+  const double station_m = probe.end * kStep_m;
+  if (probe.x_m < station_m) {
+    return;
   }
-  work_.begun = false;
+  const double share = std::clamp((station_m - from_m) / (probe.x_m - from_m), 0.0, 1.0);
+  const Stand after = stand_of(profile_.body, probe.motion);
+  const Stand at{before.height_m + share * (after.height_m - before.height_m),
+                 before.pitch_rad + share * (after.pitch_rad - before.pitch_rad)};
+  probe.angle_rad = angle_on(design, station_m, at, probe.angle_rad);
+  need(number, probe.end) = {blade_.stroke_m(probe.angle_rad), 0.0, 0.0};
+  ++probe.end;
+}
+
+/// Extension lowers: a stroke below the one on the design lifts the edge.
+void Preview::cost(int number, double flow_m3ps) {
+  const Probe& probe = probe_[static_cast<unsigned>(number)];
+  const double time_s = kStep_m / probe_mps(number);
+  const double raised_m = time_s * flow_m3ps / profile_.blade.rod_area_m2();
+  const double lowered_m = time_s * flow_m3ps / profile_.blade.cap_area_m2();
+  double stroke_m = 0.0;
+  for (int index = probe.end - 1; index >= probe.begin; --index) {
+    Need& at = need(number, index);
+    stroke_m = index == probe.end - 1 ? at.stroke_m : std::min(at.stroke_m, stroke_m + raised_m);
+    at.lift_m = stroke_m;  // As a stroke, until the way back.
+  }
+  int stretch = probe.begin;
+  double most_m = 0.0;
+  for (int index = probe.begin; index < probe.end; ++index) {
+    Need& at = need(number, index);
+    stroke_m = index == probe.begin ? at.lift_m : std::min(at.lift_m, stroke_m + lowered_m);
+    at.lift_m = edge_per_stroke_ * (at.stroke_m - stroke_m);
+    most_m = std::max(most_m, at.lift_m);
+    if (at.lift_m > kNoLift_m && index + 1 < probe.end) {
+      continue;
+    }
+    for (; stretch <= index; ++stretch) {
+      need(number, stretch).cost_m = most_m;
+    }
+    most_m = 0.0;
+  }
 }
 
 void Preview::look(const GroundMap& ground, const GradeProfile& design, double x_m,
-                   const Stand& measured) {
-  follow(station_of(x_m) - kBefore);
-  int finished = 0;
-  for (int left = kStandStepsPerCycle; left > 0 && finished < kStationsPerCycle; --left) {
-    if (!work_.begun) {
-      begin(measured);
+                   const Stand& measured, double flow_m3ps) {
+  follow(x_m, measured);
+  for (int left = kStepsPerCycle; left > 0; --left) {
+    int number = 0;
+    while (number < kProbes && probe_[static_cast<unsigned>(number)].end > last()) {
+      ++number;
     }
-    const StandStep step =
-        step_to_rest(profile_.body, ground, design, work_.index * kStep_m, work_.stand);
-    work_.stand = step.stand;
-    ++work_.steps;
-    if (step.at_rest || work_.steps == kMostStandSteps) {
-      finish(design);
-      ++finished;
+    if (number == kProbes) {
+      break;
     }
+    step(ground, design, number);
   }
+  turn_ = (turn_ + 1) % kProbes;
+  cost(turn_, flow_m3ps);
 }
 
-double Preview::flow_between(int index) const {
-  if (index <= first_ || index + 1 >= first_ + total()) {
-    return kNotKnown;
+/// From the slowest probe on that has been there, up to where it costs too much.
+double Preview::limit_of(int index, double allowed_m) const {
+  const double least_mps = profile_.travel.speed_min_mps;
+  double kept_mps = 0.0;
+  double kept_m = 0.0;
+  for (int number = kProbes - 1; number >= 0; --number) {
+    const Probe& probe = probe_[static_cast<unsigned>(number)];
+    if (index < probe.begin || index >= probe.end) {
+      continue;
+    }
+    const double cost_m = need(number, index).cost_m;
+    const double speed_mps = probe_mps(number);
+    if (cost_m > allowed_m) {
+      const double share = (allowed_m - kept_m) / (cost_m - kept_m);
+      return std::max(least_mps, kept_mps + share * (speed_mps - kept_mps));
+    }
+    kept_mps = number > 0 ? speed_mps : kAnySpeed_mps;
+    kept_m = cost_m;
   }
-  const Station& before = station(index - 1);
-  const Station& after = station(index + 1);
-  if (!before.known || !station(index).known || !after.known) {
-    return kNotKnown;
-  }
-  const double at_rest = (after.stroke_m - before.stroke_m) / (2.0 * kStep_m);
-  const double by_design = station(index).by_design_m / kStep_m;
-  const double swinging = by_design + kSwing * (at_rest - by_design);
-  return std::max(inflow_m3ps(profile_.blade, at_rest), inflow_m3ps(profile_.blade, swinging));
+  return std::max(least_mps, index <= first_ + kBehind ? kAnySpeed_mps : kept_mps);
 }
 
-double Preview::limit_of(int index, double flow_m3ps) const {
-  const double flow_m3pm = station(index).flow_m3pm;
-  const double fed_mps = flow_m3pm > kNoFlow_m3pm ? flow_m3ps / flow_m3pm : kAnySpeed_mps;
-  return std::clamp(fed_mps, profile_.travel.speed_min_mps, kAnySpeed_mps);
-}
-
-AheadLimit Preview::limit(double x_m, double speed_mps, double flow_m3ps, double lead_s) const {
+AheadLimit Preview::limit(double x_m, double speed_mps, double allowed_m, double lead_s) const {
   if (!std::isfinite(x_m) || !std::isfinite(speed_mps)) {
     return {profile_.travel.speed_min_mps, profile_.travel.speed_min_mps};
   }
-  const auto limit_at = [&](int index) { return limit_of(index, flow_m3ps); };
   // Between two stations the limit goes over from one to the other: what is passed must not let go
   // at once.
-  const int last = first_ + kMargin;
-  const double share = std::clamp(x_m / kStep_m - kBehind - last, 0.0, 1.0);
-  const double left_mps = limit_at(last) + share * (limit_at(last + 1) - limit_at(last));
+  const double share = std::clamp(x_m / kStep_m - kBehind - first_, 0.0, 1.0);
+  const double passed_mps = limit_of(first_, allowed_m);
+  const double left_mps = passed_mps + share * (limit_of(first_ + 1, allowed_m) - passed_mps);
   AheadLimit ahead{kAnySpeed_mps, left_mps};
   double square = left_mps * left_mps;
   const double braked_from_m = x_m + std::max(0.0, speed_mps) * lead_s;
-  for (int index = last + 1; index < last + kBehind + count_; ++index) {
-    const double limit_mps = limit_at(index);
+  const double held_to_m = x_m + std::max(0.0, speed_mps) * kHold_s;
+  for (int index = first_ + 1; index < last(); ++index) {
+    const double limit_mps = limit_of(index, allowed_m);
     const double way_m = std::max(0.0, index * kStep_m - braked_from_m);
     square = std::min(square,
                       limit_mps * limit_mps + 2.0 * profile_.travel.deceleration_max_mps2 * way_m);
-    if (index * kStep_m - x_m <= kHold_m) {
+    if (index * kStep_m <= held_to_m) {
       ahead.lowest_mps = std::min(ahead.lowest_mps, limit_mps);
     }
   }
   ahead.speed_mps = std::sqrt(square);
   return ahead;
+}
+
+/// Of the two probes that the speed is between. Where the limit is lower, so will the machine be by
+/// then.
+double Preview::lift_of(int index, double speed_mps, double allowed_m) const {
+  const double held_mps = std::min(std::max(0.0, speed_mps), limit_of(index, allowed_m));
+  double faster_m = 0.0;
+  double faster_mps = 0.0;
+  for (int number = 0; number < kProbes; ++number) {
+    const Probe& probe = probe_[static_cast<unsigned>(number)];
+    if (index < probe.begin || index >= probe.end) {
+      continue;
+    }
+    const double lift_m = need(number, index).lift_m;
+    const double probe_speed_mps = probe_mps(number);
+    if (probe_speed_mps <= held_mps) {
+      const double share =
+          faster_mps > 0.0 ? (held_mps - probe_speed_mps) / (faster_mps - probe_speed_mps) : 0.0;
+      return lift_m + share * (faster_m - lift_m);
+    }
+    faster_m = lift_m;
+    faster_mps = probe_speed_mps;
+  }
+  return faster_mps > 0.0 ? faster_m * held_mps / faster_mps : 0.0;
+}
+
+BladeLift Preview::lift(double x_m, double speed_mps, double allowed_m) const {
+  if (!std::isfinite(x_m) || !std::isfinite(speed_mps)) {
+    return {};
+  }
+  const int before = station_of(x_m);
+  if (before < first_ || before + 1 > last()) {
+    return {};
+  }
+  const double here_m = lift_of(before, speed_mps, allowed_m);
+  const double rise = (lift_of(before + 1, speed_mps, allowed_m) - here_m) / kStep_m;
+  return {here_m + rise * (x_m - before * kStep_m), rise};
+}
+
+double Preview::least_cost_m(double x_m) const {
+  const int index = station_of(x_m);
+  double least_m = 0.0;
+  bool known = false;
+  for (int number = 0; number < kProbes; ++number) {
+    const Probe& probe = probe_[static_cast<unsigned>(number)];
+    if (index >= probe.begin && index < probe.end) {
+      const double cost_m = need(number, index).cost_m;
+      least_m = known ? std::min(least_m, cost_m) : cost_m;
+      known = true;
+    }
+  }
+  return least_m;
+}
+
+GradeKept grade_kept(const DozerProfile& profile, double from_m, double to_m) {
+  /// So that the slowest probe keeps ahead.
+  constexpr int kLooks = 3 * Preview::kProbes;
+  constexpr int kMostSteps = 100'000;
+  const BladeKinematics blade(profile.blade);
+  const GradeProfile design(profile.grade);
+  const double start_m = design.at(from_m).height_m;
+  const double flow_m3ps =
+      profile.travel.flow_share * available_flow_m3ps(profile.implement, profile.hst.engine_radps);
+  GroundMap ground;
+  ground.pass(from_m, start_m, design, from_m, start_m, 0.0);
+  Preview preview(profile, blade);
+  const double begin_m = from_m - blade.edge_m(0.0).x();
+  const int steps =
+      std::clamp(static_cast<int>((to_m - begin_m) / Preview::kStep_m), 0, kMostSteps);
+  for (int step = 0; step <= steps; ++step) {
+    const double x_m = begin_m + step * Preview::kStep_m;
+    for (int n = 0; n < kLooks; ++n) {
+      preview.look(ground, design, x_m, {start_m, 0.0}, flow_m3ps);
+    }
+    const double cost_m = preview.least_cost_m(x_m);
+    if (cost_m > profile.grade.tolerance_m) {
+      return {false, x_m, cost_m};
+    }
+  }
+  return {};
 }
 
 }  // namespace graben

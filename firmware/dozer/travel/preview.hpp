@@ -3,100 +3,121 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
-#include "firmware/dozer/mobile_jacobian.hpp"
-#include "firmware/dozer/travel/support.hpp"
+#include "firmware/dozer/blade_control.hpp"
+#include "firmware/dozer/travel/body_motion.hpp"
 
 namespace graben {
 
 /// Limits of the way ahead, as a cycle takes them.
 struct AheadLimit {
   double speed_mps = 0.0;   ///< Largest from which braking in time is possible.
-  double lowest_mps = 0.0;  ///< Least limit within kHold_m.
+  double lowest_mps = 0.0;  ///< Least limit within the way of kHold_s.
 };
 
-/// Stations on a grid along x. At each: how the machine will stand with its origin there, and the
-/// stroke of the blade cylinders with the edge on the design. How stroke changes from station to
-/// station is a flow per metre of travel, (10) of what is still to come. The body's share of it
-/// counts more than once: it swings into each new stand, most of all when it tips.
+/// Probes drive ahead over ground and design, each at its own constant speed, with the machine's
+/// springs, dampers, mass and inertia: they tip, swing and fall as it will. On a grid along x each
+/// leaves the stroke that would keep the edge on the design there at that speed.
 ///
-/// A cycle takes a fixed number of steps towards stands and finishes a fixed number of stations:
-/// first those that are new, then all in turns, as the blade goes on cutting what they stand on.
-/// Where the steps do not suffice the next cycle goes on with them. A station that is not known yet
-/// counts as v_min; one whose turn it is keeps what it was until it is finished.
+/// From it follows where the blade's flow does not suffice at that speed. There the blade has to
+/// rise before the body tips, and comes down late where the body rises: both leave ground standing,
+/// which can be mended, and cut nothing too deep. The highest that it leaves over such a stretch
+/// is what the stretch costs at that speed; the speed at which it costs what is allowed is the
+/// stretch's limit.
+///
+/// A cycle takes a fixed number of steps, of the probe that is least far, and works out the cost of
+/// one probe. What no probe has come to yet counts as v_min.
 class Preview {
  public:
   static constexpr double kStep_m = 0.05;
   static constexpr int kMostStations = 80;
-  static constexpr int kStationsPerCycle = 3;
-  static constexpr int kStandStepsPerCycle = 8;
-  static constexpr double kHold_m = 1.5;
+  static constexpr int kProbes = 6;
+  static constexpr int kStepsPerCycle = 8;
+  static constexpr double kHold_s = 0.6;
 
   /// Both have to outlive it.
   Preview(const DozerProfile& profile, const BladeKinematics& blade);
 
-  /// The origin is at x with this measured stand.
-  void look(const GroundMap& ground, const GradeProfile& design, double x_m, const Stand& measured);
+  /// The origin is at x with this measured stand. The cost is of a flow to plan with.
+  void look(const GroundMap& ground, const GradeProfile& design, double x_m, const Stand& measured,
+            double flow_m3ps);
 
-  /// What is less than 0.1 m behind counts too. Largest speed at `x_m` with this flow to plan with,
-  /// from which every limit up to `preview_m` is met at `deceleration_max_mps2`, the way of
-  /// `lead_s` at `speed_mps` left off for what the transmission takes to answer.
-  [[nodiscard]] AheadLimit limit(double x_m, double speed_mps, double flow_m3ps,
+  /// Largest speed at `x_m` from which every limit up to `preview_m` is met at
+  /// `deceleration_max_mps2` and costs no more than `allowed_m`, the way of `lead_s` at `speed_mps`
+  /// left off for what the transmission takes to answer.
+  [[nodiscard]] AheadLimit limit(double x_m, double speed_mps, double allowed_m,
                                  double lead_s) const;
+  /// Least that the station before `x_m` costs, at whatever speed; 0 where no probe has been.
+  [[nodiscard]] double least_cost_m(double x_m) const;
+  /// What the blade is to leave standing with the origin at `x_m`, driving so fast.
+  [[nodiscard]] BladeLift lift(double x_m, double speed_mps, double allowed_m) const;
 
  private:
-  struct Station {
-    bool known = false;
-    Stand stand;
-    double angle_rad = 0.0;  ///< Of the blade with the edge on the design.
-    double stroke_m = 0.0;
-    /// How the stroke would change to the next station on this stand: by the design alone.
-    double by_design_m = 0.0;
-    double flow_m3pm = kNotKnown;  ///< Of the way from the station before to the one after.
+  /// On its way over the ground.
+  struct Probe {
+    BodyMotion motion;
+    double x_m = 0.0;
+    double angle_rad = 0.0;  ///< Of the blade, with the edge on the design.
+    int begin = 0;           ///< First station that it has come to.
+    int end = 0;             ///< The one after the last.
+    bool started = false;
   };
-  /// Whose flow nobody can feed.
-  static constexpr double kNotKnown = std::numeric_limits<double>::infinity();
-
-  /// The station that is being worked out.
-  struct Work {
-    bool begun = false;
-    int index = 0;
-    int steps = 0;
-    Stand stand;
+  /// At one station, of one probe.
+  struct Need {
+    double stroke_m = 0.0;  ///< With the edge on the design.
+    double lift_m = 0.0;    ///< Of the edge over it, as far as the flow makes it.
+    double cost_m = 0.0;    ///< The highest lift of the stretch.
   };
+  using Needs = std::array<Need, kMostStations>;
 
   [[nodiscard]] static int station_of(double x_m) { return grid_index(x_m, kStep_m, 0.0); }
   /// Whole turns of the ring, more than kFurthest_m has.
   static constexpr int kTurns = 400'000 * kMostStations;
   static_assert(kTurns * kStep_m > kFurthest_m + kMostStations * kStep_m);
-  [[nodiscard]] const Station& station(int index) const {
-    return station_[static_cast<unsigned>(index + kTurns) % kMostStations];
+  [[nodiscard]] static unsigned slot(int index) {
+    return static_cast<unsigned>(index + kTurns) % kMostStations;
   }
-  [[nodiscard]] Station& station(int index) {
-    return station_[static_cast<unsigned>(index + kTurns) % kMostStations];
+  [[nodiscard]] Need& need(int probe, int index) {
+    return need_[static_cast<unsigned>(probe)][slot(index)];
   }
-  [[nodiscard]] int total() const;
+  [[nodiscard]] const Need& need(int probe, int index) const {
+    return need_[static_cast<unsigned>(probe)][slot(index)];
+  }
+  [[nodiscard]] int last() const { return first_ + kBehind + count_; }
+  [[nodiscard]] double probe_mps(int probe) const;
 
-  void follow(int first);
-  void forget(int index);
-  void begin(const Stand& measured);
-  void finish(const GradeProfile& design);
+  void follow(double x_m, const Stand& measured);
+  void start(Probe& probe, double x_m, const Stand& measured);
+  void step(const GroundMap& ground, const GradeProfile& design, int number);
+  void cost(int number, double flow_m3ps);
   [[nodiscard]] double angle_on(const GradeProfile& design, double x_m, const Stand& stand,
                                 double guess_rad) const;
-  [[nodiscard]] double flow_between(int index) const;
-  [[nodiscard]] double limit_of(int index, double flow_m3ps) const;
+  [[nodiscard]] double limit_of(int index, double allowed_m) const;
+  [[nodiscard]] double lift_of(int index, double speed_mps, double allowed_m) const;
+
+  /// Stations passed that still count.
+  static constexpr int kBehind = 2;
 
   const DozerProfile& profile_;
   const BladeKinematics& blade_;
-  int count_;  ///< Of stations ahead.
-  std::array<Station, kMostStations> station_{};
-  int first_ = 0;         ///< The one at or before the origin.
-  int known_before_ = 0;  ///< From the first one to there all are known.
-  int next_ = 0;          ///< Whose turn it is.
-  Work work_;
-  bool started_ = false;
+  double edge_per_stroke_;              ///< At home, both without their sign.
+  int count_;                           ///< Of stations ahead.
+  std::array<Probe, kProbes> probe_{};  ///< The fastest first.
+  std::array<Needs, kProbes> need_{};
+  int first_ = 0;  ///< The first station that counts.
+  int turn_ = 0;   ///< Whose cost is worked out.
 };
+
+/// Where the ground would come out more than the tolerance off the design at whatever speed.
+struct GradeKept {
+  bool kept = true;
+  double position_m = 0.0;  ///< Of the body.
+  double off_m = 0.0;       ///< What it costs there, m.
+};
+
+/// Walks the probes over the design as already cut, with the flow of the profile's engine speed. No
+/// part of a cycle: it takes the time that the way does.
+[[nodiscard]] GradeKept grade_kept(const DozerProfile& profile, double from_m, double to_m);
 
 struct PositionState {
   double position_m = 0.0;

@@ -37,7 +37,8 @@ double low_passed(double last, double now, double time_s, double period_s) {
 /// How fast with the edge so far off the grade.
 double on_grade_speed_mps(const DozerProfile& profile, const SpeedDemand& demand,
                           double off_grade_m) {
-  const double share = (kOffGrade_m - off_grade_m) / (kOffGrade_m - kOnGrade_m);
+  const double share =
+      (kOffGrade - off_grade_m / profile.grade.tolerance_m) / (kOffGrade - kOnGrade);
   const double least_mps = profile.travel.speed_min_mps;
   return share >= 1.0 ? std::numeric_limits<double>::infinity()
                       : least_mps + std::max(0.0, share) * (demand.desired_mps - least_mps);
@@ -102,7 +103,7 @@ SpeedChoice next_speed(const DozerProfile& profile, const SpeedState& last,
   const double required_m3ps =
       low_passed(last.required_flow_m3ps, demand.required_flow_m3ps, kFlowFilter_s, period_s);
   const double off_grade_m =
-      low_passed(last.off_grade_m, std::abs(demand.grade_error_m), kErrorFilter_s, period_s);
+      low_passed(last.off_grade_m, std::abs(demand.off_m), kErrorFilter_s, period_s);
   const double implement_mps = implement_speed_mps(profile, demand, required_m3ps);
   if (profile.travel.policy == SpeedPolicy::kBounded) {
     cap.tighten(implement_mps, {LimitKind::kImplementFlow, 0});

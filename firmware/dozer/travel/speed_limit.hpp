@@ -5,8 +5,9 @@
 
 namespace graben {
 
-inline constexpr double kOnGrade_m = 0.012;
-inline constexpr double kOffGrade_m = 0.040;
+/// Of the error that the task allows.
+inline constexpr double kOnGrade = 0.6;
+inline constexpr double kOffGrade = 2.0;
 
 /// Inputs of the choice of speed.
 struct SpeedDemand {
@@ -17,7 +18,7 @@ struct SpeedDemand {
   double engine_radps = 0.0;
   double heading_radps = 0.0;  ///< omega of (13).
   double blade_angle_rad = 0.0;
-  double grade_error_m = 0.0;  ///< Of the cutting edge.
+  double off_m = 0.0;  ///< The cutting edge above where it is meant to be.
   AheadLimit ahead;
 };
 
@@ -38,18 +39,18 @@ struct SpeedChoice {
 
 /// v_c of (14) after the acceleration limit, from that of the last cycle.
 ///
-/// Beyond the paper it slows down while the edge is more than kOnGrade_m off the grade, to v_min at
-/// kOffGrade_m: so it begins with the blade on the grade, and what went wrong is mended on the
-/// spot.
+/// Beyond the paper it slows down while the edge is more than kOnGrade of what is allowed off where
+/// it is meant to be, to v_min at kOffGrade of it: so it begins with the blade on the grade, and
+/// what went wrong is mended on the spot.
 ///
 /// v_max,imp of (11) is not computed while the blade needs no flow, as in the paper, and no speed
 /// below v_min is divided by. Every limit is at least v_min, but the operator's own.
 ///
 /// Algorithm 1 keeps the machine from getting faster while the blade is off home, as the body is
 /// about to incline. Here the ground ahead is known: off home it rises no higher than the lowest
-/// limit within Preview::kHold_m, and begins to rise only where that is worth it and some time
-/// after it fell; so a wanted speed does not run up and down with every limit that it passes. It
-/// brakes at 1.25 times `deceleration_max_mps2` at most: what is ahead is planned with less.
+/// limit on the way of Preview::kHold_s, and begins to rise only where that is worth it and some
+/// time after it fell; so a wanted speed does not run up and down with every limit that it passes.
+/// It brakes at 1.25 times `deceleration_max_mps2` at most: what is ahead is planned with less.
 [[nodiscard]] SpeedChoice next_speed(const DozerProfile& profile, const SpeedState& last,
                                      const SpeedDemand& demand, double period_s);
 

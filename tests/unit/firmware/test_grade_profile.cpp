@@ -77,6 +77,19 @@ void a_design_without_points_is_the_plane(void**) {
   assert_near(GradeProfile(empty).at(7.0).height_m, 2.0, 0.0);
 }
 
+/// A pass goes no lower than it may, along the plane.
+void a_floor_holds_it_up(void**) {
+  GradeDesign tilted = design();
+  tilted.plane_slope = 0.02;
+  const GradeProfile whole(tilted);
+  GradeProfile pass(tilted);
+  pass.set_floor(-0.2);
+  assert_near(pass.at(7.0).height_m, 0.02 * 7.0 - 0.2, 1e-12);
+  assert_near(pass.at(7.0).slope, 0.02, 1e-12);
+  assert_near(pass.at(2.0).height_m, whole.at(2.0).height_m, 0.0);
+  assert_near(pass.at(11.0).height_m, whole.at(11.0).height_m, 0.0);
+}
+
 }  // namespace
 
 int main() {
@@ -88,6 +101,7 @@ int main() {
       cmocka_unit_test(the_plane_lies_under_it),
       cmocka_unit_test(the_error_is_along_the_normal),
       cmocka_unit_test(a_design_without_points_is_the_plane),
+      cmocka_unit_test(a_floor_holds_it_up),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -69,10 +69,22 @@ void a_jump_starts_it_afresh(void**) {
 
 void it_remembers_as_far_as_the_tracks_reach(void**) {
   const GradeProfile design(test::level(-0.1));
-  const GroundMap ground = cut(design, 0.0, 20.0);
-  assert_near(ground.height_m(20.0 - GroundMap::kLength_m + 0.2, design), -0.1, 1e-9);
+  const GroundMap ground = cut(design, 0.0, 40.0);
+  assert_near(ground.height_m(40.0 - GroundMap::kLength_m + 0.2, design), -0.1, 1e-9);
   assert_near(ground.height_m(-30.0, design), -0.1, 1e-9);
   assert_true(GroundMap::kLength_m > 2.3 + body().track_contact_m);
+}
+
+/// For another pass the design lies before the edge, and behind it what was left.
+void turned_back_it_forgets_only_what_lies_ahead(void**) {
+  const GradeProfile design(test::level(-0.1));
+  GroundMap ground = cut(design, 0.0, 12.0, 0.05);
+  assert_near(ground.height_m(8.0, design), -0.05, 1e-9);
+  ground.turn_back(6.0);
+  assert_near(ground.height_m(8.0, design), -0.1, 1e-9);
+  assert_near(ground.height_m(4.0, design), -0.05, 1e-9);
+  ground.turn_back(9.0);
+  assert_near(ground.height_m(8.0, design), -0.1, 1e-9);
 }
 
 /// On level ground at its height, on a slope along it.
@@ -173,6 +185,7 @@ int main() {
       cmocka_unit_test(in_the_air_nothing_is_cut),
       cmocka_unit_test(a_jump_starts_it_afresh),
       cmocka_unit_test(it_remembers_as_far_as_the_tracks_reach),
+      cmocka_unit_test(turned_back_it_forgets_only_what_lies_ahead),
       cmocka_unit_test(on_a_plane_it_stands_along_it),
       cmocka_unit_test(where_it_stands_the_wheels_carry_it),
       cmocka_unit_test(the_shipped_design_is_reached_all_the_way),

@@ -93,7 +93,8 @@ void it_brakes_no_harder_than_it_may(void**) {
   SpeedDemand demand = easy();
   demand.ahead = {0.2, 0.2};
   const SpeedChoice choice = next_speed(profile(), fast, demand, kPeriod_s);
-  assert_near(choice.state.speed_mps, 1.6 - 1.5 * kPeriod_s, 1e-12);
+  assert_near(choice.state.speed_mps,
+              1.6 - 1.25 * profile().travel.deceleration_max_mps2 * kPeriod_s, 1e-12);
   assert_int_equal(choice.limit.kind, LimitKind::kAhead);
 }
 
@@ -130,13 +131,14 @@ void a_trembling_limit_does_not_make_it_tremble(void**) {
 /// Off the grade it crawls, near it the error counts for nothing.
 void off_the_grade_it_slows_down(void**) {
   SpeedDemand demand = easy();
-  demand.grade_error_m = -kOnGrade_m;
+  const double allowed_m = profile().grade.tolerance_m;
+  demand.off_m = -kOnGrade * allowed_m;
   assert_near(after(demand, 6.0).state.speed_mps, 1.6, 1e-12);
-  demand.grade_error_m = 0.5 * (kOnGrade_m + kOffGrade_m);
+  demand.off_m = 0.5 * (kOnGrade + kOffGrade) * allowed_m;
   const SpeedChoice half = after(demand, 6.0);
   assert_near(half.state.speed_mps, 0.1 + 0.5 * 1.5, 1e-3);
   assert_int_equal(half.limit.kind, LimitKind::kOffGrade);
-  demand.grade_error_m = -0.5;
+  demand.off_m = -0.5;
   assert_near(after(demand, 6.0).state.speed_mps, 0.1, 1e-12);
 }
 

@@ -6,6 +6,7 @@ from profile_edit import replaced
 RANGES = {
     "body.mass": "500 .. 100000 kg",
     "body.mass_centre_height": "0.1 .. 3 m",
+    "body.pitch_inertia": "10 .. 1000000 kg m2",
     "body.wheels": "2 .. 16",
     "body.track_contact": "0.5 .. 6 m",
     "body.half_gauge": "0.3 .. 3 m",
@@ -44,13 +45,19 @@ RANGES = {
     "travel.deceleration_max": "0.1 .. 1.2 m/s2",
     "travel.flow_share": "0.1 .. 1",
     "travel.preview": "1.5 .. 3.5 m",
+    "travel.push_max": "1000 .. 1000000 N",
     "travel.track_gain": "0 .. 10",
     "travel.track_integral": "0 .. 50 1/s",
     "grade.plane_height": "-100 .. 100 m",
     "grade.plane_slope": "-0.3 .. 0.3",
+    "grade.ground": "-100 .. 100 m",
+    "grade.pass_depth": "0.02 .. 10 m",
+    "grade.passes": "1 .. 50",
+    "grade.tolerance": "0.005 .. 0.1 m",
     "control.spool_rate": "0.1 .. 1000 1/s",
     "control.spool_threshold": "0 .. 0.1",
     "control.response": "0.001 .. 1 s",
+    "control.pose_latency": "0 .. 0.2 s",
     "control.blade_gain": "0 .. 50 1/s",
     "control.blade_integral": "0 .. 100 1/s2",
     "control.blade_integral_most": "0 .. 1 m/s",
@@ -69,9 +76,15 @@ RANGES = {
 }
 # The same of NAME.sim.toml.
 SIMULATION_RANGES = {
-    "body.pitch_inertia": "10 .. 1000000 kg m2",
     "blade.mass": "10 .. 100000 kg",
     "blade.reach": "0.1 .. 5 m",
+    "blade.width": "0.5 .. 10 m",
+    "blade.height": "0.2 .. 3 m",
+    "blade.rake": "0.5 .. 1.8 rad",
+    "blade.edge": "0.001 .. 0.1 m",
+    "engine.power": "1000 .. 10000000 W",
+    "engine.sag": "0 .. 0.5",
+    "engine.lag": "0.01 .. 10 s",
     "implement.relief": "1000000 .. 100000000 Pa",
     "implement.deadband": "0 .. 0.9",
     "implement.time_constant": "0.001 .. 1 s",
@@ -175,7 +188,12 @@ CASES = [
                         "plane_slope = 0.11"),
      ["1 error:", "grade.profile[8]", "a slope of 0.610"]),
     ("deeper than the blade", lambda t: replaced(t, "range = [-0.38,", "range = [-0.34,"),
-     ["1 error:", "grade.profile", "lowest point is at -0.35 m", "-0.34 m"]),
+     ["1 error:", "grade.profile", "the cutting edge would have to be at", "-0.34 .. 0.8 m"]),
+    ("a crest over which it falls", lambda t: replaced(replaced(
+        t, "[9.0, -0.35], [9.8, -0.12], [13.0, -0.12], [13.8, -0.35]",
+        "[10.2, -0.35], [10.8, -0.02], [11.4, -0.35], [13.8, -0.35]"), "rounding = 0.3 ",
+                                                       "rounding = 0.2 "),
+     ["1 error:", "grade.profile", "where it tips", "at any speed", "0.02 m"]),
 ]
 
 SIMULATION_CASES = [

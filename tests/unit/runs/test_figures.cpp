@@ -67,7 +67,8 @@ void a_campaigns_columns_stay_as_they_are(void**) {
                       "max_error_true_m,rmse_error_true_m,max_error_measured_m,time_s,"
                       "flow_share_max,flow_above,flow_occasions,deceleration_wanted_mps2,"
                       "deceleration_true_mps2,sign_changes,lambda_variation_ps,spool_travel_ps,"
-                      "spool_reversals_ps,edge_jerk_rms_mps3");
+                      "spool_reversals_ps,edge_jerk_rms_mps3,"
+                      "passes,ground_left_m,over_cut_m,halt_s");
 }
 
 struct Made {

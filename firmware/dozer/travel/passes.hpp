@@ -1,0 +1,53 @@
+#pragma once
+/// Passes: what the blade had to leave above the design is gone back for, until the design is met.
+
+#include <cstdint>
+
+#include "firmware/dozer/grade_profile.hpp"
+
+namespace graben {
+
+enum class PassPhase : std::uint8_t {
+  kCut,     ///< Forward, on the design.
+  kStop,    ///< At the pass's end: to a halt, the blade rising.
+  kReturn,  ///< Backward, the blade clear of the ground.
+  kTurn,    ///< To a halt before what is left, the blade coming down as it goes on.
+};
+
+/// State from cycle to cycle.
+struct PassState {
+  PassPhase phase = PassPhase::kCut;
+  int pass = 1;
+  double deep_m = 0.0;    ///< What the passes before this one were to cut.
+  double step_m = 0.0;    ///< What this one is to cut on top; 0 before the first.
+  bool not_deep = false;  ///< This one could not.
+  bool left = false;      ///< Something was left in this pass, from this place of the edge on.
+  double from_m = 0.0;
+  double clear_m = 0.0;  ///< The blade over the design.
+  double clear_mps = 0.0;
+  bool finished = false;  ///< The last pass has left nothing, or there may be no more.
+};
+
+/// Where the machine is in it.
+struct PassSituation {
+  double edge_x_m = 0.0;
+  double error_m = 0.0;       ///< Of the edge over the design.
+  double pass_error_m = 0.0;  ///< Over what this pass is to cut.
+  double velocity_mps = 0.0;
+};
+
+/// A cycle on. In a pass, what the edge leaves clearly more than the tolerance above the design is
+/// noted with its place. At the design's last point, behind which what it carries is dumped, the
+/// machine stops and goes back with the blade clear of the ground, to a run-up before the first of
+/// it; and cuts again, up to `passes_most` times.
+[[nodiscard]] PassState next_pass(const GradeDesign& design, const PassState& last,
+                                  const PassSituation& now, double period_s);
+
+/// Lowest that this pass may cut, over the design's plane.
+[[nodiscard]] double pass_floor_m(const GradeDesign& design, const PassState& state);
+
+/// Speed that a phase other than kCut drives with: backward, slower near where it turns; or none.
+[[nodiscard]] double pass_speed_mps(const PassState& state, const PassSituation& now,
+                                    double desired_mps, double deceleration_mps2);
+
+}  // namespace graben

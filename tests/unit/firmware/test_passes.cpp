@@ -1,0 +1,120 @@
+#include "firmware/dozer/travel/passes.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+
+constexpr double kPeriod_s = 0.01;
+
+/// Level, 10 m long.
+GradeDesign design() {
+  GradeDesign grade;
+  grade.point[0] = {0.0, -0.3};
+  grade.point[1] = {10.0, -0.3};
+  grade.count = 2;
+  grade.tolerance_m = 0.02;
+  grade.pass_depth_m = 0.2;
+  grade.passes_most = 3;
+  return grade;
+}
+
+/// The edge goes from one place to the other, as far off design and pass.
+PassState goes(PassState state, double from_m, double to_m, double error_m,
+               double pass_error_m = 0.0) {
+  const double step_m = from_m < to_m ? 0.01 : -0.01;
+  for (int n = 0; n <= static_cast<int>((to_m - from_m) / step_m + 0.5); ++n) {
+    state =
+        next_pass(design(), state, {from_m + n * step_m, error_m, pass_error_m, 1.0}, kPeriod_s);
+  }
+  return state;
+}
+
+PassState stands(PassState state, double at_m, int cycles) {
+  for (int n = 0; n < cycles; ++n) {
+    state = next_pass(design(), state, {at_m, 0.0, 0.0, 0.0}, kPeriod_s);
+  }
+  return state;
+}
+
+void what_is_met_in_one_pass_is_done_with_it(void**) {
+  const PassState on = goes({}, -1.0, 9.9, 0.024);
+  assert_false(on.finished || on.left);
+  const PassState done = goes(on, 9.9, 10.1, 0.0);
+  assert_true(done.finished);
+  assert_int_equal(done.pass, 1);
+  assert_int_equal(static_cast<int>(done.phase), static_cast<int>(PassPhase::kCut));
+}
+
+/// Stop with the blade rising, back to a run-up before the first place, halt, next pass.
+void what_is_left_is_gone_back_for(void**) {
+  PassState state = goes({}, -1.0, 4.0, 0.0);
+  state = goes(state, 4.0, 6.0, 0.1);
+  state = goes(state, 6.0, 10.01, 0.0);
+  assert_int_equal(static_cast<int>(state.phase), static_cast<int>(PassPhase::kStop));
+  assert_near(state.from_m, 4.0, 0.02);
+  assert_near(pass_speed_mps(state, {10.0, 0.0, 0.0, 1.0}, 1.6, 1.0), 0.0, 0.0);
+  state = stands(state, 10.2, 200);
+  assert_int_equal(static_cast<int>(state.phase), static_cast<int>(PassPhase::kReturn));
+  assert_near(state.clear_m, 0.25, 1e-9);
+  assert_near(pass_speed_mps(state, {9.0, 0.0, 0.0, -1.0}, 1.6, 1.0), -1.0, 1e-12);
+  assert_near(pass_speed_mps(state, {9.0, 0.0, 0.0, -1.0}, 0.5, 1.0), -0.5, 1e-12);
+  assert_true(pass_speed_mps(state, {2.85, 0.0, 0.0, -1.0}, 1.6, 1.0) > -0.5);
+  state = goes(state, 10.2, 2.7, 0.25);
+  assert_int_equal(static_cast<int>(state.phase), static_cast<int>(PassPhase::kTurn));
+  state = stands(state, 2.7, 2);
+  assert_int_equal(static_cast<int>(state.phase), static_cast<int>(PassPhase::kCut));
+  assert_int_equal(state.pass, 2);
+  assert_false(state.left);
+}
+
+PassState second(double pass_error_m) {
+  PassState state = goes({}, 0.0, 10.01, 0.1, pass_error_m);
+  state = stands(state, 10.2, 200);
+  state = goes(state, 10.2, -1.3, 0.25);
+  return stands(state, -1.3, 200);
+}
+
+/// Each pass a step deeper; one that could not go so deep takes the same again, and smaller steps.
+void each_pass_goes_a_step_deeper(void**) {
+  assert_near(pass_floor_m(design(), {}), -0.2, 1e-12);
+  assert_near(pass_floor_m(design(), second(0.0)), -0.4, 1e-12);
+  const PassState weak = second(0.1);
+  assert_near(pass_floor_m(design(), weak), -0.2, 1e-12);
+  assert_near(weak.step_m, 0.1, 1e-12);
+}
+
+/// The blade on its way down at the beginning leaves nothing.
+void a_blade_that_comes_down_leaves_nothing(void**) {
+  PassState state = second(0.0);
+  state.clear_m = 0.1;
+  state = next_pass(design(), state, {5.0, 0.1, 0.1, 1.0}, kPeriod_s);
+  assert_false(state.left);
+}
+
+void there_are_no_more_than_are_allowed(void**) {
+  PassState state;
+  for (int pass = 1; pass < 3; ++pass) {
+    state = goes(state, 0.0, 10.01, 0.1);
+    state = stands(state, 10.2, 200);
+    state = goes(state, 10.2, -1.3, 0.25);
+    state = stands(state, -1.3, 200);
+  }
+  assert_int_equal(state.pass, 3);
+  state = goes(state, 0.0, 10.01, 0.1);
+  assert_true(state.finished && state.left);
+  assert_int_equal(static_cast<int>(state.phase), static_cast<int>(PassPhase::kCut));
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(what_is_met_in_one_pass_is_done_with_it),
+      cmocka_unit_test(what_is_left_is_gone_back_for),
+      cmocka_unit_test(each_pass_goes_a_step_deeper),
+      cmocka_unit_test(a_blade_that_comes_down_leaves_nothing),
+      cmocka_unit_test(there_are_no_more_than_are_allowed),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
