@@ -183,7 +183,7 @@ void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state) {
     give_up(state);
     state.tries = 0;
   }
-  state.last_strip = static_cast<std::int8_t>(strip);
+  state.last_strip = strip;
   state.last_m3 = state.loaded_m3;
   choose(plan, state);
   if (state.cut.strip != strip) {

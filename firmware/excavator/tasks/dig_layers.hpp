@@ -54,14 +54,14 @@ struct Cut {
 struct CutState {
   std::array<std::array<float, kStripBins>, kStripMost> height_m{};
   Cut cut;
-  double depth_m = 0.0;         ///< Of cuts, as the force lets them be.
-  double loaded_m3 = 0.0;       ///< Of the ground, in the bucket by what the edge has passed.
-  std::uint8_t tries = 0;       ///< Cuts of a strip in a row that got next to nothing.
-  std::uint8_t cuts = 0;        ///< So far, of all.
-  std::uint8_t sweeps = 0;      ///< Of them, for what has fallen in.
-  std::int8_t last_strip = -1;  ///< Of the cut before; -1: there was none, or it was weighed.
-  double last_m3 = 0.0;         ///< Of the ground, that its edge has passed.
-  bool met = true;              ///< Nothing is left that stands too high.
+  double depth_m = 0.0;     ///< Of cuts, as the force lets them be.
+  double loaded_m3 = 0.0;   ///< Of the ground, in the bucket by what the edge has passed.
+  std::uint8_t tries = 0;   ///< Cuts of a strip in a row that got next to nothing.
+  std::uint8_t cuts = 0;    ///< So far, of all.
+  std::uint8_t sweeps = 0;  ///< Of them, for what has fallen in.
+  int last_strip = -1;      ///< Of the cut before; -1: there was none, or it was weighed.
+  double last_m3 = 0.0;     ///< Of the ground, that its edge has passed.
+  bool met = true;          ///< Nothing is left that stands too high.
 };
 
 /// Nothing is dug yet. `plan` has to have a step.

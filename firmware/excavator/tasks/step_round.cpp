@@ -239,7 +239,7 @@ bool plan_rounds(const ExcavatorProfile& profile, const SwingKinematics& kinemat
       (rounds.to_design && !rounds.has_design)) {
     return refuse(ProgramRefusal::kRounds, 0, 0, {}, result);
   }
-  std::array<double, kStepMost> slower;
+  std::array<double, kStepMost> slower{};
   slower.fill(1.0);
   for (int round = 0; round < rounds.count; ++round) {
     if (!plan_round(profile, kinematics, round, slower, result)) {
