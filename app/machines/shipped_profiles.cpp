@@ -1,17 +1,23 @@
 #include <fmt/format.h>
-#include <sys/auxv.h>
 
 #include <stdexcept>
 #include <system_error>
 
 #include "app/machines/profile_file.hpp"
 #include "app/machines/task_file.hpp"
+#ifndef GRABEN_MACHINES_DIR
+#include <sys/auxv.h>
+#endif
 
 namespace graben::machines {
 namespace {
 
 namespace fs = std::filesystem;
 
+#ifdef GRABEN_MACHINES_DIR
+/// Without an operating system a program, a test, is in no folder.
+fs::path find_shipped_folder() { return GRABEN_MACHINES_DIR; }
+#else
 /// share/graben/machines beside a folder that the program is in: of /usr/bin it is in /usr; the
 /// build folder has one as well, a link to the sources'. So the program knows no path of its own.
 fs::path find_shipped_folder() {
@@ -31,6 +37,7 @@ fs::path find_shipped_folder() {
   }
   return fs::path("share") / "graben" / "machines";
 }
+#endif
 
 const fs::path& shipped_folder() {
   static const fs::path folder = find_shipped_folder();
