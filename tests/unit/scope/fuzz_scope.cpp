@@ -30,6 +30,8 @@ using test::WsMessage;
 
 constexpr std::size_t kOpenMost = 12;
 constexpr std::uint64_t kLookEvery = 100;
+/// A dozen others at once are being told of ten minutes.
+constexpr Milliseconds kQuietMost(20000);
 
 [[noreturn]] void fail(const std::string& what) {
   fmt::print(stderr, "fuzz_scope: {}\n", what);
@@ -54,9 +56,9 @@ class Witness {
  private:
   void read() {
     while (!stop_) {
-      const std::optional<WsMessage> message = client_.read(Milliseconds(5000));
+      const std::optional<WsMessage> message = client_.read(kQuietMost);
       if (!message) {
-        fail("the page that stayed got nothing for five seconds");
+        fail("the page that stayed got nothing for twenty seconds");
       }
       if (message->opcode == Opcode::kBinary) {
         look_at(message->content);
