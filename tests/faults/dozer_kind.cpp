@@ -21,8 +21,9 @@ namespace {
 
 namespace bus = dbc::dozer;
 
-/// It brakes for a lower wanted speed with 1.5 m/s2; the limit of what it brakes with less.
-constexpr double kBrakesWith_mps2 = 1.3;
+/// It brakes for a lower wanted speed with travel.deceleration_max, 1 m/s2; the limit is a little
+/// less.
+constexpr double kBrakesWith_mps2 = 0.95;
 constexpr double kRoundOff_mps = 1e-3;
 /// A speed that is held by nothing but the operator's share gets that much higher in kBack_us.
 constexpr double kFaster_mps = 0.1;

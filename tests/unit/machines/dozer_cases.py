@@ -187,12 +187,9 @@ CASES = [
      lambda t: replaced(replaced(t, "[20.0, 0.0]", "[18.7, 0.0]"), "plane_slope = 0.0",
                         "plane_slope = 0.11"),
      ["1 error:", "grade.profile[8]", "a slope of 0.610"]),
-    ("deeper than the blade", lambda t: replaced(t, "range = [-0.38,", "range = [-0.34,"),
-     ["1 error:", "grade.profile", "the cutting edge would have to be at", "-0.34 .. 0.8 m"]),
-    ("a crest over which it falls", lambda t: replaced(replaced(
-        t, "[9.0, -0.35], [9.8, -0.12], [13.0, -0.12], [13.8, -0.35]",
-        "[10.2, -0.35], [10.8, -0.02], [11.4, -0.35], [13.8, -0.35]"), "rounding = 0.3 ",
-                                                       "rounding = 0.2 "),
+    ("deeper than the blade", lambda t: replaced(t, "range = [-0.38,", "range = [-0.30,"),
+     ["1 error:", "grade.profile", "the cutting edge would have to be at", "-0.3 .. 0.8 m"]),
+    ("a crest over which it falls", lambda t: replaced(t, "pitch_inertia = 12000.0", "pitch_inertia = 120.0"),
      ["1 error:", "grade.profile", "where it tips", "at any speed", "0.02 m"]),
 ]
 
