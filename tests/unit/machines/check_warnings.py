@@ -49,7 +49,7 @@ SLIPS = [
     (DOZER, "", "rod = 0.060", "rod = 0.010", "blade.cylinder.rod"),
     (DOZER, SIM, "mass = 950.0", "mass = 95.0", "blade.mass"),
     (DOZER, SIM, "reach = 1.45", "reach = 0.145", "blade.reach"),
-    (DOZER, "", "pitch_inertia = 1200.0.0", "pitch_inertia = 120.0", "body.pitch_inertia"),
+    (DOZER, "", "pitch_inertia = 12000.0", "pitch_inertia = 1200.0", "body.pitch_inertia"),
     (DOZER, SIM, "coulomb = 2500.0", "coulomb = 25.0", "implement.coulomb"),
     (DOZER, SIM, "relief = 21.0e6", "relief = 2.1e6", "implement.relief"),
     (DOZER, SIM, "charge = 2.5e6", "charge = 10.0e6", "hst.charge"),
