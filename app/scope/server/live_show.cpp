@@ -10,18 +10,12 @@ class LiveStream : public ClientStream {
   explicit LiveStream(const FrameFeed& feed) : reader_(feed) {}
 
   bool next(std::string& message) override {
-    // Many at once of what is behind: a browser takes few large messages sooner than many small.
-    const std::size_t most = message.size() + kMessageMostBytes - FrameFeed::kLargestBlockBytes;
-    bool is_any = false;
-    while (message.size() < most) {
-      const std::shared_ptr<const FrameBlock> block = reader_.next();
-      if (!block) {
-        break;
-      }
-      message += block->text;
-      is_any = true;
+    const std::shared_ptr<const FrameBlock> block = reader_.next();
+    if (!block) {
+      return false;
     }
-    return is_any;
+    message += block->text;
+    return true;
   }
   [[nodiscard]] std::uint64_t lost() const override { return reader_.lost(); }
 

@@ -20,7 +20,7 @@ constexpr double kSteep_rad = 1.5;
 constexpr int kSteepLooks = 16;
 /// Of teeth whose oil nobody knows.
 constexpr double kGiveUnknown_mpn = 1e-6;
-constexpr int kLooks = 8;
+constexpr int kLineLooks = 8;
 constexpr int kHeights = 4;
 /// Over the ground, as a cut comes down.
 constexpr double kOver_m = 0.3;
@@ -51,8 +51,8 @@ double give_mpn(const ExcavatorProfile& profile, const KinematicState& at,
 BlindPlace first_unreached(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
                            const TaskProgram& program) {
   const LayerPlan& plan = program.layers;
-  for (int look = 0; look <= kLooks; ++look) {
-    const double share = static_cast<double>(look) / kLooks;
+  for (int look = 0; look <= kLineLooks; ++look) {
+    const double share = static_cast<double>(look) / kLineLooks;
     const double highest_m = std::max(0.0, ground_m(plan, share)) + kOver_m;
     for (int n = 0; n <= kHeights; ++n) {
       const TeethPose pose = line_over(program, 0, highest_m * n / kHeights).at(share);
@@ -141,9 +141,9 @@ LayerPlanResult plan_layers(const ExcavatorProfile& profile, const SwingKinemati
   const Eigen::Vector2d inwards = Eigen::Vector2d(-level_m, way.change.position_m.z()).normalized();
   const Eigen::Vector2d up(-inwards.y(), inwards.x());
   plan.force_n = 1e9;
-  for (int look = 0; look <= kLooks; ++look) {
+  for (int look = 0; look <= kLineLooks; ++look) {
     const DriveResult drives =
-        kinematics.drive_from_teeth(way.at(static_cast<double>(look) / kLooks));
+        kinematics.drive_from_teeth(way.at(static_cast<double>(look) / kLineLooks));
     const KinematicState at = kinematics.planar().state(drives.value.head<kAxisCount>());
     if (at.status == ReachStatus::kOk) {
       plan.force_n = std::min(plan.force_n, kUsed * holding_force_n(profile, at, inwards));

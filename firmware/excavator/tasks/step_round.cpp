@@ -31,7 +31,7 @@ TeethPose end_of(const SwingKinematics& kinematics, const TaskStep& step) {
                        : teeth_of(kinematics, step.drives.from + step.drives.change);
 }
 
-bool is_reached(const SwingKinematics& kinematics, const TeethLine& line) {
+bool line_is_reached(const SwingKinematics& kinematics, const TeethLine& line) {
   bool reached = true;
   for (int n = 0; n <= kLooks; ++n) {
     const TeethPose pose = line.at(static_cast<double>(n) / kLooks);
@@ -206,7 +206,7 @@ TaskStep step_from(const ExcavatorProfile& profile, const SwingKinematics& kinem
   if (step.straight) {
     result.line.line = line_between(kinematics, from, to);
     result.line.way_m = way_m(kinematics, result.line.line);
-    if (result.line.way_m > kLeastWay_m && is_reached(kinematics, result.line.line)) {
+    if (result.line.way_m > kLeastWay_m && line_is_reached(kinematics, result.line.line)) {
       result.line.ramp =
           ramp_for_speed(result.line.way_m, step.line.way_m * step.line.ramp.peak_rate_ps(),
                          profile.line.acceleration_mps2);
