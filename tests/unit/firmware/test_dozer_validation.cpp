@@ -188,6 +188,19 @@ void a_body_on_its_side_cannot_be(void**) {
   }
 }
 
+/// The blade's load is told by it; without it no load is known, and nothing stops.
+void a_line_s_pressure_may_be_missing(void**) {
+  DozerInputs inputs = complete_dozer_inputs(kNow);
+  inputs.track[kLeft].line_pressure_pa = inputs.track[kLeft].speed_mps;
+  inputs.track[kLeft].line_pressure_pa.value = 12e6;
+  inputs.track[kRight].line_pressure_pa = inputs.track[kLeft].line_pressure_pa;
+  inputs.track[kRight].line_pressure_pa.stamp_us = kStale;
+  const test::ValidatedDozer valid = judged(inputs, true);
+  assert_true(valid.faults.empty());
+  assert_near(valid.line_pressure_pa[kLeft], 12e6, 0.0);
+  assert_near(valid.line_pressure_pa[kRight], 0.0, 0.0);
+}
+
 }  // namespace
 
 int main() {
@@ -199,6 +212,7 @@ int main() {
       cmocka_unit_test(a_lost_engine_speed_slows_to_idle),
       cmocka_unit_test(a_stroke_beyond_the_blades_reach_is_implausible),
       cmocka_unit_test(a_body_on_its_side_cannot_be),
+      cmocka_unit_test(a_line_s_pressure_may_be_missing),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
