@@ -21,9 +21,10 @@ constexpr double kRises_mps = 0.8;
 constexpr double kChange_mps2 = 1.0;
 constexpr double kWeighs_s = 0.15;
 /// The ground bears this much of the force that a cut gives way to; or it holds the teeth so far
-/// above their plan.
+/// above their plan, which late teeth in the air are too: then it bears something as well.
 constexpr double kBears = 0.12;
 constexpr double kHeldUp_m = 0.015;
+constexpr double kBearsHeld = 0.05;
 
 bool reaches(const SwingKinematics& kinematics, TeethPose pose, double ground_z_m) {
   bool reached = true;
@@ -109,8 +110,10 @@ bool touch_on(const TaskProgram& program, const CutSeen& seen, double advance_s,
     layers.air_n += std::min(1.0, period_s / kWeighs_s) * (up_n - layers.air_n);
   }
   const bool is_near = layers.height_m < kSlowFrom_m;
-  const bool bears = is_near && seen.force_known && up_n - layers.air_n > kBears * plan.force_n;
-  const bool held = is_near && seen_m - layers.height_m > kHeldUp_m && seen.lambda > 0.0;
+  const double borne_n = up_n - layers.air_n;
+  const bool bears = is_near && seen.force_known && borne_n > kBears * plan.force_n;
+  const bool held = is_near && seen_m - layers.height_m > kHeldUp_m && seen.lambda > 0.0 &&
+                    (!seen.force_known || borne_n > kBearsHeld * plan.force_n);
   const bool found = bears || held;
   if (found || layers.height_m < -kDeepest_m) {
     layers.touched = true;
