@@ -29,6 +29,10 @@ constexpr double kLiftHeld_s = 0.5;
 constexpr double kCutWaits_s = 10.0;
 /// Of a move that leads to the next one.
 constexpr double kPassed_m = 0.20;
+/// Teeth that sink under a last cut count so much more than teeth that are late; and a plan slows
+/// down faster than it gets on again.
+constexpr double kSinks = 2.5;
+constexpr double kSlowsFaster = 4.0;
 /// Of ground as it mostly is.
 constexpr double kGround_kgpm3 = 1750.0;
 /// What springs by less is let be.
@@ -44,8 +48,8 @@ void follow_pace(const LineProfile& line, double slow_m, double behind_m, double
   const double off = behind_m / slow_m;
   const double slowed = 1.0 / (1.0 + off * off);
   const double change = line.pace_rate_ps * period_s;
-  state.pace_ratio =
-      std::clamp(slowed > 0.0 ? slowed : 0.0, state.pace_ratio - change, state.pace_ratio + change);
+  state.pace_ratio = std::clamp(slowed > 0.0 ? slowed : 0.0,
+                                state.pace_ratio - kSlowsFaster * change, state.pace_ratio + change);
 }
 
 /// Steps of one program.
@@ -75,6 +79,7 @@ class LayerRun {
   void take(TaskState& state) const;
   [[nodiscard]] bool cut_ends(double heavy, TaskState& state) const;
   void next_step(TaskState& state) const;
+  [[nodiscard]] double behind_m(const TaskState& state) const;
 
   const ExcavatorProfile& profile_;
   const SwingKinematics& kinematics_;
@@ -293,13 +298,22 @@ void LayerRun::next_step(TaskState& state) const {
   begin((state.step + 1) % program_.step_count, state);
 }
 
+double LayerRun::behind_m(const TaskState& state) const {
+  const LayerState& layers = state.layers;
+  if (layers.phase != CutPhase::kCuts || !layers.cuts.cut.thin) {
+    return seen_.behind_m;
+  }
+  const double sunk_m = layers.height_m - seen_height_m(program_, seen_, state);
+  return std::max(seen_.behind_m, kSinks * sunk_m);
+}
+
 void LayerRun::go_on(TaskState& state) const {
   const LineProfile& line = profile_.line;
   const bool moves = state.layers.phase == CutPhase::kNone;
   follow_pace(
       line,
       moves ? line.move_slow_error_m : line.slow_error_m + line.slow_error_s * plan_.speed_mps,
-      seen_.behind_m, period_s_, state);
+      behind_m(state), period_s_, state);
   switch (state.layers.phase) {
     case CutPhase::kEnters:
       enter_on({program_, kinematics_, advance_s_, period_s_}, seen_, state);
