@@ -179,12 +179,17 @@ void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state) {
   const int strip = state.cut.strip;
   const bool little = end.filled_m3 < kLittle * plan.full_m3;
   state.tries = little ? static_cast<std::uint8_t>(state.tries + 1) : std::uint8_t{0};
-  if (state.tries >= (state.cut.thin ? kThinTriesMost : kTriesMost)) {
+  // A wall that stops a sweep has not fallen in: what is left is swept from within.
+  const bool stopped = state.swept && little && state.cut.from_share < 0.0;
+  state.wall_stands = state.wall_stands || stopped;
+  if (!stopped && state.tries >= (state.cut.thin ? kThinTriesMost : kTriesMost)) {
     give_up(state);
     state.tries = 0;
   }
   state.last_strip = strip;
-  state.last_m3 = state.loaded_m3;
+  // Nobody knows what stands before a sweep.
+  state.last_m3 = state.swept ? 0.0 : state.loaded_m3;
+  state.swept = stopped;
   choose(plan, state);
   if (state.cut.strip != strip) {
     state.tries = 0;
@@ -203,6 +208,7 @@ void weigh_cut(const LayerPlan& plan, double weighed_m3, CutState& state) {
     height = std::max(height, static_cast<float>(kRough_m));
   }
   choose(plan, state);
+  state.swept = true;
 }
 
 }  // namespace graben

@@ -44,6 +44,7 @@ void begin_cutting(const TaskProgram& program, const CutSeen& seen, TaskState& s
   // What it can't be pressed down to is come down to on the way.
   layers.give_m = std::max(0.0, layers.height_m - least_m);
   layers.phase = CutPhase::kCuts;
+  layers.entered = seen.teeth;
   layers.held_s = 0.0;
 }
 

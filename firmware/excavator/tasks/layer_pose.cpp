@@ -22,6 +22,12 @@ constexpr double kHeelFree_rad = 0.25;
 constexpr double kFoldUp_m = 0.16;
 constexpr double kLiftLeast_m = 0.4;
 constexpr double kOutOfGround_m = 0.4;
+/// So near to where they went into the ground teeth are in the slot that they have made.
+constexpr double kSlot_m = 0.3;
+/// Where walls fall in, the one at the line's beginning is cut back by so much at most, with a
+/// bucket that stands so steep at least.
+constexpr std::array<double, 4> kBeyond_m = {0.5, 0.35, 0.2, 0.1};
+constexpr double kSteepBeyond = 0.75;
 
 const LinePlan& line_of(const TaskProgram& program) {
   return program.step[static_cast<unsigned>(program.layers.step)].line;
@@ -207,6 +213,22 @@ LinePlan lift_line(const ExcavatorProfile& profile, const SwingKinematics& kinem
   return lift;
 }
 
+LinePlan free_line(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                   const LayerPlan& plan, const TeethPose& from, const TeethPose& entered) {
+  const Eigen::Vector3d off_m = entered.position_m - from.position_m;
+  TeethPose to = entered;
+  to.position_m.z() = from.position_m.z() + kLiftLeast_m;
+  LinePlan lift;
+  lift.line = line_between(kinematics, from, to);
+  if (off_m.head<2>().norm() > kSlot_m || !is_reached(kinematics, lift.line)) {
+    return lift_line(profile, kinematics, plan, from, LiftPart::kFrees);
+  }
+  lift.way_m = way_m(kinematics, lift.line);
+  lift.ramp =
+      ramp_for_speed(lift.way_m, kLiftSpeed_mps, kLiftShare * profile.line.acceleration_mps2);
+  return lift;
+}
+
 double steepest(const SwingKinematics& kinematics, const TaskProgram& program, Cut cut) {
   for (const double steep : {1.0, 0.75, 0.5, 0.25}) {
     cut.steep = steep;
@@ -218,6 +240,18 @@ double steepest(const SwingKinematics& kinematics, const TaskProgram& program, C
     }
   }
   return 0.0;
+}
+
+void begin_beyond(const SwingKinematics& kinematics, const TaskProgram& program, Cut& cut) {
+  for (const double beyond_m : kBeyond_m) {
+    Cut farther = cut;
+    farther.from_share = -beyond_m / program.layers.way_m;
+    farther.steep = steepest(kinematics, program, farther);
+    if (farther.steep >= kSteepBeyond) {
+      cut = farther;
+      return;
+    }
+  }
 }
 
 TeethPose first_dig_pose(const SwingKinematics& kinematics, const TaskProgram& program) {

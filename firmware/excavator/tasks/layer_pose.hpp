@@ -28,6 +28,12 @@ enum class LiftPart : std::uint8_t {
   kFrees,  ///< or straight up first, where its heel stands on something.
 };
 
+/// The same of teeth that soil holds: straight up, or the way back that they have come into the
+/// ground, while they are still near it.
+[[nodiscard]] LinePlan free_line(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                                 const LayerPlan& plan, const TeethPose& from,
+                                 const TeethPose& entered);
+
 /// The way of teeth that have ended a cut here: first the bucket is folded in while its edge still
 /// stands before soil, which keeps the fill in; then it is lifted out of the ground. Without a way
 /// where the machine can't lift it.
@@ -42,6 +48,9 @@ enum class LiftPart : std::uint8_t {
 /// Share of the steep attitude that the machine can have where a cut begins.
 [[nodiscard]] double steepest(const SwingKinematics& kinematics, const TaskProgram& program,
                               Cut cut);
+
+/// A sweep begins before its line, as far as the machine can: there the wall falls in.
+void begin_beyond(const SwingKinematics& kinematics, const TaskProgram& program, Cut& cut);
 
 /// The step's line at a strip, so high over itself.
 [[nodiscard]] TeethLine line_over(const TaskProgram& program, int strip, double height_m);

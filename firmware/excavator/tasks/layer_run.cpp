@@ -12,6 +12,8 @@
 namespace graben {
 namespace {
 
+/// What a heel stands on in a cut, pressed down, counts so much of what is before the edge.
+constexpr double kBorne = 0.7;
 /// Back down to the layer where it is light again.
 constexpr double kReturns_mps = 0.05;
 constexpr double kEasy = 0.7;
@@ -151,6 +153,10 @@ void LayerRun::begin_move(int step, TaskState& state) const {
     }
     Cut& cut = state.layers.cuts.cut;
     cut.steep = steepest(kinematics_, program_, cut);
+    if (state.layers.cuts.swept && state.layers.cuts.sweeps > kSweepsInside &&
+        !state.layers.cuts.wall_stands) {
+      begin_beyond(kinematics_, program_, cut);
+    }
     const TeethPose enters =
         touches_next(program_, state)
             ? first_touch_pose(kinematics_, program_, cut.strip)
@@ -203,8 +209,10 @@ bool LayerRun::cut_ends(double heavy, TaskState& state) const {
 
 void LayerRun::cut(TaskState& state) const {
   LayerState& layers = state.layers;
-  const double force = force_share(plan_, cut_line(program_, state), seen_, false);
-  const double heavy = heaviness(force, seen_);
+  const TeethLine line = cut_line(program_, state);
+  const double force = force_share(plan_, line, seen_, false);
+  const double borne = kBorne * force_share(plan_, line, seen_, true);
+  const double heavy = heaviness(std::max(force, borne), seen_);
   if (!turns(program_, layers)) {
     layers.cut_s += period_s_;
     layers.heavy_s += heavy * period_s_;
@@ -248,7 +256,7 @@ void LayerRun::lift(TaskState& state) const {
   LayerState& layers = state.layers;
   layers.held_s = heaviness(0.0, seen_) > 1.0 ? layers.held_s + period_s_ : 0.0;
   if (layers.held_s > kLiftHeld_s) {
-    layers.lift = lift_line(profile_, kinematics_, plan_, seen_.teeth, LiftPart::kFrees);
+    layers.lift = free_line(profile_, kinematics_, plan_, seen_.teeth, layers.entered);
     layers.folds = true;
     layers.held_s = 0.0;
     state.time_s = 0.0;

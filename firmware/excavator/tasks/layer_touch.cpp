@@ -12,14 +12,18 @@ constexpr double kOverGround_m = 0.9;
 /// From here on it comes down slowly, and knows what it weighs in the air.
 constexpr double kSlowFrom_m = 0.07;
 constexpr double kWeighed_m = 0.045;
-/// The ground is not looked for deeper, and not taken for what the task means beyond kZeroMost_m.
-constexpr double kDeepest_m = 0.06;
-constexpr double kZeroMost_m = 0.05;
+/// The ground is not looked for deeper, by the teeth and by a plan that they are late behind; and
+/// not taken for what the task means beyond kZeroMost_m.
+constexpr double kDeepest_m = 0.07;
+constexpr double kPlanDeepest_m = 0.14;
+constexpr double kZeroMost_m = 0.065;
 constexpr double kFalls_mps = 0.8;
 constexpr double kSlow_mps = 0.04;
 constexpr double kRises_mps = 0.8;
 constexpr double kChange_mps2 = 1.0;
 constexpr double kWeighs_s = 0.15;
+/// One reading's noise is not weight.
+constexpr double kHeard_s = 0.2;
 /// The ground bears this much of the force that a cut gives way to; or it holds the teeth so far
 /// above their plan, which late teeth in the air are too: then it bears something as well.
 constexpr double kBears = 0.12;
@@ -28,7 +32,7 @@ constexpr double kBearsHeld = 0.05;
 
 bool reaches(const SwingKinematics& kinematics, TeethPose pose, double ground_z_m) {
   bool reached = true;
-  for (const double height_m : {kOverGround_m, 0.5 * kOverGround_m, 0.0, -kDeepest_m}) {
+  for (const double height_m : {kOverGround_m, 0.5 * kOverGround_m, 0.0, -kPlanDeepest_m}) {
     pose.position_m.z() = ground_z_m + height_m;
     reached = reached && kinematics.drive_from_teeth(pose).blind.kind == BlindKind::kNone;
   }
@@ -87,6 +91,7 @@ void begin_touch(TaskState& state) {
   layers.height_mps = 0.0;
   layers.give_m = 0.0;
   layers.air_n = 0.0;
+  layers.up_n = 0.0;
 }
 
 bool touch_on(const TaskProgram& program, const CutSeen& seen, double advance_s, double period_s,
@@ -110,12 +115,13 @@ bool touch_on(const TaskProgram& program, const CutSeen& seen, double advance_s,
     layers.air_n += std::min(1.0, period_s / kWeighs_s) * (up_n - layers.air_n);
   }
   const bool is_near = layers.height_m < kSlowFrom_m;
-  const double borne_n = up_n - layers.air_n;
-  const bool bears = is_near && seen.force_known && borne_n > kBears * plan.force_n;
+  layers.up_n += std::min(1.0, period_s / kHeard_s) * (up_n - layers.up_n);
+  const bool bears =
+      is_near && seen.force_known && up_n - layers.air_n > kBears * plan.force_n;
   const bool held = is_near && seen_m - layers.height_m > kHeldUp_m && seen.lambda > 0.0 &&
-                    (!seen.force_known || borne_n > kBearsHeld * plan.force_n);
+                    (!seen.force_known || layers.up_n - layers.air_n > kBearsHeld * plan.force_n);
   const bool found = bears || held;
-  if (found || layers.height_m < -kDeepest_m) {
+  if (found || seen_m < -kDeepest_m || layers.height_m < -kPlanDeepest_m) {
     layers.touched = true;
     layers.zero_m = found && std::abs(seen_m) <= kZeroMost_m ? seen_m * plan.up.z() : 0.0;
     layers.height_m = seen_m;

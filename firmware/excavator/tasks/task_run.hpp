@@ -28,7 +28,8 @@ struct LayerState {
   CutState cuts;
   bool touched = false;     ///< The ground has been looked for,
   double zero_m = 0.0;      ///< and heights as the sensors see them are too high by so much.
-  double air_n = 0.0;       ///< Upward force that is told before the ground bears anything.
+  double air_n = 0.0;       ///< Upward force that is told before the ground bears anything,
+  double up_n = 0.0;        ///< and as it comes down on it.
   double share = 0.0;       ///< Of the line.
   double rate_ps = 0.0;     ///< By the plan's time.
   double height_m = 0.0;    ///< Over the line.
@@ -41,6 +42,7 @@ struct LayerState {
   double held_s = 0.0;      ///< How long it does not get on.
   bool eases = false;       ///< On its way down it lets its oil off,
   double stood_m = 0.0;     ///< which began with the teeth at this height.
+  TeethPose entered;        ///< Where the cut has gone into the ground.
   bool folds = false;       ///< The first part of a lift.
   double weighed_kg = 0.0;  ///< What the cut has brought; 0: not known.
   LinePlan lift;
