@@ -24,6 +24,8 @@ constexpr double kShallower = 0.75;
 constexpr double kLittle = 0.1;
 /// The same of what a cut brings beside what its edge has passed, payload's error and all.
 constexpr double kFallen = 0.15;
+/// With so much of a full bucket the wall at the line's beginning falls in too.
+constexpr double kWallFalls = 0.55;
 
 double share_of(int bin) { return (bin + 0.5) / kStripBins; }
 
@@ -180,8 +182,8 @@ void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state) {
   const bool little = end.filled_m3 < kLittle * plan.full_m3;
   state.tries = little ? static_cast<std::uint8_t>(state.tries + 1) : std::uint8_t{0};
   // A wall that stops a sweep has not fallen in: what is left is swept from within.
-  const bool stopped = state.swept && little && state.cut.from_share < 0.0;
-  state.wall_stands = state.wall_stands || stopped;
+  const bool stopped = state.swept && end.heavy > 1.0 && little && state.cut.from_share < 0.0;
+  state.wall_falls = state.wall_falls && !stopped;
   if (!stopped && state.tries >= (state.cut.thin ? kThinTriesMost : kTriesMost)) {
     give_up(state);
     state.tries = 0;
@@ -204,6 +206,7 @@ void weigh_cut(const LayerPlan& plan, double weighed_m3, CutState& state) {
     return;
   }
   ++state.sweeps;
+  state.wall_falls = state.wall_falls || weighed_m3 > kWallFalls * plan.full_m3;
   for (float& height : state.height_m[static_cast<unsigned>(strip)]) {
     height = std::max(height, static_cast<float>(kRough_m));
   }

@@ -62,7 +62,7 @@ struct CutState {
   int last_strip = -1;      ///< Of the cut before; -1: there was none, or it was weighed.
   double last_m3 = 0.0;     ///< Of the ground, that its edge has passed.
   bool swept = false;       ///< The cut is for what has fallen in.
-  bool wall_stands = false; ///< Sweeps beyond the line's beginning are stopped.
+  bool wall_falls = false;  ///< At the line's beginning: sweeps come from beyond it.
   bool met = true;          ///< Nothing is left that stands too high.
 };
 
@@ -108,9 +108,7 @@ inline constexpr double kHeaped = 1.05;
 inline constexpr int kTriesMost = 3;
 /// The same of the last layer, where a cut that got little has left what more of them would leave.
 inline constexpr int kThinTriesMost = 1;
-inline constexpr int kSweepsMost = 10;
-/// So many of them stay within the line; where they were not enough, its far wall falls in too.
-inline constexpr int kSweepsInside = 3;
+inline constexpr int kSweepsMost = 16;
 /// With so many cuts a task ends, whatever is left.
 inline constexpr int kCutsMost = 250;
 

@@ -153,8 +153,7 @@ void LayerRun::begin_move(int step, TaskState& state) const {
     }
     Cut& cut = state.layers.cuts.cut;
     cut.steep = steepest(kinematics_, program_, cut);
-    if (state.layers.cuts.swept && state.layers.cuts.sweeps > kSweepsInside &&
-        !state.layers.cuts.wall_stands) {
+    if (state.layers.cuts.swept && state.layers.cuts.wall_falls) {
       begin_beyond(kinematics_, program_, cut);
     }
     const TeethPose enters =
