@@ -70,9 +70,9 @@ ImuProfile read_imus(TomlReader& reader) {
       imu.mount[i] = read_mount(reader, i);
     }
   }
-  imu.rate_noise_radps =
-      reader.number("imu.rate_noise", {1e-5, 0.1, "rad/s"},
-                    "standard deviation of one reading of a gyro, vibration with it; only with [imu]");
+  imu.rate_noise_radps = reader.number(
+      "imu.rate_noise", {1e-5, 0.1, "rad/s"},
+      "standard deviation of one reading of a gyro, vibration with it; only with [imu]");
   imu.rate_bias_radps = reader.number("imu.rate_bias", {1e-5, 0.1, "rad/s"},
                                       "the same of its bias, before it is learnt at rest");
   imu.force_noise_mps2 = reader.number("imu.acceleration_noise", {1e-3, 10.0, "m/s2"},

@@ -18,9 +18,9 @@ constexpr double kBiasWander = 3.5e-5;
 constexpr double kAccelerationWrong = 0.1;
 /// A rate above this is no bias, whatever the caller holds for rest; in standard deviations.
 constexpr double kRestMost = 4.0;
-constexpr double kOffTime_s = 2.0;
-/// A tenth of a radian is no bias: vibration averages out over kOffTime_s.
-constexpr double kContradicts_rad = 0.1;
+constexpr double kOffTime_s = 1.0;
+/// 3 deg is no bias: vibration averages out over kOffTime_s.
+constexpr double kContradicts_rad = 0.05;
 
 double square(double value) { return value * value; }
 

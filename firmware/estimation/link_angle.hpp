@@ -24,7 +24,7 @@ struct AngleReading {
   double period_s = 0.0;  ///< Since the one before.
   double rate_radps = 0.0;
   Eigen::Vector2d force_mps2 = Eigen::Vector2d::Zero();  ///< Specific: 1 g upwards at rest.
-  double turning_radps = 0.0;  ///< Of the whole plane about the vertical.
+  double turning_radps = 0.0;                            ///< Of the whole plane about the vertical.
 };
 
 /// Motion of the body at the reading before the newest one.
@@ -48,7 +48,7 @@ struct LinkAngle {
   AngleReading last;
   double before_radps = 0.0;  ///< Rate of the reading before `last`.
   AngleMotion then;           ///< At the reading before `last`.
-  double off_rad = 0.0;          ///< Low-passed: the force's direction against the angle.
+  double off_rad = 0.0;       ///< Low-passed: the force's direction against the angle.
 
   /// Rate and its derivative are known either side.
   [[nodiscard]] bool runs() const { return readings > 2; }

@@ -23,9 +23,9 @@ bool is_still(const ExcavatorProfile& profile, const ExcavatorInputs& inputs, Ec
 
 ExcavatorValid ExcavatorController::read_by_imus(const ExcavatorInputs& inputs, const Cycle& cycle,
                                                  TimeUs now_us) {
-  const ImuStrokes by_imus = next_imu_strokes(setup_.kinematics.planar(), profile_.imu, inputs,
-                                              is_still(profile_, inputs, cycle.last_mode),
-                                              cycle.period_s, memory_.imus);
+  const ImuStrokes by_imus =
+      next_imu_strokes(setup_.kinematics.planar(), profile_.imu, inputs,
+                       is_still(profile_, inputs, cycle.last_mode), cycle.period_s, memory_.imus);
   memory_.joints = by_imus.joints;
   return validate(profile_, drives(), inputs, memory_.last.moving, now_us, memory_.accepted,
                   by_imus.stroke_m);

@@ -153,8 +153,8 @@ struct SensorZeros {
   std::array<double, kAxisCount> rod_pa{};
 };
 
-/// An IMU's place. Its own axes are those of its data sheet: long, upright, and lateral, about which
-/// it pitches; the lateral one is to lie across the machine.
+/// An IMU's place. Its own axes are those of its data sheet: long, upright, and lateral, about
+/// which it pitches; the lateral one is to lie across the machine.
 struct ImuMount {
   std::uint8_t address = 0;  ///< J1939 source address of its frames; 0: there is none.
   /// In the frame of its link, from the link's pin; a rocker's counts from the rocker's pivot, x to

@@ -37,8 +37,7 @@ class LinkImus {
 
   /// True if the frame has an id of theirs: then it is nobody else's. Its values go to their place,
   /// unless it is refused.
-  [[nodiscard]] bool take(const CanFrame& frame, TimeUs now,
-                          std::array<ImuInputs, kImuCount>& to) {
+  [[nodiscard]] bool take(const CanFrame& frame, TimeUs now, std::array<ImuInputs, kImuCount>& to) {
     return any_ && !frame.error && frame.extended && take_extended(frame, now, to);
   }
 

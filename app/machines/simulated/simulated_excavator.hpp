@@ -88,8 +88,8 @@ struct Scenario {
   std::optional<double> dead_time_s;  ///< Of every spool, as the controller takes it.
   /// IMUs instead of stroke sensors, of a machine whose profile says nothing of them.
   bool imus = false;
-  std::uint64_t seed = 0;             ///< Of everything that is drawn.
-  Found found;                        ///< What is told goes before what is drawn.
+  std::uint64_t seed = 0;  ///< Of everything that is drawn.
+  Found found;             ///< What is told goes before what is drawn.
 };
 
 /// The machine with this scenario's plant, and a controller profile whose parameters are off by a

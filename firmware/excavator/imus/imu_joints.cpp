@@ -13,6 +13,13 @@ namespace {
 constexpr double kRest_s = 1.0;
 /// Readings farther apart than this say nothing of what was between them.
 constexpr double kLongest_s = 0.1;
+/// A gyro that is off by more, in standard deviations, is taken for failed: so is the accelerometer
+/// that says so.
+constexpr double kBiasMost = 5.0;
+/// A link that has turned so far shows it in the direction of its force: ten counts of it.
+constexpr double kTurned_rad = 0.01;
+/// So often no gyro that lives shows the same, where the force is another one each time.
+constexpr int kSameMost = 20;
 /// Joint angles are taken in the turn around this; the arm folds in.
 constexpr std::array<double, kAxisCount> kCentre_rad = {0.0, -1.57, kBucketCentre_rad};
 
@@ -58,6 +65,18 @@ Validity validity_of(const ImuInputs& imu) {
 
 TimeUs stamp_of(const ImuInputs& imu) { return std::min(imu.rates.stamp_us, imu.forces.stamp_us); }
 
+void watch_frozen(const AngleReading& last, const AngleReading& next, const ImuRates& rates,
+                  double bias_radps, FrozenWatch& watch) {
+  const bool same_force = next.force_mps2 == last.force_mps2;
+  const bool same_rates = rates.pitch_radps == watch.rates.pitch_radps &&
+                          rates.roll_radps == watch.rates.roll_radps &&
+                          rates.yaw_radps == watch.rates.yaw_radps;
+  watch.rates = rates;
+  watch.turned_rad =
+      same_force ? watch.turned_rad + (next.rate_radps - bias_radps) * next.period_s : 0.0;
+  watch.same_rates = same_rates && !same_force ? std::min(watch.same_rates + 1, kSameMost) : 0;
+}
+
 /// Takes the newest reading of an IMU, if there is one. True if the link goes on by it.
 bool take_reading(const ImuProfile& profile, const AngleNoise& noise, const ImuInputs& imu,
                   std::size_t index, bool at_rest, ImuState& state) {
@@ -71,14 +90,14 @@ bool take_reading(const ImuProfile& profile, const AngleNoise& noise, const ImuI
   const double latency_s = said_s < 0.0 ? profile.latency_s : said_s;
   const double period_s = static_cast<double>(stamp_us - state.stamp_us[index]) / kSecondUs -
                           (latency_s - state.latency_s[index]);
-  const AngleReading reading =
-      reading_of(profile.mount[index], imu, period_s, link.angle_rad);
+  const AngleReading reading = reading_of(profile.mount[index], imu, period_s, link.angle_rad);
   state.stamp_us[index] = stamp_us;
   state.latency_s[index] = latency_s;
   if (link.readings == 0 || !(period_s > 0.0 && period_s < kLongest_s)) {
     begin_angle(noise, reading, link);
     return false;
   }
+  watch_frozen(link.last, reading, imu.rates.value, link.bias_radps, state.frozen[index]);
   carry_angle(noise, reading, at_rest, link);
   return link.runs();
 }
@@ -176,10 +195,12 @@ Validity worst_validity(const ImuProfile& profile, const ExcavatorInputs& inputs
     }
     const LinkAngle& link = state.link[index];
     worst = std::min(worst, validity_of(inputs.imu[index]));
-    if (worst == Validity::kValid && link.contradicts()) {
+    const bool strays = std::abs(link.bias_radps) > kBiasMost * profile.rate_bias_radps;
+    const bool wrong = link.contradicts() || strays || state.frozen[index].is_frozen();
+    if (worst == Validity::kValid && wrong) {
       worst = Validity::kError;
     } else if (worst == Validity::kValid &&
-               !(link.runs() && link.sd_rad(state.latency_s[index]) < kJointKnown_rad)) {
+               !(link.runs() && link.sd_rad(state.latency_s[index]) < kLinkKnown_rad)) {
       worst = Validity::kNotAvailable;
     }
   }
@@ -187,6 +208,10 @@ Validity worst_validity(const ImuProfile& profile, const ExcavatorInputs& inputs
 }
 
 }  // namespace
+
+bool FrozenWatch::is_frozen() const {
+  return std::abs(turned_rad) > kTurned_rad || same_rates >= kSameMost;
+}
 
 ImuStrokes next_imu_strokes(const ExcavatorKinematics& kinematics, const ImuProfile& profile,
                             const ExcavatorInputs& inputs, bool still, double period_s,

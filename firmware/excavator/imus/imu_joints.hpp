@@ -22,12 +22,22 @@
 
 namespace graben {
 
+/// Whether a sensor goes on showing what it showed. Without vibration, at rest, both may.
+struct FrozenWatch {
+  ImuRates rates;           ///< Of the last reading.
+  double turned_rad = 0.0;  ///< By the gyro, since the force was another one.
+  int same_rates = 0;       ///< Readings in a row with the same rates and another force each.
+
+  [[nodiscard]] bool is_frozen() const;
+};
+
 /// Of all IMUs from cycle to cycle.
 struct ImuState {
   std::array<LinkAngle, kImuCount> link{};
-  std::array<TimeUs, kImuCount> stamp_us{};    ///< Of the frame whose reading is in.
-  std::array<double, kImuCount> latency_s{};   ///< Of that reading.
-  double rest_s = 0.0;                         ///< So long nothing can have moved.
+  std::array<FrozenWatch, kImuCount> frozen{};
+  std::array<TimeUs, kImuCount> stamp_us{};   ///< Of the frame whose reading is in.
+  std::array<double, kImuCount> latency_s{};  ///< Of that reading.
+  double rest_s = 0.0;                        ///< So long nothing can have moved.
 };
 
 /// Strokes by the IMUs, as the validation takes them from stroke sensors, and the joints.
@@ -38,13 +48,13 @@ struct ImuStrokes {
 
 /// Goes on by a cycle. `still`: no spool is open, as far as anybody knows; the gyros' biases are
 /// learnt where that has lasted. The strokes are as valid and as old as the worst of their IMUs;
-/// kNotAvailable until the standard deviation of every joint is within kJointKnown_rad; kError
-/// where gyro and gravity contradict each other.
+/// kNotAvailable until the standard deviation of every link is within kLinkKnown_rad; kError
+/// where gyro and gravity contradict each other, or one of them is frozen.
 [[nodiscard]] ImuStrokes next_imu_strokes(const ExcavatorKinematics& kinematics,
                                           const ImuProfile& profile, const ExcavatorInputs& inputs,
                                           bool still, double period_s, ImuState& state);
 
 /// 0.4 deg, beside the constant error.
-inline constexpr double kJointKnown_rad = 0.007;
+inline constexpr double kLinkKnown_rad = 0.007;
 
 }  // namespace graben

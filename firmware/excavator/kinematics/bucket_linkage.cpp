@@ -72,7 +72,10 @@ LinkageState BucketLinkageSolver::with_rocker_end(const Eigen::Vector2d& rocker_
                                   rocker_share;
   const double per_rocker_curvature =
       (rocker.squaredNorm() - cylinder.dot(rocker) - per_rocker * per_rocker) / length_m;
-  return {true, angle_rad, length_m, per_rocker * rocker_per_bucket,
+  return {true,
+          angle_rad,
+          length_m,
+          per_rocker * rocker_per_bucket,
           per_rocker_curvature * square + per_rocker * rocker_curvature,
           std::abs(rocker_per_bucket) < 1e-9 ? 0.0 : 1.0 / rocker_per_bucket};
 }

@@ -35,9 +35,7 @@ struct Body {
   [[nodiscard]] double angle(double t) const {
     return middle_rad + swing_rad * (1.0 - std::cos(phase(t)));
   }
-  [[nodiscard]] double rate(double t) const {
-    return swing_rad * omega_radps * std::sin(phase(t));
-  }
+  [[nodiscard]] double rate(double t) const { return swing_rad * omega_radps * std::sin(phase(t)); }
   [[nodiscard]] double change(double t) const {
     return t < 1.0 ? 0.0 : swing_rad * omega_radps * omega_radps * std::cos(phase(t));
   }
@@ -63,10 +61,10 @@ double worst_rad(Body body, double from_s, double to_s, bool at_rest, bool known
     const double t = i * kPeriod_s;
     carry_angle(kNoise, body.reading(t), at_rest, state);
     if (state.runs()) {
-      correct_angle(kNoise,
-                    known ? body.acceleration(t - kPeriod_s)
-                          : Eigen::Vector2d(Eigen::Vector2d::Zero()),
-                    state);
+      correct_angle(
+          kNoise,
+          known ? body.acceleration(t - kPeriod_s) : Eigen::Vector2d(Eigen::Vector2d::Zero()),
+          state);
     }
     if (t > from_s) {
       worst = std::max(worst, std::abs(state.angle_rad - body.angle(t)));

@@ -98,8 +98,11 @@ void a_sensor_in_doubt_says_so(void**) {
   const struct {
     std::uint8_t merit;
     Validity validity;
-  } cases[] = {{0x01, Validity::kError}, {0x02, Validity::kError}, {0x03, Validity::kValid},
-               {0x04, Validity::kValid}, {0x00, Validity::kValid}};
+  } cases[] = {{0x01, Validity::kError},
+               {0x02, Validity::kError},
+               {0x03, Validity::kValid},
+               {0x04, Validity::kValid},
+               {0x00, Validity::kValid}};
   TimeUs now = kNow;
   for (const auto& each : cases) {
     rates[6] = each.merit;
@@ -170,8 +173,8 @@ void others_stay_foreign(void**) {
 
 void filters_let_them_through(void**) {
   const auto ids = imu_ids({0xE1, 0, 0xE3, 0});
-  const std::array<std::uint32_t, 8> expected = {0x0CF02AE1, 0x0CF02DE1, 0,         0,
-                                                 0x0CF02AE3, 0x0CF02DE3, 0,         0};
+  const std::array<std::uint32_t, 8> expected = {0x0CF02AE1, 0x0CF02DE1, 0, 0,
+                                                 0x0CF02AE3, 0x0CF02DE3, 0, 0};
   assert_true(ids == expected);
 }
 

@@ -51,6 +51,7 @@ struct ImuRig : BusRig<ExcavatorNode, NoDriver> {
     for (auto& [id, frames] : seen) {
       for (const CanFrame& frame : frames) {
         receiver.accept(frame, now);
+        last_of[id] = frame;
       }
     }
     seen.clear();
@@ -82,8 +83,7 @@ struct ImuRig : BusRig<ExcavatorNode, NoDriver> {
     double worst = 0.0;
     for (std::size_t i = 0; i < kAxisCount; ++i) {
       assert_true(strokes.stroke_m[i].validity == Validity::kValid);
-      worst = std::max(worst,
-                       std::abs(strokes.stroke_m[i].value - machine.plant().strokes_m()[i]));
+      worst = std::max(worst, std::abs(strokes.stroke_m[i].value - machine.plant().strokes_m()[i]));
     }
     return worst;
   }
@@ -93,6 +93,7 @@ struct ImuRig : BusRig<ExcavatorNode, NoDriver> {
   ExcavatorReceiver receiver;
   ImuState state;
   ImuStrokes strokes;
+  std::map<std::uint32_t, CanFrame> last_of;
   double worst_m = 0.0;
 };
 
@@ -115,11 +116,11 @@ void level_and_at_rest(void**) {
   // The boom's: its specific force is 1 g upwards, seen from a link that stands at its angle.
   const double boom_rad = rig.machine.plant().joint_angles_rad()[kBoom];
   const std::uint32_t address = rig.profile.imu.mount[kBoom].address;
-  const Forces forces =
-      Forces::decode(rig.seen.at((Forces::kId & ~0xFFU) | address).back().data);
+  const Forces forces = Forces::decode(rig.seen.at((Forces::kId & ~0xFFU) | address).back().data);
   assert_near(forces.longitudinal_mps2.value, 9.80665 * std::sin(boom_rad), 0.006);
   assert_near(forces.vertical_mps2.value, 9.80665 * std::cos(boom_rad), 0.006);
-  const Inertial rates = Inertial::decode(rig.seen.at((Inertial::kId & ~0xFFU) | address).back().data);
+  const Inertial rates =
+      Inertial::decode(rig.seen.at((Inertial::kId & ~0xFFU) | address).back().data);
   assert_near(rates.pitch_rate_radps.value, 0.0, 1e-3);
   assert_near(rates.latency_s.value, 0.02, 0.0);
   // No stroke sensor beside them.
@@ -178,8 +179,7 @@ void silence_ages_and_error_shows(void**) {
   ImuRig rig(with_imus(machine_22t()), ExcavatorStart(kStart_22t));
   rig.rest(1.0);
   const TimeUs before = rig.strokes.stroke_m[kBoom].stamp_us;
-  const std::uint32_t id =
-      (Inertial::kId & ~0xFFU) | rig.profile.imu.mount[kArm].address;
+  const std::uint32_t id = (Inertial::kId & ~0xFFU) | rig.profile.imu.mount[kArm].address;
   rig.machine.faults().frames.set_silent(id, true);
   rig.rest(0.1);
   // Every stroke is as old as the worst of the IMUs.
@@ -187,6 +187,37 @@ void silence_ages_and_error_shows(void**) {
   rig.machine.faults().frames.set_silent(id, false);
   rig.rest(1.0);
   assert_true(rig.off_m() < 3e-3);
+}
+
+/// A message of the boom's IMU goes on as it was while the boom moves; until it is told.
+template <class Message>
+void freeze(bool noisy) {
+  ExcavatorPlantProfile profile = with_imus(machine_22t());
+  profile.sensor_errors = noisy;
+  ImuRig rig(profile, ExcavatorStart(kStart_22t));
+  rig.rest(2.0);
+  const std::uint32_t id = (Message::kId & ~0xFFU) | rig.profile.imu.mount[kBoom].address;
+  const CanFrame frozen = rig.last_of.at(id);
+  rig.machine.faults().frames.set_silent(id, true);
+  int cycles = 0;
+  while (rig.strokes.stroke_m[kBoom].validity == Validity::kValid && cycles < 500) {
+    bus::SpoolCommand spool;
+    spool.enable.value = bus::SpoolCommand::Enable::kOn;
+    spool.boom_duty_ratio.value = 0.5;
+    assert_true(rig.our_port.send(rig.frame_of(spool)));
+    rig.receiver.accept(frozen, rig.now + kCycleUs);
+    rig.follow(false);
+    ++cycles;
+  }
+  print_message("frozen: told after %d cycles\n", cycles);
+  assert_true(rig.strokes.stroke_m[kBoom].validity == Validity::kError);
+  assert_in_range(cycles, 10, 60);
+}
+
+void a_frozen_sensor_is_told(void**) {
+  freeze<Forces>(false);
+  freeze<Forces>(true);
+  freeze<Inertial>(true);
 }
 
 void unknown_until_it_is_known(void**) {
@@ -215,6 +246,7 @@ int main() {
       cmocka_unit_test(mounted_otherwise),
       cmocka_unit_test(swing_is_taken_out),
       cmocka_unit_test(silence_ages_and_error_shows),
+      cmocka_unit_test(a_frozen_sensor_is_told),
       cmocka_unit_test(unknown_until_it_is_known),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
