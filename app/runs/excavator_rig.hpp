@@ -44,7 +44,7 @@ using ExcavatorRig = LoopbackRig<ExcavatorSim>;
 }
 
 /// An operator gives IMUs so long to learn their biases before he enables.
-inline constexpr TimeUs kImusLearn_us = 3 * kSecondUs;
+inline constexpr TimeUs kImusLearn_us = 10 * kSecondUs;
 
 /// Strokes as the controller takes them; none until it knows all of them.
 [[nodiscard]] inline std::optional<Eigen::Vector3d> measured_strokes_m(

@@ -26,7 +26,7 @@ machines::SimulatedExcavator with_imus() {
 /// A machine that has dug for seconds.
 struct Digging {
   Digging() : machine(with_imus()), rig(machine, machines::dig_start(machine.profile), 1.0) {
-    while (now < 7 * kSecondUs) {
+    while (now < runs::kImusLearn_us + 4 * kSecondUs) {
       step();
     }
     assert_int_equal(status().mode, EcuMode::kActive);
