@@ -9,6 +9,8 @@ namespace {
 
 namespace bus = dbc::j1939;
 
+static_assert(ImuAddresses{}.size() == kImuCount, "an address for each");
+
 constexpr std::uint32_t kAddressBits = 0xFFU;
 /// Page, format and group extension: the message, whatever its priority and sender.
 constexpr std::uint32_t kGroupBits = 0x03FFFF00U;

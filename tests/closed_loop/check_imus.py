@@ -13,9 +13,9 @@ MM = 1e-3
 CASES = (
     ("excavator_22t", ("--errors", "none"), 1, 3 * MM, 15 * MM, 15 * MM),
     ("excavator_22t", (), 6, 10 * MM, 30 * MM, 45 * MM),
-    ("excavator_22t", ("--soil",), 4, 25 * MM, 65 * MM, 95 * MM),
+    ("excavator_22t", ("--soil",), 4, 25 * MM, 65 * MM, 110 * MM),
     ("excavator_12t", (), 4, 10 * MM, 30 * MM, 45 * MM),
-    ("excavator_12t", ("--soil",), 4, 20 * MM, 65 * MM, 95 * MM),
+    ("excavator_12t", ("--soil",), 4, 20 * MM, 65 * MM, 110 * MM),
 )
 SECTION = """
 [imu]

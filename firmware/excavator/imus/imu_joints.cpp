@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "firmware/excavator/kinematics/bucket_linkage.hpp"
 #include "firmware/numeric/triangle.hpp"
