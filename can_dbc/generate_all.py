@@ -18,6 +18,7 @@ import generate
 from dbcgen import codes, emit_codes, source
 
 KINDS = ("excavator", "dozer")
+STANDARDS = ("j1939",)  # Messages that are not ours.
 
 
 def outputs(root: pathlib.Path) -> list[tuple[pathlib.Path, str]]:
@@ -33,7 +34,7 @@ def outputs(root: pathlib.Path) -> list[tuple[pathlib.Path, str]]:
         (manual, emit_codes.readme(table, manual.read_text(encoding="utf-8"))),
         (frames / "generated/common_dbc.hpp", generate.made(frames / "common.dbc.in", "common_dbc.hpp")),
     ]
-    for kind in KINDS:
+    for kind in KINDS + STANDARDS:
         for output in (frames / f"{kind}.dbc", frames / "generated" / f"{kind}_dbc.hpp"):
             made.append((output, generate.made(frames / f"{kind}.dbc.in", output.name)))
     return made

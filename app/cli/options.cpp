@@ -52,6 +52,7 @@ void add_scenario_options(CLI::App& command, runs::DigScenario& scenario) {
           "the profile's unless told")
       ->check(one_of({machines::kLawNames.begin(), machines::kLawNames.end()}));
   add_swash_option(command, scenario.swash_ratio);
+  add_sensor_option(command, tried.imus);
   command.add_flag("--fixed-lambda", scenario.fixed_lambda,
                    "For comparison: lambda stays 1, whatever the machine can do");
 }
@@ -75,6 +76,16 @@ void add_simulated_options(CLI::App& command, machines::SimulatedChoice& choice)
                   "Seed of a machine that nobody has described, a whole number from 0: the "
                   "simulated one with edges, lags, areas, oil, masses and zeros of its own")
       ->check(whole_number());
+}
+
+void add_sensor_option(CLI::App& command, bool& imus) {
+  command
+      .add_option_function<std::string>(
+          "--sensors", [&imus](const std::string& name) { imus = name == "imu"; },
+          "What measures the joints: the profile's sensors, or imu: an IMU in the middle of each "
+          "link unless the profile has its own")
+      ->check(one_of({"profile", "imu"}))
+      ->default_str("profile");
 }
 
 void add_swash_option(CLI::App& command, std::optional<double>& swash_ratio) {
@@ -178,6 +189,7 @@ void add_task_options(CLI::App& command, runs::TaskScenario& scenario) {
       ->expected(4);
   add_override_option(command, scenario.speed_override_ratio);
   add_swash_option(command, scenario.swash_ratio);
+  add_sensor_option(command, scenario.imus);
   command
       .add_option("--duration", scenario.duration_s,
                   "Of the first straight step, s; longer where a drive's limit asks for it")

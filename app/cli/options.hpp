@@ -25,6 +25,8 @@ void add_found_option(CLI::App& command, machines::Found& found);
 /// Adds --simulated and --hidden, of every command that simulates an excavator.
 void add_simulated_options(CLI::App& command, machines::SimulatedChoice& choice);
 
+/// Adds --sensors, of the same.
+void add_sensor_option(CLI::App& command, bool& imus);
 /// Adds --swash, of `dig`, `campaign dig`, `plant`, `autodig` and `campaign autodig`.
 void add_swash_option(CLI::App& command, std::optional<double>& swash_ratio);
 

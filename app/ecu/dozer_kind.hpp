@@ -1,6 +1,7 @@
 #pragma once
 /// The dozer as a machine kind: what its ECU is made of.
 
+#include <array>
 #include <cstdint>
 
 #include "app/ecu/ecu_node.hpp"
@@ -30,6 +31,7 @@ struct DozerKind {
   using MemoryAccess = DozerMemoryAccess;
   using Ecu = EcuNode<DozerKind>;
 
+  [[nodiscard]] static std::array<std::uint32_t, 0> sensor_ids(const Setup&) { return {}; }
   [[nodiscard]] static BusParts parts(const Setup&) { return {}; }
   [[nodiscard]] static constexpr bool is_command(std::uint32_t id) {
     return id == Dbc::SpoolCommand::kId || id == Dbc::PumpDisplacementCommand::kId ||

@@ -171,13 +171,18 @@ void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, Usage
   static_cast<void>(clock.wait());
 }
 
-/// What the controller takes, and its own ids: another one is to be heard.
+/// What the controller takes, its sensors' frames, and its own ids: another one is to be heard.
 template <class Kind>
-std::vector<std::uint32_t> heard_ids() {
+std::vector<std::uint32_t> heard_ids(const typename Kind::Setup& setup) {
   const auto taken = Kind::Receiver::ids();
   const auto own = Kind::Transmitter::ids();
   std::vector<std::uint32_t> ids(taken.begin(), taken.end());
   ids.insert(ids.end(), own.begin(), own.end());
+  for (const std::uint32_t id : Kind::sensor_ids(setup)) {
+    if (id != 0) {
+      ids.push_back(id);
+    }
+  }
   return ids;
 }
 
@@ -185,7 +190,7 @@ std::vector<std::uint32_t> heard_ids() {
 template <class Kind>
 int run_controller(const typename Kind::Setup& setup, std::uint32_t profile_hash,
                    const EcuOptions& options, TimeUs began_us) {
-  Buses buses(options.interfaces, heard_ids<Kind>());
+  Buses buses(options.interfaces, heard_ids<Kind>(setup));
   LastFrames last;
   EcuNode<Kind> ecu(setup, profile_hash, buses.group);
   CyclicClock clock(kPeriod_us);

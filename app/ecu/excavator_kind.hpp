@@ -1,6 +1,7 @@
 #pragma once
 /// The excavator as a machine kind: what its ECU is made of.
 
+#include <cstddef>
 #include <cstdint>
 
 #include "app/ecu/ecu_node.hpp"
@@ -30,7 +31,15 @@ struct ExcavatorKind {
   using MemoryAccess = ControllerMemoryAccess;
   using Ecu = EcuNode<ExcavatorKind>;
 
-  [[nodiscard]] static BusParts parts(const Setup& setup) { return {setup.profile.has_swing()}; }
+  [[nodiscard]] static BusParts parts(const Setup& setup) {
+    BusParts parts{setup.profile.has_swing()};
+    for (std::size_t i = 0; i < parts.imu.size(); ++i) {
+      parts.imu[i] = setup.profile.imu.mount[i].address;
+    }
+    return parts;
+  }
+  /// Beside those of the receiver; 0 is none.
+  [[nodiscard]] static auto sensor_ids(const Setup& setup) { return imu_ids(parts(setup).imu); }
   [[nodiscard]] static constexpr bool is_command(std::uint32_t id) {
     return id == Dbc::SpoolCommand::kId || id == Dbc::SwingCommand::kId;
   }

@@ -390,7 +390,7 @@ ExcavatorProfile read_excavator_sections(TomlReader& reader) {
       reader.number("task.speed", {0.01, 3.0, "m/s"}, "speed of the teeth along the path");
   read_swash(reader, profile);
   profile.oil = read_oil(reader);
-  profile.sensor_zero = read_sensor_zeros(reader);
+  read_joint_sensors(reader, profile);
   check_law(reader, profile);
   profile.safety = read_safety(reader);
   profile.bus = read_bus(reader, shortest_dead_time_s(profile));

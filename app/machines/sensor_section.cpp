@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "app/machines/imu_section.hpp"
 #include "app/machines/toml_reader.hpp"
 
 namespace graben::machines {
@@ -19,8 +20,6 @@ std::array<double, kAxisCount> read_zeros(TomlReader& reader, const std::string&
   return zeros;
 }
 
-}  // namespace
-
 SensorZeros read_sensor_zeros(TomlReader& reader) {
   const Range pressure{-3e6, 3e6, "Pa"};
   SensorZeros zero;
@@ -32,6 +31,13 @@ SensorZeros read_sensor_zeros(TomlReader& reader) {
   zero.rod_pa = read_zeros(reader, "sensors.rod_zero", pressure,
                            "the same of the rod side's pressure sensor");
   return zero;
+}
+
+}  // namespace
+
+void read_joint_sensors(TomlReader& reader, ExcavatorProfile& profile) {
+  profile.sensor_zero = read_sensor_zeros(reader);
+  profile.imu = read_imus(reader);
 }
 
 }  // namespace graben::machines

@@ -1,5 +1,5 @@
 #pragma once
-/// Zeros of an excavator's sensors, as its profile says them.
+/// What measures an excavator's joints, as its profile says it.
 
 #include "firmware/excavator/excavator_profile.hpp"
 
@@ -7,7 +7,7 @@ namespace graben::machines {
 
 class TomlReader;
 
-/// Each 0 where nothing is said.
-[[nodiscard]] SensorZeros read_sensor_zeros(TomlReader& reader);
+/// Zeros of stroke and pressure sensors, each 0 where nothing is said, and the IMUs.
+void read_joint_sensors(TomlReader& reader, ExcavatorProfile& profile);
 
 }  // namespace graben::machines

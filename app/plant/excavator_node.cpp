@@ -18,6 +18,7 @@ ExcavatorNode::ExcavatorNode(const ExcavatorPlantProfile& profile, const Excavat
                              CanPort& port, std::uint32_t profile_hash)
     : MachineNode(port, profile_hash, profile, start.strokes_m, start.swing_rad),
       sensors_(profile),
+      imus_(profile, profile.sensor_errors ? std::optional(profile.seed) : std::nullopt),
       wanted_swash_(profile.swash_ratio) {}
 
 void ExcavatorNode::step(TimeUs now) {
@@ -129,12 +130,27 @@ Physical ExcavatorNode::stroke(std::size_t axis) {
 }
 
 void ExcavatorNode::send_axes(TimeUs now) {
-  send(bus::BoomStroke{stroke(kBoom)}, now);
-  send(bus::ArmStroke{stroke(kArm)}, now);
-  send(bus::BucketStroke{stroke(kBucket)}, now);
+  if (plant_.profile().machine.imu.known()) {
+    send_imus(now);
+  } else {
+    send(bus::BoomStroke{stroke(kBoom)}, now);
+    send(bus::ArmStroke{stroke(kArm)}, now);
+    send(bus::BucketStroke{stroke(kBucket)}, now);
+  }
   send_pressures(now);
   if (has_swing()) {
     send_swing(now);
+  }
+}
+
+void ExcavatorNode::send_imus(TimeUs now) {
+  imus_.look(plant_);
+  const auto& mounts = plant_.profile().machine.imu.mount;
+  for (std::size_t imu = 0; imu < mounts.size(); ++imu) {
+    if (mounts[imu].address != 0) {
+      send_from(mounts[imu].address, imus_.rates(imu), now);
+      send_from(mounts[imu].address, imus_.forces(imu), now);
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 #include "app/plant/excavator_faults.hpp"
 #include "app/plant/excavator_plant.hpp"
 #include "app/plant/excavator_sensors.hpp"
+#include "app/plant/link_imus.hpp"
 #include "app/plant/machine_node.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "hal/can_port.hpp"
@@ -32,7 +33,7 @@ struct ExcavatorStart {
 /// without it for as long, or without a value, it goes back to the profile's swash. The swing spool
 /// follows SwingCommand by the same rules as the others SpoolCommand, and opens only while
 /// SpoolCommand lets them open too. A machine without a swing drive neither listens to nor says
-/// anything of the swing.
+/// anything of the swing. One whose profile has IMUs sends their frames and no strokes.
 class ExcavatorNode : public MachineNode<dbc::excavator::Dbc, ExcavatorPlant, ExcavatorFaults> {
  public:
   ExcavatorNode(const ExcavatorPlantProfile& profile, const ExcavatorStart& start, CanPort& port,
@@ -61,12 +62,14 @@ class ExcavatorNode : public MachineNode<dbc::excavator::Dbc, ExcavatorPlant, Ex
   void send_axes(TimeUs now);
   void send_pressures(TimeUs now);
   void send_swing(TimeUs now);
+  void send_imus(TimeUs now);
   void send_pumps(TimeUs now);
   void send_valve(TimeUs now);
   [[nodiscard]] dbc::Physical stroke(std::size_t axis);
   [[nodiscard]] bool has_swing() const { return plant_.profile().machine.has_swing(); }
 
   FaultySensors sensors_;
+  LinkImuModel imus_;
   CommandLink swing_link_;
   CommandLink pump_link_;
   bool swing_enabled_ = false;

@@ -41,6 +41,11 @@ struct SensorErrors {
   double pressure_range_pa = 0.0;
   double pressure_bias_ratio = 0.0;
   double pressure_noise_ratio = 0.0;
+  // Of each IMU, where the machine has them; noise is of one reading, vibration with it.
+  double imu_tilt_bias_rad = 0.0;     ///< Of its alignment and its accelerometer.
+  double imu_rate_bias_radps = 0.0;   ///< Of each of its gyros.
+  double imu_rate_noise_radps = 0.0;  ///< Standard deviation.
+  double imu_force_noise_mps2 = 0.0;  ///< Standard deviation.
   std::array<double, kAxisCount> stroke_zero_m{};
   /// Of each drive's two chambers; of the swing cap is the left port, rod the right one.
   std::array<double, kDriveCount> cap_zero_pa{};

@@ -21,6 +21,21 @@ class FrameSender {
   FrameSender(CanPort& port, const Messages& messages)
       : port_(port), messages_(messages.data()), message_count_(messages.size()) {}
 
+  /// The same of a message that several nodes send, each under its source address.
+  template <class Message>
+  void send_from(std::uint8_t address, const Message& message, const FrameFaults& faults,
+                 TimeUs now) {
+    static_assert(!Message::kProtected);
+    CanFrame frame;
+    frame.id = (Message::kId & ~std::uint32_t{0xFF}) | address;
+    frame.length = Message::kLength;
+    frame.data = message.encode();
+    frame.stamp_us = now;
+    if (faults.silent.count(frame.id) == 0) {
+      put_in_time(frame, faults, now);
+    }
+  }
+
   template <class Message>
   void send(const Message& message, const FrameFaults& faults, TimeUs now) {
     if (faults.silent.count(Message::kId) != 0) {
@@ -38,11 +53,7 @@ class FrameSender {
         counter = e2e_next_counter(counter);
       }
     }
-    if (faults.delay_us > 0) {
-      late_.push_back({now + faults.delay_us, frame});
-    } else {
-      put(frame);
-    }
+    put_in_time(frame, faults, now);
   }
 
   /// Sends what has been delayed for long enough; to be called every cycle.
@@ -60,6 +71,14 @@ class FrameSender {
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
 
  private:
+  void put_in_time(const CanFrame& frame, const FrameFaults& faults, TimeUs now) {
+    if (faults.delay_us > 0) {
+      late_.push_back({now + faults.delay_us, frame});
+    } else {
+      put(frame);
+    }
+  }
+
   [[nodiscard]] std::uint16_t data_id(std::uint32_t id, std::uint16_t own,
                                       const FrameFaults& faults) const {
     if (!faults.swapped_data_ids) {

@@ -52,6 +52,23 @@ std::array<Lever, kAxisCount> LinkageGeometry::levers(const JointRotations& join
           bucket_lever(joint[kBucket])};
 }
 
+Eigen::Vector2d LinkageGeometry::rocker_to(const Eigen::Vector2d& to_lug) const {
+  const BucketLinkage& bars = geometry_.linkage;
+  const double distance_square = to_lug.squaredNorm();
+  const double rocker_square = bars.rocker_m * bars.rocker_m;
+  const double along =
+      0.5 * (distance_square + rocker_square - bars.coupler_m * bars.coupler_m) / distance_square;
+  // Bars stretched to a line cannot be passed; the end stops keep the linkage away from there.
+  const double aside = std::sqrt(std::max(0.0, rocker_square / distance_square - along * along));
+  return along * to_lug + aside * turned(to_lug);
+}
+
+double LinkageGeometry::rocker_angle(double bucket_rad) const {
+  const Eigen::Vector2d lug_arm = Rotation::by(bucket_rad).apply(geometry_.linkage.lug_m);
+  return direction(rocker_to(Eigen::Vector2d(geometry_.arm_length_m, 0.0) + lug_arm -
+                             geometry_.linkage.rocker_pivot_m));
+}
+
 Lever LinkageGeometry::bucket_lever(const Rotation& bucket) const {
   const CylinderGeometry& cylinder = geometry_.cylinder[kBucket];
   const BucketLinkage& bars = geometry_.linkage;
@@ -60,13 +77,7 @@ Lever LinkageGeometry::bucket_lever(const Rotation& bucket) const {
   const Eigen::Vector2d lug_arm = bucket.apply(bars.lug_m);
   const Eigen::Vector2d to_lug =
       Eigen::Vector2d(geometry_.arm_length_m, 0.0) + lug_arm - bars.rocker_pivot_m;
-  const double distance_square = to_lug.squaredNorm();
-  const double rocker_square = bars.rocker_m * bars.rocker_m;
-  const double along =
-      0.5 * (distance_square + rocker_square - bars.coupler_m * bars.coupler_m) / distance_square;
-  // Bars stretched to a line cannot be passed; the end stops keep the linkage away from there.
-  const double aside = std::sqrt(std::max(0.0, rocker_square / distance_square - along * along));
-  const Eigen::Vector2d rocker = along * to_lug + aside * turned(to_lug);
+  const Eigen::Vector2d rocker = rocker_to(to_lug);
   // The coupler keeps its length: its direction sees the same speed at both of its ends.
   const Eigen::Vector2d coupler = rocker - to_lug;
   const double rocker_rate = coupler.dot(turned(lug_arm)) / coupler.dot(turned(rocker));

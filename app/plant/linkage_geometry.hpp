@@ -66,8 +66,12 @@ class LinkageGeometry {
   /// folds the arm in and curls the bucket in.
   [[nodiscard]] JointArray angles_at(const JointArray& stroke_m) const;
   [[nodiscard]] TipPose tip(const JointArray& angle_rad) const;
+  /// Of the bucket's rocker, from its pivot to its end, in the arm's frame.
+  [[nodiscard]] double rocker_angle(double bucket_rad) const;
 
  private:
+  /// The same as a vector; `to_lug` from the pivot.
+  [[nodiscard]] Eigen::Vector2d rocker_to(const Eigen::Vector2d& to_lug) const;
   [[nodiscard]] Lever bucket_lever(const Rotation& bucket) const;
   [[nodiscard]] double bucket_angle_at(double stroke_m) const;
 

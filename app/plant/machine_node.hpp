@@ -122,6 +122,11 @@ class MachineNode {
   void send(const Message& message, TimeUs now) {
     sender_.send(message, faults_.frames, now);
   }
+  /// From a node beside this one, under its source address.
+  template <class Message>
+  void send_from(std::uint8_t address, const Message& message, TimeUs now) {
+    sender_.send_from(address, message, faults_.frames, now);
+  }
   /// With `enabled`; the spools' places are the kind's.
   [[nodiscard]] typename Dbc::ValveState valve_state() const {
     using Enabled = typename Dbc::ValveState::Enabled;

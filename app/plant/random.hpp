@@ -25,6 +25,8 @@ enum class Draw : std::uint32_t {
   kHidden,
   kSoilKind,
   kFencedTask,
+  kImuBias,
+  kImuNoise,
 };
 
 class Random {

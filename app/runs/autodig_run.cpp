@@ -181,13 +181,10 @@ class AutodigRun {
   /// Of what the controller was told; not finite until all of it was.
   [[nodiscard]] Eigen::Vector3d measured_teeth_m() const {
     const ExcavatorInputs& inputs = rig_.ecu->inputs();
+    const auto strokes_m = measured_strokes_m(machine_.profile, *rig_.ecu);
+    const bool known = inputs.swing.angle_rad.validity == Validity::kValid && strokes_m.has_value();
     DriveVector drives;
-    bool known = inputs.swing.angle_rad.validity == Validity::kValid;
-    for (unsigned i = 0; i < kAxisCount; ++i) {
-      known = known && inputs.axis[i].stroke_m.validity == Validity::kValid;
-      drives[i] = std::clamp(inputs.axis[i].stroke_m.value, 0.0,
-                             machine_.profile.geometry.cylinder[i].stroke_m);
-    }
+    drives.head<kAxisCount>() = strokes_m.value_or(Eigen::Vector3d::Zero());
     drives[kSwing] = inputs.swing.angle_rad.value;
     const DriveResult joints = kinematics_.joints_from_drive(drives);
     if (!known || joints.blind.kind != BlindKind::kNone) {

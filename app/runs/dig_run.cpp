@@ -146,20 +146,13 @@ class DigRun {
   }
 
   void read_controller(DigSample& sample) const {
-    const ExcavatorInputs& inputs = rig_.ecu->inputs();
     const ExcavatorOutputs& outputs = rig_.ecu->outputs();
-    Eigen::Vector3d strokes_m;
-    bool measured = true;
     for (unsigned i = 0; i < kAxisCount; ++i) {
-      const double most_m = machine_.profile.geometry.cylinder[i].stroke_m;
-      measured = measured && inputs.axis[i].stroke_m.validity == Validity::kValid;
-      strokes_m[i] = std::clamp(
-          inputs.axis[i].stroke_m.value - machine_.profile.sensor_zero.stroke_m[i], 0.0, most_m);
       sample.velocity_wanted_mps[i] = outputs.status.lambda * outputs.status.wanted_velocity_mps[i];
       sample.spool_command[i] = outputs.duty_ratio[i];
     }
-    if (measured) {
-      const TipPose tip = kinematics_.state(strokes_m).tip;
+    if (const auto strokes_m = measured_strokes_m(machine_.profile, *rig_.ecu)) {
+      const TipPose tip = kinematics_.state(*strokes_m).tip;
       sample.tip_measured_m = Eigen::Vector2d(tip.x_m, tip.y_m);
       sample.attitude_measured_rad = tip.attitude_rad;
       sample.error_measured_m = error_m(sample.tip_measured_m);

@@ -1,8 +1,10 @@
 #pragma once
 /// The excavator as a simulated machine kind, and the rigs of its runs.
 
+#include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <optional>
 
 #include "app/ecu/excavator_kind.hpp"
 #include "app/machines/simulated/simulated_excavator.hpp"
@@ -41,12 +43,35 @@ using ExcavatorRig = LoopbackRig<ExcavatorSim>;
   return {{drives[kBoom], drives[kArm], drives[kBucket]}, drives[kSwing]};
 }
 
+/// An operator gives IMUs so long to learn their biases before he enables.
+inline constexpr TimeUs kImusLearn_us = 10 * kSecondUs;
+
+/// Strokes as the controller takes them; none until it knows all of them.
+[[nodiscard]] inline std::optional<Eigen::Vector3d> measured_strokes_m(
+    const ExcavatorProfile& profile, const ecu::ExcavatorKind::Ecu& ecu) {
+  const JointAngles& by_imus = ecu.outputs().status.joints;
+  bool known = !profile.imu.known() || by_imus.known;
+  Eigen::Vector3d strokes_m;
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    const Signal<double>& stroke_m = ecu.inputs().axis[i].stroke_m;
+    known = known && (profile.imu.known() || stroke_m.validity == Validity::kValid);
+    const double shown_m = profile.imu.known() ? by_imus.stroke_m[i]
+                                               : stroke_m.value - profile.sensor_zero.stroke_m[i];
+    strokes_m[i] = std::clamp(shown_m, 0.0, profile.geometry.cylinder[i].stroke_m);
+  }
+  return known ? std::optional(strokes_m) : std::nullopt;
+}
+
 /// Of a digging run.
 struct DigRig : ExcavatorRig {
   DigRig(const machines::SimulatedExcavator& machine, const Eigen::Vector3d& start_strokes_m,
          double override_ratio)
       : LoopbackRig(machine, machine.profile, start_at(start_strokes_m), Task::kDig,
-                    override_ratio) {}
+                    override_ratio) {
+    if (machine.profile.imu.known()) {
+      enable_from(kImusLearn_us);
+    }
+  }
 };
 
 /// Of a task's run.
@@ -54,7 +79,11 @@ struct AutodigRig : ExcavatorRig {
   AutodigRig(const machines::SimulatedExcavator& machine, const TaskBook& book,
              const DriveVector& start, double override_ratio)
       : LoopbackRig(machine, ExcavatorSetup(machine.profile, book), start_at(start), Task::kProgram,
-                    override_ratio) {}
+                    override_ratio) {
+    if (machine.profile.imu.known()) {
+      enable_from(kImusLearn_us);
+    }
+  }
 };
 
 }  // namespace graben::runs

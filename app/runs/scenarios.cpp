@@ -94,6 +94,7 @@ std::string scenario_text(const DigScenario& scenario) {
   add(scenario.scenario.obstacle, "obstacle");
   add(scenario.scenario.stiff_oil, "stiff oil");
   add(scenario.fixed_lambda, "lambda fixed at 1");
+  add(scenario.scenario.imus, "IMUs");
   if (scenario.scenario.dead_time_s) {
     parts.push_back(fmt::format("dead time {} s", *scenario.scenario.dead_time_s));
   }
@@ -180,6 +181,7 @@ machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machin
   machines::Scenario tried;
   tried.errors = errors_of(scenario.errors);
   tried.found = scenario.found;
+  tried.imus = scenario.imus;
   tried.ground = scenario.soil;
   tried.seed = scenario.seed;
   machines::SimulatedExcavator result = machines::arranged(machine, tried);
@@ -188,8 +190,11 @@ machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machin
 }
 
 std::string machine_text(const TaskScenario& scenario) {
-  const std::string errors = errors_text(scenario.errors, scenario.found);
-  return scenario.soil.empty() ? errors : fmt::format("{}, {}", scenario.soil, errors);
+  std::string text = errors_text(scenario.errors, scenario.found);
+  if (scenario.imus) {
+    text = "IMUs, " + text;
+  }
+  return scenario.soil.empty() ? text : fmt::format("{}, {}", scenario.soil, text);
 }
 
 machines::TaskFile planned_task(const TaskScenario& scenario, const ExcavatorProfile& profile) {

@@ -26,6 +26,10 @@ UNITS = {
     "mm/s": Unit("_mps", "m/s", Fraction(1, 1000)),
     "mrad": Unit("_rad", "rad", Fraction(1, 1000)),
     "mrad/s": Unit("_radps", "rad/s", Fraction(1, 1000)),
+    "deg": Unit("_rad", "rad", Fraction(1, 180), times_pi=True),
+    "deg/s": Unit("_radps", "rad/s", Fraction(1, 180), times_pi=True),
+    "m/s2": Unit("_mps2", "m/s^2", Fraction(1)),
+    "ms": Unit("_s", "s", Fraction(1, 1000)),
     "kN": Unit("_n", "N", Fraction(1000)),
     "kg": Unit("_kg", "kg", Fraction(1)),
     "MPa": Unit("_pa", "Pa", Fraction(1_000_000)),
@@ -50,7 +54,7 @@ def member(signal: Signal) -> str:
 
 def largest_valid_raw(width: int) -> int | None:
     """Upper end of J1939's valid range of a parameter with special values; None: no such width."""
-    return {2: 0x1, 4: 0xD, 8: 0xFA, 16: 0xFAFF, 32: 0xFAFFFFFF}.get(width)
+    return {2: 0x1, 4: 0xD, 8: 0xFA, 16: 0xFAFF, 24: 0xFAFFFF, 32: 0xFAFFFFFF}.get(width)
 
 
 def special_raws(database: Database, signal: Signal) -> tuple[int, int]:

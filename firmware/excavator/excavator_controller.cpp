@@ -81,6 +81,7 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   }
   tell_learnt(outputs.status);
   outputs.status.tip_load = memory_.tip_load;
+  outputs.status.joints = memory_.joints;
   remember(valid, motion, followed, decision, outputs, cycle.period_s);
   lead_spools(outputs);
   return outputs;
@@ -103,7 +104,9 @@ ExcavatorController::Motion ExcavatorController::next_motion(const ExcavatorVali
 ExcavatorValid ExcavatorController::validate_and_watch(const ExcavatorInputs& inputs,
                                                        const Cycle& cycle, TimeUs now_us) {
   ExcavatorValid valid =
-      validate(profile_, drives(), inputs, memory_.last.moving, now_us, memory_.accepted);
+      profile_.imu.known()
+          ? read_by_imus(inputs, cycle, now_us)
+          : validate(profile_, drives(), inputs, memory_.last.moving, now_us, memory_.accepted);
   watch(profile_, drives(), memory_.last, memory_.pumps.swash_ratio, cycle.elapsed_s, memory_.watch,
         valid);
   stop(task_faults(valid, setup_.book.count), valid);

@@ -8,6 +8,7 @@
 #include "firmware/drives/velocity_cap.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/excavator/field/dig_field.hpp"
+#include "firmware/excavator/imus/imu_joints.hpp"
 #include "firmware/excavator/load/load_observer.hpp"
 #include "firmware/excavator/oil/oil_law.hpp"
 #include "firmware/excavator/pump_demand.hpp"
@@ -95,6 +96,8 @@ class ExcavatorController {
     Guarded<double> lambda;  ///< Of the last cycle in motion, without corrections.
     std::array<Guarded<double>, kDriveCount> opening;
     std::array<AcceptedStroke, kDriveCount> accepted;
+    ImuState imus;
+    JointAngles joints;
     ExcavatorWatchState watch;
     LastCommands<kDriveCount> last;
     std::array<LoadState, kDriveCount> load{};
@@ -125,6 +128,9 @@ class ExcavatorController {
 
   [[nodiscard]] DriveRows drives() const { return setup_.bank.rows(); }
   [[nodiscard]] bool intact() const { return memory_.lambda.intact() && memory_.task.intact(); }
+  /// Inputs that may be used, the strokes by IMUs.
+  [[nodiscard]] ExcavatorValid read_by_imus(const ExcavatorInputs& inputs, const Cycle& cycle,
+                                            TimeUs now_us);
   [[nodiscard]] ExcavatorValid validate_and_watch(const ExcavatorInputs& inputs, const Cycle& cycle,
                                                   TimeUs now_us);
   /// Guards duties that are tried, and gives those that may be sent with what holds them back.

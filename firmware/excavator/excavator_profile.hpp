@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 
 #include "firmware/core/codes.hpp"
 #include "firmware/excavator/excavator_signals.hpp"
@@ -152,6 +153,32 @@ struct SensorZeros {
   std::array<double, kAxisCount> rod_pa{};
 };
 
+/// An IMU's place. Its own axes are those of its data sheet: long, upright, and lateral, about
+/// which it pitches; the lateral one is to lie across the machine.
+struct ImuMount {
+  std::uint8_t address = 0;  ///< J1939 source address of its frames; 0: there is none.
+  /// In the frame of its link, from the link's pin; a rocker's counts from the rocker's pivot, x to
+  /// its end.
+  Eigen::Vector2d at_m = Eigen::Vector2d::Zero();
+  double turn_rad = 0.0;   ///< Its long axis against x of that frame; after it is turned about.
+  bool backwards = false;  ///< Its front looks back: its long axis is turned about.
+  bool on_rocker = false;  ///< Instead of the bucket, whose angle its linkage then gives.
+};
+
+/// IMUs on the links in the place of stroke sensors; noise and errors as the controller takes them,
+/// each a standard deviation.
+struct ImuProfile {
+  std::array<ImuMount, kImuCount> mount;  ///< Boom, arm, bucket, and the platform if it may tilt.
+  double rate_noise_radps = 0.0;          ///< Of one reading, vibration with it.
+  double rate_bias_radps = 0.0;           ///< Before it is learnt.
+  double force_noise_mps2 = 0.0;          ///< Of one reading, vibration with it.
+  double angle_error_rad = 0.0;           ///< Constant, of each: alignment and accelerometer.
+  double latency_s = 0.0;                 ///< Of one that does not say its own.
+
+  [[nodiscard]] bool known() const { return mount[0].address != 0; }
+  [[nodiscard]] bool has_body() const { return mount[kBodyImu].address != 0; }
+};
+
 /// Feedback around the valve's model; the numbers have no meaning outside.
 enum class ControlLaw : std::uint8_t {
   kServo = 0,  ///< Integrated error of each drive, see drive_servo.hpp.
@@ -270,6 +297,7 @@ struct ExcavatorProfile {
   ControlProfile control;
   OilProfile oil;
   SensorZeros sensor_zero;
+  ImuProfile imu;  ///< Without any, strokes are measured.
   SafetyProfile safety;
 
   [[nodiscard]] bool has_swing() const { return drive_count == kDriveCount; }

@@ -24,9 +24,34 @@ struct SwingInputs {
   Signal<double> spool_ratio;
 };
 
+/// Where an IMU may be: on a link, in the order of the axes, or on the platform.
+inline constexpr int kImuCount = 4;
+inline constexpr int kBodyImu = 3;
+
+/// What a gyro shows, about the sensor's own axes: pitch lifts its front, roll is about its long
+/// axis, yaw about its upright one; those two as of a right-handed turn.
+struct ImuRates {
+  double pitch_radps = 0.0;
+  double roll_radps = 0.0;
+  double yaw_radps = 0.0;
+  double latency_s = -1.0;  ///< Age as it was sent; negative: not said.
+};
+
+/// What an accelerometer shows: specific force to the sensor's front and upwards.
+struct ImuForces {
+  double longitudinal_mps2 = 0.0;
+  double vertical_mps2 = 0.0;
+};
+
+struct ImuInputs {
+  Signal<ImuRates> rates;
+  Signal<ImuForces> forces;
+};
+
 struct ExcavatorInputs : MachineInputs {
   std::array<AxisInputs, kAxisCount> axis;
-  SwingInputs swing;  ///< Looked at only where the profile has a swing drive.
+  std::array<ImuInputs, kImuCount> imu;  ///< Looked at only where the profile has IMUs.
+  SwingInputs swing;                     ///< Looked at only where the profile has a swing drive.
   std::array<Signal<double>, kPumpCount> swash_ratio;  ///< tan(alpha) / tan(alpha at full swash).
   /// The operator's levers, -1 .. 1; one that the station does not have is 0.
   Signal<std::array<double, kDriveCount>> lever_ratio;
@@ -95,8 +120,22 @@ struct TipLoad {
   double payload_sd_kg = 0.0;
 };
 
+/// A joint by its sensors, with the standard deviation of the error.
+struct JointAngle {
+  double angle_rad = 0.0;
+  double sd_rad = 0.0;
+};
+
+/// Joints by IMUs.
+struct JointAngles {
+  bool known = false;  ///< Of all of them; without it the rest says nothing.
+  std::array<JointAngle, kAxisCount> joint{};
+  std::array<double, kAxisCount> stroke_m{};  ///< That they stand for.
+};
+
 /// Status of the excavator's controller.
 struct ExcavatorStatus : MachineStatus {
+  JointAngles joints;  ///< Of a machine with IMUs; told in every mode.
   /// V_L^d before scaling by lambda; the swing's at its lever, see SwingProfile.
   std::array<double, kDriveCount> wanted_velocity_mps{};
   std::array<double, kPumpCount> pump_pressure_pa{};  ///< P_p that the solution expects.

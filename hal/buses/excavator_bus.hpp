@@ -2,6 +2,7 @@
 /// The excavator's bus (excavator.dbc): which signal is in which frame.
 
 #include "firmware/excavator/excavator_signals.hpp"
+#include "hal/buses/link_imus.hpp"
 #include "hal/link/message_receiver.hpp"
 #include "hal/link/message_transmitter.hpp"
 
@@ -15,7 +16,23 @@ struct ExcavatorReception {
   [[nodiscard]] static const ReceiveTable<Inputs, kMessageCount>& table();
 };
 
-using ExcavatorReceiver = MessageReceiver<ExcavatorReception>;
+/// With the IMUs of a machine that has them, whose frames are those of a standard.
+class ExcavatorReceiver : public MessageReceiver<ExcavatorReception> {
+ public:
+  explicit ExcavatorReceiver(const BusParts& parts = {})
+      : MessageReceiver(parts), imus_(parts.imu) {}
+
+  void accept(const CanFrame& frame, TimeUs now) {
+    if (!imus_.take(frame, now, writable().imu)) {
+      MessageReceiver::accept(frame, now);
+    }
+  }
+
+  [[nodiscard]] const LinkCounters& imus() const { return imus_.counters(); }
+
+ private:
+  LinkImus imus_;
+};
 
 /// What the controller sends.
 ///

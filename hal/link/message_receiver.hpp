@@ -126,6 +126,10 @@ class MessageReceiver {
   /// True if a value was out of range since the last call.
   [[nodiscard]] bool take_out_of_range() { return links_.take_out_of_range(); }
 
+ protected:
+  /// For what a kind receives beside its table.
+  [[nodiscard]] Inputs& writable() { return received_.inputs; }
+
  private:
   void decode(int index, const dbc::Payload& payload, TimeUs now) {
     const auto store = Reception::table().decode[static_cast<std::size_t>(index)];

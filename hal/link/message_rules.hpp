@@ -1,6 +1,7 @@
 #pragma once
 /// Rules of the messages of a bus: which of them a machine has, how each is received and sent.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -10,9 +11,13 @@
 
 namespace graben {
 
+/// J1939 source addresses of sensors on boom, arm, bucket and platform; 0: there is none.
+using ImuAddresses = std::array<std::uint8_t, 4>;
+
 /// Parts that not every machine of a kind has and that bring messages of their own.
 struct BusParts {
   bool swing_drive = false;
+  ImuAddresses imu{};
 };
 
 /// The part that a message belongs to; null: a message of every machine of its kind.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "app/machines/imu_section.hpp"
 #include "app/machines/simulated/soil_kinds.hpp"
 #include "app/plant/random.hpp"
 #include "firmware/excavator/field/rounded_rectangle.hpp"
@@ -77,6 +78,10 @@ SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario
   plant.seed = scenario.seed;
   if (scenario.stiff_oil && scenario.found.bulk_modulus_gpa) {
     throw std::runtime_error("the oil is told to be stiff and of a found bulk modulus");
+  }
+  if (scenario.imus && !machine.profile.imu.known()) {
+    fit_usual_imus(machine.profile);
+    plant.machine.imu = machine.profile.imu;
   }
   const bool parameter_errors = scenario.errors == Errors::kParameters ||
                                 scenario.errors == Errors::kKim || scenario.errors == Errors::kAll;

@@ -66,6 +66,23 @@ void read_swing(TomlReader& reader, plant::ExcavatorPlantProfile& plant) {
       "swing.port_relief", {1e6, 1e8, "Pa"}, "relief of the motor's ports; only with valve.swing");
 }
 
+/// Figures of the class unless told: 0.2 deg and 0.2 deg/s; 0.1 deg/s and 0.03 g on a running
+/// machine, chosen.
+void read_imu_errors(TomlReader& reader, plant::SensorErrors& sensors) {
+  sensors.imu_tilt_bias_rad =
+      reader.number_or(3.5e-3, "sensors.imu_tilt_bias", {0.0, 0.1, "rad"},
+                       "constant error of an IMU's angle, uniform within; where there are IMUs");
+  sensors.imu_rate_bias_radps =
+      reader.number_or(3.5e-3, "sensors.imu_rate_bias", {0.0, 0.1, "rad/s"},
+                       "constant error of each of its gyros, uniform within");
+  sensors.imu_rate_noise_radps =
+      reader.number_or(1.75e-3, "sensors.imu_rate_noise", {0.0, 0.1, "rad/s"},
+                       "standard deviation of a gyro's reading, vibration with it");
+  sensors.imu_force_noise_mps2 =
+      reader.number_or(0.3, "sensors.imu_acceleration_noise", {0.0, 10.0, "m/s2"},
+                       "standard deviation of an accelerometer's reading, vibration with it");
+}
+
 plant::SensorErrors read_sensors(TomlReader& reader, const ExcavatorProfile& nominal) {
   plant::SensorErrors sensors;
   sensors.stroke_resolution_m =
@@ -86,6 +103,7 @@ plant::SensorErrors read_sensors(TomlReader& reader, const ExcavatorProfile& nom
   sensors.pressure_noise_ratio =
       reader.number("sensors.pressure_noise", {0.0, 0.5, ""},
                     "standard deviation of each pressure, of pressure_range");
+  read_imu_errors(reader, sensors);
   return sensors;
 }
 

@@ -86,8 +86,10 @@ struct Scenario {
   bool stiff_oil = false;  ///< The paper's, for comparison with its figures.
   Errors errors = Errors::kNone;
   std::optional<double> dead_time_s;  ///< Of every spool, as the controller takes it.
-  std::uint64_t seed = 0;             ///< Of everything that is drawn.
-  Found found;                        ///< What is told goes before what is drawn.
+  /// IMUs instead of stroke sensors, of a machine whose profile says nothing of them.
+  bool imus = false;
+  std::uint64_t seed = 0;  ///< Of everything that is drawn.
+  Found found;             ///< What is told goes before what is drawn.
 };
 
 /// The machine with this scenario's plant, and a controller profile whose parameters are off by a

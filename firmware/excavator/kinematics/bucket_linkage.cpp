@@ -72,8 +72,12 @@ LinkageState BucketLinkageSolver::with_rocker_end(const Eigen::Vector2d& rocker_
                                   rocker_share;
   const double per_rocker_curvature =
       (rocker.squaredNorm() - cylinder.dot(rocker) - per_rocker * per_rocker) / length_m;
-  return {true, angle_rad, length_m, per_rocker * rocker_per_bucket,
-          per_rocker_curvature * square + per_rocker * rocker_curvature};
+  return {true,
+          angle_rad,
+          length_m,
+          per_rocker * rocker_per_bucket,
+          per_rocker_curvature * square + per_rocker * rocker_curvature,
+          std::abs(rocker_per_bucket) < 1e-9 ? 0.0 : 1.0 / rocker_per_bucket};
 }
 
 LinkageState BucketLinkageSolver::from_angle(double angle_rad) const {
@@ -92,15 +96,23 @@ LinkageState BucketLinkageSolver::from_length(double length_m) const {
   if (!end.exists) {
     return {};
   }
+  return with_end(end.point_m);
+}
+
+LinkageState BucketLinkageSolver::from_rocker(double rocker_rad) const {
+  return with_end(linkage_.rocker_pivot_m + rotated({linkage_.rocker_m, 0.0}, rocker_rad));
+}
+
+LinkageState BucketLinkageSolver::with_end(const Eigen::Vector2d& rocker_end_m) const {
   // Seen from the bucket pin, the lug that has the rocker's end on the left of pivot -> lug.
-  const Meeting lug = meet(end.point_m, linkage_.coupler_m, pin_m_, linkage_.lug_m.norm(), 1.0);
+  const Meeting lug = meet(rocker_end_m, linkage_.coupler_m, pin_m_, linkage_.lug_m.norm(), 1.0);
   if (!lug.exists) {
     return {};
   }
   const Eigen::Vector2d lug_arm = lug.point_m - pin_m_;
   const double angle =
       std::atan2(lug_arm.y(), lug_arm.x()) - std::atan2(linkage_.lug_m.y(), linkage_.lug_m.x());
-  return with_rocker_end(end.point_m, lug.point_m, wrap_near(angle, kBucketCentre_rad));
+  return with_rocker_end(rocker_end_m, lug.point_m, wrap_near(angle, kBucketCentre_rad));
 }
 
 }  // namespace graben

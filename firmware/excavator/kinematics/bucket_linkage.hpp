@@ -17,6 +17,7 @@ struct LinkageState {
   double length_m = 0.0;     ///< Cylinder, pin to pin.
   double length_rate = 0.0;  ///< d length / d angle, m/rad; negative: extension curls in.
   double length_curvature = 0.0;  ///< d^2 length / d angle^2, m/rad^2.
+  double per_rocker = 0.0;        ///< d angle / d rocker's angle.
 };
 
 /// Rocker on the arm at `rocker_pivot`, its end joined by the coupler to the bucket's lug and
@@ -32,8 +33,11 @@ class BucketLinkageSolver {
   /// Closed form: the rocker's angle from the cylinder's triangle, then the lug's from the
   /// coupler's.
   [[nodiscard]] LinkageState from_length(double length_m) const;
+  /// At an angle of the rocker against the arm: of pivot to end against x.
+  [[nodiscard]] LinkageState from_rocker(double rocker_rad) const;
 
  private:
+  [[nodiscard]] LinkageState with_end(const Eigen::Vector2d& rocker_end_m) const;
   [[nodiscard]] LinkageState with_rocker_end(const Eigen::Vector2d& rocker_end_m,
                                              const Eigen::Vector2d& lug_m, double angle_rad) const;
 

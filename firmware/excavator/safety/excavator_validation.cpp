@@ -18,13 +18,17 @@ double above_zero(double shown, double zero) {
 /// All drives' signals alike: the swing as the travel at its lever, extending to the left; each
 /// sensor's zero taken off.
 std::array<DriveInputs, kDriveCount> drive_inputs(const ExcavatorInputs& inputs,
-                                                  const ExcavatorProfile& profile) {
+                                                  const ExcavatorProfile& profile,
+                                                  Span<const Signal<double>> strokes_m) {
   std::array<DriveInputs, kDriveCount> drives = {inputs.axis[kBoom], inputs.axis[kArm],
                                                  inputs.axis[kBucket],
                                                  swing_inputs(inputs.swing, profile.swing)};
   const SensorZeros& zero = profile.sensor_zero;
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     DriveInputs& drive = drives[axis];
+    if (strokes_m.count() > 0) {
+      drive.stroke_m = strokes_m[static_cast<int>(axis)];
+    }
     drive.stroke_m.value -= zero.stroke_m[axis];
     drive.cap_pressure_pa.value = above_zero(drive.cap_pressure_pa.value, zero.cap_pa[axis]);
     drive.rod_pressure_pa.value = above_zero(drive.rod_pressure_pa.value, zero.rod_pa[axis]);
@@ -83,14 +87,16 @@ bool ExcavatorValid::hands_rest() const {
 
 ExcavatorValid validate(const ExcavatorProfile& profile, DriveRows drives,
                         const ExcavatorInputs& inputs, bool moving, TimeUs now_us,
-                        Span<AcceptedStroke> accepted) {
+                        Span<AcceptedStroke> accepted, Span<const Signal<double>> strokes_m) {
   ExcavatorValid valid;
   const Freshness fresh(profile.control.sensor_timeout_s, now_us);
   read_machine(profile.bus, inputs, {profile.pump[0].rated_speed_radps, profile.safety.idle_radps},
                fresh, now_us, valid);
   read_hands(inputs, fresh, now_us, valid);
-  read_drives(drives, drive_inputs(inputs, profile), moving, fresh, accepted, valid.drive,
-              valid.faults);
+  read_drives(drives, drive_inputs(inputs, profile, strokes_m), moving, fresh, accepted,
+              valid.drive, valid.faults);
+  // Nothing but range, rate and age protects an IMU's frames.
+  valid.stand_in = valid.stand_in || profile.imu.known();
   for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
     if (profile.bus.swash_feedback) {
       read_required({&inputs.swash_ratio[j], &valid.swash_ratio[j], Fault::kSwashMissing,

@@ -32,10 +32,12 @@ struct ExcavatorValid : CommonValid {
 /// stroke that changed faster than its drive can is rejected: the last one ages until it is
 /// missing, or the strokes come back to it. Levers and duties are the operator's: a task that goes
 /// by them needs them as fresh. `accepted` keeps that from cycle to cycle. Another machine's swing
-/// signals are not looked at.
+/// signals are not looked at. `strokes_m`, one an axis, go before those of the inputs: of a machine
+/// that measures angles (imu_joints.hpp).
 [[nodiscard]] ExcavatorValid validate(const ExcavatorProfile& profile, DriveRows drives,
                                       const ExcavatorInputs& inputs, bool moving, TimeUs now_us,
-                                      Span<AcceptedStroke> accepted);
+                                      Span<AcceptedStroke> accepted,
+                                      Span<const Signal<double>> strokes_m = {nullptr, 0});
 
 /// Of each pump from cycle to cycle.
 struct SwashState {

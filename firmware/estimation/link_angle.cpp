@@ -1,0 +1,111 @@
+#include "firmware/estimation/link_angle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/numeric/constants.hpp"
+#include "firmware/numeric/triangle.hpp"
+
+namespace graben {
+namespace {
+
+constexpr double kGravity_mps2 = 9.80665;
+/// Less than this has no direction worth anything: free fall.
+constexpr double kLeastForce_mps2 = 0.3 * kGravity_mps2;
+/// How fast a bias may wander, rad/s per square root of a second: 0.02 deg/s in 100 s.
+constexpr double kBiasWander = 3.5e-5;
+/// Of the body's own acceleration so much is wrong: pins' play, links that bend.
+constexpr double kAccelerationWrong = 0.1;
+/// A rate above this is no bias, whatever the caller holds for rest; in standard deviations.
+constexpr double kRestMost = 4.0;
+constexpr double kOffTime_s = 1.0;
+/// 3 deg is no bias: vibration averages out over kOffTime_s.
+constexpr double kContradicts_rad = 0.05;
+
+double square(double value) { return value * value; }
+
+double direction(const Eigen::Vector2d& v) { return std::atan2(v.y(), v.x()); }
+
+/// A measured error of the bias, of the angle or of both: what each state takes of it.
+void take(double error, double of_angle, double of_bias, double variance, LinkAngle& state) {
+  const double to_angle = state.angle_variance * of_angle + state.covariance * of_bias;
+  const double to_bias = state.covariance * of_angle + state.bias_variance * of_bias;
+  const double whole = of_angle * to_angle + of_bias * to_bias + variance;
+  state.angle_rad += to_angle / whole * error;
+  state.bias_radps += to_bias / whole * error;
+  state.angle_variance -= to_angle * to_angle / whole;
+  state.covariance -= to_angle * to_bias / whole;
+  state.bias_variance -= to_bias * to_bias / whole;
+}
+
+}  // namespace
+
+double LinkAngle::ahead_rad(double time_s) const {
+  return angle_rad + (last.rate_radps - bias_radps) * time_s +
+         0.5 * then.acceleration_radps2 * time_s * time_s;
+}
+
+double LinkAngle::sd_rad(double time_s) const {
+  const double variance =
+      angle_variance - 2.0 * covariance * time_s + bias_variance * time_s * time_s;
+  return std::sqrt(std::max(0.0, variance));
+}
+
+bool LinkAngle::contradicts() const { return std::abs(off_rad) > kContradicts_rad; }
+
+void begin_angle(const AngleNoise& noise, const AngleReading& reading, LinkAngle& state) {
+  // What is known of the gyro stays true.
+  const double bias_radps = state.bias_radps;
+  const double bias_variance = state.bias_variance;
+  state = {};
+  state.bias_radps = bias_radps;
+  state.bias_variance = bias_variance > 0.0 ? bias_variance : square(noise.bias_radps);
+  if (!(reading.force_mps2.norm() > kLeastForce_mps2)) {
+    return;
+  }
+  state.readings = 1;
+  state.angle_rad = wrap_near(0.5 * kPi - direction(reading.force_mps2), 0.0);
+  state.angle_variance = square(noise.force_mps2 / kGravity_mps2);
+  state.last = reading;
+}
+
+void carry_angle(const AngleNoise& noise, const AngleReading& reading, bool at_rest,
+                 LinkAngle& state) {
+  const double period_s = reading.period_s;
+  const AngleReading last = state.last;
+  const double before_rad = state.angle_rad;
+  state.angle_rad += (0.5 * (last.rate_radps + reading.rate_radps) - state.bias_radps) * period_s;
+  state.angle_variance += period_s * (period_s * state.bias_variance - 2.0 * state.covariance) +
+                          square(noise.rate_radps * period_s);
+  state.covariance -= period_s * state.bias_variance;
+  state.bias_variance += square(kBiasWander) * period_s;
+  const double most_radps = kRestMost * std::hypot(noise.rate_radps, noise.bias_radps);
+  if (at_rest && std::abs(reading.rate_radps) < most_radps) {
+    take(reading.rate_radps - state.bias_radps, 0.0, 1.0, square(noise.rate_radps), state);
+  }
+  state.readings = std::min(state.readings + 1, 3);
+  state.then = {before_rad, last.rate_radps - state.bias_radps,
+                (reading.rate_radps - state.before_radps) / (period_s + last.period_s),
+                last.force_mps2, last.turning_radps};
+  state.before_radps = last.rate_radps;
+  state.last = reading;
+}
+
+void correct_angle(const AngleNoise& noise, const Eigen::Vector2d& acceleration_mps2,
+                   LinkAngle& state) {
+  const Eigen::Vector2d& shown = state.then.force_mps2;
+  const Eigen::Vector2d expected = acceleration_mps2 + Eigen::Vector2d(0.0, kGravity_mps2);
+  const double least = std::min(shown.norm(), expected.norm());
+  if (!(least > kLeastForce_mps2)) {
+    return;
+  }
+  const double angle_rad = direction(expected) - direction(shown);
+  const double error_rad = wrap_near(angle_rad - state.then.angle_rad, 0.0);
+  const double variance =
+      (square(noise.force_mps2) + square(kAccelerationWrong * acceleration_mps2.norm())) /
+      square(least);
+  state.off_rad += std::min(1.0, state.last.period_s / kOffTime_s) * (error_rad - state.off_rad);
+  take(error_rad, 1.0, 0.0, variance, state);
+}
+
+}  // namespace graben

@@ -1,0 +1,77 @@
+#pragma once
+/// Angle of a body against the horizontal, in a plane, by a gyro and an accelerometer on it.
+///
+/// A Kalman filter of two states, angle and bias of the gyro. The gyro carries the angle from
+/// reading to reading; the direction of the specific force corrects it, once the caller has said
+/// what of that force is the body's own acceleration. At rest the gyro shows its bias.
+///
+/// The acceleration needs the rate's derivative, which two readings either side give best: the
+/// correction is that of the reading before the newest one, whose error the newest one shares.
+
+#include <Eigen/Core>
+
+namespace graben {
+
+/// Standard deviations of one reading, and of the bias before anything is known of it.
+struct AngleNoise {
+  double rate_radps = 0.0;
+  double bias_radps = 0.0;
+  double force_mps2 = 0.0;
+};
+
+/// A reading in the body's own axes. Counter-clockwise is positive.
+struct AngleReading {
+  double period_s = 0.0;  ///< Since the one before.
+  double rate_radps = 0.0;
+  Eigen::Vector2d force_mps2 = Eigen::Vector2d::Zero();  ///< Specific: 1 g upwards at rest.
+  double turning_radps = 0.0;                            ///< Of the whole plane about the vertical.
+};
+
+/// Motion of the body at the reading before the newest one.
+struct AngleMotion {
+  double angle_rad = 0.0;
+  double rate_radps = 0.0;
+  double acceleration_radps2 = 0.0;
+  Eigen::Vector2d force_mps2 = Eigen::Vector2d::Zero();  ///< As it was shown.
+  double turning_radps = 0.0;
+};
+
+/// From reading to reading. Nothing is known before begin_angle().
+struct LinkAngle {
+  int readings = 0;        ///< Since it began, counted no further than it matters.
+  double angle_rad = 0.0;  ///< At the newest reading.
+  double bias_radps = 0.0;
+  /// Of the errors of angle and bias.
+  double angle_variance = 0.0;
+  double covariance = 0.0;
+  double bias_variance = 0.0;
+  AngleReading last;
+  double before_radps = 0.0;  ///< Rate of the reading before `last`.
+  AngleMotion then;           ///< At the reading before `last`.
+  double off_rad = 0.0;       ///< Low-passed: the force's direction against the angle.
+
+  /// Rate and its derivative are known either side.
+  [[nodiscard]] bool runs() const { return readings > 2; }
+  /// Where it will be so long after the newest reading, rad.
+  [[nodiscard]] double ahead_rad(double time_s) const;
+  /// Standard deviation of the angle, so long after the newest reading.
+  [[nodiscard]] double sd_rad(double time_s) const;
+  /// Gyro and gravity contradict each other: one of them is wrong.
+  [[nodiscard]] bool contradicts() const;
+};
+
+/// Starts from a reading's force alone, as of a body that stands. A bias that is known stays.
+void begin_angle(const AngleNoise& noise, const AngleReading& reading, LinkAngle& state);
+
+/// Goes on to the next reading by its rate; sets `then` once it runs. `at_rest`: nothing can move
+/// it, its gyro shows the bias.
+void carry_angle(const AngleNoise& noise, const AngleReading& reading, bool at_rest,
+                 LinkAngle& state);
+
+/// Corrects it by the force of the reading before the newest one; `acceleration_mps2` is that of
+/// the sensor's place then, over the ground, y up. Nothing where the force is too small to have a
+/// direction.
+void correct_angle(const AngleNoise& noise, const Eigen::Vector2d& acceleration_mps2,
+                   LinkAngle& state);
+
+}  // namespace graben

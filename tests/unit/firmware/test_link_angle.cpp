@@ -1,0 +1,186 @@
+// The angle of one body by gyro and accelerometer, against bodies whose motion is known.
+
+#include "firmware/estimation/link_angle.hpp"
+
+#include <random>
+
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+
+constexpr double kPeriod_s = 0.01;
+constexpr double kGravity = 9.80665;
+constexpr AngleNoise kNoise{1.75e-3, 3.5e-3, 0.3};
+
+Eigen::Vector2d turned(double x, double y, double angle_rad) {
+  const double c = std::cos(angle_rad);
+  const double s = std::sin(angle_rad);
+  return {c * x - s * y, s * x + c * y};
+}
+
+/// A pendulum arm of 2 m about a fixed pin, the sensor at its end.
+struct Body {
+  double middle_rad = 0.3;
+  double swing_rad = 0.0;
+  double omega_radps = 3.0;
+  double bias_radps = 0.0;
+  double noise = 0.0;
+  std::mt19937 engine{7};
+  std::normal_distribution<double> normal{0.0, 1.0};
+
+  /// It stands for a second, then goes to and fro.
+  [[nodiscard]] double phase(double t) const { return omega_radps * std::max(0.0, t - 1.0); }
+  [[nodiscard]] double angle(double t) const {
+    return middle_rad + swing_rad * (1.0 - std::cos(phase(t)));
+  }
+  [[nodiscard]] double rate(double t) const { return swing_rad * omega_radps * std::sin(phase(t)); }
+  [[nodiscard]] double change(double t) const {
+    return t < 1.0 ? 0.0 : swing_rad * omega_radps * omega_radps * std::cos(phase(t));
+  }
+  [[nodiscard]] Eigen::Vector2d acceleration(double t) const {
+    const Eigen::Vector2d arm = turned(2.0, 0.0, angle(t));
+    return change(t) * Eigen::Vector2d(-arm.y(), arm.x()) - rate(t) * rate(t) * arm;
+  }
+  AngleReading reading(double t) {
+    const Eigen::Vector2d force = acceleration(t) + Eigen::Vector2d(0.0, kGravity);
+    return {kPeriod_s, rate(t) + bias_radps + noise * kNoise.rate_radps * normal(engine),
+            turned(force.x(), force.y(), -angle(t)) +
+                noise * kNoise.force_mps2 * Eigen::Vector2d(normal(engine), normal(engine)),
+            0.0};
+  }
+};
+
+/// Worst error after `from_s`, told `known` of the body's acceleration.
+double worst_rad(Body body, double from_s, double to_s, bool at_rest, bool known,
+                 LinkAngle& state) {
+  double worst = 0.0;
+  begin_angle(kNoise, body.reading(0.0), state);
+  for (int i = 1; i * kPeriod_s < to_s; ++i) {
+    const double t = i * kPeriod_s;
+    carry_angle(kNoise, body.reading(t), at_rest, state);
+    if (state.runs()) {
+      correct_angle(
+          kNoise,
+          known ? body.acceleration(t - kPeriod_s) : Eigen::Vector2d(Eigen::Vector2d::Zero()),
+          state);
+    }
+    if (t > from_s) {
+      worst = std::max(worst, std::abs(state.angle_rad - body.angle(t)));
+    }
+  }
+  return worst;
+}
+
+void stands(void**) {
+  for (const double angle : {-3.0, -1.2, 0.0, 0.8, 2.9}) {
+    Body body;
+    body.middle_rad = angle;
+    LinkAngle state;
+    assert_true(worst_rad(body, 0.0, 1.0, false, true, state) < 1e-9);
+    assert_false(state.contradicts());
+  }
+}
+
+void learns_its_bias_at_rest(void**) {
+  Body body;
+  body.bias_radps = 3e-3;
+  body.noise = 1.0;
+  LinkAngle state;
+  assert_true(worst_rad(body, 3.0, 20.0, true, true, state) < 4e-3);
+  assert_near(state.bias_radps, 3e-3, 2e-4);
+  // In a second at rest it knows more of it than gravity alone tells it in four.
+  LinkAngle moving;
+  static_cast<void>(worst_rad(body, 3.0, 4.0, false, true, moving));
+  LinkAngle rested;
+  static_cast<void>(worst_rad(body, 0.5, 1.0, true, true, rested));
+  assert_true(rested.bias_variance < moving.bias_variance);
+}
+
+void its_own_acceleration_is_no_tilt(void**) {
+  Body body;
+  body.swing_rad = 0.3;
+  LinkAngle state;
+  assert_true(worst_rad(body, 1.0, 20.0, false, true, state) < 5e-4);
+  // Not told of it, the direction of the force leads away.
+  LinkAngle misled;
+  assert_true(worst_rad(body, 1.0, 20.0, false, false, misled) > 4e-3);
+}
+
+void deviation_holds(void**) {
+  int outside = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    Body body;
+    body.swing_rad = 0.2;
+    body.noise = 1.0;
+    body.engine.seed(seed);
+    body.bias_radps = 3e-3 * std::sin(seed);
+    LinkAngle state;
+    static_cast<void>(worst_rad(body, 0.0, 10.0, false, true, state));
+    const double error = std::abs(state.angle_rad - body.angle(9.99));
+    outside += error > 2.0 * state.sd_rad(0.0) ? 1 : 0;
+  }
+  // One in twenty is expected.
+  assert_in_range(outside, 0, 6);
+}
+
+void looks_ahead(void**) {
+  Body body;
+  body.swing_rad = 0.3;
+  LinkAngle state;
+  static_cast<void>(worst_rad(body, 0.0, 5.0, false, true, state));
+  const double last_s = 4.99;
+  // 0.02 s of what changes in its acceleration is left, and 0.01 s by which that is old.
+  assert_near(state.ahead_rad(0.02), body.angle(last_s + 0.02), 1e-3);
+  assert_true(std::abs(body.angle(last_s + 0.02) - body.angle(last_s)) > 5e-3);
+}
+
+void a_stuck_sensor_contradicts(void**) {
+  Body body;
+  LinkAngle state;
+  begin_angle(kNoise, body.reading(0.0), state);
+  AngleReading stuck = body.reading(0.0);
+  // The accelerometer froze; the link turns by 0.3 rad/s.
+  stuck.rate_radps = 0.3;
+  int cycles = 0;
+  while (!state.contradicts() && cycles < 1000) {
+    carry_angle(kNoise, stuck, false, state);
+    if (state.runs()) {
+      correct_angle(kNoise, Eigen::Vector2d::Zero(), state);
+    }
+    ++cycles;
+  }
+  assert_in_range(cycles, 20, 300);
+}
+
+void falls_without_direction(void**) {
+  LinkAngle state;
+  AngleReading reading;
+  reading.period_s = kPeriod_s;
+  begin_angle(kNoise, reading, state);
+  assert_int_equal(state.readings, 0);
+  Body body;
+  begin_angle(kNoise, body.reading(0.0), state);
+  const double before = state.angle_rad;
+  for (int i = 0; i < 3; ++i) {
+    carry_angle(kNoise, reading, false, state);
+    correct_angle(kNoise, Eigen::Vector2d(0.0, -kGravity), state);
+  }
+  assert_near(state.angle_rad, before, 1e-12);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(stands),
+      cmocka_unit_test(learns_its_bias_at_rest),
+      cmocka_unit_test(its_own_acceleration_is_no_tilt),
+      cmocka_unit_test(deviation_holds),
+      cmocka_unit_test(looks_ahead),
+      cmocka_unit_test(a_stuck_sensor_contradicts),
+      cmocka_unit_test(falls_without_direction),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
