@@ -4,7 +4,7 @@ import {test} from 'node:test';
 import type {Fence, Task, Vector2, Vector3} from '../src/model/api';
 import {hash_of, moment_of} from '../src/model/moment';
 import {ends_of, in_plan, in_section, kept_out} from '../src/operator/bounds';
-import {LIGHTS, lights_of, off_of, off_path, off_plane, off_words} from '../src/operator/cut_fill';
+import {edge_off, LIGHTS, lights_of, off_of, off_path, off_plane, off_words} from '../src/operator/cut_fill';
 import {profile_of} from '../src/operator/section';
 import {HeightField} from '../src/scene/height_field';
 import {DOZER_9T, EXCAVATOR_12T, EXCAVATOR_22T} from './machines';
@@ -57,25 +57,34 @@ test('the light bar goes from the middle outwards and never beyond its end', () 
   assert.equal(lights_of(null), null);
 });
 
+/// Differences of two figures, mm, least first.
+const sorted = (differences: number[]): number[] => differences.map(Math.abs).sort((a, b) => a - b);
+
 test('the digits are what the controllers report as their errors', () => {
   const grade = store_of(graben_log('grade'));
   const dig = store_of(graben_log('dig'));
-  let [graded, dug] = [0, 0];
+  const graded: number[] = [];
+  const dug: number[] = [];
   for (let time_s = 0; time_s < 25; time_s += 0.05) {
-    const off = off_of(DOZER_9T, grade, time_s, 'none');
+    const active = (store: typeof grade): boolean => store.reading('EcuStatus.Mode', time_s).raw === 3;
+    const edge = edge_off(DOZER_9T, grade, time_s);
     const told = grade.reading('EcuGrade.GradeError', time_s);
-    if (off !== null && told.state === 'valid' && grade.reading('EcuStatus.Mode', time_s).raw === 3) {
-      near(1000 * off.off_m, told.value, 3);
-      ++graded;
+    if (edge !== null && told.state === 'valid' && active(grade)) {
+      graded.push(1000 * edge - told.value);
+      near(1000 * off_of(DOZER_9T, grade, time_s, 'none')!.off_m, told.value);
     }
     const path = off_of(EXCAVATOR_22T, dig, time_s, 'dig');
     const error = dig.reading('EcuHydraulics.PathError', time_s);
-    if (path !== null && error.state === 'valid' && dig.reading('EcuStatus.Mode', time_s).raw === 3) {
-      near(Math.abs(1000 * path.off_m), error.value, 3);
-      ++dug;
+    if (path !== null && error.value > 0 && active(dig)) {
+      dug.push(Math.abs(1000 * path.off_m) - error.value);
     }
   }
-  assert.ok(graded > 200 && dug > 100, `${graded}, ${dug}`);
+  assert.ok(graded.length > 200 && dug.length > 200, `${graded.length}, ${dug.length}`);
+  // Over a step of the design a cycle is some centimetres; elsewhere they agree.
+  assert.ok(sorted(graded)[Math.floor(0.7 * graded.length)]! < 1, `${sorted(graded)}`);
+  assert.ok(sorted(dug)[Math.floor(0.95 * dug.length)]! < 2, `${sorted(dug)}`);
+  // Above is positive in both.
+  assert.ok(graded.length > 0 && off_of(DOZER_9T, grade, 8.5, 'none')!.off_m > 0.004);
   // Frames of another kind of machine say nothing of this one; nor do those that never came.
   assert.equal(off_of(EXCAVATOR_22T, grade, 10, 'dig'), null);
   assert.equal(off_of(EXCAVATOR_12T, dig, 10, 0), null);
@@ -135,18 +144,21 @@ test('a moment goes into the address and comes out of it', () => {
   assert.deepEqual(moment_of('#t=5&w=1,2,3'), {time_s: 5});
 });
 
-test('every task of an area has a design, and a task without one a line', () => {
+test('a design comes before the line of a step', () => {
   const task: Task = {
     name: 'line', fences: [], design: null, steps: [{
       kind: 'dig', straight: true, duration_s: 1, raised_from_m: 0, raised_to_m: 0,
-      from_drives: [], to_drives: [], from: {position_m: [7, 0, 0], attitude_rad: 0},
-      to: {position_m: [5, 0, -1], attitude_rad: 0}}]};
-  assert.equal(task.design, null);
+      from_drives: [], to_drives: [], from: {position_m: [8, 0, 0], attitude_rad: 0},
+      to: {position_m: [1, 0, -1], attitude_rad: 0}}]};
   const store = store_of(graben_log('autodig'));
-  const machine = {...EXCAVATOR_12T, tasks: [{...task, design: {
-    through_m: [0, 0, 0] as Vector3, up: [0, 0, 1] as Vector3}}]};
-  const off = off_of(machine, store, 10, 0)!;
-  assert.equal(off.from, 'design');
-  const step = off_of({...machine, tasks: [task]}, store, 10, 0);
-  assert.ok(step === null || step.from === 'line');
+  const with_design = {...task, design: {
+    through_m: [0, 0, 0] as Vector3, up: [0, 0, 1] as Vector3}};
+  const off = (one: Task) => off_of({...EXCAVATOR_12T, tasks: [one]}, store, 6, 0);
+  assert.equal(off(with_design)!.from, 'design');
+  const line = off(task);
+  if (line !== null) {
+    assert.equal(line.from, 'line');
+    assert.ok(line.off_m > off(with_design)!.off_m, 'the line is lower');
+  }
+  assert.equal(off({...task, steps: []}), null);
 });

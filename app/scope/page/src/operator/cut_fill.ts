@@ -30,14 +30,26 @@ export function off_of(
     : off_task(machine, store, now_s, task);
 }
 
+const ACTIVE = 3;  ///< EcuStatus.Mode.
+
+/// While the controller grades, what it says itself: it knows where the edge is to within a cycle,
+/// which over the steep parts of a design is more than its frames tell.
 function off_grade(machine: DozerMachine, store: FrameStore, now_s: number): Off | null {
+  const off_m = edge_off(machine, store, now_s);
+  const told_m = fresh(store, 'EcuStatus.Mode', now_s) === ACTIVE
+    ? 1e-3 * fresh(store, 'EcuGrade.GradeError', now_s) : NaN;
+  return off_m === null ? null
+    : {off_m: Number.isFinite(told_m) ? told_m : off_m, from: 'design'};
+}
+
+/// As the measured pose has it; null where the edge is not on the grade or not known.
+export function edge_off(machine: DozerMachine, store: FrameStore, now_s: number): number | null {
   const {pose, stale} = dozer_state(machine, store, now_s);
   if (pose === null || stale.blade) {
     return null;
   }
   const [x, z] = pose.edge_m;
-  return x < 0 || x > machine.length_m ? null
-    : {off_m: z - designHeight(machine.design, x), from: 'design'};
+  return x < 0 || x > machine.length_m ? null : z - designHeight(machine.design, x);
 }
 
 function off_task(

@@ -14,13 +14,14 @@ import {LIGHTS, lights_of, off_words, type Off} from './cut_fill';
 export class StateBand {
   private readonly word = el('p', {class: 'state-word'});
   private readonly more = el('p', {class: 'state-more'});
-  readonly node = el('header', {class: 'state', role: 'status'}, this.word, this.more);
+  private readonly band = el('div', {class: 'state', role: 'status'}, this.word, this.more);
+  readonly node = el('header', {}, el('h1', {class: 'heard'}, "Graben: the operator's view"), this.band);
 
   constructor(private readonly words: PageWords) {}
 
   update(state: PageState): void {
     const {word, mode, more} = big_state(state, this.words);
-    set_attribute(this.node, 'data-mode', mode);
+    set_attribute(this.band, 'data-mode', mode);
     set_text(this.word, word);
     set_text(this.more, more);
   }
@@ -74,9 +75,9 @@ export class LambdaBar {
 
   constructor(private readonly words: PageWords, private readonly theme: ThemeSwitch) {}
 
-  update({store, playhead}: PageState): void {
+  update({store, playhead, is_gone}: PageState): void {
     const now = snapshot(store, playhead.now_s);
-    const valid = now.lambda.state === 'valid' && !now.stale && now.mode === 'Active';
+    const valid = now.lambda.state === 'valid' && !now.stale && !is_gone && now.mode === 'Active';
     const held = valid && now.limit_kind !== null && now.limit_kind !== 0;
     const share = valid ? Math.max(0, Math.min(1, now.lambda.value)) : 0;
     this.bar.style.setProperty('--share', `${100 * share}%`);
