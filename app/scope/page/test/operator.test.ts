@@ -2,7 +2,6 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import type {Fence, Task, Vector2, Vector3} from '../src/model/api';
-import {hash_of, moment_of} from '../src/model/moment';
 import {ends_of, in_plan, in_section, kept_out} from '../src/operator/bounds';
 import {edge_off, LIGHTS, lights_of, off_of, off_path, off_plane, off_words} from '../src/operator/cut_fill';
 import {profile_of} from '../src/operator/section';
@@ -130,18 +129,6 @@ test('the ground is cut along the swing, and level beyond the field', () => {
   assert.equal(ahead.get('3.00'), -1);
   assert.equal(ahead.get('5.00'), 0);
   assert.ok(profile_of(field, Math.PI / 2, [0, 2]).every(([, z]) => z === 0));
-});
-
-test('a moment goes into the address and comes out of it', () => {
-  for (const moment of [{time_s: 12.3456}, {time_s: 0, window_s: [0, 30.5] as const},
-    {time_s: 3600.01, window_s: [3590, 3620] as const}]) {
-    assert.deepEqual(moment_of(hash_of(moment)), moment);
-  }
-  for (const nothing of ['', '#', '#panel', '#t=', '#t=x', '#t=1e999']) {
-    assert.equal(moment_of(nothing), null, nothing);
-  }
-  assert.deepEqual(moment_of('#t=5&w=9,3'), {time_s: 5}, 'a window that ends before it begins');
-  assert.deepEqual(moment_of('#t=5&w=1,2,3'), {time_s: 5});
 });
 
 test('a design comes before the line of a step', () => {
