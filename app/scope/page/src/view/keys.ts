@@ -37,7 +37,8 @@ function keeps(target: HTMLElement, key: string): boolean {
     return true;
   }
   if (tagName === 'INPUT') {
-    return (target as HTMLInputElement).type === 'text' || key.startsWith('Arrow') || key === 'Home' || key === 'End' || key.startsWith('Page');
+    return (target as HTMLInputElement).type === 'text' || key.startsWith('Arrow')
+      || key === 'Home' || key === 'End' || key.startsWith('Page');
   }
   return (tagName === 'BUTTON' || tagName === 'SUMMARY') && (key === ' ' || key === 'Enter');
 }

@@ -95,6 +95,7 @@ export class XyBoard {
   private readonly error = new XyPlot('Error over distance', 'xy_error', 'Along the measured way');
   private drawn_ms = -Infinity;
   private drawn_for = '';
+  private state: PageState | null = null;
   private readonly sight = new IntersectionObserver((entries) => {
     for (const {target, isIntersecting} of entries) {
       for (const plot of [this.path, this.error]) {
@@ -110,9 +111,16 @@ export class XyBoard {
     this.sight.observe(this.error.node);
     theme.on_change(() => { this.drawn_for = ''; });
     addEventListener('resize', () => { this.drawn_for = ''; });
+    // Paper shows what was never scrolled to, too.
+    addEventListener('beforeprint', () => {
+      if (this.state?.machine != null && !this.node.hidden) {
+        this.draw(this.state.machine, this.state, true);
+      }
+    });
   }
 
   frame(now_ms: number, state: PageState): void {
+    this.state = state;
     const {machine, store, playhead, setup} = state;
     const there = machine !== null && store.frames > 0 && setup?.source.mode !== 'plan'
       && store.database?.kind === machine.kind;
@@ -126,11 +134,15 @@ export class XyBoard {
     }
     this.drawn_for = key;
     this.drawn_ms = now_ms;
-    const steps = way_of(machine, store, playhead.window, COUNT);
-    if (this.path.visible) {
+    this.draw(machine, state, false);
+  }
+
+  private draw(machine: Machine, state: PageState, all: boolean): void {
+    const steps = way_of(machine, state.store, state.playhead.window, COUNT);
+    if (all || this.path.visible) {
       this.path.show(this.path_figure(machine, state, steps));
     }
-    if (this.error.visible) {
+    if (all || this.error.visible) {
       this.error.show(this.error_figure(machine, state, steps));
     }
   }
