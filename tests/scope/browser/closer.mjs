@@ -45,7 +45,7 @@ async function any_signal() {
   // Its value is what the table says.
   const [shown, told] = await until('a value', async () => {
     const value = await plot(page, 'error').locator('.legend-entry .value').last().innerText();
-    const table = await row.locator('dd').innerText();
+    const table = await row.locator('dd').first().innerText();
     return /\d/.test(value) && [value, table];
   });
   assert.ok(told.startsWith(shown), `${shown} and ${told}`);
@@ -102,7 +102,14 @@ async function over_each_other() {
       plot(page, 'xy_error').getByRole('button', {name: /as CSV/}).click()]);
     const lines = readFileSync(await download.path(), 'utf8').trim().split('\n');
     assert.ok(lines.length > 300 && lines[0].includes('distance, m'), lines[0]);
-    said.push(`${name} ${lines.length} points`);
+    // What was measured and what the simulation knows are of one size, in one unit.
+    const heads = lines[0].match(/"[^"]*"|[^,]+/g);
+    const column = (label) => heads.findIndex((head) => head.includes(label) && head.includes('mm'));
+    const middle = (label) => lines.slice(1).map((line) => line.split(',')[column(label)])
+      .filter((value) => value !== '').map((value) => Math.abs(Number(value))).sort((a, b) => a - b).at(200);
+    const [measured, real] = [middle('error, measured'), middle('true error')];
+    assert.ok(measured < 20 && real < 20, `${measured} and ${real} mm`);
+    said.push(`${name} ${lines.length} points, ${measured} and ${real} mm`);
     clean(page);
     await page.context().close();
   }

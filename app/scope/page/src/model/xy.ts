@@ -75,6 +75,6 @@ export function truth_over_way(
       ++next;
     }
     const value = line.values[next];
-    return at_m === null || value == null || times[next]! > time_s ? null : [way_m, value * scale];
+    return at_m === null || value == null || times[next]! > time_s || Number.isNaN(scale) ? null : [way_m, value * scale];
   });
 }

@@ -19,7 +19,8 @@ export class MessageValues {
       const value = el('dd');
       const row = el('div', {title: signal.description},
         el('dt', {}, name_words(signal.name)), value,
-        button('Plot', () => plot(path), {class: 'link', 'aria-label': `Plot ${name_words(signal.name)}`}));
+        el('dd', {}, button('Plot', () => plot(path),
+          {class: 'link', 'aria-label': `Plot ${name_words(signal.name)}`})));
       drag_from(row, path);
       this.rows.push({signal, row, value});
       this.node.append(row);

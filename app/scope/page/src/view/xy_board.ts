@@ -12,6 +12,7 @@ import type {PageState} from './page_state';
 import {csv_of, file_name, save_png, save_text} from './save';
 import {figure_colours, save_menu, type SaveKind} from './save_plot';
 import type {ThemeSwitch} from './theme';
+import {unit_factor} from './traces';
 
 /// Points of a curve; a step of some centimetres in half a minute.
 const COUNT = 900;
@@ -176,7 +177,9 @@ export class XyBoard {
   private error_figure(machine: Machine, state: PageState, steps: readonly Step[]): Figure {
     const signal = machine.kind === 'dozer' ? 'EcuGrade.GradeError' : 'EcuHydraulics.PathError';
     const told = over_way(steps, state.store, signal);
-    const real = truth_over_way(steps, state.setup?.run, 'error', 1000);
+    const {run} = state.setup ?? {};
+    const known = run?.truth.lines.find(({plot}) => plot === 'error');
+    const real = truth_over_way(steps, run, 'error', unit_factor(known?.unit ?? '', 'mm') ?? NaN);
     const values = [...told, ...real].flatMap((point) => (point === null ? [] : [point[1]]));
     const [least, most] = range(values, 10);
     const now = steps.filter(({time_s}) => time_s <= state.playhead.now_s).at(-1);
