@@ -66,18 +66,18 @@ async function server_refuses_it() {
   const server = await scope('--sim', 'dig');
   const page = await open_page(browser, view(server));
   await active(page);
-  const say = (protocol) => page.evaluate((told) => new Promise((done) => {
+  const say = (protocol, patience_ms) => page.evaluate(([told, wait_ms]) => new Promise((done) => {
     const socket = new WebSocket(new URL('frames', location.href).href.replace('http', 'ws'), told);
     socket.onopen = () => socket.send('{"do":"stop"}');
     socket.onclose = (event) => done(event.code);
-    setTimeout(() => done(0), 2000);
-  }), protocol);
+    setTimeout(() => done(0), wait_ms);
+  }), [protocol, patience_ms]);
   // Without a word where what is on its way leaves no room for one.
-  assert.ok([1006, 1008].includes(await say('graben-look')), 'it is not closed');
+  assert.ok([1006, 1008].includes(await say('graben-look', 30_000)), 'it is not closed');
   await rest(500);
   assert.equal((await seen(page)).mode, 'Active', 'a page that only looks stopped the machine');
   // The same words of a page that may speak stop it.
-  assert.equal(await say('graben-scope'), 0);
+  assert.equal(await say('graben-scope', 2000), 0);
   await page.waitForFunction(() => window.grabenOperator.mode() !== 'Active');
   clean(page);
   await server.stop();
