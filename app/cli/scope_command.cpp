@@ -76,17 +76,17 @@ void show(const ScopeCommand& options) {
   if (options.soil && !options.sim) {
     throw std::runtime_error("--soil: only with --sim");
   }
-  const std::string_view page = scope::scope_page();
+  const scope::Pages pages{scope::scope_page(), scope::operator_page()};
   const int bitrate_bps = options.bitrate_bps.value_or(kUsualBitrate_bps);
   if (options.sim) {
     const auto source = scope::make_sim_source(simulation(options));
-    scope::serve(options.server, page, *source, reports::shared_setup(setup_of(options)));
+    scope::serve(options.server, pages, *source, reports::shared_setup(setup_of(options)));
   } else if (options.log) {
     scope::LogShow log(*options.log, bitrate_bps, reports::shared_setup(options.setup));
-    scope::serve(options.server, page, log);
+    scope::serve(options.server, pages, log);
   } else {
     scope::CanSource source(options.can, bitrate_bps);
-    scope::serve(options.server, page, source, reports::shared_setup(options.setup));
+    scope::serve(options.server, pages, source, reports::shared_setup(options.setup));
   }
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the built page as a C++ source: scope_page().
+"""Writes the built pages as a C++ source: scope_page() and operator_page().
 
 Nothing of it is compiled but one directive: the bytes are taken in by the assembler, since a
 compiler takes a second for each megabyte of an array.
@@ -13,35 +13,51 @@ import sys
 # Where a report has its setup; app/reports/report_file.cpp looks for the same.
 MARK = '<script type="application/json" id="graben-setup">'
 
-SOURCE = """// Written by embed.py at build time.
+HEAD = """// Written by embed.py at build time.
 #include "app/scope/page/scope_page.hpp"
 
 #include <cstddef>
+"""
 
+PAGE = """
 __asm__(".section .rodata\\n"
-        "graben_scope_page_begin: .incbin \\"{page}\\"\\n"
-        "graben_scope_page_end:\\n"
+        "graben_{name}_begin: .incbin \\"{page}\\"\\n"
+        "graben_{name}_end:\\n"
         ".previous\\n");
-extern "C" const char graben_scope_page_begin[];
-extern "C" const char graben_scope_page_end[];
+extern "C" const char graben_{name}_begin[];
+extern "C" const char graben_{name}_end[];
 
 namespace graben::scope {{
-std::string_view scope_page() {{
-  return {{graben_scope_page_begin,
-          static_cast<std::size_t>(graben_scope_page_end - graben_scope_page_begin)}};
+std::string_view {name}() {{
+  return {{graben_{name}_begin, static_cast<std::size_t>(graben_{name}_end - graben_{name}_begin)}};
 }}
 }}  // namespace graben::scope
 """
+
+# All by which a page could say something to where it came from.
+VOICES = (".send(", "sendBeacon", "XMLHttpRequest", "WebTransport", "RTCPeerConnection", "<form",
+          "method:")
+
+
+def voices_of(page: str) -> list[str]:
+    """What of VOICES is in a page that must have none."""
+    return [voice for voice in VOICES if voice in page]
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("page", type=pathlib.Path)
+    parser.add_argument("operators", type=pathlib.Path, help="the page that only looks")
     parser.add_argument("output", type=pathlib.Path)
     options = parser.parse_args()
     if options.page.read_text(encoding="utf-8").count(MARK + "</script>") != 1:
         sys.exit(f"embed.py: {options.page} needs exactly one empty {MARK}")
-    options.output.write_text(SOURCE.format(page=options.page), encoding="utf-8")
+    found = voices_of(options.operators.read_text(encoding="utf-8"))
+    if found:
+        sys.exit(f"embed.py: {options.operators} must not be able to send, but has {found}")
+    options.output.write_text(
+        HEAD + PAGE.format(name="scope_page", page=options.page)
+        + PAGE.format(name="operator_page", page=options.operators), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -33,9 +33,10 @@ const char* FramesService::refusal(lws* wsi, unsigned& status) const {
     status = HTTP_STATUS_NOT_FOUND;
     return "The only WebSocket here is /frames.";
   }
-  if (header_of(wsi, WSI_TOKEN_PROTOCOL) != kProtocol) {
+  if (const std::string protocol = header_of(wsi, WSI_TOKEN_PROTOCOL);
+      protocol != kProtocol && protocol != kLookProtocol) {
     status = HTTP_STATUS_BAD_REQUEST;
-    return "The WebSocket's subprotocol is graben-scope.";
+    return "The WebSocket's subprotocol is graben-scope or graben-look.";
   }
   if (clients_.size() >= kClientsMost) {
     status = HTTP_STATUS_SERVICE_UNAVAILABLE;
@@ -109,6 +110,10 @@ int FramesService::on_receive(lws* wsi, std::string_view content) {
   hear(wsi, found->second);
   lws_callback_on_writable(wsi);
   return 0;
+}
+
+int FramesService::refuse_word(lws* wsi) {
+  return hang_up(wsi, LWS_CLOSE_STATUS_POLICY_VIOLATION, "this page only looks");
 }
 
 /// Reads on, or lets the sender wait, as the client's budget has it.

@@ -20,6 +20,8 @@ class FramesService {
       : show_(show), listened_on_(std::move(listened_on)) {}
 
   static constexpr const char* kProtocol = "graben-scope";
+  /// Of a page that only looks, as the operator's view: it gets the same and may say nothing.
+  static constexpr const char* kLookProtocol = "graben-look";
 
   // For the library: 0 goes on, -1 hangs up.
 
@@ -29,6 +31,8 @@ class FramesService {
   void on_close(lws* wsi) { clients_.erase(wsi); }
   int on_writeable(lws* wsi);
   int on_receive(lws* wsi, std::string_view content);
+  /// The end of a connection that only looks and has said something, whatever that was.
+  static int refuse_word(lws* wsi);
 
   /// There may be something to send to every page.
   void wake();

@@ -47,14 +47,28 @@ int PageService::on_request(lws* wsi, std::string_view path, PageProgress& progr
   if (lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) <= 0) {
     return answer(wsi, HTTP_STATUS_METHOD_NOT_ALLOWED, "Here is only a page to get.");
   }
-  progress.is_log = path == kLogPath && log_ != nullptr;
-  if (progress.is_log && has_foreign_origin(wsi)) {
+  const std::optional<Asked> asked = asked_by(path);
+  if (!asked) {
+    return answer(wsi, HTTP_STATUS_NOT_FOUND, "There are only two pages here: / and /operator");
+  }
+  if (asked == Asked::kLog && has_foreign_origin(wsi)) {
     return answer(wsi, HTTP_STATUS_FORBIDDEN, "A page from elsewhere gets nothing here.");
   }
-  if (!progress.is_log && path != "/" && path != "/index.html") {
-    return answer(wsi, HTTP_STATUS_NOT_FOUND, "There is only one page here: /");
-  }
+  progress.asked = *asked;
   return begin(wsi, progress);
+}
+
+std::optional<Asked> PageService::asked_by(std::string_view path) const {
+  if (path == "/" || path == "/index.html") {
+    return Asked::kScope;
+  }
+  if (path == kOperatorPath && !operators_.empty()) {
+    return Asked::kOperators;
+  }
+  if (path == kLogPath && log_ != nullptr) {
+    return Asked::kLog;
+  }
+  return std::nullopt;
 }
 
 int PageService::begin(lws* wsi, PageProgress& progress) {
@@ -62,7 +76,8 @@ int PageService::begin(lws* wsi, PageProgress& progress) {
   unsigned char* const start = header.data() + LWS_PRE;
   unsigned char* at = start;
   unsigned char* const end = header.data() + header.size();
-  const char* type = progress.is_log ? "application/octet-stream" : "text/html; charset=utf-8";
+  const char* type =
+      progress.asked == Asked::kLog ? "application/octet-stream" : "text/html; charset=utf-8";
   bool whole =
       lws_add_http_common_headers(wsi, HTTP_STATUS_OK, type, size_of(progress), &at, end) == 0;
   for (const Header& each : kHeaders) {
@@ -79,8 +94,8 @@ int PageService::begin(lws* wsi, PageProgress& progress) {
 bool PageService::take_piece(const PageProgress& progress, std::size_t size) {
   buffer_.resize(LWS_PRE + kPieceBytes);
   unsigned char* const to = buffer_.data() + LWS_PRE;
-  if (!progress.is_log) {
-    const std::string_view piece = page_.substr(progress.sent, size);
+  if (progress.asked != Asked::kLog) {
+    const std::string_view piece = text_of(progress).substr(progress.sent, size);
     std::copy(piece.begin(), piece.end(), to);
     return true;
   }

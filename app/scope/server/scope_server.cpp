@@ -82,6 +82,18 @@ int on_frames(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::
   }
 }
 
+/// Of a page that only looks: what it says is heard by nobody, and ends its connection.
+int on_look(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::size_t length) {
+  switch (reason) {
+    case LWS_CALLBACK_RECEIVE:
+      return FramesService::refuse_word(wsi);
+    case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
+      return 0;  // on_frames wakes the pages of both
+    default:
+      return on_frames(wsi, reason, user, in, length);
+  }
+}
+
 /// What a callback throws must not pass through the library, which is C: the connection is closed.
 template <lws_callback_function kCallback>
 int guarded(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::size_t length) {
@@ -117,14 +129,17 @@ void say_error(int /*level*/, const char* line) {
 /// Does not move: the library has its address.
 class ScopeServer::Work {
  public:
-  Work(const ServerOptions& options, std::string_view page, Show& show)
+  Work(const ServerOptions& options, const Pages& pages, Show& show)
       : address_(listen_address(options.host, options.port)),
-        services_{PageService(page, show.log(), options.host), FramesService(show, options.host)} {
+        services_{PageService(pages.scope, pages.operators, show.log(), options.host),
+                  FramesService(show, options.host)} {
     protocols_[0] = protocol("http", &guarded<on_http>);
     protocols_[0].per_session_data_size = sizeof(PageProgress);
     protocols_[1] = protocol(FramesService::kProtocol, &guarded<on_frames>);
     protocols_[1].rx_buffer_size = Client::kMessageMostBytes;
     protocols_[1].tx_packet_size = kSendMostBytes;
+    protocols_[2] = protocol(FramesService::kLookProtocol, &guarded<on_look>);
+    protocols_[2].tx_packet_size = kSendMostBytes;
     lws_set_log_level(LLL_ERR, &say_error);
     context_ = make_context(options.port);
     if (context_ == nullptr) {
@@ -190,15 +205,15 @@ class ScopeServer::Work {
   ListenAddress address_;
   Services services_;
   /// The last one is empty: the end of the list.
-  std::array<lws_protocols, 3> protocols_{};
+  std::array<lws_protocols, 4> protocols_{};
   lws_context* context_ = nullptr;
   int port_ = 0;
   std::string url_;
   Tick tick_;
 };
 
-ScopeServer::ScopeServer(const ServerOptions& options, std::string_view page, Show& show)
-    : work_(std::make_unique<Work>(options, page, show)) {}
+ScopeServer::ScopeServer(const ServerOptions& options, const Pages& pages, Show& show)
+    : work_(std::make_unique<Work>(options, pages, show)) {}
 
 ScopeServer::~ScopeServer() = default;
 

@@ -17,14 +17,21 @@ struct ServerOptions {
   int port = 8080;  ///< 0: any that is free.
 };
 
+/// What is served, each one HTML file that needs nothing beside it. Both have to outlive the
+/// server.
+struct Pages {
+  std::string_view scope;
+  std::string_view operators = {};  ///< The operator's view; empty: there is none.
+};
+
 /// Pages that are served at once; the next one is told that there are too many.
 inline constexpr std::size_t kClientsMost = 32;
 
 class ScopeServer {
  public:
-  /// Listens from here on. `page` and `show` must outlive it. Throws std::runtime_error if the
+  /// Listens from here on. `pages` and `show` must outlive it. Throws std::runtime_error if the
   /// address cannot be had.
-  ScopeServer(const ServerOptions& options, std::string_view page, Show& show);
+  ScopeServer(const ServerOptions& options, const Pages& pages, Show& show);
   ScopeServer(const ScopeServer&) = delete;
   ScopeServer& operator=(const ScopeServer&) = delete;
   ~ScopeServer();

@@ -43,11 +43,11 @@ class Running {
 
 }  // namespace
 
-void serve(const ServerOptions& options, std::string_view page, FrameSource& source,
+void serve(const ServerOptions& options, const Pages& pages, FrameSource& source,
            const nlohmann::json& parts) {
   catch_signals();
   LiveShow show(source, parts);
-  ScopeServer server(options, page, show);
+  ScopeServer server(options, pages, show);
   {
     const Running running(show, server);
     say_where(server, show);
@@ -56,9 +56,9 @@ void serve(const ServerOptions& options, std::string_view page, FrameSource& sou
   show.stop_and_rethrow();
 }
 
-void serve(const ServerOptions& options, std::string_view page, Show& show) {
+void serve(const ServerOptions& options, const Pages& pages, Show& show) {
   catch_signals();
-  ScopeServer server(options, page, show);
+  ScopeServer server(options, pages, show);
   say_where(server, show);
   server.run([] { return stop_requested(); });
 }

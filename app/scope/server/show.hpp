@@ -36,6 +36,8 @@ struct LogFile {
 
 /// Where on the server a log is, if there is one.
 inline constexpr const char* kLogPath = "/log";
+/// Where the operator's view is.
+inline constexpr const char* kOperatorPath = "/operator";
 
 class Show {
  public:

@@ -6,15 +6,14 @@
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
-import {createRequire} from 'node:module';
 import {join} from 'node:path';
 import {pathToFileURL} from 'node:url';
+import {axe} from './axe.mjs';
 import {
   look, more_frames, open_browser, open_page, pressable, rest, run_scenarios, serve, SIZES, until,
 } from './harness.mjs';
 
 const [out, graben, only] = process.argv.slice(2);
-const AXE = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const REPORTS = ['dig', 'grade', 'autodig', 'plan', 'check', 'compare'];
 
 const browser = await open_browser();
@@ -282,15 +281,6 @@ async function notices() {
     clean(page);
     await page.context().close();
   }
-}
-
-async function axe(page) {
-  await page.evaluate((code) => {
-    if (window.axe === undefined) (0, eval)(code);
-  }, AXE);
-  const {violations} = await page.evaluate(() => window.axe.run(document, {resultTypes: ['violations']}));
-  return violations.map(({id, nodes}) => `${id}: ${nodes.slice(0, 3).map(({target, failureSummary}) =>
-    `${target} ${failureSummary.split('\n')[1] ?? ''}`).join(' | ')}`);
 }
 
 /// Every kind of page, every size, both themes, and the help that is over it.

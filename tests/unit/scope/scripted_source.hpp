@@ -78,11 +78,13 @@ class ScriptedSource : public scope::FrameSource {
   std::uint64_t told_ = 1;
 };
 
+inline constexpr std::string_view kOperatorsPage = "<!doctype html><title>operator</title>";
+
 /// A server of a show on a thread of its own, until it goes.
 class ServedShow {
  public:
   explicit ServedShow(scope::Show& show, std::string_view page = "<!doctype html><title>t</title>")
-      : server_({"127.0.0.1", 0}, page, show),
+      : server_({"127.0.0.1", 0}, {page, kOperatorsPage}, show),
         thread_([this] { server_.run([this] { return stop_.load(); }); }) {}
   ServedShow(const ServedShow&) = delete;
   ServedShow& operator=(const ServedShow&) = delete;

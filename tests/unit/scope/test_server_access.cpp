@@ -47,11 +47,31 @@ void the_page_is_given_whole(void**) {
   }
 }
 
+void the_operators_view_is_another_page(void**) {
+  const test::TemporaryFile file("x\n");
+  scope::LogShow show(file.path(), 500000, json::object());
+  ServedShow served(show, "<!doctype html><title>scope</title>");
+  const std::string own = own_host(served.port());
+  const std::string answer = get(served.port(), "/operator", own);
+  assert_begins(answer, "HTTP/1.1 200 OK\r\n");
+  assert_has(answer, "content-security-policy: default-src 'none'; ");
+  assert_true(answer.substr(answer.find("\r\n\r\n") + 4) == test::kOperatorsPage);
+  assert_begins(get(served.port(), "/operator", "evil.example"), "HTTP/1.1 403");
+  // A server that was given none has none.
+  scope::ScopeServer without({"127.0.0.1", 0}, {"page"}, show);
+  std::atomic<bool> stop{false};
+  std::thread thread([&] { without.run([&] { return stop.load(); }); });
+  const std::string none = get(without.port(), "/operator", own_host(without.port()));
+  stop = true;
+  thread.join();
+  assert_begins(none, "HTTP/1.1 404");
+}
+
 void nothing_else_is_there(void**) {
   ScriptRig rig(1);
   const std::string host = own_host(rig.port());
-  for (const char* path :
-       {"/x", "/log", "/frames", "/index.htm", "/../etc/passwd", "/%2e%2e/etc"}) {
+  for (const char* path : {"/x", "/log", "/frames", "/index.htm", "/operator/", "/operators",
+                           "/../etc/passwd", "/%2e%2e/etc"}) {
     assert_begins(get(rig.port(), path, host), "HTTP/1.1 404");
   }
   for (const char* method : {"POST", "PUT", "DELETE"}) {
@@ -119,7 +139,7 @@ void a_port_in_use_is_said(void**) {
   scope::LogShow show(file.path(), 500000, json::object());
   const auto error_of = [&](const scope::ServerOptions& options) {
     try {
-      const scope::ScopeServer server(options, "page", show);
+      const scope::ScopeServer server(options, {"page"}, show);
     } catch (const std::runtime_error& error) {
       return std::string(error.what());
     }
@@ -133,9 +153,9 @@ void a_port_in_use_is_said(void**) {
 void other_addresses_are_known_as_such(void**) {
   const test::TemporaryFile file("x\n");
   scope::LogShow show(file.path(), 500000, json::object());
-  const scope::ScopeServer everywhere({"0.0.0.0", 0}, "page", show);
+  const scope::ScopeServer everywhere({"0.0.0.0", 0}, {"page"}, show);
   assert_false(everywhere.is_loopback());
-  const scope::ScopeServer named({"localhost", 0}, "page", show);
+  const scope::ScopeServer named({"localhost", 0}, {"page"}, show);
   assert_true(named.is_loopback());
   assert_true(named.port() > 0);
   assert_has(named.url(), ":" + std::to_string(named.port()) + "/");
@@ -146,6 +166,7 @@ void other_addresses_are_known_as_such(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(the_page_is_given_whole),
+      cmocka_unit_test(the_operators_view_is_another_page),
       cmocka_unit_test(nothing_else_is_there),
       cmocka_unit_test(foreign_names_get_nothing),
       cmocka_unit_test(foreign_pages_get_no_frames),

@@ -269,6 +269,38 @@ void what_is_no_message_closes_the_connection(void**) {
   assert_closed(1000, Opcode::kClose, "\x03\xE8");
 }
 
+/// The operator's view gets all that others get, and whatever it says reaches nobody.
+void who_only_looks_is_not_heard(void**) {
+  ScriptRig rig(20);
+  const std::string host = test::own_host(rig.port());
+  const std::string request = test::ws_request(host, "", "/frames", "graben-look");
+  WsClient quiet(rig.port());
+  assert_true(quiet.ask(request).rfind("HTTP/1.1 101", 0) == 0);
+  assert_true(read_kind(quiet, "setup")["source"]["name"] == "script");
+  Lines lines;
+  read_lines(quiet, Milliseconds(300), lines);
+  assert_true(lines.text.size() > 5000);
+  const auto assert_refused = [&](Opcode opcode, const std::string& content) {
+    WsClient client(rig.port());
+    assert_true(client.ask(request).rfind("HTTP/1.1 101", 0) == 0);
+    assert_true(client.send(opcode, content));
+    assert_int_equal(closed_with(client), 1008);
+  };
+  assert_refused(Opcode::kText, R"({"do":"stop"})");
+  assert_refused(Opcode::kText, "x");
+  assert_refused(Opcode::kBinary, "x");
+  assert_refused(Opcode::kText, std::string(100000, ' '));
+  assert_int_equal(rig.source().wishes(), 0);
+  // The same word of a page that may speak does get there.
+  WsClient speaker(rig.port());
+  assert_true(speaker.open());
+  assert_true(speaker.send(Opcode::kText, R"({"do":"stop"})"));
+  for (int i = 0; i < 200 && rig.source().wishes() == 0; ++i) {
+    std::this_thread::sleep_for(Milliseconds(10));
+  }
+  assert_int_equal(rig.source().wishes(), 1);
+}
+
 void a_flood_is_read_slowly_and_costs_the_others_nothing(void**) {
   ScriptRig rig(20);
   WsClient flood(rig.port());
@@ -316,6 +348,7 @@ int main() {
       cmocka_unit_test(a_log_is_a_file_and_takes_no_wishes),
       cmocka_unit_test(a_log_that_changes_while_it_is_shown),
       cmocka_unit_test(what_is_no_message_closes_the_connection),
+      cmocka_unit_test(who_only_looks_is_not_heard),
       cmocka_unit_test(a_flood_is_read_slowly_and_costs_the_others_nothing),
       cmocka_unit_test(it_stops_at_once_with_pages_open),
   };

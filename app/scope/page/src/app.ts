@@ -17,17 +17,20 @@ import {listen_to_keys} from './view/keys';
 import {LimitShares} from './view/limit_shares';
 import {lay_out} from './view/layout';
 import {MessageTable} from './view/message_table';
+import {Moments} from './view/moments';
 import type {View} from './view/page_state';
 import {PlotBoard} from './view/plot_board';
 import {ReplayBar} from './view/replay_bar';
 import {RunPanel} from './view/run_panel';
 import {SceneFrame} from './view/scene_frame';
+import {PlotChooser} from './view/signal_drag';
 import {SimPanel} from './view/sim_panel';
 import {StatePanel} from './view/state_panel';
 import {tell_tests} from './view/tests_window';
 import {create_theme} from './view/theme';
 import {Tour} from './view/tour';
 import {page_words} from './view/words';
+import {XyBoard} from './view/xy_board';
 
 /// Ten times a second is as often as words can be read.
 const PANEL_MS = 100;
@@ -54,7 +57,11 @@ export function start(root: HTMLElement): void {
   const scene = new SceneFrame(theme);
   const shares = new LimitShares();
   const plots = new PlotBoard(state, theme, words.limit, shares);
+  const xy = new XyBoard(theme);
   const histogram = new Histogram(theme);
+  const chooser = new PlotChooser({
+    plots: () => plots.plots_there(), put: (signal, plot) => plots.put(signal, plot)});
+  const moments = new Moments(state);
   const replay = new ReplayBar(state, faults, theme);
   const header = new Header(theme, () => help.node.showModal());
   const alarms = new Alarms(words, () => replay.jump_to_current());
@@ -66,17 +73,18 @@ export function start(root: HTMLElement): void {
 
   const panel: View[] = [
     new StatePanel(words), new RunPanel(theme, words, shares), new SimPanel((message) => state.send(message)),
-    new FaultList(faults, words, (time_s) => state.playhead.seek(time_s)), new MessageTable(),
+    new FaultList(faults, words, (time_s) => state.playhead.seek(time_s)), moments,
+    new MessageTable((signal) => chooser.choose(signal)),
     new HealthPanel(),
   ];
   const views: View[] = [header, alarms, ...panel, replay, files, tour];
   lay_out(root, {
     header: header.node, alarms: alarms.node, scene: scene.node, layers: scene.layers.node,
-    plots: [plots.node, histogram.node], panel: panel.map(({node}) => node), replay: replay.node,
+    plots: [plots.node, xy.node, histogram.node], panel: panel.map(({node}) => node), replay: replay.node,
   });
   root.append(tour.node);
   listen_to_keys({
-    state, replay, theme: () => theme.toggle(), help: () => help.node.showModal(),
+    state, replay, mark: () => moments.mark(), theme: () => theme.toggle(), help: () => help.node.showModal(),
   });
 
   const rate = new FrameRate();
@@ -87,13 +95,16 @@ export function start(root: HTMLElement): void {
     state.playhead.tick(last_ms === null ? 0 : (now_ms - last_ms) / 1000);
     last_ms = now_ms;
     state.know_machine();
-    first_sight.update(state, has_motion());
+    if (!moments.opens(state)) {
+      first_sight.update(state, has_motion());
+    }
     // What a log shows while it is read is passed over at once; reading it is what the processor is
     // for, and without a graphics card a picture takes as long as ten thousand frames.
     if (state.drawn) {
       scene.frame(state);
       shares.update(state, now_ms);
       plots.frame(now_ms);
+      xy.frame(now_ms, state);
       histogram.frame(now_ms, state);
     }
     if (now_ms - panel_ms >= PANEL_MS) {

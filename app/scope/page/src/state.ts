@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What the page knows, and how what the feed says changes it.
 
-import type {FeedEvents} from './feed/feed';
+import type {FeedEvents} from './feed/feed_events';
 import type {Machine, MessageState, Setup, ToServer} from './model/api';
 import type {FrameBlock} from './model/frame_block';
 import {messageStates} from './model/integrity';

@@ -2,12 +2,15 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {gzipSync} from 'node:zlib';
-import {Intake} from '../src/feed/intake';
+import {Intake, type Connect} from '../src/feed/intake';
 import type {Order, Posted, Told} from '../src/feed/orders';
 import {make_reader, type AnyWorker} from '../src/feed/reader';
+import {ServerSocket} from '../src/feed/socket';
+import {SteeringSocket} from '../src/feed/steering_socket';
 import {PageStore} from '../src/model/store';
 import {bytes_of, line, protected_bytes} from './make';
 
+const steer: Connect = (url, batches, hear) => new SteeringSocket(url, batches, hear);
 const BOOM = 0x0cff2080;
 const boom_lines = (from: number, count: number): string => Array.from({length: count}, (_, i) =>
   line(0.01 * (from + i), BOOM, protected_bytes(65312, (from + i) % 15, from + i))).join('');
@@ -48,7 +51,7 @@ test('a file, packed or not, and the log in a page', async () => {
   ];
   for (const order of orders) {
     const ear = new Ear();
-    new Intake(ear.hear).obey(order);
+    new Intake(ear.hear, steer).obey(order);
     await ear.next(is_end);
     assert.equal(ear.store.frames, 40000);
     assert.equal(ear.store.health.malformed, 1);
@@ -67,7 +70,7 @@ test('a log that is cut off or no log says so, with what there was', async () =>
   ];
   for (const order of bad) {
     const ear = new Ear();
-    new Intake(ear.hear).obey(order);
+    new Intake(ear.hear, steer).obey(order);
     await ear.next(is_closed);
     const [{why, again_s}] = ear.of('closed');
     assert.match(why, /could not be read to its end: ./);
@@ -77,7 +80,7 @@ test('a log that is cut off or no log says so, with what there was', async () =>
 
 test('a second file takes the place of the first', async () => {
   const ear = new Ear();
-  const intake = new Intake(ear.hear);
+  const intake = new Intake(ear.hear, steer);
   intake.obey({order: 'file', file: new Blob([boom_lines(0, 100000)])});
   intake.obey({order: 'file', file: new Blob([boom_lines(500, 20)])});
   await ear.next(is_end);
@@ -120,13 +123,14 @@ class FakeSocket {
   }
 }
 
-async function connected(setup: object, run: (ear: Ear, intake: Intake) => Promise<void>) {
+async function connected(
+  setup: object, run: (ear: Ear, intake: Intake) => Promise<void>, connect = steer) {
   const scope = globalThis as {WebSocket?: unknown};
   const before = scope.WebSocket;
   scope.WebSocket = FakeSocket;
   FakeSocket.all = [];
   const ear = new Ear();
-  const intake = new Intake(ear.hear);
+  const intake = new Intake(ear.hear, connect);
   try {
     intake.obey({order: 'socket', url: 'ws://127.0.0.1:1/frames'});
     FakeSocket.all[0].open();
@@ -155,6 +159,19 @@ async function reconnected(ear: Ear, setup: object): Promise<FakeSocket> {
   assert.equal(ear.of('opened').length, before + 1);
   return socket;
 }
+
+test('a page that only looks has its own protocol, and no way to say a word', async () => {
+  await connected(live, async (ear, intake) => {
+    const [socket] = FakeSocket.all;
+    assert.equal(socket.protocol, 'graben-look');
+    socket.frames(boom_lines(0, 10));
+    await ear.next(is_block);
+    assert.equal(ear.store.frames, 10);
+    intake.obey({order: 'send', text: '{"do":"run"}'});
+    assert.deepEqual(socket.sent, []);
+    assert.equal(ear.of('message')[0].message.kind, 'refused');
+  }, (url, batches, hear) => new ServerSocket(url, batches, hear));
+});
 
 test('a live bus: batches, messages, and what the server kept after a lost connection', async () => {
   await connected(live, async (ear, intake) => {
@@ -256,7 +273,7 @@ class FakeWorker implements AnyWorker {
 
 test('where no worker can be made, the page reads by itself', async () => {
   const ear = new Ear();
-  const reader = make_reader(() => { throw new Error('not from a file'); }, ear.hear);
+  const reader = make_reader(() => { throw new Error('not from a file'); }, steer, ear.hear);
   reader.obey({order: 'file', file: new Blob([boom_lines(0, 30)])});
   await ear.next(is_end);
   assert.equal(ear.store.frames, 30);
@@ -265,7 +282,7 @@ test('where no worker can be made, the page reads by itself', async () => {
 test('a worker that fails before it is ready is replaced; later it is said', async () => {
   const ear = new Ear();
   const worker = new FakeWorker();
-  const reader = make_reader(() => worker, ear.hear);
+  const reader = make_reader(() => worker, steer, ear.hear);
   reader.obey({order: 'file', file: new Blob([boom_lines(0, 30)])});
   assert.equal(worker.orders.length, 1);
   worker.onerror?.({message: 'blocked', preventDefault: () => undefined} as ErrorEvent);
@@ -275,7 +292,7 @@ test('a worker that fails before it is ready is replaced; later it is said', asy
 
   const other = new Ear();
   const ready = new FakeWorker();
-  make_reader(() => ready, other.hear);
+  make_reader(() => ready, steer, other.hear);
   ready.onmessage?.({data: {told: {told: 'ready'}, source: 0}} as MessageEvent<Posted>);
   ready.onerror?.({message: 'out of memory', preventDefault: () => undefined} as ErrorEvent);
   assert.match(other.of('closed')[0].why, /out of memory/);
@@ -285,8 +302,8 @@ test('what an older source still had on its way is not heard', async () => {
   const posted: Posted[] = [];
   const ear = new Ear();
   const worker = new FakeWorker();
-  const intake = new Intake((told, _, source) => void posted.push({told, source}));
-  const reader = make_reader(() => worker, ear.hear);
+  const intake = new Intake((told, _, source) => void posted.push({told, source}), steer);
+  const reader = make_reader(() => worker, steer, ear.hear);
   const deliver = () => posted.splice(0).forEach((data) =>
     worker.onmessage?.({data} as MessageEvent<Posted>));
   const read = async (text: string): Promise<void> => {

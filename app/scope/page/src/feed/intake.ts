@@ -4,7 +4,14 @@
 
 import {Batches} from './batches';
 import type {Hear, HearOf, Order} from './orders';
-import {ServerSocket} from './socket';
+
+/// To a server; without `say` it only listens.
+export interface Connection {
+  say?(text: string): void;
+  close(): void;
+}
+
+export type Connect = (url: string, batches: Batches, hear: Hear) => Connection;
 
 /// So much text is parsed before others get a turn.
 const SLICE_BYTES = 256 * 1024;
@@ -13,36 +20,36 @@ const BASE64_PIECE = 1 << 20;  ///< A multiple of 4.
 export class Intake {
   private readonly batches: Batches;
   private readonly hear: Hear;
-  private socket: ServerSocket | null = null;
+  private socket: Connection | null = null;
   private turn = 0;  ///< Of the sources: an older one has nothing to say any more.
 
-  constructor(hear: HearOf) {
+  constructor(hear: HearOf, private readonly connect: Connect) {
     this.hear = (told, transfer) => hear(told, transfer, this.turn);
     this.batches = new Batches(this.hear);
   }
 
   obey(order: Order): void {
     if (order.order === 'send') {
-      this.send(order.text);
+      this.say(order.text);
       return;
     }
     this.socket?.close();
     this.socket = null;
     const turn = ++this.turn;
     if (order.order === 'socket') {
-      this.socket = new ServerSocket(order.url, this.batches, this.hear);
+      this.socket = this.connect(order.url, this.batches, this.hear);
       return;
     }
     const stream = order.order === 'file' ? file_text(order.file) : unpacked(order.base64);
     void this.read(stream, turn);
   }
 
-  private send(text: string): void {
-    if (this.socket === null) {
+  private say(text: string): void {
+    if (this.socket?.say === undefined) {
       const why = 'what is shown is a file: there is nothing to steer';
       this.hear({told: 'message', message: {kind: 'refused', why}}, []);
     } else {
-      this.socket.send(text);
+      this.socket.say(text);
     }
   }
 

@@ -2,7 +2,7 @@
 /// An intake in a worker; on the page's own thread where the browser makes none, as some do for a
 /// page from a file.
 
-import {Intake} from './intake';
+import {Intake, type Connect} from './intake';
 import type {Hear, HearOf, Order, Posted} from './orders';
 
 /// What a Worker is, as far as it is used here.
@@ -17,9 +17,9 @@ export interface Reader {
   obey(order: Order): void;
 }
 
-/// `make` may throw, or the worker may fail before it says that it is ready: then the orders so far
+/// `connect` is what the worker has, too. `make` may throw, or the worker may fail before it says that it is ready: then the orders so far
 /// are obeyed here.
-export function make_reader(make: () => AnyWorker, hear: Hear): Reader {
+export function make_reader(make: () => AnyWorker, connect: Connect, hear: Hear): Reader {
   const orders: Order[] = [];
   let source = 0;  // the intake counts alike
   const hear_now: HearOf = (told, transfer, of) => {
@@ -33,7 +33,7 @@ export function make_reader(make: () => AnyWorker, hear: Hear): Reader {
   const read_here = (): void => {
     worker?.terminate();
     worker = null;
-    own = new Intake(hear_now);
+    own = new Intake(hear_now, connect);
     orders.splice(0).forEach((order) => own?.obey(order));
   };
   try {

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The WebSocket to the server, for as long as the page lives: lost, it is tried again.
+/// The WebSocket to the server, for as long as the page lives: lost, it is tried again. It only
+/// listens; steering_socket.ts is the one that speaks.
 
 import type {FromServer, Setup} from '../model/api';
 import type {Batches} from './batches';
 import type {Hear, PlainMessage} from './orders';
 
-const PROTOCOL = 'graben-scope';
+/// To the server a page of this subprotocol may say nothing.
+const LOOKS = 'graben-look';
 const FIRST_WAIT_S = 1;
 const MOST_WAIT_S = 5;
 const KINDS: ReadonlySet<string> =
   new Set<PlainMessage['kind']>(['dropped', 'bus', 'end', 'sim', 'refused']);
 
 export class ServerSocket {
-  private socket: WebSocket | null = null;
+  protected socket: WebSocket | null = null;
   private wait_s = FIRST_WAIT_S;
   private setup_text = '';
   private mode: Setup['source']['mode'] | null = null;
@@ -22,17 +24,8 @@ export class ServerSocket {
   private fetching: AbortController | null = null;
 
   constructor(private readonly url: string, private readonly batches: Batches,
-              private readonly hear: Hear) {
+              protected readonly hear: Hear, private readonly protocol = LOOKS) {
     this.open();
-  }
-
-  send(text: string): void {
-    if (this.socket?.readyState === WebSocket.OPEN) {
-      this.socket.send(text);
-    } else {
-      const why = 'there is no connection to the server';
-      this.hear({told: 'message', message: {kind: 'refused', why}}, []);
-    }
   }
 
   close(): void {
@@ -43,7 +36,7 @@ export class ServerSocket {
   }
 
   private open(): void {
-    const socket = new WebSocket(this.url, PROTOCOL);
+    const socket = new WebSocket(this.url, this.protocol);
     socket.binaryType = 'arraybuffer';
     socket.onopen = () => {
       this.wait_s = FIRST_WAIT_S;

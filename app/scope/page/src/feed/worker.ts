@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The worker's end: an intake that speaks by messages.
+/// The scope's worker.
 
-import {Intake} from './intake';
-import type {Order, Posted} from './orders';
+import {SteeringSocket} from './steering_socket';
+import {work} from './worker_end';
 
-const scope = self as unknown as {
-  onmessage: ((event: MessageEvent<Order>) => void) | null;
-  postMessage(posted: Posted, transfer: Transferable[]): void;
-};
-
-const intake = new Intake((told, transfer, source) =>
-  scope.postMessage({told, source}, transfer));
-scope.onmessage = (event) => intake.obey(event.data);
-scope.postMessage({told: {told: 'ready'}, source: 0}, []);
+work((url, batches, hear) => new SteeringSocket(url, batches, hear));

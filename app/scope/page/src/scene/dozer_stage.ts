@@ -13,7 +13,7 @@ import {dozer_state} from './machine_state';
 import type {SharedMaterials} from './materials';
 import {type Pane, ribbon} from './planes';
 import {Ruler} from './ruler';
-import {dozer_grid} from './soil_shape';
+import {dozer_soil} from './soil';
 import type {Stage} from './types';
 import type {SceneColours} from './theme';
 import {TrailLayer} from './trail_layer';
@@ -41,9 +41,9 @@ export class DozerStage implements Stage {
     this.model = new DozerModel(machine, shared);
     this.tip = this.model.edge;
     const width = this.model.shape.blade_width_m;
-    const grid = dozer_grid(machine);
-    this.ground = new GroundLayer(
-      {grid, start: () => 0, width_m: width, walk: blade_walk(machine)}, shared.light);
+    const soil = dozer_soil(machine);
+    const {grid} = soil;
+    this.ground = new GroundLayer(soil, shared.light);
     this.design = ribbon(graded(machine), width);
     this.trail = new TrailLayer(blade_walk(machine));
     this.ruler = new Ruler({

@@ -5,9 +5,8 @@ import {Box3, Group, Object3D, Sphere, Vector3 as Point} from 'three';
 import type {ExcavatorMachine, FrameStore, Setup, Task, Vector3} from '../model/api';
 import {excavatorPose} from '../model/excavator';
 import {wantedExcavator} from '../model/wanted';
-import {bucket_walk, teeth_walk} from './edges';
+import {teeth_walk} from './edges';
 import {ExcavatorModel} from './excavator_model';
-import {bucket_capacity_m3} from './excavator_shape';
 import {GroundLayer} from './ground_layer';
 import {KeepOutBody} from './keep_out';
 import {excavator_key} from './key';
@@ -18,7 +17,8 @@ import {DigLayer, TaskLayer} from './path_layer';
 import {type Pane, plane_pane} from './planes';
 import {Ruler} from './ruler';
 import {type ShownTask, TaskChoice} from './shown_task';
-import {excavator_grid, excavator_start, reach_m} from './soil_shape';
+import {excavator_soil} from './soil';
+import {reach_m} from './soil_shape';
 import type {Stage} from './types';
 import type {SceneColours} from './theme';
 import {TrailLayer} from './trail_layer';
@@ -53,12 +53,8 @@ export class ExcavatorStage implements Stage {
     this.relief_pa = machine.relief_pa;
     this.dig = new DigLayer(machine.dig);
     this.trail = new TrailLayer(teeth_walk(machine));
-    this.ground = new GroundLayer({
-      grid: excavator_grid(machine), start: excavator_start(machine),
-      width_m: this.model.shape.widths.bucket_m, walk: bucket_walk(machine),
-      load: {
-        capacity_m3: bucket_capacity_m3(machine, this.model.shape.widths),
-        show: (share) => this.model.show_fill(share)}}, shared.light);
+    this.ground = new GroundLayer(
+      excavator_soil(machine, (share) => this.model.show_fill(share)), shared.light);
     const far = Math.ceil(reach_m(machine));
     this.ground.set_centre(0, 0, 5 * far);
     this.ruler = new Ruler({

@@ -5,28 +5,14 @@ import {
   BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments, Mesh,
 } from 'three';
 import type {FrameStore} from '../model/api';
-import {BucketLoad} from './bucket_load';
 import {GroundMaterial} from './ground';
 import {GroundSurface} from './ground_surface';
-import {type Grid, HeightField} from './height_field';
+import type {Grid} from './height_field';
 import type {Light} from './light';
 import {kOrder} from './materials';
-import {type EdgeWalk, TerrainHistory} from './terrain_history';
+import {type Soil, soil_history} from './soil';
+import type {TerrainHistory} from './terrain_history';
 import type {SceneColours} from './theme';
-
-export interface Soil {
-  grid: Grid;
-  width_m: number;  ///< Of what cuts.
-  start: (x_m: number, y_m: number) => number;
-  walk: (store: FrameStore, after_s: number) => EdgeWalk;
-  load?: Load;
-}
-
-/// Of what cuts and carries: how much it holds, and who shows what is in it, as a share of that.
-export interface Load {
-  capacity_m3: number;
-  show: (share: number) => void;
-}
 
 /// Of a picture's time, for frames that the soil has not seen yet.
 const kBudget_ms = 4;
@@ -58,9 +44,7 @@ export class GroundLayer {
   }
 
   private begin(): TerrainHistory {
-    const {grid, start, width_m, walk, load} = this.soil;
-    return new TerrainHistory(new HeightField(grid, start), width_m, walk,
-      load ? new BucketLoad(load.capacity_m3) : null);
+    return soil_history(this.soil);
   }
 
   /// Works frames in for a while and shows the soil of `now_s`, or of as far as it knows.

@@ -4,21 +4,11 @@
 import {BufferAttribute, BufferGeometry, Color, ShapeUtils, Vector2 as Point} from 'three';
 import type {Vector2} from '../model/api';
 import {doubled_area} from './outline';
-import type {Paint, Piece} from './pieces';
+import {kPaints} from './paints';
+import type {Piece} from './pieces';
 
 /// Sides that turn less than this are shaded as one round surface.
 const kRoundCosine = Math.cos(0.7);
-
-/// The same in both themes: each stands off light and dark ground, and all off grey.
-const kPaints: Readonly<Record<Paint, string>> = {
-  body: '#d9a63a',
-  frame: '#60666c',
-  steel: '#b9bfc4',
-  glass: '#3c4a55',
-  belt: '#4d5257',
-  weight: '#73787d',
-  soil: '#8f6d45',
-};
 
 export function solid(pieces: readonly Piece[]): BufferGeometry {
   const position: number[] = [];

@@ -39,6 +39,19 @@ export function telling_moment(store: FrameStore): number | null {
   return moment_s === null ? null : Math.max(first_s, moment_s - BEFORE_S);
 }
 
+/// Just before the machine first moves; null where it never does.
+export function telling_start(store: FrameStore): number | null {
+  const rows = store.rows('EcuStatus');
+  const mode = store.database?.messages.get('EcuStatus')?.signals.get('Mode');
+  for (let row = 0; row < rows.count; ++row) {
+    const {buffer, at} = rows.bytes(row);
+    if (mode?.raw(buffer, at) === ACTIVE) {
+      return Math.max(store.from_s, rows.time(row) - BEFORE_S);
+    }
+  }
+  return null;
+}
+
 /// Opens reports and plans once all of them is there, unless somebody was quicker. They play, but
 /// where the reader has asked for less motion.
 export class FirstSight {

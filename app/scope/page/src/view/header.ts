@@ -2,7 +2,7 @@
 /// Name, source in words, machine, connection.
 
 import type {Machine} from '../model/api';
-import {button, el, set_attribute, set_text} from './dom';
+import {button, el, set_attribute, set_shown, set_text} from './dom';
 import {count, hash_words} from './format';
 import type {PageState, View} from './page_state';
 import type {ThemeSwitch} from './theme';
@@ -10,6 +10,9 @@ import type {ThemeSwitch} from './theme';
 const TASKS: Readonly<Record<string, string>> = {
   dig: 'simulated dig', grade: 'simulated grade', autodig: 'simulated autodig',
 };
+
+/// Sources of a server, which has the operator's view of them too.
+const SERVED = new Set(['can', 'sim', 'log']);
 
 export function source_words({setup, link}: PageState): string {
   if (setup === null) {
@@ -35,13 +38,16 @@ export class Header implements View {
   private readonly source = el('p', {class: 'source'});
   private readonly machine = el('p', {class: 'machine'});
   private readonly link = el('p', {class: 'link-state', role: 'status'});
+  /// Another page, of the same server.
+  private readonly operators = el('a', {class: 'button', href: 'operator', target: '_blank', hidden: true},
+    "Operator's view");
   private readonly theme_button: HTMLButtonElement;
 
   constructor(private readonly theme: ThemeSwitch, help: () => void) {
     this.theme_button = button('', () => theme.toggle(), {class: 'quiet-button'});
     this.node = el('header', {class: 'top'},
       el('h1', {}, 'Graben scope'), this.source, this.machine, this.link,
-      el('div', {class: 'top-buttons'}, this.theme_button,
+      el('div', {class: 'top-buttons'}, this.operators, this.theme_button,
         button('Help (?)', help, {class: 'quiet-button', 'aria-haspopup': 'dialog'})));
     theme.on_change(() => this.name_theme());
     this.name_theme();
@@ -54,6 +60,8 @@ export class Header implements View {
     if (document.title !== title) {
       document.title = title;
     }
+    const mode = state.setup?.source.mode;
+    set_shown(this.operators, mode !== undefined && SERVED.has(mode) && location.protocol.startsWith('http'));
     const {machine, store} = state;
     const hash = store.health.profile_hash;
     set_text(this.machine, machine !== null ? machine_words(machine)

@@ -13,6 +13,7 @@ export const KEYS: readonly (readonly [string, string])[] = [
   ['+ −', 'zoom the plots in and out about the cursor'],
   ['0', 'whole log in the plots'],
   ['l', 'back to live'],
+  ['b', 'bookmark this moment'],
   ['Home End', 'to the start, to the end'],
   ['t', 'light or dark theme'],
   ['?', 'this help'],
@@ -21,6 +22,8 @@ export const KEYS: readonly (readonly [string, string])[] = [
 const MORE: readonly string[] = [
   'In a plot: move to read values, click to look at a moment, drag to zoom, double-click for the '
     + 'whole log; Ctrl and wheel or two fingers zoom too. A name in the legend hides its line.',
+  'Any value of the bus goes into any plot: open its message, and drag it there or press Plot. PNG, '
+    + 'SVG and CSV save what a plot shows.',
   'In the scene: drag turns, right drag or two fingers move, wheel zooms.',
   'Grey, slanted values are stale: older than three cycles of their message.',
   'This page only listens. On a real bus it sends nothing; in a simulation it asks the server.',

@@ -8,6 +8,7 @@ import type {ReplayBar} from './replay_bar';
 export interface KeyTargets {
   state: PageState;
   replay: ReplayBar;
+  mark(): void;
   theme(): void;
   help(): void;
 }
@@ -36,12 +37,13 @@ function keeps(target: HTMLElement, key: string): boolean {
     return true;
   }
   if (tagName === 'INPUT') {
-    return key.startsWith('Arrow') || key === 'Home' || key === 'End' || key.startsWith('Page');
+    return (target as HTMLInputElement).type === 'text' || key.startsWith('Arrow')
+      || key === 'Home' || key === 'End' || key.startsWith('Page');
   }
   return (tagName === 'BUTTON' || tagName === 'SUMMARY') && (key === ' ' || key === 'Enter');
 }
 
-function press({state, replay, theme, help}: KeyTargets, key: string, shift: boolean): boolean {
+function press({state, replay, mark, theme, help}: KeyTargets, key: string, shift: boolean): boolean {
   const {playhead, extent} = state;
   switch (key) {
     case ' ': replay.toggle(); return true;
@@ -54,6 +56,7 @@ function press({state, replay, theme, help}: KeyTargets, key: string, shift: boo
     case 'l': playhead.follow = playhead.follow || is_live(state); return true;
     case 'Home': playhead.seek(extent.from_s); return true;
     case 'End': playhead.seek(extent.until_s); return true;
+    case 'b': mark(); return true;
     case 't': theme(); return true;
     case '?': help(); return true;
     default: return plot_key(state, key, shift);

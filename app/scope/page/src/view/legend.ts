@@ -18,7 +18,10 @@ export class Legend {
   readonly node = el('div', {class: 'legend'});
   private readonly entries: Entry[];
 
-  constructor(spec: PlotSpec, toggled: (line: number, shown: boolean) => void) {
+  /// `take_out`: a line that the reader has put there goes.
+  constructor(
+    spec: PlotSpec, toggled: (line: number, shown: boolean) => void,
+    take_out: (signal: string) => void) {
     this.entries = spec.lines.map((line, index) => {
       const value = el('span', {class: 'value'}, '–');
       const node = button('', () => {
@@ -29,11 +32,13 @@ export class Legend {
       node.append(
         el('span', {class: `swatch ${line.style}`, style: `--line: var(--${line.colour})`}),
         el('span', {class: 'label'}, line.label), value,
-        el('span', {class: 'unit'}, unit_words(spec.unit)));
+        el('span', {class: 'unit'}, unit_words(line.unit ?? spec.unit)));
       const entry: Entry = {node, value, line, shown: true};
       return entry;
     });
-    this.node.append(...this.entries.map(({node}) => node));
+    this.node.append(...this.entries.flatMap(({node, line}) => (line.own === undefined ? [node]
+      : [node, button('×', () => take_out(line.own!), {
+        class: 'legend-entry take-out', 'aria-label': `Take ${line.label} out of the plot`})])));
   }
 
   shown(line: number): boolean {

@@ -91,6 +91,12 @@ export class LimitStrip {
     ctx.restore();
   }
 
+  /// As drawn last, with their colours.
+  get bands(): readonly {from_s: number; until_s: number; colour: string}[] {
+    return this.spans.map(({from_s, until_s, key}) =>
+      ({from_s, until_s, colour: limit_colour(this.theme, key)}));
+  }
+
   private write_key(): void {
     const rows = this.rows.take(this.shares.rows.length);
     this.shares.rows.forEach(({key, share}, k) => {

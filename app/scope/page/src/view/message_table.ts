@@ -34,7 +34,8 @@ class MessageRow {
   private readonly integrity = el('td', {class: 'integrity'});
   private values: MessageValues | null = null;
 
-  constructor(private readonly definition: MessageDef) {
+  constructor(
+    private readonly definition: MessageDef, private readonly plot: (signal: string) => void) {
     const id = `values-${definition.name}`;
     this.press = el('button', {
       type: 'button', class: 'disclose', 'aria-expanded': 'false', 'aria-controls': id,
@@ -66,7 +67,7 @@ class MessageRow {
     set_shown(this.detail, open);
     set_attribute(this.press, 'aria-expanded', String(open));
     if (open) {
-      this.values = new MessageValues(this.definition);
+      this.values = new MessageValues(this.definition, this.plot);
       this.detail.replaceChildren(el('td', {colspan: COLUMNS}, this.values.node));
     } else {
       this.values = null;
@@ -88,7 +89,7 @@ export class MessageTable implements View {
   private readonly none = el('p', {class: 'quiet'}, 'No frames yet.');
   private built_for: unknown = null;
 
-  constructor() {
+  constructor(private readonly plot: (signal: string) => void) {
     this.table = el('table', {class: 'messages'},
       el('caption', {class: 'hidden'}, 'Messages of the bus by sender'),
       el('colgroup', {}, el('col'), ...['age', 'rate', 'counter', 'state'].map((name) =>
@@ -145,7 +146,7 @@ export class MessageTable implements View {
         el('th', {scope: 'rowgroup', colspan: COLUMNS},
           `From ${sender === 'Graben' ? 'the controller (Graben)' : sender}`)));
       for (const {message} of own) {
-        const row = new MessageRow(message);
+        const row = new MessageRow(message, this.plot);
         this.rows.set(message.name, row);
         body.append(row.node, row.detail);
       }

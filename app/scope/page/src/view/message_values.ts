@@ -3,19 +3,25 @@
 
 import type {MessageDef, Reading, SignalDef} from '../model/api';
 import {is_stale} from '../model/integrity';
-import {el, set_text} from './dom';
+import {button, el, set_text} from './dom';
 import {digits_of, fixed, name_words, unit_words} from './format';
 import type {PageState} from './page_state';
+import {drag_from} from './signal_drag';
 
 export class MessageValues {
   readonly node = el('dl', {class: 'facts signals'});
   private readonly rows: {signal: SignalDef; row: HTMLElement; value: HTMLElement}[] = [];
 
-  constructor(private readonly message: MessageDef) {
+  /// `plot`: where a signal is to go is asked.
+  constructor(private readonly message: MessageDef, plot: (signal: string) => void) {
     for (const signal of message.signals.values()) {
+      const path = `${message.name}.${signal.name}`;
       const value = el('dd');
       const row = el('div', {title: signal.description},
-        el('dt', {}, name_words(signal.name)), value);
+        el('dt', {}, name_words(signal.name)), value,
+        el('dd', {}, button('Plot', () => plot(path),
+          {class: 'link', 'aria-label': `Plot ${name_words(signal.name)}`})));
+      drag_from(row, path);
       this.rows.push({signal, row, value});
       this.node.append(row);
     }

@@ -9,7 +9,10 @@ import {el} from './dom';
 import {digits_of, fixed, time_words, unit_words} from './format';
 import {Legend} from './legend';
 import type {LimitStrip} from './limit_strip';
-import type {Line, PlotSpec} from './plots';
+import {DASHES, WIDTHS} from './line_styles';
+import type {PlotSpec} from './plots';
+import {save_menu, save_plot, type SaveKind} from './save_plot';
+import {take_drops} from './signal_drag';
 import type {ThemeSwitch} from './theme';
 import {stable_range} from './plot_range';
 
@@ -21,11 +24,12 @@ export interface PlotHost {
   seek(time_s: number): void;
   zoom(from_s: number, until_s: number): void;
   whole(): void;
+  /// A signal that was dropped on the plot, and one that is to go.
+  put(signal: string, plot: string): void;
+  take_out(signal: string, plot: string): void;
 }
 
 const FONT = '12px system-ui, sans-serif';
-const WIDTHS = {wanted: 3, real: 1.8, beside: 1, truth: 1.8};
-const DASHES: Partial<Record<Line['style'], number[]>> = {wanted: [2, 3], truth: [8, 4]};
 const PIXELS_PER_BUCKET = 2;
 const BAR = 10;  ///< Of one MPa.
 const TIME_STEPS_S = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30,
@@ -40,13 +44,15 @@ export class Plot {
   private readonly legend: Legend;
   private readonly playhead_line = el('div', {class: 'playhead-line'});
   private window: readonly [number, number] = [0, 1];
+  private store: FrameStore | null = null;
   private plain = false;  ///< While the cursor is set by the page and not by the pointer.
 
   constructor(
     readonly spec: PlotSpec, private readonly host: PlotHost,
     private readonly strip: LimitStrip | null,
   ) {
-    this.legend = new Legend(spec, (line, shown) => this.plot.setSeries(line + 1, {show: shown}));
+    this.legend = new Legend(spec, (line, shown) => this.plot.setSeries(line + 1, {show: shown}),
+      (signal) => host.take_out(signal, spec.name));
     const canvas = el('div', {
       class: 'plot-canvas', tabindex: 0, role: 'group', 'data-plot': spec.name,
       'aria-label': `Plot: ${spec.title}. Arrows move the cursor, plus and minus zoom, 0 whole.`,
@@ -55,7 +61,7 @@ export class Plot {
     this.node = el('figure', {class: 'plot', 'data-name': spec.name},
       el('figcaption', {},
         el('h3', {}, spec.title, el('span', {class: 'unit'}, unit)),
-        el('p', {class: 'note'}, spec.note)),
+        el('p', {class: 'note'}, spec.note), save_menu(spec.title, (kind) => this.save(kind))),
       this.legend.node, canvas, strip?.key ?? null);
     this.plot = on_processor(() =>
       new uPlot(this.options(), [[], ...spec.lines.map(() => [])], canvas));
@@ -65,6 +71,7 @@ export class Plot {
       this.host.seek(this.plot.posToVal(left, 'x') + this.host.origin_s());
     });
     this.plot.over.addEventListener('mouseleave', () => this.host.hover(null));
+    take_drops(this.node, (signal) => host.put(signal, spec.name));
   }
 
   resize(width: number, height: number): void {
@@ -77,6 +84,7 @@ export class Plot {
   /// New curves for the window.
   refresh(store: FrameStore, window: readonly [number, number]): void {
     this.window = window;
+    this.store = store;
     const [from_s, until_s] = window;
     const pixels = this.plot.bbox.width / uPlot.pxRatio;
     const buckets = Math.max(50, Math.round(pixels / PIXELS_PER_BUCKET));
@@ -112,6 +120,14 @@ export class Plot {
 
   values(store: FrameStore, time_s: number): void {
     this.legend.values(store, time_s);
+  }
+
+  /// Of the window that is shown: as it is drawn, or every frame of it.
+  private save(kind: SaveKind): void {
+    const lines = this.spec.lines.filter((_, line) => this.legend.shown(line));
+    save_plot(kind, {
+      spec: this.spec, lines, store: this.store, window: this.window,
+      origin_s: this.host.origin_s(), theme: this.host.theme, strip: this.strip});
   }
 
   retheme(): void {

@@ -7,9 +7,11 @@ import {el, set_shown, set_text} from './dom';
 import type {LimitShares} from './limit_shares';
 import {LimitStrip, type LimitWords} from './limit_strip';
 import type {PageState} from './page_state';
+import {OwnLines} from './own_lines';
 import {Plot, type PlotHost} from './plot';
 import {plot_gestures} from './plot_gestures';
 import {empty_words, plots_of, plotted, type PlotSpec} from './plots';
+import {take_drops} from './signal_drag';
 import type {ThemeSwitch} from './theme';
 
 const REFRESH_MS = 66;
@@ -28,6 +30,8 @@ export class PlotBoard {
   private pumps = 0;  ///< Most that were ever seen in this store.
   private store: unknown = null;
   private machine: unknown = null;
+  readonly own = new OwnLines();
+  private own_revision = 0;
   private readonly came = new Set<string>();  ///< Messages, at least once.
   private hover_s: number | null = null;
   private revision = -1;
@@ -59,6 +63,7 @@ export class PlotBoard {
       }
     });
     plot_gestures(this.node, state);
+    take_drops(this.node, (signal) => this.put(signal, null));
     state.playhead.on_change(() => this.mark());
     // Paper shows what was never scrolled to, too.
     addEventListener('beforeprint', () => this.draw_all(PRINT_WIDTH_PX));
@@ -73,9 +78,11 @@ export class PlotBoard {
     const slow = now_ms - this.frame_ms > SLOW_MS;
     this.frame_ms = now_ms;
     if (store !== this.store || store.revision !== this.revision || machine !== this.machine
+        || this.own.revision !== this.own_revision
         || from_s !== this.window[0] || until_s !== this.window[1]) {
       this.revision = store.revision;
       this.machine = machine;
+      this.own_revision = this.own.revision;
       this.choose();
       this.window = [from_s, until_s];
       for (const plot of this.plots) {
@@ -118,13 +125,13 @@ export class PlotBoard {
     // A pump that fails has been there.
     this.pumps = machine !== null ? of?.pumps ?? 0 : Math.max(this.pumps, of?.pumps ?? 0);
     const {run} = setup ?? {};
-    const key = `${of?.kind} ${this.pumps} ${[...this.came].join()}`;
+    const key = `${of?.kind} ${this.pumps} ${[...this.came].join()} ${this.own.revision}`;
     if (key === this.chosen_for && run === this.run) {
       set_text(this.empty, empty_words(store));
       return;
     }
     this.chosen_for = key;
-    this.build(plots_of(of && {...of, pumps: this.pumps}, run, this.came), run);
+    this.build(this.own.into(plots_of(of && {...of, pumps: this.pumps}, run, this.came), store), run);
     set_shown(this.empty, this.plots.length === 0);
     set_text(this.empty, empty_words(store));
   }
@@ -156,6 +163,20 @@ export class PlotBoard {
     this.fit();
   }
 
+  /// What there is to put a signal into.
+  plots_there(): readonly {name: string; title: string}[] {
+    return this.plots.map(({spec: {name, title}}) => ({name, title}));
+  }
+
+  /// `plot` null: into a new one. It is brought into sight.
+  put(signal: string, plot: string | null): void {
+    if (this.own.put(signal, plot)) {
+      const {plot: name} = this.own.lines.at(-1)!;
+      this.frame(performance.now());
+      this.plots.find(({spec}) => spec.name === name)?.node.scrollIntoView({block: 'nearest'});
+    }
+  }
+
   private draw_all(width_px: number): void {
     const {store, playhead} = this.state;
     for (const plot of this.plots) {
@@ -176,6 +197,8 @@ export class PlotBoard {
         this.mark();
         this.values();
       },
+      put: (signal, plot) => this.put(signal, plot),
+      take_out: (signal, plot) => this.own.take_out(signal, plot),
       seek: (time_s) => playhead.seek(time_s),
       zoom: (from_s, until_s) => {
         // A zoom into what comes would be pushed out of sight by it.

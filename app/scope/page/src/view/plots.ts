@@ -13,6 +13,8 @@ export interface Line {
   style: 'wanted' | 'real' | 'beside' | 'truth';
   digits: number;
   trace: Trace;
+  own?: string;   ///< The signal, of a line that the reader has put there.
+  unit?: string;  ///< Where it is another one than the plot's.
 }
 
 export interface PlotSpec {

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What axe-core has to say of a page, in words.
+
+import {readFileSync} from 'node:fs';
+import {createRequire} from 'node:module';
+
+const AXE = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+
+/// The page's context has to bypass the page's own policy.
+export async function axe(page) {
+  await page.evaluate((code) => {
+    if (window.axe === undefined) (0, eval)(code);
+  }, AXE);
+  const {violations} = await page.evaluate(() => window.axe.run(document, {resultTypes: ['violations']}));
+  return violations.map(({id, nodes}) => `${id}: ${nodes.slice(0, 3).map(({target, failureSummary}) =>
+    `${target} ${failureSummary.split('\n')[1] ?? ''}`).join(' | ')}`);
+}
