@@ -139,13 +139,12 @@ void check_experiment(TomlReader& reader, const GradeDesign& grade, double lengt
   const double lowest_m = lowest_point_m(grade);
   if (std::abs(lowest_m + depth_max_m) > kDepthTolerance_m) {
     reader.fail("experiment.depth_max",
-                fmt::format("{} m; the profile's lowest point is at {} m", depth_max_m, lowest_m));
+                fmt::format("{} m; the design's lowest point is at {} m", depth_max_m, lowest_m));
   }
-  const GradePoint& last = grade.point[static_cast<unsigned>(grade.count - 1)];
-  if (length_m > last.x_m) {
-    reader.fail("experiment.length", fmt::format("{} m; allowed: at most to the profile's end, {} "
-                                                 "m",
-                                                 length_m, last.x_m));
+  // Its end on the grid is as exact as a number of steps is.
+  if (length_m > grade.end_m() + 1e-6) {
+    reader.fail("experiment.length", fmt::format("{} m; allowed: at most to the design's end, {} m",
+                                                 length_m, grade.end_m()));
   }
 }
 
