@@ -25,8 +25,7 @@ void add_design_options(CLI::App& command, design::DesignSource& source) {
       ->capture_default_str();
 }
 
-Designed designed(const machines::SimulatedDozer& machine,
-                  const design::DesignSource& source) {
+Designed designed(const machines::SimulatedDozer& machine, const design::DesignSource& source) {
   if (source.file.empty()) {
     if (!source.surface.empty() || !source.track_m.empty() || source.datum_m != 0.0) {
       throw std::runtime_error("--surface, --track and --datum are of a --design");
@@ -36,7 +35,9 @@ Designed designed(const machines::SimulatedDozer& machine,
   const design::BladeAcross blade{machine.plant.blade_shape.width_m,
                                   machine.profile.grade.tolerance_m};
   std::vector<GradePoint> corners = design::corners_of(source, blade);
-  return {design::with_design(machine, corners, source.file.string()), std::move(corners)};
+  return {machines::with_design(machine, corners, machine.profile.grade.rounding_m,
+                                source.file.string()),
+          std::move(corners)};
 }
 
 }  // namespace graben::cli

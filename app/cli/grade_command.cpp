@@ -17,6 +17,7 @@
 #include "app/reports/run_reports.hpp"
 #include "app/runs/fastest_speed.hpp"
 #include "app/runs/grade_run.hpp"
+#include "app/runs/speed_table.hpp"
 #include "app/scope/page/scope_page.hpp"
 
 namespace graben::cli {
@@ -31,6 +32,7 @@ struct GradeCommand {
   std::optional<std::uint64_t> seed;
   std::optional<double> within_m;
   design::DesignSource design;
+  int compared = 0;  ///< Of the sample designs.
 };
 
 std::string end_text(const runs::GradeResult& result) {
@@ -120,6 +122,27 @@ void search(const GradeCommand& options) {
   }
 }
 
+/// Bounded against constant speed, design by design.
+void compare(const GradeCommand& options) {
+  if (!options.design.file.empty() || options.within_m) {
+    throw std::runtime_error(
+        "--compare-speeds has its own designs and bounds: it does not go with "
+        "--design or --within");
+  }
+  if (options.scenario.errors == "all" && !options.seed) {
+    throw std::runtime_error("--errors all draws the errors: it needs --seed");
+  }
+  const machines::SimulatedDozer machine =
+      machines::load_simulated_dozer(machines::find_profile(options.profile));
+  std::vector<runs::SpeedRow> rows;
+  {
+    ProgressBar bar("grade");
+    rows = runs::compare_speeds(machine, options.scenario, options.seed.value_or(0),
+                                static_cast<std::size_t>(options.compared), bar.progress());
+  }
+  fmt::print("{}", runs::speed_table(rows, options.scenario, machine.profile.grade.tolerance_m));
+}
+
 }  // namespace
 
 void add_grade(CLI::App& app, int& status) {
@@ -144,10 +167,20 @@ void add_grade(CLI::App& app, int& status) {
                    "Instead of one run: the fastest constant speed up to the wanted one whose "
                    "true edge stays this near to the grade, m, 0.001 .. 1")
       ->check(number_between(0.001, 1.0));
+  command
+      ->add_option(
+          "--compare-speeds", options->compared,
+          "Instead of one run: the first so many of 11 sample designs (the trench with "
+          "walls of 1, 1.5, 2, 3 m, sines, steps, V, level), 1 .. 11; each bounded, and at "
+          "the fastest constant speed with the same error and within grade.tolerance")
+      ->check(whole_number_between(1, 11));
   add_examples(*command, {"grade", "grade --speed-mode constant --within 0.02",
                           "grade --design trench.xml --track 100,200,127,200 --datum 54.3"});
   command->callback([options, &status] {
-    status = guarded("grade", [&] { options->within_m ? search(*options) : grade(*options); });
+    status = guarded("grade", [&] {
+      options->compared > 0 ? compare(*options)
+                            : (options->within_m ? search(*options) : grade(*options));
+    });
   });
 }
 

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "app/machines/design_file.hpp"
-#include "app/machines/dozer_sections.hpp"
 
 namespace graben::design {
 namespace {
@@ -44,22 +43,6 @@ std::vector<GradePoint> corners_of(const DesignSource& source, const BladeAcross
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("{}: {}", source.file.string(), error.what()));
   }
-}
-
-machines::SimulatedDozer with_design(machines::SimulatedDozer machine,
-                                     const std::vector<GradePoint>& corners,
-                                     const std::string& file) {
-  machines::set_design(machine, machines::heights_of(corners, machine.profile.grade.rounding_m));
-  machine.plant.machine.grade = machine.profile.grade;
-  machine.experiment.length_m = machine.profile.grade.end_m();
-  std::vector<std::string> errors;
-  for (const machines::DesignError& error : machines::design_errors(machine.profile)) {
-    errors.push_back(error.what);
-  }
-  if (!errors.empty()) {
-    throw machines::ProfileError(file, errors);
-  }
-  return machine;
 }
 
 }  // namespace graben::design

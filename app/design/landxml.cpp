@@ -47,8 +47,8 @@ std::optional<Number> number_of(std::string_view word) {
 double metres_of(const std::string& unit) {
   constexpr double kFoot = 0.3048;
   static const std::unordered_map<std::string, double> known = {
-      {"meter", 1.0},   {"millimeter", 1e-3},         {"centimeter", 1e-2},
-      {"kilometer", 1e3}, {"foot", kFoot},             {"USSurveyFoot", 1200.0 / 3937.0},
+      {"meter", 1.0},         {"millimeter", 1e-3},    {"centimeter", 1e-2},
+      {"kilometer", 1e3},     {"foot", kFoot},         {"USSurveyFoot", 1200.0 / 3937.0},
       {"inch", kFoot / 12.0}, {"mile", 5280.0 * kFoot}};
   const auto found = known.find(unit);
   return found != known.end() ? found->second : 0.0;
@@ -148,9 +148,10 @@ class LandXml {
     if (there.empty()) {
       refuse(surfaces ? surfaces : root, "has no <Surface>; allowed: <Surfaces> with 1 and more");
     }
-    refuse(surfaces, name.empty() ? fmt::format("allowed: one of {}, by --surface", there)
-                                  : fmt::format("surface '{}' is there {} times; allowed: one of {}",
-                                                name, count, there));
+    refuse(surfaces, name.empty()
+                         ? fmt::format("allowed: one of {}, by --surface", there)
+                         : fmt::format("surface '{}' is there {} times; allowed: one of {}", name,
+                                       count, there));
   }
 
   [[nodiscard]] pugi::xml_node definition_of(const pugi::xml_node& surface) const {

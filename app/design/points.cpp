@@ -23,8 +23,7 @@ constexpr double kMostExtent_m = 2e5;
 std::vector<Eigen::Vector3d> points_of(const std::filesystem::path& file) {
   std::vector<Eigen::Vector3d> points;
   machines::read_number_lines(
-      file, {3, "x, y and z, m", kMostPoints},
-      [&](std::size_t, const std::array<double, 3>& at) {
+      file, {3, "x, y and z, m", kMostPoints}, [&](std::size_t, const std::array<double, 3>& at) {
         for (unsigned i = 0; i < 3; ++i) {
           const double most_m = i == 2 ? kMostHeight_m : kMostPlan_m;
           if (std::abs(at[i]) > most_m) {
@@ -46,9 +45,9 @@ std::vector<GridPoint> on_grid(const std::filesystem::path& file, Surface& surfa
     most = most.cwiseMax(at);
   }
   if ((most - least).head<2>().maxCoeff() > kMostExtent_m) {
-    throw machines::ProfileError(
-        file.string(), {fmt::format("reaches over {:.0f} m; allowed: at most {:.0f} m",
-                                    (most - least).head<2>().maxCoeff(), kMostExtent_m)});
+    throw machines::ProfileError(file.string(),
+                                 {fmt::format("reaches over {:.0f} m; allowed: at most {:.0f} m",
+                                              (most - least).head<2>().maxCoeff(), kMostExtent_m)});
   }
   const Eigen::Vector3d middle = 0.5 * (least + most);
   std::map<std::pair<int, int>, double> height_m;
@@ -68,8 +67,8 @@ std::vector<GridPoint> on_grid(const std::filesystem::path& file, Surface& surfa
   surface.point_m.clear();
   for (const auto& [at, z_m] : height_m) {
     grid.emplace_back(at.first, at.second);
-    surface.point_m.emplace_back(middle.x() + at.first * kGrid_m,
-                                 middle.y() + at.second * kGrid_m, z_m);
+    surface.point_m.emplace_back(middle.x() + at.first * kGrid_m, middle.y() + at.second * kGrid_m,
+                                 z_m);
   }
   return grid;
 }

@@ -176,9 +176,9 @@ void demand_level(const std::vector<GradePoint>& middle, const std::vector<Grade
 
 Track straight_track(const std::vector<double>& corners_m) {
   if (corners_m.size() < 4 || corners_m.size() % 2 != 0) {
-    throw std::runtime_error(fmt::format(
-        "the track has {} numbers; allowed: x and y of its start and of its end, m",
-        corners_m.size()));
+    throw std::runtime_error(
+        fmt::format("the track has {} numbers; allowed: x and y of its start and of its end, m",
+                    corners_m.size()));
   }
   const auto corner = [&](std::size_t i) {
     return Eigen::Vector2d(corners_m[2 * i], corners_m[2 * i + 1]);
@@ -187,8 +187,8 @@ Track straight_track(const std::vector<double>& corners_m) {
   for (std::size_t i = 1; i < last; ++i) {
     const Eigen::Vector2d before = corner(i) - corner(i - 1);
     const Eigen::Vector2d after = corner(i + 1) - corner(i);
-    const double bend_rad = std::atan2(before.x() * after.y() - before.y() * after.x(),
-                                       before.dot(after));
+    const double bend_rad =
+        std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after));
     if (std::abs(bend_rad) > kMostBend_rad) {
       throw std::runtime_error(fmt::format(
           "the track bends by {:.3f} rad at x = {}, y = {} m; allowed: {} .. {} rad: what is "

@@ -74,24 +74,24 @@ std::uint32_t hash_with(std::uint32_t hash, const GradeHeights& heights) {
 
 std::vector<GradePoint> read_design(const std::filesystem::path& file) {
   std::vector<GradePoint> corners;
-  read_number_lines(
-      file, {2, "x along the track and height over the plane, m", kMostCorners},
-      [&](std::size_t, const std::array<double, 3>& numbers) {
-        const GradePoint at{numbers[0], numbers[1]};
-        if (std::abs(at.x_m) > kMostX_m) {
-          return fmt::format("x = {} m; allowed: {} .. {} m", at.x_m, -kMostX_m, kMostX_m);
-        }
-        if (std::abs(at.z_m) > kMostHeight_m) {
-          return fmt::format("a height of {} m; allowed: {} .. {} m", at.z_m, -kMostHeight_m,
-                             kMostHeight_m);
-        }
-        if (!corners.empty() && !(at.x_m > corners.back().x_m)) {
-          return fmt::format("x = {} m; allowed: more than the line before, {} m", at.x_m,
-                             corners.back().x_m);
-        }
-        corners.push_back(at);
-        return std::string();
-      });
+  read_number_lines(file, {2, "x along the track and height over the plane, m", kMostCorners},
+                    [&](std::size_t, const std::array<double, 3>& numbers) {
+                      const GradePoint at{numbers[0], numbers[1]};
+                      if (std::abs(at.x_m) > kMostX_m) {
+                        return fmt::format("x = {} m; allowed: {} .. {} m", at.x_m, -kMostX_m,
+                                           kMostX_m);
+                      }
+                      if (std::abs(at.z_m) > kMostHeight_m) {
+                        return fmt::format("a height of {} m; allowed: {} .. {} m", at.z_m,
+                                           -kMostHeight_m, kMostHeight_m);
+                      }
+                      if (!corners.empty() && !(at.x_m > corners.back().x_m)) {
+                        return fmt::format("x = {} m; allowed: more than the line before, {} m",
+                                           at.x_m, corners.back().x_m);
+                      }
+                      corners.push_back(at);
+                      return std::string();
+                    });
   const double length_m = corners.size() > 1 ? corners.back().x_m - corners.front().x_m : 0.0;
   const double most_m = (GradeHeights::kMost - 1) * GradeHeights::kStep_m;
   if (length_m < GradeHeights::kStep_m || length_m > most_m) {

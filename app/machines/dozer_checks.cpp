@@ -201,11 +201,12 @@ DesignErrors errors_of_reach(const DozerProfile& profile) {
   if (reach.reached) {
     return {};
   }
-  return {{whole_key(grade),
-           fmt::format("with the body at x = {:.2f} m the cutting edge would have to be at {:.3f} m "
-                       "against the tracks' ground line; allowed: the blade's reach, {} .. {} m",
-                       reach.position_m, reach.edge_m, profile.blade.edge_min_m,
-                       profile.blade.edge_max_m)}};
+  return {
+      {whole_key(grade),
+       fmt::format("with the body at x = {:.2f} m the cutting edge would have to be at {:.3f} m "
+                   "against the tracks' ground line; allowed: the blade's reach, {} .. {} m",
+                   reach.position_m, reach.edge_m, profile.blade.edge_min_m,
+                   profile.blade.edge_max_m)}};
 }
 
 /// Over some crests the body tips faster than the blade's flow follows, however slow it drives.

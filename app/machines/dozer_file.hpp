@@ -25,7 +25,7 @@ struct DozerMachine {
   std::string name;        ///< File name without its ending.
   std::uint32_t hash = 0;  ///< Of the checked values (TomlReader::hash); on the bus as ProfileHash.
   DozerProfile profile;
-  DesignHeights design;  ///< Of a design in a file of its own.
+  DesignHeights design;                ///< Of a design in a file of its own.
   std::vector<Provenance> provenance;  ///< Where its values are from, as far as said.
 };
 

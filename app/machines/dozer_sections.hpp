@@ -21,9 +21,9 @@ inline constexpr const char* kDesignKey = "grade.design";
 /// itself is right.
 void check_dozer_across_keys(TomlReader& reader, const DozerProfile& profile);
 
-/// Why this machine can't make the design, and the key that it concerns: too steep, corners that are
-/// too near, out of the blade's reach, tipping faster than the blade follows. One at least is all
-/// that it looks for.
+/// Why this machine can't make the design, and the key that it concerns: too steep, corners that
+/// are too near, out of the blade's reach, tipping faster than the blade follows. One at least is
+/// all that it looks for.
 struct DesignError {
   std::string key;
   std::string what;

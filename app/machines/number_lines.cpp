@@ -84,8 +84,8 @@ void read_number_lines(const std::filesystem::path& file, const Columns& columns
     const std::size_t end = std::min(text.find('\n', at), text.size());
     ++number;
     if (number > columns.most_lines) {
-      errors.push_back(fmt::format("line {}: allowed: at most {} lines", number,
-                                   columns.most_lines));
+      errors.push_back(
+          fmt::format("line {}: allowed: at most {} lines", number, columns.most_lines));
       break;
     }
     const std::string wrong =

@@ -25,6 +25,7 @@ enum class Draw : std::uint32_t {
   kHidden,
   kSoilKind,
   kFencedTask,
+  kDesign,
 };
 
 class Random {

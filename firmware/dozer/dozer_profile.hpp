@@ -107,13 +107,13 @@ struct GradeHeights {
 };
 
 /// The design: heights over a plane through points with rounded corners. Before the first point and
-/// after the last one it goes on level with them. Where it has `heights`, they stand in the place of
-/// points and rounding.
+/// after the last one it goes on level with them. Where it has `heights`, they stand in the place
+/// of points and rounding.
 struct GradeDesign {
   static constexpr int kMostPoints = 32;
 
   std::array<GradePoint, kMostPoints> point{};
-  int count = 0;                ///< 2 .. kMostPoints, x rising; 0 with heights.
+  int count = 0;  ///< 2 .. kMostPoints, x rising; 0 with heights.
   GradeHeights heights;
   double rounding_m = 0.0;      ///< From each corner to where its curve begins, either side.
   double plane_height_m = 0.0;  ///< Of the plane at x = 0.

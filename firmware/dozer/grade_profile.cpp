@@ -76,9 +76,8 @@ GradeSample GradeProfile::of_heights(double x_m) const {
 GradeSample GradeProfile::at(double x_m) const {
   const GradeSample over = heights_.count > 1 ? of_heights(x_m) : of_points(x_m);
   const double plane_m = plane_height_m_ + plane_slope_ * x_m;
-  return over.height_m < floor_m_
-             ? GradeSample{plane_m + floor_m_, plane_slope_}
-             : GradeSample{plane_m + over.height_m, plane_slope_ + over.slope};
+  return over.height_m < floor_m_ ? GradeSample{plane_m + floor_m_, plane_slope_}
+                                  : GradeSample{plane_m + over.height_m, plane_slope_ + over.slope};
 }
 
 double grade_error_m(const GradeProfile& profile, double x_m, double z_m) {

@@ -16,8 +16,8 @@ struct GradeSample {
 
 /// Every corner is a parabola over `rounding_m` to either side, so that the slope has no step.
 /// Before the first and after the last point the heights go on level; these two have no curve. No
-/// two curves overlap: the application's check wants the points that far apart. Of heights on a grid
-/// it goes through all of them, with a slope that has no step either.
+/// two curves overlap: the application's check wants the points that far apart. Of heights on a
+/// grid it goes through all of them, with a slope that has no step either.
 class GradeProfile {
  public:
   explicit GradeProfile(const GradeDesign& design);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/machines/design_file.hpp"
 #include "app/machines/dozer_sections.hpp"
 #include "app/machines/simulated/simulated_sections.hpp"
 #include "app/plant/random.hpp"
@@ -161,6 +162,22 @@ SimulatedDozer load_simulated_dozer(const std::filesystem::path& file) {
   static_cast<DozerMachine&>(machine) = load_dozer(file);
   read_as(read_simulation(file), MachineKind::kDozer,
           [&](TomlReader& reader) { read_simulated_sections(reader, machine); });
+  return machine;
+}
+
+SimulatedDozer with_design(SimulatedDozer machine, const std::vector<GradePoint>& corners,
+                           double rounding_m, const std::string& file) {
+  machine.profile.grade.rounding_m = rounding_m;
+  set_design(machine, heights_of(corners, rounding_m));
+  machine.plant.machine.grade = machine.profile.grade;
+  machine.experiment.length_m = machine.profile.grade.end_m();
+  std::vector<std::string> errors;
+  for (const DesignError& error : design_errors(machine.profile)) {
+    errors.push_back(error.what);
+  }
+  if (!errors.empty()) {
+    throw ProfileError(file, errors);
+  }
   return machine;
 }
 

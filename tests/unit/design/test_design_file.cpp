@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/design/design_source.hpp"
+#include "app/machines/simulated/simulated_dozer.hpp"
 #include "firmware/dozer/grade_profile.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/design/written_file.hpp"
@@ -65,26 +65,27 @@ void what_is_written_is_read_again(void**) {
 
 /// The machine with it: in both ends, in the hash, as long as it is.
 void a_machine_takes_a_design(void**) {
-  const machines::SimulatedDozer machine =
-      design::with_design(test::dozer(), {{0.0, 0.0}, {8.0, 0.0}, {12.0, -0.2}, {20.0, -0.2}}, "x");
+  const machines::SimulatedDozer machine = machines::with_design(
+      test::dozer(), {{0.0, 0.0}, {8.0, 0.0}, {12.0, -0.2}, {20.0, -0.2}}, 0.3, "x");
   assert_near(machine.experiment.length_m, 20.0, 1e-9);
   assert_ptr_equal(machine.plant.machine.grade.heights.height_m,
                    machine.profile.grade.heights.height_m);
   assert_near(GradeProfile(machine.profile.grade).at(18.0).height_m, -0.2, 1e-9);
-  const auto other =
-      design::with_design(test::dozer(), {{0.0, 0.0}, {8.0, 0.0}, {12.0, -0.2}, {20.0, -0.201}}, "x");
+  const auto other = machines::with_design(
+      test::dozer(), {{0.0, 0.0}, {8.0, 0.0}, {12.0, -0.2}, {20.0, -0.201}}, 0.3, "x");
   assert_true(machine.hash != test::dozer().hash && machine.hash != other.hash);
 }
 
 void what_the_machine_cannot_make_is_refused_with_the_place(void**) {
   const auto refusal = [](const std::vector<GradePoint>& corners) {
     return test::refusal_of(
-        [&] { static_cast<void>(design::with_design(test::dozer(), corners, "wall.xml")); });
+        [&] { static_cast<void>(machines::with_design(test::dozer(), corners, 0.3, "wall.xml")); });
   };
   const std::string steep = refusal({{0.0, 0.0}, {5.0, 0.0}, {6.0, -0.8}, {20.0, -0.8}});
   assert_true(has(steep, "wall.xml") && has(steep, "a slope of -0.800 at x = 5."));
   assert_true(has(steep, "allowed: -0.6 .. 0.6"));
-  const std::string tips = refusal({{0.0, 0.0}, {5.0, 0.0}, {5.7, -0.4}, {8.0, -0.4}, {20.0, -0.4}});
+  const std::string tips =
+      refusal({{0.0, 0.0}, {5.0, 0.0}, {5.7, -0.4}, {8.0, -0.4}, {20.0, -0.4}});
   assert_true(has(tips, "with the body at x ="));
 }
 

@@ -60,8 +60,8 @@ void units_are_turned_to_metres(void**) {
 }
 
 void one_surface_of_several_is_chosen_by_its_name(void**) {
-  const std::string two = file_of(kMetres, surface("ground", kPoints, "<F>1 2 7</F>\n") +
-                                               surface("design", kPoints, kFaces));
+  const std::string two = file_of(
+      kMetres, surface("ground", kPoints, "<F>1 2 7</F>\n") + surface("design", kPoints, kFaces));
   assert_int_equal(read(two, "design").face.size(), 2);
   assert_int_equal(read(two, "ground").face.size(), 1);
   assert_true(has(refusal(two), "allowed: one of 'ground', 'design', by --surface"));
@@ -88,9 +88,9 @@ void what_is_malformed_is_refused_with_its_element(void**) {
   assert_true(has(refusal("<Other/>"), "allowed: LandXML as the outermost element"));
   assert_true(has(refusal(file_of(kMetres, "")), "has no <Surface>"));
   assert_true(has(refusal(file_of(kMetres, surface("a", kPoints, ""))), "has no face"));
-  assert_true(has(refusal(file_of(kMetres,
-                                  "<Surface name=\"a\"><Definition surfType=\"grid\"/></Surface>")),
-                  "surfType=\"grid\"; allowed: TIN"));
+  assert_true(has(
+      refusal(file_of(kMetres, "<Surface name=\"a\"><Definition surfType=\"grid\"/></Surface>")),
+      "surfType=\"grid\"; allowed: TIN"));
 }
 
 }  // namespace

@@ -38,14 +38,14 @@ double trench_m(double x_m, double /*y_m*/) {
 const design::BladeAcross kBlade{2.5, 0.02};
 
 design::Track track_of(const Eigen::Vector2d& from_m, double heading_rad, double length_m) {
-  return {from_m, from_m + length_m * Eigen::Vector2d(std::cos(heading_rad), std::sin(heading_rad))};
+  return {from_m,
+          from_m + length_m * Eigen::Vector2d(std::cos(heading_rad), std::sin(heading_rad))};
 }
 
 double height_m(const std::vector<GradePoint>& corners, double x_m) {
   for (std::size_t i = 1; i < corners.size(); ++i) {
     if (x_m <= corners[i].x_m) {
-      const double share =
-          (x_m - corners[i - 1].x_m) / (corners[i].x_m - corners[i - 1].x_m);
+      const double share = (x_m - corners[i - 1].x_m) / (corners[i].x_m - corners[i - 1].x_m);
       return corners[i - 1].z_m + share * (corners[i].z_m - corners[i - 1].z_m);
     }
   }
@@ -57,8 +57,8 @@ void the_section_is_the_surface_along_the_track(void**) {
   for (const double heading_rad : {0.0, 0.3, 1.5707963, -2.5}) {
     const Eigen::Vector2d from_m(400123.25, 5600456.5);
     const design::Surface surface = strip(kStations, from_m, heading_rad, trench_m);
-    const auto corners = design::along_track(surface, track_of(from_m, heading_rad, 20.0 - 1e-6),
-                                             0.0, kBlade);
+    const auto corners =
+        design::along_track(surface, track_of(from_m, heading_rad, 20.0 - 1e-6), 0.0, kBlade);
     assert_near(corners.front().x_m, 0.0, 0.0);
     assert_near(corners.back().x_m, 20.0, 1e-4);
     for (double x_m = 0.01; x_m < 19.9; x_m += 0.37) {
@@ -106,9 +106,8 @@ void holes_and_overhangs_are_refused_with_the_place(void**) {
 /// 2 % over the half of 2.5 m are 25 mm.
 void a_slope_across_is_refused_beyond_the_tolerance(void**) {
   const auto across = [](double slope) {
-    return strip(kStations, {0.0, 0.0}, 0.0, [slope](double x_m, double y_m) {
-      return trench_m(x_m, 0.0) + slope * y_m;
-    });
+    return strip(kStations, {0.0, 0.0}, 0.0,
+                 [slope](double x_m, double y_m) { return trench_m(x_m, 0.0) + slope * y_m; });
   };
   const design::Track track{{0.0, 0.0}, {20.0, 0.0}};
   assert_true(refusal(across(0.015), track).empty());
@@ -130,8 +129,7 @@ void a_track_is_straight_and_of_a_length(void**) {
 }
 
 void unless_told_it_goes_along_x_through_the_middle(void**) {
-  const design::Track track =
-      design::middle_track(strip(kStations, {10.0, 7.0}, 0.0, trench_m));
+  const design::Track track = design::middle_track(strip(kStations, {10.0, 7.0}, 0.0, trench_m));
   assert_near(track.from_m.x(), 10.0, 1e-12);
   assert_near(track.from_m.y(), 7.0, 1e-12);
   assert_near(track.to_m.x(), 30.0, 1e-12);
