@@ -14,7 +14,7 @@ import time
 CORNERS = ((0.0, 0.0), (4.0, 0.0), (5.0, -0.35), (9.0, -0.35), (9.8, -0.12), (13.0, -0.12),
            (13.8, -0.35), (18.0, -0.35), (20.0, 0.0), (27.0, 0.0))
 EAST, NORTH, HEIGHT, TURNED = 412000.0, 5712000.0, 54.3, 0.4
-ALONG, ACROSS = 1250, 40  # Cells: two triangles each.
+ALONG, ACROSS = 1270, 40  # Cells: two triangles each.
 WIDE = 4.0
 LOADED_S = 2.0
 SLOW = float(os.environ.get("GRABEN_SLOW", "1"))
