@@ -13,7 +13,7 @@ constexpr double kLeastLength_m = 1.0;
 constexpr double kMostLength_m = 1000.0;
 constexpr double kMostBend_rad = 1e-3;
 /// Two corners that are nearer are one; a hole that is narrower is none.
-constexpr double kSame_m = 1e-6;
+constexpr double kSame_m = 1e-5;
 constexpr double kHole_m = 1e-3;
 /// Two triangles that share an edge differ in height by rounding alone.
 constexpr double kOneHeight_m = 1e-3;

@@ -106,7 +106,7 @@ void write_design(const std::filesystem::path& file, const std::vector<GradePoin
   std::ofstream stream(file);
   stream << "# A design along the track: x and height over the plane, m.\n";
   for (const GradePoint& at : corners) {
-    stream << fmt::format("{:.4f} {:.5f}\n", at.x_m, at.z_m);
+    stream << fmt::format("{:.6f} {:.6f}\n", at.x_m, at.z_m);
   }
   stream.flush();
   if (!stream) {

@@ -75,11 +75,10 @@ std::string speed_table(const std::vector<SpeedRow>& rows, const GradeScenario& 
     } else if (row.end != GradeEnd::kDone) {
       text += fmt::format("{:<28}  did not come to the end\n", row.design);
     } else {
-      text += fmt::format("{:<28}{:>10.1f}{:>10.2f}{:>5}/{:<2}{:>7.2f}{}{}\n", row.design,
+      text += fmt::format("{:<28}{:>10.1f}{:>10.2f}{:>8}{:>7.2f}{}{}\n", row.design,
                           row.bounded.max_error_true_m * 1e3, row.bounded.time_s,
-                          row.bounded.sign_changes, row.bounded.corners,
-                          row.bounded.deceleration_true_mps2, against(row, row.same_error),
-                          against(row, row.tolerance));
+                          row.bounded.sign_changes, row.bounded.deceleration_true_mps2,
+                          against(row, row.same_error), against(row, row.tolerance));
     }
   }
   return text +

@@ -6,10 +6,10 @@ import json
 import math
 import os
 import re
+import resource
 import subprocess
 import sys
 import tempfile
-import time
 
 CORNERS = ((0.0, 0.0), (4.0, 0.0), (5.0, -0.35), (9.0, -0.35), (9.8, -0.12), (13.0, -0.12),
            (13.8, -0.35), (18.0, -0.35), (20.0, 0.0), (27.0, 0.0))
@@ -17,7 +17,6 @@ EAST, NORTH, HEIGHT, TURNED = 412000.0, 5712000.0, 54.3, 0.4
 ALONG, ACROSS = 1270, 40  # Cells: two triangles each.
 WIDE = 4.0
 LOADED_S = 2.0
-SLOW = float(os.environ.get("GRABEN_SLOW", "1"))
 
 
 def design(x):
@@ -86,14 +85,19 @@ def figures_of(graben, folder, *options):
         return json.load(stream)
 
 
+def used_s():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def assert_refused(graben, *options, words):
-    """The time that it takes is that of reading the file."""
-    began = time.monotonic()
+    """The processor's time that it takes is that of reading the file."""
+    began = used_s()
     done = run(graben, *options)
     assert done.returncode != 0, f"{options} was taken"
     for word in words:
         assert word in done.stderr, f"{options}: '{word}' is not in: {done.stderr}"
-    return time.monotonic() - began
+    return used_s() - began
 
 
 def as_the_profiles_own(graben, folder, file):
@@ -105,7 +109,7 @@ def as_the_profiles_own(graben, folder, file):
     print(f"{os.path.basename(file)}: read in {loaded_s:.2f} s; {figures['max_error_true_m'] * 1e3:.1f} mm in "
           f"{figures['time_s']:.2f} s, the profile's own {own['max_error_true_m'] * 1e3:.1f} mm in "
           f"{own['time_s']:.2f} s")
-    assert loaded_s < LOADED_S * SLOW, f"read in {loaded_s:.2f} s"
+    assert loaded_s < LOADED_S, f"read in {loaded_s:.2f} s"
     assert 1e-3 < figures["max_error_true_m"] < 11e-3, figures["max_error_true_m"]
     assert abs(figures["time_s"] - own["time_s"]) < 1.5, (figures["time_s"], own["time_s"])
     assert abs(figures["mean_speed_mps"] * figures["time_s"] - 27.0) < 0.1
@@ -165,7 +169,7 @@ def malformed_is_refused(graben, folder):
 def compared_with_constant_speeds(graben):
     done = run(graben, "--compare-speeds", "1", "--speed", "0.4")
     assert done.returncode == 0, done.stderr
-    row = re.search(r"(?m)^trench, walls of 1 m +([\d.]+) +([\d.]+) +\d+/", done.stdout)
+    row = re.search(r"(?m)^trench, walls of 1 m +([\d.]+) +([\d.]+) +\d+ ", done.stdout)
     assert row and float(row[1]) < 20.0, done.stdout
     assert "the plant has" in done.stdout and "it does not have" in done.stdout
 
