@@ -11,6 +11,8 @@ if(NOT CMAKE_CROSSCOMPILING)
   find_package(cmocka REQUIRED)
   find_package(Ceres REQUIRED QUIET)
   find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+  find_package(pugixml REQUIRED)
+  find_path(boost_polygon_include boost/polygon/voronoi.hpp REQUIRED)
   # Not by its own package file, which would link what the library has for itself: OpenSSL, zlib,
   # and the event libraries that it can be run on.
   find_path(libwebsockets_include libwebsockets.h REQUIRED)

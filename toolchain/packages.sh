@@ -27,6 +27,8 @@ graben_missing() {
   has_header ceres/ceres.h || echo libceres-dev
   has_header openssl/evp.h || echo libssl-dev
   has_header libevdev-1.0/libevdev/libevdev.h || echo libevdev-dev
+  has_header pugixml.hpp || echo libpugixml-dev
+  has_header boost/polygon/voronoi.hpp || echo libboost-dev
   # Debian's npm conflicts with a Node.js from elsewhere, which brings its own.
   has_command node || echo nodejs
   has_command npm || echo npm

@@ -100,6 +100,14 @@ void campaign_grade(const GradeCampaign& options) {
   });
 }
 
+void campaign_designs(const GradeCampaign& options) {
+  const machines::SimulatedDozer nominal =
+      machines::load_simulated_dozer(machines::find_profile(options.profile));
+  print_outcome([&](const runs::Progress& progress) {
+    return runs::campaign_designs(options.campaign, nominal, options.scenario, progress);
+  });
+}
+
 void campaign_identify(const IdentifyCampaign& options) {
   const machines::SimulatedExcavator nominal =
       machines::load_simulated_excavator(machines::find_profile(options.profile));
@@ -160,6 +168,26 @@ void add_campaign_grade(CLI::App& campaign, int& status) {
   add_examples(*command, {"campaign grade --draws 40 --summary out/grades.csv"});
   command->callback([options, &status] {
     status = guarded("campaign grade", [&] { campaign_grade(*options); });
+  });
+}
+
+void add_campaign_designs(CLI::App& campaign, int& status) {
+  auto options = std::make_shared<GradeCampaign>();
+  CLI::App* command = campaign.add_subcommand(
+      "designs",
+      "Random designs of a dozer, one a seed: refused before the start with the place, or made "
+      "within grade.tolerance; goes on as dig does");
+  add_profile_option(*command, options->profile);
+  options->campaign.draws = 160;
+  add_campaign_options(*command, options->campaign);
+  add_speed_options(*command, options->scenario);
+  add_engine_option(*command, options->scenario);
+  add_ground_options(*command, options->scenario);
+  add_lateness_options(*command, options->scenario);
+  add_error_option(*command, options->scenario);
+  add_examples(*command, {"campaign designs --draws 20 --summary out/designs.csv"});
+  command->callback([options, &status] {
+    status = guarded("campaign designs", [&] { campaign_designs(*options); });
   });
 }
 
@@ -241,6 +269,7 @@ void add_campaign(CLI::App& app, int& status) {
   add_examples(*campaign, {"campaign dig --draws 40 --summary out/draws.csv"});
   add_campaign_dig(*campaign, status);
   add_campaign_grade(*campaign, status);
+  add_campaign_designs(*campaign, status);
   add_campaign_identify(*campaign, status);
   add_campaign_autodig(*campaign, status);
   add_campaign_fences(*campaign, status);

@@ -6,15 +6,18 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
 #include "app/cli/output_file.hpp"
+#include "app/machines/design_file.hpp"
 #include "app/reports/run_reports.hpp"
 #include "app/runs/fastest_speed.hpp"
 #include "app/runs/grade_run.hpp"
+#include "app/runs/speed_table.hpp"
 #include "app/scope/page/scope_page.hpp"
 
 namespace graben::cli {
@@ -28,6 +31,8 @@ struct GradeCommand {
   std::string summary;
   std::optional<std::uint64_t> seed;
   std::optional<double> within_m;
+  design::DesignSource design;
+  int compared = 0;  ///< Of the sample designs.
 };
 
 std::string end_text(const runs::GradeResult& result) {
@@ -37,28 +42,39 @@ std::string end_text(const runs::GradeResult& result) {
              : "the grade was not finished in time";
 }
 
-machines::SimulatedDozer machine_of(const GradeCommand& options) {
+/// And its design along the track, where a file of its own has it.
+Designed machine_of(const GradeCommand& options) {
   if (options.scenario.errors == "all" && !options.seed) {
     throw std::runtime_error("--errors all draws the errors: it needs --seed");
   }
-  return runs::arranged(machines::load_simulated_dozer(machines::find_profile(options.profile)),
-                        options.scenario, options.seed.value_or(0));
+  Designed result = designed(
+      machines::load_simulated_dozer(machines::find_profile(options.profile)), options.design);
+  result.machine = runs::arranged(result.machine, options.scenario, options.seed.value_or(0));
+  return result;
 }
 
 std::string subtitle_of(const GradeCommand& options, const machines::SimulatedDozer& machine) {
   const std::string seed = options.seed ? fmt::format(" | seed {}", *options.seed) : "";
-  return fmt::format("{} | {}{}", machine.name, runs::scenario_text(machine, options.scenario),
-                     seed);
+  const std::string design =
+      options.design.file.empty() ? "" : " | " + options.design.file.filename().string();
+  return fmt::format("{}{} | {}{}", machine.name, design,
+                     runs::scenario_text(machine, options.scenario), seed);
 }
 
 void grade(const GradeCommand& options) {
-  const machines::SimulatedDozer machine = machine_of(options);
+  const auto [machine, corners] = machine_of(options);
   const std::filesystem::path out(options.out);
   runs::GradeOptions run;
   const std::filesystem::path report = out / "grade.html";
   run.log_file = options.log.empty() ? out / "grade.log" : std::filesystem::path(options.log);
-  assert_apart({}, {report.string(), run.log_file.string(), options.summary});
+  const std::filesystem::path design = out / "design.txt";
+  const std::string source = options.design.file.string();
+  assert_apart(source.empty() ? std::vector<std::string>{} : std::vector<std::string>{source},
+               {report.string(), run.log_file.string(), options.summary, design.string()});
   std::filesystem::create_directories(out);
+  if (!corners.empty()) {
+    machines::write_design(design, corners);
+  }
 
   runs::GradeResult result;
   {
@@ -74,6 +90,9 @@ void grade(const GradeCommand& options) {
   }
   fmt::print("{}log     {}\nreport  {}\n", runs::figures_text(figures), run.log_file.string(),
              report.string());
+  if (!corners.empty()) {
+    fmt::print("design  {}\n", design.string());
+  }
   if (result.end != runs::GradeEnd::kDone) {
     throw std::runtime_error(end_text(result));
   }
@@ -84,7 +103,7 @@ void search(const GradeCommand& options) {
   if (options.scenario.speed_mode != "constant") {
     throw std::runtime_error("--within looks for a constant speed: it needs --speed-mode constant");
   }
-  const machines::SimulatedDozer machine = machine_of(options);
+  const machines::SimulatedDozer machine = machine_of(options).machine;
   runs::FastestSpeed result;
   {
     ProgressBar bar("grade");
@@ -103,6 +122,27 @@ void search(const GradeCommand& options) {
   }
 }
 
+/// Bounded against constant speed, design by design.
+void compare(const GradeCommand& options) {
+  if (!options.design.file.empty() || options.within_m) {
+    throw std::runtime_error(
+        "--compare-speeds has its own designs and bounds: it does not go with "
+        "--design or --within");
+  }
+  if (options.scenario.errors == "all" && !options.seed) {
+    throw std::runtime_error("--errors all draws the errors: it needs --seed");
+  }
+  const machines::SimulatedDozer machine =
+      machines::load_simulated_dozer(machines::find_profile(options.profile));
+  std::vector<runs::SpeedRow> rows;
+  {
+    ProgressBar bar("grade");
+    rows = runs::compare_speeds(machine, options.scenario, options.seed.value_or(0),
+                                static_cast<std::size_t>(options.compared), bar.progress());
+  }
+  fmt::print("{}", runs::speed_table(rows, options.scenario, machine.profile.grade.tolerance_m));
+}
+
 }  // namespace
 
 void add_grade(CLI::App& app, int& status) {
@@ -114,6 +154,7 @@ void add_grade(CLI::App& app, int& status) {
       ->capture_default_str();
   command->add_option("--log", options->log, "candump log; grade.log in that folder unless told");
   add_summary_option(*command, options->summary);
+  add_design_options(*command, options->design);
   add_speed_options(*command, options->scenario);
   add_engine_option(*command, options->scenario);
   add_ground_options(*command, options->scenario);
@@ -126,9 +167,20 @@ void add_grade(CLI::App& app, int& status) {
                    "Instead of one run: the fastest constant speed up to the wanted one whose "
                    "true edge stays this near to the grade, m, 0.001 .. 1")
       ->check(number_between(0.001, 1.0));
-  add_examples(*command, {"grade", "grade --speed-mode constant --within 0.02"});
+  command
+      ->add_option(
+          "--compare-speeds", options->compared,
+          "Instead of one run: the first so many of 11 sample designs (the trench with "
+          "walls of 1, 1.5, 2, 3 m, sines, steps, V, level), 1 .. 11; each bounded, and at "
+          "the fastest constant speed with the same error and within grade.tolerance")
+      ->check(whole_number_between(1, 11));
+  add_examples(*command, {"grade", "grade --speed-mode constant --within 0.02",
+                          "grade --design trench.xml --track 100,200,127,200 --datum 54.3"});
   command->callback([options, &status] {
-    status = guarded("grade", [&] { options->within_m ? search(*options) : grade(*options); });
+    status = guarded("grade", [&] {
+      options->compared > 0 ? compare(*options)
+                            : (options->within_m ? search(*options) : grade(*options));
+    });
   });
 }
 

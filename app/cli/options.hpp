@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/design/design_source.hpp"
 #include "app/machines/simulated/simulation_file.hpp"
 #include "app/runs/scenarios.hpp"
 
@@ -47,6 +48,19 @@ void add_ground_options(CLI::App& command, runs::GradeScenario& scenario);
 void add_lateness_options(CLI::App& command, runs::GradeScenario& scenario);
 /// Adds --errors.
 void add_error_option(CLI::App& command, runs::GradeScenario& scenario);
+
+// Of `grade` and `campaign grade`.
+
+/// Adds --design, --surface, --track, --datum.
+void add_design_options(CLI::App& command, design::DesignSource& source);
+/// The machine with the design that these options name, and that along the track; the machine as it
+/// is, and none, where they name none.
+struct Designed {
+  machines::SimulatedDozer machine;
+  std::vector<GradePoint> corners;
+};
+[[nodiscard]] Designed designed(const machines::SimulatedDozer& machine,
+                                const design::DesignSource& source);
 
 // Of `dig`, `campaign dig`, `plant` and `scope`.
 

@@ -137,67 +137,110 @@ void check_engine(TomlReader& reader, const DozerProfile& profile) {
   }
 }
 
+using DesignErrors = std::vector<DesignError>;
+
+std::string too_steep(double slope, const std::string& where) {
+  return fmt::format("a slope of {:.3f} {}; allowed: {} .. {}", slope, where, -kMostSlope,
+                     kMostSlope);
+}
+
 /// From each corner to the next: rising in x, room for both roundings, not too steep.
-void check_corners(TomlReader& reader, const GradeDesign& grade) {
+DesignErrors errors_of_corners(const GradeDesign& grade) {
+  DesignErrors errors;
   for (unsigned i = 1; i < static_cast<unsigned>(grade.count); ++i) {
     const GradePoint& from = grade.point[i - 1];
     const GradePoint& to = grade.point[i];
     const double apart_m = to.x_m - from.x_m;
     const std::string key = fmt::format("grade.profile[{}]", i);
     if (!(apart_m > 0.0)) {
-      reader.fail(key, fmt::format("x = {} m; allowed: more than the point before, {} m", to.x_m,
-                                   from.x_m));
+      errors.push_back({key, fmt::format("x = {} m; allowed: more than the point before, {} m",
+                                         to.x_m, from.x_m)});
       continue;
     }
     // As the corners' numbers are rounded in binary, so is their distance.
     if (apart_m < 2.0 * grade.rounding_m - 1e-9) {
-      reader.fail(key, fmt::format("{:.3f} m after the point before; allowed: at least twice the "
-                                   "rounding, {:.3f} m",
-                                   apart_m, 2.0 * grade.rounding_m));
+      errors.push_back({key, fmt::format("{:.3f} m after the point before; allowed: at least twice "
+                                         "the rounding, {:.3f} m",
+                                         apart_m, 2.0 * grade.rounding_m)});
     }
     const double slope = (to.z_m - from.z_m) / apart_m + grade.plane_slope;
     if (std::abs(slope) > kMostSlope) {
-      reader.fail(key, fmt::format("a slope of {:.3f} from the point before; allowed: {} .. {}",
-                                   slope, -kMostSlope, kMostSlope));
+      errors.push_back({key, too_steep(slope, "from the point before")});
     }
   }
+  return errors;
 }
 
-void check_reach(TomlReader& reader, const DozerProfile& profile) {
-  const GradeDesign& grade = profile.grade;
-  const GradePoint& last = grade.point[static_cast<unsigned>(grade.count - 1)];
-  const GradeReach reach = grade_reach(profile, grade.point[0].x_m, last.x_m);
-  if (!reach.reached) {
-    reader.fail("grade.profile",
-                fmt::format("with the body at x = {:.2f} m the cutting edge would have to be at "
-                            "{:.3f} m against the tracks' ground line; allowed: the blade's reach, "
-                            "{} .. {} m",
-                            reach.position_m, reach.edge_m, profile.blade.edge_min_m,
-                            profile.blade.edge_max_m));
+/// The steepest place alone: a wall is steep at many.
+DesignErrors errors_of_heights(const GradeDesign& grade) {
+  constexpr double kStep_m = GradeHeights::kStep_m;
+  int steepest = 0;
+  double most = 0.0;
+  for (int i = 0; i + 1 < grade.heights.count; ++i) {
+    const double* const at = grade.heights.height_m + i;
+    const double slope = (at[1] - at[0]) / kStep_m + grade.plane_slope;
+    if (std::abs(slope) > std::abs(most)) {
+      most = slope;
+      steepest = i;
+    }
   }
+  if (std::abs(most) <= kMostSlope) {
+    return {};
+  }
+  const double x_m = grade.heights.from_m + (steepest + 0.5) * kStep_m;
+  return {{kDesignKey, too_steep(most, fmt::format("at x = {:.2f} m", x_m))}};
+}
+
+const char* whole_key(const GradeDesign& grade) {
+  return grade.heights.count > 0 ? kDesignKey : "grade.profile";
+}
+
+DesignErrors errors_of_reach(const DozerProfile& profile) {
+  const GradeDesign& grade = profile.grade;
+  const GradeReach reach = grade_reach(profile, grade.begin_m(), grade.end_m());
+  if (reach.reached) {
+    return {};
+  }
+  return {
+      {whole_key(grade),
+       fmt::format("with the body at x = {:.2f} m the cutting edge would have to be at {:.3f} m "
+                   "against the tracks' ground line; allowed: the blade's reach, {} .. {} m",
+                   reach.position_m, reach.edge_m, profile.blade.edge_min_m,
+                   profile.blade.edge_max_m)}};
 }
 
 /// Over some crests the body tips faster than the blade's flow follows, however slow it drives.
-void check_kept(TomlReader& reader, const DozerProfile& profile) {
+DesignErrors errors_of_keeping(const DozerProfile& profile) {
   const GradeDesign& grade = profile.grade;
-  const GradePoint& last = grade.point[static_cast<unsigned>(grade.count - 1)];
-  const GradeKept kept = grade_kept(profile, grade.point[0].x_m, last.x_m);
-  if (!kept.kept) {
-    reader.fail("grade.profile",
-                fmt::format("with the body at x = {:.2f} m, where it tips, the ground would come "
-                            "out {:.3f} m off the design at any speed; allowed: grade.tolerance, "
-                            "{} m",
-                            kept.position_m, kept.off_m, grade.tolerance_m));
+  const GradeKept kept = grade_kept(profile, grade.begin_m(), grade.end_m());
+  if (kept.kept) {
+    return {};
   }
+  return {{whole_key(grade),
+           fmt::format("with the body at x = {:.2f} m, where it tips, the ground would come out "
+                       "{:.3f} m off the design at any speed; allowed: grade.tolerance, {} m",
+                       kept.position_m, kept.off_m, grade.tolerance_m)}};
 }
 
 }  // namespace
 
 double lowest_point_m(const GradeDesign& grade) {
+  if (grade.heights.count > 0) {
+    return *std::min_element(grade.heights.height_m, grade.heights.height_m + grade.heights.count);
+  }
   const auto* const end = grade.point.begin() + grade.count;
   return std::min_element(grade.point.begin(), end,
                           [](const GradePoint& a, const GradePoint& b) { return a.z_m < b.z_m; })
       ->z_m;
+}
+
+std::vector<DesignError> design_errors(const DozerProfile& profile) {
+  DesignErrors errors = profile.grade.heights.count > 0 ? errors_of_heights(profile.grade)
+                                                        : errors_of_corners(profile.grade);
+  if (errors.empty()) {
+    errors = errors_of_reach(profile);
+  }
+  return errors.empty() ? errors_of_keeping(profile) : errors;
 }
 
 void check_dozer_across_keys(TomlReader& reader, const DozerProfile& profile) {
@@ -210,12 +253,12 @@ void check_dozer_across_keys(TomlReader& reader, const DozerProfile& profile) {
   check_body(reader, profile.body);
   check_blade(reader, profile.blade, l11_m);
   check_engine(reader, profile);
-  check_corners(reader, profile.grade);
-  if (reader.errors().empty()) {
-    check_reach(reader, profile);
+  const GradeDesign& grade = profile.grade;
+  if (!reader.errors().empty() || (grade.count < 2 && grade.heights.count < 2)) {
+    return;  // A design in a file of its own may not have been read.
   }
-  if (reader.errors().empty()) {
-    check_kept(reader, profile);
+  for (const DesignError& error : design_errors(profile)) {
+    reader.fail(error.key, error.what);
   }
 }
 

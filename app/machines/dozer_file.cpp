@@ -1,5 +1,6 @@
 #include "app/machines/dozer_file.hpp"
 
+#include "app/machines/design_file.hpp"
 #include "app/machines/dozer_sections.hpp"
 #include "app/machines/profile_document.hpp"
 
@@ -8,11 +9,16 @@ namespace graben::machines {
 DozerMachine load_dozer(const ProfileDocument& document) {
   DozerMachine machine;
   machine.name = document.file.stem().string();
-  machine.hash = read_as(document, MachineKind::kDozer, [&](TomlReader& reader) {
+  const std::uint32_t of_keys = read_as(document, MachineKind::kDozer, [&](TomlReader& reader) {
     machine.profile = read_dozer_sections(reader);
     machine.provenance = reader.provenance();
+    if (reader.has(kDesignKey) && reader.is_sound()) {
+      const auto corners = read_design(document.file.parent_path() / design_name(reader));
+      set_design(machine, heights_of(corners, machine.profile.grade.rounding_m));
+    }
     check_dozer_across_keys(reader, machine.profile);
   });
+  machine.hash ^= of_keys;  // With what a design in a file of its own has put there.
   return machine;
 }
 

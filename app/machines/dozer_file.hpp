@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "app/machines/profile_file.hpp"
 #include "app/machines/provenance.hpp"
@@ -11,11 +13,19 @@
 
 namespace graben::machines {
 
-/// A dozer as its controller has to know it.
+/// A design's heights on the controller's grid, which the profile points to.
+struct DesignHeights {
+  double from_m = 0.0;
+  std::shared_ptr<const std::vector<double>> height_m;  ///< None: the profile has points.
+};
+
+/// A dozer as its controller has to know it. Its profile and copies of it are good as long as this
+/// or a copy of this is there.
 struct DozerMachine {
   std::string name;        ///< File name without its ending.
   std::uint32_t hash = 0;  ///< Of the checked values (TomlReader::hash); on the bus as ProfileHash.
   DozerProfile profile;
+  DesignHeights design;                ///< Of a design in a file of its own.
   std::vector<Provenance> provenance;  ///< Where its values are from, as far as said.
 };
 

@@ -145,10 +145,14 @@ TravelProfile read_travel(TomlReader& reader) {
 
 GradeDesign read_grade(TomlReader& reader) {
   GradeDesign grade;
-  for (const auto& [x_m, z_m] : reader.pairs(
-           "grade.profile", kX, kHeight, 2, GradeDesign::kMostPoints,
-           "corners of the design, x and height over the plane; x rises, slopes up to 0.6")) {
-    grade.point[static_cast<unsigned>(grade.count++)] = {x_m, z_m};
+  if (reader.has(kDesignKey)) {
+    static_cast<void>(design_name(reader));
+  } else {
+    for (const auto& [x_m, z_m] : reader.pairs(
+             "grade.profile", kX, kHeight, 2, GradeDesign::kMostPoints,
+             "corners of the design, x and height over the plane; x rises, slopes up to 0.6")) {
+      grade.point[static_cast<unsigned>(grade.count++)] = {x_m, z_m};
+    }
   }
   grade.rounding_m = reader.number("grade.rounding", {0.0, 10.0, "m"},
                                    "from each corner to where its curve begins, either side");
@@ -195,6 +199,12 @@ DozerSafety read_safety(TomlReader& reader) {
 }
 
 }  // namespace
+
+std::string design_name(TomlReader& reader) {
+  return reader.text(kDesignKey,
+                     "the design in a file of its own, by its name beside this file, instead of "
+                     "grade.profile: a line a corner, x and height over the plane, m");
+}
 
 DozerProfile read_dozer_sections(TomlReader& reader) {
   DozerProfile profile;

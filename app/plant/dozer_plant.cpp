@@ -15,9 +15,7 @@ constexpr double kGroundAheadM = 10.0;
 constexpr double kOverload = 5.0;
 
 Terrain ground_of(const DozerPlantProfile& profile) {
-  const GradeDesign& grade = profile.machine.grade;
-  const double end =
-      grade.count > 0 ? grade.point[static_cast<std::size_t>(grade.count) - 1].x_m : 0.0;
+  const double end = profile.machine.grade.end_m();
   return {profile.start_position_m - kGroundBehindM,
           std::max(end, profile.start_position_m) + kGroundAheadM, profile.terrain_cell_m};
 }

@@ -27,6 +27,7 @@ enum class Draw : std::uint32_t {
   kFencedTask,
   kImuBias,
   kImuNoise,
+  kDesign,
 };
 
 class Random {

@@ -149,8 +149,7 @@ json machine_json(const machines::SimulatedExcavator& machine,
 }
 
 json machine_json(const machines::DozerMachine& machine) {
-  const GradeDesign& grade = machine.profile.grade;
-  return dozer_json(machine, grade.point[static_cast<unsigned>(grade.count - 1)].x_m);
+  return dozer_json(machine, machine.profile.grade.end_m());
 }
 
 json machine_json(const machines::SimulatedDozer& machine) {

@@ -206,6 +206,16 @@ std::string campaign_table(const CampaignKind& kind, const CampaignData& data) {
   std::string table =
       fmt::format("{}, {} of {} draws done\n{:<{}}{:>10}{:>10}{:>10}\n", data.tried, done,
                   data.rows.size(), "", kFigureTextWidth, "median", "p95", "max");
+  // Of a kind that has more than one answer, how many of each.
+  if (kind.failures_from > 1) {
+    std::string ends;
+    for (std::size_t end = 0; end < kind.ends.size(); ++end) {
+      const auto count = std::count_if(data.rows.begin(), data.rows.end(),
+                                       [&](const auto& row) { return row.second.end == end; });
+      ends += fmt::format("{}{} {}", end == 0 ? "" : ", ", kind.ends[end], count);
+    }
+    table.insert(table.find('\n') + 1, ends + "\n");
+  }
   for (std::size_t i = 0; i < kind.columns.size(); ++i) {
     const FigureInfo& figure = *kind.columns[i];
     std::vector<double> values;

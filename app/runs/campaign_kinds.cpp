@@ -9,6 +9,7 @@
 #include "app/runs/fence_campaign.hpp"
 #include "app/runs/grade_run.hpp"
 #include "app/runs/identify_run.hpp"
+#include "app/runs/sample_designs.hpp"
 
 namespace graben::runs {
 namespace {
@@ -27,6 +28,35 @@ const CampaignKind& grade_kind() {
   static const CampaignKind kind = {
       "grade", {"done", "not-finished", "fault"}, columns_of(grade_figures())};
   return kind;
+}
+
+/// How a random design ends.
+enum class DesignEnd : std::size_t { kDone, kRefused, kTooFarOff, kNotFinished, kFault };
+
+const CampaignKind& designs_kind() {
+  static const CampaignKind kind = {"designs",
+                                    {"done", "refused", "too-far-off", "not-finished", "fault"},
+                                    columns_of(grade_figures()),
+                                    2};
+  return kind;
+}
+
+CampaignRow row_of(DesignEnd end, const GradeSummary& summary) {
+  return campaign_row(static_cast<std::size_t>(end), figures_of(summary));
+}
+
+/// A design that came out too far off keeps its figures: they are what the campaign is about.
+CampaignRow row_of(const machines::SimulatedDozer& machine, const GradeResult& result) {
+  const GradeSummary summary = summarise(machine, result);
+  if (result.end != GradeEnd::kDone) {
+    return row_of(result.end == GradeEnd::kFault ? DesignEnd::kFault : DesignEnd::kNotFinished,
+                  summary);
+  }
+  CampaignRow row = row_of(DesignEnd::kDone, summary);
+  if (summary.max_error_true_m > machine.profile.grade.tolerance_m) {
+    row.end = static_cast<std::size_t>(DesignEnd::kTooFarOff);
+  }
+  return row;
 }
 
 const CampaignKind& identify_kind() {
@@ -54,8 +84,8 @@ const CampaignKind& autodig_kind() {
 
 const CampaignKind& kind_of(const std::string& file) {
   const std::string name = campaign_name(file);
-  for (const CampaignKind* kind :
-       {&dig_kind(), &grade_kind(), &identify_kind(), &autodig_kind(), &fence_kind()}) {
+  for (const CampaignKind* kind : {&dig_kind(), &grade_kind(), &designs_kind(), &identify_kind(),
+                                   &autodig_kind(), &fence_kind()}) {
     if (name == kind->name) {
       return *kind;
     }
@@ -97,6 +127,26 @@ CampaignOutcome campaign_grade(const CampaignOptions& options,
   };
   return run_campaign(options, grade_kind(),
                       fmt::format("grade {} {:08x}, {}", nominal.name, nominal.hash,
+                                  scenario_text(nominal, scenario)),
+                      draw, progress);
+}
+
+CampaignOutcome campaign_designs(const CampaignOptions& options,
+                                 const machines::SimulatedDozer& nominal,
+                                 const GradeScenario& scenario, const Progress& progress) {
+  const auto draw = [&](std::uint64_t seed) {
+    const SampleDesign design = random_design(seed);
+    try {
+      const machines::SimulatedDozer machine =
+          arranged(machines::with_design(nominal, design.corners, design.rounding_m, design.name),
+                   scenario, seed);
+      return row_of(machine, run_grade(machine, {}, show_nothing));
+    } catch (const machines::ProfileError&) {
+      return row_of(DesignEnd::kRefused, {});
+    }
+  };
+  return run_campaign(options, designs_kind(),
+                      fmt::format("designs {} {:08x}, {}", nominal.name, nominal.hash,
                                   scenario_text(nominal, scenario)),
                       draw, progress);
 }

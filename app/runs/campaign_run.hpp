@@ -37,6 +37,13 @@ struct CampaignOutcome {
                                              const GradeScenario& scenario,
                                              const Progress& progress);
 
+/// Random designs, one a seed, in a scenario: refused with its place before the start, or made
+/// within what the task allows.
+[[nodiscard]] CampaignOutcome campaign_designs(const CampaignOptions& options,
+                                               const machines::SimulatedDozer& nominal,
+                                               const GradeScenario& scenario,
+                                               const Progress& progress);
+
 /// Hidden machines of `nominal`: commissioned, identified, and put to the dig, see
 /// identify_run.hpp.
 [[nodiscard]] CampaignOutcome campaign_identify(const CampaignOptions& options,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace graben::runs {
 namespace {
@@ -11,68 +12,61 @@ namespace {
 /// Speeds are counted in these.
 long steps(double speed_mps) { return std::lround(speed_mps / kFineTrial_mps); }
 
-class Search {
- public:
-  Search(const machines::SimulatedDozer& machine, double most_m, const Progress& progress)
-      : machine_(machine),
-        most_m_(most_m),
-        progress_(progress),
-        // Down: the operator's speed is the most there is.
-        fastest_(static_cast<long>(
-            std::floor(machine.profile.travel.speed_desired_mps / kFineTrial_mps + 1e-9))) {}
-
-  FastestSpeed run() {
-    const long slowest = steps(kSlowestTrial_mps);
-    const long coarse = steps(kCoarseTrial_mps);
-    long speed = fastest_;
-    while (!is_within(speed) && speed > slowest) {
-      speed = std::max(speed - coarse, slowest);
-    }
-    if (result_.trials.back().within(most_m_)) {
-      const long from = std::min(speed + coarse - 1, fastest_ - 1);
-      for (long finer = from; finer > speed && !is_within(finer); --finer) {
-      }
-      result_.found = result_.trials.back().within(most_m_) ? result_.trials.back() : at(speed);
-    }
-    std::sort(result_.trials.begin(), result_.trials.end(),
-              [](const SpeedTrial& a, const SpeedTrial& b) { return a.speed_mps < b.speed_mps; });
-    return std::move(result_);
-  }
-
- private:
-  bool is_within(long speed) {
-    SpeedTrial trial;
-    trial.speed_mps = static_cast<double>(speed) * kFineTrial_mps;
-    machines::SimulatedDozer machine = machine_;
-    machine.profile.travel.speed_desired_mps = trial.speed_mps;
-    machine.profile.travel.speed_min_mps =
-        std::min(machine.profile.travel.speed_min_mps, trial.speed_mps);
-    const GradeResult result = run_grade(machine, {}, [&](double share, const std::string&) {
-      progress_(share, fmt::format("{:.2f} m/s", trial.speed_mps));
-    });
-    trial.end = result.end;
-    trial.summary = summarise(machine, result);
-    result_.trials.push_back(trial);
-    return trial.within(most_m_);
-  }
-
-  [[nodiscard]] SpeedTrial at(long speed) const {
-    return *std::find_if(result_.trials.begin(), result_.trials.end(),
-                         [&](const SpeedTrial& trial) { return steps(trial.speed_mps) == speed; });
-  }
-
-  const machines::SimulatedDozer& machine_;
-  double most_m_;
-  const Progress& progress_;
-  long fastest_;
-  FastestSpeed result_;
-};
-
 }  // namespace
+
+ConstantSpeeds::ConstantSpeeds(machines::SimulatedDozer machine)
+    : machine_(std::move(machine)),
+      // Down: the operator's speed is the most there is.
+      fastest_(static_cast<long>(
+          std::floor(machine_.profile.travel.speed_desired_mps / kFineTrial_mps + 1e-9))) {}
+
+const SpeedTrial& ConstantSpeeds::trial(long speed, const Progress& progress) {
+  const auto known = trials_.find(speed);
+  if (known != trials_.end()) {
+    return known->second;
+  }
+  SpeedTrial trial;
+  trial.speed_mps = static_cast<double>(speed) * kFineTrial_mps;
+  machines::SimulatedDozer machine = machine_;
+  machine.profile.travel.speed_desired_mps = trial.speed_mps;
+  machine.profile.travel.speed_min_mps =
+      std::min(machine.profile.travel.speed_min_mps, trial.speed_mps);
+  const GradeResult result = run_grade(machine, {}, [&](double share, const std::string&) {
+    progress(share, fmt::format("{:.2f} m/s", trial.speed_mps));
+  });
+  trial.end = result.end;
+  trial.summary = summarise(machine, result);
+  return trials_.emplace(speed, trial).first->second;
+}
+
+std::optional<SpeedTrial> ConstantSpeeds::fastest(double most_m, const Progress& progress) {
+  const long slowest = steps(kSlowestTrial_mps);
+  const long coarse = steps(kCoarseTrial_mps);
+  const auto is_within = [&](long speed) { return trial(speed, progress).within(most_m); };
+  long speed = fastest_;
+  while (!is_within(speed) && speed > slowest) {
+    speed = std::max(speed - coarse, slowest);
+  }
+  if (!is_within(speed)) {
+    return std::nullopt;
+  }
+  for (long finer = std::min(speed + coarse - 1, fastest_ - 1); finer > speed; --finer) {
+    if (is_within(finer)) {
+      return trial(finer, progress);
+    }
+  }
+  return trial(speed, progress);
+}
 
 FastestSpeed find_fastest(const machines::SimulatedDozer& machine, double most_m,
                           const Progress& progress) {
-  return Search(machine, most_m, progress).run();
+  ConstantSpeeds speeds(machine);
+  FastestSpeed result;
+  result.found = speeds.fastest(most_m, progress);
+  for (const auto& [speed, trial] : speeds.trials()) {
+    result.trials.push_back(trial);
+  }
+  return result;
 }
 
 std::string fastest_table(const FastestSpeed& result, double most_m) {

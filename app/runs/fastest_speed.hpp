@@ -1,6 +1,7 @@
 #pragma once
 /// The fastest constant speed at which the grade still comes out within a bound.
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -26,6 +27,25 @@ struct FastestSpeed {
 inline constexpr double kSlowestTrial_mps = 0.05;
 inline constexpr double kCoarseTrial_mps = 0.1;
 inline constexpr double kFineTrial_mps = 0.01;
+
+/// What is found at one bound serves the next: trials are remembered. The machine should have the
+/// constant policy.
+class ConstantSpeeds {
+ public:
+  explicit ConstantSpeeds(machines::SimulatedDozer machine);
+
+  /// See find_fastest().
+  [[nodiscard]] std::optional<SpeedTrial> fastest(double most_m, const Progress& progress);
+  /// By their speeds in kFineTrial_mps.
+  [[nodiscard]] const std::map<long, SpeedTrial>& trials() const { return trials_; }
+
+ private:
+  const SpeedTrial& trial(long speed, const Progress& progress);
+
+  machines::SimulatedDozer machine_;
+  long fastest_;
+  std::map<long, SpeedTrial> trials_;
+};
 
 /// Whole multiples of kFineTrial_mps, up to that of the machine's profile, which should have the
 /// constant policy. The error need not rise with the speed: so every kCoarseTrial_mps from the

@@ -94,13 +94,27 @@ struct GradePoint {
   double z_m = 0.0;
 };
 
+/// Heights of a design along the track on an even grid, for what has more corners than a list of
+/// points: a surface of triangles, cut by the track. They stay the application's, which keeps them
+/// as long as anything has this design; nothing of them is copied.
+struct GradeHeights {
+  static constexpr double kStep_m = 0.05;
+  static constexpr int kMost = 20'001;
+
+  const double* height_m = nullptr;  ///< Over the design's plane, `count` of them.
+  int count = 0;                     ///< 0, or 2 .. kMost.
+  double from_m = 0.0;               ///< Place of the first one.
+};
+
 /// The design: heights over a plane through points with rounded corners. Before the first point and
-/// after the last one it goes on level with them.
+/// after the last one it goes on level with them. Where it has `heights`, they stand in the place
+/// of points and rounding.
 struct GradeDesign {
   static constexpr int kMostPoints = 32;
 
   std::array<GradePoint, kMostPoints> point{};
-  int count = 0;                ///< 2 .. kMostPoints, x rising.
+  int count = 0;  ///< 2 .. kMostPoints, x rising; 0 with heights.
+  GradeHeights heights;
   double rounding_m = 0.0;      ///< From each corner to where its curve begins, either side.
   double plane_height_m = 0.0;  ///< Of the plane at x = 0.
   double plane_slope = 0.0;     ///< dz/dx of the plane.
@@ -108,6 +122,17 @@ struct GradeDesign {
   double pass_depth_m = 10.0;   ///< No pass goes deeper below what the one before has left.
   int passes_most = 1;          ///< So often the machine may go over it.
   double tolerance_m = 0.02;    ///< How far off the design the ground may come out.
+
+  /// Where it begins and ends; 0 and 0 without either.
+  [[nodiscard]] double begin_m() const {
+    return heights.count > 0 ? heights.from_m : (count > 0 ? point[0].x_m : 0.0);
+  }
+  [[nodiscard]] double end_m() const {
+    if (heights.count > 0) {
+      return heights.from_m + (heights.count - 1) * GradeHeights::kStep_m;
+    }
+    return count > 0 ? point[static_cast<unsigned>(count - 1)].x_m : 0.0;
+  }
 };
 
 struct DozerControl {

@@ -20,6 +20,7 @@ double slope_after(const GradeDesign& design, int count, int i) {
 GradeProfile::GradeProfile(const GradeDesign& design)
     : plane_height_m_(design.plane_height_m),
       plane_slope_(design.plane_slope),
+      heights_(design.heights),
       count_(std::clamp(design.count, 0, GradeDesign::kMostPoints)) {
   line_[0].height_m = count_ > 0 ? design.point[0].z_m : 0.0;
   for (int i = 0; i < count_; ++i) {
@@ -31,14 +32,12 @@ GradeProfile::GradeProfile(const GradeDesign& design)
   }
 }
 
-GradeSample GradeProfile::at(double x_m) const {
+GradeSample GradeProfile::of_points(double x_m) const {
   const auto end = curve_end_m_.begin() + count_;
   const auto n = static_cast<unsigned>(std::upper_bound(curve_end_m_.begin(), end, x_m) -
                                        curve_end_m_.begin());
   const Line& line = line_[n];
-  GradeSample sample{
-      plane_height_m_ + plane_slope_ * x_m + line.height_m + line.slope * (x_m - line.from_m),
-      plane_slope_ + line.slope};
+  GradeSample sample{line.height_m + line.slope * (x_m - line.from_m), line.slope};
   if (static_cast<int>(n) < count_) {
     const double half_m = curve_end_m_[n] - corner_m_[n];
     const double along_m = x_m - (corner_m_[n] - half_m);
@@ -48,8 +47,37 @@ GradeSample GradeProfile::at(double x_m) const {
       sample.slope += kink * along_m / (2.0 * half_m);
     }
   }
-  const double floor_m = plane_height_m_ + plane_slope_ * x_m + floor_m_;
-  return sample.height_m < floor_m ? GradeSample{floor_m, plane_slope_} : sample;
+  return sample;
+}
+
+/// Between two heights a parabola, of the curvature that there is about both; its slope goes over
+/// from the one at the first to the one at the second.
+GradeSample GradeProfile::of_heights(double x_m) const {
+  const int last = heights_.count - 1;
+  const double place = (x_m - heights_.from_m) / GradeHeights::kStep_m;
+  if (!(place > 0.0)) {
+    return {heights_.height_m[0], 0.0};
+  }
+  if (place >= last) {
+    return {heights_.height_m[last], 0.0};
+  }
+  const int index = static_cast<int>(place);
+  const double* const here = heights_.height_m + index;
+  const double before_m = here[index > 0 ? -1 : 0];
+  const double after_m = here[index + 2 <= last ? 2 : 1];
+  // Twice the rise from one to the next.
+  const double rise_m = here[1] - before_m;
+  const double bend_m = after_m - here[0] - rise_m;
+  const double share = place - index;
+  return {here[0] + share * (here[1] - here[0]) - 0.25 * bend_m * share * (1.0 - share),
+          (rise_m + share * bend_m) / (2.0 * GradeHeights::kStep_m)};
+}
+
+GradeSample GradeProfile::at(double x_m) const {
+  const GradeSample over = heights_.count > 1 ? of_heights(x_m) : of_points(x_m);
+  const double plane_m = plane_height_m_ + plane_slope_ * x_m;
+  return over.height_m < floor_m_ ? GradeSample{plane_m + floor_m_, plane_slope_}
+                                  : GradeSample{plane_m + over.height_m, plane_slope_ + over.slope};
 }
 
 double grade_error_m(const GradeProfile& profile, double x_m, double z_m) {

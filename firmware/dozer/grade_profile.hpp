@@ -1,5 +1,6 @@
 #pragma once
-/// The design surface: a plane, and over it heights through points with rounded corners.
+/// The design surface: a plane, and over it heights: through points with rounded corners, or on a
+/// grid.
 
 #include <limits>
 
@@ -15,7 +16,8 @@ struct GradeSample {
 
 /// Every corner is a parabola over `rounding_m` to either side, so that the slope has no step.
 /// Before the first and after the last point the heights go on level; these two have no curve. No
-/// two curves overlap: the application's check wants the points that far apart.
+/// two curves overlap: the application's check wants the points that far apart. Of heights on a
+/// grid it goes through all of them, with a slope that has no step either.
 class GradeProfile {
  public:
   explicit GradeProfile(const GradeDesign& design);
@@ -34,9 +36,14 @@ class GradeProfile {
     double slope = 0.0;
   };
 
+  /// Over the plane, before the floor.
+  [[nodiscard]] GradeSample of_points(double x_m) const;
+  [[nodiscard]] GradeSample of_heights(double x_m) const;
+
   double plane_height_m_;
   double plane_slope_;
   double floor_m_ = -std::numeric_limits<double>::infinity();
+  GradeHeights heights_;
   int count_;
   std::array<double, GradeDesign::kMostPoints> corner_m_{};
   std::array<double, GradeDesign::kMostPoints> curve_end_m_{};  ///< Of each corner.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/machines/design_file.hpp"
 #include "app/machines/dozer_sections.hpp"
 #include "app/machines/simulated/simulated_sections.hpp"
 #include "app/plant/random.hpp"
@@ -139,13 +140,12 @@ void check_experiment(TomlReader& reader, const GradeDesign& grade, double lengt
   const double lowest_m = lowest_point_m(grade);
   if (std::abs(lowest_m + depth_max_m) > kDepthTolerance_m) {
     reader.fail("experiment.depth_max",
-                fmt::format("{} m; the profile's lowest point is at {} m", depth_max_m, lowest_m));
+                fmt::format("{} m; the design's lowest point is at {} m", depth_max_m, lowest_m));
   }
-  const GradePoint& last = grade.point[static_cast<unsigned>(grade.count - 1)];
-  if (length_m > last.x_m) {
-    reader.fail("experiment.length", fmt::format("{} m; allowed: at most to the profile's end, {} "
-                                                 "m",
-                                                 length_m, last.x_m));
+  // Its end on the grid is as exact as a number of steps is.
+  if (length_m > grade.end_m() + 1e-6) {
+    reader.fail("experiment.length", fmt::format("{} m; allowed: at most to the design's end, {} m",
+                                                 length_m, grade.end_m()));
   }
 }
 
@@ -162,6 +162,22 @@ SimulatedDozer load_simulated_dozer(const std::filesystem::path& file) {
   static_cast<DozerMachine&>(machine) = load_dozer(file);
   read_as(read_simulation(file), MachineKind::kDozer,
           [&](TomlReader& reader) { read_simulated_sections(reader, machine); });
+  return machine;
+}
+
+SimulatedDozer with_design(SimulatedDozer machine, const std::vector<GradePoint>& corners,
+                           double rounding_m, const std::string& file) {
+  machine.profile.grade.rounding_m = rounding_m;
+  set_design(machine, heights_of(corners, rounding_m));
+  machine.plant.machine.grade = machine.profile.grade;
+  machine.experiment.length_m = machine.profile.grade.end_m();
+  std::vector<std::string> errors;
+  for (const DesignError& error : design_errors(machine.profile)) {
+    errors.push_back(error.what);
+  }
+  if (!errors.empty()) {
+    throw ProfileError(file, errors);
+  }
   return machine;
 }
 

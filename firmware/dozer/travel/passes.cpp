@@ -16,14 +16,8 @@ constexpr double kClear_mps = 0.2;
 constexpr double kStands_mps = 0.05;
 constexpr double kFastestBack_mps = 1.0;
 
-/// Every pass goes on to the design's end: what the blade carries is dumped behind it.
-double end_m(const GradeDesign& design) {
-  return design.point[static_cast<unsigned>(std::max(design.count, 1) - 1)].x_m;
-}
-
 void note(const GradeDesign& design, const PassSituation& now, PassState& state) {
-  const double first_m = design.point[0].x_m;
-  if (now.edge_x_m < first_m || now.edge_x_m > end_m(design) ||
+  if (now.edge_x_m < design.begin_m() || now.edge_x_m > design.end_m() ||
       now.error_m <= design.tolerance_m + kWorthIt_m) {
     return;
   }
@@ -62,7 +56,8 @@ PassState next_pass(const GradeDesign& design, const PassState& last, const Pass
     if (state.clear_m <= 0.0) {
       note(design, now, state);
     }
-    if (now.edge_x_m >= end_m(design) && !state.finished) {
+    // Every pass goes on to the design's end: what the blade carries is dumped behind it.
+    if (now.edge_x_m >= design.end_m() && !state.finished) {
       const bool again = state.left && state.pass < design.passes_most;
       state.finished = !again;
       state.phase = again ? PassPhase::kStop : PassPhase::kCut;

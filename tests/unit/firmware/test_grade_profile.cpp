@@ -1,4 +1,8 @@
 #include "firmware/dozer/grade_profile.hpp"
+
+#include <array>
+#include <cmath>
+
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
@@ -90,6 +94,63 @@ void a_floor_holds_it_up(void**) {
   assert_near(pass.at(11.0).height_m, whole.at(11.0).height_m, 0.0);
 }
 
+/// Heights of a parabola, and of a bend.
+std::array<double, 101> on_grid(double curvature) {
+  std::array<double, 101> height_m{};
+  for (unsigned i = 0; i < height_m.size(); ++i) {
+    const double x_m = GradeHeights::kStep_m * i;
+    height_m[i] = -0.5 * curvature * x_m * x_m;
+  }
+  return height_m;
+}
+
+GradeDesign with_heights(const std::array<double, 101>& height_m) {
+  GradeDesign grade;
+  grade.heights = {height_m.data(), static_cast<int>(height_m.size()), 2.0};
+  return grade;
+}
+
+/// Between the heights too, but for the ends, where it goes on level.
+void heights_on_a_grid_are_gone_through(void**) {
+  const auto height_m = on_grid(0.1);
+  const GradeDesign grade = with_heights(height_m);
+  assert_near(grade.begin_m(), 2.0, 0.0);
+  assert_near(grade.end_m(), 7.0, 1e-12);
+  const GradeProfile profile(grade);
+  for (double x_m = 2.1; x_m < 6.9; x_m += 0.0137) {
+    const double along_m = x_m - 2.0;
+    assert_near(profile.at(x_m).height_m, -0.05 * along_m * along_m, 1e-12);
+    assert_near(profile.at(x_m).slope, -0.1 * along_m, 1e-12);
+  }
+  for (const double beyond_m : {-1e7, -3.0, 2.0}) {
+    assert_near(profile.at(beyond_m).height_m, 0.0, 0.0);
+    assert_near(profile.at(beyond_m).slope, 0.0, 0.0);
+  }
+  for (const double beyond_m : {7.0 + 1e-12, 1e7}) {
+    assert_near(profile.at(beyond_m).height_m, -1.25, 1e-12);
+    assert_near(profile.at(beyond_m).slope, 0.0, 0.0);
+  }
+  assert_true(std::isnan(profile.at(std::nan("")).height_m));
+}
+
+/// As of points: the slope has no step, and plane and floor hold.
+void heights_have_a_plane_and_a_floor(void**) {
+  const auto height_m = on_grid(0.1);
+  GradeDesign grade = with_heights(height_m);
+  grade.plane_height_m = 1.0;
+  grade.plane_slope = 0.02;
+  GradeProfile profile(grade);
+  double last = profile.at(2.2).slope;
+  for (double x_m = 2.2; x_m < 6.9; x_m += 0.001) {
+    assert_near(profile.at(x_m).slope, last, 2e-4);
+    last = profile.at(x_m).slope;
+  }
+  assert_near(profile.at(5.0).height_m, 1.0 + 0.02 * 5.0 - 0.05 * 9.0, 1e-12);
+  profile.set_floor(-0.2);
+  assert_near(profile.at(5.0).height_m, 1.0 + 0.02 * 5.0 - 0.2, 1e-12);
+  assert_near(profile.at(5.0).slope, 0.02, 1e-12);
+}
+
 }  // namespace
 
 int main() {
@@ -102,6 +163,8 @@ int main() {
       cmocka_unit_test(the_error_is_along_the_normal),
       cmocka_unit_test(a_design_without_points_is_the_plane),
       cmocka_unit_test(a_floor_holds_it_up),
+      cmocka_unit_test(heights_on_a_grid_are_gone_through),
+      cmocka_unit_test(heights_have_a_plane_and_a_floor),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -1,0 +1,43 @@
+#include <CLI/CLI.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "app/cli/options.hpp"
+
+namespace graben::cli {
+
+void add_design_options(CLI::App& command, design::DesignSource& source) {
+  command.add_option(
+      "--design", source.file,
+      "Instead of the profile's design: a LandXML surface (.xml), points x y z (.xyz, .csv, .pts), "
+      "or any other text with x along the track and height over the plane, a line a corner");
+  command.add_option("--surface", source.surface, "Of a LandXML file with several, by its name");
+  command
+      .add_option("--track", source.track_m,
+                  "Way of the blade's middle over the surface, straight: x and y of its start and "
+                  "of its end, m; along x through the middle unless told")
+      ->expected(4, 64)
+      ->delimiter(',');
+  command
+      .add_option("--datum", source.datum_m,
+                  "What height of the surface is the machine's 0, m, -10000 .. 10000")
+      ->check(number_between(-1e4, 1e4))
+      ->capture_default_str();
+}
+
+Designed designed(const machines::SimulatedDozer& machine, const design::DesignSource& source) {
+  if (source.file.empty()) {
+    if (!source.surface.empty() || !source.track_m.empty() || source.datum_m != 0.0) {
+      throw std::runtime_error("--surface, --track and --datum are of a --design");
+    }
+    return {machine, {}};
+  }
+  const design::BladeAcross blade{machine.plant.blade_shape.width_m,
+                                  machine.profile.grade.tolerance_m};
+  std::vector<GradePoint> corners = design::corners_of(source, blade);
+  return {machines::with_design(machine, corners, machine.profile.grade.rounding_m,
+                                source.file.string()),
+          std::move(corners)};
+}
+
+}  // namespace graben::cli

@@ -1,0 +1,22 @@
+#pragma once
+/// A dozer's design from whatever file somebody has.
+
+#include "app/design/track_section.hpp"
+
+namespace graben::design {
+
+/// Which file, and what of it.
+struct DesignSource {
+  std::filesystem::path
+      file;             ///< By its ending: LandXML .xml, points .xyz .csv .pts, else corners.
+  std::string surface;  ///< Of a LandXML file with several.
+  std::vector<double> track_m;  ///< Corners in plan, x and y by turns; none: along its middle.
+  double datum_m = 0.0;         ///< Height of the plane in the file.
+};
+
+/// Corners along the track. Throws as the readers, and std::runtime_error where an option is told
+/// that such a file has no use for.
+[[nodiscard]] std::vector<GradePoint> corners_of(const DesignSource& source,
+                                                 const BladeAcross& blade);
+
+}  // namespace graben::design

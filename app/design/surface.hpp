@@ -1,0 +1,34 @@
+#pragma once
+/// A design as surveyors have it: a surface of triangles over a plan.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace graben::design {
+
+/// x east, y north, z up, m. No triangle stands upright.
+struct Surface {
+  std::vector<Eigen::Vector3d> point_m;
+  std::vector<std::array<std::uint32_t, 3>> face;  ///< By the points' indices, from 0.
+};
+
+inline constexpr std::size_t kMostPoints = 2'000'000;
+inline constexpr std::size_t kMostFaces = 4'000'000;
+/// Of a coordinate, m: farther out no grid of a country reaches.
+inline constexpr double kMostPlan_m = 2e7;
+inline constexpr double kMostHeight_m = 1e4;
+
+/// A TIN surface of a LandXML file (1.0 to 1.2), in its units' metres: `name`, or the only one that
+/// it has. Faces marked as invisible (i="1") are no ground. Throws std::runtime_error if the file
+/// can't be read, ProfileError with what is wrong, its line and what is allowed.
+[[nodiscard]] Surface read_landxml(const std::filesystem::path& file, const std::string& name);
+
+/// A line a point: x, y, z; between them Delaunay's triangles, out to the hull of all points.
+/// Throws as read_landxml.
+[[nodiscard]] Surface read_points(const std::filesystem::path& file);
+
+}  // namespace graben::design

@@ -1,0 +1,232 @@
+#include "app/design/track_section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace graben::design {
+namespace {
+
+constexpr double kLeastLength_m = 1.0;
+constexpr double kMostLength_m = 1000.0;
+constexpr double kMostBend_rad = 1e-3;
+/// Two corners that are nearer are one; a hole that is narrower is none.
+constexpr double kSame_m = 1e-5;
+constexpr double kHole_m = 1e-3;
+/// Two triangles that share an edge differ in height by rounding alone.
+constexpr double kOneHeight_m = 1e-3;
+
+/// A piece of the section, over one triangle.
+struct Piece {
+  GradePoint from;
+  GradePoint to;
+};
+
+/// Straight lines along and across the track.
+class Frame {
+ public:
+  Frame(const Track& track, double across_m)
+      : from_m_(track.from_m),
+        along_((track.to_m - track.from_m).normalized()),
+        left_(-along_.y(), along_.x()),
+        across_m_(across_m) {}
+
+  [[nodiscard]] double along_m(const Eigen::Vector3d& at) const {
+    return along_.dot(at.head<2>() - from_m_);
+  }
+  [[nodiscard]] double across_m(const Eigen::Vector3d& at) const {
+    return left_.dot(at.head<2>() - from_m_) - across_m_;
+  }
+
+ private:
+  Eigen::Vector2d from_m_;
+  Eigen::Vector2d along_;
+  Eigen::Vector2d left_;
+  double across_m_;
+};
+
+/// Where the line cuts the triangle; its ends are one where it only touches it.
+bool cut(const Surface& surface, const std::array<std::uint32_t, 3>& face, const Frame& frame,
+         Piece& piece) {
+  std::array<double, 3> off_m{};
+  for (unsigned i = 0; i < 3; ++i) {
+    off_m[i] = frame.across_m(surface.point_m[face[i]]);
+  }
+  if ((off_m[0] > 0.0 && off_m[1] > 0.0 && off_m[2] > 0.0) ||
+      (off_m[0] < 0.0 && off_m[1] < 0.0 && off_m[2] < 0.0)) {
+    return false;
+  }
+  bool found = false;
+  const auto take = [&](const Eigen::Vector3d& at) {
+    const GradePoint corner{frame.along_m(at), at.z()};
+    piece.from = !found || corner.x_m < piece.from.x_m ? corner : piece.from;
+    piece.to = !found || corner.x_m > piece.to.x_m ? corner : piece.to;
+    found = true;
+  };
+  for (unsigned i = 0; i < 3; ++i) {
+    const unsigned j = (i + 1) % 3;
+    const Eigen::Vector3d& from = surface.point_m[face[i]];
+    const Eigen::Vector3d& to = surface.point_m[face[j]];
+    if (off_m[i] == 0.0) {
+      take(from);
+    }
+    if ((off_m[i] > 0.0 && off_m[j] < 0.0) || (off_m[i] < 0.0 && off_m[j] > 0.0)) {
+      take(from + off_m[i] / (off_m[i] - off_m[j]) * (to - from));
+    }
+  }
+  return found && piece.to.x_m - piece.from.x_m > kSame_m;
+}
+
+double height_on(const Piece& piece, double x_m) {
+  const double share = (x_m - piece.from.x_m) / (piece.to.x_m - piece.from.x_m);
+  return piece.from.z_m + share * (piece.to.z_m - piece.from.z_m);
+}
+
+/// What lies over the track's length, in order.
+std::vector<Piece> pieces_of(const Surface& surface, const Track& track, double across_m) {
+  const Frame frame(track, across_m);
+  const double length_m = track.length_m();
+  std::vector<Piece> pieces;
+  for (const auto& face : surface.face) {
+    Piece piece;
+    if (!cut(surface, face, frame, piece) || piece.to.x_m < kSame_m ||
+        piece.from.x_m > length_m - kSame_m) {
+      continue;
+    }
+    const Piece whole = piece;
+    const double from_m = std::max(whole.from.x_m, 0.0);
+    const double to_m = std::min(whole.to.x_m, length_m);
+    pieces.push_back({{from_m, height_on(whole, from_m)}, {to_m, height_on(whole, to_m)}});
+  }
+  std::sort(pieces.begin(), pieces.end(),
+            [](const Piece& a, const Piece& b) { return a.from.x_m < b.from.x_m; });
+  return pieces;
+}
+
+/// What a message calls a line beside the track.
+std::string line_text(double across_m) {
+  return across_m == 0.0 ? "under the track"
+                         : fmt::format("{:.2f} m {} of the track, under an end of the blade",
+                                       std::abs(across_m), across_m > 0.0 ? "left" : "right");
+}
+
+std::vector<GradePoint> section(const Surface& surface, const Track& track, double across_m) {
+  std::vector<GradePoint> corners;
+  Piece last;
+  const auto demand_reached = [&](double x_m) {
+    const double have_m = corners.empty() ? 0.0 : corners.back().x_m;
+    if (x_m > have_m + kHole_m) {
+      throw std::runtime_error(fmt::format(
+          "the surface has a hole at x = {:.3f} .. {:.3f} m, {}; allowed: none over the track's "
+          "{:.3f} m",
+          have_m, x_m, line_text(across_m), track.length_m()));
+    }
+  };
+  for (const Piece& piece : pieces_of(surface, track, across_m)) {
+    demand_reached(piece.from.x_m);
+    if (corners.empty()) {
+      corners.push_back({0.0, piece.from.z_m});
+    } else {
+      const double other_m = height_on(last, piece.from.x_m);
+      if (std::abs(piece.from.z_m - other_m) > kOneHeight_m) {
+        throw std::runtime_error(
+            fmt::format("the surface is {:.3f} and {:.3f} m high at x = {:.3f} m, {}; allowed: one "
+                        "height a place",
+                        other_m, piece.from.z_m, piece.from.x_m, line_text(across_m)));
+      }
+    }
+    if (piece.to.x_m > corners.back().x_m + kSame_m) {
+      corners.push_back(piece.to);
+      last = piece;
+    }
+  }
+  demand_reached(track.length_m());
+  return corners;
+}
+
+/// On both, which are straight between their corners, only a corner can be farthest off.
+void demand_level(const std::vector<GradePoint>& middle, const std::vector<GradePoint>& end,
+                  double across_m, double most_m) {
+  const auto height_m = [](const std::vector<GradePoint>& line, double x_m) {
+    const auto after = std::upper_bound(line.begin() + 1, line.end() - 1, x_m,
+                                        [](double x, const GradePoint& at) { return x < at.x_m; });
+    return height_on({*(after - 1), *after}, x_m);
+  };
+  GradePoint worst;
+  for (const std::vector<GradePoint>* line : {&middle, &end}) {
+    for (const GradePoint& at : *line) {
+      const double off_m = height_m(end, at.x_m) - height_m(middle, at.x_m);
+      if (std::abs(off_m) > std::abs(worst.z_m)) {
+        worst = {at.x_m, off_m};
+      }
+    }
+  }
+  if (std::abs(worst.z_m) > most_m) {
+    throw std::runtime_error(fmt::format(
+        "the surface is {:.3f} m {} than under the track at x = {:.2f} m, {}; allowed: {} .. {} m "
+        "(grade.tolerance): this machine's blade has no tilt",
+        std::abs(worst.z_m), worst.z_m > 0.0 ? "higher" : "lower", worst.x_m, line_text(across_m),
+        -most_m, most_m));
+  }
+}
+
+}  // namespace
+
+Track straight_track(const std::vector<double>& corners_m) {
+  if (corners_m.size() < 4 || corners_m.size() % 2 != 0) {
+    throw std::runtime_error(
+        fmt::format("the track has {} numbers; allowed: x and y of its start and of its end, m",
+                    corners_m.size()));
+  }
+  const auto corner = [&](std::size_t i) {
+    return Eigen::Vector2d(corners_m[2 * i], corners_m[2 * i + 1]);
+  };
+  const std::size_t last = corners_m.size() / 2 - 1;
+  for (std::size_t i = 1; i < last; ++i) {
+    const Eigen::Vector2d before = corner(i) - corner(i - 1);
+    const Eigen::Vector2d after = corner(i + 1) - corner(i);
+    const double bend_rad =
+        std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after));
+    if (std::abs(bend_rad) > kMostBend_rad) {
+      throw std::runtime_error(fmt::format(
+          "the track bends by {:.3f} rad at x = {}, y = {} m; allowed: {} .. {} rad: what is "
+          "measured of the dozer has no heading and no place across, and nothing steers it",
+          bend_rad, corner(i).x(), corner(i).y(), -kMostBend_rad, kMostBend_rad));
+    }
+  }
+  const Track track{corner(0), corner(last)};
+  if (!(track.length_m() >= kLeastLength_m && track.length_m() <= kMostLength_m)) {
+    throw std::runtime_error(fmt::format("the track is {:.3f} m long; allowed: {} .. {} m",
+                                         track.length_m(), kLeastLength_m, kMostLength_m));
+  }
+  return track;
+}
+
+Track middle_track(const Surface& surface) {
+  Eigen::Vector2d least = surface.point_m.front().head<2>();
+  Eigen::Vector2d most = least;
+  for (const Eigen::Vector3d& at : surface.point_m) {
+    least = least.cwiseMin(at.head<2>());
+    most = most.cwiseMax(at.head<2>());
+  }
+  const double y_m = 0.5 * (least.y() + most.y());
+  return straight_track({least.x(), y_m, most.x(), y_m});
+}
+
+std::vector<GradePoint> along_track(const Surface& surface, const Track& track, double datum_m,
+                                    const BladeAcross& blade) {
+  std::vector<GradePoint> middle = section(surface, track, 0.0);
+  for (const double across_m : {0.5 * blade.width_m, -0.5 * blade.width_m}) {
+    if (across_m != 0.0) {
+      demand_level(middle, section(surface, track, across_m), across_m, blade.tolerance_m);
+    }
+  }
+  for (GradePoint& at : middle) {
+    at.z_m -= datum_m;
+  }
+  return middle;
+}
+
+}  // namespace graben::design

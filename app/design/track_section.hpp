@@ -1,0 +1,40 @@
+#pragma once
+/// A surface along a dozer's track: what its blade is to make of it.
+
+#include <optional>
+#include <vector>
+
+#include "app/design/surface.hpp"
+#include "firmware/dozer/dozer_profile.hpp"
+
+namespace graben::design {
+
+/// Way of the cutting edge's middle in plan.
+struct Track {
+  Eigen::Vector2d from_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d to_m = Eigen::Vector2d::Zero();
+
+  [[nodiscard]] double length_m() const { return (to_m - from_m).norm(); }
+};
+
+/// Of corners in plan, x and y by turns. Throws std::runtime_error for fewer than two, for a track
+/// out of length, and for a bend: what is known of a dozer's pose has no heading and no place
+/// across, and nothing steers it.
+[[nodiscard]] Track straight_track(const std::vector<double>& corners_m);
+/// Along x through the middle of what the surface covers.
+[[nodiscard]] Track middle_track(const Surface& surface);
+
+/// What a blade and its task allow.
+struct BladeAcross {
+  double width_m = 0.0;
+  double tolerance_m = 0.0;  ///< Of the edge's ends, up or down, against its middle.
+};
+
+/// Corners of the surface along the track, from x = 0 on, `datum_m` lower: every edge of a triangle
+/// that it crosses. Throws std::runtime_error with the place where the surface has a hole under the
+/// track or an end of the blade, more than one height, or a slope across it that is more than the
+/// blade's ends are allowed: a blade with one drive does not tilt.
+[[nodiscard]] std::vector<GradePoint> along_track(const Surface& surface, const Track& track,
+                                                  double datum_m, const BladeAcross& blade);
+
+}  // namespace graben::design

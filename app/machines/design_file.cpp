@@ -1,0 +1,146 @@
+#include "app/machines/design_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+#include "app/machines/number_lines.hpp"
+
+namespace graben::machines {
+namespace {
+
+constexpr std::size_t kMostCorners = 500'000;
+constexpr double kMostX_m = 1000.0;
+constexpr double kMostHeight_m = 100.0;
+
+/// The integral of straight pieces between corners, level beyond them.
+class Integral {
+ public:
+  explicit Integral(const std::vector<GradePoint>& corners) : corners_(corners), sum_{0.0} {
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+      sum_.push_back(sum_.back() + 0.5 * (corners[i].z_m + corners[i - 1].z_m) *
+                                       (corners[i].x_m - corners[i - 1].x_m));
+    }
+  }
+
+  [[nodiscard]] double height_m(double x_m) const {
+    const std::size_t n = before(x_m);
+    const GradePoint& from = corners_[n];
+    const GradePoint& to = corners_[n + 1];
+    const double share = std::clamp((x_m - from.x_m) / (to.x_m - from.x_m), 0.0, 1.0);
+    return from.z_m + share * (to.z_m - from.z_m);
+  }
+  /// From the first corner to x, which lies between the first and the last.
+  [[nodiscard]] double to(double x_m) const {
+    const std::size_t n = before(x_m);
+    const GradePoint& from = corners_[n];
+    return sum_[n] + 0.5 * (from.z_m + height_m(x_m)) * (x_m - from.x_m);
+  }
+
+ private:
+  /// The corner before x of those that have one behind them.
+  [[nodiscard]] std::size_t before(double x_m) const {
+    const auto after = std::upper_bound(corners_.begin() + 1, corners_.end() - 1, x_m,
+                                        [](double x, const GradePoint& at) { return x < at.x_m; });
+    return static_cast<std::size_t>(after - corners_.begin()) - 1;
+  }
+
+  const std::vector<GradePoint>& corners_;
+  std::vector<double> sum_;
+};
+
+/// FNV-1a of what is there and of the bits of each height.
+std::uint32_t hash_with(std::uint32_t hash, const GradeHeights& heights) {
+  const auto add = [&hash](double value) {
+    std::uint64_t bits = 0;
+    value += 0.0;  // -0.0 is 0.0.
+    std::memcpy(&bits, &value, sizeof bits);
+    for (unsigned i = 0; i < 8; ++i) {
+      hash = (hash ^ static_cast<std::uint8_t>(bits >> (8 * i))) * 16777619U;
+    }
+  };
+  add(heights.from_m);
+  for (int i = 0; i < heights.count; ++i) {
+    add(heights.height_m[i]);
+  }
+  return hash;
+}
+
+}  // namespace
+
+std::vector<GradePoint> read_design(const std::filesystem::path& file) {
+  std::vector<GradePoint> corners;
+  read_number_lines(file, {2, "x along the track and height over the plane, m", kMostCorners},
+                    [&](std::size_t, const std::array<double, 3>& numbers) {
+                      const GradePoint at{numbers[0], numbers[1]};
+                      if (std::abs(at.x_m) > kMostX_m) {
+                        return fmt::format("x = {} m; allowed: {} .. {} m", at.x_m, -kMostX_m,
+                                           kMostX_m);
+                      }
+                      if (std::abs(at.z_m) > kMostHeight_m) {
+                        return fmt::format("a height of {} m; allowed: {} .. {} m", at.z_m,
+                                           -kMostHeight_m, kMostHeight_m);
+                      }
+                      if (!corners.empty() && !(at.x_m > corners.back().x_m)) {
+                        return fmt::format("x = {} m; allowed: more than the line before, {} m",
+                                           at.x_m, corners.back().x_m);
+                      }
+                      corners.push_back(at);
+                      return std::string();
+                    });
+  const double length_m = corners.size() > 1 ? corners.back().x_m - corners.front().x_m : 0.0;
+  const double most_m = (GradeHeights::kMost - 1) * GradeHeights::kStep_m;
+  if (length_m < GradeHeights::kStep_m || length_m > most_m) {
+    throw ProfileError(file.string(),
+                       {fmt::format("{} lines over {} m; allowed: 2 lines and more over {} .. {} m",
+                                    corners.size(), length_m, GradeHeights::kStep_m, most_m)});
+  }
+  return corners;
+}
+
+void write_design(const std::filesystem::path& file, const std::vector<GradePoint>& corners) {
+  std::ofstream stream(file);
+  stream << "# A design along the track: x and height over the plane, m.\n";
+  for (const GradePoint& at : corners) {
+    stream << fmt::format("{:.6f} {:.6f}\n", at.x_m, at.z_m);
+  }
+  stream.flush();
+  if (!stream) {
+    throw std::runtime_error(fmt::format("{}: can't be written", file.string()));
+  }
+}
+
+DesignHeights heights_of(const std::vector<GradePoint>& corners, double rounding_m) {
+  const Integral integral(corners);
+  const double begin_m = corners.front().x_m;
+  const double end_m = corners.back().x_m;
+  auto height_m = std::make_shared<std::vector<double>>();
+  // As the corners' numbers are rounded in binary, so is the length.
+  const auto count = static_cast<int>((end_m - begin_m) / GradeHeights::kStep_m + 1e-6) + 1;
+  for (int i = 0; i < std::min(count, GradeHeights::kMost); ++i) {
+    const double x_m = std::min(begin_m + i * GradeHeights::kStep_m, end_m);
+    const double half_m = std::min({rounding_m, x_m - begin_m, end_m - x_m});
+    constexpr double kNoCurve_m = 1e-6;
+    height_m->push_back(half_m > kNoCurve_m
+                            ? (integral.to(x_m + half_m) - integral.to(x_m - half_m)) /
+                                  (2.0 * half_m)
+                            : integral.height_m(x_m));
+  }
+  return {begin_m, height_m};
+}
+
+void set_design(DozerMachine& machine, const DesignHeights& heights) {
+  machine.design = heights;
+  GradeDesign& grade = machine.profile.grade;
+  grade.count = 0;
+  grade.point = {};
+  grade.heights = {heights.height_m->data(), static_cast<int>(heights.height_m->size()),
+                   heights.from_m};
+  machine.hash = hash_with(machine.hash, grade.heights);
+}
+
+}  // namespace graben::machines

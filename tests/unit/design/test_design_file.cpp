@@ -1,0 +1,103 @@
+#include "app/machines/design_file.hpp"
+
+#include <cmath>
+
+#include "app/machines/simulated/simulated_dozer.hpp"
+#include "firmware/dozer/grade_profile.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/design/written_file.hpp"
+#include "tests/unit/firmware/dozer_fixture.hpp"
+
+namespace {
+
+using namespace graben;
+using test::has;
+
+std::vector<GradePoint> shipped() {
+  const GradeDesign& grade = test::dozer().profile.grade;
+  return {grade.point.begin(), grade.point.begin() + grade.count};
+}
+
+/// The same corners, as points with rounding and as heights on a grid, are the same design.
+void heights_are_the_points_with_their_rounding(void**) {
+  const machines::DesignHeights heights = machines::heights_of(shipped(), 0.3);
+  GradeDesign on_grid = test::dozer().profile.grade;
+  on_grid.count = 0;
+  on_grid.heights = {heights.height_m->data(), static_cast<int>(heights.height_m->size()),
+                     heights.from_m};
+  const GradeProfile of_points(test::dozer().profile.grade);
+  const GradeProfile of_heights(on_grid);
+  assert_near(on_grid.end_m(), 27.0, 1e-9);
+  for (double x_m = -2.0; x_m < 30.0; x_m += 0.013) {
+    assert_near(of_heights.at(x_m).height_m, of_points.at(x_m).height_m, 2e-4);
+    assert_near(of_heights.at(x_m).slope, of_points.at(x_m).slope, 0.02);
+  }
+}
+
+void read(const std::string& text) {
+  const test::WrittenFile file("design.txt", text);
+  static_cast<void>(machines::read_design(file.path()));
+}
+
+void what_is_malformed_is_refused_with_its_line(void**) {
+  const auto refusal = [](const std::string& text) {
+    return test::refusal_of([&] { read(text); });
+  };
+  assert_true(refusal("# two\n0 0\n, 5; -0.1\n").empty());
+  assert_true(has(refusal("0 0\n5 0\n5 -0.1\n"), "line 3: x = 5 m; allowed: more than the line"));
+  assert_true(has(refusal("0 0\n1001 0\n"), "line 2: x = 1001 m; allowed: -1000 .. 1000 m"));
+  assert_true(has(refusal("0 0\n1 101\n"), "allowed: -100 .. 100 m"));
+  assert_true(has(refusal("0 0 0\n"), "line 1: 3 numbers; allowed: 2, x along the track"));
+  assert_true(has(refusal("0 0\n"), "1 lines over 0 m"));
+  assert_true(has(refusal("-1000 0\n1000 0\n"), "over 2000 m; allowed"));
+}
+
+void what_is_written_is_read_again(void**) {
+  const test::WrittenFile file("out.txt", "");
+  machines::write_design(file.path(), shipped());
+  const auto again = machines::read_design(file.path());
+  assert_int_equal(again.size(), shipped().size());
+  for (std::size_t i = 0; i < again.size(); ++i) {
+    assert_near(again[i].x_m, shipped()[i].x_m, 1e-9);
+    assert_near(again[i].z_m, shipped()[i].z_m, 1e-9);
+  }
+}
+
+/// The machine with it: in both ends, in the hash, as long as it is.
+void a_machine_takes_a_design(void**) {
+  const machines::SimulatedDozer machine = machines::with_design(
+      test::dozer(), {{0.0, 0.0}, {8.0, 0.0}, {12.0, -0.2}, {20.0, -0.2}}, 0.3, "x");
+  assert_near(machine.experiment.length_m, 20.0, 1e-9);
+  assert_ptr_equal(machine.plant.machine.grade.heights.height_m,
+                   machine.profile.grade.heights.height_m);
+  assert_near(GradeProfile(machine.profile.grade).at(18.0).height_m, -0.2, 1e-9);
+  const auto other = machines::with_design(
+      test::dozer(), {{0.0, 0.0}, {8.0, 0.0}, {12.0, -0.2}, {20.0, -0.201}}, 0.3, "x");
+  assert_true(machine.hash != test::dozer().hash && machine.hash != other.hash);
+}
+
+void what_the_machine_cannot_make_is_refused_with_the_place(void**) {
+  const auto refusal = [](const std::vector<GradePoint>& corners) {
+    return test::refusal_of(
+        [&] { static_cast<void>(machines::with_design(test::dozer(), corners, 0.3, "wall.xml")); });
+  };
+  const std::string steep = refusal({{0.0, 0.0}, {5.0, 0.0}, {6.0, -0.8}, {20.0, -0.8}});
+  assert_true(has(steep, "wall.xml") && has(steep, "a slope of -0.800 at x = 5."));
+  assert_true(has(steep, "allowed: -0.6 .. 0.6"));
+  const std::string tips =
+      refusal({{0.0, 0.0}, {5.0, 0.0}, {5.7, -0.4}, {8.0, -0.4}, {20.0, -0.4}});
+  assert_true(has(tips, "with the body at x ="));
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(heights_are_the_points_with_their_rounding),
+      cmocka_unit_test(what_is_malformed_is_refused_with_its_line),
+      cmocka_unit_test(what_is_written_is_read_again),
+      cmocka_unit_test(a_machine_takes_a_design),
+      cmocka_unit_test(what_the_machine_cannot_make_is_refused_with_the_place),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,106 @@
+#include "app/design/surface.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/design/written_file.hpp"
+
+namespace {
+
+using namespace graben;
+using test::has;
+
+const char* const kMetres = "<Units><Metric linearUnit=\"meter\"/></Units>\n";
+
+std::string surface(const std::string& name, const std::string& points, const std::string& faces) {
+  return "<Surface name=\"" + name + "\"><Definition surfType=\"TIN\">\n<Pnts>\n" + points +
+         "</Pnts>\n<Faces>\n" + faces + "</Faces></Definition></Surface>\n";
+}
+
+std::string file_of(const std::string& units, const std::string& surfaces) {
+  return "<?xml version=\"1.0\"?>\n<LandXML version=\"1.2\">\n" + units + "<Surfaces>\n" +
+         surfaces + "</Surfaces></LandXML>\n";
+}
+
+const char* const kPoints =
+    "<P id=\"1\">200.0 100.0 1.0</P>\n<P id=\"2\">200.0 110.0 2.0</P>\n"
+    "<P id=\"7\"> 210.0\n 100.0 3.0 </P>\n<P id=\"8\">210.0 110.0 4.0</P>\n";
+const char* const kFaces = "<F>1 2 7</F>\n<F i=\"1\">1 2 8</F>\n<F n=\"1 0 0\">2 8 7</F>\n";
+
+design::Surface read(const std::string& text, const std::string& name = "") {
+  const test::WrittenFile file("surface.xml", text);
+  return design::read_landxml(file.path(), name);
+}
+
+std::string refusal(const std::string& text, const std::string& name = "") {
+  return test::refusal_of([&] { static_cast<void>(read(text, name)); });
+}
+
+/// LandXML's order is north, east, height; ids are any numbers; an invisible face is none.
+void points_and_faces_arrive(void**) {
+  const design::Surface got = read(file_of(kMetres, surface("a", kPoints, kFaces)));
+  assert_int_equal(got.point_m.size(), 4);
+  assert_int_equal(got.face.size(), 2);
+  const Eigen::Vector3d& third = got.point_m[got.face[0][2]];
+  assert_near(third.x(), 100.0, 0.0);
+  assert_near(third.y(), 210.0, 0.0);
+  assert_near(third.z(), 3.0, 0.0);
+  assert_near(got.point_m[got.face[1][1]].z(), 4.0, 0.0);
+}
+
+void units_are_turned_to_metres(void**) {
+  const auto east_m = [](const char* units) {
+    return read(file_of(units, surface("a", kPoints, kFaces))).point_m[0].x();
+  };
+  assert_near(east_m("<Units><Imperial linearUnit=\"foot\"/></Units>"), 30.48, 1e-12);
+  assert_near(east_m("<Units><Imperial linearUnit=\"USSurveyFoot\"/></Units>"),
+              100.0 * 1200.0 / 3937.0, 1e-12);
+  assert_near(east_m("<Units><Metric linearUnit=\"millimeter\"/></Units>"), 0.1, 1e-12);
+  assert_true(has(refusal(file_of("<Units><Metric linearUnit=\"ell\"/></Units>",
+                                  surface("a", kPoints, kFaces))),
+                  "line 3, <Metric>: linearUnit=\"ell\"; allowed: meter"));
+  assert_true(has(refusal(file_of("", surface("a", kPoints, kFaces))), "says no unit of length"));
+}
+
+void one_surface_of_several_is_chosen_by_its_name(void**) {
+  const std::string two = file_of(
+      kMetres, surface("ground", kPoints, "<F>1 2 7</F>\n") + surface("design", kPoints, kFaces));
+  assert_int_equal(read(two, "design").face.size(), 2);
+  assert_int_equal(read(two, "ground").face.size(), 1);
+  assert_true(has(refusal(two), "allowed: one of 'ground', 'design', by --surface"));
+  assert_true(has(refusal(two, "other"), "surface 'other' is there 0 times"));
+}
+
+void what_is_malformed_is_refused_with_its_element(void**) {
+  const auto points = [](const std::string& more) {
+    return refusal(file_of(kMetres, surface("a", kPoints + more, kFaces)));
+  };
+  const auto faces = [](const std::string& more) {
+    return refusal(file_of(kMetres, surface("a", kPoints, kFaces + more)));
+  };
+  assert_true(has(points("<P id=\"9\">1.0 2.0</P>"),
+                  "line 12, <P id=\"9\">: 2 numbers; allowed: 3, north, east and height"));
+  assert_true(has(points("<P id=\"9\">1.0 abc 2.0</P>"), "'abc' as its east; allowed: -20000000"));
+  assert_true(has(points("<P id=\"9\">1.0 2.0 nan</P>"), "'nan' as its height"));
+  assert_true(has(points("<P id=\"9\">1.0 2.0 20000</P>"), "allowed: -10000 .. 10000 m"));
+  assert_true(has(points("<P id=\"2\">1.0 2.0 3.0</P>"), "its id is there for the second time"));
+  assert_true(has(points("<P>1.0 2.0 3.0</P>"), "allowed: a whole number as its id"));
+  assert_true(has(faces("<F>1 2 99</F>"), "line 17, <F>: point '99' is not there"));
+  assert_true(has(faces("<F>1 2 7 8</F>"), "<F>: more than 3 points; allowed: 3"));
+  assert_true(has(refusal("<LandXML><Units>"), "can't be read as XML"));
+  assert_true(has(refusal("<Other/>"), "allowed: LandXML as the outermost element"));
+  assert_true(has(refusal(file_of(kMetres, "")), "has no <Surface>"));
+  assert_true(has(refusal(file_of(kMetres, surface("a", kPoints, ""))), "has no face"));
+  assert_true(has(
+      refusal(file_of(kMetres, "<Surface name=\"a\"><Definition surfType=\"grid\"/></Surface>")),
+      "surfType=\"grid\"; allowed: TIN"));
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(points_and_faces_arrive),
+      cmocka_unit_test(units_are_turned_to_metres),
+      cmocka_unit_test(one_surface_of_several_is_chosen_by_its_name),
+      cmocka_unit_test(what_is_malformed_is_refused_with_its_element),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
