@@ -12,6 +12,7 @@
 #include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
 #include "app/cli/output_file.hpp"
+#include "app/reports/figure/paper_figures.hpp"
 #include "app/reports/run_reports.hpp"
 #include "app/runs/fastest_speed.hpp"
 #include "app/runs/grade_run.hpp"
@@ -28,6 +29,7 @@ struct GradeCommand {
   std::string summary;
   std::optional<std::uint64_t> seed;
   std::optional<double> within_m;
+  std::vector<std::string> figures;
 };
 
 std::string end_text(const runs::GradeResult& result) {
@@ -74,6 +76,13 @@ void grade(const GradeCommand& options) {
   }
   fmt::print("{}log     {}\nreport  {}\n", runs::figures_text(figures), run.log_file.string(),
              report.string());
+  for (const std::string& name : options.figures) {
+    const std::filesystem::path file = out / (name + ".svg");
+    write_whole(file,
+                reports::svg_text(reports::mononen_figure(
+                    name, options.scenario.speed_mode == "constant", machine, result, summary)));
+    fmt::print("figure  {}\n", file.string());
+  }
   if (result.end != runs::GradeEnd::kDone) {
     throw std::runtime_error(end_text(result));
   }
@@ -121,12 +130,14 @@ void add_grade(CLI::App& app, int& status) {
   add_error_option(*command, options->scenario);
   command->add_option("--seed", options->seed, "Of --errors, a whole number from 0")
       ->check(whole_number());
+  add_figure_option(*command, options->figures, reports::mononen_figure_names());
   command
       ->add_option("--within", options->within_m,
                    "Instead of one run: the fastest constant speed up to the wanted one whose "
                    "true edge stays this near to the grade, m, 0.001 .. 1")
       ->check(number_between(0.001, 1.0));
-  add_examples(*command, {"grade", "grade --speed-mode constant --within 0.02"});
+  add_examples(*command, {"grade", "grade --figure mononen7,mononen8",
+                          "grade --speed-mode constant --within 0.02"});
   command->callback([options, &status] {
     status = guarded("grade", [&] { options->within_m ? search(*options) : grade(*options); });
   });
