@@ -90,14 +90,17 @@ std::string progress_line(const ArrayJob& job, const ArrayProgress& progress) {
 /// killed may have forgotten jobs, the one that merges among them.
 void wait_for(const std::string& summary) {
   ProgressBar bar("campaign");
-  for (;;) {
+  for (int idle_looks = 0;;) {
     const ArrayJob job = read_array_job(summary);
     const ArrayProgress progress = progress_of(job);
     if (progress.is_merged) {
       return;
     }
-    if (!progress.is_queued() && !progress.is_merging) {
+    // Seen once, it may only be that the job at the end has just submitted what is left.
+    idle_looks = progress.is_queued() || progress.is_merging ? 0 : idle_looks + 1;
+    if (idle_looks > 1) {
       static_cast<void>(collect_array(summary));
+      idle_looks = 0;
     }
     release_held(progress);
     bar.show(static_cast<double>(progress.all_rows) / static_cast<double>(job.draws),
