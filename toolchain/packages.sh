@@ -9,7 +9,7 @@ has_command() { command -v "$1" >/dev/null 2>&1; }
 
 has_header() { [ -e "/usr/include/$1" ] || [ -e "/usr/local/include/$1" ]; }
 
-# graben_missing build|check|fuzz|bench|hil|cross|scope|package|install: the packages that are not there yet,
+# graben_missing build|check|fuzz|bench|hil|cross|scope|film|slurm|package|install: the packages that are not there yet,
 # a line each.
 graben_missing() {
   has_command g++ || echo g++
@@ -77,6 +77,17 @@ graben_missing() {
   if [ "$1" = scope ]; then
     has_command chromium || echo chromium
   fi
+  if [ "$1" = film ]; then
+    has_command chromium || echo chromium
+    has_command ffmpeg || echo ffmpeg
+  fi
+  # A cluster of one machine, on which campaigns are tried.
+  if [ "$1" = slurm ]; then
+    has_command sbatch || echo slurm-client
+    has_command slurmctld || [ -x /usr/sbin/slurmctld ] || echo slurmctld
+    has_command slurmd || [ -x /usr/sbin/slurmd ] || echo slurmd
+    has_command munged || [ -x /usr/sbin/munged ] || echo munge
+  fi
   # What makes the package; what judges and tries it.
   if [ "$1" = package ] || [ "$1" = install ]; then
     has_command dpkg-shlibdeps || echo dpkg-dev
@@ -92,7 +103,7 @@ graben_apt() {
     apt-get -q -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 "$@" </dev/null
 }
 
-# graben_install build|check|fuzz|bench|hil|cross|scope|package|install: nothing when all is there; otherwise
+# graben_install build|check|fuzz|bench|hil|cross|scope|film|slurm|package|install: nothing when all is there; otherwise
 # says what, then installs it.
 graben_install() {
   # Word splitting is wanted: package names have no blanks.

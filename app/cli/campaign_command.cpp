@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/array_commands.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
@@ -17,6 +18,7 @@ namespace {
 
 struct DigCampaign {
   runs::CampaignOptions campaign;
+  ArrayOptions array;
   runs::DigScenario scenario;
   machines::SimulatedChoice simulated;
   std::string profile = "excavator_22t";
@@ -25,12 +27,14 @@ struct DigCampaign {
 
 struct GradeCampaign {
   runs::CampaignOptions campaign;
+  ArrayOptions array;
   runs::GradeScenario scenario;
   std::string profile = "dozer_9t";
 };
 
 struct IdentifyCampaign {
   runs::CampaignOptions campaign;
+  ArrayOptions array;
   std::string profile = "excavator_22t";
   bool as_designed = false;
   double speed_override_ratio = 1.0;
@@ -38,6 +42,7 @@ struct IdentifyCampaign {
 
 struct FenceCampaign {
   runs::CampaignOptions campaign;
+  ArrayOptions array;
   machines::SimulatedChoice simulated;
   std::string profile = "excavator_12t";
   std::string errors = "all";
@@ -45,6 +50,7 @@ struct FenceCampaign {
 
 struct AutodigCampaign {
   runs::CampaignOptions campaign;
+  ArrayOptions array;
   runs::TaskScenario scenario;
   machines::SimulatedChoice simulated;
   std::string profile = "excavator_12t";
@@ -83,54 +89,75 @@ void print_outcome(Run run) {
   }
 }
 
-void campaign_dig(const DigCampaign& options) {
+/// Here, or on Slurm if it was so typed.
+template <class Options, class Campaign>
+void on_callback(CLI::App& command, const std::shared_ptr<Options>& options, int& status,
+                 Campaign campaign) {
+  add_array_options(command, options->array);
+  command.callback([&command, options, &status, campaign] {
+    status = guarded(("campaign " + command.get_name()).c_str(), [&] {
+      if (options->array.shards == 0) {
+        print_outcome([&](const runs::Progress& progress) {
+          return campaign(*options, options->campaign, progress);
+        });
+        return;
+      }
+      submit_campaign(
+          command, options->campaign, options->array, [&](const runs::CampaignOptions& other) {
+            static_cast<void>(campaign(*options, other, [](double, const std::string&) {}));
+          });
+    });
+  });
+}
+
+runs::CampaignOutcome campaign_dig(const DigCampaign& options,
+                                   const runs::CampaignOptions& campaign,
+                                   const runs::Progress& progress) {
   const machines::SimulatedExcavator nominal = machines::load_simulated_excavator(
       machines::find_profile(options.profile), options.simulated);
-  print_outcome([&](const runs::Progress& progress) {
-    return runs::campaign_dig(options.campaign, nominal, options.scenario,
-                              options.speed_override_ratio, progress);
-  });
+  return runs::campaign_dig(campaign, nominal, options.scenario, options.speed_override_ratio,
+                            progress);
 }
 
-void campaign_grade(const GradeCampaign& options) {
+runs::CampaignOutcome campaign_grade(const GradeCampaign& options,
+                                     const runs::CampaignOptions& campaign,
+                                     const runs::Progress& progress) {
   const machines::SimulatedDozer nominal =
       machines::load_simulated_dozer(machines::find_profile(options.profile));
-  print_outcome([&](const runs::Progress& progress) {
-    return runs::campaign_grade(options.campaign, nominal, options.scenario, progress);
-  });
+  return runs::campaign_grade(campaign, nominal, options.scenario, progress);
 }
 
-void campaign_designs(const GradeCampaign& options) {
+runs::CampaignOutcome campaign_designs(const GradeCampaign& options,
+                                       const runs::CampaignOptions& campaign,
+                                       const runs::Progress& progress) {
   const machines::SimulatedDozer nominal =
       machines::load_simulated_dozer(machines::find_profile(options.profile));
-  print_outcome([&](const runs::Progress& progress) {
-    return runs::campaign_designs(options.campaign, nominal, options.scenario, progress);
-  });
+  return runs::campaign_designs(campaign, nominal, options.scenario, progress);
 }
 
-void campaign_identify(const IdentifyCampaign& options) {
+runs::CampaignOutcome campaign_identify(const IdentifyCampaign& options,
+                                        const runs::CampaignOptions& campaign,
+                                        const runs::Progress& progress) {
   const machines::SimulatedExcavator nominal =
       machines::load_simulated_excavator(machines::find_profile(options.profile));
-  print_outcome([&](const runs::Progress& progress) {
-    return runs::campaign_identify(options.campaign, nominal, options.as_designed,
-                                   options.speed_override_ratio, progress);
-  });
+  return runs::campaign_identify(campaign, nominal, options.as_designed,
+                                 options.speed_override_ratio, progress);
 }
 
-void campaign_fences(const FenceCampaign& options) {
+runs::CampaignOutcome campaign_fences(const FenceCampaign& options,
+                                      const runs::CampaignOptions& campaign,
+                                      const runs::Progress& progress) {
   const machines::SimulatedExcavator nominal = machines::load_simulated_excavator(
       machines::find_profile(options.profile), options.simulated);
-  print_outcome([&](const runs::Progress& progress) {
-    return runs::campaign_fences(options.campaign, nominal, options.errors, progress);
-  });
+  return runs::campaign_fences(campaign, nominal, options.errors, progress);
 }
 
-void campaign_autodig(const AutodigCampaign& options) {
+runs::CampaignOutcome campaign_autodig(const AutodigCampaign& options,
+                                       const runs::CampaignOptions& campaign,
+                                       const runs::Progress& progress) {
   const machines::SimulatedExcavator nominal = machines::load_simulated_excavator(
       machines::find_profile(options.profile), options.simulated);
-  print_outcome([&](const runs::Progress& progress) {
-    return runs::campaign_autodig(options.campaign, nominal, options.scenario, progress);
-  });
+  return runs::campaign_autodig(campaign, nominal, options.scenario, progress);
 }
 
 void add_campaign_dig(CLI::App& campaign, int& status) {
@@ -146,9 +173,9 @@ void add_campaign_dig(CLI::App& campaign, int& status) {
   add_scenario_options(*command, options->scenario);
   add_found_option(*command, options->scenario.scenario.found);
   add_examples(*command, {"campaign dig --draws 40 --errors kim --summary out/draws.csv",
-                          "campaign dig --shard 2/8 --summary out/shard2.csv"});
-  command->callback(
-      [options, &status] { status = guarded("campaign dig", [&] { campaign_dig(*options); }); });
+                          "campaign dig --shard 2/8 --summary out/shard2.csv",
+                          "campaign dig --draws 10000 --slurm 40 --summary out/draws.csv"});
+  on_callback(*command, options, status, campaign_dig);
 }
 
 void add_campaign_grade(CLI::App& campaign, int& status) {
@@ -166,9 +193,7 @@ void add_campaign_grade(CLI::App& campaign, int& status) {
   add_lateness_options(*command, options->scenario);
   add_error_option(*command, options->scenario);
   add_examples(*command, {"campaign grade --draws 40 --summary out/grades.csv"});
-  command->callback([options, &status] {
-    status = guarded("campaign grade", [&] { campaign_grade(*options); });
-  });
+  on_callback(*command, options, status, campaign_grade);
 }
 
 void add_campaign_designs(CLI::App& campaign, int& status) {
@@ -186,9 +211,7 @@ void add_campaign_designs(CLI::App& campaign, int& status) {
   add_lateness_options(*command, options->scenario);
   add_error_option(*command, options->scenario);
   add_examples(*command, {"campaign designs --draws 20 --summary out/designs.csv"});
-  command->callback([options, &status] {
-    status = guarded("campaign designs", [&] { campaign_designs(*options); });
-  });
+  on_callback(*command, options, status, campaign_designs);
 }
 
 void add_campaign_identify(CLI::App& campaign, int& status) {
@@ -206,9 +229,7 @@ void add_campaign_identify(CLI::App& campaign, int& status) {
       "The profile's own simulated machine with Kim's errors, instead of hidden ones");
   add_override_option(*command, options->speed_override_ratio);
   add_examples(*command, {"campaign identify --draws 4 --summary out/hidden.csv"});
-  command->callback([options, &status] {
-    status = guarded("campaign identify", [&] { campaign_identify(*options); });
-  });
+  on_callback(*command, options, status, campaign_identify);
 }
 
 void add_campaign_fences(CLI::App& campaign, int& status) {
@@ -227,9 +248,7 @@ void add_campaign_fences(CLI::App& campaign, int& status) {
       ->capture_default_str();
   add_simulated_options(*command, options->simulated);
   add_examples(*command, {"campaign fences --draws 100 --summary out/fences.csv"});
-  command->callback([options, &status] {
-    status = guarded("campaign fences", [&] { campaign_fences(*options); });
-  });
+  on_callback(*command, options, status, campaign_fences);
 }
 
 void add_campaign_autodig(CLI::App& campaign, int& status) {
@@ -243,9 +262,7 @@ void add_campaign_autodig(CLI::App& campaign, int& status) {
   add_simulated_options(*command, options->simulated);
   add_task_options(*command, options->scenario);
   add_examples(*command, {"campaign autodig --task trench --draws 20 --summary out/trench.csv"});
-  command->callback([options, &status] {
-    status = guarded("campaign autodig", [&] { campaign_autodig(*options); });
-  });
+  on_callback(*command, options, status, campaign_autodig);
 }
 
 void add_campaign_merge(CLI::App& campaign, int& status) {
@@ -274,6 +291,8 @@ void add_campaign(CLI::App& app, int& status) {
   add_campaign_autodig(*campaign, status);
   add_campaign_fences(*campaign, status);
   add_campaign_merge(*campaign, status);
+  add_campaign_progress(*campaign, status);
+  add_campaign_collect(*campaign, status);
 }
 
 }  // namespace graben::cli

@@ -14,6 +14,7 @@
 #include "app/cli/options.hpp"
 #include "app/cli/output_file.hpp"
 #include "app/machines/simulated/soil_kinds.hpp"
+#include "app/reports/figure/paper_figures.hpp"
 #include "app/reports/run_reports.hpp"
 #include "app/runs/code_text.hpp"
 #include "app/runs/dig_run.hpp"
@@ -35,6 +36,7 @@ struct DigCommand {
   std::uint64_t seed = 1;
   double speed = 1.0;
   std::optional<double> loops;
+  std::vector<std::string> figures;
 };
 
 /// Start that the options name, if they do.
@@ -113,6 +115,11 @@ void dig(const DigCommand& options) {
   }
   fmt::print("{}log     {}\nreport  {}\n", runs::figures_text(figures),
              run_options.log_file.string(), report.string());
+  for (const std::string& name : options.figures) {
+    const std::filesystem::path file = out / (name + ".svg");
+    write_whole(file, reports::svg_text(reports::kim_figure(name, machine, result, summary)));
+    fmt::print("figure  {}\n", file.string());
+  }
   if (result.end != runs::DigEnd::kDone) {
     throw std::runtime_error(result.end == runs::DigEnd::kFault
                                  ? fmt::format("{}: {} (fault {})", end_text(result.end),
@@ -151,7 +158,7 @@ void add_task(CLI::App& command, DigCommand& options) {
                                          "a file, or the name of one of ours");
   for (const char* of_the_path :
        {"--air", "--obstacle", "--stiff-oil", "--dead-time", "--fixed-lambda", "--law",
-        "--start-strokes", "--start", "--random-start", "--loops"}) {
+        "--start-strokes", "--start", "--random-start", "--loops", "--figure"}) {
     task->excludes(command.get_option(of_the_path));
   }
 }
@@ -190,8 +197,10 @@ void add_dig(CLI::App& app, int& status) {
   command
       ->add_option("--loops", options->loops, "Times round the path, 0.1 .. 100; once unless told")
       ->check(number_between(0.1, 100.0));
+  add_figure_option(*command, options->figures, reports::kim_figure_names());
   add_task(*command, *options);
   add_examples(*command, {"dig", "dig --soil sand --loops 3 --out out/sand",
+                          "dig --soil --errors kim --figure kim9,kim11",
                           "dig --random-start --seed 7 --summary out/seven.json"});
   command->callback([options, &status] {
     status = guarded("dig", [&] {

@@ -14,6 +14,7 @@
 #include "app/cli/options.hpp"
 #include "app/cli/output_file.hpp"
 #include "app/machines/design_file.hpp"
+#include "app/reports/figure/paper_figures.hpp"
 #include "app/reports/run_reports.hpp"
 #include "app/runs/fastest_speed.hpp"
 #include "app/runs/grade_run.hpp"
@@ -33,6 +34,7 @@ struct GradeCommand {
   std::optional<double> within_m;
   design::DesignSource design;
   int compared = 0;  ///< Of the sample designs.
+  std::vector<std::string> figures;
 };
 
 std::string end_text(const runs::GradeResult& result) {
@@ -92,6 +94,13 @@ void grade(const GradeCommand& options) {
              report.string());
   if (!corners.empty()) {
     fmt::print("design  {}\n", design.string());
+  }
+  for (const std::string& name : options.figures) {
+    const std::filesystem::path file = out / (name + ".svg");
+    write_whole(file,
+                reports::svg_text(reports::mononen_figure(
+                    name, options.scenario.speed_mode == "constant", machine, result, summary)));
+    fmt::print("figure  {}\n", file.string());
   }
   if (result.end != runs::GradeEnd::kDone) {
     throw std::runtime_error(end_text(result));
@@ -162,6 +171,7 @@ void add_grade(CLI::App& app, int& status) {
   add_error_option(*command, options->scenario);
   command->add_option("--seed", options->seed, "Of --errors, a whole number from 0")
       ->check(whole_number());
+  add_figure_option(*command, options->figures, reports::mononen_figure_names());
   command
       ->add_option("--within", options->within_m,
                    "Instead of one run: the fastest constant speed up to the wanted one whose "
@@ -174,7 +184,8 @@ void add_grade(CLI::App& app, int& status) {
           "walls of 1, 1.5, 2, 3 m, sines, steps, V, level), 1 .. 11; each bounded, and at "
           "the fastest constant speed with the same error and within grade.tolerance")
       ->check(whole_number_between(1, 11));
-  add_examples(*command, {"grade", "grade --speed-mode constant --within 0.02",
+  add_examples(*command, {"grade", "grade --figure mononen7,mononen8",
+                          "grade --speed-mode constant --within 0.02",
                           "grade --design trench.xml --track 100,200,127,200 --datum 54.3"});
   command->callback([options, &status] {
     status = guarded("grade", [&] {

@@ -38,6 +38,8 @@ int main(int argc, char** argv) {
   graben::cli::add_identify(app, status);
   graben::cli::add_scope(app, status);
   graben::cli::add_compare(app, status);
+  graben::cli::add_export(app, status);
+  graben::cli::add_film(app, status);
   graben::cli::add_new_machine(app, status);
   graben::cli::add_examples(app, {"dig --out out", "check excavator_22t", "scope --sim dig",
                                   "new-machine --out mine.toml", "dig --help"});

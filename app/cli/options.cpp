@@ -221,6 +221,16 @@ void add_override_option(CLI::App& command, double& speed_override_ratio) {
       ->capture_default_str();
 }
 
+void add_figure_option(CLI::App& command, std::vector<std::string>& figures,
+                       const std::vector<std::string>& names) {
+  command
+      .add_option("--figure", figures,
+                  "Draws figures of the paper with this run, as SVG beside the report")
+      ->delimiter(',')
+      ->type_name("NAME[,...]")
+      ->check(one_of(names));
+}
+
 CLI::Validator error_name() { return one_of({runs::kErrorNames.begin(), runs::kErrorNames.end()}); }
 
 CLI::Validator soil_name() {

@@ -82,6 +82,10 @@ void add_override_option(CLI::App& command, double& speed_override_ratio);
 /// The digging path's soil unless another one is named: a field of force.
 inline constexpr const char* kKimSoil = "kim";
 
+/// Adds --figure, one or more of `names` with commas between.
+void add_figure_option(CLI::App& command, std::vector<std::string>& figures,
+                       const std::vector<std::string>& names);
+
 // Checks of options that CLI11's own let too much through.
 
 /// CLI::Range lets "nan" pass.

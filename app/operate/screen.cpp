@@ -184,24 +184,7 @@ std::string not_armed_words(const EcuListener& ecu) {
 }
 
 const char* mode_words(std::optional<EcuMode> mode) {
-  if (!mode) {
-    return "not heard";
-  }
-  switch (*mode) {
-    case EcuMode::kSilent:
-      return "Silent";
-    case EcuMode::kReady:
-      return "Ready";
-    case EcuMode::kArmed:
-      return "Armed";
-    case EcuMode::kActive:
-      return "Active";
-    case EcuMode::kStopping:
-      return "Stopping";
-    case EcuMode::kFault:
-      return "Fault";
-  }
-  return "unknown";
+  return mode ? runs::mode_words(*mode) : "not heard";
 }
 
 const char* task_words(Task task) {

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -161,13 +162,23 @@ void write_campaign(const std::filesystem::path& file, const CampaignKind& kind,
 }
 
 FileLock::FileLock(std::filesystem::path file) : file_(std::move(file)) {
-  descriptor_ = open(file_.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
-  if (descriptor_ < 0) {
-    refuse(file_, std::strerror(errno));
-  }
-  if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-    close(descriptor_);
-    refuse(file_, "another campaign is writing its results here");
+  for (bool is_there = false; !is_there;) {
+    descriptor_ = open(file_.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
+    if (descriptor_ < 0) {
+      refuse(file_, std::strerror(errno));
+    }
+    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+      close(descriptor_);
+      refuse(file_, "another campaign is writing its results here");
+    }
+    // Whoever had it may have removed it between the two calls: then this is nobody's name.
+    struct stat held {};
+    struct stat named {};
+    is_there = fstat(descriptor_, &held) == 0 && stat(file_.c_str(), &named) == 0 &&
+               held.st_ino == named.st_ino;
+    if (!is_there) {
+      close(descriptor_);
+    }
   }
 }
 

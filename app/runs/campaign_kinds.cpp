@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <stdexcept>
 
 #include "app/machines/simulated/hidden.hpp"
@@ -212,6 +213,10 @@ CampaignOutcome campaign_autodig(const CampaignOptions& options,
                   machine_text(nominal), nominal.hash, file.name, file.hash, scenario.rounds,
                   scenario.speed_override_ratio, machine_text(scenario)),
       draw, progress);
+}
+
+std::size_t campaign_rows(const std::string& file) {
+  return std::filesystem::exists(file) ? read_campaign(file, kind_of(file)).rows.size() : 0;
 }
 
 std::string merge_campaigns(const std::vector<std::string>& files, const std::string& summary) {

@@ -115,13 +115,12 @@ std::vector<std::uint64_t> seeds_left(const CampaignOptions& options, const Camp
   return seeds;
 }
 
-/// How many draws the options ask for, done or not.
+}  // namespace
+
 std::size_t shard_size(const CampaignOptions& options) {
   const Shard shard = shard_of(options.shard);
   return shard.index > options.draws ? 0 : 1 + (options.draws - shard.index) / shard.count;
 }
-
-}  // namespace
 
 CampaignOutcome run_campaign(const CampaignOptions& options, const CampaignKind& kind,
                              const std::string& tried, const CampaignDraw& draw,

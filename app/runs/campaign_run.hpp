@@ -1,6 +1,7 @@
 #pragma once
 /// Many draws of a run on all cores, and their distribution.
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -61,6 +62,13 @@ struct CampaignOutcome {
                                                const machines::SimulatedExcavator& nominal,
                                                const TaskScenario& scenario,
                                                const Progress& progress);
+
+/// Rows that a campaign's file of any kind has; 0 where there is no file. Throws std::runtime_error
+/// where it cannot be read.
+[[nodiscard]] std::size_t campaign_rows(const std::string& file);
+
+/// How many draws the options' shard has, done or not. Throws std::runtime_error where it is none.
+[[nodiscard]] std::size_t shard_size(const CampaignOptions& options);
 
 /// Shards of one campaign of any kind into one file; returns the table. Throws std::runtime_error
 /// where they do not belong together.

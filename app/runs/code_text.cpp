@@ -58,6 +58,24 @@ const char* fault_help(Fault fault) {
   return row != nullptr ? row->help : "";
 }
 
+const char* mode_words(EcuMode mode) {
+  switch (mode) {
+    case EcuMode::kSilent:
+      return "Silent";
+    case EcuMode::kReady:
+      return "Ready";
+    case EcuMode::kArmed:
+      return "Armed";
+    case EcuMode::kActive:
+      return "Active";
+    case EcuMode::kStopping:
+      return "Stopping";
+    case EcuMode::kFault:
+      return "Fault";
+  }
+  return "unknown";
+}
+
 const char* arm_block_words(ArmBlock block) {
   const char* const* row = row_of(kArmBlockTexts, block);
   return row != nullptr ? *row : "unknown";

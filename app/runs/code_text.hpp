@@ -16,6 +16,9 @@ namespace graben::runs {
 /// What the operator should do about it; empty for kNone.
 [[nodiscard]] const char* fault_help(Fault fault);
 
+/// "Silent", "Ready", ...
+[[nodiscard]] const char* mode_words(EcuMode mode);
+
 /// Text of a bit of MachineStatus::why_not_armed.
 [[nodiscard]] const char* arm_block_words(ArmBlock block);
 

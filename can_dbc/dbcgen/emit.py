@@ -9,6 +9,7 @@ from . import derive
 from .model import Database, Message, Signal
 
 _HEAD = """\
+// SPDX-License-Identifier: Apache-2.0
 // Generated from {source} by can_dbc/generate.py; change the DBC and generate again.
 // clang-format off
 #pragma once

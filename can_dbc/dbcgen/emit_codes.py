@@ -6,6 +6,7 @@ from .codes import FMIS, KINDS, ArmBlock, Codes, Fault, Limit
 
 BEGIN, END = "<!-- faults: begin -->", "<!-- faults: end -->"
 _HEAD = """\
+// SPDX-License-Identifier: Apache-2.0
 // Generated from firmware/safety/faults.toml and limits.toml by can_dbc/generate_all.py.
 // clang-format off
 #pragma once
@@ -80,6 +81,7 @@ def texts(codes: Codes) -> str:
 def limits_of_page(codes: Codes) -> str:
     lines = [f"  {{text: '{limit.text}', of: '{limit.of}'}}," for limit in codes.limits]
     return "\n".join([
+        "// SPDX-License-Identifier: Apache-2.0",
         "/// Generated from firmware/safety/limits.toml by can_dbc/generate_all.py.", "",
         "/// What holds lambda, by EcuStatus.LimitKind, and whose number LimitIndex is.",
         "export const LIMITS: readonly {readonly text: string; readonly of: string}[] = [",

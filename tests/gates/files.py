@@ -10,6 +10,7 @@ import tree
 
 SOURCES = (*tree.CXX, ".py", ".sh", ".cmake", ".js", ".ts", ".mjs", ".css", ".html", "CMakeLists.txt")
 MAX_LINES = 400
+LICENCE = "SPDX-License-Identifier"  # Its line does not count: it is in every file.
 SHORT_LINES, SHORT_SHARE = 40, 0.20
 COUNTED = (".cpp", ".hpp", ".py", ".ts")
 # A machine kind by the recipe: what it takes is what the common rooms leave to it.
@@ -34,11 +35,12 @@ for name in names:
     if b"\0" in data:
         continue
     lines = data.decode("utf-8", errors="replace").splitlines()
+    length = len(lines) - sum(LICENCE in line for line in lines[:3])
     if name.endswith(SOURCES) and not tree.is_generated(name):
-        if len(lines) > MAX_LINES:
-            problems.append(f"{name}: {len(lines)} lines; {MAX_LINES} is the most")
+        if length > MAX_LINES:
+            problems.append(f"{name}: {length} lines; {MAX_LINES} is the most")
         if name.endswith(COUNTED):
-            lengths[name] = len(lines)
+            lengths[name] = length
     for number, line in enumerate(lines, 1):
         if match := MACHINE.search(line):
             problems.append(f"{name}:{number}: '{match[0]}' belongs to one machine or server")
@@ -49,7 +51,8 @@ for area in AREAS:
         problems.append(f"{' and '.join(area)}: {short} of {len(counted)} sources have {SHORT_LINES} lines or fewer; "
                         f"under {SHORT_SHARE:.0%} may")
 folder, most_files, most_lines = options.small[0], *map(int, options.small[1:])
-inside = [len((root / name).read_text().splitlines()) for name in names if name.startswith(folder)]
+inside = [sum(LICENCE not in line for line in (root / name).read_text().splitlines())
+          for name in names if name.startswith(folder)]
 if not 0 < len(inside) <= most_files or sum(inside) > most_lines:
     problems.append(f"{folder}: {len(inside)} files, {sum(inside)} lines; {most_files} and {most_lines} are the most")
 tree.report("files", problems, len(names))

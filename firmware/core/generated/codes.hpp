@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Generated from firmware/safety/faults.toml and limits.toml by can_dbc/generate_all.py.
 // clang-format off
 #pragma once

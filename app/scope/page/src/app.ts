@@ -7,6 +7,7 @@ import {Alarms} from './view/alarms';
 import {FaultList} from './view/fault_list';
 import {FaultLog} from './view/fault_log';
 import {FileOpener} from './view/files';
+import {is_film, offer_film} from './view/film';
 import {FirstSight, has_motion} from './view/first_sight';
 import {FrameRate} from './view/frame_rate';
 import {Header} from './view/header';
@@ -118,4 +119,9 @@ export function start(root: HTMLElement): void {
   };
   requestAnimationFrame(frame);
   tell_tests(state, scene, rate);
+  if (is_film(location.search)) {
+    offer_film(state, () => {
+      panel_ms = -Infinity;
+    });
+  }
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Generated from firmware/safety/limits.toml by can_dbc/generate_all.py.
 
 /// What holds lambda, by EcuStatus.LimitKind, and whose number LimitIndex is.

@@ -1,0 +1,189 @@
+#include "app/export/mcap_export.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "app/export/json_message.hpp"
+#include "app/export/mcap_writer.hpp"
+#include "app/identify/machine/candump_reader.hpp"
+#include "app/runs/code_text.hpp"
+#include "app/runs/run_log.hpp"
+#include "can_dbc/generated/dozer_dbc.hpp"
+#include "can_dbc/generated/excavator_dbc.hpp"
+
+namespace graben::app_export {
+namespace {
+
+using Status = dbc::common::EcuStatus;
+
+constexpr const char* kStateSchema =
+    R"({"type":"object","title":"State","properties":{"Mode":{"type":"string"},)"
+    R"("Limit":{"type":"string","description":"what holds lambda below 1"},)"
+    R"("FaultNumber":{"type":"number","description":"0: none"},"Fault":{"type":"string"}}})";
+
+/// Of Foxglove's own log, which its log panel shows.
+constexpr const char* kLogSchema =
+    R"({"type":"object","title":"foxglove.Log","properties":{"timestamp":{"type":"object",)"
+    R"("title":"time","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}},)"
+    R"("level":{"type":"integer"},"message":{"type":"string"},"name":{"type":"string"},)"
+    R"("file":{"type":"string"},"line":{"type":"integer"}}})";
+constexpr int kInfo = 2;
+constexpr int kError = 4;
+
+constexpr std::uint64_t kNsPerUs = 1000;
+constexpr std::uint64_t kNsPerS = 1000000000;
+
+/// The controller's status in words, at each change.
+class StateWords {
+ public:
+  StateWords(McapWriter& writer, const runs::ActuatorNames& actuators)
+      : writer_(writer),
+        actuators_(actuators),
+        state_(writer.add_channel("/graben/state", "graben.State", kStateSchema)),
+        events_(writer.add_channel("/graben/events", "foxglove.Log", kLogSchema)) {}
+
+  void take(const Status& status, std::uint64_t time_ns, std::size_t line) {
+    const auto mode = static_cast<EcuMode>(status.mode.value);
+    const auto fault = static_cast<Fault>(status.fault.value);
+    const std::string limit =
+        runs::limit_words({static_cast<LimitKind>(status.limit_kind.value),
+                           static_cast<std::uint8_t>(status.limit_index.value)},
+                          actuators_);
+    const std::string text = nlohmann::ordered_json({{"Mode", runs::mode_words(mode)},
+                                                     {"Limit", limit},
+                                                     {"FaultNumber", static_cast<int>(fault)},
+                                                     {"Fault", runs::fault_words(fault)}})
+                                 .dump();
+    if (text != last_) {
+      writer_.add(state_, time_ns, text);
+      last_ = text;
+    }
+    if (mode != mode_) {
+      event(time_ns, line, kInfo, fmt::format("mode {}", runs::mode_words(mode)));
+      mode_ = mode;
+    }
+    // What a controller waits for before it has ever been ready is no fault.
+    is_ready_ = is_ready_ || mode != EcuMode::kSilent;
+    if (fault != fault_) {
+      event(time_ns, line, fault == Fault::kNone || !is_ready_ ? kInfo : kError,
+            fault == Fault::kNone ? std::string("no fault")
+                                  : fmt::format("{} {}: {}", is_ready_ ? "fault" : "waits, code",
+                                                static_cast<int>(fault), runs::fault_words(fault)));
+      fault_ = fault;
+    }
+  }
+
+ private:
+  void event(std::uint64_t time_ns, std::size_t line, int level, const std::string& message) {
+    writer_.add(events_, time_ns,
+                nlohmann::ordered_json(
+                    {{"timestamp", {{"sec", time_ns / kNsPerS}, {"nsec", time_ns % kNsPerS}}},
+                     {"level", level},
+                     {"message", message},
+                     {"name", "graben"},
+                     {"file", "log"},
+                     {"line", line}})
+                    .dump());
+  }
+
+  McapWriter& writer_;
+  const runs::ActuatorNames& actuators_;
+  std::uint16_t state_;
+  std::uint16_t events_;
+  std::string last_;
+  std::optional<EcuMode> mode_;
+  Fault fault_ = Fault::kNone;
+  bool is_ready_ = false;
+};
+
+/// Stamps that do not go back.
+class Clock {
+ public:
+  explicit Clock(const std::filesystem::path& log) : log_(log) {}
+
+  std::uint64_t stamp(const identify::LoggedFrame& frame) {
+    const auto time_ns = static_cast<std::uint64_t>(std::llround(frame.time_s * 1e6)) * kNsPerUs;
+    if (time_ns < now_ns_) {
+      if (static_cast<double>(now_ns_ - time_ns) * 1e-9 > kMostBack_s) {
+        throw std::runtime_error(fmt::format(
+            "{}:{}: the stamp goes back by {:.1f} s; at most {:.0f} s is taken for disorder",
+            log_.string(), frame.line, static_cast<double>(now_ns_ - time_ns) * 1e-9, kMostBack_s));
+      }
+      ++late;
+      return now_ns_;
+    }
+    now_ns_ = time_ns;
+    return time_ns;
+  }
+
+  std::size_t late = 0;
+
+ private:
+  const std::filesystem::path& log_;
+  std::uint64_t now_ns_ = 0;
+};
+
+}  // namespace
+
+std::string signal_name(const dbc::Field& field) {
+  static const std::map<std::string, std::string, std::less<>> units = {
+      {"rad/s", "radps"}, {"m/s", "mps"}, {"m^3/s", "m3ps"}};
+  if (field.unit[0] == '\0') {
+    return field.name;
+  }
+  const auto unit = units.find(field.unit);
+  return fmt::format("{}_{}", field.name, unit == units.end() ? field.unit : unit->second);
+}
+
+std::string topic_of(std::string_view sender, std::string_view message) {
+  std::string folder(sender);
+  folder[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(folder[0])));
+  return fmt::format("/{}/{}", folder, message);
+}
+
+ExportCounts export_mcap(const std::filesystem::path& log, const std::filesystem::path& mcap) {
+  // Says what kind of machine it is, and refuses what is no log of ours before anything is written.
+  const runs::RunLog run = runs::read_run_log(log);
+  McapWriter writer(mcap, "graben");
+  struct Channel {
+    JsonMessage message;
+    std::uint16_t id;
+  };
+  std::map<std::uint32_t, Channel> channels;
+  for (JsonMessage& message : run.is_dozer ? json_messages(dbc::dozer::AllMessages{})
+                                           : json_messages(dbc::excavator::AllMessages{})) {
+    const std::uint16_t id = writer.add_channel(
+        message.topic, "graben." + message.topic.substr(message.topic.rfind('/') + 1),
+        message.schema);
+    channels.emplace(message.id, Channel{std::move(message), id});
+  }
+  StateWords words(writer, run.is_dozer ? runs::dozer_actuators() : runs::excavator_actuators());
+  ExportCounts counts;
+  Clock clock(log);
+  static_cast<void>(identify::read_candump(log, [&](const identify::LoggedFrame& frame) {
+    const std::uint64_t time_ns = clock.stamp(frame);
+    const auto channel = channels.find(frame.id);
+    if (channel == channels.end() || !frame.extended || frame.length != frame.data.size()) {
+      ++counts.foreign;
+      return;
+    }
+    writer.add(channel->second.id, time_ns, channel->second.message.text(frame.data));
+    if (frame.id == Status::kId) {
+      words.take(Status::decode(frame.data), time_ns, frame.line);
+    }
+  }));
+  writer.finish();
+  counts.messages = writer.messages();
+  counts.channels = channels.size() + 2;
+  counts.late = clock.late;
+  counts.duration_s = run.until_s - run.from_s;
+  return counts;
+}
+
+}  // namespace graben::app_export

@@ -1,0 +1,35 @@
+#pragma once
+/// Figures of the papers that have a like in our runs, drawn as the papers draw them (axes,
+/// colours, what is marked), with the numbers that stand in the papers beside ours. The papers'
+/// curves themselves are pictures: they are not redrawn.
+
+#include <string>
+#include <vector>
+
+#include "app/reports/figure/svg_figure.hpp"
+#include "app/runs/dig_run.hpp"
+#include "app/runs/grade_run.hpp"
+
+namespace graben::reports {
+
+/// Kim et al.: "kim9" to "kim15".
+[[nodiscard]] const std::vector<std::string>& kim_figure_names();
+
+/// Kim's runs are in soil (9 to 13) or meet an obstacle (14, 15). Throws std::runtime_error where
+/// the run is not of that kind.
+[[nodiscard]] PaperFigure kim_figure(const std::string& name,
+                                     const machines::SimulatedExcavator& machine,
+                                     const runs::DigResult& result,
+                                     const runs::DigSummary& summary);
+
+/// Mononen and Mattila: "mononen7" to "mononen9".
+[[nodiscard]] const std::vector<std::string>& mononen_figure_names();
+
+/// 7 and 8 are of the bounded speed, 9 of a constant one. Throws std::runtime_error where the run
+/// is not of that kind.
+[[nodiscard]] PaperFigure mononen_figure(const std::string& name, bool is_constant_speed,
+                                         const machines::SimulatedDozer& machine,
+                                         const runs::GradeResult& result,
+                                         const runs::GradeSummary& summary);
+
+}  // namespace graben::reports
