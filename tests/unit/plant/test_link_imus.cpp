@@ -11,8 +11,11 @@
 #include "tests/unit/plant/fixture/bus_rig.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-namespace graben::plant::test {
 namespace {
+
+using namespace graben;
+using namespace graben::plant;
+using namespace graben::plant::test;
 
 namespace bus = dbc::excavator;
 using Inertial = dbc::j1939::ARI;
@@ -235,10 +238,8 @@ void unknown_until_it_is_known(void**) {
 }
 
 }  // namespace
-}  // namespace graben::plant::test
 
 int main() {
-  using namespace graben::plant::test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(level_and_at_rest),
       cmocka_unit_test(strokes_of_a_machine_in_motion),
