@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A design as surveyors have it: a surface of triangles over a plan.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A surface along a dozer's track: what its blade is to make of it.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A dozer's design in a file of its own: heights along the track, as many as it takes.
 

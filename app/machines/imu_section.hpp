@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Section [imu] of an excavator's profile: IMUs on its links in the place of stroke sensors.
 

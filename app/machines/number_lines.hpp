@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Text files with numbers in lines: what surveyors and spreadsheets write without any format.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Simulated IMUs on the links: what gyro and accelerometer show of how the machine really moved.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Designs that a dozer is measured on, beside the one of its profile.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What bounding the speed is worth: design by design, against the fastest constant speed.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Generated from j1939.dbc.in by can_dbc/generate.py; change the DBC and generate again.
 // clang-format off
 #pragma once

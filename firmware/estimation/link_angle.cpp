@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware/estimation/link_angle.hpp"
 
 #include <algorithm>

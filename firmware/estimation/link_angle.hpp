@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Angle of a body against the horizontal, in a plane, by a gyro and an accelerometer on it.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hal/buses/link_imus.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// IMUs of a machine's links on a bus of SAE J1939 (j1939.dbc): which signal is in which frame.
 ///

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`graben grade` on designs in files of their own: a LandXML surface of 100 000 triangles and the same
 points come out as the profile's own design does, load in time, and are refused with the place where
 they are malformed; a profile takes what it has written; random designs are made or refused."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """IMUs on the links in the place of stroke sensors: the true tip with all errors, dry and in soil, of both excavators;
 a profile with its own section [imu]; profiles whose section is wrong."""
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// GET /: the page; GET /operator: the operator's view; GET /log: the log that is shown, if one is.
 /// Nothing else is there.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Joint angles of a machine whose links carry IMUs instead of stroke sensors, and the strokes that
 /// they stand for. Frames as in excavator_profile.hpp.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """j1939.dbc against frames and formulas as Honeywell prints them (TARS-LCASS user manual, 32332897 issue B, 7.1 to
 7.5), by a reader of DBCs that is not the generator's.  check_j1939_bytes.py ROOT"""
 

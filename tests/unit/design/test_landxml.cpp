@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/design/surface.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/design/written_file.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The angle of one body by gyro and accelerometer, against bodies whose motion is known.
 
 #include "firmware/estimation/link_angle.hpp"

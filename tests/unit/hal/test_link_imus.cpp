@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // IMUs on links by SAE J1939-71: frames as a data sheet prints them, and what is refused.
 
 #include "firmware/numeric/constants.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // IMUs of the simulated machine, and what the controller makes of their frames: the strokes.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Faults of the IMUs of a machine that digs: each stops it, in words and in time.
 
 #include <memory>
