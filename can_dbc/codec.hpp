@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the generated codecs are made of: the bits of a payload to and from physical values.
 /// Everything is constexpr, nothing allocates, nothing fails: a value that cannot be said on the

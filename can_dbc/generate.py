@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes the DBC of a source or the C++ codecs of a source or DBC, or says whether the written ones still match.
 
     generate.py INPUT.dbc.in OUTPUT.dbc

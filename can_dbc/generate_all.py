@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes all committed files that are made of the frames' sources and of the code tables, or says which have drifted.
 
     generate_all.py [--check] [--root FOLDER]

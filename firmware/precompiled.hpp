@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What most of the core reads anyway, compiled once; included by no source, which all name what
 /// they use. Under the gate `layering` as every file here.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A CAN frame as a port hands it over, whatever bus is behind it.
 

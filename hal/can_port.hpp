@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The way to a CAN bus: SocketCAN or the bus in memory. Nothing here blocks.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Several buses as one: what any of them brings is received, what is sent goes to all.
 

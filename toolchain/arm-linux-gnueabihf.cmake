@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # 32-bit Arm with Linux (Cortex-A7), by Debian's cross compiler; what runs here runs under QEMU's
 # user mode.
 set(CMAKE_SYSTEM_NAME Linux)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Cortex-M7 with the double-precision FPU; what runs here runs on QEMU's board mps2-an500.
 include(${CMAKE_CURRENT_LIST_DIR}/arm-none-eabi.cmake)
 set(CMAKE_CROSSCOMPILING_EMULATOR ${CMAKE_CURRENT_LIST_DIR}/mps2_an500/run.sh)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Cortex-R5F; what runs here runs under QEMU's user mode, which answers semihosting too.
 include(${CMAKE_CURRENT_LIST_DIR}/arm-none-eabi.cmake)
 set(CMAKE_CROSSCOMPILING_EMULATOR qemu-arm -cpu cortex-r5f)

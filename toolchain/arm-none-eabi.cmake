@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Arm without an operating system, by Debian's cross compiler and newlib: what the toolchain files
 # of the two processors share.
 set(CMAKE_SYSTEM_NAME Generic)

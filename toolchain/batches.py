@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Which sources are compiled as one: batches.py COUNT ROOT SOURCE... prints the number of the batch of each
 source; there are COUNT of them, or as many as it takes.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=sh
 # Configures and builds one preset without a word unless it fails. Sourced by ./run and ./test;
 # needs graben_say of packages.sh.

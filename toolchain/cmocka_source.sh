@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # CMocka's source for the machines that Debian has no package of it for: cmocka_source.sh FOLDER
 # Debian's source package by the mirror that this machine's apt uses, verified by Debian's
 # keys, with lists of its own in FOLDER. Nothing when it is there already; delete FOLDER to get it again.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The libraries from outside, for whom this is built: the packages of the machine that builds, or,
 # for another one, only their headers, which are the same everywhere.
 if(NOT CMAKE_CROSSCOMPILING)

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # pack.sh BUILD OUT [tool]: the Debian package of graben-ecu as built in BUILD, or that of graben, into OUT;
 # prints its path. The same program gives the same package, byte by byte: its times are the changelog's.
 set -eu

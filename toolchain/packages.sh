@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=sh
 # Which packages of Debian 12 the build and the checks need, and how the missing ones are installed.
 # Sourced by ./run and ./test. Everything is looked for by what it is wanted for, a command or a

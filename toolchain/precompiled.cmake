@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Headers from outside cost more to read than our sources: they are compiled once for each group of
 # targets (target_precompile_headers). Every source names what it uses all the same: the gate `names`
 # looks at what the core's take of std and Eigen, and the preset `debug` and whoever has a compiler

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // newlib's own says 'neither file nor folder' of whatever exists. Here what opens is a file,
 // folders too, and nothing else of it is known.
 

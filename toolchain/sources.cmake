@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # graben_sources(VAR FOLDER...): the sources in these folders of the current one, "." itself. A new file is
 # in the build by being there.
 function(graben_sources var)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Campaigns on Slurm, as commands: `campaign ... --slurm`, `campaign progress`, `campaign
 /// collect`.

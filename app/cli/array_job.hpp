@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A campaign as an array job of Slurm: a task for each shard, and a job after them that puts the
 /// shards together. All that is known of it is in the folder SUMMARY.slurm, so any later command,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Chromium without a window, told by the pipe of its DevTools protocol what to show.
 

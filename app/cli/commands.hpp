@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The subcommands of `graben`. Each adds itself to the CLI11 application and sets `status` to its
 /// exit status when it has run: 0 done, 1 the input or the result is at fault, 2 wrong usage.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/cli/commission_on_bus.hpp"
 
 #include <fmt/format.h>

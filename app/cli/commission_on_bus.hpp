@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// `graben commission --can`, and what it shares with the simulated one.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The commands as data: what man pages and the shell's completion are made of.
 
 #include <fmt/format.h>

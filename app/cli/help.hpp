@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What `graben` says of itself: help within 80 columns, and wrong usage in words of its own.
 

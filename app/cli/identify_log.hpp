@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// `graben identify --log` and `--check`: logs of our own bus against a machine's profile.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// graben: the engineer's tool. Simulates machines and their controller, plans, reports, and shows
 /// what is on a bus.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Cases of the MCV optimisation as JSON lines (schema: tests/vectors/README.md).
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Options that several commands have, most of them for what a run is to try, and checks of their
 /// values.

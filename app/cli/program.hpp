@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Other programs that a command starts, such as sbatch or ffmpeg.
 

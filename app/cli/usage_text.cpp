@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Wrong usage in the tool's own words: what CLI11 found, without its texts.
 
 #include <fmt/format.h>

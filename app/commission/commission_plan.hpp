@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What is done to identify an excavator, step by step, and how each step may end.
 

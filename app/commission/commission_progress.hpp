@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// How far a commissioning has come, in a file beside its log: what is needed to go on after a
 /// break, a fault or a restart.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What a machine is asked to do so that a log of it says how its valves open, how late they are
 /// and where its sensors' zeros lie: one drive, one direction at a time. Pure: strokes in, duties

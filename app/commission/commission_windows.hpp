@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the operator confirms before anything moves: of each drive the window, the speed, and which
 /// ends of its stroke are free to be touched.

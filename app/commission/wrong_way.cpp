@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/commission/wrong_way.hpp"
 
 #include <fmt/format.h>

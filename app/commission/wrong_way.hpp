@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What a ramp shows of signs: a stroke that goes against the duty of its drive, or one that moves
 /// while only another drive is told to.

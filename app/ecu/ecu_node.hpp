@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A controller as a node on a bus: receive, step, send. What is deployed and what is simulated run
 /// this same cycle.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// graben-ecu from its start to its end: its options, real time, the cycle, the way out, and the
 /// statistics that a run leaves behind.

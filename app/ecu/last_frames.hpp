@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The neutral commands that would be next on the bus, for whoever has to send them in place of a
 /// controller that is just ending.

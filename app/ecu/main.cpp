@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// graben-ecu: what is deployed. Its command line, then the process.
 
 #include <CLI/CLI.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A message of the bus as JSON, with a schema: one number a signal, the unit in its name
 /// ("BoomStroke_m"). What is not available, failed or out of range is not there.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/export/mcap_export.hpp"
 
 #include <fmt/format.h>

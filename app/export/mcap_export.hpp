@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A candump log as MCAP: each message of our bus as a channel, its signals in SI units; what the
 /// controller said of itself in words; its changes of mode and its faults as a log.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// MCAP (mcap.dev/spec), a container of stamped messages that Foxglove and PlotJuggler open: with
 /// chunks, not compressed, each with its index, and a summary.

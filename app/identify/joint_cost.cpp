@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/identify/joint_cost.hpp"
 
 #include <ceres/jet.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The error of a joint's model over one run, as Ceres wants it.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// How a joint of a hydraulic machine answers its command, with the other joints on the same pumps.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The motion of a joint that its flow makes: pump lag, oil and mass, the rocking machine, sensor.
 

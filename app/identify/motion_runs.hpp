@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Recorded motion of an excavator without profile: commands and what the joints did.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The sections [valve.answer.DRIVE.SIDE] of an excavator's file: how each side of a drive's spool
 /// answers, where that is known by itself.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/machines/any_machine.hpp"
 
 #include "app/machines/profile_document.hpp"

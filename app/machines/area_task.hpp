@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Tasks that are said by what is to be made of the ground, in one line: trench, bench, level,
 /// slope, truck loading. Dug in layers until their design is met.

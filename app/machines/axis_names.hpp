@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Names of axes, drives and control laws, in their order: in a profile and in what a user reads.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// An excavator's outline and what fences allow for, as its profile says them.
 

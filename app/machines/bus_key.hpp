@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Keys `bus` and `stand_in` of a profile: the bus that the machine is on, and what stands in for
 /// what that bus does not carry.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/machines/dozer_file.hpp"
 
 #include "app/machines/dozer_sections.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The dozer's profile: as excavator_file.hpp for the excavator.
 

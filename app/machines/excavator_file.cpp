@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/machines/excavator_file.hpp"
 
 #include "app/machines/excavator_sections.hpp"

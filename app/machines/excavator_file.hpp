@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The excavator's profile: TOML in, checked as a whole, const structs out.
 

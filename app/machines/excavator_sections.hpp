@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The sections of an excavator's TOML files, and keys that several of them have.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // toml++'s and {fmt}'s own code, compiled once and linked in: what is deployed needs no library
 // beyond the standard ones, and no source compiles it again.
 #define TOML_IMPLEMENTATION

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The section [oil] of an excavator's file: what its controller takes the oil and its load to be.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Machine profiles as files, whatever their kind: TOML in, checked as a whole. NAME.toml is the
 /// machine, as its controller has to know it; NAME.sim.toml beside it is what only a simulation of

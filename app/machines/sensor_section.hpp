@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Zeros of an excavator's sensors, as its profile says them.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Steps of a task file: where each leads, how fast, what ends it, and how often all are done.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Tasks as files: TOML in, checked and planned as a whole for one machine.
 

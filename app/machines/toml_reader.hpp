@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Reads a TOML document key by key and collects everything that is wrong with it, instead of
 /// stopping at the first error.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/machines/tuned_control.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What of an excavator's section [control] follows from how late its drives answer: for a tool
 /// that has found that out and writes the profile.

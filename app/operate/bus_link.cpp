@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/operate/bus_link.hpp"
 
 #include <fmt/format.h>

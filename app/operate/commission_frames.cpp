@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/operate/commission_frames.hpp"
 
 #include "can_dbc/generated/excavator_dbc.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Commissioning at the station, without a bus: from what is heard and from the operator's hand to
 /// what is asked for, and when it ends.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/operate/ecu_listener.hpp"
 
 #include "can_dbc/codec.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the station hears on the bus: the controller, the machine's strokes, and other stations.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Which stick and button of a gamepad does what. The kernel gives all gamepads the same codes
 /// (its Documentation/input/gamepad.rst); some older ones have their right stick elsewhere.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A terminal's keyboard in place of a gamepad: for simulations and tests, not for a machine.
 ///

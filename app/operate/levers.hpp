@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The operator's two levers, from sticks or keys to the axes on the bus. They lie as on an
 /// excavator with ISO controls (ISO 10968): the left lever swings and moves the arm, the right one

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The terminal: keys one by one, and a screen that is redrawn in its place. Nothing here waits.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Forces on the bucket: the ground (Kim 5.1), and something hard in its way (Kim 5.2).
 

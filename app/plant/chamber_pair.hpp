@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Two oil chambers with what they push between them: a piston, or the rotor of a motor.
 

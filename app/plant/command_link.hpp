@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Incoming commands of a simulated machine, of whatever kind.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The parallel cylinders of one axis: two chambers, piston leakage, cushions, end stops.
 

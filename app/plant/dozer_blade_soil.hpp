@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Ground that resists the dozer's blade: what it cuts, carries before it and loses at its ends.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The dozer's ground: the terrain that its blade cuts, and the traction of its tracks.
 

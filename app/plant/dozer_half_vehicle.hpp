@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The dozer's body on its tracks, after Mononen and Mattila (15) - (17).
 

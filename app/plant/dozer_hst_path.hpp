@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// One path of the dozer's transmission: pump, two lines, motor, gear, sprocket, brake.
 

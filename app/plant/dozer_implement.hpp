@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The dozer's implement circuit: pump of fixed displacement, load-sensing section, port reliefs.
 

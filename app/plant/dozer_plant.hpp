@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The simulated dozer, driving straight: body, ground, blade, implement circuit, transmission.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the simulated dozer is: the nominal data that its controller has too, and what only a plant
 /// knows. SI units.

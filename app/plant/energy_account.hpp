@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Where the simulated machine's energy goes: a check of the plant, not a part of its physics.
 

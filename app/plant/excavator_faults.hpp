@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Faults of the simulated excavator, beside those of every machine.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The simulated excavator on the bus: valve side, sensors, engine.
 

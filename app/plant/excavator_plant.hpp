@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The simulated excavator: pumps, main control valve, cylinders, links, and on a machine with a
 /// swing drive its motor and platform; else the swing is held.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the simulated excavator is. The nominal data are those that its controller has too; the
 /// rest only a plant knows: masses, friction, compressibility, each spool as it is made, leakage,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Messages of the DBC to frames on a port, with counter and CRC where the DBC asks for them.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Oil, orifices, reliefs: laws and figures that are alike in every simulated machine. Resistive
 /// elements between transmission-line ports are solved in closed form together with the ports that

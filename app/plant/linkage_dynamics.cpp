@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/plant/linkage_dynamics.hpp"
 
 #include <algorithm>

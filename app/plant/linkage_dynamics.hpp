@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Boom, arm and bucket as three rigid bodies in the sagittal plane, pushed by their cylinders.
 

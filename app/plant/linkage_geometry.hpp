@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Where the plant's links and pins are: own vector geometry, no formula shared with the
 /// controller. Sagittal plane, x forward, y up, origin at the boom foot pin. Joint angles (rad):

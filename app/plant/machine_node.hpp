@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The part of a simulated machine's node that is the same for every kind: commands in, spool
 /// command and pilot cut first of all, identity, reports in time, faults.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Faults of every simulated machine. The default is nothing; each switch acts from the
 /// next cycle on and can be taken back.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The simulated operator on the bus: deadman, mode, task, speed override; levers, duties to try.
 

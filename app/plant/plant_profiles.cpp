@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cylinders and swing motor as the profiles describe them.
 
 #include "app/plant/dozer_plant_profile.hpp"

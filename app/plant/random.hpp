@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Random numbers that are the same with every standard library: the standard fixes its engines,
 /// not its distributions.

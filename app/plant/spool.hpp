@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// From a duty to a spool's travel and what it opens: dead time, pilot valves, spool.
 

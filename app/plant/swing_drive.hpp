@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The upper structure's turning about the vertical, and the hydraulic motor that turns it.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// One section of the main control valve: metering edges, return gallery, regeneration, bypass.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// An oil volume as a lossless transmission-line junction with a small numerical loss.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Machines, tasks and text for the page, before the first frame: `Setup` and `Machine` of
 /// app/scope/page/src/model/api.ts. Lengths in m, angles in rad, in the ground frame where it says

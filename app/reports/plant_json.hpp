@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Figures of the simulated machine's run in real time, as JSON: names with their SI units.
 

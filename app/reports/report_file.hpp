@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Files that a run leaves: the report, which is the scope's page with what it shows inside, one
 /// HTML file that opens from disk without a network; a log as the report carries it; and JSON.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Parts of a report's setup (app/scope/page/src/model/api.ts) that every kind of run has.
 

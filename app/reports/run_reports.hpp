@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Results of a run for its reader: the report, one HTML page, and the figures as JSON. All throw
 /// std::runtime_error that names the file where it can't be written.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// How calmly a machine runs: measures of signals that have one value a control cycle. What a run
 /// does not judge is left out with pause(); no measure spans such a gap.

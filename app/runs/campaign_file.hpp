@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A campaign's results as CSV: a line that says what was tried, a line of column names, a row for
 /// each draw.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Faults, reasons for not arming and limits of lambda in text, from firmware/safety/faults.toml
 /// and limits.toml; shares of time of each limit.

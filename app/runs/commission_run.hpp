@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Commissioning of a simulated excavator over a bus in memory: the sequence of app/commission at
 /// the operator's station, the controller's guard, the plant. Nothing but frames between them.

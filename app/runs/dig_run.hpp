@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The digging task in simulated time: plant, operator and controller as three nodes on a bus in
 /// memory that exchange nothing but CAN frames.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Speeds of the drives, each alone, by what is known of a machine.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Calm and energy of the excavator's runs: counted and shown in the same way in each of them.
 

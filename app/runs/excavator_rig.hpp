@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The excavator as a simulated machine kind, and the rigs of its runs.
 

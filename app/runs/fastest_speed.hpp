@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The fastest constant speed at which the grade still comes out within a bound.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Random tasks before random fences, on the simulated machine: does any point of it ever pass one?
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Where the simulated machine's outline truly is before a task's fences: points all over it, by
 /// the plant's joints. Shares no formula with the controller's fences.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Figures of a run. Each is defined once, in the table of its kind of run (dig_figures(), ...),
 /// and feeds the text on the terminal, the JSON summary, a campaign's file and table, and the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Changes of frames on their way. `Kind` is a machine kind: its Dbc names the messages.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Place of a dozer's cutting edge, and the blade velocity that the design needs there, by the
 /// simulation's own geometry: the controller is measured against it and takes no part in it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A hidden machine is commissioned over its bus, identified from the frames, and digs: with the
 /// profile as shipped, as identified, and as its truth would have it.

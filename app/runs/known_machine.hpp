@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A simulated machine as a perfect identification would find it, and how far a real one is off.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Tip force and payload as the controller tells them, beside the true ones.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Figures of two logged runs beside each other.
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Simulated machine, operator and controller on one bus in memory. They share nothing but frames.
 

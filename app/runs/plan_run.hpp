@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A planned line as its user reads it: samples over time, table, figures.
 

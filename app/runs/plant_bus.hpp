@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A simulated machine in real time on a CAN interface, with an operator beside it; whatever its
 /// kind.

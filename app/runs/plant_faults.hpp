@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Faults of a simulated machine by name and time, for a machine that runs on a real bus.
 

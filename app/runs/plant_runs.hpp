@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Simulated machines in real time on a CAN interface, valve side and all, and figures of what the
 /// controller there did with them. All throw std::runtime_error where the interface is not there.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The way of a simulated machine's frames to its bus, for cycles that were late.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A run as its log tells it, whoever wrote the log: what the controller said of itself and how the
 /// machine moved. Logs of two runs are compared by it.

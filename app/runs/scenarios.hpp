@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Scenarios of runs, as their user says them: the machine that the simulation then has, its start,
 /// and the scenario as text.

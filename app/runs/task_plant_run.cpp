@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/runs/plant_runs.hpp"
 
 #include <optional>

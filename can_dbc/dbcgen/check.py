@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The rules that a database keeps before code is made of it. One function for each subject."""
 
 from __future__ import annotations

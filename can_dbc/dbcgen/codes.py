@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Faults, reasons for not arming and limits: the rows of firmware/safety/faults.toml and limits.toml, checked."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What follows from a signal's definition: raw range, SI scale, C++ names."""
 
 from __future__ import annotations

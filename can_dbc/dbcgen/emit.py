@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The C++ header of a checked database."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What is made of the codes: the core's enums, its table of reactions, the texts, the table of a README."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a DBC says. Numbers are exact (Fraction); every item knows its line, for messages."""
 
 from __future__ import annotations

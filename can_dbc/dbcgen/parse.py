@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """DBC text to model. Every keyword that is not listed here is refused with its line."""
 
 from __future__ import annotations

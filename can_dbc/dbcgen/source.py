@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A DBC in short: one line a node, message or signal with its comment below, and what follows from it left out.
 
     DATABASE version 5

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Codes that leave the core. One enum for each question: what stops (Fault), what explains
 /// (LimitKind), what keeps from arming (ArmBlock), how the solver ended (SolveStatus), what the

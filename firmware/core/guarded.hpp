@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A stored value with its complement: a bit that flips in memory is found before it is used.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A view of values that somebody else keeps: one a drive, one a pump.
 

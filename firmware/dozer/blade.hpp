@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Joint 1 of the dozer: blade cylinder, angle, cutting edge. Body frame as in dozer_signals.hpp.
 

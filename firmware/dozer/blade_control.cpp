@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware/dozer/blade_control.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The blade on the grade: feed-forward of the body's motion and of the design ahead, and feedback.
 

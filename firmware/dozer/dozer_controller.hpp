@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The dozer's controller: one step from signals to commands, 100 times a second.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Profile of a dozer, as its controller knows it: body, blade, flows, transmission, grade.
 /// Constant after start; read and range-checked by the application. SI units; frames as in

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Inputs and outputs of the dozer's controller. SI units; tracks in the order left,
 /// right. World: x along the grade, z up. Body frame: x forward, z up, origin at the tracks' ground

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware/dozer/grade_profile.hpp"
 
 #include <algorithm>

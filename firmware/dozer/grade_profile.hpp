@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The design surface: a plane, and over it heights through points with rounded corners.
 

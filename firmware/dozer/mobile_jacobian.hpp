@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The mobile manipulator's Jacobian (1)-(5): what body and blade together do to the cutting edge.
 /// World frame, x along the grade, z up; velocities are linear over angular.

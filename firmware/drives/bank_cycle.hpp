@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A bank of drives around a cycle, for a kind that watches nothing else: what is kept, and the
 /// steps before and after the kind's own motion.

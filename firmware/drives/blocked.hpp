@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A drive that pushes with what its pump gives, and stands: its load holds it, a rock. Not a
 /// fault: what is asked of it is kept small, and its pressure eased, until the load gives way.

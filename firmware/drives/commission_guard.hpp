@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Guards a drive whose valve is not known: duties are tried on it, open loop, and nothing that is
 /// said of its spool but the dead time's and the lag's longest is relied on.

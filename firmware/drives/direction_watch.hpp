@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A drive that its oil drives against its spool: hoses, ports or a valve's coils changed over.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Feedback around the valve's model: what each drive should have done by now, what is still under
 /// way to it, and how far it is behind; and the load as that model compensates it.

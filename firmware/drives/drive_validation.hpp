@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Signals of the drives -> values that may be used: freshness, validity and plausibility of each
 /// row, whatever the machine.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A bank of drives against its commands: all watches together, and what they take away.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A drive's sensor against the oil that its spool lets through: the measured opening and the
 /// pressures, with what is not known of them, bound the travel of every moment.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What a drive's valve turns out to be: where its dead band ends on each side and how it opens,
 /// learnt from spool and stroke while the drive works, within bounds, and kept as long as the

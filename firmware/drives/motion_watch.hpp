@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Checks that drives move as their spools let them, and that their pressures are those of a
 /// machine in motion.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// From a spool's travel to its opening and back, by the table of its side.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Corrections change sign many times a second where a load varies. A spool that followed each
 /// would cross its dead band all the time: wear, heat, and oil that is late. So it waits at the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Checks that each spool is where the commands of late can have sent it, and that the valve side
 /// says what we say.

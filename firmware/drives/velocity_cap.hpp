@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Everything that slows a machine gives a cap: by how much, and why. The tightest of a kind
 /// counts; of several kinds what is reported is the first of one table.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The excavator's drives as a bank: boom, arm and bucket with their cylinders, and the swing where
 /// the machine has one.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Fences and levers in the cycle: of the controller in excavator_controller.cpp.
 
 #include "firmware/excavator/excavator_controller.hpp"

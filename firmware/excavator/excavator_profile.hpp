@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Profile of an excavator, as its controller knows it: geometry, valve, pumps, task. Constant
 /// after start; read and range-checked by the application, cross-checked by `profile_check`. SI

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Inputs and outputs of the excavator's controller. SI units; axes in the order boom,
 /// arm, bucket, drives with the swing after them. Extension is positive for strokes, velocities,

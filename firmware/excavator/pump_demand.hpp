@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Swash on demand: as much of each pump as the wanted motion, the loads and the engine's speed ask
 /// for, no more.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The swing among the excavator's drives: where a motor on one of the valve's sections turns the
 /// platform, it is one more row. Angles in rad, to the left positive; travels are those at

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Flow of pumps, orifices and regeneration circuits. Orifices are flow coefficients c of
 /// Q = c sqrt(P) in m^3/(s sqrt(Pa)).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The hydraulic drives of a machine, one row each: all that the common rooms know of a drive. A
 /// kind makes its rows once, at start, from its profile. What is said of a cylinder holds for a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Hydraulics of a machine as data: cylinders' areas, spools, pumps, and how lambda may rise. SI
 /// units. Equation numbers are those of Kim et al.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A valve and one cycle's input, put into the terms that every evaluation needs: prepared once for
 /// each solve. Flows and speeds are those at lambda = 1.

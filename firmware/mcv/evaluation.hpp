@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The whole circuit at one lambda: pressures, forces, spools, and which constraint fails first.
 

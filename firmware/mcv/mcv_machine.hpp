@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A main control valve as data: which spool hangs on which pump, which side regenerates (Kim
 /// Fig. 3; Remarks 2, 3). Kim's machine is one value of this.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The optimisation of Kim et al. (37): how fast the wanted velocities may be followed, and why no
 /// faster.

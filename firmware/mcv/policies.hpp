@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The ways to choose lambda in (37). Each costs a bounded number of operations and returns a
 /// point that `evaluate` found feasible, or lambda 0; `choose_fixed` alone does not ask.

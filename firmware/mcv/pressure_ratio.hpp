@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// One pump's line over r = sqrt(P) / lambda instead of over lambda.
 ///

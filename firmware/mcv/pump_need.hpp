@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Unified pump control (future work 2 of Kim et al.): the flow that each pump has to give, instead
 /// of the lambda that a given flow allows.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Pressure of one pump's line: the circuit's flow balance (27), (28), solved for s = sqrt(P).
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// One constraint on lambda as a difference of two convex functions of r, and the search for the
 /// first r at which it changes.

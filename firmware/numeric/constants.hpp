@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Of the controller and its tools; the simulated machine has its own.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Cube root that is the same bit for bit on every target. C libraries round theirs differently by
 /// a unit in the last place, and lambda has to be the same wherever it is computed.

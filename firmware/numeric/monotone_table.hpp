@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Piecewise-linear, strictly increasing tables with fixed capacity, readable both ways.
 

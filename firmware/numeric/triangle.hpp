@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A joint driven by a cylinder: a triangle of two fixed sides and the cylinder's length.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Inputs that every machine kind reads alike: operator, bus, identity, engine; and the reactions
 /// to the faults that were found.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Everything that a controller does around a cycle, whatever its machine: its own time, the mode,
 /// the pilot pressure, and the status that the operator reads.

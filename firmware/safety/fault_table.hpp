@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Reactions to faults: the rows of faults.toml as the core needs them.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware/safety/mode.hpp"
 
 #include "firmware/safety/fault_table.hpp"

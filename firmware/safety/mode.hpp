@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Modes of the machine: silent by default, positive and complete conditions before motion.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Signals that may be used now: fresh and valid, and they cannot have jumped.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A machine that is asked to move and hardly gets on: said first, stopped later.
 

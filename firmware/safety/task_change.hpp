@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A change of task in motion passes standstill: what was begun is let go, the machine comes to
 /// rest, and only then does the next task begin.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A tube around what a machine is to follow: path, plan, line, design surface. Whatever pushes the
 /// tool out of it, or makes the controller lead it out, stops the machine.

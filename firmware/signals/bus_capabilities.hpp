@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What a machine's bus can say to its controller. A bus that lacks something has a stand-in, which
 /// the profile has to name; EcuHealth.StandIn shows that one is in use.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Signals that every machine kind's controller takes in and gives out beside its own. SI units.
 

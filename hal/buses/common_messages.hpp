@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Messages that the buses of all machine kinds carry (common.dbc.in): where their signals go, and
 /// what fills them. A kind's bus adds its own.

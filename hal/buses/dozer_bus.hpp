@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The dozer's bus (dozer.dbc): which signal is in which frame.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Whether the way to the stations and back takes too long, from the start or from some time on.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// When which trouble code goes into DM1 (J1939-73, PGN 65226), one code a frame.
 ///

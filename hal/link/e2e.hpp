@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// End-to-end protection in the layout of AUTOSAR profile 11, data id mode BOTH: byte 0 is the CRC,
 /// the low nibble of byte 1 the counter (0 .. 14, 15 is invalid). The CRC runs over the data id

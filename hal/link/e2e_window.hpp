@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What of the last frames of a message was wrong, and whether that is a fault. One wrong frame is
 /// none: a disturbance on the wire, a pair out of order. Three of the last 16 are.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Whether a message's frames are longer and longer on their way. A counter in order says that none
 /// was lost, not that it is fresh: a queue that drains too slowly hands out every frame, seconds

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Admission of frames: kind, length, end-to-end protection, and counters of what became of each.
 

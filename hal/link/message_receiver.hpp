@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Frames to signals. What is not certain never reaches the inputs: it is counted, the signals keep
 /// their last value and stamp, and it is for the validation to find them too old.

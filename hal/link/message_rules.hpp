@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Rules of the messages of a bus: which of them a machine has, how each is received and sent.
 

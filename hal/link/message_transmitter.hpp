@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Outputs to frames: the schedule, what is due in this cycle, protected and saturated.
 

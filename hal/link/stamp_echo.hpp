@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A station's answer to the controller's stamps (hal/link/challenge.hpp), for whatever plays one:
 /// the operator's, and those of a simulated machine.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Counts the heap's use, to prove on the deployed binary that an armed controller makes none.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// One controller a bus, as far as one machine's processes go: who comes second is refused before
 /// it has sent a frame. Across machines hal/link/message_links.hpp hears the other one.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The kernel's CAN frames and filters, and ours; what its error frames say of the bus; when a
 /// frame came.

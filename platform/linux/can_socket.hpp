@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A CAN_RAW socket as a port wants it, and how its interface is at this moment: error frames tell
 /// changes only, and a port that is opened on a bus that has been passive or off for long would

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The controller's clock: absolute deadlines on the monotonic clock, so that nothing drifts and
 /// a step of the wall clock is not felt.

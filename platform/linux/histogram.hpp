@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Durations counted in bins of fixed number: what a cycle can record without memory or time to
 /// spare. Minimum, mean and maximum are exact to the nanosecond, however far out they lie.

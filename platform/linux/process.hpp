@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A process that keeps deadlines and ends in order: errors without the heap, SIGTERM and
 /// SIGINT as a flag, real time. Order: tune_heap, lock_memory, prefault_stack, then CPU and

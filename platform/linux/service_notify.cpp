@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "platform/linux/service_notify.hpp"
 
 #include <sys/socket.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Tells the service manager how we are: systemd's sd_notify protocol, a datagram a message to the
 /// socket that $NOTIFY_SOCKET names. So few lines that libsystemd is not worth its dependency.

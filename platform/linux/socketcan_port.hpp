@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A CAN bus behind a raw socket of the Linux kernel.
 ///

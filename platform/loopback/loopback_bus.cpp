@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "platform/loopback/loopback_bus.hpp"
 
 namespace graben {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A CAN bus in memory: what one port sends, every other receives at once, in the order of sending.
 /// Arbitration, bit timing and acknowledgement are not modelled. Deterministic: no thread, no

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Unit tests as one program, each test a run of it: read, compiled and linked together they cost a
 # tenth of as many programs.
 

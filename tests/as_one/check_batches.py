@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What toolchain/batches.py may put together, and what it must not: check_batches.py COMPILER. All that it
 does put together has to compile as one."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Machines that the controller is not told: cells.py GRABEN [--fine] [--jobs N]
 digs the dry path, without any other error, on simulated machines whose oil, opening exponent and dead band
 are each cell's, and prints a row a cell: how it ended, largest distance of the true tip from the path,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Areas of `graben autodig`: dug to their design, in soils and on machines of both sizes as found; as
 built told in figures, map and report; areas that can't be had."""
 

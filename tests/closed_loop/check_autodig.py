@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`graben autodig` and `dig --task`: the paper's line within its bounds, with and without what the
 controller does not know, and at twice the speed that the pump can feed; a whole task above its
 design and inside its fences; the same bytes again; tasks that can't be had."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Golden bounds of the closed loop on a few draws of each experiment, two-sided: worse is a
 regression, and far better than a machine with lag, compliance and wrong sensors allows is a bug of
 the simulation or of the figures."""

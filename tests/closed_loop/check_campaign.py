@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`graben campaign`: shards merge to the same bytes as one run, an interrupted campaign goes on where
 it stopped, and what is not a campaign is refused."""
 

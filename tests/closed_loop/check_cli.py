@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The small commands of `graben` as a user types them, good and bad."""
 
 import json

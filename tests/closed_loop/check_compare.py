@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`graben compare`: figures of two logs are those of their runs, a run is like itself, and the page has
 both.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Canary of compare_laws.py: check_compare_laws.py GRABEN.
 
 The table has figures of all three laws and equal loop times. Then figures and ends in the campaigns' files are

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`graben dig` closes its loop: from the usual start and from any pose of the work space, within 10 cm,
 and the same seed gives the same bytes."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Random tasks past random fences: no point of the true machine is beyond one, whatever the end; most tasks
 are done; what is held away too far would be no work."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`graben dig --figure`, `grade --figure`: the papers' figures of our runs are SVG with the curves that they should
 have, and the numbers beside the paper's are the run's own.
 

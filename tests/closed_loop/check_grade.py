@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`graben grade`: the same seed gives the same bytes, the figures are whole and within their bounds,
 two-sided, and a constant speed shows what the bounded one is for."""
 

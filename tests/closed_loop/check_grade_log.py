@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The log of a grade by the DBC alone: check_grade_log.py GRABEN DBC PROFILE.
 
 Reads the DBC, the kinematics and the design with its own code, not the project's: the cutting edge

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What `graben` says of itself and of what is wrongly typed, as a new user meets it.
 
 check_help.py GRABEN

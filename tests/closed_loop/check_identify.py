@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`graben identify --csv`: finds a machine that only this file knows, and refuses recordings that are none."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`graben identify --log` and `--check`: a simulated commissioning becomes a better profile, and what is wrong with a
 log, a profile or an output is said. check_identify_log.py GRABEN COMMISSION_LOG MACHINES"""
 

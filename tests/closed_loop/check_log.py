@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The log of a dig by the DBC alone: check_log.py GRABEN DBC PROFILE.
 
 Reads the DBC and the kinematics with its own code, not the project's: every frame of the log must be

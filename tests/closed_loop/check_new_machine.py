@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`graben new-machine`: from answers in workshop units to a profile that `graben check` takes.
 
 check_new_machine.py GRABEN

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`graben plan` as a user types it: the paper's line, other paces, lines that can't be had."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Canary of same_signals.py: check_same_signals.py GRABEN DBC.
 
 A log is compared with itself, and with copies in which one bit, one frame or one definition is another:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`graben autodig` with tasks whose steps end early, wait for the operator's word, and dig deeper in rounds."""
 
 import sys

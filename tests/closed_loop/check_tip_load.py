@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Tip force and payload that the controller tells, beside the true ones: the 22 t machine heaps soil
 three times, first as it is known, then with all that its controller does not know."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """One version: what the programs, a report and the scope's server say, the Debian package's changelog,
 CHANGELOG.md and CITATION.cff are that of the project in CMakeLists.txt.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Writes the candump log of a hidden excavator's commissioning: what `graben identify --log` is
 /// tried on.
 

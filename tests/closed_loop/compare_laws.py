@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The feedback laws side by side: compare_laws.py GRABEN [--draws 200] [--jobs N] [--markdown]
 runs campaigns of servo, oil and kim in each case and prints their figures at their own and at equal loop
 time, and below them swash on demand against constant swash for law oil.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A log by its DBC alone, read with code that is not the project's."""
 
 import re

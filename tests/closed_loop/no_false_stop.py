@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """No healthy machine is stopped: no_false_stop.py GRABEN OUT [--draws 1000] [--jobs N] [--first-seed S]
 runs draws of every campaign and task, as designed (what the shipped files do not know of the machine) and
 as found (the simulated machine's own file drawn in wider bands), counts how each came to its end, prints

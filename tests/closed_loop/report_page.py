@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a report has inside: the setup that its page begins with, and the log."""
 
 import base64

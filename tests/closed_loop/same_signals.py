@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Compares two candump logs signal by signal, each decoded by its own tree's DBC.
 
 Every signal of every frame must be the same to the bit at every time stamp. A signal whose place in the

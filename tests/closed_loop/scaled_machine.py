@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Machines of other sizes, from a shipped excavator's two files: what a machine of the same make and
 another mass would have, to a tenth or two of what is on the market.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A campaign on Slurm beside the same in one process: with tasks killed, a node drained, a node lost and the
 controller restarted, no row is lost, none is doubled, and the merged bytes are the single run's.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A cluster of Slurm on this machine, in a folder of its own: munged, slurmctld and one slurmd a node, from
 Debian's packages. It touches no daemon and no file of the system, and ends what it started."""
 

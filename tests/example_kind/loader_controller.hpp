@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The loader's controller: the bucket's edge along a straight cut, by the common rooms.
 

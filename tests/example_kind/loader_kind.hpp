@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The loader as a machine kind: its frames' signals, its ECU's parts, and what simulates it.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The simulated loader: two cylinders, each with its own mass, on one open-centre pump.
 

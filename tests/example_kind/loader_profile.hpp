@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A loader's arm as data: all that its plant may see of the core. Lift and tilt on one pump; their
 /// cylinders pull against the weight. x forward, y up from the arm's pivot. The numbers are chosen.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A machine kind by the recipe: it cuts at the pump's limit, keeps its path, and faults stop it.
 
 #include <Eigen/Geometry>

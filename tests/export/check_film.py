@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`graben film`: a few seconds of a dig, by ffprobe of the asked size, pictures and duration; its pictures are not
 blank and not all the same; what it cannot do is said.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the controller said on the bus, decoded frame by frame: the only witness of its reactions.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// How far the machine moves after it was stopped, beyond what its spools' closing allows.
 ///

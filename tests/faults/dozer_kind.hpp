@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The dozer, as the rows need a machine kind; what a member means stands in excavator_kind.hpp.
 

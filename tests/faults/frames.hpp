@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What is done to frames on their way, and sensors as the rows break them.
 

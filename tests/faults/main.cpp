@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fault_cases [--machine excavator|dozer] [--seeds N] [--row R] [--first-seed S] | --list: every
 // row of the faults that a controller survives, of one machine kind or of both, tried with N seeds
 // in simulated time; a table for each, and exit 1 with the reasons if any differs from what is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The checks of the reactions N, L, D and I, and of arming refused.
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The simulated machine, its operator and the controller on a bus in memory, so taken apart that
 /// each can be late, stopped, restarted or lied about. They share nothing but frames.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// How a machine that drives comes to rest after it was stopped, and whether it stays there.
 ///

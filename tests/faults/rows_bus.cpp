@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows 24 to 32: the bus itself, and who is on it when.
 
 #include <algorithm>

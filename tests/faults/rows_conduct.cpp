@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows 52, 61, 62, 64 and 66: how a machine is run, which looks healthy frame by frame.
 
 #include <algorithm>

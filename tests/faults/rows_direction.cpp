@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Row 51: hoses or a valve reversed, while every sensor shows what was commanded.
 
 #include <cmath>

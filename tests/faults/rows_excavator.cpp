@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows that only the excavator has, or has in its own way.
 
 #include <algorithm>

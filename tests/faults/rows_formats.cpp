@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows 17 to 23: frames, values and profiles that are not what they have to be.
 
 #include <fmt/format.h>

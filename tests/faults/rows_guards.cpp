@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows 67 to 73: single guards of the safety code, each seen by itself. Others stand behind most of
 // them, so that a row which only looks at the outcome stays green without them.
 

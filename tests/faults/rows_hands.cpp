@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows 74 and 75: tasks that go by the operator's hands.
 
 #include <algorithm>

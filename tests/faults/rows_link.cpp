@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows 53 and 56: frames that are all right and too old, and a second controller.
 
 #include <deque>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows 33 to 36: the machine does not do, or does not show, what it was told.
 
 #include <algorithm>

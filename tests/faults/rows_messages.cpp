@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows 7 to 16: frames whose protection says that something is wrong.
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows 55, 58 and 59: a sensor shows what its drive does not do. The truth is the plant's tool,
 // against the one that the strokes which the controller hears would have.
 

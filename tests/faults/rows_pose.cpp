@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows 54 and 60: a dozer's body and tracks whose sensors are frozen, with live counters.
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Row 65: pressures that are alive and wrong: the two of a drive swapped, both 0, doubled, halved.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows 41 to 48 and 50: the controller's own time and memory, and whom it answers.
 
 #include "tests/faults/frames.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows 1 to 4 and 6: frames that do not come.
 
 #include "tests/faults/frames.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Row 57: something pushes the tool off what it follows, while every sensor is right.
 
 #include <cmath>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Faults seeded into the safety code must turn fault_cases red: seeded.py BUILD OUT [--seeds N] [--only NAME]
 makes each fault of seeded.toml in a copy of its file, compiles that, links it before the archives that have
 the original, and runs the row that has to fail. Nothing in the tree is changed."""

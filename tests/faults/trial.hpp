@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// One row of the table tried with one seed: the scenery, and the checks that the reactions share.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// All that the controller talks to, on one port: sensors, engine, operator, valve. By itself it is
 /// a machine that does what it is told; a script can spoil any of it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A CAN port in memory that misbehaves as it is told and keeps what went through it.
 

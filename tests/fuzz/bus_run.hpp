@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The controller's whole cycle on a scripted bus, watched from outside: what the bus has given it,
 /// what it then may send.

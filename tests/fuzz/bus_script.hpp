@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The controller's whole cycle on a bus that a script of bytes spoils: frames, time, the port.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The policies on random valves against a plain circuit and a plain scan:
 ///   check_random [CASES [FIRST_SEED]]
 /// For each case: what is returned must be feasible by the plain circuit, with the same pressures

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/fuzz/dozer_bus.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// A fuzz target on a series of inputs that is the same everywhere:
 ///   fuzz_... [INPUTS [SEED]]    sound inputs with some of their fields changed
 ///   fuzz_... --seeds FOLDER     writes the sound inputs as files: a corpus to start libFuzzer from

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The excavator's whole cycle on a bus that a script spoils: bus_script.hpp.
 
 #include "tests/fuzz/bus_script.hpp"

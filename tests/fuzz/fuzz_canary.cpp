@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// A target with a defect: it does not bear one of its numbers being NaN.
 
 #include <array>

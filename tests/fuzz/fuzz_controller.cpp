@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The controller's whole cycle on any signals: values, validity and age of each as raw as a driver
 /// could hand them over, over a dozen cycles that start the way an operator starts the machine.
 /// Then all is well again, and whatever came before, the operator gets it going within 4 s. The

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Every message of either DBC on any payload: what is decoded is a number and says the same once
 /// it is encoded and decoded again.
 

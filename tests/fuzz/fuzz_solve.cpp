@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The optimiser on any machine and any input: every field as raw as a caller could hand it over.
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What a fuzz target is made of; one source file gives both functions. `drive_fuzz.cpp` runs it on
 /// a fixed series of inputs, `libfuzzer_entry.cpp` puts it under libFuzzer.

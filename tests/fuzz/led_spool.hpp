@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Where a duty is to take a spool that is led through its lag, told from the duties alone.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// A canary's way to the bus: enable stays On for a cycle longer than it should. Both machine kinds
 /// have the same identifier, protection and place of it.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the optimiser is checked against: the circuit of Kim et al. once more, written from the
 /// equations, one halving at a time, and with nothing of firmware/mcv but its structs; random

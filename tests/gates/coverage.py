@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Gate: the tests go through every line and every branch of the safety code.
 
 Runs COMMAND, which is to run the tests, on counters set to zero. No branch is excused: the code is

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Gate: what the Markdown files point at is there, and the front README fits.
 
 Links to files of the tree and to headings, files named in `code` (a word that begins with a folder of

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Canary: runs a command that has to refuse its input, for the expected reason."""
 
 import argparse

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Gate: no hand-written source is too long, few are short, no file knows the machine it was written on.
 
 What is read together stands together: in no area may a fifth of the sources have 40 lines or fewer.

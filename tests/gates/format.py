@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Gate: every C and C++ file is as clang-format with the tree's .clang-format leaves it."""
 
 import shutil

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The core and what it links are freestanding: which folders, and the headers that they may take. A
 list of what is allowed, so that a header nobody has thought of is refused."""
 

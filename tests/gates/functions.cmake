@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # How a gate and its canaries become tests. Wants the variables gates, seeds and python.
 
 # graben_gate(NAME arguments...)

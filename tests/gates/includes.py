@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Who includes what in the tree. An #include counts wherever it stands, also where the preprocessor
 leaves it out, but not in a comment."""
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Gate: #include points one way, app -> platform -> hal -> firmware.
 
 Inside app the tool and the scope stand on reports and runs, those on the deployed process, the plant and the

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Gate: a source of the core includes what it takes of std and Eigen, itself or by a header of ours.
 
 With the headers from outside precompiled the compiler would not miss an #include. Looked at is every

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The gates that judge the core as the target's compiler makes it, on every target: what its archives
 # need, what its sources find. Wants functions.cmake.
 

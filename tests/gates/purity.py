@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Gate: the core's archives need nothing of an operating system and keep no global state.
 
 Archives are given from the inside out: each may use itself, those before it and ALLOWED.

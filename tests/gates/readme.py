@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Gate: every shell command of the tree's Markdown files works, run in the repository's root.
 
 A block is run as one script, so that a `cd` or a variable holds until its end; one that stands in two

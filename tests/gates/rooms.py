@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Which room, the first two folders of a path, includes which, and whether a circle is in it."""
 
 import pathlib

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Gate: every link of the safety case leads somewhere, and its table is that of README.md.
 
 safety_case.py --root DIR --rows COMMAND [--tests BUILD] [--write]: COMMAND prints the rows of the fault table,

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Gate: a target's own compiler finds no header of a heap or an operating system in the core's sources.
 
 Every such header of the target has a shadow before it, which is an error once all that the core may

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Gate: every shell script parses in the shell that its first line names."""
 
 import subprocess

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Gate: clang-tidy, with the tree's .clang-tidy, finds nothing in our sources.
 
 The sources of a folder are looked at as one: what takes the time is to read their headers, and to

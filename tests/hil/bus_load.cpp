@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fills a bus: bus_load INTERFACE PERCENT [ID] until SIGTERM. 100 % is a frame of 160 bits, the
 // longest of 29-bit id and 8 bytes, in every slot of 320 us, as a 500 kbit/s bus carries them. It
 // counts what others send and adds what is missing, frames of an id that nobody listens to; or,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a candump log says, as far as the scenarios ask: commands, states, marks."""
 
 import dataclasses

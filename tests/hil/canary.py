@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Proves that the harness can fail: canary.py CASE OUT runs a scenario that must not pass, and looks
 at the exit status and at what is said."""
 

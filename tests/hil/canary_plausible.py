@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Proves that the judge of the faults that look healthy can say no: canary_plausible.py OUT takes what
 hil_plausible left, as it is, then with one thing of it changed."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Proves that the judges of timing and memory can say no: canary_timing.py OUT takes what hil_timing
 left, as it is, then with one figure of it changed."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Commissioning over a bus of the kernel: commission.py OUT GRABEN_ECU GRABEN HIL_GAMEPAD. What the hand
 does (commission.pad) beside what is on the bus, in the station's own log and in its progress file."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=sh disable=SC1091
 # Commissioning on a bus: the deployed process, a simulated machine that is another one than its profile
 # says, and the station with a gamepad that uinput makes. What comes of it is judged by commission.py.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=sh disable=SC1091
 # The same with the kernel's real driver: the ECU on one SJA1000 controller, the machine on another.
 . ./hil.sh

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=sh
 # The deployed process, for scenarios that have sourced hil.sh.
 

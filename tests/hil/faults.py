@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Faults that only a kernel can show: faults.py OUT PROGRAM... runs faults.sh and judges its log.
 
 Prints a table: row of the fault list, what was seen, how long until neutral."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=sh disable=SC1091
 # Faults that only a kernel can show, one after the other on a machine that digs in shifts. Each is
 # marked on the bus by an 11-bit frame 7F0#<row> as it begins; faults.py judges the log.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A gamepad that nobody holds: gamepad INTERFACE NAME <actions. Makes an input device of the kernel
 // (uinput) and does what the lines say, one after the other, each told on standard output:
 //   make          the device, all at rest

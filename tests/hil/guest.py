@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Runs a shell script with CAN interfaces: on this host, if its kernel has vcan, or else in a
 virtual machine with a PREEMPT_RT kernel, which may also have CAN controllers.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=sh
 # What scenarios share; they begin with `. ./hil.sh`. They are POSIX sh and run in a guest or on a host,
 # in a network of their own, in the folder that holds their files; programs are on PATH, results go

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The host itself, where its kernel has vcan: no emulation, the real clock. The scenario gets a
 network and process numbers of its own, so that it neither meets nor disturbs the user's vcan0."""
 

@@ -1,4 +1,5 @@
 #!/bin/busybox sh
+# SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=sh
 # The guest's first process: loads the modules, runs the scenario, brings its results out by the
 # folder shared with the host, switches off. /hil/settings says how long the scenario may take.

@@ -1,4 +1,5 @@
 #!/hil/busybox sh
+# SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=sh
 # The guest's first process where a whole Debian is the guest: loads the modules, hands over to that
 # Debian's own systemd, which runs the scenario as a service (systemd.sh).

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The guest's file tree, packed as the kernel's initramfs: a cpio archive of the newc kind.
 
 Written here because the format is thirty lines, and Debian's cpio would be one package more.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Debian's PREEMPT_RT kernel for the guest: which package, where its parts are kept, which modules.
 
 The package is fetched once; after that the cache answers and no network is needed. Delete the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The virtual machine: QEMU with Debian's PREEMPT_RT kernel, without KVM.
 
 Its clock counts instructions (-icount): one takes 4 ns, and while nothing runs, time jumps to the

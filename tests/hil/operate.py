@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The operator's station with a gamepad of uinput's: operate.py OUT GRABEN_ECU GRABEN HIL_GAMEPAD
 [--arms-only]. What the hand does (operate.pad) beside what is on the bus."""
 

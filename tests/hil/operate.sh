@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=sh disable=SC1091
 # The operator's station beside the deployed process and the simulated machine, with a gamepad that
 # uinput makes. What operate.pad does is judged by operate.py from the bus.

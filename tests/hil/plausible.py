@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Faults that look healthy frame by frame, and signals, on a real kernel's bus:
 plausible.py OUT PROGRAM... [--every] [--only TEXT] runs the deployed process beside the simulated machine, once
 for each row of the fault table, or with --every once for each machine that can have it and each signal, and prints

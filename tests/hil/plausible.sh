@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=sh disable=SC1091,SC2086
 # Machines whose fault looks healthy frame by frame, each with the deployed process on a vcan of its own;
 # plausible.py writes the file `cases` and judges the logs.

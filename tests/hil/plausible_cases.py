@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The cases of plausible.py: rows 51 to 66 of the fault table on a kernel's bus, once for each machine that
 can have them, and what else only a kernel can show. The bounds are those of tests/faults/rows_*.cpp; where a row
 gives a drive more time than a case lasts, the case's own end is the bound."""

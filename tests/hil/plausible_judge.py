@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the log of a case of plausible.py says: when the fault was named after the mark, and when all was neutral."""
 
 import dataclasses

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """How much memory a process keeps: from what ecu.sh copies of /proc/<pid>/smaps_rollup and status."""
 
 import pathlib

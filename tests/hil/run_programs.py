@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs a scenario with the project's programs and judges what it leaves: for faults.py and others.
 
 Command line: OUT PROGRAM..."""

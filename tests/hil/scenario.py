@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What is to be run, how it ended, and why it could not be: shared by the host and the machine."""
 
 import dataclasses

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The scope on a real CAN kernel: scope.py OUT GRABEN. What its page got beside what candump wrote."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=sh disable=SC1091
 # The scope on a bus of a real kernel: it hears all that candump hears, sends nothing, and sees the
 # interface go and come back.

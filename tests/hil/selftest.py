@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The harness itself: selftest.py WAKE_LATENCY OUT boots, sends, and reads what came back."""
 
 import pathlib

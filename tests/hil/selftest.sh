@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=sh disable=SC1091
 # What later scenarios rely on; selftest.py reads what this leaves in $OUT.
 . ./hil.sh

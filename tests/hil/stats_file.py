@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What graben-ecu --stats leaves: counters, and histograms as cyclictest -h prints them."""
 
 import pathlib

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plays the service manager for a scenario: supervise WATCHDOG_MS COMMAND...
 // Starts the command with NOTIFY_SOCKET and WATCHDOG_USEC, kills it when it has been READY and then
 // says nothing for so long, starts it again 0.5 s after any end but a clean one; ends with it then.

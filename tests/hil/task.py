@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A task over a real CAN kernel beside the same in memory:
 task.py dig|grade|autodig vcan|controllers SECONDS OUT GRABEN GRABEN_ECU"""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=sh disable=SC1091
 # The deployed process and the simulated machine, each a process of its own, at a task over vcan0.
 . ./hil.sh

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """How long a cycle takes, kernel included, and how late it begins, by the load of the bus:
 timing.py OUT PROGRAM... boots once for all runs of the table, then again for the first of them, which
 has to give the same histograms. The emulator's clock counts instructions, but when its devices are

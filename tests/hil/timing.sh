@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=sh disable=SC1091
 # The deployed process at a task while the bus is filled; each line of `loads` names a run: name,
 # percent of the bus or 0, profile, operator, seconds, and an id of frames that fill it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How late a SCHED_FIFO thread that sleeps to absolute times is woken: wake_latency SECONDS
 // [PERIOD_US]. One line out; the clock is the one of the machine it runs on. Status 1 where
 // priorities are refused.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the margins have to be: slightly below what was measured. Where the law has none, that is
 /// said too, and may not become more.

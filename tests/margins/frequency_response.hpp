@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// C (z - A)^-1 B + D at many z: A is brought to Hessenberg's form once, and each z then costs one
 /// elimination below the diagonal.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Where the margins are looked for: both shipped excavators, poses of their digging path and the
 /// corners of their strokes, and all that oil, masses, spools and delay may be. A cell of a table

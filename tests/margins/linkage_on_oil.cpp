@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/margins/linkage_on_oil.hpp"
 
 #include <Eigen/Eigenvalues>

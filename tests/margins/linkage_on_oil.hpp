@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The linear truth that the margins are measured on: boom, arm and bucket on their oil columns,
 /// each spool's lag before its flow, a cycle at a time. It has the plant's numbers and geometry and

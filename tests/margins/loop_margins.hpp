@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Margins of a law around a truth, both linear, in cycles of 10 ms.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Margins of the oil's law over pose and band: prints the tables, and fails where they miss their
 /// bounds.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The oil's law as it ships, as a linear system: next_oil(), oil_correction_mps() and led_duty()
 /// are stepped about rest at a pose, and what comes out for each state and each input moved a

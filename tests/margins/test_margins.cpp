@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The margins' own tests: loops whose margins are known by hand, modes that the plant rings with,
 // and runs in time that fade and grow as the eigenvalues say.
 

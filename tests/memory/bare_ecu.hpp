@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A controller without an operating system: what the main loop of such an ECU calls, and what it
 /// asks of its board. Linked with firmware and hal alone, it is what flash, RAM and stack are

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// A board as small as one can be: a timer and a CAN controller's mailboxes, as registers. What is
 /// counted of an image must not be a board's.
 

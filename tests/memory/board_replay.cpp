@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// A board that lets the controller hear what it heard in the simulation, and looks at how much of
 /// the stack it has taken. Prints "stack BYTES" and "frames SENT differing COUNT".
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The deepest chain of calls of an image, and what stands in the way of knowing it."""
 
 import re

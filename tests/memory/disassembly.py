@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a function takes of the stack and whom it may call, from the disassembly of a linked image.
 
 The compiler says how much stack its functions take (-fstack-usage), but not those of the libraries,

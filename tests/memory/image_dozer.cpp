@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// A dozer's ECU without an operating system.
 
 #include "app/ecu/dozer_kind.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// An excavator's ECU without an operating system.
 
 #include "app/ecu/excavator_kind.hpp"

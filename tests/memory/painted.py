@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Holds the deepest chain of calls, as report.py works it out, against the stack that a replayed run
 takes of painted memory: painted.py --tools PREFIX --frames COUNT PROGRAM EMULATOR..."""
 

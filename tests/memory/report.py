@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Flash, static RAM and the deepest chain of calls of the images of one target, held against what
 they were and what an ECU has.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A machine's setup as constant data: worked out by write_setup where the images are built, so
 /// that it lies in flash. Its types are Eigen's too, which GCC cannot initialise before the start;

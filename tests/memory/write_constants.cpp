@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// write_constants setup|replay excavator|dozer: of a shipped machine what its controller is made
 /// of, or what a controller hears and says in a run of its simulation, as a C++ source of constant
 /// data.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Gate: the tests notice when the safety code is changed.
 
 Makes every mutant of a file that changes one comparison, one whole number in a comparison, one

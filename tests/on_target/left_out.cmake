@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Which unit tests are not run on a target, and why: TEST|TARGETS, a regular expression|WHY. What
 # runs has fewer random rounds (tests/unit/rounds.hpp). A row that fits no test, or no target, is
 # refused.

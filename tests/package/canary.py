@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A package that must be refused: canary.py CASE PACKAGE seeds faults into the package and looks at what
 the check says of each. The cases nowhere and nowhere_ci: without a mirror, nothing may pass for tried."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Packed again, by somebody with another umask and another clock, it is the same package, byte by byte:
 check_again.py PACKAGE PACK BUILD."""
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """What is in the package of graben-ecu: check_contents.py [--without-lintian] PACKAGE. Its files and no
 others, no library beyond the C library, no symbols, nothing of the folder that it was built in, and what
 lintian says."""

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """What systemd's own tools say of the unit, installed in a Debian with systemd that does not run:
 check_hardening.py PACKAGE."""
 

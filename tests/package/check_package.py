@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Installs the package into a bare Debian 12, tries what is in it, and takes it out again:
 check_package.py PACKAGE. No service manager runs there; check_service.py has one."""
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The package as a service: check_service.py PACKAGE GRABEN OUT boots a Debian with systemd in a
 virtual machine, runs service.sh in it, and judges what that leaves."""
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The package of graben, the engineer's tool: check_tool.py [--without-lintian|--install] PACKAGE. Its files
 and no others, none that graben-ecu has, nothing of the folder that it was built in, and what lintian says.
 With --install: in a bare Debian 12, with Debian's own libraries, it digs, finds its profiles, shows a man

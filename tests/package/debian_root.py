@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Roots of Debian 12 to install into, made once by debootstrap and kept: a bare one (minbase), and the
 same with systemd, udev, iproute2 and can-utils as an initramfs for a virtual machine.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=sh disable=SC1091
 # The package as an engineer meets it, on a Debian with systemd and two CAN controllers on one bus:
 # installed, enabled, stalled, killed, stopped, removed. can0 is the ECU's, can1 the machine's.

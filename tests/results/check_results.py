@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Canary of results.py, on a little book of its own: tables that were written by hand are found, figures
 that changed are found, what is stopped goes on, and what can't be read is an error."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs a command of rows.toml and reads figures from what it leaves: names, each with a number. As a
 program it prints the word for the state of the sources that a figure is remembered with."""
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The tables of results in tests/README.md: rows.toml says how each figure is made, results.json has the
 figures, a table stands between its markers.
 

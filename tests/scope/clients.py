@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """What eight pages cost the server at the full rate of a simulated machine: its share of one core,
 the simulation itself in it. Fails above the bound, or if a page misses a frame."""
 

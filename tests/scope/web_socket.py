@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A WebSocket client of the scope's, as small as it can be: it asks, and reads."""
 
 import base64

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The optimiser's cost and accuracy beside general solvers, on every reference case."""
 
 import argparse

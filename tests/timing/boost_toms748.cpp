@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Boost.Math's TOMS 748, the usual bracketing root finder, on the smallest margin over lambda,
 /// the pressures solved inside as Kim does. Bracket: standstill, which must be feasible, and the
 /// fastest that the pumps can feed; where that is feasible, it is the answer.

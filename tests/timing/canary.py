@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Proves that ./run bench can fail: canary.py BENCH CASES. With the first cases as they are it has
 to end well; with one expectation of ours raised, it has to say which and end with status 1."""
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// One solve of each SOLVER on each STRIDE-th case, for Callgrind to count its instructions:
 ///   valgrind --tool=callgrind --collect-atstart=no --combine-dumps=yes
 ///     count_instructions CASES STRIDE SOLVER...

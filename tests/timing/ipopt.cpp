@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Ipopt, the usual interior-point method, with exact first and second derivatives. The linear
 /// solver is MUMPS, the one that Debian's Ipopt has. About four tenths of the time go into
 /// MUMPS 5.5 comparing strings in dmumps_save_restore_structure, on each of its calls; no option of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The optimisation in the form that Ipopt asks for. Unknowns: lambda, then u of each line.
 /// Constraints: the balances, then force and travel of each axis.

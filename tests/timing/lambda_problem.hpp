@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The optimisation of Kim et al. (37) as a general solver wants it: scaled variables, scaled
 /// margins that exist and are smooth also where they are violated, derivatives.

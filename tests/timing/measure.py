@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs the two measuring programs; what comes back is keyed by (solver, line of the case)."""
 
 import contextlib

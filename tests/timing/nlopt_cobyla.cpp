@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// NLopt's COBYLA over lambda alone: derivative-free, the pressures solved inside as Kim does, the
 /// smallest margin its one constraint. All margins as constraints of their own take it 19
 /// evaluations instead of 14 (mean); pressures as unknowns with equality constraints, hundreds.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// NLopt's SLSQP over lambda and the pressures: sequential quadratic programming with exact
 /// gradients, the flow balances as equality constraints. Over lambda alone, with the pressures
 /// solved inside, it takes a third less time and ends nowhere in 8 cases instead of none.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the two NLopt peers share: ownership of NLopt's C object. The C interface, for it neither
 /// copies vectors nor catches exceptions between solver and problem.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """What a reviewer asks first, for every target in one table: instructions of a cycle and a solve
 (counts/observed.json) and bytes of stack, RAM and flash (tests/memory/observed.toml). Prints it."""
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Our own three policies, as the controller calls them: with the checks of machine and input
 /// before, and margins, limit and shortfall after, which no peer has to work out.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What is measured: everything from a machine and one cycle's input to lambda, by one solver.
 

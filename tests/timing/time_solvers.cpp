@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Times each solver on each reference case: time_solvers CASES [Google Benchmark's options]
 ///
 /// A benchmark for each pair, named solver/line of the case, so that one can be looked at alone

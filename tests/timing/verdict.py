@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What is to be said about the lambda that a solver returned."""
 
 TOLERANCE = 1e-6

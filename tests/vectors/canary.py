@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Proves that check_solve.py and check_policies.py can fail: canary.py GRABEN CASES. Each changed
 expectation, and each changed result, must be told."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Bad lines of `graben solve`: each is told with its number and its reason, the rest go on."""
 
 import copy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Whether a target gives the bits that are written down: check_bits.py [--write|--flip] EXPECTED COMMAND...
 
 COMMAND is print_bits with its cases, under an emulator or not. --write writes down what it says: after

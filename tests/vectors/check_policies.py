@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`graben solve --policy global` and `connected` on the reference cases: check_policies.py GRABEN CASES.
 
 What is returned must be feasible by plain_valve, with the same pressures, and what is named as the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Compares `graben solve --policy algorithm1` with the reference cases: check_solve.py GRABEN CASES."""
 
 import json

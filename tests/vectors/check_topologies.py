@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`graben solve --policy algorithm1` on random valves against plain_valve: check_topologies.py GRABEN
 [CASES]. 1 to 6 spools on 1 to 3 pumps, regeneration on either side or none, with and without relief."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The reference cases as plain words for targets without a JSON reader: plain_cases.py CASES > WORDS.
 
 A case: its id; the numbers of actuators and pumps; each actuator, pump and input in the order in which

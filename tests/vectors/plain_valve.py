@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The valve of Kim et al. by plain bisection, for checking `graben solve`: written from the equations
 alone, it takes nothing from the core: no Newton, no closed form of (18), one halving at a time."""
 

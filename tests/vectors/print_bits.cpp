@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the optimiser makes of every reference case by each policy, as the bits of its doubles, the
 // same on every target: print_bits WORDS, a file of plain_cases.py.
 

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # Runs a program for the Cortex-M7 on QEMU's board mps2-an500: run.sh PROGRAM [ARGUMENT...]
 # Arguments, files, output and the exit status (0 or 1) go by semihosting. QEMU_PLUGIN names a plugin
 # with its arguments, as it does for QEMU's user mode.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Start of a program on QEMU's board mps2-an500 (Cortex-M7). QEMU has put the whole ELF file into
 // memory and answers newlib's start code by semihosting: nothing to copy or to clear here.
 

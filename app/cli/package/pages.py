@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Man pages and the bash completion of `graben`, of what it says of itself: pages.py GRABEN CHANGELOG OUT.
 
 Writes OUT/man/graben.1.gz and one for each command (graben-dig.1.gz, graben-campaign-dig.1.gz ...),

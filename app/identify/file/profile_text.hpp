@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A profile's text in which single values are replaced or added, while everything else, comments
 /// and order included, stays as its author wrote it.

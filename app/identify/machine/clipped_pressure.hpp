@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Pressure sensors that show nothing below 0: what their readings say when a chamber is nearly
 /// empty.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What is found of a machine from its logs, each value with its standard deviation. SI units;
 /// ratios of duty and spool are of the full travel.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/identify/machine/judged_fit.hpp"
 
 #include "app/identify/machine/identified_profile.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Which part of the logs a profile is fitted to, and which part, left out whole, judges it.
 

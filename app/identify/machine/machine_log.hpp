@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A candump log of an excavator on our bus as series of what identification needs: duties that the
 /// valves were sent, spools, strokes, chamber pressures, swash, engine speed. SI units; extension

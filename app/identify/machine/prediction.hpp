@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What a profile alone predicts of the cylinders' speeds in a log: from the duties that the valves
 /// were sent, the chambers' pressures, swash and engine speed. No measured stroke, spool or speed

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// How far a prediction is from what was measured, by axis and direction, over the parts in motion.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Speeds of all cylinders at one moment, by a profile alone: the valve's equations solved for the
 /// speeds, at given openings and loads.

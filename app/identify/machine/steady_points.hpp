@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Moments of a log in which a cylinder moves steadily, or its spool stands steadily: what a
 /// valve's curve is found from.

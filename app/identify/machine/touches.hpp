@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Zeros of sensors from touches of the stroke's ends: a piston that is pressed against its end
 /// stands at a length that the drawing says, and its draining side, where nothing flows, has the

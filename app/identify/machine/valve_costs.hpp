@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What Ceres is to make small: both equations of valve_model.hpp at a point, and how far a value
 /// is from what was known before.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The curves of all valve sections, the pumps' flow and the zeros of the pressure sensors, from
 /// steady points: two equations a point.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/machines/new/new_profile.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A new machine's profile from one that is there: what a person with a tape measure, a data sheet
 /// and a spanner knows is asked for in units of the workshop; the rest stays, and says so.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/machines/simulated/drive_sections.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What a simulated excavator's file may say of each drive and direction by itself.
 

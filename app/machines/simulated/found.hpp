@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// An excavator as it is found, not as it was designed: what a simulation draws of it, and what its
 /// user says of it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Excavators that nobody has described: the plant of a seed, which its controller's profile does
 /// not know.

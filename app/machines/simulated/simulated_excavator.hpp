@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// An excavator with what only its simulation needs: its plant, and what can be tried on it beside
 /// its plain run.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Files of simulated excavators by themselves, and which of them a run takes.
 

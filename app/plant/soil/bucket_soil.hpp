@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The bucket in the ground: what it cuts and carries, and what the soil does to it.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Force of soil on a wide blade that cuts it: the fundamental equation of earthmoving (Reece 1964)
 /// with the factors of a straight failure surface (McKyes, Soil Cutting and Tillage, 1985).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The ground as a height field: undisturbed soil, and loose soil on it.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// `graben check`: what a profile means, and what in it is allowed but implausible. SI units unless
 /// a name says another; lengths in m over the ground, forward of the swing axis or of the mass

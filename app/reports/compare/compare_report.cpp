@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/reports/compare/compare_report.hpp"
 
 #include <fmt/format.h>

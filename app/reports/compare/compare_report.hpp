@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Two runs over each other in one page: the first one's frames, the second's curves beside them,
 /// and the differences.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Figures of the papers that have a like in our runs, drawn as the papers draw them (axes,
 /// colours, what is marked), with the numbers that stand in the papers beside ours. The papers'

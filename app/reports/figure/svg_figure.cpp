@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/reports/figure/svg_figure.hpp"
 
 #include <fmt/format.h>

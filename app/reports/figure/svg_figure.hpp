@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A figure as a paper has it, as SVG: panels one under the other with curves over time, distance
 /// or each other, a caption, and beside it the numbers that the paper has, with ours.

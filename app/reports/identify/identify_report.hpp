@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What identification found, for its reader: text, one HTML page that opens without a network, and
 /// JSON.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A small chart as SVG: lines, a band and points over two axes with a title each.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Where the server listens, and who may talk to it. A browser lets any page open a WebSocket to
 /// any address, this machine's own included, and says only by what page: `Origin`. And a foreign

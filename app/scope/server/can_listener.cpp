@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/scope/server/can_listener.hpp"
 
 #include <linux/can/error.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// One CAN interface that is heard and never spoken to. There is no call in here, nor in
 /// can_source.cpp, that could send a frame (tests/unit/scope/check_silent.py looks at the symbols);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// One or more CAN interfaces, real or virtual, which are only heard.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// One page at the other end of a WebSocket: what it is sent next, and what it says.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What a source hears or makes, on its way to the pages: candump lines in blocks, the newest ten
 /// minutes of them within a bound. One producer, which never waits for a reader; any number of

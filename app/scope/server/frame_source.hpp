@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Where the frames come from that the scope shows as they come: a bus, or a simulation.
 

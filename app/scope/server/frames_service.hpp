@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The WebSocket /frames: who may have one, and what goes over it.
 

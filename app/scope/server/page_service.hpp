@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// GET /: the page; GET /log: the log that is shown, if one is. Nothing else is there.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The page and its WebSocket: one thread, no state beside the connections, no privilege. Whoever
 /// can reach the address can look; nobody can send to a bus from here.

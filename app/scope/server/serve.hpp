@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// `graben scope` from its first line to SIGINT or SIGTERM.
 

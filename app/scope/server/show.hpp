@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the server has to show its pages, whatever it comes from. Everything here is called from
 /// the server's thread.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Faults of a simulation while it runs: a row of the table of faults each.
 

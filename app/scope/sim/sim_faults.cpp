@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "app/scope/sim/sim_faults.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The faults of each kind of machine, by their numbers in the table of faults, and the effects
 /// that several of them have.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames and values that are not what they have to be.
 
 #include "app/scope/sim/sim_faults.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What each kind of machine has in its own way, or not at all.
 
 #include "app/scope/sim/sim_faults.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The machine does not do, or does not show, what it was told.
 
 #include "app/scope/sim/sim_faults.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames that do not come, and frames whose protection says that something is wrong.
 
 #include <fmt/format.h>

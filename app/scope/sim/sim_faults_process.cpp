@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The controller's own time, and whom it answers.
 
 #include "app/scope/sim/sim_faults.hpp"

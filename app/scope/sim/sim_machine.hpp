@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A simulated machine with its controller on a bus in memory, whatever its kind, and what it digs
 /// in.

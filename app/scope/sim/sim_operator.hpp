@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The operator of a simulation: enables when the controller is ready, then gives the task.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The nodes of one kind of machine, with what is broken on them.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A simulation that runs on, round after round, and does what the pages ask of it. Time is
 /// simulated: whoever steps it decides when.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What a page may ask of a simulation (`ToServer` of page/src/model/api.ts), checked.
 

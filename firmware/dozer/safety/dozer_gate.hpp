@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The dozer's last gate before the bus: what it lets through is finite, in range, rate-limited and
 /// enabled, whatever computed it.

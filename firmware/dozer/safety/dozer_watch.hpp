@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The dozer against its commands: the watches of blade and transmission, and the parking brake.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware/dozer/safety/pose_watch.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Checks that what is measured of the body's motion fits together: position and velocity, height
 /// and climb, pitch and its rate, the climb and the slope that it drives up, velocity and tracks. A

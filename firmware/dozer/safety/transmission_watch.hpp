@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Checks that the dozer's transmission obeys, and that the tracks run as it lets them.
 

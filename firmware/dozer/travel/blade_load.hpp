@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Load on the blade: how much the ground takes, and how far the blade has to rise for it.
 

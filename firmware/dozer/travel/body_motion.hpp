@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Motion of the body on its springs and dampers: what (15) and (16) will make of the ground ahead.
 

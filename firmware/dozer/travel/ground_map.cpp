@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware/dozer/travel/ground_map.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Map of the ground around the machine: as it was before, cut where the blade has been, and the
 /// design where it has still to go.

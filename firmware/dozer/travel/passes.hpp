@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Passes: what the blade had to leave above the design is gone back for, until the design is met.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Demand of the ground ahead on the blade, and the speed that it leaves now.
 

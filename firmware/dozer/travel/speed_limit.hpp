@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The flow-bounded travel speed (10)-(14) and the acceleration limit (Algorithm 1).
 

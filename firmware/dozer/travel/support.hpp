@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Stand of the machine on the ground: equilibrium of the half-vehicle (15), (16).
 

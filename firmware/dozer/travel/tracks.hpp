@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The tracks: body speed to track speeds, the transmission between displacements and speeds (9),
 /// and the control of each track's speed.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Velocity field of the digging task: which way the bucket should move at each pose, (1) and (3).
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Closed rounded rectangle with an attitude along it: Kim's digging path (section 5, Fig. 9).
 

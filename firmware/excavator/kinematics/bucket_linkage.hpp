@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The bucket's four-bar linkage: cylinder length <-> rocker <-> bucket angle.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Strokes <-> joints <-> tip pose of an excavator in the sagittal plane, and the Jacobian (2).
 /// x forward, y up, origin at the boom foot pin. Strokes count from the closed cylinder.

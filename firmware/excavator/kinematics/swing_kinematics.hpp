@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The excavator with its swing (Zhang et al., 3.2): teeth in space <-> four joints <-> strokes and
 /// swing. The planar chain of ExcavatorKinematics, its origin set off by a_1 and d_0, turned about

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What it takes to hold and to move the links, link by link: Newton's and Euler's equations from
 /// the boom's foot to the bucket, in the plane of the links (x outwards, y up).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Balance of forces at the three cylinders: what each pushes beyond what its links need.
 

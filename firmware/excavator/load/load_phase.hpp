@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What can be said of the bucket from what it is told to do and how it is held.
 

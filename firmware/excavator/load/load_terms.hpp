@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the balance of forces at a cylinder lacks besides the ground: offsets of the transducers,
 /// friction, masses that are off, and what the bucket carries. Learnt by a Kalman filter over these

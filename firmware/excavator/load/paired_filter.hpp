@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A low-pass of second order whose states are the filtered value and its rate: what goes through
 /// several of them stays of one time, derivatives too.

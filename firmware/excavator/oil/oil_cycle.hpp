@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What a mode on its oil, and the lags before it, do in a cycle.
 

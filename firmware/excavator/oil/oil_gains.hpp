@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Gains of observer and feedback for one mode of the linkage on its oil, by the mode's frequency:
 /// solved once, at start, looked up in each cycle.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Feedback that has the oil as a state: observer and law for boom and arm, see control.law.
 

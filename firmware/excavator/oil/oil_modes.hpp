@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// How boom and arm swing on the oil of their cylinders: inertia and stiffness in strokes, and the
 /// two modes that they make. The bucket, whose mode is faster than both, counts as locked to the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The excavator's signals -> machine state: freshness, validity and plausibility, then the watches
 /// of its drives and pumps.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The way from wherever the machine stands to a program's first pose: several are tried, and the
 /// first that keeps clear of the fences is taken. Looked at a little in every cycle while the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// How heavy a cut is, by the tip's force, by how far the teeth are behind and by lambda.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Digging down to a design in layers, cut by cut, as an operator does: a cut begins where soil
 /// stands over the layer, and ends where the bucket is full; it gives way, upwards, where it gets

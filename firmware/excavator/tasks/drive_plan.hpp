@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A ramp of any way in time, and moves straight in drive space, from strokes and swing to strokes
 /// and swing: Zhang's joint space method. Such a move can't leave the box of strokes and swing that

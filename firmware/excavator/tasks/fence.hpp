@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the machine must not pass: a ceiling, a floor, a wall, a design surface; and what it must
 /// not touch: boxes and upright cylinders. All in the ground frame of swing_kinematics.hpp.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// How far the machine keeps from a fence: as far as it may be nearer than it is thought to be. In
 /// the cycle and at planning alike; a planned way keeps some more, so that the cycle does not hold

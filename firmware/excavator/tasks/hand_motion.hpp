@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Motion by the operator's levers: each drive by its own (Task::kJog), or the teeth in the plane
 /// of the boom, with their attitude and the swing (Task::kCoordinated). Travels and velocities of

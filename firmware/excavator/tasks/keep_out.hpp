@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// How far the machine's parts are from a box or an upright cylinder that it must not touch.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// How the edge comes down to a cut: quickly through the air, into the ground as hard as it may,
 /// and then its oil lets off: pressed oil would throw it down as soon as it goes along and the

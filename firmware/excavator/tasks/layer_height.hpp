@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Height of a cut over its line: where the teeth are, and how a plan goes up and down.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Plans a dig step in layers: what fills the bucket, how deep and how hard it may be cut, and
 /// whether the machine can be wherever a cut may lead it.

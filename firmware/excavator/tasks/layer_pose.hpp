@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Where the teeth are to be in a program that digs in layers: on a cut, into it and out of it.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Executes a program whose dig step is done in layers: each round the step is another cut, and the
 /// moves round it are planned from where the last one ended to where the next one begins.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Finds the ground before a dig in layers: the bucket's floor is set down on it, flat, and what
 /// the sensors then say of its height is where heights are counted from. Zeros of stroke sensors

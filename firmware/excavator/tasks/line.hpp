@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A straight line of the bucket's teeth in space, by the share of it that is done; and the walk
 /// along it that finds where the machine can't follow.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A straight line of the bucket's teeth planned in time before anything moves (Zhang et al., 4):
 /// where the machine can't follow it is refused, where it can't as fast it is slowed as a whole.

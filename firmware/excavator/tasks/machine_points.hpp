@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Points of the machine's outline: where they are, how they move, and by how much they may be
 /// elsewhere than where the sensors have them. In the ground frame of swing_kinematics.hpp.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What ends of drives and fences leave of a motion, in every cycle.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Steps as they are in a later round of a program, whose digs each round lays an offset farther,
 /// and steps that begin elsewhere than where they were planned to.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Executes a program of steps: how it goes on from step to step and from round to round, and what
 /// ends a step before its planned end.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A program as the control cycle follows it: what its plan wants of each drive now, how fast the
 /// machine's own place lets it, and how it goes on. Travels and velocities of the swing are those

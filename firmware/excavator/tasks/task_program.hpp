@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A task as a sequence of steps, planned from end to end and looked at as a whole before anything
 /// moves.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Executes a program: where on its plan a task is, what is wanted there, and how it goes on.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Proves that check_counts.py can fail: canary.py BUILD. Against what it has just counted itself,
 9.9 % of wasted instructions in each cycle have to pass and 10.1 % to fail, with --strict 1.9 % and 2.1 %; a target of which nothing is committed has to fail, too."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """How many instructions a controller's cycle and a solve cost at most, against observed.json.
 
   check_counts.py BUILD             fails where a maximum is more than 10 % above what is committed

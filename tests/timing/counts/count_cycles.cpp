@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// count_cycles TRACES [BURN]: replays every cycle of the traces through the controllers that they
 /// are of, each a counted section: frames in, step, frames out. With BURN each section executes
 /// about so many instructions more. Prints a line for each trace: how many cycles, and how many of

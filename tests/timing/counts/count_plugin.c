@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // QEMU plugin: guest instructions executed from the entry of graben_count_begin to the entry of
 // graben_count_end, a line for each such section in the file that its argument out=FILE names.
 //

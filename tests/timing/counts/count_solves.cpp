@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// count_solves CASES [BURN]: lambda of each case as a controller's cycle asks for it, with the
 /// policy that machines are shipped with; each a counted section, with BURN of about so many
 /// instructions more. Prints a line for each: the status as SolveStatus counts, and lambda.

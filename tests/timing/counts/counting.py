@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Scripts in, instruction counts out: what check_counts.py, search.py and canary.py share."""
 
 import dataclasses

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The scripts that nobody had to look for: boundaries of every signal, every fault row, whole
 tasks, floods; of solves the corners of velocities, pressures and flows."""
 

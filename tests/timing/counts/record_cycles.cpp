@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // record_cycles SCRIPTS TRACES: plays each script (script.hpp; a line each, # for a remark) and
 // writes what its controller saw of the bus, one trace after the other. Prints a line for each
 // trace: how many cycles, and the script.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // record_solves SCRIPTS VECTORS CASES: writes the cases of the optimiser that the scripts name, and
 // prints a line for each. `last` is the lambda of the cycle before. A script is a line, # a remark:
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Between a controller and its port: notes what passes, as a trace needs it.
 

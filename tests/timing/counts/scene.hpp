@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The simulated machine, its operator and the controller on a bus in memory, as a script has them.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A case as a line of text: which machine, where it starts, and what is done to it and its bus.
 ///

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Looks for what costs more: changes the scripts of cases/ at random and keeps what beats them.
 
   search.py BUILD --seconds 600 [--only GROUP]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/timing/counts/section.hpp"
 
 // Each a block of its own that nothing can be moved across or leave out.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A case of the optimiser as a file holds it: written on the host, solved on every target.
 /// Numbers as little-endian IEEE 754 doubles, one after the other.

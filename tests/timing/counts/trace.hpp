@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What a controller saw of its bus, cycle by cycle, as a file: written on the host, replayed on
 /// every target. Little-endian bytes, no alignment; see trace.cpp.

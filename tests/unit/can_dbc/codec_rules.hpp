@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Walks over every signal of a database, against a hand-written table of scales.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Codecs that the build makes of a kind's own messages and the common ones (graben_dbc_codec).
 
 #include <type_traits>

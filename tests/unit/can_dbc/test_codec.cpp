@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The excavator's signals: scales, positions, start values.
 
 #include "can_dbc/generated/excavator_dbc.hpp"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """That what is generated from the code tables and the frames' sources drifts unseen nowhere, and what is refused.
 
     test_codes.py ROOT_OF_THE_TREE

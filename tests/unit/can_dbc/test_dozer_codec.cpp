@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The dozer's signals: scales, positions, start values.
 
 #include "can_dbc/generated/dozer_dbc.hpp"

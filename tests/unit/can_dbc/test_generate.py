@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the generator refuses, with file and line; that it finds drift; that it is deterministic.
 
     test_generate.py PATH/TO/generate.py

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tables of messages: ids, protection, load of the bus, what both kinds of machine share.
 
 #include <algorithm>

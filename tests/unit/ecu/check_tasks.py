@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What graben-ecu takes as --task, up to the bus, which is not there, the manual's example among it:
 check_tasks.py GRABEN_ECU ROOT"""
 

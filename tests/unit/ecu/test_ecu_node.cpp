@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the ECU tells its controller of the bus, and what it does about it.
 
 #include <algorithm>

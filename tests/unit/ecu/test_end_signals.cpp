@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What a controller leaves on the bus when a signal ends it.
 
 #include "app/ecu/end_signals.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A dozer that does what it is told, for the tests of its watches.
 

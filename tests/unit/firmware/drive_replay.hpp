@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A machine of drives alone, to replay velocities on: how they arrive, where it then is, and by
 /// how much it passes a limit.

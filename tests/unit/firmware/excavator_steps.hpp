@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// One cycle of the parts of the excavator's bank of drives, in values: the last state goes in, the
 /// next one comes out beside the result.

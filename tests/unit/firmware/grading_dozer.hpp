@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The shipped dozer driving on its design, as a machine that does what it is told at once: what
 /// the controller needs to be brought to kActive the way an operator does it.

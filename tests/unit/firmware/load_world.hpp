@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A machine on paper for the load observer: what its cylinders push, by differences of its
 /// potential energy, which know nothing of moments.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The controllers' friends: what they keep from cycle to cycle.
 

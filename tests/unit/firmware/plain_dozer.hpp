@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A dozer in round numbers, made without a file, as plain_machine.hpp has the excavator; and
 /// complete, fresh inputs for it.

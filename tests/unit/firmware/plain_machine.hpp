@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A machine in round numbers, made without a file: enough of a profile for the safety code, so
 /// that limits can be hit to the last bit and nothing of the application has to be built.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A controller brought to kActive the way an operator does it, and what it must be after a fault.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// All servos of the shipped 22 t machine a cycle on, in values, with a control in round numbers.
 

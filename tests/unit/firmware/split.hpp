@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A motion of the shipped excavator whose feasible set splits: the boom comes down under its load
 /// while the bucket curls. Slowly the boom's rod side takes the pump's flow and leaves the bucket

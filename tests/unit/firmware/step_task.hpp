@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A task of steps and a machine whose teeth are where they are planned to be.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The 12 t machine with tasks, and one that does what its valve is asked: a controller in a closed
 /// loop with drives alone.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A bus that can't say something: what it lacks is not asked for, what stands in for it still
 // protects, and what a complete bus must say is missed as ever.
 

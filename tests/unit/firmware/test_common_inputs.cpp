@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every kind reads of operator, bus, identity, valve and engine, and what comes of its faults.
 
 #include "firmware/safety/common_inputs.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One step, from end to end, while something fails in motion.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware/safety/cycle.hpp"
 
 #include "firmware/safety/fault_table.hpp"

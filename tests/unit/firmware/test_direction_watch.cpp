@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A drive that its oil pushes against its open spool.
 
 #include "firmware/drives/direction_watch.hpp"

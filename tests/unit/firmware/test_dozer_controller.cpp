@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One step, from end to end: arming, driving, and what stops or slows it.
 
 #include <functional>

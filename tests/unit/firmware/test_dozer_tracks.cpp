@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tracks and pose against the transmission.
 
 #include "tests/unit/firmware/dozer_watch_machine.hpp"

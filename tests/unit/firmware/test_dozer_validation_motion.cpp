@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What jumps while the dozer moves: blade stroke and the body's coordinates, cycle by cycle.
 
 #include <cmath>

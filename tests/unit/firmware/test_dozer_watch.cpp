@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The dozer against its commands.
 
 #include "tests/unit/firmware/dozer_watch_machine.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Feedback around the valve's model: prediction, what is owed, and the load's filter.
 
 #include <algorithm>

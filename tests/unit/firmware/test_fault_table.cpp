@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table once more, from what the machine's operator and the bus were promised: a slip of the
 // hand in the firmware's does not repeat itself here.
 

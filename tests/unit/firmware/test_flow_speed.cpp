@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a drive can do at its measured pressures and opening.
 
 #include "tests/unit/firmware/flow_fixture.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A sensor against the oil that its spool lets through.
 
 #include "tests/unit/firmware/flow_fixture.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Boxes and cylinders against points all over the machine's parts: how far the nearest is.
 
 #include "firmware/excavator/tasks/keep_out.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Random machines driven at random targets with nothing but the soft limit between them and
 /// cylinder ends, swing ends and fences: no planner refuses anything here.
 

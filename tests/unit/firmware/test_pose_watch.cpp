@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A body's pose against its own motion.
 
 #include "firmware/dozer/safety/pose_watch.hpp"

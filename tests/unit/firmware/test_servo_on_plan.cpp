@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The servos on a plan, what they learn, and the load's filter.
 
 #include <cmath>

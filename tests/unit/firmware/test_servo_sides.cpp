@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A drive whose valve answers otherwise to each side: what is due of what was asked, and when.
 
 #include <algorithm>

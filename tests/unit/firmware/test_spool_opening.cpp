@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From a spool's travel to its opening and back.
 
 #include "firmware/drives/spool_opening.hpp"

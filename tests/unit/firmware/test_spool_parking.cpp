@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Spools that wait at the edge of their dead band instead of following every correction.
 
 #include "firmware/drives/spool_parking.hpp"

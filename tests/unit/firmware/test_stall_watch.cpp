@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A machine that does not get on.
 
 #include "firmware/safety/stall_watch.hpp"

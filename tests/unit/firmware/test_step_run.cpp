@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Rounds and steps that end early: from state to state.
 
 #include <limits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Waits for the operator's word.
 
 #include "firmware/excavator/tasks/step_round.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Strokes of one cycle are of one time, whenever their frames came.
 
 #include "tests/unit/cmocka_cpp.hpp"

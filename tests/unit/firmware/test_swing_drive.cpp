@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The 12 t machine's swing on the way from a wanted velocity to its duty: servo, end of range,
 // valve, gate; and its controller, which digs with the swing held.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The swing as a drive among the others: what is needed of it, what its watches see, what the gate
 // lets through; and that a machine without one does not look at it.
 

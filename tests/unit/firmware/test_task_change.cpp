@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A change of task passes standstill.
 
 #include "firmware/safety/task_change.hpp"

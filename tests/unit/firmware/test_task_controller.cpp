@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The excavator's step, from end to end, with a program to follow.
 
 #include <Eigen/Geometry>

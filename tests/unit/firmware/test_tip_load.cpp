@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tip force and payload by pressures: a machine on paper, whose forces come from its potential
 // energy.
 

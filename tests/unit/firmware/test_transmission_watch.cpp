@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The transmission against its commands, the tracks against the transmission, by the cycle. What
 // comes of it in a machine: test_dozer_watch.cpp, test_dozer_tracks.cpp.
 

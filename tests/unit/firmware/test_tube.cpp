@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A tube around what is followed.
 
 #include "firmware/safety/tube.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the validation stops and what it bridges while the machine moves; the bus.
 
 #include "firmware/excavator/safety/excavator_validation.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Watches while duties are tried on valves that nobody knows.
 
 #include "firmware/excavator/safety/excavator_validation.hpp"

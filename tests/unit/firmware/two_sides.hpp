@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A spool that answers otherwise to each side: another dead band, another shape, other times.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Frames that the receivers take, for their tests, and what the tests need to know of each bus.
 

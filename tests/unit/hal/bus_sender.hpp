@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A transmitter with everything that one call needs, and what it has sent.
 

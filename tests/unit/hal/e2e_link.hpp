@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A receiver of one protected message, for the tests of the end-to-end protection.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// All that a receiver has put into its inputs, to be compared as a whole.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Stamps and echoes: who counts as late, and when.
 
 #include "hal/link/challenge.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which trouble code is said when.
 
 #include "hal/link/dm1.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Periods, protection, and what is commanded when the outputs cannot be trusted: the dozer.
 
 #include "can_dbc/generated/dozer_dbc.hpp"

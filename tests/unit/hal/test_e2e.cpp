@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Check values of the CRC, and every row of the table in hal/link/e2e.hpp.
 
 #include "hal/link/e2e.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A block of old, valid frames beside the live ones: the table in hal/link/e2e.hpp.
 
 #include <algorithm>

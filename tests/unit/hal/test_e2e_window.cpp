@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Three wrong frames of the last sixteen are a fault, of one message and of one kind.
 
 #include "hal/link/e2e_window.hpp"

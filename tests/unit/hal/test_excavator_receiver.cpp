@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Good frames of the excavator's bus reach its inputs, each signal its place.
 
 #include "tests/unit/hal/bus_frames.hpp"

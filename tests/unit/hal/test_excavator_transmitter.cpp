@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Periods, protection, and what is commanded when the outputs cannot be trusted: the excavator.
 
 #include "can_dbc/generated/excavator_dbc.hpp"

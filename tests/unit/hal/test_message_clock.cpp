@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A message's clock against ours. What a receiver makes of it: test_stream_late.cpp.
 
 #include "hal/link/message_clock.hpp"

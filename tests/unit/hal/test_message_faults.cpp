@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the receiver makes of several wrong frames of a message.
 
 #include "tests/unit/hal/bus_frames.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every kind of bad frame is counted and changes nothing, on either bus.
 
 #include "tests/unit/hal/bus_frames.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Schedule, status, health and trouble codes, which are the same on either bus.
 
 #include "can_dbc/generated/dozer_dbc.hpp"

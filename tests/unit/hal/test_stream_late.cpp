@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a receiver makes of frames that come later and later, and of its own that others send.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Zeros and means of pressures that a sensor shows as 0 where they are less.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What was identified, in the text of a profile: written and read back, and all else as it was.
 
 #include <algorithm>

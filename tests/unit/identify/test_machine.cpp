@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is found of a machine from its log: curves, dead times, lags, zeros.
 
 #include <stdexcept>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// A joint's model and its cost; that both find a machine: tests/closed_loop/check_identify.py.
 
 #include <algorithm>

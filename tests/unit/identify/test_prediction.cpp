@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What a profile alone predicts, how it is judged, and what is left out for that.
 
 #include <array>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The profile's hash covers the values and nothing else: the same for other comments, order, layout and
 spelling of numbers, another for each key's change: check_hash.py READ_PROFILE MACHINES_FOLDER."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Shipped profiles load, with and without the simulated machine's file; wrong ones of both files are
 refused with every error listed, each of their keys if it is missing or out of range:
 check_profiles.py GRABEN READ_PROFILE MACHINES_FOLDER."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`graben check`: each slip of a profile that is allowed but implausible is warned of, a shipped profile
 has none; the page is whole; the reference of keys is the readers': check_warnings.py GRABEN MACHINES_FOLDER."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What can be wrong with a dozer's profile."""
 
 from profile_edit import replaced

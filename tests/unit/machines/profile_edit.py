@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Profiles with something wrong: by their text, and key by key."""
 
 import copy

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Reads a profile as one of a machine of this kind: read_profile KIND FILE; as a simulated one
 /// with the file beside it too. Says what is wrong with it and ends with 1; ends with 0 and in
 /// silence else.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which bus a profile may name, and that what it lacks is lost knowingly.
 
 #include "app/machines/bus_key.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What a scenario changes of a dozer and of what its controller takes it for.
 
 #include "app/machines/simulated/simulated_dozer.hpp"

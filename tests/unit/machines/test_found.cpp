@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// A machine as it is found: what is drawn and told of it, and that its controller is not told.
 
 #include <algorithm>

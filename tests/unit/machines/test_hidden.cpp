@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hidden machines: within their ranges, each figure by itself, and what a perfect identification
 // finds.
 

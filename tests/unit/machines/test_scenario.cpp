@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What a scenario changes in plant and controller, and what it leaves alone.
 
 #include <algorithm>

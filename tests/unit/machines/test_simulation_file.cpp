@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Simulated machines by themselves: what a file differs in from the machine that it names, what is
 // wrong with it, and a controller with another profile in it.
 

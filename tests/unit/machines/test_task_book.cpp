@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Several tasks for one machine: their numbers, and all that is wrong with them in one go.
 
 #include "app/machines/task_file.hpp"

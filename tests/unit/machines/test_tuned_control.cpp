@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a machine that answers late is controlled with.
 
 #include "app/machines/tuned_control.hpp"

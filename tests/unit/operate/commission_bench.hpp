@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The station of a commissioning, the controller and the simulated machine on a bus in memory.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The station's frames, by what a receiver makes of them.
 
 #include "app/operate/command_frames.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Commissioning over the bus, by the station: what stops it, how far a cylinder goes wrong by then,
 // and that it goes on and ends as if nothing had been.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the operator confirms, and what is kept to go on after a break.
 
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// When enable is given, and when not again.
 
 #include "app/operate/deadman.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the station hears.
 
 #include "app/operate/ecu_listener.hpp"

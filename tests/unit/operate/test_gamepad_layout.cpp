@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the station makes of a gamepad's codes. libevdev keeps the state of a device without one.
 
 #include "app/operate/gamepad_layout.hpp"

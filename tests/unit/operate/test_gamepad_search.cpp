@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What is said where there is no gamepad, or more than one.
 
 #include <filesystem>

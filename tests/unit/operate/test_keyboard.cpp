@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Keys that a terminal repeats, and when they count as held.
 
 #include "app/operate/keyboard.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Sticks to levers to axes.
 
 #include "app/operate/levers.hpp"

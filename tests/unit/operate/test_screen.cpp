@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the operator reads.
 
 #include "app/operate/screen.hpp"

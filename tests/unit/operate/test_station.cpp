@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the hands ask for.
 
 #include "app/operate/station.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The terminal is given back as it was, however the process ends.
 
 #include "app/operate/terminal.hpp"

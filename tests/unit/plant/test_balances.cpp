@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What must balance whatever the machine does: energy, oil, and gravity against the cylinders.
 
 #include <algorithm>

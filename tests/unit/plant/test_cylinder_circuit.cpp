@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One cylinder with valve section, pump line and mass against closed forms.
 
 #include <algorithm>

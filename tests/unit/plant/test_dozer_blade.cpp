@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The dozer's blade: linkage, implement circuit and cylinders together.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The dozer's half-vehicle on ground of all kinds: (15) - (17).
 
 #include <algorithm>

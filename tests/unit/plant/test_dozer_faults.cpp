@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The dozer's fault switches, as the bus and the machine show them.
 
 #include "app/plant/dozer_faults.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The dozer's ground: heights between nodes, what the cutting edge takes away, Janosi and Hanamoto.
 
 #include "app/plant/dozer_ground.hpp"

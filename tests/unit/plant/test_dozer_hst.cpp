@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One path of the dozer's transmission: (9), losses, oil, relief, servos, brake.
 
 #include "app/plant/dozer_hst_path.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The dozer on a bus: what it sends, and what its commands do.
 
 #include "app/plant/dozer_node.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The simulated dozer as a whole.
 
 #include "app/plant/dozer_plant.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An engine that its pumps pull down, pumps that are not as large as their data, and what the bus
 // is told of both.
 

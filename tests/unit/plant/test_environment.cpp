@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the machine meets and what its sensors make of it: soil, obstacle, dead time, bias, noise.
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The whole machine: equilibrium, flow balance, end stops, robustness, step independence.
 
 #include "app/plant/excavator_plant.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The plant's parts, wired as the circuits of tests/vectors/hopsan, against Hopsan's whole curves.
 // Every figure is in percent of the reference curve's peak; the test prints them all.
 

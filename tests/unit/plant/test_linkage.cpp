@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Geometry and rigid-body dynamics of the links, without oil.
 
 #include "app/plant/linkage_dynamics.hpp"

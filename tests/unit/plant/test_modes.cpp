@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Natural frequencies of the links on their oil: released from a tip force the machine rings, and
 // its spectrum is compared with the small-motion equations of the same pose.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Orifices, reliefs, make-up and the return gallery against closed forms.
 
 #include "app/plant/hydraulics.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the machine does beside spools and sensors that are well: pilot cut, pump commands, faults.
 
 #include "app/plant/excavator_faults.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The machine and the operator on a bus.
 
 #include "app/plant/excavator_node.hpp"

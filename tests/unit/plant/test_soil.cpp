@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Soil: the cutting force beside closed forms, what a bucket cuts, carries and drops, slopes.
 
 #include <cmath>

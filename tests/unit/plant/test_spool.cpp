@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Spool lag, travel limits, deadband and openings.
 
 #include "app/plant/spool.hpp"

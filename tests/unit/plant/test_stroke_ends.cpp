@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cushions and hoses: what lies between a chamber and its valve.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Motor and platform on the machine: inertia, speed, ringing, braking, what turning does to the
 // links.
 

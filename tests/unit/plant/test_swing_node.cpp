@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The swing on the bus: what the machine says of it, what lets its spool open, what can be broken.
 
 #include "app/plant/excavator_node.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The oil volume against closed forms.
 
 #include "app/plant/wave_volume.hpp"

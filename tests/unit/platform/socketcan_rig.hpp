@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A port on one end of a socket pair that every kernel has, the test on the other as the bus.
 

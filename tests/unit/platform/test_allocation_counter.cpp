@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each way to the heap is counted once, freeing is not, and the memory is usable.
 
 #include "platform/linux/allocation_counter.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Who comes second to a bus.
 
 #include "platform/linux/bus_lock.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What each report of the controller makes of the port's state.
 
 #include "platform/linux/can_frames.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames and filters between the kernel's form and ours; stamps.
 
 #include "platform/linux/can_frames.hpp"

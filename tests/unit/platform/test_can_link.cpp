@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel's answer on an interface, made by hand and asked for.
 
 #include "platform/linux/can_socket.hpp"

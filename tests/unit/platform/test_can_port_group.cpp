@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Several buses as one.
 
 #include "platform/can_port_group.hpp"

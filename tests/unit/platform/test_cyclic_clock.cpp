@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The grid of deadlines, the clock that keeps it, the histogram it fills.
 
 #include "platform/linux/cyclic_clock.hpp"

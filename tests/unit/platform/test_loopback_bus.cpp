@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Order, overflow, the tap, faults that a test plays.
 
 #include "platform/loopback/loopback_bus.hpp"

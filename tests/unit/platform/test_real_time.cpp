@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each step does what it says or says what it lacks; every attempt in a child of its own.
 
 #include "platform/linux/process.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the service manager hears, on a socket of its own; and when signals ask to stop.
 
 #include "platform/linux/service_notify.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What goes out, what takes the port away and what brings it back. The calls that must fail are
 // made to.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What comes in: batches, stamps, error frames, what was lost or is of no use.
 
 #include <arpa/inet.h>

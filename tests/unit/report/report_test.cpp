@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The report's file: complete, self-contained, safe against its own data, and never half written.
 
 #include <sys/resource.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A simulated excavator whose operator has levers, or a station that tries duties.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Jog and Coordinated over the bus, on the simulated 22 t excavator.
 
 #include "tests/unit/runs/hands_rig.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Measures of calm, of signals whose result is known.
 
 #include "app/runs/calm.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Commissioning over the bus, on the simulated 22 t excavator: what stops it, and that it goes on.
 
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Calm and energy of digging and of a task, from samples made by hand.
 
 #include <cmath>

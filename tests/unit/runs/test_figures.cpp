@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Tables of figures: what every output takes from them.
 
 #include "app/runs/figures.hpp"

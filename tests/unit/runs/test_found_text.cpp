@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a machine is told to be, as its user writes it, and as runs say it.
 
 #include <stdexcept>

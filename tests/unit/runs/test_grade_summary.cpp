@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Figures of a grading run, from samples made by hand.
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the design asks of the blade, by hand.
 
 #include "app/runs/grade_truth.hpp"

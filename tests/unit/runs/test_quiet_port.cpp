@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What a machine's port loses of cycles that were late.
 
 #include "app/runs/quiet_port.hpp"

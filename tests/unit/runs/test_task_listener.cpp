@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What a task's listener makes of the frames that pass by.
 
 #include "app/runs/task_listener.hpp"

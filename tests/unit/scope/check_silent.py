@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """What hears a real bus must have no way to speak on it: its objects call nothing that could send,
 neither of the system's nor of ours."""
 

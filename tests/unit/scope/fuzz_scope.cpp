@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Throws at a server whatever a seed makes, and has it serve two good pages all the while: one
 /// that stays from beginning to end and must miss nothing, and one that comes anew now and then.
 ///

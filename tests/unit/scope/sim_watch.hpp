@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A simulation stepped as fast as it goes, and what its bus says of it.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The other end of a connection to the server: bytes, and a WebSocket client that does what it is
 /// told, right or wrong.

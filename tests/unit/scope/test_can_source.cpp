@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// A bus that is heard, on one end of a socket pair that every kernel has, the test on the other.
 
 #include "app/scope/server/can_source.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What a page is sent, in which order, and what becomes of what it says.
 
 #include "app/scope/server/client.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What lies between the source and the pages: what a reader gets, and what it is told it missed.
 
 #include "app/scope/server/frame_feed.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Which names this server goes by, and which pages may talk to it.
 
 #include "app/scope/server/access.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What a page is told of a log, and what is no log.
 
 #include "app/scope/server/show.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What a page is told of machines, against their profiles.
 
 #include "app/reports/page_setup.hpp"

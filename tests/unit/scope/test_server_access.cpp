@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The server over real sockets: what it gives, and to whom.
 
 #include "app/scope/server/show.hpp"

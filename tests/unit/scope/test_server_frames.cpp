@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The server over real sockets: what two pages get, what becomes of what they say, and that one
 /// that does not read costs the others nothing.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every fault of the simulation, on each kind of machine: it makes the controller do what its row
 // says, it can be taken back, and the machine works again.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // When a simulation's cycles are due.
 
 #include "app/scope/sim/sim_source.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a simulation does by itself, and what becomes of what a page asks of it.
 
 #include <algorithm>

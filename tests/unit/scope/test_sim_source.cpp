@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A simulation in real time: as fast as it is asked to be, and over when it is told so.
 
 #include "app/scope/sim/sim_source.hpp"

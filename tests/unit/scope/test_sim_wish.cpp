@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a page may not ask of a simulation, and in which words it is refused.
 
 #include <limits>
