@@ -162,7 +162,8 @@ ExportCounts export_mcap(const std::filesystem::path& log, const std::filesystem
     const std::uint16_t id = writer.add_channel(
         message.topic, "graben." + message.topic.substr(message.topic.rfind('/') + 1),
         message.schema);
-    channels.emplace(message.id, Channel{std::move(message), id});
+    const std::uint32_t number = message.id;
+    channels.emplace(number, Channel{std::move(message), id});
   }
   StateWords words(writer, run.is_dozer ? runs::dozer_actuators() : runs::excavator_actuators());
   ExportCounts counts;

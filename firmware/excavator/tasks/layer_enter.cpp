@@ -22,7 +22,8 @@ constexpr double kHeld_s = 1.0;
 /// What springs by less is let be; and what would spring by more through the design is not pressed.
 constexpr double kSpringFree_m = 0.010;
 constexpr double kSpringMost_m = 0.020;
-/// Oil that is let go throws its load farther than it gives under it, and is softer than its file says.
+/// Oil that is let go throws its load farther than it gives under it, and is softer than its file
+/// says.
 constexpr double kThrows = 3.0;
 /// The plan goes so far up over the teeth to let off.
 constexpr double kLetsOff_m = 0.10;

@@ -51,8 +51,9 @@ void follow_pace(const LineProfile& line, double slow_m, double behind_m, double
   const double off = behind_m / slow_m;
   const double slowed = 1.0 / (1.0 + off * off);
   const double change = line.pace_rate_ps * period_s;
-  state.pace_ratio = std::clamp(slowed > 0.0 ? slowed : 0.0,
-                                state.pace_ratio - kSlowsFaster * change, state.pace_ratio + change);
+  state.pace_ratio =
+      std::clamp(slowed > 0.0 ? slowed : 0.0, state.pace_ratio - kSlowsFaster * change,
+                 state.pace_ratio + change);
 }
 
 /// Steps of one program.

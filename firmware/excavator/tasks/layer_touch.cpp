@@ -117,8 +117,7 @@ bool touch_on(const TaskProgram& program, const CutSeen& seen, double advance_s,
   }
   const bool is_near = layers.height_m < kSlowFrom_m;
   layers.up_n += std::min(1.0, period_s / kHeard_s) * (up_n - layers.up_n);
-  const bool bears =
-      is_near && seen.force_known && up_n - layers.air_n > kBears * plan.force_n;
+  const bool bears = is_near && seen.force_known && up_n - layers.air_n > kBears * plan.force_n;
   const bool held = is_near && seen_m - layers.height_m > kHeldUp_m && seen.lambda > 0.0 &&
                     (!seen.force_known || layers.up_n - layers.air_n > kBearsHeld * plan.force_n);
   const bool found = bears || held;

@@ -125,7 +125,7 @@ async function bookmarks() {
   await page.keyboard.press('Home');
   await page.getByRole('button', {name: 'Mark this moment'}).click();
   const names = page.locator('.bookmarks input');
-  assert.equal(await names.count(), 2);
+  await until('both are there', async () => await names.count() === 2);
   await names.last().fill('the end, & all');
   await names.last().press('Tab');
   await until('the address has it', () => page.evaluate(() => location.hash.includes('the+end')));

@@ -187,6 +187,42 @@ void soil_that_falls_in_is_swept_out(void**) {
   assert_int_equal(sweeps, kSweepsMost);
 }
 
+CutState dug(const LayerPlan& whole) {
+  CutState state = undug(whole);
+  while (!state.met) {
+    static_cast<void>(cut_through(whole, state.cut.height_m, state));
+    state.loaded_m3 = 0.0;
+    next_cut(whole, {0.7, 0.2 * whole.full_m3}, state);
+  }
+  return state;
+}
+
+/// A sweep takes what nobody has seen: all that it brings has fallen in.
+void what_a_sweep_brings_has_fallen_in(void**) {
+  const LayerPlan whole = plan();
+  CutState state = dug(whole);
+  weigh_cut(whole, 0.5 * whole.full_m3, state);
+  assert_false(state.met);
+  assert_false(state.wall_falls);
+  static_cast<void>(cut_through(whole, state.cut.height_m, state));
+  state.loaded_m3 = 0.3 * whole.full_m3;
+  next_cut(whole, {0.7, 0.0}, state);
+  weigh_cut(whole, 0.3 * whole.full_m3, state);
+  assert_int_equal(state.sweeps, 2);
+}
+
+/// Nearly a full bucket of it: the far wall falls in. It is cut back until it stands.
+void a_wall_that_stops_a_sweep_stands(void**) {
+  const LayerPlan whole = plan();
+  CutState state = dug(whole);
+  weigh_cut(whole, 0.9 * whole.full_m3, state);
+  assert_true(state.wall_falls);
+  state.cut.from_share = -0.2;
+  next_cut(whole, {1.4, 0.0}, state);
+  assert_false(state.wall_falls);
+  assert_false(state.met);
+}
+
 /// Ground under the design is none to dig.
 void ground_below_its_design_is_met(void**) {
   LayerPlan low = plan();
@@ -208,6 +244,8 @@ int main() {
       cmocka_unit_test(what_stays_up_is_left),
       cmocka_unit_test(depth_follows_the_force),
       cmocka_unit_test(soil_that_falls_in_is_swept_out),
+      cmocka_unit_test(what_a_sweep_brings_has_fallen_in),
+      cmocka_unit_test(a_wall_that_stops_a_sweep_stands),
       cmocka_unit_test(ground_below_its_design_is_met),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

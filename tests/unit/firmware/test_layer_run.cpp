@@ -199,6 +199,67 @@ void pressed_oil_lets_off_before_a_cut(void**) {
 }
 
 /// A heel on uncut ground holds a bucket that is to be folded: it is lifted straight up first.
+/// A heel that is pressed on uncut ground is as heavy as soil before the edge.
+void a_pressed_heel_gives_way_too(void**) {
+  const TaskProgram program = planned();
+  TaskState state = run_until(program, begun(program), [](const TaskState& at) {
+    return in_cut(at) && at.layers.share > 0.6;
+  });
+  const double height_m = state.layers.height_m;
+  for (int n = 0; n < 50; ++n) {
+    CutSeen seen = follows(program, state);
+    seen.force_n = {0.0, 2.0 * program.layers.force_n};
+    state = advance(program, state, seen);
+  }
+  assert_true(state.layers.height_m > height_m + 0.02);
+}
+
+/// Of the last cut: teeth under their plan slow it down more than teeth over it, and at once.
+void a_last_cut_waits_for_teeth_that_sink(void**) {
+  const TaskProgram program = planned();
+  const TaskState state = run_until(program, begun(program), [](const TaskState& at) {
+    return in_cut(at) && at.layers.cuts.cut.thin && at.layers.share > 0.5;
+  });
+  const auto pace_with = [&](double off_m) {
+    TaskState other = state;
+    for (int n = 0; n < 15; ++n) {
+      CutSeen seen = follows(program, other);
+      seen.teeth.position_m.z() += off_m;
+      seen.behind_m = 0.012;
+      other = advance(program, other, seen);
+    }
+    return other.pace_ratio;
+  };
+  assert_true(pace_with(-0.012) < 0.5);
+  assert_true(pace_with(0.012) > 0.7);
+}
+
+/// In the slot that it has gone down in, the bucket is lifted the way that it has come.
+void teeth_in_their_slot_go_back_as_they_came(void**) {
+  const TaskProgram program = planned();
+  TaskState state = run_until(program, begun(program), [](const TaskState& at) {
+    return in_cut(at) && at.layers.share > 0.05;
+  });
+  for (int n = 0; n < 300 && in_cut(state); ++n) {
+    CutSeen seen = follows(program, state);
+    seen.force_n = {2.0 * program.layers.force_n, 0.0};
+    state = advance(program, state, seen);
+  }
+  assert_int_equal(state.layers.phase, CutPhase::kLifts);
+  const TeethPose held = task_aim(machine().kinematics, program, state).teeth;
+  for (int n = 0; n < 60; ++n) {
+    CutSeen seen = follows(program, state);
+    seen.teeth = held;
+    seen.lambda = 0.0;
+    state = advance(program, state, seen);
+  }
+  const TeethPose freed = state.layers.lift.line.at(1.0);
+  const TeethPose& entered = state.layers.entered;
+  assert_near(freed.attitude_rad, entered.attitude_rad, 1e-6);
+  assert_near((freed.position_m - entered.position_m).head<2>().norm(), 0.0, 1e-6);
+  assert_true(freed.position_m.z() > held.position_m.z() + 0.3);
+}
+
 void a_held_heel_is_lifted_straight_up(void**) {
   const TaskProgram program = planned();
   TaskState state = run_until(program, begun(program), [](const TaskState& at) {
@@ -292,6 +353,9 @@ int main() {
       cmocka_unit_test(a_force_along_the_way_holds_nothing_up),
       cmocka_unit_test(soil_that_holds_the_edge_up_is_cut_from_there),
       cmocka_unit_test(pressed_oil_lets_off_before_a_cut),
+      cmocka_unit_test(a_pressed_heel_gives_way_too),
+      cmocka_unit_test(a_last_cut_waits_for_teeth_that_sink),
+      cmocka_unit_test(teeth_in_their_slot_go_back_as_they_came),
       cmocka_unit_test(a_held_heel_is_lifted_straight_up),
       cmocka_unit_test(a_full_bucket_ends_the_cut),
       cmocka_unit_test(lifts_out_before_it_swings),
