@@ -14,7 +14,7 @@ import plausible_judge
 import run_programs
 from plausible_cases import CASES, EVERY, MADE, Case, lanes
 
-LANES = 4
+LANES = 3
 
 
 def ms(value: float | None) -> str:
