@@ -102,9 +102,10 @@ struct GradeHeights {
   static constexpr double kStep_m = 0.05;
   static constexpr int kMost = 20'001;
 
-  const double* height_m = nullptr;  ///< Over the design's plane, `count` of them.
-  int count = 0;                     ///< 0, or 2 .. kMost.
-  double from_m = 0.0;               ///< Place of the first one.
+  // Aligned so that it lies alike where pointers are of 4 bytes: a setup is written as bytes.
+  alignas(8) const double* height_m = nullptr;  ///< Over the design's plane, `count` of them.
+  alignas(8) int count = 0;                     ///< 0, or 2 .. kMost.
+  double from_m = 0.0;                          ///< Place of the first one.
 };
 
 /// The design: heights over a plane through points with rounded corners. Before the first point and

@@ -309,6 +309,30 @@ void windows_hold_for_a_second(void**) {
   }
 }
 
+/// Strokes found from IMUs stand in the place of those that are sent, and as they do.
+void strokes_from_imus_stand_as_measured_ones(void**) {
+  ExcavatorProfile machine = profile();
+  machine.imu.mount[0].address = 226;
+  const ExcavatorBank bank = excavator_bank(machine);
+  ExcavatorInputs inputs = complete_inputs(kNow);
+  std::array<Signal<double>, kAxisCount> strokes_m;
+  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    strokes_m[axis] = inputs.axis[axis].stroke_m;
+    strokes_m[axis].value += 0.05;
+    inputs.axis[axis].stroke_m.validity = Validity::kNotAvailable;
+  }
+  test::StrokesAccepted last{};
+  const auto valid_with = [&](Span<const Signal<double>> strokes) {
+    return graben::validate(machine, bank.rows(), inputs, false, kNow, last, strokes);
+  };
+  const ExcavatorValid valid = valid_with(strokes_m);
+  assert_int_equal(valid.fault, Fault::kNone);
+  assert_true(valid.stand_in);
+  assert_near(valid.drive[kArm].stroke_m, 1.15, 1e-12);
+  strokes_m[kArm].validity = Validity::kNotAvailable;
+  assert_int_equal(valid_with(strokes_m).fault, Fault::kStrokeMissing);
+}
+
 }  // namespace
 
 int main() {
@@ -329,6 +353,7 @@ int main() {
       cmocka_unit_test(a_task_by_hand_needs_its_hands),
       cmocka_unit_test(no_three_duties_are_tried),
       cmocka_unit_test(windows_hold_for_a_second),
+      cmocka_unit_test(strokes_from_imus_stand_as_measured_ones),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
