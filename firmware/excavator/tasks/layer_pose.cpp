@@ -244,6 +244,10 @@ double steepest(const SwingKinematics& kinematics, const TaskProgram& program, C
 }
 
 void begin_beyond(const SwingKinematics& kinematics, const TaskProgram& program, Cut& cut) {
+  // Planning has not looked there: where something else than the design is fenced, it is let be.
+  if (program.fences.count > 1) {
+    return;
+  }
   for (const double beyond_m : kBeyond_m) {
     Cut farther = cut;
     farther.from_share = -beyond_m / program.layers.way_m;

@@ -50,7 +50,8 @@ enum class LiftPart : std::uint8_t {
 [[nodiscard]] double steepest(const SwingKinematics& kinematics, const TaskProgram& program,
                               Cut cut);
 
-/// A sweep begins before its line, as far as the machine can: there the wall falls in.
+/// A sweep begins before its line, as far as the machine can: there the wall falls in. Not where
+/// the task has fences besides its design, the last of them.
 void begin_beyond(const SwingKinematics& kinematics, const TaskProgram& program, Cut& cut);
 
 /// The step's line at a strip, so high over itself.

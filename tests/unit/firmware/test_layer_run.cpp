@@ -260,6 +260,21 @@ void teeth_in_their_slot_go_back_as_they_came(void**) {
   assert_true(freed.position_m.z() > held.position_m.z() + 0.3);
 }
 
+/// Nobody has looked at fences there.
+void begins_beyond_its_line_where_nothing_is_fenced(void**) {
+  TaskProgram program = planned();
+  const auto begins_m = [&] {
+    Cut cut = undug(program.layers).cut;
+    cut.height_m = 0.0;
+    begin_beyond(machine().kinematics, program, cut);
+    return cut.from_share * program.layers.way_m;
+  };
+  assert_true(begins_m() < -0.05 && begins_m() > -0.5 - 1e-9);
+  program.fences.fence[1] = program.fences.fence[0];
+  program.fences.count = 2;
+  assert_near(begins_m(), 0.0, 0.0);
+}
+
 void a_held_heel_is_lifted_straight_up(void**) {
   const TaskProgram program = planned();
   TaskState state = run_until(program, begun(program), [](const TaskState& at) {
@@ -356,6 +371,7 @@ int main() {
       cmocka_unit_test(a_pressed_heel_gives_way_too),
       cmocka_unit_test(a_last_cut_waits_for_teeth_that_sink),
       cmocka_unit_test(teeth_in_their_slot_go_back_as_they_came),
+      cmocka_unit_test(begins_beyond_its_line_where_nothing_is_fenced),
       cmocka_unit_test(a_held_heel_is_lifted_straight_up),
       cmocka_unit_test(a_full_bucket_ends_the_cut),
       cmocka_unit_test(lifts_out_before_it_swings),
