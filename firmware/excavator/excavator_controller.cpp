@@ -213,7 +213,7 @@ void ExcavatorController::dig(const ExcavatorValid& valid, const KinematicState&
   }
   motion.corrected_mps = corrected_velocity(drives(), motion.wanted_mps, memory_.servo,
                                             memory_.lambda.value(), valid.speed_override_ratio);
-  correct_on_oil(valid, now, motion.wanted_mps, motion.corrected_mps);
+  correct_off_path(valid, now, motion);
   ease_blocked(motion);
   slow_at_ends(drives(), valid.drive, span_of(motion.corrected_mps), motion.cap);
   motion.path_error_m = path_error_m(setup_.field.path(), now.tip);
@@ -230,6 +230,7 @@ void ExcavatorController::follow(const TaskProgram& program, const TaskAim& aim,
   motion.corrected_mps =
       corrected_velocity(drives(), motion.wanted_mps, memory_.servo, memory_.lambda.value(),
                          speed_override_ratio, motion.task.holds);
+  correct_off_plan(speed_override_ratio, motion);
   const double swing_mps = swing_of(motion.wanted_mps);
   if (swing_mps == 0.0) {
     // A platform that is to stand rings less on weaker corrections.

@@ -154,9 +154,17 @@ class ExcavatorController {
   /// What the field wants of each cylinder at the place where its command of now takes effect.
   [[nodiscard]] DriveVector by_field(const KinematicState& now, double speed_override_ratio) const;
   void dig(const ExcavatorValid& valid, const KinematicState& now, Motion& motion) const;
-  /// Boom and arm corrected by the oil's state instead of the servo, as far as it leads.
-  void correct_on_oil(const ExcavatorValid& valid, const KinematicState& now,
-                      const DriveVector& wanted_mps, DriveVector& corrected_mps) const;
+  /// Boom and arm, `off_m` beyond where they should be, corrected by the oil's state instead of the
+  /// servo, as far as it leads.
+  void correct_on_oil(double speed_override_ratio, const Eigen::Vector2d& off_m,
+                      Motion& motion) const;
+  /// Off the dig's path.
+  void correct_off_path(const ExcavatorValid& valid, const KinematicState& now,
+                        Motion& motion) const;
+  /// Off a cut's plan: what is on its way is part of where they are.
+  void correct_off_plan(double speed_override_ratio, Motion& motion) const;
+  /// What the oil's law may lead: a dig's path and cuts.
+  [[nodiscard]] bool leads_on_oil(const ExcavatorValid& valid) const;
   /// Observer of the oil after the last cycle's command.
   void weigh(const OilSeen& seen, const KinematicState& now, EcuMode mode);
   void estimate_oil(const ExcavatorValid& valid, const KinematicState& now, EcuMode mode);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "firmware/excavator/excavator_controller.hpp"
+#include "firmware/excavator/tasks/layer_pose.hpp"
 
 namespace graben {
 namespace {
@@ -47,6 +48,12 @@ Eigen::Vector2d off_path_m(const RoundedRectangle& path, const KinematicState& n
 
 }  // namespace
 
+bool ExcavatorController::leads_on_oil(const ExcavatorValid& valid) const {
+  const TaskProgram* program = running(valid);
+  return are_quick(drives()) &&
+         (valid.task == Task::kDig || (program != nullptr && cuts(*program, memory_.task.state)));
+}
+
 void ExcavatorController::estimate_oil(const ExcavatorValid& valid, const KinematicState& now,
                                        EcuMode mode) {
   if (!on_oil(profile_)) {
@@ -63,7 +70,7 @@ void ExcavatorController::estimate_oil(const ExcavatorValid& valid, const Kinema
     memory_.modes =
         oil_modes(profile_.oil, profile_.geometry, now, memory_.load, memory_.payload_kg);
   }
-  const bool leads = reached && seen.force_known && valid.task == Task::kDig && are_quick(drives());
+  const bool leads = reached && seen.force_known && leads_on_oil(valid);
   next_oil(setup_.oil, memory_.modes, seen, mode == EcuMode::kActive && reached, leads,
            memory_.oil);
 }
@@ -76,25 +83,38 @@ void ExcavatorController::weigh(const OilSeen& seen, const KinematicState& now, 
   memory_.payload_kg += kWeighs * (measured_kg - memory_.payload_kg);
 }
 
-void ExcavatorController::correct_on_oil(const ExcavatorValid& valid, const KinematicState& now,
-                                         const DriveVector& wanted_mps,
-                                         DriveVector& corrected_mps) const {
+void ExcavatorController::correct_off_path(const ExcavatorValid& valid, const KinematicState& now,
+                                           Motion& motion) const {
+  if (now.status == ReachStatus::kOk && !motion.wanted_mps.isZero(0.0)) {
+    correct_on_oil(
+        valid.speed_override_ratio,
+        off_path_m(setup_.field.path(), now) + memory_.oil.travel_m - now.strokes_m.head<2>(),
+        motion);
+  }
+}
+
+void ExcavatorController::correct_off_plan(double speed_override_ratio, Motion& motion) const {
+  if (motion.task.holds) {
+    const DriveVector due_m = motion.task.planned_m - memory_.servo.under_way_m();
+    correct_on_oil(speed_override_ratio, memory_.oil.travel_m - due_m.head<2>(), motion);
+  }
+}
+
+void ExcavatorController::correct_on_oil(double speed_override_ratio, const Eigen::Vector2d& off_m,
+                                         Motion& motion) const {
   const double weight = memory_.oil.weight;
-  if (!on_oil(profile_) || weight == 0.0 || now.status != ReachStatus::kOk ||
-      wanted_mps.isZero(0.0)) {
+  if (!on_oil(profile_) || weight == 0.0) {
     return;
   }
-  const Eigen::Vector2d off_m =
-      off_path_m(setup_.field.path(), now) + memory_.oil.travel_m - now.strokes_m.head<2>();
   const Eigen::Vector2d correction_mps =
       oil_correction_mps(setup_.oil, memory_.modes, memory_.oil, off_m);
   // The oil swings as fast on a slow path; the operator's word still bounds what is asked of it.
-  const double authority = std::sqrt(valid.speed_override_ratio);
+  const double authority = std::sqrt(speed_override_ratio);
   for (int axis = 0; axis < 2; ++axis) {
-    const double on_oil_mps =
-        corrected_by(drives()[axis], memory_.servo.drive[static_cast<unsigned>(axis)],
-                     wanted_mps[axis], authority * correction_mps[axis], memory_.lambda.value());
-    corrected_mps[axis] += weight * (on_oil_mps - corrected_mps[axis]);
+    const double on_oil_mps = corrected_by(
+        drives()[axis], memory_.servo.drive[static_cast<unsigned>(axis)], motion.wanted_mps[axis],
+        authority * correction_mps[axis], memory_.lambda.value());
+    motion.corrected_mps[axis] += weight * (on_oil_mps - motion.corrected_mps[axis]);
   }
 }
 
