@@ -8,7 +8,7 @@ import tempfile
 import report_page
 from check_autodig import MM, Digger
 
-OVER_CUT_MM, BUILT = 30.0, 0.95
+OVER_CUT_MM, BUILT = 25.0, 0.95
 
 
 def as_built(digger, dug, what):
@@ -35,7 +35,8 @@ def areas(digger):
     for machine, task, soil, seed in (("12t", "trench", "loam", 1), ("12t", "trench", "sand", 5),
                                       ("12t", "slope", "clay", 2), ("12t", "slope", "loam", 2),
                                       ("12t", "level", "loam", 3), ("12t", "truck_loading", "loam", 1),
-                                      ("22t", "trench", "loam", 4), ("22t", "slope", "loam", 2)):
+                                      ("22t", "trench", "loam", 4), ("22t", "trench", "sand", 10),
+                                      ("22t", "slope", "loam", 2)):
         dug = digger.figures("--profile", f"excavator_{machine}", "--task", task, "--soil", soil, "--errors", "all",
                              "--seed", str(seed))
         what = f"{task} in {soil}, {machine}"

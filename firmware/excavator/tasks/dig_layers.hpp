@@ -101,7 +101,7 @@ inline constexpr double kFinish_m = 0.014;
 inline constexpr double kEnd_m = 0.035;
 inline constexpr double kOnePlace_m = 0.008;
 /// The last cut keeps so much more where its bucket is still steep.
-inline constexpr double kSteepHigher_m = 0.016;
+inline constexpr double kSteepHigher_m = 0.006;
 /// The last layer's thickness: its force is small, and so is what the teeth spring by.
 inline constexpr double kLastLayer_m = 0.06;
 /// A bucket takes a little more than what fills it: some is lost on the way.

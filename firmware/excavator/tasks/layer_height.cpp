@@ -8,6 +8,9 @@ namespace graben {
 namespace {
 
 constexpr double kRisesAtLeast = 0.25;
+/// Rise of a wall's foot that is left standing; no soil slides on it.
+constexpr double kFootAt_m = 0.2;
+constexpr double kFoot = 0.5;
 
 /// Speed towards a height that comes to rest there.
 double speed_towards(double from_m, double to_m, double speed_mps, double most_down_mps,
@@ -32,7 +35,9 @@ double seen_height_m(const TaskProgram& program, const CutSeen& seen, const Task
 double wanted_height_m(const TaskProgram& program, const LayerState& layers) {
   const Cut& cut = layers.cuts.cut;
   const double steep = cut.thin ? cut.steep * steepness(program, cut, layers.share).share : 0.0;
-  return cut.height_m + kSteepHigher_m * steep;
+  // The foot of a wall beyond the line: nothing has to be met there, and it may break off.
+  const double beyond_m = std::max(0.0, -layers.share * program.layers.way_m - kFootAt_m);
+  return cut.height_m + kSteepHigher_m * steep + kFoot * beyond_m;
 }
 
 void rise(const LayerCycle& cycle, double target_m, double most_down_mps, TaskState& state) {

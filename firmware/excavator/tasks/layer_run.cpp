@@ -17,17 +17,22 @@ namespace {
 constexpr double kBorne = 0.7;
 /// Back down to the layer where it is light again.
 constexpr double kReturns_mps = 0.05;
+/// Down the foot of a wall that is cut back.
+constexpr double kFootDown_mps = 0.25;
 constexpr double kEasy = 0.7;
 /// From here on a cut slows down, until it stands at kHoldsAt.
 constexpr double kSlowsAt = 0.9;
 /// A heavy cut that gets on by less, for so long, is ended.
 constexpr double kGetsOn_mps = 0.01;
 constexpr double kHeld_s = 1.0;
+constexpr double kWallHeld_s = 0.6;
 /// At a cut's end the teeth are waited for.
 constexpr double kEndWait_s = 0.6;
 constexpr double kEndNear_m = 0.02;
 constexpr double kLiftNear_m = 0.10;
 constexpr double kLiftHeld_s = 0.5;
+/// Of the force that a cut may take, on a bucket that is folded.
+constexpr double kHeelMost = 1.5;
 /// A platform that swings about its place is waited for before it digs.
 constexpr double kCutWaits_s = 10.0;
 /// Of a move that leads to the next one.
@@ -40,6 +45,8 @@ constexpr double kSlowsFaster = 4.0;
 constexpr double kGround_kgpm3 = 1750.0;
 /// What springs by less is let be.
 constexpr double kSpringFree_m = 0.018;
+/// Of the force that a cut may take, at a wall.
+constexpr double kWallPulls = 0.85;
 
 DriveVector drives_now(const SwingKinematics& kinematics, const TaskProgram& program,
                        const TaskState& state) {
@@ -54,6 +61,11 @@ void follow_pace(const LineProfile& line, double slow_m, double behind_m, double
   state.pace_ratio =
       std::clamp(slowed > 0.0 ? slowed : 0.0, state.pace_ratio - kSlowsFaster * change,
                  state.pace_ratio + change);
+}
+
+/// A wall that breaks off lets the oil throw the teeth down: its force counts for more.
+double counts(const LayerState& layers, double force) {
+  return layers.share < 0.0 ? force / kWallPulls : force;
 }
 
 /// Steps of one program.
@@ -204,7 +216,8 @@ bool LayerRun::cut_ends(double heavy, TaskState& state) const {
   const bool at_end = layers.share >= 1.0;
   layers.held_s = held || at_end ? layers.held_s + period_s_ : 0.0;
   const bool reached = at_end && (seen_.behind_m < kEndNear_m || layers.held_s > kEndWait_s);
-  return reached || layers.held_s > kHeld_s ||
+  const double held_most_s = layers.share < 0.0 ? kWallHeld_s : kHeld_s;
+  return reached || layers.held_s > held_most_s ||
          layers.cuts.loaded_m3 + layers.filled_m3 >= kHeaped * plan_.full_m3;
 }
 
@@ -213,7 +226,7 @@ void LayerRun::cut(TaskState& state) const {
   const TeethLine line = cut_line(program_, state);
   const double force = force_share(plan_, line, seen_, false);
   const double borne = kBorne * force_share(plan_, line, seen_, true);
-  const double heavy = heaviness(std::max(force, borne), seen_);
+  const double heavy = heaviness(counts(layers, std::max(force, borne)), seen_);
   if (!turns(program_, layers)) {
     layers.cut_s += period_s_;
     layers.heavy_s += heavy * period_s_;
@@ -230,7 +243,7 @@ void LayerRun::cut(TaskState& state) const {
   rise({program_, kinematics_, advance_s_, period_s_},
        std::max(at.height_m + std::max({layers.give_m, springs_m, held_up_m}),
                 wanted_height_m(program_, layers)),
-       kReturns_mps, state);
+       layers.share < 0.0 ? kFootDown_mps : kReturns_mps, state);
   const double most_ps = most_rate_ps(program_, layers) *
                          std::clamp((kHoldsAt - heavy) / (kHoldsAt - kSlowsAt), 0.0, 1.0);
   const double acceleration_ps2 = profile_.line.acceleration_mps2 / plan_.way_m;
@@ -255,7 +268,10 @@ void LayerRun::cut(TaskState& state) const {
 
 void LayerRun::lift(TaskState& state) const {
   LayerState& layers = state.layers;
-  layers.held_s = heaviness(0.0, seen_) > 1.0 ? layers.held_s + period_s_ : 0.0;
+  // A heel that is turned against the ground stops nothing at first: valves and reliefs give way.
+  const double bears =
+      seen_.force_known && layers.folds ? seen_.force_n.norm() / (kHeelMost * plan_.force_n) : 0.0;
+  layers.held_s = heaviness(bears, seen_) > 1.0 ? layers.held_s + period_s_ : 0.0;
   if (layers.held_s > kLiftHeld_s) {
     layers.lift = free_line(profile_, kinematics_, plan_, seen_.teeth, layers.entered);
     layers.folds = true;

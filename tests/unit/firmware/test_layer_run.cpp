@@ -3,75 +3,12 @@
 
 #include <algorithm>
 
-#include "firmware/excavator/swing.hpp"
-#include "firmware/excavator/tasks/task_follow.hpp"
-#include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/firmware/drive_replay.hpp"
+#include "tests/unit/firmware/layer_machine.hpp"
 
 namespace {
 
 using namespace graben;
-using test::kCycle_s;
-
-const test::ReplayMachine& machine() {
-  static const test::ReplayMachine loaded(test::excavator_12t().profile);
-  return loaded;
-}
-
-constexpr double kDesign_m = -0.5;
-
-ProgramRequest request() {
-  ProgramRequest request;
-  request.start = {{6.6, 0.0, kDesign_m}, 1.3};
-  StepRequest& dig = request.step[0];
-  dig.kind = StepKind::kDig;
-  dig.to = {{4.4, 0.0, kDesign_m}, 0.95};
-  dig.speed_mps = 0.6;
-  dig.in_layers = true;
-  request.step[1] = {StepKind::kSwing, {{2.0, 3.5, 2.3}, 0.3}, false, 0.0, 0.0, 0.7};
-  request.step[2] = {StepKind::kReturnToDig, request.start, false, 0.0, 0.0, 0.7};
-  request.step_count = 3;
-  request.repeats = true;
-  request.has_design = true;
-  request.design = {{6.6, 0.0, kDesign_m}, Eigen::Vector3d::UnitZ(), 0.012};
-  return request;
-}
-
-TaskProgram planned() {
-  const ProgramResult result = plan_program(machine().profile, request());
-  assert_int_equal(result.refusal, ProgramRefusal::kNone);
-  return result.program;
-}
-
-/// Teeth that are where they are to be, but for what soil does to them.
-CutSeen follows(const TaskProgram& program, const TaskState& state) {
-  CutSeen seen;
-  seen.teeth = task_aim(machine().kinematics, program, state).teeth;
-  seen.force_known = true;
-  return seen;
-}
-
-TaskState advance(const TaskProgram& program, TaskState state, const CutSeen& seen) {
-  layer_advance(machine().profile, machine().kinematics, program, kCycle_s, kCycle_s, seen, state);
-  return state;
-}
-
-TaskState begun(const TaskProgram& program) {
-  return task_start(machine().profile, machine().kinematics, program, program.start);
-}
-
-/// Until something holds, or never.
-template <class Until>
-TaskState run_until(const TaskProgram& program, TaskState state, const Until& until) {
-  constexpr int kMost = 200000;
-  for (int n = 0; n < kMost && !until(state); ++n) {
-    state = advance(program, state, follows(program, state));
-  }
-  assert_true(until(state));
-  return state;
-}
-
-bool in_cut(const TaskState& state) { return state.layers.phase == CutPhase::kCuts; }
+using namespace graben::layer_test;
 
 /// No jump of the aim, no place that the machine can't have, nothing below the line.
 void digs_down_to_its_design(void**) {

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Walls that fall in, and are cut back beyond the line.
+
+#include "firmware/excavator/tasks/layer_height.hpp"
+#include "firmware/excavator/tasks/layer_run.hpp"
+#include "tests/unit/firmware/layer_machine.hpp"
+
+namespace {
+
+using namespace graben;
+using namespace graben::layer_test;
+
+/// Where the last cut goes along; from `beyond_m` before its line on.
+TaskState last_cut(const TaskProgram& program, double beyond_m) {
+  TaskState state = run_until(program, begun(program), [](const TaskState& at) {
+    return in_cut(at) && at.layers.cuts.cut.thin;
+  });
+  LayerState& layers = state.layers;
+  layers.cuts.cut.from_share = -beyond_m / program.layers.way_m;
+  layers.share = layers.cuts.cut.from_share;
+  layers.seen_share = layers.share;
+  layers.height_m = wanted_height_m(program, layers);
+  layers.give_m = 0.0;
+  return state;
+}
+
+void a_wall_s_foot_is_left_standing(void**) {
+  const TaskProgram program = planned();
+  TaskState state = last_cut(program, 0.4);
+  const double design_m = state.layers.cuts.cut.height_m;
+  assert_true(state.layers.height_m > design_m + 0.08);
+  double last_m = state.layers.height_m;
+  state = run_until(program, state, [&](const TaskState& at) {
+    assert_true(!in_cut(at) || at.layers.height_m < last_m + 1e-3);
+    last_m = at.layers.height_m;
+    return at.layers.share >= 0.0;
+  });
+  assert_true(in_cut(state));
+  assert_true(state.layers.height_m < design_m + kSteepHigher_m + 2e-3);
+}
+
+/// Until the cut ends, s; or as long as is looked.
+double held_for_s(const TaskProgram& program, TaskState state, double force) {
+  constexpr int kLooks = 300;
+  for (int n = 0; n < kLooks; ++n) {
+    if (!in_cut(state)) {
+      return n * kCycle_s;
+    }
+    CutSeen seen = follows(program, state);
+    seen.force_n = {force * program.layers.force_n, 0.0};
+    const double share = state.layers.share;
+    state = advance(program, state, seen);
+    state.layers.share = share;
+  }
+  return kLooks * kCycle_s;
+}
+
+/// It may break off: the oil would throw the teeth through the design.
+void a_wall_is_pulled_at_with_less(void**) {
+  const TaskProgram program = planned();
+  assert_true(held_for_s(program, last_cut(program, 0.4), 1.3) < 0.9);
+  assert_near(held_for_s(program, last_cut(program, 0.0), 1.3), 3.0, 1e-9);
+  assert_near(held_for_s(program, last_cut(program, 0.4), 1.0), 3.0, 1e-9);
+}
+
+void a_folded_heel_that_bears_goes_straight_up(void**) {
+  const TaskProgram program = planned();
+  TaskState state = run_until(program, begun(program), [](const TaskState& at) {
+    return at.layers.phase == CutPhase::kLifts && at.layers.folds && at.time_s > 0.2;
+  });
+  const auto after = [&](double force) {
+    TaskState other = state;
+    for (int n = 0; n < 55; ++n) {
+      CutSeen seen = follows(program, other);
+      seen.force_n = force * program.layers.force_n * Eigen::Vector2d(-0.6, 0.8);
+      other = advance(program, other, seen);
+    }
+    return other.layers.lift.line.change;
+  };
+  assert_true(std::abs(after(1.2).attitude_rad) > 0.1);
+  assert_near(after(2.0).attitude_rad, 0.0, 1e-9);
+  assert_true(after(2.0).position_m.z() > 0.2);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_wall_s_foot_is_left_standing),
+      cmocka_unit_test(a_wall_is_pulled_at_with_less),
+      cmocka_unit_test(a_folded_heel_that_bears_goes_straight_up),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
