@@ -2,6 +2,7 @@
 #include "firmware/excavator/load/load_balance.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace graben {
 namespace {
@@ -9,6 +10,8 @@ namespace {
 constexpr double kGravity_mps2 = 9.81;
 /// Slower, the sign of friction is not known.
 constexpr double kMoves_mps = 0.006;
+/// From this speed on hoses between transducer and chamber lose more than seals.
+constexpr double kHoses_mps = 0.10;
 
 void pass(const Eigen::Vector3d& seen, double period_s, bool restart, PairedFilter& filter) {
   if (restart) {
@@ -44,7 +47,7 @@ void next_balance(const ExcavatorProfile& profile, const LoadSeen& seen, double 
     TermRow& row = balance.row[static_cast<unsigned>(axis)];
     row.share = {1.0,
                  side,
-                 balance.speed_mps[axis],
+                 balance.speed_mps[axis] * (1.0 + std::abs(balance.speed_mps[axis]) / kHoses_mps),
                  0.0,
                  0.0,
                  0.0,

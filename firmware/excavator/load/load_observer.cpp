@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/numeric/cube_root.hpp"
+
 namespace graben {
 namespace {
 
@@ -32,6 +34,10 @@ constexpr double kOutwardSd_m = 0.05;
 constexpr double kFillOff = 0.25;
 constexpr double kFullOff = 0.3;
 constexpr double kFillOff_m = 0.1;
+/// Of loose soil; and height of a heap, whose sides slide at 38 degrees, over its volume's cube
+/// root.
+constexpr double kLoose_kgpm3 = 1300.0;
+constexpr double kHeap = 0.83;
 /// Blocks until a payload is told.
 constexpr int kWeighed = 5;
 /// More than this is left aside: an axis that stands has friction of any sign.
@@ -78,6 +84,8 @@ void enter(LoadPhase phase, const ExcavatorGeometry& geometry, LoadObserver& obs
   }
   if (observer.weighed >= kWeighed && phase == LoadPhase::kPours) {
     observer.last_fill_kg = std::max(0.0, terms.value[kLoadTerm]);
+    observer.poured_kg += observer.last_fill_kg;
+    observer.phase.heap_m = kHeap * cube_root(observer.poured_kg / kLoose_kgpm3);
   }
   observer.weighed = 0;
   observer.cycle = 0;
@@ -94,6 +102,11 @@ void add(const LoadBalance& balance, BalanceBlock& block) {
     }
     block.steady[axis] = std::abs(block.row[axis].share[1]) > kSteady;
   }
+}
+
+/// Soil that begins to slide weighs elsewhere.
+bool opens(const LoadObserver& observer) {
+  return observer.full_phase == LoadPhase::kCarries && observer.full.row[kBucket].share[1] < -0.5;
 }
 
 bool learns(LoadPhase phase) {
@@ -167,7 +180,7 @@ void expect_fill(const ExcavatorProfile& profile, double share, LoadObserver& ob
 
 /// What one axis tells of the last block: first each is judged, then each is learnt.
 void work_on_block(const ExcavatorProfile& profile, int piece, LoadObserver& observer) {
-  if (!learns(observer.full_phase)) {
+  if (!learns(observer.full_phase) || opens(observer)) {
     return;
   }
   if (piece < kAxisCount) {

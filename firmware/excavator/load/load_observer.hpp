@@ -45,6 +45,7 @@ struct LoadObserver {
   LoadGains gains;
   int weighed = 0;            ///< Blocks that the payload was in.
   double last_fill_kg = 0.0;  ///< Carried away from the last dig; 0: none was.
+  double poured_kg = 0.0;     ///< Of all digs: it may lie on one heap.
   TipLoad told;
 };
 

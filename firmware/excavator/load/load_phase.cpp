@@ -10,7 +10,7 @@ namespace graben {
 namespace {
 
 constexpr double kFreeAbove_m = 0.5;
-/// Over the ground that the machine stands on: heaps and slopes are lower.
+/// Over the ground that the machine stands on: slopes are lower.
 constexpr double kClear_m = 0.4;
 /// Attitude beyond which the opening looks down; and that from which on soil may fall out.
 constexpr double kOpen_rad = 1.75;
@@ -39,7 +39,7 @@ LoadPhase phase_of(StepKind kind, double share, const TipPose& tip, double heigh
                  : LoadPhase::kPours;
     case StepKind::kApproach:
     case StepKind::kReturnToDig:
-      if (share > kNearGround || height_m < kClear_m) {
+      if (share > kNearGround || height_m < std::max(kClear_m, state.heap_m)) {
         return LoadPhase::kUnsaid;
       }
       if (state.open_s > kPoured_s) {

@@ -12,6 +12,7 @@ constexpr double kOffset = 0.0175;
 constexpr double kCoulomb_pa = 0.2e6;
 constexpr double kViscous_paspm = 0.9e6;
 constexpr double kFrictionOff = 0.35;
+constexpr double kViscousOff = 0.6;
 constexpr double kMassOff = 0.1;
 
 int term_of(int axis, int place) {
@@ -70,7 +71,7 @@ LoadTerms terms_unseen(const ExcavatorProfile& profile) {
     const double viscous_nspm = kViscous_paspm * cap_m2;
     set_term(kOffsetTerm + axis, 0.0, offset_n, terms);
     set_term(kCoulombTerm + axis, coulomb_n, kFrictionOff * coulomb_n, terms);
-    set_term(kViscousTerm + axis, viscous_nspm, kFrictionOff * viscous_nspm, terms);
+    set_term(kViscousTerm + axis, viscous_nspm, kViscousOff * viscous_nspm, terms);
     set_term(kMassTerm + axis, 0.0, kMassOff, terms);
   }
   return terms;

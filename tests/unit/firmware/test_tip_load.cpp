@@ -133,6 +133,36 @@ void held_is_not_learnt(void**) {
   same_terms(before, world.observer.terms);
 }
 
+// It goes back through what it has poured.
+void its_own_heap_is_not_learnt(void**) {
+  LoadWorld world;
+  wave_empty(world);
+  lift(world, 1200.0);
+  world.load_kg = 0.0;
+  world.stand(StepKind::kDump, kHigh, 2.0);
+  world.stand(StepKind::kReturnToDig, kHigh, 2.0);
+  const LoadTerms before = world.observer.terms;
+  constexpr double kWithin_m = -1.2;  // over the boom foot: 0.55 m over the ground
+  world.teeth_n = {-3e3, 8e3};
+  world.move(StepKind::kReturnToDig, {7.0, kWithin_m, 1.9}, {7.6, kWithin_m, 2.0}, 4.0);
+  same_terms(before, world.observer.terms);
+  world.teeth_n.setZero();
+  world.move(StepKind::kReturnToDig, {7.6, kWithin_m + 0.4, 2.0}, {7.0, kWithin_m + 0.4, 1.9}, 4.0);
+  assert_true(world.observer.terms.variance(kOffsetTerm) < before.variance(kOffsetTerm));
+}
+
+// A bucket that opens has begun to lose what was weighed.
+void sliding_soil_is_not_weighed(void**) {
+  LoadWorld world;
+  wave_empty(world);
+  lift(world, 1000.0);
+  const double weighed_kg = world.told().payload_kg;
+  world.load_kg = 850.0;
+  world.move(StepKind::kDump, kLifted, {5.6, 2.0, 0.75}, 2.0);
+  assert_true(world.told().payload_known);
+  assert_near(world.told().payload_kg, weighed_kg, 10.0);
+}
+
 void not_known(void**) {
   LoadWorld world;
   wave_empty(world);
@@ -209,6 +239,8 @@ int main() {
       cmocka_unit_test(nothing_learnt_yet),
       cmocka_unit_test(friction_is_learnt),
       cmocka_unit_test(held_is_not_learnt),
+      cmocka_unit_test(its_own_heap_is_not_learnt),
+      cmocka_unit_test(sliding_soil_is_not_weighed),
       cmocka_unit_test(not_known),
       cmocka_unit_test(power),
       cmocka_unit_test(swing),
