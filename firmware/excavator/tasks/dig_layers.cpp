@@ -28,6 +28,13 @@ constexpr double kFallen = 0.15;
 /// With so much of a full bucket the wall at the line's beginning falls in too.
 constexpr double kWallFalls = 0.55;
 
+/// What is weighed against what the edge has passed, of a bucket that is so far full; how far one
+/// such round is believed, and what is.
+constexpr double kTells = 0.6;
+constexpr double kBelieved = 0.4;
+constexpr double kYieldsLeast = 0.75;
+constexpr double kYieldsMost = 1.0;
+
 double share_of(int bin) { return (bin + 0.5) / kStripBins; }
 
 double bin_m2(const LayerPlan& plan) { return plan.way_m / kStripBins * plan.width_m; }
@@ -102,9 +109,9 @@ Cut cut_of(const LayerPlan& plan, const CutState& state, int strip) {
   const double highest = highest_m(tops);
   Cut cut;
   cut.strip = strip;
-  cut.thin = highest <= kLastLayer_m + kRough_m;
+  cut.thin = highest <= kThinMost_m;
   if (!cut.thin) {
-    const double room_m3 = kHeaped * plan.full_m3;
+    const double room_m3 = filling_m3(plan, state);
     cut.height_m = std::max({kLastLayer_m, filling_height_m(plan, tops, room_m3),
                              mean_m(plan, tops) - state.depth_m, highest - kBump * state.depth_m});
   }
@@ -199,8 +206,17 @@ void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state) {
   }
 }
 
+double filling_m3(const LayerPlan& plan, const CutState& state) {
+  return plan.full_m3 / state.yields;
+}
+
 void weigh_cut(const LayerPlan& plan, double weighed_m3, CutState& state) {
   const int strip = state.last_strip;
+  if (strip >= 0 && state.last_m3 > kTells * plan.full_m3) {
+    const double yields = weighed_m3 / state.last_m3;
+    state.yields =
+        std::clamp(state.yields + kBelieved * (yields - state.yields), kYieldsLeast, kYieldsMost);
+  }
   state.last_strip = -1;
   if (!state.met || strip < 0 || state.sweeps >= kSweepsMost || state.cuts >= kCutsMost ||
       weighed_m3 - state.last_m3 < kFallen * plan.full_m3) {

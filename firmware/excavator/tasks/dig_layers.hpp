@@ -62,6 +62,7 @@ struct CutState {
   std::uint8_t sweeps = 0;  ///< Of them, for what has fallen in.
   int last_strip = -1;      ///< Of the cut before; -1: there was none, or it was weighed.
   double last_m3 = 0.0;     ///< Of the ground, that its edge has passed.
+  double yields = 0.9;      ///< Of what the edge passes, so much comes to be carried away.
   bool swept = false;       ///< The cut is for what has fallen in.
   bool wall_falls = false;  ///< At the line's beginning: sweeps come from beyond it.
   bool met = true;          ///< Nothing is left that stands too high.
@@ -89,23 +90,27 @@ struct CutEnd {
 /// left. Cuts after one that was too heavy are less deep, after an easy one deeper.
 void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state);
 
-/// What the last cut has brought was weighed: more than its edge has passed. Soil has fallen in
-/// from beside it; its strip is cut once more, kSweepsMost times in all.
+/// What the last cut has brought was weighed. Less than its edge has passed: the next one takes
+/// more to fill the bucket. More: soil has fallen in from beside it; of a task that is through its
+/// strip is cut once more, kSweepsMost times in all.
 void weigh_cut(const LayerPlan& plan, double weighed_m3, CutState& state);
 
 /// Soil counts as left if it stands higher by so much over a cut; over the design itself; at its
 /// end, where soil piles up before the wall that stays; and in one place of a strip by this much
 /// more.
 inline constexpr double kRough_m = 0.03;
-inline constexpr double kFinish_m = 0.014;
+inline constexpr double kFinish_m = 0.018;
 inline constexpr double kEnd_m = 0.035;
 inline constexpr double kOnePlace_m = 0.008;
 /// The last cut keeps so much more where its bucket is still steep.
 inline constexpr double kSteepHigher_m = 0.006;
 /// The last layer's thickness: its force is small, and so is what the teeth spring by.
 inline constexpr double kLastLayer_m = 0.06;
-/// A bucket takes a little more than what fills it: some is lost on the way.
-inline constexpr double kHeaped = 1.05;
+/// What stands no higher is the last layer too: a bucket more for so little takes longer.
+inline constexpr double kThinMost_m = 0.13;
+/// Of the ground, that the edge has to pass until the bucket is full.
+[[nodiscard]] double filling_m3(const LayerPlan& plan, const CutState& state);
+
 inline constexpr int kTriesMost = 3;
 /// The same of the last layer, where a cut that got little has left what more of them would leave.
 inline constexpr int kThinTriesMost = 1;

@@ -70,11 +70,14 @@ void enter_on(const LayerCycle& cycle, const CutSeen& seen, TaskState& state) {
     return;
   }
   const LayerPlan& plan = cycle.program.layers;
-  const double heavy =
-      heaviness(force_share(plan, cut_line(cycle.program, state), seen, true), seen);
   const Cut& cut = layers.cuts.cut;
   const double target_m = wanted_height_m(cycle.program, layers);
   const double seen_m = seen_height_m(cycle.program, seen, state);
+  // Teeth that are off to a side, their platform still swinging, are held up by nothing.
+  CutSeen over = seen;
+  over.behind_m = std::max(0.0, seen_m - layers.height_m);
+  const double heavy =
+      heaviness(force_share(plan, cut_line(cycle.program, state), seen, true), over);
   const double springs = springs_m(plan, seen);
   const bool stops = heavy > 1.0 || kThrows * springs > seen_m + kSpringMost_m;
   const double over_m = std::max(0.0, layers.height_m - cut.stands_m - kSlowsFrom_m);

@@ -33,14 +33,46 @@ constexpr CutEnd kNothing{0.7, 0.0};
 void a_cut_fills_the_bucket(void**) {
   const LayerPlan whole = plan();
   const CutState state = undug(whole);
-  assert_near(state.cut.volume_m3, kHeaped * whole.full_m3, 1e-4);
-  assert_near(state.cut.height_m, 0.5 - kHeaped * 0.4 / 2.0, 1e-4);
+  assert_near(state.cut.volume_m3, filling_m3(whole, state), 1e-4);
+  assert_near(state.cut.height_m, 0.5 - 0.4 / 0.9 / 2.0, 1e-4);
   assert_near(state.cut.from_share, 0.0, 0.0);
   assert_true(state.cut.enters_m > 0.5);
   assert_false(state.met || state.cut.thin);
   LayerPlan large = plan();
   large.full_m3 = 4.0;
   assert_near(undug(large).cut.height_m, 0.5 - 0.35, 1e-6);
+}
+
+/// What is carried away is weighed against what the edge has passed.
+void a_bucket_that_came_back_half_empty_takes_more(void**) {
+  const LayerPlan whole = plan();
+  const auto filling_after = [&](double filled_m3, double weighed_m3) {
+    CutState state = undug(whole);
+    static_cast<void>(cut_through(whole, state.cut.height_m, state));
+    next_cut(whole, {0.7, filled_m3}, state);
+    weigh_cut(whole, weighed_m3, state);
+    return filling_m3(whole, state);
+  };
+  const double first_m3 = filling_m3(whole, undug(whole));
+  assert_true(filling_after(0.44, 0.33) > 1.05 * first_m3);
+  assert_true(filling_after(0.44, 0.44) < 0.97 * first_m3);
+  assert_near(filling_after(0.44, 0.0), 0.4 / 0.75, 1e-9);
+  // A little says nothing of a full one.
+  assert_near(filling_after(0.1, 0.0), first_m3, 1e-12);
+}
+
+/// What a last cut can take is not worth a bucket of its own.
+void a_thick_last_layer_is_the_last(void**) {
+  const LayerPlan whole = plan();
+  const auto after = [&](double left_m) {
+    CutState state = undug(whole);
+    static_cast<void>(cut_through(whole, left_m, state));
+    next_cut(whole, kEven, state);
+    return state.cut;
+  };
+  assert_true(after(0.12).thin);
+  assert_near(after(0.12).height_m, 0.0, 1e-12);
+  assert_false(after(0.15).thin);
 }
 
 /// A wall that was left at one end is taken with the rest, and no deeper than a cut may be.
@@ -96,15 +128,15 @@ void ends_where_next_to_nothing_is_left(void**) {
   CutState state = undug(whole);
   static_cast<void>(cut_through(whole, 0.0, state));
   auto& bins = state.height_m[0];
-  bins[12] = 0.018F;
+  bins[12] = 0.022F;
   next_cut(whole, kEven, state);
   assert_true(state.met);
-  bins[12] = 0.025F;
+  bins[12] = 0.030F;
   next_cut(whole, kEven, state);
   assert_false(state.met);
   assert_true(state.cut.thin && state.cut.from_share > 0.3 && state.cut.from_share < 0.5);
-  bins[12] = 0.018F;
-  bins[13] = 0.018F;
+  bins[12] = 0.022F;
+  bins[13] = 0.022F;
   next_cut(whole, kEven, state);
   assert_false(state.met);
 }
@@ -235,6 +267,8 @@ void ground_below_its_design_is_met(void**) {
 
 int main() {
   const CMUnitTest tests[] = {
+      cmocka_unit_test(a_bucket_that_came_back_half_empty_takes_more),
+      cmocka_unit_test(a_thick_last_layer_is_the_last),
       cmocka_unit_test(a_cut_fills_the_bucket),
       cmocka_unit_test(what_stands_out_is_part_of_the_next_cut),
       cmocka_unit_test(goes_down_cut_by_cut),

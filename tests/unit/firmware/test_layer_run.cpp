@@ -106,6 +106,23 @@ void soil_that_holds_the_edge_up_is_cut_from_there(void**) {
   assert_true(state.layers.give_m > 0.0);
 }
 
+/// A platform that still swings about its place is waited for, over the ground.
+void teeth_off_to_a_side_do_not_end_the_way_down(void**) {
+  const TaskProgram program = planned();
+  TaskState state = run_until(program, begun(program), [](const TaskState& at) {
+    return at.layers.phase == CutPhase::kEnters && at.layers.height_m < 0.7;
+  });
+  for (int n = 0; n < 300; ++n) {
+    CutSeen seen = follows(program, state);
+    seen.teeth.position_m.y() += 0.12;
+    seen.behind_m = 0.12;
+    state = advance(program, state, seen);
+    assert_int_equal(state.layers.phase, CutPhase::kEnters);
+  }
+  state = run_until(program, state, in_cut);
+  assert_near(state.layers.give_m, 0.0, 0.01);
+}
+
 /// Oil that is pressed lets off before the edge goes along: it would throw it down.
 void pressed_oil_lets_off_before_a_cut(void**) {
   const TaskProgram program = planned();
@@ -304,6 +321,7 @@ int main() {
       cmocka_unit_test(a_heavy_cut_gives_way_upwards),
       cmocka_unit_test(a_force_along_the_way_holds_nothing_up),
       cmocka_unit_test(soil_that_holds_the_edge_up_is_cut_from_there),
+      cmocka_unit_test(teeth_off_to_a_side_do_not_end_the_way_down),
       cmocka_unit_test(pressed_oil_lets_off_before_a_cut),
       cmocka_unit_test(a_pressed_heel_gives_way_too),
       cmocka_unit_test(a_last_cut_waits_for_teeth_that_sink),
