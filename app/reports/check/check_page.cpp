@@ -87,7 +87,7 @@ h2 { margin: 0 0 8px; font-size: 15px; }
 .sheet svg { display: block; width: 100%; height: auto; max-height: 78vh; }
 .left { text-align: left; }
 .warnings h2:only-child, .warnings.none h2 { margin: 0; }
-.facts { display: grid; grid-template-columns: repeat(auto-fit, minmax(470px, 1fr)); gap: 14px; }
+.facts { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(470px, 100%), 1fr)); gap: 14px; }
 section { padding: 14px 16px; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
 th, td { text-align: right; padding: 4px 8px; border-bottom: 1px solid var(--line); vertical-align: bottom; }
@@ -111,6 +111,7 @@ code { font: 13px ui-monospace, monospace; background: #fbf1dd; padding: 1px 5px
 .centre { fill: #fff; stroke: #c0392b; stroke-width: 2; }
 .path { fill: none; stroke: #c0392b; stroke-width: 2; stroke-dasharray: 6 4; }
 .dimension { stroke: var(--ink); fill: none; } .axis { stroke: var(--soft); stroke-dasharray: 8 3 2 3; fill: none; }
+@media (max-width: 600px) { main { padding: 16px 10px 32px; } }
 @media print { body { background: #fff; } main { padding: 0; } section, .sheet { break-inside: avoid; } }
 )";
 

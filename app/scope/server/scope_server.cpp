@@ -87,7 +87,7 @@ int on_frames(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::
 int on_look(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::size_t length) {
   switch (reason) {
     case LWS_CALLBACK_RECEIVE:
-      return FramesService::refuse_word(wsi);
+      return services_of(wsi).frames.refuse_word(wsi);
     case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
       return 0;  // on_frames wakes the pages of both
     default:

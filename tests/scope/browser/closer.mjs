@@ -215,6 +215,50 @@ async function saved() {
   return `${measured.length} frames, ${text.length} B of SVG, ${png.bytes.length} B of PNG`;
 }
 
+/// The button over the error leads to where it was greatest, as the log has it.
+async function worst_error() {
+  const page = await report();
+  const press = plot(page, 'error').locator('.greatest');
+  const [, size, at] = /^Greatest: ([\d.]+) mm at 0:([\d.]+)$/.exec(await until('it is told', async () =>
+    await press.isVisible() && press.innerText()));
+  await press.click();
+  const {now} = await look(page);
+  assert.ok(Math.abs(now - Number(at)) < 0.006, `${now} s, told ${at}`);
+  const {PathError} = await page.evaluate(() => window.grabenScope.values('EcuHydraulics'));
+  assert.ok(Math.abs(PathError - Number(size)) < 0.06, `${PathError} mm, told ${size}`);
+  // As `graben compare` has it, from the log alone.
+  const log = join(out, 'dig.log');
+  const said = execFileSync(graben, ['compare', log, log, '--out', join(out, 'same')], {encoding: 'utf8'});
+  const most = Number(/path error, largest +([\d.]+)/.exec(said)[1]);
+  assert.ok(Math.abs(most - Number(size)) < 0.06, `${most} and ${size} mm`);
+  clean(page);
+  return `${size} mm at ${at} s`;
+}
+
+/// A film's picture has all of its soil, the first one too.
+async function film_has_soil() {
+  const long = join(out, 'long');
+  execFileSync(graben, ['dig', '--loops', '8', '--out', long], {stdio: 'ignore'});
+  const server = await serve(graben, ['scope', '--port', '0', '--log', join(long, 'dig.log')]);
+  const page = await (await browser.newContext({reducedMotion: 'reduce'})).newPage();
+  // A slow machine: a look at the clock takes 0.2 ms, so that the soil comes late.
+  await page.addInitScript(() => {
+    const clock = performance.now.bind(performance);
+    let later_ms = 0;
+    performance.now = () => clock() + (later_ms += 0.2);
+  });
+  await page.goto(`${server.url}?film`);
+  await until('it is whole', () => page.evaluate(() => window.grabenFilm?.state() === 'ready'));
+  const said = await page.evaluate(async () => {
+    await window.grabenFilm.show(window.grabenFilm.extent()[1] - 1);
+    // The picture that is taken then is of the next frame.
+    await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+    return document.querySelector('.scene-host').innerText;
+  });
+  assert.ok(!said.includes('worked in'), said);
+  await server.stop();
+}
+
 async function axe_clean() {
   const found = [];
   let looks = 0;
@@ -241,7 +285,7 @@ async function axe_clean() {
   return `${looks} looks`;
 }
 
-const scenarios = {any_signal, over_each_other, bookmarks, links, saved, axe_clean};
+const scenarios = {any_signal, over_each_other, bookmarks, links, saved, worst_error, film_has_soil, axe_clean};
 const failed = await run_scenarios(join(out, 'failed'), browser, only === undefined ? scenarios
   : {[only]: scenarios[only]});
 await browser.close();
