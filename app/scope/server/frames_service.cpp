@@ -120,11 +120,15 @@ int FramesService::on_receive(lws* wsi, std::string_view content) {
   return 0;
 }
 
-int FramesService::refuse_word(lws* wsi) {
+void FramesService::on_closing(lws* wsi) {
   const auto found = clients_.find(wsi);
   if (found != clients_.end()) {
     found->second.is_closing = true;
   }
+}
+
+int FramesService::refuse_word(lws* wsi) {
+  on_closing(wsi);
   return say_close(wsi, LWS_CLOSE_STATUS_POLICY_VIOLATION, "this page only looks");
 }
 

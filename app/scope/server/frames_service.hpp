@@ -34,6 +34,8 @@ class FramesService {
   int on_receive(lws* wsi, std::string_view content);
   /// The end of a connection that only looks and has said something, whatever that was.
   int refuse_word(lws* wsi);
+  /// It ends, by its will or by ours: what the library says of that is the last word.
+  void on_closing(lws* wsi);
 
   /// There may be something to send to every page.
   void wake();

@@ -71,6 +71,9 @@ int on_frames(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::
     case LWS_CALLBACK_CLOSED:
       services_of(wsi).frames.on_close(wsi);
       return 0;
+    case LWS_CALLBACK_WS_PEER_INITIATED_CLOSE:
+      services_of(wsi).frames.on_closing(wsi);
+      return 0;
     case LWS_CALLBACK_SERVER_WRITEABLE:
       return services_of(wsi).frames.on_writeable(wsi);
     case LWS_CALLBACK_RECEIVE:

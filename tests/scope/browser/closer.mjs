@@ -235,30 +235,6 @@ async function worst_error() {
   return `${size} mm at ${at} s`;
 }
 
-/// A film's picture has all of its soil, the first one too.
-async function film_has_soil() {
-  const long = join(out, 'long');
-  execFileSync(graben, ['dig', '--loops', '8', '--out', long], {stdio: 'ignore'});
-  const server = await serve(graben, ['scope', '--port', '0', '--log', join(long, 'dig.log')]);
-  const page = await (await browser.newContext({reducedMotion: 'reduce'})).newPage();
-  // A slow machine: a look at the clock takes 0.2 ms, so that the soil comes late.
-  await page.addInitScript(() => {
-    const clock = performance.now.bind(performance);
-    let later_ms = 0;
-    performance.now = () => clock() + (later_ms += 0.2);
-  });
-  await page.goto(`${server.url}?film`);
-  await until('it is whole', () => page.evaluate(() => window.grabenFilm?.state() === 'ready'));
-  const said = await page.evaluate(async () => {
-    await window.grabenFilm.show(window.grabenFilm.extent()[1] - 1);
-    // The picture that is taken then is of the next frame.
-    await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
-    return document.querySelector('.scene-host').innerText;
-  });
-  assert.ok(!said.includes('worked in'), said);
-  await server.stop();
-}
-
 async function axe_clean() {
   const found = [];
   let looks = 0;
@@ -285,7 +261,7 @@ async function axe_clean() {
   return `${looks} looks`;
 }
 
-const scenarios = {any_signal, over_each_other, bookmarks, links, saved, worst_error, film_has_soil, axe_clean};
+const scenarios = {any_signal, over_each_other, bookmarks, links, saved, worst_error, axe_clean};
 const failed = await run_scenarios(join(out, 'failed'), browser, only === undefined ? scenarios
   : {[only]: scenarios[only]});
 await browser.close();

@@ -286,7 +286,7 @@ async function axes_have_units() {
   for (const name of ['dig', 'grade', 'autodig']) {
     await page.goto(url_of(name));
     await all_there(page);
-    for (const plot of await page.locator('.plot[data-name]:has(.plot-canvas)').all()) {
+    for (const plot of await page.locator('.plot:has([data-plot])').all()) {
       await plot.scrollIntoViewIfNeeded();
       const [title, unit] = await plot.evaluate((node) => [node.querySelector('h3').firstChild.textContent,
         node.querySelector('h3 .unit').textContent.replace(/^, /, '')]);
