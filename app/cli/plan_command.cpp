@@ -13,9 +13,11 @@
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
+#include "app/cli/output_file.hpp"
 #include "app/machines/planned_line.hpp"
 #include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/machines/task_file.hpp"
+#include "app/reports/figure/paper_figures.hpp"
 #include "app/reports/run_reports.hpp"
 #include "app/runs/plan_run.hpp"
 #include "app/scope/page/scope_page.hpp"
@@ -37,6 +39,7 @@ struct PlanCommand {
   double step_s = 0.05;
   std::string out = "out";
   bool table = false;
+  std::vector<std::string> figures;
 };
 
 TeethPose pose(const std::vector<double>& given, const TeethPose& otherwise) {
@@ -80,6 +83,15 @@ void tell(const PlanCommand& options, const std::vector<runs::PlanSample>& sampl
   write_text(out / "plan.csv", runs::plan_csv(samples));
   fmt::print("{}{}report  {}\n", options.table ? runs::plan_table(samples) + "\n" : "", summary,
              (out / "plan.html").string());
+}
+
+void draw_figures(const PlanCommand& options, const std::string& machine,
+                  const std::vector<runs::PlanSample>& samples) {
+  for (const std::string& name : options.figures) {
+    const fs::path file = fs::path(options.out) / (name + ".svg");
+    write_whole(file, reports::svg_text(reports::zhang_figure(name, machine, samples)));
+    fmt::print("figure  {}\n", file.string());
+  }
 }
 
 /// As `autodig` reads it, and refuses it.
@@ -128,6 +140,7 @@ void plan(const PlanCommand& options) {
                                          pose_text(request.from), pose_text(request.to)));
   reports::write_plan_json(out / "plan.json", profile, result, samples);
   tell(options, samples, runs::plan_summary(profile, request, result, samples));
+  draw_figures(options, machine.name, samples);
 }
 
 }  // namespace
@@ -173,8 +186,10 @@ void add_plan(CLI::App& app, int& status) {
       ->capture_default_str();
   command->add_flag("--table", options->table,
                     "Print displacement, velocity and acceleration of each drive over time");
-  add_examples(*command,
-               {"plan --from 5,0,0,1.2 --to 7,0,0,1.2 --speed 0.5", "plan --table --out out/line"});
+  add_figure_option(*command, options->figures, reports::zhang_figure_names());
+  command->get_option("--figure")->excludes(task);
+  add_examples(*command, {"plan --from 5,0,0,1.2 --to 6,0,0,1.2 --speed 0.5",
+                          "plan --table --out out/line", "plan --figure zhang5,zhang9"});
   command->callback([options, &status] { status = guarded("plan", [&] { plan(*options); }); });
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <cmath>
 
+#include "app/machines/imu_section.hpp"
 #include "app/reports/page_setup.hpp"
 #include "firmware/dozer/grade_profile.hpp"
 #include "firmware/excavator/field/dig_field.hpp"
@@ -25,6 +27,25 @@ json cylinder_json(const CylinderGeometry& cylinder) {
           {"rod_m", cylinder.rod_m},        {"closed_length_m", cylinder.closed_length_m},
           {"stroke_m", cylinder.stroke_m},  {"base_m", vector(cylinder.base_m)},
           {"eye_m", vector(cylinder.eye_m)}};
+}
+
+json imu_json(const ImuMount& mount) {
+  return {{"address", mount.address},
+          {"at_m", vector(mount.at_m)},
+          {"turn_rad", mount.turn_rad},
+          {"backwards", mount.backwards},
+          {"on_rocker", mount.on_rocker}};
+}
+
+/// The profile's, or those that a run tries in the place of stroke sensors.
+json imus_json(ExcavatorProfile profile) {
+  if (!profile.imu.known()) {
+    machines::fit_usual_imus(profile);
+  }
+  const std::array<ImuMount, kImuCount>& mount = profile.imu.mount;
+  return {{"boom", imu_json(mount[kBoom])},
+          {"arm", imu_json(mount[kArm])},
+          {"bucket", imu_json(mount[kBucket])}};
 }
 
 json path_json(const RoundedRectangle& path, const Eigen::Vector2d& foot_m) {
@@ -131,6 +152,7 @@ json machine_json(const machines::ExcavatorMachine& machine,
                        {"rocker_m", geometry.linkage.rocker_m},
                        {"coupler_m", geometry.linkage.coupler_m},
                        {"lug_m", vector(geometry.linkage.lug_m)}};
+  result["imus"] = imus_json(profile);
   result["dig"] = dig_json(profile);
   result["tasks"] = json::array();
   for (const machines::TaskFile& task : tasks) {

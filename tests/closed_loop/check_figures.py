@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`graben dig --figure`, `grade --figure`: the papers' figures of our runs are SVG with the curves that they should
+"""`graben dig --figure`, `grade --figure`, `plan --figure`: the papers' figures of our runs are SVG with the curves that they should
 have, and the numbers beside the paper's are the run's own.
 
 check_figures.py GRABEN
 """
 
+import csv
 import json
 import pathlib
 import re
@@ -16,7 +17,7 @@ import xml.etree.ElementTree as xml
 SVG = "{http://www.w3.org/2000/svg}"
 # Curves of each, in all its panels.
 CURVES = {"kim9": 3, "kim10": 2, "kim11": 1, "kim12": 3, "kim13": 6, "kim14": 2, "kim15": 3, "mononen7": 6,
-          "mononen8": 2, "mononen9": 6}
+          "mononen8": 2, "mononen9": 6, "zhang5": 2, "zhang6": 4, "zhang7": 1, "zhang8": 4, "zhang9": 4, "zhang10": 4}
 
 
 def call(graben, *words, status=0):
@@ -47,6 +48,32 @@ def figures(graben, folder, names, *words):
     return found, json.loads(summary.read_text())
 
 
+def planned(graben, folder):
+    """Zhang's line: the figures' numbers and curves are plan.csv's."""
+    names = [name for name in CURVES if name.startswith("zhang")]
+    call(graben, "plan", "--out", folder, "--figure", ",".join(names))
+    with open(folder / "plan.csv", encoding="ascii") as stream:
+        rows = list(csv.DictReader(stream))
+    found = {name: read(folder, name) for name in names}
+    numbers = found["zhang5"][1]
+    way_mm, time_s = (1e3 * float(rows[-1]["way_m"]), float(rows[-1]["time_s"]))
+    for what, paper, ours in (("displacement", 3746.4, way_mm), ("planning time", 18.4, time_s)):
+        assert one_in(numbers[what][0]) == paper and abs(one_in(numbers[what][1]) - ours) < 0.06, numbers[what]
+        # From J to K it is 3730.4 mm: the paper's own figure is 16 mm more.
+        assert abs(ours - paper) < 5e-3 * paper, f"{what}: {ours}, the paper has {paper}"
+    # The curve of the boom's velocity rises and falls as the table's does.
+    heights = [-y for _, y in found["zhang9"][0][0]]
+    table = [float(row["boom_mps"]) for row in rows]
+    for ends in (min, max):
+        places = [values.index(ends(values)) / len(values) for values in (heights, table)]
+        assert abs(places[0] - places[1]) < 0.1, places
+    for needle, status, *words in (("is of the paper's line", 1, "--from", "5,0,0,1.2", "--to", "6,0,0,1.2", "--speed", 0.5),
+                                   (": not with --", 2, "--task", "flatten"),
+                                   ("did you mean 'zhang5'?", 2, "--figure", "zhang50")):
+        said = call(graben, "plan", "--out", folder, "--figure", "zhang5", *words, status=status)
+        assert needle in said, said
+
+
 def one_in(text):
     return float(re.match(r"[-\d.]+", text)[0])
 
@@ -75,6 +102,7 @@ def main():
                                ("add --speed-mode constant", "grade", "--figure", "mononen9")):
             said = call(graben, *words, "--out", folder, status=1)
             assert needle in said, said
+        planned(graben, folder)
         said = call(graben, "dig", "--figure", "kim99", status=2)
         assert "did you mean 'kim9'?" in said, said
     print(f"{len(CURVES)} figures with their curves and the run's numbers")

@@ -87,10 +87,11 @@ h2 { margin: 0 0 8px; font-size: 15px; }
 .sheet svg { display: block; width: 100%; height: auto; max-height: 78vh; }
 .left { text-align: left; }
 .warnings h2:only-child, .warnings.none h2 { margin: 0; }
-.facts { display: grid; grid-template-columns: repeat(auto-fit, minmax(470px, 1fr)); gap: 14px; }
-section { padding: 14px 16px; }
+.facts { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(470px, 100%), 1fr)); gap: 14px; }
+section { padding: 14px 16px; min-width: 0; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
 th, td { text-align: right; padding: 4px 8px; border-bottom: 1px solid var(--line); vertical-align: bottom; }
+th, td { overflow-wrap: anywhere; } td:first-child { overflow-wrap: normal; }
 th { font-weight: 500; color: var(--soft); font-size: 13px; }
 th:first-child, td:first-child { text-align: left; padding-left: 0; }
 section p { margin: 8px 0 0; color: var(--soft); font-size: 13px; }
@@ -111,6 +112,11 @@ code { font: 13px ui-monospace, monospace; background: #fbf1dd; padding: 1px 5px
 .centre { fill: #fff; stroke: #c0392b; stroke-width: 2; }
 .path { fill: none; stroke: #c0392b; stroke-width: 2; stroke-dasharray: 6 4; }
 .dimension { stroke: var(--ink); fill: none; } .axis { stroke: var(--soft); stroke-dasharray: 8 3 2 3; fill: none; }
+@media (max-width: 1100px) { .facts { grid-template-columns: minmax(0, 1fr); } }
+@media (max-width: 600px) {
+  main { padding: 16px 10px 32px; } section { padding: 10px; }
+  table { font-size: 12px; } th { font-size: 11px; } th, td { padding: 3px 4px; }
+}
 @media print { body { background: #fff; } main { padding: 0; } section, .sheet { break-inside: avoid; } }
 )";
 

@@ -10,6 +10,7 @@
 #include "app/reports/figure/svg_figure.hpp"
 #include "app/runs/dig_run.hpp"
 #include "app/runs/grade_run.hpp"
+#include "app/runs/plan_run.hpp"
 
 namespace graben::reports {
 
@@ -32,5 +33,12 @@ namespace graben::reports {
                                          const machines::SimulatedDozer& machine,
                                          const runs::GradeResult& result,
                                          const runs::GradeSummary& summary);
+
+/// Zhang et al.: "zhang5" to "zhang10".
+[[nodiscard]] const std::vector<std::string>& zhang_figure_names();
+
+/// Of a plan from the paper's J to its K. Throws std::runtime_error where it is another line.
+[[nodiscard]] PaperFigure zhang_figure(const std::string& name, const std::string& machine,
+                                       const std::vector<runs::PlanSample>& samples);
 
 }  // namespace graben::reports

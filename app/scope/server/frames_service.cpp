@@ -13,7 +13,7 @@
 namespace graben::scope {
 namespace {
 
-int hang_up(lws* wsi, lws_close_status status, std::string_view why) {
+int say_close(lws* wsi, lws_close_status status, std::string_view why) {
   std::array<unsigned char, 64> words{};
   const std::size_t length = why.copy(reinterpret_cast<char*>(words.data()), words.size());
   lws_close_reason(wsi, status, words.data(), length);
@@ -60,7 +60,7 @@ int FramesService::on_upgrade(lws* wsi, std::string_view to) {
 
 int FramesService::on_open(lws* wsi) {
   if (clients_.size() >= kClientsMost) {
-    return hang_up(wsi, LWS_CLOSE_STATUS_POLICY_VIOLATION, "too many pages look already");
+    return say_close(wsi, LWS_CLOSE_STATUS_POLICY_VIOLATION, "too many pages look already");
   }
   if (const int most = show_.send_buffer_bytes(); most > 0) {
     // What cannot be set stays as the kernel has it: the page would only lag more.
@@ -76,6 +76,9 @@ int FramesService::on_writeable(lws* wsi) {
   const auto found = clients_.find(wsi);
   if (found == clients_.end()) {
     return -1;
+  }
+  if (found->second.is_closing) {
+    return 0;  // Nothing comes after a close, which the library sends.
   }
   // Room for what the library puts before it.
   buffer_.assign(LWS_PRE, '\0');
@@ -100,11 +103,15 @@ int FramesService::on_receive(lws* wsi, std::string_view content) {
     return -1;
   }
   const bool is_last = lws_is_final_fragment(wsi) != 0 && lws_remaining_packet_payload(wsi) == 0;
+  const auto hang_up = [&](lws_close_status status, std::string_view why) {
+    found->second.is_closing = true;
+    return say_close(wsi, status, why);
+  };
   switch (found->second.client.receive({content, lws_frame_is_binary(wsi) != 0, is_last})) {
     case Received::kBinary:
-      return hang_up(wsi, LWS_CLOSE_STATUS_UNACCEPTABLE_OPCODE, "only JSON, as text");
+      return hang_up(LWS_CLOSE_STATUS_UNACCEPTABLE_OPCODE, "only JSON, as text");
     case Received::kTooLong:
-      return hang_up(wsi, LWS_CLOSE_STATUS_MESSAGE_TOO_LARGE, "4096 bytes are the most");
+      return hang_up(LWS_CLOSE_STATUS_MESSAGE_TOO_LARGE, "4096 bytes are the most");
     case Received::kTaken:
       break;
   }
@@ -113,8 +120,16 @@ int FramesService::on_receive(lws* wsi, std::string_view content) {
   return 0;
 }
 
+void FramesService::on_closing(lws* wsi) {
+  const auto found = clients_.find(wsi);
+  if (found != clients_.end()) {
+    found->second.is_closing = true;
+  }
+}
+
 int FramesService::refuse_word(lws* wsi) {
-  return hang_up(wsi, LWS_CLOSE_STATUS_POLICY_VIOLATION, "this page only looks");
+  on_closing(wsi);
+  return say_close(wsi, LWS_CLOSE_STATUS_POLICY_VIOLATION, "this page only looks");
 }
 
 /// Reads on, or lets the sender wait, as the client's budget has it.

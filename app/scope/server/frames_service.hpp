@@ -33,7 +33,9 @@ class FramesService {
   int on_writeable(lws* wsi);
   int on_receive(lws* wsi, std::string_view content);
   /// The end of a connection that only looks and has said something, whatever that was.
-  static int refuse_word(lws* wsi);
+  int refuse_word(lws* wsi);
+  /// It ends, by its will or by ours: what the library says of that is the last word.
+  void on_closing(lws* wsi);
 
   /// There may be something to send to every page.
   void wake();
@@ -44,6 +46,7 @@ class FramesService {
   struct Connection {
     Client client;
     bool is_heard = true;
+    bool is_closing = false;  ///< It was told so, and is sent no more.
   };
 
   [[nodiscard]] const char* refusal(lws* wsi, unsigned& status) const;

@@ -71,6 +71,9 @@ int on_frames(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::
     case LWS_CALLBACK_CLOSED:
       services_of(wsi).frames.on_close(wsi);
       return 0;
+    case LWS_CALLBACK_WS_PEER_INITIATED_CLOSE:
+      services_of(wsi).frames.on_closing(wsi);
+      return 0;
     case LWS_CALLBACK_SERVER_WRITEABLE:
       return services_of(wsi).frames.on_writeable(wsi);
     case LWS_CALLBACK_RECEIVE:
@@ -87,7 +90,7 @@ int on_frames(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::
 int on_look(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::size_t length) {
   switch (reason) {
     case LWS_CALLBACK_RECEIVE:
-      return FramesService::refuse_word(wsi);
+      return services_of(wsi).frames.refuse_word(wsi);
     case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
       return 0;  // on_frames wakes the pages of both
     default:

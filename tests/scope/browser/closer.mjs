@@ -215,6 +215,26 @@ async function saved() {
   return `${measured.length} frames, ${text.length} B of SVG, ${png.bytes.length} B of PNG`;
 }
 
+/// The button over the error leads to where it was greatest, as the log has it.
+async function worst_error() {
+  const page = await report();
+  const press = plot(page, 'error').locator('.greatest');
+  const [, size, at] = /^Greatest: ([\d.]+) mm at 0:([\d.]+)$/.exec(await until('it is told', async () =>
+    await press.isVisible() && press.innerText()));
+  await press.click();
+  const {now} = await look(page);
+  assert.ok(Math.abs(now - Number(at)) < 0.006, `${now} s, told ${at}`);
+  const {PathError} = await page.evaluate(() => window.grabenScope.values('EcuHydraulics'));
+  assert.ok(Math.abs(PathError - Number(size)) < 0.06, `${PathError} mm, told ${size}`);
+  // As `graben compare` has it, from the log alone.
+  const log = join(out, 'dig.log');
+  const said = execFileSync(graben, ['compare', log, log, '--out', join(out, 'same')], {encoding: 'utf8'});
+  const most = Number(/path error, largest +([\d.]+)/.exec(said)[1]);
+  assert.ok(Math.abs(most - Number(size)) < 0.06, `${most} and ${size} mm`);
+  clean(page);
+  return `${size} mm at ${at} s`;
+}
+
 async function axe_clean() {
   const found = [];
   let looks = 0;
@@ -241,7 +261,7 @@ async function axe_clean() {
   return `${looks} looks`;
 }
 
-const scenarios = {any_signal, over_each_other, bookmarks, links, saved, axe_clean};
+const scenarios = {any_signal, over_each_other, bookmarks, links, saved, worst_error, axe_clean};
 const failed = await run_scenarios(join(out, 'failed'), browser, only === undefined ? scenarios
   : {[only]: scenarios[only]});
 await browser.close();

@@ -72,15 +72,13 @@ async function server_refuses_it() {
     socket.onclose = (event) => done(event.code);
     setTimeout(() => done(0), wait_ms);
   }), [protocol, patience_ms]);
-  // Without a word where what is on its way leaves no room for one.
-  assert.ok([1006, 1008].includes(await say('graben-look', 30_000)), 'it is not closed');
+  assert.equal(await say('graben-look', 30_000), 1008, 'it is not closed with a word');
   await rest(500);
   assert.equal((await seen(page)).mode, 'Active', 'a page that only looks stopped the machine');
   // The same words of a page that may speak stop it.
   assert.equal(await say('graben-scope', 2000), 0);
   await page.waitForFunction(() => window.grabenOperator.mode() !== 'Active');
-  // What was on its way still comes after the close, of which the browser complains.
-  assert.deepEqual(page.problems.filter((words) => !words.includes('received after close')), []);
+  clean(page);
   await server.stop();
 }
 
@@ -121,7 +119,20 @@ async function digits_are_true() {
   return `within ${worst.toFixed(1)} mm of the grade error, ${off.toFixed(1)} mm of the path error`;
 }
 
-/// A log and a live machine of either kind, on the largest screen: 30 pictures a second.
+/// Pictures in each of nine seconds, sorted; once more where others held the processor for most of them.
+async function median_second(page) {
+  for (let attempt = 1; ; ++attempt) {
+    const rates = [];
+    while (rates.length < 9) {
+      await rest(1000);
+      rates.push((await seen(page)).fps);
+    }
+    rates.sort((a, b) => a - b);
+    if (rates[4] >= 30 || attempt === 3) return rates;
+  }
+}
+
+/// A log and a live machine of either kind, on the largest screen: 30 pictures in the median second.
 async function pictures_a_second() {
   const said = [];
   const sources = [['--sim', 'dig'], ['--sim', 'grade'], ['--sim', 'autodig'],
@@ -130,15 +141,9 @@ async function pictures_a_second() {
     const server = await scope(...source);
     const page = await open_page(browser, view(server));
     await active(page);
-    // Others may hold the processor for some of the seconds.
-    const rates = [];
-    while (rates.length < 5 || (rates.at(-1) < 30 && rates.length < 30)) {
-      await rest(1000);
-      rates.push((await seen(page)).fps);
-      rates.sort((a, b) => a - b);
-    }
-    said.push(`${source.join(' ').replace(out, '').replace('/', '')} ${rates[2]} to ${rates.at(-1)}`);
-    assert.ok(rates.at(-1) >= 30, `${source.join(' ')}: ${rates} pictures a second`);
+    const rates = await median_second(page);
+    said.push(`${source.join(' ').replace(out, '').replace('/', '')} ${rates[4]} (${rates[0]} to ${rates[8]})`);
+    assert.ok(rates[4] >= 30, `${source.join(' ')}: ${rates} pictures a second`);
     // They are pictures of other moments.
     const before = await seen(page);
     await rest(300);
@@ -147,7 +152,7 @@ async function pictures_a_second() {
     await page.context().close();
     await server.stop();
   }
-  return `pictures a second: ${said.join(', ')}`;
+  return `pictures a second, median (least to most): ${said.join(', ')}`;
 }
 
 /// Digits as high as a third of the screen, upright as wide as it, and all of it in sight.
@@ -266,6 +271,31 @@ async function axe_clean() {
       await context.close();
     }
     await server.stop();
+  }
+  // With a fault, and with what is old greyed.
+  for (const colorScheme of ['light', 'dark']) {
+    const server = await scope('--sim', 'dig');
+    const other = await open_page(browser, server.url);
+    const context = await browser.newContext({colorScheme, bypassCSP: true});
+    const page = await context.newPage();
+    await page.goto(view(server));
+    await active(page);
+    await other.locator('[data-fault="stroke-silent"]').click();
+    const shows = (words) => page.waitForFunction((begin) =>
+      document.querySelector('.state-word').textContent.startsWith(begin), words);
+    for (const state of ['Fault', 'No server']) {
+      if (state === 'No server') await server.stop();
+      await shows(state);
+      for (const [width, height] of SIZES) {
+        await page.setViewportSize({width, height});
+        await rest(300);
+        found.push(...(await axe(page)).map((words) => `${state} ${width} ${colorScheme}: ${words}`));
+        await page.screenshot({path: join(out, `${state.replace(' ', '_')}_${colorScheme}_${width}.png`)});
+        ++looks;
+      }
+    }
+    await context.close();
+    await other.context().close();
   }
   assert.deepEqual(found, [], found.join('\n'));
   return `${looks} looks`;

@@ -120,7 +120,7 @@ export function start(root: HTMLElement): void {
   requestAnimationFrame(frame);
   tell_tests(state, scene, rate);
   if (is_film(location.search)) {
-    offer_film(state, () => {
+    offer_film(state, scene, () => {
       panel_ms = -Infinity;
     });
   }

@@ -67,7 +67,8 @@ export class State implements PageState, FeedEvents {
   }
 
   messages(): readonly MessageState[] {
-    const states = messageStates(this.store, this.playhead.now_s);
+    const states = messageStates(this.store, this.playhead.now_s)
+      .filter(({message}) => !this.store.is_estimate(message.name));
     return this.is_gone ? states.map((one) => ({...one, stale: true,
       integrity: 'silent' as const})) : states;
   }

@@ -84,6 +84,8 @@ test('a report opens before its first fault, or before what held it most', () =>
     + status(6, 3, 0, 3, 0.8) + status(7, 3, 0, 2, 0.6) + status(8, 3, 0, 3, 0.9);
   assert.equal(moment(run), 5.5);
   assert.equal(moment(run + status(9, 5, 21)), 7.5);
+  // Not before the controller was ready, however early it is held.
+  assert.equal(moment(stroke(0) + status(0, 0, 1) + status(0.5, 1, 0) + status(1, 3, 0, 3, 0.9)), 0.5);
   assert.equal(moment(stroke(0) + status(0, 1, 0) + status(4, 3, 0, 0, 1) + status(5, 3, 0, 0, 1)), 2.5);
 });
 

@@ -71,10 +71,20 @@ export interface ExcavatorMachine extends AnyMachine {
     lug_m: Vector2;  ///< Bucket frame.
   };
   has_swing: boolean;
+  imus?: {boom: Imu; arm: Imu; bucket: Imu};  ///< The profile's, or where an IMU usually is.
   pumps: number;
   relief_pa: number;
   dig: Dig;
   tasks: readonly Task[];  ///< By the number that TaskStatus has.
+}
+
+/// A sensor of a link, for where its frames stand in a stroke's place.
+export interface Imu {
+  address: number;     ///< J1939 source address.
+  at_m: Vector2;       ///< Frame of its link, or of the rocker, from its pin.
+  turn_rad: number;    ///< Of its long axis against x of that frame.
+  backwards: boolean;
+  on_rocker: boolean;
 }
 
 /// The closed path of the digging task, and the contour field around it.
@@ -282,6 +292,8 @@ export interface FrameStore {
   curve(signal: string, from_s: number, until_s: number, buckets: number): Curve;
   /// Every frame's bits in the second before, over the bitrate.
   bus_load(time_s: number, bitrate: number): number;
+  /// Whether a message is none of the bus: what the page made of the IMUs' frames.
+  is_estimate(message: string): boolean;
   /// Times at which a fault begins, as EcuStatus has it, with its number.
   faults(): readonly {time_s: number; code: number}[];
   /// When the controller was first anything but Silent; Infinity: not yet. What it reports before

@@ -7,12 +7,15 @@ import type {
 import {bits_in_second} from './bus_load';
 import {EMPTY, make_curve} from './curve';
 import {loadDatabase, type SignalLayout} from './dbc';
+import {ImuEstimate} from './imu_frames';
 import {EXTENDED, type FrameBlock, type ParseCount} from './frame_block';
 import {Series} from './series';
 
 /// Messages that only one kind of machine has.
 const OWN_MESSAGE: readonly (readonly [Kind, string])[] =
   [['excavator', 'BoomStroke'], ['dozer', 'BladeStroke']];
+/// What IMUs may stand in for.
+const STROKES = ['BoomStroke', 'ArmStroke', 'BucketStroke'];
 /// What a live bus is remembered of unless told.
 export const LIVE_KEEP_S = 600;
 /// Trimmed so rarely that it costs nothing.
@@ -35,6 +38,8 @@ export class PageStore implements FrameStore {
   private readonly series = new Map<number, Series>();
   private readonly signals = new Map<string, {def: SignalLayout; series: Series | null}>();
   private readonly curves = new Map<string, {key: string; curve: Curve}>();
+  private estimate: ImuEstimate | null = null;
+  private readonly estimated = new Map<string, Series>();
   private found_faults: {time_s: number; code: number}[] = [];
   private faults_read = 0;  ///< Of the frames ever seen of EcuStatus.
   private last_fault = 0;
@@ -72,6 +77,7 @@ export class PageStore implements FrameStore {
       this.newest_s = Math.max(this.newest_s, time_s[rows - 1]);
     }
     this.known ??= this.tell_database();
+    this.estimate_strokes();
     this.read_faults();
     if (this.newest_s - this.oldest_s > this.keep_s + TRIM_EVERY_S) {
       this.trim(this.keep_s);
@@ -83,6 +89,8 @@ export class PageStore implements FrameStore {
     this.series.clear();
     this.signals.clear();
     this.curves.clear();
+    this.estimate = null;
+    this.estimated.clear();
     this.found_faults = [];
     this.faults_read = 0;
     this.last_fault = 0;
@@ -100,12 +108,14 @@ export class PageStore implements FrameStore {
     if (!(before_s > this.oldest_s)) {
       return;
     }
-    for (const series of this.series.values()) {
+    for (const series of [...this.series.values(), ...this.estimated.values()]) {
       series.drop_before(before_s);
     }
     this.oldest_s = before_s;
     ++this.changes;
   }
+
+  is_estimate(message: string): boolean { return this.estimated.has(message); }
 
   rows(message: string): Rows {
     const def = this.known?.messages.get(message);
@@ -187,7 +197,7 @@ export class PageStore implements FrameStore {
   }
 
   private series_of(message: MessageDef): Series | null {
-    return this.series.get(16 * (message.id + EXTENDED) + 8) ?? null;
+    return this.series.get(16 * (message.id + EXTENDED) + 8) ?? this.estimated.get(message.name) ?? null;
   }
 
   private def_of(series: Series): MessageDef | null {
@@ -208,6 +218,30 @@ export class PageStore implements FrameStore {
       this.signals.set(path, found);
     }
     return found ?? null;
+  }
+
+  /// Of a machine that the frames name, and that has sent no stroke.
+  private estimate_strokes(): void {
+    if (this.known?.kind !== 'excavator') {
+      return;
+    }
+    const {messages} = this.known;
+    const defs = STROKES.map((name) => messages.get(name)!);
+    if (this.estimate === null) {
+      const hash = this.identity('ProfileHash');
+      const machine = this.machines.find((one) => one.hash === hash);
+      if (machine?.kind !== 'excavator' || defs.some((def) => this.series_of(def) !== null)) {
+        return;
+      }
+      this.estimate = new ImuEstimate(machine);
+    }
+    const into = STROKES.map((name, k) => this.estimated.get(name)
+      ?? new Series(defs[k].id + EXTENDED, 8));
+    this.estimate.go_on(this.series.values(), defs, into);
+    if (this.estimated.size === 0 && into[0].count > 0) {
+      STROKES.forEach((name, k) => this.estimated.set(name, into[k]));
+      this.signals.clear();
+    }
   }
 
   private tell_database(): Database | null {

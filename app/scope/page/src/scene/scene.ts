@@ -45,6 +45,7 @@ class DrawnScene implements SceneView {
   private view: SceneUpdate | null = null;
   private shown = {now_s: NaN, revision: -1, until_s: -Infinity, drives: null as unknown};
   private request = 0;
+  private behind_s = 0;
   private width = 1;
   private height = 1;
 
@@ -174,6 +175,10 @@ class DrawnScene implements SceneView {
     return [(0.5 + 0.5 * at.x) * this.width, (0.5 - 0.5 * at.y) * this.height];
   }
 
+  settled(): boolean {
+    return this.request === 0 && this.behind_s === 0;
+  }
+
   private readonly draw_soon = (): void => {
     this.request ||= requestAnimationFrame(() => {
       this.request = 0;
@@ -182,8 +187,10 @@ class DrawnScene implements SceneView {
   };
 
   private draw(): void {
+    this.behind_s = 0;
     if (this.stage && this.view && this.fits(this.view.store)) {
       const {behind_s} = this.stage.ground.update(this.view.store, this.view.now_s);
+      this.behind_s = behind_s;
       this.note.textContent =
         behind_s > 1 ? `Soil: ${Math.ceil(behind_s)} s of frames still to be worked in` : '';
       if (behind_s > 0) {

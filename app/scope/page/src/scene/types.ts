@@ -35,6 +35,8 @@ export interface SceneView {
   tip(): Vector3 | null;
   /// The same in CSS pixels from the host's upper left corner.
   tipOnScreen(): Vector2 | null;
+  /// Whether the picture is drawn, with all frames until its moment worked into the soil.
+  settled(): boolean;
   dispose(): void;
 }
 

@@ -36,7 +36,9 @@ export function telling_moment(store: FrameStore): number | null {
     }
   }
   const moment_s = found_s ?? active_s;
-  return moment_s === null ? null : Math.max(first_s, moment_s - BEFORE_S);
+  // Before it was first ready a controller says what is missing, which looks like a fault.
+  return moment_s === null ? null
+    : Math.max(first_s, Math.min(moment_s, store.ready_s), moment_s - BEFORE_S);
 }
 
 /// Just before the machine first moves; null where it never does.

@@ -52,6 +52,9 @@ export class HealthPanel implements View {
   readonly node: HTMLElement;
   private readonly facts: Fact[];
   private readonly page = el('dd');
+  private readonly estimate = el('p', {class: 'note'}, 'No frame tells a stroke. The machine is drawn by what this '
+    + "page makes of the IMUs' frames: some centimetres off at the teeth. The controller's own angles are better, and "
+    + 'not on the bus.');
 
   constructor() {
     const list = el('dl', {class: 'facts'});
@@ -62,13 +65,14 @@ export class HealthPanel implements View {
       return {row, value, signal, words, wrong};
     });
     list.append(el('div', {}, el('dt', {}, 'DBC version of this page'), this.page));
-    this.node = section('health', 'Health and identity', list);
+    this.node = section('health', 'Health and identity', list, this.estimate);
   }
 
   update(state: PageState): void {
     const {store, playhead} = state;
     set_shown(this.node, state.setup?.source.mode !== 'plan');
     const database = store.database;
+    set_shown(this.estimate, store.is_estimate('BoomStroke'));
     set_text(this.page, database === null ? '–' : `${database.version} (${database.kind})`);
     for (const {row, value, signal, words, wrong} of this.facts) {
       const known = database?.messages.has(signal.split('.')[0]!) ?? false;

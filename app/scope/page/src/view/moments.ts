@@ -24,6 +24,9 @@ export class Moments implements View {
   private bookmarks: Bookmark[] = bookmarks_of(location.hash);
   private opened: unknown = null;
   private written = location.hash;
+  /// The address that somebody gave, until it has been followed: what the page itself writes there
+  /// is no wish.
+  private asked = location.hash;
   private changed = true;
 
   constructor(private readonly state: PageState) {
@@ -45,22 +48,22 @@ export class Moments implements View {
 
   /// Whether the address tells where the source is looked at; once all of it is there, it is.
   opens(state: PageState): boolean {
-    const moment = moment_of(this.written);
-    if (moment === null || state.setup === null || this.opened === state.setup) {
+    if (moment_of(this.asked) === null || state.setup === null) {
       return this.opened !== null && this.opened === state.setup;
     }
     const {from_s, until_s} = state.extent;
     if (state.loaded_share === 1 && until_s > from_s) {
       this.opened = state.setup;
-      this.look(this.written);
+      this.look(this.asked);
+      this.asked = '';
     }
     return true;
   }
 
   update(state: PageState): void {
     const {playhead} = state;
-    const told = this.opened === state.setup || moment_of(this.written) === null;
-    if (told && state.loaded_share === 1 && !playhead.playing && !playhead.follow) {
+    const followed = moment_of(this.asked) === null;
+    if (followed && state.loaded_share === 1 && !playhead.playing && !playhead.follow) {
       this.write();
     }
     if (this.changed) {
@@ -73,9 +76,9 @@ export class Moments implements View {
   private follow(): void {
     if (location.hash !== this.written && moment_of(location.hash) !== null) {
       this.written = location.hash;
+      this.asked = location.hash;
       this.bookmarks = bookmarks_of(location.hash);
       this.changed = true;
-      this.look(location.hash);
     }
   }
 

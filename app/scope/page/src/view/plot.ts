@@ -2,11 +2,12 @@
 /// One plot: uPlot with the page's theme, the playhead's line, a legend with values.
 
 import uPlot from 'uplot';
-import type {FrameStore} from '../model/api';
+import type {Curve, FrameStore} from '../model/api';
 import {on_processor} from './cpu_canvas';
 import {align} from './curves';
 import {el} from './dom';
 import {digits_of, fixed, time_words, unit_words} from './format';
+import {Greatest, greatest_of} from './greatest';
 import {Legend} from './legend';
 import type {LimitStrip} from './limit_strip';
 import {DASHES, WIDTHS} from './line_styles';
@@ -42,6 +43,7 @@ export class Plot {
   drawn_ms = 0;
   private readonly plot: uPlot;
   private readonly legend: Legend;
+  private readonly greatest: Greatest;
   private readonly playhead_line = el('div', {class: 'playhead-line'});
   private window: readonly [number, number] = [0, 1];
   private store: FrameStore | null = null;
@@ -53,6 +55,7 @@ export class Plot {
   ) {
     this.legend = new Legend(spec, (line, shown) => this.plot.setSeries(line + 1, {show: shown}),
       (signal) => host.take_out(signal, spec.name));
+    this.greatest = new Greatest((time_s) => host.seek(time_s));
     const canvas = el('div', {
       class: 'plot-canvas', tabindex: 0, role: 'group', 'data-plot': spec.name,
       'aria-label': `Plot: ${spec.title}. Arrows move the cursor, plus and minus zoom, 0 whole.`,
@@ -60,7 +63,7 @@ export class Plot {
     const unit = spec.unit === '' ? '' : `, ${unit_words(spec.unit)}`;
     this.node = el('figure', {class: 'plot', 'data-name': spec.name},
       el('figcaption', {},
-        el('h3', {}, spec.title, el('span', {class: 'unit'}, unit)),
+        el('h3', {}, spec.title, el('span', {class: 'unit'}, unit)), this.greatest.node,
         el('p', {class: 'note'}, spec.note), save_menu(spec.title, (kind) => this.save(kind))),
       this.legend.node, canvas, strip?.key ?? null);
     this.plot = on_processor(() =>
@@ -90,6 +93,7 @@ export class Plot {
     const buckets = Math.max(50, Math.round(pixels / PIXELS_PER_BUCKET));
     const shown = this.spec.lines.filter((_, line) => this.legend.shown(line));
     const curves = shown.map(({trace}) => trace.curve(store, from_s, until_s, buckets));
+    this.tell_greatest(curves);
     this.strip?.sample(store, from_s, until_s, Math.round(pixels));
     const columns = align(curves, this.host.origin_s());
     const data: uPlot.AlignedData = [columns[0]];
@@ -103,6 +107,16 @@ export class Plot {
       this.plot.setScale('x', {min: from_s - origin_s, max: until_s - origin_s});
     });
     this.dirty = false;
+  }
+
+  /// Of the plot's own line; where that is out of the picture, of none.
+  private tell_greatest([curve]: readonly Curve[]): void {
+    const {arrived, unit, lines} = this.spec;
+    if (arrived !== undefined) {
+      const there = curve !== undefined && this.legend.shown(0);
+      this.greatest.show(there ? greatest_of(curve, this.window, arrived) : null, unit,
+        lines[0]!.digits, this.host.origin_s());
+    }
   }
 
   /// Where the page looks, and where the pointer is, on whichever plot.

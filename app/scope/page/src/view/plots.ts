@@ -28,6 +28,8 @@ export interface PlotSpec {
   strip?: boolean;  ///< With the limits as a coloured strip below.
   /// So far the vertical axis is straight, beyond it goes by powers of ten.
   straight_to?: number;
+  /// An error: where it was greatest is told; it is one of the path's from once below this on.
+  arrived?: number;
 }
 
 const DRIVES = [
@@ -64,6 +66,9 @@ function velocities(kind: Kind, label: string, colour: string): Line[] {
   ];
 }
 
+/// As `graben compare` has it.
+const ARRIVED_MM = 20;
+
 const LAMBDA: PlotSpec = {
   name: 'lambda', title: 'Lambda and what holds it', unit: '',
   note: 'Share of the wanted velocity that is followed',
@@ -85,7 +90,7 @@ function excavator_plots(count: number, came: ReadonlySet<string>): PlotSpec[] {
       real('Swing', 'swing', 'SwingValveState.SwingSpool', 0));
   }
   const plots: PlotSpec[] = [LAMBDA, {
-    name: 'error', title: 'Path error', unit: 'mm', least: [0, 5], straight_to: 10,
+    name: 'error', title: 'Path error', unit: 'mm', least: [0, 5], straight_to: 10, arrived: ARRIVED_MM,
     note: 'Measured tip from the path; axis straight to 10 mm',
     lines: [real('Path error', 'error', 'EcuHydraulics.PathError', 1)],
   }, {
@@ -164,7 +169,7 @@ function chambers(has_swing: boolean): Line[] {
 function dozer_plots(): PlotSpec[] {
   const sides = ['Left', 'Right'] as const;
   return [LAMBDA, {
-    name: 'error', title: 'Grade error', unit: 'mm', least: [-5, 5], straight_to: 10,
+    name: 'error', title: 'Grade error', unit: 'mm', least: [-5, 5], straight_to: 10, arrived: ARRIVED_MM,
     note: 'Edge against the grade, above is positive; axis straight to 10 mm',
     lines: [real('Grade error', 'error', 'EcuGrade.GradeError', 1)],
   }, {

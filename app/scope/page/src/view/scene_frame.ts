@@ -61,6 +61,10 @@ export class SceneFrame {
     return this.view.tip();
   }
 
+  settled(): boolean {
+    return this.view.settled();
+  }
+
   tipOnScreen(): readonly [number, number] | null {
     return this.view.tipOnScreen();
   }
