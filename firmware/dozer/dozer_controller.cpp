@@ -113,7 +113,8 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
   const Eigen::Vector3d edge_m = edge_in_world_m(setup_.blade, now.body, now.angle_rad);
   const Stand stand{now.body.position_m.z(), now.pitch_rad};
   memory_.in_pass = {edge_m.x(), grade_error_m(setup_.design, edge_m.x(), edge_m.z()),
-                     grade_error_m(design_, edge_m.x(), edge_m.z()), valid.velocity_mps};
+                     valid.velocity_mps, memory_.load.push_n / profile_.travel.push_max_n,
+                     memory_.load.lift_m};
   const PassState pass = next_pass(profile_.grade, memory_.pass, memory_.in_pass, period_s);
   if (pass.pass != memory_.pass.pass) {
     ground_.turn_back(edge_m.x());
