@@ -143,7 +143,7 @@ void add_ground_options(CLI::App& command, runs::GradeScenario& scenario) {
       .add_option(
           "--pass-depth", scenario.pass_depth_m,
           "What the first pass cuts at most, m, 0.02 .. 10; the profile's unless told, in a "
-          "soil no more than 0.12. The next ones go as deep as the force allows")
+          "soil no more than 0.08. The next ones go as deep as the force allows")
       ->check(number_between(0.02, 10.0));
 }
 

@@ -123,9 +123,10 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
   memory_.pass = pass;
   ground_.pass(edge_m.x(), edge_m.z(), design_, now.body.position_m.x(), stand.height_m,
                std::tan(stand.pitch_rad));
-  preview_.look(
-      ground_, design_, memory_.position.position_m + latency_s * valid.velocity_mps, stand,
-      profile_.travel.flow_share * available_flow_m3ps(profile_.implement, valid.engine_radps));
+  preview_.look(ground_, design_, memory_.position.position_m + latency_s * valid.velocity_mps,
+                stand,
+                planned_share(profile_.travel, memory_.load) *
+                    available_flow_m3ps(profile_.implement, valid.engine_radps));
 }
 
 BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,

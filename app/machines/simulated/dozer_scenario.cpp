@@ -17,7 +17,7 @@ namespace {
 constexpr double kFill_m = 0.02;
 
 /// In a soil of which nobody knows how hard it is: what a first pass tries.
-constexpr double kFirstPass_m = 0.12;
+constexpr double kFirstPass_m = 0.08;
 
 /// A file has 900 rpm with two decimals of a rad/s.
 constexpr double kRounding_radps = 0.01;
