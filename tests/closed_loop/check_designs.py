@@ -201,6 +201,18 @@ def random_designs(graben, folder):
             assert float(row["max_error_true_m"]) < 0.016, row
 
 
+def ground_that_resists(graben, folder):
+    """The first two cells: a trench with walls of 1 m in sand and in loam, at 1000 rpm."""
+    summary = os.path.join(folder, "ground.csv")
+    done = subprocess.run([graben, "campaign", "ground", "--draws", "2", "--summary", summary, "--jobs", "1"],
+                          capture_output=True, text=True, timeout=280)
+    print(done.stdout)
+    assert done.returncode == 0, done.stdout + done.stderr
+    for soil in ("sand", "loam"):
+        row = re.search(rf"(?m)^trench, walls of 1 m +{soil} +1 +0 +([\d.]+) +([\d.]+) +([\d.]+) ", done.stdout)
+        assert row and 0.1 < float(row[1]) < 25.0 and 0.1 < float(row[3]) < 25.0, done.stdout
+
+
 def main():
     graben, machines = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
@@ -212,6 +224,7 @@ def main():
         malformed_is_refused(graben, folder)
         compared_with_constant_speeds(graben)
         random_designs(graben, folder)
+        ground_that_resists(graben, folder)
 
 
 if __name__ == "__main__":
