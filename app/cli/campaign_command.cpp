@@ -13,6 +13,7 @@
 #include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
 #include "app/runs/campaign_run.hpp"
+#include "app/runs/ground_campaign.hpp"
 
 namespace graben::cli {
 namespace {
@@ -215,6 +216,26 @@ void add_campaign_designs(CLI::App& campaign, int& status) {
   on_callback(*command, options, status, campaign_designs);
 }
 
+void add_campaign_ground(CLI::App& campaign, int& status) {
+  auto options = std::make_shared<GradeCampaign>();
+  CLI::App* command = campaign.add_subcommand(
+      "ground",
+      fmt::format("A dozer on ground that resists: {} cells of 4 soils, 10 designs and 3 engine "
+                  "speeds; cell after cell, then the next draw of each; goes on as dig does",
+                  runs::ground_cells()));
+  add_profile_option(*command, options->profile);
+  options->campaign.draws = 40 * runs::ground_cells();
+  add_campaign_options(*command, options->campaign);
+  add_examples(*command, {"campaign ground --draws 120 --summary out/ground.csv"});
+  on_callback(*command, options, status,
+              [](const GradeCampaign& of, const runs::CampaignOptions& chosen,
+                 const runs::Progress& progress) {
+                return runs::campaign_ground(
+                    chosen, machines::load_simulated_dozer(machines::find_profile(of.profile)),
+                    progress);
+              });
+}
+
 void add_campaign_identify(CLI::App& campaign, int& status) {
   auto options = std::make_shared<IdentifyCampaign>();
   CLI::App* command = campaign.add_subcommand(
@@ -288,6 +309,7 @@ void add_campaign(CLI::App& app, int& status) {
   add_campaign_dig(*campaign, status);
   add_campaign_grade(*campaign, status);
   add_campaign_designs(*campaign, status);
+  add_campaign_ground(*campaign, status);
   add_campaign_identify(*campaign, status);
   add_campaign_autodig(*campaign, status);
   add_campaign_fences(*campaign, status);

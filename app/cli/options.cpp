@@ -140,9 +140,10 @@ void add_ground_options(CLI::App& command, runs::GradeScenario& scenario) {
       ->check(CLI::IsMember(
           std::vector<std::string>(machines::kSoilNames.begin(), machines::kSoilNames.end())));
   command
-      .add_option("--pass-depth", scenario.pass_depth_m,
-                  "What one pass cuts at most, m, 0.02 .. 10; the profile's unless told, in a soil "
-                  "no more than is usual there")
+      .add_option(
+          "--pass-depth", scenario.pass_depth_m,
+          "What the first pass cuts at most, m, 0.02 .. 10; the profile's unless told, in a "
+          "soil no more than 0.08. The next ones go as deep as the force allows")
       ->check(number_between(0.02, 10.0));
 }
 

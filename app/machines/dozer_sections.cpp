@@ -162,9 +162,9 @@ GradeDesign read_grade(TomlReader& reader) {
       reader.number("grade.plane_slope", {-0.3, 0.3, ""}, "slope dz/dx of the design plane");
   grade.ground_m =
       reader.number("grade.ground", kHeight, "the ground that is there, over the plane");
-  grade.pass_depth_m =
-      reader.number("grade.pass_depth", {0.02, 10.0, "m"},
-                    "no pass goes deeper than this below what the one before has left");
+  grade.pass_depth_m = reader.number(
+      "grade.pass_depth", {0.02, 10.0, "m"},
+      "so deep goes the first pass; each next one as much deeper as its force allows");
   grade.passes_most = reader.integer("grade.passes", 1, 50,
                                      "most passes: what a pass has to leave is gone back for");
   grade.tolerance_m =

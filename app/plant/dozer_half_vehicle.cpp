@@ -77,7 +77,8 @@ void HalfVehicle::step(const Terrain& terrain, double traction_n, double step_s,
   const double along_body = traction_n - mass * gravity_ * sine - rolling_resistance_n();
   moment += load.moment_nm;
   if (load.tracks_turn) {
-    moment += (traction_n - rolling_resistance_n()) * body_.mass_centre_height_m;
+    // Only what is more than the slope takes: that much the wheels' levers have already.
+    moment += along_body * body_.mass_centre_height_m;
   }
   velocity_ += step_s * (cosine * along_body + load.force_n.x()) / mass;
   mass_centre_climb_ += step_s * ((whole_load_ + load.force_n.y()) / mass - gravity_);

@@ -14,7 +14,7 @@ namespace graben::plant {
 struct BodyLoad {
   Eigen::Vector2d force_n = Eigen::Vector2d::Zero();  ///< World.
   double moment_nm = 0.0;    ///< About the mass centre; nose up is positive.
-  bool tracks_turn = false;  ///< Traction and rolling resistance turn the body about it too.
+  bool tracks_turn = false;  ///< What the tracks drive with beyond the slope turns it about it too.
 };
 
 /// Wheels on springs and dampers that push only, evenly spaced over the contact. World frame, x

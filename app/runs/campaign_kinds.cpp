@@ -10,6 +10,7 @@
 #include "app/runs/dig_run.hpp"
 #include "app/runs/fence_campaign.hpp"
 #include "app/runs/grade_run.hpp"
+#include "app/runs/ground_campaign.hpp"
 #include "app/runs/identify_run.hpp"
 #include "app/runs/sample_designs.hpp"
 
@@ -87,7 +88,7 @@ const CampaignKind& autodig_kind() {
 const CampaignKind& kind_of(const std::string& file) {
   const std::string name = campaign_name(file);
   for (const CampaignKind* kind : {&dig_kind(), &grade_kind(), &designs_kind(), &identify_kind(),
-                                   &autodig_kind(), &fence_kind()}) {
+                                   &autodig_kind(), &fence_kind(), &ground_kind()}) {
     if (name == kind->name) {
       return *kind;
     }

@@ -54,7 +54,7 @@ struct GradeScenario {
   std::optional<double> engine_rpm;
   std::string errors = "none";  ///< Or "all".
   std::string soil;  ///< Of machines::kSoilNames: the ground resists; empty: it does not.
-  std::optional<double> pass_depth_m;    ///< What a pass cuts at most; see usual_depth_m().
+  std::optional<double> pass_depth_m;    ///< Of the first pass.
   std::optional<double> dead_time_s;     ///< Of the blade's valve; both know it.
   std::optional<double> pose_latency_s;  ///< Of the pose sensor; both know it.
 };

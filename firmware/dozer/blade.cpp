@@ -9,9 +9,6 @@
 namespace graben {
 namespace {
 
-/// Largest speed towards an end of the stroke, per metre left.
-constexpr double kEndGain_ps = 4.0;
-
 /// Of the stroke, against what the oil does; 50 to 80 mm of the cutting edge. No pressure tells a
 /// blade that the ground holds from a sensor that does not see it move.
 constexpr double kUnseen_m = 0.015;

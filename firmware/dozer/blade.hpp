@@ -54,6 +54,9 @@ class BladeKinematics {
   double stroke_max_m_;
 };
 
+/// Largest speed towards an end of the stroke, per metre left.
+inline constexpr double kEndGain_ps = 4.0;
+
 /// The dozer's drives: the blade alone. Its pressures are not measured; its spool's travel is the
 /// share of ImplementProfile::valve_flow_max_m3ps.
 inline constexpr int kBladeCount = 1;

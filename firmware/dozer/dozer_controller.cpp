@@ -113,7 +113,8 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
   const Eigen::Vector3d edge_m = edge_in_world_m(setup_.blade, now.body, now.angle_rad);
   const Stand stand{now.body.position_m.z(), now.pitch_rad};
   memory_.in_pass = {edge_m.x(), grade_error_m(setup_.design, edge_m.x(), edge_m.z()),
-                     grade_error_m(design_, edge_m.x(), edge_m.z()), valid.velocity_mps};
+                     valid.velocity_mps, memory_.load.push_n / profile_.travel.push_max_n,
+                     memory_.load.lift_m};
   const PassState pass = next_pass(profile_.grade, memory_.pass, memory_.in_pass, period_s);
   if (pass.pass != memory_.pass.pass) {
     ground_.turn_back(edge_m.x());
@@ -122,9 +123,10 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
   memory_.pass = pass;
   ground_.pass(edge_m.x(), edge_m.z(), design_, now.body.position_m.x(), stand.height_m,
                std::tan(stand.pitch_rad));
-  preview_.look(
-      ground_, design_, memory_.position.position_m + latency_s * valid.velocity_mps, stand,
-      profile_.travel.flow_share * available_flow_m3ps(profile_.implement, valid.engine_radps));
+  preview_.look(ground_, design_, memory_.position.position_m + latency_s * valid.velocity_mps,
+                stand,
+                planned_share(profile_.travel, memory_.load) *
+                    available_flow_m3ps(profile_.implement, valid.engine_radps));
 }
 
 BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,

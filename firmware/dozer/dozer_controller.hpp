@@ -95,7 +95,7 @@ class DozerController {
   /// Of the error that the task allows, what the blade may leave standing on purpose: the rest is
   /// for what nobody foresees.
   [[nodiscard]] double lift_most_m() const { return kLiftShare * profile_.grade.tolerance_m; }
-  static constexpr double kLiftShare = 0.33;
+  static constexpr double kLiftShare = 0.31;
 
   /// Blade and travel speed, and the displacements for it.
   [[nodiscard]] Motion flow_limited(const DozerValid& valid, double period_s) const;

@@ -121,7 +121,7 @@ struct GradeDesign {
   double plane_height_m = 0.0;  ///< Of the plane at x = 0.
   double plane_slope = 0.0;     ///< dz/dx of the plane.
   double ground_m = 0.0;        ///< Of the ground that is there, over the plane.
-  double pass_depth_m = 10.0;   ///< No pass goes deeper below what the one before has left.
+  double pass_depth_m = 10.0;   ///< So deep goes the first pass.
   int passes_most = 1;          ///< So often the machine may go over it.
   double tolerance_m = 0.02;    ///< How far off the design the ground may come out.
 

@@ -16,6 +16,9 @@ namespace {
 /// The simulated ground is level at z = 0, and a blade only cuts.
 constexpr double kFill_m = 0.02;
 
+/// In a soil of which nobody knows how hard it is: what a first pass tries.
+constexpr double kFirstPass_m = 0.08;
+
 /// A file has 900 rpm with two decimals of a rad/s.
 constexpr double kRounding_radps = 0.01;
 
@@ -53,7 +56,7 @@ SimulatedDozer arranged(SimulatedDozer machine, const DozerScenario& scenario) {
   if (!scenario.soil.empty()) {
     machine.plant.soil = ground_of(scenario.soil, scenario.errors, scenario.seed);
     GradeDesign& grade = machine.profile.grade;
-    grade.pass_depth_m = std::min(grade.pass_depth_m, usual_depth_m(scenario.soil));
+    grade.pass_depth_m = std::min(grade.pass_depth_m, kFirstPass_m);
   }
   machine.profile.grade.pass_depth_m =
       scenario.pass_depth_m.value_or(machine.profile.grade.pass_depth_m);

@@ -59,10 +59,11 @@ struct DozerScenario {
   std::optional<double> engine_radps;    ///< Where the throttle stands; the profile's unless told.
   std::optional<double> dead_time_s;     ///< Of the blade's valve, in controller and plant.
   std::optional<double> pose_latency_s;  ///< Of the pose sensor, in controller and plant.
-  std::optional<double> pass_depth_m;    ///< The task's, else the profile's, less in a soil.
-  std::string soil;                      ///< Of kSoilNames: the ground resists; empty: it does not.
-  bool errors = false;                   ///< The machine is drawn: draw_dozer.
-  std::uint64_t seed = 0;                ///< Of everything that is drawn.
+  std::optional<double>
+      pass_depth_m;        ///< Of the first; else the profile's, 0.08 at most in a soil.
+  std::string soil;        ///< Of kSoilNames: the ground resists; empty: it does not.
+  bool errors = false;     ///< The machine is drawn: draw_dozer.
+  std::uint64_t seed = 0;  ///< Of everything that is drawn.
 };
 
 /// The machine with this scenario's plant, and a controller profile with its policy and speed. The

@@ -67,13 +67,6 @@ SoilKind scaled(const SoilKind& soil, const SoilFactors& factors) {
   return other;
 }
 
-double usual_depth_m(const std::string& name) {
-  constexpr std::array<double, kSoilNames.size()> kDepth_m = {0.20, 0.15, 0.12, 0.10};
-  const auto* const at = std::find(kSoilNames.begin(), kSoilNames.end(), name);
-  return at == kSoilNames.end() ? kDepth_m.front()
-                                : kDepth_m[static_cast<std::size_t>(at - kSoilNames.begin())];
-}
-
 plant::SoilKind ground_of(const std::string& name, bool drawn, std::uint64_t seed) {
   const auto kind = soil_kind(name);
   if (!kind) {

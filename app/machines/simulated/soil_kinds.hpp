@@ -27,10 +27,6 @@ struct SoilFactors {
 };
 [[nodiscard]] plant::SoilKind scaled(const plant::SoilKind& soil, const SoilFactors& factors);
 
-/// What a task has a dozer of 9 t cut of this soil in one pass, m: so that the fundamental equation
-/// gives, with a full blade, about half of what its tracks can push.
-[[nodiscard]] double usual_depth_m(const std::string& name);
-
 /// The soil of this name; `drawn`, each strength off by up to 40 %, each way, and its density by
 /// 15 %. Throws std::runtime_error for a name that is none.
 [[nodiscard]] plant::SoilKind ground_of(const std::string& name, bool drawn, std::uint64_t seed);

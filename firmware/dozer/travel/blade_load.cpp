@@ -25,6 +25,9 @@ constexpr double kMostRise_mps = 0.25;
 /// Its way down, of the way up.
 constexpr double kDown = 0.6;
 constexpr double kMostLift_m = 0.2;
+/// More than rolling, slopes and getting faster take. How much is kept was tried out on all soils.
+constexpr double kLoaded = 0.3;
+constexpr double kReserve = 0.25;
 
 double low_passed(double last, double now, double period_s) {
   return last + (now - last) * period_s / (kFilter_s + period_s);
@@ -46,6 +49,11 @@ double push_n(const DozerProfile& profile, const DozerValid& valid) {
 double slip_of(const DozerValid& valid) {
   const double track_mps = std::max(valid.track_speed_mps[kLeft], valid.track_speed_mps[kRight]);
   return std::clamp((track_mps - valid.velocity_mps) / std::max(track_mps, kSlowest_mps), 0.0, 1.0);
+}
+
+double planned_share(const TravelProfile& travel, const PushState& load) {
+  const double loaded = load.push_n / (kLoaded * travel.push_max_n) - 1.0;
+  return travel.flow_share * (1.0 - kReserve * std::clamp(loaded, 0.0, 1.0));
 }
 
 PushState next_load(const DozerProfile& profile, const PushState& last, const DozerValid& valid,

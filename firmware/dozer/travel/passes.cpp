@@ -11,7 +11,16 @@ namespace {
 constexpr double kRunUp_m = 1.2;
 /// More than what is allowed, for the noise of what is measured.
 constexpr double kWorthIt_m = 0.005;
-constexpr double kLessDeep = 0.5;
+/// Of what the tracks may push, how much a pass is to take; with less the next goes deeper, but no
+/// more than so much at once.
+constexpr double kFullPush = 0.9;
+constexpr double kDeeper = 1.6;
+/// A load's lift is felt at its worst places: of the pass's depth it counts as so much more than
+/// its mean; from kLacked of the depth on the next pass is less deep.
+constexpr double kLiftCounts = 2.0;
+constexpr double kLacked = 0.25;
+constexpr double kLessDeep = 0.7;
+constexpr double kLeastStep_m = 0.03;
 constexpr double kClear_m = 0.25;
 constexpr double kClear_mps = 0.2;
 constexpr double kStands_mps = 0.05;
@@ -24,17 +33,31 @@ void note(const GradeDesign& design, const PassSituation& now, PassState& state)
   }
   state.from_m = state.left ? std::min(state.from_m, now.edge_x_m) : now.edge_x_m;
   state.left = true;
-  state.not_deep = state.not_deep || now.pass_error_m > design.tolerance_m + kWorthIt_m;
+}
+
+/// How hard it is, all the way.
+void feel(const GradeDesign& design, const PassSituation& now, double period_s, PassState& state) {
+  if (now.edge_x_m >= design.begin_m() && now.edge_x_m <= design.end_m()) {
+    const double way_m = std::max(0.0, now.velocity_mps * period_s);
+    state.most_push = std::max(state.most_push, now.push);
+    state.lifted_m2 += now.lift_m * way_m;
+    state.way_m += way_m;
+  }
 }
 
 /// The next pass begins as the machine stands before what is left.
 void begin_pass(const GradeDesign& design, PassState& state) {
-  state.phase = PassPhase::kCut;
+  const double depth_m = state.depth_m > 0.0 ? state.depth_m : design.pass_depth_m;
   const double step_m = state.step_m > 0.0 ? state.step_m : design.pass_depth_m;
-  // What it could not cut in one pass, it takes in smaller ones.
-  state.deep_m += state.not_deep ? kLessDeep * step_m : step_m;
-  state.step_m = state.not_deep ? kLessDeep * step_m : step_m;
-  state.not_deep = false;
+  const double lifted_m = state.way_m > 0.0 ? state.lifted_m2 / state.way_m : 0.0;
+  const double lacked = std::min(1.0, kLiftCounts * lifted_m / step_m);
+  const double spare = std::clamp(kFullPush / std::max(state.most_push, 0.1), 1.0, kDeeper);
+  state.step_m = std::max(kLeastStep_m, step_m * (lacked > kLacked ? kLessDeep : spare));
+  state.depth_m = depth_m + std::max(kLeastStep_m, (1.0 - lacked) * state.step_m);
+  state.most_push = 0.0;
+  state.lifted_m2 = 0.0;
+  state.way_m = 0.0;
+  state.phase = PassPhase::kCut;
   ++state.pass;
   state.left = false;
 }
@@ -56,6 +79,7 @@ PassState next_pass(const GradeDesign& design, const PassState& last, const Pass
     // The blade on its way down at the beginning is no ground that is left.
     if (state.clear_m <= 0.0) {
       note(design, now, state);
+      feel(design, now, period_s, state);
     }
     // Every pass goes on to the design's end: what the blade carries is dumped behind it.
     if (now.edge_x_m >= design.end_m() && !state.finished) {
@@ -75,7 +99,7 @@ PassState next_pass(const GradeDesign& design, const PassState& last, const Pass
 }
 
 double pass_floor_m(const GradeDesign& design, const PassState& state) {
-  return design.ground_m - state.deep_m - (state.step_m > 0.0 ? state.step_m : design.pass_depth_m);
+  return design.ground_m - (state.depth_m > 0.0 ? state.depth_m : design.pass_depth_m);
 }
 
 double pass_speed_mps(const PassState& state, const PassSituation& now, double desired_mps,

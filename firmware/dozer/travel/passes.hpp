@@ -19,10 +19,12 @@ enum class PassPhase : std::uint8_t {
 struct PassState {
   PassPhase phase = PassPhase::kCut;
   int pass = 1;
-  double deep_m = 0.0;    ///< What the passes before this one were to cut.
-  double step_m = 0.0;    ///< What this one is to cut on top; 0 before the first.
-  bool not_deep = false;  ///< This one could not.
-  bool left = false;      ///< Something was left in this pass, from this place of the edge on.
+  double depth_m = 0.0;    ///< So deep below the ground this pass may cut; 0: the first.
+  double step_m = 0.0;     ///< Deeper than the one before; 0: the first.
+  double most_push = 0.0;  ///< In this pass, of what the tracks may push.
+  double lifted_m2 = 0.0;  ///< By which its load has lifted the blade, over its way.
+  double way_m = 0.0;
+  bool left = false;  ///< Something was left in this pass, from this place of the edge on.
   double from_m = 0.0;
   double clear_m = 0.0;  ///< The blade over the design.
   double clear_mps = 0.0;
@@ -32,15 +34,19 @@ struct PassState {
 /// Where the machine is in it.
 struct PassSituation {
   double edge_x_m = 0.0;
-  double error_m = 0.0;       ///< Of the edge over the design.
-  double pass_error_m = 0.0;  ///< Over what this pass is to cut.
+  double error_m = 0.0;  ///< Of the edge over the design.
   double velocity_mps = 0.0;
+  double push = 0.0;    ///< Of the tracks, of what they may push.
+  double lift_m = 0.0;  ///< Of the blade by its load.
 };
 
 /// A cycle on. In a pass, what the edge leaves clearly more than the tolerance above the design is
 /// noted with its place. At the design's last point, behind which what it carries is dumped, the
 /// machine stops and goes back with the blade clear of the ground, to a run-up before the first of
 /// it; and cuts again, up to `passes_most` times.
+///
+/// The first pass goes `pass_depth_m` deep; each next one as much deeper as the one before had
+/// force to spare, or less where its load lifted the blade.
 [[nodiscard]] PassState next_pass(const GradeDesign& design, const PassState& last,
                                   const PassSituation& now, double period_s);
 

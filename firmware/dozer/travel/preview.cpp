@@ -54,6 +54,21 @@ double Preview::angle_on(const GradeProfile& design, double x_m, const Stand& st
   return angle_rad;
 }
 
+/// Of a design below the blade's reach, the stroke that there would have to be.
+double Preview::stroke_on(const GradeProfile& design, double x_m, const Stand& stand,
+                          double angle_rad) const {
+  const double stroke_m = blade_.stroke_m(angle_rad);
+  if (angle_rad > blade_.angle_min_rad()) {
+    return stroke_m;
+  }
+  const double c = std::cos(stand.pitch_rad);
+  const double s = std::sin(stand.pitch_rad);
+  const Eigen::Vector2d edge_m = blade_.edge_m(angle_rad);
+  const double design_m = design.at(x_m + c * edge_m.x() - s * edge_m.y()).height_m;
+  const double above_m = stand.height_m + s * edge_m.x() + c * edge_m.y() - design_m;
+  return stroke_m + std::max(0.0, above_m) / edge_per_stroke_;
+}
+
 void Preview::start(Probe& probe, double x_m, const Stand& measured) {
   probe = {};
   probe.motion = motion_of(profile_.body, measured, 0.0, 0.0);
@@ -95,16 +110,18 @@ void Preview::step(const GroundMap& ground, const GradeProfile& design, int numb
   const Stand at{before.height_m + share * (after.height_m - before.height_m),
                  before.pitch_rad + share * (after.pitch_rad - before.pitch_rad)};
   probe.angle_rad = angle_on(design, station_m, at, probe.angle_rad);
-  need(number, probe.end) = {blade_.stroke_m(probe.angle_rad), 0.0, 0.0};
+  need(number, probe.end) = {stroke_on(design, station_m, at, probe.angle_rad), 0.0, 0.0};
   ++probe.end;
 }
 
-/// Extension lowers: a stroke below the one on the design lifts the edge.
+/// Extension lowers: a stroke below the one on the design lifts the edge. Towards its end the blade
+/// goes down ever slower, and no further than it.
 void Preview::cost(int number, double flow_m3ps) {
   const Probe& probe = probe_[static_cast<unsigned>(number)];
   const double time_s = kStep_m / probe_mps(number);
   const double raised_m = time_s * flow_m3ps / profile_.blade.rod_area_m2();
   const double lowered_m = time_s * flow_m3ps / profile_.blade.cap_area_m2();
+  const double towards_end = kEndGain_ps * time_s / (1.0 + kEndGain_ps * time_s);
   double stroke_m = 0.0;
   for (int index = probe.end - 1; index >= probe.begin; --index) {
     Need& at = need(number, index);
@@ -115,7 +132,10 @@ void Preview::cost(int number, double flow_m3ps) {
   double most_m = 0.0;
   for (int index = probe.begin; index < probe.end; ++index) {
     Need& at = need(number, index);
-    stroke_m = index == probe.begin ? at.lift_m : std::min(at.lift_m, stroke_m + lowered_m);
+    const double left_m = blade_.stroke_max_m() - stroke_m;
+    stroke_m = index == probe.begin
+                   ? std::min(at.lift_m, blade_.stroke_max_m())
+                   : std::min(at.lift_m, stroke_m + std::min(lowered_m, towards_end * left_m));
     at.lift_m = edge_per_stroke_ * (at.stroke_m - stroke_m);
     most_m = std::max(most_m, at.lift_m);
     if (at.lift_m > kNoLift_m && index + 1 < probe.end) {

@@ -93,6 +93,8 @@ class Preview {
   void cost(int number, double flow_m3ps);
   [[nodiscard]] double angle_on(const GradeProfile& design, double x_m, const Stand& stand,
                                 double guess_rad) const;
+  [[nodiscard]] double stroke_on(const GradeProfile& design, double x_m, const Stand& stand,
+                                 double angle_rad) const;
   [[nodiscard]] double limit_of(int index, double allowed_m) const;
   [[nodiscard]] double lift_of(int index, double speed_mps, double allowed_m) const;
 

@@ -41,6 +41,9 @@ namespace {
 /// More than leakage and slip ever take.
 constexpr double kMostIntegral_mps = 0.4;
 constexpr double kMostAcceleration_mps2 = 2.0;
+/// Lag that oil and bus leave of a track's speed behind what is wanted: nothing to be made up for,
+/// or the machine brakes harder than it is told to.
+constexpr double kExpectedLag_s = 0.07;
 }  // namespace
 
 TrackCommand control_track(const DozerProfile& profile, const TrackState& last, double wanted_mps,
@@ -48,7 +51,9 @@ TrackCommand control_track(const DozerProfile& profile, const TrackState& last, 
   TrackCommand command;
   command.state = last;
   command.state.last_wanted_mps = wanted_mps;
-  const double error_mps = wanted_mps - measured_mps;
+  command.state.expected_mps +=
+      (wanted_mps - last.expected_mps) * period_s / (kExpectedLag_s + period_s);
+  const double error_mps = command.state.expected_mps - measured_mps;
   const double acceleration_mps2 = period_s > 0.0
                                        ? std::clamp((wanted_mps - last.last_wanted_mps) / period_s,
                                                     -kMostAcceleration_mps2, kMostAcceleration_mps2)

@@ -50,6 +50,7 @@ struct Displacements {
 struct TrackState {
   double integral_mps = 0.0;
   double last_wanted_mps = 0.0;
+  double expected_mps = 0.0;  ///< What has to have come of it by now.
 };
 
 struct TrackCommand {

@@ -34,4 +34,13 @@ inline GradeDesign bend(double slope, double rounding_m) {
   return design;
 }
 
+/// Level 0, from x = 10 on a slope, and level again 0.22 m lower, which the blade reaches well.
+inline GradeDesign ledge(double slope, double rounding_m) {
+  GradeDesign design = bend(slope, rounding_m);
+  design.point[2] = {10.0 - 0.22 / slope, -0.22};
+  design.point[3] = {60.0, -0.22};
+  design.count = 4;
+  return design;
+}
+
 }  // namespace graben::test

@@ -90,6 +90,21 @@ void a_load_that_rises_counts_as_what_it_will_be(void**) {
   assert_true(lifted_at > 0.5 && lifted_at < 0.95);
 }
 
+/// A quarter of the planned flow is kept from twice 0.3 of what the tracks may push on.
+void a_load_keeps_a_reserve_of_flow(void**) {
+  const TravelProfile& travel = test::dozer().profile.travel;
+  const auto share_at = [&](double push) {
+    PushState load;
+    load.push_n = push * travel.push_max_n;
+    return planned_share(travel, load) / travel.flow_share;
+  };
+  assert_near(share_at(-0.5), 1.0, 1e-12);
+  assert_near(share_at(0.3), 1.0, 1e-12);
+  assert_near(share_at(0.45), 0.875, 1e-12);
+  assert_near(share_at(0.6), 0.75, 1e-12);
+  assert_near(share_at(2.0), 0.75, 1e-12);
+}
+
 }  // namespace
 
 int main() {
@@ -101,6 +116,7 @@ int main() {
       cmocka_unit_test(tracks_that_dig_themselves_in_lift_it_too),
       cmocka_unit_test(then_it_comes_down_again),
       cmocka_unit_test(a_load_that_rises_counts_as_what_it_will_be),
+      cmocka_unit_test(a_load_keeps_a_reserve_of_flow),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -96,6 +96,26 @@ void the_integral_makes_up_for_losses(void**) {
   assert_near(settled_speed_mps(-0.5, 500), -0.5, 1e-3);
 }
 
+/// The usual lag behind a speed that falls is nothing to be made up for: the machine would brake
+/// harder than it is told to.
+void the_lag_of_oil_is_not_made_up_for(void**) {
+  TrackState state;
+  state.last_wanted_mps = 1.6;
+  state.expected_mps = 1.6;
+  double measured_mps = 1.6;
+  for (int n = 1; n <= 40; ++n) {
+    const double wanted_mps = 1.6 - 0.0125 * n;
+    measured_mps += 0.01 / 0.08 * (wanted_mps - measured_mps);
+    const TrackCommand command =
+        control_track(profile(), state, wanted_mps, measured_mps, 157.08, 0.01);
+    state = command.state;
+    const double asked_mps = track_speed_mps(
+        profile().hst, 157.08, command.displacements.pump_ratio, command.displacements.motor_ratio);
+    assert_near(asked_mps, wanted_mps - 1.25 * profile().hst.response_s, 0.03);
+  }
+  assert_near(state.integral_mps, 0.0, 0.02);
+}
+
 /// What can't be had must not wind up.
 void out_of_reach_the_integral_stands_still(void**) {
   TrackState state;
@@ -117,6 +137,7 @@ int main() {
       cmocka_unit_test(inflow_is_that_of_the_side_it_enters),
       cmocka_unit_test(a_turn_takes_speed_from_the_outer_track),
       cmocka_unit_test(the_integral_makes_up_for_losses),
+      cmocka_unit_test(the_lag_of_oil_is_not_made_up_for),
       cmocka_unit_test(out_of_reach_the_integral_stands_still),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

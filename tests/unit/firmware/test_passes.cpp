@@ -20,20 +20,20 @@ GradeDesign design() {
   return grade;
 }
 
-/// The edge goes from one place to the other, as far off design and pass.
-PassState goes(PassState state, double from_m, double to_m, double error_m,
-               double pass_error_m = 0.0) {
+/// The edge goes from one place to the other, as far off the design, pushing and lifted so.
+PassState goes(PassState state, double from_m, double to_m, double error_m, double push = 0.0,
+               double lift_m = 0.0) {
   const double step_m = from_m < to_m ? 0.01 : -0.01;
   for (int n = 0; n <= static_cast<int>((to_m - from_m) / step_m + 0.5); ++n) {
     state =
-        next_pass(design(), state, {from_m + n * step_m, error_m, pass_error_m, 1.0}, kPeriod_s);
+        next_pass(design(), state, {from_m + n * step_m, error_m, 1.0, push, lift_m}, kPeriod_s);
   }
   return state;
 }
 
 PassState stands(PassState state, double at_m, int cycles) {
   for (int n = 0; n < cycles; ++n) {
-    state = next_pass(design(), state, {at_m, 0.0, 0.0, 0.0}, kPeriod_s);
+    state = next_pass(design(), state, {at_m, 0.0, 0.0, 0.0, 0.0}, kPeriod_s);
   }
   return state;
 }
@@ -54,13 +54,13 @@ void what_is_left_is_gone_back_for(void**) {
   state = goes(state, 6.0, 10.01, 0.0);
   assert_int_equal(static_cast<int>(state.phase), static_cast<int>(PassPhase::kStop));
   assert_near(state.from_m, 4.0, 0.02);
-  assert_near(pass_speed_mps(state, {10.0, 0.0, 0.0, 1.0}, 1.6, 1.0), 0.0, 0.0);
+  assert_near(pass_speed_mps(state, {10.0, 0.0, 1.0, 0.0, 0.0}, 1.6, 1.0), 0.0, 0.0);
   state = stands(state, 10.2, 200);
   assert_int_equal(static_cast<int>(state.phase), static_cast<int>(PassPhase::kReturn));
   assert_near(state.clear_m, 0.25, 1e-9);
-  assert_near(pass_speed_mps(state, {9.0, 0.0, 0.0, -1.0}, 1.6, 1.0), -1.0, 1e-12);
-  assert_near(pass_speed_mps(state, {9.0, 0.0, 0.0, -1.0}, 0.5, 1.0), -0.5, 1e-12);
-  assert_true(pass_speed_mps(state, {2.85, 0.0, 0.0, -1.0}, 1.6, 1.0) > -0.5);
+  assert_near(pass_speed_mps(state, {9.0, 0.0, -1.0, 0.0, 0.0}, 1.6, 1.0), -1.0, 1e-12);
+  assert_near(pass_speed_mps(state, {9.0, 0.0, -1.0, 0.0, 0.0}, 0.5, 1.0), -0.5, 1e-12);
+  assert_true(pass_speed_mps(state, {2.85, 0.0, -1.0, 0.0, 0.0}, 1.6, 1.0) > -0.5);
   state = goes(state, 10.2, 2.7, 0.25);
   assert_int_equal(static_cast<int>(state.phase), static_cast<int>(PassPhase::kTurn));
   state = stands(state, 2.7, 2);
@@ -69,27 +69,42 @@ void what_is_left_is_gone_back_for(void**) {
   assert_false(state.left);
 }
 
-PassState second(double pass_error_m) {
-  PassState state = goes({}, 0.0, 10.01, 0.1, pass_error_m);
+PassState next(PassState state, double push, double lift_m) {
+  state = goes(state, 0.0, 10.01, 0.1, push, lift_m);
   state = stands(state, 10.2, 200);
   state = goes(state, 10.2, -1.3, 0.25);
   return stands(state, -1.3, 200);
 }
 
-/// Each pass a step deeper; one that could not go so deep takes the same again, and smaller steps.
-void each_pass_goes_a_step_deeper(void**) {
+/// By 0.9 of its force over what the pass before took, and no more than 1.6 times as deep.
+void a_pass_with_force_to_spare_makes_the_next_deeper(void**) {
   assert_near(pass_floor_m(design(), {}), -0.2, 1e-12);
-  assert_near(pass_floor_m(design(), second(0.0)), -0.4, 1e-12);
-  const PassState weak = second(0.1);
-  assert_near(pass_floor_m(design(), weak), -0.2, 1e-12);
-  assert_near(weak.step_m, 0.1, 1e-12);
+  assert_near(pass_floor_m(design(), next({}, 0.9, 0.0)), -0.4, 1e-12);
+  assert_near(pass_floor_m(design(), next({}, 0.75, 0.0)), -0.44, 1e-12);
+  assert_near(pass_floor_m(design(), next({}, 0.3, 0.0)), -0.52, 1e-12);
+  // A push above what is allowed that lifted nothing is one stone.
+  assert_near(pass_floor_m(design(), next({}, 1.3, 0.0)), -0.4, 1e-12);
+}
+
+/// A lift of 50 mm all the way is half of 0.2 m: 0.7 of the depth, of which half is taken again.
+void a_pass_that_was_lifted_makes_the_next_less_deep(void**) {
+  const PassState second = next({}, 1.1, 0.05);
+  assert_near(second.step_m, 0.14, 1e-12);
+  assert_near(pass_floor_m(design(), second), -0.27, 1e-3);
+  // It gets on however hard it is.
+  PassState hard;
+  for (int pass = 0; pass < 2; ++pass) {
+    const double floor_m = pass_floor_m(design(), hard);
+    hard = next(hard, 1.5, 0.2);
+    assert_true(pass_floor_m(design(), hard) <= floor_m - 0.03 + 1e-12);
+  }
 }
 
 /// The blade on its way down at the beginning leaves nothing.
 void a_blade_that_comes_down_leaves_nothing(void**) {
-  PassState state = second(0.0);
+  PassState state = next({}, 0.5, 0.0);
   state.clear_m = 0.1;
-  state = next_pass(design(), state, {5.0, 0.1, 0.1, 1.0}, kPeriod_s);
+  state = next_pass(design(), state, {5.0, 0.1, 1.0, 0.5, 0.0}, kPeriod_s);
   assert_false(state.left);
 }
 
@@ -113,7 +128,8 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(what_is_met_in_one_pass_is_done_with_it),
       cmocka_unit_test(what_is_left_is_gone_back_for),
-      cmocka_unit_test(each_pass_goes_a_step_deeper),
+      cmocka_unit_test(a_pass_with_force_to_spare_makes_the_next_deeper),
+      cmocka_unit_test(a_pass_that_was_lifted_makes_the_next_less_deep),
       cmocka_unit_test(a_blade_that_comes_down_leaves_nothing),
       cmocka_unit_test(there_are_no_more_than_are_allowed),
   };

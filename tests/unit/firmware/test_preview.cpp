@@ -45,7 +45,7 @@ void on_the_level_nothing_holds_it(void**) {
 
 /// The body tips over the bend: where half the flow is there, half the speed is.
 void it_is_the_flow_that_holds_it(void**) {
-  const GradeProfile design(test::bend(-0.3, 0.3));
+  const GradeProfile design(test::ledge(-0.3, 0.3));
   const double with_all_mps = standing(design, 9.2).limit(9.2, 3.0, 1e-5, 0.0).lowest_mps;
   const double with_half_mps = standing(design, 9.2, 0.5).limit(9.2, 3.0, 1e-5, 0.0).lowest_mps;
   assert_true(with_all_mps < 0.6);
@@ -54,7 +54,7 @@ void it_is_the_flow_that_holds_it(void**) {
 
 /// What may be left standing is what it may be faster by.
 void what_is_allowed_makes_it_faster(void**) {
-  const GradeProfile design(test::bend(-0.3, 0.3));
+  const GradeProfile design(test::ledge(-0.3, 0.3));
   const Preview preview = standing(design, 9.2);
   double last_mps = 0.0;
   for (const double allowed_m : {0.001, 0.005, 0.02, 0.05}) {
@@ -67,7 +67,7 @@ void what_is_allowed_makes_it_faster(void**) {
 /// At a speed that the flow does not suffice for the blade rises before the body tips, and at no
 /// speed further than is allowed, as there it will not be so fast.
 void the_blade_rises_before_the_body_tips(void**) {
-  const GradeProfile design(test::bend(-0.3, 0.3));
+  const GradeProfile design(test::ledge(-0.3, 0.3));
   const Preview preview = standing(design, 9.2);
   double highest_m = 0.0;
   double highest_at_m = 0.0;
@@ -85,10 +85,10 @@ void the_blade_rises_before_the_body_tips(void**) {
 
 /// v^2 <= v_i^2 + 2 a s: the nearer the bend, the slower, by the braking that is planned with.
 void it_brakes_in_time_for_a_bend(void**) {
-  const GradeProfile design(test::bend(-0.4, 0.3));
-  const Preview preview = standing(design, 8.9);
-  const double near_mps = preview.limit(9.0, 0.0, kAllowed_m, 0.0).speed_mps;
-  const double far_mps = preview.limit(8.9, 0.0, kAllowed_m, 0.0).speed_mps;
+  const GradeProfile design(test::ledge(-0.35, 0.3));
+  const Preview preview = standing(design, 8.3);
+  const double near_mps = preview.limit(8.4, 0.0, kAllowed_m, 0.0).speed_mps;
+  const double far_mps = preview.limit(8.3, 0.0, kAllowed_m, 0.0).speed_mps;
   assert_near(far_mps * far_mps - near_mps * near_mps,
               2.0 * profile().travel.deceleration_max_mps2 * 0.1, 0.01);
   // Seen no sooner than it is looked for.
@@ -97,7 +97,7 @@ void it_brakes_in_time_for_a_bend(void**) {
 
 /// What it takes to answer counts as way that is already driven.
 void the_lead_is_left_off(void**) {
-  const GradeProfile design(test::bend(-0.4, 0.3));
+  const GradeProfile design(test::ledge(-0.35, 0.3));
   const Preview preview = standing(design, 8.9);
   const double with_mps = preview.limit(8.9, 0.5, kAllowed_m, 0.2).speed_mps;
   const double without_mps = preview.limit(9.0, 0.5, kAllowed_m, 0.0).speed_mps;
@@ -109,6 +109,27 @@ void it_knows_that_the_body_will_tip(void**) {
   const AheadLimit ahead = standing_at(GradeProfile(profile().grade), 3.3, 1.2, 0.0);
   assert_true(ahead.lowest_mps < 0.5);
   assert_true(ahead.lowest_mps >= profile().travel.speed_min_mps);
+}
+
+/// Where the blade does not come down to the design it leaves ground standing, at any speed.
+void what_the_blade_does_not_reach_is_a_cost(void**) {
+  const double reached_m = standing(GradeProfile(test::bend(-0.1, 0.3)), 8.9).least_cost_m(9.3);
+  const Preview beyond = standing(GradeProfile(test::bend(-0.5, 0.3)), 8.9);
+  assert_true(reached_m < 0.005);
+  assert_true(beyond.least_cost_m(9.3) > 0.1);
+  assert_near(beyond.limit(8.9, 3.0, kAllowed_m, 0.0).lowest_mps, profile().travel.speed_min_mps,
+              1e-12);
+}
+
+/// A full flow lowers the blade slower and slower towards the end of its stroke.
+void towards_the_end_of_the_stroke_it_is_slower(void**) {
+  const auto lowest_mps = [](double slope) {
+    return standing(GradeProfile(test::bend(slope, 0.3)), 8.9, 10.0)
+        .limit(8.9, 3.0, 1e-3, 0.0)
+        .lowest_mps;
+  };
+  assert_true(lowest_mps(-0.1) > 2.0);
+  assert_true(lowest_mps(-0.28) < 1.0);
 }
 
 /// Until a station is known it counts as the slowest.
@@ -136,7 +157,7 @@ void it_is_known_after_some_cycles(void**) {
 
 /// Forwards, backwards, and far away.
 void it_follows_wherever_the_machine_goes(void**) {
-  const GradeProfile design(test::bend(-0.4, 0.3));
+  const GradeProfile design(test::ledge(-0.35, 0.3));
   const GroundMap untouched;
   Preview preview(profile(), blade());
   for (const double target_m : {8.0, 3.0, 8.0, 500.0, -80.0, 8.0}) {
@@ -170,6 +191,8 @@ int main() {
       cmocka_unit_test(it_brakes_in_time_for_a_bend),
       cmocka_unit_test(the_lead_is_left_off),
       cmocka_unit_test(it_knows_that_the_body_will_tip),
+      cmocka_unit_test(what_the_blade_does_not_reach_is_a_cost),
+      cmocka_unit_test(towards_the_end_of_the_stroke_it_is_slower),
       cmocka_unit_test(what_is_not_known_yet_is_slow),
       cmocka_unit_test(it_is_known_after_some_cycles),
       cmocka_unit_test(it_follows_wherever_the_machine_goes),

@@ -86,6 +86,34 @@ void on_a_slope_it_stands_parallel_to_it(void**) {
 }
 
 // (17): from rest with a given force, and rolled out.
+/// Seconds on a slope, held there by a traction that turns the body or does not; or pushing.
+double pitch_held_on(double slope, const BodyLoad& load, double push_n) {
+  const Terrain terrain = ramp(slope);
+  HalfVehicle body(at(7.0));
+  for (int i = 0; i < 10000; ++i) {
+    const double held_n = kWeight * std::sin(body.pitch_rad()) - 3e4 * body.velocity_mps();
+    body.step(terrain, held_n + push_n, kStep, load);
+  }
+  return body.pitch_rad();
+}
+
+// What holds it on a slope turns nothing: the wheels' levers have it already. What it pushes with
+// beyond that turns it nose up, unless what it pushes against is as low as its tracks.
+void traction_turns_it_by_what_it_pushes_with(void**) {
+  const BodyLoad turned{Eigen::Vector2d::Zero(), 0.0, true};
+  const double at_rest_rad = pitch_held_on(0.2, {}, 0.0);
+  assert_near(pitch_held_on(0.2, turned, 0.0), at_rest_rad, 1e-4);
+  const double push_n = 2e4;
+  const BodyLoad high{{-push_n, 0.0}, 0.0, true};
+  const BodyLoad low{{-push_n, 0.0}, -0.85 * push_n, true};
+  double sum = 0.0;
+  for (int i = 0; i < 10; ++i) {
+    sum += 6.0e5 * std::pow(2.4 * (i / 9.0 - 0.5), 2);
+  }
+  assert_near(pitch_held_on(0.0, high, push_n), 0.85 * push_n / sum, 2e-4);
+  assert_near(pitch_held_on(0.0, low, push_n), 0.0, 1e-5);
+}
+
 void force_and_rolling_resistance_accelerate_it(void**) {
   const Terrain terrain(-10.0, 30.0, 0.02);
   HalfVehicle body(at(-3.0));
@@ -260,6 +288,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(it_starts_in_its_sag),
       cmocka_unit_test(on_a_slope_it_stands_parallel_to_it),
+      cmocka_unit_test(traction_turns_it_by_what_it_pushes_with),
       cmocka_unit_test(force_and_rolling_resistance_accelerate_it),
       cmocka_unit_test(on_a_slope_gravity_accelerates_it),
       cmocka_unit_test(a_wheel_is_wider_than_a_notch),
