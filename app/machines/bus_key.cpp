@@ -23,6 +23,8 @@ constexpr Lack kLacks[] = {
      "what stands in for measured spool positions"},
     {"stand_in.swash_feedback", "command", &BusCapabilities::swash_feedback,
      "what stands in for measured swash"},
+    {"stand_in.swash_command", "profile", &BusCapabilities::swash_command,
+     "what stands in for a command of the pumps' swash"},
     {"stand_in.protection", "range", &BusCapabilities::protection,
      "what stands in for counter and CRC"},
 };
@@ -51,14 +53,23 @@ BusCapabilities read_bus(TomlReader& reader, double dead_time_s,
                          const std::vector<KnownBus>& buses) {
   const KnownBus& bus = named_bus(reader, buses);
   for (const Lack& lack : kLacks) {
-    const bool carried = bus.capabilities.*lack.carried;
-    if (!carried) {
+    const bool by_pilot =
+        lack.carried == &BusCapabilities::spool_feedback && bus.capabilities.spool_by_pilot;
+    const bool carried = bus.capabilities.*lack.carried && !by_pilot;
+    if (by_pilot) {
+      static_cast<void>(reader.choice(lack.key, {"pilot"}, lack.help));
+    } else if (!carried) {
       // Missing, or another one than there is: the reader says so.
       static_cast<void>(reader.choice(lack.key, {lack.stand_in}, lack.help));
     } else if (reader.has(lack.key)) {
       static_cast<void>(reader.choice(lack.key, {lack.stand_in}, lack.help));
       reader.fail(lack.key, fmt::format("bus \"{}\" carries it: nothing stands in", bus.name));
     }
+  }
+  if (!bus.capabilities.swash_command && reader.has("task.swash_on_demand")) {
+    reader.fail("task.swash_on_demand", fmt::format("bus \"{}\" takes no command of the swash; "
+                                                    "allowed: leave it out",
+                                                    bus.name));
   }
   if (bus.capabilities.latency_s > dead_time_s) {
     reader.fail("bus", fmt::format("a latency of {} s is more than the valve's dead time of {} s, "

@@ -369,7 +369,7 @@ TeethPose read_teeth(TomlReader& reader, const std::string& at) {
                         "attitude of the bucket: direction from the teeth to its pin")};
 }
 
-ExcavatorProfile read_excavator_sections(TomlReader& reader) {
+ExcavatorProfile read_excavator_sections(TomlReader& reader, const std::vector<KnownBus>& buses) {
   ExcavatorProfile profile;
   profile.geometry = read_geometry(reader);
   profile.geometry.boom_foot_m = reader.point(
@@ -394,7 +394,7 @@ ExcavatorProfile read_excavator_sections(TomlReader& reader) {
   read_joint_sensors(reader, profile);
   check_law(reader, profile);
   profile.safety = read_safety(reader);
-  profile.bus = read_bus(reader, shortest_dead_time_s(profile));
+  profile.bus = read_bus(reader, shortest_dead_time_s(profile), buses);
   return profile;
 }
 
