@@ -72,8 +72,10 @@ CanFrame TableTransmitter::frame_of(std::size_t message, const ExcavatorOutputs&
   return frame;
 }
 
-bool TableTransmitter::is_silent(const ExcavatorOutputs& outputs) const {
-  return outputs.pilot_known && outputs.pilot_cut && !table_->has_cut;
+bool TableTransmitter::falls_silent(const ExcavatorOutputs& outputs) {
+  const bool is_due = outputs.pilot_known && outputs.pilot_cut && !table_->has_cut;
+  cut_cycles_ = is_due ? std::min(cut_cycles_ + 1, kNeutralCycles + 1) : 0;
+  return cut_cycles_ > kNeutralCycles;
 }
 
 std::size_t TableTransmitter::frames(const ExcavatorOutputs& outputs, TimeUs now, Frames& out) {
@@ -87,13 +89,14 @@ std::size_t TableTransmitter::frames(const ExcavatorOutputs& outputs, TimeUs now
     }
   }
   const bool enabled = may_move(outputs);
+  const bool silent = falls_silent(outputs);
   std::size_t written = 0;
   for (std::size_t i = 0; i < table_->send_count; ++i) {
     const TableSend& send = table_->send[i];
     if (send.has_enable && enabled != enabled_) {
       state_[i].due_us = now;
     }
-    if (take_due(state_[i].due_us, send.rule.period_us, now) && !is_silent(outputs)) {
+    if (take_due(state_[i].due_us, send.rule.period_us, now) && !silent) {
       out[written++] = frame_of(i, outputs, now, state_[i]);
     }
   }
@@ -105,7 +108,7 @@ std::size_t TableTransmitter::next_commands(const ExcavatorOutputs& outputs, Tim
                                             Frames& out) const {
   std::size_t written = 0;
   for (std::size_t i = 0; active() && i < table_->send_count; ++i) {
-    if (table_->send[i].commands && !is_silent(outputs)) {
+    if (table_->send[i].commands) {
       SendState state = state_[i];
       out[written++] = frame_of(i, outputs, now, state);
     }

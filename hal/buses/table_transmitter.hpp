@@ -5,7 +5,7 @@
 /// Without enable, and if any duty is not finite, every duty is sent as 0 and enable as 0. A value
 /// beyond what its bits can say is saturated. A message with enable goes out at once where that
 /// changes, beside its period. Where the pilot pressure is to be cut and no signal says so,
-/// nothing is sent any more: the machine's own time-outs cut it.
+/// neutral is sent for 100 ms, then nothing any more: the machine's own time-outs cut it.
 
 #include <array>
 #include <cstddef>
@@ -25,6 +25,8 @@ class TableTransmitter {
   explicit TableTransmitter(const BusTable* table) : table_(table) {}
 
   [[nodiscard]] bool active() const { return table_ != nullptr; }
+  static constexpr int kNeutralCycles = 10;
+
   /// Writes the frames due at `now`; returns how many. To be called every 10 ms.
   [[nodiscard]] std::size_t frames(const ExcavatorOutputs& outputs, TimeUs now, Frames& out);
   /// The next frame of each command, due or not; nothing is remembered of them.
@@ -35,11 +37,12 @@ class TableTransmitter {
  private:
   [[nodiscard]] CanFrame frame_of(std::size_t message, const ExcavatorOutputs& outputs, TimeUs now,
                                   SendState& state) const;
-  [[nodiscard]] bool is_silent(const ExcavatorOutputs& outputs) const;
+  [[nodiscard]] bool falls_silent(const ExcavatorOutputs& outputs);
 
   const BusTable* table_;
   bool started_ = false;
   bool enabled_ = false;  ///< As it was sent last.
+  int cut_cycles_ = 0;    ///< For so many a cut has been due.
   std::array<SendState, kMostTableSent> state_{};
 };
 

@@ -133,7 +133,8 @@ void a_locked_machine_does_not_move(void**) {
     m.step();
     assert_false(m.rig.plant.spools_enabled());
   }
-  assert_int_equal(m.status().fault, Fault::kValveNotFollowing);
+  // Its pilot pressures do not come.
+  assert_int_equal(m.status().fault, Fault::kSpoolStuck);
 }
 
 void lock(void**) {
@@ -141,6 +142,18 @@ void lock(void**) {
   m.dig();
   m.faults().locked = true;
   static_cast<void>(m.machine_neutral_after(kCycle_ms));
+  m.controller_stops_within(kEcho_ms);
+  assert_int_equal(m.status().fault, Fault::kSpoolStuck);
+}
+
+/// Of a machine whose pilot pressures are not looked at, its state alone says so.
+void lock_by_its_state(void**) {
+  Machine m;
+  m.dig();
+  m.change(zx200::MachineState::kId, [](CanFrame& frame) {
+    frame.data[0] |= 1U;
+    return true;
+  });
   m.controller_stops_within(kEcho_ms);
   assert_int_equal(m.status().fault, Fault::kValveNotFollowing);
 }
@@ -155,6 +168,13 @@ void a_short_lock_is_not_undone(void**) {
     m.step();
     assert_false(m.rig.plant.spools_enabled());
   }
+  // The operator lets go, and gives it again.
+  m.rig.enable_from(m.now + kSecondUs);
+  for (int cycle = 0; cycle < 300; ++cycle) {
+    m.step();
+  }
+  assert_int_equal(m.status().mode, EcuMode::kActive);
+  assert_true(m.rig.plant.spools_enabled());
 }
 
 void emergency_stop(void**) {
@@ -222,8 +242,20 @@ void a_pilot_that_does_not_follow(void**) {
   });
   m.controller_stops_within(100);
   assert_int_equal(m.status().fault, Fault::kSpoolStuck);
-  // It cannot say cut: it says nothing, and the machine shuts off.
   static_cast<void>(m.machine_neutral_after(2 * kCycle_ms));
+  // No signal says cut: nothing is sent any more, and the machine shuts off by itself.
+  for (int cycle = 0; cycle < 20; ++cycle) {
+    m.step();
+  }
+  bool sent = false;
+  m.rig.bus.set_tap([&](const CanFrame& frame) {
+    sent = sent || frame.id == zx200::PilotPressureCmd1::kId ||
+           frame.id == zx200::MachineSettingCmd::kId;
+  });
+  for (int cycle = 0; cycle < 20; ++cycle) {
+    m.step();
+  }
+  assert_false(sent);
 }
 
 void another_controller(void**) {
@@ -244,6 +276,7 @@ int main() {
       cmocka_unit_test(nothing_moves_before_the_handshake),
       cmocka_unit_test(a_locked_machine_does_not_move),
       cmocka_unit_test(lock),
+      cmocka_unit_test(lock_by_its_state),
       cmocka_unit_test(a_short_lock_is_not_undone),
       cmocka_unit_test(emergency_stop),
       cmocka_unit_test(lost_gateway),
