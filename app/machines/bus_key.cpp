@@ -20,7 +20,7 @@ constexpr Lack kLacks[] = {
     {"stand_in.valve_echo", "motion", &BusCapabilities::valve_echo,
      "what stands in for the valve's echo of enable"},
     {"stand_in.spool_feedback", "command", &BusCapabilities::spool_feedback,
-     "what stands in for measured spool positions"},
+     "what stands in for measured spool positions; pilot where pilot pressures are told"},
     {"stand_in.swash_feedback", "command", &BusCapabilities::swash_feedback,
      "what stands in for measured swash"},
     {"stand_in.swash_command", "profile", &BusCapabilities::swash_command,
@@ -38,8 +38,9 @@ const KnownBus& named_bus(TomlReader& reader, const std::vector<KnownBus>& buses
   for (const KnownBus& bus : buses) {
     names.push_back(bus.name);
   }
-  return buses[static_cast<std::size_t>(
-      reader.choice("bus", names, "bus that the machine is on; without it the first"))];
+  return buses[static_cast<std::size_t>(reader.choice(
+      "bus", names,
+      "bus that the machine is on: ours, or a bus profile by its name; without it the first"))];
 }
 
 }  // namespace

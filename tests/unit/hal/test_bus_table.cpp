@@ -218,6 +218,7 @@ void a_slow_source_holds_up_to_its_time_out(void**) {
     bus.pass();
     assert_true(bus.inputs().valve_enabled.validity == Validity::kValid);
     assert_int_equal(bus.inputs().valve_enabled.stamp_us, bus.now - kPeriod);
+    assert_int_equal(bus.inputs().engine_speed_radps.stamp_us, bus.now - kPeriod);
   }
   bus.pass();
   assert_true(bus.inputs().valve_enabled.validity == Validity::kNotAvailable);
