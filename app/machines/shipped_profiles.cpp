@@ -67,9 +67,7 @@ fs::path find_shipped_simulation(const std::string& name) {
   return file;
 }
 
-fs::path find_bus(const std::string& name) {
-  return find_bus(name, {shipped_folder() / "buses"});
-}
+fs::path find_bus(const std::string& name) { return find_bus(name, {shipped_folder() / "buses"}); }
 
 fs::path find_task(const std::string& name) {
   return find_task(name, {shipped_folder() / "tasks"});

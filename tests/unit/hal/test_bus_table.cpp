@@ -8,63 +8,12 @@
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "hal/buses/excavator_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/hal/table_bus.hpp"
 
 namespace {
 
 using namespace graben;
-
-constexpr std::uint32_t kAngles = 0x18FF7DE8;
-constexpr std::uint32_t kState = 0x18FF84E8;
-constexpr std::uint32_t kLevers = 0x18FF640A;
-constexpr std::uint32_t kSetting = 0x18FF660A;
-constexpr TimeUs kNow = 5 * kSecondUs;
-constexpr TimeUs kPeriod = 10 * kMillisecondUs;
-
-/// Boom's angle every 10 ms on the first bus; the state, with a counter, every 50 ms on any.
-BusTable table() {
-  BusTable made;
-  made.message_count = 2;
-  made.rule[0].id = kAngles;
-  made.rule[1].id = kState;
-  made.rule[0].length = made.rule[1].length = 8;
-  made.message[0].bus = 0;
-  made.message[0].period_us = kPeriod;
-  made.message[0].timeout_us = 35 * kMillisecondUs;
-  made.message[0].count = 1;
-  made.message[1].period_us = 5 * kPeriod;
-  made.message[1].timeout_us = 160 * kMillisecondUs;
-  made.message[1].slow = true;
-  made.message[1].protection = TableProtection::kCounter;
-  made.message[1].counter = {56, 8, false, false};
-  made.message[1].most_steps = 3;
-  made.message[1].first = 1;
-  made.message[1].count = 2;
-  made.source_count = 3;
-  made.source[0] = {
-      {0, 16, false, false}, SourcePlace::kJointAngle, 0, false, -0.0004, 10.0, -1.3, 1.3, 3.0};
-  made.source[1] = {{0, 1, false, false}, SourcePlace::kCondition, 0, false, 1.0, 0.0, 0.0, 0.0};
-  made.source[2] = {
-      {40, 1, false, false}, SourcePlace::kEngineSpeed, 0, false, 188.5, 0.0, 0.0, 188.5};
-  made.has_engine = true;
-  made.send_count = 2;
-  made.send[0].rule = {kLevers, kPeriod, 0, false, 0, nullptr};
-  made.send[0].commands = true;
-  made.send[0].bus = 0;
-  made.send[0].count = 2;
-  made.send[1].rule = {kSetting, 5 * kPeriod, 0, false, 0, nullptr};
-  made.send[1].protection = TableProtection::kCounter;
-  made.send[1].counter = {56, 8, false, false};
-  made.send[1].commands = true;
-  made.send[1].has_enable = true;
-  made.send[1].first = 2;
-  made.send[1].count = 2;
-  made.sink_count = 4;
-  made.sink[0] = {{0, 8, false, false}, SinkPlace::kExtend, 0, 0.004, 0.0};
-  made.sink[1] = {{8, 8, false, false}, SinkPlace::kRetract, 0, 0.004, 0.0};
-  made.sink[2] = {{28, 4, false, false}, SinkPlace::kEnable, 0, 1.0, 0.0};
-  made.sink[3] = {{0, 8, false, false}, SinkPlace::kConstant, 0, 1.0, 180.0};
-  return made;
-}
+using namespace graben::test;
 
 struct Bus {
   BusTable other = table();
@@ -319,88 +268,6 @@ void our_commands_from_another_are_a_second_controller(void**) {
   assert_true(bus.receiver.message_faults(bus.now).has(Fault::kSecondController));
 }
 
-struct Sent {
-  BusTable other = table();
-  TableTransmitter transmitter{&other};
-  ExcavatorOutputs outputs;
-  TableTransmitter::Frames frames;
-  std::size_t count = 0;
-  TimeUs now = kNow;
-
-  void cycle() {
-    count = transmitter.frames(outputs, now, frames);
-    now += kPeriod;
-  }
-  [[nodiscard]] const CanFrame* find(std::uint32_t id) const {
-    for (std::size_t i = 0; i < count; ++i) {
-      if (frames[i].id == id) {
-        return &frames[i];
-      }
-    }
-    return nullptr;
-  }
-};
-
-void duties_become_levers(void**) {
-  Sent sent;
-  sent.outputs.enable = true;
-  sent.outputs.duty_ratio[0] = 0.5;
-  sent.cycle();
-  const CanFrame* levers = sent.find(kLevers);
-  assert_non_null(levers);
-  assert_int_equal(levers->data[0], 125);
-  assert_int_equal(levers->data[1], 0);
-  assert_int_equal(levers->bus, 0);
-  sent.outputs.duty_ratio[0] = -1.0;
-  sent.cycle();
-  assert_int_equal(sent.find(kLevers)->data[0], 0);
-  assert_int_equal(sent.find(kLevers)->data[1], 250);
-  assert_true(sent.transmitter.is_command(kLevers));
-}
-
-void without_enable_all_is_neutral(void**) {
-  Sent sent;
-  sent.outputs.duty_ratio[0] = 0.5;
-  sent.cycle();
-  assert_int_equal(sent.find(kLevers)->data[0], 0);
-  assert_int_equal(sent.find(kSetting)->data[3], 0);
-  assert_int_equal(sent.find(kSetting)->data[0], 180);
-  sent.outputs.enable = true;
-  sent.outputs.duty_ratio[1] = std::numeric_limits<double>::quiet_NaN();
-  sent.cycle();
-  assert_int_equal(sent.find(kLevers)->data[0], 0);
-}
-
-void a_change_of_enable_does_not_wait(void**) {
-  Sent sent;
-  sent.cycle();
-  const int first = sent.find(kSetting)->data[7];
-  sent.cycle();
-  assert_null(sent.find(kSetting));
-  sent.outputs.enable = true;
-  sent.cycle();
-  assert_non_null(sent.find(kSetting));
-  assert_int_equal(sent.find(kSetting)->data[3], 0x10);
-  assert_int_equal(sent.find(kSetting)->data[7], first + 1);
-}
-
-void what_cannot_say_cut_falls_silent(void**) {
-  Sent sent;
-  sent.outputs.pilot_known = true;
-  sent.outputs.pilot_cut = true;
-  for (int cycle = 0; cycle < TableTransmitter::kNeutralCycles; ++cycle) {
-    sent.cycle();
-    assert_int_equal(sent.find(kLevers)->data[0], 0);
-  }
-  for (int cycle = 0; cycle < 20; ++cycle) {
-    sent.cycle();
-    assert_int_equal(sent.count, 0);
-  }
-  sent.outputs.pilot_cut = false;
-  sent.cycle();
-  assert_non_null(sent.find(kLevers));
-}
-
 }  // namespace
 
 int main() {
@@ -417,10 +284,6 @@ int main() {
       cmocka_unit_test(the_machines_own_frames_of_ours_are_foreign),
       cmocka_unit_test(our_own_bus_as_a_table_is_the_same),
       cmocka_unit_test(our_commands_from_another_are_a_second_controller),
-      cmocka_unit_test(duties_become_levers),
-      cmocka_unit_test(without_enable_all_is_neutral),
-      cmocka_unit_test(a_change_of_enable_does_not_wait),
-      cmocka_unit_test(what_cannot_say_cut_falls_silent),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
