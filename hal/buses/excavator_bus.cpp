@@ -260,7 +260,9 @@ int ExcavatorTransmitter::with_commands(const Outputs& outputs, TimeUs now, int 
                                         Frames& out) const {
   TableTransmitter::Frames others;
   const std::size_t first = table_.next_commands(outputs, now, others);
-  std::copy_backward(out.begin(), out.begin() + count, out.begin() + count + first);
+  for (auto n = static_cast<std::size_t>(count); n > 0; --n) {
+    out[n - 1 + first] = out[n - 1];
+  }
   std::copy_n(others.begin(), first, out.begin());
   return count + static_cast<int>(first);
 }
