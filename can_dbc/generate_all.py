@@ -19,7 +19,7 @@ import generate
 from dbcgen import codes, emit_codes, source
 
 KINDS = ("excavator", "dozer")
-STANDARDS = ("j1939",)  # Messages that are not ours.
+STANDARDS = ("j1939", "zx200")  # Messages that are not ours.
 
 
 def outputs(root: pathlib.Path) -> list[tuple[pathlib.Path, str]]:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Several buses as one: what any of them brings is received, what is sent goes to all.
+/// Several buses as one: what any of them brings is received with that bus's number, what is sent
+/// goes to the bus that it is for, or to all.
 
 #include <array>
 #include <cstddef>
@@ -39,15 +40,22 @@ class CanPortGroup final : public CanPort {
   [[nodiscard]] int receive(CanFrame* frames, int capacity) override {
     int taken = 0;
     for (std::size_t i = 0; i < count_; ++i) {
-      CanPort& port = *ports_[(first_ + i) % count_];
-      taken += port.receive(frames + taken, capacity - taken);
+      const std::size_t bus = (first_ + i) % count_;
+      const int came = ports_[bus]->receive(frames + taken, capacity - taken);
+      for (int n = taken; n < taken + came; ++n) {
+        frames[n].bus = static_cast<std::uint8_t>(bus);
+      }
+      taken += came;
     }
     first_ = count_ > 0 ? (first_ + 1) % count_ : 0;
     return taken;
   }
 
-  /// True if every port took it.
+  /// True if every port that it is for took it; false if there is none.
   [[nodiscard]] bool send(const CanFrame& frame) override {
+    if (frame.bus != kAnyBus) {
+      return frame.bus < count_ && ports_[frame.bus]->send(frame);
+    }
     bool all = count_ > 0;
     for (std::size_t i = 0; i < count_; ++i) {
       all = ports_[i]->send(frame) && all;

@@ -34,6 +34,11 @@ struct DozerKind {
 
   [[nodiscard]] static std::array<std::uint32_t, 0> sensor_ids(const Setup&) { return {}; }
   [[nodiscard]] static BusParts parts(const Setup&) { return {}; }
+  /// It is on ours.
+  template <class AnyMachine>
+  [[nodiscard]] static BusTable table(const AnyMachine&) {
+    return {};
+  }
   [[nodiscard]] static constexpr bool is_command(std::uint32_t id) {
     return id == Dbc::SpoolCommand::kId || id == Dbc::PumpDisplacementCommand::kId ||
            id == Dbc::MotorDisplacementCommand::kId;

@@ -12,6 +12,7 @@
 #include "firmware/core/time.hpp"
 #include "firmware/safety/mode.hpp"
 #include "firmware/signals/machine_signals.hpp"
+#include "hal/buses/bus_table.hpp"
 #include "hal/can_port.hpp"
 #include "hal/link/challenge.hpp"
 #include "hal/link/message_links.hpp"
@@ -70,13 +71,15 @@ class EcuNode {
   using Outputs = typename Kind::Outputs;
   using Receiver = typename Kind::Receiver;
 
-  EcuNode(const Setup& setup, std::uint32_t profile_hash, CanPort& port)
+  /// `table` is that of another bus than ours; null or empty: none. It outlives the node.
+  EcuNode(const Setup& setup, std::uint32_t profile_hash, CanPort& port,
+          const BusTable* table = nullptr)
       : port_(port),
         watch_(port),
         setup_(setup),
-        receiver_(Kind::parts(setup_)),
+        receiver_(with_table(Kind::parts(setup_), table)),
         controller_(setup_),
-        transmitter_(Kind::parts(setup_)) {
+        transmitter_(with_table(Kind::parts(setup_), table)) {
     diagnosis_.profile_hash = profile_hash;
   }
   /// The controller refers to the node's own setup.
@@ -187,7 +190,7 @@ void EcuNode<Kind>::send(const typename Transmitter::Frames& frames, int count) 
     if (taken && frame.id == dbc::common::EcuIdentity::kId) {
       challenge_.sent(frame.stamp_us);
     }
-    if (Kind::is_command(frame.id)) {
+    if (Kind::is_command(frame.id) || transmitter_.is_table_command(frame.id)) {
       has_command = true;
       all_taken = all_taken && taken;
     }

@@ -174,7 +174,7 @@ void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, Usage
 
 /// What the controller takes, its sensors' frames, and its own ids: another one is to be heard.
 template <class Kind>
-std::vector<std::uint32_t> heard_ids(const typename Kind::Setup& setup) {
+std::vector<std::uint32_t> heard_ids(const typename Kind::Setup& setup, const BusTable& table) {
   const auto taken = Kind::Receiver::ids();
   const auto own = Kind::Transmitter::ids();
   std::vector<std::uint32_t> ids(taken.begin(), taken.end());
@@ -184,16 +184,21 @@ std::vector<std::uint32_t> heard_ids(const typename Kind::Setup& setup) {
       ids.push_back(id);
     }
   }
+  for (const std::uint32_t id : table_ids(table)) {
+    if (id != 0) {
+      ids.push_back(id);
+    }
+  }
   return ids;
 }
 
 /// From the interfaces to the statistics, with the controller of a machine kind.
 template <class Kind>
-int run_controller(const typename Kind::Setup& setup, std::uint32_t profile_hash,
-                   const EcuOptions& options, TimeUs began_us) {
-  Buses buses(options.interfaces, heard_ids<Kind>(setup));
+int run_controller(const typename Kind::Setup& setup, const BusTable& table,
+                   std::uint32_t profile_hash, const EcuOptions& options, TimeUs began_us) {
+  Buses buses(options.interfaces, heard_ids<Kind>(setup, table));
   LastFrames last;
-  EcuNode<Kind> ecu(setup, profile_hash, buses.group);
+  EcuNode<Kind> ecu(setup, profile_hash, buses.group, &table);
   CyclicClock clock(kPeriod_us);
   ServiceNotify manager(std::getenv("NOTIFY_SOCKET"));
   Watchdog watchdog(manager);
@@ -234,7 +239,8 @@ int run_machine(const Machine& machine, const EcuOptions& options, TimeUs began_
   using Kind = KindOf<Machine>;
   if constexpr (Kind::kHasTasks) {
     const auto book = read_tasks(options.tasks, machine.profile);
-    return book ? run_controller<Kind>({machine.profile, *book}, machine.hash, options, began_us)
+    return book ? run_controller<Kind>({machine.profile, *book}, Kind::table(machine), machine.hash,
+                                       options, began_us)
                 : kWrongFile;
   } else {
     if (!options.tasks.empty()) {
@@ -242,7 +248,8 @@ int run_machine(const Machine& machine, const EcuOptions& options, TimeUs began_
                    options.profile.c_str(), Kind::kName, Kind::kName);
       return kWrongFile;
     }
-    return run_controller<Kind>(machine.profile, machine.hash, options, began_us);
+    return run_controller<Kind>(machine.profile, Kind::table(machine), machine.hash, options,
+                                began_us);
   }
 }
 

@@ -39,6 +39,11 @@ struct ExcavatorKind {
     }
     return parts;
   }
+  /// Of the bus that the machine is on, if that is not ours.
+  template <class AnyMachine>
+  [[nodiscard]] static const BusTable& table(const AnyMachine& machine) {
+    return machine.bus;
+  }
   /// Beside those of the receiver; 0 is none.
   [[nodiscard]] static auto sensor_ids(const Setup& setup) { return imu_ids(parts(setup).imu); }
   [[nodiscard]] static constexpr bool is_command(std::uint32_t id) {

@@ -20,9 +20,11 @@ constexpr Lack kLacks[] = {
     {"stand_in.valve_echo", "motion", &BusCapabilities::valve_echo,
      "what stands in for the valve's echo of enable"},
     {"stand_in.spool_feedback", "command", &BusCapabilities::spool_feedback,
-     "what stands in for measured spool positions"},
+     "what stands in for measured spool positions; pilot where pilot pressures are told"},
     {"stand_in.swash_feedback", "command", &BusCapabilities::swash_feedback,
      "what stands in for measured swash"},
+    {"stand_in.swash_command", "profile", &BusCapabilities::swash_command,
+     "what stands in for a command of the pumps' swash"},
     {"stand_in.protection", "range", &BusCapabilities::protection,
      "what stands in for counter and CRC"},
 };
@@ -36,8 +38,9 @@ const KnownBus& named_bus(TomlReader& reader, const std::vector<KnownBus>& buses
   for (const KnownBus& bus : buses) {
     names.push_back(bus.name);
   }
-  return buses[static_cast<std::size_t>(
-      reader.choice("bus", names, "bus that the machine is on; without it the first"))];
+  return buses[static_cast<std::size_t>(reader.choice(
+      "bus", names,
+      "bus that the machine is on: ours, or a bus profile by its name; without it the first"))];
 }
 
 }  // namespace
@@ -51,14 +54,23 @@ BusCapabilities read_bus(TomlReader& reader, double dead_time_s,
                          const std::vector<KnownBus>& buses) {
   const KnownBus& bus = named_bus(reader, buses);
   for (const Lack& lack : kLacks) {
-    const bool carried = bus.capabilities.*lack.carried;
-    if (!carried) {
+    const bool by_pilot =
+        lack.carried == &BusCapabilities::spool_feedback && bus.capabilities.spool_by_pilot;
+    const bool carried = bus.capabilities.*lack.carried && !by_pilot;
+    if (by_pilot) {
+      static_cast<void>(reader.choice(lack.key, {"pilot"}, lack.help));
+    } else if (!carried) {
       // Missing, or another one than there is: the reader says so.
       static_cast<void>(reader.choice(lack.key, {lack.stand_in}, lack.help));
     } else if (reader.has(lack.key)) {
       static_cast<void>(reader.choice(lack.key, {lack.stand_in}, lack.help));
       reader.fail(lack.key, fmt::format("bus \"{}\" carries it: nothing stands in", bus.name));
     }
+  }
+  if (!bus.capabilities.swash_command && reader.has("task.swash_on_demand")) {
+    reader.fail("task.swash_on_demand", fmt::format("bus \"{}\" takes no command of the swash; "
+                                                    "allowed: leave it out",
+                                                    bus.name));
   }
   if (bus.capabilities.latency_s > dead_time_s) {
     reader.fail("bus", fmt::format("a latency of {} s is more than the valve's dead time of {} s, "

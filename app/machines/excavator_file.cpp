@@ -1,16 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/machines/excavator_file.hpp"
 
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/machines/bus_file.hpp"
 #include "app/machines/excavator_sections.hpp"
 #include "app/machines/profile_document.hpp"
 
 namespace graben::machines {
+namespace {
+
+/// The bus profile that the machine's names, beside it, in `buses` there, or in the system's
+/// folder. None where it names ours or nothing.
+std::optional<BusFile> other_bus(const ProfileDocument& document) {
+  const std::string name = document.root["bus"].value<std::string>().value_or("");
+  const bool is_ours = name.empty() || name == known_buses().front().name;
+  const std::filesystem::path beside = document.file.parent_path();
+  return is_ours ? std::nullopt
+                 : std::optional(load_bus(
+                       find_bus(name, {beside, beside / "buses", "/usr/share/graben/buses"})));
+}
+
+}  // namespace
 
 ExcavatorMachine load_excavator(const ProfileDocument& document) {
   ExcavatorMachine machine;
   machine.name = document.file.stem().string();
+  const std::optional<BusFile> bus = other_bus(document);
+  std::vector<KnownBus> buses = known_buses();
+  if (bus) {
+    buses.push_back({document.root["bus"].value<std::string>().value_or(""), bus->capabilities});
+    machine.bus = bus->table;
+    machine.bus_speaks = bus->speaks;
+  }
   machine.hash = read_as(document, MachineKind::kExcavator, [&](TomlReader& reader) {
-    machine.profile = read_excavator_sections(reader);
+    machine.profile = read_excavator_sections(reader, buses);
     machine.driven = read_driven(reader, machine.profile.drive_count);
     machine.provenance = reader.provenance();
     check_excavator_across_keys(reader, machine.profile);

@@ -9,6 +9,7 @@
 #include "app/machines/answer_section.hpp"
 #include "app/machines/profile_file.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
+#include "hal/buses/bus_table.hpp"
 
 namespace graben::machines {
 
@@ -19,6 +20,8 @@ struct ExcavatorMachine {
   ExcavatorProfile profile;
   std::array<DrivenRanges, kDriveCount> driven;  ///< How far the spools' answers are known.
   std::vector<Provenance> provenance;            ///< Where its values are from, as far as said.
+  BusTable bus;                                  ///< Of the bus that it is on; empty: ours.
+  std::string bus_speaks;                        ///< Whose bus that is; empty: ours.
 };
 
 /// Reads and checks an excavator's profile. Throws ProfileError with every error found.

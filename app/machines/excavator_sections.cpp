@@ -369,7 +369,7 @@ TeethPose read_teeth(TomlReader& reader, const std::string& at) {
                         "attitude of the bucket: direction from the teeth to its pin")};
 }
 
-ExcavatorProfile read_excavator_sections(TomlReader& reader) {
+ExcavatorProfile read_excavator_sections(TomlReader& reader, const std::vector<KnownBus>& all) {
   ExcavatorProfile profile;
   profile.geometry = read_geometry(reader);
   profile.geometry.boom_foot_m = reader.point(
@@ -380,8 +380,7 @@ ExcavatorProfile read_excavator_sections(TomlReader& reader) {
   profile.swing = read_swing(reader);
   profile.line = read_line(reader);
   profile.pump_count = reader.table_count("pump", 1, kPumpCount, "pumps, a table each");
-  const auto pumps = static_cast<unsigned>(profile.pump_count);
-  for (unsigned j = 0; j < pumps; ++j) {
+  for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
     profile.pump[j] = read_pump(reader, j);
   }
   profile.valve = read_valve(reader, profile.pump_count, profile.drive_count);
@@ -394,7 +393,7 @@ ExcavatorProfile read_excavator_sections(TomlReader& reader) {
   read_joint_sensors(reader, profile);
   check_law(reader, profile);
   profile.safety = read_safety(reader);
-  profile.bus = read_bus(reader, shortest_dead_time_s(profile));
+  profile.bus = read_bus(reader, shortest_dead_time_s(profile), all);
   return profile;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "app/machines/bus_key.hpp"
 #include "app/machines/toml_reader.hpp"
 #include "firmware/excavator/excavator_controller.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
@@ -14,7 +15,8 @@
 namespace graben::machines {
 
 /// All that the controller knows: geometry, pumps, valve, control, safety, task.
-[[nodiscard]] ExcavatorProfile read_excavator_sections(TomlReader& reader);
+[[nodiscard]] ExcavatorProfile read_excavator_sections(
+    TomlReader& reader, const std::vector<KnownBus>& buses = known_buses());
 
 /// Checks that need more than one key: the path lies in the work space, angle ranges fit the stroke
 /// ends, orifices and tables fit each other. They are made only where each key by itself is right.

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "app/machines/bus_file.hpp"
 #include "app/machines/profile_file.hpp"
 #include "app/machines/task_file.hpp"
 #ifndef GRABEN_MACHINES_DIR
@@ -65,6 +66,8 @@ fs::path find_shipped_simulation(const std::string& name) {
   }
   return file;
 }
+
+fs::path find_bus(const std::string& name) { return find_bus(name, {shipped_folder() / "buses"}); }
 
 fs::path find_task(const std::string& name) {
   return find_task(name, {shipped_folder() / "tasks"});

@@ -45,12 +45,23 @@ struct PumpFaults {
   std::optional<double> actual_swash_ratio;  ///< Where the pump goes, whatever is commanded.
 };
 
+/// Of the automation controller of a machine of the ZX200 class; a stroke's fault is then its
+/// joint's, in rad.
+struct Zx200Faults {
+  bool locked = false;   ///< The operator locks the machine.
+  bool stopped = false;  ///< The emergency stop is pressed.
+  bool frozen = false;   ///< Its alive counter stands still.
+  bool lost = false;     ///< It says nothing any more, and hears nothing.
+};
+
 struct ExcavatorFaults : NodeFaults {
   std::array<AxisFaults, kAxisCount> axis;
   SwingFaults swing;
   std::array<PumpFaults, kPumpCount> pump;
   /// Whose stroke each axis shows: its plug may be in another sensor.
   std::array<std::size_t, kAxisCount> stroke_from = {0, 1, 2};
+
+  Zx200Faults zx200;
 
   void set_stroke_state(int axis_index, dbc::RawState state) {
     axis[static_cast<std::size_t>(axis_index)].stroke.state = state;

@@ -20,9 +20,38 @@ ExcavatorNode::ExcavatorNode(const ExcavatorPlantProfile& profile, const Excavat
     : MachineNode(port, profile_hash, profile, start.strokes_m, start.swing_rad),
       sensors_(profile),
       imus_(profile, profile.sensor_errors ? std::optional(profile.seed) : std::nullopt),
-      wanted_swash_(profile.swash_ratio) {}
+      wanted_swash_(profile.swash_ratio) {
+  if (profile.zx200) {
+    zx200_.emplace(profile);
+  }
+}
+
+void ExcavatorNode::step_zx200(TimeUs now) {
+  const Zx200Faults& faults = faults_.zx200;
+  receive([&](const CanFrame& frame) {
+    if (!faults.lost) {
+      zx200_->take(frame, now);
+    }
+  });
+  zx200_->decide(faults, now);
+  duty_ = zx200_->duty();
+  enabled_ = zx200_->drives();
+  plant_.set_pilot_cut(!enabled_);
+  set_duties();
+  apply_faults();
+  advance(now);
+  if (!faults.lost) {
+    zx200_->report(plant_, faults_, sensors_, cycle(),
+                   [this, now](const auto& message) { send(message, now); });
+  }
+  end_silent_cycle();
+}
 
 void ExcavatorNode::step(TimeUs now) {
+  if (zx200_) {
+    step_zx200(now);
+    return;
+  }
   receive([this, now](const CanFrame& frame) { take(frame, now); });
   watch_commands(now);
   apply_faults();

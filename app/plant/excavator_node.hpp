@@ -4,12 +4,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "app/plant/excavator_faults.hpp"
 #include "app/plant/excavator_plant.hpp"
 #include "app/plant/excavator_sensors.hpp"
 #include "app/plant/link_imus.hpp"
 #include "app/plant/machine_node.hpp"
+#include "app/plant/zx200_gateway.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "hal/can_port.hpp"
 
@@ -34,7 +36,8 @@ struct ExcavatorStart {
 /// without it for as long, or without a value, it goes back to the profile's swash. The swing spool
 /// follows SwingCommand by the same rules as the others SpoolCommand, and opens only while
 /// SpoolCommand lets them open too. A machine without a swing drive neither listens to nor says
-/// anything of the swing. One whose profile has IMUs sends their frames and no strokes.
+/// anything of the swing. One whose profile has IMUs sends their frames and no strokes. One of the
+/// ZX200 class speaks its own bus instead of all that, see zx200_gateway.hpp.
 class ExcavatorNode : public MachineNode<dbc::excavator::Dbc, ExcavatorPlant, ExcavatorFaults> {
  public:
   ExcavatorNode(const ExcavatorPlantProfile& profile, const ExcavatorStart& start, CanPort& port,
@@ -54,6 +57,7 @@ class ExcavatorNode : public MachineNode<dbc::excavator::Dbc, ExcavatorPlant, Ex
 
  private:
   void take(const CanFrame& frame, TimeUs now);
+  void step_zx200(TimeUs now);
   void apply_faults();
   void watch_commands(TimeUs now);
   void take_spool_command(const CanFrame& frame, TimeUs now);
@@ -71,6 +75,7 @@ class ExcavatorNode : public MachineNode<dbc::excavator::Dbc, ExcavatorPlant, Ex
 
   FaultySensors sensors_;
   LinkImuModel imus_;
+  std::optional<Zx200Gateway> zx200_;
   CommandLink swing_link_;
   CommandLink pump_link_;
   bool swing_enabled_ = false;

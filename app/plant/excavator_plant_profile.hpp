@@ -47,6 +47,7 @@ struct SensorErrors {
   double imu_rate_bias_radps = 0.0;   ///< Of each of its gyros.
   double imu_rate_noise_radps = 0.0;  ///< Standard deviation.
   double imu_force_noise_mps2 = 0.0;  ///< Standard deviation.
+  double joint_bias_rad = 0.0;        ///< Of a joint's angle, where the machine measures that.
   std::array<double, kAxisCount> stroke_zero_m{};
   /// Of each drive's two chambers; of the swing cap is the left port, rod the right one.
   std::array<double, kDriveCount> cap_zero_pa{};
@@ -103,6 +104,7 @@ struct ExcavatorPlantProfile : HydraulicDetails {
   std::array<double, kPumpCount> swash_ratio{};  ///< Of full swash, unless commanded.
   SensorErrors sensors;
   /// Seed of the sensors' bias and noise and of the soil's random part.
+  bool zx200 = false;  ///< It speaks the bus of its class instead of ours.
   std::uint64_t seed = 0;
   bool sensor_errors = false;  ///< Without: strokes to the resolution, pressures exact.
   std::array<SideDelay, kDriveCount> dead_time;

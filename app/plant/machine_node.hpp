@@ -135,6 +135,10 @@ class MachineNode {
     message.enabled = {enabled_ ? Enabled::kOn : Enabled::kOff, dbc::RawState::kValid};
     return message;
   }
+  /// Cycles before this one.
+  [[nodiscard]] std::uint64_t cycle() const { return cycle_; }
+  /// Last in a cycle of a machine that does not name itself.
+  void end_silent_cycle() { ++cycle_; }
   /// Last in a cycle. The machine names itself every second, and when it is asked.
   void end_cycle(TimeUs now) {
     echo_.set_mute(faults_.cannot_answer);

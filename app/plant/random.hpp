@@ -29,6 +29,7 @@ enum class Draw : std::uint32_t {
   kImuBias,
   kImuNoise,
   kDesign,
+  kJointBias,
 };
 
 class Random {

@@ -51,13 +51,14 @@ inline constexpr TimeUs kImusLearn_us = 10 * kSecondUs;
 [[nodiscard]] inline std::optional<Eigen::Vector3d> measured_strokes_m(
     const ExcavatorProfile& profile, const ecu::ExcavatorKind::Ecu& ecu) {
   const JointAngles& by_imus = ecu.outputs().status.joints;
-  bool known = !profile.imu.known() || by_imus.known;
+  const bool by_estimate = profile.imu.known() || profile.bus.joint_angles;
+  bool known = !by_estimate || by_imus.known;
   Eigen::Vector3d strokes_m;
   for (unsigned i = 0; i < kAxisCount; ++i) {
     const Signal<double>& stroke_m = ecu.inputs().axis[i].stroke_m;
-    known = known && (profile.imu.known() || stroke_m.validity == Validity::kValid);
-    const double shown_m = profile.imu.known() ? by_imus.stroke_m[i]
-                                               : stroke_m.value - profile.sensor_zero.stroke_m[i];
+    known = known && (by_estimate || stroke_m.validity == Validity::kValid);
+    const double shown_m =
+        by_estimate ? by_imus.stroke_m[i] : stroke_m.value - profile.sensor_zero.stroke_m[i];
     strokes_m[i] = std::clamp(shown_m, 0.0, profile.geometry.cylinder[i].stroke_m);
   }
   return known ? std::optional(strokes_m) : std::nullopt;

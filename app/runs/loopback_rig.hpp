@@ -9,6 +9,7 @@
 
 #include "firmware/core/time.hpp"
 #include "firmware/signals/machine_signals.hpp"
+#include "hal/buses/bus_table.hpp"
 #include "platform/loopback/loopback_bus.hpp"
 
 namespace graben::runs {
@@ -18,7 +19,8 @@ namespace graben::runs {
 ///
 /// `Kind` is a machine kind (app/ecu/ecu_node.hpp) that can be simulated: Machine, what its files
 /// say, with `hash`; Node, the machine on its bus, with step(now_us); Operator, as
-/// plant::OperatorNode; Start, where a machine begins; node(machine, start, port), which makes it.
+/// plant::OperatorNode; Start, where a machine begins; node(machine, start, port), which makes it;
+/// table(machine), of another bus than ours, empty where there is none.
 template <class Kind>
 struct LoopbackRig {
   using Machine = typename Kind::Machine;
@@ -31,6 +33,7 @@ struct LoopbackRig {
   LoopbackRig(const Machine& machine, const Setup& ecu_setup, const Start& start, Task given_task,
               double override_ratio)
       : setup(ecu_setup),
+        bus_table(Kind::table(machine)),
         profile_hash(machine.hash),
         plant_port(bus.attach()),
         operator_port(bus.attach()),
@@ -78,7 +81,7 @@ struct LoopbackRig {
   /// False: its bus is down, and it opens that itself once it can.
   bool start_ecu() {
     const bool is_open = ecu_port.open();
-    ecu.emplace(setup, profile_hash, ecu_port);
+    ecu.emplace(setup, profile_hash, ecu_port, &bus_table);
     return is_open;
   }
 
@@ -96,6 +99,7 @@ struct LoopbackRig {
   }
 
   Setup setup;
+  BusTable bus_table;  ///< Of another bus than ours; empty: none.
   std::uint32_t profile_hash;
   LoopbackBus bus;
   LoopbackPort& plant_port;

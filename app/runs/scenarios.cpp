@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
 
 #include "app/machines/task_text.hpp"
@@ -96,6 +97,9 @@ std::string scenario_text(const DigScenario& scenario) {
   add(scenario.scenario.stiff_oil, "stiff oil");
   add(scenario.fixed_lambda, "lambda fixed at 1");
   add(scenario.scenario.imus, "IMUs");
+  if (!scenario.scenario.bus.empty()) {
+    parts.push_back("bus " + std::filesystem::path(scenario.scenario.bus).stem().string());
+  }
   if (scenario.scenario.dead_time_s) {
     parts.push_back(fmt::format("dead time {} s", *scenario.scenario.dead_time_s));
   }

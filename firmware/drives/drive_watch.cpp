@@ -50,7 +50,8 @@ FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus, const DriveC
   state.tried_s = last.sent.tried ? kTriedFor_s : std::max(0.0, state.tried_s - period_s);
   SentCommand sent = last.sent;
   sent.tried = state.tried_s > 0.0;
-  FaultSet stops = watch_spools(drives, sent, seen, {received, bus.valve_echo, valid.valve_enabled},
+  FaultSet stops = watch_spools(drives, sent, seen,
+                                {received, bus.valve_echo, valid.valve_enabled, bus.echo_cycles},
                                 state.spool, state.echo_cycles);
   for (int i = 0; i < drives.count(); ++i) {
     if (!drives[i].watch.senses_spool) {

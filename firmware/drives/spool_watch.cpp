@@ -90,8 +90,8 @@ FaultSet watch_spools(DriveRows drives, const SentCommand& sent, Span<const Vali
     }
   }
   const bool differs = feedback.received && feedback.has_echo && feedback.enabled != sent.enable;
-  echo_cycles = differs ? std::min(echo_cycles + 1, kEchoCycles) : 0;
-  if (echo_cycles >= kEchoCycles) {
+  echo_cycles = differs ? std::min(echo_cycles + 1, feedback.echo_cycles) : 0;
+  if (echo_cycles >= feedback.echo_cycles) {
     faults.add(Fault::kValveNotFollowing);
   }
   return faults;

@@ -38,7 +38,7 @@ class CommandHistory {
 
 /// Cycles in a row that a spool must be wrong: its frame comes every second one.
 inline constexpr int kSpoolWrongCycles = 4;
-/// The valve side has this many cycles to say what we say.
+/// The valve side has this many cycles to say what we say, unless its bus is slower.
 inline constexpr int kEchoCycles = 12;
 
 /// Where a sound spool can be, whichever it is of all that start late by up to their bound and
@@ -73,9 +73,10 @@ struct SentCommand {
 
 /// Feedback of the valve since then.
 struct ValveFeedback {
-  bool received = false;  ///< Spools and echo, as far as the bus carries them.
-  bool has_echo = true;   ///< The bus carries the valve side's echo of our enable.
-  bool enabled = false;   ///< That echo.
+  bool received = false;          ///< Spools and echo, as far as the bus carries them.
+  bool has_echo = true;           ///< The bus carries the valve side's echo of our enable.
+  bool enabled = false;           ///< That echo.
+  int echo_cycles = kEchoCycles;  ///< It has so many to come.
 };
 
 /// kSpoolStuck, kValveNotFollowing; the states go on by a cycle. A spool must lie in its
@@ -83,7 +84,7 @@ struct ValveFeedback {
 /// the tolerance. So one that stands is seen as soon as the slowest would have left it behind. One
 /// that is not measured, and what was not received, is not checked. Where duties are tried, a spool
 /// may start within 0.45 s, with lags of 0.16 s each. `echo_cycles` counts the cycles
-/// in a row, up to kEchoCycles, in which the echo differed from our enable.
+/// in a row, up to feedback.echo_cycles, in which the echo differed from our enable.
 [[nodiscard]] FaultSet watch_spools(DriveRows drives, const SentCommand& sent,
                                     Span<const ValidDrive> seen, const ValveFeedback& feedback,
                                     Span<SpoolState> spool, int& echo_cycles);

@@ -105,8 +105,9 @@ ExcavatorController::Motion ExcavatorController::next_motion(const ExcavatorVali
 ExcavatorValid ExcavatorController::validate_and_watch(const ExcavatorInputs& inputs,
                                                        const Cycle& cycle, TimeUs now_us) {
   ExcavatorValid valid =
-      profile_.imu.known()
-          ? read_by_imus(inputs, cycle, now_us)
+      profile_.imu.known() ? read_by_imus(inputs, cycle, now_us)
+      : profile_.bus.joint_angles
+          ? read_by_angles(inputs, now_us)
           : validate(profile_, drives(), inputs, memory_.last.moving, now_us, memory_.accepted);
   watch(profile_, drives(), memory_.last, memory_.pumps.swash_ratio, cycle.elapsed_s, memory_.watch,
         valid);

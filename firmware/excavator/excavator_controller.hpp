@@ -132,6 +132,8 @@ class ExcavatorController {
   /// Inputs that may be used, the strokes by IMUs.
   [[nodiscard]] ExcavatorValid read_by_imus(const ExcavatorInputs& inputs, const Cycle& cycle,
                                             TimeUs now_us);
+  /// The same, the strokes by measured joints.
+  [[nodiscard]] ExcavatorValid read_by_angles(const ExcavatorInputs& inputs, TimeUs now_us);
   [[nodiscard]] ExcavatorValid validate_and_watch(const ExcavatorInputs& inputs, const Cycle& cycle,
                                                   TimeUs now_us);
   /// Guards duties that are tried, and gives those that may be sent with what holds them back.

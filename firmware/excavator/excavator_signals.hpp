@@ -51,6 +51,7 @@ struct ImuInputs {
 
 struct ExcavatorInputs : MachineInputs {
   std::array<AxisInputs, kAxisCount> axis;
+  std::array<Signal<double>, kAxisCount> joint_rad;  ///< Where the bus has them and no strokes.
   std::array<ImuInputs, kImuCount> imu;  ///< Looked at only where the profile has IMUs.
   SwingInputs swing;                     ///< Looked at only where the profile has a swing drive.
   std::array<Signal<double>, kPumpCount> swash_ratio;  ///< tan(alpha) / tan(alpha at full swash).
@@ -127,7 +128,7 @@ struct JointAngle {
   double sd_rad = 0.0;
 };
 
-/// Joints by IMUs.
+/// Joints by IMUs, or as they are measured; then nothing is said of the error.
 struct JointAngles {
   bool known = false;  ///< Of all of them; without it the rest says nothing.
   std::array<JointAngle, kAxisCount> joint{};
@@ -136,7 +137,7 @@ struct JointAngles {
 
 /// Status of the excavator's controller.
 struct ExcavatorStatus : MachineStatus {
-  JointAngles joints;  ///< Of a machine with IMUs; told in every mode.
+  JointAngles joints;  ///< Of a machine with IMUs or measured joints; told in every mode.
   /// V_L^d before scaling by lambda; the swing's at its lever, see SwingProfile.
   std::array<double, kDriveCount> wanted_velocity_mps{};
   std::array<double, kPumpCount> pump_pressure_pa{};  ///< P_p that the solution expects.

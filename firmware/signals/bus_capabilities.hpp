@@ -15,20 +15,30 @@ namespace graben {
 ///   spool_feedback  command    a spool counts as where it was sent: no kSpoolMissing, no
 ///                              kSpoolStuck, no arm condition of centred spools; the motion watch
 ///                              waits for dead time and lag after each command
+///                  pilot      pilot pressures count as spools: a spool that sticks under a right
+///                              pressure shows only by its cylinder
 ///   swash_feedback  command    a pump counts as where it was sent, or on its way there: no
 ///                              kSwashMissing, no kSwashDisagrees
+///   swash_command   profile    the pumps are where the machine has them, which the profile tells:
+///                              no less flow where less is needed
 ///   protection      range      a frame without counter and CRC counts if it is fresh and in range:
 ///                              no kMessageCorrupt, kMessageSequence, kMessageMasquerade
 struct BusCapabilities {
-  bool identity = true;        ///< The machine's end says which profile and DBC it has.
-  bool valve_echo = true;      ///< The valve side says which enable it acts on.
-  bool spool_feedback = true;  ///< Measured positions of the spools.
-  bool swash_feedback = true;  ///< Measured displacements of the pumps, where a kind has them.
-  bool protection = true;      ///< Counter and CRC in what moves metal and in what is measured.
-  double latency_s = 0.0;      ///< Of the bus, either way; part of the profile's dead time.
+  bool identity = true;         ///< The machine's end says which profile and DBC it has.
+  bool valve_echo = true;       ///< The valve side says which enable it acts on.
+  bool spool_feedback = true;   ///< Measured positions of the spools.
+  bool swash_feedback = true;   ///< Measured displacements of the pumps, where a kind has them.
+  bool protection = true;       ///< Counter and CRC in what moves metal and in what is measured.
+  double latency_s = 0.0;       ///< Of the bus, either way; part of the profile's dead time.
+  bool swash_command = true;    ///< The pumps' displacements can be commanded.
+  bool spool_by_pilot = false;  ///< The spools' positions are told by pilot pressures.
+  bool joint_angles = false;    ///< Angles of the joints, in the place of strokes.
+  int echo_cycles = 12;         ///< The valve side has so many to say which enable it acts on.
 
   [[nodiscard]] constexpr bool lacks_any() const {
-    return !(identity && valve_echo && spool_feedback && swash_feedback && protection);
+    return !(identity && valve_echo && spool_feedback && swash_feedback && swash_command &&
+             protection) ||
+           spool_by_pilot;
   }
 };
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hal/buses/excavator_bus.hpp"
 
+#include <algorithm>
+
 #include <cmath>
 
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "hal/buses/common_messages.hpp"
+#include "hal/buses/may_move.hpp"
 
 namespace graben {
 namespace {
@@ -56,6 +59,18 @@ struct Store : CommonStore<ExcavatorInputs, Task::kDig, Task::kProgram, Task::kJ
 
   static constexpr BusPart part(const bus::SwingState&) { return &BusParts::swing_drive; }
   static constexpr BusPart part(const bus::SwingValveState&) { return &BusParts::swing_drive; }
+  static constexpr BusPart part(const bus::BoomStroke&) { return &BusParts::own_machine; }
+  static constexpr BusPart part(const bus::ArmStroke&) { return &BusParts::own_machine; }
+  static constexpr BusPart part(const bus::BucketStroke&) { return &BusParts::own_machine; }
+  static constexpr BusPart part(const bus::BoomPressure&) { return &BusParts::own_machine; }
+  static constexpr BusPart part(const bus::ArmPressure&) { return &BusParts::own_machine; }
+  static constexpr BusPart part(const bus::BucketPressure&) { return &BusParts::own_machine; }
+  static constexpr BusPart part(const bus::PumpState&) { return &BusParts::own_machine; }
+  static constexpr BusPart part(const bus::ValveState&) { return &BusParts::own_machine; }
+  static constexpr BusPart part(const dbc::common::MachineIdentity&) {
+    return &BusParts::own_machine;
+  }
+  static constexpr BusPart part(const dbc::common::EEC1&) { return &BusParts::own_engine; }
 
   static void store(const bus::BoomStroke& message, TimeUs now, To& to) {
     put(to.inputs.axis[0].stroke_m, message.boom_stroke_m, now);
@@ -115,14 +130,6 @@ using OwnReceived =
                      bus::CommissionWindow>;
 constexpr auto kReceiveTable = receive_table<ExcavatorInputs, Store>(
     OwnReceived{}, CommonReceived{}, bus::kMessages, bus::kDbcVersion);
-
-bool may_move(const ExcavatorOutputs& outputs) {
-  bool finite = true;
-  for (const double duty_ratio : outputs.duty_ratio) {
-    finite = finite && std::isfinite(duty_ratio);
-  }
-  return outputs.enable && finite;
-}
 
 bus::SpoolCommand spool_command(const ExcavatorOutputs& outputs, const EcuDiagnosis&) {
   bus::SpoolCommand message;  // its start values are Off, neutral and no cut
@@ -241,6 +248,24 @@ constexpr auto kSendTable = bus_send_table(
     ecu_identity_row<ExcavatorOutputs, bus::kDbcVersion>());
 
 }  // namespace
+
+int ExcavatorTransmitter::with_table(const Outputs& outputs, TimeUs now, int count, Frames& out) {
+  TableTransmitter::Frames others;
+  const std::size_t more = table_.frames(outputs, now, others);
+  std::copy_n(others.begin(), more, out.begin() + count);
+  return count + static_cast<int>(more);
+}
+
+int ExcavatorTransmitter::with_commands(const Outputs& outputs, TimeUs now, int count,
+                                        Frames& out) const {
+  TableTransmitter::Frames others;
+  const std::size_t first = table_.next_commands(outputs, now, others);
+  for (auto n = static_cast<std::size_t>(count); n > 0; --n) {
+    out[n - 1 + first] = out[n - 1];
+  }
+  std::copy_n(others.begin(), first, out.begin());
+  return count + static_cast<int>(first);
+}
 
 const ReceiveTable<ExcavatorInputs, ExcavatorReception::kMessageCount>&
 ExcavatorReception::table() {

@@ -4,6 +4,8 @@
 
 #include "firmware/excavator/excavator_signals.hpp"
 #include "hal/buses/link_imus.hpp"
+#include "hal/buses/table_receiver.hpp"
+#include "hal/buses/table_transmitter.hpp"
 #include "hal/link/message_receiver.hpp"
 #include "hal/link/message_transmitter.hpp"
 
@@ -17,22 +19,41 @@ struct ExcavatorReception {
   [[nodiscard]] static const ReceiveTable<Inputs, kMessageCount>& table();
 };
 
-/// With the IMUs of a machine that has them, whose frames are those of a standard.
+/// With the IMUs of a machine that has them, whose frames are those of a standard, and with the bus
+/// of a machine that does not speak ours, which a table describes.
 class ExcavatorReceiver : public MessageReceiver<ExcavatorReception> {
  public:
   explicit ExcavatorReceiver(const BusParts& parts = {})
-      : MessageReceiver(parts), imus_(parts.imu) {}
+      : MessageReceiver(parts), imus_(parts.imu), table_(parts.table) {}
 
   void accept(const CanFrame& frame, TimeUs now) {
-    if (!imus_.take(frame, now, writable().imu)) {
+    if (!table_.take(frame, now, writable()) && !imus_.take(frame, now, writable().imu)) {
       MessageReceiver::accept(frame, now);
     }
   }
+  void finish(TimeUs now) {
+    MessageReceiver::finish(now);
+    table_.finish(now, writable());
+  }
+
+  [[nodiscard]] FaultSet message_faults(TimeUs now) const {
+    FaultSet faults = MessageReceiver::message_faults(now);
+    if (table_.active()) {
+      faults.add(table_.faults(now));
+    }
+    return faults;
+  }
+  [[nodiscard]] bool take_out_of_range() {
+    const bool of_table = table_.active() && table_.take_out_of_range();
+    return MessageReceiver::take_out_of_range() || of_table;
+  }
 
   [[nodiscard]] const LinkCounters& imus() const { return imus_.counters(); }
+  [[nodiscard]] LinkCounters table() const { return table_.counters(); }
 
  private:
   LinkImus imus_;
+  TableReceiver table_;
 };
 
 /// What the controller sends.
@@ -54,6 +75,36 @@ struct ExcavatorTransmission {
   [[nodiscard]] static const SendTable<Outputs, kPeriodicCount>& table();
 };
 
-using ExcavatorTransmitter = MessageTransmitter<ExcavatorTransmission>;
+/// With what a table says beside it. What is ours is sent on every bus: stations and logs go by it.
+class ExcavatorTransmitter : public MessageTransmitter<ExcavatorTransmission> {
+ public:
+  static constexpr int kMessageCount = MessageTransmitter::kMessageCount + kMostTableSent;
+  using Frames = std::array<CanFrame, kMessageCount>;
+
+  explicit ExcavatorTransmitter(const BusParts& parts = {})
+      : MessageTransmitter(parts), table_(parts.table) {}
+
+  /// The 29-bit ids of what is ours.
+  [[nodiscard]] bool is_table_command(std::uint32_t id) const { return table_.is_command(id); }
+
+  [[nodiscard]] int frames(const Outputs& outputs, const EcuDiagnosis& diagnosis, TimeUs now,
+                           Frames& out) {
+    const int count = MessageTransmitter::frames(outputs, diagnosis, now, out);
+    return table_.active() ? with_table(outputs, now, count, out) : count;
+  }
+  template <class Wanted>
+  [[nodiscard]] int next_frames(const Outputs& outputs, const Wanted& wanted, TimeUs now,
+                                Frames& out) const {
+    const int count = MessageTransmitter::next_frames(outputs, wanted, now, out);
+    return table_.active() ? with_commands(outputs, now, count, out) : count;
+  }
+
+ private:
+  [[nodiscard]] int with_table(const Outputs& outputs, TimeUs now, int count, Frames& out);
+  /// The table's first: they are what moves the machine.
+  [[nodiscard]] int with_commands(const Outputs& outputs, TimeUs now, int count, Frames& out) const;
+
+  TableTransmitter table_;
+};
 
 }  // namespace graben

@@ -16,9 +16,8 @@ constexpr std::uint32_t kAddressBits = 0xFFU;
 /// Page, format and group extension: the message, whatever its priority and sender.
 constexpr std::uint32_t kGroupBits = 0x03FFFF00U;
 
-/// A sender's clock differs, and frames of two cycles may come in one.
+/// A sender's clock differs.
 constexpr TimeUs kLeast_us = 8 * kMillisecondUs;
-constexpr TimeUs kTogether_us = 25 * kMillisecondUs;
 
 template <class Message>
 constexpr bool is(std::uint32_t id) {
@@ -57,16 +56,6 @@ Signal<ImuForces> forces_of(const bus::ACS& message, TimeUs now) {
 
 }  // namespace
 
-/// Of frames that come together each is counted from the one before, as in hal/link/e2e.hpp.
-bool LinkImus::is_early(TimeUs now, Pace& pace) {
-  if (pace.any && now + kTogether_us < pace.due_us) {
-    return true;
-  }
-  pace.due_us = (pace.any ? std::max(pace.due_us, now) : now) + kLeast_us;
-  pace.any = true;
-  return false;
-}
-
 bool LinkImus::take_extended(const CanFrame& frame, TimeUs now,
                              std::array<ImuInputs, kImuCount>& to) {
   const bool rates = is<bus::ARI>(frame.id);
@@ -89,7 +78,7 @@ bool LinkImus::take_extended(const CanFrame& frame, TimeUs now,
     increment(counters_.wrong_length);
     return true;
   }
-  if (is_early(now, pace_[imu][rates ? 0 : 1])) {
+  if (is_early(now, kLeast_us, pace_[imu][rates ? 0 : 1])) {
     increment(counters_.surplus);
     (rates ? to[imu].rates.validity : to[imu].forces.validity) = Validity::kError;
     return true;

@@ -21,6 +21,7 @@
 #include "hal/can_frame.hpp"
 #include "hal/link/message_links.hpp"
 #include "hal/link/message_rules.hpp"
+#include "hal/link/pace.hpp"
 
 namespace graben {
 
@@ -45,15 +46,8 @@ class LinkImus {
   [[nodiscard]] const LinkCounters& counters() const { return counters_; }
 
  private:
-  /// When a message may come again.
-  struct Pace {
-    TimeUs due_us = 0;
-    bool any = false;
-  };
-
   [[nodiscard]] bool take_extended(const CanFrame& frame, TimeUs now,
                                    std::array<ImuInputs, kImuCount>& to);
-  [[nodiscard]] static bool is_early(TimeUs now, Pace& pace);
 
   ImuAddresses address_;
   bool any_ = false;

@@ -173,7 +173,7 @@ int MessageLinks::admit(const CanFrame& frame, TimeUs now) {
   }
   const auto i = static_cast<std::size_t>(index);
   const MessageRule& rule = rules_.rule[i];
-  if (!frame.extended || frame.remote || frame.fd) {
+  if (frame.extended != rule.extended || frame.remote || frame.fd) {
     count(i, &LinkCounters::wrong_kind);
     return kNoMessage;
   }

@@ -15,10 +15,16 @@ namespace graben {
 /// J1939 source addresses of sensors on boom, arm, bucket and platform; 0: there is none.
 using ImuAddresses = std::array<std::uint8_t, 4>;
 
+struct BusTable;
+
 /// Parts that not every machine of a kind has and that bring messages of their own.
 struct BusParts {
   bool swing_drive = false;
   ImuAddresses imu{};
+  /// The machine's end speaks our DBC, and so does its engine; without, a table says what it sends.
+  bool own_machine = true;
+  bool own_engine = true;
+  const BusTable* table = nullptr;  ///< Another bus than ours, or one beside it; null: none.
 };
 
 /// The part that a message belongs to; null: a message of every machine of its kind.
@@ -30,11 +36,12 @@ constexpr bool has_part(const BusParts& parts, BusPart part) {
 
 /// How a message that is received is known and protected.
 struct MessageRule {
-  std::uint32_t id = 0;  ///< 29 bits: priority, page, PGN and source address.
+  std::uint32_t id = 0;  ///< Priority, page, PGN and source address.
   std::uint8_t length = 0;
   bool is_protected = false;
   E2eConfig e2e;
   BusPart part = nullptr;  ///< Taken only by a machine that has it.
+  bool extended = true;    ///< 29 bits; else the id has 11.
 };
 
 /// One cycle more than the counter may skip: then the counter alone would refuse the frame, and it

@@ -3,6 +3,7 @@
 /// Outputs to frames: the schedule, what is due in this cycle, protected and saturated.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -92,6 +93,9 @@ class MessageTransmitter {
 
   explicit MessageTransmitter(const BusParts& parts = {}) : parts_(parts) {}
 
+  /// Whether an id is that of a command beside the kind's own.
+  [[nodiscard]] static constexpr bool is_table_command(std::uint32_t /*id*/) { return false; }
+
   /// The 29-bit ids of all that is sent, those of all parts too.
   [[nodiscard]] static std::array<std::uint32_t, kMessageCount> ids() {
     const auto& table = Transmission::table();
@@ -105,14 +109,15 @@ class MessageTransmitter {
 
   /// Writes the frames due at `now` into `out`, most urgent first; returns how many. To be called
   /// every 10 ms.
+  template <std::size_t room>
   [[nodiscard]] int frames(const Outputs& outputs, const EcuDiagnosis& diagnosis, TimeUs now,
-                           Frames& out);
+                           std::array<CanFrame, room>& out);
 
   /// Writes what would be the next frame of each message whose id `wanted` takes, due or not;
   /// returns how many. Nothing is remembered of them: they are for another hand to send.
-  template <class Wanted>
+  template <class Wanted, std::size_t room>
   [[nodiscard]] int next_frames(const Outputs& outputs, const Wanted& wanted, TimeUs now,
-                                Frames& out) const;
+                                std::array<CanFrame, room>& out) const;
 
  private:
   void start(TimeUs now);
@@ -132,8 +137,10 @@ void MessageTransmitter<Transmission>::start(TimeUs now) {
 }
 
 template <class Transmission>
+template <std::size_t room>
 int MessageTransmitter<Transmission>::frames(const Outputs& outputs, const EcuDiagnosis& diagnosis,
-                                             TimeUs now, Frames& out) {
+                                             TimeUs now, std::array<CanFrame, room>& out) {
+  static_assert(room >= kMessageCount);
   const auto& table = Transmission::table();
   if (!started_) {
     start(now);
@@ -154,9 +161,11 @@ int MessageTransmitter<Transmission>::frames(const Outputs& outputs, const EcuDi
 }
 
 template <class Transmission>
-template <class Wanted>
+template <class Wanted, std::size_t room>
 int MessageTransmitter<Transmission>::next_frames(const Outputs& outputs, const Wanted& wanted,
-                                                  TimeUs now, Frames& out) const {
+                                                  TimeUs now,
+                                                  std::array<CanFrame, room>& out) const {
+  static_assert(room >= kMessageCount);
   const auto& table = Transmission::table();
   std::size_t written = 0;
   for (std::size_t i = 0; i < state_.size(); ++i) {

@@ -41,6 +41,11 @@ bool to_socketcan(const CanFrame& frame, can_frame& out) {
 
 can_filter exact_filter(std::uint32_t id) {
   can_filter filter{};
+  if ((id & CAN_EFF_FLAG) != 0U) {
+    filter.can_id = id & CAN_SFF_MASK;
+    filter.can_mask = CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_SFF_MASK;
+    return filter;
+  }
   filter.can_id = (id & CAN_EFF_MASK) | CAN_EFF_FLAG;
   filter.can_mask = CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_EFF_MASK;
   return filter;

@@ -72,6 +72,7 @@ struct LoaderKind {
   using Start = plant::LoaderPlant::Pair;  ///< Strokes.
 
   [[nodiscard]] static BusParts parts(const Setup&) { return {}; }
+  [[nodiscard]] static BusTable table(const Machine&) { return {}; }
   [[nodiscard]] static constexpr bool is_command(std::uint32_t id) {
     return id == Dbc::SpoolCommand::kId;
   }

@@ -27,6 +27,7 @@ FILES = {
     "./usr/share/graben/excavator_12t.toml": 0o644,
     "./usr/share/graben/excavator_22t.toml": 0o644,
     "./usr/share/graben/j1939.dbc": 0o644,
+    "./usr/share/graben/buses/zx200.toml": 0o644,
     "./usr/share/graben/tasks/flatten.toml": 0o644,
     "./usr/share/graben/tasks/truck_by_steps.toml": 0o644,
     "./usr/share/graben/tasks/truck_loading.toml": 0o644,

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "app/machines/bus_file.hpp"
 #include "app/machines/imu_section.hpp"
 #include "app/machines/simulated/soil_kinds.hpp"
 #include "app/plant/random.hpp"
@@ -71,6 +72,27 @@ void load_bucket(plant::LinkBody& bucket, double mass_kg, const Eigen::Vector2d&
   bucket.mass_kg = total_kg;
 }
 
+/// As if its profile named the bus, and every stand-in for what that lacks.
+void put_on_bus(const std::string& name, SimulatedExcavator& machine) {
+  const BusFile bus = load_bus(find_bus(name));
+  machine.bus = bus.table;
+  machine.bus_speaks = bus.speaks;
+  machine.profile.bus = bus.capabilities;
+  machine.hash ^= bus.hash;
+  if (!bus.capabilities.swash_command) {
+    machine.profile.demand_swash = {};
+  }
+}
+
+/// Throws where there is no simulated machine that speaks so.
+void speak(const std::string& machine, plant::ExcavatorPlantProfile& plant) {
+  if (machine != "zx200") {
+    throw std::runtime_error(
+        fmt::format("bus of '{}': no simulated machine speaks it; there is zx200", machine));
+  }
+  plant.zx200 = true;
+}
+
 }  // namespace
 
 SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario) {
@@ -83,6 +105,12 @@ SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario
   if (scenario.imus && !machine.profile.imu.known()) {
     fit_usual_imus(machine.profile);
     plant.machine.imu = machine.profile.imu;
+  }
+  if (!scenario.bus.empty()) {
+    put_on_bus(scenario.bus, machine);
+  }
+  if (!machine.bus.empty() && !machine.bus.own_frames) {
+    speak(machine.bus_speaks, plant);
   }
   const bool parameter_errors = scenario.errors == Errors::kParameters ||
                                 scenario.errors == Errors::kKim || scenario.errors == Errors::kAll;

@@ -105,6 +105,9 @@ plant::SensorErrors read_sensors(TomlReader& reader, const ExcavatorProfile& nom
       reader.number("sensors.pressure_noise", {0.0, 0.5, ""},
                     "standard deviation of each pressure, of pressure_range");
   read_imu_errors(reader, sensors);
+  sensors.joint_bias_rad =
+      reader.number_or(3.5e-3, "sensors.joint_bias", {0.0, 0.1, "rad"},
+                       "constant error of a joint's angle, uniform within; where the bus has them");
   return sensors;
 }
 

@@ -89,6 +89,8 @@ struct Scenario {
   std::optional<double> dead_time_s;  ///< Of every spool, as the controller takes it.
   /// IMUs instead of stroke sensors, of a machine whose profile says nothing of them.
   bool imus = false;
+  /// Bus profile, by name or file, of a machine whose own profile says nothing of it; empty: none.
+  std::string bus;
   std::uint64_t seed = 0;  ///< Of everything that is drawn.
   Found found;             ///< What is told goes before what is drawn.
 };

@@ -13,11 +13,14 @@ using Errors = std::vector<std::string>;
 
 const std::vector<KnownBus>& buses() {
   static const std::vector<KnownBus> all = [] {
-    std::vector<KnownBus> made = {{"graben", {}}, {"mute", {}}, {"bare", {}}, {"slow", {}}};
+    std::vector<KnownBus> made = {
+        {"graben", {}}, {"mute", {}}, {"bare", {}}, {"slow", {}}, {"levers", {}}};
     made[1].capabilities.spool_feedback = false;
     made[1].capabilities.valve_echo = false;
     made[2].capabilities = {false, false, false, false, false, 0.0};
     made[3].capabilities.latency_s = 0.04;
+    made[4].capabilities.spool_by_pilot = true;
+    made[4].capabilities.swash_command = false;
     return made;
   }();
   return all;
@@ -59,7 +62,7 @@ void our_own_is_the_default(void**) {
 }
 
 void another_name_is_refused_with_those_that_are_known(void**) {
-  assert_refused("bus = \"canopen\"", "bus", "graben, mute, bare, slow");
+  assert_refused("bus = \"canopen\"", "bus", "graben, mute, bare, slow, levers");
 }
 
 void what_is_lacking_has_its_stand_in(void**) {
@@ -73,6 +76,18 @@ void what_is_lacking_has_its_stand_in(void**) {
       "bus = \"bare\"\n[stand_in]\nidentity = \"profile\"\nvalve_echo = \"motion\"\n"
       "spool_feedback = \"command\"\nswash_feedback = \"command\"\nprotection = \"range\"");
   assert_true(bare.errors.empty());
+}
+
+void pilots_stand_in_for_spools_and_the_profile_for_a_swash(void**) {
+  const char* const levers =
+      "bus = \"levers\"\nstand_in = {spool_feedback = \"pilot\", swash_command = \"profile\"}\n";
+  const Read read_levers = read(levers);
+  assert_true(read_levers.errors.empty());
+  assert_true(read_levers.bus.lacks_any());
+  assert_refused("bus = \"levers\"\nstand_in = {spool_feedback = \"command\"}",
+                 "stand_in.spool_feedback", "allowed: pilot");
+  assert_refused((std::string(levers) + "task = {swash_on_demand = [0.3, 1.0]}").c_str(),
+                 "task.swash_on_demand", "takes no command");
 }
 
 void nothing_is_lost_in_silence(void**) {
@@ -99,6 +114,7 @@ int main() {
       cmocka_unit_test(our_own_is_the_default),
       cmocka_unit_test(another_name_is_refused_with_those_that_are_known),
       cmocka_unit_test(what_is_lacking_has_its_stand_in),
+      cmocka_unit_test(pilots_stand_in_for_spools_and_the_profile_for_a_swash),
       cmocka_unit_test(nothing_is_lost_in_silence),
       cmocka_unit_test(nothing_stands_in_for_what_is_there),
       cmocka_unit_test(the_dead_time_covers_the_latency),

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/machines/bus_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <regex>
+
+#include "app/machines/axis_names.hpp"
+#include "app/machines/bus_tables.hpp"
+#include "app/machines/profile_document.hpp"
+
+namespace graben::machines {
+namespace {
+
+/// Of our own bus, whose valve side says every 20 ms what it acts on.
+constexpr TimeUs kOwnEcho_us = 20 * kMillisecondUs;
+
+int axes_with(const BusTable& table, SourcePlace place) {
+  unsigned there = 0;
+  for (std::size_t n = 0; n < table.source_count; ++n) {
+    there |= table.source[n].place == place ? 1U << table.source[n].index : 0U;
+  }
+  int count = 0;
+  for (; there != 0; there &= there - 1) {
+    ++count;
+  }
+  return count;
+}
+
+bool has_sink(const BusTable& table, SinkPlace place, unsigned index) {
+  const auto end = table.sink.begin() + static_cast<std::ptrdiff_t>(table.sink_count);
+  return std::any_of(table.sink.begin(), end, [&](const TableSink& sink) {
+    return sink.place == place && sink.index == index;
+  });
+}
+
+/// All axes or none: with some of them only there is no pose and no load.
+bool all_axes(TomlReader& reader, const BusTable& table, SourcePlace place, const char* what) {
+  const int count = axes_with(table, place);
+  if (count != 0 && count != kAxisCount) {
+    reader.fail("receive", fmt::format("{} of {} cylinders has a {}; allowed: all or none", count,
+                                       kAxisCount, what));
+  }
+  return count == kAxisCount;
+}
+
+/// What a machine that does not speak our DBC beside it has to say and to take.
+void check_complete(TomlReader& reader, const BusTable& table, bool strokes, bool joints) {
+  if (strokes && joints) {
+    reader.fail("receive", "both strokes and joint angles; allowed: one of them");
+  }
+  if (table.own_frames) {
+    return;
+  }
+  if (!strokes && !joints) {
+    reader.fail("receive", "nothing says a stroke or joint_angle of boom, arm and bucket");
+  }
+  if (axes_with(table, SourcePlace::kCapPressure) != kAxisCount ||
+      axes_with(table, SourcePlace::kRodPressure) != kAxisCount) {
+    reader.fail("receive", "nothing says a cap_pressure and rod_pressure of boom, arm and bucket");
+  }
+  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    const bool both =
+        has_sink(table, SinkPlace::kExtend, axis) && has_sink(table, SinkPlace::kRetract, axis);
+    if (!both && !has_sink(table, SinkPlace::kDuty, axis)) {
+      reader.fail("send", fmt::format("nothing takes the {}'s duty, or its extend and retract",
+                                      kAxisNames[axis]));
+    }
+  }
+}
+
+TimeUs slowest_condition_us(const BusTable& table) {
+  TimeUs slowest_us = 0;
+  for (std::size_t i = 0; i < table.message_count; ++i) {
+    const TableMessage& message = table.message[i];
+    for (std::size_t n = message.first; n < std::size_t{message.first} + message.count; ++n) {
+      if (table.source[n].place == SourcePlace::kCondition) {
+        slowest_us = std::max(slowest_us, message.period_us);
+      }
+    }
+  }
+  return slowest_us;
+}
+
+BusCapabilities capabilities_of(TomlReader& reader, const BusTable& table) {
+  BusCapabilities can;
+  const bool strokes = all_axes(reader, table, SourcePlace::kStroke, "stroke");
+  const bool joints = all_axes(reader, table, SourcePlace::kJointAngle, "joint_angle");
+  const bool spools = all_axes(reader, table, SourcePlace::kSpool, "spool");
+  check_complete(reader, table, strokes, joints);
+  const TimeUs echo_us = slowest_condition_us(table);
+  can.joint_angles = joints;
+  can.identity = table.own_frames;
+  can.valve_echo = table.own_frames || echo_us > 0;
+  can.spool_feedback = table.own_frames || spools;
+  can.spool_by_pilot =
+      spools && reader.boolean_or(false, "spool_by_pilot", "spools are told by pilot pressures");
+  can.swash_feedback = table.own_frames || axes_with(table, SourcePlace::kSwash) > 0;
+  can.swash_command = table.own_frames || has_sink(table, SinkPlace::kSwash, 0);
+  for (std::size_t i = 0; i < table.message_count; ++i) {
+    can.protection = can.protection && table.message[i].protection == TableProtection::kE2e;
+  }
+  const TimeUs later_us = std::max<TimeUs>(0, echo_us - kOwnEcho_us);
+  can.echo_cycles += static_cast<int>(later_us / kControlPeriod_us);
+  can.latency_s = reader.number_or(0.0, "latency", {0.0, 0.2, "s"},
+                                   "of the bus, either way; the valve's dead time covers it");
+  return can;
+}
+
+/// An error of a message or signal, with their names and its line.
+std::string with_names(const toml::table& root, const std::string& error) {
+  static const std::regex place(R"((receive|send)\[(\d+)\](?:\.signal\[(\d+)\])?.*)");
+  std::smatch words;
+  if (!std::regex_match(error, words, place)) {
+    return error;
+  }
+  const std::string message = fmt::format("{}[{}]", words[1].str(), words[2].str());
+  const std::string signal =
+      words[3].matched ? fmt::format("{}.signal[{}]", message, words[3].str()) : "";
+  const auto name = [&root](const std::string& key) {
+    return root.at_path(key).value<std::string>().value_or("?");
+  };
+  std::string text = "message " + name(message + ".message");
+  if (!signal.empty()) {
+    text += ", signal " + name(signal + ".signal");
+  }
+  const toml::node* node = root.at_path(signal.empty() ? message : signal).node();
+  const bool has_line = error.find("(line ") != std::string::npos;
+  if (node != nullptr && !has_line) {
+    text += fmt::format(" (line {})", node->source().begin.line);
+  }
+  return fmt::format("{}: {}", text, error);
+}
+
+BusContext read_context(TomlReader& reader, const std::filesystem::path& file) {
+  BusContext context;
+  if (reader.has("dbc")) {
+    context.dbc_name = reader.text("dbc", "DBC beside this file that has the messages' layout");
+    try {
+      context.dbc = read_dbc(file.parent_path() / context.dbc_name);
+    } catch (const std::runtime_error& error) {
+      reader.fail("dbc", error.what());
+    }
+  }
+  const int count = reader.has("interface")
+                        ? reader.table_count("interface", 1, 4, "buses, in the order of --can")
+                        : 0;
+  for (int i = 0; i < count; ++i) {
+    context.interfaces.push_back(
+        reader.text(fmt::format("interface[{}].name", i), "what the messages call it"));
+  }
+  return context;
+}
+
+}  // namespace
+
+BusFile load_bus(const std::filesystem::path& file) {
+  const ProfileDocument document = read_document(file);
+  TomlReader reader(document.root);
+  BusFile bus;
+  bus.speaks = reader.text("bus", "which machine's bus this is");
+  const BusContext context = read_context(reader, file);
+  bus.table.own_frames =
+      reader.boolean_or(false, "own_frames", "the machine's end speaks our DBC beside it");
+  read_received(reader, context, bus.table);
+  read_sent(reader, context, bus.table);
+  bus.capabilities = capabilities_of(reader, bus.table);
+  reader.refuse_unknown_keys();
+  if (!reader.errors().empty()) {
+    std::vector<std::string> errors;
+    for (const std::string& error : reader.errors()) {
+      errors.push_back(with_names(document.root, error));
+    }
+    throw ProfileError(file.string(), errors);
+  }
+  bus.hash = reader.hash();
+  return bus;
+}
+
+std::filesystem::path find_bus(const std::string& name,
+                               const std::vector<std::filesystem::path>& folders) {
+  return find_file("bus profile", name, folders);
+}
+
+}  // namespace graben::machines

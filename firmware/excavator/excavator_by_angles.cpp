@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+
+#include "firmware/excavator/excavator_controller.hpp"
+#include "firmware/excavator/kinematics/measured_joints.hpp"
+
+namespace graben {
+
+ExcavatorValid ExcavatorController::read_by_angles(const ExcavatorInputs& inputs, TimeUs now_us) {
+  const std::array<Signal<double>, kAxisCount> strokes_m =
+      strokes_of_joints(setup_.kinematics.planar(), inputs.joint_rad);
+  memory_.joints = {};
+  memory_.joints.known = true;
+  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    memory_.joints.known = memory_.joints.known && strokes_m[axis].validity == Validity::kValid;
+    memory_.joints.joint[axis].angle_rad = inputs.joint_rad[axis].value;
+    memory_.joints.stroke_m[axis] = strokes_m[axis].value;
+  }
+  return validate(profile_, drives(), inputs, memory_.last.moving, now_us, memory_.accepted,
+                  strokes_m);
+}
+
+}  // namespace graben

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+// A machine of the ZX200 class on its own bus: handshake, lock, emergency stop, what is lost and
+// what stands still. Within the bus's own times the machine is neutral, and the controller stops.
+
+#include <algorithm>
+
+#include "app/runs/dig_run.hpp"
+#include "app/runs/excavator_rig.hpp"
+#include "app/runs/scenarios.hpp"
+#include "can_dbc/generated/zx200_dbc.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+
+namespace {
+
+using namespace graben;
+namespace zx200 = dbc::zx200;
+
+constexpr int kCycle_ms = 10;
+/// Times of the bus: three settings, five commands.
+constexpr int kSetting_ms = 150;
+constexpr int kCommand_ms = 50;
+/// The state every 50 ms, and the cycles that the valve side has to say it.
+constexpr int kEcho_ms = 50 + 150;
+
+machines::SimulatedExcavator on_its_bus() {
+  runs::DigScenario scenario;
+  scenario.errors = "all";
+  scenario.scenario.bus = "zx200";
+  scenario.scenario.seed = 5;
+  return runs::arranged(machines::load_simulated_excavator(machines::find_profile("excavator_22t")),
+                        scenario);
+}
+
+struct Machine {
+  Machine() : machine(on_its_bus()), rig(machine, machines::dig_start(machine.profile), 1.0) {}
+
+  void step() {
+    rig.step(now);
+    now += runs::DigRig::kPeriod_us;
+  }
+  void dig() {
+    while (now < 4 * kSecondUs) {
+      step();
+    }
+    assert_int_equal(status().mode, EcuMode::kActive);
+    assert_true(status().stand_in);
+    assert_true(rig.plant.spools_enabled());
+  }
+  [[nodiscard]] const ExcavatorStatus& status() const { return rig.ecu->outputs().status; }
+  [[nodiscard]] plant::Zx200Faults& faults() { return rig.plant.faults().zx200; }
+  /// Cycles, in ms, until the machine no longer lets the commands through; the controller runs on
+  /// unless it is dead.
+  int machine_neutral_after(int most_ms, bool dead = false) {
+    int time_ms = 0;
+    while (rig.plant.spools_enabled() && time_ms <= most_ms) {
+      if (dead) {
+        rig.step_machine(now);
+        now += runs::DigRig::kPeriod_us;
+      } else {
+        step();
+      }
+      time_ms += kCycle_ms;
+    }
+    print_message("machine neutral after %d ms\n", time_ms);
+    assert_false(rig.plant.spools_enabled());
+    assert_in_range(time_ms, 0, most_ms);
+    return time_ms;
+  }
+  /// The same of the controller; everything that it commands is neutral then.
+  void controller_stops_within(int most_ms) {
+    int time_ms = 0;
+    while (status().mode == EcuMode::kActive && time_ms <= most_ms) {
+      step();
+      time_ms += kCycle_ms;
+    }
+    print_message("fault %d after %d ms\n", static_cast<int>(status().fault), time_ms);
+    assert_int_equal(status().mode, EcuMode::kFault);
+    assert_in_range(time_ms, 0, most_ms);
+    assert_false(rig.ecu->outputs().enable);
+    for (const double duty_ratio : rig.ecu->outputs().duty_ratio) {
+      assert_near(duty_ratio, 0.0, 0.0);
+    }
+  }
+  template <class Change>
+  void change(std::uint32_t id, const Change& change_data) {
+    rig.bus.set_fault_hook([=](CanFrame& frame, const LoopbackPort* from) {
+      return from == nullptr || frame.id != id || change_data(frame);
+    });
+  }
+
+  machines::SimulatedExcavator machine;
+  runs::DigRig rig;
+  TimeUs now = 0;
+};
+
+/// Levers of the last frame, in any direction.
+int most_lever(const CanFrame& frame) {
+  return *std::max_element(frame.data.begin(), frame.data.end());
+}
+
+void nothing_moves_before_the_handshake(void**) {
+  Machine m;
+  int levers = 0;
+  bool asked = false;
+  m.rig.bus.set_tap([&](const CanFrame& frame) {
+    if (frame.id == zx200::PilotPressureCmd1::kId) {
+      levers = most_lever(frame);
+    }
+    if (frame.id == zx200::MachineSettingCmd::kId) {
+      asked = zx200::MachineSettingCmd::decode(frame.data).front_signal_switch.value == 1;
+    }
+  });
+  TimeUs asked_us = 0;
+  while (m.now < kSecondUs && !m.rig.plant.spools_enabled()) {
+    m.step();
+    if (m.status().mode != EcuMode::kActive) {
+      assert_int_equal(levers, 0);
+      assert_false(asked);
+    } else if (asked_us == 0) {
+      asked_us = m.now;
+    }
+  }
+  assert_true(asked);
+  assert_true(m.rig.plant.spools_enabled());
+  assert_in_range(m.now - asked_us, 0, 30 * kMillisecondUs);
+  m.dig();
+}
+
+void a_locked_machine_does_not_move(void**) {
+  Machine m;
+  m.faults().locked = true;
+  while (m.now < 2 * kSecondUs && m.status().mode != EcuMode::kFault) {
+    m.step();
+    assert_false(m.rig.plant.spools_enabled());
+  }
+  // Its pilot pressures do not come.
+  assert_int_equal(m.status().fault, Fault::kSpoolStuck);
+}
+
+void lock(void**) {
+  Machine m;
+  m.dig();
+  m.faults().locked = true;
+  static_cast<void>(m.machine_neutral_after(kCycle_ms));
+  m.controller_stops_within(kEcho_ms);
+  assert_int_equal(m.status().fault, Fault::kSpoolStuck);
+}
+
+/// Of a machine whose pilot pressures are not looked at, its state alone says so.
+void lock_by_its_state(void**) {
+  Machine m;
+  m.dig();
+  m.change(zx200::MachineState::kId, [](CanFrame& frame) {
+    frame.data[0] |= 1U;
+    return true;
+  });
+  m.controller_stops_within(kEcho_ms);
+  assert_int_equal(m.status().fault, Fault::kValveNotFollowing);
+}
+
+void a_short_lock_is_not_undone(void**) {
+  Machine m;
+  m.dig();
+  m.faults().locked = true;
+  m.step();
+  m.faults().locked = false;
+  for (int cycle = 0; cycle < 100; ++cycle) {
+    m.step();
+    assert_false(m.rig.plant.spools_enabled());
+  }
+  // The operator lets go, and gives it again.
+  m.rig.enable_from(m.now + kSecondUs);
+  for (int cycle = 0; cycle < 300; ++cycle) {
+    m.step();
+  }
+  assert_int_equal(m.status().mode, EcuMode::kActive);
+  assert_true(m.rig.plant.spools_enabled());
+}
+
+void emergency_stop(void**) {
+  Machine m;
+  m.dig();
+  m.faults().stopped = true;
+  static_cast<void>(m.machine_neutral_after(kCycle_ms));
+  m.controller_stops_within(kEcho_ms);
+}
+
+void lost_gateway(void**) {
+  Machine m;
+  m.dig();
+  m.faults().lost = true;
+  // Of angles the table's 35 ms hold.
+  m.controller_stops_within(50);
+  assert_int_equal(m.status().fault, Fault::kStrokeMissing);
+  static_cast<void>(m.machine_neutral_after(kCommand_ms));
+}
+
+void lost_controller(void**) {
+  Machine m;
+  m.dig();
+  static_cast<void>(m.machine_neutral_after(kCommand_ms + 2 * kCycle_ms, true));
+}
+
+void the_machines_counter_stands_still(void**) {
+  Machine m;
+  m.dig();
+  m.faults().frozen = true;
+  m.controller_stops_within(160 + 50 + kCycle_ms);
+  static_cast<void>(m.machine_neutral_after(2 * kCycle_ms));
+}
+
+void our_counter_stands_still(void**) {
+  Machine m;
+  m.dig();
+  m.change(zx200::MachineSettingCmd::kId, [](CanFrame& frame) {
+    frame.data[7] = 7;
+    return true;
+  });
+  static_cast<void>(m.machine_neutral_after(kSetting_ms + 50 + 2 * kCycle_ms));
+  m.controller_stops_within(kEcho_ms);
+}
+
+void an_angle_that_jumps_or_sticks(void**) {
+  {
+    Machine m;
+    m.dig();
+    m.rig.plant.faults().axis[kArm].stroke.jump_m = 0.3;  // rad
+    m.controller_stops_within(50);
+  }
+  Machine m;
+  m.dig();
+  m.rig.plant.faults().axis[kArm].stroke.stuck = true;
+  m.controller_stops_within(4000);
+}
+
+void a_pilot_that_does_not_follow(void**) {
+  Machine m;
+  m.dig();
+  m.change(zx200::PilotPressure1::kId, [](CanFrame& frame) {
+    frame.data[0] = 200;  // Boom up.
+    return true;
+  });
+  m.controller_stops_within(100);
+  assert_int_equal(m.status().fault, Fault::kSpoolStuck);
+  static_cast<void>(m.machine_neutral_after(2 * kCycle_ms));
+  // No signal says cut: nothing is sent any more, and the machine shuts off by itself.
+  for (int cycle = 0; cycle < 20; ++cycle) {
+    m.step();
+  }
+  bool sent = false;
+  m.rig.bus.set_tap([&](const CanFrame& frame) {
+    sent = sent || frame.id == zx200::PilotPressureCmd1::kId ||
+           frame.id == zx200::MachineSettingCmd::kId;
+  });
+  for (int cycle = 0; cycle < 20; ++cycle) {
+    m.step();
+  }
+  assert_false(sent);
+}
+
+void another_controller(void**) {
+  Machine m;
+  m.dig();
+  CanFrame other;
+  other.id = zx200::PilotPressureCmd1::kId;
+  other.length = 8;
+  m.rig.bus.inject(other);
+  m.controller_stops_within(20);
+  assert_int_equal(m.status().fault, Fault::kSecondController);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(nothing_moves_before_the_handshake),
+      cmocka_unit_test(a_locked_machine_does_not_move),
+      cmocka_unit_test(lock),
+      cmocka_unit_test(lock_by_its_state),
+      cmocka_unit_test(a_short_lock_is_not_undone),
+      cmocka_unit_test(emergency_stop),
+      cmocka_unit_test(lost_gateway),
+      cmocka_unit_test(lost_controller),
+      cmocka_unit_test(the_machines_counter_stands_still),
+      cmocka_unit_test(our_counter_stands_still),
+      cmocka_unit_test(an_angle_that_jumps_or_sticks),
+      cmocka_unit_test(a_pilot_that_does_not_follow),
+      cmocka_unit_test(another_controller),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
