@@ -12,6 +12,8 @@ struct Lack {
   const char* stand_in;
   bool BusCapabilities::*carried;
   const char* help;
+  const char* sensor = nullptr;  ///< The key that says whether the machine has such sensors.
+  const char* sensor_help = nullptr;
 };
 
 constexpr Lack kLacks[] = {
@@ -20,9 +22,11 @@ constexpr Lack kLacks[] = {
     {"stand_in.valve_echo", "motion", &BusCapabilities::valve_echo,
      "what stands in for the valve's echo of enable"},
     {"stand_in.spool_feedback", "command", &BusCapabilities::spool_feedback,
-     "what stands in for measured spool positions"},
+     "what stands in for measured spool positions", "sensors.spool",
+     "false: the spools have no sensors; stand_in.spool_feedback is then required"},
     {"stand_in.swash_feedback", "command", &BusCapabilities::swash_feedback,
-     "what stands in for measured swash"},
+     "what stands in for measured swash", "sensors.swash",
+     "false: the pumps have no sensors of their swash; stand_in.swash_feedback is then required"},
     {"stand_in.protection", "range", &BusCapabilities::protection,
      "what stands in for counter and CRC"},
 };
@@ -50,8 +54,13 @@ const std::vector<KnownBus>& known_buses() {
 BusCapabilities read_bus(TomlReader& reader, double dead_time_s,
                          const std::vector<KnownBus>& buses) {
   const KnownBus& bus = named_bus(reader, buses);
+  BusCapabilities known = bus.capabilities;
   for (const Lack& lack : kLacks) {
-    const bool carried = bus.capabilities.*lack.carried;
+    if (lack.sensor != nullptr && reader.has(lack.sensor)) {
+      known.*lack.carried =
+          reader.boolean_or(true, lack.sensor, lack.sensor_help) && known.*lack.carried;
+    }
+    const bool carried = known.*lack.carried;
     if (!carried) {
       // Missing, or another one than there is: the reader says so.
       static_cast<void>(reader.choice(lack.key, {lack.stand_in}, lack.help));
@@ -65,7 +74,7 @@ BusCapabilities read_bus(TomlReader& reader, double dead_time_s,
                                    "which has to cover it",
                                    bus.capabilities.latency_s, dead_time_s));
   }
-  return bus.capabilities;
+  return known;
 }
 
 }  // namespace graben::machines

@@ -15,6 +15,9 @@ struct SectionData {
   PortProtection ports;
   double hose_linear_paspm3 = 0.0;  ///< Between valve and cylinder; laminar share.
   double hose_quadratic_pas2pm6 = 0.0;
+  /// What a compensator before the in-flow edge leaves of the pressure over it, whatever pump and
+  /// load are at; it lets nothing back either. 0: there is none.
+  double compensator_pa = 0.0;
 };
 
 /// The four ports that a section joins during a step.
@@ -66,6 +69,8 @@ class ValveSection {
   [[nodiscard]] double hose_drop_pa(double hose_m3ps, double cushion_pas2pm6) const;
 
   [[nodiscard]] const Spool& spool() const { return spool_; }
+  /// An edge is open; `extends` then says which.
+  [[nodiscard]] bool is_open() const { return k_in_ > 0.0; }
   /// The section's part of the bypass, 1 / K^2 of its coefficient K, m^3/(s sqrt(Pa)).
   [[nodiscard]] double bypass_inverse_square() const { return bypass_inverse_square_; }
 
@@ -76,6 +81,7 @@ class ValveSection {
     return {chamber.wave_pa, chamber.impedance_paspm3 + hose_linear_};
   }
   void update_openings();
+  [[nodiscard]] double compensated(double supply_m3ps) const;
 
   Spool spool_;
   PortProtection protection_;
@@ -86,6 +92,8 @@ class ValveSection {
   double k_in_ = 0.0;  ///< Of the edges as they are open, hose included.
   double k_out_ = 0.0;
   double bypass_inverse_square_ = 0.0;
+  double compensator_;
+  double most_in_ = 0.0;  ///< That the compensator lets through the edge.
   double k_bypass_open_, k_bypass_closed_;
 };
 
