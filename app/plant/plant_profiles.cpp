@@ -45,7 +45,8 @@ SectionData ExcavatorPlantProfile::section(int drive) const {
           port_protection(drive),
           hose_linear_paspm3,
           hose_quadratic_pas2pm6,
-          by.compensated ? by.margin_pa : 0.0};
+          by.compensated ? by.margin_pa : 0.0,
+          by.sets_swash()};
 }
 
 PumpLineData ExcavatorPlantProfile::pump_line(int pump) const {

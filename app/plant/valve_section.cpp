@@ -74,6 +74,7 @@ ValveSection::ValveSection(const SectionData& data) : spool_(data.spool), protec
   hose_linear_ = data.hose_linear_paspm3;
   hose_quadratic_ = data.hose_quadratic_pas2pm6;
   compensator_ = data.compensator_pa;
+  load_check_ = data.load_check;
   update_openings();
 }
 
@@ -110,8 +111,11 @@ ReturnFlow ValveSection::return_flow(double k_out, bool regenerates, const WaveP
   return {orifice_flow(k_out, chamber, kTank), 0.0, 0.0};
 }
 
-double ValveSection::compensated(double supply_m3ps) const {
-  return compensator_ > 0.0 ? std::clamp(supply_m3ps, 0.0, most_in_) : supply_m3ps;
+double ValveSection::checked(double supply_m3ps) const {
+  if (load_check_ && supply_m3ps < 0.0) {
+    return 0.0;
+  }
+  return compensator_ > 0.0 ? std::min(supply_m3ps, most_in_) : supply_m3ps;
 }
 
 SectionFlows ValveSection::solve(const SectionPorts& ports) const {
@@ -127,8 +131,8 @@ SectionFlows ValveSection::solve(const SectionPorts& ports) const {
   double supply = 0.0;
   const double fed_in = protected_flow(fed, protection_, [&](const WavePort& chamber) {
     const bool leaves = chamber.wave_pa > ports.supply.wave_pa;
-    return supply = compensated(orifice_flow(leaves ? in_series(k_in_, fed_cushion) : k_in_,
-                                             ports.supply, behind_hose(chamber)));
+    return supply = checked(orifice_flow(leaves ? in_series(k_in_, fed_cushion) : k_in_,
+                                         ports.supply, behind_hose(chamber)));
   });
   ReturnFlow back;
   const double k_out = in_series(k_out_, drained_cushion);

@@ -16,8 +16,9 @@ struct SectionData {
   double hose_linear_paspm3 = 0.0;  ///< Between valve and cylinder; laminar share.
   double hose_quadratic_pas2pm6 = 0.0;
   /// What a compensator before the in-flow edge leaves of the pressure over it, whatever pump and
-  /// load are at; it lets nothing back either. 0: there is none.
+  /// load are at; 0: there is none.
   double compensator_pa = 0.0;
+  bool load_check = false;  ///< Nothing flows back from the fed chamber; without loss.
 };
 
 /// The four ports that a section joins during a step.
@@ -39,7 +40,7 @@ struct SectionFlows {
   double cap_hose_m3ps = 0.0;
   double rod_hose_m3ps = 0.0;
   double supply_out_m3ps =
-      0.0;  ///< Negative is back-flow: the circuit has no load check (Kim 3.1).
+      0.0;  ///< Negative is back-flow, where the circuit has no load check (Kim 3.1).
   double recycle_in_m3ps = 0.0;  ///< Q_rgn of (14).
 };
 
@@ -81,7 +82,7 @@ class ValveSection {
     return {chamber.wave_pa, chamber.impedance_paspm3 + hose_linear_};
   }
   void update_openings();
-  [[nodiscard]] double compensated(double supply_m3ps) const;
+  [[nodiscard]] double checked(double supply_m3ps) const;
 
   Spool spool_;
   PortProtection protection_;
@@ -93,6 +94,7 @@ class ValveSection {
   double k_out_ = 0.0;
   double bypass_inverse_square_ = 0.0;
   double compensator_;
+  bool load_check_;
   double most_in_ = 0.0;  ///< That the compensator lets through the edge.
   double k_bypass_open_, k_bypass_closed_;
 };

@@ -120,7 +120,9 @@ void feel_edge(const DriveRow& drive, const LearntSeen& now, double period_s, Le
 
 const LearntSide& LearntValve::side(bool extends) const { return extends ? extend : retract; }
 
-bool is_learnt(const DriveRow& drive) { return has_edges(drive); }
+bool is_learnt(const DriveRow& drive) {
+  return has_edges(drive) && !(drive.spool.bypass_closes_at > 0.0);
+}
 
 LearntSide::LearntSide()
     : edge_variance(kEdgeSpread * kEdgeSpread), bend_variance(kBendSpread * kBendSpread) {}
