@@ -53,8 +53,7 @@ struct LearntValve {
   [[nodiscard]] const LearntSide& side(bool extends) const;
 };
 
-/// Of a valve whose edges meter the flow; where its bypass closes over the opening, that decides as
-/// much as they do. Of a motor only where its dead band ends, from whether it
+/// Of a valve whose edges meter the flow. Of a motor only where its dead band ends, from whether it
 /// moves at all: its load takes seconds to get its speed.
 [[nodiscard]] bool is_learnt(const DriveRow& drive);
 

@@ -129,6 +129,19 @@ double left_with_bypass(const McvCircuit& circuit, unsigned pump, double lambda,
   return flow_left(line, lambda, sqrt_pa);
 }
 
+/// A drive that has not its force is no sign of a spool less open than full.
+bool is_below(const McvCircuit& circuit, unsigned pump, double lambda, double sqrt_pa,
+              FlowBalance& line) {
+  for (unsigned i = 0; i < circuit.axis_count; ++i) {
+    const CircuitAxis& axis = circuit.axis[i];
+    if (axis.moves && axis.pump == pump &&
+        drive_force(axis, lambda, sqrt_pa).force_n < needed_force_n(axis, lambda)) {
+      return true;
+    }
+  }
+  return left_with_bypass(circuit, pump, lambda, sqrt_pa, line) >= 0.0;
+}
+
 double settled_sqrt_pressure(const McvCircuit& circuit, unsigned pump, double lambda,
                              double closed) {
   FlowBalance line = circuit.line[pump];
@@ -139,7 +152,7 @@ double settled_sqrt_pressure(const McvCircuit& circuit, unsigned pump, double la
   double high = closed;
   for (int n = 0; n < kHalvings; ++n) {
     const double middle = 0.5 * (low + high);
-    (left_with_bypass(circuit, pump, lambda, middle, line) >= 0.0 ? low : high) = middle;
+    (is_below(circuit, pump, lambda, middle, line) ? low : high) = middle;
   }
   return high;
 }
