@@ -20,10 +20,11 @@ SwashRegulator::SwashRegulator(const PumpRegulator& data, const RegulatedLine& l
   if (!data_.sets_swash()) {
     return;
   }
-  const double frequency_radps = 4.0 / data_.response_s;
-  const double rise_paps = line_.stiffness_papm3 * line_.full_flow_m3ps;
-  per_pa_ = 2.0 * kDamping * frequency_radps / rise_paps;
-  per_pa_s_ = frequency_radps * frequency_radps / rise_paps;
+  if (senses_load()) {
+    const double rise_paps = line_.stiffness_papm3 * line_.full_flow_m3ps;
+    per_pa_s_ = 1.0 / (data_.response_s * data_.margin_pa);
+    per_pa_ = 2.0 * kDamping * std::sqrt(per_pa_s_ / rise_paps);
+  }
   lag_share_ = -std::expm1(-3.0 * step_s / data_.response_s);
 }
 

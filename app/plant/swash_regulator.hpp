@@ -22,9 +22,10 @@ struct RegulatedLine {
 };
 
 /// Load sensing: from the line's pressure, which is to be the margin above the load or at most just
-/// under the relief's, a part in proportion and an integral; together they hold the line as a
-/// damped second-order system of the frequency 4 / response. Makers damp theirs by orifices and by
-/// the unloading valve, which sheds what lifts the line more than kUnload_pa above that.
+/// under the relief's, a part in proportion and an integral. A whole margin that is missing makes
+/// the integral go through a whole stroke in `response`, and the part in proportion damps the line.
+/// Makers damp theirs by orifices and by the unloading valve, which sheds what lifts the line more
+/// than 1 MPa above that.
 /// Negative flow: a first-order lag of a third of `response` behind the falling line between both
 /// pressures. Neither is faster than a whole stroke in `response`.
 class SwashRegulator {
@@ -34,7 +35,7 @@ class SwashRegulator {
   [[nodiscard]] bool sets_swash() const { return data_.sets_swash(); }
   /// Swash after a step from `swash_ratio`.
   [[nodiscard]] double next(double swash_ratio, const Felt& felt);
-  /// That a long time at what is felt leads to, without a load; the line at `line_pa`.
+  /// That negative flow control leads to at this flow through the bypass.
   [[nodiscard]] double settled(double bypass_m3ps) const;
   void start(double swash_ratio) { integral_ = swash_ratio; }
   /// Pressure at which the line is relieved.

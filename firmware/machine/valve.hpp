@@ -69,7 +69,7 @@ struct PumpRegulator {
   double full_swash_pa = 0.0;      ///< Up to it the swash is full,
   double least_swash_pa = 0.0;     ///< from here on least; linear between.
   double least_swash_ratio = 0.0;  ///< Of full.
-  double response_s = 0.0;         ///< First-order lag of the swash behind it.
+  double response_s = 0.0;         ///< In which the swash goes from least to full.
 
   [[nodiscard]] bool sets_swash() const { return kind != PumpKind::kPositive; }
 };

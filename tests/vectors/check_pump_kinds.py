@@ -13,7 +13,7 @@ import random
 import subprocess
 import sys
 
-CASES = 60
+CASES = 15
 TRAVEL = 0.01
 RELIEF = 35e6
 
