@@ -82,6 +82,13 @@ struct Node {
     }
     return number_value;
   }
+  [[nodiscard]] double below_one() const {
+    const double number_value = not_negative();
+    if (!(number_value < 1.0)) {
+      refuse(path, fmt::format("{} must be less than 1", number_value));
+    }
+    return number_value;
+  }
   [[nodiscard]] int integer(int least, int most) const {
     if (!value.is_number_integer() || value.get<double>() < least || value.get<double>() > most) {
       refuse(path,
@@ -113,7 +120,7 @@ MonotoneTable read_table(const Node& node) {
 McvActuator read_actuator(const Node& node, int pump_count) {
   node.only({"name", "area_cap", "area_rod", "pump", "regeneration", "c_drain", "c_check",
              "bypass_open", "bypass_closed", "force_offset", "c_inflow_check", "c_extend",
-             "c_retract"});
+             "c_retract", "outlet_share", "bypass_closes_at"});
   McvActuator actuator;
   actuator.area_cap_m2 = node.at("area_cap").positive();
   actuator.area_rod_m2 = node.at("area_rod").positive();
@@ -133,19 +140,51 @@ McvActuator read_actuator(const Node& node, int pump_count) {
   if (node.has("c_inflow_check")) {
     actuator.c_inflow_check = node.at("c_inflow_check").positive();
   }
+  if (node.has("outlet_share")) {
+    const std::vector<Node> share = node.at("outlet_share").items(2, 2);
+    actuator.extend_outlet_share = share[0].below_one();
+    actuator.retract_outlet_share = share[1].below_one();
+  }
+  if (node.has("bypass_closes_at")) {
+    actuator.bypass_closes_at = node.at("bypass_closes_at").positive();
+  }
   actuator.extend = read_table(node.at("c_extend"));
   actuator.retract = read_table(node.at("c_retract"));
   return actuator;
 }
 
+/// A pump that sets its own swash; its flow is then that of full swash.
+PumpRegulator read_regulator(const Node& pump) {
+  PumpRegulator by;
+  if (pump.has("load_sensing")) {
+    const Node node = pump.at("load_sensing");
+    node.only({"margin", "compensated"});
+    by.kind = PumpKind::kLoadSensing;
+    by.margin_pa = node.at("margin").positive();
+    by.compensated = node.at("compensated").integer(0, 1) == 1;
+  } else if (pump.has("negative_flow")) {
+    const Node node = pump.at("negative_flow");
+    node.only({"pressure", "least_swash"});
+    const std::vector<Node> pressure = node.at("pressure").items(2, 2);
+    by.kind = PumpKind::kNegativeFlow;
+    by.full_swash_pa = pressure[0].not_negative();
+    by.least_swash_pa = pressure[1].positive();
+    by.least_swash_ratio = node.at("least_swash").below_one();
+  }
+  return by;
+}
+
 McvPump read_pump(const Node& node) {
-  node.only({"flow", "leak_linear", "leak_quadratic", "bypass_series", "relief"});
+  node.only({"flow", "leak_linear", "leak_quadratic", "bypass_series", "relief", "load_sensing",
+             "negative_flow"});
   McvPump pump;
   pump.leak_linear = node.at("leak_linear").not_negative();
   pump.leak_quadratic = node.at("leak_quadratic").not_negative();
   for (const Node& orifice : node.at("bypass_series").items(0, kMaxBypassSeries)) {
-    pump.series_resistance += orifice_resistance(orifice.positive());
+    pump.tank_orifice = orifice.positive();
+    pump.series_resistance += orifice_resistance(pump.tank_orifice);
   }
+  pump.regulator = read_regulator(node);
   pump.has_relief = node.has("relief");
   if (pump.has_relief) {
     pump.relief_pa = node.at("relief").positive();
@@ -283,6 +322,12 @@ std::string defect_text(const McvCheck& check) {
     case McvDefect::kInflowCheck:
       key = "c_inflow_check";
       break;
+    case McvDefect::kRegulator:
+      return fmt::format(
+          "machine.pumps[{}]: a pump that sets its swash needs a relief, negative_flow two "
+          "pressures "
+          "that rise and an orifice at the end of bypass_series",
+          check.index);
     case McvDefect::kBypassSeries:
       return fmt::format("machine.pumps[{}].bypass_series: out of any usable range", check.index);
     default:

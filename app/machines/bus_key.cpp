@@ -12,6 +12,8 @@ struct Lack {
   const char* stand_in;
   bool BusCapabilities::*carried;
   const char* help;
+  const char* sensor = nullptr;  ///< The key that says whether the machine has such sensors.
+  const char* sensor_help = nullptr;
 };
 
 constexpr Lack kLacks[] = {
@@ -20,9 +22,12 @@ constexpr Lack kLacks[] = {
     {"stand_in.valve_echo", "motion", &BusCapabilities::valve_echo,
      "what stands in for the valve's echo of enable"},
     {"stand_in.spool_feedback", "command", &BusCapabilities::spool_feedback,
-     "what stands in for measured spool positions; pilot where pilot pressures are told"},
+     "what stands in for measured spool positions; pilot where pilot pressures are told",
+     "sensors.spool",
+     "false: the spools have no sensors; stand_in.spool_feedback is then required"},
     {"stand_in.swash_feedback", "command", &BusCapabilities::swash_feedback,
-     "what stands in for measured swash"},
+     "what stands in for measured swash", "sensors.swash",
+     "false: the pumps have no sensors of their swash; stand_in.swash_feedback is then required"},
     {"stand_in.swash_command", "profile", &BusCapabilities::swash_command,
      "what stands in for a command of the pumps' swash"},
     {"stand_in.protection", "range", &BusCapabilities::protection,
@@ -53,10 +58,15 @@ const std::vector<KnownBus>& known_buses() {
 BusCapabilities read_bus(TomlReader& reader, double dead_time_s,
                          const std::vector<KnownBus>& buses) {
   const KnownBus& bus = named_bus(reader, buses);
+  BusCapabilities known = bus.capabilities;
   for (const Lack& lack : kLacks) {
+    if (lack.sensor != nullptr && reader.has(lack.sensor)) {
+      known.*lack.carried =
+          reader.boolean_or(true, lack.sensor, lack.sensor_help) && known.*lack.carried;
+    }
     const bool by_pilot =
         lack.carried == &BusCapabilities::spool_feedback && bus.capabilities.spool_by_pilot;
-    const bool carried = bus.capabilities.*lack.carried && !by_pilot;
+    const bool carried = known.*lack.carried && !by_pilot;
     if (by_pilot) {
       static_cast<void>(reader.choice(lack.key, {"pilot"}, lack.help));
     } else if (!carried) {
@@ -77,7 +87,7 @@ BusCapabilities read_bus(TomlReader& reader, double dead_time_s,
                                    "which has to cover it",
                                    bus.capabilities.latency_s, dead_time_s));
   }
-  return bus.capabilities;
+  return known;
 }
 
 }  // namespace graben::machines

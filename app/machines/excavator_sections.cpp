@@ -11,6 +11,7 @@
 #include "app/machines/bus_key.hpp"
 #include "app/machines/excavator_sections.hpp"
 #include "app/machines/oil_section.hpp"
+#include "app/machines/pump_section.hpp"
 #include "app/machines/sensor_section.hpp"
 #include "app/machines/shared_sections.hpp"
 #include "app/machines/swash_keys.hpp"
@@ -22,7 +23,6 @@ constexpr Range kLength{0.1, 30.0, "m"};
 constexpr Range kPin{-10.0, 10.0, "m"};
 constexpr Range kFlowCoefficient{1e-9, 1e-3, "m3/(s sqrt(Pa))"};
 constexpr Range kSpoolArea{1e-7, 1e-2, "m2"};
-constexpr Range kPressure{1e6, 1e8, "Pa"};
 
 /// The boom cylinder as (6) of Zhang et al. has it: B the boom foot, A the pin on the body, C that
 /// on the boom; A below the horizontal X0, C above the boom's line X1.
@@ -88,18 +88,6 @@ ExcavatorGeometry read_geometry(TomlReader& reader) {
   return geometry;
 }
 
-/// Neither pump nor valve is to see more than it is built for.
-void check_relief(TomlReader& reader, const std::string& pump, double relief_pa) {
-  for (const std::string& key : {pump + "rated_pressure", std::string("valve.rated_pressure")}) {
-    const double rated_pa = reader.number(
-        key, kPressure, "highest pressure that it is built for; at least each pump's relief");
-    if (relief_pa > rated_pa) {
-      reader.fail(pump + "relief",
-                  fmt::format("{} Pa; allowed: at most {}, {} Pa", relief_pa, key, rated_pa));
-    }
-  }
-}
-
 /// A machine whose valve has a section for the swing; without one the swing is held.
 bool has_swing_drive(const TomlReader& reader) { return reader.has("valve.swing"); }
 
@@ -154,29 +142,8 @@ LineProfile read_line(TomlReader& reader) {
   return line;
 }
 
-PumpProfile read_pump(TomlReader& reader, unsigned index) {
-  const std::string at = fmt::format("pump[{}].", index);
-  PumpProfile pump;
-  pump.displacement_m3prev =
-      reader.number(at + "displacement", {1e-6, 1e-2, "m3/rev"}, "displacement at full swash");
-  pump.rated_speed_radps =
-      reader.number(at + "speed", {10.0, 1000.0, "rad/s"}, "shaft speed at work");
-  pump.leak_linear =
-      reader.number(at + "leak_linear", {0.0, 1e-9, "m3/(s Pa)"}, "leakage per pressure");
-  pump.leak_quadratic = reader.number(at + "leak_quadratic", {0.0, 1e-16, "m3/(s Pa2)"},
-                                      "leakage per squared pressure");
-  pump.relief_pa =
-      reader.number(at + "relief", kPressure,
-                    "relief of the pump line; at most rated_pressure of pump and valve");
-  check_relief(reader, at, pump.relief_pa);
-  const std::vector<double> series =
-      reader.numbers(at + "bypass_series", kFlowCoefficient, 2,
-                     "flow coefficients of the two fixed orifices behind the bypass (Tk1, Tk2)");
-  std::copy(series.begin(), series.end(), pump.bypass_series.begin());
-  return pump;
-}
-
-SpoolProfile read_spool(TomlReader& reader, const std::string& axis, int pump_count) {
+SpoolProfile read_spool(TomlReader& reader, const std::string& axis, int pump_count,
+                        PumpKind kind) {
   SpoolProfile spool;
   spool.pump = reader.integer("valve.pump." + axis, 1, pump_count,
                               "number of the pump that feeds it, from 1") -
@@ -189,10 +156,7 @@ SpoolProfile read_spool(TomlReader& reader, const std::string& axis, int pump_co
   spool.extend_out_m2 = areas[1];
   spool.retract_in_m2 = areas[2];
   spool.retract_out_m2 = areas[3];
-  spool.bypass_open = reader.number("valve.bypass.open", kFlowCoefficient,
-                                    "flow coefficient of a bypass with its spool at neutral");
-  spool.bypass_closed = reader.number("valve.bypass.closed." + axis, kFlowCoefficient,
-                                      "the same with its spool moved");
+  read_bypass(reader, axis, kind, spool);
   const std::string at = "valve.regeneration." + axis + ".";
   // A motor has nothing to regenerate: both its sides are alike.
   if (axis != kDriveNames[kSwing]) {
@@ -221,7 +185,7 @@ SpoolProfile read_spool(TomlReader& reader, const std::string& axis, int pump_co
   return spool;
 }
 
-ValveProfile read_valve(TomlReader& reader, int pump_count, int drive_count) {
+ValveProfile read_valve(TomlReader& reader, int pump_count, int drive_count, PumpKind kind) {
   ValveProfile valve;
   valve.spool_travel_m =
       reader.number("valve.spool_travel", {1e-3, 0.1, "m"}, "spool from neutral to fully open");
@@ -233,7 +197,7 @@ ValveProfile read_valve(TomlReader& reader, int pump_count, int drive_count) {
   valve.section_flow_m3ps =
       reader.number("valve.section_flow", {1e-5, 1e-1, "m3/s"}, "rated flow of one section");
   for (unsigned i = 0; i < static_cast<unsigned>(drive_count); ++i) {
-    valve.spool[i] = read_spool(reader, kDriveNames[i], pump_count);
+    valve.spool[i] = read_spool(reader, kDriveNames[i], pump_count, kind);
   }
   valve.spool_to_duty = read_spool_to_duty(reader, "valve.spool_to_duty");
   read_answers(reader, drive_count, valve);
@@ -379,11 +343,9 @@ ExcavatorProfile read_excavator_sections(TomlReader& reader, const std::vector<K
   profile.drive_count = has_swing_drive(reader) ? kDriveCount : kAxisCount;
   profile.swing = read_swing(reader);
   profile.line = read_line(reader);
-  profile.pump_count = reader.table_count("pump", 1, kPumpCount, "pumps, a table each");
-  for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
-    profile.pump[j] = read_pump(reader, j);
-  }
-  profile.valve = read_valve(reader, profile.pump_count, profile.drive_count);
+  read_pumps(reader, profile);
+  profile.valve =
+      read_valve(reader, profile.pump_count, profile.drive_count, profile.pump[0].regulator.kind);
   profile.control = read_control(reader);
   profile.dig_path = read_path(reader, "task.path");
   profile.dig_speed_mps =

@@ -20,8 +20,17 @@ struct ProfileDocument {
 /// In the order of MachineKind.
 [[nodiscard]] const std::vector<std::string>& kind_names();
 inline constexpr const char* kKindHelp = "which controller; the same in both files";
+inline constexpr const char* kLikeHelp =
+    "name of another machine's file beside this one, which holds but for what this one says; "
+    "arrays, those of tables too, are taken or replaced as a whole";
 
-/// Throws std::runtime_error if the file can't be read, ProfileError if it is not TOML.
+/// Lays differences over a document: tables key by key, everything else as a whole. Moved, so that
+/// each value keeps its line.
+void lay_over(toml::table& base, toml::table&& differences);
+
+/// Of a file that says `like = "NAME"`, what NAME.toml beside it says but for what the file itself
+/// does; of NAME.sim.toml the same. Throws std::runtime_error if a file can't be read, ProfileError
+/// if it is not TOML or like one that is like another.
 [[nodiscard]] ProfileDocument read_document(const std::filesystem::path& file);
 
 /// Why a text is not TOML, with its place and the line that is meant.
@@ -36,12 +45,16 @@ void require_kind(const ProfileDocument& document, TomlReader& reader, MachineKi
 /// Throws ProfileError if the reader has found any.
 void throw_errors(const ProfileDocument& document, const TomlReader& reader);
 
+/// Knows the key `like`, which read_document has looked at.
+void read_like(TomlReader& reader);
+
 /// Reads a file of this kind; `read(reader)` asks for its sections and checks them. No key may be
 /// left over. Throws as the above, with every error found. Returns the hash of what was read.
 template <class Read>
 std::uint32_t read_as(const ProfileDocument& document, MachineKind kind, Read&& read) {
   TomlReader reader(document.root);
   require_kind(document, reader, kind);
+  read_like(reader);
   read(reader);
   reader.refuse_unknown_keys();
   throw_errors(document, reader);

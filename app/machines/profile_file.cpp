@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "app/machines/near_word.hpp"
 
@@ -30,6 +31,21 @@ std::string read_file(const std::filesystem::path& file) {
     throw std::runtime_error(fmt::format("{}: can't be read", file.string()));
   }
   return text;
+}
+
+ProfileDocument read_alone(const std::filesystem::path& file) {
+  const std::string text = read_file(file);
+  try {
+    return {file, toml::parse(text, file.string())};
+  } catch (const toml::parse_error& error) {
+    throw ProfileError(file.string(), {syntax_words(text, error)});
+  }
+}
+
+/// The machine, or the simulated one, that a file of the same folder is like.
+std::filesystem::path base_file(const std::filesystem::path& file, const std::string& name) {
+  const std::filesystem::path machine = file.parent_path() / (name + ".toml");
+  return is_simulation_file(file) ? simulation_file(machine) : machine;
 }
 
 MachineKind read_kind(const ProfileDocument& document, TomlReader& reader) {
@@ -106,13 +122,34 @@ bool is_simulation_file(const std::filesystem::path& file) {
          name.compare(name.size() - kSimulation.size(), kSimulation.size(), kSimulation) == 0;
 }
 
-ProfileDocument read_document(const std::filesystem::path& file) {
-  const std::string text = read_file(file);
-  try {
-    return {file, toml::parse(text, file.string())};
-  } catch (const toml::parse_error& error) {
-    throw ProfileError(file.string(), {syntax_words(text, error)});
+void lay_over(toml::table& base, toml::table&& differences) {
+  for (auto&& [key, node] : differences) {
+    toml::table* const inner = node.as_table();
+    toml::table* const under = base.get_as<toml::table>(key.str());
+    if (inner != nullptr && under != nullptr) {
+      lay_over(*under, std::move(*inner));
+      continue;
+    }
+    node.visit(
+        [&base, name = key.str()](auto& value) { base.insert_or_assign(name, std::move(value)); });
   }
+}
+
+ProfileDocument read_document(const std::filesystem::path& file) {
+  ProfileDocument document = read_alone(file);
+  const auto like = document.root["like"].value<std::string>();
+  if (!like) {
+    return document;
+  }
+  ProfileDocument base = read_alone(base_file(file, *like));
+  if (base.root.contains("like")) {
+    throw ProfileError(file.string(),
+                       {fmt::format("like: {} is like another itself; allowed: one that is not",
+                                    base.file.string())});
+  }
+  lay_over(base.root, std::move(document.root));
+  base.file = file;
+  return base;
 }
 
 std::string syntax_words(const std::string& text, const toml::parse_error& error) {
@@ -136,6 +173,12 @@ void require_kind(const ProfileDocument& document, TomlReader& reader, MachineKi
                                     kind_name(kind)));
   }
   throw_errors(document, reader);
+}
+
+void read_like(TomlReader& reader) {
+  if (reader.has("like")) {
+    static_cast<void>(reader.text("like", kLikeHelp));
+  }
 }
 
 void throw_errors(const ProfileDocument& document, const TomlReader& reader) {

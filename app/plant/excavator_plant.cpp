@@ -186,8 +186,32 @@ SectionPorts ExcavatorPlant::ports_of(std::size_t drive) const {
           cylinder.rod_cushion_pas2pm6()};
 }
 
+/// By shuttle valves from the open sections: before the hose on the fed side, tank's without one.
+double ExcavatorPlant::felt_load_pa(std::size_t pump) const {
+  if (!pump_[pump].regulator().senses_load()) {
+    return 0.0;
+  }
+  const AxisArray cap = cap_pressures_pa();
+  const AxisArray rod = rod_pressures_pa();
+  const std::array<double, 2> swing = swing_pressures_pa();
+  double most = 0.0;
+  for (std::size_t i = 0; i < section_.size(); ++i) {
+    if (pump_of_[i] == pump && section_[i].is_open()) {
+      const bool extends = section_[i].spool().travel_ratio() > 0.0;
+      const double cap_pa = i == kSwing ? swing[0] : cap[i];
+      const double rod_pa = i == kSwing ? swing[1] : rod[i];
+      most = std::max(most, extends ? cap_pa : rod_pa);
+    }
+  }
+  return most;
+}
+
 void ExcavatorPlant::move_swash() {
   for (std::size_t i = 0; i < pump_count_; ++i) {
+    if (pump_[i].regulator().sets_swash()) {
+      pump_[i].regulate(felt_load_pa(i));
+      continue;
+    }
     const double missing = wanted_swash_[i] - pump_[i].swash_ratio();
     if (missing != 0.0) {
       pump_[i].set_swash(pump_[i].swash_ratio() + swash_share_ * missing);

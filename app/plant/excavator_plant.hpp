@@ -149,6 +149,7 @@ class ExcavatorPlant {
   void set_bypasses();
   void push_tip();
   void move_swash();
+  [[nodiscard]] double felt_load_pa(std::size_t pump) const;
   void load_engine();
   void drive_pumps();
   [[nodiscard]] double pump_power_share() const;

@@ -38,12 +38,15 @@ SectionData ExcavatorPlantProfile::section(int drive) const {
   edges.extend_out_m2 *= factors.extend_out;
   edges.retract_in_m2 *= factors.retract_in;
   edges.retract_out_m2 *= factors.retract_out;
+  const PumpRegulator& by = machine.pump[static_cast<std::size_t>(edges.pump)].regulator;
   return {edges,
           static_cast<const SpoolMetering&>(machine.valve),
           spool[index],
           port_protection(drive),
           hose_linear_paspm3,
-          hose_quadratic_pas2pm6};
+          hose_quadratic_pas2pm6,
+          by.compensated ? by.margin_pa : 0.0,
+          by.sets_swash()};
 }
 
 PumpLineData ExcavatorPlantProfile::pump_line(int pump) const {

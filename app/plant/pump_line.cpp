@@ -25,7 +25,12 @@ PumpLine::PumpLine(const PumpLineData& data, std::size_t section_count)
       leak_linear_(data.pump.leak_linear),
       leak_quadratic_(data.pump.leak_quadratic),
       fixed_inverse_square_(inverse_square(data.pump.bypass_series[0]) +
-                            inverse_square(data.pump.bypass_series[1])) {
+                            inverse_square(data.pump.bypass_series[1])),
+      regulator_(data.pump.regulator,
+                 {data.pump.displacement_m3prev * data.pump.rated_speed_radps / kTwoPi,
+                  data.oil.bulk_modulus_pa / data.volume_m3, data.pump.bypass_series[1],
+                  data.protection.relief_pa},
+                 data.step_s) {
   set_swash(data.swash_ratio);
 }
 
@@ -74,11 +79,37 @@ void PumpLine::step() {
   line_.scatter();
 }
 
+void PumpLine::regulate(double load_pa) {
+  set_swash(regulator_.next(swash_, {pressure_pa(), load_pa, flows_.bypass_m3ps}));
+  protection_.relief_pa = regulator_.relief_pa(load_pa);
+}
+
+/// Nothing but leakage is given.
+void PumpLine::start_at_margin() {
+  const double pressure = regulator_.margin_pa();
+  const double lost =
+      (leak_linear_ + leak_quadratic_ * pressure) * pressure + k_bypass_ * std::sqrt(pressure);
+  set_swash(lost / rated_flow_m3ps());
+  regulator_.start(swash_);
+  const double flow = k_bypass_ * std::sqrt(pressure);
+  flows_ = {flow, flow, flow, pressure, pressure};
+  line_.set_flow(kPumpPort, flow);
+  line_.set_flow(kBypassPort, -flow);
+  line_.start(volume_, pressure);
+}
+
 void PumpLine::start() {
+  if (regulator_.senses_load()) {
+    start_at_margin();
+    return;
+  }
   double low = 0.0;
   double high = protection_.relief_pa;
   for (int i = 0; i < kStandbyHalvings; ++i) {
     const double middle = 0.5 * (low + high);
+    if (regulator_.sets_swash()) {
+      set_swash(regulator_.settled(k_bypass_ * std::sqrt(middle)));
+    }
     const double surplus = delivery({middle, 0.0}) - k_bypass_ * std::sqrt(middle);
     (surplus > 0.0 ? low : high) = middle;
   }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "app/plant/swash_regulator.hpp"
 #include "app/plant/wave_volume.hpp"
 #include "firmware/machine/valve.hpp"
 
@@ -47,6 +48,9 @@ class PumpLine {
   void set_bypass(double inverse_square_of_sections);
   /// Of full swash.
   void set_swash(double swash_ratio);
+  [[nodiscard]] const SwashRegulator& regulator() const { return regulator_; }
+  /// Moves the swash of a pump that sets it itself, by the load that it feels.
+  void regulate(double load_pa);
   /// Share of the rated speed that it is driven at; 0: the engine stands.
   void set_speed_ratio(double speed_ratio) { speed_ratio_ = speed_ratio; }
   /// Solves pump and bypass and ends the step.
@@ -64,6 +68,7 @@ class PumpLine {
 
  private:
   [[nodiscard]] double delivery(const WavePort& port) const;
+  void start_at_margin();
 
   WaveVolume line_;
   double volume_;
@@ -77,6 +82,7 @@ class PumpLine {
   double swash_ = 0.0;
   double fixed_inverse_square_;
   double k_bypass_ = 0.0;
+  SwashRegulator regulator_;
   PumpFlows flows_;
 };
 

@@ -32,7 +32,8 @@ Spool::Spool(const SpoolDynamics& dynamics)
       damping_(dynamics.damping),
       extend_(dynamics.extend),
       retract_(dynamics.retract),
-      bypass_closing_(dynamics.bypass_closing_travel) {}
+      bypass_closing_(dynamics.bypass_closing_travel),
+      bypass_closes_at_(dynamics.bypass_closes_at) {}
 
 void Spool::set_command(double travel_ratio) { command_ = std::clamp(travel_ratio, -1.0, 1.0); }
 
@@ -61,6 +62,12 @@ bool Spool::step(double step_s) {
 void Spool::update_openings() {
   const SpoolSide& side = travel_ < 0.0 ? retract_ : extend_;
   area_ratio_ = side.area_ratio(std::abs(travel_));
+  if (bypass_closes_at_ > 0.0) {
+    const double start = side.start_ratio();
+    const double way = (1.0 - start) * bypass_closes_at_;
+    bypass_closed_ = std::clamp((std::abs(travel_) - start) / way, 0.0, 1.0);
+    return;
+  }
   // Closed from where the edges open on, as (20) has it with the deadband collapsed.
   const double to_opening = std::max(0.0, side.start_ratio() - std::abs(travel_));
   bypass_closed_ = area_ratio_ > 0.0 ? 1.0 : std::max(0.0, 1.0 - to_opening / bypass_closing_);

@@ -121,6 +121,9 @@ struct SpoolDynamics {
   /// wherever the cylinder can move. (20) itself switches; a land edge takes some way. Wider than
   /// what lies before that, it would leave the bypass partly closed at neutral.
   double bypass_closing_travel = 1.0;
+  /// Share of the way from where the edges begin to open to full travel at which the bypass is
+  /// closed instead, evenly; 0: as above.
+  double bypass_closes_at = 0.0;
 };
 
 /// Second-order lag from duty to travel with mechanical limits at full travel (Kim 5). Travel is in
@@ -137,7 +140,8 @@ class Spool {
   [[nodiscard]] double travel_ratio() const { return travel_; }
   /// Share of the full metering areas that is open, 0 within the deadband.
   [[nodiscard]] double area_ratio() const { return area_ratio_; }
-  /// How far the bypass has closed: 0 at neutral, 1 from where the metering edges begin to open.
+  /// How far the bypass has closed: 0 at neutral, 1 from where the metering edges begin to open or
+  /// from `bypass_closes_at`.
   [[nodiscard]] double bypass_closed_ratio() const { return bypass_closed_; }
 
  private:
@@ -148,6 +152,7 @@ class Spool {
   SpoolSide extend_;
   SpoolSide retract_;
   double bypass_closing_;
+  double bypass_closes_at_;
   double command_ = 0.0;
   double travel_ = 0.0;
   double speed_ps_ = 0.0;

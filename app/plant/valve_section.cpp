@@ -73,6 +73,8 @@ ValveSection::ValveSection(const SectionData& data) : spool_(data.spool), protec
   k_bypass_closed_ = spool.bypass_closed;
   hose_linear_ = data.hose_linear_paspm3;
   hose_quadratic_ = data.hose_quadratic_pas2pm6;
+  compensator_ = data.compensator_pa;
+  load_check_ = data.load_check;
   update_openings();
 }
 
@@ -87,7 +89,9 @@ bool ValveSection::step(double step_s) {
 void ValveSection::update_openings() {
   const bool extends = spool_.travel_ratio() > 0.0;
   const double ratio = spool_.area_ratio();
-  k_in_ = in_series(ratio * (extends ? k_extend_in_ : k_retract_in_), hose_quadratic_);
+  const double edge = ratio * (extends ? k_extend_in_ : k_retract_in_);
+  most_in_ = edge * std::sqrt(compensator_);
+  k_in_ = in_series(edge, hose_quadratic_);
   k_out_ = in_series(ratio * (extends ? k_extend_out_ : k_retract_out_), hose_quadratic_);
   const double bypass =
       k_bypass_open_ + (k_bypass_closed_ - k_bypass_open_) * spool_.bypass_closed_ratio();
@@ -107,6 +111,13 @@ ReturnFlow ValveSection::return_flow(double k_out, bool regenerates, const WaveP
   return {orifice_flow(k_out, chamber, kTank), 0.0, 0.0};
 }
 
+double ValveSection::checked(double supply_m3ps) const {
+  if (load_check_ && supply_m3ps < 0.0) {
+    return 0.0;
+  }
+  return compensator_ > 0.0 ? std::min(supply_m3ps, most_in_) : supply_m3ps;
+}
+
 SectionFlows ValveSection::solve(const SectionPorts& ports) const {
   const bool extends = spool_.travel_ratio() > 0.0;
   const bool regenerates =
@@ -120,8 +131,8 @@ SectionFlows ValveSection::solve(const SectionPorts& ports) const {
   double supply = 0.0;
   const double fed_in = protected_flow(fed, protection_, [&](const WavePort& chamber) {
     const bool leaves = chamber.wave_pa > ports.supply.wave_pa;
-    return supply = orifice_flow(leaves ? in_series(k_in_, fed_cushion) : k_in_, ports.supply,
-                                 behind_hose(chamber));
+    return supply = checked(orifice_flow(leaves ? in_series(k_in_, fed_cushion) : k_in_,
+                                         ports.supply, behind_hose(chamber)));
   });
   ReturnFlow back;
   const double k_out = in_series(k_out_, drained_cushion);

@@ -15,6 +15,10 @@ struct SectionData {
   PortProtection ports;
   double hose_linear_paspm3 = 0.0;  ///< Between valve and cylinder; laminar share.
   double hose_quadratic_pas2pm6 = 0.0;
+  /// What a compensator before the in-flow edge leaves of the pressure over it, whatever pump and
+  /// load are at; 0: there is none.
+  double compensator_pa = 0.0;
+  bool load_check = false;  ///< Nothing flows back from the fed chamber; without loss.
 };
 
 /// The four ports that a section joins during a step.
@@ -36,7 +40,7 @@ struct SectionFlows {
   double cap_hose_m3ps = 0.0;
   double rod_hose_m3ps = 0.0;
   double supply_out_m3ps =
-      0.0;  ///< Negative is back-flow: the circuit has no load check (Kim 3.1).
+      0.0;  ///< Negative is back-flow, where the circuit has no load check (Kim 3.1).
   double recycle_in_m3ps = 0.0;  ///< Q_rgn of (14).
 };
 
@@ -66,6 +70,8 @@ class ValveSection {
   [[nodiscard]] double hose_drop_pa(double hose_m3ps, double cushion_pas2pm6) const;
 
   [[nodiscard]] const Spool& spool() const { return spool_; }
+  /// An edge is open; `extends` then says which.
+  [[nodiscard]] bool is_open() const { return k_in_ > 0.0; }
   /// The section's part of the bypass, 1 / K^2 of its coefficient K, m^3/(s sqrt(Pa)).
   [[nodiscard]] double bypass_inverse_square() const { return bypass_inverse_square_; }
 
@@ -76,6 +82,7 @@ class ValveSection {
     return {chamber.wave_pa, chamber.impedance_paspm3 + hose_linear_};
   }
   void update_openings();
+  [[nodiscard]] double checked(double supply_m3ps) const;
 
   Spool spool_;
   PortProtection protection_;
@@ -86,6 +93,9 @@ class ValveSection {
   double k_in_ = 0.0;  ///< Of the edges as they are open, hose included.
   double k_out_ = 0.0;
   double bypass_inverse_square_ = 0.0;
+  double compensator_;
+  bool load_check_;
+  double most_in_ = 0.0;  ///< That the compensator lets through the edge.
   double k_bypass_open_, k_bypass_closed_;
 };
 

@@ -51,6 +51,9 @@ void set_swash(std::optional<double> swash_ratio, machines::SimulatedExcavator& 
     return;
   }
   ExcavatorProfile& profile = machine.profile;
+  if (profile.pump[0].regulator.sets_swash()) {
+    throw std::runtime_error("--swash: the pumps of this machine set their swash themselves");
+  }
   std::fill_n(profile.dig_swash_ratio.begin(), profile.pump_count, *swash_ratio);
   profile.demand_swash = {};
   machine.plant.swash_ratio = profile.dig_swash_ratio;

@@ -33,6 +33,8 @@ constexpr double kUnmoved_s = 0.4;
 constexpr double kSetsOff_s = 0.5;
 /// Less is asked of what is to stand.
 constexpr double kAskedLeast = 5.0;
+/// Where the bypass closes over the opening as well, a speed hangs on it by so much more.
+constexpr double kSteeper = 4.0;
 /// Until an opening and what is learnt at it agree.
 constexpr int kSteps = 4;
 
@@ -154,8 +156,9 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
   if (!steady || !may_be_compared(mean)) {
     return;
   }
-  const double share =
-      std::pow(mean.speed_mps / mean.asked.speed_mps, 1.0 / drive.metering.opening_exponent);
+  const double steepness = drive.spool.bypass_closes_at > 0.0 ? kSteeper : 1.0;
+  const double share = std::pow(mean.speed_mps / mean.asked.speed_mps,
+                                1.0 / (steepness * drive.metering.opening_exponent));
   const double by_profile = std::min(share * mean.asked.opening, 1.0);
   const double by_speed = by_profile * kSpeedNoise_mps / mean.speed_mps;
   learn(mean.opening - by_profile, by_profile, kOpeningNoise * kOpeningNoise + by_speed * by_speed,

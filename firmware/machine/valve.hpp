@@ -4,6 +4,7 @@
 /// units. Equation numbers are those of Kim et al.
 
 #include <array>
+#include <cstdint>
 
 namespace graben {
 
@@ -29,6 +30,9 @@ struct SpoolProfile {
   double retract_out_m2 = 0.0;
   double bypass_open = 0.0;    ///< c_v,by at x = 0 of (20), m^3/(s sqrt(Pa)).
   double bypass_closed = 0.0;  ///< c_v,by at x != 0 of (20).
+  /// Opening at which the bypass is closed; from the dead band's edge on it closes evenly. 0: it is
+  /// closed wherever the spool is open, (20).
+  double bypass_closes_at = 0.0;
   RegenerationSide regeneration = RegenerationSide::kNone;
   double c_drain = 0.0;         ///< c_d of (15).
   double c_check = 0.0;         ///< c_r of (16).
@@ -44,6 +48,35 @@ struct SpoolMetering {
   double density_kgpm3 = 0.0;     ///< rho.
 };
 
+/// Who sets a pump's swash.
+enum class PumpKind : std::uint8_t {
+  kPositive = 0,  ///< The controller, by command (Kim et al.).
+  /// Its regulator: the line stays a margin above the heaviest load of its drives, whose valve has
+  /// a closed centre.
+  kLoadSensing,
+  /// Its regulator: the more oil passes the bypass, the less it gives.
+  kNegativeFlow,
+};
+
+/// What a pump that sets its own swash goes by.
+struct PumpRegulator {
+  PumpKind kind = PumpKind::kPositive;
+  double margin_pa = 0.0;  ///< Load sensing: above the heaviest load; over its metering edge.
+  /// Load sensing: each section has a compensator, which keeps the margin over its metering edge
+  /// whatever its load.
+  bool compensated = false;
+  // Negative flow: pressure before the last of the bypass' orifices.
+  double full_swash_pa = 0.0;      ///< Up to it the swash is full,
+  double least_swash_pa = 0.0;     ///< from here on least; linear between.
+  double least_swash_ratio = 0.0;  ///< Of full.
+  double response_s = 0.0;         ///< In which the swash goes from least to full.
+
+  [[nodiscard]] bool sets_swash() const { return kind != PumpKind::kPositive; }
+};
+
+/// Flow coefficient of what is closed: 6e-9 m3/s at 35 MPa.
+inline constexpr double kClosedCentre = 1e-12;
+
 /// Swash-plate pump of (25): flow = displacement * speed * swash - leak_linear P - leak_quadratic
 /// P^2.
 struct PumpProfile {
@@ -53,6 +86,7 @@ struct PumpProfile {
   double leak_quadratic = 0.0;  ///< m^3/(s Pa^2)
   double relief_pa = 0.0;
   std::array<double, 2> bypass_series{};  ///< Make-up valve and tank orifice of (21), (22).
+  PumpRegulator regulator;
 };
 
 /// Bounds on lambda's rise from cycle to cycle; it may fall at once.

@@ -47,6 +47,15 @@ CircuitAxis make_axis(const McvActuator& actuator, double velocity_mps, double c
   return axis;
 }
 
+/// What the regulator of the axis' pump makes of its edges.
+void regulate_axis(const McvActuator& actuator, const PumpRegulator& by, CircuitAxis& axis) {
+  axis.outlet_share = axis.extends ? actuator.extend_outlet_share : actuator.retract_outlet_share;
+  if (by.kind == PumpKind::kLoadSensing) {
+    axis.margin_force_n = axis.inlet_area_m2 * by.margin_pa / (1.0 - axis.outlet_share);
+    axis.most_force_n = by.compensated ? axis.margin_force_n : kInfinity;
+  }
+}
+
 FlowBalance make_line(const McvMachine& machine, const PerActuator<CircuitAxis>& axes,
                       unsigned pump, double pump_flow_m3ps) {
   const McvPump& from = machine.pump[pump];
@@ -94,6 +103,19 @@ McvCircuit make_circuit(const McvMachine& machine, const McvInput& input) {
   }
   for (unsigned j = 0; j < circuit.pump_count; ++j) {
     circuit.line[j] = make_line(machine, circuit.axis, j, input.pump_flow_m3ps[j]);
+    if (machine.pump[j].regulator.sets_swash()) {
+      circuit.regulated = true;
+      circuit.line[j].regulated = &machine.pump[j];
+    }
+  }
+  if (circuit.regulated) {
+    circuit.machine = &machine;
+    for (unsigned i = 0; i < circuit.axis_count; ++i) {
+      if (circuit.axis[i].moves) {
+        regulate_axis(machine.actuator[i], machine.pump[circuit.axis[i].pump].regulator,
+                      circuit.axis[i]);
+      }
+    }
   }
   return circuit;
 }

@@ -4,6 +4,7 @@
 /// each solve. Flows and speeds are those at lambda = 1.
 
 #include "firmware/mcv/pump_pressure.hpp"
+#include "firmware/numeric/constants.hpp"
 
 namespace graben {
 
@@ -27,12 +28,18 @@ struct CircuitAxis {
   double inflow_check_force_n = 0.0;
   /// Force that full opening needs at lambda = 1, that of the in-flow check valve included.
   double full_opening_force_n = 0.0;
+  /// Drive force at which its metering edge has the margin of a load-sensing pump; else 0.
+  double margin_force_n = 0.0;
+  double most_force_n = kInfinity;       ///< A compensator leaves its edges no more.
+  double outlet_share = 0.0;             ///< Of the drive force, lost at the draining edge.
   const MonotoneTable* spool = nullptr;  ///< c_L of the direction; lives in the machine.
 };
 
 struct McvCircuit {
   unsigned axis_count = 0;
   unsigned pump_count = 0;
+  bool regulated = false;  ///< A pump sets its own swash.
+  const McvMachine* machine = nullptr;
   PerActuator<CircuitAxis> axis{};
   PerPump<FlowBalance> line{};
 };

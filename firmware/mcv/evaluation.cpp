@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "firmware/hydraulics/flow.hpp"
+#include "firmware/mcv/regulated.hpp"
 
 namespace graben {
 namespace {
@@ -19,11 +20,10 @@ PumpPressure solve_line(const McvCircuit& circuit, unsigned pump, double lambda,
                         const McvPoint* near) {
   // What a point has not solved for is 0 and says nothing.
   if (near == nullptr || !(near->sqrt_pressure[pump] > 0.0)) {
-    return solve_pump_pressure(circuit.line[pump], lambda);
+    return line_pressure(circuit, pump, lambda);
   }
   // s / lambda changes less than s.
-  return solve_pump_pressure(circuit.line[pump], lambda,
-                             lambda / near->lambda * near->sqrt_pressure[pump]);
+  return line_pressure(circuit, pump, lambda, lambda / near->lambda * near->sqrt_pressure[pump]);
 }
 
 /// (39): false where a pump can't feed its line.
@@ -92,8 +92,8 @@ void reload(const McvCircuit& circuit, McvPoint& point) {
     const DriveForce drive = drive_force(axis, point.lambda, point.sqrt_pressure[axis.pump]);
     point.out_pressure_pa[i] = drive.out_pressure_pa;
     point.regenerating[i] = drive.regenerating;
-    point.drive_force_n[i] = drive.force_n;
-    const double lacks_n = needed_force_n(axis, point.lambda) - drive.force_n;
+    point.drive_force_n[i] = std::min(drive.force_n, axis.most_force_n);
+    const double lacks_n = needed_force_n(axis, point.lambda) - point.drive_force_n[i];
     if (lacks_n <= 0.0) {
       continue;
     }
@@ -103,7 +103,7 @@ void reload(const McvCircuit& circuit, McvPoint& point) {
       point.hardest_axis = static_cast<int>(i);
     }
     // Back flow of any axis comes before travel of any.
-    const bool back_flow = !(drive.force_n >= axis.force_offset_n);
+    const bool back_flow = !(point.drive_force_n[i] >= axis.force_offset_n);
     if (point.feasible || (back_flow && point.limit.kind == LimitKind::kSpoolTravel)) {
       fail(point, back_flow ? LimitKind::kBackFlow : LimitKind::kSpoolTravel, i);
     }
@@ -111,11 +111,18 @@ void reload(const McvCircuit& circuit, McvPoint& point) {
 }
 
 void open_spools(const McvCircuit& circuit, McvPoint& point) {
+  if (circuit.regulated) {
+    settle_bypasses(circuit, point);
+  }
   for (unsigned i = 0; i < circuit.axis_count; ++i) {
     const CircuitAxis& axis = circuit.axis[i];
     if (axis.moves) {
-      const double travel_m =
-          axis.spool->inverse(needed_coefficient(axis, point.lambda, point.drive_force_n[i]));
+      const double coefficient =
+          circuit.regulated
+              ? regulated_coefficient(axis, point.lambda,
+                                      {point.drive_force_n[i], point.out_pressure_pa[i], false})
+              : needed_coefficient(axis, point.lambda, point.drive_force_n[i]);
+      const double travel_m = axis.spool->inverse(coefficient);
       point.spool_m[i] = axis.extends ? travel_m : -travel_m;
     }
   }
@@ -131,7 +138,8 @@ bool still_fails(const McvCircuit& circuit, const McvPoint& fails, double lambda
     return !solved.fed;
   }
   near.sqrt_pressure[axis.pump] = solved.sqrt_pressure * (near.lambda / lambda);
-  return drive_force(axis, lambda, solved.sqrt_pressure).force_n < needed_force_n(axis, lambda);
+  const double force_n = drive_force(axis, lambda, solved.sqrt_pressure).force_n;
+  return std::min(force_n, axis.most_force_n) < needed_force_n(axis, lambda);
 }
 
 }  // namespace graben

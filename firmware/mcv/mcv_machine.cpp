@@ -79,6 +79,21 @@ McvDefect check_actuator(const McvActuator& actuator, int pump_count) {
   return from_origin(actuator.retract) ? McvDefect::kNone : McvDefect::kRetractTable;
 }
 
+bool has_sound_regulator(const McvPump& pump) {
+  const PumpRegulator& by = pump.regulator;
+  switch (by.kind) {
+    case PumpKind::kPositive:
+      return true;
+    case PumpKind::kLoadSensing:
+      return positive(by.margin_pa) && pump.has_relief;
+    case PumpKind::kNegativeFlow:
+      return not_negative(by.full_swash_pa) && positive(by.least_swash_pa - by.full_swash_pa) &&
+             not_negative(by.least_swash_ratio) && by.least_swash_ratio < 1.0 && pump.has_relief &&
+             usable(pump.tank_orifice);
+  }
+  return false;
+}
+
 McvDefect check_pump(const McvPump& pump) {
   if (!not_negative(pump.leak_linear) || !not_negative(pump.leak_quadratic)) {
     return McvDefect::kLeak;
@@ -86,7 +101,10 @@ McvDefect check_pump(const McvPump& pump) {
   if (!not_negative(pump.series_resistance)) {
     return McvDefect::kBypassSeries;
   }
-  return pump.has_relief && !positive(pump.relief_pa) ? McvDefect::kRelief : McvDefect::kNone;
+  if (pump.has_relief && !positive(pump.relief_pa)) {
+    return McvDefect::kRelief;
+  }
+  return has_sound_regulator(pump) ? McvDefect::kNone : McvDefect::kRegulator;
 }
 
 }  // namespace
@@ -134,6 +152,15 @@ McvCheck check_input(const McvMachine& machine, const McvInput& input) {
 
 namespace {
 
+/// Of V = c_L sqrt(F): both edges open alike, so each has its share of F at every opening.
+double outlet_share(double spool_in_m2, double spool_out_m2, double inlet_area_m2,
+                    double outlet_area_m2) {
+  const double in = inlet_area_m2 * inlet_area_m2 * inlet_area_m2 / (spool_in_m2 * spool_in_m2);
+  const double out =
+      outlet_area_m2 * outlet_area_m2 * outlet_area_m2 / (spool_out_m2 * spool_out_m2);
+  return out / (in + out);
+}
+
 McvActuator actuator_of(const DriveRow& drive) {
   const SpoolProfile& spool = drive.spool;
   const double cap_m2 = drive.extend_area_m2;
@@ -149,6 +176,11 @@ McvActuator actuator_of(const DriveRow& drive) {
   actuator.bypass_closed = spool.bypass_closed;
   actuator.force_offset_n = spool.force_offset_n;
   actuator.c_inflow_check = spool.c_inflow_check;
+  actuator.bypass_closes_at = spool.bypass_closes_at;
+  actuator.extend_outlet_share =
+      outlet_share(spool.extend_in_m2, spool.extend_out_m2, cap_m2, rod_m2);
+  actuator.retract_outlet_share =
+      outlet_share(spool.retract_in_m2, spool.retract_out_m2, rod_m2, cap_m2);
   actuator.extend = velocity_coefficient_table(
       drive.metering, full_opening_velocity_coefficient(drive.metering, spool.extend_in_m2,
                                                         spool.extend_out_m2, cap_m2, rod_m2));
@@ -159,7 +191,8 @@ McvActuator actuator_of(const DriveRow& drive) {
 }
 
 McvPump pump_of(const PumpProfile& from) {
-  McvPump pump = {from.leak_linear, from.leak_quadratic, 0.0, true, from.relief_pa};
+  McvPump pump = {from.leak_linear, from.leak_quadratic,  0.0, true, from.relief_pa,
+                  from.regulator,   from.bypass_series[1]};
   for (const double coefficient : from.bypass_series) {
     pump.series_resistance += orifice_resistance(coefficient);
   }

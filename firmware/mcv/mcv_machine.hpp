@@ -33,9 +33,13 @@ struct McvActuator {
   double bypass_open = 0.0;    ///< c_v,by at x = 0 of (20).
   double bypass_closed = 0.0;  ///< c_v,by at x != 0.
   double force_offset_n = 0.0;
-  double c_inflow_check = 0.0;  ///< Extra check valve before the spool (Remark 3); 0: none.
-  MonotoneTable extend;         ///< c_L of (9) over |x|, m/(s sqrt(N)) over m, from (0, 0) to x_m.
-  MonotoneTable retract;        ///< |c_L| of (11).
+  double c_inflow_check = 0.0;    ///< Extra check valve before the spool (Remark 3); 0: none.
+  double bypass_closes_at = 0.0;  ///< Opening; 0: closed wherever the spool is open, (20).
+  /// Share of the drive force that is lost at the draining edge, whatever the opening.
+  double extend_outlet_share = 0.0;
+  double retract_outlet_share = 0.0;
+  MonotoneTable extend;   ///< c_L of (9) over |x|, m/(s sqrt(N)) over m, from (0, 0) to x_m.
+  MonotoneTable retract;  ///< |c_L| of (11).
 };
 
 struct McvPump {
@@ -44,6 +48,8 @@ struct McvPump {
   double series_resistance = 0.0;  ///< Sum of 1/c^2 of the fixed orifices in the bypass line.
   bool has_relief = false;
   double relief_pa = 0.0;  ///< P_pr of Remark 2.
+  PumpRegulator regulator;
+  double tank_orifice = 0.0;  ///< Last of the bypass, before which negative flow control feels.
 };
 
 struct McvMachine {
@@ -81,6 +87,7 @@ enum class McvDefect : std::uint8_t {
   kPumpFlow,      ///< Not finite or negative.
   kInflowCheck,   ///< Neither 0 nor a positive finite coefficient.
   kLambdaRange,   ///< Not in (0, 1], or a reserve out of its range.
+  kRegulator,     ///< A margin, a pressure or an orifice that no regulator can have.
 };
 
 struct McvCheck {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/mcv/regulated.hpp"
+
 namespace graben {
 namespace {
 
@@ -11,6 +13,10 @@ namespace {
 constexpr double kMostCoefficients = 16.0;
 
 PolicyResult choose(const Asked& asked, McvPolicy policy) {
+  if (asked.circuit.regulated && policy != McvPolicy::kFixed) {
+    // What the searches over r stand on, a pressure that r alone gives, is not there.
+    return choose_algorithm1(asked);
+  }
   switch (policy) {
     case McvPolicy::kAlgorithm1:
       return choose_algorithm1(asked);
@@ -33,7 +39,7 @@ PerActuator<double> reserves_n(const McvCircuit& circuit, double reserve_n) {
   PerActuator<double> extra_n{};
   PerPump<double> standstill{};
   for (unsigned j = 0; j < circuit.pump_count; ++j) {
-    standstill[j] = solve_pump_pressure(circuit.line[j], 0.0).sqrt_pressure;
+    standstill[j] = most_pressure(circuit.line[j], 0.0).sqrt_pressure;
   }
   for (unsigned i = 0; i < circuit.axis_count; ++i) {
     const CircuitAxis& axis = circuit.axis[i];
@@ -67,7 +73,11 @@ PolicyResult choose_with_reserve(McvCircuit& circuit, McvPolicy policy, const La
   PolicyResult chosen = choose(asked, policy);
   asked.with_loads(plain_n);
   if (chosen.point.lambda > 0.0) {
-    reload(circuit, chosen.point);
+    if (circuit.regulated) {
+      chosen.point = evaluate(circuit, chosen.point.lambda);
+    } else {
+      reload(circuit, chosen.point);
+    }
     // Less load is never less feasible, but for rounding where the reserve is next to nothing.
     chosen.bounded = chosen.bounded && chosen.point.feasible;
   }
@@ -98,7 +108,7 @@ double travel_for(const MonotoneTable& table, double coefficient) {
 
 /// P -> 0 stands for a pump that can't feed its line at all.
 double sqrt_pressure_or_zero(const FlowBalance& line, double lambda) {
-  return solve_pump_pressure(line, lambda).sqrt_pressure;
+  return most_pressure(line, lambda).sqrt_pressure;
 }
 
 double shortfall_at_full(const McvCircuit& circuit, const Limit& limit) {
@@ -110,7 +120,8 @@ double shortfall_at_full(const McvCircuit& circuit, const Limit& limit) {
   }
   const CircuitAxis& axis = circuit.axis[limit.index];
   const double force_n =
-      drive_force(axis, 1.0, sqrt_pressure_or_zero(circuit.line[axis.pump], 1.0)).force_n;
+      std::min(axis.most_force_n,
+               drive_force(axis, 1.0, sqrt_pressure_or_zero(circuit.line[axis.pump], 1.0)).force_n);
   return limit.kind == LimitKind::kBackFlow
              ? axis.force_offset_n - force_n
              : travel_for(*axis.spool, needed_coefficient(axis, 1.0, force_n)) -

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/mcv/policies.hpp"
 
+#include <algorithm>
+
 #include "firmware/mcv/descent.hpp"
+#include "firmware/mcv/regulated.hpp"
 
 namespace graben {
 
@@ -46,13 +49,12 @@ PolicyResult choose_fixed(const McvCircuit& circuit, double lambda_max) {
       continue;
     }
     // What a line that can't be fed has left is nothing.
-    const double sqrt_pressure =
-        solve_pump_pressure(circuit.line[axis.pump], lambda_max).sqrt_pressure;
+    const double sqrt_pressure = line_pressure(circuit, axis.pump, lambda_max).sqrt_pressure;
     const DriveForce drive = drive_force(axis, lambda_max, sqrt_pressure);
     result.point.sqrt_pressure[axis.pump] = sqrt_pressure;
     result.point.pump_pressure_pa[axis.pump] = sqrt_pressure * sqrt_pressure;
     result.point.out_pressure_pa[i] = drive.out_pressure_pa;
-    result.point.drive_force_n[i] = drive.force_n;
+    result.point.drive_force_n[i] = std::min(drive.force_n, axis.most_force_n);
   }
   return result;
 }

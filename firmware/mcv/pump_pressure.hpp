@@ -33,6 +33,9 @@ struct FlowBalance {
   double sqrt_relief = 0.0;  ///< sqrt(P_pr) of Remark 2.
   int regeneration_count = 0;
   std::array<RegenerationDemand, kMaxActuators> regeneration{};
+  /// The pump, where its regulator sets its swash: what stands above is then the most that it
+  /// gives. Null: what it is told.
+  const McvPump* regulated = nullptr;
 };
 
 /// Remainder of the balance at s; strictly decreasing in s.

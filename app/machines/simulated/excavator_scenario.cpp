@@ -51,6 +51,10 @@ void vary_parameters(ExcavatorProfile& profile, const Uncertainty& uncertainty,
       vary(orifice, uncertainty.regeneration, random);
     }
   }
+  // After all that every machine has, whose draws stay what they are.
+  for (PumpProfile& pump : profile.pump) {
+    vary(pump.regulator.margin_pa, uncertainty.bypass, random);
+  }
 }
 
 void lay_ground(const Scenario& scenario, const ExcavatorGeometry& geometry, double line_m,

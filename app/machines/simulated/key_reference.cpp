@@ -155,6 +155,7 @@ SimulatedExcavator with_path() {
 
 void read_kind(TomlReader& reader) {
   static_cast<void>(reader.choice("kind", kind_names(), kKindHelp));
+  read_like(reader);
 }
 
 }  // namespace

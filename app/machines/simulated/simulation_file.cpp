@@ -27,20 +27,6 @@ std::optional<std::string> named_machine(const ProfileDocument& document) {
   return document.root["machine"].value<std::string>();
 }
 
-/// Tables key by key, everything else as a whole. Moved, so that each value keeps its line.
-void lay_over(toml::table& base, toml::table&& differences) {
-  for (auto&& [key, node] : differences) {
-    toml::table* const inner = node.as_table();
-    toml::table* const under = base.get_as<toml::table>(key.str());
-    if (inner != nullptr && under != nullptr) {
-      lay_over(*under, std::move(*inner));
-      continue;
-    }
-    node.visit(
-        [&base, name = key.str()](auto& value) { base.insert_or_assign(name, std::move(value)); });
-  }
-}
-
 void read_simulation_into(SimulatedExcavator& machine, const ProfileDocument& document) {
   read_as(document, MachineKind::kExcavator,
           [&](TomlReader& reader) { read_simulated_sections(reader, machine); });

@@ -99,7 +99,7 @@ ExcavatorValid validate(const ExcavatorProfile& profile, DriveRows drives,
   // Nothing but range, rate and age protects an IMU's frames.
   valid.stand_in = valid.stand_in || profile.imu.known();
   for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
-    if (profile.bus.swash_feedback) {
+    if (profile.bus.swash_feedback && !profile.pump[j].regulator.sets_swash()) {
       read_required({&inputs.swash_ratio[j], &valid.swash_ratio[j], Fault::kSwashMissing,
                      Fault::kSensorError},
                     fresh, valid.faults);
@@ -124,6 +124,10 @@ bool watch_swash(const ExcavatorProfile& profile, bool commanded,
   bool disagrees = false;
   for (unsigned j = 0; j < kPumpCount; ++j) {
     const double wanted = wanted_ratio[j];
+    if (profile.pump[j].regulator.sets_swash()) {
+      swash_ratio[j] = 1.0;  // That far it goes where the drives need it.
+      continue;
+    }
     double& slow = state[j].slow_ratio;
     slow = commanded ? slow + newest * (wanted - slow) : wanted;
     if (!profile.bus.swash_feedback) {

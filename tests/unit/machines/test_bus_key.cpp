@@ -98,6 +98,16 @@ void nothing_is_lost_in_silence(void**) {
                  "stand_in.spool_feedback", "allowed: command");
 }
 
+void a_machine_may_have_no_such_sensor(void**) {
+  const Read blind = read("sensors = {spool = false}\nstand_in = {spool_feedback = \"command\"}");
+  assert_true(blind.errors.empty());
+  assert_false(blind.bus.spool_feedback);
+  assert_true(blind.bus.swash_feedback);
+  assert_refused("sensors = {swash = false}", "stand_in.swash_feedback", "missing");
+  // What the bus does not carry is not there because a sensor is.
+  assert_refused("bus = \"mute\"\nsensors = {spool = true}", "stand_in.spool_feedback", "missing");
+}
+
 void nothing_stands_in_for_what_is_there(void**) {
   assert_refused("stand_in = {identity = \"profile\"}", "stand_in.identity", "carries it");
   assert_refused("stand_in = {engine = \"idle\"}", "stand_in.engine", "unknown");
@@ -116,6 +126,7 @@ int main() {
       cmocka_unit_test(what_is_lacking_has_its_stand_in),
       cmocka_unit_test(pilots_stand_in_for_spools_and_the_profile_for_a_swash),
       cmocka_unit_test(nothing_is_lost_in_silence),
+      cmocka_unit_test(a_machine_may_have_no_such_sensor),
       cmocka_unit_test(nothing_stands_in_for_what_is_there),
       cmocka_unit_test(the_dead_time_covers_the_latency),
   };

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/mcv/regulated.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/hydraulics/flow.hpp"
+
+namespace graben {
+namespace {
+
+/// Each halves; what is left of sqrt(P) is under a millionth of what it can be.
+constexpr int kHalvings = 24;
+
+double square(double value) { return value * value; }
+
+/// p_N over the line's pressure.
+double felt_share(const FlowBalance& line) {
+  return square(line.bypass / line.regulated->tank_orifice);
+}
+
+double swash_of(const PumpRegulator& by, double felt_pa) {
+  const double gone = (felt_pa - by.full_swash_pa) / (by.least_swash_pa - by.full_swash_pa);
+  return 1.0 - (1.0 - by.least_swash_ratio) * std::clamp(gone, 0.0, 1.0);
+}
+
+PumpPressure by_bypass(const FlowBalance& line, double lambda) {
+  const PumpRegulator& by = line.regulated->regulator;
+  PumpPressure most = solve_pump_pressure(line, lambda);
+  if (!most.fed || !most.converged) {
+    return most;
+  }
+  const double fall_m3pspa =
+      line.flow_m3ps * (1.0 - by.least_swash_ratio) / (by.least_swash_pa - by.full_swash_pa);
+  FlowBalance other = line;
+  other.flow_m3ps += fall_m3pspa * by.full_swash_pa;
+  other.leak_linear += fall_m3pspa * felt_share(line);
+  const PumpPressure falling = solve_pump_pressure(other, lambda);
+  other = line;
+  other.flow_m3ps = by.least_swash_ratio * line.flow_m3ps;
+  const PumpPressure least = solve_pump_pressure(other, lambda);
+  most.converged = falling.converged && (least.converged || !least.fed);
+  most.iterations += falling.iterations + least.iterations;
+  most.sqrt_pressure = std::min(most.sqrt_pressure, falling.sqrt_pressure);
+  if (least.fed) {
+    most.sqrt_pressure = std::max(most.sqrt_pressure, least.sqrt_pressure);
+  }
+  return most;
+}
+
+/// Least sqrt(P) from `from` up at which the axis has its margin's force.
+double held_sqrt_pressure(const CircuitAxis& axis, double lambda, double from) {
+  if (drive_force(axis, lambda, from).force_n >= axis.margin_force_n) {
+    return from;
+  }
+  double needed_n = axis.margin_force_n + axis.load_force_n;
+  const double shut = axis.regeneration ? lambda * axis.opening : 0.0;
+  needed_n += axis.regeneration ? axis.outlet_area_m2 * square(shut) : 0.0;
+  const double alone = std::sqrt(std::max(0.0, needed_n / axis.inlet_area_m2));
+  if (alone >= shut) {
+    return alone;
+  }
+  // Under what shuts the check valve the gallery gives way.
+  double low = from;
+  double high = shut;
+  for (int n = 0; n < kHalvings; ++n) {
+    const double middle = 0.5 * (low + high);
+    const bool holds = drive_force(axis, lambda, middle).force_n >= axis.margin_force_n;
+    (holds ? high : low) = middle;
+  }
+  return high;
+}
+
+PumpPressure by_load(const McvCircuit& circuit, unsigned pump, double lambda) {
+  const FlowBalance& line = circuit.line[pump];
+  PumpPressure most = solve_pump_pressure(line, lambda);
+  if (!most.fed || !most.converged) {
+    return most;
+  }
+  double wanted = std::sqrt(line.regulated->regulator.margin_pa);
+  for (unsigned i = 0; i < circuit.axis_count; ++i) {
+    const CircuitAxis& axis = circuit.axis[i];
+    if (axis.moves && axis.pump == pump) {
+      wanted = held_sqrt_pressure(axis, lambda, wanted);
+    }
+  }
+  if (line.regeneration_count > 0) {
+    // What comes back may be more than goes out: no pump takes it away.
+    FlowBalance idle = line;
+    idle.flow_m3ps = 0.0;
+    const PumpPressure alone = solve_pump_pressure(idle, lambda);
+    wanted = alone.fed ? std::max(wanted, alone.sqrt_pressure) : wanted;
+  }
+  most.sqrt_pressure = std::min(most.sqrt_pressure, wanted);
+  return most;
+}
+
+/// c_v,by of (20) at an opening, where it closes over some of it.
+double bypass_at(const McvActuator& actuator, double opening) {
+  if (!(actuator.bypass_closes_at > 0.0)) {
+    return actuator.bypass_closed;
+  }
+  const double closed = std::min(1.0, opening / actuator.bypass_closes_at);
+  return actuator.bypass_open + closed * (actuator.bypass_closed - actuator.bypass_open);
+}
+
+/// Balance of a line at a pressure with the bypass and the swash that belong to it.
+double left_with_bypass(const McvCircuit& circuit, unsigned pump, double lambda, double sqrt_pa,
+                        FlowBalance& line) {
+  const McvPump& from = *line.regulated;
+  double resistance = from.series_resistance;
+  for (unsigned i = 0; i < circuit.axis_count; ++i) {
+    const McvActuator& actuator = circuit.machine->actuator[i];
+    if (static_cast<unsigned>(actuator.pump) != pump) {
+      continue;
+    }
+    const CircuitAxis& axis = circuit.axis[i];
+    double bypass = actuator.bypass_open;
+    if (axis.moves) {
+      const double coefficient =
+          regulated_coefficient(axis, lambda, drive_force(axis, lambda, sqrt_pa));
+      bypass = bypass_at(actuator, axis.spool->inverse(coefficient) / axis.spool->x_last());
+    }
+    resistance += orifice_resistance(bypass);
+  }
+  line.bypass = 1.0 / std::sqrt(resistance);
+  line.flow_m3ps =
+      circuit.line[pump].flow_m3ps * swash_of(from.regulator, square(sqrt_pa) * felt_share(line));
+  return flow_left(line, lambda, sqrt_pa);
+}
+
+/// A drive that has not its force is no sign of a spool less open than full.
+bool is_below(const McvCircuit& circuit, unsigned pump, double lambda, double sqrt_pa,
+              FlowBalance& line) {
+  for (unsigned i = 0; i < circuit.axis_count; ++i) {
+    const CircuitAxis& axis = circuit.axis[i];
+    if (axis.moves && axis.pump == pump &&
+        drive_force(axis, lambda, sqrt_pa).force_n < needed_force_n(axis, lambda)) {
+      return true;
+    }
+  }
+  return left_with_bypass(circuit, pump, lambda, sqrt_pa, line) >= 0.0;
+}
+
+double settled_sqrt_pressure(const McvCircuit& circuit, unsigned pump, double lambda,
+                             double closed) {
+  FlowBalance line = circuit.line[pump];
+  if (left_with_bypass(circuit, pump, lambda, closed, line) >= 0.0) {
+    return closed;
+  }
+  double low = 0.0;
+  double high = closed;
+  for (int n = 0; n < kHalvings; ++n) {
+    const double middle = 0.5 * (low + high);
+    (is_below(circuit, pump, lambda, middle, line) ? low : high) = middle;
+  }
+  return high;
+}
+
+}  // namespace
+
+PumpPressure most_pressure(const FlowBalance& line, double lambda) {
+  const bool falls =
+      line.regulated != nullptr && line.regulated->regulator.kind == PumpKind::kNegativeFlow;
+  return falls ? by_bypass(line, lambda) : solve_pump_pressure(line, lambda);
+}
+
+PumpPressure line_pressure(const McvCircuit& circuit, unsigned pump, double lambda, double guess) {
+  const FlowBalance& line = circuit.line[pump];
+  if (line.regulated == nullptr) {
+    return solve_pump_pressure(line, lambda, guess);
+  }
+  return line.regulated->regulator.kind == PumpKind::kLoadSensing ? by_load(circuit, pump, lambda)
+                                                                  : by_bypass(line, lambda);
+}
+
+double regulated_coefficient(const CircuitAxis& axis, double lambda, const DriveForce& drive) {
+  const double fed = needed_coefficient(axis, lambda, std::min(drive.force_n, axis.most_force_n));
+  const double drains_n = -axis.load_force_n - axis.outlet_area_m2 * drive.out_pressure_pa;
+  return drains_n > 0.0
+             ? std::min(fed, lambda * axis.speed_mps * std::sqrt(axis.outlet_share / drains_n))
+             : fed;
+}
+
+void settle_bypasses(const McvCircuit& circuit, McvPoint& point) {
+  for (unsigned j = 0; j < circuit.pump_count; ++j) {
+    const McvPump* pump = circuit.line[j].regulated;
+    if (pump != nullptr && pump->regulator.kind == PumpKind::kNegativeFlow) {
+      point.sqrt_pressure[j] =
+          settled_sqrt_pressure(circuit, j, point.lambda, point.sqrt_pressure[j]);
+      point.pump_pressure_pa[j] = square(point.sqrt_pressure[j]);
+    }
+  }
+  for (unsigned i = 0; i < circuit.axis_count; ++i) {
+    const CircuitAxis& axis = circuit.axis[i];
+    if (axis.moves) {
+      const DriveForce drive = drive_force(axis, point.lambda, point.sqrt_pressure[axis.pump]);
+      point.out_pressure_pa[i] = drive.out_pressure_pa;
+      point.regenerating[i] = drive.regenerating;
+      point.drive_force_n[i] = std::min(drive.force_n, axis.most_force_n);
+    }
+  }
+}
+
+}  // namespace graben
