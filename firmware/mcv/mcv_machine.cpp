@@ -42,6 +42,8 @@ namespace {
 bool positive(double value) { return std::isfinite(value) && value > 0.0; }
 bool not_negative(double value) { return std::isfinite(value) && value >= 0.0; }
 
+bool is_share(double value) { return not_negative(value) && value < 1.0; }
+
 /// A flow coefficient whose resistance 1/c^2 and square are numbers too.
 bool usable(double coefficient) {
   return positive(coefficient) && positive(coefficient * coefficient) &&
@@ -64,8 +66,12 @@ McvDefect check_actuator(const McvActuator& actuator, int pump_count) {
         actuator.c_drain < actuator.c_check)) {
     return McvDefect::kRegeneration;
   }
-  if (!usable(actuator.bypass_open) || !usable(actuator.bypass_closed)) {
+  if (!usable(actuator.bypass_open) || !usable(actuator.bypass_closed) ||
+      !not_negative(actuator.bypass_closes_at) || actuator.bypass_closes_at > 1.0) {
     return McvDefect::kBypass;
+  }
+  if (!is_share(actuator.extend_outlet_share) || !is_share(actuator.retract_outlet_share)) {
+    return McvDefect::kOutlet;
   }
   if (!not_negative(actuator.force_offset_n)) {
     return McvDefect::kForceOffset;

@@ -75,7 +75,7 @@ enum class McvDefect : std::uint8_t {
   kPumpIndex,     ///< Actuator on a pump that is not there.
   kArea,          ///< Not finite or not positive.
   kRegeneration,  ///< Not 0 < c_drain < c_check.
-  kBypass,        ///< Not finite or not positive.
+  kBypass,        ///< Not finite or not positive; or closed at no opening, 0 .. 1.
   kForceOffset,   ///< Not finite or negative.
   kExtendTable,   ///< Empty, not from (0, 0).
   kRetractTable,
@@ -88,6 +88,7 @@ enum class McvDefect : std::uint8_t {
   kInflowCheck,   ///< Neither 0 nor a positive finite coefficient.
   kLambdaRange,   ///< Not in (0, 1], or a reserve out of its range.
   kRegulator,     ///< A margin, a pressure or an orifice that no regulator can have.
+  kOutlet,        ///< Not in 0 .. 1.
 };
 
 struct McvCheck {

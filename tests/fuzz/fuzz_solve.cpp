@@ -29,6 +29,9 @@ struct RawActuator {
   double bypass_closed;
   double force_offset_n;
   double c_inflow_check;
+  double bypass_closes_at;
+  double extend_outlet_share;
+  double retract_outlet_share;
   RawTable extend;
   RawTable retract;
   std::int8_t pump;
@@ -41,7 +44,16 @@ struct RawPump {
   double leak_quadratic;
   double series_resistance;
   double relief_pa;
-  std::uint64_t has_relief;
+  double margin_pa;
+  double full_swash_pa;
+  double least_swash_pa;
+  double least_swash_ratio;
+  double response_s;
+  double tank_orifice;
+  std::int8_t has_relief;
+  std::int8_t kind;
+  std::int8_t compensated;
+  std::array<std::int8_t, 5> unused;
 };
 
 struct RawSolve {
@@ -82,8 +94,15 @@ McvMachine machine_from(const RawSolve& raw) {
   machine.pump_count = raw.pump_count;
   for (unsigned j = 0; j < kMaxPumps; ++j) {
     const RawPump& from = raw.pump[j];
-    machine.pump[j] = {from.leak_linear, from.leak_quadratic, from.series_resistance,
-                       from.has_relief % 2 == 1, from.relief_pa};
+    machine.pump[j] = {
+        from.leak_linear,
+        from.leak_quadratic,
+        from.series_resistance,
+        from.has_relief % 2 == 1,
+        from.relief_pa,
+        {static_cast<PumpKind>(from.kind), from.margin_pa, from.compensated % 2 == 1,
+         from.full_swash_pa, from.least_swash_pa, from.least_swash_ratio, from.response_s},
+        from.tank_orifice};
   }
   for (unsigned i = 0; i < kMaxActuators; ++i) {
     const RawActuator& from = raw.actuator[i];
@@ -97,10 +116,32 @@ McvMachine machine_from(const RawSolve& raw) {
                            from.bypass_closed,
                            from.force_offset_n,
                            from.c_inflow_check,
+                           from.bypass_closes_at,
+                           from.extend_outlet_share,
+                           from.retract_outlet_share,
                            table_from(from.extend),
                            table_from(from.retract)};
   }
   return machine;
+}
+
+/// Pumps of each kind in turn, as our twins have them.
+void regulate(std::uint64_t seed, RawSolve& raw) {
+  const auto kind = static_cast<std::int8_t>(seed % 3);
+  for (RawPump& pump : raw.pump) {
+    pump.kind = kind;
+    pump.compensated = static_cast<std::int8_t>(seed / 3 % 2);
+    pump.margin_pa = 2e6;
+    pump.full_swash_pa = 1e6;
+    pump.least_swash_pa = 3e6;
+    pump.least_swash_ratio = 0.1;
+    pump.response_s = 0.07;
+    pump.tank_orifice = pump.series_resistance > 0.0 ? 2.0 * pump.series_resistance : 5e-6;
+  }
+  for (RawActuator& actuator : raw.actuator) {
+    actuator.bypass_closes_at = seed % 2 == 0 ? 0.5 : 0.0;
+    actuator.extend_outlet_share = actuator.retract_outlet_share = 0.2;
+  }
 }
 
 RawSolve raw_from(const RandomCase& sound) {
@@ -116,8 +157,11 @@ RawSolve raw_from(const RandomCase& sound) {
   raw.input = sound.input;
   for (unsigned j = 0; j < kMaxPumps; ++j) {
     const McvPump& from = sound.machine.pump[j];
-    raw.pump[j] = {from.leak_linear, from.leak_quadratic, from.series_resistance, from.relief_pa,
-                   from.has_relief ? 1u : 0u};
+    raw.pump[j].leak_linear = from.leak_linear;
+    raw.pump[j].leak_quadratic = from.leak_quadratic;
+    raw.pump[j].series_resistance = from.series_resistance;
+    raw.pump[j].relief_pa = from.relief_pa;
+    raw.pump[j].has_relief = from.has_relief ? 1 : 0;
   }
   for (unsigned i = 0; i < static_cast<unsigned>(sound.machine.actuator_count); ++i) {
     const McvActuator& from = sound.machine.actuator[i];
@@ -129,6 +173,9 @@ RawSolve raw_from(const RandomCase& sound) {
                        from.bypass_closed,
                        from.force_offset_n,
                        from.c_inflow_check,
+                       from.bypass_closes_at,
+                       from.extend_outlet_share,
+                       from.retract_outlet_share,
                        raw_from(from.extend),
                        raw_from(from.retract),
                        static_cast<std::int8_t>(from.pump),
@@ -167,7 +214,9 @@ bool inputs_are_numbers() { return true; }
 std::vector<Bytes> seed_inputs() {
   std::vector<Bytes> seeds;
   for (std::uint64_t seed = 0; seed < 64; ++seed) {
-    seeds.push_back(bytes_from_raw(raw_from(random_case(seed))));
+    RawSolve raw = raw_from(random_case(seed));
+    regulate(seed, raw);
+    seeds.push_back(bytes_from_raw(raw));
   }
   return seeds;
 }

@@ -37,6 +37,22 @@ bool over_0(double value) { return value > 0.0 && std::isfinite(value); }
 /// A flow coefficient: c^2 and 1/c^2 are in every formula.
 bool coefficient(double c) { return over_0(c) && over_0(c * c) && over_0(1.0 / (c * c)); }
 
+bool share(double value) { return at_least_0(value) && value < 1.0; }
+
+/// A pump without a relief valve sets no swash of its own.
+bool regulator(const McvPump& pump) {
+  const PumpRegulator& by = pump.regulator;
+  if (by.kind == PumpKind::kLoadSensing) {
+    return pump.has_relief && over_0(by.margin_pa);
+  }
+  if (by.kind == PumpKind::kNegativeFlow) {
+    return pump.has_relief && at_least_0(by.full_swash_pa) && std::isfinite(by.least_swash_pa) &&
+           by.least_swash_pa > by.full_swash_pa && share(by.least_swash_ratio) &&
+           coefficient(pump.tank_orifice);
+  }
+  return by.kind == PumpKind::kPositive;
+}
+
 /// What a caller may ask for, in words of its own: not the core's check once more.
 bool sound(const McvMachine& machine, const McvInput& input, const LambdaRange& range) {
   if (machine.actuator_count < 1 || machine.actuator_count > kMaxActuators ||
@@ -50,7 +66,7 @@ bool sound(const McvMachine& machine, const McvInput& input, const LambdaRange& 
     const McvPump& pump = machine.pump[j];
     good = good && at_least_0(input.pump_flow_m3ps[j]) && at_least_0(pump.leak_linear) &&
            at_least_0(pump.leak_quadratic) && at_least_0(pump.series_resistance) &&
-           (!pump.has_relief || over_0(pump.relief_pa));
+           (!pump.has_relief || over_0(pump.relief_pa)) && regulator(pump);
   }
   for (unsigned i = 0; i < static_cast<unsigned>(machine.actuator_count); ++i) {
     const McvActuator& a = machine.actuator[i];
@@ -59,6 +75,8 @@ bool sound(const McvMachine& machine, const McvInput& input, const LambdaRange& 
            at_least_0(a.force_offset_n) && a.extend.size() >= 2 && a.retract.size() >= 2 &&
            std::isfinite(input.velocity_mps[i]) && at_least_0(input.cap_pressure_pa[i]) &&
            at_least_0(input.rod_pressure_pa[i]);
+    good = good && at_least_0(a.bypass_closes_at) && a.bypass_closes_at <= 1.0 &&
+           share(a.extend_outlet_share) && share(a.retract_outlet_share);
     good = good && (a.c_inflow_check == 0.0 || coefficient(a.c_inflow_check));
     good = good && (a.regeneration == RegenerationSide::kNone ||
                     (coefficient(a.c_drain) && coefficient(a.c_check) && a.c_drain < a.c_check));
