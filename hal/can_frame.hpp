@@ -22,7 +22,7 @@ struct CanFrame {
   std::uint8_t length = 0;  ///< Data bytes, 0 .. 8; more for an FD frame.
   std::array<std::uint8_t, 8> data{};
   std::uint8_t bus = kAnyBus;  ///< Which of several it came on, or is for; in their order, from 0.
-  TimeUs stamp_us = 0;  ///< When the port received or sent it, on the port's clock.
+  TimeUs stamp_us = 0;         ///< When the port received or sent it, on the port's clock.
 };
 
 }  // namespace graben

@@ -32,8 +32,9 @@ const json& machine_named(const json& setup, const std::string& name) {
 
 void every_shipped_machine_is_there(void**) {
   const json setup = reports::shared_setup({});
-  assert_int_equal(setup["machines"].size(), 3);
-  for (const char* name : {"excavator_12t", "excavator_22t"}) {
+  assert_int_equal(setup["machines"].size(), 7);
+  for (const char* name :
+       {"excavator_12t", "excavator_22t", "excavator_22t_ls", "excavator_12t_nfc"}) {
     const json& told = machine_named(setup, name);
     const machines::SimulatedExcavator machine = excavator(name);
     assert_true(told["kind"] == "excavator");
@@ -79,7 +80,8 @@ void geometry_is_the_profile_s(void**) {
 
 /// Closed, in short steps, and every point of it on the rectangle, seen from the boom foot.
 void the_path_is_the_task_s(void**) {
-  for (const char* name : {"excavator_12t", "excavator_22t"}) {
+  for (const char* name :
+       {"excavator_12t", "excavator_22t", "excavator_22t_ls", "excavator_12t_nfc"}) {
     const machines::SimulatedExcavator machine = excavator(name);
     const Eigen::Vector2d foot_m = machine.profile.geometry.boom_foot_m;
     const RoundedRectangle path(machine.profile.dig_path);
@@ -306,12 +308,12 @@ void a_profile_that_is_told_comes_first_and_once(void**) {
   text << shipped.rdbuf();
   const test::TemporaryFile copy(text.str() + "\n# another one\n");
   const json setup = reports::shared_setup({copy.path().string(), {}});
-  assert_int_equal(setup["machines"].size(), 4);
+  assert_int_equal(setup["machines"].size(), 8);
   assert_true(setup["machines"][0]["name"] == copy.path().stem().string());
   // A comment does not make another machine of it.
   assert_true(setup["machines"][0]["hash"] == machine_named(setup, "excavator_12t")["hash"]);
   const json same = reports::shared_setup({"dozer_9t", {}});
-  assert_int_equal(same["machines"].size(), 3);
+  assert_int_equal(same["machines"].size(), 7);
   assert_true(same["machines"][0]["name"] == "dozer_9t");
 }
 
