@@ -14,7 +14,7 @@ from profile_edit import at, key_path, leaves, toml_text
 
 # Keys whose value cannot be changed alone: another kind has other keys, one pump has no other, and the
 # design's and the path's ends are tied to others.
-TIED = {"kind", "task.path.x", "task.path.attitude",
+TIED = {"kind", "like", "pump[0].kind", "pump[1].kind", "task.path.x", "task.path.attitude",
         *(f"valve.pump.{drive}" for drive in ("boom", "arm", "bucket", "swing"))}
 
 # What no shipped file needs to have.
@@ -76,6 +76,8 @@ def main():
     wrong, keys = [], 0
     with tempfile.TemporaryDirectory() as scratch:
         path = pathlib.Path(scratch, "changed.toml")
+        for name, text in profiles(folder):  # What `like` names.
+            pathlib.Path(scratch, name).write_text(text, encoding="utf-8")
         for name, text in profiles(folder):
             document = tomllib.loads(text)
             usual = hash_of(program, path, text)
