@@ -93,7 +93,7 @@ STALLS = ("for n in 1 2 3; do kill -STOP $ECU; sleep 0.035; kill -CONT $ECU; sle
           "# three stalls of 40 ms")
 
 EVERY = [
-    Case(66, ROCK, (), ("Stalled",), 2 * STALL_S, judged="stall", options="--obstacle", seconds=14.0, at_s=0.0),
+    Case(66, ROCK, (), ("Stalled",), 2 * STALL_S, judged="stall", options="--obstacle", seconds=16.0, at_s=0.0),
     Case(66, HEAVY, (), ("Stalled",), 2 * STALL_S, judged="stall", seconds=12.0, at_s=0.0),
     Case(25, DIG, (), (), 1.0, judged="beside", command=ISOTP, seconds=8.0),
     Case(28, DIG, (), ("BusDown",), 1.0, judged="gone", command=GONE),
