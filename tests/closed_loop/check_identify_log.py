@@ -333,6 +333,13 @@ def worse(tool, log_file, better):
     path.unlink()
 
 
+def commissions_one_pump(graben, folder):
+    """A machine whose bus has room for a pump that it has not."""
+    done = subprocess.run([graben, "commission", "--profile", "excavator_12t", "--log", folder / "one.log"],
+                          capture_output=True, text=True, timeout=300, check=False)
+    assert done.returncode == 0 and "graben identify" in done.stdout, done.stdout[-400:] + done.stderr
+
+
 def main(graben, commission_log, machines):
     with tempfile.TemporaryDirectory() as name:
         tool = Tool(graben, pathlib.Path(name), pathlib.Path(machines))
@@ -346,6 +353,7 @@ def main(graben, commission_log, machines):
         works_on_less(tool, log)
         worse(tool, log_file, better)
         interrupted(tool, log_file)
+        commissions_one_pump(graben, tool.folder)
         print(f"{tool.cases} bad cases refused")
         assert tool.cases >= 50, tool.cases
 

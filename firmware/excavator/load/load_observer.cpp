@@ -38,6 +38,8 @@ constexpr double kFillOff_m = 0.1;
 /// root.
 constexpr double kLoose_kgpm3 = 1300.0;
 constexpr double kHeap = 0.83;
+/// Higher no bucket pours on: what comes to more has been carried away, or lies elsewhere.
+constexpr double kHeapMost_m = 1.6;
 /// Blocks until a payload is told.
 constexpr int kWeighed = 5;
 /// More than this is left aside: an axis that stands has friction of any sign.
@@ -85,7 +87,8 @@ void enter(LoadPhase phase, const ExcavatorGeometry& geometry, LoadObserver& obs
   if (observer.weighed >= kWeighed && phase == LoadPhase::kPours) {
     observer.last_fill_kg = std::max(0.0, terms.value[kLoadTerm]);
     observer.poured_kg += observer.last_fill_kg;
-    observer.phase.heap_m = kHeap * cube_root(observer.poured_kg / kLoose_kgpm3);
+    observer.phase.heap_m =
+        std::min(kHeap * cube_root(observer.poured_kg / kLoose_kgpm3), kHeapMost_m);
   }
   observer.weighed = 0;
   observer.cycle = 0;

@@ -122,7 +122,7 @@ bool watch_swash(const ExcavatorProfile& profile, bool commanded,
                  std::array<double, kPumpCount>& swash_ratio, SwashStates& state) {
   const double newest = std::min(period_s / kSwashLag_s, 1.0);
   bool disagrees = false;
-  for (unsigned j = 0; j < kPumpCount; ++j) {
+  for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
     const double wanted = wanted_ratio[j];
     if (profile.pump[j].regulator.sets_swash()) {
       swash_ratio[j] = 1.0;  // That far it goes where the drives need it.

@@ -73,6 +73,16 @@ void the_smaller_one_counts(void**) {
   near.assert_flow_with(0.5625, 0.25);
 }
 
+/// A pump that is not there answers nothing.
+void only_the_machine_s_pumps_are_asked(void**) {
+  Pumps one;
+  one.profile.pump_count = 1;
+  one.swash[1] = 0.0;
+  assert_false(one.disagree(10.0));
+  one.swash[0] = 0.0;
+  assert_true(one.disagree(10.0));
+}
+
 /// Without a command nothing is asked, and nothing is remembered.
 void without_a_command_nothing_is_asked(void**) {
   Pumps pumps;
@@ -118,6 +128,7 @@ int main() {
       cmocka_unit_test(the_tolerance_is_a_sharp_edge),
       cmocka_unit_test(the_servo_is_given_its_time),
       cmocka_unit_test(the_smaller_one_counts),
+      cmocka_unit_test(only_the_machine_s_pumps_are_asked),
       cmocka_unit_test(without_a_command_nothing_is_asked),
       cmocka_unit_test(a_command_may_move),
       cmocka_unit_test(the_slower_of_both_stands_in),
