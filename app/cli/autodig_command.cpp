@@ -23,6 +23,8 @@ namespace fs = std::filesystem;
 
 /// Less under a design is not worth a word.
 constexpr double kOverCut_m = 1e-3;
+/// Of the area, that is as it should be.
+constexpr double kBuilt = 0.95;
 
 void throw_unless_done(const runs::AutodigResult& result) {
   if (result.end == runs::AutodigEnd::kFault) {
@@ -77,6 +79,12 @@ void run_task(const TaskCommand& options) {
              runs::figures_text(runs::figures_of(summary)), run.log_file.string(), report.string());
   if (summary.over_cut_max_m > kOverCut_m) {
     fmt::print("the edge was up to {:.0f} mm under the design\n", 1e3 * summary.over_cut_max_m);
+  }
+  if (result.end == runs::AutodigEnd::kDone && summary.built.within_ratio < kBuilt) {
+    fmt::print(
+        "ground was left: {:.0f} % of the area is within 30 mm of the design, {:.2f} m3 stand "
+        "higher\n",
+        1e2 * summary.built.within_ratio, summary.built.left_m3);
   }
   throw_unless_done(result);
 }

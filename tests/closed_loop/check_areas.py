@@ -3,6 +3,7 @@
 built told in figures, map and report; areas that can't be had."""
 
 import argparse
+import json
 import tempfile
 
 import report_page
@@ -62,11 +63,25 @@ def areas(digger):
         digger.refused([needle], *digger.task(f"area = {{ {line} }}\n"))
 
 
+def what_is_left_is_said(digger):
+    said = []
+    for soil, seed in (("stones", 11), ("stones", 12), ("loam", 1)):
+        done = digger.call("autodig", "--task", "trench", "--soil", soil, "--errors", "all", "--seed", str(seed),
+                           "--summary", digger.path("left.json"))
+        with open(digger.path("left.json"), encoding="utf-8") as stream:
+            left = json.load(stream)["built_within_ratio"] < BUILT
+        said.append("ground was left: " in done.stdout)
+        assert said[-1] == left and done.returncode == 0, f"{soil}, seed {seed}: {done.stdout}"
+    assert set(said) == {True, False}, said
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("graben")
     with tempfile.TemporaryDirectory() as folder:
-        areas(Digger(parser.parse_args().graben, folder))
+        digger = Digger(parser.parse_args().graben, folder)
+        areas(digger)
+        what_is_left_is_said(digger)
 
 
 if __name__ == "__main__":
