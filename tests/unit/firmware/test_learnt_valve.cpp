@@ -72,6 +72,20 @@ struct Bench {
   }
 };
 
+/// A speed that is off says less of an opening where the bypass closes over it as well.
+void a_bypass_that_closes_over_the_opening_makes_speeds_steep(void**) {
+  const auto learnt_edge = [](double bypass_closes_at) {
+    Bench bench;
+    bench.row.spool.bypass_closes_at = bypass_closes_at;
+    bench.extend.edge = kEdge + 0.03;
+    bench.corrected = false;
+    bench.work(6.0, 1.0);
+    return bench.valve.extend.edge;
+  };
+  assert_true(learnt_edge(0.0) > 0.01);
+  assert_true(learnt_edge(0.5) < 0.6 * learnt_edge(0.0));
+}
+
 void a_dead_band_is_learnt_on_its_own_side(void**) {
   for (const double edge : {0.17, 0.23}) {
     Bench bench;
@@ -342,6 +356,7 @@ void what_is_felt_stays_within_bounds(void**) {
 
 int main() {
   const CMUnitTest tests[] = {
+      cmocka_unit_test(a_bypass_that_closes_over_the_opening_makes_speeds_steep),
       cmocka_unit_test(a_dead_band_is_learnt_on_its_own_side),
       cmocka_unit_test(an_edge_is_told_in_travel),
       cmocka_unit_test(an_exponent_is_learnt),

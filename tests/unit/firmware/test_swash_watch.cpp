@@ -73,6 +73,15 @@ void the_smaller_one_counts(void**) {
   near.assert_flow_with(0.5625, 0.25);
 }
 
+/// A pump that sets its own swash goes where the drives need it.
+void a_regulated_pump_is_not_asked(void**) {
+  Pumps own;
+  own.profile.pump[1].regulator.kind = PumpKind::kLoadSensing;
+  own.swash[1] = 0.1;
+  assert_false(own.disagree(10.0));
+  own.assert_flow_with(kWanted[0], 1.0);
+}
+
 /// A pump that is not there answers nothing.
 void only_the_machine_s_pumps_are_asked(void**) {
   Pumps one;
@@ -128,6 +137,7 @@ int main() {
       cmocka_unit_test(the_tolerance_is_a_sharp_edge),
       cmocka_unit_test(the_servo_is_given_its_time),
       cmocka_unit_test(the_smaller_one_counts),
+      cmocka_unit_test(a_regulated_pump_is_not_asked),
       cmocka_unit_test(only_the_machine_s_pumps_are_asked),
       cmocka_unit_test(without_a_command_nothing_is_asked),
       cmocka_unit_test(a_command_may_move),
