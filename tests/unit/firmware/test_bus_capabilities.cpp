@@ -204,6 +204,20 @@ void the_command_stands_in_for_the_swash(void**) {
   assert_true(valid.stand_in);
 }
 
+/// A pump that sets its own swash has none that is missing.
+void a_regulated_pump_tells_no_swash(void**) {
+  ExcavatorProfile profile = test::plain_machine();
+  ExcavatorInputs inputs = test::complete_inputs(kSecondUs);
+  no_swash(inputs);
+  assert_true(
+      test::validate(inputs, profile, {}, false, kSecondUs).faults.has(Fault::kSwashMissing));
+  for (PumpProfile& pump : profile.pump) {
+    pump.regulator.kind = PumpKind::kNegativeFlow;
+  }
+  assert_false(
+      test::validate(inputs, profile, {}, false, kSecondUs).faults.has(Fault::kSwashMissing));
+}
+
 /// Nothing is held against a pump's command but what the bus carries.
 void a_swash_that_is_not_carried_is_not_judged(void**) {
   for (const bool carried : {true, false}) {
@@ -295,6 +309,7 @@ int main() {
       cmocka_unit_test(unseen_spools_count_as_centred),
       cmocka_unit_test(no_echo_no_fault_of_following),
       cmocka_unit_test(the_command_stands_in_for_the_swash),
+      cmocka_unit_test(a_regulated_pump_tells_no_swash),
       cmocka_unit_test(a_swash_that_is_not_carried_is_not_judged),
       cmocka_unit_test(a_dozer_without_them_is_not_asked_either),
       cmocka_unit_test(the_blade_is_watched_by_its_command),
