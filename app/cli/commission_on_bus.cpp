@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "app/cli/options.hpp"
 #include "app/commission/commission_windows.hpp"
 #include "app/machines/excavator_file.hpp"
 #include "app/operate/bus_survey.hpp"
@@ -132,6 +133,7 @@ void choose(const SequenceChoice& choice, commission::SequenceOptions& options) 
 void commission_on_bus(const BusCommission& options) {
   const machines::ExcavatorMachine machine =
       machines::load_excavator(machines::find_profile(options.profile));
+  assert_told_pumps("commission", machine);
   commission::Progress progress = begun(options, machine);
   require_somebody_confirms(options);
   look_at_bus(options, machine);

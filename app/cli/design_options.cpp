@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
@@ -32,6 +35,10 @@ Designed designed(const machines::SimulatedDozer& machine, const design::DesignS
       throw std::runtime_error("--surface, --track and --datum are of a --design");
     }
     return {machine, {}};
+  }
+  if (std::filesystem::is_directory(source.file)) {
+    throw std::runtime_error(fmt::format("--design {}: is a folder; a file with a design is wanted",
+                                         source.file.string()));
   }
   const design::BladeAcross blade{machine.plant.blade_shape.width_m,
                                   machine.profile.grade.tolerance_m};

@@ -85,11 +85,20 @@ void tell(const PlanCommand& options, const std::vector<runs::PlanSample>& sampl
              (out / "plan.html").string());
 }
 
-void draw_figures(const PlanCommand& options, const std::string& machine,
-                  const std::vector<runs::PlanSample>& samples) {
+/// Texts in the order of `options.figures`. Throws std::runtime_error for another line than theirs.
+std::vector<std::string> drawn_figures(const PlanCommand& options, const std::string& machine,
+                                       const std::vector<runs::PlanSample>& samples) {
+  std::vector<std::string> texts;
   for (const std::string& name : options.figures) {
-    const fs::path file = fs::path(options.out) / (name + ".svg");
-    write_whole(file, reports::svg_text(reports::zhang_figure(name, machine, samples)));
+    texts.push_back(reports::svg_text(reports::zhang_figure(name, machine, samples)));
+  }
+  return texts;
+}
+
+void write_figures(const PlanCommand& options, const std::vector<std::string>& texts) {
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const fs::path file = fs::path(options.out) / (options.figures[i] + ".svg");
+    write_whole(file, texts[i]);
     fmt::print("figure  {}\n", file.string());
   }
 }
@@ -133,6 +142,8 @@ void plan(const PlanCommand& options) {
   const PlanResult result = plan_line(kinematics, drive_limits(profile), request);
   const std::vector<runs::PlanSample> samples =
       runs::sample_plan(profile, kinematics, result.plan, options.step_s);
+  // What they refuse is refused before anything is written.
+  const std::vector<std::string> figures = drawn_figures(options, machine.name, samples);
   const fs::path out(options.out);
   fs::create_directories(out);
   reports::write_plan_report({out / "plan.html", scope::scope_page()}, machine, result, samples,
@@ -140,7 +151,7 @@ void plan(const PlanCommand& options) {
                                          pose_text(request.from), pose_text(request.to)));
   reports::write_plan_json(out / "plan.json", profile, result, samples);
   tell(options, samples, runs::plan_summary(profile, request, result, samples));
-  draw_figures(options, machine.name, samples);
+  write_figures(options, figures);
 }
 
 }  // namespace

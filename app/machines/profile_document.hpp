@@ -30,7 +30,7 @@ void lay_over(toml::table& base, toml::table&& differences);
 
 /// Of a file that says `like = "NAME"`, what NAME.toml beside it says but for what the file itself
 /// does; of NAME.sim.toml the same. Throws std::runtime_error if a file can't be read, ProfileError
-/// if it is not TOML or like one that is like another.
+/// if it is not TOML, or like one that is not there, is itself or is like another.
 [[nodiscard]] ProfileDocument read_document(const std::filesystem::path& file);
 
 /// Why a text is not TOML, with its place and the line that is meant.
@@ -52,7 +52,7 @@ void read_like(TomlReader& reader);
 /// left over. Throws as the above, with every error found. Returns the hash of what was read.
 template <class Read>
 std::uint32_t read_as(const ProfileDocument& document, MachineKind kind, Read&& read) {
-  TomlReader reader(document.root);
+  TomlReader reader(document.root, document.file.string());
   require_kind(document, reader, kind);
   read_like(reader);
   read(reader);

@@ -48,6 +48,24 @@ std::filesystem::path base_file(const std::filesystem::path& file, const std::st
   return is_simulation_file(file) ? simulation_file(machine) : machine;
 }
 
+/// Throws ProfileError of the file that names it, unless it is another file that is there.
+void check_base(const ProfileDocument& document, const std::filesystem::path& base,
+                const std::string& name) {
+  const auto refuse = [&](const std::string& what) {
+    throw ProfileError(document.file.string(),
+                       {fmt::format("like (line {}): \"{}\"{}; allowed: the name of another "
+                                    "machine's file beside this one, without .toml",
+                                    document.root.get("like")->source().begin.line, name, what)});
+  };
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(base, error)) {
+    refuse(fmt::format(": there is no {}", base.string()));
+  }
+  if (std::filesystem::equivalent(base, document.file, error)) {
+    refuse(" is this file itself");
+  }
+}
+
 MachineKind read_kind(const ProfileDocument& document, TomlReader& reader) {
   const auto kind = static_cast<MachineKind>(reader.choice("kind", kind_names(), kKindHelp));
   throw_errors(document, reader);
@@ -141,7 +159,9 @@ ProfileDocument read_document(const std::filesystem::path& file) {
   if (!like) {
     return document;
   }
-  ProfileDocument base = read_alone(base_file(file, *like));
+  const std::filesystem::path base_at = base_file(file, *like);
+  check_base(document, base_at, *like);
+  ProfileDocument base = read_alone(base_at);
   if (base.root.contains("like")) {
     throw ProfileError(file.string(),
                        {fmt::format("like: {} is like another itself; allowed: one that is not",
@@ -188,7 +208,7 @@ void throw_errors(const ProfileDocument& document, const TomlReader& reader) {
 }
 
 MachineKind profile_kind(const ProfileDocument& document) {
-  TomlReader reader(document.root);
+  TomlReader reader(document.root, document.file.string());
   return read_kind(document, reader);
 }
 

@@ -59,7 +59,7 @@ Provenance TomlReader::provenance_of(const std::string& key, const toml::node& t
   Provenance entry{key, std::nullopt, ""};
   const std::string at = fmt::format("provenance.\"{}\"", key);
   const auto refuse = [&](const std::string& what) {
-    errors_.push_back(fmt::format("{} (line {}): {}", at, told.source().begin.line, what));
+    errors_.push_back(fmt::format("{} ({}): {}", at, place(told), what));
   };
   const toml::node* named = root_.at_path(key).node();
   const toml::table* parts = told.as_table();

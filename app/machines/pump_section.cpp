@@ -14,6 +14,8 @@ constexpr Range kFlowCoefficient{1e-9, 1e-3, "m3/(s sqrt(Pa))"};
 constexpr Range kPressure{1e6, 1e8, "Pa"};
 /// Of an orifice that is none.
 constexpr double kOpen = 1.0;
+/// Less between full and least swash is a regulator that only jumps.
+constexpr double kLeastRise_pa = 2e5;
 
 /// In the order of PumpKind.
 const std::vector<std::string>& pump_kinds() {
@@ -38,11 +40,11 @@ void read_negative_flow(TomlReader& reader, const std::string& at, PumpRegulator
   by.full_swash_pa = pressure[0];
   by.least_swash_pa = pressure[1];
   by.least_swash_ratio = reader.number(at + "least_swash", {0.0, 0.9, ""}, "least swash, of full");
-  if (reader.is_sound() && pressure[0] >= pressure[1]) {
+  if (reader.is_sound() && pressure[1] - pressure[0] < kLeastRise_pa) {
     reader.fail(at + "pressure",
                 fmt::format("[{}, {}] Pa; allowed: first that of full swash, then that of least, "
-                            "which is more",
-                            pressure[0], pressure[1]));
+                            "at least {} Pa more",
+                            pressure[0], pressure[1], kLeastRise_pa));
   }
 }
 
@@ -71,6 +73,11 @@ PumpRegulator read_regulator(TomlReader& reader, const std::string& at) {
     by.response_s =
         reader.number(at + "response", {0.01, 1.0, "s"},
                       "time in which a swash that its regulator sets goes from least to full");
+  }
+  if (!by.sets_swash() && reader.has(at + "response")) {
+    reader.fail(at + "response",
+                "the controller sets this pump's swash; allowed: only with a kind that sets it "
+                "itself, load_sensing or negative_flow");
   }
   return by;
 }

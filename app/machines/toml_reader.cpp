@@ -75,6 +75,13 @@ TomlReader TomlReader::listing(bool has) {
   return reader;
 }
 
+std::string TomlReader::place(const toml::node& node) const {
+  const toml::source_region& source = node.source();
+  const bool is_other = !file_.empty() && source.path != nullptr && *source.path != file_;
+  return is_other ? fmt::format("line {} of {}", source.begin.line, *source.path)
+                  : fmt::format("line {}", source.begin.line);
+}
+
 bool TomlReader::has(const std::string& key) const {
   return listed_has_.value_or(root_.at_path(key).node() != nullptr);
 }
@@ -117,15 +124,14 @@ void TomlReader::fail(const std::string& key, const std::string& what) {
     return;
   }
   const toml::node* node = root_.at_path(key).node();
-  const std::string line =
-      node != nullptr ? fmt::format(" (line {})", node->source().begin.line) : "";
-  errors_.push_back(fmt::format("{}{}: {}", key, line, what));
+  const std::string at = node != nullptr ? fmt::format(" ({})", place(*node)) : "";
+  errors_.push_back(fmt::format("{}{}: {}", key, at, what));
 }
 
 double TomlReader::checked(const toml::node& node, const std::string& key, const Range& range) {
   const auto refuse = [&](const std::string& what) {
-    errors_.push_back(fmt::format("{} (line {}): {} {}; {}", key, node.source().begin.line,
-                                  value_text(node), what, allowed(range)));
+    errors_.push_back(fmt::format("{} ({}): {} {}; {}", key, place(node), value_text(node), what,
+                                  allowed(range)));
     return std::clamp(0.0, range.least, range.most);
   };
   if (!node.is_number()) {
@@ -314,8 +320,8 @@ void TomlReader::refuse_unknown_in(const toml::node& node, const std::string& pa
     return;
   }
   const std::vector<std::string> known(known_.begin(), known_.end());
-  errors_.push_back(fmt::format("{} (line {}): unknown key{}", path, node.source().begin.line,
-                                near_word_hint(path, known)));
+  errors_.push_back(
+      fmt::format("{} ({}): unknown key{}", path, place(node), near_word_hint(path, known)));
 }
 
 }  // namespace graben::machines

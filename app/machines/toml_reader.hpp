@@ -39,7 +39,9 @@ struct KeyEntry {
 /// meaning in the reference of all keys.
 class TomlReader {
  public:
-  explicit TomlReader(const toml::table& root) : root_(root) {}
+  /// A value that is not from `file` says in its error which file it is from.
+  explicit TomlReader(const toml::table& root, std::string file = {})
+      : root_(root), file_(std::move(file)) {}
   /// Reads nothing: every getter returns its harmless value, records no error, and only says what
   /// it asks for. `has` is the answer for each optional key.
   [[nodiscard]] static TomlReader listing(bool has);
@@ -93,7 +95,11 @@ class TomlReader {
   Provenance provenance_of(const std::string& key, const toml::node& told);
   void refuse_unknown_in(const toml::node& node, const std::string& path);
 
+  /// Its line, and the file unless it is the one that is read.
+  [[nodiscard]] std::string place(const toml::node& node) const;
+
   const toml::table& root_;
+  std::string file_;
   std::optional<bool> listed_has_;  ///< Where it only lists.
   std::set<std::string> known_;
   std::vector<KeyEntry> keys_;

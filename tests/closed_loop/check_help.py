@@ -109,6 +109,10 @@ def own_words(graben, folder):
         refused(graben, "a_file", *command, "--out", "a_file/under", folder=folder)
     refused(graben, "there is no such file", "campaign", "merge", "none.csv", "--summary", "all.csv", folder=folder)
     (folder / "a.csv").write_text("a,b\n", encoding="ascii")
+    refused(graben, "is a folder; a file with a design is wanted", "grade", "--design", ".", folder=folder)
+    for command in (["commission"], ["identify", "--out", "b.toml"], ["identify", "--check"]):
+        refused(graben, "the pumps of excavator_12t_nfc set their swash themselves", *command, "--log", "a.log",
+                "--profile", "excavator_12t_nfc", folder=folder)
     refused(graben, "is no campaign", "campaign", "merge", "a.csv", "--summary", "all.csv", folder=folder)
 
 

@@ -79,6 +79,16 @@ def scaled(graben, folder, like, questions, ratio, most=None):
     return said.stdout
 
 
+def like_another(graben, folder):
+    """After a profile that is like another: whole, so that it needs no file beside it."""
+    done = make(graben, folder, "excavator_12t_ls", [], "--force")
+    assert done.returncode == 0, done.stderr
+    profile = tomllib.loads((folder / "mine.toml").read_text(encoding="utf-8"))
+    assert "like" not in profile and profile["pump"][0]["kind"] == "load_sensing", profile
+    said = check(graben, folder)
+    assert said.returncode == 0, said.stderr
+
+
 def units(graben, folder, questions):
     """A relief of 300 bar, 2000 rpm, 30 degrees."""
     told = {"pump[0].relief": ("300", 300e5), "pump[0].speed": ("2000", 209.4395), "pump[0].displacement":
@@ -127,6 +137,7 @@ def main():
                 reach = float(re.search(r"farthest +([0-9.]+)", small)[1])
                 print(f"{like} times 0.9 reaches {reach} m")
         units(graben, folder, unchanged(graben, folder, "excavator_12t"))
+        like_another(graben, folder)
         new_folder(graben, folder)
         refusals(graben, folder)
     print("a new machine is asked for and written")

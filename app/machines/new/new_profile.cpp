@@ -202,13 +202,16 @@ std::string new_profile_text(const ProfileDocument& like, const std::string& nam
   }
   const std::vector<KeyEntry> keys = profile_keys(like);
   const std::string like_name = like.file.stem().string();
+  // It says every value itself, and the other file need not be beside it.
+  toml::table root = like.root;
+  root.erase("like");
   const auto text = [&] {
     return fmt::format(
                "# {}: made by `graben new-machine` after {}. A value marked 'as {}' was not asked "
                "for\n# or not told: check it before anything moves. SI units; frames as in the "
                "reference of all keys.\n\n",
                name, like_name, like_name) +
-           commented_toml(like.root, keys, told, "as " + like_name);
+           commented_toml(root, keys, told, "as " + like_name);
   };
   if (profile_kind(like) == MachineKind::kExcavator) {
     scale_path(like, told);

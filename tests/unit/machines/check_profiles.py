@@ -99,6 +99,47 @@ def wrong_kind(reader, good):
                 yield f"{other} as {kind}: {errors}"
 
 
+NFC = "excavator_22t_nfc"
+LIKE = '"excavator_22t"'
+# (what, text of the file, text with the slip, needles); what `like` names is in the same folder.
+LIKE_CASES = [
+    ("like nobody", LIKE, '"nobody"', ['mine.toml: 1 error', 'like (line ', '"nobody"', "there is no ",
+                                         "nobody.toml"]),
+    ("like itself", LIKE, '"mine"', ['mine.toml: 1 error', 'like (line ', '"mine" is this file itself']),
+    ("like one that is like another", LIKE, f'"{NFC}"', [f"{NFC}.toml is like another itself"]),
+    ("pressures that hardly differ", "pressure = [0.8e6, 3.0e6]", "pressure = [2.9e6, 3.0e6]",
+     ["pump[0].negative_flow.pressure (line ", "at least 200000 Pa more"]),
+]
+
+
+def like_cases(reader, folder, scratch):
+    """What is wrong with `like`, with what the file says itself, and with what the other file says."""
+    texts = {}
+    for name in ("excavator_22t", NFC):
+        with open(os.path.join(folder, f"{name}.toml"), encoding="utf-8") as stream:
+            texts[name] = stream.read()
+        with open(os.path.join(scratch, f"{name}.toml"), "w", encoding="utf-8") as stream:
+            stream.write(texts[name])
+    path = os.path.join(scratch, "mine.toml")
+    for what, old, new, needles in LIKE_CASES:
+        assert old in texts[NFC], old
+        with open(path, "w", encoding="utf-8") as stream:
+            stream.write(texts[NFC].replace(old, new))
+        errors = reader.errors_of_file("excavator", path)
+        missing = [needle for needle in needles if needle not in errors]
+        if missing:
+            yield f"{what}: without {missing}:\n{errors}"
+    with open(path, "w", encoding="utf-8") as stream:
+        stream.write(texts[NFC] + "\n[boom]\nlength = 5000.0\n")
+    base = os.path.join(scratch, "excavator_22t.toml")
+    with open(base, "w", encoding="utf-8") as stream:
+        stream.write(with_number(texts["excavator_22t"], ["arm", "length"], 2900.0))
+    errors = reader.errors_of_file("excavator", path)
+    arm = re.search(r"^  arm\.length \(line (\d+) of (.*?)\): ", errors, re.MULTILINE)
+    if not arm or arm[2] != base or not re.search(r"^  boom\.length \(line \d+\): ", errors, re.MULTILINE):
+        yield f"a wrong number in the other file and one in this:\n{errors}"
+
+
 def command_reports(graben, path):
     """The tool passes a profile's errors on: status 1, nothing on its output."""
     done = subprocess.run([graben, "pose", "--profile", path, "--strokes=1.0,1.1,0.4"],
@@ -156,6 +197,7 @@ def main():
             wrong += wrong_cases(reader, SIMULATED + kind, simulated[kind], cases.SIMULATION_CASES)
             wrong += wrong_keys(reader, SIMULATED + kind, simulated[kind], cases.SIMULATION_RANGES)
         wrong += wrong_kind(reader, good)
+        wrong += like_cases(reader, folder, scratch)
         wrong += without_simulation(graben, scratch, good)
         wrong += command_reports(graben, os.path.join(folder, KINDS["dozer"]))
     cases = sum(len(found) for kind in (excavator_cases, dozer_cases)

@@ -85,9 +85,12 @@ def shipped(graben, folder, scratch, name):
     if re.search(r"(src|href)=|url\(|https?://", page) or "<svg" not in page \
             or re.search(r"\bnan\b", page):
         yield f"{name}: the page needs a network or has no drawing"
-    # The same without its simulation: what lacks is said.
-    (scratch / "alone.toml").write_text((folder / f"{name}.toml").read_text(encoding="utf-8"),
-                                        encoding="utf-8")
+    # The same without its simulation: what lacks is said. What it is like has to be beside it.
+    text = (folder / f"{name}.toml").read_text(encoding="utf-8")
+    (scratch / "alone.toml").write_text(text, encoding="utf-8")
+    if like := re.search(r'^like = "(\w+)"$', text, re.MULTILINE):
+        (scratch / f"{like[1]}.toml").write_text((folder / f"{like[1]}.toml").read_text(encoding="utf-8"),
+                                                 encoding="utf-8")
     done = check(graben, scratch / "alone.toml", scratch, "--strict")
     if done.returncode != 0 or "there is no NAME.sim.toml" not in done.stdout:
         yield f"{name} alone: status {done.returncode}: {done.stdout}{done.stderr}"
@@ -125,7 +128,10 @@ def main():
     wrong = []
     with tempfile.TemporaryDirectory() as scratch:
         scratch = pathlib.Path(scratch)
-        for name in (EXCAVATOR, SMALL, DOZER):
+        names = [file.stem for file in sorted(folder.glob("*.toml"))
+                 if "." not in file.stem]
+        assert {EXCAVATOR, SMALL, DOZER} <= set(names), names
+        for name in names:
             wrong += shipped(graben, folder, scratch, name)
         wrong += answers(graben, folder, scratch)
         for row in SLIPS:

@@ -24,6 +24,9 @@ def told(line):
 CASES = [
     ("the simulation's key", lambda t: replaced(t, "[boom]", "[boom]\nmass = 2130.0"),
      ["1 error", "boom.mass", "unknown key"]),
+    ("response of a pump that the controller tells",
+     lambda t: replaced(t, "relief = 35.0e6\n", "relief = 35.0e6\nresponse = 0.1\n"),
+     ["pump[0].response (line ", "the controller sets this pump's swash"]),
     ("more at least than at most", lambda t: replaced(t, "swash_on_demand = [0.3, 1.0]", "swash_on_demand = [0.8, 0.5]"),
      ["task.swash_on_demand", "allowed: a least of at most the most"]),
     ("no such law", lambda t: replaced(t, 'law = "oil"', 'law = "fuzzy"'),
