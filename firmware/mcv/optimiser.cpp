@@ -13,21 +13,14 @@ namespace {
 constexpr double kMostCoefficients = 16.0;
 
 PolicyResult choose(const Asked& asked, McvPolicy policy) {
-  if (asked.circuit.regulated && policy != McvPolicy::kFixed) {
-    // What the searches over r stand on, a pressure that r alone gives, is not there.
+  if (policy == McvPolicy::kFixed) {
+    return choose_fixed(asked.rising(), asked.most);
+  }
+  // What the searches over r stand on, a pressure that r alone gives, regulated pumps do not have.
+  if (asked.circuit.regulated || policy == McvPolicy::kAlgorithm1) {
     return choose_algorithm1(asked);
   }
-  switch (policy) {
-    case McvPolicy::kAlgorithm1:
-      return choose_algorithm1(asked);
-    case McvPolicy::kConnected:
-      return choose_connected(asked);
-    case McvPolicy::kGlobal:
-      return choose_global(asked);
-    case McvPolicy::kFixed:
-      return choose_fixed(asked.rising(), asked.most);
-  }
-  return {};
+  return policy == McvPolicy::kConnected ? choose_connected(asked) : choose_global(asked);
 }
 
 /// Of what an axis has left over at standstill, (43), the reserve takes at most this share: an axis
