@@ -7,6 +7,8 @@
 #include <iterator>
 
 #include "app/machines/dbc_layout.hpp"
+#include "app/machines/excavator_file.hpp"
+#include "app/machines/profile_file.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/design/written_file.hpp"
 
@@ -263,6 +265,28 @@ void a_key_of_any_length_is_refused(void**) {
               {"message Engine", "unknown"});
 }
 
+/// Of a machine on a bus of its own, which is beside it.
+std::uint32_t hash_on(const std::string& bus) {
+  std::ifstream shipped(machines::find_profile("excavator_22t"));
+  std::string profile{std::istreambuf_iterator<char>(shipped), {}};
+  for (const char* of_swash : {"swash_on_demand =", "pump_power ="}) {
+    profile = with(profile, of_swash, std::string("# ") + of_swash);  // The bus takes no swash.
+  }
+  const WrittenFile beside("other.toml", bus);
+  const WrittenFile file(
+      "machine.toml",
+      "bus = \"other\"\nstand_in = {identity = \"profile\", spool_feedback = \"pilot\", "
+      "swash_feedback = \"command\", swash_command = \"profile\", protection = \"range\"}\n" +
+          profile);
+  return machines::load_excavator(file.path()).hash;
+}
+
+void a_profile_of_another_bus_is_another(void**) {
+  const std::string bus = zx200_text();
+  assert_true(hash_on(bus) == hash_on("# a comment\n" + bus));
+  assert_true(hash_on(bus) != hash_on(with(bus, "timeout = 0.035", "timeout = 0.030")));
+}
+
 }  // namespace
 
 int main() {
@@ -279,6 +303,7 @@ int main() {
       cmocka_unit_test(a_swash_is_of_both_pumps),
       cmocka_unit_test(a_dbc_is_read_with_care),
       cmocka_unit_test(a_key_of_any_length_is_refused),
+      cmocka_unit_test(a_profile_of_another_bus_is_another),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
