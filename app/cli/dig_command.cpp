@@ -158,7 +158,7 @@ void add_task(CLI::App& command, DigCommand& options) {
                                          "Run a task of straight lines instead, as `autodig` does: "
                                          "a file, or the name of one of ours");
   for (const char* of_the_path :
-       {"--air", "--obstacle", "--stiff-oil", "--dead-time", "--fixed-lambda", "--law",
+       {"--air", "--obstacle", "--stiff-oil", "--dead-time", "--fixed-lambda", "--law", "--bus",
         "--start-strokes", "--start", "--random-start", "--loops", "--figure"}) {
     task->excludes(command.get_option(of_the_path));
   }

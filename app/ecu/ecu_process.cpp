@@ -196,6 +196,11 @@ std::vector<std::uint32_t> heard_ids(const typename Kind::Setup& setup, const Bu
 template <class Kind>
 int run_controller(const typename Kind::Setup& setup, const BusTable& table,
                    std::uint32_t profile_hash, const EcuOptions& options, TimeUs began_us) {
+  if (table.bus_count != 0 && table.bus_count != options.interfaces.size()) {
+    std::fprintf(stderr, "graben-ecu: --can: %zu of them; the bus profile has %u interfaces\n",
+                 options.interfaces.size(), static_cast<unsigned>(table.bus_count));
+    return kWrongFile;
+  }
   Buses buses(options.interfaces, heard_ids<Kind>(setup, table));
   LastFrames last;
   EcuNode<Kind> ecu(setup, profile_hash, buses.group, &table);

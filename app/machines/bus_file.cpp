@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "app/machines/axis_names.hpp"
+#include "app/machines/bus_checks.hpp"
 #include "app/machines/bus_tables.hpp"
 #include "app/machines/profile_document.hpp"
 
@@ -96,8 +97,9 @@ BusCapabilities capabilities_of(TomlReader& reader, const BusTable& table) {
   can.spool_feedback = table.own_frames || spools;
   can.spool_by_pilot =
       spools && reader.boolean_or(false, "spool_by_pilot", "spools are told by pilot pressures");
-  can.swash_feedback = table.own_frames || axes_with(table, SourcePlace::kSwash) > 0;
-  can.swash_command = table.own_frames || has_sink(table, SinkPlace::kSwash, 0);
+  can.swash_feedback = table.own_frames || axes_with(table, SourcePlace::kSwash) == kPumpCount;
+  can.swash_command = table.own_frames || (has_sink(table, SinkPlace::kSwash, 0) &&
+                                           has_sink(table, SinkPlace::kSwash, 1));
   for (std::size_t i = 0; i < table.message_count; ++i) {
     can.protection = can.protection && table.message[i].protection == TableProtection::kE2e;
   }
@@ -110,9 +112,10 @@ BusCapabilities capabilities_of(TomlReader& reader, const BusTable& table) {
 
 /// An error of a message or signal, with their names and its line.
 std::string with_names(const toml::table& root, const std::string& error) {
-  static const std::regex place(R"((receive|send)\[(\d+)\](?:\.signal\[(\d+)\])?.*)");
+  static const std::regex place(R"((receive|send)\[(\d{1,4})\](?:\.signal\[(\d{1,4})\])?)");
   std::smatch words;
-  if (!std::regex_match(error, words, place)) {
+  // Its beginning alone: a text of any length would be matched by as deep a recursion.
+  if (!std::regex_search(error, words, place, std::regex_constants::match_continuous)) {
     return error;
   }
   const std::string message = fmt::format("{}[{}]", words[1].str(), words[2].str());
@@ -147,8 +150,13 @@ BusContext read_context(TomlReader& reader, const std::filesystem::path& file) {
                         ? reader.table_count("interface", 1, 4, "buses, in the order of --can")
                         : 0;
   for (int i = 0; i < count; ++i) {
-    context.interfaces.push_back(
-        reader.text(fmt::format("interface[{}].name", i), "what the messages call it"));
+    const std::string key = fmt::format("interface[{}].name", i);
+    const std::string name = reader.text(key, "what the messages call it");
+    const auto& before = context.interfaces;
+    if (std::find(before.begin(), before.end(), name) != before.end()) {
+      reader.fail(key, fmt::format("'{}' is that of another interface", name));
+    }
+    context.interfaces.push_back(name);
   }
   return context;
 }
@@ -161,10 +169,12 @@ BusFile load_bus(const std::filesystem::path& file) {
   BusFile bus;
   bus.speaks = reader.text("bus", "which machine's bus this is");
   const BusContext context = read_context(reader, file);
+  bus.table.bus_count = static_cast<std::uint8_t>(context.interfaces.size());
   bus.table.own_frames =
       reader.boolean_or(false, "own_frames", "the machine's end speaks our DBC beside it");
   read_received(reader, context, bus.table);
   read_sent(reader, context, bus.table);
+  check_bus(reader, bus.table);
   bus.capabilities = capabilities_of(reader, bus.table);
   reader.refuse_unknown_keys();
   if (!reader.errors().empty()) {

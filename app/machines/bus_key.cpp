@@ -82,6 +82,13 @@ BusCapabilities read_bus(TomlReader& reader, double dead_time_s,
                                                     "allowed: leave it out",
                                                     bus.name));
   }
+  for (const char* drive : {"valve.swing", "imu"}) {
+    if (!bus.own_frames && reader.has(drive)) {
+      reader.fail(
+          drive,
+          fmt::format("bus \"{}\" carries no swing and no IMUs; allowed: leave it out", bus.name));
+    }
+  }
   if (bus.capabilities.latency_s > dead_time_s) {
     reader.fail("bus", fmt::format("a latency of {} s is more than the valve's dead time of {} s, "
                                    "which has to cover it",

@@ -15,6 +15,7 @@ namespace graben::machines {
 struct KnownBus {
   std::string name;
   BusCapabilities capabilities;
+  bool own_frames = true;  ///< Frames of ours, as a swing drive's and IMUs', are on it.
 };
 
 /// Those of this source tree.
@@ -22,8 +23,8 @@ struct KnownBus {
 
 /// Capabilities of the bus that `bus` names, "graben" without the key. Of what it lacks, `stand_in`
 /// has to name the stand-in, and nothing else: a protection that is lost is lost knowingly. An
-/// error for another name, a stand-in that is missing, wrong or not needed, or a latency beyond
-/// `dead_time_s`, which has to cover it.
+/// error for another name, a swing drive or IMUs on a bus without our frames, a stand-in that is
+/// missing, wrong or not needed, or a latency beyond `dead_time_s`, which has to cover it.
 [[nodiscard]] BusCapabilities read_bus(TomlReader& reader, double dead_time_s,
                                        const std::vector<KnownBus>& buses = known_buses());
 

@@ -105,7 +105,7 @@ DbcSignal read_layout(TomlReader& reader, const Declared& message, const std::st
       if (each.name == name) {
         signal = each;
         if (!signal.supported) {
-          reader.fail(key, "multiplexed, or more than 32 bits: not supported");
+          reader.fail(key, "multiplexed, a float, or more than 32 bits: not supported");
         }
         return signal;
       }

@@ -19,7 +19,7 @@ struct DbcSignal {
   double offset = 0.0;
   double least = 0.0;  ///< Both 0: not said.
   double most = 0.0;
-  bool supported = true;  ///< Neither multiplexed nor of more than 32 bits.
+  bool supported = true;  ///< Neither multiplexed, nor a float, nor of more than 32 bits.
 };
 
 struct DbcMessage {

@@ -31,7 +31,8 @@ ExcavatorMachine load_excavator(const ProfileDocument& document) {
   const std::optional<BusFile> bus = other_bus(document);
   std::vector<KnownBus> buses = known_buses();
   if (bus) {
-    buses.push_back({document.root["bus"].value<std::string>().value_or(""), bus->capabilities});
+    buses.push_back({document.root["bus"].value<std::string>().value_or(""), bus->capabilities,
+                     bus->table.own_frames});
     machine.bus = bus->table;
     machine.bus_speaks = bus->speaks;
   }
@@ -41,6 +42,7 @@ ExcavatorMachine load_excavator(const ProfileDocument& document) {
     machine.provenance = reader.provenance();
     check_excavator_across_keys(reader, machine.profile);
   });
+  machine.hash ^= bus ? bus->hash : 0;
   return machine;
 }
 

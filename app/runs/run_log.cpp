@@ -35,13 +35,8 @@ class Reader {
     if (!frame.extended || frame.length != 8) {
       return;
     }
-    if (frame.id == dbc::dozer::BladeStroke::kId && !is_kind_known_) {
-      run_.is_dozer = true;
-      is_kind_known_ = true;
-      run_.channel.assign(channel_table(true).size(), {});
-    } else if (frame.id == dbc::excavator::BoomStroke::kId && !is_kind_known_) {
-      is_kind_known_ = true;
-      run_.channel.assign(channel_table(false).size(), {});
+    if (!is_kind_known_) {
+      find_kind(frame.id);
     }
     if (frame.id == dbc::common::EcuIdentity::kId) {
       const auto identity = dbc::common::EcuIdentity::decode(frame.data);
@@ -68,6 +63,16 @@ class Reader {
   }
 
  private:
+  /// By the machine's frames or the controller's: with IMUs or on another bus no stroke is told.
+  void find_kind(std::uint32_t id) {
+    run_.is_dozer = id == dbc::dozer::BladeStroke::kId || id == dbc::dozer::EcuGrade::kId;
+    is_kind_known_ = run_.is_dozer || id == dbc::excavator::BoomStroke::kId ||
+                     id == dbc::excavator::EcuHydraulics::kId;
+    if (is_kind_known_) {
+      run_.channel.assign(channel_table(run_.is_dozer).size(), {});
+    }
+  }
+
   LimitCount& limits() {
     if (!limits_) {
       limits_.emplace(run_.is_dozer ? dozer_actuators() : excavator_actuators());

@@ -131,9 +131,10 @@ struct BusTable {
   std::size_t send_count = 0;
   std::array<TableSink, kMostTableSinks> sink{};
   std::size_t sink_count = 0;
-  bool own_frames = false;  ///< The machine's end speaks our DBC beside it.
-  bool has_engine = false;  ///< A source is the engine's speed.
-  bool has_cut = false;     ///< A sink is the pilot cut.
+  bool own_frames = false;     ///< The machine's end speaks our DBC beside it.
+  bool has_engine = false;     ///< A source is the engine's speed.
+  bool has_cut = false;        ///< A sink is the pilot cut.
+  std::uint8_t bus_count = 0;  ///< Of buses that its messages are told apart by; 0: any number.
 
   [[nodiscard]] constexpr bool empty() const { return message_count + send_count == 0; }
 };

@@ -79,6 +79,10 @@ void load_bucket(plant::LinkBody& bucket, double mass_kg, const Eigen::Vector2d&
 /// As if its profile named the bus, and every stand-in for what that lacks.
 void put_on_bus(const std::string& name, SimulatedExcavator& machine) {
   const BusFile bus = load_bus(find_bus(name));
+  if (!bus.table.own_frames && (machine.profile.has_swing() || machine.profile.imu.known())) {
+    throw std::runtime_error(fmt::format(
+        "--bus {}: it carries no swing and no IMUs; allowed: a machine without them", name));
+  }
   machine.bus = bus.table;
   machine.bus_speaks = bus.speaks;
   machine.profile.bus = bus.capabilities;

@@ -3,7 +3,12 @@
 
 #include "app/machines/bus_file.hpp"
 
+#include <fstream>
+#include <iterator>
+
 #include "app/machines/dbc_layout.hpp"
+#include "app/machines/excavator_file.hpp"
+#include "app/machines/profile_file.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/design/written_file.hpp"
 
@@ -140,6 +145,148 @@ void a_dbc_gives_the_layout(void**) {
               {"(line 5)", "has no message 'MachinState'"});
 }
 
+std::string zx200_text() {
+  std::ifstream file(machines::find_bus("zx200"));
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void what_is_sent_has_bits_and_ids_of_its_own(void**) {
+  const std::string whole = zx200_text();
+  assert_says(with(whole, "\"BoomDown\"\nstart = 8", "\"BoomDown\"\nstart = 7"),
+              {"message PilotPressureCmd1, signal BoomDown", "signal[1]", "bits overlap"});
+  assert_says(with(whole, "start = 28\nwidth = 4", "start = 56\nwidth = 4"),
+              {"signal FrontSignalSwitch", "bits overlap", "the counter"});
+  const std::string command = "id = 0x18FF640A\nperiod = 0.010\nprotection = ";
+  assert_says(with(whole, command + "\"none\"", command + "\"e2e\"\ndata_id = 7"),
+              {"signal BoomUp", "bits overlap", "the CRC"});
+  assert_says(with(whole, "0x18FF660A", "0x18FF640A"),
+              {"message MachineSettingCmd", "id 0x18FF640A", "another message of this file"});
+  assert_says(with(whole, "0x18FF660A", "0x18FF7DE8"), {"send[1]", "another message of this file"});
+  for (const char* own : {"0x0CFF3082", "0x18FF3182", "0x0CFF2781"}) {
+    assert_says(with(whole, "0x18FF640A", own), {"send[0]", "a message of our own bus"});
+  }
+  assert_says(with(whole, "0x18FF7DE8", "0x0CFF2781"), {"receive[0]", "a message of our own bus"});
+}
+
+void neutral_and_full_can_be_sent(void**) {
+  const std::string whole = zx200_text();
+  const std::string first = "from = \"extend\"\nof = \"boom\"\nscale = 0.004\n";
+  const auto first_as = [&](const char* now) { return with(whole, first, now); };
+  assert_says(first_as("from = \"duty\"\nof = \"boom\"\nscale = 0.004\n"),
+              {"signal BoomUp", "scale", "-1 is raw -250", "allowed: 0 .. 255"});
+  assert_says(first_as("from = \"extend\"\nof = \"boom\"\nscale = 0.0004\n"),
+              {"scale", "1 is raw 2500", "allowed: 0 .. 255"});
+  assert_says(first_as("from = \"extend\"\nof = \"boom\"\nscale = 0.1\n"),
+              {"one step is 0.1; allowed: at most 0.02"});
+  assert_says(first_as("from = \"extend\"\nof = \"boom\"\nscale = 0.01\noffset = -0.2\n"),
+              {"offset", "neutral is raw 20; allowed: 0"});
+  assert_says(with(whole, "from = \"enable\"", "from = \"enable\"\nscale = -1.0"),
+              {"signal FrontSignalSwitch", "1 is raw -1", "allowed: 0 .. 15"});
+  assert_says(with(whole, "value = 180", "value = 256"), {"raw 256", "allowed: 0 .. 255"});
+}
+
+void nothing_that_moves_is_late_unsaid(void**) {
+  const std::string whole = zx200_text();
+  assert_says(with(whole, "timeout = 0.035", "timeout = 0.06"),
+              {"message FrontAngle", "timeout", "allowed: 0.01 .. 0.05 s"});
+  assert_says(with(whole, "timeout = 0.160", "timeout = 1.1"),
+              {"message MachineState", "timeout", "allowed: 0.01 .. 1 s"});
+  assert_says(with(whole, "0x18FF660A\nperiod = 0.050", "0x18FF660A\nperiod = 0.11"),
+              {"message MachineSettingCmd", "period", "allowed: 0.01 .. 0.1 s"});
+}
+
+void interfaces_are_counted_and_told_apart(void**) {
+  const std::string on = with(kMessage, "period", "interface = \"b\"\nperiod");
+  const std::string a = "[[interface]]\nname = \"a\"\n";
+  const std::string b = "[[interface]]\nname = \"b\"\n";
+  const WrittenFile file("bus.toml", kHead + a + b + on + kSignal);
+  const machines::BusFile bus = machines::load_bus(file.path());
+  assert_int_equal(bus.table.bus_count, 2);
+  assert_int_equal(bus.table.message[0].bus, 1);
+  assert_says(kHead + b + b + on + kSignal, {"interface[1].name", "that of another interface"});
+}
+
+void a_swash_is_of_both_pumps(void**) {
+  const auto swash = [](int pump) {
+    return "[[send.signal]]\nsignal = \"Swash\"\nstart = " + std::to_string(8 * pump) +
+           "\nwidth = 8\nfrom = \"swash\"\nof = \"pump" + std::to_string(pump) +
+           "\"\nscale = 0.005\n";
+  };
+  const std::string one =
+      zx200_text() +
+      "[[send]]\nmessage = \"Swash\"\nid = 0x18FF670A\nperiod = 0.02\nprotection = \"none\"\n" +
+      swash(1);
+  const WrittenFile first("bus.toml", one);
+  assert_false(machines::load_bus(first.path()).capabilities.swash_command);
+  const WrittenFile second("bus.toml", one + swash(2));
+  assert_true(machines::load_bus(second.path()).capabilities.swash_command);
+}
+
+std::string dbc_refusal(const std::string& text) {
+  const WrittenFile file("bus.dbc", text);
+  return refusal_of([&] { static_cast<void>(machines::read_dbc(file.path())); });
+}
+
+void a_dbc_is_read_with_care(void**) {
+  const std::string message = "BO_ 2147483749 Angle: 8 Other\n";
+  const std::string begin = " SG_ Boom : 0|16@1+ ";
+  const std::string signal = begin + "(0.1,0) [0|1] \"\" Other\n";
+  const WrittenFile crlf("bus.dbc",
+                         "BO_ 2147483749 Angle: 8 Other\r\n" + begin +
+                             "(0.1,0) [0|1] \"\" Other\r\nSIG_VALTYPE_ 2147483749 Boom : 1;\r\n");
+  const auto read = machines::read_dbc(crlf.path());
+  assert_int_equal(read.size(), 1);
+  assert_int_equal(read[0].id, 101);
+  assert_false(read[0].signal[0].supported);
+  const auto assert_refused = [](const std::string& text, const char* why) {
+    const std::string error = dbc_refusal(text);
+    if (!has(error, why)) {
+      fail_msg("no \"%s\" in: %s", why, error.c_str());
+    }
+  };
+  assert_refused(message + signal + signal, ":3: a second signal of this name");
+  assert_refused(message + message, ":2: a second message of this name");
+  assert_refused(message + "BO_ 2147483749 Other: 8 Other\n",
+                 ":2: its id is that of message Angle");
+  assert_refused("BO_ 2048 Angle: 8 Other\n", "allowed: at most 0x7FF");
+  assert_refused("BO_ 3758096384 Angle: 8 Other\n", "allowed: at most 0x1FFFFFFF");
+  assert_refused(message + begin + "(0.1x,0) [0|1] \"\" Other\n", "'0.1x' is no number");
+  assert_refused(message + begin + "(nan,0) [0|1] \"\" Other\n", "'nan' is no number");
+  assert_refused(message + begin + "(0,0) [0|1] \"\" Other\n", "scale 0");
+  assert_refused(message + begin + "(1,0) [0|1] \"" + std::string(80000, 'A') + "\" Other\n",
+                 "allowed: at most 4096");
+  const std::string folder = refusal_of([] { static_cast<void>(machines::read_dbc(".")); });
+  assert_true(has(folder, "is a folder"));
+}
+
+/// Longer than a matcher by recursion bears.
+void a_key_of_any_length_is_refused(void**) {
+  assert_says(kHead + kMessage + std::string(80000, 'A') + " = 1\n" + kSignal,
+              {"message Engine", "unknown"});
+}
+
+/// Of a machine on a bus of its own, which is beside it.
+std::uint32_t hash_on(const std::string& bus) {
+  std::ifstream shipped(machines::find_profile("excavator_22t"));
+  std::string profile{std::istreambuf_iterator<char>(shipped), {}};
+  for (const char* of_swash : {"swash_on_demand =", "pump_power ="}) {
+    profile = with(profile, of_swash, std::string("# ") + of_swash);  // The bus takes no swash.
+  }
+  const WrittenFile beside("other.toml", bus);
+  const WrittenFile file(
+      "machine.toml",
+      "bus = \"other\"\nstand_in = {identity = \"profile\", spool_feedback = \"pilot\", "
+      "swash_feedback = \"command\", swash_command = \"profile\", protection = \"range\"}\n" +
+          profile);
+  return machines::load_excavator(file.path()).hash;
+}
+
+void a_profile_of_another_bus_is_another(void**) {
+  const std::string bus = zx200_text();
+  assert_true(hash_on(bus) == hash_on("# a comment\n" + bus));
+  assert_true(hash_on(bus) != hash_on(with(bus, "timeout = 0.035", "timeout = 0.030")));
+}
+
 }  // namespace
 
 int main() {
@@ -149,6 +296,14 @@ int main() {
       cmocka_unit_test(a_protection_needs_its_bits),
       cmocka_unit_test(the_zx200_profile_fits_its_dbc),
       cmocka_unit_test(a_dbc_gives_the_layout),
+      cmocka_unit_test(what_is_sent_has_bits_and_ids_of_its_own),
+      cmocka_unit_test(neutral_and_full_can_be_sent),
+      cmocka_unit_test(nothing_that_moves_is_late_unsaid),
+      cmocka_unit_test(interfaces_are_counted_and_told_apart),
+      cmocka_unit_test(a_swash_is_of_both_pumps),
+      cmocka_unit_test(a_dbc_is_read_with_care),
+      cmocka_unit_test(a_key_of_any_length_is_refused),
+      cmocka_unit_test(a_profile_of_another_bus_is_another),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -13,8 +13,8 @@ using Errors = std::vector<std::string>;
 
 const std::vector<KnownBus>& buses() {
   static const std::vector<KnownBus> all = [] {
-    std::vector<KnownBus> made = {
-        {"graben", {}}, {"mute", {}}, {"bare", {}}, {"slow", {}}, {"levers", {}}};
+    std::vector<KnownBus> made = {{"graben", {}}, {"mute", {}},   {"bare", {}},
+                                  {"slow", {}},   {"levers", {}}, {"foreign", {}, false}};
     made[1].capabilities.spool_feedback = false;
     made[1].capabilities.valve_echo = false;
     made[2].capabilities = {false, false, false, false, false, 0.0};
@@ -62,7 +62,7 @@ void our_own_is_the_default(void**) {
 }
 
 void another_name_is_refused_with_those_that_are_known(void**) {
-  assert_refused("bus = \"canopen\"", "bus", "graben, mute, bare, slow, levers");
+  assert_refused("bus = \"canopen\"", "bus", "graben, mute, bare, slow, levers, foreign");
 }
 
 void what_is_lacking_has_its_stand_in(void**) {
@@ -117,6 +117,12 @@ void the_dead_time_covers_the_latency(void**) {
   assert_refused("bus = \"slow\"", "bus", "dead time");
 }
 
+void swing_and_imus_need_our_frames(void**) {
+  assert_true(read("bus = \"foreign\"").errors.empty());
+  assert_refused("bus = \"foreign\"\nvalve = {swing = {x = 1}}", "valve.swing", "no swing");
+  assert_refused("bus = \"foreign\"\nimu = {x = 1}", "imu", "no IMUs");
+}
+
 }  // namespace
 
 int main() {
@@ -129,6 +135,7 @@ int main() {
       cmocka_unit_test(a_machine_may_have_no_such_sensor),
       cmocka_unit_test(nothing_stands_in_for_what_is_there),
       cmocka_unit_test(the_dead_time_covers_the_latency),
+      cmocka_unit_test(swing_and_imus_need_our_frames),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
