@@ -75,7 +75,11 @@ DbcMessage message_of(const std::smatch& words) {
   if (id > most && words[2] != kNoMessage) {
     refuse_line(fmt::format("id 0x{:X}; allowed: at most 0x{:X}", id, most));
   }
-  return {words[2], id, extended, static_cast<int>(std::min(dbc_whole(words[3]), 64U)), {}};
+  return {words[2],
+          id,
+          extended,
+          static_cast<int>(std::min<std::uint32_t>(dbc_whole(words[3]), 64U)),
+          {}};
 }
 
 DbcSignal signal_of(const std::smatch& words) {

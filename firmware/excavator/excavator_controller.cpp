@@ -306,8 +306,9 @@ void ExcavatorController::demand_pumps(const ExcavatorValid& valid, const Motion
       period_s, memory_.pumps);
   if (active && motion.tries && profile_.demand_swash.most_ratio > 0.0) {
     // With less, a load that takes all that a line has hides how its valve opens.
-    std::fill_n(memory_.pumps.swash_ratio.begin(), profile_.pump_count,
-                profile_.demand_swash.most_ratio);
+    for (unsigned j = 0; j < static_cast<unsigned>(profile_.pump_count); ++j) {
+      memory_.pumps.swash_ratio[j] = profile_.demand_swash.most_ratio;
+    }
   }
 }
 
