@@ -12,28 +12,38 @@ namespace {
 
 bool is_share(double ratio) { return std::isfinite(ratio) && ratio > 0.0; }
 
-double value_of(const TableSink& sink, const ExcavatorOutputs& outputs) {
-  const bool moves = may_move(outputs);
-  const double duty_ratio = moves ? outputs.duty_ratio[sink.index] : 0.0;
-  switch (sink.place) {
-    case SinkPlace::kConstant:
-      break;
-    case SinkPlace::kEnable:
-      return moves ? 1.0 : 0.0;
-    case SinkPlace::kPilotCut:
-      return outputs.pilot_known && outputs.pilot_cut ? 1.0 : 0.0;
-    case SinkPlace::kDuty:
-      return duty_ratio;
+double of_drive(SinkPlace place, double duty_ratio) {
+  switch (place) {
     case SinkPlace::kExtend:
       return std::max(0.0, duty_ratio);
     case SinkPlace::kRetract:
       return std::max(0.0, -duty_ratio);
+    default:
+      return duty_ratio;
+  }
+}
+
+double of_machine(const TableSink& sink, const ExcavatorOutputs& outputs, bool moves) {
+  switch (sink.place) {
+    case SinkPlace::kEnable:
+      return moves ? 1.0 : 0.0;
+    case SinkPlace::kPilotCut:
+      return outputs.pilot_known && outputs.pilot_cut ? 1.0 : 0.0;
     case SinkPlace::kSwash: {
       const double swash_ratio = outputs.swash_ratio[sink.index % kPumpCount];
       return moves && is_share(swash_ratio) ? swash_ratio : 0.0;
     }
+    default:
+      return 0.0;
   }
-  return 0.0;
+}
+
+double value_of(const TableSink& sink, const ExcavatorOutputs& outputs) {
+  const bool moves = may_move(outputs);
+  const bool drives = sink.place == SinkPlace::kDuty || sink.place == SinkPlace::kExtend ||
+                      sink.place == SinkPlace::kRetract;
+  return drives ? of_drive(sink.place, moves ? outputs.duty_ratio[sink.index] : 0.0)
+                : of_machine(sink, outputs, moves);
 }
 
 /// Of a constant the offset is the raw value.
