@@ -7,6 +7,7 @@
 #include <functional>
 #include <stdexcept>
 
+#include "app/reports/figure/figure_table.hpp"
 #include "app/reports/figure/paper_figures.hpp"
 #include "firmware/excavator/field/rounded_rectangle.hpp"
 #include "firmware/numeric/constants.hpp"
@@ -218,13 +219,7 @@ constexpr std::array<std::pair<const char*, Draw>, 7> kFigures = {{{"kim9", kim9
 }  // namespace
 
 const std::vector<std::string>& kim_figure_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const auto& [name, draw] : kFigures) {
-      all.emplace_back(name);
-    }
-    return all;
-  }();
+  static const std::vector<std::string> names = names_of(kFigures);
   return names;
 }
 
@@ -239,9 +234,7 @@ PaperFigure kim_figure(const std::string& name, const machines::SimulatedExcavat
     throw std::runtime_error(fmt::format("--figure {}: is of a run in soil; add --soil", name));
   }
   const Run run{machine, result, summary};
-  const auto* drawn = std::find_if(kFigures.begin(), kFigures.end(),
-                                   [&](const auto& figure) { return name == figure.first; });
-  PaperFigure figure = drawn->second(run, on_path(run));
+  PaperFigure figure = draw_of(kFigures, name)(run, on_path(run));
   figure.name = name;
   figure.caption = fmt::format("Kim et al., Fig. {}. {} Here: simulated {}.", name.substr(3),
                                figure.caption, machine.name);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "app/machines/axis_names.hpp"
+#include "app/reports/figure/figure_table.hpp"
 #include "app/reports/figure/paper_figures.hpp"
 #include "firmware/numeric/constants.hpp"
 
@@ -181,13 +182,7 @@ constexpr std::array<std::pair<const char*, Draw>, 6> kFigures = {{{"zhang5", zh
 }  // namespace
 
 const std::vector<std::string>& zhang_figure_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const auto& [name, draw] : kFigures) {
-      all.emplace_back(name);
-    }
-    return all;
-  }();
+  static const std::vector<std::string> names = names_of(kFigures);
   return names;
 }
 
@@ -199,9 +194,7 @@ PaperFigure zhang_figure(const std::string& name, const std::string& machine,
                     "(2.244, 3.886, 0) m at 70; excavator_12t has it without --from and --to",
                     name));
   }
-  const auto* drawn = std::find_if(kFigures.begin(), kFigures.end(),
-                                   [&](const auto& figure) { return name == figure.first; });
-  PaperFigure figure = drawn->second(samples);
+  PaperFigure figure = draw_of(kFigures, name)(samples);
   figure.name = name;
   figure.caption = fmt::format("Zhang et al., Fig. {}. {} Here: planned for {}.", name.substr(5),
                                figure.caption, machine);

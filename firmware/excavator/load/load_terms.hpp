@@ -14,7 +14,7 @@ namespace graben {
 /// Places of the terms; of an axis or link each, in their order.
 inline constexpr int kOffsetTerm = 0;    ///< Of the pressures, as a force, N.
 inline constexpr int kCoulombTerm = 3;   ///< Friction, N.
-inline constexpr int kViscousTerm = 6;   ///< Friction, N s/m.
+inline constexpr int kViscousTerm = 6;   ///< Friction, N s/m; with the hoses' loss at high speed.
 inline constexpr int kMassTerm = 9;      ///< What a link weighs more, of its mass.
 inline constexpr int kLoadTerm = 12;     ///< What the bucket carries, kg.
 inline constexpr int kOutwardTerm = 13;  ///< How much farther outwards it lies, kg m.

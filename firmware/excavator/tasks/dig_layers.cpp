@@ -212,7 +212,8 @@ double filling_m3(const LayerPlan& plan, const CutState& state) {
 
 void weigh_cut(const LayerPlan& plan, double weighed_m3, CutState& state) {
   const int strip = state.last_strip;
-  if (strip >= 0 && state.last_m3 > kTells * plan.full_m3) {
+  // Without pressures nothing is weighed, which says nothing.
+  if (strip >= 0 && weighed_m3 > 0.0 && state.last_m3 > kTells * plan.full_m3) {
     const double yields = weighed_m3 / state.last_m3;
     state.yields =
         std::clamp(state.yields + kBelieved * (yields - state.yields), kYieldsLeast, kYieldsMost);

@@ -90,9 +90,9 @@ struct CutEnd {
 /// left. Cuts after one that was too heavy are less deep, after an easy one deeper.
 void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state);
 
-/// What the last cut has brought was weighed. Less than its edge has passed: the next one takes
-/// more to fill the bucket. More: soil has fallen in from beside it; of a task that is through its
-/// strip is cut once more, kSweepsMost times in all.
+/// What the last cut has brought was weighed; 0: it was not. Less than its edge has passed: the
+/// next one takes more to fill the bucket. More: soil has fallen in from beside it; of a task that
+/// is through its strip is cut once more, kSweepsMost times in all.
 void weigh_cut(const LayerPlan& plan, double weighed_m3, CutState& state);
 
 /// Soil counts as left if it stands higher by so much over a cut; over the design itself; at its

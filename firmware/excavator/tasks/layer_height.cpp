@@ -8,7 +8,8 @@ namespace graben {
 namespace {
 
 constexpr double kRisesAtLeast = 0.25;
-/// Rise of a wall's foot that is left standing; no soil slides on it.
+/// A wall's foot is left standing from so far beyond the line on, and rises by so much: no soil
+/// slides on it.
 constexpr double kFootAt_m = 0.2;
 constexpr double kFoot = 0.5;
 

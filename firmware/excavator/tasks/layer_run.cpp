@@ -22,7 +22,7 @@ constexpr double kFootDown_mps = 0.25;
 constexpr double kEasy = 0.7;
 /// From here on a cut slows down, until it stands at kHoldsAt.
 constexpr double kSlowsAt = 0.9;
-/// A heavy cut that gets on by less, for so long, is ended.
+/// A heavy cut that gets on by less, for so long, is ended; sooner at a wall.
 constexpr double kGetsOn_mps = 0.01;
 constexpr double kHeld_s = 1.0;
 constexpr double kWallHeld_s = 0.6;

@@ -56,9 +56,10 @@ void a_bucket_that_came_back_half_empty_takes_more(void**) {
   const double first_m3 = filling_m3(whole, undug(whole));
   assert_true(filling_after(0.44, 0.33) > 1.05 * first_m3);
   assert_true(filling_after(0.44, 0.44) < 0.97 * first_m3);
-  assert_near(filling_after(0.44, 0.0), 0.4 / 0.75, 1e-9);
+  assert_near(filling_after(0.44, 0.01), 0.4 / 0.75, 1e-9);
+  assert_near(filling_after(0.44, 0.0), first_m3, 1e-12);
   // A little says nothing of a full one.
-  assert_near(filling_after(0.1, 0.0), first_m3, 1e-12);
+  assert_near(filling_after(0.1, 0.01), first_m3, 1e-12);
 }
 
 /// What a last cut can take is not worth a bucket of its own.

@@ -3,19 +3,13 @@
 
 #include <algorithm>
 
-#include "firmware/excavator/tasks/task_follow.hpp"
-#include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/firmware/drive_replay.hpp"
+#include "tests/unit/firmware/layer_machine.hpp"
 
 namespace {
 
 using namespace graben;
+using layer_test::machine;
 using test::kCycle_s;
-
-const test::ReplayMachine& machine() {
-  static const test::ReplayMachine loaded(test::excavator_12t().profile);
-  return loaded;
-}
 
 /// Of a level trench, or of a slope that falls to the machine.
 TaskProgram planned(double near_m, bool touches = true) {
