@@ -84,7 +84,7 @@ class ExcavatorTransmitter : public MessageTransmitter<ExcavatorTransmission> {
   explicit ExcavatorTransmitter(const BusParts& parts = {})
       : MessageTransmitter(parts), table_(parts.table) {}
 
-  /// The 29-bit ids of what is ours.
+  /// Whether a table sends commands in messages of this id.
   [[nodiscard]] bool is_table_command(std::uint32_t id) const { return table_.is_command(id); }
 
   [[nodiscard]] int frames(const Outputs& outputs, const EcuDiagnosis& diagnosis, TimeUs now,
