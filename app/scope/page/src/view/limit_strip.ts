@@ -30,6 +30,7 @@ interface KeyRow {
 export class LimitStrip {
   readonly key = el('ul', {class: 'strip-key', 'aria-label': 'What holds lambda, in this window'});
   private spans: Span[] = [];
+  private written: LimitShares['rows'] | null = null;
   private readonly rows = new Rows<KeyRow>(this.key, () => {
     const swatch = el('span', {class: 'swatch block'});
     const words = el('span');
@@ -97,7 +98,15 @@ export class LimitStrip {
       ({from_s, until_s, colour: limit_colour(this.theme, key)}));
   }
 
+  /// Shares are counted later than the strip is drawn: the key follows them.
+  follow(): void {
+    if (this.written !== this.shares.rows) {
+      this.write_key();
+    }
+  }
+
   private write_key(): void {
+    this.written = this.shares.rows;
     const rows = this.rows.take(this.shares.rows.length);
     this.shares.rows.forEach(({key, share}, k) => {
       const row = rows[k]!;

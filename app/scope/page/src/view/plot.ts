@@ -134,6 +134,7 @@ export class Plot {
 
   values(store: FrameStore, time_s: number): void {
     this.legend.values(store, time_s);
+    this.strip?.follow();
   }
 
   /// Of the window that is shown: as it is drawn, or every frame of it.
