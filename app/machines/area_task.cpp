@@ -30,8 +30,15 @@ constexpr double kOver_m = 0.35;
 /// To the left, where nothing is said of where to dump.
 constexpr double kAside_rad = 1.2;
 constexpr double kAsideHeight_m = 1.6;
-/// Beyond the far end, of a machine that can't swing: the heap's foot stays out of the cut.
-constexpr double kBeyond_m = 2.0;
+/// Beyond the far end, of a machine that can't swing: as far as it reaches, so that the heap's foot
+/// stays out of the cut.
+constexpr double kBeyondMost_m = 2.6;
+constexpr double kBeyondStep_m = 0.1;
+constexpr int kBeyondSteps = 12;
+/// Over the far end: a straight way from the heap's top down to the cut would scrape its side.
+constexpr double kOverHeap_m = 1.0;
+/// Of a slope's plane, that far beyond its far end.
+constexpr double kRise_m = 2.0;
 constexpr double kStripsUsual = 3.0;
 /// Strips overlap by this share of the bucket's width.
 constexpr double kOverlap = 0.15;
@@ -82,16 +89,39 @@ double reachable_attitude(const SwingKinematics& kinematics, const Eigen::Vector
   return wanted_rad;
 }
 
-Eigen::Vector3d usual_dump(const Area& area, bool swings) {
-  const double height_m = area.ground_m + kAsideHeight_m;
-  return swings ? at(0.5 * (area.far_m + area.near_m), height_m, area.turn_rad + kAside_rad)
-                : at(area.far_m + kBeyond_m, height_m, area.turn_rad);
+/// Teeth at the dump, about the bucket pin as it is emptied.
+TeethPose dump_pose(const Eigen::Vector3d& dump_m, double bucket_m, double attitude_rad) {
+  const double swing_rad = std::atan2(dump_m.y(), dump_m.x());
+  const double out_m = bucket_m * (std::cos(kEmptied_rad) - std::cos(attitude_rad));
+  const double up_m = bucket_m * (std::sin(kEmptied_rad) - std::sin(attitude_rad));
+  return {at(dump_m.head<2>().norm() + out_m, dump_m.z() + up_m, swing_rad), attitude_rad};
 }
 
-/// A slope's plane rises beyond its far end: from a heap there the teeth come back over it.
+Eigen::Vector3d usual_dump(const Area& area, const ExcavatorProfile& profile) {
+  const double height_m = area.ground_m + kAsideHeight_m;
+  if (profile.has_swing()) {
+    return at(0.5 * (area.far_m + area.near_m), height_m, area.turn_rad + kAside_rad);
+  }
+  const SwingKinematics kinematics(profile.geometry);
+  Eigen::Vector3d dump_m;
+  for (int n = 0; n <= kBeyondSteps; ++n) {
+    dump_m = at(area.far_m + kBeyondMost_m - n * kBeyondStep_m, height_m, area.turn_rad);
+    const auto reaches = [&](double attitude_rad) {
+      const TeethPose pose = dump_pose(dump_m, profile.geometry.bucket_length_m, attitude_rad);
+      return kinematics.drive_from_teeth(pose).blind.kind == BlindKind::kNone;
+    };
+    if (reaches(kCarried_rad) && reaches(kEmptied_rad)) {
+      break;
+    }
+  }
+  return dump_m;
+}
+
+/// From a heap beyond the far end the teeth come back over it, and over the plane of a slope, which
+/// rises there.
 TeethPose over_far_end(const Area& area, double attitude_rad) {
-  const double rises_m = kBeyond_m * std::max(0.0, area.fall_m() / area.run_m());
-  return {at(area.far_m, area.ground_m + kOver_m + rises_m, area.turn_rad), attitude_rad};
+  const double rises_m = kRise_m * std::max(0.0, area.fall_m() / area.run_m());
+  return {at(area.far_m, area.ground_m + kOverHeap_m + rises_m, area.turn_rad), attitude_rad};
 }
 
 Area read_table(TomlReader& reader, const ExcavatorProfile& profile) {
@@ -122,7 +152,7 @@ Area read_table(TomlReader& reader, const ExcavatorProfile& profile) {
         std::lround(reader.number_or(profile.has_swing() ? kStripsUsual : 1.0, "area.strips",
                                      {1.0, static_cast<double>(kStripMost), ""}, "side by side")));
   }
-  area.dump_m = usual_dump(area, profile.has_swing());
+  area.dump_m = usual_dump(area, profile);
   if (reader.has("area.dump")) {
     const std::vector<double> dump =
         reader.numbers("area.dump", kPlace, 3, "teeth as the bucket is emptied: x, y, z");
@@ -137,15 +167,6 @@ Area read_table(TomlReader& reader, const ExcavatorProfile& profile) {
     reader.fail("area", "needs bucket.width and bucket.capacity in the machine's profile");
   }
   return area;
-}
-
-/// Teeth at the dump, about the bucket pin as it is emptied.
-TeethPose dump_pose(const Area& area, double bucket_m, double attitude_rad) {
-  const double swing_rad = std::atan2(area.dump_m.y(), area.dump_m.x());
-  const double out_m = bucket_m * (std::cos(kEmptied_rad) - std::cos(attitude_rad));
-  const double up_m = bucket_m * (std::sin(kEmptied_rad) - std::sin(attitude_rad));
-  return {at(area.dump_m.head<2>().norm() + out_m, area.dump_m.z() + up_m, swing_rad),
-          attitude_rad};
 }
 
 StepRequest move_to(StepKind kind, const TeethPose& to) {
@@ -179,7 +200,7 @@ ProgramRequest read_area(TomlReader& reader, const ExcavatorProfile& profile) {
   dig.strips = area.strips;
   dig.strip_rad = (1.0 - kOverlap) * profile.geometry.body.bucket_width_m / area.far_m;
   const double bucket_m = profile.geometry.bucket_length_m;
-  const TeethPose carried = dump_pose(area, bucket_m, kCarried_rad);
+  const TeethPose carried = dump_pose(area.dump_m, bucket_m, kCarried_rad);
   int next = 1;
   const auto add = [&](const StepRequest& step) {
     request.step[static_cast<unsigned>(next++)] = step;
@@ -190,8 +211,8 @@ ProgramRequest read_area(TomlReader& reader, const ExcavatorProfile& profile) {
     add(move_to(StepKind::kLift, over));
   }
   add(move_to(StepKind::kSwing, carried));
-  add(move_to(StepKind::kDump, dump_pose(area, bucket_m, kEmptied_rad)));
-  if (!profile.has_swing() && area.fall_m() > 0.0) {
+  add(move_to(StepKind::kDump, dump_pose(area.dump_m, bucket_m, kEmptied_rad)));
+  if (!profile.has_swing()) {
     add(move_to(StepKind::kReturnToDig, over_far_end(area, request.start.attitude_rad)));
   }
   add(move_to(StepKind::kReturnToDig, request.start));

@@ -165,7 +165,7 @@ void ExcavatorPlant::push_tip() {
     const BucketForce soil = digging_->step({at_m.x(), at_m.y(), tip.attitude_rad, swing_rad()});
     tip_force_n_ += soil.force_n;
     moment_nm = soil.moment_nm;
-    fill_n_ = soil.fill_n;
+    links_.carry(digging_->fill());
   }
   links_.set_tip_force(tip_force_n_, moment_nm);
 }

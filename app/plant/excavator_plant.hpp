@@ -125,7 +125,7 @@ class ExcavatorPlant {
   /// Whole force on the bucket tip over the last step, N.
   [[nodiscard]] const Eigen::Vector2d& tip_force_n() const { return tip_force_n_; }
   /// The same without the fill's weight.
-  [[nodiscard]] Eigen::Vector2d ground_force_n() const { return tip_force_n_ - fill_n_; }
+  [[nodiscard]] Eigen::Vector2d ground_force_n() const { return tip_force_n_; }
   /// Ground and bucket; null where the ground is not one that is cut.
   [[nodiscard]] const BucketSoil* digging() const { return digging_ ? &*digging_ : nullptr; }
   /// Null without one.
@@ -180,7 +180,6 @@ class ExcavatorPlant {
   std::optional<BucketSoil> digging_;
   Eigen::Vector2d outer_force_n_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d tip_force_n_ = Eigen::Vector2d::Zero();
-  Eigen::Vector2d fill_n_ = Eigen::Vector2d::Zero();  ///< Weight of what the bucket has cut.
   std::array<SectionFlows, kDriveCount> flows_{};
   double peak_chamber_pressure_pa_ = 0.0;
   EnergyAccount* account_ = nullptr;

@@ -17,6 +17,7 @@
 #include "app/plant/hydraulics.hpp"
 #include "app/plant/pump_line.hpp"
 #include "app/plant/soil/digging_profile.hpp"
+#include "app/plant/link_body.hpp"
 #include "app/plant/spool.hpp"
 #include "app/plant/swing_drive.hpp"
 #include "app/plant/valve_section.hpp"
@@ -24,13 +25,6 @@
 #include "firmware/excavator/excavator_profile.hpp"
 
 namespace graben::plant {
-
-/// One link as a rigid body in the sagittal plane.
-struct LinkBody {
-  double mass_kg = 0.0;
-  double inertia_kgm2 = 0.0;  ///< About the mass centre, out of plane.
-  Eigen::Vector2d mass_centre_m = Eigen::Vector2d::Zero();  ///< Link frame, x from pin to pin.
-};
 
 /// Kim 5. Ratios are of `pressure_range_pa`. A zero is what a sensor shows where the truth is 0,
 /// always; a bias is drawn beside it.

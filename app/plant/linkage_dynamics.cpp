@@ -70,9 +70,17 @@ void SwingInertia::update(const JointRotations& joint) {
 LinkageDynamics::LinkageDynamics(const ExcavatorPlantProfile& profile)
     : geometry_(profile.machine.geometry),
       body_(profile.link),
+      empty_bucket_(profile.link[kBucket]),
       link_length_{profile.machine.geometry.boom_length_m, profile.machine.geometry.arm_length_m,
                    profile.machine.geometry.bucket_length_m},
       gravity_(profile.gravity_mps2) {
+  set_pivot_inertias();
+  if (profile.machine.has_swing()) {
+    swing_.emplace(profile);
+  }
+}
+
+void LinkageDynamics::set_pivot_inertias() {
   double carried = 0.0;
   for (std::size_t i = kAxisCount; i-- > 0;) {
     pivot_inertia_[i] = body_[i].inertia_kgm2 +
@@ -80,9 +88,19 @@ LinkageDynamics::LinkageDynamics(const ExcavatorPlantProfile& profile)
                         carried * link_length_[i] * link_length_[i];
     carried += body_[i].mass_kg;
   }
-  if (profile.machine.has_swing()) {
-    swing_.emplace(profile);
+}
+
+void LinkageDynamics::carry(const LinkBody& fill) {
+  if (fill.mass_kg == fill_kg_) {
+    return;
   }
+  fill_kg_ = fill.mass_kg;
+  body_[kBucket] = together(empty_bucket_, fill);
+  set_pivot_inertias();
+  if (swing_) {
+    swing_->set_bucket(body_[kBucket]);
+  }
+  update();
 }
 
 void LinkageDynamics::start(const JointArray& angle_rad, const JointArray& rate_radps) {

@@ -23,6 +23,8 @@ class SwingInertia {
  public:
   explicit SwingInertia(const ExcavatorPlantProfile& profile);
 
+  void set_bucket(const LinkBody& bucket) { body_[kBucket] = bucket; }
+
   /// To these joints, relative as the joint angles.
   void update(const JointRotations& joint);
 
@@ -60,6 +62,9 @@ class LinkageDynamics {
     tip_force_ = force_n;
     bucket_moment_nm_ = moment_nm;
   }
+  /// What the bucket carries, in the bucket's frame, constant until changed. A change of it changes
+  /// no rate: what comes in is taken to move already.
+  void carry(const LinkBody& fill);
   /// At the instant of the angles; without a swing drive of no effect.
   void set_swing_rate(double rate_radps) { swing_rate_ = rate_radps; }
 
@@ -97,6 +102,7 @@ class LinkageDynamics {
   };
 
   void update();
+  void set_pivot_inertias();
   [[nodiscard]] Matrix3 mass_matrix() const;
   [[nodiscard]] JointArray generalised_force(const JointArray& rate_radps) const;
   void add_friction(const Matrix3& inverse, const std::array<PistonLoad, kAxisCount>& load,
@@ -104,6 +110,8 @@ class LinkageDynamics {
 
   LinkageGeometry geometry_;
   std::array<LinkBody, kAxisCount> body_;
+  LinkBody empty_bucket_;
+  double fill_kg_ = 0.0;
   JointArray link_length_;
   JointArray pivot_inertia_{};  ///< Of each link about its pin, what it carries as a point mass.
   double gravity_;

@@ -68,14 +68,6 @@ void lay_ground(const Scenario& scenario, const ExcavatorGeometry& geometry, dou
   plant.digging->gravity_mps2 = plant.gravity_mps2;
 }
 
-void load_bucket(plant::LinkBody& bucket, double mass_kg, const Eigen::Vector2d& centre_m) {
-  const double total_kg = bucket.mass_kg + mass_kg;
-  const double reduced_kg = bucket.mass_kg * mass_kg / total_kg;
-  bucket.inertia_kgm2 += reduced_kg * (centre_m - bucket.mass_centre_m).squaredNorm();
-  bucket.mass_centre_m = (bucket.mass_kg * bucket.mass_centre_m + mass_kg * centre_m) / total_kg;
-  bucket.mass_kg = total_kg;
-}
-
 /// As if its profile named the bus, and every stand-in for what that lacks.
 void put_on_bus(const std::string& name, SimulatedExcavator& machine) {
   const BusFile bus = load_bus(find_bus(name));
@@ -168,7 +160,8 @@ SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario
   if (scenario.air) {
     machine.profile.dig_path = experiment.air.path;
     machine.profile.dig_speed_mps = experiment.air.speed_mps;
-    load_bucket(plant.link[kBucket], experiment.air.payload_kg, experiment.air.payload_centre_m);
+    plant.link[kBucket] = plant::together(
+        plant.link[kBucket], {experiment.air.payload_kg, 0.0, experiment.air.payload_centre_m});
   }
   if (parameter_errors) {
     vary_parameters(machine.profile, experiment.uncertainty, scenario.seed);

@@ -31,9 +31,11 @@ constexpr double kEmpty_rad = 1.75;
 constexpr double kPours_s = 0.4;
 /// So much soil before the opening keeps the fill in.
 constexpr double kKeeps_m = 0.10;
-/// The middle of the fill, of the line edge to pin: along it, and below it.
-constexpr double kMiddleAlong = 0.45;
+/// The middle of the fill, of the line pin to edge: along it, and below it; and its radius of
+/// gyration, that of a block of 0.9 by 0.6 of the line.
+constexpr double kMiddleAlong = 0.55;
 constexpr double kMiddleBelow = 0.20;
+constexpr double kGyration = 0.31;
 /// Over the width no cell is stepped over, whichever way the bucket stands to the cells.
 constexpr double kAcross_m = 0.5 * HeightField::kCell_m;
 
@@ -66,6 +68,13 @@ BucketSoil::BucketSoil(const DiggingProfile& profile, std::uint64_t seed, double
 
 double BucketSoil::fill_kg() const {
   return fill_m3_ * profile_.soil.density_kgpm3 / profile_.soil.swell;
+}
+
+LinkBody BucketSoil::fill() const {
+  const double length_m = profile_.pin_m;
+  const double gyration_m = kGyration * length_m;
+  return {fill_kg(), fill_kg() * gyration_m * gyration_m,
+          length_m * Eigen::Vector2d(kMiddleAlong, kMiddleBelow)};
 }
 
 /// Over the ground frame, of a point at this radius and so much to the left of the links' plane.
@@ -276,13 +285,6 @@ BucketForce BucketSoil::step(const BucketPlace& place) {
                                                     : Eigen::Vector2d(Eigen::Vector2d::Zero());
     sum.force_n += -kSpring_npm * away_m + share * yield_n_.y() * turned(way);
   }
-  const Eigen::Vector2d along = direction(place.attitude_rad);
-  const Eigen::Vector2d middle_m =
-      profile_.pin_m * (kMiddleAlong * along - kMiddleBelow * turned(along));
-  const Eigen::Vector2d weight_n(0.0, -fill_kg() * profile_.gravity_mps2);
-  sum.force_n += weight_n;
-  sum.fill_n = weight_n;
-  sum.moment_nm += cross(middle_m, weight_n);
   return sum;
 }
 

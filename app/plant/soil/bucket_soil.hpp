@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 
+#include "app/plant/link_body.hpp"
 #include "app/plant/random.hpp"
 #include "app/plant/soil/cutting.hpp"
 #include "app/plant/soil/digging_profile.hpp"
@@ -26,14 +27,13 @@ struct BucketPlace {
 struct BucketForce {
   Eigen::Vector2d force_n = Eigen::Vector2d::Zero();
   double moment_nm = 0.0;
-  Eigen::Vector2d fill_n = Eigen::Vector2d::Zero();  ///< What of the force is the fill's weight.
 };
 
 /// The force on the edge is that of an elastic soil that yields: towards any side it holds the edge
 /// with the force that it takes to cut there, and no more. So it resists motion, has no power over
 /// a bucket at rest, and springs back by a few millimetres. Beside it the floor bears on what it
-/// stands on, and the fill weighs. Left out: the fill's inertia, the soil's force across the plane
-/// of the links, and suction.
+/// stands on. What the bucket carries is a mass that moves with it. Left out: what it takes to set
+/// soil in motion as it comes in, the soil's force across the plane of the links, and suction.
 class BucketSoil {
  public:
   BucketSoil(const DiggingProfile& profile, std::uint64_t seed, double step_s);
@@ -46,6 +46,8 @@ class BucketSoil {
   [[nodiscard]] const HeightField& ground() const { return ground_; }
   [[nodiscard]] double fill_m3() const { return fill_m3_; }  ///< Loose.
   [[nodiscard]] double fill_kg() const;
+  /// What the bucket carries, in the bucket's link frame.
+  [[nodiscard]] LinkBody fill() const;
   [[nodiscard]] double cut_m3() const { return cut_m3_; }  ///< Of undisturbed soil, so far.
   [[nodiscard]] const DiggingProfile& profile() const { return profile_; }
 

@@ -10,8 +10,6 @@ namespace {
 constexpr double kGravity_mps2 = 9.81;
 /// Slower, the sign of friction is not known.
 constexpr double kMoves_mps = 0.006;
-/// From this speed on hoses between transducer and chamber lose more than seals.
-constexpr double kHoses_mps = 0.10;
 
 void pass(const Eigen::Vector3d& seen, double period_s, bool restart, PairedFilter& filter) {
   if (restart) {
@@ -47,7 +45,9 @@ void next_balance(const ExcavatorProfile& profile, const LoadSeen& seen, double 
     TermRow& row = balance.row[static_cast<unsigned>(axis)];
     row.share = {1.0,
                  side,
-                 balance.speed_mps[axis] * (1.0 + std::abs(balance.speed_mps[axis]) / kHoses_mps),
+                 balance.speed_mps[axis] *
+                     (1.0 + std::abs(balance.speed_mps[axis]) /
+                                hoses_mps(profile.geometry.cylinder[static_cast<unsigned>(axis)])),
                  0.0,
                  0.0,
                  0.0,

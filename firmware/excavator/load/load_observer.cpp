@@ -14,7 +14,7 @@ namespace {
 constexpr double kNoise = 0.02;
 constexpr double kLeverOff = 0.01;
 /// Blocks follow each other with what is not noise in them; each tells so much less than it seems.
-constexpr double kAlike = 4.0;
+constexpr double kAlike = 1.5;
 /// An axis that stands tells the less: its friction is the same all the time.
 constexpr double kStands = 4.0;
 /// Farther from what is expected, something touches the bucket.
@@ -40,8 +40,12 @@ constexpr double kLoose_kgpm3 = 1300.0;
 constexpr double kHeap = 0.83;
 /// Higher no bucket pours on: what comes to more has been carried away, or lies elsewhere.
 constexpr double kHeapMost_m = 1.6;
-/// Blocks until a payload is told.
-constexpr int kWeighed = 5;
+/// A payload is told after so many readings of an axis that moves, once its deviation is less than
+/// this share of a full bucket.
+constexpr int kWeighed = 10;
+constexpr double kTold = 0.12;
+/// So many blocks in a row that don't go with a payload: it was learnt from what was no payload.
+constexpr int kRefusedMost = 4;
 /// More than this is left aside: an axis that stands has friction of any sign.
 constexpr double kSteady = 0.99;
 static_assert(kLoadBlock == 3 * kAxisCount + 1, "a piece of the work for each cycle");
@@ -58,6 +62,17 @@ double noise_n(const ExcavatorProfile& profile, int axis) {
          std::hypot(cylinder.cap_area_m2(), cylinder.rod_area_m2());
 }
 
+void forget_load(const ExcavatorGeometry& geometry, LoadTerms& terms) {
+  const double most_kg = fill_kg(geometry);
+  set_term(kLoadTerm, most_kg, 4.0 * most_kg, terms);
+  set_term(kOutwardTerm, 0.0, 2.0 * kOutwardSd_m * most_kg, terms);
+}
+
+bool is_weighed(const ExcavatorGeometry& geometry, const LoadObserver& observer) {
+  const double least_kg = kTold * fill_kg(geometry);
+  return observer.weighed >= kWeighed && observer.terms.variance(kLoadTerm) < least_kg * least_kg;
+}
+
 void enter(LoadPhase phase, const ExcavatorGeometry& geometry, LoadObserver& observer) {
   const double most_kg = fill_kg(geometry);
   LoadTerms& terms = observer.terms;
@@ -67,8 +82,7 @@ void enter(LoadPhase phase, const ExcavatorGeometry& geometry, LoadObserver& obs
       set_term(kOutwardTerm, 0.0, kEmptySd_kg, terms);
       break;
     case LoadPhase::kCarries:
-      set_term(kLoadTerm, most_kg, 4.0 * most_kg, terms);
-      set_term(kOutwardTerm, 0.0, 2.0 * kOutwardSd_m * most_kg, terms);
+      forget_load(geometry, terms);
       break;
     case LoadPhase::kHangs:
       set_term(kLoadTerm, 0.0, kHangs * most_kg, terms);
@@ -84,13 +98,14 @@ void enter(LoadPhase phase, const ExcavatorGeometry& geometry, LoadObserver& obs
     case LoadPhase::kPours:
       break;
   }
-  if (observer.weighed >= kWeighed && phase == LoadPhase::kPours) {
+  if (phase == LoadPhase::kPours && is_weighed(geometry, observer)) {
     observer.last_fill_kg = std::max(0.0, terms.value[kLoadTerm]);
     observer.poured_kg += observer.last_fill_kg;
     observer.phase.heap_m =
         std::min(kHeap * cube_root(observer.poured_kg / kLoose_kgpm3), kHeapMost_m);
   }
   observer.weighed = 0;
+  observer.refused = 0;
   observer.cycle = 0;
   observer.filling = {};
   observer.full_phase = LoadPhase::kUnsaid;
@@ -133,6 +148,14 @@ SeenForce seen_of(const ExcavatorProfile& profile, int axis, const LoadObserver&
 void judge_axis(const ExcavatorProfile& profile, int axis, LoadObserver& observer) {
   if (!is_likely(axis, seen_of(profile, axis, observer), kGate, observer.terms)) {
     observer.full_phase = LoadPhase::kUnsaid;
+    ++observer.refused;
+  } else if (axis == kBucket) {
+    observer.refused = 0;
+  }
+  if (observer.refused == kRefusedMost && observer.phase.phase == LoadPhase::kCarries) {
+    forget_load(profile.geometry, observer.terms);
+    observer.refused = 0;
+    observer.weighed = 0;
   }
 }
 
@@ -143,7 +166,7 @@ void learn_axis(const ExcavatorProfile& profile, int axis, LoadObserver& observe
     return;
   }
   learn(axis, seen, observer.terms);
-  observer.weighed += axis == kBoom ? 1 : 0;
+  observer.weighed += steady ? 1 : 0;
 }
 
 /// One axis' row of what is open in the balances.
@@ -210,7 +233,7 @@ void work(const ExcavatorProfile& profile, const LoadBalance& balance, double sh
   }
 }
 
-void tell(const LoadBalance& balance, LoadObserver& observer) {
+void tell(const ExcavatorProfile& profile, const LoadBalance& balance, LoadObserver& observer) {
   Eigen::Vector3d left_n = balance.force_n;
   for (int axis = 0; axis < kAxisCount; ++axis) {
     left_n[axis] -= force_of(axis, balance.row[static_cast<unsigned>(axis)], observer.terms);
@@ -220,8 +243,8 @@ void tell(const LoadBalance& balance, LoadObserver& observer) {
   told.force_n = observer.gains.force * left_n;
   told.force_sd_n = std::hypot(observer.gains.force_sd_n, kForceOff * told.force_n.norm());
   const LoadPhase phase = observer.phase.phase;
-  told.payload_known =
-      phase == LoadPhase::kEmpty || (phase == LoadPhase::kCarries && observer.weighed >= kWeighed);
+  told.payload_known = phase == LoadPhase::kEmpty ||
+                       (phase == LoadPhase::kCarries && is_weighed(profile.geometry, observer));
   told.payload_kg = told.payload_known ? observer.terms.value[kLoadTerm] : 0.0;
   told.payload_sd_kg = told.payload_known ? std::sqrt(observer.terms.variance(kLoadTerm)) : 0.0;
 }
@@ -259,7 +282,7 @@ void next_load(const ExcavatorProfile& profile, const LoadSeen& seen, StepKind k
     observer.filling = {};
     observer.cycle = 0;
   }
-  tell(balance, observer);
+  tell(profile, balance, observer);
 }
 
 }  // namespace graben

@@ -43,7 +43,8 @@ struct LoadObserver {
   BalanceBlock full;
   LoadPhase full_phase = LoadPhase::kUnsaid;  ///< Of the last block; kUnsaid: nothing to learn.
   LoadGains gains;
-  int weighed = 0;            ///< Blocks that the payload was in.
+  int weighed = 0;            ///< Readings of axes that moved that the payload was in.
+  int refused = 0;            ///< Blocks in a row that no payload accounts for.
   double last_fill_kg = 0.0;  ///< Carried away from the last dig; 0: none was.
   double poured_kg = 0.0;     ///< Of all digs: it may lie on one heap.
   TipLoad told;

@@ -18,8 +18,18 @@ constexpr double kSpills_rad = 0.8;
 /// Beyond this little stays in.
 constexpr double kSteep_rad = 1.2;
 constexpr double kPoured_s = 1.5;
-/// Of a move that ends at the ground.
+/// Of a move that ends at the ground; higher up it is clear of it all the same.
 constexpr double kNearGround = 0.85;
+constexpr double kHigh_m = 0.8;
+/// A heap's sides, which begin so far from its middle; the gentlest of them.
+constexpr double kHeapTop_m = 0.5;
+constexpr double kHeapFalls = 0.6;
+
+/// Height of the heap below the teeth: of no account which way the platform looks.
+double heap_below_m(const TipPose& tip, const PhaseState& state) {
+  const double off_m = std::max(0.0, std::abs(tip.x_m - state.poured_m) - kHeapTop_m);
+  return state.heap_m - kHeapFalls * off_m;
+}
 
 LoadPhase phase_of(StepKind kind, double share, const TipPose& tip, double height_m,
                    const PhaseState& state) {
@@ -39,10 +49,11 @@ LoadPhase phase_of(StepKind kind, double share, const TipPose& tip, double heigh
                  : LoadPhase::kPours;
     case StepKind::kApproach:
     case StepKind::kReturnToDig:
-      if (share > kNearGround || height_m < std::max(kClear_m, state.heap_m)) {
+      if ((share > kNearGround && height_m < kHigh_m) ||
+          height_m < std::max(kClear_m, heap_below_m(tip, state))) {
         return LoadPhase::kUnsaid;
       }
-      if (state.open_s > kPoured_s) {
+      if (state.open_s > kPoured_s || state.phase == LoadPhase::kEmpty) {
         return LoadPhase::kEmpty;
       }
       return kind == StepKind::kApproach && state.open_s == 0.0 && tip.attitude_rad > kSteep_rad
@@ -72,7 +83,13 @@ void next_phase(StepKind kind, double share, const TipPose& tip, double ground_m
   if (height_m > kClear_m && tip.y_m > state.lifted_from_m + kFreeAbove_m) {
     state.free_s += period_s;
   }
+  const LoadPhase before = state.phase;
   state.phase = phase_of(kind, share, tip, height_m, state);
+  if (state.phase == LoadPhase::kPours && before == LoadPhase::kCarries) {
+    state.poured_m = tip.x_m;
+  } else if (state.phase == LoadPhase::kEmpty && before == LoadPhase::kPours) {
+    state.poured_m = 0.5 * (state.poured_m + tip.x_m);
+  }
 }
 
 }  // namespace graben

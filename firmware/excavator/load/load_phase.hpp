@@ -26,13 +26,14 @@ struct PhaseState {
   double lifted_from_m = 0.0;  ///< Height of the teeth where the lift began.
   double free_s = 0.0;         ///< So long a lift has been above the ground.
   double heap_m = 0.0;         ///< Of what it has poured: it may go back through that.
+  double poured_m = 0.0;       ///< Where the teeth began to pour, outwards; then the heap's middle.
 };
 
 /// What the step that runs (kNone without one), its share that is done and the bucket's pose say.
 /// A lift is free half a metre above where it began, and has lost what it can't keep a second and a
-/// half later. A bucket is empty in a move that no soil is
-/// meant for, its opening down for a second and a half; the last part of such a move may touch the
-/// ground, and what is no higher than the heap may touch that.
+/// half later. A bucket is empty in a move that no soil is meant for, once its opening has been
+/// down for a second and a half; the last part of such a move may touch the ground where it is low,
+/// and what is no higher than the heap's side may touch that.
 void next_phase(StepKind kind, double share, const TipPose& tip, double ground_m, double period_s,
                 PhaseState& state);
 

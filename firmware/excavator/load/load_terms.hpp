@@ -14,7 +14,7 @@ namespace graben {
 /// Places of the terms; of an axis or link each, in their order.
 inline constexpr int kOffsetTerm = 0;    ///< Of the pressures, as a force, N.
 inline constexpr int kCoulombTerm = 3;   ///< Friction, N.
-inline constexpr int kViscousTerm = 6;   ///< Friction, N s/m; with the hoses' loss at high speed.
+inline constexpr int kViscousTerm = 6;   ///< Of seals and hoses, N s/m.
 inline constexpr int kMassTerm = 9;      ///< What a link weighs more, of its mass.
 inline constexpr int kLoadTerm = 12;     ///< What the bucket carries, kg.
 inline constexpr int kOutwardTerm = 13;  ///< How much farther outwards it lies, kg m.
@@ -37,6 +37,10 @@ struct LoadTerms {
   }
   [[nodiscard]] double variance(int term) const { return covariance[at(term, term)]; }
 };
+
+/// What seals and hoses between transducers and chambers take at a speed, for each N s/m of the
+/// viscous term: v (1 + |v| / this). Hoses lose more than in proportion.
+[[nodiscard]] double hoses_mps(const CylinderGeometry& cylinder);
 
 /// Before anything is seen. Transducers are off by 2 % of their range, as deviation; friction is
 /// what seals of the class have, masses are right within a tenth.

@@ -25,6 +25,8 @@ constexpr double kShallower = 0.75;
 constexpr double kLittle = 0.1;
 /// The same of what a cut brings beside what its edge has passed, payload's error and all.
 constexpr double kFallen = 0.15;
+/// So much at once moves what stands beside and before it: a last cut that brings it is swept after.
+constexpr double kMoves = 0.4;
 /// With so much of a full bucket the wall at the line's beginning falls in too.
 constexpr double kWallFalls = 0.55;
 
@@ -219,8 +221,10 @@ void weigh_cut(const LayerPlan& plan, double weighed_m3, CutState& state) {
         std::clamp(state.yields + kBelieved * (yields - state.yields), kYieldsLeast, kYieldsMost);
   }
   state.last_strip = -1;
+  const bool fallen = weighed_m3 - state.last_m3 >= kFallen * plan.full_m3;
+  const bool moved = weighed_m3 >= kMoves * plan.full_m3;
   if (!state.met || strip < 0 || state.sweeps >= kSweepsMost || state.cuts >= kCutsMost ||
-      weighed_m3 - state.last_m3 < kFallen * plan.full_m3) {
+      !(fallen || moved)) {
     return;
   }
   ++state.sweeps;

@@ -8,6 +8,7 @@
 #include "firmware/excavator/tasks/cut_force.hpp"
 #include "firmware/excavator/tasks/layer_enter.hpp"
 #include "firmware/excavator/tasks/layer_height.hpp"
+#include "firmware/excavator/tasks/layer_tare.hpp"
 #include "firmware/excavator/tasks/layer_touch.hpp"
 
 namespace graben {
@@ -88,6 +89,7 @@ class LayerRun {
   void begin_dig(TaskState& state) const;
   void begin_cut(TaskState& state) const;
   void begin_move(int step, TaskState& state) const;
+  void begin_tare(int step, TaskState& state) const;
   void begin_lift(TaskState& state) const;
   void cut(TaskState& state) const;
   void lift(TaskState& state) const;
@@ -101,14 +103,15 @@ class LayerRun {
   const SwingKinematics& kinematics_;
   const TaskProgram& program_;
   const LayerPlan& plan_;
-  double advance_s_;
-  double period_s_;
+  double advance_s_, period_s_;
   CutSeen seen_;
 };
 
 void LayerRun::begin(int step, TaskState& state) const {
   if (step == plan_.step) {
     begin_dig(state);
+  } else if (tares_next(program_, step, state.layers)) {
+    begin_tare(step, state);
   } else {
     begin_move(step, state);
     if (state.phase == TaskPhase::kSteps && (step + 1) % program_.step_count == plan_.step &&
@@ -147,6 +150,15 @@ void LayerRun::begin_cut(TaskState& state) const {
   layers.held_s = 0.0;
   layers.eases = false;
   layers.weighed_kg = 0.0;
+}
+
+void LayerRun::begin_tare(int step, TaskState& state) const {
+  LayerState& layers = state.layers;
+  layers.move = tare_move(profile_, program_.step[static_cast<unsigned>(step)],
+                          drives_now(kinematics_, program_, state));
+  layers.tares = true;
+  layers.tared = true;
+  layers.phase = CutPhase::kNone;
 }
 
 /// To where the step leads; the last before the cut, to where the next cut begins.
@@ -308,7 +320,8 @@ void LayerRun::move(TaskState& state) const {
   }
   state.time_s = end_s;
   state.settle_s += period_s_;
-  const bool digs_next = (state.step + 1) % program_.step_count == plan_.step;
+  const bool digs_next =
+      !state.layers.tares && (state.step + 1) % program_.step_count == plan_.step;
   state.calm_s = seen_.behind_m < kMoveSettled_m ? state.calm_s + period_s_ : 0.0;
   const bool arrived = digs_next ? state.calm_s >= kCalm_s : seen_.behind_m < kPassed_m;
   if (arrived || state.settle_s >= (digs_next ? kCutWaits_s : kSettleMost_s)) {
@@ -317,6 +330,11 @@ void LayerRun::move(TaskState& state) const {
 }
 
 void LayerRun::next_step(TaskState& state) const {
+  if (state.layers.tares) {
+    state.layers.tares = false;
+    begin(state.step, state);
+    return;
+  }
   if (state.step == plan_.step) {
     state.layers.cuts.loaded_m3 = 0.0;
   }

@@ -46,6 +46,8 @@ struct LayerState {
   TeethPose entered;        ///< Where the cut has gone into the ground.
   bool folds = false;       ///< The first part of a lift.
   double weighed_kg = 0.0;  ///< What the cut has brought; 0: not known.
+  bool tares = false;       ///< The empty bucket is raised before it goes back,
+  bool tared = false;       ///< which is done once.
   LinePlan lift;
   DrivePlan move;                            ///< Of the step that runs.
   DriveVector stands = DriveVector::Zero();  ///< Where it was when all was dug.

@@ -230,6 +230,23 @@ CutState dug(const LayerPlan& whole) {
   return state;
 }
 
+/// A last cut that brings much has moved what stands beside it, whatever its edge has passed.
+void a_heavy_last_cut_is_swept_after(void**) {
+  const LayerPlan whole = plan();
+  CutState state = undug(whole);
+  while (!state.met) {
+    static_cast<void>(cut_through(whole, state.cut.height_m, state));
+    state.loaded_m3 = 0.0;
+    next_cut(whole, {0.7, 0.8 * whole.full_m3}, state);
+  }
+  CutState light = state;
+  weigh_cut(whole, 0.3 * whole.full_m3, light);
+  assert_true(light.met);
+  weigh_cut(whole, 0.8 * whole.full_m3, state);
+  assert_false(state.met);
+  assert_int_equal(state.sweeps, 1);
+}
+
 /// A sweep takes what nobody has seen: all that it brings has fallen in.
 void what_a_sweep_brings_has_fallen_in(void**) {
   const LayerPlan whole = plan();
@@ -279,6 +296,7 @@ int main() {
       cmocka_unit_test(what_stays_up_is_left),
       cmocka_unit_test(depth_follows_the_force),
       cmocka_unit_test(soil_that_falls_in_is_swept_out),
+      cmocka_unit_test(a_heavy_last_cut_is_swept_after),
       cmocka_unit_test(what_a_sweep_brings_has_fallen_in),
       cmocka_unit_test(a_wall_that_stops_a_sweep_stands),
       cmocka_unit_test(ground_below_its_design_is_met),

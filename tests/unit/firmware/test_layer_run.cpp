@@ -274,6 +274,34 @@ void lifts_out_before_it_swings(void**) {
   assert_true(swing_of(task_aim(machine().kinematics, program, state).value) > 0.5);
 }
 
+/// A bucket that was weighed is raised once, empty, before it first goes back.
+void an_empty_bucket_is_raised_once(void**) {
+  const TaskProgram program = planned();
+  TaskState state = begun(program);
+  int raised = 0;
+  for (int rounds = 0; rounds < 3 && state.phase != TaskPhase::kDone;) {
+    CutSeen seen = follows(program, state);
+    seen.payload_known = true;
+    seen.payload_kg = 600.0;
+    const TaskState next = advance(program, state, seen);
+    if (next.layers.tares && !state.layers.tares) {
+      assert_int_equal(program.step[static_cast<unsigned>(next.step)].kind, StepKind::kReturnToDig);
+      const DriveVector way = next.layers.move.change;
+      assert_true(way[kBoom] > 0.02);
+      assert_true(way.cwiseAbs().sum() == way[kBoom]);
+      ++raised;
+    }
+    rounds += next.step == 0 && state.step != 0 ? 1 : 0;
+    state = next;
+  }
+  assert_int_equal(raised, 1);
+  // Who weighs nothing has nothing to learn it for.
+  run_until(program, begun(program), [](const TaskState& at) {
+    assert_false(at.layers.tares);
+    return at.phase == TaskPhase::kDone;
+  });
+}
+
 /// What was dug is known when the task goes on, and forgotten when it has come to its end.
 void goes_on_where_it_was(void**) {
   const TaskProgram program = planned();
@@ -330,6 +358,7 @@ int main() {
       cmocka_unit_test(a_held_heel_is_lifted_straight_up),
       cmocka_unit_test(a_full_bucket_ends_the_cut),
       cmocka_unit_test(lifts_out_before_it_swings),
+      cmocka_unit_test(an_empty_bucket_is_raised_once),
       cmocka_unit_test(goes_on_where_it_was),
       cmocka_unit_test(what_can_t_be_dug_in_layers_is_refused),
   };

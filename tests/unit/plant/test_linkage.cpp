@@ -177,6 +177,39 @@ void free_swing_keeps_its_energy(void**) {
   assert_near(largest_error / exchange, 0.0, 1e-3);
 }
 
+// What the bucket carries is part of it, in all that the links do: it weighs, and it is slow to
+// move.
+void what_is_carried_moves_with_the_bucket(void**) {
+  ExcavatorPlantProfile loaded = machine_22t();
+  const LinkBody fill = {1400.0, 300.0, {0.8, 0.3}};
+  loaded.link[kBucket] = together(loaded.link[kBucket], fill);
+  LinkageDynamics whole(loaded);
+  LinkageDynamics carries(machine_22t());
+  LinkageDynamics empty(machine_22t());
+  for (LinkageDynamics* links : {&whole, &carries, &empty}) {
+    links->start(kPose, {});
+  }
+  carries.carry(fill);
+  const JointArray holding = whole.holding_forces();
+  for (std::size_t i = 0; i < 3; ++i) {
+    assert_near(carries.holding_forces()[i], holding[i], 1e-6 * std::fabs(holding[i]));
+  }
+  for (int n = 0; n < 2000; ++n) {
+    for (LinkageDynamics* links : {&whole, &carries, &empty}) {
+      links->accelerate(kNoLoad, kStep);
+      links->move(kStep);
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    assert_near(carries.angles()[i], whole.angles()[i], 1e-9);
+  }
+  assert_true(std::fabs(carries.angles()[kBucket] - empty.angles()[kBucket]) > 1e-3);
+  carries.carry({});
+  empty.start(kPose, {});
+  carries.start(kPose, {});
+  assert_near(carries.holding_forces()[kBoom], empty.holding_forces()[kBoom], 1e-6);
+}
+
 void single_body_swings_with_the_pendulum_period(void**) {
   // Everything but the boom without mass; small swings about hanging down.
   ExcavatorPlantProfile profile = machine_22t();
@@ -260,6 +293,7 @@ int main() {
       cmocka_unit_test(holding_forces_balance_gravity),
       cmocka_unit_test(tip_force_works_through_the_tip),
       cmocka_unit_test(free_swing_keeps_its_energy),
+      cmocka_unit_test(what_is_carried_moves_with_the_bucket),
       cmocka_unit_test(single_body_swings_with_the_pendulum_period),
       cmocka_unit_test(friction_sticks_without_creep),
       cmocka_unit_test(friction_slips_beyond_its_limit),
