@@ -51,6 +51,8 @@ HstPath::HstPath(const DozerPlantProfile& profile)
       protection_(profile.protection(profile.hst_relief_pa)),
       step_(profile.step_s()),
       charge_(profile.charge_pa),
+      flushing_m3pspa_(profile.hst_flushing_m3pspa),
+      shuttle_pa_(profile.hst_shuttle_pa),
       inertia_(profile.path_inertia_kgm2),
       radius_(profile.machine.hst.sprocket_radius_m),
       friction_share_(1.0 - profile.mechanical_efficiency),
@@ -85,11 +87,19 @@ void HstPath::feed(double engine_radps) {
   }
 }
 
+double HstPath::flushing_m3pspa(std::size_t index) const {
+  const double pressure_pa = line_[index].pressure_pa();
+  const bool is_lower = pressure_pa + shuttle_pa_ < line_[1 - index].pressure_pa();
+  return is_lower && pressure_pa > 0.0 ? flushing_m3pspa_ : 0.0;
+}
+
 void HstPath::turn(double traction_n, bool brake) {
   // J dw = h (D (p_A - p_B) - F r - friction), where the lines' pressures fall and rise with the
   // mean of old and new speed.
-  const WavePort a = leaking(line_[0].port(kMotorPort), motor_leak_m3pspa_);
-  const WavePort b = leaking(line_[1].port(kMotorPort), motor_leak_m3pspa_);
+  const std::array<double, 2> leak_m3pspa = {motor_leak_m3pspa_ + flushing_m3pspa(0),
+                                             motor_leak_m3pspa_ + flushing_m3pspa(1)};
+  const WavePort a = leaking(line_[0].port(kMotorPort), leak_m3pspa[0]);
+  const WavePort b = leaking(line_[1].port(kMotorPort), leak_m3pspa[1]);
   const double torque_per_pa = motor_.ratio() * motor_m3prad_;
   const double flow_per_speed = motor_.ratio() * motor_flow_m3prad_;
   const double damping = torque_per_pa * flow_per_speed * (a.impedance_paspm3 + b.impedance_paspm3);
@@ -103,8 +113,8 @@ void HstPath::turn(double traction_n, bool brake) {
   const double a_pa = a.pressure_pa(-flow_per_speed * mean);
   const double b_pa = b.pressure_pa(flow_per_speed * mean);
   motor_torque_ = torque_per_pa * (a_pa - b_pa);
-  flows_.motor_in = {-flow_per_speed * mean - motor_leak_m3pspa_ * a_pa,
-                     flow_per_speed * mean - motor_leak_m3pspa_ * b_pa};
+  flows_.motor_in = {-flow_per_speed * mean - leak_m3pspa[0] * a_pa,
+                     flow_per_speed * mean - leak_m3pspa[1] * b_pa};
 }
 
 void HstPath::step(double engine_radps, double traction_n, bool brake) {

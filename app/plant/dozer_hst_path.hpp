@@ -47,7 +47,9 @@ struct HstFlows {
 
 /// Closed circuit. Leakage is laminar from each line of pump and motor to their cases, and a share
 /// of the displacement; relief and charge check of each line sit at the pump and join it to the
-/// charge gallery, so that the low line keeps the charge pressure and a relief's oil is not lost.
+/// charge gallery, so that a relief's oil is not lost. What the check has let in goes out of the
+/// lower line again through the flushing valve, whose shuttle the higher one holds open: the low
+/// line keeps the charge pressure, however little leaks.
 /// Each line is a transmission-line element: stable at any step. The motor's mechanical losses are
 /// dry friction in proportion to its torque; the brake is dry friction too.
 class HstPath {
@@ -80,6 +82,8 @@ class HstPath {
 
   void feed(double engine_radps);
   void turn(double traction_n, bool brake);
+  /// Of line A or B, by the flushing valve, per pressure over the charge pressure.
+  [[nodiscard]] double flushing_m3pspa(std::size_t index) const;
 
   DisplacementServo pump_;
   DisplacementServo motor_;
@@ -87,6 +91,8 @@ class HstPath {
   PortProtection protection_;
   double step_;
   double charge_;
+  double flushing_m3pspa_;
+  double shuttle_pa_;
   double pump_m3prad_;        ///< As its flow has it, of the pump's turn.
   double motor_m3prad_;       ///< Geometric, of the sprocket's turn.
   double motor_flow_m3prad_;  ///< As its flow has it.

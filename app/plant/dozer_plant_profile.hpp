@@ -103,6 +103,11 @@ struct DozerPlantProfile : HydraulicDetails {
   /// is smaller than the geometric one); the rest is laminar leakage. So on the level, at 1 - 3
   /// MPa, the tracks run 3 - 4 % faster than at work.
   double hst_constant_loss_share = 0.6;
+  /// Of the valve that flushes a path: what it lets out of the lower line per pressure over the
+  /// charge pressure. Some 10 L/min at 0.5 MPa are usual.
+  double hst_flushing_m3pspa = 3e-10;
+  /// From this difference of the two lines on its shuttle is over.
+  double hst_shuttle_pa = 0.4e6;
   /// A displacement's largest rate over the one that the controller counts on.
   double displacement_rate_margin = 1.25;
   /// Of each parking brake, at the sprocket: above what the motor gives at its relief pressure.

@@ -42,6 +42,7 @@ struct CellFigures {
   std::vector<double> passes;
   std::vector<double> time_s;
   double halt_s = 0.0;
+  double deceleration_mps2 = 0.0;
   int missed = 0;
 };
 
@@ -65,6 +66,7 @@ std::string cell_table(const CampaignData& data) {
   const std::size_t over_cut = column("over_cut_m");
   const std::size_t left = column("ground_left_m");
   const std::size_t halt = column("halt_s");
+  const std::size_t deceleration = column("deceleration_true_mps2");
   const std::size_t passes = column("passes");
   const std::size_t time = column("time_s");
   std::map<std::pair<std::size_t, std::string>, CellFigures> cells;
@@ -77,21 +79,24 @@ std::string cell_table(const CampaignData& data) {
     figures.passes.push_back(row.figure[passes]);
     figures.time_s.push_back(row.figure[time]);
     figures.halt_s = std::max(figures.halt_s, row.figure[halt]);
+    figures.deceleration_mps2 = std::max(figures.deceleration_mps2, row.figure[deceleration]);
   }
   std::string text =
-      fmt::format("\n{:<28}{:<8}{:>6}{:>7}{:>8}{:>8}{:>8}{:>8}{:>8}\n", "design", "soil", "draws",
-                  "missed", "cut p95", "cut max", "left", "halt", "passes");
+      fmt::format("\n{:<28}{:<8}{:>6}{:>7}{:>8}{:>8}{:>8}{:>6}{:>6}{:>8}{:>7}\n", "design", "soil",
+                  "draws", "missed", "cut p95", "cut max", "left", "halt", "dec", "passes", "time");
   const std::vector<SampleDesign> designs = sample_designs();
   for (const auto& [of, figures] : cells) {
-    text +=
-        fmt::format("{:<28}{:<8}{:>6}{:>7}{:>8.1f}{:>8.1f}{:>8.1f}{:>8.2f}{:>8.0f}\n",
-                    designs.at(of.first).name, of.second, figures.over_cut_m.size(), figures.missed,
-                    1e3 * ranked(figures.over_cut_m, 0.95), 1e3 * ranked(figures.over_cut_m, 1.0),
-                    1e3 * ranked(figures.left_m, 1.0), figures.halt_s, ranked(figures.passes, 0.5));
+    text += fmt::format(
+        "{:<28}{:<8}{:>6}{:>7}{:>8.1f}{:>8.1f}{:>8.1f}{:>6.2f}{:>6.2f}{:>8.0f}{:>7.0f}\n",
+        designs.at(of.first).name, of.second, figures.over_cut_m.size(), figures.missed,
+        1e3 * ranked(figures.over_cut_m, 0.95), 1e3 * ranked(figures.over_cut_m, 1.0),
+        1e3 * ranked(figures.left_m, 1.0), figures.halt_s, figures.deceleration_mps2,
+        ranked(figures.passes, 0.5), ranked(figures.time_s, 0.5));
   }
   return text + fmt::format(
                     "cut: ground below the design, mm; left: above it, max, mm; halt: "
-                    "longest, s; passes: median\nmissed: cut more than {:.0f} mm, left "
+                    "longest, s; dec: largest deceleration, m/s2; passes and time, s: "
+                    "median\nmissed: cut more than {:.0f} mm, left "
                     "more than {:.0f} mm, halted longer than {:.0f} s, or not at its end\n",
                     1e3 * kMostOverCut_m, 1e3 * kMostLeft_m, kMostHalt_s);
 }

@@ -10,6 +10,11 @@
 namespace graben {
 namespace {
 
+/// Down to the design from above, of the way; and of the tolerance, from where on it is in a hurry.
+/// Both tried out on all soils: twice as steep, the edge still rides.
+constexpr double kSinkSlope = 0.1;
+constexpr double kNoHurry = 0.5;
+
 Eigen::Vector3d normal_of(const GradeSample& design) {
   return Eigen::Vector3d(-design.slope, 0.0, 1.0).normalized();
 }
@@ -25,6 +30,12 @@ double cylinder_mps(const BladeKinematics& blade, const GradeProfile& design,
 /// What the lift asks of the edge's velocity.
 double lifting_mps(const BladeSituation& at) {
   return at.lift.slope * at.body_velocity[0] + at.lift.rate_mps;
+}
+
+/// The feedback's most downwards, with the edge so far above where it is to be.
+double sink_most_mps(const DozerProfile& profile, double speed_mps, double above_m) {
+  const double hurry_m = std::max(0.0, above_m - kNoHurry * profile.grade.tolerance_m);
+  return kSinkSlope * std::max(0.0, speed_mps) + profile.control.blade_gain_ps * hurry_m;
 }
 
 double error_of(const BladeKinematics& blade, const GradeProfile& design, const BladeSituation& at,
@@ -50,15 +61,17 @@ BladeCommand control_blade(const DozerProfile& profile, const DriveRow& drive,
   const double then_m = error_of(blade, design, then, then_x_m);
   command.off_m = command.error_m - now.lift.height_m;
   command.feed_forward_mps = cylinder_mps(blade, design, now, now_x_m, lifting_mps(now));
-  const double free_mps =
-      cylinder_mps(blade, design, then, then_x_m,
-                   lifting_mps(then) - control.blade_gain_ps * (then_m - then.lift.height_m) -
-                       last.integral_mps);
+  const double above_m = then_m - then.lift.height_m;
+  const double back_mps = -control.blade_gain_ps * above_m - last.integral_mps;
+  const double sink_mps = sink_most_mps(profile, then.body_velocity[0], above_m);
+  command.sinks = back_mps < -sink_mps;
+  const double free_mps = cylinder_mps(blade, design, then, then_x_m,
+                                       lifting_mps(then) + std::max(back_mps, -sink_mps));
   const double most_mps = end_speed_mps(drive, blade.stroke_m(now.angle_rad), free_mps);
   command.at_end = std::abs(free_mps) > most_mps;
   command.velocity_mps = std::clamp(free_mps, -most_mps, most_mps);
   const bool fed = inflow_m3ps(profile.blade, command.velocity_mps) <= available_flow_m3ps;
-  if (fed && !command.at_end) {
+  if (fed && !command.at_end && !command.sinks) {
     command.state.integral_mps =
         std::clamp(last.integral_mps + control.blade_integral_ps2 * command.off_m * period_s,
                    -control.blade_integral_most_mps, control.blade_integral_most_mps);

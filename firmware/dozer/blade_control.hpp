@@ -34,6 +34,7 @@ struct BladeCommand {
   double error_m = 0.0;           ///< Cutting edge above the grade, along its normal.
   double off_m = 0.0;             ///< Above where it is meant to be: its lift over the grade.
   bool at_end = false;            ///< Slowed by the end of the stroke.
+  bool sinks = false;             ///< On its way down to the design, no faster than it may.
   BladeState state;
 };
 
@@ -41,8 +42,12 @@ struct BladeCommand {
 /// the moment at which the cylinders answer, all that is under way to them having arrived. The
 /// error is the one that there will be, so that what is already asked for is not asked for twice;
 /// `now` is measured, and what stays of it is integrated. The integral stands still while the pump
-/// can give no more. Towards the ends of the blade's reach the cylinders slow down. `last` is that
-/// of a cycle ago; a default one where there was none.
+/// can give no more.
+///
+/// What is too deep is taken back at once, what is too high within the tolerance over some way: an
+/// edge that goes down steeply rides on the ground instead of cutting it, and on a crest that rocks
+/// the body back and forth. Such an error is not integrated. Towards the ends of the blade's reach
+/// the cylinders slow down. `last` is that of a cycle ago; a default one where there was none.
 [[nodiscard]] BladeCommand control_blade(const DozerProfile& profile, const DriveRow& drive,
                                          const BladeKinematics& blade, const GradeProfile& design,
                                          const BladeState& last, const BladeSituation& now,

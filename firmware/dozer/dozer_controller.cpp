@@ -122,7 +122,7 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
   }
   memory_.pass = pass;
   ground_.pass(edge_m.x(), edge_m.z(), design_, now.body.position_m.x(), stand.height_m,
-               std::tan(stand.pitch_rad));
+               std::tan(stand.pitch_rad), !memory_.pass.down);
   preview_.look(ground_, design_, memory_.position.position_m + latency_s * valid.velocity_mps,
                 stand,
                 planned_share(profile_.travel, memory_.load) *

@@ -201,16 +201,25 @@ def random_designs(graben, folder):
             assert float(row["max_error_true_m"]) < 0.018, row
 
 
+# A draw of a trench with walls of 1 m each: how it comes out in another soil.
+#   1, 2: sand and loam at 1000 rpm. 1323: clay at 1000 rpm, where the body balances on a crest while
+#   the blade cuts: 82 mm too deep by a bump in the map of the ground, or by an edge that goes down
+#   steeply. 1121: hydraulics that leak nothing, in sand: 12 passes and 103 mm where the lower lines
+#   pump themselves up.
+GROUND = ((1, "sand"), (2, "loam"), (1323, "clay"), (1121, "sand"))
+
+
 def ground_that_resists(graben, folder):
-    """The first two cells: a trench with walls of 1 m in sand and in loam, at 1000 rpm."""
-    summary = os.path.join(folder, "ground.csv")
-    done = subprocess.run([graben, "campaign", "ground", "--draws", "2", "--summary", summary, "--jobs", "1"],
-                          capture_output=True, text=True, timeout=280)
-    print(done.stdout)
-    assert done.returncode == 0, done.stdout + done.stderr
-    for soil in ("sand", "loam"):
-        row = re.search(rf"(?m)^trench, walls of 1 m +{soil} +1 +0 +([\d.]+) +([\d.]+) +([\d.]+) ", done.stdout)
-        assert row and 0.1 < float(row[1]) < 25.0 and 0.1 < float(row[3]) < 25.0, done.stdout
+    for seed, soil in GROUND:
+        summary = os.path.join(folder, f"ground{seed}.csv")
+        done = subprocess.run([graben, "campaign", "ground", "--draws", "1", "--seed", str(seed), "--summary", summary,
+                               "--jobs", "1"], capture_output=True, text=True, timeout=280)
+        print(done.stdout)
+        assert done.returncode == 0, done.stdout + done.stderr
+        row = re.search(rf"(?m)^trench, walls of 1 m +{soil} +1 +0((?: +[\d.]+)+)$", done.stdout)
+        _, cut, left, halt, deceleration, passes, time = (float(value) for value in row[1].split())
+        assert 0.1 < cut < 20.0 and 0.1 < left < 25.0 and halt < 1.0, (seed, done.stdout)
+        assert 0.5 < deceleration < 1.5 and 2 <= passes <= 4 and 80 < time < 170, (seed, done.stdout)
 
 
 def main():

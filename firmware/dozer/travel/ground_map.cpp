@@ -11,6 +11,7 @@ constexpr double kInAir_m = 0.08;
 
 void GroundMap::start(double edge_x_m, double stand_x_m, double stand_z_m, double slope) {
   front_ = cell_of(edge_x_m);
+  known_ = front_;
   oldest_ = front_ - kCells + 1;
   for (int i = 0; i < kCells; ++i) {
     const int index = front_ - i;
@@ -22,25 +23,26 @@ void GroundMap::start(double edge_x_m, double stand_x_m, double stand_z_m, doubl
 }
 
 void GroundMap::pass(double edge_x_m, double edge_z_m, const GradeProfile& design, double stand_x_m,
-                     double stand_z_m, double slope) {
+                     double stand_z_m, double slope, bool held_clear) {
   const int reached = cell_of(edge_x_m);
   if (!started_ || reached - front_ >= kCells || front_ - reached >= kCells) {
     start(edge_x_m, stand_x_m, stand_z_m, slope);
   }
-  const bool in_air = edge_z_m > design.at(edge_x_m).height_m + kInAir_m;
+  const bool in_air = held_clear || edge_z_m > design.at(edge_x_m).height_m + kInAir_m;
   const double line_z_m = stand_z_m + slope * (edge_x_m - stand_x_m);
   const double ground_z_m = in_air ? std::min(edge_z_m, line_z_m) : edge_z_m;
   if (edge_x_m > edge_x_m_) {
     const double rise = (ground_z_m - edge_z_m_) / (edge_x_m - edge_x_m_);
     for (int index = cell_of(edge_x_m_) + 1; index <= reached; ++index) {
       const double way_m = edge_z_m_ + rise * ((index + 0.5) * kCell_m - edge_x_m_);
-      if (index > front_) {
+      if (index > (in_air ? known_ : front_)) {
         set(index, way_m);
       } else if (!in_air) {
         set(index, std::min(cell(index), way_m));
       }
     }
     front_ = std::max(front_, reached);
+    known_ = std::max(known_, front_);
     oldest_ = std::max(oldest_, front_ - kCells + 1);
   }
   edge_x_m_ = edge_x_m;

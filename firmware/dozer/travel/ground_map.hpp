@@ -34,11 +34,11 @@ class GroundMap {
   /// The machine stands with its origin at `stand_x_m`, its tracks on a line of this height there
   /// and of this slope, and the cutting edge has come to (x, z). Every cell that the edge has
   /// passed since is now at most as high as its way; a step back changes nothing. Where the edge is
-  /// clearly above the design it cuts nothing: what lies below is then taken for the line that the
-  /// tracks stand on. The first time, and after a jump of more than the map's length, all is that
-  /// line.
+  /// `held_clear` of the ground, or clearly above the design, it cuts nothing: what lies below is
+  /// then what it was, and where the edge has never been, the line that the tracks stand on. The
+  /// first time, and after a jump of more than the map's length, all is that line.
   void pass(double edge_x_m, double edge_z_m, const GradeProfile& design, double stand_x_m,
-            double stand_z_m, double slope);
+            double stand_z_m, double slope, bool held_clear = false);
 
   /// The edge stands here, and what lies before it is to be cut again: the design from there on.
   /// What lies behind it stays as it was left.
@@ -64,7 +64,8 @@ class GroundMap {
 
   std::array<double, kCells> height_m_{};
   int oldest_ = 0;  ///< First cell that is remembered.
-  int front_ = 0;   ///< Last cell whose middle the edge has passed.
+  int front_ = 0;   ///< Last cell whose middle the edge has passed, in this pass.
+  int known_ = 0;   ///< The same in any.
   double edge_x_m_ = 0.0;
   double edge_z_m_ = 0.0;
   bool started_ = false;

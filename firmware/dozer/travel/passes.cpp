@@ -57,6 +57,8 @@ void begin_pass(const GradeDesign& design, PassState& state) {
   state.most_push = 0.0;
   state.lifted_m2 = 0.0;
   state.way_m = 0.0;
+  state.down = false;
+  state.due_m = state.from_m;
   state.phase = PassPhase::kCut;
   ++state.pass;
   state.left = false;
@@ -76,8 +78,10 @@ PassState next_pass(const GradeDesign& design, const PassState& last, const Pass
   PassState state = last;
   const bool stands = std::abs(now.velocity_mps) < kStands_mps;
   if (state.phase == PassPhase::kCut) {
+    state.down = state.down || now.edge_x_m >= state.due_m ||
+                 (state.clear_m <= 0.0 && now.error_m <= design.tolerance_m);
     // The blade on its way down at the beginning is no ground that is left.
-    if (state.clear_m <= 0.0) {
+    if (state.down) {
       note(design, now, state);
       feel(design, now, period_s, state);
     }

@@ -26,6 +26,8 @@ struct PassState {
   double way_m = 0.0;
   bool left = false;  ///< Something was left in this pass, from this place of the edge on.
   double from_m = 0.0;
+  bool down = true;      ///< The blade has come to the ground in this pass,
+  double due_m = 0.0;    ///< which it is to from here on: what the pass before left.
   double clear_m = 0.0;  ///< The blade over the design.
   double clear_mps = 0.0;
   bool finished = false;  ///< The last pass has left nothing, or there may be no more.
@@ -41,9 +43,10 @@ struct PassSituation {
 };
 
 /// A cycle on. In a pass, what the edge leaves clearly more than the tolerance above the design is
-/// noted with its place. At the design's last point, behind which what it carries is dumped, the
-/// machine stops and goes back with the blade clear of the ground, to a run-up before the first of
-/// it; and cuts again, up to `passes_most` times.
+/// noted with its place, but for where the blade is still on its way down. At the design's last
+/// point, behind which what it carries is dumped, the machine stops and goes back with the blade
+/// clear of the ground, to a run-up before the first of it; and cuts again, up to `passes_most`
+/// times.
 ///
 /// The first pass goes `pass_depth_m` deep; each next one as much deeper as the one before had
 /// force to spare, or less where its load lifted the blade.

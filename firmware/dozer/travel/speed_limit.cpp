@@ -12,7 +12,9 @@ namespace graben {
 namespace {
 
 constexpr double kNoFlow_m3ps = 1e-9;
-constexpr double kBraking = 1.25;
+/// Of what is planned with, where the plan was wrong. What the transmission adds to it stays below
+/// 1.5 m/s2, also as the blade goes in.
+constexpr double kBraking = 1.1;
 /// Low-pass of the flow that is measured as required: the ground ahead is planned with, this is for
 /// what the plan did not know.
 constexpr double kFlowFilter_s = 0.1;

@@ -66,9 +66,9 @@ int main(int count, char** words) {
   TraceStart start;
   bool whole = true;
   while (whole && read(file, start)) {
-    const bool is_dozer = start.setup == Setup::kDozer || start.setup == Setup::kDozerBumps;
-    whole = is_dozer ? replay(file, dozer, dozer_setup(start.setup), start, wasted)
-                     : replay(file, excavator, excavator_setup(start.setup), start, wasted);
+    whole = is_dozer(start.setup)
+                ? replay(file, dozer, dozer_setup(start.setup), start, wasted)
+                : replay(file, excavator, excavator_setup(start.setup), start, wasted);
   }
   whole = whole && std::feof(file) != 0;
   std::fclose(file);

@@ -80,8 +80,7 @@ Played play(const Script& script) {
   if (script.row) {
     return play_row(script);
   }
-  const bool is_dozer = script.setup == Setup::kDozer || script.setup == Setup::kDozerBumps;
-  return is_dozer ? play_dozer(script) : play_excavator(script);
+  return is_dozer(script.setup) ? play_dozer(script) : play_excavator(script);
 }
 
 }  // namespace graben::timing

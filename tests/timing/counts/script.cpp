@@ -9,7 +9,8 @@
 namespace graben::timing {
 namespace {
 
-constexpr std::array<const char*, kSetups> kSetupNames = {"22t", "12t", "dozer", "bumps"};
+constexpr std::array<const char*, kSetups> kSetupNames = {"22t", "12t", "dozer", "bumps",
+                                                          "surface"};
 
 [[noreturn]] void refuse(const std::string& what) { throw std::runtime_error("script: " + what); }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <filesystem>
+#include <vector>
 
 #include "app/machines/dozer_file.hpp"
 #include "app/machines/excavator_file.hpp"
 #include "app/machines/task_file.hpp"
+#include "firmware/dozer/grade_profile.hpp"
 #include "tests/timing/counts/setups.hpp"
 
 namespace graben::timing {
@@ -33,6 +35,24 @@ DozerProfile with_bumps(DozerProfile profile) {
   return profile;
 }
 
+/// The same design, as the application hands it over from a surface however many triangles it has:
+/// as many heights as there may be, which stay where they are.
+DozerProfile with_heights(DozerProfile profile) {
+  static const std::vector<double> heights = [&profile] {
+    const GradeProfile design(profile.grade);
+    std::vector<double> all(GradeHeights::kMost);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i] = design.at(profile.grade.begin_m() + GradeHeights::kStep_m * static_cast<double>(i))
+                   .height_m;
+    }
+    return all;
+  }();
+  GradeDesign& grade = profile.grade;
+  grade.heights = {heights.data(), GradeHeights::kMost, grade.begin_m()};
+  grade.count = 0;
+  return profile;
+}
+
 }  // namespace
 
 const ExcavatorSetup& excavator_setup(Setup setup) {
@@ -45,7 +65,8 @@ const DozerProfile& dozer_setup(Setup setup) {
   static const DozerProfile shipped =
       machines::load_dozer(machines::find_profile("dozer_9t")).profile;
   static const DozerProfile bumps = with_bumps(shipped);
-  return setup == Setup::kDozerBumps ? bumps : shipped;
+  static const DozerProfile surface = with_heights(shipped);
+  return setup == Setup::kDozerBumps ? bumps : setup == Setup::kDozerSurface ? surface : shipped;
 }
 
 }  // namespace graben::timing

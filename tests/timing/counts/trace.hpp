@@ -18,9 +18,11 @@ enum class Setup : std::uint8_t {
   kExcavator22t = 0,
   kExcavator12t = 1,
   kDozer = 2,
-  kDozerBumps = 3,  ///< On a design with as many corners as there is room for.
+  kDozerBumps = 3,    ///< On a design with as many corners as there is room for.
+  kDozerSurface = 4,  ///< On the shipped design as a surface of triangles gives it: heights.
 };
-inline constexpr unsigned kSetups = 4;
+inline constexpr unsigned kSetups = 5;
+[[nodiscard]] constexpr bool is_dozer(Setup setup) { return setup >= Setup::kDozer; }
 
 /// Where a trace begins.
 struct TraceStart {

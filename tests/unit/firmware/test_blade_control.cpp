@@ -38,14 +38,35 @@ void on_the_grade_it_rests(void**) {
 
 /// Too high: extension, which lowers; as fast as the gain says.
 void an_error_is_taken_back(void**) {
-  const BladeCommand high = command(test::level(-0.01), driving(0.0, 0.0));
+  const BladeCommand high = command(test::level(-0.01), driving(1.0, 0.0));
   assert_near(high.error_m, 0.01, 1e-12);
   assert_true(high.velocity_mps > 0.0);
   const BladeKinematics blade(profile().blade);
   const double edge_mps =
       high.velocity_mps / blade.stroke_rate_mprad(0.0) * blade.edge_rate_mprad(0.0).y();
   assert_near(edge_mps, -profile().control.blade_gain_ps * 0.01, 1e-9);
-  assert_near(command(test::level(0.01), driving(0.0, 0.0)).velocity_mps, -high.velocity_mps, 1e-9);
+  assert_near(command(test::level(0.01), driving(1.0, 0.0)).velocity_mps, -high.velocity_mps, 1e-9);
+}
+
+/// What is too high within half the tolerance goes down a tenth of its way, and is not integrated;
+/// what is too deep, or far too high, does not wait.
+void it_comes_down_over_some_way(void**) {
+  const BladeKinematics blade(profile().blade);
+  const double gain_ps = profile().control.blade_gain_ps;
+  const double half_m = 0.5 * profile().grade.tolerance_m;
+  const auto edge_mps = [&](double above_m, double speed_mps) {
+    return command(test::level(-above_m), driving(speed_mps, 0.0)).velocity_mps /
+           blade.stroke_rate_mprad(0.0) * blade.edge_rate_mprad(0.0).y();
+  };
+  assert_near(edge_mps(0.5 * half_m, 0.2), -0.02, 1e-9);
+  assert_near(edge_mps(0.5 * half_m, 0.0), 0.0, 1e-12);
+  assert_near(edge_mps(0.001, 0.2), -gain_ps * 0.001, 1e-9);
+  assert_near(edge_mps(half_m + 0.002, 0.2), -0.02 - gain_ps * 0.002, 1e-9);
+  assert_near(edge_mps(-0.5 * half_m, 0.0), gain_ps * 0.5 * half_m, 1e-9);
+  const BladeCommand sinking = command(test::level(-0.5 * half_m), driving(0.2, 0.0));
+  assert_true(sinking.sinks);
+  assert_near(sinking.state.integral_mps, 0.0, 0.0);
+  assert_false(command(test::level(-0.001), driving(0.2, 0.0)).sinks);
 }
 
 /// Feed-forward: with it the edge keeps its height over the design whatever the body does.
@@ -79,7 +100,7 @@ void it_is_asked_for_what_will_be(void**) {
 /// is integrated all the same.
 void what_is_under_way_is_not_asked_for_twice(void**) {
   const BladeKinematics blade(profile().blade);
-  const BladeSituation now = driving(0.0, 0.0);
+  const BladeSituation now = driving(1.0, 0.0);
   BladeSituation then = now;
   for (int n = 0; n < 20; ++n) {
     then.angle_rad -= (blade.edge_m(then.angle_rad).y() + 0.01) / 1.6;
@@ -109,11 +130,11 @@ void a_lift_is_followed(void**) {
 void what_stays_is_integrated_up_to_its_bound(void**) {
   BladeState state;
   for (int n = 0; n < 50; ++n) {
-    state = command(test::level(-0.005), driving(0.0, 0.0), state).state;
+    state = command(test::level(-0.005), driving(2.0, 0.0), state).state;
   }
   assert_near(state.integral_mps, profile().control.blade_integral_ps2 * 0.005 * 0.5, 1e-9);
   for (int n = 0; n < 5000; ++n) {
-    state = command(test::level(-0.005), driving(0.0, 0.0), state).state;
+    state = command(test::level(-0.005), driving(2.0, 0.0), state).state;
   }
   assert_near(state.integral_mps, profile().control.blade_integral_most_mps, 1e-9);
 }
@@ -147,6 +168,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(on_the_grade_it_rests),
       cmocka_unit_test(an_error_is_taken_back),
+      cmocka_unit_test(it_comes_down_over_some_way),
       cmocka_unit_test(the_bodys_motion_is_made_up_for),
       cmocka_unit_test(it_is_asked_for_what_will_be),
       cmocka_unit_test(what_is_under_way_is_not_asked_for_twice),

@@ -88,6 +88,29 @@ void turned_back_it_forgets_only_what_lies_ahead(void**) {
   assert_near(ground.height_m(8.0, design), -0.1, 1e-9);
 }
 
+/// A pass begins with the blade on its way down to ground that an earlier one has left: that is
+/// where it was, however low the blade hangs over it.
+void a_blade_on_its_way_down_makes_no_ground(void**) {
+  const GradeProfile design(test::level(-0.1));
+  GroundMap ground = cut(design, 0.0, 12.0, 0.05);
+  ground.turn_back(6.0);
+  for (double x_m = 6.0; x_m < 8.0; x_m += 0.02) {
+    ground.pass(x_m, -0.03 + 0.01 * (8.0 - x_m), design, x_m - 2.2, 0.3, 0.0, true);
+  }
+  assert_near(ground.height_m(7.0, design), -0.05, 1e-9);
+  // As soon as it is down, what it leaves counts: cut, or filled with what it carries.
+  for (double x_m = 8.0; x_m < 10.0; x_m += 0.02) {
+    ground.pass(x_m, -0.08, design, x_m - 2.2, 0.3, 0.0);
+  }
+  assert_near(ground.height_m(9.0, design), -0.08, 1e-9);
+  // Where it has never been, it is the line that the tracks stand on.
+  for (double x_m = 10.0; x_m < 14.0; x_m += 0.02) {
+    ground.pass(x_m, 0.5, design, x_m - 2.2, 0.3, 0.0, true);
+  }
+  assert_near(ground.height_m(11.0, design), -0.05, 1e-9);
+  assert_near(ground.height_m(13.0, design), 0.3, 1e-9);
+}
+
 /// On level ground at its height, on a slope along it.
 void on_a_plane_it_stands_along_it(void**) {
   for (const double slope : {-0.3, 0.0, 0.2}) {
@@ -187,6 +210,7 @@ int main() {
       cmocka_unit_test(a_jump_starts_it_afresh),
       cmocka_unit_test(it_remembers_as_far_as_the_tracks_reach),
       cmocka_unit_test(turned_back_it_forgets_only_what_lies_ahead),
+      cmocka_unit_test(a_blade_on_its_way_down_makes_no_ground),
       cmocka_unit_test(on_a_plane_it_stands_along_it),
       cmocka_unit_test(where_it_stands_the_wheels_carry_it),
       cmocka_unit_test(the_shipped_design_is_reached_all_the_way),

@@ -100,12 +100,22 @@ void a_pass_that_was_lifted_makes_the_next_less_deep(void**) {
   }
 }
 
-/// The blade on its way down at the beginning leaves nothing.
+/// The blade on its way down at the beginning leaves nothing, however late it is, before it has
+/// come down or to what is to be cut: or each pass would begin before the one before.
 void a_blade_that_comes_down_leaves_nothing(void**) {
-  PassState state = next({}, 0.5, 0.0);
-  state.clear_m = 0.1;
-  state = next_pass(design(), state, {5.0, 0.1, 1.0, 0.5, 0.0}, kPeriod_s);
-  assert_false(state.left);
+  PassState state = goes({}, -1.0, 4.0, 0.0);
+  state = goes(goes(state, 4.0, 6.0, 0.1), 6.0, 10.01, 0.0);
+  state = stands(goes(stands(state, 10.2, 200), 10.2, 2.7, 0.25), 2.7, 2);
+  assert_int_equal(state.pass, 2);
+  assert_false(state.down);
+  state.clear_m = 0.0;
+  const PassState late = goes(state, 2.8, 3.9, 0.03);
+  assert_false(late.left || late.down);
+  const PassState never = goes(late, 3.9, 5.0, 0.03);
+  assert_true(never.left && never.down);
+  assert_near(never.from_m, 4.0, 0.011);
+  const PassState bounced = goes(goes(state, 2.8, 3.0, 0.01), 3.01, 3.9, 0.03);
+  assert_near(bounced.from_m, 3.01, 0.011);
 }
 
 void there_are_no_more_than_are_allowed(void**) {

@@ -95,7 +95,7 @@ void it_brakes_no_harder_than_it_may(void**) {
   demand.ahead = {0.2, 0.2};
   const SpeedChoice choice = next_speed(profile(), fast, demand, kPeriod_s);
   assert_near(choice.state.speed_mps,
-              1.6 - 1.25 * profile().travel.deceleration_max_mps2 * kPeriod_s, 1e-12);
+              1.6 - 1.1 * profile().travel.deceleration_max_mps2 * kPeriod_s, 1e-12);
   assert_int_equal(choice.limit.kind, LimitKind::kAhead);
 }
 

@@ -136,6 +136,23 @@ void charge_feeds_the_low_line(void**) {
   assert_true(lowest < 2.2e6);
 }
 
+// A circuit that leaks nothing does not pump itself up on what the check lets in with every blow:
+// the flushing valve lets it out of the lower line again.
+void the_low_line_comes_back_to_the_charge_pressure(void**) {
+  DozerPlantProfile tight = dozer_9t();
+  tight.machine.hst.pump_efficiency = 1.0;
+  tight.machine.hst.motor_efficiency = 1.0;
+  HstPath path(tight);
+  for (int blow = 0; blow < 40; ++blow) {
+    path.pump().set_wanted(blow % 2 == 0 ? 0.8 : -0.8);
+    run(path, 1.0, blow % 2 == 0 ? 30e3 : -5e3);
+  }
+  path.pump().set_wanted(0.3);
+  run(path, 3.0, 10e3);
+  assert_near(path.pressures_pa()[1], 2.5e6, 0.05e6);
+  assert_near(path.pressures_pa()[0] - 2.5e6, working_pa(path), 0.05e6);
+}
+
 void the_brake_stops_and_holds(void**) {
   HstPath path = driven(0.0, 1.0, 0.0);
   run(path, 1.0, 100e3, true);
@@ -208,6 +225,7 @@ int main() {
       cmocka_unit_test(oil_is_accounted_for),
       cmocka_unit_test(a_stalled_track_opens_the_relief),
       cmocka_unit_test(charge_feeds_the_low_line),
+      cmocka_unit_test(the_low_line_comes_back_to_the_charge_pressure),
       cmocka_unit_test(the_brake_stops_and_holds),
       cmocka_unit_test(a_displacement_lags_and_has_a_rate),
       cmocka_unit_test(a_servo_can_be_broken),
