@@ -24,27 +24,32 @@ MessageRules rules_of(const BusTable* table) {
                           : MessageRules{table->rule.data(), table->message_count, nullptr, 0};
 }
 
+/// Of a cylinder's or a joint's sensor; null: the place is none of these.
+Signal<double>* place_of_axis(SourcePlace place, std::size_t axis, ExcavatorInputs& to) {
+  if (place == SourcePlace::kStroke) {
+    return &to.axis[axis].stroke_m;
+  }
+  if (place == SourcePlace::kJointAngle) {
+    return &to.joint_rad[axis];
+  }
+  if (place == SourcePlace::kCapPressure) {
+    return &to.axis[axis].cap_pressure_pa;
+  }
+  if (place == SourcePlace::kRodPressure) {
+    return &to.axis[axis].rod_pressure_pa;
+  }
+  return place == SourcePlace::kSpool ? &to.axis[axis].spool_ratio : nullptr;
+}
+
 /// Of what goes to the controller as it is; null: nothing of that.
 Signal<double>* place_of(const TableSource& source, ExcavatorInputs& to) {
-  switch (source.place) {
-    case SourcePlace::kStroke:
-      return &to.axis[source.index].stroke_m;
-    case SourcePlace::kJointAngle:
-      return &to.joint_rad[source.index];
-    case SourcePlace::kCapPressure:
-      return &to.axis[source.index].cap_pressure_pa;
-    case SourcePlace::kRodPressure:
-      return &to.axis[source.index].rod_pressure_pa;
-    case SourcePlace::kSpool:
-      return &to.axis[source.index].spool_ratio;
-    case SourcePlace::kSwash:
-      return &to.swash_ratio[source.index];
-    case SourcePlace::kEngineSpeed:
-      return &to.engine_speed_radps;
-    default:
-      break;
+  if (source.place == SourcePlace::kSwash) {
+    return &to.swash_ratio[source.index];
   }
-  return nullptr;
+  if (source.place == SourcePlace::kEngineSpeed) {
+    return &to.engine_speed_radps;
+  }
+  return place_of_axis(source.place, source.index, to);
 }
 
 Signal<double> shown_by(const TableSource& source, const dbc::Payload& data, TimeUs now) {
