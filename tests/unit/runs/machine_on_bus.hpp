@@ -12,8 +12,6 @@
 namespace graben::test {
 
 inline constexpr int kCycle_ms = 10;
-/// A stop that is not at once.
-inline constexpr int kBrakes_ms = 1000;
 
 /// The 22 t machine as found, on a shipped bus.
 inline machines::SimulatedExcavator on_bus(const std::string& bus) {
@@ -74,26 +72,6 @@ struct MachineOnBus {
     for (const double duty_ratio : rig.ecu->outputs().duty_ratio) {
       assert_near(duty_ratio, 0.0, 0.0);
     }
-  }
-  /// As above, of a fault that the machine is braked for before it is let go.
-  void controller_brakes_within(int most_ms) {
-    int time_ms = 0;
-    while (status().mode == EcuMode::kActive && time_ms <= most_ms) {
-      step();
-      time_ms += kCycle_ms;
-    }
-    print_message("brakes by fault %d after %d ms\n", static_cast<int>(status().fault), time_ms);
-    assert_in_range(time_ms, 0, most_ms);
-    controller_rests_within(kBrakes_ms);
-  }
-  void controller_rests_within(int most_ms) {
-    int time_ms = 0;
-    while (status().mode != EcuMode::kFault && time_ms <= most_ms) {
-      step();
-      time_ms += kCycle_ms;
-    }
-    assert_in_range(time_ms, 0, most_ms);
-    assert_false(rig.ecu->outputs().enable);
   }
   /// From now on frames of this id are as `change_data` makes them, or lost where that is false.
   template <class Change>
