@@ -39,6 +39,8 @@ graben_missing() {
     has_command clang-format-14 || has_command clang-format || echo clang-format
     has_command clang-tidy-14 || has_command clang-tidy || echo clang-tidy
     has_command gcovr || echo gcovr
+    # A decoder of CANopen and J1939 that is not ours.
+    has_command tshark || echo tshark
     # For the counts of instructions.
     has_command qemu-x86_64 || echo qemu-user
   fi

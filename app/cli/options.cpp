@@ -54,9 +54,11 @@ void add_scenario_options(CLI::App& command, runs::DigScenario& scenario) {
       ->check(one_of({machines::kLawNames.begin(), machines::kLawNames.end()}));
   add_swash_option(command, scenario.swash_ratio);
   add_sensor_option(command, tried.imus);
-  command.add_option("--bus", tried.bus,
-                     "Bus profile of the machine, a file or zx200, with the stand-ins that it "
-                     "needs; the profile's own unless told");
+  command.add_option(
+      "--bus", tried.bus,
+      "Bus profile of the machine, a file or a shipped one (zx200, slopes, encoders, "
+      "inclinometers, aux_valves, valve_driver, retrofit), with the stand-ins that "
+      "it needs; the profile's own unless told");
   command.add_flag("--fixed-lambda", scenario.fixed_lambda,
                    "For comparison: lambda stays 1, whatever the machine can do");
 }

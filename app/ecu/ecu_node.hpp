@@ -215,6 +215,7 @@ void EcuNode<Kind>::step(TimeUs now_us, TimeUs last_cycle_us) {
   diagnosis_.cycle_time_us = last_cycle_us;
   diagnosis_.stamp = challenge_.next_stamp();
   diagnosis_.rejected_frames = rejected(receiver_.total());
+  transmitter_.start_node(receiver_.take_start(now_us));
   typename Transmitter::Frames frames;
   const int count = transmitter_.frames(outputs_, diagnosis_, now_us, frames);
   leave_last_frames(now_us);

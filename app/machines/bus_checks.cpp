@@ -11,6 +11,7 @@
 
 #include "can_dbc/codec.hpp"
 #include "can_dbc/generated/common_dbc.hpp"
+#include "hal/buses/canopen_nodes.hpp"
 #include "hal/buses/excavator_bus.hpp"
 
 namespace graben::machines {
@@ -97,17 +98,20 @@ std::vector<double> said_values(SinkPlace place) {
   if (place == SinkPlace::kDuty) {
     return {-1.0, 0.0, 1.0};
   }
+  if (place == SinkPlace::kSide) {
+    return {0.0, 1.0, 2.0};
+  }
   return {0.0, 1.0};
 }
 
 bool is_switch(SinkPlace place) {
-  return place == SinkPlace::kEnable || place == SinkPlace::kPilotCut;
+  return place == SinkPlace::kEnable || place == SinkPlace::kPilotCut || place == SinkPlace::kSide;
 }
 
 /// What a receiver has to take for 'do nothing' is raw 0.
 bool has_neutral(SinkPlace place) {
   return place == SinkPlace::kDuty || place == SinkPlace::kExtend || place == SinkPlace::kRetract ||
-         place == SinkPlace::kEnable;
+         place == SinkPlace::kEnable || place == SinkPlace::kFlow || place == SinkPlace::kSide;
 }
 
 /// False where the bits can't say a raw value; then it is told.
@@ -185,9 +189,29 @@ void check_silence(TomlReader& reader, const BusTable& table) {
   }
 }
 
+/// Ids that CANopen keeps for itself.
+void check_nodes(TomlReader& reader, const BusTable& table) {
+  for (std::size_t i = 0; i < table.message_count; ++i) {
+    for (std::size_t n = 0; n < table.node_count; ++n) {
+      if (!table.rule[i].extended &&
+          table.rule[i].id == CanopenNodes::kHeartbeatId + table.node[n].id) {
+        reader.fail(fmt::format("receive[{}]", i),
+                    fmt::format("its id 0x{:X} is that of the heartbeat of node {}",
+                                table.rule[i].id, table.node[n].id));
+      }
+    }
+  }
+  for (std::size_t i = 0; i < table.send_count; ++i) {
+    if (!table.send[i].extended && table.send[i].rule.id == 0 && table.node_count != 0) {
+      reader.fail(fmt::format("send[{}]", i), "its id 0x0 is that of the nodes' start");
+    }
+  }
+}
+
 }  // namespace
 
 void check_bus(TomlReader& reader, const BusTable& table) {
+  check_nodes(reader, table);
   check_ids(reader, table);
   check_silence(reader, table);
   check_sent(reader, table);

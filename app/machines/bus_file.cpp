@@ -17,10 +17,12 @@ namespace {
 /// Of our own bus, whose valve side says every 20 ms what it acts on.
 constexpr TimeUs kOwnEcho_us = 20 * kMillisecondUs;
 
+/// Of a slope, the links: the platform may have one or not.
 int axes_with(const BusTable& table, SourcePlace place) {
   unsigned there = 0;
   for (std::size_t n = 0; n < table.source_count; ++n) {
-    there |= table.source[n].place == place ? 1U << table.source[n].index : 0U;
+    const bool counts = table.source[n].place == place && table.source[n].index < kAxisCount;
+    there |= counts ? 1U << table.source[n].index : 0U;
   }
   int count = 0;
   for (; there != 0; there &= there - 1) {
@@ -48,14 +50,11 @@ bool all_axes(TomlReader& reader, const BusTable& table, SourcePlace place, cons
 
 /// What a machine that does not speak our DBC beside it has to say and to take.
 void check_complete(TomlReader& reader, const BusTable& table, bool strokes, bool joints) {
-  if (strokes && joints) {
-    reader.fail("receive", "both strokes and joint angles; allowed: one of them");
-  }
   if (table.own_frames) {
     return;
   }
   if (!strokes && !joints) {
-    reader.fail("receive", "nothing says a stroke or joint_angle of boom, arm and bucket");
+    reader.fail("receive", "nothing says a stroke, joint_angle or slope of boom, arm and bucket");
   }
   if (axes_with(table, SourcePlace::kCapPressure) != kAxisCount ||
       axes_with(table, SourcePlace::kRodPressure) != kAxisCount) {
@@ -64,9 +63,14 @@ void check_complete(TomlReader& reader, const BusTable& table, bool strokes, boo
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     const bool both =
         has_sink(table, SinkPlace::kExtend, axis) && has_sink(table, SinkPlace::kRetract, axis);
-    if (!both && !has_sink(table, SinkPlace::kDuty, axis)) {
-      reader.fail("send", fmt::format("nothing takes the {}'s duty, or its extend and retract",
-                                      kAxisNames[axis]));
+    const bool sided =
+        has_sink(table, SinkPlace::kFlow, axis) && has_sink(table, SinkPlace::kSide, axis);
+    if (!both && !sided && !has_sink(table, SinkPlace::kDuty, axis)) {
+      reader.fail(
+          "send",
+          fmt::format("nothing takes the {}'s duty, its extend and retract, or its flow and "
+                      "side",
+                      kAxisNames[axis]));
     }
   }
 }
@@ -87,7 +91,15 @@ TimeUs slowest_condition_us(const BusTable& table) {
 BusCapabilities capabilities_of(TomlReader& reader, const BusTable& table) {
   BusCapabilities can;
   const bool strokes = all_axes(reader, table, SourcePlace::kStroke, "stroke");
-  const bool joints = all_axes(reader, table, SourcePlace::kJointAngle, "joint_angle");
+  const bool angles = all_axes(reader, table, SourcePlace::kJointAngle, "joint_angle");
+  const bool slopes = all_axes(reader, table, SourcePlace::kSlope, "slope");
+  const bool joints = angles || slopes;
+  if (int{strokes} + int{angles} + int{slopes} > 1) {
+    reader.fail("receive", "more than one of strokes, joint angles and slopes; allowed: one");
+  }
+  if (table.has_body_slope && !slopes) {
+    reader.fail("receive", "a slope of the body and none of the links; allowed: all of them");
+  }
   const bool spools = all_axes(reader, table, SourcePlace::kSpool, "spool");
   check_complete(reader, table, strokes, joints);
   const TimeUs echo_us = slowest_condition_us(table);
@@ -102,6 +114,10 @@ BusCapabilities capabilities_of(TomlReader& reader, const BusTable& table) {
                                            has_sink(table, SinkPlace::kSwash, 1));
   for (std::size_t i = 0; i < table.message_count; ++i) {
     can.protection = can.protection && table.message[i].protection == TableProtection::kE2e;
+  }
+  for (std::size_t i = 0; i < table.send_count; ++i) {
+    const bool guarded = table.send[i].protection == TableProtection::kE2e;
+    can.protection = can.protection && (guarded || !table.send[i].commands);
   }
   const TimeUs later_us = std::max<TimeUs>(0, echo_us - kOwnEcho_us);
   can.echo_cycles += static_cast<int>(later_us / kControlPeriod_us);
@@ -172,6 +188,7 @@ BusFile load_bus(const std::filesystem::path& file) {
   bus.table.bus_count = static_cast<std::uint8_t>(context.interfaces.size());
   bus.table.own_frames =
       reader.boolean_or(false, "own_frames", "the machine's end speaks our DBC beside it");
+  read_nodes(reader, context, bus.table);
   read_received(reader, context, bus.table);
   read_sent(reader, context, bus.table);
   check_bus(reader, bus.table);

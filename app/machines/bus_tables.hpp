@@ -18,7 +18,9 @@ struct BusContext {
   std::vector<std::string> interfaces;  ///< In the order of the process's buses; empty: one.
 };
 
-/// [[receive]] and [[send]], their signals with them. Errors go to the reader.
+/// [[node]], then [[receive]], which names nodes, and [[send]], their signals with them. Errors go
+/// to the reader.
+void read_nodes(TomlReader& reader, const BusContext& context, BusTable& table);
 void read_received(TomlReader& reader, const BusContext& context, BusTable& table);
 void read_sent(TomlReader& reader, const BusContext& context, BusTable& table);
 

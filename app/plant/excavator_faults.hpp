@@ -3,6 +3,7 @@
 /// Faults of the simulated excavator, beside those of every machine.
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
 #include "app/plant/node_faults.hpp"
@@ -54,6 +55,12 @@ struct Zx200Faults {
   bool lost = false;     ///< It says nothing any more, and hears nothing.
 };
 
+/// Of sensors off the shelf.
+struct SoldFaults {
+  std::uint32_t reboots = 0;  ///< Counted up, `reboots_node` boots anew.
+  std::uint8_t reboots_node = 0;
+};
+
 struct ExcavatorFaults : NodeFaults {
   std::array<AxisFaults, kAxisCount> axis;
   SwingFaults swing;
@@ -62,6 +69,7 @@ struct ExcavatorFaults : NodeFaults {
   std::array<std::size_t, kAxisCount> stroke_from = {0, 1, 2};
 
   Zx200Faults zx200;
+  SoldFaults sold;
 
   void set_stroke_state(int axis_index, dbc::RawState state) {
     axis[static_cast<std::size_t>(axis_index)].stroke.state = state;

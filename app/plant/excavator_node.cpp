@@ -20,9 +20,17 @@ ExcavatorNode::ExcavatorNode(const ExcavatorPlantProfile& profile, const Excavat
     : MachineNode(port, profile_hash, profile, start.strokes_m, start.swing_rad),
       sensors_(profile),
       imus_(profile, profile.sensor_errors ? std::optional(profile.seed) : std::nullopt),
+      canopen_(profile),
       wanted_swash_(profile.swash_ratio) {
   if (profile.zx200) {
     zx200_.emplace(profile);
+  }
+  if (profile.sold.slopes) {
+    slopes_.emplace(profile);
+  }
+  if (profile.sold.aux_valves || profile.sold.valve_driver) {
+    valves_.emplace(profile.sold.aux_valves ? SoldValves::Kind::kAuxiliary
+                                            : SoldValves::Kind::kDriver);
   }
 }
 
@@ -54,8 +62,17 @@ void ExcavatorNode::step(TimeUs now) {
   }
   receive([this, now](const CanFrame& frame) { take(frame, now); });
   watch_commands(now);
+  obey_sold_valves(now);
   apply_faults();
   advance(now);
+  send_canopen(now);
+  if (plant_.profile().sold.silent) {
+    if (is_due<bus::EEC1>()) {
+      send(bus::EEC1{valid(plant_.engine_radps())}, now);
+    }
+    end_silent_cycle();
+    return;
+  }
   send_axes(now);
   if (is_due<bus::PumpState>()) {
     send_pumps(now);
@@ -79,6 +96,20 @@ void ExcavatorNode::watch_commands(TimeUs now) {
   if (pump_link_.dies(now)) {
     wanted_swash_ = plant_.profile().swash_ratio;
   }
+}
+
+/// Beside our SpoolCommand, which enables and cuts as ever, or, of a machine that does not speak
+/// our bus, in its place.
+void ExcavatorNode::obey_sold_valves(TimeUs now) {
+  if (!valves_) {
+    return;
+  }
+  valves_->decide(now);
+  enabled_ = valves_->drives() && (enabled_ || plant_.profile().sold.silent);
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    duty_[i] = valves_->duty(i);
+  }
+  set_duties();
 }
 
 void ExcavatorNode::set_duties() {
@@ -106,6 +137,13 @@ void ExcavatorNode::apply_faults() {
 }
 
 void ExcavatorNode::take(const CanFrame& frame, TimeUs now) {
+  canopen_.take(frame);
+  if (valves_) {
+    valves_->take(frame, now);
+  }
+  if (plant_.profile().sold.silent) {
+    return;
+  }
   if (frame.id == bus::SpoolCommand::kId) {
     take_spool_command(frame, now);
   }
@@ -162,12 +200,16 @@ Physical ExcavatorNode::stroke(std::size_t axis) {
 void ExcavatorNode::send_axes(TimeUs now) {
   if (plant_.profile().machine.imu.known()) {
     send_imus(now);
-  } else {
+  } else if (slopes_) {
+    send_slopes(now);
+  } else if (!canopen_.measures_joints()) {
     send(bus::BoomStroke{stroke(kBoom)}, now);
     send(bus::ArmStroke{stroke(kArm)}, now);
     send(bus::BucketStroke{stroke(kBucket)}, now);
   }
-  send_pressures(now);
+  if (!canopen_.measures_pressures()) {
+    send_pressures(now);
+  }
   if (has_swing()) {
     send_swing(now);
   }
@@ -181,6 +223,30 @@ void ExcavatorNode::send_imus(TimeUs now) {
       send_from(mounts[imu].address, imus_.rates(imu), now);
       send_from(mounts[imu].address, imus_.forces(imu), now);
     }
+  }
+}
+
+void ExcavatorNode::send_canopen(TimeUs now) {
+  for (const CanFrame& frame : canopen_.report(plant_, faults_, sensors_, cycle())) {
+    send_frame(frame, now);
+  }
+}
+
+/// The addresses as shipped: the boom's is that of a single sensor.
+void ExcavatorNode::send_slopes(TimeUs now) {
+  using Slope = dbc::j1939::SSI2;
+  constexpr std::uint8_t kFirst = Slope::kId & 0xFFU;
+  slopes_->look(plant_);
+  for (std::uint8_t link = 0; link < kImuCount; ++link) {
+    Slope message;
+    message.pitch_rad = valid(slopes_->slope_rad(link));
+    message.roll_rad = valid(0.0);
+    message.pitch_compensation = {Slope::PitchCompensation::kOn, RawState::kValid};
+    message.pitch_merit = {Slope::PitchMerit::kFunctional, RawState::kValid};
+    message.roll_compensation = {Slope::RollCompensation::kOn, RawState::kValid};
+    message.roll_merit = {Slope::RollMerit::kFunctional, RawState::kValid};
+    message.latency_s = valid(SlopeSensors::kLatency_s);
+    send_from(static_cast<std::uint8_t>(kFirst + link), message, now);
   }
 }
 

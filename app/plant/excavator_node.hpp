@@ -6,11 +6,14 @@
 #include <cstdint>
 #include <optional>
 
+#include "app/plant/canopen_parts.hpp"
 #include "app/plant/excavator_faults.hpp"
 #include "app/plant/excavator_plant.hpp"
 #include "app/plant/excavator_sensors.hpp"
 #include "app/plant/link_imus.hpp"
 #include "app/plant/machine_node.hpp"
+#include "app/plant/slope_sensors.hpp"
+#include "app/plant/sold_valves.hpp"
 #include "app/plant/zx200_gateway.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "hal/can_port.hpp"
@@ -36,8 +39,9 @@ struct ExcavatorStart {
 /// without it for as long, or without a value, it goes back to the profile's swash. The swing spool
 /// follows SwingCommand by the same rules as the others SpoolCommand, and opens only while
 /// SpoolCommand lets them open too. A machine without a swing drive neither listens to nor says
-/// anything of the swing. One whose profile has IMUs sends their frames and no strokes. One of the
-/// ZX200 class speaks its own bus instead of all that, see zx200_gateway.hpp.
+/// anything of the swing. One whose profile has IMUs sends their frames and no strokes, and so does
+/// one with parts off the shelf (SoldParts) that measure. One of the ZX200 class speaks its own bus
+/// instead of all that, see zx200_gateway.hpp.
 class ExcavatorNode : public MachineNode<dbc::excavator::Dbc, ExcavatorPlant, ExcavatorFaults> {
  public:
   ExcavatorNode(const ExcavatorPlantProfile& profile, const ExcavatorStart& start, CanPort& port,
@@ -68,6 +72,9 @@ class ExcavatorNode : public MachineNode<dbc::excavator::Dbc, ExcavatorPlant, Ex
   void send_pressures(TimeUs now);
   void send_swing(TimeUs now);
   void send_imus(TimeUs now);
+  void send_slopes(TimeUs now);
+  void send_canopen(TimeUs now);
+  void obey_sold_valves(TimeUs now);
   void send_pumps(TimeUs now);
   void send_valve(TimeUs now);
   [[nodiscard]] dbc::Physical stroke(std::size_t axis);
@@ -76,6 +83,9 @@ class ExcavatorNode : public MachineNode<dbc::excavator::Dbc, ExcavatorPlant, Ex
   FaultySensors sensors_;
   LinkImuModel imus_;
   std::optional<Zx200Gateway> zx200_;
+  std::optional<SlopeSensors> slopes_;
+  CanopenParts canopen_;
+  std::optional<SoldValves> valves_;
   CommandLink swing_link_;
   CommandLink pump_link_;
   bool swing_enabled_ = false;

@@ -72,6 +72,18 @@ inline void fit_bypass(SpoolDynamics& spool) {
       std::min({kBypassClosingTravel, spool.extend.start_ratio(), spool.retract.start_ratio()});
 }
 
+/// Parts off the shelf that the machine has in the place of what speaks our bus.
+struct SoldParts {
+  bool slopes = false;         ///< Slope sensors of SAE J1939 in the place of stroke sensors.
+  bool encoders = false;       ///< Encoders of CANopen in the same place.
+  bool inclinometers = false;  ///< Inclinometers of CANopen in the same place.
+  bool transmitters = false;   ///< Pressure transmitters of CANopen.
+  bool aux_valves = false;     ///< Auxiliary valves of ISO 11783-7.
+  bool valve_driver = false;   ///< A driver that takes currents.
+  /// Nothing of the machine speaks our bus but its engine. Sensors are on the second bus.
+  bool silent = false;
+};
+
 struct ExcavatorPlantProfile : HydraulicDetails {
   /// Geometry, valve areas, regeneration, pumps: the plant reads these numbers, and none of the
   /// functions that the controller has for them.
@@ -97,8 +109,9 @@ struct ExcavatorPlantProfile : HydraulicDetails {
 
   std::array<double, kPumpCount> swash_ratio{};  ///< Of full swash, unless commanded.
   SensorErrors sensors;
-  /// Seed of the sensors' bias and noise and of the soil's random part.
   bool zx200 = false;  ///< It speaks the bus of its class instead of ours.
+  SoldParts sold;
+  /// Seed of the sensors' bias and noise and of the soil's random part.
   std::uint64_t seed = 0;
   bool sensor_errors = false;  ///< Without: strokes to the resolution, pressures exact.
   std::array<SideDelay, kDriveCount> dead_time;

@@ -22,6 +22,14 @@ class FrameSender {
   FrameSender(CanPort& port, const Messages& messages)
       : port_(port), messages_(messages.data()), message_count_(messages.size()) {}
 
+  /// A frame of another bus than the DBC's, as it is.
+  void send_frame(CanFrame frame, const FrameFaults& faults, TimeUs now) {
+    frame.stamp_us = now;
+    if (faults.silent.count(frame.id) == 0) {
+      put_in_time(frame, faults, now);
+    }
+  }
+
   /// The same of a message that several nodes send, each under its source address.
   template <class Message>
   void send_from(std::uint8_t address, const Message& message, const FrameFaults& faults,

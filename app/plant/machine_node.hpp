@@ -123,6 +123,10 @@ class MachineNode {
   void send(const Message& message, TimeUs now) {
     sender_.send(message, faults_.frames, now);
   }
+  /// Of another bus than the DBC's.
+  void send_frame(const CanFrame& frame, TimeUs now) {
+    sender_.send_frame(frame, faults_.frames, now);
+  }
   /// From a node beside this one, under its source address.
   template <class Message>
   void send_from(std::uint8_t address, const Message& message, TimeUs now) {

@@ -2,6 +2,7 @@
 #include "hal/buses/bus_table.hpp"
 
 #include "can_dbc/codec.hpp"
+#include "hal/buses/canopen_nodes.hpp"
 
 namespace graben {
 namespace {
@@ -65,14 +66,18 @@ BusParts with_table(BusParts parts, const BusTable* table) {
   return parts;
 }
 
-std::array<std::uint32_t, kMostTableReceived + kMostTableSent> table_ids(const BusTable& table) {
-  std::array<std::uint32_t, kMostTableReceived + kMostTableSent> ids{};
+TableIds table_ids(const BusTable& table) {
+  TableIds ids{};
   for (std::size_t i = 0; i < table.message_count; ++i) {
     ids[i] = table.rule[i].id | (table.rule[i].extended ? 0U : kStandardId);
   }
   for (std::size_t i = 0; i < table.send_count; ++i) {
     ids[kMostTableReceived + i] =
         table.send[i].rule.id | (table.send[i].extended ? 0U : kStandardId);
+  }
+  for (std::size_t i = 0; i < table.node_count; ++i) {
+    ids[kMostTableReceived + kMostTableSent + i] =
+        kStandardId | (CanopenNodes::kHeartbeatId + table.node[i].id);
   }
   return ids;
 }

@@ -22,6 +22,7 @@ inline constexpr std::size_t kMostTableReceived = 16;
 inline constexpr std::size_t kMostTableSources = 64;
 inline constexpr std::size_t kMostTableSent = 8;
 inline constexpr std::size_t kMostTableSinks = 40;
+inline constexpr std::size_t kMostTableNodes = 12;
 
 /// Where a signal lies. Motorola: `start_bit` is that of the highest bit, as a DBC counts them.
 struct BitField {
@@ -51,10 +52,16 @@ enum class SourcePlace : std::uint8_t {
   kCapPressure = 2,  ///< Pa, of an axis.
   kRodPressure = 3,
   kSpool = 4,        ///< Share of the travel, -1 .. 1, of an axis.
-  kSwash = 5,        ///< Share of full, of a pump.
-  kEngineSpeed = 6,  ///< rad/s.
-  kCondition = 7,    ///< The valve side acts on our enable only where all of these hold.
+  kSlope = 5,        ///< rad against the horizontal, of a link or the platform (SlopeLink).
+  kSwash = 6,        ///< Share of full, of a pump.
+  kEngineSpeed = 7,  ///< rad/s.
+  kCondition = 8,    ///< The valve side acts on our enable only where all of these hold.
+  kMerit = 9,        ///< Within its range the sender trusts what else is in its message.
 };
+
+/// What has a slope. The links are counted as the axes.
+enum SlopeLink : std::uint8_t { kBoomSlope = 0, kArmSlope = 1, kBucketSlope = 2, kBodySlope = 3 };
+inline constexpr std::size_t kSlopeCount = 4;
 
 /// What a sent value is.
 enum class SinkPlace : std::uint8_t {
@@ -65,9 +72,20 @@ enum class SinkPlace : std::uint8_t {
   kExtend = 4,    ///< 0 .. 1, as far as the duty extends.
   kRetract = 5,   ///< 0 .. 1, as far as it retracts.
   kSwash = 6,     ///< Share of full, of a pump.
+  kFlow = 7,      ///< 0 .. 1, as far as the duty goes, either way.
+  kSide = 8,      ///< Which way: 0 neither, 1 it extends, 2 it retracts.
 };
 
 inline constexpr std::int64_t kNoSpecial = -1;
+inline constexpr std::uint8_t kNoNode = 0xFF;
+inline constexpr int kMostNodeId = 127;
+
+/// A node of CANopen whose messages count only while it says that it is operational.
+struct TableNode {
+  std::uint8_t id = 0;
+  std::uint8_t bus = kAnyBus;
+  TimeUs timeout_us = 0;  ///< Of its heartbeat.
+};
 
 /// A signal that is received.
 struct TableSource {
@@ -93,7 +111,8 @@ struct TableMessage {
   TimeUs period_us = 0;
   TimeUs timeout_us = 0;  ///< Silent for longer, its signals are 'not available'.
   bool slow = false;  ///< Its signals count as fresh up to there, as old as the core may find them.
-  std::uint8_t first = 0;  ///< Its signals among the sources.
+  std::uint8_t node = kNoNode;  ///< Of the table's nodes, the one that sends it.
+  std::uint8_t first = 0;       ///< Its signals among the sources.
   std::uint8_t count = 0;
 };
 
@@ -104,6 +123,7 @@ struct TableSink {
   std::uint8_t index = 0;
   double scale = 1.0;
   double offset = 0.0;
+  double least = 0.0;  ///< Of an extend, retract or flow: what any that is not 0 begins at.
 };
 
 /// A message that is sent.
@@ -131,10 +151,14 @@ struct BusTable {
   std::size_t send_count = 0;
   std::array<TableSink, kMostTableSinks> sink{};
   std::size_t sink_count = 0;
-  bool own_frames = false;     ///< The machine's end speaks our DBC beside it.
-  bool has_engine = false;     ///< A source is the engine's speed.
-  bool has_cut = false;        ///< A sink is the pilot cut.
-  std::uint8_t bus_count = 0;  ///< Of buses that its messages are told apart by; 0: any number.
+  std::array<TableNode, kMostTableNodes> node{};
+  std::size_t node_count = 0;
+  bool own_frames = false;      ///< The machine's end speaks our DBC beside it.
+  bool has_engine = false;      ///< A source is the engine's speed.
+  bool has_slopes = false;      ///< Sources are the links' slopes, of which joint angles are made.
+  bool has_body_slope = false;  ///< And the platform's; without it, it counts as level.
+  bool has_cut = false;         ///< A sink is the pilot cut.
+  std::uint8_t bus_count = 0;   ///< Of buses that its messages are told apart by; 0: any number.
 
   [[nodiscard]] constexpr bool empty() const { return message_count + send_count == 0; }
 };
@@ -145,8 +169,10 @@ struct BusTable {
 /// In a port's list of ids: one of 11 bits.
 inline constexpr std::uint32_t kStandardId = 0x80000000U;
 
-/// The ids of a table's frames, received and sent, for a port's filters; 0 where there is none.
-[[nodiscard]] std::array<std::uint32_t, kMostTableReceived + kMostTableSent> table_ids(
-    const BusTable& table);
+using TableIds = std::array<std::uint32_t, kMostTableReceived + kMostTableSent + kMostTableNodes>;
+
+/// The ids of a table's frames, received, sent, and its nodes' heartbeats, for a port's filters; 0
+/// where there is none.
+[[nodiscard]] TableIds table_ids(const BusTable& table);
 
 }  // namespace graben

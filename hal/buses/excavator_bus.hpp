@@ -48,6 +48,8 @@ class ExcavatorReceiver : public MessageReceiver<ExcavatorReception> {
     return MessageReceiver::take_out_of_range() || of_table;
   }
 
+  [[nodiscard]] NodeStart take_start(TimeUs now) { return table_.take_start(now); }
+
   [[nodiscard]] const LinkCounters& imus() const { return imus_.counters(); }
   [[nodiscard]] LinkCounters table() const { return table_.counters(); }
 
@@ -78,7 +80,8 @@ struct ExcavatorTransmission {
 /// With what a table says beside it. What is ours is sent on every bus: stations and logs go by it.
 class ExcavatorTransmitter : public MessageTransmitter<ExcavatorTransmission> {
  public:
-  static constexpr int kMessageCount = MessageTransmitter::kMessageCount + kMostTableSent;
+  static constexpr int kMessageCount =
+      MessageTransmitter::kMessageCount + TableTransmitter::kMostFrames;
   using Frames = std::array<CanFrame, kMessageCount>;
 
   explicit ExcavatorTransmitter(const BusParts& parts = {})
@@ -86,6 +89,8 @@ class ExcavatorTransmitter : public MessageTransmitter<ExcavatorTransmission> {
 
   /// Whether a table sends commands in messages of this id.
   [[nodiscard]] bool is_table_command(std::uint32_t id) const { return table_.is_command(id); }
+
+  void start_node(const NodeStart& start) { table_.start_node(start); }
 
   [[nodiscard]] int frames(const Outputs& outputs, const EcuDiagnosis& diagnosis, TimeUs now,
                            Frames& out) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/numeric/constants.hpp"
+
 namespace graben {
 namespace {
 
@@ -22,32 +24,38 @@ MessageRules rules_of(const BusTable* table) {
                           : MessageRules{table->rule.data(), table->message_count, nullptr, 0};
 }
 
-/// Null where the value is a condition.
-Signal<double>* place_of(const TableSource& source, ExcavatorInputs& to) {
-  switch (source.place) {
-    case SourcePlace::kStroke:
-      return &to.axis[source.index].stroke_m;
-    case SourcePlace::kJointAngle:
-      return &to.joint_rad[source.index];
-    case SourcePlace::kCapPressure:
-      return &to.axis[source.index].cap_pressure_pa;
-    case SourcePlace::kRodPressure:
-      return &to.axis[source.index].rod_pressure_pa;
-    case SourcePlace::kSpool:
-      return &to.axis[source.index].spool_ratio;
-    case SourcePlace::kSwash:
-      return &to.swash_ratio[source.index];
-    case SourcePlace::kEngineSpeed:
-      return &to.engine_speed_radps;
-    case SourcePlace::kCondition:
-      break;
+/// Of a cylinder's or a joint's sensor; null: the place is none of these.
+Signal<double>* place_of_axis(SourcePlace place, std::size_t axis, ExcavatorInputs& to) {
+  if (place == SourcePlace::kStroke) {
+    return &to.axis[axis].stroke_m;
   }
-  return nullptr;
+  if (place == SourcePlace::kJointAngle) {
+    return &to.joint_rad[axis];
+  }
+  if (place == SourcePlace::kCapPressure) {
+    return &to.axis[axis].cap_pressure_pa;
+  }
+  if (place == SourcePlace::kRodPressure) {
+    return &to.axis[axis].rod_pressure_pa;
+  }
+  return place == SourcePlace::kSpool ? &to.axis[axis].spool_ratio : nullptr;
+}
+
+/// Of what goes to the controller as it is; null: nothing of that.
+Signal<double>* place_of(const TableSource& source, ExcavatorInputs& to) {
+  if (source.place == SourcePlace::kSwash) {
+    return &to.swash_ratio[source.index];
+  }
+  if (source.place == SourcePlace::kEngineSpeed) {
+    return &to.engine_speed_radps;
+  }
+  return place_of_axis(source.place, source.index, to);
 }
 
 Signal<double> shown_by(const TableSource& source, const dbc::Payload& data, TimeUs now) {
   const std::int64_t raw = raw_of(source.bits, data);
-  const auto bits = static_cast<std::uint32_t>(raw);
+  const std::uint64_t mask = (std::uint64_t{1} << source.bits.width) - 1U;
+  const auto bits = static_cast<std::uint32_t>(static_cast<std::uint64_t>(raw) & mask);
   if (dbc::says(source.error_raw, source.bits.width, bits)) {
     return {0.0, Validity::kError, now};
   }
@@ -57,10 +65,32 @@ Signal<double> shown_by(const TableSource& source, const dbc::Payload& data, Tim
   return {static_cast<double>(raw) * source.scale + source.offset, Validity::kValid, now};
 }
 
+/// A value that its sender does not say counts as right.
+bool is_within(const TableSource& source, const Signal<double>& shown) {
+  return shown.validity == Validity::kNotAvailable ||
+         (shown.validity == Validity::kValid && shown.value >= source.least &&
+          shown.value <= source.most);
+}
+
+/// Of a slope the shorter way round: a sensor may count from -180 to 180 degrees.
+double change_of(const TableSource& source, double from, double to) {
+  const double change = to - from;
+  return std::abs(source.place == SourcePlace::kSlope ? std::remainder(change, 2.0 * kPi) : change);
+}
+
+/// Of a source that is judged where its message is: its range says what holds, not what may come.
+bool says_state(const TableSource& source) {
+  return source.place == SourcePlace::kCondition || source.place == SourcePlace::kMerit;
+}
+
 }  // namespace
 
 TableReceiver::TableReceiver(const BusTable* table)
-    : table_(table), links_(rules_of(table), BusParts{}) {}
+    : table_(table), links_(rules_of(table), BusParts{}), nodes_(table) {}
+
+Signal<double>* TableReceiver::kept(const TableSource& source, ExcavatorInputs& to) {
+  return source.place == SourcePlace::kSlope ? &slopes_.link[source.index] : place_of(source, to);
+}
 
 int TableReceiver::received(const CanFrame& frame) const {
   for (std::size_t i = 0; i < table_->message_count; ++i) {
@@ -88,7 +118,7 @@ bool TableReceiver::take_known(const CanFrame& frame, TimeUs now, ExcavatorInput
   const int index = received(frame);
   if (index == MessageLinks::kNoMessage) {
     if (!is_sent(frame)) {
-      return false;
+      return nodes_.take(frame, now);
     }
     own_heard_ = true;
     own_us_ = now;
@@ -99,6 +129,9 @@ bool TableReceiver::take_known(const CanFrame& frame, TimeUs now, ExcavatorInput
     return true;
   }
   const TableMessage& message = table_->message[i];
+  if (!nodes_.is_operational(message.node)) {
+    return true;
+  }
   if (message.protection != TableProtection::kE2e &&
       is_early(now, message.period_us * kPaceOf10 / 10, heard_[i].pace)) {
     increment(early_);
@@ -128,7 +161,7 @@ bool TableReceiver::goes_on(std::size_t message, const CanFrame& frame) {
 
 bool TableReceiver::is_possible(const TableSource& source, const Signal<double>& shown,
                                 const Shown& before, double passed_s) const {
-  if (source.place == SourcePlace::kCondition || shown.validity != Validity::kValid) {
+  if (says_state(source) || shown.validity != Validity::kValid) {
     return true;
   }
   if (!(shown.value >= source.least && shown.value <= source.most)) {
@@ -136,7 +169,19 @@ bool TableReceiver::is_possible(const TableSource& source, const Signal<double>&
   }
   // A step of the bus is no motion.
   const double most = source.rate_ps * passed_s + std::abs(source.scale);
-  return source.rate_ps <= 0.0 || !before.valid || std::abs(shown.value - before.value) <= most;
+  return source.rate_ps <= 0.0 || !before.valid ||
+         change_of(source, before.value, shown.value) <= most;
+}
+
+/// All that the sender says of its values itself.
+bool TableReceiver::is_trusted(const TableMessage& message, const dbc::Payload& data) const {
+  bool trusted = true;
+  for (std::size_t n = message.first; n < std::size_t{message.first} + message.count; ++n) {
+    const TableSource& source = table_->source[n];
+    trusted = trusted &&
+              (source.place != SourcePlace::kMerit || is_within(source, shown_by(source, data, 0)));
+  }
+  return trusted;
 }
 
 void TableReceiver::decode(std::size_t message, const dbc::Payload& data, TimeUs now,
@@ -156,11 +201,13 @@ void TableReceiver::decode(std::size_t message, const dbc::Payload& data, TimeUs
   }
   heard.any = true;
   heard.last_us = now;
+  const bool trusted = is_trusted(rule, data);
   for (std::size_t n = rule.first; n < std::size_t{rule.first} + rule.count; ++n) {
     const TableSource& source = table_->source[n];
-    const Signal<double> shown = shown_by(source, data, now);
+    const Signal<double> said = shown_by(source, data, now);
+    const Signal<double> shown = trusted ? said : Signal<double>{0.0, Validity::kError, now};
     shown_[n] = {shown.value, shown.validity == Validity::kValid};
-    Signal<double>* const place = place_of(source, to);
+    Signal<double>* const place = kept(source, to);
     if (place != nullptr) {
       const double others = source.adds ? place->value : 0.0;
       const Validity worst =
@@ -174,16 +221,16 @@ void TableReceiver::mark(std::size_t message, Validity validity, ExcavatorInputs
   const TableMessage& rule = table_->message[message];
   for (std::size_t n = rule.first; n < std::size_t{rule.first} + rule.count; ++n) {
     shown_[n].valid = false;
-    if (Signal<double>* const place = place_of(table_->source[n], to)) {
+    if (Signal<double>* const place = kept(table_->source[n], to)) {
       place->validity = validity;
     }
   }
 }
 
-void TableReceiver::keep_fresh(std::size_t message, TimeUs now, ExcavatorInputs& to) const {
+void TableReceiver::keep_fresh(std::size_t message, TimeUs now, ExcavatorInputs& to) {
   const TableMessage& rule = table_->message[message];
   for (std::size_t n = rule.first; n < std::size_t{rule.first} + rule.count; ++n) {
-    if (Signal<double>* const place = place_of(table_->source[n], to)) {
+    if (Signal<double>* const place = kept(table_->source[n], to)) {
       place->stamp_us = now;
     }
   }
@@ -222,10 +269,12 @@ void TableReceiver::finish_known(TimeUs now, ExcavatorInputs& to) {
     links_.note_decoded(index, false);
     mark(static_cast<std::size_t>(index), Validity::kError, to);
   }
+  nodes_.finish(now);
   bool slow = false;
   for (std::size_t i = 0; i < table_->message_count; ++i) {
     const TableMessage& message = table_->message[i];
-    if (heard_[i].any && now - heard_[i].last_us > message.timeout_us) {
+    const bool silent = now - heard_[i].last_us > message.timeout_us;
+    if (heard_[i].any && (silent || !nodes_.is_operational(message.node))) {
       heard_[i].any = false;
       mark(i, Validity::kNotAvailable, to);
     }
@@ -233,6 +282,9 @@ void TableReceiver::finish_known(TimeUs now, ExcavatorInputs& to) {
     if (heard_[i].any && message.slow) {
       keep_fresh(i, now, to);
     }
+  }
+  if (table_->has_slopes) {
+    slopes_.to_joints(table_->has_body_slope, to);
   }
   judge_conditions(to);
   if (slow && to.valve_enabled.validity == Validity::kValid) {

@@ -9,6 +9,11 @@
 ///     then 'error'
 ///   of which a value is out of its range, or changed faster than it can
 ///
+/// What a sender says of its own values, the figure of merit of a sensor, makes all values of its
+/// message 'error' where it is out of its range.
+///
+/// A message of a node of CANopen counts while that node is operational, no longer.
+///
 /// A message that is silent for longer than its own time-out is 'not available'. What comes slower
 /// than the core asks of a signal counts as fresh up to there: the table's time-out is then the one
 /// that holds.
@@ -18,6 +23,8 @@
 
 #include "firmware/excavator/excavator_signals.hpp"
 #include "hal/buses/bus_table.hpp"
+#include "hal/buses/canopen_nodes.hpp"
+#include "hal/buses/link_slopes.hpp"
 #include "hal/link/message_links.hpp"
 #include "hal/link/pace.hpp"
 
@@ -41,6 +48,11 @@ class TableReceiver {
     if (active()) {
       finish_known(now, to);
     }
+  }
+
+  /// The node of CANopen that is to be told to start in this cycle.
+  [[nodiscard]] NodeStart take_start(TimeUs now) {
+    return active() ? nodes_.take_start(now) : NodeStart{};
   }
 
   [[nodiscard]] FaultSet faults(TimeUs now) const;
@@ -70,14 +82,19 @@ class TableReceiver {
   void decode(std::size_t message, const dbc::Payload& data, TimeUs now, ExcavatorInputs& to);
   [[nodiscard]] bool is_possible(const TableSource& source, const Signal<double>& shown,
                                  const Shown& before, double passed_s) const;
+  [[nodiscard]] bool is_trusted(const TableMessage& message, const dbc::Payload& data) const;
+  /// Where a source's value is kept; null: nowhere, it is judged at once.
+  [[nodiscard]] Signal<double>* kept(const TableSource& source, ExcavatorInputs& to);
   void mark(std::size_t message, Validity validity, ExcavatorInputs& to);
-  void keep_fresh(std::size_t message, TimeUs now, ExcavatorInputs& to) const;
+  void keep_fresh(std::size_t message, TimeUs now, ExcavatorInputs& to);
   void judge_conditions(ExcavatorInputs& to) const;
 
   const BusTable* table_;
   MessageLinks links_;
   std::array<Heard, kMostTableReceived> heard_{};
   std::array<Shown, kMostTableSources> shown_{};
+  LinkSlopes slopes_;
+  CanopenNodes nodes_;
   std::uint32_t wrong_counter_ = 0;
   std::uint32_t early_ = 0;
   bool own_heard_ = false;

@@ -12,15 +12,29 @@ namespace {
 
 bool is_share(double ratio) { return std::isfinite(ratio) && ratio > 0.0; }
 
-double of_drive(SinkPlace place, double duty_ratio) {
-  switch (place) {
-    case SinkPlace::kExtend:
-      return std::max(0.0, duty_ratio);
-    case SinkPlace::kRetract:
-      return std::max(0.0, -duty_ratio);
-    default:
-      return duty_ratio;
+/// CiA 301: the command specifier of 'start remote node'.
+constexpr std::uint8_t kStartNode = 1;
+
+double from_least(double share, double least) {
+  return share > 0.0 ? least + (1.0 - least) * std::min(1.0, share) : 0.0;
+}
+
+bool is_of_drive(SinkPlace place) {
+  return place == SinkPlace::kDuty || place == SinkPlace::kExtend || place == SinkPlace::kRetract ||
+         place == SinkPlace::kFlow || place == SinkPlace::kSide;
+}
+
+double of_drive(const TableSink& sink, double duty_ratio) {
+  if (sink.place == SinkPlace::kDuty) {
+    return duty_ratio;
   }
+  if (sink.place == SinkPlace::kSide) {
+    return duty_ratio > 0.0 ? 1.0 : duty_ratio < 0.0 ? 2.0 : 0.0;
+  }
+  if (sink.place == SinkPlace::kFlow) {
+    return from_least(std::abs(duty_ratio), sink.least);
+  }
+  return from_least(sink.place == SinkPlace::kExtend ? duty_ratio : -duty_ratio, sink.least);
 }
 
 double of_machine(const TableSink& sink, const ExcavatorOutputs& outputs, bool moves) {
@@ -40,10 +54,8 @@ double of_machine(const TableSink& sink, const ExcavatorOutputs& outputs, bool m
 
 double value_of(const TableSink& sink, const ExcavatorOutputs& outputs) {
   const bool moves = may_move(outputs);
-  const bool drives = sink.place == SinkPlace::kDuty || sink.place == SinkPlace::kExtend ||
-                      sink.place == SinkPlace::kRetract;
-  return drives ? of_drive(sink.place, moves ? outputs.duty_ratio[sink.index] : 0.0)
-                : of_machine(sink, outputs, moves);
+  return is_of_drive(sink.place) ? of_drive(sink, moves ? outputs.duty_ratio[sink.index] : 0.0)
+                                 : of_machine(sink, outputs, moves);
 }
 
 /// Of a constant the offset is the raw value.
@@ -101,6 +113,16 @@ std::size_t TableTransmitter::frames(const ExcavatorOutputs& outputs, TimeUs now
   const bool enabled = may_move(outputs);
   const bool silent = falls_silent(outputs);
   std::size_t written = 0;
+  if (start_.id != 0) {
+    CanFrame& start = out[written++];
+    start = {};
+    start.extended = false;
+    start.length = 2;
+    start.data = {kStartNode, start_.id};
+    start.bus = start_.bus;
+    start.stamp_us = now;
+    start_ = {};
+  }
   for (std::size_t i = 0; i < table_->send_count; ++i) {
     const TableSend& send = table_->send[i];
     if (send.has_enable && enabled != enabled_) {

@@ -19,13 +19,17 @@ namespace graben {
 
 class TableTransmitter {
  public:
-  using Frames = std::array<CanFrame, kMostTableSent>;
+  static constexpr std::size_t kMostFrames = kMostTableSent + 1;  ///< With a node's start.
+  using Frames = std::array<CanFrame, kMostFrames>;
 
   /// Null: there is none. The table outlives it.
   explicit TableTransmitter(const BusTable* table) : table_(table) {}
 
   [[nodiscard]] bool active() const { return table_ != nullptr; }
   static constexpr int kNeutralCycles = 10;
+
+  /// The next frames begin with this node's start (CiA 301, NMT), if it is one.
+  void start_node(const NodeStart& start) { start_ = start; }
 
   /// Writes the frames due at `now`; returns how many. To be called every 10 ms.
   [[nodiscard]] std::size_t frames(const ExcavatorOutputs& outputs, TimeUs now, Frames& out);
@@ -42,7 +46,8 @@ class TableTransmitter {
   const BusTable* table_;
   bool started_ = false;
   bool enabled_ = false;  ///< As it was sent last.
-  int cut_cycles_ = 0;    ///< For so many a cut has been due.
+  NodeStart start_;
+  int cut_cycles_ = 0;  ///< For so many a cut has been due.
   std::array<SendState, kMostTableSent> state_{};
 };
 

@@ -8,6 +8,7 @@
 
 #include "can_dbc/codec.hpp"
 #include "firmware/core/time.hpp"
+#include "hal/can_frame.hpp"
 #include "hal/link/e2e.hpp"
 
 namespace graben {
@@ -67,6 +68,12 @@ struct MessageRules {
 /// The controller's source address: the low byte of the id of all that it sends. A frame of its own
 /// that it hears is another controller's.
 inline constexpr std::uint8_t kOwnAddress = 130;
+
+/// A node of CANopen that is to be told to start; none: id 0.
+struct NodeStart {
+  std::uint8_t id = 0;
+  std::uint8_t bus = kAnyBus;
+};
 
 inline constexpr TimeUs kControlPeriod_us = 10 * kMillisecondUs;
 

@@ -96,6 +96,9 @@ class MessageTransmitter {
   /// Whether an id is that of a command beside the kind's own.
   [[nodiscard]] static constexpr bool is_table_command(std::uint32_t /*id*/) { return false; }
 
+  /// Sends a node of CANopen its start in the next frames, where a table has nodes.
+  static constexpr void start_node(const NodeStart& /*start*/) {}
+
   /// The 29-bit ids of all that is sent, those of all parts too.
   [[nodiscard]] static std::array<std::uint32_t, kMessageCount> ids() {
     const auto& table = Transmission::table();

@@ -5,7 +5,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "app/machines/bus_file.hpp"
 #include "app/machines/imu_section.hpp"
@@ -84,13 +87,31 @@ void put_on_bus(const std::string& name, SimulatedExcavator& machine) {
   }
 }
 
-/// Throws where there is no simulated machine that speaks so.
-void speak(const std::string& machine, plant::ExcavatorPlantProfile& plant) {
-  if (machine != "zx200") {
-    throw std::runtime_error(
-        fmt::format("bus of '{}': no simulated machine speaks it; there is zx200", machine));
+/// What a bus of this name needs of the simulated machine.
+const std::map<std::string, std::vector<bool plant::SoldParts::*>>& sold_parts() {
+  using Parts = plant::SoldParts;
+  static const std::map<std::string, std::vector<bool Parts::*>> parts = {
+      {"slopes", {&Parts::slopes}},
+      {"encoders", {&Parts::encoders}},
+      {"inclinometers", {&Parts::inclinometers}},
+      {"aux_valves", {&Parts::aux_valves}},
+      {"valve_driver", {&Parts::valve_driver}},
+      {"retrofit", {&Parts::encoders, &Parts::transmitters, &Parts::aux_valves, &Parts::silent}}};
+  return parts;
+}
+
+/// Throws where nothing that is simulated says what the bus needs.
+void speak(const std::string& speaks, bool own_frames, plant::ExcavatorPlantProfile& plant) {
+  const auto named = sold_parts().find(speaks);
+  plant.zx200 = speaks == "zx200";
+  if (named != sold_parts().end()) {
+    for (bool plant::SoldParts::*part : named->second) {
+      plant.sold.*part = true;
+    }
+  } else if (!plant.zx200 && !own_frames) {
+    throw std::runtime_error(fmt::format(
+        "bus of '{}': no simulated machine speaks it; there is retrofit, zx200", speaks));
   }
-  plant.zx200 = true;
 }
 
 }  // namespace
@@ -109,8 +130,8 @@ SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario
   if (!scenario.bus.empty()) {
     put_on_bus(scenario.bus, machine);
   }
-  if (!machine.bus.empty() && !machine.bus.own_frames) {
-    speak(machine.bus_speaks, plant);
+  if (!machine.bus.empty()) {
+    speak(machine.bus_speaks, machine.bus.own_frames, plant);
   }
   const bool parameter_errors = scenario.errors == Errors::kParameters ||
                                 scenario.errors == Errors::kKim || scenario.errors == Errors::kAll;

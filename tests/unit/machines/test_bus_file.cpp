@@ -81,7 +81,7 @@ void errors_name_message_signal_and_line(void**) {
   assert_says(with(whole, "width = 16", "wide = 16"), {"signal Speed", "width: missing"});
   assert_says(whole + kMessage + kSignal, {"(line 17)", "its id is that of another message"});
   assert_says("bus = \"test\"\n" + kMessage + kSignal,
-              {"nothing says a stroke or joint_angle", "nothing takes the boom's duty"});
+              {"nothing says a stroke, joint_angle", "nothing takes the boom's duty"});
 }
 
 void a_protection_needs_its_bits(void**) {
@@ -145,10 +145,11 @@ void a_dbc_gives_the_layout(void**) {
               {"(line 5)", "has no message 'MachinState'"});
 }
 
-std::string zx200_text() {
-  std::ifstream file(machines::find_bus("zx200"));
+std::string shipped(const std::string& name) {
+  std::ifstream file(machines::find_bus(name));
   return {std::istreambuf_iterator<char>(file), {}};
 }
+std::string zx200_text() { return shipped("zx200"); }
 
 void what_is_sent_has_bits_and_ids_of_its_own(void**) {
   const std::string whole = zx200_text();
@@ -193,6 +194,33 @@ void nothing_that_moves_is_late_unsaid(void**) {
               {"message MachineState", "timeout", "allowed: 0.01 .. 1 s"});
   assert_says(with(whole, "0x18FF660A\nperiod = 0.050", "0x18FF660A\nperiod = 0.11"),
               {"message MachineSettingCmd", "period", "allowed: 0.01 .. 0.1 s"});
+}
+
+void nodes_and_slopes_are_whole(void**) {
+  const std::string encoders = shipped("encoders");
+  assert_says(with(encoders, "node = 2\n", "node = 9\n"),
+              {"message ArmPosition", "node", "9: there is no [[node]] of this id"});
+  assert_says(with(encoders, "id = 3\nheart", "id = 2\nheart"), {"2 is that of another node"});
+  assert_says(with(encoders, "0x182", "0x702"),
+              {"message ArmPosition", "0x702 is that of the heartbeat of node 2"});
+  assert_says(with(encoders, "heartbeat_timeout = 0.250", "heartbeat_timeout = 2.0"),
+              {"heartbeat_timeout", "allowed: 0.02 .. 1"});
+  const std::string slopes = shipped("slopes");
+  assert_says(with(slopes, "of = \"arm\"", "of = \"body\""), {"2 of 3 cylinders has a slope"});
+  assert_says(with(slopes, "of = \"arm\"", "of = \"stick\""),
+              {"message ArmSlope, signal Pitch", "of", "allowed: boom, arm, bucket, body"});
+  assert_says(with(slopes, "not_available = 3\nrange = [0, 0]", "not_available = 3"),
+              {"message BoomSlope, signal PitchMerit", "range: missing"});
+}
+
+void a_side_and_a_least_can_be_sent(void**) {
+  const std::string valves = shipped("aux_valves");
+  assert_says(with(valves, "start = 16\nwidth = 4", "start = 16\nwidth = 1"),
+              {"message Aux0Command, signal StateCommand", "2 is raw 2", "allowed: 0 .. 1"});
+  assert_says(with(valves, "start = 22\nwidth = 2", "start = 19\nwidth = 2"),
+              {"signal FailSafeMode", "bits overlap"});
+  assert_says(with(shipped("valve_driver"), "least = 0.3333333333333333      #", "least = 0.95 #"),
+              {"message BoomCurrents, signal ExtendCurrent", "least", "allowed: 0 .. 0.9"});
 }
 
 void interfaces_are_counted_and_told_apart(void**) {
@@ -299,6 +327,8 @@ int main() {
       cmocka_unit_test(what_is_sent_has_bits_and_ids_of_its_own),
       cmocka_unit_test(neutral_and_full_can_be_sent),
       cmocka_unit_test(nothing_that_moves_is_late_unsaid),
+      cmocka_unit_test(nodes_and_slopes_are_whole),
+      cmocka_unit_test(a_side_and_a_least_can_be_sent),
       cmocka_unit_test(interfaces_are_counted_and_told_apart),
       cmocka_unit_test(a_swash_is_of_both_pumps),
       cmocka_unit_test(a_dbc_is_read_with_care),

@@ -4,93 +4,25 @@
 
 #include <algorithm>
 
-#include "app/runs/dig_run.hpp"
-#include "app/runs/excavator_rig.hpp"
-#include "app/runs/scenarios.hpp"
 #include "can_dbc/generated/zx200_dbc.hpp"
-#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/runs/machine_on_bus.hpp"
 
 namespace {
 
 using namespace graben;
 namespace zx200 = dbc::zx200;
 
-constexpr int kCycle_ms = 10;
+using test::kCycle_ms;
 /// Times of the bus: three settings, five commands.
 constexpr int kSetting_ms = 150;
 constexpr int kCommand_ms = 50;
 /// The state every 50 ms, and the cycles that the valve side has to say it.
 constexpr int kEcho_ms = 50 + 150;
 
-machines::SimulatedExcavator on_its_bus() {
-  runs::DigScenario scenario;
-  scenario.errors = "all";
-  scenario.scenario.bus = "zx200";
-  scenario.scenario.seed = 5;
-  return runs::arranged(machines::load_simulated_excavator(machines::find_profile("excavator_22t")),
-                        scenario);
-}
+struct Machine : test::MachineOnBus {
+  Machine() : MachineOnBus("zx200") {}
 
-struct Machine {
-  Machine() : machine(on_its_bus()), rig(machine, machines::dig_start(machine.profile), 1.0) {}
-
-  void step() {
-    rig.step(now);
-    now += runs::DigRig::kPeriod_us;
-  }
-  void dig() {
-    while (now < 4 * kSecondUs) {
-      step();
-    }
-    assert_int_equal(status().mode, EcuMode::kActive);
-    assert_true(status().stand_in);
-    assert_true(rig.plant.spools_enabled());
-  }
-  [[nodiscard]] const ExcavatorStatus& status() const { return rig.ecu->outputs().status; }
   [[nodiscard]] plant::Zx200Faults& faults() { return rig.plant.faults().zx200; }
-  /// Cycles, in ms, until the machine no longer lets the commands through; the controller runs on
-  /// unless it is dead.
-  int machine_neutral_after(int most_ms, bool dead = false) {
-    int time_ms = 0;
-    while (rig.plant.spools_enabled() && time_ms <= most_ms) {
-      if (dead) {
-        rig.step_machine(now);
-        now += runs::DigRig::kPeriod_us;
-      } else {
-        step();
-      }
-      time_ms += kCycle_ms;
-    }
-    print_message("machine neutral after %d ms\n", time_ms);
-    assert_false(rig.plant.spools_enabled());
-    assert_in_range(time_ms, 0, most_ms);
-    return time_ms;
-  }
-  /// The same of the controller; everything that it commands is neutral then.
-  void controller_stops_within(int most_ms) {
-    int time_ms = 0;
-    while (status().mode == EcuMode::kActive && time_ms <= most_ms) {
-      step();
-      time_ms += kCycle_ms;
-    }
-    print_message("fault %d after %d ms\n", static_cast<int>(status().fault), time_ms);
-    assert_int_equal(status().mode, EcuMode::kFault);
-    assert_in_range(time_ms, 0, most_ms);
-    assert_false(rig.ecu->outputs().enable);
-    for (const double duty_ratio : rig.ecu->outputs().duty_ratio) {
-      assert_near(duty_ratio, 0.0, 0.0);
-    }
-  }
-  template <class Change>
-  void change(std::uint32_t id, const Change& change_data) {
-    rig.bus.set_fault_hook([=](CanFrame& frame, const LoopbackPort* from) {
-      return from == nullptr || frame.id != id || change_data(frame);
-    });
-  }
-
-  machines::SimulatedExcavator machine;
-  runs::DigRig rig;
-  TimeUs now = 0;
 };
 
 /// Levers of the last frame, in any direction.

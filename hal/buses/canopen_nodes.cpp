@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hal/buses/canopen_nodes.hpp"
+
+namespace graben {
+namespace {
+
+constexpr std::uint8_t kBootUp = 0x00;
+constexpr std::uint8_t kStopped = 0x04;
+constexpr std::uint8_t kOperational = 0x05;
+constexpr std::uint8_t kPreOperational = 0x7F;
+
+bool is_of(const TableNode& node, const CanFrame& frame) {
+  return frame.id == CanopenNodes::kHeartbeatId + node.id &&
+         (node.bus == kAnyBus || frame.bus == kAnyBus || node.bus == frame.bus);
+}
+
+}  // namespace
+
+bool CanopenNodes::take(const CanFrame& frame, TimeUs now) {
+  if (frame.extended || frame.error) {
+    return false;
+  }
+  for (std::size_t i = 0; i < table_->node_count; ++i) {
+    if (!is_of(table_->node[i], frame)) {
+      continue;
+    }
+    State& state = state_[i];
+    const std::uint8_t said = frame.data[0];
+    const bool whole = !frame.remote && !frame.fd && frame.length == 1;
+    if (whole && said == kOperational) {
+      state.operational = true;
+      state.waits = false;
+      state.heard_us = now;
+    } else if (whole && (said == kBootUp || said == kStopped || said == kPreOperational)) {
+      state.operational = false;
+      state.told = state.told && state.waits;
+      state.waits = true;
+    }
+    return true;
+  }
+  return false;
+}
+
+void CanopenNodes::finish(TimeUs now) {
+  for (std::size_t i = 0; i < table_->node_count; ++i) {
+    State& state = state_[i];
+    state.operational = state.operational && now - state.heard_us <= table_->node[i].timeout_us;
+  }
+}
+
+NodeStart CanopenNodes::take_start(TimeUs now) {
+  for (std::size_t i = 0; i < table_->node_count; ++i) {
+    State& state = state_[i];
+    if (state.waits && !(state.told && now - state.told_us < kAgain_us)) {
+      state.told = true;
+      state.told_us = now;
+      return {table_->node[i].id, table_->node[i].bus};
+    }
+  }
+  return {};
+}
+
+}  // namespace graben

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+// Nodes of CANopen that a table names: who is started, whose messages count.
+
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/hal/table_bus.hpp"
+
+namespace {
+
+using namespace graben;
+using namespace graben::test;
+
+constexpr std::uint8_t kNode = 0x0B;
+constexpr std::uint32_t kPosition = 0x18B;
+
+/// An encoder on the boom's cylinder, node 11 on the second bus.
+BusTable encoder() {
+  BusTable made;
+  made.own_frames = true;
+  made.node_count = 1;
+  made.node[0] = {kNode, 1, 250 * kMillisecondUs};
+  made.message_count = 1;
+  made.rule[0].id = kPosition;
+  made.rule[0].extended = false;
+  made.rule[0].length = 4;
+  made.message[0].bus = 1;
+  made.message[0].node = 0;
+  made.message[0].period_us = kPeriod;
+  made.message[0].timeout_us = 35 * kMillisecondUs;
+  made.message[0].count = 1;
+  made.source_count = 1;
+  made.source[0] = {{0, 32, false, false}, SourcePlace::kStroke, 0, false, 1e-5, 0.0, 0.0, 3.0};
+  return made;
+}
+
+struct Bus {
+  BusTable table = encoder();
+  ExcavatorReceiver receiver{with_table({}, &table)};
+  TimeUs now = kNow;
+
+  void take(std::uint32_t id, std::uint8_t length, const dbc::Payload& data, std::uint8_t on = 1) {
+    CanFrame frame;
+    frame.id = id;
+    frame.extended = false;
+    frame.length = length;
+    frame.data = data;
+    frame.bus = on;
+    receiver.accept(frame, now);
+  }
+  void says(std::uint8_t state, std::uint8_t on = 1) { take(0x700 + kNode, 1, {state}, on); }
+  /// 0.3 m.
+  void position() { take(kPosition, 4, {0x30, 0x75, 0x00, 0x00}); }
+  void pass(TimeUs time = kPeriod) {
+    receiver.finish(now);
+    now += time;
+  }
+  [[nodiscard]] const Signal<double>& stroke() const { return receiver.inputs().axis[0].stroke_m; }
+};
+
+/// EAO series 09 keypad manual, boot-up sequence: 70B 00, 70B 7F, 000 01 0B, 70B 05.
+void a_node_is_started_as_printed(void**) {
+  Bus bus;
+  bus.says(0x00);
+  bus.pass();
+  const NodeStart start = bus.receiver.take_start(bus.now);
+  assert_int_equal(start.id, 0x0B);
+  ExcavatorTransmitter transmitter{with_table({}, &bus.table)};
+  transmitter.start_node(start);
+  ExcavatorTransmitter::Frames frames;
+  const int count = transmitter.frames({}, {}, bus.now, frames);
+  const CanFrame* sent = nullptr;
+  for (int i = 0; i < count; ++i) {
+    const CanFrame& frame = frames[static_cast<unsigned>(i)];
+    sent = !frame.extended ? &frame : sent;
+  }
+  assert_non_null(sent);
+  assert_int_equal(sent->id, 0);
+  assert_int_equal(sent->length, 2);
+  assert_int_equal(sent->data[0], 0x01);
+  assert_int_equal(sent->data[1], 0x0B);
+  assert_int_equal(sent->bus, 1);
+  // Once only.
+  assert_int_equal(bus.receiver.take_start(bus.now).id, 0);
+}
+
+void a_node_that_sleeps_on_is_told_again(void**) {
+  Bus bus;
+  int told = 0;
+  for (int cycle = 0; cycle < 40; ++cycle) {
+    if (cycle % 10 == 0) {
+      bus.says(0x7F);
+    }
+    told += bus.receiver.take_start(bus.now).id != 0 ? 1 : 0;
+    bus.pass();
+  }
+  assert_int_equal(told, 4);
+  bus.says(0x05);
+  bus.pass(kSecondUs);
+  assert_int_equal(bus.receiver.take_start(bus.now).id, 0);
+}
+
+void only_an_operational_nodes_values_count(void**) {
+  Bus bus;
+  bus.position();
+  bus.pass();
+  assert_true(bus.stroke().validity == Validity::kNotReceived);
+  bus.says(0x7F);
+  bus.position();
+  bus.pass();
+  assert_true(bus.stroke().validity == Validity::kNotReceived);
+  bus.says(0x05);
+  bus.position();
+  bus.pass();
+  assert_true(bus.stroke().validity == Validity::kValid);
+  assert_near(bus.stroke().value, 0.3, 1e-12);
+}
+
+void a_node_that_reboots_is_no_source(void**) {
+  for (const std::uint8_t state : {std::uint8_t{0x00}, std::uint8_t{0x7F}, std::uint8_t{0x04}}) {
+    Bus bus;
+    bus.says(0x05);
+    bus.position();
+    bus.pass();
+    bus.says(state);
+    bus.position();
+    bus.pass();
+    assert_true(bus.stroke().validity == Validity::kNotAvailable);
+    assert_int_equal(bus.receiver.take_start(bus.now).id, kNode);
+    bus.says(0x05);
+    bus.position();
+    bus.pass();
+    assert_true(bus.stroke().validity == Validity::kValid);
+  }
+}
+
+void a_heartbeat_that_is_lost(void**) {
+  Bus bus;
+  bus.says(0x05);
+  for (int cycle = 0; cycle <= 25; ++cycle) {
+    bus.position();
+    bus.pass();
+    assert_true(bus.stroke().validity == Validity::kValid);
+  }
+  bus.position();
+  bus.pass();
+  assert_true(bus.stroke().validity == Validity::kNotAvailable);
+}
+
+void what_is_no_heartbeat(void**) {
+  Bus bus;
+  bus.says(0x05, 0);  // On the other bus.
+  bus.take(0x700 + kNode, 2, {0x05});
+  bus.take(0x700 + kNode + 1, 1, {0x05});
+  bus.says(0x85);  // Node guarding's toggle.
+  bus.position();
+  bus.pass();
+  assert_true(bus.stroke().validity == Validity::kNotReceived);
+  assert_int_equal(bus.receiver.take_start(bus.now).id, 0);
+}
+
+void a_port_lets_heartbeats_through(void**) {
+  const BusTable made = encoder();
+  bool found = false;
+  for (const std::uint32_t id : table_ids(made)) {
+    found = found || id == (kStandardId | 0x70BU);
+  }
+  assert_true(found);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_node_is_started_as_printed),
+      cmocka_unit_test(a_node_that_sleeps_on_is_told_again),
+      cmocka_unit_test(only_an_operational_nodes_values_count),
+      cmocka_unit_test(a_node_that_reboots_is_no_source),
+      cmocka_unit_test(a_heartbeat_that_is_lost),
+      cmocka_unit_test(what_is_no_heartbeat),
+      cmocka_unit_test(a_port_lets_heartbeats_through),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// A machine with slope sensors of SAE J1939 in the place of stroke sensors: it digs by them, and of
+// what can go wrong with such a sensor each brings it to neutral in the bus's own time.
+
+#include <memory>
+#include <optional>
+
+#include "can_dbc/generated/j1939_dbc.hpp"
+#include "tests/unit/runs/machine_on_bus.hpp"
+
+namespace {
+
+using namespace graben;
+using test::kCycle_ms;
+
+/// The arm's.
+constexpr std::uint32_t kSlope = dbc::j1939::SSI2::kId + 1;
+/// Of the bus profile, and a cycle to find it.
+constexpr int kTimeout_ms = 35 + kCycle_ms;
+
+struct Machine : test::MachineOnBus {
+  Machine() : MachineOnBus("slopes") {}
+
+  /// What the arm's sensor sends from now on stops the machine in time, as a missing sensor does.
+  template <class Change>
+  void stops_by(const Change& change_data, int most_ms = kTimeout_ms) {
+    dig();
+    change(kSlope, change_data);
+    controller_stops_within(most_ms);
+    assert_int_equal(status().fault, Fault::kStrokeMissing);
+    static_cast<void>(machine_neutral_after(2 * kCycle_ms));
+  }
+};
+
+void a_sensor_that_is_lost(void**) {
+  Machine m;
+  m.stops_by([](CanFrame&) { return false; });
+}
+
+void a_sensor_that_says_error_or_nothing(void**) {
+  for (const std::uint8_t top : {std::uint8_t{0xFE}, std::uint8_t{0xFF}}) {
+    Machine m;
+    m.stops_by(
+        [top](CanFrame& frame) {
+          frame.data[2] = top;
+          return true;
+        },
+        2 * kCycle_ms);
+  }
+}
+
+void a_sensor_in_doubt(void**) {
+  for (const std::uint8_t merit : {std::uint8_t{0x04}, std::uint8_t{0x08}}) {
+    Machine m;
+    m.stops_by(
+        [merit](CanFrame& frame) {
+          frame.data[6] = merit;
+          return true;
+        },
+        2 * kCycle_ms);
+  }
+}
+
+void a_sensor_whose_filter_is_late(void**) {
+  Machine m;
+  m.stops_by(
+      [](CanFrame& frame) {
+        frame.data[7] = 80;  // 40 ms; its rule bears 30.
+        return true;
+      },
+      2 * kCycle_ms);
+}
+
+void a_slope_out_of_range(void**) {
+  Machine m;
+  m.stops_by([](CanFrame& frame) {
+    frame.data[2] = 0xF0;  // 230 degrees.
+    return true;
+  });
+}
+
+void a_slope_that_jumps(void**) {
+  Machine m;
+  m.stops_by([](CanFrame& frame) {
+    frame.data[2] = static_cast<std::uint8_t>(frame.data[2] + 5);  // 10 degrees.
+    return true;
+  });
+}
+
+void a_slope_that_stands_still(void**) {
+  Machine m;
+  m.dig();
+  auto first = std::make_shared<std::optional<dbc::Payload>>();
+  m.change(kSlope, [first](CanFrame& frame) {
+    *first = first->value_or(frame.data);
+    frame.data = **first;
+    return true;
+  });
+  m.controller_stops_within(4000);
+}
+
+void two_sensors_of_one_address(void**) {
+  Machine m;
+  m.dig();
+  CanFrame other;
+  other.id = kSlope;
+  other.length = 8;
+  other.data = {0, 0, 0x7D, 0, 0, 0x7D, 0, 40};
+  for (int cycle = 0; cycle < 4 && m.status().mode == EcuMode::kActive; ++cycle) {
+    m.rig.bus.inject(other);
+    m.step();
+  }
+  assert_int_equal(m.status().mode, EcuMode::kFault);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_sensor_that_is_lost),
+      cmocka_unit_test(a_sensor_that_says_error_or_nothing),
+      cmocka_unit_test(a_sensor_in_doubt),
+      cmocka_unit_test(a_sensor_whose_filter_is_late),
+      cmocka_unit_test(a_slope_out_of_range),
+      cmocka_unit_test(a_slope_that_jumps),
+      cmocka_unit_test(a_slope_that_stands_still),
+      cmocka_unit_test(two_sensors_of_one_address),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
