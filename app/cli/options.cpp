@@ -54,6 +54,12 @@ void add_scenario_options(CLI::App& command, runs::DigScenario& scenario) {
       ->check(one_of({machines::kLawNames.begin(), machines::kLawNames.end()}));
   add_swash_option(command, scenario.swash_ratio);
   add_sensor_option(command, tried.imus);
+  command
+      .add_option("--without", tried.without,
+                  "Sensors that the machine has not: spool, swash, pressure; what stands in is in "
+                  "graben check")
+      ->delimiter(',')
+      ->check(one_of({machines::kSensorNames.begin(), machines::kSensorNames.end()}));
   command.add_option("--bus", tried.bus,
                      "Bus profile of the machine, a file or zx200, with the stand-ins that it "
                      "needs; the profile's own unless told");

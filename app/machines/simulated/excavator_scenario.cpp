@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "app/machines/bus_file.hpp"
+#include "app/machines/bus_key.hpp"
 #include "app/machines/imu_section.hpp"
 #include "app/machines/simulated/soil_kinds.hpp"
 #include "app/plant/random.hpp"
@@ -92,6 +93,18 @@ void put_on_bus(const std::string& name, SimulatedExcavator& machine) {
   }
 }
 
+/// As if its profile said so. Throws where that can't be made safe.
+void take_away(const std::vector<std::string>& sensors, BusCapabilities& bus) {
+  for (const std::string& sensor : sensors) {
+    (sensor == "spool"   ? bus.spool_feedback
+     : sensor == "swash" ? bus.swash_feedback
+                         : bus.pressures) = false;
+  }
+  if (const std::string words = unsafe_words(bus); !words.empty()) {
+    throw std::runtime_error(fmt::format("--without {}: {}", fmt::join(sensors, ","), words));
+  }
+}
+
 /// Throws where there is no simulated machine that speaks so.
 void speak(const std::string& machine, plant::ExcavatorPlantProfile& plant) {
   if (machine != "zx200") {
@@ -117,6 +130,7 @@ SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario
   if (!scenario.bus.empty()) {
     put_on_bus(scenario.bus, machine);
   }
+  take_away(scenario.without, machine.profile.bus);
   if (!machine.bus.empty() && !machine.bus.own_frames) {
     speak(machine.bus_speaks, plant);
   }
