@@ -148,7 +148,7 @@ void assert_better(const identify::JudgedFit& fit) {
 void identify_logs(const IdentifyLogCommand& options) {
   const fs::path file = machines::find_profile(options.profile);
   const machines::ExcavatorMachine machine = machines::load_excavator(file);
-  assert_told_pumps("identify", machine);
+  assert_told_pumps(machine);
   assert_outputs(options, file);
   const std::vector<identify::MachineLog> logs = read_logs(options, machine, {machine.hash});
   identify::JudgedFit fit;
@@ -181,7 +181,7 @@ void identify_logs(const IdentifyLogCommand& options) {
 void check_logs(const IdentifyLogCommand& options) {
   assert_outputs(options, machines::find_profile(options.profile));
   const machines::ExcavatorMachine machine = load_profile(options.profile);
-  assert_told_pumps("identify", machine);
+  assert_told_pumps(machine);
   std::vector<std::uint32_t> hashes = {machine.hash};
   std::vector<reports::ScoreColumn> columns;
   identify::PredictionScore before;

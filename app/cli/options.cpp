@@ -293,12 +293,12 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
       fmt::format("{}", fmt::join(words, ", ")));
 }
 
-void assert_told_pumps(const char* command, const machines::ExcavatorMachine& machine) {
+void assert_told_pumps(const machines::ExcavatorMachine& machine) {
   if (machine.profile.pump[0].regulator.sets_swash()) {
     throw std::runtime_error(
-        fmt::format("{}: the pumps of {} set their swash themselves; allowed: a profile whose "
+        fmt::format("the pumps of {} set their swash themselves; allowed: a profile whose "
                     "controller sets it, pumps of kind positive",
-                    command, machine.name));
+                    machine.name));
   }
 }
 

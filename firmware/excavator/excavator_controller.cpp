@@ -46,7 +46,7 @@ OilDesign oil_design(const ExcavatorProfile& profile) {
   OilDesign design;
   if (profile.imu.known()) {
     design.lag_s = 0.025;
-    design.travel_ps = 3.0;
+    design.travel_ps = 4.0;
   }
   return design;
 }

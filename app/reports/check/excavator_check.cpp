@@ -95,7 +95,9 @@ FactTable pump_table(const ExcavatorProfile& profile) {
       "Pumps",
       {"", "full flow, L/min", "at the task's swash, L/min", "relief, MPa", "power at relief, kW"},
       {},
-      ""};
+      profile.pump[0].regulator.sets_swash()
+          ? "they set their swash themselves: task.swash and task.swash_on_demand are not used"
+          : ""};
   for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
     const PumpProfile& pump = profile.pump[j];
     const double flow_m3ps = full_flow_m3ps(pump);

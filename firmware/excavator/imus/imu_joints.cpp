@@ -18,9 +18,9 @@ constexpr double kLongest_s = 0.1;
 /// A gyro that is off by more, in standard deviations, is taken for failed: so is the accelerometer
 /// that says so.
 constexpr double kBiasMost = 5.0;
-/// A link that has turned so far shows it in the direction of its force, by thirty counts: some ten
+/// A link that has turned so far shows it in the direction of its force, by twenty counts: some ten
 /// a falling link may hide.
-constexpr double kTurned_rad = 0.03;
+constexpr double kTurned_rad = 0.02;
 /// Over so many readings: one that shakes may show the same force twice.
 constexpr int kSameForces = 4;
 /// So often no gyro that lives shows the same, where the force has changed each time.
