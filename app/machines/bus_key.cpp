@@ -89,11 +89,14 @@ BusCapabilities read_bus(TomlReader& reader, double dead_time_s,
       reader.fail(lack.key, fmt::format("bus \"{}\" carries it: nothing stands in", bus.name));
     }
   }
-  if (!known.pressures) {
+  if (!known.pressures || reader.has("stand_in.worst_load")) {
     known.worst_load_ratio =
         reader.number_or(known.worst_load_ratio, "stand_in.worst_load", {0.0, 0.9, ""},
                          "load that lambda counts with where no pressure is measured, of the "
                          "pump's relief; only with sensors.pressure = false");
+  }
+  if (known.pressures && reader.has("stand_in.worst_load")) {
+    reader.fail("stand_in.worst_load", "pressures are measured; allowed: leave it out");
   }
   if (const std::string words = unsafe_words(known); !words.empty()) {
     reader.fail("stand_in.pressures", words);

@@ -17,7 +17,9 @@ const std::vector<KnownBus>& buses() {
                                   {"slow", {}},   {"levers", {}}, {"foreign", {}, false}};
     made[1].capabilities.spool_feedback = false;
     made[1].capabilities.valve_echo = false;
-    made[2].capabilities = {false, false, false, false, false, 0.0};
+    BusCapabilities& bare = made[2].capabilities;
+    bare.identity = bare.valve_echo = bare.spool_feedback = false;
+    bare.swash_feedback = bare.protection = false;
     made[3].capabilities.latency_s = 0.04;
     made[4].capabilities.spool_by_pilot = true;
     made[4].capabilities.swash_command = false;
@@ -111,7 +113,7 @@ void a_machine_may_have_no_such_sensor(void**) {
   assert_false(light.bus.pressures);
   assert_near(light.bus.worst_load_ratio, 0.3, 0.0);
   assert_refused("sensors = {pressure = false}", "stand_in.pressures", "missing");
-  assert_refused("stand_in = {worst_load = 0.3}", "stand_in.worst_load", "unknown");
+  assert_refused("stand_in = {worst_load = 0.3}", "stand_in.worst_load", "pressures are measured");
   // What the bus does not carry is not there because a sensor is.
   assert_refused("bus = \"mute\"\nsensors = {spool = true}", "stand_in.spool_feedback", "missing");
 }
