@@ -18,32 +18,39 @@ struct Capability {
 };
 
 constexpr Capability kCapabilities[] = {
-    {"nothing", "-", "-", "@none@", [](const ExcavatorProfile&) { return false; }},
+    {"nothing", "-", "-", "22.5 / 36.5; 58.8 / 85.5; 21.3 / 34.1; 54.4 / 78.2",
+     [](const ExcavatorProfile&) { return false; }},
     {"strokes", "IMUs on the links",
      "a frame of another IMU under this one's address; one whose bits changed within its range; "
      "an IMU that is mounted up to 3 deg off; a drift below 1 deg/s; a step of 25 mm",
-     "@imu@", [](const ExcavatorProfile& profile) { return profile.imu.known(); }},
+     "26.8 / 39.4; 61.6 / 98.5; 20.9 / 35.7; 57.3 / 78.9",
+     [](const ExcavatorProfile& profile) { return profile.imu.known(); }},
     {"spool positions", "the command",
      "SpoolMissing, SpoolStuck; a stroke against its oil (StrokeStuck, MotionImplausible); spools "
      "that are not centred before arming",
-     "@spool@", [](const ExcavatorProfile& profile) { return !profile.bus.spool_feedback; }},
-    {"swash of the pumps", "the command", "SwashMissing, SwashDisagrees", "@swash@",
+     "22.4 / 36.2; 58.3 / 83.7; 21.0 / 36.1; 54.3 / 73.8",
+     [](const ExcavatorProfile& profile) { return !profile.bus.spool_feedback; }},
+    {"swash of the pumps", "the command", "SwashMissing, SwashDisagrees",
+     "22.4 / 36.9; 60.0 / 87.4; 21.1 / 34.6; 53.7 / 76.5",
      [](const ExcavatorProfile& profile) {
        return !profile.bus.swash_feedback && !profile.pump[0].regulator.sets_swash();
      }},
     {"chamber pressures", "the links' weight; lambda by a worst load",
      "PressureMissing, PressureImplausible, WrongDirection, Blocked; a stroke against its oil "
      "(StrokeStuck, MotionImplausible); tip force and payload",
-     "@pressure@", [](const ExcavatorProfile& profile) { return !profile.bus.pressures; }},
+     "32.4 / 128.9; 83.2 / 159.1; 24.0 / 39.3; 67.3 / 98.9",
+     [](const ExcavatorProfile& profile) { return !profile.bus.pressures; }},
     {"our own bus", "zx200: angles, pilot pressures, the profile's swash",
      "IdentityMismatch, MessageCorrupt, MessageSequence, MessageMasquerade; a spool that sticks "
      "under a right pilot pressure; SwashMissing, SwashDisagrees",
-     "@zx200@", [](const ExcavatorProfile& profile) { return profile.bus.joint_angles; }},
-    {"a told swash", "load-sensing pumps", "SwashMissing, SwashDisagrees", "@ls@",
+     "24 / 38; -; -; -", [](const ExcavatorProfile& profile) { return profile.bus.joint_angles; }},
+    {"a told swash", "load-sensing pumps", "SwashMissing, SwashDisagrees",
+     "25.0 / 40.7; -; 20.9 / 33.2; -",
      [](const ExcavatorProfile& profile) {
        return profile.pump[0].regulator.kind == PumpKind::kLoadSensing;
      }},
-    {"a told swash", "pumps under negative flow control", "SwashMissing, SwashDisagrees", "@nfc@",
+    {"a told swash", "pumps under negative flow control", "SwashMissing, SwashDisagrees",
+     "55 / 108; -; 29 / 49; -",
      [](const ExcavatorProfile& profile) {
        return profile.pump[0].regulator.kind == PumpKind::kNegativeFlow;
      }},
