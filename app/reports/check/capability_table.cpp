@@ -43,7 +43,8 @@ constexpr Capability kCapabilities[] = {
     {"our own bus", "zx200: angles, pilot pressures, the profile's swash",
      "IdentityMismatch, MessageCorrupt, MessageSequence, MessageMasquerade; a spool that sticks "
      "under a right pilot pressure; SwashMissing, SwashDisagrees",
-     "24 / 38; -; -; -", [](const ExcavatorProfile& profile) { return profile.bus.joint_angles; }},
+     "24.4 / 38.2; -; -; -",
+     [](const ExcavatorProfile& profile) { return profile.bus.joint_angles; }},
     {"a told swash", "load-sensing pumps", "SwashMissing, SwashDisagrees",
      "25.0 / 40.7; -; 20.9 / 33.2; -",
      [](const ExcavatorProfile& profile) {
