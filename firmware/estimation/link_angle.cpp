@@ -20,6 +20,8 @@ constexpr double kAccelerationWrong = 0.1;
 /// For contradictions: how much more a force counts as disturbed that is not as large as expected.
 /// What hits a link over and over turns its force to one side on average.
 constexpr double kDisturbed = 4.0;
+/// It counts so much nevertheless: an axis that is off for good is told within seconds.
+constexpr double kCountsLeast = 0.05;
 /// A rate above this is no bias, whatever the caller holds for rest; in standard deviations.
 constexpr double kRestMost = 4.0;
 constexpr double kOffTime_s = 1.0;
@@ -110,7 +112,8 @@ void correct_angle(const AngleNoise& noise, const Eigen::Vector2d& acceleration_
   const double noise_mps2 = square(noise.force_mps2);
   const double wrong_mps2 = square(kAccelerationWrong * acceleration_mps2.norm());
   const double hit_mps2 = square(shown.norm() - expected.norm());
-  const double calm = noise_mps2 / (noise_mps2 + wrong_mps2 + kDisturbed * hit_mps2);
+  const double calm =
+      std::max(kCountsLeast, noise_mps2 / (noise_mps2 + wrong_mps2 + kDisturbed * hit_mps2));
   state.off_rad +=
       calm * std::min(1.0, state.last.period_s / kOffTime_s) * (error_rad - state.off_rad);
   take(error_rad, 1.0, 0.0, (noise_mps2 + wrong_mps2 + hit_mps2) / square(least), state);
