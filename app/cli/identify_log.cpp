@@ -17,6 +17,7 @@
 #include "app/identify/file/identified_file.hpp"
 #include "app/identify/machine/log_checks.hpp"
 #include "app/machines/excavator_file.hpp"
+#include "app/machines/profile_document.hpp"
 #include "app/reports/identify/identify_report.hpp"
 
 namespace graben::cli {
@@ -143,12 +144,23 @@ void assert_better(const identify::JudgedFit& fit) {
   throw std::runtime_error(text);
 }
 
+/// What was found goes into the profile's own text.
+void assert_whole(const fs::path& file) {
+  if (machines::read_document(file).root.contains("like")) {
+    throw std::runtime_error(
+        fmt::format("{}: it is like another, so what was found has no place in its text; allowed: "
+                    "a profile that has all its keys",
+                    file.string()));
+  }
+}
+
 }  // namespace
 
 void identify_logs(const IdentifyLogCommand& options) {
   const fs::path file = machines::find_profile(options.profile);
   const machines::ExcavatorMachine machine = machines::load_excavator(file);
-  assert_told_pumps("identify", machine);
+  assert_told_pumps(machine);
+  assert_whole(file);
   assert_outputs(options, file);
   const std::vector<identify::MachineLog> logs = read_logs(options, machine, {machine.hash});
   identify::JudgedFit fit;
@@ -181,7 +193,7 @@ void identify_logs(const IdentifyLogCommand& options) {
 void check_logs(const IdentifyLogCommand& options) {
   assert_outputs(options, machines::find_profile(options.profile));
   const machines::ExcavatorMachine machine = load_profile(options.profile);
-  assert_told_pumps("identify", machine);
+  assert_told_pumps(machine);
   std::vector<std::uint32_t> hashes = {machine.hash};
   std::vector<reports::ScoreColumn> columns;
   identify::PredictionScore before;

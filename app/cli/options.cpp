@@ -54,6 +54,12 @@ void add_scenario_options(CLI::App& command, runs::DigScenario& scenario) {
       ->check(one_of({machines::kLawNames.begin(), machines::kLawNames.end()}));
   add_swash_option(command, scenario.swash_ratio);
   add_sensor_option(command, tried.imus);
+  command
+      .add_option("--without", tried.without,
+                  "Sensors that the machine has not: spool, swash, pressure; what stands in is in "
+                  "graben check")
+      ->delimiter(',')
+      ->check(one_of({machines::kSensorNames.begin(), machines::kSensorNames.end()}));
   command.add_option(
       "--bus", tried.bus,
       "Bus profile of the machine, a file or a shipped one (zx200, slopes, encoders, "
@@ -289,12 +295,12 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
       fmt::format("{}", fmt::join(words, ", ")));
 }
 
-void assert_told_pumps(const char* command, const machines::ExcavatorMachine& machine) {
+void assert_told_pumps(const machines::ExcavatorMachine& machine) {
   if (machine.profile.pump[0].regulator.sets_swash()) {
     throw std::runtime_error(
-        fmt::format("{}: the pumps of {} set their swash themselves; allowed: a profile whose "
+        fmt::format("the pumps of {} set their swash themselves; allowed: a profile whose "
                     "controller sets it, pumps of kind positive",
-                    command, machine.name));
+                    machine.name));
   }
 }
 

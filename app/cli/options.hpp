@@ -100,7 +100,7 @@ void add_figure_option(CLI::App& command, std::vector<std::string>& figures,
 /// Of `commission` and `identify`: throws std::runtime_error, which names the command, where the
 /// pumps set their swash themselves. What a drive answers then also hangs on its load, of which
 /// neither knows.
-void assert_told_pumps(const char* command, const machines::ExcavatorMachine& machine);
+void assert_told_pumps(const machines::ExcavatorMachine& machine);
 
 /// Throws std::runtime_error for an angle of more than a full turn, which is one in degrees.
 void assert_radians(const std::string& what, double angle_rad);

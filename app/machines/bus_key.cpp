@@ -28,6 +28,9 @@ constexpr Lack kLacks[] = {
     {"stand_in.swash_feedback", "command", &BusCapabilities::swash_feedback,
      "what stands in for measured swash", "sensors.swash",
      "false: the pumps have no sensors of their swash; stand_in.swash_feedback is then required"},
+    {"stand_in.pressures", "worst_load", &BusCapabilities::pressures,
+     "what stands in for measured pressures of the cylinders", "sensors.pressure",
+     "false: the cylinders have no pressure sensors; stand_in.pressures is then required"},
     {"stand_in.swash_command", "profile", &BusCapabilities::swash_command,
      "what stands in for a command of the pumps' swash"},
     {"stand_in.protection", "range", &BusCapabilities::protection,
@@ -49,6 +52,15 @@ const KnownBus& named_bus(TomlReader& reader, const std::vector<KnownBus>& buses
 }
 
 }  // namespace
+
+std::string unsafe_words(const BusCapabilities& known) {
+  if (!known.pressures && !known.spool_feedback) {
+    return "neither spools nor pressures are measured: nothing tells a drive that goes as told "
+           "from "
+           "a sensor that says so; allowed: measure one of them";
+  }
+  return "";
+}
 
 const std::vector<KnownBus>& known_buses() {
   static const std::vector<KnownBus> buses = {{"graben", {}}};
@@ -76,6 +88,18 @@ BusCapabilities read_bus(TomlReader& reader, double dead_time_s,
       static_cast<void>(reader.choice(lack.key, {lack.stand_in}, lack.help));
       reader.fail(lack.key, fmt::format("bus \"{}\" carries it: nothing stands in", bus.name));
     }
+  }
+  if (!known.pressures || reader.has("stand_in.worst_load")) {
+    known.worst_load_ratio =
+        reader.number_or(known.worst_load_ratio, "stand_in.worst_load", {0.0, 0.9, ""},
+                         "load that lambda counts with where no pressure is measured, of the "
+                         "pump's relief; only with sensors.pressure = false");
+  }
+  if (known.pressures && reader.has("stand_in.worst_load")) {
+    reader.fail("stand_in.worst_load", "pressures are measured; allowed: leave it out");
+  }
+  if (const std::string words = unsafe_words(known); !words.empty()) {
+    reader.fail("stand_in.pressures", words);
   }
   if (!bus.capabilities.swash_command && reader.has("task.swash_on_demand")) {
     reader.fail("task.swash_on_demand", fmt::format("bus \"{}\" takes no command of the swash; "

@@ -18,6 +18,9 @@ struct KnownBus {
   bool own_frames = true;  ///< Frames of ours, as a swing drive's and IMUs', are on it.
 };
 
+/// Why a machine that can say no more than this can't be made safe; empty: it can.
+[[nodiscard]] std::string unsafe_words(const BusCapabilities& known);
+
 /// Those of this source tree.
 [[nodiscard]] const std::vector<KnownBus>& known_buses();
 

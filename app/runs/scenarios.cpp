@@ -100,6 +100,9 @@ std::string scenario_text(const DigScenario& scenario) {
   add(scenario.scenario.stiff_oil, "stiff oil");
   add(scenario.fixed_lambda, "lambda fixed at 1");
   add(scenario.scenario.imus, "IMUs");
+  if (!scenario.scenario.without.empty()) {
+    parts.push_back(fmt::format("without {}", fmt::join(scenario.scenario.without, ",")));
+  }
   if (!scenario.scenario.bus.empty()) {
     parts.push_back("bus " + std::filesystem::path(scenario.scenario.bus).stem().string());
   }

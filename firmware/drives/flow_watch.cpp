@@ -133,8 +133,8 @@ FaultSet watch_flow(DriveRows drives, Span<const ValidDrive> seen, Span<const Le
   FaultSet faults;
   for (int i = 0; i < drives.count(); ++i) {
     const DriveWatch& bounds = drives[i].watch;
-    const bool known =
-        bounds.unseen_m > 0.0 && bounds.senses_spool && (seen[i].load_known || !bounds.senses_load);
+    const bool known = bounds.unseen_m > 0.0 && bounds.senses_spool &&
+                       (seen[i].load_known || !has_edges(drives[i]));
     if (!known) {
       state[i] = {};
     } else if (!may_be_used(drives[i], seen[i], state[i])) {

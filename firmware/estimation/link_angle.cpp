@@ -17,6 +17,11 @@ constexpr double kLeastForce_mps2 = 0.3 * kGravity_mps2;
 constexpr double kBiasWander = 3.5e-5;
 /// Of the body's own acceleration so much is wrong: pins' play, links that bend.
 constexpr double kAccelerationWrong = 0.1;
+/// For contradictions: how much more a force counts as disturbed that is not as large as expected.
+/// What hits a link over and over turns its force to one side on average.
+constexpr double kDisturbed = 4.0;
+/// It counts so much nevertheless: an axis that is off for good is told within seconds.
+constexpr double kCountsLeast = 0.05;
 /// A rate above this is no bias, whatever the caller holds for rest; in standard deviations.
 constexpr double kRestMost = 4.0;
 constexpr double kOffTime_s = 1.0;
@@ -42,8 +47,8 @@ void take(double error, double of_angle, double of_bias, double variance, LinkAn
 }  // namespace
 
 double LinkAngle::ahead_rad(double time_s) const {
-  return angle_rad + (last.rate_radps - bias_radps) * time_s +
-         0.5 * then.acceleration_radps2 * time_s * time_s;
+  // By the rate alone: of what shakes faster than it can be foretold the acceleration makes more.
+  return angle_rad + (last.rate_radps - bias_radps) * time_s;
 }
 
 double LinkAngle::sd_rad(double time_s) const {
@@ -102,11 +107,16 @@ void correct_angle(const AngleNoise& noise, const Eigen::Vector2d& acceleration_
   }
   const double angle_rad = direction(expected) - direction(shown);
   const double error_rad = wrap_near(angle_rad - state.then.angle_rad, 0.0);
-  const double variance =
-      (square(noise.force_mps2) + square(kAccelerationWrong * acceleration_mps2.norm())) /
-      square(least);
-  state.off_rad += std::min(1.0, state.last.period_s / kOffTime_s) * (error_rad - state.off_rad);
-  take(error_rad, 1.0, 0.0, variance, state);
+  // Whatever hits the link is in the force and in no rate. How much the size of the force is not as
+  // expected tells how wrong its direction may be.
+  const double noise_mps2 = square(noise.force_mps2);
+  const double wrong_mps2 = square(kAccelerationWrong * acceleration_mps2.norm());
+  const double hit_mps2 = square(shown.norm() - expected.norm());
+  const double calm =
+      std::max(kCountsLeast, noise_mps2 / (noise_mps2 + wrong_mps2 + kDisturbed * hit_mps2));
+  state.off_rad +=
+      calm * std::min(1.0, state.last.period_s / kOffTime_s) * (error_rad - state.off_rad);
+  take(error_rad, 1.0, 0.0, (noise_mps2 + wrong_mps2 + hit_mps2) / square(least), state);
 }
 
 }  // namespace graben

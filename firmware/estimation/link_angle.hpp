@@ -49,11 +49,12 @@ struct LinkAngle {
   AngleReading last;
   double before_radps = 0.0;  ///< Rate of the reading before `last`.
   AngleMotion then;           ///< At the reading before `last`.
-  double off_rad = 0.0;       ///< Low-passed: the force's direction against the angle.
+  /// Low-passed: the force's direction against the angle; what hits the link counts little.
+  double off_rad = 0.0;
 
   /// Rate and its derivative are known either side.
   [[nodiscard]] bool runs() const { return readings > 2; }
-  /// Where it will be so long after the newest reading, rad.
+  /// Where it will be so long after the newest reading, rad; it goes on at its rate.
   [[nodiscard]] double ahead_rad(double time_s) const;
   /// Standard deviation of the angle, so long after the newest reading.
   [[nodiscard]] double sd_rad(double time_s) const;

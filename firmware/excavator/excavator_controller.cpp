@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "firmware/excavator/load/assumed_load.hpp"
 #include "firmware/excavator/swing.hpp"
 
 namespace graben {
@@ -39,6 +40,17 @@ constexpr double kHeldUp = 0.3;
 /// A plan that is followed at less than this share of its pace waits.
 constexpr double kWaits = 0.5;
 
+/// IMUs are foretold over 20 ms, and show no more of 10 Hz and beyond: with the feedback of strokes
+/// one machine of twenty rings.
+OilDesign oil_design(const ExcavatorProfile& profile) {
+  OilDesign design;
+  if (profile.imu.known()) {
+    design.lag_s = 0.025;
+    design.travel_ps = 4.0;
+  }
+  return design;
+}
+
 double path_error_m(const RoundedRectangle& path, const TipPose& tip) {
   const Eigen::Vector2d at(tip.x_m, tip.y_m);
   return (path.closest(at).position_m - at).norm();
@@ -53,7 +65,7 @@ ExcavatorSetup::ExcavatorSetup(const ExcavatorProfile& machine, const TaskBook& 
       kinematics(profile.geometry),
       field(profile, kinematics.planar()),
       valve(mcv_machine(profile)),
-      oil(profile.control.law == ControlLaw::kOil ? OilGains(OilDesign{}) : OilGains()) {}
+      oil(profile.control.law == ControlLaw::kOil ? OilGains(oil_design(profile)) : OilGains()) {}
 
 ExcavatorController::ExcavatorController(const ExcavatorSetup& setup)
     : setup_(setup), profile_(setup.profile) {}
@@ -95,6 +107,9 @@ ExcavatorController::Motion ExcavatorController::next_motion(const ExcavatorVali
       program != nullptr ? task_aim(setup_.kinematics, *program, memory_.task.state) : TaskAim{};
   estimate(valid, aim, cycle);
   const KinematicState now = setup_.kinematics.planar().state(valid.strokes_m().head<kAxisCount>());
+  if (!profile_.bus.pressures) {
+    memory_.load = links_alone(profile_, now);
+  }
   estimate_oil(valid, now, cycle.last_mode);
   estimate_load(valid, aim, now, cycle);
   Motion motion = wanted_motion(valid, now, program, aim, cycle.period_s);
@@ -265,7 +280,7 @@ ExcavatorController::Followed ExcavatorController::flow_limited(const ExcavatorV
                                                                 const Motion& motion,
                                                                 double period_s) const {
   const ControlProfile& control = profile_.control;
-  McvInput input = mcv_input(span_of(motion.wanted_mps), memory_.load, valid.pump_flow_m3ps);
+  McvInput input = input_for(motion.wanted_mps, valid);
   const auto scale_to = [&](double factor, const DriveVector& velocity_mps) {
     for (unsigned i = 0; i < kDriveCount; ++i) {
       input.velocity_mps[i] = factor * velocity_mps[i];
@@ -276,6 +291,10 @@ ExcavatorController::Followed ExcavatorController::flow_limited(const ExcavatorV
                                   memory_.lambda.value(), period_s)};
   followed.lambda = followed.solution.point.lambda;
   const double of_path = followed.lambda;
+  if (!profile_.bus.pressures) {
+    // How fast, the worst load says; how far a spool opens for it, the likely one.
+    input = mcv_input(span_of(motion.wanted_mps), memory_.load, valid.pump_flow_m3ps);
+  }
   followed.eases = motion.eases;
   if (of_path > 0.0 || motion.eases) {
     const McvSolution of_wanted = followed.solution;
@@ -294,22 +313,6 @@ ExcavatorController::Followed ExcavatorController::flow_limited(const ExcavatorV
     }
   }
   return followed;
-}
-
-void ExcavatorController::demand_pumps(const ExcavatorValid& valid, const Motion& motion,
-                                       bool active, double period_s) {
-  next_pump_demand(
-      profile_, setup_.valve,
-      {mcv_input(span_of(motion.wanted_mps), memory_.load, valid.pump_flow_m3ps), memory_.line_pa,
-       valid.engine_radps, active && !motion.tries,
-       any_blocked(memory_.watch.drives.blocked) || any_wary(memory_.watch.drives.blocked)},
-      period_s, memory_.pumps);
-  if (active && motion.tries && profile_.demand_swash.most_ratio > 0.0) {
-    // With less, a load that takes all that a line has hides how its valve opens.
-    for (unsigned j = 0; j < static_cast<unsigned>(profile_.pump_count); ++j) {
-      memory_.pumps.swash_ratio[j] = profile_.demand_swash.most_ratio;
-    }
-  }
 }
 
 void ExcavatorController::describe_motion(const Motion& motion, const Followed& taken,

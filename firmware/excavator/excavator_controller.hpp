@@ -127,6 +127,9 @@ class ExcavatorController {
     double swing_wanted_mps = 0.0;  ///< V_L^d of the last cycle's program.
   };
 
+  /// What the valve is asked for; where no pressures are measured, at the worst loads.
+  [[nodiscard]] McvInput input_for(const DriveVector& wanted_mps,
+                                   const ExcavatorValid& valid) const;
   [[nodiscard]] DriveRows drives() const { return setup_.bank.rows(); }
   [[nodiscard]] bool intact() const { return memory_.lambda.intact() && memory_.task.intact(); }
   /// Inputs that may be used, the strokes by IMUs.

@@ -51,6 +51,8 @@ struct Excavator : runs::ExcavatorSim {
   [[nodiscard]] static Scenery scenery_of(std::uint64_t seed);
   /// The same, and it can hardly move: a rock in the way; a transmission too weak to roll.
   [[nodiscard]] static Scenery stall_scenery_of(std::uint64_t seed);
+  /// The same with IMUs on its links instead of stroke sensors, all errors.
+  [[nodiscard]] static Scenery imu_scenery_of(std::uint64_t seed);
   /// The 12 t machine, whose platform turns, where its program 0 begins.
   [[nodiscard]] static Scenery swinging_scenery_of(std::uint64_t seed);
   /// With program 0 where the platform turns.

@@ -11,6 +11,9 @@ Rows<Excavator> own_rows(const Excavator&) {
   for (const Row<Excavator>& row : pressure_rows()) {
     rows.push_back(row);
   }
+  for (const Row<Excavator>& row : imu_rows()) {
+    rows.push_back(row);
+  }
   for (const Row<Excavator>& row : swap_rows()) {
     rows.push_back(row);
   }

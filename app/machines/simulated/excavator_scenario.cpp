@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/machines/bus_file.hpp"
+#include "app/machines/bus_key.hpp"
 #include "app/machines/imu_section.hpp"
 #include "app/machines/simulated/soil_kinds.hpp"
 #include "app/plant/random.hpp"
@@ -87,6 +88,18 @@ void put_on_bus(const std::string& name, SimulatedExcavator& machine) {
   }
 }
 
+/// As if its profile said so. Throws where that can't be made safe.
+void take_away(const std::vector<std::string>& sensors, BusCapabilities& bus) {
+  for (const std::string& sensor : sensors) {
+    (sensor == "spool"   ? bus.spool_feedback
+     : sensor == "swash" ? bus.swash_feedback
+                         : bus.pressures) = false;
+  }
+  if (const std::string words = unsafe_words(bus); !words.empty()) {
+    throw std::runtime_error(fmt::format("--without {}: {}", fmt::join(sensors, ","), words));
+  }
+}
+
 /// What a bus of this name needs of the simulated machine.
 const std::map<std::string, std::vector<bool plant::SoldParts::*>>& sold_parts() {
   using Parts = plant::SoldParts;
@@ -130,6 +143,7 @@ SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario
   if (!scenario.bus.empty()) {
     put_on_bus(scenario.bus, machine);
   }
+  take_away(scenario.without, machine.profile.bus);
   if (!machine.bus.empty()) {
     speak(machine.bus_speaks, machine.bus.own_frames, plant);
   }

@@ -4,10 +4,12 @@
 /// its plain run.
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/machines/excavator_file.hpp"
 #include "app/machines/simulated/found.hpp"
@@ -77,6 +79,9 @@ void read_simulated_sections(TomlReader& reader, SimulatedExcavator& machine);
 /// machine as it is found beside them.
 enum class Errors { kNone, kStrokeBias, kSensors, kParameters, kKim, kAll };
 
+/// Sensors that a machine may be without.
+inline constexpr std::array<const char*, 3> kSensorNames = {"spool", "swash", "pressure"};
+
 struct Scenario {
   bool soil = false;   ///< Kim's field of force below the ground.
   std::string ground;  ///< Soil that is cut, of kSoilNames; empty: none.
@@ -91,6 +96,8 @@ struct Scenario {
   bool imus = false;
   /// Bus profile, by name or file, of a machine whose own profile says nothing of it; empty: none.
   std::string bus;
+  /// Sensors that the machine has not, of kSensorNames; what stands in is the usual.
+  std::vector<std::string> without;
   std::uint64_t seed = 0;  ///< Of everything that is drawn.
   Found found;             ///< What is told goes before what is drawn.
 };

@@ -95,7 +95,9 @@ FactTable pump_table(const ExcavatorProfile& profile) {
       "Pumps",
       {"", "full flow, L/min", "at the task's swash, L/min", "relief, MPa", "power at relief, kW"},
       {},
-      ""};
+      profile.pump[0].regulator.sets_swash()
+          ? "they set their swash themselves: task.swash and task.swash_on_demand are not used"
+          : ""};
   for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
     const PumpProfile& pump = profile.pump[j];
     const double flow_m3ps = full_flow_m3ps(pump);
@@ -256,13 +258,10 @@ MachineCheck check_machine(const machines::ExcavatorMachine& machine,
   check.name = machine.name;
   check.kind = "excavator";
   check.hash = machine.hash;
-  check.tables = {reach_table(reach),
-                  joint_table(machine.profile),
-                  drive_table(machine.profile),
-                  pump_table(machine.profile),
-                  mode_table(simulated),
-                  answer_table(machine),
-                  provenance_table(machine.provenance)};
+  check.tables = {reach_table(reach),           joint_table(machine.profile),
+                  drive_table(machine.profile), pump_table(machine.profile),
+                  mode_table(simulated),        capability_table(machine.profile),
+                  answer_table(machine),        provenance_table(machine.provenance)};
   check.warnings = excavator_warnings(machine, simulated);
   check.drawing = excavator_drawing(machine.profile, reach);
   return check;

@@ -44,6 +44,8 @@ struct MachineCheck {
 
 /// Each side of each spool.
 [[nodiscard]] FactTable answer_table(const machines::ExcavatorMachine& machine);
+/// Sensors and signals that it does without, what stands in, what is not seen, what it costs.
+[[nodiscard]] FactTable capability_table(const ExcavatorProfile& profile);
 [[nodiscard]] FactTable provenance_table(const std::vector<machines::Provenance>& provenance);
 
 /// Where the teeth can be, over the ground.

@@ -18,9 +18,12 @@ constexpr double kLongest_s = 0.1;
 /// A gyro that is off by more, in standard deviations, is taken for failed: so is the accelerometer
 /// that says so.
 constexpr double kBiasMost = 5.0;
-/// A link that has turned so far shows it in the direction of its force: ten counts of it.
-constexpr double kTurned_rad = 0.01;
-/// So often no gyro that lives shows the same, where the force is another one each time.
+/// A link that has turned so far shows it in the direction of its force, by twenty counts: some ten
+/// a falling link may hide.
+constexpr double kTurned_rad = 0.02;
+/// Over so many readings: one that shakes may show the same force twice.
+constexpr int kSameForces = 4;
+/// So often no gyro that lives shows the same, where the force has changed each time.
 constexpr int kSameMost = 20;
 /// Joint angles are taken in the turn around this; the arm folds in.
 constexpr std::array<double, kAxisCount> kCentre_rad = {0.0, -1.57, kBucketCentre_rad};
@@ -67,16 +70,21 @@ Validity validity_of(const ImuInputs& imu) {
 
 TimeUs stamp_of(const ImuInputs& imu) { return std::min(imu.rates.stamp_us, imu.forces.stamp_us); }
 
-void watch_frozen(const AngleReading& last, const AngleReading& next, const ImuRates& rates,
-                  double bias_radps, FrozenWatch& watch) {
-  const bool same_force = next.force_mps2 == last.force_mps2;
+/// `last`: the reading before, and the bias.
+void watch_frozen(const AngleNoise& noise, const LinkAngle& last, const AngleReading& next,
+                  const ImuRates& rates, FrozenWatch& watch) {
+  const Eigen::Vector2d change_mps2 = next.force_mps2 - last.last.force_mps2;
+  const bool same_force = change_mps2.isZero(0.0);
   const bool same_rates = rates.pitch_radps == watch.rates.pitch_radps &&
                           rates.roll_radps == watch.rates.roll_radps &&
                           rates.yaw_radps == watch.rates.yaw_radps;
   watch.rates = rates;
   watch.turned_rad =
-      same_force ? watch.turned_rad + (next.rate_radps - bias_radps) * next.period_s : 0.0;
-  watch.same_rates = same_rates && !same_force ? std::min(watch.same_rates + 1, kSameMost) : 0;
+      same_force ? watch.turned_rad + (next.rate_radps - last.bias_radps) * next.period_s : 0.0;
+  watch.same_forces = same_force ? std::min(watch.same_forces + 1, kSameForces) : 0;
+  // A gyro without noise may rest while its link is shaken a little.
+  const int shaken = change_mps2.norm() > noise.force_mps2 ? 1 : 0;
+  watch.same_rates = same_rates ? std::min(watch.same_rates + shaken, kSameMost) : 0;
 }
 
 /// Takes the newest reading of an IMU, if there is one. True if the link goes on by it.
@@ -99,7 +107,7 @@ bool take_reading(const ImuProfile& profile, const AngleNoise& noise, const ImuI
     begin_angle(noise, reading, link);
     return false;
   }
-  watch_frozen(link.last, reading, imu.rates.value, link.bias_radps, state.frozen[index]);
+  watch_frozen(noise, link, reading, imu.rates.value, state.frozen[index]);
   carry_angle(noise, reading, at_rest, link);
   return link.runs();
 }
@@ -212,7 +220,8 @@ Validity worst_validity(const ImuProfile& profile, const ExcavatorInputs& inputs
 }  // namespace
 
 bool FrozenWatch::is_frozen() const {
-  return std::abs(turned_rad) > kTurned_rad || same_rates >= kSameMost;
+  return (same_forces >= kSameForces && std::abs(turned_rad) > kTurned_rad) ||
+         same_rates >= kSameMost;
 }
 
 ImuStrokes next_imu_strokes(const ExcavatorKinematics& kinematics, const ImuProfile& profile,

@@ -27,7 +27,9 @@ namespace graben {
 struct FrozenWatch {
   ImuRates rates;           ///< Of the last reading.
   double turned_rad = 0.0;  ///< By the gyro, since the force was another one.
-  int same_rates = 0;       ///< Readings in a row with the same rates and another force each.
+  int same_forces = 0;      ///< Readings in a row since then.
+  /// Readings with a force that is another one by more than its noise, since the rates were others.
+  int same_rates = 0;
 
   [[nodiscard]] bool is_frozen() const;
 };

@@ -23,6 +23,11 @@ void no_spools(ExcavatorInputs& inputs) {
     axis.spool_ratio = {};
   }
 }
+void no_pressures(ExcavatorInputs& inputs) {
+  for (AxisInputs& axis : inputs.axis) {
+    axis.cap_pressure_pa = axis.rod_pressure_pa = {};
+  }
+}
 void no_swash(ExcavatorInputs& inputs) { inputs.swash_ratio = {}; }
 
 struct Case {
@@ -33,6 +38,7 @@ struct Case {
 const Case kCases[] = {{&BusCapabilities::identity, no_identity, Fault::kIdentityMismatch},
                        {&BusCapabilities::valve_echo, no_echo, Fault::kSpoolMissing},
                        {&BusCapabilities::spool_feedback, no_spools, Fault::kSpoolMissing},
+                       {&BusCapabilities::pressures, no_pressures, Fault::kPressureMissing},
                        {&BusCapabilities::swash_feedback, no_swash, Fault::kSwashMissing}};
 
 ExcavatorProfile with_bus(ExcavatorProfile profile, bool BusCapabilities::*lacks) {

@@ -155,6 +155,23 @@ void a_stuck_sensor_contradicts(void**) {
   assert_in_range(cycles, 20, 300);
 }
 
+void blows_are_no_tilt(void**) {
+  Body body;
+  LinkAngle state;
+  begin_angle(kNoise, body.reading(0.0), state);
+  for (int i = 1; i < 500; ++i) {
+    AngleReading reading = body.reading(i * kPeriod_s);
+    // Hard ground, always from one side: every third reading, one and a half times gravity.
+    reading.force_mps2.x() += i % 3 == 0 ? 15.0 : 0.0;
+    carry_angle(kNoise, reading, false, state);
+    if (state.runs()) {
+      correct_angle(kNoise, Eigen::Vector2d::Zero(), state);
+    }
+    assert_false(state.contradicts());
+  }
+  assert_near(state.angle_rad, body.angle(5.0), 5e-3);
+}
+
 void falls_without_direction(void**) {
   LinkAngle state;
   AngleReading reading;
@@ -181,6 +198,7 @@ int main() {
       cmocka_unit_test(deviation_holds),
       cmocka_unit_test(looks_ahead),
       cmocka_unit_test(a_stuck_sensor_contradicts),
+      cmocka_unit_test(blows_are_no_tilt),
       cmocka_unit_test(falls_without_direction),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -17,7 +17,9 @@ const std::vector<KnownBus>& buses() {
                                   {"slow", {}},   {"levers", {}}, {"foreign", {}, false}};
     made[1].capabilities.spool_feedback = false;
     made[1].capabilities.valve_echo = false;
-    made[2].capabilities = {false, false, false, false, false, 0.0};
+    BusCapabilities& bare = made[2].capabilities;
+    bare.identity = bare.valve_echo = bare.spool_feedback = false;
+    bare.swash_feedback = bare.protection = false;
     made[3].capabilities.latency_s = 0.04;
     made[4].capabilities.spool_by_pilot = true;
     made[4].capabilities.swash_command = false;
@@ -104,6 +106,14 @@ void a_machine_may_have_no_such_sensor(void**) {
   assert_false(blind.bus.spool_feedback);
   assert_true(blind.bus.swash_feedback);
   assert_refused("sensors = {swash = false}", "stand_in.swash_feedback", "missing");
+  const char* const no_pressures =
+      "sensors = {pressure = false}\nstand_in = {pressures = \"worst_load\", worst_load = 0.3}";
+  const Read light = read(no_pressures);
+  assert_true(light.errors.empty());
+  assert_false(light.bus.pressures);
+  assert_near(light.bus.worst_load_ratio, 0.3, 0.0);
+  assert_refused("sensors = {pressure = false}", "stand_in.pressures", "missing");
+  assert_refused("stand_in = {worst_load = 0.3}", "stand_in.worst_load", "pressures are measured");
   // What the bus does not carry is not there because a sensor is.
   assert_refused("bus = \"mute\"\nsensors = {spool = true}", "stand_in.spool_feedback", "missing");
 }
@@ -123,6 +133,13 @@ void swing_and_imus_need_our_frames(void**) {
   assert_refused("bus = \"foreign\"\nimu = {x = 1}", "imu", "no IMUs");
 }
 
+void what_cannot_be_made_safe_is_refused(void**) {
+  assert_refused(
+      "sensors = {spool = false, pressure = false}\n"
+      "stand_in = {spool_feedback = \"command\", pressures = \"worst_load\"}",
+      "stand_in.pressures", "neither spools nor pressures are measured");
+}
+
 }  // namespace
 
 int main() {
@@ -132,6 +149,7 @@ int main() {
       cmocka_unit_test(what_is_lacking_has_its_stand_in),
       cmocka_unit_test(pilots_stand_in_for_spools_and_the_profile_for_a_swash),
       cmocka_unit_test(nothing_is_lost_in_silence),
+      cmocka_unit_test(what_cannot_be_made_safe_is_refused),
       cmocka_unit_test(a_machine_may_have_no_such_sensor),
       cmocka_unit_test(nothing_stands_in_for_what_is_there),
       cmocka_unit_test(the_dead_time_covers_the_latency),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Faults of the IMUs of a machine that digs: each stops it, in words and in time.
 
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -127,10 +128,25 @@ void a_second_sender(void**) {
 
 void a_jump(void**) {
   Digging dig;
-  // Mounted in another way all at once: by 20 deg.
+  // An axis is off by 0.35 g all at once: no tilt, whose size would be that of gravity.
   dig.change(dig.id(Forces::kId, kBoom), [](CanFrame& frame) {
     Forces message = Forces::decode(frame.data);
     message.longitudinal_mps2.value += 3.4;
+    frame.data = message.encode();
+    return true;
+  });
+  static_cast<void>(dig.stops_within(6000));
+}
+
+void a_bracket_turns(void**) {
+  Digging dig;
+  dig.change(dig.id(Forces::kId, kBoom), [](CanFrame& frame) {
+    constexpr double kTilt_rad = 0.35;
+    Forces message = Forces::decode(frame.data);
+    const double along = message.longitudinal_mps2.value;
+    const double up = message.vertical_mps2.value;
+    message.longitudinal_mps2.value = along * std::cos(kTilt_rad) + up * std::sin(kTilt_rad);
+    message.vertical_mps2.value = up * std::cos(kTilt_rad) - along * std::sin(kTilt_rad);
     frame.data = message.encode();
     return true;
   });
@@ -143,7 +159,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(silence), cmocka_unit_test(it_calls_itself_degraded),
       cmocka_unit_test(frozen),  cmocka_unit_test(a_second_sender),
-      cmocka_unit_test(a_jump),
+      cmocka_unit_test(a_jump),  cmocka_unit_test(a_bracket_turns),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

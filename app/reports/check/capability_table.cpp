@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a machine can do without and what that costs. The figures are those of tests/README.md,
+// which tests/results/check_capabilities.py holds them to.
+
+#include "app/reports/check/machine_check.hpp"
+
+namespace graben::reports {
+namespace {
+
+struct Capability {
+  const char* lost;
+  const char* stand_in;
+  const char* unseen;
+  /// Path error of the true tip with all errors, max over a loop, median / p95 of draws, mm: 22 t
+  /// dry, 22 t in Kim's soil, 12 t dry, 12 t in Kim's soil; - where not measured.
+  const char* costs;
+  bool (*is_lost)(const ExcavatorProfile& profile);
+};
+
+constexpr Capability kCapabilities[] = {
+    {"nothing", "-", "-", "22.5 / 36.5; 58.8 / 85.5; 21.3 / 34.1; 54.4 / 78.2",
+     [](const ExcavatorProfile&) { return false; }},
+    {"strokes", "IMUs on the links",
+     "a frame of another IMU under this one's address; one whose bits changed within its range; "
+     "an IMU that is mounted up to 3 deg off; a drift below 1 deg/s; a step of 25 mm",
+     "26.8 / 39.4; 61.6 / 98.5; 20.9 / 35.7; 57.3 / 78.9",
+     [](const ExcavatorProfile& profile) { return profile.imu.known(); }},
+    {"spool positions", "the command",
+     "SpoolMissing, SpoolStuck; a stroke against its oil (StrokeStuck, MotionImplausible); spools "
+     "that are not centred before arming",
+     "22.4 / 36.2; 58.3 / 83.7; 21.0 / 36.1; 54.3 / 73.8",
+     [](const ExcavatorProfile& profile) { return !profile.bus.spool_feedback; }},
+    {"swash of the pumps", "the command", "SwashMissing, SwashDisagrees",
+     "22.4 / 36.9; 60.0 / 87.4; 21.1 / 34.6; 53.7 / 76.5",
+     [](const ExcavatorProfile& profile) {
+       return !profile.bus.swash_feedback && !profile.pump[0].regulator.sets_swash();
+     }},
+    {"chamber pressures", "the links' weight; lambda by a worst load",
+     "PressureMissing, PressureImplausible, WrongDirection, Blocked; a stroke against its oil "
+     "(StrokeStuck, MotionImplausible); tip force and payload",
+     "32.4 / 128.9; 83.2 / 159.1; 24.0 / 39.3; 67.3 / 98.9",
+     [](const ExcavatorProfile& profile) { return !profile.bus.pressures; }},
+    {"our own bus", "zx200: angles, pilot pressures, the profile's swash",
+     "IdentityMismatch, MessageCorrupt, MessageSequence, MessageMasquerade; a spool that sticks "
+     "under a right pilot pressure; SwashMissing, SwashDisagrees",
+     "24.4 / 38.2; -; -; -",
+     [](const ExcavatorProfile& profile) { return profile.bus.joint_angles; }},
+    {"a told swash", "load-sensing pumps", "SwashMissing, SwashDisagrees",
+     "25.0 / 40.7; -; 20.9 / 33.2; -",
+     [](const ExcavatorProfile& profile) {
+       return profile.pump[0].regulator.kind == PumpKind::kLoadSensing;
+     }},
+    {"a told swash", "pumps under negative flow control", "SwashMissing, SwashDisagrees",
+     "55 / 108; -; 29 / 49; -",
+     [](const ExcavatorProfile& profile) {
+       return profile.pump[0].regulator.kind == PumpKind::kNegativeFlow;
+     }},
+};
+
+}  // namespace
+
+FactTable capability_table(const ExcavatorProfile& profile) {
+  FactTable table{"What this machine does without",
+                  {"lost", "stands in", "not seen any more", "path error, mm"},
+                  {},
+                  "median / p95 of the shipped machines with all errors: 22 t dry; in soil; 12 t "
+                  "dry; in soil (tests/README.md)"};
+  for (const Capability& each : kCapabilities) {
+    if (each.is_lost(profile)) {
+      table.rows.push_back({each.lost, each.stand_in, each.unseen, each.costs});
+    }
+  }
+  if (table.rows.empty()) {
+    table.rows.push_back({kCapabilities[0].lost, kCapabilities[0].stand_in, kCapabilities[0].unseen,
+                          kCapabilities[0].costs});
+  }
+  return table;
+}
+
+}  // namespace graben::reports
