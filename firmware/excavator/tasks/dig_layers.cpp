@@ -25,7 +25,8 @@ constexpr double kShallower = 0.75;
 constexpr double kLittle = 0.1;
 /// The same of what a cut brings beside what its edge has passed, payload's error and all.
 constexpr double kFallen = 0.15;
-/// So much at once moves what stands beside and before it: a last cut that brings it is swept after.
+/// So much at once moves what stands beside and before it: a last cut that brings it is swept
+/// after.
 constexpr double kMoves = 0.4;
 /// With so much of a full bucket the wall at the line's beginning falls in too.
 constexpr double kWallFalls = 0.55;
