@@ -8,6 +8,7 @@
 #include "firmware/excavator/tasks/cut_force.hpp"
 #include "firmware/excavator/tasks/layer_enter.hpp"
 #include "firmware/excavator/tasks/layer_height.hpp"
+#include "firmware/excavator/tasks/layer_pace.hpp"
 #include "firmware/excavator/tasks/layer_tare.hpp"
 #include "firmware/excavator/tasks/layer_touch.hpp"
 
@@ -38,10 +39,8 @@ constexpr double kHeelMost = 1.5;
 constexpr double kCutWaits_s = 10.0;
 /// Of a move that leads to the next one.
 constexpr double kPassed_m = 0.20;
-/// Teeth that sink under a last cut count so much more than teeth that are late; and a plan slows
-/// down faster than it gets on again.
+/// Teeth that sink under a last cut count so much more than teeth that are late.
 constexpr double kSinks = 2.5;
-constexpr double kSlowsFaster = 4.0;
 /// Of ground as it mostly is.
 constexpr double kGround_kgpm3 = 1750.0;
 /// What springs by less is let be.
@@ -52,16 +51,6 @@ constexpr double kWallPulls = 0.85;
 DriveVector drives_now(const SwingKinematics& kinematics, const TaskProgram& program,
                        const TaskState& state) {
   return task_aim(kinematics, program, state).value;
-}
-
-void follow_pace(const LineProfile& line, double slow_m, double behind_m, double period_s,
-                 TaskState& state) {
-  const double off = behind_m / slow_m;
-  const double slowed = 1.0 / (1.0 + off * off);
-  const double change = line.pace_rate_ps * period_s;
-  state.pace_ratio =
-      std::clamp(slowed > 0.0 ? slowed : 0.0, state.pace_ratio - kSlowsFaster * change,
-                 state.pace_ratio + change);
 }
 
 /// A wall that breaks off lets the oil throw the teeth down: its force counts for more.
@@ -315,6 +304,11 @@ void LayerRun::move(TaskState& state) const {
   }
   state.time_s += state.pace_ratio * advance_s_;
   const double end_s = state.layers.move.ramp.duration_s;
+  state.settle_s += state.layers.tares ? period_s_ : 0.0;
+  if (state.settle_s > kTaresMost_s && state.layers.tares) {
+    next_step(state);
+    return;
+  }
   if (state.time_s < end_s) {
     return;
   }

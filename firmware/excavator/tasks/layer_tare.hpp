@@ -7,6 +7,9 @@
 
 namespace graben {
 
+/// A boom that gets on more slowly is let be: it has told what it can.
+inline constexpr double kTaresMost_s = 4.0;
+
 /// The step is the first return from where a bucket that was weighed has been emptied.
 [[nodiscard]] bool tares_next(const TaskProgram& program, int step, const LayerState& layers);
 

@@ -274,27 +274,44 @@ void lifts_out_before_it_swings(void**) {
   assert_true(swing_of(task_aim(machine().kinematics, program, state).value) > 0.5);
 }
 
+CutSeen weighs(const TaskProgram& program, const TaskState& state) {
+  CutSeen seen = follows(program, state);
+  seen.payload_known = true;
+  seen.payload_kg = 600.0;
+  return seen;
+}
+
 /// A bucket that was weighed is raised once, empty, before it first goes back.
 void an_empty_bucket_is_raised_once(void**) {
   const TaskProgram program = planned();
   TaskState state = begun(program);
+  TaskState raises;
   int raised = 0;
   for (int rounds = 0; rounds < 3 && state.phase != TaskPhase::kDone;) {
-    CutSeen seen = follows(program, state);
-    seen.payload_known = true;
-    seen.payload_kg = 600.0;
-    const TaskState next = advance(program, state, seen);
+    const TaskState next = advance(program, state, weighs(program, state));
     if (next.layers.tares && !state.layers.tares) {
       assert_int_equal(program.step[static_cast<unsigned>(next.step)].kind, StepKind::kReturnToDig);
       const DriveVector way = next.layers.move.change;
       assert_true(way[kBoom] > 0.02);
       assert_true(way.cwiseAbs().sum() == way[kBoom]);
+      raises = next;
       ++raised;
     }
     rounds += next.step == 0 && state.step != 0 ? 1 : 0;
     state = next;
   }
   assert_int_equal(raised, 1);
+  // A boom that hardly gets on is not waited for: the return begins from where it is.
+  double waited_s = 0.0;
+  double boom_m = 0.0;
+  for (; raises.layers.tares && waited_s < 20.0; waited_s += kCycle_s) {
+    boom_m = task_aim(machine().kinematics, program, raises).value[kBoom];
+    layer_advance(machine().profile, machine().kinematics, program, 0.05 * kCycle_s, kCycle_s,
+                  follows(program, raises), raises);
+  }
+  assert_true(waited_s < 5.0);
+  assert_int_equal(raises.step, 2);
+  assert_near(raises.layers.move.from[kBoom], boom_m, 1e-3);
   // Who weighs nothing has nothing to learn it for.
   run_until(program, begun(program), [](const TaskState& at) {
     assert_false(at.layers.tares);
