@@ -28,6 +28,8 @@ constexpr double kFallen = 0.15;
 /// So much at once moves what stands beside and before it: a last cut that brings it is swept
 /// after.
 constexpr double kMoves = 0.4;
+/// A cut that was stopped says nothing of what is farther than this along the line.
+constexpr double kPastStop = 0.15;
 /// With so much of a full bucket the wall at the line's beginning falls in too.
 constexpr double kWallFalls = 0.55;
 
@@ -132,10 +134,12 @@ Cut cut_of(const LayerPlan& plan, const CutState& state, int strip) {
   return cut;
 }
 
-/// What stays up is taken for gone.
-void give_up(CutState& state) {
+/// What stays up is taken for gone, so far along the line.
+void give_up(double until_share, CutState& state) {
   const auto left = static_cast<float>(state.cut.height_m);
-  for (float& height : state.height_m[static_cast<unsigned>(state.cut.strip)]) {
+  auto& bins = state.height_m[static_cast<unsigned>(state.cut.strip)];
+  for (int bin = 0; bin < kStripBins && share_of(bin) <= until_share; ++bin) {
+    float& height = bins[static_cast<unsigned>(bin)];
     height = std::min(height, left);
   }
 }
@@ -196,7 +200,7 @@ void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state) {
   const bool stopped = state.swept && end.heavy > 1.0 && little && state.cut.from_share < 0.0;
   state.wall_falls = state.wall_falls && !stopped;
   if (!stopped && state.tries >= (state.cut.thin ? kThinTriesMost : kTriesMost)) {
-    give_up(state);
+    give_up(end.share + kPastStop, state);
     state.tries = 0;
   }
   state.last_strip = strip;

@@ -262,7 +262,8 @@ void LayerRun::cut(TaskState& state) const {
   if (cut_ends(heavy, state)) {
     begin_lift(state);
     next_cut(plan_,
-             {layers.cut_s > 0.0 ? layers.heavy_s / layers.cut_s : kHoldsAt, layers.filled_m3},
+             {layers.cut_s > 0.0 ? layers.heavy_s / layers.cut_s : kHoldsAt, layers.filled_m3,
+              std::max(0.0, layers.share)},
              layers.cuts);
   }
 }

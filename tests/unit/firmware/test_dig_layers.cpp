@@ -169,6 +169,25 @@ void what_stays_up_is_left(void**) {
   assert_true(cuts >= kTriesMost && cuts < 40);
 }
 
+/// A cut that was stopped where it went in says nothing of the rest of its strip.
+void the_rest_of_a_strip_is_cut_all_the_same(void**) {
+  const LayerPlan whole = plan();
+  CutState state = undug(whole);
+  for (int n = 0; n < kTriesMost; ++n) {
+    assert_true(state.cut.from_share == 0.0);
+    next_cut(whole, {1.2, 0.0, 0.03}, state);
+  }
+  assert_false(state.met);
+  assert_true(state.cut.from_share >= 0.0);
+  assert_true(state.height_m[0][0] <= static_cast<float>(state.cut.enters_m));
+  assert_true(state.height_m[0][kStripBins - 1] > 0.3F);
+  int cuts = 0;
+  for (; !state.met; ++cuts) {
+    assert_true(cuts < kCutsMost);
+    next_cut(whole, {1.2, 0.0, state.cut.from_share + 0.03}, state);
+  }
+}
+
 void depth_follows_the_force(void**) {
   const LayerPlan whole = plan();
   CutState state = undug(whole);
@@ -294,6 +313,7 @@ int main() {
       cmocka_unit_test(ends_where_next_to_nothing_is_left),
       cmocka_unit_test(strips_one_after_the_other),
       cmocka_unit_test(what_stays_up_is_left),
+      cmocka_unit_test(the_rest_of_a_strip_is_cut_all_the_same),
       cmocka_unit_test(depth_follows_the_force),
       cmocka_unit_test(soil_that_falls_in_is_swept_out),
       cmocka_unit_test(a_heavy_last_cut_is_swept_after),
