@@ -13,6 +13,8 @@
 #include <system_error>
 #include <utility>
 
+#include "app/runs/figures.hpp"
+
 namespace graben::reports {
 namespace {
 
@@ -81,6 +83,17 @@ fs::path resolved(const fs::path& file) {
   return target;
 }
 
+void make_plain(nlohmann::ordered_json& node) {
+  if (node.is_number_float()) {
+    node = runs::plain_number(node.get<double>());
+  }
+  if (node.is_structured()) {
+    for (nlohmann::ordered_json& below : node) {
+      make_plain(below);
+    }
+  }
+}
+
 }  // namespace
 
 void write_report(const fs::path& file, std::string_view page, const nlohmann::json& setup) {
@@ -102,8 +115,10 @@ void write_report(const fs::path& file, std::string_view page, const nlohmann::j
 }
 
 void write_json(const fs::path& file, const nlohmann::ordered_json& figures) {
+  nlohmann::ordered_json plain = figures;
+  make_plain(plain);
   std::ofstream stream(file);
-  stream << figures.dump(2) << '\n';
+  stream << plain.dump(2) << '\n';
   stream.close();
   if (!stream) {
     throw std::runtime_error(fmt::format("{}: can't be written", file.string()));

@@ -269,7 +269,7 @@ def bad_contents(tool, log):
 def bad_files(tool, log_file, better):
     out = tool.folder / "none.toml"
     usual = ("--log", log_file, "--profile", tool.profile)
-    tool.refused("cannot be read", "--log", tool.folder / "gone.log", "--profile", tool.profile, "--out", out)
+    tool.refused("there is no such file", "--log", tool.folder / "gone.log", "--profile", tool.profile, "--out", out)
     tool.refused("is a folder", "--log", tool.folder, "--profile", tool.profile, "--out", out)
     tool.refused("is the same log as", "--log", log_file, log_file, "--profile", tool.profile, "--out", out)
     tool.refused("not found", "--log", log_file, "--profile", tool.folder / "gone.toml", "--out", out)
