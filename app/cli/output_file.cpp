@@ -58,8 +58,12 @@ fs::path partial_file(const fs::path& file) {
 }  // namespace
 
 void make_folder_of(const fs::path& file) {
-  if (!file.empty() && !fs::absolute(file).parent_path().empty()) {
-    fs::create_directories(fs::absolute(file).parent_path());
+  std::error_code error;
+  if (!file.empty()) {
+    fs::create_directories(fs::absolute(file).parent_path(), error);
+  }
+  if (error) {
+    refuse(file);
   }
 }
 

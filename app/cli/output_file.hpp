@@ -10,7 +10,7 @@
 namespace graben::cli {
 
 /// Every file that a command writes may be in a folder that is not there yet: makes it. An empty
-/// name is none. Throws std::filesystem::filesystem_error, naming the folder.
+/// name is none. Throws std::runtime_error, naming the file.
 void make_folder_of(const std::filesystem::path& file);
 
 /// Before a minute's work: makes the file's folder, and throws std::runtime_error, naming it, where

@@ -85,7 +85,14 @@ fs::path resolved(const fs::path& file) {
 
 void make_plain(nlohmann::ordered_json& node) {
   if (node.is_number_float()) {
-    node = runs::plain_number(node.get<double>());
+    // The Grisu2 that prints it does not find every number's shortest text; it does with less
+    // digits.
+    constexpr std::size_t kShort = 20;
+    const auto value = node.get<double>();
+    node = runs::plain_number(value);
+    for (int digits = 11; digits > 8 && node.dump().size() > kShort; --digits) {
+      node = runs::plain_number(value, digits);
+    }
   }
   if (node.is_structured()) {
     for (nlohmann::ordered_json& below : node) {

@@ -8,9 +8,10 @@
 
 namespace graben::runs {
 
-double plain_number(double value) {
-  return std::isfinite(value) ? std::strtod(fmt::format("{:.12g}", value).c_str(), nullptr) + 0.0
-                              : value;
+double plain_number(double value, int digits) {
+  return std::isfinite(value)
+             ? std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr) + 0.0
+             : value;
 }
 
 std::string shown_value(const FigureValue& figure) {

@@ -188,7 +188,8 @@ std::string plan_csv(const std::vector<PlanSample>& samples) {
                    {sample.displacement[i], sample.velocity[i], sample.acceleration[i]});
     }
     cells.insert(cells.end(), sample.flow_m3ps.begin(), sample.flow_m3ps.end());
-    std::transform(cells.begin(), cells.end(), cells.begin(), plain_number);
+    std::transform(cells.begin(), cells.end(), cells.begin(),
+                   [](double cell) { return plain_number(cell); });
     csv += fmt::format("\n{}", fmt::join(cells, ","));
   }
   return csv + "\n";

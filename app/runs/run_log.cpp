@@ -45,9 +45,11 @@ class Reader {
     }
     if (frame.id == dbc::common::OperatorCommand::kId) {
       const auto task = dbc::common::OperatorCommand::decode(frame.data).task;
-      run_.task = is_active_ && task.state == RawState::kValid
-                      ? static_cast<std::uint8_t>(task.value)
-                      : run_.task;
+      // None is asked for at the end, while the machine still comes to rest.
+      if (is_active_ && task.state == RawState::kValid &&
+          task.value != dbc::common::OperatorCommand::Task::kNone) {
+        run_.task = static_cast<std::uint8_t>(task.value);
+      }
     }
     if (is_kind_known_) {
       if (frame.id == Status::kId) {

@@ -41,7 +41,7 @@ struct RunLog {
   std::string name;  ///< Of the file, as it was told.
   bool is_dozer = false;
   std::uint32_t profile_hash = 0;  ///< 0: not said.
-  std::uint8_t task = 0;           ///< That the operator asked for last while it was Active.
+  std::uint8_t task = 0;           ///< Last asked for while it was Active, but None.
   std::vector<Channel> channel;    ///< In the order of channel_table().
   double from_s = 0.0;
   double until_s = 0.0;

@@ -120,7 +120,7 @@ class Tool:
 
 def finds(tool, log_file):
     """One log, one better profile; all that the report, the summary and the file have to say."""
-    out, report, summary = (tool.folder / name for name in ("better.toml", "better.html", "better.json"))
+    out, report, summary = (tool.folder / name for name in ("better.toml", "new/better.html", "better.json"))
     begin = time.monotonic()
     done = tool.call("--log", log_file, "--profile", tool.profile, "--out", out, "--report", report, "--summary",
                      summary)
@@ -287,10 +287,10 @@ def bad_files(tool, log_file, better):
     tool.refused("would overwrite", *usual, "--out", log_file, "--force")
     tool.refused("would overwrite", *usual, "--out", out, "--report", out)
     tool.refused("is there already", *usual, "--out", better)
-    tool.refused("can't be written", *usual, "--out", tool.folder / "no" / "folder.toml")
+    tool.refused("can't be written", *usual, "--out", log_file / "folder.toml")
     # A place that takes no file is known before the fit.
     tool.refused("can't be written", *usual, "--out", "/proc/better.toml")
-    tool.refused("can't be written", *usual, "--out", out, "--report", tool.folder / "no" / "folder.html")
+    tool.refused("can't be written", *usual, "--out", out, "--report", log_file / "folder.html")
     tool.refused("can't be written", *usual, "--out", out, "--summary", tool.folder)
     foreign = tool.folder / "foreign.toml"
     foreign.write_text(re.sub(r"sha256 [0-9a-f]{12}", "sha256 000000000000", better.read_text()))
