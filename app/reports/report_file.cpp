@@ -87,7 +87,7 @@ void make_plain(nlohmann::ordered_json& node) {
   if (node.is_number_float()) {
     // The Grisu2 that prints it does not find every number's shortest text; it does with less
     // digits.
-    constexpr std::size_t kShort = 20;
+    constexpr std::size_t kShort = 18;
     const auto value = node.get<double>();
     node = runs::plain_number(value);
     for (int digits = 11; digits > 8 && node.dump().size() > kShort; --digits) {
