@@ -77,6 +77,23 @@ void try_without_draws(const runs::CampaignOptions& campaign, const fs::path& fo
   }
 }
 
+/// Where nothing was submitted yet and Slurm takes nothing, there is no campaign to go on with.
+void submit_or_leave_nothing(ArrayJob& job, const ArrayProgress& progress) {
+  try {
+    submit_array(job, progress);
+  } catch (...) {
+    const fs::path folder = array_folder(job.summary);
+    std::error_code ignored;
+    if (job.arrays.empty() && progress.all_rows == 0) {
+      for (const char* const name : {"shard.sh", "merge.sh"}) {
+        fs::remove(folder / name, ignored);
+      }
+      fs::remove(folder, ignored);
+    }
+    throw;
+  }
+}
+
 std::string progress_line(const ArrayJob& job, const ArrayProgress& progress) {
   return fmt::format(
       "{} of {} draws ({:.1f} %), {} of {} shards whole; tasks: {} running, {} waiting{}{}",
@@ -155,7 +172,6 @@ void submit_campaign(const CLI::App& command, const runs::CampaignOptions& campa
         fmt::format("{}: is there already; name another file", campaign.summary));
   }
   const fs::path folder = array_folder(job.summary);
-  try_without_draws(campaign, folder, run);
   job.command = shard_command(command);
   job.draws = campaign.draws;
   job.shards = options.shards;
@@ -163,6 +179,7 @@ void submit_campaign(const CLI::App& command, const runs::CampaignOptions& campa
     throw std::runtime_error(fmt::format(
         "--slurm: {} shards of {} draws; at most one for each draw", job.shards, job.draws));
   }
+  try_without_draws(campaign, folder, run);
   if (fs::exists(folder / "job.json")) {
     const ArrayJob before = read_array_job(job.summary);
     if (before.command != job.command || before.draws != job.draws || before.shards != job.shards) {
@@ -182,7 +199,7 @@ void submit_campaign(const CLI::App& command, const runs::CampaignOptions& campa
     fmt::print("{}", collect_array(job.summary));
     return;
   }
-  submit_array(job, progress);
+  submit_or_leave_nothing(job, progress);
   fmt::print("submitted job {}: {} draws in {} shards; then job {}, which merges them into {}\n",
              job.arrays.back(), job.draws - progress.all_rows, progress.left.size(), job.merge,
              campaign.summary);

@@ -14,6 +14,7 @@
 #include "app/reports/run_reports.hpp"
 #include "app/runs/autodig_run.hpp"
 #include "app/runs/code_text.hpp"
+#include "app/runs/run_log.hpp"
 #include "app/scope/page/scope_page.hpp"
 
 namespace graben::cli {
@@ -59,12 +60,14 @@ void run_task(const TaskCommand& options) {
   run.log_file = out / (options.name + ".log");
   assert_apart({}, {run.log_file.string(), report.string(), options.summary});
   fs::create_directories(out);
+  make_folder_of(options.summary);
   runs::AutodigResult result;
   {
     ProgressBar bar(options.name);
-    result = runs::run_autodig(machine, task.result.program, run, bar.progress());
+    result = runs::run_autodig(machine, task.result.program, run, bar.progress_until_stopped());
   }
   runs::AutodigSummary summary = runs::summarise(task.result.program, result);
+  summary.limit_share = runs::logged_limit_shares(run.log_file);
   summary.raised_max_m = machines::most_raised_m(task.request, task.result);
   reports::write_autodig_report(
       {report, scope::scope_page()}, run.log_file, machine, task, result, summary,

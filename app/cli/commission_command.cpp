@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -22,6 +23,7 @@ namespace {
 
 struct CommissionCommand : BusCommission {
   machines::SimulatedChoice simulated;
+  bool force = false;
 };
 
 /// "boom-extended" and its like.
@@ -71,11 +73,16 @@ void commission_in_memory(const CommissionCommand& options) {
   assert_apart({machines::find_profile(options.profile).string(), options.windows,
                 options.simulated.name.value_or("")},
                {options.log});
+  if (std::filesystem::exists(options.log) && !options.force) {
+    throw std::runtime_error(
+        fmt::format("{}: is there already; --force overwrites it", options.log));
+  }
+  make_folder_of(options.log);
   run.log_file = options.log;
   runs::CommissionResult result;
   {
     ProgressBar bar("commission");
-    result = runs::run_commission(machine, run, nullptr, bar.progress());
+    result = runs::run_commission(machine, run, nullptr, bar.progress_until_stopped());
   }
   const auto steps = planned_steps(run.sequence);
   for (std::size_t at = 0; at < result.steps.size(); ++at) {
@@ -157,6 +164,8 @@ void add_commission(CLI::App& app, int& status) {
     command->get_option(simulated)->excludes(can);
   }
   command->add_option("--log", options->log, "candump log to write")->capture_default_str();
+  command->add_flag("--force", options->force, "--log of a simulation may be there already")
+      ->excludes(can);
   command->add_option("--windows", options->windows,
                       "TOML file with a table for each drive: least, most (m), speed (m/s), "
                       "retracted_end_free, extended_end_free. Without it: asked for on a terminal, "

@@ -2,17 +2,18 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <array>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <stdexcept>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
 #include "app/cli/output_file.hpp"
+#include "app/machines/any_machine.hpp"
+#include "app/machines/profile_file.hpp"
 #include "app/reports/compare/compare_report.hpp"
 #include "app/scope/page/scope_page.hpp"
 
@@ -28,20 +29,25 @@ struct CompareCommand {
   std::string out = "out";
 };
 
-/// The page unpacks once what the report packs.
-void assert_plain(const fs::path& file) {
-  std::array<char, 2> begin{};
-  std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
-  if (begin[0] == '\x1f' && begin[1] == '\x8b') {
-    throw std::runtime_error(fmt::format("{}: is packed; unpack it first (gunzip)", file.string()));
+/// A shipped one, or the one that was told, by what it is; the hash of any other.
+std::string profile_name(const std::string& told, std::uint32_t hash) {
+  std::vector<std::string> names = machines::shipped_profile_names();
+  if (!told.empty()) {
+    names.push_back(told);
   }
+  for (const std::string& name : names) {
+    const machines::AnyMachine machine = machines::load_any(machines::find_profile(name));
+    if (std::visit([](const auto& any) { return any.hash; }, machine) == hash) {
+      return name;
+    }
+  }
+  return fmt::format("one that is not shipped ({:08x})", hash);
 }
 
 void compare(const CompareCommand& options) {
   const fs::path out(options.out);
   const fs::path report = out / "compare.html";
   assert_apart({options.first, options.second}, {report.string()});
-  assert_plain(options.first);
   const runs::RunLog first = runs::read_run_log(options.first);
   const runs::RunLog second = runs::read_run_log(options.second);
   const std::vector<runs::ComparedFigure> figures = runs::compared_figures(first, second);
@@ -49,10 +55,15 @@ void compare(const CompareCommand& options) {
   if (!options.profile.empty()) {
     setup.profile = options.profile;
   }
+  const std::vector<std::string> notes = runs::compared_notes(
+      first, second, [&](std::uint32_t hash) { return profile_name(options.profile, hash); });
   fs::create_directories(out);
   reports::write_compare_report({report, scope::scope_page()}, options.first, first, second,
-                                figures, setup);
+                                figures, notes, setup);
   fmt::print("{}", runs::compared_table(first, second, figures));
+  for (const std::string& note : notes) {
+    fmt::print("note: {}\n", note);
+  }
   for (const runs::RunLog* run : {&first, &second}) {
     if (run->first_fault_s) {
       fmt::print("{}: fault {}, {}\n", run->name, static_cast<int>(run->first_fault),
@@ -71,8 +82,8 @@ void add_compare(CLI::App& app, int& status) {
       "Two runs over each other, from their logs (candump -L): figures beside each other, and one "
       "page with the first run's frames, the second's curves dashed, and the differences. Both are "
       "counted from where their controllers became active");
-  command->add_option("first", options->first, "candump log, plain")->required();
-  command->add_option("second", options->second, "candump log")->required();
+  command->add_option("first", options->first, "candump log, plain or gzip")->required();
+  command->add_option("second", options->second, "candump log, plain or gzip")->required();
   command->add_option("--profile", options->profile,
                       "Machine profile beside the shipped ones: file or shipped name");
   command->add_option("--out", options->out, "Folder for compare.html")->capture_default_str();

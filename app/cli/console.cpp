@@ -5,13 +5,22 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <stdexcept>
 #include <utility>
+
+#include "platform/linux/process.hpp"
 
 namespace graben::cli {
 namespace {
 constexpr int kWidth = 32;
 constexpr std::chrono::milliseconds kRedraw(100);
 }  // namespace
+
+void assert_not_stopped() {
+  if (stop_requested()) {
+    throw std::runtime_error("interrupted; nothing was written");
+  }
+}
 
 ProgressBar::ProgressBar(std::string label)
     : label_(std::move(label)),
@@ -44,6 +53,16 @@ void ProgressBar::show(double share, const std::string& where) {
 
 runs::Progress ProgressBar::progress() {
   return [this](double share, const std::string& where) { show(share, where); };
+}
+
+runs::Progress ProgressBar::progress_until_stopped() {
+  if (const ErrorText error = catch_stop_signals(); !error.empty()) {
+    throw std::runtime_error(error.c_str());
+  }
+  return [this](double share, const std::string& where) {
+    assert_not_stopped();
+    show(share, where);
+  };
 }
 
 }  // namespace graben::cli

@@ -30,6 +30,9 @@ int guarded(const char* command, Work work) {
   }
 }
 
+/// Throws std::runtime_error once a signal that ends a program has come; see catch_stop_signals().
+void assert_not_stopped();
+
 /// Progress on standard error: a bar that redraws itself on a terminal, nothing elsewhere.
 class ProgressBar {
  public:
@@ -44,6 +47,9 @@ class ProgressBar {
   void show(double share, const std::string& where);
   /// show(), for a run; this must outlive it.
   [[nodiscard]] runs::Progress progress();
+  /// The same, for a run that leaves nothing unless it comes to its end: throws std::runtime_error
+  /// once SIGINT or SIGTERM has come.
+  [[nodiscard]] runs::Progress progress_until_stopped();
 
  private:
   std::string label_;

@@ -5,13 +5,28 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "app/cli/help.hpp"
+#include "app/machines/bus_file.hpp"
+#include "app/machines/profile_file.hpp"
 
 namespace graben::cli {
 namespace {
 
 using nlohmann::ordered_json;
+
+/// What of ours goes in the place of a file's name.
+std::vector<std::string> shipped_words(const std::string& option) {
+  if (option == "--profile" || option == "profile" || option == "--like" || option == "--before" ||
+      option == "--simulated") {
+    return machines::shipped_profile_names();
+  }
+  if (option == "--task") {
+    return machines::shipped_task_names();
+  }
+  return option == "--bus" ? machines::shipped_bus_names() : std::vector<std::string>{};
+}
 
 void add_options(const CLI::App& app, ordered_json& options) {
   for (const CLI::Option* option : app.get_options()) {
@@ -24,6 +39,7 @@ void add_options(const CLI::App& app, ordered_json& options) {
     one["argument"] = argument_text(*option);
     one["help"] = option_help(*option);
     one["words"] = option_words(*option);
+    one["shipped"] = shipped_words(option->get_name());
     options.push_back(one);
   }
   for (const CLI::App* group : app.get_subcommands({})) {

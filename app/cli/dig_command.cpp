@@ -19,6 +19,7 @@
 #include "app/reports/run_reports.hpp"
 #include "app/runs/code_text.hpp"
 #include "app/runs/dig_run.hpp"
+#include "app/runs/run_log.hpp"
 #include "app/scope/page/scope_page.hpp"
 
 namespace graben::cli {
@@ -95,15 +96,23 @@ void dig(const DigCommand& options) {
   const std::filesystem::path out(options.out);
   const std::filesystem::path report = out / "dig.html";
   run_options.log_file = out / "dig.log";
-  assert_apart({}, {run_options.log_file.string(), report.string(), options.summary});
+  reports::assert_kim_figures(options.figures, machine, scenario.scenario.obstacle);
+  std::vector<std::string> written = {run_options.log_file.string(), report.string(),
+                                      options.summary};
+  for (const std::string& name : options.figures) {
+    written.push_back((out / (name + ".svg")).string());
+  }
+  assert_apart({}, written);
   std::filesystem::create_directories(out);
+  make_folder_of(options.summary);
 
   runs::DigResult result;
   {
     ProgressBar bar("dig");
-    result = runs::run_dig(machine, run_options, bar.progress());
+    result = runs::run_dig(machine, run_options, bar.progress_until_stopped());
   }
-  const runs::DigSummary summary = runs::summarise(result);
+  runs::DigSummary summary = runs::summarise(result);
+  summary.limit_share = runs::logged_limit_shares(run_options.log_file);
   const runs::RunFigures figures = runs::figures_of(summary);
   reports::write_dig_report(
       {report, scope::scope_page()}, run_options.log_file, machine, result, summary,

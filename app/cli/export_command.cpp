@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -25,6 +27,25 @@ struct ExportCommand {
   bool force = false;
 };
 
+/// What an export lacks of a machine that speaks on a bus of its own, or has IMUs: its frames mean
+/// what a profile says, and a log has none.
+std::string foreign_text(const std::map<std::uint32_t, std::size_t>& foreign) {
+  constexpr std::size_t kNamed = 8;
+  std::size_t all = 0;
+  std::string ids;
+  std::size_t named = 0;
+  for (const auto& [id, count] : foreign) {
+    all += count;
+    if (++named <= kNamed) {
+      ids += fmt::format("{}0x{:X}", ids.empty() ? "" : ", ", id);
+    }
+  }
+  return fmt::format(
+      "{} frames are no messages of our DBC (IMUs, or a bus of the machine's own), and left out; "
+      "their ids: {}{}\n",
+      all, ids, named > kNamed ? fmt::format(" and {} more", named - kNamed) : "");
+}
+
 void export_log(const ExportCommand& options) {
   assert_apart({options.log}, {options.mcap});
   if (fs::exists(options.mcap) && !options.force) {
@@ -44,8 +65,8 @@ void export_log(const ExportCommand& options) {
   }
   fmt::print("{}: {} messages on {} channels, {:.2f} s\n", options.mcap, counts.messages,
              counts.channels, counts.duration_s);
-  if (counts.foreign > 0) {
-    fmt::print("{} frames are no messages of ours, and left out\n", counts.foreign);
+  if (!counts.foreign.empty()) {
+    fmt::print("{}", foreign_text(counts.foreign));
   }
   if (counts.late > 0) {
     fmt::print("{} frames had a stamp before that of the frame before them, and have its stamp\n",

@@ -131,12 +131,6 @@ std::string address(ChildProcess& scope, const fs::path& said) {
   throw std::runtime_error(first_line(said));
 }
 
-void assert_not_stopped() {
-  if (stop_requested()) {
-    throw std::runtime_error("interrupted; no film was written");
-  }
-}
-
 /// Opens the log's page and waits until all of the log is in it; returns its first and last second.
 std::pair<double, double> open_log(Browser& browser, const std::string& url) {
   browser.open(url + "?film");
@@ -246,7 +240,7 @@ void add_film(CLI::App& app, int& status) {
       "film",
       "The scope's picture of a log (candump -L) as a film. Needs Chromium and ffmpeg; takes some "
       "tenths of a second for each picture");
-  command->add_option("log", options->log, "candump log, plain")->required();
+  command->add_option("log", options->log, "candump log, plain or gzip")->required();
   command->add_option("--out", options->out, "Film to write: .webm (VP9) or .mp4 (H.264)")
       ->required();
   command->add_option("--profile", options->profile,

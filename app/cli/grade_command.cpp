@@ -19,6 +19,7 @@
 #include "app/reports/run_reports.hpp"
 #include "app/runs/fastest_speed.hpp"
 #include "app/runs/grade_run.hpp"
+#include "app/runs/run_log.hpp"
 #include "app/runs/speed_table.hpp"
 #include "app/scope/page/scope_page.hpp"
 
@@ -72,9 +73,18 @@ void grade(const GradeCommand& options) {
   run.log_file = options.log.empty() ? out / "grade.log" : std::filesystem::path(options.log);
   const std::filesystem::path design = out / "design.txt";
   const std::string source = options.design.file.string();
+  const bool is_constant = options.scenario.speed_mode == "constant";
+  reports::assert_mononen_figures(options.figures, is_constant);
+  std::vector<std::string> written = {report.string(), run.log_file.string(), options.summary,
+                                      design.string()};
+  for (const std::string& name : options.figures) {
+    written.push_back((out / (name + ".svg")).string());
+  }
   assert_apart(source.empty() ? std::vector<std::string>{} : std::vector<std::string>{source},
-               {report.string(), run.log_file.string(), options.summary, design.string()});
+               written);
   std::filesystem::create_directories(out);
+  make_folder_of(run.log_file);
+  make_folder_of(options.summary);
   if (!corners.empty()) {
     machines::write_design(design, corners);
   }
@@ -82,9 +92,10 @@ void grade(const GradeCommand& options) {
   runs::GradeResult result;
   {
     ProgressBar bar("grade");
-    result = runs::run_grade(machine, run, bar.progress());
+    result = runs::run_grade(machine, run, bar.progress_until_stopped());
   }
-  const runs::GradeSummary summary = runs::summarise(machine, result);
+  runs::GradeSummary summary = runs::summarise(machine, result);
+  summary.limit_share = runs::logged_limit_shares(run.log_file);
   const runs::RunFigures figures = runs::figures_of(summary);
   reports::write_grade_report({report, scope::scope_page()}, run.log_file, machine, result, summary,
                               subtitle_of(options, machine));
@@ -98,9 +109,8 @@ void grade(const GradeCommand& options) {
   }
   for (const std::string& name : options.figures) {
     const std::filesystem::path file = out / (name + ".svg");
-    write_whole(file,
-                reports::svg_text(reports::mononen_figure(
-                    name, options.scenario.speed_mode == "constant", machine, result, summary)));
+    write_whole(file, reports::svg_text(
+                          reports::mononen_figure(name, is_constant, machine, result, summary)));
     fmt::print("figure  {}\n", file.string());
   }
   if (result.end != runs::GradeEnd::kDone) {
@@ -114,6 +124,7 @@ void search(const GradeCommand& options) {
     throw std::runtime_error("--within looks for a constant speed: it needs --speed-mode constant");
   }
   const machines::SimulatedDozer machine = machine_of(options).machine;
+  make_folder_of(options.summary);
   runs::FastestSpeed result;
   {
     ProgressBar bar("grade");

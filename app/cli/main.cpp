@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <string>
 #include <string_view>
 
 #include "app/cli/commands.hpp"
@@ -49,6 +50,11 @@ int main(int argc, char** argv) {
   if (argc == 2 && std::string_view(argv[1]) == "--describe") {
     fmt::print("{}", graben::cli::description_json(app));
     return 0;
+  }
+  const std::string slip = graben::cli::command_slip(app, {argv + 1, argv + argc});
+  if (!slip.empty()) {
+    fmt::print(stderr, "{}", slip);
+    return kWrongUsage;
   }
   try {
     app.parse(argc, argv);

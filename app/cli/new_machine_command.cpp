@@ -51,21 +51,29 @@ std::vector<double> numbers_of(const machines::ProfileQuestion& question, std::s
     if (!CLI::detail::lexical_cast(word, number) || !std::isfinite(number)) {
       throw std::runtime_error(fmt::format("'{}' is not a number", word));
     }
-    if (number < question.least || number > question.most) {
-      throw std::runtime_error(fmt::format("{} is out of range; allowed: {:.6g} .. {:.6g} {}", word,
-                                           question.least, question.most, question.unit.name));
-    }
     numbers.push_back(number);
   }
-  if (numbers.size() != question.before.size()) {
-    throw std::runtime_error(fmt::format("{} numbers are wanted", question.before.size()));
+  const std::size_t wanted = question.before.size();
+  if (numbers.size() != wanted) {
+    throw std::runtime_error(
+        fmt::format("{} {} wanted, not {}: a comma stands between numbers, not in one", wanted,
+                    wanted == 1 ? "number is" : "numbers are", numbers.size()));
+  }
+  for (const double number : numbers) {
+    if (number < question.least || number > question.most) {
+      throw std::runtime_error(fmt::format("{:.6g} is out of range; allowed: {:.6g} .. {:.6g} {}",
+                                           number, question.least, question.most,
+                                           question.unit.name));
+    }
   }
   return numbers;
 }
 
 /// None where the line is empty: what was before stays. A person is asked again, a file is not: its
 /// next line is another answer.
-std::optional<std::vector<double>> ask(const machines::ProfileQuestion& question) {
+std::optional<std::vector<double>> ask(const machines::ProfileQuestion& question,
+                                       const machines::ProfileDocument& like,
+                                       const machines::ProfileAnswers& answers) {
   while (true) {
     fmt::print("{}: {}, {} [{}]: ", question.key, question.text, question.unit.name,
                numbers_text(question.before));
@@ -78,7 +86,9 @@ std::optional<std::vector<double>> ask(const machines::ProfileQuestion& question
       return std::nullopt;
     }
     try {
-      return numbers_of(question, line);
+      const std::vector<double> numbers = numbers_of(question, line);
+      machines::assert_fits(like, question, numbers, answers);
+      return numbers;
     } catch (const std::runtime_error& error) {
       if (isatty(STDIN_FILENO) == 0) {
         throw std::runtime_error(fmt::format("{}: {}", question.key, error.what()));
@@ -88,21 +98,31 @@ std::optional<std::vector<double>> ask(const machines::ProfileQuestion& question
   }
 }
 
+/// An input that has nothing in it, not even empty lines, is no wish to keep everything.
+void assert_answers_come() {
+  if (isatty(STDIN_FILENO) == 0 && std::cin.peek() == std::istream::traits_type::eof()) {
+    throw std::runtime_error(
+        "no answers: standard input is empty; a line for each question is wanted, an empty one "
+        "keeps its value");
+  }
+}
+
 void new_machine(const NewMachine& options) {
+  if (options.out.empty()) {
+    throw std::runtime_error("--out: the name of a file is wanted");
+  }
   const fs::path file(options.out);
   if (fs::exists(file) && !options.force) {
     throw std::runtime_error(fmt::format("{}: is there already; --force replaces it", options.out));
   }
-  if (file.has_parent_path()) {
-    fs::create_directories(file.parent_path());
-  }
-  assert_writable(file);
   const machines::ProfileDocument like =
       machines::read_document(machines::find_profile(options.like));
+  assert_answers_come();
+  assert_writable(file);
   fmt::print("Empty lines keep the value in brackets, {}'s.\n", like.file.stem().string());
   machines::ProfileAnswers answers;
   for (const machines::ProfileQuestion& question : machines::profile_questions(like)) {
-    if (const auto answer = ask(question)) {
+    if (const auto answer = ask(question, like, answers)) {
       answers[question.key] = *answer;
     }
   }

@@ -148,8 +148,7 @@ void add_ground_options(CLI::App& command, runs::GradeScenario& scenario) {
       .add_option("--soil", scenario.soil,
                   "Ground that resists the blade, with --errors all of a strength drawn within 40 "
                   "%; without, nothing does, as in the paper")
-      ->check(CLI::IsMember(
-          std::vector<std::string>(machines::kSoilNames.begin(), machines::kSoilNames.end())));
+      ->check(soil_name());
   command
       .add_option(
           "--pass-depth", scenario.pass_depth_m,

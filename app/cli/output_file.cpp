@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
@@ -13,11 +14,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Where writing to the name ends, through links too whose ends are not there yet.
+fs::path written_place(const fs::path& file) {
+  constexpr int kMostLinks = 40;  // As Linux follows.
+  const fs::path absolute = fs::absolute(file);
+  std::vector<fs::path> left(absolute.begin(), absolute.end());
+  std::reverse(left.begin(), left.end());
+  fs::path place;
+  std::error_code error;
+  for (int links = 0; !left.empty();) {
+    const fs::path part = left.back();
+    left.pop_back();
+    const fs::path next = part == ".." ? place.parent_path() : place / part;
+    if (part == ".." || !fs::is_symlink(next, error) || ++links > kMostLinks) {
+      place = part == "." || part.empty() ? place : next;
+      continue;
+    }
+    const fs::path target = fs::read_symlink(next, error);
+    std::vector<fs::path> parts(target.begin(), target.end());
+    left.insert(left.end(), parts.rbegin(), parts.rend());
+    place = target.is_absolute() ? fs::path() : place;
+  }
+  return place;
+}
+
 bool is_same_file(const std::string& one, const std::string& other) {
   std::error_code error;
   return !one.empty() && !other.empty() &&
-         (fs::equivalent(one, other, error) ||
-          fs::absolute(one).lexically_normal() == fs::absolute(other).lexically_normal());
+         (fs::equivalent(one, other, error) || written_place(one) == written_place(other));
 }
 
 /// Written beside the file, and renamed once it is whole.
@@ -33,7 +57,18 @@ fs::path partial_file(const fs::path& file) {
 
 }  // namespace
 
+void make_folder_of(const fs::path& file) {
+  std::error_code error;
+  if (!file.empty()) {
+    fs::create_directories(fs::absolute(file).parent_path(), error);
+  }
+  if (error) {
+    refuse(file);
+  }
+}
+
 void assert_writable(const fs::path& file) {
+  make_folder_of(file);
   std::error_code error;
   if (fs::is_directory(file, error) ||
       (fs::exists(file, error) && access(file.c_str(), W_OK) != 0)) {

@@ -9,7 +9,12 @@
 
 namespace graben::cli {
 
-/// Before a minute's work: throws std::runtime_error, naming it, where the file cannot be written.
+/// Every file that a command writes may be in a folder that is not there yet: makes it. An empty
+/// name is none. Throws std::runtime_error, naming the file.
+void make_folder_of(const std::filesystem::path& file);
+
+/// Before a minute's work: makes the file's folder, and throws std::runtime_error, naming it, where
+/// the file cannot be written.
 void assert_writable(const std::filesystem::path& file);
 
 /// Throws std::runtime_error, naming both, where a file that is to be written is one of those that

@@ -54,10 +54,13 @@ void check_strokes(const ExcavatorGeometry& geometry, const std::vector<double>&
   std::string errors;
   for (unsigned i = 0; i < kAxisCount; ++i) {
     const double most_m = geometry.cylinder[i].stroke_m;
+    const std::string told = std::isfinite(strokes_m[i])
+                                 ? fmt::format("stroke {} m", strokes_m[i])
+                                 : fmt::format("stroke: {} is no length", strokes_m[i]);
     // Written so that NaN fails too.
     if (!(strokes_m[i] >= 0.0 && strokes_m[i] <= most_m)) {
-      errors += fmt::format("{}{} stroke {} m; allowed: 0 .. {} m", errors.empty() ? "" : "; ",
-                            kAxisNames[i], strokes_m[i], most_m);
+      errors += fmt::format("{}{} {}; allowed: 0 .. {} m", errors.empty() ? "" : "; ",
+                            kAxisNames[i], told, most_m);
     }
   }
   if (!errors.empty()) {

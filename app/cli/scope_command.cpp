@@ -103,7 +103,8 @@ void add_scope(CLI::App& app, int& status) {
   source->add_option("--can", options->can, "CAN interfaces, such as can0 or can0,can1")
       ->delimiter(',')
       ->allow_extra_args(false);
-  source->add_option("--log", options->log, "Log of candump -l, from its start to its end");
+  source->add_option("--log", options->log,
+                     "Log of candump -l, plain or gzip, from its start to its end");
   source->add_option("--sim", options->sim, "Simulation in real time: dig, grade or autodig")
       ->check(one_of({"dig", "grade", "autodig"}));
   source->require_option(1);

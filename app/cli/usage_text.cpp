@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,9 @@ std::string unknown_text(const CLI::App& app, const std::string& word) {
   const std::vector<std::string> commands = command_names(app);
   if (commands.empty()) {
     return fmt::format("'{}' is one word too many", word);
+  }
+  if (word == "help" || word == "version") {
+    return fmt::format("'{0}' is no command; did you mean '--{0}'?", word);
   }
   return fmt::format("'{}' is no command{}", word, machines::near_word_hint(word, commands));
 }
@@ -135,11 +139,34 @@ std::string of_error(const CLI::App& app, const CLI::ParseError& error) {
   return what;
 }
 
+std::string refusal(const std::string& name, const std::string& what) {
+  return fmt::format("{}: {}\n`{} --help` says more\n", name, what, name);
+}
+
 }  // namespace
+
+std::string command_slip(const CLI::App& app, const std::vector<std::string>& words) {
+  const CLI::App* at = &app;
+  std::string name = app.get_name();
+  for (const std::string& word : words) {
+    const std::vector<std::string> commands = command_names(*at);
+    if (commands.empty() || (word.rfind('-', 0) == 0 && at->get_option_no_throw(word) != nullptr)) {
+      return "";
+    }
+    if (std::find(commands.begin(), commands.end(), word) == commands.end()) {
+      const std::string what = unknown_text(*at, word);
+      const bool is_hinted = word[0] != '-' || what.find("did you mean") != std::string::npos;
+      return refusal(name, what + (is_hinted ? "" : " here; options come after the command"));
+    }
+    at = at->get_subcommand(word);
+    name += " " + word;
+  }
+  return "";
+}
 
 std::string usage_text(const CLI::App& app, const CLI::ParseError& error) {
   const Called at = called(app);
-  return fmt::format("{}: {}\n`{} --help` says more\n", at.name, of_error(*at.app, error), at.name);
+  return refusal(at.name, of_error(*at.app, error));
 }
 
 }  // namespace graben::cli

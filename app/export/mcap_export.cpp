@@ -168,18 +168,21 @@ ExportCounts export_mcap(const std::filesystem::path& log, const std::filesystem
   StateWords words(writer, run.is_dozer ? runs::dozer_actuators() : runs::excavator_actuators());
   ExportCounts counts;
   Clock clock(log);
-  static_cast<void>(identify::read_candump(log, [&](const identify::LoggedFrame& frame) {
-    const std::uint64_t time_ns = clock.stamp(frame);
-    const auto channel = channels.find(frame.id);
-    if (channel == channels.end() || !frame.extended || frame.length != frame.data.size()) {
-      ++counts.foreign;
-      return;
-    }
-    writer.add(channel->second.id, time_ns, channel->second.message.text(frame.data));
-    if (frame.id == Status::kId) {
-      words.take(Status::decode(frame.data), time_ns, frame.line);
-    }
-  }));
+  static_cast<void>(identify::read_candump(
+      log,
+      [&](const identify::LoggedFrame& frame) {
+        const std::uint64_t time_ns = clock.stamp(frame);
+        const auto channel = channels.find(frame.id);
+        if (channel == channels.end() || !frame.extended || frame.length != frame.data.size()) {
+          ++counts.foreign[frame.id];
+          return;
+        }
+        writer.add(channel->second.id, time_ns, channel->second.message.text(frame.data));
+        if (frame.id == Status::kId) {
+          words.take(Status::decode(frame.data), time_ns, frame.line);
+        }
+      },
+      identify::CutLine::kPassedOver));
   writer.finish();
   counts.messages = writer.messages();
   counts.channels = channels.size() + 2;

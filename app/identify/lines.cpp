@@ -5,14 +5,24 @@
 #include <zlib.h>
 
 #include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 
 namespace graben::identify {
 
 Lines::Lines(const std::string& path) : path_(path), file_(gzopen(path.c_str(), "rb"), gzclose) {
   if (!file_) {
-    throw std::runtime_error(fmt::format("{}: cannot be read", path));
+    throw std::runtime_error(fmt::format(
+        "{}: {}", path, errno == ENOENT ? "there is no such file" : std::strerror(errno)));
+  }
+  // zlib would only say that it can't read it.
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw std::runtime_error(fmt::format("{}: is a folder; a file is wanted", path));
   }
 }
 
@@ -39,6 +49,7 @@ bool Lines::next(std::string& line) {
     return false;
   }
   ++number_;
+  is_whole_ = line.back() == '\n';
   while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) {
     line.pop_back();
   }

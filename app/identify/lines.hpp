@@ -20,6 +20,8 @@ class Lines {
   bool next(std::string& line);
 
   [[nodiscard]] std::size_t number() const { return number_; }
+  /// The last one had its end: without it, whoever wrote it may not have come to it.
+  [[nodiscard]] bool is_whole() const { return is_whole_; }
   /// "file:line" of the last one, for errors.
   [[nodiscard]] std::string where() const;
 
@@ -27,6 +29,7 @@ class Lines {
   std::string path_;
   std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
   std::size_t number_ = 0;
+  bool is_whole_ = true;
 };
 
 }  // namespace graben::identify

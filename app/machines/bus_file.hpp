@@ -30,5 +30,7 @@ struct BusFile {
                                              const std::vector<std::filesystem::path>& folders);
 /// The same among those that the tool brings.
 [[nodiscard]] std::filesystem::path find_bus(const std::string& name);
+/// What find_bus(name) knows, in order.
+[[nodiscard]] std::vector<std::string> shipped_bus_names();
 
 }  // namespace graben::machines

@@ -105,12 +105,13 @@ SwingProfile read_swing(TomlReader& reader) {
     swing.lever_m = reader.number(
         "swing.lever", {0.05, 2.0, "m"},
         "where the motor stands as a cylinder in the valve's equations; only with valve.swing");
+    const std::size_t errors = reader.errors().size();
     const std::vector<double> range =
         reader.numbers("swing.range", {-3.1, 3.1, "rad"}, 2,
                        "right and left end of the swing; only with valve.swing");
     swing.right_end_rad = range[0];
     swing.left_end_rad = range[1];
-    if (range[0] >= range[1]) {
+    if (range[0] >= range[1] && reader.errors().size() == errors) {
       reader.fail("swing.range", fmt::format("[{}, {}] rad; allowed: first the right end, then the "
                                              "left one, which is more",
                                              range[0], range[1]));

@@ -52,6 +52,8 @@ std::vector<std::string> shipped_profile_names() { return file_names({shipped_fo
 
 std::vector<std::string> shipped_task_names() { return file_names({shipped_folder() / "tasks"}); }
 
+std::vector<std::string> shipped_bus_names() { return file_names({shipped_folder() / "buses"}); }
+
 fs::path find_profile(const std::string& name) { return find_profile(name, {shipped_folder()}); }
 
 fs::path find_machine(const std::string& name, const fs::path& beside) {

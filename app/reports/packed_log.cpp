@@ -3,9 +3,8 @@
 
 #include <cerrno>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
@@ -81,10 +80,18 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
 std::string packed(std::string_view text) { return base64(gzip(text)); }
 
 std::string packed_file(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in.is_open() || in.bad()) {
+  const std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> in(gzopen(file.c_str(), "rb"), gzclose);
+  if (!in) {
     throw std::runtime_error(file.string() + ": " + std::generic_category().message(errno));
+  }
+  std::string text;
+  std::vector<char> part(1U << 16U);
+  int got = 1;
+  while ((got = gzread(in.get(), part.data(), static_cast<unsigned>(part.size()))) > 0) {
+    text.append(part.data(), static_cast<std::size_t>(got));
+  }
+  if (got < 0) {
+    throw std::runtime_error(file.string() + ": can't be read");
   }
   return packed(text);
 }

@@ -13,6 +13,8 @@
 #include <system_error>
 #include <utility>
 
+#include "app/runs/figures.hpp"
+
 namespace graben::reports {
 namespace {
 
@@ -81,6 +83,24 @@ fs::path resolved(const fs::path& file) {
   return target;
 }
 
+void make_plain(nlohmann::ordered_json& node) {
+  if (node.is_number_float()) {
+    // The Grisu2 that prints it does not find every number's shortest text; it does with less
+    // digits.
+    constexpr std::size_t kShort = 18;
+    const auto value = node.get<double>();
+    node = runs::plain_number(value);
+    for (int digits = 11; digits > 8 && node.dump().size() > kShort; --digits) {
+      node = runs::plain_number(value, digits);
+    }
+  }
+  if (node.is_structured()) {
+    for (nlohmann::ordered_json& below : node) {
+      make_plain(below);
+    }
+  }
+}
+
 }  // namespace
 
 void write_report(const fs::path& file, std::string_view page, const nlohmann::json& setup) {
@@ -102,8 +122,10 @@ void write_report(const fs::path& file, std::string_view page, const nlohmann::j
 }
 
 void write_json(const fs::path& file, const nlohmann::ordered_json& figures) {
+  nlohmann::ordered_json plain = figures;
+  make_plain(plain);
   std::ofstream stream(file);
-  stream << figures.dump(2) << '\n';
+  stream << plain.dump(2) << '\n';
   stream.close();
   if (!stream) {
     throw std::runtime_error(fmt::format("{}: can't be written", file.string()));

@@ -137,7 +137,7 @@ struct AutodigSummary {
   double energy_per_round_j = kAbsent;
   RunPace pace;
   std::vector<StepFigures> steps;
-  LimitShares limit_share;
+  LimitShares limit_share;  ///< See logged_limit_shares(); empty without a log.
 };
 
 /// Runs the task until it is done, something fails, or ten times the planned time is over. The same
@@ -149,7 +149,7 @@ struct AutodigSummary {
 [[nodiscard]] AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result);
 [[nodiscard]] const FigureTable<AutodigSummary>& autodig_figures();
 [[nodiscard]] inline RunFigures figures_of(const AutodigSummary& summary) {
-  return figures_of(autodig_figures(), summary, "share of time per limit of lambda");
+  return figures_of(autodig_figures(), summary, "share of time active per limit of lambda");
 }
 
 /// A line for each step as it was done.

@@ -185,7 +185,6 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
   AutodigSummary summary;
   Spread error_true;
   Spread error_measured;
-  LimitCount limits(excavator_actuators());
   Steps steps(program);
   ExcavatorCalmCount calm(result.spool_edges);
   LoadFigures load(result.capacity_kg);
@@ -208,7 +207,6 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
     ++in_steps;
     lambda_sum += sample.lambda;
     summary.lambda_min = std::min(summary.lambda_min, sample.lambda);
-    limits.add(sample.limit);
     if (std::isfinite(sample.error_true_m)) {
       error_true.add(sample.error_true_m);
       error_measured.add(sample.error_measured_m);
@@ -241,7 +239,6 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
   summary.built = result.built;
   summary.energy_per_m3_j = summary.calm.energy_per_j(summary.cut_m3);
   summary.pace = pace_of(result.samples, result.wall_s);
-  summary.limit_share = limits.shares();
   return summary;
 }
 

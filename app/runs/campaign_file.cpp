@@ -88,6 +88,12 @@ std::pair<std::uint64_t, CampaignRow> row_of(const CampaignKind& kind, const std
   throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
 }
 
+/// The file's name, in a folder that is there.
+std::filesystem::path in_its_folder(std::filesystem::path file) {
+  std::filesystem::create_directories(std::filesystem::absolute(file).parent_path());
+  return file;
+}
+
 /// Nearest rank of sorted values.
 double rank(const std::vector<double>& sorted, double share) {
   const auto count = static_cast<double>(sorted.size());
@@ -149,7 +155,7 @@ CampaignData read_campaign(const std::filesystem::path& file, const CampaignKind
 
 void write_campaign(const std::filesystem::path& file, const CampaignKind& kind,
                     const CampaignData& data) {
-  const std::filesystem::path beside = file.string() + ".new";
+  const std::filesystem::path beside = in_its_folder(file).string() + ".new";
   std::ofstream stream(beside);
   stream << "# " << data.tried << '\n' << header(kind) << '\n';
   for (const auto& [seed, row] : data.rows) {
@@ -191,7 +197,7 @@ FileLock::~FileLock() {
 
 CampaignLog::CampaignLog(std::filesystem::path file, const CampaignKind& kind,
                          const std::string& tried)
-    : file_(std::move(file)), kind_(kind), lock_(file_.string() + ".lock") {
+    : file_(in_its_folder(std::move(file))), kind_(kind), lock_(file_.string() + ".lock") {
   if (std::filesystem::exists(file_)) {
     data_ = read_campaign(file_, kind_);
     if (data_.tried != tried) {
@@ -212,12 +218,12 @@ void CampaignLog::add(std::uint64_t seed, const CampaignRow& row) {
   }
 }
 
-std::string campaign_table(const CampaignKind& kind, const CampaignData& data) {
+std::string campaign_table(const CampaignKind& kind, const CampaignData& data, std::size_t asked) {
   const auto done = std::count_if(data.rows.begin(), data.rows.end(),
                                   [](const auto& row) { return row.second.done(); });
   std::string table =
       fmt::format("{}, {} of {} draws done\n{:<{}}{:>10}{:>10}{:>10}\n", data.tried, done,
-                  data.rows.size(), "", kFigureTextWidth, "median", "p95", "max");
+                  std::max(asked, data.rows.size()), "", kFigureTextWidth, "median", "p95", "max");
   // Of a kind that has more than one answer, how many of each.
   if (kind.failures_from > 1) {
     std::string ends;

@@ -95,7 +95,8 @@ class CampaignLog {
 };
 
 /// Median, 95th percentile (nearest rank) and largest of every figure that is there; where low is
-/// bad, 5th percentile and least.
-[[nodiscard]] std::string campaign_table(const CampaignKind& kind, const CampaignData& data);
+/// bad, 5th percentile and least. Of `asked` draws, or of those that there are if these are more.
+[[nodiscard]] std::string campaign_table(const CampaignKind& kind, const CampaignData& data,
+                                         std::size_t asked = 0);
 
 }  // namespace graben::runs

@@ -141,7 +141,7 @@ CampaignOutcome run_campaign(const CampaignOptions& options, const CampaignKind&
   Campaign(draw, log, std::move(seeds), progress).run(jobs);
   write_campaign(options.summary, kind, log.data());
   CampaignOutcome outcome;
-  outcome.table = campaign_table(kind, log.data());
+  outcome.table = campaign_table(kind, log.data(), asked);
   const auto failed =
       std::count_if(log.data().rows.begin(), log.data().rows.end(),
                     [&](const auto& row) { return row.second.end >= kind.failures_from; });

@@ -115,8 +115,7 @@ struct DigSummary {
   double ringing_rms_m = kAbsent;  ///< Of the true tip's cross-track error above kRingingAbove_hz.
   double energy_per_loop_j = kAbsent;
   RunPace pace;
-  /// Share of the time on the path for each limit that was active, by its name, "none" first.
-  LimitShares limit_share;
+  LimitShares limit_share;  ///< See logged_limit_shares(); empty without a log.
 };
 
 /// Runs until the path was followed `loops` times, something fails, or the time is over. The same
@@ -127,7 +126,7 @@ struct DigSummary {
 [[nodiscard]] DigSummary summarise(const DigResult& result);
 [[nodiscard]] const FigureTable<DigSummary>& dig_figures();
 [[nodiscard]] inline RunFigures figures_of(const DigSummary& summary) {
-  return figures_of(dig_figures(), summary, "share of time per limit of lambda");
+  return figures_of(dig_figures(), summary, "share of time active per limit of lambda");
 }
 
 }  // namespace graben::runs

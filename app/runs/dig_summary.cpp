@@ -91,7 +91,6 @@ DigSummary summarise(const DigResult& result) {
   DigSummary summary;
   Spread error_true;
   Spread error_measured;
-  LimitCount limits(excavator_actuators());
   ExcavatorCalmCount calm(result.spool_edges);
   std::vector<double> cross_track_m;
   double lambda_sum = 0.0;
@@ -114,7 +113,6 @@ DigSummary summarise(const DigResult& result) {
     below_1 += sample.lambda < 1.0 ? 1 : 0;
     regenerating += sample.regenerating ? 1 : 0;
     summary.loop_s = sample.time_s - summary.approach_s;
-    limits.add(sample.limit);
     calm.add(sample, {sample.tip_true_m.x(), 0.0, sample.tip_true_m.y()});
     cross_track_m.push_back(sample.cross_track_true_m);
   }
@@ -136,7 +134,6 @@ DigSummary summarise(const DigResult& result) {
   summary.calm = calm.figures();
   summary.energy_per_loop_j = summary.calm.energy_per_j(result.loops);
   summary.pace = pace_of(result.samples, result.wall_s);
-  summary.limit_share = limits.shares();
   return summary;
 }
 

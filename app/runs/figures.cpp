@@ -4,8 +4,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 
 namespace graben::runs {
+
+double plain_number(double value, int digits) {
+  return std::isfinite(value)
+             ? std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr) + 0.0
+             : value;
+}
 
 std::string shown_value(const FigureValue& figure) {
   const ShownUnit& unit = figure.info->unit;

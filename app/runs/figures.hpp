@@ -82,6 +82,10 @@ struct FigureValue {
   double value;  ///< In SI units; kAbsent where the run has none.
 };
 
+/// The number as files tell it: few digits, finer than anything that is measured, without what
+/// sums leave behind them, and no negative zero.
+[[nodiscard]] double plain_number(double value, int digits = 12);
+
 /// All that is told of one run.
 struct RunFigures {
   std::vector<FigureValue> values;

@@ -93,7 +93,7 @@ struct GradeSummary {
   double spool_reversals_ps = 0.0;
   double edge_jerk_rms_mps3 = 0.0;  ///< Of the true edge, see Jerk.
   RunPace pace;
-  LimitShares limit_share;  ///< Of the time over the grade.
+  LimitShares limit_share;  ///< See logged_limit_shares(); empty without a log.
 };
 inline constexpr double kOccasion_m = 0.5;
 inline constexpr double kDeceleration_s = 0.1;
@@ -109,7 +109,7 @@ inline constexpr double kSpeedResolution_mps = 0.02;
                                      const GradeResult& result);
 [[nodiscard]] const FigureTable<GradeSummary>& grade_figures();
 [[nodiscard]] inline RunFigures figures_of(const GradeSummary& summary) {
-  return figures_of(grade_figures(), summary, "share of time per limit of the speed");
+  return figures_of(grade_figures(), summary, "share of time active per limit of the speed");
 }
 
 }  // namespace graben::runs

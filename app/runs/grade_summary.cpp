@@ -148,13 +148,11 @@ GradeSummary summarise(const machines::SimulatedDozer& machine, const GradeResul
   Spread error_measured;
   FlowCount flow;
   Turns turns(kSpeedResolution_mps);
-  LimitCount limits(dozer_actuators());
   for (const GradeSample& sample : over) {
     error_true.add(std::abs(sample.error_true_m));
     error_measured.add(std::abs(sample.error_measured_m));
     flow.add(sample);
     turns.add(sample.speed_wanted_mps);
-    limits.add(sample.limit);
     if (sample.flow_limit_reported_m3ps > 0.0) {
       summary.flow_share_reported_max =
           std::max(summary.flow_share_reported_max,
@@ -182,7 +180,6 @@ GradeSummary summarise(const machines::SimulatedDozer& machine, const GradeResul
   summary.corners = std::max(machine.profile.grade.count - 2, 0);
   add_calm(machine, result, summary);
   add_ground(machine, result, summary);
-  summary.limit_share = limits.shares();
   summary.pace = pace_of(result.samples, result.wall_s);
   return summary;
 }

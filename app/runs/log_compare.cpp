@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -13,12 +14,14 @@
 namespace graben::runs {
 namespace {
 
+constexpr double kShort_s = 1.0;  ///< Figures of less are of its start alone.
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 struct ErrorFigures {
   double most_m = kNone;
   double most_s = kNone;  ///< Since the run's start.
   double rms_m = kNone;
+  double arrived_s = kNone;  ///< In the log's time.
 };
 
 ErrorFigures error_figures(const RunLog& run) {
@@ -36,6 +39,7 @@ ErrorFigures error_figures(const RunLog& run) {
     if (count == 0 && !has_arrived) {
       continue;
     }
+    figures.arrived_s = count == 0 ? error.time_s[i] : figures.arrived_s;
     squares_m2 += off_m * off_m;
     ++count;
     if (!(off_m <= figures.most_m)) {
@@ -54,13 +58,14 @@ struct LambdaFigures {
   double mean = kNone;
 };
 
-/// While something was followed: a controller at rest has lambda 0.
-LambdaFigures lambda_figures(const RunLog& run) {
+/// While something was followed, a controller at rest has lambda 0; from the arrival on, if any.
+LambdaFigures lambda_figures(const RunLog& run, double arrived_s) {
   LambdaFigures figures;
   double sum = 0.0;
   int count = 0;
-  for (const double lambda : run.channel[0].value) {
-    if (lambda > 0.0) {
+  for (std::size_t i = 0; i < run.channel[0].value.size(); ++i) {
+    const double lambda = run.channel[0].value[i];
+    if (lambda > 0.0 && !(run.channel[0].time_s[i] < arrived_s)) {
       figures.least = lambda >= figures.least ? figures.least : lambda;
       sum += lambda;
       ++count;
@@ -81,6 +86,13 @@ double shared(const RunLog& run, const std::string& limit) {
   return 0.0;
 }
 
+/// Of OperatorCommand.Task.
+std::string task_name(std::uint8_t task) {
+  constexpr std::array<const char*, 7> kNames = {"none", "dig",         "grade",     "program",
+                                                 "jog",  "coordinated", "commission"};
+  return task < kNames.size() ? kNames[task] : fmt::format("{}", task);
+}
+
 std::string cell(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
 }
@@ -90,9 +102,10 @@ std::string cell(double value, int decimals) {
 std::vector<ComparedFigure> compared_figures(const RunLog& first, const RunLog& second) {
   const ErrorFigures a = error_figures(first);
   const ErrorFigures b = error_figures(second);
-  const LambdaFigures lambda_a = lambda_figures(first);
-  const LambdaFigures lambda_b = lambda_figures(second);
-  const std::string error = first.is_dozer ? "grade error" : "path error";
+  const LambdaFigures lambda_a = lambda_figures(first, a.arrived_s);
+  const LambdaFigures lambda_b = lambda_figures(second, b.arrived_s);
+  const std::string way = first.is_dozer ? "grade" : "path";
+  const std::string error = way + " error";
   const auto fault = [](const RunLog& run) {
     return run.first_fault_s ? *run.first_fault_s - run.start_s : kNone;
   };
@@ -101,8 +114,8 @@ std::vector<ComparedFigure> compared_figures(const RunLog& first, const RunLog& 
       {error + ", largest", "mm", 1e3 * a.most_m, 1e3 * b.most_m, 1},
       {"  at, since the start", "s", a.most_s, b.most_s, 2},
       {error + ", RMS", "mm", 1e3 * a.rms_m, 1e3 * b.rms_m, 1},
-      {"lambda, least in motion", "", lambda_a.least, lambda_b.least, 3},
-      {"lambda, mean in motion", "", lambda_a.mean, lambda_b.mean, 3},
+      {"lambda, least once on the " + way, "", lambda_a.least, lambda_b.least, 3},
+      {"lambda, mean once on the " + way, "", lambda_a.mean, lambda_b.mean, 3},
       {"first fault at, since the start", "s", fault(first), fault(second), 2}};
   std::map<std::string, bool> limits;
   for (const RunLog* run : {&first, &second}) {
@@ -115,6 +128,29 @@ std::vector<ComparedFigure> compared_figures(const RunLog& first, const RunLog& 
                        100.0 * shared(first, name), 100.0 * shared(second, name), 1});
   }
   return figures;
+}
+
+std::vector<std::string> compared_notes(
+    const RunLog& first, const RunLog& second,
+    const std::function<std::string(std::uint32_t hash)>& profile_name) {
+  std::vector<std::string> notes;
+  const auto known = [](std::uint32_t hash) { return hash != 0; };
+  if (first.profile_hash != second.profile_hash && known(first.profile_hash) &&
+      known(second.profile_hash)) {
+    notes.push_back(fmt::format("two profiles: {} and {}", profile_name(first.profile_hash),
+                                profile_name(second.profile_hash)));
+  }
+  if (first.task != second.task) {
+    notes.push_back(
+        fmt::format("two tasks: {} and {}", task_name(first.task), task_name(second.task)));
+  }
+  for (const RunLog* run : {&first, &second}) {
+    if (run->active_s < kShort_s) {
+      notes.push_back(
+          fmt::format("{}: the controller was active for {:.2f} s only", run->name, run->active_s));
+    }
+  }
+  return notes;
 }
 
 std::string compared_table(const RunLog& first, const RunLog& second,

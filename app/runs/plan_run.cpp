@@ -8,6 +8,7 @@
 
 #include "app/machines/axis_names.hpp"
 #include "app/machines/task_text.hpp"
+#include "app/runs/figures.hpp"
 #include "firmware/excavator/tasks/machine_points.hpp"
 #include "firmware/numeric/constants.hpp"
 
@@ -179,13 +180,17 @@ std::string plan_csv(const std::vector<PlanSample>& samples) {
     csv += fmt::format(",pump{}_m3ps", j + 1);
   }
   for (const PlanSample& sample : samples) {
-    csv += fmt::format("\n{},{},{},{},{}", sample.time_s, sample.way_m, sample.speed_mps,
-                       fmt::join(sample.teeth_m, ","), sample.attitude_rad);
+    std::vector<double> cells = {sample.time_s, sample.way_m, sample.speed_mps};
+    cells.insert(cells.end(), sample.teeth_m.begin(), sample.teeth_m.end());
+    cells.push_back(sample.attitude_rad);
     for (unsigned i = 0; i < kDriveCount; ++i) {
-      csv += fmt::format(",{},{},{}", sample.displacement[i], sample.velocity[i],
-                         sample.acceleration[i]);
+      cells.insert(cells.end(),
+                   {sample.displacement[i], sample.velocity[i], sample.acceleration[i]});
     }
-    csv += fmt::format(",{}", fmt::join(sample.flow_m3ps, ","));
+    cells.insert(cells.end(), sample.flow_m3ps.begin(), sample.flow_m3ps.end());
+    std::transform(cells.begin(), cells.end(), cells.begin(),
+                   [](double cell) { return plain_number(cell); });
+    csv += fmt::format("\n{}", fmt::join(cells, ","));
   }
   return csv + "\n";
 }

@@ -43,6 +43,14 @@ class Reader {
       run_.profile_hash =
           identity.profile_hash.state == RawState::kValid ? identity.profile_hash.value : 0;
     }
+    if (frame.id == dbc::common::OperatorCommand::kId) {
+      const auto task = dbc::common::OperatorCommand::decode(frame.data).task;
+      // None is asked for at the end, while the machine still comes to rest.
+      if (is_active_ && task.state == RawState::kValid &&
+          task.value != dbc::common::OperatorCommand::Task::kNone) {
+        run_.task = static_cast<std::uint8_t>(task.value);
+      }
+    }
     if (is_kind_known_) {
       if (frame.id == Status::kId) {
         status(frame);
@@ -91,6 +99,7 @@ class Reader {
     const Status status = Status::decode(frame.data);
     const bool is_active = status.mode.value == Status::Mode::kActive;
     put(0, frame, status.lambda);
+    is_active_ = is_active;
     if (is_active) {
       if (!is_started_) {
         is_started_ = true;
@@ -151,6 +160,7 @@ class Reader {
   std::size_t frames_ = 0;
   bool is_kind_known_ = false;
   bool is_started_ = false;
+  bool is_active_ = false;
   bool is_ready_ = false;
 };
 
@@ -188,9 +198,14 @@ RunLog read_run_log(const std::filesystem::path& file) {
   run.name = file.string();
   Reader reader(run);
   static_cast<void>(identify::read_candump(
-      file, [&reader](const identify::LoggedFrame& frame) { reader.take(frame); }));
+      file, [&reader](const identify::LoggedFrame& frame) { reader.take(frame); },
+      identify::CutLine::kPassedOver));
   reader.finish();
   return run;
+}
+
+LimitShares logged_limit_shares(const std::filesystem::path& file) {
+  return std::filesystem::is_regular_file(file) ? read_run_log(file).limit_share : LimitShares{};
 }
 
 }  // namespace graben::runs

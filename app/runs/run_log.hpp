@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,7 @@ struct RunLog {
   std::string name;  ///< Of the file, as it was told.
   bool is_dozer = false;
   std::uint32_t profile_hash = 0;  ///< 0: not said.
+  std::uint8_t task = 0;           ///< Last asked for while it was Active, but None.
   std::vector<Channel> channel;    ///< In the order of channel_table().
   double from_s = 0.0;
   double until_s = 0.0;
@@ -51,9 +53,14 @@ struct RunLog {
   Fault first_fault = Fault::kNone;
 };
 
-/// Reads a candump log, plain or gzip. Throws std::runtime_error that names it where it cannot be
-/// read, has no candump lines, or no EcuStatus.
+/// Reads a candump log, plain or gzip; a last line that is cut is passed over. Throws
+/// std::runtime_error that names it where it cannot be read, has no candump lines, or no EcuStatus.
 [[nodiscard]] RunLog read_run_log(const std::filesystem::path& file);
+
+/// What held lambda, or a dozer's speed: of all EcuStatus that say Active, the share of each limit.
+/// The one rule of terminal, page and comparison: the page counts the same frames in its window
+/// (view/limit_shares.ts). Throws as read_run_log(); none where the file is no regular one.
+[[nodiscard]] LimitShares logged_limit_shares(const std::filesystem::path& file);
 
 /// A figure of both runs; not a number where a run has none.
 struct ComparedFigure {
@@ -64,12 +71,18 @@ struct ComparedFigure {
   int decimals = 1;
 };
 
-/// Both runs in figures: times, errors with their moments, lambda, each limit's share. Of the error
-/// counts what comes after it has first stopped falling below kArrived_m: a way to the path is no
-/// error.
+/// Both runs in figures: times, errors with their moments, lambda, each limit's share. Of error and
+/// lambda counts what comes after the error has first stopped falling below kArrived_m: a way to
+/// the path is no error, and its start from rest no limit.
 [[nodiscard]] std::vector<ComparedFigure> compared_figures(const RunLog& first,
                                                            const RunLog& second);
 inline constexpr double kArrived_m = 0.02;
+
+/// What makes the two no runs of the same thing, a sentence each: another profile (named by
+/// `profile_name`), another task, a run that hardly was one.
+[[nodiscard]] std::vector<std::string> compared_notes(
+    const RunLog& first, const RunLog& second,
+    const std::function<std::string(std::uint32_t hash)>& profile_name);
 
 /// A row for each figure: both and the difference.
 [[nodiscard]] std::string compared_table(const RunLog& first, const RunLog& second,

@@ -78,11 +78,12 @@ def goes_on(graben, folder, whole, kind):
             break
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)
-    _, err = process.communicate(timeout=60)
+    out, err = process.communicate(timeout=60)
     rows = content(file).splitlines()[2:]
     assert process.returncode == 1 and "goes on" in err, (process.returncode, err)
     assert 1 < len(rows) < DRAWS, f"{len(rows)} rows after the interruption"
     assert f"interrupted with {len(rows)} of {DRAWS} draws done" in err, err
+    assert f", {len(rows)} of {DRAWS} draws done\n" in out, out
     # What a crash in the middle of a line leaves.
     with open(file, "ab") as stream:
         stream.write(content(whole).splitlines()[-1][:20])
@@ -117,6 +118,22 @@ def one_at_a_time(graben, folder):
     assert not os.path.exists(file + ".lock")
 
 
+def no_cluster(graben, folder):
+    """Slurm's programs are there and its controller is not: nothing stays that looks like a campaign."""
+    programs = os.path.join(folder, "programs")
+    os.mkdir(programs)
+    for name in ("sbatch", "squeue", "scontrol"):
+        with open(os.path.join(programs, name), "w", encoding="ascii") as stream:
+            stream.write(f"#!/bin/sh\n[ {name} = squeue ] || {{ echo '{name}: error: no controller' >&2; exit 1; }}\n")
+        os.chmod(os.path.join(programs, name), 0o755)
+    summary = os.path.join(folder, "far", "x.csv")
+    done = subprocess.run([graben, "campaign", "dig", "--draws", "2", "--slurm", "2", "--summary", summary],
+                          capture_output=True, text=True, timeout=60,
+                          env={**os.environ, "PATH": f"{programs}:{os.environ['PATH']}"})
+    assert done.returncode == 1 and "no controller" in done.stderr, done
+    assert not os.path.exists(summary + ".slurm"), os.listdir(summary + ".slurm")
+
+
 def refuses(graben, folder, whole, kind):
     def refused(needle, file, *options):
         before = content(file)
@@ -143,7 +160,7 @@ def refuses(graben, folder, whole, kind):
     for option, value in (("--draws", "0"), ("--draws", "-1"), ("--jobs", "0"),
                           ("--speed", "nan"), ("--errors", "some")):
         call(graben, kind.name, "--summary", os.path.join(folder, "new.csv"), option, value, status=2)
-    call(graben, kind.name, "--summary", os.path.join(folder, "no", "x.csv"), status=1)
+    call(graben, kind.name, "--summary", os.path.join(whole, "x.csv"), status=1)
     call(graben, "merge", os.path.join(folder, "missing.csv"), "--summary", whole, status=1)
 
 
@@ -180,6 +197,7 @@ def main():
         folder = top
         failures_are_no_figures(graben, folder)
         one_at_a_time(graben, folder)
+        no_cluster(graben, folder)
     print(f"{DRAWS} draws: whole, in shards and interrupted, the same rows")
 
 

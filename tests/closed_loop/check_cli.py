@@ -6,9 +6,11 @@ import math
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 
 MACHINES = pathlib.Path(__file__).resolve().parents[2] / "app" / "machines"
 
@@ -54,7 +56,7 @@ def bad_usage(graben):
     machine = ("--profile", "excavator_22t")
     refused(graben, "allowed: 0 .. 1.26 m", "pose", *machine, "--strokes", "2.0,1.1,0.4")
     refused(graben, "arm stroke -0.1 m", "pose", *machine, "--strokes", "1.0,-0.1,0.4")
-    refused(graben, "allowed", "pose", *machine, "--strokes", "1.0,nan,0.4")
+    refused(graben, "arm stroke: nan is no length; allowed: 0 .. ", "pose", *machine, "--strokes", "1.0,nan,0.4")
     refused(graben, "no_such", "pose", "--profile", "no_such", "--strokes", "1,1,1")
     refused(graben, "strokes", "pose", *machine, status=2)
     refused(graben, "", "pose", *machine, "--strokes", "1.0,1.1", status=2)
@@ -196,10 +198,24 @@ def unwritable(graben):
             refused(graben, "file", *command, "--out", blocked)
         with open(blocked, encoding="ascii") as stream:
             assert stream.read() == "kept"
-        missing = os.path.join(folder, "no", "such", "file")
+        below = os.path.join(blocked, "such", "file")
         for command, option in (("dig", "--summary"), ("autodig", "--summary"), ("grade", "--summary"), ("grade", "--log")):
-            done = call(graben, command, "--out", folder, option, missing)
-            assert done.returncode == 1 and missing in done.stderr, done.stderr
+            done = call(graben, command, "--out", folder, option, below)
+            assert done.returncode == 1 and blocked in done.stderr and not done.stdout, done
+
+
+def interrupted(graben):
+    """Ctrl-C in a run is told, and leaves nothing that looks like a log."""
+    with tempfile.TemporaryDirectory() as folder:
+        process = subprocess.Popen([graben, "dig", "--loops", "100", "--out", folder], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        deadline = time.monotonic() + 60.0
+        while time.monotonic() < deadline and not os.path.exists(os.path.join(folder, "dig.log.part")):
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+        assert process.returncode == 1 and err == "graben dig: interrupted; nothing was written\n", (out, err)
+        assert not os.listdir(folder), os.listdir(folder)
 
 
 def lost_output(graben):
@@ -222,6 +238,7 @@ def main():
     bad_machines(graben)
     no_constant_speed(graben)
     unwritable(graben)
+    interrupted(graben)
     lost_output(graben)
     print("commands answer as they should")
 

@@ -41,7 +41,10 @@ def figures_are_the_runs(rows, first, second):
     for column, summary in ((0, first), (1, second)):
         figures = json.loads(summary.read_text(encoding="utf-8"))
         near(rows["path error, largest"][column], 1e3 * figures["max_error_measured_m"], 1.5)
-        near(rows["lambda, mean in motion"][column], figures["lambda_mean"], 0.02)
+        near(rows["lambda, mean once on the path"][column], figures["lambda_mean"], 0.02)
+        near(rows["lambda, least once on the path"][column], figures["lambda_min"], 0.05)
+        for name, share in figures["limit_share"].items():
+            near(rows["held by " + ("nothing" if name == "none" else name)][column], 100.0 * share, 0.051)
     for name, (a, b, difference) in rows.items():
         if not math.isnan(difference):
             near(difference, b - a, 0.11 if abs(a) > 1 else 0.002 if "lambda," in name else 0.11)
@@ -60,6 +63,33 @@ def page_has_both(page):
     assert len(seen) > 0.8 * len(times) and max(abs(off) for _, _, off in seen) > 1.0
     assert max(abs(b - a - off) for a, b, off in seen) < 0.11
     assert any("difference" in figure["note"] for figure in setup["run"]["summary"])
+
+
+def is_no_log(graben, folder):
+    assert "a: is a folder" in call(graben, folder, "compare", "a", "b/dig.log", status=1)
+    assert "none.log: there is no such file" in call(graben, folder, "compare", "none.log", "b/dig.log", status=1)
+    # One that was being written ends inside a line.
+    text = (folder / "a/dig.log").read_text(encoding="ascii")
+    (folder / "cut.log").write_text(text[:-9], encoding="ascii")
+    assert "path error" in call(graben, folder, "compare", "cut.log", "b/dig.log", "--out", ".")
+    (folder / "cut.log").write_text(text[:40] + "\n" + text, encoding="ascii")
+    assert "cut.log:1" in call(graben, folder, "compare", "cut.log", "b/dig.log", status=1)
+
+
+def other_runs(graben, folder):
+    """What is not of the same machine or task, or hardly a run, is said in the terminal and on the page."""
+    same = call(graben, folder, "compare", "a/dig.log", "b/dig.log", "--out", ".")
+    assert "note:" not in same, same
+    call(graben, folder, "autodig", "--task", "flatten", "--out", "d")
+    lines = (folder / "a/dig.log").read_text(encoding="ascii").splitlines(keepends=True)
+    (folder / "short.log").write_text("".join(lines[:400]), encoding="ascii")
+    for files, wanted in ((("a/dig.log", "d/autodig.log"), ("two profiles: excavator_22t and excavator_12t",
+                                                            "two tasks: dig and program")),
+                          (("a/dig.log", "short.log"), ("short.log: the controller was active for ",))):
+        said = call(graben, folder, "compare", *files, "--out", ".")
+        page = setup_of((folder / "compare.html").read_bytes())["run"]["subtitle"]
+        for words in wanted:
+            assert f"note: {words}" in said and words in page, (words, said, page)
 
 
 def main():
@@ -86,7 +116,10 @@ def main():
         (folder / "other.log").write_text("(0000000000.100000) vcan0 123#00\n", encoding="ascii")
         assert "no word of a controller" in call(graben, folder, "compare", "other.log", "a/dig.log", status=1)
         subprocess.run(["gzip", "-k", "a/dig.log"], cwd=folder, check=True)
-        assert "unpack it" in call(graben, folder, "compare", "a/dig.log.gz", "b/dig.log", status=1)
+        assert rows_of(call(graben, folder, "compare", "a/dig.log.gz", "b/dig.log", "--out", ".")) == rows
+        page_has_both(folder / "compare.html")
+        is_no_log(graben, folder)
+        other_runs(graben, folder)
         again = rows_of(call(graben, folder, "compare", "b/dig.log", "a/dig.log.gz", "--out", "."))
         assert again["path error, largest"][1] == rows["path error, largest"][0]
         print(f"two runs: {rows['path error, largest']} mm; a run is like itself")

@@ -18,7 +18,7 @@ WIDTH = 80
 # Of CLI11, the standard library, nlohmann-json and toml++.
 LIBRARIES = re.compile(r"Could not convert|not expected|Run with --help|REQUIRED|Value .* not in range|not in \{|"
                        r"filesystem error|json\.exception|stod|Error while parsing|basic_string|what\(\)|[Ee]xcludes|"
-                       r"Exactly 1 option|terminate called")
+                       r"Exactly 1 option|terminate called|\(\{|:\{")
 
 SHIPPED = ["dozer_9t", "excavator_12t", "excavator_12t_ls", "excavator_12t_nfc", "excavator_22t", "excavator_22t_ls",
            "excavator_22t_nfc"]
@@ -82,6 +82,15 @@ def slips(graben):
     refused(graben, "did you mean 'excavator_22t'?", "dig", "--profile", "excavater_22t")
     refused(graben, "did you mean 'flatten'?", "autodig", "--task", "flaten")
     refused(graben, "did you mean 'trench'?", "autodig", "--task", "trnch")
+    for needle, typed in (("graben: 'campaing' is no command; did you mean 'campaign'?", "campaing dig"),
+                          ("graben: 'help' is no command; did you mean '--help'?", "help dig"),
+                          ("graben: 'version' is no command; did you mean '--version'?", "version"),
+                          ("graben: --speed is no option here; options come after the command", "--speed 0.5 dig"),
+                          ("graben: --versoin is no option; did you mean '--version'?", "--versoin"),
+                          ("'sad' is none of sand, loam, clay, stones; did you mean 'sand'?", "grade --soil sad"),
+                          ("graben campaign: 'foo' is no command\n", "campaign foo dig --summary x"),
+                          ("graben: 'plann' is no command; did you mean 'plan'?", "plann scope")):
+        refused(graben, needle, *typed.split(), status=2)
     done = call(graben, "xyzzyplugh")
     assert done.returncode == 2 and "did you mean" not in done.stderr, done.stderr
 
@@ -132,7 +141,54 @@ def never_overwritten(graben, folder):
                     folder=folder)
             assert path.read_text(encoding="ascii") == "kept", path
     refused(graben, "would overwrite", "grade", "--out", "new", "--log", "new/grade.html", folder=folder)
+    for command, name in (("dig --soil", "kim9"), ("grade", "mononen7")):
+        refused(graben, "would overwrite", *command.split(), "--figure", name, "--out", "new", "--summary",
+                f"new/{name}.svg", folder=folder)
+    # Links whose ends are not there yet.
+    (folder / "link").symlink_to("new")
+    (folder / "figures.json").symlink_to("link/../new/dig.log")
+    for options in ("--out new --summary link/dig.log", "--out link --summary new/dig.html",
+                    "--out new --summary figures.json"):
+        refused(graben, "would overwrite", "dig", *options.split(), folder=folder)
+    (folder / "circle").symlink_to("circle")
+    refused(graben, "circle", "dig", "--out", "circle", "--summary", "circle", folder=folder)
     assert not (folder / "new").exists(), "a refused command has made a folder"
+    (folder / "old.log").write_text("kept", encoding="ascii")
+    refused(graben, "old.log: is there already; --force overwrites it", "commission", "--log", "old.log", folder=folder)
+    assert (folder / "old.log").read_text(encoding="ascii") == "kept"
+
+
+def figures_first(graben, folder):
+    """A figure of another kind of run is refused before the run, which leaves nothing."""
+    for needle, typed in (("--figure kim9: is of a run in soil; add --soil", "dig --figure kim11,kim9 --obstacle"),
+                          ("--figure kim14: is of a run that meets", "dig --soil --figure kim14"),
+                          ("--figure mononen9: is of a constant speed", "grade --figure mononen9"),
+                          ("--figure mononen7: is of a bounded speed", "grade --speed-mode constant --figure mononen7")):
+        refused(graben, needle.replace("kim9", "kim11"), *typed.split(), "--out", "unmade", folder=folder)
+        assert not (folder / "unmade").exists(), f"{typed}: the run was made"
+
+
+def new_folders(graben, folder):
+    """Whatever a command writes, its folder need not be there: the examples of the help hold in an empty one."""
+    (folder / "empty").mkdir()
+    bare = "--only bucket --no-steps --no-bursts --no-pairs"
+    for typed in (f"commission --log a/machine.log {bare}", f"commission --log a/machine.log --force {bare}",
+                  "campaign grade --draws 1 --summary b/draws.csv", "campaign merge b/draws.csv --summary c/all.csv",
+                  "grade --out d --log e/grade.log --summary f/grade.json", "dig --loops 0.1 --summary g/dig.json",
+                  "autodig --task flatten --summary h/autodig.json", "export out/dig.log --mcap i/dig.mcap"):
+        done = call(graben, *typed.split(), folder=folder / "empty")
+        assert done.returncode == 0, f"{typed}: {done.stderr}"
+        for file in re.findall(r"[a-i]/\w+\.\w+", typed):
+            assert (folder / "empty" / file).stat().st_size > 0, f"{typed}: no {file}"
+    call(graben, "plan", folder=folder / "empty")
+    # A machine with IMUs: what the export lacks is said.
+    call(graben, "dig", "--loops", "0.1", "--sensors", "imu", folder=folder / "empty")
+    said = call(graben, "export", "out/dig.log", "--mcap", "i/imu.mcap", folder=folder / "empty").stdout
+    assert re.search(r"frames are no messages of our DBC .*left out; their ids: 0x[0-9A-F]+, ", said), said
+    for file in ("g/dig.json", "f/grade.json", "h/autodig.json", "out/plan.json", "out/plan.csv"):
+        text = (folder / "empty" / file).read_text(encoding="ascii")
+        dirty = re.findall(r"-?0\.\d*0000000\d|\d\.\d*9999999\d|\d\.\d{16,}|(?<![\d.e])-0(?:\.0)?(?![\d.])", text)
+        assert not dirty, f"{file}: {dirty}"
 
 
 def profile_slips(graben, folder):
@@ -147,6 +203,13 @@ def profile_slips(graben, folder):
 
     slip(r"^attitude_gain = .*", "attitude_gain = 1006.2", "1006.2 is out of range")
     slip(r"^angle = .*", "angle = [-45.0, 71.6]", "in degrees? then it is -0.7854 rad")
+    (folder / "turn.toml").write_text(re.sub(r"^range = .*", "range = [-180.0, 180.0]",
+                                             (MACHINES / "excavator_12t.toml").read_text(encoding="utf-8"),
+                                             flags=re.MULTILINE), encoding="utf-8")
+    refused(graben, "turn.toml: 2 errors:", "check", "turn.toml", folder=folder)
+    for name in SHIPPED:
+        wide = [line for line in call(graben, "check", name, folder=folder).stdout.splitlines() if len(line) > 100]
+        assert not wide, f"check {name}: {wide}"
     slip(r"^attitude_gain", "atitude_gain", "unknown key; did you mean 'control.attitude_gain'?")
     machine = ("--profile", "excavator_22t")
     refused(graben, "in degrees? then it is 1.571 rad", "strokes", *machine, "--x", "5", "--y", "0", "--attitude", "90")
@@ -183,6 +246,8 @@ def main():
         folder = pathlib.Path(name)
         own_words(graben, folder)
         never_overwritten(graben, folder)
+        figures_first(graben, folder)
+        new_folders(graben, folder)
         profile_slips(graben, folder)
         installed(graben, folder)
     print("help and slips are answered as they should")

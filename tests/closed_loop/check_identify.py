@@ -179,7 +179,7 @@ def bad_files(graben, folder, train, judge):
     bad("1 runs: at least 3 are needed to leave one out", recording(5, 1, seconds=5))
     bad("is cut off or damaged", train.read_bytes()[:-2000], name="bad.csv.gz")
     bad("has no column run", b"(1.0) can0 123#00\n(1.1) can0 123#00\n")
-    refused(graben, "cannot be read", "--csv", folder / "gone.csv", "--summary", out)
+    refused(graben, "there is no such file", "--csv", folder / "gone.csv", "--summary", out)
     refused(graben, "can't be judged by what it was made of", "--csv", train, "--judge", train, "--summary", out)
     refused(graben, "can't be judged", "--csv", judge, judge, "--summary", out)
     refused(graben, "can't be written", "--csv", judge, "--summary", folder / "no" / "folder.json")

@@ -120,7 +120,7 @@ class Tool:
 
 def finds(tool, log_file):
     """One log, one better profile; all that the report, the summary and the file have to say."""
-    out, report, summary = (tool.folder / name for name in ("better.toml", "better.html", "better.json"))
+    out, report, summary = (tool.folder / name for name in ("better.toml", "new/better.html", "better.json"))
     begin = time.monotonic()
     done = tool.call("--log", log_file, "--profile", tool.profile, "--out", out, "--report", report, "--summary",
                      summary)
@@ -269,7 +269,7 @@ def bad_contents(tool, log):
 def bad_files(tool, log_file, better):
     out = tool.folder / "none.toml"
     usual = ("--log", log_file, "--profile", tool.profile)
-    tool.refused("cannot be read", "--log", tool.folder / "gone.log", "--profile", tool.profile, "--out", out)
+    tool.refused("there is no such file", "--log", tool.folder / "gone.log", "--profile", tool.profile, "--out", out)
     tool.refused("is a folder", "--log", tool.folder, "--profile", tool.profile, "--out", out)
     tool.refused("is the same log as", "--log", log_file, log_file, "--profile", tool.profile, "--out", out)
     tool.refused("not found", "--log", log_file, "--profile", tool.folder / "gone.toml", "--out", out)
@@ -287,10 +287,10 @@ def bad_files(tool, log_file, better):
     tool.refused("would overwrite", *usual, "--out", log_file, "--force")
     tool.refused("would overwrite", *usual, "--out", out, "--report", out)
     tool.refused("is there already", *usual, "--out", better)
-    tool.refused("can't be written", *usual, "--out", tool.folder / "no" / "folder.toml")
+    tool.refused("can't be written", *usual, "--out", log_file / "folder.toml")
     # A place that takes no file is known before the fit.
     tool.refused("can't be written", *usual, "--out", "/proc/better.toml")
-    tool.refused("can't be written", *usual, "--out", out, "--report", tool.folder / "no" / "folder.html")
+    tool.refused("can't be written", *usual, "--out", out, "--report", log_file / "folder.html")
     tool.refused("can't be written", *usual, "--out", out, "--summary", tool.folder)
     foreign = tool.folder / "foreign.toml"
     foreign.write_text(re.sub(r"sha256 [0-9a-f]{12}", "sha256 000000000000", better.read_text()))

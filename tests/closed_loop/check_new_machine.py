@@ -17,7 +17,7 @@ MACHINES = pathlib.Path(__file__).resolve().parents[2] / "app" / "machines"
 def make(graben, folder, like, answers, *options):
     out = [] if "--out" in options else ["--out", "mine.toml"]
     return subprocess.run([graben, "new-machine", "--like", like, *out, *options], cwd=folder,
-                          input="\n".join([*answers, ""]), capture_output=True, text=True, timeout=60)
+                          input="\n".join([*answers, "", ""]), capture_output=True, text=True, timeout=60)
 
 
 def asked(said):
@@ -114,13 +114,23 @@ def refusals(graben, folder):
     kept = (folder / "mine.toml").read_bytes()
     for answers, needle, options in (([], "is there already", []),
                                      (["1,2,3"], "body.boom_foot: 2 numbers are wanted", ["--force"]),
+                                     (["0.14, 1.424"], "body.boom_foot: in metres? then it is 140, 1424 mm", ["--force"]),
+                                     (["", "4,600"], "boom.length: 1 number is wanted, not 2: a comma", ["--force"]),
+                                     (["", "", "105", "120"], "boom.cylinder.rod: 120 mm is no rod in a bore of 105 mm",
+                                      ["--force"]),
+                                     ([], "--out: the name of a file is wanted", ["--out", ""]),
                                      (["140, five"], "'five' is not a number", ["--force"]),
                                      (["", "4.6"], "allowed: 100 .. 30000 mm", ["--force"])):
         done = make(graben, folder, "excavator_12t", answers, *options)
         assert done.returncode == 1 and needle in done.stderr, (answers, done.stderr)
         assert (folder / "mine.toml").read_bytes() == kept, answers
-    # What does not fit together is told with its line, and the file is there to be corrected.
-    done = make(graben, folder, "excavator_12t", ["", "", "", "110"], "--force")
+    done = subprocess.run([graben, "new-machine", "--out", "none.toml"], cwd=folder, stdin=subprocess.DEVNULL,
+                          capture_output=True, text=True, timeout=60)
+    assert done.returncode == 1 and "standard input is empty" in done.stderr, (done.returncode, done.stderr)
+    assert not (folder / "none.toml").exists()
+    # What does not fit together is told with its line, and the file is there to be corrected: a bore that is less than
+    # the rod, which then stays.
+    done = make(graben, folder, "excavator_12t", ["", "", "60"], "--force")
     assert done.returncode == 1 and "boom.cylinder.rod (line " in done.stderr, done.stderr
     assert (folder / "mine.toml").read_bytes() != kept
 

@@ -62,11 +62,16 @@ def check_completion(script: pathlib.Path) -> list[str]:
     problems = []
     for typed, wanted in (("graben gr", {"grade"}), ("graben campaign mer", {"merge"}), ("graben dig --la", {"--law"}),
                           ("graben dig --law k", {"kim"}), ("graben dig --soil s", {"sand", "stones"}),
-                          ("graben campaign dig --dra", {"--draws"})):
+                          ("graben campaign dig --dra", {"--draws"}), ("graben grade --soil l", {"loam"}),
+                          ("graben dig --profile excavator_12t_", {"excavator_12t_ls", "excavator_12t_nfc"}),
+                          ("graben autodig --task fl", {"flatten"}), ("graben dig --bus z", {"zx200"}),
+                          ("graben dig --simulated dozer", {"dozer_9t"}), ("graben check doz", {"dozer_9t"}),
+                          ("graben check --str", {"--strict"}), ("graben check READ", {"README.md"}),
+                          ("graben dig --out app", {"app"}), ("graben export READ", {"README.md"})):
         words = typed.split(" ")
         code = (f"source '{script}'; COMP_WORDS=({' '.join(words)}); COMP_CWORD={len(words) - 1}; _graben; "
                 'printf "%s\\n" "${COMPREPLY[@]}"')
-        said = subprocess.run(["bash", "-c", code], check=False, capture_output=True, text=True)
+        said = subprocess.run(["bash", "-c", code], check=False, capture_output=True, text=True, cwd=ROOT)
         if set(said.stdout.split()) != wanted or said.stderr:
             problems.append(f"'{typed}' is completed to {said.stdout.split()} {said.stderr}")
     return problems

@@ -21,7 +21,7 @@ _graben() {
 """
 WORDS = """    esac
   done
-  local words=
+  local words= files=
   case "$path $prev" in
 """
 OPTIONS = """    *)
@@ -31,6 +31,10 @@ FOOTER = """      esac
       ;;
   esac
   mapfile -t COMPREPLY < <(compgen -W "$words" -- "$cur")
+  if [ -n "$files" ]; then
+    compopt -o filenames 2>/dev/null
+    mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -f -- "$cur")
+  fi
 }
 complete -o bashdefault -o default -F _graben graben
 """
@@ -78,6 +82,12 @@ def page(path: tuple[str, ...], command: dict, version: str, date: str) -> str:
     return "\n".join(lines) + "\n"
 
 
+def offered(option: dict) -> str:
+    """An option's own words; or files, and beside them what of ours goes by name."""
+    words = option["words"] or option["shipped"]
+    return f'words="{" ".join(words)}"' + ("" if option["words"] else " files=1")
+
+
 def completion(all_commands: list[tuple[tuple[str, ...], dict]]) -> str:
     text = HEADER
     for path, _ in all_commands[1:]:
@@ -85,15 +95,20 @@ def completion(all_commands: list[tuple[tuple[str, ...], dict]]) -> str:
     text += WORDS
     for path, command in all_commands:
         for option in command["options"]:
-            if option["words"]:
-                name = option["names"].split(",")[-1]
-                text += f'    "{" ".join(path)} {name}") words="{" ".join(option["words"])}" ;;\n'
+            name = option["names"].split(",")[-1]
+            if name.startswith("--") and option["argument"]:
+                text += f'    "{" ".join(path)} {name}") {offered(option)} ;;\n'
     text += OPTIONS
     for path, command in all_commands:
         words = [below["name"] for below in command["commands"]]
         words += [name for option in command["options"] for name in option["names"].split(",")
                   if name.startswith("--")]
-        text += f'        "{" ".join(path)}") words="{" ".join(words)}" ;;\n'
+        named = f'words="{" ".join(words)}"'
+        files = [option for option in command["options"] if not option["names"].startswith("-")]
+        # What stands alone is a file; a dash asks for options.
+        if files:
+            named = f'case "$cur" in -*) {named} ;; *) {offered(files[0])} ;; esac'
+        text += f'        "{" ".join(path)}") {named} ;;\n'
     return text + FOOTER
 
 

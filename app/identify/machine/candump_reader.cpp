@@ -104,7 +104,7 @@ Kind read_frame(std::string_view text, LoggedFrame& frame) {
 }  // namespace
 
 std::string read_candump(const std::filesystem::path& file,
-                         const std::function<void(const LoggedFrame&)>& take) {
+                         const std::function<void(const LoggedFrame&)>& take, CutLine cut) {
   Lines lines(file.string());
   Sha256 digest;
   std::string line;
@@ -121,6 +121,9 @@ std::string read_candump(const std::filesystem::path& file,
     if (read_time(next_word(rest), frame.time_s)) {
       next_word(rest);  // The interface: several may be in one log.
       kind = read_frame(next_word(rest), frame);
+    }
+    if (kind == Kind::kBroken && cut == CutLine::kPassedOver && !lines.is_whole()) {
+      break;
     }
     if (kind == Kind::kBroken) {
       throw std::runtime_error(

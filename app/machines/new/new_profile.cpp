@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <optional>
+#include <stdexcept>
+#include <string_view>
 
 #include "app/machines/axis_names.hpp"
 #include "app/machines/excavator_sections.hpp"
@@ -170,6 +173,14 @@ void set_joint_ranges(const std::string& text, CommentedValues& told) {
   }
 }
 
+double norm_of(const std::vector<double>& numbers) {
+  double squares = 0.0;
+  for (const double number : numbers) {
+    squares += number * number;
+  }
+  return std::sqrt(squares);
+}
+
 }  // namespace
 
 std::vector<ProfileQuestion> profile_questions(const ProfileDocument& like) {
@@ -182,6 +193,35 @@ std::vector<ProfileQuestion> profile_questions(const ProfileDocument& like) {
     }
   }
   return questions;
+}
+
+void assert_fits(const ProfileDocument& like, const ProfileQuestion& question,
+                 const std::vector<double>& numbers, const ProfileAnswers& answers) {
+  // No machine is so much smaller than another, but a metre has 1000 mm.
+  constexpr double kNoSuchRatio = 0.01;
+  const double told = norm_of(numbers);
+  if (question.unit.name == std::string_view("mm") && told > 0.0 &&
+      told < kNoSuchRatio * norm_of(question.before)) {
+    std::string text;
+    for (const double number : numbers) {
+      text += fmt::format("{}{:.6g}", text.empty() ? "" : ", ", 1e3 * number);
+    }
+    throw std::runtime_error(fmt::format("in metres? then it is {} mm", text));
+  }
+  const std::string& key = question.key;
+  const std::size_t rod = key.rfind(".rod");
+  if (rod == std::string::npos || rod + 4 != key.size()) {
+    return;
+  }
+  const std::string bore = key.substr(0, rod) + ".bore";
+  const auto answer = answers.find(bore);
+  const double bore_mm = answer != answers.end()
+                             ? answer->second.front()
+                             : like.root.at_path(bore).value_or(0.0) / question.unit.si;
+  if (!(numbers.front() < bore_mm)) {
+    throw std::runtime_error(fmt::format(
+        "{:.6g} mm is no rod in a bore of {:.6g} mm; allowed: less", numbers.front(), bore_mm));
+  }
 }
 
 std::string new_profile_text(const ProfileDocument& like, const std::string& name,

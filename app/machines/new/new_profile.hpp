@@ -35,6 +35,11 @@ using ProfileAnswers = std::map<std::string, std::vector<double>>;
 /// sound.
 [[nodiscard]] std::vector<ProfileQuestion> profile_questions(const ProfileDocument& like);
 
+/// Throws std::runtime_error, in the question's unit, where an answer is no length in mm but one in
+/// metres, or a cylinder's rod is not thinner than its bore, as `answers` or else `like` have it.
+void assert_fits(const ProfileDocument& like, const ProfileQuestion& question,
+                 const std::vector<double>& numbers, const ProfileAnswers& answers);
+
 /// A profile's text: `like` with the answers, a comment with each key's meaning, unit and range,
 /// and where each value is from. An excavator's joint ranges are those that its pins give, and its
 /// path is as much longer as its links are. Values are not checked: load what was written.

@@ -2,11 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "app/reports/check/machine_check.hpp"
 
 namespace graben::reports {
 namespace {
+
+constexpr std::size_t kTextWidth = 80;
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -26,18 +29,55 @@ bool is_number(const std::string& cell) {
   return !cell.empty() && cell.find_first_of("0123456789") <= 1 && cell.find(';') == cell.npos;
 }
 
-std::string table_text(const FactTable& table) {
-  std::vector<std::vector<std::string>> lines = table.rows;
-  if (!table.columns.empty()) {
-    lines.insert(lines.begin(), table.columns);
+/// Lines of words, none wider than `width` unless a word is.
+std::vector<std::string> folded(const std::string& text, std::size_t width) {
+  std::vector<std::string> lines;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (lines.empty() || lines.back().size() + 1 + word.size() > width) {
+      lines.push_back(word);
+    } else {
+      lines.back() += " " + word;
+    }
   }
-  std::vector<std::size_t> width;
-  for (const auto& line : lines) {
+  return lines;
+}
+
+std::size_t longest(const std::vector<std::string>& lines) {
+  std::size_t most = 0;
+  for (const std::string& line : lines) {
+    most = std::max(most, line.size());
+  }
+  return most;
+}
+
+/// The heads of columns no wider than what is below them, on as many lines as that takes.
+std::vector<std::vector<std::string>> folded_heads(const std::vector<std::string>& heads,
+                                                   std::vector<std::size_t>& width) {
+  std::vector<std::vector<std::string>> lines;
+  for (std::size_t i = 0; i < heads.size(); ++i) {
+    width[i] = std::max(width[i], longest(folded(heads[i], 0)));
+    const std::vector<std::string> head = folded(heads[i], width[i]);
+    while (lines.size() < head.size()) {
+      lines.insert(lines.begin(), std::vector<std::string>(heads.size()));
+    }
+    for (std::size_t line = 0; line < head.size(); ++line) {
+      lines[lines.size() - head.size() + line][i] = head[line];
+    }
+  }
+  return lines;
+}
+
+std::string table_text(const FactTable& table) {
+  std::vector<std::size_t> width(table.columns.size(), 0);
+  for (const auto& line : table.rows) {
     width.resize(std::max(width.size(), line.size()), 0);
     for (std::size_t i = 0; i < line.size(); ++i) {
       width[i] = std::max(width[i], line[i].size());
     }
   }
+  std::vector<std::vector<std::string>> lines = folded_heads(table.columns, width);
+  lines.insert(lines.end(), table.rows.begin(), table.rows.end());
   std::string text = table.title + "\n";
   for (const auto& line : lines) {
     std::string shown = " ";
@@ -50,7 +90,10 @@ std::string table_text(const FactTable& table) {
     shown.erase(shown.find_last_not_of(' ') + 1);
     text += shown.empty() ? "" : shown + "\n";
   }
-  return text + (table.note.empty() ? "" : "  (" + table.note + ")\n");
+  for (const std::string& line : folded("(" + table.note + ")", kTextWidth - 2)) {
+    text += table.note.empty() ? "" : "  " + line + "\n";
+  }
+  return text;
 }
 
 std::string table_html(const FactTable& table) {

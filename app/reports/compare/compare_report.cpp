@@ -2,6 +2,7 @@
 #include "app/reports/compare/compare_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -85,19 +86,20 @@ json summary(const std::vector<runs::ComparedFigure>& figures) {
 void write_compare_report(const ReportTarget& target, const std::filesystem::path& first_log,
                           const runs::RunLog& first, const runs::RunLog& second,
                           const std::vector<runs::ComparedFigure>& figures,
-                          const SetupOptions& options) {
+                          const std::vector<std::string>& notes, const SetupOptions& options) {
   if (first.is_dozer != second.is_dozer) {
     throw std::runtime_error(fmt::format("{} is of {}, {} of {}: they have nothing to compare",
                                          first.name, first.is_dozer ? "a dozer" : "an excavator",
                                          second.name,
                                          second.is_dozer ? "a dozer" : "an excavator"));
   }
-  json run = run_json({"Two runs",
-                       fmt::format("first {} | second {} | both from where they became active",
-                                   first.name, second.name),
-                       summary(figures),
-                       {}},
-                      truth(first, second, moments(first)));
+  json run = run_json(
+      {"Two runs",
+       fmt::format("first {} | second {} | both from where they became active{}{}", first.name,
+                   second.name, notes.empty() ? "" : " | ", fmt::join(notes, " | ")),
+       summary(figures),
+       {}},
+      truth(first, second, moments(first)));
   add_log(run, first_log);
   json setup = report_setup(first_log, json::object(), std::move(run));
   setup.update(shared_setup(options));

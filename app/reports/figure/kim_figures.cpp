@@ -223,16 +223,23 @@ const std::vector<std::string>& kim_figure_names() {
   return names;
 }
 
+void assert_kim_figures(const std::vector<std::string>& names,
+                        const machines::SimulatedExcavator& machine, bool meets_obstacle) {
+  for (const std::string& name : names) {
+    const bool is_of_obstacle = name == "kim14" || name == "kim15";
+    if (is_of_obstacle && !meets_obstacle) {
+      throw std::runtime_error(fmt::format(
+          "--figure {}: is of a run that meets and passes a rock; add --obstacle", name));
+    }
+    if (!is_of_obstacle && !machine.plant.soil) {
+      throw std::runtime_error(fmt::format("--figure {}: is of a run in soil; add --soil", name));
+    }
+  }
+}
+
 PaperFigure kim_figure(const std::string& name, const machines::SimulatedExcavator& machine,
                        const runs::DigResult& result, const runs::DigSummary& summary) {
-  const bool is_of_obstacle = name == "kim14" || name == "kim15";
-  if (is_of_obstacle && !summary.recovery) {
-    throw std::runtime_error(
-        fmt::format("--figure {}: is of a run that meets and passes a rock; add --obstacle", name));
-  }
-  if (!is_of_obstacle && !machine.plant.soil) {
-    throw std::runtime_error(fmt::format("--figure {}: is of a run in soil; add --soil", name));
-  }
+  assert_kim_figures({name}, machine, summary.recovery.has_value());
   const Run run{machine, result, summary};
   PaperFigure figure = draw_of(kFigures, name)(run, on_path(run));
   figure.name = name;

@@ -94,6 +94,8 @@ double most(const std::vector<GradeSample>& samples, const Of& of) {
   return found;
 }
 
+bool is_of_constant_speed(const std::string& name) { return name == "mononen9"; }
+
 }  // namespace
 
 const std::vector<std::string>& mononen_figure_names() {
@@ -101,15 +103,22 @@ const std::vector<std::string>& mononen_figure_names() {
   return names;
 }
 
+void assert_mononen_figures(const std::vector<std::string>& names, bool is_constant_speed) {
+  for (const std::string& name : names) {
+    const bool is_of_constant = is_of_constant_speed(name);
+    if (is_of_constant != is_constant_speed) {
+      throw std::runtime_error(fmt::format(
+          "--figure {}: is of a {} speed; {} --speed-mode constant", name,
+          is_of_constant ? "constant" : "bounded", is_of_constant ? "add" : "leave out"));
+    }
+  }
+}
+
 PaperFigure mononen_figure(const std::string& name, bool is_constant_speed,
                            const machines::SimulatedDozer& machine, const runs::GradeResult& result,
                            const runs::GradeSummary& summary) {
-  const bool is_of_constant = name == "mononen9";
-  if (is_of_constant != is_constant_speed) {
-    throw std::runtime_error(fmt::format("--figure {}: is of a {} speed; {} --speed-mode constant",
-                                         name, is_of_constant ? "constant" : "bounded",
-                                         is_of_constant ? "add" : "leave out"));
-  }
+  assert_mononen_figures({name}, is_constant_speed);
+  const bool is_of_constant = is_of_constant_speed(name);
   const std::vector<GradeSample> samples = over_grade(result);
   const std::string within = metres(summary.max_error_true_m);
   PaperFigure figure;

@@ -17,6 +17,11 @@ namespace graben::reports {
 /// Kim et al.: "kim9" to "kim15".
 [[nodiscard]] const std::vector<std::string>& kim_figure_names();
 
+/// Before the run: throws std::runtime_error where a figure of these names is of another kind of
+/// run than this machine's, and says which option is lacking. See kim_figure().
+void assert_kim_figures(const std::vector<std::string>& names,
+                        const machines::SimulatedExcavator& machine, bool meets_obstacle);
+
 /// Kim's runs are in soil (9 to 13) or meet an obstacle (14, 15). Throws std::runtime_error where
 /// the run is not of that kind.
 [[nodiscard]] PaperFigure kim_figure(const std::string& name,
@@ -26,6 +31,10 @@ namespace graben::reports {
 
 /// Mononen and Mattila: "mononen7" to "mononen9".
 [[nodiscard]] const std::vector<std::string>& mononen_figure_names();
+
+/// Before the run, as mononen_figure() after it: throws std::runtime_error where one of them is of
+/// the other kind of speed.
+void assert_mononen_figures(const std::vector<std::string>& names, bool is_constant_speed);
 
 /// 7 and 8 are of the bounded speed, 9 of a constant one. Throws std::runtime_error where the run
 /// is not of that kind.

@@ -5,9 +5,15 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <zlib.h>
+
+#include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <memory>
 #include <stdexcept>
+#include <vector>
 
 namespace graben::scope {
 namespace {
@@ -22,12 +28,46 @@ class NoStream : public ClientStream {
   throw std::runtime_error(fmt::format("{}: {}", file.string(), why));
 }
 
+constexpr std::size_t kPieceBytes = 1U << 18U;
+
+/// What is packed, in a file without a name; `file` is closed. Pages are told how much comes, and
+/// that is not in what gzip writes.
+int unpacked(const std::filesystem::path& name, int file) {
+  const std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> in(gzdopen(file, "rb"), gzclose);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::tmpfile(), std::fclose);
+  if (!in || !out) {
+    fail(name, std::strerror(errno));
+  }
+  std::vector<char> piece(kPieceBytes);
+  int got = 0;
+  while ((got = gzread(in.get(), piece.data(), static_cast<unsigned>(piece.size()))) > 0) {
+    if (std::fwrite(piece.data(), 1, static_cast<std::size_t>(got), out.get()) !=
+        static_cast<std::size_t>(got)) {
+      fail(name, std::strerror(errno));
+    }
+  }
+  int error = Z_OK;
+  gzerror(in.get(), &error);
+  if (error != Z_OK) {
+    fail(name, "is cut off or damaged (gzip)");
+  }
+  if (std::fflush(out.get()) != 0) {
+    fail(name, std::strerror(errno));
+  }
+  return fcntl(fileno(out.get()), F_DUPFD_CLOEXEC, 0);
+}
+
+bool is_packed(int file) {
+  std::array<unsigned char, 2> begin{};
+  return pread(file, begin.data(), begin.size(), 0) == 2 && begin[0] == 0x1f && begin[1] == 0x8b;
+}
+
 /// Throws where it is no log; closed by whoever has it.
 LogFile open_log(const std::filesystem::path& name) {
   // Without O_NONBLOCK a pipe that nobody writes to would be waited for.
   const int file = ::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) {
-    fail(name, std::strerror(errno));
+    fail(name, errno == ENOENT ? "there is no such file" : std::strerror(errno));
   }
   struct stat status {};
   const char* problem = nullptr;
@@ -44,7 +84,14 @@ LogFile open_log(const std::filesystem::path& name) {
     close(file);
     fail(name, problem);
   }
-  return {file, static_cast<std::uint64_t>(status.st_size)};
+  if (!is_packed(file)) {
+    return {file, static_cast<std::uint64_t>(status.st_size)};
+  }
+  const int whole = unpacked(name, file);
+  if (whole < 0 || fstat(whole, &status) != 0) {
+    fail(name, std::strerror(errno));
+  }
+  return {whole, static_cast<std::uint64_t>(status.st_size)};
 }
 
 }  // namespace

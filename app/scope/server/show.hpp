@@ -61,8 +61,9 @@ class Show {
   [[nodiscard]] virtual std::optional<nlohmann::json> state(std::uint64_t& seen) const = 0;
 };
 
-/// A candump log in a file. Every page gets it by HTTP, as long as it was at the start: a browser
-/// takes that seven times as fast as WebSocket messages (tests/scope/browser/hour.mjs).
+/// A candump log in a file, plain or gzip, which is unpacked at the start. Every page gets it by
+/// HTTP, as long as it was at the start: a browser takes that seven times as fast as WebSocket
+/// messages (tests/scope/browser/hour.mjs).
 class LogShow : public Show {
  public:
   /// `parts`: what of Setup is the same for every source. Throws std::runtime_error that names the

@@ -159,15 +159,6 @@ void calm_is_of_the_time_over_the_grade(void**) {
   assert_near(summary.edge_jerk_rms_mps3, 2.0, 1e-5);
 }
 
-void shares_of_what_held_the_speed(void**) {
-  GradeResult result = steady(4);
-  result.samples[2].limit = {LimitKind::kImplementFlow, 0};
-  const runs::LimitShares shares = summary_of(result).limit_share;
-  assert_int_equal(shares.size(), 2);
-  assert_true(shares[0].first == "none" && shares[0].second == 0.75);
-  assert_true(shares[1].first == "implement flow" && shares[1].second == 0.25);
-}
-
 }  // namespace
 
 int main() {
@@ -180,7 +171,6 @@ int main() {
       cmocka_unit_test(decelerations),
       cmocka_unit_test(turns_of_the_wanted_speed),
       cmocka_unit_test(calm_is_of_the_time_over_the_grade),
-      cmocka_unit_test(shares_of_what_held_the_speed),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

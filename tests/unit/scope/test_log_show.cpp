@@ -3,6 +3,12 @@
 
 #include "app/scope/server/show.hpp"
 
+#include <unistd.h>
+#include <zlib.h>
+
+#include <array>
+#include <string>
+
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/scope/temporary_file.hpp"
 
@@ -50,9 +56,26 @@ void assert_refused(const std::filesystem::path& file, const char* why) {
   assert_string_equal(error.c_str(), (file.string() + ": " + why).c_str());
 }
 
+void a_packed_log_is_unpacked(void**) {
+  const std::string text(100000, '\n');
+  const TemporaryFile file("");
+  gzFile packed = gzopen(file.path().c_str(), "wb");
+  assert_int_equal(gzwrite(packed, text.data(), static_cast<unsigned>(text.size())), 100000);
+  assert_int_equal(gzclose(packed), Z_OK);
+  {
+    const LogShow show = show_of(file.path());
+    assert_int_equal(show.log()->bytes, 100000);
+    std::array<char, 3> end{};
+    assert_int_equal(pread(show.log()->file, end.data(), end.size(), 99998), 2);
+    assert_true(end[0] == '\n' && end[1] == '\n');
+  }
+  std::filesystem::resize_file(file.path(), std::filesystem::file_size(file.path()) - 9);
+  assert_refused(file.path(), "is cut off or damaged (gzip)");
+}
+
 void what_is_no_log_is_refused(void**) {
   const TemporaryFile empty("");
-  assert_refused("no_such_file.log", "No such file or directory");
+  assert_refused("no_such_file.log", "there is no such file");
   assert_refused(std::filesystem::temp_directory_path(), "is a folder, not a log");
   assert_refused(empty.path(), "is empty");
   assert_refused("/dev/null",
@@ -65,6 +88,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(the_file_is_what_pages_get),
       cmocka_unit_test(setup_says_what_it_is),
+      cmocka_unit_test(a_packed_log_is_unpacked),
       cmocka_unit_test(what_is_no_log_is_refused),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -60,12 +60,12 @@ test('a limit has one colour of its own, whatever was seen before it, in both th
 
 const status_bytes = (kind: number, index: number) => [3 | (kind << 4), index, 0, 0, 0, 0, 0, 0];
 
-test('shares are counted by frames, in the window that is told', () => {
+test('shares are counted by frames that say Active, in the window that is told', () => {
   const status = (time_s: number, kind: number, index: number) =>
     line(time_s, id('EcuStatus'), status_bytes(kind, index));
   const store = store_of(line(0, id('BoomStroke'), new Uint8Array(8))
     + status(0, 0, 0) + status(0.01, 3, 0) + status(0.02, 3, 0) + status(0.03, 3, 1)
-    + status(0.04, 0, 0));
+    + status(0.04, 0, 0) + line(0.05, id('EcuStatus'), [2, 0, 0, 0, 0, 0, 0, 0]));
   const words = (from_s: number, until_s: number) => limit_shares(store, from_s, until_s)
     .map(({key, share}) => [key, Math.round(share * 100)]);
   assert.deepEqual(words(-1, 1), [[0, 40], [limit_key(3, 0), 40], [limit_key(3, 1), 20]]);

@@ -8,29 +8,36 @@ import type {PageState} from './page_state';
 
 export interface LimitShare {
   key: number;    ///< As limit_key makes it.
-  share: number;  ///< Of the frames in the window.
+  share: number;  ///< Of the window's frames that say Active.
 }
 
 const EVERY_MS = 500;
+const ACTIVE = 3;  ///< EcuStatus.Mode.
 
-/// From every EcuStatus in the window, greatest first.
+/// From every EcuStatus in the window that says Active, greatest first: over a whole run the shares of
+/// the terminal and of `graben compare` (logged_limit_shares() of runs).
 export function limit_shares(store: FrameStore, from_s: number, until_s: number): LimitShare[] {
   const signals = store.database?.messages.get('EcuStatus')?.signals;
   const kind = signals?.get('LimitKind');
   const index = signals?.get('LimitIndex');
-  if (kind === undefined || index === undefined) {
+  const mode = signals?.get('Mode');
+  if (kind === undefined || index === undefined || mode === undefined) {
     return [];
   }
   const rows = store.rows('EcuStatus');
   const counts = new Map<number, number>();
-  const first = rows.at(from_s) + 1;
   const last = rows.at(until_s);
-  for (let row = first; row <= last; ++row) {
+  let all = 0;
+  for (let row = rows.at(from_s) + 1; row <= last; ++row) {
     const {buffer, at} = rows.bytes(row);
+    if (mode.raw(buffer, at) !== ACTIVE) {
+      continue;
+    }
+    ++all;
     const key = limit_key(kind.raw(buffer, at), index.raw(buffer, at));
     counts.set(key, (counts.get(key) ?? 0) + 1);
   }
-  return [...counts].map(([key, count]) => ({key, share: count / (last - first + 1)}))
+  return [...counts].map(([key, count]) => ({key, share: count / all}))
     .sort((a, b) => b.share - a.share);
 }
 
