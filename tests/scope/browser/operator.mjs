@@ -251,7 +251,6 @@ async function states() {
   return `${stopped.state}: ${stopped.more}`;
 }
 
-/// Screens beside those of SIZES, where words have been too long.
 const MORE_SIZES = [...SIZES, [1280, 800], [800, 1280], [600, 960]];
 
 /// Where the words of each of these are, to the end of their last letter, and where they may be.
@@ -290,14 +289,13 @@ async function all_that_is_missing() {
   for (const [width, height] of MORE_SIZES) {
     await page.setViewportSize({width, height});
     await rest(400);
-    const size = `${width} x ${height}`;
-    await assert_in_sight(page, size, ['.checklist h2', '.checklist li', '.state p', '.lambda p']);
+    await assert_in_sight(page, `${width} x ${height}`, ['.checklist h2', '.checklist li', '.state p', '.lambda p']);
     const [digits_px, letters_px] = await page.evaluate(() => [
       parseFloat(getComputedStyle(document.getElementById('app')).getPropertyValue('--digits-high')),
       parseFloat(getComputedStyle(document.querySelector('.checklist li')).fontSize)]);
-    assert.ok(width < height || digits_px > 0.32 * height, `${size}: digits ${digits_px} px high`);
-    assert.ok(letters_px >= 12, `${size}: letters of ${letters_px} px`);
-    said.push(`${size}: ${letters_px.toFixed(0)} px`);
+    assert.ok(width < height || digits_px > 0.32 * height, `${width}: digits ${digits_px} px high`);
+    assert.ok(letters_px >= 12, `${width}: letters of ${letters_px} px`);
+    said.push(`${width} x ${height}: ${letters_px.toFixed(0)} px`);
     await page.screenshot({path: join(out, `missing_${width}.png`)});
   }
   clean(page);
@@ -326,16 +324,15 @@ async function not_live_is_told() {
     for (const [width, height] of SIZES) {
       const page = await open_page(browser, view(server), {width, height});
       await active(page);
-      const size = `${told} ${width} x ${height}`;
       const found = await page.evaluate(() => {
         const node = document.querySelector('.not-live b');
         const {x, y, width: wide, height: high} = node.getBoundingClientRect();
         return {words: node.textContent, seen: node.contains(document.elementFromPoint(x + wide / 2, y + high / 2)),
           cut: node.scrollWidth > node.clientWidth + 1, high: parseFloat(getComputedStyle(node).fontSize)};
       });
-      assert.equal(found.words, told, size);
-      assert.ok(found.seen && !found.cut && found.high >= 12, `${size}: ${JSON.stringify(found)}`);
-      await assert_in_sight(page, size, ['.state p', '.not-live b']);
+      assert.equal(found.words, told);
+      assert.ok(found.seen && !found.cut && found.high >= 12, `${told} ${width}: ${JSON.stringify(found)}`);
+      await assert_in_sight(page, `${told} ${width}`, ['.state p', '.not-live b']);
       await page.screenshot({path: join(out, `${told}_${width}.png`)});
       clean(page);
       await page.context().close();

@@ -49,6 +49,19 @@ async function in_reach() {
   await at_each_size(server.url, active, async (page, size) => {
     assert.ok(await pressable(page, 'Pause'), `${size}: Pause cannot be pressed`);
     assert.ok(await pressable(page, 'Stop machine'), `${size}: Stop cannot be pressed`);
+    // Paused it has most of them, and all are in sight.
+    await page.getByRole('button', {name: 'Pause', exact: true}).click();
+    await page.locator('.replay .live').waitFor();
+    const bar = page.locator('.replay-buttons').locator('button:visible, select:visible');
+    const names = await bar.evaluateAll((nodes) => nodes.map((node) => {
+      const {x, y, width, height} = node.getBoundingClientRect();
+      const at = document.elementFromPoint(x + width / 2, y + height / 2);
+      const whole = x >= 0 && x + width <= innerWidth && y + height <= innerHeight && width >= 28 && height >= 28;
+      return [node.getAttribute('aria-label') ?? node.innerText, whole && (at === node || node.contains(at))];
+    }));
+    assert.equal(names.length, 8, `${size}: ${names}`);
+    for (const [name, seen] of names) assert.ok(seen, `${size}: ${name} is not in sight`);
+    await page.getByRole('button', {name: 'Back to live'}).click();
     const over = await page.evaluate(() => {
       const bar = document.querySelector('.layers').getBoundingClientRect();
       const replay = document.querySelector('.replay').getBoundingClientRect();
