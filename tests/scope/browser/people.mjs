@@ -14,7 +14,9 @@ import {
 } from './harness.mjs';
 
 const [out, graben, only] = process.argv.slice(2);
-const REPORTS = ['dig', 'grade', 'autodig', 'plan', 'check', 'compare'];
+const REPORTS = ['dig', 'grade', 'autodig', 'plan', 'check', 'compare', 'identify'];
+/// Reports without a scene.
+const FLAT = ['check', 'identify'];
 
 const browser = await open_browser();
 mkdirSync(out, {recursive: true});
@@ -23,6 +25,9 @@ for (const command of [['dig'], ['grade'], ['autodig'], ['plan'], ['check', 'exc
 }
 const own_log = join(out, 'dig.log');
 execFileSync(graben, ['compare', own_log, own_log, '--out', out], {stdio: 'ignore'});
+execFileSync(graben, ['dig', '--speed', '0.7', '--soil', 'sand', '--out', join(out, 'another')], {stdio: 'ignore'});
+execFileSync(graben, ['identify', '--log', own_log, join(out, 'another', 'dig.log'), '--profile', 'excavator_22t',
+  '--force', '--out', join(out, 'better.toml'), '--report', join(out, 'identify.html')], {stdio: 'ignore'});
 
 const scope = (...options) => serve(graben, ['scope', '--port', '0', ...options]);
 const clean = (page) => assert.deepEqual(page.problems, []);
@@ -348,13 +353,16 @@ async function axe_clean() {
       const context = await browser.newContext({reducedMotion: 'reduce', colorScheme, bypassCSP: true});
       const page = await context.newPage();
       await page.goto(url);
-      if (name !== 'check') await page.waitForFunction(() => window.grabenScope?.tip() != null);
+      if (!FLAT.includes(name)) await page.waitForFunction(() => window.grabenScope?.tip() != null);
       for (const [width, height] of SIZES) {
         await page.setViewportSize({width, height});
         await rest(200);
         found.push(...(await axe(page)).map((words) => `${name} ${width} ${colorScheme}: ${words}`));
         const across = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
         if (across > 0) found.push(`${name} ${width}: ${across} px too wide`);
+        const ground = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+        const bright = Number(/\d+/.exec(ground)[0]) > 127;
+        if (bright !== (colorScheme === 'light')) found.push(`${name} ${colorScheme}: its ground is ${ground}`);
         ++looks;
       }
       if (name === 'sim') {
