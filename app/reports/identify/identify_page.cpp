@@ -270,7 +270,8 @@ std::string identify_page(const IdentifyReport& report) {
                           "s of motion judge; the new profile of this table was fitted to the "
                           "other {:.0f} s, the values below to all of it.",
                           report.fit.judged_s, report.fit.fitted_s),
-              "<pre tabindex=\"0\" role=\"region\" aria-label=\"Errors of the prediction\">" + html_escaped(table) + "</pre>\n");
+              "<pre tabindex=\"0\" role=\"region\" aria-label=\"Errors of the prediction\">" +
+                  html_escaped(table) + "</pre>\n");
   html += section("Opening curves",
                   "<span class=\"key n\">new</span> with its 95 % band, <span class=\"key "
                   "o\">old</span>, <span class=\"key d\">moments of steady motion</span>.",
