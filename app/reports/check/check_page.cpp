@@ -118,9 +118,16 @@ std::string table_html(const FactTable& table) {
 }
 
 constexpr const char* kStyle = R"(
-:root { color-scheme: light; --ink: #1c2733; --soft: #5b6b7a; --line: #d8dee5; --paper: #ffffff; }
+:root { color-scheme: light dark; --ink: #1c2733; --soft: #5b6b7a; --line: #d8dee5; --paper: #ffffff;
+  --page: #f2f4f6; --code: #fbf1dd; --soil: #efe6d8; --ground: #8a6d46; --iron: #4a5866; --mark: #c0392b;
+  --body: #c9d1d9; --track: #6b7885; --reach: #2f74c0; }
+@media screen and (prefers-color-scheme: dark) {
+  :root { --ink: #e6eaed; --soft: #a4afb8; --line: #343d45; --paper: #181d22;
+    --page: #0f1316; --code: #35290f; --soil: #2c251c; --ground: #b0905f; --iron: #9aa8b5; --mark: #ff8577;
+    --body: #4a5560; --track: #6b7885; --reach: #78a8ff; }
+}
 * { box-sizing: border-box; }
-body { margin: 0; font: 15px/1.45 system-ui, sans-serif; color: var(--ink); background: #f2f4f6; }
+body { margin: 0; font: 15px/1.45 system-ui, sans-serif; color: var(--ink); background: var(--page); }
 main { max-width: 1180px; margin: 0 auto; padding: 28px 24px 48px; }
 h1 { margin: 0; font-size: 26px; }
 h1 small { font-weight: 400; color: var(--soft); font-size: 16px; margin-left: 10px; }
@@ -142,18 +149,18 @@ section p { margin: 8px 0 0; color: var(--soft); font-size: 13px; }
 .warnings.none { border-left-color: #2b8a4b; }
 .warnings ul { margin: 6px 0 0; padding: 0; list-style: none; }
 .warnings li { padding: 5px 0; border-top: 1px solid var(--line); }
-code { font: 13px ui-monospace, monospace; background: #fbf1dd; padding: 1px 5px; border-radius: 3px; }
-.soil { fill: #efe6d8; } .ground { stroke: #8a6d46; stroke-width: 2; fill: none; }
-.grid { stroke: #000; stroke-opacity: .06; fill: none; } .grid.five { stroke-opacity: .16; }
+code { font: 13px ui-monospace, monospace; background: var(--code); padding: 1px 5px; border-radius: 3px; }
+.soil { fill: var(--soil); } .ground { stroke: var(--ground); stroke-width: 2; fill: none; }
+.grid { stroke: var(--ink); stroke-opacity: .06; fill: none; } .grid.five { stroke-opacity: .16; }
 .tick { font-size: 11px; fill: var(--soft); } .measure { font-size: 14px; fill: var(--ink); }
-.reach { fill: #2f74c0; fill-opacity: .10; stroke: #2f74c0; stroke-width: 1.5; }
-.body { fill: #c9d1d9; stroke: #8492a0; } .track { fill: #6b7885; }
+.reach { fill: var(--reach); fill-opacity: .10; stroke: var(--reach); stroke-width: 1.5; }
+.body { fill: var(--body); stroke: #8492a0; } .track { fill: var(--track); }
 .link { fill: #f2b233; stroke: #8a6200; stroke-width: 1.5; stroke-linejoin: round; fill-opacity: .92; }
 .link.thin { fill: none; stroke-width: 4; } .ghost { fill-opacity: .12; stroke-opacity: .4; }
-.cylinder { stroke: #4a5866; stroke-width: 7; stroke-linecap: round; fill: none; }
-.pin { fill: #fff; stroke: var(--ink); stroke-width: 1.5; } .teeth { fill: #c0392b; }
-.centre { fill: #fff; stroke: #c0392b; stroke-width: 2; }
-.path { fill: none; stroke: #c0392b; stroke-width: 2; stroke-dasharray: 6 4; }
+.cylinder { stroke: var(--iron); stroke-width: 7; stroke-linecap: round; fill: none; }
+.pin { fill: var(--paper); stroke: var(--ink); stroke-width: 1.5; } .teeth { fill: var(--mark); }
+.centre { fill: var(--paper); stroke: var(--mark); stroke-width: 2; }
+.path { fill: none; stroke: var(--mark); stroke-width: 2; stroke-dasharray: 6 4; }
 .dimension { stroke: var(--ink); fill: none; } .axis { stroke: var(--soft); stroke-dasharray: 8 3 2 3; fill: none; }
 @media (max-width: 1100px) { .facts { grid-template-columns: minmax(0, 1fr); } }
 @media (max-width: 600px) {

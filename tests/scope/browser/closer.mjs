@@ -8,7 +8,7 @@ import {mkdirSync, readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {pathToFileURL} from 'node:url';
 import {axe} from './axe.mjs';
-import {look, open_browser, open_page, run_scenarios, serve, SIZES, until} from './harness.mjs';
+import {look, open_browser, open_page, rest, run_scenarios, serve, SIZES, until} from './harness.mjs';
 
 const [out, graben, only] = process.argv.slice(2);
 const browser = await open_browser();
@@ -178,6 +178,37 @@ async function links() {
   await server.stop();
 }
 
+/// A link to a moment of a live run opens that moment, however much of it came before the page did.
+async function live_links() {
+  const server = await serve(graben, ['scope', '--port', '0', '--sim', 'dig']);
+  const page = await open_page(browser, server.url);
+  await page.waitForFunction(() => window.grabenScope?.mode() === 'Active');
+  await page.locator('#sim-pace').selectOption('10');
+  await until('there is a past', async () => (await look(page)).now > 25);
+  await page.getByRole('button', {name: 'Pause', exact: true}).click();
+  await page.keyboard.press(',');
+  const {now} = await look(page);
+  const url = await until('the address has it', async () => /#t=/.test(page.url()) && page.url());
+  for (let k = 0; k < 3; ++k) {
+    const other = await open_page(browser, url);
+    await until('its past has come', async () => (await look(other).catch(() => ({frames: 0}))).frames > 8000);
+    await until('it stands', async () => Math.abs((await look(other)).now - now) < 0.001);
+    await rest(700);
+    assert.ok(Math.abs((await look(other)).now - now) < 0.001, 'it went on');
+    assert.equal(new URL(other.url()).hash.replace(/&w=[^&]*/, ''), new URL(url).hash.replace(/&w=[^&]*/, ''));
+    clean(other);
+    await other.context().close();
+  }
+  // Another moment is not shown in the place of one that is gone.
+  const gone = await open_page(browser, url.replace(/#t=[^&]*/, '#t=-50'));
+  await gone.getByText('not in what is kept').waitFor();
+  assert.ok(await gone.evaluate(() => document.querySelector('.replay .live').hidden), 'it is not live');
+  clean(gone);
+  clean(page);
+  await server.stop();
+  return url.replace(/.*#/, '#');
+}
+
 /// What is saved is what is shown: as many points as the window has frames, with their values.
 async function saved() {
   const page = await report('dig', '#t=8&w=6,10');
@@ -207,6 +238,11 @@ async function saved() {
     return {broken: drawing.querySelector('parsererror') !== null, bands: drawing.querySelectorAll('rect').length};
   }, text);
   assert.ok(!seen.broken && seen.bands > 2, JSON.stringify(seen));
+  // The strip's key goes with it, and no share is below nothing.
+  const shares = await page.locator('.strip-key li').allInnerTexts();
+  assert.ok(shares.length > 0 && shares.every((share) => text.includes(`>${share.trim()}<`)), `${shares} in ${text}`);
+  assert.ok(!/>[-−–]0\.\d+</.test(text), 'a mark below 0');
+  assert.match((await take('SVG', 'xy_path')).bytes.toString(), />Path and tip</);
   const png = await take('PNG', 'spools');
   assert.equal(png.bytes.subarray(0, 8).toString('latin1'), '\x89PNG\r\n\x1a\n');
   assert.deepEqual([png.bytes.readUInt32BE(16), png.bytes.readUInt32BE(20)], [1800, 720]);
@@ -261,7 +297,7 @@ async function axe_clean() {
   return `${looks} looks`;
 }
 
-const scenarios = {any_signal, over_each_other, bookmarks, links, saved, worst_error, axe_clean};
+const scenarios = {any_signal, over_each_other, bookmarks, links, live_links, saved, worst_error, axe_clean};
 const failed = await run_scenarios(join(out, 'failed'), browser, only === undefined ? scenarios
   : {[only]: scenarios[only]});
 await browser.close();

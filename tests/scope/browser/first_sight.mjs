@@ -77,6 +77,9 @@ async function plan_draws_itself() {
   assert.match(key, /planned line, poses of the bucket along it/);
   assert.match(key, /pose at its end/);
   assert.doesNotMatch(key, /wanted path|field/);
+  // A plan has no cylinder's pressure and no field, nor anything to show or hide them with.
+  assert.doesNotMatch(await page.locator('.scene-corner').innerText(), /pressure|old or not available/);
+  assert.equal(await page.locator('[data-layer="field"]').isVisible(), false, 'a button for no field');
   // The teeth are on the line that is drawn.
   const {tip} = await look(page);
   const along = to.position_m.map((v, i) => v - from.position_m[i]);
@@ -91,6 +94,59 @@ async function plan_draws_itself() {
   assert.ok(legends.some((words) => words.includes('deg/s')), 'the swing is not in degrees');
   clean(page);
   return `teeth ${(beside * 1000).toFixed(1)} mm beside the line`;
+}
+
+/// Whether one of those that a selector finds is whole on the screen, and nothing over it.
+const on_screen = (page, selector) => page.locator(selector).evaluateAll((nodes) => nodes.some((node) => {
+  const {x, y, width, height} = node.getBoundingClientRect();
+  const at = document.elementFromPoint(x + width / 2, y + height / 2);
+  return width > 0 && x >= 0 && y >= 0 && x + width <= innerWidth && y + height <= innerHeight
+    && (at === node || node.contains(at));
+}));
+
+/// What the controller does and how fast is on the first screen, of a phone as well.
+async function first_screen() {
+  const server = await scope('--sim', 'dig');
+  for (const [width, height] of SIZES) {
+    const page = await open_page(browser, server.url, {width, height});
+    await active(page);
+    await rest(300);
+    for (const what of ['.mode, .now-mode', '.figure, .now-lambda']) {
+      assert.ok(await on_screen(page, what), `${width} x ${height}: no ${what} on the first screen`);
+    }
+    await page.screenshot({path: join(out, `first_screen_${width}.png`)});
+    clean(page);
+    await page.context().close();
+  }
+  await server.stop();
+}
+
+/// A film has the machine, its mode and its lambda at every size, and nothing to press.
+async function film() {
+  const server = await scope('--log', join(out, 'dig.log'));
+  const pressed = /^(Play|Pause|Step|Fault before|Next fault|Open|PNG|SVG|CSV|Mark|Copy|Reset|Help|Dark|Light|Path$|Ghost)/;
+  for (const [width, height] of [[1280, 720], [640, 360], [320, 320]]) {
+    const size = `${width} x ${height}`;
+    const page = await open_page(browser, `${server.url}?film`, {width, height});
+    await page.waitForFunction(() => window.grabenFilm?.state() === 'ready');
+    await page.evaluate(() => window.grabenFilm.show(10));
+    await rest(300);
+    await page.screenshot({path: join(out, `film_${width}.png`)});
+    const names = await page.locator('button:visible, select:visible, a:visible').evaluateAll((all) =>
+      all.map((node) => node.innerText));
+    assert.deepEqual(names.filter((name) => pressed.test(name)), [], size);
+    const scene = await page.locator('.scene-host').boundingBox();
+    assert.ok(scene.y >= 0 && scene.y + scene.height <= height && scene.height >= 0.4 * height,
+      `${size}: the scene is ${JSON.stringify(scene)}`);
+    const {screen: [x, y]} = await look(page);
+    assert.ok(x > 0 && x < scene.width && y > 0 && y < scene.height, `${size}: the teeth are at ${x}, ${y}`);
+    for (const what of ['.mode, .now-mode', '.figure, .now-lambda']) {
+      assert.ok(await on_screen(page, what), `${size}: no ${what}`);
+    }
+    clean(page);
+    await page.context().close();
+  }
+  await server.stop();
 }
 
 /// Once, some twenty seconds, to a fault and what became of it.
@@ -121,7 +177,7 @@ async function tour() {
   return `fault after ${took_s.toFixed(1)} s`;
 }
 
-const scenarios = {first_sight, plan_draws_itself, tour};
+const scenarios = {first_sight, plan_draws_itself, first_screen, film, tour};
 const failed = await run_scenarios(join(out, 'failed'), browser, only === undefined ? scenarios
   : {[only]: scenarios[only]});
 await browser.close();

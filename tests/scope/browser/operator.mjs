@@ -251,6 +251,96 @@ async function states() {
   return `${stopped.state}: ${stopped.more}`;
 }
 
+const MORE_SIZES = [...SIZES, [1280, 800], [800, 1280], [600, 960]];
+
+/// Where the words of each of these are, to the end of their last letter, and where they may be.
+const words_in = (page, selectors) => page.evaluate((all) => all.flatMap((selector) =>
+  [...document.querySelectorAll(selector)].filter((node) => node.innerText !== '').map((node) => {
+    const range = document.createRange();
+    range.selectNodeContents(node);
+    const {left, right, top, bottom} = range.getBoundingClientRect();
+    return {selector, words: node.innerText, left, right, top, bottom};
+  })), selectors);
+
+/// All of them whole in their part of the screen, which nothing else covers.
+async function assert_in_sight(page, size, selectors) {
+  const {width, height} = page.viewportSize();
+  const room = await page.evaluate(() => {
+    const of = (what) => document.querySelector(what).getBoundingClientRect();
+    return {lights: of('.light-bar').left, bar: of('.lambda').top, band: of('.state').bottom};
+  });
+  for (const {selector, words, left, right, top, bottom} of await words_in(page, selectors)) {
+    const most = selector === '.cut-word' ? room.lights : width;
+    const low = selector.startsWith('.checklist') ? room.bar : selector.startsWith('.state') ? room.band : height;
+    assert.ok(left >= 0 && right <= most && top >= 0 && bottom <= low,
+      `${size}: '${words}' is from ${left} to ${right} of ${most}, ${top} to ${bottom} of ${low} px`);
+  }
+}
+
+/// With a fault there is most to say: every line of it is whole, and the digits are as high as ever.
+async function all_that_is_missing() {
+  const server = await scope('--sim', 'dig');
+  const page = await open_page(browser, view(server));
+  const other = await open_page(browser, server.url);
+  await active(page);
+  await other.locator('[data-fault="stroke-silent"]').click();
+  await page.waitForFunction(() => document.querySelectorAll('.checklist li').length >= 4);
+  const said = [];
+  for (const [width, height] of MORE_SIZES) {
+    await page.setViewportSize({width, height});
+    await rest(400);
+    await assert_in_sight(page, `${width} x ${height}`, ['.checklist h2', '.checklist li', '.state p', '.lambda p']);
+    const [digits_px, letters_px] = await page.evaluate(() => [
+      parseFloat(getComputedStyle(document.getElementById('app')).getPropertyValue('--digits-high')),
+      parseFloat(getComputedStyle(document.querySelector('.checklist li')).fontSize)]);
+    assert.ok(width < height || digits_px > 0.32 * height, `${width}: digits ${digits_px} px high`);
+    assert.ok(letters_px >= 12, `${width}: letters of ${letters_px} px`);
+    said.push(`${width} x ${height}: ${letters_px.toFixed(0)} px`);
+    await page.screenshot({path: join(out, `missing_${width}.png`)});
+  }
+  clean(page);
+  await server.stop();
+  return said.join(', ');
+}
+
+/// The longest word beside the digits, at a dig's begin: beside the lights, not under them.
+async function words_are_whole() {
+  const server = await scope('--log', join(out, 'dig.log'));
+  for (const [width, height] of MORE_SIZES) {
+    const page = await open_page(browser, `${view(server)}#t=0.7`, {width, height});
+    await page.waitForFunction(() => /Outside path/.test(document.querySelector('.cut-word').textContent));
+    await assert_in_sight(page, `${width} x ${height}`, ['.cut-word', '.lambda p', '.state p']);
+    await page.screenshot({path: join(out, `outside_${width}.png`)});
+    clean(page);
+    await page.context().close();
+  }
+  await server.stop();
+}
+
+/// A log and a simulation are called so, whole and in sight: no machine does now what they show.
+async function not_live_is_told() {
+  for (const [source, told] of [[['--log', join(out, 'dig.log')], 'Replay'], [['--sim', 'dig'], 'Simulation']]) {
+    const server = await scope(...source);
+    for (const [width, height] of SIZES) {
+      const page = await open_page(browser, view(server), {width, height});
+      await active(page);
+      const found = await page.evaluate(() => {
+        const node = document.querySelector('.not-live b');
+        const {x, y, width: wide, height: high} = node.getBoundingClientRect();
+        return {words: node.textContent, seen: node.contains(document.elementFromPoint(x + wide / 2, y + high / 2)),
+          cut: node.scrollWidth > node.clientWidth + 1, high: parseFloat(getComputedStyle(node).fontSize)};
+      });
+      assert.equal(found.words, told);
+      assert.ok(found.seen && !found.cut && found.high >= 12, `${told} ${width}: ${JSON.stringify(found)}`);
+      await assert_in_sight(page, `${told} ${width}`, ['.state p', '.not-live b']);
+      await page.screenshot({path: join(out, `${told}_${width}.png`)});
+      clean(page);
+      await page.context().close();
+    }
+    await server.stop();
+  }
+}
+
 async function axe_clean() {
   const found = [];
   let looks = 0;
@@ -302,7 +392,7 @@ async function axe_clean() {
 }
 
 const scenarios = {it_never_sends, server_refuses_it, digits_are_true, pictures_a_second, large_enough,
-  old_is_called_old, states, axe_clean};
+  old_is_called_old, states, all_that_is_missing, words_are_whole, not_live_is_told, axe_clean};
 const failed = await run_scenarios(join(out, 'failed'), browser, only === undefined ? scenarios
   : {[only]: scenarios[only]});
 await browser.close();

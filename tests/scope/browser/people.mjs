@@ -14,7 +14,9 @@ import {
 } from './harness.mjs';
 
 const [out, graben, only] = process.argv.slice(2);
-const REPORTS = ['dig', 'grade', 'autodig', 'plan', 'check', 'compare'];
+const REPORTS = ['dig', 'grade', 'autodig', 'plan', 'check', 'compare', 'identify'];
+/// Reports without a scene.
+const FLAT = ['check', 'identify'];
 
 const browser = await open_browser();
 mkdirSync(out, {recursive: true});
@@ -23,6 +25,9 @@ for (const command of [['dig'], ['grade'], ['autodig'], ['plan'], ['check', 'exc
 }
 const own_log = join(out, 'dig.log');
 execFileSync(graben, ['compare', own_log, own_log, '--out', out], {stdio: 'ignore'});
+execFileSync(graben, ['dig', '--speed', '0.7', '--soil', 'sand', '--out', join(out, 'another')], {stdio: 'ignore'});
+execFileSync(graben, ['identify', '--log', own_log, join(out, 'another', 'dig.log'), '--profile', 'excavator_22t',
+  '--force', '--out', join(out, 'better.toml'), '--report', join(out, 'identify.html')], {stdio: 'ignore'});
 
 const scope = (...options) => serve(graben, ['scope', '--port', '0', ...options]);
 const clean = (page) => assert.deepEqual(page.problems, []);
@@ -49,6 +54,19 @@ async function in_reach() {
   await at_each_size(server.url, active, async (page, size) => {
     assert.ok(await pressable(page, 'Pause'), `${size}: Pause cannot be pressed`);
     assert.ok(await pressable(page, 'Stop machine'), `${size}: Stop cannot be pressed`);
+    // Paused it has most of them, and all are in sight.
+    await page.getByRole('button', {name: 'Pause', exact: true}).click();
+    await page.locator('.replay .live').waitFor();
+    const bar = page.locator('.replay-buttons').locator('button:visible, select:visible');
+    const names = await bar.evaluateAll((nodes) => nodes.map((node) => {
+      const {x, y, width, height} = node.getBoundingClientRect();
+      const at = document.elementFromPoint(x + width / 2, y + height / 2);
+      const whole = x >= 0 && x + width <= innerWidth && y + height <= innerHeight && width >= 28 && height >= 28;
+      return [node.getAttribute('aria-label') ?? node.innerText, whole && (at === node || node.contains(at))];
+    }));
+    assert.equal(names.length, 8, `${size}: ${names}`);
+    for (const [name, seen] of names) assert.ok(seen, `${size}: ${name} is not in sight`);
+    await page.getByRole('button', {name: 'Back to live'}).click();
     const over = await page.evaluate(() => {
       const bar = document.querySelector('.layers').getBoundingClientRect();
       const replay = document.querySelector('.replay').getBoundingClientRect();
@@ -335,13 +353,16 @@ async function axe_clean() {
       const context = await browser.newContext({reducedMotion: 'reduce', colorScheme, bypassCSP: true});
       const page = await context.newPage();
       await page.goto(url);
-      if (name !== 'check') await page.waitForFunction(() => window.grabenScope?.tip() != null);
+      if (!FLAT.includes(name)) await page.waitForFunction(() => window.grabenScope?.tip() != null);
       for (const [width, height] of SIZES) {
         await page.setViewportSize({width, height});
         await rest(200);
         found.push(...(await axe(page)).map((words) => `${name} ${width} ${colorScheme}: ${words}`));
         const across = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
         if (across > 0) found.push(`${name} ${width}: ${across} px too wide`);
+        const ground = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+        const bright = Number(/\d+/.exec(ground)[0]) > 127;
+        if (bright !== (colorScheme === 'light')) found.push(`${name} ${colorScheme}: its ground is ${ground}`);
         ++looks;
       }
       if (name === 'sim') {

@@ -17,6 +17,7 @@ import {Histogram} from './view/histogram';
 import {listen_to_keys} from './view/keys';
 import {LimitShares} from './view/limit_shares';
 import {lay_out} from './view/layout';
+import {NowLine} from './view/now_line';
 import {MessageTable} from './view/message_table';
 import {Moments} from './view/moments';
 import type {View} from './view/page_state';
@@ -64,6 +65,8 @@ export function start(root: HTMLElement): void {
     plots: () => plots.plots_there(), put: (signal, plot) => plots.put(signal, plot)});
   const moments = new Moments(state);
   const replay = new ReplayBar(state, faults, theme);
+  const now_line = new NowLine(words);
+  replay.node.prepend(now_line.node);
   const header = new Header(theme, () => help.node.showModal());
   const alarms = new Alarms(words, () => replay.jump_to_current());
   const files = new FileOpener((file) => {
@@ -78,7 +81,7 @@ export function start(root: HTMLElement): void {
     new MessageTable((signal) => chooser.choose(signal)),
     new HealthPanel(),
   ];
-  const views: View[] = [header, alarms, ...panel, replay, files, tour];
+  const views: View[] = [header, alarms, now_line, ...panel, replay, files, tour];
   lay_out(root, {
     header: header.node, alarms: alarms.node, scene: scene.node, layers: scene.layers.node,
     plots: [plots.node, xy.node, histogram.node], panel: panel.map(({node}) => node), replay: replay.node,
@@ -120,6 +123,7 @@ export function start(root: HTMLElement): void {
   requestAnimationFrame(frame);
   tell_tests(state, scene, rate);
   if (is_film(location.search)) {
+    document.documentElement.classList.add('film');
     offer_film(state, scene, () => {
       panel_ms = -Infinity;
     });

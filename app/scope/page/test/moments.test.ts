@@ -2,7 +2,10 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {fake_document} from './dom';
+import {bytes_of} from './make';
 import {page, status, stroke} from './status';
+import {CandumpParser} from '../src/model/candump';
+import {bookmarks_of} from '../src/model/moment';
 import {Moments} from '../src/view/moments';
 
 fake_document();
@@ -52,4 +55,34 @@ test('an address that was given is followed once, when all is there', () => {
   state.playhead.seek(2);
   assert.ok(moments.opens(state), 'nothing else opens it');
   assert.equal(state.playhead.now_s, 2);
+});
+
+test('a live run is followed to a moment only once its past has come', () => {
+  const bar = address('#t=8&o=0');
+  const state = page(stroke(0) + status(0, 3, 0, 0, 1) + status(3, 3, 0, 0, 1));
+  state.setup = {...state.setup!, source: {...state.setup!.source, mode: 'sim'}};
+  state.link = {state: 'open', words: ''};
+  state.playhead.follow = true;
+  const moments = new Moments(state);
+  assert.ok(moments.opens(state));
+  moments.update(state);
+  assert.deepEqual([state.playhead.follow, bar.hash], [true, '#t=8&o=0'], 'its past is not there');
+  const parser = new CandumpParser();
+  parser.feed(bytes_of(status(9, 3, 0, 0, 1)));
+  parser.end();
+  state.onFrames({...parser.take(), restart: false}, 0);
+  assert.ok(moments.opens(state));
+  moments.update(state);
+  assert.deepEqual([state.playhead.now_s, state.playhead.follow], [8, false]);
+  assert.match(bar.hash, /^#t=8&w=[^&]*&o=0$/);
+});
+
+test("an address's seconds are counted from the frame that it names", () => {
+  const bar = address('#t=8&o=-4&b=5 here');
+  const state = page(LOG);
+  const moments = new Moments(state);
+  moments.opens(state);
+  assert.equal(state.playhead.now_s, 4);
+  moments.mark();
+  assert.deepEqual(bookmarks_of(bar.hash).map(({time_s}) => time_s), [1, 4]);
 });

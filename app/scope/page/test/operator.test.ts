@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import type {Fence, Task, Vector2, Vector3} from '../src/model/api';
+import {not_live} from '../src/operator/big_state';
 import {ends_of, in_plan, in_section, kept_out} from '../src/operator/bounds';
 import {edge_off, LIGHTS, lights_of, off_of, off_path, off_plane, off_words} from '../src/operator/cut_fill';
 import {profile_of} from '../src/operator/section';
@@ -9,6 +10,7 @@ import {HeightField} from '../src/scene/height_field';
 import {DOZER_9T, EXCAVATOR_12T, EXCAVATOR_22T} from './machines';
 import {graben_log} from './tool';
 import {store_of} from './make';
+import {SETUP} from './status';
 
 const near = (found: number, wanted: number, within = 1e-9): void =>
   assert.ok(Math.abs(found - wanted) <= within, `${found} is not ${wanted}`);
@@ -54,6 +56,15 @@ test('the light bar goes from the middle outwards and never beyond its end', () 
     [0, 0, 1, 2, 3, 4, LIGHTS, LIGHTS]);
   assert.deepEqual([-0.0106, -0.05, -9].map(lit), [-1, -3, -LIGHTS]);
   assert.equal(lights_of(null), null);
+});
+
+test('only what comes from a bus is not called a replay or a simulation', () => {
+  const of = (mode: 'can' | 'log' | 'sim') =>
+    not_live({...SETUP, source: {...SETUP.source, mode, name: 'a'}});
+  assert.equal(of('can'), null);
+  assert.equal(not_live(null), null);
+  assert.deepEqual(of('log'), {kind: 'Replay', of: 'a'});
+  assert.deepEqual(of('sim'), {kind: 'Simulation', of: 'a'});
 });
 
 /// Differences of two figures, mm, least first.

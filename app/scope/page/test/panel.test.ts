@@ -24,7 +24,7 @@ const notice = (name: string, words: string): Alarm => ({id: name, level: 'warni
 
 test('an alarm keeps its place in the page while others come, change and go', () => {
   const list = new AlarmList('status', 'Notice', () => undefined);
-  const shown = () => (list.node as unknown as FakeNode).children;
+  const shown = () => (list.node as unknown as FakeNode).find('ul')!.children;
   const words = () => shown().map(({textContent}) => textContent);
   list.show([notice('quiet', 'No frames for 2 s.'), notice('dropped', '5')]);
   const [quiet, dropped] = shown();

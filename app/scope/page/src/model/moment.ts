@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A moment of a log in the page's address: `#t=12.345`, with `&w=10.5,20` the window of the plots,
-/// and with `&b=7.2 pump stalls` a bookmark, as many as there are. Seconds from the first frame.
+/// and with `&b=7.2 pump stalls` a bookmark, as many as there are. Seconds from the first frame, whose
+/// stamp a live run's address tells with `&o=1700000000.25`: a page that comes later gets others first.
 
 export interface Moment {
   time_s: number;
   window_s?: readonly [number, number];
+  origin_s?: number;  ///< What the others are counted from, where it is told.
 }
 
 export interface Bookmark {
@@ -26,8 +28,10 @@ export function moment_of(hash: string): Moment | null {
     return null;
   }
   const [from, until, ...more] = (told.get('w') ?? '').split(',').map(number_of);
-  return from != null && until != null && more.length === 0 && until > from
-    ? {time_s, window_s: [from, until]} : {time_s};
+  const origin_s = number_of(told.get('o'));
+  return {time_s,
+    ...(from != null && until != null && more.length === 0 && until > from ? {window_s: [from, until]} : {}),
+    ...(origin_s === null ? {} : {origin_s})};
 }
 
 /// In the order of time.
@@ -48,6 +52,9 @@ export function hash_of(moment: Moment | null, bookmarks: readonly Bookmark[] = 
     told.set('t', words(moment.time_s));
     if (moment.window_s !== undefined) {
       told.set('w', moment.window_s.map(words).join());
+    }
+    if (moment.origin_s !== undefined) {
+      told.set('o', words(moment.origin_s));
     }
   }
   for (const {time_s, name} of bookmarks) {

@@ -22,6 +22,15 @@ const MODE_WORDS: Readonly<Record<Mode, string>> = {
   Fault: 'Spools in neutral until enable is released',
 };
 
+/// What no machine does now, though it looks so. Null: what is shown comes from a bus.
+export function not_live(setup: PageState['setup']): {kind: string; of: string} | null {
+  if (setup === null || setup.source.mode === 'can') {
+    return null;
+  }
+  return setup.source.mode === 'sim' ? {kind: 'Simulation', of: setup.sim?.task ?? setup.source.name}
+    : {kind: 'Replay', of: setup.source.name};
+}
+
 /// What is old is never called a state of now.
 export function big_state(state: PageState, words: PageWords): BigState {
   const {store, playhead} = state;

@@ -8,13 +8,19 @@ import type {PageState} from '../view/page_state';
 import {snapshot} from '../view/snapshot';
 import type {ThemeSwitch} from '../view/theme';
 import type {PageWords} from '../view/words';
-import {big_state, missing} from './big_state';
+import {big_state, missing, not_live} from './big_state';
 import {LIGHTS, lights_of, off_words, type Off} from './cut_fill';
+import {Shrinking, tell_em} from './fit_words';
 
 export class StateBand {
   private readonly word = el('p', {class: 'state-word'});
   private readonly more = el('p', {class: 'state-more'});
-  private readonly band = el('div', {class: 'state', role: 'status'}, this.word, this.more);
+  private readonly kind = el('b');
+  private readonly source = el('span');
+  private readonly tag = el('p', {class: 'not-live', hidden: true}, this.kind, this.source);
+  private readonly band = el('div', {class: 'state', role: 'status'}, this.word, this.more, this.tag);
+  private readonly shrinking = new Shrinking(this.more, () => this.more.scrollHeight <= this.more.clientHeight + 1
+    && this.more.getBoundingClientRect().bottom <= this.band.getBoundingClientRect().bottom);
   readonly node = el('header', {}, el('h1', {class: 'heard'}, "Graben: the operator's view"), this.band);
 
   constructor(private readonly words: PageWords) {}
@@ -24,9 +30,18 @@ export class StateBand {
     set_attribute(this.band, 'data-mode', mode);
     set_text(this.word, word);
     set_text(this.more, more);
+    const told = not_live(state.setup);
+    set_attribute(this.band, 'data-not-live', told !== null);
+    set_shown(this.tag, told !== null);
+    set_text(this.kind, told?.kind ?? '');
+    set_text(this.source, told?.of ?? '');
+    this.shrinking.update();
   }
 }
 
+/// As operator.css has them, and a little more.
+const GAPS_EM = 0.7;
+const SHARE_EM = 3.4;
 const ARROWS = {over: '▼', under: '▲', on: '', unknown: ''};
 
 export class Digits {
@@ -34,8 +49,8 @@ export class Digits {
   private readonly arrow = el('span', {class: 'arrow', 'aria-hidden': 'true'});
   private readonly word = el('span');
   private readonly unit = el('span', {class: 'unit'});
-  readonly node = el('section', {class: 'cut-fill', 'aria-label': 'Cut or fill'}, this.digits,
-    el('p', {class: 'cut-word'}, this.arrow, this.word, this.unit));
+  private readonly line = el('p', {class: 'cut-word'}, this.arrow, this.word, this.unit);
+  readonly node = el('section', {class: 'cut-fill', 'aria-label': 'Cut or fill'}, this.digits, this.line);
 
   show(off: Off | null): void {
     const {digits, unit, word, side} = off_words(off);
@@ -44,6 +59,7 @@ export class Digits {
     set_text(this.arrow, ARROWS[side]);
     set_text(this.word, word);
     set_text(this.unit, unit);
+    tell_em(this.line, [ARROWS[side], word, unit], GAPS_EM);
   }
 }
 
@@ -70,8 +86,9 @@ export class LambdaBar {
   private readonly share = el('span', {class: 'share'});
   private readonly word = el('span', {class: 'held'});
   private readonly bar = el('div', {class: 'bar', 'aria-hidden': 'true'}, el('div'));
+  private readonly line = el('p', {}, this.share, this.word);
   readonly node = el('section', {class: 'lambda', 'aria-label': 'Lambda: share of the wanted speed'},
-    this.bar, el('p', {}, this.share, this.word));
+    this.bar, this.line);
 
   constructor(private readonly words: PageWords, private readonly theme: ThemeSwitch) {}
 
@@ -86,6 +103,7 @@ export class LambdaBar {
     set_text(this.share, valid ? `${count(100 * share)} %` : '–');
     set_text(this.word, held ? `held by ${this.words.limit(now.limit_kind!, now.limit_index)}`
       : valid ? 'full speed, nothing holds' : 'of the wanted speed: not active');
+    tell_em(this.line, [this.word.textContent ?? ''], SHARE_EM);
   }
 }
 
@@ -97,6 +115,8 @@ export class Checklist {
   private readonly rows = new Rows(this.list, () => ({node: el('li')}));
   readonly node = el('section', {class: 'checklist', 'aria-label': 'Arming checklist'}, this.title,
     this.list);
+
+  private readonly shrinking = new Shrinking(this.node, () => this.node.scrollHeight <= this.node.clientHeight + 1);
 
   constructor(private readonly words: PageWords) {}
 
@@ -112,5 +132,9 @@ export class Checklist {
         : items;
     this.rows.take(shown.length).forEach(({node}, k) => set_text(node, shown[k]!));
     set_shown(this.list, shown.length > 0);
+    if (this.node.parentElement !== null) {
+      set_attribute(this.node.parentElement, 'data-missing', shown.length > 0);
+    }
+    this.shrinking.update();
   }
 }

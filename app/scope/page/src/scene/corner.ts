@@ -27,7 +27,7 @@ export class Corner {
 
   /// Of the machine; null: there is none.
   show(stage: Stage | null): void {
-    if (stage === null) {
+    if (stage?.relief_pa === undefined) {
       this.legend.hide();
     } else {
       this.legend.show(stage.relief_pa);

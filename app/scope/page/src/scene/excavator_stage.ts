@@ -29,7 +29,7 @@ export class ExcavatorStage implements Stage {
   readonly ground: GroundLayer;
   readonly home: Sphere;
   readonly tip: Object3D;
-  readonly relief_pa: number;
+  readonly relief_pa: number | undefined;
   readonly along_m = 0;
   placed = false;
   private readonly model: ExcavatorModel;
@@ -50,7 +50,7 @@ export class ExcavatorStage implements Stage {
     shared: SharedMaterials, private readonly labels: Labels) {
     this.model = new ExcavatorModel(machine, shared);
     this.tip = this.model.teeth;
-    this.relief_pa = machine.relief_pa;
+    this.relief_pa = this.is_plan ? undefined : machine.relief_pa;
     this.dig = new DigLayer(machine.dig);
     this.trail = new TrailLayer(teeth_walk(machine));
     this.ground = new GroundLayer(

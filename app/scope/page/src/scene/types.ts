@@ -45,7 +45,8 @@ export interface Stage {
   readonly ground: GroundLayer;
   readonly home: Sphere;      ///< What the first view has to hold, with the machine at x = 0.
   readonly tip: Object3D;     ///< Teeth or edge.
-  readonly relief_pa: number | null;  ///< Null: no pressures to show.
+  /// Null: the bus has no pressures to show. Undefined: nor is there anything that could be old.
+  readonly relief_pa: number | null | undefined;
   readonly along_m: number;   ///< Driven so far.
   readonly placed: boolean;   ///< The machine has been somewhere; until then it is not drawn.
   update(view: SceneUpdate): void;

@@ -31,19 +31,21 @@ interface Shown {
   words: HTMLElement;
 }
 
-/// By id; the order is that in which they are told.
+/// By id; the order is that in which they are told. A list that is no list to who hears it says
+/// nothing of its items, so that the role is that of what holds it.
 export class AlarmList {
   readonly node: HTMLElement;
+  private readonly list = el('ul');
   private readonly shown = new Map<string, Shown>();
 
   constructor(
     role: 'alert' | 'status', private readonly name: string, private readonly to_fault: () => void,
   ) {
     // What changes is read out, not all the list with it; of a notice, only that it came.
-    this.node = el('ul', {
+    this.node = el('div', {
       role, 'aria-atomic': 'false',
       'aria-relevant': role === 'alert' ? 'additions text' : 'additions',
-    });
+    }, this.list);
   }
 
   show(alarms: readonly Alarm[]): void {
@@ -56,8 +58,8 @@ export class AlarmList {
     alarms.forEach((alarm, place) => {
       const shown = this.shown.get(alarm.id) ?? this.make(alarm);
       set_text(shown.words, alarm.words);
-      if (this.node.children[place] !== shown.node) {
-        this.node.insertBefore(shown.node, this.node.children[place] ?? null);
+      if (this.list.children[place] !== shown.node) {
+        this.list.insertBefore(shown.node, this.list.children[place] ?? null);
       }
     });
   }

@@ -13,6 +13,7 @@ export interface FigureAxis {
   words?: (value: number, step: number) => string;
   /// So far from 0 it is straight, beyond it goes by powers of ten.
   straight_to?: number;
+  marked?: readonly [number, number];  ///< Marks stand only there.
 }
 
 export interface FigureLine {
@@ -30,6 +31,8 @@ export interface Figure {
   lines: readonly FigureLine[];
   /// Below the curves, from one x to another.
   bands?: readonly {from: number; until: number; colour: string}[];
+  /// What the bands' colours mean, below the axis.
+  key?: readonly {label: string; colour: string}[];
   at?: Vector2 | null;   ///< A mark.
   equal?: boolean;       ///< A metre is as long on both axes.
   colours: {sheet: string; ink: string; muted: string; grid: string};
@@ -74,9 +77,28 @@ function made_equal(figure: Figure, width: number, height: number): [FigureAxis,
   return [wide(x, width), wide(y, height)];
 }
 
+const KEY_ROW = 18;
+
+/// Entries of a key side by side, as many in a row as fit.
+function placed<E extends {label: string}>(entries: readonly E[], width: number): (E & {left: number; row: number})[] {
+  let [left, row] = [0, 0];
+  return entries.map((entry) => {
+    const wide = 34 + LETTER * entry.label.length;
+    if (left > 0 && left + wide > width) {
+      [left, row] = [0, row + 1];
+    }
+    const place = {...entry, left, row};
+    left += wide;
+    return place;
+  });
+}
+
 export function figure_svg(figure: Figure, width: number, height: number): string {
   const {colours, lines} = figure;
-  const inner = [width - MARGIN.left - MARGIN.right, height - MARGIN.top - MARGIN.bottom] as const;
+  const across_px = width - MARGIN.left - MARGIN.right;
+  const key = placed(figure.key ?? [], across_px);
+  const key_px = KEY_ROW * ((key.at(-1)?.row ?? -1) + 1);
+  const inner = [across_px, height - MARGIN.top - MARGIN.bottom - key_px] as const;
   const [x, y] = figure.equal === true ? made_equal(figure, ...inner) : [figure.x, figure.y];
   const [to_x, to_y] = [placer(x), placer(y)];
   const px = (value: number): string => short(MARGIN.left + inner[0] * to_x(value));
@@ -94,18 +116,24 @@ export function figure_svg(figure: Figure, width: number, height: number): strin
       text(`x="${px(mark)}" y="${MARGIN.top + inner[1] + 16}"`, 'middle', words));
   }
   const up = marks_of(y, inner[1] / 42);
-  for (const mark of up.at) {
+  const [lowest, highest] = y.marked ?? [-Infinity, Infinity];
+  for (const mark of up.at.filter((at) => at >= lowest - 1e-9 && at <= highest + 1e-9)) {
     parts.push(`<path d="M${MARGIN.left} ${py(mark)}H${MARGIN.left + inner[0]}" stroke="${colours.grid}"/>`,
       text(`x="${MARGIN.left - 6}" y="${Number(py(mark)) + 4}"`, 'end',
         y.words?.(mark, up.step) ?? fixed(mark, digits_of(up.step))));
   }
-  parts.push(text(`x="${MARGIN.left + inner[0] / 2}" y="${height - 8}"`, 'middle', x.label),
+  parts.push(text(`x="${MARGIN.left + inner[0] / 2}" y="${height - 8 - key_px}"`, 'middle', x.label),
     text('x="0" y="0"', 'middle', y.label, colours.muted,
       `transform="translate(14 ${MARGIN.top + inner[1] / 2}) rotate(-90)"`));
   const foot = MARGIN.top + inner[1];
   for (const {from, until, colour} of figure.bands ?? []) {
     parts.push(`<rect x="${px(from)}" y="${foot - 12}" width="${short(Number(px(until)) - Number(px(from)))}" `
       + `height="12" fill="${colour}"/>`);
+  }
+  for (const {label, colour, left, row} of key) {
+    const [x0, top] = [short(MARGIN.left + left), height - key_px + KEY_ROW * row];
+    parts.push(`<rect x="${x0}" y="${top}" width="11" height="11" fill="${colour}"/>`,
+      text(`x="${short(MARGIN.left + left + 16)}" y="${top + 10}"`, 'start', label, colours.ink));
   }
   parts.push(`<clipPath id="inside"><rect x="${MARGIN.left}" y="${MARGIN.top}" width="${inner[0]}" `
     + `height="${inner[1]}"/></clipPath><g clip-path="url(#inside)" fill="none" stroke-linejoin="round">`);

@@ -16,15 +16,16 @@ const WORDS: Readonly<Record<Layer, readonly [string, string]>> = {
   terrain: ['Terrain', 'Ground as it was cut'],
 };
 
-/// Which layers a machine can have something in.
-export function layers_of(machine: Machine | null): ReadonlySet<Layer> {
+/// Which layers a machine can have something in; a plan has no velocity field.
+export function layers_of(machine: Machine | null, is_plan: boolean): ReadonlySet<Layer> {
   if (machine?.kind === 'dozer') {
     return new Set(['ghost', 'path', 'design', 'terrain']);
   }
   const fenced = machine !== null && machine.tasks.some(({fences}) => fences.length > 0);
   const designed = machine !== null && machine.tasks.some(({design}) => design !== null);
   return new Set(LAYERS.filter((layer) =>
-    layer === 'fences' ? fenced : layer === 'design' ? designed : true));
+    layer === 'fences' ? fenced : layer === 'design' ? designed
+      : layer !== 'field' || !is_plan));
 }
 
 export class LayerBar {
@@ -48,8 +49,8 @@ export class LayerBar {
       button('Reset view', camera, {class: 'switch plain'}));
   }
 
-  offer(machine: Machine | null): void {
-    const offered = layers_of(machine);
+  offer(machine: Machine | null, is_plan: boolean): void {
+    const offered = layers_of(machine, is_plan);
     for (const {layer, node} of this.toggles) {
       set_shown(node, offered.has(layer));
     }

@@ -98,6 +98,12 @@ export class LimitStrip {
       ({from_s, until_s, colour: limit_colour(this.theme, key)}));
   }
 
+  /// The key as it is written, with its colours.
+  get entries(): readonly {label: string; colour: string}[] {
+    return this.shares.rows.map(({key, share}) =>
+      ({label: share_words(key, share, this.words), colour: limit_colour(this.theme, key)}));
+  }
+
   /// Shares are counted later than the strip is drawn: the key follows them.
   follow(): void {
     if (this.written !== this.shares.rows) {
@@ -111,10 +117,13 @@ export class LimitStrip {
     this.shares.rows.forEach(({key, share}, k) => {
       const row = rows[k]!;
       row.swatch.style.setProperty('--line', limit_colour(this.theme, key));
-      set_text(row.words, `${limit_name(key, this.words)} ${fixed(share * 100, 1)} %`);
+      set_text(row.words, share_words(key, share, this.words));
     });
   }
 }
+
+const share_words = (key: number, share: number, words: LimitWords): string =>
+  `${limit_name(key, words)} ${fixed(share * 100, 1)} %`;
 
 export const limit_name = (key: number, words: LimitWords): string =>
   key === 0 ? 'nothing' : words(kind_of(key), index_of(key));

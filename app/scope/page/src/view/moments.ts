@@ -2,10 +2,10 @@
 /// Bookmarks, and the moment in the page's address: what stands is told there, so that the address
 /// is a link to it, with the window of the plots and every bookmark.
 
-import {bookmarks_of, hash_of, moment_of, type Bookmark} from '../model/moment';
+import {bookmarks_of, hash_of, moment_of, type Bookmark, type Moment} from '../model/moment';
 import {button, el, Rows, section, set_attribute, set_shown, set_text} from './dom';
 import {time_words} from './format';
-import type {PageState, View} from './page_state';
+import {is_live, type PageState, type View} from './page_state';
 
 interface Row {
   node: HTMLElement;
@@ -14,6 +14,10 @@ interface Row {
 }
 
 const SAID_MS = 4000;
+/// What a live run was before this page came takes seconds to be read, an hour of it some more.
+const MOST_WAIT_MS = 15_000;
+/// Of an address's digits.
+const ROUND_S = 1e-3;
 
 export class Moments implements View {
   readonly node: HTMLElement;
@@ -27,6 +31,7 @@ export class Moments implements View {
   /// The address that somebody gave, until it has been followed: what the page itself writes there
   /// is no wish.
   private asked = location.hash;
+  private asked_ms: number | null = null;  ///< Since when a live run's moment is waited for.
   private changed = true;
 
   constructor(private readonly state: PageState) {
@@ -48,16 +53,30 @@ export class Moments implements View {
 
   /// Whether the address tells where the source is looked at; once all of it is there, it is.
   opens(state: PageState): boolean {
-    if (moment_of(this.asked) === null || state.setup === null) {
+    const asked = moment_of(this.asked);
+    if (asked === null || state.setup === null) {
       return this.opened !== null && this.opened === state.setup;
     }
     const {from_s, until_s} = state.extent;
-    if (state.loaded_share === 1 && until_s > from_s) {
+    if (state.loaded_share === 1 && until_s > from_s && !this.waits(asked)) {
       this.opened = state.setup;
-      this.look(this.asked);
       this.asked = '';
+      this.asked_ms = null;
+      this.look(asked);
     }
     return true;
+  }
+
+  /// Of a live run the past comes after the setup, oldest first: a moment is not sought before it is
+  /// there, as long as it may still come and nobody looks elsewhere.
+  private waits(asked: Moment): boolean {
+    const {playhead, extent, origin_s} = this.state;
+    if (!is_live(this.state) || !playhead.follow
+        || (asked.origin_s ?? origin_s) + asked.time_s <= extent.until_s + ROUND_S) {
+      return false;
+    }
+    this.asked_ms ??= performance.now();
+    return performance.now() - this.asked_ms < MOST_WAIT_MS;
   }
 
   update(state: PageState): void {
@@ -77,16 +96,24 @@ export class Moments implements View {
     if (location.hash !== this.written && moment_of(location.hash) !== null) {
       this.written = location.hash;
       this.asked = location.hash;
+      this.asked_ms = null;
       this.bookmarks = bookmarks_of(location.hash);
       this.changed = true;
     }
   }
 
-  private look(hash: string): void {
-    const {playhead, origin_s} = this.state;
-    const moment = moment_of(hash)!;
+  private look(moment: Moment): void {
+    const {playhead, extent, origin_s: own_s} = this.state;
+    const origin_s = moment.origin_s ?? own_s;
+    const time_s = moment.time_s + origin_s;
+    this.bookmarks = this.bookmarks.map(({time_s: at_s, name}) => ({time_s: at_s + (origin_s - own_s), name}));
+    this.changed = true;
+    if (is_live(this.state) && (time_s < extent.from_s - ROUND_S || time_s > extent.until_s + ROUND_S)) {
+      this.say('The moment of this link is not in what is kept of this run.');
+      return;  // another one would be taken for it
+    }
     playhead.playing = false;
-    playhead.seek(moment.time_s + origin_s);
+    playhead.seek(time_s);
     if (moment.window_s !== undefined) {
       playhead.window = [moment.window_s[0] + origin_s, moment.window_s[1] + origin_s];
     }
@@ -95,9 +122,11 @@ export class Moments implements View {
   private write(): void {
     const {playhead, origin_s, extent} = this.state;
     const [from_s, until_s] = playhead.window;
-    const whole = from_s <= extent.from_s && until_s >= extent.until_s;
+    // What a live run has all of is another stretch when the link is followed.
+    const whole = !is_live(this.state) && from_s <= extent.from_s && until_s >= extent.until_s;
     const hash = hash_of({time_s: playhead.now_s - origin_s,
-      ...(whole || playhead.follow ? {} : {window_s: [from_s - origin_s, until_s - origin_s] as const})},
+      ...(whole || playhead.follow ? {} : {window_s: [from_s - origin_s, until_s - origin_s] as const}),
+      ...(is_live(this.state) ? {origin_s} : {})},
     this.bookmarks);
     if (hash !== this.written) {
       this.written = hash;
@@ -113,8 +142,12 @@ export class Moments implements View {
     } catch {
       words = "The link is the page's address.";
     }
+    this.say(words);
+    setTimeout(() => this.say(''), SAID_MS);
+  }
+
+  private say(words: string): void {
     set_text(this.said, words);
-    setTimeout(() => set_text(this.said, ''), SAID_MS);
   }
 
   private show(): void {

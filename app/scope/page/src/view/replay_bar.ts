@@ -11,6 +11,13 @@ import type {ThemeSwitch} from './theme';
 
 export const RATES = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50];
 const CYCLE_S = 0.01;
+/// A button that has few letters where there is little room; its name stays.
+function terse(name: string, few: string, press: () => void, title: string): HTMLButtonElement {
+  const node = button('', press, {'aria-label': name, title});
+  node.append(el('span', {class: 'long'}, name), el('span', {class: 'short'}, few));
+  return node;
+}
+
 /// Standing on the begin of a fault, the one before is meant.
 const JUST_BEFORE_S = 1e-6;
 
@@ -21,9 +28,9 @@ export class ReplayBar implements View {
   private readonly stop = button('Stop', () => this.state.send({
     do: this.stop.dataset.running === 'true' ? 'stop' : 'run',
   }), {class: 'stop', title: 'Stop or start the simulation'});
-  private readonly live = button('Back to live', () => {
+  private readonly live = terse('Back to live', 'Live', () => {
     this.state.playhead.follow = true;
-  }, {class: 'live'});
+  }, 'To what comes in now (l)');
   private readonly rate = el('select', {id: 'replay-rate', 'aria-label': 'Replay speed'},
     ...RATES.map((value) => el('option', {value}, `${value}×`)));
   private readonly slider = el('input', {
@@ -43,13 +50,14 @@ export class ReplayBar implements View {
   ) {
     this.marks = new FaultMarks(theme);
     this.steps = [
-      button('Step back', () => this.step(-1), {title: 'One control cycle back (,)'}),
-      button('Step on', () => this.step(1), {title: 'One control cycle on (.)'}),
+      terse('Step back', '◂', () => this.step(-1), 'One control cycle back (,)'),
+      terse('Step on', '▸', () => this.step(1), 'One control cycle on (.)'),
     ];
     this.jumps = [
-      button('Fault before', () => this.jump(true), {title: 'To the fault before (p)'}),
-      button('Next fault', () => this.jump(false), {title: 'To the next fault (n)'}),
+      terse('Fault before', '◂ !', () => this.jump(true), 'To the fault before (p)'),
+      terse('Next fault', '! ▸', () => this.jump(false), 'To the next fault (n)'),
     ];
+    this.live.classList.add('live');
     this.rate.value = '1';
     this.rate.addEventListener('change', () => {
       state.playhead.rate = Number(this.rate.value);

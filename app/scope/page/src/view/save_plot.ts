@@ -87,7 +87,9 @@ export function plot_svg(saved: Saved, store: FrameStore): string {
     title: spec.unit === '' ? spec.title : `${spec.title}, ${unit_words(spec.unit)}`, lines: drawn,
     x: {label: 'time, min:s', least: from_s - origin_s, most: until_s - origin_s,
       words: (value, step) => time_words(value, step >= 1 ? 0 : step >= 0.1 ? 1 : 2)},
-    y: {label: unit_words(spec.unit), least, most, straight_to: spec.straight_to},
+    y: {label: unit_words(spec.unit), least, most, straight_to: spec.straight_to,
+      ...(strip === null ? {} : {marked: [0, 1] as const})},
+    key: strip?.entries,
     bands: strip?.bands.map(({from_s: from, until_s: until, colour}) =>
       ({from: from - origin_s, until: until - origin_s, colour})),
     colours: figure_colours(theme),

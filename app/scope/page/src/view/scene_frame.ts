@@ -45,7 +45,7 @@ export class SceneFrame {
       this.view.setMachine(setup, null);
       this.view.update({store, now_s: playhead.now_s, live: false});
       this.view.setMachine(setup, machine);
-      this.layers.offer(machine);
+      this.layers.offer(machine, setup.source.mode === 'plan');
     }
     if (playhead.now_s !== this.drives_s) {
       this.drives_s = playhead.now_s;

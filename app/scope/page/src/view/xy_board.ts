@@ -48,10 +48,14 @@ class XyPlot {
     }
     if (kind === 'csv') {
       save_text(file_name(this.title, kind), 'text/csv', xy_csv(this.figure));
-    } else if (kind === 'svg') {
-      save_text(file_name(this.title, kind), 'image/svg+xml', figure_svg(this.figure, ...SAVED));
+      return;
+    }
+    // On the page the title stands above it.
+    const drawing = figure_svg({...this.figure, title: this.title}, ...SAVED);
+    if (kind === 'svg') {
+      save_text(file_name(this.title, kind), 'image/svg+xml', drawing);
     } else {
-      void save_png(file_name(this.title, kind), figure_svg(this.figure, ...SAVED));
+      void save_png(file_name(this.title, kind), drawing);
     }
   }
 }
