@@ -5,6 +5,7 @@ three times, first as it is known, then with all that its controller does not kn
 import argparse
 import json
 import os
+import statistics
 import subprocess
 import tempfile
 
@@ -48,6 +49,16 @@ def told(graben, folder, *options):
         return json.load(stream)
 
 
+def of_machines(graben, folder, soil, errors):
+    """Of one machine as it is known, or the middle of three as found; none of them far off."""
+    of_each = [told(graben, folder, "--soil", soil, "--errors", errors, "--seed", str(seed))
+               for seed in ((1,) if errors == "none" else (1, 3, 4))]
+    for figures in of_each:
+        assert figures["payload_error_ratio"] < 0.09, f"{soil}, errors {errors}: {figures['payload_error_ratio']}"
+    return {key: statistics.median(figures[key] for figures in of_each)
+            for key in (*BOUNDS, "tip_force_within_ratio")}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("graben")
@@ -58,7 +69,7 @@ def main():
         lines = []
         for soil in ("sand", "clay"):
             for errors in ("none", "all"):
-                figures = told(arguments.graben, folder, "--soil", soil, "--errors", errors, "--seed", "1")
+                figures = of_machines(arguments.graben, folder, soil, errors)
                 what = f"{soil}, errors {errors}"
                 for key, (least, most) in BOUNDS.items():
                     assert least < figures[key] < most, f"{what}: {key} {figures[key]}"

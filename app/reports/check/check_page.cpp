@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <sstream>
 
 #include "app/reports/check/machine_check.hpp"
@@ -68,6 +69,28 @@ std::vector<std::vector<std::string>> folded_heads(const std::vector<std::string
   return lines;
 }
 
+std::string note_text(const FactTable& table) {
+  std::string text;
+  for (const std::string& line : folded("(" + table.note + ")", kTextWidth - 2)) {
+    text += table.note.empty() ? "" : "  " + line + "\n";
+  }
+  return text;
+}
+
+/// Of cells that are too long to stand beside each other: below each other, each with its head.
+std::string blocks_text(const FactTable& table) {
+  std::string text = table.title + "\n";
+  for (const auto& row : table.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string head = i < table.columns.size() ? table.columns[i] + ": " : "";
+      for (const std::string& line : folded(head + row[i], kTextWidth - 6)) {
+        text += (i == 0 && line.rfind(head, 0) == 0 ? "  " : "    ") + line + "\n";
+      }
+    }
+  }
+  return text + note_text(table);
+}
+
 std::string table_text(const FactTable& table) {
   std::vector<std::size_t> width(table.columns.size(), 0);
   for (const auto& line : table.rows) {
@@ -77,6 +100,9 @@ std::string table_text(const FactTable& table) {
     }
   }
   std::vector<std::vector<std::string>> lines = folded_heads(table.columns, width);
+  if (std::accumulate(width.begin(), width.end(), 2 * width.size()) > kTextWidth) {
+    return blocks_text(table);
+  }
   lines.insert(lines.end(), table.rows.begin(), table.rows.end());
   std::string text = table.title + "\n";
   for (const auto& line : lines) {
@@ -90,10 +116,7 @@ std::string table_text(const FactTable& table) {
     shown.erase(shown.find_last_not_of(' ') + 1);
     text += shown.empty() ? "" : shown + "\n";
   }
-  for (const std::string& line : folded("(" + table.note + ")", kTextWidth - 2)) {
-    text += table.note.empty() ? "" : "  " + line + "\n";
-  }
-  return text;
+  return text + note_text(table);
 }
 
 std::string table_html(const FactTable& table) {

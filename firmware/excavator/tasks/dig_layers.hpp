@@ -88,7 +88,8 @@ struct CutEnd {
 /// The cut has ended; the next one, or `met` where there is none. Of the strip that stands highest,
 /// as low as fills the bucket, no deeper than the force lets it be, and never through the last thin
 /// layer with the ones above it. Soil that stays up though it was cut kTriesMost times in a row is
-/// left, as far as the last of these cuts has come and a little farther. Cuts after one that was too heavy are less deep, after an easy one deeper.
+/// left, as far as the last of these cuts has come and a little farther. Cuts after one that was
+/// too heavy are less deep, after an easy one deeper.
 void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state);
 
 /// What the last cut has brought was weighed; 0: it was not. Less than its edge has passed: the
