@@ -80,8 +80,10 @@ def refusals(graben, folder, log):
     refused("allowed: a name that ends with .webm or .mp4", log, "--out", folder / "no.gif")
     refused("0 is not a whole number from 1 to 60", log, "--out", out, "--fps", 0, status=2)
     refused("none.log", folder / "none.log", "--out", out)
+    # A log's last line may be cut, no other.
     cut = folder / "cut.log"
-    cut.write_text(log.read_text()[:5000])
+    text = log.read_text()
+    cut.write_text(text[:5000] + "\n" + text[text.index("\n", 5000) + 1:9000])
     refused("cut.log", cut, "--out", out)
     refused("nothing is between", log, "--out", out, "--from", 1000)
     copy = folder / "log.webm"

@@ -11,6 +11,8 @@ namespace graben::reports {
 namespace {
 
 constexpr std::size_t kTextWidth = 80;
+/// A table of figures may be a little wider before its rows are taken apart.
+constexpr std::size_t kTableWidth = 90;
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -100,7 +102,7 @@ std::string table_text(const FactTable& table) {
     }
   }
   std::vector<std::vector<std::string>> lines = folded_heads(table.columns, width);
-  if (std::accumulate(width.begin(), width.end(), 2 * width.size()) > kTextWidth) {
+  if (std::accumulate(width.begin(), width.end(), 2 * width.size()) > kTableWidth) {
     return blocks_text(table);
   }
   lines.insert(lines.end(), table.rows.begin(), table.rows.end());
