@@ -166,7 +166,7 @@ function refusals(log) {
   refuse('--force', 'run/dig.log', '--mcap', 'there.mcap');
   assert.equal(readFileSync(join(out, 'there.mcap'), 'utf8'), 'kept');
   refuse('would overwrite', 'run/dig.log', '--mcap', 'run/dig.log', '--force');
-  refuse("can't be written", 'run/dig.log', '--mcap', 'nowhere/dig.mcap');
+  refuse("can't be written", 'run/dig.log', '--mcap', 'there.mcap/dig.mcap');
   const lines = text.split('\n');
   writeFileSync(join(out, 'back.log'), [...lines.slice(500, 1500), ...lines.slice(0, 100)].join('\n') + '\n');
   refuse('back.log:1001: the stamp goes back by', 'back.log', '--mcap', 'back.mcap');

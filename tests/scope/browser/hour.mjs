@@ -16,7 +16,7 @@ const [out, graben, minutes = '60', slow] = process.argv.slice(2);
 const OPEN_MS = 3000;
 const PICTURES = 30;
 const OTHERS = 4;
-const SLOWER = 8;
+const SLOWER = 20;
 const MESSAGES = 20;
 /// DM1, EcuHealth, EcuLearntValves, EcuTipLoad and SwingValveState of the 25 that an excavator with swing has.
 const LEFT_OUT = new Set(['18FECA82', '18FF3682', '18FF3982', '18FF3A82', '0CFF2B83']);

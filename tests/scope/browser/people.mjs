@@ -112,9 +112,12 @@ async function names_are_told_apart() {
   const server = await scope('--sim', 'dig');
   const page = await open_page(browser, server.url);
   await active(page);
-  const names = await page.locator('h2, h3').allInnerTexts();
+  const names = await until('what can be injected has come', async () => {
+    const shown = await page.locator('h2, h3').allInnerTexts();
+    return shown.includes('Faults to inject') && shown;
+  });
   assert.equal(new Set(names).size, names.length, names.join(', '));
-  assert.ok(names.includes('Faults so far') && names.includes('Faults to inject'), names.join(', '));
+  assert.ok(names.includes('Faults so far'), names.join(', '));
   clean(page);
   await server.stop();
 }
