@@ -30,6 +30,7 @@ enum class Draw : std::uint32_t {
   kImuNoise,
   kDesign,
   kJointBias,
+  kLoad,
 };
 
 class Random {

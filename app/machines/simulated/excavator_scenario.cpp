@@ -61,6 +61,19 @@ void vary_parameters(ExcavatorProfile& profile, const Uncertainty& uncertainty,
   }
 }
 
+/// What forces and payloads that pressures tell hang on, and no file knows: hoses of another bore,
+/// length or fittings, and where the load lies in the bucket.
+void vary_load(std::uint64_t seed, plant::ExcavatorPlantProfile& plant) {
+  constexpr Interval kHoses{0.5, 1.6};
+  constexpr double kMiddleOff = 0.06;
+  Random random(seed, Draw::kLoad);
+  const double hoses = kHoses.least + random.uniform() * (kHoses.most - kHoses.least);
+  plant.hose_linear_paspm3 *= hoses;
+  plant.hose_quadratic_pas2pm6 *= hoses;
+  plant.digging->bucket.middle_along += random.symmetric(kMiddleOff);
+  plant.digging->bucket.middle_below += random.symmetric(kMiddleOff);
+}
+
 void lay_ground(const Scenario& scenario, const ExcavatorGeometry& geometry, double line_m,
                 plant::ExcavatorPlantProfile& plant) {
   plant.digging.emplace();
@@ -181,6 +194,9 @@ SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario
   }
   if (!scenario.ground.empty()) {
     lay_ground(scenario, machine.profile.geometry, experiment.soil.ground_y_m, plant);
+    if (scenario.errors == Errors::kAll) {
+      vary_load(scenario.seed, plant);
+    }
   }
   if (scenario.obstacle) {
     plant.obstacle = experiment.obstacle;

@@ -31,10 +31,7 @@ constexpr double kEmpty_rad = 1.75;
 constexpr double kPours_s = 0.4;
 /// So much soil before the opening keeps the fill in.
 constexpr double kKeeps_m = 0.10;
-/// The middle of the fill, of the line pin to edge: along it, and below it; and its radius of
-/// gyration, that of a block of 0.9 by 0.6 of the line.
-constexpr double kMiddleAlong = 0.55;
-constexpr double kMiddleBelow = 0.20;
+/// Radius of gyration of the fill, of the line pin to edge: that of a block of 0.9 by 0.6 of it.
 constexpr double kGyration = 0.31;
 /// Over the width no cell is stepped over, whichever way the bucket stands to the cells.
 constexpr double kAcross_m = 0.5 * HeightField::kCell_m;
@@ -74,7 +71,7 @@ LinkBody BucketSoil::fill() const {
   const double length_m = profile_.pin_m;
   const double gyration_m = kGyration * length_m;
   return {fill_kg(), fill_kg() * gyration_m * gyration_m,
-          length_m * Eigen::Vector2d(kMiddleAlong, kMiddleBelow)};
+          length_m * Eigen::Vector2d(profile_.bucket.middle_along, profile_.bucket.middle_below)};
 }
 
 /// Over the ground frame, of a point at this radius and so much to the left of the links' plane.

@@ -14,6 +14,10 @@ struct BucketShape {
   double floor_rad = 0.0;    ///< From the line edge to pin down to the floor.
   double edge_m = 0.015;     ///< Thickness of the edge with its teeth.
   double capacity_m3 = 0.0;  ///< Of loose soil, heaped.
+  /// Middle of the fill, of the line pin to edge: along it, and below it. Chosen: of a bucket about
+  /// as deep as two fifths of that line.
+  double middle_along = 0.55;
+  double middle_below = 0.20;
 };
 
 struct DiggingProfile {

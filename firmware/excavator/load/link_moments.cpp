@@ -7,10 +7,9 @@ namespace graben {
 namespace {
 
 constexpr double kGravity_mps2 = 9.81;
-/// Middle of what a bucket carries, of its length from pin to teeth: along it, and off it towards
-/// the floor. A heaped bucket's, by its usual shape.
-constexpr double kLoadAlong = 0.55;
-constexpr double kLoadOff = 0.2;
+/// Of a bucket whose floor nobody said: of its length, and from the line teeth to pin down.
+constexpr double kFloor = 0.45;
+constexpr double kFloor_rad = 0.65;
 
 Eigen::Vector2d left_of(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
 
@@ -28,6 +27,25 @@ Eigen::Vector2d turned_mps2(const Eigen::Vector2d& arm_m, double rate_radps,
   return acceleration_radps2 * left_of(arm_m) - rate_radps * rate_radps * arm_m;
 }
 
+/// Middle of what a bucket carries, in its frame: along the line pin to teeth, and off it. Its back
+/// bulges half as far as it could: the mean of a triangle pin, heel, teeth and of the trapezium
+/// with a back that stands on the line at the pin. Where else a load lies is learnt.
+Eigen::Vector2d load_middle_m(const ExcavatorGeometry& geometry) {
+  const double length_m = geometry.bucket_length_m;
+  const ExcavatorBody& body = geometry.body;
+  const bool said = body.floor_m > 0.0;
+  const double floor_m = said ? body.floor_m : kFloor * length_m;
+  const double floor_rad = said ? body.floor_rad : kFloor_rad;
+  const double heel_m = length_m - floor_m * std::cos(floor_rad);
+  const double deep_m = floor_m * std::sin(floor_rad);
+  const double sum_m = heel_m + length_m;
+  const Eigen::Vector2d triangle_m(sum_m / 3.0, deep_m / 3.0);
+  const Eigen::Vector2d trapezium_m(
+      (heel_m * heel_m + heel_m * length_m + length_m * length_m) / (3.0 * sum_m),
+      deep_m * (heel_m + sum_m) / (3.0 * sum_m));
+  return 0.5 * (triangle_m + trapezium_m);
+}
+
 }  // namespace
 
 LinkPlaces link_places(const OilProfile& oil, const ExcavatorGeometry& geometry,
@@ -43,7 +61,7 @@ LinkPlaces link_places(const OilProfile& oil, const ExcavatorGeometry& geometry,
     at.pin_m[i] = pin_m;
     at.centre_m[i] = pin_m + in_frame(at.along[i], oil.link[i].centre_m);
     if (i == kBucket) {
-      at.load_m = pin_m + length_m[i] * in_frame(at.along[i], {kLoadAlong, kLoadOff});
+      at.load_m = pin_m + in_frame(at.along[i], load_middle_m(geometry));
     }
     pin_m += length_m[i] * at.along[i];
   }
