@@ -153,6 +153,29 @@ void choose(const LayerPlan& plan, CutState& state) {
   }
 }
 
+/// One that soil has fallen into, the last one first; -1: there is none, or it was swept enough.
+int restless_strip(const LayerPlan& plan, const CutState& state, int last) {
+  int found = -1;
+  for (int strip = 0; strip < plan.strips; ++strip) {
+    const auto at = static_cast<unsigned>(strip);
+    const bool restless = state.moves[at] && state.sweeps[at] < kSweepsMost;
+    if (restless && (found < 0 || strip == last)) {
+      found = strip;
+    }
+  }
+  return found;
+}
+
+void sweep(const LayerPlan& plan, int strip, CutState& state) {
+  const auto at = static_cast<unsigned>(strip);
+  ++state.sweeps[at];
+  for (float& height : state.height_m[at]) {
+    height = std::max(height, static_cast<float>(kRough_m));
+  }
+  choose(plan, state);
+  state.swept = true;
+}
+
 }  // namespace
 
 double ground_m(const LayerPlan& plan, double share) {
@@ -226,19 +249,16 @@ void weigh_cut(const LayerPlan& plan, double weighed_m3, CutState& state) {
         std::clamp(state.yields + kBelieved * (yields - state.yields), kYieldsLeast, kYieldsMost);
   }
   state.last_strip = -1;
-  const bool fallen = weighed_m3 - state.last_m3 >= kFallen * plan.full_m3;
-  const bool moved = weighed_m3 >= kMoves * plan.full_m3;
-  if (!state.met || strip < 0 || state.sweeps >= kSweepsMost || state.cuts >= kCutsMost ||
-      !(fallen || moved)) {
-    return;
+  if (strip >= 0) {
+    const bool fallen = weighed_m3 - state.last_m3 >= kFallen * plan.full_m3;
+    const bool moved = weighed_m3 >= kMoves * plan.full_m3;
+    state.moves[static_cast<unsigned>(strip)] = fallen || moved;
   }
-  ++state.sweeps;
-  state.wall_falls = state.wall_falls || weighed_m3 > kWallFalls * plan.full_m3;
-  for (float& height : state.height_m[static_cast<unsigned>(strip)]) {
-    height = std::max(height, static_cast<float>(kRough_m));
+  const int restless = state.met && state.cuts < kCutsMost ? restless_strip(plan, state, strip) : -1;
+  if (restless >= 0) {
+    state.wall_falls = state.wall_falls || weighed_m3 > kWallFalls * plan.full_m3;
+    sweep(plan, restless, state);
   }
-  choose(plan, state);
-  state.swept = true;
 }
 
 }  // namespace graben

@@ -48,6 +48,9 @@ constexpr double kSpringFree_m = 0.018;
 /// Of the force that a cut may take, at a wall.
 constexpr double kWallPulls = 0.85;
 
+/// Of their height over the design, that teeth may be behind.
+constexpr double kOffOfHeight = 0.15;
+
 DriveVector drives_now(const SwingKinematics& kinematics, const TaskProgram& program,
                        const TaskState& state) {
   return task_aim(kinematics, program, state).value;
@@ -87,6 +90,8 @@ class LayerRun {
   [[nodiscard]] bool cut_ends(double heavy, TaskState& state) const;
   void next_step(TaskState& state) const;
   [[nodiscard]] double behind_m(const TaskState& state) const;
+  [[nodiscard]] bool lifts_next(const TaskState& state) const;
+  [[nodiscard]] double slow_m(const TaskState& state) const;
 
   const ExcavatorProfile& profile_;
   const SwingKinematics& kinematics_;
@@ -290,7 +295,7 @@ void LayerRun::lift(TaskState& state) const {
   state.time_s = end_s;
   state.settle_s += period_s_;
   if (seen_.behind_m < kLiftNear_m || state.settle_s > kEndWait_s) {
-    if (state.layers.folds) {
+    if (state.layers.folds && !lifts_next(state)) {
       begin_lift(state);
     } else {
       next_step(state);
@@ -336,6 +341,13 @@ void LayerRun::next_step(TaskState& state) const {
   begin((state.step + 1) % program_.step_count, state);
 }
 
+/// Nothing stands before a bucket at its line's end: the step that lifts it takes it out.
+bool LayerRun::lifts_next(const TaskState& state) const {
+  const int next = (state.step + 1) % program_.step_count;
+  return state.layers.share >= 1.0 &&
+         program_.step[static_cast<unsigned>(next)].kind == StepKind::kLift;
+}
+
 double LayerRun::behind_m(const TaskState& state) const {
   const LayerState& layers = state.layers;
   if (layers.phase != CutPhase::kCuts || !layers.cuts.cut.thin) {
@@ -345,13 +357,19 @@ double LayerRun::behind_m(const TaskState& state) const {
   return std::max(seen_.behind_m, kSinks * sunk_m);
 }
 
-void LayerRun::go_on(TaskState& state) const {
+/// How far behind slows it to half: the less, the nearer the design is.
+double LayerRun::slow_m(const TaskState& state) const {
   const LineProfile& line = profile_.line;
-  const bool moves = state.layers.phase == CutPhase::kNone;
-  follow_pace(
-      line,
-      moves ? line.move_slow_error_m : line.slow_error_m + line.slow_error_s * plan_.speed_mps,
-      behind_m(state), period_s_, state);
+  if (state.layers.phase == CutPhase::kNone) {
+    return line.move_slow_error_m;
+  }
+  const double over_m = std::min(state.layers.height_m, seen_height_m(program_, seen_, state));
+  return std::max(line.slow_error_m + line.slow_error_s * plan_.speed_mps,
+                  std::min(kOffOfHeight * over_m, line.move_slow_error_m));
+}
+
+void LayerRun::go_on(TaskState& state) const {
+  follow_pace(profile_.line, slow_m(state), behind_m(state), period_s_, state);
   switch (state.layers.phase) {
     case CutPhase::kEnters:
       enter_on({program_, kinematics_, advance_s_, period_s_}, seen_, state);
