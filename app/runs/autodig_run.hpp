@@ -118,6 +118,8 @@ struct AutodigSummary {
   double cut_m3 = kAbsent;       ///< Undisturbed.
   double cut_m3ph = kAbsent;     ///< The same, of the time of the steps.
   double fill_max_m3 = kAbsent;  ///< Loose, in the bucket.
+  /// Of the rounds that dump, those whose bucket swung there with 90 % of its capacity or more.
+  double full_rounds_ratio = kAbsent;
   /// Of the tip force that the controller tells, while it digs: share of the time in which it is
   /// within a tenth of the largest true one; its error, RMS of both components together; and that
   /// over the deviation it tells.
@@ -126,8 +128,9 @@ struct AutodigSummary {
   double tip_force_spread = kAbsent;
   /// Of the payload as it was told last before each dump, from the second one on, when the empty
   /// bucket has been back once: largest error, of the bucket's heaped capacity of this soil
-  /// loose, and RMS of error over deviation.
+  /// loose, share of them that are within 2 % of it, and RMS of error over deviation.
   double payload_error_ratio = kAbsent;
+  double payload_within_ratio = kAbsent;
   double payload_spread = kAbsent;
   double lambda_min = 0.0;  ///< From the first step on.
   double lambda_mean = 0.0;

@@ -9,6 +9,9 @@ namespace {
 
 /// Of the largest true force.
 constexpr double kWithin = 0.1;
+/// Of the capacity: a full bucket, and a payload told well.
+constexpr double kFull = 0.9;
+constexpr double kExact = 0.02;
 
 }  // namespace
 
@@ -24,6 +27,7 @@ void LoadFigures::weigh(const AutodigSample& sample) {
   }
   if (dumps_++ > 0) {
     ++weighed_;
+    exact_ += std::abs(carried_error_kg_) <= kExact * capacity_kg_ ? 1 : 0;
     worst_kg_ = std::max(worst_kg_, std::abs(carried_error_kg_));
     const double spread = carried_error_kg_ / carried_deviation_kg_;
     spread_squares_ += spread * spread;
@@ -31,11 +35,23 @@ void LoadFigures::weigh(const AutodigSample& sample) {
   carried_deviation_kg_ = 0.0;
 }
 
+void LoadFigures::count_round(const AutodigSample& sample) {
+  const StepKind kind = sample.progress.kind;
+  if (kind == StepKind::kSwing) {
+    carried_kg_ = sample.fill_kg;
+  } else if (kind == StepKind::kDump && carried_kg_ >= 0.0) {
+    ++rounds_;
+    full_ += carried_kg_ >= kFull * capacity_kg_ ? 1 : 0;
+    carried_kg_ = -1.0;
+  }
+}
+
 void LoadFigures::add(const AutodigSample& sample) {
   if (!std::isfinite(sample.tip_force_n[0])) {
     return;
   }
   weigh(sample);
+  count_round(sample);
   if (sample.progress.kind != StepKind::kDig) {
     return;
   }
@@ -65,7 +81,11 @@ void LoadFigures::tell(AutodigSummary& summary) const {
     summary.tip_force_error_n = std::sqrt(squares / count);
     summary.tip_force_spread = std::sqrt(spread / count);
   }
+  if (rounds_ > 0) {
+    summary.full_rounds_ratio = static_cast<double>(full_) / rounds_;
+  }
   if (weighed_ > 0) {
+    summary.payload_within_ratio = static_cast<double>(exact_) / weighed_;
     summary.payload_error_ratio = worst_kg_ / capacity_kg_;
     summary.payload_spread = std::sqrt(spread_squares_ / weighed_);
   }

@@ -23,13 +23,18 @@ class LoadFigures {
   };
 
   void weigh(const AutodigSample& sample);
+  void count_round(const AutodigSample& sample);
 
   double capacity_kg_;
   double largest_n_ = 0.0;
   std::vector<Compared> dug_;
   double carried_error_kg_ = 0.0;  ///< As it was told last; with the next one.
   double carried_deviation_kg_ = 0.0;
+  double carried_kg_ = -1.0;  ///< Truly, before this dump; below 0: nothing was.
+  int rounds_ = 0;            ///< Dumps, weighed or not.
+  int full_ = 0;              ///< Of them, of a bucket that was.
   int dumps_ = 0;
+  int exact_ = 0;
   int weighed_ = 0;
   double worst_kg_ = 0.0;
   double spread_squares_ = 0.0;

@@ -254,7 +254,8 @@ void weigh_cut(const LayerPlan& plan, double weighed_m3, CutState& state) {
     const bool moved = weighed_m3 >= kMoves * plan.full_m3;
     state.moves[static_cast<unsigned>(strip)] = fallen || moved;
   }
-  const int restless = state.met && state.cuts < kCutsMost ? restless_strip(plan, state, strip) : -1;
+  const int restless =
+      state.met && state.cuts < kCutsMost ? restless_strip(plan, state, strip) : -1;
   if (restless >= 0) {
     state.wall_falls = state.wall_falls || weighed_m3 > kWallFalls * plan.full_m3;
     sweep(plan, restless, state);

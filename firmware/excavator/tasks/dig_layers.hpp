@@ -55,10 +55,10 @@ struct Cut {
 struct CutState {
   std::array<std::array<float, kStripBins>, kStripMost> height_m{};
   Cut cut;
-  double depth_m = 0.0;     ///< Of cuts, as the force lets them be.
-  double loaded_m3 = 0.0;   ///< Of the ground, in the bucket by what the edge has passed.
-  std::uint8_t tries = 0;   ///< Cuts of a strip in a row that got next to nothing.
-  std::uint8_t cuts = 0;    ///< So far, of all.
+  double depth_m = 0.0;    ///< Of cuts, as the force lets them be.
+  double loaded_m3 = 0.0;  ///< Of the ground, in the bucket by what the edge has passed.
+  std::uint8_t tries = 0;  ///< Cuts of a strip in a row that got next to nothing.
+  std::uint8_t cuts = 0;   ///< So far, of all.
   std::array<std::uint8_t, kStripMost> sweeps{};  ///< Of them, for what has fallen in there.
   std::array<bool, kStripMost> moves{};           ///< Soil has fallen in since its last cut began.
   int last_strip = -1;      ///< Of the cut before; -1: there was none, or it was weighed.
@@ -94,8 +94,8 @@ struct CutEnd {
 void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state);
 
 /// What the last cut has brought was weighed; 0: it was not. Less than its edge has passed: the
-/// next one takes more to fill the bucket. More: soil has fallen in from beside it. Once the task is
-/// through, such strips are cut again until no more has, kSweepsMost times each.
+/// next one takes more to fill the bucket. More: soil has fallen in from beside it. Once the task
+/// is through, such strips are cut again until no more has, kSweepsMost times each.
 void weigh_cut(const LayerPlan& plan, double weighed_m3, CutState& state);
 
 /// Soil counts as left if it stands higher by so much over a cut; over the design itself; at its
