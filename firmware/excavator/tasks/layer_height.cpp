@@ -10,8 +10,8 @@ namespace {
 constexpr double kRisesAtLeast = 0.25;
 /// A wall's foot is left standing from so far beyond the line on, and rises by so much: no soil
 /// slides on it.
-constexpr double kFootAt_m = 0.2;
-constexpr double kFoot = 0.5;
+constexpr double kFootAt_m = 0.1;
+constexpr double kFoot = 0.65;
 
 /// Speed towards a height that comes to rest there.
 double speed_towards(double from_m, double to_m, double speed_mps, double most_down_mps,

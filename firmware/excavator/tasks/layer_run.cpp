@@ -46,7 +46,7 @@ constexpr double kGround_kgpm3 = 1750.0;
 /// What springs by less is let be.
 constexpr double kSpringFree_m = 0.018;
 /// Of the force that a cut may take, at a wall.
-constexpr double kWallPulls = 0.85;
+constexpr double kWallPulls = 0.55;
 
 /// Of their height over the design, that teeth may be behind.
 constexpr double kOffOfHeight = 0.15;
