@@ -8,10 +8,9 @@ namespace graben {
 namespace {
 
 constexpr double kRisesAtLeast = 0.25;
-/// A wall's foot is left standing from so far beyond the line on, and rises by so much: no soil
-/// slides on it.
-constexpr double kFootAt_m = 0.1;
-constexpr double kFoot = 0.65;
+/// A wall's foot is left standing beyond the line, in a hollow that rises so much a metre squared:
+/// up to where sand stands by itself. No soil slides on it.
+constexpr double kFoot_pm = 1.25;
 
 /// Speed towards a height that comes to rest there.
 double speed_towards(double from_m, double to_m, double speed_mps, double most_down_mps,
@@ -37,8 +36,8 @@ double wanted_height_m(const TaskProgram& program, const LayerState& layers) {
   const Cut& cut = layers.cuts.cut;
   const double steep = cut.thin ? cut.steep * steepness(program, cut, layers.share).share : 0.0;
   // The foot of a wall beyond the line: nothing has to be met there, and it may break off.
-  const double beyond_m = std::max(0.0, -layers.share * program.layers.way_m - kFootAt_m);
-  return cut.height_m + kSteepHigher_m * steep + kFoot * beyond_m;
+  const double beyond_m = std::max(0.0, -layers.share * program.layers.way_m);
+  return cut.height_m + kSteepHigher_m * steep + kFoot_pm * beyond_m * beyond_m;
 }
 
 void rise(const LayerCycle& cycle, double target_m, double most_down_mps, TaskState& state) {
