@@ -32,6 +32,8 @@ constexpr double kMoves = 0.4;
 constexpr double kPastStop = 0.15;
 /// With so much of a full bucket the wall at the line's beginning falls in too.
 constexpr double kWallFalls = 0.55;
+/// So does one that has let soil fall in so many times.
+constexpr std::uint8_t kWallSweeps = 2;
 
 /// What is weighed against what the edge has passed, of a bucket that is so far full; how far one
 /// such round is believed, and what is.
@@ -257,7 +259,8 @@ void weigh_cut(const LayerPlan& plan, double weighed_m3, CutState& state) {
   const int restless =
       state.met && state.cuts < kCutsMost ? restless_strip(plan, state, strip) : -1;
   if (restless >= 0) {
-    state.wall_falls = state.wall_falls || weighed_m3 > kWallFalls * plan.full_m3;
+    state.wall_falls = state.wall_falls || weighed_m3 > kWallFalls * plan.full_m3 ||
+                       state.sweeps[static_cast<unsigned>(restless)] >= kWallSweeps;
     sweep(plan, restless, state);
   }
 }
