@@ -171,6 +171,7 @@ int restless_strip(const LayerPlan& plan, const CutState& state, int last) {
 void sweep(const LayerPlan& plan, int strip, CutState& state) {
   const auto at = static_cast<unsigned>(strip);
   ++state.sweeps[at];
+  state.moves[at] = false;
   for (float& height : state.height_m[at]) {
     height = std::max(height, static_cast<float>(kRough_m));
   }

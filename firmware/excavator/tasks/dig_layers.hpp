@@ -60,7 +60,7 @@ struct CutState {
   std::uint8_t tries = 0;  ///< Cuts of a strip in a row that got next to nothing.
   std::uint8_t cuts = 0;   ///< So far, of all.
   std::array<std::uint8_t, kStripMost> sweeps{};  ///< Of them, for what has fallen in there.
-  std::array<bool, kStripMost> moves{};           ///< Soil has fallen in since its last cut began.
+  std::array<bool, kStripMost> moves{};           ///< Its last cut brought soil that fell in.
   int last_strip = -1;      ///< Of the cut before; -1: there was none, or it was weighed.
   double last_m3 = 0.0;     ///< Of the ground, that its edge has passed.
   double yields = 0.9;      ///< Of what the edge passes, so much comes to be carried away.

@@ -39,17 +39,12 @@ constexpr double kHeelMost = 1.5;
 constexpr double kCutWaits_s = 10.0;
 /// Of a move that leads to the next one.
 constexpr double kPassed_m = 0.20;
-/// Teeth that sink under a last cut count so much more than teeth that are late.
-constexpr double kSinks = 2.5;
 /// Of ground as it mostly is.
 constexpr double kGround_kgpm3 = 1750.0;
 /// What springs by less is let be.
 constexpr double kSpringFree_m = 0.018;
 /// Of the force that a cut may take, at a wall.
 constexpr double kWallPulls = 0.55;
-
-/// Of their height over the design, that teeth may be behind.
-constexpr double kOffOfHeight = 0.15;
 
 DriveVector drives_now(const SwingKinematics& kinematics, const TaskProgram& program,
                        const TaskState& state) {
@@ -89,9 +84,7 @@ class LayerRun {
   void take(TaskState& state) const;
   [[nodiscard]] bool cut_ends(double heavy, TaskState& state) const;
   void next_step(TaskState& state) const;
-  [[nodiscard]] double behind_m(const TaskState& state) const;
   [[nodiscard]] bool lifts_next(const TaskState& state) const;
-  [[nodiscard]] double slow_m(const TaskState& state) const;
 
   const ExcavatorProfile& profile_;
   const SwingKinematics& kinematics_;
@@ -348,28 +341,8 @@ bool LayerRun::lifts_next(const TaskState& state) const {
          program_.step[static_cast<unsigned>(next)].kind == StepKind::kLift;
 }
 
-double LayerRun::behind_m(const TaskState& state) const {
-  const LayerState& layers = state.layers;
-  if (layers.phase != CutPhase::kCuts || !layers.cuts.cut.thin) {
-    return seen_.behind_m;
-  }
-  const double sunk_m = layers.height_m - seen_height_m(program_, seen_, state);
-  return std::max(seen_.behind_m, kSinks * sunk_m);
-}
-
-/// How far behind slows it to half: the less, the nearer the design is.
-double LayerRun::slow_m(const TaskState& state) const {
-  const LineProfile& line = profile_.line;
-  if (state.layers.phase == CutPhase::kNone) {
-    return line.move_slow_error_m;
-  }
-  const double over_m = std::min(state.layers.height_m, seen_height_m(program_, seen_, state));
-  return std::max(line.slow_error_m + line.slow_error_s * plan_.speed_mps,
-                  std::min(kOffOfHeight * over_m, line.move_slow_error_m));
-}
-
 void LayerRun::go_on(TaskState& state) const {
-  follow_pace(profile_.line, slow_m(state), behind_m(state), period_s_, state);
+  follow_pace(profile_.line, program_, seen_, period_s_, state);
   switch (state.layers.phase) {
     case CutPhase::kEnters:
       enter_on({program_, kinematics_, advance_s_, period_s_}, seen_, state);

@@ -211,7 +211,7 @@ void soil_that_falls_in_is_swept_out(void**) {
   const LayerPlan whole = plan();
   CutState state = undug(whole);
   weigh_cut(whole, whole.full_m3, state);
-  assert_int_equal(state.sweeps, 0);
+  assert_int_equal(state.sweeps[0], 0);
   while (!state.met) {
     static_cast<void>(cut_through(whole, state.cut.height_m, state));
     state.loaded_m3 = 0.0;
@@ -263,7 +263,7 @@ void a_heavy_last_cut_is_swept_after(void**) {
   assert_true(light.met);
   weigh_cut(whole, 0.8 * whole.full_m3, state);
   assert_false(state.met);
-  assert_int_equal(state.sweeps, 1);
+  assert_int_equal(state.sweeps[0], 1);
 }
 
 /// A sweep takes what nobody has seen: all that it brings has fallen in.
@@ -277,7 +277,7 @@ void what_a_sweep_brings_has_fallen_in(void**) {
   state.loaded_m3 = 0.3 * whole.full_m3;
   next_cut(whole, {0.7, 0.0}, state);
   weigh_cut(whole, 0.3 * whole.full_m3, state);
-  assert_int_equal(state.sweeps, 2);
+  assert_int_equal(state.sweeps[0], 2);
 }
 
 /// Nearly a full bucket of it: the far wall falls in. It is cut back until it stands.
@@ -290,6 +290,48 @@ void a_wall_that_stops_a_sweep_stands(void**) {
   next_cut(whole, {1.4, 0.0}, state);
   assert_false(state.wall_falls);
   assert_false(state.met);
+}
+
+/// A wall that lets soil in again and again is cut back too, however little it is at a time.
+void a_wall_that_crumbles_is_cut_back(void**) {
+  const LayerPlan whole = plan();
+  CutState state = dug(whole);
+  for (int sweep = 0; sweep < 2; ++sweep) {
+    assert_false(state.wall_falls);
+    weigh_cut(whole, 0.5 * whole.full_m3, state);
+    assert_false(state.met);
+    static_cast<void>(cut_through(whole, state.cut.height_m, state));
+    state.loaded_m3 = 0.0;
+    next_cut(whole, {0.7, 0.2 * whole.full_m3}, state);
+  }
+  weigh_cut(whole, 0.5 * whole.full_m3, state);
+  assert_true(state.wall_falls);
+}
+
+/// Once all is through, each strip whose last cut brought more than its edge had passed.
+void every_strip_that_soil_fell_into_is_swept(void**) {
+  LayerPlan whole = plan();
+  whole.strips = 3;
+  CutState state = undug(whole);
+  const auto cut = [&](double weighed_m3) {
+    const int strip = state.cut.strip;
+    static_cast<void>(cut_through(whole, state.cut.height_m, state));
+    state.loaded_m3 = 0.0;
+    next_cut(whole, {0.7, 0.2 * whole.full_m3}, state);
+    weigh_cut(whole, weighed_m3, state);
+    return strip;
+  };
+  while (!state.met && !state.swept) {
+    // Into the first two.
+    static_cast<void>(cut((state.cut.strip < 2 ? 0.8 : 0.2) * whole.full_m3));
+  }
+  std::array<int, 3> swept{};
+  while (!state.met) {
+    ++swept[static_cast<unsigned>(cut(0.01 * whole.full_m3))];
+  }
+  assert_int_equal(swept[0], 1);
+  assert_int_equal(swept[1], 1);
+  assert_int_equal(swept[2], 0);
 }
 
 /// Ground under the design is none to dig.
@@ -319,6 +361,8 @@ int main() {
       cmocka_unit_test(a_heavy_last_cut_is_swept_after),
       cmocka_unit_test(what_a_sweep_brings_has_fallen_in),
       cmocka_unit_test(a_wall_that_stops_a_sweep_stands),
+      cmocka_unit_test(a_wall_that_crumbles_is_cut_back),
+      cmocka_unit_test(every_strip_that_soil_fell_into_is_swept),
       cmocka_unit_test(ground_below_its_design_is_met),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -39,6 +39,19 @@ void a_wall_s_foot_is_left_standing(void**) {
   assert_true(state.layers.height_m < design_m + kSteepHigher_m + 2e-3);
 }
 
+/// Teeth that come down it arrive level.
+void a_wall_s_foot_runs_out_level(void**) {
+  const TaskProgram program = planned();
+  LayerState layers = last_cut(program, 0.4).layers;
+  const auto height_m = [&](double beyond_m) {
+    layers.share = -beyond_m / program.layers.way_m;
+    return wanted_height_m(program, layers);
+  };
+  const double line_m = height_m(0.0);
+  assert_true(height_m(0.05) - line_m < 0.005);
+  assert_true(height_m(0.4) - line_m > 0.18);
+}
+
 /// Until the cut ends, s; or as long as is looked.
 double held_for_s(const TaskProgram& program, TaskState state, double force) {
   constexpr int kLooks = 300;
@@ -58,9 +71,9 @@ double held_for_s(const TaskProgram& program, TaskState state, double force) {
 /// It may break off: the oil would throw the teeth through the design.
 void a_wall_is_pulled_at_with_less(void**) {
   const TaskProgram program = planned();
-  assert_true(held_for_s(program, last_cut(program, 0.4), 1.3) < 0.9);
-  assert_near(held_for_s(program, last_cut(program, 0.0), 1.3), 3.0, 1e-9);
-  assert_near(held_for_s(program, last_cut(program, 0.4), 1.0), 3.0, 1e-9);
+  assert_true(held_for_s(program, last_cut(program, 0.4), 0.8) < 0.9);
+  assert_near(held_for_s(program, last_cut(program, 0.0), 0.8), 3.0, 1e-9);
+  assert_near(held_for_s(program, last_cut(program, 0.4), 0.5), 3.0, 1e-9);
 }
 
 void a_folded_heel_that_bears_goes_straight_up(void**) {
@@ -87,6 +100,7 @@ void a_folded_heel_that_bears_goes_straight_up(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_wall_s_foot_is_left_standing),
+      cmocka_unit_test(a_wall_s_foot_runs_out_level),
       cmocka_unit_test(a_wall_is_pulled_at_with_less),
       cmocka_unit_test(a_folded_heel_that_bears_goes_straight_up),
   };
