@@ -76,7 +76,7 @@ class LayerRun {
   void begin_dig(TaskState& state) const;
   void begin_cut(TaskState& state) const;
   void begin_move(int step, TaskState& state) const;
-  void begin_tare(int step, TaskState& state) const;
+  void begin_tare(int step, TarePart part, TaskState& state) const;
   void begin_lift(TaskState& state) const;
   void cut(TaskState& state) const;
   void lift(TaskState& state) const;
@@ -98,7 +98,7 @@ void LayerRun::begin(int step, TaskState& state) const {
   if (step == plan_.step) {
     begin_dig(state);
   } else if (tares_next(program_, step, state.layers)) {
-    begin_tare(step, state);
+    begin_tare(step, TarePart::kRaises, state);
   } else {
     begin_move(step, state);
     if (state.phase == TaskPhase::kSteps && (step + 1) % program_.step_count == plan_.step &&
@@ -139,12 +139,14 @@ void LayerRun::begin_cut(TaskState& state) const {
   layers.weighed_kg = 0.0;
 }
 
-void LayerRun::begin_tare(int step, TaskState& state) const {
+void LayerRun::begin_tare(int step, TarePart part, TaskState& state) const {
   LayerState& layers = state.layers;
-  layers.move = tare_move(profile_, program_.step[static_cast<unsigned>(step)],
+  layers.move = tare_move(profile_, program_.step[static_cast<unsigned>(step)], part,
                           drives_now(kinematics_, program_, state));
-  layers.tares = true;
+  layers.tares = part;
   layers.tared = true;
+  state.time_s = 0.0;
+  state.settle_s = 0.0;
   layers.phase = CutPhase::kNone;
 }
 
@@ -303,8 +305,9 @@ void LayerRun::move(TaskState& state) const {
   }
   state.time_s += state.pace_ratio * advance_s_;
   const double end_s = state.layers.move.ramp.duration_s;
-  state.settle_s += state.layers.tares ? period_s_ : 0.0;
-  if (state.settle_s > kTaresMost_s && state.layers.tares) {
+  const bool tares = state.layers.tares != TarePart::kNone;
+  state.settle_s += tares ? period_s_ : 0.0;
+  if (state.settle_s > kTaresMost_s && tares) {
     next_step(state);
     return;
   }
@@ -313,8 +316,7 @@ void LayerRun::move(TaskState& state) const {
   }
   state.time_s = end_s;
   state.settle_s += period_s_;
-  const bool digs_next =
-      !state.layers.tares && (state.step + 1) % program_.step_count == plan_.step;
+  const bool digs_next = !tares && (state.step + 1) % program_.step_count == plan_.step;
   state.calm_s = seen_.behind_m < kMoveSettled_m ? state.calm_s + period_s_ : 0.0;
   const bool arrived = digs_next ? state.calm_s >= kCalm_s : seen_.behind_m < kPassed_m;
   if (arrived || state.settle_s >= (digs_next ? kCutWaits_s : kSettleMost_s)) {
@@ -323,8 +325,12 @@ void LayerRun::move(TaskState& state) const {
 }
 
 void LayerRun::next_step(TaskState& state) const {
-  if (state.layers.tares) {
-    state.layers.tares = false;
+  if (state.layers.tares == TarePart::kRaises) {
+    begin_tare(state.step, TarePart::kReaches, state);
+    return;
+  }
+  if (state.layers.tares != TarePart::kNone) {
+    state.layers.tares = TarePart::kNone;
     begin(state.step, state);
     return;
   }

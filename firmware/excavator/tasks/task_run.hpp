@@ -22,6 +22,13 @@ enum class CutPhase : std::uint8_t {
   kTouches = 4,  ///< Down onto the ground before the first cut, to find its height.
 };
 
+/// Of the moves of a bucket that has been emptied, see layer_tare.hpp.
+enum class TarePart : std::uint8_t {
+  kNone = 0,
+  kRaises = 1,   ///< The boom up and the arm in.
+  kReaches = 2,  ///< The arm out again.
+};
+
 /// Where a program in layers is, see layer_run.hpp.
 struct LayerState {
   bool begun = false;  ///< `cuts` is of this program.
@@ -46,8 +53,8 @@ struct LayerState {
   TeethPose entered;        ///< Where the cut has gone into the ground.
   bool folds = false;       ///< The first part of a lift.
   double weighed_kg = 0.0;  ///< What the cut has brought; 0: not known.
-  bool tares = false;       ///< The empty bucket is raised before it goes back,
-  bool tared = false;       ///< which is done once.
+  TarePart tares = TarePart::kNone;  ///< The empty bucket is moved before it goes back,
+  bool tared = false;                ///< which is done once.
   LinePlan lift;
   DrivePlan move;                            ///< Of the step that runs.
   DriveVector stands = DriveVector::Zero();  ///< Where it was when all was dug.

@@ -274,51 +274,6 @@ void lifts_out_before_it_swings(void**) {
   assert_true(swing_of(task_aim(machine().kinematics, program, state).value) > 0.5);
 }
 
-CutSeen weighs(const TaskProgram& program, const TaskState& state) {
-  CutSeen seen = follows(program, state);
-  seen.payload_known = true;
-  seen.payload_kg = 600.0;
-  return seen;
-}
-
-/// A bucket that was weighed is raised once, empty, before it first goes back.
-void an_empty_bucket_is_raised_once(void**) {
-  const TaskProgram program = planned();
-  TaskState state = begun(program);
-  TaskState raises;
-  int raised = 0;
-  for (int rounds = 0; rounds < 3 && state.phase != TaskPhase::kDone;) {
-    const TaskState next = advance(program, state, weighs(program, state));
-    if (next.layers.tares && !state.layers.tares) {
-      assert_int_equal(program.step[static_cast<unsigned>(next.step)].kind, StepKind::kReturnToDig);
-      const DriveVector way = next.layers.move.change;
-      assert_true(way[kBoom] > 0.02);
-      assert_true(way.cwiseAbs().sum() == way[kBoom]);
-      raises = next;
-      ++raised;
-    }
-    rounds += next.step == 0 && state.step != 0 ? 1 : 0;
-    state = next;
-  }
-  assert_int_equal(raised, 1);
-  // A boom that hardly gets on is not waited for: the return begins from where it is.
-  double waited_s = 0.0;
-  double boom_m = 0.0;
-  for (; raises.layers.tares && waited_s < 20.0; waited_s += kCycle_s) {
-    boom_m = task_aim(machine().kinematics, program, raises).value[kBoom];
-    layer_advance(machine().profile, machine().kinematics, program, 0.05 * kCycle_s, kCycle_s,
-                  follows(program, raises), raises);
-  }
-  assert_true(waited_s < 5.0);
-  assert_int_equal(raises.step, 2);
-  assert_near(raises.layers.move.from[kBoom], boom_m, 1e-3);
-  // Who weighs nothing has nothing to learn it for.
-  run_until(program, begun(program), [](const TaskState& at) {
-    assert_false(at.layers.tares);
-    return at.phase == TaskPhase::kDone;
-  });
-}
-
 /// What was dug is known when the task goes on, and forgotten when it has come to its end.
 void goes_on_where_it_was(void**) {
   const TaskProgram program = planned();
@@ -375,7 +330,6 @@ int main() {
       cmocka_unit_test(a_held_heel_is_lifted_straight_up),
       cmocka_unit_test(a_full_bucket_ends_the_cut),
       cmocka_unit_test(lifts_out_before_it_swings),
-      cmocka_unit_test(an_empty_bucket_is_raised_once),
       cmocka_unit_test(goes_on_where_it_was),
       cmocka_unit_test(what_can_t_be_dug_in_layers_is_refused),
   };
