@@ -118,7 +118,7 @@ def own_words(graben, folder):
         refused(graben, "a_file", *command, "--out", "a_file/under", folder=folder)
     refused(graben, "there is no such file", "campaign", "merge", "none.csv", "--summary", "all.csv", folder=folder)
     (folder / "a.csv").write_text("a,b\n", encoding="ascii")
-    refused(graben, "is a folder; a file with a design is wanted", "grade", "--design", ".", folder=folder)
+    missing_files(graben, folder)
     for command in (["commission"], ["identify", "--out", "b.toml"], ["identify", "--check"]):
         refused(graben, "the pumps of excavator_12t_nfc set their swash themselves", *command, "--log", "a.log",
                 "--profile", "excavator_12t_nfc", folder=folder)
@@ -219,6 +219,34 @@ def profile_slips(graben, folder):
     refused(graben, "--to: attitude: 60 rad", "plan", "--to", "5,0,0,60", folder=folder)
 
 
+def missing_files(graben, folder):
+    """One wording, whatever reads the file: which it is, what was expected, where that comes from."""
+    profile = ("--profile", "excavator_22t")
+    for wanted, *command in (("a log (candump -L), such as graben dig", "compare", "NONE", "NONE"),
+                             ("a log (candump -L), such as graben dig", "export", "NONE", "--mcap", "a.mcap"),
+                             ("a log (candump -L), such as graben dig", "film", "NONE", "--out", "a.webm"),
+                             ("a log (candump -L), such as graben dig", "scope", "--log", "NONE"),
+                             ("a log (candump -L), such as graben dig", "identify", "--log", "NONE", *profile,
+                              "--out", "new.toml"),
+                             ("recorded motion, a CSV", "identify", "--csv", "NONE"),
+                             ("a campaign's draws, as graben campaign", "campaign", "merge", "NONE", "--summary", "m"),
+                             ("a campaign on a cluster; graben campaign", "campaign", "progress", "NONE"),
+                             ("a design: LandXML (.xml), points", "grade", "--design", "NONE"),
+                             ("a file or one of dozer_9t", "check", "NONE"),
+                             ("a file or one of dozer_9t", "dig", "--profile", "NONE"),
+                             ("excavator_22t_found", "dig", "--simulated", "NONE"),
+                             ("a file or one of flatten", "dig", "--task", "NONE"),
+                             ("a file or one of aux_valves", "dig", "--bus", "NONE"),
+                             ("a file or one of dozer_9t", "new-machine", "--like", "NONE", "--out", "n.toml")):
+        for name, why in (("none.x", "there is no such file"), (".", "is a folder")):
+            if why == "is a folder" and wanted.split()[0] == "excavator_22t_found" or "one of" in wanted and name == ".":
+                continue  # A name, too, which no folder is.
+            done = call(graben, *(name if word == "NONE" else word for word in command), folder=folder)
+            said = done.stderr.replace("none.x.slurm/job.json", "none.x").replace("..slurm/job.json", ".")
+            assert done.returncode == 1 and why in said and "wanted: " in said and wanted in said, (command, said)
+            assert name in said and "\n" not in said.strip(), (command, said)
+
+
 def installed(graben, folder):
     """As in /usr: it finds what lies beside it, and knows nothing of where it was built."""
     root = folder / "installed"
@@ -226,7 +254,7 @@ def installed(graben, folder):
     moved = root / "usr/bin/graben"
     shutil.copy(graben, moved)
     pose = ("pose", "--profile", "excavator_22t", "--strokes", "1.0,1.1,0.4")
-    refused(moved, "not found", *pose, folder=folder)
+    refused(moved, "there is no such file", *pose, folder=folder)
     shutil.copytree(MACHINES, root / "usr/share/graben/machines")
     done = call(moved, *pose, folder=folder)
     assert done.returncode == 0 and '"x_m"' in done.stdout, done.stderr

@@ -76,7 +76,7 @@ void a_packed_log_is_unpacked(void**) {
 void what_is_no_log_is_refused(void**) {
   const TemporaryFile empty("");
   assert_refused("no_such_file.log", "there is no such file");
-  assert_refused(std::filesystem::temp_directory_path(), "is a folder, not a log");
+  assert_refused(std::filesystem::temp_directory_path(), "is a folder; wanted: a log");
   assert_refused(empty.path(), "is empty");
   assert_refused("/dev/null",
                  "is no regular file; what is sent through it can be written to one first");
