@@ -63,16 +63,15 @@ std::string foreign_text(const std::map<app_export::CanId, std::size_t>& foreign
       ids += fmt::format("{}0x{:X}", ids.empty() ? "" : ", ", id.second);
     }
   }
-  const std::string likely = bus.empty() ? likely_bus(foreign) : "";
+  const std::string likely = likely_bus(foreign);
   return fmt::format(
       "left out: {} frames with ids that {}: {}{}{}\n", all,
       bus.empty() ? "our DBC does not have"
                   : fmt::format("neither our DBC nor bus profile {} has", bus),
       ids, named > kNamed ? fmt::format(" and {} more", named - kNamed) : "",
-      !bus.empty() ? ""
-      : likely.empty()
-          ? "; --bus NAME takes what a bus profile says of a machine's own bus"
-          : fmt::format("; bus profile {} has most of them: --bus {}", likely, likely));
+      !likely.empty() ? fmt::format("; bus profile {} has most of them: --bus {}", likely, likely)
+      : bus.empty()   ? "; --bus NAME takes what a bus profile says of a machine's own bus"
+                      : "");
 }
 
 /// The bus that was told, else the shipped one that the log's machine was put on; its name too.

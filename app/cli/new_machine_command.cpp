@@ -108,9 +108,6 @@ void assert_answers_come() {
 }
 
 void new_machine(const NewMachine& options) {
-  if (options.out.empty()) {
-    throw std::runtime_error("--out: the name of a file is wanted");
-  }
   const fs::path file(options.out);
   if (fs::exists(file) && !options.force) {
     throw std::runtime_error(fmt::format("{}: is there already; --force replaces it", options.out));

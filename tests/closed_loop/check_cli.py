@@ -98,7 +98,11 @@ def bad_tasks(graben):
         assert done.returncode == 2 and not done.stdout, f"{option}: {done}"
         assert ": not with " in done.stderr and option[0] in done.stderr and "--task" in done.stderr, \
             f"{option}: {done.stderr}"
-    refused(graben, "task '': there is no such file", "dig", "--task", "")
+    for command, words, of in (("dig", ("--task", ""), "--task"), ("dig", ("--bus", ""), "--bus"),
+                               ("dig", ("--summary=",), "--summary"), ("grade", ("--design", ""), "--design"),
+                               ("export", ("dig.log", "--mcap", ""), "--mcap"), ("compare", ("", "a"), "an argument"),
+                               ("new-machine", ("--out", ""), "--out"), ("campaign dig", ("--draws", "2", "--summary", ""), "--summary")):
+        refused(graben, f"graben {command}: {of}: is empty;", *command.split(), *words, status=2)
     refused(graben, "--soil kim: not with --task; there are sand", "dig", "--task", "flatten", "--soil")
     refused(graben, "'mud' is none of kim, sand, loam, clay, stones", "dig", "--soil", "mud", status=2)
     refused(graben, "--soil: only with --sim", "scope", "--log", "no_such", "--soil")

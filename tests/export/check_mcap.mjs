@@ -209,6 +209,8 @@ async function foreign_buses() {
   writeFileSync(join(out, 'mute.log'), mute);
   const said = run(['export', 'mute.log', '--mcap', 'mute.mcap']);
   assert.ok(/left out: \d+ frames with ids that our DBC does not have: .*bus profile zx200 has most of them: --bus zx200/.test(said), said);
+  const other = run(['export', log, '--mcap', 'other.mcap', '--bus', 'encoders']);
+  assert.ok(other.includes('bus profile zx200 has most of them'), other);
   assert.ok(run(['export', log, '--mcap', 'no.mcap', '--bus', 'zx20'], 1).includes("did you mean 'zx200'?"));
   assert.ok(!existsSync(join(out, 'no.mcap')), 'a refused export has left a file');
 
