@@ -199,6 +199,7 @@ std::vector<BusWords> words_of(const toml::table& root, const char* list) {
 
 BusFile load_bus(const std::filesystem::path& file) {
   const ProfileDocument document = read_document(file);
+  refuse_other_sort(document, kBusSort);
   TomlReader reader(document.root);
   BusFile bus;
   bus.speaks = reader.text("bus", "which machine's bus this is");

@@ -80,6 +80,18 @@ const std::vector<std::string>& kind_names() {
   return names;
 }
 
+void refuse_other_sort(const ProfileDocument& document, const std::string& wanted) {
+  const toml::table& root = document.root;
+  const std::string sort = is_simulation_file(document.file)                   ? kSimulationSort
+                           : root.contains("receive") || root.contains("send") ? kBusSort
+                           : root.contains("area") || root.contains("step")    ? kTaskSort
+                           : root.contains("kind")                             ? kMachineSort
+                                                                               : wanted;
+  if (sort != wanted) {
+    throw ProfileError(document.file.string(), {fmt::format("is {}; wanted: {}", sort, wanted)});
+  }
+}
+
 ProfileError::ProfileError(const std::string& file, std::vector<std::string> errors)
     : std::runtime_error(fmt::format("{}: {} error{}:\n  {}", file, errors.size(),
                                      errors.size() == 1 ? "" : "s", fmt::join(errors, "\n  "))),
@@ -225,7 +237,9 @@ MachineKind profile_kind(const ProfileDocument& document) {
 }
 
 MachineKind profile_kind(const std::filesystem::path& file) {
-  return profile_kind(read_document(file));
+  const ProfileDocument document = read_document(file);
+  refuse_other_sort(document, kMachineSort);
+  return profile_kind(document);
 }
 
 }  // namespace graben::machines

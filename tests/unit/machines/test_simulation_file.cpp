@@ -218,7 +218,8 @@ void a_machine_with_other_drives_is_refused(void**) {
   choice.name = "none_such";
   says(error_of(
            [&] { return machines::load_simulated_excavator(shipped("excavator_22t"), choice); }),
-       {"simulated machine 'none_such': there is no such file", "none_such.sim.toml"});
+       {"simulated machine 'none_such': there is no such file",
+        "wanted: a file or one of dozer_9t"});
 }
 
 /// By path, by shipped name, by the profile beside it.

@@ -64,7 +64,7 @@ void every_error_is_told(void**) {
   assert_says(errors, "'missing': there is no such file");
   assert_says(errors, "no_such_folder");
   assert_says(errors, "excavator_12t.toml");
-  assert_says(errors, "start");
+  assert_says(errors, "is a machine's profile; wanted: a task");
   assert_says(errors, "'gone': there is no such file");
 }
 
