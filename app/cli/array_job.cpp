@@ -15,6 +15,7 @@
 
 #include "app/cli/output_file.hpp"
 #include "app/cli/program.hpp"
+#include "app/machines/missing_file.hpp"
 #include "app/runs/campaign_run.hpp"
 
 namespace graben::cli {
@@ -148,8 +149,9 @@ ArrayJob read_array_job(const fs::path& summary) {
   std::ifstream stream(file);
   if (!stream) {
     throw std::runtime_error(
-        fmt::format("{}: there is no such file; campaign ... --slurm --summary {} begins one",
-                    file.string(), summary.string()));
+        machines::unread_text(file, fmt::format("a campaign on a cluster; graben campaign ... "
+                                                "--slurm --summary {} begins one",
+                                                summary.string())));
   }
   const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
   ArrayJob job;

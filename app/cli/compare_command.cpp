@@ -5,16 +5,14 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
 #include "app/cli/output_file.hpp"
-#include "app/machines/any_machine.hpp"
-#include "app/machines/profile_file.hpp"
 #include "app/reports/compare/compare_report.hpp"
+#include "app/runs/logged_machine.hpp"
 #include "app/scope/page/scope_page.hpp"
 
 namespace graben::cli {
@@ -29,21 +27,6 @@ struct CompareCommand {
   std::string out = "out";
 };
 
-/// A shipped one, or the one that was told, by what it is; the hash of any other.
-std::string profile_name(const std::string& told, std::uint32_t hash) {
-  std::vector<std::string> names = machines::shipped_profile_names();
-  if (!told.empty()) {
-    names.push_back(told);
-  }
-  for (const std::string& name : names) {
-    const machines::AnyMachine machine = machines::load_any(machines::find_profile(name));
-    if (std::visit([](const auto& any) { return any.hash; }, machine) == hash) {
-      return name;
-    }
-  }
-  return fmt::format("one that is not shipped ({:08x})", hash);
-}
-
 void compare(const CompareCommand& options) {
   const fs::path out(options.out);
   const fs::path report = out / "compare.html";
@@ -56,7 +39,8 @@ void compare(const CompareCommand& options) {
     setup.profile = options.profile;
   }
   const std::vector<std::string> notes = runs::compared_notes(
-      first, second, [&](std::uint32_t hash) { return profile_name(options.profile, hash); });
+      first, second,
+      [&](std::uint32_t hash) { return runs::machine_words(hash, options.profile); });
   fs::create_directories(out);
   reports::write_compare_report({report, scope::scope_page()}, options.first, first, second,
                                 figures, notes, setup);

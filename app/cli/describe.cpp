@@ -18,9 +18,11 @@ using nlohmann::ordered_json;
 
 /// What of ours goes in the place of a file's name.
 std::vector<std::string> shipped_words(const std::string& option) {
-  if (option == "--profile" || option == "profile" || option == "--like" || option == "--before" ||
-      option == "--simulated") {
+  if (option == "--profile" || option == "profile" || option == "--like" || option == "--before") {
     return machines::shipped_profile_names();
+  }
+  if (option == "--simulated") {
+    return machines::shipped_simulation_names();
   }
   if (option == "--task") {
     return machines::shipped_task_names();

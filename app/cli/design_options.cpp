@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "app/cli/options.hpp"
+#include "app/machines/missing_file.hpp"
 
 namespace graben::cli {
 
@@ -36,9 +36,11 @@ Designed designed(const machines::SimulatedDozer& machine, const design::DesignS
     }
     return {machine, {}};
   }
-  if (std::filesystem::is_directory(source.file)) {
-    throw std::runtime_error(fmt::format("--design {}: is a folder; a file with a design is wanted",
-                                         source.file.string()));
+  std::error_code ignored;
+  if (!std::filesystem::exists(source.file, ignored) ||
+      std::filesystem::is_directory(source.file, ignored)) {
+    throw std::runtime_error(machines::unread_text(
+        source.file, "a design: LandXML (.xml), points (.xyz, .csv, .pts), or a line a corner"));
   }
   const design::BladeAcross blade{machine.plant.blade_shape.width_m,
                                   machine.profile.grade.tolerance_m};

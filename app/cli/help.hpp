@@ -36,9 +36,9 @@ void add_examples(CLI::App& command, const std::vector<std::string>& examples);
 /// After all commands: what is shipped, under the help of each that reads a profile or a task.
 void add_shipped(CLI::App& app);
 
-/// The first of the words that should be a command and is none, or an option that comes before one;
-/// empty where there is no such slip. To be asked before CLI11 parses: it takes the first command
-/// that it knows, wherever that stands.
+/// A word without a letter; else the first of the words that should be a command and is none, or an
+/// option that comes before one; empty where there is no such slip. To be asked before CLI11
+/// parses: it takes the first command that it knows, wherever that stands.
 [[nodiscard]] std::string command_slip(const CLI::App& app, const std::vector<std::string>& words);
 
 /// What is wrong with a command line, with the command that it is for, and where to read on.

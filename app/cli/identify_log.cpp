@@ -46,9 +46,6 @@ std::vector<identify::MachineLog> read_logs(const IdentifyLogCommand& options,
   const ExcavatorProfile& profile = machine.profile;
   std::vector<identify::MachineLog> logs;
   for (const std::string& file : options.logs) {
-    if (fs::is_directory(file)) {
-      throw std::runtime_error(fmt::format("{}: is a folder; a log of candump -L is wanted", file));
-    }
     logs.push_back(identify::read_machine_log(file, profile.pump_count));
     const identify::MachineLog& log = logs.back();
     for (std::size_t n = 0; n + 1 < logs.size(); ++n) {

@@ -17,6 +17,7 @@
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
 #include "app/cli/output_file.hpp"
+#include "app/cli/program.hpp"
 #include "app/machines/any_machine.hpp"
 #include "app/machines/new/new_profile.hpp"
 
@@ -108,9 +109,6 @@ void assert_answers_come() {
 }
 
 void new_machine(const NewMachine& options) {
-  if (options.out.empty()) {
-    throw std::runtime_error("--out: the name of a file is wanted");
-  }
   const fs::path file(options.out);
   if (fs::exists(file) && !options.force) {
     throw std::runtime_error(fmt::format("{}: is there already; --force replaces it", options.out));
@@ -130,7 +128,7 @@ void new_machine(const NewMachine& options) {
   fmt::print("profile {}\n", options.out);
   // What does not fit together is said now, with its line; the file is there to be corrected.
   static_cast<void>(machines::load_any(file));
-  fmt::print("next    graben check {}\n", options.out);
+  fmt::print("next    graben check {}\n", shell_word(options.out));
 }
 
 }  // namespace

@@ -143,9 +143,36 @@ std::string refusal(const std::string& name, const std::string& what) {
   return fmt::format("{}: {}\n`{} --help` says more\n", name, what, name);
 }
 
+/// Of a shell's variable that is not set a word is left without a letter, or `--out=`: nothing that
+/// anybody means.
+std::string empty_word(const CLI::App& app, const std::vector<std::string>& words) {
+  const CLI::App* at = &app;
+  std::string name = app.get_name();
+  std::string before;
+  for (const std::string& word : words) {
+    const bool is_option = word.rfind("--", 0) == 0;
+    if (word.empty() || (is_option && word.find('=') + 1 == word.size())) {
+      const std::string of = is_option                    ? word.substr(0, word.size() - 1)
+                             : before.rfind("--", 0) == 0 ? before
+                                                          : "an argument";
+      return refusal(name, of + ": is empty; is it a variable of the shell that is not set?");
+    }
+    const std::vector<std::string> commands = command_names(*at);
+    if (std::find(commands.begin(), commands.end(), word) != commands.end()) {
+      at = at->get_subcommand(word);
+      name += " " + word;
+    }
+    before = word;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string command_slip(const CLI::App& app, const std::vector<std::string>& words) {
+  if (std::string empty = empty_word(app, words); !empty.empty()) {
+    return empty;
+  }
   const CLI::App* at = &app;
   std::string name = app.get_name();
   for (const std::string& word : words) {

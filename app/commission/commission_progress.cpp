@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "app/commission/commission_windows.hpp"
+#include "app/machines/missing_file.hpp"
 
 namespace graben::commission {
 namespace {
@@ -111,7 +112,8 @@ Progress read_progress(const fs::path& file, std::uint32_t profile_hash,
                        const SequenceOptions& machine) {
   std::ifstream stream(file);
   if (!stream) {
-    throw std::runtime_error(file.string() + ": nothing to go on with: it is not there");
+    throw std::runtime_error(machines::unread_text(
+        file, "the progress of a commissioning, which one that was stopped leaves beside its log"));
   }
   Progress progress;
   progress.options = machine;

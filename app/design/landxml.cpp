@@ -58,7 +58,7 @@ double metres_of(const std::string& unit) {
 class LandXml {
  public:
   explicit LandXml(const std::filesystem::path& file)
-      : file_(file), text_(machines::file_text(file)) {
+      : file_(file), text_(machines::file_text(file, "a design in LandXML")) {
     const pugi::xml_parse_result parsed = document_.load_buffer(text_.data(), text_.size());
     if (!parsed) {
       throw ProfileError(file.string(),

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,11 +19,21 @@ struct JsonMessage {
   std::uint32_t id = 0;
   std::string topic;   ///< "/machine/BoomStroke": who sends it, and its name.
   std::string schema;  ///< JSON schema, draft 7.
-  std::string (*text)(const dbc::Payload& payload) = nullptr;
+  std::function<std::string(const dbc::Payload& payload)> text;
+  bool extended = true;
+  std::uint8_t length = 8;
 };
 
-/// "BoomStroke_m", "PumpFlow_m3ps"; without a unit the name alone.
-[[nodiscard]] std::string signal_name(const dbc::Field& field);
+/// A signal's name with its SI unit: "BoomStroke_m", "PumpFlow_m3ps"; without a unit the name
+/// alone.
+[[nodiscard]] std::string signal_name(std::string_view name, std::string_view unit);
+
+/// Text as JSON has it, in quotes.
+[[nodiscard]] std::string json_text(std::string_view text);
+
+/// `"name":{...}` of a number in a schema; and the schema of a message of such.
+[[nodiscard]] std::string number_schema(std::string_view name, std::string_view unit);
+[[nodiscard]] std::string object_schema(std::string_view title, const std::string& properties);
 
 /// The sender's folder of the topics.
 [[nodiscard]] std::string topic_of(std::string_view sender, std::string_view message);
@@ -44,8 +55,8 @@ std::string message_text(const dbc::Payload& payload) {
   const Message message = Message::decode(payload);
   Message::visit(message, [&text](const dbc::Field& field, const auto& signal) {
     if (signal.state == dbc::RawState::kValid) {
-      text += fmt::format("{}\"{}\":{}", text.size() > 1 ? "," : "", signal_name(field),
-                          number_text(signal));
+      text += fmt::format("{}\"{}\":{}", text.size() > 1 ? "," : "",
+                          signal_name(field.name, field.unit), number_text(signal));
     }
   });
   return text + "}";
@@ -56,14 +67,10 @@ JsonMessage json_message() {
   std::string properties;
   const Message message{};
   Message::visit(message, [&properties](const dbc::Field& field, const auto& /*signal*/) {
-    properties += fmt::format(R"({}"{}":{{"type":"number","description":"{}"}})",
-                              properties.empty() ? "" : ",", signal_name(field),
-                              field.unit[0] == '\0' ? "no unit" : field.unit);
+    properties += (properties.empty() ? "" : ",") + number_schema(field.name, field.unit);
   });
   return {Message::kId, topic_of(Message::kSender, Message::kName),
-          fmt::format(R"({{"type":"object","title":"{}","properties":{{{}}}}})", Message::kName,
-                      properties),
-          message_text<Message>};
+          object_schema(Message::kName, properties), message_text<Message>};
 }
 
 template <class... Messages>

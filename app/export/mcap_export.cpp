@@ -3,13 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
+#include "app/export/bus_messages.hpp"
 #include "app/export/json_message.hpp"
 #include "app/export/mcap_writer.hpp"
 #include "app/identify/machine/candump_reader.hpp"
@@ -103,6 +104,62 @@ class StateWords {
   bool is_ready_ = false;
 };
 
+/// A channel for each message that is known by its id: of our DBC, of the machine's own bus, which
+/// says better than ours what an id is there, and of a sensor on a link.
+class Channels {
+ public:
+  Channels(McapWriter& writer, bool is_dozer, const machines::BusFile* bus) : writer_(writer) {
+    if (bus != nullptr) {
+      for (JsonMessage& message : bus_messages(*bus)) {
+        add(std::move(message), bus->speaks);
+      }
+    }
+    for (JsonMessage& message : is_dozer ? json_messages(dbc::dozer::AllMessages{})
+                                         : json_messages(dbc::excavator::AllMessages{})) {
+      add(std::move(message), "graben");
+    }
+  }
+
+  /// Writes the frame; false where no channel is for it.
+  bool take(const identify::LoggedFrame& frame, std::uint64_t time_ns) {
+    auto channel = channels_.find({frame.extended, frame.id});
+    if (channel == channels_.end() && frame.extended) {
+      if (std::optional<JsonMessage> sensor = link_sensor_message(frame.id)) {
+        channel = add(std::move(*sensor), "j1939");
+      }
+    }
+    if (channel == channels_.end() || frame.length != channel->second.message.length) {
+      return false;
+    }
+    writer_.add(channel->second.id, time_ns, channel->second.message.text(frame.data));
+    return true;
+  }
+
+  [[nodiscard]] std::size_t count() const { return channels_.size(); }
+
+ private:
+  struct Channel {
+    JsonMessage message;
+    std::uint16_t id;
+  };
+  using Map = std::map<CanId, Channel>;
+
+  Map::iterator add(JsonMessage message, const std::string& owner) {
+    const CanId key{message.extended, message.id};
+    const auto known = channels_.find(key);
+    if (known != channels_.end()) {
+      return known;
+    }
+    const std::uint16_t id = writer_.add_channel(
+        message.topic, owner + "." + message.topic.substr(message.topic.rfind('/') + 1),
+        message.schema);
+    return channels_.emplace(key, Channel{std::move(message), id}).first;
+  }
+
+  McapWriter& writer_;
+  Map channels_;
+};
+
 /// Stamps that do not go back.
 class Clock {
  public:
@@ -132,60 +189,30 @@ class Clock {
 
 }  // namespace
 
-std::string signal_name(const dbc::Field& field) {
-  static const std::map<std::string, std::string, std::less<>> units = {
-      {"rad/s", "radps"}, {"m/s", "mps"}, {"m^3/s", "m3ps"}};
-  if (field.unit[0] == '\0') {
-    return field.name;
-  }
-  const auto unit = units.find(field.unit);
-  return fmt::format("{}_{}", field.name, unit == units.end() ? field.unit : unit->second);
-}
-
-std::string topic_of(std::string_view sender, std::string_view message) {
-  std::string folder(sender);
-  folder[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(folder[0])));
-  return fmt::format("/{}/{}", folder, message);
-}
-
-ExportCounts export_mcap(const std::filesystem::path& log, const std::filesystem::path& mcap) {
+ExportCounts export_mcap(const std::filesystem::path& log, const std::filesystem::path& mcap,
+                         const FindBus& find_bus) {
   // Says what kind of machine it is, and refuses what is no log of ours before anything is written.
   const runs::RunLog run = runs::read_run_log(log);
-  McapWriter writer(mcap, "graben");
-  struct Channel {
-    JsonMessage message;
-    std::uint16_t id;
-  };
-  std::map<std::uint32_t, Channel> channels;
-  for (JsonMessage& message : run.is_dozer ? json_messages(dbc::dozer::AllMessages{})
-                                           : json_messages(dbc::excavator::AllMessages{})) {
-    const std::uint16_t id = writer.add_channel(
-        message.topic, "graben." + message.topic.substr(message.topic.rfind('/') + 1),
-        message.schema);
-    const std::uint32_t number = message.id;
-    channels.emplace(number, Channel{std::move(message), id});
-  }
-  StateWords words(writer, run.is_dozer ? runs::dozer_actuators() : runs::excavator_actuators());
   ExportCounts counts;
+  const std::optional<machines::BusFile> bus = find_bus(run.profile_hash);
+  McapWriter writer(mcap, "graben");
+  Channels channels(writer, run.is_dozer, bus ? &*bus : nullptr);
+  StateWords words(writer, run.is_dozer ? runs::dozer_actuators() : runs::excavator_actuators());
   Clock clock(log);
   static_cast<void>(identify::read_candump(
       log,
       [&](const identify::LoggedFrame& frame) {
         const std::uint64_t time_ns = clock.stamp(frame);
-        const auto channel = channels.find(frame.id);
-        if (channel == channels.end() || !frame.extended || frame.length != frame.data.size()) {
-          ++counts.foreign[frame.id];
-          return;
-        }
-        writer.add(channel->second.id, time_ns, channel->second.message.text(frame.data));
-        if (frame.id == Status::kId) {
+        if (!channels.take(frame, time_ns)) {
+          ++counts.foreign[{frame.extended, frame.id}];
+        } else if (frame.extended && frame.id == Status::kId) {
           words.take(Status::decode(frame.data), time_ns, frame.line);
         }
       },
       identify::CutLine::kPassedOver));
   writer.finish();
   counts.messages = writer.messages();
-  counts.channels = channels.size() + 2;
+  counts.channels = channels.count() + 2;
   counts.late = clock.late;
   counts.duration_s = run.until_s - run.from_s;
   return counts;

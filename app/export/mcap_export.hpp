@@ -1,23 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// A candump log as MCAP: each message of our bus as a channel, its signals in SI units; what the
-/// controller said of itself in words; its changes of mode and its faults as a log.
+/// A candump log as MCAP: each message of our bus, of the machine's own and of the sensors on its
+/// links as a channel, its signals in SI units; what the controller said of itself in words; its
+/// changes of mode and its faults as a log.
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <optional>
+#include <utility>
+
+#include "app/machines/bus_file.hpp"
 
 namespace graben::app_export {
+
+/// 29 bits or 11, and the id.
+using CanId = std::pair<bool, std::uint32_t>;
 
 struct ExportCounts {
   std::uint64_t messages = 0;  ///< Written, all channels together.
   std::size_t channels = 0;
-  /// Frames that are no message of ours, by their id.
-  std::map<std::uint32_t, std::size_t> foreign;
+  /// Frames that are on no channel, by their id.
+  std::map<CanId, std::size_t> foreign;
   std::size_t late = 0;  ///< Frames whose stamp was before that of the frame before them.
   double duration_s = 0.0;
 };
+
+/// The bus that a machine is on, by what the controller of a log called its profile, 0 where it did
+/// not; none: ours alone.
+using FindBus = std::function<std::optional<machines::BusFile>(std::uint32_t profile_hash)>;
 
 /// Stamps of one log may be a little out of order where several interfaces are in it: such a frame
 /// has the stamp of the one before it. Throws std::runtime_error with file, and line where it has
@@ -25,7 +38,7 @@ struct ExportCounts {
 /// of ours, or goes back by more than kMostBack_s; and where `mcap` cannot be written, which then
 /// is a part of a file.
 [[nodiscard]] ExportCounts export_mcap(const std::filesystem::path& log,
-                                       const std::filesystem::path& mcap);
+                                       const std::filesystem::path& mcap, const FindBus& find_bus);
 inline constexpr double kMostBack_s = 1.0;
 
 }  // namespace graben::app_export

@@ -5,24 +5,21 @@
 #include <zlib.h>
 
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
 
+#include "app/machines/missing_file.hpp"
+
 namespace graben::identify {
 
-Lines::Lines(const std::string& path) : path_(path), file_(gzopen(path.c_str(), "rb"), gzclose) {
-  if (!file_) {
-    throw std::runtime_error(fmt::format(
-        "{}: {}", path, errno == ENOENT ? "there is no such file" : std::strerror(errno)));
-  }
-  // zlib would only say that it can't read it.
+Lines::Lines(const std::string& path, const std::string& wanted)
+    : path_(path), file_(gzopen(path.c_str(), "rb"), gzclose) {
+  // Of a folder zlib would only say that it can't read it.
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw std::runtime_error(fmt::format("{}: is a folder; a file is wanted", path));
+  if (!file_ || std::filesystem::is_directory(path, ignored)) {
+    throw std::runtime_error(machines::unread_text(path, wanted));
   }
 }
 

@@ -12,8 +12,9 @@ namespace graben::identify {
 
 class Lines {
  public:
-  /// Throws std::runtime_error where the file cannot be read.
-  explicit Lines(const std::string& path);
+  /// Throws std::runtime_error where the file cannot be read, with what is `wanted` and where that
+  /// comes from.
+  Lines(const std::string& path, const std::string& wanted);
 
   /// The next line without its end; false after the last. Throws where the file is cut off or no
   /// text.

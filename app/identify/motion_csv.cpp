@@ -141,7 +141,7 @@ void check_agreement(const std::vector<MotionRun>& runs, const std::string& path
 }  // namespace
 
 std::vector<MotionRun> read_motion_csv(const std::string& path) {
-  Lines lines(path);
+  Lines lines(path, "recorded motion, a CSV as graben identify --help describes it");
   std::string line;
   if (!lines.next(line)) {
     refuse(path, "is empty");

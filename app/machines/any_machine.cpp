@@ -7,6 +7,7 @@ namespace graben::machines {
 
 AnyMachine load_any(const std::filesystem::path& file) {
   const ProfileDocument document = read_document(file);
+  refuse_other_sort(document, kMachineSort);
   if (profile_kind(document) == MachineKind::kDozer) {
     return load_dozer(document);
   }

@@ -177,10 +177,29 @@ BusContext read_context(TomlReader& reader, const std::filesystem::path& file) {
   return context;
 }
 
+/// Of each message of `list` ("receive", "send"), which has been checked.
+std::vector<BusWords> words_of(const toml::table& root, const char* list) {
+  std::vector<BusWords> all;
+  const toml::array* messages = root[list].as_array();
+  for (std::size_t i = 0; messages != nullptr && i < messages->size(); ++i) {
+    const std::string key = fmt::format("{}[{}]", list, i);
+    BusWords& words = all.emplace_back();
+    words.message = root.at_path(key + ".message").value<std::string>().value_or("");
+    const toml::array* signals = root.at_path(key + ".signal").as_array();
+    for (std::size_t n = 0; signals != nullptr && n < signals->size(); ++n) {
+      words.signal.push_back(root.at_path(fmt::format("{}.signal[{}].signal", key, n))
+                                 .value<std::string>()
+                                 .value_or(""));
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 BusFile load_bus(const std::filesystem::path& file) {
   const ProfileDocument document = read_document(file);
+  refuse_other_sort(document, kBusSort);
   TomlReader reader(document.root);
   BusFile bus;
   bus.speaks = reader.text("bus", "which machine's bus this is");
@@ -201,6 +220,8 @@ BusFile load_bus(const std::filesystem::path& file) {
     }
     throw ProfileError(file.string(), errors);
   }
+  bus.received = words_of(document.root, "receive");
+  bus.sent = words_of(document.root, "send");
   bus.hash = reader.hash();
   return bus;
 }

@@ -13,11 +13,19 @@
 
 namespace graben::machines {
 
+/// What the profile calls a message of its table, and its signals, in the table's order.
+struct BusWords {
+  std::string message;
+  std::vector<std::string> signal;
+};
+
 struct BusFile {
   std::string speaks;      ///< `bus` of the file: which machine's; a twin goes by it.
   std::uint32_t hash = 0;  ///< Of the checked values.
   BusTable table;
   BusCapabilities capabilities;
+  std::vector<BusWords> received;  ///< Beside table.message.
+  std::vector<BusWords> sent;      ///< Beside table.send.
 };
 
 /// Reads and checks a bus profile. Throws ProfileError with every error found, each with the

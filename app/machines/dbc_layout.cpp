@@ -9,6 +9,8 @@
 #include <regex>
 #include <stdexcept>
 
+#include "app/machines/missing_file.hpp"
+
 namespace graben::machines {
 namespace {
 
@@ -166,12 +168,9 @@ void read_dbc_line(const std::string& line, std::vector<DbcMessage>& messages) {
 
 std::vector<DbcMessage> read_dbc(const std::filesystem::path& file) {
   std::error_code none;
-  if (std::filesystem::is_directory(file, none)) {
-    throw std::runtime_error(fmt::format("{}: is a folder; allowed: a file", file.string()));
-  }
   std::ifstream stream(file);
-  if (!stream) {
-    throw std::runtime_error(fmt::format("{}: can't be read", file.string()));
+  if (!stream || std::filesystem::is_directory(file, none)) {
+    throw std::runtime_error(unread_text(file, "the DBC that a bus profile names"));
   }
   std::vector<DbcMessage> messages;
   std::string line;

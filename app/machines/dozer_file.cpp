@@ -24,7 +24,9 @@ DozerMachine load_dozer(const ProfileDocument& document) {
 }
 
 DozerMachine load_dozer(const std::filesystem::path& file) {
-  return load_dozer(read_document(file));
+  const ProfileDocument document = read_document(file);
+  refuse_other_sort(document, kMachineSort);
+  return load_dozer(document);
 }
 
 }  // namespace graben::machines

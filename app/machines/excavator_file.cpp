@@ -47,7 +47,9 @@ ExcavatorMachine load_excavator(const ProfileDocument& document) {
 }
 
 ExcavatorMachine load_excavator(const std::filesystem::path& file) {
-  return load_excavator(read_document(file));
+  const ProfileDocument document = read_document(file);
+  refuse_other_sort(document, kMachineSort);
+  return load_excavator(document);
 }
 
 }  // namespace graben::machines

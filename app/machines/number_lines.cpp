@@ -9,6 +9,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "app/machines/missing_file.hpp"
 #include "app/machines/profile_file.hpp"
 
 namespace graben::machines {
@@ -67,18 +68,18 @@ std::string take_line(std::size_t number, std::string_view line, const Columns& 
 
 }  // namespace
 
-std::string file_text(const std::filesystem::path& file) {
+std::string file_text(const std::filesystem::path& file, const std::string& wanted) {
   std::ifstream stream(file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (!stream.good() && !stream.eof()) {
-    throw std::runtime_error(fmt::format("{}: can't be read", file.string()));
+    throw std::runtime_error(unread_text(file, wanted));
   }
   return text;
 }
 
 void read_number_lines(const std::filesystem::path& file, const Columns& columns,
                        const TakeNumbers& take) {
-  const std::string text = file_text(file);
+  const std::string text = file_text(file, fmt::format("lines of {}", columns.names));
   std::vector<std::string> errors;
   std::size_t number = 0;
   for (std::size_t at = 0; at < text.size() && errors.size() < kMostErrors;) {

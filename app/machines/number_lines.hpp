@@ -28,7 +28,7 @@ using TakeNumbers =
 void read_number_lines(const std::filesystem::path& file, const Columns& columns,
                        const TakeNumbers& take);
 
-/// The whole file. Throws std::runtime_error if it can't be read.
-[[nodiscard]] std::string file_text(const std::filesystem::path& file);
+/// The whole file. Throws std::runtime_error, with what is `wanted`, if it can't be read.
+[[nodiscard]] std::string file_text(const std::filesystem::path& file, const std::string& wanted);
 
 }  // namespace graben::machines

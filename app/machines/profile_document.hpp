@@ -36,6 +36,14 @@ void lay_over(toml::table& base, toml::table&& differences);
 /// Why a text is not TOML, with its place and the line that is meant.
 [[nodiscard]] std::string syntax_words(const std::string& text, const toml::parse_error& error);
 
+inline constexpr const char* kMachineSort = "a machine's profile";
+inline constexpr const char* kSimulationSort = "a simulated machine's file";
+inline constexpr const char* kBusSort = "a bus profile";
+inline constexpr const char* kTaskSort = "a task";
+/// Throws ProfileError where a file is one of ours, but of another of these sorts than
+/// `wanted`: its keys would only pile up errors.
+void refuse_other_sort(const ProfileDocument& document, const std::string& wanted);
+
 /// As of a file.
 [[nodiscard]] MachineKind profile_kind(const ProfileDocument& document);
 

@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "app/machines/missing_file.hpp"
 #include "app/machines/near_word.hpp"
 
 namespace graben::machines {
@@ -28,7 +29,7 @@ std::string read_file(const std::filesystem::path& file) {
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   // An empty file can be read; what it lacks is said later.
   if (!stream.good() && !stream.eof()) {
-    throw std::runtime_error(fmt::format("{}: can't be read", file.string()));
+    throw std::runtime_error(unread_text(file, "a file in TOML"));
   }
   return text;
 }
@@ -79,6 +80,18 @@ const std::vector<std::string>& kind_names() {
   return names;
 }
 
+void refuse_other_sort(const ProfileDocument& document, const std::string& wanted) {
+  const toml::table& root = document.root;
+  const std::string sort = is_simulation_file(document.file)                   ? kSimulationSort
+                           : root.contains("receive") || root.contains("send") ? kBusSort
+                           : root.contains("area") || root.contains("step")    ? kTaskSort
+                           : root.contains("kind")                             ? kMachineSort
+                                                                               : wanted;
+  if (sort != wanted) {
+    throw ProfileError(document.file.string(), {fmt::format("is {}; wanted: {}", sort, wanted)});
+  }
+}
+
 ProfileError::ProfileError(const std::string& file, std::vector<std::string> errors)
     : std::runtime_error(fmt::format("{}: {} error{}:\n  {}", file, errors.size(),
                                      errors.size() == 1 ? "" : "s", fmt::join(errors, "\n  "))),
@@ -99,10 +112,10 @@ std::filesystem::path find_file(const char* what, const std::string& name,
     looked_in += (looked_in.empty() ? "" : ", ") + folder.string();
   }
   const std::vector<std::string> there = file_names(folders);
-  throw std::runtime_error(
-      fmt::format("{} '{}' not found, neither as a file nor in {}{}{}", what, name, looked_in,
-                  there.empty() ? "" : fmt::format("; there: {}", fmt::join(there, ", ")),
-                  near_word_hint(name, there)));
+  throw std::runtime_error(fmt::format(
+      "{} '{}': there is no such file, nor one of that name in {}{}{}", what, name, looked_in,
+      there.empty() ? "" : fmt::format("; wanted: a file or one of {}", fmt::join(there, ", ")),
+      near_word_hint(name, there)));
 }
 
 std::vector<std::string> file_names(const std::vector<std::filesystem::path>& folders) {
@@ -113,6 +126,17 @@ std::vector<std::string> file_names(const std::vector<std::filesystem::path>& fo
       if (entry.path().extension() == ".toml" && !is_simulation_file(entry.path())) {
         names.insert(entry.path().stem().string());
       }
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
+std::vector<std::string> simulation_names(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (is_simulation_file(entry.path())) {
+      names.insert(entry.path().stem().stem().string());
     }
   }
   return {names.begin(), names.end()};
@@ -213,7 +237,9 @@ MachineKind profile_kind(const ProfileDocument& document) {
 }
 
 MachineKind profile_kind(const std::filesystem::path& file) {
-  return profile_kind(read_document(file));
+  const ProfileDocument document = read_document(file);
+  refuse_other_sort(document, kMachineSort);
+  return profile_kind(document);
 }
 
 }  // namespace graben::machines

@@ -39,11 +39,15 @@ class ProfileError : public std::runtime_error {
 /// once, in order.
 [[nodiscard]] std::vector<std::string> file_names(
     const std::vector<std::filesystem::path>& folders);
-/// The same in the folder `beside`, then there.
+/// Names of the simulated machines in this folder: each NAME.sim.toml, in order.
+[[nodiscard]] std::vector<std::string> simulation_names(const std::filesystem::path& folder);
+/// A profile in the folder `beside`, then among those that the tool brings.
 [[nodiscard]] std::filesystem::path find_machine(const std::string& name,
                                                  const std::filesystem::path& beside);
 /// NAME.sim.toml there. Throws std::runtime_error where there is none.
 [[nodiscard]] std::filesystem::path find_shipped_simulation(const std::string& name);
+/// What find_shipped_simulation(name) knows, in order.
+[[nodiscard]] std::vector<std::string> shipped_simulation_names();
 
 /// NAME.sim.toml beside this machine's NAME.toml, be it there or not.
 [[nodiscard]] std::filesystem::path simulation_file(const std::filesystem::path& file);

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "app/machines/bus_file.hpp"
+#include "app/machines/near_word.hpp"
 #include "app/machines/profile_file.hpp"
 #include "app/machines/task_file.hpp"
 #ifndef GRABEN_MACHINES_DIR
@@ -52,6 +53,8 @@ std::vector<std::string> shipped_profile_names() { return file_names({shipped_fo
 
 std::vector<std::string> shipped_task_names() { return file_names({shipped_folder() / "tasks"}); }
 
+std::vector<std::string> shipped_simulation_names() { return simulation_names(shipped_folder()); }
+
 std::vector<std::string> shipped_bus_names() { return file_names({shipped_folder() / "buses"}); }
 
 fs::path find_profile(const std::string& name) { return find_profile(name, {shipped_folder()}); }
@@ -63,8 +66,11 @@ fs::path find_machine(const std::string& name, const fs::path& beside) {
 fs::path find_shipped_simulation(const std::string& name) {
   fs::path file = simulation_file(shipped_folder() / (name + ".toml"));
   if (!fs::is_regular_file(file)) {
+    const std::vector<std::string> there = shipped_simulation_names();
     throw std::runtime_error(fmt::format(
-        "simulated machine '{}' not found, neither as a file nor as {}", name, file.string()));
+        "simulated machine '{}': there is no such file, nor one of that name in {}; wanted: a file "
+        "or one of {}{}",
+        name, shipped_folder().string(), fmt::join(there, ", "), near_word_hint(name, there)));
   }
   return file;
 }

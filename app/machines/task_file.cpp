@@ -79,6 +79,7 @@ ProgramRequest read_step_task(TomlReader& reader, const ExcavatorProfile& profil
 
 TaskFile load_task(const std::filesystem::path& file, const ExcavatorProfile& profile) {
   const ProfileDocument document = read_document(file);
+  refuse_other_sort(document, kTaskSort);
   TomlReader reader(document.root);
   TaskFile task;
   task.name = file.stem().string();

@@ -17,6 +17,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "app/machines/missing_file.hpp"
+
 namespace graben::runs {
 namespace {
 
@@ -103,8 +105,9 @@ double rank(const std::vector<double>& sorted, double share) {
 
 /// What the first line says was tried.
 std::string tried_line(std::ifstream& stream, const std::filesystem::path& file) {
-  if (!stream.is_open()) {
-    refuse(file, std::filesystem::exists(file) ? "can't be read" : "there is no such file");
+  if (!stream.is_open() || std::filesystem::is_directory(file)) {
+    throw std::runtime_error(
+        machines::unread_text(file, "a campaign's draws, as graben campaign ... --summary writes"));
   }
   std::string line;
   if (!std::getline(stream, line) || line.rfind("# ", 0) != 0) {

@@ -9,12 +9,16 @@
 #include <limits>
 #include <map>
 
+#include "app/machines/task_text.hpp"
 #include "app/runs/run_log.hpp"
 
 namespace graben::runs {
 namespace {
 
 constexpr double kShort_s = 1.0;  ///< Figures of less are of its start alone.
+/// More is no error of a way.
+constexpr double kOtherPlace_m = 0.15;
+constexpr std::size_t kFirstStroke = 5;  ///< Of an excavator's channels.
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 struct ErrorFigures {
@@ -93,6 +97,53 @@ std::string task_name(std::uint8_t task) {
   return task < kNames.size() ? kNames[task] : fmt::format("{}", task);
 }
 
+/// As in a task file; the bus has the core's codes.
+const char* step_words(const RunStep& step) {
+  return machines::step_name(static_cast<StepKind>(step.kind));
+}
+
+/// The most that a cylinder stands elsewhere at these moments; not a number where none is known.
+double strokes_apart_m(const RunLog& first, double first_s, const RunLog& second, double second_s) {
+  double most_m = kNone;
+  for (std::size_t i = kFirstStroke; i < first.channel.size(); ++i) {
+    most_m =
+        std::fmax(most_m, std::abs(first.channel[i].at(first_s) - second.channel[i].at(second_s)));
+  }
+  return most_m;
+}
+
+/// Two task files may both be 'program' to the bus: what tells them apart; empty: nothing.
+std::string program_note(const RunLog& first, const RunLog& second) {
+  if (first.step.empty() || second.step.empty()) {
+    return "";
+  }
+  if (first.task_number != second.task_number) {
+    return fmt::format("two tasks: numbers {} and {} of the controller's", first.task_number,
+                       second.task_number);
+  }
+  const std::size_t both = std::min(first.step.size(), second.step.size());
+  for (std::size_t i = 0; i < both; ++i) {
+    const RunStep& a = first.step[i];
+    const RunStep& b = second.step[i];
+    if (a.number != b.number || a.kind != b.kind) {
+      return fmt::format(
+          "two tasks: after {} steps the first goes on with step {} ({}), the second with {} ({})",
+          i, a.number, step_words(a), b.number, step_words(b));
+    }
+    const double apart_m = strokes_apart_m(first, a.begun_s, second, b.begun_s);
+    // The first begins where the machine happened to stand.
+    if (i > 0 && apart_m > kOtherPlace_m) {
+      return fmt::format(
+          "two tasks, or two ways: where step {} ({}) begins, cylinders are up to {:.0f} mm apart",
+          a.number, step_words(a), 1e3 * apart_m);
+    }
+  }
+  return first.step.size() == second.step.size()
+             ? ""
+             : fmt::format("two tasks, or one that was not finished: {} and {} steps",
+                           first.step.size(), second.step.size());
+}
+
 std::string cell(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
 }
@@ -143,6 +194,8 @@ std::vector<std::string> compared_notes(
   if (first.task != second.task) {
     notes.push_back(
         fmt::format("two tasks: {} and {}", task_name(first.task), task_name(second.task)));
+  } else if (const std::string note = program_note(first, second); !note.empty()) {
+    notes.push_back(note);
   }
   for (const RunLog* run : {&first, &second}) {
     if (run->active_s < kShort_s) {

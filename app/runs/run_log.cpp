@@ -136,8 +136,24 @@ class Reader {
         return put(6, frame, bus::ArmStroke::decode(frame.data).arm_stroke_m);
       case bus::BucketStroke::kId:
         return put(7, frame, bus::BucketStroke::decode(frame.data).bucket_stroke_m);
+      case bus::TaskStatus::kId:
+        return step(bus::TaskStatus::decode(frame.data), frame.time_s);
       default:
         return;
+    }
+  }
+
+  void step(const dbc::excavator::TaskStatus& status, double time_s) {
+    if (!is_active_ || status.task_number.state != RawState::kValid ||
+        status.step.state != RawState::kValid || status.step_kind.state != RawState::kValid) {
+      return;
+    }
+    const RunStep now{static_cast<std::uint8_t>(status.step.value),
+                      static_cast<std::uint8_t>(status.step_kind.value), time_s};
+    run_.task_number = static_cast<std::uint8_t>(status.task_number.value);
+    if (run_.step.empty() || run_.step.back().number != now.number ||
+        run_.step.back().kind != now.kind) {
+      run_.step.push_back(now);
     }
   }
 

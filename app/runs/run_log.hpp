@@ -37,11 +37,20 @@ struct ChannelInfo {
 /// Lambda, then the error against path or grade, then spools and strokes of the drives.
 [[nodiscard]] const std::vector<ChannelInfo>& channel_table(bool is_dozer);
 
+/// A step of a task program, as TaskStatus says it.
+struct RunStep {
+  std::uint8_t number = 0;  ///< From 0.
+  std::uint8_t kind = 0;    ///< dbc::excavator::TaskStatus::StepKind.
+  double begun_s = 0.0;
+};
+
 struct RunLog {
   std::string name;  ///< Of the file, as it was told.
   bool is_dozer = false;
   std::uint32_t profile_hash = 0;  ///< 0: not said.
   std::uint8_t task = 0;           ///< Last asked for while it was Active, but None.
+  std::uint8_t task_number = 0;    ///< Of a task program among the controller's.
+  std::vector<RunStep> step;       ///< Of a task program, in the order in which they began.
   std::vector<Channel> channel;    ///< In the order of channel_table().
   double from_s = 0.0;
   double until_s = 0.0;
@@ -79,7 +88,8 @@ struct ComparedFigure {
 inline constexpr double kArrived_m = 0.02;
 
 /// What makes the two no runs of the same thing, a sentence each: another profile (named by
-/// `profile_name`), another task, a run that hardly was one.
+/// `profile_name`), another task, another task program by its steps and where they begin, a run
+/// that hardly was one.
 [[nodiscard]] std::vector<std::string> compared_notes(
     const RunLog& first, const RunLog& second,
     const std::function<std::string(std::uint32_t hash)>& profile_name);

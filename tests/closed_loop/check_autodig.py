@@ -232,7 +232,7 @@ do = "dance"
 to = { position = [4.8, 0.0, -0.45], attitude = 0.9 }
 speed = -0.4
 """))
-    digger.refused(["task 'no_such' not found"], "--task", "no_such")
+    digger.refused(["task 'no_such': there is no such file"], "--task", "no_such")
     place = ["% of the step", "teeth x", "attitude"]
     digger.refused(["step 0 (swing)", "out of the reach", "1 error", "teeth x"],
                    *digger.task(MOVE.format(x=0.0, y=12.0)))

@@ -72,7 +72,7 @@ def bad_usage(graben):
     program = ("plant", "--can", "can0", "--operator", "program", "--profile")
     refused(graben, "an excavator with a swing drive", *program, "excavator_22t")
     refused(graben, "an excavator", *program, "dozer_9t")
-    refused(graben, "'no_such' not found", *program, "excavator_12t", "--task", "no_such")
+    refused(graben, "'no_such': there is no such file", *program, "excavator_12t", "--task", "no_such")
     refused(graben, "soil, errors none: not with", *program, "excavator_12t", "--soil")
     refused(graben, "0 to 3", *program, "excavator_12t", "--task-number", "4", status=2)
     refused(graben, "only with --operator program", "plant", "--can", "can0", "--task", "flatten")
@@ -98,7 +98,11 @@ def bad_tasks(graben):
         assert done.returncode == 2 and not done.stdout, f"{option}: {done}"
         assert ": not with " in done.stderr and option[0] in done.stderr and "--task" in done.stderr, \
             f"{option}: {done.stderr}"
-    refused(graben, "task '' not found", "dig", "--task", "")
+    for command, words, of in (("dig", ("--task", ""), "--task"), ("dig", ("--bus", ""), "--bus"),
+                               ("dig", ("--summary=",), "--summary"), ("grade", ("--design", ""), "--design"),
+                               ("export", ("dig.log", "--mcap", ""), "--mcap"), ("compare", ("", "a"), "an argument"),
+                               ("new-machine", ("--out", ""), "--out"), ("campaign dig", ("--draws", "2", "--summary", ""), "--summary")):
+        refused(graben, f"graben {command}: {of}: is empty;", *command.split(), *words, status=2)
     refused(graben, "--soil kim: not with --task; there are sand", "dig", "--task", "flatten", "--soil")
     refused(graben, "'mud' is none of kim, sand, loam, clay, stones", "dig", "--soil", "mud", status=2)
     refused(graben, "--soil: only with --sim", "scope", "--log", "no_such", "--soil")
@@ -159,7 +163,7 @@ def bad_machines(graben):
     """A simulated machine that is not there, is of other drives, or is asked for where none runs."""
     for command in (("dig",), ("autodig",), ("campaign", "dig", "--summary", "no_such.csv"),
                     ("plant", "--can", "no_such0"), ("scope", "--sim", "dig", "--port", "0")):
-        refused(graben, "simulated machine 'no_such' not found", *command, "--simulated", "no_such")
+        refused(graben, "simulated machine 'no_such': there is no such file", *command, "--simulated", "no_such")
         refused(graben, "-1 is not a whole number", *command, "--hidden=-1", status=2)
     refused(graben, "the simulated machine, excavator_22t, has 3 and 2", "dig", "--profile", "excavator_12t",
             "--simulated", "excavator_22t_found")

@@ -81,10 +81,16 @@ def other_runs(graben, folder):
     same = call(graben, folder, "compare", "a/dig.log", "b/dig.log", "--out", ".")
     assert "note:" not in same, same
     call(graben, folder, "autodig", "--task", "flatten", "--out", "d")
+    # Both are 'program' to the bus.
+    call(graben, folder, "autodig", "--task", "slope", "--out", "e")
     lines = (folder / "a/dig.log").read_text(encoding="ascii").splitlines(keepends=True)
+    assert "note:" not in call(graben, folder, "compare", "d/autodig.log", "d/autodig.log", "--out", ".")
+    call(graben, folder, "dig", "--bus", "zx200", "--out", "f")
     (folder / "short.log").write_text("".join(lines[:400]), encoding="ascii")
     for files, wanted in ((("a/dig.log", "d/autodig.log"), ("two profiles: excavator_22t and excavator_12t",
                                                             "two tasks: dig and program")),
+                          (("d/autodig.log", "e/autodig.log"), ("two tasks",)),
+                          (("f/dig.log", "a/dig.log"), ("two profiles: excavator_22t on bus zx200 and excavator_22t",)),
                           (("a/dig.log", "short.log"), ("short.log: the controller was active for ",))):
         said = call(graben, folder, "compare", *files, "--out", ".")
         page = setup_of((folder / "compare.html").read_bytes())["run"]["subtitle"]

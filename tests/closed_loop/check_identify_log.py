@@ -272,7 +272,7 @@ def bad_files(tool, log_file, better):
     tool.refused("there is no such file", "--log", tool.folder / "gone.log", "--profile", tool.profile, "--out", out)
     tool.refused("is a folder", "--log", tool.folder, "--profile", tool.profile, "--out", out)
     tool.refused("is the same log as", "--log", log_file, log_file, "--profile", tool.profile, "--out", out)
-    tool.refused("not found", "--log", log_file, "--profile", tool.folder / "gone.toml", "--out", out)
+    tool.refused("there is no such file", "--log", log_file, "--profile", tool.folder / "gone.toml", "--out", out)
     tool.refused("here it must be excavator", "--log", log_file, "--profile", "dozer_9t", "--out", out)
     tool.refused("describes a simulated machine", "--log", log_file, "--profile",
                  tool.machines / "excavator_22t.sim.toml", "--out", out)

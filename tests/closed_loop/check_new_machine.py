@@ -118,7 +118,6 @@ def refusals(graben, folder):
                                      (["", "4,600"], "boom.length: 1 number is wanted, not 2: a comma", ["--force"]),
                                      (["", "", "105", "120"], "boom.cylinder.rod: 120 mm is no rod in a bore of 105 mm",
                                       ["--force"]),
-                                     ([], "--out: the name of a file is wanted", ["--out", ""]),
                                      (["140, five"], "'five' is not a number", ["--force"]),
                                      (["", "4.6"], "allowed: 100 .. 30000 mm", ["--force"])):
         done = make(graben, folder, "excavator_12t", answers, *options)

@@ -171,7 +171,7 @@ def impossible(planner):
     planner.refused(["the swing would leave its range, -3 .. 3 rad; at 35.", *where],
                     "--from=-6,3,0.5,2.0", "--to=-6,-3,0.5,2.0", "--speed", "0.3")
     planner.refused(["it ends where it begins"], "--from", "5,0,0,1.2", "--to", "5,0,0,1.2")
-    planner.refused(["not found"], "--profile", "no_such_machine")
+    planner.refused(["there is no such file"], "--profile", "no_such_machine")
     planner.refused(["must be excavator"], "--profile", "dozer_9t")
     for usage in (["--to", "1,2,3"], ["--duration", "0"], ["--speed", "nan"],
                   ["--duration", "10", "--speed", "1"], ["--step", "-1"], ["--speed", "3.5"],

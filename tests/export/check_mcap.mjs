@@ -147,6 +147,89 @@ function compare(log, dbc, messages) {
   return signals;
 }
 
+/// Each frame of an id that `wanted` has: on its topic, with the values that its own formulas make of the bytes.
+function compare_foreign(log, messages, wanted) {
+  const seen = new Map();
+  const found = new Map();
+  for (const {topic, value} of messages) {
+    if (!found.has(topic)) found.set(topic, []);
+    found.get(topic).push(value);
+  }
+  for (const line of readFileSync(log, 'utf8').trimEnd().split('\n')) {
+    const [, id, hex] = / ([0-9A-F]+)#([0-9A-F]*)/.exec(line);
+    if (!(id in wanted)) continue;
+    const [topic, values] = wanted[id];
+    const at = seen.get(topic) ?? 0;
+    seen.set(topic, at + 1);
+    const got = found.get(topic)?.[at];
+    assert.ok(got, `${topic} has no message ${at}`);
+    const bytes = hex.match(/../g).map((byte) => parseInt(byte, 16));
+    const word = (byte) => bytes[byte] + 256 * bytes[byte + 1];
+    for (const [key, formula] of Object.entries(values)) {
+      const want = formula(bytes, word);
+      if (want === undefined) {
+        assert.ok(!(key in got), `${topic}.${key} is there: ${line}`);
+      } else {
+        assert.ok(Math.abs(got[key] - want) <= 1e-6 * Math.max(1, Math.abs(want)), `${topic}.${key}: ${got[key]}, on the bus ${want}`);
+      }
+    }
+  }
+  for (const [topic] of Object.values(wanted)) {
+    assert.ok(seen.get(topic) > 100, `${topic}: ${seen.get(topic)} frames`);
+    assert.equal(seen.get(topic), found.get(topic).length, topic);
+  }
+}
+
+const within = (least, most, value) => (value >= least && value <= most ? value : undefined);
+const DEGREE = Math.PI / 180;
+
+/// Of a bus of the machine's own, found by what the log says or told; of IMUs; and what is left out is said.
+async function foreign_buses() {
+  run(['dig', '--bus', 'zx200', '--out', 'zx200']);
+  const log = join(out, 'zx200', 'dig.log');
+  const wanted = {
+    '18FF7DE8': ['/zx200/FrontAngle', {BoomAngle_rad: (_, word) => within(-1.3, 1.3, 10 - 4e-4 * word(0)),
+      BucketAngle_rad: (_, word) => within(-3.2, 1, 10 - 4e-4 * word(4))}],
+    '18FF79E8': ['/zx200/Pressure1', {BoomBottomPressure_Pa: (b) => within(-1e6, 41e6, 2e5 * b[0] - 1e7)}],
+    '18FF7BE8': ['/zx200/PilotPressure1', {BoomUpPilot: (b) => within(0, 1.02, 4e-3 * b[0]),
+      BoomDownPilot: (b) => within(-1.02, 0, -4e-3 * b[1])}],
+    '18FF84E8': ['/zx200/MachineState', {ControlState: (b) => b[2], EngineState_radps: (b) => within(0, 188.5, 188.5 * (b[5] & 1))}],
+    '18FF640A': ['/zx200/PilotPressureCmd1', {BoomUp: (b) => 4e-3 * b[0], BucketDump: (b) => 4e-3 * b[5]}],
+    '18FF660A': ['/zx200/MachineSettingCmd', {EngineSpeed: (b) => b[0], FrontSignalSwitch: (b) => b[3] >> 4}],
+  };
+  for (const [told, words] of [[[], 'bus profile zx200, as the log says'], [['--bus', 'zx200'], 'bus profile zx200\n']]) {
+    const said = run(['export', log, '--mcap', 'zx200.mcap', '--force', ...told]);
+    assert.ok(said.includes(words) && said.includes('neither our DBC nor bus profile zx200 has: 0x18FF78E8, 0x18FF7EE8, 0x18FF7FE8'), said);
+    const {messages} = await read_all(join(out, 'zx200.mcap'));
+    assert.equal(read_stream(join(out, 'zx200.mcap')), messages.length);
+    compare_foreign(log, messages, wanted);
+  }
+  // A log that does not say which: what is left out, why, and what would explain it.
+  const mute = readFileSync(log, 'utf8').split('\n').filter((line) => !line.includes(' 18FF3482#')).join('\n');
+  writeFileSync(join(out, 'mute.log'), mute);
+  const said = run(['export', 'mute.log', '--mcap', 'mute.mcap']);
+  assert.ok(/left out: \d+ frames with ids that our DBC does not have: .*bus profile zx200 has most of them: --bus zx200/.test(said), said);
+  const other = run(['export', log, '--mcap', 'other.mcap', '--bus', 'encoders']);
+  assert.ok(other.includes('bus profile zx200 has most of them'), other);
+  assert.ok(run(['export', log, '--mcap', 'no.mcap', '--bus', 'zx20'], 1).includes("did you mean 'zx200'?"));
+  assert.ok(!existsSync(join(out, 'no.mcap')), 'a refused export has left a file');
+
+  run(['dig', '--bus', 'encoders', '--out', 'encoders']);
+  assert.ok(!run(['export', 'encoders/dig.log', '--mcap', 'encoders.mcap']).includes('left out'));
+  const {messages: encoders} = await read_all(join(out, 'encoders.mcap'));
+  assert.ok(encoders.some(({topic, value}) => topic === '/encoders/Heartbeat1' && value.NodeState === 5));
+  assert.ok(encoders.some(({topic, value}) => topic === '/encoders/BoomPosition' && Object.keys(value).length > 0));
+
+  run(['dig', '--sensors', 'imu', '--out', 'imu']);
+  assert.ok(!run(['export', 'imu/dig.log', '--mcap', 'imu.mcap']).includes('left out'));
+  const {messages: imus} = await read_all(join(out, 'imu.mcap'));
+  compare_foreign(join(out, 'imu', 'dig.log'), imus, {
+    '0CF02AE2': ['/sensor/E2/ARI', {PitchRate_radps: (_, word) => DEGREE * (word(0) / 128 - 250)}],
+    '0CF02DE4': ['/sensor/E4/ACS', {Vertical_mps2: (_, word) => word(4) / 100 - 320, LateralMerit: (b) => ((b[6] & 3) < 2 ? b[6] & 3 : undefined)}],
+  });
+  console.log(`bus of the machine's own, encoders, IMUs: ${encoders.length + imus.length} messages`);
+}
+
 function refusals(log) {
   const refuse = (needle, ...words) => {
     const said = run(['export', ...words], 1);
@@ -191,3 +274,4 @@ for (const [command, kind] of [['dig', 'excavator'], ['grade', 'dozer']]) {
     + `${channels} channels, ${(statSync(file).size / 1e6).toFixed(1)} MB`);
 }
 refusals(join(out, 'run', 'dig.log'));
+await foreign_buses();

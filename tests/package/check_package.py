@@ -85,7 +85,7 @@ def check_refusals(root: Root):
     for options, words in bad:
         root.expect(2, words, ecu, *options)
 
-    root.expect(2, ["'mine' not found", "/etc/graben", "/usr/share/graben"],
+    root.expect(2, ["'mine': there is no such file", "/etc/graben", "/usr/share/graben"],
                 ecu, "--can", "can0", "--profile", "mine")
     (root.path / "etc/graben/broken.toml").write_text("[machine\n")
     root.expect(2, ["broken.toml", "line 1"], ecu, "--can", "can0", "--profile", "broken")
@@ -100,7 +100,7 @@ def check_refusals(root: Root):
                     f"a missing interface is told otherwise: {said}")
     # A task by name, in the order of the folders.
     excavator = "/usr/share/graben/excavator_12t.toml"
-    root.expect(2, ["'none' not found", "/etc/graben/tasks", "/usr/share/graben/tasks"],
+    root.expect(2, ["'none': there is no such file", "/etc/graben/tasks", "/usr/share/graben/tasks"],
                 ecu, "--can", "no_can0", "--profile", excavator, "--task", "none")
     root.expect(1, [], ecu, "--can", "no_can0", "--profile", excavator, "--task", "flatten")
     own = root.path / "etc/graben/tasks/flatten.toml"

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "app/identify/lines.hpp"
+#include "app/machines/missing_file.hpp"
 
 namespace graben::identify {
 namespace {
@@ -105,7 +106,7 @@ Kind read_frame(std::string_view text, LoggedFrame& frame) {
 
 std::string read_candump(const std::filesystem::path& file,
                          const std::function<void(const LoggedFrame&)>& take, CutLine cut) {
-  Lines lines(file.string());
+  Lines lines(file.string(), machines::kWantedLog);
   Sha256 digest;
   std::string line;
   LoggedFrame frame;

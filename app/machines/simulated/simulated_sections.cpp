@@ -5,15 +5,18 @@
 
 #include <stdexcept>
 
+#include "app/machines/missing_file.hpp"
+
 namespace graben::machines {
 
 ProfileDocument read_simulation(const std::filesystem::path& file) {
   const std::filesystem::path simulation = simulation_file(file);
   if (!std::filesystem::is_regular_file(simulation)) {
-    throw std::runtime_error(fmt::format(
-        "{}: not found; whatever simulates the machine of {} needs its masses, oil, "
-        "friction, soil and experiments from there; --simulated NAME takes another machine's",
-        simulation.string(), file.string()));
+    throw std::runtime_error(unread_text(
+        simulation, fmt::format("masses, oil, friction, soil and experiments of the machine of {}, "
+                                "for whatever simulates it; --simulated NAME takes another "
+                                "machine's",
+                                file.string())));
   }
   return read_document(simulation);
 }

@@ -15,6 +15,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "app/machines/missing_file.hpp"
+
 namespace graben::scope {
 namespace {
 
@@ -67,14 +69,15 @@ LogFile open_log(const std::filesystem::path& name) {
   // Without O_NONBLOCK a pipe that nobody writes to would be waited for.
   const int file = ::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) {
-    fail(name, errno == ENOENT ? "there is no such file" : std::strerror(errno));
+    throw std::runtime_error(machines::unread_text(name, machines::kWantedLog));
   }
   struct stat status {};
   const char* problem = nullptr;
   if (fstat(file, &status) != 0) {
     problem = std::strerror(errno);
   } else if (S_ISDIR(status.st_mode)) {
-    problem = "is a folder, not a log";
+    close(file);
+    throw std::runtime_error(machines::unread_text(name, machines::kWantedLog));
   } else if (!S_ISREG(status.st_mode)) {
     problem = "is no regular file; what is sent through it can be written to one first";
   } else if (status.st_size == 0) {

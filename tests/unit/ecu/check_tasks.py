@@ -52,10 +52,10 @@ def main() -> int:
             expect(FAILED, [], alone, reaches_bus=True)
         expect(WRONG, ["--task"], excavator, *[flatten] * 5)
         expect(WRONG, ["dozer_9t.toml", "a dozer has no tasks"], dozer, flatten)
-        expect(WRONG, ["'none' not found", "/etc/graben/tasks", "/usr/share/graben/tasks"], excavator, "none")
+        expect(WRONG, ["'none': there is no such file", "/etc/graben/tasks", "/usr/share/graben/tasks"], excavator, "none")
         expect(WRONG, ["step[0].duration", "surplus"], excavator, wrong)
         # All of them in one go.
-        expect(WRONG, ["surplus", "far.toml", "step[0]", "'none' not found"], excavator, flatten, wrong, far, "none")
+        expect(WRONG, ["surplus", "far.toml", "step[0]", "'none': there is no such file"], excavator, flatten, wrong, far, "none")
     print("\n".join([*problems, f"tasks of graben-ecu: {len(problems)} problems"]))
     return 1 if problems else 0
 

@@ -166,7 +166,7 @@ def without_simulation(graben, scratch, good):
             yield f"{command}: status {done.returncode}: {done.stdout}{done.stderr}"
     for command in (("dig", "--profile", path, "--out", scratch), line):
         done = run(graben, *command)
-        if (done.returncode != 1 or done.stdout or f"{simulation(path)}: not found" not in done.stderr
+        if (done.returncode != 1 or done.stdout or f"{simulation(path)}: there is no such file" not in done.stderr
                 or "masses" not in done.stderr):
             yield f"{command}: status {done.returncode}: {done.stdout}{done.stderr}"
 

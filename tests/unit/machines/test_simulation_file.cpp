@@ -159,7 +159,7 @@ void what_is_wrong_is_told_where_it_is(void**) {
   says(error(named + "valve.delay.swing = [0.1, 0.1]"), {"valve.delay.swing", "unknown key"});
   says(error(named + "kind = \"dozer\""), {"a machine of kind dozer; here it must be excavator"});
   says(error("machine = 5"), {"mine.toml"});
-  says(error("machine = \"none_such\""), {"profile 'none_such' not found"});
+  says(error("machine = \"none_such\""), {"profile 'none_such': there is no such file"});
   static_cast<void>(folder.write("chain.toml", text_of(shipped("excavator_22t"))));
   static_cast<void>(folder.write("chain.sim.toml", named));
   says(error("machine = \"chain\""), {"mine.sim.toml", "machine: ", "chain.sim.toml names"});
@@ -218,7 +218,8 @@ void a_machine_with_other_drives_is_refused(void**) {
   choice.name = "none_such";
   says(error_of(
            [&] { return machines::load_simulated_excavator(shipped("excavator_22t"), choice); }),
-       {"simulated machine 'none_such' not found", "none_such.sim.toml"});
+       {"simulated machine 'none_such': there is no such file",
+        "wanted: a file or one of dozer_9t"});
 }
 
 /// By path, by shipped name, by the profile beside it.

@@ -61,11 +61,11 @@ void every_error_is_told(void**) {
   // A profile is TOML, but no task.
   const std::string profile_file = machines::find_profile("excavator_12t").string();
   const std::string errors = errors_of({"missing", "flatten", profile_file, "gone"});
-  assert_says(errors, "'missing' not found");
+  assert_says(errors, "'missing': there is no such file");
   assert_says(errors, "no_such_folder");
   assert_says(errors, "excavator_12t.toml");
-  assert_says(errors, "start");
-  assert_says(errors, "'gone' not found");
+  assert_says(errors, "is a machine's profile; wanted: a task");
+  assert_says(errors, "'gone': there is no such file");
 }
 
 void five_are_too_many(void**) {

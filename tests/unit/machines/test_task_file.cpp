@@ -353,7 +353,7 @@ void a_missing_task_says_where_it_looked(void**) {
     static_cast<void>(machines::find_task("no_such_task"));
     fail_msg("found a task that is not there");
   } catch (const std::runtime_error& error) {
-    assert_says(error.what(), "task 'no_such_task' not found");
+    assert_says(error.what(), "task 'no_such_task': there is no such file");
   }
 }
 

@@ -127,7 +127,7 @@ void progress_of_something_else_is_refused(void**) {
   const auto read = [&] {
     return refusal([&] { static_cast<void>(read_progress(file, 0x1234, whole())); });
   };
-  assert_true(says(read(), "nothing to go on with"));
+  assert_true(says(read(), "there is no such file; wanted: the progress of a commissioning"));
   write_progress(file, some());
   assert_true(read().empty());
   commission::Progress other = some();

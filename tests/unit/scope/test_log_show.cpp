@@ -9,6 +9,7 @@
 #include <array>
 #include <string>
 
+#include "app/machines/missing_file.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/scope/temporary_file.hpp"
 
@@ -75,8 +76,10 @@ void a_packed_log_is_unpacked(void**) {
 
 void what_is_no_log_is_refused(void**) {
   const TemporaryFile empty("");
-  assert_refused("no_such_file.log", "there is no such file");
-  assert_refused(std::filesystem::temp_directory_path(), "is a folder, not a log");
+  assert_refused("no_such_file.log",
+                 (std::string("there is no such file; wanted: ") + machines::kWantedLog).c_str());
+  assert_refused(std::filesystem::temp_directory_path(),
+                 (std::string("is a folder; wanted: ") + machines::kWantedLog).c_str());
   assert_refused(empty.path(), "is empty");
   assert_refused("/dev/null",
                  "is no regular file; what is sent through it can be written to one first");
