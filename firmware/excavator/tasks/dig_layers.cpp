@@ -12,6 +12,10 @@ constexpr double kDepthLeast_m = 0.06;
 constexpr double kFullAt = 0.8;
 /// Over the soil, that the edge comes down from.
 constexpr double kOver_m = 0.25;
+/// A bucket takes so much more than what fills it, some of it before its edge; and the last layer
+/// may be so thick then.
+constexpr double kOverfill = 1.25;
+constexpr double kSparedAt_m = 0.085;
 /// Before the soil that is to be cut, where there is room.
 constexpr double kRunUp_m = 0.25;
 /// What stands out of a strip is cut this much deeper than the rest of it.
@@ -111,6 +115,13 @@ double filling_height_m(const LayerPlan& plan, const Strip& strip, double room_m
   return high_m;
 }
 
+/// A little more than fills the bucket, shared evenly, where that saves a round.
+double room_of(const LayerPlan& plan, const Strip& strip, double full_m3) {
+  const double above_m3 = volume_m3(plan, strip, kSparedAt_m);
+  const double fewest = std::ceil(above_m3 / (kOverfill * full_m3));
+  return fewest >= 1.0 && fewest < std::ceil(above_m3 / full_m3) ? above_m3 / fewest : full_m3;
+}
+
 Cut cut_of(const LayerPlan& plan, const CutState& state, int strip) {
   const Strip& tops = strip_of(state, strip);
   const double highest = highest_m(tops);
@@ -118,7 +129,7 @@ Cut cut_of(const LayerPlan& plan, const CutState& state, int strip) {
   cut.strip = strip;
   cut.thin = highest <= kThinMost_m;
   if (!cut.thin) {
-    const double room_m3 = filling_m3(plan, state);
+    const double room_m3 = room_of(plan, tops, filling_m3(plan, state));
     cut.height_m = std::max({kLastLayer_m, filling_height_m(plan, tops, room_m3),
                              mean_m(plan, tops) - state.depth_m, highest - kBump * state.depth_m});
   }

@@ -219,7 +219,8 @@ bool LayerRun::cut_ends(double heavy, TaskState& state) const {
   const bool reached = at_end && (seen_.behind_m < kEndNear_m || layers.held_s > kEndWait_s);
   const double held_most_s = layers.share < 0.0 ? kWallHeld_s : kHeld_s;
   return reached || layers.held_s > held_most_s ||
-         layers.cuts.loaded_m3 + layers.filled_m3 >= filling_m3(plan_, layers.cuts);
+         layers.cuts.loaded_m3 + layers.filled_m3 >=
+             std::max(filling_m3(plan_, layers.cuts), layers.cuts.cut.volume_m3);
 }
 
 void LayerRun::cut(TaskState& state) const {

@@ -43,6 +43,22 @@ void a_cut_fills_the_bucket(void**) {
   assert_near(undug(large).cut.height_m, 0.5 - 0.35, 1e-6);
 }
 
+/// Where a bucket that is a little fuller each time saves a round, all of them are.
+void a_little_more_saves_a_round(void**) {
+  LayerPlan whole = plan();
+  whole.ground_from_m = 0.6;
+  whole.ground_to_m = 0.6;
+  const double above_m3 = (0.6 - 0.085) * whole.way_m * whole.width_m;
+  whole.full_m3 = 0.9 * above_m3 / 2.2;
+  const double full_m3 = filling_m3(whole, undug(whole));
+  const CutState state = undug(whole);
+  assert_near(state.cut.volume_m3, 0.5 * above_m3, 1e-3);
+  assert_true(state.cut.volume_m3 > 1.08 * full_m3);
+  // Far more would not stay in.
+  whole.full_m3 = 0.9 * above_m3 / 2.7;
+  assert_near(undug(whole).cut.volume_m3, filling_m3(whole, undug(whole)), 1e-3);
+}
+
 /// What is carried away is weighed against what the edge has passed.
 void a_bucket_that_came_back_half_empty_takes_more(void**) {
   const LayerPlan whole = plan();
@@ -349,6 +365,7 @@ int main() {
       cmocka_unit_test(a_bucket_that_came_back_half_empty_takes_more),
       cmocka_unit_test(a_thick_last_layer_is_the_last),
       cmocka_unit_test(a_cut_fills_the_bucket),
+      cmocka_unit_test(a_little_more_saves_a_round),
       cmocka_unit_test(what_stands_out_is_part_of_the_next_cut),
       cmocka_unit_test(goes_down_cut_by_cut),
       cmocka_unit_test(only_what_was_passed_is_gone),
