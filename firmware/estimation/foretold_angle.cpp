@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/estimation/foretold_angle.hpp"
 
+#include <cstddef>
+
 namespace graben {
 
 Signal<double> foretold(const Signal<double>& shown, double latency_s, ForetoldAngle& state) {

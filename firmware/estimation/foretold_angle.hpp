@@ -3,6 +3,7 @@
 /// An angle that its sensor shows late, as of the time that it came: it goes on at its rate.
 
 #include <array>
+#include <cstddef>
 
 #include "firmware/core/time.hpp"
 #include "firmware/signals/signal.hpp"

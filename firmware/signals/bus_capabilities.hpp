@@ -42,7 +42,7 @@ struct BusCapabilities {
   bool joint_angles = false;    ///< Angles of the joints, in the place of strokes.
   /// Age of what these show when it comes; they are foretold by it.
   double joint_latency_s = 0.0;
-  int echo_cycles = 12;         ///< The valve side has so many to say which enable it acts on.
+  int echo_cycles = 12;  ///< The valve side has so many to say which enable it acts on.
 
   [[nodiscard]] constexpr bool lacks_any() const {
     return !(identity && valve_echo && spool_feedback && swash_feedback && swash_command &&
