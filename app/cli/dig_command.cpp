@@ -132,9 +132,10 @@ void dig(const DigCommand& options) {
   }
   if (result.end != runs::DigEnd::kDone) {
     throw std::runtime_error(result.end == runs::DigEnd::kFault
-                                 ? fmt::format("{}: {} (fault {})", end_text(result.end),
+                                 ? fmt::format("{}: {} (fault {}){}", end_text(result.end),
                                                runs::fault_words(result.fault),
-                                               static_cast<int>(result.fault))
+                                               static_cast<int>(result.fault),
+                                               runs::emergency_words(result.emergency))
                                  : end_text(result.end));
   }
 }

@@ -104,6 +104,7 @@ class EcuNode {
   [[nodiscard]] const Outputs& outputs() const { return outputs_; }
   [[nodiscard]] const Inputs& inputs() const { return inputs_; }
   [[nodiscard]] const LinkCounters& link() const { return receiver_.total(); }
+  [[nodiscard]] NodeEmergency emergency() const { return receiver_.emergency(); }
   /// Frames that the port did not take; none of them is sent again.
   [[nodiscard]] std::uint32_t dropped() const { return diagnosis_.dropped_frames; }
 

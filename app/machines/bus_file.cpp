@@ -123,6 +123,12 @@ BusCapabilities capabilities_of(TomlReader& reader, const BusTable& table) {
   can.echo_cycles += static_cast<int>(later_us / kControlPeriod_us);
   can.latency_s = reader.number_or(0.0, "latency", {0.0, 0.2, "s"},
                                    "of the bus, either way; the valve's dead time covers it");
+  can.joint_latency_s =
+      reader.number_or(0.0, "joint_latency", {0.0, 0.05, "s"},
+                       "age of joint angles or slopes when they come; they are foretold by it");
+  if (can.joint_latency_s > 0.0 && !joints) {
+    reader.fail("joint_latency", "neither joint angles nor slopes come; allowed: leave it out");
+  }
   return can;
 }
 

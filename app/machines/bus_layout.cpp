@@ -32,37 +32,6 @@ const DbcMessage* message_in(TomlReader& reader, const BusContext& context,
   return nullptr;
 }
 
-}  // namespace
-
-Declared read_message(TomlReader& reader, const BusContext& context, const std::string& key) {
-  Declared declared;
-  declared.key = key;
-  declared.name = reader.text(key + ".message", "name of the message");
-  declared.dbc = message_in(reader, context, declared);
-  if (declared.dbc != nullptr) {
-    declared.id = declared.dbc->id;
-    declared.extended = declared.dbc->extended;
-    declared.length = declared.dbc->length;
-  } else {
-    declared.extended = reader.boolean_or(true, key + ".extended", "29-bit id; else 11 bits");
-    declared.id = static_cast<std::uint32_t>(
-        reader.integer(key + ".id", 0, declared.extended ? kMostId29 : kMostId11, "its id"));
-    declared.length =
-        reader.has(key + ".length") ? reader.integer(key + ".length", 1, 8, "data bytes") : 8;
-  }
-  if (declared.length < 1 || declared.length > 8) {
-    reader.fail(key + ".message", fmt::format("{} bytes; allowed: 1 .. 8", declared.length));
-    declared.length = 8;
-  }
-  if (!context.interfaces.empty()) {
-    declared.bus = small(
-        reader.choice(key + ".interface", context.interfaces, "which of `interfaces` it is on"));
-  }
-  declared.period_us = static_cast<TimeUs>(std::lround(
-      kMicroseconds * reader.number(key + ".period", {0.01, 10.0, "s"}, "time between frames")));
-  return declared;
-}
-
 DbcSignal read_layout(TomlReader& reader, const Declared& message, const std::string& key,
                       const std::string& name) {
   DbcSignal signal;
@@ -101,6 +70,49 @@ void check_bits(TomlReader& reader, const Declared& message, const std::string& 
   }
 }
 
+/// Its layout, with bits that are among the message's.
+DbcSignal read_within(TomlReader& reader, const Declared& message, const std::string& key,
+                      const std::string& name) {
+  DbcSignal layout = read_layout(reader, message, key, name);
+  check_bits(reader, message, key, layout.bits);
+  return layout;
+}
+
+}  // namespace
+
+Declared read_message(TomlReader& reader, const BusContext& context, const std::string& key) {
+  Declared declared;
+  declared.key = key;
+  declared.name = reader.text(key + ".message", "name of the message");
+  declared.dbc = message_in(reader, context, declared);
+  if (declared.dbc != nullptr) {
+    declared.id = declared.dbc->id;
+    declared.extended = declared.dbc->extended;
+    declared.length = declared.dbc->length;
+  } else {
+    declared.extended = reader.boolean_or(true, key + ".extended", "29-bit id; else 11 bits");
+    declared.id = static_cast<std::uint32_t>(
+        reader.integer(key + ".id", 0, declared.extended ? kMostId29 : kMostId11, "its id"));
+    declared.length =
+        reader.has(key + ".length") ? reader.integer(key + ".length", 1, 8, "data bytes") : 8;
+  }
+  if (declared.length < 1 || declared.length > 8) {
+    reader.fail(key + ".message", fmt::format("{} bytes; allowed: 1 .. 8", declared.length));
+    declared.length = 8;
+  }
+  if (!context.interfaces.empty()) {
+    declared.bus = small(
+        reader.choice(key + ".interface", context.interfaces, "which of `interfaces` it is on"));
+  }
+  declared.period_us = static_cast<TimeUs>(std::lround(
+      kMicroseconds * reader.number(key + ".period", {0.01, 10.0, "s"}, "time between frames")));
+  return declared;
+}
+
+DbcSignal read_signal(TomlReader& reader, const Declared& message, const std::string& key) {
+  return read_within(reader, message, key, reader.text(key + ".signal", "name of the signal"));
+}
+
 void read_scale(TomlReader& reader, const std::string& key, const DbcSignal& layout, double& scale,
                 double& offset) {
   const double factor = reader.number_or(1.0, key + ".scale", kAnyNumber,
@@ -126,8 +138,7 @@ TableProtection read_protection(TomlReader& reader, const Declared& message, boo
         message.dbc != nullptr && !reader.has(key + ".start")
             ? reader.text(key, "the signal that goes on by one with each frame")
             : "counter";
-    counter = read_layout(reader, message, key, name).bits;
-    check_bits(reader, message, key, counter);
+    counter = read_within(reader, message, key, name).bits;
     const int most = counts_wide ? 32 : 8;
     if (counter.width < 2 || counter.width > most) {
       reader.fail(key, fmt::format("{} bits; allowed: 2 .. {}", counter.width, most));

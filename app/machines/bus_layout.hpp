@@ -34,12 +34,10 @@ struct Declared {
 [[nodiscard]] Declared read_message(TomlReader& reader, const BusContext& context,
                                     const std::string& key);
 
-/// Its bits, of the DBC or of the profile, with scale and offset into the DBC's unit.
-[[nodiscard]] DbcSignal read_layout(TomlReader& reader, const Declared& message,
-                                    const std::string& key, const std::string& name);
-/// Refuses bits that are not among the message's.
-void check_bits(TomlReader& reader, const Declared& message, const std::string& key,
-                const BitField& bits);
+/// A signal's bits, of the DBC or of the profile, with scale and offset into the DBC's unit. Bits
+/// that are not among the message's are refused.
+[[nodiscard]] DbcSignal read_signal(TomlReader& reader, const Declared& message,
+                                    const std::string& key);
 /// Value in its place of `raw`: profile's scale and offset after the DBC's.
 void read_scale(TomlReader& reader, const std::string& key, const DbcSignal& layout, double& scale,
                 double& offset);

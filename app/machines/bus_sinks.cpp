@@ -18,10 +18,8 @@ const std::vector<std::string>& sink_names() {
 
 TableSink read_sink(TomlReader& reader, const Declared& message, const std::string& key) {
   TableSink sink;
-  const std::string name = reader.text(key + ".signal", "name of the signal");
-  const DbcSignal layout = read_layout(reader, message, key, name);
+  const DbcSignal layout = read_signal(reader, message, key);
   sink.bits = layout.bits;
-  check_bits(reader, message, key, sink.bits);
   sink.place =
       static_cast<SinkPlace>(reader.choice(key + ".from", sink_names(), "what the value is"));
   if (sink.place == SinkPlace::kConstant) {

@@ -70,10 +70,8 @@ void read_range(TomlReader& reader, const std::string& key, const DbcSignal& lay
 
 TableSource read_source(TomlReader& reader, const Declared& message, const std::string& key) {
   TableSource source;
-  const std::string name = reader.text(key + ".signal", "name of the signal");
-  const DbcSignal layout = read_layout(reader, message, key, name);
+  const DbcSignal layout = read_signal(reader, message, key);
   source.bits = layout.bits;
-  check_bits(reader, message, key, source.bits);
   source.place =
       static_cast<SourcePlace>(reader.choice(key + ".to", source_names(), "what the value is"));
   source.index = read_index(reader, key, source.place);

@@ -8,6 +8,7 @@ namespace graben::plant {
 namespace {
 
 constexpr std::uint32_t kNmt = 0x000;
+constexpr std::uint32_t kEmergency = 0x080;
 constexpr std::uint32_t kTpdo1 = 0x180;
 constexpr std::uint32_t kHeartbeat = 0x700;
 constexpr std::uint8_t kStart = 0x01;
@@ -19,6 +20,8 @@ constexpr double kStep_m = 10e-6;
 constexpr double kHundredth_rad = 1.7453292519943295e-4;
 constexpr double kTenthBar_pa = 1e4;
 constexpr std::uint8_t kNotValid = 0x01;
+/// In the error register.
+constexpr std::uint8_t kGenericError = 0x01;
 
 /// Low byte first, two's complement.
 void put(std::int64_t value, std::size_t first, std::size_t bytes, CanFrame& frame) {
@@ -100,6 +103,8 @@ std::vector<CanFrame> CanopenParts::report(const ExcavatorPlant& plant,
   }
   const bool reboots = reboots_done_ != faults.sold.reboots;
   reboots_done_ = faults.sold.reboots;
+  const bool tells = emergency_told_ != faults.sold.emergency;
+  emergency_told_ = faults.sold.emergency;
   for (Node& node : nodes_) {
     if (reboots && node.id == faults.sold.reboots_node) {
       node = {node.id};
@@ -109,6 +114,11 @@ std::vector<CanFrame> CanopenParts::report(const ExcavatorPlant& plant,
       frames.push_back(frame_of(kHeartbeat + node.id, 1, bus_));
       frames.back().data[0] = node.booted ? alive : kBootUp;
       node.booted = true;
+    }
+    if (tells && node.id == faults.sold.emergency_node) {
+      frames.push_back(frame_of(kEmergency + node.id, 8, bus_));
+      put(faults.sold.emergency, 0, 2, frames.back());
+      frames.back().data[2] = faults.sold.emergency == 0 ? std::uint8_t{0} : kGenericError;
     }
     if (node.operational) {
       frames.push_back(frame_of(kTpdo1 + node.id, node.id < kTransmitter ? 4 : 3, bus_));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Sensors of CANopen as they are sold: each a node that boots, waits for its start, says by its
-/// heartbeat what state it is in, and sends its TPDO1 only while it is operational (CiA 301).
+/// heartbeat what state it is in, and sends its TPDO1 only while it is operational (CiA 301). An
+/// emergency is told once, and taken back by code 0; the TPDO goes on meanwhile.
 ///
 ///   1 .. 3      encoders on the cylinders (CiA 406): position, unsigned, 10 um
 ///   17 .. 20    inclinometers on links and platform (CiA 410): two slopes, 0.01 degree
@@ -58,6 +59,7 @@ class CanopenParts {
   std::optional<SlopeSensors> slopes_;
   std::vector<Node> nodes_;
   std::uint32_t reboots_done_ = 0;
+  std::uint16_t emergency_told_ = 0;
 };
 
 }  // namespace graben::plant

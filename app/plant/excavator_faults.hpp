@@ -59,6 +59,8 @@ struct Zx200Faults {
 struct SoldFaults {
   std::uint32_t reboots = 0;  ///< Counted up, `reboots_node` boots anew.
   std::uint8_t reboots_node = 0;
+  std::uint16_t emergency = 0;  ///< Code that `emergency_node` has; told once, as it changes.
+  std::uint8_t emergency_node = 0;
 };
 
 struct ExcavatorFaults : NodeFaults {

@@ -40,6 +40,32 @@ std::string owner_words(LimitOf of, unsigned index, const ActuatorNames& actuato
   return "";
 }
 
+/// CiA 301, emergency error codes: by the high byte, or its high half.
+const char* emergency_class(std::uint16_t code) {
+  switch (code >> 12U) {
+    case 0x2:
+      return "current";
+    case 0x3:
+      return "voltage";
+    case 0x4:
+      return "temperature";
+    case 0x5:
+      return "device hardware";
+    case 0x6:
+      return "device software";
+    case 0x7:
+      return "additional modules";
+    case 0x8:
+      return "monitoring, communication";
+    case 0x9:
+      return "external error";
+    case 0xF:
+      return (code >> 8U) == 0xFF ? "device specific" : "additional functions";
+    default:
+      return "generic error";
+  }
+}
+
 /// The row with this number, or null.
 template <class Row, std::size_t count, class Code>
 const Row* row_of(const std::array<Row, count>& rows, Code code) {
@@ -48,6 +74,14 @@ const Row* row_of(const std::array<Row, count>& rows, Code code) {
 }
 
 }  // namespace
+
+std::string emergency_words(const NodeEmergency& emergency) {
+  if (emergency.id == 0) {
+    return "";
+  }
+  return fmt::format(", node {} has emergency {:04X}h ({})", emergency.id, emergency.code,
+                     emergency_class(emergency.code));
+}
 
 const char* fault_words(Fault fault) {
   const FaultText* row = row_of(kFaultTexts, fault);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "firmware/core/codes.hpp"
+#include "hal/link/message_rules.hpp"
 
 namespace graben::runs {
 
@@ -16,6 +17,9 @@ namespace graben::runs {
 [[nodiscard]] const char* fault_words(Fault fault);
 /// What the operator should do about it; empty for kNone.
 [[nodiscard]] const char* fault_help(Fault fault);
+
+/// ", node 17 has emergency 5010h (device hardware)"; empty where there is none.
+[[nodiscard]] std::string emergency_words(const NodeEmergency& emergency);
 
 /// "Silent", "Ready", ...
 [[nodiscard]] const char* mode_words(EcuMode mode);

@@ -52,6 +52,7 @@ class DigRun {
     if (status.mode == EcuMode::kFault) {
       result_.end = DigEnd::kFault;
       result_.fault = status.fault;
+      result_.emergency = rig_.ecu->emergency();
       return true;
     }
     if (!progress_.on_path()) {

@@ -73,6 +73,7 @@ enum class DigEnd { kDone, kPathNotReached, kLoopNotClosed, kFault };
 struct DigResult {
   DigEnd end = DigEnd::kDone;
   Fault fault = Fault::kNone;  ///< With kFault.
+  NodeEmergency emergency;     ///< That stood then.
   std::vector<DigSample> samples;
   double wall_s = 0.0;
   std::uint32_t rejected_frames = 0;

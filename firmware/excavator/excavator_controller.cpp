@@ -40,11 +40,11 @@ constexpr double kHeldUp = 0.3;
 /// A plan that is followed at less than this share of its pace waits.
 constexpr double kWaits = 0.5;
 
-/// IMUs are foretold over 20 ms, and show no more of 10 Hz and beyond: with the feedback of strokes
-/// one machine of twenty rings.
+/// What comes late is foretold over 20 ms, and shows no more of 10 Hz and beyond: with the feedback
+/// of strokes one machine of twenty rings.
 OilDesign oil_design(const ExcavatorProfile& profile) {
   OilDesign design;
-  if (profile.imu.known()) {
+  if (profile.foretells_joints()) {
     design.lag_s = 0.025;
     design.travel_ps = 4.0;
   }

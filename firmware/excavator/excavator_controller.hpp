@@ -7,6 +7,7 @@
 #include "firmware/drives/spool_lead.hpp"
 #include "firmware/drives/spool_parking.hpp"
 #include "firmware/drives/velocity_cap.hpp"
+#include "firmware/estimation/foretold_angle.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/excavator/field/dig_field.hpp"
 #include "firmware/excavator/imus/imu_joints.hpp"
@@ -98,6 +99,7 @@ class ExcavatorController {
     std::array<Guarded<double>, kDriveCount> opening;
     std::array<AcceptedStroke, kDriveCount> accepted;
     ImuState imus;
+    std::array<ForetoldAngle, kAxisCount> foretold;  ///< Of measured joints that come late.
     JointAngles joints;
     ExcavatorWatchState watch;
     LastCommands<kDriveCount> last;

@@ -302,6 +302,10 @@ struct ExcavatorProfile {
   SafetyProfile safety;
 
   [[nodiscard]] bool has_swing() const { return drive_count == kDriveCount; }
+  /// Angles of joints or links come late, and count as of the time of their frames.
+  [[nodiscard]] bool foretells_joints() const {
+    return imu.known() || (bus.joint_angles && bus.joint_latency_s > 0.0);
+  }
 };
 
 }  // namespace graben

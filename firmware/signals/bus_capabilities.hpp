@@ -40,7 +40,9 @@ struct BusCapabilities {
   bool swash_command = true;    ///< The pumps' displacements can be commanded.
   bool spool_by_pilot = false;  ///< The spools' positions are told by pilot pressures.
   bool joint_angles = false;    ///< Angles of the joints, in the place of strokes.
-  int echo_cycles = 12;         ///< The valve side has so many to say which enable it acts on.
+  /// Age of what these show when it comes; they are foretold by it.
+  double joint_latency_s = 0.0;
+  int echo_cycles = 12;  ///< The valve side has so many to say which enable it acts on.
 
   [[nodiscard]] constexpr bool lacks_any() const {
     return !(identity && valve_echo && spool_feedback && swash_feedback && swash_command &&

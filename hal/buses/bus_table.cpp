@@ -76,8 +76,9 @@ TableIds table_ids(const BusTable& table) {
         table.send[i].rule.id | (table.send[i].extended ? 0U : kStandardId);
   }
   for (std::size_t i = 0; i < table.node_count; ++i) {
-    ids[kMostTableReceived + kMostTableSent + i] =
-        kStandardId | (CanopenNodes::kHeartbeatId + table.node[i].id);
+    const std::size_t at = kMostTableReceived + kMostTableSent + 2 * i;
+    ids[at] = kStandardId | (CanopenNodes::kHeartbeatId + table.node[i].id);
+    ids[at + 1] = kStandardId | (CanopenNodes::kEmergencyId + table.node[i].id);
   }
   return ids;
 }

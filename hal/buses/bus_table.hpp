@@ -169,9 +169,11 @@ struct BusTable {
 /// In a port's list of ids: one of 11 bits.
 inline constexpr std::uint32_t kStandardId = 0x80000000U;
 
-using TableIds = std::array<std::uint32_t, kMostTableReceived + kMostTableSent + kMostTableNodes>;
+using TableIds =
+    std::array<std::uint32_t, kMostTableReceived + kMostTableSent + 2 * kMostTableNodes>;
 
-/// The ids of a table's frames, received, sent, and its nodes' heartbeats, for a port's filters; 0
+/// The ids of a table's frames, received, sent, and its nodes' heartbeats and emergencies, for a
+/// port's filters; 0
 /// where there is none.
 [[nodiscard]] TableIds table_ids(const BusTable& table);
 

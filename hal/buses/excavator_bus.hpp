@@ -49,6 +49,7 @@ class ExcavatorReceiver : public MessageReceiver<ExcavatorReception> {
   }
 
   [[nodiscard]] NodeStart take_start(TimeUs now) { return table_.take_start(now); }
+  [[nodiscard]] NodeEmergency emergency() const { return table_.emergency(); }
 
   [[nodiscard]] const LinkCounters& imus() const { return imus_.counters(); }
   [[nodiscard]] LinkCounters table() const { return table_.counters(); }

@@ -276,7 +276,7 @@ void TableReceiver::finish_known(TimeUs now, ExcavatorInputs& to) {
     const bool silent = now - heard_[i].last_us > message.timeout_us;
     if (heard_[i].any && (silent || !nodes_.is_operational(message.node))) {
       heard_[i].any = false;
-      mark(i, Validity::kNotAvailable, to);
+      mark(i, nodes_.has_emergency(message.node) ? Validity::kError : Validity::kNotAvailable, to);
     }
     slow = slow || message.slow;
     if (heard_[i].any && message.slow) {

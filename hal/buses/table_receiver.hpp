@@ -12,7 +12,8 @@
 /// What a sender says of its own values, the figure of merit of a sensor, makes all values of its
 /// message 'error' where it is out of its range.
 ///
-/// A message of a node of CANopen counts while that node is operational, no longer.
+/// A message of a node of CANopen counts while that node is operational, no longer; while it has an
+/// emergency, its signals are 'error'.
 ///
 /// A message that is silent for longer than its own time-out is 'not available'. What comes slower
 /// than the core asks of a signal counts as fresh up to there: the table's time-out is then the one
@@ -53,6 +54,10 @@ class TableReceiver {
   /// The node of CANopen that is to be told to start in this cycle.
   [[nodiscard]] NodeStart take_start(TimeUs now) {
     return active() ? nodes_.take_start(now) : NodeStart{};
+  }
+
+  [[nodiscard]] NodeEmergency emergency() const {
+    return active() ? nodes_.emergency() : NodeEmergency{};
   }
 
   [[nodiscard]] FaultSet faults(TimeUs now) const;

@@ -126,6 +126,7 @@ class MessageReceiver {
   [[nodiscard]] FaultSet message_faults(TimeUs now) const { return links_.message_faults(now); }
   /// Of nodes that a table names; a kind's own messages have none.
   [[nodiscard]] static constexpr NodeStart take_start(TimeUs /*now*/) { return {}; }
+  [[nodiscard]] static constexpr NodeEmergency emergency() { return {}; }
   /// True if a value was out of range since the last call.
   [[nodiscard]] bool take_out_of_range() { return links_.take_out_of_range(); }
 

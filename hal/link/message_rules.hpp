@@ -75,6 +75,12 @@ struct NodeStart {
   std::uint8_t bus = kAnyBus;
 };
 
+/// A node of CANopen that has told an emergency and has not taken it back; none: id 0.
+struct NodeEmergency {
+  std::uint8_t id = 0;
+  std::uint16_t code = 0;  ///< CiA 301's error code.
+};
+
 inline constexpr TimeUs kControlPeriod_us = 10 * kMillisecondUs;
 
 /// How a message is sent.

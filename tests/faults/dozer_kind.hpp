@@ -49,6 +49,7 @@ struct Dozer : runs::DozerSim {
   /// The same, and it can hardly move: a rock in the way; a transmission too weak to roll.
   [[nodiscard]] static Scenery stall_scenery_of(std::uint64_t seed);
   [[nodiscard]] static Setup setup_of(const Machine& machine) { return machine.profile; }
+  [[nodiscard]] static const BusTable* table(const Machine& /*machine*/) { return nullptr; }
   [[nodiscard]] static Node node(const Scenery& scenery, CanPort& port);
   [[nodiscard]] static std::vector<Defect> defects();
   /// Throws ProfileError as the loader does.

@@ -103,6 +103,17 @@ Excavator::Scenery Excavator::imu_scenery_of(std::uint64_t seed) {
   return scenery;
 }
 
+Excavator::Scenery Excavator::sold_scenery_of(std::uint64_t seed, const char* bus) {
+  machines::Scenario scenario;
+  scenario.seed = seed;
+  scenario.bus = bus;
+  scenario.errors = machines::Errors::kAll;
+  Scenery scenery;
+  scenery.machine = machines::arranged(shipped(), scenario);
+  scenery.start_strokes_m = start_of(scenery.machine, seed);
+  return scenery;
+}
+
 namespace {
 
 const machines::SimulatedExcavator& swinging() {

@@ -53,10 +53,14 @@ struct Excavator : runs::ExcavatorSim {
   [[nodiscard]] static Scenery stall_scenery_of(std::uint64_t seed);
   /// The same with IMUs on its links instead of stroke sensors, all errors.
   [[nodiscard]] static Scenery imu_scenery_of(std::uint64_t seed);
+  /// The same with sensors of CANopen in the place of stroke sensors: a shipped bus profile.
+  [[nodiscard]] static Scenery sold_scenery_of(std::uint64_t seed, const char* bus);
   /// The 12 t machine, whose platform turns, where its program 0 begins.
   [[nodiscard]] static Scenery swinging_scenery_of(std::uint64_t seed);
   /// With program 0 where the platform turns.
   [[nodiscard]] static Setup setup_of(const Machine& machine);
+  /// Of another bus than ours; empty: none.
+  [[nodiscard]] static const BusTable* table(const Machine& machine) { return &machine.bus; }
   [[nodiscard]] static Node node(const Scenery& scenery, CanPort& port);
   [[nodiscard]] static std::vector<Defect> defects();
   /// Throws ProfileError as the loader does.

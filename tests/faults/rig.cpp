@@ -35,7 +35,7 @@ template <class Kind>
 void Rig<Kind>::start_ecu() {
   static_cast<void>(ecu_port.open());
   CanPort& port = witness_ != nullptr ? witness_->port_of(ecu_port) : ecu_port;
-  ecu.emplace(Kind::setup_of(machine), machine.hash, port);
+  ecu.emplace(Kind::setup_of(machine), machine.hash, port, Kind::table(machine));
 }
 
 template <class Kind>

@@ -52,12 +52,13 @@ template <class Kind>
 [[nodiscard]] Rows<Excavator> excavator_rows();
 [[nodiscard]] Rows<Excavator> pressure_rows();                   ///< 65
 [[nodiscard]] Rows<Excavator> imu_rows();                        ///< 76
+[[nodiscard]] Rows<Excavator> sold_rows();                       ///< 77
 [[nodiscard]] Rows<Excavator> direction_rows(const Excavator&);  ///< 51
 [[nodiscard]] Rows<Dozer> direction_rows(const Dozer&);
 [[nodiscard]] Rows<Excavator> tube_rows(const Excavator&);  ///< 57
 [[nodiscard]] Rows<Dozer> tube_rows(const Dozer&);
 [[nodiscard]] Rows<Excavator> hand_rows(const Excavator&);  ///< 74, 75
-[[nodiscard]] Rows<Dozer> hand_rows(const Dozer&);          ///< And 76: it has no IMUs.
+[[nodiscard]] Rows<Dozer> hand_rows(const Dozer&);          ///< And 76, 77: it has neither.
 [[nodiscard]] Rows<Dozer> dozer_rows();
 [[nodiscard]] Rows<Dozer> pose_rows();      ///< 54, 60
 [[nodiscard]] Rows<Excavator> swap_rows();  ///< 55: a dozer has one stroke.

@@ -14,6 +14,9 @@ Rows<Excavator> own_rows(const Excavator&) {
   for (const Row<Excavator>& row : imu_rows()) {
     rows.push_back(row);
   }
+  for (const Row<Excavator>& row : sold_rows()) {
+    rows.push_back(row);
+  }
   for (const Row<Excavator>& row : swap_rows()) {
     rows.push_back(row);
   }

@@ -115,7 +115,8 @@ Rows<Excavator> hand_rows(const Excavator&) {
 Rows<Dozer> hand_rows(const Dozer&) {
   return {{74, "levers, or duties to try, silent", "a dozer has no such task", nullptr},
           {75, "commissioning", "a dozer has no such task", nullptr},
-          {76, "an IMU wrong", "a dozer has no IMUs", nullptr}};
+          {76, "an IMU wrong", "a dozer has no IMUs", nullptr},
+          {77, "a sensor of CANopen tells an emergency", "a dozer has none", nullptr}};
 }
 
 }  // namespace graben::faults

@@ -38,7 +38,7 @@ constexpr Capability kCapabilities[] = {
     {"chamber pressures", "the links' weight; lambda by a worst load",
      "PressureMissing, PressureImplausible, WrongDirection, Blocked; a stroke against its oil "
      "(StrokeStuck, MotionImplausible); tip force and payload",
-     "32.4 / 128.9; 83.2 / 159.1; 24.0 / 39.3; 67.3 / 98.9",
+     "29.1 / 62.7; 80.4 / 111.1; 25.0 / 40.5; 77.4 / 102.5",
      [](const ExcavatorProfile& profile) { return !profile.bus.pressures; }},
     {"our own bus", "zx200: angles, pilot pressures, the profile's swash",
      "IdentityMismatch, MessageCorrupt, MessageSequence, MessageMasquerade; a spool that sticks "

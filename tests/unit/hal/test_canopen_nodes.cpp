@@ -145,6 +145,52 @@ void a_heartbeat_that_is_lost(void**) {
   assert_true(bus.stroke().validity == Validity::kNotAvailable);
 }
 
+/// CiA 301: bytes 0 and 1 the code, 2 the error register. Its values go on, and do not count.
+void an_emergency_makes_values_errors(void**) {
+  Bus bus;
+  bus.says(0x05);
+  bus.position();
+  bus.pass();
+  bus.take(0x080 + kNode, 8, {0x10, 0x50, 0x01});
+  bus.position();
+  bus.pass();
+  assert_true(bus.stroke().validity == Validity::kError);
+  assert_int_equal(bus.receiver.emergency().id, kNode);
+  assert_int_equal(bus.receiver.emergency().code, 0x5010);
+  bus.says(0x05);  // Its heartbeat is as always.
+  bus.position();
+  bus.pass();
+  assert_true(bus.stroke().validity == Validity::kError);
+  bus.take(0x080 + kNode, 8, {});
+  bus.position();
+  bus.pass();
+  assert_true(bus.stroke().validity == Validity::kValid);
+  assert_int_equal(bus.receiver.emergency().id, 0);
+}
+
+void a_node_that_boots_tells_its_emergency_anew(void**) {
+  Bus bus;
+  bus.says(0x05);
+  bus.take(0x080 + kNode, 8, {0x00, 0x10, 0x01});
+  bus.says(0x7F);
+  assert_int_equal(bus.receiver.emergency().code, 0x1000);
+  bus.says(0x00);
+  assert_int_equal(bus.receiver.emergency().code, 0);
+}
+
+void what_is_no_emergency(void**) {
+  Bus bus;
+  bus.says(0x05);
+  bus.take(0x080 + kNode, 8, {0x10, 0x50, 0x01}, 0);  // On the other bus.
+  bus.take(0x080 + kNode, 7, {0x10, 0x50, 0x01});
+  bus.take(0x080 + kNode + 1, 8, {0x10, 0x50, 0x01});
+  bus.take(0x080, 0, {});  // SYNC.
+  bus.position();
+  bus.pass();
+  assert_true(bus.stroke().validity == Validity::kValid);
+  assert_int_equal(bus.receiver.emergency().id, 0);
+}
+
 void what_is_no_heartbeat(void**) {
   Bus bus;
   bus.says(0x05, 0);  // On the other bus.
@@ -157,13 +203,13 @@ void what_is_no_heartbeat(void**) {
   assert_int_equal(bus.receiver.take_start(bus.now).id, 0);
 }
 
-void a_port_lets_heartbeats_through(void**) {
+void a_port_lets_heartbeats_and_emergencies_through(void**) {
   const BusTable made = encoder();
-  bool found = false;
+  int found = 0;
   for (const std::uint32_t id : table_ids(made)) {
-    found = found || id == (kStandardId | 0x70BU);
+    found += id == (kStandardId | 0x70BU) || id == (kStandardId | 0x08BU) ? 1 : 0;
   }
-  assert_true(found);
+  assert_int_equal(found, 2);
 }
 
 }  // namespace
@@ -176,7 +222,10 @@ int main() {
       cmocka_unit_test(a_node_that_reboots_is_no_source),
       cmocka_unit_test(a_heartbeat_that_is_lost),
       cmocka_unit_test(what_is_no_heartbeat),
-      cmocka_unit_test(a_port_lets_heartbeats_through),
+      cmocka_unit_test(a_port_lets_heartbeats_and_emergencies_through),
+      cmocka_unit_test(an_emergency_makes_values_errors),
+      cmocka_unit_test(a_node_that_boots_tells_its_emergency_anew),
+      cmocka_unit_test(what_is_no_emergency),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -223,6 +223,16 @@ void a_side_and_a_least_can_be_sent(void**) {
               {"message BoomCurrents, signal ExtendCurrent", "least", "allowed: 0 .. 0.9"});
 }
 
+void late_angles_say_how_late(void**) {
+  const std::string slopes = shipped("slopes");
+  const WrittenFile file("bus.toml", slopes);
+  assert_near(machines::load_bus(file.path()).capabilities.joint_latency_s, 0.02, 0.0);
+  assert_says(with(slopes, "joint_latency = 0.020", "joint_latency = 0.1"),
+              {"joint_latency", "0.05"});
+  assert_says(kHead + "joint_latency = 0.02\n" + kMessage + kSignal,
+              {"joint_latency", "neither joint angles nor slopes"});
+}
+
 void interfaces_are_counted_and_told_apart(void**) {
   const std::string on = with(kMessage, "period", "interface = \"b\"\nperiod");
   const std::string a = "[[interface]]\nname = \"a\"\n";
@@ -330,6 +340,7 @@ int main() {
       cmocka_unit_test(nodes_and_slopes_are_whole),
       cmocka_unit_test(a_side_and_a_least_can_be_sent),
       cmocka_unit_test(interfaces_are_counted_and_told_apart),
+      cmocka_unit_test(late_angles_say_how_late),
       cmocka_unit_test(a_swash_is_of_both_pumps),
       cmocka_unit_test(a_dbc_is_read_with_care),
       cmocka_unit_test(a_key_of_any_length_is_refused),

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/runs/code_text.hpp"
 #include "tests/unit/runs/machine_on_bus.hpp"
 
 namespace {
@@ -124,6 +125,24 @@ void an_encoder_that_sticks(void**) {
   m.controller_stops_within(4000);
 }
 
+/// It goes on with its values all the same.
+void an_encoder_with_an_emergency(void**) {
+  Machine m("encoders");
+  m.dig();
+  m.rig.plant.faults().sold.emergency_node = 2;
+  m.rig.plant.faults().sold.emergency = 0x5010;
+  m.controller_stops_within(2 * kCycle_ms);
+  assert_int_equal(m.status().fault, Fault::kStrokeMissing);
+  assert_string_equal(runs::emergency_words(m.rig.ecu->emergency()).c_str(),
+                      ", node 2 has emergency 5010h (device hardware)");
+  m.rig.plant.faults().sold.emergency = 0;
+  m.rig.enable_from(m.now + kSecondUs);
+  for (int cycle = 0; cycle < 300; ++cycle) {
+    m.step();
+  }
+  assert_int_equal(m.status().mode, EcuMode::kActive);
+}
+
 void an_inclinometer_that_is_lost(void**) {
   Machine m("inclinometers");
   m.stops_by(0x192, lost, kSensor_ms);
@@ -225,6 +244,7 @@ void a_frame_on_the_other_bus_is_none(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(an_encoder_that_is_lost),
+      cmocka_unit_test(an_encoder_with_an_emergency),
       cmocka_unit_test(a_heartbeat_that_is_lost),
       cmocka_unit_test(a_node_that_falls_asleep),
       cmocka_unit_test(a_node_that_reboots),
