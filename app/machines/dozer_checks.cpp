@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/machines/dozer_sections.hpp"
+#include "app/machines/tilt_section.hpp"
 
 #include "firmware/dozer/travel/preview.hpp"
 #include "firmware/dozer/travel/support.hpp"
@@ -223,6 +224,45 @@ DesignErrors errors_of_keeping(const DozerProfile& profile) {
                        kept.position_m, kept.off_m, grade.tolerance_m)}};
 }
 
+/// Of a slope across: a blade that tilts, how far, and how fast at the slowest speed.
+DesignErrors errors_of_tilt(const DozerProfile& profile) {
+  const GradeDesign& grade = profile.grade;
+  if (grade.heights.cross == nullptr) {
+    return {};
+  }
+  if (!profile.tilt.present) {
+    return {{kDesignKey, "has a slope across the track; allowed: none, this machine's blade has no "
+                         "[tilt]"}};
+  }
+  const GradeProfile design(grade);
+  const TiltKinematics tilt(profile.tilt);
+  const double reach_m = BladeKinematics(profile.blade).edge_m(0.0).x();
+  const double flow_m3ps = Preview::kTiltShare * profile.travel.flow_share *
+                           available_flow_m3ps(profile.implement, profile.hst.engine_radps);
+  const double oil_most_m2 = flow_m3ps / profile.travel.speed_min_mps;
+  const double begin_m = grade.begin_m() - reach_m;
+  const auto steps = static_cast<int>((grade.end_m() - begin_m) / GradeHeights::kStep_m);
+  for (int i = 0; i <= steps; ++i) {
+    const double x_m = begin_m + i * GradeHeights::kStep_m;
+    const double angle_rad = tilt_on_rad(profile.body, design, x_m, reach_m);
+    if (std::abs(angle_rad) > profile.tilt.angle_most_rad) {
+      return {{kDesignKey,
+               fmt::format("with the body at x = {:.2f} m the blade would have to be tilted by "
+                           "{:.3f} rad; allowed: tilt.range, {} .. {} rad",
+                           x_m, angle_rad, -profile.tilt.angle_most_rad,
+                           profile.tilt.angle_most_rad)}};
+    }
+    const double oil_m2 = tilt_oil_m2(profile, tilt, design, x_m, reach_m);
+    if (oil_m2 > oil_most_m2) {
+      return {{kDesignKey,
+               fmt::format("with the body at x = {:.2f} m the tilt would need {:.4f} m3 of oil per "
+                           "metre of way; allowed: {:.4f} m3 at travel.speed_min",
+                           x_m, oil_m2, oil_most_m2)}};
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 double lowest_point_m(const GradeDesign& grade) {
@@ -239,6 +279,9 @@ std::vector<DesignError> design_errors(const DozerProfile& profile) {
   DesignErrors errors = profile.grade.heights.count > 0 ? errors_of_heights(profile.grade)
                                                         : errors_of_corners(profile.grade);
   if (errors.empty()) {
+    errors = errors_of_tilt(profile);
+  }
+  if (errors.empty()) {
     errors = errors_of_reach(profile);
   }
   return errors.empty() ? errors_of_keeping(profile) : errors;
@@ -253,6 +296,7 @@ void check_dozer_across_keys(TomlReader& reader, const DozerProfile& profile) {
   }
   check_body(reader, profile.body);
   check_blade(reader, profile.blade, l11_m);
+  check_tilt(reader, profile.tilt);
   check_engine(reader, profile);
   const GradeDesign& grade = profile.grade;
   if (!reader.errors().empty() || (grade.count < 2 && grade.heights.count < 2)) {

@@ -121,13 +121,15 @@ void add_calm(const machines::SimulatedDozer& machine, const GradeResult& result
 void add_ground(const machines::SimulatedDozer& machine, const GradeResult& result,
                 GradeSummary& summary) {
   const GradeTruth truth(machine.profile);
-  for (const Eigen::Vector2d& at_m : result.terrain_m) {
+  const auto add = [&](const auto& at_m) {
     if (at_m.x() >= 0.0 && at_m.x() <= machine.experiment.length_m) {
       const double above_m = truth.error_m(at_m);
       summary.ground_left_m = std::max(summary.ground_left_m, above_m);
       summary.over_cut_m = std::max(summary.over_cut_m, -above_m);
     }
-  }
+  };
+  std::for_each(result.terrain_m.begin(), result.terrain_m.end(), add);
+  std::for_each(result.ends_m.begin(), result.ends_m.end(), add);
   double since_s = 0.0;
   double last_s = 0.0;
   for (const GradeSample& sample : result.samples) {
