@@ -98,8 +98,8 @@ class GradeRun {
   /// By the plant's own geometry.
   [[nodiscard]] double worst_end_m(const plant::DozerPlant& plant) const {
     const double half_m = machine_.profile.tilt.half_width_m();
-    const double left_m = truth_.error_m(plant.edge_point_m(half_m));
-    const double right_m = truth_.error_m(plant.edge_point_m(-half_m));
+    const double left_m = truth_.point_error_m(plant.edge_point_m(half_m));
+    const double right_m = truth_.point_error_m(plant.edge_point_m(-half_m));
     return std::abs(left_m) > std::abs(right_m) ? left_m : right_m;
   }
 

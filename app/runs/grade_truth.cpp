@@ -86,14 +86,14 @@ double GradeTruth::worst_error_m(const BodyPose& body, const BladeAngles& blade)
   if (!tilt_.present) {
     return error_m(edge_m(body, blade.lift_rad));
   }
-  const double left_m = error_m(edge_point_m(body, blade, tilt_.half_width_m()));
-  const double right_m = error_m(edge_point_m(body, blade, -tilt_.half_width_m()));
+  const double left_m = point_error_m(edge_point_m(body, blade, tilt_.half_width_m()));
+  const double right_m = point_error_m(edge_point_m(body, blade, -tilt_.half_width_m()));
   return std::abs(left_m) > std::abs(right_m) ? left_m : right_m;
 }
 
 double GradeTruth::across_error_m(const BodyPose& body, const BladeAngles& blade) const {
-  return error_m(edge_point_m(body, blade, tilt_.half_width_m())) -
-         error_m(edge_point_m(body, blade, -tilt_.half_width_m()));
+  return point_error_m(edge_point_m(body, blade, tilt_.half_width_m())) -
+         point_error_m(edge_point_m(body, blade, -tilt_.half_width_m()));
 }
 
 double GradeTruth::required_tilt_mps(const BodyPose& body, const BodyRates& rates,

@@ -53,7 +53,7 @@ class GradeTruth {
     return edge_m.y() - design_m(edge_m.x());
   }
   /// The same of a point beside the middle: x, y, z.
-  [[nodiscard]] double error_m(const Eigen::Vector3d& at_m) const {
+  [[nodiscard]] double point_error_m(const Eigen::Vector3d& at_m) const {
     return at_m.z() - design_m(at_m.x()) - design_.cross_at(at_m.x()).slope * at_m.y();
   }
   /// Velocity of the tilt cylinder at which the edge would keep its slope over the design's, as the

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/dozer/blade.hpp"
+#include "firmware/dozer/travel/body_roll.hpp"
 #include "firmware/dozer/travel/tracks.hpp"
 #include "firmware/drives/velocity_cap.hpp"
 
@@ -162,12 +163,13 @@ BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,
       -driving.motion.pitch_rate_radps, 0.0;
   at.angle_rad = setup_.blade.angle_rad(stroke_m);
   if (profile_.tilt.present) {
-    // The springs let the body roll as the ground below the tracks does: within a lead it goes on.
-    const double roll_rad = valid.roll_rad + valid.roll_rate_radps * lead_s;
-    at.body.rotation = rotation_from_pitch_and_roll(stand.pitch_rad, roll_rad);
-    at.roll_rate_radps = valid.roll_rate_radps;
+    const BodyRoll rolled =
+        roll_after(body, design_, {valid.roll_rad, valid.roll_rate_radps}, valid.position_m,
+                   driving.x_m, driving.speed_mps, lead_s);
+    at.body.rotation = rotation_from_pitch_and_roll(stand.pitch_rad, rolled.roll_rad);
+    at.roll_rate_radps = rolled.rate_radps;
     at.body_velocity.tail<3>() +=
-        valid.roll_rate_radps *
+        rolled.rate_radps *
         Eigen::Vector3d(std::cos(stand.pitch_rad), 0.0, std::sin(stand.pitch_rad));
   }
   at.lift = preview_.lift(driving.x_m, driving.speed_mps, lift_most_m());

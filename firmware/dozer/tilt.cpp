@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/dozer/travel/body_roll.hpp"
+
 namespace graben {
 namespace {
 
@@ -21,15 +23,6 @@ double within_half_turn(double angle_rad) {
 double slope_rate(const Eigen::Vector3d& direction, const Eigen::Vector3d& rate) {
   const double across = std::max(direction.y(), kLeastAcross);
   return (rate.z() * across - direction.z() * rate.y()) / (across * across);
-}
-
-/// Slope across below the tracks, and how it changes along x: the mean over their contact.
-CrossSample below_tracks(const DozerBody& body, const GradeProfile& design, double x_m) {
-  // Gauss's two points of the contact.
-  const double off_m = 0.5 * body.track_contact_m * 0.57735026918962576;
-  const CrossSample behind = design.cross_at(x_m - off_m);
-  const CrossSample ahead = design.cross_at(x_m + off_m);
-  return {0.5 * (behind.slope + ahead.slope), 0.5 * (behind.change_pm + ahead.change_pm)};
 }
 
 }  // namespace
@@ -94,13 +87,13 @@ EdgeSlope edge_slope(const Eigen::Matrix3d& body_rotation, double blade_angle_ra
 
 double tilt_on_rad(const DozerBody& body, const GradeProfile& design, double x_m, double reach_m) {
   return std::atan(design.cross_at(x_m + reach_m).slope) -
-         std::atan(below_tracks(body, design, x_m).slope);
+         std::atan(cross_below_tracks(body, design, x_m).slope);
 }
 
 double tilt_oil_m2(const DozerProfile& profile, const TiltKinematics& tilt,
                    const GradeProfile& design, double x_m, double reach_m) {
   const double change_pm = design.cross_at(x_m + reach_m).change_pm -
-                           below_tracks(profile.body, design, x_m).change_pm;
+                           cross_below_tracks(profile.body, design, x_m).change_pm;
   const double angle_rad = tilt_on_rad(profile.body, design, x_m, reach_m);
   const double way = tilt.stroke_rate_mprad(angle_rad) * change_pm;
   return way >= 0.0 ? profile.tilt.cap_area_m2() * way : -profile.tilt.rod_area_m2() * way;

@@ -74,7 +74,8 @@ void read_transmission(TomlReader& reader, plant::DozerPlantProfile& plant) {
 plant::TiltPlant read_tilt_plant(TomlReader& reader, const DozerProfile& nominal,
                                  double blade_width_m) {
   plant::TiltPlant tilt;
-  if (!nominal.tilt.present && !reader.lists()) {
+  const bool tilts = reader.lists() ? reader.has("tilt") : nominal.tilt.present;
+  if (!tilts) {
     return tilt;
   }
   tilt.roll_inertia_kgm2 =
