@@ -42,12 +42,11 @@ Designed designed(const machines::SimulatedDozer& machine, const design::DesignS
                                          source.file.string()));
   }
   const design::BladeAcross blade{machine.plant.blade_shape.width_m,
-                                  machine.profile.grade.tolerance_m,
-                                  machine.profile.tilt.present};
+                                  machine.profile.grade.tolerance_m, machine.profile.tilt.present};
   machines::DesignLine line = design::line_of(source, blade);
-  return {machines::with_design(machine, line, machine.profile.grade.rounding_m,
-                                source.file.string()),
-          std::move(line)};
+  return {
+      machines::with_design(machine, line, machine.profile.grade.rounding_m, source.file.string()),
+      std::move(line)};
 }
 
 }  // namespace graben::cli

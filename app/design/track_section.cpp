@@ -215,10 +215,10 @@ machines::DesignLine sloped(const std::vector<GradePoint>& middle,
   for (const double x_m : corners_m) {
     const double slope = (height_at(left, x_m) - height_at(right, x_m)) / blade.width_m;
     if (std::abs(slope) > machines::kMostCross) {
-      throw std::runtime_error(
-          fmt::format("the surface has a slope of {:.3f} across the track at x = {:.2f} m; allowed: "
-                      "{} .. {}",
-                      slope, x_m, -machines::kMostCross, machines::kMostCross));
+      throw std::runtime_error(fmt::format(
+          "the surface has a slope of {:.3f} across the track at x = {:.2f} m; allowed: "
+          "{} .. {}",
+          slope, x_m, -machines::kMostCross, machines::kMostCross));
     }
     line.corners.push_back({x_m, height_at(middle, x_m)});
     line.cross.push_back(slope);

@@ -39,6 +39,6 @@ struct BladeAcross {
 /// blade, more than one height, a slope across it that is more than the ends of a blade that does
 /// not tilt are allowed, or a crown or hollow that is more than those of one that does.
 [[nodiscard]] machines::DesignLine along_track(const Surface& surface, const Track& track,
-                                                  double datum_m, const BladeAcross& blade);
+                                               double datum_m, const BladeAcross& blade);
 
 }  // namespace graben::design

@@ -224,40 +224,46 @@ DesignErrors errors_of_keeping(const DozerProfile& profile) {
                        kept.position_m, kept.off_m, grade.tolerance_m)}};
 }
 
-/// Of a slope across: a blade that tilts, how far, and how fast at the slowest speed.
+/// Between the body's ends, of the springs' sag at a corner of its tracks: with more twist below it
+/// the body stands on two corners, and its height is not that of the ground's middle.
+constexpr double kMostTwist = 1.5;
+
+/// Of a slope across: a blade that tilts, how far, and ground that twists below the tracks.
 DesignErrors errors_of_tilt(const DozerProfile& profile) {
   const GradeDesign& grade = profile.grade;
   if (grade.heights.cross == nullptr) {
     return {};
   }
   if (!profile.tilt.present) {
-    return {{kDesignKey, "has a slope across the track; allowed: none, this machine's blade has no "
-                         "[tilt]"}};
+    return {{kDesignKey,
+             "has a slope across the track; allowed: none, this machine's blade has no "
+             "[tilt]"}};
   }
+  const DozerBody& body = profile.body;
   const GradeProfile design(grade);
-  const TiltKinematics tilt(profile.tilt);
   const double reach_m = BladeKinematics(profile.blade).edge_m(0.0).x();
-  const double flow_m3ps = Preview::kTiltShare * profile.travel.flow_share *
-                           available_flow_m3ps(profile.implement, profile.hst.engine_radps);
-  const double oil_most_m2 = flow_m3ps / profile.travel.speed_min_mps;
+  const double sag_m = body.mass_kg * kGravity_mps2 / (body.wheels * body.suspension_npm);
+  const double twist_most = 2.0 * kMostTwist * sag_m / body.half_gauge_m;
   const double begin_m = grade.begin_m() - reach_m;
   const auto steps = static_cast<int>((grade.end_m() - begin_m) / GradeHeights::kStep_m);
   for (int i = 0; i <= steps; ++i) {
     const double x_m = begin_m + i * GradeHeights::kStep_m;
-    const double angle_rad = tilt_on_rad(profile.body, design, x_m, reach_m);
+    const double angle_rad = tilt_on_rad(body, design, x_m, reach_m);
     if (std::abs(angle_rad) > profile.tilt.angle_most_rad) {
-      return {{kDesignKey,
-               fmt::format("with the body at x = {:.2f} m the blade would have to be tilted by "
-                           "{:.3f} rad; allowed: tilt.range, {} .. {} rad",
-                           x_m, angle_rad, -profile.tilt.angle_most_rad,
-                           profile.tilt.angle_most_rad)}};
+      return {
+          {kDesignKey,
+           fmt::format("with the body at x = {:.2f} m the blade would have to be tilted by "
+                       "{:.3f} rad; allowed: tilt.range, {} .. {} rad",
+                       x_m, angle_rad, -profile.tilt.angle_most_rad, profile.tilt.angle_most_rad)}};
     }
-    const double oil_m2 = tilt_oil_m2(profile, tilt, design, x_m, reach_m);
-    if (oil_m2 > oil_most_m2) {
+    const double twist = design.cross_at(x_m + 0.5 * body.track_contact_m).slope -
+                         design.cross_at(x_m - 0.5 * body.track_contact_m).slope;
+    if (std::abs(twist) > twist_most) {
       return {{kDesignKey,
-               fmt::format("with the body at x = {:.2f} m the tilt would need {:.4f} m3 of oil per "
-                           "metre of way; allowed: {:.4f} m3 at travel.speed_min",
-                           x_m, oil_m2, oil_most_m2)}};
+               fmt::format("with the body at x = {:.2f} m the slope across changes by {:.3f} from "
+                           "end to end of its tracks, which then stand on two corners; allowed: "
+                           "{:.3f} .. {:.3f}",
+                           x_m, twist, -twist_most, twist_most)}};
     }
   }
   return {};

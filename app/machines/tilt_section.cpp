@@ -53,10 +53,10 @@ TiltProfile read_tilt(TomlReader& reader) {
   tilt.spool_to_duty = read_spool_to_duty(reader, "tilt.spool_to_duty");
   tilt.gain_ps =
       reader.number("tilt.gain", {0.0, 50.0, "1/s"}, "error of the cross slope to its rate");
-  tilt.integral_ps2 = reader.number("tilt.integral", {0.0, 100.0, "1/s2"},
-                                    "integral part of the tilt controller");
-  tilt.integral_most_radps = reader.number("tilt.integral_most", {0.0, 1.0, "rad/s"},
-                                           "bound of the integral part");
+  tilt.integral_ps2 =
+      reader.number("tilt.integral", {0.0, 100.0, "1/s2"}, "integral part of the tilt controller");
+  tilt.integral_most_radps =
+      reader.number("tilt.integral_most", {0.0, 1.0, "rad/s"}, "bound of the integral part");
   return tilt;
 }
 

@@ -80,8 +80,7 @@ void HalfVehicle::step(const Terrain& terrain, double traction_n, double step_s,
   move(moment, traction_n, step_s, load);
 }
 
-double HalfVehicle::half_wheel_load(const Terrain& terrain, double along_m,
-                                    double across_m) const {
+double HalfVehicle::half_wheel_load(const Terrain& terrain, double along_m, double across_m) const {
   const double cosine = std::cos(pitch_);
   const double sine = std::sin(pitch_);
   const double sag = wheel_depth_ - body_.mass_centre_height_m;
@@ -98,8 +97,7 @@ double HalfVehicle::half_wheel_load(const Terrain& terrain, double along_m,
   const double upward = mass_centre_climb_ + pitch_rate_ * (along_m * cosine + below * sine) +
                         roll_rate_ * beside * cosine;
   const double rate = terrain.mean_slope(x, wheel_half_width_) * forward - upward;
-  return 0.5 *
-         std::max(0.0, body_.suspension_npm * compression + body_.suspension_nspm * rate);
+  return 0.5 * std::max(0.0, body_.suspension_npm * compression + body_.suspension_nspm * rate);
 }
 
 HalfVehicle::Side HalfVehicle::press(const Terrain& terrain, double across_m) {

@@ -22,7 +22,8 @@ ImplementSection tilt_section(const DozerPlantProfile& profile) {
           profile.tilt_back_pressure_pa, profile.tilt_back_pressure_pa};
 }
 
-ImplementCircuit::ImplementCircuit(const DozerPlantProfile& profile, const ImplementSection& section)
+ImplementCircuit::ImplementCircuit(const DozerPlantProfile& profile,
+                                   const ImplementSection& section)
     : spool_(profile.spool_dynamics()),
       protection_(profile.protection(profile.port_relief_pa)),
       relief_(profile.implement_relief_pa),

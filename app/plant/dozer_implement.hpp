@@ -62,7 +62,7 @@ class ImplementCircuit {
   double pump_m3prad_;
   double relief_;
   double flow_max_;
-  double k_in_;        ///< Of the edges fully open.
+  double k_in_;          ///< Of the edges fully open.
   double k_extending_;   ///< Rod chamber to tank, at the valve's largest inflow.
   double k_retracting_;  ///< Cap chamber to tank, the same.
   ImplementFlows flows_;

@@ -121,8 +121,8 @@ void DozerPlant::drive() {
   double traction_n = 0.0;
   for (std::size_t i = 0; i < path_.size(); ++i) {
     const double load_n = cross_ ? body_.track_load_n(i) : 0.5 * body_.load_n();
-    const double force_n = traction_[i].step(path_[i].track_speed_mps(), body_.ground_speed_mps(),
-                                             load_n, step_s_);
+    const double force_n =
+        traction_[i].step(path_[i].track_speed_mps(), body_.ground_speed_mps(), load_n, step_s_);
     path_[i].step(engine_radps(), force_n, brake_);
     traction_n += force_n;
   }

@@ -45,8 +45,7 @@ TiltDrive::TiltDrive(const DozerPlantProfile& profile, double step_s)
     : linkage_(profile.machine.tilt),
       step_(step_s),
       inertia_(profile.tilt.inertia_kgm2),
-      weight_nm_(profile.blade_mass_kg * profile.gravity_mps2 * 0.5 *
-                 profile.blade_shape.height_m),
+      weight_nm_(profile.blade_mass_kg * profile.gravity_mps2 * 0.5 * profile.blade_shape.height_m),
       pilot_(profile.dead_time_s, 0.0, step_s),
       section_(profile, tilt_section(profile)),
       cylinder_(cylinder_of(profile, linkage_.full_stroke_m()), step_s) {
@@ -64,8 +63,8 @@ double TiltDrive::accelerate(double roll_rad) {
   const double damping = lever * lever * load.damping_nspm;
   const double mobility = step_ / (inertia_ + 0.5 * step_ * damping);
   const double before = rate_;
-  const double free = before + mobility * (weight_moment_nm(roll_rad) + lever * load.force_n -
-                                           damping * before);
+  const double free =
+      before + mobility * (weight_moment_nm(roll_rad) + lever * load.force_n - damping * before);
   const double friction = mobility * std::abs(lever) * load.coulomb_n;
   rate_ = free - std::clamp(free, -friction, friction);
   return 0.5 * lever * (before + rate_);

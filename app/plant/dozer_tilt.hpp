@@ -51,9 +51,7 @@ class TiltDrive {
 
   [[nodiscard]] double angle_rad() const { return angle_; }
   [[nodiscard]] double stroke_m() const { return linkage_.stroke_m(angle_); }
-  [[nodiscard]] double velocity_mps() const {
-    return linkage_.length_per_angle_m(angle_) * rate_;
-  }
+  [[nodiscard]] double velocity_mps() const { return linkage_.length_per_angle_m(angle_) * rate_; }
   [[nodiscard]] double spool_travel_ratio() const { return section_.spool().travel_ratio(); }
   [[nodiscard]] const ImplementFlows& flows() const { return section_.flows(); }
   [[nodiscard]] const TiltLinkage& linkage() const { return linkage_; }

@@ -40,7 +40,8 @@ struct GradeSample {
   double speed_limit_mps = 0.0;  ///< (14) without v_d.
   double lambda = 0.0;
   Limit limit;
-  double flow_required_m3ps = 0.0;   ///< (7), tilt included, for the true motion to follow the design.
+  double flow_required_m3ps =
+      0.0;  ///< (7), tilt included, for the true motion to follow the design.
   double flow_available_m3ps = 0.0;  ///< Of the true machine.
   double flow_reported_m3ps = 0.0;   ///< The controller's (7).
   double flow_limit_reported_m3ps = 0.0;

@@ -77,8 +77,8 @@ Eigen::Vector3d GradeTruth::edge_point_m(const BodyPose& body, const BladeAngles
   const Eigen::AngleAxisd lift(blade.lift_rad, -Eigen::Vector3d::UnitY());
   const Eigen::AngleAxisd tilt(blade.tilt_rad, Eigen::Vector3d::UnitX());
   const Eigen::Vector2d edge = linkage_.edge_m(blade.lift_rad);
-  const Eigen::Vector3d in_body =
-      Eigen::Vector3d(edge.x(), 0.0, edge.y()) + lift * (tilt * Eigen::Vector3d(0.0, along_edge_m, 0.0));
+  const Eigen::Vector3d in_body = Eigen::Vector3d(edge.x(), 0.0, edge.y()) +
+                                  lift * (tilt * Eigen::Vector3d(0.0, along_edge_m, 0.0));
   return Eigen::Vector3d(body.position_m, 0.0, body.height_m) + pitch * (roll * in_body);
 }
 
@@ -102,11 +102,11 @@ double GradeTruth::required_tilt_mps(const BodyPose& body, const BodyRates& rate
     return 0.0;
   }
   const auto after = [&](double time_s) {
-    return across_error_m({body.position_m + rates.velocity_mps * time_s,
-                           body.height_m + rates.climb_mps * time_s,
-                           body.pitch_rad + rates.pitch_rate_radps * time_s,
-                           body.roll_rad + rates.roll_rate_radps * time_s},
-                          blade);
+    return across_error_m(
+        {body.position_m + rates.velocity_mps * time_s, body.height_m + rates.climb_mps * time_s,
+         body.pitch_rad + rates.pitch_rate_radps * time_s,
+         body.roll_rad + rates.roll_rate_radps * time_s},
+        blade);
   };
   const double change_mps = (after(kStep_s) - after(-kStep_s)) / (2.0 * kStep_s);
   const double left_rad = blade.tilt_rad + kStep_rad;

@@ -96,8 +96,7 @@ DozerValid DozerController::validate_and_watch(const DozerInputs& inputs, const 
 
 void DozerController::choose_task(DozerValid& valid, double period_s) {
   const bool at_rest = spools_centred(drives(), valid.drive) && tracks_at_rest(valid);
-  const std::array<double, kBladeCount> stroke_m = {valid.blade().stroke_m,
-                                                    valid.tilt().stroke_m};
+  const std::array<double, kBladeCount> stroke_m = {valid.blade().stroke_m, valid.tilt().stroke_m};
   const TaskChoice task =
       task_after_change(memory_.change, {valid.task, valid.task_number}, memory_.last.drives.moving,
                         at_rest, {stroke_m.data(), drives().count()}, period_s);
@@ -127,8 +126,8 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
   if (profile_.tilt.present) {
     error_m += at_ends_m(cross_error(setup_.design, tilt_at(now, valid.tilt().stroke_m)));
   }
-  memory_.in_pass = {edge_m.x(), error_m, valid.velocity_mps, memory_.load.push_n / profile_.travel.push_max_n,
-                     memory_.load.lift_m};
+  memory_.in_pass = {edge_m.x(), error_m, valid.velocity_mps,
+                     memory_.load.push_n / profile_.travel.push_max_n, memory_.load.lift_m};
   const PassState pass = next_pass(profile_.grade, memory_.pass, memory_.in_pass, period_s);
   if (pass.pass != memory_.pass.pass) {
     ground_.turn_back(edge_m.x());
@@ -163,9 +162,8 @@ BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,
       -driving.motion.pitch_rate_radps, 0.0;
   at.angle_rad = setup_.blade.angle_rad(stroke_m);
   if (profile_.tilt.present) {
-    const BodyRoll rolled =
-        roll_after(body, design_, {valid.roll_rad, valid.roll_rate_radps}, valid.position_m,
-                   driving.x_m, driving.speed_mps, lead_s);
+    const BodyRoll rolled = roll_after(body, design_, {valid.roll_rad, valid.roll_rate_radps},
+                                       valid.position_m, driving.x_m, driving.speed_mps, lead_s);
     at.body.rotation = rotation_from_pitch_and_roll(stand.pitch_rad, rolled.roll_rad);
     at.roll_rate_radps = rolled.rate_radps;
     at.body_velocity.tail<3>() +=
@@ -193,8 +191,7 @@ TiltSituation DozerController::tilt_at(const BladeSituation& at, double stroke_m
 }
 
 void DozerController::move_tilt(const DozerValid& valid, const BladeSituation& now,
-                                const BladeSituation& then, double period_s,
-                                Motion& motion) const {
+                                const BladeSituation& then, double period_s, Motion& motion) const {
   const TiltProfile& tilt = profile_.tilt;
   const double stroke_m = stroke_then_m(drives()[kBladeTilt], memory_.servo[kBladeTilt]);
   motion.tilt = control_tilt(tilt, drives()[kBladeTilt], setup_.tilt, design_, memory_.tilt,
@@ -221,8 +218,8 @@ void DozerController::move_blade(const DozerValid& valid, double period_s, Motio
   // What the tilt took in the last cycle the lift has not; 0 of a blade without.
   const double for_lift_m3ps =
       motion.available_flow_m3ps - inflow_m3ps(profile_.tilt, memory_.asked_mps[kBladeTilt]);
-  motion.blade = control_blade(profile_, drives()[kBladeLift], setup_.blade, design_, memory_.blade, now,
-                               then, for_lift_m3ps, period_s);
+  motion.blade = control_blade(profile_, drives()[kBladeLift], setup_.blade, design_, memory_.blade,
+                               now, then, for_lift_m3ps, period_s);
   motion.required_flow_m3ps = inflow_m3ps(profile_.blade, motion.blade.feed_forward_mps);
   motion.command.opening[kBladeLift] = opening_for(profile_, motion.blade.velocity_mps);
   motion.asked_mps[kBladeLift] =
@@ -338,12 +335,12 @@ void DozerController::remember(const DozerValid& valid, const Motion& motion,
   memory_.speed = active ? motion.speed.state : SpeedState{};
   memory_.speed_mps = active ? motion.speed.state.speed_mps : 0.0;
   memory_.track = active ? motion.track : std::array<TrackState, kTrackCount>{};
-  memory_.last = {{in_motion(decision.mode.mode),
-                   gated.enable,
-                   gated.duty_ratio,
-                   {active ? motion.blade.velocity_mps : 0.0,
-                    active ? motion.tilt.velocity_mps : 0.0}},
-                  {gated.pump_ratio, gated.motor_ratio}};
+  memory_.last = {
+      {in_motion(decision.mode.mode),
+       gated.enable,
+       gated.duty_ratio,
+       {active ? motion.blade.velocity_mps : 0.0, active ? motion.tilt.velocity_mps : 0.0}},
+      {gated.pump_ratio, gated.motor_ratio}};
 }
 
 }  // namespace graben

@@ -131,8 +131,8 @@ struct GradeHeights {
   alignas(8) const double* height_m = nullptr;  ///< Over the design's plane, `count` of them.
   /// Slope across the track there, dz/dy with y to the left; none: level across.
   alignas(8) const double* cross = nullptr;
-  alignas(8) int count = 0;                     ///< 0, or 2 .. kMost.
-  double from_m = 0.0;                          ///< Place of the first one.
+  alignas(8) int count = 0;  ///< 0, or 2 .. kMost.
+  double from_m = 0.0;       ///< Place of the first one.
 };
 
 /// The design: heights over a plane through points with rounded corners. Before the first point and

@@ -17,8 +17,8 @@ struct GradeSample {
 
 /// Slope of the design across the track at one place, and how that changes along it.
 struct CrossSample {
-  double slope = 0.0;     ///< dz/dy, y to the left.
-  double change_pm = 0.0; ///< Per metre along x.
+  double slope = 0.0;      ///< dz/dy, y to the left.
+  double change_pm = 0.0;  ///< Per metre along x.
 };
 
 /// Every corner is a parabola over `rounding_m` to either side, so that the slope has no step.

@@ -47,9 +47,9 @@ double TiltKinematics::length_m(double angle_rad) const {
 
 double TiltKinematics::angle_rad(double stroke_m) const {
   const double length_m = shortest_m_ + std::clamp(stroke_m, 0.0, stroke_max_m_);
-  const double cosine = (base_radius_m_ * base_radius_m_ + eye_radius_m_ * eye_radius_m_ -
-                         length_m * length_m) /
-                        (2.0 * base_radius_m_ * eye_radius_m_);
+  const double cosine =
+      (base_radius_m_ * base_radius_m_ + eye_radius_m_ * eye_radius_m_ - length_m * length_m) /
+      (2.0 * base_radius_m_ * eye_radius_m_);
   return std::copysign(std::acos(std::clamp(cosine, -1.0, 1.0)), enclosed_rad_) - enclosed_rad_;
 }
 
@@ -79,8 +79,7 @@ EdgeSlope edge_slope(const Eigen::Matrix3d& body_rotation, double blade_angle_ra
   const Eigen::Vector3d in_body = blade * Eigen::Vector3d(0.0, c, s);
   const Eigen::Vector3d direction = body_rotation * in_body;
   const Eigen::Vector3d tilted = body_rotation * (blade * Eigen::Vector3d(0.0, -s, c));
-  const Eigen::Vector3d rolled =
-      body_rotation * Eigen::Vector3d(0.0, -in_body.z(), in_body.y());
+  const Eigen::Vector3d rolled = body_rotation * Eigen::Vector3d(0.0, -in_body.z(), in_body.y());
   return {direction.z() / std::max(direction.y(), kLeastAcross), slope_rate(direction, tilted),
           slope_rate(direction, rolled)};
 }

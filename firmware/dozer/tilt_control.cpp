@@ -35,8 +35,8 @@ double cross_error(const GradeProfile& design, const TiltSituation& at) {
 
 TiltCommand control_tilt(const TiltProfile& profile, const DriveRow& drive,
                          const TiltKinematics& tilt, const GradeProfile& design,
-                         const TiltState& last, const TiltSituation& now,
-                         const TiltSituation& then, bool fed, double period_s) {
+                         const TiltState& last, const TiltSituation& now, const TiltSituation& then,
+                         bool fed, double period_s) {
   const Asked at_once = asked_at(design, now);
   const Asked later = asked_at(design, then);
   TiltCommand command;
@@ -45,8 +45,8 @@ TiltCommand control_tilt(const TiltProfile& profile, const DriveRow& drive,
   command.feed_forward_mps =
       tilt.stroke_rate_mprad(now.tilt_rad) * at_once.follows_ps / at_once.per_tilt;
   const double back_ps = -profile.gain_ps * later.error - last.integral_radps;
-  const double free_mps = tilt.stroke_rate_mprad(then.tilt_rad) * (later.follows_ps + back_ps) /
-                          later.per_tilt;
+  const double free_mps =
+      tilt.stroke_rate_mprad(then.tilt_rad) * (later.follows_ps + back_ps) / later.per_tilt;
   const double most_mps = end_speed_mps(drive, tilt.stroke_m(now.tilt_rad), free_mps);
   command.at_end = std::abs(free_mps) > most_mps;
   command.velocity_mps = std::clamp(free_mps, -most_mps, most_mps);

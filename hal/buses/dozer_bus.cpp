@@ -59,10 +59,10 @@ struct Store : CommonStore<DozerInputs, Task::kGrade> {
   }
 };
 
-using OwnReceived = dbc::MessageList<bus::BladeStroke, bus::BodyPosition, bus::BodyPitch,
-                                     bus::BodyVelocity, bus::LeftTransmission,
-                                     bus::RightTransmission, bus::TrackSpeed, bus::TiltState,
-                                     bus::ValveState>;
+using OwnReceived =
+    dbc::MessageList<bus::BladeStroke, bus::BodyPosition, bus::BodyPitch, bus::BodyVelocity,
+                     bus::LeftTransmission, bus::RightTransmission, bus::TrackSpeed, bus::TiltState,
+                     bus::ValveState>;
 constexpr auto kReceiveTable = receive_table<DozerInputs, Store>(OwnReceived{}, CommonReceived{},
                                                                  bus::kMessages, bus::kDbcVersion);
 

@@ -28,9 +28,9 @@ void demand_something_to_cut(const SimulatedDozer& machine) {
   const GradeProfile design(machine.profile.grade);
   for (int step = 0; step * kStep_m <= machine.experiment.length_m; ++step) {
     // Of the edge's higher end.
-    const double height_m = design.at(step * kStep_m).height_m +
-                            machine.profile.tilt.half_width_m() *
-                                std::abs(design.cross_at(step * kStep_m).slope);
+    const double height_m =
+        design.at(step * kStep_m).height_m +
+        machine.profile.tilt.half_width_m() * std::abs(design.cross_at(step * kStep_m).slope);
     if (height_m > kFill_m) {
       throw std::runtime_error(fmt::format(
           "the design is {:.3f} m above the simulated ground at x = {:.2f} m; allowed: at "

@@ -86,8 +86,8 @@ plant::TiltPlant read_tilt_plant(TomlReader& reader, const DozerProfile& nominal
       reader.number("tilt.coulomb", {0.0, 1e6, "N"}, "Coulomb friction of the tilt cylinder");
   tilt.viscous_nspm =
       reader.number("tilt.viscous", {0.0, 1e7, "N s/m"}, "viscous friction of the tilt cylinder");
-  tilt.dead_volume_m3 = reader.number("tilt.dead_volume", kVolume,
-                                      "oil in each chamber with its hose, fully closed");
+  tilt.dead_volume_m3 =
+      reader.number("tilt.dead_volume", kVolume, "oil in each chamber with its hose, fully closed");
   constexpr double kSame_m = 1e-3;
   if (!reader.lists() && std::abs(blade_width_m - nominal.tilt.edge_width_m) > kSame_m) {
     reader.fail("blade.width", fmt::format("{} m; allowed: the profile's tilt.edge_width, {} m",

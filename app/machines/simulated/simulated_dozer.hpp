@@ -42,9 +42,8 @@ void read_simulated_sections(TomlReader& reader, SimulatedDozer& machine);
 
 /// The machine with this line along the track as its design, rounded as far, all of it to be
 /// made. Throws ProfileError of `file` with what of it this machine can't make.
-[[nodiscard]] SimulatedDozer with_design(SimulatedDozer machine,
-                                         const DesignLine& line, double rounding_m,
-                                         const std::string& file);
+[[nodiscard]] SimulatedDozer with_design(SimulatedDozer machine, const DesignLine& line,
+                                         double rounding_m, const std::string& file);
 
 /// A dozer that is not quite what its file says, and has sensor errors: mass (the moment of inertia
 /// in proportion), traction, rolling resistance and the efficiency of implement pump, pumps and

@@ -61,9 +61,8 @@ bool watch_pose(const DozerValid& valid, const GroundSpeeds& speeds, double peri
   state.pitch_rad = valid.pitch_rad;
   state.roll_rad = valid.roll_rad;
   return exceeds(state.ahead_m, kMostAhead_m) || exceeds(state.climbed_m, kMostClimbed_m) ||
-         exceeds(state.turned_rad, kMostTurned_rad) ||
-         exceeds(state.rolled_rad, kMostTurned_rad) || exceeds(state.uphill_m, kMostUphill_m) ||
-         exceeds(state.slipped_m, kMostSlipped_m);
+         exceeds(state.turned_rad, kMostTurned_rad) || exceeds(state.rolled_rad, kMostTurned_rad) ||
+         exceeds(state.uphill_m, kMostUphill_m) || exceeds(state.slipped_m, kMostSlipped_m);
 }
 
 }  // namespace graben

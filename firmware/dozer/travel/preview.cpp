@@ -136,7 +136,8 @@ void Preview::cost(int number, const ReachOf& reach_of) {
   double stroke_m = 0.0;
   for (int index = probe.end - 1; index >= probe.begin; --index) {
     Need& at = need(number, index);
-    stroke_m = index == probe.end - 1 ? at.stroke_m : std::min(at.stroke_m, stroke_m + reach_of(index).raised_m);
+    stroke_m = index == probe.end - 1 ? at.stroke_m
+                                      : std::min(at.stroke_m, stroke_m + reach_of(index).raised_m);
     at.lift_m = stroke_m;  // As a stroke, until the way back.
   }
   int stretch = probe.begin;
@@ -146,7 +147,8 @@ void Preview::cost(int number, const ReachOf& reach_of) {
     const double left_m = blade_.stroke_max_m() - stroke_m;
     stroke_m = index == probe.begin
                    ? std::min(at.lift_m, blade_.stroke_max_m())
-                   : std::min(at.lift_m, stroke_m + std::min(reach_of(index).lowered_m, towards_end * left_m));
+                   : std::min(at.lift_m,
+                              stroke_m + std::min(reach_of(index).lowered_m, towards_end * left_m));
     at.lift_m = edge_per_stroke_ * (at.stroke_m - stroke_m);
     most_m = std::max(most_m, at.lift_m);
     if (at.lift_m > kNoLift_m && index + 1 < probe.end) {
@@ -167,8 +169,7 @@ void Preview::cost(int number, double flow_m3ps) {
                      time_s * lift_m3ps / profile_.blade.cap_area_m2()};
   };
   if (profile_.tilt.present) {
-    cost(number,
-         [&](int index) { return reach(lift_flow_m3ps(index, speed_mps, flow_m3ps)); });
+    cost(number, [&](int index) { return reach(lift_flow_m3ps(index, speed_mps, flow_m3ps)); });
   } else {
     const LiftReach whole = reach(flow_m3ps);
     cost(number, [&whole](int) { return whole; });

@@ -122,8 +122,8 @@ class Preview {
   int count_;                           ///< Of stations ahead.
   std::array<Probe, kProbes> probe_{};  ///< The fastest first.
   std::array<Needs, kProbes> need_{};
-  int first_ = 0;  ///< The first station that counts.
-  int turn_ = 0;   ///< Whose cost is worked out.
+  int first_ = 0;                                ///< The first station that counts.
+  int turn_ = 0;                                 ///< Whose cost is worked out.
   std::array<double, kMostStations> tilt_m2_{};  ///< See tilt_oil_m2(), at each station.
   double flow_m3ps_ = 0.0;                       ///< That was last planned with.
 };

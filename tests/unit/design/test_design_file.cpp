@@ -82,14 +82,14 @@ machines::DesignLine across(const std::vector<double>& slopes) {
 /// With the same rounding as heights; part of the hash; and only of a machine whose blade tilts.
 void a_slope_across_is_part_of_the_design(void**) {
   const auto machine =
-      machines::with_design(test::tilting_dozer(), across({0.0, 0.0, 0.06, 0.06}), 0.3, "x");
+      machines::with_design(test::tilting_dozer(), across({0.0, 0.0, 0.03, 0.03}), 0.3, "x");
   const GradeProfile design(machine.profile.grade);
-  assert_near(design.cross_at(6.5).slope, 0.03, 1e-9);
-  assert_near(design.cross_at(6.5).change_pm, 0.02, 1e-9);
-  assert_near(design.cross_at(5.0).slope, 0.0015, 2e-5);  // 0.02 / m times 0.3 m / 4.
-  assert_near(design.cross_at(30.0).slope, 0.06, 1e-12);
+  assert_near(design.cross_at(6.5).slope, 0.015, 1e-9);
+  assert_near(design.cross_at(6.5).change_pm, 0.01, 1e-9);
+  assert_near(design.cross_at(5.0).slope, 0.00075, 1e-5);  // 0.01 / m times 0.3 m / 4.
+  assert_near(design.cross_at(30.0).slope, 0.03, 1e-12);
   const auto other =
-      machines::with_design(test::tilting_dozer(), across({0.0, 0.0, 0.06, 0.061}), 0.3, "x");
+      machines::with_design(test::tilting_dozer(), across({0.0, 0.0, 0.03, 0.031}), 0.3, "x");
   const auto level = machines::with_design(test::tilting_dozer(), across({}), 0.3, "x");
   assert_true(machine.hash != other.hash && machine.hash != level.hash);
 }
@@ -101,8 +101,12 @@ void a_slope_across_that_it_cannot_make_is_refused(void**) {
         [&] { static_cast<void>(machines::with_design(machine, across(slopes), 0.0, "bank")); });
   };
   assert_true(has(refusal(test::dozer(), {0.0, 0.0, 0.06, 0.06}), "has no [tilt]"));
-  const std::string far = refusal(test::tilting_dozer(), {0.0, 0.0, 0.29, 0.29});
-  assert_true(has(far, "would have to be tilted by 0.2") && has(far, "-0.16 .. 0.16 rad"));
+  const std::string twists = refusal(test::tilting_dozer(), {0.0, 0.0, 0.07, 0.07});
+  assert_true(has(twists, "changes by 0.05") && has(twists, "from end to end of its tracks"));
+  assert_true(has(twists, "allowed: -0.048 .. 0.048"));
+  machines::SimulatedDozer narrow = test::tilting_dozer();
+  narrow.profile.tilt.angle_most_rad = 0.01;
+  assert_true(has(refusal(narrow, {0.0, 0.0, 0.03, 0.03}), "-0.01 .. 0.01 rad"));
 }
 
 std::vector<GradePoint> corners(double last_m) {
@@ -111,14 +115,13 @@ std::vector<GradePoint> corners(double last_m) {
 
 /// The machine with it: in both ends, in the hash, as long as it is.
 void a_machine_takes_a_design(void**) {
-  const machines::SimulatedDozer machine = machines::with_design(
-      test::dozer(), corners(-0.2), 0.3, "x");
+  const machines::SimulatedDozer machine =
+      machines::with_design(test::dozer(), corners(-0.2), 0.3, "x");
   assert_near(machine.experiment.length_m, 20.0, 1e-9);
   assert_ptr_equal(machine.plant.machine.grade.heights.height_m,
                    machine.profile.grade.heights.height_m);
   assert_near(GradeProfile(machine.profile.grade).at(18.0).height_m, -0.2, 1e-9);
-  const auto other = machines::with_design(
-      test::dozer(), corners(-0.201), 0.3, "x");
+  const auto other = machines::with_design(test::dozer(), corners(-0.201), 0.3, "x");
   assert_true(machine.hash != test::dozer().hash && machine.hash != other.hash);
 }
 

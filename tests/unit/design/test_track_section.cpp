@@ -123,10 +123,9 @@ void a_slope_across_is_refused_beyond_the_tolerance(void**) {
 /// The slope between the ends, positive where the left one is higher; whichever way the track goes.
 void a_blade_that_tilts_takes_the_slope_across(void**) {
   const design::BladeAcross tilts{2.5, 0.02, true};
-  const design::Surface surface =
-      strip(kStations, {3.0, 4.0}, 0.3, [](double x_m, double y_m) {
-        return 412.0 + trench_m(x_m, 0.0) + 0.08 * y_m;
-      });
+  const design::Surface surface = strip(kStations, {3.0, 4.0}, 0.3, [](double x_m, double y_m) {
+    return 412.0 + trench_m(x_m, 0.0) + 0.08 * y_m;
+  });
   const Eigen::Vector2d begin_m(3.0, 4.0);
   const design::Track there = track_of(begin_m, 0.3, 20.0 - 1e-6);
   const machines::DesignLine line = design::along_track(surface, there, 412.0, tilts);

@@ -52,7 +52,8 @@ struct Grading {
       inputs.tilt_stroke_m = fresh(tilt_stroke_m, now_us);
       inputs.tilt_spool_ratio = fresh(outputs.tilt_duty_ratio, now_us);
       inputs.body.roll_rad = fresh(roll_rad, now_us);
-      inputs.body.roll_rate_radps = fresh(0.0, now_us);
+      inputs.body.roll_rate_radps = fresh((roll_rad - last_roll_rad) / 0.01, now_us);
+      last_roll_rad = roll_rad;
     }
     inputs.blade_stroke_m = fresh(stroke_m, now_us);
     inputs.blade_spool_ratio = fresh(outputs.blade_duty_ratio, now_us);
@@ -105,6 +106,7 @@ struct Grading {
   double stroke_m = 0.0;
   double tilt_stroke_m = 0.0;
   double roll_rad = 0.0;
+  double last_roll_rad = 0.0;
   double speed_mps = 0.0;
 };
 

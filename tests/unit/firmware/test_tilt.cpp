@@ -29,8 +29,8 @@ void stroke_and_angle_belong_together(void**) {
     for (const double angle_rad : {-0.16, -0.1, 0.0, 0.05, 0.16}) {
       assert_near(tilt.angle_rad(tilt.stroke_m(angle_rad)), angle_rad, 1e-9);
     }
-    const double rate = (tilt.stroke_m(0.05 + kStep_rad) - tilt.stroke_m(0.05 - kStep_rad)) /
-                        (2.0 * kStep_rad);
+    const double rate =
+        (tilt.stroke_m(0.05 + kStep_rad) - tilt.stroke_m(0.05 - kStep_rad)) / (2.0 * kStep_rad);
     assert_near(tilt.stroke_rate_mprad(0.05), rate, 1e-6);
     assert_near(std::min(tilt.stroke_m(-0.16), tilt.stroke_m(0.16)), 0.0, 1e-12);
     assert_near(std::max(tilt.stroke_m(-0.16), tilt.stroke_m(0.16)), tilt.stroke_max_m(), 1e-12);
@@ -61,7 +61,8 @@ void roll_and_tilt_add_up(void**) {
               1e-12);
   assert_near(edge_slope(rotation_from_pitch_and_roll(0.0, 0.07), 0.0, 0.03).slope, std::tan(0.1),
               1e-12);
-  assert_near(edge_slope(rotation_from_pitch_and_roll(0.3, 0.1), -0.3, -0.1).slope, 0.0, 2e-3);
+  // About the same axis: however it is pitched, a tilt makes up for a roll.
+  assert_near(edge_slope(rotation_from_pitch_and_roll(0.3, 0.1), 0.0, -0.1).slope, 0.0, 1e-12);
 }
 
 void its_derivatives_are_those_of_the_slope(void**) {
@@ -153,9 +154,9 @@ void the_speed_leaves_the_tilt_its_flow(void**) {
     Preview preview(profile(), blade);
     const GroundMap untouched;
     for (int n = 0; n < 400; ++n) {
-      preview.look(untouched, design, 0.5, {0.0, 0.0}, flow_m3ps);
+      preview.look(untouched, design, 0.0, {0.0, 0.0}, flow_m3ps);
     }
-    return preview.limit(0.5, 1.0, 0.006, 0.0).lowest_mps;
+    return preview.limit(0.0, 1.0, 0.006, 0.0).lowest_mps;
   };
   assert_true(limit_mps(0.01) > 1.6);
   const double slope_mps = limit_mps(0.4);

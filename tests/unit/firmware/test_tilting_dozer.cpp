@@ -58,19 +58,37 @@ void assert_stops(Fault fault, const std::function<void(DozerInputs&)>& change) 
 }
 
 void what_the_tilt_needs_is_required(void**) {
-  assert_stops(Fault::kPoseMissing,
-               [](DozerInputs& inputs) { inputs.body.roll_rad.validity = Validity::kNotAvailable; });
+  assert_stops(Fault::kPoseMissing, [](DozerInputs& inputs) {
+    inputs.body.roll_rad.validity = Validity::kNotAvailable;
+  });
   assert_stops(Fault::kPoseMissing, [](DozerInputs& inputs) {
     inputs.body.roll_rate_radps.validity = Validity::kNotAvailable;
   });
-  assert_stops(Fault::kStrokeMissing,
-               [](DozerInputs& inputs) { inputs.tilt_stroke_m.validity = Validity::kNotAvailable; });
+  assert_stops(Fault::kStrokeMissing, [](DozerInputs& inputs) {
+    inputs.tilt_stroke_m.validity = Validity::kNotAvailable;
+  });
   assert_stops(Fault::kSpoolMissing, [](DozerInputs& inputs) {
     inputs.tilt_spool_ratio.validity = Validity::kNotAvailable;
   });
-  assert_stops(Fault::kStrokeImplausible,
-               [](DozerInputs& inputs) { inputs.tilt_stroke_m.value = 0.5; });
-  assert_stops(Fault::kPoseImplausible, [](DozerInputs& inputs) { inputs.body.roll_rad.value = 0.9; });
+}
+
+/// In motion it would be a jump first.
+void what_cannot_be_keeps_it_from_arming(void**) {
+  const CrossDesign design(0.05, 0.03);
+  const auto fault_of = [&](const std::function<void(DozerInputs&)>& change) {
+    Grading grading(on(design));
+    DozerInputs inputs = grading.next();
+    change(inputs);
+    DozerValidationState state;
+    return validate(grading.profile, grading.setup->bank.rows(), inputs, false, grading.now_us,
+                    state)
+        .fault;
+  };
+  assert_int_equal(fault_of([](DozerInputs&) {}), Fault::kNone);
+  assert_int_equal(fault_of([](DozerInputs& inputs) { inputs.tilt_stroke_m.value = 0.5; }),
+                   Fault::kStrokeImplausible);
+  assert_int_equal(fault_of([](DozerInputs& inputs) { inputs.body.roll_rad.value = -0.9; }),
+                   Fault::kPoseImplausible);
 }
 
 void a_tilt_spool_that_stays_open_is_stuck(void**) {
@@ -102,6 +120,7 @@ int main() {
       cmocka_unit_test(the_edge_takes_on_the_designs_slope),
       cmocka_unit_test(a_rolled_body_is_made_up_for),
       cmocka_unit_test(what_the_tilt_needs_is_required),
+      cmocka_unit_test(what_cannot_be_keeps_it_from_arming),
       cmocka_unit_test(a_tilt_spool_that_stays_open_is_stuck),
       cmocka_unit_test(a_roll_that_does_not_go_with_its_rate_is_seen),
       cmocka_unit_test(a_machine_without_tilt_needs_none_of_it),

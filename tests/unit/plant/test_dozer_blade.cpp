@@ -188,7 +188,8 @@ void the_load_check_holds(void**) {
   for (int i = 0; i < 1000; ++i) {
     circuit.step(5e-4);
   }
-  assert_near(circuit.solve(circuit.pump_flow_m3ps(157.08), {24e6, 1e9}, {1e6, 1e9}).supply, 0.0, 0.0);
+  assert_near(circuit.solve(circuit.pump_flow_m3ps(157.08), {24e6, 1e9}, {1e6, 1e9}).supply, 0.0,
+              0.0);
   assert_near(circuit.flows().cap_in, 0.0, 0.0);
   // Half a margin below the relief: what the open edge lets through at 1 MPa.
   const double open = circuit.solve(circuit.pump_flow_m3ps(157.08), {20e6, 0.0}, {1e6, 1e9}).supply;
