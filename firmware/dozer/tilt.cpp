@@ -85,8 +85,8 @@ EdgeSlope edge_slope(const Eigen::Matrix3d& body_rotation, double blade_angle_ra
 }
 
 double tilt_on_rad(const DozerBody& body, const GradeProfile& design, double x_m, double reach_m) {
-  return std::atan(design.cross_at(x_m + reach_m).slope) -
-         std::atan(cross_below_tracks(body, design, x_m).slope);
+  return std::atan2(design.cross_at(x_m + reach_m).slope, 1.0) -
+         std::atan2(cross_below_tracks(body, design, x_m).slope, 1.0);
 }
 
 double tilt_oil_m2(const DozerProfile& profile, const TiltKinematics& tilt,
