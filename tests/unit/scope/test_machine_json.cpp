@@ -313,7 +313,7 @@ void a_profile_that_is_told_comes_first_and_once(void**) {
   // A comment does not make another machine of it.
   assert_true(setup["machines"][0]["hash"] == machine_named(setup, "excavator_12t")["hash"]);
   const json same = reports::shared_setup({"dozer_9t", {}});
-  assert_int_equal(same["machines"].size(), 7);
+  assert_int_equal(same["machines"].size(), 8);
   assert_true(same["machines"][0]["name"] == "dozer_9t");
 }
 
