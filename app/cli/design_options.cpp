@@ -14,7 +14,8 @@ void add_design_options(CLI::App& command, design::DesignSource& source) {
   command.add_option(
       "--design", source.file,
       "Instead of the profile's design: a LandXML surface (.xml), points x y z (.xyz, .csv, .pts), "
-      "or any other text with x along the track and height over the plane, a line a corner");
+      "or any other text with x along the track and height over the plane, a line a corner, and "
+      "where the blade tilts the slope across");
   command.add_option("--surface", source.surface, "Of a LandXML file with several, by its name");
   command
       .add_option("--track", source.track_m,
@@ -43,11 +44,11 @@ Designed designed(const machines::SimulatedDozer& machine, const design::DesignS
         source.file, "a design: LandXML (.xml), points (.xyz, .csv, .pts), or a line a corner"));
   }
   const design::BladeAcross blade{machine.plant.blade_shape.width_m,
-                                  machine.profile.grade.tolerance_m};
-  std::vector<GradePoint> corners = design::corners_of(source, blade);
-  return {machines::with_design(machine, corners, machine.profile.grade.rounding_m,
-                                source.file.string()),
-          std::move(corners)};
+                                  machine.profile.grade.tolerance_m, machine.profile.tilt.present};
+  machines::DesignLine line = design::line_of(source, blade);
+  return {
+      machines::with_design(machine, line, machine.profile.grade.rounding_m, source.file.string()),
+      std::move(line)};
 }
 
 }  // namespace graben::cli

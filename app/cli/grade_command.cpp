@@ -66,7 +66,7 @@ std::string subtitle_of(const GradeCommand& options, const machines::SimulatedDo
 }
 
 void grade(const GradeCommand& options) {
-  const auto [machine, corners] = machine_of(options);
+  const auto [machine, line] = machine_of(options);
   const std::filesystem::path out(options.out);
   runs::GradeOptions run;
   const std::filesystem::path report = out / "grade.html";
@@ -85,8 +85,8 @@ void grade(const GradeCommand& options) {
   std::filesystem::create_directories(out);
   make_folder_of(run.log_file);
   make_folder_of(options.summary);
-  if (!corners.empty()) {
-    machines::write_design(design, corners);
+  if (!line.corners.empty()) {
+    machines::write_design(design, line);
   }
 
   runs::GradeResult result;
@@ -104,7 +104,7 @@ void grade(const GradeCommand& options) {
   }
   fmt::print("{}log     {}\nreport  {}\n", runs::figures_text(figures), run.log_file.string(),
              report.string());
-  if (!corners.empty()) {
+  if (!line.corners.empty()) {
     fmt::print("design  {}\n", design.string());
   }
   for (const std::string& name : options.figures) {

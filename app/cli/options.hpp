@@ -58,7 +58,7 @@ void add_design_options(CLI::App& command, design::DesignSource& source);
 /// is, and none, where they name none.
 struct Designed {
   machines::SimulatedDozer machine;
-  std::vector<GradePoint> corners;
+  machines::DesignLine line;
 };
 [[nodiscard]] Designed designed(const machines::SimulatedDozer& machine,
                                 const design::DesignSource& source);

@@ -26,7 +26,7 @@ Surface surface_of(const DesignSource& source, const std::string& ending) {
 
 }  // namespace
 
-std::vector<GradePoint> corners_of(const DesignSource& source, const BladeAcross& blade) {
+machines::DesignLine line_of(const DesignSource& source, const BladeAcross& blade) {
   const std::string ending = source.file.extension().string();
   if (ending != ".xml" && !is_points(ending)) {
     if (!source.surface.empty() || !source.track_m.empty() || source.datum_m != 0.0) {

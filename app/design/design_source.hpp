@@ -15,9 +15,8 @@ struct DesignSource {
   double datum_m = 0.0;         ///< Height of the plane in the file.
 };
 
-/// Corners along the track. Throws as the readers, and std::runtime_error where an option is told
-/// that such a file has no use for.
-[[nodiscard]] std::vector<GradePoint> corners_of(const DesignSource& source,
-                                                 const BladeAcross& blade);
+/// The design along the track. Throws as the readers, and std::runtime_error where an option is
+/// told that such a file has no use for.
+[[nodiscard]] machines::DesignLine line_of(const DesignSource& source, const BladeAcross& blade);
 
 }  // namespace graben::design

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <stdexcept>
 
 namespace graben::design {
@@ -147,23 +148,45 @@ std::vector<GradePoint> section(const Surface& surface, const Track& track, doub
   return corners;
 }
 
-/// On both, which are straight between their corners, only a corner can be farthest off.
-void demand_level(const std::vector<GradePoint>& middle, const std::vector<GradePoint>& end,
-                  double across_m, double most_m) {
-  const auto height_m = [](const std::vector<GradePoint>& line, double x_m) {
-    const auto after = std::upper_bound(line.begin() + 1, line.end() - 1, x_m,
-                                        [](double x, const GradePoint& at) { return x < at.x_m; });
-    return height_on({*(after - 1), *after}, x_m);
-  };
-  GradePoint worst;
-  for (const std::vector<GradePoint>* line : {&middle, &end}) {
+double height_at(const std::vector<GradePoint>& line, double x_m) {
+  const auto after = std::upper_bound(line.begin() + 1, line.end() - 1, x_m,
+                                      [](double x, const GradePoint& at) { return x < at.x_m; });
+  return height_on({*(after - 1), *after}, x_m);
+}
+
+/// Of all lines, which are straight between their corners: every place where one has a corner.
+std::vector<double> all_corners_m(std::initializer_list<const std::vector<GradePoint>*> lines) {
+  std::vector<double> corners_m;
+  for (const std::vector<GradePoint>* line : lines) {
     for (const GradePoint& at : *line) {
-      const double off_m = height_m(end, at.x_m) - height_m(middle, at.x_m);
-      if (std::abs(off_m) > std::abs(worst.z_m)) {
-        worst = {at.x_m, off_m};
-      }
+      corners_m.push_back(at.x_m);
     }
   }
+  std::sort(corners_m.begin(), corners_m.end());
+  corners_m.erase(std::unique(corners_m.begin(), corners_m.end(),
+                              [](double a, double b) { return b - a < kSame_m; }),
+                  corners_m.end());
+  return corners_m;
+}
+
+/// The largest difference, and its place; only a corner can be farthest off.
+template <class OffAt>
+GradePoint worst_of(const std::vector<double>& corners_m, const OffAt& off_at) {
+  GradePoint worst;
+  for (const double x_m : corners_m) {
+    const double off_m = off_at(x_m);
+    if (std::abs(off_m) > std::abs(worst.z_m)) {
+      worst = {x_m, off_m};
+    }
+  }
+  return worst;
+}
+
+void demand_level(const std::vector<GradePoint>& middle, const std::vector<GradePoint>& end,
+                  double across_m, double most_m) {
+  const GradePoint worst = worst_of(all_corners_m({&middle, &end}), [&](double x_m) {
+    return height_at(end, x_m) - height_at(middle, x_m);
+  });
   if (std::abs(worst.z_m) > most_m) {
     throw std::runtime_error(fmt::format(
         "the surface is {:.3f} m {} than under the track at x = {:.2f} m, {}; allowed: {} .. {} m "
@@ -171,6 +194,36 @@ void demand_level(const std::vector<GradePoint>& middle, const std::vector<Grade
         std::abs(worst.z_m), worst.z_m > 0.0 ? "higher" : "lower", worst.x_m, line_text(across_m),
         -most_m, most_m));
   }
+}
+
+/// What a blade that tilts makes of it: the middle's height, and the slope between the ends.
+machines::DesignLine sloped(const std::vector<GradePoint>& middle,
+                            const std::vector<GradePoint>& left,
+                            const std::vector<GradePoint>& right, const BladeAcross& blade) {
+  const std::vector<double> corners_m = all_corners_m({&middle, &left, &right});
+  const GradePoint crown = worst_of(corners_m, [&](double x_m) {
+    return height_at(middle, x_m) - 0.5 * (height_at(left, x_m) + height_at(right, x_m));
+  });
+  if (std::abs(crown.z_m) > blade.tolerance_m) {
+    throw std::runtime_error(fmt::format(
+        "under the track the surface is {:.3f} m {} than straight between the ends of the blade at "
+        "x = {:.2f} m; allowed: {} .. {} m (grade.tolerance): the cutting edge is straight",
+        std::abs(crown.z_m), crown.z_m > 0.0 ? "higher" : "lower", crown.x_m, -blade.tolerance_m,
+        blade.tolerance_m));
+  }
+  machines::DesignLine line;
+  for (const double x_m : corners_m) {
+    const double slope = (height_at(left, x_m) - height_at(right, x_m)) / blade.width_m;
+    if (std::abs(slope) > machines::kMostCross) {
+      throw std::runtime_error(fmt::format(
+          "the surface has a slope of {:.3f} across the track at x = {:.2f} m; allowed: "
+          "{} .. {}",
+          slope, x_m, -machines::kMostCross, machines::kMostCross));
+    }
+    line.corners.push_back({x_m, height_at(middle, x_m)});
+    line.cross.push_back(slope);
+  }
+  return line;
 }
 
 }  // namespace
@@ -216,18 +269,24 @@ Track middle_track(const Surface& surface) {
   return straight_track({least.x(), y_m, most.x(), y_m});
 }
 
-std::vector<GradePoint> along_track(const Surface& surface, const Track& track, double datum_m,
-                                    const BladeAcross& blade) {
-  std::vector<GradePoint> middle = section(surface, track, 0.0);
-  for (const double across_m : {0.5 * blade.width_m, -0.5 * blade.width_m}) {
-    if (across_m != 0.0) {
-      demand_level(middle, section(surface, track, across_m), across_m, blade.tolerance_m);
+machines::DesignLine along_track(const Surface& surface, const Track& track, double datum_m,
+                                 const BladeAcross& blade) {
+  machines::DesignLine line = section(surface, track, 0.0);
+  const double half_m = 0.5 * blade.width_m;
+  if (half_m > 0.0) {
+    const std::vector<GradePoint> left = section(surface, track, half_m);
+    const std::vector<GradePoint> right = section(surface, track, -half_m);
+    if (blade.tilts) {
+      line = sloped(line.corners, left, right, blade);
+    } else {
+      demand_level(line.corners, left, half_m, blade.tolerance_m);
+      demand_level(line.corners, right, -half_m, blade.tolerance_m);
     }
   }
-  for (GradePoint& at : middle) {
+  for (GradePoint& at : line.corners) {
     at.z_m -= datum_m;
   }
-  return middle;
+  return line;
 }
 
 }  // namespace graben::design

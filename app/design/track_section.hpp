@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/design/surface.hpp"
+#include "app/machines/design_file.hpp"
 #include "firmware/dozer/dozer_profile.hpp"
 
 namespace graben::design {
@@ -28,14 +29,16 @@ struct Track {
 /// What a blade and its task allow.
 struct BladeAcross {
   double width_m = 0.0;
-  double tolerance_m = 0.0;  ///< Of the edge's ends, up or down, against its middle.
+  double tolerance_m = 0.0;  ///< Of the edge's ends, up or down, against a straight edge.
+  bool tilts = false;        ///< Else that edge is level.
 };
 
 /// Corners of the surface along the track, from x = 0 on, `datum_m` lower: every edge of a triangle
-/// that it crosses. Throws std::runtime_error with the place where the surface has a hole under the
-/// track or an end of the blade, more than one height, or a slope across it that is more than the
-/// blade's ends are allowed: a blade with one drive does not tilt.
-[[nodiscard]] std::vector<GradePoint> along_track(const Surface& surface, const Track& track,
-                                                  double datum_m, const BladeAcross& blade);
+/// that it crosses. A blade that tilts has the slope between its ends there too. Throws
+/// std::runtime_error with the place where the surface has a hole under the track or an end of the
+/// blade, more than one height, a slope across it that is more than the ends of a blade that does
+/// not tilt are allowed, or a crown or hollow that is more than those of one that does.
+[[nodiscard]] machines::DesignLine along_track(const Surface& surface, const Track& track,
+                                               double datum_m, const BladeAcross& blade);
 
 }  // namespace graben::design

@@ -68,54 +68,44 @@ std::uint32_t hash_with(std::uint32_t hash, const GradeHeights& heights) {
   for (int i = 0; i < heights.count; ++i) {
     add(heights.height_m[i]);
   }
+  for (int i = 0; heights.cross != nullptr && i < heights.count; ++i) {
+    add(heights.cross[i]);
+  }
   return hash;
 }
 
-}  // namespace
-
-std::vector<GradePoint> read_design(const std::filesystem::path& file) {
-  std::vector<GradePoint> corners;
-  read_number_lines(file, {2, "x along the track and height over the plane, m", kMostCorners},
-                    [&](std::size_t, const std::array<double, 3>& numbers) {
-                      const GradePoint at{numbers[0], numbers[1]};
-                      if (std::abs(at.x_m) > kMostX_m) {
-                        return fmt::format("x = {} m; allowed: {} .. {} m", at.x_m, -kMostX_m,
-                                           kMostX_m);
-                      }
-                      if (std::abs(at.z_m) > kMostHeight_m) {
-                        return fmt::format("a height of {} m; allowed: {} .. {} m", at.z_m,
-                                           -kMostHeight_m, kMostHeight_m);
-                      }
-                      if (!corners.empty() && !(at.x_m > corners.back().x_m)) {
-                        return fmt::format("x = {} m; allowed: more than the line before, {} m",
-                                           at.x_m, corners.back().x_m);
-                      }
-                      corners.push_back(at);
-                      return std::string();
-                    });
-  const double length_m = corners.size() > 1 ? corners.back().x_m - corners.front().x_m : 0.0;
-  const double most_m = (GradeHeights::kMost - 1) * GradeHeights::kStep_m;
-  if (length_m < GradeHeights::kStep_m || length_m > most_m) {
-    throw ProfileError(file.string(),
-                       {fmt::format("{} lines over {} m; allowed: 2 lines and more over {} .. {} m",
-                                    corners.size(), length_m, GradeHeights::kStep_m, most_m)});
+/// What is wrong with a line's numbers; empty: nothing.
+std::string take_corner(const std::array<double, 3>& numbers, DesignLine& line) {
+  const GradePoint at{numbers[0], numbers[1]};
+  if (std::abs(at.x_m) > kMostX_m) {
+    return fmt::format("x = {} m; allowed: {} .. {} m", at.x_m, -kMostX_m, kMostX_m);
   }
-  return corners;
+  if (std::abs(at.z_m) > kMostHeight_m) {
+    return fmt::format("a height of {} m; allowed: {} .. {} m", at.z_m, -kMostHeight_m,
+                       kMostHeight_m);
+  }
+  if (!line.corners.empty() && !(at.x_m > line.corners.back().x_m)) {
+    return fmt::format("x = {} m; allowed: more than the line before, {} m", at.x_m,
+                       line.corners.back().x_m);
+  }
+  const bool has_cross = !std::isnan(numbers[2]);
+  if (!line.corners.empty() && has_cross == line.cross.empty()) {
+    return "allowed: a slope across in every line or in none";
+  }
+  if (has_cross && std::abs(numbers[2]) > kMostCross) {
+    return fmt::format("a slope across of {}; allowed: {} .. {}", numbers[2], -kMostCross,
+                       kMostCross);
+  }
+  line.corners.push_back(at);
+  if (has_cross) {
+    line.cross.push_back(numbers[2]);
+  }
+  return "";
 }
 
-void write_design(const std::filesystem::path& file, const std::vector<GradePoint>& corners) {
-  std::ofstream stream(file);
-  stream << "# A design along the track: x and height over the plane, m.\n";
-  for (const GradePoint& at : corners) {
-    stream << fmt::format("{:.6f} {:.6f}\n", at.x_m, at.z_m);
-  }
-  stream.flush();
-  if (!stream) {
-    throw std::runtime_error(fmt::format("{}: can't be written", file.string()));
-  }
-}
-
-DesignHeights heights_of(const std::vector<GradePoint>& corners, double rounding_m) {
+/// The corners every GradeHeights::kStep_m, rounded.
+std::shared_ptr<const std::vector<double>> on_grid(const std::vector<GradePoint>& corners,
+                                                   double rounding_m) {
   const Integral integral(corners);
   const double begin_m = corners.front().x_m;
   const double end_m = corners.back().x_m;
@@ -131,7 +121,54 @@ DesignHeights heights_of(const std::vector<GradePoint>& corners, double rounding
                                   (2.0 * half_m)
                             : integral.height_m(x_m));
   }
-  return {begin_m, height_m};
+  return height_m;
+}
+
+}  // namespace
+
+DesignLine read_design(const std::filesystem::path& file) {
+  DesignLine line;
+  const Columns columns{
+      2, "x along the track and height over the plane, m, and it may be the slope across",
+      kMostCorners, 1};
+  read_number_lines(file, columns, [&](std::size_t, const std::array<double, 3>& numbers) {
+    return take_corner(numbers, line);
+  });
+  const std::vector<GradePoint>& corners = line.corners;
+  const double length_m = corners.size() > 1 ? corners.back().x_m - corners.front().x_m : 0.0;
+  const double most_m = (GradeHeights::kMost - 1) * GradeHeights::kStep_m;
+  if (length_m < GradeHeights::kStep_m || length_m > most_m) {
+    throw ProfileError(file.string(),
+                       {fmt::format("{} lines over {} m; allowed: 2 lines and more over {} .. {} m",
+                                    corners.size(), length_m, GradeHeights::kStep_m, most_m)});
+  }
+  return line;
+}
+
+void write_design(const std::filesystem::path& file, const DesignLine& line) {
+  std::ofstream stream(file);
+  stream << "# A design along the track: x and height over the plane, m"
+         << (line.cross.empty() ? ".\n" : "; slope across, left up.\n");
+  for (std::size_t i = 0; i < line.corners.size(); ++i) {
+    stream << fmt::format("{:.6f} {:.6f}", line.corners[i].x_m, line.corners[i].z_m)
+           << (line.cross.empty() ? "\n" : fmt::format(" {:.6f}\n", line.cross[i]));
+  }
+  stream.flush();
+  if (!stream) {
+    throw std::runtime_error(fmt::format("{}: can't be written", file.string()));
+  }
+}
+
+DesignHeights heights_of(const DesignLine& line, double rounding_m) {
+  DesignHeights heights{line.corners.front().x_m, on_grid(line.corners, rounding_m), nullptr};
+  if (!line.cross.empty()) {
+    std::vector<GradePoint> across = line.corners;
+    for (std::size_t i = 0; i < across.size(); ++i) {
+      across[i].z_m = line.cross[i];
+    }
+    heights.cross = on_grid(across, rounding_m);
+  }
+  return heights;
 }
 
 void set_design(DozerMachine& machine, const DesignHeights& heights) {
@@ -139,8 +176,8 @@ void set_design(DozerMachine& machine, const DesignHeights& heights) {
   GradeDesign& grade = machine.profile.grade;
   grade.count = 0;
   grade.point = {};
-  grade.heights = {heights.height_m->data(), static_cast<int>(heights.height_m->size()),
-                   heights.from_m};
+  grade.heights = {heights.height_m->data(), heights.cross ? heights.cross->data() : nullptr,
+                   static_cast<int>(heights.height_m->size()), heights.from_m};
   machine.hash = hash_with(machine.hash, grade.heights);
 }
 

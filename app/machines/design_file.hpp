@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/machines/dozer_file.hpp"
@@ -13,16 +14,31 @@
 
 namespace graben::machines {
 
-/// A line a corner: x along the track and height over the plane, m; x rises. Throws as
-/// read_number_lines, also where x or a height is out of range.
-[[nodiscard]] std::vector<GradePoint> read_design(const std::filesystem::path& file);
+/// A design along the track.
+struct DesignLine {
+  DesignLine() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): corners alone are a design that is level across.
+  DesignLine(std::vector<GradePoint> at, std::vector<double> slope_across = {})
+      : corners(std::move(at)), cross(std::move(slope_across)) {}
+
+  std::vector<GradePoint> corners;
+  std::vector<double> cross;  ///< Slope across at each corner, left up positive; none: level.
+};
+
+/// A line a corner: x along the track and height over the plane, m, and the slope across, in
+/// every line or in none; x rises. Throws as read_number_lines, also where one is out of range.
+[[nodiscard]] DesignLine read_design(const std::filesystem::path& file);
 /// Such a file. Throws std::runtime_error where it can't be written.
-void write_design(const std::filesystem::path& file, const std::vector<GradePoint>& corners);
+void write_design(const std::filesystem::path& file, const DesignLine& line);
 
 /// The design on the grid that the controller has it on, with the corners rounded: each height is
 /// the mean of what lies `rounding_m` to either side, less near the ends, which stay where they
-/// are. Of a corner that is a parabola from so far before to so far behind it.
-[[nodiscard]] DesignHeights heights_of(const std::vector<GradePoint>& corners, double rounding_m);
+/// are. Of a corner that is a parabola from so far before to so far behind it. Slopes across are
+/// rounded alike.
+[[nodiscard]] DesignHeights heights_of(const DesignLine& line, double rounding_m);
+
+/// More of a slope across is refused.
+inline constexpr double kMostCross = 0.3;
 
 /// Puts the heights in the place of the design's points, in the profile as in its hash.
 void set_design(DozerMachine& machine, const DesignHeights& heights);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/machines/dozer_sections.hpp"
+#include "app/machines/tilt_section.hpp"
 
 #include "firmware/dozer/travel/preview.hpp"
 #include "firmware/dozer/travel/support.hpp"
@@ -223,6 +224,51 @@ DesignErrors errors_of_keeping(const DozerProfile& profile) {
                        kept.position_m, kept.off_m, grade.tolerance_m)}};
 }
 
+/// Between the body's ends, of the springs' sag at a corner of its tracks: with more twist below it
+/// the body stands on two corners, and its height is not that of the ground's middle.
+constexpr double kMostTwist = 1.5;
+
+/// Of a slope across: a blade that tilts, how far, and ground that twists below the tracks.
+DesignErrors errors_of_tilt(const DozerProfile& profile) {
+  const GradeDesign& grade = profile.grade;
+  if (grade.heights.cross == nullptr) {
+    return {};
+  }
+  if (!profile.tilt.present) {
+    return {{kDesignKey,
+             "has a slope across the track; allowed: none, this machine's blade has no "
+             "[tilt]"}};
+  }
+  const DozerBody& body = profile.body;
+  const GradeProfile design(grade);
+  const double reach_m = BladeKinematics(profile.blade).edge_m(0.0).x();
+  const double sag_m = body.mass_kg * kGravity_mps2 / (body.wheels * body.suspension_npm);
+  const double twist_most = 2.0 * kMostTwist * sag_m / body.half_gauge_m;
+  const double begin_m = grade.begin_m() - reach_m;
+  const auto steps = static_cast<int>((grade.end_m() - begin_m) / GradeHeights::kStep_m);
+  for (int i = 0; i <= steps; ++i) {
+    const double x_m = begin_m + i * GradeHeights::kStep_m;
+    const double angle_rad = tilt_on_rad(body, design, x_m, reach_m);
+    if (std::abs(angle_rad) > profile.tilt.angle_most_rad) {
+      return {
+          {kDesignKey,
+           fmt::format("with the body at x = {:.2f} m the blade would have to be tilted by "
+                       "{:.3f} rad; allowed: tilt.range, {} .. {} rad",
+                       x_m, angle_rad, -profile.tilt.angle_most_rad, profile.tilt.angle_most_rad)}};
+    }
+    const double twist = design.cross_at(x_m + 0.5 * body.track_contact_m).slope -
+                         design.cross_at(x_m - 0.5 * body.track_contact_m).slope;
+    if (std::abs(twist) > twist_most) {
+      return {{kDesignKey,
+               fmt::format("with the body at x = {:.2f} m the slope across changes by {:.3f} from "
+                           "end to end of its tracks, which then stand on two corners; allowed: "
+                           "{:.3f} .. {:.3f}",
+                           x_m, twist, -twist_most, twist_most)}};
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 double lowest_point_m(const GradeDesign& grade) {
@@ -239,6 +285,9 @@ std::vector<DesignError> design_errors(const DozerProfile& profile) {
   DesignErrors errors = profile.grade.heights.count > 0 ? errors_of_heights(profile.grade)
                                                         : errors_of_corners(profile.grade);
   if (errors.empty()) {
+    errors = errors_of_tilt(profile);
+  }
+  if (errors.empty()) {
     errors = errors_of_reach(profile);
   }
   return errors.empty() ? errors_of_keeping(profile) : errors;
@@ -253,6 +302,7 @@ void check_dozer_across_keys(TomlReader& reader, const DozerProfile& profile) {
   }
   check_body(reader, profile.body);
   check_blade(reader, profile.blade, l11_m);
+  check_tilt(reader, profile.tilt);
   check_engine(reader, profile);
   const GradeDesign& grade = profile.grade;
   if (!reader.errors().empty() || (grade.count < 2 && grade.heights.count < 2)) {

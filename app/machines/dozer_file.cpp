@@ -14,8 +14,8 @@ DozerMachine load_dozer(const ProfileDocument& document) {
     machine.profile = read_dozer_sections(reader);
     machine.provenance = reader.provenance();
     if (reader.has(kDesignKey) && reader.is_sound()) {
-      const auto corners = read_design(document.file.parent_path() / design_name(reader));
-      set_design(machine, heights_of(corners, machine.profile.grade.rounding_m));
+      const DesignLine line = read_design(document.file.parent_path() / design_name(reader));
+      set_design(machine, heights_of(line, machine.profile.grade.rounding_m));
     }
     check_dozer_across_keys(reader, machine.profile);
   });

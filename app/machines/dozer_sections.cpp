@@ -7,6 +7,7 @@
 #include "app/machines/bus_key.hpp"
 #include "app/machines/dozer_sections.hpp"
 #include "app/machines/shared_sections.hpp"
+#include "app/machines/tilt_section.hpp"
 
 namespace graben::machines {
 namespace {
@@ -204,13 +205,15 @@ DozerSafety read_safety(TomlReader& reader) {
 std::string design_name(TomlReader& reader) {
   return reader.text(kDesignKey,
                      "the design in a file of its own, by its name beside this file, instead of "
-                     "grade.profile: a line a corner, x and height over the plane, m");
+                     "grade.profile: a line a corner, x and height over the plane, m, "
+                     "and where the blade tilts the slope across");
 }
 
 DozerProfile read_dozer_sections(TomlReader& reader) {
   DozerProfile profile;
   profile.body = read_body(reader);
   profile.blade = read_blade(reader);
+  profile.tilt = read_tilt(reader);
   profile.implement = read_implement(reader);
   profile.hst = read_hst(reader);
   profile.travel = read_travel(reader);

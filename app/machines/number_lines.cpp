@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <string_view>
 
 #include "app/machines/missing_file.hpp"
@@ -47,6 +48,8 @@ std::string take_line(std::size_t number, std::string_view line, const Columns& 
                       const TakeNumbers& take) {
   LineNumbers words(line);
   std::array<double, 3> numbers{};
+  numbers.fill(std::numeric_limits<double>::quiet_NaN());
+  const std::size_t most = columns.count + columns.more;
   std::size_t count = 0;
   for (; !words.done(); ++count) {
     double value = 0.0;
@@ -54,16 +57,19 @@ std::string take_line(std::size_t number, std::string_view line, const Columns& 
     if (!wrong.empty()) {
       return fmt::format("{}; allowed: {}", wrong, columns.names);
     }
-    if (count < columns.count) {
+    if (count < most) {
       numbers[count] = value;
     }
   }
   if (count == 0) {
     return "";
   }
-  return count == columns.count ? take(number, numbers)
-                                : fmt::format("{} number{}; allowed: {}, {}", count,
-                                              count == 1 ? "" : "s", columns.count, columns.names);
+  const std::string allowed = columns.more > 0 ? fmt::format("{} .. {}", columns.count, most)
+                                               : std::to_string(columns.count);
+  return count >= columns.count && count <= most
+             ? take(number, numbers)
+             : fmt::format("{} number{}; allowed: {}, {}", count, count == 1 ? "" : "s", allowed,
+                           columns.names);
 }
 
 }  // namespace

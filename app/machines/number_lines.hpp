@@ -12,9 +12,10 @@ namespace graben::machines {
 
 /// What the columns of a file are: so many, their names, for messages.
 struct Columns {
-  std::size_t count = 0;  ///< 2 or 3.
+  std::size_t count = 0;  ///< With `more` at most 3.
   const char* names = "";
   std::size_t most_lines = 0;
+  std::size_t more = 0;  ///< So many may follow; not a number where they are not there.
 };
 
 /// A line's numbers; `line` counts from 1. What it returns is wrong with them; empty: nothing.

@@ -19,10 +19,13 @@ struct PoseFaults {
   ReadingFault velocity;
   ReadingFault climb;
   ReadingFault pitch_rate;
+  ReadingFault roll;  ///< Of a machine whose blade tilts, as the next.
+  ReadingFault roll_rate;
 
   /// The whole sensor: a total station that has lost its prism, an inertial unit that has died.
   void set_state(dbc::RawState state) {
-    for (ReadingFault* fault : {&position, &height, &pitch, &velocity, &climb, &pitch_rate}) {
+    for (ReadingFault* fault :
+         {&position, &height, &pitch, &velocity, &climb, &pitch_rate, &roll, &roll_rate}) {
       fault->state = state;
     }
   }
@@ -39,6 +42,8 @@ struct PathFaults {
 
 struct DozerFaults : NodeFaults {
   StrokeFault stroke;
+  StrokeFault tilt_stroke;
+  std::optional<double> tilt_spool_held_ratio;  ///< As the blade's below.
   /// The pilot valve is stuck and holds the spool here, -1 .. 1. Only the pilot cut centres it.
   std::optional<double> spool_held_ratio;
   /// The spool opens that much beyond its command, neutral or not.

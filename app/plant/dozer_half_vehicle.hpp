@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 
 #include "app/plant/dozer_ground.hpp"
 #include "app/plant/dozer_plant_profile.hpp"
@@ -15,6 +16,12 @@ struct BodyLoad {
   Eigen::Vector2d force_n = Eigen::Vector2d::Zero();  ///< World.
   double moment_nm = 0.0;    ///< About the mass centre; nose up is positive.
   bool tracks_turn = false;  ///< What the tracks drive with beyond the slope turns it about it too.
+};
+
+/// Ground below each track's middle.
+struct TracksGround {
+  const Terrain& left;
+  const Terrain& right;
 };
 
 /// Wheels on springs and dampers that push only, evenly spaced over the contact. World frame, x
@@ -32,6 +39,8 @@ class HalfVehicle {
 
   /// Goes on by a step with the whole traction of both tracks, N along the body.
   void step(const Terrain& terrain, double traction_n, double step_s, const BodyLoad& load = {});
+  /// The same on ground that differs below the two tracks: half of each wheel stands on either.
+  void step(const TracksGround& ground, double traction_n, double step_s);
 
   /// Of the body frame's origin.
   [[nodiscard]] double position_m() const { return position_; }
@@ -46,6 +55,11 @@ class HalfVehicle {
   /// What each wheel pressed with in the last step; 0 in the air.
   [[nodiscard]] const std::array<double, kMostWheels>& wheel_loads_n() const { return load_; }
   [[nodiscard]] double load_n() const { return whole_load_; }
+  /// About its longitudinal axis, left side up positive. Its tracks grip, so that the origin stays
+  /// on the middle line.
+  [[nodiscard]] double roll_rad() const { return roll_; }
+  [[nodiscard]] double roll_rate_radps() const { return roll_rate_; }
+  [[nodiscard]] double track_load_n(std::size_t track) const { return track_load_[track]; }
   /// Of the mass centre, in the world.
   [[nodiscard]] double mass_centre_m() const { return mass_centre_; }
   [[nodiscard]] double wheel_place_m(int wheel) const;
@@ -54,6 +68,18 @@ class HalfVehicle {
   /// With cosine and sine of the pitch.
   [[nodiscard]] double wheel_load(const Terrain& terrain, double along_m, double cosine,
                                   double sine) const;
+  /// Half a wheel `across_m` to the left of the middle.
+  [[nodiscard]] double half_wheel_load(const Terrain& terrain, double along_m,
+                                       double across_m) const;
+  /// What is pressed of one side: with its moments about the mass centre.
+  struct Side {
+    double load_n = 0.0;
+    double pitch_nm = 0.0;
+    double roll_nm = 0.0;
+  };
+  Side press(const Terrain& terrain, double across_m);
+  /// By what the wheels press with, and their moment.
+  void move(double moment, double traction_n, double step_s, const BodyLoad& load);
   [[nodiscard]] double rolling_resistance_n() const;
 
   DozerBody body_;
@@ -70,6 +96,10 @@ class HalfVehicle {
   double velocity_ = 0.0;
   double mass_centre_climb_ = 0.0;
   double pitch_rate_ = 0.0;
+  double roll_inertia_;
+  double roll_ = 0.0;
+  double roll_rate_ = 0.0;
+  std::array<double, kTrackCount> track_load_{};
   std::array<double, kMostWheels> load_{};
   double whole_load_;
 };

@@ -8,19 +8,34 @@
 
 namespace graben::plant {
 
-ImplementCircuit::ImplementCircuit(const DozerPlantProfile& profile)
+ImplementSection lift_section(const DozerPlantProfile& profile) {
+  const BladeGeometry& blade = profile.machine.blade;
+  // Extension lowers the blade.
+  return {profile.machine.implement.valve_flow_max_m3ps,
+          piston_areas(blade.cylinder_count, blade.bore_m, blade.rod_m),
+          profile.lowering_back_pressure_pa, profile.raising_back_pressure_pa};
+}
+
+ImplementSection tilt_section(const DozerPlantProfile& profile) {
+  const TiltProfile& tilt = profile.machine.tilt;
+  return {tilt.valve_flow_max_m3ps, piston_areas(tilt.cylinder_count, tilt.bore_m, tilt.rod_m),
+          profile.tilt_back_pressure_pa, profile.tilt_back_pressure_pa};
+}
+
+ImplementCircuit::ImplementCircuit(const DozerPlantProfile& profile,
+                                   const ImplementSection& section)
     : spool_(profile.spool_dynamics()),
       protection_(profile.protection(profile.port_relief_pa)),
       relief_(profile.implement_relief_pa),
-      flow_max_(profile.machine.implement.valve_flow_max_m3ps) {
+      flow_max_(section.flow_max_m3ps) {
   const ImplementProfile& implement = profile.machine.implement;
   pump_m3prad_ = implement.displacement_m3prev * implement.efficiency / kTwoPi;
-  const BladeGeometry& blade = profile.machine.blade;
-  const PistonAreas area = piston_areas(blade.cylinder_count, blade.bore_m, blade.rod_m);
+  const PistonAreas& area = section.area;
   k_in_ = flow_max_ / std::sqrt(profile.compensator_margin_pa);
-  k_lowering_ =
-      flow_max_ * area.rod_m2 / area.cap_m2 / std::sqrt(profile.lowering_back_pressure_pa);
-  k_raising_ = flow_max_ * area.cap_m2 / area.rod_m2 / std::sqrt(profile.raising_back_pressure_pa);
+  k_extending_ =
+      flow_max_ * area.rod_m2 / area.cap_m2 / std::sqrt(section.extending_back_pressure_pa);
+  k_retracting_ =
+      flow_max_ * area.cap_m2 / area.rod_m2 / std::sqrt(section.retracting_back_pressure_pa);
 }
 
 double ImplementCircuit::supply(double k_in, const WavePort& fed) const {
@@ -28,21 +43,21 @@ double ImplementCircuit::supply(double k_in, const WavePort& fed) const {
   return std::max(0.0, std::min({flows_.demand, flows_.available, at_relief}));
 }
 
-const ImplementFlows& ImplementCircuit::solve(double engine_radps, const WavePort& cap,
+const ImplementFlows& ImplementCircuit::solve(double available_m3ps, const WavePort& cap,
                                               const WavePort& rod) {
   const double opening = spool_.area_ratio();
-  const bool lowers = spool_.travel_ratio() > 0.0;
+  const bool extends = spool_.travel_ratio() > 0.0;
   flows_.demand = opening * flow_max_;
-  flows_.available = pump_flow_m3ps(engine_radps);
-  const double fed_in = protected_flow(lowers ? cap : rod, protection_, [&](const WavePort& fed) {
+  flows_.available = available_m3ps;
+  const double fed_in = protected_flow(extends ? cap : rod, protection_, [&](const WavePort& fed) {
     return flows_.supply = supply(opening * k_in_, fed);
   });
-  const double k_out = flows_.supply / flow_max_ * (lowers ? k_lowering_ : k_raising_);
+  const double k_out = flows_.supply / flow_max_ * (extends ? k_extending_ : k_retracting_);
   const double drained_in =
-      protected_flow(lowers ? rod : cap, protection_,
+      protected_flow(extends ? rod : cap, protection_,
                      [&](const WavePort& drained) { return -orifice_flow(k_out, drained, kTank); });
-  flows_.cap_in = lowers ? fed_in : drained_in;
-  flows_.rod_in = lowers ? drained_in : fed_in;
+  flows_.cap_in = extends ? fed_in : drained_in;
+  flows_.rod_in = extends ? drained_in : fed_in;
   return flows_;
 }
 

@@ -32,6 +32,9 @@ void DozerNode::step(TimeUs now) {
   send(readings_.velocity(faults_.pose), now);
   send_transmission(now);
   send(readings_.tracks(plant_, faults_), now);
+  if (plant_.tilt()) {
+    send(readings_.tilt(plant_, faults_), now);
+  }
   if (is_due<bus::EEC1>()) {
     send(bus::EEC1{valid(plant_.engine_radps())}, now);
   }
@@ -71,6 +74,7 @@ void DozerNode::watch_commands(TimeUs now) {
 
 void DozerNode::apply_faults() {
   plant_.set_pilot_fault(faults_.spool_held_ratio, faults_.spool_offset_ratio);
+  plant_.set_tilt_pilot_fault(faults_.tilt_spool_held_ratio);
   plant_.set_reversed(faults_.reversed);
   for (std::size_t i = 0; i < kTrackCount; ++i) {
     plant_.set_pump_fault(i, faults_.path[i].pump);
@@ -86,12 +90,15 @@ void DozerNode::take_spool_command(const CanFrame& frame, TimeUs now) {
     return;
   }
   const Physical& duty_ratio = request->command.blade_duty_ratio;
-  if (!request->enabled || !is_valid(duty_ratio)) {
+  const Physical& tilt_ratio = request->command.tilt_duty_ratio;
+  const bool usable = is_valid(duty_ratio) && (!plant_.tilt() || is_valid(tilt_ratio));
+  if (!request->enabled || !usable) {
     go_neutral();
     return;
   }
   enabled_ = true;
   plant_.set_blade_duty(duty_ratio.value, true);
+  plant_.set_tilt_duty(tilt_ratio.value, true);
 }
 
 void DozerNode::take_pump_command(const CanFrame& frame, TimeUs now) {
@@ -127,6 +134,7 @@ void DozerNode::take_motor_command(const CanFrame& frame, TimeUs now) {
 void DozerNode::go_neutral() {
   enabled_ = false;
   plant_.set_blade_duty(0.0, false);
+  plant_.set_tilt_duty(0.0, false);
 }
 
 void DozerNode::stop_pumps(TimeUs now) {
@@ -166,6 +174,9 @@ void DozerNode::send_valve(TimeUs now) {
   bus::ValveState message = valve_state();
   message.blade_spool_ratio =
       valid(faults_.reversed ? -plant_.spool_travel_ratio() : plant_.spool_travel_ratio());
+  if (plant_.tilt()) {
+    message.tilt_spool_ratio = valid(plant_.tilt()->spool_travel_ratio());
+  }
   send(message, now);
 }
 

@@ -33,10 +33,15 @@ DozerPlant::DozerPlant(const DozerPlantProfile& profile)
       path_{HstPath(profile), HstPath(profile)},
       traction_{Traction(profile), Traction(profile)},
       pilot_(profile.dead_time_s, 0.0, step_s_),
-      implement_(profile),
+      implement_(profile, lift_section(profile)),
       blade_(profile),
       cylinder_(profile.blade_cylinder(blade_.linkage().full_stroke_m()), step_s_) {
   cylinder_.start(blade_.stroke_m(), blade_.holding_force_n(0.0));
+  if (profile.machine.tilt.present) {
+    tilt_.emplace(profile, step_s_);
+    cross_.emplace(terrain_, profile.machine.tilt.half_width_m(),
+                   profile.machine.body.half_gauge_m);
+  }
   if (profile.soil) {
     soil_.emplace(*profile.soil, profile);
   }
@@ -44,6 +49,18 @@ DozerPlant::DozerPlant(const DozerPlantProfile& profile)
 
 void DozerPlant::set_blade_duty(double duty_ratio, bool enable) {
   duty_ = enable && std::isfinite(duty_ratio) ? duty_ratio : 0.0;
+}
+
+void DozerPlant::set_tilt_duty(double duty_ratio, bool enable) {
+  if (tilt_) {
+    tilt_->set_duty(enable && std::isfinite(duty_ratio) ? duty_ratio : 0.0);
+  }
+}
+
+void DozerPlant::set_tilt_pilot_fault(std::optional<double> held_ratio) {
+  if (tilt_) {
+    tilt_->set_pilot_fault(held_ratio);
+  }
 }
 
 void DozerPlant::set_displacements(const TrackArray& pump_ratio, const TrackArray& motor_ratio) {
@@ -67,6 +84,7 @@ void DozerPlant::advance(TimeUs duration_us) {
 
 void DozerPlant::step() {
   const Eigen::Vector2d edge_before = cutting_edge_m();
+  const auto beside_before = edge_beside_m();
   resist();
   drive();
   move_blade();
@@ -77,6 +95,7 @@ void DozerPlant::step() {
   } else {
     terrain_.cut(edge_before, edge_after);
   }
+  cut_beside(beside_before);
   edge_mps_ = (edge_after - edge_before) / step_s_;
 }
 
@@ -101,10 +120,15 @@ void DozerPlant::load_engine() {
 void DozerPlant::drive() {
   double traction_n = 0.0;
   for (std::size_t i = 0; i < path_.size(); ++i) {
-    const double force_n = traction_[i].step(path_[i].track_speed_mps(), body_.ground_speed_mps(),
-                                             0.5 * body_.load_n(), step_s_);
+    const double load_n = cross_ ? body_.track_load_n(i) : 0.5 * body_.load_n();
+    const double force_n =
+        traction_[i].step(path_[i].track_speed_mps(), body_.ground_speed_mps(), load_n, step_s_);
     path_[i].step(engine_radps(), force_n, brake_);
     traction_n += force_n;
+  }
+  if (cross_) {
+    body_.step(TracksGround{cross_->left_track(), cross_->right_track()}, traction_n, step_s_);
+    return;
   }
   BodyLoad load;
   if (soil_) {
@@ -118,10 +142,41 @@ void DozerPlant::drive() {
   body_.step(terrain_, traction_n, step_s_, load);
 }
 
+double DozerPlant::share_flow() {
+  const double pump_m3ps = implement_.pump_flow_m3ps(engine_radps());
+  if (!tilt_) {
+    return pump_m3ps;
+  }
+  const double lift_m3ps = implement_.demand_m3ps();
+  const double tilt_m3ps = tilt_->demand_m3ps();
+  const double share = std::min(1.0, pump_m3ps / std::max(lift_m3ps + tilt_m3ps, 1e-12));
+  tilt_->step(share * tilt_m3ps, body_.roll_rad(), pilot_cut_);
+  return share * lift_m3ps;
+}
+
+std::array<Eigen::Vector2d, CrossGround::kLines> DozerPlant::edge_beside_m() const {
+  std::array<Eigen::Vector2d, CrossGround::kLines> at_m;
+  at_m.fill(Eigen::Vector2d::Zero());
+  for (std::size_t i = 0; cross_ && i < CrossGround::kLines; ++i) {
+    const Eigen::Vector3d point = edge_point_m(cross_->across_m[i]);
+    at_m[i] = {point.x(), point.z()};
+  }
+  return at_m;
+}
+
+void DozerPlant::cut_beside(const std::array<Eigen::Vector2d, CrossGround::kLines>& from_m) {
+  if (cross_) {
+    const auto to_m = edge_beside_m();
+    for (std::size_t i = 0; i < CrossGround::kLines; ++i) {
+      cross_->line[i].cut(from_m[i], to_m[i]);
+    }
+  }
+}
+
 void DozerPlant::move_blade() {
   implement_.set_command(way_ * pilot_.step(duty_, pilot_cut_));
   const ImplementFlows& flows =
-      implement_.solve(engine_radps(), cylinder_.cap_port(), cylinder_.rod_port());
+      implement_.solve(share_flow(), cylinder_.cap_port(), cylinder_.rod_port());
   const double velocity =
       blade_.accelerate(cylinder_.load(), body_.pitch_rad(), step_s_, soil_moment_nm());
   blade_.move(step_s_);
@@ -157,11 +212,26 @@ DozerPlant::TrackArray DozerPlant::slips() const {
 }
 
 Eigen::Vector2d DozerPlant::cutting_edge_m() const {
+  const Eigen::Vector3d middle = edge_point_m(0.0);
+  return {middle.x(), middle.z()};
+}
+
+Eigen::Vector3d DozerPlant::edge_point_m(double along_edge_m) const {
   const double pitch = body_.pitch_rad();
   const double cosine = std::cos(pitch);
   const double sine = std::sin(pitch);
-  const Eigen::Vector2d edge = blade_.linkage().edge_m(blade_.angle_rad());
-  return {body_.position_m() + edge.x() * cosine - edge.y() * sine,
+  Eigen::Vector2d edge = blade_.linkage().edge_m(blade_.angle_rad());
+  double across = along_edge_m;
+  if (tilt_) {
+    // Along the blade by its tilt, then with the frame's angle and the body's roll: from the left.
+    const double raised = along_edge_m * std::sin(tilt_->angle_rad());
+    const double level = along_edge_m * std::cos(tilt_->angle_rad());
+    edge += raised * Eigen::Vector2d(-std::sin(blade_.angle_rad()), std::cos(blade_.angle_rad()));
+    const double roll = body_.roll_rad();
+    across = level * std::cos(roll) - edge.y() * std::sin(roll);
+    edge.y() = edge.y() * std::cos(roll) + level * std::sin(roll);
+  }
+  return {body_.position_m() + edge.x() * cosine - edge.y() * sine, across,
           body_.height_m() + edge.x() * sine + edge.y() * cosine};
 }
 

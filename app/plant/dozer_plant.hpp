@@ -9,11 +9,13 @@
 #include "app/plant/cylinder.hpp"
 #include "app/plant/dozer_blade_joint.hpp"
 #include "app/plant/dozer_blade_soil.hpp"
+#include "app/plant/dozer_cross_ground.hpp"
 #include "app/plant/dozer_ground.hpp"
 #include "app/plant/dozer_half_vehicle.hpp"
 #include "app/plant/dozer_hst_path.hpp"
 #include "app/plant/dozer_implement.hpp"
 #include "app/plant/dozer_plant_profile.hpp"
+#include "app/plant/dozer_tilt.hpp"
 #include "app/plant/spool.hpp"
 #include "firmware/core/time.hpp"
 #include "firmware/dozer/dozer_signals.hpp"
@@ -25,6 +27,10 @@ namespace graben::plant {
 /// friction. The ground's resistance to the blade is left out as in the paper (a finishing cut)
 /// and the engine holds its speed, unless the profile has a soil. Deterministic: the same calls
 /// give the same numbers.
+///
+/// A machine whose blade tilts rolls on ground that differs below its tracks, and each part of its
+/// edge cuts its own line of it. Lift and tilt share the pump's flow as their spools ask for it. It
+/// still drives straight, and no soil resists it.
 ///
 /// One step, from the state at t to that at t + h: tracks against the ground, transmission, body;
 /// implement valve between the chambers' waves, blade against their impedance, their waves; then
@@ -40,6 +46,8 @@ class DozerPlant {
   /// Duty -1 .. 1 is the wanted spool travel of full travel; + extends, which lowers the blade.
   /// Without `enable` neutral; a value that is not finite counts as 0.
   void set_blade_duty(double duty_ratio, bool enable);
+  /// The same of the tilt; nothing without one.
+  void set_tilt_duty(double duty_ratio, bool enable);
   /// Wanted displacements, left and right, limited to -1 .. 1 and motor_ratio_min .. 1. What is not
   /// finite counts as 0 of a pump and 1 of a motor.
   void set_displacements(const TrackArray& pump_ratio, const TrackArray& motor_ratio);
@@ -57,6 +65,7 @@ class DozerPlant {
   void set_pilot_fault(std::optional<double> held_ratio, double offset_ratio) {
     pilot_.set_fault(held_ratio, offset_ratio);
   }
+  void set_tilt_pilot_fault(std::optional<double> held_ratio);
   /// The blade's hoses are reversed.
   void set_reversed(bool reversed) { way_ = reversed ? -1.0 : 1.0; }
   void set_pump_fault(std::size_t track, const DisplacementFault& fault) {
@@ -90,9 +99,18 @@ class DozerPlant {
   [[nodiscard]] TrackArray slips() const;
   [[nodiscard]] double engine_radps() const { return engine_.speed_ratio() * engine_radps_; }
 
-  /// In the world.
+  [[nodiscard]] double roll_rad() const { return body_.roll_rad(); }
+  [[nodiscard]] double roll_rate_radps() const { return body_.roll_rate_radps(); }
+  /// Without one the machine's blade does not tilt.
+  [[nodiscard]] const std::optional<TiltDrive>& tilt() const { return tilt_; }
+
+  /// Its middle, in the world, x and z.
   [[nodiscard]] Eigen::Vector2d cutting_edge_m() const;
+  /// So far to the left along the edge; x, y, z.
+  [[nodiscard]] Eigen::Vector3d edge_point_m(double along_edge_m) const;
   [[nodiscard]] const Terrain& terrain() const { return terrain_; }
+  /// Beside the middle; of a machine whose blade tilts.
+  [[nodiscard]] const std::optional<CrossGround>& cross_ground() const { return cross_; }
   /// What the soil does to the blade, in the world, N; nothing without a soil.
   [[nodiscard]] const Eigen::Vector2d& soil_force_n() const { return soil_force_n_; }
   /// Of what is before the blade, loose, m^3.
@@ -114,6 +132,10 @@ class DozerPlant {
   void drive();
   void load_engine();
   void move_blade();
+  /// What the lift has of the pump's flow, m^3/s, the tilt's share moved.
+  double share_flow();
+  void cut_beside(const std::array<Eigen::Vector2d, CrossGround::kLines>& from_m);
+  [[nodiscard]] std::array<Eigen::Vector2d, CrossGround::kLines> edge_beside_m() const;
 
   DozerPlantProfile profile_;
   double step_s_;
@@ -133,6 +155,8 @@ class DozerPlant {
   ImplementCircuit implement_;
   BladeJoint blade_;
   Cylinder cylinder_;
+  std::optional<TiltDrive> tilt_;
+  std::optional<CrossGround> cross_;
   std::optional<BladeSoil> soil_;
   Eigen::Vector2d soil_force_n_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d edge_mps_ = Eigen::Vector2d::Zero();

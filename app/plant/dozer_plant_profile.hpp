@@ -45,6 +45,15 @@ struct BladeShape {
   double edge_m = 0.0;    ///< Thickness of its edge, worn.
 };
 
+/// What only the plant knows of a blade that tilts; all 0 without.
+struct TiltPlant {
+  double roll_inertia_kgm2 = 0.0;  ///< Of the whole machine about its longitudinal axis.
+  double inertia_kgm2 = 0.0;       ///< Of the blade about the tilt's axis.
+  double coulomb_n = 0.0;          ///< Of the tilt cylinder.
+  double viscous_nspm = 0.0;
+  double dead_volume_m3 = 0.0;  ///< Each chamber with its hose.
+};
+
 struct DozerPlantProfile : HydraulicDetails {
   /// Geometry, displacements, ratios: the plant reads these numbers, and none of the functions that
   /// the controller has for them.
@@ -64,6 +73,7 @@ struct DozerPlantProfile : HydraulicDetails {
   double dead_volume_m3 = 0.0;
   double bulk_modulus_pa = 0.0;
   double implement_relief_pa = 0.0;
+  TiltPlant tilt;
 
   double hst_relief_pa = 0.0;
   double charge_pa = 0.0;
@@ -96,6 +106,9 @@ struct DozerPlantProfile : HydraulicDetails {
   double raising_back_pressure_pa = 1.5e6;
   /// Relief at the blade cylinders' ports: above the implement pump's.
   double port_relief_pa = 25e6;
+
+  /// The tilt's chamber that empties, either way: hardly anything drives it but its oil.
+  double tilt_back_pressure_pa = 3e6;
 
   /// Pressure over pump or motor at which the profile's volumetric efficiencies hold: that of work.
   double hst_work_pa = 15e6;

@@ -66,7 +66,8 @@ DozerReadings::DozerReadings(const DozerPlantProfile& profile)
 
 void DozerReadings::sense(const DozerPlant& plant) {
   pose_.push_back({plant.position_m(), plant.height_m(), plant.pitch_rad(), plant.velocity_mps(),
-                   plant.climb_mps(), plant.pitch_rate_radps()});
+                   plant.climb_mps(), plant.pitch_rate_radps(), plant.roll_rad(),
+                   plant.roll_rate_radps()});
   // At first it tells of where the body has stood.
   while (pose_.size() > late_cycles_ + 1 || (pose_.size() > 1 && !started_)) {
     pose_.pop_front();
@@ -92,6 +93,15 @@ dbc::dozer::BodyPitch DozerReadings::pitch(const PoseFaults& faults) {
 dbc::dozer::BodyVelocity DozerReadings::velocity(const PoseFaults& faults) {
   return {velocity_.show(sensors_.velocity_mps(pose_.front().velocity_mps), faults.velocity),
           climb_.show(sensors_.climb_mps(pose_.front().climb_mps), faults.climb)};
+}
+
+dbc::dozer::TiltState DozerReadings::tilt(const DozerPlant& plant, const DozerFaults& faults) {
+  // The unit that measures the pitch measures the roll.
+  const double stroke_m = plant.tilt() ? plant.tilt()->stroke_m() : 0.0;
+  return {tilt_stroke_.show(sensors_.stroke_m(stroke_m), ReadingFault(faults.tilt_stroke)),
+          roll_.show(sensors_.pitch_rad(pose_.front().roll_rad), faults.pose.roll),
+          roll_rate_.show(sensors_.pitch_rate_radps(pose_.front().roll_rate_radps),
+                          faults.pose.roll_rate)};
 }
 
 dbc::dozer::TrackSpeed DozerReadings::tracks(const DozerPlant& plant, const DozerFaults& faults) {

@@ -48,6 +48,8 @@ struct SensedPose {
   double velocity_mps = 0.0;
   double climb_mps = 0.0;
   double pitch_rate_radps = 0.0;
+  double roll_rad = 0.0;
+  double roll_rate_radps = 0.0;
 };
 
 /// What the bus is told of stroke, body and tracks. Each is read once a cycle.
@@ -62,6 +64,8 @@ class DozerReadings {
   [[nodiscard]] dbc::dozer::BodyPosition position(const PoseFaults& faults);
   [[nodiscard]] dbc::dozer::BodyPitch pitch(const PoseFaults& faults);
   [[nodiscard]] dbc::dozer::BodyVelocity velocity(const PoseFaults& faults);
+  /// Of a machine whose blade tilts.
+  [[nodiscard]] dbc::dozer::TiltState tilt(const DozerPlant& plant, const DozerFaults& faults);
   [[nodiscard]] dbc::dozer::TrackSpeed tracks(const DozerPlant& plant, const DozerFaults& faults);
 
  private:
@@ -76,6 +80,9 @@ class DozerReadings {
   FaultyReading pitch_rate_;
   FaultyReading velocity_;
   FaultyReading climb_;
+  FaultyReading tilt_stroke_;
+  FaultyReading roll_;
+  FaultyReading roll_rate_;
   std::array<FaultyReading, kTrackCount> track_;
 };
 

@@ -29,7 +29,11 @@ class GradeObserver {
       return;
     }
     result_.over_grade_s += kPlantPeriod_s;
-    error_.add(std::abs(truth_.error_m(edge_m)));
+    const plant::DozerPlant& plant = node.plant();
+    const BodyPose body{plant.position_m(), plant.height_m(), plant.pitch_rad(), plant.roll_rad()};
+    error_.add(std::abs(plant.tilt() ? truth_.worst_error_m(body, {plant.blade().angle_rad(),
+                                                                   plant.tilt()->angle_rad()})
+                                     : truth_.error_m(edge_m)));
     result_.max_error_m = error_.max();
     result_.rmse_error_m = error_.rms();
   }

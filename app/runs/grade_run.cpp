@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <optional>
+
 #include "app/runs/dozer_rig.hpp"
 
 namespace graben::runs {
@@ -66,24 +69,38 @@ class GradeRun {
 
   void read_truth(GradeSample& sample) const {
     const plant::DozerPlant& plant = rig_.plant.plant();
-    sample.body = {plant.position_m(), plant.height_m(), plant.pitch_rad()};
+    sample.body = {plant.position_m(), plant.height_m(), plant.pitch_rad(), plant.roll_rad()};
     sample.edge_m = plant.cutting_edge_m();
     const DozerStatus& status = rig_.ecu->outputs().status;
     sample.pass = status.pass;
     sample.over_grade = status.cutting && sample.edge_m.x() >= 0.0 &&
                         sample.edge_m.x() <= machine_.experiment.length_m;
     sample.design_m = truth_.design_m(sample.edge_m.x());
-    sample.error_true_m = truth_.error_m(sample.edge_m);
+    const BladeAngles blade{plant.blade().angle_rad(),
+                            plant.tilt() ? plant.tilt()->angle_rad() : 0.0};
+    sample.tilt_rad = blade.tilt_rad;
+    sample.error_true_m = plant.tilt() ? worst_end_m(plant) : truth_.error_m(sample.edge_m);
     sample.speed_true_mps = plant.velocity_mps();
-    const BodyRates rates = {plant.velocity_mps(), plant.climb_mps(), plant.pitch_rate_radps()};
-    sample.flow_required_m3ps = truth_.inflow_m3ps(truth_.required_blade_mps(
-        sample.body, rates, truth_.blade_angle_rad(plant.blade_stroke_m())));
+    const BodyRates rates = {plant.velocity_mps(), plant.climb_mps(), plant.pitch_rate_radps(),
+                             plant.roll_rate_radps()};
+    sample.flow_required_m3ps =
+        truth_.inflow_m3ps(truth_.required_blade_mps(
+            sample.body, rates, truth_.blade_angle_rad(plant.blade_stroke_m()))) +
+        truth_.tilt_inflow_m3ps(truth_.required_tilt_mps(sample.body, rates, blade));
     sample.flow_available_m3ps = available_flow_m3ps(machine_.plant.machine, plant.engine_radps());
     sample.blade_true_mps = plant.blade_velocity_mps();
     sample.spool_real = plant.spool_travel_ratio();
     sample.track_mps = plant.track_speeds_mps();
     sample.pump_real = plant.pump_ratios();
     sample.motor_real = plant.motor_ratios();
+  }
+
+  /// By the plant's own geometry.
+  [[nodiscard]] double worst_end_m(const plant::DozerPlant& plant) const {
+    const double half_m = machine_.profile.tilt.half_width_m();
+    const double left_m = truth_.point_error_m(plant.edge_point_m(half_m));
+    const double right_m = truth_.point_error_m(plant.edge_point_m(-half_m));
+    return std::abs(left_m) > std::abs(right_m) ? left_m : right_m;
   }
 
   void read_measured(GradeSample& sample) const {
@@ -97,9 +114,11 @@ class GradeRun {
     }
     if (known(body.position_m) && known(body.height_m) && known(body.pitch_rad) &&
         known(inputs.blade_stroke_m)) {
-      const BodyPose pose = {body.position_m.value, body.height_m.value, body.pitch_rad.value};
+      const BodyPose pose = {body.position_m.value, body.height_m.value, body.pitch_rad.value,
+                             known(body.roll_rad) ? body.roll_rad.value : 0.0};
       sample.error_measured_m =
-          truth_.error_m(truth_.edge_m(pose, truth_.blade_angle_rad(inputs.blade_stroke_m.value)));
+          truth_.worst_error_m(pose, {truth_.blade_angle_rad(inputs.blade_stroke_m.value),
+                                      truth_.tilt_angle_rad(inputs.tilt_stroke_m.value)});
     }
   }
 
@@ -129,6 +148,16 @@ class GradeRun {
     for (int i = 0; i <= steps; ++i) {
       const double x_m = from_m + i * kStep_m;
       result_.terrain_m.emplace_back(x_m, terrain.height_m(x_m));
+      keep_ends(x_m);
+    }
+  }
+
+  void keep_ends(double x_m) {
+    const std::optional<plant::CrossGround>& beside = rig_.plant.plant().cross_ground();
+    if (beside) {
+      for (const auto end : {plant::CrossGround::kLeftEnd, plant::CrossGround::kRightEnd}) {
+        result_.ends_m.emplace_back(x_m, beside->across_m[end], beside->line[end].height_m(x_m));
+      }
     }
   }
 

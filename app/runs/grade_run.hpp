@@ -31,7 +31,8 @@ struct GradeSample {
   BodyPose body;
   Eigen::Vector2d edge_m = Eigen::Vector2d::Zero();  ///< True, world.
   double design_m = 0.0;                             ///< The design's height at the edge.
-  double error_true_m = 0.0;                         ///< Edge over the design, straight up.
+  double error_true_m = 0.0;  ///< Edge over the design, straight up; its worse end if it tilts.
+  double tilt_rad = 0.0;      ///< True.
   double error_measured_m = std::nan("");
   double speed_wanted_mps = 0.0;  ///< v_c of (14)
   double speed_true_mps = 0.0;
@@ -39,7 +40,8 @@ struct GradeSample {
   double speed_limit_mps = 0.0;  ///< (14) without v_d.
   double lambda = 0.0;
   Limit limit;
-  double flow_required_m3ps = 0.0;   ///< (7), for the true motion to follow the design.
+  double flow_required_m3ps =
+      0.0;  ///< (7), tilt included, for the true motion to follow the design.
   double flow_available_m3ps = 0.0;  ///< Of the true machine.
   double flow_reported_m3ps = 0.0;   ///< The controller's (7).
   double flow_limit_reported_m3ps = 0.0;
@@ -62,6 +64,7 @@ struct GradeResult {
   Fault fault = Fault::kNone;  ///< With kFault.
   std::vector<GradeSample> samples;
   std::vector<Eigen::Vector2d> terrain_m;  ///< As it was left, x and z.
+  std::vector<Eigen::Vector3d> ends_m;     ///< The same below the ends of an edge that tilts.
   double wall_s = 0.0;
   std::uint32_t rejected_frames = 0;
 };

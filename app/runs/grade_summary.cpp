@@ -121,12 +121,17 @@ void add_calm(const machines::SimulatedDozer& machine, const GradeResult& result
 void add_ground(const machines::SimulatedDozer& machine, const GradeResult& result,
                 GradeSummary& summary) {
   const GradeTruth truth(machine.profile);
-  for (const Eigen::Vector2d& at_m : result.terrain_m) {
-    if (at_m.x() >= 0.0 && at_m.x() <= machine.experiment.length_m) {
-      const double above_m = truth.error_m(at_m);
+  const auto add = [&](double x_m, double above_m) {
+    if (x_m >= 0.0 && x_m <= machine.experiment.length_m) {
       summary.ground_left_m = std::max(summary.ground_left_m, above_m);
       summary.over_cut_m = std::max(summary.over_cut_m, -above_m);
     }
+  };
+  for (const Eigen::Vector2d& at_m : result.terrain_m) {
+    add(at_m.x(), truth.error_m(at_m));
+  }
+  for (const Eigen::Vector3d& at_m : result.ends_m) {
+    add(at_m.x(), truth.point_error_m(at_m));
   }
   double since_s = 0.0;
   double last_s = 0.0;

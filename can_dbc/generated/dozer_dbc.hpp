@@ -20,7 +20,7 @@
 
 namespace graben::dbc::dozer {
 
-inline constexpr std::uint8_t kDbcVersion = 5;
+inline constexpr std::uint8_t kDbcVersion = 6;
 
 using common::EEC1;
 using common::OperatorCommand;
@@ -286,6 +286,49 @@ struct TrackSpeed {
   constexpr Payload encode() const { return encode_message(*this); }
 };
 
+/// Tilt of the blade and roll of the body. Only a machine whose blade tilts sends it.
+struct TiltState {
+  static constexpr const char* kName = "TiltState";
+  static constexpr const char* kSender = "Machine";
+  static constexpr std::uint32_t kId = 0x0CFF5C80;
+  static constexpr std::uint8_t kLength = 8;
+  static constexpr std::uint16_t kCycleTimeMs = 10;
+  static constexpr bool kProtected = true;
+  static constexpr std::uint16_t kDataId = 0xFF5C;
+  static constexpr std::uint8_t kMaxDeltaCounter = 3;
+
+  static constexpr Field kTiltStroke{
+      "TiltStroke", "m", 16, 16, 0U, 64000U, 65279, 65535, 65535U,
+      0, 1.0, 100000.0};
+  static constexpr Field kRoll{
+      "Roll", "rad", 32, 16, 0U, 64000U, 65279, 65535, 65535U,
+      -32000, 1.0, 20000.0};
+  static constexpr Field kRollRate{
+      "RollRate", "rad/s", 48, 16, 0U, 64000U, 65279, 65535, 65535U,
+      -32000, 1.0, 10000.0};
+
+  /// Stroke of the tilt cylinder; counts from the end of its range where it is shortest. [0 .. 640
+  /// mm on the bus]
+  Physical tilt_stroke_m{0.0, RawState::kNotAvailable};
+  /// Roll of the body about its own longitudinal axis; left side up is positive. [-1600 .. 1600
+  /// mrad on the bus]
+  Physical roll_rad{0.0, RawState::kNotAvailable};
+  /// Rate of the roll; left side up is positive. [-3200 .. 3200 mrad/s on the bus]
+  Physical roll_rate_radps{0.0, RawState::kNotAvailable};
+
+  /// Calls visitor(field, signal) for each signal.
+  template <class Self, class Visitor>
+  static constexpr void visit(Self& self, Visitor&& visitor) {
+    visitor(kTiltStroke, self.tilt_stroke_m);
+    visitor(kRoll, self.roll_rad);
+    visitor(kRollRate, self.roll_rate_radps);
+  }
+  static constexpr TiltState decode(const Payload& payload) {
+    return decode_message<TiltState>(payload);
+  }
+  constexpr Payload encode() const { return encode_message(*this); }
+};
+
 /// What the valve side measures and does.
 struct ValveState {
   static constexpr const char* kName = "ValveState";
@@ -308,18 +351,24 @@ struct ValveState {
   static constexpr Field kBladeSpool{
       "BladeSpool", "", 16, 16, 12000U, 52000U, 65279, 65535, 65535U,
       -32000, 1.0, 20000.0};
+  static constexpr Field kTiltSpool{
+      "TiltSpool", "", 32, 16, 12000U, 52000U, 65279, 65535, 65535U,
+      -32000, 1.0, 20000.0};
 
   /// Echo: the enable that the valve side acts on; the spool is held closed while it is Off.
   Coded<Enabled> enabled{{}, RawState::kNotAvailable};
   /// Measured position of the blade spool over its full travel, deadband included; positive extends
   /// the cylinders. [-1000 .. 1000 per mille on the bus]
   Physical blade_spool_ratio{0.0, RawState::kNotAvailable};
+  /// The same of the tilt spool, where there is one. [-1000 .. 1000 per mille on the bus]
+  Physical tilt_spool_ratio{0.0, RawState::kNotAvailable};
 
   /// Calls visitor(field, signal) for each signal.
   template <class Self, class Visitor>
   static constexpr void visit(Self& self, Visitor&& visitor) {
     visitor(kEnabled, self.enabled);
     visitor(kBladeSpool, self.blade_spool_ratio);
+    visitor(kTiltSpool, self.tilt_spool_ratio);
   }
   static constexpr ValveState decode(const Payload& payload) {
     return decode_message<ValveState>(payload);
@@ -357,6 +406,9 @@ struct SpoolCommand {
   static constexpr Field kBladeDuty{
       "BladeDuty", "", 16, 16, 12000U, 52000U, 65279, 65535, 32000U,
       -32000, 1.0, 20000.0};
+  static constexpr Field kTiltDuty{
+      "TiltDuty", "", 32, 16, 12000U, 52000U, 65279, 65535, 65535U,
+      -32000, 1.0, 20000.0};
 
   /// The spool may open only while it is On.
   Coded<Enable> enable{Enable::kOff, RawState::kValid};
@@ -365,6 +417,9 @@ struct SpoolCommand {
   /// Duty of the blade spool; positive extends the cylinders and lowers the blade, 0 is neutral.
   /// [-1000 .. 1000 per mille on the bus]
   Physical blade_duty_ratio{physical_of(kBladeDuty, 32000U), RawState::kValid};
+  /// Duty of the tilt spool; positive extends the cylinder, 0 is neutral. Not available without a
+  /// tilt. [-1000 .. 1000 per mille on the bus]
+  Physical tilt_duty_ratio{0.0, RawState::kNotAvailable};
 
   /// Calls visitor(field, signal) for each signal.
   template <class Self, class Visitor>
@@ -372,6 +427,7 @@ struct SpoolCommand {
     visitor(kEnable, self.enable);
     visitor(kPilotCut, self.pilot_cut);
     visitor(kBladeDuty, self.blade_duty_ratio);
+    visitor(kTiltDuty, self.tilt_duty_ratio);
   }
   static constexpr SpoolCommand decode(const Payload& payload) {
     return decode_message<SpoolCommand>(payload);
@@ -483,6 +539,9 @@ struct EcuMotion {
   static constexpr Field kWantedBladeVelocity{
       "WantedBladeVelocity", "m/s", 32, 16, 0U, 64000U, 65279, 65535, 32000U,
       -32000, 1.0, 10000.0};
+  static constexpr Field kWantedTiltVelocity{
+      "WantedTiltVelocity", "m/s", 48, 16, 0U, 64000U, 65279, 65535, 65535U,
+      -32000, 1.0, 10000.0};
 
   /// Wanted travel speed, after the acceleration limit; forward is positive. [-3200 .. 3200 mm/s on
   /// the bus]
@@ -492,6 +551,9 @@ struct EcuMotion {
   /// Wanted velocity of the blade cylinders; extension is positive and lowers the blade. [-3200 ..
   /// 3200 mm/s on the bus]
   Physical wanted_blade_velocity_mps{physical_of(kWantedBladeVelocity, 32000U), RawState::kValid};
+  /// Wanted velocity of the tilt cylinder; extension is positive. Not available without a tilt.
+  /// [-3200 .. 3200 mm/s on the bus]
+  Physical wanted_tilt_velocity_mps{0.0, RawState::kNotAvailable};
 
   /// Calls visitor(field, signal) for each signal.
   template <class Self, class Visitor>
@@ -499,6 +561,7 @@ struct EcuMotion {
     visitor(kWantedSpeed, self.wanted_speed_mps);
     visitor(kSpeedLimit, self.speed_limit_mps);
     visitor(kWantedBladeVelocity, self.wanted_blade_velocity_mps);
+    visitor(kWantedTiltVelocity, self.wanted_tilt_velocity_mps);
   }
   static constexpr EcuMotion decode(const Payload& payload) {
     return decode_message<EcuMotion>(payload);
@@ -526,6 +589,9 @@ struct EcuGrade {
   static constexpr Field kGradeError{
       "GradeError", "m", 32, 16, 0U, 64000U, 65279, 65535, 32000U,
       -32000, 1.0, 20000.0};
+  static constexpr Field kCrossError{
+      "CrossError", "", 48, 16, 0U, 64000U, 65279, 65535, 65535U,
+      -32000, 1.0, 20000.0};
 
   /// Flow into the blade cylinders that the measured motion requires. [0 .. 640 L/min on the bus]
   Physical required_flow_m3ps{physical_of(kRequiredFlow, 0U), RawState::kValid};
@@ -533,6 +599,9 @@ struct EcuGrade {
   Physical available_flow_m3ps{physical_of(kAvailableFlow, 0U), RawState::kValid};
   /// Measured cutting edge against the grade; above is positive. [-1600 .. 1600 mm on the bus]
   Physical grade_error_m{physical_of(kGradeError, 32000U), RawState::kValid};
+  /// Measured slope of the edge across the track over the grade's; left end up is positive. [-1600
+  /// .. 1600 per mille on the bus]
+  Physical cross_error_ratio{0.0, RawState::kNotAvailable};
 
   /// Calls visitor(field, signal) for each signal.
   template <class Self, class Visitor>
@@ -540,6 +609,7 @@ struct EcuGrade {
     visitor(kRequiredFlow, self.required_flow_m3ps);
     visitor(kAvailableFlow, self.available_flow_m3ps);
     visitor(kGradeError, self.grade_error_m);
+    visitor(kCrossError, self.cross_error_ratio);
   }
   static constexpr EcuGrade decode(const Payload& payload) {
     return decode_message<EcuGrade>(payload);
@@ -555,6 +625,7 @@ using AllMessages =
                 LeftTransmission,
                 RightTransmission,
                 TrackSpeed,
+                TiltState,
                 ValveState,
                 SpoolCommand,
                 PumpDisplacementCommand,
@@ -569,7 +640,7 @@ using AllMessages =
                 EcuHealth,
                 DM1>;
 
-inline constexpr std::array<MessageInfo, 20> kMessages{{
+inline constexpr std::array<MessageInfo, 21> kMessages{{
     message_info<BladeStroke>(),
     message_info<BodyPosition>(),
     message_info<BodyPitch>(),
@@ -577,6 +648,7 @@ inline constexpr std::array<MessageInfo, 20> kMessages{{
     message_info<LeftTransmission>(),
     message_info<RightTransmission>(),
     message_info<TrackSpeed>(),
+    message_info<TiltState>(),
     message_info<ValveState>(),
     message_info<SpoolCommand>(),
     message_info<PumpDisplacementCommand>(),
@@ -601,6 +673,7 @@ struct Dbc {
   using LeftTransmission = dozer::LeftTransmission;
   using RightTransmission = dozer::RightTransmission;
   using TrackSpeed = dozer::TrackSpeed;
+  using TiltState = dozer::TiltState;
   using ValveState = dozer::ValveState;
   using SpoolCommand = dozer::SpoolCommand;
   using PumpDisplacementCommand = dozer::PumpDisplacementCommand;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/dozer/tilt.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben {
@@ -15,6 +16,40 @@ constexpr double kUnseen_m = 0.015;
 constexpr double kOff_m = 0.015;
 
 double direction_rad(const Eigen::Vector2d& vector) { return std::atan2(vector.y(), vector.x()); }
+
+/// What makes one of the implement's drives.
+struct ImplementDrive {
+  double stroke_max_m = 0.0;
+  double cap_area_m2 = 0.0;
+  double rod_area_m2 = 0.0;
+  double valve_flow_max_m3ps = 0.0;
+  const DutyTable& spool_to_duty;
+};
+
+void fill_row(const DozerProfile& profile, const ImplementDrive& drive, DriveRow& row) {
+  const DozerControl& control = profile.control;
+  set_cylinder_range(drive.stroke_max_m, row);
+  row.extend_area_m2 = drive.cap_area_m2;
+  row.retract_area_m2 = drive.rod_area_m2;
+  row.metering.spool_travel_m = 1.0;
+  row.supply = {drive.valve_flow_max_m3ps,
+                profile.implement.displacement_m3prev * profile.implement.efficiency / kTwoPi};
+  row.answer.extend = {drive.spool_to_duty, control.dead_time_s, control.response_s, 0.0};
+  row.answer.retract = row.answer.extend;
+  row.control.spool_rate_ps = control.spool_rate_ps;
+  row.control.spool_threshold = control.spool_threshold;
+  row.control.stroke_end_gain_ps = kEndGain_ps;
+  row.watch.fastest_mps = kFasterThanPumps * drive.valve_flow_max_m3ps / drive.rod_area_m2;
+  row.watch.senses_load = false;
+  row.watch.settle_s = profile.safety.settle_s;
+  row.watch.spool_tolerance = profile.safety.spool_tolerance;
+  row.watch.senses_spool = profile.bus.spool_feedback;
+  row.watch.rest_s = rest_s(row);
+  row.watch.uncommanded_m = profile.safety.uncommanded_m;
+  row.watch.stuck_m = profile.safety.stuck_m;
+  row.watch.unseen_m = kUnseen_m;
+  row.watch.off_m = kOff_m;
+}
 
 }  // namespace
 
@@ -66,32 +101,22 @@ Eigen::Vector2d BladeKinematics::edge_m(double angle_rad) const {
 }
 
 DozerBank dozer_bank(const DozerProfile& profile) {
-  const DozerControl& control = profile.control;
+  const BladeGeometry& blade = profile.blade;
+  const TiltProfile& tilt = profile.tilt;
   DozerBank bank;
-  DriveRow& row = bank.row.front();
-  set_cylinder_range(BladeKinematics(profile.blade).stroke_max_m(), row);
-  row.extend_area_m2 = profile.blade.cap_area_m2();
-  row.retract_area_m2 = profile.blade.rod_area_m2();
-  row.metering.spool_travel_m = 1.0;
-  row.supply = {profile.implement.valve_flow_max_m3ps,
-                profile.implement.displacement_m3prev * profile.implement.efficiency / kTwoPi};
-  row.answer.extend = {profile.implement.spool_to_duty, control.dead_time_s, control.response_s,
-                       0.0};
-  row.answer.retract = row.answer.extend;
-  row.control.spool_rate_ps = control.spool_rate_ps;
-  row.control.spool_threshold = control.spool_threshold;
-  row.control.stroke_end_gain_ps = kEndGain_ps;
-  row.watch.fastest_mps =
-      kFasterThanPumps * profile.implement.valve_flow_max_m3ps / profile.blade.rod_area_m2();
-  row.watch.senses_load = false;
-  row.watch.settle_s = profile.safety.settle_s;
-  row.watch.spool_tolerance = profile.safety.spool_tolerance;
-  row.watch.senses_spool = profile.bus.spool_feedback;
-  row.watch.rest_s = rest_s(row);
-  row.watch.uncommanded_m = profile.safety.uncommanded_m;
-  row.watch.stuck_m = profile.safety.stuck_m;
-  row.watch.unseen_m = kUnseen_m;
-  row.watch.off_m = kOff_m;
+  fill_row(profile,
+           {BladeKinematics(blade).stroke_max_m(), blade.cap_area_m2(), blade.rod_area_m2(),
+            profile.implement.valve_flow_max_m3ps, profile.implement.spool_to_duty},
+           bank.row[kBladeLift]);
+  bank.count = tilt.present ? kBladeCount : 1;
+  if (tilt.present) {
+    DriveRow& row = bank.row[kBladeTilt];
+    fill_row(profile,
+             {TiltKinematics(tilt).stroke_max_m(), tilt.cap_area_m2(), tilt.rod_area_m2(),
+              tilt.valve_flow_max_m3ps, tilt.spool_to_duty},
+             row);
+    row.control.at_end.index = static_cast<std::uint8_t>(kBladeTilt);
+  }
   return bank;
 }
 

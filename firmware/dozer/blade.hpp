@@ -57,9 +57,11 @@ class BladeKinematics {
 /// Largest speed towards an end of the stroke, per metre left.
 inline constexpr double kEndGain_ps = 4.0;
 
-/// The dozer's drives: the blade alone. Its pressures are not measured; its spool's travel is the
-/// share of ImplementProfile::valve_flow_max_m3ps.
-inline constexpr int kBladeCount = 1;
+/// The dozer's drives: the blade's lift, and where it has one its tilt. Their pressures are not
+/// measured; a spool's travel is the share of its valve's largest flow.
+inline constexpr int kBladeCount = 2;
+inline constexpr unsigned kBladeLift = 0;
+inline constexpr unsigned kBladeTilt = 1;
 using DozerBank = DriveBank<kBladeCount>;
 [[nodiscard]] DozerBank dozer_bank(const DozerProfile& profile);
 
@@ -69,10 +71,22 @@ using DozerBank = DriveBank<kBladeCount>;
                              : -blade.rod_area_m2() * velocity_mps;
 }
 
+/// The same of the tilt cylinder.
+[[nodiscard]] inline double inflow_m3ps(const TiltProfile& tilt, double velocity_mps) {
+  return velocity_mps >= 0.0 ? tilt.cap_area_m2() * velocity_mps
+                             : -tilt.rod_area_m2() * velocity_mps;
+}
+
 /// Opening -1 .. 1 of the valve's full flow that gives this velocity while the pump can feed it.
 [[nodiscard]] inline double opening_for(const DozerProfile& profile, double velocity_mps) {
   const double share =
       inflow_m3ps(profile.blade, velocity_mps) / profile.implement.valve_flow_max_m3ps;
+  return std::clamp(velocity_mps < 0.0 ? -share : share, -1.0, 1.0);
+}
+
+/// The same of the tilt.
+[[nodiscard]] inline double opening_for(const TiltProfile& tilt, double velocity_mps) {
+  const double share = inflow_m3ps(tilt, velocity_mps) / tilt.valve_flow_max_m3ps;
   return std::clamp(velocity_mps < 0.0 ? -share : share, -1.0, 1.0);
 }
 

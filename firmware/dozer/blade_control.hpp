@@ -25,6 +25,7 @@ struct BladeSituation {
   double pitch_rad = 0.0;
   Vector6d body_velocity = Vector6d::Zero();  ///< x_V-dot.
   double angle_rad = 0.0;                     ///< theta_1
+  double roll_rate_radps = 0.0;               ///< 0 where the blade has no tilt.
   BladeLift lift;
 };
 

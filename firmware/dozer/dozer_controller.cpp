@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/dozer/blade.hpp"
+#include "firmware/dozer/travel/body_roll.hpp"
 #include "firmware/dozer/travel/tracks.hpp"
 #include "firmware/drives/velocity_cap.hpp"
 
@@ -35,7 +36,11 @@ double speed_of_track_mps(const HstProfile& hst, const DozerValid& valid, unsign
 }  // namespace
 
 DozerSetup::DozerSetup(const DozerProfile& machine)
-    : profile(machine), bank(dozer_bank(profile)), blade(profile.blade), design(profile.grade) {}
+    : profile(machine),
+      bank(dozer_bank(profile)),
+      blade(profile.blade),
+      tilt(profile.tilt),
+      design(profile.grade) {}
 
 DozerController::DozerController(const DozerSetup& setup)
     : setup_(setup),
@@ -49,8 +54,11 @@ DozerOutputs DozerController::step(const DozerInputs& inputs, TimeUs now_us) {
   const Cycle cycle = begin_cycle(memory_.cycle, memory_.speed_mps.intact(), now_us);
   const DozerValid valid = validate_and_watch(inputs, cycle, now_us);
   estimate(valid, cycle.period_s);
-  servo_after(drives()[0], cycle.last_mode, memory_.asked_mps, valid.blade().stroke_m,
-              cycle.elapsed_s, memory_.servo);
+  for (int i = 0; i < drives().count(); ++i) {
+    const auto n = static_cast<unsigned>(i);
+    servo_after(drives()[i], cycle.last_mode, memory_.asked_mps[n], valid.drive[n].stroke_m,
+                cycle.elapsed_s, memory_.servo[n]);
+  }
   const Motion motion = flow_limited(valid, cycle.period_s);
   ModeDecision decision =
       decide_mode(memory_.cycle, cycle, valid, Fault::kNone, spools_centred(drives(), valid.drive),
@@ -61,7 +69,9 @@ DozerOutputs DozerController::step(const DozerInputs& inputs, TimeUs now_us) {
   memory_.brake = brake(memory_.brake, decision.mode, valid, cycle.period_s);
   DozerOutputs outputs;
   outputs.enable = gated.enable;
-  outputs.blade_duty_ratio = gated.duty_ratio.front();
+  outputs.blade_duty_ratio = gated.duty_ratio[kBladeLift];
+  outputs.tilt_duty_ratio = gated.duty_ratio[kBladeTilt];
+  outputs.tilts = profile_.tilt.present;
   outputs.pump_ratio = gated.pump_ratio;
   outputs.motor_ratio = gated.motor_ratio;
   outputs.brake = memory_.brake.wanted;
@@ -86,10 +96,10 @@ DozerValid DozerController::validate_and_watch(const DozerInputs& inputs, const 
 
 void DozerController::choose_task(DozerValid& valid, double period_s) {
   const bool at_rest = spools_centred(drives(), valid.drive) && tracks_at_rest(valid);
-  const double stroke_m = valid.blade().stroke_m;
+  const std::array<double, kBladeCount> stroke_m = {valid.blade().stroke_m, valid.tilt().stroke_m};
   const TaskChoice task =
       task_after_change(memory_.change, {valid.task, valid.task_number}, memory_.last.drives.moving,
-                        at_rest, {&stroke_m, 1}, period_s);
+                        at_rest, {stroke_m.data(), drives().count()}, period_s);
   valid.task = task.task;
 }
 
@@ -112,9 +122,12 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
   const BladeSituation now = foretold(valid, latency_s, valid.blade().stroke_m);
   const Eigen::Vector3d edge_m = edge_in_world_m(setup_.blade, now.body, now.angle_rad);
   const Stand stand{now.body.position_m.z(), now.pitch_rad};
-  memory_.in_pass = {edge_m.x(), grade_error_m(setup_.design, edge_m.x(), edge_m.z()),
-                     valid.velocity_mps, memory_.load.push_n / profile_.travel.push_max_n,
-                     memory_.load.lift_m};
+  double error_m = grade_error_m(setup_.design, edge_m.x(), edge_m.z());
+  if (profile_.tilt.present) {
+    error_m += at_ends_m(cross_error(setup_.design, tilt_at(now, valid.tilt().stroke_m)));
+  }
+  memory_.in_pass = {edge_m.x(), error_m, valid.velocity_mps,
+                     memory_.load.push_n / profile_.travel.push_max_n, memory_.load.lift_m};
   const PassState pass = next_pass(profile_.grade, memory_.pass, memory_.in_pass, period_s);
   if (pass.pass != memory_.pass.pass) {
     ground_.turn_back(edge_m.x());
@@ -148,6 +161,15 @@ BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,
   at.body_velocity << driving.speed_mps, 0.0, origin_climb_mps(body, driving.motion), 0.0,
       -driving.motion.pitch_rate_radps, 0.0;
   at.angle_rad = setup_.blade.angle_rad(stroke_m);
+  if (profile_.tilt.present) {
+    const BodyRoll rolled = roll_after(body, design_, {valid.roll_rad, valid.roll_rate_radps},
+                                       valid.position_m, driving.x_m, driving.speed_mps, lead_s);
+    at.body.rotation = rotation_from_pitch_and_roll(stand.pitch_rad, rolled.roll_rad);
+    at.roll_rate_radps = rolled.rate_radps;
+    at.body_velocity.tail<3>() +=
+        rolled.rate_radps *
+        Eigen::Vector3d(std::cos(stand.pitch_rad), 0.0, std::sin(stand.pitch_rad));
+  }
   at.lift = preview_.lift(driving.x_m, driving.speed_mps, lift_most_m());
   if (memory_.pass.phase != PassPhase::kCut) {
     at.lift = {};
@@ -157,19 +179,62 @@ BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,
   return at;
 }
 
+TiltSituation DozerController::tilt_at(const BladeSituation& at, double stroke_m) const {
+  TiltSituation tilt;
+  tilt.body_rotation = at.body.rotation;
+  tilt.roll_rate_radps = at.roll_rate_radps;
+  tilt.blade_angle_rad = at.angle_rad;
+  tilt.tilt_rad = setup_.tilt.angle_rad(stroke_m);
+  tilt.edge_x_m = edge_in_world_m(setup_.blade, at.body, at.angle_rad).x();
+  tilt.speed_mps = at.body_velocity[0];
+  return tilt;
+}
+
+void DozerController::move_tilt(const DozerValid& valid, const BladeSituation& now,
+                                const BladeSituation& then, double period_s, Motion& motion) const {
+  const TiltProfile& tilt = profile_.tilt;
+  const double stroke_m = stroke_then_m(drives()[kBladeTilt], memory_.servo[kBladeTilt]);
+  motion.tilt = control_tilt(tilt, drives()[kBladeTilt], setup_.tilt, design_, memory_.tilt,
+                             tilt_at(now, valid.tilt().stroke_m), tilt_at(then, stroke_m),
+                             memory_.fed, period_s);
+  motion.required_flow_m3ps += inflow_m3ps(tilt, motion.tilt.feed_forward_mps);
+  motion.command.opening[kBladeTilt] = opening_for(tilt, motion.tilt.velocity_mps);
+  motion.asked_mps[kBladeTilt] = motion.tilt.velocity_mps;
+  const double asked_m3ps = inflow_m3ps(profile_.blade, motion.blade.velocity_mps) +
+                            inflow_m3ps(tilt, motion.tilt.velocity_mps);
+  motion.fed = asked_m3ps <= motion.available_flow_m3ps;
+  if (!motion.fed) {
+    const double share = motion.available_flow_m3ps / asked_m3ps;
+    motion.asked_mps = {share * motion.blade.velocity_mps, share * motion.tilt.velocity_mps};
+  }
+}
+
+void DozerController::move_blade(const DozerValid& valid, double period_s, Motion& motion) const {
+  const double latency_s = profile_.control.pose_latency_s;
+  const double lead_s = latency_s + profile_.control.dead_time_s + profile_.control.response_s;
+  const BladeSituation now = foretold(valid, latency_s, valid.blade().stroke_m);
+  const BladeSituation then =
+      foretold(valid, lead_s, stroke_then_m(drives()[kBladeLift], memory_.servo[kBladeLift]));
+  // What the tilt took in the last cycle the lift has not; 0 of a blade without.
+  const double for_lift_m3ps =
+      motion.available_flow_m3ps - inflow_m3ps(profile_.tilt, memory_.asked_mps[kBladeTilt]);
+  motion.blade = control_blade(profile_, drives()[kBladeLift], setup_.blade, design_, memory_.blade,
+                               now, then, for_lift_m3ps, period_s);
+  motion.required_flow_m3ps = inflow_m3ps(profile_.blade, motion.blade.feed_forward_mps);
+  motion.command.opening[kBladeLift] = opening_for(profile_, motion.blade.velocity_mps);
+  motion.asked_mps[kBladeLift] =
+      fed_mps(profile_.blade, motion.blade.velocity_mps, motion.available_flow_m3ps);
+  if (profile_.tilt.present) {
+    move_tilt(valid, now, then, period_s, motion);
+  }
+}
+
 DozerController::Motion DozerController::flow_limited(const DozerValid& valid,
                                                       double period_s) const {
   Motion motion;
   motion.available_flow_m3ps = available_flow_m3ps(profile_.implement, valid.engine_radps);
-  const double latency_s = profile_.control.pose_latency_s;
-  const double lead_s = latency_s + profile_.control.dead_time_s + profile_.control.response_s;
-  motion.blade = control_blade(profile_, drives()[0], setup_.blade, design_, memory_.blade,
-                               foretold(valid, latency_s, valid.blade().stroke_m),
-                               foretold(valid, lead_s, stroke_then_m(drives()[0], memory_.servo)),
-                               motion.available_flow_m3ps, period_s);
-  motion.required_flow_m3ps = inflow_m3ps(profile_.blade, motion.blade.feed_forward_mps);
+  move_blade(valid, period_s, motion);
   motion.speed = choose_speed(valid, motion, period_s);
-  motion.command.opening = {opening_for(profile_, motion.blade.velocity_mps)};
   const std::array<double, kTrackCount> speeds_mps =
       track_speeds_mps(profile_.body, motion.speed.state.speed_mps, kHeading_radps);
   for (unsigned i = 0; i < kTrackCount; ++i) {
@@ -204,7 +269,7 @@ SpeedChoice DozerController::choose_speed(const DozerValid& valid, const Motion&
   }
   SpeedDemand demand;
   demand.desired_mps = profile_.travel.speed_desired_mps * valid.speed_override_ratio;
-  demand.off_m = motion.blade.off_m;
+  demand.off_m = std::abs(motion.blade.off_m) + at_ends_m(motion.tilt.error);
   demand.measured_mps = valid.velocity_mps;
   demand.required_flow_m3ps = motion.required_flow_m3ps;
   demand.available_flow_m3ps = motion.available_flow_m3ps;
@@ -224,12 +289,15 @@ void DozerController::describe_motion(const Motion& motion, const FaultSet& degr
                                       DozerStatus& status) const {
   const SpeedChoice& speed = motion.speed;
   status.lambda = std::clamp(speed.state.speed_mps / profile_.travel.speed_desired_mps, 0.0, 1.0);
-  const Limit at_end = motion.blade.at_end ? drives()[0].control.at_end : Limit{};
-  status.limit = held_by({at_end, speed.limit, degraded_limit(degraded)});
+  const Limit at_end = motion.blade.at_end ? drives()[kBladeLift].control.at_end : Limit{};
+  const Limit tilt_at_end = motion.tilt.at_end ? drives()[kBladeTilt].control.at_end : Limit{};
+  status.limit = held_by({at_end, tilt_at_end, speed.limit, degraded_limit(degraded)});
   status.wanted_speed_mps = speed.state.speed_mps;
   status.speed_limit_mps = speed.allowed_mps;
   status.wanted_blade_mps = motion.blade.velocity_mps;
+  status.wanted_tilt_mps = motion.tilt.velocity_mps;
   status.grade_error_m = motion.blade.error_m;
+  status.cross_error = motion.tilt.error;
   status.pass = memory_.pass.pass;
   status.cutting = memory_.pass.phase == PassPhase::kCut;
   status.ground_left = memory_.pass.left;
@@ -244,8 +312,9 @@ void DozerController::remember(const DozerValid& valid, const Motion& motion,
   const bool active = decision.active();
   // Above the ground it is where it is meant to be if it is on its lift; below it nothing excuses.
   const double error_m = motion.blade.error_m;
+  const double excused_m = error_m > 0.0 ? std::max(0.0, motion.blade.off_m) : error_m;
   next_tube_above(active && memory_.pass.phase == PassPhase::kCut,
-                  error_m > 0.0 ? std::max(0.0, motion.blade.off_m) : error_m,
+                  excused_m + std::copysign(at_ends_m(motion.tilt.error), excused_m),
                   profile_.safety.tube_m, memory_.tube);
   const double got_mps =
       std::min(std::abs(motion.speed.state.speed_mps), std::abs(valid.velocity_mps));
@@ -255,21 +324,23 @@ void DozerController::remember(const DozerValid& valid, const Motion& motion,
              got_mps / (profile_.travel.speed_desired_mps * valid.speed_override_ratio),
              profile_.safety.stall_s, period_s, memory_.stall);
   memory_.blade = active ? motion.blade.state : BladeState{};
+  memory_.tilt = active ? motion.tilt.state : TiltState{};
   memory_.load = active ? memory_.load : PushState{};
   if (!active && memory_.pass.pass > 1) {
     design_.set_floor(pass_floor_m(profile_.grade, PassState{}));
   }
   memory_.pass = active ? memory_.pass : PassState{};
-  memory_.asked_mps =
-      fed_mps(profile_.blade, motion.blade.velocity_mps, motion.available_flow_m3ps);
+  memory_.asked_mps = motion.asked_mps;
+  memory_.fed = motion.fed;
   memory_.speed = active ? motion.speed.state : SpeedState{};
   memory_.speed_mps = active ? motion.speed.state.speed_mps : 0.0;
   memory_.track = active ? motion.track : std::array<TrackState, kTrackCount>{};
-  memory_.last = {{in_motion(decision.mode.mode),
-                   gated.enable,
-                   gated.duty_ratio,
-                   {active ? motion.blade.velocity_mps : 0.0}},
-                  {gated.pump_ratio, gated.motor_ratio}};
+  memory_.last = {
+      {in_motion(decision.mode.mode),
+       gated.enable,
+       gated.duty_ratio,
+       {active ? motion.blade.velocity_mps : 0.0, active ? motion.tilt.velocity_mps : 0.0}},
+      {gated.pump_ratio, gated.motor_ratio}};
 }
 
 }  // namespace graben

@@ -5,6 +5,7 @@
 #include "firmware/dozer/blade_control.hpp"
 #include "firmware/dozer/safety/dozer_gate.hpp"
 #include "firmware/dozer/safety/dozer_watch.hpp"
+#include "firmware/dozer/tilt_control.hpp"
 #include "firmware/dozer/travel/blade_load.hpp"
 #include "firmware/dozer/travel/body_motion.hpp"
 #include "firmware/dozer/travel/passes.hpp"
@@ -27,6 +28,7 @@ struct DozerSetup {
   DozerProfile profile;  ///< Must have passed the application's check.
   DozerBank bank;
   BladeKinematics blade;
+  TiltKinematics tilt;
   GradeProfile design;
 };
 
@@ -52,11 +54,14 @@ class DozerController {
   /// Motion of a cycle before the gate.
   struct Motion {
     BladeCommand blade;
+    TiltCommand tilt;
     SpeedChoice speed;
     DozerCommand command;
     std::array<TrackState, kTrackCount> track{};
     double required_flow_m3ps = 0.0;
     double available_flow_m3ps = 0.0;
+    std::array<double, kBladeCount> asked_mps{};  ///< Of lift and tilt, as far as the flow goes.
+    bool fed = true;                              ///< The pump gives what both ask for.
   };
 
   struct Memory {
@@ -68,8 +73,10 @@ class DozerController {
     DozerLastCommands last;
     SpeedState speed;
     BladeState blade;
-    ServoState servo;        ///< What is under way to the blade.
-    double asked_mps = 0.0;  ///< Of the blade, in the last cycle, as far as its flow goes.
+    TiltState tilt;
+    bool fed = true;                              ///< In the last cycle, as the next.
+    std::array<double, kBladeCount> asked_mps{};  ///< See Motion.
+    std::array<ServoState, kBladeCount> servo;    ///< What is under way to lift and tilt.
     std::array<TrackState, kTrackCount> track{};
     Foretelling foretelling;
     PushState load;
@@ -97,6 +104,18 @@ class DozerController {
   [[nodiscard]] double lift_most_m() const { return kLiftShare * profile_.grade.tolerance_m; }
   static constexpr double kLiftShare = 0.31;
 
+  /// The same of the tilt.
+  [[nodiscard]] TiltSituation tilt_at(const BladeSituation& at, double stroke_m) const;
+  /// How much farther off the design than its middle an end of the edge is, by that error of its
+  /// slope.
+  [[nodiscard]] double at_ends_m(double cross_error) const {
+    return profile_.tilt.half_width_m() * std::abs(cross_error);
+  }
+  /// Both drives' velocities, and what the pump makes of them: it shares its flow between them as
+  /// they ask for it.
+  void move_blade(const DozerValid& valid, double period_s, Motion& motion) const;
+  void move_tilt(const DozerValid& valid, const BladeSituation& now, const BladeSituation& then,
+                 double period_s, Motion& motion) const;
   /// Blade and travel speed, and the displacements for it.
   [[nodiscard]] Motion flow_limited(const DozerValid& valid, double period_s) const;
   /// v_c on the way back from a pass.

@@ -48,6 +48,31 @@ struct BladeGeometry {
   }
 };
 
+/// The blade's second drive: one cylinder side turns it about its own longitudinal axis, taken
+/// through the middle of the cutting edge. Left end up is positive. Pins as seen from behind with
+/// the blade level: y to the left, z up, from that axis.
+struct TiltProfile {
+  bool present = false;                              ///< Without, all below is 0.
+  double edge_width_m = 0.0;                         ///< Of the cutting edge, end to end.
+  double angle_most_rad = 0.0;                       ///< Either way against the body.
+  Eigen::Vector2d base_m = Eigen::Vector2d::Zero();  ///< Cylinder's pin on the push frame.
+  Eigen::Vector2d eye_m = Eigen::Vector2d::Zero();   ///< On the blade, level.
+  int cylinder_count = 0;
+  double bore_m = 0.0;
+  double rod_m = 0.0;
+  double valve_flow_max_m3ps = 0.0;  ///< Of its spool fully open.
+  DutyTable spool_to_duty;           ///< As ImplementProfile's.
+  double gain_ps = 0.0;              ///< Error of the cross slope to its rate.
+  double integral_ps2 = 0.0;
+  double integral_most_radps = 0.0;
+
+  [[nodiscard]] double half_width_m() const { return 0.5 * edge_width_m; }
+  [[nodiscard]] double cap_area_m2() const { return graben::cap_area_m2(cylinder_count, bore_m); }
+  [[nodiscard]] double rod_area_m2() const {
+    return graben::rod_area_m2(cylinder_count, bore_m, rod_m);
+  }
+};
+
 struct ImplementProfile {
   double displacement_m3prev = 0.0;  ///< V_p,imp of (12).
   double efficiency = 0.0;           ///< eta_p,imp,vol of (12).
@@ -104,8 +129,10 @@ struct GradeHeights {
 
   // Aligned so that it lies alike where pointers are of 4 bytes: a setup is written as bytes.
   alignas(8) const double* height_m = nullptr;  ///< Over the design's plane, `count` of them.
-  alignas(8) int count = 0;                     ///< 0, or 2 .. kMost.
-  double from_m = 0.0;                          ///< Place of the first one.
+  /// Slope across the track there, dz/dy with y to the left; none: level across.
+  alignas(8) const double* cross = nullptr;
+  alignas(8) int count = 0;  ///< 0, or 2 .. kMost.
+  double from_m = 0.0;       ///< Place of the first one.
 };
 
 /// The design: heights over a plane through points with rounded corners. Before the first point and
@@ -168,6 +195,7 @@ struct DozerProfile {
   BusCapabilities bus;
   DozerBody body;
   BladeGeometry blade;
+  TiltProfile tilt;
   ImplementProfile implement;
   HstProfile hst;
   TravelProfile travel;

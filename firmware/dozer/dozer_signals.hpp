@@ -31,11 +31,15 @@ struct BodyInputs {
   Signal<double> velocity_mps;  ///< Along x.
   Signal<double> climb_mps;     ///< Along z.
   Signal<double> pitch_rate_radps;
+  Signal<double> roll_rad;  ///< Left side up is positive; of a machine whose blade tilts.
+  Signal<double> roll_rate_radps;
 };
 
 struct DozerInputs : MachineInputs {
   Signal<double> blade_stroke_m;
   Signal<double> blade_spool_ratio;  ///< See DriveInputs.
+  Signal<double> tilt_stroke_m;      ///< Of a machine whose blade tilts, as the next.
+  Signal<double> tilt_spool_ratio;
   BodyInputs body;
   std::array<TrackInputs, kTrackCount> track;
 };
@@ -45,9 +49,11 @@ struct DozerStatus : MachineStatus {
   double wanted_speed_mps = 0.0;     ///< v_c of (14), after the acceleration limit.
   double speed_limit_mps = 0.0;      ///< (14) without v_d: what flow and transmission allow.
   double wanted_blade_mps = 0.0;     ///< Velocity of the blade cylinders; extension is positive.
+  double wanted_tilt_mps = 0.0;      ///< The same of the tilt cylinder.
   double required_flow_m3ps = 0.0;   ///< Q_in of (7), of the measured motion.
   double available_flow_m3ps = 0.0;  ///< min of (12) and the valve's.
   double grade_error_m = 0.0;        ///< Measured cutting edge above the grade.
+  double cross_error = 0.0;          ///< Its slope across over the design's; left up is positive.
   int pass = 1;                      ///< Over the design.
   bool cutting = true;               ///< In it; else on the way back to the next one.
   bool ground_left = false;          ///< This pass has left what another one has to take.
@@ -57,6 +63,8 @@ struct DozerStatus : MachineStatus {
 struct DozerOutputs : MachineOutputs {
   bool brake = true;  ///< Asks for the parking brake; also whenever nothing moves the machine.
   double blade_duty_ratio = 0.0;                             ///< -1 .. 1; 0 is neutral, + extends.
+  double tilt_duty_ratio = 0.0;                              ///< The same.
+  bool tilts = false;                                        ///< The machine has a tilt drive.
   std::array<double, kTrackCount> pump_ratio{};              ///< -1 .. 1; 0 stands still.
   std::array<double, kTrackCount> motor_ratio = {1.0, 1.0};  ///< motor_ratio_min .. 1.
   DozerStatus status;

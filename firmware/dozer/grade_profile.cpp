@@ -52,18 +52,18 @@ GradeSample GradeProfile::of_points(double x_m) const {
 }
 
 /// Between two heights a parabola, of the curvature that there is about both; its slope goes over
-/// from the one at the first to the one at the second.
-GradeSample GradeProfile::of_heights(double x_m) const {
+/// from the one at the first to the one at the second. So are cross slopes.
+GradeSample GradeProfile::on_grid(const double* values, double x_m) const {
   const int last = heights_.count - 1;
   const double place = (x_m - heights_.from_m) / GradeHeights::kStep_m;
   if (!(place > 0.0)) {
-    return {heights_.height_m[0], 0.0};
+    return {values[0], 0.0};
   }
   if (place >= last) {
-    return {heights_.height_m[last], 0.0};
+    return {values[last], 0.0};
   }
   const int index = static_cast<int>(place);
-  const double* const here = heights_.height_m + index;
+  const double* const here = values + index;
   const double before_m = here[index > 0 ? -1 : 0];
   const double after_m = here[index + 2 <= last ? 2 : 1];
   // Twice the rise from one to the next.
@@ -75,10 +75,18 @@ GradeSample GradeProfile::of_heights(double x_m) const {
 }
 
 GradeSample GradeProfile::at(double x_m) const {
-  const GradeSample over = heights_.count > 1 ? of_heights(x_m) : of_points(x_m);
+  const GradeSample over = heights_.count > 1 ? on_grid(heights_.height_m, x_m) : of_points(x_m);
   const double plane_m = plane_height_m_ + plane_slope_ * x_m;
   return over.height_m < floor_m_ ? GradeSample{plane_m + floor_m_, plane_slope_}
                                   : GradeSample{plane_m + over.height_m, plane_slope_ + over.slope};
+}
+
+CrossSample GradeProfile::cross_at(double x_m) const {
+  if (heights_.count < 2 || heights_.cross == nullptr) {
+    return {};
+  }
+  const GradeSample sample = on_grid(heights_.cross, x_m);
+  return {sample.height_m, sample.slope};
 }
 
 double grade_error_m(const GradeProfile& profile, double x_m, double z_m) {

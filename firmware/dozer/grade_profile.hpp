@@ -15,6 +15,12 @@ struct GradeSample {
   double slope = 0.0;  ///< dz/dx
 };
 
+/// Slope of the design across the track at one place, and how that changes along it.
+struct CrossSample {
+  double slope = 0.0;      ///< dz/dy, y to the left.
+  double change_pm = 0.0;  ///< Per metre along x.
+};
+
 /// Every corner is a parabola over `rounding_m` to either side, so that the slope has no step.
 /// Before the first and after the last point the heights go on level; these two have no curve. No
 /// two curves overlap: the application's check wants the points that far apart. Of heights on a
@@ -28,6 +34,8 @@ class GradeProfile {
 
   /// At x along the grade, m.
   [[nodiscard]] GradeSample at(double x_m) const;
+  /// Before the first and after the last height it stays as there. A floor does not change it.
+  [[nodiscard]] CrossSample cross_at(double x_m) const;
 
  private:
   /// A straight piece, from where the corner before it is.
@@ -39,7 +47,7 @@ class GradeProfile {
 
   /// Over the plane, before the floor.
   [[nodiscard]] GradeSample of_points(double x_m) const;
-  [[nodiscard]] GradeSample of_heights(double x_m) const;
+  [[nodiscard]] GradeSample on_grid(const double* values, double x_m) const;
 
   double plane_height_m_;
   double plane_slope_;

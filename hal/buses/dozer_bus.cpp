@@ -43,24 +43,31 @@ struct Store : CommonStore<DozerInputs, Task::kGrade> {
   static void store(const bus::RightTransmission& message, TimeUs now, To& to) {
     put_transmission(to.inputs.track[kRight], message, now);
   }
+  static void store(const bus::TiltState& message, TimeUs now, To& to) {
+    put(to.inputs.tilt_stroke_m, message.tilt_stroke_m, now);
+    put(to.inputs.body.roll_rad, message.roll_rad, now);
+    put(to.inputs.body.roll_rate_radps, message.roll_rate_radps, now);
+  }
   static void store(const bus::TrackSpeed& message, TimeUs now, To& to) {
     put(to.inputs.track[kLeft].speed_mps, message.left_track_mps, now);
     put(to.inputs.track[kRight].speed_mps, message.right_track_mps, now);
   }
   static void store(const bus::ValveState& message, TimeUs now, To& to) {
     put(to.inputs.blade_spool_ratio, message.blade_spool_ratio, now);
+    put(to.inputs.tilt_spool_ratio, message.tilt_spool_ratio, now);
     put(to.inputs.valve_enabled, message.enabled, now);
   }
 };
 
-using OwnReceived = dbc::MessageList<bus::BladeStroke, bus::BodyPosition, bus::BodyPitch,
-                                     bus::BodyVelocity, bus::LeftTransmission,
-                                     bus::RightTransmission, bus::TrackSpeed, bus::ValveState>;
+using OwnReceived =
+    dbc::MessageList<bus::BladeStroke, bus::BodyPosition, bus::BodyPitch, bus::BodyVelocity,
+                     bus::LeftTransmission, bus::RightTransmission, bus::TrackSpeed, bus::TiltState,
+                     bus::ValveState>;
 constexpr auto kReceiveTable = receive_table<DozerInputs, Store>(OwnReceived{}, CommonReceived{},
                                                                  bus::kMessages, bus::kDbcVersion);
 
 bool may_move(const DozerOutputs& outputs) {
-  bool finite = std::isfinite(outputs.blade_duty_ratio);
+  bool finite = std::isfinite(outputs.blade_duty_ratio) && std::isfinite(outputs.tilt_duty_ratio);
   for (const auto& ratios : {outputs.pump_ratio, outputs.motor_ratio}) {
     finite = finite && std::isfinite(ratios[kLeft]) && std::isfinite(ratios[kRight]);
   }
@@ -73,6 +80,9 @@ bus::SpoolCommand spool_command(const DozerOutputs& outputs, const EcuDiagnosis&
   if (may_move(outputs)) {
     message.enable = coded<bus::SpoolCommand::Enable>(bus::SpoolCommand::Enable::kOn);
     message.blade_duty_ratio = physical(outputs.blade_duty_ratio);
+  }
+  if (outputs.tilts) {
+    message.tilt_duty_ratio = physical(may_move(outputs) ? outputs.tilt_duty_ratio : 0.0);
   }
   return message;
 }
@@ -102,6 +112,9 @@ bus::EcuMotion ecu_motion(const DozerOutputs& outputs, const EcuDiagnosis&) {
   message.wanted_speed_mps = physical(status.wanted_speed_mps);
   message.speed_limit_mps = physical(status.speed_limit_mps);
   message.wanted_blade_velocity_mps = physical(status.wanted_blade_mps);
+  if (outputs.tilts) {
+    message.wanted_tilt_velocity_mps = physical(status.wanted_tilt_mps);
+  }
   return message;
 }
 
@@ -111,6 +124,9 @@ bus::EcuGrade ecu_grade(const DozerOutputs& outputs, const EcuDiagnosis&) {
   message.required_flow_m3ps = physical(status.required_flow_m3ps);
   message.available_flow_m3ps = physical(status.available_flow_m3ps);
   message.grade_error_m = physical(status.grade_error_m);
+  if (outputs.tilts) {
+    message.cross_error_ratio = physical(status.cross_error);
+  }
   return message;
 }
 

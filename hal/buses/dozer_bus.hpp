@@ -12,7 +12,7 @@ namespace graben {
 /// like one whose value is out of range.
 struct DozerReception {
   using Inputs = DozerInputs;
-  static constexpr int kMessageCount = 11;
+  static constexpr int kMessageCount = 12;
   [[nodiscard]] static const ReceiveTable<Inputs, kMessageCount>& table();
 };
 
@@ -26,6 +26,8 @@ using DozerReceiver = MessageReceiver<DozerReception>;
 ///   EcuHealth                                          100 ms
 ///   EcuIdentity                                          1 s
 ///   DM1                                                as hal/link/dm1.hpp says
+///
+/// What they say of the tilt is not available where the machine has none.
 ///
 /// Without enable, and if any number that is commanded is not finite, SpoolCommand says Off and
 /// neutral, every pump is sent to 0 and every motor to full displacement. Brake and PilotCut are

@@ -94,7 +94,8 @@ def main():
         profile = tomllib.load(stream)
     with open(profile_path.replace(".toml", ".sim.toml"), "rb") as stream:
         length = tomllib.load(stream)["experiment"]["length"]
-    messages = read_dbc(dbc)
+    # Its blade does not tilt.
+    messages = {number: m for number, m in read_dbc(dbc).items() if m["name"] != "TiltState"}
     with tempfile.TemporaryDirectory() as folder:
         summary_path = os.path.join(folder, "summary.json")
         subprocess.run([graben, "grade", "--out", folder, "--summary", summary_path], check=True,

@@ -20,8 +20,8 @@ LIBRARIES = re.compile(r"Could not convert|not expected|Run with --help|REQUIRED
                        r"filesystem error|json\.exception|stod|Error while parsing|basic_string|what\(\)|[Ee]xcludes|"
                        r"Exactly 1 option|terminate called|\(\{|:\{")
 
-SHIPPED = ["dozer_9t", "excavator_12t", "excavator_12t_ls", "excavator_12t_nfc", "excavator_22t", "excavator_22t_ls",
-           "excavator_22t_nfc"]
+SHIPPED = ["dozer_9t", "dozer_9t_tilt", "excavator_12t", "excavator_12t_ls", "excavator_12t_nfc", "excavator_22t",
+           "excavator_22t_ls", "excavator_22t_nfc"]
 
 
 def shipped_profiles(said):

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 
 #include "hal/link/e2e.hpp"
@@ -33,16 +34,21 @@ const dbc::MessageInfo* own_message(std::uint32_t id) {
   return nullptr;
 }
 
-/// Name of a signal that says nothing it should; 'not available' is for some commands to say, and
-/// for the pilot cut of a process that has not armed yet.
+/// Of a process that has not armed yet the pilot cut says nothing, of the shipped dozer a tilt.
+bool says_nothing(const char* field) {
+  constexpr const char* kFields[] = {"PilotCut", "TiltDuty", "WantedTiltVelocity", "CrossError"};
+  return std::any_of(std::begin(kFields), std::end(kFields),
+                     [field](const char* name) { return std::strcmp(field, name) == 0; });
+}
+
+/// Name of a signal that says nothing it should; 'not available' is for some commands to say.
 template <class Kind, class Message>
 const char* unsaid(const dbc::Payload& payload) {
   const char* name = nullptr;
   const Message message = Message::decode(payload);
   Message::visit(message, [&name](const dbc::Field& field, const auto& signal) {
-    const bool may_miss =
-        (Kind::may_miss(Message::kId) || std::strcmp(field.name, "PilotCut") == 0) &&
-        signal.state == RawState::kNotAvailable;
+    const bool may_miss = (Kind::may_miss(Message::kId) || says_nothing(field.name)) &&
+                          signal.state == RawState::kNotAvailable;
     if (signal.state != RawState::kValid && !may_miss) {
       name = field.name;
     }

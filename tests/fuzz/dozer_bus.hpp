@@ -25,7 +25,10 @@ struct DozerBus : ecu::DozerKind {
 
   [[nodiscard]] static const Machine& shipped();
   [[nodiscard]] static bool is_needed(std::uint32_t id);
-  [[nodiscard]] static constexpr bool is_of_a_part(std::uint32_t) { return false; }
+  /// A tilt, which the shipped dozer has not.
+  [[nodiscard]] static constexpr bool is_of_a_part(std::uint32_t id) {
+    return id == Dbc::TiltState::kId;
+  }
   [[nodiscard]] static bool may_miss(std::uint32_t) { return false; }
   [[nodiscard]] static std::array<double, kSpools> duties(const Dbc::SpoolCommand& command) {
     return {command.blade_duty_ratio.value};

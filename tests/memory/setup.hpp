@@ -58,10 +58,10 @@ inline constexpr auto kLayout<ExcavatorSetup> =
 template <>
 inline constexpr auto kLayout<DozerSetup> =
     kLayoutOf<bool, int, double, SpeedPolicy, Eigen::Vector2d, DutyTable, DozerBody, BladeGeometry,
-              ImplementProfile, HstProfile, TravelProfile, GradePoint, GradeHeights, GradeDesign,
-              DozerControl, DozerSafety, DozerProfile, SpoolProfile, SpoolMetering, Limit,
-              DriveControl, DriveFeedback, DriveWatch, SpoolAnswer, SpoolAnswers, DriveRow,
-              DozerBank, BladeKinematics, GradeProfile, DozerSetup>;
+              TiltProfile, ImplementProfile, HstProfile, TravelProfile, GradePoint, GradeHeights,
+              GradeDesign, DozerControl, DozerSafety, DozerProfile, SpoolProfile, SpoolMetering,
+              Limit, DriveControl, DriveFeedback, DriveWatch, SpoolAnswer, SpoolAnswers, DriveRow,
+              DozerBank, BladeKinematics, TiltKinematics, GradeProfile, DozerSetup>;
 
 template <std::size_t count>
 constexpr bool same(const std::array<std::size_t, count>& one,

@@ -66,7 +66,8 @@ def check_completion(script: pathlib.Path) -> list[str]:
                           ("graben dig --profile excavator_12t_", {"excavator_12t_ls", "excavator_12t_nfc"}),
                           ("graben autodig --task fl", {"flatten"}), ("graben dig --bus z", {"zx200"}),
                           ("graben dig --simulated excavator_22t_f", {"excavator_22t_found"}),
-                          ("graben dig --simulated dozer", {"dozer_9t"}), ("graben check doz", {"dozer_9t"}),
+                          ("graben dig --simulated dozer", {"dozer_9t", "dozer_9t_tilt"}),
+                          ("graben check doz", {"dozer_9t", "dozer_9t_tilt"}),
                           ("graben check --str", {"--strict"}), ("graben check READ", {"README.md"}),
                           ("graben dig --out app", {"app"}), ("graben export READ", {"README.md"})):
         words = typed.split(" ")

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "firmware/dozer/grade_profile.hpp"
@@ -26,7 +27,10 @@ void demand_something_to_cut(const SimulatedDozer& machine) {
   constexpr double kStep_m = 0.05;
   const GradeProfile design(machine.profile.grade);
   for (int step = 0; step * kStep_m <= machine.experiment.length_m; ++step) {
-    const double height_m = design.at(step * kStep_m).height_m;
+    // Of the edge's higher end.
+    const double height_m =
+        design.at(step * kStep_m).height_m +
+        machine.profile.tilt.half_width_m() * std::abs(design.cross_at(step * kStep_m).slope);
     if (height_m > kFill_m) {
       throw std::runtime_error(fmt::format(
           "the design is {:.3f} m above the simulated ground at x = {:.2f} m; allowed: at "
@@ -54,6 +58,12 @@ SimulatedDozer arranged(SimulatedDozer machine, const DozerScenario& scenario) {
     hst.engine_radps = *scenario.engine_radps;
   }
   if (!scenario.soil.empty()) {
+    if (machine.profile.tilt.present) {
+      throw std::runtime_error(fmt::format(
+          "ground that resists is not simulated of a machine whose blade tilts ({}); allowed: "
+          "--soil on a machine without [tilt]",
+          machine.name));
+    }
     machine.plant.soil = ground_of(scenario.soil, scenario.errors, scenario.seed);
     GradeDesign& grade = machine.profile.grade;
     grade.pass_depth_m = std::min(grade.pass_depth_m, kFirstPass_m);

@@ -70,6 +70,32 @@ void read_transmission(TomlReader& reader, plant::DozerPlantProfile& plant) {
       reader.number("hst.mechanical_efficiency", {0.3, 1.0, ""}, "of motor, gear and track");
 }
 
+/// Only with the profile's [tilt].
+plant::TiltPlant read_tilt_plant(TomlReader& reader, const DozerProfile& nominal,
+                                 double blade_width_m) {
+  plant::TiltPlant tilt;
+  const bool tilts = reader.lists() ? reader.has("tilt") : nominal.tilt.present;
+  if (!tilts) {
+    return tilt;
+  }
+  tilt.roll_inertia_kgm2 =
+      reader.number("tilt.roll_inertia", {10.0, 1e6, "kg m2"},
+                    "whole machine in roll; this and the next only with the profile's [tilt]");
+  tilt.inertia_kgm2 = reader.number("tilt.inertia", {1.0, 1e5, "kg m2"}, "blade about its tilt");
+  tilt.coulomb_n =
+      reader.number("tilt.coulomb", {0.0, 1e6, "N"}, "Coulomb friction of the tilt cylinder");
+  tilt.viscous_nspm =
+      reader.number("tilt.viscous", {0.0, 1e7, "N s/m"}, "viscous friction of the tilt cylinder");
+  tilt.dead_volume_m3 =
+      reader.number("tilt.dead_volume", kVolume, "oil in each chamber with its hose, fully closed");
+  constexpr double kSame_m = 1e-3;
+  if (!reader.lists() && std::abs(blade_width_m - nominal.tilt.edge_width_m) > kSame_m) {
+    reader.fail("blade.width", fmt::format("{} m; allowed: the profile's tilt.edge_width, {} m",
+                                           blade_width_m, nominal.tilt.edge_width_m));
+  }
+  return tilt;
+}
+
 plant::BladeShape read_blade_shape(TomlReader& reader) {
   plant::BladeShape blade;
   blade.width_m = reader.number("blade.width", {0.5, 10.0, "m"}, "of the blade");
@@ -88,6 +114,7 @@ plant::DozerPlantProfile read_plant(TomlReader& reader, const DozerProfile& nomi
   plant.blade_reach_m =
       reader.number("blade.reach", {0.1, 5.0, "m"}, "pivot to the mass centre of blade and frame");
   plant.blade_shape = read_blade_shape(reader);
+  plant.tilt = read_tilt_plant(reader, nominal, plant.blade_shape.width_m);
   plant.engine_power_w =
       reader.number("engine.power", {1e3, 1e7, "W"}, "full power, with ground that resists");
   plant.engine_sag = {reader.number("engine.sag", {0.0, 0.5, ""},
@@ -166,10 +193,10 @@ SimulatedDozer load_simulated_dozer(const std::filesystem::path& file) {
   return machine;
 }
 
-SimulatedDozer with_design(SimulatedDozer machine, const std::vector<GradePoint>& corners,
-                           double rounding_m, const std::string& file) {
+SimulatedDozer with_design(SimulatedDozer machine, const DesignLine& line, double rounding_m,
+                           const std::string& file) {
   machine.profile.grade.rounding_m = rounding_m;
-  set_design(machine, heights_of(corners, rounding_m));
+  set_design(machine, heights_of(line, rounding_m));
   machine.plant.machine.grade = machine.profile.grade;
   machine.experiment.length_m = machine.profile.grade.end_m();
   std::vector<std::string> errors;
@@ -191,6 +218,7 @@ plant::DozerPlantProfile draw_dozer(const SimulatedDozer& machine, std::uint64_t
     *kg *= mass;
   }
   plant.pitch_inertia_kgm2 *= mass;
+  plant.tilt.roll_inertia_kgm2 *= mass;
   for (double* share : {&plant.ground.friction, &plant.ground.rolling_resistance}) {
     *share *= 1.0 + random.symmetric(uncertainty.friction);
   }

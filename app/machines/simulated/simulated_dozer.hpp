@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/machines/design_file.hpp"
 #include "app/machines/dozer_file.hpp"
 #include "app/plant/dozer_plant_profile.hpp"
 
@@ -39,11 +40,10 @@ void read_simulated_sections(TomlReader& reader, SimulatedDozer& machine);
 /// Reads and checks NAME.toml, then NAME.sim.toml beside it. Throws as load_simulated_excavator.
 [[nodiscard]] SimulatedDozer load_simulated_dozer(const std::filesystem::path& file);
 
-/// The machine with these corners along the track as its design, rounded as far, all of it to be
+/// The machine with this line along the track as its design, rounded as far, all of it to be
 /// made. Throws ProfileError of `file` with what of it this machine can't make.
-[[nodiscard]] SimulatedDozer with_design(SimulatedDozer machine,
-                                         const std::vector<GradePoint>& corners, double rounding_m,
-                                         const std::string& file);
+[[nodiscard]] SimulatedDozer with_design(SimulatedDozer machine, const DesignLine& line,
+                                         double rounding_m, const std::string& file);
 
 /// A dozer that is not quite what its file says, and has sensor errors: mass (the moment of inertia
 /// in proportion), traction, rolling resistance and the efficiency of implement pump, pumps and

@@ -28,6 +28,9 @@ bool is_finite(const DozerCommand& wanted, const Changes& changes) {
 
 bool is_intact(const DozerGateState& state) {
   bool intact = true;
+  for (const Guarded<double>& opening : state.opening) {
+    intact = intact && opening.intact();
+  }
   for (unsigned i = 0; i < kTrackCount; ++i) {
     intact = intact && state.pump_ratio[i].intact() && state.motor_ratio[i].intact();
   }

@@ -12,7 +12,8 @@ namespace graben {
 
 /// Setpoints of blade and transmission.
 struct DozerCommand {
-  std::array<double, kBladeCount> opening{};  ///< -1 .. 1 of valve_flow_max; extension is positive.
+  /// Lift and tilt, -1 .. 1 of their valve's flow; extension is positive.
+  std::array<double, kBladeCount> opening{};
   std::array<double, kTrackCount> pump_ratio{};
   std::array<double, kTrackCount> motor_ratio = {1.0, 1.0};
 };
@@ -28,7 +29,7 @@ struct DozerGateState {
 struct DozerGateResult {
   bool enable = false;
   Fault fault = Fault::kNone;  ///< kCommandNotFinite or kMemoryCorrupt when it had to refuse.
-  std::array<double, kBladeCount> duty_ratio{};              ///< Of the blade's spool, -1 .. 1.
+  std::array<double, kBladeCount> duty_ratio{};              ///< Of each spool, -1 .. 1.
   std::array<double, kTrackCount> pump_ratio{};              ///< -1 .. 1
   std::array<double, kTrackCount> motor_ratio = {1.0, 1.0};  ///< motor_ratio_min .. 1
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/dozer/safety/dozer_validation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -48,6 +49,17 @@ BelievedCoordinate believed(const Signal<double>& value, const Signal<double>& r
   return {result.state, result.jumped ? last.rate : rate};
 }
 
+/// Of a machine whose blade tilts; a roll is believed as a pitch is.
+void read_roll(const BodyInputs& body, const Freshness& fresh, DozerValidationState& state,
+               DozerValid& valid) {
+  state.roll_rad = believed(body.roll_rad, body.roll_rate_radps, kPitchMargin_rad, fresh,
+                            state.roll_rad, valid.faults);
+  read_required({&state.roll_rad.value.signal, &valid.roll_rad, Fault::kPoseMissing, Fault::kNone},
+                fresh, valid.faults);
+  read_required({&state.roll_rad.rate, &valid.roll_rate_radps, Fault::kPoseMissing, Fault::kNone},
+                fresh, valid.faults);
+}
+
 void accept_pose(const BodyInputs& body, const Freshness& fresh, DozerValidationState& state,
                  FaultSet& faults) {
   state.position_m = believed(body.position_m, body.velocity_mps, kPositionMargin_m, fresh,
@@ -70,18 +82,22 @@ DozerValid validate(const DozerProfile& profile, DriveRows drives, const DozerIn
     state = {};
   }
   const std::array<DriveInputs, kBladeCount> blade = {
-      {{inputs.blade_stroke_m, {}, {}, inputs.blade_spool_ratio}}};
+      {{inputs.blade_stroke_m, {}, {}, inputs.blade_spool_ratio},
+       {inputs.tilt_stroke_m, {}, {}, inputs.tilt_spool_ratio}}};
   read_drives(drives, blade, moving, fresh, state.stroke_m, valid.drive, valid.faults);
   accept_pose(inputs.body, fresh, state, valid.faults);
   for (const Required& row : required_signals(inputs, state, valid)) {
     read_required(row, fresh, valid.faults);
+  }
+  if (profile.tilt.present) {
+    read_roll(inputs.body, fresh, state, valid);
   }
   for (unsigned i = 0; i < kTrackCount; ++i) {
     const Signal<double>& pressure_pa = inputs.track[i].line_pressure_pa;
     valid.line_pressure_pa[i] = fresh.number(pressure_pa) ? pressure_pa.value : 0.0;
   }
   // What cannot be is no jump to be bridged.
-  const bool lies = std::abs(valid.pitch_rad) > kMostPitch_rad;
+  const bool lies = std::max(std::abs(valid.pitch_rad), std::abs(valid.roll_rad)) > kMostPitch_rad;
   if (lies) {
     valid.faults.add(Fault::kPoseImplausible);
   }

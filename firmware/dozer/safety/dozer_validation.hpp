@@ -22,17 +22,20 @@ struct DozerValidationState {
   BelievedCoordinate position_m;
   BelievedCoordinate height_m;
   BelievedCoordinate pitch_rad;
+  BelievedCoordinate roll_rad;  ///< Of a machine whose blade tilts.
 };
 
 /// Inputs that may be used.
 struct DozerValid : CommonValid {
-  std::array<ValidDrive, kBladeCount> drive{};  ///< The blade; its load is never known.
+  std::array<ValidDrive, kBladeCount> drive{};  ///< Lift and tilt; no load is known.
   double position_m = 0.0;
   double height_m = 0.0;
   double pitch_rad = 0.0;
   double velocity_mps = 0.0;
   double climb_mps = 0.0;
   double pitch_rate_radps = 0.0;
+  double roll_rad = 0.0;  ///< 0 where the blade has no tilt, as the next.
+  double roll_rate_radps = 0.0;
   std::array<double, kTrackCount> pump_ratio{};
   std::array<double, kTrackCount> motor_ratio{};
   std::array<double, kTrackCount> track_speed_mps{};
@@ -40,7 +43,8 @@ struct DozerValid : CommonValid {
   /// Neither its displacements nor the body say what its sensor does, see watch_transmission().
   std::array<bool, kTrackCount> track_outvoted{};
 
-  [[nodiscard]] const ValidDrive& blade() const { return drive.front(); }
+  [[nodiscard]] const ValidDrive& blade() const { return drive[kBladeLift]; }
+  [[nodiscard]] const ValidDrive& tilt() const { return drive[kBladeTilt]; }
 };
 
 /// How far a coordinate may be from where its last value and its measured rate put it: noise,

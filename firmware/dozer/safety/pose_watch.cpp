@@ -51,15 +51,18 @@ bool watch_pose(const DozerValid& valid, const GroundSpeeds& speeds, double peri
     next(valid.height_m - state.height_m - valid.climb_mps * period_s, kept, state.climbed_m);
     next(valid.pitch_rad - state.pitch_rad - valid.pitch_rate_radps * period_s, kept,
          state.turned_rad);
+    next(valid.roll_rad - state.roll_rad - valid.roll_rate_radps * period_s, kept,
+         state.rolled_rad);
     next(uphill_mps * period_s, std::max(0.0, 1.0 - period_s / kSlopeForget_s), state.uphill_m);
     next(least_beyond_slip(speeds, ground_mps) * period_s, kept, state.slipped_m);
   }
   state.position_m = valid.position_m;
   state.height_m = valid.height_m;
   state.pitch_rad = valid.pitch_rad;
+  state.roll_rad = valid.roll_rad;
   return exceeds(state.ahead_m, kMostAhead_m) || exceeds(state.climbed_m, kMostClimbed_m) ||
-         exceeds(state.turned_rad, kMostTurned_rad) || exceeds(state.uphill_m, kMostUphill_m) ||
-         exceeds(state.slipped_m, kMostSlipped_m);
+         exceeds(state.turned_rad, kMostTurned_rad) || exceeds(state.rolled_rad, kMostTurned_rad) ||
+         exceeds(state.uphill_m, kMostUphill_m) || exceeds(state.slipped_m, kMostSlipped_m);
 }
 
 }  // namespace graben

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Checks that what is measured of the body's motion fits together: position and velocity, height
-/// and climb, pitch and its rate, the climb and the slope that it drives up, velocity and tracks. A
-/// sensor that is frozen with a live counter shows only here.
+/// and climb, pitch and its rate, roll and its rate, the climb and the slope that it drives up,
+/// velocity and tracks. A sensor that is frozen with a live counter shows only here.
 
 #include "firmware/dozer/safety/dozer_validation.hpp"
 
@@ -19,9 +19,11 @@ struct PoseWatchState {
   double position_m = 0.0;  ///< Of the last cycle ...
   double height_m = 0.0;
   double pitch_rad = 0.0;
+  double roll_rad = 0.0;
   double ahead_m = 0.0;     ///< Position against velocity.
   double climbed_m = 0.0;   ///< Height against climb.
   double turned_rad = 0.0;  ///< Pitch against its rate.
+  double rolled_rad = 0.0;  ///< Roll against its rate.
   double uphill_m = 0.0;    ///< Climb against the slope that the pitch says.
   double slipped_m = 0.0;   ///< Velocity against the tracks, slip taken off.
 };

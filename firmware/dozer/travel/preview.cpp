@@ -18,12 +18,20 @@ constexpr double kAnySpeed_mps = 10.0;
 constexpr double kOnDesign_rad = 1e-4;
 /// Less is no stretch of its own.
 constexpr double kNoLift_m = 1e-4;
+constexpr double kNoOil_m2 = 1e-9;
+
+/// Of the lift's cylinders within a station.
+struct LiftReach {
+  double raised_m = 0.0;
+  double lowered_m = 0.0;
+};
 
 }  // namespace
 
 Preview::Preview(const DozerProfile& profile, const BladeKinematics& blade)
     : profile_(profile),
       blade_(blade),
+      tilt_(profile.tilt),
       edge_per_stroke_(blade.edge_rate_mprad(0.0).y() / -blade.stroke_rate_mprad(0.0)),
       count_(std::clamp(static_cast<int>(profile.travel.preview_m / kStep_m), 1,
                         kMostStations - kBehind - 1)) {}
@@ -110,22 +118,26 @@ void Preview::step(const GroundMap& ground, const GradeProfile& design, int numb
   const Stand at{before.height_m + share * (after.height_m - before.height_m),
                  before.pitch_rad + share * (after.pitch_rad - before.pitch_rad)};
   probe.angle_rad = angle_on(design, station_m, at, probe.angle_rad);
+  if (profile_.tilt.present) {
+    tilt_m2_[slot(probe.end)] =
+        tilt_oil_m2(profile_, tilt_, design, station_m, blade_.edge_m(0.0).x());
+  }
   need(number, probe.end) = {stroke_on(design, station_m, at, probe.angle_rad), 0.0, 0.0};
   ++probe.end;
 }
 
 /// Extension lowers: a stroke below the one on the design lifts the edge. Towards its end the blade
 /// goes down ever slower, and no further than it.
-void Preview::cost(int number, double flow_m3ps) {
+template <class ReachOf>
+void Preview::cost(int number, const ReachOf& reach_of) {
   const Probe& probe = probe_[static_cast<unsigned>(number)];
   const double time_s = kStep_m / probe_mps(number);
-  const double raised_m = time_s * flow_m3ps / profile_.blade.rod_area_m2();
-  const double lowered_m = time_s * flow_m3ps / profile_.blade.cap_area_m2();
   const double towards_end = kEndGain_ps * time_s / (1.0 + kEndGain_ps * time_s);
   double stroke_m = 0.0;
   for (int index = probe.end - 1; index >= probe.begin; --index) {
     Need& at = need(number, index);
-    stroke_m = index == probe.end - 1 ? at.stroke_m : std::min(at.stroke_m, stroke_m + raised_m);
+    stroke_m = index == probe.end - 1 ? at.stroke_m
+                                      : std::min(at.stroke_m, stroke_m + reach_of(index).raised_m);
     at.lift_m = stroke_m;  // As a stroke, until the way back.
   }
   int stretch = probe.begin;
@@ -135,7 +147,8 @@ void Preview::cost(int number, double flow_m3ps) {
     const double left_m = blade_.stroke_max_m() - stroke_m;
     stroke_m = index == probe.begin
                    ? std::min(at.lift_m, blade_.stroke_max_m())
-                   : std::min(at.lift_m, stroke_m + std::min(lowered_m, towards_end * left_m));
+                   : std::min(at.lift_m,
+                              stroke_m + std::min(reach_of(index).lowered_m, towards_end * left_m));
     at.lift_m = edge_per_stroke_ * (at.stroke_m - stroke_m);
     most_m = std::max(most_m, at.lift_m);
     if (at.lift_m > kNoLift_m && index + 1 < probe.end) {
@@ -146,6 +159,31 @@ void Preview::cost(int number, double flow_m3ps) {
     }
     most_m = 0.0;
   }
+}
+
+void Preview::cost(int number, double flow_m3ps) {
+  const double speed_mps = probe_mps(number);
+  const double time_s = kStep_m / speed_mps;
+  const auto reach = [&](double lift_m3ps) {
+    return LiftReach{time_s * lift_m3ps / profile_.blade.rod_area_m2(),
+                     time_s * lift_m3ps / profile_.blade.cap_area_m2()};
+  };
+  if (profile_.tilt.present) {
+    cost(number, [&](int index) { return reach(lift_flow_m3ps(index, speed_mps, flow_m3ps)); });
+  } else {
+    const LiftReach whole = reach(flow_m3ps);
+    cost(number, [&whole](int) { return whole; });
+  }
+}
+
+double Preview::lift_flow_m3ps(int index, double speed_mps, double flow_m3ps) const {
+  const double tilt_m3ps = speed_mps * tilt_m2_[slot(index)];
+  return flow_m3ps - std::min(tilt_m3ps, kTiltShare * flow_m3ps);
+}
+
+double Preview::tilt_speed_mps(int index) const {
+  return std::max(profile_.travel.speed_min_mps,
+                  kTiltShare * flow_m3ps_ / std::max(tilt_m2_[slot(index)], kNoOil_m2));
 }
 
 void Preview::look(const GroundMap& ground, const GradeProfile& design, double x_m,
@@ -161,12 +199,13 @@ void Preview::look(const GroundMap& ground, const GradeProfile& design, double x
     }
     step(ground, design, number);
   }
+  flow_m3ps_ = flow_m3ps;
   turn_ = (turn_ + 1) % kProbes;
   cost(turn_, flow_m3ps);
 }
 
 /// From the slowest probe on that has been there, up to where it costs too much.
-double Preview::limit_of(int index, double allowed_m) const {
+double Preview::lift_limit_of(int index, double allowed_m) const {
   const double least_mps = profile_.travel.speed_min_mps;
   double kept_mps = 0.0;
   double kept_m = 0.0;
@@ -185,6 +224,11 @@ double Preview::limit_of(int index, double allowed_m) const {
     kept_m = cost_m;
   }
   return std::max(least_mps, index <= first_ + kBehind ? kAnySpeed_mps : kept_mps);
+}
+
+double Preview::limit_of(int index, double allowed_m) const {
+  const double lift_mps = lift_limit_of(index, allowed_m);
+  return profile_.tilt.present ? std::min(lift_mps, tilt_speed_mps(index)) : lift_mps;
 }
 
 AheadLimit Preview::limit(double x_m, double speed_mps, double allowed_m, double lead_s) const {

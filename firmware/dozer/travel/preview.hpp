@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "firmware/dozer/blade_control.hpp"
+#include "firmware/dozer/tilt.hpp"
 #include "firmware/dozer/travel/body_motion.hpp"
 
 namespace graben {
@@ -26,6 +27,10 @@ struct AheadLimit {
 /// is what the stretch costs at that speed; the speed at which it costs what is allowed is the
 /// stretch's limit.
 ///
+/// Where the blade tilts, its flow for that is worked out at each station and taken off what the
+/// lift is planned with; no speed is allowed at which the tilt alone would take more than
+/// kTiltShare of it.
+///
 /// A cycle takes a fixed number of steps, of the probe that is least far, and works out the cost of
 /// one probe. What no probe has come to yet counts as v_min.
 class Preview {
@@ -35,6 +40,7 @@ class Preview {
   static constexpr int kProbes = 6;
   static constexpr int kStepsPerCycle = 8;
   static constexpr double kHold_s = 0.6;
+  static constexpr double kTiltShare = 0.6;
 
   /// Both have to outlive it.
   Preview(const DozerProfile& profile, const BladeKinematics& blade);
@@ -90,11 +96,19 @@ class Preview {
   void follow(double x_m, const Stand& measured);
   void start(Probe& probe, double x_m, const Stand& measured);
   void step(const GroundMap& ground, const GradeProfile& design, int number);
+  /// `reach_of(index)` is how far the lift's flow takes its cylinders within a station.
+  template <class ReachOf>
+  void cost(int number, const ReachOf& reach_of);
   void cost(int number, double flow_m3ps);
+  /// What the tilt leaves of it at this speed.
+  [[nodiscard]] double lift_flow_m3ps(int index, double speed_mps, double flow_m3ps) const;
+  /// At which the tilt takes all that it may.
+  [[nodiscard]] double tilt_speed_mps(int index) const;
   [[nodiscard]] double angle_on(const GradeProfile& design, double x_m, const Stand& stand,
                                 double guess_rad) const;
   [[nodiscard]] double stroke_on(const GradeProfile& design, double x_m, const Stand& stand,
                                  double angle_rad) const;
+  [[nodiscard]] double lift_limit_of(int index, double allowed_m) const;
   [[nodiscard]] double limit_of(int index, double allowed_m) const;
   [[nodiscard]] double lift_of(int index, double speed_mps, double allowed_m) const;
 
@@ -103,12 +117,15 @@ class Preview {
 
   const DozerProfile& profile_;
   const BladeKinematics& blade_;
+  TiltKinematics tilt_;
   double edge_per_stroke_;              ///< At home, both without their sign.
   int count_;                           ///< Of stations ahead.
   std::array<Probe, kProbes> probe_{};  ///< The fastest first.
   std::array<Needs, kProbes> need_{};
-  int first_ = 0;  ///< The first station that counts.
-  int turn_ = 0;   ///< Whose cost is worked out.
+  int first_ = 0;                                ///< The first station that counts.
+  int turn_ = 0;                                 ///< Whose cost is worked out.
+  std::array<double, kMostStations> tilt_m2_{};  ///< See tilt_oil_m2(), at each station.
+  double flow_m3ps_ = 0.0;                       ///< That was last planned with.
 };
 
 /// Where the ground would come out more than the tolerance off the design at whatever speed.

@@ -48,7 +48,7 @@ DozerProfile with_heights(DozerProfile profile) {
     return all;
   }();
   GradeDesign& grade = profile.grade;
-  grade.heights = {heights.data(), GradeHeights::kMost, grade.begin_m()};
+  grade.heights = {heights.data(), nullptr, GradeHeights::kMost, grade.begin_m()};
   grade.count = 0;
   return profile;
 }

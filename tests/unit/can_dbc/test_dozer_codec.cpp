@@ -38,9 +38,16 @@ constexpr Scale kScales[] = {
     {"RequiredFlow", 0.01 * kLitrePerMinute, 0.0, 0.0, 640.0 * kLitrePerMinute},
     {"AvailableFlow", 0.01 * kLitrePerMinute, 0.0, 0.0, 640.0 * kLitrePerMinute},
     {"GradeError", 5e-5, -1.6, -1.6, 1.6},
+    {"TiltStroke", 1e-5, 0.0, 0.0, 0.64},
+    {"Roll", 5e-5, -1.6, -1.6, 1.6},
+    {"RollRate", 1e-4, -3.2, -3.2, 3.2},
+    {"TiltSpool", 5e-5, -1.6, -1.0, 1.0},
+    {"TiltDuty", 5e-5, -1.6, -1.0, 1.0},
+    {"WantedTiltVelocity", 1e-4, -3.2, -3.2, 3.2},
+    {"CrossError", 5e-5, -1.6, -1.6, 1.6},
 };
 
-void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 67); }
+void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 74); }
 
 void saturates_and_refuses(void**) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
 
@@ -59,6 +66,10 @@ void known_payloads(void**) {
   spool.blade_duty_ratio.value = -1.0;
   const Payload lifting{0xFF, 0x5F, 0xE0, 0x2E, 0xFF, 0xFF, 0xFF, 0xFF};
   assert_memory_equal(spool.encode().data(), lifting.data(), lifting.size());
+  // Without a tilt its bytes are those of an unused field.
+  spool.tilt_duty_ratio = {0.5, RawState::kValid};
+  const Payload tilting{0xFF, 0x5F, 0xE0, 0x2E, 0x10, 0xA4, 0xFF, 0xFF};
+  assert_memory_equal(spool.encode().data(), tilting.data(), tilting.size());
 
   bus::PumpDisplacementCommand pumps;
   pumps.brake.value = bus::PumpDisplacementCommand::Brake::kOff;

@@ -8,6 +8,7 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/design/written_file.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
+#include "tests/unit/firmware/tilting_dozer.hpp"
 
 namespace {
 
@@ -24,7 +25,7 @@ void heights_are_the_points_with_their_rounding(void**) {
   const machines::DesignHeights heights = machines::heights_of(shipped(), 0.3);
   GradeDesign on_grid = test::dozer().profile.grade;
   on_grid.count = 0;
-  on_grid.heights = {heights.height_m->data(), static_cast<int>(heights.height_m->size()),
+  on_grid.heights = {heights.height_m->data(), nullptr, static_cast<int>(heights.height_m->size()),
                      heights.from_m};
   const GradeProfile of_points(test::dozer().profile.grade);
   const GradeProfile of_heights(on_grid);
@@ -48,32 +49,79 @@ void what_is_malformed_is_refused_with_its_line(void**) {
   assert_true(has(refusal("0 0\n5 0\n5 -0.1\n"), "line 3: x = 5 m; allowed: more than the line"));
   assert_true(has(refusal("0 0\n1001 0\n"), "line 2: x = 1001 m; allowed: -1000 .. 1000 m"));
   assert_true(has(refusal("0 0\n1 101\n"), "allowed: -100 .. 100 m"));
-  assert_true(has(refusal("0 0 0\n"), "line 1: 3 numbers; allowed: 2, x along the track"));
+  assert_true(has(refusal("0 0 0 0\n"), "line 1: 4 numbers; allowed: 2 .. 3, x along the track"));
+  assert_true(refusal("0 0 0.1\n5 0 -0.1\n").empty());
+  assert_true(has(refusal("0 0 0.1\n5 0\n"), "line 2: allowed: a slope across in every line"));
+  assert_true(has(refusal("0 0\n5 0 0.1\n"), "line 2: allowed: a slope across in every line"));
+  assert_true(has(refusal("0 0 0.31\n5 0 0\n"), "line 1: a slope across of 0.31; allowed: -0.3"));
   assert_true(has(refusal("0 0\n"), "1 lines over 0 m"));
   assert_true(has(refusal("-1000 0\n1000 0\n"), "over 2000 m; allowed"));
 }
 
 void what_is_written_is_read_again(void**) {
   const test::WrittenFile file("out.txt", "");
-  machines::write_design(file.path(), shipped());
-  const auto again = machines::read_design(file.path());
-  assert_int_equal(again.size(), shipped().size());
-  for (std::size_t i = 0; i < again.size(); ++i) {
-    assert_near(again[i].x_m, shipped()[i].x_m, 1e-9);
-    assert_near(again[i].z_m, shipped()[i].z_m, 1e-9);
+  for (const double slope : {0.0, 0.04}) {
+    machines::DesignLine line = shipped();
+    line.cross.assign(slope != 0.0 ? line.corners.size() : 0, slope);
+    machines::write_design(file.path(), line);
+    const machines::DesignLine again = machines::read_design(file.path());
+    assert_int_equal(again.corners.size(), shipped().size());
+    assert_int_equal(again.cross.size(), line.cross.size());
+    for (std::size_t i = 0; i < again.corners.size(); ++i) {
+      assert_near(again.corners[i].x_m, shipped()[i].x_m, 1e-9);
+      assert_near(again.corners[i].z_m, shipped()[i].z_m, 1e-9);
+      assert_near(slope != 0.0 ? again.cross[i] : 0.0, slope, 1e-9);
+    }
   }
+}
+
+machines::DesignLine across(const std::vector<double>& slopes) {
+  return {{{0.0, 0.0}, {5.0, 0.0}, {8.0, -0.2}, {20.0, -0.2}}, slopes};
+}
+
+/// With the same rounding as heights; part of the hash; and only of a machine whose blade tilts.
+void a_slope_across_is_part_of_the_design(void**) {
+  const auto machine =
+      machines::with_design(test::tilting_dozer(), across({0.0, 0.0, 0.03, 0.03}), 0.3, "x");
+  const GradeProfile design(machine.profile.grade);
+  assert_near(design.cross_at(6.5).slope, 0.015, 1e-9);
+  assert_near(design.cross_at(6.5).change_pm, 0.01, 1e-9);
+  assert_near(design.cross_at(5.0).slope, 0.00075, 1e-5);  // 0.01 / m times 0.3 m / 4.
+  assert_near(design.cross_at(30.0).slope, 0.03, 1e-12);
+  const auto other =
+      machines::with_design(test::tilting_dozer(), across({0.0, 0.0, 0.03, 0.031}), 0.3, "x");
+  const auto level = machines::with_design(test::tilting_dozer(), across({}), 0.3, "x");
+  assert_true(machine.hash != other.hash && machine.hash != level.hash);
+}
+
+void a_slope_across_that_it_cannot_make_is_refused(void**) {
+  const auto refusal = [](const machines::SimulatedDozer& machine,
+                          const std::vector<double>& slopes) {
+    return test::refusal_of(
+        [&] { static_cast<void>(machines::with_design(machine, across(slopes), 0.0, "bank")); });
+  };
+  assert_true(has(refusal(test::dozer(), {0.0, 0.0, 0.06, 0.06}), "has no [tilt]"));
+  const std::string twists = refusal(test::tilting_dozer(), {0.0, 0.0, 0.07, 0.07});
+  assert_true(has(twists, "changes by 0.05") && has(twists, "from end to end of its tracks"));
+  assert_true(has(twists, "allowed: -0.048 .. 0.048"));
+  machines::SimulatedDozer narrow = test::tilting_dozer();
+  narrow.profile.tilt.angle_most_rad = 0.01;
+  assert_true(has(refusal(narrow, {0.0, 0.0, 0.03, 0.03}), "-0.01 .. 0.01 rad"));
+}
+
+std::vector<GradePoint> corners(double last_m) {
+  return {{0.0, 0.0}, {8.0, 0.0}, {12.0, -0.2}, {20.0, last_m}};
 }
 
 /// The machine with it: in both ends, in the hash, as long as it is.
 void a_machine_takes_a_design(void**) {
-  const machines::SimulatedDozer machine = machines::with_design(
-      test::dozer(), {{0.0, 0.0}, {8.0, 0.0}, {12.0, -0.2}, {20.0, -0.2}}, 0.3, "x");
+  const machines::SimulatedDozer machine =
+      machines::with_design(test::dozer(), corners(-0.2), 0.3, "x");
   assert_near(machine.experiment.length_m, 20.0, 1e-9);
   assert_ptr_equal(machine.plant.machine.grade.heights.height_m,
                    machine.profile.grade.heights.height_m);
   assert_near(GradeProfile(machine.profile.grade).at(18.0).height_m, -0.2, 1e-9);
-  const auto other = machines::with_design(
-      test::dozer(), {{0.0, 0.0}, {8.0, 0.0}, {12.0, -0.2}, {20.0, -0.201}}, 0.3, "x");
+  const auto other = machines::with_design(test::dozer(), corners(-0.201), 0.3, "x");
   assert_true(machine.hash != test::dozer().hash && machine.hash != other.hash);
 }
 
@@ -98,6 +146,8 @@ int main() {
       cmocka_unit_test(what_is_malformed_is_refused_with_its_line),
       cmocka_unit_test(what_is_written_is_read_again),
       cmocka_unit_test(a_machine_takes_a_design),
+      cmocka_unit_test(a_slope_across_is_part_of_the_design),
+      cmocka_unit_test(a_slope_across_that_it_cannot_make_is_refused),
       cmocka_unit_test(what_the_machine_cannot_make_is_refused_with_the_place),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

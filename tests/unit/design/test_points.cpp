@@ -46,7 +46,7 @@ void a_grid_is_covered_once(void**) {
   assert_int_equal(surface.face.size(), 2 * 20 * 6);
   assert_near(area_m2(surface), 120.0, 1e-6);
   const auto corners =
-      design::along_track(surface, design::middle_track(surface), 0.0, {2.0, 0.02});
+      design::along_track(surface, design::middle_track(surface), 0.0, {2.0, 0.02}).corners;
   assert_near(corners.back().z_m - corners.front().z_m, 2.0, 1e-9);
 }
 

@@ -59,7 +59,8 @@ void the_section_is_the_surface_along_the_track(void**) {
     const Eigen::Vector2d from_m(400123.25, 5600456.5);
     const design::Surface surface = strip(kStations, from_m, heading_rad, trench_m);
     const auto corners =
-        design::along_track(surface, track_of(from_m, heading_rad, 20.0 - 1e-6), 0.0, kBlade);
+        design::along_track(surface, track_of(from_m, heading_rad, 20.0 - 1e-6), 0.0, kBlade)
+            .corners;
     assert_near(corners.front().x_m, 0.0, 0.0);
     assert_near(corners.back().x_m, 20.0, 1e-4);
     for (double x_m = 0.01; x_m < 19.9; x_m += 0.37) {
@@ -72,15 +73,17 @@ void a_track_may_begin_and_end_inside_and_count_from_a_datum(void**) {
   const design::Surface surface = strip(kStations, {0.0, 0.0}, 0.0, [](double x_m, double y_m) {
     return 412.0 + trench_m(x_m, y_m);
   });
-  const auto corners = design::along_track(surface, {{3.0, 0.0}, {10.0, 0.0}}, 412.0, kBlade);
+  const auto corners =
+      design::along_track(surface, {{3.0, 0.0}, {10.0, 0.0}}, 412.0, kBlade).corners;
   assert_near(corners.front().z_m, 0.0, 1e-9);
   assert_near(height_m(corners, 2.0), -0.35, 1e-9);
   assert_near(corners.back().x_m, 7.0, 1e-9);
 }
 
-std::string refusal(const design::Surface& surface, const design::Track& track) {
+std::string refusal(const design::Surface& surface, const design::Track& track,
+                    const design::BladeAcross& blade = kBlade) {
   return test::refusal_of(
-      [&] { static_cast<void>(design::along_track(surface, track, 0.0, kBlade)); });
+      [&] { static_cast<void>(design::along_track(surface, track, 0.0, blade)); });
 }
 
 void holes_and_overhangs_are_refused_with_the_place(void**) {
@@ -117,6 +120,45 @@ void a_slope_across_is_refused_beyond_the_tolerance(void**) {
   assert_true(has(refused, "allowed: -0.02 .. 0.02 m") && has(refused, "no tilt"));
 }
 
+/// The slope between the ends, positive where the left one is higher; whichever way the track goes.
+void a_blade_that_tilts_takes_the_slope_across(void**) {
+  const design::BladeAcross tilts{2.5, 0.02, true};
+  const design::Surface surface = strip(kStations, {3.0, 4.0}, 0.3, [](double x_m, double y_m) {
+    return 412.0 + trench_m(x_m, 0.0) + 0.08 * y_m;
+  });
+  const Eigen::Vector2d begin_m(3.0, 4.0);
+  const design::Track there = track_of(begin_m, 0.3, 20.0 - 1e-6);
+  const machines::DesignLine line = design::along_track(surface, there, 412.0, tilts);
+  assert_int_equal(line.cross.size(), line.corners.size());
+  for (std::size_t i = 0; i < line.cross.size(); ++i) {
+    assert_near(line.cross[i], 0.08, 1e-9);
+    assert_near(line.corners[i].z_m, trench_m(line.corners[i].x_m, 0.0), 1e-6);
+  }
+  const machines::DesignLine back =
+      design::along_track(surface, {there.to_m, there.from_m}, 412.0, tilts);
+  assert_near(back.cross.front(), -0.08, 1e-9);
+}
+
+/// A straight edge makes no crown, and no blade tilts so far.
+void a_crown_and_a_steep_slope_across_are_refused(void**) {
+  const design::BladeAcross tilts{2.5, 0.02, true};
+  design::Surface crown;
+  for (const double x_m : {0.0, 20.0}) {
+    for (const double y_m : {-2.0, 0.0, 2.0}) {
+      crown.point_m.emplace_back(x_m, y_m, -0.03 * std::abs(y_m));
+    }
+  }
+  crown.face = {{0, 3, 1}, {3, 4, 1}, {1, 4, 2}, {4, 5, 2}};
+  const design::Track track{{0.0, 0.0}, {20.0, 0.0}};
+  const std::string refused = refusal(crown, track, tilts);
+  assert_true(has(refused, "0.037 m higher than straight between the ends") ||
+              has(refused, "0.038 m higher than straight between the ends"));
+  assert_true(has(refused, "allowed: -0.02 .. 0.02 m"));
+  const auto steep =
+      strip(kStations, {0.0, 0.0}, 0.0, [](double, double y_m) { return -0.35 * y_m; });
+  assert_true(has(refusal(steep, track, tilts), "a slope of -0.350 across the track at x = 0.00"));
+}
+
 void a_track_is_straight_and_of_a_length(void**) {
   const auto refused = [](const std::vector<double>& corners_m) {
     return test::refusal_of([&] { static_cast<void>(design::straight_track(corners_m)); });
@@ -144,6 +186,8 @@ int main() {
       cmocka_unit_test(a_track_may_begin_and_end_inside_and_count_from_a_datum),
       cmocka_unit_test(holes_and_overhangs_are_refused_with_the_place),
       cmocka_unit_test(a_slope_across_is_refused_beyond_the_tolerance),
+      cmocka_unit_test(a_blade_that_tilts_takes_the_slope_across),
+      cmocka_unit_test(a_crown_and_a_steep_slope_across_are_refused),
       cmocka_unit_test(a_track_is_straight_and_of_a_length),
       cmocka_unit_test(unless_told_it_goes_along_x_through_the_middle),
   };

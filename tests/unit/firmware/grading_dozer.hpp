@@ -23,6 +23,7 @@ struct Grading {
         controller(*setup),
         blade(profile.blade) {
     stroke_m = blade.stroke_m(0.0);
+    tilt_stroke_m = setup->tilt.stroke_m(0.0);
     DozerInputs released = next();
     released.driver.enable.value = false;
     step(released);
@@ -46,6 +47,14 @@ struct Grading {
                                             : 0.0;
     stroke_m = std::clamp(stroke_m + blade_mps * 0.01, 0.0, blade.stroke_max_m());
     DozerInputs inputs;
+    if (profile.tilt.present) {
+      tilt_stroke_m += outputs.enable ? outputs.status.wanted_tilt_mps * 0.01 : 0.0;
+      inputs.tilt_stroke_m = fresh(tilt_stroke_m, now_us);
+      inputs.tilt_spool_ratio = fresh(outputs.tilt_duty_ratio, now_us);
+      inputs.body.roll_rad = fresh(roll_rad, now_us);
+      inputs.body.roll_rate_radps = fresh((roll_rad - last_roll_rad) / 0.01, now_us);
+      last_roll_rad = roll_rad;
+    }
     inputs.blade_stroke_m = fresh(stroke_m, now_us);
     inputs.blade_spool_ratio = fresh(outputs.blade_duty_ratio, now_us);
     inputs.valve_enabled = fresh(outputs.enable, now_us);
@@ -95,12 +104,16 @@ struct Grading {
   double position_m = -3.0;
   double height_m = 0.0;
   double stroke_m = 0.0;
+  double tilt_stroke_m = 0.0;
+  double roll_rad = 0.0;
+  double last_roll_rad = 0.0;
   double speed_mps = 0.0;
 };
 
 inline void assert_neutral(const DozerOutputs& outputs) {
   assert_false(outputs.enable);
   assert_near(outputs.blade_duty_ratio, 0.0, 0.0);
+  assert_near(outputs.tilt_duty_ratio, 0.0, 0.0);
   for (unsigned i = 0; i < kTrackCount; ++i) {
     assert_near(outputs.pump_ratio[i], 0.0, 0.0);
     assert_near(outputs.motor_ratio[i], 1.0, 0.0);

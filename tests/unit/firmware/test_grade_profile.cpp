@@ -107,7 +107,7 @@ std::array<double, 101> on_grid(double curvature) {
 
 GradeDesign with_heights(const std::array<double, 101>& height_m) {
   GradeDesign grade;
-  grade.heights = {height_m.data(), static_cast<int>(height_m.size()), 2.0};
+  grade.heights = {height_m.data(), nullptr, static_cast<int>(height_m.size()), 2.0};
   return grade;
 }
 

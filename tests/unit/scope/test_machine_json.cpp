@@ -32,7 +32,7 @@ const json& machine_named(const json& setup, const std::string& name) {
 
 void every_shipped_machine_is_there(void**) {
   const json setup = reports::shared_setup({});
-  assert_int_equal(setup["machines"].size(), 7);
+  assert_int_equal(setup["machines"].size(), 8);
   for (const char* name :
        {"excavator_12t", "excavator_22t", "excavator_22t_ls", "excavator_12t_nfc"}) {
     const json& told = machine_named(setup, name);
@@ -308,12 +308,12 @@ void a_profile_that_is_told_comes_first_and_once(void**) {
   text << shipped.rdbuf();
   const test::TemporaryFile copy(text.str() + "\n# another one\n");
   const json setup = reports::shared_setup({copy.path().string(), {}});
-  assert_int_equal(setup["machines"].size(), 8);
+  assert_int_equal(setup["machines"].size(), 9);
   assert_true(setup["machines"][0]["name"] == copy.path().stem().string());
   // A comment does not make another machine of it.
   assert_true(setup["machines"][0]["hash"] == machine_named(setup, "excavator_12t")["hash"]);
   const json same = reports::shared_setup({"dozer_9t", {}});
-  assert_int_equal(same["machines"].size(), 7);
+  assert_int_equal(same["machines"].size(), 8);
   assert_true(same["machines"][0]["name"] == "dozer_9t");
 }
 

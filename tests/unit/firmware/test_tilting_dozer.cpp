@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// A machine whose blade tilts, from signals to commands: it holds its slope, and stops as one
+// without tilt does where a sensor or a spool of the tilt fails.
+
+#include <functional>
+
+#include "tests/unit/firmware/grading_dozer.hpp"
+#include "tests/unit/firmware/tilting_dozer.hpp"
+
+namespace {
+
+using namespace graben;
+using test::CrossDesign;
+using test::Grading;
+
+DozerProfile on(const CrossDesign& design) {
+  DozerProfile profile = test::tilting_dozer().profile;
+  profile.grade = design.grade;
+  return profile;
+}
+
+void the_edge_takes_on_the_designs_slope(void**) {
+  const CrossDesign design(0.05, 0.03);
+  Grading grading(on(design));
+  assert_true(grading.outputs.tilts);
+  while (grading.position_m < 6.0) {
+    grading.run(1);
+    assert_int_equal(grading.outputs.status.mode, EcuMode::kActive);
+    assert_near(grading.outputs.status.cross_error, 0.0, 0.004);
+  }
+  assert_near(grading.setup->tilt.angle_rad(grading.tilt_stroke_m), std::atan(0.05), 1e-3);
+}
+
+/// The body's roll is measured, and what of it the blade has to make up for.
+void a_rolled_body_is_made_up_for(void**) {
+  const CrossDesign level(0.0, 0.0);
+  Grading grading(on(level));
+  for (int n = 0; n < 200; ++n) {
+    grading.roll_rad = std::min(0.04, grading.roll_rad + 4e-4);
+    grading.run(1);
+  }
+  assert_int_equal(grading.outputs.status.mode, EcuMode::kActive);
+  assert_near(grading.setup->tilt.angle_rad(grading.tilt_stroke_m), -0.04, 2e-3);
+}
+
+void assert_stops(Fault fault, const std::function<void(DozerInputs&)>& change) {
+  const CrossDesign design(0.05, 0.03);
+  Grading grading(on(design));
+  grading.run(50);
+  for (int n = 0; n < 100 && grading.outputs.status.mode == EcuMode::kActive; ++n) {
+    DozerInputs inputs = grading.next();
+    change(inputs);
+    grading.step(inputs);
+  }
+  assert_int_equal(grading.outputs.status.mode, EcuMode::kFault);
+  assert_int_equal(grading.outputs.status.fault, fault);
+  test::assert_neutral(grading.outputs);
+}
+
+void what_the_tilt_needs_is_required(void**) {
+  assert_stops(Fault::kPoseMissing, [](DozerInputs& inputs) {
+    inputs.body.roll_rad.validity = Validity::kNotAvailable;
+  });
+  assert_stops(Fault::kPoseMissing, [](DozerInputs& inputs) {
+    inputs.body.roll_rate_radps.validity = Validity::kNotAvailable;
+  });
+  assert_stops(Fault::kStrokeMissing, [](DozerInputs& inputs) {
+    inputs.tilt_stroke_m.validity = Validity::kNotAvailable;
+  });
+  assert_stops(Fault::kSpoolMissing, [](DozerInputs& inputs) {
+    inputs.tilt_spool_ratio.validity = Validity::kNotAvailable;
+  });
+}
+
+/// In motion it would be a jump first.
+void what_cannot_be_keeps_it_from_arming(void**) {
+  const CrossDesign design(0.05, 0.03);
+  const auto fault_of = [&](const std::function<void(DozerInputs&)>& change) {
+    Grading grading(on(design));
+    DozerInputs inputs = grading.next();
+    change(inputs);
+    DozerValidationState state;
+    return validate(grading.profile, grading.setup->bank.rows(), inputs, false, grading.now_us,
+                    state)
+        .fault;
+  };
+  assert_int_equal(fault_of([](DozerInputs&) {}), Fault::kNone);
+  assert_int_equal(fault_of([](DozerInputs& inputs) { inputs.tilt_stroke_m.value = 0.5; }),
+                   Fault::kStrokeImplausible);
+  assert_int_equal(fault_of([](DozerInputs& inputs) { inputs.body.roll_rad.value = -0.9; }),
+                   Fault::kPoseImplausible);
+}
+
+void a_tilt_spool_that_stays_open_is_stuck(void**) {
+  assert_stops(Fault::kSpoolStuck,
+               [](DozerInputs& inputs) { inputs.tilt_spool_ratio.value = 0.8; });
+}
+
+void a_roll_that_does_not_go_with_its_rate_is_seen(void**) {
+  double roll_rad = 0.0;
+  assert_stops(Fault::kPoseDisagrees, [&roll_rad](DozerInputs& inputs) {
+    roll_rad += 5e-4;
+    inputs.body.roll_rad.value = roll_rad;
+  });
+}
+
+/// Nothing of it is asked of a machine without.
+void a_machine_without_tilt_needs_none_of_it(void**) {
+  Grading grading;
+  grading.run(50);
+  assert_false(grading.outputs.tilts);
+  assert_near(grading.outputs.tilt_duty_ratio, 0.0, 0.0);
+  assert_int_equal(grading.outputs.status.mode, EcuMode::kActive);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(the_edge_takes_on_the_designs_slope),
+      cmocka_unit_test(a_rolled_body_is_made_up_for),
+      cmocka_unit_test(what_the_tilt_needs_is_required),
+      cmocka_unit_test(what_cannot_be_keeps_it_from_arming),
+      cmocka_unit_test(a_tilt_spool_that_stays_open_is_stuck),
+      cmocka_unit_test(a_roll_that_does_not_go_with_its_rate_is_seen),
+      cmocka_unit_test(a_machine_without_tilt_needs_none_of_it),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
