@@ -27,7 +27,7 @@ FIGURES = {
     "swash_mean", "over_cut_max_m", "cut_m3", "cut_m3ph", "fill_max_m3", "tip_force_within_ratio",
     "tip_force_error_n", "tip_force_spread", "payload_error_ratio", "payload_spread",
     "built_within_ratio", "built_high_m", "built_low_m", "built_left_m3", "built_over_cut_m3",
-    "built_median_m", "built_map", "energy_per_m3_j"}
+    "built_median_m", "built_map", "full_rounds_ratio", "payload_within_ratio", "energy_per_m3_j"}
 DRIVES = {"boom", "arm", "bucket", "swing"}
 
 # A move of the drives alone, past nothing.

@@ -35,7 +35,7 @@ START = "7.5,0,1.8,2.0"
 # Of both soils, with and without errors: RMS of the force and over its deviation; the payload's
 # largest error, of the bucket's capacity, and over its deviation.
 BOUNDS = {"tip_force_error_n": (1000.0, 5500.0), "tip_force_spread": (0.2, 1.6),
-          "payload_error_ratio": (0.0005, 0.04), "payload_spread": (0.1, 1.6)}
+          "payload_error_ratio": (0.0005, 0.04), "payload_spread": (0.03, 1.6)}
 
 
 def told(graben, folder, *options):
