@@ -52,7 +52,7 @@ def told(graben, folder, *options):
 def of_machines(graben, folder, soil, errors):
     """Of one machine as it is known, or the middle of three as found; none of them far off."""
     of_each = [told(graben, folder, "--soil", soil, "--errors", errors, "--seed", str(seed))
-               for seed in ((1,) if errors == "none" else (1, 3, 7))]
+               for seed in ((1,) if errors == "none" else (3, 6, 7))]
     for figures in of_each:
         assert figures["payload_error_ratio"] < 0.09, f"{soil}, errors {errors}: {figures['payload_error_ratio']}"
     return {key: statistics.median(figures[key] for figures in of_each)

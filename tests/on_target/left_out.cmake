@@ -3,10 +3,13 @@
 # runs has fewer random rounds (tests/unit/rounds.hpp). A row that fits no test, or no target, is
 # refused.
 set(every_raw_value "every raw value of every signal, which bits alone decide")
+set(one_file "its machine is like another one, and by semihosting all files look like one")
 set(rows
   "unit_dbc_codec|^arm-|${every_raw_value}"
   "unit_dbc_dozer_codec|^arm-|${every_raw_value}"
-  "unit_steady_lambda|^arm-|a search at every step, minutes under an emulator")
+  "unit_steady_lambda|^arm-|a search at every step, minutes under an emulator"
+  "unit_tilt|^arm-none-|${one_file}"
+  "unit_tilting_dozer|^arm-none-|${one_file}")
 
 cmake_path(GET CMAKE_TOOLCHAIN_FILE STEM target)
 set(known aarch64-linux-gnu arm-linux-gnueabihf arm-none-eabi-cortex-m7 arm-none-eabi-cortex-r5f)

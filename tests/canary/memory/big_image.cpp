@@ -1,8 +1,8 @@
 /// More constants and more variables than there is room for.
 
 namespace {
-const volatile int kConstants[60'000] = {1, 2, 3};
-volatile int variables[8'000];
+const volatile int kConstants[64'000] = {1, 2, 3};
+volatile int variables[9'600];
 }  // namespace
 
 int main(int argc, char**) {
