@@ -202,6 +202,66 @@ void a_line_s_pressure_may_be_missing(void**) {
   assert_near(valid.line_pressure_pa[kRight], 0.0, 0.0);
 }
 
+/// Cylinder and range of the blade's tilt in round numbers.
+const DozerProfile& tilting() {
+  static const DozerProfile machine = [] {
+    DozerProfile tilts = test::plain_dozer();
+    tilts.tilt.present = true;
+    tilts.tilt.edge_width_m = 2.0;
+    tilts.tilt.angle_most_rad = 0.25;
+    tilts.tilt.base_m = {0.0, 0.5};
+    tilts.tilt.eye_m = {0.75, 0.5};
+    tilts.tilt.cylinder_count = 1;
+    tilts.tilt.bore_m = 0.12;
+    tilts.tilt.rod_m = 0.08;
+    tilts.tilt.valve_flow_max_m3ps = tilts.implement.valve_flow_max_m3ps;
+    tilts.tilt.spool_to_duty = tilts.implement.spool_to_duty;
+    return tilts;
+  }();
+  return machine;
+}
+
+DozerInputs tilted_inputs() {
+  DozerInputs inputs = complete_dozer_inputs(kNow);
+  inputs.tilt_stroke_m = test::fresh(0.125, kNow);
+  inputs.tilt_spool_ratio = test::fresh(0.25, kNow);
+  inputs.body.roll_rad = test::fresh(-0.0625, kNow);
+  inputs.body.roll_rate_radps = test::fresh(0.015625, kNow);
+  return inputs;
+}
+
+void a_blade_that_tilts_has_its_own_signals(void**) {
+  const test::ValidatedDozer valid = test::validate(tilted_inputs(), tilting(), {}, true, kNow);
+  assert_true(valid.faults.empty());
+  assert_near(valid.tilt().stroke_m, 0.125, 0.0);
+  assert_near(valid.tilt().spool_ratio, 0.25, 0.0);
+  assert_near(valid.roll_rad, -0.0625, 0.0);
+  assert_near(valid.roll_rate_radps, 0.015625, 0.0);
+  constexpr Row kOfTilt[] = {
+      {[](DozerInputs& in) { return &in.tilt_stroke_m; }, Fault::kStrokeMissing},
+      {[](DozerInputs& in) { return &in.tilt_spool_ratio; }, Fault::kSpoolMissing},
+      {[](DozerInputs& in) { return &in.body.roll_rad; }, Fault::kPoseMissing},
+      {[](DozerInputs& in) { return &in.body.roll_rate_radps; }, Fault::kPoseMissing},
+  };
+  for (const Row& row : kOfTilt) {
+    for (const bool moving : kEither) {
+      DozerInputs lost = tilted_inputs();
+      row.signal(lost)->stamp_us = kStale;
+      assert_int_equal(test::validate(lost, tilting(), {}, moving, kNow).fault, row.missing);
+      // Without a tilt nobody asks for them.
+      assert_true(judged(lost, moving).faults.empty());
+    }
+    DozerInputs broken = tilted_inputs();
+    row.signal(broken)->validity = Validity::kError;
+    const test::ValidatedDozer said = test::validate(broken, tilting(), {}, true, kNow);
+    assert_true(said.faults.has(row.missing) && said.faults.has(Fault::kSensorError));
+  }
+  DozerInputs on_its_side = tilted_inputs();
+  on_its_side.body.roll_rad.value = -0.875;
+  assert_true(
+      test::validate(on_its_side, tilting(), {}, false, kNow).faults.has(Fault::kPoseImplausible));
+}
+
 }  // namespace
 
 int main() {
@@ -214,6 +274,7 @@ int main() {
       cmocka_unit_test(a_stroke_beyond_the_blades_reach_is_implausible),
       cmocka_unit_test(a_body_on_its_side_cannot_be),
       cmocka_unit_test(a_line_s_pressure_may_be_missing),
+      cmocka_unit_test(a_blade_that_tilts_has_its_own_signals),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -109,6 +109,16 @@ void a_frozen_pitch_is_seen(void**) {
   }
 }
 
+void a_frozen_roll_is_seen(void**) {
+  for (const double way : {1.0, -1.0}) {
+    Body body;
+    body.valid.roll_rate_radps = way * 0.1;
+    body.step();
+    const int seen = body.cycles_until_seen([](DozerValid&) {});
+    assert_int_equal(seen, cycles_to(0.001, kMostTurned_rad, kPoseForget_s));
+  }
+}
+
 /// Height and climb say another slope than the pitch; what turns may rise by its turn.
 void another_slope_is_seen(void**) {
   for (const double rate_radps : {0.0, 0.1, -0.1}) {
@@ -251,6 +261,7 @@ int main() {
       cmocka_unit_test(a_frozen_position_is_seen),
       cmocka_unit_test(a_frozen_height_is_seen),
       cmocka_unit_test(a_frozen_pitch_is_seen),
+      cmocka_unit_test(a_frozen_roll_is_seen),
       cmocka_unit_test(another_slope_is_seen),
       cmocka_unit_test(tracks_that_run_on_are_seen),
       cmocka_unit_test(one_source_that_agrees_is_enough),
