@@ -19,7 +19,7 @@ LEAST_MOTION_M = 0.01
 STEPS = ["bucket, extending: ramp to its edge", "bucket, retracting: ramp to its edge"]
 # What each refusal has to say.
 REFUSALS = {"no_controller": "no controller is heard", "no_windows": "nobody can confirm windows",
-            "nothing_begun": "nothing to go on with", "log_is_there": "there is a log already"}
+            "nothing_begun": "drive.log.progress.json: there is no such file", "log_is_there": "there is a log already"}
 
 
 def enabled(frames, begin_s: float, end_s: float) -> list[bool]:
