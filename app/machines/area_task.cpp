@@ -22,6 +22,7 @@ constexpr int kAttitudeSteps = 24;
 /// Of the line over the design: what sensors and a light cut are off by.
 constexpr double kClearance_m = 0.001;
 constexpr double kCutSpeed_mps = 0.6;
+/// Of what the drives can: at all of it a full bucket on soft oil rings.
 constexpr double kPace = 0.85;
 constexpr double kCarried_rad = 0.3;
 constexpr double kEmptied_rad = 2.0;
