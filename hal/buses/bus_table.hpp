@@ -173,8 +173,7 @@ using TableIds =
     std::array<std::uint32_t, kMostTableReceived + kMostTableSent + 2 * kMostTableNodes>;
 
 /// The ids of a table's frames, received, sent, and its nodes' heartbeats and emergencies, for a
-/// port's filters; 0
-/// where there is none.
+/// port's filters; 0 where there is none.
 [[nodiscard]] TableIds table_ids(const BusTable& table);
 
 }  // namespace graben
