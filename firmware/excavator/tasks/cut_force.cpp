@@ -23,6 +23,12 @@ double force_share(const LayerPlan& plan, const TeethLine& line, const CutSeen& 
   return std::max(0.0, against_n) / plan.force_n;
 }
 
+double off_foot_m(const LayerPlan& plan, const Cut& cut, const CutSeen& seen) {
+  return cut.from_share < 0.0 && seen.force_known
+             ? plan.give_down_mpn * std::max(0.0, seen.force_n.y())
+             : 0.0;
+}
+
 double heaviness(double force, const CutSeen& seen) {
   const double held = seen.lambda < kStandsAt ? kHoldsAt : 0.0;
   return std::max({force, seen.behind_m / kBehind_m, held});

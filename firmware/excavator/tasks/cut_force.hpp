@@ -11,6 +11,10 @@ namespace graben {
 [[nodiscard]] double force_share(const LayerPlan& plan, const TeethLine& line, const CutSeen& seen,
                                  bool enters);
 
+/// What the teeth sink by, m, once the heel is off the foot of the wall that it stands on: of a cut
+/// that begins beyond its line.
+[[nodiscard]] double off_foot_m(const LayerPlan& plan, const Cut& cut, const CutSeen& seen);
+
 /// 1: as heavy as a cut may be. `force`: by force_share().
 [[nodiscard]] double heaviness(double force, const CutSeen& seen);
 

@@ -27,8 +27,11 @@ constexpr double kDeeper = 1.15;
 constexpr double kShallower = 0.75;
 /// Of a full bucket: less is next to nothing.
 constexpr double kLittle = 0.1;
-/// The same of what a cut brings beside what its edge has passed, payload's error and all.
-constexpr double kFallen = 0.15;
+/// The same of what a cut brings beside what its edge has passed, which is off by so much itself:
+/// three deviations of a payload. And of a sweep, which brings the loose rest of the one before.
+constexpr double kFallen = 0.05;
+constexpr double kPassedOff = 0.15;
+constexpr double kFallenToSweep = 0.15;
 /// So much at once moves what stands beside and before it: a last cut that brings it is swept
 /// after.
 constexpr double kMoves = 0.4;
@@ -264,7 +267,10 @@ void weigh_cut(const LayerPlan& plan, double weighed_m3, CutState& state) {
   }
   state.last_strip = -1;
   if (strip >= 0) {
-    const bool fallen = weighed_m3 - state.last_m3 >= kFallen * plan.full_m3;
+    const double still_m3 = state.last_m3 > 0.0
+                                ? kFallen * plan.full_m3 + (1.0 + kPassedOff) * state.last_m3
+                                : kFallenToSweep * plan.full_m3;
+    const bool fallen = weighed_m3 >= still_m3;
     const bool moved = weighed_m3 >= kMoves * plan.full_m3;
     state.moves[static_cast<unsigned>(strip)] = fallen || moved;
   }

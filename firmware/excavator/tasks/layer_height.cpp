@@ -11,6 +11,9 @@ constexpr double kRisesAtLeast = 0.25;
 /// A wall's foot is left standing beyond the line, in a hollow that rises so much a metre squared:
 /// up to where sand stands by itself. No soil slides on it.
 constexpr double kFoot_pm = 1.25;
+/// So much higher the edge comes from it, until it has gone so far along the line.
+constexpr double kFootHigher_m = 0.012;
+constexpr double kOffFoot = 0.06;
 
 /// Speed towards a height that comes to rest there.
 double speed_towards(double from_m, double to_m, double speed_mps, double most_down_mps,
@@ -37,7 +40,11 @@ double wanted_height_m(const TaskProgram& program, const LayerState& layers) {
   const double steep = cut.thin ? cut.steep * steepness(program, cut, layers.share).share : 0.0;
   // The foot of a wall beyond the line: nothing has to be met there, and it may break off.
   const double beyond_m = std::max(0.0, -layers.share * program.layers.way_m);
-  return cut.height_m + kSteepHigher_m * steep + kFoot_pm * beyond_m * beyond_m;
+  // And where it ends, a heel that has stood on it comes down.
+  const double on_foot =
+      cut.from_share < 0.0 ? std::clamp(1.0 - layers.share / kOffFoot, 0.0, 1.0) : 0.0;
+  return cut.height_m + std::max(kSteepHigher_m * steep, kFootHigher_m * on_foot) +
+         kFoot_pm * beyond_m * beyond_m;
 }
 
 void rise(const LayerCycle& cycle, double target_m, double most_down_mps, TaskState& state) {

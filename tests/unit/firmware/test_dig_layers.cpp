@@ -234,8 +234,11 @@ void soil_that_falls_in_is_swept_out(void**) {
     next_cut(whole, {0.7, 0.2 * whole.full_m3}, state);
   }
   CutState light = state;
-  weigh_cut(whole, 0.3 * whole.full_m3, light);
+  weigh_cut(whole, 0.27 * whole.full_m3, light);
   assert_true(light.met);
+  CutState more = state;
+  weigh_cut(whole, 0.30 * whole.full_m3, more);
+  assert_false(more.met);
   int sweeps = 0;
   for (; sweeps < 100; ++sweeps) {
     weigh_cut(whole, whole.full_m3, state);

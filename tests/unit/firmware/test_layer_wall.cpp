@@ -36,7 +36,30 @@ void a_wall_s_foot_is_left_standing(void**) {
     return at.layers.share >= 0.0;
   });
   assert_true(in_cut(state));
-  assert_true(state.layers.height_m < design_m + kSteepHigher_m + 2e-3);
+  assert_true(state.layers.height_m < design_m + 0.015);
+  // A heel that still stands on it comes down farther on.
+  assert_true(state.layers.height_m > design_m + kSteepHigher_m + 2e-3);
+  state = run_until(program, state, [](const TaskState& at) { return at.layers.share >= 0.1; });
+  assert_true(state.layers.height_m < design_m + kSteepHigher_m + 1e-3);
+}
+
+/// A heel that the foot bears up lifts the plan, as the teeth would come down once it is off it.
+void a_foot_that_bears_is_no_hold(void**) {
+  const TaskProgram program = planned();
+  const double give_mpn = program.layers.give_down_mpn;
+  assert_true(give_mpn > 0.0);
+  const auto height_m = [&](double beyond_m) {
+    TaskState state = last_cut(program, beyond_m);
+    state.layers.share = 0.0;
+    for (int n = 0; n < 100 && in_cut(state); ++n) {
+      CutSeen seen = follows(program, state);
+      seen.force_n = {0.0, 0.06 / give_mpn};
+      state = advance(program, state, seen);
+      state.layers.share = 0.0;
+    }
+    return state.layers.height_m;
+  };
+  assert_true(height_m(0.4) > height_m(0.0) + 0.02);
 }
 
 /// Teeth that come down it arrive level.
@@ -101,6 +124,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_wall_s_foot_is_left_standing),
       cmocka_unit_test(a_wall_s_foot_runs_out_level),
+      cmocka_unit_test(a_foot_that_bears_is_no_hold),
       cmocka_unit_test(a_wall_is_pulled_at_with_less),
       cmocka_unit_test(a_folded_heel_that_bears_goes_straight_up),
   };
