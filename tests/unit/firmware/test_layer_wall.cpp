@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Walls that fall in, and are cut back beyond the line.
 
+#include "firmware/excavator/tasks/cut_force.hpp"
 #include "firmware/excavator/tasks/layer_height.hpp"
 #include "firmware/excavator/tasks/layer_run.hpp"
 #include "tests/unit/firmware/layer_machine.hpp"
@@ -43,36 +44,24 @@ void a_wall_s_foot_is_left_standing(void**) {
   assert_true(state.layers.height_m < design_m + kSteepHigher_m + 1e-3);
 }
 
-/// A heel that the foot bears up lifts the plan, as the teeth would come down once it is off it.
+/// Teeth sink by what the oil gives under the force that bears the heel up, on a foot alone.
 void a_foot_that_bears_is_no_hold(void**) {
-  const TaskProgram program = planned();
-  const double give_mpn = program.layers.give_down_mpn;
-  assert_true(give_mpn > 0.0);
-  const auto height_m = [&](double beyond_m) {
-    TaskState state = last_cut(program, beyond_m);
-    state.layers.share = 0.0;
-    for (int n = 0; n < 100 && in_cut(state); ++n) {
-      CutSeen seen = follows(program, state);
-      seen.force_n = {0.0, 0.06 / give_mpn};
-      state = advance(program, state, seen);
-      state.layers.share = 0.0;
-    }
-    return state.layers.height_m;
-  };
-  assert_true(height_m(0.4) > height_m(0.0) + 0.02);
-}
-
-/// Teeth that come down it arrive level.
-void a_wall_s_foot_runs_out_level(void**) {
-  const TaskProgram program = planned();
-  LayerState layers = last_cut(program, 0.4).layers;
-  const auto height_m = [&](double beyond_m) {
-    layers.share = -beyond_m / program.layers.way_m;
-    return wanted_height_m(program, layers);
-  };
-  const double line_m = height_m(0.0);
-  assert_true(height_m(0.05) - line_m < 0.005);
-  assert_true(height_m(0.4) - line_m > 0.18);
+  const LayerPlan plan = planned().layers;
+  assert_true(plan.give_down_mpn > 0.0);
+  CutSeen seen;
+  seen.force_known = true;
+  seen.force_n = {-5e3, 0.04 / plan.give_down_mpn};
+  Cut cut;
+  cut.from_share = -0.2;
+  assert_near(off_foot_m(plan, cut, seen), 0.04, 1e-9);
+  seen.force_n.y() = -seen.force_n.y();
+  assert_near(off_foot_m(plan, cut, seen), 0.0, 0.0);
+  seen.force_n.y() = -seen.force_n.y();
+  seen.force_known = false;
+  assert_near(off_foot_m(plan, cut, seen), 0.0, 0.0);
+  seen.force_known = true;
+  cut.from_share = 0.0;
+  assert_near(off_foot_m(plan, cut, seen), 0.0, 0.0);
 }
 
 /// Until the cut ends, s; or as long as is looked.
