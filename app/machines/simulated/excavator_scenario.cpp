@@ -140,6 +140,22 @@ void speak(const std::string& speaks, bool own_frames, plant::ExcavatorPlantProf
   }
 }
 
+/// Throws where the machine has no IMUs to be turned.
+void turn_imus(double most_rad, std::uint64_t seed, plant::ExcavatorPlantProfile& plant) {
+  if (most_rad == 0.0) {
+    return;
+  }
+  if (!plant.machine.imu.known()) {
+    throw std::runtime_error(
+        "--imu-mounting: the simulated machine has no IMUs; allowed: with [imu] in its profile, or "
+        "--sensors imu");
+  }
+  Random random(seed, Draw::kImuMounting);
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    plant.machine.imu.mount[i].turn_rad += random.symmetric(most_rad);
+  }
+}
+
 }  // namespace
 
 SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario) {
@@ -153,6 +169,7 @@ SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario
     fit_usual_imus(machine.profile);
     plant.machine.imu = machine.profile.imu;
   }
+  turn_imus(scenario.imu_mounting_rad, scenario.seed, plant);
   if (!scenario.bus.empty()) {
     put_on_bus(scenario.bus, machine);
   }
