@@ -53,6 +53,9 @@ std::string missing_movement(const TouchedTip& tip, const MountingAsk& ask) {
   if (arm_rad < kEnough_rad) {
     return only("arm", arm_rad, "touch a second peg, nearer or farther by some metres (--second)");
   }
+  if (!ask.pegs.front().height_m && !ask.kept) {
+    return "the height of the peg over the boom foot's pin, by a level (--height)";
+  }
   if (ask.pegs.size() == 2 && !ask.rise_m) {
     return "how much higher the second peg is than the first (--rise), by a level";
   }
