@@ -99,9 +99,8 @@ void add_measure_up(CLI::App& app, int& status) {
   command->add_flag("--force", options->force, "--out or --record may be there already");
   add_touch_log_options(*command, *options, *log);
   add_record_options(*command, *options, *record);
-  add_examples(*command,
-               {"measure-up --log touch.log --profile mine.toml --height -1.45 --out found.toml",
-                "measure-up --record out/touch.log --profile mine.toml --imu-mounting 0.035"});
+  add_examples(*command, {"measure-up --log touch.log --profile mine.toml --keep boom",
+                          "measure-up --record touch.log --profile mine.toml --pegs 1"});
   command->callback([options, &status] {
     if (options->log.empty() && options->record.empty()) {
       throw CLI::RequiredError("--log or --record");

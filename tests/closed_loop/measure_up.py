@@ -27,7 +27,7 @@ bucket = {{ address = 228, {bucket} }}
 BUCKETS = {"excavator_22t": "at = [0.7, 0.0]", "excavator_12t": "at = [0.2, 0.0], on_rocker = true"}
 # What the fences allow for a stroke that IMUs give.
 FENCE = "\n[fence]\nstroke_error = 5.6e-3\n"
-BOUNDS = {"median": 25 * MM, "p95": 40 * MM}
+BOUNDS = {"median": 30 * MM, "p95": 45 * MM}
 
 
 def call(graben, folder, *words):

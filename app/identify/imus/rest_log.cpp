@@ -31,7 +31,7 @@ constexpr double kHole_s = 0.1;
 /// Rates are averaged over so long: noise goes, motion stays.
 constexpr double kAverage_s = 0.5;
 /// A rate that differs so much from its middle in the rest is motion, rad/s.
-constexpr double kMoves_radps = 0.003;
+constexpr double kMoves_radps = 0.0012;
 /// Left out at the begin, where oil and boom still swing, and at the end.
 constexpr double kSettle_s = 1.0;
 constexpr double kBeforeEnd_s = 0.3;
