@@ -31,6 +31,11 @@ constexpr double kMostLever = 0.4;
 constexpr double kLeastLever = 0.004;
 /// More each cycle until the drive has come there: within its dead band it does not answer.
 constexpr double kPush = 1e-4;
+constexpr double kGentler = 0.8;
+constexpr double kMostGentle = 0.1;
+/// The posture is about right, and the edge where the eye wants it.
+constexpr double kNear_m = 0.01;
+constexpr double kGood = 0.4;
 constexpr double kThere_m = 0.0003;
 constexpr double kLooks_s = 1.0;
 constexpr double kLongestMove_s = 120.0;
@@ -137,24 +142,32 @@ class TouchRun {
     return (rig_.plant.plant().tip().position_m - options_.pegs_m[touch().peg]).norm();
   }
 
+  /// A drive that went too far is moved more gently from then on.
+  double lever_of(std::size_t i, double left_m) {
+    const bool turned_back = left_m * last_left_m_[i] < 0.0;
+    last_left_m_[i] = left_m;
+    gentle_[i] = turned_back ? std::max(kMostGentle, kGentler * gentle_[i]) : gentle_[i];
+    pushes_[i] = std::abs(left_m) < kThere_m || turned_back ? 0.0 : pushes_[i] + gentle_[i] * kPush;
+    const double least = std::min(kMostLever, kLeastLever + pushes_[i]);
+    return std::clamp(gentle_[i] * kLever_pm * std::abs(left_m), least, kMostLever);
+  }
+
   /// Levers until the strokes are there, hands off and a look, then the rest.
   void operate(double now_s) {
     const bool active = rig_.ecu->outputs().status.mode == EcuMode::kActive;
     plant::OperatorHands hands;
     const Drives strokes_m = rig_.plant.plant().strokes_m();
     bool there = true;
+    bool near = true;
     for (std::size_t i = 0; i < kAxisCount; ++i) {
       const double left_m = wanted_m_[static_cast<int>(i)] - strokes_m[i];
       there = there && std::abs(left_m) < kThere_m;
-      const bool turned_back = left_m * last_left_m_[i] < 0.0;
-      pushes_[i] = std::abs(left_m) < kThere_m || turned_back ? 0.0 : pushes_[i] + kPush;
-      last_left_m_[i] = left_m;
-      const double lever = std::clamp(kLever_pm * std::abs(left_m),
-                                      std::min(kMostLever, kLeastLever + pushes_[i]), kMostLever);
+      near = near && std::abs(left_m) < kNear_m;
+      const double lever = lever_of(i, left_m);
       hands.lever_ratio[i] =
           active && !rests_ && std::abs(left_m) >= kThere_m ? std::copysign(lever, left_m) : 0.0;
     }
-    if (active && !rests_ && there) {
+    if (active && !rests_ && (there || (near && off_m() < kGood * options_.eye_m))) {
       rests_ = true;
       since_s_ = now_s;
     }
@@ -169,6 +182,7 @@ class TouchRun {
       rests_ = false;
       moved_s_ = now_s;
       if (result_.touched < options_.touches.size()) {
+        gentle_.fill(1.0);
         aim();
       }
     }
@@ -183,6 +197,7 @@ class TouchRun {
   Eigen::Vector3d wanted_m_ = Eigen::Vector3d::Zero();
   Drives pushes_{};
   Drives last_left_m_{};
+  Drives gentle_{1.0, 1.0, 1.0};
   bool rests_ = false;
   double since_s_ = 0.0;  ///< Hands off.
   double moved_s_ = 0.0;  ///< The last touch was done.

@@ -58,13 +58,22 @@ def error_m(graben, folder, profile, *options):
     return float(found.group(1)) * MM if done.returncode == 0 else float("nan")
 
 
+def measured_up(graben, folder, *options):
+    """What is left at the pegs, with found.toml made; NaN where the log was refused, or nobody came to a peg."""
+    try:
+        said = call(graben, folder, "measure-up", *touched(graben, folder, *options), "--out", "found.toml", "--force")
+    except AssertionError as refusal:
+        print(refusal, flush=True)
+        return float("nan")
+    return float(re.search(r"^left +([0-9.]+) mm RMS", said, re.MULTILINE).group(1)) * MM
+
+
 def draw(graben, folder, seed, degrees):
     mounting = ("--imu-mounting", str(degrees * 0.01745329))
     errors = ("--errors", "all", "--seed", str(seed))
-    said = call(graben, folder, "measure-up", *touched(graben, folder, *mounting, *errors), "--out", "found.toml", "--force")
-    left = float(re.search(r"^left +([0-9.]+) mm RMS", said, re.MULTILINE).group(1)) * MM
-    return (error_m(graben, folder, "mine.toml", *mounting, *errors), error_m(graben, folder, "found.toml", *mounting, *errors),
-            error_m(graben, folder, "mine.toml", *errors), left)
+    left = measured_up(graben, folder, *mounting, *errors)
+    after = error_m(graben, folder, "found.toml", *mounting, *errors) if left == left else float("nan")
+    return (error_m(graben, folder, "mine.toml", *mounting, *errors), after, error_m(graben, folder, "mine.toml", *errors), left)
 
 
 def of(values):
