@@ -85,22 +85,6 @@ void lay_ground(const Scenario& scenario, const ExcavatorGeometry& geometry, dou
   plant.digging->gravity_mps2 = plant.gravity_mps2;
 }
 
-/// As if its profile named the bus, and every stand-in for what that lacks.
-void put_on_bus(const std::string& name, SimulatedExcavator& machine) {
-  const BusFile bus = load_bus(find_bus(name));
-  if (!bus.table.own_frames && (machine.profile.has_swing() || machine.profile.imu.known())) {
-    throw std::runtime_error(fmt::format(
-        "--bus {}: it carries no swing and no IMUs; allowed: a machine without them", name));
-  }
-  machine.bus = bus.table;
-  machine.bus_speaks = bus.speaks;
-  machine.profile.bus = bus.capabilities;
-  machine.hash ^= bus.hash;
-  if (!bus.capabilities.swash_command) {
-    machine.profile.demand_swash = {};
-  }
-}
-
 /// As if its profile said so. Throws where that can't be made safe.
 void take_away(const std::vector<std::string>& sensors, BusCapabilities& bus) {
   for (const std::string& sensor : sensors) {
