@@ -101,6 +101,7 @@ def main():
                   f"left at the pegs {rows[-1][3] / MM:.1f} mm", flush=True)
     for word, column in (("before", 0), ("after", 1), ("never turned", 2), ("left", 3)):
         print(f"{word}: " + " / ".join(f"{value / MM:.1f}" for value in of([row[column] for row in rows])) + " mm")
+    print(f"measured up: {sum(row[3] == row[3] for row in rows)} of {len(rows)}")
     median, p95, _ = of([row[1] for row in rows])
     assert of([row[0] for row in rows])[0] > 1.5 * BOUNDS["p95"], "the IMUs were not turned"
     assert median <= BOUNDS["median"] and p95 <= BOUNDS["p95"], f"after: {median / MM:.1f} / {p95 / MM:.1f} mm"
