@@ -28,7 +28,7 @@ constexpr Capability kCapabilities[] = {
     {"strokes", "slope sensors or joint angles by a bus profile",
      "a slope that stands still where spools or pressures are not measured; one that is mounted up "
      "to 3 deg off",
-     "-; -; 24.7 / 38.9; -",
+     "-; -; 24.7 / 38.1; -",
      [](const ExcavatorProfile& profile) {
        return profile.bus.joint_angles && profile.bus.identity;
      }},
