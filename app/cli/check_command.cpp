@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "app/cli/commands.hpp"
@@ -20,14 +21,26 @@ namespace fs = std::filesystem;
 
 struct CheckCommand {
   std::string profile;
+  std::string bus;
   std::string out = "out";
   bool strict = false;
   bool keys = false;
 };
 
-reports::MachineCheck check_of(const fs::path& file) {
+void put_on(const std::string& bus, machines::ExcavatorMachine& machine) {
+  if (!bus.empty()) {
+    machines::put_on_bus(bus, machine);
+  }
+}
+
+/// `bus`: the bus profile that an excavator is put on; empty: its own.
+reports::MachineCheck check_of(const fs::path& file, const std::string& bus) {
   const bool is_simulated = fs::is_regular_file(machines::simulation_file(file));
   if (machines::profile_kind(file) == machines::MachineKind::kDozer) {
+    if (!bus.empty()) {
+      throw std::runtime_error(
+          fmt::format("--bus {}: a dozer is on no bus but ours; allowed: an excavator", bus));
+    }
     if (is_simulated) {
       const machines::SimulatedDozer machine = machines::load_simulated_dozer(file);
       return reports::check_machine(machine, &machine);
@@ -35,10 +48,13 @@ reports::MachineCheck check_of(const fs::path& file) {
     return reports::check_machine(machines::load_dozer(file), nullptr);
   }
   if (is_simulated) {
-    const machines::SimulatedExcavator machine = machines::load_simulated_excavator(file);
+    machines::SimulatedExcavator machine = machines::load_simulated_excavator(file);
+    put_on(bus, machine);
     return reports::check_machine(machine, &machine);
   }
-  return reports::check_machine(machines::load_excavator(file), nullptr);
+  machines::ExcavatorMachine machine = machines::load_excavator(file);
+  put_on(bus, machine);
+  return reports::check_machine(machine, nullptr);
 }
 
 void check(const CheckCommand& options) {
@@ -49,7 +65,8 @@ void check(const CheckCommand& options) {
   if (options.profile.empty()) {
     throw std::runtime_error("which profile? a file or a shipped name, or --keys");
   }
-  const reports::MachineCheck found = check_of(machines::find_profile(options.profile));
+  const reports::MachineCheck found =
+      check_of(machines::find_profile(options.profile), options.bus);
   const fs::path out(options.out);
   fs::create_directories(out);
   const fs::path page = out / "check.html";
@@ -74,6 +91,9 @@ void add_check(CLI::App& app, int& status) {
       "What a profile means: reach, joint ranges, speeds, forces, modes, and warnings of what is "
       "allowed but implausible; as text and as a drawing. A wrong profile ends with status 1");
   command->add_option("profile", options->profile, "Machine profile: file or shipped name");
+  command->add_option("--bus", options->bus,
+                      "Bus profile that the machine is put on, a file or a shipped one such as "
+                      "zx200, with the stand-ins that it needs: what it then does without");
   command->add_option("--out", options->out, "Folder for check.html")->capture_default_str();
   command->add_flag("--strict", options->strict, "Warnings end with status 1 too");
   command->add_flag("--keys", options->keys,

@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
   graben::cli::add_operate(app, status);
   graben::cli::add_commission(app, status);
   graben::cli::add_identify(app, status);
+  graben::cli::add_measure_up(app, status);
   graben::cli::add_scope(app, status);
   graben::cli::add_compare(app, status);
   graben::cli::add_export(app, status);

@@ -54,6 +54,7 @@ void add_scenario_options(CLI::App& command, runs::DigScenario& scenario) {
       ->check(one_of({machines::kLawNames.begin(), machines::kLawNames.end()}));
   add_swash_option(command, scenario.swash_ratio);
   add_sensor_option(command, tried.imus);
+  add_mounting_option(command, tried.imu_mounting_rad);
   command
       .add_option("--without", tried.without,
                   "Sensors that the machine has not: spool, swash, pressure; what stands in is in "
@@ -98,6 +99,15 @@ void add_sensor_option(CLI::App& command, bool& imus) {
           "link unless the profile has its own")
       ->check(one_of({"profile", "imu"}))
       ->default_str("profile");
+}
+
+void add_mounting_option(CLI::App& command, double& mounting_rad) {
+  command
+      .add_option("--imu-mounting", mounting_rad,
+                  "Each IMU of a link is turned by up to so much against the profile, rad, 0 .. "
+                  "0.2, drawn from the seed; the controller is not told (measure-up finds it)")
+      ->check(number_between(0.0, 0.2))
+      ->capture_default_str();
 }
 
 void add_swash_option(CLI::App& command, std::optional<double>& swash_ratio) {

@@ -29,6 +29,8 @@ void add_simulated_options(CLI::App& command, machines::SimulatedChoice& choice)
 
 /// Adds --sensors, of the same.
 void add_sensor_option(CLI::App& command, bool& imus);
+/// Adds --imu-mounting, of `dig`, `campaign dig`, `plant` and `measure-up`.
+void add_mounting_option(CLI::App& command, double& mounting_rad);
 /// Adds --swash, of `dig`, `campaign dig`, `plant`, `autodig` and `campaign autodig`.
 void add_swash_option(CLI::App& command, std::optional<double>& swash_ratio);
 

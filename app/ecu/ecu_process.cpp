@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "app/ecu/emergency_note.hpp"
 #include "app/ecu/end_signals.hpp"
 #include "app/ecu/kinds.hpp"
 #include "app/machines/any_machine.hpp"
@@ -152,7 +153,7 @@ std::uint32_t small(std::uint64_t count) {
 
 template <class Ecu>
 void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, UsageMark& mark,
-                         bool real_time) {
+                         EmergencyNote& note, bool real_time) {
   for (int neutral_cycles = 0; neutral_cycles < kNeutralCycles;) {
     const CyclicClock::Cycle cycle = clock.wait();
     if (stop_requested()) {
@@ -163,6 +164,7 @@ void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, Usage
         {small(mark.allocations()), small(mark.faults()), small(clock.overruns()), real_time});
     ecu.step(cycle.now_us, cycle.last_us);
     watchdog.cycle_done(cycle.now_us);
+    note.look(ecu.emergency());
     if (!mark.is_set()) {
       mark.set();
     }
@@ -222,11 +224,18 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   Usage usage;
   usage.start_us = monotonic_now_us() - began_us;
   manager.ready();
-  manager.status(options.real_time ? "cycling" : "cycling WITHOUT real time");
+  const char* const status = options.real_time ? "cycling" : "cycling WITHOUT real time";
+  manager.status(status);
+  EmergencyNote note(manager, status);
 
-  cycle_until_stopped(ecu, clock, watchdog, mark, options.real_time);
+  cycle_until_stopped(ecu, clock, watchdog, mark, note, options.real_time);
 
   manager.stopping();
+  if (note.count() > 0) {
+    std::fprintf(stderr, "graben-ecu: %s\n", note.words().c_str());
+  }
+  usage.emergencies = note.count();
+  usage.last_emergency = note.last();
   usage.allocations = mark.allocations();
   usage.allocations_counted = allocations_are_counted();
   usage.page_faults = mark.faults();

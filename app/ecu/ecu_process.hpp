@@ -10,6 +10,7 @@
 
 #include "firmware/core/time.hpp"
 #include "hal/link/message_links.hpp"
+#include "hal/link/message_rules.hpp"
 #include "platform/linux/cyclic_clock.hpp"
 #include "platform/linux/socketcan_port.hpp"
 
@@ -32,6 +33,8 @@ struct Usage {
   bool allocations_counted = false;
   std::uint64_t page_faults = 0;
   bool real_time = false;
+  std::uint32_t emergencies = 0;  ///< Of nodes of CANopen, as they came and changed.
+  NodeEmergency last_emergency;
   TimeUs start_us = 0;  ///< From the process's begin to its first frame.
 };
 

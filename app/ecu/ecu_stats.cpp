@@ -37,6 +37,9 @@ void print(std::FILE* to, const CyclicClock& clock, const LinkCounters& link,
   count(to, "receive_overflow", port.receive_overflow);
   count(to, "error_frames", port.error_frames);
   count(to, "reopened", port.reopened);
+  count(to, "emergencies", usage.emergencies);
+  count(to, "emergency_node", usage.last_emergency.id);
+  count(to, "emergency_code", usage.last_emergency.code);
   durations(to, "wake_up_latency", clock.wake_up_latency());
   durations(to, "cycle_time", clock.cycle_time());
   std::fprintf(to, "# Columns: us, wake_up_latency, cycle_time\n");

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/machines/excavator_file.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -50,6 +53,21 @@ ExcavatorMachine load_excavator(const std::filesystem::path& file) {
   const ProfileDocument document = read_document(file);
   refuse_other_sort(document, kMachineSort);
   return load_excavator(document);
+}
+
+void put_on_bus(const std::string& name, ExcavatorMachine& machine) {
+  const BusFile bus = load_bus(find_bus(name));
+  if (!bus.table.own_frames && (machine.profile.has_swing() || machine.profile.imu.known())) {
+    throw std::runtime_error(fmt::format(
+        "--bus {}: it carries no swing and no IMUs; allowed: a machine without them", name));
+  }
+  machine.bus = bus.table;
+  machine.bus_speaks = bus.speaks;
+  machine.profile.bus = bus.capabilities;
+  machine.hash ^= bus.hash;
+  if (!bus.capabilities.swash_command) {
+    machine.profile.demand_swash = {};
+  }
 }
 
 }  // namespace graben::machines

@@ -28,4 +28,8 @@ struct ExcavatorMachine {
 [[nodiscard]] ExcavatorMachine load_excavator(const std::filesystem::path& file);
 [[nodiscard]] ExcavatorMachine load_excavator(const ProfileDocument& document);
 
+/// As if its profile named this bus profile, a file or a shipped one, and every stand-in for what
+/// that lacks. Throws std::runtime_error where it can't be on it.
+void put_on_bus(const std::string& name, ExcavatorMachine& machine);
+
 }  // namespace graben::machines

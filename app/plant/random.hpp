@@ -31,6 +31,8 @@ enum class Draw : std::uint32_t {
   kDesign,
   kJointBias,
   kLoad,
+  kImuMounting,
+  kEye,
 };
 
 class Random {

@@ -100,6 +100,10 @@ std::string scenario_text(const DigScenario& scenario) {
   add(scenario.scenario.stiff_oil, "stiff oil");
   add(scenario.fixed_lambda, "lambda fixed at 1");
   add(scenario.scenario.imus, "IMUs");
+  if (scenario.scenario.imu_mounting_rad > 0.0) {
+    parts.push_back(
+        fmt::format("IMUs turned by up to {:.6g} rad", scenario.scenario.imu_mounting_rad));
+  }
   if (!scenario.scenario.without.empty()) {
     parts.push_back(fmt::format("without {}", fmt::join(scenario.scenario.without, ",")));
   }

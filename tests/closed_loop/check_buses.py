@@ -4,6 +4,7 @@ standards and data sheets print, read by Wireshark, a decoder that is not ours. 
 
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -101,6 +102,24 @@ def check_slopes(log):
     assert seen == {0xE2, 0xE3, 0xE4, 0xE5}, seen
 
 
+def check_profile_on(graben, folder):
+    """`check --bus` says what a machine does without on that bus, and the hash that its controller then has."""
+    for bus, words in (("slopes", "slope sensors or joint angles"), ("zx200", "zx200: angles, pilot pressures"),
+                       ("encoders", "nothing")):
+        done = subprocess.run([graben, "check", "excavator_22t", "--bus", bus, "--out", str(folder)], capture_output=True,
+                              text=True, check=False)
+        assert done.returncode == 0 and words in done.stdout, f"{bus}: {done.stdout}{done.stderr}"
+        if bus != "zx200":
+            number = re.search(r"hash ([0-9a-f]{8})", done.stdout)[1]
+            on_bus = bytes.fromhex(number)[::-1].hex().upper()
+            assert f"#{on_bus}" in (folder / bus / "dig.log").read_text(encoding="ascii"), f"{bus}: {number}"
+    for profile, bus, words in (("dozer_9t", "zx200", "a dozer is on no bus but ours"),
+                                ("excavator_12t", "zx200", "it carries no swing"), ("excavator_22t", "none", "none")):
+        done = subprocess.run([graben, "check", profile, "--bus", bus, "--out", str(folder)], capture_output=True, text=True,
+                              check=False)
+        assert done.returncode == 1 and words in done.stderr, f"{profile} on {bus}: {done.stdout}{done.stderr}"
+
+
 def main():
     graben = sys.argv[1]
     with tempfile.TemporaryDirectory() as made:
@@ -115,6 +134,7 @@ def main():
             error = json.loads(summary.read_text(encoding="utf-8"))["max_error_true_m"]
             print(f"{bus}: {error * 1e3:.1f} mm")
             assert error < most, f"{bus}: {error} m"
+        check_profile_on(graben, folder)
         check_nodes(folder / "retrofit" / "dig.log")
         check_valves(folder / "retrofit" / "dig.log")
         check_slopes(folder / "slopes" / "dig.log")

@@ -17,10 +17,11 @@ SOURCE = ROOT / "app/reports/check/capability_table.cpp"
 README = ROOT / "app/machines/README.md"
 BEGIN, END = "<!-- capabilities (tests/results/check_capabilities.py) -->", "<!-- end of capabilities -->"
 # In the order of the source's rows.
-KEYS = ("none", "imu", "spool", "swash", "pressure", "zx200", "ls", "nfc")
+KEYS = ("none", "imu", "slopes", "spool", "swash", "pressure", "zx200", "ls", "nfc")
 PLACES = (("22t", "dry"), ("22t", "soil"), ("12t", "dry"), ("12t", "soil"))
 # Rows that other tables have.
-ELSEWHERE = {"without_none_22t_dry": "draws_found", "without_none_22t_soil": "draws_soil_found"}
+ELSEWHERE = {"without_none_22t_dry": "draws_found", "without_none_22t_soil": "draws_soil_found",
+             "without_slopes_12t_dry": "parts_slopes_12t"}
 COLUMNS = ("without", "stands in", "not seen any more", "22 t, dry", "22 t, soil", "12 t, dry", "12 t, soil")
 ROW = re.compile(r'^    \{((?:\s*"[^"]*",?)+)\s*\[\]', re.MULTILINE)
 FIGURES = re.compile(r'"[^"]*; [^"]*; [^"]*; [^"]*"(?=,\s*\[\])|"@\w+@"(?=,\s*\[\])')

@@ -85,22 +85,6 @@ void lay_ground(const Scenario& scenario, const ExcavatorGeometry& geometry, dou
   plant.digging->gravity_mps2 = plant.gravity_mps2;
 }
 
-/// As if its profile named the bus, and every stand-in for what that lacks.
-void put_on_bus(const std::string& name, SimulatedExcavator& machine) {
-  const BusFile bus = load_bus(find_bus(name));
-  if (!bus.table.own_frames && (machine.profile.has_swing() || machine.profile.imu.known())) {
-    throw std::runtime_error(fmt::format(
-        "--bus {}: it carries no swing and no IMUs; allowed: a machine without them", name));
-  }
-  machine.bus = bus.table;
-  machine.bus_speaks = bus.speaks;
-  machine.profile.bus = bus.capabilities;
-  machine.hash ^= bus.hash;
-  if (!bus.capabilities.swash_command) {
-    machine.profile.demand_swash = {};
-  }
-}
-
 /// As if its profile said so. Throws where that can't be made safe.
 void take_away(const std::vector<std::string>& sensors, BusCapabilities& bus) {
   for (const std::string& sensor : sensors) {
@@ -140,6 +124,22 @@ void speak(const std::string& speaks, bool own_frames, plant::ExcavatorPlantProf
   }
 }
 
+/// Throws where the machine has no IMUs to be turned.
+void turn_imus(double most_rad, std::uint64_t seed, plant::ExcavatorPlantProfile& plant) {
+  if (most_rad == 0.0) {
+    return;
+  }
+  if (!plant.machine.imu.known()) {
+    throw std::runtime_error(
+        "--imu-mounting: the simulated machine has no IMUs; allowed: with [imu] in its profile, or "
+        "--sensors imu");
+  }
+  Random random(seed, Draw::kImuMounting);
+  for (unsigned i = 0; i < kAxisCount; ++i) {
+    plant.machine.imu.mount[i].turn_rad += random.symmetric(most_rad);
+  }
+}
+
 }  // namespace
 
 SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario) {
@@ -153,6 +153,7 @@ SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario
     fit_usual_imus(machine.profile);
     plant.machine.imu = machine.profile.imu;
   }
+  turn_imus(scenario.imu_mounting_rad, scenario.seed, plant);
   if (!scenario.bus.empty()) {
     put_on_bus(scenario.bus, machine);
   }

@@ -94,6 +94,9 @@ struct Scenario {
   std::optional<double> dead_time_s;  ///< Of every spool, as the controller takes it.
   /// IMUs instead of stroke sensors, of a machine whose profile says nothing of them.
   bool imus = false;
+  /// Each IMU of a link is turned by up to so much against its profile, of which the controller is
+  /// told nothing; drawn from the seed.
+  double imu_mounting_rad = 0.0;
   /// Bus profile, by name or file, of a machine whose own profile says nothing of it; empty: none.
   std::string bus;
   /// Sensors that the machine has not, of kSensorNames; what stands in is the usual.

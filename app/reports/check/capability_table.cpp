@@ -25,6 +25,13 @@ constexpr Capability kCapabilities[] = {
      "an IMU that is mounted up to 3 deg off; a drift below 1 deg/s; a step of 25 mm",
      "26.8 / 39.4; 61.6 / 98.5; 20.9 / 35.7; 57.3 / 78.9",
      [](const ExcavatorProfile& profile) { return profile.imu.known(); }},
+    {"strokes", "slope sensors or joint angles by a bus profile",
+     "a slope that stands still where spools or pressures are not measured; one that is mounted up "
+     "to 3 deg off",
+     "-; -; 24.7 / 38.1; -",
+     [](const ExcavatorProfile& profile) {
+       return profile.bus.joint_angles && profile.bus.identity;
+     }},
     {"spool positions", "the command",
      "SpoolMissing, SpoolStuck; a stroke against its oil (StrokeStuck, MotionImplausible); spools "
      "that are not centred before arming",
@@ -44,7 +51,9 @@ constexpr Capability kCapabilities[] = {
      "IdentityMismatch, MessageCorrupt, MessageSequence, MessageMasquerade; a spool that sticks "
      "under a right pilot pressure; SwashMissing, SwashDisagrees",
      "24.4 / 38.2; -; -; -",
-     [](const ExcavatorProfile& profile) { return profile.bus.joint_angles; }},
+     [](const ExcavatorProfile& profile) {
+       return profile.bus.joint_angles && !profile.bus.identity;
+     }},
     {"a told swash", "load-sensing pumps", "SwashMissing, SwashDisagrees",
      "25.0 / 40.7; -; 20.9 / 33.2; -",
      [](const ExcavatorProfile& profile) {
