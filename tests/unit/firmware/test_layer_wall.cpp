@@ -44,6 +44,19 @@ void a_wall_s_foot_is_left_standing(void**) {
   assert_true(state.layers.height_m < design_m + kSteepHigher_m + 1e-3);
 }
 
+/// Teeth that come down it arrive level.
+void a_wall_s_foot_runs_out_level(void**) {
+  const TaskProgram program = planned();
+  LayerState layers = last_cut(program, 0.4).layers;
+  const auto height_m = [&](double beyond_m) {
+    layers.share = -beyond_m / program.layers.way_m;
+    return wanted_height_m(program, layers);
+  };
+  const double line_m = height_m(0.0);
+  assert_true(height_m(0.05) - line_m < 0.005);
+  assert_true(height_m(0.4) - line_m > 0.18);
+}
+
 /// Teeth sink by what the oil gives under the force that bears the heel up, on a foot alone.
 void a_foot_that_bears_is_no_hold(void**) {
   const LayerPlan plan = planned().layers;
