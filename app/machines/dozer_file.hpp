@@ -19,6 +19,7 @@ struct DesignHeights {
   double from_m = 0.0;
   std::shared_ptr<const std::vector<double>> height_m;  ///< None: the profile has points.
   std::shared_ptr<const std::vector<double>> cross;     ///< None: level across.
+  std::shared_ptr<const std::vector<double>> curvature;  ///< None: a straight track.
 };
 
 /// A dozer as its controller has to know it. Its profile and copies of it are good as long as this
