@@ -194,6 +194,8 @@ void DozerController::place_on_curve(const DozerValid& valid, double lead_s,
   at.body.position_m.x() += edge.ahead_m - reach_m;
   at.aside_m = design_.cross_at(x_m + edge.ahead_m).slope * edge.offset_m;
   at.askew_rad = edge.heading_rad;
+  at.askew_rate_radps =
+      course.yaw_rate_radps - design_.curvature_at(x_m + edge.ahead_m) * valid.velocity_mps;
 }
 
 TiltSituation DozerController::tilt_at(const BladeSituation& at, double stroke_m) const {
@@ -205,6 +207,7 @@ TiltSituation DozerController::tilt_at(const BladeSituation& at, double stroke_m
   tilt.edge_x_m = edge_in_world_m(setup_.blade, at.body, at.angle_rad).x();
   tilt.speed_mps = at.body_velocity[0];
   tilt.askew_rad = at.askew_rad;
+  tilt.askew_rate_radps = at.askew_rate_radps;
   return tilt;
 }
 
@@ -261,8 +264,13 @@ DozerController::Motion DozerController::flow_limited(const DozerValid& valid,
   }
   motion.speed = choose_speed(valid, motion, period_s);
   const double speed_mps = motion.speed.state.speed_mps;
-  const std::array<double, kTrackCount> speeds_mps = track_speeds_mps(
-      profile_.body, speed_mps, motion.steering.curvature_pm * speed_mps);
+  std::array<double, kTrackCount> speeds_mps = {speed_mps, speed_mps};
+  if (design_.curves()) {
+    speeds_mps = steered_mps(profile_.body, speed_mps,
+                             {speed_of_track_mps(profile_.hst, valid, kLeft),
+                              speed_of_track_mps(profile_.hst, valid, kRight)},
+                             period_s, motion.steering);
+  }
   for (unsigned i = 0; i < kTrackCount; ++i) {
     const TrackCommand track =
         control_track(profile_, memory_.track[i], speeds_mps[i],

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/dozer/travel/tracks.hpp"
+
 namespace graben {
 namespace {
 
@@ -14,6 +16,9 @@ constexpr double kBackward_m = 3.0;
 constexpr double kTrim_s = 0.7;
 constexpr double kTrimLeast_mps = 0.15;
 constexpr double kTrimMost_pm = 0.06;
+/// What a track lags behind while the machine gets faster is no shortage.
+constexpr double kShort_s = 0.5;
+constexpr double kNotShort_mps = 0.03;
 
 /// Curvature that brings the edge back to the track: it moves across it by the heading and by what
 /// the body turns.
@@ -79,6 +84,22 @@ SteeringState steer(const GradeProfile& design, const SteeringState& last,
   state.wanted_radps = bounded_pm * now.speed_mps;
   state.curvature_pm = std::clamp(bounded_pm + state.trim_pm, -kTightest_pm, kTightest_pm);
   return state;
+}
+
+std::array<double, kTrackCount> steered_mps(const DozerBody& body, double speed_mps,
+                                            const std::array<double, kTrackCount>& measured_mps,
+                                            double period_s, SteeringState& state) {
+  std::array<double, kTrackCount> wanted_mps =
+      track_speeds_mps(body, speed_mps, state.curvature_pm * speed_mps);
+  const unsigned outer = std::abs(wanted_mps[kLeft]) > std::abs(wanted_mps[kRight]) ? kLeft : kRight;
+  const double way = speed_mps < 0.0 ? -1.0 : 1.0;
+  const double lacks_mps = way * (wanted_mps[outer] - measured_mps[outer]);
+  state.short_mps += (lacks_mps - state.short_mps) * period_s / (kShort_s + period_s);
+  if (wanted_mps[kLeft] != wanted_mps[kRight]) {
+    wanted_mps[outer == kLeft ? kRight : kLeft] -=
+        way * std::max(0.0, state.short_mps - kNotShort_mps);
+  }
+  return wanted_mps;
 }
 
 }  // namespace graben

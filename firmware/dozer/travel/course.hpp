@@ -3,6 +3,8 @@
 /// The machine on a track that curves in plan: where its cutting edge is against the track, and how
 /// it steers. Left is positive, and x the station along the track.
 
+#include <array>
+
 #include "firmware/dozer/grade_profile.hpp"
 
 namespace graben {
@@ -34,7 +36,8 @@ struct EdgeCourse {
 struct SteeringState {
   double trim_pm = 0.0;         ///< Curvature that the tracks lose by slipping.
   double wanted_radps = 0.0;    ///< Of the last cycle.
-  double curvature_pm = 0.0;    ///< Asked of the tracks.
+  double curvature_pm = 0.0;  ///< Asked of the tracks.
+  double short_mps = 0.0;     ///< By which the outer track lags behind what it is to run.
 };
 
 /// Where the machine is.
@@ -52,6 +55,12 @@ struct SteeringSituation {
 /// turn, by the measured rate, is added. Never tighter than kTightest_pm.
 [[nodiscard]] SteeringState steer(const GradeProfile& design, const SteeringState& last,
                                   const SteeringSituation& now, double period_s);
+
+/// Speeds of both tracks for it, from what each ran with before. Where the outer one can't run as
+/// fast as it is to, the inner one waits for it, or the machine would go straight on.
+[[nodiscard]] std::array<double, kTrackCount> steered_mps(
+    const DozerBody& body, double speed_mps, const std::array<double, kTrackCount>& measured_mps,
+    double period_s, SteeringState& state);
 
 inline constexpr double kComeBack_m = 2.0;
 inline constexpr double kTightest_pm = 0.25;

@@ -66,8 +66,8 @@ struct Driven {
   const GradeProfile& design;
   double slips = 0.0;
   double x_m = 0.0;
-  Course course;
-  SteeringState state;
+  Course course = {};
+  SteeringState state = {};
   double most_m = 0.0;  ///< Of the edge off the track, of late.
 
   void drive(double speed_mps, double way_m) {
