@@ -17,6 +17,7 @@ constexpr double kOneHeight_m = 1e-3;
 constexpr double kOnEdge_m = 1e-7;
 constexpr double kRounding_m = 1e-3;
 constexpr int kMostCells = 2000;
+constexpr double kLengthGrid_m = 1e-4;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -173,7 +174,8 @@ machines::DesignLine along_curved_track(const Surface& surface, const PlanTrack&
   demand_driveable(track, blade);
   const HeightField field(surface);
   const double half_m = 0.5 * blade.width_m;
-  const double length_m = track.length_m();
+  // Files round their numbers; what the design's own has is as long.
+  const double length_m = std::round(track.length_m() / kLengthGrid_m) * kLengthGrid_m;
   const int steps = std::max(1, static_cast<int>(std::lround(length_m / kSectionStep_m)));
   machines::DesignLine line;
   for (int i = 0; i <= steps; ++i) {

@@ -42,7 +42,7 @@ void on_an_arc_the_edge_is_outside_of_it(void**) {
     const EdgeCourse edge = edge_course(curve.design(), 30.0, {}, kReach_m);
     // From the centre of the circle.
     const double distance_m = std::hypot(radius_m, kReach_m);
-    assert_near(edge.offset_m, std::copysign(std::abs(radius_m) - distance_m, radius_m), 1e-3);
+    assert_near(edge.offset_m, std::copysign(distance_m - std::abs(radius_m), -radius_m), 1e-3);
     const double across_m = std::abs(radius_m);
     assert_near(edge.ahead_m, across_m * std::atan2(kReach_m, across_m), 2e-3);
     assert_near(edge.heading_rad, -kReach_m / radius_m, 1e-9);

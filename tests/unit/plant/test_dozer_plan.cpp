@@ -107,7 +107,7 @@ void its_edge_cuts_lines_beside_the_track(void**) {
   plant.set_blade_duty(0.0, false);
   plant.set_brake(false);
   plant.set_displacements({0.5, 0.5}, {1.0, 1.0});
-  plant.advance(5 * kSecondUs);
+  plant.advance(25 * kSecondUs);
   const Eigen::Vector3d middle_m = plant.edge_point_m(0.0);
   assert_true(middle_m.x() > 6.0 && middle_m.y() < -0.01);
   const CrossGround& ground = *plant.cross_ground();
