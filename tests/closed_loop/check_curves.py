@@ -154,7 +154,7 @@ def what_cannot_be_driven_is_refused(graben, folder, curved):
     tight = os.path.join(folder, "tight.txt")
     with open(tight, "w", encoding="utf-8") as stream:
         stream.write("0 0 0 0\n4 0 0 0\n4.1 -0.05 0 0.13\n20 -0.05 0 0.13\n")
-    refused(graben, "--profile", TILTS, "--design", tight, words=("a radius of", "at least 9.", "askew", "x = "))
+    refused(graben, "--profile", TILTS, "--design", tight, words=("a radius of", "at least 8.90", "askew", "x = "))
     with open(tight, "w", encoding="utf-8") as stream:
         stream.write("0 0 0 0\n4 0 0\n")
     refused(graben, "--profile", TILTS, "--design", tight, words=("line 2", "a curvature in every line or in none"))

@@ -134,7 +134,7 @@ void a_curvature_is_part_of_the_design(void**) {
     return test::refusal_of([&] { static_cast<void>(machines::with_design(of, line, 0.0, "c")); });
   };
   assert_true(has(refusal(test::tilting_dozer(), -0.2), "the track has a radius of"));
-  assert_true(has(refusal(test::tilting_dozer(), -0.2), "allowed: at least 9."));
+  assert_true(has(refusal(test::tilting_dozer(), -0.2), "allowed: at least 8.90"));
 }
 
 std::vector<GradePoint> corners(double last_m) {
