@@ -18,9 +18,10 @@ void add_design_options(CLI::App& command, design::DesignSource& source) {
       "where the blade tilts the slope across and the track's curvature");
   command.add_option("--surface", source.surface, "Of a LandXML file with several, by its name");
   command
-      .add_option("--track", source.track_m,
-                  "Way of the blade's middle over the surface: x and y of its start, of corners, and "
-                  "of its end, m; along x through the middle unless told")
+      .add_option(
+          "--track", source.track_m,
+          "Way of the blade's middle over the surface: x and y of its start, of corners, and "
+          "of its end, m; along x through the middle unless told")
       ->expected(4, 64)
       ->delimiter(',');
   command
@@ -31,7 +32,8 @@ void add_design_options(CLI::App& command, design::DesignSource& source) {
   command.add_option("--alignment", source.alignment,
                      "The track instead: an alignment of the LandXML file, by its name");
   command
-      .add_option("--stations", source.stations_m, "From and to on that alignment, m; all of it unless told")
+      .add_option("--stations", source.stations_m,
+                  "From and to on that alignment, m; all of it unless told")
       ->expected(2)
       ->delimiter(',');
   command

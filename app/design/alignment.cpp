@@ -99,7 +99,8 @@ class Alignment {
       return std::nullopt;
     }
     const double side = turn == "ccw" ? 1.0 : -1.0;
-    double swept_rad = side * (std::atan2(second.y(), second.x()) - std::atan2(first.y(), first.x()));
+    double swept_rad =
+        side * (std::atan2(second.y(), second.x()) - std::atan2(first.y(), first.x()));
     swept_rad -= kTwoPi * std::floor(swept_rad / kTwoPi);
     const Eigen::Vector2d tangent = side * Eigen::Vector2d(-first.y(), first.x());
     return TrackPiece{from_m, std::atan2(tangent.y(), tangent.x()), side / first.norm(),
@@ -115,9 +116,10 @@ class Alignment {
     const double bend_rad =
         within_half_turn(piece.direction_rad - last.direction_at_rad(last.length_m));
     if (apart_m > kApart_m) {
-      xml_.note(node, fmt::format("begins {:.3f} m from the end of the one before; allowed: at most "
-                                  "{} m",
-                                  apart_m, kApart_m));
+      xml_.note(node,
+                fmt::format("begins {:.3f} m from the end of the one before; allowed: at most "
+                            "{} m",
+                            apart_m, kApart_m));
     } else if (std::abs(bend_rad) > kBend_rad) {
       xml_.note(node, fmt::format("bends by {:.4f} rad from the one before at station {:.3f} m; "
                                   "allowed: {} .. {} rad",

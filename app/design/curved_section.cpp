@@ -78,8 +78,10 @@ class HeightField {
 
   void enter(std::uint32_t number) {
     const auto& face = surface_.face[number];
-    const Eigen::Vector2d least = corner(face[0]).cwiseMin(corner(face[1])).cwiseMin(corner(face[2]));
-    const Eigen::Vector2d most = corner(face[0]).cwiseMax(corner(face[1])).cwiseMax(corner(face[2]));
+    const Eigen::Vector2d least =
+        corner(face[0]).cwiseMin(corner(face[1])).cwiseMin(corner(face[2]));
+    const Eigen::Vector2d most =
+        corner(face[0]).cwiseMax(corner(face[1])).cwiseMax(corner(face[2]));
     for (int y = index(least.y(), 1); y <= index(most.y(), 1); ++y) {
       for (int x = index(least.x(), 0); x <= index(most.x(), 0); ++x) {
         cell_[cell_of(x, y)].push_back(number);
@@ -119,8 +121,8 @@ class HeightField {
 double height_beside(const HeightField& field, const PlanStation& at, double station_m,
                      double left_m) {
   const double direction = at.piece->direction_at_rad(at.along_m);
-  const Eigen::Vector2d place =
-      at.piece->at_m(at.along_m) + left_m * Eigen::Vector2d(-std::sin(direction), std::cos(direction));
+  const Eigen::Vector2d place = at.piece->at_m(at.along_m) +
+                                left_m * Eigen::Vector2d(-std::sin(direction), std::cos(direction));
   const auto height_m = field.height_m(place);
   if (!height_m) {
     throw std::runtime_error(

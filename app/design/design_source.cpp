@@ -69,7 +69,8 @@ machines::DesignLine line_of(const DesignSource& source, const BladeAcross& blad
   if (ending != ".xml" && !is_points(ending)) {
     if (!source.surface.empty() || source.has_track()) {
       throw std::runtime_error(
-          "--surface, --track, --radius, --alignment, --stations and --datum are for a surface, LandXML (.xml) or points (.xyz, .csv, "
+          "--surface, --track, --radius, --alignment, --stations and --datum are for a surface, "
+          "LandXML (.xml) or points (.xyz, .csv, "
           ".pts): any other file is a line a corner, x along the track and height over the plane");
     }
     return machines::read_design(source.file);

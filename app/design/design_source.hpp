@@ -20,8 +20,7 @@ struct DesignSource {
 
   /// Says more than which surface of a file.
   [[nodiscard]] bool has_track() const {
-    return !track_m.empty() || datum_m != 0.0 || radius_m > 0.0 || alignment ||
-           !stations_m.empty();
+    return !track_m.empty() || datum_m != 0.0 || radius_m > 0.0 || alignment || !stations_m.empty();
   }
 };
 

@@ -62,8 +62,7 @@ class LandXmlSurface {
 
   /// LandXML's order is north, east, height.
   Eigen::Vector3d point_of(const pugi::xml_node& node) {
-    const Eigen::Vector3d at_m =
-        xml_.north_east_up_m(node, 3).value_or(Eigen::Vector3d::Zero());
+    const Eigen::Vector3d at_m = xml_.north_east_up_m(node, 3).value_or(Eigen::Vector3d::Zero());
     return {at_m.y(), at_m.x(), at_m.z()};
   }
 
@@ -84,7 +83,7 @@ class LandXmlSurface {
     const auto words = words_of(node.child_value(), 3);
     if (words.size() != 3) {
       xml_.note(node, fmt::format("{} points; allowed: 3, by their ids",
-                             words.size() > 3 ? "more than 3" : std::to_string(words.size())));
+                                  words.size() > 3 ? "more than 3" : std::to_string(words.size())));
       return;
     }
     std::array<std::uint32_t, 3> face{};

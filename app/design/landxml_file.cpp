@@ -51,9 +51,8 @@ LandXmlFile::LandXmlFile(const std::filesystem::path& file)
     : file_(file), text_(machines::file_text(file, "a design in LandXML")) {
   const pugi::xml_parse_result parsed = document_.load_buffer(text_.data(), text_.size());
   if (!parsed) {
-    throw ProfileError(file.string(),
-                       {fmt::format("line {}: can't be read as XML: {}", line_at(parsed.offset),
-                                    parsed.description())});
+    throw ProfileError(file.string(), {fmt::format("line {}: can't be read as XML: {}",
+                                                   line_at(parsed.offset), parsed.description())});
   }
   if (std::string_view(root().name()) != "LandXML") {
     refuse(root(), "allowed: LandXML as the outermost element");
@@ -62,8 +61,8 @@ LandXmlFile::LandXmlFile(const std::filesystem::path& file)
 }
 
 std::size_t LandXmlFile::line_at(std::ptrdiff_t offset) const {
-  const auto end = text_.begin() + std::clamp<std::ptrdiff_t>(
-                                       offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
+  const auto end = text_.begin() +
+                   std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
   return 1 + static_cast<std::size_t>(std::count(text_.begin(), end, '\n'));
 }
 

@@ -75,7 +75,8 @@ PlanTrack rounded_track(const std::vector<double>& corners_m, double radius_m) {
         (i < last && cut_m > next_m + 1e-9)) {
       throw std::runtime_error(fmt::format(
           "the track bends by {:.3f} rad at x = {}, y = {} m, where an arc of {} m takes {:.3f} m "
-          "before and behind it; allowed: at most half of the way to the next corner, or all of the "
+          "before and behind it; allowed: at most half of the way to the next corner, or all of "
+          "the "
           "first and the last, {:.3f} and {:.3f} m",
           bend_rad, corner(i).x(), corner(i).y(), radius_m, cut_m, way.norm(), next_m));
     }

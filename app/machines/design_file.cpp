@@ -165,10 +165,10 @@ DesignLine read_design(const std::filesystem::path& file) {
 void write_design(const std::filesystem::path& file, const DesignLine& line) {
   std::ofstream stream(file);
   stream << "# A design along the track: x and height over the plane, m"
-         << (line.cross.empty() ? ".\n"
-                                : (line.curvature.empty()
-                                       ? "; slope across, left up.\n"
-                                       : "; slope across, left up; curvature, left, 1/m.\n"));
+         << (line.cross.empty()
+                 ? ".\n"
+                 : (line.curvature.empty() ? "; slope across, left up.\n"
+                                           : "; slope across, left up; curvature, left, 1/m.\n"));
   for (std::size_t i = 0; i < line.corners.size(); ++i) {
     stream << fmt::format("{:.6f} {:.6f}", line.corners[i].x_m, line.corners[i].z_m);
     for (const std::vector<double>* more : {&line.cross, &line.curvature}) {

@@ -22,12 +22,13 @@ struct DesignLine {
       : corners(std::move(at)), cross(std::move(slope_across)) {}
 
   std::vector<GradePoint> corners;
-  std::vector<double> cross;  ///< Slope across at each corner, left up positive; none: level.
+  std::vector<double> cross;      ///< Slope across at each corner, left up positive; none: level.
   std::vector<double> curvature;  ///< Of the track in plan, 1/m, left positive; none: straight.
 };
 
 /// A line a corner: x along the track and height over the plane, m, and the slope across and with
-/// it the track's curvature in plan, each in every line or in none; x rises. Throws as read_number_lines, also where one is out of range.
+/// it the track's curvature in plan, each in every line or in none; x rises. Throws as
+/// read_number_lines, also where one is out of range.
 [[nodiscard]] DesignLine read_design(const std::filesystem::path& file);
 /// Such a file. Throws std::runtime_error where it can't be written.
 void write_design(const std::filesystem::path& file, const DesignLine& line);

@@ -236,9 +236,10 @@ DesignErrors errors_of_curves(const DozerProfile& profile) {
     return {};
   }
   if (!profile.tilt.present) {
-    return {{kDesignKey,
-             "has a track that curves in plan; allowed: a straight one, this machine's blade has no "
-             "[tilt], and its edge lies askew to a curve"}};
+    return {
+        {kDesignKey,
+         "has a track that curves in plan; allowed: a straight one, this machine's blade has no "
+         "[tilt], and its edge lies askew to a curve"}};
   }
   const double reach_m = BladeKinematics(profile.blade).edge_m(0.0).x();
   const double most_pm = kMostAskew_rad / reach_m;

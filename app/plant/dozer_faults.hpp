@@ -27,9 +27,8 @@ struct PoseFaults {
 
   /// The whole sensor: a total station that has lost its prism, an inertial unit that has died.
   void set_state(dbc::RawState state) {
-    for (ReadingFault* fault :
-         {&position, &height, &pitch, &velocity, &climb, &pitch_rate, &roll, &roll_rate, &offset,
-          &heading, &yaw_rate}) {
+    for (ReadingFault* fault : {&position, &height, &pitch, &velocity, &climb, &pitch_rate, &roll,
+                                &roll_rate, &offset, &heading, &yaw_rate}) {
       fault->state = state;
     }
   }

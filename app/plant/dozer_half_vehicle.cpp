@@ -82,8 +82,7 @@ void HalfVehicle::step(const Terrain& terrain, double traction_n, double step_s,
 
 double HalfVehicle::SideGround::height_m(double x_m, double half_width_m) const {
   const double own_m = own.mean_height_m(x_m, half_width_m);
-  return beyond == 0.0 ? own_m
-                       : own_m + beyond * (own_m - other.mean_height_m(x_m, half_width_m));
+  return beyond == 0.0 ? own_m : own_m + beyond * (own_m - other.mean_height_m(x_m, half_width_m));
 }
 
 double HalfVehicle::SideGround::slope(double x_m, double half_width_m) const {

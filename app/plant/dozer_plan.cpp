@@ -30,8 +30,7 @@ PlanTrack::PlanTrack(const GradeHeights& heights) : from_m_(heights.from_m) {
   for (int i = 0; i < heights.count; ++i) {
     // From node to node by the mean of both; the last one goes on straight.
     const bool last = i + 1 == heights.count;
-    node.curvature_pm =
-        last ? 0.0 : 0.5 * (heights.curvature[i] + heights.curvature[i + 1]);
+    node.curvature_pm = last ? 0.0 : 0.5 * (heights.curvature[i] + heights.curvature[i + 1]);
     node_.push_back(node);
     node.at_m += chord_m(node.direction_rad, node.curvature_pm, GradeHeights::kStep_m);
     node.direction_rad += node.curvature_pm * GradeHeights::kStep_m;

@@ -47,7 +47,8 @@ class PlanMotion {
  public:
   explicit PlanMotion(const DozerPlantProfile& profile);
 
-  /// A step on: what the right track pushes with more than the left one, load and speed of the body.
+  /// A step on: what the right track pushes with more than the left one, load and speed of the
+  /// body.
   void step(double more_right_n, double load_n, double speed_mps, double station_m, double step_s);
 
   [[nodiscard]] double offset_m() const { return offset_m_; }

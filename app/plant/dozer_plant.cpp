@@ -44,8 +44,7 @@ DozerPlant::DozerPlant(const DozerPlantProfile& profile)
   if (profile.machine.tilt.present) {
     tilt_.emplace(profile, step_s_);
     const bool curves = profile.machine.grade.curves();
-    cross_.emplace(terrain_,
-                   profile.machine.tilt.half_width_m() - (curves ? kInsideEndM : 0.0),
+    cross_.emplace(terrain_, profile.machine.tilt.half_width_m() - (curves ? kInsideEndM : 0.0),
                    profile.machine.body.half_gauge_m);
     if (curves) {
       plan_.emplace(profile);

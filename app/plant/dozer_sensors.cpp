@@ -118,8 +118,7 @@ dbc::dozer::BodyCourse DozerReadings::course(const PoseFaults& faults) {
   // pitch turns with the body.
   return {offset_.show(sensors_.position_m(pose_.front().offset_m), faults.offset),
           heading_.show(sensors_.heading_rad(pose_.front().heading_rad), faults.heading),
-          yaw_rate_.show(sensors_.pitch_rate_radps(pose_.front().yaw_rate_radps),
-                         faults.yaw_rate)};
+          yaw_rate_.show(sensors_.pitch_rate_radps(pose_.front().yaw_rate_radps), faults.yaw_rate)};
 }
 
 dbc::dozer::TrackSpeed DozerReadings::tracks(const DozerPlant& plant, const DozerFaults& faults) {

@@ -115,7 +115,9 @@ class GradeRun {
     }
     if (known(body.position_m) && known(body.height_m) && known(body.pitch_rad) &&
         known(inputs.blade_stroke_m)) {
-      const BodyPose pose = {body.position_m.value, body.height_m.value, body.pitch_rad.value,
+      const BodyPose pose = {body.position_m.value,
+                             body.height_m.value,
+                             body.pitch_rad.value,
                              known(body.roll_rad) ? body.roll_rad.value : 0.0,
                              known(body.offset_m) ? body.offset_m.value : 0.0,
                              known(body.heading_rad) ? body.heading_rad.value : 0.0};

@@ -147,8 +147,9 @@ BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,
                                          double stroke_m) const {
   const DozerBody& body = profile_.body;
   Driving driving;
-  driving.motion = motion_of(body, {valid.height_m - raised_m(valid, valid.position_m), valid.pitch_rad},
-                             valid.climb_mps, valid.pitch_rate_radps);
+  driving.motion =
+      motion_of(body, {valid.height_m - raised_m(valid, valid.position_m), valid.pitch_rad},
+                valid.climb_mps, valid.pitch_rate_radps);
   driving.x_m = valid.position_m;
   driving.speed_mps = valid.velocity_mps;
   driving = drive_on(body, ground_, design_, driving, {memory_.speed_mps.value(), kTravelLead_s},
@@ -257,10 +258,10 @@ DozerController::Motion DozerController::flow_limited(const DozerValid& valid,
   move_blade(valid, period_s, motion);
   if (design_.curves()) {
     motion.off_track_m = edge_now(valid).offset_m;
-    motion.steering = steer(design_, memory_.steering,
-                            {valid.position_m, reach_m(), memory_.speed_mps.value(),
-                             valid.velocity_mps, valid.course},
-                            period_s);
+    motion.steering = steer(
+        design_, memory_.steering,
+        {valid.position_m, reach_m(), memory_.speed_mps.value(), valid.velocity_mps, valid.course},
+        period_s);
   }
   motion.speed = choose_speed(valid, motion, period_s);
   const double speed_mps = motion.speed.state.speed_mps;

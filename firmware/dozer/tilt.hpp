@@ -46,8 +46,8 @@ struct EdgeSlope {
 [[nodiscard]] EdgeSlope edge_slope(const Eigen::Matrix3d& body_rotation, double blade_angle_rad,
                                    double tilt_rad);
 
-/// Slope of the design along an edge at `x_m` that lies askew to the track: turned to the left by so
-/// much, its left end lies back and its right end ahead. Straight across, the cross slope.
+/// Slope of the design along an edge at `x_m` that lies askew to the track: turned to the left by
+/// so much, its left end lies back and its right end ahead. Straight across, the cross slope.
 [[nodiscard]] CrossSample slope_along_edge(const GradeProfile& design, double x_m,
                                            double askew_rad);
 

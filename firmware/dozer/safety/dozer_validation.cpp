@@ -67,8 +67,8 @@ void read_course(const BodyInputs& body, const Freshness& fresh, DozerValidation
                                state.heading_rad, valid.faults);
   Signal<double> aslant_mps = body.velocity_mps;
   aslant_mps.value *= std::sin(body.heading_rad.value);
-  state.offset_m = believed(body.offset_m, aslant_mps, kPositionMargin_m, fresh, state.offset_m,
-                            valid.faults);
+  state.offset_m =
+      believed(body.offset_m, aslant_mps, kPositionMargin_m, fresh, state.offset_m, valid.faults);
   const auto demand = [&](const Signal<double>& from, double& to) {
     read_required({&from, &to, Fault::kPoseMissing, Fault::kNone}, fresh, valid.faults);
   };

@@ -66,7 +66,8 @@ bool watch_pose(const DozerValid& valid, const GroundSpeeds& speeds, double peri
   state.offset_m = valid.course.offset_m;
   return exceeds(state.ahead_m, kMostAhead_m) || exceeds(state.climbed_m, kMostClimbed_m) ||
          exceeds(state.turned_rad, kMostTurned_rad) || exceeds(state.rolled_rad, kMostTurned_rad) ||
-         exceeds(state.aside_m, kMostAhead_m) || exceeds(state.uphill_m, kMostUphill_m) || exceeds(state.slipped_m, kMostSlipped_m);
+         exceeds(state.aside_m, kMostAhead_m) || exceeds(state.uphill_m, kMostUphill_m) ||
+         exceeds(state.slipped_m, kMostSlipped_m);
 }
 
 }  // namespace graben

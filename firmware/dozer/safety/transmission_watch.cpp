@@ -54,8 +54,7 @@ TrackSpeeds speeds_beside(const DozerProfile& profile, const DozerValid& valid) 
   }
   // Validation has refused a pitch near to upright.
   speeds.body_mps = valid.velocity_mps / std::cos(valid.pitch_rad);
-  speeds.beside_mps =
-      track_speeds_mps(profile.body, speeds.body_mps, valid.course.yaw_rate_radps);
+  speeds.beside_mps = track_speeds_mps(profile.body, speeds.body_mps, valid.course.yaw_rate_radps);
   return speeds;
 }
 
@@ -69,8 +68,7 @@ bool are_apart(const DozerProfile& profile, const TrackSpeeds& speeds, const Doz
   const double share = profile.grade.curves() ? kApartOnCurve : kApartShare;
   const double left_mps = valid.track_speed_mps[kLeft] - speeds.expected_mps[kLeft];
   const double right_mps = valid.track_speed_mps[kRight] - speeds.expected_mps[kRight];
-  return std::abs(left_mps - right_mps) >
-         kApartMargin_mps + share * std::abs(speeds.body_mps);
+  return std::abs(left_mps - right_mps) > kApartMargin_mps + share * std::abs(speeds.body_mps);
 }
 
 /// The time that something has lasted.

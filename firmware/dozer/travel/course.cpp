@@ -61,8 +61,7 @@ EdgeCourse edge_course(const GradeProfile& design, double x_m, const Course& cou
   const double s = std::sin(turned_rad);
   EdgeCourse edge;
   edge.offset_m = c * off_across_m - s * off_along_m;
-  const double wider =
-      std::max(0.5, 1.0 - design.curvature_at(x_m + reach_m) * edge.offset_m);
+  const double wider = std::max(0.5, 1.0 - design.curvature_at(x_m + reach_m) * edge.offset_m);
   edge.ahead_m = reach_m + (c * off_along_m + s * off_across_m) / wider;
   edge.heading_rad = course.heading_rad - turned_rad;
   return edge;
@@ -91,7 +90,8 @@ std::array<double, kTrackCount> steered_mps(const DozerBody& body, double speed_
                                             double period_s, SteeringState& state) {
   std::array<double, kTrackCount> wanted_mps =
       track_speeds_mps(body, speed_mps, state.curvature_pm * speed_mps);
-  const unsigned outer = std::abs(wanted_mps[kLeft]) > std::abs(wanted_mps[kRight]) ? kLeft : kRight;
+  const unsigned outer =
+      std::abs(wanted_mps[kLeft]) > std::abs(wanted_mps[kRight]) ? kLeft : kRight;
   const double way = speed_mps < 0.0 ? -1.0 : 1.0;
   const double lacks_mps = way * (wanted_mps[outer] - measured_mps[outer]);
   state.short_mps += (lacks_mps - state.short_mps) * period_s / (kShort_s + period_s);

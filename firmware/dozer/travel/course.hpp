@@ -22,8 +22,8 @@ struct Course {
 
 /// Middle of the cutting edge.
 struct EdgeCourse {
-  double ahead_m = 0.0;     ///< Its station over the origin's.
-  double offset_m = 0.0;    ///< Of the track beside it.
+  double ahead_m = 0.0;      ///< Its station over the origin's.
+  double offset_m = 0.0;     ///< Of the track beside it.
   double heading_rad = 0.0;  ///< The body's against the track there.
 };
 
@@ -34,8 +34,8 @@ struct EdgeCourse {
 
 /// State from cycle to cycle.
 struct SteeringState {
-  double trim_pm = 0.0;         ///< Curvature that the tracks lose by slipping.
-  double wanted_radps = 0.0;    ///< Of the last cycle.
+  double trim_pm = 0.0;       ///< Curvature that the tracks lose by slipping.
+  double wanted_radps = 0.0;  ///< Of the last cycle.
   double curvature_pm = 0.0;  ///< Asked of the tracks.
   double short_mps = 0.0;     ///< By which the outer track lags behind what it is to run.
 };

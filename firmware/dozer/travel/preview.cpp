@@ -121,8 +121,8 @@ void Preview::step(const GroundMap& ground, const GradeProfile& design, int numb
         tilt_oil_m2(profile_, tilt_, design, station_m, blade_.edge_m(0.0).x());
   }
   if (design.curves()) {
-    outer_[slot(probe.end)] = static_cast<float>(profile_.body.half_gauge_m *
-                                                 std::abs(design.curvature_at(station_m)));
+    outer_[slot(probe.end)] =
+        static_cast<float>(profile_.body.half_gauge_m * std::abs(design.curvature_at(station_m)));
   }
   need(number, probe.end) = {stroke_on(design, station_m, at, probe.angle_rad), 0.0, 0.0};
   ++probe.end;

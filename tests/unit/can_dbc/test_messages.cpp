@@ -56,10 +56,9 @@ void bus_load_is_planned(void**) {
   check_load("an excavator with a swing drive", excavator::kMessages, kExcavator, all);
   check_load("one without", excavator::kMessages, kWithoutSwing, is_of_every_machine);
   check_load("a dozer whose blade tilts, on a curve", dozer::kMessages, kDozer, all);
-  check_load("a dozer", dozer::kMessages, kWithoutTilt,
-             [](const MessageInfo& message) { 
-               return message.id != dozer::TiltState::kId && message.id != dozer::BodyCourse::kId;
-             });
+  check_load("a dozer", dozer::kMessages, kWithoutTilt, [](const MessageInfo& message) {
+    return message.id != dozer::TiltState::kId && message.id != dozer::BodyCourse::kId;
+  });
 }
 
 constexpr std::uint32_t pgn_of(const MessageInfo& message) { return (message.id >> 8U) & 0x3FFFFU; }

@@ -79,8 +79,8 @@ void what_it_cant_be_is_refused_with_its_element(void**) {
   assert_true(has(refusal(file_of(kLine + bent)),
                   "bends by 0.4636 rad from the one before at station 10.000 m"));
   assert_true(has(refusal(file_of("<Line><Start>0 0</Start></Line>\n")), "has no <End>"));
-  assert_true(has(refusal(file_of("<Line><Start>0 x</Start><End>0 1</End></Line>\n")),
-                  "'x' as its east"));
+  assert_true(
+      has(refusal(file_of("<Line><Start>0 x</Start><End>0 1</End></Line>\n")), "'x' as its east"));
   const auto curve = [](const std::string& rot, const std::string& end) {
     return refusal(file_of("<Curve rot=\"" + rot + "\"><Start>0 10</Start><Center>20 10</Center>" +
                            "<End>" + end + "</End></Curve>\n"));
@@ -140,8 +140,8 @@ void what_cant_be_made_is_refused_with_the_station(void**) {
     return test::refusal_of(
         [&] { static_cast<void>(design::along_curved_track(surface, track, 7.0, blade)); });
   };
-  assert_true(has(refused(plane(60.0), {2.5, 0.02, false}),
-                  "the track curves from station 10.00 m on"));
+  assert_true(
+      has(refused(plane(60.0), {2.5, 0.02, false}), "the track curves from station 10.00 m on"));
   assert_true(has(refused(plane(20.0), kTilts), "the surface has a hole at station 19."));
   design::Surface two = plane(60.0);
   for (const double y_m : {-10.0, 60.0}) {

@@ -81,7 +81,8 @@ void assert_stops(Fault fault, const std::function<void(DozerInputs&)>& change) 
 }
 
 void where_it_is_has_to_be_known(void**) {
-  for (auto signal : {&BodyInputs::offset_m, &BodyInputs::heading_rad, &BodyInputs::yaw_rate_radps}) {
+  for (auto signal :
+       {&BodyInputs::offset_m, &BodyInputs::heading_rad, &BodyInputs::yaw_rate_radps}) {
     assert_stops(Fault::kPoseMissing, [signal](DozerInputs& inputs) {
       (inputs.body.*signal).validity = Validity::kNotAvailable;
     });

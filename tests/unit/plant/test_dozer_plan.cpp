@@ -92,9 +92,8 @@ void a_way_is_along_and_across(void**) {
   // It goes straight on, so that the track turns away from it.
   assert_near(still.heading_rad(), -0.5 / kRadius_m, 1e-3);
   assert_near(still.offset_m(), -0.5 * 0.5 * 0.5 / kRadius_m, 1e-3);
-  assert_near(still.station_share(10.0), std::cos(still.heading_rad()) /
-                                             (1.0 - still.offset_m() / kRadius_m),
-              1e-9);
+  assert_near(still.station_share(10.0),
+              std::cos(still.heading_rad()) / (1.0 - still.offset_m() / kRadius_m), 1e-9);
 }
 
 /// What it cuts lies where the edge's points are against the track.
@@ -111,8 +110,10 @@ void its_edge_cuts_lines_beside_the_track(void**) {
   const Eigen::Vector3d middle_m = plant.edge_point_m(0.0);
   // Straight on, to the right of a track that turns left.
   assert_true(middle_m.x() > 5.5);
-  assert_near(middle_m.y(), kRadius_m - std::hypot(kRadius_m, kRadius_m * std::tan(
-                                            (middle_m.x() - 4.975) / kRadius_m)), 0.01);
+  assert_near(
+      middle_m.y(),
+      kRadius_m - std::hypot(kRadius_m, kRadius_m * std::tan((middle_m.x() - 4.975) / kRadius_m)),
+      0.01);
   const CrossGround& ground = *plant.cross_ground();
   assert_true(ground.line[CrossGround::kLeftTrack].height_m(middle_m.x() - 0.3) < -0.005);
 }
