@@ -15,13 +15,26 @@ void add_design_options(CLI::App& command, design::DesignSource& source) {
       "--design", source.file,
       "Instead of the profile's design: a LandXML surface (.xml), points x y z (.xyz, .csv, .pts), "
       "or any other text with x along the track and height over the plane, a line a corner, and "
-      "where the blade tilts the slope across");
+      "where the blade tilts the slope across and the track's curvature");
   command.add_option("--surface", source.surface, "Of a LandXML file with several, by its name");
   command
-      .add_option("--track", source.track_m,
-                  "Way of the blade's middle over the surface, straight: x and y of its start and "
-                  "of its end, m; along x through the middle unless told")
+      .add_option(
+          "--track", source.track_m,
+          "Way of the blade's middle over the surface: x and y of its start, of corners, and "
+          "of its end, m; along x through the middle unless told")
       ->expected(4, 64)
+      ->delimiter(',');
+  command
+      .add_option("--radius", source.radius_m,
+                  "Of the arcs at that track's corners, m, 2 .. 1000, of a blade that tilts; "
+                  "straight unless told")
+      ->check(number_between(2.0, 1000.0));
+  command.add_option("--alignment", source.alignment,
+                     "The track instead: an alignment of the LandXML file, by its name");
+  command
+      .add_option("--stations", source.stations_m,
+                  "From and to on that alignment, m; all of it unless told")
+      ->expected(2)
       ->delimiter(',');
   command
       .add_option("--datum", source.datum_m,
@@ -32,8 +45,9 @@ void add_design_options(CLI::App& command, design::DesignSource& source) {
 
 Designed designed(const machines::SimulatedDozer& machine, const design::DesignSource& source) {
   if (source.file.empty()) {
-    if (!source.surface.empty() || !source.track_m.empty() || source.datum_m != 0.0) {
-      throw std::runtime_error("--surface, --track and --datum are of a --design");
+    if (!source.surface.empty() || source.has_track()) {
+      throw std::runtime_error(
+          "--surface, --track, --radius, --alignment, --stations and --datum are of a --design");
     }
     return {machine, {}};
   }

@@ -24,7 +24,7 @@ constexpr double kMostExtent_m = 2e5;
 std::vector<Eigen::Vector3d> points_of(const std::filesystem::path& file) {
   std::vector<Eigen::Vector3d> points;
   machines::read_number_lines(
-      file, {3, "x, y and z, m", kMostPoints}, [&](std::size_t, const std::array<double, 3>& at) {
+      file, {3, "x, y and z, m", kMostPoints}, [&](std::size_t, const machines::LineOfNumbers& at) {
         for (unsigned i = 0; i < 3; ++i) {
           const double most_m = i == 2 ? kMostHeight_m : kMostPlan_m;
           if (std::abs(at[i]) > most_m) {

@@ -228,12 +228,16 @@ machines::DesignLine sloped(const std::vector<GradePoint>& middle,
 
 }  // namespace
 
-Track straight_track(const std::vector<double>& corners_m) {
+void demand_corners(const std::vector<double>& corners_m) {
   if (corners_m.size() < 4 || corners_m.size() % 2 != 0) {
     throw std::runtime_error(
         fmt::format("the track has {} numbers; allowed: x and y of its start and of its end, m",
                     corners_m.size()));
   }
+}
+
+Track straight_track(const std::vector<double>& corners_m) {
+  demand_corners(corners_m);
   const auto corner = [&](std::size_t i) {
     return Eigen::Vector2d(corners_m[2 * i], corners_m[2 * i + 1]);
   };
@@ -245,17 +249,21 @@ Track straight_track(const std::vector<double>& corners_m) {
         std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after));
     if (std::abs(bend_rad) > kMostBend_rad) {
       throw std::runtime_error(fmt::format(
-          "the track bends by {:.3f} rad at x = {}, y = {} m; allowed: {} .. {} rad: what is "
-          "measured of the dozer has no heading and no place across, and nothing steers it",
+          "the track bends by {:.3f} rad at x = {}, y = {} m; allowed: {} .. {} rad, or more with "
+          "--radius of its curves",
           bend_rad, corner(i).x(), corner(i).y(), -kMostBend_rad, kMostBend_rad));
     }
   }
   const Track track{corner(0), corner(last)};
-  if (!(track.length_m() >= kLeastLength_m && track.length_m() <= kMostLength_m)) {
-    throw std::runtime_error(fmt::format("the track is {:.3f} m long; allowed: {} .. {} m",
-                                         track.length_m(), kLeastLength_m, kMostLength_m));
-  }
+  demand_track_length(track.length_m());
   return track;
+}
+
+void demand_track_length(double length_m) {
+  if (!(length_m >= kLeastLength_m && length_m <= kMostLength_m)) {
+    throw std::runtime_error(fmt::format("the track is {:.3f} m long; allowed: {} .. {} m",
+                                         length_m, kLeastLength_m, kMostLength_m));
+  }
 }
 
 Track middle_track(const Surface& surface) {

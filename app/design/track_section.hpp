@@ -20,9 +20,12 @@ struct Track {
 };
 
 /// Of corners in plan, x and y by turns. Throws std::runtime_error for fewer than two, for a track
-/// out of length, and for a bend: what is known of a dozer's pose has no heading and no place
-/// across, and nothing steers it.
+/// out of length, and for a bend, which takes a radius.
 [[nodiscard]] Track straight_track(const std::vector<double>& corners_m);
+/// Throws std::runtime_error unless they are two and more.
+void demand_corners(const std::vector<double>& corners_m);
+/// Throws std::runtime_error for a track out of length.
+void demand_track_length(double length_m);
 /// Along x through the middle of what the surface covers.
 [[nodiscard]] Track middle_track(const Surface& surface);
 

@@ -71,11 +71,30 @@ std::uint32_t hash_with(std::uint32_t hash, const GradeHeights& heights) {
   for (int i = 0; heights.cross != nullptr && i < heights.count; ++i) {
     add(heights.cross[i]);
   }
+  for (int i = 0; heights.curvature != nullptr && i < heights.count; ++i) {
+    add(heights.curvature[i]);
+  }
   return hash;
 }
 
 /// What is wrong with a line's numbers; empty: nothing.
-std::string take_corner(const std::array<double, 3>& numbers, DesignLine& line) {
+/// What is wrong with one that is in every line or in none; empty: nothing.
+std::string take_more(double value, const char* name, double most, bool is_first,
+                      std::vector<double>& values) {
+  const bool is_there = !std::isnan(value);
+  if (!is_first && is_there == values.empty()) {
+    return fmt::format("allowed: {} in every line or in none", name);
+  }
+  if (is_there && std::abs(value) > most) {
+    return fmt::format("{} of {}; allowed: {} .. {}", name, value, -most, most);
+  }
+  if (is_there) {
+    values.push_back(value);
+  }
+  return "";
+}
+
+std::string take_corner(const LineOfNumbers& numbers, DesignLine& line) {
   const GradePoint at{numbers[0], numbers[1]};
   if (std::abs(at.x_m) > kMostX_m) {
     return fmt::format("x = {} m; allowed: {} .. {} m", at.x_m, -kMostX_m, kMostX_m);
@@ -88,19 +107,15 @@ std::string take_corner(const std::array<double, 3>& numbers, DesignLine& line) 
     return fmt::format("x = {} m; allowed: more than the line before, {} m", at.x_m,
                        line.corners.back().x_m);
   }
-  const bool has_cross = !std::isnan(numbers[2]);
-  if (!line.corners.empty() && has_cross == line.cross.empty()) {
-    return "allowed: a slope across in every line or in none";
+  const bool is_first = line.corners.empty();
+  std::string wrong = take_more(numbers[2], "a slope across", kMostCross, is_first, line.cross);
+  if (wrong.empty()) {
+    wrong = take_more(numbers[3], "a curvature", kMostCurvature_pm, is_first, line.curvature);
   }
-  if (has_cross && std::abs(numbers[2]) > kMostCross) {
-    return fmt::format("a slope across of {}; allowed: {} .. {}", numbers[2], -kMostCross,
-                       kMostCross);
+  if (wrong.empty()) {
+    line.corners.push_back(at);
   }
-  line.corners.push_back(at);
-  if (has_cross) {
-    line.cross.push_back(numbers[2]);
-  }
-  return "";
+  return wrong;
 }
 
 /// The corners every GradeHeights::kStep_m, rounded.
@@ -129,9 +144,11 @@ std::shared_ptr<const std::vector<double>> on_grid(const std::vector<GradePoint>
 DesignLine read_design(const std::filesystem::path& file) {
   DesignLine line;
   const Columns columns{
-      2, "x along the track and height over the plane, m, and it may be the slope across",
-      kMostCorners, 1};
-  read_number_lines(file, columns, [&](std::size_t, const std::array<double, 3>& numbers) {
+      2,
+      "x along the track and height over the plane, m, and it may be the slope across, and the "
+      "track's curvature",
+      kMostCorners, 2};
+  read_number_lines(file, columns, [&](std::size_t, const LineOfNumbers& numbers) {
     return take_corner(numbers, line);
   });
   const std::vector<GradePoint>& corners = line.corners;
@@ -148,10 +165,16 @@ DesignLine read_design(const std::filesystem::path& file) {
 void write_design(const std::filesystem::path& file, const DesignLine& line) {
   std::ofstream stream(file);
   stream << "# A design along the track: x and height over the plane, m"
-         << (line.cross.empty() ? ".\n" : "; slope across, left up.\n");
+         << (line.cross.empty()
+                 ? ".\n"
+                 : (line.curvature.empty() ? "; slope across, left up.\n"
+                                           : "; slope across, left up; curvature, left, 1/m.\n"));
   for (std::size_t i = 0; i < line.corners.size(); ++i) {
-    stream << fmt::format("{:.6f} {:.6f}", line.corners[i].x_m, line.corners[i].z_m)
-           << (line.cross.empty() ? "\n" : fmt::format(" {:.6f}\n", line.cross[i]));
+    stream << fmt::format("{:.6f} {:.6f}", line.corners[i].x_m, line.corners[i].z_m);
+    for (const std::vector<double>* more : {&line.cross, &line.curvature}) {
+      stream << (more->empty() ? "" : fmt::format(" {:.6f}", (*more)[i]));
+    }
+    stream << "\n";
   }
   stream.flush();
   if (!stream) {
@@ -160,15 +183,15 @@ void write_design(const std::filesystem::path& file, const DesignLine& line) {
 }
 
 DesignHeights heights_of(const DesignLine& line, double rounding_m) {
-  DesignHeights heights{line.corners.front().x_m, on_grid(line.corners, rounding_m), nullptr};
-  if (!line.cross.empty()) {
-    std::vector<GradePoint> across = line.corners;
-    for (std::size_t i = 0; i < across.size(); ++i) {
-      across[i].z_m = line.cross[i];
+  const auto of = [&](const std::vector<double>& values) {
+    std::vector<GradePoint> at = line.corners;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      at[i].z_m = values[i];
     }
-    heights.cross = on_grid(across, rounding_m);
-  }
-  return heights;
+    return values.empty() ? nullptr : on_grid(at, rounding_m);
+  };
+  return {line.corners.front().x_m, on_grid(line.corners, rounding_m), of(line.cross),
+          of(line.curvature)};
 }
 
 void set_design(DozerMachine& machine, const DesignHeights& heights) {
@@ -177,7 +200,8 @@ void set_design(DozerMachine& machine, const DesignHeights& heights) {
   grade.count = 0;
   grade.point = {};
   grade.heights = {heights.height_m->data(), heights.cross ? heights.cross->data() : nullptr,
-                   static_cast<int>(heights.height_m->size()), heights.from_m};
+                   static_cast<int>(heights.height_m->size()), heights.from_m,
+                   heights.curvature ? heights.curvature->data() : nullptr};
   machine.hash = hash_with(machine.hash, grade.heights);
 }
 

@@ -7,6 +7,7 @@
 #include "app/machines/dozer_sections.hpp"
 #include "app/machines/tilt_section.hpp"
 
+#include "firmware/dozer/travel/course.hpp"
 #include "firmware/dozer/travel/preview.hpp"
 #include "firmware/dozer/travel/support.hpp"
 #include "firmware/numeric/constants.hpp"
@@ -228,6 +229,33 @@ DesignErrors errors_of_keeping(const DozerProfile& profile) {
 /// the body stands on two corners, and its height is not that of the ground's middle.
 constexpr double kMostTwist = 1.5;
 
+/// Of a track that curves: a blade that tilts, and how tight.
+DesignErrors errors_of_curves(const DozerProfile& profile) {
+  const GradeDesign& grade = profile.grade;
+  if (!grade.curves()) {
+    return {};
+  }
+  if (!profile.tilt.present) {
+    return {
+        {kDesignKey,
+         "has a track that curves in plan; allowed: a straight one, this machine's blade has no "
+         "[tilt], and its edge lies askew to a curve"}};
+  }
+  const double reach_m = BladeKinematics(profile.blade).edge_m(0.0).x();
+  const double most_pm = kMostAskew_rad / reach_m;
+  for (int i = 0; i < grade.heights.count; ++i) {
+    const double curvature_pm = grade.heights.curvature[i];
+    if (std::abs(curvature_pm) > most_pm) {
+      return {{kDesignKey,
+               fmt::format("at x = {:.2f} m the track has a radius of {:.2f} m; allowed: at least "
+                           "{:.2f} m, on which the edge, {:.2f} m ahead, lies askew by {} rad",
+                           grade.heights.from_m + i * GradeHeights::kStep_m,
+                           1.0 / std::abs(curvature_pm), 1.0 / most_pm, reach_m, kMostAskew_rad)}};
+    }
+  }
+  return {};
+}
+
 /// Of a slope across: a blade that tilts, how far, and ground that twists below the tracks.
 DesignErrors errors_of_tilt(const DozerProfile& profile) {
   const GradeDesign& grade = profile.grade;
@@ -284,6 +312,9 @@ double lowest_point_m(const GradeDesign& grade) {
 std::vector<DesignError> design_errors(const DozerProfile& profile) {
   DesignErrors errors = profile.grade.heights.count > 0 ? errors_of_heights(profile.grade)
                                                         : errors_of_corners(profile.grade);
+  if (errors.empty()) {
+    errors = errors_of_curves(profile);
+  }
   if (errors.empty()) {
     errors = errors_of_tilt(profile);
   }

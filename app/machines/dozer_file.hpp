@@ -17,8 +17,9 @@ namespace graben::machines {
 /// A design's heights on the controller's grid, which the profile points to.
 struct DesignHeights {
   double from_m = 0.0;
-  std::shared_ptr<const std::vector<double>> height_m;  ///< None: the profile has points.
-  std::shared_ptr<const std::vector<double>> cross;     ///< None: level across.
+  std::shared_ptr<const std::vector<double>> height_m;   ///< None: the profile has points.
+  std::shared_ptr<const std::vector<double>> cross;      ///< None: level across.
+  std::shared_ptr<const std::vector<double>> curvature;  ///< None: a straight track.
 };
 
 /// A dozer as its controller has to know it. Its profile and copies of it are good as long as this

@@ -206,7 +206,7 @@ std::string design_name(TomlReader& reader) {
   return reader.text(kDesignKey,
                      "the design in a file of its own, by its name beside this file, instead of "
                      "grade.profile: a line a corner, x and height over the plane, m, "
-                     "and where the blade tilts the slope across");
+                     "and where the blade tilts the slope across and the track's curvature");
 }
 
 DozerProfile read_dozer_sections(TomlReader& reader) {

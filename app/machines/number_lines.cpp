@@ -47,7 +47,7 @@ class LineNumbers {
 std::string take_line(std::size_t number, std::string_view line, const Columns& columns,
                       const TakeNumbers& take) {
   LineNumbers words(line);
-  std::array<double, 3> numbers{};
+  LineOfNumbers numbers{};
   numbers.fill(std::numeric_limits<double>::quiet_NaN());
   const std::size_t most = columns.count + columns.more;
   std::size_t count = 0;

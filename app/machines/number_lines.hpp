@@ -10,17 +10,19 @@
 
 namespace graben::machines {
 
+inline constexpr std::size_t kMostColumns = 4;
+using LineOfNumbers = std::array<double, kMostColumns>;
+
 /// What the columns of a file are: so many, their names, for messages.
 struct Columns {
-  std::size_t count = 0;  ///< With `more` at most 3.
+  std::size_t count = 0;  ///< With `more` at most kMostColumns.
   const char* names = "";
   std::size_t most_lines = 0;
   std::size_t more = 0;  ///< So many may follow; not a number where they are not there.
 };
 
 /// A line's numbers; `line` counts from 1. What it returns is wrong with them; empty: nothing.
-using TakeNumbers =
-    std::function<std::string(std::size_t line, const std::array<double, 3>& numbers)>;
+using TakeNumbers = std::function<std::string(std::size_t line, const LineOfNumbers& numbers)>;
 
 /// Hands on every line of the file: numbers with blanks, tabs, commas or semicolons between them,
 /// a decimal point, and finite. Empty lines and what follows a # are skipped. Throws

@@ -21,11 +21,14 @@ struct PoseFaults {
   ReadingFault pitch_rate;
   ReadingFault roll;  ///< Of a machine whose blade tilts, as the next.
   ReadingFault roll_rate;
+  ReadingFault offset;  ///< On a design whose track curves, as the next.
+  ReadingFault heading;
+  ReadingFault yaw_rate;
 
   /// The whole sensor: a total station that has lost its prism, an inertial unit that has died.
   void set_state(dbc::RawState state) {
-    for (ReadingFault* fault :
-         {&position, &height, &pitch, &velocity, &climb, &pitch_rate, &roll, &roll_rate}) {
+    for (ReadingFault* fault : {&position, &height, &pitch, &velocity, &climb, &pitch_rate, &roll,
+                                &roll_rate, &offset, &heading, &yaw_rate}) {
       fault->state = state;
     }
   }

@@ -80,7 +80,18 @@ void HalfVehicle::step(const Terrain& terrain, double traction_n, double step_s,
   move(moment, traction_n, step_s, load);
 }
 
-double HalfVehicle::half_wheel_load(const Terrain& terrain, double along_m, double across_m) const {
+double HalfVehicle::SideGround::height_m(double x_m, double half_width_m) const {
+  const double own_m = own.mean_height_m(x_m, half_width_m);
+  return beyond == 0.0 ? own_m : own_m + beyond * (own_m - other.mean_height_m(x_m, half_width_m));
+}
+
+double HalfVehicle::SideGround::slope(double x_m, double half_width_m) const {
+  const double slope = own.mean_slope(x_m, half_width_m);
+  return beyond == 0.0 ? slope : slope + beyond * (slope - other.mean_slope(x_m, half_width_m));
+}
+
+double HalfVehicle::half_wheel_load(const SideGround& ground, double along_m,
+                                    double across_m) const {
   const double cosine = std::cos(pitch_);
   const double sine = std::sin(pitch_);
   const double sag = wheel_depth_ - body_.mass_centre_height_m;
@@ -89,18 +100,18 @@ double HalfVehicle::half_wheel_load(const Terrain& terrain, double along_m, doub
   const double beside = wheel_depth_ * std::sin(roll_) + across_m * std::cos(roll_);
   const double x = position_ + along_m * cosine + sag * sine;
   const double z = mass_centre_ + along_m * sine - below * cosine;
-  const double compression = terrain.mean_height_m(x, wheel_half_width_) - z;
+  const double compression = ground.height_m(x, wheel_half_width_) - z;
   if (compression <= 0.0) {
     return 0.0;
   }
   const double forward = velocity_ - pitch_rate_ * (along_m * sine - sag * cosine);
   const double upward = mass_centre_climb_ + pitch_rate_ * (along_m * cosine + below * sine) +
                         roll_rate_ * beside * cosine;
-  const double rate = terrain.mean_slope(x, wheel_half_width_) * forward - upward;
+  const double rate = ground.slope(x, wheel_half_width_) * forward - upward;
   return 0.5 * std::max(0.0, body_.suspension_npm * compression + body_.suspension_nspm * rate);
 }
 
-HalfVehicle::Side HalfVehicle::press(const Terrain& terrain, double across_m) {
+HalfVehicle::Side HalfVehicle::press(const SideGround& ground, double across_m) {
   const double cosine = std::cos(pitch_);
   const double sine = std::sin(pitch_);
   const double below = wheel_depth_ * std::cos(roll_) - across_m * std::sin(roll_);
@@ -108,7 +119,7 @@ HalfVehicle::Side HalfVehicle::press(const Terrain& terrain, double across_m) {
   Side side;
   for (int i = 0; i < body_.wheels; ++i) {
     const double along = wheel_place_m(i);
-    const double pressed = half_wheel_load(terrain, along, across_m);
+    const double pressed = half_wheel_load(ground, along, across_m);
     load_[static_cast<std::size_t>(i)] += pressed;
     side.load_n += pressed;
     side.pitch_nm += pressed * (along * cosine + below * sine);
@@ -119,8 +130,8 @@ HalfVehicle::Side HalfVehicle::press(const Terrain& terrain, double across_m) {
 
 void HalfVehicle::step(const TracksGround& ground, double traction_n, double step_s) {
   load_ = {};
-  const Side left = press(ground.left, body_.half_gauge_m);
-  const Side right = press(ground.right, -body_.half_gauge_m);
+  const Side left = press({ground.left, ground.right, ground.beyond}, body_.half_gauge_m);
+  const Side right = press({ground.right, ground.left, -ground.beyond}, -body_.half_gauge_m);
   track_load_ = {left.load_n, right.load_n};
   whole_load_ = left.load_n + right.load_n;
   move(left.pitch_nm + right.pitch_nm, traction_n, step_s, {});
@@ -141,7 +152,7 @@ void HalfVehicle::move(double moment, double traction_n, double step_s, const Bo
   velocity_ += step_s * (cosine * along_body + load.force_n.x()) / mass;
   mass_centre_climb_ += step_s * ((whole_load_ + load.force_n.y()) / mass - gravity_);
   pitch_rate_ += step_s * moment / pitch_inertia_;
-  position_ += step_s * velocity_;
+  position_ += step_s * station_share_ * velocity_;
   mass_centre_ += step_s * mass_centre_climb_;
   pitch_ += step_s * pitch_rate_;
 }

@@ -18,10 +18,12 @@ struct BodyLoad {
   bool tracks_turn = false;  ///< What the tracks drive with beyond the slope turns it about it too.
 };
 
-/// Ground below each track's middle.
+/// Ground below each track's middle: straight across from one line of it to the other, and beyond
+/// both alike.
 struct TracksGround {
   const Terrain& left;
   const Terrain& right;
+  double beyond = 0.0;  ///< So far left of them the tracks are, of what lies between them.
 };
 
 /// Wheels on springs and dampers that push only, evenly spaced over the contact. World frame, x
@@ -41,6 +43,8 @@ class HalfVehicle {
   void step(const Terrain& terrain, double traction_n, double step_s, const BodyLoad& load = {});
   /// The same on ground that differs below the two tracks: half of each wheel stands on either.
   void step(const TracksGround& ground, double traction_n, double step_s);
+  /// Way along a track that curves in plan, on which `position_m` counts, over the body's.
+  void set_station_share(double share) { station_share_ = share; }
 
   /// Of the body frame's origin.
   [[nodiscard]] double position_m() const { return position_; }
@@ -68,8 +72,17 @@ class HalfVehicle {
   /// With cosine and sine of the pitch.
   [[nodiscard]] double wheel_load(const Terrain& terrain, double along_m, double cosine,
                                   double sine) const;
+  /// One side's ground: its own line, and that of the other side.
+  struct SideGround {
+    const Terrain& own;
+    const Terrain& other;
+    double beyond;
+
+    [[nodiscard]] double height_m(double x_m, double half_width_m) const;
+    [[nodiscard]] double slope(double x_m, double half_width_m) const;
+  };
   /// Half a wheel `across_m` to the left of the middle.
-  [[nodiscard]] double half_wheel_load(const Terrain& terrain, double along_m,
+  [[nodiscard]] double half_wheel_load(const SideGround& ground, double along_m,
                                        double across_m) const;
   /// What is pressed of one side: with its moments about the mass centre.
   struct Side {
@@ -77,7 +90,7 @@ class HalfVehicle {
     double pitch_nm = 0.0;
     double roll_nm = 0.0;
   };
-  Side press(const Terrain& terrain, double across_m);
+  Side press(const SideGround& ground, double across_m);
   /// By what the wheels press with, and their moment.
   void move(double moment, double traction_n, double step_s, const BodyLoad& load);
   [[nodiscard]] double rolling_resistance_n() const;
@@ -94,6 +107,7 @@ class HalfVehicle {
   double mass_centre_;  ///< Its height.
   double pitch_ = 0.0;
   double velocity_ = 0.0;
+  double station_share_ = 1.0;
   double mass_centre_climb_ = 0.0;
   double pitch_rate_ = 0.0;
   double roll_inertia_;

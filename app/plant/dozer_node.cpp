@@ -35,6 +35,9 @@ void DozerNode::step(TimeUs now) {
   if (plant_.tilt()) {
     send(readings_.tilt(plant_, faults_), now);
   }
+  if (plant_.plan()) {
+    send(readings_.course(faults_.pose), now);
+  }
   if (is_due<bus::EEC1>()) {
     send(bus::EEC1{valid(plant_.engine_radps())}, now);
   }

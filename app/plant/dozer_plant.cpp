@@ -12,6 +12,10 @@ namespace {
 // Ground that is kept beyond the grade: what lies before the start and the machine itself.
 constexpr double kGroundBehindM = 6.0;
 constexpr double kGroundAheadM = 10.0;
+/// Station of an edge that does not reach a line.
+constexpr double kBesideM = -1e9;
+// On a curve the edge's ends leave their lines of ground for a while.
+constexpr double kInsideEndM = 0.15;
 /// How much harder than its power the part beyond the full one pulls an engine down.
 constexpr double kOverload = 5.0;
 
@@ -39,8 +43,12 @@ DozerPlant::DozerPlant(const DozerPlantProfile& profile)
   cylinder_.start(blade_.stroke_m(), blade_.holding_force_n(0.0));
   if (profile.machine.tilt.present) {
     tilt_.emplace(profile, step_s_);
-    cross_.emplace(terrain_, profile.machine.tilt.half_width_m(),
+    const bool curves = profile.machine.grade.curves();
+    cross_.emplace(terrain_, profile.machine.tilt.half_width_m() - (curves ? kInsideEndM : 0.0),
                    profile.machine.body.half_gauge_m);
+    if (curves) {
+      plan_.emplace(profile);
+    }
   }
   if (profile.soil) {
     soil_.emplace(*profile.soil, profile);
@@ -83,12 +91,12 @@ void DozerPlant::advance(TimeUs duration_us) {
 }
 
 void DozerPlant::step() {
-  const Eigen::Vector2d edge_before = cutting_edge_m();
+  const Eigen::Vector2d edge_before = cutting_middle_m();
   const auto beside_before = edge_beside_m();
   resist();
   drive();
   move_blade();
-  const Eigen::Vector2d edge_after = cutting_edge_m();
+  const Eigen::Vector2d edge_after = cutting_middle_m();
   if (soil_) {
     soil_->move(edge_before, edge_after, terrain_);
     load_engine();
@@ -119,15 +127,26 @@ void DozerPlant::load_engine() {
 
 void DozerPlant::drive() {
   double traction_n = 0.0;
+  double more_right_n = 0.0;
   for (std::size_t i = 0; i < path_.size(); ++i) {
     const double load_n = cross_ ? body_.track_load_n(i) : 0.5 * body_.load_n();
-    const double force_n =
-        traction_[i].step(path_[i].track_speed_mps(), body_.ground_speed_mps(), load_n, step_s_);
+    const double side = i == kLeft ? -1.0 : 1.0;
+    const double turns_mps =
+        plan_ ? side * plan_->yaw_rate_radps() * profile_.machine.body.half_gauge_m : 0.0;
+    const double force_n = traction_[i].step(path_[i].track_speed_mps(),
+                                             body_.ground_speed_mps() + turns_mps, load_n, step_s_);
     path_[i].step(engine_radps(), force_n, brake_);
     traction_n += force_n;
+    more_right_n += side * force_n;
   }
   if (cross_) {
-    body_.step(TracksGround{cross_->left_track(), cross_->right_track()}, traction_n, step_s_);
+    TracksGround ground{cross_->left_track(), cross_->right_track()};
+    if (plan_) {
+      plan_->step(more_right_n, body_.load_n(), body_.ground_speed_mps(), position_m(), step_s_);
+      body_.set_station_share(plan_->station_share(position_m()));
+      ground.beyond = 0.5 * plan_->offset_m() / profile_.machine.body.half_gauge_m;
+    }
+    body_.step(ground, traction_n, step_s_);
     return;
   }
   BodyLoad load;
@@ -158,17 +177,41 @@ std::array<Eigen::Vector2d, CrossGround::kLines> DozerPlant::edge_beside_m() con
   std::array<Eigen::Vector2d, CrossGround::kLines> at_m;
   at_m.fill(Eigen::Vector2d::Zero());
   for (std::size_t i = 0; cross_ && i < CrossGround::kLines; ++i) {
-    const Eigen::Vector3d point = edge_point_m(cross_->across_m[i]);
+    const Eigen::Vector3d point = edge_over_m(cross_->across_m[i]);
     at_m[i] = {point.x(), point.z()};
+    if (std::abs(point.y()) > profile_.machine.tilt.half_width_m()) {
+      at_m[i].x() = kBesideM;
+    }
   }
   return at_m;
+}
+
+Eigen::Vector3d DozerPlant::edge_over_m(double line_m) const {
+  double along_edge_m = line_m;
+  Eigen::Vector3d point = edge_point_m(along_edge_m);
+  constexpr int kSteps = 2;
+  for (int i = 0; plan_ && i < kSteps; ++i) {
+    along_edge_m += line_m - point.y();
+    point = edge_point_m(along_edge_m);
+  }
+  return {point.x(), along_edge_m, point.z()};
+}
+
+Eigen::Vector2d DozerPlant::cutting_middle_m() const {
+  if (!plan_) {
+    return cutting_edge_m();
+  }
+  const Eigen::Vector3d point = edge_over_m(0.0);
+  return {point.x(), point.z()};
 }
 
 void DozerPlant::cut_beside(const std::array<Eigen::Vector2d, CrossGround::kLines>& from_m) {
   if (cross_) {
     const auto to_m = edge_beside_m();
     for (std::size_t i = 0; i < CrossGround::kLines; ++i) {
-      cross_->line[i].cut(from_m[i], to_m[i]);
+      if (from_m[i].x() != kBesideM && to_m[i].x() != kBesideM) {
+        cross_->line[i].cut(from_m[i], to_m[i]);
+      }
     }
   }
 }
@@ -231,8 +274,13 @@ Eigen::Vector3d DozerPlant::edge_point_m(double along_edge_m) const {
     across = level * std::cos(roll) - edge.y() * std::sin(roll);
     edge.y() = edge.y() * std::cos(roll) + level * std::sin(roll);
   }
-  return {body_.position_m() + edge.x() * cosine - edge.y() * sine, across,
-          body_.height_m() + edge.x() * sine + edge.y() * cosine};
+  const double ahead = edge.x() * cosine - edge.y() * sine;
+  const double height = body_.height_m() + edge.x() * sine + edge.y() * cosine;
+  if (plan_) {
+    const PlanPlace place = plan_->place_of(body_.position_m(), ahead, across);
+    return {place.station_m, place.offset_m, height};
+  }
+  return {body_.position_m() + ahead, across, height};
 }
 
 }  // namespace graben::plant

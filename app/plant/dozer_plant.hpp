@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The simulated dozer, driving straight: body, ground, blade, implement circuit, transmission.
+/// The simulated dozer on its way: body, ground, blade, implement circuit, transmission.
 
 #include <Eigen/Core>
 #include <array>
@@ -14,6 +14,7 @@
 #include "app/plant/dozer_half_vehicle.hpp"
 #include "app/plant/dozer_hst_path.hpp"
 #include "app/plant/dozer_implement.hpp"
+#include "app/plant/dozer_plan.hpp"
 #include "app/plant/dozer_plant_profile.hpp"
 #include "app/plant/dozer_tilt.hpp"
 #include "app/plant/spool.hpp"
@@ -29,8 +30,10 @@ namespace graben::plant {
 /// give the same numbers.
 ///
 /// A machine whose blade tilts rolls on ground that differs below its tracks, and each part of its
-/// edge cuts its own line of it. Lift and tilt share the pump's flow as their spools ask for it. It
-/// still drives straight, and no soil resists it.
+/// edge cuts its own line of it. Lift and tilt share the pump's flow as their spools ask for it. No
+/// soil resists it. On a design whose track curves it turns as its tracks push, see PlanMotion, and
+/// x is the station along the track, y the offset to the left of it; else it drives straight. Its
+/// wheels see the ground as if that lay unrolled.
 ///
 /// One step, from the state at t to that at t + h: tracks against the ground, transmission, body;
 /// implement valve between the chambers' waves, blade against their impedance, their waves; then
@@ -104,6 +107,13 @@ class DozerPlant {
   /// Without one the machine's blade does not tilt.
   [[nodiscard]] const std::optional<TiltDrive>& tilt() const { return tilt_; }
 
+  /// On a design whose track curves.
+  [[nodiscard]] const std::optional<PlanMotion>& plan() const { return plan_; }
+  /// Velocity along the track.
+  [[nodiscard]] double station_mps() const {
+    return plan_ ? plan_->station_share(position_m()) * velocity_mps() : velocity_mps();
+  }
+
   /// Its middle, in the world, x and z.
   [[nodiscard]] Eigen::Vector2d cutting_edge_m() const;
   /// So far to the left along the edge; x, y, z.
@@ -136,6 +146,10 @@ class DozerPlant {
   double share_flow();
   void cut_beside(const std::array<Eigen::Vector2d, CrossGround::kLines>& from_m);
   [[nodiscard]] std::array<Eigen::Vector2d, CrossGround::kLines> edge_beside_m() const;
+  /// Where the edge lies over a line of ground so far left of the track: x, along the edge, z.
+  [[nodiscard]] Eigen::Vector3d edge_over_m(double line_m) const;
+  /// Over the middle line.
+  [[nodiscard]] Eigen::Vector2d cutting_middle_m() const;
 
   DozerPlantProfile profile_;
   double step_s_;
@@ -157,6 +171,7 @@ class DozerPlant {
   Cylinder cylinder_;
   std::optional<TiltDrive> tilt_;
   std::optional<CrossGround> cross_;
+  std::optional<PlanMotion> plan_;
   std::optional<BladeSoil> soil_;
   Eigen::Vector2d soil_force_n_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d edge_mps_ = Eigen::Vector2d::Zero();

@@ -26,6 +26,7 @@ struct DozerSensorErrors {
   double climb_noise_mps = 0.0;
   double pitch_rate_noise_radps = 0.0;
   double track_speed_noise_mps = 0.0;
+  double heading_noise_rad = 0.0015;  ///< Of two antennas a metre apart.
   double height_bias_m = 0.0;
   double pose_latency_s = 0.0;  ///< Between a pose and its message.
 };

@@ -50,6 +50,10 @@ double DozerSensorModel::climb_mps(double true_climb_mps) {
   return noisy(true_climb_mps, errors_.climb_noise_mps, pose_noise_);
 }
 
+double DozerSensorModel::heading_rad(double true_heading_rad) {
+  return noisy(true_heading_rad, errors_.heading_noise_rad, pose_noise_);
+}
+
 double DozerSensorModel::pitch_rate_radps(double true_pitch_rate_radps) {
   return noisy(true_pitch_rate_radps, errors_.pitch_rate_noise_radps, pose_noise_);
 }
@@ -65,9 +69,14 @@ DozerReadings::DozerReadings(const DozerPlantProfile& profile)
       pose_(1) {}
 
 void DozerReadings::sense(const DozerPlant& plant) {
-  pose_.push_back({plant.position_m(), plant.height_m(), plant.pitch_rad(), plant.velocity_mps(),
+  pose_.push_back({plant.position_m(), plant.height_m(), plant.pitch_rad(), plant.station_mps(),
                    plant.climb_mps(), plant.pitch_rate_radps(), plant.roll_rad(),
                    plant.roll_rate_radps()});
+  if (plant.plan()) {
+    pose_.back().offset_m = plant.plan()->offset_m();
+    pose_.back().heading_rad = plant.plan()->heading_rad();
+    pose_.back().yaw_rate_radps = plant.plan()->yaw_rate_radps();
+  }
   // At first it tells of where the body has stood.
   while (pose_.size() > late_cycles_ + 1 || (pose_.size() > 1 && !started_)) {
     pose_.pop_front();
@@ -102,6 +111,14 @@ dbc::dozer::TiltState DozerReadings::tilt(const DozerPlant& plant, const DozerFa
           roll_.show(sensors_.pitch_rad(pose_.front().roll_rad), faults.pose.roll),
           roll_rate_.show(sensors_.pitch_rate_radps(pose_.front().roll_rate_radps),
                           faults.pose.roll_rate)};
+}
+
+dbc::dozer::BodyCourse DozerReadings::course(const PoseFaults& faults) {
+  // What measures the place along the track measures the one beside it; the unit that measures the
+  // pitch turns with the body.
+  return {offset_.show(sensors_.position_m(pose_.front().offset_m), faults.offset),
+          heading_.show(sensors_.heading_rad(pose_.front().heading_rad), faults.heading),
+          yaw_rate_.show(sensors_.pitch_rate_radps(pose_.front().yaw_rate_radps), faults.yaw_rate)};
 }
 
 dbc::dozer::TrackSpeed DozerReadings::tracks(const DozerPlant& plant, const DozerFaults& faults) {

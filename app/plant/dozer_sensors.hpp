@@ -30,6 +30,7 @@ class DozerSensorModel {
   [[nodiscard]] double pitch_rad(double true_pitch_rad);
   [[nodiscard]] double velocity_mps(double true_velocity_mps);
   [[nodiscard]] double climb_mps(double true_climb_mps);
+  [[nodiscard]] double heading_rad(double true_heading_rad);
   [[nodiscard]] double pitch_rate_radps(double true_pitch_rate_radps);
   [[nodiscard]] double track_speed_mps(double true_track_speed_mps);
 
@@ -50,6 +51,9 @@ struct SensedPose {
   double pitch_rate_radps = 0.0;
   double roll_rad = 0.0;
   double roll_rate_radps = 0.0;
+  double offset_m = 0.0;  ///< Of a track that curves, as the next.
+  double heading_rad = 0.0;
+  double yaw_rate_radps = 0.0;
 };
 
 /// What the bus is told of stroke, body and tracks. Each is read once a cycle.
@@ -66,6 +70,8 @@ class DozerReadings {
   [[nodiscard]] dbc::dozer::BodyVelocity velocity(const PoseFaults& faults);
   /// Of a machine whose blade tilts.
   [[nodiscard]] dbc::dozer::TiltState tilt(const DozerPlant& plant, const DozerFaults& faults);
+  /// On a design whose track curves.
+  [[nodiscard]] dbc::dozer::BodyCourse course(const PoseFaults& faults);
   [[nodiscard]] dbc::dozer::TrackSpeed tracks(const DozerPlant& plant, const DozerFaults& faults);
 
  private:
@@ -83,6 +89,9 @@ class DozerReadings {
   FaultyReading tilt_stroke_;
   FaultyReading roll_;
   FaultyReading roll_rate_;
+  FaultyReading offset_;
+  FaultyReading heading_;
+  FaultyReading yaw_rate_;
   std::array<FaultyReading, kTrackCount> track_;
 };
 

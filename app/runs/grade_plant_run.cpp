@@ -30,7 +30,7 @@ class GradeObserver {
     }
     result_.over_grade_s += kPlantPeriod_s;
     const plant::DozerPlant& plant = node.plant();
-    const BodyPose body{plant.position_m(), plant.height_m(), plant.pitch_rad(), plant.roll_rad()};
+    const BodyPose body = true_pose(plant);
     error_.add(std::abs(plant.tilt() ? truth_.worst_error_m(body, {plant.blade().angle_rad(),
                                                                    plant.tilt()->angle_rad()})
                                      : truth_.error_m(edge_m)));

@@ -69,7 +69,8 @@ class GradeRun {
 
   void read_truth(GradeSample& sample) const {
     const plant::DozerPlant& plant = rig_.plant.plant();
-    sample.body = {plant.position_m(), plant.height_m(), plant.pitch_rad(), plant.roll_rad()};
+    sample.body = true_pose(plant);
+    sample.off_track_m = plant.plan() ? plant.edge_point_m(0.0).y() : 0.0;
     sample.edge_m = plant.cutting_edge_m();
     const DozerStatus& status = rig_.ecu->outputs().status;
     sample.pass = status.pass;
@@ -114,8 +115,12 @@ class GradeRun {
     }
     if (known(body.position_m) && known(body.height_m) && known(body.pitch_rad) &&
         known(inputs.blade_stroke_m)) {
-      const BodyPose pose = {body.position_m.value, body.height_m.value, body.pitch_rad.value,
-                             known(body.roll_rad) ? body.roll_rad.value : 0.0};
+      const BodyPose pose = {body.position_m.value,
+                             body.height_m.value,
+                             body.pitch_rad.value,
+                             known(body.roll_rad) ? body.roll_rad.value : 0.0,
+                             known(body.offset_m) ? body.offset_m.value : 0.0,
+                             known(body.heading_rad) ? body.heading_rad.value : 0.0};
       sample.error_measured_m =
           truth_.worst_error_m(pose, {truth_.blade_angle_rad(inputs.blade_stroke_m.value),
                                       truth_.tilt_angle_rad(inputs.tilt_stroke_m.value)});

@@ -33,6 +33,7 @@ struct GradeSample {
   double design_m = 0.0;                             ///< The design's height at the edge.
   double error_true_m = 0.0;  ///< Edge over the design, straight up; its worse end if it tilts.
   double tilt_rad = 0.0;      ///< True.
+  double off_track_m = 0.0;   ///< Of the edge's middle, in plan, left of a track that curves.
   double error_measured_m = std::nan("");
   double speed_wanted_mps = 0.0;  ///< v_c of (14)
   double speed_true_mps = 0.0;
@@ -77,6 +78,7 @@ struct GradeSummary {
   double rmse_error_measured_m = 0.0;
   double time_s = 0.0;  ///< The edge's from x = 0 to the grade's length, all passes.
   int passes = 1;
+  double off_track_m = 0.0;    ///< Edge's middle beside a track that curves, magnitude, max.
   double ground_left_m = 0.0;  ///< Most that the ground stands above the design in the end.
   double over_cut_m = 0.0;     ///< And below it.
   double halt_s = 0.0;         ///< Longest time that it did not get on in a pass.

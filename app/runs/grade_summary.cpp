@@ -158,6 +158,7 @@ GradeSummary summarise(const machines::SimulatedDozer& machine, const GradeResul
     error_measured.add(std::abs(sample.error_measured_m));
     flow.add(sample);
     turns.add(sample.speed_wanted_mps);
+    summary.off_track_m = std::max(summary.off_track_m, std::abs(sample.off_track_m));
     if (sample.flow_limit_reported_m3ps > 0.0) {
       summary.flow_share_reported_max =
           std::max(summary.flow_share_reported_max,
@@ -231,6 +232,8 @@ const FigureTable<GradeSummary>& grade_figures() {
       {{"edge_jerk_rms_mps3", "jerk of the true edge below 10 Hz, RMS", kMetresPerSecond3,
         "edge_jerk_rms_mps3"},
        [](const S& s) { return s.edge_jerk_rms_mps3; }},
+      {{"off_track_m", "edge beside a track that curves, in plan, max", kMillimetres},
+       [](const S& s) { return s.off_track_m; }},
       {{"passes", "passes", kCount, "passes"},
        [](const S& s) { return static_cast<double>(s.passes); }},
       {{"ground_left_m", "ground left above the design, max", kMillimetres, "ground_left_m"},

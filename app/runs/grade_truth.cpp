@@ -15,7 +15,11 @@ GradeTruth::GradeTruth(const DozerProfile& profile)
       tilt_linkage_(profile.tilt),
       design_(profile.grade),
       cap_area_m2_(profile.blade.cap_area_m2()),
-      rod_area_m2_(profile.blade.rod_area_m2()) {}
+      rod_area_m2_(profile.blade.rod_area_m2()) {
+  if (profile.grade.curves()) {
+    track_.emplace(profile.grade.heights);
+  }
+}
 
 double GradeTruth::blade_angle_rad(double stroke_m) const {
   constexpr int kHalvings = 50;  // To the last bit, nearly.
@@ -79,7 +83,16 @@ Eigen::Vector3d GradeTruth::edge_point_m(const BodyPose& body, const BladeAngles
   const Eigen::Vector2d edge = linkage_.edge_m(blade.lift_rad);
   const Eigen::Vector3d in_body = Eigen::Vector3d(edge.x(), 0.0, edge.y()) +
                                   lift * (tilt * Eigen::Vector3d(0.0, along_edge_m, 0.0));
-  return Eigen::Vector3d(body.position_m, 0.0, body.height_m) + pitch * (roll * in_body);
+  const Eigen::Vector3d off = pitch * (roll * in_body);
+  if (track_) {
+    const double direction = track_->direction_rad(body.position_m) + body.heading_rad;
+    const Eigen::Rotation2Dd turn(direction);
+    const plant::PlanPlace place =
+        track_->place_of(track_->at_m({body.position_m, body.offset_m}) + turn * off.head<2>(),
+                         body.position_m + off.x());
+    return {place.station_m, place.offset_m, body.height_m + off.z()};
+  }
+  return Eigen::Vector3d(body.position_m, 0.0, body.height_m) + off;
 }
 
 double GradeTruth::worst_error_m(const BodyPose& body, const BladeAngles& blade) const {
@@ -123,6 +136,15 @@ double GradeTruth::tilt_inflow_m3ps(double tilt_mps) const {
 
 double GradeTruth::inflow_m3ps(double blade_mps) const {
   return blade_mps > 0.0 ? cap_area_m2_ * blade_mps : -rod_area_m2_ * blade_mps;
+}
+
+BodyPose true_pose(const plant::DozerPlant& plant) {
+  BodyPose pose{plant.position_m(), plant.height_m(), plant.pitch_rad(), plant.roll_rad()};
+  if (plant.plan()) {
+    pose.offset_m = plant.plan()->offset_m();
+    pose.heading_rad = plant.plan()->heading_rad();
+  }
+  return pose;
 }
 
 double available_flow_m3ps(const DozerProfile& machine, double engine_radps) {

@@ -4,8 +4,11 @@
 /// simulation's own geometry: the controller is measured against it and takes no part in it.
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "app/plant/dozer_blade_joint.hpp"
+#include "app/plant/dozer_plan.hpp"
+#include "app/plant/dozer_plant.hpp"
 #include "app/plant/dozer_tilt.hpp"
 #include "firmware/dozer/grade_profile.hpp"
 
@@ -17,6 +20,8 @@ struct BodyPose {
   double height_m = 0.0;
   double pitch_rad = 0.0;
   double roll_rad = 0.0;  ///< Left side up; of a blade that tilts, as all that follows of roll.
+  double offset_m = 0.0;  ///< Left of a track that curves, along which `position_m` is the station.
+  double heading_rad = 0.0;  ///< Against the track beside it.
 };
 
 struct BodyRates {
@@ -42,7 +47,8 @@ class GradeTruth {
   [[nodiscard]] Eigen::Vector2d edge_m(const BodyPose& body, double blade_angle_rad) const;
   /// Angle of the tilt at this stroke; 0 without one.
   [[nodiscard]] double tilt_angle_rad(double stroke_m) const;
-  /// A point of the edge, so far to the left along it from its middle; x, y, z.
+  /// A point of the edge, so far to the left along it from its middle; x, y, z: of a track that
+  /// curves, station, offset to the left of it, height.
   [[nodiscard]] Eigen::Vector3d edge_point_m(const BodyPose& body, const BladeAngles& blade,
                                              double along_edge_m) const;
   /// The error, below, of the edge's end that is farther off; of its middle without a tilt.
@@ -79,10 +85,13 @@ class GradeTruth {
   plant::BladeLinkage linkage_;
   TiltProfile tilt_;
   plant::TiltLinkage tilt_linkage_;
+  std::optional<plant::PlanTrack> track_;  ///< That curves.
   GradeProfile design_;
   double cap_area_m2_;
   double rod_area_m2_;
 };
+
+[[nodiscard]] BodyPose true_pose(const plant::DozerPlant& plant);
 
 /// min of (11): what the implement pump of this machine gives at this speed, and the valve's most.
 [[nodiscard]] double available_flow_m3ps(const DozerProfile& machine, double engine_radps);

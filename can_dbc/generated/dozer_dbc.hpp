@@ -20,7 +20,7 @@
 
 namespace graben::dbc::dozer {
 
-inline constexpr std::uint8_t kDbcVersion = 6;
+inline constexpr std::uint8_t kDbcVersion = 7;
 
 using common::EEC1;
 using common::OperatorCommand;
@@ -329,6 +329,50 @@ struct TiltState {
   constexpr Payload encode() const { return encode_message(*this); }
 };
 
+/// Where the body is in plan beside a design's track. Only sent where that curves: Position is then
+/// the station along it.
+struct BodyCourse {
+  static constexpr const char* kName = "BodyCourse";
+  static constexpr const char* kSender = "Machine";
+  static constexpr std::uint32_t kId = 0x0CFF5D80;
+  static constexpr std::uint8_t kLength = 8;
+  static constexpr std::uint16_t kCycleTimeMs = 10;
+  static constexpr bool kProtected = true;
+  static constexpr std::uint16_t kDataId = 0xFF5D;
+  static constexpr std::uint8_t kMaxDeltaCounter = 3;
+
+  static constexpr Field kOffset{
+      "Offset", "m", 16, 16, 0U, 64000U, 65279, 65535, 65535U,
+      -32000, 1.0, 10000.0};
+  static constexpr Field kHeading{
+      "Heading", "rad", 32, 16, 0U, 64000U, 65279, 65535, 65535U,
+      -32000, 1.0, 20000.0};
+  static constexpr Field kYawRate{
+      "YawRate", "rad/s", 48, 16, 0U, 64000U, 65279, 65535, 65535U,
+      -32000, 1.0, 10000.0};
+
+  /// Of the origin from the track; left is positive. [-3200 .. 3200 mm on the bus]
+  Physical offset_m{0.0, RawState::kNotAvailable};
+  /// Of the body against the track's direction beside it; to the left is positive. [-1600 .. 1600
+  /// mrad on the bus]
+  Physical heading_rad{0.0, RawState::kNotAvailable};
+  /// Rate of the body's turn about the vertical; to the left is positive. [-3200 .. 3200 mrad/s on
+  /// the bus]
+  Physical yaw_rate_radps{0.0, RawState::kNotAvailable};
+
+  /// Calls visitor(field, signal) for each signal.
+  template <class Self, class Visitor>
+  static constexpr void visit(Self& self, Visitor&& visitor) {
+    visitor(kOffset, self.offset_m);
+    visitor(kHeading, self.heading_rad);
+    visitor(kYawRate, self.yaw_rate_radps);
+  }
+  static constexpr BodyCourse decode(const Payload& payload) {
+    return decode_message<BodyCourse>(payload);
+  }
+  constexpr Payload encode() const { return encode_message(*this); }
+};
+
 /// What the valve side measures and does.
 struct ValveState {
   static constexpr const char* kName = "ValveState";
@@ -626,6 +670,7 @@ using AllMessages =
                 RightTransmission,
                 TrackSpeed,
                 TiltState,
+                BodyCourse,
                 ValveState,
                 SpoolCommand,
                 PumpDisplacementCommand,
@@ -640,7 +685,7 @@ using AllMessages =
                 EcuHealth,
                 DM1>;
 
-inline constexpr std::array<MessageInfo, 21> kMessages{{
+inline constexpr std::array<MessageInfo, 22> kMessages{{
     message_info<BladeStroke>(),
     message_info<BodyPosition>(),
     message_info<BodyPitch>(),
@@ -649,6 +694,7 @@ inline constexpr std::array<MessageInfo, 21> kMessages{{
     message_info<RightTransmission>(),
     message_info<TrackSpeed>(),
     message_info<TiltState>(),
+    message_info<BodyCourse>(),
     message_info<ValveState>(),
     message_info<SpoolCommand>(),
     message_info<PumpDisplacementCommand>(),
@@ -674,6 +720,7 @@ struct Dbc {
   using RightTransmission = dozer::RightTransmission;
   using TrackSpeed = dozer::TrackSpeed;
   using TiltState = dozer::TiltState;
+  using BodyCourse = dozer::BodyCourse;
   using ValveState = dozer::ValveState;
   using SpoolCommand = dozer::SpoolCommand;
   using PumpDisplacementCommand = dozer::PumpDisplacementCommand;

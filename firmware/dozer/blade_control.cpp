@@ -42,7 +42,7 @@ double error_of(const BladeKinematics& blade, const GradeProfile& design, const 
                 double& edge_x_m) {
   const Eigen::Vector3d edge_m = edge_in_world_m(blade, at.body, at.angle_rad);
   edge_x_m = edge_m.x();
-  return grade_error_m(design, edge_m.x(), edge_m.z());
+  return grade_error_m(design, edge_m.x(), edge_m.z() - at.aside_m);
 }
 
 }  // namespace

@@ -27,6 +27,9 @@ struct BladeSituation {
   double angle_rad = 0.0;                     ///< theta_1
   double roll_rate_radps = 0.0;               ///< 0 where the blade has no tilt.
   BladeLift lift;
+  double aside_m = 0.0;    ///< So much higher is the design there than on the track beside it.
+  double askew_rad = 0.0;  ///< Heading against the track at the edge, to the left.
+  double askew_rate_radps = 0.0;
 };
 
 struct BladeCommand {

@@ -15,9 +15,6 @@ namespace {
 /// From a lower wanted speed to a slower machine: displacements, drive line, PI.
 constexpr double kTravelLead_s = 0.2;
 
-/// Straight ahead: the grade is followed along x.
-constexpr double kHeading_radps = 0.0;
-
 /// What comes of it while the pump can give no more.
 double fed_mps(const BladeGeometry& blade, double velocity_mps, double available_flow_m3ps) {
   return std::clamp(velocity_mps, -available_flow_m3ps / blade.rod_area_m2(),
@@ -90,6 +87,7 @@ DozerValid DozerController::validate_and_watch(const DozerInputs& inputs, const 
   watch(profile_, drives(), memory_.last, cycle.elapsed_s, memory_.watch, valid);
   tell_stall(memory_.stall, profile_.safety.stall_s, valid);
   tell_tube(memory_.tube, valid);
+  tell_tube(memory_.off_track, valid);
   choose_task(valid, cycle.period_s);
   return valid;
 }
@@ -111,8 +109,9 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
   }
   memory_.position =
       next_position(memory_.position, valid.position_m, valid.velocity_mps, period_s);
-  const BodyMotion seen = motion_of(profile_.body, {valid.height_m, valid.pitch_rad},
-                                    valid.climb_mps, valid.pitch_rate_radps);
+  const double on_track_m = valid.height_m - raised_m(valid, valid.position_m);
+  const BodyMotion seen = motion_of(profile_.body, {on_track_m, valid.pitch_rad}, valid.climb_mps,
+                                    valid.pitch_rate_radps);
   memory_.load = memory_.pass.phase == PassPhase::kCut
                      ? next_load(profile_, memory_.load, valid, period_s)
                      : PushState{};
@@ -121,8 +120,9 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
   const double latency_s = profile_.control.pose_latency_s;
   const BladeSituation now = foretold(valid, latency_s, valid.blade().stroke_m);
   const Eigen::Vector3d edge_m = edge_in_world_m(setup_.blade, now.body, now.angle_rad);
-  const Stand stand{now.body.position_m.z(), now.pitch_rad};
-  double error_m = grade_error_m(setup_.design, edge_m.x(), edge_m.z());
+  const double edge_height_m = edge_m.z() - now.aside_m;
+  const Stand stand{now.body.position_m.z() - raised_m(valid, valid.position_m), now.pitch_rad};
+  double error_m = grade_error_m(setup_.design, edge_m.x(), edge_height_m);
   if (profile_.tilt.present) {
     error_m += at_ends_m(cross_error(setup_.design, tilt_at(now, valid.tilt().stroke_m)));
   }
@@ -134,12 +134,13 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
     design_.set_floor(pass_floor_m(profile_.grade, pass));
   }
   memory_.pass = pass;
-  ground_.pass(edge_m.x(), edge_m.z(), design_, now.body.position_m.x(), stand.height_m,
+  ground_.pass(edge_m.x(), edge_height_m, design_, now.body.position_m.x(), stand.height_m,
                std::tan(stand.pitch_rad), !memory_.pass.down);
   preview_.look(ground_, design_, memory_.position.position_m + latency_s * valid.velocity_mps,
                 stand,
                 planned_share(profile_.travel, memory_.load) *
-                    available_flow_m3ps(profile_.implement, valid.engine_radps));
+                    available_flow_m3ps(profile_.implement, valid.engine_radps),
+                track_speed_max_mps(profile_.hst, valid.engine_radps));
 }
 
 BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,
@@ -147,14 +148,15 @@ BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,
   const DozerBody& body = profile_.body;
   Driving driving;
   driving.motion =
-      motion_of(body, {valid.height_m, valid.pitch_rad}, valid.climb_mps, valid.pitch_rate_radps);
+      motion_of(body, {valid.height_m - raised_m(valid, valid.position_m), valid.pitch_rad},
+                valid.climb_mps, valid.pitch_rate_radps);
   driving.x_m = valid.position_m;
   driving.speed_mps = valid.velocity_mps;
   driving = drive_on(body, ground_, design_, driving, {memory_.speed_mps.value(), kTravelLead_s},
                      lead_s, memory_.foretelling.bias);
   const Stand stand = stand_of(body, driving.motion);
   BladeSituation at;
-  at.body.position_m = {driving.x_m, 0.0, stand.height_m};
+  at.body.position_m = {driving.x_m, 0.0, stand.height_m + raised_m(valid, driving.x_m)};
   at.body.rotation = rotation_from_pitch(stand.pitch_rad);
   at.pitch_rad = stand.pitch_rad;
   // Pitch is positive nose up, which is a turn about -y.
@@ -170,6 +172,9 @@ BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,
         rolled.rate_radps *
         Eigen::Vector3d(std::cos(stand.pitch_rad), 0.0, std::sin(stand.pitch_rad));
   }
+  if (design_.curves()) {
+    place_on_curve(valid, lead_s, at);
+  }
   at.lift = preview_.lift(driving.x_m, driving.speed_mps, lift_most_m());
   if (memory_.pass.phase != PassPhase::kCut) {
     at.lift = {};
@@ -177,6 +182,21 @@ BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,
   at.lift.height_m += memory_.load.lift_m + memory_.pass.clear_m;
   at.lift.rate_mps = memory_.load.rate_mps + memory_.pass.clear_mps;
   return at;
+}
+
+void DozerController::place_on_curve(const DozerValid& valid, double lead_s,
+                                     BladeSituation& at) const {
+  const double x_m = at.body.position_m.x();
+  const double reach_m = edge_in_world_m(setup_.blade, at.body, at.angle_rad).x() - x_m;
+  const Course course =
+      course_after(design_, valid.course, valid.position_m, valid.velocity_mps, lead_s);
+  const EdgeCourse edge = edge_course(design_, x_m, course, reach_m);
+  // What follows is of the edge: its station is what counts.
+  at.body.position_m.x() += edge.ahead_m - reach_m;
+  at.aside_m = design_.cross_at(x_m + edge.ahead_m).slope * edge.offset_m;
+  at.askew_rad = edge.heading_rad;
+  at.askew_rate_radps =
+      course.yaw_rate_radps - design_.curvature_at(x_m + edge.ahead_m) * valid.velocity_mps;
 }
 
 TiltSituation DozerController::tilt_at(const BladeSituation& at, double stroke_m) const {
@@ -187,6 +207,8 @@ TiltSituation DozerController::tilt_at(const BladeSituation& at, double stroke_m
   tilt.tilt_rad = setup_.tilt.angle_rad(stroke_m);
   tilt.edge_x_m = edge_in_world_m(setup_.blade, at.body, at.angle_rad).x();
   tilt.speed_mps = at.body_velocity[0];
+  tilt.askew_rad = at.askew_rad;
+  tilt.askew_rate_radps = at.askew_rate_radps;
   return tilt;
 }
 
@@ -234,9 +256,22 @@ DozerController::Motion DozerController::flow_limited(const DozerValid& valid,
   Motion motion;
   motion.available_flow_m3ps = available_flow_m3ps(profile_.implement, valid.engine_radps);
   move_blade(valid, period_s, motion);
+  if (design_.curves()) {
+    motion.off_track_m = edge_now(valid).offset_m;
+    motion.steering = steer(
+        design_, memory_.steering,
+        {valid.position_m, reach_m(), memory_.speed_mps.value(), valid.velocity_mps, valid.course},
+        period_s);
+  }
   motion.speed = choose_speed(valid, motion, period_s);
-  const std::array<double, kTrackCount> speeds_mps =
-      track_speeds_mps(profile_.body, motion.speed.state.speed_mps, kHeading_radps);
+  const double speed_mps = motion.speed.state.speed_mps;
+  std::array<double, kTrackCount> speeds_mps = {speed_mps, speed_mps};
+  if (design_.curves()) {
+    speeds_mps = steered_mps(profile_.body, speed_mps,
+                             {speed_of_track_mps(profile_.hst, valid, kLeft),
+                              speed_of_track_mps(profile_.hst, valid, kRight)},
+                             period_s, motion.steering);
+  }
   for (unsigned i = 0; i < kTrackCount; ++i) {
     const TrackCommand track =
         control_track(profile_, memory_.track[i], speeds_mps[i],
@@ -274,7 +309,7 @@ SpeedChoice DozerController::choose_speed(const DozerValid& valid, const Motion&
   demand.required_flow_m3ps = motion.required_flow_m3ps;
   demand.available_flow_m3ps = motion.available_flow_m3ps;
   demand.engine_radps = valid.engine_radps;
-  demand.heading_radps = kHeading_radps;
+  demand.heading_radps = motion.steering.curvature_pm * memory_.speed_mps.value();
   demand.blade_angle_rad = setup_.blade.angle_rad(valid.blade().stroke_m);
   demand.ahead = preview_.limit(
       memory_.position.position_m + profile_.control.pose_latency_s * valid.velocity_mps,
@@ -298,6 +333,7 @@ void DozerController::describe_motion(const Motion& motion, const FaultSet& degr
   status.wanted_tilt_mps = motion.tilt.velocity_mps;
   status.grade_error_m = motion.blade.error_m;
   status.cross_error = motion.tilt.error;
+  status.off_track_m = motion.off_track_m;
   status.pass = memory_.pass.pass;
   status.cutting = memory_.pass.phase == PassPhase::kCut;
   status.ground_left = memory_.pass.left;
@@ -316,6 +352,8 @@ void DozerController::remember(const DozerValid& valid, const Motion& motion,
   next_tube_above(active && memory_.pass.phase == PassPhase::kCut,
                   excused_m + std::copysign(at_ends_m(motion.tilt.error), excused_m),
                   profile_.safety.tube_m, memory_.tube);
+  next_tube(active && design_.curves(), std::abs(motion.off_track_m), kMostOffTrack_m,
+            memory_.off_track);
   const double got_mps =
       std::min(std::abs(motion.speed.state.speed_mps), std::abs(valid.velocity_mps));
   const bool turning =
@@ -332,6 +370,7 @@ void DozerController::remember(const DozerValid& valid, const Motion& motion,
   memory_.pass = active ? memory_.pass : PassState{};
   memory_.asked_mps = motion.asked_mps;
   memory_.fed = motion.fed;
+  memory_.steering = active ? motion.steering : SteeringState{};
   memory_.speed = active ? motion.speed.state : SpeedState{};
   memory_.speed_mps = active ? motion.speed.state.speed_mps : 0.0;
   memory_.track = active ? motion.track : std::array<TrackState, kTrackCount>{};

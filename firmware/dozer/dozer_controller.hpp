@@ -8,6 +8,7 @@
 #include "firmware/dozer/tilt_control.hpp"
 #include "firmware/dozer/travel/blade_load.hpp"
 #include "firmware/dozer/travel/body_motion.hpp"
+#include "firmware/dozer/travel/course.hpp"
 #include "firmware/dozer/travel/passes.hpp"
 #include "firmware/dozer/travel/preview.hpp"
 #include "firmware/dozer/travel/speed_limit.hpp"
@@ -58,6 +59,8 @@ class DozerController {
     SpeedChoice speed;
     DozerCommand command;
     std::array<TrackState, kTrackCount> track{};
+    SteeringState steering;
+    double off_track_m = 0.0;  ///< Of a track that curves, the edge's middle left of it.
     double required_flow_m3ps = 0.0;
     double available_flow_m3ps = 0.0;
     std::array<double, kBladeCount> asked_mps{};  ///< Of lift and tilt, as far as the flow goes.
@@ -87,6 +90,8 @@ class DozerController {
     TaskChangeState change;
     StallState stall;
     TubeState tube;
+    SteeringState steering;  ///< Of a design whose track curves, as the next.
+    TubeState off_track;
   };
 
   [[nodiscard]] DriveRows drives() const { return setup_.bank.rows(); }
@@ -99,6 +104,16 @@ class DozerController {
   /// Body and blade so much after the moment that the measured pose is of, with this stroke.
   [[nodiscard]] BladeSituation foretold(const DozerValid& valid, double lead_s,
                                         double stroke_m) const;
+  /// On a track that curves: edge and design as they lie there, `lead_s` on.
+  void place_on_curve(const DozerValid& valid, double lead_s, BladeSituation& at) const;
+  /// So much higher is the design below the body than on the track beside it.
+  [[nodiscard]] double raised_m(const DozerValid& valid, double x_m) const {
+    return design_.cross_at(x_m).slope * valid.course.offset_m;
+  }
+  [[nodiscard]] double reach_m() const { return setup_.blade.edge_m(0.0).x(); }
+  [[nodiscard]] EdgeCourse edge_now(const DozerValid& valid) const {
+    return edge_course(design_, valid.position_m, valid.course, reach_m());
+  }
   /// Of the error that the task allows, what the blade may leave standing on purpose: the rest is
   /// for what nobody foresees.
   [[nodiscard]] double lift_most_m() const { return kLiftShare * profile_.grade.tolerance_m; }

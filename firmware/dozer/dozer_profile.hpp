@@ -133,6 +133,8 @@ struct GradeHeights {
   alignas(8) const double* cross = nullptr;
   alignas(8) int count = 0;  ///< 0, or 2 .. kMost.
   double from_m = 0.0;       ///< Place of the first one.
+  /// Curvature of the track in plan there, 1/m, to the left positive; none: it is straight.
+  alignas(8) const double* curvature = nullptr;
 };
 
 /// The design: heights over a plane through points with rounded corners. Before the first point and
@@ -151,6 +153,9 @@ struct GradeDesign {
   double pass_depth_m = 10.0;   ///< So deep goes the first pass.
   int passes_most = 1;          ///< So often the machine may go over it.
   double tolerance_m = 0.02;    ///< How far off the design the ground may come out.
+
+  /// Then x is the station along the track, and the machine steers.
+  [[nodiscard]] bool curves() const { return heights.count > 1 && heights.curvature != nullptr; }
 
   /// Where it begins and ends; 0 and 0 without either.
   [[nodiscard]] double begin_m() const {

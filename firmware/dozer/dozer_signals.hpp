@@ -33,6 +33,10 @@ struct BodyInputs {
   Signal<double> pitch_rate_radps;
   Signal<double> roll_rad;  ///< Left side up is positive; of a machine whose blade tilts.
   Signal<double> roll_rate_radps;
+  // Of a design whose track curves, along which `position_m` is the station:
+  Signal<double> offset_m;     ///< Left of the track.
+  Signal<double> heading_rad;  ///< Against the track's direction beside it, to the left.
+  Signal<double> yaw_rate_radps;
 };
 
 struct DozerInputs : MachineInputs {
@@ -54,6 +58,7 @@ struct DozerStatus : MachineStatus {
   double available_flow_m3ps = 0.0;  ///< min of (12) and the valve's.
   double grade_error_m = 0.0;        ///< Measured cutting edge above the grade.
   double cross_error = 0.0;          ///< Its slope across over the design's; left up is positive.
+  double off_track_m = 0.0;          ///< Its middle left of a track that curves.
   int pass = 1;                      ///< Over the design.
   bool cutting = true;               ///< In it; else on the way back to the next one.
   bool ground_left = false;          ///< This pass has left what another one has to take.

@@ -89,6 +89,12 @@ CrossSample GradeProfile::cross_at(double x_m) const {
   return {sample.height_m, sample.slope};
 }
 
+double GradeProfile::curvature_at(double x_m) const {
+  const double along_m = x_m - heights_.from_m;
+  const bool beside = along_m > 0.0 && along_m < (heights_.count - 1) * GradeHeights::kStep_m;
+  return curves() && beside ? on_grid(heights_.curvature, x_m).height_m : 0.0;
+}
+
 double grade_error_m(const GradeProfile& profile, double x_m, double z_m) {
   const GradeSample design = profile.at(x_m);
   return (z_m - design.height_m) / std::sqrt(1.0 + design.slope * design.slope);

@@ -36,6 +36,9 @@ class GradeProfile {
   [[nodiscard]] GradeSample at(double x_m) const;
   /// Before the first and after the last height it stays as there. A floor does not change it.
   [[nodiscard]] CrossSample cross_at(double x_m) const;
+  /// Of the track in plan, 1/m, to the left positive. Straight before the first and after the last.
+  [[nodiscard]] double curvature_at(double x_m) const;
+  [[nodiscard]] bool curves() const { return heights_.count > 1 && heights_.curvature != nullptr; }
 
  private:
   /// A straight piece, from where the corner before it is.

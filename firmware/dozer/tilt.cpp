@@ -84,14 +84,37 @@ EdgeSlope edge_slope(const Eigen::Matrix3d& body_rotation, double blade_angle_ra
           slope_rate(direction, rolled)};
 }
 
+CrossSample slope_along_edge(const GradeProfile& design, double x_m, double askew_rad) {
+  const CrossSample across = design.cross_at(x_m);
+  if (!design.curves()) {
+    return across;
+  }
+  constexpr double kStep_m = GradeHeights::kStep_m;
+  const double s = std::sin(askew_rad);
+  const double c = std::cos(askew_rad);
+  const double bend_pm =
+      (design.at(x_m + kStep_m).slope - design.at(x_m - kStep_m).slope) / (2.0 * kStep_m);
+  return {c * across.slope - s * design.at(x_m).slope, c * across.change_pm - s * bend_pm};
+}
+
+namespace {
+
+/// With the machine on the track: it has turned back by what the track bends up to the edge.
+CrossSample slope_ahead(const GradeProfile& design, double x_m, double reach_m) {
+  return slope_along_edge(design, x_m + reach_m,
+                          -reach_m * design.curvature_at(x_m + 0.5 * reach_m));
+}
+
+}  // namespace
+
 double tilt_on_rad(const DozerBody& body, const GradeProfile& design, double x_m, double reach_m) {
-  return std::atan2(design.cross_at(x_m + reach_m).slope, 1.0) -
+  return std::atan2(slope_ahead(design, x_m, reach_m).slope, 1.0) -
          std::atan2(cross_below_tracks(body, design, x_m).slope, 1.0);
 }
 
 double tilt_oil_m2(const DozerProfile& profile, const TiltKinematics& tilt,
                    const GradeProfile& design, double x_m, double reach_m) {
-  const double change_pm = design.cross_at(x_m + reach_m).change_pm -
+  const double change_pm = slope_ahead(design, x_m, reach_m).change_pm -
                            cross_below_tracks(profile.body, design, x_m).change_pm;
   const double angle_rad = tilt_on_rad(profile.body, design, x_m, reach_m);
   const double way = tilt.stroke_rate_mprad(angle_rad) * change_pm;

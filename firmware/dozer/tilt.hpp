@@ -46,6 +46,11 @@ struct EdgeSlope {
 [[nodiscard]] EdgeSlope edge_slope(const Eigen::Matrix3d& body_rotation, double blade_angle_rad,
                                    double tilt_rad);
 
+/// Slope of the design along an edge at `x_m` that lies askew to the track: turned to the left by
+/// so much, its left end lies back and its right end ahead. Straight across, the cross slope.
+[[nodiscard]] CrossSample slope_along_edge(const GradeProfile& design, double x_m,
+                                           double askew_rad);
+
 /// Oil that the tilt takes in per metre of way, m^3/m = m^2, with the body's origin at `x_m` on the
 /// design as already cut: the edge follows the cross slope ahead, the body that below its tracks.
 [[nodiscard]] double tilt_oil_m2(const DozerProfile& profile, const TiltKinematics& tilt,

@@ -22,9 +22,11 @@ struct Asked {
 
 Asked asked_at(const GradeProfile& design, const TiltSituation& at) {
   const EdgeSlope edge = edge_slope(at.body_rotation, at.blade_angle_rad, at.tilt_rad);
-  const CrossSample wanted = design.cross_at(at.edge_x_m);
+  const CrossSample wanted = slope_along_edge(design, at.edge_x_m, at.askew_rad);
   return {edge.slope - wanted.slope, std::max(edge.per_tilt, kLeastAnswer),
-          wanted.change_pm * at.speed_mps - edge.per_roll * at.roll_rate_radps};
+          wanted.change_pm * at.speed_mps -
+              design.at(at.edge_x_m).slope * std::cos(at.askew_rad) * at.askew_rate_radps -
+              edge.per_roll * at.roll_rate_radps};
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ struct TiltSituation {
   double tilt_rad = 0.0;
   double edge_x_m = 0.0;
   double speed_mps = 0.0;  ///< Along x.
+  double askew_rad = 0.0;  ///< See BladeSituation, as the next.
+  double askew_rate_radps = 0.0;
 };
 
 /// Slope of the edge over the design's there.

@@ -48,6 +48,11 @@ struct Store : CommonStore<DozerInputs, Task::kGrade> {
     put(to.inputs.body.roll_rad, message.roll_rad, now);
     put(to.inputs.body.roll_rate_radps, message.roll_rate_radps, now);
   }
+  static void store(const bus::BodyCourse& message, TimeUs now, To& to) {
+    put(to.inputs.body.offset_m, message.offset_m, now);
+    put(to.inputs.body.heading_rad, message.heading_rad, now);
+    put(to.inputs.body.yaw_rate_radps, message.yaw_rate_radps, now);
+  }
   static void store(const bus::TrackSpeed& message, TimeUs now, To& to) {
     put(to.inputs.track[kLeft].speed_mps, message.left_track_mps, now);
     put(to.inputs.track[kRight].speed_mps, message.right_track_mps, now);
@@ -62,7 +67,7 @@ struct Store : CommonStore<DozerInputs, Task::kGrade> {
 using OwnReceived =
     dbc::MessageList<bus::BladeStroke, bus::BodyPosition, bus::BodyPitch, bus::BodyVelocity,
                      bus::LeftTransmission, bus::RightTransmission, bus::TrackSpeed, bus::TiltState,
-                     bus::ValveState>;
+                     bus::BodyCourse, bus::ValveState>;
 constexpr auto kReceiveTable = receive_table<DozerInputs, Store>(OwnReceived{}, CommonReceived{},
                                                                  bus::kMessages, bus::kDbcVersion);
 

@@ -12,7 +12,7 @@ namespace graben {
 /// like one whose value is out of range.
 struct DozerReception {
   using Inputs = DozerInputs;
-  static constexpr int kMessageCount = 12;
+  static constexpr int kMessageCount = 13;
   [[nodiscard]] static const ReceiveTable<Inputs, kMessageCount>& table();
 };
 

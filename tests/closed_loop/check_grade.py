@@ -17,12 +17,12 @@ FIGURES = {
     "passes", "ground_left_m", "over_cut_m", "halt_s", "mean_speed_mps", "flow_share_max", "flow_share_reported_max", "flow_above_share",
     "flow_occasions", "deceleration_wanted_mps2", "deceleration_true_mps2", "sign_changes", "corners",
     "lambda_variation_ps", "spool_travel_ps", "spool_reversals_ps", "edge_jerk_rms_mps3",
-    "duration_s", "real_time_factor", "cycles", "cycle_median_us", "cycle_max_us", "limit_share"}
+    "off_track_m", "duration_s", "real_time_factor", "cycles", "cycle_median_us", "cycle_max_us", "limit_share"}
 
 # What is run, and the least and the most of some figures. Far better than a machine with lag, a
 # compliant body and wrong sensors can be is a fault of the simulation or of the figures.
 RUNS = (
-    ("bounded", (), {"max_error_true_m": (1 * MM, 10 * MM), "over_cut_m": (0.5 * MM, 8 * MM),
+    ("bounded", (), {"max_error_true_m": (1 * MM, 10 * MM), "over_cut_m": (0.5 * MM, 8 * MM), "off_track_m": (0, 0),
                      "passes": (1, 1), "flow_share_max": (0.7, 1.3),
                      "deceleration_wanted_mps2": (0.1, 1.5), "deceleration_true_mps2": (0.1, 1.5),
                      "flow_occasions": (0, 5), "sign_changes": (1, 16), "time_s": (20, 32),

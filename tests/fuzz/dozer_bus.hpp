@@ -25,9 +25,9 @@ struct DozerBus : ecu::DozerKind {
 
   [[nodiscard]] static const Machine& shipped();
   [[nodiscard]] static bool is_needed(std::uint32_t id);
-  /// A tilt, which the shipped dozer has not.
+  /// A tilt and a track that curves, which the shipped dozer has not.
   [[nodiscard]] static constexpr bool is_of_a_part(std::uint32_t id) {
-    return id == Dbc::TiltState::kId;
+    return id == Dbc::TiltState::kId || id == Dbc::BodyCourse::kId;
   }
   [[nodiscard]] static bool may_miss(std::uint32_t) { return false; }
   [[nodiscard]] static std::array<double, kSpools> duties(const Dbc::SpoolCommand& command) {

@@ -60,6 +60,23 @@ void read_roll(const BodyInputs& body, const Freshness& fresh, DozerValidationSt
                 fresh, valid.faults);
 }
 
+/// Of a design whose track curves. An offset goes on as the machine drives aslant.
+void read_course(const BodyInputs& body, const Freshness& fresh, DozerValidationState& state,
+                 DozerValid& valid) {
+  state.heading_rad = believed(body.heading_rad, body.yaw_rate_radps, kPitchMargin_rad, fresh,
+                               state.heading_rad, valid.faults);
+  Signal<double> aslant_mps = body.velocity_mps;
+  aslant_mps.value *= std::sin(body.heading_rad.value);
+  state.offset_m =
+      believed(body.offset_m, aslant_mps, kPositionMargin_m, fresh, state.offset_m, valid.faults);
+  const auto demand = [&](const Signal<double>& from, double& to) {
+    read_required({&from, &to, Fault::kPoseMissing, Fault::kNone}, fresh, valid.faults);
+  };
+  demand(state.offset_m.value.signal, valid.course.offset_m);
+  demand(state.heading_rad.value.signal, valid.course.heading_rad);
+  demand(state.heading_rad.rate, valid.course.yaw_rate_radps);
+}
+
 void accept_pose(const BodyInputs& body, const Freshness& fresh, DozerValidationState& state,
                  FaultSet& faults) {
   state.position_m = believed(body.position_m, body.velocity_mps, kPositionMargin_m, fresh,
@@ -91,6 +108,9 @@ DozerValid validate(const DozerProfile& profile, DriveRows drives, const DozerIn
   }
   if (profile.tilt.present) {
     read_roll(inputs.body, fresh, state, valid);
+  }
+  if (profile.grade.curves()) {
+    read_course(inputs.body, fresh, state, valid);
   }
   for (unsigned i = 0; i < kTrackCount; ++i) {
     const Signal<double>& pressure_pa = inputs.track[i].line_pressure_pa;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "firmware/dozer/blade.hpp"
+#include "firmware/dozer/travel/course.hpp"
 #include "firmware/drives/drive_validation.hpp"
 #include "firmware/safety/common_inputs.hpp"
 
@@ -23,6 +24,8 @@ struct DozerValidationState {
   BelievedCoordinate height_m;
   BelievedCoordinate pitch_rad;
   BelievedCoordinate roll_rad;  ///< Of a machine whose blade tilts.
+  BelievedCoordinate offset_m;  ///< Of a track that curves, as the next.
+  BelievedCoordinate heading_rad;
 };
 
 /// Inputs that may be used.
@@ -36,6 +39,7 @@ struct DozerValid : CommonValid {
   double pitch_rate_radps = 0.0;
   double roll_rad = 0.0;  ///< 0 where the blade has no tilt, as the next.
   double roll_rate_radps = 0.0;
+  Course course;  ///< 0 where the track is straight.
   std::array<double, kTrackCount> pump_ratio{};
   std::array<double, kTrackCount> motor_ratio{};
   std::array<double, kTrackCount> track_speed_mps{};

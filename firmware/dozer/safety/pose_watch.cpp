@@ -53,6 +53,9 @@ bool watch_pose(const DozerValid& valid, const GroundSpeeds& speeds, double peri
          state.turned_rad);
     next(valid.roll_rad - state.roll_rad - valid.roll_rate_radps * period_s, kept,
          state.rolled_rad);
+    next(valid.course.offset_m - state.offset_m -
+             valid.velocity_mps * std::sin(valid.course.heading_rad) * period_s,
+         kept, state.aside_m);
     next(uphill_mps * period_s, std::max(0.0, 1.0 - period_s / kSlopeForget_s), state.uphill_m);
     next(least_beyond_slip(speeds, ground_mps) * period_s, kept, state.slipped_m);
   }
@@ -60,9 +63,11 @@ bool watch_pose(const DozerValid& valid, const GroundSpeeds& speeds, double peri
   state.height_m = valid.height_m;
   state.pitch_rad = valid.pitch_rad;
   state.roll_rad = valid.roll_rad;
+  state.offset_m = valid.course.offset_m;
   return exceeds(state.ahead_m, kMostAhead_m) || exceeds(state.climbed_m, kMostClimbed_m) ||
          exceeds(state.turned_rad, kMostTurned_rad) || exceeds(state.rolled_rad, kMostTurned_rad) ||
-         exceeds(state.uphill_m, kMostUphill_m) || exceeds(state.slipped_m, kMostSlipped_m);
+         exceeds(state.aside_m, kMostAhead_m) || exceeds(state.uphill_m, kMostUphill_m) ||
+         exceeds(state.slipped_m, kMostSlipped_m);
 }
 
 }  // namespace graben

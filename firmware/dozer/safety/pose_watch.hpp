@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Checks that what is measured of the body's motion fits together: position and velocity, height
-/// and climb, pitch and its rate, roll and its rate, the climb and the slope that it drives up,
-/// velocity and tracks. A sensor that is frozen with a live counter shows only here.
+/// and climb, pitch and its rate, roll and its rate, offset from the track and heading, the climb
+/// and the slope that it drives up, velocity and tracks. A sensor that is frozen with a live
+/// counter shows only here.
 
 #include "firmware/dozer/safety/dozer_validation.hpp"
 
@@ -24,8 +25,10 @@ struct PoseWatchState {
   double climbed_m = 0.0;   ///< Height against climb.
   double turned_rad = 0.0;  ///< Pitch against its rate.
   double rolled_rad = 0.0;  ///< Roll against its rate.
-  double uphill_m = 0.0;    ///< Climb against the slope that the pitch says.
-  double slipped_m = 0.0;   ///< Velocity against the tracks, slip taken off.
+  double offset_m = 0.0;
+  double aside_m = 0.0;    ///< Offset from the track against heading and velocity.
+  double uphill_m = 0.0;   ///< Climb against the slope that the pitch says.
+  double slipped_m = 0.0;  ///< Velocity against the tracks, slip taken off.
 };
 
 /// Speed along the ground that speaks best for the measured velocity: of a track's sensor or of

@@ -31,6 +31,9 @@ constexpr double kVoteMargin_mps = 0.15;
 constexpr double kSlipShare = 0.2;
 constexpr double kApartMargin_mps = 0.1;
 constexpr double kApartShare = 0.05;
+/// On a curve one side drives and the other brakes: they leak and slip differently. A sensor that
+/// turned the machine there would have it steer back.
+constexpr double kApartOnCurve = 0.2;
 
 bool differs(double a_mps, double b_mps, double margin_mps, double share) {
   return std::abs(a_mps - b_mps) > margin_mps + share * std::abs(b_mps);
@@ -40,6 +43,7 @@ bool differs(double a_mps, double b_mps, double margin_mps, double share) {
 struct TrackSpeeds {
   std::array<double, kTrackCount> expected_mps{};  ///< (9)
   double body_mps = 0.0;                           ///< Along the ground.
+  std::array<double, kTrackCount> beside_mps{};    ///< The same below each track.
 };
 
 TrackSpeeds speeds_beside(const DozerProfile& profile, const DozerValid& valid) {
@@ -50,20 +54,21 @@ TrackSpeeds speeds_beside(const DozerProfile& profile, const DozerValid& valid) 
   }
   // Validation has refused a pitch near to upright.
   speeds.body_mps = valid.velocity_mps / std::cos(valid.pitch_rad);
+  speeds.beside_mps = track_speeds_mps(profile.body, speeds.body_mps, valid.course.yaw_rate_radps);
   return speeds;
 }
 
 bool is_outvoted(const TrackSpeeds& speeds, const DozerValid& valid, unsigned track) {
   const double measured_mps = valid.track_speed_mps[track];
   return differs(measured_mps, speeds.expected_mps[track], kVoteMargin_mps, kLossShare) &&
-         differs(measured_mps, speeds.body_mps, kVoteMargin_mps, kSlipShare);
+         differs(measured_mps, speeds.beside_mps[track], kVoteMargin_mps, kSlipShare);
 }
 
-bool are_apart(const TrackSpeeds& speeds, const DozerValid& valid) {
+bool are_apart(const DozerProfile& profile, const TrackSpeeds& speeds, const DozerValid& valid) {
+  const double share = profile.grade.curves() ? kApartOnCurve : kApartShare;
   const double left_mps = valid.track_speed_mps[kLeft] - speeds.expected_mps[kLeft];
   const double right_mps = valid.track_speed_mps[kRight] - speeds.expected_mps[kRight];
-  return std::abs(left_mps - right_mps) >
-         kApartMargin_mps + kApartShare * std::abs(speeds.body_mps);
+  return std::abs(left_mps - right_mps) > kApartMargin_mps + share * std::abs(speeds.body_mps);
 }
 
 /// The time that something has lasted.
@@ -73,7 +78,7 @@ void count(bool lasts, double period_s, double& for_s) { for_s = lasts ? for_s +
 bool watch_tracks(const DozerProfile& profile, double period_s, TransmissionWatchState& state,
                   DozerValid& valid) {
   const TrackSpeeds speeds = speeds_beside(profile, valid);
-  count(are_apart(speeds, valid), period_s, state.apart_s);
+  count(are_apart(profile, speeds, valid), period_s, state.apart_s);
   bool disagree = state.apart_s > kApart_s;
   for (unsigned i = 0; i < kTrackCount; ++i) {
     valid.track_outvoted[i] = is_outvoted(speeds, valid, i);

@@ -42,7 +42,8 @@ struct TransmissionWatchResult {
 /// A sensor is outvoted (`valid.track_outvoted`, in this cycle already) where its speed is neither
 /// that of (9) nor the body's; outvoted for 0.1 s, it disagrees. So do both after 0.2 s in which
 /// one of them is further from (9) than the other: losses and slip are the same on both sides of a
-/// machine that goes straight on, and a sensor that shows a share of its speed turns it.
+/// machine that goes straight on, and a sensor that shows a share of its speed turns it. On a track
+/// that curves, where they are not, it has to be more.
 [[nodiscard]] TransmissionWatchResult watch_transmission(const DozerProfile& profile,
                                                          TransmissionWatchState& state,
                                                          const SentRatios& sent,

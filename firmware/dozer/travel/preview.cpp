@@ -12,8 +12,6 @@ namespace {
 /// Speeds of the probes, of the wanted one.
 constexpr std::array<double, Preview::kProbes> kShare = {1.0, 0.62, 0.39, 0.24, 0.15, 0.09};
 constexpr int kEdgeSteps = 4;
-/// No machine of this kind is faster.
-constexpr double kAnySpeed_mps = 10.0;
 /// Nearer than this the next step of Newton's method finds the same.
 constexpr double kOnDesign_rad = 1e-4;
 /// Less is no stretch of its own.
@@ -122,6 +120,10 @@ void Preview::step(const GroundMap& ground, const GradeProfile& design, int numb
     tilt_m2_[slot(probe.end)] =
         tilt_oil_m2(profile_, tilt_, design, station_m, blade_.edge_m(0.0).x());
   }
+  if (design.curves()) {
+    outer_[slot(probe.end)] =
+        static_cast<float>(profile_.body.half_gauge_m * std::abs(design.curvature_at(station_m)));
+  }
   need(number, probe.end) = {stroke_on(design, station_m, at, probe.angle_rad), 0.0, 0.0};
   ++probe.end;
 }
@@ -187,7 +189,9 @@ double Preview::tilt_speed_mps(int index) const {
 }
 
 void Preview::look(const GroundMap& ground, const GradeProfile& design, double x_m,
-                   const Stand& measured, double flow_m3ps) {
+                   const Stand& measured, double flow_m3ps, double track_max_mps) {
+  curves_ = design.curves();
+  track_max_mps_ = track_max_mps;
   follow(x_m, measured);
   for (int left = kStepsPerCycle; left > 0; --left) {
     int number = 0;
@@ -226,9 +230,16 @@ double Preview::lift_limit_of(int index, double allowed_m) const {
   return std::max(least_mps, index <= first_ + kBehind ? kAnySpeed_mps : kept_mps);
 }
 
+double Preview::curve_speed_mps(int index) const {
+  return std::max(profile_.travel.speed_min_mps,
+                  track_max_mps_ / (1.0 + static_cast<double>(outer_[slot(index)])));
+}
+
 double Preview::limit_of(int index, double allowed_m) const {
   const double lift_mps = lift_limit_of(index, allowed_m);
-  return profile_.tilt.present ? std::min(lift_mps, tilt_speed_mps(index)) : lift_mps;
+  const double tilted_mps =
+      profile_.tilt.present ? std::min(lift_mps, tilt_speed_mps(index)) : lift_mps;
+  return curves_ ? std::min(tilted_mps, curve_speed_mps(index)) : tilted_mps;
 }
 
 AheadLimit Preview::limit(double x_m, double speed_mps, double allowed_m, double lead_s) const {

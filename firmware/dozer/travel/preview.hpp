@@ -31,6 +31,9 @@ struct AheadLimit {
 /// lift is planned with; no speed is allowed at which the tilt alone would take more than
 /// kTiltShare of it.
 ///
+/// Where the track curves, no speed is allowed with which the outer track would have to run faster
+/// than it can.
+///
 /// A cycle takes a fixed number of steps, of the probe that is least far, and works out the cost of
 /// one probe. What no probe has come to yet counts as v_min.
 class Preview {
@@ -41,13 +44,16 @@ class Preview {
   static constexpr int kStepsPerCycle = 8;
   static constexpr double kHold_s = 0.6;
   static constexpr double kTiltShare = 0.6;
+  /// No machine of this kind is faster.
+  static constexpr double kAnySpeed_mps = 10.0;
 
   /// Both have to outlive it.
   Preview(const DozerProfile& profile, const BladeKinematics& blade);
 
-  /// The origin is at x with this measured stand. The cost is of a flow to plan with.
+  /// The origin is at x with this measured stand. The cost is of a flow to plan with; no track gets
+  /// faster than `track_max_mps`.
   void look(const GroundMap& ground, const GradeProfile& design, double x_m, const Stand& measured,
-            double flow_m3ps);
+            double flow_m3ps, double track_max_mps = kAnySpeed_mps);
 
   /// Largest speed at `x_m` from which every limit up to `preview_m` is met at
   /// `deceleration_max_mps2` and costs no more than `allowed_m`, the way of `lead_s` at `speed_mps`
@@ -104,6 +110,8 @@ class Preview {
   [[nodiscard]] double lift_flow_m3ps(int index, double speed_mps, double flow_m3ps) const;
   /// At which the tilt takes all that it may.
   [[nodiscard]] double tilt_speed_mps(int index) const;
+  /// At which the outer track is at its fastest.
+  [[nodiscard]] double curve_speed_mps(int index) const;
   [[nodiscard]] double angle_on(const GradeProfile& design, double x_m, const Stand& stand,
                                 double guess_rad) const;
   [[nodiscard]] double stroke_on(const GradeProfile& design, double x_m, const Stand& stand,
@@ -125,7 +133,11 @@ class Preview {
   int first_ = 0;                                ///< The first station that counts.
   int turn_ = 0;                                 ///< Whose cost is worked out.
   std::array<double, kMostStations> tilt_m2_{};  ///< See tilt_oil_m2(), at each station.
-  double flow_m3ps_ = 0.0;                       ///< That was last planned with.
+  /// Of the outer track's speed over the body's, what it is more than 1, at each station.
+  std::array<float, kMostStations> outer_{};
+  bool curves_ = false;
+  double track_max_mps_ = kAnySpeed_mps;
+  double flow_m3ps_ = 0.0;  ///< That was last planned with.
 };
 
 /// Where the ground would come out more than the tolerance off the design at whatever speed.

@@ -45,9 +45,12 @@ constexpr Scale kScales[] = {
     {"TiltDuty", 5e-5, -1.6, -1.0, 1.0},
     {"WantedTiltVelocity", 1e-4, -3.2, -3.2, 3.2},
     {"CrossError", 5e-5, -1.6, -1.6, 1.6},
+    {"Offset", 1e-4, -3.2, -3.2, 3.2},
+    {"Heading", 5e-5, -1.6, -1.6, 1.6},
+    {"YawRate", 1e-4, -3.2, -3.2, 3.2},
 };
 
-void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 74); }
+void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 77); }
 
 void saturates_and_refuses(void**) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
 

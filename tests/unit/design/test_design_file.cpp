@@ -49,7 +49,10 @@ void what_is_malformed_is_refused_with_its_line(void**) {
   assert_true(has(refusal("0 0\n5 0\n5 -0.1\n"), "line 3: x = 5 m; allowed: more than the line"));
   assert_true(has(refusal("0 0\n1001 0\n"), "line 2: x = 1001 m; allowed: -1000 .. 1000 m"));
   assert_true(has(refusal("0 0\n1 101\n"), "allowed: -100 .. 100 m"));
-  assert_true(has(refusal("0 0 0 0\n"), "line 1: 4 numbers; allowed: 2 .. 3, x along the track"));
+  assert_true(has(refusal("0 0 0 0 0\n"), "line 1: 5 numbers; allowed: 2 .. 4, x along the track"));
+  assert_true(refusal("0 0 0 0\n5 0 0 0.1\n").empty());
+  assert_true(has(refusal("0 0 0 0\n5 0 0\n"), "line 2: allowed: a curvature in every line"));
+  assert_true(has(refusal("0 0 0 0.6\n5 0 0 0\n"), "line 1: a curvature of 0.6; allowed: -0.5"));
   assert_true(refusal("0 0 0.1\n5 0 -0.1\n").empty());
   assert_true(has(refusal("0 0 0.1\n5 0\n"), "line 2: allowed: a slope across in every line"));
   assert_true(has(refusal("0 0\n5 0 0.1\n"), "line 2: allowed: a slope across in every line"));
@@ -109,6 +112,31 @@ void a_slope_across_that_it_cannot_make_is_refused(void**) {
   assert_true(has(refusal(narrow, {0.0, 0.0, 0.03, 0.03}), "-0.01 .. 0.01 rad"));
 }
 
+void a_curvature_is_part_of_the_design(void**) {
+  machines::DesignLine line = across({0.0, 0.0, 0.0, 0.0});
+  line.curvature = {0.0, 0.0, 0.05, 0.05};
+  const test::WrittenFile file("curve.txt", "");
+  machines::write_design(file.path(), line);
+  const machines::DesignLine again = machines::read_design(file.path());
+  assert_int_equal(again.curvature.size(), line.curvature.size());
+  assert_near(again.curvature[2], 0.05, 1e-9);
+  const machines::SimulatedDozer machine =
+      machines::with_design(test::tilting_dozer(), again, 0.0, "curve");
+  const GradeProfile design(machine.profile.grade);
+  assert_true(design.curves());
+  assert_near(design.curvature_at(line.corners[2].x_m + 1.0), 0.05, 1e-9);
+  assert_near(design.curvature_at(line.corners.back().x_m + 1.0), 0.0, 0.0);
+  line.curvature = {};
+  const auto straight = machines::with_design(test::tilting_dozer(), line, 0.0, "curve");
+  assert_true(straight.hash != machine.hash);
+  const auto refusal = [&](const machines::SimulatedDozer& of, double curvature_pm) {
+    line.curvature = {0.0, 0.0, curvature_pm, curvature_pm};
+    return test::refusal_of([&] { static_cast<void>(machines::with_design(of, line, 0.0, "c")); });
+  };
+  assert_true(has(refusal(test::tilting_dozer(), -0.2), "the track has a radius of"));
+  assert_true(has(refusal(test::tilting_dozer(), -0.2), "allowed: at least 8.90"));
+}
+
 std::vector<GradePoint> corners(double last_m) {
   return {{0.0, 0.0}, {8.0, 0.0}, {12.0, -0.2}, {20.0, last_m}};
 }
@@ -147,6 +175,7 @@ int main() {
       cmocka_unit_test(what_is_written_is_read_again),
       cmocka_unit_test(a_machine_takes_a_design),
       cmocka_unit_test(a_slope_across_is_part_of_the_design),
+      cmocka_unit_test(a_curvature_is_part_of_the_design),
       cmocka_unit_test(a_slope_across_that_it_cannot_make_is_refused),
       cmocka_unit_test(what_the_machine_cannot_make_is_refused_with_the_place),
   };

@@ -165,7 +165,7 @@ void a_track_is_straight_and_of_a_length(void**) {
   };
   assert_near(design::straight_track({1.0, 2.0, 4.0, 2.0, 7.0, 2.0}).length_m(), 6.0, 1e-12);
   assert_true(has(refused({0.0, 0.0, 10.0, 0.0, 20.0, 2.0}), "bends by 0.197 rad at x = 10"));
-  assert_true(has(refused({0.0, 0.0, 10.0, 0.0, 20.0, 2.0}), "nothing steers it"));
+  assert_true(has(refused({0.0, 0.0, 10.0, 0.0, 20.0, 2.0}), "with --radius"));
   assert_true(has(refused({0.0, 0.0, 10.0}), "3 numbers"));
   assert_true(has(refused({0.0, 0.0, 0.5, 0.0}), "allowed: 1 .. 1000 m"));
   assert_true(has(refused({0.0, 0.0, 1001.0, 0.0}), "allowed: 1 .. 1000 m"));

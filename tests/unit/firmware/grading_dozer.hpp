@@ -55,6 +55,12 @@ struct Grading {
       inputs.body.roll_rate_radps = fresh((roll_rad - last_roll_rad) / 0.01, now_us);
       last_roll_rad = roll_rad;
     }
+    std::array<double, kTrackCount> tracks_mps = {speed_mps, speed_mps};
+    if (profile.grade.curves()) {
+      tracks_mps[kRight] = track_speed_mps(profile.hst, engine_radps, outputs.pump_ratio[kRight],
+                                           outputs.motor_ratio[kRight]);
+      turn(tracks_mps, inputs.body);
+    }
     inputs.blade_stroke_m = fresh(stroke_m, now_us);
     inputs.blade_spool_ratio = fresh(outputs.blade_duty_ratio, now_us);
     inputs.valve_enabled = fresh(outputs.enable, now_us);
@@ -67,7 +73,7 @@ struct Grading {
     for (unsigned i = 0; i < kTrackCount; ++i) {
       inputs.track[i].pump_ratio = fresh(outputs.pump_ratio[i], now_us);
       inputs.track[i].motor_ratio = fresh(outputs.motor_ratio[i], now_us);
-      inputs.track[i].speed_mps = fresh(speed_mps, now_us);
+      inputs.track[i].speed_mps = fresh(tracks_mps[i], now_us);
     }
     inputs.engine_speed_radps = fresh(engine_radps, now_us);
     inputs.driver.enable = fresh(true, now_us);
@@ -77,6 +83,18 @@ struct Grading {
     inputs.same_machine = fresh(true, now_us);
     inputs.link.bus = BusState::kActive;
     return inputs;
+  }
+  /// As its tracks say, on a track that curves. The station is the way of its middle.
+  void turn(const std::array<double, kTrackCount>& tracks_mps, BodyInputs& body) {
+    const double middle_mps = 0.5 * (tracks_mps[kLeft] + tracks_mps[kRight]);
+    course.yaw_rate_radps =
+        0.5 * (tracks_mps[kRight] - tracks_mps[kLeft]) / profile.body.half_gauge_m;
+    position_m += (middle_mps - speed_mps) * 0.01;
+    speed_mps = middle_mps;
+    course = course_after(setup->design, course, position_m, speed_mps, 0.01);
+    body.offset_m = fresh(course.offset_m, now_us);
+    body.heading_rad = fresh(course.heading_rad, now_us);
+    body.yaw_rate_radps = fresh(course.yaw_rate_radps, now_us);
   }
   DozerInputs at_rest(bool enable) {
     DozerInputs resting = next();
@@ -107,6 +125,7 @@ struct Grading {
   double tilt_stroke_m = 0.0;
   double roll_rad = 0.0;
   double last_roll_rad = 0.0;
+  Course course;
   double speed_mps = 0.0;
 };
 

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/design/curved_section.hpp"
+
+#include <cmath>
+
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/design/written_file.hpp"
+
+namespace {
+
+using namespace graben;
+using test::has;
+
+constexpr double kHalfPi = 1.57079632679489662;
+const design::BladeAcross kTilts{2.5, 0.02, true};
+
+std::string file_of(const std::string& geometry, const std::string& unit = "meter") {
+  return "<?xml version=\"1.0\"?>\n<LandXML version=\"1.2\">\n<Units><Metric linearUnit=\"" + unit +
+         "\"/></Units>\n<Alignments><Alignment name=\"way\" staStart=\"100\">\n<CoordGeom>\n" +
+         geometry + "</CoordGeom></Alignment></Alignments></LandXML>\n";
+}
+
+/// Ten metres east, a quarter of a circle to the left, ten metres north.
+const std::string kLine = "<Line><Start>0 0</Start><End>0 10</End></Line>\n";
+const std::string kCurve =
+    "<Curve rot=\"ccw\"><Start>0 10</Start><Center>20 10</Center><End>20 30</End></Curve>\n";
+const std::string kNorth = "<Line><Start>20 30</Start><End>30 30</End></Line>\n";
+
+design::PlanTrack read(const std::string& text, const design::AlignmentSource& source = {}) {
+  const test::WrittenFile file("way.xml", text);
+  return design::read_alignment(file.path(), source);
+}
+
+std::string refusal(const std::string& text, const design::AlignmentSource& source = {}) {
+  return test::refusal_of([&] { static_cast<void>(read(text, source)); });
+}
+
+void assert_at(const design::PlanTrack& track, double station_m, double x_m, double y_m,
+               double direction_rad) {
+  const design::PlanStation at = design::station_of(track, station_m);
+  assert_near(at.piece->at_m(at.along_m).x(), x_m, 1e-9);
+  assert_near(at.piece->at_m(at.along_m).y(), y_m, 1e-9);
+  assert_near(at.piece->direction_at_rad(at.along_m), direction_rad, 1e-9);
+}
+
+void an_alignment_is_lines_and_arcs(void**) {
+  const design::PlanTrack track = read(file_of(kLine + kCurve + kNorth));
+  assert_int_equal(track.piece.size(), 3);
+  assert_near(track.length_m(), 20.0 + 20.0 * kHalfPi, 1e-9);
+  assert_near(track.piece[1].curvature_pm, 0.05, 1e-12);
+  assert_at(track, 5.0, 5.0, 0.0, 0.0);
+  assert_at(track, 10.0 + 10.0 * kHalfPi, 10.0 + 20.0 * std::sin(0.5 * kHalfPi),
+            20.0 - 20.0 * std::cos(0.5 * kHalfPi), 0.5 * kHalfPi);
+  assert_at(track, track.length_m() - 1.0, 30.0, 29.0, kHalfPi);
+  // To the right, and in another unit.
+  const design::PlanTrack right = read(file_of(
+      "<Curve rot=\"cw\"><Start>0 0</Start><Center>-20 0</Center><End>-20 20</End></Curve>\n",
+      "centimeter"));
+  assert_near(right.piece[0].curvature_pm, -5.0, 1e-9);
+  assert_near(right.length_m(), 0.2 * kHalfPi, 1e-9);
+}
+
+void a_part_of_it_is_taken_by_its_stations(void**) {
+  const design::PlanTrack part = read(file_of(kLine + kCurve + kNorth), {"way", {105.0, 112.0}});
+  assert_int_equal(part.piece.size(), 2);
+  assert_near(part.length_m(), 7.0, 1e-9);
+  assert_at(part, 0.0, 5.0, 0.0, 0.0);
+  const std::string beyond = refusal(file_of(kLine), {"way", {99.0, 112.0}});
+  assert_true(has(beyond, "stations 99 .. 112 m; allowed: rising, 100.000 .. 110.000 m"));
+  assert_true(has(refusal(file_of(kLine), {"away", {}}), "alignment 'away' is there 0 times"));
+}
+
+void what_it_cant_be_is_refused_with_its_element(void**) {
+  assert_true(has(refusal(file_of(kLine + "<Spiral length=\"5\"/>\n")),
+                  "line 7, <Spiral>: allowed in an alignment: <Line>, <Curve>"));
+  const std::string apart = "<Line><Start>0 11</Start><End>0 20</End></Line>\n";
+  assert_true(has(refusal(file_of(kLine + apart)), "line 7, <Line>: begins 1.000 m from the end"));
+  const std::string bent = "<Line><Start>0 10</Start><End>5 20</End></Line>\n";
+  assert_true(has(refusal(file_of(kLine + bent)),
+                  "bends by 0.4636 rad from the one before at station 10.000 m"));
+  assert_true(has(refusal(file_of("<Line><Start>0 0</Start></Line>\n")), "has no <End>"));
+  assert_true(
+      has(refusal(file_of("<Line><Start>0 x</Start><End>0 1</End></Line>\n")), "'x' as its east"));
+  const auto curve = [](const std::string& rot, const std::string& end) {
+    return refusal(file_of("<Curve rot=\"" + rot + "\"><Start>0 10</Start><Center>20 10</Center>" +
+                           "<End>" + end + "</End></Curve>\n"));
+  };
+  assert_true(has(curve("left", "20 30"), "rot=\"left\"; allowed: cw, ccw"));
+  assert_true(has(curve("ccw", "20 31"), "begins 20.000 m and ends 21.000 m from its centre"));
+  assert_true(has(refusal(file_of("")), "has no element"));
+}
+
+void corners_are_rounded_by_arcs(void**) {
+  const std::vector<double> corner = {0.0, 0.0, 30.0, 0.0, 30.0, 30.0};
+  const design::PlanTrack track = design::rounded_track(corner, 20.0);
+  assert_int_equal(track.piece.size(), 3);
+  assert_true(track.curves());
+  assert_near(track.length_m(), 20.0 + 20.0 * kHalfPi, 1e-9);
+  assert_at(track, track.length_m(), 30.0, 30.0, kHalfPi);
+  assert_at(track, 10.0, 10.0, 0.0, 0.0);
+  assert_false(design::rounded_track({0.0, 0.0, 5.0, 0.0, 9.0, 0.0}, 20.0).curves());
+  const std::string refused =
+      test::refusal_of([&] { static_cast<void>(design::rounded_track(corner, 31.0)); });
+  assert_true(has(refused, "bends by 1.571 rad at x = 30, y = 0 m"));
+  assert_true(has(refused, "31.000 m before and behind it"));
+}
+
+/// A plane that rises to the east by 0.05 and to the north by 0.02.
+design::Surface plane(double most_m) {
+  design::Surface surface;
+  for (const double x_m : {-10.0, most_m}) {
+    for (const double y_m : {-10.0, 60.0}) {
+      surface.point_m.emplace_back(x_m, y_m, 7.0 + 0.05 * x_m + 0.02 * y_m);
+    }
+  }
+  surface.face = {{0, 2, 1}, {2, 3, 1}};
+  return surface;
+}
+
+/// Height under the track, slope at right angles to it: of a plane, by its gradient.
+void the_section_follows_the_curve(void**) {
+  const design::PlanTrack track = design::rounded_track({0.0, 0.0, 30.0, 0.0, 30.0, 30.0}, 20.0);
+  const machines::DesignLine line = design::along_curved_track(plane(60.0), track, 7.0, kTilts);
+  assert_int_equal(line.corners.size(), line.cross.size());
+  assert_int_equal(line.corners.size(), line.curvature.size());
+  assert_near(line.corners.back().x_m, track.length_m(), 1e-4);
+  for (std::size_t i = 0; i < line.corners.size(); i += 50) {
+    const design::PlanStation at = design::station_of(track, line.corners[i].x_m);
+    const Eigen::Vector2d place = at.piece->at_m(at.along_m);
+    const double direction = at.piece->direction_at_rad(at.along_m);
+    assert_near(line.corners[i].z_m, 0.05 * place.x() + 0.02 * place.y(), 1e-9);
+    assert_near(line.cross[i], -0.05 * std::sin(direction) + 0.02 * std::cos(direction), 1e-9);
+    assert_near(line.curvature[i], at.piece->curvature_pm, 0.0);
+  }
+}
+
+void what_cant_be_made_is_refused_with_the_station(void**) {
+  const design::PlanTrack track = design::rounded_track({0.0, 0.0, 30.0, 0.0, 30.0, 30.0}, 20.0);
+  const auto refused = [&](const design::Surface& surface, const design::BladeAcross& blade) {
+    return test::refusal_of(
+        [&] { static_cast<void>(design::along_curved_track(surface, track, 7.0, blade)); });
+  };
+  assert_true(
+      has(refused(plane(60.0), {2.5, 0.02, false}), "the track curves from station 10.00 m on"));
+  assert_true(has(refused(plane(20.0), kTilts), "the surface has a hole at station 19."));
+  design::Surface two = plane(60.0);
+  for (const double y_m : {-10.0, 60.0}) {
+    two.point_m.emplace_back(60.0, y_m, 9.0);
+  }
+  two.face.push_back({0, 4, 1});
+  assert_true(has(refused(two, kTilts), "allowed: one height a place"));
+  const std::string tight = test::refusal_of([&] {
+    static_cast<void>(design::along_curved_track(
+        plane(60.0), design::rounded_track({0.0, 0.0, 30.0, 0.0, 30.0, 30.0}, 1.5), 7.0, kTilts));
+  });
+  assert_true(has(tight, "a radius of 1.50 m from station 28.50 m on; allowed: at least 2 m"));
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(an_alignment_is_lines_and_arcs),
+      cmocka_unit_test(a_part_of_it_is_taken_by_its_stations),
+      cmocka_unit_test(what_it_cant_be_is_refused_with_its_element),
+      cmocka_unit_test(corners_are_rounded_by_arcs),
+      cmocka_unit_test(the_section_follows_the_curve),
+      cmocka_unit_test(what_cant_be_made_is_refused_with_the_station),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
