@@ -35,6 +35,16 @@ constexpr double kSetsOff_s = 0.5;
 constexpr double kAskedLeast = 5.0;
 /// Where the bypass closes over the opening as well, a speed hangs on it by so much more.
 constexpr double kSteeper = 4.0;
+/// There, of the opening for a slow speed: at which the drive sets off. And what counts as standing
+/// under an open spool, for how long before an edge is moved, how far in a cycle and how fast.
+constexpr double kSetsOffShare = 0.96;
+constexpr double kFeltOpening = 0.05;
+constexpr double kMostClosing = 0.9;
+constexpr double kLeastAsked_mps = 0.008;
+constexpr double kStands_mps = 0.003;
+constexpr double kStood_s = 0.04;
+constexpr double kStandingShare = 0.3;
+constexpr double kStandingRate_ps = 0.5;
 /// Until an opening and what is learnt at it agree.
 constexpr int kSteps = 4;
 
@@ -118,6 +128,26 @@ void feel_edge(const DriveRow& drive, const LearntSeen& now, double period_s, Le
   }
 }
 
+/// A cylinder that stands though its spool should be open beyond what makes its line press as hard
+/// as its load: its dead band ends farther out. At that opening the profile's valve would have set
+/// off; the real one has not at the one where its spool is, low-passed, so nothing is overshot.
+void feel_standing(const LearntSeen& mean, const LearntSeen& now, double way, double period_s,
+                   LearntValve& valve, LearntSide& side) {
+  const double asked = mean.asked.opening;
+  const bool is_open = std::min(way * now.opening, way * now.asked.opening) > kFeltOpening;
+  const double asked_mps = std::min(mean.asked.speed_mps, way * now.asked.speed_mps);
+  const bool stands = is_open && asked < kMostClosing && asked_mps > kLeastAsked_mps &&
+                      std::abs(mean.speed_mps) < kStands_mps;
+  valve.unmoved_s = stands ? valve.unmoved_s + period_s : 0.0;
+  if (valve.unmoved_s > kStood_s) {
+    const double edge =
+        (mean.opening - kSetsOffShare * asked - side.bend * curve(asked)) / (1.0 - asked);
+    const double farther =
+        std::min(kStandingShare * (edge - side.edge), kStandingRate_ps * period_s);
+    side.edge = std::min(side.edge + std::max(0.0, farther), kEdgeMost);
+  }
+}
+
 }  // namespace
 
 const LearntSide& LearntValve::side(bool extends) const { return extends ? extend : retract; }
@@ -152,7 +182,11 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
   forget(period_s, side);
   const bool steady = std::abs(now.asked.opening - valve.seen.asked.opening) < kSteady &&
                       std::abs(now.opening - valve.seen.opening) < kSteady;
-  const LearntSeen mean = along(valve.seen, extends ? 1.0 : -1.0);
+  const double way = extends ? 1.0 : -1.0;
+  const LearntSeen mean = along(valve.seen, way);
+  if (drive.spool.bypass_closes_at > 0.0) {
+    feel_standing(mean, now, way, period_s, valve, side);
+  }
   if (!steady || !may_be_compared(mean)) {
     return;
   }

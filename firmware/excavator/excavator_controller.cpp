@@ -299,6 +299,7 @@ ExcavatorController::Followed ExcavatorController::flow_limited(const ExcavatorV
   if (of_path > 0.0 || motion.eases) {
     const McvSolution of_wanted = followed.solution;
     const Limit path_limit = of_wanted.limit;
+    input = opened_for(memory_.held, drives(), input);
     scale_to((motion.eases ? 1.0 : of_path) * motion.cap.factor, motion.corrected_mps);
     const double most =
         std::min(memory_.of_corrected + control.lambda_rise.rate_ps * period_s, 1.0);
@@ -349,6 +350,7 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
   memory_.last.tried = decision.active() && motion.tries;
   std::copy_n(asked_mps.data(), kDriveCount, memory_.last.asked_mps.begin());
   memory_.line_pa = point.pump_pressure_pa;
+  memory_.held.yield_mpsn = {point.yield_mpsn[kBoom], point.yield_mpsn[kArm]};
   for (int i = 0; i < drives().count(); ++i) {
     const auto k = static_cast<unsigned>(i);
     const double line_pa =
@@ -388,8 +390,6 @@ void ExcavatorController::remember(const ExcavatorValid& valid, const Motion& mo
              memory_.tip_load.payload_kg},
             period_s, memory_.task);
 }
-
-void ExcavatorController::stop_task() { memory_.task = stopped(memory_.task); }
 
 ProfileCheck profile_check(const ExcavatorProfile& profile) {
   const ExcavatorKinematics kinematics(profile.geometry);

@@ -12,7 +12,7 @@
 #include "firmware/excavator/field/dig_field.hpp"
 #include "firmware/excavator/imus/imu_joints.hpp"
 #include "firmware/excavator/load/load_observer.hpp"
-#include "firmware/excavator/oil/oil_law.hpp"
+#include "firmware/excavator/oil/held_load.hpp"
 #include "firmware/excavator/pump_demand.hpp"
 #include "firmware/excavator/safety/excavator_validation.hpp"
 #include "firmware/excavator/swing.hpp"
@@ -107,6 +107,7 @@ class ExcavatorController {
     ExcavatorServo servo;
     OilState oil;
     OilModes modes;
+    HeldLoad held;
     double payload_kg = 0.0;  ///< As weighed at rest.
     LoadObserver load_observer;
     TipLoad tip_load;
@@ -204,7 +205,7 @@ class ExcavatorController {
   void describe_motion(const Motion& motion, const Followed& taken, const FaultSet& degraded,
                        ExcavatorStatus& status) const;
   /// Not inlined, for the stack below it.
-  [[gnu::noinline]] void stop_task();
+  [[gnu::noinline]] void stop_task() { memory_.task = stopped(memory_.task); }
   /// Keeps what the next cycle needs of this one.
   void remember(const ExcavatorValid& valid, const Motion& motion, const Followed& taken,
                 const ModeDecision& decision, const ExcavatorOutputs& outputs, double period_s);

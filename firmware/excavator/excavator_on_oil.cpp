@@ -64,6 +64,9 @@ void ExcavatorController::estimate_oil(const ExcavatorValid& valid, const Kinema
     seen.asked_mps[axis] = memory_.last.asked_mps[static_cast<unsigned>(axis)];
     seen.expected_mps[axis] = memory_.expected_mps[axis];
   }
+  HeldLoad& held = memory_.held;
+  seen.yield_mpsn = held.yield_mpsn;
+  seen.opened_for_n = held.leads ? held.force_n : filtered_force_n(drives(), memory_.load);
   const bool reached = now.status == ReachStatus::kOk;
   if (reached) {
     weigh(seen, now, mode);
@@ -73,6 +76,11 @@ void ExcavatorController::estimate_oil(const ExcavatorValid& valid, const Kinema
   const bool leads = reached && seen.force_known && leads_on_oil(valid);
   next_oil(setup_.oil, memory_.modes, seen, mode == EcuMode::kActive && reached, leads,
            memory_.oil);
+  if (reached) {
+    next_held_load(memory_.oil, seen.expected_mps,
+                   stroke_inertia_kg(profile_.oil, profile_.geometry, now, memory_.payload_kg),
+                   held);
+  }
 }
 
 void ExcavatorController::weigh(const OilSeen& seen, const KinematicState& now, EcuMode mode) {

@@ -25,6 +25,9 @@ struct McvPoint {
   PerActuator<double> drive_force_n{};    ///< F_s - F_L sgn(x); 0 for an actuator at rest
   /// x, signed; 0 for an actuator at rest, and everywhere before `open_spools`.
   PerActuator<double> spool_m{};
+  /// By how much a drive of a line under negative flow control gets slower at its opening for each
+  /// newton that is added to its load, m/s over N; else 0, and everywhere before `open_spools`.
+  PerActuator<double> yield_mpsn{};
   PerActuator<bool> regenerating{};  ///< Whether the check valve is open.
 };
 

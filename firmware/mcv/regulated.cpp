@@ -142,9 +142,10 @@ bool is_below(const McvCircuit& circuit, unsigned pump, double lambda, double sq
   return left_with_bypass(circuit, pump, lambda, sqrt_pa, line) >= 0.0;
 }
 
-double settled_sqrt_pressure(const McvCircuit& circuit, unsigned pump, double lambda,
-                             double closed) {
-  FlowBalance line = circuit.line[pump];
+/// `line` becomes what it is at that pressure.
+double settled_sqrt_pressure(const McvCircuit& circuit, unsigned pump, double lambda, double closed,
+                             FlowBalance& line) {
+  line = circuit.line[pump];
   if (left_with_bypass(circuit, pump, lambda, closed, line) >= 0.0) {
     return closed;
   }
@@ -155,6 +156,27 @@ double settled_sqrt_pressure(const McvCircuit& circuit, unsigned pump, double la
     (is_below(circuit, pump, lambda, middle, line) ? low : high) = middle;
   }
   return high;
+}
+
+/// -dQ/dP of pump and bypass, m^3/(s Pa).
+double line_yield(const FlowBalance& line, double sqrt_pa) {
+  const PumpRegulator& by = line.regulated->regulator;
+  const double pressure_pa = square(sqrt_pa);
+  const double felt_pa = pressure_pa * felt_share(line);
+  const bool falls = felt_pa > by.full_swash_pa && felt_pa < by.least_swash_pa;
+  const double full_m3ps = line.flow_m3ps / swash_of(by, felt_pa);
+  const double of_swash = falls ? full_m3ps * (1.0 - by.least_swash_ratio) /
+                                      (by.least_swash_pa - by.full_swash_pa) * felt_share(line)
+                                : 0.0;
+  return of_swash + line.leak_linear + 2.0 * line.leak_quadratic * pressure_pa +
+         0.5 * line.bypass / sqrt_pa;
+}
+
+/// Of a drive at its force, on a line with that.
+double drive_yield_mpsn(const CircuitAxis& axis, double lambda, double force_n,
+                        double line_m3pspa) {
+  const double edges_mpsn = 0.5 * lambda * axis.speed_mps / std::max(force_n, axis.force_offset_n);
+  return edges_mpsn * line_m3pspa / (line_m3pspa + square(axis.inlet_area_m2) * edges_mpsn);
 }
 
 }  // namespace
@@ -183,12 +205,15 @@ double regulated_coefficient(const CircuitAxis& axis, double lambda, const Drive
 }
 
 void settle_bypasses(const McvCircuit& circuit, McvPoint& point) {
+  PerPump<double> yield_m3pspa{};
   for (unsigned j = 0; j < circuit.pump_count; ++j) {
     const McvPump* pump = circuit.line[j].regulated;
     if (pump != nullptr && pump->regulator.kind == PumpKind::kNegativeFlow) {
+      FlowBalance line;
       point.sqrt_pressure[j] =
-          settled_sqrt_pressure(circuit, j, point.lambda, point.sqrt_pressure[j]);
+          settled_sqrt_pressure(circuit, j, point.lambda, point.sqrt_pressure[j], line);
       point.pump_pressure_pa[j] = square(point.sqrt_pressure[j]);
+      yield_m3pspa[j] = line_yield(line, point.sqrt_pressure[j]);
     }
   }
   for (unsigned i = 0; i < circuit.axis_count; ++i) {
@@ -198,6 +223,11 @@ void settle_bypasses(const McvCircuit& circuit, McvPoint& point) {
       point.out_pressure_pa[i] = drive.out_pressure_pa;
       point.regenerating[i] = drive.regenerating;
       point.drive_force_n[i] = std::min(drive.force_n, axis.most_force_n);
+      const double line_m3pspa = yield_m3pspa[axis.pump];
+      if (line_m3pspa > 0.0) {
+        point.yield_mpsn[i] =
+            drive_yield_mpsn(axis, point.lambda, point.drive_force_n[i], line_m3pspa);
+      }
     }
   }
 }

@@ -38,7 +38,11 @@ namespace graben {
 [[nodiscard]] PumpPressure most_pressure(const FlowBalance& line, double lambda);
 
 /// Pressures and drive forces of a feasible point with the bypasses as its spools leave them; those
-/// of other lines stay.
+/// of other lines stay. And how each drive of such a line then gives way to its load: with
+/// Y = -dQ/dP of pump and bypass, and c = v / (2 F) of its edges, Q = A v makes of v = C sqrt(F),
+/// F = A P - F_L
+///   -dv / dF_L = c Y / (Y + A^2 c),
+/// the other drives of the line as they are.
 void settle_bypasses(const McvCircuit& circuit, McvPoint& point);
 
 /// As needed_coefficient, also where the fed side runs dry.

@@ -41,6 +41,13 @@ Eigen::Vector2d next_flow_mps(double lag_s, const OilSeen& seen, OilState& state
   return 0.5 * (before_mps + seconds(state.asked));
 }
 
+/// Speed that the flow is less by the force it meets; implicit, so that no yield rings.
+Eigen::Vector2d given_way_mps(const OilModes& modes, const OilSeen& seen, const OilState& state) {
+  const Eigen::Vector2d in_cycle =
+      Eigen::Vector2d::Ones() + kOilCycle_s * modes.stiffness_npm.cwiseProduct(seen.yield_mpsn);
+  return seen.yield_mpsn.cwiseProduct(state.force_n - seen.opened_for_n).cwiseQuotient(in_cycle);
+}
+
 }  // namespace
 
 OilSeen oil_seen(DriveRows drives, Span<const ValidDrive> seen) {
@@ -63,7 +70,8 @@ void next_oil(const OilGains& gains, const OilModes& modes, const OilSeen& seen,
   }
   const double step = kHandOver_ps * kOilCycle_s;
   state.weight = std::clamp(state.weight + (leads ? step : -step), 0.0, 1.0);
-  const Eigen::Vector2d flow = modes.inverse * next_flow_mps(gains.lag_s(), seen, state);
+  const Eigen::Vector2d flow = modes.inverse * (next_flow_mps(gains.lag_s(), seen, state) -
+                                                given_way_mps(modes, seen, state));
   const Eigen::Vector2d yield_mpn = modes.stiffness_npm.cwiseInverse();
   const auto compression = [&](const Eigen::Vector2d& force_n) -> Eigen::Vector2d {
     return modes.inverse * yield_mpn.cwiseProduct(force_n);

@@ -35,6 +35,10 @@ struct OilSeen {
   Eigen::Vector2d expected_mps = Eigen::Vector2d::Zero();
   Eigen::Vector2d stroke_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d force_n = Eigen::Vector2d::Zero();  ///< Of measured pressures, not filtered.
+  /// What the valves are opened for, and by how much their flow is less for each newton more; 0:
+  /// whatever the force.
+  Eigen::Vector2d opened_for_n = Eigen::Vector2d::Zero();
+  Eigen::Vector2d yield_mpsn = Eigen::Vector2d::Zero();
   bool force_known = false;
 };
 

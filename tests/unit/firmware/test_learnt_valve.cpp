@@ -86,6 +86,26 @@ void a_bypass_that_closes_over_the_opening_makes_speeds_steep(void**) {
   assert_true(learnt_edge(0.5) < 0.6 * learnt_edge(0.0));
 }
 
+/// Where the bypass closes over the opening, a drive sets off only far out: one that stands there
+/// tells where its dead band ends, and no farther than its spool has been.
+void a_drive_that_stands_under_a_closing_bypass_shows_its_edge(void**) {
+  const auto stood_edge = [](double bypass_closes_at, double opening) {
+    Bench bench;
+    bench.row.spool.bypass_closes_at = bypass_closes_at;
+    for (int n = 0; n < 200; ++n) {
+      ValidDrive seen;
+      seen.stroke_m = bench.stroke_m;
+      seen.spool_ratio = kEdge + (1.0 - kEdge) * (opening + 0.02);
+      next_learnt(bench.row, seen, {0.03, opening}, true, kPeriod_s, bench.valve);
+    }
+    return bench.valve.extend.edge;
+  };
+  // At 0.96 of the opening the profile's valve would have set off.
+  assert_near(stood_edge(0.25, 0.22), (0.02 + 0.04 * 0.22) / (1.0 - 0.22), 4e-3);
+  assert_near(stood_edge(0.0, 0.22), 0.0, 0.0);
+  assert_near(stood_edge(0.25, 0.02), 0.0, 0.0);
+}
+
 void a_dead_band_is_learnt_on_its_own_side(void**) {
   for (const double edge : {0.17, 0.23}) {
     Bench bench;
@@ -357,6 +377,7 @@ void what_is_felt_stays_within_bounds(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_bypass_that_closes_over_the_opening_makes_speeds_steep),
+      cmocka_unit_test(a_drive_that_stands_under_a_closing_bypass_shows_its_edge),
       cmocka_unit_test(a_dead_band_is_learnt_on_its_own_side),
       cmocka_unit_test(an_edge_is_told_in_travel),
       cmocka_unit_test(an_exponent_is_learnt),

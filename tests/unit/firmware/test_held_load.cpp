@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lines that give way to their load: what boom and arm are opened for, and what the observer knows.
+
+#include "firmware/excavator/oil/held_load.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/fixture.hpp"
+
+namespace {
+
+using namespace graben;
+
+const ExcavatorProfile& machine() { return test::excavator().profile; }
+
+OilState settled(double load_n) {
+  OilState oil;
+  oil.weight = 1.0;
+  oil.load_n = {-load_n, 0.0};
+  return oil;
+}
+
+/// Opened for the load that is left at rest and for the path's push, not for what the boom's own
+/// swinging adds; a line that does not give way changes nothing.
+void a_giving_line_is_opened_for_load_and_push(void**) {
+  const Eigen::Matrix2d inertia_kg = Eigen::Vector2d(1e5, 2e4).asDiagonal();
+  HeldLoad held;
+  OilState oil = settled(200e3);
+  oil.force_n = {260e3, 0.0};
+  next_held_load(oil, Eigen::Vector2d::Zero(), inertia_kg, held);
+  assert_false(held.leads);
+  held.yield_mpsn = {5e-7, 0.0};
+  double due_mps = 0.0;
+  for (int n = 0; n < 100; ++n) {
+    due_mps += 0.01 * 0.3;
+    next_held_load(oil, {due_mps, 0.0}, inertia_kg, held);
+  }
+  assert_true(held.leads);
+  assert_near(held.force_n[0], 200e3 + 1e5 * 0.3, 100.0);
+
+  const ExcavatorBank bank = excavator_bank(machine());
+  const DriveRow& boom = bank.row[0];
+  McvInput input;
+  input.cap_pressure_pa = {12e6, 3e6, 4e6};
+  input.rod_pressure_pa = {1e6, 2e6, 5e6};
+  const auto force_n = [&boom](const McvInput& of) {
+    return boom.extend_area_m2 * of.cap_pressure_pa[0] -
+           boom.retract_area_m2 * of.rod_pressure_pa[0];
+  };
+  assert_near(force_n(opened_for(held, bank.rows(), input)), held.force_n[0], 1e-3);
+  assert_near(opened_for(held, bank.rows(), input).cap_pressure_pa[2], 4e6, 0.0);
+  held.force_n[0] = -300e3;
+  assert_near(force_n(opened_for(held, bank.rows(), input)), -300e3, 1e-3);
+  assert_near(opened_for(held, bank.rows(), input).cap_pressure_pa[0], 0.0, 0.0);
+  held.leads = false;
+  assert_near(opened_for(held, bank.rows(), input).cap_pressure_pa[0], 12e6, 0.0);
+}
+
+/// A force beyond the one that the valve is opened for slows the flow that the observer expects.
+void the_observer_knows_a_flow_that_gives_way(void**) {
+  const OilGains gains{OilDesign{}};
+  const KinematicState now = ExcavatorKinematics(machine().geometry).state({0.6, 0.7, 0.5});
+  std::array<LoadState, kDriveCount> load{};
+  load.fill({8e6, 5e6});
+  const OilModes modes = oil_modes(machine().oil, machine().geometry, now, {load.data(), 2}, 0.0);
+  const auto error_mps = [&](double yield_mpsn) {
+    OilState state;
+    OilSeen seen;
+    seen.force_known = true;
+    seen.force_n = {100e3, 0.0};
+    seen.yield_mpsn = {yield_mpsn, 0.0};
+    next_oil(gains, modes, seen, true, true, state);
+    double stroke_m = 0.0;
+    for (int n = 0; n < 300; ++n) {
+      stroke_m -= 0.01 * 5e-7 * 100e3;
+      seen.stroke_m = {stroke_m, 0.0};
+      next_oil(gains, modes, seen, true, true, state);
+    }
+    return state.flow_error_mps[0];
+  };
+  assert_near(error_mps(0.0), -0.05, 0.005);
+  assert_true(std::abs(error_mps(5e-7)) < 0.015);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_giving_line_is_opened_for_load_and_push),
+      cmocka_unit_test(the_observer_knows_a_flow_that_gives_way),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
