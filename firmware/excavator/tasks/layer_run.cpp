@@ -239,7 +239,8 @@ void LayerRun::cut(TaskState& state) const {
   const Cut& at = layers.cuts.cut;
   layers.give_m = std::clamp(layers.give_m + period_s_ * change_m, 0.0, at.enters_m - at.height_m);
   // What the oil gives back when the force goes must not lead through the design.
-  const double gives_m = std::max(plan_.give_mpn * force * plan_.force_n, off_foot_m(plan_, at, seen_));
+  const double gives_m =
+      std::max(plan_.give_mpn * force * plan_.force_n, off_foot_m(plan_, at, seen_));
   const double springs_m = gives_m - kSpringFree_m - at.height_m;
   // Nor is soil that holds the teeth up pressed on by a plan that is farther below than this.
   const double held_up_m = seen_height_m(program_, seen_, state) - kBehind_m - at.height_m;
