@@ -23,7 +23,7 @@ from disassembly import Refusal, check_frames, output_of
 HERE = pathlib.Path(__file__).parent
 OBSERVED = HERE / "observed.toml"
 # By target: the ECU that this is for.
-MOST = {"arm-none-eabi-cortex-m7": {"flash": 240 * 1024, "ram": 36 * 1024, "stack": 10 * 1024}}
+MOST = {"arm-none-eabi-cortex-m7": {"flash": 240 * 1024, "ram": 36 * 1024, "stack": 11 * 1024}}
 # In ./test only what nobody would have wanted is red; --strict is for a thorough run by hand.
 DRIFT, DRIFT_STRICT = 0.10, 0.02
 FIGURES = ("flash", "ram", "stack")

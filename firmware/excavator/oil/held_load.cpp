@@ -49,13 +49,11 @@ McvInput opened_for(const HeldLoad& held, DriveRows drives, const McvInput& inpu
   return opened;
 }
 
-Eigen::Vector2d filtered_force_n(DriveRows drives, Span<const LoadState> load) {
-  Eigen::Vector2d force_n;
-  for (int axis = 0; axis < 2; ++axis) {
-    force_n[axis] = drives[axis].extend_area_m2 * load[axis].cap_pa -
-                    drives[axis].retract_area_m2 * load[axis].rod_pa;
-  }
-  return force_n;
+Eigen::Vector2d filtered_force_n(const DriveRows& drives, const Span<const LoadState>& load) {
+  const auto of_axis_n = [](const DriveRow& drive, const LoadState& at) {
+    return drive.extend_area_m2 * at.cap_pa - drive.retract_area_m2 * at.rod_pa;
+  };
+  return {of_axis_n(drives[0], load[0]), of_axis_n(drives[1], load[1])};
 }
 
 }  // namespace graben

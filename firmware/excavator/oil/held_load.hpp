@@ -36,7 +36,9 @@ void next_held_load(const OilState& oil, const Eigen::Vector2d& due_mps,
 /// The input with the pressures of boom and arm changed until their force is the held one.
 [[nodiscard]] McvInput opened_for(const HeldLoad& held, DriveRows drives, const McvInput& input);
 
-/// Filtered force of the measured pressures of boom and arm.
-[[nodiscard]] Eigen::Vector2d filtered_force_n(DriveRows drives, Span<const LoadState> load);
+/// Filtered force of the measured pressures of boom and arm. By reference: a span that is split
+/// between registers and stack makes a frame on Arm that is not the compiler's own figure.
+[[nodiscard]] Eigen::Vector2d filtered_force_n(const DriveRows& drives,
+                                               const Span<const LoadState>& load);
 
 }  // namespace graben
