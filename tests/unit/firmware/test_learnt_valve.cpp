@@ -106,24 +106,6 @@ void a_drive_that_stands_under_a_closing_bypass_shows_its_edge(void**) {
     }
     return bench.valve.extend.edge;
   };
-  assert_true(learnt_edge(0.0) > 0.01);
-  assert_true(learnt_edge(0.5) < 0.6 * learnt_edge(0.0));
-}
-
-/// Where the bypass closes over the opening, a drive sets off only far out: one that stands there
-/// tells where its dead band ends, and no farther than its spool has been.
-void a_drive_that_stands_under_a_closing_bypass_shows_its_edge(void**) {
-  const auto stood_edge = [](double bypass_closes_at, double opening) {
-    Bench bench;
-    bench.row.spool.bypass_closes_at = bypass_closes_at;
-    for (int n = 0; n < 2000; ++n) {
-      ValidDrive seen;
-      seen.stroke_m = bench.stroke_m;
-      seen.spool_ratio = kEdge + (1.0 - kEdge) * (opening + 0.02);
-      next_learnt(bench.row, seen, {0.03, opening}, true, kPeriod_s, bench.valve);
-    }
-    return bench.valve.extend.edge;
-  };
   // At 0.96 of the opening the profile's valve would have set off.
   assert_near(stood_edge(0.25, 0.22), (0.02 + 0.04 * 0.22) / (1.0 - 0.22), 1e-3);
   assert_near(stood_edge(0.0, 0.22), 0.0, 0.0);
