@@ -7,9 +7,10 @@ import json
 import math
 import os
 import re
-import subprocess
 import sys
 import tempfile
+
+from grading import figures_of, refused, run
 
 MM = 1e-3
 TILTS, LEVEL = "dozer_9t_tilt", "dozer_9t"
@@ -23,28 +24,9 @@ RUNS = (
 )
 
 
-def run(graben, *options):
-    return subprocess.run([graben, "grade", *options], capture_output=True, text=True, timeout=120)
-
-
-def figures_of(graben, folder, *options):
-    summary = os.path.join(folder, "summary.json")
-    done = run(graben, "--out", folder, "--summary", summary, "--profile", TILTS, *options)
-    assert done.returncode == 0, f"{options}: {done.stdout}{done.stderr}"
-    with open(summary, encoding="utf-8") as stream:
-        return json.load(stream)
-
-
-def refused(graben, *options, words):
-    done = run(graben, *options)
-    assert done.returncode != 0, f"{options} was taken"
-    for word in words:
-        assert word in done.stderr, f"{options}: '{word}' is not in: {done.stderr}"
-
-
 def made_along_the_alignment(graben, folder, curved):
     for options, error_mm, aside_mm, time_s in RUNS:
-        figures = figures_of(graben, folder, "--design", curved, *WAY, *options)
+        figures = figures_of(graben, folder, "--profile", TILTS, "--design", curved, *WAY, *options)
         worst = max(figures[key] for key in ("max_error_true_m", "over_cut_m", "ground_left_m"))
         print(f"{' '.join(options) or 'as it is'}: {worst / MM:.1f} mm, {figures['off_track_m'] / MM:.0f} mm beside "
               f"the track, {figures['time_s']:.2f} s")
@@ -56,7 +38,7 @@ def made_along_the_alignment(graben, folder, curved):
 
 def passes_come_back_along_it(graben, folder, curved):
     """Backward too it keeps to the track."""
-    figures = figures_of(graben, folder, "--design", curved, *WAY, "--pass-depth", "0.2")
+    figures = figures_of(graben, folder, "--profile", TILTS, "--design", curved, *WAY, "--pass-depth", "0.2")
     assert figures["passes"] == 2 and figures["off_track_m"] < 0.15, figures
     assert figures["ground_left_m"] < 12 * MM and figures["over_cut_m"] < 12 * MM, figures
 
@@ -67,7 +49,7 @@ def written_curvatures(folder):
 
 
 def a_part_of_it(graben, folder, curved):
-    figures = figures_of(graben, folder, "--design", curved, *WAY, "--stations", "0,20")
+    figures = figures_of(graben, folder, "--profile", TILTS, "--design", curved, *WAY, "--stations", "0,20")
     assert abs(figures["mean_speed_mps"] * figures["time_s"] - 20.0) < 0.1
     curvatures = written_curvatures(folder)
     assert max(curvatures) == 0.05 and min(curvatures) == 0.0, (max(curvatures), min(curvatures))
@@ -95,7 +77,7 @@ def arcs_at_corners(graben, folder):
     turned = 28.0 / 25.0
     side = 25.0 * math.tan(0.5 * turned)
     track = (f"-10,0,{side:.6f},0,{side + side * math.cos(turned):.6f},{side * math.sin(turned):.6f}")
-    figures = figures_of(graben, folder, "--design", file, "--track", track, "--radius", "25")
+    figures = figures_of(graben, folder, "--profile", TILTS, "--design", file, "--track", track, "--radius", "25")
     print(f"a ring: {figures['max_error_true_m'] / MM:.1f} mm, {figures['off_track_m'] / MM:.0f} mm beside the track")
     assert 0.5 * MM < figures["max_error_true_m"] < 8 * MM and figures["off_track_m"] < 0.07, figures
     assert abs(max(written_curvatures(folder)) - 0.04) < 1e-6
@@ -105,7 +87,7 @@ def arcs_at_corners(graben, folder):
 
 
 def profile_takes_what_was_written(graben, folder, machines, curved):
-    figures = figures_of(graben, folder, "--design", curved, *WAY)
+    figures = figures_of(graben, folder, "--profile", TILTS, "--design", curved, *WAY)
     for ending in (".toml", ".sim.toml"):
         with open(os.path.join(machines, LEVEL + ending), encoding="utf-8") as stream:
             text = stream.read()

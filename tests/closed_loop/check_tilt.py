@@ -3,12 +3,12 @@
 tolerance, both ends of its edge judged; one without refuses it with the place and the figure, as one that
 tilts does a crown and a slope that is out of its range. Its profile takes the design that was written."""
 
-import json
 import os
 import re
-import subprocess
 import sys
 import tempfile
+
+from grading import figures_of, refused
 
 MM = 1e-3
 TILTS, LEVEL = "dozer_9t_tilt", "dozer_9t"
@@ -20,25 +20,6 @@ RUNS = (
     (("--engine-rpm", "1000"), (1, 8), (25, 28)),
     (("--dead-time", "0.15", "--pose-latency", "0.05"), (1.5, 12), (19, 22)),
 )
-
-
-def run(graben, *options):
-    return subprocess.run([graben, "grade", *options], capture_output=True, text=True, timeout=120)
-
-
-def figures_of(graben, folder, *options):
-    summary = os.path.join(folder, "summary.json")
-    done = run(graben, "--out", folder, "--summary", summary, *options)
-    assert done.returncode == 0, f"{options}: {done.stdout}{done.stderr}"
-    with open(summary, encoding="utf-8") as stream:
-        return json.load(stream)
-
-
-def refused(graben, *options, words):
-    done = run(graben, *options)
-    assert done.returncode != 0, f"{options} was taken"
-    for word in words:
-        assert word in done.stderr, f"{options}: '{word}' is not in: {done.stderr}"
 
 
 def made_within_the_tolerance(graben, folder, banked):
