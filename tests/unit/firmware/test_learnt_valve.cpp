@@ -86,19 +86,16 @@ void a_bypass_that_closes_over_the_opening_makes_speeds_steep(void**) {
   assert_true(learnt_edge(0.5) < 0.6 * learnt_edge(0.0));
 }
 
-/// Where the bypass closes over the opening, a drive sets off only far out: one that stands there
-/// tells where its dead band ends, and no farther than its spool has been.
+/// One that stands there tells where its dead band ends, no farther than its spool has been.
 void a_drive_that_stands_under_a_closing_bypass_shows_its_edge(void**) {
   const auto stood_edge = [](double bypass_closes_at, double opening) {
     Bench bench;
     bench.row.spool.bypass_closes_at = bypass_closes_at;
-    // As late as the valve takes it to be.
-    constexpr double kLate = kPeriod_s / (kPeriod_s + 0.015);
     double half_way = 0.0;
     double spool = 0.0;
     for (int n = 0; n < 200; ++n) {
-      half_way += kLate * (opening + 0.02 - half_way);
-      spool += kLate * (half_way - spool);
+      half_way += 0.4 * (opening + 0.02 - half_way);  // Late by 15 ms and again: as it is told.
+      spool += 0.4 * (half_way - spool);
       ValidDrive seen;
       seen.stroke_m = bench.stroke_m;
       seen.spool_ratio = kEdge + (1.0 - kEdge) * spool;
