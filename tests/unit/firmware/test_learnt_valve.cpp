@@ -86,7 +86,7 @@ void a_bypass_that_closes_over_the_opening_makes_speeds_steep(void**) {
   assert_true(learnt_edge(0.5) < 0.6 * learnt_edge(0.0));
 }
 
-/// One that stands there tells where its dead band ends, no farther than its spool has been.
+/// One that stands at 0.96 of an opening tells where its dead band ends: not beyond its spool.
 void a_drive_that_stands_under_a_closing_bypass_shows_its_edge(void**) {
   const auto stood_edge = [](double bypass_closes_at, double opening) {
     Bench bench;
@@ -103,7 +103,6 @@ void a_drive_that_stands_under_a_closing_bypass_shows_its_edge(void**) {
     }
     return bench.valve.extend.edge;
   };
-  // At 0.96 of the opening the profile's valve would have set off.
   assert_near(stood_edge(0.25, 0.22), (0.02 + 0.04 * 0.22) / (1.0 - 0.22), 1e-3);
   assert_near(stood_edge(0.0, 0.22), 0.0, 0.0);
   assert_near(stood_edge(0.25, 0.02), 0.0, 0.0);
