@@ -9,7 +9,8 @@ set(rows
   "unit_dbc_dozer_codec|^arm-|${every_raw_value}"
   "unit_steady_lambda|^arm-|a search at every step, minutes under an emulator"
   "unit_tilt|^arm-none-|${one_file}"
-  "unit_tilting_dozer|^arm-none-|${one_file}")
+  "unit_tilting_dozer|^arm-none-|${one_file}"
+  "unit_curving_dozer|^arm-none-|${one_file}")
 
 cmake_path(GET CMAKE_TOOLCHAIN_FILE STEM target)
 set(known aarch64-linux-gnu arm-linux-gnueabihf arm-none-eabi-cortex-m7 arm-none-eabi-cortex-r5f)

@@ -2,7 +2,6 @@
 #include "app/identify/imus/mounting_fit.hpp"
 
 #include <ceres/ceres.h>
-#include <ceres/normal_prior.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -41,6 +40,19 @@ struct TouchCost {
     Eigen::Map<Eigen::Vector2d> to(off);
     to = weight * (tip_m - Eigen::Vector2d(peg_m[0], peg_m[1]));
     return to.allFinite();
+  }
+};
+
+/// A mount is as it was told, but for its deviation.
+struct PriorCost {
+  Turns weight;
+
+  template <class T>
+  bool operator()(const T* turns, T* off) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      off[axis] = weight[axis] * turns[axis];
+    }
+    return true;
   }
 };
 
@@ -132,9 +144,9 @@ void Fit::add_references(ceres::Problem& problem) {
   if (ask_.kept) {
     known[*ask_.kept] = kKept_rad;
   }
-  const Eigen::MatrixXd narrow = known.cwiseInverse().asDiagonal();
-  problem.AddResidualBlock(new ceres::NormalPrior(narrow, Eigen::VectorXd(Turns::Zero())), nullptr,
-                           turns_.data());
+  problem.AddResidualBlock(
+      new ceres::AutoDiffCostFunction<PriorCost, 3, 3>(new PriorCost{known.cwiseInverse()}),
+      nullptr, turns_.data());
   for (std::size_t p = 0; p < ask_.pegs.size(); ++p) {
     if (ask_.pegs[p].height_m) {
       problem.AddResidualBlock(new ceres::AutoDiffCostFunction<HeightCost, 1, 2>(

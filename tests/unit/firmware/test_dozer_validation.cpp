@@ -262,6 +262,55 @@ void a_blade_that_tilts_has_its_own_signals(void**) {
       test::validate(on_its_side, tilting(), {}, false, kNow).faults.has(Fault::kPoseImplausible));
 }
 
+/// A level design whose track bends.
+const DozerProfile& curving() {
+  static const double level_m[] = {0.0, 0.0};
+  static const double curvature_1pm[] = {0.0625, 0.0625};
+  static const DozerProfile machine = [] {
+    DozerProfile bends = tilting();
+    bends.grade.heights.count = 2;
+    bends.grade.heights.height_m = level_m;
+    bends.grade.heights.curvature = curvature_1pm;
+    return bends;
+  }();
+  return machine;
+}
+
+DozerInputs curving_inputs() {
+  DozerInputs inputs = tilted_inputs();
+  inputs.body.offset_m = test::fresh(0.25, kNow);
+  inputs.body.heading_rad = test::fresh(-0.125, kNow);
+  inputs.body.yaw_rate_radps = test::fresh(0.0625, kNow);
+  return inputs;
+}
+
+void a_track_that_bends_asks_where_the_body_is_beside_it(void**) {
+  const test::ValidatedDozer valid = test::validate(curving_inputs(), curving(), {}, true, kNow);
+  assert_true(valid.faults.empty());
+  assert_near(valid.course.offset_m, 0.25, 0.0);
+  assert_near(valid.course.heading_rad, -0.125, 0.0);
+  assert_near(valid.course.yaw_rate_radps, 0.0625, 0.0);
+  constexpr Signal<double>* (*kOfCourse[])(DozerInputs&) = {
+      [](DozerInputs& in) { return &in.body.offset_m; },
+      [](DozerInputs& in) { return &in.body.heading_rad; },
+      [](DozerInputs& in) { return &in.body.yaw_rate_radps; },
+  };
+  for (const auto& signal : kOfCourse) {
+    for (const bool moving : kEither) {
+      DozerInputs lost = curving_inputs();
+      signal(lost)->stamp_us = kStale;
+      assert_int_equal(test::validate(lost, curving(), {}, moving, kNow).fault,
+                       Fault::kPoseMissing);
+      // On a straight track nobody asks for them.
+      assert_true(test::validate(lost, tilting(), {}, moving, kNow).faults.empty());
+    }
+    DozerInputs broken = curving_inputs();
+    signal(broken)->validity = Validity::kError;
+    const test::ValidatedDozer said = test::validate(broken, curving(), {}, true, kNow);
+    assert_true(said.faults.has(Fault::kPoseMissing) && said.faults.has(Fault::kSensorError));
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -275,6 +324,7 @@ int main() {
       cmocka_unit_test(a_body_on_its_side_cannot_be),
       cmocka_unit_test(a_line_s_pressure_may_be_missing),
       cmocka_unit_test(a_blade_that_tilts_has_its_own_signals),
+      cmocka_unit_test(a_track_that_bends_asks_where_the_body_is_beside_it),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

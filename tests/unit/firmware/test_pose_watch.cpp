@@ -119,6 +119,23 @@ void a_frozen_roll_is_seen(void**) {
   }
 }
 
+/// Aslant by 0.1 rad it has to leave its track; an offset that does so is well.
+void a_frozen_offset_is_seen(void**) {
+  for (const double way : {1.0, -1.0}) {
+    Body body;
+    body.valid.course.heading_rad = way * 0.1;
+    body.step();
+    const int seen = body.cycles_until_seen([](DozerValid&) {});
+    assert_int_equal(seen, cycles_to(0.01 * std::sin(0.1), kMostAhead_m, kPoseForget_s));
+    Body leaving;
+    leaving.valid.course.heading_rad = way * 0.1;
+    leaving.step();
+    const double each_m = kPeriod_s * std::sin(way * 0.1);
+    assert_int_equal(
+        leaving.cycles_until_seen([&](DozerValid& valid) { valid.course.offset_m += each_m; }), 0);
+  }
+}
+
 /// Height and climb say another slope than the pitch; what turns may rise by its turn.
 void another_slope_is_seen(void**) {
   for (const double rate_radps : {0.0, 0.1, -0.1}) {
@@ -262,6 +279,7 @@ int main() {
       cmocka_unit_test(a_frozen_height_is_seen),
       cmocka_unit_test(a_frozen_pitch_is_seen),
       cmocka_unit_test(a_frozen_roll_is_seen),
+      cmocka_unit_test(a_frozen_offset_is_seen),
       cmocka_unit_test(another_slope_is_seen),
       cmocka_unit_test(tracks_that_run_on_are_seen),
       cmocka_unit_test(one_source_that_agrees_is_enough),

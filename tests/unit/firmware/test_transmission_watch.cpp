@@ -206,6 +206,25 @@ void both_pumps_have_to_be_neutral(void**) {
   }
 }
 
+/// 0.1 m/s and a fifth of the speed instead of a twentieth, for longer than 0.2 s.
+void sides_may_be_further_apart_where_the_track_bends(void**) {
+  static const double level_m[] = {0.0, 0.0};
+  static const double curvature_1pm[] = {0.0625, 0.0625};
+  for (const bool bends : {false, true}) {
+    const double most_mps = bends ? 0.1 + 0.2 : 0.1 + 0.05;
+    for (const double off_mps : {most_mps - 1e-9, most_mps + 1e-9}) {
+      Machine machine;
+      machine.profile.grade.heights.count = 2;
+      machine.profile.grade.heights.height_m = level_m;
+      machine.profile.grade.heights.curvature = bends ? curvature_1pm : nullptr;
+      machine.valid.track_speed_mps[kLeft] += off_mps / 2.0;
+      machine.valid.track_speed_mps[kRight] -= off_mps / 2.0;
+      machine.step(0.2);
+      assert_int_equal(machine.step(1e-9).tracks_disagree, off_mps > most_mps);
+    }
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -220,6 +239,7 @@ int main() {
       cmocka_unit_test(tracks_are_judged_where_they_can_be),
       cmocka_unit_test(the_transmission_speaks_for_both_tracks),
       cmocka_unit_test(both_pumps_have_to_be_neutral),
+      cmocka_unit_test(sides_may_be_further_apart_where_the_track_bends),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
