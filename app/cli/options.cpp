@@ -65,7 +65,8 @@ void add_scenario_options(CLI::App& command, runs::DigScenario& scenario) {
       "--bus", tried.bus,
       "Bus profile of the machine, a file or a shipped one (zx200, slopes, encoders, "
       "inclinometers, aux_valves, valve_driver, retrofit), with the stand-ins that "
-      "it needs; the profile's own unless told");
+      "it needs and, where it does not command them, pumps at full displacement; the profile's own "
+      "unless told");
   command.add_flag("--fixed-lambda", scenario.fixed_lambda,
                    "For comparison: lambda stays 1, whatever the machine can do");
 }

@@ -15,6 +15,10 @@
 namespace graben::machines {
 namespace {
 
+/// Of a pump that nobody commands: its own pilot takes it to full displacement as levers are moved
+/// out, and what is not needed goes over the bypass.
+constexpr double kSwashByItself = 1.0;
+
 /// The bus profile that the machine's names, beside it, in `buses` there, or in the system's
 /// folder. None where it names ours or nothing.
 std::optional<BusFile> other_bus(const ProfileDocument& document) {
@@ -67,6 +71,7 @@ void put_on_bus(const std::string& name, ExcavatorMachine& machine) {
   machine.hash ^= bus.hash;
   if (!bus.capabilities.swash_command) {
     machine.profile.demand_swash = {};
+    machine.profile.dig_swash_ratio.fill(kSwashByItself);
   }
 }
 

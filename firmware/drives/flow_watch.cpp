@@ -76,6 +76,35 @@ bool may_be_used(const DriveRow& drive, const ValidDrive& seen, FlowState& state
          drained_pa < kNearRail * drive.watch.pressure_rail_pa;
 }
 
+void tell(double late_s, double spool_ratio, double period_s, SpoolSpan& told) {
+  told.for_s += period_s;
+  if (told.for_s > late_s) {
+    told = {spool_ratio, spool_ratio, told.low, told.high, 0.0};
+  }
+  told.low = std::min(told.low, spool_ratio);
+  told.high = std::max(told.high, spool_ratio);
+}
+
+SpeedRange speed_at(double spool_ratio, const DriveRow& drive, const LearntValve* learnt,
+                    const ValidDrive& calm, double engine_radps) {
+  ValidDrive there = calm;
+  there.spool_ratio = spool_ratio;
+  return possible_speed(drive, learnt, there, engine_radps);
+}
+
+/// The range of all places that the spool may be at: the further it is out, the faster.
+SpeedRange speed_now(const DriveRow& drive, const LearntValve* learnt, const ValidDrive& calm,
+                     double engine_radps, const SpoolSpan& told) {
+  if (drive.watch.spool_late_s == 0.0) {
+    return possible_speed(drive, learnt, calm, engine_radps);
+  }
+  const SpeedRange low =
+      speed_at(std::min(told.low, told.last_low), drive, learnt, calm, engine_radps);
+  const SpeedRange high =
+      speed_at(std::max(told.high, told.last_high), drive, learnt, calm, engine_radps);
+  return {std::min(low.least_mps, high.least_mps), std::max(low.most_mps, high.most_mps)};
+}
+
 /// From here on; what it was off before stays.
 void begin(const ValidDrive& seen, FlowState& state) {
   state.begun = true;
@@ -117,7 +146,7 @@ void follow(const DriveRow& drive, const ValidDrive& seen, const LearntValve* le
   ValidDrive calm = seen;
   calm.cap_pressure_pa = state.cap_pa;
   calm.rod_pressure_pa = state.rod_pa;
-  const SpeedRange now = possible_speed(drive, learnt, calm, engine_radps);
+  const SpeedRange now = speed_now(drive, learnt, calm, engine_radps, state.told);
   state.least_m += period_s * std::min(now.least_mps, state.last.least_mps);
   state.most_m += period_s * std::max(now.most_mps, state.last.most_mps);
   state.last = now;
@@ -133,6 +162,9 @@ FaultSet watch_flow(DriveRows drives, Span<const ValidDrive> seen, Span<const Le
   FaultSet faults;
   for (int i = 0; i < drives.count(); ++i) {
     const DriveWatch& bounds = drives[i].watch;
+    if (bounds.spool_late_s > 0.0) {
+      tell(bounds.spool_late_s, seen[i].spool_ratio, period_s, state[i].told);
+    }
     const bool known = bounds.unseen_m > 0.0 && bounds.senses_spool &&
                        (seen[i].load_known || !has_edges(drives[i]));
     if (!known) {

@@ -10,6 +10,16 @@
 
 namespace graben {
 
+/// Where a spool that is told by its pilot pressure may be: within all that was told in the last
+/// `spool_late_s`, and no further back than twice that.
+struct SpoolSpan {
+  double low = 0.0;
+  double high = 0.0;
+  double last_low = 0.0;
+  double last_high = 0.0;
+  double for_s = 0.0;  ///< That `low` and `high` have been gathered.
+};
+
 /// State of one drive from cycle to cycle.
 struct FlowState {
   bool begun = false;
@@ -19,6 +29,7 @@ struct FlowState {
   double stroke_m = 0.0;
   double cap_pa = 0.0;  ///< Low-passed.
   double rod_pa = 0.0;
+  SpoolSpan told;          ///< Only of a spool that is not measured.
   SpeedRange last;         ///< Of the last cycle: a spool's frame comes every second one.
   double least_m = 0.0;    ///< Least travel since the last stroke that was received ...
   double most_m = 0.0;     ///< ... and most.
@@ -35,8 +46,10 @@ struct FlowState {
 ///
 /// Travel that the oil's and the hoses' stiffness (0.6 to 2 GPa) gives or takes is counted in. What
 /// is within the bounds wears the difference off, and 10 s are its time constant: leakage is no
-/// drift. Neither a drive without measured spool nor one whose pressures are not known, stand still
-/// to the last bit, step or are near their rail is checked. `learnt` is empty where no valve is.
+/// drift. A spool told by its pilot pressure comes after it: all that it was told of late bounds
+/// the travel. Neither a drive without measured spool nor one whose pressures are not known, stand
+/// still to the last bit, step or are near their rail is checked. `learnt` is empty where no valve
+/// is.
 [[nodiscard]] FaultSet watch_flow(DriveRows drives, Span<const ValidDrive> seen,
                                   Span<const LearntValve> learnt, double engine_radps,
                                   double period_s, Span<FlowState> state);

@@ -146,6 +146,7 @@ DriveRow section_row(const ExcavatorProfile& profile, int drive) {
   row.watch.senses_spool = profile.bus.spool_feedback;
   row.watch.senses_load = profile.bus.pressures;
   row.watch.settle_s = settle_s(profile, drive);
+  row.watch.spool_late_s = profile.bus.spool_by_pilot ? spool_arrives_s(row) : 0.0;
   row.watch.spool_tolerance = safety.spool_tolerance;
   row.watch.relief_pa = pump_of(profile, row.spool).relief_pa;
   row.watch.pressure_rail_pa = safety.pressure_rail_pa;

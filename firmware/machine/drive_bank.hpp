@@ -49,6 +49,8 @@ struct DriveWatch {
   double sensed_margin_m = 0.0;  ///< ... and how far beyond it is implausible: bias, mounting.
   bool senses_load = true;       ///< Pressures of both sides are measured.
   bool senses_spool = true;      ///< Its position is; else it counts as where it was sent.
+  /// By so much a spool may be behind what is told of it; 0: it is measured.
+  double spool_late_s = 0.0;
   double settle_s = 0.0;         ///< How far a sound spool may lag its duty beside the dead time.
   double spool_tolerance = 0.0;  ///< Of the spool's travel.
   double uncommanded_m = 0.0;    ///< Way that the drive may go where its spool does not lead.

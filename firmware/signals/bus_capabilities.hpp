@@ -15,8 +15,8 @@ namespace graben {
 ///   spool_feedback  command    a spool counts as where it was sent: no kSpoolMissing, no
 ///                              kSpoolStuck, no arm condition of centred spools; the motion watch
 ///                              waits for dead time and lag after each command
-///                  pilot      pilot pressures count as spools: a spool that sticks under a right
-///                              pressure shows only by its cylinder
+///                  pilot      pilot pressures count as spools, which come later: a spool that
+///                              sticks under a right pressure shows only by its cylinder
 ///   swash_feedback  command    a pump counts as where it was sent, or on its way there: no
 ///                              kSwashMissing, no kSwashDisagrees
 ///   pressures       worst_load the loads of boom, arm, bucket and swing count as what their links

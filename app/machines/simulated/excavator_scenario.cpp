@@ -156,6 +156,8 @@ SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario
   turn_imus(scenario.imu_mounting_rad, scenario.seed, plant);
   if (!scenario.bus.empty()) {
     put_on_bus(scenario.bus, machine);
+    plant.swash_ratio =
+        machine.profile.bus.swash_command ? plant.swash_ratio : machine.profile.dig_swash_ratio;
   }
   take_away(scenario.without, machine.profile.bus);
   if (!machine.bus.empty()) {
