@@ -50,7 +50,7 @@ constexpr Capability kCapabilities[] = {
     {"our own bus", "zx200: angles, pilot pressures, the profile's swash",
      "IdentityMismatch, MessageCorrupt, MessageSequence, MessageMasquerade; a spool that sticks "
      "under a right pilot pressure; SwashMissing, SwashDisagrees",
-     "24.4 / 38.2; -; -; -",
+     "28.5 / 42.5; 57.0 / 83.4; -; -",
      [](const ExcavatorProfile& profile) {
        return profile.bus.joint_angles && !profile.bus.identity;
      }},
