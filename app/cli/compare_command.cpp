@@ -24,6 +24,7 @@ struct CompareCommand {
   std::string first;
   std::string second;
   std::string profile;
+  std::string bus;
   std::string out = "out";
 };
 
@@ -38,9 +39,12 @@ void compare(const CompareCommand& options) {
   if (!options.profile.empty()) {
     setup.profile = options.profile;
   }
+  if (!options.bus.empty()) {
+    setup.bus = options.bus;
+  }
   const std::vector<std::string> notes = runs::compared_notes(
       first, second,
-      [&](std::uint32_t hash) { return runs::machine_words(hash, options.profile); });
+      [&](std::uint32_t hash) { return runs::machine_words(hash, options.profile, options.bus); });
   fs::create_directories(out);
   reports::write_compare_report({report, scope::scope_page()}, options.first, first, second,
                                 figures, notes, setup);
@@ -70,6 +74,10 @@ void add_compare(CLI::App& app, int& status) {
   command->add_option("second", options->second, "candump log, plain or gzip")->required();
   command->add_option("--profile", options->profile,
                       "Machine profile beside the shipped ones: file or shipped name");
+  command->add_option(
+      "--bus", options->bus,
+      "Bus profile beside the shipped ones that a run's machine was put on: a file, "
+      "or a shipped name");
   command->add_option("--out", options->out, "Folder for compare.html")->capture_default_str();
   add_examples(*command, {"compare out/dig.log out/soil/dig.log"});
   command->callback(

@@ -35,6 +35,7 @@ struct FilmCommand {
   std::string log;
   std::string out;
   std::string profile;
+  std::string bus;
   std::string size = "1280x720";
   int fps = 25;
   double speed = 1.0;
@@ -177,6 +178,9 @@ std::size_t film(const FilmCommand& options, const Size& size, const fs::path& f
   if (!options.profile.empty()) {
     server.insert(server.end(), {"--profile", options.profile});
   }
+  if (!options.bus.empty()) {
+    server.insert(server.end(), {"--bus", options.bus});
+  }
   const fs::path said = scratch.folder / "scope.txt";
   ChildProcess scope(server, {{STDOUT_FILENO, ChildProcess::Way::kChildWrites}}, said.string());
   const std::string url = address(scope, said);
@@ -245,6 +249,9 @@ void add_film(CLI::App& app, int& status) {
       ->required();
   command->add_option("--profile", options->profile,
                       "Machine profile beside the shipped ones: file or shipped name");
+  command->add_option("--bus", options->bus,
+                      "Bus profile beside the shipped ones that the machine was put on: a file, or "
+                      "a shipped name");
   command->add_option("--size", options->size, "Pixels, both even and 320 .. 3840")
       ->capture_default_str();
   command->add_option("--fps", options->fps, "Pictures a second, 1 .. 60")

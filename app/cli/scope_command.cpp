@@ -74,6 +74,9 @@ void show(const ScopeCommand& options) {
   if (!options.simulated.is_own() && !options.sim) {
     throw std::runtime_error("--simulated, --hidden: only with --sim");
   }
+  if (options.setup.bus && options.sim) {
+    throw std::runtime_error("--bus: not with --sim, whose machine speaks our own");
+  }
   if (options.soil && !options.sim) {
     throw std::runtime_error("--soil: only with --sim");
   }
@@ -119,6 +122,10 @@ void add_scope(CLI::App& app, int& status) {
   command->add_option("--profile", options->setup.profile,
                       "Machine profile beside the shipped ones: file or shipped name; with --sim "
                       "the simulated one");
+  command->add_option(
+      "--bus", options->setup.bus,
+      "Bus profile beside the shipped ones, for frames of a machine that was put on "
+      "it: a file, or a shipped name; not with --sim");
   command
       ->add_option("--task", options->setup.tasks,
                    "Task that the controller has, as it was told: file or shipped name, up to 4, "

@@ -153,6 +153,9 @@ json machine_json(const machines::ExcavatorMachine& machine,
                        {"coupler_m", geometry.linkage.coupler_m},
                        {"lug_m", vector(geometry.linkage.lug_m)}};
   result["imus"] = imus_json(profile);
+  if (!machine.bus.empty()) {
+    result["bus"] = bus_json(machine.bus);
+  }
   result["dig"] = dig_json(profile);
   result["tasks"] = json::array();
   for (const machines::TaskFile& task : tasks) {

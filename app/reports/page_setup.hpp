@@ -21,12 +21,18 @@ struct SetupOptions {
   /// Tasks that the controller was given, by their number: files or shipped names. None: what is
   /// shipped and can be planned on the machine, in the order of the names.
   std::vector<std::string> tasks;
+  /// A bus profile beside the shipped ones, for machines that were put on it: a file or a shipped
+  /// name.
+  std::optional<std::string> bus;
 };
 
-/// {"machines": [...], "words": {...}, "version": "..."}, the same whatever the frames come from.
-/// Throws std::runtime_error with what is wrong with a profile or a task. Tasks that are told
-/// must all fit one machine, with a profile that one.
+/// {"machines": [...], "buses": [...], "words": {...}, "version": "..."}, the same whatever the
+/// frames come from. Throws std::runtime_error with what is wrong with a profile or a task. Tasks
+/// that are told must all fit one machine, with a profile that one.
 [[nodiscard]] nlohmann::json shared_setup(const SetupOptions& options);
+
+/// `Bus` without its name: what tells links, joints or strokes.
+[[nodiscard]] nlohmann::json bus_json(const BusTable& bus);
 
 /// `Words`.
 [[nodiscard]] nlohmann::json text_json();

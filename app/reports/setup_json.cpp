@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "app/machines/bus_file.hpp"
 #include "app/machines/profile_file.hpp"
 #include "app/machines/task_file.hpp"
 #include "app/reports/page_setup.hpp"
@@ -17,6 +18,25 @@ namespace fs = std::filesystem;
 using machines::ExcavatorMachine;
 using machines::TaskFile;
 using nlohmann::json;
+
+/// Bus profiles that machines may be put on, which the page then knows by both hashes.
+json buses_json(const std::optional<std::string>& told) {
+  json buses = json::array();
+  const auto add = [&buses](const std::string& name) {
+    const machines::BusFile bus = machines::load_bus(machines::find_bus(name));
+    json one = bus_json(bus.table);
+    one["name"] = fs::path(name).stem().string();
+    one["hash"] = bus.hash;
+    buses.push_back(std::move(one));
+  };
+  if (told) {
+    add(*told);
+  }
+  for (const std::string& name : machines::shipped_bus_names()) {
+    add(name);
+  }
+  return buses;
+}
 
 /// Of what is shipped; none where the tool was taken away from its source tree.
 template <class Find>
@@ -151,7 +171,10 @@ json shared_setup(const SetupOptions& options) {
     }
   }
   told.throw_unless_fitted();
-  return {{"machines", machines_json}, {"words", text_json()}, {"version", GRABEN_VERSION}};
+  return {{"machines", machines_json},
+          {"buses", buses_json(options.bus)},
+          {"words", text_json()},
+          {"version", GRABEN_VERSION}};
 }
 
 }  // namespace graben::reports

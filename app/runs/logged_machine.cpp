@@ -13,7 +13,8 @@
 
 namespace graben::runs {
 
-std::optional<LoggedMachine> machine_of_hash(std::uint32_t hash, const std::string& told) {
+std::optional<LoggedMachine> machine_of_hash(std::uint32_t hash, const std::string& told,
+                                             const std::string& told_bus) {
   std::vector<std::string> names = machines::shipped_profile_names();
   if (!told.empty()) {
     names.push_back(told);
@@ -28,7 +29,11 @@ std::optional<LoggedMachine> machine_of_hash(std::uint32_t hash, const std::stri
     profiles.emplace_back(name, its);
   }
   // A profile that is put on a bus has both hashes over each other.
-  for (const std::string& bus : machines::shipped_bus_names()) {
+  std::vector<std::string> buses = machines::shipped_bus_names();
+  if (!told_bus.empty()) {
+    buses.push_back(told_bus);
+  }
+  for (const std::string& bus : buses) {
     const std::uint32_t of_bus = machines::load_bus(machines::find_bus(bus)).hash;
     for (const auto& [name, of_profile] : profiles) {
       if ((of_profile ^ of_bus) == hash) {
@@ -39,8 +44,9 @@ std::optional<LoggedMachine> machine_of_hash(std::uint32_t hash, const std::stri
   return std::nullopt;
 }
 
-std::string machine_words(std::uint32_t hash, const std::string& told) {
-  const std::optional<LoggedMachine> machine = machine_of_hash(hash, told);
+std::string machine_words(std::uint32_t hash, const std::string& told,
+                          const std::string& told_bus) {
+  const std::optional<LoggedMachine> machine = machine_of_hash(hash, told, told_bus);
   if (!machine) {
     return fmt::format("one that is not shipped ({:08x})", hash);
   }

@@ -14,11 +14,14 @@ struct LoggedMachine {
 };
 
 /// The shipped profile, or the one that is told beside them (empty: none), of this hash, by itself
-/// or on a shipped bus. None where no one has it. Throws as load_any() of the one that is told.
+/// or on a shipped bus or the one that is told. None where no one has it. Throws as load_any() and
+/// load_bus() of those that are told.
 [[nodiscard]] std::optional<LoggedMachine> machine_of_hash(std::uint32_t hash,
-                                                           const std::string& told = "");
+                                                           const std::string& told = "",
+                                                           const std::string& told_bus = "");
 
 /// "excavator_12t", "excavator_12t on bus zx200"; the hash of any that is not shipped.
-[[nodiscard]] std::string machine_words(std::uint32_t hash, const std::string& told);
+[[nodiscard]] std::string machine_words(std::uint32_t hash, const std::string& told,
+                                        const std::string& told_bus = "");
 
 }  // namespace graben::runs

@@ -5,6 +5,7 @@ import type {FeedEvents} from './feed/feed_events';
 import type {Machine, MessageState, Setup, ToServer} from './model/api';
 import type {FrameBlock} from './model/frame_block';
 import {messageStates} from './model/integrity';
+import {machines_of} from './model/on_bus';
 import {PagePlayhead} from './model/playhead';
 import {LIVE_KEEP_S, PageStore} from './model/store';
 import type {Link, PageState} from './view/page_state';
@@ -29,6 +30,7 @@ export class State implements PageState, FeedEvents {
   trouble = '';
   origin_s = 0;
   private sender: (message: ToServer) => void = () => undefined;
+  private machines: readonly Machine[] = [];
   private machine_known_at = -1;
 
   /// With a setup in the page nothing is connected. Of a live run, frames are kept so long.
@@ -86,7 +88,7 @@ export class State implements PageState, FeedEvents {
     this.machine_known_at = store.revision;
     const hash = store.health.profile_hash;
     this.machine = setup.source.mode === 'plan' ? setup.machines[0] ?? null
-      : setup.machines.find((machine) => machine.hash === hash) ?? null;
+      : this.machines.find((machine) => machine.hash === hash) ?? null;
     this.follow_clock();
   }
 
@@ -94,7 +96,8 @@ export class State implements PageState, FeedEvents {
     const {mode} = setup.source;
     const live = mode === 'can' || mode === 'sim';
     this.setup = setup;
-    this.store = new PageStore(setup.machines);
+    this.machines = machines_of(setup);
+    this.store = new PageStore(this.machines);
     this.store.keep_s = live ? this.live_keep_s : Infinity;
     this.machine = null;
     this.machine_known_at = -1;

@@ -1,63 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
-import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
-import {tmpdir} from 'node:os';
-import {join} from 'node:path';
 import {test} from 'node:test';
-import type {ExcavatorMachine, Setup, Vector3} from '../src/model/api';
-import {CandumpParser} from '../src/model/candump';
-import {excavatorPose} from '../src/model/excavator';
-import {excavatorDrives} from '../src/model/wanted';
-import {PageStore} from '../src/model/store';
 import {excavator_state} from '../src/scene/machine_state';
+import {machine_of, off_truth, run_of, store_of_run} from './runs';
 import {page} from './status';
-import {graben} from './tool';
-
-interface Run {
-  setup: Setup;
-  log: Uint8Array;
-}
-
-/// A run and what its report knows of it.
-function run_of(task: string, ...options: string[]): Run {
-  const folder = mkdtempSync(join(tmpdir(), 'graben-page-'));
-  try {
-    graben(task, ...options, '--out', folder);
-    const html = readFileSync(join(folder, `${task}.html`), 'utf8');
-    return {log: readFileSync(join(folder, `${task}.log`)),
-      setup: JSON.parse(/id="graben-setup">(.*?)<\/script/s.exec(html)![1]!)};
-  } finally {
-    rmSync(folder, {recursive: true});
-  }
-}
-
-function store_of_run({setup, log}: Run): PageStore {
-  const store = new PageStore(setup.machines);
-  const parser = new CandumpParser();
-  // In pieces, as a bus brings them.
-  for (let from = 0; from < log.length; from += 20_000) {
-    parser.feed(log.subarray(from, from + 20_000));
-    store.append(parser.take());
-  }
-  parser.end();
-  store.append(parser.take());
-  return store;
-}
-
-const machine_of = ({setup}: Run): ExcavatorMachine => setup.machines[0] as ExcavatorMachine;
-
-/// Distances of the drawn teeth from the true ones, m, sorted, after the filter's first seconds.
-function off_truth(run: Run, store: PageStore): number[] {
-  const machine = machine_of(run);
-  const {truth: {time_s}, way} = run.setup.run!;
-  return time_s.flatMap((now_s, k) => {
-    const [boom, arm, bucket, swing] = excavatorDrives(store, machine, now_s);
-    const at = excavatorPose(machine, [boom, arm, bucket], swing)?.position_m;
-    const truth = way![k] as Vector3;
-    return now_s < time_s[0]! + 5 ? [] : [at === undefined ? Infinity
-      : Math.hypot(...at.map((value, i) => value - truth[i]!))];
-  }).sort((a, b) => a - b);
-}
 
 test("strokes that no frame tells are what the IMUs' frames give, near enough for a picture", () => {
   for (const [task, ...options] of [['dig'], ['dig', '--errors', 'all', '--seed', '3'], ['autodig']]) {

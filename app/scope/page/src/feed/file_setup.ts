@@ -15,6 +15,7 @@ export function file_setup(last: Setup | null, file: {name: string; size: number
       ...(/\.gz$/i.test(file.name) ? {} : {bytes: file.size}),
     },
     machines: last?.machines ?? [],
+    ...(last?.buses === undefined ? {} : {buses: last.buses}),
     words: last?.words ?? {fault: {}, why_not_armed: []},
   };
 }

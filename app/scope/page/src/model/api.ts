@@ -15,6 +15,7 @@ export type Vector3 = readonly [number, number, number];
 export interface Setup {
   source: Source;
   machines: readonly Machine[];  ///< Every shipped profile and what was given; chosen by hash.
+  buses?: readonly NamedBus[];   ///< On which a machine may have been put: its hash is then both.
   words: Words;
   version?: string;  ///< Of the program that says this; a file that is opened tells none.
   sim?: SimSetup;  ///< With mode 'sim' alone.
@@ -71,11 +72,43 @@ export interface ExcavatorMachine extends AnyMachine {
     lug_m: Vector2;  ///< Bucket frame.
   };
   has_swing: boolean;
+  bus?: Bus;  ///< That it speaks in the place of ours, or beside it.
   imus?: {boom: Imu; arm: Imu; bucket: Imu};  ///< The profile's, or where an IMU usually is.
   pumps: number;
   relief_pa: number;
   dig: Dig;
   tasks: readonly Task[];  ///< By the number that TaskStatus has.
+}
+
+/// What tells a machine's links on a bus that is not ours.
+export interface Bus {
+  messages: readonly BusMessage[];
+}
+
+export interface NamedBus extends Bus {
+  name: string;
+  hash: number;
+}
+
+export interface BusMessage {
+  id: number;
+  extended: boolean;
+  length: number;
+  signals: readonly BusSignal[];
+}
+
+/// value = raw * scale + offset, m or rad.
+export interface BusSignal {
+  tells: 'stroke' | 'joint_angle' | 'slope';
+  of: number;        ///< Boom, arm, bucket; of a slope the platform too.
+  start: number;     ///< Motorola: the highest bit, as a DBC counts.
+  width: number;     ///< 1 .. 32.
+  motorola: boolean;
+  signed: boolean;
+  scale: number;
+  offset: number;
+  least: number;     ///< Beyond these it is no value.
+  most: number;
 }
 
 /// A sensor of a link, for where its frames stand in a stroke's place.

@@ -7,6 +7,7 @@ import type {SignalLayout} from './dbc';
 import {EXTENDED} from './frame_block';
 import {ImuStrokes, type ImuReading} from './imu_strokes';
 import {Series} from './series';
+import {append_strokes} from './stroke_frames';
 
 const ARI = 0x0f02a;
 const ACS = 0x0f02d;
@@ -43,14 +44,6 @@ function reading_of({rates, forces}: Sensor, time_s: number): ImuReading | null 
   return [...reading.rates_radps, ...reading.force_mps2].every(Number.isFinite) ? reading : null;
 }
 
-/// The frame's bytes that say a stroke; without counter or CRC, for nobody sent it.
-function write(signal: SignalLayout, stroke_m: number, bytes: Uint8Array, at: number): void {
-  const raw = Math.round((1000 * stroke_m - signal.offset) / signal.factor);
-  const told = raw >= signal.raw_min && raw <= signal.raw_max ? raw : 0xffff;
-  bytes[at + signal.word_at] = told & 0xff;
-  bytes[at + signal.word_at + 1] = told >> 8;
-}
-
 /// Goes on as frames come, by every frame of the boom's gyro.
 export class ImuEstimate {
   private readonly strokes: ImuStrokes;
@@ -82,12 +75,7 @@ export class ImuEstimate {
         found.push(drives);
       }
     }
-    strokes.forEach(({name, signals}, k) => {
-      const bytes = new Uint8Array(8 * found.length);
-      const signal = signals.get(name) as SignalLayout;
-      found.forEach((drives, row) => write(signal, drives[k]!, bytes, 8 * row));
-      into[k]!.append(Float64Array.from(time_s), bytes);
-    });
+    append_strokes(strokes.map(({name, signals}) => signals.get(name) as SignalLayout), time_s, found, into);
   }
 
   /// Null until each has sent both; the standard leaves their priorities open.

@@ -126,18 +126,25 @@ export class ImuStrokes {
   }
 
   private strokes([boom, arm, bucket]: readonly number[]): readonly number[] | null {
-    const {machine} = this;
-    const {cylinders, linkage} = machine;
-    const joint = wrap_near(bucket! - arm!, 0);
-    const lengths = [
-      triangle_length(boom_triangle(machine), wrap_near(boom!, 0)),
-      triangle_length(arm_triangle(machine), wrap_near(arm! - boom!, 0)),
-      machine.imus!.bucket.on_rocker
-        ? norm(minus(add(linkage.rocker_pivot_m, polar(linkage.rocker_m, joint)), cylinders.bucket.base_m))
-        : length_from_bucket(machine, bucket_in_turn(joint))];
-    const closed = LINKS.map((name) => cylinders[name].closed_length_m);
-    return lengths.some((length) => length === null) ? null
-      : lengths.map((length, i) => length! - closed[i]!);
+    return strokes_of(this.machine, [boom!, arm! - boom!, bucket! - arm!],
+      this.machine.imus!.bucket.on_rocker);
   }
+}
+
+/// Of joint angles; null where no cylinders have them. `on_rocker`: the last is of the linkage's
+/// rocker against the arm, not of the bucket.
+export function strokes_of(machine: ExcavatorMachine, joints: readonly number[],
+  on_rocker = false): readonly number[] | null {
+  const {cylinders, linkage} = machine;
+  const [boom, arm, bucket] = joints.map((joint) => wrap_near(joint, 0));
+  const lengths = [
+    triangle_length(boom_triangle(machine), boom!),
+    triangle_length(arm_triangle(machine), arm!),
+    on_rocker
+      ? norm(minus(add(linkage.rocker_pivot_m, polar(linkage.rocker_m, bucket!)), cylinders.bucket.base_m))
+      : length_from_bucket(machine, bucket_in_turn(bucket!))];
+  const closed = LINKS.map((name) => cylinders[name].closed_length_m);
+  return lengths.some((length) => length === null) ? null
+    : lengths.map((length, i) => length! - closed[i]!);
 }
 

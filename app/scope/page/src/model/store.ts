@@ -4,6 +4,7 @@
 import type {
   Curve, Database, FrameStore, Kind, LogHealth, Machine, MessageDef, Reading, Rows,
 } from './api';
+import {BusEstimate} from './bus_frames';
 import {bits_in_second} from './bus_load';
 import {EMPTY, make_curve} from './curve';
 import {loadDatabase, type SignalLayout} from './dbc';
@@ -14,7 +15,7 @@ import {Series} from './series';
 /// Messages that only one kind of machine has.
 const OWN_MESSAGE: readonly (readonly [Kind, string])[] =
   [['excavator', 'BoomStroke'], ['dozer', 'BladeStroke']];
-/// What IMUs may stand in for.
+/// What IMUs or a bus of the machine's own may stand in for.
 const STROKES = ['BoomStroke', 'ArmStroke', 'BucketStroke'];
 /// What a live bus is remembered of unless told.
 export const LIVE_KEEP_S = 600;
@@ -38,7 +39,7 @@ export class PageStore implements FrameStore {
   private readonly series = new Map<number, Series>();
   private readonly signals = new Map<string, {def: SignalLayout; series: Series | null}>();
   private readonly curves = new Map<string, {key: string; curve: Curve}>();
-  private estimate: ImuEstimate | null = null;
+  private estimate: ImuEstimate | BusEstimate | null = null;
   private readonly estimated = new Map<string, Series>();
   private found_faults: {time_s: number; code: number}[] = [];
   private faults_read = 0;  ///< Of the frames ever seen of EcuStatus.
@@ -233,7 +234,8 @@ export class PageStore implements FrameStore {
       if (machine?.kind !== 'excavator' || defs.some((def) => this.series_of(def) !== null)) {
         return;
       }
-      this.estimate = new ImuEstimate(machine);
+      const has_links = (machine.bus?.messages.length ?? 0) > 0;
+      this.estimate = has_links ? new BusEstimate(machine) : new ImuEstimate(machine);
     }
     const into = STROKES.map((name, k) => this.estimated.get(name)
       ?? new Series(defs[k].id + EXTENDED, 8));
