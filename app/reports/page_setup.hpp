@@ -23,7 +23,7 @@ struct SetupOptions {
   std::vector<std::string> tasks;
   /// A bus profile beside the shipped ones, for machines that were put on it: a file or a shipped
   /// name.
-  std::optional<std::string> bus;
+  std::optional<std::string> bus = std::nullopt;
 };
 
 /// {"machines": [...], "buses": [...], "words": {...}, "version": "..."}, the same whatever the

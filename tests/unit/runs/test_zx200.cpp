@@ -203,8 +203,22 @@ void another_controller(void**) {
 
 }  // namespace
 
+/// Where its own pilot puts them, and both ends know it.
+void nobody_commands_its_pumps(void**) {
+  const machines::SimulatedExcavator on_it = test::on_bus("zx200");
+  const machines::SimulatedExcavator on_ours = test::on_bus("encoders");
+  for (unsigned j = 0; j < kPumpCount; ++j) {
+    assert_near(on_it.plant.swash_ratio[j], 1.0, 0.0);
+    assert_near(on_it.profile.dig_swash_ratio[j], 1.0, 0.0);
+    assert_near(on_ours.plant.swash_ratio[j], 0.643, 0.0);
+  }
+  assert_near(on_it.profile.demand_swash.most_ratio, 0.0, 0.0);
+  assert_near(on_ours.profile.demand_swash.most_ratio, 1.0, 0.0);
+}
+
 int main() {
   const CMUnitTest tests[] = {
+      cmocka_unit_test(nobody_commands_its_pumps),
       cmocka_unit_test(nothing_moves_before_the_handshake),
       cmocka_unit_test(a_locked_machine_does_not_move),
       cmocka_unit_test(lock),

@@ -317,10 +317,29 @@ void a_profile_that_is_told_comes_first_and_once(void**) {
   assert_true(same["machines"][0]["name"] == "dozer_9t");
 }
 
+/// What of a bus tells links, and nothing else of it; one that is told comes first.
+void buses_tell_where_links_are(void**) {
+  const json buses = reports::shared_setup({std::nullopt, {}, "zx200"})["buses"];
+  assert_true(buses.size() > 6);
+  assert_true(buses[0]["name"] == "zx200");
+  const json& messages = buses[0]["messages"];
+  assert_int_equal(messages.size(), 1);
+  assert_int_equal(messages[0]["id"].get<std::uint32_t>(), 0x18FF7DE8);
+  assert_true(messages[0]["extended"] == true);
+  assert_int_equal(messages[0]["signals"].size(), 3);
+  const json& arm = messages[0]["signals"][1];
+  assert_true(arm["tells"] == "joint_angle");
+  assert_int_equal(arm["of"].get<int>(), 1);
+  assert_int_equal(arm["start"].get<int>(), 16);
+  assert_near(arm["scale"].get<double>(), -0.0004, 1e-12);
+  assert_error({std::nullopt, {}, "no_such_bus"}, "no_such_bus");
+}
+
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {
+      cmocka_unit_test(buses_tell_where_links_are),
       cmocka_unit_test(every_shipped_machine_is_there),
       cmocka_unit_test(geometry_is_the_profile_s),
       cmocka_unit_test(the_path_is_the_task_s),
