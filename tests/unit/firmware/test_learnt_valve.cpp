@@ -93,19 +93,19 @@ void a_drive_that_stands_under_a_closing_bypass_shows_its_edge(void**) {
     bench.row.spool.bypass_closes_at = bypass_closes_at;
     double half_way = 0.0;
     double spool = 0.0;
-    for (int n = 0; n < 200; ++n) {
+    for (int n = 0; n < 300; ++n) {
       half_way += 0.4 * (opening + 0.02 - half_way);  // Late by 15 ms and again: as it is told.
       spool += 0.4 * (half_way - spool);
       ValidDrive seen;
       seen.stroke_m = bench.stroke_m;
       seen.spool_ratio = kEdge + (1.0 - kEdge) * spool;
-      next_learnt(bench.row, seen, {0.03, opening}, true, kPeriod_s, bench.valve);
+      next_learnt(bench.row, seen, {n < 100 ? 0.0 : 0.03, opening}, true, kPeriod_s, bench.valve);
     }
     return bench.valve.extend.edge;
   };
   assert_near(stood_edge(0.25, 0.22), (0.02 + 0.04 * 0.22) / (1.0 - 0.22), 1e-3);
   assert_near(stood_edge(0.0, 0.22), 0.0, 0.0);
-  assert_near(stood_edge(0.25, 0.02), 0.0, 0.0);
+  assert_near(std::max(stood_edge(0.25, 0.02), stood_edge(0.25, 0.92)), 0.0, 0.0);
 }
 
 void a_dead_band_is_learnt_on_its_own_side(void**) {
