@@ -64,6 +64,7 @@ class Digger:
             figures = json.load(stream)
         assert set(figures) == FIGURES, set(figures) ^ FIGURES
         assert abs(sum(figures["limit_share"].values()) - 1.0) < 1e-9, figures["limit_share"]
+        assert not any(name.startswith("fence[") and name.endswith("]") for name in figures["limit_share"]), figures
         return figures
 
     def task(self, text):

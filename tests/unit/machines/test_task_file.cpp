@@ -111,6 +111,8 @@ void loading_a_truck(void**) {
   assert_near(program.fences.fence[1].offset_m, 0.8, 0.0);
   assert_near(program.fences.fence[2].normal.y(), 1.0, 0.0);
   assert_int_equal(program.fences.fence[3].guard, FenceGuard::kTeeth);
+  assert_string_equal(machines::fence_name(task.request, 2).c_str(), "fence[2], the wall");
+  assert_string_equal(machines::fence_name(task.request, 3).c_str(), "the design surface");
 }
 
 /// Everything that is wrong at once, each with key, line, value, unit and what is allowed.
@@ -218,8 +220,8 @@ void what_is_no_table_is_said_once(void**) {
   const std::string flatten = shipped("flatten");
   says_only(edited("flatten", "{ position = [0.0, 6.866, 0.0], attitude = 2.268928 }", "7"),
             "start (line 4): must be a table of keys\n");
-  says_only("fence = []\n" + flatten, "fence (line 1): must be 1 to 7 tables; there are 0\n");
-  says_only("fence = [1, 2]\n" + flatten, "fence (line 1): must be 1 to 7 tables; there are 0\n");
+  says_only("fence = []\n" + flatten, "fence (line 1): must be 1 to 8 tables; there are 0\n");
+  says_only("fence = [1, 2]\n" + flatten, "fence (line 1): must be 1 to 8 tables; there are 0\n");
 }
 
 void an_area_s_errors_name_its_table(void**) {
