@@ -27,7 +27,25 @@ constexpr double kOverCut_m = 1e-3;
 /// Of the area, that is as it should be.
 constexpr double kBuilt = 0.95;
 
-void throw_unless_done(const runs::AutodigResult& result) {
+/// As limit_words(), but with the fence's name: a log has only its number.
+std::string limit_name(const machines::TaskFile& task, const Limit& limit) {
+  const bool fence =
+      limit.kind == LimitKind::kFence && limit.index < task.result.program.fences.count;
+  return fence ? machines::fence_name(task.request, limit.index)
+               : runs::limit_words(limit, runs::excavator_actuators());
+}
+
+void name_fences(const machines::TaskFile& task, runs::LimitShares& shares) {
+  for (int i = 0; i < task.result.program.fences.count; ++i) {
+    const Limit limit{LimitKind::kFence, static_cast<std::uint8_t>(i)};
+    const std::string number = runs::limit_words(limit, runs::excavator_actuators());
+    for (auto& [words, share] : shares) {
+      words = words == number ? limit_name(task, limit) : words;
+    }
+  }
+}
+
+void throw_unless_done(const machines::TaskFile& task, const runs::AutodigResult& result) {
   if (result.end == runs::AutodigEnd::kFault) {
     throw std::runtime_error(fmt::format("the controller stopped with a fault: {} (fault {})",
                                          runs::fault_words(result.fault),
@@ -35,10 +53,10 @@ void throw_unless_done(const runs::AutodigResult& result) {
   }
   if (result.end == runs::AutodigEnd::kNotFinished) {
     const runs::AutodigSample& last = result.samples.back();
-    throw std::runtime_error(fmt::format(
-        "the task was not finished in time: step {} ({}) at {:.0f} %, held by {}",
-        last.progress.step, machines::step_name(last.progress.kind), 100.0 * last.progress.share,
-        runs::limit_words(last.limit, runs::excavator_actuators())));
+    throw std::runtime_error(
+        fmt::format("the task was not finished in time: step {} ({}) at {:.0f} %, held by {}",
+                    last.progress.step, machines::step_name(last.progress.kind),
+                    100.0 * last.progress.share, limit_name(task, last.limit)));
   }
 }
 
@@ -68,6 +86,7 @@ void run_task(const TaskCommand& options) {
   }
   runs::AutodigSummary summary = runs::summarise(task.result.program, result);
   summary.limit_share = runs::logged_limit_shares(run.log_file);
+  name_fences(task, summary.limit_share);
   summary.raised_max_m = machines::most_raised_m(task.request, task.result);
   reports::write_autodig_report(
       {report, scope::scope_page()}, run.log_file, machine, task, result, summary,
@@ -83,21 +102,25 @@ void run_task(const TaskCommand& options) {
   if (summary.over_cut_max_m > kOverCut_m) {
     fmt::print("the edge was up to {:.0f} mm under the design\n", 1e3 * summary.over_cut_max_m);
   }
+  if (task.result.program.layers.step >= 0 && options.scenario.soil.empty()) {
+    fmt::print("no ground was there to be dug: --soil lays some\n");
+  }
   if (result.end == runs::AutodigEnd::kDone && summary.built.within_ratio < kBuilt) {
     fmt::print(
         "ground was left: {:.0f} % of the area is within 30 mm of the design, {:.2f} m3 stand "
         "higher\n",
         1e2 * summary.built.within_ratio, summary.built.left_m3);
   }
-  throw_unless_done(result);
+  throw_unless_done(task, result);
 }
 
 void add_autodig(CLI::App& app, int& status) {
   auto options = std::make_shared<TaskCommand>();
   CLI::App* command = app.add_subcommand(
       "autodig",
-      "Run a task of straight lines, with swing, on the simulated machine, over a CAN bus in "
-      "memory. The task is planned first; one that can't be had ends with status 1 and says where");
+      "Run a task, an area to be dug or straight lines step by step, with swing, on the simulated "
+      "machine, over a CAN bus in memory, in the air or in soil. The task is planned first; one "
+      "that can't be had ends with status 1 and says where");
   add_profile_option(*command, options->profile);
   command->add_option("--out", options->out, "Folder for autodig.log and autodig.html")
       ->capture_default_str();

@@ -218,15 +218,15 @@ void add_task_options(CLI::App& command, runs::TaskScenario& scenario) {
                   "Of the first straight step, s; longer where a drive's limit asks for it")
       ->check(number_between(0.1, 3600.0));
   command
-      .add_option("--rounds", scenario.rounds,
-                  "Of a task that repeats and does not say itself how often, 1 .. 1000")
-      ->check(whole_number_between(1, 1000))
-      ->capture_default_str();
+      .add_option(
+          "--rounds", scenario.rounds,
+          "Of a task that repeats and does not say itself how often, 1 .. 1000; once unless "
+          "told")
+      ->check(whole_number_between(1, 1000));
   command
       .add_option("--word-after", scenario.word_after_s,
-                  "At a wait the operator asks for the task anew after so long, s")
-      ->check(number_between(0.0, 3600.0))
-      ->capture_default_str();
+                  "At a wait the operator asks for the task anew after so long, s; 3 unless told")
+      ->check(number_between(0.0, 3600.0));
 }
 
 void add_profile_option(CLI::App& command, std::string& profile) {

@@ -40,7 +40,7 @@ constexpr int kBeyondSteps = 12;
 constexpr double kOverHeap_m = 1.0;
 /// Of a slope's plane, that far beyond its far end.
 constexpr double kRise_m = 2.0;
-constexpr double kStripsUsual = 3.0;
+constexpr int kStripsUsual = 3;
 /// Strips overlap by this share of the bucket's width.
 constexpr double kOverlap = 0.15;
 
@@ -149,9 +149,8 @@ Area read_table(TomlReader& reader, const ExcavatorProfile& profile) {
   const bool wide = area.kind == AreaKind::kBench || area.kind == AreaKind::kLevel ||
                     area.kind == AreaKind::kTruck || lists("area.strips");
   if (wide) {
-    area.strips = static_cast<int>(
-        std::lround(reader.number_or(profile.has_swing() ? kStripsUsual : 1.0, "area.strips",
-                                     {1.0, static_cast<double>(kStripMost), ""}, "side by side")));
+    area.strips = reader.integer_or(profile.has_swing() ? kStripsUsual : 1, "area.strips", 1,
+                                    kStripMost, "side by side");
   }
   area.dump_m = usual_dump(area, profile);
   if (reader.has("area.dump")) {
@@ -159,7 +158,8 @@ Area read_table(TomlReader& reader, const ExcavatorProfile& profile) {
         reader.numbers("area.dump", kPlace, 3, "teeth as the bucket is emptied: x, y, z");
     area.dump_m = {dump[0], dump[1], dump[2]};
   }
-  if (area.near_m >= area.far_m) {
+  const bool told = reader.has("area.far") && reader.has("area.near");
+  if (told && reader.is_sound() && area.near_m >= area.far_m) {
     reader.fail("area.near",
                 fmt::format("{} m; allowed: less than far, {} m", area.near_m, area.far_m));
   }

@@ -90,7 +90,7 @@ TaskFile load_task(const std::filesystem::path& file, const ExcavatorProfile& pr
   task.hash = reader.hash();
   task.result = plan_program(profile, task.request);
   if (task.result.refusal != ProgramRefusal::kNone) {
-    reader.fail(fmt::format("step[{}]", task.result.step),
+    reader.fail(reader.has("area") ? "area" : fmt::format("step[{}]", task.result.step),
                 program_refusal_words(profile, task.request, task.result));
   } else {
     refuse_unmet_planes(reader, task.request, task.result.program);

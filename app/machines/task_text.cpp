@@ -37,7 +37,18 @@ std::string singular_words(int drive) {
   }
 }
 
+bool is_design(const ProgramRequest& request, int fence) {
+  return request.has_design && fence == request.fences.count;
+}
+
 }  // namespace
+
+std::string fence_name(const ProgramRequest& request, int fence) {
+  return is_design(request, fence)
+             ? "the design surface"
+             : fmt::format("fence[{}], the {}", fence,
+                           fence_text(request.fences.fence[static_cast<unsigned>(fence)]));
+}
 
 std::string blind_words(const ExcavatorGeometry& geometry, const BlindSpot& blind) {
   switch (blind.kind) {
@@ -122,17 +133,13 @@ std::string fence_words(const char* of_what, const ExcavatorBody& body,
                         const ProgramRequest& request, const ProgramResult& result) {
   constexpr double kMillimetres = 1e3;
   const BarredBy& by = result.by;
-  const bool design = request.has_design && by.fence == request.fences.count;
-  const std::string which =
-      design ? "the design surface"
-             : fmt::format("fence[{}], the {},", by.fence,
-                           fence_text(request.fences.fence[static_cast<unsigned>(by.fence)]));
   const bool passes = by.least_m < 0.0;
   const std::string margin =
       by.margin_m > 0.0 ? fmt::format(", where the margin is {:.0f} mm", kMillimetres * by.margin_m)
                         : "";
   return fmt::format("{} would {} {} {} {:.0f} mm at {:.2f} % of the {}{}",
-                     point_name(body, by.point), passes ? "pass" : "come near", which,
+                     point_name(body, by.point), passes ? "pass" : "come near",
+                     fence_name(request, by.fence) + (is_design(request, by.fence) ? "" : ","),
                      passes ? "by" : "to", kMillimetres * std::abs(by.least_m),
                      100.0 * by.least_share, of_what, margin);
 }

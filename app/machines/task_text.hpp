@@ -16,6 +16,10 @@ namespace graben::machines {
 [[nodiscard]] std::string place_words(const BlindPlace& place, const char* of_what);
 
 /// What made the plan slower than it was asked for; "none" if nothing did.
+/// Of a program's fences, as their file counts them: "fence[2], the wall"; after them comes "the
+/// design surface".
+[[nodiscard]] std::string fence_name(const ProgramRequest& request, int fence);
+
 [[nodiscard]] std::string plan_limit_words(const PlanResult& result);
 
 /// As in a task file: "dig", "lift", ...

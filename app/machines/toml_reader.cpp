@@ -32,6 +32,11 @@ std::string value_text(const toml::node& node) {
   return text.str();
 }
 
+bool is_tables(const toml::node& node) {
+  const toml::array* array = node.as_array();
+  return array != nullptr && array->is_homogeneous(toml::node_type::table);
+}
+
 /// An angle in degrees is the likeliest slip of all.
 std::string degrees_hint(double value, const Range& range) {
   constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
@@ -94,10 +99,27 @@ const toml::node* TomlReader::find(KeyEntry entry) {
     keys_.push_back(std::move(entry));
   }
   const toml::node* node = root_.at_path(key).node();
-  if (node == nullptr && !may_lack) {
+  if (node == nullptr && !may_lack && !is_in_no_table(key)) {
     errors_.push_back(fmt::format("{}: missing", key));
   }
   return node;
+}
+
+/// What stands where one of its tables should is refused as a whole.
+bool TomlReader::is_in_no_table(const std::string& key) const {
+  for (std::size_t end = key.find_first_of(".["); end != std::string::npos;
+       end = key.find_first_of(".[", end + 1)) {
+    const toml::node* node = root_.at_path(key.substr(0, end)).node();
+    if (node != nullptr && !(key[end] == '.' ? node->is_table() : is_tables(*node))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool TomlReader::knows_keys_in(const std::string& opened) const {
+  const auto next = known_.lower_bound(opened);
+  return next != known_.end() && next->compare(0, opened.size(), opened) == 0;
 }
 
 void TomlReader::note(const std::string& key, std::vector<double> values) {
@@ -172,13 +194,28 @@ int TomlReader::integer(const std::string& key, int least, int most, const char*
   if (node == nullptr) {
     return least;
   }
-  if (!node->is_integer()) {
-    fail(key, fmt::format("{} is not a whole number; allowed: {} .. {}", value_text(*node), least,
-                          most));
+  return whole(*node, key, least, most);
+}
+
+int TomlReader::integer_or(int fallback, const std::string& key, int least, int most,
+                           const char* help) {
+  const toml::node* node = find({key, "whole number", fmt::format("{} .. {}", least, most), "",
+                                 fmt::format("{}", fallback), help});
+  if (node == nullptr) {
+    note(key, {static_cast<double>(fallback)});
+    return fallback;
+  }
+  return whole(*node, key, least, most);
+}
+
+int TomlReader::whole(const toml::node& node, const std::string& key, int least, int most) {
+  if (!node.is_integer()) {
+    fail(key,
+         fmt::format("{} is not a whole number; allowed: {} .. {}", value_text(node), least, most));
     return least;
   }
   const double value =
-      checked(*node, key, {static_cast<double>(least), static_cast<double>(most), ""});
+      checked(node, key, {static_cast<double>(least), static_cast<double>(most), ""});
   note(key, {value});
   return static_cast<int>(value);
 }
@@ -290,7 +327,7 @@ std::vector<std::pair<double, double>> TomlReader::pairs(const std::string& key,
 int TomlReader::table_count(const std::string& key, int least, int most, const char* help) {
   keys_.push_back({key, fmt::format("{} to {} tables", least, most), "", "", "", help});
   const toml::array* array = root_.at_path(key).as_array();
-  const int count = array == nullptr ? 0 : static_cast<int>(array->size());
+  const int count = array != nullptr && is_tables(*array) ? static_cast<int>(array->size()) : 0;
   if (count < least || count > most) {
     fail(key, fmt::format("must be {} to {} tables; there {} {}", least, most,
                           count == 1 ? "is" : "are", count));
@@ -305,6 +342,13 @@ void TomlReader::refuse_unknown_in(const toml::node& node, const std::string& pa
   if (known_.count(path) != 0) {
     return;
   }
+  if (!node.is_table() && knows_keys_in(path + ".")) {
+    errors_.push_back(fmt::format("{} ({}): must be a table of keys", path, place(node)));
+    return;
+  }
+  if (!is_tables(node) && knows_keys_in(path + "[")) {
+    return;  // table_count() has said so.
+  }
   if (const toml::table* table = node.as_table()) {
     for (const auto& [key, value] : *table) {
       refuse_unknown_in(
@@ -312,10 +356,9 @@ void TomlReader::refuse_unknown_in(const toml::node& node, const std::string& pa
     }
     return;
   }
-  const toml::array* array = node.as_array();
-  if (array != nullptr && array->is_homogeneous(toml::node_type::table)) {
-    for (std::size_t i = 0; i < array->size(); ++i) {
-      refuse_unknown_in(*array->get(i), fmt::format("{}[{}]", path, i));
+  if (is_tables(node)) {
+    for (std::size_t i = 0; i < node.as_array()->size(); ++i) {
+      refuse_unknown_in(*node.as_array()->get(i), fmt::format("{}[{}]", path, i));
     }
     return;
   }

@@ -54,6 +54,7 @@ class TomlReader {
   /// The same of a key that may be left out.
   double number_or(double fallback, const std::string& key, const Range& range, const char* help);
   int integer(const std::string& key, int least, int most, const char* help);
+  int integer_or(int fallback, const std::string& key, int least, int most, const char* help);
   bool boolean_or(bool fallback, const std::string& key, const char* help);
   std::string text(const std::string& key, const char* help);
   /// One of `allowed`, by its index.
@@ -79,7 +80,7 @@ class TomlReader {
   /// FNV-1a of every key that was asked for and its value, in the keys' order: the same for each
   /// way to write a value, and whatever the order, the layout and the comments are.
   [[nodiscard]] std::uint32_t hash() const;
-  /// Records every key that no getter has asked for.
+  /// Records every key that no getter has asked for, and what stands in a table's place.
   void refuse_unknown_keys();
 
   [[nodiscard]] const std::vector<std::string>& errors() const { return errors_; }
@@ -90,6 +91,10 @@ class TomlReader {
 
  private:
   const toml::node* find(KeyEntry entry);
+  [[nodiscard]] bool is_in_no_table(const std::string& key) const;
+  /// Of a path that ends in . or [.
+  [[nodiscard]] bool knows_keys_in(const std::string& opened) const;
+  int whole(const toml::node& node, const std::string& key, int least, int most);
   void note(const std::string& key, std::vector<double> values);
   double checked(const toml::node& node, const std::string& key, const Range& range);
   Provenance provenance_of(const std::string& key, const toml::node& told);

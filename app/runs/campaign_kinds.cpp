@@ -209,12 +209,12 @@ CampaignOutcome campaign_autodig(const CampaignOptions& options,
     return campaign_row(static_cast<std::size_t>(result.end),
                         figures_of(summarise(program, result)));
   };
-  return run_campaign(
-      options, autodig_kind(),
-      fmt::format("autodig {} {:08x}, task {} {:08x}, rounds {}, speed {}, {}",
-                  machine_text(nominal), nominal.hash, file.name, file.hash, scenario.rounds,
-                  scenario.speed_override_ratio, machine_text(scenario)),
-      draw, progress);
+  return run_campaign(options, autodig_kind(),
+                      fmt::format("autodig {} {:08x}, task {} {:08x}, rounds {}, speed {}, {}",
+                                  machine_text(nominal), nominal.hash, file.name, file.hash,
+                                  scenario.rounds.value_or(1), scenario.speed_override_ratio,
+                                  machine_text(scenario)),
+                      draw, progress);
 }
 
 std::size_t campaign_rows(const std::string& file) {

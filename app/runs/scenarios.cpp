@@ -212,8 +212,34 @@ std::string machine_text(const TaskScenario& scenario) {
   return scenario.soil.empty() ? text : fmt::format("{}, {}", scenario.soil, text);
 }
 
+namespace {
+
+/// What would be told in vain is refused.
+void refuse_idle_options(const TaskScenario& scenario, const TaskProgram& program) {
+  const bool layers = program.layers.step >= 0;
+  if (scenario.rounds && (layers || program.rounds.is_bounded() || !program.repeats)) {
+    throw std::runtime_error(
+        fmt::format("--rounds: the task {}; allowed: of one that repeats without end",
+                    layers                        ? "is an area, which ends when it is dug"
+                    : program.rounds.is_bounded() ? "says itself how often"
+                                                  : "does not repeat"));
+  }
+  if (scenario.duration_s && layers) {
+    throw std::runtime_error("--duration: the task is an area, whose cuts take what they need");
+  }
+  const auto* const end = program.step.begin() + program.step_count;
+  const bool waits = std::any_of(program.step.begin(), end,
+                                 [](const TaskStep& step) { return step.kind == StepKind::kWait; });
+  if (scenario.word_after_s && !waits) {
+    throw std::runtime_error("--word-after: the task has no wait");
+  }
+}
+
+}  // namespace
+
 machines::TaskFile planned_task(const TaskScenario& scenario, const ExcavatorProfile& profile) {
   machines::TaskFile task = machines::load_task(machines::find_task(scenario.task), profile);
+  refuse_idle_options(scenario, task.result.program);
   if (!scenario.duration_s) {
     return task;
   }
@@ -237,14 +263,14 @@ AutodigOptions usual_run(const TaskScenario& scenario, const ExcavatorProfile& p
   AutodigOptions run;
   run.start = program.start;
   run.speed_override_ratio = scenario.speed_override_ratio;
-  run.rounds = program.repeats ? scenario.rounds : 1;
+  run.rounds = scenario.rounds.value_or(1);
   if (program.layers.step >= 0) {
     run.rounds = kRoundsOfLayers;
   }
   if (program.rounds.is_bounded()) {
     run.rounds = program.rounds.count * (1 + kAgainMost);
   }
-  run.word_after_s = scenario.word_after_s;
+  run.word_after_s = scenario.word_after_s.value_or(run.word_after_s);
   if (scenario.start.empty()) {
     return run;
   }

@@ -75,10 +75,10 @@ struct TaskScenario {
   std::uint64_t seed = 1;
   std::vector<double> start;  ///< Teeth x, y, z in m and attitude in rad; where the task begins.
   double speed_override_ratio = 1.0;
-  std::optional<double> swash_ratio;  ///< Of the pumps, instead of the profile's.
-  std::optional<double> duration_s;   ///< Of the first straight step.
-  int rounds = 1;                     ///< Of a task that repeats.
-  double word_after_s = 3.0;          ///< Of the operator at a wait.
+  std::optional<double> swash_ratio;   ///< Of the pumps, instead of the profile's.
+  std::optional<double> duration_s;    ///< Of the first straight step.
+  std::optional<int> rounds;           ///< Of a task that repeats; once unless told.
+  std::optional<double> word_after_s;  ///< Of the operator at a wait; AutodigOptions' unless told.
 };
 
 /// The machine of this scenario.
@@ -87,7 +87,7 @@ struct TaskScenario {
 /// "errors kim, found oil 0.7 GPa": what the machine is, not what it is to do.
 [[nodiscard]] std::string machine_text(const TaskScenario& scenario);
 /// The task as its file has it, but for the pace of its first line where that is told. Throws
-/// std::runtime_error where it can't be planned on this machine.
+/// std::runtime_error where it can't be planned on this machine, or has no use for what is told.
 [[nodiscard]] machines::TaskFile planned_task(const TaskScenario& scenario,
                                               const ExcavatorProfile& profile);
 /// Start, speed and rounds. Throws std::runtime_error where the start is out of reach.

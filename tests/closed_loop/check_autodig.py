@@ -64,6 +64,7 @@ class Digger:
             figures = json.load(stream)
         assert set(figures) == FIGURES, set(figures) ^ FIGURES
         assert abs(sum(figures["limit_share"].values()) - 1.0) < 1e-9, figures["limit_share"]
+        assert not any(name.startswith("fence[") and name.endswith("]") for name in figures["limit_share"]), figures
         return figures
 
     def task(self, text):
@@ -246,6 +247,11 @@ speed = -0.4
     digger.refused(["a machine of kind dozer"], "--profile", "dozer_9t")
     digger.refused(["--duration: the task has no straight step"],
                    *digger.task(MOVE.format(x=0.0, y=7.0)), "--duration", "10")
+    for why, *told in (("--rounds: the task is an area", "--task", "trench", "--rounds", "3"),
+                       ("--rounds: the task does not repeat", "--rounds", "3"),
+                       ("--duration: the task is an area", "--task", "trench", "--duration", "5"),
+                       ("--word-after: the task has no wait", "--word-after", "3")):
+        digger.refused([why], *told)
     digger.refused(["--start: out of the reach"], "--start", "19,0,0,1")
 
 

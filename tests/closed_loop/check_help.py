@@ -236,7 +236,7 @@ def missing_files(graben, folder):
                              ("a file or one of dozer_9t", "check", "NONE"),
                              ("a file or one of dozer_9t", "dig", "--profile", "NONE"),
                              ("excavator_22t_found", "dig", "--simulated", "NONE"),
-                             ("a file or one of flatten", "dig", "--task", "NONE"),
+                             ("a file or one of bench", "dig", "--task", "NONE"),
                              ("a file or one of aux_valves", "dig", "--bus", "NONE"),
                              ("a file or one of dozer_9t", "new-machine", "--like", "NONE", "--out", "n.toml")):
         done = call(graben, *("none.x" if word == "NONE" else word for word in command), folder=folder)

@@ -111,6 +111,8 @@ void loading_a_truck(void**) {
   assert_near(program.fences.fence[1].offset_m, 0.8, 0.0);
   assert_near(program.fences.fence[2].normal.y(), 1.0, 0.0);
   assert_int_equal(program.fences.fence[3].guard, FenceGuard::kTeeth);
+  assert_string_equal(machines::fence_name(task.request, 2).c_str(), "fence[2], the wall");
+  assert_string_equal(machines::fence_name(task.request, 3).c_str(), "the design surface");
 }
 
 /// Everything that is wrong at once, each with key, line, value, unit and what is allowed.
@@ -207,6 +209,32 @@ void a_pace_of_the_other_form_is_unknown(void**) {
   assert_true(errors_of(edited("flatten", "duration = 18.4", "")).empty());
   assert_says(errors_of("start = { position = [7.0, 0.0, 0.0], attitude = 2.0 }\n"),
               "step: must be 1 to 24 tables; there are 0");
+}
+
+/// One error, and no followers of what it has left unread.
+void what_is_no_table_is_said_once(void**) {
+  const auto says_only = [](const std::string& text, const char* what) {
+    assert_string_equal(errors_of(text).c_str(), what);
+  };
+  says_only("area = 3\n", "area (line 1): must be a table of keys\n");
+  const std::string flatten = shipped("flatten");
+  says_only(edited("flatten", "{ position = [0.0, 6.866, 0.0], attitude = 2.268928 }", "7"),
+            "start (line 4): must be a table of keys\n");
+  says_only("fence = []\n" + flatten, "fence (line 1): must be 1 to 8 tables; there are 0\n");
+  says_only("fence = [1, 2]\n" + flatten, "fence (line 1): must be 1 to 8 tables; there are 0\n");
+}
+
+void an_area_s_errors_name_its_table(void**) {
+  const auto with = [](const char* keys) {
+    return errors_of(std::string("area = { kind = \"level\", near = 4.4, ") + keys + " }\n");
+  };
+  assert_true(with("far = 6.6, depth = 0.2, strips = 2").empty());
+  assert_string_equal(with("far = 6.6, depth = 0.2, strips = 2.5").c_str(),
+                      "area.strips (line 1): 2.5 is not a whole number; allowed: 1 .. 5\n");
+  assert_string_equal(with("far = -1, depth = 0.2").c_str(),
+                      "area.far (line 1): -1 is out of range; allowed: 0.5 .. 20 m\n");
+  assert_says(with("far = 4.0, depth = 0.2"), "area.near (line 1): 4.4 m; allowed: less than far");
+  assert_says(with("far = 6.6, depth = 5.0"), "area (line 1): step 0 (dig): out of the reach");
 }
 
 /// What can't be planned says which step, what is in the way and where.
@@ -366,6 +394,8 @@ int main() {
       cmocka_unit_test(every_error_is_listed),
       cmocka_unit_test(boxes_and_cylinders_are_kept_out_of),
       cmocka_unit_test(a_pace_of_the_other_form_is_unknown),
+      cmocka_unit_test(what_is_no_table_is_said_once),
+      cmocka_unit_test(an_area_s_errors_name_its_table),
       cmocka_unit_test(refusals_name_step_joint_and_place),
       cmocka_unit_test(steps_end_early_and_rounds_repeat),
       cmocka_unit_test(what_ends_a_step_or_a_round_is_checked),
