@@ -109,14 +109,12 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
   }
   memory_.position =
       next_position(memory_.position, valid.position_m, valid.velocity_mps, period_s);
-  const double on_track_m = valid.height_m - raised_m(valid, valid.position_m);
-  const BodyMotion seen = motion_of(profile_.body, {on_track_m, valid.pitch_rad}, valid.climb_mps,
-                                    valid.pitch_rate_radps);
   memory_.load = memory_.pass.phase == PassPhase::kCut
                      ? next_load(profile_, memory_.load, valid, period_s)
                      : PushState{};
-  next_foretelling(profile_.body, ground_, design_, {seen, valid.position_m, valid.velocity_mps},
-                   period_s, memory_.foretelling);
+  next_foretelling(profile_.body, ground_, design_, driving_of(valid), period_s,
+                   memory_.foretelling);
+  watch_fall(valid, period_s);
   const double latency_s = profile_.control.pose_latency_s;
   const BladeSituation now = foretold(valid, latency_s, valid.blade().stroke_m);
   const Eigen::Vector3d edge_m = edge_in_world_m(setup_.blade, now.body, now.angle_rad);
@@ -143,17 +141,24 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
                 track_speed_max_mps(profile_.hst, valid.engine_radps));
 }
 
+void DozerController::watch_fall(const DozerValid& valid, double period_s) {
+  FallSituation now;
+  now.driving = driving_of(valid);
+  now.stroke_m = valid.blade().stroke_m;
+  now.blade_mps = memory_.asked_mps[kBladeLift];
+  now.answer_s = profile_.control.dead_time_s + profile_.control.response_s;
+  now.raise_mps = profile_.travel.flow_share *
+                  available_flow_m3ps(profile_.implement, valid.engine_radps) /
+                  profile_.blade.rod_area_m2();
+  memory_.fall = next_fall(profile_, setup_.blade, ground_, design_, memory_.fall, now, period_s);
+}
+
 BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,
                                          double stroke_m) const {
   const DozerBody& body = profile_.body;
-  Driving driving;
-  driving.motion =
-      motion_of(body, {valid.height_m - raised_m(valid, valid.position_m), valid.pitch_rad},
-                valid.climb_mps, valid.pitch_rate_radps);
-  driving.x_m = valid.position_m;
-  driving.speed_mps = valid.velocity_mps;
-  driving = drive_on(body, ground_, design_, driving, {memory_.speed_mps.value(), kTravelLead_s},
-                     lead_s, memory_.foretelling.bias);
+  const Driving driving =
+      drive_on(body, ground_, design_, driving_of(valid),
+               {memory_.speed_mps.value(), kTravelLead_s}, lead_s, memory_.foretelling.bias);
   const Stand stand = stand_of(body, driving.motion);
   BladeSituation at;
   at.body.position_m = {driving.x_m, 0.0, stand.height_m + raised_m(valid, driving.x_m)};
@@ -175,13 +180,22 @@ BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,
   if (design_.curves()) {
     place_on_curve(valid, lead_s, at);
   }
-  at.lift = preview_.lift(driving.x_m, driving.speed_mps, lift_most_m());
-  if (memory_.pass.phase != PassPhase::kCut) {
-    at.lift = {};
-  }
-  at.lift.height_m += memory_.load.lift_m + memory_.pass.clear_m;
-  at.lift.rate_mps = memory_.load.rate_mps + memory_.pass.clear_mps;
+  at.lift = lift_at(driving);
   return at;
+}
+
+BladeLift DozerController::lift_at(const Driving& driving) const {
+  BladeLift lift{memory_.load.lift_m + memory_.pass.clear_m, 0.0,
+                 memory_.load.rate_mps + memory_.pass.clear_mps};
+  if (memory_.pass.phase != PassPhase::kCut) {
+    return lift;
+  }
+  const BladeLift planned = preview_.lift(driving.x_m, driving.speed_mps, lift_most_m());
+  const bool falls = memory_.fall.lift_m > planned.height_m;
+  lift.height_m += falls ? memory_.fall.lift_m : planned.height_m;
+  lift.slope = falls ? 0.0 : planned.slope;
+  lift.rate_mps += falls ? memory_.fall.rate_mps : 0.0;
+  return lift;
 }
 
 void DozerController::place_on_curve(const DozerValid& valid, double lead_s,
@@ -346,11 +360,11 @@ void DozerController::remember(const DozerValid& valid, const Motion& motion,
                                const ModeDecision& decision, const DozerGateResult& gated,
                                double period_s) {
   const bool active = decision.active();
+  const bool cuts = active && memory_.pass.phase == PassPhase::kCut;
   // Above the ground it is where it is meant to be if it is on its lift; below it nothing excuses.
   const double error_m = motion.blade.error_m;
   const double excused_m = error_m > 0.0 ? std::max(0.0, motion.blade.off_m) : error_m;
-  next_tube_above(active && memory_.pass.phase == PassPhase::kCut,
-                  excused_m + std::copysign(at_ends_m(motion.tilt.error), excused_m),
+  next_tube_above(cuts, excused_m + std::copysign(at_ends_m(motion.tilt.error), excused_m),
                   profile_.safety.tube_m, memory_.tube);
   next_tube(active && design_.curves(), std::abs(motion.off_track_m), kMostOffTrack_m,
             memory_.off_track);
@@ -364,6 +378,7 @@ void DozerController::remember(const DozerValid& valid, const Motion& motion,
   memory_.blade = active ? motion.blade.state : BladeState{};
   memory_.tilt = active ? motion.tilt.state : TiltState{};
   memory_.load = active ? memory_.load : PushState{};
+  memory_.fall = cuts ? memory_.fall : FallState{};
   if (!active && memory_.pass.pass > 1) {
     design_.set_floor(pass_floor_m(profile_.grade, PassState{}));
   }
