@@ -132,7 +132,7 @@ void noise_is_no_ground_that_is_left(void**) {
 /// A place where the edge can't go lower is told, and not gone back for again and again.
 void a_pass_that_lowers_nothing_is_the_last(void**) {
   PassState state = goes(goes({}, 0.0, 5.0, 0.1), 5.01, 10.01, 0.0);
-  state = stands(goes(stands(state, 10.2, 200), 10.2, 3.6, 0.25), 3.6, 2);
+  state = stands(goes(stands(state, 10.2, 200), 10.2, -1.3, 0.25), -1.3, 2);
   assert_int_equal(state.pass, 2);
   const PassState same = goes(goes(state, 0.0, 5.0, 0.1), 5.01, 10.01, 0.0);
   assert_true(same.finished && same.left);
