@@ -142,14 +142,11 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
 }
 
 void DozerController::watch_fall(const DozerValid& valid, double period_s) {
-  FallSituation now;
-  now.driving = driving_of(valid);
-  now.stroke_m = valid.blade().stroke_m;
-  now.blade_mps = memory_.asked_mps[kBladeLift];
-  now.answer_s = profile_.control.dead_time_s + profile_.control.response_s;
-  now.raise_mps = profile_.travel.flow_share *
-                  available_flow_m3ps(profile_.implement, valid.engine_radps) /
-                  profile_.blade.rod_area_m2();
+  const double raise_mps = profile_.travel.flow_share *
+                           available_flow_m3ps(profile_.implement, valid.engine_radps) /
+                           profile_.blade.rod_area_m2();
+  const FallSituation now{driving_of(valid), valid.blade().stroke_m, memory_.asked_mps[kBladeLift],
+                          profile_.control.dead_time_s + profile_.control.response_s, raise_mps};
   memory_.fall = next_fall(profile_, setup_.blade, ground_, design_, memory_.fall, now, period_s);
 }
 
@@ -328,6 +325,7 @@ SpeedChoice DozerController::choose_speed(const DozerValid& valid, const Motion&
   demand.ahead = preview_.limit(
       memory_.position.position_m + profile_.control.pose_latency_s * valid.velocity_mps,
       memory_.speed_mps.value(), lift_most_m(), kTravelLead_s);
+  demand.ahead.speed_mps = std::min(demand.ahead.speed_mps, memory_.fall.speed_mps);
   // The speed itself from where it has a complement.
   SpeedState last = memory_.speed;
   last.speed_mps = memory_.speed_mps.value();

@@ -3,6 +3,8 @@
 /// A body that the ground before the blade holds up, or that stands on a crest: how deep the edge
 /// would go if it fell now.
 
+#include <limits>
+
 #include "firmware/dozer/blade.hpp"
 #include "firmware/dozer/travel/body_motion.hpp"
 
@@ -27,6 +29,8 @@ struct FallState {
   double sinks_m = 0.0;   ///< Below where it was, the edge in the last fall followed to its end.
   double lift_m = 0.0;    ///< Of the edge over the design, against it.
   double rate_mps = 0.0;  ///< How that changes.
+  /// So fast may the machine be: slower where it sinks further than any lift makes good.
+  double speed_mps = std::numeric_limits<double>::infinity();
 };
 
 /// A cycle on. From where the machine is it is followed, some steps a cycle, with nothing but the
@@ -34,6 +38,9 @@ struct FallState {
 /// By what its edge sinks meanwhile, less what the feedback makes good and no more than most of the
 /// tolerance, the blade is to rise now: that takes it off the ground that bears it, and when the
 /// body comes down there is room for it.
+///
+/// What bears the edge lets go over some way of it: the slower the machine, the longer the blade
+/// has for what it sinks.
 ///
 /// A blade that is lowered on a crest lifts the body instead of cutting; as it gives way the body
 /// tips faster than any flow raises the blade.

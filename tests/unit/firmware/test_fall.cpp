@@ -87,6 +87,18 @@ void it_counts_from_where_the_edge_is(void**) {
   assert_near(after(design, above, 0.1).sinks_m, home_m, 0.1 * home_m);
 }
 
+/// The blade has to have risen by what the edge sinks when the machine is 0.1 m on; where it rises
+/// in time nothing holds the machine.
+void a_deep_fall_is_driven_to_slowly(void**) {
+  const GradeProfile design(test::bend(-0.3, 0.3));
+  const FallState deep = after(design, level_at(10.4, 0.03), 0.1);
+  const double per_stroke = -blade().edge_rate_mprad(0.0).y() / blade().stroke_rate_mprad(0.0);
+  assert_true(deep.sinks_m > 0.05);
+  assert_near(deep.speed_mps, 0.1 * 0.03 * per_stroke / deep.sinks_m, 1e-9);
+  const FallState none = after(GradeProfile(test::level(0.0)), level_at(0.0, 0.1), 0.1);
+  assert_true(none.speed_mps > 10.0);
+}
+
 }  // namespace
 
 int main() {
@@ -94,6 +106,7 @@ int main() {
       cmocka_unit_test(on_level_ground_nothing_falls),
       cmocka_unit_test(a_body_that_is_held_over_a_crest_is_given_room),
       cmocka_unit_test(the_lift_comes_and_goes_at_its_rates),
+      cmocka_unit_test(a_deep_fall_is_driven_to_slowly),
       cmocka_unit_test(it_counts_from_where_the_edge_is),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
