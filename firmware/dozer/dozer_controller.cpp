@@ -15,12 +15,6 @@ namespace {
 /// From a lower wanted speed to a slower machine: displacements, drive line, PI.
 constexpr double kTravelLead_s = 0.2;
 
-/// What comes of it while the pump can give no more.
-double fed_mps(const BladeGeometry& blade, double velocity_mps, double available_flow_m3ps) {
-  return std::clamp(velocity_mps, -available_flow_m3ps / blade.rod_area_m2(),
-                    available_flow_m3ps / blade.cap_area_m2());
-}
-
 /// A track's speed. Where one of them is not that of its displacements, none is believed, and one
 /// that is outvoted never: feedback of a wrong one would drive its track off.
 double speed_of_track_mps(const HstProfile& hst, const DozerValid& valid, unsigned track) {
@@ -141,21 +135,28 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
                 track_speed_max_mps(profile_.hst, valid.engine_radps));
 }
 
+Driving DozerController::driven(const DozerValid& valid, double lead_s) const {
+  return drive_on(profile_.body, ground_, design_, driving_of(valid),
+                  {memory_.speed_mps.value(), kTravelLead_s}, lead_s, memory_.foretelling.bias);
+}
+
 void DozerController::watch_fall(const DozerValid& valid, double period_s) {
   const double raise_mps = profile_.travel.flow_share *
                            available_flow_m3ps(profile_.implement, valid.engine_radps) /
                            profile_.blade.rod_area_m2();
-  const FallSituation now{driving_of(valid), valid.blade().stroke_m, memory_.asked_mps[kBladeLift],
-                          profile_.control.dead_time_s + profile_.control.response_s, raise_mps};
+  const DozerControl& control = profile_.control;
+  // From where the first of what is asked for now arrives: what is under way is no fall.
+  const double asked_mps = memory_.asked_mps[kBladeLift];
+  const double stroke_m = valid.blade().stroke_m + control.dead_time_s * asked_mps;
+  const FallSituation now{driven(valid, control.pose_latency_s + control.dead_time_s), stroke_m,
+                          asked_mps, control.response_s, raise_mps};
   memory_.fall = next_fall(profile_, setup_.blade, ground_, design_, memory_.fall, now, period_s);
 }
 
 BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,
                                          double stroke_m) const {
   const DozerBody& body = profile_.body;
-  const Driving driving =
-      drive_on(body, ground_, design_, driving_of(valid),
-               {memory_.speed_mps.value(), kTravelLead_s}, lead_s, memory_.foretelling.bias);
+  const Driving driving = driven(valid, lead_s);
   const Stand stand = stand_of(body, driving.motion);
   BladeSituation at;
   at.body.position_m = {driving.x_m, 0.0, stand.height_m + raised_m(valid, driving.x_m)};

@@ -109,6 +109,8 @@ class DozerController {
     return {motion_of(profile_.body, stand, valid.climb_mps, valid.pitch_rate_radps),
             valid.position_m, valid.velocity_mps};
   }
+  /// `lead_s` after that.
+  [[nodiscard]] Driving driven(const DozerValid& valid, double lead_s) const;
   /// Follows what happens if the ground before the blade lets go of it.
   void watch_fall(const DozerValid& valid, double period_s);
   /// Body and blade so much after the moment that the measured pose is of, with this stroke.
