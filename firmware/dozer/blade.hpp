@@ -65,6 +65,13 @@ inline constexpr unsigned kBladeTilt = 1;
 using DozerBank = DriveBank<kBladeCount>;
 [[nodiscard]] DozerBank dozer_bank(const DozerProfile& profile);
 
+/// What comes of a velocity while the pump can give no more.
+[[nodiscard]] inline double fed_mps(const BladeGeometry& blade, double velocity_mps,
+                                    double available_flow_m3ps) {
+  return std::clamp(velocity_mps, -available_flow_m3ps / blade.rod_area_m2(),
+                    available_flow_m3ps / blade.cap_area_m2());
+}
+
 /// Q_in of (7), m^3/s: what the cylinders take in at this velocity; extension is positive.
 [[nodiscard]] inline double inflow_m3ps(const BladeGeometry& blade, double velocity_mps) {
   return velocity_mps >= 0.0 ? blade.cap_area_m2() * velocity_mps

@@ -15,12 +15,6 @@ namespace {
 /// From a lower wanted speed to a slower machine: displacements, drive line, PI.
 constexpr double kTravelLead_s = 0.2;
 
-/// What comes of it while the pump can give no more.
-double fed_mps(const BladeGeometry& blade, double velocity_mps, double available_flow_m3ps) {
-  return std::clamp(velocity_mps, -available_flow_m3ps / blade.rod_area_m2(),
-                    available_flow_m3ps / blade.cap_area_m2());
-}
-
 /// A track's speed. Where one of them is not that of its displacements, none is believed, and one
 /// that is outvoted never: feedback of a wrong one would drive its track off.
 double speed_of_track_mps(const HstProfile& hst, const DozerValid& valid, unsigned track) {
@@ -109,14 +103,12 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
   }
   memory_.position =
       next_position(memory_.position, valid.position_m, valid.velocity_mps, period_s);
-  const double on_track_m = valid.height_m - raised_m(valid, valid.position_m);
-  const BodyMotion seen = motion_of(profile_.body, {on_track_m, valid.pitch_rad}, valid.climb_mps,
-                                    valid.pitch_rate_radps);
   memory_.load = memory_.pass.phase == PassPhase::kCut
                      ? next_load(profile_, memory_.load, valid, period_s)
                      : PushState{};
-  next_foretelling(profile_.body, ground_, design_, {seen, valid.position_m, valid.velocity_mps},
-                   period_s, memory_.foretelling);
+  next_foretelling(profile_.body, ground_, design_, driving_of(valid), period_s,
+                   memory_.foretelling);
+  watch_fall(valid, period_s);
   const double latency_s = profile_.control.pose_latency_s;
   const BladeSituation now = foretold(valid, latency_s, valid.blade().stroke_m);
   const Eigen::Vector3d edge_m = edge_in_world_m(setup_.blade, now.body, now.angle_rad);
@@ -143,17 +135,28 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
                 track_speed_max_mps(profile_.hst, valid.engine_radps));
 }
 
+Driving DozerController::driven(const DozerValid& valid, double lead_s) const {
+  return drive_on(profile_.body, ground_, design_, driving_of(valid),
+                  {memory_.speed_mps.value(), kTravelLead_s}, lead_s, memory_.foretelling.bias);
+}
+
+void DozerController::watch_fall(const DozerValid& valid, double period_s) {
+  const double raise_mps = profile_.travel.flow_share *
+                           available_flow_m3ps(profile_.implement, valid.engine_radps) /
+                           profile_.blade.rod_area_m2();
+  const DozerControl& control = profile_.control;
+  // From where the first of what is asked for now arrives: what is under way is no fall.
+  const double asked_mps = memory_.asked_mps[kBladeLift];
+  const double stroke_m = valid.blade().stroke_m + control.dead_time_s * asked_mps;
+  const FallSituation now{driven(valid, control.pose_latency_s + control.dead_time_s), stroke_m,
+                          asked_mps, control.response_s, raise_mps};
+  memory_.fall = next_fall(profile_, setup_.blade, ground_, design_, memory_.fall, now, period_s);
+}
+
 BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,
                                          double stroke_m) const {
   const DozerBody& body = profile_.body;
-  Driving driving;
-  driving.motion =
-      motion_of(body, {valid.height_m - raised_m(valid, valid.position_m), valid.pitch_rad},
-                valid.climb_mps, valid.pitch_rate_radps);
-  driving.x_m = valid.position_m;
-  driving.speed_mps = valid.velocity_mps;
-  driving = drive_on(body, ground_, design_, driving, {memory_.speed_mps.value(), kTravelLead_s},
-                     lead_s, memory_.foretelling.bias);
+  const Driving driving = driven(valid, lead_s);
   const Stand stand = stand_of(body, driving.motion);
   BladeSituation at;
   at.body.position_m = {driving.x_m, 0.0, stand.height_m + raised_m(valid, driving.x_m)};
@@ -175,13 +178,22 @@ BladeSituation DozerController::foretold(const DozerValid& valid, double lead_s,
   if (design_.curves()) {
     place_on_curve(valid, lead_s, at);
   }
-  at.lift = preview_.lift(driving.x_m, driving.speed_mps, lift_most_m());
-  if (memory_.pass.phase != PassPhase::kCut) {
-    at.lift = {};
-  }
-  at.lift.height_m += memory_.load.lift_m + memory_.pass.clear_m;
-  at.lift.rate_mps = memory_.load.rate_mps + memory_.pass.clear_mps;
+  at.lift = lift_at(driving);
   return at;
+}
+
+BladeLift DozerController::lift_at(const Driving& driving) const {
+  BladeLift lift{memory_.load.lift_m + memory_.pass.clear_m, 0.0,
+                 memory_.load.rate_mps + memory_.pass.clear_mps};
+  if (memory_.pass.phase != PassPhase::kCut) {
+    return lift;
+  }
+  const BladeLift planned = preview_.lift(driving.x_m, driving.speed_mps, lift_most_m());
+  const bool falls = memory_.fall.lift_m > planned.height_m;
+  lift.height_m += falls ? memory_.fall.lift_m : planned.height_m;
+  lift.slope = falls ? 0.0 : planned.slope;
+  lift.rate_mps += falls ? memory_.fall.rate_mps : 0.0;
+  return lift;
 }
 
 void DozerController::place_on_curve(const DozerValid& valid, double lead_s,
@@ -314,6 +326,7 @@ SpeedChoice DozerController::choose_speed(const DozerValid& valid, const Motion&
   demand.ahead = preview_.limit(
       memory_.position.position_m + profile_.control.pose_latency_s * valid.velocity_mps,
       memory_.speed_mps.value(), lift_most_m(), kTravelLead_s);
+  demand.ahead.speed_mps = std::min(demand.ahead.speed_mps, memory_.fall.speed_mps);
   // The speed itself from where it has a complement.
   SpeedState last = memory_.speed;
   last.speed_mps = memory_.speed_mps.value();
@@ -346,11 +359,11 @@ void DozerController::remember(const DozerValid& valid, const Motion& motion,
                                const ModeDecision& decision, const DozerGateResult& gated,
                                double period_s) {
   const bool active = decision.active();
+  const bool cuts = active && memory_.pass.phase == PassPhase::kCut;
   // Above the ground it is where it is meant to be if it is on its lift; below it nothing excuses.
   const double error_m = motion.blade.error_m;
   const double excused_m = error_m > 0.0 ? std::max(0.0, motion.blade.off_m) : error_m;
-  next_tube_above(active && memory_.pass.phase == PassPhase::kCut,
-                  excused_m + std::copysign(at_ends_m(motion.tilt.error), excused_m),
+  next_tube_above(cuts, excused_m + std::copysign(at_ends_m(motion.tilt.error), excused_m),
                   profile_.safety.tube_m, memory_.tube);
   next_tube(active && design_.curves(), std::abs(motion.off_track_m), kMostOffTrack_m,
             memory_.off_track);
@@ -364,6 +377,7 @@ void DozerController::remember(const DozerValid& valid, const Motion& motion,
   memory_.blade = active ? motion.blade.state : BladeState{};
   memory_.tilt = active ? motion.tilt.state : TiltState{};
   memory_.load = active ? memory_.load : PushState{};
+  memory_.fall = cuts ? memory_.fall : FallState{};
   if (!active && memory_.pass.pass > 1) {
     design_.set_floor(pass_floor_m(profile_.grade, PassState{}));
   }

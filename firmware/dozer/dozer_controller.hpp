@@ -9,6 +9,7 @@
 #include "firmware/dozer/travel/blade_load.hpp"
 #include "firmware/dozer/travel/body_motion.hpp"
 #include "firmware/dozer/travel/course.hpp"
+#include "firmware/dozer/travel/fall.hpp"
 #include "firmware/dozer/travel/passes.hpp"
 #include "firmware/dozer/travel/preview.hpp"
 #include "firmware/dozer/travel/speed_limit.hpp"
@@ -83,6 +84,7 @@ class DozerController {
     std::array<TrackState, kTrackCount> track{};
     Foretelling foretelling;
     PushState load;
+    FallState fall;
     PassState pass;
     PassSituation in_pass;
     PositionState position;
@@ -101,9 +103,21 @@ class DozerController {
   void choose_task(DozerValid& valid, double period_s);
   /// Takes in where the machine is: what the blade has cut, what lies ahead.
   void estimate(const DozerValid& valid, double period_s);
+  /// As it is measured, over its track.
+  [[nodiscard]] Driving driving_of(const DozerValid& valid) const {
+    const Stand stand{valid.height_m - raised_m(valid, valid.position_m), valid.pitch_rad};
+    return {motion_of(profile_.body, stand, valid.climb_mps, valid.pitch_rate_radps),
+            valid.position_m, valid.velocity_mps};
+  }
+  /// `lead_s` after that.
+  [[nodiscard]] Driving driven(const DozerValid& valid, double lead_s) const;
+  /// Follows what happens if the ground before the blade lets go of it.
+  void watch_fall(const DozerValid& valid, double period_s);
   /// Body and blade so much after the moment that the measured pose is of, with this stroke.
   [[nodiscard]] BladeSituation foretold(const DozerValid& valid, double lead_s,
                                         double stroke_m) const;
+  /// What the blade is to leave standing there.
+  [[nodiscard]] BladeLift lift_at(const Driving& driving) const;
   /// On a track that curves: edge and design as they lie there, `lead_s` on.
   void place_on_curve(const DozerValid& valid, double lead_s, BladeSituation& at) const;
   /// So much higher is the design below the body than on the track beside it.

@@ -2,6 +2,7 @@
 """`graben grade`: the same seed gives the same bytes, the figures are whole and within their bounds,
 two-sided, and a constant speed shows what the bounded one is for."""
 
+import csv
 import json
 import os
 import re
@@ -105,15 +106,15 @@ def report_is_whole(graben, folder):
 def fastest_constant(graben, folder):
     summary = os.path.join(folder, "fastest.json")
     done = subprocess.run([graben, "grade", "--speed-mode", "constant", "--speed", "0.6", "--within",
-                           "0.15", "--summary", summary], capture_output=True, text=True, timeout=120)
+                           "0.13", "--summary", summary], capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
     trials = [(float(line.split()[0]), float(line.split()[1]), "too far off" in line)
               for line in done.stdout.splitlines()[1:-1]]
-    found = re.search(r"fastest within 150\.0 mm: ([\d.]+) m/s, ([\d.]+) s", done.stdout)
+    found = re.search(r"fastest within 130\.0 mm: ([\d.]+) m/s, ([\d.]+) s", done.stdout)
     speed = float(found[1])
     within = [trial for trial in trials if not trial[2]]
     assert trials == sorted(trials) and trials[-1][0] == 0.6, trials
-    assert all((error > 150.0) == is_off for _, error, is_off in trials), trials
+    assert all((error > 130.0) == is_off for _, error, is_off in trials), trials
     assert within[-1][0] == speed, (speed, trials)
     # Every finer step from there up to the next of the coarse ones was tried, and is off.
     coarse = min(value for value in (0.1, 0.2, 0.3, 0.4, 0.5, 0.6) if value > speed)
@@ -123,6 +124,22 @@ def fastest_constant(graben, folder):
         figures = json.load(stream)
     assert abs(figures["time_s"] - float(found[2])) < 0.006, figures["time_s"]
     assert abs(figures["max_error_true_m"] * 1e3 - within[-1][1]) < 0.06
+
+
+# Draws of `campaign ground` in loam, clay and stones whose blade holds the body up on a crest: cut 33 to
+# 73 mm below the design where nothing knows that it will fall.
+CRESTS = (2043, 3450, 3811, 440)
+
+
+def no_crest_is_cut_deep(graben, folder):
+    for seed in CRESTS:
+        summary = os.path.join(folder, f"ground{seed}.csv")
+        subprocess.run([graben, "campaign", "ground", "--seed", str(seed), "--draws", "1", "--summary", summary],
+                       check=True, capture_output=True, timeout=120)
+        with open(summary, encoding="utf-8") as stream:
+            rows = [row for row in csv.reader(stream) if not row[0].startswith("#")]
+        draw = dict(zip(rows[0], rows[-1]))
+        assert float(draw["over_cut_m"]) < 25 * MM, f"seed {seed}: {draw['over_cut_m']} m below the design"
 
 
 def main():
@@ -138,6 +155,7 @@ def main():
         repeats(graben, folder)
         report_is_whole(graben, folder)
         fastest_constant(graben, folder)
+        no_crest_is_cut_deep(graben, folder)
 
 
 if __name__ == "__main__":

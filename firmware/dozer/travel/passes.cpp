@@ -11,6 +11,9 @@ namespace {
 constexpr double kRunUp_m = 1.2;
 /// More than what is allowed, for the noise of what is measured.
 constexpr double kWorthIt_m = 0.005;
+constexpr double kErrorFilter_s = 0.1;
+/// A pass that leaves more than this of what the one before has left lowers nothing.
+constexpr double kLowers = 0.95;
 /// Of what the tracks may push, how much a pass is to take; with less the next goes deeper, but no
 /// more than so much at once.
 constexpr double kFullPush = 0.9;
@@ -26,13 +29,22 @@ constexpr double kClear_mps = 0.2;
 constexpr double kStands_mps = 0.05;
 constexpr double kFastestBack_mps = 1.0;
 
-void note(const GradeDesign& design, const PassSituation& now, PassState& state) {
+void note(const GradeDesign& design, const PassSituation& now, double period_s, PassState& state) {
+  state.error_m += (now.error_m - state.error_m) * period_s / (kErrorFilter_s + period_s);
   if (now.edge_x_m < design.begin_m() || now.edge_x_m > design.end_m() ||
-      now.error_m <= design.tolerance_m + kWorthIt_m) {
+      state.error_m <= design.tolerance_m + kWorthIt_m) {
     return;
   }
   state.from_m = state.left ? std::min(state.from_m, now.edge_x_m) : now.edge_x_m;
   state.left = true;
+  state.left_m2 +=
+      (state.error_m - design.tolerance_m) * std::max(0.0, now.velocity_mps * period_s);
+}
+
+/// At its end.
+bool is_another_worth_it(const GradeDesign& design, const PassState& state) {
+  const bool lowers = state.last_left_m2 <= 0.0 || state.left_m2 <= kLowers * state.last_left_m2;
+  return state.left && lowers && state.pass < design.passes_most;
 }
 
 /// How hard it is, all the way.
@@ -62,6 +74,9 @@ void begin_pass(const GradeDesign& design, PassState& state) {
   state.phase = PassPhase::kCut;
   ++state.pass;
   state.left = false;
+  state.last_left_m2 = state.left_m2;
+  state.left_m2 = 0.0;
+  state.error_m = 0.0;
 }
 
 void clear_blade(double wanted_m, double period_s, PassState& state) {
@@ -82,12 +97,12 @@ PassState next_pass(const GradeDesign& design, const PassState& last, const Pass
                  (state.clear_m <= 0.0 && now.error_m <= design.tolerance_m);
     // The blade on its way down at the beginning is no ground that is left.
     if (state.down) {
-      note(design, now, state);
+      note(design, now, period_s, state);
       feel(design, now, period_s, state);
     }
     // Every pass goes on to the design's end: what the blade carries is dumped behind it.
     if (now.edge_x_m >= design.end_m() && !state.finished) {
-      const bool again = state.left && state.pass < design.passes_most;
+      const bool again = is_another_worth_it(design, state);
       state.finished = !again;
       state.phase = again ? PassPhase::kStop : PassPhase::kCut;
     }

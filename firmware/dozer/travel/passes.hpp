@@ -24,11 +24,14 @@ struct PassState {
   double most_push = 0.0;  ///< In this pass, of what the tracks may push.
   double lifted_m2 = 0.0;  ///< By which its load has lifted the blade, over its way.
   double way_m = 0.0;
-  bool left = false;  ///< Something was left in this pass, from this place of the edge on.
+  double error_m = 0.0;  ///< Of the edge over the design, low-passed: a pass is not for noise.
+  bool left = false;     ///< Something was left in this pass, from this place of the edge on.
   double from_m = 0.0;
-  bool down = true;      ///< The blade has come to the ground in this pass,
-  double due_m = 0.0;    ///< which it is to from here on: what the pass before left.
-  double clear_m = 0.0;  ///< The blade over the design.
+  double left_m2 = 0.0;       ///< What stands above the tolerance there, in this pass,
+  double last_left_m2 = 0.0;  ///< and in the one before; 0: the first.
+  bool down = true;           ///< The blade has come to the ground in this pass,
+  double due_m = 0.0;         ///< which it is to from here on: what the pass before left.
+  double clear_m = 0.0;       ///< The blade over the design.
   double clear_mps = 0.0;
   bool finished = false;  ///< The last pass has left nothing, or there may be no more.
 };
@@ -46,7 +49,7 @@ struct PassSituation {
 /// noted with its place, but for where the blade is still on its way down. At the design's last
 /// point, behind which what it carries is dumped, the machine stops and goes back with the blade
 /// clear of the ground, to a run-up before the first of it; and cuts again, up to `passes_most`
-/// times.
+/// times, as long as a pass lowers what the one before has left.
 ///
 /// The first pass goes `pass_depth_m` deep; each next one as much deeper as the one before had
 /// force to spare, or less where its load lifted the blade.
