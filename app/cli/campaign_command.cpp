@@ -31,6 +31,7 @@ struct GradeCampaign {
   runs::CampaignOptions campaign;
   ArrayOptions array;
   runs::GradeScenario scenario;
+  design::DesignSource design;
   std::string profile = "dozer_9t";
 };
 
@@ -124,9 +125,9 @@ runs::CampaignOutcome campaign_dig(const DigCampaign& options,
 runs::CampaignOutcome campaign_grade(const GradeCampaign& options,
                                      const runs::CampaignOptions& campaign,
                                      const runs::Progress& progress) {
-  const machines::SimulatedDozer nominal =
-      machines::load_simulated_dozer(machines::find_profile(options.profile));
-  return runs::campaign_grade(campaign, nominal, options.scenario, progress);
+  const Designed nominal = designed(
+      machines::load_simulated_dozer(machines::find_profile(options.profile)), options.design);
+  return runs::campaign_grade(campaign, nominal.machine, options.scenario, progress);
 }
 
 runs::CampaignOutcome campaign_designs(const GradeCampaign& options,
@@ -188,6 +189,7 @@ void add_campaign_grade(CLI::App& campaign, int& status) {
   add_profile_option(*command, options->profile);
   options->campaign.draws = 100;
   add_campaign_options(*command, options->campaign);
+  add_design_options(*command, options->design);
   options->scenario.errors = "all";
   add_speed_options(*command, options->scenario);
   add_engine_option(*command, options->scenario);

@@ -25,7 +25,8 @@ BladeSoil::BladeSoil(const SoilKind& soil, const DozerPlantProfile& profile)
       blade_(profile.blade_shape),
       factors_(soil),
       gravity_(profile.gravity_mps2),
-      random_(profile.seed, Draw::kSoilKind, 1) {}
+      random_(profile.seed, Draw::kSoilKind, 1),
+      side_random_(profile.seed, Draw::kSoilKind, 2) {}
 
 double BladeSoil::holds_m3() const {
   return 0.5 * blade_.height_m * blade_.height_m * blade_.width_m / std::tan(soil_.repose_rad);
@@ -37,37 +38,44 @@ void BladeSoil::lose(double way_m) {
   carried_ = kept;
 }
 
-void BladeSoil::move(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m, Terrain& terrain) {
+void BladeSoil::cut_strip(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m, double share,
+                          Terrain& terrain) {
   const double way_m = to_m.x() - from_m.x();
   if (way_m > 0.0) {
     // Over the ground that lies before it: between two nodes one is cut already.
     const double ground_m = terrain.height_m(to_m.x() + terrain.cell_m());
     const double over_m = 0.5 * (from_m.y() + to_m.y()) - ground_m;
-    const double area_m2 = blade_.width_m * way_m;
+    const double area_m2 = share * blade_.width_m * way_m;
     if (over_m < 0.0) {
       carried_ += -over_m * area_m2 * soil_.swell;
     } else if (carried_ > 0.0) {
-      const double filled_m = std::min(over_m, carried_ / area_m2);
+      const double filled_m = std::min(over_m, share * carried_ / area_m2);
       carried_ -= filled_m * area_m2;
       terrain.fill(from_m.x(), to_m.x(), ground_m + filled_m);
     }
+  }
+  terrain.cut(from_m, to_m);
+}
+
+void BladeSoil::go_on(double way_m) {
+  if (way_m > 0.0) {
     lose(way_m);
     gone_ += way_m;
     if (soil_.stone_m > 0.0 && gone_ > soil_.stone_m) {
       gone_ = 0.0;
       stone_ = random_.normal();
+      stone_left_ = side_random_.normal();
     }
   } else if (way_m < 0.0) {
     // What it draws away from stays where it lies.
     lost_ += carried_;
     carried_ = 0.0;
   }
-  terrain.cut(from_m, to_m);
 }
 
 Eigen::Vector2d BladeSoil::force_n(const Eigen::Vector2d& edge_m,
                                    const Eigen::Vector2d& velocity_mps, double pitch_rad,
-                                   const Terrain& terrain) const {
+                                   const Terrain& terrain, double beside) const {
   const double depth_m =
       std::clamp(terrain.height_m(edge_m.x() + terrain.cell_m()) - edge_m.y(), 0.0, kMostDepth_m);
   const double forward_mps = velocity_mps.x();
@@ -86,7 +94,7 @@ Eigen::Vector2d BladeSoil::force_n(const Eigen::Vector2d& edge_m,
       wedge_m > 1e-3 ? on_wedge * weight_n / (blade_.width_m * wedge_m) : 0.0;
   const CuttingForce cut =
       cutting_force(soil_, factors, rake_rad, depth_m, blade_.width_m, surcharge_pa, gravity_);
-  const double stones = std::max(0.2, 1.0 + soil_.stone_share * stone_);
+  const double stones = std::max(0.2, 1.0 + soil_.stone_share * (stone_ + beside * stone_left_));
   const double rides_n = (1.0 - on_wedge) * weight_n * std::tan(soil_.friction_rad);
   Eigen::Vector2d force_n = {-(stones * cut.against_n + rides_n), -stones * cut.down_n};
   if (depth_m > 0.0) {

@@ -128,14 +128,15 @@ HalfVehicle::Side HalfVehicle::press(const SideGround& ground, double across_m) 
   return side;
 }
 
-void HalfVehicle::step(const TracksGround& ground, double traction_n, double step_s) {
+void HalfVehicle::step(const TracksGround& ground, double traction_n, double step_s,
+                       const BodyLoad& load) {
   load_ = {};
   const Side left = press({ground.left, ground.right, ground.beyond}, body_.half_gauge_m);
   const Side right = press({ground.right, ground.left, -ground.beyond}, -body_.half_gauge_m);
   track_load_ = {left.load_n, right.load_n};
   whole_load_ = left.load_n + right.load_n;
-  move(left.pitch_nm + right.pitch_nm, traction_n, step_s, {});
-  roll_rate_ += step_s * (left.roll_nm + right.roll_nm) / roll_inertia_;
+  move(left.pitch_nm + right.pitch_nm, traction_n, step_s, load);
+  roll_rate_ += step_s * (left.roll_nm + right.roll_nm + load.roll_nm) / roll_inertia_;
   roll_ += step_s * roll_rate_;
 }
 

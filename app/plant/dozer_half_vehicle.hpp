@@ -16,6 +16,7 @@ struct BodyLoad {
   Eigen::Vector2d force_n = Eigen::Vector2d::Zero();  ///< World.
   double moment_nm = 0.0;    ///< About the mass centre; nose up is positive.
   bool tracks_turn = false;  ///< What the tracks drive with beyond the slope turns it about it too.
+  double roll_nm = 0.0;      ///< About the longitudinal axis; left side up is positive.
 };
 
 /// Ground below each track's middle: straight across from one line of it to the other, and beyond
@@ -42,7 +43,8 @@ class HalfVehicle {
   /// Goes on by a step with the whole traction of both tracks, N along the body.
   void step(const Terrain& terrain, double traction_n, double step_s, const BodyLoad& load = {});
   /// The same on ground that differs below the two tracks: half of each wheel stands on either.
-  void step(const TracksGround& ground, double traction_n, double step_s);
+  void step(const TracksGround& ground, double traction_n, double step_s,
+            const BodyLoad& load = {});
   /// Way along a track that curves in plan, on which `position_m` counts, over the body's.
   void set_station_share(double share) { station_share_ = share; }
 

@@ -96,10 +96,10 @@ double PlanMotion::station_share(double station_m) const {
   return std::cos(heading_rad_) / (1.0 - track_.curvature_pm(station_m) * offset_m_);
 }
 
-void PlanMotion::step(double more_right_n, double load_n, double speed_mps, double station_m,
-                      double step_s) {
-  const double moment_nm = half_gauge_m_ * more_right_n - turning_nm(load_n, speed_mps);
-  yaw_rate_radps_ += step_s * moment_nm / inertia_kgm2_;
+void PlanMotion::step(double more_right_n, double moment_nm, double load_n, double speed_mps,
+                      double station_m, double step_s) {
+  const double turns_nm = half_gauge_m_ * more_right_n + moment_nm - turning_nm(load_n, speed_mps);
+  yaw_rate_radps_ += step_s * turns_nm / inertia_kgm2_;
   const double along_mps = speed_mps * station_share(station_m);
   offset_m_ += step_s * speed_mps * std::sin(heading_rad_);
   heading_rad_ += step_s * (yaw_rate_radps_ - track_.curvature_pm(station_m) * along_mps);

@@ -47,9 +47,10 @@ class PlanMotion {
  public:
   explicit PlanMotion(const DozerPlantProfile& profile);
 
-  /// A step on: what the right track pushes with more than the left one, load and speed of the
-  /// body.
-  void step(double more_right_n, double load_n, double speed_mps, double station_m, double step_s);
+  /// A step on: what the right track pushes with more than the left one, what turns the body to the
+  /// left beside that, its load and speed.
+  void step(double more_right_n, double moment_nm, double load_n, double speed_mps,
+            double station_m, double step_s);
 
   [[nodiscard]] double offset_m() const { return offset_m_; }
   [[nodiscard]] double heading_rad() const { return heading_rad_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/plant/dozer_plant.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -12,8 +13,8 @@ namespace {
 // Ground that is kept beyond the grade: what lies before the start and the machine itself.
 constexpr double kGroundBehindM = 6.0;
 constexpr double kGroundAheadM = 10.0;
-/// Station of an edge that does not reach a line.
-constexpr double kBesideM = -1e9;
+/// Of the strips of the edge, the one over the middle line.
+constexpr std::size_t kMiddle = kEdgeStrips / 2;
 // On a curve the edge's ends leave their lines of ground for a while.
 constexpr double kInsideEndM = 0.15;
 /// How much harder than its power the part beyond the full one pulls an engine down.
@@ -41,6 +42,7 @@ DozerPlant::DozerPlant(const DozerPlantProfile& profile)
       blade_(profile),
       cylinder_(profile.blade_cylinder(blade_.linkage().full_stroke_m()), step_s_) {
   cylinder_.start(blade_.stroke_m(), blade_.holding_force_n(0.0));
+  edge_mps_.fill(Eigen::Vector2d::Zero());
   if (profile.machine.tilt.present) {
     tilt_.emplace(profile, step_s_);
     const bool curves = profile.machine.grade.curves();
@@ -91,26 +93,64 @@ void DozerPlant::advance(TimeUs duration_us) {
 }
 
 void DozerPlant::step() {
-  const Eigen::Vector2d edge_before = cutting_middle_m();
-  const auto beside_before = edge_beside_m();
-  resist();
+  const EdgePlaces before = edge_places();
+  if (soil_) {
+    resist(before);
+  }
   drive();
   move_blade();
-  const Eigen::Vector2d edge_after = cutting_middle_m();
+  cut(before, edge_places());
   if (soil_) {
-    soil_->move(edge_before, edge_after, terrain_);
     load_engine();
-  } else {
-    terrain_.cut(edge_before, edge_after);
   }
-  cut_beside(beside_before);
-  edge_mps_ = (edge_after - edge_before) / step_s_;
 }
 
-void DozerPlant::resist() {
-  if (soil_) {
-    soil_force_n_ = soil_->force_n(cutting_edge_m(), edge_mps_, body_.pitch_rad(), terrain_);
+void DozerPlant::resist(const EdgePlaces& edge) {
+  if (!cross_) {
+    soil_load_.force_n =
+        soil_->force_n(edge[kMiddle].at_m, edge_mps_[kMiddle], body_.pitch_rad(), terrain_);
+    return;
   }
+  const double half_m = profile_.machine.tilt.half_width_m();
+  const auto share = strip_shares(edge, half_m);
+  const EdgeStand stand = edge_stand();
+  soil_load_ = {};
+  for (std::size_t i = 0; i < kEdgeStrips; ++i) {
+    if (edge[i].reached) {
+      const double along_m = edge[i].along_m;
+      const Eigen::Vector2d force_n =
+          share[i] * soil_->force_n(edge[i].at_m, edge_mps_[i], body_.pitch_rad(), ground_below(i),
+                                    along_m / half_m);
+      add_strip(stand, body_rotation() * edge_in_body_m(along_m), force_n, soil_load_);
+    }
+  }
+}
+
+void DozerPlant::cut(const EdgePlaces& from, const EdgePlaces& to) {
+  std::array<double, kEdgeStrips> share{};
+  share[kMiddle] = 1.0;
+  if (cross_) {
+    share = strip_shares(to, profile_.machine.tilt.half_width_m());
+  }
+  for (std::size_t i = 0; i < kEdgeStrips; ++i) {
+    edge_mps_[i].setZero();
+    if (!from[i].reached || !to[i].reached) {
+      continue;
+    }
+    if (soil_) {
+      soil_->cut_strip(from[i].at_m, to[i].at_m, share[i], ground_below(i));
+    } else {
+      ground_below(i).cut(from[i].at_m, to[i].at_m);
+    }
+    edge_mps_[i] = (to[i].at_m - from[i].at_m) / step_s_;
+  }
+  if (soil_) {
+    soil_->go_on(to[kMiddle].at_m.x() - from[kMiddle].at_m.x());
+  }
+}
+
+Terrain& DozerPlant::ground_below(std::size_t strip) {
+  return strip == kMiddle ? terrain_ : cross_->line[strip < kMiddle ? strip : strip - 1];
 }
 
 void DozerPlant::load_engine() {
@@ -142,23 +182,31 @@ void DozerPlant::drive() {
   if (cross_) {
     TracksGround ground{cross_->left_track(), cross_->right_track()};
     if (plan_) {
-      plan_->step(more_right_n, body_.load_n(), body_.ground_speed_mps(), position_m(), step_s_);
+      plan_->step(more_right_n, soil_load_.yaw_nm, body_.load_n(), body_.ground_speed_mps(),
+                  position_m(), step_s_);
       body_.set_station_share(plan_->station_share(position_m()));
       ground.beyond = 0.5 * plan_->offset_m() / profile_.machine.body.half_gauge_m;
     }
-    body_.step(ground, traction_n, step_s_);
+    body_.step(ground, traction_n, step_s_, body_load());
     return;
   }
-  BodyLoad load;
-  if (soil_) {
-    const Eigen::Vector2d edge = cutting_edge_m();
-    const Eigen::Vector2d arm = {
-        edge.x() - body_.position_m() +
-            profile_.machine.body.mass_centre_height_m * std::sin(body_.pitch_rad()),
-        edge.y() - body_.mass_centre_m()};
-    load = {soil_force_n_, arm.x() * soil_force_n_.y() - arm.y() * soil_force_n_.x(), true};
+  body_.step(terrain_, traction_n, step_s_, body_load());
+}
+
+BodyLoad DozerPlant::body_load() const {
+  if (!soil_) {
+    return {};
   }
-  body_.step(terrain_, traction_n, step_s_, load);
+  const Eigen::Vector2d& force_n = soil_load_.force_n;
+  if (cross_) {
+    return {force_n, soil_load_.pitch_nm, true, soil_load_.roll_nm};
+  }
+  const Eigen::Vector2d edge = cutting_edge_m();
+  const Eigen::Vector2d arm = {
+      edge.x() - body_.position_m() +
+          profile_.machine.body.mass_centre_height_m * std::sin(body_.pitch_rad()),
+      edge.y() - body_.mass_centre_m()};
+  return {force_n, arm.x() * force_n.y() - arm.y() * force_n.x(), true};
 }
 
 double DozerPlant::share_flow() {
@@ -169,24 +217,24 @@ double DozerPlant::share_flow() {
   const double lift_m3ps = implement_.demand_m3ps();
   const double tilt_m3ps = tilt_->demand_m3ps();
   const double share = std::min(1.0, pump_m3ps / std::max(lift_m3ps + tilt_m3ps, 1e-12));
-  tilt_->step(share * tilt_m3ps, body_.roll_rad(), pilot_cut_);
+  tilt_->step(share * tilt_m3ps, body_.roll_rad(), pilot_cut_, soil_load_.tilt_nm);
   return share * lift_m3ps;
 }
 
-std::array<Eigen::Vector2d, CrossGround::kLines> DozerPlant::edge_beside_m() const {
-  std::array<Eigen::Vector2d, CrossGround::kLines> at_m;
-  at_m.fill(Eigen::Vector2d::Zero());
-  for (std::size_t i = 0; cross_ && i < CrossGround::kLines; ++i) {
-    const Eigen::Vector3d point = edge_over_m(cross_->across_m[i]);
-    at_m[i] = {point.x(), point.z()};
-    if (std::abs(point.y()) > profile_.machine.tilt.half_width_m()) {
-      at_m[i].x() = kBesideM;
+EdgePlaces DozerPlant::edge_places() const {
+  EdgePlaces places;
+  for (std::size_t i = 0; i < kEdgeStrips; ++i) {
+    if (i == kMiddle) {
+      places[i] = edge_over(0.0);
+      places[i].reached = true;
+    } else if (cross_) {
+      places[i] = edge_over(cross_->across_m[i < kMiddle ? i : i - 1]);
     }
   }
-  return at_m;
+  return places;
 }
 
-Eigen::Vector3d DozerPlant::edge_over_m(double line_m) const {
+EdgePlace DozerPlant::edge_over(double line_m) const {
   double along_edge_m = line_m;
   Eigen::Vector3d point = edge_point_m(along_edge_m);
   constexpr int kSteps = 2;
@@ -194,26 +242,8 @@ Eigen::Vector3d DozerPlant::edge_over_m(double line_m) const {
     along_edge_m += line_m - point.y();
     point = edge_point_m(along_edge_m);
   }
-  return {point.x(), along_edge_m, point.z()};
-}
-
-Eigen::Vector2d DozerPlant::cutting_middle_m() const {
-  if (!plan_) {
-    return cutting_edge_m();
-  }
-  const Eigen::Vector3d point = edge_over_m(0.0);
-  return {point.x(), point.z()};
-}
-
-void DozerPlant::cut_beside(const std::array<Eigen::Vector2d, CrossGround::kLines>& from_m) {
-  if (cross_) {
-    const auto to_m = edge_beside_m();
-    for (std::size_t i = 0; i < CrossGround::kLines; ++i) {
-      if (from_m[i].x() != kBesideM && to_m[i].x() != kBesideM) {
-        cross_->line[i].cut(from_m[i], to_m[i]);
-      }
-    }
-  }
+  const bool reached = std::abs(along_edge_m) <= profile_.machine.tilt.half_width_m();
+  return {reached, along_edge_m, {point.x(), point.z()}};
 }
 
 void DozerPlant::move_blade() {
@@ -229,10 +259,14 @@ void DozerPlant::move_blade() {
 }
 
 double DozerPlant::soil_moment_nm() const {
+  if (cross_) {
+    return soil_load_.lift_nm;
+  }
+  const Eigen::Vector2d& force_n = soil_load_.force_n;
   const double cosine = std::cos(body_.pitch_rad());
   const double sine = std::sin(body_.pitch_rad());
-  const Eigen::Vector2d in_body = {cosine * soil_force_n_.x() + sine * soil_force_n_.y(),
-                                   cosine * soil_force_n_.y() - sine * soil_force_n_.x()};
+  const Eigen::Vector2d in_body = {cosine * force_n.x() + sine * force_n.y(),
+                                   cosine * force_n.y() - sine * force_n.x()};
   const Eigen::Vector2d arm =
       blade_.linkage().edge_m(blade_.angle_rad()) - profile_.machine.blade.pivot_m;
   return arm.x() * in_body.y() - arm.y() * in_body.x();
@@ -259,28 +293,54 @@ Eigen::Vector2d DozerPlant::cutting_edge_m() const {
   return {middle.x(), middle.z()};
 }
 
+Eigen::Vector3d DozerPlant::edge_in_body_m(double along_edge_m) const {
+  const Eigen::Vector2d edge = blade_.linkage().edge_m(blade_.angle_rad());
+  const double tilt_rad = tilt_ ? tilt_->angle_rad() : 0.0;
+  // Along the blade by its tilt, then with the frame's angle.
+  const double raised = along_edge_m * std::sin(tilt_rad);
+  return {edge.x() - raised * std::sin(blade_.angle_rad()), along_edge_m * std::cos(tilt_rad),
+          edge.y() + raised * std::cos(blade_.angle_rad())};
+}
+
+Eigen::Matrix3d DozerPlant::body_rotation() const {
+  return (Eigen::AngleAxisd(-body_.pitch_rad(), Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(body_.roll_rad(), Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+EdgeStand DozerPlant::edge_stand() const {
+  const Eigen::Matrix3d body = body_rotation();
+  const Eigen::Vector2d& pivot = profile_.machine.blade.pivot_m;
+  const double lift_rad = blade_.angle_rad();
+  EdgeStand stand;
+  stand.edge_middle_m = body * edge_in_body_m(0.0);
+  stand.pivot_m = body * Eigen::Vector3d(pivot.x(), 0.0, pivot.y());
+  stand.mass_centre_m =
+      profile_.machine.body.mass_centre_height_m * body * Eigen::Vector3d::UnitZ();
+  stand.blade_axis = body * Eigen::Vector3d(std::cos(lift_rad), 0.0, std::sin(lift_rad));
+  stand.body_axis = body * Eigen::Vector3d::UnitX();
+  stand.lift_axis = body * Eigen::Vector3d::UnitY();
+  return stand;
+}
+
 Eigen::Vector3d DozerPlant::edge_point_m(double along_edge_m) const {
   const double pitch = body_.pitch_rad();
   const double cosine = std::cos(pitch);
   const double sine = std::sin(pitch);
-  Eigen::Vector2d edge = blade_.linkage().edge_m(blade_.angle_rad());
-  double across = along_edge_m;
+  Eigen::Vector3d edge = edge_in_body_m(along_edge_m);
   if (tilt_) {
-    // Along the blade by its tilt, then with the frame's angle and the body's roll: from the left.
-    const double raised = along_edge_m * std::sin(tilt_->angle_rad());
-    const double level = along_edge_m * std::cos(tilt_->angle_rad());
-    edge += raised * Eigen::Vector2d(-std::sin(blade_.angle_rad()), std::cos(blade_.angle_rad()));
     const double roll = body_.roll_rad();
-    across = level * std::cos(roll) - edge.y() * std::sin(roll);
-    edge.y() = edge.y() * std::cos(roll) + level * std::sin(roll);
+    const double level = edge.y();
+    edge.y() = level * std::cos(roll) - edge.z() * std::sin(roll);
+    edge.z() = edge.z() * std::cos(roll) + level * std::sin(roll);
   }
-  const double ahead = edge.x() * cosine - edge.y() * sine;
-  const double height = body_.height_m() + edge.x() * sine + edge.y() * cosine;
+  const double ahead = edge.x() * cosine - edge.z() * sine;
+  const double height = body_.height_m() + edge.x() * sine + edge.z() * cosine;
   if (plan_) {
-    const PlanPlace place = plan_->place_of(body_.position_m(), ahead, across);
+    const PlanPlace place = plan_->place_of(body_.position_m(), ahead, edge.y());
     return {place.station_m, place.offset_m, height};
   }
-  return {body_.position_m() + ahead, across, height};
+  return {body_.position_m() + ahead, edge.y(), height};
 }
 
 }  // namespace graben::plant

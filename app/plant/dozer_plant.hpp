@@ -10,6 +10,7 @@
 #include "app/plant/dozer_blade_joint.hpp"
 #include "app/plant/dozer_blade_soil.hpp"
 #include "app/plant/dozer_cross_ground.hpp"
+#include "app/plant/dozer_edge_load.hpp"
 #include "app/plant/dozer_ground.hpp"
 #include "app/plant/dozer_half_vehicle.hpp"
 #include "app/plant/dozer_hst_path.hpp"
@@ -30,10 +31,12 @@ namespace graben::plant {
 /// give the same numbers.
 ///
 /// A machine whose blade tilts rolls on ground that differs below its tracks, and each part of its
-/// edge cuts its own line of it. Lift and tilt share the pump's flow as their spools ask for it. No
-/// soil resists it. On a design whose track curves it turns as its tracks push, see PlanMotion, and
-/// x is the station along the track, y the offset to the left of it; else it drives straight. Its
-/// wheels see the ground as if that lay unrolled.
+/// edge cuts its own line of it, with its own part of the soil's force: that rolls the body, turns
+/// the blade against its tilt cylinder, and turns the machine. Lift and tilt share the pump's flow
+/// as their spools ask for it. On a design whose track curves it turns as its tracks push and its
+/// blade is held, see PlanMotion, and x is the station along the track, y the offset to the left of
+/// it; else it drives straight, whatever turns it. Its wheels, and the soil, see the ground as if
+/// that lay unrolled.
 ///
 /// One step, from the state at t to that at t + h: tracks against the ground, transmission, body;
 /// implement valve between the chambers' waves, blade against their impedance, their waves; then
@@ -122,7 +125,8 @@ class DozerPlant {
   /// Beside the middle; of a machine whose blade tilts.
   [[nodiscard]] const std::optional<CrossGround>& cross_ground() const { return cross_; }
   /// What the soil does to the blade, in the world, N; nothing without a soil.
-  [[nodiscard]] const Eigen::Vector2d& soil_force_n() const { return soil_force_n_; }
+  [[nodiscard]] const Eigen::Vector2d& soil_force_n() const { return soil_load_.force_n; }
+  [[nodiscard]] const EdgeLoad& soil_load() const { return soil_load_; }
   /// Of what is before the blade, loose, m^3.
   [[nodiscard]] double carried_m3() const { return soil_ ? soil_->carried_m3() : 0.0; }
 
@@ -136,20 +140,26 @@ class DozerPlant {
 
  private:
   void step();
-  void resist();
+  /// What the soil does to the edge there.
+  void resist(const EdgePlaces& edge);
+  [[nodiscard]] BodyLoad body_load() const;
   /// About the blade's pivot; raising it is positive.
   [[nodiscard]] double soil_moment_nm() const;
+  [[nodiscard]] EdgeStand edge_stand() const;
   void drive();
   void load_engine();
   void move_blade();
   /// What the lift has of the pump's flow, m^3/s, the tilt's share moved.
   double share_flow();
-  void cut_beside(const std::array<Eigen::Vector2d, CrossGround::kLines>& from_m);
-  [[nodiscard]] std::array<Eigen::Vector2d, CrossGround::kLines> edge_beside_m() const;
-  /// Where the edge lies over a line of ground so far left of the track: x, along the edge, z.
-  [[nodiscard]] Eigen::Vector3d edge_over_m(double line_m) const;
-  /// Over the middle line.
-  [[nodiscard]] Eigen::Vector2d cutting_middle_m() const;
+  void cut(const EdgePlaces& from, const EdgePlaces& to);
+  [[nodiscard]] Terrain& ground_below(std::size_t strip);
+  /// Where the edge lies over each line of the ground; over the middle one alone without a tilt.
+  [[nodiscard]] EdgePlaces edge_places() const;
+  /// Over one so far left of the track.
+  [[nodiscard]] EdgePlace edge_over(double line_m) const;
+  [[nodiscard]] Eigen::Vector3d edge_in_body_m(double along_edge_m) const;
+  /// By pitch and roll.
+  [[nodiscard]] Eigen::Matrix3d body_rotation() const;
 
   DozerPlantProfile profile_;
   double step_s_;
@@ -173,8 +183,8 @@ class DozerPlant {
   std::optional<CrossGround> cross_;
   std::optional<PlanMotion> plan_;
   std::optional<BladeSoil> soil_;
-  Eigen::Vector2d soil_force_n_ = Eigen::Vector2d::Zero();
-  Eigen::Vector2d edge_mps_ = Eigen::Vector2d::Zero();
+  EdgeLoad soil_load_;
+  std::array<Eigen::Vector2d, kEdgeStrips> edge_mps_;
 };
 
 }  // namespace graben::plant

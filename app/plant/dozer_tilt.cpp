@@ -56,25 +56,24 @@ double TiltDrive::weight_moment_nm(double roll_rad) const {
   return weight_nm_ * std::sin(angle_ + roll_rad);
 }
 
-double TiltDrive::accelerate(double roll_rad) {
+double TiltDrive::accelerate(double moment_nm) {
   // As BladeJoint: the damping on the mean of old and new.
   const double lever = linkage_.length_per_angle_m(angle_);
   const PistonLoad load = cylinder_.load();
   const double damping = lever * lever * load.damping_nspm;
   const double mobility = step_ / (inertia_ + 0.5 * step_ * damping);
   const double before = rate_;
-  const double free =
-      before + mobility * (weight_moment_nm(roll_rad) + lever * load.force_n - damping * before);
+  const double free = before + mobility * (moment_nm + lever * load.force_n - damping * before);
   const double friction = mobility * std::abs(lever) * load.coulomb_n;
   rate_ = free - std::clamp(free, -friction, friction);
   return 0.5 * lever * (before + rate_);
 }
 
-void TiltDrive::step(double available_m3ps, double roll_rad, bool pilot_cut) {
+void TiltDrive::step(double available_m3ps, double roll_rad, bool pilot_cut, double moment_nm) {
   section_.set_command(pilot_.step(duty_, pilot_cut));
   const ImplementFlows& flows =
       section_.solve(available_m3ps, cylinder_.cap_port(), cylinder_.rod_port());
-  const double velocity = accelerate(roll_rad);
+  const double velocity = accelerate(weight_moment_nm(roll_rad) + moment_nm);
   angle_ += step_ * rate_;
   cylinder_.step(flows.cap_in, flows.rod_in, velocity);
   cylinder_.set_motion(stroke_m(), velocity_mps());

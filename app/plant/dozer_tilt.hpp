@@ -35,7 +35,7 @@ class TiltLinkage {
 };
 
 /// The blade on that axis, its mass centre half its height above it, with its own section of the
-/// implement valve. What the soil does to it is left out: a blade that tilts is simulated without.
+/// implement valve.
 class TiltDrive {
  public:
   TiltDrive(const DozerPlantProfile& profile, double step_s);
@@ -46,8 +46,9 @@ class TiltDrive {
 
   /// What its spool asks of the pump, m^3/s.
   [[nodiscard]] double demand_m3ps() const { return section_.demand_m3ps(); }
-  /// A step on with what the pump has for it, the body rolled so far.
-  void step(double available_m3ps, double roll_rad, bool pilot_cut);
+  /// A step on with what the pump has for it, the body rolled so far. `moment_nm` is what acts on
+  /// the blade beside its weight; raising its left end is positive.
+  void step(double available_m3ps, double roll_rad, bool pilot_cut, double moment_nm = 0.0);
 
   [[nodiscard]] double angle_rad() const { return angle_; }
   [[nodiscard]] double stroke_m() const { return linkage_.stroke_m(angle_); }
@@ -59,7 +60,7 @@ class TiltDrive {
  private:
   [[nodiscard]] double weight_moment_nm(double roll_rad) const;
   /// Returns the cylinder's mean velocity over the step.
-  double accelerate(double roll_rad);
+  double accelerate(double moment_nm);
 
   TiltLinkage linkage_;
   double step_;

@@ -60,7 +60,9 @@ template <class Kind>
 [[nodiscard]] Rows<Excavator> hand_rows(const Excavator&);  ///< 74, 75
 [[nodiscard]] Rows<Dozer> hand_rows(const Dozer&);          ///< And 76, 77: it has neither.
 [[nodiscard]] Rows<Dozer> dozer_rows();
-[[nodiscard]] Rows<Dozer> pose_rows();      ///< 54, 60
+[[nodiscard]] Rows<Dozer> pose_rows();              ///< 54, 60
+[[nodiscard]] Rows<Dozer> tilt_rows(const Dozer&);  ///< 78, 79
+[[nodiscard]] Rows<Excavator> tilt_rows(const Excavator&);
 [[nodiscard]] Rows<Excavator> swap_rows();  ///< 55: a dozer has one stroke.
 /// All of a kind, by their numbers.
 template <class Kind>

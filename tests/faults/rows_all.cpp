@@ -20,11 +20,17 @@ Rows<Excavator> own_rows(const Excavator&) {
   for (const Row<Excavator>& row : swap_rows()) {
     rows.push_back(row);
   }
+  for (const Row<Excavator>& row : tilt_rows(Excavator())) {
+    rows.push_back(row);
+  }
   return rows;
 }
 Rows<Dozer> own_rows(const Dozer&) {
   Rows<Dozer> rows = dozer_rows();
   for (const Row<Dozer>& row : pose_rows()) {
+    rows.push_back(row);
+  }
+  for (const Row<Dozer>& row : tilt_rows(Dozer())) {
     rows.push_back(row);
   }
   return rows;

@@ -58,12 +58,6 @@ SimulatedDozer arranged(SimulatedDozer machine, const DozerScenario& scenario) {
     hst.engine_radps = *scenario.engine_radps;
   }
   if (!scenario.soil.empty()) {
-    if (machine.profile.tilt.present) {
-      throw std::runtime_error(fmt::format(
-          "ground that resists is not simulated of a machine whose blade tilts ({}); allowed: "
-          "--soil on a machine without [tilt]",
-          machine.name));
-    }
     machine.plant.soil = ground_of(scenario.soil, scenario.errors, scenario.seed);
     GradeDesign& grade = machine.profile.grade;
     grade.pass_depth_m = std::min(grade.pass_depth_m, kFirstPass_m);

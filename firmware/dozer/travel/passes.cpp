@@ -31,7 +31,10 @@ constexpr double kFastestBack_mps = 1.0;
 
 void note(const GradeDesign& design, const PassSituation& now, double period_s, PassState& state) {
   state.error_m += (now.error_m - state.error_m) * period_s / (kErrorFilter_s + period_s);
-  if (now.edge_x_m < design.begin_m() || now.edge_x_m > design.end_m() ||
+  // Before where the last pass first left something, the ground is as it is to be, whatever an edge
+  // that is still on its way down does over it.
+  const double from_m = state.pass > 1 ? state.due_m : design.begin_m();
+  if (now.edge_x_m < from_m || now.edge_x_m > design.end_m() ||
       state.error_m <= design.tolerance_m + kWorthIt_m) {
     return;
   }

@@ -115,8 +115,11 @@ void a_blade_that_comes_down_leaves_nothing(void**) {
   const PassState never = goes(late, 3.9, 5.0, 0.2);
   assert_true(never.left && never.down);
   assert_near(never.from_m, 4.04, 0.02);
+  // What the pass before left good stays so if the blade comes down to it and bounces.
   const PassState bounced = goes(goes(state, 2.8, 3.0, 0.01), 3.01, 3.9, 0.2);
-  assert_near(bounced.from_m, 3.02, 0.011);
+  assert_true(bounced.down);
+  assert_false(bounced.left);
+  assert_near(goes(bounced, 3.91, 5.0, 0.2).from_m, 4.0, 0.011);
 }
 
 /// 10 mm of noise on 18 mm that stay.
