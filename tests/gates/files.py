@@ -3,8 +3,10 @@
 """Gate: no hand-written source is too long, few are short, no file knows the machine it was written on.
 
 What is read together stands together: in no area may a fifth of the sources have 40 lines or fewer.
-The example of a machine kind keeps to what its recipe promises."""
+A unit test that no CMakeLists.txt names is never run. The example of a machine kind keeps to what its recipe
+promises."""
 
+import pathlib
 import re
 
 import tree
@@ -56,4 +58,11 @@ inside = [sum(LICENCE not in line for line in (root / name).read_text().splitlin
           for name in names if name.startswith(folder)]
 if not 0 < len(inside) <= most_files or sum(inside) > most_lines:
     problems.append(f"{folder}: {len(inside)} files, {sum(inside)} lines; {most_files} and {most_lines} are the most")
+lists = "\n".join((root / name).read_text() for name in names if name.endswith("CMakeLists.txt"))
+words = set(re.findall(r"\w+", lists))
+patterns = [pathlib.PurePath(pattern).name for pattern in re.findall(r"GLOB \w+ (\S+)\)", lists)]
+for name in map(pathlib.PurePath, names):
+    if (name.parts[:2] == ("tests", "unit") and name.match("test_*.cpp") and not any(map(name.match, patterns))
+            and words.isdisjoint({name.stem, name.stem.removeprefix("test_")})):
+        problems.append(f"{name}: no CMakeLists.txt names it, so it is never run")
 tree.report("files", problems, len(names))

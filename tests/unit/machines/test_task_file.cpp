@@ -1,79 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/machines/task_file.hpp"
 
-#include <unistd.h>
-
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
-#include "app/machines/excavator_file.hpp"
 #include "app/machines/task_text.hpp"
-#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/machines/written_task.hpp"
 
 namespace {
 
 using namespace graben;
-
-const ExcavatorProfile& profile(const char* name) {
-  static const machines::ExcavatorMachine small =
-      machines::load_excavator(machines::find_profile("excavator_12t"));
-  static const machines::ExcavatorMachine large =
-      machines::load_excavator(machines::find_profile("excavator_22t"));
-  return std::string(name) == "excavator_12t" ? small.profile : large.profile;
-}
-
-std::string shipped(const char* name) {
-  std::ifstream in(machines::find_task(name));
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// A task file with this text, for as long as it is looked at.
-class Written {
- public:
-  explicit Written(const std::string& text)
-      : path_(std::filesystem::temp_directory_path() /
-              ("graben_task_" + std::to_string(getpid()) + ".toml")) {
-    std::ofstream(path_) << text;
-  }
-  ~Written() { std::filesystem::remove(path_); }
-  Written(const Written&) = delete;
-  Written& operator=(const Written&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
-/// The errors of a text, one a line; empty if it is a task.
-std::string errors_of(const std::string& text, const char* machine = "excavator_12t") {
-  const Written file(text);
-  try {
-    static_cast<void>(machines::load_task(file.path(), profile(machine)));
-  } catch (const machines::ProfileError& error) {
-    std::string all;
-    for (const std::string& line : error.errors()) {
-      all += line + "\n";
-    }
-    return all;
-  }
-  return "";
-}
-
-/// The shipped text with one part of it replaced.
-std::string edited(const char* name, const std::string& from, const std::string& to) {
-  std::string text = shipped(name);
-  const std::size_t at = text.find(from);
-  assert_true(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
-
-void assert_says(const std::string& errors, const std::string& what) {
-  if (errors.find(what) == std::string::npos) {
-    print_error("'%s' not in:\n%s", what.c_str(), errors.c_str());
-    _fail(__FILE__, __LINE__);
-  }
-}
+using namespace graben::test;
 
 void the_paper_s_line(void**) {
   const machines::TaskFile task =
@@ -209,32 +145,6 @@ void a_pace_of_the_other_form_is_unknown(void**) {
   assert_true(errors_of(edited("flatten", "duration = 18.4", "")).empty());
   assert_says(errors_of("start = { position = [7.0, 0.0, 0.0], attitude = 2.0 }\n"),
               "step: must be 1 to 24 tables; there are 0");
-}
-
-/// One error, and no followers of what it has left unread.
-void what_is_no_table_is_said_once(void**) {
-  const auto says_only = [](const std::string& text, const char* what) {
-    assert_string_equal(errors_of(text).c_str(), what);
-  };
-  says_only("area = 3\n", "area (line 1): must be a table of keys\n");
-  const std::string flatten = shipped("flatten");
-  says_only(edited("flatten", "{ position = [0.0, 6.866, 0.0], attitude = 2.268928 }", "7"),
-            "start (line 4): must be a table of keys\n");
-  says_only("fence = []\n" + flatten, "fence (line 1): must be 1 to 8 tables; there are 0\n");
-  says_only("fence = [1, 2]\n" + flatten, "fence (line 1): must be 1 to 8 tables; there are 0\n");
-}
-
-void an_area_s_errors_name_its_table(void**) {
-  const auto with = [](const char* keys) {
-    return errors_of(std::string("area = { kind = \"level\", near = 4.4, ") + keys + " }\n");
-  };
-  assert_true(with("far = 6.6, depth = 0.2, strips = 2").empty());
-  assert_string_equal(with("far = 6.6, depth = 0.2, strips = 2.5").c_str(),
-                      "area.strips (line 1): 2.5 is not a whole number; allowed: 1 .. 5\n");
-  assert_string_equal(with("far = -1, depth = 0.2").c_str(),
-                      "area.far (line 1): -1 is out of range; allowed: 0.5 .. 20 m\n");
-  assert_says(with("far = 4.0, depth = 0.2"), "area.near (line 1): 4.4 m; allowed: less than far");
-  assert_says(with("far = 6.6, depth = 5.0"), "area (line 1): step 0 (dig): out of the reach");
 }
 
 /// What can't be planned says which step, what is in the way and where.
@@ -394,8 +304,6 @@ int main() {
       cmocka_unit_test(every_error_is_listed),
       cmocka_unit_test(boxes_and_cylinders_are_kept_out_of),
       cmocka_unit_test(a_pace_of_the_other_form_is_unknown),
-      cmocka_unit_test(what_is_no_table_is_said_once),
-      cmocka_unit_test(an_area_s_errors_name_its_table),
       cmocka_unit_test(refusals_name_step_joint_and_place),
       cmocka_unit_test(steps_end_early_and_rounds_repeat),
       cmocka_unit_test(what_ends_a_step_or_a_round_is_checked),
