@@ -12,8 +12,10 @@ constexpr double kRunUp_m = 1.2;
 /// More than what is allowed, for the noise of what is measured.
 constexpr double kWorthIt_m = 0.005;
 constexpr double kErrorFilter_s = 0.1;
-/// A pass that leaves more than this of what the one before has left lowers nothing.
+/// A pass that leaves more than this of what the one before has left lowers nothing. So many in a
+/// row are the last: a stone that one has loosened the next one takes.
 constexpr double kLowers = 0.95;
+constexpr int kVainMost = 2;
 /// Of what the tracks may push, how much a pass is to take; with less the next goes deeper, but no
 /// more than so much at once.
 constexpr double kFullPush = 0.9;
@@ -45,9 +47,10 @@ void note(const GradeDesign& design, const PassSituation& now, double period_s, 
 }
 
 /// At its end.
-bool is_another_worth_it(const GradeDesign& design, const PassState& state) {
+bool is_another_worth_it(const GradeDesign& design, PassState& state) {
   const bool lowers = state.last_left_m2 <= 0.0 || state.left_m2 <= kLowers * state.last_left_m2;
-  return state.left && lowers && state.pass < design.passes_most;
+  state.vain = lowers ? 0 : state.vain + 1;
+  return state.left && state.vain < kVainMost && state.pass < design.passes_most;
 }
 
 /// How hard it is, all the way.
@@ -77,7 +80,7 @@ void begin_pass(const GradeDesign& design, PassState& state) {
   state.phase = PassPhase::kCut;
   ++state.pass;
   state.left = false;
-  state.last_left_m2 = state.left_m2;
+  state.last_left_m2 = state.vain > 0 ? std::min(state.last_left_m2, state.left_m2) : state.left_m2;
   state.left_m2 = 0.0;
   state.error_m = 0.0;
 }

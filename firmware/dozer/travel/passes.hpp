@@ -29,6 +29,7 @@ struct PassState {
   double from_m = 0.0;
   double left_m2 = 0.0;       ///< What stands above the tolerance there, in this pass,
   double last_left_m2 = 0.0;  ///< and in the one before; 0: the first.
+  int vain = 0;               ///< Passes in a row that have lowered nothing.
   bool down = true;           ///< The blade has come to the ground in this pass,
   double due_m = 0.0;         ///< which it is to from here on: what the pass before left.
   double clear_m = 0.0;       ///< The blade over the design.
@@ -49,7 +50,7 @@ struct PassSituation {
 /// noted with its place, but for where the blade is still on its way down. At the design's last
 /// point, behind which what it carries is dumped, the machine stops and goes back with the blade
 /// clear of the ground, to a run-up before the first of it; and cuts again, up to `passes_most`
-/// times, as long as a pass lowers what the one before has left.
+/// times, as long as one of two passes lowers what the one before has left.
 ///
 /// The first pass goes `pass_depth_m` deep; each next one as much deeper as the one before had
 /// force to spare, or less where its load lifted the blade.
