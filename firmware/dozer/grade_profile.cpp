@@ -16,7 +16,37 @@ double slope_after(const GradeDesign& design, int count, int i) {
   return (to.z_m - from.z_m) / (to.x_m - from.x_m);
 }
 
+/// Between two heights a parabola, of the curvature that there is about both; its slope goes over
+/// from the one at the first to the one at the second. So are cross slopes.
+GradeSample on_grid(const GradeHeights& heights, const double* values, double x_m) {
+  const int last = heights.count - 1;
+  const double place = (x_m - heights.from_m) / GradeHeights::kStep_m;
+  if (!(place > 0.0)) {
+    return {values[0], 0.0};
+  }
+  if (place >= last) {
+    return {values[last], 0.0};
+  }
+  const int index = static_cast<int>(place);
+  const double* const here = values + index;
+  const double before_m = here[index > 0 ? -1 : 0];
+  const double after_m = here[index + 2 <= last ? 2 : 1];
+  // Twice the rise from one to the next.
+  const double rise_m = here[1] - before_m;
+  const double bend_m = after_m - here[0] - rise_m;
+  const double share = place - index;
+  return {here[0] + share * (here[1] - here[0]) - 0.25 * bend_m * share * (1.0 - share),
+          (rise_m + share * bend_m) / (2.0 * GradeHeights::kStep_m)};
+}
+
 }  // namespace
+
+double curvature_at(const GradeHeights& heights, double x_m) {
+  const double along_m = x_m - heights.from_m;
+  const bool beside = along_m > 0.0 && along_m < (heights.count - 1) * GradeHeights::kStep_m;
+  return heights.curvature != nullptr && beside ? on_grid(heights, heights.curvature, x_m).height_m
+                                                : 0.0;
+}
 
 GradeProfile::GradeProfile(const GradeDesign& design)
     : plane_height_m_(design.plane_height_m),
@@ -51,31 +81,9 @@ GradeSample GradeProfile::of_points(double x_m) const {
   return sample;
 }
 
-/// Between two heights a parabola, of the curvature that there is about both; its slope goes over
-/// from the one at the first to the one at the second. So are cross slopes.
-GradeSample GradeProfile::on_grid(const double* values, double x_m) const {
-  const int last = heights_.count - 1;
-  const double place = (x_m - heights_.from_m) / GradeHeights::kStep_m;
-  if (!(place > 0.0)) {
-    return {values[0], 0.0};
-  }
-  if (place >= last) {
-    return {values[last], 0.0};
-  }
-  const int index = static_cast<int>(place);
-  const double* const here = values + index;
-  const double before_m = here[index > 0 ? -1 : 0];
-  const double after_m = here[index + 2 <= last ? 2 : 1];
-  // Twice the rise from one to the next.
-  const double rise_m = here[1] - before_m;
-  const double bend_m = after_m - here[0] - rise_m;
-  const double share = place - index;
-  return {here[0] + share * (here[1] - here[0]) - 0.25 * bend_m * share * (1.0 - share),
-          (rise_m + share * bend_m) / (2.0 * GradeHeights::kStep_m)};
-}
-
 GradeSample GradeProfile::at(double x_m) const {
-  const GradeSample over = heights_.count > 1 ? on_grid(heights_.height_m, x_m) : of_points(x_m);
+  const GradeSample over =
+      heights_.count > 1 ? on_grid(heights_, heights_.height_m, x_m) : of_points(x_m);
   const double plane_m = plane_height_m_ + plane_slope_ * x_m;
   return over.height_m < floor_m_ ? GradeSample{plane_m + floor_m_, plane_slope_}
                                   : GradeSample{plane_m + over.height_m, plane_slope_ + over.slope};
@@ -85,14 +93,8 @@ CrossSample GradeProfile::cross_at(double x_m) const {
   if (heights_.count < 2 || heights_.cross == nullptr) {
     return {};
   }
-  const GradeSample sample = on_grid(heights_.cross, x_m);
+  const GradeSample sample = on_grid(heights_, heights_.cross, x_m);
   return {sample.height_m, sample.slope};
-}
-
-double GradeProfile::curvature_at(double x_m) const {
-  const double along_m = x_m - heights_.from_m;
-  const bool beside = along_m > 0.0 && along_m < (heights_.count - 1) * GradeHeights::kStep_m;
-  return curves() && beside ? on_grid(heights_.curvature, x_m).height_m : 0.0;
 }
 
 double grade_error_m(const GradeProfile& profile, double x_m, double z_m) {

@@ -21,6 +21,10 @@ struct CrossSample {
   double change_pm = 0.0;  ///< Per metre along x.
 };
 
+/// Curvature in plan of a track whose heights are on a grid, 1/m, to the left positive. Straight
+/// before the first and after the last, and where the heights have none.
+[[nodiscard]] double curvature_at(const GradeHeights& heights, double x_m);
+
 /// Every corner is a parabola over `rounding_m` to either side, so that the slope has no step.
 /// Before the first and after the last point the heights go on level; these two have no curve. No
 /// two curves overlap: the application's check wants the points that far apart. Of heights on a
@@ -36,8 +40,9 @@ class GradeProfile {
   [[nodiscard]] GradeSample at(double x_m) const;
   /// Before the first and after the last height it stays as there. A floor does not change it.
   [[nodiscard]] CrossSample cross_at(double x_m) const;
-  /// Of the track in plan, 1/m, to the left positive. Straight before the first and after the last.
-  [[nodiscard]] double curvature_at(double x_m) const;
+  [[nodiscard]] double curvature_at(double x_m) const {
+    return graben::curvature_at(heights_, x_m);
+  }
   [[nodiscard]] bool curves() const { return heights_.count > 1 && heights_.curvature != nullptr; }
 
  private:
@@ -50,7 +55,6 @@ class GradeProfile {
 
   /// Over the plane, before the floor.
   [[nodiscard]] GradeSample of_points(double x_m) const;
-  [[nodiscard]] GradeSample on_grid(const double* values, double x_m) const;
 
   double plane_height_m_;
   double plane_slope_;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/reports/check/warnings.hpp"
 #include "firmware/dozer/blade.hpp"
+#include "firmware/dozer/tilt.hpp"
 #include "firmware/dozer/travel/tracks.hpp"
 #include "firmware/numeric/constants.hpp"
 
@@ -14,6 +16,11 @@ namespace {
 double edge_per_stroke(const BladeGeometry& geometry) {
   const BladeKinematics blade(geometry);
   return std::abs(blade.edge_rate_mprad(0.0).y() / blade.stroke_rate_mprad(0.0));
+}
+
+double pump_flow_m3ps(const DozerProfile& profile) {
+  return profile.hst.engine_radps / kTwoPi * profile.implement.displacement_m3prev *
+         profile.implement.efficiency;
 }
 
 FactTable blade_table(const DozerProfile& profile) {
@@ -29,30 +36,86 @@ FactTable blade_table(const DozerProfile& profile) {
           ""};
 }
 
-FactTable drive_table(const DozerProfile& profile, const machines::SimulatedDozer* simulated) {
-  const double flow_m3ps = available_flow_m3ps(profile.implement, profile.hst.engine_radps);
-  const double ratio = edge_per_stroke(profile.blade);
-  const double cap_m2 = profile.blade.cap_area_m2();
-  const double rod_m2 = profile.blade.rod_area_m2();
-  const auto force = [&](double area_m2) {
-    return simulated == nullptr
-               ? std::string("-")
-               : fmt::format("{:.0f}", 1e-3 * simulated->plant.implement_relief_pa * area_m2);
-  };
-  const auto row = [&](const char* name, double area_m2) {
-    return std::vector<std::string>{name, fmt::format("{:.3f}", flow_m3ps / area_m2),
-                                    fmt::format("{:.3f}", ratio * flow_m3ps / area_m2),
-                                    force(area_m2)};
-  };
-  FactTable table{"Blade cylinders at full flow and at relief",
-                  {"", "cylinders, m/s", "cutting edge at home, m/s", "cylinders' force, kN"},
-                  {row("lowers", cap_m2), row("raises", rod_m2)},
-                  fmt::format("{:.1f} L/min with the engine at {:g} rad/s", 6e4 * flow_m3ps,
-                              profile.hst.engine_radps)};
+/// Of a blade that tilts: its left end down and up against the machine.
+FactTable tilt_table(const TiltProfile& tilt) {
+  const TiltKinematics linkage(tilt);
+  const double most_rad = tilt.angle_most_rad;
+  const double end_m = tilt.half_width_m() * std::sin(most_rad);
+  const auto stroke = [&](double rad) { return fmt::format("{:.3f}", linkage.stroke_m(rad)); };
+  return {"Tilt of the blade",
+          {"", "left end down", "left end up", ""},
+          {{"blade", fmt::format("{:.1f}", -kDegreesPerRad * most_rad),
+            fmt::format("{:.1f}", kDegreesPerRad * most_rad), "deg, against the machine"},
+           {"left end of the edge", fmt::format("{:.2f}", -end_m), fmt::format("{:.2f}", end_m),
+            "m, against its middle"},
+           {"stroke", stroke(-most_rad), stroke(most_rad),
+            fmt::format("m; extension {} the left end",
+                        linkage.stroke_rate_mprad(0.0) > 0.0 ? "lifts" : "lowers")}},
+          ""};
+}
+
+/// A drive of the blade alone on the pump.
+struct BladeDrive {
+  const char* title;
+  const char* cylinders;
+  const char* cylinders_own;
+  const char* edge;        ///< What of the cutting edge it moves.
+  double edge_per_stroke;  ///< Speed of that over the cylinders'.
+  double flow_m3ps;
+};
+struct DriveWay {
+  const char* name;
+  double area_m2;  ///< That is fed.
+};
+
+FactTable drive_table(const BladeDrive& drive, const std::array<DriveWay, 2>& ways,
+                      double engine_radps, const machines::SimulatedDozer* simulated) {
+  FactTable table{drive.title,
+                  {"", fmt::format("{}, m/s", drive.cylinders), fmt::format("{}, m/s", drive.edge),
+                   fmt::format("{} force, kN", drive.cylinders_own)},
+                  {},
+                  fmt::format("{:.1f} L/min with the engine at {:g} rad/s", 6e4 * drive.flow_m3ps,
+                              engine_radps)};
+  for (const DriveWay& way : ways) {
+    const double stroke_mps = drive.flow_m3ps / way.area_m2;
+    table.rows.push_back(
+        {way.name, fmt::format("{:.3f}", stroke_mps),
+         fmt::format("{:.3f}", drive.edge_per_stroke * stroke_mps),
+         simulated == nullptr
+             ? "-"
+             : fmt::format("{:.0f}", 1e-3 * simulated->plant.implement_relief_pa * way.area_m2)});
+  }
   if (simulated == nullptr) {
     table.note += "; forces need the relief: there is no NAME.sim.toml beside the profile";
   }
   return table;
+}
+
+FactTable lift_drive_table(const DozerProfile& profile, const machines::SimulatedDozer* simulated) {
+  return drive_table(
+      {"Blade cylinders at full flow and at relief", "cylinders", "cylinders'",
+       "cutting edge at home", edge_per_stroke(profile.blade),
+       available_flow_m3ps(profile.implement, profile.hst.engine_radps)},
+      {{{"lowers", profile.blade.cap_area_m2()}, {"raises", profile.blade.rod_area_m2()}}},
+      profile.hst.engine_radps, simulated);
+}
+
+/// What its spool lets through of what the pump gives.
+double tilt_flow_m3ps(const DozerProfile& profile) {
+  return std::min(profile.tilt.valve_flow_max_m3ps, pump_flow_m3ps(profile));
+}
+
+FactTable tilt_drive_table(const DozerProfile& profile, const machines::SimulatedDozer* simulated) {
+  const TiltProfile& tilt = profile.tilt;
+  const double rate_mprad = TiltKinematics(tilt).stroke_rate_mprad(0.0);
+  const bool extension_lifts = rate_mprad > 0.0;
+  return drive_table(
+      {"Tilt cylinder at full flow and at relief, lift at rest", "cylinder", "cylinder's",
+       "end of the edge, level", tilt.half_width_m() / std::abs(rate_mprad),
+       tilt_flow_m3ps(profile)},
+      {{{"left end up", extension_lifts ? tilt.cap_area_m2() : tilt.rod_area_m2()},
+        {"left end down", extension_lifts ? tilt.rod_area_m2() : tilt.cap_area_m2()}}},
+      profile.hst.engine_radps, simulated);
 }
 
 FactTable travel_table(const DozerProfile& profile) {
@@ -69,6 +132,33 @@ FactTable travel_table(const DozerProfile& profile) {
                           fmt::format("{:.2f}", track_speed_max_mps(hst, radps))});
   }
   return table;
+}
+
+/// Of a cylinder's oil, its ports shut.
+double oil_spring_npm(const plant::CylinderData& cylinder, double stroke_m) {
+  const double cap_m2 = cylinder.area.cap_m2;
+  const double rod_m2 = cylinder.area.rod_m2;
+  return cylinder.bulk_modulus_pa *
+         (cap_m2 * cap_m2 / (cylinder.dead_volume_m3 + cap_m2 * stroke_m) +
+          rod_m2 * rod_m2 / (cylinder.dead_volume_m3 + rod_m2 * (cylinder.stroke_m - stroke_m)));
+}
+
+std::string mode_hz(double spring_nmprad, double inertia_kgm2) {
+  return fmt::format("{:.1f}", std::sqrt(spring_nmprad / inertia_kgm2) / kTwoPi);
+}
+
+/// Of the blade about its tilt's axis.
+std::string tilt_mode_hz(const plant::DozerPlantProfile& plant) {
+  const TiltProfile& tilt = plant.machine.tilt;
+  const TiltKinematics linkage(tilt);
+  plant::CylinderData cylinder;
+  cylinder.area = plant::piston_areas(tilt.cylinder_count, tilt.bore_m, tilt.rod_m);
+  cylinder.stroke_m = linkage.stroke_max_m();
+  cylinder.dead_volume_m3 = plant.tilt.dead_volume_m3;
+  cylinder.bulk_modulus_pa = plant.bulk_modulus_pa;
+  const double lever_m = linkage.stroke_rate_mprad(0.0);
+  return mode_hz(oil_spring_npm(cylinder, linkage.stroke_m(0.0)) * lever_m * lever_m,
+                 plant.tilt.inertia_kgm2);
 }
 
 /// Of body and blade: rocking on its springs, the blade on its oil.
@@ -96,23 +186,32 @@ FactTable mode_table(const DozerProfile& profile, const machines::SimulatedDozer
   const double pitch_nmprad = 2.0 * square_m2 * profile.body.suspension_npm;
   const BladeKinematics blade(profile.blade);
   const plant::CylinderData cylinder = plant.blade_cylinder(blade.stroke_max_m());
-  const double stroke_m = blade.stroke_m(0.0);
-  const double spring_npm =
-      plant.bulk_modulus_pa *
-      (cylinder.area.cap_m2 * cylinder.area.cap_m2 /
-           (cylinder.dead_volume_m3 + cylinder.area.cap_m2 * stroke_m) +
-       cylinder.area.rod_m2 * cylinder.area.rod_m2 /
-           (cylinder.dead_volume_m3 + cylinder.area.rod_m2 * (cylinder.stroke_m - stroke_m)));
+  const double spring_npm = oil_spring_npm(cylinder, blade.stroke_m(0.0));
   const double lever_m = blade.stroke_rate_mprad(0.0);
   const double inertia_kgm2 = plant.blade_mass_kg * plant.blade_reach_m * plant.blade_reach_m;
-  table.rows.push_back(
-      {"pitch", fmt::format("{:.1f}", std::sqrt(pitch_nmprad / plant.pitch_inertia_kgm2) / kTwoPi),
-       "body on the springs of both tracks"});
-  table.rows.push_back(
-      {"blade",
-       fmt::format("{:.1f}", std::sqrt(spring_npm * lever_m * lever_m / inertia_kgm2) / kTwoPi),
-       "at home on its oil, valve shut, body held"});
+  table.rows.push_back({"pitch", mode_hz(pitch_nmprad, plant.pitch_inertia_kgm2),
+                        "body on the springs of both tracks"});
+  table.rows.push_back({"blade", mode_hz(spring_npm * lever_m * lever_m, inertia_kgm2),
+                        "at home on its oil, valve shut, body held"});
+  if (profile.tilt.present) {
+    table.rows.push_back({"tilt", tilt_mode_hz(plant), "level on its oil, valve shut, body held"});
+  }
   return table;
+}
+
+void expect_tilt(Warnings& warnings, const DozerProfile& profile,
+                 const machines::SimulatedDozer* simulated) {
+  const TiltProfile& tilt = profile.tilt;
+  expect_rod(warnings, "tilt.cylinder", tilt.bore_m, tilt.rod_m);
+  const double end_mps = tilt.half_width_m() /
+                         std::abs(TiltKinematics(tilt).stroke_rate_mprad(0.0)) *
+                         tilt_flow_m3ps(profile) / tilt.cap_area_m2();
+  warnings.expect("tilt.cylinder.bore", end_mps, 0.05, 1.0,
+                  "end of the edge at full flow into the cap", "m/s");
+  if (simulated != nullptr) {
+    expect_deadband(warnings, "tilt.spool_to_duty", simulated->plant.deadband_ratio,
+                    tilt.spool_to_duty);
+  }
 }
 
 void expect_plant(Warnings& warnings, const machines::SimulatedDozer& machine) {
@@ -155,8 +254,7 @@ std::vector<Warning> dozer_warnings(const machines::DozerMachine& machine,
   expect_rod(warnings, "blade.cylinder", profile.blade.bore_m, profile.blade.rod_m);
   expect_times(warnings, profile.safety.settle_s, profile.control.sensor_timeout_s,
                profile.control.response_s);
-  const double pump_m3ps = hst.engine_radps / kTwoPi * profile.implement.displacement_m3prev *
-                           profile.implement.efficiency;
+  const double pump_m3ps = pump_flow_m3ps(profile);
   warnings.expect("implement.valve_flow_max", profile.implement.valve_flow_max_m3ps / pump_m3ps,
                   0.5, 3.0,
                   fmt::format("{:.0f} L/min through the valve over {:.0f} L/min of its pump",
@@ -189,6 +287,9 @@ std::vector<Warning> dozer_warnings(const machines::DozerMachine& machine,
                           profile.blade.cap_area_m2();
   warnings.expect("blade.cylinder.bore", edge_mps, 0.05, 1.0,
                   "lowering of the cutting edge at full flow", "m/s");
+  if (profile.tilt.present) {
+    expect_tilt(warnings, profile, simulated);
+  }
   if (simulated != nullptr) {
     expect_plant(warnings, *simulated);
   }
@@ -201,11 +302,17 @@ MachineCheck check_machine(const machines::DozerMachine& machine,
   check.name = machine.name;
   check.kind = "dozer";
   check.hash = machine.hash;
-  check.tables = {blade_table(machine.profile), drive_table(machine.profile, simulated),
-                  travel_table(machine.profile), mode_table(machine.profile, simulated),
-                  provenance_table(machine.provenance)};
+  const DozerProfile& profile = machine.profile;
+  check.tables = {blade_table(profile), lift_drive_table(profile, simulated)};
+  if (profile.tilt.present) {
+    check.tables.push_back(tilt_table(profile.tilt));
+    check.tables.push_back(tilt_drive_table(profile, simulated));
+  }
+  check.tables.push_back(travel_table(profile));
+  check.tables.push_back(mode_table(profile, simulated));
+  check.tables.push_back(provenance_table(machine.provenance));
   check.warnings = dozer_warnings(machine, simulated);
-  check.drawing = dozer_drawing(machine.profile);
+  check.drawing = dozer_drawing(profile);
   return check;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/dozer/grade_profile.hpp"
+
 namespace graben {
 namespace {
 
@@ -32,7 +34,9 @@ void watch(const DozerProfile& profile, DriveRows drives, const DozerLastCommand
   }
   if (!moving || valid.fault != Fault::kNone) {
     state.pose = {};
-  } else if (watch_pose(valid, ground_speeds(profile, valid), period_s, state.pose)) {
+  } else if (watch_pose(valid, ground_speeds(profile, valid),
+                        curvature_at(profile.grade.heights, valid.position_m), period_s,
+                        state.pose)) {
     stops.add(Fault::kPoseDisagrees);
   }
   stop(stops, valid);

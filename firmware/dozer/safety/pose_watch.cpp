@@ -36,8 +36,8 @@ bool exceeds(double residual, double most) { return !(std::abs(residual) <= most
 
 }  // namespace
 
-bool watch_pose(const DozerValid& valid, const GroundSpeeds& speeds, double period_s,
-                PoseWatchState& state) {
+bool watch_pose(const DozerValid& valid, const GroundSpeeds& speeds, double curvature_pm,
+                double period_s, PoseWatchState& state) {
   if (!state.has_begun) {
     state = {};
     state.has_begun = true;
@@ -56,6 +56,10 @@ bool watch_pose(const DozerValid& valid, const GroundSpeeds& speeds, double peri
     next(valid.course.offset_m - state.offset_m -
              valid.velocity_mps * std::sin(valid.course.heading_rad) * period_s,
          kept, state.aside_m);
+    // The velocity is that of the station: the track below the body turns with it.
+    const double turns_radps = valid.course.yaw_rate_radps - curvature_pm * valid.velocity_mps;
+    next(valid.course.heading_rad - state.heading_rad - turns_radps * period_s, kept,
+         state.yawed_rad);
     next(uphill_mps * period_s, std::max(0.0, 1.0 - period_s / kSlopeForget_s), state.uphill_m);
     next(least_beyond_slip(speeds, ground_mps) * period_s, kept, state.slipped_m);
   }
@@ -64,10 +68,11 @@ bool watch_pose(const DozerValid& valid, const GroundSpeeds& speeds, double peri
   state.pitch_rad = valid.pitch_rad;
   state.roll_rad = valid.roll_rad;
   state.offset_m = valid.course.offset_m;
+  state.heading_rad = valid.course.heading_rad;
   return exceeds(state.ahead_m, kMostAhead_m) || exceeds(state.climbed_m, kMostClimbed_m) ||
          exceeds(state.turned_rad, kMostTurned_rad) || exceeds(state.rolled_rad, kMostTurned_rad) ||
-         exceeds(state.aside_m, kMostAhead_m) || exceeds(state.uphill_m, kMostUphill_m) ||
-         exceeds(state.slipped_m, kMostSlipped_m);
+         exceeds(state.aside_m, kMostAhead_m) || exceeds(state.yawed_rad, kMostYawed_rad) ||
+         exceeds(state.uphill_m, kMostUphill_m) || exceeds(state.slipped_m, kMostSlipped_m);
 }
 
 }  // namespace graben

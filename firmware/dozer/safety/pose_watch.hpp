@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Checks that what is measured of the body's motion fits together: position and velocity, height
-/// and climb, pitch and its rate, roll and its rate, offset from the track and heading, the climb
-/// and the slope that it drives up, velocity and tracks. A sensor that is frozen with a live
-/// counter shows only here.
+/// and climb, pitch and its rate, roll and its rate, offset from the track and heading, heading and
+/// yaw rate, the climb and the slope that it drives up, velocity and tracks. A sensor that is
+/// frozen with a live counter shows only here.
 
 #include "firmware/dozer/safety/dozer_validation.hpp"
 
@@ -26,7 +26,9 @@ struct PoseWatchState {
   double turned_rad = 0.0;  ///< Pitch against its rate.
   double rolled_rad = 0.0;  ///< Roll against its rate.
   double offset_m = 0.0;
-  double aside_m = 0.0;    ///< Offset from the track against heading and velocity.
+  double aside_m = 0.0;  ///< Offset from the track against heading and velocity.
+  double heading_rad = 0.0;
+  double yawed_rad = 0.0;  ///< Heading against the yaw rate, less what the track turns.
   double uphill_m = 0.0;   ///< Climb against the slope that the pitch says.
   double slipped_m = 0.0;  ///< Velocity against the tracks, slip taken off.
 };
@@ -47,6 +49,8 @@ inline constexpr double kSlopeForget_s = 3.0;
 inline constexpr double kMostAhead_m = 0.05;
 inline constexpr double kMostClimbed_m = 0.02;
 inline constexpr double kMostTurned_rad = 0.012;
+/// Of two antennas a metre apart, which are noisier than the unit that measures a pitch.
+inline constexpr double kMostYawed_rad = 0.015;
 inline constexpr double kMostUphill_m = 0.10;
 inline constexpr double kMostSlipped_m = 0.06;
 /// So much of the tracks' speed may be slip, and the rest of the measurement's error, m/s.
@@ -55,8 +59,9 @@ inline constexpr double kSlipMargin_mps = 0.1;
 /// The body turns about where it tips, up to so far from its origin, m: it rises by that, too.
 inline constexpr double kTippingArm_m = 1.0;
 
-/// True: they do not fit. `state` goes on by a cycle.
-[[nodiscard]] bool watch_pose(const DozerValid& valid, const GroundSpeeds& speeds, double period_s,
-                              PoseWatchState& state);
+/// True: they do not fit. `curvature_pm`: of the track where the body is, to the left positive.
+/// `state` goes on by a cycle.
+[[nodiscard]] bool watch_pose(const DozerValid& valid, const GroundSpeeds& speeds,
+                              double curvature_pm, double period_s, PoseWatchState& state);
 
 }  // namespace graben

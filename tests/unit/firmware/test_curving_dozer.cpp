@@ -70,7 +70,7 @@ void assert_stops(Fault fault, const std::function<void(DozerInputs&)>& change) 
   const CurvedDesign design(0.05);
   Grading grading(on(design));
   grading.run(50);
-  for (int n = 0; n < 300 && grading.outputs.status.mode == EcuMode::kActive; ++n) {
+  for (int n = 0; n < 600 && grading.outputs.status.mode == EcuMode::kActive; ++n) {
     DozerInputs inputs = grading.next();
     change(inputs);
     grading.step(inputs);
@@ -99,6 +99,14 @@ void an_offset_that_does_not_go_with_the_heading_is_seen(void**) {
     offset_m += 1.5e-3;
     inputs.body.offset_m.value = offset_m;
   });
+}
+
+/// On a track that turns 0.05 rad each metre.
+void a_yaw_rate_that_does_not_go_with_the_heading_is_seen(void**) {
+  assert_stops(Fault::kPoseDisagrees,
+               [](DozerInputs& inputs) { inputs.body.yaw_rate_radps.value += 0.3; });
+  assert_stops(Fault::kPoseDisagrees,
+               [](DozerInputs& inputs) { inputs.body.yaw_rate_radps.value = 0.0; });
 }
 
 /// What leads it off the track, and is no jump.
@@ -135,6 +143,7 @@ int main() {
       cmocka_unit_test(the_outer_track_limits_the_speed),
       cmocka_unit_test(where_it_is_has_to_be_known),
       cmocka_unit_test(an_offset_that_does_not_go_with_the_heading_is_seen),
+      cmocka_unit_test(a_yaw_rate_that_does_not_go_with_the_heading_is_seen),
       cmocka_unit_test(an_edge_far_off_the_track_stops_it),
       cmocka_unit_test(a_straight_track_needs_none_of_it),
   };

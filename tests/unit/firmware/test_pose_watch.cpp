@@ -19,6 +19,7 @@ struct Body {
   PoseWatchState state;
   DozerValid valid;
   GroundSpeeds speeds;
+  double curvature_pm = 0.0;
 
   Body() {
     valid.velocity_mps = 1.0;
@@ -30,7 +31,7 @@ struct Body {
     valid.height_m += kPeriod_s * valid.climb_mps;
     valid.pitch_rad += kPeriod_s * valid.pitch_rate_radps;
   }
-  bool step() { return watch_pose(valid, speeds, kPeriod_s, state); }
+  bool step() { return watch_pose(valid, speeds, curvature_pm, kPeriod_s, state); }
   /// Cycles until it is seen; 0: not within 20 s. `change` makes each cycle's inputs wrong.
   template <class Change>
   int cycles_until_seen(Change change) {
@@ -136,6 +137,70 @@ void a_frozen_offset_is_seen(void**) {
   }
 }
 
+/// Along a track that curves, as a machine that keeps to it turns.
+Body along(double curvature_pm, double velocity_mps) {
+  Body body;
+  body.curvature_pm = curvature_pm;
+  body.valid.velocity_mps = velocity_mps;
+  body.valid.course.yaw_rate_radps = curvature_pm * velocity_mps;
+  body.speeds = {velocity_mps, velocity_mps, velocity_mps};
+  body.step();
+  return body;
+}
+
+/// Forward and backward, to the left and to the right; the offset is as its heading says.
+void a_turn_is_well(void**) {
+  for (const double curvature_pm : {0.1, -0.1}) {
+    for (const double velocity_mps : {1.0, -1.0}) {
+      Body keeps = along(curvature_pm, velocity_mps);
+      assert_int_equal(keeps.cycles_until_seen([](DozerValid&) {}), 0);
+      // It swings about the track's direction.
+      Body swings = along(curvature_pm, velocity_mps);
+      double at_s = 0.0;
+      assert_int_equal(swings.cycles_until_seen([&](DozerValid& valid) {
+        at_s += kPeriod_s;
+        valid.course.heading_rad = 0.1 * std::sin(at_s);
+        valid.course.yaw_rate_radps = curvature_pm * velocity_mps + 0.1 * std::cos(at_s);
+        valid.course.offset_m += kPeriod_s * velocity_mps * std::sin(valid.course.heading_rad);
+      }),
+                       0);
+    }
+  }
+}
+
+/// Where the curve begins it goes on showing 0.
+void a_frozen_yaw_rate_is_seen(void**) {
+  for (const double curvature_pm : {0.1, -0.1}) {
+    for (const double velocity_mps : {1.0, -1.0}) {
+      Body body = along(0.0, velocity_mps);
+      body.curvature_pm = curvature_pm;
+      assert_int_equal(body.cycles_until_seen([](DozerValid&) {}),
+                       cycles_to(0.01 * 0.1, kMostYawed_rad, kPoseForget_s));
+    }
+  }
+}
+
+void a_yaw_rate_that_is_off_is_seen(void**) {
+  for (const double off_radps : {0.3, -0.3}) {
+    for (const double curvature_pm : {0.0, 0.1}) {
+      Body body = along(curvature_pm, 1.0);
+      body.valid.course.yaw_rate_radps += off_radps;
+      assert_int_equal(body.cycles_until_seen([](DozerValid&) {}),
+                       cycles_to(0.01 * 0.3, kMostYawed_rad, kPoseForget_s));
+    }
+  }
+}
+
+/// It turns out of the curve, and its heading says that it does not.
+void a_frozen_heading_is_seen(void**) {
+  for (const double turns_radps : {0.05, -0.05}) {
+    Body body = along(0.1, 1.0);
+    body.valid.course.yaw_rate_radps += turns_radps;
+    assert_int_equal(body.cycles_until_seen([](DozerValid&) {}),
+                     cycles_to(0.01 * 0.05, kMostYawed_rad, kPoseForget_s));
+  }
+}
+
 /// Height and climb say another slope than the pitch; what turns may rise by its turn.
 void another_slope_is_seen(void**) {
   for (const double rate_radps : {0.0, 0.1, -0.1}) {
@@ -222,6 +287,9 @@ void the_most_itself_is_well(void**) {
   } rows[] = {{&PoseWatchState::ahead_m, kMostAhead_m},
               {&PoseWatchState::climbed_m, kMostClimbed_m},
               {&PoseWatchState::turned_rad, kMostTurned_rad},
+              {&PoseWatchState::rolled_rad, kMostTurned_rad},
+              {&PoseWatchState::aside_m, kMostAhead_m},
+              {&PoseWatchState::yawed_rad, kMostYawed_rad},
               {&PoseWatchState::uphill_m, kMostUphill_m},
               {&PoseWatchState::slipped_m, kMostSlipped_m}};
   for (const auto& row : rows) {
@@ -229,9 +297,9 @@ void the_most_itself_is_well(void**) {
       Body body;
       body.step();
       body.state.*row.residual = sign * row.most;
-      assert_false(watch_pose(body.valid, body.speeds, 0.0, body.state));
+      assert_false(watch_pose(body.valid, body.speeds, 0.0, 0.0, body.state));
       body.state.*row.residual = sign * std::nextafter(row.most, 1.0);
-      assert_true(watch_pose(body.valid, body.speeds, 0.0, body.state));
+      assert_true(watch_pose(body.valid, body.speeds, 0.0, 0.0, body.state));
     }
   }
 }
@@ -261,11 +329,11 @@ void no_number_does_not_fit(void**) {
 void a_long_cycle_forgets(void**) {
   Body body;
   body.step();
-  body.state.ahead_m = body.state.climbed_m = body.state.turned_rad = body.state.uphill_m =
-      body.state.slipped_m = 1.0;
-  assert_false(watch_pose(body.valid, body.speeds, 4.0, body.state));
+  body.state.ahead_m = body.state.climbed_m = body.state.turned_rad = body.state.yawed_rad =
+      body.state.uphill_m = body.state.slipped_m = 1.0;
+  assert_false(watch_pose(body.valid, body.speeds, 0.0, 4.0, body.state));
   assert_near(body.state.ahead_m + body.state.climbed_m + body.state.turned_rad +
-                  body.state.uphill_m + body.state.slipped_m,
+                  body.state.yawed_rad + body.state.uphill_m + body.state.slipped_m,
               0.0, 0.0);
 }
 
@@ -280,6 +348,10 @@ int main() {
       cmocka_unit_test(a_frozen_pitch_is_seen),
       cmocka_unit_test(a_frozen_roll_is_seen),
       cmocka_unit_test(a_frozen_offset_is_seen),
+      cmocka_unit_test(a_turn_is_well),
+      cmocka_unit_test(a_frozen_yaw_rate_is_seen),
+      cmocka_unit_test(a_yaw_rate_that_is_off_is_seen),
+      cmocka_unit_test(a_frozen_heading_is_seen),
       cmocka_unit_test(another_slope_is_seen),
       cmocka_unit_test(tracks_that_run_on_are_seen),
       cmocka_unit_test(one_source_that_agrees_is_enough),
