@@ -95,7 +95,7 @@ SpeedRange speed_at(double spool_ratio, const DriveRow& drive, const LearntValve
 /// The range of all places that the spool may be at: the further it is out, the faster.
 SpeedRange speed_now(const DriveRow& drive, const LearntValve* learnt, const ValidDrive& calm,
                      double engine_radps, const SpoolSpan& told) {
-  if (drive.watch.spool_late_s == 0.0) {
+  if (!(drive.watch.spool_late_s > 0.0)) {
     return possible_speed(drive, learnt, calm, engine_radps);
   }
   const SpeedRange low =
@@ -162,9 +162,7 @@ FaultSet watch_flow(DriveRows drives, Span<const ValidDrive> seen, Span<const Le
   FaultSet faults;
   for (int i = 0; i < drives.count(); ++i) {
     const DriveWatch& bounds = drives[i].watch;
-    if (bounds.spool_late_s > 0.0) {
-      tell(bounds.spool_late_s, seen[i].spool_ratio, period_s, state[i].told);
-    }
+    tell(bounds.spool_late_s, seen[i].spool_ratio, period_s, state[i].told);
     const bool known = bounds.unseen_m > 0.0 && bounds.senses_spool &&
                        (seen[i].load_known || !has_edges(drives[i]));
     if (!known) {

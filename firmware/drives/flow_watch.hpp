@@ -29,7 +29,7 @@ struct FlowState {
   double stroke_m = 0.0;
   double cap_pa = 0.0;  ///< Low-passed.
   double rod_pa = 0.0;
-  SpoolSpan told;          ///< Only of a spool that is not measured.
+  SpoolSpan told;          ///< Read of a spool that is not measured.
   SpeedRange last;         ///< Of the last cycle: a spool's frame comes every second one.
   double least_m = 0.0;    ///< Least travel since the last stroke that was received ...
   double most_m = 0.0;     ///< ... and most.

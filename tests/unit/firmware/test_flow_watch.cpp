@@ -103,9 +103,7 @@ void at_its_bound_it_is_sound(void**) {
   // So is a stroke that has moved by its noise one that stands.
   Watched still;
   still.seen.stroke_m = 0.0;
-  static_cast<void>(still.step());
-  static_cast<void>(still.step());
-  static_cast<void>(still.step());
+  still.until(Fault::kNone, 0.0, 3);
   still.seen.stroke_m = 0.0003;
   static_cast<void>(still.step());
   assert_near(still.state.still_m, 0.0, 0.0);
@@ -336,7 +334,7 @@ void the_last_cycle_counts_too(void**) {
   const double most_mps = watched.most_mps();
   watched.seen.spool_ratio = 0.0;
   watched.seen.stroke_is_new = false;
-  static_cast<void>(watched.step());
+  watched.until(Fault::kNone, 0.0, 2);
   assert_near(watched.state.most_m, kPeriod_s * most_mps, 1e-6);
   assert_near(watched.state.least_m, 0.0, 1e-6);
   assert_near(watched.state.behind_m, behind_m, 0.0);
@@ -360,6 +358,10 @@ void a_spool_told_by_its_pilot_comes_later(void**) {
     assert_int_equal(closing.until(Fault::kMotionImplausible, speed_mps, 10), 0);
     assert_in_range(closing.until(Fault::kMotionImplausible, speed_mps), 1, 25);
   }
+  Watched exact;  // To the last bit, what was told so long ago counts.
+  exact.row.watch.spool_late_s = kPeriod_s + kPeriod_s;
+  exact.until(Fault::kNone, 0.0, 2);
+  assert_near(exact.state.told.for_s, exact.row.watch.spool_late_s, 0.0);
 }
 
 /// What is not learnt yet is left room for.

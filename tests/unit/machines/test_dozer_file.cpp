@@ -107,7 +107,7 @@ void chosen_figures_arrive_in_the_structs(void**) {
               {p.travel.push_max_n, 60e3},
               {p.grade.ground_m, 0.0},
               {p.grade.pass_depth_m, 1.0},
-              {p.grade.passes_most, 12},
+              {p.grade.passes_most, 50},
               {p.grade.tolerance_m, 0.02},
               {machine().plant.blade_shape.width_m, 2.55},
               {machine().plant.blade_shape.height_m, 0.9},
