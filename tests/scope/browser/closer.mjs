@@ -190,7 +190,9 @@ async function live_links() {
   await page.getByRole('button', {name: 'Pause', exact: true}).click();
   await page.keyboard.press(',');
   const {now} = await look(page);
-  const url = await until('the address has it', async () => /#t=/.test(page.url()) && page.url());
+  // The pause has written its own moment there: the step's comes with the next picture.
+  const told = () => Number(new URLSearchParams(new URL(page.url()).hash.slice(1)).get('t') ?? NaN);
+  const url = await until('the address has it', async () => Math.abs(told() - now) < 0.001 && page.url());
   for (let k = 0; k < 3; ++k) {
     const other = await open_page(browser, url);
     await until('its past has come', async () => (await look(other).catch(() => ({frames: 0}))).frames > 8000);

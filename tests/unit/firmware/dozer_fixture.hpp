@@ -4,6 +4,7 @@
 
 #include "app/machines/simulated/simulated_dozer.hpp"
 #include "app/machines/simulated/simulated_excavator.hpp"
+#include "firmware/dozer/travel/ground_map.hpp"
 
 namespace graben::test {
 
@@ -41,6 +42,15 @@ inline GradeDesign ledge(double slope, double rounding_m) {
   design.point[3] = {60.0, -0.22};
   design.count = 4;
   return design;
+}
+
+/// Cut to this design, the edge being 2.3 m before a machine at `x_m`.
+inline GroundMap cut_to(const GradeProfile& design, double x_m) {
+  GroundMap ground;
+  for (double edge_m = -2.0; edge_m < x_m + 2.3; edge_m += 0.02) {
+    ground.pass(edge_m, design.at(edge_m).height_m, design, -4.3, 0.0, 0.0);
+  }
+  return ground;
 }
 
 }  // namespace graben::test

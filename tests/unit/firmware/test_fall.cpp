@@ -18,15 +18,6 @@ const BladeKinematics& blade() {
   return kinematics;
 }
 
-/// Cut to this design up to 2.3 m before a machine at `x_m`.
-GroundMap cut_to(const GradeProfile& design, double x_m) {
-  GroundMap ground;
-  for (double edge_m = -2.0; edge_m < x_m + 2.3; edge_m += 0.02) {
-    ground.pass(edge_m, design.at(edge_m).height_m, design, -4.3, 0.0, 0.0);
-  }
-  return ground;
-}
-
 /// Level, with its blade at home.
 FallSituation level_at(double x_m, double raise_mps) {
   FallSituation now;
@@ -39,7 +30,7 @@ FallSituation level_at(double x_m, double raise_mps) {
 
 FallState after(const GradeProfile& design, const FallSituation& now, double seconds,
                 FallState state = {}) {
-  const GroundMap ground = cut_to(design, now.driving.x_m);
+  const GroundMap ground = test::cut_to(design, now.driving.x_m);
   for (int n = 0; n < static_cast<int>(seconds / kPeriod_s + 0.5); ++n) {
     state = next_fall(profile(), blade(), ground, design, state, now, kPeriod_s);
   }

@@ -12,21 +12,12 @@ using namespace graben;
 
 const DozerBody& body() { return test::dozer().profile.body; }
 
-/// Cut to this design, the edge being 2.3 m before a machine at `x_m`.
-GroundMap cut_to(const GradeProfile& design, double x_m) {
-  GroundMap ground;
-  for (double edge_m = -2.0; edge_m < x_m + 2.3; edge_m += 0.02) {
-    ground.pass(edge_m, design.at(edge_m).height_m, design, -4.3, 0.0, 0.0);
-  }
-  return ground;
-}
-
 Driving standing_at(double x_m, double speed_mps) {
   return {motion_of(body(), {0.0, 0.0}, 0.0, 0.0), x_m, speed_mps};
 }
 
 Driving after(const GradeProfile& design, Driving from, double lead_s, const BodyBias& bias = {}) {
-  const GroundMap ground = cut_to(design, from.x_m);
+  const GroundMap ground = test::cut_to(design, from.x_m);
   return drive_on(body(), ground, design, from, {from.speed_mps, 0.2}, lead_s, bias);
 }
 
@@ -54,8 +45,8 @@ void no_lead_changes_nothing(void**) {
 /// It gets faster and slower as it is told.
 void it_goes_over_to_the_wanted_speed(void**) {
   const GradeProfile design(test::level(0.0));
-  const Driving on =
-      drive_on(body(), cut_to(design, 0.0), design, standing_at(0.0, 1.0), {0.8, 0.2}, 0.1, {});
+  const Driving on = drive_on(body(), test::cut_to(design, 0.0), design, standing_at(0.0, 1.0),
+                              {0.8, 0.2}, 0.1, {});
   assert_near(on.speed_mps, 0.9, 1e-9);
 }
 
@@ -73,7 +64,7 @@ void it_tips_as_the_simulated_body_does(void**) {
   }
   plant::HalfVehicle truth(machine);
   Driving model = standing_at(kStart_m, kSpeed_mps);
-  const GroundMap ground = cut_to(design, kStart_m);
+  const GroundMap ground = test::cut_to(design, kStart_m);
   double pitched_rad = 0.0;
   while (truth.position_m() < 10.6) {
     for (int n = 0; n < 40; ++n) {
@@ -94,7 +85,7 @@ void it_tips_as_the_simulated_body_does(void**) {
 /// tenths of a second, and told.
 void what_it_does_not_know_of_is_found(void**) {
   const GradeProfile design(test::level(0.0));
-  const GroundMap ground = cut_to(design, 0.0);
+  const GroundMap ground = test::cut_to(design, 0.0);
   const BodyBias unknown{0.4, -0.8};
   Foretelling found;
   Driving real = standing_at(0.0, 0.0);
