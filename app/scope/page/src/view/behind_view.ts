@@ -15,13 +15,14 @@ import {type Metres, Picture, type Span} from './picture';
 import type {ThemeSwitch} from './theme';
 
 /// Beyond either end of the edge, m: room for its digits.
-const ASIDE_M = 0.85;
+const ASIDE_M = 1.05;
 const BELOW_M = 0.5;
 const ABOVE_M = 1.55;
 const BEYOND_M = 0.3;
 const GROUND_STEP_M = 0.05;
 const LINE = 2.5;
-const DIGITS_PX = 15;
+const DIGITS_PX = 12;
+const BORDER_PX = 5;
 /// So near is on the design: what a dozer is held to (README, ten numbers).
 const ON_GRADE_MM = 10;
 
@@ -93,12 +94,14 @@ export class BehindView implements View {
     this.picture.line(profile.map((point) => metres.at(point)), colours.text, 1.5);
   }
 
-  /// Beside that end, outwards.
+  /// Beside that end, from the picture's border inwards: there is room for four digits.
   private digits(metres: Metres, {at_m, off_m}: EdgePoint, end: 'left' | 'right', stale: boolean): void {
-    const [x, y] = metres.at(at_m);
+    const [, y] = metres.at(at_m);
     const side = Math.abs(1000 * off_m) <= ON_GRADE_MM ? 'on-grade' : off_m > 0 ? 'over' : 'under';
-    this.picture.words(off_digits(off_m), [x + (end === 'left' ? -10 : 10), y - 14],
-      this.theme.colour(stale || !Number.isFinite(off_m) ? 'muted' : side), DIGITS_PX, end);
+    this.picture.words(off_digits(off_m),
+      [end === 'left' ? BORDER_PX : metres.width - BORDER_PX, y - DIGITS_PX],
+      this.theme.colour(stale || !Number.isFinite(off_m) ? 'muted' : side), DIGITS_PX,
+      end === 'left' ? 'right' : 'left');
   }
 }
 
@@ -125,7 +128,7 @@ export function ground_behind(
 /// Above is positive.
 export function off_digits(off_m: number): string {
   const mm = Math.round(1000 * off_m);
-  return Number.isFinite(mm) ? `${mm > 0 ? '+' : ''}${fixed(mm, 0)} mm` : '\u2013';
+  return Number.isFinite(mm) ? `${mm > 0 ? '+' : ''}${fixed(mm, 0)}\u00a0mm` : '\u2013';
 }
 
 const DEGREE = 180 / Math.PI;
@@ -133,7 +136,7 @@ const DEGREE = 180 / Math.PI;
 /// `left up`, where a slope has a side to go up to.
 const to_side = (left_up: number, digits: number, unit: string): string => {
   const size = fixed(Math.abs(left_up), digits);
-  return Number(size) === 0 ? `${size}${unit}` : `${size}${unit} ${left_up > 0 ? 'left' : 'right'} up`;
+  return Number(size) === 0 ? `${size}${unit}` : `${size}${unit}\u00a0${left_up > 0 ? 'left' : 'right'}\u00a0up`;
 };
 
 export function behind_words({across, stale}: AcrossNow): {ends: string; slopes: string} {
@@ -144,13 +147,13 @@ export function behind_words({across, stale}: AcrossNow): {ends: string; slopes:
   const slope = (100 * slope_of([left.at_m, right.at_m]));
   const parts = [`Roll ${to_side(DEGREE * across.roll_rad, 1, '°')}`,
     `blade\u2019s tilt ${to_side(DEGREE * across.tilt_rad, 1, '°')}`,
-    `edge ${to_side(slope, 1, ' %')}`];
+    `edge ${to_side(slope, 1, '\u00a0%')}`];
   if (Number.isFinite(middle.off_m)) {
-    parts.push(`design ${to_side(100 * slope_of(design_line(across, 0)), 1, ' %')}`);
+    parts.push(`design ${to_side(100 * slope_of(design_line(across, 0)), 1, '\u00a0%')}`);
   }
   return {
     ends: (Number.isFinite(middle.off_m) ?
-      `Edge over the design: left ${off_digits(left.off_m)}, right ${off_digits(right.off_m)}` :
+      `Off the design: left ${off_digits(left.off_m)}, right ${off_digits(right.off_m)}` :
       'The edge is beside the grade') + (stale ? ' (old)' : ''),
     slopes: parts.join(', ')};
 }
