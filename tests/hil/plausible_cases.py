@@ -15,9 +15,8 @@ ROCK, HEAVY = ("excavator_rock", "dig", "-"), ("dozer_heavy", "grade", "-")
 # Of rows 78 and 79: a blade that tilts, on a track that curves and banks by turns.
 WINDING = ("dozer_winding", "grade", "-")
 # x, height, slope across, curvature.
-TRACK = [(0, 0, 0, 0), (1, -0.05, 0, 0), (2, -0.05, 0, 0), (4, -0.05, 0.05, 0.04), (6, -0.08, 0.05, 0.04),
-         (8, -0.08, -0.05, 0.04), (12, -0.05, -0.05, -0.04), (14, -0.05, 0.05, -0.04), (20, -0.08, 0.05, 0.04),
-         (24, -0.08, 0, 0), (30, -0.08, 0, 0)]
+TRACK = [(0, 0, 0, 0), (2.5, -0.05, 0, 0), (5, -0.06, 0.045, 0.04), (10, -0.05, -0.045, 0.04), (15, -0.06, 0.045, -0.04),
+         (20, -0.05, -0.045, -0.04), (25, -0.06, 0, 0), (30, -0.06, 0, 0)]
 # The machines' files: from which, and what is another there. Both of row 66 stop after the least that a profile
 # may have.
 STALL_S = 3.0
@@ -37,14 +36,14 @@ MADE = {"excavator_rock.toml": ("excavator_22t.toml", [STALL]),
         "dozer_heavy.toml": ("dozer_9t.toml", [STALL]),
         "dozer_winding.toml": ("dozer_9t.toml", [(r"(?m)^profile = .*$", f'design = "{TRACK_FILE}"'),
                                                  (r"\Z", tilt_of("dozer_9t_tilt.toml"))]),
-        "dozer_winding.sim.toml": ("dozer_9t.sim.toml", [(r"(?m)^length = .*$", f"length = {TRACK[-1][0]}"),
-                                                         (r"(?m)^depth_max = .*$", "depth_max = 0.08"),
+        "dozer_winding.sim.toml": ("dozer_9t.sim.toml", [(r"(?m)^length = .*$", f"length = {float(TRACK[-1][0])}"),
+                                                         (r"(?m)^depth_max = .*$", "depth_max = 0.06"),
                                                          (r"\Z", tilt_of("dozer_9t_tilt.sim.toml"))]),
         "dozer_heavy.sim.toml": ("dozer_9t.sim.toml", [(r"relief = 42.0e6", "relief = 3.0e6"),
                                                        (r"rolling_resistance = 0.08", "rolling_resistance = 0.4")])}
 # Active from 1.7 s on. The boom is at speed at 3 s, the swing at 4; the dozer comes to its grade at 5, where its
 # blade moves, and to a slope at 7.5.
-AT_S, SWING_S, BLADE_S, PITCH_S = 3.0, 4.0, 5.5, 7.5
+AT_S, SWING_S, BLADE_S, PITCH_S, WINDS_S = 3.0, 4.0, 5.5, 7.5, 7.5
 # The machine's last half second is the operator letting go.
 LETS_GO_S = 0.6
 

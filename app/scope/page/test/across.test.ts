@@ -131,6 +131,8 @@ test('both ends are off the design by what the controller says and the simulatio
     const at = (list: number[], share: number): number => list[Math.floor(share * (list.length - 1))]!;
     console.log(`# ${machine.name}: truth ${at(truth_mm!, 0.5)} ${at(truth_mm!, 0.95)} ${at(truth_mm!, 1)}, ` +
       `told ${at(told_mm!, 0.5)} ${at(told_mm!, 0.95)} ${at(told_mm!, 1)} mm`);
+    // The page has the last frame of each; the slope is told of where the body will be.
+    assert.ok(at(truth_mm!, 0.5) < 0.3 && at(truth_mm!, 1) < 1.2 && at(told_mm!, 0.95) < 1);
   }
 });
 
@@ -140,7 +142,14 @@ test('the ground is left as the tilted edge had it, from end to end', () => {
     const store = store_of_run(run);
     const history = soil_history(dozer_soil(machine));
     assert.ok(history.advance(store, store.until_s, Infinity));
-    const now_s = 0.6 * store.until_s;
+    // Where the edge is steepest.
+    const slope_at = (time_s: number): number => {
+      const {across} = dozer_across_now(machine, store, time_s);
+      return across === null || Number.isNaN(across.left.off_m) ? 0 :
+        Math.abs(slope_of([across.left.at_m, across.right.at_m]));
+    };
+    const now_s = run.setup.run!.truth.time_s.reduce((best, time_s) =>
+      (slope_at(time_s) > slope_at(best) ? time_s : best));
     history.field.show(now_s, () => undefined);
     const {across} = dozer_across_now(machine, store, now_s);
     const ground = ground_behind(history.field, across!, [-1.2, 1.2]);

@@ -101,7 +101,7 @@ export class BehindView implements View {
     this.picture.words(off_digits(off_m),
       [end === 'left' ? BORDER_PX : metres.width - BORDER_PX, y - DIGITS_PX],
       this.theme.colour(stale || !Number.isFinite(off_m) ? 'muted' : side), DIGITS_PX,
-      end === 'left' ? 'right' : 'left');
+      end === 'left' ? 'right' : 'left', scene_colours(this.theme.dark).halo);
   }
 }
 

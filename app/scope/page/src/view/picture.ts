@@ -113,11 +113,19 @@ export class Picture {
     this.words('1 m', [x + 5, y - 7], colour, size_px);
   }
 
-  /// On its base line from there to the right, or to the left.
-  words(text: string, at: Vector2, colour: string, size_px: number, to: 'left' | 'right' = 'right'): void {
-    this.pen.fillStyle = colour;
+  /// On its base line from there to the right, or to the left. `halo`: behind it, over lines.
+  words(
+    text: string, at: Vector2, colour: string, size_px: number, to: 'left' | 'right' = 'right',
+    halo: string | null = null): void {
     this.pen.font = `600 ${size_px}px system-ui, sans-serif`;
     this.pen.textAlign = to === 'right' ? 'left' : 'right';
+    if (halo !== null) {
+      this.pen.strokeStyle = halo;
+      this.pen.lineWidth = 4;
+      this.pen.lineJoin = 'round';
+      this.pen.strokeText(text, ...at);
+    }
+    this.pen.fillStyle = colour;
     this.pen.fillText(text, ...at);
   }
 
